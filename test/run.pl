@@ -1,0 +1,233 @@
+:- module(test_run, []).
+
+/** <module> Runs the test suites and adds up
+
+    swipl test/run.pl [-- suite ...]
+
+runs every test/test_*.pl, or those named (`frame` for test/test_frame.pl),
+each in a process of its own, two at a time, and reports.  The last line is
+`N passed, N failed`; `, N skipped` follows if any were.  The exit status
+is 0 only if nothing failed.
+
+A suite that does not load cleanly, has no tests, ends with a status other
+than 0, does not end within its deadline or leaves a process behind counts
+as a failure.  Processes started by a suite are known by the environment
+variable TYPHON_SUITE which they inherit, and are killed.
+
+*Threading*: one thread for each running suite; they print under a mutex.
+*/
+
+:- use_module(common, [project_file/2, wait_for_end/3, wait_until/2,
+                       with_tmp_dir/1]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(main), [main/0]).
+:- use_module(library(process), [process_create/3, process_kill/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(thread), [concurrent/3]).
+
+:- initialization(main, main).
+
+:- public main/1.
+
+suites_at_a_time(2).
+suite_deadline(300).                    % seconds
+
+main(Names) :-
+    suite_files(Names, Files),
+    at_halt(kill_left_behind(_)),
+    findall(run_suite(File, _), member(File, Files), Goals),
+    suites_at_a_time(N),
+    concurrent(N, Goals, []),
+    findall(Suite, member(run_suite(_, Suite), Goals), Suites),
+    foldl(add_suite, Suites, sum(0, 0, 0), Sum),
+    print_sum(Sum),
+    exit_status(Sum, Status),
+    halt(Status).
+
+suite_files([], Files) :-
+    !,
+    project_file('test/test_*.pl', Pattern),
+    expand_file_name(Pattern, Files).
+suite_files(Names, Files) :-
+    maplist(suite_file, Names, Files).
+
+suite_file(Name, File) :-
+    format(atom(Relative), 'test/test_~w.pl', [Name]),
+    project_file(Relative, File),
+    (   exists_file(File)
+    ->  true
+    ;   format(user_error, 'No such test suite: ~w~n', [Name]),
+        halt(1)
+    ).
+
+add_suite(suite(P1, F1, Skipped, _), sum(P0, F0, S0), sum(P, F, S)) :-
+    length(Skipped, S1),
+    P is P0+P1,
+    F is F0+F1,
+    S is S0+S1.
+
+print_sum(sum(Passed, Failed, 0)) :-
+    !,
+    format('~d passed, ~d failed~n', [Passed, Failed]).
+print_sum(sum(Passed, Failed, Skipped)) :-
+    format('~d passed, ~d failed, ~d skipped~n', [Passed, Failed, Skipped]).
+
+exit_status(sum(Passed, 0, _), 0) :-
+    Passed > 0,
+    !.
+exit_status(_, 1).
+
+                /*******************************
+                *           ONE SUITE          *
+                *******************************/
+
+run_suite(File, Suite) :-
+    get_time(Start),
+    with_tmp_dir(run_suite_in(File, Start, Suite)).
+
+run_suite_in(File, Start, suite(Passed, Failed, Skipped, Problems), Dir) :-
+    directory_file_path(Dir, log, Log),
+    directory_file_path(Dir, results, Results),
+    suite_mark(File, Mark),
+    suite_process(File, Log, Results, Mark, Status),
+    suite_results(Results, suite(Passed, Failed0, Skipped, Problems0)),
+    findall(Problem, late_problem(Status, Mark, Problem), Problems1),
+    append(Problems0, Problems1, Problems),
+    length(Problems, Extra),
+    Failed is Failed0+Extra,
+    get_time(End),
+    Seconds is End-Start,
+    with_mutex(test_report,
+               report(File, suite(Passed, Failed, Skipped, Problems),
+                      Seconds, Log)).
+
+suite_process(File, Log, Results, Mark, Status) :-
+    project_file('test/suite.pl', Runner),
+    suite_deadline(Deadline),
+    setup_call_cleanup(
+        open(Log, write, Out),
+        start_suite([ '--on-error=print', '--on-warning=print',
+                      Runner, '--', File, Results
+                    ], Out, Mark, Pid),
+        close(Out)),
+    wait_for_end(Pid, Deadline, Status),
+    (   Status == timeout
+    ->  process_kill(Pid, kill),
+        wait_for_end(Pid, 10, _)
+    ;   true
+    ).
+
+start_suite(Args, Out, Mark, Pid) :-
+    current_prolog_flag(executable, Swipl),
+    project_file('.', Root),
+    process_create(Swipl, Args,
+                   [ stdin(null), stdout(stream(Out)), stderr(stream(Out)),
+                     cwd(Root), environment(['TYPHON_SUITE'=Mark]),
+                     process(Pid)
+                   ]).
+
+suite_results(File, Suite) :-
+    exists_file(File),
+    !,
+    setup_call_cleanup(open(File, read, In), read(In, Suite), close(In)).
+suite_results(_, suite(0, 0, [], ['gave no results'])).
+
+late_problem(Status, _, Problem) :-
+    Status \== exit(0),
+    (   Status == timeout
+    ->  Problem = 'did not end in time'
+    ;   format(atom(Problem), 'ended with ~w', [Status])
+    ).
+late_problem(_, Mark, Problem) :-
+    kill_left_behind(Mark, Killed),
+    Killed \== [],
+    atomic_list_concat(Killed, ', ', Names),
+    atom_concat('left processes behind: ', Names, Problem).
+
+                /*******************************
+                *     PROCESSES LEFT BEHIND    *
+                *******************************/
+
+suite_mark(File, Mark) :-
+    current_prolog_flag(pid, Pid),
+    file_base_name(File, Base),
+    format(atom(Mark), '~d:~w', [Pid, Base]).
+
+kill_left_behind(Killed) :-
+    current_prolog_flag(pid, Pid),
+    format(atom(Mark), '~d:', [Pid]),
+    marked_processes(Mark, Killed),
+    maplist(kill_process, Killed).
+
+%   What is about to end anyway has five seconds for it.
+
+kill_left_behind(Mark, Names) :-
+    catch(( wait_until(marked_processes(Mark, []), 5),
+            Pids = []
+          ),
+          error(timeout_error(wait_until, _), _),
+          marked_processes(Mark, Pids)),
+    maplist(process_name, Pids, Names),
+    maplist(kill_process, Pids).
+
+marked_processes(Mark, Pids) :-
+    exists_directory('/proc/self'),
+    !,
+    atom_concat('TYPHON_SUITE=', Mark, Setting),
+    directory_files('/proc', Entries),
+    findall(Pid,
+            ( member(Entry, Entries),
+              atom_number(Entry, Pid),
+              process_file(Pid, environ, Text),
+              sub_string(Text, _, _, _, Setting)
+            ),
+            Pids).
+marked_processes(_, []).
+
+process_name(Pid, Name) :-
+    process_file(Pid, cmdline, Text),
+    !,
+    split_string(Text, "\000", "\000", Words),
+    atomic_list_concat(Words, ' ', Line),
+    format(atom(Name), '~d (~w)', [Pid, Line]).
+process_name(Pid, Pid).
+
+process_file(Pid, Name, Text) :-
+    format(atom(File), '/proc/~d/~w', [Pid, Name]),
+    catch(read_file_to_string(File, Text, [encoding(octet)]),
+          error(_, _),                  % not ours, or gone by now
+          fail).
+
+kill_process(Pid) :-
+    catch(process_kill(Pid, kill),
+          error(existence_error(process, _), _),
+          true).
+
+                /*******************************
+                *            REPORTS           *
+                *******************************/
+
+report(File, suite(Passed, Failed, Skipped, Problems), Seconds, Log) :-
+    file_base_name(File, Base),
+    format('~w~t~30|~t~d~36| passed~t~1f~52| s', [Base, Passed, Seconds]),
+    (   Failed > 0
+    ->  format('   ~d FAILED', [Failed])
+    ;   true
+    ),
+    nl,
+    forall(member(Test, Skipped), format('  skipped ~w~n', [Test])),
+    (   Failed > 0
+    ->  report_failures(Base, Problems, Log)
+    ;   true
+    ),
+    flush_output.
+
+report_failures(Base, Problems, Log) :-
+    format('---- what ~w says~n', [Base]),
+    read_file_to_string(Log, Text, []),
+    write(Text),
+    forall(member(Problem, Problems), format('~N~w: ~w~n', [Base, Problem])),
+    format('~N----~n').

@@ -1,0 +1,108 @@
+:- module(test_suite, []).
+
+/** <module> Runs one test suite
+
+    swipl test/suite.pl -- test/test_x.pl results
+
+loads the suite, runs it and writes what came of it to the file `results` as
+one term `suite(Passed, Failed, Skipped, Problems)`: two numbers, the list of
+skipped tests as Unit:Name, and atoms that say what else is wrong.  Started
+by test/run.pl, one process for each suite.
+
+plunit keeps its results in dynamic predicates whose first three arguments
+are unit, test and line in SWI-Prolog 9.0 and 9.2 alike.  A test without a
+result was skipped by its condition; if it has none, its setup failed.
+*/
+
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(main), [main/0]).
+:- use_module(library(plunit),
+              [run_tests/0, current_test/5, current_test_unit/2]).
+
+:- initialization(main, main).
+
+:- public main/1.
+
+main([File, Results]) :-
+    run_suite(File, Suite),
+    setup_call_cleanup(
+        open(Results, write, Out),
+        format(Out, '~q.~n', [Suite]),
+        close(Out)),
+    halt.
+
+run_suite(File, Suite) :-
+    load_suite(File, LoadProblems),
+    (   LoadProblems == []
+    ->  run_units,
+        suite_results(Suite)
+    ;   Suite = suite(0, 0, [], LoadProblems)
+    ).
+
+load_suite(File, Problems) :-
+    load_files(user:File, []),
+    findall(Problem, load_problem(Problem), Problems).
+
+load_problem('does not load without errors') :-
+    statistics(errors, Errors),
+    Errors > 0.
+load_problem('does not load without warnings') :-
+    statistics(warnings, Warnings),
+    Warnings > 0.
+load_problem('has no tests') :-
+    \+ current_test(_, _, _, _, _).
+
+%   Whether all passed is seen from the results.
+
+run_units :-
+    (   run_tests
+    ->  true
+    ;   true
+    ).
+
+                /*******************************
+                *            RESULTS           *
+                *******************************/
+
+suite_results(suite(Passed, Failed, Skipped, Problems)) :-
+    aggregate_all(count, result(passed, _, _, _), Passed),
+    aggregate_all(count, failed(_, _, _), Failed),
+    findall(Unit:Name, skipped(Unit, Name), Skipped),
+    findall(Problem, not_run(Problem), Problems).
+
+failed(Unit, Name, Line) :-
+    member(Kind, [failed, timeout, sto]),
+    result(Kind, Unit, Name, Line).
+
+result(Kind, Unit, Name, Line) :-
+    current_predicate(plunit:Kind/Arity),
+    Arity >= 3,
+    functor(Head, Kind, Arity),
+    predicate_property(plunit:Head, dynamic),
+    arg(1, Head, Unit),
+    arg(2, Head, Name),
+    arg(3, Head, Line),
+    call(plunit:Head).
+
+without_result(Unit, Name, Options) :-
+    current_test(Unit, Name, Line, _, Options),
+    \+ ( member(Kind, [passed, failed, timeout, sto]),
+         result(Kind, Unit, _, Line)
+       ).
+
+skipped(Unit, Name) :-
+    without_result(Unit, Name, Options),
+    may_skip(Unit, Options).
+
+not_run(Problem) :-
+    without_result(Unit, Name, Options),
+    \+ may_skip(Unit, Options),
+    format(atom(Problem), 'setup of ~q failed', [Unit:Name]).
+
+may_skip(Unit, TestOptions) :-
+    current_test_unit(Unit, UnitOptions),
+    member(Options, [TestOptions, UnitOptions]),
+    member(Option, [condition(_), blocked(_), fixme(_), forall(_)]),
+    memberchk(Option, Options),
+    !.
