@@ -1,0 +1,42 @@
+# `make` alone only lists the targets: pack_install runs it, and after it
+# `make check` and `make install`.
+
+SWIPL ?= swipl
+MAKEFLAGS += --no-print-directory
+ENTRY_POINTS = prolog/typhon.pl $(wildcard app/*.pl experiments/*.pl \
+    bench/*.pl test/run.pl)
+
+.PHONY: help tools demo test check bench test-portability install clean
+
+help:
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
+	    while IFS='	' read -r target text; do \
+	        printf '  make %-18s %s\n' "$$target" "$$text"; \
+	    done
+
+demo: tools             ## sixty hosts, ten agents, six tasks in step
+	@$(SWIPL) experiments/synchronisation.pl -- --out out/demo
+
+test: tools             ## install what is missing, run every test suite
+	@$(SWIPL) test/run.pl
+
+check:                  ## a quick look for mistakes, offline
+	@for file in $(ENTRY_POINTS); do \
+	    $(SWIPL) -q --on-error=status --on-warning=status \
+	        -g check -t halt -l $$file || exit 1; \
+	done
+
+bench: tools            ## measure; one line per figure
+	@$(SWIPL) bench/run.pl -- --out out/bench
+
+test-portability: tools ## the suites on other Prologs (root only)
+	@test/portability/run
+
+clean:                  ## remove what runs have left in out/
+	@rm -rf out
+
+tools:
+	@.ci/install
+
+install:
+	@:
