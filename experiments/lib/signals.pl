@@ -1,0 +1,40 @@
+:- module(experiment_signals,
+          [ stopping_on_signals/1       % :Goal
+          ]).
+
+/** <module> Ending in order on Ctrl-C
+
+*Threading*: signals arrive in the main thread, which is the one that calls
+stopping_on_signals/1.
+*/
+
+:- meta_predicate
+    stopping_on_signals(0).
+
+%!  stopping_on_signals(:Goal) is semidet.
+%
+%   Call Goal once.  On Ctrl-C, on SIGTERM and on SIGHUP it is left by an
+%   exception, so that its cleanup handlers run; then the process ends with
+%   the status a shell expects, 128 plus the number of the signal.  Further
+%   signals do not disturb the cleanup.
+
+stopping_on_signals(Goal) :-
+    forall(stop_signal(Signal, _),
+           on_signal(Signal, _, experiment_signals:stop)),
+    catch(once(Goal), stopped_by(Signal), end_by(Signal)).
+
+stop_signal(int, 130).
+stop_signal(term, 143).
+stop_signal(hup, 129).
+
+stop(Signal) :-
+    forall(stop_signal(Other, _),
+           on_signal(Other, _, experiment_signals:ignore_signal)),
+    print_message(informational, format("Stopping on signal ~w", [Signal])),
+    throw(stopped_by(Signal)).
+
+ignore_signal(_).
+
+end_by(Signal) :-
+    stop_signal(Signal, Status),
+    halt(Status).

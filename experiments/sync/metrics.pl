@@ -1,0 +1,229 @@
+:- module(sync_metrics,
+          [ from_start/2,               % +Events0, -Events
+            executions/2,               % +Events, -Executions
+            task_rows/2,                % +Executions, -Rows
+            idle_time/2,                % +Rows, -Seconds
+            overlaps/2,                 % +Executions, -Overlapping
+            out_of_order/2,             % +Executions, -OutOfOrder
+            required/5,                 % +Hosts, +Tasks, +Execs, +End, -Segments
+            tau/2,                      % +Segments, -Steps
+            tau_max/2,                  % +Steps, -Tau
+            burst/4                     % +Task, +Seconds, +Execs, -Count
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
+:- use_module(library(assoc),
+              [empty_assoc/1, put_assoc/4, del_assoc/4, get_assoc/3,
+               assoc_to_values/2]).
+:- use_module(library(lists),
+              [append/2, max_member/2, member/2, memberchk/2, min_list/2]).
+:- use_module(library(pairs), [pairs_values/2]).
+
+/** <module> What an event log says about synchronisation
+
+The measures of thesis chapter 5, as pure predicates over lists of
+event(Time, Host, Agent, What).  A task's execution begins where the log
+says executing(Task) and ends where it says completed(Task), of the same
+host.
+
+An execution is a term execution(Task, Host, Start, End).
+
+*Threading*: pure.
+*/
+
+%!  from_start(+Events0, -Events) is det.
+%
+%   Events in order of time, which begins when the first agent has begun.
+
+from_start(Events0, Events) :-
+    sort(1, @=<, Events0, Sorted),
+    (   memberchk(event(Start, _, _, begun), Sorted)
+    ->  maplist(shift(Start), Sorted, Events)
+    ;   Events = Sorted
+    ).
+
+shift(Start, event(T0, Host, Agent, What), event(T, Host, Agent, What)) :-
+    T is T0 - Start.
+
+%!  executions(+Events, -Executions) is det.
+%
+%   The executions that were completed, in the order in which they began.
+%   Events are in order of time.
+
+executions(Events, Executions) :-
+    empty_assoc(Running0),
+    foldl(follow, Events, Running0-[], _-Executions0),
+    sort(3, @=<, Executions0, Executions).
+
+follow(event(Time, Host, _, executing(Task)), Running0-Es, Running-Es) :-
+    !,
+    put_assoc(Host-Task, Running0, Time, Running).
+follow(event(End, Host, _, completed(Task)), Running0-Es0, Running-Es) :-
+    del_assoc(Host-Task, Running0, Start, Running),
+    !,
+    Es = [execution(Task, Host, Start, End)|Es0].
+follow(_, State, State).
+
+%!  task_rows(+Executions, -Rows) is det.
+%
+%   A row task(Task, FirstStart, LastStart, LastEnd, Count, Idle) for each
+%   task, in order.  Idle is the time between the last end of the task and
+%   the first start of the next one, 0 if they overlap, `none` for the
+%   last task.
+
+task_rows(Executions, Rows) :-
+    findall(Task, member(execution(Task, _, _, _), Executions), Tasks0),
+    sort(Tasks0, Tasks),
+    maplist(task_row(Executions), Tasks, Rows),
+    gaps(Rows).
+
+task_row(Executions, Task, task(Task, First, Last, End, Count, _)) :-
+    aggregate_all(r(min(S), max(S), max(E), count),
+                  member(execution(Task, _, S, E), Executions),
+                  r(First, Last, End, Count)).
+
+gaps([]).
+gaps([task(_, _, _, _, _, none)]) :-
+    !.
+gaps([task(_, _, _, End, _, Idle)|Rows]) :-
+    Rows = [task(_, Next, _, _, _, _)|_],
+    Idle is max(0, Next - End),
+    gaps(Rows).
+
+%!  idle_time(+Rows, -Seconds) is det.
+%
+%   The sum of the idle times between consecutive tasks.
+
+idle_time(Rows, Seconds) :-
+    aggregate_all(sum(Idle),
+                  ( member(task(_, _, _, _, _, Idle), Rows),
+                    Idle \== none
+                  ),
+                  Seconds).
+
+%!  overlaps(+Executions, -Overlapping) is det.
+%
+%   The executions that began before the last host was serviced for an
+%   earlier task.
+
+overlaps(Executions, Overlapping) :-
+    task_rows(Executions, Rows),
+    findall(E, ( member(E, Executions), overlapping(E, Rows) ), Overlapping).
+
+overlapping(execution(Task, _, Start, _), Rows) :-
+    member(task(Earlier, _, LastStart, _, _, _), Rows),
+    Earlier < Task,
+    Start < LastStart,
+    !.
+
+%!  out_of_order(+Executions, -OutOfOrder) is det.
+%
+%   The executions that began on a host before an earlier task had been
+%   completed there, or where it was never completed.
+
+out_of_order(Executions, OutOfOrder) :-
+    findall(Task-Host-End, member(execution(Task, Host, _, End), Executions),
+            Ends0),
+    sort(Ends0, Ends),
+    findall(Task, member(Task-_-_, Ends), Tasks0),
+    sort(Tasks0, Tasks),
+    findall(E,
+            ( member(E, Executions),
+              E = execution(Task, Host, Start, _),
+              \+ \+ ( member(Earlier, Tasks),
+                      Earlier < Task,
+                      \+ ( member(Earlier-Host-End, Ends),
+                           End =< Start ) )
+            ),
+            OutOfOrder).
+
+%!  required(+Hosts, +Tasks, +Executions, +End, -Segments) is det.
+%
+%   Segments is a list of segment(Host, Task, From, To): Host required Task
+%   in this time.  What it requires is the first task not yet completed
+%   there; from time 0 to End, or until nothing is required.
+
+required(Hosts, Tasks, Executions, End, Segments) :-
+    findall(Host-(Time-Task),
+            member(execution(Task, Host, _, Time), Executions), Done0),
+    sort(Done0, Done),
+    maplist(host_segments(Tasks, Done, End), Hosts, Lists),
+    append(Lists, Segments).
+
+host_segments(Tasks, Done, End, Host, Segments) :-
+    findall(Time-Task, member(Host-(Time-Task), Done), HostDone),
+    segments(HostDone, Tasks, Host, 0, End, Segments).
+
+segments(_, [], _, _, _, []) :-
+    !.
+segments([], [Task|_], Host, From, End, [segment(Host, Task, From, End)]).
+segments([Time-Task|Done], Tasks0, Host, From, End, Segments) :-
+    Tasks0 = [Required|_],
+    exclude(==(Task), Tasks0, Tasks),
+    (   Task == Required
+    ->  Segments = [segment(Host, Task, From, Time)|Rest],
+        segments(Done, Tasks, Host, Time, End, Rest)
+    ;   segments(Done, Tasks, Host, From, End, Segments)
+    ).
+
+%!  tau(+Segments, -Steps) is det.
+%
+%   Steps is a list of Time-Tau: from Time on, Tau distinct tasks are
+%   required in the network.
+
+tau(Segments, Steps) :-
+    findall(change(From, Task, 1),
+            member(segment(_, Task, From, _), Segments), Begins),
+    findall(change(To, Task, -1),
+            member(segment(_, Task, _, To), Segments), Ends),
+    append([Begins, Ends], Changes0),
+    sort(1, @=<, Changes0, Changes),
+    empty_assoc(Counts),
+    tau_steps(Changes, Counts, none, Steps).
+
+tau_steps([], _, _, []).
+tau_steps([change(Time, Task, D)|Changes], Counts0, Tau0, Steps) :-
+    recount(Task, D, Counts0, Counts1),
+    same_time(Changes, Time, Counts1, Rest, Counts),
+    assoc_to_values(Counts, Values),
+    aggregate_all(count, ( member(N, Values), N > 0 ), Tau),
+    (   Tau == Tau0
+    ->  Steps = Steps1
+    ;   Steps = [Time-Tau|Steps1]
+    ),
+    tau_steps(Rest, Counts, Tau, Steps1).
+
+same_time([change(T, Task, D)|Changes], Time, Counts0, Rest, Counts) :-
+    T =:= Time,
+    !,
+    recount(Task, D, Counts0, Counts1),
+    same_time(Changes, Time, Counts1, Rest, Counts).
+same_time(Changes, _, Counts, Changes, Counts).
+
+recount(Task, D, Counts0, Counts) :-
+    (   get_assoc(Task, Counts0, N0)
+    ->  true
+    ;   N0 = 0
+    ),
+    N is N0 + D,
+    put_assoc(Task, Counts0, N, Counts).
+
+%!  tau_max(+Steps, -Tau) is det.
+%
+%   The largest number of distinct tasks required at any time.
+
+tau_max(Steps, Tau) :-
+    pairs_values(Steps, Taus),
+    max_member(Tau, [0|Taus]).
+
+%!  burst(+Task, +Seconds, +Executions, -Count) is det.
+%
+%   Count executions of Task began within Seconds of its first.
+
+burst(Task, Seconds, Executions, Count) :-
+    findall(S, member(execution(Task, _, S, _), Executions), Starts),
+    (   min_list(Starts, First)
+    ->  aggregate_all(count,
+                      ( member(S, Starts), S < First + Seconds ), Count)
+    ;   Count = 0
+    ).
