@@ -1,0 +1,154 @@
+:- module(typhon_diagnose,
+          [ diagnose/1                  % +Address
+          ]).
+
+/** <module> Why a host cannot be reached
+
+Goes one step after the other along the way to a host, from this Prolog to
+an answer, says what it found, and stops with advice at the step that does
+not work.
+
+*Threading*: the calling thread.  A TCP connect cannot be given a deadline,
+so it is tried in a thread of its own, which a dead network may hold for a
+while after the answer is known.
+*/
+
+:- use_module(library(lists), [member/2]).
+:- use_module(library(socket),
+              [ tcp_close_socket/1, tcp_connect/2, tcp_host_to_address/2,
+                tcp_socket/1
+              ]).
+:- use_module('../prolog/typhon', [remote/2]).
+:- use_module('../prolog/typhon/auth', [cookie/1]).
+:- use_module('../prolog/typhon/endpoint', [endpoint_peer/2]).
+
+connect_deadline(5).                    % seconds
+
+%!  diagnose(+Address) is semidet.
+%
+%   Prints what works on the way to the host Address, or with `none` what
+%   can be said without one.  Fails at the first step that does not work.
+
+diagnose(Address) :-
+    findall(Step-Advice, step(Step, Advice), Steps),
+    diagnose(Steps, Address).
+
+diagnose([], _).
+diagnose([Step-Advice|Steps], Address) :-
+    catch(once(check(Step, Address, Found)), error(Formal, Context), true),
+    (   Found == not_asked
+    ->  diagnose(Steps, Address)
+    ;   nonvar(Found)
+    ->  format('  ok    ~w~t~24|~w~n', [Step, Found]),
+        diagnose(Steps, Address)
+    ;   format('  FAIL  ~w~t~24|', [Step]),
+        print_error(error(Formal, Context)),
+        format('~t~24|~w~n', [Advice]),
+        fail
+    ).
+
+print_error(Error) :-
+    '$messages':translate_message(Error, Lines, []),
+    print_message_lines(current_output, '', Lines),
+    nl.
+
+%   step(Name, Advice)
+
+step(prolog,
+     'Install SWI-Prolog 9.0.4 or later, with thread support.').
+step(cookie,
+     'The cookie file must be yours alone: chmod 600, or delete it.').
+step(address,
+     'Write NAME@INTERFACE:PORT, as the host prints it when it starts.').
+step('name resolution',
+     'Use the IP address, or put the name into /etc/hosts.').
+step(connection,
+     'Is the host running, with --bind to an interface seen from here?').
+step(authentication,
+     'Copy ~/.typhon.cookie so that both machines have the same one.').
+
+%   check(Step, Address, Found): Found is what there is to say
+
+check(prolog, _, Found) :-
+    current_prolog_flag(version, Version),
+    (   Version >= 90004,
+        current_prolog_flag(threads, true)
+    ->  current_prolog_flag(address_bits, Bits),
+        format(atom(Found), 'SWI-Prolog ~d, ~d bits', [Version, Bits])
+    ;   throw(error(representation_error(prolog_version(Version)), _))
+    ).
+check(cookie, _, Found) :-
+    cookie(_),
+    cookie_source(Found).
+check(_, none, not_asked) :-
+    !.
+check(address, Address, Found) :-
+    address_parts(Address, Name, Interface, Port),
+    format(atom(Found), 'host ~w, port ~d of ~w', [Name, Port, Interface]).
+check('name resolution', Address, Found) :-
+    address_parts(Address, _, Interface, _),
+    tcp_host_to_address(Interface, IP),
+    format(atom(Found), '~w is ~w', [Interface, IP]).
+check(connection, Address, 'something listens there') :-
+    address_parts(Address, _, Interface, Port),
+    connect_within_deadline(Interface:Port).
+check(authentication, Address, Found) :-
+    get_time(Start),
+    remote(Address, true),
+    get_time(End),
+    MilliSeconds is (End-Start)*1000,
+    codec(Address, Codec),
+    format(atom(Found), 'same cookie, codec ~w, answered in ~1f ms',
+           [Codec, MilliSeconds]).
+
+cookie_source('from the environment variable TYPHON_COOKIE') :-
+    getenv('TYPHON_COOKIE', _),
+    !.
+cookie_source(File) :-
+    getenv('TYPHON_COOKIE_FILE', File),
+    !.
+cookie_source('~/.typhon.cookie').
+
+address_parts(Address, Name, Interface, Port) :-
+    atomic_list_concat([Name, Endpoint], '@', Address),
+    sub_atom(Endpoint, Before, 1, After, :),
+    sub_atom(Endpoint, 0, Before, _, Interface),
+    sub_atom(Endpoint, _, After, 0, PortText),
+    atom_number(PortText, Port),
+    integer(Port),
+    !.
+address_parts(Address, _, _, _) :-
+    throw(error(domain_error(host_address, Address), _)).
+
+codec(Address, Codec) :-
+    atomic_list_concat([_, Endpoint], '@', Address),
+    endpoint_peer(Endpoint, codec(Codec)),
+    !.
+codec(_, unknown).
+
+                /*******************************
+                *            CONNECT           *
+                *******************************/
+
+connect_within_deadline(Address) :-
+    connect_deadline(Seconds),
+    thread_self(Me),
+    thread_create(try_connect(Address, Me), _, [detached(true)]),
+    (   thread_get_message(Me, connected(Result), [timeout(Seconds)])
+    ->  true
+    ;   Result = error(timeout_error(connect, Address), _)
+    ),
+    (   Result == true
+    ->  true
+    ;   throw(Result)
+    ).
+
+try_connect(Address, Asker) :-
+    catch(( tcp_socket(Socket),
+            call_cleanup(tcp_connect(Socket, Address),
+                         tcp_close_socket(Socket)),
+            Result = true
+          ),
+          error(Formal, Context),
+          Result = error(Formal, Context)),
+    thread_send_message(Asker, connected(Result)).

@@ -1,0 +1,306 @@
+:- module(typhon_app, []).
+
+/** <module> Typhon from the command line
+
+    swipl app/typhon.pl COMMAND ... [options]
+
+`--help` lists the commands, `COMMAND --help` the options of one.  Expected
+errors are one line and exit status 1.
+
+The whole interface stands in the tables of commands.pl; run/3 has one
+clause for each command, and does nothing that a program could not do with
+library(typhon).
+
+*Threading*: the main thread only.  A command that runs until it is told to
+stop waits for a message, which the handlers of SIGINT and SIGTERM send.
+*/
+
+:- use_module('../prolog/typhon').
+:- use_module(commands, [command/4, option/5]).
+:- use_module(diagnose, [diagnose/1]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(main), [argv_options/4, main/0]).
+:- use_module(library(option), [option/2, option/3]).
+
+:- initialization(main, main).
+
+:- public main/1.
+
+                /*******************************
+                *            OPTIONS           *
+                *******************************/
+
+%   The tables as argv_options/4 wants them, for the command at hand.
+
+:- dynamic current_command/1.
+
+opt_type(Option, Option, Type) :-
+    current_command(Command),
+    option(Command, Option, Type, _, _).
+
+opt_help(help(header), Help) :-
+    current_command(Command),
+    command(Command, _, _, Help0),
+    atomic_list_concat([Command, ': ', Help0], Help).
+opt_help(help(usage), Usage) :-
+    current_command(Command),
+    command(Command, Arguments, _, _),
+    atomic_list_concat(['', Command, Arguments, '[options]'], ' ', Usage).
+opt_help(Option, Help) :-
+    current_command(Command),
+    option(Command, Option, _, _, Help).
+
+opt_meta(Option, Meta) :-
+    current_command(Command),
+    option(Command, Option, _, Meta, _).
+
+                /*******************************
+                *             MAIN             *
+                *******************************/
+
+main(Argv) :-
+    catch(dispatch(Argv), error(Formal, Context),
+          complain(error(Formal, Context))),
+    halt(0).
+
+complain(Error) :-
+    print_message(error, Error),
+    halt(1).
+
+dispatch([Command|Argv]) :-
+    command(Command, _, Positional, _),
+    !,
+    assertz(current_command(Command)),
+    (   member(Help, ['--help', '-h']),
+        memberchk(Help, Argv)
+    ->  command_help
+    ;   argv_options(typhon_app:Argv, Arguments, Options, []),
+        check_count(Command, Positional, Arguments),
+        run(Command, Arguments, Options)
+    ).
+dispatch(Argv) :-
+    (   Argv = [Word|_],
+        \+ memberchk(Word, ['--help', '-h', help])
+    ->  findall(Command, command(Command, _, _, _), Commands),
+        throw(error(typhon_usage(unknown_command(Word, Commands)), _))
+    ;   overview
+    ).
+
+check_count(Command, Positional, Arguments) :-
+    length(Arguments, Count),
+    (   Positional = Min-Max
+    ->  between(Min, Max, Count)
+    ;   Positional == Count
+    ),
+    !.
+check_count(Command, _, _) :-
+    throw(error(typhon_usage(arguments(Command)), _)).
+
+overview :-
+    format('Usage: swipl app/typhon.pl COMMAND ... [options]~n~n'),
+    forall(command(Command, Arguments, _, Help),
+           format('  ~w ~w~t~26|~w~n', [Command, Arguments, Help])),
+    format('~nCOMMAND --help tells the options of a command.~n').
+
+command_help :-
+    phrase(prolog:message(opt_usage(typhon_app)), Lines),
+    print_message_lines(user_output, '', Lines),
+    nl(user_output).
+
+                /*******************************
+                *           COMMANDS           *
+                *******************************/
+
+run(host, [Name], Options) :-
+    findall(Option, host_option(Options, Option), HostOptions),
+    until_told_to_stop(
+        host_start(Name, HostOptions),
+        ( host_property(Name, address(Address)),
+          forall(member(link(Other), Options), link(Name, Other)),
+          print_line(Address)
+        ),
+        host_stop(Name)).
+run(network, [Topology0], Options) :-
+    read_argument(Topology0, Topology),
+    findall(Option, network_option(Options, Option), NetworkOptions),
+    until_told_to_stop(
+        network_start(Topology, Network, NetworkOptions),
+        ( network_property(Network, hosts(Addresses)),
+          forall(member(Address, Addresses), print_line(Address))
+        ),
+        network_stop(Network)).
+run(create, [Program0], Options) :-
+    required(create, host(Host), Options),
+    program_argument(Program0, Program),
+    findall(Option, agent_option(Options, Option), AgentOptions),
+    agent_create(Program, Agent, [host(Host)|AgentOptions]),
+    print_line(Agent),
+    (   option(join(Seconds), Options)
+    ->  join(Agent, Seconds)
+    ;   true
+    ).
+run(agents, [], Options) :-
+    required(agents, host(Host), Options),
+    remote(Host, with_output_to(string(Table), typhon:agents)),
+    write(Table).
+run(hosts, [], Options) :-
+    required(hosts, host(Host), Options),
+    remote(Host, with_output_to(string(Table), typhon:hosts)),
+    write(Table).
+run(send, [Agent, Message0], Options) :-
+    read_argument(Message0, Message),
+    home_of(Agent, Home),
+    option(host(Host), Options, Home),
+    remote(Host, typhon:agent_send(Agent, Message)).
+run(log, [File], Options) :-
+    option(serve(true), Options),
+    !,
+    findall(Option, log_option(Options, Option), LogOptions),
+    until_told_to_stop(
+        log_server_start([file(File)|LogOptions], Address),
+        print_line(Address),
+        true).
+run(log, [File], Options) :-
+    (   option(host(Host), Options)
+    ->  remote(Host, typhon:log_events(File, Events))
+    ;   log_events(File, Events)
+    ),
+    forall(member(Event, Events), print_event(Event)).
+run(diagnose, [], _) :-
+    diagnose(none).
+run(diagnose, [Address], _) :-
+    diagnose(Address).
+
+host_option(Options, Option) :-
+    member(Option, Options),
+    functor(Option, Name, 1),
+    memberchk(Name, [port, bind, capacity, log]).
+host_option(Options, tokens(Tokens)) :-
+    comma_list(tokens(Text), Options, Text, Tokens).
+host_option(Options, consult(Files)) :-
+    findall(File, member(consult(File), Options), Files),
+    Files \== [].
+
+network_option(Options, machines(Machines)) :-
+    comma_list(machines(Text), Options, Text, Machines).
+network_option(Options, Option) :-
+    member(Option, Options),
+    Option \= machines(_).
+
+agent_option(Options, Option) :-
+    member(Option, Options),
+    functor(Option, Name, 1),
+    memberchk(Name, [name, lifetime, static]).
+agent_option(Options, tokens(Tokens)) :-
+    comma_list(tokens(Text), Options, Text, Tokens).
+agent_option(Options, payloads(Payloads)) :-
+    findall(Payload,
+            ( member(payload(Text), Options),
+              program_argument(Text, Payload)
+            ),
+            Payloads),
+    Payloads \== [].
+agent_option(Options, facts(Facts)) :-
+    findall(Fact, member(fact(Fact), Options), Facts),
+    Facts \== [].
+
+log_option(Options, Option) :-
+    member(Option, Options),
+    functor(Option, Name, 1),
+    memberchk(Name, [port, bind]).
+
+                /*******************************
+                *        STOP AND WAIT         *
+                *******************************/
+
+:- meta_predicate until_told_to_stop(0, 0, 0).
+
+until_told_to_stop(Start, Report, Stop) :-
+    on_signal(term, _, told_to_stop),
+    on_signal(int, _, told_to_stop),
+    setup_call_cleanup(
+        Start,
+        ( once(Report),
+          thread_get_message(told_to_stop)
+        ),
+        Stop).
+
+told_to_stop(_Signal) :-
+    thread_send_message(main, told_to_stop).
+
+join(Agent, Seconds) :-
+    agent_join(Agent, Outcome, Seconds),
+    print_line(Outcome),
+    (   Outcome == done
+    ->  true
+    ;   halt(1)
+    ).
+
+                /*******************************
+                *           ARGUMENTS          *
+                *******************************/
+
+required(_, Option, Options) :-
+    option(Option, Options),
+    !.
+required(Command, Option, _) :-
+    functor(Option, Name, _),
+    throw(error(typhon_usage(required(Command, Name)), _)).
+
+read_argument(Text, Term) :-
+    catch(term_to_atom(Term, Text),
+          error(syntax_error(_), _),
+          throw(error(typhon_usage(not_a_term(Text)), _))).
+
+%   A file, or a term as agents(census).
+
+program_argument(Text, Text) :-
+    exists_file(Text),
+    !.
+program_argument(Text, Program) :-
+    sub_atom(Text, _, 1, 0, ')'),
+    !,
+    read_argument(Text, Program).
+program_argument(Text, Text).
+
+comma_list(Option, Options, Text, Parts) :-
+    option(Option, Options),
+    atomic_list_concat(Parts, ',', Text).
+
+home_of(Agent, Home) :-
+    sub_atom(Agent, Before, _, _, @),
+    !,
+    Start is Before+1,
+    sub_atom(Agent, Start, _, 0, Home).
+home_of(Agent, _) :-
+    throw(error(typhon_usage(not_an_id(Agent)), _)).
+
+                /*******************************
+                *            OUTPUT            *
+                *******************************/
+
+print_line(Term) :-
+    format('~w~n', [Term]),
+    flush_output.
+
+print_event(event(Time, Host, Agent, What)) :-
+    format('~t~3f~12|  ~w~t~26+ ~w~t~32+ ~p~n', [Time, Host, Agent, What]).
+
+:- multifile prolog:error_message//1.
+
+prolog:error_message(typhon_usage(Problem)) -->
+    usage(Problem).
+
+usage(unknown_command(Word, Commands)) -->
+    { atomic_list_concat(Commands, ', ', Text) },
+    [ 'no command ~w; there are ~w'-[Word, Text] ].
+usage(arguments(Command)) -->
+    { command(Command, Arguments, _, _) },
+    [ '~w takes ~w; see ~w --help'-[Command, Arguments, Command] ].
+usage(required(Command, Option)) -->
+    [ '~w needs --~w; see ~w --help'-[Command, Option, Command] ].
+usage(not_a_term(Text)) -->
+    [ 'not a Prolog term: ~w'-[Text] ].
+usage(not_an_id(Agent)) -->
+    [ 'not the id of an agent: ~w'-[Agent] ].
