@@ -50,6 +50,8 @@ option(host, link, atom, 'ADDRESS',
        'host to link to (may be repeated)').
 option(network, processes, natural, 'N',
        'spread the hosts over N processes').
+option(network, bind, atom, 'INTERFACE',
+       'interface to listen at (default localhost)').
 option(network, seed, integer, 'N',
        'seed of everything random').
 option(network, log, atom, 'FILE',

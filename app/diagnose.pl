@@ -49,8 +49,7 @@ diagnose([Step-Advice|Steps], Address) :-
 
 print_error(Error) :-
     '$messages':translate_message(Error, Lines, []),
-    print_message_lines(current_output, '', Lines),
-    nl.
+    print_message_lines(current_output, '', Lines).
 
 %   step(Name, Advice)
 
@@ -74,7 +73,11 @@ check(prolog, _, Found) :-
     (   Version >= 90004,
         current_prolog_flag(threads, true)
     ->  current_prolog_flag(address_bits, Bits),
-        format(atom(Found), 'SWI-Prolog ~d, ~d bits', [Version, Bits])
+        Major is Version//10000,
+        Minor is Version//100 mod 100,
+        Patch is Version mod 100,
+        format(atom(Found), 'SWI-Prolog ~d.~d.~d, ~d bits',
+               [Major, Minor, Patch, Bits])
     ;   throw(error(representation_error(prolog_version(Version)), _))
     ).
 check(cookie, _, Found) :-

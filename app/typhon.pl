@@ -16,6 +16,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 */
 
 :- use_module('../prolog/typhon').
+:- use_module('../prolog/typhon/log', [log_server_stop/1]).
 :- use_module(commands, [command/4, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(library(apply), [maplist/3]).
@@ -62,7 +63,10 @@ opt_meta(Option, Meta) :-
 main(Argv) :-
     catch(dispatch(Argv), error(Formal, Context),
           complain(error(Formal, Context))),
+    !,
     halt(0).
+main(_) :-
+    halt(1).
 
 complain(Error) :-
     print_message(error, Error),
@@ -87,7 +91,7 @@ dispatch(Argv) :-
     ;   overview
     ).
 
-check_count(Command, Positional, Arguments) :-
+check_count(_, Positional, Arguments) :-
     length(Arguments, Count),
     (   Positional = Min-Max
     ->  between(Min, Max, Count)
@@ -158,9 +162,9 @@ run(log, [File], Options) :-
     !,
     findall(Option, log_option(Options, Option), LogOptions),
     until_told_to_stop(
-        log_server_start([file(File)|LogOptions], Address),
+        log_server_start([file(File), mode(append)|LogOptions], Address),
         print_line(Address),
-        true).
+        log_server_stop(Address)).
 run(log, [File], Options) :-
     (   option(host(Host), Options)
     ->  remote(Host, typhon:log_events(File, Events))
@@ -217,8 +221,8 @@ log_option(Options, Option) :-
 :- meta_predicate until_told_to_stop(0, 0, 0).
 
 until_told_to_stop(Start, Report, Stop) :-
-    on_signal(term, _, told_to_stop),
-    on_signal(int, _, told_to_stop),
+    on_signal(term, _, typhon_app:told_to_stop),
+    on_signal(int, _, typhon_app:told_to_stop),
     setup_call_cleanup(
         Start,
         ( once(Report),

@@ -6,6 +6,7 @@
 :- use_module(common).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3]).
 
@@ -71,28 +72,29 @@ archive(Archive) :-
 :- begin_tests(pack).
 
 test(directory) :-
-    with_tmp_dir([Home]>>
-        ( project_file('.', Root),
-          install('.', [], Home, Root),
-          works(Home)
-        )).
-
+    with_tmp_dir(from_directory).
 test(directory_url) :-
-    with_tmp_dir([Home]>>
-        ( project_file('.', Root0),
-          absolute_file_name(Root0, Root),
-          atom_concat('file://', Root, URL),
-          install(URL, [], Home, Home),
-          works(Home)
-        )).
-
+    with_tmp_dir(from_directory_url).
 test(archive_url) :-
-    with_tmp_dir([Home]>>
-        ( directory_file_path(Home, 'typhon-0.1.0.tgz', Archive),
-          archive(Archive),
-          atom_concat('file://', Archive, URL),
-          install(typhon, [url(URL)], Home, Home),
-          works(Home)
-        )).
+    with_tmp_dir(from_archive_url).
+
+from_directory(Home) :-
+    project_file('.', Root),
+    install('.', [], Home, Root),
+    works(Home).
+
+from_directory_url(Home) :-
+    project_file('.', Root0),
+    absolute_file_name(Root0, Root),
+    atom_concat('file://', Root, URL),
+    install(URL, [], Home, Home),
+    works(Home).
+
+from_archive_url(Home) :-
+    directory_file_path(Home, 'typhon-0.1.0.tgz', Archive),
+    archive(Archive),
+    atom_concat('file://', Archive, URL),
+    install(typhon, [url(URL)], Home, Home),
+    works(Home).
 
 :- end_tests(pack).
