@@ -15,12 +15,12 @@
                 save_result/4
               ]).
 :- use_module(sync/run, [sync_run/3]).
-:- use_module(library(apply), [maplist/3, maplist/4]).
+:- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [member/2, numlist/3, selectchk/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
-:- use_module(library(option), [merge_options/3, option/2, select_option/3]).
+:- use_module(library(option), [option/2, select_option/3]).
 
 :- initialization(main, main).
 
@@ -66,12 +66,19 @@ main(Argv) :-
     set_stream(user_error, encoding(utf8)),
     argv_options(Argv, Positional, Given),
     defaults(Defaults),
-    merge_options(Given, Defaults, Options),
+    foldl(give, Given, Defaults, Options),
     catch(check(Positional, Options), error(Formal, Context),
           ( print_message(error, error(Formal, Context)),
             halt(1)
           )),
     stopping_on_signals(run(Options)).
+
+%   Of an option that is given twice the last one counts.
+
+give(Option, Options0, [Option|Options]) :-
+    functor(Option, Name, 1),
+    functor(Default, Name, 1),
+    selectchk(Default, Options0, Options).
 
 check(Positional, Options) :-
     (   Positional == []
