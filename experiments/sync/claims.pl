@@ -31,7 +31,7 @@ claim(ended,    'all agents end by themselves').
 claim(once,     'every host executes every task exactly once').
 claim(order,    'no host executes a task before the earlier ones').
 claim(tau,      'never more than two distinct tasks are required (tau)').
-claim(overlaps, 'no task begins before all hosts are serviced for the last').
+claim(overlaps, 'no task begins before all hosts had the previous one').
 claim(idle,     'the agents are idle between any two tasks').
 claim(burst,    'the first task begins with the largest burst').
 
