@@ -18,7 +18,9 @@ result was skipped by its condition; if it has none, its setup failed.
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(plunit),
-              [run_tests/0, current_test/5, current_test_unit/2]).
+              [ run_tests/0, current_test/5, current_test_unit/2,
+                set_test_options/1
+              ]).
 
 :- initialization(main, main).
 
@@ -53,9 +55,11 @@ load_problem('does not load without warnings') :-
 load_problem('has no tests') :-
     \+ current_test(_, _, _, _, _).
 
-%   Whether all passed is seen from the results.
+%   Whether all passed is seen from the results, which SWI-Prolog 9.2 would
+%   otherwise remove.
 
 run_units :-
+    set_test_options([cleanup(false), run(manual)]),
     (   run_tests
     ->  true
     ;   true
