@@ -1,0 +1,328 @@
+:- module(typhon_agent,
+          [ agent/5,                    % ?Id, ?Host, ?Module, ?Hash, ?Life
+            agent_status/3,             % ?Id, ?Status, ?Goals
+            agent_install/6,            % +Id, +Host, +Place, +Hash, +Life, +State
+            agent_remove/1,             % +Id
+            agent_state/3,              % +Module, +Hash, -State
+            agent_life/2,               % +Id, :Goal
+            agent_put_life/2,           % +Id, +Life
+            agent_put/3,                % +Id, +Status, +Goals
+            agent_ready/2,              % +Id, +Goals
+            with_agent/2,               % +Id, :Goal
+            agent_mail/2,               % +Id, +Message
+            agent_take_mail/2,          % +Id, ?Message
+            agent_all_mail/2,           % +Id, -Messages
+            agent_return_mail/2,        % +Id, +Messages
+            agent_order/2,              % +Id, +Order
+            agent_next_order/2,         % +Id, -Order
+            agent_ordered/1,            % +Id
+            agent_id/3,                 % +Name, +Home, -Id
+            agent_home/2,               % +Id, -Home
+            agent_handles/2,            % +Module, +Hash
+            attach_clauses/3,           % +Module, +Hash, +Payload
+            detach_clauses/2            % +Module, +PIs
+          ]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(code, [code_module/2, code_program/2]).
+:- use_module(program, [clause_parts/3]).
+:- use_module(scheduler, [schedule/2]).
+
+/** <module> Agents that stand in this process
+
+The records of agents, each with one owner: this module.  An agent is
+
+  - a module with its state: everything dynamic in it.  Its program is
+    found through the import chain, see typhon_code and typhon_place;
+  - a life(Parent, Hops, Lifetime, Tokens, Payloads, Static);
+  - a status, one of `ready`, running(Worker), sleeping(Until),
+    waiting(Pattern, Until), `resident`, leaving(Host, At),
+    transit(Host, Since), cloning(Host, Since) or faulty(Error), with
+    the goals still to run.  While a control predicate is under way the
+    goals are Hole-Goals, see typhon_machine;
+  - a mailbox and orders from outside.
+
+*Threading*: what changes a record runs inside with_agent/2, which holds
+one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
+*/
+
+:- meta_predicate with_agent(+, 0), agent_life(+, 1).
+
+:- multifile typhon_code:in_use/1.
+
+:- dynamic
+    agent/5,                    % Id, Host, Module, Hash, Life
+    agent_status/3,             % Id, Status, Goals
+    mailbox/2,                  % Id, From-Message
+    order/2.                    % Id, Order
+
+typhon_code:in_use(Hash) :-
+    agent(_, _, _, Hash, _),
+    !.
+
+%!  with_agent(+Id, :Goal) is semidet.
+%
+%   Run Goal once while no other thread changes the record of Id.
+
+with_agent(Id, Goal) :-
+    term_hash(Id, Hash),
+    I is Hash /\ 63,
+    shard(I, Mutex),
+    with_mutex(Mutex, Goal).
+
+:- dynamic shard/2.
+
+make_shards :-
+    forall(between(0, 63, I),
+           ( atom_concat(typhon_agents_, I, Mutex),
+             assertz(shard(I, Mutex))
+           )),
+    compile_predicates([shard/2]).
+
+:- initialization(make_shards, now).
+
+                /*******************************
+                *           IDENTITY           *
+                *******************************/
+
+%!  agent_id(+Name, +Home, -Id) is det.
+%
+%   A new id: unique among processes and restarts.
+
+agent_id(Name, Home, Id) :-
+    flag(typhon_agent_id, N, N+1),
+    process_mark(Mark),
+    atomic_list_concat([Name, '.', Mark, N, '@', Home], Id).
+
+:- dynamic mark/1.
+
+process_mark(Mark) :-
+    mark(Mark),
+    !.
+process_mark(Mark) :-
+    with_mutex(typhon_mark, make_mark),
+    mark(Mark).
+
+make_mark :-
+    mark(_),
+    !.
+make_mark :-
+    X is random(1<<40),
+    get_time(Now),
+    Y is X xor truncate(Now*1000000) /\ (1<<40-1),
+    format(atom(Mark), '~36r.', [Y]),
+    assertz(mark(Mark)).
+
+%!  agent_home(+Id, -Home) is semidet.
+%
+%   Home is the address of the host on which Id was born.
+
+agent_home(Id, Home) :-
+    atom(Id),
+    sub_atom(Id, B, _, _, '@'),
+    !,
+    B1 is B+1,
+    sub_atom(Id, B1, _, 0, Home).
+
+                /*******************************
+                *       MODULES AND STATE      *
+                *******************************/
+
+%!  agent_install(+Id, +Host, +Place, +Hash, +Life, +State) is det.
+%
+%   Make the record of an agent; its status and goals come separately.
+%
+%   @arg State is state(PIs, Clauses): what is dynamic and what is in it.
+
+agent_install(Id, Host, Place, Hash, Life, state(PIs, Clauses)) :-
+    flag(typhon_agent_module, N, N+1),
+    atom_concat('agent ', N, Module),
+    code_module(Hash, Program),
+    code_program(Hash, program(_, Declared, _, _)),
+    set_module(Module:class(temporary)),
+    set_module(Module:base(Program)),
+    add_import_module(Module, Place, end),
+    maplist(declare(Module), Declared),
+    maplist(declare(Module), PIs),
+    maplist(add_clause(Module), Clauses),
+    assertz(agent(Id, Host, Module, Hash, Life)).
+
+declare(Module, PI) :-
+    dynamic(Module:PI).
+
+add_clause(Module, Clause) :-
+    assertz(Module:Clause).
+
+%!  agent_state(+Module, +Hash, -State) is det.
+
+agent_state(Module, Hash, state(PIs, Clauses)) :-
+    code_program(Hash, program(_, Declared, _, _)),
+    findall(Head, state_head(Module, Head), Heads),
+    findall(PI, undeclared(Heads, Declared, PI), PIs),
+    findall(Clause, state_clause(Heads, Module, Clause), Clauses).
+
+state_head(Module, Head) :-
+    '$c_current_predicate'(_, Module:Head),
+    \+ predicate_property(Module:Head, imported_from(_)),
+    predicate_property(Module:Head, dynamic).
+
+undeclared(Heads, Declared, Name/Arity) :-
+    member(Head, Heads),
+    functor(Head, Name, Arity),
+    \+ memberchk(Name/Arity, Declared).
+
+state_clause(Heads, Module, Clause) :-
+    member(Head, Heads),
+    clause(Module:Head, Body),
+    (   Body == true
+    ->  Clause = Head
+    ;   Clause = (Head:-Body)
+    ).
+
+%!  agent_remove(+Id) is semidet.
+%
+%   Forget the record of Id.  Its mailbox goes, too.
+
+agent_remove(Id) :-
+    retract(agent(Id, _, Module, _, _)),
+    retractall(agent_status(Id, _, _)),
+    retractall(mailbox(Id, _)),
+    retractall(order(Id, _)),
+    '$destroy_module'(Module).
+
+%!  agent_handles(+Module, +Hash) is semidet.
+%
+%   True if the agent has a handler for messages.
+
+agent_handles(Module, Hash) :-
+    code_module(Hash, Program),
+    (   '$c_current_predicate'(_, Program:on_message(_,_))
+    ->  true
+    ;   predicate_property(Module:on_message(_,_), number_of_clauses(N)),
+        N > 0
+    ).
+
+%!  attach_clauses(+Module, +Hash, +Payload) is det.
+%
+%   @error permission_error(attach, procedure, PI) if the agent has a
+%          predicate of that name already
+
+attach_clauses(Module, Hash, payload(_, PIs, Clauses)) :-
+    code_module(Hash, Program),
+    maplist(free(Module, Program), PIs),
+    maplist(declare(Module), PIs),
+    maplist(add_clause(Module), Clauses).
+
+free(Module, Program, Name/Arity) :-
+    functor(Head, Name, Arity),
+    (   (   '$c_current_predicate'(_, Program:Head),
+            \+ predicate_property(Program:Head, imported_from(_))
+        ;   state_head(Module, Head)
+        )
+    ->  permission_error(attach, procedure, Name/Arity)
+    ;   true
+    ).
+
+%!  detach_clauses(+Module, +PIs) is det.
+
+detach_clauses(Module, PIs) :-
+    forall(member(PI, PIs), abolish(Module:PI)).
+
+                /*******************************
+                *            STATUS            *
+                *******************************/
+
+%!  agent_put(+Id, +Status, +Goals) is det.
+
+agent_put(Id, Status, Goals) :-
+    retractall(agent_status(Id, _, _)),
+    assertz(agent_status(Id, Status, Goals)).
+
+%!  agent_ready(+Id, +Goals) is det.
+%
+%   Id goes on with Goals when its turn comes.
+
+agent_ready(Id, Goals) :-
+    agent_put(Id, ready, Goals),
+    agent(Id, Host, _, _, _),
+    !,
+    schedule(Host, Id).
+
+%!  agent_life(+Id, :Goal) is semidet.
+%
+%   call(Goal, Life) on the life of Id.
+
+agent_life(Id, Goal) :-
+    agent(Id, _, _, _, Life),
+    !,
+    call(Goal, Life).
+
+%!  agent_put_life(+Id, +Life) is det.
+
+agent_put_life(Id, Life) :-
+    retract(agent(Id, Host, Module, Hash, _)),
+    !,
+    assertz(agent(Id, Host, Module, Hash, Life)).
+
+                /*******************************
+                *       MAILBOX AND ORDERS     *
+                *******************************/
+
+%!  agent_mail(+Id, +Message) is det.
+%
+%   Put Message in the mailbox and wake the agent if it waits for it.
+
+agent_mail(Id, Message) :-
+    assertz(mailbox(Id, Message)),
+    agent_status(Id, Status, Goals),
+    !,
+    (   wakes(Status, Message)
+    ->  agent_ready(Id, Goals)
+    ;   true
+    ).
+
+wakes(resident, _).
+wakes(waiting(Pattern, _), Message) :-
+    \+ Pattern \= Message.
+
+%!  agent_take_mail(+Id, ?Message) is semidet.
+%
+%   The oldest message that unifies.
+
+agent_take_mail(Id, Message) :-
+    retract(mailbox(Id, Message)),
+    !.
+
+%!  agent_all_mail(+Id, -Messages:list) is det.
+%
+%   Empty the mailbox.
+
+agent_all_mail(Id, Messages) :-
+    findall(Message, retract(mailbox(Id, Message)), Messages).
+
+%!  agent_return_mail(+Id, +Messages) is det.
+%
+%   Messages were there before those that are there now.
+
+agent_return_mail(_, []) :-
+    !.
+agent_return_mail(Id, Older) :-
+    agent_all_mail(Id, Newer),
+    append(Older, Newer, Messages),
+    forall(member(Message, Messages), assertz(mailbox(Id, Message))).
+
+%!  agent_order(+Id, +Order) is det.
+%!  agent_next_order(+Id, -Order) is semidet.
+%!  agent_ordered(+Id) is semidet.
+
+agent_order(Id, Order) :-
+    assertz(order(Id, Order)).
+
+agent_next_order(Id, Order) :-
+    retract(order(Id, Order)),
+    !.
+
+agent_ordered(Id) :-
+    order(Id, _),
+    !.

@@ -1,0 +1,224 @@
+:- module(typhon_host,
+          [ host/3,                     % ?Name, ?Address, ?Place
+            host_add/4,                 % +Name, +Address, +Place, +Options
+            host_remove/1,              % +Name
+            host_option/2,              % ?Name, ?Option
+            host_enter/3,               % +Name, +Tokens, -Answer
+            host_leave/1,               % +Name
+            host_load/2,                % +Name, -Load
+            host_neighbours/2,          % +Name, -Addresses
+            host_link/2,                % +Name, +Address
+            host_unlink/2,              % +Name, +Address
+            host_resolve/2,             % +Host, -Where
+            host_address/2,             % +Host, -Address
+            address_parts/3,            % ?Address, ?Name, ?Endpoint
+            host_hop/3,                 % +Name, +Direction, +Seconds
+            host_hop_stats/3,           % +Name, ?Direction, -Stats
+            host_log/3                  % +Name, +Agent, +What
+          ]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(error), [must_be/2, existence_error/2]).
+:- use_module(endpoint, [endpoint_address/1, endpoint_post/3]).
+
+/** <module> Hosts of this process
+
+The records of hosts: name, address, place, options, neighbours, how many
+agents stand on them and how long hops take.
+
+*Threading*: any thread.  The load is a counter changed atomically, the
+statistics are guarded by a mutex.
+*/
+
+:- dynamic
+    host/3,                     % Name, Address, Place
+    option/2,                   % Name, Option
+    neighbour/2,                % Name, Address
+    hop_stats/6.                % Name, Direction, Count, Min, Sum, Max
+
+%!  host_add(+Name, +Address, +Place, +Options) is det.
+
+host_add(Name, Address, Place, Options) :-
+    load_key(Name, Key),
+    flag(Key, _, 0),
+    forall(member(Option, Options), assertz(option(Name, Option))),
+    assertz(host(Name, Address, Place)).
+
+%!  host_remove(+Name) is det.
+
+host_remove(Name) :-
+    retractall(host(Name, _, _)),
+    retractall(option(Name, _)),
+    retractall(neighbour(Name, _)),
+    retractall(hop_stats(Name, _, _, _, _, _)).
+
+%!  host_option(?Name, ?Option) is nondet.
+
+host_option(Name, Option) :-
+    option(Name, Option).
+
+                /*******************************
+                *           ADDRESSES          *
+                *******************************/
+
+%!  address_parts(?Address, ?Name, ?Endpoint) is semidet.
+%
+%   Address is Name@Endpoint, where Endpoint is 'Interface:Port'.
+
+address_parts(Address, Name, Endpoint) :-
+    atom(Address),
+    !,
+    atomic_list_concat([Name,Endpoint], '@', Address),
+    Name \== '',
+    Endpoint \== ''.
+address_parts(Address, Name, Endpoint) :-
+    atomic_list_concat([Name,Endpoint], '@', Address).
+
+%!  host_resolve(+Host, -Where) is det.
+%
+%   Where is local(Name) or remote(Address, Name, Endpoint).
+%
+%   @error existence_error(host, Host)
+
+host_resolve(Host, _) :-
+    \+ atom(Host),
+    !,
+    must_be(atom, Host).
+host_resolve(Host, local(Host)) :-
+    host(Host, _, _),
+    !.
+host_resolve(Host, local(Name)) :-
+    host(Name, Host, _),
+    !.
+host_resolve(Host, remote(Host, Name, Endpoint)) :-
+    address_parts(Host, Name, Endpoint),
+    sub_atom(Endpoint, _, _, _, :),
+    !.
+host_resolve(Host, _) :-
+    existence_error(host, Host).
+
+%!  host_address(+Host, -Address) is det.
+%
+%   The address of Host, a name or an address.
+
+host_address(Host, Address) :-
+    host_resolve(Host, Where),
+    where_address(Where, Address).
+
+where_address(local(Name), Address) :-
+    host(Name, Address, _).
+where_address(remote(Address, _, _), Address).
+
+                /*******************************
+                *          ADMISSION           *
+                *******************************/
+
+%!  host_enter(+Name, +Tokens, -Answer) is det.
+%
+%   An agent with Tokens asks to enter.  Answer is `ok`, and a place is
+%   taken for it, or refused(Reason).
+
+host_enter(Name, _, refused(unknown_host)) :-
+    \+ host(Name, _, _),
+    !.
+host_enter(Name, Tokens, refused(token)) :-
+    option(Name, tokens(Wanted)),
+    Wanted \== [],
+    \+ ( member(Token, Wanted), memberchk(Token, Tokens) ),
+    !.
+host_enter(Name, _, Answer) :-
+    load_key(Name, Key),
+    flag(Key, Load, Load+1),
+    (   option(Name, capacity(Capacity)),
+        Capacity \== inf,
+        Load >= Capacity
+    ->  flag(Key, Load1, Load1-1),
+        Answer = refused(capacity)
+    ;   Answer = ok
+    ).
+
+%!  host_leave(+Name) is det.
+
+host_leave(Name) :-
+    load_key(Name, Key),
+    flag(Key, Load, Load-1).
+
+%!  host_load(+Name, -Load:integer) is det.
+
+host_load(Name, Load) :-
+    load_key(Name, Key),
+    flag(Key, Load, Load).
+
+load_key(Name, Key) :-
+    atom_concat('typhon load ', Name, Key).
+
+                /*******************************
+                *             LINKS            *
+                *******************************/
+
+%!  host_link(+Name, +Address) is det.
+%!  host_unlink(+Name, +Address) is det.
+%
+%   One direction of a link; nothing to do where it is so already.
+
+host_link(Name, Address) :-
+    with_mutex(typhon_links,
+               (   neighbour(Name, Address)
+               ->  true
+               ;   assertz(neighbour(Name, Address))
+               )).
+
+host_unlink(Name, Address) :-
+    retractall(neighbour(Name, Address)).
+
+%!  host_neighbours(+Name, -Addresses:list(atom)) is det.
+
+host_neighbours(Name, Addresses) :-
+    findall(Address, neighbour(Name, Address), Addresses).
+
+                /*******************************
+                *       HOP TIMES, LOG         *
+                *******************************/
+
+%!  host_hop(+Name, +Direction, +Seconds) is det.
+%
+%   A hop into (`in`) or out of (`out`) Name took Seconds of host time.
+
+host_hop(Name, Direction, Seconds) :-
+    with_mutex(typhon_hops, add_hop(Name, Direction, Seconds)).
+
+add_hop(Name, Direction, Seconds) :-
+    retract(hop_stats(Name, Direction, Count0, Min0, Sum0, Max0)),
+    !,
+    Count is Count0+1,
+    Min is min(Min0, Seconds),
+    Max is max(Max0, Seconds),
+    Sum is Sum0+Seconds,
+    assertz(hop_stats(Name, Direction, Count, Min, Sum, Max)).
+add_hop(Name, Direction, Seconds) :-
+    assertz(hop_stats(Name, Direction, 1, Seconds, Seconds, Seconds)).
+
+%!  host_hop_stats(+Name, ?Direction, -Stats) is nondet.
+%
+%   Stats is stats(Count, Min, Mean, Max), in host seconds.
+
+host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
+    member(Direction, [in,out]),
+    (   hop_stats(Name, Direction, Count, Min, Sum, Max)
+    ->  Mean is Sum/Count
+    ;   Count = 0, Min = 0.0, Mean = 0.0, Max = 0.0
+    ).
+
+%!  host_log(+Name, +Agent, +What) is det.
+%
+%   Send an event to the log server of Name, if it has one.
+
+host_log(Name, Agent, What) :-
+    option(Name, log(Log)),
+    !,
+    host(Name, Address, _),
+    address_parts(Log, _, Endpoint),
+    catch(endpoint_post(Endpoint, log, event(Address, Agent, What)),
+          error(Formal, Context),
+          print_message(warning, error(Formal, Context))).
+host_log(_, _, _).

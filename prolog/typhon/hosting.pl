@@ -1,0 +1,386 @@
+:- module(typhon_hosting,
+          [ host_start/1,               % +Name
+            host_start/2,               % +Name, +Options
+            host_stop/1,                % +Name
+            host_property/2,            % ?Name, ?Property
+            link/2,                     % +HostA, +HostB
+            unlink/2                    % +HostA, +HostB
+          ]).
+:- use_module(library(apply), [maplist/2, partition/4]).
+:- use_module(library(error),
+              [ must_be/2, domain_error/2, permission_error/3,
+                existence_error/2 ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(agent, [agent/5, agent_status/3, with_agent/2]).
+:- use_module(clock, [clock_set/3, clock_clear/1]).
+:- use_module(code, [code_clear/0]).
+:- use_module(endpoint,
+              [ endpoint_start/3, endpoint_stop/0, endpoint_address/1,
+                endpoint_call/5, endpoint_reply/2 ]).
+:- use_module(host).
+:- use_module(life, [agent_end/2, agent_do/2]).
+:- use_module(place, [place_create/4, place_destroy/1]).
+:- use_module(scheduler,
+              [ scheduler_start/0, scheduler_stop/0, scheduler_limit/2,
+                scheduler_unlimit/1, scheduler_call/1 ]).
+:- use_module(whereabouts, [whereabouts_forget/1]).
+
+/** <module> Starting, stopping and linking hosts
+
+The first host of a process starts its endpoint and scheduler, the last
+one to stop releases them.
+
+*Threading*: host_start/2 and host_stop/1 exclude each other by a mutex.
+*/
+
+:- multifile typhon_endpoint:requested/4.
+
+                /*******************************
+                *             START            *
+                *******************************/
+
+%!  host_start(+Name) is det.
+%!  host_start(+Name, +Options) is det.
+%
+%   Start a host in this process.  Options:
+%
+%     - port(+Port): of the endpoint of the process, 0 for any; only for
+%       the first host
+%     - bind(+Interface): default localhost; only for the first host
+%     - capacity(+N): that many agents at the most, or `inf`
+%     - tokens(+List): an agent must carry one of them to be let in
+%     - concurrency(+N): that many agents run at a time, default `inf`
+%     - consult(+Files): clause files consulted into its place
+%     - services(+Modules): modules whose exports its place offers
+%     - place(+Module): a module all of whose predicates it offers
+%     - log(+Address): the log server
+%     - remote(+Boolean): whether remote/2 is answered, default `true`
+%     - clock(+Epoch, +Rate): see typhon_clock
+%     - hop_time(uniform(Min, Max)): delay added to hops out of it
+%     - seed(+Integer): for the choices of migration strategies
+%
+%   @error permission_error(start, host, Name) if it runs already
+%   @error domain_error(host_option, Option)
+
+host_start(Name) :-
+    host_start(Name, []).
+
+host_start(Name, Options) :-
+    must_be(atom, Name),
+    must_be(list, Options),
+    (   sub_atom(Name, _, _, _, @)
+    ->  domain_error(host_name, Name)
+    ;   true
+    ),
+    maplist(check_option, Options),
+    with_mutex(typhon_hosting, start(Name, Options)).
+
+check_option(Option) :-
+    (   host_option_type(Option, Type, Value)
+    ->  must_be(Type, Value)
+    ;   domain_error(host_option, Option)
+    ).
+
+host_option_type(port(X), between(0, 65535), X).
+host_option_type(bind(X), atom, X).
+host_option_type(capacity(X), oneof([inf]), X) :- X == inf, !.
+host_option_type(capacity(X), nonneg, X).
+host_option_type(tokens(X), list, X).
+host_option_type(concurrency(X), oneof([inf]), X) :- X == inf, !.
+host_option_type(concurrency(X), positive_integer, X).
+host_option_type(consult(X), ground, X).
+host_option_type(services(X), ground, X).
+host_option_type(place(X), atom, X).
+host_option_type(log(X), atom, X).
+host_option_type(remote(X), boolean, X).
+host_option_type(clock(X, Y), list(number), [X,Y]).
+host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
+host_option_type(seed(X), integer, X).
+
+start(Name, _) :-
+    host(Name, _, _),
+    !,
+    permission_error(start, host, Name).
+start(Name, Options) :-
+    process_start(Options, First),
+    catch(start_host(Name, Options), Ball,
+          ( undo(First), throw(Ball) )).
+
+undo(true) :- process_stop.
+undo(false).
+
+process_start(Options, false) :-
+    host(_, _, _),
+    !,
+    (   member(Option, Options),
+        ( Option = port(Port), Port \== 0
+        ; Option = bind(_)
+        ),
+        \+ same_endpoint(Option)
+    ->  permission_error(change, endpoint, Option)
+    ;   true
+    ).
+process_start(Options, true) :-
+    option(port(Port), Options, 0),
+    option(bind(Interface), Options, localhost),
+    scheduler_start,
+    (   endpoint_address(_)             % a log server runs here
+    ->  true
+    ;   catch(endpoint_start(Interface, Port, _), Ball,
+              ( scheduler_stop, throw(Ball) )),
+        assertz(own_endpoint)
+    ).
+
+:- dynamic own_endpoint/0.              % hosts started it, hosts stop it
+
+same_endpoint(port(Port)) :-
+    endpoint_address(Endpoint),
+    atomic_list_concat([_,Port0], ':', Endpoint),
+    atom_number(Port0, Port).
+same_endpoint(bind(Interface)) :-
+    endpoint_address(Endpoint),
+    sub_atom(Endpoint, 0, _, _, Interface).
+same_endpoint(bind(localhost)) :-
+    endpoint_address(Endpoint),
+    sub_atom(Endpoint, 0, _, _, '127.0.0.1').
+
+start_host(Name, Options) :-
+    endpoint_address(Endpoint),
+    address_parts(Address, Name, Endpoint),
+    option(clock(Epoch, Rate), Options, clock(0, 1)),
+    option(concurrency(Concurrency), Options, inf),
+    place_parts(Options, Files, Services),
+    place_create(Name, Files, Services, Place),
+    clock_set(Name, Epoch, Rate),
+    scheduler_limit(Name, Concurrency),
+    host_add(Name, Address, Place, Options).
+
+place_parts(Options, Files, Services) :-
+    option(consult(Files0), Options, []),
+    option(services(Services0), Options, []),
+    listed(Files0, Files),
+    listed(Services0, Services1),
+    (   option(place(Module), Options)
+    ->  Services = [module(Module)|Services1]
+    ;   Services = Services1
+    ).
+
+listed(List, List) :-
+    is_list(List),
+    !.
+listed(One, [One]).
+
+                /*******************************
+                *             STOP             *
+                *******************************/
+
+%!  host_stop(+Name) is det.
+%
+%   Dispose of the agents on Name and release all it holds.
+%
+%   @error existence_error(host, Name)
+
+host_stop(Name) :-
+    must_be(atom, Name),
+    with_mutex(typhon_hosting, stop(Name)).
+
+stop(Name0) :-
+    local_name(Name0, Name),
+    host(Name, Address, Place),
+    retract_host(Name),
+    scheduler_unlimit(Name),
+    get_time(Now),
+    Deadline is Now+2,
+    clear(Name, Deadline),
+    forall(( host(Other, _, _), Other \== Name ),
+           host_unlink(Other, Address)),
+    host_remove(Name),
+    clock_clear(Name),
+    place_destroy(Place),
+    (   host(_, _, _)
+    ->  true
+    ;   process_stop
+    ).
+
+%   From here on nobody enters.
+
+retract_host(Name) :-
+    typhon_host:retractall(option(Name, capacity(_))),
+    typhon_host:assertz(option(Name, capacity(0))).
+
+local_name(Host, Name) :-
+    host_resolve(Host, Where),
+    (   Where = local(Name)
+    ->  true
+    ;   existence_error(host, Host)
+    ).
+
+%   Agents that rest are disposed of at once, those that run at their next
+%   effect; those that do not come to one are interrupted.
+
+clear(Name, Deadline) :-
+    findall(Id, agent(Id, Name, _, _, _), Ids),
+    clear(Ids, Name, Deadline).
+
+clear([], _, _) :-
+    !.
+clear(Ids, Name, Deadline) :-
+    forall(member(Id, Ids), ignore(agent_do(Id, dispose))),
+    get_time(Now),
+    forall(( agent(Id, Name, _, _, _), Now > Deadline ), interrupt(Id)),
+    thread_self(Me),
+    (   \+ agent(_, Name, _, _, _)
+    ->  true
+    ;   thread_get_message(Me, '$typhon_never', [timeout(0.01)])
+    ->  true
+    ;   clear(Name, Deadline)
+    ).
+
+%   abort is the one exception that the agent's own catch/3 cannot stop.
+
+interrupt(Id) :-
+    (   agent_status(Id, running(Worker), _)
+    ->  catch(thread_signal(Worker, typhon_hosting:stop_running(Id)),
+              error(existence_error(_, _), _), true)
+    ;   ignore(agent_end(Id, disposed))
+    ).
+
+stop_running(Id) :-
+    thread_self(Me),
+    (   agent_status(Id, running(Me), _)
+    ->  abort
+    ;   true
+    ).
+
+process_stop :-
+    (   retract(own_endpoint)
+    ->  endpoint_stop
+    ;   true
+    ),
+    scheduler_stop,
+    whereabouts_forget(_),
+    code_clear.
+
+                /*******************************
+                *          PROPERTIES          *
+                *******************************/
+
+%!  host_property(?Name, ?Property) is nondet.
+%
+%   Property is address(A), state(running), capacity(N), load(N),
+%   neighbours(L), hop_time(Direction, stats(Count,Min,Mean,Max)) (host
+%   seconds) or place(M).  Name may be the address of a host of another
+%   process, too.
+%
+%   @error existence_error(host, Name)
+
+host_property(Name, Property) :-
+    var(Name),
+    !,
+    host(Name, _, _),
+    local_property(Property, Name).
+host_property(Host, Property) :-
+    host_resolve(Host, Where),
+    property(Where, Host, Property).
+
+property(local(Name), _, Property) :-
+    local_property(Property, Name).
+property(remote(_, Name, Endpoint), Host, Property) :-
+    ask(Endpoint, host_properties(Name), Properties),
+    (   Properties == none
+    ->  existence_error(host, Host)
+    ;   member(Property, Properties)
+    ).
+
+local_property(address(Address), Name) :-
+    host(Name, Address, _).
+local_property(state(running), _).
+local_property(capacity(Capacity), Name) :-
+    (   host_option(Name, capacity(Capacity0))
+    ->  Capacity = Capacity0
+    ;   Capacity = inf
+    ).
+local_property(load(Load), Name) :-
+    host_load(Name, Load).
+local_property(neighbours(Neighbours), Name) :-
+    host_neighbours(Name, Neighbours).
+local_property(hop_time(Direction, Stats), Name) :-
+    host_hop_stats(Name, Direction, Stats).
+local_property(place(Place), Name) :-
+    host(Name, _, Place).
+
+ask(Endpoint, Question, Answer) :-
+    catch(endpoint_call(Endpoint, hosting, Question, answer(Answer), 10),
+          error(unreachable(_), _),
+          throw(error(host_unreachable(Endpoint), _))).
+
+typhon_endpoint:requested(hosting, Question, _Peer, ReplyTo) :-
+    hosting_answer(Question, Answer),
+    endpoint_reply(ReplyTo, Answer).
+
+hosting_answer(host_properties(Name), Properties) :-
+    (   host(Name, _, _)
+    ->  findall(P, local_property(P, Name), Properties)
+    ;   Properties = none
+    ).
+hosting_answer(link(Name, Address), Answer) :-
+    change_link(Name, Address, host_link, Answer).
+hosting_answer(unlink(Name, Address), Answer) :-
+    change_link(Name, Address, host_unlink, Answer).
+
+change_link(Name, Address, Change, Answer) :-
+    (   host(Name, _, _)
+    ->  call(Change, Name, Address),
+        Answer = ok
+    ;   Answer = none
+    ).
+
+                /*******************************
+                *             LINKS            *
+                *******************************/
+
+%!  link(+A, +B) is det.
+%!  unlink(+A, +B) is det.
+%
+%   Make or break the overlay link between two hosts, both ways; either may
+%   be in another process.
+%
+%   @error existence_error(host, Host)
+
+link(A, B) :-
+    both(A, B, link).
+
+unlink(A, B) :-
+    both(A, B, unlink).
+
+both(A, B, Change) :-
+    must_be(atom, A),
+    must_be(atom, B),
+    host_address(A, AddressA),
+    host_address(B, AddressB),
+    (   AddressA == AddressB
+    ->  domain_error(other_host, B)
+    ;   one_way(AddressA, AddressB, Change),
+        one_way(AddressB, AddressA, Change)
+    ).
+
+one_way(From, To, Change) :-
+    host_resolve(From, Where),
+    (   Where = local(Name)
+    ->  hosting_answer_for(Change, Name, To, Answer)
+    ;   Where = remote(_, Name, Endpoint),
+        hosting_question(Change, Name, To, Question),
+        ask(Endpoint, Question, Answer)
+    ),
+    (   Answer == ok
+    ->  true
+    ;   existence_error(host, From)
+    ).
+
+hosting_answer_for(Change, Name, To, Answer) :-
+    hosting_question(Change, Name, To, Question),
+    hosting_answer(Question, Answer).
+
+hosting_question(link, Name, To, link(Name, To)).
+hosting_question(unlink, Name, To, unlink(Name, To)).

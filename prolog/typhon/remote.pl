@@ -1,0 +1,87 @@
+:- module(typhon_remote,
+          [ remote/2                    % +Host, :Goal
+          ]).
+:- use_module(library(error),
+              [ must_be/2, permission_error/3, existence_error/2 ]).
+:- use_module(context, [in_context/2]).
+:- use_module(endpoint, [endpoint_call/5, endpoint_reply/2]).
+:- use_module(frame, [mobile_term/1]).
+:- use_module(host, [host/3, host_option/2, host_resolve/2]).
+:- use_module(scheduler, [scheduler_call/1]).
+
+/** <module> Goals in the place of any host
+
+remote/2 is for administrators: whoever holds the cookie can run any goal
+on a host, unless the host was started with remote(false).
+
+*Threading*: the goal runs in the thread that calls, or in a worker of the
+other process.
+*/
+
+:- meta_predicate remote(+, 0).
+:- multifile typhon_endpoint:requested/4.
+
+%!  remote(+Host, :Goal) is semidet.
+%
+%   once(Goal) in the place of Host, here or in another process.  Bindings
+%   come back; failure and errors, too.  leave/1, sense/1 and take/1 work
+%   on the tuple space of Host.
+%
+%   @error permission_error(remote, host, Host) if the host refuses
+%   @error host_unreachable(Host)
+%   @error connection_lost(Host): whether Goal ran is not known
+
+remote(Host, Goal) :-
+    host_resolve(Host, Where),
+    strip_module(Goal, _, Plain),
+    must_be(callable, Plain),
+    run(Where, Host, Plain).
+
+run(local(Name), _, Goal) :-
+    run_here(Name, Goal).
+run(remote(_, Name, Endpoint), Host, Goal) :-
+    mobile_term(Goal),
+    catch(endpoint_call(Endpoint, remote, remote(Name, Goal),
+                        answer(Answer), 1.0e9),
+          error(Formal, _),
+          failed(Formal, Host)),
+    conclude(Answer, Host, Goal).
+
+failed(unreachable(_), Host) :-
+    !,
+    throw(error(host_unreachable(Host), _)).
+failed(connection_lost(_), Host) :-
+    !,
+    throw(error(connection_lost(Host), _)).
+failed(Formal, _) :-
+    throw(error(Formal, _)).
+
+conclude(true(Goal), _, Goal).
+conclude(raised(Ball), _, _) :-
+    throw(Ball).
+conclude(unknown_host, Host, _) :-
+    existence_error(host, Host).
+
+run_here(Name, Goal) :-
+    host(Name, _, Place),
+    (   host_option(Name, remote(false))
+    ->  permission_error(remote, host, Name)
+    ;   in_context(Name, Place:Goal)
+    ).
+
+typhon_endpoint:requested(remote, remote(Name, Goal), _Peer, ReplyTo) :-
+    (   host(Name, _, _)
+    ->  scheduler_call(typhon_remote:serve(Name, Goal, ReplyTo))
+    ;   endpoint_reply(ReplyTo, unknown_host)
+    ).
+
+serve(Name, Goal, ReplyTo) :-
+    catch(outcome(Name, Goal, Answer), Ball, Answer = raised(Ball)),
+    endpoint_reply(ReplyTo, Answer).
+
+outcome(Name, Goal, Answer) :-
+    (   run_here(Name, Goal)
+    ->  mobile_term(Goal),
+        Answer = true(Goal)
+    ;   Answer = false
+    ).

@@ -1,0 +1,228 @@
+:- module(typhon_whereabouts,
+          [ agent_born/2,               % +Id, +Address
+            agent_seen/4,               % +Id, +Address, +Hops, +Peer
+            agent_left/4,               % +Id, +Address, +Hops, +Peer
+            agent_ended/2,              % +Id, +Outcome
+            whereabouts/3,              % +Id, -Address, -Hops
+            agent_outcome/2,            % +Id, -Outcome
+            agent_alive/1,              % ?Id
+            outcome_wait/3,             % +Id, +Seconds, +Asker
+            whereabouts_forget/1        % +Endpoint
+          ]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(agent, [agent_home/2, agent/5]).
+:- use_module(host, [address_parts/3]).
+:- use_module(endpoint,
+              [ endpoint_address/1, endpoint_post/3, endpoint_reply/2 ]).
+:- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
+
+/** <module> Where agents went, and how they ended
+
+The home of an agent, the process in which it was born, always knows where
+it went and how it ended.  Every process keeps forwarding addresses of the
+agents that left it.  Both are ordered by the number of hops: older news
+never replace newer ones.  Forwarding addresses and outcomes are bounded;
+the oldest are forgotten.
+
+*Threading*: any thread; one mutex per table.  Telling the home is left to
+a worker, since it may have to connect.
+*/
+
+:- setting(forwards, positive_integer, 20000,
+           "Forwarding addresses kept by a process").
+:- setting(outcomes, positive_integer, 20000,
+           "Outcomes of ended agents kept by their home").
+
+:- dynamic
+    born/3,                     % Id, Address, Hops: alive, home is here
+    forward/3,                  % Id, Address, Hops
+    outcome/2,                  % Id, Outcome
+    waiter/3.                   % Id, Token, Asker
+
+:- multifile
+    typhon_endpoint:received/3,
+    typhon_endpoint:requested/4,
+    typhon_scheduler:fire/2.
+
+%!  agent_born(+Id, +Address) is det.
+
+agent_born(Id, Address) :-
+    assertz(born(Id, Address, 0)).
+
+%!  agent_seen(+Id, +Address, +Hops, +Peer) is det.
+%
+%   Id has arrived at Address, a host of this process, from Peer.
+
+agent_seen(Id, Address, Hops, Peer) :-
+    retractall(forward(Id, _, _)),
+    home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  moved(Id, Address, Hops)
+    ;   Home == Peer                    % it knows when it has our answer
+    ->  true
+    ;   tell(Home, located(Id, Address, Hops))
+    ).
+
+%!  agent_left(+Id, +Address, +Hops, +Peer) is det.
+%
+%   Id has left this process for Address.
+
+agent_left(Id, Address, Hops, Peer) :-
+    (   endpoint_address(Peer)
+    ->  true
+    ;   remember_forward(Id, Address, Hops)
+    ),
+    home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  moved(Id, Address, Hops)
+    ;   true
+    ).
+
+home_endpoint(Id, Endpoint) :-
+    agent_home(Id, Home),
+    address_parts(Home, _, Endpoint).
+
+moved(Id, Address, Hops) :-
+    with_mutex(typhon_born, moved_(Id, Address, Hops)).
+
+moved_(Id, Address, Hops) :-
+    born(Id, _, Hops0),
+    Hops0 < Hops,
+    !,
+    retractall(born(Id, _, _)),
+    assertz(born(Id, Address, Hops)).
+moved_(_, _, _).
+
+remember_forward(Id, Address, Hops) :-
+    retractall(forward(Id, _, _)),
+    assertz(forward(Id, Address, Hops)),
+    setting(forwards, Max),
+    predicate_property(forward(_,_,_), number_of_clauses(Count)),
+    (   Count > Max
+    ->  ignore(retract(forward(_, _, _)))
+    ;   true
+    ).
+
+%!  agent_ended(+Id, +Outcome) is det.
+%
+%   Let the home of Id know.
+
+agent_ended(Id, Outcome) :-
+    home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  ended(Id, Outcome)
+    ;   tell(Home, ended(Id, Outcome))
+    ).
+
+tell(Home, News) :-
+    scheduler_call(typhon_whereabouts:post_news(Home, News)).
+
+post_news(Home, News) :-
+    catch(endpoint_post(Home, whereabouts, News),
+          error(Formal, _),
+          print_message(silent, typhon(home_unreachable(Home, Formal)))).
+
+ended(Id, Outcome) :-
+    with_mutex(typhon_born, ended_(Id, Outcome, Askers)),
+    forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
+
+ended_(Id, _, []) :-
+    outcome(Id, _),
+    !.
+ended_(Id, Outcome, Askers) :-
+    retractall(born(Id, _, _)),
+    assertz(outcome(Id, Outcome)),
+    setting(outcomes, Max),
+    predicate_property(outcome(_,_), number_of_clauses(Count)),
+    (   Count > Max
+    ->  ignore(retract(outcome(_, _)))
+    ;   true
+    ),
+    findall(Asker, retract(waiter(Id, _, Asker)), Askers).
+
+typhon_endpoint:received(whereabouts, News, _Peer) :-
+    news(News).
+
+news(located(Id, Address, Hops)) :-
+    moved(Id, Address, Hops).
+news(ended(Id, Outcome)) :-
+    ended(Id, Outcome).
+
+%!  whereabouts(+Id, -Address, -Hops) is semidet.
+%
+%   The last that this process knows of an agent that is not in it.
+
+whereabouts(Id, Address, Hops) :-
+    forward(Id, Address, Hops),
+    !.
+whereabouts(Id, Address, Hops) :-
+    born(Id, Address, Hops).
+
+%!  agent_outcome(+Id, -Outcome) is semidet.
+%!  agent_alive(?Id) is nondet.
+%
+%   What the home knows.
+
+agent_outcome(Id, Outcome) :-
+    outcome(Id, Outcome).
+
+agent_alive(Id) :-
+    born(Id, _, _).
+
+                /*******************************
+                *      WAITING FOR THE END     *
+                *******************************/
+
+%!  outcome_wait(+Id, +Seconds, +Asker) is det.
+%
+%   Tell Asker the outcome of Id, whose home is here, when it is known;
+%   `timeout` after Seconds and `unknown` if there is no such agent.
+%
+%   @arg Asker is queue(Queue, Tag) or reply(ReplyTo)
+
+outcome_wait(Id, Seconds, Asker) :-
+    with_mutex(typhon_born, wait_or_answer(Id, Seconds, Asker, Answer)),
+    (   Answer == wait
+    ->  true
+    ;   tell_asker(Asker, Answer)
+    ).
+
+wait_or_answer(Id, _, _, Outcome) :-
+    outcome(Id, Outcome),
+    !.
+wait_or_answer(Id, Seconds, Asker, wait) :-
+    born(Id, _, _),
+    !,
+    flag(typhon_waiter, Token, Token+1),
+    assertz(waiter(Id, Token, Asker)),
+    (   number(Seconds)
+    ->  get_time(Now),
+        Stamp is Now+Seconds,
+        alarm_set(Stamp, Id, join(Token))
+    ;   true
+    ).
+wait_or_answer(_, _, _, unknown).
+
+typhon_scheduler:fire(Id, join(Token)) :-
+    !,
+    (   retract(waiter(Id, Token, Asker))
+    ->  tell_asker(Asker, timeout)
+    ;   true
+    ).
+
+tell_asker(queue(Queue, Tag), Outcome) :-
+    catch(thread_send_message(Queue, outcome(Tag, Outcome)),
+          error(existence_error(_, _), _), true).
+tell_asker(reply(ReplyTo), Outcome) :-
+    endpoint_reply(ReplyTo, Outcome).
+
+typhon_endpoint:requested(join, join(Id, Seconds), _Peer, ReplyTo) :-
+    outcome_wait(Id, Seconds, reply(ReplyTo)).
+
+%!  whereabouts_forget(+Endpoint) is det.
+%
+%   The endpoint of this process is closed: forwarding addresses are of no
+%   use any more.
+
+whereabouts_forget(_) :-
+    retractall(forward(_, _, _)).
