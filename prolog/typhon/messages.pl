@@ -2,9 +2,10 @@
 
 /** <module> What people are told about errors
 
-The texts of the errors that the predicates of library(typhon) raise.  Who
-mistypes the name of a host, an agent or an agent program is told which
-names there are like it.  Rooms keep the texts of their own messages.
+The texts of the errors that the predicates of library(typhon) raise, and
+of what is reported about agents.  Who mistypes the name of a host, an agent
+or an agent program is told which names there are like it.  The rooms of
+the wire, of networks and of the log keep the texts of their own messages.
 
 *Threading*: called by print_message/2 in any thread.
 */
@@ -12,10 +13,13 @@ names there are like it.  Rooms keep the texts of their own messages.
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(solution_sequences), [limit/2]).
-:- use_module(api, [agent_property/2, host_property/2]).
+:- use_module(api, [agent_property/2]).
+:- use_module(hosting, [host_property/2]).
 :- use_module(near, [near_names/3]).
 
-:- multifile prolog:error_message//1.
+:- multifile
+    prolog:error_message//1,
+    prolog:message//1.
 
 %   More names than these are not looked through for a near one.
 
@@ -59,6 +63,44 @@ program_alias(Spec, Alias, Name) :-
     compound_name_arguments(Spec, Alias, [Name]),
     memberchk(Alias, [agents, payloads]),
     atom(Name).
+
+                /*******************************
+                *            REPORTS           *
+                *******************************/
+
+prolog:message(typhon(faulty(Agent, Error))) -->
+    [ 'Agent ~w raised an error, and is kept as it was:'-[Agent], nl ],
+    explained(Error).
+prolog:message(typhon(agent_failed(Agent))) -->
+    [ 'Agent ~w has failed'-[Agent] ].
+prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
+    !,
+    [ 'Agent ~w could not obey: '-[Agent] ],
+    refusal(Reason).
+prolog:message(typhon(order_failed(Agent, Formal))) -->
+    [ 'Agent ~w could not obey: '-[Agent] ],
+    explained(error(Formal, _)).
+prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
+    [ 'A message for ~w is lost: ~p from ~w'-[Agent, Message, From], nl ],
+    explained(error(Formal, _)).
+prolog:message(typhon(log(Host, Agent, What))) -->
+    [ '~w at ~w: ~p'-[Agent, Host, What] ].
+prolog:message(typhon(checked(Program, 0, 0))) -->
+    !,
+    [ '~p is in order'-[Program] ].
+prolog:message(typhon(checked(Program, Errors, Undefined))) -->
+    [ '~p: ~d errors, ~d calls of what others must define'-
+      [Program, Errors, Undefined] ].
+prolog:message(typhon(stuck_worker(Worker))) -->
+    [ 'Worker ~p does not stop: its agent neither ends nor yields'-
+      [Worker] ].
+prolog:message(typhon(goal_failed(Goal))) -->
+    [ 'This should not have failed: ~p'-[Goal] ].
+prolog:message(typhon(run_failed(Agent))) -->
+    [ 'The step of agent ~w was not completed'-[Agent] ].
+
+explained(Error) -->
+    '$messages':translate_message(Error).
 
                 /*******************************
                 *          NEAR NAMES          *

@@ -14,7 +14,7 @@ made is left out.
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(api, [agent_property/2]).
-:- use_module(host, [host_property/2]).
+:- use_module(hosting, [host_property/2]).
 
 %   So many lines are still read by a person.
 
