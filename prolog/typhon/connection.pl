@@ -1,0 +1,189 @@
+:- module(typhon_connection,
+          [ incoming/2,                 % +Socket, +Me
+            outgoing/2                  % +Address, +Me
+          ]).
+
+/** <module> The thread of one connection
+
+A connection has one thread, which opens its streams, proves us to the
+peer, gives the connection to the session with that peer, reads frames
+until it breaks, and closes the streams.
+
+Both ends may connect at the same time, and a connection may be dead on one
+side only. So a new connection always replaces an old one, and of two
+processes the one with the smaller key, the arbiter, decides in which order
+that happens: it speaks first, and about one connection at a time.
+
+_Threading_: incoming/2 and outgoing/2 are the goals of crew threads. Signals
+are held back while a frame is being handled and counted.
+*/
+
+:- use_module(library(error), [syntax_error/1]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(socket), [tcp_close_socket/1, tcp_connect/2,
+                                tcp_open_socket/3, tcp_setopt/2,
+                                tcp_socket/1]).
+:- use_module(auth, [authenticate/5]).
+:- use_module(crew, [crew_tell/1]).
+:- use_module(hello, [hello_codec/2, line_read/3, line_write/2]).
+:- use_module(reader, [read_frames/2]).
+:- use_module(session, [route_add/2, session_adopting/2, session_down/2,
+                        session_install/4, session_open/4,
+                        session_received/2, session_retire/1]).
+
+%!  incoming(+Socket, +Me) is det.
+%
+%   Serve a client that has connected, Me being our hello. The keeper
+%   hears welcomed(Thread) when the client has proved itself, and
+%   turned_away(Thread) when it has not.
+
+incoming(Socket, Me) :-
+    thread_self(Thread),
+    catch(with_streams(Socket, In, Out,
+                       ( meet(server, In, Out, Me, Session),
+                         crew_tell(welcomed(Thread)),
+                         serve(Session, In) )),
+          error(Formal, _),
+          ( print_message(warning, typhon(endpoint, turned_away(Formal))),
+            crew_tell(turned_away(Thread)) )).
+
+%!  outgoing(+Address, +Me) is det.
+%
+%   Connect to Address. The keeper hears met(Address, Session) or
+%   missed(Address, Formal).
+
+outgoing(Address, Me) :-
+    catch(setup_call_cleanup(
+              tcp_socket(Socket),
+              outgoing(Address, Socket, Me),
+              close_socket(Socket)),
+          error(Formal, _),
+          crew_tell(missed(Address, Formal))).
+
+outgoing(Address, Socket, Me) :-
+    address_parts(Address, Interface, Port),
+    tcp_connect(Socket, Interface:Port),
+    with_streams(Socket, In, Out,
+                 ( meet(client, In, Out, Me, Session),
+                   route_add(Address, Session),
+                   crew_tell(met(Address, Session)),
+                   serve(Session, In) )).
+
+address_parts(Address, Interface, Port) :-
+    sub_atom(Address, Before, _, After, ':'),
+    \+ ( sub_atom(Address, Later, _, _, ':'), Later > Before ),
+    !,
+    sub_atom(Address, 0, Before, _, Interface),
+    sub_atom(Address, _, After, 0, PortText),
+    atom_number(PortText, Port).
+
+:- meta_predicate
+    with_streams(+, -, -, 0).
+
+%   Once opened, the streams own the socket.
+
+with_streams(Socket, In, Out, Goal) :-
+    setup_call_cleanup(
+        open_streams(Socket, In, Out),
+        Goal,
+        ( close(Out, [force(true)]),
+          close(In, [force(true)]) )).
+
+open_streams(Socket, In, Out) :-
+    tcp_setopt(Socket, nodelay),
+    tcp_open_socket(Socket, In, Out),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)),
+    set_stream(In, buffer_size(65536)),
+    set_stream(Out, buffer_size(65536)).
+
+close_socket(Socket) :-
+    catch(tcp_close_socket(Socket), error(_, _), true).
+
+		 /*******************************
+		 *            MEETING           *
+		 *******************************/
+
+%   Prove each other and give the connection to the session.
+
+meet(Role, In, Out, Me, Session) :-
+    authenticate(Role, In, Out, Me, Peer),
+    hello_codec(Peer, Codec),
+    session_keys(Role, Me, Peer, MyKey, Key),
+    session_open(Key, Peer, Codec, Session),
+    Peer = hello(_, _, Address, _, _, _),
+    adopt(MyKey, Key, Session, In, Out),
+    (   Role == server,
+        MyKey \== Key
+    ->  route_add(Address, Session)
+    ;   true
+    ).
+
+%   A process that connects to itself has a session for either end.
+
+session_keys(Role, hello(P, S, _, _, _, _), hello(P, S, _, _, _, _),
+             MyKey, Key) :-
+    !,
+    (   Role == client
+    ->  MyKey = self_client, Key = self_server
+    ;   MyKey = self_server, Key = self_client
+    ).
+session_keys(_, hello(P1, S1, _, _, _, _), hello(P2, S2, _, _, _, _),
+             MyKey, Key) :-
+    atomic_list_concat([P1, S1], '.', MyKey),
+    atomic_list_concat([P2, S2], '.', Key).
+
+adopt(MyKey, Key, Session, In, Out) :-
+    MyKey @< Key,
+    !,
+    session_adopting(Session,
+                     ( session_retire(Session),
+                       say_count(Key, Out),
+                       hear_count(In, Count),
+                       install(Session, Out, Count) )).
+adopt(_, Key, Session, In, Out) :-
+    hear_count(In, Count),
+    session_adopting(Session,
+                     ( session_retire(Session),
+                       say_count(Key, Out),
+                       install(Session, Out, Count) )).
+
+install(Session, Out, Count) :-
+    thread_self(Me),
+    session_install(Session, Me, Out, Count).
+
+say_count(Key, Out) :-
+    session_received(Key, Count),
+    format(string(Line), "resume ~d", [Count]),
+    line_write(Out, Line).
+
+hear_count(In, Count) :-
+    setting(typhon_auth:handshake_time, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    line_read(In, Deadline, Line),
+    (   string_concat("resume ", Digits, Line),
+        number_string(Count, Digits),
+        integer(Count)
+    ->  true
+    ;   syntax_error(resume)
+    ).
+
+%   Read until the connection breaks; how is of no interest, since what is
+%   missing will be sent again.
+
+serve(Session, In) :-
+    thread_self(Me),
+    call_cleanup(
+        catch(read_frames(Session, In),
+              error(Formal, _),
+              print_message(informational,
+                            typhon(endpoint, connection_broken(Formal)))),
+        session_down(Session, Me)).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, turned_away(Formal))) -->
+    [ 'Endpoint: turned a client away: ~p'-[Formal] ].
+prolog:message(typhon(endpoint, connection_broken(Formal))) -->
+    [ 'Endpoint: connection broken: ~p'-[Formal] ].

@@ -1,0 +1,121 @@
+:- module(typhon_crew,
+          [ crew_start/0,
+            crew_stop/0,
+            crew_spawn/2,               % :Goal, -Thread
+            crew_retire/2,              % +Thread, +Why
+            crew_bury/1,                % +Thread
+            crew_tell/1,                % +Message
+            crew_hear/2                 % -Message, +Deadline
+          ]).
+
+/** <module> The threads of an endpoint
+
+Every thread of an endpoint is made here and is joined when it ends, so
+that none outlives the endpoint. A thread that ends says so in the queue
+of the endpoint, which one thread, the keeper, listens to.
+
+_Threading_: crew_hear/2 and crew_bury/1 are for the keeper, the rest may
+be called from any thread. crew_start/0 and crew_stop/0 are serialised by
+the caller.
+*/
+
+:- meta_predicate
+    crew_spawn(0, -).
+
+:- dynamic
+    crew_queue/1,                       % Queue
+    member_thread/1.                    % Thread
+
+%!  crew_start is det.
+
+crew_start :-
+    message_queue_create(Queue),
+    assertz(crew_queue(Queue)).
+
+%!  crew_stop is det.
+%
+%   Stop and join all threads, whatever they do.
+
+crew_stop :-
+    forall(member_thread(Thread), crew_retire(Thread, stopped)),
+    (   member_thread(_)
+    ->  crew_stop
+    ;   forall(retract(crew_queue(Queue)), message_queue_destroy(Queue))
+    ).
+
+%!  crew_spawn(:Goal, -Thread) is det.
+%
+%   Run Goal in a new thread. Goal reports its own errors; the exception
+%   crew(Why) ends it quietly.
+
+crew_spawn(Goal, Thread) :-
+    sig_atomic(spawn(Goal, Thread)).
+
+spawn(Goal, Thread) :-
+    thread_create(typhon_crew:work(Goal), Thread, []),
+    assertz(member_thread(Thread)),
+    thread_send_message(Thread, crew_registered).
+
+work(Goal) :-
+    thread_get_message(crew_registered),
+    setup_call_cleanup(
+        true,
+        catch(ignore(Goal), crew(_), true),
+        ended).
+
+ended :-
+    thread_self(Me),
+    crew_tell(ended(Me)).
+
+%!  crew_retire(+Thread, +Why) is det.
+%
+%   Throw crew(Why) in Thread, unless it has ended, and wait for its end.
+
+crew_retire(Thread, Why) :-
+    catch(thread_signal(Thread, throw(crew(Why))),
+          error(existence_error(_, _), _),
+          true),
+    crew_bury(Thread).
+
+%!  crew_bury(+Thread) is det.
+%
+%   Wait for the end of Thread.
+
+crew_bury(Thread) :-
+    (   retract(member_thread(Thread))
+    ->  thread_join(Thread, Status),
+        report(Status)
+    ;   true
+    ).
+
+report(true) :-
+    !.
+report(exception(crew(_))) :-
+    !.
+report(exception(Error)) :-
+    !,
+    print_message(error, typhon(endpoint, thread_died(Error))).
+report(_).
+
+%!  crew_tell(+Message) is det.
+%
+%   Tell the keeper. Silent when there is none any more.
+
+crew_tell(Message) :-
+    (   crew_queue(Queue)
+    ->  catch(thread_send_message(Queue, Message),
+              error(existence_error(_, _), _),
+              true)
+    ;   true
+    ).
+
+%!  crew_hear(-Message, +Deadline) is semidet.
+%
+%   The next message; fails at Deadline, a time stamp or `infinite`.
+
+crew_hear(Message, Deadline) :-
+    crew_queue(Queue),
+    (   Deadline == infinite
+    ->  thread_get_message(Queue, Message)
+    ;   thread_get_message(Queue, Message, [deadline(Deadline)])
+    ).

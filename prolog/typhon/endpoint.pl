@@ -1,0 +1,297 @@
+:- module(typhon_endpoint,
+          [ endpoint_start/3,           % +Interface, +Port, -Address
+            endpoint_stop/0,
+            endpoint_address/1,         % -Address
+            endpoint_process/1,         % -Id
+            endpoint_post/3,            % +Address, +Kind, +Term
+            endpoint_request/4,         % +Address, +Kind, +Term, :OnAnswer
+            endpoint_call/5,            % +Address, +Kind, +Term, -Answer,
+                                        % +Timeout
+            endpoint_reply/2,           % +ReplyTo, +Term
+            endpoint_peer/2,            % ?Address, ?Property
+            endpoint_flush/1            % +Seconds
+          ]).
+
+/** <module> The endpoint: one per process
+
+An endpoint sends terms to the endpoints of other processes, and of its
+own, over TCP. It knows nothing of agents. Its address is an atom
+`Interface:Port`. What arrives goes to hooks, one clause per kind of
+message, in the room that owns the kind:
+
+  - received(+Kind, +Term, +Peer)
+  - requested(+Kind, +Term, +Peer, +ReplyTo)
+  - connection(+Peer, +State)
+
+Peer is the address the sender listens to.
+
+_Threading_: everything may be called from any thread. The hooks run in the
+thread of a connection and must be quick: while one runs, nothing else of
+that peer is read. They may post, request and reply.
+*/
+
+:- use_module(library(error), [existence_error/2, must_be/2,
+                               permission_error/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(socket), [tcp_accept/3, tcp_bind/2,
+                                tcp_close_socket/1, tcp_listen/2,
+                                tcp_setopt/2, tcp_socket/1]).
+:- use_module(auth, [cookie/1, random_hex/2]).
+:- use_module(connection, [incoming/2]).
+:- use_module(crew, [crew_bury/1, crew_retire/2, crew_spawn/2, crew_start/0,
+                     crew_stop/0, crew_tell/1]).
+:- use_module(hello, [hello/4]).
+:- use_module(keeper, [keep/1, keeper_connect/2]).
+:- use_module(request, [request_forget/1, request_reply/2, request_send/4,
+                        requests_lost/1]).
+:- use_module(session, [route/2, session/2, session_close/1,
+                        session_flush/2, session_peer/3,
+                        session_pending/2, session_send/2, session_up/1]).
+
+:- meta_predicate
+    endpoint_request(+, +, +, 1).
+
+:- multifile
+    received/3,                         % Kind, Term, Peer
+    requested/4,                        % Kind, Term, Peer, ReplyTo
+    connection/2.                       % Peer, State
+:- dynamic
+    received/3,
+    requested/4,
+    connection/2.
+
+:- setting(flush_time, number, 2,
+           "Seconds endpoint_stop/0 waits for the last frames to arrive").
+
+:- dynamic
+    process/1,                          % Id
+    starts/1,                           % Count
+    running/4.                          % Address, Socket, Acceptor, Keeper
+
+%!  endpoint_start(+Interface, +Port, -Address) is det.
+%
+%   Listen at Port of Interface; Port 0 is any free one.
+%
+%   @error permission_error(start, endpoint, Address) one is running.
+
+endpoint_start(Interface, Port, Address) :-
+    must_be(atom, Interface),
+    must_be(nonneg, Port),
+    with_mutex(typhon_endpoint, start(Interface, Port, Address)).
+
+start(_, _, _) :-
+    running(Address, _, _, _),
+    !,
+    permission_error(start, endpoint, Address).
+start(Interface0, Port, Address) :-
+    cookie(_),
+    (   Interface0 == localhost
+    ->  Interface = '127.0.0.1'
+    ;   Interface = Interface0
+    ),
+    listen(Interface, Port, Bound, Socket),
+    atomic_list_concat([Interface, Bound], :, Address),
+    next_start(Start),
+    endpoint_process(Process),
+    hello(Process, Start, Address, Me),
+    crew_start,
+    crew_spawn(keep(Me), Keeper),
+    crew_spawn(accept_all(Socket, Me), Acceptor),
+    assertz(running(Address, Socket, Acceptor, Keeper)).
+
+listen(Interface, Port, Bound, Socket) :-
+    (   Port =:= 0
+    ->  true                            % any free one
+    ;   Bound = Port
+    ),
+    tcp_socket(Socket),
+    catch(( tcp_setopt(Socket, reuseaddr),
+            tcp_bind(Socket, Interface:Bound),
+            tcp_listen(Socket, 64)
+          ),
+          Error,
+          ( tcp_close_socket(Socket),
+            throw(Error) )).
+
+next_start(Start) :-
+    (   retract(starts(Start0))
+    ->  true
+    ;   Start0 = 0
+    ),
+    Start is Start0+1,
+    assertz(starts(Start)).
+
+accept_all(Socket, Me) :-
+    repeat,
+    tcp_accept(Socket, Client, _Peer),
+    crew_spawn(incoming(Client, Me), _),
+    fail.
+
+%!  endpoint_stop is det.
+%
+%   Take no more connections, let the last frames arrive, close all.
+%   Requests without an answer are lost.
+
+endpoint_stop :-
+    with_mutex(typhon_endpoint, stop).
+
+stop :-
+    retract(running(_, Socket, Acceptor, Keeper)),
+    !,
+    crew_retire(Acceptor, stopped),
+    tcp_close_socket(Socket),
+    setting(flush_time, Seconds),
+    ignore(endpoint_flush(Seconds)),
+    crew_tell(stop),
+    crew_bury(Keeper),
+    crew_stop,
+    forall(session(_, Session),
+           ( requests_lost(Session),
+             session_close(Session) )).
+stop.
+
+%!  endpoint_address(-Address) is semidet.
+
+endpoint_address(Address) :-
+    running(Address, _, _, _).
+
+%!  endpoint_process(-Id) is det.
+%
+%   The random id of this process.
+
+endpoint_process(Id) :-
+    process(Id0),
+    !,
+    Id = Id0.
+endpoint_process(Id) :-
+    random_hex(8, New),
+    with_mutex(typhon_process,
+               (   process(_)
+               ->  true
+               ;   assertz(process(New))
+               )),
+    endpoint_process(Id).
+
+%!  endpoint_post(+Address, +Kind, +Term) is det.
+%
+%   Send Term, one way. It arrives once, in the order of the posts of this
+%   thread, as long as both processes live. May block while it connects.
+%
+%   @error unreachable(Address)
+%   @error type_error(mobile_term, Culprit)
+
+endpoint_post(Address, Kind, Term) :-
+    up_session(Address, Session),
+    !,
+    session_send(Session, post(Kind, Term)).
+endpoint_post(Address, Kind, Term) :-
+    connect(Address, Session),
+    session_send(Session, post(Kind, Term)).
+
+up_session(Address, Session) :-
+    route(Address, Session),
+    Session = session(Key, _, _, _, _),
+    session_up(Key).
+
+connect(Address, Session) :-
+    check_running,
+    (   keeper_connect(Address, 10),
+        route(Address, Session0)
+    ->  Session = Session0
+    ;   throw(error(unreachable(Address), _))
+    ).
+
+check_running :-
+    (   running(_, _, _, _)
+    ->  true
+    ;   existence_error(endpoint, running)
+    ).
+
+%!  endpoint_request(+Address, +Kind, +Term, :OnAnswer) is det.
+%
+%   Ask; call(OnAnswer, Result) once, in some thread of the endpoint, where
+%   it must be quick. Result is answer(Term), `unreachable` (it certainly
+%   never arrived) or `lost` (it may have). Does not block.
+
+endpoint_request(Address, Kind, Term, OnAnswer) :-
+    up_session(Address, Session),
+    !,
+    request_send(Session, Kind, Term, OnAnswer).
+endpoint_request(Address, Kind, Term, OnAnswer) :-
+    check_running,
+    crew_spawn(request_far(Address, Kind, Term, OnAnswer), _).
+
+request_far(Address, Kind, Term, OnAnswer) :-
+    (   catch(connect(Address, Session), error(unreachable(_), _), fail)
+    ->  request_send(Session, Kind, Term, OnAnswer)
+    ;   call(OnAnswer, unreachable)
+    ).
+
+%!  endpoint_call(+Address, +Kind, +Term, -Answer, +Timeout) is det.
+%
+%   Ask and wait, at most Timeout seconds. Answer is answer(Term).
+%
+%   @error unreachable(Address), connection_lost(Address)
+%   @error timeout_error(answer, Address)
+
+endpoint_call(Address, Kind, Term, Answer, Timeout) :-
+    must_be(number, Timeout),
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( endpoint_request(Address, Kind, Term, tell(Queue)),
+          (   thread_get_message(Queue, Result, [timeout(Timeout)])
+          ->  true
+          ;   Result = late
+          ) ),
+        message_queue_destroy(Queue)),
+    call_result(Result, Address, Answer).
+
+tell(Queue, Result) :-
+    catch(thread_send_message(Queue, Result),
+          error(existence_error(_, _), _),
+          true).
+
+call_result(answer(Term), _, answer(Term)).
+call_result(unreachable, Address, _) :-
+    throw(error(unreachable(Address), _)).
+call_result(lost, Address, _) :-
+    throw(error(connection_lost(Address), _)).
+call_result(late, Address, _) :-
+    throw(error(timeout_error(answer, Address), _)).
+
+%!  endpoint_reply(+ReplyTo, +Term) is det.
+%
+%   Answer a request, from any thread, any time later. A second answer
+%   goes unnoticed.
+
+endpoint_reply(ReplyTo, Term) :-
+    request_reply(ReplyTo, Term).
+
+%!  endpoint_peer(?Address, ?Property) is nondet.
+%
+%   Property of the peer at Address: process(Id), state(up or down),
+%   pending(Frames), codec(fast or text).
+
+endpoint_peer(Address, Property) :-
+    route(Address, Session),
+    peer_property(Property, Session).
+
+peer_property(process(Id), session(Key, _, _, _, _)) :-
+    session_peer(Key, Id, _).
+peer_property(state(State), session(Key, _, _, _, _)) :-
+    (   session_up(Key)
+    ->  State = up
+    ;   State = down
+    ).
+peer_property(pending(Count), Session) :-
+    session_pending(Session, Count).
+peer_property(codec(Codec), session(_, Codec, _, _, _)).
+
+%!  endpoint_flush(+Seconds) is semidet.
+%
+%   Wait until all that was posted has arrived; fails after Seconds.
+
+endpoint_flush(Seconds) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(session(_, Session), session_flush(Session, Deadline)).

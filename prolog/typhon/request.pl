@@ -1,0 +1,134 @@
+:- module(typhon_request,
+          [ request_send/4,             % +Session, +Kind, +Term, :OnAnswer
+            request_reply/2,            % +ReplyTo, +Term
+            request_forget/1,           % +Id
+            requests_lost/1,            % +Session
+            requests_open/1,            % +Session
+            dispatch/2                  % +Session, +Frame
+          ]).
+
+/** <module> What the frames of a session say
+
+    post(Kind, Term)          one way
+    request(Id, Kind, Term)   wants an answer
+    answer(Id, Term)          here it is
+    spoilt(Id)                the request was taken, and went wrong
+
+Posts and requests go to the hooks of typhon_endpoint, answers to whoever
+asked.
+
+_Threading_: dispatch/2 runs in the thread of a connection, the hooks with
+it. The table of open requests is shared; a request is taken out by retract/1
+and so answered once.
+*/
+
+:- use_module(library(apply), [maplist/2]).
+:- use_module(session, [session_peer/3, session_send/2, session_unsent/2]).
+
+:- meta_predicate
+    request_send(+, +, +, 1).
+
+:- dynamic
+    open_request/3.                     % Id, Key, OnAnswer
+
+%!  request_send(+Session, +Kind, +Term, :OnAnswer) is det.
+
+request_send(Session, Kind, Term, OnAnswer) :-
+    arg(1, Session, Key),
+    flag(typhon_request, Id, Id+1),
+    assertz(open_request(Id, Key, OnAnswer)),
+    catch(session_send(Session, request(Id, Kind, Term)),
+          Error,
+          ( request_forget(Id),
+            throw(Error) )).
+
+%!  request_forget(+Id) is det.
+
+request_forget(Id) :-
+    retractall(open_request(Id, _, _)).
+
+%!  request_reply(+ReplyTo, +Term) is det.
+
+request_reply(reply_to(Session, Id), Term) :-
+    session_send(Session, answer(Id, Term)).
+
+%!  requests_open(+Session) is semidet.
+%
+%   Some request of Session has no answer yet.
+
+requests_open(session(Key, _, _, _, _)) :-
+    open_request(_, Key, _),
+    !.
+
+%!  requests_lost(+Session) is det.
+%
+%   The peer is gone for good: tell all who wait for its answers.
+
+requests_lost(Session) :-
+    Session = session(Key, _, _, _, _),
+    findall(Id, session_unsent(Session, request(Id, _, _)), Unsent),
+    maplist(conclude(unreachable), Unsent),
+    findall(Id, open_request(Id, Key, _), Ids),
+    maplist(conclude(lost), Ids).
+
+conclude(Result, Id) :-
+    (   retract(open_request(Id, _, OnAnswer))
+    ->  guarded(call(OnAnswer, Result), answer)
+    ;   true
+    ).
+
+%!  dispatch(+Session, +Frame) is det.
+%
+%   Never raises: what goes wrong in a hook is reported.
+
+dispatch(Session, post(Kind, Term)) :-
+    !,
+    peer(Session, Peer),
+    guarded(typhon_endpoint:received(Kind, Term, Peer), Kind).
+dispatch(Session, request(Id, Kind, Term)) :-
+    !,
+    peer(Session, Peer),
+    (   attempt(typhon_endpoint:requested(Kind, Term, Peer,
+                                          reply_to(Session, Id)), Kind)
+    ->  true
+    ;   guarded(session_send(Session, spoilt(Id)), Kind)
+    ).
+dispatch(_, answer(Id, Term)) :-
+    !,
+    conclude(answer(Term), Id).
+dispatch(_, spoilt(Id)) :-
+    !,
+    conclude(lost, Id).
+dispatch(_, Frame) :-
+    print_message(warning, typhon(endpoint, unknown_frame(Frame))).
+
+peer(session(Key, _, _, _, _), Address) :-
+    session_peer(Key, _, Address),
+    !.
+
+guarded(Goal, Kind) :-
+    (   attempt(Goal, Kind)
+    ->  true
+    ;   true
+    ).
+
+attempt(Goal, Kind) :-
+    (   catch(Goal, Error, true)
+    ->  (   var(Error)
+        ->  true
+        ;   print_message(error, typhon(endpoint, hook(Kind, Error))),
+            fail
+        )
+    ;   print_message(error, typhon(endpoint, hook(Kind, failed))),
+        fail
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, unknown_frame(Frame))) -->
+    [ 'Endpoint: a frame nobody understands: ~p'-[Frame] ].
+prolog:message(typhon(endpoint, hook(Kind, failed))) -->
+    [ 'Endpoint: nobody takes ~q'-[Kind] ].
+prolog:message(typhon(endpoint, hook(Kind, Error))) -->
+    [ 'Endpoint: taking ~q: '-[Kind] ],
+    '$messages':translate_message(Error).

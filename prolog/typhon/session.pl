@@ -1,0 +1,377 @@
+:- module(typhon_session,
+          [ session/2,                  % ?Key, -Session
+            session_open/4,             % +Key, +Hello, +Codec, -Session
+            session_peer/3,             % ?Key, -Process, -Address
+            session_up/1,               % +Key
+            session_send/2,             % +Session, +Term
+            session_control/2,          % +Session, +Term
+            session_acked/3,            % +Session, +Count, +Bytes
+            session_received/2,         % +Key, -Count
+            session_note_received/2,    % +Key, +Count
+            session_install/4,          % +Session, +Thread, +Out, +PeerCount
+            session_down/2,             % +Session, +Thread
+            session_retire/1,           % +Session
+            session_adopting/2,         % +Session, :Goal
+            session_pending/2,          % +Session, -Count
+            session_flush/2,            % +Session, +Deadline
+            session_unsent/2,           % +Session, -Term
+            session_close/1,            % +Session
+            route/2,                    % ?Address, ?Session
+            route_add/2,                % +Address, +Session
+            route_remove/1              % +Address
+          ]).
+
+/** <module> Sessions: every frame once, over connections that break
+
+A session joins this process to another for the life of both. It counts the
+frames it has received, and keeps those it has sent until the peer's count
+has passed them. After a break the two tell each other their counts over
+the next connection and send the rest again.
+
+A session is session(Key, Codec, Mutex, Sent, Waiting): Key names the peer;
+Sent is a queue of frames that were written to some connection and are not
+acknowledged; Waiting is one of frames that never were.
+
+Writing must never block the thread of a reader, or two readers could wait
+for each other, nor hold a thread that is not ours. A frame is therefore
+written by whoever sends it only while little is under way, which the
+buffers of the kernel hold; else it goes to Waiting, and a thread of the
+session, the pusher, writes.
+
+_Threading_: any thread may send. Mutex guards the writing side; the thread
+of the connection (see connection.pl) owns the reading side. While a link is
+up and nobody is pushing, Waiting is empty.
+*/
+
+:- use_module(crew, [crew_retire/2, crew_spawn/2, crew_tell/1]).
+:- use_module(frame, [bytes_term/3, frame_write/2, term_bytes/3]).
+
+:- meta_predicate
+    session_adopting(+, 0).
+
+:- dynamic
+    session/2,                          % Key, Session
+    session_peer/3,                     % Key, Process, Address
+    route/2,                            % Address, Session
+    link/3,                             % Key, Thread, Out
+    serving/2,                          % Key, Thread
+    pushing/2,                          % Key, Thread
+    adoption/2,                         % Key, Mutex
+    flusher/3,                          % Key, Count, Queue
+    received/2,                         % Key, Count
+    acked/3.                            % Key, Count, Bytes
+
+%   Bytes that may be under way without a chance of blocking in write.
+
+under_way(65536).
+
+%!  session_open(+Key, +Hello, +Codec, -Session) is det.
+%
+%   The session with the peer Key, a new one on first contact.
+
+session_open(Key, Hello, Codec, Session) :-
+    with_mutex(typhon_session, open_session(Key, Hello, Codec, Session)).
+
+open_session(Key, _, _, Session) :-
+    session(Key, Session),
+    !.
+open_session(Key, hello(Process, _, Address, _, _, _), Codec, Session) :-
+    mutex_create(Mutex),
+    message_queue_create(Sent),
+    message_queue_create(Waiting),
+    Session = session(Key, Codec, Mutex, Sent, Waiting),
+    mutex_create(Adoption),
+    assertz(adoption(Key, Adoption)),
+    assertz(received(Key, 0)),
+    assertz(acked(Key, 0, 0)),
+    assertz(session_peer(Key, Process, Address)),
+    assertz(session(Key, Session)).
+
+%!  session_close(+Session) is det.
+%
+%   Forget a session that has no connection.
+
+session_close(session(Key, _, Mutex, Sent, Waiting)) :-
+    retractall(route(_, session(Key, _, _, _, _))),
+    (   retract(session(Key, _))
+    ->  retractall(session_peer(Key, _, _)),
+        retractall(received(Key, _)),
+        retractall(acked(Key, _, _)),
+        message_queue_destroy(Sent),
+        message_queue_destroy(Waiting),
+        mutex_destroy(Mutex),
+        forall(retract(adoption(Key, Adoption)), mutex_destroy(Adoption))
+    ;   true
+    ).
+
+%!  route_add(+Address, +Session) is det.
+%!  route_remove(+Address) is det.
+%
+%   Which session an address leads to.
+
+route_add(Address, Session) :-
+    (   route(Address, Session)
+    ->  true
+    ;   with_mutex(typhon_session,
+                   ( retractall(route(Address, _)),
+                     assertz(route(Address, Session)) ))
+    ).
+
+route_remove(Address) :-
+    retractall(route(Address, _)).
+
+session_up(Key) :-
+    link(Key, _, _),
+    !.
+
+		 /*******************************
+		 *            SENDING           *
+		 *******************************/
+
+%!  session_send(+Session, +Term) is det.
+%
+%   Send Term: it arrives once, and in the order of this thread's sends.
+%   Never blocks on the network.
+
+session_send(session(Key, Codec, Mutex, Sent, Waiting), Term) :-
+    term_bytes(Codec, Term, Bytes),
+    sig_atomic(with_mutex(Mutex, put(Key, Sent, Waiting, Bytes))).
+
+put(Key, Sent, _, Bytes) :-
+    link(Key, Thread, Out),
+    \+ pushing(Key, _),
+    room(Key, Out),
+    !,
+    thread_send_message(Sent, Bytes),
+    write_now(Key, Thread, Out, Bytes).
+put(Key, Sent, Waiting, Bytes) :-
+    thread_send_message(Waiting, Bytes),
+    (   pushing(Key, _)
+    ->  true
+    ;   link(Key, Thread, Out)
+    ->  start_pusher(Key, Thread, Out, Sent, Waiting, [])
+    ;   crew_tell(wanted(Key))
+    ).
+
+room(Key, Out) :-
+    byte_count(Out, Written),
+    acked(Key, _, Acked),
+    under_way(Max),
+    Written-Acked < Max.
+
+%!  session_control(+Session, +Term) is det.
+%
+%   Send Term outside the count: dropped when the link is down.
+
+session_control(session(Key, Codec, Mutex, _, Waiting), Term) :-
+    term_bytes(Codec, Term, Bytes),
+    sig_atomic(with_mutex(Mutex, put_control(Key, Waiting, Bytes))).
+
+put_control(Key, Waiting, Bytes) :-
+    link(Key, Thread, Out),
+    !,
+    (   pushing(Key, _)
+    ->  thread_send_message(Waiting, control(Bytes))
+    ;   write_now(Key, Thread, Out, Bytes)
+    ).
+put_control(_, _, _).
+
+%   A link that cannot be written to is no link; its thread finds out by
+%   itself or is told.
+
+write_now(Key, Thread, Out, Bytes) :-
+    catch(( frame_write(Out, Bytes),
+            flush_output(Out)
+          ),
+          error(_, _),
+          broken(Key, Thread)).
+
+broken(Key, Thread) :-
+    retractall(link(Key, Thread, _)),
+    catch(thread_signal(Thread, throw(crew(broken))),
+          error(existence_error(_, _), _),
+          true).
+
+		 /*******************************
+		 *            PUSHING           *
+		 *******************************/
+
+start_pusher(Key, Thread, Out, Sent, Waiting, Again) :-
+    crew_spawn(push(Key, Thread, Out, Sent, Waiting, Again), Pusher),
+    assertz(pushing(Key, Pusher)).
+
+push(Key, Thread, Out, Sent, Waiting, Again) :-
+    session(Key, session(_, _, Mutex, _, _)),
+    catch(( write_all(Again, Out),
+            push_waiting(Mutex, Key, Out, Sent, Waiting)
+          ),
+          error(_, _),
+          with_mutex(Mutex,
+                     ( retractall(pushing(Key, _)),
+                       broken(Key, Thread) ))).
+
+write_all([], _).
+write_all([Bytes|More], Out) :-
+    frame_write(Out, Bytes),
+    flush_output(Out),
+    write_all(More, Out).
+
+push_waiting(Mutex, Key, Out, Sent, Waiting) :-
+    repeat,
+    sig_atomic(with_mutex(Mutex, next_waiting(Key, Sent, Waiting, Next))),
+    (   Next = frame(Bytes)
+    ->  frame_write(Out, Bytes),
+        flush_output(Out),
+        fail
+    ;   !
+    ).
+
+next_waiting(Key, Sent, Waiting, Next) :-
+    (   thread_get_message(Waiting, Message, [timeout(0)])
+    ->  Next = frame(Bytes),
+        (   Message = control(Bytes)
+        ->  true
+        ;   Bytes = Message,
+            thread_send_message(Sent, Bytes)
+        )
+    ;   retractall(pushing(Key, _)),
+        Next = none
+    ).
+
+		 /*******************************
+		 *       COUNTS AND LINKS       *
+		 *******************************/
+
+%!  session_acked(+Session, +Count, +Bytes) is det.
+%
+%   The peer has received Count frames of this session, and Bytes bytes of
+%   this connection. For the reader only.
+
+session_acked(session(Key, _, _, Sent, _), Count, Bytes) :-
+    retract(acked(Key, Count0, _)),
+    !,
+    assertz(acked(Key, Count, Bytes)),
+    forget(Count0, Count, Sent),
+    forall(( flusher(Key, Wanted, Queue), Wanted =< Count ),
+           ( retractall(flusher(Key, Wanted, Queue)),
+             thread_send_message(Queue, flushed) )).
+
+forget(Count0, Count, Sent) :-
+    Gone is Count-Count0,
+    forall(between(1, Gone, _),
+           thread_get_message(Sent, _, [timeout(0)])).
+
+session_received(Key, Count) :-
+    received(Key, Count).
+
+%!  session_note_received(+Key, +Count) is det.
+
+session_note_received(Key, Count) :-
+    retractall(received(Key, _)),
+    assertz(received(Key, Count)).
+
+%!  session_adopting(+Session, :Goal) is semidet.
+%
+%   Run Goal, which gives Session a new connection, one at a time.
+
+session_adopting(session(Key, _, _, _, _), Goal) :-
+    adoption(Key, Mutex),
+    !,
+    with_mutex(Mutex, Goal).
+
+%!  session_install(+Session, +Thread, +Out, +PeerCount) is det.
+%
+%   Thread has a new connection for Session, Out; the peer has received
+%   PeerCount frames. What it lacks is sent again.
+
+session_install(Session, Thread, Out, PeerCount) :-
+    Session = session(Key, _, Mutex, Sent, Waiting),
+    byte_count(Out, Bytes),
+    session_acked(Session, PeerCount, Bytes),
+    assertz(serving(Key, Thread)),
+    sig_atomic(with_mutex(Mutex,
+                          install(Key, Thread, Out, Sent, Waiting))).
+
+install(Key, Thread, Out, Sent, Waiting) :-
+    assertz(link(Key, Thread, Out)),
+    queue_list(Sent, Again),
+    (   Again == [],
+        \+ thread_peek_message(Waiting, _)
+    ->  true
+    ;   start_pusher(Key, Thread, Out, Sent, Waiting, Again)
+    ).
+
+queue_list(Queue, List) :-
+    findall(Message,
+            ( repeat,
+              (   thread_get_message(Queue, Message, [timeout(0)])
+              ->  true
+              ;   !,
+                  fail
+              )
+            ),
+            List),
+    forall(member(Message, List), thread_send_message(Queue, Message)).
+
+%!  session_down(+Session, +Thread) is det.
+%
+%   The connection of Thread is no more. For that thread only.
+
+session_down(session(Key, _, Mutex, _, _), Thread) :-
+    with_mutex(Mutex, retractall(link(Key, Thread, _))),
+    forall(retract(pushing(Key, Pusher)),
+           crew_retire(Pusher, broken)),
+    retractall(serving(Key, Thread)),
+    crew_tell(wanted(Key)).
+
+%!  session_retire(+Session) is det.
+%
+%   End the connection of Session, if any, and wait for that.
+
+session_retire(session(Key, _, _, _, _)) :-
+    forall(serving(Key, Thread), crew_retire(Thread, replaced)).
+
+%!  session_pending(+Session, -Count) is det.
+%
+%   Count frames are not acknowledged.
+
+session_pending(session(_, _, _, Sent, Waiting), Count) :-
+    message_queue_property(Sent, size(S)),
+    message_queue_property(Waiting, size(W)),
+    Count is S+W.
+
+%!  session_flush(+Session, +Deadline) is semidet.
+%
+%   Wait until all that was sent before has been acknowledged; fails at
+%   Deadline, a time stamp.
+
+session_flush(Session, Deadline) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        flush(Session, Queue, Deadline),
+        ( retractall(flusher(_, _, Queue)),
+          message_queue_destroy(Queue) )).
+
+flush(Session, Queue, Deadline) :-
+    Session = session(Key, _, Mutex, _, _),
+    with_mutex(Mutex,
+               ( session_pending(Session, Pending),
+                 acked(Key, Acked, _),
+                 Count is Acked+Pending,
+                 assertz(flusher(Key, Count, Queue)) )),
+    session_pending(Session, Left),
+    (   Left =:= 0
+    ->  true
+    ;   session_control(Session, ping),
+        thread_get_message(Queue, flushed, [deadline(Deadline)])
+    ).
+
+%!  session_unsent(+Session, -Term) is nondet.
+%
+%   Term was never written to any connection.
+
+session_unsent(session(_, Codec, _, _, Waiting), Term) :-
+    queue_list(Waiting, List),
+    member(Bytes, List),
+    string(Bytes),
+    bytes_term(Codec, Bytes, Term).
