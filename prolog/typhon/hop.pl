@@ -4,21 +4,22 @@
             hop_state/3,                % +Id, +Status, -State
             hop_program/3               % +Endpoint, +Hash, -Program
           ]).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent).
-:- use_module(clock, [host_time/2]).
+:- use_module(clock, [clock/3, host_time/2]).
 :- use_module(code, [code_install/2, code_module/2, code_program/2]).
 :- use_module(endpoint,
               [ endpoint_request/4, endpoint_reply/2, endpoint_peer/2 ]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(host,
-              [ host/3, host_enter/3, host_leave/1, host_resolve/2,
-                address_parts/3, host_hop/3, host_log/3 ]).
+              [ host/3, host_enter/3, host_leave/1, address_parts/3,
+                host_hop/3 ]).
+:- use_module(scheduler, [scheduler_call/1]).
 :- use_module(post, [post/3]).
 :- use_module(whereabouts,
-              [ agent_seen/4, agent_left/4, whereabouts/3,
-                agent_born/2, agent_outcome/2 ]).
+              [ agent_seen/4, agent_left/4, agent_born/2, agent_ended/2,
+                whereabouts/3, agent_outcome/2 ]).
 
 /** <module> A hop is a transaction
 
@@ -45,6 +46,7 @@ of the endpoint, which never wait.
            "An agent under way for longer is shown as in doubt").
 
 :- multifile
+    forward_order/2,            % Id, Order: the agent has left
     typhon_endpoint:requested/4,
     typhon_endpoint:connection/2.
 
@@ -177,10 +179,12 @@ hop_result(answer(accepted), Id, Dest, Hops) :-
     !,
     dest_address(Dest, Address),
     dest_endpoint(Dest, _, Endpoint),
-    (   with_agent(Id, let_go(Id, Hops, Host, Since, Mail))
+    (   with_agent(Id, let_go(Id, Hops, Host, Since, Mail, Orders))
     ->  agent_left(Id, Address, Hops, Endpoint),
         gone(Host, Since),
-        forall(member(From-Message, Mail), follow(Id, From, Message))
+        forall(member(From-Message, Mail), follow(Id, From, Message)),
+        forall(member(Order, Orders),
+               scheduler_call(typhon_hop:forward_order(Id, Order)))
     ;   true                            % it came back before the answer
     ).
 hop_result(answer(refused(Reason)), Id, Dest, Hops) :-
@@ -194,10 +198,11 @@ hop_result(unreachable, Id, Dest, Hops) :-
 hop_result(lost, Id, Dest, Hops) :-
     settle(Id, Dest, Hops).
 
-let_go(Id, Hops, Host, Since, Mail) :-
+let_go(Id, Hops, Host, Since, Mail, Orders) :-
     agent_status(Id, transit(_, Since), hop(_, Hops, _)),
     agent(Id, Host, _, _, _),
     agent_all_mail(Id, Mail),
+    findall(Order, agent_next_order(Id, Order), Orders),
     agent_remove(Id).
 
 gone(Host, Since) :-
@@ -250,7 +255,7 @@ settled_elsewhere(Id, Hops) :-
 clone_result(Result, Id, Dest, CloneId) :-
     dest_address(Dest, Address),
     (   clone_error(Result, Address, Error)
-    ->  typhon_whereabouts:agent_ended(CloneId, failed),
+    ->  agent_ended(CloneId, failed),
         Answer = throw(error(Error, _))
     ;   Answer = parent(CloneId)
     ),
@@ -278,7 +283,7 @@ hop_state(Id, transit(Address, Since), State) :-
         endpoint_peer(Endpoint, state(down))
     ->  State = in_doubt
     ;   agent(Id, Host, _, _, _),
-        typhon_clock:clock(Host, Epoch, Rate),
+        clock(Host, Epoch, Rate),
         get_time(Now),
         setting(doubt_seconds, Limit),
         Now-(Epoch+Since/Rate) > Limit
@@ -353,19 +358,18 @@ admitted(ok, Name, Image, Peer, installed(Goals)) :-
     host_hop(Name, in, Seconds).
 
 install(Id, Name, Place, Hash, Life, State, Mail) :-
-    came_back(Id, Later),
+    came_back(Id, Later, Orders),
     agent_install(Id, Name, Place, Hash, Life, State),
     agent_put(Id, arriving, []),
-    forall(member(From-Message, Mail), agent_mail(Id, From-Message)),
-    forall(member(Message, Later), agent_mail(Id, Message)).
+    forall(member(Message, Mail), agent_mail(Id, Message)),
+    forall(member(Message, Later), agent_mail(Id, Message)),
+    forall(member(Order, Orders), agent_order(Id, Order)).
 
 %   Our own copy, still waiting for the answer, is out of date.
 
-came_back(Id, Mail) :-
-    agent_status(Id, transit(_, Since), _),
+came_back(Id, Mail, Orders) :-
+    agent_status(Id, transit(_, _), hop(_, Hops, _)),
     !,
-    agent(Id, Host, _, _, _),
-    agent_all_mail(Id, Mail),
-    agent_remove(Id),
+    let_go(Id, Hops, Host, Since, Mail, Orders),
     gone(Host, Since).
-came_back(_, []).
+came_back(_, [], []).

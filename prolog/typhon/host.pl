@@ -1,6 +1,7 @@
 :- module(typhon_host,
           [ host/3,                     % ?Name, ?Address, ?Place
             host_add/4,                 % +Name, +Address, +Place, +Options
+            host_close/1,               % +Name
             host_remove/1,              % +Name
             host_option/2,              % ?Name, ?Option
             host_enter/3,               % +Name, +Tokens, -Answer
@@ -16,10 +17,9 @@
             host_hop_stats/3,           % +Name, ?Direction, -Stats
             host_log/3                  % +Name, +Agent, +What
           ]).
-:- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(error), [must_be/2, existence_error/2]).
-:- use_module(endpoint, [endpoint_address/1, endpoint_post/3]).
+:- use_module(endpoint, [endpoint_post/3]).
 
 /** <module> Hosts of this process
 
@@ -43,6 +43,13 @@ host_add(Name, Address, Place, Options) :-
     flag(Key, _, 0),
     forall(member(Option, Options), assertz(option(Name, Option))),
     assertz(host(Name, Address, Place)).
+
+%!  host_close(+Name) is det.
+%
+%   From now on nobody is admitted.
+
+host_close(Name) :-
+    asserta(option(Name, capacity(0))).
 
 %!  host_remove(+Name) is det.
 
@@ -218,7 +225,7 @@ host_log(Name, Agent, What) :-
     !,
     host(Name, Address, _),
     address_parts(Log, _, Endpoint),
-    catch(endpoint_post(Endpoint, log, event(Address, Agent, What)),
+    catch(endpoint_post(Endpoint, log, event(Log, Address, Agent, What)),
           error(Formal, Context),
           print_message(warning, error(Formal, Context))).
 host_log(_, _, _).

@@ -6,30 +6,27 @@
             link/2,                     % +HostA, +HostB
             unlink/2                    % +HostA, +HostB
           ]).
-:- use_module(library(apply), [maplist/2, partition/4]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(error),
               [ must_be/2, domain_error/2, permission_error/3,
                 existence_error/2 ]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(agent, [agent/5, agent_status/3, with_agent/2]).
+:- use_module(agent, [agent/5, agent_status/3]).
 :- use_module(clock, [clock_set/3, clock_clear/1]).
-:- use_module(code, [code_clear/0]).
 :- use_module(endpoint,
-              [ endpoint_start/3, endpoint_stop/0, endpoint_address/1,
-                endpoint_call/5, endpoint_reply/2 ]).
+              [ endpoint_address/1, endpoint_call/5, endpoint_reply/2 ]).
 :- use_module(host).
 :- use_module(life, [agent_end/2, agent_do/2]).
 :- use_module(place, [place_create/4, place_destroy/1]).
+:- use_module(process, [process_acquire/2, process_release/1]).
 :- use_module(scheduler,
-              [ scheduler_start/0, scheduler_stop/0, scheduler_limit/2,
-                scheduler_unlimit/1, scheduler_call/1 ]).
-:- use_module(whereabouts, [whereabouts_forget/1]).
+              [ scheduler_limit/2, scheduler_unlimit/1 ]).
 
 /** <module> Starting, stopping and linking hosts
 
-The first host of a process starts its endpoint and scheduler, the last
-one to stop releases them.
+A host holds a place, a clock, an entry in the scheduler, and with the
+other users of the process its endpoint, see typhon_process.
 
 *Threading*: host_start/2 and host_stop/1 exclude each other by a mutex.
 */
@@ -103,52 +100,17 @@ start(Name, _) :-
     !,
     permission_error(start, host, Name).
 start(Name, Options) :-
-    process_start(Options, First),
+    process_acquire(host(Name), Options),
     catch(start_host(Name, Options), Ball,
-          ( undo(First), throw(Ball) )).
-
-undo(true) :- process_stop.
-undo(false).
-
-process_start(Options, false) :-
-    host(_, _, _),
-    !,
-    (   member(Option, Options),
-        ( Option = port(Port), Port \== 0
-        ; Option = bind(_)
-        ),
-        \+ same_endpoint(Option)
-    ->  permission_error(change, endpoint, Option)
-    ;   true
-    ).
-process_start(Options, true) :-
-    option(port(Port), Options, 0),
-    option(bind(Interface), Options, localhost),
-    scheduler_start,
-    (   endpoint_address(_)             % a log server runs here
-    ->  true
-    ;   catch(endpoint_start(Interface, Port, _), Ball,
-              ( scheduler_stop, throw(Ball) )),
-        assertz(own_endpoint)
-    ).
-
-:- dynamic own_endpoint/0.              % hosts started it, hosts stop it
-
-same_endpoint(port(Port)) :-
-    endpoint_address(Endpoint),
-    atomic_list_concat([_,Port0], ':', Endpoint),
-    atom_number(Port0, Port).
-same_endpoint(bind(Interface)) :-
-    endpoint_address(Endpoint),
-    sub_atom(Endpoint, 0, _, _, Interface).
-same_endpoint(bind(localhost)) :-
-    endpoint_address(Endpoint),
-    sub_atom(Endpoint, 0, _, _, '127.0.0.1').
+          ( process_release(host(Name)), throw(Ball) )).
 
 start_host(Name, Options) :-
     endpoint_address(Endpoint),
     address_parts(Address, Name, Endpoint),
-    option(clock(Epoch, Rate), Options, clock(0, 1)),
+    (   memberchk(clock(Epoch, Rate), Options)
+    ->  true
+    ;   Epoch = 0, Rate = 1
+    ),
     option(concurrency(Concurrency), Options, inf),
     place_parts(Options, Files, Services),
     place_create(Name, Files, Services, Place),
@@ -188,7 +150,7 @@ host_stop(Name) :-
 stop(Name0) :-
     local_name(Name0, Name),
     host(Name, Address, Place),
-    retract_host(Name),
+    host_close(Name),
     scheduler_unlimit(Name),
     get_time(Now),
     Deadline is Now+2,
@@ -198,16 +160,7 @@ stop(Name0) :-
     host_remove(Name),
     clock_clear(Name),
     place_destroy(Place),
-    (   host(_, _, _)
-    ->  true
-    ;   process_stop
-    ).
-
-%   From here on nobody enters.
-
-retract_host(Name) :-
-    typhon_host:retractall(option(Name, capacity(_))),
-    typhon_host:assertz(option(Name, capacity(0))).
+    process_release(host(Name)).
 
 local_name(Host, Name) :-
     host_resolve(Host, Where),
@@ -252,15 +205,6 @@ stop_running(Id) :-
     ->  abort
     ;   true
     ).
-
-process_stop :-
-    (   retract(own_endpoint)
-    ->  endpoint_stop
-    ;   true
-    ),
-    scheduler_stop,
-    whereabouts_forget(_),
-    code_clear.
 
                 /*******************************
                 *          PROPERTIES          *

@@ -221,7 +221,9 @@ replace_worker :-
     (   retract(worker(Me))
     ->  thread_detach(Me),
         (   run_queue(Queue)
-        ->  add_worker(Queue)
+        ->  catch(add_worker(Queue),
+                  error(permission_error(create, thread, _), _),
+                  true)                 % Prolog is halting
         ;   true
         )
     ;   true

@@ -6,8 +6,7 @@
             whereabouts/3,              % +Id, -Address, -Hops
             agent_outcome/2,            % +Id, -Outcome
             agent_alive/1,              % ?Id
-            outcome_wait/3,             % +Id, +Seconds, +Asker
-            whereabouts_forget/1        % +Endpoint
+            outcome_wait/3              % +Id, +Seconds, +Asker
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent, [agent_home/2, agent/5]).
@@ -218,11 +217,3 @@ tell_asker(reply(ReplyTo), Outcome) :-
 
 typhon_endpoint:requested(join, join(Id, Seconds), _Peer, ReplyTo) :-
     outcome_wait(Id, Seconds, reply(ReplyTo)).
-
-%!  whereabouts_forget(+Endpoint) is det.
-%
-%   The endpoint of this process is closed: forwarding addresses are of no
-%   use any more.
-
-whereabouts_forget(_) :-
-    retractall(forward(_, _, _)).
