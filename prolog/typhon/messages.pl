@@ -29,6 +29,9 @@ most_names(2000).
                 *             ERRORS           *
                 *******************************/
 
+prolog:error_message(existence_error(host, here)) -->
+    !,
+    [ 'This process has no host' ].
 prolog:error_message(existence_error(host, Host)) -->
     [ 'There is no host ~p here'-[Host] ],
     meant(host, Host).

@@ -18,7 +18,8 @@ For error messages about names that do not exist.
 %
 %   Near are up to three of Names that a person may have meant by Name, the
 %   nearest first.  An id or address also counts by what stands before the
-%   first `.` or `@`, so `census` finds 'census.4f2a1@alpha@...'.
+%   first `.` or `@`, a path by its last part: `census` finds
+%   'census.4f2a1@alpha@...', and 'survey/census'.
 
 near_names(Name, Names, Near) :-
     findall(Distance-Candidate,
@@ -33,14 +34,19 @@ near_names(Name, Names, Near) :-
 distance(Name, Candidate, Distance) :-
     atom_string(Name, Text),
     atom_string(Candidate, Whole),
-    split_string(Whole, ".@", "", [Short|_]),
-    split_string(Text, ".@", "", [Plain|_]),
+    short(Whole, Short),
+    short(Text, Plain),
     edit_distance(Text, Whole, D1),
     edit_distance(Text, Short, D2),
     edit_distance(Plain, Short, D3),
     min_list([D1, D2, D3], Distance),
     string_length(Plain, Length),
     Distance =< 1 + Length//4.
+
+short(Text, Short) :-
+    split_string(Text, ".@", "", [Head|_]),
+    split_string(Head, "/", "", Parts),
+    last(Parts, Short).
 
 %   Levenshtein's distance, row by row.
 
