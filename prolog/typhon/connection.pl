@@ -1,5 +1,5 @@
 :- module(typhon_connection,
-          [ incoming/2,                 % +Socket, +Me
+          [ incoming/4,                 % +Socket, +Ip, :Welcomed, +Me
             outgoing/2                  % +Address, +Me
           ]).
 
@@ -14,11 +14,11 @@ side only. So a new connection always replaces an old one, and of two
 processes the one with the smaller key, the arbiter, decides in which order
 that happens: it speaks first, and about one connection at a time.
 
-_Threading_: incoming/2 and outgoing/2 are the goals of crew threads. Signals
+_Threading_: incoming/4 and outgoing/2 are the goals of crew threads. Signals
 are held back while a frame is being handled and counted.
 */
 
-:- use_module(library(error), [syntax_error/1]).
+:- use_module(library(error), [domain_error/2, syntax_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket), [tcp_close_socket/1, tcp_connect/2,
                                 tcp_open_socket/3, tcp_setopt/2,
@@ -26,26 +26,43 @@ are held back while a frame is being handled and counted.
 :- use_module(auth, [authenticate/5]).
 :- use_module(crew, [crew_tell/1]).
 :- use_module(hello, [hello_codec/2, line_read/3, line_write/2]).
+:- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
 :- use_module(session, [route_add/2, session_adopting/2, session_down/2,
                         session_install/4, session_open/4,
-                        session_received/2, session_retire/1]).
+                        session_peer/3, session_received/2,
+                        session_retire/1]).
 
-%!  incoming(+Socket, +Me) is det.
+%!  incoming(+Socket, +Ip, :Welcomed, +Me) is det.
 %
-%   Serve a client that has connected, Me being our hello. The keeper
-%   hears welcomed(Thread) when the client has proved itself, and
-%   turned_away(Thread) when it has not.
+%   Serve the client at Ip, that has connected; Me is our hello. Welcomed
+%   is called when it has proved itself.
 
-incoming(Socket, Me) :-
-    thread_self(Thread),
+incoming(Socket, Ip, Welcomed, Me) :-
     catch(with_streams(Socket, In, Out,
-                       ( meet(server, In, Out, Me, Session),
-                         crew_tell(welcomed(Thread)),
+                       ( meet(server, In, Out, Me, Peer, Session),
+                         call(Welcomed),
+                         reachable(Peer, Ip, Session),
                          serve(Session, In) )),
           error(Formal, _),
-          ( print_message(warning, typhon(endpoint, turned_away(Formal))),
-            crew_tell(turned_away(Thread)) )).
+          print_message(warning, typhon(endpoint, turned_away(Ip, Formal)))).
+
+%   The client can be called back at the address it says it listens to,
+%   unless that is meaningless here.
+
+reachable(hello(_, _, Claimed, _, _, _), Ip, Session) :-
+    address_parts(Claimed, Interface, Port),
+    (   Interface == '0.0.0.0'
+    ->  atomic_list_concat([Ip, Port], :, Address)
+    ;   Address = Claimed
+    ),
+    (   Session = session(self_client, _, _, _, _)
+    ->  true
+    ;   sub_atom(Interface, 0, _, _, '127.'),
+        \+ sub_atom(Ip, 0, _, _, '127.')
+    ->  true
+    ;   route_add(Address, Session)
+    ).
 
 %!  outgoing(+Address, +Me) is det.
 %
@@ -53,31 +70,34 @@ incoming(Socket, Me) :-
 %   missed(Address, Formal).
 
 outgoing(Address, Me) :-
-    catch(setup_call_cleanup(
-              tcp_socket(Socket),
-              outgoing(Address, Socket, Me),
-              close_socket(Socket)),
+    catch(( connect(Address, Socket),
+            with_streams(Socket, In, Out,
+                         ( meet(client, In, Out, Me, _, Session),
+                           route_add(Address, Session),
+                           crew_tell(met(Address, Session)),
+                           serve(Session, In) ))
+          ),
           error(Formal, _),
           crew_tell(missed(Address, Formal))).
 
-outgoing(Address, Socket, Me) :-
+connect(Address, Socket) :-
     address_parts(Address, Interface, Port),
-    tcp_connect(Socket, Interface:Port),
-    with_streams(Socket, In, Out,
-                 ( meet(client, In, Out, Me, Session),
-                   route_add(Address, Session),
-                   crew_tell(met(Address, Session)),
-                   serve(Session, In) )).
+    tcp_socket(Socket),
+    catch(tcp_connect(Socket, Interface:Port),
+          Error,
+          ( tcp_close_socket(Socket),
+            throw(Error) )).
 
 address_parts(Address, Interface, Port) :-
-    sub_atom(Address, Before, _, After, ':'),
-    \+ ( sub_atom(Address, Later, _, _, ':'), Later > Before ),
-    !,
-    sub_atom(Address, 0, Before, _, Interface),
-    sub_atom(Address, _, After, 0, PortText),
-    atom_number(PortText, Port).
+    (   atomic_list_concat([Interface, PortText], :, Address),
+        atom_number(PortText, Port),
+        integer(Port)
+    ->  true
+    ;   domain_error(endpoint_address, Address)
+    ).
 
 :- meta_predicate
+    incoming(+, +, 0, +),
     with_streams(+, -, -, 0).
 
 %   Once opened, the streams own the socket.
@@ -97,27 +117,18 @@ open_streams(Socket, In, Out) :-
     set_stream(In, buffer_size(65536)),
     set_stream(Out, buffer_size(65536)).
 
-close_socket(Socket) :-
-    catch(tcp_close_socket(Socket), error(_, _), true).
-
 		 /*******************************
 		 *            MEETING           *
 		 *******************************/
 
 %   Prove each other and give the connection to the session.
 
-meet(Role, In, Out, Me, Session) :-
+meet(Role, In, Out, Me, Peer, Session) :-
     authenticate(Role, In, Out, Me, Peer),
     hello_codec(Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
     session_open(Key, Peer, Codec, Session),
-    Peer = hello(_, _, Address, _, _, _),
-    adopt(MyKey, Key, Session, In, Out),
-    (   Role == server,
-        MyKey \== Key
-    ->  route_add(Address, Session)
-    ;   true
-    ).
+    adopt(MyKey, Key, Session, In, Out).
 
 %   A process that connects to itself has a session for either end.
 
@@ -174,16 +185,27 @@ hear_count(In, Count) :-
 
 serve(Session, In) :-
     thread_self(Me),
+    connection_is(Session, up),
     call_cleanup(
         catch(read_frames(Session, In),
               error(Formal, _),
-              print_message(informational,
-                            typhon(endpoint, connection_broken(Formal)))),
-        session_down(Session, Me)).
+              report_break(Session, Formal)),
+        ( session_down(Session, Me),
+          connection_is(Session, down) )).
+
+%   A break is nothing special, but what the peer does may be.
+
+report_break(session(Key, _, _, _, _), Formal) :-
+    (   memberchk(Formal, [io_error(_, _), socket_error(_, _)])
+    ->  Level = silent
+    ;   Level = warning
+    ),
+    ignore(session_peer(Key, _, Address)),
+    print_message(Level, typhon(endpoint, broken(Address, Formal))).
 
 :- multifile prolog:message//1.
 
-prolog:message(typhon(endpoint, turned_away(Formal))) -->
-    [ 'Endpoint: turned a client away: ~p'-[Formal] ].
-prolog:message(typhon(endpoint, connection_broken(Formal))) -->
-    [ 'Endpoint: connection broken: ~p'-[Formal] ].
+prolog:message(typhon(endpoint, turned_away(Ip, Formal))) -->
+    [ 'Endpoint: turned away a client at ~w: ~p'-[Ip, Formal] ].
+prolog:message(typhon(endpoint, broken(Address, Formal))) -->
+    [ 'Endpoint: connection with ~w broken: ~p'-[Address, Formal] ].

@@ -37,15 +37,17 @@ that peer is read. They may post, request and reply.
                                 tcp_close_socket/1, tcp_listen/2,
                                 tcp_setopt/2, tcp_socket/1]).
 :- use_module(auth, [cookie/1, random_hex/2]).
-:- use_module(connection, [incoming/2]).
+:- use_module(acceptor, [accept_all/2]).
 :- use_module(crew, [crew_bury/1, crew_retire/2, crew_spawn/2, crew_start/0,
                      crew_stop/0, crew_tell/1]).
+:- use_module(frame, [mobile_term/1]).
 :- use_module(hello, [hello/4]).
 :- use_module(keeper, [keep/1, keeper_connect/2]).
 :- use_module(request, [request_forget/1, request_reply/2, request_send/4,
                         requests_lost/1]).
 :- use_module(session, [route/2, session/2, session_close/1,
-                        session_flush/2, session_peer/3,
+                        session_control/2, session_flush/2,
+                        session_peer/3,
                         session_pending/2, session_send/2, session_up/1]).
 
 :- meta_predicate
@@ -121,12 +123,6 @@ next_start(Start) :-
     Start is Start0+1,
     assertz(starts(Start)).
 
-accept_all(Socket, Me) :-
-    repeat,
-    tcp_accept(Socket, Client, _Peer),
-    crew_spawn(incoming(Client, Me), _),
-    fail.
-
 %!  endpoint_stop is det.
 %
 %   Take no more connections, let the last frames arrive, close all.
@@ -142,12 +138,13 @@ stop :-
     tcp_close_socket(Socket),
     setting(flush_time, Seconds),
     ignore(endpoint_flush(Seconds)),
+    forall(session(_, Session), session_control(Session, bye)),
     crew_tell(stop),
     crew_bury(Keeper),
     crew_stop,
     forall(session(_, Session),
-           ( requests_lost(Session),
-             session_close(Session) )).
+           ( session_close(Session),
+             requests_lost(Session) )).
 stop.
 
 %!  endpoint_address(-Address) is semidet.
@@ -181,12 +178,13 @@ endpoint_process(Id) :-
 %   @error type_error(mobile_term, Culprit)
 
 endpoint_post(Address, Kind, Term) :-
-    up_session(Address, Session),
-    !,
-    session_send(Session, post(Kind, Term)).
-endpoint_post(Address, Kind, Term) :-
-    connect(Address, Session),
-    session_send(Session, post(Kind, Term)).
+    (   up_session(Address, Session)
+    ->  true
+    ;   connect(Address, Session)
+    ),
+    catch(session_send(Session, post(Kind, Term)),
+          error(session_closed, _),
+          throw(error(unreachable(Address), _))).
 
 up_session(Address, Session) :-
     route(Address, Session),
@@ -216,14 +214,20 @@ check_running :-
 endpoint_request(Address, Kind, Term, OnAnswer) :-
     up_session(Address, Session),
     !,
-    request_send(Session, Kind, Term, OnAnswer).
+    request_near(Session, Kind, Term, OnAnswer).
 endpoint_request(Address, Kind, Term, OnAnswer) :-
     check_running,
+    mobile_term(Term),
     crew_spawn(request_far(Address, Kind, Term, OnAnswer), _).
+
+request_near(Session, Kind, Term, OnAnswer) :-
+    catch(request_send(Session, Kind, Term, OnAnswer),
+          error(session_closed, _),
+          call(OnAnswer, unreachable)).
 
 request_far(Address, Kind, Term, OnAnswer) :-
     (   catch(connect(Address, Session), error(unreachable(_), _), fail)
-    ->  request_send(Session, Kind, Term, OnAnswer)
+    ->  request_near(Session, Kind, Term, OnAnswer)
     ;   call(OnAnswer, unreachable)
     ).
 
@@ -265,7 +269,9 @@ call_result(late, Address, _) :-
 %   goes unnoticed.
 
 endpoint_reply(ReplyTo, Term) :-
-    request_reply(ReplyTo, Term).
+    catch(request_reply(ReplyTo, Term),
+          error(session_closed, _),
+          true).                        % whoever asked is no more
 
 %!  endpoint_peer(?Address, ?Property) is nondet.
 %

@@ -18,7 +18,7 @@ dynamic predicates below. Others talk to it through crew_tell/1.
 :- use_module(crew, [crew_bury/1, crew_hear/2, crew_retire/2, crew_spawn/2,
                      crew_tell/1]).
 :- use_module(request, [requests_lost/1, requests_open/1]).
-:- use_module(session, [route/2, route_remove/1, session/2, session_close/1,
+:- use_module(session, [route/2, session/2, session_close/1,
                         session_peer/3, session_pending/2, session_retire/1,
                         session_up/1]).
 
@@ -51,20 +51,33 @@ keep(Me) :-
     repeat,
     next_deadline(Deadline),
     (   crew_hear(Message, Deadline)
-    ->  (   Message == stop
-        ->  !,
-            rest
-        ;   hear(Message, Me),
-            fail
-        )
-    ;   overdue(Me),
+    ->  true
+    ;   Message = overdue
+    ),
+    (   Message == stop
+    ->  !,
+        rest
+    ;   catch(hear(Message, Me),
+              error(Formal, Context),
+              print_message(error, error(Formal, Context))),
         fail
     ).
 
 rest :-
-    forall(retract(waiter(_, Queue)), tell_waiter(Queue, missed)),
+    get_time(Now),
+    forall(waiting_still(Queue, Now), tell_waiter(Queue, missed)),
     retractall(attempt(_, _, _)),
     retractall(again(_, _, _)).
+
+waiting_still(Queue, _) :-
+    retract(waiter(_, Queue)).
+waiting_still(Queue, Now) :-
+    repeat,
+    (   crew_hear(Message, Now)
+    ->  Message = connect(_, Queue)
+    ;   !,
+        fail
+    ).
 
 next_deadline(Deadline) :-
     findall(T, ( attempt(_, _, T) ; again(_, T, _) ), Times),
@@ -90,6 +103,24 @@ hear(wanted(Key), _) :-
     plan(Key, 0.05).
 hear(ended(Thread), _) :-
     crew_bury(Thread).
+hear(displaced(Key), _) :-              % another process has its address
+    (   route(_, session(Key, _, _, _, _))
+    ->  true
+    ;   gone(Key)
+    ).
+hear(gone(Key), _) :-
+    gone(Key).
+hear(overdue, Me) :-
+    overdue(Me).
+
+gone(Key) :-
+    (   session(Key, Session)
+    ->  retractall(again(Key, _, _)),
+        session_retire(Session),
+        session_close(Session),
+        requests_lost(Session)
+    ;   true
+    ).
 
 start_attempt(Address, Me) :-
     (   attempt(Address, _, _)
@@ -103,7 +134,7 @@ start_attempt(Address, Me) :-
 
 missed(Address, Formal) :-
     retractall(attempt(Address, _, _)),
-    print_message(informational,
+    print_message(silent,
                   typhon(endpoint, unreachable(Address, Formal))),
     tell_waiters(Address, missed).
 
@@ -147,6 +178,7 @@ try_again(Key, Wait, Me) :-
     retractall(again(Key, _, _)),
     (   session(Key, Session),
         \+ session_up(Key),
+        unfinished(Session),
         session_address(Session, Address)
     ->  start_attempt(Address, Me),
         Wait1 is min(2, 2*Wait),

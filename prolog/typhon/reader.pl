@@ -14,14 +14,13 @@ back while a frame is being handled and counted.
 */
 
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(crew, [crew_tell/1]).
 :- use_module(frame, [bytes_term/3, frame_read/3]).
 :- use_module(request, [dispatch/2, requests_open/1]).
 :- use_module(session, [session_acked/3, session_control/2,
                         session_note_received/2, session_pending/2,
                         session_received/2]).
 
-:- setting(frame_bytes, positive_integer, 67108864,
-           "The longest frame taken, in bytes").
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is asked for a sign of life").
 
@@ -40,7 +39,7 @@ ack_bytes(32768).
 read_frames(Session, In) :-
     Session = session(Key, _, _, _, _),
     setting(silence, Silence),
-    setting(frame_bytes, Max),
+    setting(typhon_session:frame_bytes, Max),
     set_stream(In, timeout(Silence)),
     session_received(Key, Count),
     byte_count(In, Bytes),
@@ -56,13 +55,21 @@ read_all(Session, In, Max, State) :-
     (   next(In, Max, Bytes)
     ->  (   Bytes == end_of_file
         ->  !
-        ;   bytes_term(Codec, Bytes, Term),
+        ;   frame_term(Codec, Bytes, Term),
             sig_atomic(handle(Term, Session, In, State)),
             fail
         )
     ;   silent(Session, In, State),
         fail
     ).
+
+%   A frame that cannot be read has come all the same: asking for it again
+%   would not help.
+
+frame_term(Codec, Bytes, Term) :-
+    catch(bytes_term(Codec, Bytes, Term),
+          error(Formal, _),
+          Term = unreadable(Formal)).
 
 %   Fails when nothing begins to come. The time out of a peek loses nothing.
 
@@ -97,6 +104,9 @@ handle(ack(Count, Bytes), Session, _, State) :-
 handle(ping, Session, In, State) :-
     !,
     acknowledge(Session, In, State).
+handle(bye, session(Key, _, _, _, _), _, _) :-
+    !,
+    crew_tell(gone(Key)).
 handle(Frame, Session, In, State) :-
     dispatch(Session, Frame),
     State = count(Count0, Told, ToldBytes, _),

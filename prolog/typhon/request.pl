@@ -4,7 +4,8 @@
             request_forget/1,           % +Id
             requests_lost/1,            % +Session
             requests_open/1,            % +Session
-            dispatch/2                  % +Session, +Frame
+            dispatch/2,                 % +Session, +Frame
+            connection_is/2             % +Session, +State
           ]).
 
 /** <module> What the frames of a session say
@@ -99,8 +100,17 @@ dispatch(_, answer(Id, Term)) :-
 dispatch(_, spoilt(Id)) :-
     !,
     conclude(lost, Id).
-dispatch(_, Frame) :-
+dispatch(_, Frame) :-                   % of a later version, or damaged
     print_message(warning, typhon(endpoint, unknown_frame(Frame))).
+
+%!  connection_is(+Session, +State) is det.
+%
+%   Tell who wants to know that the connection is `up` or `down`.
+
+connection_is(session(Key, _, _, _, _), State) :-
+    forall(( session_peer(Key, _, Peer),
+             clause(typhon_endpoint:connection(Peer, State), Body) ),
+           guarded(typhon_endpoint:Body, connection)).
 
 peer(session(Key, _, _, _, _), Address) :-
     session_peer(Key, _, Address),

@@ -17,8 +17,7 @@
             session_unsent/2,           % +Session, -Term
             session_close/1,            % +Session
             route/2,                    % ?Address, ?Session
-            route_add/2,                % +Address, +Session
-            route_remove/1              % +Address
+            route_add/2                 % +Address, +Session
           ]).
 
 /** <module> Sessions: every frame once, over connections that break
@@ -43,8 +42,13 @@ of the connection (see connection.pl) owns the reading side. While a link is
 up and nobody is pushing, Waiting is empty.
 */
 
+:- use_module(library(error), [resource_error/1]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(crew, [crew_retire/2, crew_spawn/2, crew_tell/1]).
 :- use_module(frame, [bytes_term/3, frame_write/2, term_bytes/3]).
+
+:- setting(frame_bytes, positive_integer, 67108864,
+           "The longest frame sent or taken, in bytes").
 
 :- meta_predicate
     session_adopting(+, 0).
@@ -89,36 +93,30 @@ open_session(Key, hello(Process, _, Address, _, _, _), Codec, Session) :-
 
 %!  session_close(+Session) is det.
 %
-%   Forget a session that has no connection.
+%   Forget a session that has no connection. Its queues and mutexes are
+%   left to the garbage collector, as somebody may be about to use them.
 
-session_close(session(Key, _, Mutex, Sent, Waiting)) :-
+session_close(session(Key, _, Mutex, _, _)) :-
+    with_mutex(Mutex, retractall(session(Key, _))),
     retractall(route(_, session(Key, _, _, _, _))),
-    (   retract(session(Key, _))
-    ->  retractall(session_peer(Key, _, _)),
-        retractall(received(Key, _)),
-        retractall(acked(Key, _, _)),
-        message_queue_destroy(Sent),
-        message_queue_destroy(Waiting),
-        mutex_destroy(Mutex),
-        forall(retract(adoption(Key, Adoption)), mutex_destroy(Adoption))
-    ;   true
-    ).
+    retractall(session_peer(Key, _, _)),
+    retractall(received(Key, _)),
+    retractall(acked(Key, _, _)),
+    retractall(adoption(Key, _)).
 
 %!  route_add(+Address, +Session) is det.
-%!  route_remove(+Address) is det.
 %
-%   Which session an address leads to.
+%   Address leads to Session from now on. The keeper hears displaced(Key)
+%   of the session it led to before.
 
 route_add(Address, Session) :-
     (   route(Address, Session)
     ->  true
     ;   with_mutex(typhon_session,
-                   ( retractall(route(Address, _)),
+                   ( forall(retract(route(Address, session(Key, _, _, _, _))),
+                            crew_tell(displaced(Key))),
                      assertz(route(Address, Session)) ))
     ).
-
-route_remove(Address) :-
-    retractall(route(Address, _)).
 
 session_up(Key) :-
     link(Key, _, _),
@@ -132,10 +130,25 @@ session_up(Key) :-
 %
 %   Send Term: it arrives once, and in the order of this thread's sends.
 %   Never blocks on the network.
+%
+%   @error session_closed the peer is gone for good
+%   @error resource_error(frame_bytes) Term is too long for a frame
 
 session_send(session(Key, Codec, Mutex, Sent, Waiting), Term) :-
     term_bytes(Codec, Term, Bytes),
+    check_length(Bytes),
     sig_atomic(with_mutex(Mutex, put(Key, Sent, Waiting, Bytes))).
+
+%   The peer would refuse a longer one, again and again.
+
+check_length(Bytes) :-
+    string_length(Bytes, Length),
+    Length > 65536,
+    setting(frame_bytes, Max),
+    Length > Max,
+    !,
+    resource_error(frame_bytes).
+check_length(_).
 
 put(Key, Sent, _, Bytes) :-
     link(Key, Thread, Out),
@@ -145,6 +158,10 @@ put(Key, Sent, _, Bytes) :-
     thread_send_message(Sent, Bytes),
     write_now(Key, Thread, Out, Bytes).
 put(Key, Sent, Waiting, Bytes) :-
+    (   session(Key, _)
+    ->  true
+    ;   throw(error(session_closed, _))
+    ),
     thread_send_message(Waiting, Bytes),
     (   pushing(Key, _)
     ->  true
