@@ -105,13 +105,15 @@ evict.
                 *          COMPILING           *
                 *******************************/
 
-fill(Module, program(_, _, Libraries, Clauses)) :-
+fill(Module, program(_, State, Libraries, Clauses)) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(system)),
     maplist(import_library(Module), Libraries),
     maplist(rule_at_no_place, Clauses, Rules),
     mobility(Rules, Kinds, _),
-    list_to_assoc(Kinds, Own),
+    findall(PI-state, member(PI, State), StateKinds),
+    append(Kinds, StateKinds, OwnKinds),
+    list_to_assoc(OwnKinds, Own),
     dynamic(Module:'$mobile'/6),
     maplist(declare(Module), Kinds),
     maplist(add_clause(Module, Own), Clauses),
@@ -203,7 +205,9 @@ construct(!, [], [], !).
 bound_here(_:_, _, _).
 bound_here(Goal, _, Own) :-
     functor(Goal, Name, Arity),
-    get_assoc(Name/Arity, Own, _).
+    get_assoc(Name/Arity, Own, Kind),
+    !,
+    Kind \== state.                     % also if a library has it as well
 bound_here(Goal, _, _) :-
     predicate_property(system:Goal, visible).
 bound_here(Goal, Module, _) :-
