@@ -13,6 +13,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(agent, [agent/5, agent_status/3]).
+:- use_module(aside, [aside/1]).
 :- use_module(clock, [clock_set/3, clock_clear/1]).
 :- use_module(endpoint,
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2 ]).
@@ -145,7 +146,7 @@ listed(One, [One]).
 
 host_stop(Name) :-
     must_be(atom, Name),
-    with_mutex(typhon_hosting, stop(Name)).
+    aside(with_mutex(typhon_hosting, stop(Name))).
 
 stop(Name0) :-
     local_name(Name0, Name),

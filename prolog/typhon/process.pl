@@ -5,6 +5,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(aside, [aside/1]).
 :- use_module(code, [code_clear/0]).
 :- use_module(endpoint,
               [ endpoint_start/3, endpoint_stop/0, endpoint_address/1 ]).
@@ -65,7 +66,7 @@ disagrees(bind(Interface)) :-
 %!  process_release(+User) is det.
 
 process_release(User) :-
-    with_mutex(typhon_process, release(User)).
+    aside(with_mutex(typhon_process, release(User))).
 
 release(User) :-
     (   retract(user(User)),
