@@ -17,6 +17,8 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 
 :- use_module('../prolog/typhon').
 :- use_module('../prolog/typhon/log', [log_server_stop/1]).
+:- use_module('../prolog/typhon/process',
+              [process_acquire/2, process_release/1]).
 :- use_module(commands, [command/4, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(library(apply), [maplist/3]).
@@ -81,7 +83,7 @@ dispatch([Command|Argv]) :-
     ->  command_help
     ;   argv_options(typhon_app:Argv, Arguments, Options, []),
         check_count(Command, Positional, Arguments),
-        run(Command, Arguments, Options)
+        run_connected(Command, Arguments, Options)
     ).
 dispatch(Argv) :-
     (   Argv = [Word|_],
@@ -90,6 +92,22 @@ dispatch(Argv) :-
         throw(error(typhon_usage(unknown_command(Word, Commands)), _))
     ;   overview
     ).
+
+%   Who asks needs an endpoint for the answer.
+
+run_connected(Command, Arguments, Options) :-
+    serves(Command, Options),
+    !,
+    run(Command, Arguments, Options).
+run_connected(Command, Arguments, Options) :-
+    process_acquire(client, []),
+    and_then(run(Command, Arguments, Options),
+             process_release(client)).
+
+serves(host, _).
+serves(network, _).
+serves(log, Options) :-
+    memberchk(serve(true), Options).
 
 check_count(_, Positional, Arguments) :-
     length(Arguments, Count),
@@ -156,7 +174,7 @@ run(send, [Agent, Message0], Options) :-
     read_argument(Message0, Message),
     home_of(Agent, Home),
     option(host(Host), Options, Home),
-    remote(Host, typhon:agent_send(Agent, Message)).
+    remote(Host, call(typhon:agent_send(Agent, Message))).
 run(log, [File], Options) :-
     option(serve(true), Options),
     !,
@@ -167,7 +185,7 @@ run(log, [File], Options) :-
         log_server_stop(Address)).
 run(log, [File], Options) :-
     (   option(host(Host), Options)
-    ->  remote(Host, typhon:log_events(File, Events))
+    ->  remote(Host, call(typhon:log_events(File, Events)))
     ;   log_events(File, Events)
     ),
     forall(member(Event, Events), print_event(Event)).
@@ -223,12 +241,23 @@ log_option(Options, Option) :-
 until_told_to_stop(Start, Report, Stop) :-
     on_signal(term, _, typhon_app:told_to_stop),
     on_signal(int, _, typhon_app:told_to_stop),
-    setup_call_cleanup(
-        Start,
-        ( once(Report),
-          thread_get_message(told_to_stop)
-        ),
-        Stop).
+    call(Start),
+    and_then(( once(Report),
+               thread_get_message(told_to_stop)
+             ), Stop).
+
+%   Stopping waits with deadlines, which the cleanup handler of
+%   setup_call_cleanup/3 cannot do: while a signal is pending there, a wait
+%   whose time is over goes on for ever.
+
+:- meta_predicate and_then(0, 0).
+
+and_then(Goal, Finally) :-
+    catch(( call(Goal) -> Result = true ; Result = fail ),
+          error(Formal, Context),
+          Result = throw(error(Formal, Context))),
+    call(Finally),
+    call(Result).
 
 told_to_stop(_Signal) :-
     thread_send_message(main, told_to_stop).
@@ -236,10 +265,7 @@ told_to_stop(_Signal) :-
 join(Agent, Seconds) :-
     agent_join(Agent, Outcome, Seconds),
     print_line(Outcome),
-    (   Outcome == done
-    ->  true
-    ;   halt(1)
-    ).
+    Outcome == done.
 
                 /*******************************
                 *           ARGUMENTS          *

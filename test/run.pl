@@ -14,19 +14,20 @@ than 0, does not end within its deadline or leaves a process behind counts
 as a failure.  Processes started by a suite are known by the environment
 variable TYPHON_SUITE which they inherit, and are killed.
 
-*Threading*: one thread for each running suite; they print under a mutex.
+*Threading*: the main thread only.  A process started by another thread
+would have the signals blocked that the thread has, SIGINT for one.
 */
 
-:- use_module(common, [project_file/2, wait_for_end/3, wait_until/2,
-                       with_tmp_dir/1]).
-:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(common, [project_file/2, wait_until/2, with_tmp_dir/1]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, selectchk/3]).
 :- use_module(library(main), [main/0]).
-:- use_module(library(process), [process_create/3, process_kill/2]).
+:- use_module(library(process),
+              [ process_create/3, process_kill/2, process_wait/2,
+                process_wait/3
+              ]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(thread), [concurrent/3]).
 
 :- initialization(main, main).
 
@@ -38,14 +39,28 @@ suite_deadline(300).                    % seconds
 main(Names) :-
     suite_files(Names, Files),
     at_halt(kill_left_behind(_)),
-    findall(run_suite(File, _), member(File, Files), Goals),
-    suites_at_a_time(N),
-    concurrent(N, Goals, []),
-    findall(Suite, member(run_suite(_, Suite), Goals), Suites),
+    with_tmp_dir(run_suites(Files, [], Suites)),
     foldl(add_suite, Suites, sum(0, 0, 0), Sum),
     print_sum(Sum),
     exit_status(Sum, Status),
     halt(Status).
+
+%   run_suites(+Files, +Jobs, -Suites, +Dir): Jobs are running now.
+
+run_suites([], [], [], _) :-
+    !.
+run_suites([File|Files], Jobs, Suites, Dir) :-
+    length(Jobs, Running),
+    suites_at_a_time(Most),
+    Running < Most,
+    !,
+    start_suite(File, Dir, Job),
+    run_suites(Files, [Job|Jobs], Suites, Dir).
+run_suites(Files, Jobs0, [Suite|Suites], Dir) :-
+    wait_until(ended_job(Jobs0, Job, Status), 1 000 000),
+    selectchk(Job, Jobs0, Jobs),
+    end_suite(Job, Status, Suite),
+    run_suites(Files, Jobs, Suites, Dir).
 
 suite_files([], Files) :-
     !,
@@ -84,43 +99,24 @@ exit_status(_, 1).
                 *           ONE SUITE          *
                 *******************************/
 
-run_suite(File, Suite) :-
+%   job(File, Mark, Log, Results, Pid, Start)
+
+start_suite(File, Dir, job(File, Mark, Log, Results, Pid, Start)) :-
     get_time(Start),
-    with_tmp_dir(run_suite_in(File, Start, Suite)).
-
-run_suite_in(File, Start, suite(Passed, Failed, Skipped, Problems), Dir) :-
-    directory_file_path(Dir, log, Log),
-    directory_file_path(Dir, results, Results),
-    suite_mark(File, Mark),
-    suite_process(File, Log, Results, Mark, Status),
-    suite_results(Results, suite(Passed, Failed0, Skipped, Problems0)),
-    findall(Problem, late_problem(Status, Mark, Problem), Problems1),
-    append(Problems0, Problems1, Problems),
-    length(Problems, Extra),
-    Failed is Failed0+Extra,
-    get_time(End),
-    Seconds is End-Start,
-    with_mutex(test_report,
-               report(File, suite(Passed, Failed, Skipped, Problems),
-                      Seconds, Log)).
-
-suite_process(File, Log, Results, Mark, Status) :-
+    file_base_name(File, Base),
+    current_prolog_flag(pid, Me),
+    format(atom(Mark), '~d:~w', [Me, Base]),
+    directory_file_path(Dir, Base, Log),
+    file_name_extension(Log, results, Results),
     project_file('test/suite.pl', Runner),
-    suite_deadline(Deadline),
     setup_call_cleanup(
         open(Log, write, Out),
-        start_suite([ '--on-error=print', '--on-warning=print',
-                      Runner, '--', File, Results
-                    ], Out, Mark, Pid),
-        close(Out)),
-    wait_for_end(Pid, Deadline, Status),
-    (   Status == timeout
-    ->  process_kill(Pid, kill),
-        wait_for_end(Pid, 10, _)
-    ;   true
-    ).
+        suite_process([ '--on-error=print', '--on-warning=print',
+                        Runner, '--', File, Results
+                      ], Out, Mark, Pid),
+        close(Out)).
 
-start_suite(Args, Out, Mark, Pid) :-
+suite_process(Args, Out, Mark, Pid) :-
     current_prolog_flag(executable, Swipl),
     project_file('.', Root),
     process_create(Swipl, Args,
@@ -128,6 +124,31 @@ start_suite(Args, Out, Mark, Pid) :-
                      cwd(Root), environment(['TYPHON_SUITE'=Mark]),
                      process(Pid)
                    ]).
+
+ended_job(Jobs, Job, Status) :-
+    member(Job, Jobs),
+    Job = job(_, _, _, _, Pid, Start),
+    process_wait(Pid, Status0, [timeout(0)]),
+    (   Status0 \== timeout
+    ->  Status = Status0
+    ;   suite_deadline(Deadline),
+        get_time(Now),
+        Now > Start+Deadline,
+        process_kill(Pid, kill),
+        process_wait(Pid, _),
+        Status = timeout
+    ).
+
+end_suite(Job, Status, suite(Passed, Failed, Skipped, Problems)) :-
+    Job = job(File, Mark, Log, Results, _, Start),
+    suite_results(Results, suite(Passed, Failed0, Skipped, Problems0)),
+    findall(Problem, late_problem(Status, Mark, Problem), Problems1),
+    append(Problems0, Problems1, Problems),
+    length(Problems, Extra),
+    Failed is Failed0+Extra,
+    get_time(End),
+    Seconds is End-Start,
+    report(File, suite(Passed, Failed, Skipped, Problems), Seconds, Log).
 
 suite_results(File, Suite) :-
     exists_file(File),
@@ -150,11 +171,6 @@ late_problem(_, Mark, Problem) :-
                 /*******************************
                 *     PROCESSES LEFT BEHIND    *
                 *******************************/
-
-suite_mark(File, Mark) :-
-    current_prolog_flag(pid, Pid),
-    file_base_name(File, Base),
-    format(atom(Mark), '~d:~w', [Pid, Base]).
 
 kill_left_behind(Killed) :-
     current_prolog_flag(pid, Pid),

@@ -5,7 +5,7 @@
 :- use_module(common).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
@@ -24,7 +24,8 @@ typhon_args(Args, [App|Args]) :-
 typhon_lines(Args, Lines) :-
     typhon(Args, Status, Out, Err),
     assertion(Status-Err == exit(0)-""),
-    split_string(Out, "\n", "\n", Lines).
+    split_string(Out, "\n", "", Lines0),
+    append(Lines, [_], Lines0).
 
 %   An expected error: one line, no stack, status 1.
 
@@ -147,12 +148,15 @@ paint(Address, Program) :-
     typhon_lines([create, Program, '--host', Address, '--name', bob],
                  [Agent]),
     assertion(has_line([Agent], 'bob.*@alpha@*')),
-    wait_until(( typhon_lines([agents, '--host', Address], Agents),
-                 has_line(Agents, '*bob.*resident*')
-               ), 20),
+    wait_until(is_resident(Address), 20),
     typhon_lines([send, Agent, 'paint(blue)'], []),
     typhon_lines([hosts, '--host', Address], Hosts),
     assertion(has_line(Hosts, '*alpha@*1*')).
+
+is_resident(Address) :-
+    typhon([agents, '--host', Address], exit(0), Out, _),
+    split_string(Out, "\n", "", Agents),
+    has_line(Agents, '*bob.*resident*').
 
 test(join) :-
     with_tmp_dir(join).

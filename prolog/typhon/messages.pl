@@ -42,6 +42,8 @@ prolog:error_message(existence_error(source_sink, Spec)) -->
     { program_alias(Spec, Alias, Name) },
     [ 'There is no file ~p'-[Spec] ],
     meant(Alias, Name).
+prolog:error_message(existence_error(endpoint, running)) -->
+    [ 'This process has no host: start one with host_start/1'-[] ].
 prolog:error_message(existence_error(payload, Name)) -->
     [ 'There is no payload ~p'-[Name] ].
 prolog:error_message(move_refused(Host, Reason)) -->
