@@ -3,10 +3,11 @@
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_install/6,            % +Id, +Host, +Place, +Hash, +Life, +State
             agent_remove/1,             % +Id
-            agent_state/3,              % +Module, +Hash, -State
+            agent_state/2,              % +Module, -State
             agent_life/2,               % +Id, :Goal
             agent_put_life/2,           % +Id, +Life
             agent_put/3,                % +Id, +Status, +Goals
+            agent_take/2,               % +Id, -Goals
             agent_ready/2,              % +Id, +Goals
             with_agent/2,               % +Id, :Goal
             agent_mail/2,               % +Id, +Message
@@ -25,7 +26,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(code, [code_module/2, code_program/2]).
+:- use_module(code, [code_module/2]).
 :- use_module(program, [clause_parts/3]).
 :- use_module(scheduler, [schedule/2]).
 
@@ -36,12 +37,15 @@ The records of agents, each with one owner: this module.  An agent is
   - a module with its state: everything dynamic in it.  Its program is
     found through the import chain, see typhon_code and typhon_place;
   - a life(Parent, Hops, Lifetime, Tokens, Payloads, Static);
-  - a status, one of `ready`, running(Worker), sleeping(Until),
+  - a status, one of `ready`, `running`, sleeping(Until),
     waiting(Pattern, Until), `resident`, leaving(Host, At),
     transit(Host, Since), cloning(Host, Since) or faulty(Error), with
     the goals still to run.  While a control predicate is under way the
     goals are Hole-Goals, see typhon_machine;
   - a mailbox and orders from outside.
+
+Changes of the database are what a hop costs most of.  So an agent that
+runs has no status at all: whoever removes `ready` has it.
 
 *Threading*: what changes a record runs inside with_agent/2, which holds
 one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
@@ -53,7 +57,7 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 
 :- dynamic
     agent/5,                    % Id, Host, Module, Hash, Life
-    agent_status/3,             % Id, Status, Goals
+    status/3,                   % Id, Status, Goals; none: it runs
     mailbox/2,                  % Id, From-Message
     order/2.                    % Id, Order
 
@@ -133,47 +137,53 @@ agent_home(Id, Home) :-
 %
 %   Make the record of an agent; its status and goals come separately.
 %
-%   @arg State is state(PIs, Clauses): what is dynamic and what is in it.
+%   @arg State is state(Empty, Clauses): what is dynamic without having
+%        clauses, and the clauses of all else.
 
-agent_install(Id, Host, Place, Hash, Life, state(PIs, Clauses)) :-
+agent_install(Id, Host, Place, Hash, Life, state(Empty, Clauses)) :-
     flag(typhon_agent_module, N, N+1),
     atom_concat('agent ', N, Module),
     code_module(Hash, Program),
-    code_program(Hash, program(_, Declared, _, _)),
     set_module(Module:class(temporary)),
     set_module(Module:base(Program)),
     add_import_module(Module, Place, end),
-    maplist(declare(Module), Declared),
-    maplist(declare(Module), PIs),
-    maplist(add_clause(Module), Clauses),
+    declare_all(Empty, Module),
+    add_clauses(Clauses, Module),
     assertz(agent(Id, Host, Module, Hash, Life)).
 
-declare(Module, PI) :-
-    dynamic(Module:PI).
+declare_all([], _).
+declare_all([PI|PIs], Module) :-
+    dynamic(Module:PI),
+    declare_all(PIs, Module).
 
-add_clause(Module, Clause) :-
-    assertz(Module:Clause).
+add_clauses([], _).
+add_clauses([Clause|Clauses], Module) :-
+    assertz(Module:Clause),
+    add_clauses(Clauses, Module).
 
-%!  agent_state(+Module, +Hash, -State) is det.
+%!  agent_state(+Module, -State) is det.
 
-agent_state(Module, Hash, state(PIs, Clauses)) :-
-    code_program(Hash, program(_, Declared, _, _)),
-    findall(Head, state_head(Module, Head), Heads),
-    findall(PI, undeclared(Heads, Declared, PI), PIs),
-    findall(Clause, state_clause(Heads, Module, Clause), Clauses).
+agent_state(Module, state(Empty, Clauses)) :-
+    findall(Head, '$c_current_predicate'(_, Module:Head), Heads),
+    state(Heads, Module, Empty, Clauses, []).
 
-state_head(Module, Head) :-
-    '$c_current_predicate'(_, Module:Head),
-    \+ predicate_property(Module:Head, imported_from(_)),
-    predicate_property(Module:Head, dynamic).
+state([], _, [], Clauses, Clauses).
+state([Head|Heads], Module, Empty, Clauses0, Clauses) :-
+    (   '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+        \+ '$get_predicate_attribute'(Module:Head, imported, _)
+    ->  findall(Clause, state_clause(Module, Head, Clause), Clauses0,
+                Clauses1),
+        (   Clauses0 == Clauses1
+        ->  functor(Head, Name, Arity),
+            Empty = [Name/Arity|Empty1]
+        ;   Empty = Empty1
+        )
+    ;   Empty = Empty1,
+        Clauses0 = Clauses1
+    ),
+    state(Heads, Module, Empty1, Clauses1, Clauses).
 
-undeclared(Heads, Declared, Name/Arity) :-
-    member(Head, Heads),
-    functor(Head, Name, Arity),
-    \+ memberchk(Name/Arity, Declared).
-
-state_clause(Heads, Module, Clause) :-
-    member(Head, Heads),
+state_clause(Module, Head, Clause) :-
     clause(Module:Head, Body),
     (   Body == true
     ->  Clause = Head
@@ -186,7 +196,7 @@ state_clause(Heads, Module, Clause) :-
 
 agent_remove(Id) :-
     retract(agent(Id, _, Module, _, _)),
-    retractall(agent_status(Id, _, _)),
+    retractall(status(Id, _, _)),
     retractall(mailbox(Id, _)),
     retractall(order(Id, _)),
     '$destroy_module'(Module).
@@ -211,14 +221,15 @@ agent_handles(Module, Hash) :-
 attach_clauses(Module, Hash, payload(_, PIs, Clauses)) :-
     code_module(Hash, Program),
     maplist(free(Module, Program), PIs),
-    maplist(declare(Module), PIs),
-    maplist(add_clause(Module), Clauses).
+    declare_all(PIs, Module),
+    add_clauses(Clauses, Module).
 
 free(Module, Program, Name/Arity) :-
     functor(Head, Name, Arity),
     (   (   '$c_current_predicate'(_, Program:Head),
             \+ predicate_property(Program:Head, imported_from(_))
-        ;   state_head(Module, Head)
+        ;   '$c_current_predicate'(_, Module:Head),
+            predicate_property(Module:Head, dynamic)
         )
     ->  permission_error(attach, procedure, Name/Arity)
     ;   true
@@ -233,11 +244,27 @@ detach_clauses(Module, PIs) :-
                 *            STATUS            *
                 *******************************/
 
+%!  agent_status(?Id, ?Status, ?Goals) is nondet.
+
+agent_status(Id, Status, Goals) :-
+    status(Id, Status, Goals).
+agent_status(Id, running, []) :-
+    agent(Id, _, _, _, _),
+    \+ status(Id, _, _).
+
 %!  agent_put(+Id, +Status, +Goals) is det.
 
 agent_put(Id, Status, Goals) :-
-    retractall(agent_status(Id, _, _)),
-    assertz(agent_status(Id, Status, Goals)).
+    retractall(status(Id, _, _)),
+    assertz(status(Id, Status, Goals)).
+
+%!  agent_take(+Id, -Goals) is semidet.
+%
+%   Id, which is ready, runs from now on.
+
+agent_take(Id, Goals) :-
+    retract(status(Id, ready, Goals)),
+    !.
 
 %!  agent_ready(+Id, +Goals) is det.
 %
@@ -275,9 +302,8 @@ agent_put_life(Id, Life) :-
 
 agent_mail(Id, Message) :-
     assertz(mailbox(Id, Message)),
-    agent_status(Id, Status, Goals),
-    !,
-    (   wakes(Status, Message)
+    (   status(Id, Status, Goals),
+        wakes(Status, Message)
     ->  agent_ready(Id, Goals)
     ;   true
     ).

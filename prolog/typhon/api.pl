@@ -68,9 +68,9 @@ agent_create(Spec, Agent, Options) :-
     maplist(check_option, Options),
     target(Options, Target),
     program_load(Spec, Program, Initial),
-    Program = program(Name0, _, _, Clauses),
+    Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
-    birth(Options, Initial, Clauses, Life, State),
+    birth(Options, Declared, Initial, Clauses, Life, State),
     mobile_term(State),
     start_goals(Clauses, Initial, Goals),
     program_hash(Program, Hash),
@@ -102,7 +102,8 @@ target(Options, Where) :-
                             'start one with host_start/1')))
     ).
 
-birth(Options, Initial, Clauses, Life, state(PIs, StateClauses)) :-
+birth(Options, Declared, Initial, Clauses, Life,
+      state(PIs, StateClauses)) :-
     option(tokens(Tokens), Options, []),
     option(lifetime(Lifetime), Options, inf),
     option(static(Static), Options, false),
@@ -110,7 +111,7 @@ birth(Options, Initial, Clauses, Life, state(PIs, StateClauses)) :-
     option(payloads(Specs), Options, []),
     maplist(clash(Clauses), Facts),
     append(Initial, Facts, StateClauses0),
-    foldl(add_payload(Clauses), Specs, []-([]-StateClauses0),
+    foldl(add_payload(Clauses), Specs, []-(Declared-StateClauses0),
           Payloads-(PIs-StateClauses)),
     Life = life(none, 0, Lifetime, Tokens, Payloads, Static).
 

@@ -219,7 +219,7 @@ carried_out(image, Agent,
     agent_status(Agent, _, Goals),
     code_program(Hash, Program),
     atomic_list_concat([Name|_], '.', Agent),
-    agent_state(Module, Hash, State),
+    agent_state(Module, State),
     findall(M, typhon_agent:mailbox(Agent, M), Mail).
 
                 /*******************************
@@ -244,8 +244,8 @@ property(goals(Goals), Agent) :-
     agent_status(Agent, _, Goals0),
     goal_list(Goals0, Goals).
 property(facts(Facts), Agent) :-
-    agent(Agent, _, Module, Hash, _),
-    agent_state(Module, Hash, state(_, Clauses)),
+    agent(Agent, _, Module, _, _),
+    agent_state(Module, state(_, Clauses)),
     findall(Clause, visible(Clauses, Clause), Facts).
 property(payloads(Names), Agent) :-
     agent(Agent, _, _, _, life(_, _, _, _, Payloads, _)),
@@ -256,7 +256,7 @@ visible(Clauses, Clause) :-
     Clause \= '$memory'(_).
 
 shown(ready, _, running).
-shown(running(_), _, running).
+shown(running, _, running).
 shown(arriving, _, in_transit).
 shown(sleeping(_), _, sleeping).
 shown(waiting(_, _), _, waiting).

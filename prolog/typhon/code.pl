@@ -1,7 +1,7 @@
 :- module(typhon_code,
           [ code_install/2,             % +Hash, +Program
-            code_module/2,              % +Hash, -Module
-            code_program/2,             % +Hash, -Program
+            code_module/2,              % ?Hash, -Module
+            code_program/2,             % ?Hash, -Program
             code_clear/0
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -34,7 +34,8 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 :- multifile in_use/1.          % Hash: an agent of this process runs it
 
 :- dynamic
-    code/3,                     % Hash, Module, Program
+    code_module/2,              % Hash, Module
+    code_program/2,             % Hash, Program: as it is sent
     retired/2.                  % Hash, Module: goes at the next eviction
 
 %!  code_install(+Hash, +Program) is det.
@@ -42,34 +43,29 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 %   Make Program available; nothing to do where it is already.
 
 code_install(Hash, Program) :-
-    (   code(Hash, _, _)
+    (   code_module(Hash, _)
     ->  true
     ;   with_mutex(typhon_code, install(Hash, Program))
     ).
 
-%!  code_module(+Hash, -Module) is semidet.
-
-code_module(Hash, Module) :-
-    code(Hash, Module, _).
-
-%!  code_program(+Hash, -Program) is semidet.
-
-code_program(Hash, Program) :-
-    code(Hash, _, Program).
+%!  code_module(?Hash, -Module) is semidet.
+%!  code_program(?Hash, -Program) is semidet.
+%
+%   The module of an installed program, and the whole of it.
 
 install(Hash, _) :-
-    code(Hash, _, _),
+    code_module(Hash, _),
     !.
 install(Hash, Program) :-
-    retract(retired(Hash, Module)),
-    !,
-    assertz(code(Hash, Module, Program)).
-install(Hash, Program) :-
-    evict,
-    flag(typhon_code_module, N, N+1),
-    atom_concat('program ', N, Module),
-    fill(Module, Program),
-    assertz(code(Hash, Module, Program)).
+    (   retract(retired(Hash, Module))
+    ->  true
+    ;   evict,
+        flag(typhon_code_module, N, N+1),
+        atom_concat('program ', N, Module),
+        fill(Module, Program)
+    ),
+    assertz(code_program(Hash, Program)),
+    assertz(code_module(Hash, Module)).
 
 %!  code_clear is det.
 %
@@ -77,8 +73,7 @@ install(Hash, Program) :-
 
 code_clear :-
     with_mutex(typhon_code,
-               ( forall(retract(code(_, Module, _)),
-                        '$destroy_module'(Module)),
+               ( forall(code_module(Hash, _), retire(Hash)),
                  forall(retract(retired(_, Module)),
                         '$destroy_module'(Module))
                )).
@@ -87,7 +82,7 @@ code_clear :-
 %   its way in never finds its program gone.
 
 evict :-
-    predicate_property(code(_,_,_), number_of_clauses(Count)),
+    predicate_property(code_module(_,_), number_of_clauses(Count)),
     setting(programs, Max),
     Count >= Max,
     !,
@@ -95,11 +90,14 @@ evict :-
            ( retract(retired(Hash, Module)),
              '$destroy_module'(Module)
            )),
-    forall(( code(Hash, Module, _), \+ in_use(Hash) ),
-           ( retract(code(Hash, Module, _)),
-             assertz(retired(Hash, Module))
-           )).
+    forall(( code_module(Hash, _), \+ in_use(Hash) ),
+           retire(Hash)).
 evict.
+
+retire(Hash) :-
+    retract(code_module(Hash, Module)),
+    retractall(code_program(Hash, _)),
+    assertz(retired(Hash, Module)).
 
                 /*******************************
                 *          COMPILING           *

@@ -63,7 +63,7 @@ of the endpoint, which never wait.
 hop(Id, Dest, Hole, Goals, Since) :-
     agent(Id, _, Module, Hash, Life0),
     one_hop_more(Life0, Life, Hops),
-    agent_state(Module, Hash, State),
+    agent_state(Module, State),
     copy_term(Hole-Goals, Hole1-Going),
     ignore(Hole1 = true),
     mobile_term(State-Going),
@@ -87,7 +87,7 @@ one_hop_more(life(Parent, Hops0, Lifetime, Tokens, Payloads, Static),
 hop_clone(Id, Dest, CloneId, Who, Hole, Goals) :-
     agent(Id, Host, Module, Hash, Life0),
     clone_life(Id, Life0, Life),
-    agent_state(Module, Hash, State),
+    agent_state(Module, State),
     copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
     mobile_term(State-Going),
     host_time(Host, Since),
@@ -109,14 +109,14 @@ image(hop(Id, _, Hops), image(Id, Hash, Life, State, Going, Mail, Since)) :-
     agent_status(Id, transit(_, Since), hop(Hole-Going, Hops, Mail)),
     ignore(Hole = true),
     one_hop_more(Life0, Life, Hops),
-    agent_state(Module, Hash, State).
+    agent_state(Module, State).
 image(clone(Id, _, CloneId),
       image(CloneId, Hash, Life, State, Going, [], Since)) :-
     agent(Id, _, Module, Hash, Life0),
     agent_status(Id, cloning(_, Since), clone(Hole-Going-Who, CloneId)),
     Hole = (Who=clone(Id)),
     clone_life(Id, Life0, Life),
-    agent_state(Module, Hash, State).
+    agent_state(Module, State).
 
 dest_address(local(Name), Address) :-
     host(Name, Address, _).

@@ -26,23 +26,43 @@
 The records of hosts: name, address, place, options, neighbours, how many
 agents stand on them and how long hops take.
 
-*Threading*: any thread.  The load is a counter changed atomically, the
-statistics are guarded by a mutex.
+*Threading*: any thread.  Load and statistics are flags, each of which is
+changed atomically.
 */
 
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
     neighbour/2,                % Name, Address
-    hop_stats/6.                % Name, Direction, Count, Min, Sum, Max
+    load_key/2,                 % Name, Flag
+    hop_keys/3.                 % Name, Direction, Flags
 
 %!  host_add(+Name, +Address, +Place, +Options) is det.
 
 host_add(Name, Address, Place, Options) :-
-    load_key(Name, Key),
-    flag(Key, _, 0),
+    make_keys(Name),
     forall(member(Option, Options), assertz(option(Name, Option))),
     assertz(host(Name, Address, Place)).
+
+%   Flags are counters that many threads change without leaving garbage.
+
+make_keys(Name) :-
+    atom_concat('typhon load ', Name, Load),
+    flag(Load, _, 0),
+    assertz(load_key(Name, Load)),
+    forall(member(Direction, [in,out]), make_hop_keys(Name, Direction)).
+
+make_hop_keys(Name, Direction) :-
+    findall(Key,
+            ( member(What-Zero, [count-0, min-inf, sum-0.0, max-0.0]),
+              atomic_list_concat(['typhon hop ', Direction, What, Name],
+                                 ' ', Key),
+              Value is Zero,
+              flag(Key, _, Value)
+            ),
+            Keys),
+    Flags =.. [flags|Keys],
+    assertz(hop_keys(Name, Direction, Flags)).
 
 %!  host_close(+Name) is det.
 %
@@ -57,7 +77,8 @@ host_remove(Name) :-
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
     retractall(neighbour(Name, _)),
-    retractall(hop_stats(Name, _, _, _, _, _)).
+    retractall(load_key(Name, _)),
+    retractall(hop_keys(Name, _, _)).
 
 %!  host_option(?Name, ?Option) is nondet.
 
@@ -147,17 +168,16 @@ host_enter(Name, _, Answer) :-
 %!  host_leave(+Name) is det.
 
 host_leave(Name) :-
-    load_key(Name, Key),
-    flag(Key, Load, Load-1).
+    (   load_key(Name, Key)
+    ->  flag(Key, Load, Load-1)
+    ;   true                            % stopped meanwhile
+    ).
 
 %!  host_load(+Name, -Load:integer) is det.
 
 host_load(Name, Load) :-
     load_key(Name, Key),
     flag(Key, Load, Load).
-
-load_key(Name, Key) :-
-    atom_concat('typhon load ', Name, Key).
 
                 /*******************************
                 *             LINKS            *
@@ -192,28 +212,27 @@ host_neighbours(Name, Addresses) :-
 %   A hop into (`in`) or out of (`out`) Name took Seconds of host time.
 
 host_hop(Name, Direction, Seconds) :-
-    with_mutex(typhon_hops, add_hop(Name, Direction, Seconds)).
-
-add_hop(Name, Direction, Seconds) :-
-    retract(hop_stats(Name, Direction, Count0, Min0, Sum0, Max0)),
+    hop_keys(Name, Direction, flags(Count, Min, Sum, Max)),
     !,
-    Count is Count0+1,
-    Min is min(Min0, Seconds),
-    Max is max(Max0, Seconds),
-    Sum is Sum0+Seconds,
-    assertz(hop_stats(Name, Direction, Count, Min, Sum, Max)).
-add_hop(Name, Direction, Seconds) :-
-    assertz(hop_stats(Name, Direction, 1, Seconds, Seconds, Seconds)).
+    flag(Count, N, N+1),
+    flag(Min, Min0, min(Min0, Seconds)),
+    flag(Sum, Sum0, Sum0+Seconds),
+    flag(Max, Max0, max(Max0, Seconds)).
+host_hop(_, _, _).
 
 %!  host_hop_stats(+Name, ?Direction, -Stats) is nondet.
 %
 %   Stats is stats(Count, Min, Mean, Max), in host seconds.
 
 host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
-    member(Direction, [in,out]),
-    (   hop_stats(Name, Direction, Count, Min, Sum, Max)
-    ->  Mean is Sum/Count
-    ;   Count = 0, Min = 0.0, Mean = 0.0, Max = 0.0
+    hop_keys(Name, Direction, flags(CountKey, MinKey, SumKey, MaxKey)),
+    flag(CountKey, Count, Count),
+    (   Count =:= 0
+    ->  Min = 0.0, Mean = 0.0, Max = 0.0
+    ;   flag(MinKey, Min, Min),
+        flag(SumKey, Sum, Sum),
+        flag(MaxKey, Max, Max),
+        Mean is Sum/Count
     ).
 
 %!  host_log(+Name, +Agent, +What) is det.

@@ -22,7 +22,7 @@
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(process, [process_acquire/2, process_release/1]).
 :- use_module(scheduler,
-              [ scheduler_limit/2, scheduler_unlimit/1 ]).
+              [ scheduler_limit/2, scheduler_unlimit/1, scheduler_signal/1 ]).
 
 /** <module> Starting, stopping and linking hosts
 
@@ -194,15 +194,14 @@ clear(Ids, Name, Deadline) :-
 %   abort is the one exception that the agent's own catch/3 cannot stop.
 
 interrupt(Id) :-
-    (   agent_status(Id, running(Worker), _)
-    ->  catch(thread_signal(Worker, typhon_hosting:stop_running(Id)),
-              error(existence_error(_, _), _), true)
+    (   agent_status(Id, running, _)
+    ->  scheduler_signal(typhon_hosting:stop_running(Id))
     ;   ignore(agent_end(Id, disposed))
     ).
 
 stop_running(Id) :-
-    thread_self(Me),
-    (   agent_status(Id, running(Me), _)
+    (   nb_current(typhon_context, context(_, Id0, _)),
+        Id0 == Id
     ->  abort
     ;   true
     ).

@@ -26,7 +26,7 @@ the next.  What each control predicate means is said here, one clause of
 effect/5 each.
 
 *Threading*: run/1 in workers, fire/2 in the timer.  While its status is
-running(Worker) an agent belongs to that worker.
+`running` an agent belongs to one worker.
 */
 
 :- setting(faulty, nonneg, 100, "Faulty agents kept for inspection").
@@ -79,7 +79,7 @@ agent_end(Id, raised(Error)) :-
     forget_faulty.
 agent_end(Id, Outcome) :-
     with_agent(Id, ( agent(Id, Host, _, _, _),
-                     agent_status(Id, Status, _),
+                     once(agent_status(Id, Status, _)),
                      agent_remove(Id)
                    )),
     (   Status = faulty(_)
@@ -95,8 +95,7 @@ agent_end(Id, Outcome) :-
 
 make_faulty(Id, Error, Host) :-
     agent(Id, Host, _, _, _),
-    agent_status(Id, _, Goals),
-    agent_put(Id, faulty(Error), Goals).
+    agent_put(Id, faulty(Error), []).
 
 portable(Error, Portable) :-
     catch(( typhon_frame:mobile_term(Error), Portable = Error ),
@@ -126,24 +125,22 @@ typhon_scheduler:run(Id) :-
     ).
 
 take(Id, Task) :-
-    agent_status(Id, Status, Goals),
-    task(Status, Id, Goals, Task).
-
-task(ready, Id, Goals, order(Order, Goals)) :-
-    agent_next_order(Id, Order),
-    !.
-task(ready, Id, Goals, run(Goals, Host, Module, Hash)) :-
-    agent(Id, Host, Module, Hash, _),
+    agent_take(Id, Goals),
     !,
-    thread_self(Me),
-    agent_put(Id, running(Me), Goals).
-task(leaving(Dest, _), _, hop(Hole-Goals, Since), leave(Dest, Hole, Goals, Since)).
+    (   agent_next_order(Id, Order)
+    ->  agent_put(Id, ready, Goals),
+        Task = order(Order, Goals)
+    ;   Task = run(Goals)
+    ).
+take(Id, leave(Dest, Hole, Goals, Since)) :-
+    agent_status(Id, leaving(Dest, _), hop(Hole-Goals, Since)).
 
 perform(order(Order, Goals), Id) :-
     obey(Order, Id, Goals).
 perform(leave(Dest, Hole, Goals, Since), Id) :-
     depart(Id, Dest, Hole, Goals, Since).
-perform(run(Goals, Host, Module, Hash), Id) :-
+perform(run(Goals), Id) :-
+    agent(Id, Host, Module, Hash, _),
     code_module(Hash, Program),
     context_set(Host, Id, Module),
     setup_call_catcher_cleanup(
@@ -384,7 +381,7 @@ clone_id(Id, Here, CloneId) :-
 
 agent_clone_here(Id, CloneId, Host, Goals, Answer) :-
     agent(Id, Host, Module, Hash, Life0),
-    agent_state(Module, Hash, State),
+    agent_state(Module, State),
     Life0 = life(_, _, Lifetime, Tokens, Payloads, Static),
     Life = life(Id, 0, Lifetime, Tokens, Payloads, Static),
     agent_start(CloneId, Host, start(Hash, Life, State, Goals), Answer).

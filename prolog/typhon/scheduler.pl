@@ -7,6 +7,7 @@
             alarm_set/3,                % +Stamp, +Agent, +Token
             alarm_clear/3,              % +Stamp, +Agent, +Token
             scheduler_call/1,           % :Goal
+            scheduler_signal/1,         % :Goal
             scheduler_workers/1         % -Count
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -29,7 +30,7 @@ What an agent is, the room above says with the hooks run/1 and fire/2.
 owns the tree of alarms and decides when to grow.
 */
 
-:- meta_predicate scheduler_call(0).
+:- meta_predicate scheduler_call(0), scheduler_signal(0).
 
 :- multifile
     run/1,                      % Agent: run it until it has to wait
@@ -205,6 +206,15 @@ watch_pool :-
         catch(thread_send_message(Timer, watch(Taken)), error(_, _), true)
     ;   true
     ).
+
+%!  scheduler_signal(:Goal) is det.
+%
+%   Run Goal in all workers, in the middle of whatever they do.
+
+scheduler_signal(Goal) :-
+    forall(worker(Worker),
+           catch(thread_signal(Worker, Goal),
+                 error(existence_error(_, _), _), true)).
 
                 /*******************************
                 *            WORKERS           *

@@ -53,28 +53,27 @@ agent_born(Id, Address) :-
 %   Id has arrived at Address, a host of this process, from Peer.
 
 agent_seen(Id, Address, Hops, Peer) :-
-    retractall(forward(Id, _, _)),
     home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  moved(Id, Address, Hops)
-    ;   Home == Peer                    % it knows when it has our answer
-    ->  true
-    ;   tell(Home, located(Id, Address, Hops))
+    ->  true                            % it is here, and so are we
+    ;   retractall(forward(Id, _, _)),
+        (   Home == Peer                % it knows when it has our answer
+        ->  true
+        ;   tell(Home, located(Id, Address, Hops))
+        )
     ).
 
 %!  agent_left(+Id, +Address, +Hops, +Peer) is det.
 %
-%   Id has left this process for Address.
+%   Id has left this process for Address, a host at the endpoint Peer.
 
 agent_left(Id, Address, Hops, Peer) :-
+    home_endpoint(Id, Home),
     (   endpoint_address(Peer)
     ->  true
-    ;   remember_forward(Id, Address, Hops)
-    ),
-    home_endpoint(Id, Home),
-    (   endpoint_address(Home)
+    ;   endpoint_address(Home)
     ->  moved(Id, Address, Hops)
-    ;   true
+    ;   remember_forward(Id, Address, Hops)
     ).
 
 home_endpoint(Id, Endpoint) :-
@@ -95,10 +94,17 @@ moved_(_, _, _).
 remember_forward(Id, Address, Hops) :-
     retractall(forward(Id, _, _)),
     assertz(forward(Id, Address, Hops)),
-    setting(forwards, Max),
-    predicate_property(forward(_,_,_), number_of_clauses(Count)),
-    (   Count > Max
-    ->  ignore(retract(forward(_, _, _)))
+    now_and_then(forward(_, _, _), forwards).
+
+%   Every 100 times, forget the oldest of what exceeds a setting.
+
+now_and_then(Fact, Setting) :-
+    flag(Setting, N, N+1),
+    (   N mod 100 =:= 0
+    ->  setting(Setting, Max),
+        predicate_property(Fact, number_of_clauses(Count)),
+        Excess is Count-Max,
+        forall(between(1, Excess, _), ignore(retract(Fact)))
     ;   true
     ).
 
@@ -131,12 +137,7 @@ ended_(Id, _, []) :-
 ended_(Id, Outcome, Askers) :-
     retractall(born(Id, _, _)),
     assertz(outcome(Id, Outcome)),
-    setting(outcomes, Max),
-    predicate_property(outcome(_,_), number_of_clauses(Count)),
-    (   Count > Max
-    ->  ignore(retract(outcome(_, _)))
-    ;   true
-    ),
+    now_and_then(outcome(_, _), outcomes),
     findall(Asker, retract(waiter(Id, _, Asker)), Askers).
 
 typhon_endpoint:received(whereabouts, News, _Peer) :-
