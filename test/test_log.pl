@@ -223,7 +223,10 @@ test(no_file, error(existence_error(option, file))) :-
 test(no_such_directory, error(_)) :-
     log_server_start([file('/no/such/directory/events')], _).
 test(nothing_is_left_behind) :-
-    no_leaks(with_log([], hundred, _)).
+    no_leaks(( with_log([], hundred, _),
+               garbage_collect,           % the queues of closed sessions
+               garbage_collect_clauses,
+               garbage_collect_atoms )).
 test(events_for_nobody_are_told_once,
      Messages == [no_log_server(nobody, h)]) :-
     quietly(( arrives('nobody@127.0.0.1:1', h, a, 1),

@@ -1,5 +1,5 @@
 :- module(typhon_remote,
-          [ remote/2                    % +Host, :Goal
+          [ remote/2                    % +Host, +Goal
           ]).
 :- use_module(library(error),
               [ must_be/2, permission_error/3, existence_error/2 ]).
@@ -18,13 +18,13 @@ on a host, unless the host was started with remote(false).
 other process.
 */
 
-:- meta_predicate remote(+, 0).
 :- multifile typhon_endpoint:requested/4.
 
-%!  remote(+Host, :Goal) is semidet.
+%!  remote(+Host, +Goal) is semidet.
 %
 %   once(Goal) in the place of Host, here or in another process.  Bindings
-%   come back; failure and errors, too.  leave/1, sense/1 and take/1 work
+%   come back; failure and errors, too.  A goal M:G is run in module M
+%   instead, with the place only as its context.  leave/1, sense/1 and take/1 work
 %   on the tuple space of Host.
 %
 %   @error permission_error(remote, host, Host) if the host refuses
@@ -33,9 +33,8 @@ other process.
 
 remote(Host, Goal) :-
     host_resolve(Host, Where),
-    strip_module(Goal, _, Plain),
-    must_be(callable, Plain),
-    run(Where, Host, Plain).
+    must_be(callable, Goal),
+    run(Where, Host, Goal).
 
 run(local(Name), _, Goal) :-
     run_here(Name, Goal).

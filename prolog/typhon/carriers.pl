@@ -1,0 +1,266 @@
+:- module(typhon_carriers,
+          [ carriers_start/4,           % +Network, +P, +Machines, +Interface
+            carriers_stop/1,            % +Network
+            carrier/3,                  % ?Network, ?P, ?Pid
+            carrier_order/4             % +Network, +P, +Order, -Answer
+          ]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [member/2, nth1/3, selectchk/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(children,
+              [ child_close/1, child_kill/1, child_release/1, child_start/5 ]).
+:- use_module(endpoint, [endpoint_call/5, endpoint_request/4]).
+:- use_module(orders, [order_do/2]).
+
+/** <module> The processes that carry a network
+
+The carriers of a network are numbered from 1. Either there is one, this
+process, or each is a child (see room `children`). Orders (see room
+`orders`) are done here in the first case and go over the wire in the
+second.
+
+*Threading*: any thread may give orders. The threads that follow the
+children tell what happens to them: as facts, and as messages to a queue
+that starting and stopping wait on.
+*/
+
+:- multifile
+    prolog:error_message//1,
+    prolog:message//1.
+
+:- setting(start_seconds, number, 60,
+           "The processes of a network have so long to start").
+:- setting(order_seconds, number, 60,
+           "A process has so long to answer an order").
+:- setting(kill_seconds, number, 10,
+           "A process that was killed has so long to be gone").
+
+:- dynamic
+    queue/2,                    % Network, Queue
+    wanted/1,                   % Network: its carriers are to stay
+    child/3,                    % Network, P, Child
+    up/4,                       % Network, P, local or Endpoint, Pid
+    down/3.                     % Network, P, Status
+
+                /*******************************
+                *           STARTING           *
+                *******************************/
+
+%!  carriers_start(+Network, +P, +Machines, +Interface) is det.
+%
+%   Starts P carriers, blocks of them on each of Machines. With `[local]`
+%   and P = 1 this process is the carrier. When this throws, what was
+%   started waits for carriers_stop/1.
+%
+%   @error timeout_error(start, Network),
+%   system_error(process_ended(Status)), and as child_start/5
+
+carriers_start(Network, 1, [local], _) :-
+    !,
+    current_prolog_flag(pid, Pid),
+    assertz(up(Network, 1, local, Pid)).
+carriers_start(Network, P, Machines, Interface) :-
+    message_queue_create(Queue),
+    assertz(queue(Network, Queue)),
+    length(Machines, M),
+    forall(between(1, P, I),
+           ( At is (I - 1) * M // P + 1,
+             nth1(At, Machines, Machine),
+             start(Network, I, Machine, Interface) )),
+    setting(start_seconds, Seconds),
+    deadline(Seconds, Deadline),
+    wait_up(P, Network, Queue, Deadline),
+    assertz(wanted(Network)).
+
+start(Network, P, Machine, Interface) :-
+    child_start(Network-P, Machine, Interface, typhon_carriers:event, Child),
+    assertz(child(Network, P, Child)).
+
+event(up(Network-P, Endpoint, Pid)) :-
+    assertz(up(Network, P, Endpoint, Pid)),
+    tell(Network, up).
+event(down(Network-P, Status)) :-
+    (   wanted(Network),
+        up(Network, P, _, Pid)
+    ->  print_message(warning, typhon(carrier_down(Network, Pid, Status)))
+    ;   true
+    ),
+    assertz(down(Network, P, Status)),
+    tell(Network, down(Status)).
+
+tell(Network, Event) :-
+    queue(Network, Queue),
+    thread_send_message(Queue, Event).
+
+wait_up(0, _, _, _) :-
+    !.
+wait_up(P, Network, Queue, Deadline) :-
+    (   next(Queue, Event, Deadline)
+    ->  (   Event = down(Status)
+        ->  throw(error(system_error(process_ended(Status)), _))
+        ;   P1 is P - 1,
+            wait_up(P1, Network, Queue, Deadline)
+        )
+    ;   throw(error(timeout_error(start, Network), _))
+    ).
+
+deadline(Seconds, Deadline) :-
+    get_time(Now),
+    Deadline is Now + Seconds.
+
+next(Queue, Event, Deadline) :-
+    get_time(Now),
+    Wait is max(0, Deadline - Now),
+    thread_get_message(Queue, Event, [timeout(Wait)]).
+
+                /*******************************
+                *            ORDERS            *
+                *******************************/
+
+%!  carrier(?Network, ?P, ?Pid) is nondet.
+%
+%   Carrier P of Network is up; Pid is its process on its machine.
+
+carrier(Network, P, Pid) :-
+    up(Network, P, _, Pid),
+    \+ down(Network, P, _).
+
+%!  carrier_order(+Network, +P, +Order, -Answer) is det.
+%
+%   Carrier P does Order.
+%
+%   @error existence_error(carrier, Network-P) when it is not up, as
+%   endpoint_call/5, and what order_do/2 throws there
+
+carrier_order(Network, P, Order, Answer) :-
+    carrier(Network, P, _),
+    up(Network, P, Endpoint, _),
+    !,
+    (   Endpoint == local
+    ->  order_do(Order, Answer)
+    ;   setting(order_seconds, Seconds),
+        endpoint_call(Endpoint, node, Order, answer(Result), Seconds),
+        result(Result, Answer)
+    ).
+carrier_order(Network, P, _, _) :-
+    existence_error(carrier, Network-P).
+
+result(done(Answer), Answer).
+result(raised(Formal, Text), _) :-
+    throw(error(Formal, context(_, Text))).
+
+                /*******************************
+                *           STOPPING           *
+                *******************************/
+
+%!  carriers_stop(+Network) is det.
+%
+%   Ends the carriers that carriers_start/4 began to start, in order if
+%   they can, else by force. This process stays, of course.
+%
+%   First the hosts of all children stop, then what the children have sent
+%   arrives, at the log for one, and only then they end: so none waits for
+%   another that is gone.
+
+carriers_stop(Network) :-
+    retractall(wanted(Network)),
+    order_children(Network, stop),
+    order_children(Network, flush(2)),
+    forall(child(Network, _, Child), child_close(Child)),
+    (   queue(Network, Queue)
+    ->  end_children(Network, Queue),
+        forall(retract(child(Network, _, Child)), child_release(Child)),
+        retractall(queue(Network, _)),
+        message_queue_destroy(Queue)
+    ;   true
+    ),
+    retractall(up(Network, _, _, _)),
+    retractall(down(Network, _, _)).
+
+%   All children that are up do Order; one that cannot is left to later.
+
+order_children(Network, Order) :-
+    setting(typhon_children:stop_seconds, Seconds),
+    deadline(Seconds, Deadline),
+    findall(Endpoint,
+            ( carrier(Network, P, _),
+              up(Network, P, Endpoint, _),
+              Endpoint \== local ),
+            Endpoints),
+    message_queue_create(Queue),
+    forall(member(Endpoint, Endpoints),
+           endpoint_request(Endpoint, node, Order,
+                            typhon_carriers:answered(Queue, Endpoint))),
+    wait_answers(Endpoints, Queue, Order, Deadline),
+    message_queue_destroy(Queue).
+
+answered(Queue, Endpoint, Answer) :-
+    catch(thread_send_message(Queue, Endpoint-Answer),
+          error(existence_error(_, _), _),
+          true).                % too late: nobody waits any more
+
+wait_answers([], _, _, _) :-
+    !.
+wait_answers(Endpoints, Queue, Order, Deadline) :-
+    (   next(Queue, Endpoint-Answer, Deadline)
+    ->  (   Answer == answer(done(ok))
+        ->  true
+        ;   print_message(warning, typhon(carrier_order(Order, Answer)))
+        ),
+        selectchk(Endpoint, Endpoints, Rest),
+        wait_answers(Rest, Queue, Order, Deadline)
+    ;   print_message(warning, typhon(carrier_order(Order, late)))
+    ).
+
+%   The children kill themselves when they cannot end in order within
+%   stop_seconds, so those that are left after that are really stuck.
+
+end_children(Network, Queue) :-
+    setting(typhon_children:stop_seconds, Seconds),
+    deadline(Seconds + 1, Deadline),
+    wait_down(Network, Queue, Deadline),
+    !.
+end_children(Network, Queue) :-
+    forall(left(Network, P, Child), kill(Network, P, Child)),
+    setting(kill_seconds, Seconds),
+    deadline(Seconds, Deadline),
+    wait_down(Network, Queue, Deadline),
+    !.
+end_children(Network, _) :-
+    forall(retract(child(Network, P, _)),
+           print_message(error, typhon(carrier_stays(Network, P)))).
+
+kill(Network, P, Child) :-
+    print_message(warning, typhon(carrier_killed(Network, P))),
+    child_kill(Child).
+
+left(Network, P, Child) :-
+    child(Network, P, Child),
+    \+ down(Network, P, _).
+
+wait_down(Network, Queue, Deadline) :-
+    (   left(Network, _, _)
+    ->  next(Queue, down(_), Deadline),
+        wait_down(Network, Queue, Deadline)
+    ;   true
+    ).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(carrier_down(Network, Pid, Status))) -->
+    [ 'Process ~w of ~w ended: ~p'-[Pid, Network, Status] ].
+prolog:message(typhon(carrier_order(Order, Answer))) -->
+    [ 'A process of the network did not do ~q: ~p'-[Order, Answer] ].
+prolog:message(typhon(carrier_killed(Network, P))) -->
+    [ 'Process ~w of ~w does not end, and is killed'-[P, Network] ].
+prolog:message(typhon(carrier_stays(Network, P))) -->
+    [ 'Process ~w of ~w could not be ended'-[P, Network] ].
+
+prolog:error_message(system_error(process_ended(Status))) -->
+    [ 'A process of the network ended before it was ready: ~p'-[Status] ].
+prolog:error_message(timeout_error(start, Network)) -->
+    [ 'The processes of ~w were not ready in time'-[Network] ].
+prolog:error_message(existence_error(carrier, Network-P)) -->
+    [ 'Process ~w of ~w is not there'-[P, Network] ].
