@@ -1,6 +1,8 @@
 :- module(typhon_auth,
           [ cookie/1,                   % -Cookie
             authenticate/5,             % +Role, +In, +Out, +Hello, -PeerHello
+            authenticate/6,             % +Role, +In, +Out, +Hello, +Cookie,
+                                        % -PeerHello
             random_hex/2                % +Count, -Hex
           ]).
 
@@ -22,7 +24,8 @@ _Threading_: any thread. The cookie is kept with the time stamp of its file
 in one fact; two threads that read it at once store the same.
 */
 
-:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(error), [must_be/2, permission_error/3,
+                               syntax_error/1]).
 :- use_module(library(filesex), [chmod/2, delete_directory_and_contents/1,
                                  link_file/3]).
 :- use_module(library(process), [process_create/3]).
@@ -38,6 +41,7 @@ in one fact; two threads that read it at once store the same.
     known_cookie/3.                     % File, Time, Cookie
 
 %!  authenticate(+Role, +In, +Out, +Hello, -PeerHello) is det.
+%!  authenticate(+Role, +In, +Out, +Hello, +Cookie, -PeerHello) is det.
 %
 %   Prove ourselves to the peer at the other end of In and Out and see its
 %   proof, Role being `client` or `server`. Stops listening after
@@ -48,8 +52,11 @@ in one fact; two threads that read it at once store the same.
 %   @error syntax_error(Message) what comes is no hello.
 
 authenticate(Role, In, Out, Hello, PeerHello) :-
-    must_be(oneof([client, server]), Role),
     cookie(Cookie),
+    authenticate(Role, In, Out, Hello, Cookie, PeerHello).
+
+authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
+    must_be(oneof([client, server]), Role),
     setting(handshake_time, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
@@ -59,17 +66,19 @@ authenticate(Role, In, Out, Hello, PeerHello) :-
     proof(Cookie, client, Client, Server, ClientProof),
     proof(Cookie, server, Client, Server, ServerProof),
     exchange_proofs(Role, In, Out, Deadline, ClientProof, ServerProof),
-    string_concat("typhon 1 ", Rest, Theirs),
-    sub_string(Rest, Before, _, _, " "),
-    !,
-    After is Before+1,
-    sub_string(Rest, After, _, 0, HelloLine),
-    line_hello(HelloLine, PeerHello).
+    greeting_hello(Theirs, PeerHello).
 
 greeting(Hello, Line) :-
     random_hex(16, Nonce),
     hello_line(Hello, HelloLine),
     format(string(Line), "typhon 1 ~w ~w", [Nonce, HelloLine]).
+
+greeting_hello(Line, Hello) :-
+    (   split_string(Line, " ", "", [_, _, _|Fields])
+    ->  atomic_list_concat(Fields, ' ', HelloLine),
+        line_hello(HelloLine, Hello)
+    ;   syntax_error(hello)
+    ).
 
 %   The server does not answer somebody who speaks something else.
 

@@ -45,7 +45,15 @@ incoming(Socket, Ip, Welcomed, Me) :-
                          reachable(Peer, Ip, Session),
                          serve(Session, In) )),
           error(Formal, _),
-          print_message(warning, typhon(endpoint, turned_away(Ip, Formal)))).
+          turned_away(Ip, Formal)).
+
+turned_away(Ip, Formal) :-
+    (   memberchk(Formal, [io_error(_, _), socket_error(_, _),
+                           syntax_error(end_of_file)])
+    ->  Level = informational
+    ;   Level = warning
+    ),
+    print_message(Level, typhon(endpoint, turned_away(Ip, Formal))).
 
 %   The client can be called back at the address it says it listens to,
 %   unless that is meaningless here.
@@ -196,7 +204,8 @@ serve(Session, In) :-
 %   A break is nothing special, but what the peer does may be.
 
 report_break(session(Key, _, _, _, _), Formal) :-
-    (   memberchk(Formal, [io_error(_, _), socket_error(_, _)])
+    (   memberchk(Formal, [io_error(_, _), socket_error(_, _),
+                           syntax_error(truncated_frame)])
     ->  Level = silent
     ;   Level = warning
     ),

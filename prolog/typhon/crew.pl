@@ -97,6 +97,12 @@ report(exception(Error)) :-
     print_message(error, typhon(endpoint, thread_died(Error))).
 report(_).
 
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, thread_died(Error))) -->
+    [ 'Endpoint: a thread died: ' ],
+    '$messages':translate_message(Error).
+
 %!  crew_tell(+Message) is det.
 %
 %   Tell the keeper. Silent when there is none any more.

@@ -180,6 +180,9 @@ endpoint_process(Id) :-
 endpoint_post(Address, Kind, Term) :-
     (   up_session(Address, Session)
     ->  true
+    ;   in_hook,
+        route(Address, Session)
+    ->  true                            % it waits for the next connection
     ;   connect(Address, Session)
     ),
     catch(session_send(Session, post(Kind, Term)),
@@ -212,7 +215,11 @@ check_running :-
 %   never arrived) or `lost` (it may have). Does not block.
 
 endpoint_request(Address, Kind, Term, OnAnswer) :-
-    up_session(Address, Session),
+    (   up_session(Address, Session)
+    ->  true
+    ;   in_hook,
+        route(Address, Session)
+    ),
     !,
     request_near(Session, Kind, Term, OnAnswer).
 endpoint_request(Address, Kind, Term, OnAnswer) :-
@@ -220,16 +227,29 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
     mobile_term(Term),
     crew_spawn(request_far(Address, Kind, Term, OnAnswer), _).
 
+%   A connection cannot be replaced while its thread is in a hook: that
+%   must not wait for a new one.
+
+in_hook :-
+    nb_current(typhon_reader, true).
+
 request_near(Session, Kind, Term, OnAnswer) :-
     catch(request_send(Session, Kind, Term, OnAnswer),
           error(session_closed, _),
           call(OnAnswer, unreachable)).
 
 request_far(Address, Kind, Term, OnAnswer) :-
-    (   catch(connect(Address, Session), error(unreachable(_), _), fail)
-    ->  request_near(Session, Kind, Term, OnAnswer)
-    ;   call(OnAnswer, unreachable)
-    ).
+    catch(( connect(Address, Session),
+            request_near(Session, Kind, Term, OnAnswer)
+          ),
+          error(Formal, Context),
+          ( report(Formal, Context),
+            call(OnAnswer, unreachable) )).
+
+report(unreachable(_), _) :-
+    !.
+report(Formal, Context) :-
+    print_message(error, error(Formal, Context)).
 
 %!  endpoint_call(+Address, +Kind, +Term, -Answer, +Timeout) is det.
 %

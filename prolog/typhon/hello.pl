@@ -94,7 +94,8 @@ record_format(90000, 90299).
 %   Read a line of at most 512 bytes before Deadline, a time stamp.
 %
 %   @error timeout_error(read, In)
-%   @error syntax_error(line) it is too long, or In ends in it.
+%   @error syntax_error(line) it is too long
+%   @error syntax_error(end_of_file)
 
 line_read(In, Deadline, Line) :-
     line_codes(In, Deadline, 512, Codes),
@@ -107,8 +108,9 @@ line_codes(In, Deadline, Room, Codes) :-
     get_byte(In, Byte),
     (   Byte == 0'\n
     ->  Codes = []
-    ;   Byte >= 0,
-        Room > 0
+    ;   Byte == -1
+    ->  syntax_error(end_of_file)
+    ;   Room > 0
     ->  Codes = [Byte|More],
         Room1 is Room-1,
         line_codes(In, Deadline, Room1, More)

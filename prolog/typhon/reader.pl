@@ -43,6 +43,7 @@ read_frames(Session, In) :-
     set_stream(In, timeout(Silence)),
     session_received(Key, Count),
     byte_count(In, Bytes),
+    nb_setval(typhon_reader, true),
     State = count(Count, Count, Bytes, 0),
     call_cleanup(
         read_all(Session, In, Max, State),
