@@ -215,7 +215,7 @@ next_message(Id, Next) :-
 %   effect(+Control, +Hole, +Goals, +Where, -Next) is det.
 
 effect(move(Host), Hole, Goals, Id-Here, Next) :-
-    host_resolve(Host, Dest),
+    destination(Host, Dest),
     (   Dest == local(Here)
     ->  Hole = true,
         Next = go(Goals)
@@ -234,7 +234,7 @@ effect(clone(Who), Hole, Goals, Id-Here, go(Goals)) :-
     ;   Hole = (Who=parent(CloneId))
     ).
 effect(clone(Host, Who), Hole, Goals, Id-Here, Next) :-
-    host_resolve(Host, Dest),
+    destination(Host, Dest),
     (   Dest == local(Here)
     ->  effect(clone(Who), Hole, Goals, Id-Here, Next)
     ;   clone_id(Id, Here, CloneId),
@@ -358,6 +358,13 @@ set_out(go, Dest, Hole, Goals, Id-Here) :-
         alarm_set(Stamp, Id, leave)
     ;   hop(Id, Dest, Hole, Goals, Now)
     ).
+
+%   A name that no host has is like one that the other process lacks.
+
+destination(Host, Dest) :-
+    catch(host_resolve(Host, Dest),
+          error(existence_error(host, _), _),
+          throw(error(move_refused(Host, unknown_host), _))).
 
 %   What cannot travel is found when the agent departs.
 
