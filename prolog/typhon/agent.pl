@@ -164,30 +164,33 @@ add_clauses([Clause|Clauses], Module) :-
 %!  agent_state(+Module, -State) is det.
 
 agent_state(Module, state(Empty, Clauses)) :-
-    findall(Head, '$c_current_predicate'(_, Module:Head), Heads),
-    state(Heads, Module, Empty, Clauses, []).
+    findall(Item, state_item(Module, Item), Items),
+    split(Items, Empty, Clauses).
 
-state([], _, [], Clauses, Clauses).
-state([Head|Heads], Module, Empty, Clauses0, Clauses) :-
-    (   '$get_predicate_attribute'(Module:Head, (dynamic), 1),
-        \+ '$get_predicate_attribute'(Module:Head, imported, _)
-    ->  findall(Clause, state_clause(Module, Head, Clause), Clauses0,
-                Clauses1),
-        (   Clauses0 == Clauses1
-        ->  functor(Head, Name, Arity),
-            Empty = [Name/Arity|Empty1]
-        ;   Empty = Empty1
+%   The internal forms of predicate_property/2, which is ten times slower.
+
+state_item(Module, Item) :-
+    '$c_current_predicate'(_, Module:Head),
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _),
+    (   '$get_predicate_attribute'(Module:Head, number_of_clauses, N),
+        N > 0
+    ->  clause(Module:Head, Body),
+        (   Body == true
+        ->  Item = Head
+        ;   Item = (Head:-Body)
         )
-    ;   Empty = Empty1,
-        Clauses0 = Clauses1
-    ),
-    state(Heads, Module, Empty1, Clauses1, Clauses).
+    ;   functor(Head, Name, Arity),
+        Item = (:- dynamic(Name/Arity))
+    ).
 
-state_clause(Module, Head, Clause) :-
-    clause(Module:Head, Body),
-    (   Body == true
-    ->  Clause = Head
-    ;   Clause = (Head:-Body)
+split([], [], []).
+split([Item|Items], Empty, Clauses) :-
+    (   Item = (:- dynamic(PI))
+    ->  Empty = [PI|Empty1],
+        split(Items, Empty1, Clauses)
+    ;   Clauses = [Item|Clauses1],
+        split(Items, Empty, Clauses1)
     ).
 
 %!  agent_remove(+Id) is semidet.

@@ -252,7 +252,7 @@ has_rule([Head|Heads], Agent) :-
 
 state_rule(Agent, Goal) :-
     '$c_current_predicate'(_, Agent:Goal),
-    predicate_property(Agent:Goal, number_of_rules(N)),
+    '$get_predicate_attribute'(Agent:Goal, number_of_rules, N),
     N > 0,
     predicate_property(Agent:Goal, dynamic),
     \+ predicate_property(Agent:Goal, imported_from(_)).
