@@ -1,0 +1,118 @@
+:- module(bench_common,
+          [ figure/3,                   % +Name, +Value, +Unit
+            ratio/5,                    % +Name, +A, +B, +Unit, +What
+            seconds/2,                  % :Goal, -Seconds
+            resident_bytes/1,           % -Bytes
+            threads/1,                  % -Count
+            with_peer/3,                % +Prefix, +Script, :Goal
+            peer_main/0,
+            pinned/2                    % +Placement, -Prefixes
+          ]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(readutil),
+              [read_line_to_string/2, read_file_to_string/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(apply), [exclude/3]).
+
+/** <module> What the benchmarks share
+
+A benchmark is a process that prints facts figure(Name, Value, Unit, Note)
+on its standard output; bench/run.pl starts it and makes the table.
+*/
+
+:- meta_predicate
+    seconds(0, -),
+    with_peer(+, +, 1).
+
+:- prolog_load_context(directory, Dir),
+   atom_concat(Dir, '/../prolog', Prolog),
+   asserta(user:file_search_path(library, Prolog)).
+
+:- multifile user:file_search_path/2.
+:- dynamic user:file_search_path/2.
+
+%!  figure(+Name, +Value, +Unit) is det.
+%!  ratio(+Name, +A, +B, +Unit, +What) is det.
+%
+%   Report a figure, or A/B with both sides.
+
+figure(Name, Value, Unit) :-
+    report(Name, Value, Unit, '').
+
+ratio(Name, A, B, Unit, What) :-
+    Ratio is A/B,
+    format(atom(Note), '~3g ~w against ~3g (~w)', [A, Unit, B, What]),
+    report(Name, Ratio, times, Note).
+
+report(Name, Value0, Unit, Note) :-
+    Value is float(Value0),
+    format('figure(~q, ~4g, ~q, ~q).~n', [Name, Value, Unit, Note]),
+    flush_output.
+
+%!  seconds(:Goal, -Seconds) is det.
+
+seconds(Goal, Seconds) :-
+    get_time(T0),
+    once(Goal),
+    get_time(T1),
+    Seconds is T1-T0.
+
+%!  resident_bytes(-Bytes) is det.
+%!  threads(-Count) is det.
+%
+%   Of this process, as the system sees it.
+
+resident_bytes(Bytes) :-
+    status('VmRSS:', KB),
+    Bytes is KB*1024.
+
+threads(Count) :-
+    status('Threads:', Count).
+
+status(Key, Number) :-
+    read_file_to_string('/proc/self/status', Text, []),
+    split_string(Text, "\n", "", Lines),
+    member(Line, Lines),
+    sub_string(Line, 0, _, _, Key),
+    !,
+    split_string(Line, "\t ", "\t ", Words0),
+    exclude(==(""), Words0, [_,Word|_]),
+    number_string(Number, Word).
+
+%!  with_peer(+Prefix, +Goals, :Goal) is det.
+%
+%   Call Goal(Address) while a second process runs a host of that address.
+%   Prefix is put before its command line.
+
+with_peer(Prefix, _, Goal) :-
+    module_property(bench_common, file(File)),
+    current_prolog_flag(executable, Swipl),
+    append(Prefix, [Swipl, '-q', '-g', 'bench_common:peer_main', '-t', halt,
+                    File],
+           [Program|Args]),
+    setup_call_cleanup(
+        process_create(path(Program), Args,
+                       [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
+        ( read_line_to_string(Out, Line),
+          atom_string(Address, Line),
+          call(Goal, Address)
+        ),
+        ( close(In), process_wait(Pid, _), close(Out) )).
+
+%   The peer: lives until its standard input ends.
+
+peer_main :-
+    use_module(library(typhon)),
+    typhon:host_start(peer),
+    typhon:host_property(peer, address(Address)),
+    format('~w~n', [Address]),
+    flush_output,
+    read_line_to_string(user_input, _).
+
+%!  pinned(?Placement, -Prefixes) is nondet.
+%
+%   Prefixes are those of the two processes.
+
+pinned(unpinned, [env]-[env]).
+pinned(same_cpu, [taskset, '-c', '0']-[taskset, '-c', '0']).
+pinned(one_each, [taskset, '-c', '0']-[taskset, '-c', '1']).

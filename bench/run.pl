@@ -1,0 +1,61 @@
+:- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(main), [argv_options/3]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(csv), [csv_write_file/2]).
+
+/*  The benchmarks, each in a process of its own: one line per figure, and
+all of them in OUT/bench.csv.
+
+    swipl bench/run.pl -- [--out DIR]
+
+Machines are noisy: compare figures of one run, placement by placement. */
+
+:- initialization(main, main).
+
+:- prolog_load_context(directory, Dir),
+   assertz(bench_directory(Dir)).
+
+:- dynamic bench_directory/1.
+
+main(Argv) :-
+    argv_options(Argv, _, Options),
+    option(out(Out), Options, 'out/bench'),
+    make_directory_path(Out),
+    current_prolog_flag(version, Version),
+    format('# SWI-Prolog ~d; name, value, unit, ratio of~n', [Version]),
+    findall(Row, ( job(Script, Prefix, Argument),
+                   figure_of(Script, Prefix, Argument, Row) ),
+            Rows),
+    directory_file_path(Out, 'bench.csv', File),
+    csv_write_file(File, [row(name,value,unit,ratio_of)|Rows]),
+    format('# ~w~n', [File]).
+
+job(hops, [env], unpinned).
+job(hops, [taskset, '-c', '0'], same_cpu).
+job(hops, [taskset, '-c', '0'], one_each).
+job(messages, [env], unpinned).
+job(hosts, [env], unpinned).
+job(population, [env], unpinned).
+
+figure_of(Script, Prefix, Argument, row(Name, Value, Unit, Note)) :-
+    bench_directory(Dir),
+    atomic_list_concat([Dir, /, Script, '.pl'], File),
+    current_prolog_flag(executable, Swipl),
+    append(Prefix, [Swipl, File, '--', Argument], [Program|Args]),
+    setup_call_cleanup(
+        process_create(path(Program), Args,
+                       [stdout(pipe(Out)), process(Pid)]),
+        read_figure(Out, figure(Name, Value, Unit, Note)),
+        ( close(Out, [force(true)]), process_wait(Pid, _) )),
+    format('~w~t~56|~t~w~12+ ~w~t~10+~w~n', [Name, Value, Unit, Note]).
+
+read_figure(Out, Figure) :-
+    repeat,
+    read(Out, Term),
+    (   Term == end_of_file
+    ->  !,
+        fail
+    ;   Figure = Term
+    ).
