@@ -18,11 +18,14 @@ stopping has to wait. So whatever stops something does it aside.
 
 %!  aside(:Goal) is semidet.
 %
-%   As once(Goal), in a thread of its own. No bindings come back.
+%   As once(Goal), in a thread of its own. No bindings come back. Who is
+%   interrupted while waiting leaves Goal to itself.
 
 aside(Goal) :-
     thread_create(Goal, Thread),
-    thread_join(Thread, Status),
+    catch(thread_join(Thread, Status), Interrupt,
+          ( thread_detach(Thread),
+            throw(Interrupt) )),
     (   Status = exception(Error)
     ->  throw(Error)
     ;   Status == true

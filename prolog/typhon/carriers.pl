@@ -9,7 +9,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(children,
               [ child_close/1, child_kill/1, child_release/1, child_start/5 ]).
-:- use_module(endpoint, [endpoint_call/5, endpoint_request/4]).
+:- use_module(endpoint, [endpoint_request/4]).
 :- use_module(orders, [order_do/2]).
 
 /** <module> The processes that carry a network
@@ -40,7 +40,8 @@ that starting and stopping wait on.
     wanted/1,                   % Network: its carriers are to stay
     child/3,                    % Network, P, Child
     up/4,                       % Network, P, local or Endpoint, Pid
-    down/3.                     % Network, P, Status
+    down/3,                     % Network, P, Status
+    waiting/3.                  % Network, P, Queue: for an answer of P
 
                 /*******************************
                 *           STARTING           *
@@ -68,9 +69,23 @@ carriers_start(Network, P, Machines, Interface) :-
              nth1(At, Machines, Machine),
              start(Network, I, Machine, Interface) )),
     setting(start_seconds, Seconds),
-    deadline(Seconds, Deadline),
-    wait_up(P, Network, Queue, Deadline),
+    setup_call_cleanup(
+        thread_create(alarm(Seconds, Queue), Alarm),
+        wait_up(P, Network, Queue),
+        ( thread_send_message(Alarm, done),
+          thread_join(Alarm, _)
+        )),
     assertz(wanted(Network)).
+
+%   Networks are often started in the setup of a cleanup, where a wait with
+%   a deadline of its own would not do: see typhon_aside.
+
+alarm(Seconds, Queue) :-
+    thread_self(Me),
+    (   thread_get_message(Me, done, [timeout(Seconds)])
+    ->  true
+    ;   thread_send_message(Queue, late)
+    ).
 
 start(Network, P, Machine, Interface) :-
     child_start(Network-P, Machine, Interface, typhon_carriers:event, Child),
@@ -86,21 +101,22 @@ event(down(Network-P, Status)) :-
     ;   true
     ),
     assertz(down(Network, P, Status)),
+    forall(waiting(Network, P, Queue), answered(Queue, P, down)),
     tell(Network, down(Status)).
 
 tell(Network, Event) :-
     queue(Network, Queue),
     thread_send_message(Queue, Event).
 
-wait_up(0, _, _, _) :-
+wait_up(0, _, _) :-
     !.
-wait_up(P, Network, Queue, Deadline) :-
-    (   next(Queue, Event, Deadline)
-    ->  (   Event = down(Status)
-        ->  throw(error(system_error(process_ended(Status)), _))
-        ;   P1 is P - 1,
-            wait_up(P1, Network, Queue, Deadline)
-        )
+wait_up(P, Network, Queue) :-
+    thread_get_message(Queue, Event),
+    (   Event == up
+    ->  P1 is P - 1,
+        wait_up(P1, Network, Queue)
+    ;   Event = down(Status)
+    ->  throw(error(system_error(process_ended(Status)), _))
     ;   throw(error(timeout_error(start, Network), _))
     ).
 
@@ -129,25 +145,74 @@ carrier(Network, P, Pid) :-
 %
 %   Carrier P does Order.
 %
-%   @error existence_error(carrier, Network-P) when it is not up, as
-%   endpoint_call/5, and what order_do/2 throws there
+%   @error existence_error(carrier, Network-P) when it is not up, or ends
+%   before it has answered; timeout_error(answer, Network-P); what order_do/2
+%   throws there
 
 carrier_order(Network, P, Order, Answer) :-
-    carrier(Network, P, _),
-    up(Network, P, Endpoint, _),
+    up(Network, P, local, _),
     !,
-    (   Endpoint == local
-    ->  order_do(Order, Answer)
-    ;   setting(order_seconds, Seconds),
-        endpoint_call(Endpoint, node, Order, answer(Result), Seconds),
-        result(Result, Answer)
-    ).
-carrier_order(Network, P, _, _) :-
-    existence_error(carrier, Network-P).
+    order_do(Order, Answer).
+carrier_order(Network, P, Order, Answer) :-
+    setting(order_seconds, Seconds),
+    ask([P], Network, Order, Seconds, [_-Result]),
+    result(Result, Network-P, Answer).
 
-result(done(Answer), Answer).
-result(raised(Formal, Text), _) :-
+result(answer(done(Answer)), _, Answer).
+result(answer(raised(Formal, Text)), _, _) :-
     throw(error(Formal, context(_, Text))).
+result(down, Carrier, _) :-
+    existence_error(carrier, Carrier).
+result(unreachable, Carrier, _) :-
+    existence_error(carrier, Carrier).
+result(lost, Carrier, _) :-
+    existence_error(carrier, Carrier).
+result(late, Carrier, _) :-
+    throw(error(timeout_error(answer, Carrier), _)).
+
+%   ask(+Ps, +Network, +Order, +Seconds, -Results): what children Ps answer,
+%   P-Result in order of arrival. Result is one of endpoint_request/4, `down`
+%   or `late`. The endpoint alone cannot tell a peer that is dead from one
+%   that will be back.
+
+ask(Ps, Network, Order, Seconds, Results) :-
+    deadline(Seconds, Deadline),
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( forall(member(P, Ps), send(Network, P, Order, Queue)),
+          answers(Ps, Queue, Deadline, Results)
+        ),
+        ( retractall(waiting(_, _, Queue)),
+          message_queue_destroy(Queue)
+        )).
+
+send(Network, P, Order, Queue) :-
+    assertz(waiting(Network, P, Queue)),
+    (   carrier(Network, P, _),
+        up(Network, P, Endpoint, _)
+    ->  endpoint_request(Endpoint, node, Order,
+                         typhon_carriers:answered(Queue, P))
+    ;   answered(Queue, P, down)
+    ).
+
+answered(Queue, P, Result) :-
+    catch(thread_send_message(Queue, P-Result),
+          error(existence_error(_, _), _),
+          true).                % nobody waits any more
+
+answers([], _, _, []) :-
+    !.
+answers(Ps, Queue, Deadline, [P-Result|Results]) :-
+    (   next(Queue, P0-Result0, Deadline)
+    ->  (   selectchk(P0, Ps, Rest)
+        ->  P-Result = P0-Result0,
+            answers(Rest, Queue, Deadline, Results)
+        ;   answers(Ps, Queue, Deadline, [P-Result|Results])
+        )
+    ;   Ps = [P|Rest],
+        Result = late,
+        answers(Rest, Queue, Deadline, Results)
+    ).
 
                 /*******************************
                 *           STOPPING           *
@@ -181,36 +246,10 @@ carriers_stop(Network) :-
 
 order_children(Network, Order) :-
     setting(typhon_children:stop_seconds, Seconds),
-    deadline(Seconds, Deadline),
-    findall(Endpoint,
-            ( carrier(Network, P, _),
-              up(Network, P, Endpoint, _),
-              Endpoint \== local ),
-            Endpoints),
-    message_queue_create(Queue),
-    forall(member(Endpoint, Endpoints),
-           endpoint_request(Endpoint, node, Order,
-                            typhon_carriers:answered(Queue, Endpoint))),
-    wait_answers(Endpoints, Queue, Order, Deadline),
-    message_queue_destroy(Queue).
-
-answered(Queue, Endpoint, Answer) :-
-    catch(thread_send_message(Queue, Endpoint-Answer),
-          error(existence_error(_, _), _),
-          true).                % too late: nobody waits any more
-
-wait_answers([], _, _, _) :-
-    !.
-wait_answers(Endpoints, Queue, Order, Deadline) :-
-    (   next(Queue, Endpoint-Answer, Deadline)
-    ->  (   Answer == answer(done(ok))
-        ->  true
-        ;   print_message(warning, typhon(carrier_order(Order, Answer)))
-        ),
-        selectchk(Endpoint, Endpoints, Rest),
-        wait_answers(Rest, Queue, Order, Deadline)
-    ;   print_message(warning, typhon(carrier_order(Order, late)))
-    ).
+    findall(P, ( child(Network, P, _), carrier(Network, P, _) ), Ps),
+    ask(Ps, Network, Order, Seconds, Results),
+    forall(( member(P-Result, Results), Result \== answer(done(ok)) ),
+           print_message(warning, typhon(carrier_order(P, Order, Result)))).
 
 %   The children kill themselves when they cannot end in order within
 %   stop_seconds, so those that are left after that are really stuck.
@@ -251,8 +290,8 @@ wait_down(Network, Queue, Deadline) :-
 
 prolog:message(typhon(carrier_down(Network, Pid, Status))) -->
     [ 'Process ~w of ~w ended: ~p'-[Pid, Network, Status] ].
-prolog:message(typhon(carrier_order(Order, Answer))) -->
-    [ 'A process of the network did not do ~q: ~p'-[Order, Answer] ].
+prolog:message(typhon(carrier_order(P, Order, Result))) -->
+    [ 'Process ~w of the network did not do ~q: ~p'-[P, Order, Result] ].
 prolog:message(typhon(carrier_killed(Network, P))) -->
     [ 'Process ~w of ~w does not end, and is killed'-[P, Network] ].
 prolog:message(typhon(carrier_stays(Network, P))) -->

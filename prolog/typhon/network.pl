@@ -254,9 +254,15 @@ start_dynamics(Network, plan(N, Edges, Seed), Clock, Options) :-
 change(Network, Change) :-
     Change =.. [Action, I, J],
     Order =.. [Action, [Half]],
-    forall(( half_link(Network, I, J, P, Half),
-             carrier(Network, P, _) ),
-           carrier_order(Network, P, Order, ok)).
+    forall(half_link(Network, I, J, P, Half),
+           alive_order(Network, P, Order, _)).
+
+alive_order(Network, P, Order, Answer) :-
+    carrier(Network, P, _),
+    catch(carrier_order(Network, P, Order, Answer),
+          error(existence_error(carrier, _), _), fail),
+    !.
+alive_order(_, _, _, none).
 
                 /*******************************
                 *             STOP             *
@@ -364,7 +370,8 @@ edge(Network, I, J) :-
     carrier(Network, P, _),
     findall(A-Name, host(Network, A, Name, P, _), Pairs),
     pairs_keys_values(Pairs, Numbers, Names),
-    carrier_order(Network, P, neighbours(Names), Lists),
+    alive_order(Network, P, neighbours(Names), Lists),
+    Lists \== none,
     nth1(At, Numbers, A),
     nth1(At, Lists, Addresses),
     member(Address, Addresses),
