@@ -185,12 +185,20 @@ agent_property(Agent, Property) :-
     !,
     agent(Agent, _, _, _, _),
     agent_ask(Agent, properties, 10, answer(Properties)),
-    member(Property, Properties).
+    one_of(Property, Properties).
 agent_property(Agent, Property) :-
     must_be(atom, Agent),
     agent_home(Agent, _),
     agent_ask(Agent, properties, 10, answer(Properties)),
-    member(Property, Properties).
+    one_of(Property, Properties).
+
+%   There is one property of each name: people are not asked for more.
+
+one_of(Property, Properties) :-
+    (   var(Property)
+    ->  member(Property, Properties)
+    ;   memberchk(Property, Properties)
+    ).
 
                 /*******************************
                 *       MESSAGES, ORDERS       *
