@@ -56,6 +56,10 @@ opt_help(limit,     "Real seconds to wait for the agents of a run [90]").
 opt_help(out,       "Directory for log, tables and pictures \c
 [out/synchronisation]").
 
+opt_meta(topology, 'TOPOLOGY').
+opt_meta(hop_time, 'MIN-MAX').
+opt_meta(out,      'DIRECTORY').
+
 defaults([ topology(grid(6,10)), processes(4), agents(10), tasks(6),
            delta(0.5), hop_time(0.3-0.6), task_time(1), clock(10), seed(1),
            runs(1), limit(90), out('out/synchronisation')
