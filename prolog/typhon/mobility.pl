@@ -24,7 +24,7 @@ A static predicate of an agent program is
 A mobile goal under a construct that must run it to its end, such as
 findall/3, forall/2 or \+, is a problem.
 
-*Threading*: pure.
+*Threading*: pure, but for what is remembered of library predicates.
 */
 
 %!  mobility(+Clauses, -Kinds, -Problems) is det.
@@ -34,21 +34,24 @@ findall/3, forall/2 or \+, is a problem.
 %   @arg Problems is a list of problem(Formal, Location, Advice)
 
 mobility(Clauses, Kinds, Problems) :-
+    maplist(clause_calls, Clauses, Located),
     empty_assoc(Empty),
-    foldl(clause_calls, Clauses, Empty, Calls),
+    foldl(add_calls, Located, Empty, Calls),
     assoc_to_keys(Calls, Own),
     reach(Own, Calls, [], Mobile),
     maplist(kind(Calls, Mobile), Own, Kinds),
-    findall(Problem, misplaced(Clauses, Mobile, Problem), Problems).
+    findall(Problem, misplaced(Located, Mobile, Problem), Problems).
 
-clause_calls((Head:-Body)-_, Calls0, Calls) :-
+clause_calls((Head:-Body)-Location, calls(Name/Arity, Calls, Location)) :-
     functor(Head, Name, Arity),
-    body_calls(Body, New),
-    (   get_assoc(Name/Arity, Calls0, Old)
+    body_calls(Body, Calls).
+
+add_calls(calls(PI, New, _), Calls0, Calls) :-
+    (   get_assoc(PI, Calls0, Old)
     ->  ord_union(Old, New, All)
     ;   All = New
     ),
-    put_assoc(Name/Arity, Calls0, All, Calls).
+    put_assoc(PI, Calls0, All, Calls).
 
 %   reach(+Own, +Calls, +Mobile0, -Mobile): the least fixed point.
 
@@ -123,16 +126,15 @@ next_call(List, unknown) :-
 
 built_in(Name/Arity) :-
     functor(Head, Name, Arity),
-    (   predicate_property(system:Head, visible)
-    ;   predicate_property(typhon_vocabulary:Head, defined)
-    ),
-    !.
+    (   '$get_predicate_attribute'(typhon_vocabulary:Head, defined, 1)
+    ->  true
+    ;   predicate_property(system:Head, visible)
+    ).
 
-misplaced(Clauses, Mobile,
+misplaced(Located, Mobile,
           problem(permission_error(call, control_predicate, PI), Location,
                   inside(Context))) :-
-    member((_:-Body)-Location, Clauses),
-    body_calls(Body, Calls),
+    member(calls(_, Calls, Location), Located),
     member(call(PI, inside(Context)), Calls),
     is_mobile(PI, Mobile).
 
@@ -218,14 +220,32 @@ extended(Closure, Extra, Mode, Call) :-
     Goal =.. List,
     body_call(Goal, Mode, Call).
 
-meta_argument(Goal, Name/Arity, Closure, Extra) :-
-    Arity > 0,
-    functor(General, Name, Arity),
-    predicate_property(typhon_vocabulary:General, meta_predicate(Meta)),
+meta_argument(Goal, PI, Closure, Extra) :-
+    meta(PI, Meta),
     arg(I, Meta, Spec),
     closure_arity(Spec, N),
     arg(I, Goal, Closure),
     length(Extra, N).
+
+%   meta(+PI, -Meta) is semidet: known for good, and slow to find out.
+
+:- dynamic meta_known/2.
+
+meta(PI, Meta) :-
+    (   meta_known(PI, Meta0)
+    ->  true
+    ;   find_meta(PI, Meta0),
+        assertz(meta_known(PI, Meta0))
+    ),
+    Meta0 \== none,
+    Meta = Meta0.
+
+find_meta(Name/Arity, Meta) :-
+    functor(General, Name, Arity),
+    (   predicate_property(typhon_vocabulary:General, meta_predicate(Meta0))
+    ->  Meta = Meta0
+    ;   Meta = none
+    ).
 
 closure_arity(N, N) :- integer(N).
 closure_arity(^, 0).
