@@ -6,15 +6,12 @@
 :- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2 ]).
-:- use_module(library(lists), [append/3, member/2, nth1/3]).
+:- use_module(library(lists), [append/3, nth1/3]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
+:- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(random), [random_between/3]).
 :- use_module(aside, [aside/1]).
-:- use_module(carriers,
-              [ carrier/3, carrier_order/4, carriers_start/4,
-                carriers_stop/1
-              ]).
+:- use_module(carriers, [carrier/3, carriers_start/4, carriers_stop/1]).
 :- use_module(dynamics,
               [ dynamics_model/2, dynamics_start/4, dynamics_state/5,
                 dynamics_stop/1
@@ -22,6 +19,10 @@
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
 :- use_module(process, [process_acquire/2, process_release/1]).
 :- use_module(topology, [topology_edges/4, topology_names/2]).
+:- use_module(wiring,
+              [ wire_change/2, wire_forget/1, wire_hosts/3, wire_links/3,
+                wire_stop_own/1, wired_edges/2, wired_hosts/2
+              ]).
 
 /** <module> Networks of hosts
 
@@ -45,7 +46,6 @@ none of its own.
 :- dynamic
     network/2,                  % Network, Options
     running/1,                  % Network
-    host/5,                     % Network, I, Name, P, Address
     part/2.                     % Network, log(Address, File),
                                 % or dynamics(Dynamics)
 
@@ -151,7 +151,7 @@ build(Network, plan(N, Names, Edges, Seed, Options)) :-
     Clock = clock(Epoch, Rate),
     start_log(Network, Clock, Options),
     start_hosts(Network, Names, P, [Clock, seed(Seed)], Options),
-    start_links(Network, P, Edges),
+    wire_links(Network, P, Edges),
     start_dynamics(Network, plan(N, Edges, Seed), Clock, Options),
     assertz(running(Network)).
 
@@ -186,21 +186,12 @@ start_log(Network, clock(Epoch, Rate), Options) :-
 
 start_hosts(Network, Names, P, Common, Options) :-
     length(Names, N),
-    findall(At-(I-(Name-HostOptions)),
+    findall(host(At, I, Name, HostOptions),
             ( nth1(I, Names, Name),
               At is (I - 1) * P // N + 1,
               host_options(Network, I, Common, Options, HostOptions) ),
-            Specs),
-    forall(between(1, P, At),
-           ( findall(Spec, member(At-Spec, Specs), Mine),
-             start_hosts_of(Network, At, Mine) )).
-
-start_hosts_of(Network, P, Numbered) :-
-    findall(Spec, member(_-Spec, Numbered), Specs),
-    carrier_order(Network, P, hosts(Specs), Addresses),
-    forall(( nth1(At, Numbered, I-(Name-_)),
-             nth1(At, Addresses, Address) ),
-           assertz(host(Network, I, Name, P, Address))).
+            Hosts),
+    wire_hosts(Network, P, Hosts).
 
 %   What hosts(Own) says comes before what the network says.
 
@@ -221,48 +212,14 @@ overridden(Own, Option) :-
     functor(General, Name, Arity),
     memberchk(General, Own).
 
-                /*******************************
-                *            LINKS             *
-                *******************************/
-
-%   Each process hears in one order of all the ends of links in it.
-
-start_links(Network, P, Edges) :-
-    findall(At-Half,
-            ( member(A-B, Edges), half_link(Network, A, B, At, Half) ),
-            Halves),
-    forall(between(1, P, At),
-           ( findall(Half, member(At-Half, Halves), Mine),
-             carrier_order(Network, At, link(Mine), ok) )).
-
-half_link(Network, A, B, P, Name-Address) :-
-    ( I-J = A-B ; I-J = B-A ),
-    host(Network, I, Name, P, _),
-    host(Network, J, _, _, Address).
-
 start_dynamics(Network, plan(N, Edges, Seed), Clock, Options) :-
     (   option(dynamic(Spec), Options)
     ->  dynamics_model(Spec, Model),
         dynamics_state(Model, N, Edges, Seed, State),
-        dynamics_start(State, Clock, typhon_network:change(Network), Dynamics),
+        dynamics_start(State, Clock, wire_change(Network), Dynamics),
         assertz(part(Network, dynamics(Dynamics)))
     ;   true
     ).
-
-%   A process that is down was reported, and is left alone.
-
-change(Network, Change) :-
-    Change =.. [Action, I, J],
-    Order =.. [Action, [Half]],
-    forall(half_link(Network, I, J, P, Half),
-           alive_order(Network, P, Order, _)).
-
-alive_order(Network, P, Order, Answer) :-
-    carrier(Network, P, _),
-    catch(carrier_order(Network, P, Order, Answer),
-          error(existence_error(carrier, _), _), fail),
-    !.
-alive_order(_, _, _, none).
 
                 /*******************************
                 *             STOP             *
@@ -286,24 +243,14 @@ network_stop(Network) :-
 end(Network) :-
     forall(retract(part(Network, dynamics(Dynamics))),
            step(dynamics_stop(Dynamics))),
-    step(stop_own_hosts(Network)),
+    step(wire_stop_own(Network)),
     step(carriers_stop(Network)),
     forall(retract(part(Network, log(Address, _))),
            step(log_server_stop(Address))),
     step(process_release(network(Network))),
-    retractall(host(Network, _, _, _, _)),
+    wire_forget(Network),
     retractall(part(Network, _)),
     retractall(network(Network, _)).
-
-%   The hosts of children end with them.
-
-stop_own_hosts(Network) :-
-    current_prolog_flag(pid, Pid),
-    (   carrier(Network, P, Pid)
-    ->  findall(Name, host(Network, _, Name, P, _), Names),
-        carrier_order(Network, P, stop(Names), ok)
-    ;   true
-    ).
 
 %   What goes wrong in one step must not leave the others undone.
 
@@ -345,17 +292,9 @@ network_property(Network, Property) :-
     property(Property, Network).
 
 property(hosts(Addresses), Network) :-
-    findall(I-Address, host(Network, I, _, _, Address), Pairs),
-    keysort(Pairs, Sorted),
-    pairs_values(Sorted, Addresses).
+    wired_hosts(Network, Addresses).
 property(edges(Edges), Network) :-
-    findall(I-J, edge(Network, I, J), Numbered0),
-    sort(Numbered0, Numbered),
-    findall(A-B,
-            ( member(I-J, Numbered),
-              host(Network, I, _, _, A),
-              host(Network, J, _, _, B) ),
-            Edges).
+    wired_edges(Network, Edges).
 property(processes(Pids), Network) :-
     findall(P-Pid, carrier(Network, P, Pid), Pairs),
     keysort(Pairs, Sorted),
@@ -365,19 +304,6 @@ property(log(File), Network) :-
 property(seed(Seed), Network) :-
     network(Network, Options),
     option(seed(Seed), Options).
-
-edge(Network, I, J) :-
-    carrier(Network, P, _),
-    findall(A-Name, host(Network, A, Name, P, _), Pairs),
-    pairs_keys_values(Pairs, Numbers, Names),
-    alive_order(Network, P, neighbours(Names), Lists),
-    Lists \== none,
-    nth1(At, Numbers, A),
-    nth1(At, Lists, Addresses),
-    member(Address, Addresses),
-    host(Network, B, _, _, Address),
-    I is min(A, B),
-    J is max(A, B).
 
                 /*******************************
                 *           MESSAGES           *

@@ -18,9 +18,10 @@
 A migration strategy chooses one of the neighbours of the host an agent
 stands on.
 
-| random                   | any neighbour, each as likely as any other |
-| conscientious            | one never visited, drawn at random; when there is none, the one whose last visit is longest ago (Minar, Kramer and Maes) |
-| epsilon_conscientious(E) | random with probability E, else conscientious |
+  - random: any neighbour, each as likely as any other
+  - conscientious: one never visited, drawn at random; when there is none,
+    the one whose last visit is longest ago (Minar, Kramer and Maes)
+  - epsilon_conscientious(E): random with probability E, else conscientious
 
 The agent's memory is a small ground term that travels with it: the hosts
 it visited, each once, the most recent first, and the state of its own

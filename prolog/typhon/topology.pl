@@ -19,13 +19,15 @@
 A topology is a term. Its hosts are numbered from 1, its edges are pairs
 `I-J` with I < J, sorted, each once.
 
-| star_bus(Arms, Len) | a chain of Arms hubs, each with Len-1 leaves: Arms*Len hosts, hub first in its star (thesis, Figure 5.4 a) |
-| ring(N)             | each host between two others |
-| tree(N)             | binary: the parent of host I is I//2 |
-| grid(Rows, Cols)    | row after row, each host linked to the next in its row and in its column |
-| mesh(N)             | every host to every other |
-| random(N, P)        | Erdos-Renyi G(N,P), and connected: see below |
-| edges(List)         | as listed: pairs A-B of positive integers or atoms |
+  - star_bus(Arms, Len): a chain of Arms hubs, each with Len-1 leaves, the
+    hub first in its star: Arms*Len hosts (thesis, Figure 5.4 a)
+  - ring(N): each host between two others
+  - tree(N): binary, the parent of host I is I//2
+  - grid(Rows, Cols): row after row, each host linked to the next in its
+    row and in its column
+  - mesh(N): every host to every other
+  - random(N, P): Erdos-Renyi G(N,P), and connected: see below
+  - edges(List): as listed, pairs A-B of positive integers or atoms
 
 In random(N, P) every pair of hosts is linked with probability P. Where
 that leaves the network in pieces, each piece is tied to the one before
