@@ -127,7 +127,11 @@ no_leaks(Goal) :-
     ;   throw(error(leaked(Things), _))
     ).
 
+%   What nobody refers to any more is there until it is collected.
+
 leaked(Before, Things) :-
+    garbage_collect_clauses,
+    garbage_collect_atoms,
     footprint(After),
     ord_subtract(After, Before, Things).
 

@@ -19,7 +19,16 @@ the wire, of networks and of the log keep the texts of their own messages.
 
 :- multifile
     prolog:error_message//1,
-    prolog:message//1.
+    prolog:message//1,
+    prolog:message_location//1.
+
+%   Where a program is faulty, as editors understand it.
+
+prolog:message_location(context(File:Line, _)) -->
+    { atom(File),
+      integer(Line)
+    },
+    [ '~w:~d: '-[File, Line] ].
 
 %   More names than these are not looked through for a near one.
 

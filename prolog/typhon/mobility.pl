@@ -40,7 +40,9 @@ mobility(Clauses, Kinds, Problems) :-
     assoc_to_keys(Calls, Own),
     reach(Own, Calls, [], Mobile),
     maplist(kind(Calls, Mobile), Own, Kinds),
-    findall(Problem, misplaced(Located, Mobile, Problem), Problems).
+    findall(Problem, misplaced(Located, Mobile, Problem), Problems1),
+    findall(Problem, changed(Located, Own, Problem), Problems2),
+    append(Problems1, Problems2, Problems).
 
 clause_calls((Head:-Body)-Location, calls(Name/Arity, Calls, Location)) :-
     functor(Head, Name, Arity),
@@ -138,6 +140,15 @@ misplaced(Located, Mobile,
     member(call(PI, inside(Context)), Calls),
     is_mobile(PI, Mobile).
 
+%   An agent that changed a predicate of its program would only hide it.
+
+changed(Located, Own,
+        problem(permission_error(modify, static_procedure, PI), Location,
+                undeclared(PI))) :-
+    member(calls(_, Calls, Location), Located),
+    member(changes(PI), Calls),
+    memberchk(PI, Own).
+
                 /*******************************
                 *         WALK A BODY          *
                 *******************************/
@@ -146,7 +157,8 @@ misplaced(Located, Mobile,
 %
 %   Calls is an ordered set of call(PI, Mode) and unknown(Mode), where Mode
 %   is `run` for goals that the machine may unfold and inside(PI) for
-%   goals that the meta predicate PI runs to their end.
+%   goals that the meta predicate PI runs to their end, and of changes(PI)
+%   for assert and retract.
 
 body_calls(Body, Calls) :-
     findall(Call, body_call(Body, run, Call), List),
@@ -175,6 +187,7 @@ body_call(Goal, Mode, Call) :-
     (   Call = call(Name/Arity, Mode)
     ;   adds_rules(Goal),
         Call = unknown(Mode)
+    ;   changes(Goal, Call)
     ;   meta_argument(Goal, Name/Arity, Closure, Extra),
         extended(Closure, Extra, inside(Name/Arity), Call)
     ).
@@ -188,6 +201,16 @@ adds_rules(attach(_)).
 
 may_be_rule(Clause) :- var(Clause), !.
 may_be_rule((_:-_)).
+
+changes(Goal, changes(Name/Arity)) :-
+    compound(Goal),
+    compound_name_arguments(Goal, Change, [Clause]),
+    memberchk(Change, [assert,asserta,assertz,retract,retractall]),
+    nonvar(Clause),
+    ( Clause = (Head:-_) -> true ; Head = Clause ),
+    callable(Head),
+    Head \= _:_,
+    functor(Head, Name, Arity).
 
 %   Constructs the machine knows.
 

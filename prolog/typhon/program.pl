@@ -3,16 +3,22 @@
             payload_load/2,             % +Spec, -Payload
             program_problems/2,         % +Spec, -Problems
             program_hash/2,             % +Program, -Hash
-            clause_parts/3,             % +Clause, -Head, -Body
             agent_check/1               % +Spec
           ]).
-:- use_module(library(apply), [exclude/3, maplist/3, partition/4]).
-:- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(apply), [maplist/3, partition/4]).
+:- use_module(library(lists),
+              [ append/2, append/3, member/2, memberchk/2, nth1/3,
+                selectchk/3 ]).
+:- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(sha), [sha_hash/3, hash_atom/2]).
-:- use_module(source, [source_terms/2]).
+:- use_module(faults,
+              [ directive_problem/2, clause_problem/2, entry_problem/3,
+                option_problem/2, advice_text/2 ]).
+:- use_module(source,
+              [ source_terms/2, declaration/4, library_import/2 ]).
+:- reexport(source, [clause_parts/3]).
 :- use_module(mobility, [mobility/3, body_calls/2]).
-:- use_module(machine, [control/1]).
 
 /** <module> Agent programs and payloads
 
@@ -92,10 +98,11 @@ program(Located, program(Name, State, Libraries, Static), Initial,
     findall(P, directive_problem(Directives, P), Problems1),
     findall(P, clause_problem(Clauses0, P), Problems2),
     findall(P, entry_problem(Located, Clauses1, P), Problems3),
-    findall(P, state_problem(Clauses1, State, Located, P), Problems4),
+    findall(P, option_problem(Located, P), Problems4),
     append([Problems0, Problems1, Problems2, Problems3, Problems4],
            Problems5),
-    moves(Problems5, Static0, Problems),
+    moves(Problems5, Static0, Problems6),
+    in_file_order(Problems6, Located, Problems),
     maplist(located_clause, Static0, Static),
     maplist(located_clause, Initial0, Initial).
 
@@ -103,6 +110,21 @@ moves([], Static, Problems) :-
     !,
     mobility(Static, _, Problems).
 moves(Problems, _, Problems).
+
+%   A program whose clauses are faulty is not looked at any further.
+%   in_file_order(+Problems0, +Located, -Problems)
+
+in_file_order(Problems0, Located, Problems) :-
+    maplist(position(Located), Problems0, Keyed0),
+    keysort(Keyed0, Keyed),
+    pairs_values(Keyed, Problems).
+
+position(Located, Problem, N-Problem) :-
+    Problem = problem(_, Location, _),
+    (   nth1(N0, Located, _-Location)
+    ->  N = N0
+    ;   N = 0
+    ).
 
                 /*******************************
                 *           THE PARTS          *
@@ -112,26 +134,18 @@ declared(Kind, Located, Name, Options, Rest, []) :-
     member(Term-_, Located),
     declaration(Kind, Term, Name, Options),
     !,
-    exclude(is_declaration(Kind), Located, Rest).
+    selectchk(Term-_, Located, Rest).
 declared(Kind, Located, unknown, [], Located,
          [problem(existence_error(declaration, Kind), Location,
                   declare(Kind))]) :-
-    (   Located = [_-Location|_]
-    ->  true
+    (   member((:- Directive)-Location0, Located),
+        compound(Directive),
+        compound_name_arity(Directive, Kind, _)
+    ->  Location = Location0            % meant to be one
+    ;   Located = [_-Location0|_]
+    ->  Location = Location0
     ;   Location = clause(0)
     ).
-
-declaration(Kind, (:- Directive), Name, Options) :-
-    callable(Directive),
-    (   Directive =.. [Kind, Name, Options],
-        is_list(Options)
-    ;   Directive =.. [Kind, Name],
-        Options = []
-    ),
-    atom(Name).
-
-is_declaration(Kind, Term-_) :-
-    declaration(Kind, Term, _, _).
 
 is_directive(Term-_) :-
     nonvar(Term),
@@ -147,15 +161,6 @@ located_clause(Term-_, Clause) :-
     ;   clause_parts(Term, Clause, _)
     ).
 
-%!  clause_parts(+Clause, -Head, -Body) is det.
-
-clause_parts(Var, Var, true) :-
-    var(Var),
-    !.
-clause_parts((Head:-Body), Head, Body) :-
-    !.
-clause_parts(Head, Head, true).
-
 clause_indicator(Clauses, Name/Arity) :-
     member(Clause, Clauses),
     clause_parts(Clause, Head, _),
@@ -168,8 +173,7 @@ in_state(State, (Head:-_)-_) :-
 
 state_indicator(Options, _, PI) :-
     member(state(PIs), Options),
-    is_list(PIs),
-    member(PI, PIs).
+    indicator_in(PIs, PI).
 state_indicator(_, Directives, PI) :-
     member((:- dynamic(PIs))-_, Directives),
     indicator_in(PIs, PI).
@@ -177,88 +181,11 @@ state_indicator(_, Directives, PI) :-
 indicator_in(Var, _) :- var(Var), !, fail.
 indicator_in([H|T], PI) :- !, member(X, [H|T]), indicator_in(X, PI).
 indicator_in((A,B), PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
-indicator_in(Name/Arity, Name/Arity).
+indicator_in(Name/Arity, Name/Arity) :- atom(Name), integer(Arity).
 
 library_directive(Directives, Library) :-
     member((:- Directive)-_, Directives),
     library_import(Directive, Library).
-
-library_import(use_module(library(L)), library(L)-all) :-
-    ground(L).
-library_import(use_module(library(L), Imports), library(L)-Imports) :-
-    ground(L-Imports).
-
-                /*******************************
-                *           PROBLEMS           *
-                *******************************/
-
-directive_problem(Directives,
-                  problem(domain_error(directive, Directive), Location,
-                          directive)) :-
-    member((:- Directive)-Location, Directives),
-    \+ allowed_directive(Directive).
-
-allowed_directive(dynamic(PIs)) :- ground(PIs).
-allowed_directive(discontiguous(_)).
-allowed_directive(Directive) :- library_import(Directive, _).
-
-clause_problem(Clauses, problem(Formal, Location, Advice)) :-
-    member(Term-Location, Clauses),
-    clause_parts(Term, Head, Body),
-    faulty_clause(Head, Body, Formal, Advice).
-
-faulty_clause(Head, _, instantiation_error, head) :-
-    var(Head),
-    !.
-faulty_clause(Head, _, type_error(callable, Head), head) :-
-    \+ callable(Head),
-    !.
-faulty_clause(Head, _, domain_error(clause_head, Head), qualified) :-
-    Head = _:_,
-    !.
-faulty_clause(Head, _, permission_error(modify, control_predicate, PI),
-              redefined) :-
-    control(Head),
-    !,
-    functor(Head, Name, Arity),
-    PI = Name/Arity.
-faulty_clause(Head, _, permission_error(modify, static_procedure, PI),
-              redefined) :-
-    predicate_property(system:Head, iso),
-    !,
-    functor(Head, Name, Arity),
-    PI = Name/Arity.
-faulty_clause(_, Body, type_error(callable, Body), body) :-
-    \+ is_body(Body).
-
-is_body(Body) :- var(Body), !.
-is_body((A,B)) :- !, is_body(A), is_body(B).
-is_body((A;B)) :- !, is_body(A), is_body(B).
-is_body((A->B)) :- !, is_body(A), is_body(B).
-is_body((A*->B)) :- !, is_body(A), is_body(B).
-is_body(Body) :- callable(Body).
-
-entry_problem(Located, Clauses,
-              problem(existence_error(procedure, main/0), Location,
-                      entry)) :-
-    \+ ( member((Head:-_)-_, Clauses),
-         nonvar(Head),
-         ( Head = main ; Head = on_message(_, _) )
-       ),
-    Located = [_-Location|_].
-
-state_problem(_, _, Located,
-              problem(type_error(predicate_indicator, PI), Location,
-                      state)) :-
-    member(Term-Location, Located),
-    declaration(agent, Term, _, Options),
-    member(Option, Options),
-    (   Option = state(PIs)
-    ->  is_list(PIs),
-        member(PI, PIs),
-        \+ ( nonvar(PI), PI = N/A, atom(N), integer(A), A >= 0 )
-    ;   PI = Option
-    ).
 
                 /*******************************
                 *             HASH             *
@@ -338,33 +265,3 @@ offers(Library, PI) :-
     module_property(Module, file(File)),
     module_property(Module, exports(Exports)),
     memberchk(PI, Exports).
-
-advice_text(Advice, Text) :-
-    phrase(advice(Advice), Parts),
-    atomic_list_concat(Parts, Text).
-
-advice(declare(agent)) -->
-    ['begin the file with :- agent(Name, [state([Name/Arity, ...])]).'].
-advice(declare(payload)) -->
-    ['begin the file with :- payload(Name, [provides([Name/Arity, ...])]).'].
-advice(directive) -->
-    ['nothing runs at load time; allowed are agent/1,2, payload/1,2, \c
-      dynamic/1, discontiguous/1, include/1 and use_module(library(_))'].
-advice(head) -->
-    ['a clause head is an atom or a compound term'].
-advice(body) -->
-    ['a clause body is built of callable terms'].
-advice(qualified) -->
-    ['an agent has no modules: write the head without one'].
-advice(redefined) -->
-    ['the name is taken: rename the predicate'].
-advice(entry) -->
-    ['define main/0, on_message/2 or both'].
-advice(state) -->
-    ['write agent(Name, [state([Name/Arity, ...])])'].
-advice(offered) -->
-    ['a place or a payload must offer it'].
-advice(inside(Name/Arity)) -->
-    { term_to_atom(Name/Arity, Atom) },
-    ['an agent cannot stop inside ', Atom,
-     ': write a recursive predicate instead'].

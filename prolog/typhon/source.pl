@@ -1,7 +1,10 @@
 :- module(typhon_source,
-          [ source_terms/2              % +Spec, -Located
+          [ source_terms/2,             % +Spec, -Located
+            declaration/4,              % +Kind, +Term, -Name, -Options
+            library_import/2,           % +Directive, -Import
+            clause_parts/3              % +Clause, -Head, -Body
           ]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, memberchk/2]).
 :- use_module(library(error), [must_be/2, domain_error/2]).
 :- use_module(library(readutil), []).
 
@@ -11,7 +14,8 @@ Agent programs and payloads are read here, from a file or from a list of
 terms, into pairs Term-Location.  A location is `File:Line`, or clause(N)
 for the N-th term of a list.  Reading never runs anything that stands in
 the file: directives are terms like the others, and only `:- include(F)`
-is followed.  Grammar rules are translated.
+is followed.  Grammar rules are translated.  Operators that the file
+imports from libraries are known from there on.
 
 *Threading*: any thread.
 */
@@ -38,26 +42,27 @@ source_terms(Spec, Located) :-
     must_be(callable, Spec),
     absolute_file_name(Spec, File,
                        [ extensions(['',pl]), access(read) ]),
-    file_terms(File, Located).
+    setup_call_cleanup(
+        scratch_module(Module),
+        file_terms(File, [], Module, Located),
+        '$destroy_module'(Module)).
 
 number_terms([], _, []).
 number_terms([Term0|Terms0], N, [Term-clause(N)|Terms]) :-
-    grammar_rule(Term0, Term),
+    grammar_rule(Term0, Term, clause(N)),
     N1 is N+1,
     number_terms(Terms0, N1, Terms).
 
-file_terms(File, Located) :-
+%   file_terms(+File, +Includers, +Module, -Located)
+
+file_terms(File, Includers, Module, Located) :-
     setup_call_cleanup(
-        ( open(File, read, In, [encoding(utf8)]),
-          scratch_module(Module)
-        ),
-        read_terms(In, File, Module, Located),
-        ( close(In),
-          '$destroy_module'(Module)
-        )).
+        open(File, read, In, [encoding(utf8)]),
+        read_terms(In, [File|Includers], Module, Located),
+        close(In)).
 
 %   Operators that the file imports from libraries live in a module of
-%   their own while the file is read.
+%   their own while the file, and what it includes, is read.
 
 scratch_module(Module) :-
     flag(typhon_scratch_module, N, N+1),
@@ -65,9 +70,13 @@ scratch_module(Module) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(system)).
 
-read_terms(In, File, Module, Located) :-
+%   read_terms(+In, +Files, +Module, -Located): Files are the file that is
+%   read and those that include it.
+
+read_terms(In, Files, Module, Located) :-
+    Files = [File|_],
     read_one(In, File, Module, Term, Line),
-    continue(Term, Line, In, File, Module, Located).
+    continue(Term, Line, In, Files, Module, Located).
 
 read_one(In, File, Module, Term, Line) :-
     catch(read_term(In, Term,
@@ -88,38 +97,86 @@ syntax_error(What, Where, _) :-
 continue(Term, _, _, _, _, []) :-
     Term == end_of_file,
     !.
-continue((:- include(Spec)), Line, In, File, Module, Located) :-
+continue(Term, Line, In, Files, Module, Located) :-
+    includes(Term, Spec),
     !,
-    include_file(Spec, File, Line, Included),
+    include_file(Spec, Files, Line, Module, Included),
     append(Included, Rest, Located),
-    read_terms(In, File, Module, Rest).
-continue(Term0, Line, In, File, Module, [Term-(File:Line)|Rest]) :-
-    grammar_rule(Term0, Term),
+    read_terms(In, Files, Module, Rest).
+continue(Term0, Line, In, Files, Module, [Term-(File:Line)|Rest]) :-
+    Files = [File|_],
+    grammar_rule(Term0, Term, File:Line),
     import_operators(Term, Module),
-    read_terms(In, File, Module, Rest).
+    read_terms(In, Files, Module, Rest).
 
-include_file(Spec, File, Line, Included) :-
+includes(Term, Spec) :-
+    nonvar(Term),
+    Term = (:- Directive),
+    nonvar(Directive),
+    Directive = include(Spec).
+
+include_file(Spec, Files, Line, Module, Included) :-
+    Files = [File|_],
     file_directory_name(File, Dir),
     catch(absolute_file_name(Spec, Path,
                              [ extensions(['',pl]), access(read),
                                relative_to(Dir) ]),
           error(Formal, _),
           throw(error(Formal, context(File:Line, 'cannot include')))),
-    (   Path == File
+    (   memberchk(Path, Files)
     ->  throw(error(permission_error(include, source_sink, Spec),
                     context(File:Line, 'a file cannot include itself')))
-    ;   file_terms(Path, Included)
+    ;   file_terms(Path, Files, Module, Included)
     ).
 
-grammar_rule(Term0, Term) :-
+grammar_rule(Term0, Term, Location) :-
     (   nonvar(Term0),
         Term0 = (_-->_)
-    ->  dcg_translate_rule(Term0, Term)
+    ->  catch(dcg_translate_rule(Term0, Term), error(Formal, _),
+              throw(error(Formal,
+                          context(Location, 'not a grammar rule'))))
     ;   Term = Term0
     ).
 
-import_operators((:- use_module(library(Library))), Module) :-
-    ground(Library),
+%   A library that is not there is reported by typhon_program.
+
+import_operators((:- Directive), Module) :-
+    library_import(Directive, _),
     !,
-    catch(Module:use_module(library(Library)), error(_, _), true).
+    catch(Module:Directive, error(_, _), true).
 import_operators(_, _).
+
+                /*******************************
+                *             FORMS            *
+                *******************************/
+
+%!  declaration(+Kind, +Term, -Name, -Options) is semidet.
+%
+%   Term declares an agent or a payload.
+
+declaration(Kind, (:- Directive), Name, Options) :-
+    callable(Directive),
+    (   Directive =.. [Kind, Name, Options],
+        is_list(Options)
+    ;   Directive =.. [Kind, Name],
+        Options = []
+    ),
+    atom(Name).
+
+%!  library_import(+Directive, -Import) is semidet.
+%
+%   Import is library(L)-all or library(L)-List.
+
+library_import(use_module(library(L)), library(L)-all) :-
+    ground(L).
+library_import(use_module(library(L), Imports), library(L)-Imports) :-
+    ground(L-Imports).
+
+%!  clause_parts(+Clause, -Head, -Body) is det.
+
+clause_parts(Var, Var, true) :-
+    var(Var),
+    !.
+clause_parts((Head:-Body), Head, Body) :-
+    !.
+clause_parts(Head, Head, true).

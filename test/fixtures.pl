@@ -1,0 +1,136 @@
+:- module(test_fixtures,
+          [ with_hosts/2,               % +Specs, :Goal
+            with_settings/2,            % +Values, :Goal
+            listening/2,                % :Goal, -Messages
+            create/2,                   % +Clauses, -Agent
+            create/3,                   % +Clauses, -Agent, +Options
+            joined/2,                   % +Agent, -Outcome
+            state_of/2,                 % +Agent, ?State
+            fact_of/2,                  % +Agent, ?Fact
+            wait_state/2,               % +Agent, ?State
+            address/2                   % +Host, -Address
+          ]).
+
+/** <module> Hosts and agents for tests
+
+Hosts that are there while a goal runs and leave nothing behind, agents
+from a list of clauses, and what was printed meanwhile.
+
+*Threading*: one test at a time.
+*/
+
+:- use_module(common).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(settings), [setting/2, set_setting/2]).
+:- use_module(library(typhon)).
+
+:- meta_predicate
+    with_hosts(+, 0),
+    with_settings(+, 0),
+    listening(0, -).
+
+%!  with_hosts(+Specs, :Goal) is semidet.
+%
+%   Calls Goal once while the hosts of Specs, Name or Name-Options, are
+%   running.  Nothing may be left afterwards.
+
+with_hosts(Specs, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 maplist(start, Specs),
+                 once(Goal),
+                 maplist(stop, Specs))).
+
+start(Name-Options) :-
+    !,
+    host_start(Name, Options).
+start(Name) :-
+    host_start(Name).
+
+%   A test may have stopped its hosts itself.
+
+stop(Name-_) :-
+    !,
+    stop(Name).
+stop(Name) :-
+    catch(host_stop(Name), error(existence_error(host, _), _), true).
+
+%!  with_settings(+Values, :Goal) is semidet.
+%
+%   Calls Goal once with settings changed, Values a list of Setting=Value.
+
+with_settings(Values, Goal) :-
+    findall(Setting=Value,
+            ( member(Setting=_, Values), setting(Setting, Value) ),
+            Old),
+    setup_call_cleanup(set(Values), once(Goal), set(Old)).
+
+set(Values) :-
+    forall(member(Setting=Value, Values), set_setting(Setting, Value)).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+:- dynamic
+    listens/0,
+    heard/2.                            % Kind, Term
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(Term, Kind, _) :-
+    listens,
+    memberchk(Kind, [error,warning,informational]),
+    assertz(heard(Kind, Term)).
+
+%!  listening(:Goal, -Messages) is semidet.
+%
+%   Calls Goal once.  Messages are the errors, warnings and notices that
+%   all threads would have printed meanwhile, as Kind-Term.
+
+listening(Goal, Messages) :-
+    setup_call_cleanup(
+        assertz(listens),
+        once(Goal),
+        retractall(listens)),
+    findall(Kind-Term, retract(heard(Kind, Term)), Messages).
+
+                /*******************************
+                *            AGENTS            *
+                *******************************/
+
+%!  create(+Clauses, -Agent) is det.
+%!  create(+Clauses, -Agent, +Options) is det.
+%
+%   An agent of these clauses; s/1 and r/1 are its state.
+
+create(Clauses, Agent) :-
+    create(Clauses, Agent, []).
+
+create(Clauses, Agent, Options) :-
+    agent_create(clauses([(:- agent(test, [state([s/1, r/1])]))|Clauses]),
+                 Agent, Options).
+
+%!  joined(+Agent, -Outcome) is det.
+%
+%   Outcome is how Agent ended, `timeout` after a time that is more than
+%   long enough.
+
+joined(Agent, Outcome) :-
+    agent_join(Agent, Outcome, 20).
+
+state_of(Agent, State) :-
+    agent_property(Agent, state(State)).
+
+fact_of(Agent, Fact) :-
+    agent_property(Agent, facts(Facts)),
+    member(Fact, Facts).
+
+%!  wait_state(+Agent, ?State) is det.
+
+wait_state(Agent, State) :-
+    wait_until(state_of(Agent, State), 10).
+
+address(Host, Address) :-
+    host_property(Host, address(Address)).
