@@ -147,11 +147,17 @@ last_part(_, Part, Part).
 
 %!  send(+Agent, +Message) is det.
 %
-%   As agent_send/2; it is from this agent.
+%   As agent_send/2; it is from this agent.  Who asks from outside is
+%   `user`, who has no mailbox: answers to him are printed.
 
 send(at(Agent, _), Message) :-
     !,
     send(Agent, Message).
+send(Agent, Message) :-
+    Agent == user,
+    !,
+    context_agent(Id),
+    print_message(informational, typhon(told(Id, Message))).
 send(Agent, Message) :-
     must_be(atom, Agent),
     context_agent(Id),

@@ -99,6 +99,8 @@ prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
     explained(error(Formal, _)).
 prolog:message(typhon(log(Host, Agent, What))) -->
     [ '~w at ~w: ~p'-[Agent, Host, What] ].
+prolog:message(typhon(told(Agent, Message))) -->
+    [ '~w says ~p'-[Agent, Message] ].
 prolog:message(typhon(checked(Program, 0, 0))) -->
     !,
     [ '~p is in order'-[Program] ].
