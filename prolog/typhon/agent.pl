@@ -16,6 +16,7 @@
             agent_return_mail/2,        % +Id, +Messages
             agent_order/2,              % +Id, +Order
             agent_next_order/2,         % +Id, -Order
+            agent_all_orders/2,         % +Id, -Orders
             agent_ordered/1,            % +Id
             agent_id/3,                 % +Name, +Home, -Id
             agent_home/2,               % +Id, -Home
@@ -38,8 +39,8 @@ The records of agents, each with one owner: this module.  An agent is
     found through the import chain, see typhon_code and typhon_place;
   - a life(Parent, Hops, Lifetime, Tokens, Payloads, Static);
   - a status, one of `ready`, `running`, sleeping(Until),
-    waiting(Pattern, Until), `resident`, leaving(Host, At),
-    transit(Host, Since), cloning(Host, Since) or faulty(Error), with
+    waiting(Pattern, Until), `resident`, `obeying`, leaving(Host, At),
+    transit(Host, Sent), cloning(Host, Sent) or faulty(Error), with
     the goals still to run.  While a control predicate is under way the
     goals are Hole-Goals, see typhon_machine;
   - a mailbox and orders from outside.
@@ -343,6 +344,7 @@ agent_return_mail(Id, Older) :-
 
 %!  agent_order(+Id, +Order) is det.
 %!  agent_next_order(+Id, -Order) is semidet.
+%!  agent_all_orders(+Id, -Orders:list) is det.
 %!  agent_ordered(+Id) is semidet.
 
 agent_order(Id, Order) :-
@@ -351,6 +353,9 @@ agent_order(Id, Order) :-
 agent_next_order(Id, Order) :-
     retract(order(Id, Order)),
     !.
+
+agent_all_orders(Id, Orders) :-
+    findall(Order, retract(order(Id, Order)), Orders).
 
 agent_ordered(Id) :-
     order(Id, _),

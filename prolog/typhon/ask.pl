@@ -8,12 +8,12 @@
 :- use_module(code, [code_install/2, code_program/2]).
 :- use_module(endpoint,
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2 ]).
-:- use_module(hop, [hop_state/3]).
+:- use_module(hop, [hop_state/2]).
 :- use_module(host, [host/3, address_parts/3]).
 :- use_module(inside, []).
 :- use_module(life, [agent_start/4, agent_do/2, agent_clone_here/5]).
 :- use_module(scheduler, [scheduler_call/1]).
-:- use_module(whereabouts, [whereabouts/3, agent_ended/2]).
+:- use_module(whereabouts, [whereabouts/3]).
 
 /** <module> Questions and orders that find an agent
 
@@ -56,9 +56,11 @@ start_endpoint(Agent, Endpoint) :-
     ;   Endpoint = Endpoint0
     ).
 
-ask(_, Agent, _, _, 0, _) :-
+ask(_, Agent, Question, Deadline, 0, Answer) :-
     !,
-    throw(error(timeout_error(order, Agent), _)).
+    pause(Deadline, Agent),
+    start_endpoint(Agent, Endpoint),
+    ask(Endpoint, Agent, Question, Deadline, 16, Answer).
 ask(Where, Agent, Question, Deadline, Left, Answer) :-
     ask_at(Where, Agent, Question, Deadline, Answer0),
     (   Answer0 = elsewhere(Endpoint)
@@ -69,6 +71,16 @@ ask(Where, Agent, Question, Deadline, Left, Answer) :-
         )
     ;   Answer0 \== none,
         Answer = Answer0
+    ).
+
+%   It runs away from us: wait a little.
+
+pause(Deadline, Agent) :-
+    get_time(Now),
+    (   Now < Deadline
+    ->  thread_self(Me),
+        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)])
+    ;   throw(error(timeout_error(order, Agent), _))
     ).
 
 ask_at(here, Agent, Question, Deadline, Answer) :-
@@ -119,7 +131,7 @@ create(HostName, Name, Start, Program, Answer) :-
 %   answer(+Question, +Agent, +Asker) is det.
 
 answer(properties, Agent, Asker) :-
-    (   findall(P, property(P, Agent), Properties),
+    (   with_agent(Agent, findall(P, property(P, Agent), Properties)),
         Properties \== []
     ->  tell(Asker, answer(Properties))
     ;   not_here(Agent, Asker)
@@ -183,9 +195,11 @@ forward(Agent, Order, Asker) :-
     ->  true
     ;   Answer = none
     ),
-    (   Asker == none
-    ->  true
-    ;   tell(Asker, Answer)
+    (   Asker \== none
+    ->  tell(Asker, Answer)
+    ;   Answer = error(Problem)
+    ->  print_message(warning, typhon(order_failed(Agent, Problem)))
+    ;   true
     ).
 
 %   carry_out(+Order, +Agent, +Asker): in a worker, while Agent is ready.
@@ -260,16 +274,22 @@ shown(running, _, running).
 shown(arriving, _, in_transit).
 shown(sleeping(_), _, sleeping).
 shown(waiting(_, _), _, waiting).
-shown(cloning(_, _), _, waiting).
+shown(obeying, _, running).
+shown(cloning(Host, Sent), _, State) :-
+    hop_state(cloning(Host, Sent), State0),
+    (   State0 == in_doubt
+    ->  State = in_doubt
+    ;   State = waiting
+    ).
 shown(resident, _, resident).
 shown(leaving(_, _), _, in_transit).
-shown(transit(Host, Since), Agent, State) :-
-    hop_state(Agent, transit(Host, Since), State).
+shown(transit(Host, Sent), _, State) :-
+    hop_state(transit(Host, Sent), State).
 shown(faulty(Error), _, faulty(Error)).
 
-goal_list(hop(Goals0, _, _), Goals) :- !, without_hole(Goals0, Goals).
+goal_list(hop(Goals0, _, _, _), Goals) :- !, without_hole(Goals0, Goals).
 goal_list(hop(Goals0, _), Goals) :- !, without_hole(Goals0, Goals).
-goal_list(clone(Goals0-_, _), Goals) :- !, without_hole(Goals0, Goals).
+goal_list(clone(Goals0-_, _, _), Goals) :- !, without_hole(Goals0, Goals).
 goal_list(Goals, Goals).
 
 without_hole(Hole-Goals, Goals) :-

@@ -1,34 +1,32 @@
 :- module(typhon_hop,
-          [ hop/5,                      % +Id, +Dest, +Hole, +Goals, +Since
-            hop_clone/6,                % +Id, +Dest, +CloneId, +Who, +Hole, +Goals
-            hop_state/3,                % +Id, +Status, -State
-            hop_program/3               % +Endpoint, +Hash, -Program
+          [ hop/5,                      % +Id, +Where, +Hole, +Goals, +Since
+            hop_clone/6,                % +Id, +Where, +CloneId, +Who, +Hole,
+                                        % +Goals
+            hop_state/2,                % +Status, -State
+            hop_given_up/2,             % +Id, +Goals
+            hop_let_go/4                % +Id, -Mail, -Orders, -Gone
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent).
-:- use_module(clock, [clock/3, host_time/2]).
-:- use_module(code, [code_install/2, code_module/2, code_program/2]).
+:- use_module(clock, [host_time/2]).
+:- use_module(code, [code_program/2]).
 :- use_module(endpoint,
-              [ endpoint_request/4, endpoint_reply/2, endpoint_peer/2 ]).
+              [ endpoint_address/1, endpoint_request/4, endpoint_peer/2 ]).
 :- use_module(frame, [mobile_term/1]).
-:- use_module(host,
-              [ host/3, host_enter/3, host_leave/1, address_parts/3,
-                host_hop/3 ]).
-:- use_module(scheduler, [scheduler_call/1]).
-:- use_module(post, [post/3]).
+:- use_module(host, [host/3, host_leave/1, address_parts/3, host_hop/3]).
+:- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
+:- use_module(post, [post_on/3]).
 :- use_module(whereabouts,
-              [ agent_seen/4, agent_left/4, agent_born/2, agent_ended/2,
-                whereabouts/3, agent_outcome/2 ]).
+              [ agent_left/4, agent_born/2, agent_ended/3, agent_reached/3 ]).
 
 /** <module> A hop is a transaction
 
 The source freezes the agent and sends its image: state, payloads, goals,
-mail.  The receiver installs it and answers, and only then does the source
-let its copy go.  The id of a transfer is the agent with its number of
-hops, so a repeat is recognised by what the receiver knows anyhow: the
-agent stands here, has gone on, or has ended.  An agent that comes back
-before the answer proves that it had arrived.
+mail.  The receiver installs it and answers, see typhon_arrival, and only
+then does the source let its copy go.  The id of a transfer is the agent
+with its number of hops.  An agent that comes back before the answer proves
+that it had arrived.
 
   | answer       | the source                                       |
   | ------------ | ------------------------------------------------ |
@@ -36,173 +34,231 @@ before the answer proves that it had arrived.
   | refused(Why) | raises move_refused(Host, Why) at the move       |
   | need_program | sends again, with the program                    |
   | unreachable  | raises host_unreachable(Host) at the move        |
-  | lost         | asks the home, see settle/4                      |
+  | lost         | asks the home whether it got away, see settle/1  |
 
-*Threading*: hop/5 in a worker; answers and arrivals in the reader threads
-of the endpoint, which never wait.
+A destination is dest(Address, Name, Endpoint).  What an answer is for is
+hop(Id, Dest, Hops) or clone(Id, Dest, CloneId).
+
+*Threading*: hop/5 in a worker; answers in the reader threads of the
+endpoint, which never wait.
 */
 
 :- setting(doubt_seconds, number, 3,
            "An agent under way for longer is shown as in doubt").
+:- setting(settle_seconds, number, 1,
+           "Seconds until a home that did not answer is asked again").
 
 :- multifile
     forward_order/2,            % Id, Order: the agent has left
-    typhon_endpoint:requested/4,
-    typhon_endpoint:connection/2.
+    typhon_endpoint:connection/2,
+    typhon_scheduler:fire/2.
 
-:- dynamic has_program/2.       % Endpoint, Hash: was sent there
+:- dynamic
+    has_program/2,              % Endpoint, Hash: was sent there
+    given_up/2.                 % Id, Hops: disposed of while in doubt
 
-%!  hop(+Id, +Dest, +Hole, +Goals, +Since) is det.
+%!  hop(+Id, +Where, +Hole, +Goals, +Since) is det.
 %
-%   Send Id to Dest, remote(Address, Name, Endpoint) or local(Name), where
-%   it goes on with Goals, Hole bound to `true`.
+%   Send Id to Where, as of host_resolve/2, where it goes on with Goals,
+%   Hole bound to `true`.
 %
 %   @arg Since is the host time at which it set out
 %   @error type_error(mobile_term, Culprit)
 
-hop(Id, Dest, Hole, Goals, Since) :-
+hop(Id, Where, Hole, Goals, Since) :-
     agent(Id, _, Module, Hash, Life0),
     one_hop_more(Life0, Life, Hops),
     agent_state(Module, State),
     copy_term(Hole-Goals, Hole1-Going),
     ignore(Hole1 = true),
     mobile_term(State-Going),
-    dest_address(Dest, Address),
+    destination(Where, Dest, Address),
+    get_time(Sent),
     with_agent(Id,
                ( agent_all_mail(Id, Mail),
-                 agent_put(Id, transit(Address, Since),
-                           hop(Hole-Goals, Hops, Mail))
+                 agent_put(Id, transit(Address, Sent),
+                           hop(Hole-Goals, Hops, Mail, Since))
                )),
-    dispatch(Dest, image(Id, Hash, Life, State, Going, Mail, Since),
-             hop(Id, Dest, Hops)).
+    send(hop(Id, Dest, Hops),
+         image(Id, Hash, Life, State, Going, Mail, Since)).
 
 one_hop_more(life(Parent, Hops0, Lifetime, Tokens, Payloads, Static),
              life(Parent, Hops, Lifetime, Tokens, Payloads, Static), Hops) :-
     Hops is Hops0+1.
 
-%!  hop_clone(+Id, +Dest, +CloneId, +Who, +Hole, +Goals) is det.
+%!  hop_clone(+Id, +Where, +CloneId, +Who, +Hole, +Goals) is det.
 %
-%   Send a clone of Id to Dest; Id waits for the answer, Goals its goals.
+%   Send a clone of Id to Where; Id waits for the answer, Goals its goals.
 
-hop_clone(Id, Dest, CloneId, Who, Hole, Goals) :-
+hop_clone(Id, Where, CloneId, Who, Hole, Goals) :-
     agent(Id, Host, Module, Hash, Life0),
     clone_life(Id, Life0, Life),
     agent_state(Module, State),
     copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
     mobile_term(State-Going),
     host_time(Host, Since),
-    dest_address(Dest, Address),
-    with_agent(Id, agent_put(Id, cloning(Address, Since),
-                             clone(Hole-Goals-Who, CloneId))),
+    destination(Where, Dest, Address),
+    get_time(Sent),
+    with_agent(Id, agent_put(Id, cloning(Address, Sent),
+                             clone(Hole-Goals-Who, CloneId, Since))),
     host(Host, Here, _),
     agent_born(CloneId, Here),
-    dispatch(Dest, image(CloneId, Hash, Life, State, Going, [], Since),
-             clone(Id, Dest, CloneId)).
+    send(clone(Id, Dest, CloneId),
+         image(CloneId, Hash, Life, State, Going, [], Since)).
 
 clone_life(Id, life(_, _, Lifetime, Tokens, Payloads, Static),
            life(Id, 1, Lifetime, Tokens, Payloads, Static)).
 
-%   image(+For, -Image): once more, from the frozen record.
+%   A host of this process may be stopped while an agent is on its way to
+%   it: that changes nothing of its address.
+
+destination(local(Name), dest(Address, Name, Endpoint), Address) :-
+    endpoint_address(Endpoint),
+    address_parts(Address, Name, Endpoint).
+destination(remote(Address, Name, Endpoint), dest(Address, Name, Endpoint),
+            Address).
+
+%   image(+For, -Image): once more, from the frozen record.  Fails if it
+%   was given up.
 
 image(hop(Id, _, Hops), image(Id, Hash, Life, State, Going, Mail, Since)) :-
     agent(Id, _, Module, Hash, Life0),
-    agent_status(Id, transit(_, Since), hop(Hole-Going, Hops, Mail)),
+    agent_status(Id, transit(_, _), hop(Hole-Going, Hops, Mail, Since)),
     ignore(Hole = true),
     one_hop_more(Life0, Life, Hops),
     agent_state(Module, State).
 image(clone(Id, _, CloneId),
       image(CloneId, Hash, Life, State, Going, [], Since)) :-
     agent(Id, _, Module, Hash, Life0),
-    agent_status(Id, cloning(_, Since), clone(Hole-Going-Who, CloneId)),
+    agent_status(Id, cloning(_, _),
+                 clone(Hole-Going-Who, CloneId, Since)),
     Hole = (Who=clone(Id)),
     clone_life(Id, Life0, Life),
     agent_state(Module, State).
 
-dest_address(local(Name), Address) :-
-    host(Name, Address, _).
-dest_address(remote(Address, _, _), Address).
+%   send(+For, +Image): what cannot be sent, such as too long a frame,
+%   stays.
 
-dest_endpoint(local(Name), Name, Endpoint) :-
-    host(Name, Address, _),
-    address_parts(Address, _, Endpoint).
-dest_endpoint(remote(_, Name, Endpoint), Name, Endpoint).
-
-%   dispatch(+Dest, +Image, +For): send Image; For says what to do with
-%   the answer.
-
-dispatch(Dest, Image, For) :-
-    dest_endpoint(Dest, Name, Endpoint),
+send(For, Image) :-
+    arg(2, For, dest(_, Name, Endpoint)),
     arg(2, Image, Hash),
-    (   has_program(Endpoint, Hash)
-    ->  Program = known
-    ;   hop_program(Endpoint, Hash, Program)
-    ),
-    send(Endpoint, Name, Image, Program, For).
+    catch(( program(Endpoint, Hash, Program),
+            endpoint_request(Endpoint, hop, hop(Name, Image, Program),
+                             typhon_hop:answered(For))
+          ),
+          error(Formal, _),
+          stays(For, Formal)).
 
-send(Endpoint, Name, Image, Program, For) :-
-    endpoint_request(Endpoint, hop, hop(Name, Image, Program),
-                     typhon_hop:answered(For, Endpoint, Name)).
+%   The program is sent to those who lack it as far as we know.
 
-%!  hop_program(+Endpoint, +Hash, -Program) is det.
-%
-%   The program to send to Endpoint, which lacks it as far as we know.
-
-hop_program(Endpoint, Hash, Program) :-
+program(Endpoint, Hash, known) :-
+    has_program(Endpoint, Hash),
+    !.
+program(Endpoint, Hash, Program) :-
     code_program(Hash, Program),
-    (   has_program(Endpoint, Hash)
-    ->  true
-    ;   assertz(has_program(Endpoint, Hash))
-    ).
+    assertz(has_program(Endpoint, Hash)).
 
 typhon_endpoint:connection(Endpoint, down) :-
     retractall(has_program(Endpoint, _)).
 
                 /*******************************
-                *          THE SOURCE          *
+                *            ANSWERS           *
                 *******************************/
 
-answered(For, Endpoint, Name, Result) :-
-    (   Result == answer(need_program)
-    ->  image(For, Image),
+answered(For, answer(Answer)) :-
+    !,
+    taken(Answer, For).
+answered(For, unreachable) :-
+    unreachable(For).
+answered(For, lost) :-
+    settle(For).
+
+taken(accepted, For) :-
+    arrived(For).
+taken(refused(Reason), For) :-
+    arg(2, For, dest(Address, _, _)),
+    stays(For, move_refused(Address, Reason)).
+taken(need_program, For) :-
+    (   image(For, Image)
+    ->  arg(2, For, dest(_, _, Endpoint)),
         arg(2, Image, Hash),
-        hop_program(Endpoint, Hash, Program),
-        send(Endpoint, Name, Image, Program, For)
-    ;   outcome(For, Result)
+        retractall(has_program(Endpoint, Hash)),
+        send(For, Image)
+    ;   stays(For, given_up)
     ).
 
-outcome(hop(Id, Dest, Hops), Result) :-
-    hop_result(Result, Id, Dest, Hops).
-outcome(clone(Id, Dest, CloneId), Result) :-
-    clone_result(Result, Id, Dest, CloneId).
+unreachable(For) :-
+    arg(2, For, dest(Address, _, _)),
+    stays(For, host_unreachable(Address)).
 
-hop_result(answer(accepted), Id, Dest, Hops) :-
+%   settle(+For): the process that was asked is gone.  If the home knows of
+%   this hop or a later one the agent got away in time; else it has not
+%   survived there, and goes on here.  If the home is gone with that
+%   process, nobody can have heard of it, and it goes on here, too.
+
+settle(For) :-
+    traveller(For, Id, Hops),
+    agent_reached(Id, Hops, typhon_hop:settled(For)).
+
+traveller(hop(Id, _, Hops), Id, Hops).
+traveller(clone(_, _, CloneId), CloneId, 1).
+
+settled(For, answer(true)) :-
     !,
-    dest_address(Dest, Address),
-    dest_endpoint(Dest, _, Endpoint),
-    (   with_agent(Id, let_go(Id, Hops, Host, Since, Mail, Orders))
+    arrived(For).
+settled(For, answer(false)) :-
+    !,
+    unreachable(For).
+settled(For, _) :-
+    setting(settle_seconds, Seconds),
+    get_time(Now),
+    Stamp is Now+Seconds,
+    arg(1, For, Id),
+    alarm_set(Stamp, Id, settle(For)).
+
+typhon_scheduler:fire(_, settle(For)) :-
+    !,
+    (   image(For, _)
+    ->  settle(For)
+    ;   stays(For, given_up)
+    ).
+
+                /*******************************
+                *           ARRIVED            *
+                *******************************/
+
+arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
+    (   with_agent(Id, moved_on(Id, Hops, Address, Endpoint, Orders, Gone))
+    ->  call(Gone),
+        forall(member(Order, Orders), follow(Id, Order))
+    ;   retract(given_up(Id, Hops))
     ->  agent_left(Id, Address, Hops, Endpoint),
-        gone(Host, Since),
-        forall(member(From-Message, Mail), follow(Id, From, Message)),
-        forall(member(Order, Orders),
-               scheduler_call(typhon_hop:forward_order(Id, Order)))
+        follow(Id, dispose)
     ;   true                            % it came back before the answer
     ).
-hop_result(answer(refused(Reason)), Id, Dest, Hops) :-
-    !,
-    dest_address(Dest, Address),
-    back(Id, Hops, move_refused(Address, Reason)).
-hop_result(unreachable, Id, Dest, Hops) :-
-    !,
-    dest_address(Dest, Address),
-    back(Id, Hops, host_unreachable(Address)).
-hop_result(lost, Id, Dest, Hops) :-
-    settle(Id, Dest, Hops).
+arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
+    agent_left(CloneId, Address, 1, Endpoint),
+    ignore(with_agent(Id, clone_back(Id, CloneId, parent(CloneId)))).
 
-let_go(Id, Hops, Host, Since, Mail, Orders) :-
-    agent_status(Id, transit(_, Since), hop(_, Hops, _)),
+%   Where it went is known before it is gone, and mail that came meanwhile
+%   is on its way before any that comes now.
+
+moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
+    agent_status(Id, transit(_, _), hop(_, Hops, _, _)),
+    agent_left(Id, Address, Hops, Endpoint),
+    hop_let_go(Id, Mail, Orders, Gone),
+    forall(member(From-Message, Mail), post_on(Id, From, Message)).
+
+%!  hop_let_go(+Id, -Mail, -Orders, :Gone) is semidet.
+%
+%   Forget Id, which is in transit; inside with_agent/2.  Gone is to be
+%   called outside.
+
+hop_let_go(Id, Mail, Orders, typhon_hop:gone(Host, Since)) :-
+    agent_status(Id, transit(_, _), hop(_, _, _, Since)),
     agent(Id, Host, _, _, _),
     agent_all_mail(Id, Mail),
-    findall(Order, agent_next_order(Id, Order), Orders),
+    agent_all_orders(Id, Orders),
     agent_remove(Id).
 
 gone(Host, Since) :-
@@ -213,20 +269,26 @@ gone(Host, Since) :-
     ;   true                            % the host was stopped meanwhile
     ).
 
-follow(Id, From, Message) :-
-    catch(post(Id, From, Message),
-          error(Formal, _),
-          print_message(warning,
-                        typhon(undeliverable(Formal, Id, From, Message)))).
+follow(Id, Order) :-
+    scheduler_call(typhon_hop:forward_order(Id, Order)).
 
-%   The agent stays; Error is raised at its move.  If the move was ordered
-%   from outside there is no hole, and it is reported instead.
+                /*******************************
+                *            STAYS             *
+                *******************************/
+
+%   stays(+For, +Error): the agent stays; Error is raised at its move.  If
+%   the move was ordered from outside there is no hole, and it is reported
+%   instead.
+
+stays(hop(Id, _, Hops), Error) :-
+    retractall(given_up(Id, Hops)),
+    ignore(with_agent(Id, back(Id, Hops, Error))).
+stays(clone(Id, _, CloneId), Error) :-
+    agent_ended(CloneId, failed, 1),
+    ignore(with_agent(Id, clone_back(Id, CloneId, throw(error(Error, _))))).
 
 back(Id, Hops, Error) :-
-    ignore(with_agent(Id, back_(Id, Hops, Error))).
-
-back_(Id, Hops, Error) :-
-    agent_status(Id, transit(_, _), hop(Hole-Goals, Hops, Mail)),
+    agent_status(Id, transit(_, _), hop(Hole-Goals, Hops, Mail, _)),
     agent_return_mail(Id, Mail),
     (   Hole == ordered
     ->  print_message(warning, typhon(order_failed(Id, Error)))
@@ -234,142 +296,42 @@ back_(Id, Hops, Error) :-
     ),
     agent_ready(Id, Goals).
 
-%   settle(+Id, +Dest, +Hops): the process at Dest is not the one to which
-%   the agent was sent.  If the home has news of a later hop the agent got
-%   away in time; else it has not survived there, and goes on here.
-
-settle(Id, Dest, Hops) :-
-    (   settled_elsewhere(Id, Hops)
-    ->  hop_result(answer(accepted), Id, Dest, Hops)
-    ;   dest_address(Dest, Address),
-        back(Id, Hops, host_unreachable(Address))
-    ).
-
-settled_elsewhere(Id, Hops) :-
-    (   agent_outcome(Id, _)
-    ;   whereabouts(Id, _, Hops1),
-        Hops1 >= Hops
-    ),
-    !.
-
-clone_result(Result, Id, Dest, CloneId) :-
-    dest_address(Dest, Address),
-    (   clone_error(Result, Address, Error)
-    ->  agent_ended(CloneId, failed),
-        Answer = throw(error(Error, _))
-    ;   Answer = parent(CloneId)
-    ),
-    ignore(with_agent(Id, clone_back(Id, CloneId, Answer))).
-
-clone_error(answer(refused(Reason)), Address, move_refused(Address, Reason)).
-clone_error(unreachable, Address, host_unreachable(Address)).
-clone_error(lost, Address, host_unreachable(Address)).
-
 clone_back(Id, CloneId, Answer) :-
-    agent_status(Id, cloning(_, _), clone(Hole-Goals-Who, CloneId)),
+    agent_status(Id, cloning(_, _), clone(Hole-Goals-Who, CloneId, _)),
     (   Answer = parent(_)
     ->  Hole = (Who=Answer)
     ;   Hole = Answer
     ),
     agent_ready(Id, Goals).
 
-%!  hop_state(+Id, +Status, -State) is det.
+                /*******************************
+                *           IN DOUBT           *
+                *******************************/
+
+%!  hop_state(+Status, -State) is det.
 %
 %   State is `in_transit` or `in_doubt`: the answer is overdue, or the
 %   connection on which it should come is broken.
+%
+%   @arg Status is transit(Address, Sent) or cloning(Address, Sent)
 
-hop_state(Id, transit(Address, Since), State) :-
+hop_state(Status, State) :-
+    arg(1, Status, Address),
+    arg(2, Status, Sent),
     (   address_parts(Address, _, Endpoint),
         endpoint_peer(Endpoint, state(down))
     ->  State = in_doubt
-    ;   agent(Id, Host, _, _, _),
-        clock(Host, Epoch, Rate),
-        get_time(Now),
+    ;   get_time(Now),
         setting(doubt_seconds, Limit),
-        Now-(Epoch+Since/Rate) > Limit
+        Now-Sent > Limit
     ->  State = in_doubt
     ;   State = in_transit
     ).
 
-                /*******************************
-                *         THE RECEIVER         *
-                *******************************/
+%!  hop_given_up(+Id, +Goals) is det.
+%
+%   Id was disposed of in doubt, Goals being those of its status: should
+%   it have arrived, the order follows it.
 
-typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
-    catch(arrive(Name, Image, Program, Peer, Answer),
-          error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            Answer = refused(error(Formal))
-          )),
-    answer(Answer, Image, ReplyTo).
-
-%   The agent must not run before the answer is on its way: what it sends
-%   comes behind it.
-
-answer(installed(Goals), Image, ReplyTo) :-
-    !,
-    endpoint_reply(ReplyTo, accepted),
-    arg(1, Image, Id),
-    with_agent(Id, agent_ready(Id, Goals)).
-answer(Answer, _, ReplyTo) :-
-    endpoint_reply(ReplyTo, Answer).
-
-arrive(Name, Image, Program, Peer, Answer) :-
-    Image = image(Id, Hash, Life, _, _, _, _),
-    (   repeated(Id, Life)
-    ->  Answer = accepted
-    ;   \+ has_code(Hash, Program)
-    ->  Answer = need_program
-    ;   arg(4, Life, Tokens),
-        host_enter(Name, Tokens, Entered),
-        admitted(Entered, Name, Image, Peer, Answer)
-    ).
-
-%   A transfer that was answered before.
-
-repeated(Id, Life) :-
-    arg(2, Life, Hops),
-    (   agent(Id, _, _, _, Life0)
-    ->  arg(2, Life0, Hops0),
-        Hops0 >= Hops
-    ;   whereabouts(Id, _, Hops0)
-    ->  Hops0 >= Hops
-    ;   agent_outcome(Id, _)
-    ).
-
-has_code(Hash, Program) :-
-    (   code_module(Hash, _)
-    ->  true
-    ;   Program \== known,
-        code_install(Hash, Program)
-    ).
-
-admitted(refused(Reason), _, _, _, refused(Reason)).
-admitted(ok, Name, Image, Peer, installed(Goals)) :-
-    Image = image(Id, Hash, Life, State, Goals, Mail, Since),
-    host(Name, Address, Place),
-    arg(2, Life, Hops),
-    catch(with_agent(Id, install(Id, Name, Place, Hash, Life, State, Mail)),
-          Ball,
-          ( host_leave(Name), throw(Ball) )),
-    agent_seen(Id, Address, Hops, Peer),
-    host_time(Name, Now),
-    Seconds is max(0.0, Now-Since),
-    host_hop(Name, in, Seconds).
-
-install(Id, Name, Place, Hash, Life, State, Mail) :-
-    came_back(Id, Later, Orders),
-    agent_install(Id, Name, Place, Hash, Life, State),
-    agent_put(Id, arriving, []),
-    forall(member(Message, Mail), agent_mail(Id, Message)),
-    forall(member(Message, Later), agent_mail(Id, Message)),
-    forall(member(Order, Orders), agent_order(Id, Order)).
-
-%   Our own copy, still waiting for the answer, is out of date.
-
-came_back(Id, Mail, Orders) :-
-    agent_status(Id, transit(_, _), hop(_, Hops, _)),
-    !,
-    let_go(Id, Hops, Host, Since, Mail, Orders),
-    gone(Host, Since).
-came_back(_, [], []).
+hop_given_up(Id, hop(_, Hops, _, _)) :-
+    assertz(given_up(Id, Hops)).

@@ -12,7 +12,7 @@
                 existence_error/2 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(agent, [agent/5, agent_status/3]).
+:- use_module(agent, [agent/5, agent_status/3, agent_ordered/1]).
 :- use_module(aside, [aside/1]).
 :- use_module(clock, [clock_set/3, clock_clear/1]).
 :- use_module(endpoint,
@@ -171,25 +171,28 @@ local_name(Host, Name) :-
     ).
 
 %   Agents that rest are disposed of at once, those that run at their next
-%   effect; those that do not come to one are interrupted.
+%   effect; those that do not come to one are interrupted.  Those that are
+%   about to arrive elsewhere may do so.  One that is on its way in counts
+%   as load before it stands here.
 
 clear(Name, Deadline) :-
     findall(Id, agent(Id, Name, _, _, _), Ids),
-    clear(Ids, Name, Deadline).
-
-clear([], _, _) :-
-    !.
-clear(Ids, Name, Deadline) :-
-    forall(member(Id, Ids), ignore(agent_do(Id, dispose))),
+    host_load(Name, Load),
     get_time(Now),
-    forall(( agent(Id, Name, _, _, _), Now > Deadline ), interrupt(Id)),
-    thread_self(Me),
-    (   \+ agent(_, Name, _, _, _)
+    (   Ids == [],
+        ( Load =< 0 ; Now > Deadline )
     ->  true
-    ;   thread_get_message(Me, '$typhon_never', [timeout(0.01)])
-    ->  true
-    ;   clear(Name, Deadline)
+    ;   forall(( member(Id, Ids), stays(Id) ),
+               ignore(agent_do(Id, dispose))),
+        forall(( member(Id, Ids), Now > Deadline ), interrupt(Id)),
+        thread_self(Me),
+        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
+        clear(Name, Deadline)
     ).
+
+stays(Id) :-
+    \+ agent_ordered(Id),
+    \+ agent_status(Id, transit(_, _), _).
 
 %   abort is the one exception that the agent's own catch/3 cannot stop.
 

@@ -11,13 +11,14 @@
 :- use_module(clock, [host_time/2, real_time/3]).
 :- use_module(code, [code_module/2]).
 :- use_module(context, [context_set/3, context_clear/0]).
-:- use_module(hop, [hop/5, hop_clone/6, hop_state/3]).
+:- use_module(arrival, []).
+:- use_module(hop, [hop/5, hop_clone/6, hop_state/2, hop_given_up/2]).
 :- use_module(host,
               [ host/3, host_enter/3, host_leave/1, host_option/2,
                 host_resolve/2, host_log/3 ]).
 :- use_module(machine, [machine_run/3]).
 :- use_module(scheduler, [alarm_set/3, alarm_clear/3]).
-:- use_module(whereabouts, [agent_born/2, agent_ended/2]).
+:- use_module(whereabouts, [agent_born/2, agent_ended/3]).
 
 /** <module> The life of an agent on a host
 
@@ -70,31 +71,41 @@ born(Id, Host, Place, Hash, Life, State) :-
 
 agent_end(Id, raised(Error)) :-
     !,
-    with_agent(Id, make_faulty(Id, Error, Host)),
+    with_agent(Id, make_faulty(Id, Error, Host, Hops)),
     host_leave(Host),
     portable(Error, Portable),
     host_log(Host, Id, faulty(Portable)),
     print_message(error, typhon(faulty(Id, Error))),
-    agent_ended(Id, raised(Portable)),
+    agent_ended(Id, raised(Portable), Hops),
     forget_faulty.
 agent_end(Id, Outcome) :-
-    with_agent(Id, ( agent(Id, Host, _, _, _),
-                     once(agent_status(Id, Status, _)),
-                     agent_remove(Id)
-                   )),
-    (   Status = faulty(_)
-    ->  true
-    ;   host_leave(Host),
-        host_log(Host, Id, ended(Outcome)),
-        (   Outcome == failed
-        ->  print_message(warning, typhon(agent_failed(Id)))
-        ;   true
-        ),
-        agent_ended(Id, Outcome)
-    ).
+    with_agent(Id, remove(Id, Last)),
+    removed(Last, Id, Outcome).
 
-make_faulty(Id, Error, Host) :-
-    agent(Id, Host, _, _, _),
+remove(Id, last(Host, Hops, Status)) :-
+    agent(Id, Host, _, _, Life),
+    arg(2, Life, Hops),
+    once(agent_status(Id, Status, Goals)),
+    (   Status = transit(_, _)
+    ->  hop_given_up(Id, Goals)
+    ;   true
+    ),
+    agent_remove(Id).
+
+removed(last(_, _, faulty(_)), _, _) :-
+    !.
+removed(last(Host, Hops, _), Id, Outcome) :-
+    host_leave(Host),
+    host_log(Host, Id, ended(Outcome)),
+    (   Outcome == failed
+    ->  print_message(warning, typhon(agent_failed(Id)))
+    ;   true
+    ),
+    agent_ended(Id, Outcome, Hops).
+
+make_faulty(Id, Error, Host, Hops) :-
+    agent(Id, Host, _, _, Life),
+    arg(2, Life, Hops),
     agent_put(Id, faulty(Error), []).
 
 portable(Error, Portable) :-
@@ -128,7 +139,7 @@ take(Id, Task) :-
     agent_take(Id, Goals),
     !,
     (   agent_next_order(Id, Order)
-    ->  agent_put(Id, ready, Goals),
+    ->  agent_put(Id, obeying, Goals),
         Task = order(Order, Goals)
     ;   Task = run(Goals)
     ).
@@ -404,21 +415,25 @@ agent_clone_here(Id, CloneId, Host, Goals, Answer) :-
 %   next effect.  Fails if there is no such agent in this process.
 
 agent_do(Id, dispose) :-
-    agent_status(Id, Status, _),
-    at_rest(Status, Id),
+    with_agent(Id, ( agent_status(Id, Status, _),
+                     at_rest(Status),
+                     remove(Id, Last)
+                   )),
     !,
-    agent_end(Id, disposed).
+    removed(Last, Id, disposed).
 agent_do(Id, Order) :-
     with_agent(Id, order(Id, Order)).
 
-at_rest(ready, _).
-at_rest(sleeping(_), _).
-at_rest(waiting(_, _), _).
-at_rest(resident, _).
-at_rest(leaving(_, _), _).
-at_rest(faulty(_), _).
-at_rest(transit(Host, Since), Id) :-
-    hop_state(Id, transit(Host, Since), in_doubt).
+at_rest(ready).
+at_rest(sleeping(_)).
+at_rest(waiting(_, _)).
+at_rest(resident).
+at_rest(leaving(_, _)).
+at_rest(faulty(_)).
+at_rest(transit(Host, Sent)) :-
+    hop_state(transit(Host, Sent), in_doubt).
+at_rest(cloning(Host, Sent)) :-
+    hop_state(cloning(Host, Sent), in_doubt).
 
 order(Id, Order) :-
     agent_status(Id, Status, Goals),
@@ -459,7 +474,7 @@ obey(clone(CloneId), Id, Goals) :-
     agent(Id, Here, _, _, _),
     agent_clone_here(Id, CloneId, Here, Goals, Answer),
     (   Answer = refused(Reason)
-    ->  agent_ended(CloneId, failed),
+    ->  agent_ended(CloneId, failed, 0),
         print_message(warning, typhon(order_failed(Id, refused(Reason))))
     ;   true
     ),

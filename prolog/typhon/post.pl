@@ -1,6 +1,7 @@
 :- module(typhon_post,
           [ post/3,                     % +Id, +From, +Message
-            post_via/4                  % +Id, +Endpoint, +From, +Message
+            post_via/4,                 % +Id, +Endpoint, +From, +Message
+            post_on/3                   % +Id, +From, +Message
           ]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(agent,
@@ -10,7 +11,7 @@
               [ endpoint_address/1, endpoint_post/3, endpoint_peer/2 ]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(host, [address_parts/3]).
-:- use_module(scheduler, [scheduler_call/1]).
+:- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
 :- use_module(whereabouts, [whereabouts/3, agent_outcome/2]).
 
 /** <module> Messages
@@ -22,13 +23,17 @@ message goes where the agent went, or to its home, which knows.
 *Threading*: any thread.
 */
 
-:- multifile typhon_endpoint:received/3.
+:- multifile
+    typhon_endpoint:received/3,
+    typhon_scheduler:fire/2.
 
 %   A message that has been forwarded so often chases its agent in vain
-%   for the moment: it goes by the home then, which is never behind for
-%   long.
+%   for the moment, or those who should know do not know yet: it waits a
+%   little.
 
-max_forwards(64).
+max_forwards(640).
+forwards_at_once(64).
+pause(0.05).                    % seconds
 
 %!  post(+Id, +From, +Message) is det.
 %
@@ -56,64 +61,17 @@ post_via(Id, Endpoint, From, Message) :-
         send_on(Endpoint, Id, From, Message, Max)
     ).
 
-route(Id, From, Message, _) :-
-    agent(Id, _, _, _, _),
-    with_agent(Id, put_in(Id, From, Message)),
-    !.
-route(Id, From, Message, Left) :-
-    Left > 0,
-    whereabouts(Id, Address, _),
-    address_parts(Address, _, Endpoint),
-    \+ endpoint_address(Endpoint),
-    !,
-    Left1 is Left-1,
-    send_on(Endpoint, Id, From, Message, Left1).
-route(Id, From, Message, Left) :-
-    agent_home(Id, Home),
-    address_parts(Home, _, Endpoint),
-    !,
-    (   endpoint_address(Endpoint)
-    ->  no_route(Id, From, Message, Left)
-    ;   Left1 is Left-1,
-        send_on(Endpoint, Id, From, Message, Left1)
-    ).
-route(Id, _, _, _) :-
-    existence_error(agent, Id).
+%!  post_on(+Id, +From, +Message) is det.
+%
+%   As post/3, for a thread that must not wait for a connection to be made.
+%   What cannot be delivered is reported.
 
-%   The home is here.  The agent may have come back between our looking
-%   for it here and elsewhere.
+post_on(Id, From, Message) :-
+    max_forwards(Max),
+    pass_on(Id, From, Message, Max).
 
-no_route(Id, From, Message, _) :-
-    agent(Id, _, _, _, _),
-    with_agent(Id, put_in(Id, From, Message)),
-    !.
-no_route(Id, From, Message, Left) :-
-    Left > 0,
-    whereabouts(Id, _, _),
-    !,
-    Left1 is Left-1,
-    route(Id, From, Message, Left1).
-no_route(Id, _, _, _) :-
-    existence_error(agent, Id).
-
-put_in(Id, From, Message) :-
-    agent_status(Id, Status, _),
-    Status \= faulty(_),
-    !,
-    agent_mail(Id, From-Message).
-put_in(_, _, _).
-
-send_on(Endpoint, Id, From, Message, Left) :-
-    catch(endpoint_post(Endpoint, message, message(Id, From, Message, Left)),
-          error(unreachable(_), _),
-          throw(error(host_unreachable(Endpoint), _))).
-
-%   A message for an agent that is elsewhere: the reader of a connection
-%   must not wait for another one to be made.
-
-typhon_endpoint:received(message, message(Id, From, Message, Left), _) :-
-    (   agent(Id, _, _, _, _),
-        with_agent(Id, put_in(Id, From, Message))
+pass_on(Id, From, Message, Left) :-
+    (   with_agent(Id, put_in(Id, From, Message))
     ->  true
     ;   whereabouts(Id, Address, _),
         address_parts(Address, _, Endpoint),
@@ -121,6 +79,9 @@ typhon_endpoint:received(message, message(Id, From, Message, Left), _) :-
     ->  deliver(Id, From, Message, Left)
     ;   scheduler_call(typhon_post:deliver(Id, From, Message, Left))
     ).
+
+typhon_endpoint:received(message, message(Id, From, Message, Left), _) :-
+    pass_on(Id, From, Message, Left).
 
 deliver(Id, From, Message, Left) :-
     catch(route(Id, From, Message, Left),
@@ -134,3 +95,83 @@ undeliverable(Formal, Id, From, Message) :-
     ),
     print_message(Severity,
                   typhon(undeliverable(Formal, Id, From, Message))).
+
+                /*******************************
+                *             ROUTE            *
+                *******************************/
+
+%   route(+Id, +From, +Message, +Left): after at most Left forwards.
+
+route(Id, From, Message, _) :-
+    with_agent(Id, put_in(Id, From, Message)),
+    !.
+route(Id, From, Message, Left) :-
+    Left > 0,
+    next_endpoint(Id, Endpoint),
+    !,
+    Left1 is Left-1,
+    forwards_at_once(Most),
+    (   (   Left1 mod Most =:= 0
+        ;   endpoint_address(Endpoint)  % on its way in
+        )
+    ->  later(Id, From, Message, Left1)
+    ;   send_on(Endpoint, Id, From, Message, Left1)
+    ).
+route(Id, _, _, _) :-
+    existence_error(agent, Id).
+
+%   Who is not here has left a trace, or the home knows.  The record of an
+%   agent is looked at under its mutex only: there is none for a moment when
+%   it goes from host to host inside a process.
+
+put_in(Id, From, Message) :-
+    agent(Id, _, _, _, _),
+    !,
+    (   agent_status(Id, faulty(_), _)
+    ->  true
+    ;   agent_mail(Id, From-Message)
+    ).
+
+next_endpoint(Id, Endpoint) :-
+    whereabouts(Id, Address, _),
+    !,
+    address_parts(Address, _, Endpoint).
+next_endpoint(Id, Endpoint) :-
+    home_endpoint(Id, Endpoint),
+    \+ endpoint_address(Endpoint).
+
+home_endpoint(Id, Endpoint) :-
+    agent_home(Id, Home),
+    address_parts(Home, _, Endpoint).
+
+later(Id, From, Message, Left) :-
+    pause(Seconds),
+    get_time(Now),
+    Stamp is Now+Seconds,
+    flag(typhon_later, N, N+1),
+    alarm_set(Stamp, Id, deliver(N, From, Message, Left)).
+
+typhon_scheduler:fire(Id, deliver(_, From, Message, Left)) :-
+    !,
+    scheduler_call(typhon_post:deliver(Id, From, Message, Left)).
+
+%   Where a forwarding address leads to a process that is gone, the home
+%   may know better.
+
+send_on(Endpoint, Id, From, Message, Left) :-
+    catch(send_to(Endpoint, Id, From, Message, Left),
+          error(unreachable(_), _),
+          send_home(Endpoint, Id, From, Message, Left)).
+
+send_home(Failed, Id, From, Message, Left) :-
+    (   home_endpoint(Id, Home),
+        Home \== Failed,
+        \+ endpoint_address(Home)
+    ->  catch(send_to(Home, Id, From, Message, Left),
+              error(unreachable(_), _),
+              throw(error(host_unreachable(Home), _)))
+    ;   throw(error(host_unreachable(Failed), _))
+    ).
+
+send_to(Endpoint, Id, From, Message, Left) :-
+    endpoint_post(Endpoint, message, message(Id, From, Message, Left)).

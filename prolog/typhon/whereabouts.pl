@@ -2,17 +2,20 @@
           [ agent_born/2,               % +Id, +Address
             agent_seen/4,               % +Id, +Address, +Hops, +Peer
             agent_left/4,               % +Id, +Address, +Hops, +Peer
-            agent_ended/2,              % +Id, +Outcome
+            agent_ended/3,              % +Id, +Outcome, +Hops
+            agent_reached/3,            % +Id, +Hops, :OnAnswer
             whereabouts/3,              % +Id, -Address, -Hops
             agent_outcome/2,            % +Id, -Outcome
             agent_alive/1,              % ?Id
             outcome_wait/3              % +Id, +Seconds, +Asker
           ]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent, [agent_home/2, agent/5]).
 :- use_module(host, [address_parts/3]).
 :- use_module(endpoint,
-              [ endpoint_address/1, endpoint_post/3, endpoint_reply/2 ]).
+              [ endpoint_address/1, endpoint_post/3, endpoint_reply/2,
+                endpoint_request/4 ]).
 :- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
 
 /** <module> Where agents went, and how they ended
@@ -29,8 +32,12 @@ a worker, since it may have to connect.
 
 :- setting(forwards, positive_integer, 20000,
            "Forwarding addresses kept by a process").
+:- meta_predicate agent_reached(+, +, 1).
+
 :- setting(outcomes, positive_integer, 20000,
            "Outcomes of ended agents kept by their home").
+:- setting(news_seconds, number, 300,
+           "News for a home that cannot be reached are kept so long").
 
 :- dynamic
     born/3,                     % Id, Address, Hops: alive, home is here
@@ -83,17 +90,20 @@ home_endpoint(Id, Endpoint) :-
 moved(Id, Address, Hops) :-
     with_mutex(typhon_born, moved_(Id, Address, Hops)).
 
+%   The new fact comes before the old one goes: others read meanwhile.
+
 moved_(Id, Address, Hops) :-
-    born(Id, _, Hops0),
+    clause(born(Id, _, Hops0), true, Old),
     Hops0 < Hops,
     !,
-    retractall(born(Id, _, _)),
-    assertz(born(Id, Address, Hops)).
+    assertz(born(Id, Address, Hops)),
+    erase(Old).
 moved_(_, _, _).
 
 remember_forward(Id, Address, Hops) :-
-    retractall(forward(Id, _, _)),
+    findall(Old, clause(forward(Id, _, _), true, Old), Olds),
     assertz(forward(Id, Address, Hops)),
+    forall(member(Old, Olds), erase(Old)),
     now_and_then(forward(_, _, _), forwards).
 
 %   Every 100 times, forget the oldest of what exceeds a setting.
@@ -108,33 +118,56 @@ now_and_then(Fact, Setting) :-
     ;   true
     ).
 
-%!  agent_ended(+Id, +Outcome) is det.
+%!  agent_ended(+Id, +Outcome, +Hops) is det.
 %
-%   Let the home of Id know.
+%   Let the home of Id know that it ended after Hops hops.
 
-agent_ended(Id, Outcome) :-
+agent_ended(Id, Outcome, Hops) :-
     home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  ended(Id, Outcome)
-    ;   tell(Home, ended(Id, Outcome))
+    ->  ended(Id, Outcome, Hops)
+    ;   tell(Home, ended(Id, Outcome, Hops))
     ).
 
 tell(Home, News) :-
-    scheduler_call(typhon_whereabouts:post_news(Home, News)).
+    scheduler_call(typhon_whereabouts:post_news(Home, News, 1)).
 
-post_news(Home, News) :-
+%   A home that cannot be reached now may be so later: messages and those
+%   who wait for the end of the agent depend on it.
+
+post_news(Home, News, Seconds) :-
     catch(endpoint_post(Home, whereabouts, News),
-          error(Formal, _),
-          print_message(silent, typhon(home_unreachable(Home, Formal)))).
+          error(unreachable(_), _),
+          news_later(Home, News, Seconds)).
 
-ended(Id, Outcome) :-
-    with_mutex(typhon_born, ended_(Id, Outcome, Askers)),
+news_later(Home, News, Seconds) :-
+    setting(news_seconds, Max),
+    (   Seconds > Max
+    ->  print_message(silent, typhon(home_unreachable(Home, News)))
+    ;   get_time(Now),
+        Stamp is Now+Seconds,
+        Longer is 2*Seconds,
+        alarm_set(Stamp, Home, news(News, Longer))
+    ).
+
+typhon_scheduler:fire(Home, news(News, Seconds)) :-
+    !,
+    scheduler_call(typhon_whereabouts:post_news(Home, News, Seconds)).
+
+ended(Id, Outcome, Hops) :-
+    with_mutex(typhon_born, ended_(Id, Outcome, Hops, Askers)),
     forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
 
-ended_(Id, _, []) :-
-    outcome(Id, _),
+%   A copy that was given up in doubt says nothing of an agent that is
+%   known to have gone on.
+
+ended_(Id, _, Hops, []) :-
+    (   outcome(Id, _)
+    ;   born(Id, _, Hops0),
+        Hops0 > Hops
+    ),
     !.
-ended_(Id, Outcome, Askers) :-
+ended_(Id, Outcome, _, Askers) :-
     retractall(born(Id, _, _)),
     assertz(outcome(Id, Outcome)),
     now_and_then(outcome(_, _), outcomes),
@@ -145,8 +178,37 @@ typhon_endpoint:received(whereabouts, News, _Peer) :-
 
 news(located(Id, Address, Hops)) :-
     moved(Id, Address, Hops).
-news(ended(Id, Outcome)) :-
-    ended(Id, Outcome).
+news(ended(Id, Outcome, Hops)) :-
+    ended(Id, Outcome, Hops).
+
+%!  agent_reached(+Id, +Hops, :OnAnswer) is det.
+%
+%   Call OnAnswer with answer(Boolean), whether Id has made so many hops as
+%   far as its home knows, or with what endpoint_request/4 says if the home
+%   does not answer.  A home that was restarted knows nothing.
+
+agent_reached(Id, Hops, OnAnswer) :-
+    home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  reached(Id, Hops, Reached),
+        call(OnAnswer, answer(Reached))
+    ;   endpoint_request(Home, whereabouts, reached(Id, Hops), OnAnswer)
+    ).
+
+typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
+    reached(Id, Hops, Reached),
+    endpoint_reply(ReplyTo, Reached).
+
+reached(Id, Hops, Reached) :-
+    (   (   outcome(Id, _)
+        ;   whereabouts(Id, _, Hops0),
+            Hops0 >= Hops
+        ;   agent(Id, _, _, _, life(_, Hops0, _, _, _, _)),
+            Hops0 >= Hops
+        )
+    ->  Reached = true
+    ;   Reached = false
+    ).
 
 %!  whereabouts(+Id, -Address, -Hops) is semidet.
 %
@@ -156,7 +218,8 @@ whereabouts(Id, Address, Hops) :-
     forward(Id, Address, Hops),
     !.
 whereabouts(Id, Address, Hops) :-
-    born(Id, Address, Hops).
+    born(Id, Address, Hops),
+    !.
 
 %!  agent_outcome(+Id, -Outcome) is semidet.
 %!  agent_alive(?Id) is nondet.
