@@ -1,0 +1,287 @@
+:- module(test_transcript,
+          [ transcript_differences/3    % +Sessions, +Dir, -Differences
+          ]).
+
+/** <module> Does the top level say what a transcript says it says?
+
+A session is what stands in a document: queries after `?- `, continued
+after `|`, each followed by what was written. The queries are typed at a top
+level that has loaded library(typhon).
+
+Ports, marks of agents, numbers of threads and variables, and long floats
+are not compared, nor are the bindings of `$Var`. A line `...` stands for
+any lines. Reports (of errors, and what agents say) may come at any time of
+their session.
+
+*Threading*: a thread reads what the top level writes, for to wait on a
+stream with a deadline may lose the beginning of a line.
+*/
+
+:- use_module(common).
+:- use_module(library(apply),
+              [ exclude/3, foldl/4, include/3, maplist/3, partition/4 ]).
+:- use_module(library(dcg/basics), [digits//1, integer//1, string//1]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists),
+              [append/3, member/2, select/3, subtract/3]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+
+%!  transcript_differences(+Sessions, +Dir, -Differences:list) is det.
+%
+%   Sessions are pairs of a line number and the lines of a session; all are
+%   typed at one top level in Dir. Differences are pairs of a line number and
+%   what is not as it was shown.
+
+transcript_differences(Sessions, Dir, Differences) :-
+    setup_call_cleanup(
+        start_top_level(Dir, Top),
+        findall(Difference,
+                ( member(Line-Lines, Sessions),
+                  steps(Lines, Steps),
+                  session(Steps, Line, Top, Difference) ),
+                Differences),
+        stop_top_level(Top)).
+
+%   steps(+Lines, -Steps): step(Goal, Expected) for each query.
+
+steps([], []).
+steps([Line|Lines], [step(Goal, Expected)|Steps]) :-
+    string_concat("?- ", Begin, Line),
+    !,
+    goal(Begin, Lines, Goal, Lines1),
+    (   append(Expected, [Next|Rest], Lines1),
+        string_concat("?- ", _, Next)
+    ->  steps([Next|Rest], Steps)
+    ;   Expected = Lines1,
+        Steps = []
+    ).
+steps([_|Lines], Steps) :-
+    steps(Lines, Steps).
+
+goal(Begin, Lines, Begin, Lines) :-
+    string_concat(_, ".", Begin),
+    !.
+goal(Begin, [Line|Lines], Goal, Rest) :-
+    string_concat("|", More, Line),
+    string_concat(Begin, More, Goal0),
+    goal(Goal0, Lines, Goal, Rest).
+
+                /*******************************
+                *          TOP LEVEL           *
+                *******************************/
+
+start_top_level(Dir, top(Pid, In, Queue, Reader, Dir)) :-
+    current_prolog_flag(executable, Swipl),
+    project_file(prolog, Library),
+    atom_concat('library=', Library, Path),
+    directory_file_path(Library, 'typhon.pl', Typhon),
+    process_create(path(sh),
+                   [ '-c', 'exec "$0" "$@" 2>&1', Swipl, '-f', none,
+                     '-p', Path, Typhon ],
+                   [ cwd(Dir), stdin(pipe(In)), stdout(pipe(Out)),
+                     process(Pid) ]),
+    message_queue_create(Queue),
+    thread_create(read_lines(Out, Queue), Reader),
+    ask(top(Pid, In, Queue, Reader, Dir), "true.", _).
+
+read_lines(Out, Queue) :-
+    read_line_to_string(Out, Line),
+    thread_send_message(Queue, line(Line)),
+    (   Line == end_of_file
+    ->  close(Out)
+    ;   read_lines(Out, Queue)
+    ).
+
+stop_top_level(top(Pid, In, Queue, Reader, _)) :-
+    catch(format(In, 'halt.~n', []), error(_, _), true),
+    close(In, [force(true)]),
+    wait_for_end(Pid, 10, Status),
+    (   Status == timeout
+    ->  process_kill(Pid, kill),
+        process_wait(Pid, _)
+    ;   true
+    ),
+    thread_join(Reader, _),
+    message_queue_destroy(Queue).
+
+%   ask(+Top, +Goal, -Lines): what is written until the next query.
+
+ask(top(_, In, Queue, _, Dir), Goal, Lines) :-
+    flag(test_doc_mark, N, N+1),
+    format(string(Mark), "@@~d@@", [N]),
+    format(In, '~s~nformat("~~n~s~~n").~n', [Goal, Mark]),
+    flush_output(In),
+    get_time(Now),
+    Deadline is Now+60,
+    lines_until(Mark, Queue, Deadline, Lines0),
+    exclude(==(""), Lines0, Lines1),
+    (   Lines1 = ["true."|Lines2]       % of the mark before
+    ->  true
+    ;   Lines2 = Lines1
+    ),
+    maplist(at_home(Dir), Lines2, Lines).
+
+lines_until(Mark, Queue, Deadline, Lines) :-
+    (   thread_get_message(Queue, line(Line), [deadline(Deadline)])
+    ->  true
+    ;   throw(error(timeout_error(top_level, Mark), _))
+    ),
+    (   Line == Mark
+    ->  Lines = []
+    ;   Line == end_of_file
+    ->  throw(error(existence_error(top_level, Mark), _))
+    ;   Lines = [Line|More],
+        lines_until(Mark, Queue, Deadline, More)
+    ).
+
+at_home(Dir, Line0, Line) :-
+    atomic_list_concat(Parts, Dir, Line0),
+    atomic_list_concat(Parts, '/home/you', Line1),
+    atom_string(Line1, Line).
+
+                /*******************************
+                *           SESSIONS           *
+                *******************************/
+
+%   session(+Steps, +Line, +Top, -Difference): answers must come with their
+%   goals, reports (of errors, and what agents say) at any time.
+
+session(Steps, Line, Top, Line:Difference) :-
+    foldl(step(Top), Steps, []-[], Differences-Reports),
+    findall(Report,
+            ( member(step(_, Expected), Steps),
+              member(Text, Expected), report(Text), comparable(Text, Report) ),
+            Wanted),
+    late_reports(Top, Wanted, Reports, 50, Missing, Surplus),
+    (   member(Difference, Differences)
+    ;   member(Report, Missing), Difference = missing(Report)
+    ;   \+ ( member(step(_, Expected), Steps), memberchk("...", Expected) ),
+        member(Report, Surplus), Difference = unexpected(Report)
+    ).
+
+step(Top, step(Goal, Expected), Differences0-Reports0, Differences-Reports) :-
+    wanted_answer(Goal, Expected, Wanted),
+    answer(Goal, Wanted, Top, 100, Answer, New),
+    append(Reports0, New, Reports),
+    (   Answer == Wanted
+    ->  Differences = Differences0
+    ;   append(Differences0, [said(Goal, Answer, instead_of(Wanted))],
+               Differences)
+    ).
+
+wanted_answer(Goal, Lines, Wanted) :-
+    exclude(report, Lines, Answers),
+    subtract(Answers, ["", "..."], Shown),
+    answer_lines(Goal, Shown, Wanted).
+
+%   A question may be asked again until the answer is as it should be:
+%   agents take their time.
+
+answer(Goal, Wanted, Top, Tries, Answer, Reports) :-
+    ask(Top, Goal, Lines),
+    partition(report, Lines, Texts, Answers),
+    maplist(comparable, Texts, Reports0),
+    answer_lines(Goal, Answers, Answer0),
+    (   Answer0 \== Wanted,
+        Tries > 0,
+        question(Goal)
+    ->  pause,
+        Tries1 is Tries-1,
+        answer(Goal, Wanted, Top, Tries1, Answer, Reports1),
+        append(Reports0, Reports1, Reports)
+    ;   Answer = Answer0,
+        Reports = Reports0
+    ).
+
+question(Goal) :-
+    member(Begin, ["agents.", "hosts.", "agent_property(", "host_property(",
+                   "network_property("]),
+    string_concat(Begin, _, Goal),
+    !.
+
+pause :-
+    catch(wait_until(fail, 0.1), error(timeout_error(_, _), _), true).
+
+report(Line) :-
+    member(Begin, ["% ", "ERROR:", "Warning:"]),
+    string_concat(Begin, _, Line),
+    !.
+
+late_reports(Top, Wanted, Reports, Tries, Missing, Surplus) :-
+    foldl(cross_out, Wanted, []-Reports, Missing0-Surplus0),
+    (   Missing0 \== [],
+        Tries > 0
+    ->  pause,
+        ask(Top, "true.", Lines),
+        include(report, Lines, Texts),
+        maplist(comparable, Texts, New),
+        append(Reports, New, Reports1),
+        Tries1 is Tries-1,
+        late_reports(Top, Wanted, Reports1, Tries1, Missing, Surplus)
+    ;   Missing = Missing0,
+        Surplus = Surplus0
+    ).
+
+cross_out(Wanted, Missing-Reports0, Missing-Reports) :-
+    select(Wanted, Reports0, Reports),
+    !.
+cross_out(Wanted, Missing, [Wanted|Missing0]-Reports) :-
+    Missing = Missing0-Reports.
+
+                /*******************************
+                *          COMPARING           *
+                *******************************/
+
+%   Without the bindings of $Var, and without what ends a line of bindings.
+
+answer_lines(Goal, Lines0, Lines) :-
+    exclude(repeats_variable(Goal), Lines0, Lines1),
+    maplist(comparable, Lines1, Lines2),
+    (   Lines2 == [],
+        Lines0 \== []
+    ->  Lines = ["true"]
+    ;   Lines = Lines2
+    ).
+
+repeats_variable(Goal, Line) :-
+    split_string(Line, "=", " ", [Name, _|_]),
+    string_concat("$", Name, Variable),
+    sub_string(Goal, _, _, _, Variable),
+    !.
+
+comparable(Line, Comparable) :-
+    string_codes(Line, Codes0),
+    phrase(general(Codes1), Codes0),
+    string_codes(Comparable0, Codes1),
+    split_string(Comparable0, "", " ,.", [Comparable]).
+
+general(Codes) -->
+    special(Text),
+    !,
+    { string_codes(Text, Special),
+      append(Special, Rest, Codes) },
+    general(Rest).
+general([Code|Codes]) -->
+    [Code],
+    !,
+    general(Codes).
+general([]) -->
+    [].
+
+special("127.0.0.1:P") --> "127.0.0.1:", integer(_).
+special(".M@")         --> ".", mark, ".", integer(_), "@".
+special(" ")           --> " ", blanks_too.
+special("")            --> "[Thread ", string(_), "] ".
+special("(_")          --> "(_", integer(_).
+special(",_")          --> ",_", integer(_).
+special("F")           --> digits([_|_]), ".", digits([_,_,_,_|_]).
+
+mark --> [C], { code_type(C, csymf) ; code_type(C, digit) }, !, mark_rest.
+
+mark_rest --> [C], { code_type(C, alnum) }, !, mark_rest.
+mark_rest --> [].
+
+blanks_too --> " ", !, blanks_too.
+blanks_too --> [].
