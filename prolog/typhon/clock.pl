@@ -20,6 +20,10 @@ seconds and run as fast as Rate says.
 
 :- dynamic clock/3.             % Host, Epoch, Rate
 
+%!  clock(?Host, ?Epoch, ?Rate) is nondet.
+%
+%   The clocks that are set, as by clock_set/3.
+
 %!  clock_set(+Host, +Epoch, +Rate) is det.
 %
 %   Epoch is a time stamp in real seconds, Rate a positive number.

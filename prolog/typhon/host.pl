@@ -37,6 +37,10 @@ changed atomically.
     load_key/2,                 % Name, Flag
     hop_keys/3.                 % Name, Direction, Flags
 
+%!  host(?Name, ?Address, ?Place) is nondet.
+%
+%   The hosts of this process, in the order in which they were started.
+
 %!  host_add(+Name, +Address, +Place, +Options) is det.
 
 host_add(Name, Address, Place, Options) :-
