@@ -62,6 +62,11 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
     mailbox/2,                  % Id, From-Message
     order/2.                    % Id, Order
 
+%!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
+%
+%   The agents of this process: where they stand, the module of their
+%   state, the hash of their program, and their life.
+
 typhon_code:in_use(Hash) :-
     agent(_, _, _, Hash, _),
     !.
