@@ -82,11 +82,11 @@ outgoing(Address, Me) :-
             with_streams(Socket, In, Out,
                          ( meet(client, In, Out, Me, _, Session),
                            route_add(Address, Session),
-                           crew_tell(met(Address, Session)),
+                           ignore(crew_tell(met(Address, Session))),
                            serve(Session, In) ))
           ),
           error(Formal, _),
-          crew_tell(missed(Address, Formal))).
+          ignore(crew_tell(missed(Address, Formal)))).
 
 connect(Address, Socket) :-
     address_parts(Address, Interface, Port),

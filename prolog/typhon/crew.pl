@@ -1,6 +1,6 @@
 :- module(typhon_crew,
           [ crew_start/0,
-            crew_stop/0,
+            crew_stop/1,                % -Unheard
             crew_spawn/2,               % :Goal, -Thread
             crew_retire/2,              % +Thread, +Why
             crew_bury/1,                % +Thread
@@ -32,15 +32,29 @@ crew_start :-
     message_queue_create(Queue),
     assertz(crew_queue(Queue)).
 
-%!  crew_stop is det.
+%!  crew_stop(-Unheard) is det.
 %
-%   Stop and join all threads, whatever they do.
+%   Stop and join all threads, whatever they do. Unheard are the messages
+%   that nobody will hear any more.
 
-crew_stop :-
+crew_stop(Unheard) :-
     forall(member_thread(Thread), crew_retire(Thread, stopped)),
     (   member_thread(_)
-    ->  crew_stop
-    ;   forall(retract(crew_queue(Queue)), message_queue_destroy(Queue))
+    ->  crew_stop(Unheard)
+    ;   with_mutex(typhon_crew, close_queue(Unheard))
+    ).
+
+close_queue(Unheard) :-
+    retract(crew_queue(Queue)),
+    findall(Message, unheard(Queue, Message), Unheard),
+    message_queue_destroy(Queue).
+
+unheard(Queue, Message) :-
+    repeat,
+    (   thread_peek_message(Queue, _)
+    ->  thread_get_message(Queue, Message)
+    ;   !,
+        fail
     ).
 
 %!  crew_spawn(:Goal, -Thread) is det.
@@ -65,7 +79,7 @@ work(Goal) :-
 
 ended :-
     thread_self(Me),
-    crew_tell(ended(Me)).
+    ignore(crew_tell(ended(Me))).
 
 %!  crew_retire(+Thread, +Why) is det.
 %
@@ -103,17 +117,14 @@ prolog:message(typhon(endpoint, thread_died(Error))) -->
     [ 'Endpoint: a thread died: ' ],
     '$messages':translate_message(Error).
 
-%!  crew_tell(+Message) is det.
+%!  crew_tell(+Message) is semidet.
 %
-%   Tell the keeper. Silent when there is none any more.
+%   Tell the keeper; fails when there is none any more.
 
 crew_tell(Message) :-
-    (   crew_queue(Queue)
-    ->  catch(thread_send_message(Queue, Message),
-              error(existence_error(_, _), _),
-              true)
-    ;   true
-    ).
+    with_mutex(typhon_crew,
+               ( crew_queue(Queue),
+                 thread_send_message(Queue, Message) )).
 
 %!  crew_hear(-Message, +Deadline) is semidet.
 %

@@ -39,13 +39,14 @@ that peer is read. They may post, request and reply.
 :- use_module(auth, [cookie/1, random_hex/2]).
 :- use_module(acceptor, [accept_all/2]).
 :- use_module(crew, [crew_bury/1, crew_retire/2, crew_spawn/2, crew_start/0,
-                     crew_stop/0, crew_tell/1]).
+                     crew_stop/1, crew_tell/1]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(hello, [hello/4]).
-:- use_module(keeper, [keep/1, keeper_connect/2]).
+:- use_module(keeper, [keep/1, keeper_connect/1,
+                       keeper_unheard/1]).
 :- use_module(request, [request_forget/1, request_reply/2, request_send/4,
-                        requests_lost/1]).
-:- use_module(session, [route/2, session/2, session_close/1,
+                        requests_lost/2]).
+:- use_module(session, [route/2, session/2, session_close/2,
                         session_control/2, session_flush/2,
                         session_peer/3,
                         session_pending/2, session_send/2, session_up/1]).
@@ -126,7 +127,9 @@ next_start(Start) :-
 %!  endpoint_stop is det.
 %
 %   Take no more connections, let the last frames arrive, close all.
-%   Requests without an answer are lost.
+%   Requests without an answer are lost. May be called in a clean-up
+%   handler: the wait with a deadline is in another thread, see
+%   keeper_connect/1.
 
 endpoint_stop :-
     with_mutex(typhon_endpoint, stop).
@@ -137,14 +140,16 @@ stop :-
     crew_retire(Acceptor, stopped),
     tcp_close_socket(Socket),
     setting(flush_time, Seconds),
-    ignore(endpoint_flush(Seconds)),
+    crew_spawn(endpoint_flush(Seconds), Flusher),
+    crew_bury(Flusher),
     forall(session(_, Session), session_control(Session, bye)),
     crew_tell(stop),
     crew_bury(Keeper),
-    crew_stop,
+    crew_stop(Unheard),
+    keeper_unheard(Unheard),
     forall(session(_, Session),
-           ( session_close(Session),
-             requests_lost(Session) )).
+           ( session_close(Session, Unsent),
+             requests_lost(Session, Unsent) )).
 stop.
 
 %!  endpoint_address(-Address) is semidet.
@@ -196,7 +201,7 @@ up_session(Address, Session) :-
 
 connect(Address, Session) :-
     check_running,
-    (   keeper_connect(Address, 10),
+    (   keeper_connect(Address),
         route(Address, Session0)
     ->  Session = Session0
     ;   throw(error(unreachable(Address), _))
@@ -246,7 +251,8 @@ request_far(Address, Kind, Term, OnAnswer) :-
           ( report(Formal, Context),
             call(OnAnswer, unreachable) )).
 
-report(unreachable(_), _) :-
+report(Formal, _) :-
+    memberchk(Formal, [unreachable(_), existence_error(endpoint, _)]),
     !.
 report(Formal, Context) :-
     print_message(error, error(Formal, Context)).

@@ -22,10 +22,15 @@ lines are exchanged.
 */
 
 :- use_module(library(error), [syntax_error/1]).
+:- use_module(library(settings), [setting/2, setting/4]).
+
+:- setting(records, boolean, true,
+           "Whether terms may travel as records; else always as text").
 
 %!  hello(+Process, +Start, +Address, -Hello) is det.
 %
-%   Hello is what this process says of itself.
+%   Hello is what this process says of itself. Without records it claims
+%   no byte order, which agrees with nobody's.
 
 hello(Process, Start, Address,
       hello(Process, Start, Address, Version, Word, Order)) :-
@@ -35,6 +40,9 @@ hello(Process, Start, Address,
 
 %   1.5 is 0x3ff8 and zeros: a record shows which end comes first.
 
+byte_order(none) :-
+    setting(records, false),
+    !.
 byte_order(Order) :-
     fast_term_serialized(1.5, Bytes),
     (   sub_string(Bytes, _, _, _, "\xf8\\x3f\")
@@ -72,6 +80,7 @@ hello_codec(hello(_, _, _, Theirs, Word, Order), Codec) :-
     hello(x, 0, x, hello(_, _, _, Ours, OurWord, OurOrder)),
     (   Word == OurWord,
         Order == OurOrder,
+        Order \== none,
         one_record_format(Ours, Theirs)
     ->  Codec = fast
     ;   Codec = text

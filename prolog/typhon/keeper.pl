@@ -1,6 +1,7 @@
 :- module(typhon_keeper,
           [ keep/1,                     % +Me
-            keeper_connect/2            % +Address, +Seconds
+            keeper_connect/1,           % +Address
+            keeper_unheard/1            % +Messages
           ]).
 
 /** <module> The keeper: connects, and connects again
@@ -17,8 +18,8 @@ dynamic predicates below. Others talk to it through crew_tell/1.
 :- use_module(connection, [outgoing/2]).
 :- use_module(crew, [crew_bury/1, crew_hear/2, crew_retire/2, crew_spawn/2,
                      crew_tell/1]).
-:- use_module(request, [requests_lost/1, requests_open/1]).
-:- use_module(session, [route/2, session/2, session_close/1,
+:- use_module(request, [requests_lost/2, requests_open/1]).
+:- use_module(session, [route/2, session/2, session_close/2,
                         session_peer/3, session_pending/2, session_retire/1,
                         session_up/1]).
 
@@ -30,18 +31,27 @@ dynamic predicates below. Others talk to it through crew_tell/1.
     waiter/2,                           % Address, Queue
     again/3.                            % Key, Time, Wait
 
-%!  keeper_connect(+Address, +Seconds) is semidet.
+%!  keeper_connect(+Address) is semidet.
 %
-%   See to it that there is a connection to Address; fails if there is
-%   none after Seconds.
+%   See to it that there is a connection to Address; fails if there can be
+%   none. The keeper always answers, so there is no deadline here: a wait
+%   with a deadline may never end in a clean-up handler or a hook, where
+%   signals are held back (SWI-Prolog 9.0.4).
 
-keeper_connect(Address, Seconds) :-
+keeper_connect(Address) :-
     setup_call_cleanup(
         message_queue_create(Queue),
         ( crew_tell(connect(Address, Queue)),
-          thread_get_message(Queue, Result, [timeout(Seconds)]),
+          thread_get_message(Queue, Result),
           Result == met ),
         message_queue_destroy(Queue)).
+
+%!  keeper_unheard(+Messages) is det.
+%
+%   Answer those who asked too late.
+
+keeper_unheard(Messages) :-
+    forall(member(connect(_, Queue), Messages), tell_waiter(Queue, missed)).
 
 %!  keep(+Me) is det.
 %
@@ -64,20 +74,9 @@ keep(Me) :-
     ).
 
 rest :-
-    get_time(Now),
-    forall(waiting_still(Queue, Now), tell_waiter(Queue, missed)),
+    forall(retract(waiter(_, Queue)), tell_waiter(Queue, missed)),
     retractall(attempt(_, _, _)),
     retractall(again(_, _, _)).
-
-waiting_still(Queue, _) :-
-    retract(waiter(_, Queue)).
-waiting_still(Queue, Now) :-
-    repeat,
-    (   crew_hear(Message, Now)
-    ->  Message = connect(_, Queue)
-    ;   !,
-        fail
-    ).
 
 next_deadline(Deadline) :-
     findall(T, ( attempt(_, _, T) ; again(_, T, _) ), Times),
@@ -117,8 +116,8 @@ gone(Key) :-
     (   session(Key, Session)
     ->  retractall(again(Key, _, _)),
         session_retire(Session),
-        session_close(Session),
-        requests_lost(Session)
+        session_close(Session, Unsent),
+        requests_lost(Session, Unsent)
     ;   true
     ).
 

@@ -107,7 +107,7 @@ handle(ping, Session, In, State) :-
     acknowledge(Session, In, State).
 handle(bye, session(Key, _, _, _, _), _, _) :-
     !,
-    crew_tell(gone(Key)).
+    ignore(crew_tell(gone(Key))).
 handle(Frame, Session, In, State) :-
     dispatch(Session, Frame),
     State = count(Count0, Told, ToldBytes, _),

@@ -2,7 +2,7 @@
           [ request_send/4,             % +Session, +Kind, +Term, :OnAnswer
             request_reply/2,            % +ReplyTo, +Term
             request_forget/1,           % +Id
-            requests_lost/1,            % +Session
+            requests_lost/2,            % +Session, +Unsent
             requests_open/1,            % +Session
             dispatch/2,                 % +Session, +Frame
             connection_is/2             % +Session, +State
@@ -24,7 +24,7 @@ and so answered once.
 */
 
 :- use_module(library(apply), [maplist/2]).
-:- use_module(session, [session_peer/3, session_send/2, session_unsent/2]).
+:- use_module(session, [session_peer/3, session_send/2]).
 
 :- meta_predicate
     request_send(+, +, +, 1).
@@ -61,14 +61,13 @@ requests_open(session(Key, _, _, _, _)) :-
     open_request(_, Key, _),
     !.
 
-%!  requests_lost(+Session) is det.
+%!  requests_lost(+Session, +Unsent) is det.
 %
-%   The peer is gone for good: tell all who wait for its answers.
+%   The peer is gone for good and the frames Unsent never left: tell all
+%   who wait for its answers.
 
-requests_lost(Session) :-
-    Session = session(Key, _, _, _, _),
-    findall(Id, session_unsent(Session, request(Id, _, _)), Unsent),
-    maplist(conclude(unreachable), Unsent),
+requests_lost(session(Key, _, _, _, _), Unsent) :-
+    forall(member(request(Id, _, _), Unsent), conclude(unreachable, Id)),
     findall(Id, open_request(Id, Key, _), Ids),
     maplist(conclude(lost), Ids).
 

@@ -14,8 +14,7 @@
             session_adopting/2,         % +Session, :Goal
             session_pending/2,          % +Session, -Count
             session_flush/2,            % +Session, +Deadline
-            session_unsent/2,           % +Session, -Term
-            session_close/1,            % +Session
+            session_close/2,            % +Session, -Unsent
             route/2,                    % ?Address, ?Session
             route_add/2                 % +Address, +Session
           ]).
@@ -91,18 +90,30 @@ open_session(Key, hello(Process, _, Address, _, _, _), Codec, Session) :-
     assertz(session_peer(Key, Process, Address)),
     assertz(session(Key, Session)).
 
-%!  session_close(+Session) is det.
+%!  session_close(+Session, -Unsent) is semidet.
 %
-%   Forget a session that has no connection. Its queues and mutexes are
-%   left to the garbage collector, as somebody may be about to use them.
+%   Forget a session that has no connection; fails when it is forgotten
+%   already. Unsent are the terms that were never written to any. The
+%   mutexes are left to the garbage collector: somebody may wait for them.
 
-session_close(session(Key, _, Mutex, _, _)) :-
-    with_mutex(Mutex, retractall(session(Key, _))),
+session_close(session(Key, Codec, Mutex, Sent, Waiting), Unsent) :-
+    with_mutex(Mutex, close_queues(Key, Codec, Sent, Waiting, Unsent)),
     retractall(route(_, session(Key, _, _, _, _))),
     retractall(session_peer(Key, _, _)),
     retractall(received(Key, _)),
     retractall(acked(Key, _, _)),
     retractall(adoption(Key, _)).
+
+close_queues(Key, Codec, Sent, Waiting, Unsent) :-
+    retract(session(Key, _)),
+    queue_list(Waiting, List),
+    findall(Term,
+            ( member(Bytes, List),
+              string(Bytes),
+              bytes_term(Codec, Bytes, Term) ),
+            Unsent),
+    message_queue_destroy(Sent),
+    message_queue_destroy(Waiting).
 
 %!  route_add(+Address, +Session) is det.
 %
@@ -114,7 +125,7 @@ route_add(Address, Session) :-
     ->  true
     ;   with_mutex(typhon_session,
                    ( forall(retract(route(Address, session(Key, _, _, _, _))),
-                            crew_tell(displaced(Key))),
+                            ignore(crew_tell(displaced(Key)))),
                      assertz(route(Address, Session)) ))
     ).
 
@@ -167,7 +178,7 @@ put(Key, Sent, Waiting, Bytes) :-
     ->  true
     ;   link(Key, Thread, Out)
     ->  start_pusher(Key, Thread, Out, Sent, Waiting, [])
-    ;   crew_tell(wanted(Key))
+    ;   ignore(crew_tell(wanted(Key)))
     ).
 
 room(Key, Out) :-
@@ -346,7 +357,7 @@ session_down(session(Key, _, Mutex, _, _), Thread) :-
     forall(retract(pushing(Key, Pusher)),
            crew_retire(Pusher, broken)),
     retractall(serving(Key, Thread)),
-    crew_tell(wanted(Key)).
+    ignore(crew_tell(wanted(Key))).
 
 %!  session_retire(+Session) is det.
 %
@@ -360,9 +371,19 @@ session_retire(session(Key, _, _, _, _)) :-
 %   Count frames are not acknowledged.
 
 session_pending(session(_, _, _, Sent, Waiting), Count) :-
-    message_queue_property(Sent, size(S)),
-    message_queue_property(Waiting, size(W)),
+    queue_size(Sent, S),
+    queue_size(Waiting, W),
     Count is S+W.
+
+%   The queue may be gone: the session was closed.
+
+queue_size(Queue, Size) :-
+    catch(message_queue_property(Queue, size(Size0)),
+          error(existence_error(_, _), _),
+          fail),
+    !,
+    Size = Size0.
+queue_size(_, 0).
 
 %!  session_flush(+Session, +Deadline) is semidet.
 %
@@ -389,13 +410,3 @@ flush(Session, Queue, Deadline) :-
     ;   session_control(Session, ping),
         thread_get_message(Queue, flushed, [deadline(Deadline)])
     ).
-
-%!  session_unsent(+Session, -Term) is nondet.
-%
-%   Term was never written to any connection.
-
-session_unsent(session(_, Codec, _, _, Waiting), Term) :-
-    queue_list(Waiting, List),
-    member(Bytes, List),
-    string(Bytes),
-    bytes_term(Codec, Bytes, Term).
