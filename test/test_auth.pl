@@ -164,20 +164,37 @@ reflect(In, Out) :-
 
 test(same, Codec == fast) :-
     hello(p, 1, a, Hello),
-    hello_codec(Hello, Codec).
+    hello_codec(Hello, Hello, Codec).
 test(within_the_tried_range, Codec == fast) :-
-    hello(p, 1, a, hello(P, S, A, _, W, O)),
-    hello_codec(hello(P, S, A, 90209, W, O), Codec).
+    hello(p, 1, a, Hello),
+    Hello = hello(P, S, A, _, W, O),
+    hello_codec(Hello, hello(P, S, A, 90209, W, O), Codec).
 test(other_word_size, Codec == text) :-
-    hello(p, 1, a, hello(P, S, A, V, W, O)),
+    hello(p, 1, a, Hello),
+    Hello = hello(P, S, A, V, W, O),
     Other is 96-W,                      % 32 or 64
-    hello_codec(hello(P, S, A, V, Other, O), Codec).
+    hello_codec(Hello, hello(P, S, A, V, Other, O), Codec).
 test(other_byte_order, Codec == text) :-
-    hello(p, 1, a, hello(P, S, A, V, W, _)),
-    hello_codec(hello(P, S, A, V, W, big), Codec).
+    hello(p, 1, a, Hello),
+    Hello = hello(P, S, A, V, W, _),
+    hello_codec(Hello, hello(P, S, A, V, W, big), Codec).
 test(untried_version, Codec == text) :-
-    hello(p, 1, a, hello(P, S, A, _, W, O)),
-    hello_codec(hello(P, S, A, 100100, W, O), Codec).
+    hello(p, 1, a, Hello),
+    Hello = hello(P, S, A, _, W, O),
+    hello_codec(Hello, hello(P, S, A, 100100, W, O), Codec).
+test(without_records, Codecs == [text, text, text]) :-
+    hello(p, 1, a, With),
+    setting(typhon_hello:records, Old),
+    setup_call_cleanup(
+        set_setting(typhon_hello:records, false),
+        hello(p, 1, a, Without),
+        set_setting(typhon_hello:records, Old)),
+    findall(Codec,
+            ( member(Mine-Theirs,
+                     [With-Without, Without-With, Without-Without]),
+              hello_codec(Mine, Theirs, Codec)
+            ),
+            Codecs).
 
 :- end_tests(codec_is_settled_by_the_hellos).
 

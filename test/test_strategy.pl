@@ -106,7 +106,7 @@ test(memory_is_ground_and_small, true) :-
     next_host(conscientious, [b, c], a, M0, _, M),
     ground(M),
     term_size(M, Cells),
-    Cells < 20.
+    Cells =< 20.                        % so many on 32 bit
 test(unvisited_first, Host == d) :-
     draw_from(conscientious, [b, c, d], a, [b, c], 1, Host).
 test(then_the_least_recent, Host == c) :-

@@ -25,7 +25,7 @@ are held back while a frame is being handled and counted.
                                 tcp_socket/1]).
 :- use_module(auth, [authenticate/5]).
 :- use_module(crew, [crew_tell/1]).
-:- use_module(hello, [hello_codec/2, line_read/3, line_write/2]).
+:- use_module(hello, [hello_codec/3, line_read/3, line_write/2]).
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
 :- use_module(session, [route_add/2, session_adopting/2, session_down/2,
@@ -133,7 +133,7 @@ open_streams(Socket, In, Out) :-
 
 meet(Role, In, Out, Me, Peer, Session) :-
     authenticate(Role, In, Out, Me, Peer),
-    hello_codec(Peer, Codec),
+    hello_codec(Me, Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
     session_open(Key, Peer, Codec, Session),
     adopt(MyKey, Key, Session, In, Out).

@@ -2,7 +2,7 @@
           [ hello/4,                    % +Process, +Start, +Address, -Hello
             hello_line/2,               % +Hello, -Line
             line_hello/2,               % +Line, -Hello
-            hello_codec/2,              % +Hello, -Codec
+            hello_codec/3,              % +Hello, +PeerHello, -Codec
             line_read/3,                % +In, +Deadline, -Line
             line_write/2                % +Out, +Line
           ]).
@@ -72,16 +72,17 @@ line_hello(Line, Hello) :-
     ;   syntax_error(hello)
     ).
 
-%!  hello_codec(+PeerHello, -Codec) is det.
+%!  hello_codec(+Hello, +PeerHello, -Codec) is det.
 %
-%   Codec is `fast` only where it is known to be safe, else `text`.
+%   Codec is `fast` only where it is known to be safe, else `text`. It is
+%   the same whichever of the two hellos is one's own.
 
-hello_codec(hello(_, _, _, Theirs, Word, Order), Codec) :-
-    hello(x, 0, x, hello(_, _, _, Ours, OurWord, OurOrder)),
-    (   Word == OurWord,
-        Order == OurOrder,
-        Order \== none,
-        one_record_format(Ours, Theirs)
+hello_codec(hello(_, _, _, Version1, Word1, Order1),
+            hello(_, _, _, Version2, Word2, Order2), Codec) :-
+    (   Word1 == Word2,
+        Order1 == Order2,
+        Order1 \== none,
+        one_record_format(Version1, Version2)
     ->  Codec = fast
     ;   Codec = text
     ).
