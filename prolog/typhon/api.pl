@@ -75,7 +75,7 @@ agent_create(Spec, Agent, Options) :-
     start_goals(Clauses, Initial, Goals),
     program_hash(Program, Hash),
     code_install(Hash, Program),
-    create(Target, Name, start(Hash, Life, State, Goals), Agent).
+    create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
 
 check_option(Option) :-
     (   option_type(Option, Type, Value)
@@ -150,7 +150,7 @@ create(local(Host), Name, Start, Agent) :-
     agent_start(Id, Host, Start, Answer),
     created(Answer, Address, Id, Agent).
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
-    Start = start(Hash, _, _, _),
+    Start = start(Hash, _, _, _, _),
     code_program(Hash, Program),
     ask_create(Endpoint, Address, create(HostName, Name, Start, Program),
                Answer),
@@ -336,6 +336,7 @@ join(Endpoint, Agent, Seconds, Outcome) :-
 %   that is made of it goes on where the first one was, on the first host
 %   of this process, under an id of its own.
 %
+%   @error type_error(mobile_term, Culprit)
 %   @error domain_error(restore_point, File)
 
 agent_save(Agent, File) :-
@@ -347,5 +348,4 @@ agent_load(File, Agent) :-
     restore_read(File, image(Name, Program, Life, State, Goals, Mail)),
     program_hash(Program, Hash),
     code_install(Hash, Program),
-    create(local(Host), Name, start(Hash, Life, State, Goals), Agent),
-    forall(member(From-Message, Mail), post(Agent, From, Message)).
+    create(local(Host), Name, start(Hash, Life, State, Goals, Mail), Agent).

@@ -9,6 +9,7 @@
 :- use_module(endpoint,
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2 ]).
 :- use_module(hop, [hop_state/2]).
+:- use_module(frame, [mobile_term/1]).
 :- use_module(host, [host/3, address_parts/3]).
 :- use_module(inside, []).
 :- use_module(life, [agent_start/4, agent_do/2, agent_clone_here/5]).
@@ -116,7 +117,7 @@ request(create(HostName, Name, Start, Program), ReplyTo) :-
     endpoint_reply(ReplyTo, Answer).
 
 create(HostName, Name, Start, Program, Answer) :-
-    Start = start(Hash, _, _, _),
+    Start = start(Hash, _, _, _, _),
     (   host(HostName, Address, _)
     ->  code_install(Hash, Program),
         agent_id(Name, Address, Id),
@@ -234,7 +235,8 @@ carried_out(image, Agent,
     code_program(Hash, Program),
     atomic_list_concat([Name|_], '.', Agent),
     agent_state(Module, State),
-    findall(M, typhon_agent:mailbox(Agent, M), Mail).
+    findall(M, typhon_agent:mailbox(Agent, M), Mail),
+    mobile_term(State-Goals).
 
                 /*******************************
                 *          PROPERTIES          *
@@ -292,5 +294,10 @@ goal_list(hop(Goals0, _), Goals) :- !, without_hole(Goals0, Goals).
 goal_list(clone(Goals0-_, _, _), Goals) :- !, without_hole(Goals0, Goals).
 goal_list(Goals, Goals).
 
-without_hole(Hole-Goals, Goals) :-
-    ignore(Hole = true).
+without_hole(Hole-Goals0, Goals) :-
+    (   Goals0 = [Goal|Goals1],
+        Goal == Hole
+    ->  Goals = Goals1
+    ;   ignore(Hole = true),
+        Goals = Goals0
+    ).

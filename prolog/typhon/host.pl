@@ -73,7 +73,7 @@ make_hop_keys(Name, Direction) :-
 %   From now on nobody is admitted.
 
 host_close(Name) :-
-    asserta(option(Name, capacity(0))).
+    assertz(option(Name, closed)).
 
 %!  host_remove(+Name) is det.
 
@@ -151,7 +151,9 @@ where_address(remote(Address, _, _), Address).
 %   taken for it, or refused(Reason).
 
 host_enter(Name, _, refused(unknown_host)) :-
-    \+ host(Name, _, _),
+    (   \+ host(Name, _, _)
+    ;   option(Name, closed)
+    ),
     !.
 host_enter(Name, Tokens, refused(token)) :-
     option(Name, tokens(Wanted)),
@@ -160,13 +162,12 @@ host_enter(Name, Tokens, refused(token)) :-
     !.
 host_enter(Name, _, Answer) :-
     load_key(Name, Key),
-    flag(Key, Load, Load+1),
     (   option(Name, capacity(Capacity)),
-        Capacity \== inf,
-        Load >= Capacity
-    ->  flag(Key, Load1, Load1-1),
-        Answer = refused(capacity)
-    ;   Answer = ok
+        Capacity \== inf
+    ->  flag(Key, Load, Load+max(0, min(1, Capacity-Load))),
+        ( Load < Capacity -> Answer = ok ; Answer = refused(capacity) )
+    ;   flag(Key, Load, Load+1),
+        Answer = ok
     ).
 
 %!  host_leave(+Name) is det.

@@ -17,6 +17,7 @@
             deliver/1,                  % +Name
             undeliver/1,                % +Name
             log/1,                      % +What
+            message_failed/2,           % +From, +Message
             move/1,                     % +Host
             clone/1,                    % -Who
             clone/2,                    % +Host, -Who
@@ -267,6 +268,14 @@ log(What) :-
         host_log(Host, Agent, What)
     ;   print_message(informational, typhon(log(Host, Agent, What)))
     ).
+
+%!  message_failed(+From, +Message) is det.
+%
+%   on_message/2 has failed; the agent stays.
+
+message_failed(From, Message) :-
+    context_agent(Id),
+    print_message(warning, typhon(message_failed(Id, From, Message))).
 
                 /*******************************
                 *            CONTROL           *

@@ -5,7 +5,7 @@
             agent_clone_here/5          % +Id, +CloneId, +Who, +Goals, -Answer
           ]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
-:- use_module(library(lists), [selectchk/3, append/3, last/2]).
+:- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent).
 :- use_module(clock, [host_time/2, real_time/3]).
@@ -44,15 +44,15 @@ effect/5 each.
 %
 %   Let an agent begin on Host, a host of this process.
 %
-%   @arg Spec is start(Hash, Life, State, Goals)
+%   @arg Spec is start(Hash, Life, State, Goals, Mail)
 %   @arg Answer is `ok` or refused(Reason)
 
-agent_start(Id, Host, start(Hash, Life, State, Goals), Answer) :-
+agent_start(Id, Host, start(Hash, Life, State, Goals, Mail), Answer) :-
     arg(4, Life, Tokens),
     host_enter(Host, Tokens, Answer),
     (   Answer == ok
     ->  host(Host, Address, Place),
-        catch(with_agent(Id, born(Id, Host, Place, Hash, Life, State)),
+        catch(with_agent(Id, born(Id, Host, Place, Hash, Life, State, Mail)),
               Ball,
               ( host_leave(Host), throw(Ball) )),
         agent_born(Id, Address),
@@ -61,9 +61,10 @@ agent_start(Id, Host, start(Hash, Life, State, Goals), Answer) :-
     ;   true
     ).
 
-born(Id, Host, Place, Hash, Life, State) :-
+born(Id, Host, Place, Hash, Life, State, Mail) :-
     agent_install(Id, Host, Place, Hash, Life, State),
-    agent_put(Id, arriving, []).
+    agent_put(Id, arriving, []),
+    forall(member(Message, Mail), agent_mail(Id, Message)).
 
 %!  agent_end(+Id, +Outcome) is semidet.
 %
@@ -119,11 +120,9 @@ forget_faulty :-
     setting(faulty, Max),
     findall(Id, agent_status(Id, faulty(_), _), Ids),
     length(Ids, Count),
-    (   Count > Max,
-        Ids = [Oldest|_]
-    ->  ignore(agent_end(Oldest, disposed))
-    ;   true
-    ).
+    Excess is Count-Max,
+    forall(( nth1(N, Ids, Oldest), N =< Excess ),
+           ignore(agent_end(Oldest, disposed))).
 
                 /*******************************
                 *            RUNNING           *
@@ -199,7 +198,8 @@ conclude(effect(Control, Hole, Goals), Id, Host, _, Next) :-
               ))
     ).
 
-%   No goals are left: take the next message, or stay resident, or end.
+%   No goals are left: take the next message, or stay resident, or end.  A
+%   message that on_message/2 does not want is no reason to end.
 
 finish(Id, context(_, Module), Next) :-
     agent(Id, _, Module, Hash, _),
@@ -214,7 +214,10 @@ next_message(Id, Next) :-
     ->  agent_ready(Id, []),
         Next = stop
     ;   agent_take_mail(Id, From-Message)
-    ->  Next = go([on_message(From, Message)])
+    ->  Next = go([( on_message(From, Message)
+                   ->  true
+                   ;   message_failed(From, Message)
+                   )])
     ;   agent_put(Id, resident, []),
         Next = stop
     ).
@@ -402,7 +405,7 @@ agent_clone_here(Id, CloneId, Host, Goals, Answer) :-
     agent_state(Module, State),
     Life0 = life(_, _, Lifetime, Tokens, Payloads, Static),
     Life = life(Id, 0, Lifetime, Tokens, Payloads, Static),
-    agent_start(CloneId, Host, start(Hash, Life, State, Goals), Answer).
+    agent_start(CloneId, Host, start(Hash, Life, State, Goals, []), Answer).
 
                 /*******************************
                 *            ORDERS            *

@@ -87,6 +87,9 @@ prolog:message(typhon(faulty(Agent, Error))) -->
     explained(Error).
 prolog:message(typhon(agent_failed(Agent))) -->
     [ 'Agent ~w has failed'-[Agent] ].
+prolog:message(typhon(message_failed(Agent, From, Message))) -->
+    [ 'Agent ~w does not understand a message: ~p from ~w'-
+      [Agent, Message, From] ].
 prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
     !,
     [ 'Agent ~w could not obey: '-[Agent] ],

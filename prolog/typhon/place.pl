@@ -145,10 +145,4 @@ place_undeliver(Place, Name) :-
 
 remove(Place, Name) :-
     retract(delivered(Place, Name, PIs)),
-    forall(member(PI, PIs),
-           ( indicator_head(PI, Head),
-             retractall(Place:Head)
-           )).
-
-indicator_head(Name/Arity, Head) :-
-    functor(Head, Name, Arity).
+    forall(member(PI, PIs), abolish(Place:PI)).

@@ -27,7 +27,7 @@ restore_write(File, Image) :-
 
 write_line(Out, Line) :-
     write_term(Out, Line,
-               [ quoted(true), spacing(next_argument),
+               [ module(system), quoted(true), spacing(next_argument),
                  fullstop(true), nl(true) ]).
 
 line(_, restore_point(Version)) :-
