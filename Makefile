@@ -3,8 +3,8 @@
 
 SWIPL ?= swipl
 MAKEFLAGS += --no-print-directory
-ENTRY_POINTS = prolog/typhon.pl $(wildcard app/*.pl experiments/*.pl \
-    bench/*.pl test/run.pl)
+ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
+    $(wildcard experiments/*.pl bench/run.pl)
 
 .PHONY: help tools demo test check bench test-portability install clean
 

@@ -238,17 +238,39 @@ log_option(Options, Option) :-
 
 :- meta_predicate until_told_to_stop(0, 0, 0).
 
+%   All is done in a thread of its own.  While the main thread creates
+%   threads, signals reach one of those, and are lost.
+
 until_told_to_stop(Start, Report, Stop) :-
     on_signal(term, _, typhon_app:told_to_stop),
     on_signal(int, _, typhon_app:told_to_stop),
-    call(Start),
-    and_then(( once(Report),
-               thread_get_message(told_to_stop)
-             ), Stop).
+    thread_create(serve(Start, Report, Stop), Server),
+    thread_send_message(Server, start),
+    thread_get_message(serving(Event)),
+    (   Event == told_to_stop
+    ->  thread_send_message(Server, stop)
+    ;   true
+    ),
+    thread_join(Server, Status),
+    (   Status = exception(Error)
+    ->  throw(Error)
+    ;   Status == true
+    ).
 
-%   Stopping waits with deadlines, which the cleanup handler of
-%   setup_call_cleanup/3 cannot do: while a signal is pending there, a wait
-%   whose time is over goes on for ever.
+told_to_stop(_Signal) :-
+    thread_send_message(main, serving(told_to_stop)).
+
+serve(Start, Report, Stop) :-
+    call_cleanup(( thread_get_message(start),
+                   call(Start),
+                   and_then(( once(Report),
+                              thread_get_message(stop)
+                            ), Stop)
+                 ),
+                 thread_send_message(main, serving(ended))).
+
+%   setup_call_cleanup/3 will not do: a wait with a deadline goes on for ever
+%   in its cleanup handler when a signal is pending.
 
 :- meta_predicate and_then(0, 0).
 
@@ -258,9 +280,6 @@ and_then(Goal, Finally) :-
           Result = throw(error(Formal, Context))),
     call(Finally),
     call(Result).
-
-told_to_stop(_Signal) :-
-    thread_send_message(main, told_to_stop).
 
 join(Agent, Seconds) :-
     agent_join(Agent, Outcome, Seconds),

@@ -25,7 +25,8 @@ typhon_lines(Args, Lines) :-
     typhon(Args, Status, Out, Err),
     assertion(Status-Err == exit(0)-""),
     split_string(Out, "\n", "", Lines0),
-    append(Lines, [_], Lines0).
+    append(Lines, [_], Lines0),
+    !.
 
 %   An expected error: one line, no stack, status 1.
 
@@ -124,6 +125,7 @@ test(stops_cleanly, [ forall(member(Signal, [term, int])),
                       Status == exit(0) ]) :-
     with_typhon([host, alpha], Pid, Address,
                 ( assertion(wildcard_match('alpha@127.0.0.1:*', Address)),
+                  typhon_lines([agents, '--host', Address], ["No agents"]),
                   process_kill(Pid, Signal),
                   wait_for_end(Pid, 10, Status)
                 )).

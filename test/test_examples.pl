@@ -26,7 +26,7 @@ shows(messages,
       [ '5, then 42' ]).
 shows(stigmergy,
       [ 'An ant found food 1', 'An ant found food 2', 'An ant found food 3',
-        'An ant found nothing', 'An ant found nothing', 'In the nest: [*]'
+        'An ant found nothing', 'An ant found nothing', 'In the nest: ?*?'
       ]).
 shows(rewrite,
       [ 'alpha is new to me', 'beta is new to me',

@@ -17,7 +17,7 @@ swipl_at_home(Home, Directory, Goals, Out) :-
                 environment([ 'HOME'=Home, 'XDG_DATA_HOME'=Home ])
               ],
               Status, Out, Err),
-    assertion(Status-Err == exit(0)-Err).
+    assertion(Status+Err == exit(0)+Err).
 
 goal_arg(Goals, Arg) :-
     member(Goal, Goals),
@@ -47,6 +47,7 @@ works_in(Home, Dir) :-
                                        agents(\'sync/worker\')]), \c
                             ( typhon_paths:program_file(F, P), \c
                               writeln(P) ))',
+                    'host_start(here)',
                     'agent_create(clauses([(:- agent(a, [])), (main)]), A)'
                   ], Out0),
     split_string(Out0, "\n", "\n", Lines),
