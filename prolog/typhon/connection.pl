@@ -29,9 +29,9 @@ are held back while a frame is being handled and counted.
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
 :- use_module(session, [route_add/2, session_adopting/2, session_down/2,
-                        session_install/4, session_open/4,
-                        session_peer/3, session_received/2,
-                        session_retire/1]).
+                        session_install/4, session_left/0,
+                        session_open/4, session_peer/3,
+                        session_received/2, session_retire/1]).
 
 %!  incoming(+Socket, +Ip, :Welcomed, +Me) is det.
 %
@@ -55,22 +55,26 @@ turned_away(Ip, Formal) :-
     ),
     print_message(Level, typhon(endpoint, turned_away(Ip, Formal))).
 
-%   The client can be called back at the address it says it listens to,
+%   The peer at Ip can be reached at the address it says it listens to,
 %   unless that is meaningless here.
 
+reachable(_, _, session(Key, _, _, _, _)) :-
+    memberchk(Key, [self_client, self_server]),
+    !.
 reachable(hello(_, _, Claimed, _, _, _), Ip, Session) :-
     address_parts(Claimed, Interface, Port),
     (   Interface == '0.0.0.0'
-    ->  atomic_list_concat([Ip, Port], :, Address)
-    ;   Address = Claimed
-    ),
-    (   Session = session(self_client, _, _, _, _)
+    ->  atomic_list_concat([Ip, Port], :, Address),
+        route_add(Address, Session)
+    ;   loopback(Interface),
+        \+ loopback(Ip)
     ->  true
-    ;   sub_atom(Interface, 0, _, _, '127.'),
-        \+ sub_atom(Ip, 0, _, _, '127.')
-    ->  true
-    ;   route_add(Address, Session)
+    ;   route_add(Claimed, Session)
     ).
+
+loopback(localhost).
+loopback(Ip) :-
+    sub_atom(Ip, 0, _, _, '127.').
 
 %!  outgoing(+Address, +Me) is det.
 %
@@ -78,18 +82,19 @@ reachable(hello(_, _, Claimed, _, _, _), Ip, Session) :-
 %   missed(Address, Formal).
 
 outgoing(Address, Me) :-
-    catch(( connect(Address, Socket),
+    catch(( address_parts(Address, Interface, Port),
+            connect(Interface, Port, Socket),
             with_streams(Socket, In, Out,
-                         ( meet(client, In, Out, Me, _, Session),
+                         ( meet(client, In, Out, Me, Peer, Session),
                            route_add(Address, Session),
+                           reachable(Peer, Interface, Session),
                            ignore(crew_tell(met(Address, Session))),
                            serve(Session, In) ))
           ),
           error(Formal, _),
           ignore(crew_tell(missed(Address, Formal)))).
 
-connect(Address, Socket) :-
-    address_parts(Address, Interface, Port),
+connect(Interface, Port, Socket) :-
     tcp_socket(Socket),
     catch(tcp_connect(Socket, Interface:Port),
           Error,
@@ -114,7 +119,8 @@ with_streams(Socket, In, Out, Goal) :-
     setup_call_cleanup(
         open_streams(Socket, In, Out),
         Goal,
-        ( close(Out, [force(true)]),
+        ( session_left,
+          close(Out, [force(true)]),
           close(In, [force(true)]) )).
 
 open_streams(Socket, In, Out) :-

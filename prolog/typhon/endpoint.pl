@@ -126,7 +126,8 @@ next_start(Start) :-
 
 %!  endpoint_stop is det.
 %
-%   Take no more connections, let the last frames arrive, close all.
+%   Take no more connections, let the last frames arrive where there is a
+%   connection, close all.
 %   Requests without an answer are lost. May be called in a clean-up
 %   handler: the wait with a deadline is in another thread, see
 %   keeper_connect/1.
@@ -140,7 +141,7 @@ stop :-
     crew_retire(Acceptor, stopped),
     tcp_close_socket(Socket),
     setting(flush_time, Seconds),
-    crew_spawn(endpoint_flush(Seconds), Flusher),
+    crew_spawn(flush(Seconds, up), Flusher),
     crew_bury(Flusher),
     forall(session(_, Session), session_control(Session, bye)),
     crew_tell(stop),
@@ -324,6 +325,12 @@ peer_property(codec(Codec), session(_, Codec, _, _, _)).
 %   Wait until all that was posted has arrived; fails after Seconds.
 
 endpoint_flush(Seconds) :-
+    must_be(number, Seconds),
+    flush(Seconds, _).
+
+flush(Seconds, State) :-
     get_time(Now),
     Deadline is Now+Seconds,
-    forall(session(_, Session), session_flush(Session, Deadline)).
+    forall(( session(_, Session),
+             peer_property(state(State), Session) ),
+           session_flush(Session, Deadline)).

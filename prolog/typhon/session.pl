@@ -9,6 +9,7 @@
             session_received/2,         % +Key, -Count
             session_note_received/2,    % +Key, +Count
             session_install/4,          % +Session, +Thread, +Out, +PeerCount
+            session_left/0,
             session_down/2,             % +Session, +Thread
             session_retire/1,           % +Session
             session_adopting/2,         % +Session, :Goal
@@ -358,6 +359,17 @@ session_down(session(Key, _, Mutex, _, _), Thread) :-
            crew_retire(Pusher, broken)),
     retractall(serving(Key, Thread)),
     ignore(crew_tell(wanted(Key))).
+
+%!  session_left is det.
+%
+%   This thread is about to close its connection.  It may have been told to
+%   end after session_install/4 and before it began to serve: then the
+%   session must not go on writing to what is closed.
+
+session_left :-
+    thread_self(Me),
+    forall(( serving(Key, Me), session(Key, Session) ),
+           session_down(Session, Me)).
 
 %!  session_retire(+Session) is det.
 %
