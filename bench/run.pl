@@ -19,6 +19,10 @@ Machines are noisy: compare figures of one run, placement by placement. */
 
 :- dynamic bench_directory/1.
 
+opt_type(out, out, file).
+opt_help(out, 'directory to write to (default out/bench)').
+opt_meta(out, 'DIR').
+
 main(Argv) :-
     argv_options(Argv, _, Options),
     option(out(Out), Options, 'out/bench'),
