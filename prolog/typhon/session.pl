@@ -69,6 +69,15 @@ up and nobody is pushing, Waiting is empty.
 
 under_way(65536).
 
+%!  session(?Key, -Session) is nondet.
+%!  session_peer(?Key, -Process, -Address) is nondet.
+%!  session_received(+Key, -Count) is semidet.
+%!  route(?Address, ?Session) is nondet.
+%
+%   The sessions there are, whom each one joins us to, how many frames it
+%   had received when its last connection ended, and which addresses lead
+%   to it.
+
 %!  session_open(+Key, +Hello, +Codec, -Session) is det.
 %
 %   The session with the peer Key, a new one on first contact.
@@ -129,6 +138,10 @@ route_add(Address, Session) :-
                             ignore(crew_tell(displaced(Key)))),
                      assertz(route(Address, Session)) ))
     ).
+
+%!  session_up(+Key) is semidet.
+%
+%   The session has a connection that can be written to.
 
 session_up(Key) :-
     link(Key, _, _),
