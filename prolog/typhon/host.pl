@@ -189,7 +189,7 @@ host_load(Name, Load) :-
                 *******************************/
 
 %!  host_link(+Name, +Address) is det.
-%!  host_unlink(+Name, +Address) is det.
+%!  host_unlink(?Name, +Address) is det.
 %
 %   One direction of a link; nothing to do where it is so already.
 

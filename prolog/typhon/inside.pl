@@ -148,7 +148,8 @@ last_part(_, Part, Part).
 
 %!  send(+Agent, +Message) is det.
 %
-%   As agent_send/2; it is from this agent.  Who asks from outside is
+%   As agent_send/2; it is from this agent.  If Agent has ended the
+%   message is lost with a warning, not an error.  Who asks from outside is
 %   `user`, who has no mailbox: answers to him are printed.
 
 send(at(Agent, _), Message) :-
@@ -162,7 +163,11 @@ send(Agent, Message) :-
 send(Agent, Message) :-
     must_be(atom, Agent),
     context_agent(Id),
-    post(Agent, Id, Message).
+    catch(post(Agent, Id, Message),
+          error(existence_error(agent, Agent), _),
+          print_message(warning,
+                        typhon(undeliverable(existence_error(agent, Agent),
+                                             Agent, Id, Message)))).
 
 %!  leave(+Fact) is det.
 %!  sense(?Fact) is nondet.
