@@ -66,11 +66,10 @@ proxy_start(Target, Proxy, Address) :-
 
 proxy_stop(Proxy) :-
     retract(proxy(Proxy, _, _, Socket, Thread)),
-    thread_signal(Thread, throw(stop)),
-    thread_join(Thread, _),
+    end_thread(Thread),
     tcp_close_socket(Socket),
     forall(retract(pump(Proxy, up, Pump)),
-           ( signal(Pump), thread_join(Pump, _) )),
+           end_thread(Pump)),
     retractall(cut_after(Proxy, _, _)),
     retractall(held(Proxy, _)),
     retractall(delay(Proxy, _, _)),
@@ -154,8 +153,7 @@ forward_streams(In, Out, Proxy, Target) :-
               assertz(pump(Proxy, down, Down)) ),
             pump(In, SOut, Proxy, up),
             ( retractall(pump(Proxy, down, Down)),
-              signal(Down),
-              thread_join(Down, _) )),
+              end_thread(Down) )),
         close_streams(SIn, SOut)).
 
 pump_down(In, Out, Proxy, Owner) :-
@@ -221,6 +219,16 @@ close_streams(In, Out) :-
 
 signal(Thread) :-
     quietly(thread_signal(Thread, throw(cut))).
+
+%   A signal that comes just before a system call does not interrupt it.
+
+end_thread(Thread) :-
+    (   thread_property(Thread, status(running))
+    ->  signal(Thread),
+        sleep(0.002),
+        end_thread(Thread)
+    ;   thread_join(Thread, _)
+    ).
 
 quietly(Goal) :-
     catch(Goal, error(existence_error(_, _), _), true).

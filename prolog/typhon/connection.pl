@@ -28,7 +28,7 @@ are held back while a frame is being handled and counted.
 :- use_module(hello, [hello_codec/3, line_read/3, line_write/2]).
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
-:- use_module(session, [route_add/2, session_adopting/2, session_down/2,
+:- use_module(session, [route/2, route_add/2, session_adopting/2, session_down/2,
                         session_install/4, session_left/0,
                         session_open/4, session_peer/3,
                         session_received/2, session_retire/1]).
@@ -82,6 +82,9 @@ loopback(Ip) :-
 %   missed(Address, Formal).
 
 outgoing(Address, Me) :-
+    outgoing(Address, Me, 4).
+
+outgoing(Address, Me, Times) :-
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(Socket, In, Out,
@@ -92,7 +95,25 @@ outgoing(Address, Me) :-
                            serve(Session, In) ))
           ),
           error(Formal, _),
-          ignore(crew_tell(missed(Address, Formal)))).
+          missed(Address, Me, Times, Formal)).
+
+%   A peer we have met before and that takes the connection, which breaks
+%   before we have met again, is tried again at once.
+
+missed(Address, Me, Times, Formal) :-
+    broken_off(Formal),
+    Times > 0,
+    route(Address, _),
+    !,
+    Times1 is Times-1,
+    outgoing(Address, Me, Times1).
+missed(Address, _, _, Formal) :-
+    ignore(crew_tell(missed(Address, Formal))).
+
+broken_off(syntax_error(end_of_file)).
+broken_off(io_error(_, _)).
+broken_off(socket_error(Code, _)) :-
+    Code \== econnrefused.
 
 connect(Interface, Port, Socket) :-
     tcp_socket(Socket),

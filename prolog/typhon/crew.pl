@@ -86,10 +86,27 @@ ended :-
 %   Throw crew(Why) in Thread, unless it has ended, and wait for its end.
 
 crew_retire(Thread, Why) :-
-    catch(thread_signal(Thread, throw(crew(Why))),
-          error(existence_error(_, _), _),
-          true),
+    insist(Thread, throw(crew(Why)), 0.001),
     crew_bury(Thread).
+
+%   A signal that comes just before the thread blocks in a system call does
+%   not wake it: insist.
+
+insist(Thread, Signal, Wait) :-
+    (   running(Thread)
+    ->  catch(thread_signal(Thread, Signal),
+              error(existence_error(_, _), _),
+              true),
+        sleep(Wait),
+        Wait1 is min(0.1, 2*Wait),
+        insist(Thread, Signal, Wait1)
+    ;   true
+    ).
+
+running(Thread) :-
+    catch(thread_property(Thread, status(running)),
+          error(existence_error(_, _), _),
+          fail).
 
 %!  crew_bury(+Thread) is det.
 %
