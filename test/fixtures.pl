@@ -7,6 +7,7 @@
             joined/2,                   % +Agent, -Outcome
             state_of/2,                 % +Agent, ?State
             fact_of/2,                  % +Agent, ?Fact
+            facts/2,                    % +Agent, -Facts
             wait_state/2,               % +Agent, ?State
             address/2                   % +Host, -Address
           ]).
@@ -22,6 +23,8 @@ from a list of clauses, and what was printed meanwhile.
 :- use_module(common).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(pairs),
+              [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2, set_setting/2]).
 :- use_module(library(typhon)).
 
@@ -126,6 +129,20 @@ state_of(Agent, State) :-
 fact_of(Agent, Fact) :-
     agent_property(Agent, facts(Facts)),
     member(Fact, Facts).
+
+%!  facts(+Agent, -Facts) is det.
+%
+%   The state of Agent, in the order of the names of its predicates.
+
+facts(Agent, Facts) :-
+    agent_property(Agent, facts(Facts0)),
+    map_list_to_pairs(predicate_of, Facts0, Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Facts).
+
+predicate_of(Clause, Name/Arity) :-
+    ( Clause = (Head:-_) -> true ; Head = Clause ),
+    functor(Head, Name, Arity).
 
 %!  wait_state(+Agent, ?State) is det.
 
