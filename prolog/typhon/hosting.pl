@@ -12,6 +12,7 @@
                 existence_error/2 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent, [agent/5, agent_status/3, agent_ordered/1]).
 :- use_module(aside, [aside/1]).
 :- use_module(clock, [clock_set/3, clock_clear/1]).
@@ -31,6 +32,9 @@ other users of the process its endpoint, see typhon_process.
 
 *Threading*: host_start/2 and host_stop/1 exclude each other by a mutex.
 */
+
+:- setting(stop_seconds, number, 2,
+           "Agents have so long to come to an effect when their host stops").
 
 :- multifile typhon_endpoint:requested/4.
 
@@ -154,7 +158,8 @@ stop(Name0) :-
     host_close(Name),
     scheduler_unlimit(Name),
     get_time(Now),
-    Deadline is Now+2,
+    setting(stop_seconds, Seconds),
+    Deadline is Now+Seconds,
     clear(Name, Deadline),
     host_unlink(_, Address),
     host_remove(Name),

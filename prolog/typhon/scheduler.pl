@@ -95,16 +95,16 @@ scheduler_stop.
 %   A worker that does not come to its end is interrupted.
 
 stop_worker(Worker) :-
-    stop_worker(Worker, 100).
+    stop_worker(Worker, 1000).
 
 stop_worker(Worker, Tries) :-
     thread_self(Me),
     (   \+ thread_property(Worker, status(running))
     ->  thread_join(Worker, _)
-    ;   thread_get_message(Me, '$typhon_never', [timeout(0.02)])
+    ;   thread_get_message(Me, '$typhon_never', [timeout(0.002)])
     ->  true
     ;   Tries > 0
-    ->  (   Tries =< 50
+    ->  (   Tries =< 500, Tries mod 50 =:= 0
         ->  catch(thread_signal(Worker, abort), error(_, _), true)
         ;   true
         ),
