@@ -141,7 +141,8 @@ ended_job(Jobs, Job, Status) :-
 
 end_suite(Job, Status, suite(Passed, Failed, Skipped, Problems)) :-
     Job = job(File, Mark, Log, Results, _, Start),
-    suite_results(Results, suite(Passed, Failed0, Skipped, Problems0)),
+    suite_results(Results, Status,
+                  suite(Passed, Failed0, Skipped, Problems0)),
     findall(Problem, late_problem(Status, Mark, Problem), Problems1),
     append(Problems0, Problems1, Problems),
     length(Problems, Extra),
@@ -150,11 +151,13 @@ end_suite(Job, Status, suite(Passed, Failed, Skipped, Problems)) :-
     Seconds is End-Start,
     report(File, suite(Passed, Failed, Skipped, Problems), Seconds, Log).
 
-suite_results(File, Suite) :-
+suite_results(File, _, Suite) :-
     exists_file(File),
     !,
     setup_call_cleanup(open(File, read, In), read(In, Suite), close(In)).
-suite_results(_, suite(0, 0, [], ['gave no results'])).
+suite_results(_, exit(0), suite(0, 0, [], ['gave no results'])) :-
+    !.
+suite_results(_, _, suite(0, 0, [], [])).
 
 late_problem(Status, _, Problem) :-
     Status \== exit(0),
