@@ -3,7 +3,7 @@
 :- use_module(agent).
 :- use_module(clock, [host_time/2]).
 :- use_module(code, [code_install/2, code_module/2]).
-:- use_module(endpoint, [endpoint_reply/2]).
+:- use_module(endpoint, [endpoint_reply/2, endpoint_reply_later/2]).
 :- use_module(hop, [hop_let_go/4]).
 :- use_module(host, [host/3, host_enter/3, host_leave/1, host_hop/3]).
 :- use_module(whereabouts, [agent_seen/4, whereabouts/3, agent_outcome/2]).
@@ -32,7 +32,7 @@ typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
 
 answer(installed(Goals), Image, ReplyTo) :-
     !,
-    endpoint_reply(ReplyTo, accepted),
+    endpoint_reply_later(ReplyTo, accepted),
     arg(1, Image, Id),
     with_agent(Id, agent_ready(Id, Goals)).
 answer(Answer, _, ReplyTo) :-

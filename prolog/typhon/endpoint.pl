@@ -8,6 +8,7 @@
             endpoint_call/5,            % +Address, +Kind, +Term, -Answer,
                                         % +Timeout
             endpoint_reply/2,           % +ReplyTo, +Term
+            endpoint_reply_later/2,     % +ReplyTo, +Term
             endpoint_peer/2,            % ?Address, ?Property
             endpoint_flush/1            % +Seconds
           ]).
@@ -44,7 +45,8 @@ that peer is read. They may post, request and reply.
 :- use_module(hello, [hello/4]).
 :- use_module(keeper, [keep/1, keeper_connect/1,
                        keeper_unheard/1]).
-:- use_module(request, [request_forget/1, request_reply/2, request_send/4,
+:- use_module(request, [request_forget/1, request_reply/2,
+                        request_reply_later/2, request_send/4,
                         requests_lost/2]).
 :- use_module(session, [route/2, session/2, session_close/2,
                         session_control/2, session_flush/2,
@@ -299,6 +301,17 @@ endpoint_reply(ReplyTo, Term) :-
     catch(request_reply(ReplyTo, Term),
           error(session_closed, _),
           true).                        % whoever asked is no more
+
+%!  endpoint_reply_later(+ReplyTo, +Term) is det.
+%
+%   As endpoint_reply/2, with the next frame to that peer or a millisecond
+%   later; for answers that nobody waits for in earnest. Only worth while
+%   in a hook.
+
+endpoint_reply_later(ReplyTo, Term) :-
+    catch(request_reply_later(ReplyTo, Term),
+          error(session_closed, _),
+          true).
 
 %!  endpoint_peer(?Address, ?Property) is nondet.
 %

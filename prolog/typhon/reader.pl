@@ -19,7 +19,7 @@ back while a frame is being handled and counted.
 :- use_module(request, [dispatch/2, requests_open/1]).
 :- use_module(session, [session_acked/3, session_control/2,
                         session_note_received/2, session_pending/2,
-                        session_received/2]).
+                        session_push/1, session_received/2]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is asked for a sign of life").
@@ -44,6 +44,7 @@ read_frames(Session, In) :-
     session_received(Key, Count),
     byte_count(In, Bytes),
     nb_setval(typhon_reader, true),
+    nb_setval(typhon_later, 0),
     State = count(Count, Count, Bytes, 0),
     call_cleanup(
         read_all(Session, In, Max, State),
@@ -53,6 +54,7 @@ read_frames(Session, In) :-
 read_all(Session, In, Max, State) :-
     Session = session(_, Codec, _, _, _),
     repeat,
+    push_late(Session, In),
     (   next(In, Max, Bytes)
     ->  (   Bytes == end_of_file
         ->  !
@@ -62,6 +64,26 @@ read_all(Session, In, Max, State) :-
         )
     ;   silent(Session, In, State),
         fail
+    ).
+
+%   Answers that were left in the buffer go with the next frame that
+%   somebody sends, or now: when there are many, or nothing comes in for a
+%   moment in which the agent that was answered for may well move on.
+
+late_answers(16).
+late_seconds(0.001).
+
+push_late(Session, In) :-
+    nb_getval(typhon_later, Count),
+    (   Count =:= 0
+    ->  true
+    ;   late_answers(Max),
+        Count < Max,
+        late_seconds(Seconds),
+        wait_for_input([In], [_], Seconds)
+    ->  true
+    ;   session_push(Session),
+        nb_setval(typhon_later, 0)
     ).
 
 %   A frame that cannot be read has come all the same: asking for it again

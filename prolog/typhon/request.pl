@@ -1,6 +1,7 @@
 :- module(typhon_request,
           [ request_send/4,             % +Session, +Kind, +Term, :OnAnswer
             request_reply/2,            % +ReplyTo, +Term
+            request_reply_later/2,      % +ReplyTo, +Term
             request_forget/1,           % +Id
             requests_lost/2,            % +Session, +Unsent
             requests_open/1,            % +Session
@@ -24,7 +25,8 @@ and so answered once.
 */
 
 :- use_module(library(apply), [maplist/2]).
-:- use_module(session, [session_peer/3, session_send/2]).
+:- use_module(session,
+              [ session_peer/3, session_send/2, session_send_later/2 ]).
 
 :- meta_predicate
     request_send(+, +, +, 1).
@@ -52,6 +54,19 @@ request_forget(Id) :-
 
 request_reply(reply_to(Session, Id), Term) :-
     session_send(Session, answer(Id, Term)).
+
+%!  request_reply_later(+ReplyTo, +Term) is det.
+%
+%   As request_reply/2, if possible together with what is sent next.
+
+request_reply_later(reply_to(Session, Id), Term) :-
+    (   nb_current(typhon_later, Count),
+        integer(Count)
+    ->  session_send_later(Session, answer(Id, Term)),
+        Count1 is Count+1,
+        nb_setval(typhon_later, Count1)
+    ;   session_send(Session, answer(Id, Term))
+    ).
 
 %!  requests_open(+Session) is semidet.
 %

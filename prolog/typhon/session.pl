@@ -4,6 +4,8 @@
             session_peer/3,             % ?Key, -Process, -Address
             session_up/1,               % +Key
             session_send/2,             % +Session, +Term
+            session_send_later/2,       % +Session, +Term
+            session_push/1,             % +Session
             session_control/2,          % +Session, +Term
             session_acked/3,            % +Session, +Count, +Bytes
             session_received/2,         % +Key, -Count
@@ -163,6 +165,37 @@ session_send(session(Key, Codec, Mutex, Sent, Waiting), Term) :-
     term_bytes(Codec, Term, Bytes),
     check_length(Bytes),
     sig_atomic(with_mutex(Mutex, put(Key, Sent, Waiting, Bytes))).
+
+%!  session_send_later(+Session, +Term) is det.
+%!  session_push(+Session) is det.
+%
+%   Send Term with whatever is sent next.  The thread of the connection,
+%   who alone may ask for this, sees to it that what is left behind is
+%   pushed before long.
+
+session_send_later(session(Key, Codec, Mutex, Sent, Waiting), Term) :-
+    term_bytes(Codec, Term, Bytes),
+    sig_atomic(with_mutex(Mutex, put_later(Key, Sent, Waiting, Bytes))).
+
+put_later(Key, Sent, _, Bytes) :-
+    link(Key, Thread, Out),
+    \+ pushing(Key, _),
+    room(Key, Out),
+    !,
+    thread_send_message(Sent, Bytes),
+    catch(frame_write(Out, Bytes), error(_, _), broken(Key, Thread)).
+put_later(Key, Sent, Waiting, Bytes) :-
+    put(Key, Sent, Waiting, Bytes).
+
+session_push(session(Key, _, Mutex, _, _)) :-
+    sig_atomic(with_mutex(Mutex, push_link(Key))).
+
+push_link(Key) :-
+    (   link(Key, Thread, Out),
+        \+ pushing(Key, _)
+    ->  catch(flush_output(Out), error(_, _), broken(Key, Thread))
+    ;   true
+    ).
 
 %   The peer would refuse a longer one, again and again.
 
