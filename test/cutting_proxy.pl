@@ -152,8 +152,8 @@ forward_streams(In, Out, Proxy, Target) :-
             ( thread_create(pump_down(SIn, Out, Proxy, Me), Down),
               assertz(pump(Proxy, down, Down)) ),
             pump(In, SOut, Proxy, up),
-            ( retractall(pump(Proxy, down, Down)),
-              end_thread(Down) )),
+            sig_atomic(( retractall(pump(Proxy, down, Down)),
+                         end_thread(Down) ))),
         close_streams(SIn, SOut)).
 
 pump_down(In, Out, Proxy, Owner) :-
@@ -163,11 +163,11 @@ pump_down(In, Out, Proxy, Owner) :-
 
 pump(In, Out, Proxy, Direction) :-
     repeat,
-    fill_buffer(In),
-    read_pending_codes(In, Codes, []),
-    (   Codes == []
+    peek_byte(In, Byte),                % fill_buffer/1 may leave In locked
+    (   Byte == -1
     ->  !
-    ;   pass(Proxy, Direction),
+    ;   read_pending_codes(In, Codes, []),
+        pass(Proxy, Direction),
         forward_codes(Codes, Out, Proxy, Direction),
         fail
     ).
@@ -213,9 +213,12 @@ open_streams(Socket, In, Out) :-
     set_stream(In, encoding(octet)),
     set_stream(Out, encoding(octet)).
 
+%   A second signal must not end this early: closing a stream that a thread
+%   still reads from would wait for ever.
+
 close_streams(In, Out) :-
-    close(Out, [force(true)]),
-    close(In, [force(true)]).
+    sig_atomic(( close(Out, [force(true)]),
+                 close(In, [force(true)]) )).
 
 signal(Thread) :-
     quietly(thread_signal(Thread, throw(cut))).
