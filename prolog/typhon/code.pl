@@ -206,7 +206,7 @@ bound_here(Goal, _, Own) :-
     get_assoc(Name/Arity, Own, Kind),
     !,
     Kind \== state.                     % also if a library has it as well
-bound_here(Goal, _, _) :-
-    predicate_property(system:Goal, visible).
+bound_here(Goal, _, _) :-               % not what could be autoloaded
+    '$get_predicate_attribute'(system:Goal, system, 1).
 bound_here(Goal, Module, _) :-
     predicate_property(Module:Goal, imported_from(_)).
