@@ -5,6 +5,10 @@ SWIPL ?= swipl
 MAKEFLAGS += --no-print-directory
 ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
     $(wildcard experiments/*.pl bench/run.pl)
+# check/0 without the options of predicates: for read_term/3, 9.2.9 has
+# the types wrong.
+CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
+    list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools demo test check bench test-portability install clean
 
@@ -23,13 +27,13 @@ test: tools             ## install what is missing, run every test suite
 check:                  ## a quick look for mistakes, offline
 	@for file in $(ENTRY_POINTS); do \
 	    $(SWIPL) -q --on-error=status --on-warning=status \
-	        -g check -t halt -l $$file || exit 1; \
+	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \
 	done
 
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench
 
-test-portability: tools ## the suites on other Prologs (root only)
+test-portability:       ## the suites on other Prologs (root only)
 	@test/portability/run
 
 clean:                  ## remove what runs have left in out/

@@ -90,7 +90,7 @@ check(address, Address, Found) :-
     format(atom(Found), 'host ~w, port ~d of ~w', [Name, Port, Interface]).
 check('name resolution', Address, Found) :-
     address_parts(Address, _, Interface, _),
-    tcp_host_to_address(Interface, IP),
+    resolve(Interface, IP),
     format(atom(Found), '~w is ~w', [Interface, IP]).
 check(connection, Address, 'something listens there') :-
     address_parts(Address, _, Interface, Port),
@@ -103,6 +103,17 @@ check(authentication, Address, Found) :-
     codec(Address, Codec),
     format(atom(Found), 'same cookie, codec ~w, answered in ~1f ms',
            [Codec, MilliSeconds]).
+
+%   In 9.2, tcp_host_to_address/2 fails for many names, and there is another.
+
+resolve(Interface, IP) :-
+    tcp_host_to_address(Interface, IP),
+    !.
+resolve(Interface, IP) :-
+    Other = host_address,
+    current_predicate(socket:Other/3),
+    call(socket:Other, Interface, Socket, []),
+    get_dict(address, Socket, IP).
 
 cookie_source('from the environment variable TYPHON_COOKIE') :-
     getenv('TYPHON_COOKIE', _),

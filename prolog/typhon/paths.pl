@@ -47,6 +47,5 @@ program_file(Spec, File) :-
     must_be(callable, Spec),
     absolute_file_name(Spec, File,
                        [ extensions([pl, '']),
-                         file_type(regular),
                          access(read)
                        ]).
