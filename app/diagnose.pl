@@ -106,14 +106,16 @@ check(authentication, Address, Found) :-
 
 %   In 9.2, tcp_host_to_address/2 fails for many names, and there is another.
 
+:- if(( module_property(socket, exports(List)),
+        memberchk(host_address/3, List) )).
+:- use_module(library(socket), [host_address/3]).
 resolve(Interface, IP) :-
-    tcp_host_to_address(Interface, IP),
-    !.
-resolve(Interface, IP) :-
-    Other = host_address,
-    current_predicate(socket:Other/3),
-    call(socket:Other, Interface, Socket, []),
+    host_address(Interface, Socket, []),
     get_dict(address, Socket, IP).
+:- else.
+resolve(Interface, IP) :-
+    tcp_host_to_address(Interface, IP).
+:- endif.
 
 cookie_source('from the environment variable TYPHON_COOKIE') :-
     getenv('TYPHON_COOKIE', _),
