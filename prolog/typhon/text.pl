@@ -68,11 +68,16 @@ text_term(Bytes, Term) :-
         free_memory_file(File)).
 
 read_text(In, Term) :-
-    read_term(In, Term, [ module(typhon_text_syntax),
-                          double_quotes(string),
-                          back_quotes(codes),
-                          syntax_errors(error)
-                        ]).
+    syntax(Options),
+    read_term(In, Term, Options).
+
+%   Apart, as check/0 of 9.2 takes double_quotes/1 for a boolean.
+
+syntax([ module(typhon_text_syntax),
+         double_quotes(string),
+         back_quotes(codes),
+         syntax_errors(error)
+       ]).
 
 %   What a program may have set for itself must not change the text.
 
