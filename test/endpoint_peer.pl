@@ -7,7 +7,8 @@
 listens to Port, prints its address, and ends when its standard input does.
 Posts of kind `note` are remembered; requests are `echo`, `notes` (all notes
 so far), `later` (answered by another thread), `never`, `wrong` (the hook
-raises) and `back` (posts N notes to the asker and then answers).
+raises), `back` (posts N notes to the asker and then answers) and
+`greet(Address, N)` (the same to another, in a thread of its own).
 */
 
 :- use_module(common).
@@ -35,6 +36,11 @@ typhon_endpoint:requested(wrong, _, _, _) :-
 typhon_endpoint:requested(back, N, Peer, ReplyTo) :-
     forall(between(1, N, I), endpoint_post(Peer, note, I)),
     endpoint_reply(ReplyTo, done).
+typhon_endpoint:requested(greet, Address-N, _, ReplyTo) :-
+    thread_create(( forall(between(1, N, I),
+                           endpoint_post(Address, note, I)),
+                    endpoint_reply(ReplyTo, done) ),
+                  _, [detached(true)]).
 
 serve(Port) :-
     set_prolog_flag(verbose, silent),

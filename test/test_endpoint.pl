@@ -235,6 +235,20 @@ test(two_addresses_of_one_process, Same == true) :-
           endpoint_peer(B, process(P2)),
           (   P1 == P2 -> Same = true ; Same = false ) )).
 
+test(both_connect_at_once) :-
+    with_endpoint(with_peer(A, with_peer(B,
+        ( concurrent_forall(member(X-Y, [A-B, B-A]),
+                            ask(X, greet, Y-100, done),
+                            [threads(2)]),
+          numlist(1, 100, Expected),
+          forall(member(X, [A, B]),
+                 ( wait_until(all_there(X, 100, Notes), 5),
+                   assertion(Notes == Expected) )) )))).
+
+all_there(Address, Count, Notes) :-
+    ask(Address, notes, x, Notes),
+    length(Notes, Count).
+
 seen_down(_) :-
     seen(_, down),
     !.
