@@ -384,7 +384,8 @@ crowd :-
 other_cookie(Address) :-
     project_file('prolog/typhon/endpoint', File),
     format(atom(Goal), "use_module('~w'),endpoint_start(localhost,0,_),\c
-                        catch(endpoint_post('~w',note,x),error(unreachable(_),_),\c
+                        catch(endpoint_post('~w',note,x),\c
+                              error(unreachable(_),_),\c
                               halt(3)),halt(0)", [File, Address]),
     run_swipl(['-g', Goal], [environment(['TYPHON_COOKIE'=other])],
               Status, _, _),

@@ -28,7 +28,8 @@ are held back while a frame is being handled and counted.
 :- use_module(hello, [hello_codec/3, line_read/3, line_write/2]).
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
-:- use_module(session, [route/2, route_add/2, session_adopting/2, session_down/2,
+:- use_module(session, [route/2, route_add/2, session_adopting/2,
+                        session_down/2,
                         session_install/4, session_left/0,
                         session_open/4, session_peer/3,
                         session_received/2, session_retire/1]).
