@@ -1,0 +1,128 @@
+:- module(peer_main, [peer_main/0]).
+
+/** <module> The other processes of the tests of hops
+
+    swipl -g peer_main test/peer_main.pl -- Options
+
+carries out the goals that come on standard input, one after the other, and
+answers each with a line: yes(Goal), `no` or raised(Error). Ends with its
+input. Options:
+
+    --port=R --known-as=P    the endpoint listens at port R, but says P: a
+                             proxy stands before it
+    --codec=text             speak text to everybody
+
+*Threading*: the main thread carries out the goals.
+*/
+
+:- use_module(common).
+:- use_module(library(typhon)).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(settings), [set_setting/2]).
+:- use_module(library(main), [argv_options/3]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(socket),
+              [tcp_socket/1, tcp_setopt/2, tcp_bind/2, tcp_listen/2]).
+
+peer_main :-
+    current_prolog_flag(argv, Argv),
+    argv_options(Argv, _, Options),
+    set_up(Options),
+    set_prolog_flag(toplevel_mode, backtracking),
+    serve,
+    halt.
+
+set_up(Options) :-
+    (   option(known_as(Known), Options)
+    ->  option(port(Port), Options),
+        stand_behind(Port, Known)
+    ;   true
+    ),
+    (   option(codec(text), Options)
+    ->  set_setting(typhon_hello:records, false)
+    ;   true
+    ).
+
+stand_behind(Port, Known) :-
+    wrap_predicate(typhon_endpoint:listen(Interface, _, Bound, Socket),
+                   behind, _,
+                   ( peer_main:listen(Interface, Port, Socket),
+                     Bound = Known )).
+
+listen(Interface, Port, Socket) :-
+    tcp_socket(Socket),
+    tcp_setopt(Socket, reuseaddr),
+    tcp_bind(Socket, Interface:Port),
+    tcp_listen(Socket, 64).
+
+serve :-
+    read_term(user_input, Goal, []),
+    (   Goal == end_of_file
+    ->  true
+    ;   answer(Goal, Answer),
+        format('~k.~n', [Answer]),
+        flush_output,
+        serve
+    ).
+
+answer(Goal, Answer) :-
+    catch(( peer_main:Goal -> Answer = yes(Goal) ; Answer = no ),
+          Error,
+          raised(Error, Answer)).
+
+raised(error(Formal, _), raised(error(Formal, _))) :-
+    !.
+raised(Ball, raised(Ball)).
+
+                /*******************************
+                *        WHAT TESTS ASK        *
+                *******************************/
+
+%   What stands in this process, whatever others know.
+
+agent_here(Id) :-
+    typhon_agent:agent(Id, _, _, _, _).
+
+agent_state_here(Id, State) :-
+    agent_here(Id),
+    agent_property(Id, state(State)).
+
+steps_here(Id, Steps) :-
+    findall(K,
+            ( typhon_host:host(_, _, Place), Place:'$tuple'(step(Id, K)) ),
+            Steps).
+
+%   try_move(+Host, +Options, -Error): an agent of Options tries to move
+%   to Host.
+
+try_move(Host, Options, Error) :-
+    Clauses = [ (:- agent(trier, [state([to/1])])),
+                (main :- to(To),
+                         catch(move(To), error(E, _), true),
+                         leave(tried(E))) ],
+    agent_create(clauses(Clauses), Id, [facts([to(Host)])|Options]),
+    agent_join(Id, done, 20),
+    once(( typhon_host:host(Name, _, _),
+           remote(Name, take(tried(Error0))) )),
+    Error = error(Error0).
+
+send_in_background(Id, Count) :-
+    thread_create(forall(between(1, Count, I), agent_send(Id, n(I))), _,
+                  [detached(true)]).
+
+%   Count the programs in the frames that come.
+
+:- dynamic program_seen/0.
+
+count_programs :-
+    wrap_predicate(typhon_arrival:arrive(_, _, Program, _, _), count,
+                   Wrapped,
+                   ( ( Program == known
+                     -> true
+                     ;  assertz(peer_main:program_seen)
+                     ),
+                     Wrapped )).
+
+programs_seen(Count) :-
+    aggregate_all(count, program_seen, Count).
