@@ -209,4 +209,4 @@ bound_here(Goal, _, Own) :-
 bound_here(Goal, _, _) :-               % not what could be autoloaded
     '$get_predicate_attribute'(system:Goal, system, 1).
 bound_here(Goal, Module, _) :-
-    predicate_property(Module:Goal, imported_from(_)).
+    '$get_predicate_attribute'(Module:Goal, imported, _).

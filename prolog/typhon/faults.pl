@@ -115,7 +115,7 @@ taken(Head, permission_error(modify, control_predicate, Name/Arity)) :-
     !,
     functor(Head, Name, Arity).
 taken(Head, permission_error(modify, static_procedure, Name/Arity)) :-
-    (   predicate_property(system:Head, iso)
+    (   '$get_predicate_attribute'(system:Head, iso, 1)
     ;   memberchk(Head, [(_*->_), ignore(_)])
     ),
     !,
