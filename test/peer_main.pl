@@ -88,6 +88,9 @@ agent_state_here(Id, State) :-
     agent_here(Id),
     agent_property(Id, state(State)).
 
+outcome_here(Id, Outcome) :-
+    typhon_whereabouts:agent_outcome(Id, Outcome).
+
 steps_here(Id, Steps) :-
     findall(K,
             ( typhon_host:host(_, _, Place), Place:'$tuple'(step(Id, K)) ),
@@ -126,3 +129,14 @@ count_programs :-
 
 programs_seen(Count) :-
     aggregate_all(count, program_seen, Count).
+
+%   What arrives is installed, and its source never hears of it.
+
+silence_answers :-
+    wrap_predicate(typhon_arrival:answer(Answer, Image, _), mute, Wrapped,
+                   (   Answer = installed(Goals)
+                   ->  arg(1, Image, Id),
+                       typhon_agent:with_agent(
+                           Id, typhon_agent:agent_ready(Id, Goals))
+                   ;   Wrapped
+                   )).

@@ -7,6 +7,9 @@
             ended_well/3,               % +Peer, +Id, +Hops
             steps/2,                    % +Id, -Steps
             step_on/3,                  % +Peer, +Id, ?Step
+            bouncer/4,                  % +Peer, +Route, +Hops, -Id
+            bounced/4,                  % +Peer, +Id, -Hops, -Pace
+            cloner/3,                   % +Peer, +Host, -Id
             swapper/4,                  % +Peer, +Hosts, +Rounds, -Id
             collector/4,                % +Peer, +Route, +Count, -Id
             collected/3,                % +Peer, +Id, -CountSum
@@ -62,7 +65,7 @@ walker([ (:- agent(walker, [state([plan/2])])),
               walk(K1, Hops, Route)),
          (go(sit) :- !, receive(_-go)),
          (go(Host) :- catch(( move(Host), Gone = true ),
-                            error(host_unreachable(Host), _),
+                            error(_, _),
                             Gone = sleep(0.01)),
                       arrive(Gone, Host)),
          arrive(true, _),
@@ -167,6 +170,55 @@ collector(Peer, Route, Count, Id) :-
 
 collected(Peer, Id, Count-Sum) :-
     peer_do(Peer, remote(Peer, sense(got(Id, Count, Sum)))).
+
+%!  bouncer(+Peer, +Route, +Hops, -Id) is det.
+%!  bounced(+Peer, +Id, -Hops, -Pace) is semidet.
+%
+%   An agent that waits for `go` and then hops without pause.  At the end
+%   it leaves how many hops it made, and First-Last, the seconds that the
+%   first and the last tenth of them took.
+
+bouncer(Peer, Route, Hops, Id) :-
+    Tenth is Hops//10,
+    From is Hops-Tenth,
+    Clauses =
+    [ (:- agent(bouncer, [state([route/1, at/2])])),
+      (main :- receive(_-go), route(Route1), bounce(0, Route1)),
+      (bounce(Hops, _) :- !, now(T3), leave_pace(T3)),
+      (bounce(K, [Host|Hosts]) :-
+           note(K),
+           append(Hosts, [Host], Route2),
+           move(Host),
+           K1 is K+1,
+           bounce(K1, Route2)),
+      (note(K) :- memberchk(K, [0, Tenth, From]), !,
+                  now(T), assertz(at(K, T))),
+      note(_),
+      (leave_pace(T3) :- at(0, T0), at(Tenth, T1), at(From, T2),
+                         First is T1-T0, Last is T3-T2,
+                         self(Self), hops(N),
+                         leave(bounced(Self, N, First-Last)))
+    ],
+    peer_do(Peer, agent_create(clauses(Clauses), Id,
+                               [host(Peer), facts([route(Route)])])).
+
+bounced(Peer, Id, Hops, Pace) :-
+    peer_do(Peer, remote(Peer, sense(bounced(Id, Hops, Pace)))).
+
+%!  cloner(+Peer, +Host, -Id) is det.
+%
+%   An agent that makes a clone on Host, which waits for `go`, and leaves
+%   parent_of(Id, Clone).
+
+cloner(Peer, Host, Id) :-
+    Clauses =
+    [ (:- agent(cloner, [state([there/1])])),
+      (main :- there(There), clone(There, Who), who(Who)),
+      (who(parent(Clone)) :- self(Self), leave(parent_of(Self, Clone))),
+      (who(clone(_)) :- receive(_-go))
+    ],
+    peer_do(Peer, agent_create(clauses(Clauses), Id,
+                               [host(Peer), facts([there(Host)])])).
 
 %!  other_program(+Peer, +Host, +Number) is semidet.
 %

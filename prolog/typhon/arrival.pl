@@ -54,9 +54,10 @@ repeated(Id, Life) :-
     (   agent(Id, _, _, _, Life0)
     ->  arg(2, Life0, Hops0),
         Hops0 >= Hops
-    ;   whereabouts(Id, _, Hops0)
-    ->  Hops0 >= Hops
     ;   agent_outcome(Id, _)
+    ->  true
+    ;   whereabouts(Id, _, Hops0),
+        Hops0 >= Hops
     ).
 
 has_code(Hash, Program) :-

@@ -78,7 +78,8 @@ agent_left(Id, Address, Hops, Peer) :-
     home_endpoint(Id, Home),
     (   endpoint_address(Peer)
     ->  true
-    ;   endpoint_address(Home)
+    ;   endpoint_address(Home),
+        \+ outcome(Id, _)               % else it was given up in doubt
     ->  moved(Id, Address, Hops)
     ;   remember_forward(Id, Address, Hops)
     ).
