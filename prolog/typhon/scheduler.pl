@@ -67,6 +67,7 @@ start :-
     message_queue_create(Queue),
     flag(typhon_idle, _, 0),
     flag(typhon_taken, _, 0),
+    flag(typhon_watched, _, 0),
     assertz(run_queue(Queue)),
     thread_create(timer_loop, Timer, [alias(typhon_timer)]),
     assertz(timer(Timer)),
@@ -245,12 +246,29 @@ worker_loop(Queue) :-
     (   thread_get_message(Queue, Work, [timeout(Seconds)])
     ->  flag(typhon_idle, Idle1, Idle1-1),
         flag(typhon_taken, Taken, Taken+1),
+        watch_if_last(Idle1, Queue),
         work(Work, Queue)
     ;   flag(typhon_idle, Idle1, Idle1-1),
         (   superfluous
-        ->  true
+        ->  watch_if_stuck(Queue)       % it may have been woken for this
         ;   worker_loop(Queue)
         )
+    ).
+
+%   What was queued while somebody was idle still may find nobody when its
+%   turn comes.
+
+watch_if_last(Idle, Queue) :-
+    (   Idle =< 1
+    ->  watch_if_stuck(Queue)
+    ;   true
+    ).
+
+watch_if_stuck(Queue) :-
+    (   message_queue_property(Queue, size(Size)),
+        Size > 0
+    ->  watch_pool
+    ;   true
     ).
 
 work(stop, _) :-
