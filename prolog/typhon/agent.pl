@@ -35,8 +35,8 @@
 
 The records of agents, each with one owner: this module.  An agent is
 
-  - a module with its state: everything dynamic in it.  Its program is
-    found through the import chain, see typhon_code and typhon_place;
+  - a module of its name with its state: everything dynamic in it.  Its
+    program is found through the import chain, see typhon_code and typhon_place;
   - a life(Parent, Hops, Lifetime, Tokens, Payloads, Static);
   - a status, one of `ready`, `running`, sleeping(Until),
     waiting(Pattern, Until), `resident`, `obeying`, leaving(Host, At),
@@ -147,8 +147,7 @@ agent_home(Id, Home) :-
 %        clauses, and the clauses of all else.
 
 agent_install(Id, Host, Place, Hash, Life, state(Empty, Clauses)) :-
-    flag(typhon_agent_module, N, N+1),
-    atom_concat('agent ', N, Module),
+    Module = Id,
     code_module(Hash, Program),
     set_module(Module:class(temporary)),
     set_module(Module:base(Program)),

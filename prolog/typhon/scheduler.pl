@@ -36,7 +36,7 @@ owns the tree of alarms and decides when to grow.
     run/1,                      % Agent: run it until it has to wait
     fire/2.                     % Agent, Token: an alarm went off
 
-:- setting(min_workers, positive_integer, 4, "Workers kept when idle").
+:- setting(min_workers, positive_integer, 2, "Workers kept when idle").
 :- setting(max_workers, positive_integer, 256, "Workers at the most").
 :- setting(idle_seconds, number, 10, "Idle workers beyond the minimum end").
 :- setting(stuck_seconds, number, 0.01,
