@@ -68,7 +68,9 @@ read_all(Session, In, Max, State) :-
 
 %   Answers that were left in the buffer go with the next frame that
 %   somebody sends, or now: when there are many, or nothing comes in for a
-%   moment in which the agent that was answered for may well move on.
+%   moment in which the agent that was answered for may well move on. On
+%   9.2 an exception in the middle of wait_for_input/3 ruins the stacks: the
+%   signal that brings it is held back.
 
 late_answers(16).
 late_seconds(0.001).
@@ -80,7 +82,7 @@ push_late(Session, In) :-
     ;   late_answers(Max),
         Count < Max,
         late_seconds(Seconds),
-        wait_for_input([In], [_], Seconds)
+        sig_atomic(wait_for_input([In], [_], Seconds))
     ->  true
     ;   session_push(Session),
         nb_setval(typhon_later, 0)
