@@ -16,8 +16,9 @@ records, so that both codecs are on every way round. Each host has one term
 of every kind, read by itself; agents bring theirs from elsewhere and
 compare.
 
-TYPHON_RING may name two other Prologs, the second one of another word
-size: then the ring goes through all three. See test/portability/run.
+TYPHON_RING=/path/one:/path/two may name two other Prologs, the second one
+of another word size: then the ring goes through all three. See
+test/portability/run.
 */
 
                 /*******************************
@@ -30,7 +31,7 @@ size: then the ring goes through all three. See test/portability/run.
 
 prologs(One, Two) :-
     getenv('TYPHON_RING', Value),
-    atomic_list_concat([One, Two], ' ', Value),
+    atomic_list_concat([One, Two], :, Value),
     !.
 prologs(Swipl, Swipl) :-
     current_prolog_flag(executable, Swipl).
