@@ -596,7 +596,7 @@ test(faulty_can_be_disposed_of, O == raised(oops)) :-
                            joined(A, O),
                            host_property(alpha, load(0)) ), _)).
 test(faulty_are_bounded, N == 3) :-
-    with_settings([typhon_life:faulty=3],
+    with_settings([typhon_birth:faulty=3],
         with_hosts([alpha],
                    listening(( findall(A, ( between(1, 10, _),
                                             create([(main :- throw(x))], A) ),

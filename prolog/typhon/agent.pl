@@ -1,7 +1,8 @@
 :- module(typhon_agent,
           [ agent/5,                    % ?Id, ?Host, ?Module, ?Hash, ?Life
             agent_status/3,             % ?Id, ?Status, ?Goals
-            agent_install/6,            % +Id, +Host, +Place, +Hash, +Life, +State
+            agent_install/6,            % +Id, +Host, +Place, +Hash, +Life,
+                                        % +State
             agent_remove/1,             % +Id
             agent_state/2,              % +Module, -State
             agent_life/2,               % +Id, :Goal

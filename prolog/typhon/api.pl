@@ -25,7 +25,7 @@
 :- use_module(endpoint, [endpoint_address/1, endpoint_call/5]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(host, [host/3, host_resolve/2, host_address/2, address_parts/3]).
-:- use_module(life, [agent_start/4]).
+:- use_module(birth, [agent_start/4]).
 :- use_module(post, [post/3, post_via/4]).
 :- use_module(program,
               [ program_load/3, payload_load/2, program_hash/2,

@@ -12,7 +12,8 @@
 :- use_module(frame, [mobile_term/1]).
 :- use_module(host, [host/3, address_parts/3]).
 :- use_module(inside, []).
-:- use_module(life, [agent_start/4, agent_do/2, agent_clone_here/5]).
+:- use_module(birth, [agent_start/4, agent_clone_here/5]).
+:- use_module(life, [agent_do/2]).
 :- use_module(scheduler, [scheduler_call/1]).
 :- use_module(whereabouts, [whereabouts/3]).
 

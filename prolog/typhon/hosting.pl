@@ -19,7 +19,8 @@
 :- use_module(endpoint,
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2 ]).
 :- use_module(host).
-:- use_module(life, [agent_end/2, agent_do/2]).
+:- use_module(birth, [agent_end/2]).
+:- use_module(life, [agent_do/2]).
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(process, [process_acquire/2, process_release/1]).
 :- use_module(scheduler,
