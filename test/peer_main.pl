@@ -91,9 +91,14 @@ agent_state_here(Id, State) :-
 outcome_here(Id, Outcome) :-
     typhon_whereabouts:agent_outcome(Id, Outcome).
 
+%   Without an index on Id: in one that is made while clauses are added SWI-
+%   Prolog 9.0.4 may list a clause twice.
+
 steps_here(Id, Steps) :-
     findall(K,
-            ( typhon_host:host(_, _, Place), Place:'$tuple'(step(Id, K)) ),
+            ( typhon_host:host(_, _, Place),
+              Place:'$tuple'(Tuple),
+              Tuple = step(Id, K) ),
             Steps).
 
 %   try_move(+Host, +Options, -Error): an agent of Options tries to move

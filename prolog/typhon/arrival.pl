@@ -84,8 +84,10 @@ admitted(ok, Name, Image, Peer, Answer) :-
 not_installed(Name, _, refused(unknown_host)) :-
     \+ host(Name, _, _),
     !.
-not_installed(_, image(Id, _, _, _, _, _, _), accepted) :-
-    agent(Id, _, _, _, _),
+not_installed(_, image(Id, _, Life, _, _, _, _), accepted) :-
+    (   agent(Id, _, _, _, _)
+    ;   repeated(Id, Life)
+    ),
     !.
 not_installed(_, _, need_program).
 
@@ -102,17 +104,21 @@ install(Name, Image, Peer) :-
 
 install(image(Id, Hash, Life, State, _, Mail0, _), Name, Place, Gone) :-
     code_module(Hash, _),
-    came_back(Id, Later, Orders, Gone),
+    came_back(Id, Life, Later, Orders, Gone),
     agent_install(Id, Name, Place, Hash, Life, State),
     agent_put(Id, arriving, []),
     append(Mail0, Later, Mail),
     forall(member(Message, Mail), agent_mail(Id, Message)),
     forall(member(Order, Orders), agent_order(Id, Order)).
 
-%   Our own copy, still waiting for the answer, is out of date.
+%   Our own copy, still waiting for the answer, is out of date; unless this
+%   one is, since we looked.
 
-came_back(Id, [], [], true) :-
-    \+ agent(Id, _, _, _, _),
-    !.
-came_back(Id, Mail, Orders, Gone) :-
-    hop_let_go(Id, Mail, Orders, Gone).
+came_back(Id, Life, Mail, Orders, Gone) :-
+    \+ repeated(Id, Life),
+    (   agent(Id, _, _, _, _)
+    ->  hop_let_go(Id, Mail, Orders, Gone)
+    ;   Mail = [],
+        Orders = [],
+        Gone = true
+    ).
