@@ -3,6 +3,7 @@
             crew_stop/1,                % -Unheard
             crew_spawn/2,               % :Goal, -Thread
             crew_retire/2,              % +Thread, +Why
+            crew_signal/2,              % +Thread, +Why
             crew_bury/1,                % +Thread
             crew_tell/1,                % +Message
             crew_hear/2                 % -Message, +Deadline
@@ -86,21 +87,36 @@ ended :-
 %   Throw crew(Why) in Thread, unless it has ended, and wait for its end.
 
 crew_retire(Thread, Why) :-
-    insist(Thread, throw(crew(Why)), 0.001),
+    insist(Thread, Why, 0.001),
     crew_bury(Thread).
 
 %   A signal that comes just before the thread blocks in a system call does
 %   not wake it: insist.
 
-insist(Thread, Signal, Wait) :-
+insist(Thread, Why, Wait) :-
     (   running(Thread)
-    ->  catch(thread_signal(Thread, Signal),
-              error(existence_error(_, _), _),
-              true),
+    ->  crew_signal(Thread, Why),
         sleep(Wait),
         Wait1 is min(0.1, 2*Wait),
-        insist(Thread, Signal, Wait1)
+        insist(Thread, Why, Wait1)
     ;   true
+    ).
+
+%!  crew_signal(+Thread, +Why) is det.
+%
+%   Throw crew(Why) in Thread, unless it has ended or was told before: a
+%   second exception would break off the clean-up after the first.
+
+crew_signal(Thread, Why) :-
+    catch(thread_signal(Thread, typhon_crew:end_once(Why)),
+          error(existence_error(_, _), _),
+          true).
+
+end_once(Why) :-
+    (   nb_current(typhon_ending, true)
+    ->  true
+    ;   nb_setval(typhon_ending, true),
+        throw(crew(Why))
     ).
 
 running(Thread) :-

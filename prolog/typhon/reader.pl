@@ -47,9 +47,17 @@ read_frames(Session, In) :-
     nb_setval(typhon_later, 0),
     State = count(Count, Count, Bytes, 0),
     call_cleanup(
-        read_all(Session, In, Max, State),
-        ( arg(1, State, Final),
-          session_note_received(Key, Final) )).
+        call_cleanup(
+            read_all(Session, In, Max, State),
+            note_received(Key, State)),
+        note_received(Key, State)).
+
+%   Noted twice, as the one signal that ends this thread may come in the
+%   middle of the first: with an old count everything would come again.
+
+note_received(Key, State) :-
+    arg(1, State, Count),
+    session_note_received(Key, Count).
 
 read_all(Session, In, Max, State) :-
     Session = session(_, Codec, _, _, _),

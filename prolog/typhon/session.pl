@@ -46,7 +46,8 @@ up and nobody is pushing, Waiting is empty.
 
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(crew, [crew_retire/2, crew_spawn/2, crew_tell/1]).
+:- use_module(crew, [crew_retire/2, crew_signal/2, crew_spawn/2,
+                     crew_tell/1]).
 :- use_module(frame, [bytes_term/3, frame_write/2, term_bytes/3]).
 
 :- setting(frame_bytes, positive_integer, 67108864,
@@ -263,9 +264,7 @@ write_now(Key, Thread, Out, Bytes) :-
 
 broken(Key, Thread) :-
     retractall(link(Key, Thread, _)),
-    catch(thread_signal(Thread, throw(crew(broken))),
-          error(existence_error(_, _), _),
-          true).
+    crew_signal(Thread, broken).
 
 		 /*******************************
 		 *            PUSHING           *
