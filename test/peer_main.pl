@@ -88,6 +88,10 @@ agent_state_here(Id, State) :-
     agent_here(Id),
     agent_property(Id, state(State)).
 
+connected_to(Host) :-
+    typhon_host:address_parts(Host, _, Endpoint),
+    typhon_endpoint:endpoint_peer(Endpoint, state(up)).
+
 outcome_here(Id, Outcome) :-
     typhon_whereabouts:agent_outcome(Id, Outcome).
 

@@ -162,8 +162,9 @@ dead_host :-
     peer_host(b, B),
     travel(a, [B], 1),
     peer_kill(b),
-    wait_until(( peer_do(a, try_move(B, [], Error)),
-                 Error == error(host_unreachable(B)) ), 10).
+    wait_until(\+ peer_do(a, connected_to(B)), 10),
+    peer_do(a, try_move(B, [], Error)),
+    Error == error(host_unreachable(B)).
 
 :- begin_tests(bouncing).
 
@@ -247,11 +248,11 @@ stop_once(A, B) :-
     peer_do(a, host_start(a)).
 
 accounted_for(Id) :-
-    wait_until(\+ peer_do(a, agent_here(Id)), 10),
-    (   peer_do(b, agent_here(Id))
-    ->  \+ peer_do(a, outcome_here(Id, _))
-    ;   peer_do(a, outcome_here(Id, disposed))
-    ).
+    wait_until(( \+ peer_do(a, agent_here(Id)),
+                 (   peer_do(b, agent_here(Id))
+                 ->  \+ peer_do(a, outcome_here(Id, _))
+                 ;   peer_do(a, outcome_here(Id, disposed))
+                 ) ), 10).
 
 :- begin_tests(strangers).
 

@@ -187,13 +187,16 @@ swap(Rounds) :-
 
 :- begin_tests(hop_messages).
 
-test(arrive_once_each, forall(codec(Codec))) :-
+test(arrive_once_each, forall(messages(Codec, Count))) :-
     with_peers([ a-[codec(Codec)], b-[codec(Codec)], c-[codec(Codec)] ],
-               chase(2000)).
+               chase(Count)).
 test(ordered_to_end_while_hopping) :-
     with_peers([a, b, c], dispose_hopping(20)).
 
 :- end_tests(hop_messages).
+
+messages(fast, 1000).
+messages(text, 300).
 
 %   An agent hops without pause between three processes until it has got
 %   as many messages as were sent, from three processes, and adds them up.
