@@ -72,9 +72,9 @@ test(survives_errors, true(N == 20)) :-
                                     scheduler_call(test_scheduler:happens(I)) )),
                            wait_until(test_scheduler:count(20), 10) ), _)),
     count(N).
-test(starts_with_the_minimum, N == 4) :-
+test(starts_with_the_minimum, N == 2) :-
     scheduling(scheduler_workers(N)).
-test(start_twice, N == 4) :-
+test(start_twice, N == 2) :-
     scheduling(( scheduler_start, scheduler_workers(N) )).
 test(stop_twice) :-
     scheduler_stop.
@@ -100,14 +100,14 @@ test(never_more_than_the_most, true(Most-N == 8-20)) :-
                  wait_until(test_scheduler:count(20), 10) )),
     count(N),
     message_queue_destroy(Q).
-test(shrinks_when_there_is_nothing_to_do, N == 4) :-
+test(shrinks_when_there_is_nothing_to_do, N == 2) :-
     message_queue_create(Q),
     scheduling([typhon_scheduler:idle_seconds=0.05],
                ( forall(between(1, 20, I),
                         scheduler_call(test_scheduler:blocked(Q, I))),
                  wait_until(test_scheduler:count(20), 10),
                  forall(between(1, 20, _), thread_send_message(Q, go)),
-                 wait_until(scheduler_workers(4), 10),
+                 wait_until(scheduler_workers(2), 10),
                  scheduler_workers(N) )),
     message_queue_destroy(Q).
 test(grows_and_shrinks_again_and_again) :-
@@ -119,7 +119,7 @@ test(grows_and_shrinks_again_and_again) :-
                                scheduler_call(test_scheduler:blocked(Q, I))),
                         wait_until(test_scheduler:count(16), 10),
                         forall(between(1, 16, _), thread_send_message(Q, go)),
-                        wait_until(scheduler_workers(4), 10) ))),
+                        wait_until(scheduler_workers(2), 10) ))),
     message_queue_destroy(Q).
 test(work_goes_on_beside_a_blocked_pool, N == 104) :-
     message_queue_create(Q),
@@ -131,12 +131,12 @@ test(work_goes_on_beside_a_blocked_pool, N == 104) :-
                  forall(between(1, 4, _), thread_send_message(Q, go)) )),
     count(N),
     message_queue_destroy(Q).
-test(an_aborted_worker_is_replaced, true((W >= 4, N == 50))) :-
+test(an_aborted_worker_is_replaced, true((W >= 2, N == 50))) :-
     scheduling(( forall(between(1, 10, _), scheduler_call(abort)),
                  forall(between(1, 50, I),
                         scheduler_call(test_scheduler:happens(I))),
                  wait_until(test_scheduler:count(50), 10),
-                 wait_until(( scheduler_workers(W0), W0 >= 4 ), 5),
+                 wait_until(( scheduler_workers(W0), W0 >= 2 ), 5),
                  scheduler_workers(W) )),
     count(N).
 test(limit, true(Most == 2)) :-
