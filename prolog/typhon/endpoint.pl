@@ -65,6 +65,8 @@ that peer is read. They may post, request and reply.
     requested/4,
     connection/2.
 
+:- setting(lost_time, number, 5,
+           "Seconds without connection before endpoint_call/5 gives up").
 :- setting(flush_time, number, 2,
            "Seconds endpoint_stop/0 waits for the last frames to arrive").
 
@@ -262,22 +264,43 @@ report(Formal, Context) :-
 
 %!  endpoint_call(+Address, +Kind, +Term, -Answer, +Timeout) is det.
 %
-%   Ask and wait, at most Timeout seconds. Answer is answer(Term).
+%   Ask and wait, at most Timeout seconds. Answer is answer(Term). The
+%   connection counts as lost when it has been down for some seconds: who
+%   asks like this would rather know than wait for the peer to come back.
 %
 %   @error unreachable(Address), connection_lost(Address)
 %   @error timeout_error(answer, Address)
 
 endpoint_call(Address, Kind, Term, Answer, Timeout) :-
     must_be(number, Timeout),
+    get_time(Now),
+    Deadline is Now+Timeout,
     setup_call_cleanup(
         message_queue_create(Queue),
         ( endpoint_request(Address, Kind, Term, tell(Queue)),
-          (   thread_get_message(Queue, Result, [timeout(Timeout)])
-          ->  true
-          ;   Result = late
-          ) ),
+          await(Queue, Address, Deadline, Now, Result)
+        ),
         message_queue_destroy(Queue)),
     call_result(Result, Address, Answer).
+
+%   await(+Queue, +Address, +Deadline, +Up, -Result): at the time Up the
+%   connection was not down.
+
+await(Queue, Address, Deadline, Up0, Result) :-
+    get_time(Now),
+    Slice is max(0, min(1, Deadline-Now)),
+    (   thread_get_message(Queue, Result0, [timeout(Slice)])
+    ->  Result = Result0
+    ;   Now >= Deadline
+    ->  Result = late
+    ;   endpoint_peer(Address, state(down))
+    ->  setting(lost_time, Seconds),
+        (   Now-Up0 > Seconds
+        ->  Result = lost
+        ;   await(Queue, Address, Deadline, Up0, Result)
+        )
+    ;   await(Queue, Address, Deadline, Now, Result)
+    ).
 
 tell(Queue, Result) :-
     catch(thread_send_message(Queue, Result),
