@@ -92,6 +92,12 @@ connected_to(Host) :-
     typhon_host:address_parts(Host, _, Endpoint),
     typhon_endpoint:endpoint_peer(Endpoint, state(up)).
 
+connecting :-
+    (   typhon_keeper:attempt(_, _, _)
+    ;   typhon_keeper:again(_, _, _)
+    ),
+    !.
+
 outcome_here(Id, Outcome) :-
     typhon_whereabouts:agent_outcome(Id, Outcome).
 

@@ -138,10 +138,24 @@ peer_kill(Peer) :-
     close(Out, [force(true)]).
 
 %!  peer_signal(+Peer, +Signal) is det.
+%
+%   When it returns Peer has stopped, if that is what `stop` should do.
 
 peer_signal(Peer, Signal) :-
     peer(Peer, Pid, _, _),
-    process_kill(Pid, Signal).
+    process_kill(Pid, Signal),
+    (   Signal == stop
+    ->  wait_until(stopped(Pid), 10)
+    ;   true
+    ).
+
+stopped(Pid) :-
+    format(atom(Dir), '/proc/~d/task', [Pid]),
+    directory_files(Dir, Tasks),
+    forall(( member(Task, Tasks), atom_number(Task, _) ),
+           ( format(atom(File), '~w/~w/stat', [Dir, Task]),
+             read_file_to_string(File, Text, []),
+             sub_string(Text, _, _, _, ") T ") )).
 
 %!  peer_proxy(+Peer, -Proxy) is det.
 

@@ -111,10 +111,12 @@ cut_self_connection :-
 cut_before_answer(Rounds) :-
     peer_host(a, A),
     peer_host(b, B),
-    travel(a, [B, A], 2),
-    forall(between(1, Rounds, _), cut_before_one_answer(B)).
+    forall(between(1, Rounds, _), cut_before_one_answer(A, B)).
 
-cut_before_one_answer(B) :-
+cut_before_one_answer(A, B) :-
+    travel(a, [B, A], 2),               % they are connected, and once
+    wait_until(forall(member(Peer, [a, b]),
+                      peer_do(Peer, \+ connecting)), 10),
     answers(proxy_hold),
     set_out(a, [B, sit], 2, Id),
     wait_until(step_on(b, Id, 1), 10),
