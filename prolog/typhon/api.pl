@@ -285,7 +285,7 @@ ordered(error(Formal), _) :-
 %   `disposed` or `timeout`.
 %
 %   @error existence_error(agent, Agent)
-%   @error host_unreachable(Home)
+%   @error host_unreachable(Home), connection_lost(Home)
 
 agent_join(Agent, Outcome, Timeout) :-
     must_be(atom, Agent),
