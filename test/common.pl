@@ -169,7 +169,7 @@ child_process(Pid) :-
 parent(Pid, Parent) :-
     format(atom(File), '/proc/~d/stat', [Pid]),
     catch(read_file_to_string(File, Text, []),
-          error(existence_error(_, _), _), fail),
+          error(_, _), fail),           % it has ended
     % the name, in parentheses, may hold blanks and parentheses itself
     split_string(Text, ")", "", Parts),
     last(Parts, Rest),

@@ -49,6 +49,10 @@ The records of agents, each with one owner: this module.  An agent is
 Changes of the database are what a hop costs most of.  So an agent that
 runs has no status at all: whoever removes `ready` has it.
 
+The tables must be asked by id, or by atoms: an index on compound terms,
+which Prolog makes by itself, is not safe where other threads retract
+(9.0.4 aborts in deleteActiveClauseFromBucket).
+
 *Threading*: what changes a record runs inside with_agent/2, which holds
 one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 */
@@ -326,8 +330,10 @@ wakes(waiting(Pattern, _), Message) :-
 %   The oldest message that unifies.
 
 agent_take_mail(Id, Message) :-
-    retract(mailbox(Id, Message)),
-    !.
+    clause(mailbox(Id, Message0), true, Ref),
+    Message = Message0,
+    !,
+    erase(Ref).
 
 %!  agent_all_mail(+Id, -Messages:list) is det.
 %

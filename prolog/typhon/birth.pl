@@ -20,6 +20,8 @@ with_agent/2, is the one who reports its end.
 
 :- meta_predicate agent_end(+, 1, +).
 
+:- dynamic faulty/1.                    % Id, the oldest first
+
 :- setting(faulty, nonneg, 100, "Faulty agents kept for inspection").
 
 %!  agent_start(+Id, +Host, +Spec, -Answer) is det.
@@ -86,8 +88,9 @@ remove(Id, last(Host, Hops, Status)) :-
     ),
     agent_remove(Id).
 
-removed(last(_, _, faulty(_)), _, _) :-
-    !.
+removed(last(_, _, faulty(_)), Id, _) :-
+    !,
+    retractall(faulty(Id)).
 removed(last(Host, Hops, _), Id, Outcome) :-
     host_leave(Host),
     host_log(Host, Id, ended(Outcome)),
@@ -100,7 +103,8 @@ removed(last(Host, Hops, _), Id, Outcome) :-
 make_faulty(Id, Error, Host, Hops) :-
     agent(Id, Host, _, _, Life),
     arg(2, Life, Hops),
-    agent_put(Id, faulty(Error), []).
+    agent_put(Id, faulty(Error), []),
+    assertz(faulty(Id)).
 
 portable(Error, Portable) :-
     catch(( mobile_term(Error), Portable = Error ),
@@ -111,7 +115,7 @@ portable(Error, Portable) :-
 
 forget_faulty :-
     setting(faulty, Max),
-    findall(Id, agent_status(Id, faulty(_), _), Ids),
+    findall(Id, faulty(Id), Ids),
     length(Ids, Count),
     Excess is Count-Max,
     forall(( nth1(N, Ids, Oldest), N =< Excess ),

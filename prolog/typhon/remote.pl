@@ -75,8 +75,26 @@ typhon_endpoint:requested(remote, remote(Name, Goal), _Peer, ReplyTo) :-
     ).
 
 serve(Name, Goal, ReplyTo) :-
-    catch(outcome(Name, Goal, Answer), Ball, Answer = raised(Ball)),
+    catch(outcome(Name, Goal, Answer), Ball, raised(Ball, Answer)),
     endpoint_reply(ReplyTo, Answer).
+
+%   What cannot travel goes as text: who asked must get an answer.
+
+raised(Ball, raised(Portable)) :-
+    catch(( mobile_term(Ball), Portable = Ball ),
+          error(type_error(mobile_term, _), _),
+          portable(Ball, Portable)).
+
+portable(Ball, Portable) :-
+    (   Ball = error(Formal, _),
+        catch(mobile_term(Formal), error(type_error(mobile_term, _), _), fail)
+    ->  Portable = error(Formal, _)
+    ;   Ball = error(type_error(mobile_term, Culprit), _)
+    ->  format(atom(Text), '~q', [Culprit]),
+        Portable = error(type_error(mobile_term, Text), _)
+    ;   format(atom(Text), '~q', [Ball]),
+        Portable = error(system_error(Text), _)
+    ).
 
 outcome(Name, Goal, Answer) :-
     (   run_here(Name, Goal)
