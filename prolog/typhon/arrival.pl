@@ -6,6 +6,7 @@
 :- use_module(endpoint, [endpoint_reply/2, endpoint_reply_later/2]).
 :- use_module(hop, [hop_let_go/4]).
 :- use_module(host, [host/3, host_enter/3, host_leave/1, host_hop/3]).
+:- use_module(scheduler, [schedule/2]).
 :- use_module(whereabouts, [agent_seen/4, whereabouts/3, agent_outcome/2]).
 
 /** <module> Agents arrive
@@ -25,16 +26,15 @@ typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
           ( print_message(error, error(Formal, Context)),
             Answer = refused(error(Formal))
           )),
-    answer(Answer, Image, ReplyTo).
+    answer(Answer, Name, ReplyTo).
 
 %   The agent must not run before the answer is on its way: what it sends
 %   comes behind it.
 
-answer(installed(Goals), Image, ReplyTo) :-
+answer(installed(Id), Name, ReplyTo) :-
     !,
     endpoint_reply_later(ReplyTo, accepted),
-    arg(1, Image, Id),
-    with_agent(Id, agent_ready(Id, Goals)).
+    schedule(Name, Id).
 answer(Answer, _, ReplyTo) :-
     endpoint_reply(ReplyTo, Answer).
 
@@ -71,8 +71,8 @@ admitted(refused(Reason), _, _, _, refused(Reason)).
 admitted(ok, Name, Image, Peer, Answer) :-
     (   catch(install(Name, Image, Peer), Ball,
               ( host_leave(Name), throw(Ball) ))
-    ->  arg(5, Image, Goals),
-        Answer = installed(Goals)
+    ->  arg(1, Image, Id),
+        Answer = installed(Id)
     ;   host_leave(Name),
         not_installed(Name, Image, Answer)
     ).
@@ -102,11 +102,11 @@ install(Name, Image, Peer) :-
     Seconds is max(0.0, Now-Since),
     host_hop(Name, in, Seconds).
 
-install(image(Id, Hash, Life, State, _, Mail0, _), Name, Place, Gone) :-
+install(image(Id, Hash, Life, State, Goals, Mail0, _), Name, Place, Gone) :-
     code_module(Hash, _),
     came_back(Id, Life, Later, Orders, Gone),
     agent_install(Id, Name, Place, Hash, Life, State),
-    agent_put(Id, arriving, []),
+    agent_put(Id, ready, Goals),
     append(Mail0, Later, Mail),
     forall(member(Message, Mail), agent_mail(Id, Message)),
     forall(member(Order, Orders), agent_order(Id, Order)).
