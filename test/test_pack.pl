@@ -27,7 +27,7 @@ goal_arg(_, Arg) :-
 
 install(Spec, Options, Home, Directory) :-
     format(atom(Goal), 'pack_install(~q, ~q)',
-           [Spec, [interactive(false)|Options]]),
+           [Spec, [interactive(false),register(false)|Options]]),
     swipl_at_home(Home, Directory, [Goal], _).
 
 %   What must work then, in a directory that has nothing to do with it.
