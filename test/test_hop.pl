@@ -43,7 +43,7 @@ test(between_hosts_of_one_process) :-
     with_peers([a-[proxy(true)]], cut_self_connection).
 
 test(before_the_answer) :-
-    with_proxied(fast, cut_before_answer(20)).
+    with_proxied(fast, cut_before_answer(10)).
 
 :- end_tests(hop_cut).
 
@@ -123,8 +123,8 @@ cut_before_one_answer(A, B) :-
     peer_do(a, agent_state_here(Id, State)),
     memberchk(State, [in_transit, in_doubt]),
     forall(peer_proxy(_, Proxy), proxy_cut(Proxy)),
-    answers(proxy_release),
-    wait_until(\+ peer_do(a, agent_here(Id)), 10),
+    wait_until(( answers(proxy_release),
+                 \+ peer_do(a, agent_here(Id)) ), 10),
     peer_do(a, agent_property(Id, host(B))),
     peer_do(a, agent_send(Id, go)),
     ended_well(a, Id, 2).
