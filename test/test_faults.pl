@@ -208,7 +208,8 @@ bounce :-
                   format("~D hops: the last tenth took ~2f times as long \c
                           as the first", [Hops, Ratio])),
     Ratio < 3,
-    forall(member(Peer, [a, b]), peer_do(Peer, \+ agent_here(_))).
+    wait_until(forall(member(Peer, [a, b]),
+                      peer_do(Peer, \+ agent_here(_))), 10).
 
 %   One ends, one is disposed of: the third goes on.
 
