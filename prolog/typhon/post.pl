@@ -31,7 +31,7 @@ message goes where the agent went, or to its home, which knows.
 %   for the moment, or those who should know do not know yet: it waits a
 %   little.
 
-max_forwards(640).
+max_forwards(12800).
 forwards_at_once(64).
 pause(0.05).                    % seconds
 
