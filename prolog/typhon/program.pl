@@ -205,9 +205,8 @@ program_hash(Program, Hash) :-
     hash_atom(Bytes, Hash).
 
 print_canonical(Term) :-
-    \+ \+ ( numbervars(Term, 0, _),
-            write_term(Term, [ quoted(true), ignore_ops(true),
-                               numbervars(true) ]),
+    \+ \+ ( numbervars(Term, 0, _, [functor_name('$typhon_variable')]),
+            write_term(Term, [ quoted(true), ignore_ops(true) ]),
             nl
           ).
 
