@@ -4,7 +4,7 @@
             seconds/2,                  % :Goal, -Seconds
             resident_bytes/1,           % -Bytes
             threads/1,                  % -Count
-            with_peer/3,                % +Prefix, +Script, :Goal
+            with_peer/2,                % +Prefix, :Goal
             peer_main/0,
             pinned/2                    % +Placement, -Prefixes
           ]).
@@ -22,7 +22,7 @@ on its standard output; bench/run.pl starts it and makes the table.
 
 :- meta_predicate
     seconds(0, -),
-    with_peer(+, +, 1).
+    with_peer(+, 1).
 
 :- prolog_load_context(directory, Dir),
    atom_concat(Dir, '/../prolog', Prolog),
@@ -79,12 +79,12 @@ status(Key, Number) :-
     exclude(==(""), Words0, [_,Word|_]),
     number_string(Number, Word).
 
-%!  with_peer(+Prefix, +Goals, :Goal) is det.
+%!  with_peer(+Prefix, :Goal) is det.
 %
 %   Call Goal(Address) while a second process runs a host of that address.
 %   Prefix is put before its command line.
 
-with_peer(Prefix, _, Goal) :-
+with_peer(Prefix, Goal) :-
     module_property(bench_common, file(File)),
     current_prolog_flag(executable, Swipl),
     append(Prefix, [Swipl, '-q', '-g', 'bench_common:peer_main', '-t', halt,

@@ -24,7 +24,7 @@ main([Placement]) :-
     Micro is OneWay*1.0e6,
     figure(Name, Micro, 'us'),
     host_start(here),
-    with_peer(Prefix, [], hops(Placement, OneWay)),
+    with_peer(Prefix, hops(Placement, OneWay)),
     host_stop(here).
 
 name(Placement, What, Name) :-

@@ -12,7 +12,7 @@ main([_]) :-
     counted(here, Program, 5000, _),    % warm up
     counted(here, Program, 100000, Local),
     figure('messages per second, one process', Local, '1/s'),
-    with_peer([env], [], remote_messages(Program)),
+    with_peer([env], remote_messages(Program)),
     host_stop(here).
 
 remote_messages(Program, Peer) :-

@@ -11,7 +11,7 @@ main([_]) :-
     resident_program(Program),
     created(Program, 2000, _),          % warm up
     idle(Program),
-    with_peer([env], [], costs),
+    with_peer([env], costs),
     host_stop(here).
 
 resident_program(clauses([ (:- agent(idle, [state([seen/2])])),

@@ -5,7 +5,6 @@
                                         % +State
             agent_remove/1,             % +Id
             agent_state/2,              % +Module, -State
-            agent_life/2,               % +Id, :Goal
             agent_put_life/2,           % +Id, +Life
             agent_put/3,                % +Id, +Status, +Goals
             agent_take/2,               % +Id, -Goals
@@ -57,7 +56,7 @@ which Prolog makes by itself, is not safe where other threads retract
 one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 */
 
-:- meta_predicate with_agent(+, 0), agent_life(+, 1).
+:- meta_predicate with_agent(+, 0).
 
 :- multifile typhon_code:in_use/1.
 
@@ -288,15 +287,6 @@ agent_ready(Id, Goals) :-
     agent(Id, Host, _, _, _),
     !,
     schedule(Host, Id).
-
-%!  agent_life(+Id, :Goal) is semidet.
-%
-%   call(Goal, Life) on the life of Id.
-
-agent_life(Id, Goal) :-
-    agent(Id, _, _, _, Life),
-    !,
-    call(Goal, Life).
 
 %!  agent_put_life(+Id, +Life) is det.
 
