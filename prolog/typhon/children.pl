@@ -39,6 +39,9 @@ has ended.
 :- meta_predicate
     child_start(+, +, +, 1, -).
 
+:- public
+    stop_reading/0.             % goal of a signal
+
 :- multifile
     prolog:message//1.
 
@@ -127,7 +130,11 @@ target_host(Target, Host) :-
 
 follow(Tag, Pid, Out, OnEvent) :-
     set_stream(Out, encoding(utf8)),
-    catch(lines(Tag, Out, OnEvent), stop_reading, true),
+    nb_setval(typhon_reading, true),
+    catch(( lines(Tag, Out, OnEvent),
+            nb_setval(typhon_reading, false) ),
+          stop_reading,
+          true),
     close(Out),
     process_wait(Pid, Status),
     call(OnEvent, down(Tag, Status)).
@@ -167,8 +174,17 @@ child_close(child(_, In, _)) :-
 
 child_kill(child(Pid, _, Thread)) :-
     catch(process_kill(Pid, kill), error(existence_error(_, _), _), true),
-    catch(thread_signal(Thread, throw(stop_reading)),
+    catch(thread_signal(Thread, typhon_children:stop_reading),
           error(existence_error(_, _), _), true).
+
+%   The end of the output may come first.  Then the thread waits for the end
+%   of the process, and is not to be interrupted.
+
+stop_reading :-
+    (   nb_current(typhon_reading, true)
+    ->  throw(stop_reading)
+    ;   true
+    ).
 
 %!  child_release(+Child) is det.
 %
