@@ -13,6 +13,7 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/children)).
 :- use_module(library(typhon/log)).
 :- use_module(library(typhon/network)).
 :- use_module(library(typhon/topology)).
@@ -398,6 +399,27 @@ test(a_process_that_hangs, true(Seconds < 10)) :-
 freeze(Network) :-
     pids(Network, [_, Pid|_]),
     process_kill(Pid, stop).
+
+%   The end of the output and the signal race.
+
+test(every_killed_process_is_noticed, Missed == 0) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        aggregate_all(count,
+                      ( between(1, 50, N), \+ killed(N, Queue) ),
+                      Missed),
+        message_queue_destroy(Queue)).
+
+killed(N, Queue) :-
+    child_start(N, local, '127.0.0.1', tell(Queue), Child),
+    child_kill(Child),
+    thread_get_message(Queue, down(N, Status), [timeout(20)]),
+    Status == killed(9),
+    child_close(Child),
+    child_release(Child).
+
+tell(Queue, Event) :-
+    thread_send_message(Queue, Event).
 
 test(a_busy_agent_does_not_hold_it_up, true(Seconds < 12)) :-
     nothing_left(seconds(with_network(ring(4), [processes(2)], busy),
