@@ -192,6 +192,10 @@ swap(Rounds) :-
 test(arrive_once_each, forall(messages(Codec, Count))) :-
     with_peers([ a-[codec(Codec)], b-[codec(Codec)], c-[codec(Codec)] ],
                chase(Count)).
+test(follow_in_several_frames, Numbers == [1, 2, 3, 4, 5, 6, 7]) :-
+    Small = setup(set_setting(typhon_session:frame_bytes, 20000)),
+    with_peers([ a-[proxy(true), Small], b-[proxy(true)] ],
+               follow_big(7, 6000, Numbers)).
 test(ordered_to_end_while_hopping) :-
     with_peers([a, b, c], dispose_hopping(20)).
 
@@ -217,6 +221,23 @@ chase(Count) :-
     Sum is 3*Count*(Count+1)//2,
     findall(S, ( member(Peer, [a, b, c]), collected(Peer, Id, S) ), Sums),
     Sums == [All-Sum].
+
+%   While the answer to its hop is held an agent gets more mail than one
+%   frame of the source holds.
+
+follow_big(Count, Bytes, Numbers) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    travel(a, [B, A], 2),               % they are connected
+    answers(proxy_hold),
+    reader(a, B, Count, Id),
+    wait_until(peer_do(b, agent_here(Id)), 10),
+    format(string(Text), '~`x~t~*|', [Bytes]),
+    forall(between(1, Count, I),
+           peer_do(a, agent_send(Id, I-Text))),
+    answers(proxy_release),
+    peer_do(a, agent_join(Id, done, 20)),
+    peer_do(b, remote(b, findall(I, sense(noted(I)), Numbers))).
 
 dispose_hopping(Rounds) :-
     peer_host(a, A),

@@ -13,6 +13,7 @@
             swapper/4,                  % +Peer, +Hosts, +Rounds, -Id
             collector/4,                % +Peer, +Route, +Count, -Id
             collected/3,                % +Peer, +Id, -CountSum
+            reader/4,                   % +Peer, +Host, +Count, -Id
             other_program/3             % +Peer, +Host, +Number
           ]).
 
@@ -135,6 +136,21 @@ swapper(Peer, [Here, There, Aside], Rounds, Id) :-
                                [ host(Peer),
                                  facts([ hosts(Here, There, Aside),
                                          rounds(Rounds) ]) ])).
+
+%!  reader(+Peer, +Host, +Count, -Id) is det.
+%
+%   An agent that goes to Host and there notes what I the next Count
+%   messages I-Text have.
+
+reader(Peer, Host, Count, Id) :-
+    Clauses =
+    [ (:- agent(reader, [])),
+      (main :- move(Host), note(Count)),
+      note(0),
+      (note(N) :- N > 0, receive(_-(I-_)), leave(noted(I)), N1 is N-1,
+                  note(N1))
+    ],
+    peer_do(Peer, agent_create(clauses(Clauses), Id, [host(Peer)])).
 
 %!  collector(+Peer, +Route, +Count, -Id) is det.
 %!  collected(+Peer, +Id, -CountSum) is semidet.

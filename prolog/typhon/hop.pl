@@ -16,7 +16,7 @@
 :- use_module(frame, [mobile_term/1]).
 :- use_module(host, [host/3, host_leave/1, address_parts/3, host_hop/3]).
 :- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
-:- use_module(post, [post_on/3]).
+:- use_module(post, [post_on/2]).
 :- use_module(whereabouts,
               [ agent_left/4, agent_born/2, agent_ended/3, agent_reached/3 ]).
 
@@ -247,7 +247,7 @@ moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, Hops, _, _)),
     agent_left(Id, Address, Hops, Endpoint),
     hop_let_go(Id, Mail, Orders, Gone),
-    forall(member(From-Message, Mail), post_on(Id, From, Message)).
+    post_on(Id, Mail).
 
 %!  hop_let_go(+Id, -Mail, -Orders, :Gone) is semidet.
 %
