@@ -644,13 +644,13 @@ test(join_nobody, error(existence_error(agent, 'x.1@alpha@127.0.0.1:1'))) :-
     with_hosts([alpha-[]],
                ( address(alpha, Address),
                  atom_concat('x.1@', Address, Id),
-                 catch(agent_join(Id, _, 1), error(existence_error(agent, Id), _),
+                 catch(agent_join(Id, _, 10), error(existence_error(agent, Id), _),
                        throw(error(existence_error(agent,
                                        'x.1@alpha@127.0.0.1:1'), _))) )).
 test(join_what_is_no_id, error(existence_error(agent, foo))) :-
-    with_hosts([alpha], agent_join(foo, _, 1)).
+    with_hosts([alpha], agent_join(foo, _, 10)).
 test(join_an_unbound, error(instantiation_error)) :-
-    agent_join(_, _, 1).
+    agent_join(_, _, 10).
 test(join_with_a_foolish_timeout, error(type_error(number, soon))) :-
     with_hosts([alpha], ( create([main], A), agent_join(A, _, soon) )).
 test(join_when_the_host_stops, O == disposed) :-
@@ -663,7 +663,7 @@ test(join_when_the_host_stops, O == disposed) :-
 test(join_after_the_host_stopped, O == disposed) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A), host_stop(alpha) )),
-    agent_join(A, O, 1).
+    agent_join(A, O, 10).
 
 :- end_tests(end).
 

@@ -119,7 +119,7 @@ in_time(Goal) :-
     get_time(T0),
     call(Goal),
     get_time(T1),
-    assertion(T1-T0 < 2).
+    assertion(T1-T0 < 4).
 
 refusal(Client, Formal) :-
     hello(x, 1, 'c:1', Hello),

@@ -410,14 +410,14 @@ test(stop_with_requests_open, Result == lost) :-
                           endpoint_request(A, never, x,
                                            thread_send_message(Me)),
                           endpoint_flush(5) )),
-          thread_get_message(Me, Result, [timeout(1)]) ))).
+          thread_get_message(Me, Result, [timeout(10)]) ))).
 test(stop_while_connecting) :-
     no_leaks(with_endpoint(( thread_self(Me),
                              endpoint_request('10.255.255.1:9', echo, x,
                                               thread_send_message(Me)),
                              sleep(0.1) ))),
     thread_self(Me),
-    thread_get_message(Me, unreachable, [timeout(1)]).
+    thread_get_message(Me, unreachable, [timeout(10)]).
 
 plunit_cuts :-
     with_endpoint(

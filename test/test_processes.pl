@@ -91,7 +91,7 @@ test(join_one_that_went_away, true(O == done)) :-
 test(join_nobody_there, error(existence_error(agent, _))) :-
     there(beta, B),
     atom_concat('x.1.2@', B, A),
-    agent_join(A, _, 1).
+    agent_join(A, _, 10).
 test(failed_and_raised, true(Os == [failed,raised(oops)])) :-
     there(beta, B),
     findall(O, ( member(G, [fail,throw(oops)]),
