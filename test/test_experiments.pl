@@ -22,24 +22,24 @@ On event logs made by hand.
 %   starts at 8, a at 9.
 
 in_step([ event(10, a, t, begun),
-          event(10, a, w, executing(1)), event(11, a, w, completed(1)),
-          event(12, b, w, executing(1)), event(13, b, w, completed(1)),
-          event(15, a, w, executing(2)), event(16, a, w, completed(2)),
-          event(16, b, w, executing(2)), event(17, b, w, completed(2)),
-          event(18, b, w, executing(3)), event(19, b, w, completed(3)),
-          event(19, a, w, executing(3)), event(20, a, w, completed(3))
+          event(10, a, w, executing(s, 1)), event(11, a, w, completed(s, 1)),
+          event(12, b, w, executing(s, 1)), event(13, b, w, completed(s, 1)),
+          event(15, a, w, executing(s, 2)), event(16, a, w, completed(s, 2)),
+          event(16, b, w, executing(s, 2)), event(17, b, w, completed(s, 2)),
+          event(18, b, w, executing(s, 3)), event(19, b, w, completed(s, 3)),
+          event(19, a, w, executing(s, 3)), event(20, a, w, completed(s, 3))
         ]).
 
 %   a runs ahead: it executes T2 before b is serviced for T1, and T3 before
 %   b is serviced for T2.
 
 ahead([ event(0, a, t, begun),
-        event(0, a, w, executing(1)), event(1, a, w, completed(1)),
-        event(2, a, w, executing(2)), event(3, a, w, completed(2)),
-        event(4, a, w, executing(3)), event(5, a, w, completed(3)),
-        event(6, b, w, executing(1)), event(7, b, w, completed(1)),
-        event(8, b, w, executing(2)), event(9, b, w, completed(2)),
-        event(9, b, w, executing(3)), event(10, b, w, completed(3))
+        event(0, a, w, executing(s, 1)), event(1, a, w, completed(s, 1)),
+        event(2, a, w, executing(s, 2)), event(3, a, w, completed(s, 2)),
+        event(4, a, w, executing(s, 3)), event(5, a, w, completed(s, 3)),
+        event(6, b, w, executing(s, 1)), event(7, b, w, completed(s, 1)),
+        event(8, b, w, executing(s, 2)), event(9, b, w, completed(s, 2)),
+        event(9, b, w, executing(s, 3)), event(10, b, w, completed(s, 3))
       ]).
 
 measured(Log, Executions) :-
@@ -59,12 +59,15 @@ test(executions, Es == [ execution(1, a, 0, 1), execution(1, b, 2, 3),
                          execution(3, b, 8, 9), execution(3, a, 9, 10) ]) :-
     measured(in_step, Es).
 test(unfinished_execution_does_not_count, Es == []) :-
-    executions([event(0, a, w, executing(1)), event(1, a, w, failed(1))],
-               Es).
+    executions([ event(0, a, w, executing(s, 1)),
+                 event(1, a, w, failed(s, 1))
+               ], Es).
 test(execution_again,
      Es == [execution(1, a, 0, 1), execution(1, a, 3, 5)]) :-
-    executions([ event(0, a, w, executing(1)), event(1, a, w, completed(1)),
-                 event(3, a, w, executing(1)), event(5, a, w, completed(1))
+    executions([ event(0, a, w, executing(s, 1)),
+                 event(1, a, w, completed(s, 1)),
+                 event(3, a, w, executing(s, 1)),
+                 event(5, a, w, completed(s, 1))
                ], Es).
 test(rows, Rows == [ task(1, 0, 2, 3, 2, 2), task(2, 5, 6, 7, 2, 1),
                      task(3, 8, 9, 10, 2, none) ]) :-

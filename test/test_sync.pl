@@ -102,6 +102,7 @@ fake_host:sense(Fact) :- fake_host:tuple(Fact).
 fake_host:log(What)   :- assertz(fake_host:did(log(What))).
 fake_host:send(Id, M) :- assertz(fake_host:did(send(Id, M))).
 fake_host:self(me).
+fake_host:now(7).
 
 %   fake_agent(+Program, +Facts, +Tuples): an agent of Program in module
 %   fake_agent, on a host with Tuples.
@@ -142,13 +143,16 @@ load_clause((:- Directive), _) :-
 load_clause(Clause, _) :-
     assertz(fake_agent:Clause).
 
+%   The sequence `house`, in its first version.
+
 traveller(Facts, Tuples) :-
     fake_agent('agents/sync/traveller.pl',
-               [ task(1, floor), task(2, walls), task(3, ceiling)
-               | Facts
-               ],
+               [ plan(house, 1, [1-floor, 2-walls, 3-ceiling]) | Facts ],
                Tuples),
-    forall(member(Task, [1, 2, 3]), fake_agent:fill(Task)).
+    fake_agent:fill_new.
+
+worker(Tuples) :-
+    fake_agent('agents/sync/worker.pl', [sequence(house)], Tuples).
 
 did(Acts) :-
     findall(Act, fake_host:did(Act), Acts).
@@ -184,32 +188,65 @@ test(then_it_is_over, fail) :-
     forall(member(Task, [1, 2, 3]), exhaust(Task)),
     fake_agent:current(_).
 test(services_a_host_that_lacks_the_task) :-
-    traveller([], [worker(w)]),
+    traveller([], [worker(house, w)]),
     exhaust(1),
-    fake_host:leave(task(1, completed)),
+    fake_host:leave(task(house, 1, completed, 5)),
     fake_agent:keep(2, drive(50, [10])),
     fake_agent:visit(2),
     tuples(Tuples),
-    Tuples == [task(1, completed), task(2, executing)],
+    Tuples == [ task(house, 1, completed, 5),
+                plan(house, 1, [1-floor, 2-walls, 3-ceiling]),
+                task(house, 2, executing, 7)
+              ],
     did(Acts),
     Acts == [send(w, execute(2, walls)), log(reward(2, 55, 5))],
     drive(2, 55, [10, 5]).
 test(leaves_an_executing_host_alone) :-
-    traveller([], [task(1, executing)]),
+    traveller([], [task(house, 1, executing, 5)]),
     fake_agent:visit(1),
     did(Acts),
     Acts == [],
     drive(1, 100, [15]).
-test(is_penalised_where_the_task_is_completed) :-
-    traveller([], [worker(w), task(1, completed)]),
+test(leaves_the_worker_of_another_sequence_alone) :-
+    traveller([], [worker(garden, w)]),
     fake_agent:visit(1),
     tuples(Tuples),
-    Tuples == [task(1, completed), worker(w)],
+    Tuples == [worker(garden, w)],
+    did(Acts),
+    Acts == [],
+    drive(1, 100, [15]).
+test(is_penalised_where_the_task_is_completed) :-
+    traveller([], [worker(house, w), task(house, 1, completed, 5)]),
+    fake_agent:visit(1),
+    tuples(Tuples),
+    Tuples == [task(house, 1, completed, 5), worker(house, w)],
     did(Acts),
     Acts == [log(penalty(1, 84.5, 15.5))],
     drive(1, 84.5, [15, 15.5]).
+
+:- end_tests(decisions).
+
+                /*******************************
+                *            HEALING           *
+                *******************************/
+
+serviced(Task) :-
+    fake_host:tuple(task(house, Task, executing, 7)).
+
+%   A host of which the tasks Completed are completed.
+
+host_with(Completed, More, Tuples) :-
+    findall(task(house, Task, completed, 5), member(Task, Completed), Tuples0),
+    append([[worker(house, w)], Tuples0, More], Tuples).
+
+potentials(Ps) :-
+    findall(P, ( member(Task, [1, 2, 3]), drive(Task, P, _) ), Ps).
+
+:- begin_tests(healing).
+
 test(services_an_earlier_task_it_finds_missing) :-
-    traveller([], [worker(w), task(1, completed), task(3, completed)]),
+    host_with([1, 3], [], Tuples),
+    traveller([], Tuples),
     exhaust(1),
     exhaust(2),
     fake_agent:keep(3, drive(40, [15, 10])),
@@ -224,40 +261,166 @@ test(services_an_earlier_task_it_finds_missing) :-
     fake_agent:current(Task),
     Task == 2.
 test(the_first_one_missing_is_serviced_first) :-
-    traveller([], [worker(w)]),
+    traveller([], [worker(house, w)]),
     exhaust(1),
     exhaust(2),
     fake_agent:visit(3),
+    serviced(Task),
+    Task == 1.
+test(later_ones_are_no_business_of_his, Acts == [log(penalty(1, 84.5, 15.5))]
+    ) :-
+    host_with([1], [], Tuples),
+    traveller([], Tuples),
+    fake_agent:visit(1),
+    did(Acts).
+test(mark_of_an_atomic_failure_goes) :-
+    host_with([1, 3], [task(house, 2, failed(atomic), 6)], Tuples),
+    traveller([], Tuples),
+    exhaust(1),
+    exhaust(2),
+    fake_agent:keep(3, drive(40, [15, 10])),
+    fake_agent:visit(3),
+    potentials(Ps),
+    Ps == [0, 11.5, 40],
+    serviced(2),
+    \+ fake_host:tuple(task(_, _, failed(_), _)).
+test(cascaded_failure_fills_the_task_and_all_later_ones) :-
+    host_with([1], [task(house, 2, failed(cascaded), 6)], Tuples),
+    traveller([], Tuples),
+    exhaust(1),
+    exhaust(2),
+    fake_agent:keep(3, drive(40, [15, 10])),
+    fake_agent:visit(3),
+    did([Revived|_]),
+    Revived == log(revived(2, 100)),
+    serviced(2),
+    \+ fake_host:tuple(task(_, _, failed(_), _)),
+    drive(1, 0, _),
+    drive(2, 100, [15, 15]),            % the history begins again
+    drive(3, 100, [15]).
+test(cascaded_failure_of_the_task_itself_fills_the_later_ones) :-
+    host_with([1], [task(house, 2, failed(cascaded), 6)], Tuples),
+    traveller([], Tuples),
+    exhaust(1),
+    fake_agent:keep(2, drive(50, [10])),
+    exhaust(3),
+    fake_agent:visit(2),
+    potentials(Ps),
+    Ps == [0, 55, 100],
+    did([send(w, execute(2, walls)), log(reward(2, 55, 5))]).
+test(healed_last_task_of_all, true(Ps == [0, 0, 100])) :-
+    host_with([1, 2], [task(house, 3, failed(cascaded), 6)], Tuples),
+    traveller([], Tuples),
+    exhaust(1),
+    exhaust(2),
+    fake_agent:visit(3),
+    potentials(Ps).
+
+:- end_tests(healing).
+
+                /*******************************
+                *             PLANS            *
+                *******************************/
+
+agent_plan(Plan) :-
+    Plan = plan(_, _, _),
+    call(fake_agent:Plan),
+    !.
+
+:- begin_tests(plans).
+
+test(newer_plan_is_adopted) :-
+    New = plan(house, 2, [1-floor, door-hang, 3-ceiling]),
+    traveller([], [New]),
+    exhaust(1),
+    fake_agent:compare_plans,
+    agent_plan(Plan),
+    Plan == New,
+    findall(Task-P, drive(Task, P, _), Drives0),
+    msort(Drives0, Drives),
+    Drives == [1-0, 3-100, door-100],
     tuples(Tuples),
-    Tuples == [task(1, executing)].
-test(worker_says_it_is_free, Tuples == [worker(me)]) :-
-    fake_agent('agents/sync/worker.pl', [], []),
+    Tuples == [New],
+    did(Acts),
+    Acts == [log(adopted(2))],
+    fake_agent:current(Task),
+    Task == door.
+test(older_plan_is_replaced, Tuples == [plan(house, 1, [1-floor, 2-walls,
+                                                        3-ceiling])]) :-
+    traveller([], [plan(house, 0.5, [1-floor])]),
+    fake_agent:compare_plans,
+    tuples(Tuples),
+    did([]),
+    drive(2, 100, _).
+test(same_plan_is_left_alone, Tuples == [plan(house, 1, [])]) :-
+    traveller([], [plan(house, 1, [])]),
+    fake_agent:compare_plans,
+    tuples(Tuples),
+    did([]).
+test(plan_of_another_sequence_is_left_alone) :-
+    traveller([], [plan(garden, 2, [dig-dig])]),
+    fake_agent:compare_plans,
+    agent_plan(plan(Sequence, _, _)),
+    Sequence == house,
+    tuples(Tuples),
+    Tuples == [plan(garden, 2, [dig-dig])].
+test(new_code_of_a_task_is_handed_over) :-
+    traveller([], [plan(house, 2, [1-better_floor]), worker(house, w)]),
+    fake_agent:compare_plans,
+    fake_agent:visit(1),
+    did(Acts),
+    memberchk(send(w, execute(1, better_floor)), Acts).
+test(task_before_those_that_are_done_is_next) :-
+    host_with([1, 2], [plan(house, 2, [1-a, new-b, 2-c])], Tuples),
+    traveller([], Tuples),
+    exhaust(1),
+    exhaust(2),
+    fake_agent:compare_plans,
+    fake_agent:current(Task),
+    fake_agent:visit(Task),
+    serviced(Serviced),
+    Serviced == new.
+
+:- end_tests(plans).
+
+                /*******************************
+                *            WORKER            *
+                *******************************/
+
+:- begin_tests(worker).
+
+test(says_it_is_free, Tuples == [worker(house, me)]) :-
+    worker([]),
     fake_agent:main,
     tuples(Tuples).
-test(worker_executes) :-
-    fake_agent('agents/sync/worker.pl', [], [task(1, executing)]),
+test(executes) :-
+    worker([task(house, 1, executing, 5)]),
     fake_agent:on_message(someone, execute(1, leave(tile))),
     tuples(Tuples),
-    Tuples == [tile, task(1, completed), worker(me)],
+    Tuples == [ tile, task(house, 1, completed, 7), worker(house, me) ],
     did(Acts),
-    Acts == [log(executing(1)), log(completed(1))].
-test(task_that_raises_is_not_completed) :-
-    fake_agent('agents/sync/worker.pl', [], [task(1, executing)]),
+    Acts == [log(executing(house, 1)), log(completed(house, 1))].
+test(task_that_raises_has_failed) :-
+    worker([task(house, 1, executing, 5)]),
     fake_agent:on_message(someone, execute(1, atom_length(_, _))),
     tuples(Tuples),
-    Tuples == [worker(me)],
+    Tuples == [task(house, 1, failed(atomic), 7), worker(house, me)],
     did(Acts),
-    Acts == [ log(executing(1)),
+    Acts == [ log(executing(house, 1)),
               log(raised(1, instantiation_error)),
-              log(failed(1))
+              log(failed(house, 1))
             ].
-test(task_that_fails_is_not_completed, Tuples == [worker(me)]) :-
-    fake_agent('agents/sync/worker.pl', [], [task(1, executing)]),
+test(task_that_fails_has_failed) :-
+    worker([task(house, 1, executing, 5)]),
     fake_agent:on_message(someone, execute(1, fail)),
-    tuples(Tuples).
-test(task_taken_away_is_not_completed, Tuples == [worker(me)]) :-
-    fake_agent('agents/sync/worker.pl', [], []),
+    tuples(Tuples),
+    Tuples == [task(house, 1, failed(atomic), 7), worker(house, me)].
+test(task_failed_from_outside_meanwhile) :-
+    worker([task(house, 1, failed(cascaded), 6)]),
     fake_agent:on_message(someone, execute(1, true)),
-    tuples(Tuples).
+    tuples(Tuples),
+    Tuples == [task(house, 1, failed(cascaded), 6), worker(house, me)],
+    did(Acts),
+    Acts == [log(executing(house, 1))].
 
-:- end_tests(decisions).
+:- end_tests(worker).

@@ -1,18 +1,22 @@
-:- agent(traveller, [state([task/2, setting/2, drive/3])]).
+:- agent(traveller, [state([plan/3, setting/2, drive/3])]).
 :- include(potential).
 
 /*  Algorithm 2 of the thesis: agents that know nothing of each other
-    execute a sequence of tasks on every host, and go on to the next task
-    at the same time.
+    execute a sequence of tasks on hosts, and go on to the next task at the
+    same time.
 
-    The sequence is given as facts task(I, Goal), I = 1, 2 ...; Goal is
-    the task's code, handed over at each host.  Facts setting(Name, Value)
-    replace the defaults below.
+    The fact plan(Sequence, Version, Tasks) says what is to be done: the
+    name of the sequence, a number that is greater the newer the plan is,
+    and a list of Task-Goal in order.  Goal is the task's code, handed over
+    at each host.  Facts setting(Name, Value) replace the defaults below.
 
-    On the hosts: task(I, executing) and task(I, completed) say what was
-    done; worker(Id) is there while the host's worker is free.  Who takes
-    it has the host for himself until it is put back, so two agents never
-    service one host at the same time.
+    On the hosts: task(Sequence, Task, Status, Time) says what was done and
+    when.  worker(Sequence, Id) is there while the host's worker is free.
+    Who takes it has the host for himself until it is put back, so two
+    agents never service one host at the same time.  Where there is none,
+    because the host is executing or has no part in the sequence, an agent
+    passes.  plan(Sequence, Version, Tasks) is the newest plan that was
+    brought there.
 */
 
 default(delta, 0.5).             % penalty bias
@@ -30,7 +34,7 @@ setting_or_default(Name, Value) :-
 
 main :-
     await_order,
-    forall(task(Task, _), fill(Task)),
+    fill_new,
     log(begun),
     patrol.
 
@@ -41,6 +45,7 @@ await_order :-
 await_order.
 
 patrol :-
+    compare_plans,
     current(Task),
     !,
     visit(Task),
@@ -62,7 +67,8 @@ pause :-
 %   The task it searches for: the first that has potential left.
 
 current(Task) :-
-    task(Task, _),
+    plan(_, _, Tasks),
+    member(Task-_, Tasks),
     drive(Task, Potential, _),
     Potential =\= 0,
     !.
@@ -72,31 +78,58 @@ current(Task) :-
 %   that is executing would be serviced again.
 
 visit(Task) :-
-    take(worker(Worker)),
+    plan(Sequence, _, Tasks),
+    take(worker(Sequence, Worker)),
     !,
-    (   missing(Task, Missing)
-    ->  revive(Missing, Task),
+    (   missing(Tasks, Sequence, Task, Missing)
+    ->  heal(Missing, Task),
         service(Missing, Worker)
-    ;   leave(worker(Worker)),
+    ;   leave(worker(Sequence, Worker)),
         penalise(Task)
     ).
 visit(_).
 
-%   Missing is the first task up to Task that was not completed here: the
+%   Missing is the first task up to Task that is not completed here: the
 %   self-healing line of the algorithm.
 
-missing(Task, Missing) :-
-    task(Missing, _),
-    Missing =< Task,
-    \+ sense(task(Missing, completed)),
+missing([Missing-_|_], Sequence, _, Missing) :-
+    \+ sense(task(Sequence, Missing, completed, _)),
     !.
+missing([Earlier-_|Tasks], Sequence, Task, Missing) :-
+    Earlier \== Task,
+    missing(Tasks, Sequence, Task, Missing).
+
+service(Task, Worker) :-
+    plan(Sequence, Version, Tasks),
+    (   sense(plan(Sequence, _, _))
+    ->  true
+    ;   leave(plan(Sequence, Version, Tasks))
+    ),
+    memberchk(Task-Goal, Tasks),
+    ignore(take(task(Sequence, Task, failed(_), _))),
+    now(Time),
+    leave(task(Sequence, Task, executing, Time)),
+    send(Worker, execute(Task, Goal)),
+    reward(Task).
+
+                /*******************************
+                *         SELF-HEALING         *
+                *******************************/
 
 %   A task below the one searched for, found missing, gets as much
-%   potential as the last reward or penalty was worth.
+%   potential as the last reward or penalty was worth.  If it has taken the
+%   later ones with it, all of them are searched for as at the beginning.
 
-revive(Task, Task) :-
+heal(Missing, Task) :-
+    plan(Sequence, _, Tasks),
+    sense(task(Sequence, Missing, failed(cascaded), _)),
+    !,
+    append(_, [Missing-_|Later], Tasks),
+    forall(member(Next-_, Later), fill(Next)),
+    refill(Missing, Task).
+heal(Task, Task) :-
     !.
-revive(Missing, Task) :-
+heal(Missing, Task) :-
     drive(Task, _, History),
     last(History, Theta),
     drive(Missing, Potential0, _),
@@ -106,11 +139,16 @@ revive(Missing, Task) :-
     keep(Missing, drive(Potential, [Theta0])),
     log(revived(Missing, Potential)).
 
-service(Task, Worker) :-
-    task(Task, Goal),
-    leave(task(Task, executing)),
-    send(Worker, execute(Task, Goal)),
-    reward(Task).
+refill(Task, Task) :-
+    !.
+refill(Missing, _) :-
+    fill(Missing),
+    drive(Missing, Potential, _),
+    log(revived(Missing, Potential)).
+
+                /*******************************
+                *      REWARDS, PENALTIES      *
+                *******************************/
 
 reward(Task) :-
     setting_or_default(maximum, Maximum),
@@ -140,3 +178,49 @@ fill(Task) :-
 keep(Task, drive(Potential, History)) :-
     retractall(drive(Task, _, _)),
     assertz(drive(Task, Potential, History)).
+
+                /*******************************
+                *             PLANS            *
+                *******************************/
+
+%   The newer of two plans replaces the older one, here or in the agent.
+
+compare_plans :-
+    plan(Sequence, Mine, _),
+    sense(plan(Sequence, Theirs, _)),
+    Mine =\= Theirs,
+    !,
+    (   Mine > Theirs
+    ->  replace(Sequence, Theirs)
+    ;   adopt(Sequence, Theirs)
+    ).
+compare_plans.
+
+%   Another agent may be doing the same.
+
+replace(Sequence, Old) :-
+    (   take(plan(Sequence, Old, _))
+    ->  plan(Sequence, Version, Tasks),
+        leave(plan(Sequence, Version, Tasks))
+    ;   true
+    ).
+
+adopt(Sequence, Version) :-
+    (   sense(plan(Sequence, Version, Tasks))
+    ->  retractall(plan(_, _, _)),
+        assertz(plan(Sequence, Version, Tasks)),
+        forget_removed,
+        fill_new,
+        log(adopted(Version))
+    ;   true
+    ).
+
+forget_removed :-
+    plan(_, _, Tasks),
+    forall(( drive(Task, _, _), \+ memberchk(Task-_, Tasks) ),
+           retractall(drive(Task, _, _))).
+
+fill_new :-
+    plan(_, _, Tasks),
+    forall(( member(Task-_, Tasks), \+ drive(Task, _, _) ),
+           fill(Task)).

@@ -1,29 +1,38 @@
-:- agent(worker, []).
+:- agent(worker, [state([sequence/1])]).
 
-/*  The worker of a host: executes the tasks that travelling agents hand
-    over, one at a time.  The tuple worker(Id) says that it is free.
-    While Task executes the host has the tuple task(Task, executing), put
-    there by who handed it over; afterwards task(Task, completed).
-    A task that raises or fails leaves neither, so it is done again.
+/*  The worker of a host for one sequence of tasks, named by the fact
+    sequence(Sequence): executes the tasks that travelling agents hand
+    over, one at a time.  The tuple worker(Sequence, Id) says that it is
+    free.
+
+    While Task executes the host has the tuple
+    task(Sequence, Task, executing, Time), put there by who handed it over;
+    afterwards it says `completed`, or, of a task that fails or raises an
+    error, failed(atomic): it will be done again.  Where the tuple is gone
+    by then, the task has been failed from outside.
 */
 
 main :-
+    sequence(Sequence),
     self(Me),
-    leave(worker(Me)).
+    leave(worker(Sequence, Me)).
 
 on_message(_, execute(Task, Goal)) :-
-    log(executing(Task)),
+    sequence(Sequence),
+    log(executing(Sequence, Task)),
     (   catch(Goal, error(Error, _), (log(raised(Task, Error)), fail))
-    ->  settle(Task, completed)
-    ;   settle(Task, failed)
+    ->  settle(Sequence, Task, completed)
+    ;   settle(Sequence, Task, failed(atomic))
     ),
     self(Me),
-    leave(worker(Me)).
+    leave(worker(Sequence, Me)).
 
-settle(Task, Outcome) :-
-    (   take(task(Task, executing)),
-        Outcome == completed
-    ->  leave(task(Task, completed)),
-        log(completed(Task))
-    ;   log(failed(Task))
-    ).
+settle(Sequence, Task, Status) :-
+    take(task(Sequence, Task, executing, _)),
+    !,
+    now(Time),
+    leave(task(Sequence, Task, Status, Time)),
+    functor(Status, Name, _),           % completed, failed
+    What =.. [Name, Sequence, Task],
+    log(What).
+settle(_, _, _).

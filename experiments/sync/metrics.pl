@@ -23,8 +23,8 @@
 
 The measures of thesis chapter 5, as pure predicates over lists of
 event(Time, Host, Agent, What).  A task's execution begins where the log
-says executing(Task) and ends where it says completed(Task), of the same
-host.
+says executing(Sequence, Task) and ends where it says
+completed(Sequence, Task), of the same host.
 
 An execution is a term execution(Task, Host, Start, End).
 
@@ -55,10 +55,10 @@ executions(Events, Executions) :-
     foldl(follow, Events, Running0-[], _-Executions0),
     sort(3, @=<, Executions0, Executions).
 
-follow(event(Time, Host, _, executing(Task)), Running0-Es, Running-Es) :-
+follow(event(Time, Host, _, executing(_, Task)), Running0-Es, Running-Es) :-
     !,
     put_assoc(Host-Task, Running0, Time, Running).
-follow(event(End, Host, _, completed(Task)), Running0-Es0, Running-Es) :-
+follow(event(End, Host, _, completed(_, Task)), Running0-Es0, Running-Es) :-
     del_assoc(Host-Task, Running0, Start, Running),
     !,
     Es = [execution(Task, Host, Start, End)|Es0].

@@ -2,21 +2,19 @@
           [ sync_run/3                  % +Options, +Directory, -Result
           ]).
 :- use_module('../../prolog/typhon',
-              [ agent_create/3, agent_join/3, agent_send/2, log_events/2,
-                network_property/2, network_start/3, network_stop/1
+              [ agent_join/3, log_events/2, network_property/2,
+                network_start/3, network_stop/1
               ]).
-:- use_module('../../prolog/typhon/chance',
-              [chance_below/4, chance_seed/2]).
+:- use_module('../../agents/sync/operator', [sequence_start/5]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
 :- use_module('../lib/follow', [new_lines/4]).
 :- use_module(metrics,
               [ executions/2, from_start/2, required/5, task_rows/2, tau/2 ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [foldl/4, foldl/6, maplist/2, maplist/3]).
+:- use_module(library(apply), [foldl/4, foldl/6]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists),
-              [last/2, member/2, nth0/4, numlist/3]).
+:- use_module(library(lists), [last/2, member/2, numlist/3]).
 :- use_module(library(option), [option/2]).
 
 /** <module> One run of synchronised execution of tasks
@@ -83,53 +81,19 @@ network_options(Options, Log,
 
 perform(Network, Log, Options, Hosts, Outcomes) :-
     network_property(Network, hosts(Hosts)),
-    maplist(create_worker, Hosts),
-    create_travellers(Hosts, Options, Travellers),
-    forall(member(Agent, Travellers), agent_send(Agent, begin)),
-    await_all(Travellers, Log, Hosts, Options, Outcomes).
-
-create_worker(Host) :-
-    agent_create(agents(sync/worker), _, [host(Host), static(true)]).
-
-                /*******************************
-                *          TRAVELLERS          *
-                *******************************/
-
-%   The agents start on different hosts, drawn by the seed.  They wait for
-%   an order, so that all begin at the same time.
-
-create_travellers(Hosts, Options, Travellers) :-
     option(agents(Count), Options),
     option(seed(Seed), Options),
-    facts(Options, Facts),
-    chance_seed(Seed, Chance),
-    places(Count, Hosts, Hosts, Chance, Places),
-    maplist(create_traveller(Facts), Places, Travellers).
-
-create_traveller(Facts, Host, Agent) :-
-    agent_create(agents(sync/traveller), Agent,
-                 [host(Host), facts(Facts)]).
-
-facts(Options, [setting(delta, Delta), setting(start, order)|Tasks]) :-
     option(delta(Delta), Options),
+    tasks(Options, Tasks),
+    sequence_start(main, Hosts, Tasks,
+                   [ agents(Count), seed(Seed), settings([delta-Delta]) ],
+                   Travellers),
+    await_all(Travellers, Log, Hosts, Options, Outcomes).
+
+tasks(Options, Tasks) :-
     option(tasks(Count), Options),
     option(task_time(Seconds), Options),
-    findall(task(I, sleep(Seconds)), between(1, Count, I), Tasks).
-
-%   places(+Count, +Free, +Hosts, +Chance, -Places): when no host is free
-%   any more all are free again.
-
-places(0, _, _, _, []) :-
-    !.
-places(Count, [], Hosts, Chance, Places) :-
-    !,
-    places(Count, Hosts, Hosts, Chance, Places).
-places(Count, Free0, Hosts, Chance0, [Place|Places]) :-
-    length(Free0, N),
-    chance_below(N, Index, Chance0, Chance),
-    nth0(Index, Free0, Place, Free),
-    Count1 is Count - 1,
-    places(Count1, Free, Hosts, Chance, Places).
+    findall(I-sleep(Seconds), between(1, Count, I), Tasks).
 
                 /*******************************
                 *            WAITING           *
@@ -173,7 +137,7 @@ look_at(Line, Done0-Task0, Done-Task) :-
     ->  Done is Done0 + 1,
         Start is Before + 10,
         sub_string(Line, Start, _, 0, Rest),
-        split_string(Rest, ")", "", [Number|_]),
+        split_string(Rest, ",)", "", [_, Number|_]),
         number_string(Task1, Number),
         Task is max(Task0, Task1)
     ;   Done = Done0,

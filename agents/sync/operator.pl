@@ -1,0 +1,254 @@
+:- module(sync_operator,
+          [ sequence_start/5,           % +Sequence, +Hosts, +Tasks, +Options,
+                                        % -Agents
+            sequence_change/3,          % +Sequence, +Hosts, +Tasks
+            task_fail/4,                % +Sequence, +Task, +Hosts, -Failed
+            tasks_fail/4                % +Sequence, +Task, +Hosts, -Failed
+          ]).
+:- use_module('../../prolog/typhon',
+              [agent_create/3, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
+:- use_module('../../prolog/typhon/paths', []).
+:- use_module(library(apply), [include/3, maplist/2, maplist/3]).
+:- use_module(library(error),
+              [domain_error/2, existence_error/2, must_be/2]).
+:- use_module(library(lists), [max_list/2, member/2, memberchk/2, nth0/4]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(pairs), [pairs_keys/2]).
+:- use_module(library(random), [random_between/3]).
+
+/** <module> Sequences of tasks, as seen by who wants them done
+
+Starts a sequence of tasks on hosts, changes it while it runs, and takes
+back what was done (thesis sections 5.4 and 5.6.6).  What is said here is
+said to hosts alone, by their tuple spaces: the agents find it there.
+
+Hosts are addresses, so all this works from any process that has the
+cookie, and not only where the network was started.
+
+A sequence is named by an atom, so are its tasks, or by a number.  A list
+of tasks is a list of Task-Goal in order.  Goal is run by the worker of each
+host, and may stop, as in sleep(1).
+
+*Threading*: any thread.
+*/
+
+%!  sequence_start(+Sequence, +Hosts, +Tasks, +Options, -Agents) is det.
+%
+%   Hosts get a worker for Sequence, where they have none; other hosts have
+%   no part in it.  Agents are the ids of agents that have all been told to
+%   begin.  What has been completed on Hosts before, stays completed.
+%   Options:
+%
+%     - agents(+Count): how many agents; default 10, or one on each of
+%       `starts`
+%     - starts(+Hosts): where they start, in turn; default hosts drawn from
+%       Hosts, different ones as long as there are any
+%     - seed(+Integer): for drawing; default at random
+%     - settings(+Pairs): Name-Value, to replace what traveller.pl has as
+%       the default of `delta`, `theta`, `maximum`, `window`, `patience`
+%
+%   @error type_error(pair, X), duplicate_task(Task)
+%   @error domain_error(setting, X)
+%   @error host_unreachable(Host), existence_error(host, Host) and others
+%   of agent_create/3
+
+sequence_start(Sequence, Hosts, Tasks, Options, Agents) :-
+    must_be(atom, Sequence),
+    must_be(list(atom), Hosts),
+    check_tasks(Tasks),
+    traveller_facts(Options, Settings),
+    starts(Options, Hosts, Starts),
+    version(Sequence, Hosts, Tasks, Version),
+    Plan = plan(Sequence, Version, Tasks),
+    maplist(take_part(Plan), Hosts),
+    maplist(create_traveller([Plan|Settings]), Starts, Agents),
+    forall(member(Agent, Agents), agent_send(Agent, begin)).
+
+check_tasks(Tasks) :-
+    must_be(list(pair), Tasks),
+    pairs_keys(Tasks, Names),
+    forall(member(Task, Names), must_be(atomic, Task)),
+    sort(Names, Distinct),
+    (   length(Names, Count),
+        length(Distinct, Count)
+    ->  true
+    ;   domain_error(distinct_tasks, Names)
+    ).
+
+%   A host with a plan has a worker, even if that is not free.
+
+take_part(Plan, Host) :-
+    Plan = plan(Sequence, _, _),
+    (   remote(Host, ( sense(plan(Sequence, _, _))
+                     ; sense(worker(Sequence, _)) ))
+    ->  true
+    ;   agent_create(agents(sync/worker), _,
+                     [host(Host), static(true),
+                      facts([sequence(Sequence)])])
+    ),
+    put_plan(Plan, Host).
+
+put_plan(Plan, Host) :-
+    Plan = plan(Sequence, _, _),
+    remote(Host, ( ignore(take(plan(Sequence, _, _))), leave(Plan) )).
+
+create_traveller(Facts, Host, Agent) :-
+    agent_create(agents(sync/traveller), Agent,
+                 [host(Host), facts(Facts)]).
+
+                /*******************************
+                *            OPTIONS           *
+                *******************************/
+
+traveller_facts(Options, [setting(start, order)|Settings]) :-
+    option(settings(Pairs), Options, []),
+    maplist(setting_fact, Pairs, Settings).
+
+setting_fact(Name-Value, setting(Name, Value)) :-
+    memberchk(Name, [delta, theta, maximum, window, patience]),
+    number(Value),
+    !.
+setting_fact(Setting, _) :-
+    domain_error(setting, Setting).
+
+starts(Options, _, Starts) :-
+    option(starts(Given), Options),
+    !,
+    must_be(list(atom), Given),
+    length(Given, Default),
+    option(agents(Count), Options, Default),
+    in_turn(Count, Given, Given, Starts).
+starts(Options, Hosts, Starts) :-
+    option(agents(Count), Options, 10),
+    (   option(seed(Seed), Options)
+    ->  true
+    ;   random_between(1, 0x3fffffff, Seed)
+    ),
+    chance_seed(Seed, Chance),
+    drawn(Count, Hosts, Hosts, Chance, Starts).
+
+in_turn(0, _, _, []) :-
+    !.
+in_turn(Count, [], Hosts, Starts) :-
+    !,
+    in_turn(Count, Hosts, Hosts, Starts).
+in_turn(Count, [Host|Free], Hosts, [Host|Starts]) :-
+    Count1 is Count - 1,
+    in_turn(Count1, Free, Hosts, Starts).
+
+%   drawn(+Count, +Free, +Hosts, +Chance, -Starts): when no host is free
+%   any more all are free again.
+
+drawn(0, _, _, _, []) :-
+    !.
+drawn(Count, [], Hosts, Chance, Starts) :-
+    !,
+    drawn(Count, Hosts, Hosts, Chance, Starts).
+drawn(Count, Free0, Hosts, Chance0, [Host|Starts]) :-
+    length(Free0, N),
+    chance_below(N, Index, Chance0, Chance),
+    nth0(Index, Free0, Host, Free),
+    Count1 is Count - 1,
+    drawn(Count1, Free, Hosts, Chance, Starts).
+
+                /*******************************
+                *            CHANGES           *
+                *******************************/
+
+%!  sequence_change(+Sequence, +Hosts, +Tasks) is det.
+%
+%   Tasks are the tasks of Sequence from now on.  Said at Hosts; agents
+%   that pass there take it up and bring it to all others.  Tasks with a
+%   name that Sequence had already are taken for the same, what has been
+%   completed stays so.  Those of Hosts that have no part in Sequence are
+%   left out.
+%
+%   @error existence_error(sequence, Sequence): none of Hosts has a part
+%   @error errors of sequence_start/5
+
+sequence_change(Sequence, Hosts, Tasks) :-
+    must_be(atom, Sequence),
+    must_be(list(atom), Hosts),
+    check_tasks(Tasks),
+    include(has_part(Sequence), Hosts, Parts),
+    (   Parts == []
+    ->  existence_error(sequence, Sequence)
+    ;   version(Sequence, Parts, Tasks, Version),
+        maplist(put_plan(plan(Sequence, Version, Tasks)), Parts)
+    ).
+
+has_part(Sequence, Host) :-
+    remote(Host, sense(plan(Sequence, _, _))).
+
+%   The version of a plan is the time at which it was made, or a second
+%   after the newest one found, where that comes from a faster clock.  A
+%   plan with the same tasks is the same plan.
+
+version(Sequence, Hosts, Tasks, Version) :-
+    findall(V-Ts, plan_at(Sequence, Hosts, V, Ts), Plans),
+    (   Plans == []
+    ->  get_time(Version)
+    ;   pairs_keys(Plans, Versions),
+        max_list(Versions, Newest),
+        later_version(Plans, Newest, Tasks, Version)
+    ).
+
+plan_at(Sequence, Hosts, Version, Tasks) :-
+    member(Host, Hosts),
+    remote(Host, sense(plan(Sequence, Version, Tasks))).
+
+later_version(Plans, Newest, Tasks, Newest) :-
+    memberchk(Newest-Found, Plans),
+    Found =@= Tasks,
+    !.
+later_version(_, Newest, _, Version) :-
+    get_time(Now),
+    Version is max(Now, Newest + 1).
+
+                /*******************************
+                *           FAILURES           *
+                *******************************/
+
+%!  task_fail(+Sequence, +Task, +Hosts, -Failed) is det.
+%!  tasks_fail(+Sequence, +Task, +Hosts, -Failed) is det.
+%
+%   An atomic failure: Task is completed no more at any of Hosts.  A
+%   cascaded failure: neither is any later task, and what is executing
+%   there of these will have been in vain.  Failed are those of Hosts where
+%   Task had been completed; nothing happens at the others.  Each failure
+%   is an event failed(Sequence, Task) in the log of the host.
+%
+%   @error host_unreachable(Host)
+
+task_fail(Sequence, Task, Hosts, Failed) :-
+    include(fails(Sequence, Task, atomic), Hosts, Failed).
+
+tasks_fail(Sequence, Task, Hosts, Failed) :-
+    include(fails(Sequence, Task, cascaded), Hosts, Failed).
+
+fails(Sequence, Task, Kind, Host) :-
+    remote(Host, sense(task(Sequence, Task, completed, _))),
+    tasks_lost(Kind, Sequence, Task, Host, Lost),
+    lose(Kind, Sequence, Lost, Goal),
+    remote(Host, Goal).
+
+tasks_lost(atomic, _, Task, _, [Task]).
+tasks_lost(cascaded, Sequence, Task, Host, [Task|Later]) :-
+    remote(Host, sense(plan(Sequence, _, Tasks))),
+    pairs_keys(Tasks, Names),
+    append(_, [Task|Later], Names),
+    !.
+
+%   One goal for all, so that no agent sees a later task missing before the
+%   first one.  The new mark comes before the old one goes: an agent must
+%   not find neither.
+
+lose(Kind, Sequence, Tasks, Goal) :-
+    Goal = ( now(Time),
+             forall(( member(Task, Tasks),
+                      member(Status, [completed, executing]),
+                      sense(task(Sequence, Task, Status, _)) ),
+                    ( leave(task(Sequence, Task, failed(Kind), Time)),
+                      take(task(Sequence, Task, Status, _)),
+                      log(failed(Sequence, Task)) )) ).
