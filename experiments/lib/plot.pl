@@ -1,5 +1,8 @@
 :- module(experiment_plot,
           [ plot/3,                     % +Directory, +Name, :Script
+            plot/4,                     % +Directory, +Name, +Size, :Script
+            colour/2,                   % +Index, -Colour
+            lighten/2,                  % +Colour, -Light
             save_columns/2              % +File, +Rows
           ]).
 :- use_module(library(apply), [maplist/3]).
@@ -17,16 +20,22 @@ that a figure can be changed without running the experiment again.
 */
 
 :- meta_predicate
-    plot(+, +, 1).
+    plot(+, +, 1),
+    plot(+, +, +, 1).
 
 %!  plot(+Directory, +Name, :Script) is det.
+%!  plot(+Directory, +Name, +Size, :Script) is det.
 %
 %   Draw Directory/Name.svg and Directory/Name.png by the script that
-%   call(Script, Stream) writes.  The script names its data files relative
+%   call(Script, Stream) writes.  Size is Width-Height in pixels, default
+%   1200-1000.  The script names its data files relative
 %   to Directory, and sets no terminal and no output.  Where gnuplot is
 %   missing or fails, this is printed, and the script remains.
 
 plot(Directory, Name, Script) :-
+    plot(Directory, Name, 1200-1000, Script).
+
+plot(Directory, Name, Size, Script) :-
     file_name_extension(Name, gnuplot, ScriptName),
     directory_file_path(Directory, ScriptName, ScriptFile),
     setup_call_cleanup(
@@ -34,22 +43,47 @@ plot(Directory, Name, Script) :-
         call(Script, Out),
         close(Out)),
     catch(forall(member(Format, [svg, png]),
-                 draw(Format, Directory, Name, ScriptName)),
+                 draw(Format, Size, Directory, Name, ScriptName)),
           error(Formal, _),
           print_message(warning, experiment_plot(Formal))).
 
-draw(Format, Directory, Name, ScriptName) :-
+draw(Format, Size, Directory, Name, ScriptName) :-
     file_name_extension(Name, Format, Picture),
-    terminal(Format, Terminal),
+    terminal(Format, Size, Terminal),
     format(atom(Commands),
            'set terminal ~w; set output "~w"; load "~w"; unset output',
            [Terminal, Picture, ScriptName]),
     process_create(path(gnuplot), ['-e', Commands],
                    [cwd(Directory), stdin(null), stdout(null)]).
 
-terminal(svg, 'svg size 1200,1000 enhanced font "DejaVu Sans,15" \c
-background rgb "white"').
-terminal(png, 'pngcairo size 1200,1000 enhanced font "DejaVu Sans,12"').
+terminal(svg, W-H, Terminal) :-
+    format(atom(Terminal), 'svg size ~d,~d enhanced \c
+font "DejaVu Sans,15" background rgb "white"', [W, H]).
+terminal(png, W-H, Terminal) :-
+    format(atom(Terminal), 'pngcairo size ~d,~d enhanced \c
+font "DejaVu Sans,12"', [W, H]).
+
+%!  colour(+Index, -Colour) is semidet.
+%
+%   Colours 0 to 5, as numbers 0xRRGGBB.  They can be told apart by people
+%   who see colours differently.
+
+colour(0, 0x4477aa).
+colour(1, 0xee6677).
+colour(2, 0x228833).
+colour(3, 0xccbb44).
+colour(4, 0x66ccee).
+colour(5, 0xaa3377).
+
+%!  lighten(+Colour, -Light) is det.
+%
+%   Light is a pale form of Colour.
+
+lighten(Colour, Light) :-
+    R is 255 - (255 - (Colour >> 16)) // 4,
+    G is 255 - (255 - ((Colour >> 8) /\ 255)) // 4,
+    B is 255 - (255 - (Colour /\ 255)) // 4,
+    Light is R << 16 \/ G << 8 \/ B.
 
 %!  save_columns(+File, +Rows) is det.
 %

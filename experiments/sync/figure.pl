@@ -1,7 +1,8 @@
 :- module(sync_figure,
           [ draw_figure/2               % +Directory, +Result
           ]).
-:- use_module('../lib/plot', [plot/3, save_columns/2]).
+:- use_module('../lib/plot',
+              [colour/2, lighten/2, plot/3, save_columns/2]).
 :- use_module(library(apply), [foldl/6]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
@@ -112,8 +113,7 @@ save(Directory, Name, Rows) :-
     directory_file_path(Directory, Name, File),
     save_columns(File, Rows).
 
-%   task_colour(+Result, +Task, -Colour, -Light): numbers 0xRRGGBB.  The
-%   colours can be told apart by people who see colours differently.
+%   task_colour(+Result, +Task, -Colour, -Light): numbers 0xRRGGBB.
 
 task_colour(Result, Task, Colour, Light) :-
     memberchk(tasks(Tasks), Result),
@@ -122,19 +122,6 @@ task_colour(Result, Task, Colour, Light) :-
     N is I mod 6,
     colour(N, Colour),
     lighten(Colour, Light).
-
-colour(0, 0x4477aa).
-colour(1, 0xee6677).
-colour(2, 0x228833).
-colour(3, 0xccbb44).
-colour(4, 0x66ccee).
-colour(5, 0xaa3377).
-
-lighten(Colour, Light) :-
-    R is 255 - (255 - (Colour >> 16)) // 4,
-    G is 255 - (255 - ((Colour >> 8) /\ 255)) // 4,
-    B is 255 - (255 - (Colour /\ 255)) // 4,
-    Light is R << 16 \/ G << 8 \/ B.
 
                 /*******************************
                 *            SCRIPT            *
