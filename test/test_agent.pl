@@ -297,6 +297,12 @@ test(fork, true(Ps-Cs == [s(parent(C))]-[s(clone(P))])) :-
                  Ps = [s(parent(C))],
                  wait_state(C, resident),
                  agent_property(C, facts(Cs)) )).
+test(clone_has_the_name_of_its_parent, true(sub_atom(C, 0, _, _, 'v1.2.'))) :-
+    with_hosts([alpha],
+               ( create([on_message(_, _), (main :- clone(W), assertz(s(W)))],
+                        P, [name('v1.2')]),
+                 wait_state(P, resident),
+                 agent_property(P, facts([s(parent(C))])) )).
 test(fork_elsewhere, true(H1-H2-Cs == A-B-[s(clone(P)),s(P)])) :-
     with_hosts([alpha,beta],
                ( address(alpha, A), address(beta, B),

@@ -20,6 +20,7 @@
             agent_ordered/1,            % +Id
             agent_id/3,                 % +Name, +Home, -Id
             agent_home/2,               % +Id, -Home
+            agent_name/3,               % +Id, -Name, -Number
             agent_handles/2,            % +Module, +Hash
             attach_clauses/3,           % +Module, +Hash, +Payload
             detach_clauses/2            % +Module, +PIs
@@ -138,6 +139,20 @@ agent_home(Id, Home) :-
     !,
     B1 is B+1,
     sub_atom(Id, B1, _, 0, Home).
+
+%!  agent_name(+Id, -Name:atom, -Number:integer) is det.
+%
+%   Id was made from Name, as the one of that Number in its process.
+
+agent_name(Id, Name, Number) :-
+    sub_atom(Id, Before, _, _, '@'),
+    !,
+    sub_atom(Id, 0, Before, _, Local),
+    atomic_list_concat(Parts, '.', Local),
+    append(NameParts, [_Mark, Last], Parts),
+    !,
+    atomic_list_concat(NameParts, '.', Name),
+    atom_number(Last, Number).
 
                 /*******************************
                 *       MODULES AND STATE      *

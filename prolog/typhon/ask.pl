@@ -222,7 +222,7 @@ carried_out(clone, Agent, CloneId) :-
     agent(Agent, Host, _, _, _),
     agent_status(Agent, _, Goals),
     host(Host, Address, _),
-    atomic_list_concat([Name|_], '.', Agent),
+    agent_name(Agent, Name, _),
     agent_id(Name, Address, CloneId),
     agent_clone_here(Agent, CloneId, Host, Goals, Answer),
     (   Answer = refused(Reason)
@@ -234,7 +234,7 @@ carried_out(image, Agent,
     agent(Agent, _, Module, Hash, Life),
     agent_status(Agent, _, Goals),
     code_program(Hash, Program),
-    atomic_list_concat([Name|_], '.', Agent),
+    agent_name(Agent, Name, _),
     agent_state(Module, State),
     findall(M, typhon_agent:mailbox(Agent, M), Mail),
     mobile_term(State-Goals).

@@ -193,9 +193,7 @@ effect_depart(Id, Dest, Hole, Goals, Since) :-
           )).
 
 clone_id(Id, Here, CloneId) :-
-    sub_atom(Id, B, _, _, '.'),
-    !,
-    sub_atom(Id, 0, B, _, Name),
+    agent_name(Id, Name, _),
     host(Here, Address, _),
     agent_id(Name, Address, CloneId).
 

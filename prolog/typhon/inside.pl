@@ -28,14 +28,14 @@
 :- use_module(library(error), [must_be/2, existence_error/2]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(agent,
-              [ agent/5, agent_home/2, agent_put_life/2, with_agent/2,
-                attach_clauses/3, detach_clauses/2 ]).
+              [ agent/5, agent_home/2, agent_name/3, agent_put_life/2,
+                with_agent/2, attach_clauses/3, detach_clauses/2 ]).
 :- use_module(clock, [host_time/2]).
 :- use_module(context, [context/3, context_agent/1, context_host/1]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(host,
-              [ host/3, host_load/2, host_neighbours/2, host_option/2,
-                host_log/3 ]).
+              [ address_parts/3, host/3, host_load/2, host_neighbours/2,
+                host_option/2, host_log/3 ]).
 :- use_module(place,
               [ tuple_leave/2, tuple_sense/2, tuple_take/2,
                 place_deliver/3, place_undeliver/2 ]).
@@ -130,21 +130,17 @@ strategy_memory(_, Id, Here, Memory) :-
     agent_seed(Seed0, Id, Seed),
     strategy_memory(Seed, Memory).
 
-%   With a seed an agent's choices depend on it, and on the name and number
-%   of the agent only.
+%   With a seed an agent's choices depend on it, on the name and number of
+%   the agent, and on the host where it was born.
 
 agent_seed(random, _, Seed) :-
     !,
     Seed is random(1<<30).
 agent_seed(Seed0, Id, Seed) :-
-    atomic_list_concat([Name|Rest], '.', Id),
-    atomic_list_concat([_,Rest1|_], '.', Id),
-    last_part(Rest, Rest1, Part),
-    term_hash(s(Seed0, Name, Part), Seed).
-
-last_part([_,Part|_], _, Part) :-
-    !.
-last_part(_, Part, Part).
+    agent_name(Id, Name, Number),
+    agent_home(Id, Home),
+    address_parts(Home, HomeName, _),
+    term_hash(s(Seed0, Name, Number, HomeName), Seed).
 
 %!  send(+Agent, +Message) is det.
 %
