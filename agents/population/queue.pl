@@ -1,0 +1,67 @@
+:- agent(queue, [state([setting/2])]).
+
+/*  The queue of a host: travelling agents join it and have their turns one
+    after the other, first come, first served.  The tuple queue(Id) tells
+    them where to join.
+
+        join             asked by an agent that has arrived, or was refused
+                         by another host: it goes to the tail
+        turn(Length)     told to the head; Length is the number of agents in
+                         the queue, from which the cloning pressure follows
+        leave            told by an agent that goes or dies
+
+    How many may be there at a time is the capacity of the host: who finds
+    no free slot is refused at its move and stays where it was.
+
+    An agent that ended on its turn without a word would stop all others;
+    after so many seconds the queue goes on without it.
+*/
+
+default(patience, 60).
+
+main :-
+    self(Me),
+    leave(queue(Me)),
+    serve([]).
+
+serve(Line0) :-
+    next(Line0, Event),
+    changed(Event, Line0, Line),
+    call_head(Line0, Line),
+    serve(Line).
+
+next([], Agent-What) :-
+    receive(Agent-What).
+next([Head|_], Event) :-
+    patience(Seconds),
+    (   receive(Agent-What, Seconds)
+    ->  Event = Agent-What
+    ;   Event = Head-leave
+    ).
+
+patience(Seconds) :-
+    (   setting(patience, Seconds0)
+    ->  Seconds = Seconds0
+    ;   default(patience, Seconds)
+    ).
+
+%   changed(+Event, +Line0, -Line).
+
+changed(Agent-join, Line0, Line) :-
+    \+ memberchk(Agent, Line0),
+    !,
+    append(Line0, [Agent], Line).
+changed(Agent-leave, Line0, Line) :-
+    selectchk(Agent, Line0, Line),
+    !.
+changed(_, Line, Line).
+
+%   Who has become the head has its turn.
+
+call_head([Head|_], [Head|_]) :-
+    !.
+call_head(_, [Head|Line]) :-
+    !,
+    length([Head|Line], Length),
+    send(Head, turn(Length)).
+call_head(_, []).

@@ -1,0 +1,170 @@
+:- agent(specialist, [state([sequence/1, task/2, previous/1, mood/1, psi/1,
+                             history/1])]).
+:- include('../population/cloning').
+:- include(stimulation).
+
+/*  One kind of agent for each task (thesis chapter 6).  Agents that know
+    one task and the name of the one before it, and nothing of each other,
+    execute a sequence of tasks on every host, and go on to the next task
+    at the same time.  Their number follows the demand for their task.
+
+    Facts: sequence(Sequence); task(Task, Goal), the task and its code;
+    previous(Task), the task before it, previous(none) for the first.
+    Facts setting(Name, Value) replace the defaults here and in the cloning
+    controller.
+
+    On the hosts: task(Sequence, Task, Status, Time) says what was done, and
+    worker(Sequence, Id) is there while the host's worker is free.  A host
+    that has no worker for the sequence has no part in it.
+*/
+
+default(psi, 100).              % the action potential at the beginning
+default(kappa, 1).
+default(omega, 5).              % length of the history
+default(threshold, 1.0e-4).     % below it an action potential is zero
+default(start, now).            % or `order`: waits for the message `begin`
+
+main :-
+    await_order,
+    parameter(psi, Psi),
+    now(Now),
+    assertz(psi(Psi)),
+    assertz(history([])),
+    assertz(start(Now)),
+    turn_to(dormant),
+    log(begun),
+    live.
+
+:- dynamic start/1.
+
+await_order :-
+    parameter(start, order),
+    !,
+    receive(_-begin).
+await_order.
+
+fertile :-
+    mood(active).
+
+%   The statements S1 to S4 of the thesis.  S4 asks for the previous task,
+%   too: else what was never done would be passed over.
+
+visit(0) :-
+    \+ takes_part,
+    !.
+visit(0) :-                     % S1: migration without execution
+    mood(dormant),
+    lacks_previous,
+    !.
+visit(0) :-                     % S3: negative stimulation
+    mood(excited),
+    lacks_previous,
+    !,
+    stimulate(negative).
+visit(0) :-                     % S2: positive stimulation
+    \+ mood(active),
+    lacks_mine,
+    !,
+    excite,
+    remember,
+    stimulate(positive).
+visit(1) :-                     % S4: execution
+    mood(active),
+    \+ lacks_previous,
+    lacks_mine,
+    seize(Worker),
+    !,
+    service(Worker).
+visit(0).
+
+%   While a worker is busy it has no tuple, but its task has.
+
+takes_part :-
+    sequence(Sequence),
+    (   sense(worker(Sequence, _))
+    ->  true
+    ;   sense(task(Sequence, _, _, _))
+    ->  true
+    ).
+
+lacks_previous :-
+    previous(Task),
+    Task \== none,
+    lacks(Task).
+
+lacks_mine :-
+    task(Task, _),
+    lacks(Task).
+
+lacks(Task) :-
+    sequence(Sequence),
+    \+ sense(task(Sequence, Task, completed, _)).
+
+%   Before the worker was free it may have done just this task.
+
+seize(Worker) :-
+    sequence(Sequence),
+    take(worker(Sequence, Worker)),
+    (   lacks_mine
+    ->  true
+    ;   leave(worker(Sequence, Worker)),
+        fail
+    ).
+
+service(Worker) :-
+    sequence(Sequence),
+    task(Task, Goal),
+    now(Time),
+    ignore(take(task(Sequence, Task, failed(_), _))),
+    leave(task(Sequence, Task, executing, Time)),
+    send(Worker, execute(Task, Goal)).
+
+                /*******************************
+                *          STIMULATION         *
+                *******************************/
+
+excite :-
+    mood(excited),
+    !.
+excite :-
+    turn_to(excited).
+
+%   The first task waits for nothing: there, time counts from the start.
+
+remember :-
+    arrival(Arrival),
+    due_since(Since),
+    Difference is Arrival - Since,
+    retract(history(History0)),
+    parameter(omega, Window),
+    remembered(Window, History0, Difference, History),
+    assertz(history(History)).
+
+due_since(Since) :-
+    previous(none),
+    !,
+    start(Since).
+due_since(Since) :-
+    previous(Task),
+    sequence(Sequence),
+    sense(task(Sequence, Task, completed, Since)),
+    !.
+
+stimulate(Sign) :-
+    history(History),
+    parameter(kappa, Kappa),
+    dispersion(Kappa, History, Sigma),
+    retract(psi(Psi0)),
+    parameter(threshold, Threshold),
+    stimulated(Sign, Psi0, Sigma, Threshold, Psi),
+    assertz(psi(Psi)),
+    log(psi(Psi)),
+    (   Psi =:= 0
+    ->  turn_to(active)
+    ;   true
+    ).
+
+turn_to(Mood) :-
+    retractall(mood(_)),
+    assertz(mood(Mood)),
+    log(state(Mood)).
