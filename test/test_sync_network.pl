@@ -1,0 +1,355 @@
+:- module(test_sync_network, []).
+:- use_module(common).
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists),
+              [ append/2, append/3, max_list/2, member/2, min_list/2,
+                numlist/3 ]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(typhon)).
+:- use_module('../agents/sync/operator').
+
+/** <module> Synchronised execution on small networks
+
+Six hosts in two processes, on which each test runs a sequence of its own.
+Tests that must catch agents in the middle of a sequence have a task `gate`,
+which lasts until they open it.
+*/
+
+:- dynamic
+    world/3.                            % Network, Hosts, log File
+
+world_start :-
+    world_start(ring(6), [processes(2), hop_time(uniform(0.1, 0.2))]).
+
+world_start(Topology, Options) :-
+    tmp_file(events, File),
+    network_start(Topology, Network,
+                  [clock(20), seed(1), log(File)|Options]),
+    network_property(Network, hosts(Hosts)),
+    assertz(world(Network, Hosts, File)).
+
+world_end :-
+    retract(world(Network, _, File)),
+    network_stop(Network),
+    delete_file(File).
+
+hosts(Hosts) :-
+    world(_, Hosts, _).
+
+                /*******************************
+                *           SEQUENCES          *
+                *******************************/
+
+%   start(+Sequence, +Tasks, -Agents): two of them, on all hosts.
+
+start(Sequence, Tasks, Agents) :-
+    hosts(Hosts),
+    start(Sequence, Hosts, Tasks, Agents).
+
+start(Sequence, Hosts, Tasks, Agents) :-
+    sequence_start(Sequence, Hosts, Tasks, [agents(2), seed(1)], Agents).
+
+tasks(Names, Tasks) :-
+    maplist(task, Names, Tasks).
+
+task(gate, gate-receive(_-open)) :-
+    !.
+task(Name, Name-sleep(0.5)).
+
+all_end(Agents) :-
+    forall(member(Agent, Agents), agent_join(Agent, done, 30)).
+
+%   With workers that are known, as they are free.
+
+start_with_gate(Sequence, Names, Workers, Agents) :-
+    hosts(Hosts),
+    tasks(Names, Tasks),
+    sequence_start(Sequence, Hosts, Tasks, [agents(0)], []),
+    wait_until(maplist(worker(Sequence), Hosts, Workers), 20),
+    start(Sequence, Tasks, Agents),
+    wait_until(all_have(Sequence, gate, executing), 20).
+
+worker(Sequence, Host, Worker) :-
+    remote(Host, sense(worker(Sequence, Worker))).
+
+open_gates(Workers) :-
+    forall(member(Worker, Workers), agent_send(Worker, open)).
+
+has(Sequence, Task, Status, Host) :-
+    remote(Host, sense(task(Sequence, Task, Status, _))).
+
+all_have(Sequence, Task, Status) :-
+    hosts(Hosts),
+    maplist(has(Sequence, Task, Status), Hosts).
+
+                /*******************************
+                *            HISTORY           *
+                *******************************/
+
+%   histories(+Sequence, +Length, -Histories): for each host, what happened
+%   to tasks there, in order: r(Task) began, c(Task) is completed, f(Task)
+%   failed.  All are awaited that should have Length events in all.
+
+histories(Sequence, Length, Histories) :-
+    hosts(Hosts),
+    wait_until(logged(Sequence, Length, Events), 20),
+    maplist(history(Events), Hosts, Histories).
+
+history(Events, Host, History) :-
+    findall(What, member(event(_, Host, What), Events), History).
+
+logged(Sequence, Length, Events) :-
+    world(_, _, File),
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    split_string(Text, "\n", "", Lines0),
+    append(Lines, [_], Lines0),         % what is just being written
+    findall(Event,
+            ( member(Line, Lines), task_event(Line, Sequence, Event) ),
+            Events),
+    length(Events, Length0),
+    Length0 >= Length.
+
+task_event(Line, Sequence, event(Time, Host, What)) :-
+    atom_string(Sequence, Name),
+    sub_string(Line, _, _, _, Name),
+    term_string(event(Time, Host, _, Told), Line),
+    told(Told, Sequence, What).
+
+told(executing(Sequence, Task), Sequence, r(Task)).
+told(completed(Sequence, Task), Sequence, c(Task)).
+told(failed(Sequence, Task), Sequence, f(Task)).
+
+%   executed(+Names, -History): of a host that executed them in order.
+
+executed(Names, History) :-
+    findall(What, ( member(T, Names), member(What, [r(T), c(T)]) ), History).
+
+%   overlap(+Events, +Names): a task began before the last host began the
+%   one before.
+
+overlap(Events, Names) :-
+    append(_, [Task, Next|_], Names),
+    times(Events, r(Task), Times),
+    times(Events, r(Next), NextTimes),
+    max_list(Times, Last),
+    min_list(NextTimes, First),
+    First < Last.
+
+times(Events, What, Times) :-
+    findall(Time, member(event(Time, _, What), Events), Times).
+
+%   Nothing is executing, no mark of a failure is left.
+
+settled(Sequence) :-
+    hosts(Hosts),
+    forall(( member(Host, Hosts),
+             member(Status, [executing, failed(_)]) ),
+           \+ has(Sequence, _, Status, Host)).
+
+                /*******************************
+                *             TESTS            *
+                *******************************/
+
+:- begin_tests(sync_network, [ setup(world_start), cleanup(world_end) ]).
+
+test(in_order_and_in_step) :-
+    tasks([1, 2, 3], Tasks),
+    start(plain, Tasks, Agents),
+    all_end(Agents),
+    histories(plain, 36, Histories),
+    executed([1, 2, 3], History),
+    all_same(Histories, History),
+    logged(plain, 36, Events),
+    \+ overlap(Events, [1, 2, 3]).
+test(only_on_the_hosts_named) :-
+    hosts([A, B, C, D, E, F]),
+    tasks([1, 2], Tasks),
+    start(subset, [A, B, D], Tasks, Agents),
+    all_end(Agents),
+    histories(subset, 12, Histories),
+    executed([1, 2], H),
+    Histories == [H, H, [], H, [], []],
+    forall(member(Host, [C, E, F]),
+           \+ remote(Host, ( sense(T), arg(1, T, subset) ))).
+test(two_sequences_at_once) :-
+    start_with_gate(slow, [1, gate], Workers, Agents1),
+    tasks([a, b, c], Tasks),
+    start(fast, Tasks, Agents2),
+    all_end(Agents2),                   % while `slow` holds its workers
+    histories(fast, 36, Fast),
+    executed([a, b, c], H2),
+    all_same(Fast, H2),
+    all_have(slow, gate, executing),
+    open_gates(Workers),
+    all_end(Agents1),
+    histories(slow, 24, Slow),
+    executed([1, gate], H1),
+    all_same(Slow, H1).
+test(task_of_a_range_of_times) :-
+    Goal = ( random_between(100, 400, Ms), S is Ms/1000, sleep(S) ),
+    start(ranges, [1-Goal, 2-Goal], Agents),
+    all_end(Agents),
+    histories(ranges, 24, Histories),
+    executed([1, 2], History),
+    all_same(Histories, History).
+test(atomic_failures_from_another_process_are_healed) :-
+    start_with_gate(atomic, [1, 2, gate], Workers, Agents),
+    hosts(Hosts),
+    Hosts = [A, _, _, B|_],
+    elsewhere(task_fail(atomic, 1, [A, B], Failed), Failed),
+    Failed == [A, B],
+    has(atomic, 1, failed(atomic), A),
+    open_gates(Workers),
+    all_end(Agents),
+    histories(atomic, 42, [HA, H, H, HB, H, H]),
+    executed([1, 2, gate], H),
+    maplist(healed_atomic, [HA, HB]),
+    settled(atomic).
+test(cascaded_failures_are_healed_in_order) :-
+    start_with_gate(cascade, [1, 2, gate], Workers, Agents),
+    hosts(Hosts),
+    tasks_fail(cascade, 2, Hosts, Failed),
+    Failed == Hosts,
+    open_gates(Workers),
+    wait_until(all_have(cascade, gate, executing), 20),
+    open_gates(Workers),
+    all_end(Agents),
+    histories(cascade, 66, Histories),
+    executed([1, 2], Before),
+    executed([2, gate], After),
+    append([Before, [r(gate), f(2), f(gate)], After], History),
+    all_same(Histories, History),
+    settled(cascade).
+test(task_added) :-
+    start_with_gate(added, [1, gate], Workers, Agents),
+    tasks([1, gate, 3], Tasks),
+    hosts([A|_]),
+    sequence_change(added, [A], Tasks),
+    open_gates(Workers),
+    all_end(Agents),
+    histories(added, 36, Histories),
+    executed([1, gate, 3], History),
+    all_same(Histories, History),
+    logged(added, 36, Events),
+    \+ overlap(Events, [1, gate, 3]).
+test(task_removed) :-
+    start_with_gate(removed, [1, gate, 3, 4], Workers, Agents),
+    tasks([1, gate, 4], Tasks),
+    hosts([_, _, _, D|_]),
+    sequence_change(removed, [D], Tasks),
+    wait_until(maplist(plans(3), Agents), 20),
+    open_gates(Workers),
+    all_end(Agents),
+    histories(removed, 36, Histories),
+    executed([1, gate, 4], History),
+    all_same(Histories, History).
+test(failure_after_the_end_is_healed_by_new_agents) :-
+    tasks([1, 2], Tasks),
+    start(again, Tasks, Agents1),
+    all_end(Agents1),
+    histories(again, 24, _),
+    hosts([_, B|_]),
+    task_fail(again, 1, [B], [B]),
+    start(again, Tasks, Agents2),
+    all_end(Agents2),
+    histories(again, 27, Histories),
+    executed([1, 2], H),
+    append(H, [f(1), r(1), c(1)], Healed),
+    Histories == [H, Healed, H, H, H, H],
+    hosts(Hosts),
+    forall(member(Host, Hosts), one_worker(again, Host)).
+test(what_was_not_completed_does_not_fail, Failed == []) :-
+    start_with_gate(early, [1, gate, 3], Workers, Agents),
+    hosts(Hosts),
+    task_fail(early, 3, Hosts, Failed),
+    tasks_fail(early, 3, Hosts, Failed),
+    open_gates(Workers),
+    all_end(Agents),
+    histories(early, 36, Histories),
+    executed([1, gate, 3], History),
+    all_same(Histories, History).
+test(change_of_no_sequence, error(existence_error(sequence, nothing))) :-
+    hosts(Hosts),
+    sequence_change(nothing, Hosts, [1-true]).
+test(two_tasks_of_one_name, error(domain_error(distinct_tasks, [1, 1]))) :-
+    hosts(Hosts),
+    sequence_start(twice, Hosts, [1-true, 1-fail], [], _).
+test(unknown_setting, error(domain_error(setting, hurry-1))) :-
+    hosts(Hosts),
+    sequence_start(odd, Hosts, [1-true], [settings([hurry-1])], _).
+
+all_same(Histories, History) :-
+    maplist(==(History), Histories).
+
+healed_atomic(History) :-
+    executed([1, 2], Before),
+    append([Before, [r(gate), f(1), c(gate)], [r(1), c(1)]], History).
+
+plans(Count, Agent) :-
+    agent_property(Agent, facts(Facts)),
+    memberchk(plan(_, _, Tasks), Facts),
+    length(Tasks, Count).
+
+one_worker(Sequence, Host) :-
+    remote(Host, aggregate_all(count, sense(worker(Sequence, _)), 1)).
+
+%   elsewhere(+Goal, ?Result): Goal in a process that has nothing to do
+%   with the network.
+
+elsewhere(Goal, Result) :-
+    project_file('prolog/typhon.pl', Typhon),
+    project_file('agents/sync/operator.pl', Operator),
+    format(atom(Text), '~q', [( host_start(desk), Goal,
+                                format("~q.~n", [Result]) )]),
+    run_swipl([ '-g', Text, '-t', halt, '-l', Typhon, Operator ],
+              [], exit(0), Out, _),
+    term_string(Result, Out).
+
+:- end_tests(sync_network).
+
+                /*******************************
+                *          REPETITIONS         *
+                *******************************/
+
+%   The smallest network, in this process, with a sequence for each run;
+%   four run at a time.
+
+:- begin_tests(sync_repeated).
+
+test(no_overlap_in_twenty_runs) :-
+    no_leaks(setup_call_cleanup(
+                 world_start(ring(4), [hop_time(uniform(0.02, 0.04))]),
+                 once(twenty_runs),
+                 world_end)).
+
+twenty_runs :-
+    forall(member(First, [1, 5, 9, 13, 17]), four_runs(First)),
+    forall(between(1, 20, Run), run_was_in_step(Run)).
+
+four_runs(First) :-
+    Last is First+3,
+    numlist(First, Last, Runs),
+    maplist(small_run, Runs, Agents),
+    maplist(all_end, Agents).
+
+run_name(Run, Name) :-
+    format(atom(Name), 'run~|~`0t~d~2+', [Run]).
+
+small_run(Run, Agents) :-
+    run_name(Run, Name),
+    hosts(Hosts),
+    findall(Task-sleep(0.02), member(Task, [1, 2, 3]), Tasks),
+    sequence_start(Name, Hosts, Tasks,
+                   [ agents(2), seed(Run), settings([delta-0.2]) ], Agents).
+
+run_was_in_step(Run) :-
+    run_name(Run, Name),
+    histories(Name, 24, Histories),
+    executed([1, 2, 3], History),
+    maplist(==(History), Histories),
+    logged(Name, 24, Events),
+    \+ overlap(Events, [1, 2, 3]).
+
+:- end_tests(sync_repeated).
