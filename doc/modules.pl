@@ -22,8 +22,9 @@ layer(networks, '#fbe3d0',
       [ network, wiring, node, carriers, children, orders, dynamics, log,
         topology ]).
 layer(agents, '#fdf3c8',
-      [ api, ask, restore, life, effect, birth, hop, arrival, whereabouts, post, remote,
-        inside, vocabulary, strategy, chance, agent, context ]).
+      [ api, ask, restore, life, effect, birth, hop, arrival, whereabouts,
+        post, remote, inside, vocabulary, pheromone, strategy, chance,
+        agent, context ]).
 layer(hosts, '#dcedc8', [hosting, host, place, clock, process, scheduler]).
 layer(programs, '#d6e4f5',
       [ program, faults, source, mobility, machine, code, paths ]).

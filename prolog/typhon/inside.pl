@@ -16,6 +16,10 @@
             detach/1,                   % +Name
             deliver/1,                  % +Name
             undeliver/1,                % +Name
+            emit/1,                     % +Problem
+            emit/2,                     % +Problem, +Options
+            withdraw/1,                 % +Problem
+            pheromone/3,                % ?Problem, -Source, -Strength
             log/1,                      % +What
             message_failed/2,           % +From, +Message
             move/1,                     % +Host
@@ -39,6 +43,8 @@
 :- use_module(place,
               [ tuple_leave/2, tuple_sense/2, tuple_take/2,
                 place_deliver/3, place_undeliver/2 ]).
+:- use_module(pheromone,
+              [ pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2 ]).
 :- use_module(post, [post/3]).
 :- use_module(program, [payload_load/2]).
 :- use_module(strategy, [strategy_memory/2, next_host/6]).
@@ -253,6 +259,31 @@ payload_clause(Module, PIs, (Head:-Body)) :-
 undeliver(Name) :-
     place(Place),
     place_undeliver(Place, Name).
+
+%!  emit(+Problem) is det.
+%!  emit(+Problem, +Options) is det.
+%!  withdraw(+Problem) is det.
+%!  pheromone(?Problem, -Source, -Strength) is nondet.
+%
+%   The host calls for someone who can solve Problem, and takes this back;
+%   and what pheromones from other hosts are here. See typhon_pheromone,
+%   also for the options. Agents follow them by the migration strategy
+%   phercon(Problem).
+
+emit(Problem) :-
+    emit(Problem, []).
+
+emit(Problem, Options) :-
+    context_host(Host),
+    pheromone_emit(Host, Problem, Options).
+
+withdraw(Problem) :-
+    context_host(Host),
+    pheromone_withdraw(Host, Problem).
+
+pheromone(Problem, Source, Strength) :-
+    context_host(Host),
+    pheromone_here(Host, Problem, Source, Strength).
 
 %!  log(+What) is det.
 %
