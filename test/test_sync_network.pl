@@ -105,6 +105,7 @@ logged(Sequence, Length, Events) :-
     read_file_to_string(File, Text, [encoding(utf8)]),
     split_string(Text, "\n", "", Lines0),
     append(Lines, [_], Lines0),         % what is just being written
+    !,
     findall(Event,
             ( member(Line, Lines), task_event(Line, Sequence, Event) ),
             Events),
@@ -302,7 +303,8 @@ elsewhere(Goal, Result) :-
     project_file('prolog/typhon.pl', Typhon),
     project_file('agents/sync/operator.pl', Operator),
     format(atom(Text), '~q', [( host_start(desk), Goal,
-                                format("~q.~n", [Result]) )]),
+                                format("~q.~n", [Result]),
+                                host_stop(desk) )]),
     run_swipl([ '-g', Text, '-t', halt, '-l', Typhon, Operator ],
               [], exit(0), Out, _),
     term_string(Result, Out).
@@ -320,7 +322,7 @@ elsewhere(Goal, Result) :-
 
 test(no_overlap_in_twenty_runs) :-
     no_leaks(setup_call_cleanup(
-                 world_start(ring(4), [hop_time(uniform(0.02, 0.04))]),
+                 world_start(ring(4), [hop_time(uniform(0.01, 0.02))]),
                  once(twenty_runs),
                  world_end)).
 
