@@ -318,13 +318,33 @@ elsewhere(Goal, Result) :-
 %   The smallest network, in this process, with a sequence for each run;
 %   four run at a time.
 
-:- begin_tests(sync_repeated).
+:- begin_tests(sync_here).
 
 test(no_overlap_in_twenty_runs) :-
+    here([], twenty_runs).
+test(links_come_and_go, [ forall(dynamics(Model)) ]) :-
+    here([dynamic(Model)], in_order).
+
+here(Options, Goal) :-
     no_leaks(setup_call_cleanup(
-                 world_start(ring(4), [hop_time(uniform(0.01, 0.02))]),
-                 once(twenty_runs),
+                 world_start(ring(4),
+                             [hop_time(uniform(0.01, 0.02))|Options]),
+                 once(Goal),
                  world_end)).
+
+dynamics(toggle(uniform(0.1, 0.2), 0.5, 0.7)).
+dynamics(links(uniform(0.1, 0.2), 0.5, 0.7)).
+
+in_order :-
+    hosts(Hosts),
+    tasks([1, 2, 3], Tasks),
+    sequence_start(dynamic, Hosts, Tasks,
+                   [ agents(2), seed(1),
+                     settings([delta-0.2, patience-0.05]) ], Agents),
+    all_end(Agents),
+    histories(dynamic, 24, Histories),
+    executed([1, 2, 3], History),
+    maplist(==(History), Histories).
 
 twenty_runs :-
     forall(member(First, [1, 5, 9, 13, 17]), four_runs(First)),
@@ -354,4 +374,4 @@ run_was_in_step(Run) :-
     logged(Name, 24, Events),
     \+ overlap(Events, [1, 2, 3]).
 
-:- end_tests(sync_repeated).
+:- end_tests(sync_here).

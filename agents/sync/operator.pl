@@ -12,7 +12,8 @@
 :- use_module(library(apply), [include/3, maplist/2, maplist/3]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2]).
-:- use_module(library(lists), [max_list/2, member/2, memberchk/2, nth0/4]).
+:- use_module(library(lists),
+              [append/3, max_list/2, member/2, memberchk/2, nth0/4]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(random), [random_between/3]).
@@ -48,8 +49,8 @@ host, and may stop, as in sleep(1).
 %     - settings(+Pairs): Name-Value, to replace what traveller.pl has as
 %       the default of `delta`, `theta`, `maximum`, `window`, `patience`
 %
-%   @error type_error(pair, X), duplicate_task(Task)
-%   @error domain_error(setting, X)
+%   @error type_error(pair, X), domain_error(distinct_tasks, Names)
+%   @error domain_error(setting, X): unknown, or not above 0
 %   @error host_unreachable(Host), existence_error(host, Host) and others
 %   of agent_create/3
 
@@ -108,6 +109,7 @@ traveller_facts(Options, [setting(start, order)|Settings]) :-
 setting_fact(Name-Value, setting(Name, Value)) :-
     memberchk(Name, [delta, theta, maximum, window, patience]),
     number(Value),
+    Value > 0,
     !.
 setting_fact(Setting, _) :-
     domain_error(setting, Setting).
@@ -229,12 +231,15 @@ tasks_fail(Sequence, Task, Hosts, Failed) :-
 
 fails(Sequence, Task, Kind, Host) :-
     remote(Host, sense(task(Sequence, Task, completed, _))),
-    tasks_lost(Kind, Sequence, Task, Host, Lost),
-    lose(Kind, Sequence, Lost, Goal),
+    lost(Kind, Sequence, Task, Host, Tasks, Statuses),
+    lose(Kind, Sequence, Tasks, Statuses, Goal),
     remote(Host, Goal).
 
-tasks_lost(atomic, _, Task, _, [Task]).
-tasks_lost(cascaded, Sequence, Task, Host, [Task|Later]) :-
+%   lost(+Kind, +Sequence, +Task, +Host, -Tasks, -Statuses): what fails are
+%   Tasks where their status is one of Statuses.
+
+lost(atomic, _, Task, _, [Task], [completed]).
+lost(cascaded, Sequence, Task, Host, [Task|Later], [completed, executing]) :-
     remote(Host, sense(plan(Sequence, _, Tasks))),
     pairs_keys(Tasks, Names),
     append(_, [Task|Later], Names),
@@ -244,10 +249,10 @@ tasks_lost(cascaded, Sequence, Task, Host, [Task|Later]) :-
 %   first one.  The new mark comes before the old one goes: an agent must
 %   not find neither.
 
-lose(Kind, Sequence, Tasks, Goal) :-
+lose(Kind, Sequence, Tasks, Statuses, Goal) :-
     Goal = ( now(Time),
              forall(( member(Task, Tasks),
-                      member(Status, [completed, executing]),
+                      member(Status, Statuses),
                       sense(task(Sequence, Task, Status, _)) ),
                     ( leave(task(Sequence, Task, failed(Kind), Time)),
                       take(task(Sequence, Task, Status, _)),

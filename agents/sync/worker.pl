@@ -7,9 +7,9 @@
 
     While Task executes the host has the tuple
     task(Sequence, Task, executing, Time), put there by who handed it over;
-    afterwards it says `completed`, or, of a task that fails or raises an
-    error, failed(atomic): it will be done again.  Where the tuple is gone
-    by then, the task has been failed from outside.
+    afterwards it says `completed`, or, of a task that fails or raises
+    something, failed(atomic): it will be done again.  Where the tuple is
+    gone by then, the task has been failed from outside.
 */
 
 main :-
@@ -20,12 +20,20 @@ main :-
 on_message(_, execute(Task, Goal)) :-
     sequence(Sequence),
     log(executing(Sequence, Task)),
-    (   catch(Goal, error(Error, _), (log(raised(Task, Error)), fail))
+    (   catch(Goal, Ball, raised(Sequence, Task, Ball))
     ->  settle(Sequence, Task, completed)
     ;   settle(Sequence, Task, failed(atomic))
     ),
     self(Me),
     leave(worker(Sequence, Me)).
+
+raised(Sequence, Task, Ball) :-
+    (   Ball = error(What, _)
+    ->  true
+    ;   What = Ball
+    ),
+    log(raised(Sequence, Task, What)),
+    fail.
 
 settle(Sequence, Task, Status) :-
     take(task(Sequence, Task, executing, _)),
