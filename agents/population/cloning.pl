@@ -2,10 +2,10 @@
     follow the demand for them (thesis section 6.2).  To be included.
 
     An agent lives by going from queue to queue.  On its turn it does what
-    its program says, is charged, clones itself into the free slots of the
-    queue if it can afford it, and moves on after a tick.  Clones die when
-    their lifetime is over, which falls by one with each tick in a queue;
-    the agent that was created, not cloned, never dies.
+    its program says, is charged, and moves on after a tick.  After a reward
+    it clones itself into the free slots of the queue if it can afford it.
+    Clones die when their lifetime is over, which falls by one with each
+    tick in a queue; the agent that was created, not cloned, never dies.
 
     The program that includes this room calls live/0 and says two things:
 
@@ -31,6 +31,7 @@ default(alpha_r, 15).           % charging by a reward
 default(c_l, 7).                % lifetime for a reward
 default(lifetime, 10).          % of a clone
 default(rounding, round).       % or `floor`
+default(replication, rewarded). % or `always`: also without a reward
 default(tick, 1).               % seconds: the step of time
 default(strategy, conscientious).
 
@@ -56,7 +57,7 @@ turns :-
     await_turn(Length),
     visit(Reward),
     gain(Reward, Length),
-    replicate(Length, Role),
+    replicate(Reward, Length, Role),
     (   Role == parent,
         depart
     ->  stay
@@ -166,12 +167,16 @@ gain(Reward, Length) :-
 %   Role is `clone` in the clones, which wait for their turn at this host,
 %   and `parent` in the agent that made them, if it made any.
 
-replicate(Length, Role) :-
+replicate(Reward, Length, Role) :-
     fertile,
+    (   Reward =:= 1
+    ->  true
+    ;   parameter(replication, always)
+    ),
     !,
     affordable(Length, Count),
     multiply(Count, Role).
-replicate(_, parent).
+replicate(_, _, parent).
 
 affordable(Length, Count) :-
     parameter(q_th, Capacity),

@@ -21,7 +21,7 @@
 default(psi, 100).              % the action potential at the beginning
 default(kappa, 1).
 default(omega, 5).              % length of the history
-default(threshold, 1.0e-4).     % below it an action potential is zero
+default(threshold, 0.01).       % below it an action potential is zero
 default(start, now).            % or `order`: waits for the message `begin`
 
 main :-

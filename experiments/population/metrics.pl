@@ -1,0 +1,133 @@
+:- module(population_metrics,
+          [ until_settled/4,            % +Events, +Tasks, +Hosts, -Kept
+            populations/3,              % +Events, +Kinds, -Steps
+            peak/3,                     % +Kind, +Steps, -Peak
+            peak/4,                     % +Kind, +From, +Steps, -Peak
+            population_at/3,            % +Time, +Steps, -Counts
+            again/3                     % +Executions, -First, -Again
+          ]).
+:- use_module(track,
+              [agent_kind/2, track/3, track_settled/2, track_start/2]).
+:- use_module(library(apply), [foldl/5, maplist/3]).
+:- use_module(library(lists),
+              [last/2, member/2, memberchk/2, nth1/3, sum_list/2]).
+
+/** <module> What an event log says about populations
+
+Steps are terms step(Time, Counts, Total) in order of time: from Time on
+there are Counts agents of each kind, Total in all.
+
+*Threading*: pure.
+*/
+
+%!  until_settled(+Events, +Tasks, +Hosts:integer, -Kept) is det.
+%
+%   Kept are the Events up to the one after which all Tasks are completed at
+%   so many Hosts and only one agent of each kind is left, or all of them.
+
+until_settled(Events, Tasks, Hosts, Kept) :-
+    track_start(Tasks, State),
+    until_settled_(Events, State, Hosts, Kept).
+
+until_settled_([], _, _, []).
+until_settled_([Event|Events], State0, Hosts, [Event|Kept]) :-
+    track(Event, State0, State),
+    (   track_settled(State, Hosts)
+    ->  Kept = []
+    ;   until_settled_(Events, State, Hosts, Kept)
+    ).
+
+%!  populations(+Events, +Kinds:list(integer), -Steps) is det.
+%
+%   Events are in order of time.  What was before time 0 is in the first
+%   step, at time 0.
+
+populations(Events, Kinds, [step(0, Counts0, Total)|Steps]) :-
+    maplist(zero, Kinds, Zeros),
+    changes(Events, Changes),
+    before(Changes, Later, Kinds, Zeros, Counts0),
+    sum_list(Counts0, Total),
+    foldl(step(Kinds), Later, Steps, Counts0, _).
+
+zero(_, 0).
+
+changes(Events, Changes) :-
+    findall(change(Time, Kind, D),
+            ( member(event(Time, _, Agent, What), Events),
+              counts(What, D),
+              agent_kind(Agent, Kind)
+            ),
+            Changes).
+
+counts(created, 1).
+counts(ended(_), -1).
+
+before([change(Time, Kind, D)|Changes], Later, Kinds, Counts0, Counts) :-
+    Time =< 0,
+    !,
+    count(Kinds, Kind, D, Counts0, Counts1),
+    before(Changes, Later, Kinds, Counts1, Counts).
+before(Later, Later, _, Counts, Counts).
+
+step(Kinds, change(Time, Kind, D), step(Time, Counts, Total),
+     Counts0, Counts) :-
+    count(Kinds, Kind, D, Counts0, Counts),
+    sum_list(Counts, Total).
+
+count([Kind|_], Kind, D, [N0|Counts], [N|Counts]) :-
+    !,
+    N is N0 + D.
+count([_|Kinds], Kind, D, [N|Counts0], [N|Counts]) :-
+    count(Kinds, Kind, D, Counts0, Counts).
+count([], _, _, [], []).
+
+%!  peak(+Kind, +Steps, -Peak) is semidet.
+%!  peak(+Kind, +From, +Steps, -Peak) is semidet.
+%
+%   Peak is Time-Count: when, from time From on, there were most agents of
+%   Kind, and how many.  Kind is the place of a kind in the counts, or
+%   `total`.
+
+peak(Kind, Steps, Peak) :-
+    peak(Kind, 0, Steps, Peak).
+
+peak(Kind, From, Steps, Time-Count) :-
+    findall(Count0-Time0,
+            ( member(Step, Steps),
+              Step = step(Time0, _, _),
+              Time0 >= From,
+              of_kind(Kind, Step, Count0)
+            ),
+            Counts),
+    sort(1, @>=, Counts, [Count-_|_]),
+    once(member(Count-Time, Counts)).
+
+of_kind(total, step(_, _, Total), Total) :-
+    !.
+of_kind(Kind, step(_, Counts, _), Count) :-
+    nth1(Kind, Counts, Count).
+
+%!  population_at(+Time, +Steps, -Counts) is det.
+
+population_at(Time, Steps, Counts) :-
+    findall(Counts0, ( member(step(T, Counts0, _), Steps), T =< Time ),
+            All),
+    last(All, Counts).
+
+%!  again(+Executions, -First, -Again) is det.
+%
+%   First are the Executions that were the first of their task at their
+%   host, Again the others.  Executions are in order of time.
+
+again(Executions, First, Again) :-
+    split(Executions, [], First, Again).
+
+split([], _, [], []).
+split([E|Es], Seen, First, Again) :-
+    E = execution(Task, Host, _, _),
+    (   memberchk(Host-Task, Seen)
+    ->  Again = [E|Again1],
+        split(Es, Seen, First, Again1)
+    ;   First = [E|First1],
+        split(Es, [Host-Task|Seen], First1, Again)
+    ).
