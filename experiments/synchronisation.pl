@@ -18,7 +18,7 @@
 :- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, numlist/3, selectchk/3]).
+:- use_module(library(lists), [member/2, memberchk/2, numlist/3, selectchk/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2, select_option/3]).
 
@@ -32,7 +32,10 @@ opt_type(agents,    agents,    natural).
 opt_type(tasks,     tasks,     natural).
 opt_type(delta,     delta,     number).
 opt_type(hop_time,  hop_time,  term).
-opt_type(task_time, task_time, number).
+opt_type(task_time, task_time, term).
+opt_type(dynamic,   dynamic,   term).
+opt_type(failure,   failure,   term).
+opt_type(picture,   picture,   boolean).
 opt_type(clock,     clock,     number).
 opt_type(seed,      seed,      integer).
 opt_type(runs,      runs,      natural).
@@ -48,21 +51,30 @@ opt_help(agents,    "Number of agents [10]").
 opt_help(tasks,     "Length of the sequence of tasks [6]").
 opt_help(delta,     "Penalty bias, above 0 [0.5]").
 opt_help(hop_time,  "MIN-MAX host seconds that a hop takes [0.3-0.6]").
-opt_help(task_time, "Host seconds that a task takes [1]").
+opt_help(task_time, "Host seconds that a task takes: S, or MIN-MAX, drawn by \c
+each\nhost, or a list of these, one for each task [1]").
+opt_help(dynamic,   "How links come and go: dynamic_1, dynamic_2, ... [none]").
+opt_help(failure,   "atomic(T,N,D): N hosts lose task T when task D begins; \c
+cascaded(T,N,D): and all later ones [none]").
 opt_help(clock,     "Host seconds in a real second [10]").
 opt_help(seed,      "Seed of the first run; the next has the next [1]").
 opt_help(runs,      "Number of runs [1]").
 opt_help(limit,     "Real seconds to wait for the agents of a run [90]").
+opt_help(picture,   "Whether a picture of the run is drawn [true]").
 opt_help(out,       "Directory for log, tables and pictures \c
 [out/synchronisation]").
 
 opt_meta(topology, 'TOPOLOGY').
 opt_meta(hop_time, 'MIN-MAX').
+opt_meta(task_time, 'TIME').
+opt_meta(dynamic,  'MODEL').
+opt_meta(failure,  'FAILURE').
 opt_meta(out,      'DIRECTORY').
 
 defaults([ topology(grid(6,10)), processes(4), agents(10), tasks(6),
            delta(0.5), hop_time(0.3-0.6), task_time(1), clock(10), seed(1),
-           runs(1), limit(90), out('out/synchronisation')
+           runs(1), limit(90), dynamic(none), failure(none), picture(true),
+           out('out/synchronisation')
          ]).
 
 main(Argv) :-
@@ -93,14 +105,54 @@ check(Positional, Options) :-
            ( option_value(Name, Options, Value),
              positive(Name, Value) )),
     option(hop_time(HopTime), Options),
-    (   HopTime = Min-Max,
-        number(Min),
-        number(Max),
-        0 =< Min,
-        Min =< Max
+    (   range(HopTime)
     ->  true
     ;   domain_error(hop_time, HopTime)
+    ),
+    option(task_time(TaskTime), Options),
+    option(tasks(Tasks), Options),
+    (   task_time(TaskTime, Tasks)
+    ->  true
+    ;   domain_error(task_time, TaskTime)
+    ),
+    option(failure(Failure), Options),
+    (   failure(Failure, Tasks)
+    ->  true
+    ;   domain_error(failure, Failure)
     ).
+
+range(Range) :-
+    nonvar(Range),
+    Range = Min-Max,
+    number(Min),
+    number(Max),
+    0 =< Min,
+    Min =< Max.
+
+task_time(Times, Tasks) :-
+    is_list(Times),
+    !,
+    length(Times, Count),
+    Count >= Tasks,
+    forall(member(Time, Times), one_task_time(Time)).
+task_time(Time, _) :-
+    one_task_time(Time).
+
+one_task_time(Time) :-
+    (   number(Time)
+    ->  Time >= 0
+    ;   range(Time)
+    ).
+
+failure(none, _) :-
+    !.
+failure(Failure, Tasks) :-
+    nonvar(Failure),
+    Failure =.. [Kind, Task, Count, During],
+    memberchk(Kind, [atomic, cascaded]),
+    integer(Count),
+    between(1, Tasks, Task),
+    between(1, Tasks, During).
 
 option_value(Name, Options, Value) :-
     Option =.. [Name, Value],

@@ -101,23 +101,32 @@ test(required,
                    segment(b, 1, 0, 3), segment(b, 2, 3, 7),
                    segment(b, 3, 7, 9) ]) :-
     measured(in_step, Es),
-    required([a, b], [1, 2, 3], Es, 10, Segments).
+    marks(Es, [], Marks),
+    required([a, b], [1, 2, 3], Marks, 10, Segments).
 test(required_and_never_executed,
      Segments == [segment(a, 1, 0, 2), segment(a, 2, 2, 9)]) :-
-    required([a], [1, 2], [execution(1, a, 1, 2)], 9, Segments).
+    required([a], [1, 2], [mark(2, a, 1, completed)], 9, Segments).
+test(required_again,
+     Segments == [ segment(a, 1, 0, 2), segment(a, 2, 2, 4),
+                   segment(a, 1, 5, 7) ]) :-
+    marks([ execution(1, a, 1, 2), execution(2, a, 3, 4),
+            execution(1, a, 6, 7) ], [failure(5, a, 1)], Marks),
+    required([a], [1, 2], Marks, 9, Segments).
 test(tau, Steps == [0-1, 1-2, 3-1, 6-2, 7-1, 10-0]) :-
     measured(in_step, Es),
-    required([a, b], [1, 2, 3], Es, 10, Segments),
+    marks(Es, [], Marks),
+    required([a, b], [1, 2, 3], Marks, 10, Segments),
     tau(Segments, Steps).
 test(tau_max, Tau == 2) :-
     measured(in_step, Es),
-    required([a, b], [1, 2, 3], Es, 10, Segments),
+    marks(Es, [], Marks),
+    required([a, b], [1, 2, 3], Marks, 10, Segments),
     tau(Segments, Steps),
     tau_max(Steps, Tau).
 test(tau_of_three_hosts_apart, Tau == 3) :-
-    required([a, b, c], [1, 2, 3],
-             [ execution(1, a, 0, 1), execution(2, a, 1, 2),
-               execution(1, b, 0, 1) ], 5, Segments),
+    marks([ execution(1, a, 0, 1), execution(2, a, 1, 2),
+            execution(1, b, 0, 1) ], [], Marks),
+    required([a, b, c], [1, 2, 3], Marks, 5, Segments),
     tau(Segments, Steps),
     tau_max(Steps, Tau).
 test(burst, Count == 2) :-
@@ -132,11 +141,13 @@ test(burst, Count == 2) :-
 
 result(Log, [ outcomes([done, done]), hosts([a, b]), tasks([1, 2, 3]),
               executions(Es), rows(Rows), segments(Segments), steps(Steps),
-              end(10), title('A title'), subtitle('and more')
+              end(10), wall(1), failure(none), phases([Es]), healing([]),
+              title('A title'), subtitle('and more')
             ]) :-
     measured(Log, Es),
     task_rows(Es, Rows),
-    required([a, b], [1, 2, 3], Es, 10, Segments),
+    marks(Es, [], Marks),
+    required([a, b], [1, 2, 3], Marks, 10, Segments),
     tau(Segments, Steps).
 
 verdicts(Log, Verdicts) :-
@@ -217,7 +228,7 @@ append_text(File, Text) :-
 
 figure_drawn(Dir) :-
     result(in_step, Result),
-    draw_figure(Dir, Result),
+    draw_figure(Dir, synchronisation, Result),
     forall(member(Name, ['synchronisation.png', 'synchronisation.svg']),
            ( atomic_list_concat([Dir, /, Name], File),
              size_file(File, Size),

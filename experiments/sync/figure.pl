@@ -1,5 +1,5 @@
 :- module(sync_figure,
-          [ draw_figure/2               % +Directory, +Result
+          [ draw_figure/3               % +Directory, +Name, +Result
           ]).
 :- use_module('../lib/plot',
               [colour/2, lighten/2, plot/3, save_columns/2]).
@@ -18,10 +18,10 @@ the number of distinct tasks required in the whole network.
 *Threading*: no state; any thread.
 */
 
-%!  draw_figure(+Directory, +Result) is det.
+%!  draw_figure(+Directory, +Name, +Result) is det.
 %
-%   Write the data files and the pictures synchronisation.svg and .png of
-%   Result, a list of
+%   Write the data files and the pictures Name.svg and .png of Result, a
+%   list of
 %
 %     - title(Text), subtitle(Text)
 %     - hosts(List), tasks(List): in order
@@ -29,11 +29,11 @@ the number of distinct tasks required in the whole network.
 %       sync_metrics
 %     - end(Time): when the last execution ended
 
-draw_figure(Directory, Result) :-
+draw_figure(Directory, Name, Result) :-
     save_starts(Directory, Result),
     save_hosts(Directory, Result),
     save_tau(Directory, Result),
-    plot(Directory, synchronisation, script(Result)).
+    plot(Directory, Name, script(Result)).
 
                 /*******************************
                 *             DATA             *

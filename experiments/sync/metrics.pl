@@ -5,18 +5,22 @@
             idle_time/2,                % +Rows, -Seconds
             overlaps/2,                 % +Executions, -Overlapping
             out_of_order/2,             % +Executions, -OutOfOrder
-            required/5,                 % +Hosts, +Tasks, +Execs, +End, -Segments
+            required/5,                 % +Hosts, +Tasks, +Marks, +End, -Segments
+            marks/3,                    % +Executions, +Failures, -Marks
             tau/2,                      % +Segments, -Steps
             tau_max/2,                  % +Steps, -Tau
             burst/4                     % +Task, +Seconds, +Execs, -Count
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(assoc),
               [empty_assoc/1, put_assoc/4, del_assoc/4, get_assoc/3,
                assoc_to_values/2]).
 :- use_module(library(lists),
-              [append/2, max_member/2, member/2, memberchk/2, min_list/2]).
+              [ append/2, append/3, max_member/2, member/2, memberchk/2,
+                min_list/2
+              ]).
+:- use_module(library(ordsets), [ord_add_element/3, ord_del_element/3]).
 :- use_module(library(pairs), [pairs_values/2]).
 
 /** <module> What an event log says about synchronisation
@@ -137,34 +141,64 @@ out_of_order(Executions, OutOfOrder) :-
             ),
             OutOfOrder).
 
-%!  required(+Hosts, +Tasks, +Executions, +End, -Segments) is det.
+%!  marks(+Executions, +Failures, -Marks) is det.
+%
+%   Marks is a list, in order of time, of mark(Time, Host, Task, Change):
+%   Task is `completed` or `lost` there.  Failures are terms
+%   failure(Time, Host, Task).
+
+marks(Executions, Failures, Marks) :-
+    findall(mark(Time, Host, Task, completed),
+            member(execution(Task, Host, _, Time), Executions), Marks1),
+    findall(mark(Time, Host, Task, lost),
+            member(failure(Time, Host, Task), Failures), Marks2),
+    append(Marks1, Marks2, Marks0),
+    sort(Marks0, Marks).
+
+%!  required(+Hosts, +Tasks, +Marks, +End, -Segments) is det.
 %
 %   Segments is a list of segment(Host, Task, From, To): Host required Task
-%   in this time.  What it requires is the first task not yet completed
+%   in this time.  What it requires is the first task that is not completed
 %   there; from time 0 to End, or until nothing is required.
 
-required(Hosts, Tasks, Executions, End, Segments) :-
-    findall(Host-(Time-Task),
-            member(execution(Task, Host, _, Time), Executions), Done0),
-    sort(Done0, Done),
-    maplist(host_segments(Tasks, Done, End), Hosts, Lists),
+required(Hosts, Tasks, Marks, End, Segments) :-
+    maplist(host_segments(Tasks, Marks, End), Hosts, Lists),
     append(Lists, Segments).
 
-host_segments(Tasks, Done, End, Host, Segments) :-
-    findall(Time-Task, member(Host-(Time-Task), Done), HostDone),
-    segments(HostDone, Tasks, Host, 0, End, Segments).
+host_segments(Tasks, Marks, End, Host, Segments) :-
+    findall(M, ( member(M, Marks), arg(2, M, Host) ), HostMarks),
+    first_missing(Tasks, [], Task),
+    segments(HostMarks, Tasks, [], Task, Host, 0, End, Segments).
 
-segments(_, [], _, _, _, []) :-
-    !.
-segments([], [Task|_], Host, From, End, [segment(Host, Task, From, End)]).
-segments([Time-Task|Done], Tasks0, Host, From, End, Segments) :-
-    Tasks0 = [Required|_],
-    exclude(==(Task), Tasks0, Tasks),
-    (   Task == Required
-    ->  Segments = [segment(Host, Task, From, Time)|Rest],
-        segments(Done, Tasks, Host, Time, End, Rest)
-    ;   segments(Done, Tasks, Host, From, End, Segments)
+%   segments(+Marks, +Tasks, +Completed, +Required, +Host, +From, +End,
+%   -Segments)
+
+segments([], _, _, Task, Host, From, End, Segments) :-
+    segment(Task, Host, From, End, Segments, []).
+segments([mark(Time, _, Task, Change)|Marks], Tasks, Done0, Required, Host,
+         From, End, Segments) :-
+    complete(Change, Task, Done0, Done),
+    first_missing(Tasks, Done, Next),
+    (   Next == Required
+    ->  segments(Marks, Tasks, Done, Required, Host, From, End, Segments)
+    ;   segment(Required, Host, From, Time, Segments, Rest),
+        segments(Marks, Tasks, Done, Next, Host, Time, End, Rest)
     ).
+
+complete(completed, Task, Done0, Done) :-
+    ord_add_element(Done0, Task, Done).
+complete(lost, Task, Done0, Done) :-
+    ord_del_element(Done0, Task, Done).
+
+first_missing(Tasks, Done, Task) :-
+    member(Task, Tasks),
+    \+ memberchk(Task, Done),
+    !.
+first_missing(_, _, none).
+
+segment(none, _, _, _, Segments, Segments) :-
+    !.
+segment(Task, Host, From, To, [segment(Host, Task, From, To)|Rest], Rest).
 
 %!  tau(+Segments, -Steps) is det.
 %

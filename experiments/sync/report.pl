@@ -1,12 +1,14 @@
 :- module(sync_report,
           [ print_parameters/2,         % +Stream, +Options
+            how/2,                      % +Options, -Text
             print_result/2,             % +Stream, +Result
             save_result/4,              % +Dir, +Options, +Result, +Claims
             result_summary/2            % +Result, -Summary
           ]).
 :- use_module('../lib/report', [print_table/3, save_csv/3, save_facts/2]).
-:- use_module(figure, [draw_figure/2]).
-:- use_module(metrics, [idle_time/2, overlaps/2, tau_max/2]).
+:- use_module(figure, [draw_figure/3]).
+:- use_module(measures, [measures/2]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/2, member/2, memberchk/2]).
 :- use_module(library(option), [option/2]).
@@ -34,15 +36,42 @@ what(Options, What) :-
            'Synchronised execution: ~d tasks, ~d agents, ~w in ~d processes',
            [Tasks, Agents, Topology, Processes]).
 
+%!  how(+Options, -Text) is det.
+%
+%   Text tells the parameters that make the time of a run.
+
 how(Options, How) :-
     option(delta(Delta), Options),
     option(hop_time(Min-Max), Options),
     option(task_time(Seconds), Options),
     option(clock(Rate), Options),
     option(seed(Seed), Options),
+    findall(Text, circumstance(Options, Text), Texts),
+    atomic_list_concat(Texts, More),
+    time_text(Seconds, Time),
     format(atom(How),
-           'δ = ~w, hop ~w–~w s, tasks ~w s, host clock ×~w, seed ~w',
-           [Delta, Min, Max, Seconds, Rate, Seed]).
+           'δ = ~w, hop ~w–~w s, tasks ~w s, host clock ×~w, seed ~w~w',
+           [Delta, Min, Max, Time, Rate, Seed, More]).
+
+circumstance(Options, Text) :-
+    option(dynamic(Model), Options),
+    Model \== none,
+    format(atom(Text), ', ~w', [Model]).
+circumstance(Options, Text) :-
+    option(failure(Failure), Options),
+    Failure =.. [Kind, Task, Count, During],
+    format(atom(Text), ', ~w failure of T~w at ~w hosts during T~w',
+           [Kind, Task, Count, During]).
+
+time_text(Times, Text) :-
+    is_list(Times),
+    !,
+    maplist(time_text, Times, Texts),
+    atomic_list_concat(Texts, ', ', Text).
+time_text(Min-Max, Text) :-
+    !,
+    format(atom(Text), '~w–~w', [Min, Max]).
+time_text(Seconds, Seconds).
 
 %!  print_result(+Stream, +Result) is det.
 %
@@ -73,15 +102,12 @@ cell(X, X).
 %   Summary is summary(Idle, Overlaps, TauMax, Total, Wall).
 
 result_summary(Result, summary(Idle, Overlaps, Tau, Total, Wall)) :-
-    memberchk(rows(Rows), Result),
-    memberchk(executions(Executions), Result),
-    memberchk(steps(Steps), Result),
-    memberchk(end(Total), Result),
-    memberchk(wall(Wall), Result),
-    idle_time(Rows, Idle),
-    overlaps(Executions, Overlapping),
-    length(Overlapping, Overlaps),
-    tau_max(Steps, Tau).
+    measures(Result, Measures),
+    memberchk(idle(Idle), Measures),
+    memberchk(overlaps(Overlaps), Measures),
+    memberchk(tau(Tau), Measures),
+    memberchk(total(Total), Measures),
+    memberchk(real_time(Wall), Measures).
 
 %!  save_result(+Directory, +Options, +Result, +Claims) is det.
 %
@@ -91,9 +117,16 @@ save_result(Directory, Options, Result, Claims) :-
     save_executions(Directory, Result),
     save_tasks(Directory, Result),
     save_metadata(Directory, Options, Result, Claims),
+    (   option(picture(true), Options)
+    ->  draw_run(Directory, Options, Result)
+    ;   true
+    ).
+
+draw_run(Directory, Options, Result) :-
     what(Options, Title),
     how(Options, Subtitle),
-    draw_figure(Directory, [title(Title), subtitle(Subtitle)|Result]).
+    draw_figure(Directory, synchronisation,
+                [title(Title), subtitle(Subtitle)|Result]).
 
 save_executions(Directory, Result) :-
     memberchk(executions(Executions), Result),
@@ -117,7 +150,7 @@ save_tasks(Directory, Result) :-
 blank(none, '') :- !.
 blank(X, X).
 
-%   Facts parameter(Name, Value), version(Program, Version),
+%   Facts parameter(Name, Value), version(Program, Version), hosts(List),
 %   result(Name, Value) and claim(Text, Held, Found).
 
 save_metadata(Directory, Options, Result, Claims) :-
@@ -125,15 +158,12 @@ save_metadata(Directory, Options, Result, Claims) :-
             ( member(Option, Options), Option =.. [Name, Value] ),
             Parameters),
     findall(version(Program, Version), version(Program, Version), Versions),
-    result_summary(Result, summary(Idle, Overlaps, Tau, Total, Wall)),
-    append([ Parameters,
-             Versions,
-             [ result(idle, Idle), result(overlaps, Overlaps),
-               result(tau, Tau), result(total, Total),
-               result(real_time, Wall)
-             ],
-             Claims
-           ], Facts),
+    memberchk(hosts(Hosts), Result),
+    measures(Result, Measures),
+    findall(result(Name, Value),
+            ( member(Measure, Measures), Measure =.. [Name, Value] ),
+            Results),
+    append([Parameters, Versions, [hosts(Hosts)], Results, Claims], Facts),
     directory_file_path(Directory, 'metadata.pl', File),
     save_facts(File, Facts).
 

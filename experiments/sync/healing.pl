@@ -1,0 +1,116 @@
+:- module(sync_healing,
+          [ failures/2,                 % +Events, -Failures
+            phases/4,                   % +Kind, +Executions, +Failures,
+                                        % -Phases
+            healing/4                   % +Executions, +Failures, +Steps,
+                                        % -Measures
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [partition/4]).
+:- use_module(library(lists),
+              [last/2, max_list/2, max_member/2, member/2]).
+
+/** <module> What an event log says about self-healing
+
+The measures of thesis section 5.6.6, pure like those of sync_metrics.  A
+failure is a term failure(Time, Host, Task).
+
+*Threading*: pure.
+*/
+
+%!  failures(+Events, -Failures) is det.
+%
+%   The losses that the log tells, in order of time.
+
+failures(Events, Failures) :-
+    findall(failure(Time, Host, Task),
+            member(event(Time, Host, _, failed(_, Task)), Events),
+            Failures0),
+    sort(1, @=<, Failures0, Failures).
+
+%!  phases(+Kind, +Executions, +Failures, -Phases) is det.
+%
+%   Phases are lists of executions, each of which can be looked at as a
+%   sequence of tasks in step.  After an atomic failure (Kind is
+%   atomic(_,_,_)) the tasks go on, so what was healed is a phase by itself;
+%   after a cascaded one they begin again, so the phases are before and
+%   after.  Without failures there is one phase.
+
+phases(_, Executions, [], [Executions]) :-
+    !.
+phases(atomic(_, _, _), Executions, Failures, [Others, Redone]) :-
+    !,
+    partition(redone(Failures), Executions, Redone, Others).
+phases(_, Executions, [failure(Time, _, _)|_], [Before, After]) :-
+    partition(begun_before(Time), Executions, Before, After).
+
+begun_before(Time, execution(_, _, Start, _)) :-
+    Start < Time.
+
+redone(Failures, execution(Task, Host, Start, _)) :-
+    member(failure(Time, Host, Task), Failures),
+    Time =< Start,
+    !.
+
+%!  healing(+Executions, +Failures, +Steps, -Measures) is det.
+%
+%   Measures is a list of Name(Value); empty without failures:
+%
+%     - failed_at(Time): of the first failure
+%     - lost(Count): completed tasks that were lost, and by how many
+%       hosts(Count)
+%     - redone(Count): so many of them were executed again
+%     - healed_at(Time): the last of those had ended
+%     - meanwhile(Count): so many other executions began in between
+%     - healing_tau(Tau): the most distinct tasks required in between; and
+%       later_tau(Tau): afterwards
+
+healing(_, [], _, []) :-
+    !.
+healing(Executions, Failures, Steps, Measures) :-
+    Failures = [failure(From, _, _)|_],
+    last(Failures, failure(Last, _, _)),
+    findall(F, ( member(F, Failures), was_completed(Executions, F) ), Lost),
+    length(Lost, LostCount),
+    aggregate_all(count, distinct_host(Lost), Hosts),
+    findall(End, redone_at(Executions, Lost, End), Ends),
+    length(Ends, Redone),
+    max_list([Last|Ends], Healed),
+    aggregate_all(count,
+                  ( member(E, Executions),
+                    E = execution(_, _, Start, _),
+                    Start > Last, Start < Healed,
+                    \+ redone(Failures, E)
+                  ),
+                  Meanwhile),
+    tau_between(Steps, Last, Healed, HealingTau),
+    tau_between(Steps, Healed, inf, LaterTau),
+    Measures = [ failed_at(From), lost(LostCount), lost_hosts(Hosts),
+                 redone(Redone), healed_at(Healed), meanwhile(Meanwhile),
+                 healing_tau(HealingTau), later_tau(LaterTau)
+               ].
+
+was_completed(Executions, failure(Time, Host, Task)) :-
+    member(execution(Task, Host, _, End), Executions),
+    End =< Time,
+    !.
+
+distinct_host(Lost) :-
+    findall(Host, member(failure(_, Host, _), Lost), Hosts0),
+    sort(Hosts0, Hosts),
+    member(_, Hosts).
+
+redone_at(Executions, Lost, End) :-
+    member(failure(Time, Host, Task), Lost),
+    once(( member(execution(Task, Host, Start, End), Executions),
+           Start >= Time )).
+
+%   The most from From to To, and what it was when From came.
+
+tau_between(Steps, From, To, Tau) :-
+    findall(Time-T, ( member(Time-T, Steps), Time =< From ), Before),
+    findall(T, ( member(Time-T, Steps), Time > From, Time < To ), Within),
+    (   last(Before, _-T0)
+    ->  max_member(Tau, [T0|Within])
+    ;   max_member(Tau, [0|Within])
+    ).
