@@ -5,7 +5,8 @@
             wait_until/2,               % :Goal, +Seconds
             with_swipl/5,               % +Args, -Pid, -In, -Out, :Goal
             run_swipl/5,                % +Args, +Options, -Status, -Out, -Err
-            wait_for_end/3              % +Pid, +Seconds, -Status
+            wait_for_end/3,             % +Pid, +Seconds, -Status
+            free_port/1                 % -Port
           ]).
 
 /** <module> What all test suites share
@@ -28,7 +29,11 @@ the whole process, so nothing else should be coming and going meanwhile.
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/3]).
+:- use_module(library(random), [random_between/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(socket),
+              [ tcp_bind/2, tcp_close_socket/1, tcp_setopt/2,
+                tcp_socket/1 ]).
 
 :- meta_predicate
     with_tmp_dir(1),
@@ -260,6 +265,24 @@ wait_for_end(Pid, Seconds, Status) :-
 ended(Pid, Status) :-
     process_wait(Pid, Status, [timeout(0)]),
     Status \== timeout.
+
+%!  free_port(-Port:integer) is det.
+%
+%   A port of the loopback interface that is free now, and that the system
+%   gives to nobody who does not ask for it: it draws the ports of outgoing
+%   connections from a higher range.
+
+free_port(Port) :-
+    repeat,
+    random_between(10000, 30000, Port),
+    catch(try_port(Port), error(socket_error(_, _), _), fail),
+    !.
+
+try_port(Port) :-
+    tcp_socket(Socket),
+    call_cleanup(( tcp_setopt(Socket, reuseaddr),
+                   tcp_bind(Socket, '127.0.0.1':Port) ),
+                 tcp_close_socket(Socket)).
 
                 /*******************************
                 *         PRIVATE COOKIE       *

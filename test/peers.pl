@@ -19,7 +19,7 @@ what they like.
 *Threading*: for the main thread of a test.
 */
 
-:- use_module(common, [project_file/2, wait_until/2]).
+:- use_module(common, [free_port/1, project_file/2, wait_until/2]).
 :- use_module(cutting_proxy, [proxy_start/3, proxy_stop/1]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -27,8 +27,6 @@ what they like.
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(socket),
-              [tcp_bind/2, tcp_close_socket/1, tcp_setopt/2, tcp_socket/1]).
 
 :- meta_predicate with_peers(+, 0).
 
@@ -57,7 +55,8 @@ start(Spec) :-
     ->  true
     ;   Spec = Peer, Options = []
     ),
-    free_port(Port),
+    free_port(Number),
+    atom_number(Port, Number),
     (   option(proxy(true), Options)
     ->  atom_concat('127.0.0.1:', Port, Target),
         proxy_start(Target, Proxy, Address),
@@ -86,15 +85,6 @@ start(Spec) :-
                  ( Setup,
                    host_start(Peer, [port(KnownPort)|HostOptions]) ))),
     launch(Peer).
-
-%   A port that is free now, as an atom.
-
-free_port(Port) :-
-    tcp_socket(Socket),
-    tcp_setopt(Socket, reuseaddr),
-    tcp_bind(Socket, '127.0.0.1':Number),
-    tcp_close_socket(Socket),
-    atom_number(Port, Number).
 
 launch(Peer) :-
     spec(Peer, Args),

@@ -9,8 +9,6 @@
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
-:- use_module(library(socket),
-              [tcp_bind/2, tcp_close_socket/1, tcp_socket/1]).
 
 typhon(Args, Status, Out, Err) :-
     typhon_args(Args, SwiplArgs),
@@ -49,13 +47,6 @@ with_typhon(Args, Pid, Line, Goal) :-
                  atom_string(Line, Line0),
                  call(Goal)
                )).
-
-%   A port that was free a moment ago.
-
-free_port(Port) :-
-    tcp_socket(Socket),
-    tcp_bind(Socket, Port),
-    tcp_close_socket(Socket).
 
 has_line(Lines, Pattern) :-
     member(Line, Lines),

@@ -51,7 +51,7 @@ test(address, true(A == Whole)) :-
 test(loopback_by_default, true(sub_atom(A, _, _, _, '@127.0.0.1:'))) :-
     with_hosts([alpha], address(alpha, A)).
 test(port, true(P2 == P1)) :-
-    with_hosts([alpha], port(P1)),
+    free_port(P1),
     with_hosts([alpha-[port(P1)]], port(P2)).
 
 port(Port) :-
