@@ -136,9 +136,17 @@ age(Since) :-
     ;   die
     ).
 
+%   A turn may be on its way to who is about to die; what the queue answers
+%   comes behind it.
+
 die :-
     log(state(death)),
-    leave_queue,
+    (   sense(queue(Queue))
+    ->  send(Queue, quit),
+        parameter(tick, Tick),
+        ignore(receive(Queue-gone, Tick))
+    ;   true
+    ),
     dispose.
 
                 /*******************************

@@ -8,7 +8,9 @@
                          by another host: it goes to the tail
         turn(Length)     told to the head; Length is the number of agents in
                          the queue, from which the cloning pressure follows
-        leave            told by an agent that goes or dies
+        leave            told by an agent that goes
+        quit             told by an agent that is about to die, answered by
+                         `gone` when no turn will come any more
 
     How many may be there at a time is the capacity of the host: who finds
     no free slot is refused at its move and stays where it was.
@@ -27,6 +29,7 @@ main :-
 serve(Line0) :-
     next(Line0, Event),
     changed(Event, Line0, Line),
+    answer(Event),
     call_head(Line0, Line),
     serve(Line).
 
@@ -51,10 +54,16 @@ changed(Agent-join, Line0, Line) :-
     \+ memberchk(Agent, Line0),
     !,
     append(Line0, [Agent], Line).
-changed(Agent-leave, Line0, Line) :-
+changed(Agent-What, Line0, Line) :-
+    memberchk(What, [leave, quit]),
     selectchk(Agent, Line0, Line),
     !.
 changed(_, Line, Line).
+
+answer(Agent-quit) :-
+    !,
+    send(Agent, gone).
+answer(_).
 
 %   Who has become the head has its turn.
 
