@@ -1,12 +1,12 @@
 :- module(population_figure,
           [ draw_population/4           % +Directory, +Name, +Titles, +Results
           ]).
-:- use_module('../lib/plot', [colour/2, lighten/2, plot/4, save_columns/2]).
+:- use_module('../lib/plot', [colour/2, plot/4, save_columns/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, max_list/2, member/2, memberchk/2,
-                               nth0/3, nth1/3]).
+                               nth0/3, nth1/3, reverse/2]).
 
 /** <module> The pictures of populations: thesis Figures 6.3 and 6.4
 
@@ -35,16 +35,17 @@ draw_population(Directory, Name, Titles, Results) :-
                 *******************************/
 
 %   Name-starts.dat: for each second a stack of bars, one for each task:
-%   middle, count, left, right, bottom, top, colour.  What was executed once
-%   more is paler.
+%   middle, count, left, right, bottom, top, colour.
 
 save_starts(Directory, Name, Result) :-
     memberchk(executions(Executions), Result),
     memberchk(again(Again), Result),
-    findall(Second-bar(Task, first),
-            started(Executions, Second, Task), First),
-    findall(Second-bar(Task, again), started(Again, Second, Task), Healed),
-    append(First, Healed, Starts0),
+    append(Executions, Again, All),
+    findall(Second-Task,
+            ( member(execution(Task, _, Start, _), All),
+              Second is floor(Start)
+            ),
+            Starts0),
     msort(Starts0, Starts),
     sort(Starts, Distinct),
     findall(Start-Count,
@@ -55,11 +56,7 @@ save_starts(Directory, Name, Result) :-
     foldl(stack(Result), Counts, rows([], none, 0), rows(Rows, _, _)),
     save(Directory, Name, starts, Rows).
 
-started(Executions, Second, Task) :-
-    member(execution(Task, _, Start, _), Executions),
-    Second is floor(Start).
-
-stack(Result, (Second-bar(Task, Kind))-Count, rows(Rows0, Second0, Top0),
+stack(Result, (Second-Task)-Count, rows(Rows0, Second0, Top0),
       rows([Row|Rows0], Second, Top)) :-
     (   Second == Second0
     ->  Bottom = Top0
@@ -68,18 +65,14 @@ stack(Result, (Second-bar(Task, Kind))-Count, rows(Rows0, Second0, Top0),
     Top is Bottom + Count,
     Middle is Second + 0.5,
     Right is Second + 1,
-    shade(Result, Task, Kind, Colour),
+    shade(Result, Task, Colour),
     Row = [Middle, Top, Second, Right, Bottom, Top, Colour].
 
-shade(Result, Task, Kind, Colour) :-
+shade(Result, Task, Colour) :-
     memberchk(tasks(Tasks), Result),
     nth0(Index, Tasks, Task),
     !,
-    task_colour(Index, Full),
-    (   Kind == first
-    ->  Colour = Full
-    ;   lighten(Full, Colour)
-    ).
+    task_colour(Index, Colour).
 
 task_colour(Index, Colour) :-
     Place is Index mod 6,
@@ -109,7 +102,7 @@ save_spans(Directory, Name, Results) :-
               Middle is (First + End)/2,
               Low is Run - 0.3,
               High is Run + 0.3,
-              shade(Result, Task, first, Colour)
+              shade(Result, Task, Colour)
             ),
             Rows),
     save(Directory, Name, spans, Rows).
@@ -177,19 +170,21 @@ crash_line(Out, Result) :-
     memberchk(failures([Time-_|_]), Result),
     !,
     format(Out, 'set arrow 1 from ~4f,graph 0 to ~4f,graph 1 nohead dt 2 \c
-lc rgb "#222222"~n', [Time, Time]).
+lc rgb "#222222"~n\c
+set label 4 " T2 lost" at ~4f,graph 0.92~n', [Time, Time, Time]).
 crash_line(Out, _) :-
     format(Out, 'unset arrow 1~n', []).
 
 steps_panel(Out, Name, Results) :-
     Results = [Result|_],
     panel(Out, 0.59, 0.28, 'Agents', 'agents'),
-    findall(Part, total_part(Name, Results, Part), Totals),
+    findall(Part, total_part(Name, Results, Part), Totals0),
+    reverse(Totals0, Totals),
     findall(Part, kind_part(Name, Result, Part), Kinds),
     append(Totals, Kinds, Parts),
     atomic_list_concat(Parts, ', ', Plot),
     format(Out, 'set key at screen 0.985,0.607 right center horizontal \c
-samplen 1.2 width 1~nplot ~w~nunset label~n', [Plot]).
+samplen 1 width -1 maxrows 1~nplot ~w~nunset label~n', [Plot]).
 
 total_part(Name, Results, Part) :-
     nth1(I, Results, Result),
@@ -204,7 +199,7 @@ total_part(Name, Results, Part) :-
 
 total_style(1, 'lw 1.6 lc rgb "#333333" title "all"') :-
     !.
-total_style(2, 'lw 1 lc rgb "#c4c4c4" title "all, other runs"') :-
+total_style(2, 'lw 1 lc rgb "#c4c4c4" title "other runs"') :-
     !.
 total_style(_, 'lw 1 lc rgb "#c4c4c4" notitle').
 
