@@ -1,5 +1,7 @@
 :- module(sync_figure,
-          [ draw_figure/3               % +Directory, +Name, +Result
+          [ draw_figure/3,              % +Directory, +Name, +Result
+            save_run_data/2,            % +Directory, +Result
+            task_colour/4               % +Result, +Task, -Colour, -Light
           ]).
 :- use_module('../lib/plot',
               [colour/2, lighten/2, plot/3, save_columns/2]).
@@ -30,10 +32,17 @@ the number of distinct tasks required in the whole network.
 %     - end(Time): when the last execution ended
 
 draw_figure(Directory, Name, Result) :-
+    save_run_data(Directory, Result),
+    plot(Directory, Name, script(Result)).
+
+%!  save_run_data(+Directory, +Result) is det.
+%
+%   Write what the pictures are drawn from: starts.dat, hosts.dat, tau.dat.
+
+save_run_data(Directory, Result) :-
     save_starts(Directory, Result),
     save_hosts(Directory, Result),
-    save_tau(Directory, Result),
-    plot(Directory, Name, script(Result)).
+    save_tau(Directory, Result).
 
                 /*******************************
                 *             DATA             *
@@ -113,7 +122,9 @@ save(Directory, Name, Rows) :-
     directory_file_path(Directory, Name, File),
     save_columns(File, Rows).
 
-%   task_colour(+Result, +Task, -Colour, -Light): numbers 0xRRGGBB.
+%!  task_colour(+Result, +Task, -Colour, -Light) is semidet.
+%
+%   The colours of Task, numbers 0xRRGGBB.
 
 task_colour(Result, Task, Colour, Light) :-
     memberchk(tasks(Tasks), Result),
