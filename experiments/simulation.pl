@@ -13,15 +13,15 @@
 :- use_module(lib/progress, [progress/4, progress_done/1]).
 :- use_module(lib/report, [print_table/3, save_csv/3]).
 :- use_module(lib/signals, [stopping_on_signals/1]).
-:- use_module(simulation/batch, [batch/3, batch_columns/1, batch_row/2,
-                                 quantile/3]).
+:- use_module(simulation/batch, [batch/3, batch_row/2, quantile/3]).
 :- use_module(simulation/reading, [reading/1]).
 :- use_module(simulation/study, [study/2, study_chart/3, study_point/2]).
 :- use_module(library(apply), [foldl/4, foldl/6, maplist/3]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [append/3, member/2, nth0/3, selectchk/3]).
+:- use_module(library(lists),
+              [append/3, member/2, memberchk/2, nth0/3, selectchk/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [merge_options/3, option/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
@@ -36,7 +36,8 @@ opt_type(tasks,     tasks,     natural).
 opt_type(delta,     delta,     number).
 opt_type(hop_time,  hop_time,  term).
 opt_type(task_time, task_time, term).
-opt_type(links,     links,     term).
+opt_type(dynamic,   dynamic,   term).
+opt_type(failure,   failure,   term).
 opt_type(reading,   reading,   term).
 opt_type(service,   service,   oneof([exclusive, printed])).
 opt_type(seed,      seed,      integer).
@@ -54,8 +55,10 @@ opt_help(tasks,     "Length of the sequence of tasks [6]").
 opt_help(delta,     "Penalty bias, above 0 [0.5]").
 opt_help(hop_time,  "MIN-MAX seconds that a hop takes [0.3-0.6]").
 opt_help(task_time, "Seconds that a task takes, MIN-MAX, or table_5_2 [1]").
-opt_help(links,     "static, dynamic_1, dynamic_2 or a general model \c
-[static]").
+opt_help(dynamic,   "How links come and go: dynamic_1, dynamic_2, ... \c
+[none]").
+opt_help(failure,   "atomic(T,N,D): N hosts lose task T when task D begins; \c
+cascaded(T,N,D): and all later ones [none]").
 opt_help(reading,   "Of equation 5.2: chosen, over_window, inside, \c
 inside(Zero), scaled, signed [chosen]").
 opt_help(service,   "exclusive, or as Algorithm 2 is printed [exclusive]").
@@ -63,18 +66,19 @@ opt_help(seed,      "Seed of the first run; the next has the next [1]").
 opt_help(runs,      "Number of runs, for each point of a study [100]").
 opt_help(jobs,      "Threads that share the work [2]").
 opt_help(study,     "Vary something: topologies, onset, spread, readings, \c
-service, agents, hosts, tasks, links").
+service, agents, hosts, tasks, dynamic, healing").
 opt_help(out,       "Directory for tables and figure [out/simulation]").
 
 opt_meta(topology, 'TOPOLOGY').
 opt_meta(hop_time, 'MIN-MAX').
-opt_meta(links,    'MODEL').
+opt_meta(dynamic,  'MODEL').
+opt_meta(failure,  'FAILURE').
 opt_meta(out,      'DIRECTORY').
 
 defaults([ topology(grid(6,10)), agents(10), tasks(6), delta(0.5),
-           hop_time(0.3-0.6), task_time(1), links(static), reading(chosen),
-           service(exclusive), seed(1), runs(100), jobs(2), study(none),
-           out('out/simulation')
+           hop_time(0.3-0.6), task_time(1), dynamic(none), failure(none),
+           reading(chosen), service(exclusive), seed(1), runs(100), jobs(2),
+           study(none), out('out/simulation')
          ]).
 
 main(Argv) :-
@@ -143,7 +147,10 @@ run_batch(Options, Out) :-
               'q 95 %', most],
     print_options(Options),
     print_table(user_output, Header, Rows),
-    batch_row(Measures, [Runs, Overlap, Tau|_]),
+    batch_row(Measures, Row),
+    memberchk(runs-Runs, Row),
+    memberchk(share_overlap-Overlap, Row),
+    memberchk(share_tau3-Tau, Row),
     format('~n~d runs; with an overlapped execution: ~1f %, \c
 with tau above 2: ~1f %~n', [Runs, 100*Overlap, 100*Tau]),
     directory_file_path(Out, 'quantiles.csv', File),
@@ -154,15 +161,19 @@ quantile_of(Numbers, P, Quantile) :-
     quantile(P, Numbers, Quantile).
 
 save_runs(Out, Measures) :-
-    findall(Row, ( member(M, Measures), M =.. [_|Row] ), Rows),
+    Header = [idle, overlaps, tau, total, missing, twice, hops, penalties],
+    length(Header, Count),
+    length(Row, Count),
+    findall(Row, ( member(M, Measures), M =.. [_|All], append(Row, _, All) ),
+            Rows),
     directory_file_path(Out, 'runs.csv', File),
-    save_csv(File, [idle, overlaps, tau, total, missing, twice, hops,
-                    penalties], Rows).
+    save_csv(File, Header, Rows).
 
 print_options(Options) :-
     findall(Text,
             ( member(Name, [topology, agents, tasks, delta, hop_time,
-                            task_time, links, reading, service, seed]),
+                            task_time, dynamic, failure, reading,
+                            service, seed]),
               Option =.. [Name, Value],
               option(Option, Options),
               format(atom(Text), '~w ~w', [Name, Value])
@@ -200,9 +211,7 @@ run_study(Study, Options, Out) :-
 run_point(Options, Total, Given, Given-Numbers, Done0, Done) :-
     merge_options(Given, Options, PointOptions),
     simulated(PointOptions, Measures),
-    batch_row(Measures, Values),
-    batch_columns(Columns),
-    pairs_keys_values(Numbers, Columns, Values),
+    batch_row(Measures, Numbers),
     Done is Done0 + 1,
     progress(user_error, Done, Total, points).
 

@@ -3,7 +3,8 @@
             reading_full/1,             % -Drive
             reading_step/5,             % +Reading, +What, +Delta, +Drive0,
                                         % -Drive
-            reading_revived/3           % +Drive, +Theta, -Revived
+            reading_revived/3,          % +Drive, +Theta, -Revived
+            reading_steps/3             % +Reading, +Delta, -Steps
           ]).
 :- include('../../agents/sync/potential').
 
@@ -128,3 +129,21 @@ reading_revived(drive(P0, _), Theta, drive(P, [First])) :-
     maximum(Maximum),
     increase(P0, Theta, Maximum, P),
     first_theta(First).
+
+%!  reading_steps(+Reading, +Delta, -Steps) is semidet.
+%
+%   So many penalties, and no reward, take a full potential to zero. Fails
+%   if 10,000 do not.
+
+reading_steps(Reading, Delta, Steps) :-
+    reading_full(Drive),
+    reading_steps(Drive, Reading, Delta, 0, Steps).
+
+reading_steps(drive(Potential, _), _, _, Steps, Steps) :-
+    Potential =:= 0,
+    !.
+reading_steps(Drive0, Reading, Delta, Steps0, Steps) :-
+    Steps0 < 10000,
+    reading_step(Reading, penalty, Delta, Drive0, Drive),
+    Steps1 is Steps0 + 1,
+    reading_steps(Drive, Reading, Delta, Steps1, Steps).

@@ -27,7 +27,8 @@ study(service,    'Algorithm 2 as printed: no rule for hosts that execute').
 study(agents,     'number of agents').
 study(hosts,      'number of hosts').
 study(tasks,      'task times, constant and of Table 5.2').
-study(links,      'dynamic networks, by interval and number of agents').
+study(dynamic,    'dynamic networks, by interval and number of agents').
+study(healing,    'failures, as in Figures 5.11 and 5.12').
 
 %!  study_point(+Name, -Given:list) is nondet.
 %
@@ -37,7 +38,7 @@ study_point(topologies, [topology(Topology), delta(Delta)]) :-
     static(_, Topology, Delta).
 study_point(onset, [topology(Topology), task_time(Time), delta(Delta)]) :-
     static(_, Topology, _),
-    member(Time, [0.25, 0.5, 1, 2, 4]),
+    member(Time, [0.25, 1, 4]),
     delta(Delta).
 study_point(spread, [topology(Topology), delta(Delta), hop_time(Hop)]) :-
     static(_, Topology, Delta),
@@ -45,7 +46,7 @@ study_point(spread, [topology(Topology), delta(Delta), hop_time(Hop)]) :-
 study_point(readings, [reading(Reading), topology(Topology), delta(Delta)]) :-
     member(Reading, [ chosen, over_window, inside(0.5), inside(10), signed ]),
     static(_, Topology, _),
-    delta(Delta).
+    member(Delta, [0.2, 0.5, 1.0]).
 study_point(service, [service(Service), topology(Topology), delta(Delta)]) :-
     member(Service, [exclusive, printed]),
     static(_, Topology, Delta).
@@ -59,12 +60,21 @@ study_point(hosts, [topology(Topology), delta(Delta), agents(10)]) :-
 study_point(tasks, [topology(grid(6, 10)), delta(Delta), task_time(Times)]) :-
     member(Delta, [0.2, 0.3, 0.5]),
     member(Times, [1, 5, 20, table_5_2]).
-study_point(links, [ links(Links), agents(Agents), topology(grid(6, 10)),
-                     delta(0.2) ]) :-
+study_point(dynamic, [ dynamic(Links), agents(Agents),
+                       topology(grid(6, 10)), delta(0.2) ]) :-
     member(Interval, [ uniform(1, 2), uniform(5, 10), uniform(10, 20),
                        uniform(40, 80) ]),
     member(Links, [ toggle(Interval, 0.5, 0.7), links(Interval, 0.5, 0.7) ]),
     member(Agents, [5, 10, 20]).
+study_point(healing, [ failure(Failure), dynamic(Dynamic),
+                       topology(Topology), delta(Delta) ]) :-
+    (   Failure = atomic(2, 20, 5),
+        Dynamic = none,
+        static(_, Topology, Delta)
+    ;   Failure = cascaded(2, 60, 5),
+        Topology = grid(6, 10),
+        member(Dynamic-Delta, [none-0.5, dynamic_2-0.2])
+    ).
 
 delta(Delta) :-
     member(Delta, [0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0]).

@@ -1,0 +1,128 @@
+:- module(simulation_world,
+          [ world_network/5,            % +Options, +Seed, -N, -Links, -Changes
+            world_hosts/2,              % +N, -Hosts
+            world_agents/6,             % +Options, +N, -Agents, -Queue,
+                                        % +Chance0, -Chance
+            world_change/4              % +Now, +Links, +Changes0, -Changes
+          ]).
+:- use_module(reading, [reading_full/1]).
+:- use_module('../../prolog/typhon/chance',
+              [chance_below/4, chance_member/4]).
+:- use_module('../../prolog/typhon/dynamics',
+              [ dynamics_event/4, dynamics_model/2, dynamics_state/5 ]).
+:- use_module('../../prolog/typhon/strategy', [strategy_memory/2]).
+:- use_module('../../prolog/typhon/topology', [topology_edges/4]).
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(heaps), [list_to_heap/2]).
+:- use_module(library(lists), [member/2, numlist/3, selectchk/3]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(ordsets), [ord_add_element/3, ord_del_element/3]).
+
+/** <module> The hosts, links and agents of a simulation
+
+What is numbered, as the hosts are, is a term with an argument for each.
+These terms are changed by setarg/3.
+
+*Threading*: as simulation_model.
+*/
+
+%!  world_network(+Options, +Seed, -N, -Links, -Changes) is det.
+%
+%   N hosts, of each the neighbours in Links, and the changes of links that
+%   are to come.
+
+world_network(Options, Seed, N, Links, Changes) :-
+    option(topology(Topology), Options),
+    topology_edges(Topology, Seed, N, Edges),
+    functor(Links, links, N),
+    neighbours(N, Edges, Links),
+    option(dynamic(Model), Options, none),
+    changes(Model, N, Edges, Seed, Changes).
+
+neighbours(N, Edges, Links) :-
+    numlist(1, N, Hosts),
+    foldl(host_neighbours(Edges), Hosts, Links, Links).
+
+host_neighbours(Edges, Host, Links, Links) :-
+    findall(Other, ( member(Host-Other, Edges)
+                   ; member(Other-Host, Edges)
+                   ), Others0),
+    sort(Others0, Others),
+    arg(Host, Links, Others).
+
+changes(none, _, _, _, none) :-
+    !.
+changes(Name, N, Edges, Seed, Changes) :-
+    dynamics_model(Name, Model),
+    dynamics_state(Model, N, Edges, Seed, State),
+    next_changes(State, Changes).
+
+next_changes(State0, changes(Time, Changes, State)) :-
+    dynamics_event(State0, Time, Changes, State).
+
+%!  world_hosts(+N, -Hosts) is det.
+%
+%   N hosts that have done nothing, see simulation_model.
+
+world_hosts(N, Hosts) :-
+    functor(Hosts, hosts, N),
+    all_arguments(N, Hosts, host(0, 0, 1, 0)).
+
+all_arguments(0, _, _) :-
+    !.
+all_arguments(I, Term, Value) :-
+    arg(I, Term, Value),
+    I1 is I - 1,
+    all_arguments(I1, Term, Value).
+
+%!  world_agents(+Options, +N, -Agents, -Queue, +Chance0, -Chance) is det.
+%
+%   The agents start on different hosts while there are any of the N. Queue
+%   says that all arrive there at time 0.
+
+world_agents(Options, N, Agents, Queue, Chance0, Chance) :-
+    option(agents(Count), Options),
+    option(tasks(Tasks), Options),
+    functor(Agents, agents, Count),
+    numlist(1, Count, Numbers),
+    numlist(1, N, Hosts),
+    foldl(agent(Tasks, Agents, Hosts), Numbers, Hosts-Chance0, _-Chance),
+    findall(0-Agent, member(Agent, Numbers), Pairs),
+    list_to_heap(Pairs, Queue).
+
+agent(Tasks, Agents, Hosts, Number, []-Chance0, Left) :-
+    !,
+    agent(Tasks, Agents, Hosts, Number, Hosts-Chance0, Left).
+agent(Tasks, Agents, _, Number, Free0-Chance0, Free-Chance) :-
+    chance_member(Host, Free0, Chance0, Chance1),
+    selectchk(Host, Free0, Free),
+    chance_below(0x40000000, Seed, Chance1, Chance),
+    strategy_memory(Seed, Memory),
+    functor(Drives, drives, Tasks),
+    reading_full(Full),
+    all_arguments(Tasks, Drives, Full),
+    arg(Number, Agents, agent(Host, Memory, Drives)).
+
+%!  world_change(+Now, +Links, +Changes0, -Changes) is det.
+%
+%   Links are changed as Changes0 say until Now; Changes are still to come.
+
+world_change(Now, Links, changes(Time, List, State), Changes) :-
+    Time =< Now,
+    !,
+    foldl(change_link, List, Links, Links),
+    next_changes(State, Changes1),
+    world_change(Now, Links, Changes1, Changes).
+world_change(_, _, Changes, Changes).
+
+change_link(link(A, B), Links, Links) :-
+    change_end(ord_add_element, A, B, Links),
+    change_end(ord_add_element, B, A, Links).
+change_link(unlink(A, B), Links, Links) :-
+    change_end(ord_del_element, A, B, Links),
+    change_end(ord_del_element, B, A, Links).
+
+change_end(Change, A, B, Links) :-
+    arg(A, Links, Others0),
+    call(Change, Others0, B, Others),
+    setarg(A, Links, Others).
