@@ -2,6 +2,10 @@
 # `make check` and `make install`.
 
 SWIPL ?= swipl
+# Of the experiments: one figure or all, runs of each case, runs at a time.
+FIGURE ?= all
+RUNS ?= 3
+JOBS ?= 3
 MAKEFLAGS += --no-print-directory
 ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
     $(wildcard experiments/*.pl bench/run.pl)
@@ -10,7 +14,8 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools demo test check bench test-portability install clean
+.PHONY: help tools demo experiments experiments-sync test check bench \
+    test-portability install clean
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
@@ -20,6 +25,19 @@ help:
 
 demo: tools             ## sixty hosts, ten agents, six tasks in step
 	@$(SWIPL) experiments/synchronisation.pl -- --out out/demo
+
+experiments: experiments-sync   ## all experiments; what has been run stays
+
+experiments-sync: tools ## chapters 5 and 6; one figure: FIGURE=5.6, RUNS=3, JOBS=3
+	@case '$(FIGURE)' in 6.3*|6.4*) ;; *) \
+	    $(SWIPL) experiments/figures.pl -- --figure '$(FIGURE)' \
+	        --runs $(RUNS) --jobs $(JOBS) ;; esac
+	@for figure in 6.3 6.4; do \
+	    case '$(FIGURE)' in all|$$figure*) \
+	        $(SWIPL) experiments/population.pl -- --figure $$figure \
+	            --nodes 50,100 --runs $(RUNS) --jobs $(JOBS) \
+	            --out out/population/figure-$$figure || exit 1 ;; esac; \
+	done
 
 test: tools             ## install what is missing, run every test suite
 	@$(SWIPL) test/run.pl

@@ -91,7 +91,7 @@ wanted([], Options, Figures) :-
     option(figure(Wanted), Options),
     findall(Figure,
             ( figure(Figure, _),
-              ( Wanted == all ; Wanted == Figure )
+              ( Wanted == all ; names_figure(Wanted, Figure) )
             ),
             Figures),
     (   Figures == []
@@ -100,6 +100,16 @@ wanted([], Options, Figures) :-
     ).
 wanted(Positional, _, _) :-
     domain_error(option, Positional).
+
+%   5.5c is part of 5.5, and 5.7 is 5.7a and 5.7b.
+
+names_figure(Figure, Figure).
+names_figure(Wanted, Figure) :-
+    ( atom_concat(Wanted, Letter, Figure)
+    ; atom_concat(Figure, Letter, Wanted)
+    ),
+    atom_length(Letter, 1),
+    char_type(Letter, lower).
 
                 /*******************************
                 *             RUNS             *

@@ -27,11 +27,13 @@ than that to people: the rest of it follows from Script and Arguments.  So
 two experiments that need the same run make it once, and what has been
 made is there when an interrupted experiment is begun again.
 
-The process works in Directory.part.  This becomes Directory when the
-process has ended with status 0, and Directory.failed when it ended in
-any other way.  What it printed is in the file `output` there, and what it
-was in the file `job.pl`: job(Name, Script, Arguments), seconds(Real).
-A run that failed is tried again the next time.
+The process works in Directory.PID.part, PID being that of this process.
+It becomes Directory when the process has ended with status 0, and
+Directory.failed when it ended in any other way.  What it printed is in the
+file `output` there, and what it was in the file `job.pl`:
+job(Name, Script, Arguments), seconds(Real).  A run that failed is tried
+again the next time.  Sessions that need the same run at the same time do
+not disturb each other.
 
 *Threading*: the caller waits; a thread for each process waits for its end.
 Whatever exception makes the caller leave, the processes are ended first:
@@ -42,7 +44,7 @@ asked by SIGTERM, and killed if they are still there ten seconds later.
     prolog:message//1.
 
 :- dynamic
-    child/4.                    % Queue, Job, Pid, Time it was started
+    child/2.                    % Queue, Pid
 
 %!  jobs_run(+Jobs, +Options, -Outcomes) is det.
 %
@@ -108,6 +110,8 @@ make_all(Jobs, N, Root, Outcomes) :-
     catch(make(Jobs, made(Queue, N, Root, Begin, Total), 0, 0, Outcomes),
           Ball,
           ( stop(Queue),
+            forall(( member(Job, Jobs), part(Job, Root, Part) ),
+                   remove(Part)),
             throw(Ball)
           )),
     progress_done(user_error),
@@ -161,14 +165,13 @@ time_left(Done, Total, Begin, Text) :-
 
 start(Queue, Root, Job) :-
     Job = job(_, Script, Arguments),
-    job_directory(Job, Root, Directory),
-    atom_concat(Directory, '.part', Part),
+    part(Job, Root, Part),
     remove(Part),
     make_directory_path(Part),
     append([Script, '--'|Arguments], ['--out', Part], Argv),
     get_time(Now),
     sig_atomic(( launch(Part, Argv, Pid),
-                 assertz(child(Queue, Job, Pid, Now)) )),
+                 assertz(child(Queue, Pid)) )),
     thread_create(wait_for(Queue, Job, Pid, Now), _, [detached(true)]).
 
 launch(Part, Argv, Pid) :-
@@ -184,32 +187,45 @@ launch(Part, Argv, Pid) :-
 
 wait_for(Queue, Job, Pid, Start) :-
     process_wait(Pid, Status),
-    retractall(child(Queue, _, Pid, _)),
+    retractall(child(Queue, Pid)),
     get_time(Now),
     Seconds is Now - Start,
     catch(thread_send_message(Queue, ended(Job, Status, Seconds)),
           error(existence_error(_, _), _),
           true).
 
+%   Another session may have made it meanwhile.
+
 settle(exit(0), Job, Seconds, Root, made) :-
     !,
+    part(Job, Root, Part),
     job_directory(Job, Root, Directory),
-    atom_concat(Directory, '.part', Part),
-    atom_concat(Directory, '.failed', Failed),
+    failed_directory(Directory, Failed),
     remove(Failed),
     directory_file_path(Part, 'job.pl', File),
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
         format(Out, '~q.~n~q.~n', [Job, seconds(Seconds)]),
         close(Out)),
-    rename_file(Part, Directory).
+    (   exists_directory(Directory)
+    ->  remove(Part)
+    ;   rename_file(Part, Directory)
+    ).
 settle(Status, Job, _, Root, failed(Status)) :-
+    part(Job, Root, Part),
     job_directory(Job, Root, Directory),
-    atom_concat(Directory, '.part', Part),
-    atom_concat(Directory, '.failed', Failed),
+    failed_directory(Directory, Failed),
     remove(Failed),
     rename_file(Part, Failed),
     print_message(error, experiment_job(Job, Status, Failed)).
+
+part(Job, Root, Part) :-
+    job_directory(Job, Root, Directory),
+    current_prolog_flag(pid, Pid),
+    atomic_list_concat([Directory, Pid, part], '.', Part).
+
+failed_directory(Directory, Failed) :-
+    atom_concat(Directory, '.failed', Failed).
 
 remove(Directory) :-
     (   exists_directory(Directory)
@@ -233,11 +249,11 @@ stop(Queue) :-
     message_queue_destroy(Queue).
 
 signal_children(Queue, Signal) :-
-    forall(child(Queue, _, Pid, _),
+    forall(child(Queue, Pid),
            catch(process_kill(Pid, Signal), error(_, _), true)).
 
 all_ended(Queue, _) :-
-    \+ child(Queue, _, _, _),
+    \+ child(Queue, _),
     !.
 all_ended(Queue, Deadline) :-
     get_time(Now),
