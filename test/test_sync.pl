@@ -1,14 +1,14 @@
-:- use_module(common, [project_file/2]).
+:- use_module(fake_agent).
+:- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
-:- use_module(library(readutil)).
 :- include('../agents/sync/potential').
 
 /** <module> Synchronised execution: equations and decisions
 
 No network here: the agents' decisions are tried on a host that is a few
-facts.  The whole is tried in test_demo.pl.
+facts.  The whole is tried in test_sync_network.pl.
 */
 
                 /*******************************
@@ -136,76 +136,18 @@ zero_within(Steps, Drive0, Maximum, Window, Delta) :-
                 *           DECISIONS          *
                 *******************************/
 
-%   A host that is facts: tuple/1 is its tuple space, did/1 what an agent
-%   did there, in order.
-
-:- dynamic
-    fake_host:tuple/1,
-    fake_host:did/1.
-
-fake_host:leave(Fact) :- assertz(fake_host:tuple(Fact)).
-fake_host:take(Fact)  :- retract(fake_host:tuple(Fact)), !.
-fake_host:sense(Fact) :- fake_host:tuple(Fact).
-fake_host:log(What)   :- assertz(fake_host:did(log(What))).
-fake_host:send(Id, M) :- assertz(fake_host:did(send(Id, M))).
-fake_host:self(me).
-fake_host:now(7).
-
-%   fake_agent(+Program, +Facts, +Tuples): an agent of Program in module
-%   fake_agent, on a host with Tuples.
-
-fake_agent(Program, Facts, Tuples) :-
-    forget_agent,
-    retractall(fake_host:tuple(_)),
-    retractall(fake_host:did(_)),
-    add_import_module(fake_agent, fake_host, start),
-    project_file(Program, File),
-    load_clauses(File),
-    forall(member(Fact, Facts), assertz(fake_agent:Fact)),
-    forall(member(Tuple, Tuples), assertz(fake_host:tuple(Tuple))).
-
-forget_agent :-
-    forall(( current_predicate(fake_agent:Name/Arity),
-             functor(Head, Name, Arity),
-             \+ predicate_property(fake_agent:Head, imported_from(_))
-           ),
-           retractall(fake_agent:Head)).
-
-load_clauses(File) :-
-    read_file_to_terms(File, Terms, []),
-    forall(member(Term, Terms), load_clause(Term, File)).
-
-load_clause((:- agent(_, Options)), _) :-
-    !,
-    forall(( member(state(PIs), Options), member(PI, PIs) ),
-           dynamic(fake_agent:PI)).
-load_clause((:- include(Name)), File) :-
-    !,
-    file_directory_name(File, Dir),
-    atomic_list_concat([Dir, /, Name, '.pl'], Included),
-    load_clauses(Included).
-load_clause((:- Directive), _) :-
-    !,
-    call(fake_agent:Directive).
-load_clause(Clause, _) :-
-    assertz(fake_agent:Clause).
-
 %   The sequence `house`, in its first version.
 
 traveller(Facts, Tuples) :-
     fake_agent('agents/sync/traveller.pl',
                [ plan(house, 1, [1-floor, 2-walls, 3-ceiling]) | Facts ],
                Tuples),
+    fake_at(7),
     fake_agent:fill_new.
 
 worker(Tuples) :-
-    fake_agent('agents/sync/worker.pl', [sequence(house)], Tuples).
-
-did(Acts) :-
-    findall(Act, fake_host:did(Act), Acts).
-
-tuples(Tuples) :-
-    findall(Tuple, fake_host:tuple(Tuple), Tuples).
+    fake_agent('agents/sync/worker.pl', [sequence(house)], Tuples),
+    fake_at(7).
 
 drive(Task, Potential, History) :-
     fake_agent:drive(Task, Potential, History).
@@ -270,6 +212,32 @@ test(is_penalised_where_the_task_is_completed) :-
     did(Acts),
     Acts == [log(penalty(1, 84.5, 15.5))],
     drive(1, 84.5, [15, 15.5]).
+test(gives_up_what_is_done_everywhere, Moves == 111) :-
+    host_with([1, 2, 3], [], Tuples),
+    traveller([], Tuples),
+    fake_agent:main,
+    did([log(begun)|Acts]),
+    aggregate_all(count, member(move(next), Acts), Moves),  % three times 37
+    aggregate_all(count, member(log(penalty(_, _, _)), Acts), Moves),
+    potentials(Ps),
+    Ps == [0, 0, 0].
+test(waits_for_the_order_to_begin, Before-After == []-[log(begun)]) :-
+    host_with([1, 2, 3], [], Tuples),
+    traveller([setting(start, order), setting(delta, 1000)], Tuples),
+    \+ fake_agent:main,                 % receive/1 fails without mail
+    did(Before),
+    fake_mail(user-begin),
+    fake_agent:main,
+    did(Acts),
+    Acts = [First|_],
+    After = [First].
+test(waits_where_it_cannot_move, Time == 15) :-
+    host_with([1, 2, 3], [], Tuples),
+    traveller([setting(delta, 1000), setting(patience, 2)], Tuples),
+    fake_at(9),
+    fake_refusal(next),
+    fake_agent:main,                    % a pause for each of the penalties
+    fake_host:now(Time).
 
 :- end_tests(decisions).
 
