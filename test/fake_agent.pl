@@ -1,0 +1,158 @@
+:- module(test_fake_agent,
+          [ fake_agent/3,               % +Program, +Facts, +Tuples
+            fake_at/1,                  % +Time
+            fake_mail/1,                % +From-Message
+            fake_clone/1,               % +Answer
+            fake_refusal/1,             % +Host
+            did/1,                      % -Acts
+            tuples/1                    % -Tuples
+          ]).
+:- use_module(common, [project_file/2]).
+:- use_module(library(lists)).
+:- use_module(library(readutil)).
+
+/** <module> An agent on a host that is a few facts
+
+Agent programs become clauses of module fake_agent, which are called like
+any others: the vocabulary of agents is that of module fake_host here.
+Nothing moves or waits.  sleep/1 sets the clock forward; receive/2 finds a
+message or fails, at the time until which it would have waited; clone/1
+answers what fake_clone/1 said, move/1 raises an error where fake_refusal/1
+said so, and next_host/2 always chooses `next`.
+
+*Threading*: one agent at a time.
+*/
+
+:- dynamic
+    fake_host:tuple/1,
+    fake_host:did/1,
+    fake_host:time/1,
+    fake_host:mail/1,
+    fake_host:answer/1,
+    fake_host:refuses/1.
+
+fake_host:leave(Fact) :- assertz(fake_host:tuple(Fact)).
+fake_host:take(Fact)  :- retract(fake_host:tuple(Fact)), !.
+fake_host:sense(Fact) :- fake_host:tuple(Fact).
+fake_host:log(What)   :- assertz(fake_host:did(log(What))).
+fake_host:send(Id, M) :- assertz(fake_host:did(send(Id, M))).
+fake_host:self(me).
+fake_host:host_load(1).
+fake_host:now(Time) :- fake_host:time(Time).
+fake_host:next_host(_, next).
+fake_host:dispose :- throw(disposed).
+
+fake_host:sleep(Seconds) :-
+    pass(Seconds).
+
+fake_host:receive(Message) :-
+    retract(fake_host:mail(Message)),
+    !.
+
+fake_host:receive(Message, Seconds) :-
+    (   retract(fake_host:mail(Message))
+    ->  true
+    ;   pass(Seconds),
+        fail
+    ).
+
+fake_host:clone(Who) :-
+    (   retract(fake_host:answer(Answer))
+    ->  true
+    ;   Answer = parent(child)
+    ),
+    (   Answer = error(_, _)
+    ->  throw(Answer)
+    ;   Who = Answer
+    ).
+
+fake_host:move(Host) :-
+    (   fake_host:refuses(Host)
+    ->  throw(error(move_refused(Host, capacity), _))
+    ;   assertz(fake_host:did(move(Host)))
+    ).
+
+pass(Seconds) :-
+    number(Seconds),
+    !,
+    retract(fake_host:time(Time0)),
+    Time is Time0 + Seconds,
+    assertz(fake_host:time(Time)).
+pass(_).
+
+%!  fake_agent(+Program, +Facts, +Tuples) is det.
+%
+%   An agent of Program, a file of the project, in module fake_agent, with
+%   Facts beside its own, on a host with Tuples, at time 0.
+
+fake_agent(Program, Facts, Tuples) :-
+    forget,
+    add_import_module(fake_agent, fake_host, start),
+    project_file(Program, File),
+    load_clauses(File),
+    forall(member(Fact, Facts), assertz(fake_agent:Fact)),
+    forall(member(Tuple, Tuples), assertz(fake_host:tuple(Tuple))),
+    fake_at(0).
+
+forget :-
+    forall(( current_predicate(fake_agent:Name/Arity),
+             functor(Head, Name, Arity),
+             \+ predicate_property(fake_agent:Head, imported_from(_))
+           ),
+           retractall(fake_agent:Head)),
+    forall(member(Head, [tuple(_), did(_), mail(_), answer(_), refuses(_)]),
+           retractall(fake_host:Head)).
+
+load_clauses(File) :-
+    read_file_to_terms(File, Terms, []),
+    forall(member(Term, Terms), load_clause(Term, File)).
+
+load_clause((:- agent(_, Options)), _) :-
+    !,
+    forall(( member(state(PIs), Options), member(PI, PIs) ),
+           dynamic(fake_agent:PI)).
+load_clause((:- include(Name)), File) :-
+    !,
+    absolute_file_name(Name, Included,
+                       [ relative_to(File), extensions([pl]),
+                         access(read) ]),
+    load_clauses(Included).
+load_clause((:- discontiguous(_)), _) :-
+    !.
+load_clause((:- Directive), _) :-
+    !,
+    call(fake_agent:Directive).
+load_clause(Clause, _) :-
+    assertz(fake_agent:Clause).
+
+%!  fake_at(+Time) is det.
+%!  fake_mail(+Message) is det.
+%!  fake_clone(+Answer) is det.
+%!  fake_refusal(+Host) is det.
+%
+%   What the clock shows, a From-Message for the agent, what comes of its
+%   next clone (an error is raised), and that Host refuses it.
+
+fake_at(Time) :-
+    retractall(fake_host:time(_)),
+    assertz(fake_host:time(Time)).
+
+fake_mail(Message) :-
+    assertz(fake_host:mail(Message)).
+
+fake_clone(Answer) :-
+    assertz(fake_host:answer(Answer)).
+
+fake_refusal(Host) :-
+    assertz(fake_host:refuses(Host)).
+
+%!  did(-Acts) is det.
+%!  tuples(-Tuples) is det.
+%
+%   What the agent did, in order, and what is at the host.
+
+did(Acts) :-
+    findall(Act, fake_host:did(Act), Acts).
+
+tuples(Tuples) :-
+    findall(Tuple, fake_host:tuple(Tuple), Tuples).
