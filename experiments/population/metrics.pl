@@ -92,15 +92,25 @@ peak(Kind, Steps, Peak) :-
     peak(Kind, 0, Steps, Peak).
 
 peak(Kind, From, Steps, Time-Count) :-
+    from(Steps, From, Later),
     findall(Count0-Time0,
-            ( member(Step, Steps),
+            ( member(Step, Later),
               Step = step(Time0, _, _),
-              Time0 >= From,
               of_kind(Kind, Step, Count0)
             ),
             Counts),
     sort(1, @>=, Counts, [Count-_|_]),
     once(member(Count-Time, Counts)).
+
+%   from(+Steps, +From, -Later): with what there was at time From.
+
+from([step(_, _, _), step(Time, Counts, Total)|Steps], From, Later) :-
+    Time =< From,
+    !,
+    from([step(Time, Counts, Total)|Steps], From, Later).
+from([step(Time0, Counts, Total)|Steps], From,
+     [step(Time, Counts, Total)|Steps]) :-
+    Time is max(Time0, From).
 
 of_kind(total, step(_, _, Total), Total) :-
     !.
