@@ -34,6 +34,7 @@ opt_type(runs,        runs,        natural).
 opt_type(seed,        seed,        integer).
 opt_type(clock,       clock,       number).
 opt_type(processes,   processes,   natural).
+opt_type(mesh,        mesh,        atom).
 opt_type(degree,      degree,      natural).
 opt_type(tasks,       tasks,       natural).
 opt_type(task_time,   task_time,   number).
@@ -60,7 +61,8 @@ opt_help(runs,        "Number of runs of each [3]").
 opt_help(seed,        "Seed of the first run; the next has the next [1]").
 opt_help(clock,       "Host seconds in a real second [10]").
 opt_help(processes,   "Operating system processes the hosts live in [2]").
-opt_help(degree,      "Neighbours of a host [10]").
+opt_help(mesh,        "Network of the hosts: rings or random [rings]").
+opt_help(degree,      "Neighbours of a host, about [10]").
 opt_help(tasks,       "Length of the sequence of tasks [5]").
 opt_help(task_time,   "Host seconds that a task takes [1]").
 opt_help(hop_time,    "MIN-MAX host seconds that a hop takes [0.8-1.2]").
@@ -80,12 +82,13 @@ opt_help(out,         "Directory for logs, tables and pictures \c
 opt_meta(figure,   'FIGURE').
 opt_meta(nodes,    'N').
 opt_meta(hop_time, 'MIN-MAX').
+opt_meta(mesh,     'HOW').
 opt_meta(rounding, 'HOW').
 opt_meta(replication, 'WHEN').
 opt_meta(out,      'DIRECTORY').
 
 defaults([ figure('6.3'), nodes('50'), runs(3), seed(1), clock(10),
-           processes(2), degree(10), tasks(5), task_time(1),
+           processes(2), mesh(rings), degree(10), tasks(5), task_time(1),
            hop_time(0.8-1.2), tick(1), threshold(0.01), rounding(floor),
            replication(rewarded), cr_start(10), q_th(4), crash(20),
            limit(900), jobs(1), out('out/population')
@@ -124,6 +127,7 @@ check(Positional, Options, Sizes) :-
     valid(nodes, Nodes, sizes(Nodes, Sizes)).
 
 choice(figure, ['6.3', '6.4']).
+choice(mesh, [rings, random]).
 choice(rounding, [round, floor]).
 choice(replication, [rewarded, always]).
 

@@ -416,11 +416,11 @@ test(again, First-Again == [E1, E2]-[E3]) :-
 
 test(mesh_is_connected, [ forall(member(Seed, [1, 2, 3])),
                           Reached == 30 ]) :-
-    mesh(30, 4, Seed, edges(Edges)),
+    mesh(rings, 30, 4, Seed, edges(Edges)),
     reach([1], Edges, [1], All),
     length(All, Reached).
 test(mesh_degree) :-
-    mesh(40, 10, 7, edges(Edges)),
+    mesh(rings, 40, 10, 7, edges(Edges)),
     length(Edges, Count),
     Count =< 200,                       % five rings of forty
     Count >= 160,
@@ -429,14 +429,16 @@ test(mesh_degree) :-
                                     ( I == Host ; J == Host ) ), Degree),
              Degree =< 10, Degree >= 2 )).
 test(mesh_repeats, Edges1 == Edges2) :-
-    mesh(20, 6, 5, Edges1),
-    mesh(20, 6, 5, Edges2).
+    mesh(rings, 20, 6, 5, Edges1),
+    mesh(rings, 20, 6, 5, Edges2).
 test(mesh_differs) :-
-    mesh(20, 6, 5, Edges1),
-    mesh(20, 6, 6, Edges2),
+    mesh(rings, 20, 6, 5, Edges1),
+    mesh(rings, 20, 6, 6, Edges2),
     Edges1 \== Edges2.
+test(random_mesh, Topology == random(21, 0.2)) :-
+    mesh(random, 21, 4, 1, Topology).
 test(smallest_mesh, Edges == [1-2]) :-
-    mesh(2, 10, 1, edges(Edges)).
+    mesh(rings, 2, 10, 1, edges(Edges)).
 
 reach([], _, All, All).
 reach([Host|Hosts], Edges, Seen, All) :-

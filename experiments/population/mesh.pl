@@ -1,5 +1,6 @@
 :- module(population_mesh,
-          [ mesh/4                      % +Hosts, +Degree, +Seed, -Topology
+          [ mesh/5                      % +Kind, +Hosts, +Degree, +Seed,
+                                        % -Topology
           ]).
 :- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
 :- use_module(library(apply), [foldl/4]).
@@ -11,16 +12,22 @@
 *Threading*: pure.
 */
 
-%!  mesh(+Hosts:integer, +Degree:integer, +Seed:integer, -Topology) is det.
+%!  mesh(+Kind, +Hosts:integer, +Degree:integer, +Seed:integer,
+%!       -Topology) is det.
 %
-%   Topology is edges(List), for network_start/3: Degree//2 rings through
-%   all hosts, each in an order of its own drawn from Seed.  So the network
-%   is connected, and each host has Degree neighbours, or a few less where
-%   rings have an edge in common.
+%   Topology, for network_start/3, is a network of so many Hosts, which have
+%   Degree neighbours each, or on average.  Kind is
+%
+%     - rings
+%       Degree//2 rings through all hosts, each in an order of its own drawn
+%       from Seed: connected, and of nearly one degree, less where rings
+%       have an edge in common.
+%     - random
+%       Any two hosts are linked with the same probability.
 %
 %   @error type_error(Type, X)
 
-mesh(Hosts, Degree, Seed, edges(Edges)) :-
+mesh(rings, Hosts, Degree, Seed, edges(Edges)) :-
     must_be(positive_integer, Hosts),
     must_be(positive_integer, Degree),
     chance_seed(Seed, Chance),
@@ -30,6 +37,10 @@ mesh(Hosts, Degree, Seed, edges(Edges)) :-
     foldl(ring(Numbers), Rings, Chance, _),
     append(Rings, Edges0),
     sort(Edges0, Edges).
+mesh(random, Hosts, Degree, _, random(Hosts, Probability)) :-
+    must_be(positive_integer, Hosts),
+    must_be(positive_integer, Degree),
+    Probability is min(1.0, Degree/max(1, Hosts - 1)).
 
 ring(Numbers, Edges, Chance0, Chance) :-
     shuffled(Numbers, Order, Chance0, Chance),

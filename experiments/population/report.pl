@@ -36,11 +36,12 @@ print_parameters(Stream, Options) :-
 what(Options, What) :-
     option(figure(Figure), Options),
     option(tasks(Tasks), Options),
+    option(mesh(Kind), Options),
     option(degree(Degree), Options),
     option(processes(Processes), Options),
     format(atom(What),
-           'Figure ~w: specialists for ~d tasks, a mesh of degree ~d in ~d \c
-processes', [Figure, Tasks, Degree, Processes]).
+           'Figure ~w: specialists for ~d tasks, a mesh (~w) of degree ~d \c
+in ~d processes', [Figure, Tasks, Kind, Degree, Processes]).
 
 how(Options, How) :-
     option(hop_time(Min-Max), Options),

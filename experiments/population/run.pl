@@ -12,7 +12,7 @@
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
 :- use_module('../sync/metrics',
               [executions/2, from_start/2, task_rows/2]).
-:- use_module(mesh, [mesh/4]).
+:- use_module(mesh, [mesh/5]).
 :- use_module(metrics, [again/3, populations/3, until_settled/4]).
 :- use_module(track,
               [ track/3, track_alive/2, track_done/2, track_done/3,
@@ -37,9 +37,9 @@ stopped.
 
 %!  population_run(+Options, +Directory, -Result) is det.
 %
-%   Options are nodes(N), degree(D), processes(P), tasks(M), task_time(S),
-%   hop_time(Min-Max), clock(Rate), seed(S), limit(HostSeconds),
-%   settings(List), q_th(N) and crash(Count): so many hosts lose task 2
+%   Options are nodes(N), mesh(Kind), degree(D), processes(P), tasks(M),
+%   task_time(S), hop_time(Min-Max), clock(Rate), seed(S),
+%   limit(HostSeconds), settings(List), q_th(N) and crash(Count): so many hosts lose task 2
 %   while task 4 is executed, none if 0.  All are required.  The event log
 %   is Directory/events.pl.  Result is a list:
 %
@@ -60,7 +60,8 @@ population_run(Options, Directory, Result) :-
     option(nodes(Nodes), Options),
     option(degree(Degree), Options),
     option(seed(Seed), Options),
-    mesh(Nodes, Degree, Seed, Topology),
+    option(mesh(Kind), Options),
+    mesh(Kind, Nodes, Degree, Seed, Topology),
     network_options(Options, Log, NetworkOptions),
     get_time(T0),
     setup_call_cleanup(
