@@ -54,7 +54,7 @@ opt_help(hop_time,  "MIN-MAX host seconds that a hop takes [0.3-0.6]").
 opt_help(task_time, "Host seconds that a task takes [1]").
 opt_help(clock,     "Host seconds in a real second [10]").
 opt_help(processes, "Processes that the hosts of one network live in [2]").
-opt_help(limit,     "Real seconds after which a run is given up [300]").
+opt_help(limit,     "Real seconds after which a run is given up [120]").
 opt_help(out,       "Directory for pictures, tables, claims and runs \c
 [out/figures]").
 
@@ -63,7 +63,7 @@ opt_meta(hop_time, 'MIN-MAX').
 opt_meta(out,      'DIRECTORY').
 
 defaults([ figure(all), runs(3), seed(1), jobs(3), hop_time(0.3-0.6),
-           task_time(1), clock(10), processes(2), limit(300),
+           task_time(1), clock(10), processes(2), limit(120),
            out('out/figures')
          ]).
 

@@ -79,8 +79,10 @@ set yrange [0:*]; set ylabel "hosts" offset 1.2,0 tc rgb "#333333"~n', []),
     forall(nth1(I, Rows, task(Task, First, _, _, _, _)),
            ( Tag is 10 + I,
              task_colour(Result, Task, Colour, _),
+             label_height(Rows, I, Y),
              format(Out, 'set label ~d "{/:Bold T~w}" at first ~4f,\c
-graph 1.04 tc rgb "#~|~`0t~16r~6+"~n', [Tag, Task, First, Colour]) )),
+graph ~2f offset 0.3,0 tc rgb "#~|~`0t~16r~6+"~n',
+                    [Tag, Task, First, Y, Colour]) )),
     mark_failure(Out, Result),
     format(Out, 'plot "~w/starts.dat" using 1:2:3:4:5:6:7 \c
 with boxxyerror lc rgb variable~nunset label~nunset arrow~n', [Key]).
@@ -94,6 +96,17 @@ set yrange [~1f:0.5]; set ylabel "host"~n', [Low]),
     mark_failure(Out, Result),
     format(Out, 'plot "~w/hosts.dat" using 1:2:3:4:5:6:7 \c
 with boxxyerror lc rgb variable~nunset label~nunset arrow~n', [Key]).
+
+%   Tasks that begin again are named below the others.
+
+label_height(Rows, I, Y) :-
+    nth1(I, Rows, task(Task, _, _, _, _, _)),
+    (   nth1(Again, Rows, task(Earlier, _, _, _, _, none)),
+        Again < I,
+        Earlier >= Task
+    ->  Y = 0.92
+    ;   Y = 1.04
+    ).
 
 %   A line where something was lost.
 

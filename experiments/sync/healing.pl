@@ -8,7 +8,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists),
-              [last/2, max_list/2, max_member/2, member/2]).
+              [last/2, max_list/2, max_member/2, member/2, memberchk/2]).
 
 /** <module> What an event log says about self-healing
 
@@ -41,10 +41,16 @@ phases(_, Executions, [], [Executions]) :-
 phases(atomic(_, _, _), Executions, Failures, [Others, Redone]) :-
     !,
     partition(redone(Failures), Executions, Redone, Others).
-phases(_, Executions, [failure(Time, _, _)|_], [Before, After]) :-
-    partition(begun_before(Time), Executions, Before, After).
+phases(_, Executions, Failures, [Before, After]) :-
+    partition(before_failure(Failures), Executions, Before, After).
 
-begun_before(Time, execution(_, _, Start, _)) :-
+%   Hosts fail one after the other, so each has its own time.
+
+before_failure(Failures, execution(_, Host, Start, _)) :-
+    (   memberchk(failure(Time, Host, _), Failures)
+    ->  true
+    ;   Failures = [failure(Time, _, _)|_]
+    ),
     Start < Time.
 
 redone(Failures, execution(Task, Host, Start, _)) :-
