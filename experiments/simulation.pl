@@ -40,6 +40,8 @@ opt_type(dynamic,   dynamic,   term).
 opt_type(failure,   failure,   term).
 opt_type(reading,   reading,   term).
 opt_type(service,   service,   oneof([exclusive, printed])).
+opt_type(starts,    starts,    oneof([drawn, even])).
+opt_type(strategy,  strategy,  term).
 opt_type(seed,      seed,      integer).
 opt_type(runs,      runs,      natural).
 opt_type(jobs,      jobs,      natural).
@@ -62,11 +64,15 @@ cascaded(T,N,D): and all later ones [none]").
 opt_help(reading,   "Of equation 5.2: chosen, over_window, inside, \c
 inside(Zero), scaled, signed [chosen]").
 opt_help(service,   "exclusive, or as Algorithm 2 is printed [exclusive]").
+opt_help(starts,    "Where the agents start: drawn, or at even distances \c
+[drawn]").
+opt_help(strategy,  "Of migration; orderly: conscientious without chance \c
+[conscientious]").
 opt_help(seed,      "Seed of the first run; the next has the next [1]").
 opt_help(runs,      "Number of runs, for each point of a study [100]").
 opt_help(jobs,      "Threads that share the work [2]").
 opt_help(study,     "Vary something: topologies, onset, spread, readings, \c
-service, agents, hosts, tasks, dynamic, healing").
+service, order, agents, hosts, tasks, dynamic, healing").
 opt_help(out,       "Directory for tables and figure [out/simulation]").
 
 opt_meta(topology, 'TOPOLOGY').
@@ -77,8 +83,9 @@ opt_meta(out,      'DIRECTORY').
 
 defaults([ topology(grid(6,10)), agents(10), tasks(6), delta(0.5),
            hop_time(0.3-0.6), task_time(1), dynamic(none), failure(none),
-           reading(chosen), service(exclusive), seed(1), runs(100), jobs(2),
-           study(none), out('out/simulation')
+           reading(chosen), service(exclusive), starts(drawn),
+           strategy(conscientious), seed(1), runs(100), jobs(2), study(none),
+           out('out/simulation')
          ]).
 
 main(Argv) :-
@@ -173,7 +180,7 @@ print_options(Options) :-
     findall(Text,
             ( member(Name, [topology, agents, tasks, delta, hop_time,
                             task_time, dynamic, failure, reading,
-                            service, seed]),
+                            service, starts, strategy, seed]),
               Option =.. [Name, Value],
               option(Option, Options),
               format(atom(Text), '~w ~w', [Name, Value])

@@ -62,6 +62,11 @@ setarg/3.
 %       `exclusive`, the default: a host that executes is passed.
 %       `printed`: as Algorithm 2 is printed, a host is serviced again for
 %       the task it is executing.
+%     - starts(Starts)
+%       `drawn`, the default, or `even`: every so many hosts.
+%     - strategy(Strategy)
+%       Of typhon_strategy, or `orderly`: see simulation_world. Default
+%       `conscientious`.
 %     - limit(Seconds)
 %       Host seconds after which the run is broken off; default 10,000.
 %
@@ -83,13 +88,14 @@ simulate(Options, run(Executions, Failures, Ended, Hops, Penalties)) :-
            Ended),
     reverse(Reversed, Executions).
 
-rules(Options, rules(Reading, Delta, Service, Hop, Times, Limit)) :-
+rules(Options, rules(Reading, Delta, Service, Strategy-Hop, Times, Limit)) :-
     option(delta(Delta), Options),
     option(hop_time(Hop), Options),
     check_hop_time(Hop),
     option(task_time(Times), Options, 1),
     option(reading(Reading), Options, chosen),
     option(service(Service), Options, exclusive),
+    option(strategy(Strategy), Options, conscientious),
     option(limit(Limit), Options, 10000).
 
 check_hop_time(Min-Max) :-
@@ -257,10 +263,10 @@ travel(Now, Agent, world(Rules, _, _, Links), Wait, State0, State) :-
     Agent = agent(Here, Memory0, _),
     world_change(Now, Links, Changes0, Changes),
     arg(Here, Links, Neighbours),
-    (   next_host(conscientious, Neighbours, Here, Memory0, There, Memory)
+    Rules = rules(_, _, _, Strategy-(Min-Max), _, _),
+    (   next_host(Strategy, Neighbours, Here, Memory0, There, Memory)
     ->  setarg(1, Agent, There),
         setarg(2, Agent, Memory),
-        Rules = rules(_, _, _, Min-Max, _, _),
         chance_uniform(Min, Max, Wait, Chance0, Chance),
         Hops is Hops0 + 1
     ;   Wait = 1,

@@ -24,6 +24,7 @@ study(onset,      'delta, topology, task time against hop time').
 study(spread,     'how much the hop time varies').
 study(readings,   'other readings of equation 5.2').
 study(service,    'Algorithm 2 as printed: no rule for hosts that execute').
+study(order,      'where agents start, and whether chance leads them').
 study(agents,     'number of agents').
 study(hosts,      'number of hosts').
 study(tasks,      'task times, constant and of Table 5.2').
@@ -46,10 +47,17 @@ study_point(spread, [topology(Topology), delta(Delta), hop_time(Hop)]) :-
 study_point(readings, [reading(Reading), topology(Topology), delta(Delta)]) :-
     member(Reading, [ chosen, over_window, inside(0.5), inside(10), signed ]),
     static(_, Topology, _),
-    member(Delta, [0.2, 0.5, 1.0]).
+    member(Delta, [0.2, 1.0]).
 study_point(service, [service(Service), topology(Topology), delta(Delta)]) :-
     member(Service, [exclusive, printed]),
     static(_, Topology, Delta).
+study_point(order, [ starts(Starts), strategy(Strategy), topology(Topology),
+                     delta(Delta) ]) :-
+    member(Starts, [drawn, even]),
+    member(Strategy, [conscientious, orderly]),
+    (   static(_, Topology, Delta)
+    ;   Topology-Delta = ring(60)-1.0
+    ).
 study_point(agents, [topology(Topology), delta(Delta), agents(Agents)]) :-
     static(_, Topology, Delta),
     member(Agents, [5, 10, 15, 20]).
@@ -62,8 +70,7 @@ study_point(tasks, [topology(grid(6, 10)), delta(Delta), task_time(Times)]) :-
     member(Times, [1, 5, 20, table_5_2]).
 study_point(dynamic, [ dynamic(Links), agents(Agents),
                        topology(grid(6, 10)), delta(0.2) ]) :-
-    member(Interval, [ uniform(1, 2), uniform(5, 10), uniform(10, 20),
-                       uniform(40, 80) ]),
+    member(Interval, [uniform(1, 2), uniform(10, 20), uniform(40, 80)]),
     member(Links, [ toggle(Interval, 0.5, 0.7), links(Interval, 0.5, 0.7) ]),
     member(Agents, [5, 10, 20]).
 study_point(healing, [ failure(Failure), dynamic(Dynamic),

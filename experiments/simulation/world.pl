@@ -7,16 +7,18 @@
           ]).
 :- use_module(reading, [reading_full/1]).
 :- use_module('../../prolog/typhon/chance',
-              [chance_below/4, chance_member/4]).
+              [chance_below/4, chance_float/3]).
 :- use_module('../../prolog/typhon/dynamics',
               [ dynamics_event/4, dynamics_model/2, dynamics_state/5 ]).
-:- use_module('../../prolog/typhon/strategy', [strategy_memory/2]).
+:- use_module('../../prolog/typhon/strategy',
+              [memory_visited/2, strategy_memory/2]).
 :- use_module('../../prolog/typhon/topology', [topology_edges/4]).
-:- use_module(library(apply), [foldl/4]).
+:- use_module(library(apply), [foldl/4, foldl/5, partition/4]).
 :- use_module(library(heaps), [list_to_heap/2]).
-:- use_module(library(lists), [member/2, numlist/3, selectchk/3]).
+:- use_module(library(lists), [append/3, member/2, numlist/3, reverse/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(ordsets), [ord_add_element/3, ord_del_element/3]).
+:- use_module(library(pairs), [pairs_values/2]).
 
 /** <module> The hosts, links and agents of a simulation
 
@@ -77,8 +79,8 @@ all_arguments(I, Term, Value) :-
 
 %!  world_agents(+Options, +N, -Agents, -Queue, +Chance0, -Chance) is det.
 %
-%   The agents start on different hosts while there are any of the N. Queue
-%   says that all arrive there at time 0.
+%   The agents start on different hosts while there are any of the N, drawn
+%   or at even distances. Queue says that all arrive there at time 0.
 
 world_agents(Options, N, Agents, Queue, Chance0, Chance) :-
     option(agents(Count), Options),
@@ -86,22 +88,69 @@ world_agents(Options, N, Agents, Queue, Chance0, Chance) :-
     functor(Agents, agents, Count),
     numlist(1, Count, Numbers),
     numlist(1, N, Hosts),
-    foldl(agent(Tasks, Agents, Hosts), Numbers, Hosts-Chance0, _-Chance),
+    option(starts(Starts), Options, drawn),
+    starts(Starts, Count, Hosts, Free, Chance0, Chance1),
+    foldl(agent(Tasks, Agents, Free), Numbers, Free-Chance1, _-Chance),
     findall(0-Agent, member(Agent, Numbers), Pairs),
     list_to_heap(Pairs, Queue).
 
 agent(Tasks, Agents, Hosts, Number, []-Chance0, Left) :-
     !,
     agent(Tasks, Agents, Hosts, Number, Hosts-Chance0, Left).
-agent(Tasks, Agents, _, Number, Free0-Chance0, Free-Chance) :-
-    chance_member(Host, Free0, Chance0, Chance1),
-    selectchk(Host, Free0, Free),
-    chance_below(0x40000000, Seed, Chance1, Chance),
+agent(Tasks, Agents, _, Number, [Host|Free]-Chance0, Free-Chance) :-
+    chance_below(0x40000000, Seed, Chance0, Chance),
     strategy_memory(Seed, Memory),
     functor(Drives, drives, Tasks),
     reading_full(Full),
     all_arguments(Tasks, Drives, Full),
     arg(Number, Agents, agent(Host, Memory, Drives)).
+
+%   starts(+Starts, +Count, +Hosts, -Free, +Chance0, -Chance): Free are the
+%   hosts in the order in which they are given to Count agents.
+
+starts(even, Count, Hosts, Free, Chance, Chance) :-
+    length(Hosts, N),
+    Step is max(1, N // Count),
+    Last is min(Count, N) - 1,
+    findall(Host, ( between(0, Last, I), Host is I * Step + 1 ), Free).
+starts(drawn, _, Hosts, Free, Chance0, Chance) :-
+    foldl(draw, Hosts, Keyed, Chance0, Chance),
+    keysort(Keyed, Sorted),
+    pairs_values(Sorted, Free).
+
+draw(Host, Key-Host, Chance0, Chance) :-
+    chance_float(Key, Chance0, Chance).
+
+                /*******************************
+                *            ORDER             *
+                *******************************/
+
+%   The strategy `orderly` is `conscientious` without chance: of the hosts
+%   never visited it takes the one with the next higher number, after the
+%   highest the lowest. On a ring all agents so go the same way.
+
+:- multifile
+    typhon_strategy:strategy/1,
+    typhon_strategy:choose/6.
+
+typhon_strategy:strategy(orderly).
+
+typhon_strategy:choose(orderly, Hosts, Here, Memory, Host, Memory) :-
+    memory_visited(Memory, Visited),
+    partition(<(Here), Hosts, Higher, Lower),
+    append(Higher, Lower, InOrder),
+    (   member(Host, InOrder),
+        \+ memberchk(Host, Visited)
+    ->  true
+    ;   reverse(Visited, OldestFirst),
+        member(Host, OldestFirst),
+        memberchk(Host, Hosts)
+    ->  true
+    ).
+
+                /*******************************
+                *            LINKS             *
+                *******************************/
 
 %!  world_change(+Now, +Links, +Changes0, -Changes) is det.
 %
