@@ -271,6 +271,20 @@ test(what_was_not_completed_does_not_fail, Failed == []) :-
     histories(early, 36, Histories),
     executed([1, gate, 3], History),
     all_same(Histories, History).
+test(the_last_change_is_the_newest, true(V0 < V1)) :-
+    hosts([A, B|_]),
+    sequence_start(undecided, [A, B], [1-true], [agents(0)], []),
+    sequence_change(undecided, [A], [1-false]),
+    sequence_change(undecided, [B], [1-true]),  % as it was there
+    plan_at(A, undecided, V0),
+    plan_at(B, undecided, V1).
+test(the_same_tasks_are_the_same_plan, V1 == V0) :-
+    hosts([A|_]),
+    Goal = sleep(_),
+    sequence_start(same, [A], [1-Goal], [agents(0)], []),
+    plan_at(A, same, V0),
+    sequence_start(same, [A], [1-Goal], [agents(0)], []),
+    plan_at(A, same, V1).
 test(change_of_no_sequence, error(existence_error(sequence, nothing))) :-
     hosts(Hosts),
     sequence_change(nothing, Hosts, [1-true]).
@@ -280,6 +294,9 @@ test(two_tasks_of_one_name, error(domain_error(distinct_tasks, [1, 1]))) :-
 test(unknown_setting, error(domain_error(setting, hurry-1))) :-
     hosts(Hosts),
     sequence_start(odd, Hosts, [1-true], [settings([hurry-1])], _).
+
+plan_at(Host, Sequence, Version) :-
+    remote(Host, sense(plan(Sequence, Version, _))).
 
 all_same(Histories, History) :-
     maplist(==(History), Histories).

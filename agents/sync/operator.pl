@@ -9,13 +9,13 @@
               [agent_create/3, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
 :- use_module('../../prolog/typhon/paths', []).
-:- use_module(library(apply), [include/3, maplist/2, maplist/3]).
+:- use_module(library(apply), [foldl/4, include/3, maplist/2, maplist/3]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists),
-              [append/3, max_list/2, member/2, memberchk/2, nth0/4]).
+              [append/3, max_member/2, member/2, memberchk/2, nth0/4]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(library(pairs), [pairs_keys/2]).
+:- use_module(library(pairs), [pairs_keys/2, pairs_keys_values/3]).
 :- use_module(library(random), [random_between/3]).
 
 /** <module> Sequences of tasks, as seen by who wants them done
@@ -173,40 +173,39 @@ sequence_change(Sequence, Hosts, Tasks) :-
     must_be(atom, Sequence),
     must_be(list(atom), Hosts),
     check_tasks(Tasks),
-    include(has_part(Sequence), Hosts, Parts),
+    findall(Host-V, plan_at(Sequence, Hosts, Host, V, _), Found),
+    pairs_keys_values(Found, Parts, Versions),
     (   Parts == []
     ->  existence_error(sequence, Sequence)
-    ;   version(Sequence, Parts, Tasks, Version),
+    ;   new_version(Versions, Version),
         maplist(put_plan(plan(Sequence, Version, Tasks)), Parts)
     ).
 
-has_part(Sequence, Host) :-
-    remote(Host, sense(plan(Sequence, _, _))).
+%   The version of a plan is the time at which it was made, or a moment
+%   after the newest one found, where that comes from a faster clock.
 
-%   The version of a plan is the time at which it was made, or a second
-%   after the newest one found, where that comes from a faster clock.  A
-%   plan with the same tasks is the same plan.
+new_version(Versions, Version) :-
+    get_time(Now),
+    foldl(later_than, Versions, Now, Version).
+
+later_than(Found, Version0, Version) :-
+    Version is max(Version0, Found + 0.001).
+
+%   Who starts a sequence again with the same tasks has the same plan.
 
 version(Sequence, Hosts, Tasks, Version) :-
-    findall(V-Ts, plan_at(Sequence, Hosts, V, Ts), Plans),
-    (   Plans == []
-    ->  get_time(Version)
-    ;   pairs_keys(Plans, Versions),
-        max_list(Versions, Newest),
-        later_version(Plans, Newest, Tasks, Version)
+    findall(V-Ts, plan_at(Sequence, Hosts, _, V, Ts), Plans),
+    pairs_keys(Plans, Versions),
+    (   max_member(Newest, Versions),
+        memberchk(Newest-Found, Plans),
+        Found =@= Tasks
+    ->  Version = Newest
+    ;   new_version(Versions, Version)
     ).
 
-plan_at(Sequence, Hosts, Version, Tasks) :-
+plan_at(Sequence, Hosts, Host, Version, Tasks) :-
     member(Host, Hosts),
     remote(Host, sense(plan(Sequence, Version, Tasks))).
-
-later_version(Plans, Newest, Tasks, Newest) :-
-    memberchk(Newest-Found, Plans),
-    Found =@= Tasks,
-    !.
-later_version(_, Newest, _, Version) :-
-    get_time(Now),
-    Version is max(Now, Newest + 1).
 
                 /*******************************
                 *           FAILURES           *
