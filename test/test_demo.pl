@@ -54,8 +54,11 @@ test(run) :-
     with_tmp_dir(whole_run).
 test(several_runs) :-
     with_tmp_dir(two_runs).
-test(wrong_parameters, Status-Text == exit(1)-true) :-
-    with_tmp_dir(refused(Status, Text)).
+test(failure_is_healed) :-
+    with_tmp_dir(healed_run).
+test(wrong_parameters, [ forall(wrong(Option, Value, Name)),
+                         true(Status-Text == exit(1)-true) ]) :-
+    with_tmp_dir(refused(Option, Value, Name, Status, Text)).
 test(interrupted, [Status == exit(130), nondet]) :-
     with_tmp_dir(stopped_by(int, Status)),
     nothing_left.
@@ -107,10 +110,29 @@ two_runs(Dir) :-
     forall(member(Name, [ 'seed7/events.pl', 'seed8/events.pl', 'runs.csv']),
            ( file(Dir, Name, File), exists_file(File) )).
 
-refused(Status, Text, Dir) :-
-    arguments(Dir, ['--delta', '0'], Arguments),
+%   Tasks of different length; two hosts lose T1 when T3 begins.
+
+healed_run(Dir) :-
+    small_run(Dir, [ '--failure', 'atomic(1,2,3)', '--delta', '0.2',
+                     '--task_time', '[1,0.5-1.5,2]', '--no-picture' ], _),
+    file(Dir, 'metadata.pl', File),
+    read_file_to_terms(File, Facts, []),
+    memberchk(result(lost, 2), Facts),
+    memberchk(result(redone, 2), Facts),
+    memberchk(result(executions, 20), Facts),
+    memberchk(hosts([_, _, _, _, _, _]), Facts),
+    file(Dir, 'synchronisation.png', Picture),
+    \+ exists_file(Picture).
+
+wrong('--delta', '0', "delta").
+wrong('--hop_time', '2-1', "hop_time").
+wrong('--task_time', '[1,2]', "task_time").
+wrong('--failure', 'atomic(1,2,9)', "failure").
+
+refused(Option, Value, Name, Status, Text, Dir) :-
+    arguments(Dir, [Option, Value], Arguments),
     run_swipl(Arguments, [timeout(30)], Status, _, Err),
-    (   sub_string(Err, _, _, _, "delta")
+    (   sub_string(Err, _, _, _, Name)
     ->  Text = true
     ;   Text = Err
     ).
