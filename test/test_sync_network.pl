@@ -54,28 +54,30 @@ start(Sequence, Hosts, Tasks, Agents) :-
 tasks(Names, Tasks) :-
     maplist(task, Names, Tasks).
 
-task(gate, gate-receive(_-open)) :-
+task(gate, gate-( self(Me), leave(gate(Me)), receive(_-open) )) :-
     !.
 task(Name, Name-sleep(0.5)).
 
 all_end(Agents) :-
     forall(member(Agent, Agents), agent_join(Agent, done, 30)).
 
-%   With workers that are known, as they are free.
-
-start_with_gate(Sequence, Names, Workers, Agents) :-
-    hosts(Hosts),
+start_with_gate(Sequence, Names, Agents) :-
     tasks(Names, Tasks),
-    sequence_start(Sequence, Hosts, Tasks, [agents(0)], []),
-    wait_until(maplist(worker(Sequence), Hosts, Workers), 20),
     start(Sequence, Tasks, Agents),
-    wait_until(all_have(Sequence, gate, executing), 20).
+    all_at_gate.
 
-worker(Sequence, Host, Worker) :-
-    remote(Host, sense(worker(Sequence, Worker))).
+all_at_gate :-
+    hosts(Hosts),
+    wait_until(maplist(at_gate, Hosts), 20).
 
-open_gates(Workers) :-
-    forall(member(Worker, Workers), agent_send(Worker, open)).
+at_gate(Host) :-
+    remote(Host, sense(gate(_))).
+
+open_gates :-
+    hosts(Hosts),
+    forall(member(Host, Hosts),
+           ( remote(Host, take(gate(Worker))),
+             agent_send(Worker, open) )).
 
 has(Sequence, Task, Status, Host) :-
     remote(Host, sense(task(Sequence, Task, Status, _))).
@@ -175,7 +177,7 @@ test(only_on_the_hosts_named) :-
     forall(member(Host, [C, E, F]),
            \+ remote(Host, ( sense(T), arg(1, T, subset) ))).
 test(two_sequences_at_once) :-
-    start_with_gate(slow, [1, gate], Workers, Agents1),
+    start_with_gate(slow, [1, gate], Agents1),
     tasks([a, b, c], Tasks),
     start(fast, Tasks, Agents2),
     all_end(Agents2),                   % while `slow` holds its workers
@@ -183,7 +185,7 @@ test(two_sequences_at_once) :-
     executed([a, b, c], H2),
     all_same(Fast, H2),
     all_have(slow, gate, executing),
-    open_gates(Workers),
+    open_gates,
     all_end(Agents1),
     histories(slow, 24, Slow),
     executed([1, gate], H1),
@@ -196,26 +198,26 @@ test(task_of_a_range_of_times) :-
     executed([1, 2], History),
     all_same(Histories, History).
 test(atomic_failures_from_another_process_are_healed) :-
-    start_with_gate(atomic, [1, 2, gate], Workers, Agents),
+    start_with_gate(atomic, [1, 2, gate], Agents),
     hosts(Hosts),
     Hosts = [A, _, _, B|_],
     elsewhere(task_fail(atomic, 1, [A, B], Failed), Failed),
     Failed == [A, B],
     has(atomic, 1, failed(atomic), A),
-    open_gates(Workers),
+    open_gates,
     all_end(Agents),
     histories(atomic, 42, [HA, H, H, HB, H, H]),
     executed([1, 2, gate], H),
     maplist(healed_atomic, [HA, HB]),
     settled(atomic).
 test(cascaded_failures_are_healed_in_order) :-
-    start_with_gate(cascade, [1, 2, gate], Workers, Agents),
+    start_with_gate(cascade, [1, 2, gate], Agents),
     hosts(Hosts),
     tasks_fail(cascade, 2, Hosts, Failed),
     Failed == Hosts,
-    open_gates(Workers),
-    wait_until(all_have(cascade, gate, executing), 20),
-    open_gates(Workers),
+    open_gates,
+    all_at_gate,
+    open_gates,
     all_end(Agents),
     histories(cascade, 66, Histories),
     executed([1, 2], Before),
@@ -224,11 +226,11 @@ test(cascaded_failures_are_healed_in_order) :-
     all_same(Histories, History),
     settled(cascade).
 test(task_added) :-
-    start_with_gate(added, [1, gate], Workers, Agents),
+    start_with_gate(added, [1, gate], Agents),
     tasks([1, gate, 3], Tasks),
     hosts([A|_]),
     sequence_change(added, [A], Tasks),
-    open_gates(Workers),
+    open_gates,
     all_end(Agents),
     histories(added, 36, Histories),
     executed([1, gate, 3], History),
@@ -236,15 +238,27 @@ test(task_added) :-
     logged(added, 36, Events),
     \+ overlap(Events, [1, gate, 3]).
 test(task_removed) :-
-    start_with_gate(removed, [1, gate, 3, 4], Workers, Agents),
+    start_with_gate(removed, [1, gate, 3, 4], Agents),
     tasks([1, gate, 4], Tasks),
     hosts([_, _, _, D|_]),
     sequence_change(removed, [D], Tasks),
     wait_until(maplist(plans(3), Agents), 20),
-    open_gates(Workers),
+    open_gates,
     all_end(Agents),
     histories(removed, 36, Histories),
     executed([1, gate, 4], History),
+    all_same(Histories, History).
+test(hosts_that_come_late) :-
+    hosts([A, B, C, D, E, F]),
+    tasks([1, gate], Tasks),
+    start(late, [A, B, C, D], Tasks, Agents),
+    wait_until(maplist(at_gate, [A, B, C, D]), 20),
+    sequence_start(late, [E, F], Tasks, [agents(0)], []),
+    all_at_gate,
+    open_gates,
+    all_end(Agents),
+    histories(late, 24, Histories),
+    executed([1, gate], History),
     all_same(Histories, History).
 test(failure_after_the_end_is_healed_by_new_agents) :-
     tasks([1, 2], Tasks),
@@ -262,11 +276,11 @@ test(failure_after_the_end_is_healed_by_new_agents) :-
     hosts(Hosts),
     forall(member(Host, Hosts), one_worker(again, Host)).
 test(what_was_not_completed_does_not_fail, Failed == []) :-
-    start_with_gate(early, [1, gate, 3], Workers, Agents),
+    start_with_gate(early, [1, gate, 3], Agents),
     hosts(Hosts),
     task_fail(early, 3, Hosts, Failed),
     tasks_fail(early, 3, Hosts, Failed),
-    open_gates(Workers),
+    open_gates,
     all_end(Agents),
     histories(early, 36, Histories),
     executed([1, gate, 3], History),
@@ -291,6 +305,9 @@ test(change_of_no_sequence, error(existence_error(sequence, nothing))) :-
 test(two_tasks_of_one_name, error(domain_error(distinct_tasks, [1, 1]))) :-
     hosts(Hosts),
     sequence_start(twice, Hosts, [1-true, 1-fail], [], _).
+test(no_agent_ends_without_bias, error(domain_error(setting, delta-0))) :-
+    hosts(Hosts),
+    sequence_start(odd, Hosts, [1-true], [settings([delta-0])], _).
 test(unknown_setting, error(domain_error(setting, hurry-1))) :-
     hosts(Hosts),
     sequence_start(odd, Hosts, [1-true], [settings([hurry-1])], _).
