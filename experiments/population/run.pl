@@ -4,8 +4,8 @@
 :- use_module('../../agents/population/operator', [population_start/5]).
 :- use_module('../../agents/sync/operator', [task_fail/4]).
 :- use_module('../../prolog/typhon',
-              [ log_events/2, network_property/2, network_start/3,
-                network_stop/1
+              [ agent_dispose/1, log_events/2, network_property/2,
+                network_start/3, network_stop/1
               ]).
 :- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
 :- use_module('../lib/follow', [new_lines/4]).
@@ -18,7 +18,7 @@
               [ track/3, track_alive/2, track_done/2, track_done/3,
                 track_settled/2, track_start/2
               ]).
-:- use_module(library(apply), [foldl/4]).
+:- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [last/2, member/2, nth0/4, numlist/3]).
@@ -102,8 +102,9 @@ perform(Network, Log, Options, Settled) :-
     option(q_th(Slots), Options),
     findall(Task-sleep(Seconds), between(1, Count, Task), Tasks),
     population_start(main, Hosts, Tasks,
-                     [seed(Seed), settings([q_th-Slots|Settings])], _),
-    look_on(Log, Hosts, Options, Settled).
+                     [seed(Seed), settings([q_th-Slots|Settings])], Agents),
+    look_on(Log, Hosts, Options, Settled),
+    maplist(agent_dispose, Agents).
 
                 /*******************************
                 *           WAITING            *
