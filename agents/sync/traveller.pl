@@ -100,11 +100,8 @@ missing([Earlier-_|Tasks], Sequence, Task, Missing) :-
     missing(Tasks, Sequence, Task, Missing).
 
 service(Task, Worker) :-
-    plan(Sequence, Version, Tasks),
-    (   sense(plan(Sequence, _, _))
-    ->  true
-    ;   leave(plan(Sequence, Version, Tasks))
-    ),
+    bring_plan,
+    plan(Sequence, _, Tasks),
     memberchk(Task-Goal, Tasks),
     ignore(take(task(Sequence, Task, failed(_), _))),
     now(Time),
@@ -182,6 +179,14 @@ keep(Task, drive(Potential, History)) :-
                 /*******************************
                 *             PLANS            *
                 *******************************/
+
+bring_plan :-
+    plan(Sequence, _, _),
+    sense(plan(Sequence, _, _)),
+    !.
+bring_plan :-
+    plan(Sequence, Version, Tasks),
+    leave(plan(Sequence, Version, Tasks)).
 
 %   The newer of two plans replaces the older one, here or in the agent.
 
