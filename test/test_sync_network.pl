@@ -248,6 +248,15 @@ test(task_removed) :-
     histories(removed, 36, Histories),
     executed([1, gate, 4], History),
     all_same(Histories, History).
+test(task_that_always_fails_is_taken_out) :-
+    tasks([1, 3], [First, Last]),
+    start(bad, [First, 2-fail, Last], Agents),
+    wait_until(logged_event(bad, f(2)), 20),
+    hosts([A|_]),
+    sequence_change(bad, [A], [First, Last]),
+    all_end(Agents),
+    wait_until(all_have(bad, 3, completed), 20),
+    forall(member(Task, [1, 3]), times_completed(bad, Task, 6)).
 test(hosts_that_come_late) :-
     hosts([A, B, C, D, E, F]),
     tasks([1, gate], Tasks),
@@ -311,6 +320,15 @@ test(no_agent_ends_without_bias, error(domain_error(setting, delta-0))) :-
 test(unknown_setting, error(domain_error(setting, hurry-1))) :-
     hosts(Hosts),
     sequence_start(odd, Hosts, [1-true], [settings([hurry-1])], _).
+
+logged_event(Sequence, What) :-
+    logged(Sequence, 0, Events),
+    memberchk(event(_, _, What), Events).
+
+times_completed(Sequence, Task, Count) :-
+    wait_until(( logged(Sequence, 0, Events),
+                 times(Events, c(Task), Times),
+                 length(Times, Count) ), 20).
 
 plan_at(Host, Sequence, Version) :-
     remote(Host, sense(plan(Sequence, Version, _))).
