@@ -56,7 +56,7 @@ check_result(Dir) :-
 check_metadata(Dir) :-
     file(Dir, 'metadata.pl', File),
     read_file_to_terms(File, Facts, []),
-    aggregate_all(count, member(claim(_, _, _), Facts), 12),
+    aggregate_all(count, member(claim(_, _, _), Facts), 13),
     memberchk(parameter(nodes, '6'), Facts).
 
 refused(Arguments, Name) :-
