@@ -32,6 +32,10 @@ shows(rewrite,
       [ 'alpha is new to me', 'beta is new to me',
         'I know alpha', 'I know beta'
       ]).
+shows(pheromone,
+      [ 'road@*: 67 % from farm@*', 'wood@*: 100 % from farm@*',
+        'farm@*: the fire is out'
+      ]).
 
 example(Example) :-
     project_file('examples/*.pl', Pattern),
