@@ -7,11 +7,11 @@
 
 :- module(figures, []).
 :- use_module(lib/jobs, [job_directory/3, jobs_run/3]).
-:- use_module(lib/report, [claims_sentence/2, print_claims/2, save_facts/2]).
+:- use_module(lib/report, [print_claims/2, save_facts/2]).
 :- use_module(lib/signals, [stopping_on_signals/1]).
 :- use_module(sync/cases,
               [print_runs/2, run_measures/2, run_result/3, save_runs/2]).
-:- use_module(sync/claimed, [gather_claims/2]).
+:- use_module(sync/claimed, [figures_sentence/2, gather_claims/2]).
 :- use_module(sync/pictures, [draw_picture/5]).
 :- use_module(sync/potentials, [potential_steps/3]).
 :- use_module(sync/scenarios,
@@ -124,13 +124,21 @@ run(Figures, Options) :-
     jobs_run(Jobs, [out(Root), jobs(N)], Outcomes),
     forall(member(Figure, Figures), make_figure(Figure, Root, Options)),
     gather_claims(Out, Claims),
-    print_claims(user_output, Claims),
-    claims_sentence(Claims, Sentence),
+    print_figures_claims(Figures, Claims),
+    figures_sentence(Claims, Sentence),
     format('~n~w~nPictures, tables and claims: ~w/~n', [Sentence, Out]),
     (   member(failed(_), Outcomes)
     ->  halt(1)
     ;   true
     ).
+
+%   Those that were asked for.
+
+print_figures_claims(Figures, Claims) :-
+    forall(member(Figure, Figures),
+           ( findall(Claim, member(Figure-Claim, Claims), FigureClaims),
+             format('Figure ~w~n', [Figure]),
+             print_claims(user_output, FigureClaims) )).
 
 %   The first run of every case comes first.
 

@@ -12,6 +12,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil)).
 :- use_module('../experiments/lib/chart').
+:- use_module('../experiments/sync/claimed').
 :- use_module('../experiments/sync/healing').
 :- use_module('../experiments/sync/potentials').
 :- use_module('../experiments/sync/scenarios').
@@ -249,6 +250,13 @@ test(says_in_how_many_runs, Found == 'in 1 of 2 runs') :-
     run(false, [], Bad),
     statements('5.8', [grid-[Good, Bad]], Claims),
     memberchk(claim('no overlapped executions', false, Found), Claims).
+test(sentence, S == '2 of 4 claims did not hold: 1 of the 2 of Figure 5.2, \c
+1 of the 1 of Figure 5.8.') :-
+    figures_sentence([ '5.2'-claim(a, true, x), '5.2'-claim(b, false, x),
+                       '5.8'-claim(c, false, x), '5.9'-claim(d, true, x) ],
+                     S).
+test(sentence_held, S == 'All 1 claims held.') :-
+    figures_sentence(['5.2'-claim(a, true, x)], S).
 test(one_case_only, Texts == ['all agents end by themselves']) :-
     statements('5.9', [x-1-[[agents(1), ended(1)]]], Claims),
     findall(T, member(claim(T, _, _), Claims), Texts).

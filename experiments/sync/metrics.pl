@@ -5,7 +5,8 @@
             idle_time/2,                % +Rows, -Seconds
             overlaps/2,                 % +Executions, -Overlapping
             out_of_order/2,             % +Executions, -OutOfOrder
-            required/5,                 % +Hosts, +Tasks, +Marks, +End, -Segments
+            required/5,                 % +Hosts, +Tasks, +Marks, +End,
+                                        % -Segments
             marks/3,                    % +Executions, +Failures, -Marks
             tau/2,                      % +Segments, -Steps
             tau_max/2,                  % +Steps, -Tau

@@ -61,27 +61,31 @@ data_name(Name, I, File) :-
 
 script(Name, Title, Curves, Out) :-
     Curves = [curve(_, Rewards, _)|_],
+    heading(Out, Title, Rewards),
+    forall(nth1(I, Rewards, Step), mark_reward(Out, I, Step)),
+    panel(Out, Name, Curves, 0.865-0.535, 2, '0:110',
+          'a  Potential of a task', potential),
+    format(Out, 'unset key; set xlabel "visits" tc rgb "#333333"~n', []),
+    panel(Out, Name, Curves, 0.440-0.085, 3, '0:*',
+          'b  Size of the reward or penalty', 'θ'),
+    format(Out, 'unset multiplot~n', []).
+
+heading(Out, Title, Rewards) :-
     atomic_list_concat(Rewards, ', ', Text),
     format(Out, 'set multiplot~n\c
 set label 1 "{/:Bold=15 ~w}" at screen 0.085,0.968~n\c
 set label 2 "{/*0.9 Calculated: θ(0) = 15, ω = 15, P_{max} = 100; \c
 rewards at the visits ~w (grey), penalties at all others}" \c
-at screen 0.085,0.935 tc rgb "#555555"~n\c
-set border 3 lc rgb "#888888"~n\c
+at screen 0.085,0.935 tc rgb "#555555"~n', [Title, Text]),
+    format(Out, 'set border 3 lc rgb "#888888"~n\c
 set tics nomirror out scale 0.6 tc rgb "#333333"~n\c
 set grid ytics lc rgb "#e4e4e4" lt 1 lw 1~n\c
 set lmargin at screen 0.085; set rmargin at screen 0.975~n\c
-set xrange [0:*]~n', [Title, Text]),
-    forall(nth1(I, Rewards, Step),
-           ( Tag is 10 + I,
-             format(Out, 'set arrow ~d from ~w,graph 0 to ~w,graph 1 \c
-nohead lw 3 lc rgb "#dddddd" back~n', [Tag, Step, Step]) )),
-    panel(Out, Name, Curves, 0.865-0.530, 2, '0:110',
-          'a  Potential P of a task', potential),
-    format(Out, 'set xlabel "visits (steps)" tc rgb "#333333"~n', []),
-    panel(Out, Name, Curves, 0.455-0.085, 3, '0:*',
-          'b  Reward or penalty θ', 'θ'),
-    format(Out, 'unset multiplot~n', []).
+set xrange [0:*]~n', []).
+
+mark_reward(Out, I, Step) :-
+    format(Out, 'set arrow ~d from ~w,graph 0 to ~w,graph 1 \c
+nohead lw 3 lc rgb "#dddddd" back~n', [I, Step, Step]).
 
 panel(Out, Name, Curves, Top-Bottom, Column, Range, Title, Label) :-
     TitleY is Top + 0.025,
