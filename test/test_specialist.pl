@@ -314,8 +314,55 @@ check_life(Dir) :-
     aggregate_all(count, member(event(_, _, _, state(death)), Events), Dead),
     aggregate_all(count, member(event(_, _, _, cloned), Events), Dead).
 
+%   Three hosts in this process.
+
+furnished(Goal) :-
+    setup_call_cleanup(
+        network_start(ring(3), Network, [clock(20), log('/dev/null')]),
+        ( network_property(Network, hosts(Hosts)),
+          call(Goal, Hosts)
+        ),
+        network_stop(Network)).
+
+loads(Hosts, Loads) :-
+    findall(Load, ( member(Host, Hosts), remote(Host, host_load(Load)) ),
+            Loads).
+
+%   A queue for all, a worker for each sequence.
+
+two_sequences(Loads, Hosts) :-
+    Hosts = [Host|_],
+    population_start(house, Hosts, [], [], []),
+    population_start(boat, [Host], [], [], []),
+    population_start(house, Hosts, [], [], []),
+    loads(Hosts, Loads).
+
+start_at(Properties, Hosts) :-
+    Hosts = [A, _, C],
+    population_start(house, Hosts, [floor-true, walls-true, roof-true],
+                     [starts([C, A])], Agents),
+    findall(Name-Place, ( member(Agent, Agents),
+                          born(Agent, Hosts, Name, Place) ),
+            Properties),
+    maplist(agent_dispose, Agents).
+
+born(Agent, Hosts, Name, Place) :-
+    agent_property(Agent, home(Home)),
+    nth1(Place, Hosts, Home),
+    sub_atom(Agent, Dot, _, _, '.'),
+    !,
+    sub_atom(Agent, 0, Dot, _, Name).
+
 :- begin_tests(population).
 
+test(queue_and_worker_once, Loads == [3, 2, 2]) :-
+    furnished(two_sequences(Loads)).
+test(start_where_told, Places == [agent1-3, agent2-1, agent3-3]) :-
+    furnished(start_at(Places)).
+test(no_tasks, error(type_error(pair, floor))) :-
+    population_start(house, [], [floor], [], _).
+test(nowhere_to_start, error(domain_error(hosts, []))) :-
+    population_start(house, [], [floor-true], [], _).
 test(lives_and_heals) :-
     with_tmp_dir([Dir]>>( on_network(whole_life, Dir), check_life(Dir) )).
 

@@ -6,8 +6,8 @@
               [agent_create/3, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/5]).
-:- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [member/2, nth0/4, nth1/3, numlist/3]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2, nth0/4, nth1/3]).
 :- use_module(library(option), [option/2, option/3]).
 
 /** <module> Starting a population of specialists
@@ -39,8 +39,8 @@ cookie, whoever started the hosts.
 %   For no more than q_th agents in a queue the hosts must have been started
 %   with the capacity q_th + 2, for the queue and the worker.
 %
-%   @error type_error(list, X), existence_error(host, Host),
-%   host_unreachable(Host)
+%   @error type_error(list, X), type_error(pair, X), domain_error(hosts, []),
+%   existence_error(host, Host), host_unreachable(Host)
 
 population_start(Sequence, Hosts, Tasks, Options, Agents) :-
     must_be(atomic, Sequence),
@@ -50,7 +50,7 @@ population_start(Sequence, Hosts, Tasks, Options, Agents) :-
     length(Tasks, Count),
     starts(Options, Count, Hosts, Starts),
     findall(Facts, kind(Sequence, Tasks, Options, Facts), Kinds),
-    numlist(1, Count, Numbers),
+    findall(Number, between(1, Count, Number), Numbers),
     maplist(create, Numbers, Kinds, Starts, Agents),
     forall(member(Agent, Agents), agent_send(Agent, begin)).
 
@@ -108,9 +108,11 @@ starts(Options, Count, Hosts, Starts) :-
 
 %   When no host is free any more all are free again.
 
+start([], _, _, _) :-
+    !,
+    domain_error(hosts, []).
 start(Hosts, Start, []-Draw0, State) :-
     !,
-    Hosts = [_|_],
     start(Hosts, Start, Hosts-Draw0, State).
 start(_, Start, [Start|Free]-first, Free-first) :-
     !.
