@@ -78,28 +78,34 @@ median(Numbers, Median) :-
 %   single runs; a third one the marked point.  Series stand a little
 %   beside each other, so that their bars can be told apart.
 
-save_series(Directory, Name, Xs, P, S, Series, series(_, _, Points, Mark)) :-
+save_series(Directory, Name, Xs, P, S, Series, One) :-
     shift(Xs, S, Series, Shift),
-    findall([X, Median, Least, Most],
-            ( member(X0-Values, Points),
-              median(Values, Median),
-              min_list(Values, Least),
-              max_list(Values, Most),
-              X is X0 + Shift
-            ),
-            Summary),
-    findall([X, Value, 0, 0],
-            ( member(X0-Values, Points), member(Value, Values),
-              X is X0 + Shift ),
-            Runs),
-    findall([X, Median, 0, 0],
-            ( number(Mark), member(X0-Values, Points), X0 =:= Mark,
-              median(Values, Median), X is X0 + Shift ),
-            Marked),
+    findall(Row, summary_row(One, Shift, Row), Summary),
+    findall(Row, run_row(One, Shift, Row), Runs),
+    findall(Row, marked_row(One, Shift, Row), Marked),
     data_name(Name, P, S, File0),
     directory_file_path(Directory, File0, File),
     append([Summary, [gap, gap], Runs, [gap, gap], Marked], Rows),
     save_columns(File, Rows).
+
+summary_row(series(_, _, Points, _), Shift, [X, Median, Least, Most]) :-
+    member(X0-Values, Points),
+    median(Values, Median),
+    min_list(Values, Least),
+    max_list(Values, Most),
+    X is X0 + Shift.
+
+run_row(series(_, _, Points, _), Shift, [X, Value, 0, 0]) :-
+    member(X0-Values, Points),
+    member(Value, Values),
+    X is X0 + Shift.
+
+marked_row(series(_, _, Points, Mark), Shift, [X, Median, 0, 0]) :-
+    number(Mark),
+    member(X0-Values, Points),
+    X0 =:= Mark,
+    median(Values, Median),
+    X is X0 + Shift.
 
 shift(Xs, S, Series, Shift) :-
     Xs = [First|_],

@@ -6,7 +6,7 @@
                                         % -Measures
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [partition/4]).
+:- use_module(library(apply), [include/3, partition/4]).
 :- use_module(library(lists),
               [last/2, max_list/2, max_member/2, member/2, memberchk/2]).
 
@@ -76,25 +76,28 @@ healing(_, [], _, []) :-
 healing(Executions, Failures, Steps, Measures) :-
     Failures = [failure(From, _, _)|_],
     last(Failures, failure(Last, _, _)),
-    findall(F, ( member(F, Failures), was_completed(Executions, F) ), Lost),
+    include(was_completed(Executions), Failures, Lost),
     length(Lost, LostCount),
     aggregate_all(count, distinct_host(Lost), Hosts),
     findall(End, redone_at(Executions, Lost, End), Ends),
     length(Ends, Redone),
     max_list([Last|Ends], Healed),
-    aggregate_all(count,
-                  ( member(E, Executions),
-                    E = execution(_, _, Start, _),
-                    Start > Last, Start < Healed,
-                    \+ redone(Failures, E)
-                  ),
-                  Meanwhile),
+    meanwhile(Executions, Failures, Last, Healed, Meanwhile),
     tau_between(Steps, Last, Healed, HealingTau),
     tau_between(Steps, Healed, inf, LaterTau),
     Measures = [ failed_at(From), lost(LostCount), lost_hosts(Hosts),
                  redone(Redone), healed_at(Healed), meanwhile(Meanwhile),
                  healing_tau(HealingTau), later_tau(LaterTau)
                ].
+
+meanwhile(Executions, Failures, From, To, Count) :-
+    aggregate_all(count,
+                  ( member(E, Executions),
+                    E = execution(_, _, Start, _),
+                    Start > From, Start < To,
+                    \+ redone(Failures, E)
+                  ),
+                  Count).
 
 was_completed(Executions, failure(Time, Host, Task)) :-
     member(execution(Task, Host, _, End), Executions),
