@@ -212,6 +212,8 @@ test(first_clause, Action == left) :-
                         [free(left),goal(right)], Action).
 test(no_clause, Action == forward) :-
     maze:program_answer([(right :- wall(left))], [free(left)], Action).
+test(a_bump_costs_a_step, [ Robot == robot(1, 1, 1/0, forward), nondet ]) :-
+    maze:robot_does(forward, robot(1, 1, 1/0, left), [wall(ahead)], Robot).
 test(ends_in_time, Result-Xi == (!)-0) :-
     program(spins, Program),
     call_with_inference_limit(maze:feedback(box(left), Program, Xi),
