@@ -1,0 +1,226 @@
+:- agent(guard, [state([setting/2, application/1, chance/1, cells/1])]).
+:- include(parameters).
+:- include(idiotypic).
+
+/*  The guard of a host, which does not move.  Told attack(Antigen), it
+    emits a danger signal, gathers the antibodies that come, different ones
+    only, has one of them neutralize the antigen, and lets all of them
+    stimulate and suppress each other (thesis section 3.4).  Where none
+    comes it makes one itself, at random, and releases it as a new agent.
+    Attacks are met one after the other.
+
+    Facts: application(Spec), the payload for new agents, which the guard
+    carries, too; cells(Count), how many memory cells it has appointed.
+
+    On the host: guard(Id); attacked(Attack, Id) while offers are taken.  An
+    attack is attack(Antigen, Host, Number), which is also the problem of
+    its danger signal: so each agent follows only those it wants.
+*/
+
+main :-
+    self(Me),
+    seed(Seed),
+    typhon_chance:chance_seed(Seed, Chance),
+    assertz(chance(Chance)),
+    assertz(cells(0)),
+    leave(guard(Me)),
+    watch(1).
+
+seed(Seed) :-
+    parameter(seed, Seed0),
+    here(Host),
+    atomic_list_concat([Name|_], @, Host),
+    (   integer(Seed0)
+    ->  term_hash(Seed0-Name, Seed)
+    ;   Seed is random(1<<30)
+    ).
+
+watch(Number) :-
+    receive(From-What),
+    watch(What, From, Number).
+
+watch(attack(Antigen), _, Number) :-
+    !,
+    here(Host),
+    Attack = attack(Antigen, Host, Number),
+    log(attacked(Antigen)),
+    now(Begin),
+    call_for_help(Attack, Offers),
+    settle(Offers, Attack, Begin),
+    Number1 is Number + 1,
+    watch(Number1).
+watch(offer(Attack, _, _, _, _), From, Number) :-
+    !,
+    send(From, reply(Attack, over)),
+    watch(Number).
+watch(_, _, Number) :-
+    watch(Number).
+
+                /*******************************
+                *            OFFERS            *
+                *******************************/
+
+%   call_for_help(+Attack, -Offers): Offers are Agent-Offer.
+
+call_for_help(Attack, Offers) :-
+    self(Me),
+    leave(attacked(Attack, Me)),
+    parameter(calls, Calls),
+    call_for_help(Calls, Attack, Offers),
+    ignore(take(attacked(Attack, Me))),
+    withdraw(Attack).
+
+call_for_help(0, _, Offers) :-
+    !,
+    Offers = [].
+call_for_help(Calls, Attack, Offers) :-
+    parameter(span, Span),
+    parameter(patience, Patience),
+    Period is Patience/Span,
+    emit(Attack, [span(Span), period(Period)]),
+    (   receive(Agent-offer(Attack, Antibody, Gamma, Memory, Wins), Patience)
+    ->  now(Now),
+        parameter(gather, Gather),
+        Until is Now + Gather,
+        Offer = offer(Attack, Antibody, Gamma, Memory, Wins),
+        gather(Attack, Until, [Agent-Offer], Offers)
+    ;   Calls1 is Calls - 1,
+        call_for_help(Calls1, Attack, Offers)
+    ).
+
+gather(Attack, Until, Offers0, Offers) :-
+    now(Now),
+    Left is max(0, Until - Now),
+    (   receive(Agent-offer(Attack, Antibody, Gamma, Memory, Wins), Left)
+    ->  Offer = offer(Attack, Antibody, Gamma, Memory, Wins),
+        admit(Agent, Offer, Offers0, Offers1),
+        gather(Attack, Until, Offers1, Offers)
+    ;   Offers = Offers0
+    ).
+
+admit(Agent, offer(Attack, Antibody, _, _, _), Offers, Offers) :-
+    memberchk(_-offer(_, Antibody, _, _, _), Offers),
+    !,
+    send(Agent, reply(Attack, redundant)).
+admit(Agent, Offer, Offers, [Agent-Offer|Offers]).
+
+                /*******************************
+                *            SERVICE           *
+                *******************************/
+
+settle([], Attack, Begin) :-
+    !,
+    generate(Attack, Begin).
+settle(Offers, Attack, Begin) :-
+    Attack = attack(Antigen, _, _),
+    select_one(Offers, Antigen, Winner),
+    memberchk(Winner-offer(_, Antibody, _, _, _), Offers),
+    feedback(Antigen, Antibody, Xi),
+    now(Now),
+    Wait is Now - Begin,
+    length(Offers, Kinds),
+    log(served(Antigen, Antibody, Wait, Kinds)),
+    cells(Offers, Winner, Antigen, Xi, Cells),
+    parameter(reading, Reading),
+    parameter(kt, Kt),
+    parameter(ku, Ku),
+    interaction(Reading, Antigen, Kt-Ku, Cells, Gammas),
+    tell(Offers, Cells, Gammas, Winner).
+
+select_one(Offers, Antigen, Winner) :-
+    findall(Psi-Agent,
+            ( member(Agent-offer(_, Antibody, _, _, _), Offers),
+              affinity(Antigen, Antibody, Psi) ),
+            Weighted),
+    retract(chance(Chance0)),
+    typhon_chance:chance_float(Turn, Chance0, Chance),
+    assertz(chance(Chance)),
+    roulette(Weighted, Turn, Winner).
+
+%   What the agents know and how they are when they begin to interact.
+
+cells([], _, _, _, []).
+cells([Agent-offer(_, _, Gamma0, Memory0, _)|Offers], Winner, Antigen, Xi,
+      [cell(Agent, Gamma, Memory)|Cells]) :-
+    (   Agent == Winner
+    ->  parameter(alpha, Alpha),
+        parameter(beta, Beta),
+        squashed(Xi, Alpha, Beta, Squashed),
+        stimulated(Gamma0, Squashed, Gamma),
+        learnt(Memory0, Antigen, Xi, Memory)
+    ;   Gamma = Gamma0,
+        Memory = Memory0
+    ),
+    cells(Offers, Winner, Antigen, Xi, Cells).
+
+tell([], [], [], _).
+tell([Agent-Offer|Offers], [cell(_, _, Memory)|Cells], [Gamma|Gammas],
+     Winner) :-
+    Offer = offer(Attack, _, _, _, Wins0),
+    (   Agent == Winner
+    ->  Wins is Wins0 + 1,
+        appoint(Wins, Cell)
+    ;   Wins = Wins0,
+        Cell = false
+    ),
+    send(Agent, reply(Attack, outcome(Gamma, Memory, Wins, Cell))),
+    tell(Offers, Cells, Gammas, Winner).
+
+%   As a host appoints so many and no more, there are never more memory
+%   cells than that for each host.
+
+appoint(Wins, true) :-
+    parameter(memory_wins, Enough),
+    Wins >= Enough,
+    parameter(memory_cells, Most),
+    cells(Count),
+    Count < Most,
+    !,
+    Count1 is Count + 1,
+    retractall(cells(_)),
+    assertz(cells(Count1)).
+appoint(_, false).
+
+                /*******************************
+                *          GENERATION          *
+                *******************************/
+
+%   What is found at random neutralizes the antigen, and goes out to do so
+%   elsewhere.
+
+generate(attack(Antigen, Host, _), Begin) :-
+    retract(chance(Chance0)),
+    suitable(Antigen, Antibody, Chance0, Chance),
+    assertz(chance(Chance)),
+    feedback(Antigen, Antibody, Xi),
+    now(Now),
+    Wait is Now - Begin,
+    log(generated(Antigen, Antibody, Wait)),
+    release(Host, Antibody, [Antigen-Xi]).
+
+suitable(Antigen, Antibody, Chance0, Chance) :-
+    random_antibody(Chance0, Antibody0, Chance1),
+    affinity(Antigen, Antibody0, Psi),
+    affinity_threshold(Threshold),
+    (   Psi >= Threshold
+    ->  Antibody = Antibody0,
+        Chance = Chance1
+    ;   suitable(Antigen, Antibody, Chance1, Chance)
+    ).
+
+release(Host, Antibody, Memory) :-
+    application(Application),
+    parameter(gamma, Gamma),
+    findall(setting(Name, Value), setting(Name, Value), Settings),
+    catch(( typhon:agent_create(agents(sieve/antibody), _,
+                                [ host(Host), payloads([Application]),
+                                  facts([ antibody(Antibody), gamma(Gamma),
+                                          memory(Memory), wins(0),
+                                          expiry(inf), shunned([])
+                                        | Settings
+                                        ])
+                                ]),
+            log(born(host, Antibody))
+          ),
+          error(move_refused(_, Reason), _),
+          log(not_released(Reason, Antibody))).

@@ -1,0 +1,95 @@
+:- module(sieve_operator,
+          [ sieve_start/3,              % +Hosts, +Application, +Options
+            antigen_attack/2,           % +Hosts, +Antigen
+            antibody_release/5          % +Host, +Application, +Antibody,
+                                        % +Options, -Agent
+          ]).
+:- use_module('../../prolog/typhon',
+              [agent_create/3, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/paths', []).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
+
+/** <module> The idiotypic sieve, as seen from outside
+
+Puts guards on hosts, and attacks these with antigens (thesis chapter 3).
+Antibodies the hosts make themselves.  Hosts are addresses, so all this works
+from any process that holds the cookie, whoever started the hosts.
+
+An application is a payload file, as payloads(sieve/bits), that provides
+
+  - affinity(+Antigen, +Antibody, -Psi), affinity_threshold(-Gamma)
+    A number, and from which on an antibody can neutralize the antigen.
+  - feedback(+Antigen, +Antibody, -Xi)
+    How well it did: the argument of equation 3.2.
+  - random_antibody(+Chance0, -Antibody, -Chance)
+    Drawn by typhon_chance.
+  - similar(+Antigen, +Other)
+    May be missing; then antigens that differ are not similar.
+
+*Threading*: any thread; no state.
+*/
+
+%!  sieve_start(+Hosts, +Application, +Options) is det.
+%
+%   Hosts get a guard that knows Application, where they have none.
+%   Options: settings(Pairs), Name-Value, to replace what parameters.pl has
+%   as a default, for the guards and all antibodies they release.
+%
+%   @error type_error(list, X), existence_error(host, Host),
+%   host_unreachable(Host)
+
+sieve_start(Hosts, Application, Options) :-
+    must_be(list(atom), Hosts),
+    settings(Options, Settings),
+    maplist(guarded(Application, Settings), Hosts).
+
+guarded(_, _, Host) :-
+    remote(Host, sense(guard(_))),
+    !.
+guarded(Application, Settings, Host) :-
+    agent_create(agents(sieve/guard), _,
+                 [ host(Host), static(true), payloads([Application]),
+                   facts([application(Application)|Settings])
+                 ]).
+
+settings(Options, Settings) :-
+    option(settings(Pairs), Options, []),
+    must_be(list(pair), Pairs),
+    findall(setting(Name, Value), member(Name-Value, Pairs), Settings).
+
+%!  antigen_attack(+Hosts, +Antigen) is det.
+%
+%   Antigen, a ground term, attacks each of Hosts.  A host that is under
+%   attack meets this one afterwards.
+%
+%   @error existence_error(guard, Host), host_unreachable(Host)
+
+antigen_attack(Hosts, Antigen) :-
+    must_be(list(atom), Hosts),
+    must_be(ground, Antigen),
+    maplist(attack(Antigen), Hosts).
+
+attack(Antigen, Host) :-
+    (   remote(Host, sense(guard(Guard)))
+    ->  agent_send(Guard, attack(Antigen))
+    ;   existence_error(guard, Host)
+    ).
+
+%!  antibody_release(+Host, +Application, +Antibody, +Options, -Agent)
+%!      is det.
+%
+%   Agent, at Host, carries Antibody, and has never met an antigen.  Options
+%   are those of sieve_start/3.
+
+antibody_release(Host, Application, Antibody, Options, Agent) :-
+    settings(Options, Settings),
+    agent_create(agents(sieve/antibody), Agent,
+                 [ host(Host), payloads([Application]),
+                   facts([ antibody(Antibody), gamma(1.0), memory([]),
+                           wins(0), expiry(inf), shunned([])
+                         | Settings
+                         ])
+                 ]).

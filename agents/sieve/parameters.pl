@@ -1,0 +1,30 @@
+/*  The parameters of the sieve (thesis section 3.6).  Included in the
+    programs that need them; facts setting(Name, Value) replace the defaults.
+
+    What the thesis does not print: gamma, with which an endurance potential
+    starts, is the middle between its thresholds; and all from `reading` on.
+*/
+
+default(gamma_max, 1.5).        % above it an agent clones
+default(gamma_min, 0.5).        % below it an agent dies
+default(alpha, 10).             % of equation 3.2
+default(beta, 0.5).
+default(kt, 0.5).               % of equation 3.4
+default(ku, 0.5).               % of equation 3.5
+default(omega, 1000).           % hops a clone lives
+default(gamma, 1.0).
+default(reading, similar).      % see idiotypic.pl
+default(span, 3).               % hops a danger signal spreads
+default(patience, 6).           % seconds until it has died down
+default(calls, 1).              % so often it is emitted
+default(gather, 3).             % seconds from the first offer to the choice
+default(crowd, 12).             % so many agents are too many for a clone
+default(memory_cells, 0).       % so many may a host appoint
+default(memory_wins, 3).        % after so many wins
+default(seed, random).
+
+parameter(Name, Value) :-
+    (   setting(Name, Value0)
+    ->  Value = Value0
+    ;   default(Name, Value)
+    ).
