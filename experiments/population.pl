@@ -248,6 +248,12 @@ collect(Out, Size-Jobs, Size-Results) :-
 tell(Out, Options, Groups0) :-
     findall(Size-Results, ( member(Size-Results, Groups0), Results \== [] ),
             Groups),
+    (   Groups == []
+    ->  halt(1)
+    ;   tell_groups(Out, Options, Groups)
+    ).
+
+tell_groups(Out, Options, Groups) :-
     forall(member(Size-Results, Groups),
            ( print_runs(user_output, Results),
              save_figure(Out, Options, Size, Results) )),
