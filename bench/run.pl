@@ -42,6 +42,7 @@ job(hops, [taskset, '-c', '0'], one_each).
 job(messages, [env], unpinned).
 job(hosts, [env], unpinned).
 job(population, [env], unpinned).
+job(phercon, [env], 3).
 job(sync, [env], unpinned).
 
 figure_of(Script, Prefix, Argument, row(Name, Value, Unit, Note)) :-
