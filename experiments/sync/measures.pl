@@ -82,18 +82,5 @@ column(Result, N, Cells) :-
     memberchk(rows(Rows), Result),
     maplist(arg(N), Rows, Cells).
 
-first_second(Executions), Tasks, Bursts),
-    findall(Gap, ( member(task(_, _, _, _, _, Gap), Rows), number(Gap) ),
-            Gaps),
-    findall(T, member(task(_, T, _, _, _, _), Rows), Starts),
-    findall(T, member(task(_, _, T, _, _, _), Rows), LastStarts),
-    findall(T, member(task(_, _, _, T, _, _), Rows), Ends),
-    append([ idle(Idle), overlaps(Overlaps), tau(Tau), total(Total),
-             real_time(Wall), executions(Count), out_of_order(WrongCount),
-             ended(Ended), agents(Agents), bursts(Bursts), gaps(Gaps),
-             starts(Starts), last_starts(LastStarts), ends(Ends)
-           ],
-           Healing, Measures).
-
 first_second(Executions, Task, Count) :-
     burst(Task, 1, Executions, Count).
