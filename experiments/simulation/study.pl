@@ -46,7 +46,8 @@ study_point(spread, [topology(Topology), delta(Delta), hop_time(Hop)]) :-
     member(Hop, [0.45-0.45, 0.3-0.6, 0.01-0.89]).
 study_point(readings, [reading(Reading), topology(Topology), delta(Delta)]) :-
     member(Reading, [ chosen, over_window, inside(0.5), inside(10), signed ]),
-    static(_, Topology, _),
+    member(Name, ['star-bus', grid]),
+    static(Name, Topology, _),
     member(Delta, [0.2, 1.0]).
 study_point(service, [service(Service), topology(Topology), delta(Delta)]) :-
     member(Service, [exclusive, printed]),
