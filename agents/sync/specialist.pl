@@ -1,5 +1,5 @@
 :- agent(specialist, [state([sequence/1, task/2, previous/1, mood/1, psi/1,
-                             history/1])]).
+                             history/1, start/1])]).
 :- include('../population/cloning').
 :- include(stimulation).
 
@@ -34,8 +34,6 @@ main :-
     turn_to(dormant),
     log(begun),
     live.
-
-:- dynamic start/1.
 
 await_order :-
     parameter(start, order),
