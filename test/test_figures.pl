@@ -88,8 +88,9 @@ test(cascaded, After == [execution(1, a, 9, 10), execution(1, b, 9, 10)]) :-
            [ execution(1, a, 0, 1), execution(2, b, 7.5, 8),
              execution(1, a, 9, 10), execution(1, b, 9, 10) ],
            [failure(7, a, 1), failure(8, b, 1)], [_, After]).
-test(measures, Measures == [ failed_at(7), lost(1), lost_hosts(1), redone(1),
-                             healed_at(9), meanwhile(0), healing_tau(3),
+test(measures, Measures == [ failed_at(7), failed_by(7), lost(1),
+                             lost_hosts(1), redone(1), healed_at(9),
+                             meanwhile(0), healing_tau(3),
                              later_tau(2) ]) :-
     wounded(Es),
     healing(Es, [failure(7, b, 1)], [0-1, 7-3, 9-2], Measures).

@@ -62,7 +62,7 @@ redone(Failures, execution(Task, Host, Start, _)) :-
 %
 %   Measures is a list of Name(Value); empty without failures:
 %
-%     - failed_at(Time): of the first failure
+%     - failed_at(Time), failed_by(Time): of the first and last failure
 %     - lost(Count): completed tasks that were lost, and by how many
 %       hosts(Count)
 %     - redone(Count): so many of them were executed again
@@ -85,9 +85,10 @@ healing(Executions, Failures, Steps, Measures) :-
     meanwhile(Executions, Failures, Last, Healed, Meanwhile),
     tau_between(Steps, Last, Healed, HealingTau),
     tau_between(Steps, Healed, inf, LaterTau),
-    Measures = [ failed_at(From), lost(LostCount), lost_hosts(Hosts),
-                 redone(Redone), healed_at(Healed), meanwhile(Meanwhile),
-                 healing_tau(HealingTau), later_tau(LaterTau)
+    Measures = [ failed_at(From), failed_by(Last), lost(LostCount),
+                 lost_hosts(Hosts), redone(Redone), healed_at(Healed),
+                 meanwhile(Meanwhile), healing_tau(HealingTau),
+                 later_tau(LaterTau)
                ].
 
 meanwhile(Executions, Failures, From, To, Count) :-

@@ -22,6 +22,7 @@
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [append/2, last/2, member/2, nth0/4, numlist/3]).
 :- use_module(library(option), [option/2]).
+:- use_module(library(thread), [concurrent_forall/3]).
 
 /** <module> One run of synchronised execution of tasks
 
@@ -148,10 +149,17 @@ inject(Failure, Begun, Hosts, Options, none) :-
     fail_at(Kind, Task, Drawn).
 inject(Failure, _, _, _, Failure).
 
-fail_at(atomic, Task, Hosts) :-
-    task_fail(main, Task, Hosts, _).
-fail_at(cascaded, Task, Hosts) :-
-    tasks_fail(main, Task, Hosts, _).
+%   All at nearly the same time: while one host after the other fails, the
+%   agents would already be healing.
+
+fail_at(Kind, Task, Hosts) :-
+    concurrent_forall(member(Host, Hosts), fail_host(Kind, Task, Host),
+                      [threads(8)]).
+
+fail_host(atomic, Task, Host) :-
+    task_fail(main, Task, [Host], _).
+fail_host(cascaded, Task, Host) :-
+    tasks_fail(main, Task, [Host], _).
 
 drawn(Count, Hosts, Chance0, [Host|Drawn]) :-
     Count > 0,
