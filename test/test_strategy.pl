@@ -80,6 +80,24 @@ test(probability_moves_nothing_else, C1 == C2) :-
     chance_seed(3, C0),
     chance_true(0, false, C0, C1),
     chance_true(1, true, C0, C2).
+test(sample_is_without_repetition, Sorted == [a, b, c, d]) :-
+    forall(between(1, 20, Seed),
+           ( chance_seed(Seed, C),
+             chance_sample(3, [a, b, c, d], Sample, C, _),
+             sort(Sample, Set),
+             length(Set, 3) )),
+    chance_seed(1, C0),
+    chance_sample(4, [a, b, c, d], All, C0, _),
+    sort(All, Sorted).
+test(sample_larger_than_the_list, Counts == [1, 2, 2]) :-
+    chance_seed(4, C0),
+    chance_sample(5, [a, b, c], Sample, C0, _),
+    findall(N, ( member(X, [a, b, c]),
+                 aggregate_all(count, member(X, Sample), N) ), Ns),
+    msort(Ns, Counts).
+test(sample_of_nothing, fail) :-
+    chance_seed(4, C0),
+    chance_sample(1, [], _, C0, _).
 test(nothing_to_choose_from, fail) :-
     chance_seed(3, C0),
     chance_member(_, [], C0, _).

@@ -4,11 +4,11 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
-:- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/5]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(lists), [member/2, nth0/4, nth1/3]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module('../starts', [starts/4]).
+:- use_module(library(apply), [maplist/2, maplist/4]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2, nth1/3]).
+:- use_module(library(option), [option/3]).
 
 /** <module> Starting a population of specialists
 
@@ -27,11 +27,8 @@ cookie, whoever started the hosts.
 %   kind, in the order of the tasks, named agent1, agent2 ... as all their
 %   clones will be; they begin at the same time.  Options:
 %
-%     - starts(Hosts)
-%       Where they start.
-%     - seed(Seed)
-%       Without starts(_) the hosts are drawn, different ones as long as
-%       there are any, by this integer; default 1.
+%     - starts(Hosts), seed(Seed)
+%       Where they start, see starts/4.
 %     - settings(List)
 %       Pairs Name-Value for the agents: see the programs specialist.pl and
 %       cloning.pl.
@@ -48,7 +45,7 @@ population_start(Sequence, Hosts, Tasks, Options, Agents) :-
     must_be(list(pair), Tasks),
     maplist(furnish(Sequence), Hosts),
     length(Tasks, Count),
-    starts(Options, Count, Hosts, Starts),
+    starts(Count, Hosts, Options, Starts),
     findall(Facts, kind(Sequence, Tasks, Options, Facts), Kinds),
     findall(Number, between(1, Count, Number), Numbers),
     maplist(create, Numbers, Kinds, Starts, Agents),
@@ -89,34 +86,3 @@ create(Number, Facts, Host, Agent) :-
     atom_concat(agent, Number, Name),
     agent_create(agents(sync/specialist), Agent,
                  [name(Name), host(Host), facts(Facts)]).
-
-                /*******************************
-                *         WHERE TO START       *
-                *******************************/
-
-starts(Options, Count, Hosts, Starts) :-
-    (   option(starts(Given), Options)
-    ->  Free = Given,
-        Draw = first
-    ;   option(seed(Seed), Options, 1),
-        chance_seed(Seed, Chance),
-        Free = Hosts,
-        Draw = Chance
-    ),
-    length(Starts, Count),
-    foldl(start(Free), Starts, Free-Draw, _).
-
-%   When no host is free any more all are free again.
-
-start([], _, _, _) :-
-    !,
-    domain_error(hosts, []).
-start(Hosts, Start, []-Draw0, State) :-
-    !,
-    start(Hosts, Start, Hosts-Draw0, State).
-start(_, Start, [Start|Free]-first, Free-first) :-
-    !.
-start(_, Start, Free0-Chance0, Free-Chance) :-
-    length(Free0, N),
-    chance_below(N, Index, Chance0, Chance),
-    nth0(Index, Free0, Start, Free).

@@ -7,16 +7,15 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
-:- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
 :- use_module('../../prolog/typhon/paths', []).
+:- use_module('../starts', [starts/4]).
 :- use_module(library(apply), [foldl/4, include/3, maplist/2, maplist/3]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists),
-              [append/3, max_member/2, member/2, memberchk/2, nth0/4]).
+              [append/3, max_member/2, member/2, memberchk/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(pairs), [pairs_keys/2, pairs_keys_values/3]).
-:- use_module(library(random), [random_between/3]).
 
 /** <module> Sequences of tasks, as seen by who wants them done
 
@@ -43,9 +42,7 @@ host, and may stop, as in sleep(1).
 %
 %     - agents(+Count): how many agents; default 10, or one on each of
 %       `starts`
-%     - starts(+Hosts): where they start, in turn; default hosts drawn from
-%       Hosts, different ones as long as there are any
-%     - seed(+Integer): for drawing; default at random
+%     - starts(+Hosts), seed(+Integer): where they start, see starts/4
 %     - settings(+Pairs): Name-Value, to replace what traveller.pl has as
 %       the default of `delta`, `theta`, `maximum`, `window`, `patience`
 %
@@ -59,7 +56,8 @@ sequence_start(Sequence, Hosts, Tasks, Options, Agents) :-
     must_be(list(atom), Hosts),
     check_tasks(Tasks),
     traveller_facts(Options, Settings),
-    starts(Options, Hosts, Starts),
+    count(Options, Count),
+    starts(Count, Hosts, Options, Starts),
     version(Sequence, Hosts, Tasks, Version),
     Plan = plan(Sequence, Version, Tasks),
     maplist(take_part(Plan), Hosts),
@@ -114,45 +112,16 @@ setting_fact(Name-Value, setting(Name, Value)) :-
 setting_fact(Setting, _) :-
     domain_error(setting, Setting).
 
-starts(Options, _, Starts) :-
-    option(starts(Given), Options),
-    !,
-    must_be(list(atom), Given),
-    length(Given, Default),
-    option(agents(Count), Options, Default),
-    in_turn(Count, Given, Given, Starts).
-starts(Options, Hosts, Starts) :-
-    option(agents(Count), Options, 10),
-    (   option(seed(Seed), Options)
-    ->  true
-    ;   random_between(1, 0x3fffffff, Seed)
+%   One on each of `starts`, if these are given and their number is not.
+
+count(Options, Count) :-
+    option(starts(Given), Options, []),
+    (   Given = [_|_],
+        is_list(Given)
+    ->  length(Given, Default)
+    ;   Default = 10
     ),
-    chance_seed(Seed, Chance),
-    drawn(Count, Hosts, Hosts, Chance, Starts).
-
-in_turn(0, _, _, []) :-
-    !.
-in_turn(Count, [], Hosts, Starts) :-
-    !,
-    in_turn(Count, Hosts, Hosts, Starts).
-in_turn(Count, [Host|Free], Hosts, [Host|Starts]) :-
-    Count1 is Count - 1,
-    in_turn(Count1, Free, Hosts, Starts).
-
-%   drawn(+Count, +Free, +Hosts, +Chance, -Starts): when no host is free
-%   any more all are free again.
-
-drawn(0, _, _, _, []) :-
-    !.
-drawn(Count, [], Hosts, Chance, Starts) :-
-    !,
-    drawn(Count, Hosts, Hosts, Chance, Starts).
-drawn(Count, Free0, Hosts, Chance0, [Host|Starts]) :-
-    length(Free0, N),
-    chance_below(N, Index, Chance0, Chance),
-    nth0(Index, Free0, Host, Free),
-    Count1 is Count - 1,
-    drawn(Count1, Free, Hosts, Chance, Starts).
+    option(agents(Count), Options, Default).
 
                 /*******************************
                 *            CHANGES           *

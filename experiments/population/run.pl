@@ -7,7 +7,7 @@
               [ agent_dispose/1, log_events/2, network_property/2,
                 network_start/3, network_stop/1
               ]).
-:- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
+:- use_module('../../prolog/typhon/chance', [chance_sample/5, chance_seed/2]).
 :- use_module('../lib/follow', [new_lines/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
 :- use_module('../sync/metrics',
@@ -21,7 +21,7 @@
 :- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [last/2, member/2, nth0/4, numlist/3]).
+:- use_module(library(lists), [last/2, member/2, numlist/3]).
 :- use_module(library(option), [option/2]).
 
 /** <module> One run of a population of specialists
@@ -171,20 +171,9 @@ crash(due, State, Hosts, Options, done) :-
     option(crash(Size), Options),
     option(seed(Seed), Options),
     chance_seed(Seed, Chance),
-    drawn(Size, Hosts, Chance, Victims),
+    chance_sample(Size, Hosts, Victims, Chance, _),
     task_fail(main, 2, Victims, _).
 crash(Due, _, _, _, Due).
-
-drawn(0, _, _, []) :-
-    !.
-drawn(_, [], _, []) :-
-    !.
-drawn(Size, Hosts0, Chance0, [Host|Drawn]) :-
-    length(Hosts0, Count),
-    chance_below(Count, Index, Chance0, Chance),
-    nth0(Index, Hosts0, Host, Hosts),
-    Size1 is Size - 1,
-    drawn(Size1, Hosts, Chance, Drawn).
 
                 /*******************************
                 *          EVALUATION          *

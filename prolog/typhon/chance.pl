@@ -4,10 +4,12 @@
             chance_below/4,             % +N, -Index, +Chance0, -Chance
             chance_uniform/5,           % +Min, +Max, -X, +Chance0, -Chance
             chance_true/4,              % +P, -Bool, +Chance0, -Chance
-            chance_member/4             % -X, +List, +Chance0, -Chance
+            chance_member/4,            % -X, +List, +Chance0, -Chance
+            chance_sample/5             % +Count, +List, -Sample, +Chance0,
+                                        % -Chance
           ]).
 :- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [nth0/3]).
+:- use_module(library(lists), [nth0/3, nth0/4]).
 
 /** <module> Random choices that can be repeated
 
@@ -106,3 +108,25 @@ chance_member(X, List, Chance0, Chance) :-
     length(List, N),
     chance_below(N, Index, Chance0, Chance),
     nth0(Index, List, X).
+
+%!  chance_sample(+Count, +List, -Sample, +Chance0, -Chance) is semidet.
+%
+%   Sample are Count elements of List in the order in which they were
+%   drawn: different ones as long as there are any, then all of List can be
+%   drawn again. Fails when there is none to draw.
+
+chance_sample(Count, List, Sample, Chance0, Chance) :-
+    sample(Count, List, List, Sample, Chance0, Chance).
+
+sample(0, _, _, [], Chance, Chance) :-
+    !.
+sample(Count, [], List, Sample, Chance0, Chance) :-
+    !,
+    List = [_|_],
+    sample(Count, List, List, Sample, Chance0, Chance).
+sample(Count, Left0, List, [X|Sample], Chance0, Chance) :-
+    length(Left0, N),
+    chance_below(N, Index, Chance0, Chance1),
+    nth0(Index, Left0, X, Left),
+    Count1 is Count - 1,
+    sample(Count1, Left, List, Sample, Chance1, Chance).
