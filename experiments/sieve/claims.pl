@@ -4,7 +4,8 @@
           ]).
 :- use_module(rounds, [born/4, population/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [append/3, max_list/2, member/2, min_list/2]).
+:- use_module(library(lists),
+              [append/3, max_list/2, member/2, memberchk/2, min_list/2]).
 
 /** <module> What thesis section 3.6 says of Figures 3.3 to 3.5
 
@@ -14,7 +15,7 @@
 %!  sieve_claims(+Figure, +Runs, -Claims) is det.
 %
 %   Claims are for print_claims/2.  Runs are pairs Seed-Rounds.  A claim
-%   held if it did in each of them.
+%   held if it did in each of them; what was found says in how many it did.
 
 sieve_claims(Figure, Runs, Claims) :-
     findall(claim(Text, Held, Found),
@@ -28,10 +29,13 @@ judged(Runs, Test, Held, Found) :-
             ( member(_-Rounds, Runs), tried(Test, Rounds, Verdict, Note) ),
             Pairs),
     findall(Note, member(_-Note, Pairs), Notes),
-    atomic_list_concat(Notes, '; ', Found),
-    (   member(false-_, Pairs)
-    ->  Held = false
-    ;   Held = true
+    atomic_list_concat(Notes, '; ', Values),
+    length(Pairs, Count),
+    aggregate_all(count, member(true-_, Pairs), HeldCount),
+    format(atom(Found), 'in ~d of ~d runs (~w)', [HeldCount, Count, Values]),
+    (   HeldCount =:= Count
+    ->  Held = true
+    ;   Held = false
     ).
 
 tried(Test, Rounds, Verdict, Note) :-
@@ -140,13 +144,14 @@ test(wanes(Name, From, To, Most), Rounds, [Before, to, After],
     count_of(Name, Population, After).
 
 distinct_kind(Rounds, Kind) :-
-    setof(K, R^How^born(Rounds, R, How, K), Kinds),
+    findall(K, born(Rounds, _, _, K), Kinds0),
+    sort(Kinds0, Kinds),
     member(Kind, Kinds).
 
 first_is(Rounds, Round, Name) :-
-    named_population(Rounds, Round, [Most-_|Rest]),
-    named_population(Rounds, Round, [First|_]),
-    memberchk(Most-Name, [First|Rest]).
+    named_population(Rounds, Round, Population),
+    Population = [Most-_|_],
+    memberchk(Most-Name, Population).
 
 at_end(Rounds, Round, [Value]) :-
     named_population(Rounds, Round, [N-Name|_]),

@@ -43,7 +43,8 @@ kind(Population, Events, Kind) :-
     sort(Kinds0, Kinds),
     member(Kind, Kinds).
 
-counts(Kind, Population, Events, [Count, Cloned, Generated, Suppressed, Aged]) :-
+counts(Kind, Population, Events,
+       [Count, Cloned, Generated, Suppressed, Aged]) :-
     (   member(Count0-Kind, Population)
     ->  Count = Count0
     ;   Count = 0

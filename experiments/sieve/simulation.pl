@@ -2,17 +2,15 @@
           [ simulate/2                  % +Options, -Rounds
           ]).
 :- use_module('../../prolog/typhon/chance',
-              [ chance_below/4, chance_float/3, chance_member/4,
-                chance_seed/2
-              ]).
+              [chance_below/4, chance_float/3, chance_seed/2]).
 :- use_module('../../prolog/typhon/strategy', [strategy_memory/2]).
 :- use_module(ground, [ground_links/4, ground_map/4, ground_start/4,
                        ground_step/6]).
 :- use_module(rounds, [plan/2, plan_rounds/2]).
-:- use_module(library(apply), [foldl/4, maplist/2]).
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists),
-              [append/3, member/2, memberchk/2, nth0/4, numlist/3,
-               reverse/2, selectchk/3]).
+              [member/2, memberchk/2, nth0/4, numlist/3, reverse/2,
+               selectchk/3]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 
