@@ -2,9 +2,9 @@
           [ failure_trace/6             % +Execution, +Hosts, +Trace0, -Trace,
                                         % +Chance0, -Chance
           ]).
-:- use_module('../../prolog/typhon/chance', [chance_member/4]).
+:- use_module('../../prolog/typhon/chance', [chance_sample/5]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
-:- use_module(library(lists), [member/2, numlist/3, selectchk/3]).
+:- use_module(library(lists), [member/2, numlist/3]).
 
 /** <module> Completed tasks that are lost
 
@@ -29,7 +29,8 @@ failure_trace(Execution, Hosts, trace(Executions, Failure, _),
     Failure =.. [Kind, Task, Count, _],
     functor(Hosts, _, N),
     numlist(1, N, Numbers),
-    drawn(Count, Numbers, Drawn, Chance0, Chance),
+    Most is min(Count, N),
+    chance_sample(Most, Numbers, Drawn, Chance0, Chance),
     findall(failure(Now, Host, Lost),
             lost(Kind, Task, Now, Drawn, Hosts, Host, Lost), Failures),
     maplist(lose(Kind, Hosts), Failures),
@@ -37,15 +38,6 @@ failure_trace(Execution, Hosts, trace(Executions, Failure, _),
 failure_trace(Execution, _, trace(Executions, Failure, Failures),
               trace([Execution|Executions], Failure, Failures),
               Chance, Chance).
-
-drawn(Count, Numbers, [Number|Drawn], Chance0, Chance) :-
-    Count > 0,
-    chance_member(Number, Numbers, Chance0, Chance1),
-    !,
-    selectchk(Number, Numbers, Others),
-    Count1 is Count - 1,
-    drawn(Count1, Others, Drawn, Chance1, Chance).
-drawn(_, _, [], Chance, Chance).
 
 %   Only a host that has completed Task loses something.
 
