@@ -155,6 +155,22 @@ verdicts(Log, Verdicts) :-
     sync_claims(Result, Claims),
     findall(Held, member(claim(_, Held, _), Claims), Verdicts).
 
+%   T1 was lost at b and executed again at 11; Tau tasks were required
+%   meanwhile.
+
+healed_claims(Tau, Verdicts) :-
+    result(in_step, Result0),
+    measured(in_step, Es0),
+    Again = [execution(1, b, 11, 12)],
+    append(Es0, Again, Es),
+    Changed = [ executions(Es), phases([Es0, Again]),
+                failure(atomic(1, 1, 3)),
+                healing([ lost(1), redone(1), healing_tau(Tau),
+                          later_tau(2) ]) ],
+    append(Changed, Result0, Result),
+    sync_claims(Result, Claims),
+    findall(Held, member(claim(_, Held, _), Claims), Verdicts).
+
 :- begin_tests(claims).
 
 test(held, Verdicts == [true, true, true, true, true, true, false]) :-
@@ -171,6 +187,10 @@ test(a_task_missing) :-
     sync_claims(Result, [_, claim(_, Held, Found)|_]),
     Held == false,
     Found == '5 executions, 5 of 6 pairs of host and task'.
+test(healed, Verdicts == [true, true, true, true, true, true]) :-
+    healed_claims(3, Verdicts).
+test(not_healed, Verdicts == [true, true, true, true, false, true]) :-
+    healed_claims(4, Verdicts).
 test(sentence_held, S == 'All 2 claims held.') :-
     claims_sentence([claim(a, true, x), claim(b, true, x)], S).
 test(sentence_not_held, S == '1 of 2 claims did not hold: b.') :-
