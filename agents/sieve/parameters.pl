@@ -15,7 +15,7 @@ default(omega, 1000).           % hops a clone lives
 default(gamma, 1.0).
 default(reading, similar).      % see idiotypic.pl
 default(span, 3).               % hops a danger signal spreads
-default(patience, 6).           % seconds until it has died down
+default(patience, 4).           % seconds until it has died down
 default(calls, 1).              % so often it is emitted
 default(gather, 3).             % seconds from the first offer to the choice
 default(crowd, 12).             % so many agents are too many for a clone
