@@ -6,9 +6,9 @@
 */
 
 :- module(figures, []).
+:- use_module(lib/command, [acceptable/3, command/5]).
 :- use_module(lib/jobs, [job_directory/3, jobs_run/3]).
 :- use_module(lib/report, [print_claims/2, save_facts/2]).
-:- use_module(lib/signals, [stopping_on_signals/1]).
 :- use_module(sync/cases,
               [print_runs/2, run_measures/2, run_result/3, save_runs/2]).
 :- use_module(sync/claimed, [figures_sentence/2, gather_claims/2]).
@@ -17,13 +17,11 @@
 :- use_module(sync/scenarios,
               [case_arguments/4, case_name/3, figure/2, figure_cases/2]).
 :- use_module(sync/statements, [statements/3]).
-:- use_module(library(apply), [foldl/4, maplist/3]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists),
-              [append/2, append/3, member/2, memberchk/2, numlist/3,
-               selectchk/3]).
+              [append/2, append/3, member/2, memberchk/2, numlist/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2]).
 
@@ -68,38 +66,18 @@ defaults([ figure(all), runs(3), seed(1), jobs(3), hop_time(0.3-0.6),
          ]).
 
 main(Argv) :-
-    set_stream(user_output, encoding(utf8)),
-    set_stream(user_error, encoding(utf8)),
     argv_options(Argv, Positional, Given),
     defaults(Defaults),
-    foldl(give, Given, Defaults, Options),
-    catch(wanted(Positional, Options, Figures), error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            halt(1)
-          )),
-    stopping_on_signals(run(Figures, Options)).
+    command(Positional, Given, Defaults, wanted(_), run).
 
-%   Of an option that is given twice the last one counts.
-
-give(Option, Options0, [Option|Options]) :-
-    functor(Option, Name, 1),
-    functor(Default, Name, 1),
-    selectchk(Default, Options0, Options).
-
-wanted([], Options, Figures) :-
-    !,
+wanted(Figures, Options) :-
     option(figure(Wanted), Options),
     findall(Figure,
             ( figure(Figure, _),
               ( Wanted == all ; names_figure(Wanted, Figure) )
             ),
             Figures),
-    (   Figures == []
-    ->  domain_error(figure, Wanted)
-    ;   true
-    ).
-wanted(Positional, _, _) :-
-    domain_error(option, Positional).
+    acceptable(Figures = [_|_], figure, Wanted).
 
 %   5.5c is part of 5.5, and 5.7 is 5.7a and 5.7b.
 
@@ -115,7 +93,8 @@ names_figure(Wanted, Figure) :-
                 *             RUNS             *
                 *******************************/
 
-run(Figures, Options) :-
+run(Options) :-
+    wanted(Figures, Options),
     option(out(Out), Options),
     option(jobs(N), Options),
     directory_file_path(Out, runs, Root),

@@ -7,19 +7,18 @@
 */
 
 :- module(population, []).
+:- use_module(lib/command, [acceptable/3, command/5, range/1]).
 :- use_module(lib/jobs, [job_directory/3, jobs_run/3]).
 :- use_module(lib/report, [claims_sentence/2, print_claims/2]).
-:- use_module(lib/signals, [stopping_on_signals/1]).
 :- use_module(population/claims, [population_claims/2, size_claims/2]).
 :- use_module(population/report,
               [ load_result/2, print_parameters/2, print_runs/2,
                 save_figure/4, save_group/4, save_result/3
               ]).
 :- use_module(population/run, [population_run/3]).
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists),
-              [append/2, append/3, member/2, numlist/3, selectchk/3]).
+              [append/2, append/3, member/2, numlist/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2, select_option/3]).
 :- use_module(library(pairs), [pairs_values/2]).
@@ -95,36 +94,21 @@ defaults([ figure('6.3'), nodes('50'), runs(3), seed(1), clock(10),
          ]).
 
 main(Argv) :-
-    set_stream(user_output, encoding(utf8)),
-    set_stream(user_error, encoding(utf8)),
     argv_options(Argv, Positional, Given),
     defaults(Defaults),
-    foldl(give, Given, Defaults, Options),
-    catch(check(Positional, Options, Sizes), error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            halt(1)
-          )),
-    stopping_on_signals(run(Sizes, Options)).
+    command(Positional, Given, Defaults, check, run).
 
-%   Of an option that is given twice the last one counts.
-
-give(Option, Options0, [Option|Options]) :-
-    functor(Option, Name, 1),
-    functor(Default, Name, 1),
-    selectchk(Default, Options0, Options).
-
-check(Positional, Options, Sizes) :-
-    valid(option, Positional, Positional == []),
+check(Options) :-
     forall(( member(Name, [clock, limit, tick, threshold]),
              value(Name, Options, Value) ),
-           valid(Name, Value, Value > 0)),
+           acceptable(Value > 0, Name, Value)),
     forall(choice(Name, Choices),
            ( value(Name, Options, Value),
-             valid(Name, Value, memberchk(Value, Choices)) )),
+             acceptable(memberchk(Value, Choices), Name, Value) )),
     option(hop_time(HopTime), Options),
-    valid(hop_time, HopTime, range(HopTime)),
+    acceptable(range(HopTime), hop_time, HopTime),
     option(nodes(Nodes), Options),
-    valid(nodes, Nodes, sizes(Nodes, Sizes)).
+    acceptable(sizes(Nodes, _), nodes, Nodes).
 
 choice(figure, ['6.3', '6.4']).
 choice(mesh, [rings, random]).
@@ -134,22 +118,6 @@ choice(replication, [rewarded, always]).
 value(Name, Options, Value) :-
     Option =.. [Name, Value],
     option(Option, Options).
-
-:- meta_predicate valid(+, +, 0).
-
-valid(_, _, Goal) :-
-    call(Goal),
-    !.
-valid(Name, Value, _) :-
-    domain_error(Name, Value).
-
-range(Range) :-
-    nonvar(Range),
-    Range = Min-Max,
-    number(Min),
-    number(Max),
-    0 =< Min,
-    Min =< Max.
 
 sizes(Nodes, Sizes) :-
     atomic_list_concat(Parts, ',', Nodes),
@@ -166,6 +134,11 @@ size(Part, Size) :-
 
 %   One run is made here; of several, each in a process of its own, in a
 %   directory of its own below that of the figure.
+
+run(Options) :-
+    option(nodes(Nodes), Options),
+    sizes(Nodes, Sizes),
+    run(Sizes, Options).
 
 run([Size], Options) :-
     option(runs(1), Options),

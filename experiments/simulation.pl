@@ -9,19 +9,18 @@
 */
 
 :- module(simulation, []).
+:- use_module(lib/command, [acceptable/3, command/5]).
 :- use_module(lib/chart, [draw_chart/3]).
 :- use_module(lib/progress, [progress/4, progress_done/1]).
 :- use_module(lib/report, [print_table/3, save_csv/3]).
-:- use_module(lib/signals, [stopping_on_signals/1]).
 :- use_module(simulation/batch, [batch/3, batch_row/2, quantile/3]).
 :- use_module(simulation/reading, [reading/1]).
 :- use_module(simulation/study, [study/2, study_chart/3, study_point/2]).
-:- use_module(library(apply), [foldl/4, foldl/6, maplist/3]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(library(apply), [foldl/6, maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists),
-              [append/3, member/2, memberchk/2, nth0/3, selectchk/3]).
+              [append/3, member/2, memberchk/2, nth0/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [merge_options/3, option/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
@@ -91,24 +90,9 @@ defaults([ topology(grid(6,10)), agents(10), tasks(6), delta(0.5),
 main(Argv) :-
     argv_options(Argv, Positional, Given),
     defaults(Defaults),
-    foldl(give, Given, Defaults, Options),
-    catch(( check(Positional, Options),
-            stopping_on_signals(run(Options))
-          ),
-          error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            halt(1)
-          )).
+    command(Positional, Given, Defaults, check, run).
 
-%   Of an option that is given twice the last one counts.
-
-give(Option, Options0, [Option|Options]) :-
-    functor(Option, Name, 1),
-    functor(Default, Name, 1),
-    selectchk(Default, Options0, Options).
-
-check(Positional, Options) :-
-    acceptable(Positional == [], option, Positional),
+check(Options) :-
     option(delta(Delta), Options),
     acceptable(Delta > 0, delta, Delta),
     option(runs(Runs), Options),
@@ -117,14 +101,6 @@ check(Positional, Options) :-
     acceptable(reading(Reading), reading, Reading),
     option(study(Study), Options),
     acceptable(( Study == none ; study(Study, _) ), study, Study).
-
-:- meta_predicate acceptable(0, +, +).
-
-acceptable(Goal, _, _) :-
-    call(Goal),
-    !.
-acceptable(_, Domain, Value) :-
-    domain_error(Domain, Value).
 
                 /*******************************
                 *             RUNS             *

@@ -6,19 +6,18 @@
 */
 
 :- module(synchronisation, []).
+:- use_module(lib/command, [acceptable/3, command/5, range/1]).
 :- use_module(lib/report,
               [claims_sentence/2, print_claims/2, print_table/3, save_csv/3]).
-:- use_module(lib/signals, [stopping_on_signals/1]).
 :- use_module(sync/claims, [sync_claims/2]).
 :- use_module(sync/report,
               [ print_parameters/2, print_result/2, result_summary/2,
                 save_result/4
               ]).
 :- use_module(sync/run, [sync_run/3]).
-:- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, memberchk/2, numlist/3, selectchk/3]).
+:- use_module(library(lists), [member/2, memberchk/2, numlist/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2, select_option/3]).
 
@@ -78,56 +77,22 @@ defaults([ topology(grid(6,10)), processes(4), agents(10), tasks(6),
          ]).
 
 main(Argv) :-
-    set_stream(user_output, encoding(utf8)),
-    set_stream(user_error, encoding(utf8)),
     argv_options(Argv, Positional, Given),
     defaults(Defaults),
-    foldl(give, Given, Defaults, Options),
-    catch(check(Positional, Options), error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            halt(1)
-          )),
-    stopping_on_signals(run(Options)).
+    command(Positional, Given, Defaults, check, run).
 
-%   Of an option that is given twice the last one counts.
-
-give(Option, Options0, [Option|Options]) :-
-    functor(Option, Name, 1),
-    functor(Default, Name, 1),
-    selectchk(Default, Options0, Options).
-
-check(Positional, Options) :-
-    (   Positional == []
-    ->  true
-    ;   domain_error(option, Positional)
-    ),
-    forall(member(Name, [delta, clock, limit]),
-           ( option_value(Name, Options, Value),
-             positive(Name, Value) )),
-    option(hop_time(HopTime), Options),
-    (   range(HopTime)
-    ->  true
-    ;   domain_error(hop_time, HopTime)
-    ),
-    option(task_time(TaskTime), Options),
+check(Options) :-
+    forall(( member(Name, [delta, clock, limit]),
+             Option =.. [Name, Value],
+             option(Option, Options) ),
+           acceptable(Value > 0, Name, Value)),
     option(tasks(Tasks), Options),
-    (   task_time(TaskTime, Tasks)
-    ->  true
-    ;   domain_error(task_time, TaskTime)
-    ),
+    option(hop_time(HopTime), Options),
+    acceptable(range(HopTime), hop_time, HopTime),
+    option(task_time(TaskTime), Options),
+    acceptable(task_time(TaskTime, Tasks), task_time, TaskTime),
     option(failure(Failure), Options),
-    (   failure(Failure, Tasks)
-    ->  true
-    ;   domain_error(failure, Failure)
-    ).
-
-range(Range) :-
-    nonvar(Range),
-    Range = Min-Max,
-    number(Min),
-    number(Max),
-    0 =< Min,
-    Min =< Max.
+    acceptable(failure(Failure, Tasks), failure, Failure).
 
 task_time(Times, Tasks) :-
     is_list(Times),
@@ -153,16 +118,6 @@ failure(Failure, Tasks) :-
     integer(Count),
     between(1, Tasks, Task),
     between(1, Tasks, During).
-
-option_value(Name, Options, Value) :-
-    Option =.. [Name, Value],
-    option(Option, Options).
-
-positive(_, Value) :-
-    Value > 0,
-    !.
-positive(Name, Value) :-
-    domain_error(Name, Value).
 
                 /*******************************
                 *             RUNS             *
