@@ -9,7 +9,7 @@
 :- use_module('../../prolog/typhon/paths', []).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/3]).
 
 /** <module> The idiotypic sieve, as seen from outside
@@ -86,9 +86,13 @@ attack(Antigen, Host) :-
 
 antibody_release(Host, Application, Antibody, Options, Agent) :-
     settings(Options, Settings),
+    (   memberchk(setting(gamma, Gamma), Settings)
+    ->  true
+    ;   Gamma = 1.0
+    ),
     agent_create(agents(sieve/antibody), Agent,
                  [ host(Host), payloads([Application]),
-                   facts([ antibody(Antibody), gamma(1.0), memory([]),
+                   facts([ antibody(Antibody), gamma(Gamma), memory([]),
                            wins(0), expiry(inf), shunned([])
                          | Settings
                          ])
