@@ -4,6 +4,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [append/2, append/3, max_list/2, member/2, numlist/3,
                sum_list/2]).
@@ -406,6 +407,28 @@ test(every_simulated_attack_is_met, Counts == [9]) :-
                             Count) ),
             Counts0),
     sort(Counts0, Counts).
+
+test(program) :-
+    with_tmp_dir(figure_made).
+
+figure_made(Dir) :-
+    project_file('experiments/sieve.pl', Script),
+    run_swipl([ Script, '--', '--figure', '3.4', '--model', simulation,
+                '--runs', '1', '--topology', 'random(20,0.2)',
+                '--attacked', '3', '--round', '20',
+                '--settings', '[omega-60]', '--out', Dir ],
+              [], exit(0), Out, _),
+    sub_string(Out, _, _, _, "settings"),
+    sub_string(Out, _, _, _, "claims"),
+    forall(member(Name, ['sieve-3.4.csv', 'sieve-3.4.gnuplot']),
+           ( directory_file_path(Dir, Name, File), exists_file(File) )).
+test(no_such_figure, Status-Known == exit(1)-true) :-
+    project_file('experiments/sieve.pl', Script),
+    run_swipl([Script, '--', '--figure', '3.9'], [], Status, _, Err),
+    (   sub_string(Err, _, _, _, "figure")
+    ->  Known = true
+    ;   Known = false
+    ).
 
 simulated(Seed, Rounds) :-
     simulate([ topology(random(20, 0.2)), seed(Seed), figure('3.5'),

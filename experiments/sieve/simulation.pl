@@ -33,7 +33,11 @@ none.
 
 :- include('../../agents/sieve/parameters').
 :- include('../../agents/sieve/idiotypic').
-payload(bits, _).
+
+%   What the first line of a payload file says is nothing here.
+
+payload(_, _).
+
 :- include('../../payloads/sieve/bits').
 
 %!  simulate(+Options, -Rounds) is det.
