@@ -300,7 +300,7 @@ test(mark_of_an_atomic_failure_goes) :-
     serviced(2),
     \+ fake_host:tuple(task(_, _, failed(_), _)).
 test(cascaded_failure_fills_the_task_and_all_later_ones) :-
-    host_with([1], [task(house, 2, failed(cascaded), 6)], Tuples),
+    host_with([1], [task(house, 2, failed(cascaded(2)), 6)], Tuples),
     traveller([], Tuples),
     exhaust(1),
     exhaust(2),
@@ -314,7 +314,7 @@ test(cascaded_failure_fills_the_task_and_all_later_ones) :-
     drive(2, 100, [15, 15]),            % the history begins again
     drive(3, 100, [15]).
 test(cascaded_failure_of_the_task_itself_fills_the_later_ones) :-
-    host_with([1], [task(house, 2, failed(cascaded), 6)], Tuples),
+    host_with([1], [task(house, 2, failed(cascaded(2)), 6)], Tuples),
     traveller([], Tuples),
     exhaust(1),
     fake_agent:keep(2, drive(50, [10])),
@@ -323,8 +323,30 @@ test(cascaded_failure_of_the_task_itself_fills_the_later_ones) :-
     potentials(Ps),
     Ps == [0, 55, 100],
     did([send(w, execute(2, walls)), log(reward(2, 55, 5))]).
+test(cascaded_failure_is_healed_from_its_first_task_on) :-
+    host_with([1], [task(house, 2, failed(cascaded(1)), 6)], Tuples),
+    traveller([], Tuples),
+    exhaust(1),
+    exhaust(2),
+    fake_agent:keep(3, drive(40, [15, 10])),
+    fake_agent:visit(3),
+    potentials(Ps),
+    Ps == [100, 100, 100],
+    did(Acts),
+    Acts == [log(revived(1, 100))],
+    fake_host:tuple(worker(house, _)),
+    \+ fake_host:tuple(task(_, _, executing, _)).
+test(known_cascaded_failure_is_healed_task_by_task) :-
+    host_with([1], [task(house, 2, failed(cascaded(1)), 6)], Tuples),
+    traveller([], Tuples),
+    exhaust(1),
+    fake_agent:keep(2, drive(50, [10])),
+    fake_agent:visit(2),
+    potentials(Ps),
+    Ps == [0, 55, 100],
+    serviced(2).
 test(healed_last_task_of_all, true(Ps == [0, 0, 100])) :-
-    host_with([1, 2], [task(house, 3, failed(cascaded), 6)], Tuples),
+    host_with([1, 2], [task(house, 3, failed(cascaded(3)), 6)], Tuples),
     traveller([], Tuples),
     exhaust(1),
     exhaust(2),
@@ -438,10 +460,10 @@ test(task_that_fails_has_failed) :-
     tuples(Tuples),
     Tuples == [task(house, 1, failed(atomic), 7), worker(house, me)].
 test(task_failed_from_outside_meanwhile) :-
-    worker([task(house, 1, failed(cascaded), 6)]),
+    worker([task(house, 1, failed(cascaded(1)), 6)]),
     fake_agent:on_message(someone, execute(1, true)),
     tuples(Tuples),
-    Tuples == [task(house, 1, failed(cascaded), 6), worker(house, me)],
+    Tuples == [task(house, 1, failed(cascaded(1)), 6), worker(house, me)],
     did(Acts),
     Acts == [log(executing(house, 1))].
 

@@ -200,7 +200,8 @@ tasks_fail(Sequence, Task, Hosts, Failed) :-
 fails(Sequence, Task, Kind, Host) :-
     remote(Host, sense(task(Sequence, Task, completed, _))),
     lost(Kind, Sequence, Task, Host, Tasks, Statuses),
-    lose(Kind, Sequence, Tasks, Statuses, Goal),
+    mark(Kind, Task, Mark),
+    lose(Mark, Sequence, Tasks, Statuses, Goal),
     remote(Host, Goal).
 
 %   lost(+Kind, +Sequence, +Task, +Host, -Tasks, -Statuses): what fails are
@@ -213,15 +214,21 @@ lost(cascaded, Sequence, Task, Host, [Task|Later], [completed, executing]) :-
     append(_, [Task|Later], Names),
     !.
 
+%   Where a cascade began is known to all that it took along: the first ones
+%   may have been done again when an agent comes.
+
+mark(atomic, _, failed(atomic)).
+mark(cascaded, Task, failed(cascaded(Task))).
+
 %   One goal for all, so that no agent sees a later task missing before the
 %   first one.  The new mark comes before the old one goes: an agent must
 %   not find neither.
 
-lose(Kind, Sequence, Tasks, Statuses, Goal) :-
+lose(Mark, Sequence, Tasks, Statuses, Goal) :-
     Goal = ( now(Time),
              forall(( member(Task, Tasks),
                       member(Status, Statuses),
                       sense(task(Sequence, Task, Status, _)) ),
-                    ( leave(task(Sequence, Task, failed(Kind), Time)),
+                    ( leave(task(Sequence, Task, Mark, Time)),
                       take(task(Sequence, Task, Status, _)),
                       log(failed(Sequence, Task)) )) ).

@@ -83,11 +83,22 @@ visit(Task) :-
     !,
     (   missing(Tasks, Sequence, Task, Missing)
     ->  heal(Missing, Task),
-        service(Missing, Worker)
+        current(Next),
+        service_if(Next, Missing, Worker)
     ;   leave(worker(Sequence, Worker)),
         penalise(Task)
     ).
 visit(_).
+
+%   Having found a failure, an agent may have to begin with an earlier task
+%   than the one that is missing here.
+
+service_if(Missing, Missing, Worker) :-
+    !,
+    service(Missing, Worker).
+service_if(_, _, Worker) :-
+    plan(Sequence, _, _),
+    leave(worker(Sequence, Worker)).
 
 %   Missing is the first task up to Task that is not completed here: the
 %   self-healing line of the algorithm.
@@ -114,16 +125,18 @@ service(Task, Worker) :-
                 *******************************/
 
 %   A task below the one searched for, found missing, gets as much
-%   potential as the last reward or penalty was worth.  If it has taken the
-%   later ones with it, all of them are searched for as at the beginning.
+%   potential as the last reward or penalty was worth.  If it fell together
+%   with others, all from the first of these on are searched for as at the
+%   beginning.
 
 heal(Missing, Task) :-
     plan(Sequence, _, Tasks),
-    sense(task(Sequence, Missing, failed(cascaded), _)),
+    sense(task(Sequence, Missing, failed(cascaded(First)), _)),
+    append(_, [First-_|Later], Tasks),
+    begins_again(First, Missing, Task),
     !,
-    append(_, [Missing-_|Later], Tasks),
     forall(member(Next-_, Later), fill(Next)),
-    refill(Missing, Task).
+    refill(First, Task).
 heal(Task, Task) :-
     !.
 heal(Missing, Task) :-
@@ -136,12 +149,20 @@ heal(Missing, Task) :-
     keep(Missing, drive(Potential, [Theta0])),
     log(revived(Missing, Potential)).
 
+%   Who searches for just what is missing here, and has come to that in
+%   turn, knows of the failure.
+
+begins_again(Missing, Missing, _) :-
+    !.
+begins_again(_, Missing, Task) :-
+    Missing \== Task.
+
 refill(Task, Task) :-
     !.
-refill(Missing, _) :-
-    fill(Missing),
-    drive(Missing, Potential, _),
-    log(revived(Missing, Potential)).
+refill(First, _) :-
+    fill(First),
+    drive(First, Potential, _),
+    log(revived(First, Potential)).
 
                 /*******************************
                 *      REWARDS, PENALTIES      *

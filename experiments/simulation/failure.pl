@@ -33,7 +33,7 @@ failure_trace(Execution, Hosts, trace(Executions, Failure, _),
     chance_sample(Most, Numbers, Drawn, Chance0, Chance),
     findall(failure(Now, Host, Lost),
             lost(Kind, Task, Now, Drawn, Hosts, Host, Lost), Failures),
-    maplist(lose(Kind, Hosts), Failures),
+    maplist(lose(Kind, Task, Hosts), Failures),
     exclude(in_vain(Failures), [Execution|Executions], Kept).
 failure_trace(Execution, _, trace(Executions, Failure, Failures),
               trace([Execution|Executions], Failure, Failures),
@@ -53,11 +53,11 @@ lost(Kind, Task, Now, Drawn, Hosts, Host, Lost) :-
         Done /\ (1 << Lost) =\= 0
     ).
 
-lose(Kind, Hosts, failure(_, Host, Lost)) :-
+lose(Kind, Root, Hosts, failure(_, Host, Lost)) :-
     arg(Host, Hosts, host(Free, Last, Done0, Failed0)),
     Done is Done0 /\ \ (1 << Lost),
     (   Kind == cascaded
-    ->  Failed is Failed0 \/ (1 << Lost)
+    ->  Failed = [Lost-Root|Failed0]
     ;   Failed = Failed0
     ),
     setarg(Host, Hosts, host(Free, Last, Done, Failed)).

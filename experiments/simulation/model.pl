@@ -12,7 +12,7 @@
 :- use_module('../../prolog/typhon/strategy', [next_host/6]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(heaps), [add_to_heap/4, get_from_heap/4]).
-:- use_module(library(lists), [last/2, nth1/3, reverse/2]).
+:- use_module(library(lists), [last/2, nth1/3, reverse/2, selectchk/3]).
 :- use_module(library(option), [option/2, option/3]).
 
 /** <module> Algorithm 2 of the thesis, simulated
@@ -26,8 +26,8 @@ tenth of a second.
 
 The only events are arrivals of agents. A host is a term
 host(Free, Last, Done, Failed): until Free it executes the task Last; bit T
-of Done is set when task T was begun there, bit T of Failed when it was lost
-by a cascaded failure. An agent is a term
+of Done is set when task T was begun there, and T-First is in Failed when it
+was lost by a failure that began with First. An agent is a term
 agent(Host, Memory, Drives), Drives a term with an argument for each task.
 
 *Threading*: pure from outside. Inside, terms of the run are changed by
@@ -182,12 +182,17 @@ act(service(Missing), Now, Agent, Task, World, State0, State) :-
     Agent = agent(Here, _, Drives),
     Rules = rules(_, _, _, _, Times, _),
     heal(Here, Hosts, Missing, Task, Drives),
-    duration(Times, Missing, Duration, Chance0, Chance1),
-    End is Now + Duration,
-    execute(Here, Hosts, Missing, Now, End),
-    step(reward, Missing, Agent, Rules),
-    failure_trace(execution(Missing, Here, Now, End), Hosts, Trace0, Trace,
-                  Chance1, Chance).
+    (   current(Drives, Next),
+        Next =:= Missing
+    ->  duration(Times, Missing, Duration, Chance0, Chance1),
+        End is Now + Duration,
+        execute(Here, Hosts, Missing, Now, End),
+        step(reward, Missing, Agent, Rules),
+        failure_trace(execution(Missing, Here, Now, End), Hosts, Trace0,
+                      Trace, Chance1, Chance)
+    ;   Trace = Trace0,
+        Chance = Chance0
+    ).
 
 %   Of two executions of one task at the same time, which only Service =
 %   `printed` makes, the first to end completes the task.
@@ -200,7 +205,10 @@ execute(Here, Hosts, Task, Now, End) :-
     ;   Free = End
     ),
     Done is Done0 \/ (1 << Task),
-    Failed is Failed0 /\ \ (1 << Task),
+    (   selectchk(Task-_, Failed0, Failed)
+    ->  true
+    ;   Failed = Failed0
+    ),
     setarg(Here, Hosts, host(Free, Task, Done, Failed)).
 
 duration(Times, Task, Duration, Chance0, Chance) :-
@@ -218,11 +226,12 @@ duration(Duration, _, Duration, Chance, Chance).
 
 heal(Here, Hosts, Missing, Task, Drives) :-
     arg(Here, Hosts, host(_, _, _, Failed)),
-    Failed /\ (1 << Missing) =\= 0,
+    memberchk(Missing-Root, Failed),
+    once(( Root =:= Missing ; Missing =\= Task )),
     !,
     reading_full(Full),
     functor(Drives, _, Last),
-    refill(Last, Missing, Task, Full, Drives).
+    refill(Last, Root, Task, Full, Drives).
 heal(_, _, Task, Task, _) :-
     !.
 heal(_, _, Missing, Task, Drives) :-
@@ -232,19 +241,19 @@ heal(_, _, Missing, Task, Drives) :-
     reading_revived(Drive, Theta, Revived),
     setarg(Missing, Drives, Revived).
 
-%   refill(+Next, +Missing, +Task, +Full, +Drives): all tasks behind
-%   Missing, and Missing if it is not the one searched for.
+%   refill(+Next, +Root, +Task, +Full, +Drives): all tasks behind Root, and
+%   Root if it is not the one searched for.
 
-refill(Missing, Missing, Task, Full, Drives) :-
+refill(Root, Root, Task, Full, Drives) :-
     !,
-    (   Missing =:= Task
+    (   Root =:= Task
     ->  true
-    ;   setarg(Missing, Drives, Full)
+    ;   setarg(Root, Drives, Full)
     ).
-refill(Next, Missing, Task, Full, Drives) :-
+refill(Next, Root, Task, Full, Drives) :-
     setarg(Next, Drives, Full),
     Next1 is Next - 1,
-    refill(Next1, Missing, Task, Full, Drives).
+    refill(Next1, Root, Task, Full, Drives).
 
 step(What, Task, agent(_, _, Drives), rules(Reading, Delta, _, _, _, _)) :-
     arg(Task, Drives, Drive0),

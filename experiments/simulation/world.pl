@@ -68,7 +68,7 @@ next_changes(State0, changes(Time, Changes, State)) :-
 
 world_hosts(N, Hosts) :-
     functor(Hosts, hosts, N),
-    all_arguments(N, Hosts, host(0, 0, 1, 0)).
+    all_arguments(N, Hosts, host(0, 0, 1, [])).
 
 all_arguments(0, _, _) :-
     !.
