@@ -267,6 +267,16 @@ crowd([Host], File) :-
     antigen_attack([Host, Host], Antigen),
     settled(File, 2),
     count(File, born(clone, _), 0).
+test(a_guard_survives_what_it_does_not_know) :-
+    sieve(ring(1), [], [patience-0.5], unknown_antigen).
+
+unknown_antigen([Host], File) :-
+    bits('00000', Antigen),
+    antigen_attack([Host], bolt),
+    antigen_attack([Host], Antigen),
+    settled(File, 1),
+    count(File, unanswered(bolt), 1).
+
 test(unknown_guard, error(existence_error(guard, _))) :-
     with_hosts([alpha], ( address(alpha, Address),
                           antigen_attack([Address], x) )).

@@ -21,7 +21,7 @@ main :-
     self(Me),
     seed(Seed),
     typhon_chance:chance_seed(Seed, Chance),
-    assertz(chance(Chance)),
+    keep_chance(Chance),
     assertz(cells(0)),
     leave(guard(Me)),
     watch(1).
@@ -46,7 +46,10 @@ watch(attack(Antigen), _, Number) :-
     log(attacked(Antigen)),
     now(Begin),
     call_for_help(Attack, Offers),
-    settle(Offers, Attack, Begin),
+    (   settle(Offers, Attack, Begin)
+    ->  true
+    ;   log(unanswered(Antigen))        % the application does not know it
+    ),
     Number1 is Number + 1,
     watch(Number1).
 watch(offer(Attack, _, _, _, _), From, Number) :-
@@ -132,10 +135,14 @@ select_one(Offers, Antigen, Winner) :-
             ( member(Agent-offer(_, Antibody, _, _, _), Offers),
               affinity(Antigen, Antibody, Psi) ),
             Weighted),
-    retract(chance(Chance0)),
+    chance(Chance0),
     typhon_chance:chance_float(Turn, Chance0, Chance),
-    assertz(chance(Chance)),
+    keep_chance(Chance),
     roulette(Weighted, Turn, Winner).
+
+keep_chance(Chance) :-
+    retractall(chance(_)),
+    assertz(chance(Chance)).
 
 %   What the agents know and how they are when they begin to interact.
 
@@ -189,9 +196,9 @@ appoint(_, false).
 %   elsewhere.
 
 generate(attack(Antigen, Host, _), Begin) :-
-    retract(chance(Chance0)),
+    chance(Chance0),
     suitable(Antigen, Antibody, Chance0, Chance),
-    assertz(chance(Chance)),
+    keep_chance(Chance),
     feedback(Antigen, Antibody, Xi),
     now(Now),
     Wait is Now - Begin,
