@@ -14,8 +14,8 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools demo experiments experiments-sync test check bench \
-    test-portability install clean
+.PHONY: help tools demo experiments experiments-sieve experiments-sync test \
+    check bench test-portability install clean
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
@@ -26,7 +26,7 @@ help:
 demo: tools             ## sixty hosts, ten agents, six tasks in step
 	@$(SWIPL) experiments/synchronisation.pl -- --out out/demo
 
-experiments: experiments-sync   ## all experiments; what has been run stays
+experiments: experiments-sync experiments-sieve ## all; what has been run stays
 
 experiments-sync: tools ## chapters 5 and 6; one figure: FIGURE=5.6, RUNS=3, JOBS=3
 	@case '$(FIGURE)' in 6.3*|6.4*) ;; *) \
@@ -38,6 +38,10 @@ experiments-sync: tools ## chapters 5 and 6; one figure: FIGURE=5.6, RUNS=3, JOB
 	            --nodes 50,100 --runs $(RUNS) --jobs $(JOBS) \
 	            --out out/population/figure-$$figure || exit 1 ;; esac; \
 	done
+
+experiments-sieve: tools ## chapter 3; one figure: FIGURE=3.4, RUNS=3, JOBS=3
+	@$(SWIPL) experiments/sieve.pl -- --figure '$(FIGURE)' --runs $(RUNS) \
+	    --jobs $(JOBS)
 
 test: tools             ## install what is missing, run every test suite
 	@$(SWIPL) test/run.pl
