@@ -8,14 +8,14 @@
 :- module(sieve, []).
 :- use_module(lib/jobs, [job_directory/3, jobs_run/3]).
 :- use_module(lib/report,
-              [ claims_sentence/2, print_claims/2, print_table/3, save_csv/3,
-                save_facts/2 ]).
+              [claims_sentence/2, print_claims/2, save_csv/3, save_facts/2]).
 :- use_module(lib/signals, [stopping_on_signals/1]).
 :- use_module(sieve/claims, [sieve_claims/3]).
 :- use_module(sieve/figure, [draw_sieve/4]).
 :- use_module(sieve/memory,
               [draw_memory/3, memory_case/2, memory_claims/2]).
-:- use_module(sieve/report, [figure_table/3, load_rounds/2]).
+:- use_module(sieve/report,
+              [figure_table/3, load_rounds/2, print_parameters/2]).
 :- use_module(sieve/rounds, [plan/2]).
 :- use_module(sieve/run, [sieve_run/3]).
 :- use_module(sieve/simulation, [simulate/2]).
@@ -129,7 +129,7 @@ run(Options) :-
     directory_file_path(Out, 'rounds.pl', File),
     save_facts(File, [rounds(Rounds)]).
 run(Options) :-
-    print_options(Options),
+    print_parameters(user_output, Options),
     option(figure(Wanted), Options),
     findall(Figure, ( plan(Figure, _), wanted(Wanted, Figure) ), Figures),
     maplist(make_figure(Options), Figures).
@@ -142,15 +142,6 @@ run_model(simulation, Options, _, Rounds) :-
 wanted(all, _) :-
     !.
 wanted(Figure, Figure).
-
-print_options(Options) :-
-    findall([Name, Text],
-            ( member(Option, Options),
-              Option =.. [Name, Value],
-              term_to_atom(Value, Text) ),
-            Rows0),
-    sort(Rows0, Rows),
-    print_table(user_output, [parameter, value], Rows).
 
                 /*******************************
                 *            FIGURES           *

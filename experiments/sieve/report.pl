@@ -1,18 +1,44 @@
 :- module(sieve_report,
-          [ figure_table/3,             % +CaseRuns, -Header, -Rows
+          [ print_parameters/2,         % +Stream, +Options
+            figure_table/3,             % +CaseRuns, -Header, -Rows
             load_rounds/2               % +Directory, -Rounds
           ]).
 :- use_module(claims, [kind_name/2]).
+:- use_module('../lib/report', [print_table/3]).
 :- use_module(rounds, [population/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, nth1/3]).
+:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
+
+:- dynamic setting/2.
+:- include('../../agents/sieve/parameters').
 
 /** <module> The numbers behind the figures of the sieve
 
 *Threading*: no state; any thread.
 */
+
+%!  print_parameters(+Stream, +Options) is det.
+%
+%   A table of Options, and of what agents have by default where
+%   settings(Pairs) says nothing else.
+
+print_parameters(Stream, Options) :-
+    memberchk(settings(Settings), Options),
+    findall([Name, Text],
+            ( member(Option, Options), Option =.. [Name, Value],
+              term_to_atom(Value, Text) ),
+            Rows0),
+    sort(Rows0, Given),
+    findall([Name, Value],
+            ( default(Name, Default),
+              ( memberchk(Name-Value0, Settings) -> Value = Value0
+              ; Value = Default ) ),
+            Agents),
+    print_table(Stream, [parameter, value], Given),
+    nl(Stream),
+    print_table(Stream, ['of the agents', value], Agents).
 
 %!  figure_table(+CaseRuns, -Header, -Rows) is det.
 %
