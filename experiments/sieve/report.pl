@@ -32,7 +32,7 @@ print_parameters(Stream, Options) :-
             Rows0),
     sort(Rows0, Given),
     findall([Name, Value],
-            ( default(Name, Default),
+            ( default(Name, Default), Name \== seed,
               ( memberchk(Name-Value0, Settings) -> Value = Value0
               ; Value = Default ) ),
             Agents),
