@@ -54,16 +54,25 @@ population_start(Sequence, Hosts, Tasks, Options, Agents) :-
 %   A worker that is busy has no tuple, but its task has.
 
 furnish(Sequence, Host) :-
-    unless(Host, sense(queue(_)), agents(population/queue), []),
-    unless(Host, ( sense(worker(Sequence, _))
-                 ; sense(task(Sequence, _, _, _)) ),
-           agents(sync/worker), [sequence(Sequence)]).
+    furnish(Host, queue, sense(queue(_)), agents(population/queue), []),
+    furnish(Host, worker(Sequence),
+            ( sense(worker(Sequence, _))
+            ; sense(task(Sequence, _, _, _)) ),
+            agents(sync/worker), [sequence(Sequence)]).
 
-unless(Host, Goal, _, _) :-
-    remote(Host, Goal),
+%   furnish(+Host, +What, :Present, +Program, +Facts): the agent itself says
+%   that it is there only when it has run; until then a mark does.
+
+furnish(Host, What, Present, _, _) :-
+    remote(Host, ( sense(furnished(What)) ; Present )),
     !.
-unless(Host, _, Program, Facts) :-
-    agent_create(Program, _, [host(Host), static(true), facts(Facts)]).
+furnish(Host, What, _, Program, Facts) :-
+    remote(Host, leave(furnished(What))),
+    catch(agent_create(Program, _,
+                       [host(Host), static(true), facts(Facts)]),
+          Error,
+          ( remote(Host, take(furnished(What))),
+            throw(Error) )).
 
 %   kind(+Sequence, +Tasks, +Options, -Facts): of each task in turn, what
 %   its agents know.
