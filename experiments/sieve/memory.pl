@@ -19,10 +19,12 @@ so long that the clones of its antibodies have died.
 
 %!  memory_case(?Case, -Settings) is nondet.
 %
-%   With memory cells and without.
+%   With memory cells and without.  Hosts call three times before they help
+%   themselves, so that the response is that of agents where there are any.
 
-memory_case('without memory cells', [memory_cells-0]).
-memory_case('with memory cells', [memory_cells-1]).
+memory_case('without memory cells', [calls-3, memory_cells-0]).
+memory_case('with memory cells',
+            [calls-3, memory_cells-1, memory_wins-2]).
 
 returning([0,0,0,0,0]).
 
