@@ -168,8 +168,8 @@ sieve_in(Topology, Options, Settings, Goal, Dir) :-
               Settings1 = Settings
           ),
           sieve_start(Hosts, Application, [settings([seed-1|Settings1])]),
-          wait_until(forall(member(Host, Hosts),
-                            remote(Host, sense(guard(_)))), 20),
+          sieve_start(Hosts, Application, []),  % no second guard
+          forall(member(Host, Hosts), remote(Host, host_load(1))),
           once(call(Goal, Hosts, File)) ),
         network_stop(Network)).
 

@@ -12,18 +12,16 @@
     Facts: application(Spec), the payload for new agents, which the guard
     carries, too; cells(Count), how many memory cells it has appointed.
 
-    On the host: guard(Id); attacked(Attack, Id) while offers are taken.  An
+    On the host: guard(Id), left by who put it there; attacked(Attack, Id) while offers are taken.  An
     attack is attack(Antigen, Host, Number), which is also the problem of
     its danger signal: so each agent follows only those it wants.
 */
 
 main :-
-    self(Me),
     seed(Seed),
     typhon_chance:chance_seed(Seed, Chance),
     keep_chance(Chance),
     assertz(cells(0)),
-    leave(guard(Me)),
     watch(1).
 
 seed(Seed) :-

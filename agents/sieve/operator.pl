@@ -50,10 +50,11 @@ guarded(_, _, Host) :-
     remote(Host, sense(guard(_))),
     !.
 guarded(Application, Settings, Host) :-
-    agent_create(agents(sieve/guard), _,
+    agent_create(agents(sieve/guard), Guard,
                  [ host(Host), static(true), payloads([Application]),
                    facts([application(Application)|Settings])
-                 ]).
+                 ]),
+    remote(Host, leave(guard(Guard))).
 
 settings(Options, Settings) :-
     option(settings(Pairs), Options, []),
