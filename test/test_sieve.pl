@@ -277,6 +277,15 @@ unknown_antigen([Host], File) :-
     settled(File, 1),
     count(File, unanswered(bolt), 1).
 
+test(nothing_drawn_is_no_answer) :-
+    sieve(ring(1), [], [patience-0.5, draws-0], nothing_drawn).
+
+nothing_drawn([Host], File) :-
+    bits('00000', Antigen),
+    antigen_attack([Host], Antigen),
+    wait_until(count(File, unanswered(Antigen), 1), 20),
+    count(File, generated(_, _, _), 0).
+
 test(unknown_guard, error(existence_error(guard, _))) :-
     with_hosts([alpha], ( address(alpha, Address),
                           antigen_attack([Address], x) )).

@@ -46,7 +46,7 @@ watch(attack(Antigen), _, Number) :-
     call_for_help(Attack, Offers),
     (   settle(Offers, Attack, Begin)
     ->  true
-    ;   log(unanswered(Antigen))        % the application does not know it
+    ;   log(unanswered(Antigen))        % the application has no answer
     ),
     Number1 is Number + 1,
     watch(Number1).
@@ -191,26 +191,32 @@ appoint(_, false).
                 *******************************/
 
 %   What is found at random neutralizes the antigen, and goes out to do so
-%   elsewhere.
+%   elsewhere.  Fails where nothing is found that might.
 
 generate(attack(Antigen, Host, _), Begin) :-
     chance(Chance0),
-    suitable(Antigen, Antibody, Chance0, Chance),
+    parameter(draws, Draws),
+    draw(Draws, Antigen, Drawn, Chance0, Chance),
     keep_chance(Chance),
+    Drawn = suitable(Antibody),
     feedback(Antigen, Antibody, Xi),
     now(Now),
     Wait is Now - Begin,
     log(generated(Antigen, Antibody, Wait)),
     release(Host, Antibody, [Antigen-Xi]).
 
-suitable(Antigen, Antibody, Chance0, Chance) :-
-    random_antibody(Chance0, Antibody0, Chance1),
-    affinity(Antigen, Antibody0, Psi),
+draw(0, _, Drawn, Chance, Chance) :-
+    !,
+    Drawn = nothing.
+draw(Draws, Antigen, Drawn, Chance0, Chance) :-
+    random_antibody(Chance0, Antibody, Chance1),
+    affinity(Antigen, Antibody, Psi),
     affinity_threshold(Threshold),
     (   Psi >= Threshold
-    ->  Antibody = Antibody0,
+    ->  Drawn = suitable(Antibody),
         Chance = Chance1
-    ;   suitable(Antigen, Antibody, Chance1, Chance)
+    ;   Draws1 is Draws - 1,
+        draw(Draws1, Antigen, Drawn, Chance1, Chance)
     ).
 
 release(Host, Antibody, Memory) :-

@@ -17,6 +17,7 @@ default(reading, similar).      % see idiotypic.pl
 default(span, 3).               % hops a danger signal spreads
 default(patience, 4).           % seconds until it has died down
 default(calls, 1).              % so often it is emitted
+default(draws, 1000).           % antibodies a host tries at random
 default(gather, 3).             % seconds from the first offer to the choice
 default(crowd, 12).             % so many agents are too many for a clone
 default(memory_cells, 0).       % so many may a host appoint
