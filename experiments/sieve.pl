@@ -6,25 +6,25 @@
 */
 
 :- module(sieve, []).
+:- use_module(lib/command, [acceptable/3, command/5]).
 :- use_module(lib/jobs, [job_directory/3, jobs_run/3]).
 :- use_module(lib/report,
               [claims_sentence/2, print_claims/2, save_csv/3, save_facts/2]).
-:- use_module(lib/signals, [stopping_on_signals/1]).
 :- use_module(sieve/claims, [sieve_claims/3]).
 :- use_module(sieve/figure, [draw_sieve/4]).
 :- use_module(sieve/memory,
               [draw_memory/3, memory_case/2, memory_claims/2]).
+:- use_module(sieve/programs, [draw_programs/3, programs_claims/2]).
 :- use_module(sieve/report,
               [figure_table/3, load_rounds/2, print_parameters/2]).
 :- use_module(sieve/rounds, [plan/2]).
 :- use_module(sieve/run, [sieve_run/3]).
 :- use_module(sieve/simulation, [simulate/2]).
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists),
-              [append/3, member/2, memberchk/2, numlist/3, selectchk/3]).
+              [append/3, member/2, memberchk/2, numlist/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2]).
 
@@ -53,7 +53,7 @@ opt_help(help(header), "Antibodies carried by mobile agents stimulate and \c
 suppress each other\non the hosts of a network under attack (thesis \c
 chapter 3)\n").
 opt_help(help(usage), " -- [options]").
-opt_help(figure,    "3.3, 3.4, 3.5, memory or all [all]").
+opt_help(figure,    "3.3, 3.4, 3.5, memory, programs or all [all]").
 opt_help(model,     "platform: agents on a network; simulation: a quick \c
 model of it [platform]").
 opt_help(runs,      "Runs with consecutive seeds [3]").
@@ -89,35 +89,15 @@ defaults([ figure(all), model(platform), runs(3), seed(1),
          ]).
 
 main(Argv) :-
-    set_stream(user_output, encoding(utf8)),
-    set_stream(user_error, encoding(utf8)),
-    argv_options(Argv, _Positional, Given),
+    argv_options(Argv, Positional, Given),
     defaults(Defaults),
-    foldl(give, Given, Defaults, Options),
-    catch(check(Options), error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
-            halt(1)
-          )),
-    stopping_on_signals(run(Options)).
-
-%   Of an option that is given twice the last one counts.
-
-give(Option, Options0, [Option|Options]) :-
-    functor(Option, Name, 1),
-    functor(Default, Name, 1),
-    selectchk(Default, Options0, Options).
+    command(Positional, Given, Defaults, check, run).
 
 check(Options) :-
     option(figure(Figure), Options),
-    (   ( Figure == all ; plan(Figure, _) )
-    ->  true
-    ;   domain_error(figure, Figure)
-    ),
+    acceptable(( Figure == all ; plan(Figure, _) ), figure, Figure),
     option(model(Model), Options),
-    (   memberchk(Model, [platform, simulation])
-    ->  true
-    ;   domain_error(model, Model)
-    ).
+    acceptable(memberchk(Model, [platform, simulation]), model, Model).
 
 run(Options) :-
     option(single(true), Options),
@@ -166,6 +146,10 @@ draw(memory, Out, Subtitle, CaseRuns, Claims) :-
     !,
     draw_memory(Out, Subtitle, CaseRuns),
     memory_claims(CaseRuns, Claims).
+draw(programs, Out, Subtitle, [_-Runs], Claims) :-
+    !,
+    draw_programs(Out, Subtitle, Runs),
+    programs_claims(Runs, Claims).
 draw(Figure, Out, Subtitle, [_-Runs], Claims) :-
     draw_sieve(Out, Figure, Subtitle, Runs),
     sieve_claims(Figure, Runs, Claims).

@@ -11,6 +11,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module('../agents/sieve/operator').
+:- use_module('../experiments/sieve/programs').
 :- use_module('../experiments/sieve/claims').
 :- use_module('../experiments/sieve/rounds').
 :- use_module('../experiments/sieve/simulation').
@@ -410,6 +411,31 @@ test(claims_can_fail, Helds == [false, false, true, false, false]) :-
             Rounds),
     sieve_claims('3.3', [1-Rounds], Claims),
     findall(Held, member(claim(_, Held, _), Claims), Helds).
+test(claims_of_programs, Helds == [true, true]) :-
+    program_rounds(good, Good),
+    programs_helds([1-Good, 2-Good], Helds).
+test(claims_of_programs_can_fail, Helds == [false, false]) :-
+    program_rounds(good, Good),
+    program_rounds(bad, Bad),
+    programs_helds([1-Good, 2-Bad], Helds).
+
+programs_helds(Runs, Helds) :-
+    programs_claims(Runs, Claims),
+    findall(Held, member(claim(_, Held, _), Claims), Helds).
+
+%   One program that goes round the block, and one that goes nowhere.
+
+program_rounds(Last, Rounds) :-
+    Along = [(right :- free(right), after(forward)), (left :- wall(ahead))],
+    Rounds = [ round([ generated(block(left), [], 4), born(host, []) ]),
+               round([ served(block(left), Program, 3)|Events ]) ],
+    (   Last == good
+    ->  Program = Along,
+        Events = [born(clone, Along)]
+    ;   Program = [],
+        Events = [born(clone, [])]
+    ).
+
 test(a_simulation_follows_from_its_seed, Rounds1 == Rounds2) :-
     simulated(3, Rounds1),
     simulated(3, Rounds2),

@@ -4,6 +4,7 @@
           ]).
 :- use_module(rounds, [born/4, population/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists),
               [append/3, max_list/2, member/2, memberchk/2, min_list/2]).
 
@@ -48,10 +49,13 @@ tried(Test, Rounds, Verdict, Note) :-
 
 %!  kind_name(+Kind, -Name) is det.
 %
-%   The bits of an antibody as an atom.
+%   An antibody as an atom: its bits, or what else it is.
 
 kind_name(Kind, Name) :-
-    atomic_list_concat(Kind, Name).
+    (   maplist(atomic, Kind)
+    ->  atomic_list_concat(Kind, Name)
+    ;   term_to_atom(Kind, Name)
+    ).
 
                 /*******************************
                 *          STATEMENTS          *

@@ -1,6 +1,7 @@
 :- module(sieve_rounds,
           [ plan/2,                     % ?Figure, -Plan
             plan_rounds/2,              % +Plan, -Rounds
+            application/2,              % +Figure, -Payload
             event_rounds/3,             % +Events, +Starts, -Rounds
             population/3,               % +Rounds, +Round, -Population
             born/4,                     % +Rounds, ?Round, ?How, ?Kind
@@ -29,8 +30,8 @@ round(Events), one for each round; Events, in order, are
 
 %!  plan(?Figure, -Plan) is nondet.
 %
-%   The antigens of the figures of thesis section 3.6, and of the one for
-%   memory cells.
+%   The antigens of the figures of thesis section 3.6, and of those for
+%   memory cells and programs.
 
 plan('3.3', [First-15]) :-
     First = [[0,0,0,0,0], [1,1,1,1,1], [1,0,1,0,1]].
@@ -40,8 +41,17 @@ plan('3.5', [First-5, Second-5]) :-
     close_antigens(First),
     Second = [[1,1,1,0,0], [1,1,1,0,1], [1,1,0,0,1]].
 plan(memory, [[[0,0,0,0,0]]-5, [[1,1,1,1,1]]-8, [[0,0,0,0,0]]-3]).
+plan(programs, [[block(left), corner(right), corridor(left)]-12]).
 
 close_antigens([[0,0,0,0,0], [0,0,0,0,1], [0,0,0,1,1]]).
+
+%!  application(+Figure, -Payload) is det.
+%
+%   What is sieved.
+
+application(programs, payloads(sieve/maze)) :-
+    !.
+application(_, payloads(sieve/bits)).
 
 %!  plan_rounds(+Plan, -Rounds:list) is det.
 %

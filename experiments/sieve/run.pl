@@ -9,7 +9,8 @@
 :- use_module('../../agents/sieve/operator',
               [antigen_attack/2, sieve_start/3]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
-:- use_module(rounds, [event_rounds/3, plan/2, plan_rounds/2]).
+:- use_module(rounds,
+              [application/2, event_rounds/3, plan/2, plan_rounds/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2, nth0/4]).
@@ -73,9 +74,9 @@ perform(Network, Options, Starts) :-
     network_property(Network, hosts(Hosts)),
     option(seed(Seed), Options),
     option(settings(Settings), Options),
-    sieve_start(Hosts, payloads(sieve/bits),
-                [settings([seed-Seed|Settings])]),
     option(figure(Figure), Options),
+    application(Figure, Application),
+    sieve_start(Hosts, Application, [settings([seed-Seed|Settings])]),
     plan(Figure, Plan),
     plan_rounds(Plan, Rounds),
     chance_seed(Seed, Chance),

@@ -6,7 +6,7 @@
               [ agent_join/3, log_events/2, network_property/2,
                 network_start/3, network_stop/1
               ]).
-:- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
+:- use_module('../../prolog/typhon/chance', [chance_sample/5, chance_seed/2]).
 :- use_module('../../agents/sync/operator',
               [sequence_start/5, task_fail/4, tasks_fail/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
@@ -20,7 +20,7 @@
 :- use_module(library(apply), [foldl/4, foldl/6, maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [append/2, last/2, member/2, nth0/4, numlist/3]).
+:- use_module(library(lists), [append/2, last/2, member/2, numlist/3]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(thread), [concurrent_forall/3]).
 
@@ -145,7 +145,9 @@ inject(Failure, Begun, Hosts, Options, none) :-
     Failure =.. [Kind, Task, Count, _],
     option(seed(Seed), Options),
     chance_seed(Seed, Chance),
-    drawn(Count, Hosts, Chance, Drawn),
+    length(Hosts, All),
+    Most is min(Count, All),
+    chance_sample(Most, Hosts, Drawn, Chance, _),
     fail_at(Kind, Task, Drawn).
 inject(Failure, _, _, _, Failure).
 
@@ -160,17 +162,6 @@ fail_host(atomic, Task, Host) :-
     task_fail(main, Task, [Host], _).
 fail_host(cascaded, Task, Host) :-
     tasks_fail(main, Task, [Host], _).
-
-drawn(Count, Hosts, Chance0, [Host|Drawn]) :-
-    Count > 0,
-    length(Hosts, N),
-    N > 0,
-    !,
-    chance_below(N, Index, Chance0, Chance),
-    nth0(Index, Hosts, Host, Rest),
-    Count1 is Count - 1,
-    drawn(Count1, Rest, Chance, Drawn).
-drawn(_, _, _, []).
 
                 /*******************************
                 *            WAITING           *
