@@ -12,8 +12,9 @@
     Facts: application(Spec), the payload for new agents, which the guard
     carries, too; cells(Count), how many memory cells it has appointed.
 
-    On the host: guard(Id), left by who put it there; attacked(Attack, Id) while offers are taken.  An
-    attack is attack(Antigen, Host, Number), which is also the problem of
+    On the host: guard(Id), left by who put it there; attacked(Attack, Id)
+    while offers are taken.  An attack is attack(Antigen, Host, Number),
+    which is also the problem of
     its danger signal: so each agent follows only those it wants.
 */
 

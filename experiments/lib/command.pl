@@ -1,6 +1,6 @@
 :- module(experiment_command,
-          [ command/5,                  % +Positional, +Given, +Defaults, :Check,
-                                        % :Run
+          [ command/5,                  % +Positional, +Given, +Defaults,
+                                        % :Check, :Run
             acceptable/3,               % :Goal, +Domain, +Value
             range/1                     % ?Range
           ]).

@@ -39,8 +39,8 @@ stopped.
 %
 %   Options are nodes(N), mesh(Kind), degree(D), processes(P), tasks(M),
 %   task_time(S), hop_time(Min-Max), clock(Rate), seed(S),
-%   limit(HostSeconds), settings(List), q_th(N) and crash(Count): so many hosts lose task 2
-%   while task 4 is executed, none if 0.  All are required.  The event log
+%   limit(HostSeconds), settings(List), q_th(N) and crash(Count): so many
+%   hosts lose task 2 while task 4 is executed, none if 0.  All are required.  The event log
 %   is Directory/events.pl.  Result is a list:
 %
 %     - nodes(N), seed(S), tasks(List), crash(Count)

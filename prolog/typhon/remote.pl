@@ -24,8 +24,8 @@ other process.
 %
 %   once(Goal) in the place of Host, here or in another process.  Bindings
 %   come back; failure and errors, too.  A goal M:G is run in module M
-%   instead, with the place only as its context.  leave/1, sense/1 and take/1 work
-%   on the tuple space of Host.
+%   instead, with the place only as its context.  leave/1, sense/1 and take/1
+%   work on the tuple space of Host.
 %
 %   @error permission_error(remote, host, Host) if the host refuses
 %   @error host_unreachable(Host)

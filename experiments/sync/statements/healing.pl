@@ -30,7 +30,8 @@ healing_statement('5.12', Data, Text, Held, Found) :-
     text('~w; ~w', [Found0, Values], Found).
 
 healing('20 hosts lose T2, and each executes it again',
-        [Run]>>( memberchk(lost(20), Run), memberchk(redone(20), Run) ), redone).
+        [Run]>>( memberchk(lost(20), Run), memberchk(redone(20), Run) ),
+        redone).
 healing('three distinct tasks are required while healing (tau)',
         [Run]>>memberchk(healing_tau(3), Run), healing_tau).
 healing('other agents go on meanwhile',
