@@ -14,8 +14,8 @@
 
     On the host: guard(Id), left by who put it there; attacked(Attack, Id)
     while offers are taken.  An attack is attack(Antigen, Host, Number),
-    which is also the problem of
-    its danger signal: so each agent follows only those it wants.
+    which is also the problem of its danger signal: so each agent follows
+    only those it wants.
 */
 
 main :-
