@@ -50,41 +50,44 @@ with_peers(Specs, Goal) :-
         ( maplist(start, Specs), once(Goal) ),
         stop_all).
 
-start(Spec) :-
-    (   Spec = Peer-Options
-    ->  true
-    ;   Spec = Peer, Options = []
-    ),
-    free_port(Number),
-    atom_number(Port, Number),
-    (   option(proxy(true), Options)
-    ->  atom_concat('127.0.0.1:', Port, Target),
-        proxy_start(Target, Proxy, Address),
-        assertz(proxy(Peer, Proxy)),
-        atom_concat('127.0.0.1:', Known, Address),
-        format(atom(Behind), '--known-as=~w', [Known]),
-        format(atom(At), '--port=~w', [Port]),
-        Args0 = [Behind, At]
-    ;   Known = Port,
-        Args0 = []
-    ),
-    (   option(codec(Codec), Options)
-    ->  format(atom(Speak), '--codec=~w', [Codec]),
-        Args = [Speak|Args0]
-    ;   Args = Args0
-    ),
-    atom_number(Known, KnownPort0),
-    KnownPort = KnownPort0,
+start(Peer-Options) :-
+    !,
+    free_port(Port),
+    place(Peer, Options, Port, Known, PlaceArgs),
+    codec(Options, CodecArgs),
+    append(CodecArgs, PlaceArgs, Args),
     option(host(HostOptions), Options, []),
     option(setup(Setup), Options, true),
-    format(atom(Host), '~w@127.0.0.1:~w', [Peer, Known]),
+    format(atom(Host), '~w@127.0.0.1:~d', [Peer, Known]),
     tmp_file(Peer, File),
     assertz(messages(Peer, File)),
     assertz(spec(Peer, Args)),
     assertz(host(Peer, Host,
-                 ( Setup,
-                   host_start(Peer, [port(KnownPort)|HostOptions]) ))),
+                 ( Setup, host_start(Peer, [port(Known)|HostOptions]) ))),
     launch(Peer).
+start(Peer) :-
+    start(Peer-[]).
+
+%   place(+Peer, +Options, +Port, -Known, -Args): it listens at Port, and is
+%   known by another where a proxy stands before it.
+
+place(Peer, Options, Port, Known, [Behind, At]) :-
+    option(proxy(true), Options),
+    !,
+    atom_concat('127.0.0.1:', Port, Target),
+    proxy_start(Target, Proxy, Address),
+    assertz(proxy(Peer, Proxy)),
+    atom_concat('127.0.0.1:', KnownText, Address),
+    atom_number(KnownText, Known),
+    format(atom(Behind), '--known-as=~d', [Known]),
+    format(atom(At), '--port=~d', [Port]).
+place(_, _, Port, Port, []).
+
+codec(Options, [Speak]) :-
+    option(codec(Codec), Options),
+    !,
+    format(atom(Speak), '--codec=~w', [Codec]).
+codec(_, []).
 
 launch(Peer) :-
     spec(Peer, Args),
