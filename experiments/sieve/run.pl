@@ -5,7 +5,7 @@
               [ log_events/2, network_property/2, network_start/3,
                 network_stop/1, remote/2
               ]).
-:- use_module('../../prolog/typhon/chance', [chance_below/4, chance_seed/2]).
+:- use_module('../../prolog/typhon/chance', [chance_sample/5, chance_seed/2]).
 :- use_module('../../agents/sieve/operator',
               [antigen_attack/2, sieve_start/3]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
@@ -13,7 +13,7 @@
               [application/2, event_rounds/3, plan/2, plan_rounds/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2, nth0/4]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(option), [option/2]).
 
 /** <module> Rounds of attacks on a network with an idiotypic sieve
@@ -105,22 +105,18 @@ attack([Antigens|Rounds], At, Chance0, [Start|Starts]) :-
 %   Hosts that are attacked in one round are different ones, as long as
 %   there are any.
 
-attack_each([], _, _, Chance, Chance).
-attack_each([Antigen|Antigens], Count, Hosts0, Chance0, Chance) :-
-    drawn(Count, Hosts0, Hosts, Chance0, Chance1, Drawn),
-    antigen_attack(Drawn, Antigen),
-    attack_each(Antigens, Count, Hosts, Chance1, Chance).
+attack_each(Antigens, Count, Hosts, Chance0, Chance) :-
+    length(Antigens, Kinds),
+    All is Kinds * Count,
+    chance_sample(All, Hosts, Attacked, Chance0, Chance),
+    attack_in_turn(Antigens, Count, Attacked).
 
-drawn(Count, Hosts0, Hosts, Chance0, Chance, [Host|Drawn]) :-
-    Count > 0,
-    length(Hosts0, N),
-    N > 0,
-    !,
-    chance_below(N, Index, Chance0, Chance1),
-    nth0(Index, Hosts0, Host, Hosts1),
-    Count1 is Count - 1,
-    drawn(Count1, Hosts1, Hosts, Chance1, Chance, Drawn).
-drawn(_, Hosts, Hosts, Chance, Chance, []).
+attack_in_turn([], _, []).
+attack_in_turn([Antigen|Antigens], Count, Attacked0) :-
+    length(Hosts, Count),
+    append(Hosts, Attacked, Attacked0),
+    antigen_attack(Hosts, Antigen),
+    attack_in_turn(Antigens, Count, Attacked).
 
 await(Host, Start, Options, Never) :-
     option(round(Seconds), Options),
