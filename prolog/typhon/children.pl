@@ -130,8 +130,8 @@ target_host(Target, Host) :-
 
 follow(Tag, Pid, Out, OnEvent) :-
     set_stream(Out, encoding(utf8)),
-    nb_setval(typhon_reading, true),
-    catch(( lines(Tag, Out, OnEvent),
+    catch(( nb_setval(typhon_reading, true),
+            lines(Tag, Out, OnEvent),
             nb_setval(typhon_reading, false) ),
           stop_reading,
           true),
@@ -177,12 +177,14 @@ child_kill(child(Pid, _, Thread)) :-
     catch(thread_signal(Thread, typhon_children:stop_reading),
           error(existence_error(_, _), _), true).
 
-%   The end of the output may come first.  Then the thread waits for the end
-%   of the process, and is not to be interrupted.
+%   The signal may come before the thread reads, and after: the output may
+%   end first, or another signal. Only while it reads there is something to
+%   catch the ball.
 
 stop_reading :-
     (   nb_current(typhon_reading, true)
-    ->  throw(stop_reading)
+    ->  nb_setval(typhon_reading, false),
+        throw(stop_reading)
     ;   true
     ).
 
