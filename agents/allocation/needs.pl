@@ -1,0 +1,64 @@
+/*  What a task requires, against what a robot is.  Pure: included in the
+    programs that need it.
+
+    A robot has properties: capabilities, any terms, and states,
+    Name=Value.  A task needs teams, Count-Requirements; a requirement is a
+    term that unifies with a property, or Name>=X or Name=<X.
+*/
+
+:- use_module(library(aggregate)).
+:- use_module(library(lists)).
+
+%!  fit(+Requirements, +Properties) is semidet.
+%
+%   True when all Requirements are met.  Variables that they share are
+%   bound alike.
+
+fit(Requirements, Properties) :-
+    \+ \+ met(Requirements, Properties).
+
+met([], _).
+met([Requirement|Requirements], Properties) :-
+    holds(Requirement, Properties),
+    met(Requirements, Properties).
+
+holds(Name >= Least, Properties) :-
+    !,
+    member(Name=Value, Properties),
+    Value >= Least.
+holds(Name =< Most, Properties) :-
+    !,
+    member(Name=Value, Properties),
+    Value =< Most.
+holds(Requirement, Properties) :-
+    member(Requirement, Properties).
+
+%!  required(+Teams, -Count) is det.
+%
+%   How many robots are needed in all.
+
+required([], 0).
+required([Count0-_|Teams], Count) :-
+    required(Teams, Count1),
+    Count is Count0 + Count1.
+
+%!  open_team(+Teams, +Taken, -Number, -Requirements) is nondet.
+%
+%   The teams that are not complete, by Number from 1.  Taken are the
+%   numbers of the teams to which the robots held belong.
+
+open_team(Teams, Taken, Number, Requirements) :-
+    nth1(Number, Teams, Count-Requirements),
+    aggregate_all(count, member(Number, Taken), Have),
+    Have < Count.
+
+%!  detail(+Name, +Details, +Default, -Value) is det.
+%
+%   Value of a detail Name(Value) of a task.
+
+detail(Name, Details, Default, Value) :-
+    Detail =.. [Name, Value0],
+    (   memberchk(Detail, Details)
+    ->  Value = Value0
+    ;   Value = Default
+    ).

@@ -1,0 +1,194 @@
+:- module(allocation_operator,
+          [ robot_start/3,              % +Host, +Properties, +Options
+            robot_state/2,              % +Host, +State
+            robot_fail/1,               % +Host
+            robot_repair/1,             % +Host
+            robot_status/2,             % +Host, -Status
+            task_allocate/4,            % +Task, +Host, +Options, -Agent
+            allocation_stage/3          % +Agent, -Stage, -Robots
+          ]).
+:- use_module('../../prolog/typhon',
+              [agent_create/3, agent_property/2, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/paths', []).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(error),
+              [domain_error/2, existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(option), [option/3]).
+
+/** <module> Allocating tasks to robots, as seen by who has the tasks
+
+Puts the static agents of robots on hosts, and releases allocators (thesis
+chapter 7).  Hosts are addresses, so all this works from any process that
+holds the cookie, whoever started the hosts.  There is one robot for a host,
+which is named by it.
+
+A task is task(Name, Teams, Details).  Teams are pairs Count-Requirements;
+requirements and the properties of robots are described in needs.pl.
+Details are a list, in which all may be missing:
+
+  - priority(Number)
+    Default 0.  Robots that are reserved for a task, but do not yet execute
+    it, go over to one of greater priority.
+  - deadline(Seconds)
+    From when the allocator begins.  Then the task is reported as missed,
+    and all its robots are free.
+  - duration(Seconds), goal(Goal)
+    What each robot executes; default sleep(Seconds), of 5 seconds.
+  - what the payloads for cost and negotiation look for
+
+*Threading*: any thread; no state.
+*/
+
+%!  robot_start(+Host, +Properties:list, +Options) is det.
+%
+%   Host gets a robot with Properties, if it has none.  Options:
+%
+%     - cost(Payload)
+%       Says what a task costs it: default payloads(allocation/nearest).
+%     - settings(Pairs)
+%       Name-Value, for `watch` and `patience`: see robot.pl.
+%
+%   @error existence_error(host, Host), host_unreachable(Host)
+%   @error domain_error(setting, X)
+
+robot_start(Host, _, _) :-
+    remote(Host, ( sense(furnished(robot)) ; sense(robot(_)) )),
+    !.
+robot_start(Host, Properties, Options) :-
+    must_be(list(ground), Properties),
+    settings([watch, patience], Options, Settings),
+    option(cost(Payload), Options, payloads(allocation/nearest)),
+    findall(Fact,
+            ( member(Property, Properties), Fact = property(Property)
+            ; member(Fact, Settings) ),
+            Facts),
+    remote(Host, leave(furnished(robot))),
+    catch(agent_create(agents(allocation/robot), _,
+                       [ host(Host), static(true), payloads([Payload]),
+                         facts(Facts) ]),
+          Error,
+          ( remote(Host, take(furnished(robot))),
+            throw(Error) )).
+
+%!  robot_state(+Host, +State) is det.
+%!  robot_fail(+Host) is det.
+%!  robot_repair(+Host) is det.
+%
+%   The robot at Host has the state Name=Value from now on; it fails, which
+%   ends its reservation, and will do nothing until it is repaired.
+%
+%   @error existence_error(robot, Host)
+
+robot_state(Host, Name=Value) :-
+    must_be(ground, Name=Value),
+    order(Host, state(Name=Value)).
+
+robot_fail(Host) :-
+    order(Host, fail).
+
+robot_repair(Host) :-
+    order(Host, repair).
+
+order(Host, Order) :-
+    robot(Host, Robot),
+    agent_send(Robot, Order).
+
+robot(Host, Robot) :-
+    (   remote(Host, sense(robot(Robot0)))
+    ->  Robot = Robot0
+    ;   existence_error(robot, Host)
+    ).
+
+%!  robot_status(+Host, -Status) is det.
+%
+%   Status is `failed`, `free`, or reserved(Owner, Task), likewise with
+%   `executing` or `done`, Owner being the allocator.
+%
+%   @error existence_error(robot, Host)
+
+robot_status(Host, Status) :-
+    robot(Host, Robot),
+    (   agent_property(Robot, facts(Facts))
+    ->  status(Facts, Status)
+    ;   existence_error(robot, Host)
+    ).
+
+status(Facts, Status) :-
+    memberchk(hold(_, Owner, need(Task, _, _), _, Phase), Facts),
+    !,
+    functor(Phase, Name, _),            % reserved, executing, done
+    Status =.. [Name, Owner, Task].
+status(Facts, failed) :-
+    memberchk(failed, Facts),
+    !.
+status(_, free).
+
+%!  task_allocate(+Task, +Host, +Options, -Agent) is det.
+%
+%   Agent, which begins at Host, allocates Task, has it executed, and ends.
+%   Options:
+%
+%     - negotiation(Payload)
+%       Which robots it wants: default payloads(allocation/willing).
+%     - settings(Pairs)
+%       Name-Value, to replace the defaults in allocator.pl.  With
+%       start-order Agent waits for the message `begin`.
+%     - name(Name)
+%       From which the id of Agent is made.
+%
+%   @error type_error(task, Task), domain_error(setting, X)
+%   @error existence_error(host, Host), host_unreachable(Host)
+
+task_allocate(Task, Host, Options, Agent) :-
+    check_task(Task),
+    settings([ cd, alpha_k, chi, bi_min, bi_max, backoff, strategy,
+               children, child_life, patience, monitor, pause, start, seed
+             ],
+             Options, Settings),
+    option(negotiation(Payload), Options, payloads(allocation/willing)),
+    option(name(Name), Options, allocator),
+    agent_create(agents(allocation/allocator), Agent,
+                 [ name(Name), host(Host), payloads([Payload]),
+                   facts([Task|Settings]) ]).
+
+check_task(Task) :-
+    (   subsumes_term(task(_, _, _), Task),
+        Task = task(Name, Teams, Details),
+        atomic(Name),
+        is_list(Details),
+        is_list(Teams),
+        Teams \== [],
+        maplist(team, Teams)
+    ->  true
+    ;   throw(error(type_error(task, Task), _))
+    ).
+
+team(Team) :-
+    subsumes_term(_-_, Team),
+    Team = Count-Requirements,
+    integer(Count),
+    Count > 0,
+    is_list(Requirements).
+
+settings(Names, Options, Settings) :-
+    option(settings(Pairs), Options, []),
+    must_be(list(pair), Pairs),
+    maplist(setting_fact(Names), Pairs, Settings).
+
+setting_fact(Names, Name-Value, setting(Name, Value)) :-
+    memberchk(Name, Names),
+    !.
+setting_fact(_, Setting, _) :-
+    domain_error(setting, Setting).
+
+%!  allocation_stage(+Agent, -Stage, -Robots:list(atom)) is semidet.
+%
+%   What an allocator is doing, `waiting`, `searching`, `resting` or
+%   `executing`, and which robots it has.  Fails when it has ended.
+
+allocation_stage(Agent, Stage, Robots) :-
+    agent_property(Agent, facts(Facts)),
+    memberchk(stage(Stage0), Facts),
+    Stage = Stage0,
+    findall(Host, member(held(Host, _, _, _, _), Facts), Robots).

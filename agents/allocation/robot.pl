@@ -1,0 +1,281 @@
+:- agent(robot, [state([property/1, setting/2, hold/5, due/2, failed/0])]).
+:- include(needs).
+
+/*  The static agent of a robot: says what the robot can do and what that
+    would cost, and holds one task at a time (thesis sections 7.3, 7.4).
+    Mobile allocators and the agents of auctions talk to it alike; nobody
+    else changes what it holds.
+
+    Facts: property(Property), its capabilities and states; its payload
+    defines cost(+Need, +Properties, -Cost), which fails if the robot will
+    not do it.  The tuple robot(Id) on its host tells where to ask.  In
+    events the robot is named by the address of its host.
+
+    A reservation is known by its Ref, a term that the asker chose.  It is
+    kept as hold(Ref, Owner, Need, Contact, Phase): Owner is who the task is
+    done for, Contact the agent that reserved the robot and is told what
+    happens; Phase is `reserved`, executing(Hand) or `done`.
+
+    Asked by others, and answered by answer(Ref, What):
+
+        ask(Ref, Need)              bid(Cost) or refused(Reason)
+        reserve(Ref, Owner, Need)   reserved or refused(Reason)
+        start(Ref, Goal)            started or refused(Reason)
+        status(Ref)                 status(Phase), `none` if not held
+        release(Ref)                released
+
+    A Need is need(Task, Requirements, Details).  Refused are needs for
+    which the robot is `unfit`, all while it is `failed`, and those that it
+    could serve were it not `reserved` or `executing` for somebody else.
+    But who is reserved for a task goes over to a more urgent one.
+
+    The contact is told done(Ref) after the execution, lost(Ref, Why) if the
+    reservation has ended otherwise, and from time to time still(Ref), to be
+    answered by yes(Ref) or no(Ref).  Without an answer the reservation
+    ends: whoever reserved the robot and died does not keep it.
+*/
+
+default(watch, 60).             % seconds from one question to the next
+default(patience, 20).          % seconds for the answer
+
+parameter(Name, Value) :-
+    (   setting(Name, Value0)
+    ->  Value = Value0
+    ;   default(Name, Value)
+    ).
+
+main :-
+    self(Me),
+    leave(robot(Me)),
+    serve.
+
+serve :-
+    next(Event),
+    handle(Event),
+    serve.
+
+next(Event) :-
+    due(Time, _),
+    !,
+    now(Now),
+    Left is max(0, Time - Now),
+    (   receive(From-Message, Left)
+    ->  Event = From-Message
+    ;   Event = overdue
+    ).
+next(Event) :-
+    receive(Event).
+
+handle(overdue) :-
+    !,
+    due(_, What),
+    overdue(What).
+handle(From-start(Ref, Goal)) :-
+    !,
+    start(Ref, Goal, Answer),
+    tell(From, answer(Ref, Answer)).
+handle(From-Message) :-
+    answer(Message, From, Ref, Answer),
+    !,
+    tell(From, answer(Ref, Answer)).
+handle(From-Message) :-
+    heed(Message, From),
+    !.
+handle(_).
+
+%   Whoever it is may be gone.
+
+tell(Agent, Message) :-
+    catch(send(Agent, Message), error(_, _), true).
+
+                /*******************************
+                *           QUESTIONS          *
+                *******************************/
+
+answer(ask(Ref, Need), _, Ref, Answer) :-
+    verdict(Need, Answer).
+answer(reserve(Ref, _, _), _, Ref, Answer) :-
+    hold(Ref, _, _, _, _),
+    !,
+    Answer = reserved.
+answer(reserve(Ref, Owner, Need), From, Ref, Answer) :-
+    verdict(Need, Verdict),
+    reserve(Verdict, hold(Ref, Owner, Need, From, reserved), Answer).
+answer(status(Ref), _, Ref, status(Status)) :-
+    (   hold(Ref, _, _, _, Phase)
+    ->  functor(Phase, Status, _)
+    ;   Status = none
+    ).
+answer(release(Ref), _, Ref, released) :-
+    (   hold(Ref, _, _, _, _)
+    ->  free
+    ;   true
+    ).
+
+%   verdict(+Need, -Verdict): what would come of it now.
+
+verdict(Need, refused(unfit)) :-
+    \+ able(Need, _),
+    !.
+verdict(_, refused(failed)) :-
+    failed,
+    !.
+verdict(Need, refused(Reason)) :-
+    hold(_, _, Held, _, Phase),
+    \+ yields(Held, Phase, Need),
+    !,
+    (   Phase == reserved
+    ->  Reason = reserved
+    ;   Reason = executing
+    ).
+verdict(Need, bid(Cost)) :-
+    able(Need, Cost).
+
+able(Need, Cost) :-
+    Need = need(_, Requirements, _),
+    findall(Property, property(Property), Properties),
+    fit(Requirements, Properties),
+    cost(Need, Properties, Cost),
+    !.
+
+yields(Held, reserved, Need) :-
+    urgency(Held, Old),
+    urgency(Need, New),
+    New > Old.
+
+urgency(need(_, _, Details), Priority) :-
+    detail(priority, Details, 0, Priority).
+
+                /*******************************
+                *          RESERVATION         *
+                *******************************/
+
+reserve(bid(_), Hold, reserved) :-
+    !,
+    lose(preempted),
+    assertz(Hold),
+    Hold = hold(_, Owner, need(Task, _, _), _, _),
+    here(Host),
+    log(reserved(Host, Owner, Task)),
+    parameter(watch, Seconds),
+    remind(Seconds, ask).
+reserve(Refusal, _, Refusal).
+
+%   lose(+Why): the reservation, if there is one, ends without its owner.
+
+lose(Why) :-
+    hold(Ref, _, _, Contact, _),
+    !,
+    free,
+    tell(Contact, lost(Ref, Why)).
+lose(_).
+
+free :-
+    retract(hold(_, Owner, need(Task, _, _), _, Phase)),
+    retractall(due(_, _)),
+    stop(Phase),
+    here(Host),
+    log(released(Host, Owner, Task)).
+
+                /*******************************
+                *           EXECUTION          *
+                *******************************/
+
+%   A clone, the hand, executes the task, so that the robot can answer.
+
+start(Ref, Goal, Answer) :-
+    hold(Ref, _, _, _, reserved),
+    !,
+    catch(clone(Who), error(move_refused(_, Reason), _),
+          Who = refused(Reason)),
+    begin(Who, Ref, Goal, Answer).
+start(Ref, _, Answer) :-
+    (   hold(Ref, _, _, _, _)
+    ->  Answer = started
+    ;   Answer = refused(none)
+    ).
+
+begin(parent(Hand), Ref, _, started) :-
+    phase(Ref, executing(Hand)).
+begin(refused(Reason), _, _, refused(Reason)).
+begin(clone(Robot), Ref, Goal, _) :-
+    (   catch(Goal, Ball, true)
+    ->  outcome(Ball, Outcome)
+    ;   Outcome = failed
+    ),
+    send(Robot, finished(Ref, Outcome)),
+    dispose.
+
+outcome(Ball, Outcome) :-
+    (   var(Ball)
+    ->  Outcome = done
+    ;   Ball = error(What, _)
+    ->  Outcome = raised(What)
+    ;   Outcome = raised(Ball)
+    ).
+
+stop(executing(Hand)) :-
+    !,
+    catch(typhon:agent_dispose(Hand), error(_, _), true).
+stop(_).
+
+phase(Ref, Phase) :-
+    retract(hold(Ref, Owner, Need, Contact, _)),
+    assertz(hold(Ref, Owner, Need, Contact, Phase)).
+
+                /*******************************
+                *            NOTICES           *
+                *******************************/
+
+heed(finished(Ref, Outcome), Hand) :-
+    hold(Ref, _, _, _, executing(Hand)),
+    finished(Outcome, Ref).
+heed(yes(Ref), _) :-
+    hold(Ref, _, _, _, _),
+    parameter(watch, Seconds),
+    remind(Seconds, ask).
+heed(no(Ref), _) :-
+    hold(Ref, _, _, _, _),
+    free.
+heed(state(Name=Value), _) :-
+    retractall(property(Name=_)),
+    assertz(property(Name=Value)).
+heed(fail, _) :-
+    \+ failed,
+    assertz(failed),
+    log(robot(failed)),
+    lose(failed).
+heed(repair, _) :-
+    retract(failed),
+    log(robot(repaired)).
+
+finished(done, Ref) :-
+    !,
+    phase(Ref, done),
+    hold(Ref, Owner, need(Task, _, _), Contact, _),
+    here(Host),
+    log(executed(Host, Owner, Task)),
+    tell(Contact, done(Ref)).
+finished(Outcome, _) :-
+    lose(Outcome).
+
+                /*******************************
+                *             WATCH            *
+                *******************************/
+
+remind(Seconds, What) :-
+    retractall(due(_, _)),
+    (   Seconds == inf
+    ->  true
+    ;   now(Now),
+        Time is Now + Seconds,
+        assertz(due(Time, What))
+    ).
+
+overdue(ask) :-
+    hold(Ref, _, _, Contact, _),
+    parameter(patience, Seconds),
+    remind(Seconds, answer),
+    tell(Contact, still(Ref)).
+overdue(answer) :-
+    lose(lapsed).

@@ -1,0 +1,55 @@
+/*  The way back.  Pure: included in the programs that need it.
+
+    A trail is the list of hosts that an agent came by, the last one first.
+    Where it came to a host again it forgets the round between, unless there
+    is a host on it that it has to go back to.
+*/
+
+:- use_module(library(lists)).
+
+%!  stepped(+Host, +Wanted, +Trail0, -Trail) is det.
+%
+%   The trail of an agent that was at the head of Trail0 and is at Host,
+%   and may have to go back to Wanted.
+
+stepped(Host, Wanted, Trail0, Trail) :-
+    append(Round, [Host|Before], Trail0),
+    !,
+    (   member(Other, Round),
+        memberchk(Other, Wanted)
+    ->  Trail = [Host|Trail0]
+    ;   Trail = [Host|Before]
+    ).
+stepped(Host, _, Trail, [Host|Trail]).
+
+%!  links(+Host, +Trail, -Count) is det.
+%
+%   How many links there are on the way back from the head of Trail to
+%   Host; as many as to the end if it is not on it.
+
+links(Host, Trail, Count) :-
+    nth0(Count0, Trail, Host),
+    !,
+    Count = Count0.
+links(_, Trail, Count) :-
+    length(Trail, Count).
+
+%!  back(+Way0, +Wanted, +Neighbours, -Way) is semidet.
+%
+%   Way0 is what lies before an agent that goes back to the hosts Wanted.
+%   It goes to the head of Way, one of Neighbours: of those up to the first
+%   of Wanted the furthest.  Fails where the way is broken, or leads to
+%   none of them.
+
+back(Way0, Wanted, Neighbours, Way) :-
+    append(Before, [Goal|Later], Way0),
+    memberchk(Goal, Wanted),
+    !,
+    reverse(Before, Nearer),
+    short_cut([Goal|Nearer], Neighbours, Later, Way).
+
+short_cut([Host|_], Neighbours, Later, [Host|Later]) :-
+    memberchk(Host, Neighbours),
+    !.
+short_cut([Host|Hosts], Neighbours, Later, Way) :-
+    short_cut(Hosts, Neighbours, [Host|Later], Way).

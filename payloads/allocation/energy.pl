@@ -1,0 +1,16 @@
+:- payload(energy, [provides([cost/3])]).
+
+/*  What a task costs a robot: the share of its charge.
+
+    Needs the robot's property battery=Charge, and the task's detail
+    energy(Joules), in the same unit.  A robot that has not enough is unfit.
+*/
+
+cost(need(_, _, Details), Properties, Cost) :-
+    member(energy(Energy), Details),
+    !,
+    member(battery=Charge, Properties),
+    Charge >= Energy,
+    Charge > 0,
+    Cost is Energy/Charge.
+cost(_, _, 0).
