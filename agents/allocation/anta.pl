@@ -1,0 +1,219 @@
+:- agent(anta, [ state([ setting/2, peer/2, agenda/2, item/2, wave/2, kept/2,
+                         next_id/1, sent/2, hold/4, asked/4, contract/6,
+                         over/2, job/6, member/6, bid/4, allocated/1,
+                         tree/3, way/3, gathered/4 ]) ]).
+:- include(node).
+
+/*  ANTA (Lee, Zaheer, Kim): the trade message spreads as a tree, down to a
+    level; bids go up the tree, are merged on the way, and only the lowest
+    ones go on; awards go down it (thesis section 7.5).  For each round a
+    tree of its own.  Where the neighbour that should get a message is gone,
+    or has never been known, the message is flooded instead.
+
+    A node reports to its parent once, when its children must have done so:
+    those of the last level first.  So the time for bids is divided by twice
+    the number of levels, half for the way down, half for the way up.
+
+    State: tree(Job, Round, Parent), Parent `none` at the root;
+    way(Job, Host, Child), to which neighbour to turn to reach Host;
+    gathered(Job, Round, Host, Bids), not yet reported.
+*/
+
+                /*******************************
+                *            TRADES            *
+                *******************************/
+
+publish(announce(Job, Round, Offer)) :-
+    now(Now),
+    planted(Job, Round, none),
+    to_robot(announce(Job, Round, Offer)),
+    flood(announce(Job, Round, Offer, Now, 1)).
+
+%   A flood that counts levels; all others go everywhere.
+
+onward(announce(Job, Round, Offer, Begin, Level0), Onward) :-
+    !,
+    parameter(level, Levels),
+    Level0 < Levels,
+    Level is Level0 + 1,
+    Onward = announce(Job, Round, Offer, Begin, Level).
+onward(Body, Body).
+
+planted(Job, Round, Parent) :-
+    retractall(gathered(Job, _, _, _)),
+    parameter(jobs, Most),
+    (   tree(Job, _, _)
+    ->  retractall(tree(Job, _, _)),
+        assertz(tree(Job, Round, Parent))
+    ;   forget_ways(Most),
+        keep(tree(Job, Round, Parent), tree(_, _, _), Most)
+    ).
+
+%   The oldest tree is about to go.
+
+forget_ways(Most) :-
+    (   kept(tree, Most),
+        tree(Job, _, _)
+    ->  retractall(way(Job, _, _))
+    ;   true
+    ).
+
+                /*******************************
+                *             BIDS             *
+                *******************************/
+
+%   Level is that of this node, 1 next to the root.
+
+traded(Job, Round, Offer, Begin, Level, From) :-
+    planted(Job, Round, From),
+    Offer = offer(_, _, Places, _, Close),
+    parameter(level, Levels),
+    Report is Begin + (Close - Begin)*(2*Levels - Level)/(2*Levels),
+    at(Report, gather(Job, Round, Places)),
+    to_robot(announce(Job, Round, Offer)).
+
+offer_bids(Job, Round, Bids) :-
+    here(Here),
+    take_bids(Job, Round, [Here-Bids]).
+
+%   take_bids(+Job, +Round, +List): for the report, or for the auctioneer;
+%   when the report has been made they go up at once.
+
+take_bids(Job, Round, List) :-
+    Job = job(Owner, _),
+    (   here(Owner)
+    ->  to_owner(Job, bids(Round, List))
+    ;   tree(Job, Round, _),
+        \+ reported(Job, Round)
+    ->  forall(member(Host-Bids, List),
+               assertz(gathered(Job, Round, Host, Bids)))
+    ;   pass_up(Job, bids(Round, List))
+    ).
+
+reported(Job, Round) :-
+    gathered(Job, Round, none, _).
+
+gather(Job, Round, Places) :-
+    tree(Job, Round, _),
+    findall(Host-Bids, retract(gathered(Job, Round, Host, Bids)), All),
+    assertz(gathered(Job, Round, none, [])),
+    lowest(Places, All, List),
+    (   List == []
+    ->  true
+    ;   pass_up(Job, bids(Round, List))
+    ).
+
+%   lowest(+Places, +All, -List): those that may win against all others
+%   here.  Who is best for two teams can be in one of them only, so of each
+%   team as many are kept as robots are needed in all.
+
+lowest(Places, All, List) :-
+    findall(Count, member(_-Count, Places), Counts),
+    sum_list(Counts, Needed),
+    findall(Host,
+            ( member((Number-_)-_, Places),
+              best(Number, Needed, All, Host) ),
+            Hosts),
+    findall(Host-Bids,
+            ( member(Host-Bids, All), memberchk(Host, Hosts) ),
+            List).
+
+best(Number, Count, All, Host) :-
+    findall(Cost-H, ( member(H-Bids, All), memberchk(Number-Cost, Bids) ),
+            Offers0),
+    sort(Offers0, Offers),
+    nth1(I, Offers, _-Host),
+    I =< Count.
+
+                /*******************************
+                *       UP AND DOWN THE TREE   *
+                *******************************/
+
+tell_owner(Job, Body) :-
+    Job = job(Owner, _),
+    (   here(Owner)
+    ->  to_owner(Job, Body)
+    ;   pass_up(Job, Body)
+    ).
+
+pass_up(Job, Body) :-
+    (   tree(Job, _, Parent),
+        Parent \== none,
+        now(Now),
+        cross(Parent, only(owner(Job, Body)), Now)
+    ->  true
+    ;   flood(flooded(owner(Job, Body)))
+    ).
+
+%   Where messages for many part, each goes on with those it is for.
+
+tell_robots(Job, Hosts, Body) :-
+    here(Here),
+    (   memberchk(Here, Hosts)
+    ->  to_robot(Body)
+    ;   true
+    ),
+    findall(Child-Host,
+            ( member(Host, Hosts), Host \== Here,
+              (   way(Job, Host, Child)
+              ->  true
+              ;   Child = none
+              ) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    pass_down(Groups, Job, Body, Left),
+    (   Left == []
+    ->  true
+    ;   flood(flooded(robots(Job, Left, Body)))
+    ).
+
+pass_down([], _, _, []).
+pass_down([Child-Hosts|Groups], Job, Body, Left) :-
+    now(Now),
+    (   Child \== none,
+        cross(Child, only(robots(Job, Hosts, Body)), Now)
+    ->  Left = Left1
+    ;   append(Hosts, Left1, Left)
+    ),
+    pass_down(Groups, Job, Body, Left1).
+
+%   arrived(+Body, +From, +Now): From is the neighbour it came from.
+
+arrived(announce(Job, Round, Offer, Begin, Level), From, _) :-
+    !,
+    traded(Job, Round, Offer, Begin, Level, From).
+arrived(flooded(Body), _, _) :-
+    !,
+    everywhere(Body).
+arrived(owner(Job, bids(Round, List)), From, _) :-
+    !,
+    forall(member(Host-_, List),
+           ( retractall(way(Job, Host, _)), assertz(way(Job, Host, From)) )),
+    take_bids(Job, Round, List).
+arrived(owner(Job, Body), _, _) :-
+    !,
+    tell_owner(Job, Body).
+arrived(robots(Job, Hosts, Body), _, _) :-
+    tell_robots(Job, Hosts, Body).
+
+%   What is flooded because the tree is broken concerns those it is for.
+
+everywhere(owner(Job, Body)) :-
+    Job = job(Owner, _),
+    here(Owner),
+    !,
+    (   Body = bids(_, List)
+    ->  forall(member(Host-_, List), retractall(way(Job, Host, _)))
+    ;   true
+    ),
+    to_owner(Job, Body).
+everywhere(robots(_, Hosts, Body)) :-
+    here(Here),
+    memberchk(Here, Hosts),
+    !,
+    to_robot(Body).
+everywhere(_).
+
+undertake(gather(Job, Round, Places), _) :-
+    gather(Job, Round, Places).

@@ -1,0 +1,284 @@
+/*  The side of a node that auctions tasks.  It announces the task, takes
+    bids for some time, and awards contracts to those that cost least, to all
+    robots the task needs at once.  When all have answered it starts them,
+    renews their contracts, and releases them when all are done.  Where there
+    are too few bids it releases what it has and backs off (thesis equations
+    7.5 and 7.7); where a robot is lost it auctions that place again.
+
+    State: job(Job, Task, Round, Phase, Tries, Backoffs), Phase one of
+    bidding, awarding, executing, waiting; bid(Job, Round, Host, Bids), Bids
+    being Number-Cost for each team; member(Job, Host, Number, Round, Phase,
+    Heard), Phase one of awarded, reserved, executing, done, Heard the time
+    of the last sign of life; allocated(Job), once all were reserved.
+*/
+
+                /*******************************
+                *            ROUNDS            *
+                *******************************/
+
+post(Task) :-
+    Task = task(Name, _, Details),
+    new_id(Number),
+    here(Here),
+    Job = job(Here, Number),
+    assertz(job(Job, Task, 0, waiting, 0, 0)),
+    log(begun(Name)),
+    (   memberchk(deadline(Seconds), Details)
+    ->  after(Seconds, deadline(Job))
+    ;   true
+    ),
+    renew_later(Job),
+    open_auction(Job).
+
+open_auction(Job) :-
+    retract(job(Job, Task, Round0, _, Tries, Backoffs)),
+    Round is Round0 + 1,
+    assertz(job(Job, Task, Round, bidding, Tries, Backoffs)),
+    open_places(Job, Task, Places),
+    parameter(window, Window),
+    now(Now),
+    Close is Now + Window,
+    self(Me),
+    Task = task(Name, _, Details),
+    at(Close, close(Job, Round)),
+    publish(announce(Job, Round, offer(Name, Me, Places, Details, Close))).
+
+%   open_places(+Job, +Task, -Places): (Number-Requirements)-Count.
+
+open_places(Job, task(_, Teams, _), Places) :-
+    findall(Number, member(Job, _, Number, _, _, _), Taken),
+    findall((Number-Requirements)-Count,
+            ( open_team(Teams, Taken, Number, Requirements),
+              nth1(Number, Teams, Wanted-_),
+              aggregate_all(count, member(Number, Taken), Have),
+              Count is Wanted - Have ),
+            Places).
+
+%   bids(+Job, +Round, +List): List of Host-Bids; what comes late is lost.
+
+bids(Job, Round, List) :-
+    job(Job, _, Round, bidding, _, _),
+    !,
+    forall(( member(Host-Bids, List), \+ bid(Job, Round, Host, _) ),
+           assertz(bid(Job, Round, Host, Bids))).
+bids(_, _, _).
+
+close_auction(Job, Round) :-
+    job(Job, Task, Round, bidding, _, _),
+    open_places(Job, Task, Places),
+    findall(Host-Bids, bid(Job, Round, Host, Bids), Bids),
+    (   winners(Places, Bids, Winners)
+    ->  award(Job, Round, Winners)
+    ;   back_off(Job)
+    ).
+
+%   winners(+Places, +Bids, -Winners) is semidet: who costs least, team by
+%   team.  Winners are Host-Number.
+
+winners([], _, []).
+winners([(Number-_)-Count|Places], Bids0, Winners) :-
+    findall(Cost-Host,
+            ( member(Host-Bids, Bids0), memberchk(Number-Cost, Bids) ),
+            Offers0),
+    sort(Offers0, Offers),
+    length(Chosen, Count),
+    append(Chosen, _, Offers),
+    !,
+    findall(Host-Number, member(_-Host, Chosen), Team),
+    findall(Host-Bids,
+            ( member(Host-Bids, Bids0), \+ memberchk(Host-_, Team) ),
+            Bids1),
+    winners(Places, Bids1, More),
+    append(Team, More, Winners).
+
+award(Job, Round, Winners) :-
+    phase_of(Job, awarding),
+    now(Now),
+    forall(member(Host-Number, Winners),
+           assertz(member(Job, Host, Number, Round, awarded, Now))),
+    parameter(answer, Seconds),
+    after(Seconds, settle(Job, Round)),
+    findall(Host, member(Host-_, Winners), Hosts),
+    tell_robots(Job, Hosts, award(Job, Round, Winners)).
+
+phase_of(Job, Phase) :-
+    retract(job(Job, Task, Round, _, Tries, Backoffs)),
+    assertz(job(Job, Task, Round, Phase, Tries, Backoffs)).
+
+                /*******************************
+                *           REPORTS            *
+                *******************************/
+
+%   report(+Phase, +Job, +Round, +Host): what has become of an award.
+
+report(Phase, Job, Round, Host) :-
+    retract(member(Job, Host, Number, Round, Before, _)),
+    !,
+    now(Now),
+    (   later_phase(Before, Phase, After)
+    ->  assertz(member(Job, Host, Number, Round, After, Now))
+    ;   true                            % refused, or lost
+    ),
+    proceed(Job).
+report(Phase, Job, Round, Host) :-
+    later_phase(awarded, Phase, _),
+    \+ is_over(Job, Round),
+    !,                                  % given up meanwhile
+    tell_robots(Job, [Host], release(Job, Round, [Host])).
+report(_, _, _, _).
+
+%   Reports may come in any order.
+
+later_phase(Before, Phase, After) :-
+    Order = [awarded, reserved, executing, done],
+    nth1(I, Order, Before),
+    nth1(J, Order, Phase),
+    !,
+    Last is max(I, J),
+    nth1(Last, Order, After).
+
+proceed(Job) :-
+    job(Job, Task, _, Phase, _, _),
+    open_places(Job, Task, Places),
+    findall(At, member(Job, _, _, _, At, _), Ats),
+    proceed(Phase, Places, Ats, Job).
+
+proceed(awarding, Places, Ats, Job) :-
+    \+ memberchk(awarded, Ats),
+    !,
+    (   Places == []
+    ->  begin_execution(Job)
+    ;   try_again(Job)
+    ).
+proceed(executing, [_|_], _, Job) :-
+    !,
+    try_again(Job).
+proceed(executing, [], Ats, Job) :-
+    \+ ( member(At, Ats), At \== done ),
+    !,
+    job(Job, task(Name, _, _), _, _, _, _),
+    log(completed(Name)),
+    conclude(Job).
+proceed(_, _, _, _).
+
+settle(Job, Round) :-
+    job(Job, _, Round, awarding, _, _),
+    findall(Host, retract(member(Job, Host, _, Round, awarded, _)), Silent),
+    give_back(Job, Round, Silent),
+    proceed(Job).
+
+give_back(_, _, []) :-
+    !.
+give_back(Job, Round, Hosts) :-
+    tell_robots(Job, Hosts, release(Job, Round, Hosts)).
+
+begin_execution(Job) :-
+    phase_of(Job, executing),
+    members(Job, Hosts),
+    (   allocated(Job)
+    ->  true                            % somebody had to be replaced
+    ;   assertz(allocated(Job)),
+        job(Job, task(Name, _, _), _, _, _, _),
+        log(allocated(Name, Hosts))
+    ),
+    tell_robots(Job, Hosts, start(Job)).
+
+members(Job, Hosts) :-
+    findall(Host, member(Job, Host, _, _, _, _), Hosts).
+
+                /*******************************
+                *           BACK-OFF           *
+                *******************************/
+
+try_again(Job) :-
+    retract(job(Job, Task, Round, Phase, Tries0, Backoffs)),
+    Tries is Tries0 + 1,
+    assertz(job(Job, Task, Round, Phase, Tries, Backoffs)),
+    parameter(tries, Most),
+    (   Tries < Most
+    ->  open_auction(Job)
+    ;   back_off(Job)
+    ).
+
+back_off(Job) :-
+    release_all(Job, Bids),
+    retract(job(Job, Task, Round, _, _, Backoffs0)),
+    Backoffs is Backoffs0 + 1,
+    assertz(job(Job, Task, Round, waiting, 0, Backoffs)),
+    parameter(bi_min, Minimum),
+    parameter(bi_max, Maximum),
+    bid_time(Bids, Minimum, Theta),
+    Turn is random_float,
+    interval(Theta, Backoffs, Maximum, Turn, Seconds),
+    log(backoff(Seconds)),
+    after(Seconds, again(Job, Round)).
+
+again(Job, Round) :-
+    job(Job, _, Round, waiting, _, _),
+    open_auction(Job).
+
+%   release_all(+Job, -Bids): Bids is how many there were in this round.
+
+release_all(Job, Count) :-
+    job(Job, _, Round, _, _, _),
+    findall(Host, retract(bid(Job, Round, Host, _)), Bidders),
+    length(Bidders, Count),
+    findall(Host, retract(member(Job, Host, _, _, _, _)), Members),
+    retractall(bid(Job, _, _, _)),
+    retractall(allocated(Job)),
+    append(Members, Bidders, Hosts0),
+    sort(Hosts0, Hosts),
+    parameter(jobs, Most),
+    keep(over(Job, Round), over(_, _), Most),
+    (   Hosts == []
+    ->  true
+    ;   tell_robots(Job, Hosts, release(Job, Round, all))
+    ).
+
+                /*******************************
+                *       RENEWALS, THE END      *
+                *******************************/
+
+renew_later(Job) :-
+    parameter(renew, Seconds),
+    after(Seconds, renew(Job)).
+
+%   Who has let a whole period pass without a sign of life is lost.
+
+renew(Job) :-
+    job(Job, _, Round, _, _, _),
+    renew_later(Job),
+    parameter(renew, Seconds),
+    now(Now),
+    findall(Host,
+            ( member(Job, Host, _, _, _, Heard),
+              Now - Heard > 2*Seconds ),
+            Lost),
+    forall(member(Host, Lost), retract(member(Job, Host, _, _, _, _))),
+    give_back(Job, Round, Lost),
+    members(Job, Hosts),
+    (   Hosts == []
+    ->  true
+    ;   wanted_phase(Job, Phase),
+        tell_robots(Job, Hosts, renew(Job, Phase))
+    ),
+    (   Lost == []
+    ->  true
+    ;   proceed(Job)
+    ).
+
+wanted_phase(Job, Phase) :-
+    (   allocated(Job)
+    ->  Phase = executing
+    ;   Phase = reserved
+    ).
+
+deadline(Job) :-
+    job(Job, task(Name, _, Details), _, _, _, _),
+    memberchk(deadline(Seconds), Details),
+    log(missed(Name, Seconds)),
+    conclude(Job).
+
+conclude(Job) :-
+    release_all(Job, _),
+    retractall(job(Job, _, _, _, _, _)).

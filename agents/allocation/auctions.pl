@@ -1,0 +1,234 @@
+:- module(auction_operator,
+          [ auction_start/3,            % +Mechanism, +Hosts, +Options
+            auction_post/3,             % +Mechanism, +Task, +Host
+            auction_counts/3,           % +Mechanism, +Hosts, -Counts
+            auction_account/2           % +Mechanism, +Hosts
+          ]).
+:- use_module('../../prolog/typhon',
+              [agent_create/3, agent_property/2, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/paths', []).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(error),
+              [domain_error/2, existence_error/2, must_be/2, type_error/2]).
+:- use_module(library(lists),
+              [append/3, max_list/2, member/2, memberchk/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(ordsets), [ord_subtract/3, ord_union/3]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
+:- use_module(library(ugraphs), [neighbours/3, vertices_edges_to_ugraph/3]).
+
+/** <module> Auctions of tasks, as seen by who wants them done
+
+Puts on hosts the nodes of a mechanism of thesis section 7.5, `murdoch` or
+`anta`, and posts tasks to be auctioned. Robots are those of
+allocation_operator, so are tasks, task(Name, Teams, Details). Hosts are
+addresses, so all this works from any process that holds the cookie, whoever
+started the hosts.
+
+*Threading*: any thread; no state.
+*/
+
+%!  auction_start(+Mechanism, +Hosts, +Options) is det.
+%
+%   Each of Hosts that has none gets a node of Mechanism; nodes know those
+%   of Hosts, and speak to neighbours only. Options:
+%
+%     - settings(+Pairs)
+%       Name-Value, to replace what node.pl has as a default.
+%     - diameter(+Links)
+%       Of the network; default what it is now. It is the setting `level`,
+%       and with the longest time of a hop it makes the settings `window`
+%       and `answer`, host seconds to wait for bids and for answers: there
+%       and back again, and slack.
+%     - slack(+Seconds)
+%       Of host time, for what the computer takes to pass on some thousand
+%       messages; default what is half a second on a clock on the wall.
+%
+%   @error type_error(mechanism, X), existence_error(host, Host),
+%   host_unreachable(Host)
+
+auction_start(Mechanism, Hosts, Options) :-
+    program(Mechanism, _),
+    must_be(list(atom), Hosts),
+    settings(Hosts, Options, Settings),
+    maplist(node_at(Mechanism, Settings), Hosts, Nodes),
+    pairs_keys_values(Peers, Hosts, Nodes),
+    forall(member(Node, Nodes), agent_send(Node, peers(Peers))).
+
+program(Mechanism, Program) :-
+    (   memberchk(Mechanism-Program,
+                  [ murdoch-agents(allocation/murdoch),
+                    anta-agents(allocation/anta) ])
+    ->  true
+    ;   type_error(mechanism, Mechanism)
+    ).
+
+node_at(Mechanism, _, Host, Node) :-
+    remote(Host, sense(node(Mechanism, Node0))),
+    !,
+    Node = Node0.
+node_at(Mechanism, Settings, Host, Node) :-
+    program(Mechanism, Program),
+    hop_time(Host, Times),
+    append(Times, Settings, Facts),
+    agent_create(Program, Node,
+                 [host(Host), static(true), facts(Facts)]),
+    remote(Host, leave(node(Mechanism, Node))).
+
+                /*******************************
+                *           SETTINGS           *
+                *******************************/
+
+settings(Hosts, Options, Settings) :-
+    option(settings(Pairs), Options, []),
+    must_be(list(pair), Pairs),
+    (   option(diameter(Diameter), Options)
+    ->  must_be(positive_integer, Diameter)
+    ;   diameter(Hosts, Diameter)
+    ),
+    slack(Hosts, Options, Slack),
+    longest_hop(Hosts, Hop),
+    Window is 2*Diameter*Hop + Slack,
+    findall(setting(Name, Value),
+            ( member(Name-Value, Pairs)
+            ; member(Name-Value,
+                     [level-Diameter, window-Window, answer-Window]),
+              \+ memberchk(Name-_, Pairs)
+            ),
+            Settings).
+
+slack(_, Options, Slack) :-
+    option(slack(Slack), Options),
+    !,
+    must_be(number, Slack).
+slack([Host|_], _, Slack) :-
+    host_name(Host, Name),
+    remote(Host, typhon_clock:clock(Name, _, Rate)),
+    !,
+    Slack is Rate/2.
+slack(_, _, 0.5).
+
+longest_hop(Hosts, Longest) :-
+    findall(Max,
+            ( member(Host, Hosts),
+              hop_time(Host, [setting(_, uniform(_, Max))]) ),
+            Times),
+    max_list([0|Times], Longest).
+
+hop_time(Host, Times) :-
+    host_name(Host, Name),
+    (   remote(Host, typhon_host:host_option(Name, hop_time(Time)))
+    ->  Times = [setting(hop_time, Time)]
+    ;   Times = []
+    ).
+
+host_name(Host, Name) :-
+    (   sub_atom(Host, Before, _, _, @)
+    ->  sub_atom(Host, 0, Before, _, Name)
+    ;   Name = Host
+    ).
+
+%   The longest of the shortest ways between hosts that are linked at all.
+
+diameter(Hosts, Diameter) :-
+    findall(Host-Other,
+            ( member(Host, Hosts),
+              remote(Host, neighbours(Others)),
+              member(Other, Others), memberchk(Other, Hosts) ),
+            Edges),
+    vertices_edges_to_ugraph(Hosts, Edges, Graph),
+    findall(Depth,
+            ( member(Host, Hosts), depth([Host], [Host], Graph, 0, Depth) ),
+            Depths),
+    max_list([1|Depths], Diameter).
+
+%   depth(+Border, +Seen, +Graph, +Depth0, -Depth): breadth first.
+
+depth(Border, Seen, Graph, Depth0, Depth) :-
+    foldl(beyond(Graph), Border, [], Next0),
+    ord_subtract(Next0, Seen, Next),
+    (   Next == []
+    ->  Depth = Depth0
+    ;   ord_union(Seen, Next, Seen1),
+        Depth1 is Depth0 + 1,
+        depth(Next, Seen1, Graph, Depth1, Depth)
+    ).
+
+beyond(Graph, Host, Next0, Next) :-
+    neighbours(Host, Graph, Others),
+    ord_union(Next0, Others, Next).
+
+                /*******************************
+                *             TASKS            *
+                *******************************/
+
+%!  auction_post(+Mechanism, +Task, +Host) is det.
+%
+%   The node at Host auctions Task from now on, until it is completed or its
+%   deadline has passed.
+%
+%   @error type_error(task, Task), existence_error(node, Host),
+%   host_unreachable(Host)
+
+auction_post(Mechanism, Task, Host) :-
+    program(Mechanism, _),
+    check_task(Task),
+    node(Mechanism, Host, Node),
+    agent_send(Node, post(Task)).
+
+check_task(Task) :-
+    (   Task = task(Name, Teams, Details),
+        atomic(Name),
+        is_list(Details),
+        is_list(Teams),
+        Teams = [_|_],
+        forall(member(Team, Teams),
+               ( Team = Count-Requirements,
+                 integer(Count), Count > 0, is_list(Requirements) ))
+    ->  true
+    ;   type_error(task, Task)
+    ).
+
+node(Mechanism, Host, Node) :-
+    (   remote(Host, sense(node(Mechanism, Node0)))
+    ->  Node = Node0
+    ;   existence_error(node, Host)
+    ).
+
+                /*******************************
+                *            COUNTS            *
+                *******************************/
+
+%!  auction_counts(+Mechanism, +Hosts, -Counts:list(pair)) is det.
+%
+%   Counts are Kind-Count, in the order of the kinds: how many messages of a
+%   kind the nodes at Hosts have sent, each over one link, since
+%   auction_account/2.  Hosts that are gone are left out.
+
+auction_counts(Mechanism, Hosts, Counts) :-
+    findall(Kind-Count, count_at(Mechanism, Hosts, Kind, Count), All),
+    findall(Kind, member(Kind-_, All), Kinds0),
+    sort(Kinds0, Kinds),
+    findall(Kind-Sum,
+            ( member(Kind, Kinds),
+              aggregate_all(sum(Count), member(Kind-Count, All), Sum) ),
+            Counts).
+
+count_at(Mechanism, Hosts, Kind, Count) :-
+    member(Host, Hosts),
+    catch(( node(Mechanism, Host, Node),
+            agent_property(Node, facts(Facts)) ),
+          error(_, _), fail),
+    member(sent(Kind, Count), Facts).
+
+%!  auction_account(+Mechanism, +Hosts) is det.
+%
+%   Has the nodes at Hosts log what they have sent, as
+%   communications(Kind, Count), and begin to count anew. Does not wait.
+%
+%   @error existence_error(node, Host), host_unreachable(Host)
+
+auction_account(Mechanism, Hosts) :-
+    forall(member(Host, Hosts),
+           ( node(Mechanism, Host, Node), agent_send(Node, account) )).

@@ -1,0 +1,229 @@
+/*  The side of a node that speaks for the robot of its host.  It bids for
+    one auction at a time, and for another one only when that is over, or
+    more urgent.  Who wins has a contract, which ends unless the auctioneer
+    renews it: so no robot stays reserved for an auctioneer that is gone.
+
+    State: hold(Job, Round, Offer, Until), the auction for which it has bid;
+    asked(Job, Round, Left, Bids), its robot has not answered all yet;
+    contract(Job, Round, Ref, Details, Phase, Until), Phase one of reserving,
+    reserved, executing, done; over(Job, Round), what is not to be believed
+    any more if it comes late.
+*/
+
+                /*******************************
+                *             BIDS             *
+                *******************************/
+
+%   invited(+Job, +Round, +Offer): Offer is offer(Task, Owner, Places,
+%   Details, Close), Places a list of (Number-Requirements)-Count.
+
+invited(Job, Round, Offer) :-
+    sense(robot(Robot)),
+    \+ contract(Job, _, _, _, _, _),
+    \+ is_over(Job, Round),
+    now(Now),
+    \+ engaged(Offer, Now),
+    !,
+    Offer = offer(Task, _, Places, Details, Close),
+    parameter(answer, Answer),
+    Until is Close + Answer,
+    retractall(hold(_, _, _, _)),
+    assertz(hold(Job, Round, Offer, Until)),
+    length(Places, Count),
+    retractall(asked(_, _, _, _)),
+    assertz(asked(Job, Round, Count, [])),
+    forall(member((Number-Requirements)-_, Places),
+           send(Robot, ask(ref(Job, Round, Number),
+                           need(Task, Requirements, Details)))).
+invited(_, _, _).
+
+engaged(offer(_, _, _, Details, _), Now) :-
+    hold(_, _, offer(_, _, _, Held, _), Until),
+    Now < Until,
+    detail(priority, Details, 0, New),
+    detail(priority, Held, 0, Old),
+    New =< Old.
+
+%   answered(+Answer, +Ref, +Robot): what the robot says.
+
+answered(bid(Cost), ref(Job, Round, Number), _) :-
+    !,
+    bid_known([Number-Cost], Job, Round).
+answered(reserved, Ref, Robot) :-
+    !,
+    reserved(Ref, Robot).
+answered(refused(_), Ref, _) :-
+    !,
+    refused(Ref).
+answered(_, _, _).
+
+bid_known(Bid, Job, Round) :-
+    retract(asked(Job, Round, Left0, Bids0)),
+    !,
+    append(Bid, Bids0, Bids),
+    Left is Left0 - 1,
+    (   Left > 0
+    ->  assertz(asked(Job, Round, Left, Bids))
+    ;   Bids == []
+    ->  retractall(hold(Job, Round, _, _))
+    ;   offer_bids(Job, Round, Bids)
+    ).
+bid_known(_, _, _).
+
+                /*******************************
+                *           CONTRACT           *
+                *******************************/
+
+%   awarded(+Job, +Round, +Winners): a list of Host-Number.
+
+awarded(Job, Round, Winners) :-
+    here(Here),
+    (   memberchk(Here-Number, Winners)
+    ->  take_on(Job, Round, Number)
+    ;   retractall(hold(Job, Round, _, _))
+    ).
+
+take_on(Job, Round, Number) :-
+    retract(hold(Job, Round, offer(Task, Owner, Places, Details, _), _)),
+    \+ is_over(Job, Round),
+    sense(robot(Robot)),
+    !,
+    memberchk((Number-Requirements)-_, Places),
+    Ref = ref(Job, Round, Number),
+    until(Until),
+    assertz(contract(Job, Round, Ref, Details, reserving, Until)),
+    at(Until, lapse(Job)),
+    send(Robot, reserve(Ref, Owner, need(Task, Requirements, Details))).
+take_on(Job, Round, _) :-
+    tell(Job, Round, refused).
+
+until(Until) :-
+    parameter(contract, Seconds),
+    now(Now),
+    Until is Now + Seconds.
+
+tell(Job, Round, Phase) :-
+    here(Here),
+    tell_owner(Job, report(Round, Here, Phase)).
+
+phase(Job, Phase) :-
+    retract(contract(Job, Round, Ref, Details, _, Until)),
+    assertz(contract(Job, Round, Ref, Details, Phase, Until)),
+    tell(Job, Round, Phase).
+
+%   What the robot answers to reserve/3.  The contract may be gone again.
+
+reserved(Ref, _) :-
+    contract(Job, _, Ref, _, reserving, _),
+    !,
+    phase(Job, reserved).
+reserved(Ref, Robot) :-
+    (   contract(_, _, Ref, _, _, _)
+    ->  true
+    ;   send(Robot, release(Ref))
+    ).
+
+refused(Ref) :-
+    retract(contract(Job, Round, Ref, _, _, _)),
+    !,
+    tell(Job, Round, refused).
+refused(ref(Job, Round, _)) :-
+    bid_known([], Job, Round).
+
+                /*******************************
+                *           EXECUTION          *
+                *******************************/
+
+start(Job) :-
+    contract(Job, _, Ref, Details, reserved, _),
+    sense(robot(Robot)),
+    !,
+    task_goal(Details, Goal),
+    phase_quietly(Job, executing),
+    send(Robot, start(Ref, Goal)).
+start(_).
+
+phase_quietly(Job, Phase) :-
+    retract(contract(Job, Round, Ref, Details, _, Until)),
+    assertz(contract(Job, Round, Ref, Details, Phase, Until)).
+
+task_goal(Details, Goal) :-
+    detail(duration, Details, 5, Seconds),
+    detail(goal, Details, sleep(Seconds), Goal).
+
+robot_done(Ref) :-
+    contract(Job, _, Ref, _, _, _),
+    phase(Job, done).
+
+robot_lost(Ref, Why) :-
+    retract(contract(Job, Round, Ref, _, _, _)),
+    tell(Job, Round, lost(Why)).
+
+%   The auctioneer is not asked whether it still needs the robot: it renews.
+
+robot_asks(Ref, Robot) :-
+    (   contract(_, _, Ref, _, _, _)
+    ->  send(Robot, yes(Ref))
+    ;   send(Robot, no(Ref))
+    ).
+
+%   renewed(+Job, +Phase): if the task is `executing` and this robot is not,
+%   it has missed the start.
+
+renewed(Job, Phase) :-
+    retract(contract(Job, Round, Ref, Details, Now, _)),
+    !,
+    until(Until),
+    assertz(contract(Job, Round, Ref, Details, Now, Until)),
+    (   Phase == executing
+    ->  start(Job)
+    ;   true
+    ),
+    contract(Job, _, _, _, Then, _),
+    tell(Job, Round, Then).
+renewed(_, _).
+
+                /*******************************
+                *            RELEASE           *
+                *******************************/
+
+released(Job, Round, Hosts) :-
+    here(Here),
+    (   Hosts == all
+    ->  true
+    ;   memberchk(Here, Hosts)
+    ),
+    !,
+    parameter(jobs, Most),
+    keep(over(Job, Round), over(_, _), Most),
+    (   hold(Job, Held, _, _),
+        Held =< Round
+    ->  retractall(hold(_, _, _, _))
+    ;   true
+    ),
+    give_up(Job, Round).
+released(_, _, _).
+
+give_up(Job, Round) :-
+    contract(Job, Held, Ref, _, _, _),
+    Held =< Round,
+    !,
+    retractall(contract(Job, _, _, _, _, _)),
+    forall(sense(robot(Robot)), send(Robot, release(Ref))).
+give_up(_, _).
+
+is_over(Job, Round) :-
+    over(Job, Last),
+    Round =< Last,
+    !.
+
+%   Nobody has renewed the contract in time.
+
+lapse(Job) :-
+    contract(Job, Round, _, _, _, Until),
+    now(Now),
+    (   Until =< Now
+    ->  give_up(Job, Round),
+        tell(Job, Round, lost(lapsed))
+    ;   at(Until, lapse(Job))
+    ).

@@ -1,0 +1,140 @@
+/*  A node: the static agent of a host that takes part in auctions.  It
+    passes on messages (link.pl), bids for the robot of its host
+    (contractor.pl), and holds the auctions of the tasks that are posted at
+    its host (auctioneer.pl).  Included in murdoch.pl and anta.pl, which say
+    how messages get from an auctioneer to robots and back:
+
+        publish(+Body)                          to all nodes
+        tell_robots(+Job, +Hosts, +Body)        to the nodes of Hosts
+        tell_owner(+Job, +Body)                 to who auctions Job
+        offer_bids(+Job, +Round, +Bids)         the bids of this host
+        arrived(+Body, +From, +Now)             came over a link
+        onward(+Body, -Onward)                  how a flood is passed on
+        undertake(+What, +Now)                  was on the agenda
+
+    All that a node does between two messages is native Prolog: it stops at
+    the one receive/2 of node_loop/0 only.
+
+    A Job is job(Host, Number), the host of the auctioneer first.  A task is
+    auctioned once or more, each time is a Round.
+*/
+
+:- include(needs).
+:- include(backoff).
+:- include(link).
+:- include(contractor).
+:- include(auctioneer).
+
+default(window, 10).            % seconds for bids
+default(answer, 10).            % seconds for the answers to an award
+default(renew, 20).             % seconds from one renewal to the next
+default(contract, 60).          % seconds a contract lasts unless renewed
+default(tries, 3).              % rounds without a back-off between them
+default(bi_min, 10).
+default(bi_max, 500).
+default(level, 10).             % of a broadcast tree
+default(memory, 1000).          % floods that a node knows again
+default(jobs, 100).             % jobs of others that it remembers
+
+parameter(Name, Value) :-
+    (   setting(Name, Value0)
+    ->  Value = Value0
+    ;   default(Name, Value)
+    ).
+
+main :-
+    first_id,
+    assertz(agenda(0, [])),
+    node_loop.
+
+heard(link(Due, From, Load), _) :-
+    !,
+    crossed(Due, From, Load).
+heard(answer(Ref, Answer), Robot) :-
+    !,
+    answered(Answer, Ref, Robot).
+heard(Message, From) :-
+    hear(Message, From),
+    !.
+heard(_, _).
+
+hear(done(Ref), _) :-
+    robot_done(Ref).
+hear(lost(Ref, Why), _) :-
+    robot_lost(Ref, Why).
+hear(still(Ref), Robot) :-
+    robot_asks(Ref, Robot).
+hear(post(Task), _) :-
+    post(Task).
+hear(peers(Peers), _) :-
+    retractall(peer(_, _)),
+    forall(member(Host-Node, Peers), assertz(peer(Host, Node))).
+hear(account, _) :-
+    account.
+
+perform(flooded(From, Id, Body), Now) :-
+    !,
+    flooded(From, Id, Body, Now).
+perform(told(From, Body), Now) :-
+    !,
+    arrived(Body, From, Now).
+perform(What, Now) :-
+    (   undertake(What, Now)
+    ->  true
+    ;   due(What)
+    ->  true
+    ;   true                            % it is no longer of use
+    ).
+
+%   What the contractor and the auctioneer have put on the agenda.
+
+due(lapse(Job)) :-
+    lapse(Job).
+due(close(Job, Round)) :-
+    close_auction(Job, Round).
+due(settle(Job, Round)) :-
+    settle(Job, Round).
+due(again(Job, Round)) :-
+    again(Job, Round).
+due(renew(Job)) :-
+    renew(Job).
+due(deadline(Job)) :-
+    deadline(Job).
+
+%   to_robot(+Body): what auctioneers tell the contractor of this host.
+
+to_robot(announce(Job, Round, Offer)) :-
+    invited(Job, Round, Offer).
+to_robot(award(Job, Round, Winners)) :-
+    awarded(Job, Round, Winners).
+to_robot(start(Job)) :-
+    start(Job).
+to_robot(renew(Job, Phase)) :-
+    renewed(Job, Phase).
+to_robot(release(Job, Round, Hosts)) :-
+    released(Job, Round, Hosts).
+
+%   to_owner(+Job, +Body): what nodes tell the auctioneer, who is here.
+
+to_owner(Job, bids(Round, List)) :-
+    bids(Job, Round, List).
+to_owner(Job, report(Round, Host, Phase)) :-
+    report(Phase, Job, Round, Host).
+
+%   body_kind(+Body, -Kind): under which name a message is counted.
+
+body_kind(owner(_, Body), Kind) :-
+    !,
+    body_kind(Body, Kind).
+body_kind(robots(_, _, Body), Kind) :-
+    !,
+    body_kind(Body, Kind).
+body_kind(flooded(Body), Kind) :-
+    !,
+    body_kind(Body, Kind).
+body_kind(report(_, _, _), ack) :-
+    !.
+body_kind(bids(_, _), bid) :-
+    !.
+body_kind(Body, Kind) :-
+    functor(Body, Kind, _).
