@@ -4,6 +4,7 @@
             fake_mail/1,                % +From-Message
             fake_clone/1,               % +Answer
             fake_refusal/1,             % +Host
+            fake_neighbours/1,          % +Hosts
             did/1,                      % -Acts
             tuples/1                    % -Tuples
           ]).
@@ -18,7 +19,8 @@ any others: the vocabulary of agents is that of module fake_host here.
 Nothing moves or waits.  sleep/1 sets the clock forward; receive/2 finds a
 message or fails, at the time until which it would have waited; clone/1
 answers what fake_clone/1 said, move/1 raises an error where fake_refusal/1
-said so, and next_host/2 always chooses `next`.
+said so, and next_host/2 always chooses `next`.  here/1 is `here` until the
+agent moves.
 
 *Threading*: one agent at a time.
 */
@@ -29,7 +31,8 @@ said so, and next_host/2 always chooses `next`.
     fake_host:time/1,
     fake_host:mail/1,
     fake_host:answer/1,
-    fake_host:refuses/1.
+    fake_host:refuses/1,
+    fake_host:neighbours/1.
 
 fake_host:leave(Fact) :- assertz(fake_host:tuple(Fact)).
 fake_host:take(Fact)  :- retract(fake_host:tuple(Fact)), !.
@@ -37,10 +40,15 @@ fake_host:sense(Fact) :- fake_host:tuple(Fact).
 fake_host:log(What)   :- assertz(fake_host:did(log(What))).
 fake_host:send(Id, M) :- assertz(fake_host:did(send(Id, M))).
 fake_host:self(me).
+fake_host:hops(3).
 fake_host:host_load(1).
 fake_host:now(Time) :- fake_host:time(Time).
 fake_host:next_host(_, next).
 fake_host:dispose :- throw(disposed).
+
+fake_host:here(Host) :-
+    findall(To, fake_host:did(move(To)), Moves),
+    last([here|Moves], Host).
 
 fake_host:sleep(Seconds) :-
     pass(Seconds).
@@ -100,7 +108,8 @@ forget :-
              \+ predicate_property(fake_agent:Head, imported_from(_))
            ),
            retractall(fake_agent:Head)),
-    forall(member(Head, [tuple(_), did(_), mail(_), answer(_), refuses(_)]),
+    forall(member(Head, [tuple(_), did(_), mail(_), answer(_), refuses(_),
+                         neighbours(_)]),
            retractall(fake_host:Head)).
 
 load_clauses(File) :-
@@ -129,9 +138,11 @@ load_clause(Clause, _) :-
 %!  fake_mail(+Message) is det.
 %!  fake_clone(+Answer) is det.
 %!  fake_refusal(+Host) is det.
+%!  fake_neighbours(+Hosts) is det.
 %
 %   What the clock shows, a From-Message for the agent, what comes of its
-%   next clone (an error is raised), and that Host refuses it.
+%   next clone (an error is raised), that Host refuses it, and which hosts
+%   are near, wherever it is.
 
 fake_at(Time) :-
     retractall(fake_host:time(_)),
@@ -145,6 +156,10 @@ fake_clone(Answer) :-
 
 fake_refusal(Host) :-
     assertz(fake_host:refuses(Host)).
+
+fake_neighbours(Hosts) :-
+    retractall(fake_host:neighbours(_)),
+    assertz(fake_host:neighbours(Hosts)).
 
 %!  did(-Acts) is det.
 %!  tuples(-Tuples) is det.
