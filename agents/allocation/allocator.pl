@@ -8,6 +8,7 @@
 :- include(needs).
 :- include(way).
 :- include(exploration).
+:- include(tell).
 :- include(dealings).
 :- include(deallocation).
 

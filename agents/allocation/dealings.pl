@@ -132,11 +132,6 @@ give_up(Host, Ref, Why) :-
     ;   true
     ).
 
-%   Fails if it is known at once that Agent cannot be reached.
-
-tell(Agent, Message) :-
-    catch(send(Agent, Message), error(_, _), fail).
-
 post(Host, Robot, Message) :-
     received(Host),
     tell(Robot, Message).

@@ -53,7 +53,7 @@ Details are a list, in which all may be missing:
 %   @error domain_error(setting, X)
 
 robot_start(Host, _, _) :-
-    remote(Host, ( sense(furnished(robot)) ; sense(robot(_)) )),
+    remote(Host, sense(robot(_))),
     !.
 robot_start(Host, Properties, Options) :-
     must_be(list(ground), Properties),
@@ -63,13 +63,10 @@ robot_start(Host, Properties, Options) :-
             ( member(Property, Properties), Fact = property(Property)
             ; member(Fact, Settings) ),
             Facts),
-    remote(Host, leave(furnished(robot))),
-    catch(agent_create(agents(allocation/robot), _,
-                       [ host(Host), static(true), payloads([Payload]),
-                         facts(Facts) ]),
-          Error,
-          ( remote(Host, take(furnished(robot))),
-            throw(Error) )).
+    agent_create(agents(allocation/robot), Robot,
+                 [ host(Host), static(true), payloads([Payload]),
+                   facts(Facts) ]),
+    remote(Host, leave(robot(Robot))).
 
 %!  robot_state(+Host, +State) is det.
 %!  robot_fail(+Host) is det.

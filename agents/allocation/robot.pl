@@ -1,5 +1,6 @@
 :- agent(robot, [state([property/1, setting/2, hold/5, due/2, failed/0])]).
 :- include(needs).
+:- include(tell).
 
 /*  The static agent of a robot: says what the robot can do and what that
     would cost, and holds one task at a time (thesis sections 7.3, 7.4).
@@ -8,8 +9,9 @@
 
     Facts: property(Property), its capabilities and states; its payload
     defines cost(+Need, +Properties, -Cost), which fails if the robot will
-    not do it.  The tuple robot(Id) on its host tells where to ask.  In
-    events the robot is named by the address of its host.
+    not do it.  The tuple robot(Id) on its host, left by who put it
+    there, tells whom to ask.  In events the robot is named by the address
+    of its host.
 
     A reservation is known by its Ref, a term that the asker chose.  It is
     kept as hold(Ref, Owner, Need, Contact, Phase): Owner is who the task is
@@ -45,14 +47,9 @@ parameter(Name, Value) :-
     ).
 
 main :-
-    self(Me),
-    leave(robot(Me)),
-    serve.
-
-serve :-
     next(Event),
     handle(Event),
-    serve.
+    main.
 
 next(Event) :-
     due(Time, _),
@@ -73,20 +70,15 @@ handle(overdue) :-
 handle(From-start(Ref, Goal)) :-
     !,
     start(Ref, Goal, Answer),
-    tell(From, answer(Ref, Answer)).
+    ignore(tell(From, answer(Ref, Answer))).
 handle(From-Message) :-
     answer(Message, From, Ref, Answer),
     !,
-    tell(From, answer(Ref, Answer)).
+    ignore(tell(From, answer(Ref, Answer))).
 handle(From-Message) :-
     heed(Message, From),
     !.
 handle(_).
-
-%   Whoever it is may be gone.
-
-tell(Agent, Message) :-
-    catch(send(Agent, Message), error(_, _), true).
 
                 /*******************************
                 *           QUESTIONS          *
@@ -167,7 +159,7 @@ lose(Why) :-
     hold(Ref, _, _, Contact, _),
     !,
     free,
-    tell(Contact, lost(Ref, Why)).
+    ignore(tell(Contact, lost(Ref, Why))).
 lose(_).
 
 free :-
@@ -255,7 +247,7 @@ finished(done, Ref) :-
     hold(Ref, Owner, need(Task, _, _), Contact, _),
     here(Host),
     log(executed(Host, Owner, Task)),
-    tell(Contact, done(Ref)).
+    ignore(tell(Contact, done(Ref))).
 finished(Outcome, _) :-
     lose(Outcome).
 
@@ -276,6 +268,6 @@ overdue(ask) :-
     hold(Ref, _, _, Contact, _),
     parameter(patience, Seconds),
     remind(Seconds, answer),
-    tell(Contact, still(Ref)).
+    ignore(tell(Contact, still(Ref))).
 overdue(answer) :-
     lose(lapsed).

@@ -1,0 +1,10 @@
+/*  Telling agents that may be gone.  To be included.
+*/
+
+%!  tell(+Agent, +Message) is semidet.
+%
+%   As send/2, but nobody is warned.  Fails if it is known at once that
+%   Agent has ended, or cannot be reached.
+
+tell(Agent, Message) :-
+    catch(typhon:agent_send(Agent, Message), error(_, _), fail).
