@@ -1,6 +1,6 @@
 :- agent(anta, [ state([ setting/2, peer/2, agenda/2, item/2, wave/2, kept/2,
                          next_id/1, sent/2, hold/4, asked/4, contract/6,
-                         over/2, job/6, member/6, bid/4, allocated/1,
+                         over/2, job/6, member/6, bid/4, allocated/1, renewal/2,
                          tree/3, way/3, gathered/4 ]) ]).
 :- include(node).
 

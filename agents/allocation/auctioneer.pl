@@ -9,7 +9,8 @@
     bidding, awarding, executing, waiting; bid(Job, Round, Host, Bids), Bids
     being Number-Cost for each team; member(Job, Host, Number, Round, Phase,
     Heard), Phase one of awarded, reserved, executing, done, Heard the time
-    of the last sign of life; allocated(Job), once all were reserved.
+    of the last sign of life; allocated(Job), once all were reserved;
+    renewal(Job, Round), since which round contracts are renewed.
 */
 
                 /*******************************
@@ -27,7 +28,6 @@ post(Task) :-
     ->  after(Seconds, deadline(Job))
     ;   true
     ),
-    renew_later(Job),
     open_auction(Job).
 
 open_auction(Job) :-
@@ -98,6 +98,11 @@ award(Job, Round, Winners) :-
            assertz(member(Job, Host, Number, Round, awarded, Now))),
     parameter(answer, Seconds),
     after(Seconds, settle(Job, Round)),
+    (   renewal(Job, _)
+    ->  true
+    ;   assertz(renewal(Job, Round)),
+        renew_later(Job, Round)
+    ),
     findall(Host, member(Host-_, Winners), Hosts),
     tell_robots(Job, Hosts, award(Job, Round, Winners)).
 
@@ -226,6 +231,7 @@ release_all(Job, Count) :-
     findall(Host, retract(member(Job, Host, _, _, _, _)), Members),
     retractall(bid(Job, _, _, _)),
     retractall(allocated(Job)),
+    retractall(renewal(Job, _)),
     append(Members, Bidders, Hosts0),
     sort(Hosts0, Hosts),
     parameter(jobs, Most),
@@ -239,15 +245,16 @@ release_all(Job, Count) :-
                 *       RENEWALS, THE END      *
                 *******************************/
 
-renew_later(Job) :-
+renew_later(Job, Since) :-
     parameter(renew, Seconds),
-    after(Seconds, renew(Job)).
+    after(Seconds, renew(Job, Since)).
 
 %   Who has let a whole period pass without a sign of life is lost.
 
-renew(Job) :-
+renew(Job, Since) :-
+    renewal(Job, Since),
     job(Job, _, Round, _, _, _),
-    renew_later(Job),
+    renew_later(Job, Since),
     parameter(renew, Seconds),
     now(Now),
     findall(Host,

@@ -1,7 +1,7 @@
 :- agent(murdoch, [ state([ setting/2, peer/2, agenda/2, item/2, wave/2,
                             kept/2, next_id/1, sent/2, hold/4, asked/4,
                             contract/6, over/2, job/6, member/6, bid/4,
-                            allocated/1 ]) ]).
+                            allocated/1, renewal/2 ]) ]).
 :- include(node).
 
 /*  Murdoch (Gerkey and Mataric): tasks are announced, those who can do them

@@ -96,8 +96,8 @@ due(settle(Job, Round)) :-
     settle(Job, Round).
 due(again(Job, Round)) :-
     again(Job, Round).
-due(renew(Job)) :-
-    renew(Job).
+due(renew(Job, Since)) :-
+    renew(Job, Since).
 due(deadline(Job)) :-
     deadline(Job).
 

@@ -1,0 +1,104 @@
+:- module(test_fake_node,
+          [ node/2,                     % +Program, +Facts
+            hears/2,                    % +Message, +From
+            link/3,                     % +From, +Due, +Load
+            at/1,                       % +Time
+            sent/1,                     % -Pairs
+            bodies/1,                   % -Pairs
+            logged/1,                   % -What
+            fact/1,                     % ?Fact
+            job/1,                      % -Job
+            offer/2,                    % +Details, -Offer
+            announced/3                 % +Details, +Round, -Announcement
+          ]).
+:- use_module(fake_agent).
+:- use_module(library(lists), [append/2, member/2]).
+
+/** <module> One node of an auction, alone
+
+It is a few facts: what it hears is said to it, what it sends is recorded,
+and time passes when the test says so. It is at host `here` with neighbours
+a, b and c; the robot of the host is agent `robot`.
+
+*Threading*: one node at a time.
+*/
+
+%!  node(+Program, +Facts) is det.
+%
+%   A node of Program, `murdoch` or `anta`, with Facts.
+
+node(Program, Facts) :-
+    atomic_list_concat(['agents/allocation/', Program, '.pl'], File),
+    findall(peer(Host, Node),
+            member(Host-Node, [here-me, a-na, b-nb, c-nc]), Peers),
+    append([ [here(here), neighbours([a, b, c])], Peers,
+             [agenda(0, []), next_id(1)], Facts ], All),
+    fake_agent(File, All, [robot(robot)]).
+
+%!  hears(+Message, +From) is det.
+%!  link(+From, +Due, +Load) is det.
+%!  at(+Time) is det.
+%
+%   The node gets a message of an agent, or one over the link from a host,
+%   or it is Time; and it does what is due then.
+
+hears(Message, From) :-
+    once(fake_agent:heard(Message, From)),
+    once(fake_agent:do_due).
+
+link(From, Due, Load) :-
+    hears(link(Due, From, Load), node).
+
+at(Time) :-
+    fake_at(Time),
+    once(fake_agent:do_due).
+
+%!  sent(-Pairs) is det.
+%!  bodies(-Pairs) is det.
+%!  logged(-What:list) is det.
+%
+%   What the node has sent since the last time: To-Load, a host and what
+%   went over the link to it, or robot-Message. With bodies/1 a Load that is
+%   flooded is shown as what is in it. And what it has logged.
+
+sent(Pairs) :-
+    findall(To-Load,
+            ( retract(fake_host:did(send(Id, Message))),
+              (   Message = link(_, here, Load)
+              ->  fake_agent:peer(To, Id)
+              ;   To = Id, Load = Message ) ),
+            Pairs).
+
+bodies(Bodies) :-
+    sent(Pairs),
+    findall(To-Body,
+            ( member(To-Load, Pairs), load_body(Load, Body) ),
+            Bodies).
+
+load_body(flood(_, Body), Body) :- !.
+load_body(only(Body), only(Body)) :- !.
+load_body(Message, Message).
+
+logged(What) :-
+    findall(W, retract(fake_host:did(log(W))), What).
+
+%!  fact(?Fact) is semidet.
+%
+%   What the node knows.
+
+fact(Fact) :-
+    once(fake_agent:Fact).
+
+%!  job(-Job) is det.
+%!  offer(+Details, -Offer) is det.
+%!  announced(+Details, +Round, -Announcement) is det.
+%
+%   A job of another host, which is for two robots that push.
+
+offer(Details, offer(t, boss, [(1-[push])-2], Details, 10)).
+
+job(job(owner, 1)).
+
+announced(Details, Round, announce(Job, Round, Offer)) :-
+    job(Job),
+    offer(Details, Offer).
