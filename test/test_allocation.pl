@@ -616,6 +616,6 @@ test(robot_that_answers_is_not_given_up, Outcome == done) :-
     fake_agent:inquire([], Asked),
     Asked == [p],
     fake_mail(p-answer(y, status(done))),
-    fake_agent:supervise(Asked, Outcome).
+    fake_agent:supervise(Asked, 10, Outcome).
 
 :- end_tests(allocation_allocator).

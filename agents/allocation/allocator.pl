@@ -165,7 +165,7 @@ execute(Outcome) :-
     keep(stage(executing)),
     findall(Host, held(Host, _, _, _, reserved), Hosts),
     start(Hosts),
-    supervise([], Outcome).
+    supervise(Outcome).
 
 start(Hosts) :-
     task(_, _, Details),
@@ -181,25 +181,38 @@ start(Host, Robot, Ref, Goal) :-
     ;   give_up(Host, Ref, unreachable)
     ).
 
-%   supervise(+Asked, -Outcome): Asked are the robots that have been silent
-%   for a while and then were asked how they are.
+%   supervise(+Asked, +Look, -Outcome): at the time Look it asks those
+%   that have not finished how they are.  Asked are the robots that have not
+%   answered since the last time.
 
-supervise(_, missing) :-
+supervise(Outcome) :-
+    look_again(Look),
+    supervise([], Look, Outcome).
+
+supervise(_, _, missing) :-
     \+ complete,
     !.
-supervise(_, done) :-
+supervise(_, _, done) :-
     \+ ( held(_, _, _, _, Phase), Phase \== done ),
     !.
-supervise(Asked, Outcome) :-
+supervise(Asked, Look, Outcome) :-
     check_deadline,
-    parameter(monitor, Seconds0),
-    soon(Seconds0, Seconds),
+    now(Now),
+    Left is max(0, Look - Now),
+    soon(Left, Seconds),
     (   receive(From-Message, Seconds)
     ->  heed(Message, From),
-        subtract(Asked, [From], Asked1)
-    ;   inquire(Asked, Asked1)
-    ),
-    supervise(Asked1, Outcome).
+        subtract(Asked, [From], Asked1),
+        supervise(Asked1, Look, Outcome)
+    ;   inquire(Asked, Asked1),
+        look_again(Look1),
+        supervise(Asked1, Look1, Outcome)
+    ).
+
+look_again(Look) :-
+    now(Now),
+    parameter(monitor, Seconds),
+    Look is Now + Seconds.
 
 %   Who did not answer the last time is given up.
 

@@ -109,6 +109,9 @@ heed(answer(Ref, What), _) :-
     !,
     received(Host),
     answered(What, Host, Ref).
+heed(finish, _) :-
+    !,
+    forall(held(_, _, Ref, _, started), mark(Ref, done)).
 heed(_, _).
 
 %   What a robot said that was told to start, or asked how it is.
