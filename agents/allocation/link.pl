@@ -204,6 +204,8 @@ new_id(Id) :-
 load_kind(only(Body), Kind) :-
     body_kind(Body, Kind).
 
+add_sent(_, 0) :-
+    !.
 add_sent(Kind, Count) :-
     (   retract(sent(Kind, Count0))
     ->  true
