@@ -110,7 +110,8 @@ forget :-
            retractall(fake_agent:Head)),
     forall(member(Head, [tuple(_), did(_), mail(_), answer(_), refuses(_),
                          neighbours(_)]),
-           retractall(fake_host:Head)).
+           retractall(fake_host:Head)),
+    fake_neighbours([]).
 
 load_clauses(File) :-
     read_file_to_terms(File, Terms, []),

@@ -116,10 +116,20 @@ test(open_teams, Open == [2]) :-
     findall(Team, open_team([1-[a], 2-[b], 1-[c]], [3, 2, 1], Team, _),
             Open).
 
+test(step, Trail == [d, c, b, a]) :-
+    stepped(d, [c, e], [], [c, b, a], Trail).
+test(step_over_a_link_that_has_gone, Trail == [d, c, b, a]) :-
+    stepped(d, [], [a], [c, b, a], Trail).
 test(round_is_forgotten, Trail == [b, a]) :-
-    stepped(b, [], [d, c, b, a], Trail).
+    stepped(b, [d, c], [], [d, c, b, a], Trail).
+test(detour_is_forgotten, Trail == [e, b, a]) :-
+    stepped(e, [b, d], [a], [d, c, b, a], Trail).
+test(not_beyond_a_robot, Trail == [e, c, b, a]) :-
+    stepped(e, [d, c, b], [c], [d, c, b, a], Trail).
 test(round_with_a_robot_is_kept, Trail == [b, d, c, b, a]) :-
-    stepped(b, [c, x], [d, c, b, a], Trail).
+    stepped(b, [d], [c, x], [d, c, b, a], Trail).
+test(round_to_a_robot, Trail == [c, b, a]) :-
+    stepped(c, [d], [c], [d, c, b, a], Trail).
 test(links, Counts == [0, 2, 4]) :-
     maplist([Host, Count]>>links(Host, [d, c, b, a], Count), [d, b, x],
             Counts).

@@ -2,7 +2,7 @@
     heeds what comes from others, and counts what it sends.  To be included.
 
     A message to or from a robot that is elsewhere counts once for each link
-    of the way the allocator came from there.
+    of the way the allocator came from there, without detours.
 */
 
                 /*******************************

@@ -1,26 +1,37 @@
 /*  The way back.  Pure: included in the programs that need it.
 
     A trail is the list of hosts that an agent came by, the last one first.
-    Where it came to a host again it forgets the round between, unless there
-    is a host on it that it has to go back to.
+    It forgets detours: where it comes to a host that is on the trail, or
+    linked with one, what lies between is left out, unless there is a host
+    among it that it has to go back to.
 */
 
 :- use_module(library(lists)).
 
-%!  stepped(+Host, +Wanted, +Trail0, -Trail) is det.
+%!  stepped(+Host, +Neighbours, +Wanted, +Trail0, -Trail) is det.
 %
 %   The trail of an agent that was at the head of Trail0 and is at Host,
-%   and may have to go back to Wanted.
+%   which has Neighbours, and may have to go back to Wanted.
 
-stepped(Host, Wanted, Trail0, Trail) :-
-    append(Round, [Host|Before], Trail0),
+stepped(Host, Neighbours, Wanted, Trail0, [Host|Trail]) :-
+    append(Before, [Goal|Later], Trail0),
+    memberchk(Goal, Wanted),
     !,
-    (   member(Other, Round),
-        memberchk(Other, Wanted)
-    ->  Trail = [Host|Trail0]
-    ;   Trail = [Host|Before]
-    ).
-stepped(Host, _, Trail, [Host|Trail]).
+    reverse(Before, Nearer),
+    detour([Goal|Nearer], Host, Neighbours, Later, Trail).
+stepped(Host, Neighbours, _, Trail0, [Host|Trail]) :-
+    reverse(Trail0, Hosts),
+    detour(Hosts, Host, Neighbours, [], Trail).
+
+detour([], _, _, Trail, Trail).
+detour([Host|_], Host, _, Later, Trail) :-
+    !,
+    Trail = Later.
+detour([Other|_], _, Neighbours, Later, [Other|Later]) :-
+    memberchk(Other, Neighbours),
+    !.
+detour([Other|Others], Host, Neighbours, Later, Trail) :-
+    detour(Others, Host, Neighbours, [Other|Later], Trail).
 
 %!  links(+Host, +Trail, -Count) is det.
 %
