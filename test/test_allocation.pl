@@ -587,6 +587,12 @@ test(robot_is_lost) :-
     fake_agent:attend,
     did([log(lost(a, preempted))]),
     \+ fake_agent:held(_, _, _, _, _).
+test(what_a_lost_robot_has_done_stays_done) :-
+    allocator([held(a, p, y, 2, done)]),
+    fake_mail(p-lost(y, lapsed)),
+    fake_agent:attend,
+    \+ fake_agent:held(_, _, _, _, _),
+    fake_agent:achieved(2).
 test(deadline, throws(missed)) :-
     allocator([]),
     retractall(fake_agent:until(_)),

@@ -27,13 +27,9 @@ allocation(Topology, Options, Settings, Goal) :-
 
 allocation_in(Topology, Options, Settings, Goal, Dir) :-
     atom_concat(Dir, '/events.pl', File),
-    (   memberchk(clock(_), Options)
-    ->  Options1 = Options
-    ;   Options1 = [clock(20)|Options]
-    ),
     setup_call_cleanup(
         network_start(Topology, Network,
-                      [seed(1), log(File)|Options1]),
+                      [clock(40), seed(1), log(File)|Options]),
         ( network_property(Network, hosts(Hosts)),
           maplist(push_robot(Settings), Hosts),
           maplist(push_robot(Settings), Hosts),     % no second one
@@ -44,7 +40,8 @@ allocation_in(Topology, Options, Settings, Goal, Dir) :-
     exclude(died(Events), Faults, []).
 
 push_robot(Settings, Host) :-
-    robot_start(Host, [push], [settings(Settings)]).
+    append(Settings, [watch-1000, patience-1000], All),
+    robot_start(Host, [push], [settings(All)]).
 
 %   Goals of tests log the hosts that they kill.
 
@@ -211,7 +208,7 @@ all_of_others(Hosts, Robot) :-
 %   Who disposes of an allocator does not dispose of its reservations.
 
 test(allocator_is_disposed_of) :-
-    allocation(ring(3), [], [watch-3, patience-3], disposed_of).
+    allocation(ring(3), [], [watch-5, patience-5], disposed_of).
 
 disposed_of(Hosts, _) :-
     Hosts = [First|_],
@@ -221,7 +218,7 @@ disposed_of(Hosts, _) :-
     all_free(Hosts).
 
 test(allocator_is_disposed_of_while_executing) :-
-    allocation(ring(3), [], [watch-3, patience-3], disposed_executing).
+    allocation(ring(3), [], [watch-5, patience-5], disposed_executing).
 
 disposed_executing(Hosts, File) :-
     Hosts = [First|_],
@@ -237,11 +234,11 @@ disposed_executing(Hosts, File) :-
 
 test(children_reach_nobody) :-
     allocation(ring(4), [hop_time(uniform(0.1, 0.2))],
-               [watch-3, patience-3], childless).
+               [watch-5, patience-5], childless).
 
 childless(Hosts, File) :-
     Hosts = [First|_],
-    push(t, 5, [deadline(30)], First, [chi-0.05, child_life-0], Agent),
+    push(t, 5, [deadline(60)], First, [chi-0.05, child_life-0], Agent),
     happened(File, not_reached(_)),
     happened(File, released(_, _, _)),
     push(u, 4, [], First, [child_life-0], Other),
@@ -252,7 +249,7 @@ childless(Hosts, File) :-
 %   Allocation finds the robots, and the sequence is executed on these.
 
 test(sequence_on_the_robots_found) :-
-    allocation(random(6, 0.6), [hop_time(uniform(0.1, 0.2)), clock(40)], [],
+    allocation(random(6, 0.6), [hop_time(uniform(0.1, 0.2))], [],
                sequence).
 
 sequence(Hosts, File) :-
@@ -281,7 +278,7 @@ sequence(Hosts, File) :-
     \+ memberchk(Out, Robots).
 
 test(sequence_is_missed) :-
-    allocation(ring(2), [clock(40)], [], sequence_missed).
+    allocation(ring(2), [], [], sequence_missed).
 
 sequence_missed(Hosts, File) :-
     Hosts = [First|_],
@@ -330,7 +327,7 @@ part(Agent, Blocks, Pid-Block, Others) :-
 %   they die one after the other in one.
 
 test(processes_are_killed) :-
-    allocation(random(9, 1.0), [processes(3)], [watch-5, patience-5],
+    allocation(random(9, 1.0), [processes(3)], [watch-10, patience-10],
                killed).
 
 killed(Hosts, File) :-

@@ -127,9 +127,15 @@ answered(status(done), _, Ref) :-
     mark(Ref, done).
 answered(_, _, _).
 
+%   What was done stays done.
+
 give_up(Host, Ref, Why) :-
-    retract(held(Host, Robot, Ref, _, _)),
+    retract(held(Host, Robot, Ref, Team, Phase)),
     log(lost(Host, Why)),
+    (   Phase == done
+    ->  assertz(achieved(Team))
+    ;   true
+    ),
     (   Why == silent
     ->  ignore(post(Host, Robot, release(Ref)))
     ;   true
