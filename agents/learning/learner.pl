@@ -1,0 +1,333 @@
+:- agent(learner, [state([setting/2, shareable/1, bag/1, begin/1, count/1,
+                          solution/1])]).
+:- include(parameters).
+:- include(resources).
+
+/*  Algorithm 1 of the thesis: agents that learn by what hosts tell them of
+    the actions they try there, and by what they tell each other when they
+    meet.
+
+    Executor      has the plan executed by the trainer of the host
+    Collector     goes from host to host, and takes into its bag what others
+                  in the same queue have to share
+    Assimilator   makes a plan of all it has
+    Converger     has reached the goal, and looks for somebody who has
+                  reached it in a better way
+
+    How a plan is made, a payload says: the learning algorithm.  It provides
+
+        plan(+Start, +Units, -Plan)   Units are pairs Unit-Weight, in the
+                                      standard order, Start the sensor
+                                      vector where executions begin
+        better(+Actions, +Others)     of two that lead to the goal
+
+    It can be exchanged while the agent lives; without one the agent waits.
+
+    What it has: shareable(Units), by its own executions, which it shares;
+    bag(Units), what others shared, until it is assimilated;
+    solution(Actions), those that led to the goal.
+
+    On the hosts: trainer(Id), and queued(Id) for each agent in the queue,
+    in the order in which they came.  How many may be there is the capacity
+    of the host.
+*/
+
+main :-
+    ready,
+    keep(shareable([])),
+    keep(bag([])),
+    keep(count(0)),
+    executor([]).
+
+ready :-
+    parameter(start, order),
+    !,
+    receive(_-begin).
+ready.
+
+                /*******************************
+                *           EXECUTOR           *
+                *******************************/
+
+executor(Plan) :-
+    sense(trainer(Trainer)),
+    !,
+    length(Plan, Length),
+    potential(Length, Xi),
+    send(Trainer, execute(Plan, Xi)),
+    parameter(execution, Seconds),
+    (   await(Trainer, feedback(Start, Units, Outcome), Seconds)
+    ->  executed(Start, Length, Units, Outcome),
+        after(Outcome)
+    ;   log(unanswered(Trainer)),
+        collector
+    ).
+executor(_) :-
+    collector.
+
+potential(Length, Xi) :-
+    parameter(search, Search),
+    parameter(k_d, Kd),
+    initial_potential(Length, Search, Kd, Xi).
+
+executed(Start, Length, Units0, Outcome) :-
+    sort(Units0, Units),
+    shareable(Old),
+    ord_union(Old, Units, All),
+    keep(shareable(All)),
+    keep(begin(Start)),
+    count(Count0),
+    Count is Count0 + 1,
+    keep(count(Count)),
+    length(All, Size),
+    functor(Outcome, What, _),
+    log(executed(Count, Length, Size, What)).
+
+after(reached(Actions)) :-
+    keep(solution(Actions)),
+    converger.
+after(unreached) :-
+    retractall(solution(_)),
+    collector.
+
+                /*******************************
+                *           COLLECTOR          *
+                *******************************/
+
+collector :-
+    parameter(rho_max, Rho),
+    collector(Rho).
+
+collector(Rho) :-
+    exhausted(Rho),
+    !,
+    assimilator.
+collector(Rho0) :-
+    hop(Rho0, Rho1),
+    visit(anything, New),
+    collected(New, Rho1, Rho),
+    collector(Rho).
+
+exhausted(Rho) :-
+    parameter(rho_min, Minimum),
+    Rho < Minimum.
+
+collected([], Rho, Rho) :-
+    !.
+collected(New, Rho0, Rho) :-
+    bag(Old),
+    ord_union(Old, New, Bag),
+    keep(bag(Bag)),
+    bag_weight(Old, Before),
+    bag_weight(Bag, After),
+    parameter(c, C),
+    parameter(rho_max, Maximum),
+    migration_reward(Rho0, Before, After, C, Maximum, Rho).
+
+                /*******************************
+                *          ASSIMILATOR         *
+                *******************************/
+
+%   No plan comes of it only while the learning algorithm is exchanged.
+
+assimilator :-
+    shareable(Own),
+    bag(Bag),
+    ord_union(Own, Bag, Units),
+    learnt(Units, Plan),
+    !,
+    keep(bag([])),
+    executor(Plan).
+assimilator :-
+    linger,
+    assimilator.
+
+learnt([], Plan) :-
+    !,
+    Plan = [].
+learnt(Units, Plan) :-
+    begin(Start),
+    catch(plan(Start, Units, Plan),
+          error(existence_error(procedure, _), _), fail).
+
+                /*******************************
+                *           CONVERGER          *
+                *******************************/
+
+converger :-
+    parameter(rho_max, Rho),
+    solution(Actions),
+    length(Actions, Length),
+    log(reached(Length)),
+    converger(Rho).
+
+converger(Rho) :-
+    exhausted(Rho),
+    !,
+    solution(Actions),
+    count(Count),
+    hops(Hops),
+    log(converged(Count, Hops, Actions)).
+converger(Rho0) :-
+    hop(Rho0, Rho),
+    visit(better, New),
+    (   New == []
+    ->  converger(Rho)
+    ;   keep(bag(New)),
+        collector
+    ).
+
+                /*******************************
+                *            MOVING            *
+                *******************************/
+
+%   hop(+Rho0, -Rho): on to another host, whatever time it takes.  A host
+%   that is full counts as visited, so another one is tried next.
+
+hop(Rho0, Rho) :-
+    (   moved
+    ->  bag(Bag),
+        bag_weight(Bag, Pi),
+        parameter(rho_max, Maximum),
+        migration_penalty(Rho0, Pi, Maximum, Rho)
+    ;   linger,
+        hop(Rho0, Rho)
+    ).
+
+moved :-
+    parameter(epsilon, Epsilon),
+    next_host(epsilon_conscientious(Epsilon), Host),
+    catch(move(Host), error(_, _), fail).
+
+linger :-
+    parameter(patience, Seconds),
+    deadline(Seconds, Until),
+    queue,
+    answer_until(Until),
+    unqueue.
+
+queue :-
+    self(Me),
+    leave(queued(Me)).
+
+unqueue :-
+    self(Me),
+    ignore(take(queued(Me))).
+
+                /*******************************
+                *            SHARING           *
+                *******************************/
+
+%   visit(+Wanted, -New): the agent comes to the end of the queue, asks the
+%   others in it one after the other until one of them has something New,
+%   and answers while it stays.  Wanted is `anything`, or `better`: only of
+%   those with a better solution.
+
+visit(_, New) :-
+    parameter(sharing, false),
+    !,
+    New = [],
+    parameter(stay, Seconds),
+    sleep(Seconds).
+visit(Wanted, New) :-
+    parameter(stay, Seconds),
+    deadline(Seconds, Until),
+    findall(Other, sense(queued(Other)), Others),
+    queue,
+    ask(Others, Wanted, New),
+    answer_until(Until),
+    unqueue.
+
+ask([], _, []).
+ask([Other|Others], Wanted, New) :-
+    (   asked(Other, Units, Solution),
+        wanted(Wanted, Solution),
+        new(Units, Found)
+    ->  New = Found,
+        length(Found, Size),
+        log(shared(Other, Size))
+    ;   ask(Others, Wanted, New)
+    ).
+
+%   Who does not answer is no longer there, whatever the queue says.
+
+asked(Other, Units, Solution) :-
+    here(Here),
+    send(Other, share(Here)),
+    parameter(answer, Seconds),
+    (   await(Other, shared(What), Seconds)
+    ->  What = units(Units, Solution)
+    ;   ignore(take(queued(Other))),
+        fail
+    ).
+
+wanted(anything, _).
+wanted(better, solution(Others)) :-
+    solution(Actions),
+    better(Others, Actions).
+
+new(Units, New) :-
+    shareable(Own),
+    bag(Bag),
+    ord_subtract(Units, Own, New0),
+    ord_subtract(New0, Bag, New),
+    New \== [].
+
+                /*******************************
+                *            MESSAGES          *
+                *******************************/
+
+deadline(Seconds, Until) :-
+    now(Now),
+    Until is Now + Seconds.
+
+%   await(+Agent, ?Reply, +Seconds): fails at the deadline.  What others
+%   want is answered meanwhile.
+
+await(Agent, Reply, Seconds) :-
+    deadline(Seconds, Until),
+    await_until(Agent, Reply, Until).
+
+await_until(Agent, Reply, Until) :-
+    heard(From, What, Until),
+    (   From == Agent,
+        What = Reply
+    ->  true
+    ;   respond(What, From),
+        await_until(Agent, Reply, Until)
+    ).
+
+answer_until(Until) :-
+    (   heard(From, What, Until)
+    ->  respond(What, From),
+        answer_until(Until)
+    ;   true
+    ).
+
+heard(From, What, Until) :-
+    now(Now),
+    Seconds is Until - Now,
+    Seconds > 0,
+    receive(From-What, Seconds).
+
+%   Nothing is shared with an agent at another host.
+
+respond(share(Here), Agent) :-
+    here(Here),
+    !,
+    shareable(Units),
+    (   solution(Actions)
+    ->  Solution = solution(Actions)
+    ;   Solution = none
+    ),
+    send(Agent, shared(units(Units, Solution))).
+respond(share(_), Agent) :-
+    !,
+    send(Agent, shared(nothing)).
+respond(_, _).
+
+keep(Fact) :-
+    functor(Fact, Name, Arity),
+    functor(Old, Name, Arity),
+    retractall(Old),
+    assertz(Fact).

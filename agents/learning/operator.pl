@@ -1,0 +1,105 @@
+:- module(learning_operator,
+          [ learning_start/5,           % +Hosts, +Problem, +Algorithms,
+                                        % +Options, -Agents
+            learning_exchange/3         % +Agents, +Name, +Algorithm
+          ]).
+:- use_module('../../prolog/typhon',
+              [ agent_create/3, agent_send/2, payload_attach/2,
+                payload_detach/2, remote/2
+              ]).
+:- use_module('../../prolog/typhon/paths', []).
+:- use_module('../starts', [starts/4]).
+:- use_module(library(apply), [maplist/2, maplist/4]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(option), [option/3]).
+
+/** <module> Agents that learn, as seen from outside
+
+Puts trainers on hosts and sets learning agents out (thesis chapter 4).
+Hosts are addresses, so all this works from any process that holds the
+cookie, whoever started the hosts.
+
+A problem and a learning algorithm are payload files; what they provide is
+said in the programs that use them, trainer.pl and learner.pl.
+
+*Threading*: any thread; no state.
+*/
+
+%!  learning_start(+Hosts, +Problem, +Algorithms, +Options, -Agents) is det.
+%
+%   Each of Hosts gets a trainer for Problem, where it has none.  Agents,
+%   with Algorithms in turn, all begin together.  Options:
+%
+%     - agents(Count)
+%       Default 5.
+%     - starts(Hosts), seed(Seed)
+%       Where they start, see starts/4.  The seed is also that of the
+%       trainers.
+%     - settings(Pairs)
+%       Name-Value, to replace what parameters.pl has as a default.
+%
+%   For no more than N agents in the queue of a host it must have been
+%   started with the capacity N + 1, for the trainer.
+%
+%   @error type_error(list, X), domain_error(hosts, []),
+%   existence_error(host, Host), host_unreachable(Host)
+
+learning_start(Hosts, Problem, Algorithms, Options, Agents) :-
+    must_be(list(atom), Hosts),
+    must_be(list, Algorithms),
+    settings(Options, Settings),
+    maplist(furnish(Problem, Settings), Hosts),
+    option(agents(Count), Options, 5),
+    starts(Count, Hosts, Options, Starts),
+    findall(Algorithm, in_turn(Count, Algorithms, Algorithm), Chosen),
+    maplist(create(Settings), Chosen, Starts, Agents),
+    maplist(begin, Agents).
+
+in_turn(Count, Algorithms, Algorithm) :-
+    length(Algorithms, Kinds),
+    Last is Count - 1,
+    between(0, Last, Number),
+    Index is Number mod Kinds,
+    nth0(Index, Algorithms, Algorithm).
+
+settings(Options, Settings) :-
+    option(settings(Pairs), Options, []),
+    must_be(list(pair), Pairs),
+    option(seed(Seed), Options, random),
+    findall(setting(Name, Value),
+            ( member(Name-Value, [seed-Seed|Pairs]) ),
+            Settings).
+
+furnish(_, _, Host) :-
+    remote(Host, sense(trainer(_))),
+    !.
+furnish(Problem, Settings, Host) :-
+    agent_create(agents(learning/trainer), _,
+                 [ host(Host), static(true), payloads([Problem]),
+                   facts(Settings)
+                 ]).
+
+create(Settings, Algorithm, Host, Agent) :-
+    agent_create(agents(learning/learner), Agent,
+                 [ host(Host), payloads([Algorithm]),
+                   facts([setting(start, order)|Settings])
+                 ]).
+
+begin(Agent) :-
+    agent_send(Agent, begin).
+
+%!  learning_exchange(+Agents, +Name, +Algorithm) is det.
+%
+%   Agents lay down the learning algorithm that is called Name and take up
+%   Algorithm, a payload file, wherever they are.
+%
+%   @error existence_error(agent, Agent), and others of payload_attach/2
+
+learning_exchange(Agents, Name, Algorithm) :-
+    must_be(list(atom), Agents),
+    maplist(exchange(Name, Algorithm), Agents).
+
+exchange(Name, Algorithm, Agent) :-
+    payload_detach(Agent, Name),
+    payload_attach(Agent, Algorithm).

@@ -1,0 +1,117 @@
+:- agent(trainer, [state([setting/2, chance/1])]).
+:- include(parameters).
+:- include(resources).
+
+/*  The static agent of a host: executes actions on what is to be learnt
+    there, and gives feedback (thesis section 4.2.2).  What that is, a
+    payload says, the problem.  The tuple trainer(Id) tells agents where to
+    ask.
+
+        execute(Plan, Xi)   asked by an agent: Plan is a list of actions.
+                            These are executed, then others at random, until
+                            the execution potential Xi is used up or the
+                            goal is reached
+
+        feedback(Start, Units, Outcome)
+                            the answer: the sensor vector at the start, the
+                            shareable intelligence as pairs Unit-Weight,
+                            and reached(Actions), those that led to the
+                            goal, or unreached
+
+    A problem is a payload file that provides
+
+        start(+Chance, -State)          how an execution begins
+        actions(-Actions)               all there are
+        act(+Action, +State0, -State)
+        sensed(+State, -Vector)         the sensor vector, ground
+        weight(+Vector0, +Vector, -W)   phi_w of an action between the two;
+                                        W > 0 is a positive feedback
+        reached(+State)                 the goal is reached
+        shareable(+Steps, -Units)       Steps, step(Vector0, Action, Vector,
+                                        W), are what has been executed;
+                                        Units, pairs Unit-Weight, what is
+                                        worth telling to others
+
+    Chance is a state of typhon_chance, a new one for each execution.
+*/
+
+main :-
+    seed(Seed),
+    typhon_chance:chance_seed(Seed, Chance),
+    keep_chance(Chance),
+    self(Me),
+    leave(trainer(Me)).
+
+seed(Seed) :-
+    parameter(seed, Seed0),
+    here(Host),
+    atomic_list_concat([Name|_], @, Host),
+    (   integer(Seed0)
+    ->  term_hash(Seed0-Name, Seed)
+    ;   Seed is random(1<<30)
+    ).
+
+keep_chance(Chance) :-
+    retractall(chance(_)),
+    assertz(chance(Chance)).
+
+on_message(Agent, execute(Plan, Xi)) :-
+    execute(Plan, Xi, Feedback),
+    send(Agent, Feedback).
+
+execute(Plan, Xi, feedback(Start, Units, Outcome)) :-
+    chance(Chance0),
+    typhon_chance:chance_below(1<<30, Seed, Chance0, Chance1),
+    typhon_chance:chance_seed(Seed, Beginning),
+    start(Beginning, State0),
+    sensed(State0, Start),
+    executed(Plan, Xi, at(State0, Start), Steps, at(State, _), Chance1,
+             Chance),
+    keep_chance(Chance),
+    shareable(Steps, Units),
+    outcome(State, Steps, Outcome).
+
+outcome(State, Steps, reached(Actions)) :-
+    reached(State),
+    !,
+    findall(Action, member(step(_, Action, _, _), Steps), Actions).
+outcome(_, _, unreached).
+
+%   executed(+Plan, +Xi, +At0, -Steps, -At, +Chance0, -Chance): At0 and At
+%   are at(State, Vector).  The reward of equation 4.6 is for what is found
+%   beyond the plan.
+
+executed(_, Xi, At, [], At, Chance, Chance) :-
+    At = at(State, _),
+    (   Xi =< 0
+    ;   reached(State)
+    ),
+    !.
+executed([Action|Plan], Xi0, At0, [Step|Steps], At, Chance0, Chance) :-
+    step(Action, At0, At1, Step),
+    pay(Xi0, Xi),
+    executed(Plan, Xi, At1, Steps, At, Chance0, Chance).
+executed([], Xi0, At0, [Step|Steps], At, Chance0, Chance) :-
+    actions(Actions),
+    typhon_chance:chance_member(Action, Actions, Chance0, Chance1),
+    step(Action, At0, At1, Step),
+    pay(Xi0, Xi1),
+    feedback(Step, Xi1, Xi),
+    executed([], Xi, At1, Steps, At, Chance1, Chance).
+
+step(Action, at(State0, Vector0), at(State, Vector),
+     step(Vector0, Action, Vector, Weight)) :-
+    act(Action, State0, State),
+    sensed(State, Vector),
+    weight(Vector0, Vector, Weight).
+
+pay(Xi0, Xi) :-
+    parameter(k_d, Kd),
+    action_cost(Xi0, Kd, Xi).
+
+feedback(step(_, _, _, Weight), Xi0, Xi) :-
+    Weight > 0,
+    !,
+    parameter(k_r, Kr),
+    action_reward(Xi0, Kr, Xi).
+feedback(_, Xi, Xi).
