@@ -1,6 +1,7 @@
 :- module(test_auction_network, []).
 :- use_module(common).
 :- use_module(event_log).
+:- use_module(fixtures).
 :- use_module(peers).
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
@@ -324,6 +325,48 @@ dies(Host) :-
 
 quick([slack(15), settings([renew-20, contract-70, bi_min-5])]).
 
+%   What is wrong is said at once.
+
+:- begin_tests(auction_operator).
+
+test(no_such_mechanism, error(type_error(mechanism, vickrey))) :-
+    auction_start(vickrey, [], []).
+test(no_such_setting, error(domain_error(setting, bid_window-3))) :-
+    auction_start(anta, [], [settings([bid_window-3])]).
+test(no_task, [ forall(member(Task, [ _, task(_, [1-[push]], []),
+                                      task(t, [], []),
+                                      task(t, [0-[push]], []),
+                                      task(t, [1-push], []), t ])),
+                error(type_error(task, _)) ]) :-
+    auction_post(anta, Task, nowhere).
+test(no_node) :-
+    with_hosts([alpha],
+               ( address(alpha, Address),
+                 catch(auction_post(anta, task(t, [1-[push]], []), Address),
+                       error(Formal, _), true),
+                 Formal = existence_error(node, Address) )).
+test(a_host_gets_one_node, Loads == [1, 1]) :-
+    with_hosts([alpha, beta],
+               ( findall(A, address(_, A), Hosts),
+                 auction_start(murdoch, Hosts, []),
+                 auction_start(murdoch, Hosts, []),
+                 findall(Load, ( member(H, Hosts),
+                                 remote(H, host_load(Load)) ), Loads) )).
+test(diameter, [ forall(member(Topology-Level,
+                               [ring(5)-2, grid(2,3)-3])),
+                 true(Found == [Level]) ]) :-
+    auctions(anta, Topology, [hop_time(uniform(0.2, 0.5)),
+                              auction([slack(2)])], [], level_of(Found)).
+
+level_of([Level], [Host|_], _) :-
+    remote(Host, sense(node(anta, Node))),
+    agent_property(Node, facts(Facts)),
+    memberchk(setting(level, Level), Facts),
+    memberchk(setting(window, Window), Facts),
+    Window =:= 2*Level*0.5 + 2.
+
+:- end_tests(auction_operator).
+
 :- begin_tests(auction_dead, [cleanup(test_auction_network:forget_dead)]).
 
 test(the_host_of_a_robot_stops) :-
@@ -378,7 +421,7 @@ killed(Mechanism, Hosts, File) :-
     robot_start(Gone, [push, position=p(0,0)], []),
     quick(Quick),
     auction_start(Mechanism, [Gone|Hosts], Quick),
-    post(Mechanism, t, 2, [duration(30)], First),
+    post_from(gone, Mechanism, First),
     wait_until(robot_status(Gone, executing(_, t)), 40),
     peer_kill(gone),
     happened(File, completed(t)),
@@ -386,6 +429,14 @@ killed(Mechanism, Hosts, File) :-
     all_free([Second, Third]).
 
 :- end_tests(auction_dead).
+
+%   Whoever holds the cookie may post a task at any host.
+
+post_from(Peer, Mechanism, Host) :-
+    project_file('agents/allocation/auctions', File),
+    peer_do(Peer, use_module(File)),
+    Task = task(t, [2-[push]], [at(p(0,0)), duration(30)]),
+    peer_do(Peer, auction_operator:auction_post(Mechanism, Task, Host)).
 
 forget_dead :-
     retractall(dead(_)).

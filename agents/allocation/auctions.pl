@@ -45,8 +45,10 @@ started the hosts.
 %       Of host time, for what the computer takes to pass on some thousand
 %       messages; default what is half a second on a clock on the wall.
 %
-%   @error type_error(mechanism, X), existence_error(host, Host),
-%   host_unreachable(Host)
+%   To be called by one at a time.
+%
+%   @error type_error(mechanism, X), domain_error(setting, X)
+%   @error existence_error(host, Host), host_unreachable(Host)
 
 auction_start(Mechanism, Hosts, Options) :-
     program(Mechanism, _),
@@ -83,6 +85,7 @@ node_at(Mechanism, Settings, Host, Node) :-
 settings(Hosts, Options, Settings) :-
     option(settings(Pairs), Options, []),
     must_be(list(pair), Pairs),
+    forall(member(Pair, Pairs), check_setting(Pair)),
     (   option(diameter(Diameter), Options)
     ->  must_be(positive_integer, Diameter)
     ;   diameter(Hosts, Diameter)
@@ -97,6 +100,13 @@ settings(Hosts, Options, Settings) :-
               \+ memberchk(Name-_, Pairs)
             ),
             Settings).
+
+check_setting(Name-_) :-
+    memberchk(Name, [ window, answer, renew, contract, tries, bi_min, bi_max,
+                      level, memory, jobs ]),
+    !.
+check_setting(Setting) :-
+    domain_error(setting, Setting).
 
 slack(_, Options, Slack) :-
     option(slack(Slack), Options),
@@ -178,13 +188,15 @@ auction_post(Mechanism, Task, Host) :-
     agent_send(Node, post(Task)).
 
 check_task(Task) :-
-    (   Task = task(Name, Teams, Details),
+    (   subsumes_term(task(_, _, _), Task),
+        Task = task(Name, Teams, Details),
         atomic(Name),
         is_list(Details),
         is_list(Teams),
         Teams = [_|_],
         forall(member(Team, Teams),
-               ( Team = Count-Requirements,
+               ( subsumes_term(_-_, Team),
+                 Team = Count-Requirements,
                  integer(Count), Count > 0, is_list(Requirements) ))
     ->  true
     ;   type_error(task, Task)
