@@ -31,9 +31,9 @@ node(Program, Facts) :-
     atomic_list_concat(['agents/allocation/', Program, '.pl'], File),
     findall(peer(Host, Node),
             member(Host-Node, [here-me, a-na, b-nb, c-nc]), Peers),
-    append([ [here(here), neighbours([a, b, c])], Peers,
-             [agenda(0, []), next_id(1)], Facts ], All),
-    fake_agent(File, All, [robot(robot)]).
+    append([Peers, [agenda(0, []), next_id(1)], Facts], All),
+    fake_agent(File, All, [robot(robot)]),
+    fake_neighbours([a, b, c]).
 
 %!  hears(+Message, +From) is det.
 %!  link(+From, +Due, +Load) is det.

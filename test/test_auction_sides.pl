@@ -401,6 +401,17 @@ test(a_robot_lost_while_executing_is_replaced) :-
     said(a, start(Job)),
     report(Job, 2, x, done),
     logged([completed(t)]).
+test(what_a_lost_robot_has_done_stays_done) :-
+    auctioneer([setting(renew, 20)], Job),
+    executing(Job),
+    report(Job, 1, y, done),
+    report(Job, 1, y, lost(failed)),
+    silent,
+    forall(member(Time, [30, 50, 70, 90]),
+           ( at(Time), report(Job, 1, z, executing) )),
+    logged(_),
+    report(Job, 1, z, done),
+    logged([completed(t)]).
 test(contracts_are_renewed) :-
     auctioneer([setting(renew, 20)], Job),
     executing(Job),

@@ -120,7 +120,7 @@ report(Phase, Job, Round, Host) :-
     retract(member(Job, Host, Number, Round, Before, _)),
     !,
     now(Now),
-    (   later_phase(Before, Phase, After)
+    (   becomes(Before, Phase, After)
     ->  assertz(member(Job, Host, Number, Round, After, Now))
     ;   true                            % refused, or lost
     ),
@@ -131,6 +131,14 @@ report(Phase, Job, Round, Host) :-
     !,                                  % given up meanwhile
     tell_robots(Job, [Host], release(Job, Round, [Host])).
 report(_, _, _, _).
+
+%   becomes(+Before, +Phase, -After) is semidet.  What a robot has done stays
+%   done, even if the robot is lost.
+
+becomes(done, _, done) :-
+    !.
+becomes(Before, Phase, After) :-
+    later_phase(Before, Phase, After).
 
 %   Reports may come in any order.
 
@@ -258,7 +266,8 @@ renew(Job, Since) :-
     parameter(renew, Seconds),
     now(Now),
     findall(Host,
-            ( member(Job, Host, _, _, _, Heard),
+            ( member(Job, Host, _, _, Phase, Heard),
+              Phase \== done,
               Now - Heard > 2*Seconds ),
             Lost),
     forall(member(Host, Lost), retract(member(Job, Host, _, _, _, _))),
@@ -266,8 +275,8 @@ renew(Job, Since) :-
     members(Job, Hosts),
     (   Hosts == []
     ->  true
-    ;   wanted_phase(Job, Phase),
-        tell_robots(Job, Hosts, renew(Job, Phase))
+    ;   wanted_phase(Job, Wanted),
+        tell_robots(Job, Hosts, renew(Job, Wanted))
     ),
     (   Lost == []
     ->  true
