@@ -122,6 +122,23 @@ four(Hosts, File) :-
     count(File, completed(_), 4),
     count(File, executed(_, _, _), 24).
 
+%   Four robots found, and hops that take a second: equation 7.6.
+
+test(rests_as_long_as_hops_take) :-
+    allocation(ring(4), [hop_time(uniform(1, 1))],
+               [watch-10, patience-10], rests).
+
+rests(Hosts, File) :-
+    Hosts = [Host|_],
+    push(t, 5, [], Host, [chi-0.05], Agent),
+    happened(File, backoff(_)),
+    so_far(File, Whats),
+    memberchk(backoff(Interval), Whats),
+    Interval >= 4,
+    wait_until(allocation_stage(Agent, resting, []), 20),
+    agent_dispose(Agent),
+    all_free(Hosts).
+
 test(deadline_while_searching) :-
     allocation(ring(3), [], [], too_many).
 
