@@ -25,14 +25,19 @@ a, b and c; the robot of the host is agent `robot`.
 
 %!  node(+Program, +Facts) is det.
 %
-%   A node of Program, `murdoch` or `anta`, with Facts.
+%   A node of Program, `murdoch` or `anta`, with Facts; gone(Agent) is one of
+%   an agent that is not there any more.
 
 node(Program, Facts) :-
     atomic_list_concat(['agents/allocation/', Program, '.pl'], File),
     findall(peer(Host, Node),
             member(Host-Node, [here-me, a-na, b-nb, c-nc]), Peers),
-    append([Peers, [agenda(0, []), next_id(1)], Facts], All),
+    append([Peers, [agenda(0, []), next_id(1), gone(nobody)], Facts], All),
     fake_agent(File, All, [robot(robot)]),
+    retractall(fake_agent:tell(_, _)),
+    assertz((fake_agent:tell(Agent, Message) :-
+                 \+ fake_agent:gone(Agent),
+                 fake_host:send(Agent, Message))),
     fake_neighbours([a, b, c]).
 
 %!  hears(+Message, +From) is det.

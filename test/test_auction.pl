@@ -74,6 +74,14 @@ test(who_has_no_node_gets_nothing) :-
     fake_agent:flood(start(x)),
     bodies([a-_, c-_]),
     fact(sent(start, 2)).
+test(who_is_gone_is_forgotten) :-
+    node(murdoch, [gone(nb)]),
+    fake_agent:flood(start(x)),
+    bodies([a-_, c-_]),
+    \+ fact(peer(b, _)),
+    fact(sent(start, 3)),               % it was tried
+    fake_agent:flood(start(y)),
+    fact(sent(start, 5)).
 test(counts_are_told_once, Logged == [communications(start, 3)]) :-
     node(murdoch, []),
     fake_agent:flood(start(x)),

@@ -95,21 +95,21 @@ take_on(Job, Round, Number) :-
     at(Until, lapse(Job)),
     send(Robot, reserve(Ref, Owner, need(Task, Requirements, Details))).
 take_on(Job, Round, _) :-
-    tell(Job, Round, refused).
+    inform(Job, Round, refused).
 
 until(Until) :-
     parameter(contract, Seconds),
     now(Now),
     Until is Now + Seconds.
 
-tell(Job, Round, Phase) :-
+inform(Job, Round, Phase) :-
     here(Here),
     tell_owner(Job, report(Round, Here, Phase)).
 
 phase(Job, Phase) :-
     retract(contract(Job, Round, Ref, Details, _, Until)),
     assertz(contract(Job, Round, Ref, Details, Phase, Until)),
-    tell(Job, Round, Phase).
+    inform(Job, Round, Phase).
 
 %   What the robot answers to reserve/3.  The contract may be gone again.
 
@@ -126,7 +126,7 @@ reserved(Ref, Robot) :-
 refused(Ref) :-
     retract(contract(Job, Round, Ref, _, _, _)),
     !,
-    tell(Job, Round, refused).
+    inform(Job, Round, refused).
 refused(ref(Job, Round, _)) :-
     bid_known([], Job, Round).
 
@@ -157,7 +157,7 @@ robot_done(Ref) :-
 
 robot_lost(Ref, Why) :-
     retract(contract(Job, Round, Ref, _, _, _)),
-    tell(Job, Round, lost(Why)).
+    inform(Job, Round, lost(Why)).
 
 %   The auctioneer is not asked whether it still needs the robot: it renews.
 
@@ -180,7 +180,7 @@ renewed(Job, Phase) :-
     ;   true
     ),
     contract(Job, _, _, _, Then, _),
-    tell(Job, Round, Then).
+    inform(Job, Round, Then).
 renewed(_, _).
 
                 /*******************************
@@ -224,6 +224,6 @@ lapse(Job) :-
     now(Now),
     (   Until =< Now
     ->  give_up(Job, Round),
-        tell(Job, Round, lost(lapsed))
+        inform(Job, Round, lost(lapsed))
     ;   at(Until, lapse(Job))
     ).

@@ -89,9 +89,10 @@ transmit([To|Tos], Here, Now, Load) :-
     link_seconds(Seconds),
     Due is Now + Seconds,
     peer(To, Node),
-    catch(send(Node, link(Due, Here, Load)),
-          error(host_unreachable(_), _),
-          retractall(peer(To, _))),
+    (   tell(Node, link(Due, Here, Load))
+    ->  true
+    ;   retractall(peer(To, _))
+    ),
     transmit(Tos, Here, Now, Load).
 
 link_seconds(Seconds) :-

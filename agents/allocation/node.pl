@@ -21,6 +21,7 @@
 
 :- include(needs).
 :- include(backoff).
+:- include(tell).
 :- include(link).
 :- include(contractor).
 :- include(auctioneer).
