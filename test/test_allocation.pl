@@ -133,16 +133,20 @@ test(round_to_a_robot, Trail == [c, b, a]) :-
 test(links, Counts == [0, 2, 4]) :-
     maplist([Host, Count]>>links(Host, [d, c, b, a], Count), [d, b, x],
             Counts).
-test(back_step_by_step, Way == [c, b, a]) :-
-    back([c, b, a], [a], [x, c], Way).
-test(back_by_a_short_cut, Way == [b, a]) :-
-    back([d, c, b, a], [b, a], [c, b, a], Way).
-test(not_past_a_robot, Way == [c, b, a]) :-
-    back([d, c, b, a], [c, a], [d, c, b, a], Way).
+test(back_step_by_step, Host-Distance == c-2) :-
+    nearer([d, c, b, a], [a], [x, c], 4, Host, Distance).
+test(back_by_a_short_cut, Host-Distance == b-1) :-
+    nearer([d, c, b, a], [a], [c, b], 4, Host, Distance).
+test(to_the_nearest_robot, Host-Distance == c-0) :-
+    nearer([d, c, b, a], [a, c], [c, b], 4, Host, Distance).
+test(also_forward, Host-Distance == d-0) :-
+    nearer([d, c, b, a], [d], [a, d, b], 4, Host, Distance).
+test(not_where_it_has_been_as_near, fail) :-
+    nearer([d, c, b, a], [a], [c], 2, _, _).
 test(way_is_broken, fail) :-
-    back([c, b, a], [a], [x, y], _).
+    nearer([c, b, a], [a], [x, y], 3, _, _).
 test(way_leads_to_none, fail) :-
-    back([c, b, a], [z], [c, b], _).
+    nearer([c, b, a], [z], [c, b], 3, _, _).
 
 cost_of(Payload, Details, Properties, Cost) :-
     payload_clauses(Payload, Clauses),
@@ -560,6 +564,18 @@ test(child_goes_back, Acts == [ move(b), send(q, release(x)),
     fake_neighbours([b, a, c]),
     catch(fake_agent:let_go([reserved]), disposed, true),
     did(Acts).
+test(child_leaves_out_who_refuses_it) :-
+    allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
+    fake_clone(clone(me)),
+    fake_neighbours([b, a, c]),
+    fake_refusal(b),
+    fake_refusal(next),
+    catch(fake_agent:let_go([reserved]), disposed, true),
+    did(Acts),
+    Acts = [ move(a), send(p, release(y)), log(not_reached([b])) | Sums ],
+    memberchk(log(communications(child, 1)), Sums),
+    memberchk(log(communications(refusal, Count)), Sums),
+    Count > 200.
 test(no_room_for_a_child) :-
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
     fake_clone(error(move_refused(here, capacity), _)),

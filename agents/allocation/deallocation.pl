@@ -1,10 +1,10 @@
 /*  How an allocator lets its robots go: by children that go back the way it
     came, free them, and die.  To be included.
 
-    A child goes by the trail of its parent, with short cuts; where links
-    have gone it looks for the way conscientiously.  It has so much time:
-    robots it has not reached by then ask the allocator, and are told that
-    they are free, or get no answer.
+    A child goes by the trail of its parent, with short cuts, to the robot
+    that is nearest; where links have gone it looks for the way
+    conscientiously.  It has so much time: robots it has not reached by then
+    ask the allocator, and are told that they are free, or get no answer.
 */
 
 %   let_go(+Phases): of the robots in one of Phases.
@@ -64,14 +64,21 @@ sent_child(clone(_), Share) :-
     parameter(child_life, Life),
     now(Now),
     Until is Now + Life,
-    trail([_|Way]),
-    deallocate(Share, Way, Until),
+    deallocate(Share, Until),
     report,
     dispose.
 
                 /*******************************
                 *            A CHILD           *
                 *******************************/
+
+deallocate(Robots, Until) :-
+    trail(Trail),
+    length(Trail, Far),
+    deallocate(Robots, Far, Until).
+
+%   deallocate(+Robots, +Distance, +Until): it has been so near to one of
+%   Robots, along the trail.
 
 deallocate([], _, _) :-
     !.
@@ -81,32 +88,38 @@ deallocate(Robots, _, Until) :-
     !,
     pairs_keys(Robots, Hosts),
     log(not_reached(Hosts)).
-deallocate(Robots, Way0, Until) :-
-    way_on(Robots, Way0, Host, Way),
+deallocate(Robots, Distance0, Until) :-
+    way_on(Robots, Distance0, Host, Distance),
     !,
     catch(move(Host), error(_, _), Arrived = false),
-    returned(Arrived, Way0, Way, Way1),
+    arrived(Arrived, Host, Distance0-Distance, Distance1),
     free_here(Robots, Left),
-    deallocate(Left, Way1, Until).
-deallocate(Robots, Way, Until) :-
+    (   Left == Robots
+    ->  deallocate(Robots, Distance1, Until)
+    ;   deallocate(Left, Until)
+    ).
+deallocate(Robots, Distance, Until) :-
     pause,
-    deallocate(Robots, Way, Until).
+    deallocate(Robots, Distance, Until).
 
-way_on(Robots, Way0, Host, Way) :-
+way_on(Robots, Distance0, Host, Distance) :-
+    trail(Trail),
     pairs_keys(Robots, Wanted),
     neighbours(Neighbours),
-    back(Way0, Wanted, Neighbours, [Host|Way]),
+    nearer(Trail, Wanted, Neighbours, Distance0, Host, Distance),
     !.
-way_on(_, Way, Host, Way) :-
+way_on(_, Distance, Host, Distance) :-
     next_host(conscientious, Host).
 
-%   A host that does not let it in is left out: what lies behind can be
-%   found in other ways.
+%   A host that does not let it in is not on the way any more.
 
-returned(Arrived, _, Way, Way) :-
+arrived(Arrived, _, _-Distance, Distance) :-
     var(Arrived),
     !,
     count(child, 1).
-returned(false, Way, _, Way) :-
+arrived(false, Host, Distance-_, Distance) :-
     count(refusal, 1),
+    retract(trail(Trail0)),
+    subtract(Trail0, [Host], Trail),
+    assertz(trail(Trail)),
     pause.

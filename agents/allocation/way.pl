@@ -45,22 +45,21 @@ links(Host, Trail, Count) :-
 links(_, Trail, Count) :-
     length(Trail, Count).
 
-%!  back(+Way0, +Wanted, +Neighbours, -Way) is semidet.
+%!  nearer(+Trail, +Wanted, +Neighbours, +Distance0, -Host, -Distance)
+%!      is semidet.
 %
-%   Way0 is what lies before an agent that goes back to the hosts Wanted.
-%   It goes to the head of Way, one of Neighbours: of those up to the first
-%   of Wanted the furthest.  Fails where the way is broken, or leads to
-%   none of them.
+%   Host is the one of Neighbours that is nearest to one of the hosts
+%   Wanted, Distance along the Trail.  Fails if that is not nearer than
+%   Distance0: where links have gone, who goes to hosts that are nearer
+%   than it ever was does not go round in circles.
 
-back(Way0, Wanted, Neighbours, Way) :-
-    append(Before, [Goal|Later], Way0),
-    memberchk(Goal, Wanted),
-    !,
-    reverse(Before, Nearer),
-    short_cut([Goal|Nearer], Neighbours, Later, Way).
-
-short_cut([Host|_], Neighbours, Later, [Host|Later]) :-
-    memberchk(Host, Neighbours),
-    !.
-short_cut([Host|Hosts], Neighbours, Later, Way) :-
-    short_cut(Hosts, Neighbours, [Host|Later], Way).
+nearer(Trail, Wanted, Neighbours, Distance0, Host, Distance) :-
+    findall(Goal,
+            ( member(Robot, Wanted), nth0(Goal, Trail, Robot) ),
+            Goals),
+    findall(Apart-Near,
+            ( member(Near, Neighbours), nth0(Place, Trail, Near),
+              member(Goal, Goals), Apart is abs(Place - Goal) ),
+            Pairs),
+    keysort(Pairs, [Distance-Host|_]),
+    Distance < Distance0.
