@@ -20,6 +20,7 @@ default(answer, 30).            % seconds for the answer of another agent
 default(execution, 60).         % seconds for the trainer's feedback
 default(start, now).            % or `order`: waits for the message `begin`
 default(seed, random).          % of what trainers choose
+default(trace, false).          % trainers log the actions tried
 
 parameter(Name, Value) :-
     (   setting(Name, Value0)

@@ -56,10 +56,23 @@ keep_chance(Chance) :-
     assertz(chance(Chance)).
 
 on_message(Agent, execute(Plan, Xi)) :-
-    execute(Plan, Xi, Feedback),
+    execute(Plan, Xi, Steps, Feedback),
+    trace(Agent, Steps),
     send(Agent, Feedback).
 
-execute(Plan, Xi, feedback(Start, Units, Outcome)) :-
+%   For those who look on: the actions, in order.
+
+trace(Agent, Steps) :-
+    (   parameter(trace, true)
+    ->  performed(Steps, Actions),
+        log(tried(Agent, Actions))
+    ;   true
+    ).
+
+performed(Steps, Actions) :-
+    findall(Action, member(step(_, Action, _, _), Steps), Actions).
+
+execute(Plan, Xi, Steps, feedback(Start, Units, Outcome)) :-
     chance(Chance0),
     typhon_chance:chance_below(1<<30, Seed, Chance0, Chance1),
     typhon_chance:chance_seed(Seed, Beginning),
@@ -74,7 +87,7 @@ execute(Plan, Xi, feedback(Start, Units, Outcome)) :-
 outcome(State, Steps, reached(Actions)) :-
     reached(State),
     !,
-    findall(Action, member(step(_, Action, _, _), Steps), Actions).
+    performed(Steps, Actions).
 outcome(_, _, unreached).
 
 %   executed(+Plan, +Xi, +At0, -Steps, -At, +Chance0, -Chance): At0 and At
