@@ -103,7 +103,10 @@ trade(announce(Job, 1, Offer, 0, 2)) :-
     announced([], 1, announce(Job, 1, Offer)).
 
 planted :-
-    node(anta, [setting(level, 4)]),
+    planted([]).
+
+planted(Facts) :-
+    node(anta, [setting(level, 4)|Facts]),
     trade(Trade),
     link(a, 0, flood(77, Trade)).
 
@@ -156,6 +159,12 @@ test(without_the_parent_bids_are_flooded) :-
     sent([b-flood(Id, Body), c-flood(Id, Body)]),
     Body == flooded(owner(Job, bids(1, [x-[1-3]]))),
     fact(sent(bid, 2)).
+test(with_nobody_at_the_parent_bids_are_flooded) :-
+    planted([gone(na)]),
+    from_child(b, [x-[1-3]]),
+    sent(_),
+    at(7.5),
+    sent([b-flood(Id, Body), c-flood(Id, Body)]).
 test(awards_part_on_their_way_down) :-
     planted,
     job(Job),

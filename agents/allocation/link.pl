@@ -73,7 +73,7 @@ after(Seconds, What) :-
                 *******************************/
 
 %   cross(+To, +Load, +Now) is semidet: over the link to host To.  Fails if
-%   there is none; who cannot be reached is forgotten.
+%   there is none, or nobody at its end, who is forgotten.
 
 cross(To, Load, Now) :-
     neighbours(Neighbours),
@@ -82,7 +82,9 @@ cross(To, Load, Now) :-
     here(Here),
     transmit([To], Here, Now, Load),
     load_kind(Load, Kind),
-    add_sent(Kind, 1).
+    add_sent(Kind, 1),
+    peer(To, _),
+    !.
 
 transmit([], _, _, _).
 transmit([To|Tos], Here, Now, Load) :-
