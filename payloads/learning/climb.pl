@@ -1,0 +1,220 @@
+:- payload(climb, [provides([plan/3, better/2])]).
+:- include(confirm).
+
+/*  A learning algorithm for noisy measurements unit(Who, Settings, Value):
+    climbs from the best settings known to those near it that promise most.
+
+    The model says how much each level in each place adds to the value.  It
+    is fitted to all measurements, but those count more that are near the
+    best settings, so that it is right there, where places depend on each
+    other.  What is known of settings are their own measurements, and the
+    model as one more, for a single measurement may be luck.  Where somebody
+    measures higher than others throughout, that is taken away before.
+
+    The plan is to try what differs from the best settings in one place or
+    two and promises most, then to use the best ones and measure them again.
+    A level that was seldom tried promises more than the model says.
+*/
+
+plan(_, Units, Plan) :-
+    findall(Plan0, planned(Units, Plan0), [Plan]).
+
+planned(Units, Plan) :-
+    samples(Units, Samples),
+    summary(Samples, Summary),
+    promising(Summary, First),
+    model(Summary, First, Model),
+    best(Summary, Model, Best),
+    findall(Promise-Settings,
+            ( near(Best, Model, Settings),
+              \+ memberchk(Settings-_, Summary),
+              promise(Settings, Model, Promise) ),
+            Promises),
+    sort(1, @>=, Promises, Sorted),
+    findall(use(Settings), limit(3, member(_-Settings, Sorted)), Trials),
+    repeated(Best, Again),
+    append(Trials, Again, Plan).
+
+                /*******************************
+                *          THE MEANS           *
+                *******************************/
+
+%   samples(+Units, -Samples): Settings-Value, all on the level of who
+%   measures like the average.
+
+samples(Units, Samples) :-
+    findall(Settings-Value, member(unit(_, Settings, Value)-_, Units), Raw),
+    summary(Raw, Summary),
+    list_to_assoc(Summary, Means),
+    findall(Who-Difference,
+            ( member(unit(Who, Settings, Value)-_, Units),
+              get_assoc(Settings, Means, mean(_, Mean)),
+              Difference is Value - Mean ),
+            Differences),
+    grouped(Differences, Groups),
+    findall(Who-Level, ( member(Who-Values, Groups),
+                         mean(Values, _, Level) ), Levels),
+    findall(Settings-Value,
+            ( member(unit(Who, Settings, Value0)-_, Units),
+              memberchk(Who-Level, Levels),
+              Value is Value0 - Level ),
+            Samples).
+
+%   summary(+Samples, -Summary): Settings-mean(Count, Mean).
+
+summary(Samples, Summary) :-
+    grouped(Samples, Groups),
+    findall(Settings-mean(Count, Mean),
+            ( member(Settings-Values, Groups), mean(Values, Count, Mean) ),
+            Summary).
+
+grouped(Pairs, Groups) :-
+    keysort(Pairs, Sorted),
+    group_pairs_by_key(Sorted, Groups).
+
+mean(Values, Count, Mean) :-
+    sum_list(Values, Sum),
+    length(Values, Count),
+    Mean is Sum/Count.
+
+overall(Summary, Overall) :-
+    findall(Mean, member(_-mean(_, Mean), Summary), Means),
+    mean(Means, _, Overall).
+
+promising(Summary, Settings) :-
+    overall(Summary, Overall),
+    findall(Value-Known,
+            ( member(Known-mean(Count, Mean), Summary),
+              Value is (Count*Mean + Overall)/(Count + 1) ),
+            Valued),
+    max_member(_-Settings, Valued).
+
+                /*******************************
+                *           THE MODEL          *
+                *******************************/
+
+%   Model is model(Base, Effects), Effects an assoc of Place-Level to
+%   effect(Added, Weight): how much it adds, by measurements of that weight.
+
+model(Summary, Around, model(Base, Effects)) :-
+    findall(row(Levels, Weight, Mean),
+            ( member(Settings-mean(Count, Mean), Summary),
+              differing(Settings, Around, 0, Distance),
+              Weight is Count*exp(-0.7*Distance),
+              findall(Place-Level, nth1(Place, Settings, Level), Levels) ),
+            Rows),
+    findall(W, member(row(_, W, _), Rows), Ws),
+    sum_list(Ws, All),
+    findall(WY, ( member(row(_, W, Y), Rows), WY is W*Y ), WYs),
+    sum_list(WYs, Sum),
+    Base is Sum/All,
+    findall(Key, ( member(row(Levels, _, _), Rows), member(Key, Levels) ),
+            Keys0),
+    sort(Keys0, Keys),
+    findall(Key-effect(0.0, 0.0), member(Key, Keys), Pairs),
+    list_to_assoc(Pairs, Effects0),
+    length(Around, Places),
+    numlist(1, Places, Numbers),
+    fitted(4, Numbers, Rows, Base, Effects0, Effects).
+
+differing([], [], Distance, Distance).
+differing([X|Xs], [Y|Ys], Distance0, Distance) :-
+    apart(X, Y, Apart),
+    Distance1 is Distance0 + Apart,
+    differing(Xs, Ys, Distance1, Distance).
+
+apart(X, X, 0) :-
+    !.
+apart(X, Y, Apart) :-
+    number(X),
+    number(Y),
+    !,
+    Apart is min(1, abs(X - Y)/3).
+apart(_, _, 1).
+
+%   One place after the other: what the others do not explain.
+
+fitted(0, _, _, _, Effects, Effects) :-
+    !.
+fitted(Rounds, Places, Rows, Base, Effects0, Effects) :-
+    foldl(fit(Rows, Base), Places, Effects0, Effects1),
+    Left is Rounds - 1,
+    fitted(Left, Places, Rows, Base, Effects1, Effects).
+
+fit(Rows, Base, Place, Effects0, Effects) :-
+    findall(Level-(Weight*Rest),
+            ( member(row(Levels, Weight, Value), Rows),
+              explained(Levels, Place, Effects0, Base, Explained),
+              Rest is Value - Explained,
+              memberchk(Place-Level, Levels) ),
+            Rests),
+    grouped(Rests, Groups),
+    foldl(effect(Place), Groups, Effects0, Effects).
+
+explained([], _, _, Sum, Sum).
+explained([Place-_|Levels], Place, Effects, Sum0, Sum) :-
+    !,
+    explained(Levels, Place, Effects, Sum0, Sum).
+explained([Key|Levels], Place, Effects, Sum0, Sum) :-
+    get_assoc(Key, Effects, effect(Added, _)),
+    Sum1 is Sum0 + Added,
+    explained(Levels, Place, Effects, Sum1, Sum).
+
+%   Half a measurement says that it adds nothing.
+
+effect(Place, Level-Rests, Effects0, Effects) :-
+    weighed(Rests, 0, Sum, 0, Weight),
+    Added is Sum/(Weight + 0.5),
+    put_assoc(Place-Level, Effects0, effect(Added, Weight), Effects).
+
+weighed([], Sum, Sum, Weight, Weight).
+weighed([W*Rest|Rests], Sum0, Sum, Weight0, Weight) :-
+    Sum1 is Sum0 + W*Rest,
+    Weight1 is Weight0 + W,
+    weighed(Rests, Sum1, Sum, Weight1, Weight).
+
+                /*******************************
+                *          CANDIDATES          *
+                *******************************/
+
+best(Summary, Model, Best) :-
+    findall(Value-Settings,
+            ( member(Settings-mean(Count, Mean), Summary),
+              predicted(Settings, Model, Predicted, _),
+              Value is (Count*Mean + Predicted)/(Count + 1) ),
+            Valued),
+    max_member(_-Best, Valued).
+
+promise(Settings, Model, Promise) :-
+    predicted(Settings, Model, Predicted, Doubt),
+    Promise is Predicted + 0.05*Doubt.
+
+%   Doubt is great where levels were seldom tried.
+
+predicted(Settings, model(Base, Effects), Predicted, Doubt) :-
+    predicted(Settings, 1, Effects, Base, Predicted, 0, Doubt).
+
+predicted([], _, _, Value, Value, Doubt, Doubt).
+predicted([Level|Levels], Place, Effects, Value0, Value, Doubt0, Doubt) :-
+    get_assoc(Place-Level, Effects, effect(Added, Weight)),
+    Value1 is Value0 + Added,
+    Doubt1 is Doubt0 + 1/sqrt(1 + Weight),
+    Next is Place + 1,
+    predicted(Levels, Next, Effects, Value1, Value, Doubt1, Doubt).
+
+%   Levels are known from what was tried at random.
+
+near(Settings, model(_, Effects), Near) :-
+    assoc_to_keys(Effects, Keys),
+    member(Place1-Level1, Keys),
+    replaced(Place1, Settings, Level1, Near1),
+    (   Near = Near1
+    ;   member(Place2-Level2, Keys),
+        Place2 > Place1,
+        replaced(Place2, Near1, Level2, Near)
+    ).
+
+replaced(Place, Settings0, Level, Settings) :-
+    nth1(Place, Settings0, Old, Rest),
+    Level \== Old,
+    nth1(Place, Settings, Level, Rest).

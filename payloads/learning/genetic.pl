@@ -1,0 +1,129 @@
+:- payload(genetic, [provides([plan/3, better/2, plans/1])]).
+:- include(confirm).
+
+/*  A genetic algorithm for measurements unit(Who, Genes, Value): lists of
+    genes of one length, and how fit somebody found them, with noise.
+
+    The population of an agent are the fittest of what it knows, by its own
+    executions and by those of others that it met.  So agents are islands, and
+    sharing is migration; as the bag is emptied with each plan, immigrants
+    are parents in one generation and then live on in their children.
+
+    The plan is to try children of the population, then to use its fittest
+    member and to measure it again.  Parents are chosen by tournaments; a
+    child has each gene of one of them; and now and then a gene mutates to
+    another that was ever seen in its place.
+
+    What somebody measured once may be luck: fitness is the mean, drawn to
+    the average of all as if this had been measured once, too.
+*/
+
+members(16).                    % of the population
+children(4).                    % in a generation
+tournament(3).
+mutation(0.15).                 % of a gene
+
+%   So many generations there have been: the seed of the next one.
+
+plans(0).
+
+plan(_, Units, Plan) :-
+    retract(plans(Count0)),
+    Count is Count0 + 1,
+    assertz(plans(Count)),
+    findall(Plan0, planned(Units, Count, Plan0), [Plan]).
+
+planned(Units, Count, Plan) :-
+    term_hash(Count-Units, Seed),
+    typhon_chance:chance_seed(Seed, Chance),
+    population(Units, Population),
+    pool(Units, Pool),
+    children(Number),
+    offspring(Number, Population, Pool, Trials, Chance),
+    Population = [_-Fittest|_],
+    repeated(Fittest, Again),
+    append(Trials, Again, Plan).
+
+                /*******************************
+                *          POPULATION          *
+                *******************************/
+
+%   population(+Units, -Population): Fitness-Genes, the fittest first.
+
+population(Units, Population) :-
+    findall(Genes-Value, member(unit(_, Genes, Value)-_, Units), Pairs),
+    pairs_values(Pairs, Values),
+    sum_list(Values, Sum),
+    length(Values, Measured),
+    Average is Sum/Measured,
+    keysort(Pairs, Sorted),
+    group_pairs_by_key(Sorted, Groups),
+    findall(Fitness-Genes,
+            ( member(Genes-Found, Groups),
+              fitness(Found, Average, Fitness) ),
+            All),
+    sort(1, @>=, All, Falling),
+    members(Most),
+    findall(Member, limit(Most, member(Member, Falling)), Population).
+
+fitness(Values, Average, Fitness) :-
+    sum_list(Values, Sum),
+    length(Values, Count),
+    Fitness is (Sum + Average)/(Count + 1).
+
+%   pool(+Units, -Pool): for each place the genes that were ever seen there.
+
+pool(Units, Pool) :-
+    findall(Genes, member(unit(_, Genes, _)-_, Units), All),
+    alleles(All, Pool).
+
+alleles([[]|_], Pool) :-
+    !,
+    Pool = [].
+alleles(All, [Genes|Pool]) :-
+    maplist(first, All, Firsts, Rests),
+    sort(Firsts, Genes),
+    alleles(Rests, Pool).
+
+first([First|Rest], First, Rest).
+
+                /*******************************
+                *           OFFSPRING          *
+                *******************************/
+
+offspring(0, _, _, [], _) :-
+    !.
+offspring(Number, Population, Pool, [use(Child)|Trials], Chance0) :-
+    parent(Population, Mother, Chance0, Chance1),
+    parent(Population, Father, Chance1, Chance2),
+    child(Mother, Father, Pool, Child, Chance2, Chance),
+    Left is Number - 1,
+    offspring(Left, Population, Pool, Trials, Chance).
+
+%   The fittest of a few that are drawn; they stand in order.
+
+parent(Population, Genes, Chance0, Chance) :-
+    length(Population, Size),
+    tournament(Rounds),
+    lowest(Rounds, Size, Size, Index, Chance0, Chance),
+    nth0(Index, Population, _-Genes).
+
+lowest(0, _, Index, Index, Chance, Chance) :-
+    !.
+lowest(Rounds, Size, Index0, Index, Chance0, Chance) :-
+    typhon_chance:chance_below(Size, Drawn, Chance0, Chance1),
+    Index1 is min(Index0, Drawn),
+    Left is Rounds - 1,
+    lowest(Left, Size, Index1, Index, Chance1, Chance).
+
+child([], [], [], [], Chance, Chance).
+child([M|Mother], [F|Father], [Genes|Pool], [Gene|Child], Chance0, Chance) :-
+    typhon_chance:chance_member(Gene0, [M,F], Chance0, Chance1),
+    mutation(Probability),
+    typhon_chance:chance_true(Probability, Mutates, Chance1, Chance2),
+    mutated(Mutates, Gene0, Genes, Gene, Chance2, Chance3),
+    child(Mother, Father, Pool, Child, Chance3, Chance).
+
+mutated(false, Gene, _, Gene, Chance, Chance).
+mutated(true, _, Genes, Gene, Chance0, Chance) :-
+    typhon_chance:chance_member(Gene, Genes, Chance0, Chance).

@@ -1,0 +1,183 @@
+:- payload(settings, [provides([ start/2, actions/1, act/3, sensed/2,
+                                 weight/3, reached/1, shareable/2 ])]).
+
+/*  Printers that are to find the settings for good pictures (thesis section
+    4.1): a problem for agents(learning).  Each printer differs a little.
+
+    A list of settings has a level for each of resolution, mode, paper,
+    toner density, heat of the fuser, and speed.  Numbers are levels in
+    order, 1 the least; atoms have no order.  An action prints a page:
+
+        set(Place, Level)   with one of the settings changed
+        again               with the same settings once more
+        use(Settings)       with these; in plans only
+
+    A sensor vector is sv(Printer, Settings, Quality).  The quality, from 0
+    to about 1, is that of this page as the printer itself measures it, with
+    noise; what it would be without noise, nobody can sense.  So the goal is
+    reached when several pages on end, printed with the same settings, have
+    been good on average.  Luck may help: nothing else tells a printer that
+    its settings are good.
+
+    Units are unit(Printer, Settings, Quality), one for each page, good or
+    bad, for a learning algorithm can do something with both.  The weight of
+    one that was no better than the page before is 0.
+
+    Facts of who carries it replace the defaults: setting(noise, N), the
+    standard deviation of a measurement; setting(good, Q); setting(pages, N),
+    how many on end; setting(difference, D), how far the best density and
+    heat of a printer may lie from those of others; setting(printers, Seed),
+    which printers there are: a printer is known by this and the name of its
+    host, so it is the same in every execution.
+*/
+
+about(noise, 0.04).
+about(good, 0.93).
+about(pages, 4).
+about(difference, 1.0).
+about(printers, 1).
+
+known(Name, Value) :-
+    (   setting(Name, Value0)
+    ->  Value = Value0
+    ;   about(Name, Value)
+    ).
+
+levels(1, [1,2,3,4]).                   % resolution
+levels(2, [draft,text,photo]).          % mode
+levels(3, [thin,plain,thick,glossy]).   % paper
+levels(4, [1,2,3,4,5,6,7,8,9]).         % toner density
+levels(5, [1,2,3,4,5,6,7,8,9]).         % heat
+levels(6, [1,2,3,4,5]).                 % speed
+
+factory([2,text,plain,4,3,3]).
+
+                /*******************************
+                *           PRINTING           *
+                *******************************/
+
+%   A state is page(Settings, Qualities, Chance): the qualities of the
+%   pages printed with the same settings on end, the last one first.
+
+start(Chance, State) :-
+    factory(Settings),
+    printed(Settings, [], Chance, State).
+
+printed(Settings, Qualities, Chance0, page(Settings, All, Chance)) :-
+    printer(Printer),
+    quality(Printer, Settings, True),
+    known(noise, Deviation),
+    normal(Normal, Chance0, Chance),
+    Quality is max(0.0, True + Deviation*Normal),
+    All = [Quality|Qualities].
+
+%   By Box and Muller.
+
+normal(Normal, Chance0, Chance) :-
+    typhon_chance:chance_float(U, Chance0, Chance1),
+    typhon_chance:chance_float(V, Chance1, Chance),
+    Normal is sqrt(-2*log(U)) * cos(2*pi*V).
+
+actions(Actions) :-
+    findall(set(Place, Level),
+            ( levels(Place, Levels), member(Level, Levels) ),
+            Changes),
+    Actions = [again|Changes].
+
+act(again, page(Settings, Qualities, Chance), State) :-
+    printed(Settings, Qualities, Chance, State).
+act(set(Place, Level), State0, State) :-
+    State0 = page(Settings0, _, _),
+    replaced(Place, Settings0, Level, Settings),
+    act(use(Settings), State0, State).
+act(use(Settings), page(Settings0, Qualities0, Chance), State) :-
+    (   Settings == Settings0
+    ->  Qualities = Qualities0
+    ;   Qualities = []
+    ),
+    printed(Settings, Qualities, Chance, State).
+
+replaced(1, [_|Settings], Level, [Level|Settings]) :-
+    !.
+replaced(Place, [Same|Settings0], Level, [Same|Settings]) :-
+    Next is Place - 1,
+    replaced(Next, Settings0, Level, Settings).
+
+sensed(page(Settings, [Quality|_], _), sv(Printer, Settings, Quality)) :-
+    printer(Printer).
+
+weight(sv(_, _, Quality0), sv(_, _, Quality), Weight) :-
+    Weight is Quality - Quality0.
+
+reached(page(_, Qualities, _)) :-
+    known(pages, Pages),
+    length(Last, Pages),
+    append(Last, _, Qualities),
+    !,
+    sum_list(Last, Sum),
+    known(good, Good),
+    Sum/Pages >= Good.
+
+shareable(Steps, Units) :-
+    Steps = [step(Vector, _, _, _)|_],
+    !,
+    unit(Vector, 0, First),
+    findall(Unit,
+            ( member(step(_, _, Page, Weight), Steps),
+              unit(Page, Weight, Unit) ),
+            Rest),
+    Units = [First|Rest].
+shareable([], []).
+
+unit(sv(Printer, Settings, Quality), Weight0,
+     unit(Printer, Settings, Quality)-Weight) :-
+    Weight is max(0, Weight0).
+
+                /*******************************
+                *          PRINTERS            *
+                *******************************/
+
+%   What a printer is like: makes(Density, Heat, Wear) says how far its
+%   best density and heat lie from the others', and what no setting mends.
+
+printer(Name) :-
+    here(Host),
+    atomic_list_concat([Name|_], @, Host).
+
+makes(Printer, makes(Density, Heat, Wear)) :-
+    known(printers, Which),
+    known(difference, Far),
+    term_hash(Which-Printer, Seed),
+    typhon_chance:chance_seed(Seed, Chance0),
+    Near is -Far,
+    typhon_chance:chance_uniform(Near, Far, Density, Chance0, Chance1),
+    typhon_chance:chance_uniform(Near, Far, Heat, Chance1, Chance2),
+    typhon_chance:chance_uniform(0.0, 0.03, Wear, Chance2, _).
+
+%   Thick paper and high speed want heat, and pictures want toner: one
+%   setting alone often cannot be changed for the better.
+
+quality(Printer, [Resolution,Mode,Paper,Density,Heat,Speed], Quality) :-
+    makes(Printer, makes(MoreDensity, MoreHeat, Wear)),
+    coarse(Resolution, Loss1),
+    rough(Mode, Wanted, Loss2),
+    dull(Paper, Warm, Loss3),
+    Loss4 is 0.02*(Density - Wanted - MoreDensity)**2,
+    Loss5 is 0.015*(Heat - Warm - 0.5*(Speed - 3) - MoreHeat)**2,
+    Loss6 is 0.02*(Speed - 1),
+    Quality is max(0.0, 1 - Wear - Loss1 - Loss2 - Loss3 - Loss4 - Loss5
+                        - Loss6).
+
+coarse(1, 0.15).
+coarse(2, 0.07).
+coarse(3, 0.0).
+coarse(4, 0.02).
+
+rough(draft, 5, 0.25).
+rough(text,  4, 0.12).
+rough(photo, 6, 0.0).
+
+dull(thin,   2, 0.14).
+dull(plain,  3, 0.09).
+dull(thick,  5, 0.05).
+dull(glossy, 6, 0.0).
