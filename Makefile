@@ -14,13 +14,14 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools demo experiments experiments-sieve experiments-sync test \
-    check bench test-portability install clean
+.PHONY: help tools demo experiments experiments-allocation \
+    experiments-sieve experiments-sync test check bench \
+    test-portability install clean
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
 	    while IFS='	' read -r target text; do \
-	        printf '  make %-18s %s\n' "$$target" "$$text"; \
+	        printf '  make %-22s %s\n' "$$target" "$$text"; \
 	    done
 
 demo: tools             ## sixty hosts, ten agents, six tasks in step
@@ -42,6 +43,13 @@ experiments-sync: tools ## chapters 5 and 6; one figure: FIGURE=5.6, RUNS=3, JOB
 experiments-sieve: tools ## chapter 3; one figure: FIGURE=3.4, RUNS=3, JOBS=3
 	@$(SWIPL) experiments/sieve.pl -- --figure '$(FIGURE)' --runs $(RUNS) \
 	    --jobs $(JOBS)
+
+experiments: experiments-allocation
+
+# Runs that disturb each other last longer: one at a time, unless JOBS is given.
+experiments-allocation: tools ## chapter 7; one figure: FIGURE=7.1, RUNS=3
+	@$(SWIPL) experiments/allocation.pl -- --figure '$(FIGURE)' \
+	    --runs $(RUNS) $(if $(filter file,$(origin JOBS)),,--jobs $(JOBS))
 
 test: tools             ## install what is missing, run every test suite
 	@$(SWIPL) test/run.pl
