@@ -2,6 +2,8 @@
           [ fake_agent/3,               % +Program, +Facts, +Tuples
             fake_at/1,                  % +Time
             fake_mail/1,                % +From-Message
+            fake_reply/2,               % +To-Message, +From-Reply
+            fake_dead/1,                % +Id
             fake_clone/1,               % +Answer
             fake_refusal/1,             % +Host
             fake_neighbours/1,          % +Hosts
@@ -19,7 +21,8 @@ any others: the vocabulary of agents is that of module fake_host here.
 Nothing moves or waits.  sleep/1 sets the clock forward; receive/2 finds a
 message or fails, at the time until which it would have waited; clone/1
 answers what fake_clone/1 said, move/1 raises an error where fake_refusal/1
-said so, and next_host/2 always chooses `next`.  here/1 is `here` until the
+said so, next_host/2 always chooses `next`, and what is sent may be answered
+as fake_reply/2 said.  here/1 is `here` until the
 agent moves.
 
 *Threading*: one agent at a time.
@@ -30,6 +33,8 @@ agent moves.
     fake_host:did/1,
     fake_host:time/1,
     fake_host:mail/1,
+    fake_host:reply/2,
+    fake_host:dead/1,
     fake_host:answer/1,
     fake_host:refuses/1,
     fake_host:neighbours/1.
@@ -38,13 +43,22 @@ fake_host:leave(Fact) :- assertz(fake_host:tuple(Fact)).
 fake_host:take(Fact)  :- retract(fake_host:tuple(Fact)), !.
 fake_host:sense(Fact) :- fake_host:tuple(Fact).
 fake_host:log(What)   :- assertz(fake_host:did(log(What))).
-fake_host:send(Id, M) :- assertz(fake_host:did(send(Id, M))).
 fake_host:self(me).
 fake_host:hops(3).
 fake_host:host_load(1).
 fake_host:now(Time) :- fake_host:time(Time).
 fake_host:next_host(_, next).
 fake_host:dispose :- throw(disposed).
+
+fake_host:send(Id, _) :-
+    fake_host:dead(Id),
+    throw(error(host_unreachable(nowhere), _)).
+fake_host:send(Id, Message) :-
+    assertz(fake_host:did(send(Id, Message))),
+    (   retract(fake_host:reply(Id-Message, Mail))
+    ->  fake_mail(Mail)
+    ;   true
+    ).
 
 fake_host:here(Host) :-
     findall(To, fake_host:did(move(To)), Moves),
@@ -108,8 +122,8 @@ forget :-
              \+ predicate_property(fake_agent:Head, imported_from(_))
            ),
            retractall(fake_agent:Head)),
-    forall(member(Head, [tuple(_), did(_), mail(_), answer(_), refuses(_),
-                         neighbours(_)]),
+    forall(member(Head, [tuple(_), did(_), mail(_), reply(_, _), dead(_),
+                         answer(_), refuses(_), neighbours(_)]),
            retractall(fake_host:Head)),
     fake_neighbours([]).
 
@@ -137,13 +151,16 @@ load_clause(Clause, _) :-
 
 %!  fake_at(+Time) is det.
 %!  fake_mail(+Message) is det.
+%!  fake_reply(+Sent, +Message) is det.
+%!  fake_dead(+Id) is det.
 %!  fake_clone(+Answer) is det.
 %!  fake_refusal(+Host) is det.
 %!  fake_neighbours(+Hosts) is det.
 %
-%   What the clock shows, a From-Message for the agent, what comes of its
-%   next clone (an error is raised), that Host refuses it, and which hosts
-%   are near, wherever it is.
+%   What the clock shows; a From-Message for the agent, and one that comes,
+%   once, when it has sent Sent, a To-Message; that the process of Id is
+%   gone; what comes of the agent's next clone (an error is raised), that
+%   Host refuses it, and which hosts are near, wherever it is.
 
 fake_at(Time) :-
     retractall(fake_host:time(_)),
@@ -151,6 +168,12 @@ fake_at(Time) :-
 
 fake_mail(Message) :-
     assertz(fake_host:mail(Message)).
+
+fake_reply(Sent, Message) :-
+    assertz(fake_host:reply(Sent, Message)).
+
+fake_dead(Id) :-
+    assertz(fake_host:dead(Id)).
 
 fake_clone(Answer) :-
     assertz(fake_host:answer(Answer)).

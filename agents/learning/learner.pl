@@ -2,6 +2,7 @@
                           solution/1])]).
 :- include(parameters).
 :- include(resources).
+:- include(sharing).
 
 /*  Algorithm 1 of the thesis: agents that learn by what hosts tell them of
     the actions they try there, and by what they tell each other when they
@@ -104,22 +105,16 @@ collector(Rho) :-
     assimilator.
 collector(Rho0) :-
     hop(Rho0, Rho1),
-    visit(anything, New),
-    collected(New, Rho1, Rho),
+    visit(anything, Gain),
+    rewarded(Gain, Rho1, Rho),
     collector(Rho).
 
 exhausted(Rho) :-
     parameter(rho_min, Minimum),
     Rho < Minimum.
 
-collected([], Rho, Rho) :-
-    !.
-collected(New, Rho0, Rho) :-
-    bag(Old),
-    ord_union(Old, New, Bag),
-    keep(bag(Bag)),
-    bag_weight(Old, Before),
-    bag_weight(Bag, After),
+rewarded(none, Rho, Rho).
+rewarded(gain(Before, After), Rho0, Rho) :-
     parameter(c, C),
     parameter(rho_max, Maximum),
     migration_reward(Rho0, Before, After, C, Maximum, Rho).
@@ -147,8 +142,12 @@ learnt([], Plan) :-
     Plan = [].
 learnt(Units, Plan) :-
     begin(Start),
-    catch(plan(Start, Units, Plan),
-          error(existence_error(procedure, _), _), fail).
+    provided(plan/3),
+    plan(Start, Units, Plan).
+
+provided(PI) :-
+    current_predicate(PI),
+    !.
 
                 /*******************************
                 *           CONVERGER          *
@@ -170,11 +169,10 @@ converger(Rho) :-
     log(converged(Count, Hops, Actions)).
 converger(Rho0) :-
     hop(Rho0, Rho),
-    visit(better, New),
-    (   New == []
+    visit(better, Gain),
+    (   Gain == none
     ->  converger(Rho)
-    ;   keep(bag(New)),
-        collector
+    ;   collector
     ).
 
                 /*******************************
@@ -213,118 +211,6 @@ queue :-
 unqueue :-
     self(Me),
     ignore(take(queued(Me))).
-
-                /*******************************
-                *            SHARING           *
-                *******************************/
-
-%   visit(+Wanted, -New): the agent comes to the end of the queue, asks the
-%   others in it one after the other until one of them has something New,
-%   and answers while it stays.  Wanted is `anything`, or `better`: only of
-%   those with a better solution.
-
-visit(_, New) :-
-    parameter(sharing, false),
-    !,
-    New = [],
-    parameter(stay, Seconds),
-    sleep(Seconds).
-visit(Wanted, New) :-
-    parameter(stay, Seconds),
-    deadline(Seconds, Until),
-    findall(Other, sense(queued(Other)), Others),
-    queue,
-    ask(Others, Wanted, New),
-    answer_until(Until),
-    unqueue.
-
-ask([], _, []).
-ask([Other|Others], Wanted, New) :-
-    (   asked(Other, Units, Solution),
-        wanted(Wanted, Solution),
-        new(Units, Found)
-    ->  New = Found,
-        length(Found, Size),
-        log(shared(Other, Size))
-    ;   ask(Others, Wanted, New)
-    ).
-
-%   Who does not answer is no longer there, whatever the queue says.
-
-asked(Other, Units, Solution) :-
-    here(Here),
-    send(Other, share(Here)),
-    parameter(answer, Seconds),
-    (   await(Other, shared(What), Seconds)
-    ->  What = units(Units, Solution)
-    ;   ignore(take(queued(Other))),
-        fail
-    ).
-
-wanted(anything, _).
-wanted(better, solution(Others)) :-
-    solution(Actions),
-    better(Others, Actions).
-
-new(Units, New) :-
-    shareable(Own),
-    bag(Bag),
-    ord_subtract(Units, Own, New0),
-    ord_subtract(New0, Bag, New),
-    New \== [].
-
-                /*******************************
-                *            MESSAGES          *
-                *******************************/
-
-deadline(Seconds, Until) :-
-    now(Now),
-    Until is Now + Seconds.
-
-%   await(+Agent, ?Reply, +Seconds): fails at the deadline.  What others
-%   want is answered meanwhile.
-
-await(Agent, Reply, Seconds) :-
-    deadline(Seconds, Until),
-    await_until(Agent, Reply, Until).
-
-await_until(Agent, Reply, Until) :-
-    heard(From, What, Until),
-    (   From == Agent,
-        What = Reply
-    ->  true
-    ;   respond(What, From),
-        await_until(Agent, Reply, Until)
-    ).
-
-answer_until(Until) :-
-    (   heard(From, What, Until)
-    ->  respond(What, From),
-        answer_until(Until)
-    ;   true
-    ).
-
-heard(From, What, Until) :-
-    now(Now),
-    Seconds is Until - Now,
-    Seconds > 0,
-    receive(From-What, Seconds).
-
-%   Nothing is shared with an agent at another host.
-
-respond(share(Here), Agent) :-
-    here(Here),
-    !,
-    shareable(Units),
-    (   solution(Actions)
-    ->  Solution = solution(Actions)
-    ;   Solution = none
-    ),
-    send(Agent, shared(units(Units, Solution))).
-respond(share(_), Agent) :-
-    !,
-    send(Agent, shared(nothing)).
-respond(_, _).
 
 keep(Fact) :-
     functor(Fact, Name, Arity),

@@ -58,7 +58,12 @@ keep_chance(Chance) :-
 on_message(Agent, execute(Plan, Xi)) :-
     execute(Plan, Xi, Steps, Feedback),
     trace(Agent, Steps),
-    send(Agent, Feedback).
+    told(Agent, Feedback).
+
+%   Who asked may have gone to a process that has died since.
+
+told(Agent, Feedback) :-
+    catch(send(Agent, Feedback), error(host_unreachable(_), _), true).
 
 %   For those who look on: the actions, in order.
 

@@ -1,0 +1,134 @@
+/*  How learning agents share: in the queue of a host, and by messages
+    (thesis section 4.2.2).  Included in the program of an agent that has
+    shareable/1, bag/1 and, once it has reached the goal, solution/1.
+
+        share(Host)         what do you have, if you are at Host, too?
+        shared(units(Units, solution(Actions) or none)), shared(nothing)
+                            the answer
+
+    Where two are in one queue the later one has asked the earlier one.
+*/
+
+%   visit(+Wanted, -Gain): the agent comes to the end of the queue, asks the
+%   others in it one after the other until one of them has something new,
+%   and answers while it stays.  Wanted is `anything`, or `better`: only of
+%   those with a better solution.  Gain is gain(Before, After), the weights
+%   of the bag, or `none`.  What is new goes into the bag at once: an agent
+%   that waits should have nothing large among its goals.
+
+visit(_, none) :-
+    parameter(sharing, false),
+    !,
+    parameter(stay, Seconds),
+    sleep(Seconds).
+visit(Wanted, Gain) :-
+    parameter(stay, Seconds),
+    deadline(Seconds, Until),
+    findall(Other, sense(queued(Other)), Others),
+    queue,
+    ask(Others, Wanted, Gain),
+    answer_until(Until),
+    unqueue.
+
+ask([], _, none).
+ask([Other|Others], Wanted, Gain) :-
+    (   asked(Other, Units, Solution),
+        wanted(Wanted, Solution),
+        new(Units, New)
+    ->  collected(New, Gain),
+        length(New, Size),
+        log(shared(Other, Size))
+    ;   ask(Others, Wanted, Gain)
+    ).
+
+%   Who does not answer is no longer there, whatever the queue says.
+
+asked(Other, Units, Solution) :-
+    here(Here),
+    parameter(answer, Seconds),
+    (   told(Other, share(Here)),
+        await(Other, shared(What), Seconds)
+    ->  What = units(Units, Solution)
+    ;   ignore(take(queued(Other))),
+        fail
+    ).
+
+%   Nothing is better while the learning algorithm is exchanged.
+
+wanted(anything, _).
+wanted(better, solution(Others)) :-
+    provided(better/2),
+    solution(Actions),
+    better(Others, Actions).
+
+new(Units, New) :-
+    shareable(Own),
+    bag(Bag),
+    ord_subtract(Units, Own, New0),
+    ord_subtract(New0, Bag, New),
+    New \== [].
+
+collected(New, gain(Before, After)) :-
+    bag(Old),
+    ord_union(Old, New, Bag),
+    keep(bag(Bag)),
+    bag_weight(Old, Before),
+    bag_weight(Bag, After).
+
+                /*******************************
+                *            MESSAGES          *
+                *******************************/
+
+%   told(+Agent, +Message): fails if its process is known to be gone.
+
+told(Agent, Message) :-
+    catch(send(Agent, Message), error(host_unreachable(_), _), fail).
+
+deadline(Seconds, Until) :-
+    now(Now),
+    Until is Now + Seconds.
+
+%   await(+Agent, ?Reply, +Seconds): fails at the deadline.  What others
+%   want is answered meanwhile.
+
+await(Agent, Reply, Seconds) :-
+    deadline(Seconds, Until),
+    await_until(Agent, Reply, Until).
+
+await_until(Agent, Reply, Until) :-
+    heard(From, What, Until),
+    (   From == Agent,
+        What = Reply
+    ->  true
+    ;   respond(What, From),
+        await_until(Agent, Reply, Until)
+    ).
+
+answer_until(Until) :-
+    (   heard(From, What, Until)
+    ->  respond(What, From),
+        answer_until(Until)
+    ;   true
+    ).
+
+heard(From, What, Until) :-
+    now(Now),
+    Seconds is Until - Now,
+    Seconds > 0,
+    receive(From-What, Seconds).
+
+%   Nothing is shared with an agent at another host.
+
+respond(share(Here), Agent) :-
+    here(Here),
+    !,
+    shareable(Units),
+    (   solution(Actions)
+    ->  Solution = solution(Actions)
+    ;   Solution = none
+    ),
+    ignore(told(Agent, shared(units(Units, Solution)))).
+respond(share(_), Agent) :-
+    !,
+    ignore(told(Agent, shared(nothing))).
+respond(_, _).
