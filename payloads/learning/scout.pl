@@ -1,0 +1,75 @@
+:- payload(scout, [provides([plan/3, better/2, plans/1])]).
+
+/*  A learning algorithm for the maze that explores: where greedy always takes
+    the longest branch of the tree it knows, this one takes any, so it
+    searches where others do not.  Both make and understand the same
+    units, so they can share.
+
+    Branches are not equally likely, their ends are: of all vectors that can
+    be reached and from which nothing is known, one is drawn.  The way there
+    is one with the most links.
+*/
+
+%   So many plans have been made: the seed of the next one.
+
+plans(0).
+
+plan(Start, Units, Plan) :-
+    retract(plans(Count0)),
+    Count is Count0 + 1,
+    assertz(plans(Count)),
+    findall(Plan0, planned(Start, Units, Count, Plan0), [Plan]).
+
+planned(Start, Units, Count, Plan) :-
+    findall(Light-unit(Vector0, Actions, Vector),
+            ( member(unit(Vector0, Actions, Vector)-_, Units),
+              arg(1, Vector0, Light) ),
+            Keyed),
+    sort(1, @=<, Keyed, Rising),
+    root(Start, Rising, Root),
+    list_to_assoc([Root-way(0, [])], Ways0),
+    ways(Rising, Ways0, Ways),
+    findall(Vector-on, member(_-unit(Vector, _, _), Rising), Pairs),
+    sort(Pairs, Onward0),
+    list_to_assoc(Onward0, Onward),
+    findall(Way, ( gen_assoc(Vector, Ways, way(_, Way)),
+                   \+ get_assoc(Vector, Onward, on) ),
+            Ends),
+    term_hash(Count-Root-Ends, Seed),
+    typhon_chance:chance_seed(Seed, Chance),
+    typhon_chance:chance_member(Backwards, Ends, Chance, _),
+    reverse(Backwards, Forwards),
+    append(Forwards, Plan).
+
+%   Executions begin where they always do; else with what has least light.
+
+root(Start, Links, Start) :-
+    memberchk(_-unit(Start, _, _), Links),
+    !.
+root(_, [_-unit(Vector, _, _)|_], Vector).
+
+%   ways(+Links, +Ways0, -Ways): way(Length, Way) to each vector, Way being
+%   the actions of its links, the last first.  Weights are positive, so who
+%   takes the links in the order of rising light comes to a vector when all
+%   ways to it are known.
+
+ways([], Ways, Ways).
+ways([_-unit(Vector0, Actions, Vector)|Links], Ways0, Ways) :-
+    (   get_assoc(Vector0, Ways0, way(Length0, Way)),
+        Length is Length0 + 1,
+        \+ longer(Vector, Ways0, Length)
+    ->  put_assoc(Vector, Ways0, way(Length, [Actions|Way]), Ways1)
+    ;   Ways1 = Ways0
+    ),
+    ways(Links, Ways1, Ways).
+
+longer(Vector, Ways, Length) :-
+    get_assoc(Vector, Ways, way(Other, _)),
+    Other >= Length.
+
+%   A way that takes fewer actions.
+
+better(Actions, Others) :-
+    length(Actions, Length),
+    length(Others, OthersLength),
+    Length < OthersLength.
