@@ -1,0 +1,1 @@
+"""A simulated NXT brick and a world for several of them."""
