@@ -31,8 +31,8 @@ each single run is a small dot.
 %
 %   Series are terms series(Label, Index, Points, Marked): drawn in colour
 %   Index; Points are pairs X-Values, Values being a list of what the
-%   single runs gave.  The point at X = Marked gets a ring (`none`: none
-%   does).
+%   single runs gave, or X-at(Y, Values): then the line goes through Y there.
+%   The point at X = Marked gets a ring (`none`: none does).
 
 draw_chart(Directory, Name, Chart) :-
     memberchk(panels(Panels), Chart),
@@ -88,23 +88,29 @@ save_series(Directory, Name, Xs, P, S, Series, One) :-
     append([Summary, [gap, gap], Runs, [gap, gap], Marked], Rows),
     save_columns(File, Rows).
 
-summary_row(series(_, _, Points, _), Shift, [X, Median, Least, Most]) :-
-    member(X0-Values, Points),
-    median(Values, Median),
+summary_row(series(_, _, Points, _), Shift, [X, Middle, Least, Most]) :-
+    member(X0-Point, Points),
+    middle(Point, Middle, Values),
     min_list(Values, Least),
     max_list(Values, Most),
     X is X0 + Shift.
 
+middle(at(Y, Values), Y, Values) :-
+    !.
+middle(Values, Median, Values) :-
+    median(Values, Median).
+
 run_row(series(_, _, Points, _), Shift, [X, Value, 0, 0]) :-
-    member(X0-Values, Points),
+    member(X0-Point, Points),
+    middle(Point, _, Values),
     member(Value, Values),
     X is X0 + Shift.
 
-marked_row(series(_, _, Points, Mark), Shift, [X, Median, 0, 0]) :-
+marked_row(series(_, _, Points, Mark), Shift, [X, Middle, 0, 0]) :-
     number(Mark),
-    member(X0-Values, Points),
+    member(X0-Point, Points),
     X0 =:= Mark,
-    median(Values, Median),
+    middle(Point, Middle, _),
     X is X0 + Shift.
 
 shift(Xs, S, Series, Shift) :-
