@@ -17,21 +17,11 @@
     setting(Name, Value) replace the defaults.
 */
 
-:- include(resource).
-:- use_module(library(lists)).
-:- dynamic setting/2, resource/1, lifetime/1, arrival/1.
 :- discontiguous default/2.
+:- include(replication).
+:- use_module(library(lists)).
+:- dynamic arrival/1.
 
-default(q_th, 4).               % slots of a queue
-default(cr_min, 10).            % conferred on a clone
-default(cr_max, 100).
-default(cr_start, 10).          % of an agent that is no clone
-default(alpha_c, 0.1).          % inherent charging
-default(alpha_r, 15).           % charging by a reward
-default(c_l, 7).                % lifetime for a reward
-default(lifetime, 10).          % of a clone
-default(rounding, round).       % or `floor`
-default(replication, rewarded). % or `always`: also without a reward
 default(tick, 1).               % seconds: the step of time
 default(strategy, conscientious).
 
@@ -42,9 +32,7 @@ parameter(Name, Value) :-
     ).
 
 live :-
-    parameter(cr_start, Resource),
-    keep_resource(Resource),
-    keep_lifetime(inf),
+    endowed,
     stay.
 
 stay :-
@@ -122,19 +110,11 @@ left(Seconds) :-
     parameter(tick, Tick),
     Seconds is Lifetime * Tick.
 
-age(_) :-
-    lifetime(inf),
-    !.
 age(Since) :-
     now(Now),
     parameter(tick, Tick),
-    lifetime(Lifetime0),
-    Lifetime is Lifetime0 - (Now - Since)/Tick,
-    keep_lifetime(Lifetime),
-    (   Lifetime > 0
-    ->  true
-    ;   die
-    ).
+    Ticks is (Now - Since)/Tick,
+    older(Ticks).
 
 %   A turn may be on its way to who is about to die; what the queue answers
 %   comes behind it.
@@ -148,91 +128,3 @@ die :-
     ;   true
     ),
     dispose.
-
-                /*******************************
-                *       REWARDS, CLONING       *
-                *******************************/
-
-gain(Reward, Length) :-
-    parameter(q_th, Capacity),
-    parameter(alpha_c, Inherent),
-    parameter(alpha_r, Bonus),
-    parameter(cr_max, Maximum),
-    parameter(c_l, Extension),
-    pressure(Capacity, Length, Pressure),
-    resource(Resource0),
-    recharged(Resource0, Pressure, Reward, charge(Inherent, Bonus, Maximum),
-              Resource),
-    keep_resource(Resource),
-    lifetime(Lifetime0),
-    prolonged(Lifetime0, Reward, Extension, Lifetime),
-    keep_lifetime(Lifetime),
-    (   Reward =:= 1
-    ->  log(resource(Resource))
-    ;   true
-    ).
-
-%   Role is `clone` in the clones, which wait for their turn at this host,
-%   and `parent` in the agent that made them, if it made any.
-
-replicate(Reward, Length, Role) :-
-    fertile,
-    (   Reward =:= 1
-    ->  true
-    ;   parameter(replication, always)
-    ),
-    !,
-    affordable(Length, Count),
-    multiply(Count, Role).
-replicate(_, _, parent).
-
-affordable(Length, Count) :-
-    parameter(q_th, Capacity),
-    parameter(rounding, Rounding),
-    parameter(cr_max, Maximum),
-    parameter(cr_min, Minimum),
-    pressure(Capacity, Length, Pressure),
-    resource(Resource),
-    clones(Rounding, Pressure, Resource, Maximum, Count0),
-    conferred(Resource, Count0, Minimum, _, Count).
-
-%   What is conferred is taken clone by clone: where agents that are about
-%   to join the queue have taken a slot, fewer are made.
-
-multiply(0, Role) :-
-    !,
-    Role = parent.
-multiply(Count, Role) :-
-    log(state(replicate)),
-    catch(clone(Who), error(move_refused(_, _), _), Who = refused),
-    multiplied(Who, Count, Role).
-
-multiplied(refused, _, parent).
-multiplied(clone(_), _, clone) :-
-    newborn.
-multiplied(parent(_), Count0, Role) :-
-    parameter(cr_min, Minimum),
-    resource(Resource0),
-    Resource is Resource0 - Minimum,
-    keep_resource(Resource),
-    log(resource(Resource)),
-    Count is Count0 - 1,
-    multiply(Count, Role).
-
-%   A clone has been nowhere else, and chooses its ways by itself.
-
-newborn :-
-    log(cloned),
-    parameter(cr_min, Resource),
-    keep_resource(Resource),
-    parameter(lifetime, Lifetime),
-    keep_lifetime(Lifetime),
-    retractall('$memory'(_)).
-
-keep_resource(Resource) :-
-    retractall(resource(_)),
-    assertz(resource(Resource)).
-
-keep_lifetime(Lifetime) :-
-    retractall(lifetime(_)),
-    assertz(lifetime(Lifetime)).

@@ -1,0 +1,142 @@
+/*  What an agent pays for its clones, and how long these live: the cloning
+    resource of thesis section 6.2 in the life of an agent.  To be included.
+
+    The program that includes this says
+
+        parameter(Name, Value)  the defaults here are clauses of default/2
+        fertile                 true while it may clone
+        die                     what it does when its lifetime is over
+
+    and calls endowed/0 when it begins, and in each step of its life
+    older/1, gain/2 and replicate/3.  The agent that was created, not
+    cloned, never dies.
+
+    The names of the parameters are those of the thesis.
+*/
+
+:- include(resource).
+:- dynamic setting/2, resource/1, lifetime/1.
+
+default(q_th, 4).               % slots of a queue
+default(cr_min, 10).            % conferred on a clone
+default(cr_max, 100).
+default(cr_start, 10).          % of an agent that is no clone
+default(alpha_c, 0.1).          % inherent charging
+default(alpha_r, 15).           % charging by a reward
+default(c_l, 7).                % lifetime for a reward
+default(lifetime, 10).          % of a clone
+default(rounding, round).       % or `floor`
+default(replication, rewarded). % or `always`: also without a reward
+
+endowed :-
+    parameter(cr_start, Resource),
+    keep_resource(Resource),
+    keep_lifetime(inf).
+
+%!  older(+Ticks) is det.
+%
+%   So many ticks of the lifetime are over.
+
+older(_) :-
+    lifetime(inf),
+    !.
+older(Ticks) :-
+    lifetime(Lifetime0),
+    Lifetime is Lifetime0 - Ticks,
+    keep_lifetime(Lifetime),
+    (   Lifetime > 0
+    ->  true
+    ;   die
+    ).
+
+%!  gain(+Reward, +Length) is det.
+%
+%   A step with Reward, 1 or 0, in a queue of Length agents: equations 6.4
+%   and 6.5.
+
+gain(Reward, Length) :-
+    parameter(q_th, Capacity),
+    parameter(alpha_c, Inherent),
+    parameter(alpha_r, Bonus),
+    parameter(cr_max, Maximum),
+    parameter(c_l, Extension),
+    pressure(Capacity, Length, Pressure),
+    resource(Resource0),
+    recharged(Resource0, Pressure, Reward, charge(Inherent, Bonus, Maximum),
+              Resource),
+    keep_resource(Resource),
+    lifetime(Lifetime0),
+    prolonged(Lifetime0, Reward, Extension, Lifetime),
+    keep_lifetime(Lifetime),
+    (   Reward =:= 1
+    ->  log(resource(Resource))
+    ;   true
+    ).
+
+%!  replicate(+Reward, +Length, -Role) is det.
+%
+%   After a reward, clones as many as the agent can afford into the free
+%   slots.  Role is `clone` in the clones, and `parent` in the agent that
+%   made them, if it made any.
+
+replicate(Reward, Length, Role) :-
+    fertile,
+    (   Reward =:= 1
+    ->  true
+    ;   parameter(replication, always)
+    ),
+    !,
+    affordable(Length, Count),
+    multiply(Count, Role).
+replicate(_, _, parent).
+
+affordable(Length, Count) :-
+    parameter(q_th, Capacity),
+    parameter(rounding, Rounding),
+    parameter(cr_max, Maximum),
+    parameter(cr_min, Minimum),
+    pressure(Capacity, Length, Pressure),
+    resource(Resource),
+    clones(Rounding, Pressure, Resource, Maximum, Count0),
+    conferred(Resource, Count0, Minimum, _, Count).
+
+%   What is conferred is taken clone by clone: where agents that are about
+%   to join the queue have taken a slot, fewer are made.
+
+multiply(0, Role) :-
+    !,
+    Role = parent.
+multiply(Count, Role) :-
+    log(state(replicate)),
+    catch(clone(Who), error(move_refused(_, _), _), Who = refused),
+    multiplied(Who, Count, Role).
+
+multiplied(refused, _, parent).
+multiplied(clone(_), _, clone) :-
+    newborn.
+multiplied(parent(_), Count0, Role) :-
+    parameter(cr_min, Minimum),
+    resource(Resource0),
+    Resource is Resource0 - Minimum,
+    keep_resource(Resource),
+    log(resource(Resource)),
+    Count is Count0 - 1,
+    multiply(Count, Role).
+
+%   A clone has been nowhere else, and chooses its ways by itself.
+
+newborn :-
+    log(cloned),
+    parameter(cr_min, Resource),
+    keep_resource(Resource),
+    parameter(lifetime, Lifetime),
+    keep_lifetime(Lifetime),
+    retractall('$memory'(_)).
+
+keep_resource(Resource) :-
+    retractall(resource(_)),
+    assertz(resource(Resource)).
+
+keep_lifetime(Lifetime) :-
+    retractall(lifetime(_)),
+    assertz(lifetime(Lifetime)).
