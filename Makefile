@@ -44,6 +44,16 @@ experiments-sieve: tools ## chapter 3; one figure: FIGURE=3.4, RUNS=3, JOBS=3
 	@$(SWIPL) experiments/sieve.pl -- --figure '$(FIGURE)' --runs $(RUNS) \
 	    --jobs $(JOBS)
 
+.PHONY: experiments-learning
+experiments: experiments-learning
+
+experiments-learning: tools ## chapter 4; one figure: FIGURE=4.9, RUNS=3, JOBS=3
+	@$(SWIPL) experiments/learning.pl -- --figure '$(FIGURE)' \
+	    --runs $(RUNS) --jobs $(JOBS)
+	@case '$(FIGURE)' in all) \
+	    $(SWIPL) experiments/algorithms.pl -- --runs $(RUNS) \
+	        --jobs $(JOBS) ;; esac
+
 experiments: experiments-allocation
 
 # Runs that disturb each other last longer: one at a time, unless JOBS is given.
