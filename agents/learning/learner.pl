@@ -1,8 +1,10 @@
 :- agent(learner, [state([setting/2, shareable/1, bag/1, begin/1, count/1,
                           solution/1])]).
+:- discontiguous default/2.
 :- include(parameters).
 :- include(resources).
 :- include(sharing).
+:- include(breeding).
 
 /*  Algorithm 1 of the thesis: agents that learn by what hosts tell them of
     the actions they try there, and by what they tell each other when they
@@ -38,6 +40,7 @@ main :-
     keep(shareable([])),
     keep(bag([])),
     keep(count(0)),
+    born,
     executor([]).
 
 ready :-
@@ -59,6 +62,7 @@ executor(Plan) :-
     parameter(execution, Seconds),
     (   await(Trainer, feedback(Start, Units, Outcome), Seconds)
     ->  executed(Start, Length, Units, Outcome),
+        bred(Outcome, Length),
         after(Outcome)
     ;   log(unanswered(Trainer)),
         collector
