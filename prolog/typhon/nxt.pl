@@ -1,0 +1,21 @@
+:- module(typhon_nxt, []).
+
+/** <module> LEGO Mindstorms NXT robots
+
+    :- use_module(library(typhon/nxt)).
+
+The whole interface to NXT bricks with LEGO's firmware, on a serial line
+(Bluetooth) or TCP.  It is not part of library(typhon), and needs Python 3
+with pyserial.  Nothing is defined here: see the rooms in nxt/.
+
+  | connection, sounds, display | typhon/nxt/brick       |
+  | motors                      | typhon/nxt/motors      |
+  | sensors                     | typhon/nxt/sensors     |
+  | files and programs          | typhon/nxt/files       |
+  | the names of SWI-PRO-NXT    | typhon/nxt/swi_pro_nxt |
+*/
+
+:- reexport(nxt/brick).
+:- reexport(nxt/motors).
+:- reexport(nxt/sensors).
+:- reexport(nxt/files).
