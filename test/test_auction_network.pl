@@ -42,7 +42,7 @@ auctions_in(Mechanism, Topology, Options0, Robots, Goal, Dir) :-
         ( network_property(Network, hosts(Hosts)),
           forall(( member(I, Robots), nth1(I, Hosts, Host) ),
                  robot_start(Host, [push, position=p(I,0)],
-                             [settings([watch-60, patience-20])])),
+                             [settings([watch-6000, patience-1000])])),
           unhurried(AuctionOptions, Unhurried),
           auction_start(Mechanism, Hosts, Unhurried),
           once(call(Goal, Hosts, File)) ),
@@ -98,7 +98,7 @@ counted(Mechanism, Hosts, Expected) :-
 
 %   What must not go wrong when others keep the computer busy.
 
-patient(auction([slack(150)])).
+patient(auction([slack(400)])).
 
                 /*******************************
                 *             FLOOD            *
@@ -263,7 +263,7 @@ both_all(Mechanism, Hosts, File) :-
 
 test(the_urgent_one_comes_first) :-
     auctions(murdoch, ring(4),
-             [auction([slack(60), settings([bi_min-2, bi_max-20])])],
+             [auction([slack(300), settings([bi_min-2, bi_max-20])])],
              [1, 2, 3, 4], urgent(murdoch)).
 
 urgent(Mechanism, Hosts, File) :-
@@ -304,7 +304,7 @@ replaced(Mechanism, Hosts, File) :-
 %   The node of a chain that is cut off from its parent has another way.
 
 test(a_parent_has_vanished) :-
-    auctions(anta, edges([1-2, 2-3, 3-4]), [auction([slack(40)])], [4],
+    auctions(anta, edges([1-2, 2-3, 3-4]), [auction([slack(300)])], [4],
              orphan).
 
 orphan(Hosts, File) :-
