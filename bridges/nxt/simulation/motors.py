@@ -13,7 +13,7 @@ IDLE, RAMP_UP, RUNNING, RAMP_DOWN = 0x00, 0x10, 0x20, 0x40
 
 DEGREES_PER_PERCENT = 9.5       # per second, on a full battery
 FULL_BATTERY = 7800             # millivolts
-DRIVEN, COASTING, BRAKED = 0.08, 0.15, 0.02     # time constants, seconds
+DRIVEN, COASTING, BRAKED = 0.08, 0.06, 0.02     # time constants, seconds
 LEAST_POWER = 10                # where ramps begin and end
 
 
