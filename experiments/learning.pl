@@ -211,17 +211,25 @@ make_figure(Options, Figure, Figure-Claims) :-
     ->  print_message(error, learning(not_made(Figure))),
         Claims = []
     ;   draw_learning(Figure, Out, Options, CaseRuns),
-        learning_claims(Figure, CaseRuns, Claims)
+        learning_claims(Figure, CaseRuns, Claims),
+        save_tables(Out, Figure, CaseRuns, Claims)
     ).
+
+save_tables(Out, Figure, CaseRuns, Claims) :-
+    runs_table(CaseRuns, Header, Rows),
+    atomic_list_concat(['figure-', Figure, '.csv'], RunsName),
+    directory_file_path(Out, RunsName, RunsFile),
+    save_csv(RunsFile, Header, Rows),
+    findall([Text, Held, Found], member(claim(Text, Held, Found), Claims),
+            ClaimRows),
+    atomic_list_concat(['figure-', Figure, '-claims.csv'], ClaimsName),
+    directory_file_path(Out, ClaimsName, ClaimsFile),
+    save_csv(ClaimsFile, [claim, held, found], ClaimRows).
 
 told(Options, Cases, ClaimLists) :-
     maplist(case_runs(Options), Cases, CaseRuns),
     nl,
     print_cases(user_output, CaseRuns),
-    option(out(Out), Options),
-    runs_table(CaseRuns, Header, Rows),
-    directory_file_path(Out, 'runs.csv', Csv),
-    save_csv(Csv, Header, Rows),
     forall(member(Figure-Claims, ClaimLists),
            ( figure(Figure, Title),
              format('~nFigure ~w: ~w~n', [Figure, Title]),
@@ -229,16 +237,8 @@ told(Options, Cases, ClaimLists) :-
     findall(Claim, ( member(_-Claims, ClaimLists), member(Claim, Claims) ),
             All),
     claims_sentence(All, Sentence),
-    save_claims(Out, ClaimLists),
-    format('~n~w~nTables and pictures: ~w/~n', [Sentence, Out]).
-
-save_claims(Out, ClaimLists) :-
-    findall([Figure, Text, Held, Found],
-            ( member(Figure-Claims, ClaimLists),
-              member(claim(Text, Held, Found), Claims) ),
-            Rows),
-    directory_file_path(Out, 'claims.csv', File),
-    save_csv(File, [figure, claim, held, found], Rows).
+    option(out(Out), Options),
+    format('~n~w~nTables and pictures: ~w/figure-*~n', [Sentence, Out]).
 
                 /*******************************
                 *           MESSAGES           *

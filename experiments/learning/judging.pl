@@ -91,7 +91,7 @@ test(together(Kind1, Kind2), Data, V1 < V2, Found) :-
     memberchk(case(Kind2, _, _)-Results2, Data),
     spread(Results1, Actions1, V1),
     spread(Results2, Actions2, V2),
-    format(atom(Found), '~2f, ~2f (~1f, ~1f actions)',
+    format(atom(Found), '~3f, ~3f (~1f, ~1f actions)',
            [V1, V2, Actions1, Actions2]).
 test(falls(Measure, Key), Data, \+ next_to(Values, A, B, B > A), Found) :-
     series(Measure, Key, Data, Values, Found).

@@ -2,7 +2,7 @@
           [ paths_panel/3,              % +Title, +Result, -Panel
             moves_panel/4               % +Title, +Result, +Tried, -Panel
           ]).
-:- use_module('../lib/plot', [colour/2, lighten/2]).
+:- use_module('../lib/plot', [colour/2]).
 :- use_module(maze,
               [goal_cell/2, maze_path/3, maze_size/2, maze_walls/2,
                start_cell/2]).
@@ -25,7 +25,7 @@ paths_panel(Title, Result, panel(Title, Settings, Layers)) :-
     memberchk(settings(Pairs), Result),
     maze_settings(Pairs, Settings),
     walls(Pairs, Walls),
-    findall(Layer, path_layer(Pairs, Result, 2.5, Layer), Paths),
+    findall(Layer, path_layer(Pairs, Result, 3, Layer), Paths),
     ends(Pairs, Ends),
     append([[Walls], Paths, Ends], Layers).
 
@@ -63,7 +63,7 @@ walls(Pairs, layer(Rows, Style)) :-
     maze_walls(Pairs, Cells),
     findall([X, Y, L, R, B, T],
             ( member(X-Y, Cells),
-              L is X - 0.5, R is X + 0.5, B is Y - 0.5, T is Y + 0.5 ),
+              L is X - 0.55, R is X + 0.55, B is Y - 0.55, T is Y + 0.55 ),
             Rows),
     Style = 'using 1:2:3:4:5:6 with boxxyerror fill solid noborder \c
 lc rgb "#777777"'.
@@ -78,7 +78,7 @@ path_layer(Pairs, Result, Width, layer(Rows, Style)) :-
             ( member(X0-Y0, Cells), X is X0 + Shift, Y is Y0 + Shift ),
             Rows),
     agent_colour(Index, Colour),
-    format(atom(Style), 'using 1:2 with lines lw ~1f \c
+    format(atom(Style), 'using 1:2 with lines lw ~w \c
 lc rgb "#~|~`0t~16r~6+"', [Width, Colour]).
 
 %   Each way between two cells is drawn once.
@@ -98,9 +98,8 @@ moves_layer(Pairs, Count, Index, Tried, layer(Rows, Style)) :-
               DX is X2 - X1, DY is Y2 - Y1 ),
             Rows),
     agent_colour(Index, Colour),
-    lighten(Colour, Light),
     format(atom(Style), 'using 1:2:3:4 with vectors nohead lw 1 \c
-lc rgb "#~|~`0t~16r~6+"', [Light]).
+lc rgb "#~|~`0t~16r~6+"', [Colour]).
 
 shift(Count, Index, Shift) :-
     Shift is (Index - (Count - 1)/2) * 0.7/Count.

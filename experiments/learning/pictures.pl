@@ -94,7 +94,15 @@ how(Options, How) :-
     ;   HopTime = Min-Max,
         format(atom(Hops), 'hop ~w–~w s', [Min, Max])
     ),
-    format(atom(How), '~w, host clock ~w', [Hops, Clock]).
+    clock_text(Clock, Text),
+    format(atom(How), '~w, host clock ~w', [Hops, Text]).
+
+clock_text(pace(Stays, Most), Text) :-
+    !,
+    format(atom(Text), '×~w by the number of agents, at most ×~w',
+           [Stays, Most]).
+clock_text(Rate, Text) :-
+    format(atom(Text), '×~w', [Rate]).
 
 kind_text(alone, 'without sharing').
 kind_text(sharing, 'with sharing').
@@ -152,7 +160,8 @@ lengths_title(I, case(Kind, _, _), Result, Text) :-
 
 lengths_settings(CaseRuns,
                  [ 'unset key; set grid ytics lc rgb "#e4e4e4" lt 1 lw 1',
-                   'set xlabel "executions"; set ylabel "actions"', Range ]) :-
+                   'set xlabel "executions"',
+                   'set ylabel "actions" offset 1,0', Range ]) :-
     findall(Learner,
             ( member(_-[run(_, Result)|_], CaseRuns),
               memberchk(learners(Learners), Result),
@@ -212,7 +221,8 @@ sharing_panel(Result, panel(Text, Settings, [layer(Bars, BarStyle),
 their linear trend', [Agents, N, Seconds]),
     format(atom(Range), 'set xrange [0:~w]; set yrange [0:*]', [End]),
     Settings = [ 'unset key; set grid ytics lc rgb "#e4e4e4" lt 1 lw 1',
-                 'set xlabel "host seconds"; set ylabel "sharing events"',
+                 'set xlabel "host seconds"',
+                 'set ylabel "sharing events" offset 1,0',
                  Range ],
     Width is Seconds*0.85,
     colour(0, Blue),
