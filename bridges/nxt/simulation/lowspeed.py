@@ -2,7 +2,7 @@
 
 OK, PENDING, BUS_ERROR, NOT_READY, BAD_SIZE = 0x00, 0x20, 0xDD, 0xE0, 0xED
 BUFFER = 16
-TRANSACTION = 0.001             # seconds
+TRANSACTION = 0.0004            # seconds; some clients ask only 30 times
 
 
 class LowSpeed:
