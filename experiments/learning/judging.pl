@@ -9,7 +9,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists),
               [append/3, last/2, max_list/2, member/2, memberchk/2,
-               min_list/2]).
+               min_list/2, sum_list/2]).
 
 /** <module> Whether what the thesis says of runs held
 
@@ -142,11 +142,13 @@ test(run_lengths(Least, Most), Data, Within =:= Count, Found) :-
     max_list(Times, Longest),
     format(atom(Found), '~d of ~d runs; ~0f to ~0f host seconds',
            [Within, Count, Shortest, Longest]).
-test(converged, Data, Left =:= 0, Found) :-
+test(converged, Data, Converged =:= All, Found) :-
     results(Data, Results),
-    aggregate_all(count, left(Results, _), Left),
-    aggregate_all(count, learner(Results, _), All),
-    format(atom(Found), '~d of ~d did not', [Left, All]).
+    findall(N, ( member(R, Results), memberchk(agents(N), R) ), Ns),
+    sum_list(Ns, All),
+    aggregate_all(count, learner(Results, learner(_, _, converged(_, _, _))),
+                  Converged),
+    format(atom(Found), '~d of ~d', [Converged, All]).
 test(aside(Kind, Line, Most), Data, Distance =< Most, Found) :-
     memberchk(case(Kind, _, _)-Results, Data),
     findall(D, ( member(Result, Results), path(Result, Cells),
@@ -212,12 +214,6 @@ learner(Results, Learner) :-
     member(Result, Results),
     memberchk(learners(Learners), Result),
     member(Learner, Learners).
-
-%   Agents that have not executed anything are no learners of the result.
-
-left(Results, Learner) :-
-    learner(Results, Learner),
-    Learner = learner(_, _, none).
 
                 /*******************************
                 *           MEASURES           *
