@@ -2,16 +2,16 @@
     (thesis section 8.2).  To be included; with the setting cloning-true.
 
     A step of life is an execution.  Progress, which is rewarded, is a plan
-    that is longer than any before: by then the agent has taken in what those
-    it met knew, so it is ahead of them, too.  Where the length of plans says
-    nothing, cloning is of no use.
+    that is longer than any that has been executed at this host; each host
+    remembers, progress(Length).  So an agent has to be ahead of the others,
+    and none has to be asked.  Where the length of plans says nothing of what
+    they are worth, cloning is of no use.
 
     A clone goes on with all its parent knows.  When its lifetime is over,
     without progress that prolongs it, it ends.
 */
 
 :- include('../population/replication').
-:- dynamic longest/1.
 
 default(cloning, false).
 
@@ -20,14 +20,6 @@ fertile.
 die :-
     log(state(death)),
     dispose.
-
-%!  born is det.
-%
-%   The beginning of an agent that is no clone.
-
-born :-
-    endowed,
-    keep(longest(0)).
 
 %!  bred(+Outcome, +Length) is det.
 %
@@ -49,12 +41,16 @@ bred(unreached, Length) :-
     counted_from(Role).
 
 progress(Length, Reward) :-
-    longest(Longest),
+    (   take(progress(Longest))
+    ->  true
+    ;   Longest = 0
+    ),
     (   Length > Longest
-    ->  keep(longest(Length)),
-        Reward = 1
+    ->  Reward = 1
     ;   Reward = 0
-    ).
+    ),
+    Most is max(Length, Longest),
+    leave(progress(Most)).
 
 counted_from(parent).
 counted_from(clone) :-

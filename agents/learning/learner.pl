@@ -40,7 +40,7 @@ main :-
     keep(shareable([])),
     keep(bag([])),
     keep(count(0)),
-    born,
+    endowed,
     executor([]).
 
 ready :-

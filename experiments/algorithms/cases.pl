@@ -98,7 +98,7 @@ case(crowd, cloning, '8 agents',
      c(open, by([greedy]), eight)).
 
 options(printers, [problem(settings), nodes(10), limit(6000)]).
-options(trap, [problem(maze), nodes(10), limit(2000)]).
+options(trap, [problem(maze), nodes(10), limit(3000)]).
 options(open, [problem(maze), nodes(10), limit(4000)]).
 options(by(Algorithms), [algorithms(Algorithms)]).
 options(one, [agents(1)]).
@@ -115,4 +115,4 @@ options(changing, [exchange(at(500, greedy, scout))]).
 pairs(trap, [size-16, obstacles-[(6,6)-(6,11),(6,11)-(12,11)]]).
 pairs(open, [size-25]).
 pairs(alone, [sharing-false]).
-pairs(breeding, [cloning-true]).
+pairs(breeding, [cloning-true,q_th-2,alpha_r-5,c_l-1,lifetime-5]).
