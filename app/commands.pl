@@ -26,8 +26,8 @@ command(send, 'AGENT MESSAGE', 2,
         'send a message, any term, to an agent').
 command(log, 'FILE', 1,
         'print the events of a log file, or with --serve write one').
-command(diagnose, '[ADDRESS]', 0-1,
-        'find out, step by step, why a host cannot be reached').
+command(diagnose, '[ADDRESS]', 0-2,
+        'find out why a host, or with nxt PORT a robot, is not reached').
 
 %!  option(?Command, ?Option, ?Type, ?Meta, ?Help) is nondet.
 %

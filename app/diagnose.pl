@@ -1,5 +1,6 @@
 :- module(typhon_diagnose,
-          [ diagnose/1                  % +Address
+          [ diagnose/1,                 % +Address
+            diagnose_steps/2            % +Steps, :Check
           ]).
 
 /** <module> Why a host cannot be reached
@@ -31,16 +32,24 @@ connect_deadline(5).                    % seconds
 
 diagnose(Address) :-
     findall(Step-Advice, step(Step, Advice), Steps),
-    diagnose(Steps, Address).
+    diagnose_steps(Steps, check(Address)).
 
-diagnose([], _).
-diagnose([Step-Advice|Steps], Address) :-
-    catch(once(check(Step, Address, Found)), error(Formal, Context), true),
+%!  diagnose_steps(+Steps, :Check) is semidet.
+%
+%   Prints what call(Check, Step, Found) finds at each of Steps, which are
+%   Step-Advice; Found is text, or `not_asked`.  Fails at the first one that
+%   raises an error, or fails, after the advice.
+
+:- meta_predicate diagnose_steps(+, 2).
+
+diagnose_steps([], _).
+diagnose_steps([Step-Advice|Steps], Check) :-
+    catch(once(call(Check, Step, Found)), error(Formal, Context), true),
     (   Found == not_asked
-    ->  diagnose(Steps, Address)
+    ->  diagnose_steps(Steps, Check)
     ;   nonvar(Found)
     ->  format('  ok    ~w~t~24|~w~n', [Step, Found]),
-        diagnose(Steps, Address)
+        diagnose_steps(Steps, Check)
     ;   format('  FAIL  ~w~t~24|', [Step]),
         print_error(error(Formal, Context)),
         format('~t~24|~w~n', [Advice]),
@@ -66,9 +75,9 @@ step(connection,
 step(authentication,
      'Copy ~/.typhon.cookie so that both machines have the same one.').
 
-%   check(Step, Address, Found): Found is what there is to say
+%   check(Address, Step, Found): Found is what there is to say
 
-check(prolog, _, Found) :-
+check(_, prolog, Found) :-
     current_prolog_flag(version, Version),
     (   Version >= 90004,
         current_prolog_flag(threads, true)
@@ -80,22 +89,22 @@ check(prolog, _, Found) :-
                [Major, Minor, Patch, Bits])
     ;   throw(error(representation_error(prolog_version(Version)), _))
     ).
-check(cookie, _, Found) :-
+check(_, cookie, Found) :-
     cookie(_),
     cookie_source(Found).
-check(_, none, not_asked) :-
+check(none, _, not_asked) :-
     !.
-check(address, Address, Found) :-
+check(Address, address, Found) :-
     address_parts(Address, Name, Interface, Port),
     format(atom(Found), 'host ~w, port ~d of ~w', [Name, Port, Interface]).
-check('name resolution', Address, Found) :-
+check(Address, 'name resolution', Found) :-
     address_parts(Address, _, Interface, _),
     resolve(Interface, IP),
     format(atom(Found), '~w is ~w', [Interface, IP]).
-check(connection, Address, 'something listens there') :-
+check(Address, connection, 'something listens there') :-
     address_parts(Address, _, Interface, Port),
     connect_within_deadline(Interface:Port).
-check(authentication, Address, Found) :-
+check(Address, authentication, Found) :-
     get_time(Start),
     remote(Address, true),
     get_time(End),

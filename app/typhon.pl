@@ -21,6 +21,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
               [process_acquire/2, process_release/1]).
 :- use_module(commands, [command/4, option/5]).
 :- use_module(diagnose, [diagnose/1]).
+:- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/4, main/0]).
@@ -96,7 +97,10 @@ dispatch(Argv) :-
 %   Who asks needs an endpoint for the answer.
 
 run_connected(Command, Arguments, Options) :-
-    serves(Command, Options),
+    (   serves(Command, Options)
+    ;   Command == diagnose,
+        Arguments = [_,_]
+    ),
     !,
     run(Command, Arguments, Options).
 run_connected(Command, Arguments, Options) :-
@@ -193,6 +197,11 @@ run(diagnose, [], _) :-
     diagnose(none).
 run(diagnose, [Address], _) :-
     diagnose(Address).
+run(diagnose, [Kind, Port], _) :-
+    (   Kind == nxt
+    ->  diagnose_nxt(Port)
+    ;   throw(error(typhon_usage(arguments(diagnose)), _))
+    ).
 
 host_option(Options, Option) :-
     member(Option, Options),

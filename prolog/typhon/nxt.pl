@@ -19,3 +19,4 @@ with pyserial.  Nothing is defined here: see the rooms in nxt/.
 :- reexport(nxt/motors).
 :- reexport(nxt/sensors).
 :- reexport(nxt/files).
+:- reexport(nxt/swi_pro_nxt).

@@ -100,6 +100,10 @@ problem(garbage, Brick) -->
     [ 'What brick ~w answered makes no sense'-[Brick] ].
 problem(open_failed, Brick) -->
     [ 'The port of brick ~w cannot be opened'-[Brick] ].
+problem(low_battery(Volts), Brick) -->
+    [ 'The battery of brick ~w is low: ~w'-[Brick, Volts] ].
+problem(slow(Time), Brick) -->
+    [ 'Brick ~w takes ~w to answer'-[Brick, Time] ].
 problem(helper_died(stuck), Brick) -->
     [ 'The helper of brick ~w did not answer, and was killed'-[Brick] ].
 problem(helper_died(Status), Brick) -->

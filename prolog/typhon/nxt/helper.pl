@@ -3,7 +3,8 @@
             helper_write/2,             % +Helper, +Line
             helper_end/1,               % +Helper
             helper_release/1,           % +Helper
-            helper_kill/1               % +Owner
+            helper_kill/1,              % +Owner
+            helper_python/2             % +Options, -Program
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
@@ -50,7 +51,7 @@ end_seconds(2).                 % between the end of its output and its own
 %   @error existence_error(python, Program)
 
 helper_start(Port, Options, helper(In, Reader)) :-
-    python(Options, Python),
+    helper_python(Options, Python),
     bridge_file(File),
     option(baudrate(Baud), Options, 115200),
     thread_self(Owner),
@@ -72,10 +73,13 @@ no_python(Formal, Python) :-
     format(atom(Text), '~p', [Formal]),
     throw(error(existence_error(python, Python), context(_, Text))).
 
-%   Of the system, if it can be: one in the PATH may be a front that hides
-%   the modules of the system, and is slow to start.
+%!  helper_python(+Options, -Program) is det.
+%
+%   Program is for process_create/3.  That of the system, if it can be: one
+%   in the PATH may be a front that hides the modules of the system, and is
+%   slow to start.
 
-python(Options, Python) :-
+helper_python(Options, Python) :-
     (   option(python(Python0), Options)
     ->  true
     ;   setting(python, Python0)

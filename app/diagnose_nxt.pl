@@ -1,0 +1,141 @@
+:- module(typhon_diagnose_nxt,
+          [ diagnose_nxt/1              % +Port
+          ]).
+
+/** <module> Why a robot cannot be reached
+
+Goes from the Python of the helper to the motors and sensors of a brick,
+and stops with advice at the step that does not work.  Nothing moves.
+
+*Threading*: the calling thread.
+*/
+
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module('../prolog/typhon/nxt').
+:- use_module('../prolog/typhon/nxt/helper', [helper_python/2]).
+:- use_module(diagnose, [diagnose_steps/2]).
+
+%!  diagnose_nxt(+Port) is semidet.
+%
+%   Prints what works on the way to the brick at Port, a device or a URL of
+%   pyserial.  Fails at the first step that does not work.
+
+diagnose_nxt(Port) :-
+    findall(Step-Advice, step(Step, Advice), Steps),
+    (   diagnose_steps(Steps, check(Port))
+    ->  Well = true
+    ;   Well = fail
+    ),
+    (   nxt_brick(diagnosed, _)
+    ->  nxt_disconnect(diagnosed)
+    ;   true
+    ),
+    Well.
+
+%   step(Name, Advice)
+
+step(python,
+     'Install python3, or set typhon_nxt_helper:python.').
+step(pyserial,
+     'apt install python3-serial, or pip install pyserial.').
+step(port,
+     'For Bluetooth: rfcomm bind 0 ADDRESS makes /dev/rfcomm0.').
+step(permission,
+     'Join the group of the device: adduser USER dialout, and log in anew.').
+step(brick,
+     'Is it on, in reach, and paired (PIN 1234)? Does nobody else use it?').
+step(firmware,
+     'Direct commands need LEGO\'s own firmware, protocol 1.124.').
+step(name, '').
+step(battery,
+     'Below 6.5 V motors are weak and Bluetooth ends: charge it.').
+step(motors, '').
+step(sensors, '').
+step('round trip',
+     'More than 0.5 s: come nearer, or switch other Bluetooth off.').
+
+%   check(Port, Step, Found): Found is what there is to say
+
+check(_, python, Found) :-
+    python_says(['-c', 'import sys; print(sys.executable, \c
+                                           sys.version.split()[0])'], Found).
+check(_, pyserial, Found) :-
+    python_says(['-c', 'import serial; print(serial.__version__)'], Found).
+check(Port, port, Found) :-
+    (   sub_atom(Port, _, _, _, '://')
+    ->  atom_concat(Port, ' is a URL', Found)
+    ;   access_file(Port, exist)
+    ->  atom_concat(Port, ' is there', Found)
+    ;   throw(error(existence_error(nxt_port, Port), _))
+    ).
+check(Port, permission, Found) :-
+    (   sub_atom(Port, _, _, _, '://')
+    ->  Found = not_asked
+    ;   access_file(Port, read),
+        access_file(Port, write)
+    ->  Found = 'it may be read and written'
+    ;   throw(error(permission_error(open, nxt_port, Port), _))
+    ).
+check(Port, brick, 'something answers') :-
+    nxt_connect(diagnosed, Port).
+check(_, firmware, Found) :-
+    nxt_info(diagnosed, Info),
+    memberchk(firmware(Major, Minor), Info),
+    memberchk(protocol(First, Second), Info),
+    format(atom(Found), 'firmware ~d.~d, protocol ~d.~d',
+           [Major, Minor, First, Second]).
+check(_, name, Found) :-
+    nxt_info(diagnosed, Info),
+    memberchk(name(Name), Info),
+    memberchk(address(Address), Info),
+    format(atom(Found), '~w, address ~w', [Name, Address]).
+check(_, battery, Found) :-
+    nxt_battery(diagnosed, MilliVolts),
+    Volts is MilliVolts/1000,
+    format(atom(Found), '~2f V', [Volts]),
+    (   MilliVolts >= 6500
+    ->  true
+    ;   throw(error(nxt_error(low_battery(Found), diagnosed), _))
+    ).
+check(_, motors, Found) :-
+    maplist(motor, [a,b,c], Texts),
+    atomic_list_concat(Texts, ', ', Found).
+check(_, sensors, Found) :-
+    maplist(sensor, [1,2,3,4], Texts),
+    atomic_list_concat(Texts, ', ', Found).
+check(_, 'round trip', Found) :-
+    get_time(Start),
+    forall(between(1, 10, _), nxt_battery(diagnosed, _)),
+    get_time(End),
+    MilliSeconds is (End-Start)*100,
+    format(atom(Found), '~1f ms', [MilliSeconds]),
+    (   MilliSeconds < 500
+    ->  true
+    ;   throw(error(nxt_error(slow(Found), diagnosed), _))
+    ).
+
+motor(Motor, Text) :-
+    nxt_motor(diagnosed, Motor, State),
+    memberchk(rotation(Degrees), State),
+    format(atom(Text), '~w at ~d degrees', [Motor, Degrees]).
+
+sensor(Port, Text) :-
+    nxt_input(diagnosed, Port, Values),
+    format(atom(Text), '~d type ~d raw ~d', [Port, Values.type, Values.raw]).
+
+python_says(Args, Text) :-
+    helper_python([], Python),
+    catch(process_create(Python, Args,
+                         [ stdout(pipe(Out)), stderr(null), process(Pid) ]),
+          error(_, _),
+          throw(error(existence_error(python, Python), _))),
+    read_string(Out, _, Said),
+    close(Out),
+    process_wait(Pid, Status),
+    (   Status == exit(0)
+    ->  split_string(Said, "", "\n ", [Line]),
+        atom_string(Text, Line)
+    ;   throw(error(existence_error(python_module, serial), _))
+    ).
