@@ -1,0 +1,33 @@
+:- agent(alone, [state([tasks/2])]).
+
+/*  Executes the tasks of a sequence on the host where it is, one after the
+    other, and heeds nobody: what robots do that are not synchronised.
+
+    The fact tasks(Sequence, Tasks) says what is to be done, as a list of
+    Task-Goal in order.  It begins when it is told `begin`, and gives up at
+    the first task that fails or raises something.  The log tells of each
+    task what it tells when a worker executes it.
+*/
+
+main :-
+    receive(_-begin),
+    log(begun),
+    tasks(Sequence, Tasks),
+    execute(Tasks, Sequence).
+
+execute([], _).
+execute([Task-Goal|Tasks], Sequence) :-
+    log(executing(Sequence, Task)),
+    (   catch(Goal, Ball, raised(Sequence, Task, Ball))
+    ->  log(completed(Sequence, Task)),
+        execute(Tasks, Sequence)
+    ;   log(failed(Sequence, Task))
+    ).
+
+raised(Sequence, Task, Ball) :-
+    (   Ball = error(What, _)
+    ->  true
+    ;   What = Ball
+    ),
+    log(raised(Sequence, Task, What)),
+    fail.

@@ -1,0 +1,178 @@
+:- module(robots_arena,
+          [ arena_start/4,              % +Scene, +Options, -Arena, -Bricks
+            arena_ask/3,                % +Arena, +Line, -Answer
+            arena_stop/1,               % +Arena
+            arena_log/2                 % +File, -Terms
+          ]).
+:- use_module('../../prolog/typhon/aside', [aside/1]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(filesex),
+              [delete_directory_and_contents/1, directory_file_path/3]).
+:- use_module(library(lists), [append/2, append/3]).
+:- use_module(library(option), [option/2, select_option/4]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/3]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
+
+/** <module> The arena: simulated robots in a process of their own
+
+A child process, `bridges/nxt/world.py`, has the robots, each with a
+simulated brick at the end of a serial line, and the things that they carry
+or push.  Whoever drives a robot knows nothing of the arena, only the line.
+
+*Threading*: one thread asks an arena at a time.
+*/
+
+:- multifile
+    prolog:error_message//1.
+
+:- dynamic
+    world_file/1.               % File
+
+:- prolog_load_context(directory, Dir),
+   atom_concat(Dir, '/../../bridges/nxt/world.py', File),
+   retractall(world_file(_)),
+   assertz(world_file(File)).
+
+answer_seconds(30).
+end_seconds(20).                % it may have a long picture to write
+
+%!  arena_start(+Scene, +Options, -Arena, -Bricks) is det.
+%
+%   Starts the arena that the JSON file Scene describes.  Bricks are pairs
+%   Robot-Port, Port being the serial line of the robot's brick.  Options:
+%
+%     - clock(Rate): arena seconds in a second, default 1; 0: the time goes
+%       only by the line `advance SECONDS`
+%     - seed(Integer): of the gains of the motors and the noise of sensors
+%     - log(File), every(Seconds): see arena_log/2
+%     - picture(File): an animated picture of all, written at the end
+%
+%   @error arena_error(start, Text)
+
+arena_start(Scene, Options, Arena, Bricks) :-
+    tmp_file(arena, Dir),
+    make_directory(Dir),
+    arguments(Scene, Dir, Options, Arguments),
+    python(Python),
+    process_create(Python, Arguments,
+                   [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
+                     detached(true)     % a signal is for us alone
+                   ]),
+    answer_seconds(Seconds),
+    set_stream(Out, timeout(Seconds)),
+    Arena = arena(Pid, In, Out, Dir),
+    catch(ready(Out, Bricks), Ball,
+          ( arena_stop(Arena),
+            throw(Ball) )).
+
+%   Not the first Python of the path: only that of the system is sure to
+%   have the package for serial lines.
+
+python('/usr/bin/python3') :-
+    exists_file('/usr/bin/python3'),
+    !.
+python(path(python3)).
+
+arguments(Scene, Dir, Options0, Arguments) :-
+    world_file(World),
+    absolute_file_name(Scene, File, [access(read)]),
+    select_option(clock(Rate), Options0, Options, 1),
+    findall([Flag, Value],
+            ( flag(Option, Flag, Value), option(Option, Options) ),
+            Pairs),
+    append(Pairs, More),
+    append(['-u', World, File, '--pty', Dir, '--clock', Rate,
+            '--until-eof'], More, Arguments).
+
+flag(seed(Seed), '--seed', Seed).
+flag(log(File), '--log', File).
+flag(every(Seconds), '--every', Seconds).
+flag(picture(File), '--picture', File).
+
+ready(Out, Bricks) :-
+    read(Out, Term),
+    (   Term = ready(List)
+    ->  maplist(brick, List, Bricks)
+    ;   throw(error(arena_error(start, Term), _))
+    ).
+
+brick(brick(Robot, pty(Port), _), Robot-Port).
+
+%!  arena_ask(+Arena, +Line, -Answer) is det.
+%
+%   Answer is the term by which the arena answers Line, an atom, or
+%   Format-Arguments as of format/2.
+%
+%   @error arena_error(Line, Text), Text being what the arena says
+
+arena_ask(arena(_, In, Out, _), Line0, Answer) :-
+    (   Line0 = Format-Arguments
+    ->  format(atom(Line), Format, Arguments)
+    ;   Line = Line0
+    ),
+    format(In, '~w~n', [Line]),
+    flush_output(In),
+    read(Out, Term),
+    answer(Term, Line, Answer).
+
+answer(error(Text), Line, _) :-
+    !,
+    throw(error(arena_error(Line, Text), _)).
+answer(end_of_file, Line, _) :-
+    !,
+    throw(error(arena_error(Line, 'it has ended'), _)).
+answer(Answer, _, Answer).
+
+%!  arena_stop(+Arena) is det.
+%
+%   Ends the arena in order, by force if that takes long.  It may have ended
+%   before.
+
+arena_stop(arena(Pid, In, Out, Dir)) :-
+    aside(stop(Pid, In)),
+    close(Out, [force(true)]),
+    (   exists_directory(Dir)
+    ->  delete_directory_and_contents(Dir)
+    ;   true
+    ).
+
+stop(Pid, In) :-
+    catch(( format(In, 'quit~n', []), flush_output(In) ), error(_, _), true),
+    catch(close(In, [force(true)]), error(_, _), true),
+    end_seconds(Seconds),
+    get_time(Now),
+    Deadline is Now + Seconds,
+    (   ended(Pid, Deadline)
+    ->  true
+    ;   process_kill(Pid, kill),
+        process_wait(Pid, _, [])
+    ).
+
+ended(Pid, Deadline) :-
+    process_wait(Pid, Status, [timeout(0)]),
+    (   Status \== timeout
+    ->  true
+    ;   get_time(Now),
+        Now < Deadline,
+        sleep(0.02),
+        ended(Pid, Deadline)
+    ).
+
+%!  arena_log(+File, -Terms:list) is det.
+%
+%   What an arena with log(File) and every(Seconds) has written: terms
+%   state(Time, Robots, Pole, Boxes), one every so many arena seconds, and
+%   event(Time, What), with Time in arena seconds.
+
+arena_log(File, Terms) :-
+    read_file_to_terms(File, Terms, [encoding(utf8)]).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(arena_error(start, Term)) -->
+    [ 'The arena did not start: ~p'-[Term] ].
+prolog:error_message(arena_error(Line, Text)) -->
+    [ 'The arena was told "~w": ~w'-[Line, Text] ].

@@ -1,0 +1,117 @@
+:- module(robots_pole_metrics,
+          [ pole_states/3,              % +Terms, +Start, -States
+            max_tilt/2,                 % +States, -Tilt
+            over_limit/3,               % +States, +Limit, -Seconds
+            carried/2,                  % +States, -Metres
+            durations/3,                % +Executions, +Task, -Seconds
+            starts_apart/3,             % +Executions, +Task, -Seconds
+            mingled/2                   % +Executions, -Mingled
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists),
+              [last/2, max_list/2, member/2, min_list/2]).
+
+/** <module> What the log of the arena says about the pole
+
+A state is state(Time, Pole), where Pole is the term that the arena gives:
+
+    pole(X, Y, Height, Pitch, Yaw, Tilt, MaxTilt, Strain, Phase)
+
+in metres and degrees.  X and Y are the centre.
+
+*Threading*: pure.
+*/
+
+%!  pole_states(+Terms, +Start, -States) is det.
+%
+%   States are those from time Start on, which is then 0.  Terms are those of
+%   arena_log/2.
+
+pole_states(Terms, Start, States) :-
+    findall(state(Time, Pole),
+            ( member(state(Time0, _, Pole, _), Terms),
+              Pole \== none,
+              Time is Time0 - Start,
+              Time >= 0
+            ),
+            States).
+
+%!  max_tilt(+States, -Tilt) is det.
+%
+%   The greatest tilt of the pole, in degrees.  The arena has looked more
+%   often than the states that it has written.
+
+max_tilt(States, Tilt) :-
+    aggregate_all(max(T), a_tilt(States, T), Tilt0),
+    !,
+    Tilt = Tilt0.
+max_tilt(_, 0).
+
+a_tilt(States, Tilt) :-
+    member(state(_, Pole), States),
+    tilt(Pole, Tilt).
+
+tilt(pole(_, _, _, _, _, Tilt, _, _, _), Tilt).
+
+%!  over_limit(+States, +Limit, -Seconds) is det.
+%
+%   For how long the pole was tilted by more than Limit degrees.
+
+over_limit(States, Limit, Seconds) :-
+    aggregate_all(sum(Step), step_over(States, Limit, Step), Seconds).
+
+step_over([state(T0, Pole), state(T1, _)|_], Limit, Step) :-
+    tilt(Pole, Tilt),
+    Tilt > Limit,
+    Step is T1 - T0.
+step_over([_|States], Limit, Step) :-
+    step_over(States, Limit, Step).
+
+%!  carried(+States, -Metres) is det.
+%
+%   How far the centre of the pole is in the end from where it was first.
+
+carried(States, Metres) :-
+    States = [state(_, First)|_],
+    last(States, state(_, Last)),
+    First = pole(X0, Y0, _, _, _, _, _, _, _),
+    Last = pole(X1, Y1, _, _, _, _, _, _, _),
+    !,
+    Metres is sqrt((X1 - X0)**2 + (Y1 - Y0)**2).
+carried(_, 0).
+
+%!  durations(+Executions, +Task, -Seconds:list) is det.
+%
+%   How long the executions of Task took.  Executions are those of
+%   executions/2 in sync_metrics.
+
+durations(Executions, Task, Seconds) :-
+    findall(S, ( member(execution(Task, _, Start, End), Executions),
+                 S is End - Start ),
+            Seconds).
+
+%!  starts_apart(+Executions, +Task, -Seconds) is semidet.
+%
+%   Time from the first to the last start of Task.
+
+starts_apart(Executions, Task, Seconds) :-
+    findall(S, member(execution(Task, _, S, _), Executions), Starts),
+    min_list(Starts, First),
+    max_list(Starts, Last),
+    Seconds is Last - First.
+
+%!  mingled(+Executions, -Mingled) is det.
+%
+%   The executions that began before an earlier task had come to its end at
+%   all hosts.  To begin before it had begun at all hosts is an overlap: see
+%   overlaps/2 in sync_metrics.
+
+mingled(Executions, Mingled) :-
+    findall(E,
+            ( member(E, Executions),
+              E = execution(Task, _, Start, _),
+              \+ \+ ( member(execution(Earlier, _, _, End), Executions),
+                      Earlier < Task,
+                      End > Start )
+            ),
+            Mingled).

@@ -1,0 +1,220 @@
+:- module(robots_pole_run,
+          [ pole_run/4,                 % +Case, +Options, +Directory, -Result
+            pole_result/5               % +Options, +Events, +Terms, +Run,
+                                        % -Result
+          ]).
+:- use_module('../../prolog/typhon',
+              [ agent_create/3, agent_join/3, agent_send/2, log_events/2,
+                network_property/2, network_start/3, network_stop/1, remote/2
+              ]).
+:- use_module('../../prolog/typhon/paths', []).
+:- use_module('../../agents/sync/operator', [sequence_start/5]).
+:- use_module('../lib/follow', [new_lines/4]).
+:- use_module('../lib/progress', [progress/4, progress_done/1]).
+:- use_module('../sync/run', [sync_result/4]).
+:- use_module(arena, [arena_ask/3, arena_log/2, arena_start/4, arena_stop/1]).
+:- use_module(crew, [crew_join/2, crew_services/1, crew_task/3]).
+:- use_module(pole_metrics, [pole_states/3]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(filesex),
+              [directory_file_path/3, make_directory_path/1]).
+:- use_module(library(http/json), [json_read_dict/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(option), [option/2]).
+:- use_module(library(pairs), [pairs_values/2]).
+
+/** <module> Four robots carry a pole, once
+
+Four hosts in a ring, each in a process of its own, each with a robot in
+the arena.  The robots are to execute the four tasks of the sequence.
+
+*Threading*: one run at a time; it is the caller's thread that waits.  A
+signal that raises an exception there ends the run: network and arena are
+stopped.
+*/
+
+:- dynamic
+    scene_file/1.               % File
+
+:- prolog_load_context(directory, Dir),
+   atom_concat(Dir, '/../../bridges/nxt/scenes/pole.json', File),
+   retractall(scene_file(_)),
+   assertz(scene_file(File)).
+
+%   pole_task(?Number, ?Payload): the sequence of the thesis.
+
+pole_task(1, payloads(robots/approach)).
+pole_task(2, payloads(robots/lift)).
+pole_task(3, payloads(robots/carry)).
+pole_task(4, payloads(robots/release)).
+
+%!  pole_run(+Case, +Options, +Directory, -Result) is det.
+%
+%   In the case `synchronised` agents that travel have the tasks executed
+%   (thesis chapter 5); in the case `alone` each host executes them by
+%   itself.  All of these Options are required:
+%
+%     - seed(S), clock(Rate), hop_time(Min-Max)
+%       Of network_start/3; the arena has the same clock and seed.
+%     - agents(N), delta(D)
+%       That travel, and their penalty bias.
+%     - limit(Real)
+%       Real seconds after which nobody is waited for any longer.
+%
+%   In Directory are afterwards the logs events.pl and arena.pl, and the
+%   moving picture arena.svg.  Result is that of pole_result/5.
+
+pole_run(Case, Options, Directory, Result) :-
+    make_directory_path(Directory),
+    maplist(fresh(Directory), ['events.pl', 'arena.pl', 'arena.svg'],
+            [Events, Terms, Picture]),
+    get_time(T0),
+    setup_call_cleanup(
+        start_arena(Options, Terms, Picture, Arena, Bricks),
+        in_arena(Case, Options, Events, Arena, Bricks, Run0),
+        arena_stop(Arena)),
+    get_time(T1),
+    Wall is T1 - T0,
+    log_events(Events, EventList),
+    arena_log(Terms, TermList),
+    pole_result(Options, EventList, TermList, [case(Case), wall(Wall)|Run0],
+                Result).
+
+fresh(Directory, Name, File) :-
+    directory_file_path(Directory, Name, File),
+    (   exists_file(File)
+    ->  delete_file(File)
+    ;   true
+    ).
+
+start_arena(Options, Log, Picture, Arena, Bricks) :-
+    scene_file(Scene),
+    option(seed(Seed), Options),
+    option(clock(Rate), Options),
+    arena_start(Scene,
+                [ clock(Rate), seed(Seed), log(Log), every(0.1),
+                  picture(Picture)
+                ], Arena, Bricks).
+
+in_arena(Case, Options, Log, Arena, Bricks, Run) :-
+    option(seed(Seed), Options),
+    option(clock(Rate), Options),
+    option(hop_time(Min-Max), Options),
+    crew_services(Services),
+    length(Bricks, Count),
+    setup_call_cleanup(
+        network_start(ring(Count), Network,
+                      [ processes(Count), clock(Rate), seed(Seed), log(Log),
+                        hop_time(uniform(Min, Max)),
+                        hosts([services(Services)])
+                      ]),
+        in_network(Case, Options, Network, Log, Arena, Bricks, Run),
+        network_stop(Network)).
+
+%   Shift is what the clocks of the hosts show when that of the arena shows
+%   0.
+
+in_network(Case, Options, Network, Log, Arena, Bricks, Run) :-
+    network_property(Network, hosts(Hosts)),
+    pairs_values(Bricks, Ports),
+    crew_join(Hosts, Ports),
+    Hosts = [First|_],
+    remote(First, now(HostTime)),
+    arena_ask(Arena, time, time(ArenaTime)),
+    Shift is HostTime - ArenaTime,
+    findall(Task, ( pole_task(N, Spec), crew_task(N, Spec, Task) ), Tasks),
+    begin(Case, Hosts, Tasks, Options, Agents),
+    await_all(Agents, Log, Hosts, Options, Outcomes),
+    tilt_limit(Limit),
+    Run = [ hosts(Hosts), shift(Shift), outcomes(Outcomes),
+            tilt_limit(Limit)
+          ].
+
+tilt_limit(Limit) :-
+    scene_file(File),
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        json_read_dict(In, Scene),
+        close(In)),
+    Limit = Scene.pole.limit.
+
+begin(synchronised, Hosts, Tasks, Options, Agents) :-
+    option(agents(Count), Options),
+    option(seed(Seed), Options),
+    option(delta(Delta), Options),
+    sequence_start(pole, Hosts, Tasks,
+                   [ agents(Count), seed(Seed), settings([delta-Delta]) ],
+                   Agents).
+begin(alone, Hosts, Tasks, _, Agents) :-
+    maplist(create_alone(Tasks), Hosts, Agents),
+    forall(member(Agent, Agents), agent_send(Agent, begin)).
+
+create_alone(Tasks, Host, Agent) :-
+    agent_create(agents(robots/alone), Agent,
+                 [host(Host), facts([tasks(pole, Tasks)]), static(true)]).
+
+                /*******************************
+                *            WAITING           *
+                *******************************/
+
+await_all(Agents, Log, Hosts, Options, Outcomes) :-
+    option(limit(Limit), Options),
+    get_time(Now),
+    Deadline is Now + Limit,
+    length(Hosts, Count),
+    aggregate_all(count, pole_task(_, _), Tasks),
+    Total is Count * Tasks,
+    call_cleanup(
+        maplist(await(Log, Total, Deadline), Agents, Outcomes),
+        progress_done(user_error)).
+
+await(Log, Total, Deadline, Agent, Outcome) :-
+    get_time(Now),
+    Left is max(0, min(0.2, Deadline - Now)),
+    agent_join(Agent, Outcome0, Left),
+    new_lines(Log, 0, _, Lines),
+    aggregate_all(count,
+                  ( member(Line, Lines),
+                    sub_string(Line, _, _, _, "completed(pole,") ),
+                  Done),
+    Shown is min(Done, Total),
+    progress(user_error, Shown, Total, executions),
+    (   Outcome0 == timeout,
+        Now < Deadline
+    ->  await(Log, Total, Deadline, Agent, Outcome)
+    ;   Outcome = Outcome0
+    ).
+
+                /*******************************
+                *          EVALUATION          *
+                *******************************/
+
+%!  pole_result(+Options, +Events, +Terms, +Run, -Result) is det.
+%
+%   What the log of the network, Events, and that of the arena, Terms, say.
+%   Run is a list of case(Case), wall(Seconds), hosts(List), outcomes(List)
+%   of agent_join/3, tilt_limit(Degrees), beyond which the pole must not be
+%   tilted, and shift(Seconds): what the hosts' clocks show when that of the
+%   arena shows 0.  Result is Run, and that of sync_result/4, and
+%
+%     - states(List): see pole_states/3; the time begins with the first
+%       agent, in all that is in Result
+%     - what(List): of Time-What, what the arena tells of
+
+pole_result(Options, Events0, Terms, Run, Result) :-
+    memberchk(hosts(Hosts), Run),
+    memberchk(shift(Shift), Run),
+    sort(1, @=<, Events0, Events),
+    (   memberchk(event(Begun, _, _, begun), Events)
+    ->  true
+    ;   Begun = Shift
+    ),
+    Start is Begun - Shift,
+    aggregate_all(count, pole_task(_, _), Tasks),
+    sync_result([tasks(Tasks), failure(none)|Options], Events, Hosts, Sync),
+    pole_states(Terms, Start, States),
+    findall(Time-What,
+            ( member(event(Time0, What), Terms), Time is Time0 - Start ),
+            Whats),
+    append(Run, [states(States), what(Whats)|Sync], Result).
