@@ -7,25 +7,26 @@
 */
 
 :- module(allocation, []).
+:- use_module(allocation/batch, [case_runs/3, make_runs/3]).
+:- use_module(allocation/beyond,
+              [beyond/2, beyond_cases/3, show_beyond/5]).
 :- use_module(allocation/cases, [figure/3, figure_cases/4]).
 :- use_module(allocation/claims, [allocation_claims/4]).
+:- use_module(allocation/integrated, [integrated_run/3]).
 :- use_module(allocation/report,
-              [ load_result/2, print_cases/3, print_parameters/2,
-                save_figure/5, save_result/2
+              [ print_cases/3, print_parameters/2, save_figure/5,
+                save_result/2
               ]).
 :- use_module(allocation/run, [allocation_run/3]).
+:- use_module(allocation/urgent, [urgent_run/3]).
 :- use_module(lib/command, [acceptable/3, command/5, range/1]).
-:- use_module(lib/jobs, [job_directory/3, jobs_run/3]).
 :- use_module(lib/report,
               [claims_sentence/2, print_claims/2, save_facts/2]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists),
-              [append/2, append/3, member/2, memberchk/2, numlist/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2]).
-:- use_module(library(pairs), [pairs_values/2]).
 
 :- initialization(main, main).
 
@@ -49,6 +50,11 @@ opt_type(bi_min,     bi_min,     number).
 opt_type(bi_max,     bi_max,     number).
 opt_type(slack,      slack,      number).
 opt_type(limit,      limit,      number).
+opt_type(tasks,      tasks,      natural).
+opt_type(task_time,  task_time,  number).
+opt_type(late,       late,       number).
+opt_type(priority,   priority,   number).
+opt_type(deadline,   deadline,   number).
 opt_type(mechanism,  mechanism,  atom).
 opt_type(links,      links,      atom).
 opt_type(single,     single,     boolean).
@@ -57,7 +63,8 @@ opt_type(out,        out,        atom).
 opt_help(help(header), "Tasks that want the same robots, allocated by mobile \c
 agents, by Murdoch and\nby ANTA (thesis chapter 7)\n").
 opt_help(help(usage), " -- [options]").
-opt_help(figure,     "7.1, 7.2, 7.3, 7.4, 7.5 or all [all]").
+opt_help(figure,     "7.1, 7.2, 7.3, 7.4, 7.5, integrated, urgent or all \c
+[all]").
 opt_help(runs,       "Runs of each case, with consecutive seeds [3]").
 opt_help(seed,       "The first seed [1]").
 opt_help(jobs,       "Runs at the same time [1]").
@@ -75,8 +82,13 @@ opt_help(duration,   "Host seconds that a robot takes for its part [5]").
 opt_help(bi_min,     "Seconds, of equation 7.7 [10]").
 opt_help(bi_max,     "Seconds, of equation 7.5 [500]").
 opt_help(slack,      "Host seconds that auctioneers wait beyond the way \c
-there and back [2]").
+there and back [4]").
 opt_help(limit,      "Host seconds after which a run is ended [5000]").
+opt_help(tasks,      "Length of each sequence, for integrated [3]").
+opt_help(task_time,  "Host seconds of each of its tasks [1]").
+opt_help(late,       "Host seconds until the last task comes, for urgent [3]").
+opt_help(priority,   "Of it, in a single run [0]").
+opt_help(deadline,   "Of all tasks, in a single run; 0 is none [0]").
 opt_help(mechanism,  "Of a single run: proposed, constant, murdoch, anta \c
 [proposed]").
 opt_help(links,      "Of a single run: dynamic or static [dynamic]").
@@ -95,7 +107,8 @@ defaults([ figure(all), runs(3), seed(1), jobs(1), clock(4),
            hop_time(0.05-0.15), hosts(100), degree(6),
            dynamic(links(uniform(10,20),0.5,0.5)), processes(2),
            eligible(15), required(10), allocators(5), duration(5),
-           bi_min(10), bi_max(500), slack(2), limit(5000),
+           bi_min(10), bi_max(500), slack(4), limit(5000),
+           tasks(3), task_time(1), late(3), priority(0), deadline(0),
            mechanism(proposed), links(dynamic), single(false), out('out/allocation')
          ]).
 
@@ -106,7 +119,7 @@ main(Argv) :-
 
 check(Options) :-
     option(figure(Figure), Options),
-    acceptable(( Figure == all ; figure(Figure, _, _) ), figure, Figure),
+    acceptable(( Figure == all ; known(Figure) ), figure, Figure),
     forall(( member(Name, [clock, limit]), value(Name, Options, Value) ),
            acceptable(Value > 0, Name, Value)),
     forall(choice(Name, Choices),
@@ -134,87 +147,49 @@ run(Options) :-
     !,
     option(out(Out), Options),
     make_directory_path(Out),
-    allocation_run(Options, Out, Result),
+    option(figure(Figure), Options),
+    single(Figure, Options, Out, Result),
     save_result(Out, Result).
 run(Options) :-
     print_parameters(user_output, Options),
     option(figure(Wanted), Options),
-    findall(Figure, ( figure(Figure, _, _), wanted(Wanted, Figure) ),
-            Figures),
-    maplist(figure_data(Options), Figures, Data),
-    make_runs(Data, Options, Outcomes),
-    maplist(make_figure(Options), Data),
+    findall(Figure, ( known(Figure), wanted(Wanted, Figure) ), Figures),
+    findall(Case,
+            ( member(Figure, Figures), needs(Figure, Options, Case) ),
+            Cases),
+    make_runs(Cases, Options, Outcomes),
+    forall(member(Figure, Figures), make_figure(Figure, Options)),
     (   member(failed(_), Outcomes)
     ->  halt(1)
     ;   true
     ).
 
+single(integrated, Options, Out, Result) :-
+    !,
+    integrated_run(Options, Out, Result).
+single(urgent, Options, Out, Result) :-
+    !,
+    urgent_run(Options, Out, Result).
+single(_, Options, Out, Result) :-
+    allocation_run(Options, Out, Result).
+
+known(Figure) :-
+    figure(Figure, _, _).
+known(Figure) :-
+    beyond(Figure, _).
+
 wanted(all, _) :-
     !.
 wanted(Figure, Figure).
 
-                /*******************************
-                *             RUNS             *
-                *******************************/
-
-%   figure_data(+Options, +Figure, -Figure-(Cases-All)): Cases are X-Case,
-%   All the distinct cases that it needs.
-
-figure_data(Options, Figure, Figure-(Cases-All)) :-
-    figure_cases(Figure, Options, Cases, Others),
-    pairs_values(Cases, Shown),
-    append(Shown, Others, All0),
-    sort(All0, All).
-
-%   Cases that two figures need are run once.
-
-make_runs(Data, Options, Outcomes) :-
-    findall(All, member(_-(_-All), Data), Nested),
-    append(Nested, Cases0),
-    sort(Cases0, Cases),
-    seeds(Options, Seeds),
-    findall(Job,
-            ( member(Seed, Seeds), member(Case, Cases),
-              job(Options, Seed, Case, Job) ),
-            Jobs),
-    root(Options, Root),
-    option(jobs(N), Options),
-    jobs_run(Jobs, [out(Root), jobs(N)], Outcomes).
-
-root(Options, Root) :-
-    option(out(Out), Options),
-    directory_file_path(Out, runs, Root).
-
-seeds(Options, Seeds) :-
-    option(seed(First), Options),
-    option(runs(Runs), Options),
-    Last is First + Runs - 1,
-    numlist(First, Last, Seeds).
-
-job(Options, Seed, Case, job(Name, Script, Arguments)) :-
-    module_property(allocation, file(Script)),
-    Case = case(Mechanism, Links, Hosts, Eligible, Required, Allocators),
-    findall(Option, inherited(Options, Option), Inherited),
-    append([ mechanism(Mechanism), links(Links), hosts(Hosts),
-             eligible(Eligible), required(Required), allocators(Allocators),
-             seed(Seed), single(true) ],
-           Inherited, All),
-    maplist(argument, All, Arguments),
-    atomic_list_concat([ Mechanism, Links, Hosts, Eligible, Required,
-                         Allocators, seed, Seed ], -, Name).
-
-inherited(Options, Option) :-
-    member(Name, [ clock, hop_time, degree, dynamic, processes, duration,
-                   bi_min, bi_max, slack, limit ]),
-    Option =.. [Name, _],
-    option(Option, Options).
-
-argument(Option, Argument) :-
-    Option =.. [Name, Value],
-    (   atom(Value)
-    ->  format(atom(Argument), '--~w=~w', [Name, Value])
-    ;   format(atom(Argument), '--~w=~q', [Name, Value])
-    ).
+needs(Figure, Options, Case) :-
+    figure(Figure, _, _),
+    figure_cases(Figure, Options, Shown, Others),
+    ( member(_-Case, Shown) ; member(Case, Others) ).
+needs(Figure, Options, Case) :-
+    beyond(Figure, _),
+    beyond_cases(Figure, Options, Cases),
+    member(_-Case, Cases).
 
                 /*******************************
                 *            FIGURES           *
@@ -222,17 +197,24 @@ argument(Option, Argument) :-
 
 %   Runs that failed were told, and are left out.
 
-make_figure(Options, Figure-(Cases-All)) :-
-    seeds(Options, Seeds),
-    root(Options, Root),
+make_figure(Figure, Options) :-
+    beyond(Figure, Title),
+    !,
+    beyond_cases(Figure, Options, Cases),
+    findall(Key-Runs,
+            ( member(Key-Case, Cases), case_runs(Options, Case, Runs) ),
+            Data),
+    format('~nFigure ~w: ~w~n', [Figure, Title]),
+    option(out(Out), Options),
+    subtitle(Options, Subtitle),
+    show_beyond(Figure, Out, Subtitle, Data, Claims),
+    tell_claims(Figure, Options, Data, Claims).
+make_figure(Figure, Options) :-
+    figure_cases(Figure, Options, Cases, _),
+    findall(Case, needs(Figure, Options, Case), All0),
+    sort(All0, All),
     findall(Case-Runs,
-            ( member(Case, All),
-              findall(Seed-Result,
-                      ( member(Seed, Seeds),
-                        job(Options, Seed, Case, Job),
-                        job_directory(Job, Root, Directory),
-                        load_result(Directory, Result) ),
-                      Runs) ),
+            ( member(Case, All), case_runs(Options, Case, Runs) ),
             Data),
     option(out(Out), Options),
     subtitle(Options, Subtitle),
@@ -240,10 +222,21 @@ make_figure(Options, Figure-(Cases-All)) :-
     figure(Figure, Title, _),
     format('~nFigure ~w: ~w~n', [Figure, Title]),
     print_cases(user_output, Cases, Data),
-    length(Seeds, Wanted),
-    allocation_claims(Figure, Cases, Data, Claims0),
-    made_claim(Wanted, Data, Made),
-    tell_claims(Out, Figure, [Made|Claims0]).
+    allocation_claims(Figure, Cases, Data, Claims),
+    tell_claims(Figure, Options, Data, Claims).
+
+tell_claims(Figure, Options, Data, Claims0) :-
+    option(runs(Runs), Options),
+    made_claim(Runs, Data, Made),
+    Claims = [Made|Claims0],
+    print_claims(user_output, Claims),
+    claims_sentence(Claims, Sentence),
+    option(out(Out), Options),
+    format('~w~nTables and pictures: ~w/allocation-~w*~n',
+           [Sentence, Out, Figure]),
+    atomic_list_concat(['allocation-', Figure, '-claims.pl'], Name),
+    directory_file_path(Out, Name, File),
+    save_facts(File, Claims).
 
 %   A run in which a robot is reserved twice, or left reserved, fails.
 
@@ -260,15 +253,6 @@ made_claim(Wanted, Data,
     ;   Held = false
     ),
     format(atom(Found), 'so the logs of ~d of ~d runs', [Count, Expected]).
-
-tell_claims(Out, Figure, Claims) :-
-    print_claims(user_output, Claims),
-    claims_sentence(Claims, Sentence),
-    format('~w~nTables and pictures: ~w/allocation-~w*~n',
-           [Sentence, Out, Figure]),
-    atomic_list_concat(['allocation-', Figure, '-claims.pl'], Name),
-    directory_file_path(Out, Name, File),
-    save_facts(File, Claims).
 
 subtitle(Options, Subtitle) :-
     option(runs(Runs), Options),

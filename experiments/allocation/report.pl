@@ -30,7 +30,8 @@
 print_parameters(Stream, Options) :-
     findall([Name, Text],
             ( member(Option, Options), Option =.. [Name, Value],
-              \+ memberchk(Name, [mechanism, links, single]),
+              \+ memberchk(Name, [ mechanism, links, single, priority,
+                                   deadline ]),
               term_to_atom(Value, Text) ),
             Rows0),
     sort(Rows0, Rows),

@@ -6,7 +6,7 @@
             watch_over/1                % +State
           ]).
 :- use_module(library(ordsets),
-              [ord_add_element/3, ord_del_element/3, ord_subtract/3]).
+              [ord_add_element/3, ord_del_element/3]).
 
 /** <module> How far an allocation has come
 
@@ -36,10 +36,10 @@ watch(_, State, State).
 
 seen(completed(Task), _, watch(All, Open0, Held, Alive),
      watch(All, Open, Held, Alive)) :-
-    ord_subtract(Open0, [Task], Open).
+    ord_del_element(Open0, Task, Open).
 seen(missed(Task, _), _, watch(All, Open0, Held, Alive),
      watch(All, Open, Held, Alive)) :-
-    ord_subtract(Open0, [Task], Open).
+    ord_del_element(Open0, Task, Open).
 seen(reserved(Robot, _, _), _, watch(All, Open, Held0, Alive),
      watch(All, Open, Held, Alive)) :-
     ord_add_element(Held0, Robot, Held).
