@@ -269,6 +269,15 @@ test(sharing_does_not, Held == [[false], [false], [false]]) :-
             ( member(Text, ['sharing grows', '0 with 1', 'less than 0.05']),
               held('4.10', Data, Text, H) ),
             Held).
+test(standard_errors, Found == '13.0±1.0, 20.0±2.0, 9.00±0.00') :-
+    findall(case(sharing, 50, D)-[Run1, Run2],
+            ( nth1(D, [12-14, 18-22, 9-9], E1-E2),
+              run_of([], 1, [E1-0-[]], Run1),
+              run_of([], 1, [E2-0-[]], Run2) ),
+            Data),
+    learning_claims('4.9', Data, Claims),
+    memberchk(claim('executions do not grow with the density, 50 hosts',
+                    false, Found), Claims).
 test(less_and_less, Held == [true]) :-
     sharing_over_time([1, 2, 3, 4, 15, 16, 40, 200], Data),
     held('4.12', Data, sharing, Held).

@@ -1,12 +1,11 @@
 :- module(learning_judging,
           [ judged/4                    % +Test, +Data, -Held, -Found
           ]).
-:- use_module(maze, [maze_path/3, maze_size/2]).
-:- use_module(metrics,
-              [bins/4, executions/2, mean/2, overlap/2, sharing/2, slope/3,
-               spread/3]).
+:- use_module(measures,
+              [distance/4, learner/2, looked/4, measured/4, path/2,
+               truth/2, value/3]).
+:- use_module(metrics, [mean/2, spread/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists),
               [append/3, last/2, max_list/2, member/2, memberchk/2,
                min_list/2, sum_list/2]).
@@ -107,15 +106,12 @@ test(steady(Measure, Key, Most), Data, Difference < Most, Found) :-
     Difference is abs(After - Before),
     format(atom(Found), '~2f, ~2f', [Before, After]).
 test(alike(Measure, D, Most), Data, Share =< Most, Found) :-
-    findall(Value,
-            ( member(case(sharing, _, D)-Results, Data),
-              value(Measure, Results, Value) ),
-            Values),
+    findall(Results, member(case(sharing, _, D)-Results, Data), All),
+    measured(Measure, All, Values, Text),
     mean(Values, Mean),
     min_list(Values, Least),
     max_list(Values, Greatest),
     Share is (Greatest - Least)/Mean,
-    texts(Values, Text),
     format(atom(Found), '~w: ~2f of the mean', [Text, Share]).
 test(above(Measure), Data, \+ ( member(A-B, Pairs), B =< A ), Found) :-
     findall(Plain-Value,
@@ -188,112 +184,13 @@ two(Measure, Kind1, Kind2, Data, V1, V2) :-
     value(Measure, Results2, V2).
 
 %   series(+Measure, +Key, +Data, -Values, -Found): in the order of the
-%   densities.
+%   densities.  Found has the standard errors, too, where there are several
+%   runs.
 
 series(Measure, Kind-N, Data, Values, Found) :-
-    findall(Value,
-            ( member(case(Kind, N, _)-Results, Data),
-              value(Measure, Results, Value) ),
-            Values),
-    texts(Values, Found).
-
-texts(Values, Text) :-
-    maplist(text, Values, Texts),
-    atomic_list_concat(Texts, ', ', Text).
-
-text(Value, Text) :-
-    (   Value < 10
-    ->  format(atom(Text), '~2f', [Value])
-    ;   format(atom(Text), '~1f', [Value])
-    ).
+    findall(Results, member(case(Kind, N, _)-Results, Data), All),
+    measured(Measure, All, Values, Found).
 
 results(Data, Results) :-
     findall(Result, ( member(_-Some, Data), member(Result, Some) ), Results).
 
-learner(Results, Learner) :-
-    member(Result, Results),
-    memberchk(learners(Learners), Result),
-    member(Learner, Learners).
-
-                /*******************************
-                *           MEASURES           *
-                *******************************/
-
-value(executions, Results, Value) :-
-    executions(Results, Value).
-value(sharing, Results, Value) :-
-    sharing(Results, Value).
-value(total, Results, Value) :-
-    executions(Results, Mean),
-    Results = [Result|_],
-    memberchk(agents(Agents), Result),
-    Value is Mean*Agents.
-value(overlaps, Results, Value) :-
-    findall(Overlap, ( member(Result, Results), paths(Result, Paths),
-                       overlap(Paths, Overlap) ), Overlaps),
-    mean(Overlaps, Value).
-
-%   looked(+What, +Result, -Verdict, -Note)
-
-looked(distinct, Result, Verdict, Note) :-
-    different(Result, Different, All),
-    truth(Different =:= All, Verdict),
-    format(atom(Note), '~d of ~d', [Different, All]).
-looked(same, Result, Verdict, Note) :-
-    different(Result, Different, _),
-    truth(Different =:= 1, Verdict),
-    format(atom(Note), '~d different', [Different]).
-looked(overlapped, Result, Verdict, Note) :-
-    paths(Result, Paths),
-    overlap(Paths, Overlap),
-    truth(Overlap >= 0.8, Verdict),
-    format(atom(Note), '~2f', [Overlap]).
-looked(falling, Result, Verdict, Note) :-
-    memberchk(duration(End), Result),
-    findall(T, ( learner([Result], learner(_, Times, _)), member(T, Times) ),
-            All),
-    bins(All, End, 30, Points),
-    slope(Points, Slope, _),
-    truth(Slope < 0, Verdict),
-    PerThousand is 1000*Slope,
-    Seconds is End/30,
-    format(atom(Note), '~1f events in ~0f s less after 1000 s',
-           [-PerThousand, Seconds]).
-
-:- meta_predicate truth(0, -).
-
-truth(Goal, Verdict) :-
-    (   call(Goal)
-    ->  Verdict = true
-    ;   Verdict = false
-    ).
-
-paths(Result, Paths) :-
-    findall(Cells, path(Result, Cells), Paths).
-
-path(Result, Cells) :-
-    memberchk(settings(Settings), Result),
-    learner([Result], learner(_, _, converged(_, _, Actions))),
-    maze_path(Settings, Actions, Cells).
-
-different(Result, Different, All) :-
-    paths(Result, Paths0),
-    maplist(sort, Paths0, Paths),
-    sort(Paths, Set),
-    length(Set, Different),
-    length(Paths, All).
-
-%   distance(+Line, +Result, +Cells, -Mean): how far Cells are, on average,
-%   from the diagonal; or those from the wall that are on the side of the
-%   start, below its end.
-
-distance(diagonal, Result, Cells, Mean) :-
-    memberchk(settings(Settings), Result),
-    maze_size(Settings, Size),
-    findall(D, ( member(X-Y, Cells), D is abs(X + Y - Size)/sqrt(2) ), Ds),
-    mean(Ds, Mean).
-distance(wall, Result, Cells, Mean) :-
-    memberchk(settings(Settings), Result),
-    memberchk(obstacles-[(W,_)-(W,Top)|_], Settings),
-    findall(D, ( member(X-Y, Cells), X > W, Y =< Top, D is X - W - 1 ), Ds),
-    mean(Ds, Mean).
