@@ -14,7 +14,7 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools demo experiments experiments-allocation \
+.PHONY: help tools demo demo-robots experiments experiments-allocation \
     experiments-sieve experiments-sync test check bench \
     test-portability install clean
 
@@ -26,6 +26,9 @@ help:
 
 demo: tools             ## sixty hosts, ten agents, six tasks in step
 	@$(SWIPL) experiments/synchronisation.pl -- --out out/demo
+
+demo-robots: tools      ## four simulated robots carry a pole, in step and not
+	@$(SWIPL) experiments/robots.pl -- --out out/robots
 
 experiments: experiments-sync experiments-sieve ## all; what has been run stays
 
