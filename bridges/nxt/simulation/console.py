@@ -56,6 +56,10 @@ class Console:
         self.station.restore()
         return where(self.brick.label, self.station)
 
+    def do_restart(self):
+        self.brick.restart()
+        return 'ok'
+
     def do_set(self, port, *value):
         if not value:
             raise ValueError('set PORT VALUE')

@@ -6,7 +6,7 @@ from .senses import LINE, MARKER
 SCALE = 250                     # pixels per metre
 LONGEST = 40.0                  # seconds that a picture runs; faster if more
 SIDE = 90                       # height of the side view of the pole
-TALLER = 3                      # heights in it, against lengths
+TALLER = 2                      # heights in it, against lengths
 HEAD = ('<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" '
         'viewBox="0 0 {w} {h}" font-family="sans-serif" font-size="12">\n'
         '<rect width="{w}" height="{h}" fill="#f4f2ec"/>\n')
@@ -144,13 +144,13 @@ class Drawing:
         known = [m['pole'] for m in self.moments]
         length = self.arena.pole.length * SCALE
         left = (self.width - length) / 2
-        rows = [[number(base - k[i] * SCALE * TALLER / 2 - 3)
+        rows = [[number(base - k[i] * SCALE * TALLER - 3)
                  for k in known] for i in (1, 2)]
         ground = (f'<line x1="{number(left - 20)}" y1="{base}" '
                   f'x2="{number(left + length + 20)}" y2="{base}" '
                   'stroke="#777"/>')
         text = (f'<text x="8" y="{self.floor + 18}" fill="#555">side view, '
-                f'heights x {TALLER / 2:g}; red: tilted by more than '
+                f'heights x {TALLER}; red: tilted by more than '
                 f'{self.arena.pole.limit:g} degrees</text>')
         columns = {'x1': [number(left)], 'y1': rows[0],
                    'x2': [number(left + length)], 'y2': rows[1],

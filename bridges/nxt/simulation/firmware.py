@@ -32,15 +32,22 @@ class Brick:
         self.address = bytes([0, 0x16, 0x53, 1, 2, number & 255])
         self.time = 0.0
         self.driven = driven
-        self.motors = Motors(gains)
+        self.gains = gains
         self.inputs = [Input(device(kind)) for kind in kinds]
         self.flash = Flash(system.MODULES)
+        self.sounds = []
+        self.telegrams = self.replies = 0
+        self.restart()
+
+    def restart(self):
+        """Off and on again: only the files stay, and what is plugged in."""
+        self.motors = Motors(self.gains)
+        self.inputs = [Input(at.device, self.time) for at in self.inputs]
+        self.flash.handles.clear()
         self.io_maps = {}
         self.program = None
         self.mailboxes = [[] for _ in range(direct.MAILBOXES)]
-        self.sounds = []
-        self.telegrams = self.replies = 0
-        self.millivolts = FULL_BATTERY
+        self.set_battery(FULL_BATTERY)
 
     def set_battery(self, millivolts):
         self.millivolts = self.motors.battery = millivolts

@@ -11,6 +11,7 @@ RCX_LIGHT_ZERO, RCX_LIGHT_RANGE = 476, 41
 
 BOOLEAN, TRANSITIONS, PERIODS, PERCENT = 0x20, 0x40, 0x60, 0x80
 CELSIUS, FAHRENHEIT = 0xA0, 0xC0
+BOUNCING = 0.1                  # seconds in which a switch changes once
 FALSE_ABOVE, TRUE_BELOW = 1023 * 45 // 100, 1023 * 55 // 100
 
 # Ticks of the input module, about 1 ms each, until a new type is valid.
@@ -30,13 +31,15 @@ class Input:
         self.valid_at = now + 0.02
         self.boolean = False
         self.last = 0
-        self.edges = self.debounce = self.counted = 0
+        self.edges = self.counted = 0
+        self.steady_at = 0.0
         self.lowspeed = LowSpeed(self)
 
     def setup(self, kind, mode, now):
         if kind != self.type:
             self.valid_at = now + SETTLING.get(kind, 0.02)
-            self.edges = self.debounce = self.counted = 0
+            self.edges = self.counted = 0
+            self.steady_at = now
         elif now >= self.valid_at:
             self.valid_at = now + 0.001
         self.type, self.mode = kind, mode
@@ -87,13 +90,11 @@ class Input:
 
     def sample(self, now):
         """Counts edges; to be called every few milliseconds."""
-        if not self.valid(now) or self.digital():
+        if not (self.type and self.valid(now)) or self.digital():
             return
         before, self.boolean = self.boolean, self.sense(self.levels()[1])
-        if self.debounce:
-            self.debounce -= 1
-        elif before != self.boolean:
-            self.debounce = 20
+        if now >= self.steady_at and before != self.boolean:
+            self.steady_at = now + BOUNCING
             self.edges += 1
             counting = self.mode & 0xe0
             if counting == TRANSITIONS:
