@@ -109,7 +109,8 @@ defaults([ figure(all), runs(3), seed(1), jobs(1), clock(4),
            eligible(15), required(10), allocators(5), duration(5),
            bi_min(10), bi_max(500), slack(4), limit(5000),
            tasks(3), task_time(1), late(3), priority(0), deadline(0),
-           mechanism(proposed), links(dynamic), single(false), out('out/allocation')
+           mechanism(proposed), links(dynamic), single(false),
+           out('out/allocation')
          ]).
 
 main(Argv) :-
