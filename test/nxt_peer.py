@@ -10,6 +10,12 @@ what happens at the next telegrams, one line for each:
     silence
     lose HEX        these bytes, and the line is gone
 
+and at once:
+
+    now HEX         a reply
+    lock            the terminal is another's; says `locked`
+    forbid          nobody may open it; says `forbidden`
+
 KEEPALIVE always has its reply, and the question for the firmware if
 nothing else is said; they are not told.  Others have none without a line.
 A telegram that comes before the one before it has had its reply is told as
@@ -53,6 +59,8 @@ class Peer:
             elif words == ['forbid']:
                 os.chmod(os.ttyname(self.slave), 0)
                 say('forbidden')
+            elif words[:1] == ['now']:
+                self.send(bytes.fromhex(words[1]))
             elif words:
                 self.script.append(words)
 

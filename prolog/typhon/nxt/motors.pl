@@ -149,7 +149,7 @@ nxt_turn_to(Brick, Motor, Power0, Angle) :-
 nxt_turn_to(Brick, Motor, Power, Angle, Seconds) :-
     must_be(between(1, 100), Power),
     must_be(integer, Angle),
-    must_be(between(0, 36000), Seconds),
+    must_be(between(0.0, 36000), Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
     near(Brick, Motor, Power, Angle, Deadline).
@@ -276,7 +276,7 @@ nxt_moves(Brick, Motor) :-
 %   @error timeout_error(nxt(await), Brick)
 
 nxt_await(Brick, Motors, Seconds) :-
-    must_be(between(0, 36000), Seconds),
+    must_be(between(0.0, 36000), Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
     (   Motors == all
