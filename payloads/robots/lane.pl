@@ -1,0 +1,169 @@
+:- payload(lane,
+           [ provides([ lane_follow/2, lane_find/3, lane_between/4,
+                        lane_turn_round/2, lane_driven/2 ]) ]).
+
+/*  Driving along black lines (thesis section 7.7), on a robot that keeps to
+    them: what its program does is to take the right turn where lines meet.
+
+    The wheels, 56 mm wide and 112 mm apart, are motors b, left, and c; the
+    compass is on port 2, sensors of colour look at the floor ahead of them
+    on ports 3 and 4.  All runs are limited: a robot whose program is ended
+    stops by itself.  Who gets lost stops, and raises robot_lost(How).
+
+    A way is a list of Metres-Turn: after so many metres comes a junction,
+    where it turns `left` or `right` or goes `straight`; the last one is
+    Metres-stop.
+*/
+
+%!  lane_follow(+Brick, +Way) is det.
+
+lane_follow(Brick, Way) :-
+    nxt_tacho_reset(Brick, [b,c]),
+    lane_legs(Way, 0, Legs),
+    lane_drive(Legs, Brick).
+
+%   lane_legs(+Way, +Start, -Legs): a leg leads past junctions that are
+%   taken alike, to the middle between two of them, so that nothing depends
+%   on a centimetre.
+
+lane_legs([Metres-stop], Start, [leg(straight, End)]) :-
+    !,
+    End is Start + Metres.
+lane_legs([Metres-Turn,Next-stop], Start, [leg(Turn, End)]) :-
+    !,
+    End is Start + Metres + Next.
+lane_legs([Metres-Turn,Next-Turn|Way], Start, Legs) :-
+    !,
+    Junction is Start + Metres,
+    lane_legs([Next-Turn|Way], Junction, Legs).
+lane_legs([Metres-Turn,Next-Other|Way], Start, [leg(Turn, End)|Legs]) :-
+    Junction is Start + Metres,
+    End is Junction + Next/2,
+    lane_legs([Next-Other|Way], Junction, Legs).
+
+lane_drive([], _).
+lane_drive([leg(Turn, Metres)|Legs], Brick) :-
+    lane_driven(Brick, Driven),
+    lane_bias(Turn, Bias),
+    Degrees is (Metres - Driven) / (pi*0.056) * 360,
+    lane_wheel(Brick, b, 80, 1 - Bias, Degrees),
+    lane_wheel(Brick, c, 80, 1 + Bias, Degrees),
+    lane_await(Brick),
+    lane_drive(Legs, Brick).
+
+lane_bias(straight, 0).
+lane_bias(left, 0.12).
+lane_bias(right, -0.12).
+
+lane_wheel(Brick, Motor, Power0, Share, Degrees0) :-
+    Power is round(Power0 * Share),
+    Degrees is round(Degrees0 * Share),
+    nxt_turn(Brick, Motor, Power, Degrees).
+
+%!  lane_driven(+Brick, -Metres) is det.
+%
+%   Since the counters of the wheels were reset.
+
+lane_driven(Brick, Metres) :-
+    nxt_tacho(Brick, b, Left),
+    nxt_tacho(Brick, c, Right),
+    Metres is (Left + Right)/720 * pi*0.056.
+
+lane_await(Brick) :-
+    now(Now),
+    Deadline is Now + 30,
+    lane_await(Brick, Deadline).
+
+lane_await(Brick, _) :-
+    lane_idle(Brick, b),
+    lane_idle(Brick, c),
+    !.
+lane_await(Brick, Deadline) :-
+    now(Now),
+    Now < Deadline,
+    !,
+    sleep(0.15),
+    lane_await(Brick, Deadline).
+lane_await(Brick, _) :-
+    nxt_float(Brick, [b,c]),
+    throw(error(robot_lost(stuck), _)).
+
+lane_idle(Brick, Motor) :-
+    nxt_motor(Brick, Motor, State),
+    memberchk(state(idle), State).
+
+%!  lane_find(+Brick, +Colour, +Metres) is det.
+%
+%   Goes on in small steps until there is Colour below a sensor, for Metres
+%   at the most.
+
+lane_find(Brick, Colour, _) :-
+    lane_colour(Brick, Colour),
+    !.
+lane_find(Brick, Colour, Metres) :-
+    Metres > 0,
+    !,
+    lane_wheel(Brick, b, 25, 1, 41),            % 2 cm
+    lane_wheel(Brick, c, 25, 1, 41),
+    lane_await(Brick),
+    Left is Metres - 0.02,
+    lane_find(Brick, Colour, Left).
+lane_find(_, Colour, _) :-
+    throw(error(robot_lost(no_marker(Colour)), _)).
+
+lane_colour(Brick, Colour) :-
+    nxt_colour(Brick, 3, Colour),
+    !.
+lane_colour(Brick, Colour) :-
+    nxt_colour(Brick, 4, Colour).
+
+%!  lane_between(+X0, +X, +Turn, -Way) is det.
+%
+%   Way leads along the main line from X0, where a line meets it, to X,
+%   where it turns.  The map of the arena: lines meet it at seven places of
+%   the dock and at five where boxes are pushed.
+
+lane_between(X0, X, Turn, Way) :-
+    Low is min(X0, X) - 0.01,
+    High is max(X0, X) + 0.01,
+    findall(Junction,
+            ( lane_junction(Junction), Junction > Low, Junction < High ),
+            Junctions0),
+    (   X0 > X
+    ->  reverse(Junctions0, Junctions)
+    ;   Junctions = Junctions0
+    ),
+    lane_pieces(Junctions, Turn, Way).
+
+lane_junction(X) :-
+    between(1, 7, Slot),
+    X is 0.4 + 0.3*(Slot - 1).
+lane_junction(X) :-
+    between(1, 5, Place),
+    X is 2.8 + 0.16*(Place - 1).
+
+lane_pieces([X0,X], Turn, [Metres-Turn]) :-
+    !,
+    Metres is abs(X - X0).
+lane_pieces([X0,X|Xs], Turn, [Metres-straight|Way]) :-
+    Metres is abs(X - X0),
+    lane_pieces([X|Xs], Turn, Way).
+
+%!  lane_turn_round(+Brick, +Compass) is det.
+%
+%   Turns on the spot, to where the compass shows about Compass degrees.
+
+lane_turn_round(Brick, Compass) :-
+    nxt_turn(Brick, b, 35, 360),
+    nxt_turn(Brick, c, 35, -360),
+    lane_await(Brick),
+    nxt_compass(Brick, 2, Degrees),
+    Off is abs((Degrees - Compass + 180) mod 360 - 180),
+    lane_faces(Off, Brick, Degrees).
+
+lane_faces(Off, _, _) :-
+    Off < 45,
+    !.
+lane_faces(_, Brick, Degrees) :-
+    nxt_float(Brick, [b,c]),
+    throw(error(robot_lost(heading(Degrees)), _)).

@@ -1,0 +1,94 @@
+:- payload(push, [provides([push_box/4])]).
+
+/*  Pushing a box with others (thesis section 7.7): from the dock to the
+    job's location, to its own place behind the box, and push.  Needs the
+    payload `lane`.
+
+    The way to both locations is the same up to a red marker.  Job 1 is on
+    the left of the main line, job 2 on the right.  The touch sensor on port
+    1 tells when the box is there.  It moves only while enough robots push;
+    those who come first push against it until the others are there.
+*/
+
+%!  push_box(+Job, +Place, +Metres, -Away) is det.
+%
+%   Push the box of Job, 1 or 2, at Place, 1 to 5, by Metres.  Away is how
+%   far from the main line the robot is then.
+
+push_box(Job, Place, Metres, Away) :-
+    sense(brick(Brick)),
+    sense(slot(Slot)),
+    X is 0.4 + 0.3*(Slot - 1),
+    push_to_marker(X, First),
+    lane_follow(Brick, First),
+    lane_find(Brick, red, 0.24),
+    push_to_place(Job, Place, Second),
+    lane_follow(Brick, Second),
+    nxt_tacho_reset(Brick, [b,c]),
+    push_on(Brick, Metres),
+    lane_driven(Brick, Driven),
+    Away is 0.28 + Driven.
+
+%   The marker is at 2.5, and the sensors are 6 cm ahead of the axle.  It
+%   is looked for from well before.
+
+push_to_marker(X, [0.5-left,Metres-stop]) :-
+    X > 2.1,
+    !,
+    Metres is 2.32 - X.
+push_to_marker(X, [0.5-left,0.3-straight,Metres-stop]) :-
+    Metres is 2.02 - X.
+
+push_to_place(Job, 1, [Metres-Turn,0.28-stop]) :-
+    !,
+    push_side(Job, Turn),
+    Metres is 2.8 - 2.425.
+push_to_place(Job, Place, [Metres-straight,0.16-Turn,0.28-stop]) :-
+    push_side(Job, Turn),
+    Metres is 2.64 + 0.16*(Place - 1) - 2.425.
+
+push_side(1, left).
+push_side(2, right).
+
+push_on(Brick, Metres) :-
+    now(Now),
+    Deadline is Now + 90,
+    Most is round((Metres + 0.3) / (pi*0.056) * 360),
+    nxt_run(Brick, [b,c], 50, [regulated(true), degrees(Most)]),
+    push_touched(Brick, Deadline),
+    Least is Metres + 0.05,
+    push_done(Brick, Least, 0, Deadline),
+    nxt_run(Brick, [b,c], -50, [regulated(true)]),
+    sleep(0.5),
+    nxt_stop(Brick, [b,c]).
+
+push_touched(Brick, _) :-
+    nxt_touch(Brick, 1, true),
+    !.
+push_touched(Brick, Deadline) :-
+    push_waits(Brick, Deadline, no_box),
+    sleep(0.15),
+    push_touched(Brick, Deadline).
+
+%   The box is there when it does not go on, and has come so far.
+
+push_done(Brick, Least, Before, Deadline) :-
+    sleep(0.3),
+    lane_driven(Brick, Now),
+    push_on(Now, Before, Least, Brick, Deadline).
+
+push_on(Now, Before, Least, _, _) :-
+    Now > Least,
+    Now - Before < 0.005,
+    !.
+push_on(Now, _, Least, Brick, Deadline) :-
+    push_waits(Brick, Deadline, alone),
+    push_done(Brick, Least, Now, Deadline).
+
+push_waits(_, Deadline, _) :-
+    now(Now),
+    Now < Deadline,
+    !.
+push_waits(Brick, _, Why) :-
+    nxt_float(Brick, [b,c]),
+    throw(error(robot_lost(Why), _)).
