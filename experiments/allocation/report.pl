@@ -11,6 +11,7 @@
 :- use_module(cases, [figure/3, panels/2]).
 :- use_module(curves, [values/4]).
 :- use_module(mechanisms, [mechanism/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
@@ -46,25 +47,34 @@ print_parameters(Stream, Options) :-
 
 %!  print_cases(+Stream, +Cases, +Data) is det.
 %
-%   A line for each case: medians of its runs.  `hop` is the mean time of a
-%   hop that was measured, `cores` the processor seconds in a real second.
+%   A line for each case: how many of its runs ended before the limit, and
+%   medians of these.  `hop` is the mean time of a hop that was measured,
+%   `cores` the processor seconds in a real second.
 
 print_cases(Stream, Cases, Data) :-
-    findall([Title, X, Count|Texts],
+    findall([Title, X, Ended|Texts],
             ( member(X-Case, Cases),
               Case = case(Mechanism, _, _, _, _, _),
               mechanism(Mechanism, Title),
               memberchk(Case-Runs, Data),
-              length(Runs, Count),
+              ended(Runs, Ended),
               findall(Value,
                       ( member(Measure, [ communications, time, backoffs,
                                           interval, hop, cores, wall ]),
                         summary(Measure, Case, Data, Value) ),
                       Texts) ),
             Rows),
-    print_table(Stream, [ mechanism, x, runs, communications, time,
+    print_table(Stream, [ mechanism, x, ended, communications, time,
                           'back-offs', interval, hop, cores, 'real s' ],
                 Rows).
+
+ended(Runs, Text) :-
+    length(Runs, Count),
+    aggregate_all(count,
+                  ( member(_-Result, Runs),
+                    memberchk(ended(true), Result) ),
+                  Ended),
+    format(atom(Text), '~d of ~d', [Ended, Count]).
 
 summary(Measure, Case, Data, Value) :-
     case_values(Measure, Case, Data, Values),
