@@ -372,6 +372,26 @@ test(the_agent_gets_the_error,
                                      joined(Agent, _),
                                      tuples_of(alpha, Errors) )))).
 
+test(consulted, Outcome-Values == done-[near]) :-
+    with_brick(Brick, Port,
+               ( brick_ask(Brick, 'set 4 12', ok),
+                 connected(lizzy, Port, [],
+                           with_tmp_dir(consulted(Outcome, Values))) )).
+
+%   As in doc/robots.md.
+
+consulted(Outcome, Values, Dir) :-
+    directory_file_path(Dir, 'lizzy.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- use_module(library(typhon/nxt)).~n\c
+                     obstacle :- nxt_ultrasonic(lizzy, 4, D), D < 20.~n', []),
+        close(Out)),
+    with_hosts([alpha-[consult(File)]],
+               ( create([ (main :- obstacle, leave(volts(near))) ], Agent),
+                 joined(Agent, Outcome),
+                 tuples_of(alpha, Values) )).
+
 tuples_of(Host, Values) :-
     address(Host, Address),
     remote(Address, findall(V, sense(volts(V)), Values)).
