@@ -1,11 +1,13 @@
 :- module(algorithms_metrics,
           [ algorithms_result/3,        % +Events, +Agents, -Result
-            measure/3                   % +What, +Result, -Number
+            measure/3,                  % +What, +Result, -Number
+            runs_table/3                % +CaseRuns, -Header, -Rows
           ]).
+:- use_module(cases, [case_name/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists),
-              [max_list/2, member/2, memberchk/2, sum_list/2]).
+              [last/2, max_list/2, member/2, memberchk/2, sum_list/2]).
 
 /** <module> What a run of agents that learn shows
 
@@ -28,7 +30,8 @@
 %     - time(Seconds): when that was
 %     - clones(Count), most(Count): how many clones were made; how many
 %       agents there were at most
-%     - solutions(List): Host-Actions for each that has converged
+%     - solutions(List): Host-Actions for each that has converged: how it
+%       has reached the goal, and where
 
 algorithms_result(Events, Agents,
                   [ agents(Count), reached(Reached), executions(Executions),
@@ -43,9 +46,13 @@ algorithms_result(Events, Agents,
     aggregate_all(count, by(Events, Time, shared(_, _)), Shared),
     aggregate_all(count, by(Events, inf, cloned), Clones),
     most(Events, Count, Most),
-    findall(Host-Actions,
-            member(event(_, Host, _, converged(_, _, Actions)), Events),
-            Solutions).
+    findall(Host-Actions, solution(Events, Host, Actions), Solutions).
+
+solution(Events, Host, Actions) :-
+    member(event(_, _, Agent, converged(_, _, Actions)), Events),
+    findall(At, member(event(_, At, Agent, executed(_, _, _, reached)),
+                       Events), Ats),
+    last(Ats, Host).
 
 by(Events, Until, What) :-
     member(event(Time, _, _, What), Events),
@@ -129,3 +136,26 @@ measure(What, Result, Number) :-
     Term =.. [What, Number],
     memberchk(Term, Result),
     number(Number).
+
+%!  runs_table(+CaseRuns, -Header, -Rows) is det.
+%
+%   A row for each run.  CaseRuns are pairs Case-Runs, Runs pairs
+%   Seed-Result.
+
+runs_table(CaseRuns, [case, seed|Columns], Rows) :-
+    Columns = [ agents, reached, mean, first, executions, pages, shared,
+                clones, most, time ],
+    findall([Name, Seed|Cells],
+            ( member(Case-Runs, CaseRuns),
+              case_name(Case, Name),
+              member(Seed-Result, Runs),
+              findall(Cell, ( member(Column, Columns),
+                              cell(Column, Result, Cell) ), Cells)
+            ),
+            Rows).
+
+cell(Column, Result, Cell) :-
+    (   measure(Column, Result, Number)
+    ->  Cell = Number
+    ;   Cell = none
+    ).

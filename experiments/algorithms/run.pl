@@ -87,7 +87,9 @@ exchange(Options, [First|_]) :-
     Pause is Seconds/Rate,
     sleep(Pause),
     algorithm(New, Algorithm),
-    learning_exchange([First], Old, Algorithm).
+    catch(learning_exchange([First], Old, Algorithm),
+          error(existence_error(agent, _), _),
+          true).                        % it has converged
 exchange(_, _).
 
 all_end(Options, Agents, Begin) :-
