@@ -59,7 +59,7 @@ experiments-learning: tools ## chapter 4; one figure: FIGURE=4.9, RUNS=3, JOBS=3
 
 experiments: experiments-allocation
 
-# Runs that disturb each other last longer: one at a time, unless JOBS is given.
+# Runs disturb each other: not as many at a time, unless JOBS is given.
 experiments-allocation: tools ## chapter 7; one figure: FIGURE=7.1, RUNS=3
 	@$(SWIPL) experiments/allocation.pl -- --figure '$(FIGURE)' \
 	    --runs $(RUNS) $(if $(filter file,$(origin JOBS)),,--jobs $(JOBS))

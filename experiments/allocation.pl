@@ -67,7 +67,7 @@ opt_help(figure,     "7.1, 7.2, 7.3, 7.4, 7.5, integrated, urgent or all \c
 [all]").
 opt_help(runs,       "Runs of each case, with consecutive seeds [3]").
 opt_help(seed,       "The first seed [1]").
-opt_help(jobs,       "Runs at the same time [1]").
+opt_help(jobs,       "Runs at the same time [2]").
 opt_help(clock,      "Host seconds in a real second [4]").
 opt_help(hop_time,   "MIN-MAX host seconds that a hop takes [0.05-0.15]").
 opt_help(hosts,      "Hosts; Figure 7.5: from half to twice as many [100]").
@@ -103,7 +103,7 @@ opt_meta(mechanism, 'NAME').
 opt_meta(links,     'HOW').
 opt_meta(out,       'DIRECTORY').
 
-defaults([ figure(all), runs(3), seed(1), jobs(1), clock(4),
+defaults([ figure(all), runs(3), seed(1), jobs(2), clock(4),
            hop_time(0.05-0.15), hosts(100), degree(6),
            dynamic(links(uniform(10,20),0.5,0.5)), processes(2),
            eligible(15), required(10), allocators(5), duration(5),

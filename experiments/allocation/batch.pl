@@ -21,12 +21,13 @@ the options Given.
 %!  make_runs(+Cases, +Options, -Outcomes) is det.
 %
 %   Make what is not there yet of the runs of Cases; a case that is listed
-%   twice is run once.  The first run of every case comes first.  Options
-%   are those of the experiment, the seeds, out(Directory) and jobs(N) among
-%   them.  Outcomes are those of jobs_run/3.
+%   twice is run once.  The first run of every case comes first.  Auctions,
+%   which need the processor, and others are mixed.  Options are those of
+%   the experiment, the seeds, out(Directory) and jobs(N) among them.
+%   Outcomes are those of jobs_run/3.
 
 make_runs(Cases0, Options, Outcomes) :-
-    sort(Cases0, Cases),
+    mixed(Cases0, Cases),
     seeds(Options, Seeds),
     findall(Job,
             ( member(Seed, Seeds), member(Case, Cases),
@@ -35,6 +36,14 @@ make_runs(Cases0, Options, Outcomes) :-
     root(Options, Root),
     option(jobs(N), Options),
     jobs_run(Jobs, [out(Root), jobs(N)], Outcomes).
+
+mixed(Cases0, Cases) :-
+    sort(Cases0, Distinct),
+    findall(Hash-Case,
+            ( member(Case, Distinct), term_hash(Case, Hash) ),
+            Pairs),
+    keysort(Pairs, Sorted),
+    findall(Case, member(_-Case, Sorted), Cases).
 
 %!  case_runs(+Options, +Case, -Runs:list(pair)) is det.
 %
