@@ -58,7 +58,7 @@ opt_help(processes, "Processes that the hosts of one network live in [2]").
 opt_help(queue,     "Agents that a host admits beside its own [5]").
 opt_help(hop_time,  "MIN-MAX host seconds that a hop takes, or none [none]").
 opt_help(clock,     "Host seconds in a real second, or pace(P,MOST): P by \c
-the number of agents, MOST at most [pace(200,40)]").
+the number of agents, MOST at most [pace(200,60)]").
 opt_help(dynamic,   "How links come and go in figure 4.13 [thesis_4_4_7]").
 opt_help(settings,  "List of Name-Value for agents and maze [[]]").
 opt_help(limit,     "Host seconds until a run is given up [10000]").
@@ -79,7 +79,7 @@ opt_meta(settings, 'LIST').
 opt_meta(out,      'DIRECTORY').
 
 defaults([ figure(all), runs(3), seed(1), sizes([10,20,30,40,50]),
-           processes(2), queue(5), hop_time(none), clock(pace(200,40)),
+           processes(2), queue(5), hop_time(none), clock(pace(200,60)),
            dynamic(thesis_4_4_7), settings([]), limit(10000), jobs(3),
            single(false), nodes(50), agents(5), out('out/learning')
          ]).

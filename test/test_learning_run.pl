@@ -250,13 +250,15 @@ test(executions_do_not, Held == [[false], [false], [false]]) :-
                              'no significant' ]),
               held('4.9', Data, Text, H) ),
             Held).
-test(obstacle, Held == [[true], [false]]) :-
+test(obstacle, Held == [[true], [false], [true], [true]]) :-
     curve(sharing, 50, [90-9, 80-9, 70-9, 65-9, 60-9], Plain),
     curve(obstacle, 50, [99-9, 88-9, 77-9, 66-9, 61-9], Obstacle),
     append(Plain, Obstacle, Data),
     held('4.9', Data, 'more executions', Executions),
     held('4.10', Data, 'more sharing', Sharing),
-    Held = [Executions, Sharing].
+    held('4.9', Data, 'all agents', Converged),
+    held('4.9', Data, 'runs take', Lengths),
+    Held = [Executions, Sharing, Converged, Lengths].
 test(sharing_rises, Held == [[true], [true], [true]]) :-
     curve(sharing, 10, [100-0, 100-60, 100-80, 100-90, 100-94], Data),
     findall(H,

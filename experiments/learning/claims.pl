@@ -60,8 +60,7 @@ statement('4.9', Data, Text, largest_step(executions, Key)) :-
 statement('4.9', _, 'no significant difference (0.15) between networks at \c
 D 0.5', alike(executions, 5, 0.15)).
 statement('4.9', Data, Text, above(executions)) :-
-    member(case(obstacle, _, _)-_, Data),
-    !,
+    memberchk(case(obstacle, _, _)-_, Data),
     Text = 'more executions with an obstacle, at every density'.
 statement('4.9', Data, '195 executions with 1 agent on 10 hosts',
           near_at(executions, case(sharing, 10, 1), 195)) :-
@@ -79,8 +78,7 @@ statement('4.10', Data, '0 with 1 agent on 10 hosts',
 statement('4.10', Data, Text, steady(sharing, Key, 0.05)) :-
     key_text(Data, Key, 'less than 0.05 between D 0.4 and 0.5, ', Text).
 statement('4.10', Data, Text, above(sharing)) :-
-    member(case(obstacle, _, _)-_, Data),
-    !,
+    memberchk(case(obstacle, _, _)-_, Data),
     Text = 'more sharing with an obstacle, at every density'.
 statement('4.11', _, 'final paths without an obstacle go along the diagonal \c
 (5 cells from it at most, on average)', aside(sharing, diagonal, 5)).

@@ -121,7 +121,7 @@ test(above(Measure), Data, \+ ( member(A-B, Pairs), B =< A ), Found) :-
               value(Measure, Others, Plain) ),
             Pairs),
     findall(Text,
-            ( member(A-B, Pairs), format(atom(Text), '~2f > ~2f', [B, A]) ),
+            ( member(A-B, Pairs), format(atom(Text), '~2f and ~2f', [B, A]) ),
             Texts),
     atomic_list_concat(Texts, ', ', Found).
 test(early_gain(Measure), Data, B - A > C - B, Found) :-
