@@ -345,9 +345,6 @@ forwards(Count, Plan) :-
 
 :- begin_tests(trainer).
 
-test(it_can_be_found, Tuples == [trainer(me)]) :-
-    trainer([seed-1]),
-    tuples(Tuples).
 test(it_answers_who_asks, To-Kind == a-feedback) :-
     trainer([seed-1]),
     fake_agent:on_message(a, execute([forward], 1)),

@@ -75,10 +75,11 @@ furnish(_, _, Host) :-
     remote(Host, sense(trainer(_))),
     !.
 furnish(Problem, Settings, Host) :-
-    agent_create(agents(learning/trainer), _,
+    agent_create(agents(learning/trainer), Trainer,
                  [ host(Host), static(true), payloads([Problem]),
                    facts(Settings)
-                 ]).
+                 ]),
+    remote(Host, leave(trainer(Trainer))).
 
 create(Settings, Algorithm, Host, Agent) :-
     agent_create(agents(learning/learner), Agent,

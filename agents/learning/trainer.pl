@@ -5,7 +5,7 @@
 /*  The static agent of a host: executes actions on what is to be learnt
     there, and gives feedback (thesis section 4.2.2).  What that is, a
     payload says, the problem.  The tuple trainer(Id) tells agents where to
-    ask.
+    ask; who creates the trainer leaves it.
 
         execute(Plan, Xi)   asked by an agent: Plan is a list of actions.
                             These are executed, then others at random, until
@@ -38,9 +38,7 @@
 main :-
     seed(Seed),
     typhon_chance:chance_seed(Seed, Chance),
-    keep_chance(Chance),
-    self(Me),
-    leave(trainer(Me)).
+    keep_chance(Chance).
 
 seed(Seed) :-
     parameter(seed, Seed0),
