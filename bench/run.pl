@@ -44,6 +44,8 @@ job(hosts, [env], unpinned).
 job(population, [env], unpinned).
 job(phercon, [env], 3).
 job(sync, [env], unpinned).
+job(learning, [env], 1).
+job(learning, [env], 2).
 
 figure_of(Script, Prefix, Argument, row(Name, Value, Unit, Note)) :-
     bench_directory(Dir),
