@@ -56,7 +56,7 @@ class BrickCalls:
 
     def telegram(self, name, values, reply, deadline):
         if name == 'SETINPUTMODE':
-            self.modes.pop(values.get('port'), None)
+            self.modes.clear()
         return self.command(name, values, deadline, reply)
 
     def show(self, pieces, deadline):

@@ -9,7 +9,7 @@ MODULE = 0x000A0001
 OFFSET = 119                            # of the first row
 ROWS, ROW_BYTES = 8, 100
 COLUMNS, CELL = 16, 6                   # of text; bytes of one
-PIECE = 48                              # bytes; a telegram has at most 64
+PIECE = 50                              # bytes; a telegram has at most 64
 
 # Blank to tilde: five columns of each, two digits a column.
 _FONT = (

@@ -214,7 +214,10 @@ nxt_sound_stop(Brick) :-
 nxt_write(Brick, Column, Row, Text0) :-
     must_be(between(0, 15), Column),
     must_be(between(0, 7), Row),
-    format(atom(Text), '~w', [Text0]),
+    format(atom(Text1), '~w', [Text0]),
+    sub_atom(Text1, 0, Length, After, Text),
+    ( After =:= 0 -> Length =< 16 ; Length =:= 16 ),
+    !,
     link_request(Brick, display,
                  _{do:display, column:Column, row:Row, text:Text}, _).
 
@@ -224,7 +227,7 @@ nxt_write(Brick, Column, Row, Text0) :-
 
 nxt_clear(Brick) :-
     must_be(atom, Brick),
-    link_request(Brick, display, _{do:clear}, _).
+    link_request(Brick, clear, _{do:clear}, 10, _). % 16 telegrams
 
                 /*******************************
                 *           MAILBOXES          *

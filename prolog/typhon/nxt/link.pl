@@ -173,8 +173,9 @@ handle(request(Id, Queue, Line), S0, S) :-
     S = state(Brick, Port, Options, Helper, [Id-Queue|Open], Fatal).
 handle(heard(Dict), S0, S) :-
     S0 = state(Brick, Port, Options, Helper, Open0, _),
-    get_dict(id, Dict, Id),
-    (   selectchk(Id-Queue, Open0, Open)
+    !,
+    (   get_dict(id, Dict, Id),
+        selectchk(Id-Queue, Open0, Open)
     ->  answer_of(Dict, Answer),
         answer(Queue, Answer),
         S1 = state(Brick, Port, Options, Helper, Open, none)
