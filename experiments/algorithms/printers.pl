@@ -1,19 +1,25 @@
 :- module(algorithms_printers,
           [ shortfalls/2                % +Runs, -Shortfalls
           ]).
-:- use_module('../../prolog/typhon/paths', []).
-:- use_module('../../prolog/typhon/program', [payload_load/2]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module('../../prolog/typhon/chance', []).
+:- use_module(library(lists),
+              [append/3, member/2, memberchk/2, sum_list/2]).
 
 /** <module> How good settings are without noise
 
 Nobody in the network can know this: it is asked when a run is over.  The
-clauses of payloads(learning/settings) are in this module, as in an agent's.
+clauses of payloads(learning/settings) are in this module, as in an agent.
 
 *Threading*: one thread at a time.
 */
 
-:- dynamic setting/2, carried/0.
+:- dynamic
+    setting/2,                          % Name, Value
+    here/1.                             % nowhere
+
+payload(_, _).
+
+:- include('../../payloads/learning/settings').
 
 %!  shortfalls(+Runs, -Shortfalls:list(number)) is det.
 %
@@ -22,7 +28,6 @@ clauses of payloads(learning/settings) are in this module, as in an agent's.
 %   if they are good.
 
 shortfalls(Runs, Shortfalls) :-
-    carry,
     findall(Shortfall,
             ( member(Seed-Result, Runs),
               memberchk(solutions(Solutions), Result),
@@ -30,34 +35,21 @@ shortfalls(Runs, Shortfalls) :-
               shortfall(Seed, Host, Actions, Shortfall) ),
             Shortfalls).
 
-carry :-
-    carried,
-    !.
-carry :-
-    payload_load(payloads(learning/settings), payload(_, _, Clauses)),
-    forall(member(Clause, Clauses), assertz(Clause)),
-    assertz(carried).
-
 shortfall(Seed, Host, Actions, Shortfall) :-
     retractall(setting(_, _)),
     assertz(setting(printers, Seed)),
-    settings_of(Actions, Settings),
+    factory(Factory),
+    last_settings(Actions, Factory, Settings),
     atomic_list_concat([Printer|_], @, Host),
-    call(quality, Printer, Settings, Quality),
-    call(known, good, Good),
+    quality(Printer, Settings, Quality),
+    known(good, Good),
     Shortfall is max(0, Good - Quality).
 
-%   What the last of the actions have set.
-
-settings_of(Actions, Settings) :-
-    call(factory, Factory),
-    settings_of(Actions, Factory, Settings).
-
-settings_of([], Settings, Settings).
-settings_of([use(Settings)|Actions], _, Last) :-
-    settings_of(Actions, Settings, Last).
-settings_of([set(Place, Level)|Actions], Settings0, Last) :-
-    call(replaced, Place, Settings0, Level, Settings),
-    settings_of(Actions, Settings, Last).
-settings_of([again|Actions], Settings, Last) :-
-    settings_of(Actions, Settings, Last).
+last_settings([], Settings, Settings).
+last_settings([use(Settings)|Actions], _, Last) :-
+    last_settings(Actions, Settings, Last).
+last_settings([set(Place, Level)|Actions], Settings0, Last) :-
+    replaced(Place, Settings0, Level, Settings),
+    last_settings(Actions, Settings, Last).
+last_settings([again|Actions], Settings, Last) :-
+    last_settings(Actions, Settings, Last).
