@@ -74,7 +74,7 @@ draw(Figure, Directory, Name, Title, Options, CaseRuns) :-
     chart(Figure, Measures),
     option(runs(Runs), Options),
     how(Options, How),
-    format(atom(Subtitle), '~d runs of each (line: mean; dots: runs); ~w',
+    format(atom(Subtitle), 'runs of each: ~d, small dots; ~w',
            [Runs, How]),
     maplist(panel(CaseRuns), Measures, Panels),
     draw_chart(Directory, Name,
@@ -261,16 +261,17 @@ panel(CaseRuns, Measure, panel(Title, YLabel, Series)) :-
                       Points) ),
             Series).
 
-measure(executions, 'Executions per agent until all have converged',
-        executions).
-measure(sharing, 'Sharing events per execution', events).
+measure(executions, 'Executions per agent until all have converged (line: \c
+mean)', executions).
+measure(sharing, 'Sharing events per execution (line: ratio of averages)',
+        events).
 
-series_label(Kind, N, Label) :-
-    (   Kind == sharing
-    ->  format(atom(Label), '~d hosts', [N])
-    ;   kind_text(Kind, What),
-        format(atom(Label), '~d, ~w', [N, What])
-    ).
+%   Short ones, so that all are in one line.
+
+series_label(obstacle, _, obstacle) :-
+    !.
+series_label(_, N, Label) :-
+    format(atom(Label), '~d hosts', [N]).
 
 middle(Measure, Runs, Mean, Values) :-
     findall(Result, member(run(_, Result), Runs), Results),
