@@ -59,7 +59,8 @@ opt_help(queue,     "Agents that a host admits beside its own [5]").
 opt_help(hop_time,  "MIN-MAX host seconds that a hop takes, or none [none]").
 opt_help(clock,     "Host seconds in a real second, or pace(P,MOST): P by \c
 the number of agents, MOST at most [pace(200,60)]").
-opt_help(dynamic,   "How links come and go in figure 4.13 [thesis_4_4_7]").
+opt_help(dynamic,   "How links come and go in figure 4.13 and a single \c
+run, or none [thesis_4_4_7]").
 opt_help(settings,  "List of Name-Value for agents and maze [[]]").
 opt_help(limit,     "Host seconds until a run is given up [10000]").
 opt_help(jobs,      "Runs at the same time [3]").
