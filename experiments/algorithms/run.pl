@@ -61,6 +61,8 @@ network_options(Options, Log,
     option(queue(Length), Options),
     Capacity is Length + 1.
 
+%   Nobody gets lost here, so nobody is given up where the machine is busy.
+
 perform(Network, Options, Agents) :-
     network_property(Network, hosts(Hosts)),
     option(problem(Problem), Options),
@@ -72,7 +74,9 @@ perform(Network, Options, Agents) :-
     maplist(algorithm, Names, Algorithms),
     learning_start(Hosts, payloads(learning/Problem), Algorithms,
                    [ agents(Count), seed(Seed),
-                     settings([rho_max-Rho,printers-Seed|Pairs])
+                     settings([ rho_max-Rho, printers-Seed, execution-3000,
+                                answer-300
+                              | Pairs ])
                    ], Agents),
     get_time(Now),
     exchange(Options, Agents),
