@@ -11,7 +11,7 @@
 /** <module> Hosts that have robots
 
 The place of such a host offers library(typhon/nxt), the robot interface,
-and in its tuple space robot(Brick) names the brick that is connected there.
+and in its tuple space brick(Brick) names the brick that is connected there.
 That is all that a program which comes to the host must know.
 
 *Threading*: no state; any thread.
@@ -28,8 +28,8 @@ crew_services([File]) :-
 %!  crew_join(+Hosts, +Ports) is det.
 %
 %   Each of Hosts connects to the brick at the end of the serial line that
-%   stands at the same place in Ports, in a process of its own beside it,
-%   and leaves robot(Brick).
+%   stands at the same place in Ports, and leaves brick(Brick).  A brick has
+%   ten seconds to answer: the computer may be busy.
 %
 %   @error what nxt_connect/3 throws, host_unreachable(Host)
 
@@ -37,8 +37,8 @@ crew_join(Hosts, Ports) :-
     concurrent_maplist(join, Hosts, Ports).
 
 join(Host, Port) :-
-    remote(Host, ( nxt_connect(robot, Port, []),
-                   leave(robot(robot)) )).
+    remote(Host, ( nxt_connect(robot, Port, [deadline(10)]),
+                   leave(brick(robot)) )).
 
 %!  crew_task(+Name, +Spec, -Task) is det.
 %

@@ -10,7 +10,7 @@
 */
 
 approach :-
-    sense(robot(Robot)),
+    sense(brick(Robot)),
     now(Start),
     Deadline is Start + 60,
     nxt_run(Robot, [b,c], 12, [sync(0), brake(true)]),

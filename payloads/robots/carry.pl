@@ -8,7 +8,7 @@
 */
 
 carry :-
-    sense(robot(Robot)),
+    sense(brick(Robot)),
     now(Start),
     Deadline is Start + 60,
     carry_way(All),

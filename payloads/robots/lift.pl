@@ -7,7 +7,7 @@
 */
 
 lift :-
-    sense(robot(Robot)),
+    sense(brick(Robot)),
     now(Start),
     Deadline is Start + 30,
     nxt_run(Robot, a, 5, [regulated(true)]),

@@ -5,7 +5,7 @@
 */
 
 release :-
-    sense(robot(Robot)),
+    sense(brick(Robot)),
     now(Start),
     Deadline is Start + 30,
     nxt_run(Robot, a, -5, [regulated(true)]),
