@@ -13,6 +13,7 @@
 :- use_module(arena, [arena_ask/3, arena_log/2, arena_start/4, arena_stop/1]).
 :- use_module(boxes_script,
               [job_box/2, job_program/1, job_task/3, script_jobs/2]).
+:- use_module(crew, [crew_join/2]).
 :- use_module(fleet, [fleet_add/3, fleet_start/2, fleet_stop/1]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(filesex),
@@ -21,7 +22,6 @@
               [append/3, last/2, member/2, numlist/3, subtract/3]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
-:- use_module(library(thread), [concurrent_maplist/3]).
 
 /** <module> Robots push boxes, once
 
@@ -192,18 +192,18 @@ release(Setting, Hosts, Job) :-
 enlist(stage(_, Fleet, _), Bricks, Hosts0, Hosts) :-
     pairs_keys_values(Bricks, Names, Ports),
     fleet_add(Fleet, Names, New),
-    pairs_keys_values(Pairs, Names, Ports),
-    concurrent_maplist(equip, New, Pairs),
+    crew_join(New, Ports),
+    maplist(equip, New, Names),
     append(Hosts0, New, Hosts),
     forall(( member(Host, New), beside(Hosts, Host, Other) ),
            link(Host, Other)).
 
-equip(Host, Name-Port) :-
+%   Robot r3 is at home in slot 3 of the dock.
+
+equip(Host, Name) :-
     atom_concat(r, Number, Name),
     atom_number(Number, Slot),
-    remote(Host, ( nxt_connect(robot, Port, []),
-                   leave(brick(robot)),
-                   leave(slot(Slot)) )),
+    remote(Host, leave(slot(Slot))),
     numlist(1, 5, Places),
     findall(place(Place), member(Place, Places), Properties),
     robot_start(Host, [push|Properties], []).

@@ -85,7 +85,7 @@ job_task(job(Name, Location, Needs), Program,
     distance(Metres),
     goal(Program, Location, Metres, Goal).
 
-%   A robot of which the program ends otherwise stands still.
+%   A robot that got lost stands still, and is out of order.
 
 goal([Lane, Push, Dock], Location, Metres, Goal) :-
     Goal = ( hold(_, _, need(_, Requirements, _), _, _),
@@ -95,7 +95,10 @@ goal([Lane, Push, Dock], Location, Metres, Goal) :-
              attach(Dock),
              catch(( push_box(Location, Place, Metres, Away),
                      dock_robot(Location, Place, Away) ),
-                   Ball,
-                   ( sense(brick(Brick)),
+                   error(What, Context),
+                   ( log(gave_up(What)),
+                     parent(Robot),
+                     send(Robot, fail),
+                     sense(brick(Brick)),
                      nxt_float(Brick, [b,c]),
-                     throw(Ball) )) ).
+                     throw(error(What, Context)) )) ).

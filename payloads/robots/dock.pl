@@ -20,6 +20,7 @@ dock_robot(Job, Place, Away) :-
     lane_between(X0, X, right, Way0),
     append(Way0, [0.5-stop], Way),
     lane_follow(Brick, [Away-Turn|Way]),
+    lane_check(Brick, 0),
     lane_turn_round(Brick, 180).
 
 %   Job 1 is north of the main line, the dock in the west.

@@ -1,6 +1,6 @@
 :- payload(lane,
            [ provides([ lane_follow/2, lane_find/3, lane_between/4,
-                        lane_turn_round/2, lane_driven/2 ]) ]).
+                        lane_turn_round/2, lane_check/2, lane_driven/2 ]) ]).
 
 /*  Driving along black lines (thesis section 7.7), on a robot that keeps to
     them: what its program does is to take the right turn where lines meet.
@@ -23,8 +23,8 @@ lane_follow(Brick, Way) :-
     lane_drive(Legs, Brick).
 
 %   lane_legs(+Way, +Start, -Legs): a leg leads past junctions that are
-%   taken alike, to the middle between two of them, so that nothing depends
-%   on a centimetre.
+%   taken alike, and ends between two of them, nearer to the first one: not
+%   both wheels begin to turn at the same moment.
 
 lane_legs([Metres-stop], Start, [leg(straight, End)]) :-
     !,
@@ -38,27 +38,32 @@ lane_legs([Metres-Turn,Next-Turn|Way], Start, Legs) :-
     lane_legs([Next-Turn|Way], Junction, Legs).
 lane_legs([Metres-Turn,Next-Other|Way], Start, [leg(Turn, End)|Legs]) :-
     Junction is Start + Metres,
-    End is Junction + Next/2,
+    End is Junction + 0.4*Next,
     lane_legs([Next-Other|Way], Junction, Legs).
 
 lane_drive([], _).
 lane_drive([leg(Turn, Metres)|Legs], Brick) :-
     lane_driven(Brick, Driven),
-    lane_bias(Turn, Bias),
+    lane_steering(Turn, Wheels, Power, Ratio),
     Degrees is (Metres - Driven) / (pi*0.056) * 360,
-    lane_wheel(Brick, b, 80, 1 - Bias, Degrees),
-    lane_wheel(Brick, c, 80, 1 + Bias, Degrees),
-    lane_await(Brick),
+    lane_leg(Degrees, Brick, Wheels, Power, Ratio),
     lane_drive(Legs, Brick).
 
-lane_bias(straight, 0).
-lane_bias(left, 0.12).
-lane_bias(right, -0.12).
+%   lane_steering(?Turn, -Wheels, -Power, -Ratio): the outer wheel begins,
+%   so that to be the only one for a moment does not lead it astray.
 
-lane_wheel(Brick, Motor, Power0, Share, Degrees0) :-
-    Power is round(Power0 * Share),
-    Degrees is round(Degrees0 * Share),
-    nxt_turn(Brick, Motor, Power, Degrees).
+lane_steering(straight, [b,c], 75, 0).
+lane_steering(left, [c,b], 60, 10).
+lane_steering(right, [b,c], 60, -10).
+
+lane_leg(Degrees, _, _, _, _) :-
+    Degrees < 1,
+    !.
+lane_leg(Degrees0, Brick, Wheels, Power, Ratio) :-
+    Degrees is round(Degrees0 / (1 - abs(Ratio)/100)),  % of the outer one
+    nxt_run(Brick, Wheels, Power,
+            [sync(Ratio), brake(true), degrees(Degrees)]),
+    lane_await(Brick).
 
 %!  lane_driven(+Brick, -Metres) is det.
 %
@@ -71,7 +76,7 @@ lane_driven(Brick, Metres) :-
 
 lane_await(Brick) :-
     now(Now),
-    Deadline is Now + 30,
+    Deadline is Now + 120,
     lane_await(Brick, Deadline).
 
 lane_await(Brick, _) :-
@@ -103,8 +108,7 @@ lane_find(Brick, Colour, _) :-
 lane_find(Brick, Colour, Metres) :-
     Metres > 0,
     !,
-    lane_wheel(Brick, b, 25, 1, 41),            % 2 cm
-    lane_wheel(Brick, c, 25, 1, 41),
+    nxt_turn(Brick, [b,c], 25, 41),             % 2 cm
     lane_await(Brick),
     Left is Metres - 0.02,
     lane_find(Brick, Colour, Left).
@@ -157,6 +161,13 @@ lane_turn_round(Brick, Compass) :-
     nxt_turn(Brick, b, 35, 360),
     nxt_turn(Brick, c, 35, -360),
     lane_await(Brick),
+    lane_check(Brick, Compass).
+
+%!  lane_check(+Brick, +Compass) is det.
+%
+%   Raises robot_lost(heading(Degrees)) if that is not about Compass.
+
+lane_check(Brick, Compass) :-
     nxt_compass(Brick, 2, Degrees),
     Off is abs((Degrees - Compass + 180) mod 360 - 180),
     lane_faces(Off, Brick, Degrees).

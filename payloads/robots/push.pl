@@ -24,6 +24,8 @@ push_box(Job, Place, Metres, Away) :-
     lane_find(Brick, red, 0.24),
     push_to_place(Job, Place, Second),
     lane_follow(Brick, Second),
+    push_side(Job, _, Compass),
+    lane_check(Brick, Compass),
     nxt_tacho_reset(Brick, [b,c]),
     push_on(Brick, Metres),
     lane_driven(Brick, Driven),
@@ -41,18 +43,18 @@ push_to_marker(X, [0.5-left,0.3-straight,Metres-stop]) :-
 
 push_to_place(Job, 1, [Metres-Turn,0.28-stop]) :-
     !,
-    push_side(Job, Turn),
+    push_side(Job, Turn, _),
     Metres is 2.8 - 2.425.
 push_to_place(Job, Place, [Metres-straight,0.16-Turn,0.28-stop]) :-
-    push_side(Job, Turn),
+    push_side(Job, Turn, _),
     Metres is 2.64 + 0.16*(Place - 1) - 2.425.
 
-push_side(1, left).
-push_side(2, right).
+push_side(1, left, 0).
+push_side(2, right, 180).
 
 push_on(Brick, Metres) :-
     now(Now),
-    Deadline is Now + 90,
+    Deadline is Now + 240,
     Most is round((Metres + 0.3) / (pi*0.056) * 360),
     nxt_run(Brick, [b,c], 50, [regulated(true), degrees(Most)]),
     push_touched(Brick, Deadline),
