@@ -3,6 +3,8 @@
             with_world/4,               % +Scene, +Args, -World, :Goal
             start_brick/2,              % +Args, -Brick
             stop_brick/1,               % +Brick
+            end_status/3,               % +Pid, +Seconds, -Status
+            until/2,                    % :Goal, +Seconds
             ask/3,                      % +Brick, +Line, -Term
             tell/2,                     % +Brick, +Line
             tell/3,                     % +Brick, +Format, +Args
@@ -28,16 +30,17 @@ digits, without the two bytes of length.
 *Threading*: the predicates may be called in any thread.
 */
 
-:- use_module(common, [project_file/2, wait_for_end/3]).
+:- use_module(common, [project_file/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_kill/2,
-                                 process_wait/2]).
+                                 process_wait/2, process_wait/3]).
 :- use_module(library(socket), [tcp_connect/3]).
 
 :- meta_predicate
     with_brick(+, -, 0),
     with_world(+, +, -, 0),
-    with_line(+, -, 0).
+    with_line(+, -, 0),
+    until(0, +).
 
 %!  python(-Executable) is det.
 %
@@ -92,11 +95,48 @@ start(Script, Args, sim(Pid, In, Out, Places)) :-
 stop_brick(sim(Pid, In, Out, _)) :-
     close(In, [force(true)]),
     close(Out, [force(true)]),
-    catch(wait_for_end(Pid, 20, Status), error(_, _), Status = gone),
+    catch(end_status(Pid, 20, Status), error(_, _), Status = gone),
     (   Status == timeout
     ->  process_kill(Pid, kill),
         process_wait(Pid, _)
     ;   true
+    ).
+
+%!  end_status(+Pid, +Seconds, -Status) is det.
+%
+%   Status is how the process ended, or `timeout`.
+
+end_status(Pid, Seconds, Status) :-
+    catch(until(ended(Pid, Status), Seconds),
+          error(timeout_error(until, _), _),
+          Status = timeout).
+
+ended(Pid, Status) :-
+    process_wait(Pid, Status, [timeout(0)]),
+    Status \== timeout.
+
+%!  until(:Goal, +Seconds) is det.
+%
+%   Waits for Goal to become true. It sleeps in between: a wait for a
+%   message that is too short has been seen to spin for ever where there is
+%   one thread only.
+%
+%   @error timeout_error(until, Goal)
+
+until(Goal, Seconds) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    poll(Goal, Deadline).
+
+poll(Goal, _) :-
+    call(Goal),
+    !.
+poll(Goal, Deadline) :-
+    get_time(Now),
+    (   Now < Deadline
+    ->  sleep(0.01),
+        poll(Goal, Deadline)
+    ;   throw(error(timeout_error(until, Goal), _))
     ).
 
 %!  ask(+Brick, +Line, -Term) is det.

@@ -34,7 +34,10 @@ def parse(words):
         arg = KINDS[kind](words.pop(0))
     if arg is None and kind in NEEDS:
         raise ValueError(kind + ' needs an argument')
-    return Fault(kind, arg, *times(words))
+    after, last = times(words)
+    if kind == 'cut' and last is None:
+        last = 1                # what comes back is whole again
+    return Fault(kind, arg, after, last)
 
 
 def times(words):

@@ -52,6 +52,8 @@ class Channel:
         station.loop.add(fd, self.ready)
 
     def ready(self):
+        if self.fd is None:             # closed while it was waiting here
+            return
         try:
             data = os.read(self.fd, 4096)
         except BlockingIOError:
