@@ -54,7 +54,8 @@ keep_chance(Chance) :-
     assertz(chance(Chance)).
 
 on_message(Agent, execute(Plan, Xi)) :-
-    execute(Plan, Xi, Steps, Feedback),
+    findall(Steps-Feedback, once(execute(Plan, Xi, Steps, Feedback)),
+            [Steps-Feedback]),          % not unfolded, so fast
     trace(Agent, Steps),
     told(Agent, Feedback).
 
