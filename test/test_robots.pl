@@ -106,11 +106,11 @@ test(approach, Outcome-Acts ==
 test(approach_without_pole,
      Outcome-Acts == fail-[run([b,c], 12), stop([b,c])]) :-
     program(approach, [a-0, b-0, c-0], [], Outcome, Acts).
-test(lift, Outcome-Acts == true-[run(a, 5), stop(a)]) :-
+test(lift, Outcome-Acts == true-[run(a, 3), stop(a)]) :-
     program(lift, [a-90], [], Outcome, Acts),
     turned(a, Angle),
     assertion(between_(265, 275, Angle)).
-test(lift_that_sticks, Outcome-Acts == fail-[run(a, 5), stop(a)]) :-
+test(lift_that_sticks, Outcome-Acts == fail-[run(a, 3), stop(a)]) :-
     program(lift, [a-(-9999)], [], Outcome, Acts).
 test(carry, Outcome-Acts == true-[run([b,c], 10), stop([b,c])]) :-
     program(carry, [b-0, c-0], [], Outcome, Acts),
@@ -121,7 +121,7 @@ test(carry_the_rest, Acts == [run([b,c], 10), stop([b,c])]) :-
     program(carry, [b-2000, c-2000], [], true, Acts),
     fake_host:now(Now),
     assertion(between_(4, 5, Now)).
-test(release, Outcome-Acts == true-[run(a, -5), float(a)]) :-
+test(release, Outcome-Acts == true-[run(a, -3), float(a)]) :-
     program(release, [a-270], [], Outcome, Acts),
     turned(a, Angle),
     assertion(between_(-6, 4, Angle)).
@@ -210,7 +210,7 @@ start(alone, T, R, Start) :-
 result(Case, Tilts, Result) :-
     executions(Case, Executions),
     terms(Tilts, Terms),
-    pole_states(Terms, 10, States),
+    pole_states(Terms, [10-10], 10, States),
     sync_metrics:task_rows(Executions, Rows),
     numlist(1, 4, Hosts),
     Result = [ outcomes([done, done]), hosts(Hosts), tasks(Hosts),
@@ -228,11 +228,20 @@ held(Synchronised, Alone, Helds) :-
 
 test(states_from_the_start, Times == [0.0, 0.5, 1.0]) :-
     terms([9, 0, 1, 2], Terms),
-    pole_states([event(1, x), state(20, [], none, [])|Terms], 10, States),
+    pole_states([event(1, x), state(20, [], none, [])|Terms], [10-15], 15,
+                States),
     findall(T, member(state(T, _), States), Times).
+test(clocks, Times == [8.0, 10.0, 11.0, 12.0, 14.0, 17.0]) :-
+    findall(Host,
+            ( member(Arena, [-2.0, 0.0, 0.5, 1.0, 2.0, 5.0]),
+              host_time([0.0-10.0, 1.0-12.0, 2.0-14.0], Arena, Host) ),
+            Times).
+test(clock_that_stands, Time =:= 13) :-
+    host_time([1-11, 2-12, 2-13, 3-14], 2.0, Time0),
+    Time is Time0 + 1.
 test(tilt, Tilt-Seconds =:= 6-1.0) :-
     terms([9, 0, 6, 5, 1, 0], Terms),
-    pole_states(Terms, 10, States),
+    pole_states(Terms, [10-10], 10, States),
     max_tilt(States, Tilt0),
     over_limit(States, 4, Seconds0),
     Tilt-Seconds = Tilt0-Seconds0.
@@ -242,7 +251,7 @@ test(nothing_seen, [Tilt, Seconds, Metres] == [0, 0, 0]) :-
     carried([], Metres).
 test(carried, true(abs(Metres - 0.96) < 1.0e-6)) :-
     terms([0, 0, 0, 0, 0, 0], Terms),
-    pole_states(Terms, 10, States),
+    pole_states(Terms, [10-10], 10, States),
     carried(States, Metres).
 test(durations, Seconds == [5, 6, 7, 8]) :-
     executions(alone, Executions),
@@ -348,7 +357,7 @@ logged(Dir) :-
     arena_log(Log, Terms),
     aggregate_all(count, member(state(_, [_,_,_,_], _, []), Terms), Count),
     assertion(Count >= 4),
-    pole_states(Terms, 1, States),
+    pole_states(Terms, [0-0], 1, States),
     assertion(States = [_, _|_]),
     read_file_to_string(Picture, Text, []),
     assertion(sub_string(Text, _, _, _, "<svg")),

@@ -1,5 +1,6 @@
 :- module(robots_pole_metrics,
-          [ pole_states/3,              % +Terms, +Start, -States
+          [ pole_states/4,              % +Terms, +Moments, +Start, -States
+            host_time/3,                % +Moments, +ArenaTime, -HostTime
             max_tilt/2,                 % +States, -Tilt
             over_limit/3,               % +States, +Limit, -Seconds
             carried/2,                  % +States, -Metres
@@ -22,19 +23,41 @@ in metres and degrees.  X and Y are the centre.
 *Threading*: pure.
 */
 
-%!  pole_states(+Terms, +Start, -States) is det.
+%!  pole_states(+Terms, +Moments, +Start, -States) is det.
 %
-%   States are those from time Start on, which is then 0.  Terms are those of
-%   arena_log/2.
+%   States are those from host time Start on, which is then 0.  Terms are
+%   those of arena_log/2; Moments as of host_time/3.
 
-pole_states(Terms, Start, States) :-
+pole_states(Terms, Moments, Start, States) :-
     findall(state(Time, Pole),
-            ( member(state(Time0, _, Pole, _), Terms),
+            ( member(state(ArenaTime, _, Pole, _), Terms),
               Pole \== none,
-              Time is Time0 - Start,
+              host_time(Moments, ArenaTime, HostTime),
+              Time is HostTime - Start,
               Time >= 0
             ),
             States).
+
+%!  host_time(+Moments, +ArenaTime, -HostTime) is det.
+%
+%   What the clocks of the hosts show when that of the arena shows ArenaTime.
+%   Moments is a list of pairs ArenaTime-HostTime in order, of which there
+%   is at least one.  Between two of them time passes evenly, before and
+%   after them equally fast at both.
+
+host_time([Arena-Host], Time, HostTime) :-
+    !,
+    HostTime is Host + Time - Arena.
+host_time([Arena-Host|_], Time, HostTime) :-
+    Time =< Arena,
+    !,
+    HostTime is Host + Time - Arena.
+host_time([Arena0-Host0, Arena-Host|_], Time, HostTime) :-
+    Time =< Arena,
+    !,
+    HostTime is Host0 + (Host - Host0)*(Time - Arena0)/(Arena - Arena0).
+host_time([_|Moments], Time, HostTime) :-
+    host_time(Moments, Time, HostTime).
 
 %!  max_tilt(+States, -Tilt) is det.
 %

@@ -14,13 +14,13 @@
 :- use_module('../sync/run', [sync_result/4]).
 :- use_module(arena, [arena_ask/3, arena_log/2, arena_start/4, arena_stop/1]).
 :- use_module(crew, [crew_join/2, crew_services/1, crew_task/3]).
-:- use_module(pole_metrics, [pole_states/3]).
+:- use_module(pole_metrics, [pole_states/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [foldl/6, maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(http/json), [json_read_dict/2]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, reverse/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 
@@ -112,22 +112,15 @@ in_arena(Case, Options, Log, Arena, Bricks, Run) :-
         in_network(Case, Options, Network, Log, Arena, Bricks, Run),
         network_stop(Network)).
 
-%   Shift is what the clocks of the hosts show when that of the arena shows
-%   0.
-
 in_network(Case, Options, Network, Log, Arena, Bricks, Run) :-
     network_property(Network, hosts(Hosts)),
     pairs_values(Bricks, Ports),
     crew_join(Hosts, Ports),
-    Hosts = [First|_],
-    remote(First, now(HostTime)),
-    arena_ask(Arena, time, time(ArenaTime)),
-    Shift is HostTime - ArenaTime,
     findall(Task, ( pole_task(N, Spec), crew_task(N, Spec, Task) ), Tasks),
     begin(Case, Hosts, Tasks, Options, Agents),
-    await_all(Agents, Log, Hosts, Options, Outcomes),
+    await_all(Agents, watch(Log, Hosts, Arena), Options, Outcomes, Moments),
     tilt_limit(Limit),
-    Run = [ hosts(Hosts), shift(Shift), outcomes(Outcomes),
+    Run = [ hosts(Hosts), moments(Moments), outcomes(Outcomes),
             tilt_limit(Limit)
           ].
 
@@ -158,33 +151,46 @@ create_alone(Tasks, Host, Agent) :-
                 *            WAITING           *
                 *******************************/
 
-await_all(Agents, Log, Hosts, Options, Outcomes) :-
+%   Moments are pairs ArenaTime-HostTime, in order: what the clocks showed.
+%   On a busy computer that of the arena may fall behind.
+
+await_all(Agents, Watch, Options, Outcomes, Moments) :-
     option(limit(Limit), Options),
     get_time(Now),
     Deadline is Now + Limit,
-    length(Hosts, Count),
-    aggregate_all(count, pole_task(_, _), Tasks),
-    Total is Count * Tasks,
+    moment(Watch, First),
     call_cleanup(
-        maplist(await(Log, Total, Deadline), Agents, Outcomes),
-        progress_done(user_error)).
+        foldl(await(Watch, Deadline), Agents, Outcomes, [First], Reversed),
+        progress_done(user_error)),
+    reverse(Reversed, Moments).
 
-await(Log, Total, Deadline, Agent, Outcome) :-
+await(Watch, Deadline, Agent, Outcome, Moments0, Moments) :-
     get_time(Now),
     Left is max(0, min(0.2, Deadline - Now)),
     agent_join(Agent, Outcome0, Left),
+    show(Watch),
+    moment(Watch, Moment),
+    Moments1 = [Moment|Moments0],
+    (   Outcome0 == timeout,
+        Now < Deadline
+    ->  await(Watch, Deadline, Agent, Outcome, Moments1, Moments)
+    ;   Outcome = Outcome0,
+        Moments = Moments1
+    ).
+
+moment(watch(_, [Host|_], Arena), ArenaTime-HostTime) :-
+    remote(Host, now(HostTime)),
+    arena_ask(Arena, time, time(ArenaTime)).
+
+show(watch(Log, Hosts, _)) :-
     new_lines(Log, 0, _, Lines),
     aggregate_all(count,
                   ( member(Line, Lines),
                     sub_string(Line, _, _, _, "completed(pole,") ),
                   Done),
+    aggregate_all(count, ( member(_, Hosts), pole_task(_, _) ), Total),
     Shown is min(Done, Total),
-    progress(user_error, Shown, Total, executions),
-    (   Outcome0 == timeout,
-        Now < Deadline
-    ->  await(Log, Total, Deadline, Agent, Outcome)
-    ;   Outcome = Outcome0
-    ).
+    progress(user_error, Shown, Total, executions).
 
                 /*******************************
                 *          EVALUATION          *
@@ -195,26 +201,21 @@ await(Log, Total, Deadline, Agent, Outcome) :-
 %   What the log of the network, Events, and that of the arena, Terms, say.
 %   Run is a list of case(Case), wall(Seconds), hosts(List), outcomes(List)
 %   of agent_join/3, tilt_limit(Degrees), beyond which the pole must not be
-%   tilted, and shift(Seconds): what the hosts' clocks show when that of the
-%   arena shows 0.  Result is Run, and that of sync_result/4, and
+%   tilted, and moments(List) of pairs ArenaTime-HostTime, what the clocks
+%   showed.  Result is Run, and that of sync_result/4, and
 %
-%     - states(List): see pole_states/3; the time begins with the first
+%     - states(List): see pole_states/4; the time begins with the first
 %       agent, in all that is in Result
-%     - what(List): of Time-What, what the arena tells of
 
 pole_result(Options, Events0, Terms, Run, Result) :-
     memberchk(hosts(Hosts), Run),
-    memberchk(shift(Shift), Run),
+    memberchk(moments(Moments), Run),
     sort(1, @=<, Events0, Events),
-    (   memberchk(event(Begun, _, _, begun), Events)
+    (   memberchk(event(Start, _, _, begun), Events)
     ->  true
-    ;   Begun = Shift
+    ;   Moments = [_-Start|_]
     ),
-    Start is Begun - Shift,
     aggregate_all(count, pole_task(_, _), Tasks),
     sync_result([tasks(Tasks), failure(none)|Options], Events, Hosts, Sync),
-    pole_states(Terms, Start, States),
-    findall(Time-What,
-            ( member(event(Time0, What), Terms), Time is Time0 - Start ),
-            Whats),
-    append(Run, [states(States), what(Whats)|Sync], Result).
+    pole_states(Terms, Moments, Start, States),
+    append(Run, [states(States)|Sync], Result).

@@ -10,7 +10,7 @@ lift :-
     sense(brick(Robot)),
     now(Start),
     Deadline is Start + 30,
-    nxt_run(Robot, a, 5, [regulated(true)]),
+    nxt_run(Robot, a, 3, [regulated(true)]),
     lift_end(Robot, Deadline, Done),
     nxt_stop(Robot, a),
     Done == true.

@@ -8,7 +8,7 @@ release :-
     sense(brick(Robot)),
     now(Start),
     Deadline is Start + 30,
-    nxt_run(Robot, a, -5, [regulated(true)]),
+    nxt_run(Robot, a, -3, [regulated(true)]),
     release_end(Robot, Deadline, Done),
     nxt_float(Robot, a),
     Done == true.
