@@ -197,6 +197,9 @@ test(can_fail, Helds == [false, false, false, false]) :-
             Helds).
 test(equal_is_not_sooner, Held == false) :-
     claimed(1000, 20000, 'sooner than Murdoch', Held).
+test(same_trend, Helds == [true, false, false]) :-
+    findall(Held,
+            ( member(Rise, [7, 9, -1]), trend(Rise, Held) ), Helds).
 test(nothing_known_does_not_hold, Helds == [false]) :-
     findall(Held,
             ( allocation_claims('7.4', [], [], Claims),
@@ -214,6 +217,22 @@ test(runs_that_did_not_end_are_told_and_not_counted,
     Claims = [claim(_, Held, Found)|_],
     member(claim(Text, true, _), Claims),
     sub_atom(Text, _, _, _, '20,000'),
+    !.
+
+%   Times that rise by 4, and by Rise.
+
+trend(Rise, Held) :-
+    findall(K-case(M, dynamic, 100, 15, 10, K),
+            ( member(M, [proposed, constant]), member(K, [1, 2]) ), Cases),
+    findall(Case-Runs,
+            ( member(K-Case, Cases), Case = case(M, _, _, _, _, _),
+              memberchk(M-Step, [proposed-4, constant-Rise]),
+              Time is 50 + K*Step,
+              results(1, Time, Runs) ),
+            Data),
+    allocation_claims('7.3', Cases, Data, Claims),
+    member(claim(Text, Held, _), Claims),
+    sub_atom(Text, _, _, _, trend),
     !.
 
 sequence_log(Where,

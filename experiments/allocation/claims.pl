@@ -64,7 +64,7 @@ judged(Test, Cases, Data, Held, Found) :-
 concerns(least(M, Ms, Measure), [M|Ms], Measure).
 concerns(most(M, Ms, Measure), [M|Ms], Measure).
 concerns(steeper(M1, M2, Measure), [M1, M2], Measure).
-concerns(alike(M1, M2, Measure, _), [M1, M2], Measure).
+concerns(same_rise(M1, M2, Measure, _), [M1, M2], Measure).
 concerns(grows(M, Measure), [M], Measure).
 concerns(falls(M, Measure), [M], Measure).
 concerns(lower_at_last(M, Measure), [M], Measure).
@@ -92,8 +92,13 @@ holds(steeper(_, _, _), [_-Curve1, _-Curve2], _, _) :-
     rise(Curve1, Rise1),
     rise(Curve2, Rise2),
     Rise1 > Rise2.
-holds(alike(_, _, _, Most), [_-Curve1, _-Curve2], _, _) :-
-    throughout(within(Most), Curve1, Curve2).
+holds(same_rise(_, _, _, Most), [_-Curve1, _-Curve2], _, _) :-
+    rise(Curve1, Rise1),
+    rise(Curve2, Rise2),
+    Rise1 > 0,
+    Rise2 > 0,
+    Rise1 =< Most*Rise2,
+    Rise2 =< Most*Rise1.
 holds(grows(_, _), [_-Curve], _, _) :-
     ordered(<, Curve).
 holds(falls(_, _), [_-Curve], _, _) :-
@@ -131,9 +136,6 @@ compares(<, A, B) :-
     A < B.
 compares(>, A, B) :-
     A > B.
-compares(within(Most), A, B) :-
-    A =< Most*B,
-    B =< Most*A.
 
 ordered(Order, Curve) :-
     pairs_values(Curve, [Value, Next|Values]),
