@@ -10,6 +10,7 @@ import time
 import tty
 
 LONGEST = 300                   # no telegram is; what claims to be is noise
+LAST_WORDS = 0.1                # seconds from a cut to the end of a line
 INTER_BYTE = 0.5                # seconds after which half a frame is dropped
 
 
@@ -153,9 +154,12 @@ class Station:
         self.channels.remove(channel)
 
     def close(self):
+        self.close_server()
         for channel in self.channels:
             channel.close()
         self.channels = []
+
+    def close_server(self):
         if self.server:
             self.loop.remove(self.server)
             self.server.close()
@@ -196,6 +200,11 @@ class Station:
         if reply is not None:
             frame = framed(reply)
             channel.send(frame[:len(frame) // 2])
+        self.close_server()             # nobody new comes in meanwhile
+        # A terminal that is closed at once loses what is in it.
+        self.loop.after(LAST_WORDS, lambda: self.die(seconds))
+
+    def die(self, seconds):
         self.close()
         if seconds is not None:
             self.loop.after(seconds, self.restore)
