@@ -75,11 +75,11 @@ case(islands_alone, islands, 'no sharing',
 case(one_population, islands, 'one population',
      c(printers, by([genetic]), one)).
 case(trap_greedy, mixed, 'maze: greedy',
-     c(trap, by([greedy]), four)).
+     c(trap, by([greedy]), four, long)).
 case(trap_scout, mixed, 'maze: scout',
-     c(trap, by([scout]), four)).
+     c(trap, by([scout]), four, long)).
 case(trap_both, mixed, 'maze: 3 greedy, 1 scout',
-     c(trap, by([greedy,greedy,greedy,scout]), four)).
+     c(trap, by([greedy,greedy,greedy,scout]), four, long)).
 case(print_climb, mixed, 'printers: climb',
      c(printers, by([climb]), four)).
 case(print_genetic, mixed, 'printers: genetic',
@@ -87,9 +87,9 @@ case(print_genetic, mixed, 'printers: genetic',
 case(print_both, mixed, 'printers: 2 climb, 2 genetic',
      c(printers, by([climb,genetic]), four)).
 case(unchanged, exchange, 'greedy throughout',
-     c(trap, by([greedy]), four)).
+     c(trap, by([greedy]), four, short)).
 case(changed, exchange, 'one takes up scout after 500 s',
-     c(trap, by([greedy]), four, changing)).
+     c(trap, by([greedy]), four, short, changing)).
 case(barren, cloning, '3 agents',
      c(open, by([greedy]), three)).
 case(breeding, cloning, '3 agents that clone',
@@ -98,7 +98,9 @@ case(crowd, cloning, '8 agents',
      c(open, by([greedy]), eight)).
 
 options(printers, [problem(settings), nodes(10), limit(6000)]).
-options(trap, [problem(maze), nodes(10), limit(3000)]).
+options(trap, [problem(maze), nodes(10)]).
+options(short, [limit(3000)]).
+options(long, [limit(6000)]).
 options(open, [problem(maze), nodes(10), limit(4000)]).
 options(by(Algorithms), [algorithms(Algorithms)]).
 options(one, [agents(1)]).
