@@ -1,4 +1,5 @@
-/*  Robots: four that carry a pole (thesis section 5.7).
+/*  Robots: four that carry a pole (thesis section 5.7), and up to seven
+    that push boxes (7.7).
 
         swipl experiments/robots.pl -- --figure pole --seed 1
 
@@ -7,6 +8,7 @@
 
 :- module(robots, []).
 :- use_module(lib/command, [acceptable/3, command/5, range/1]).
+:- use_module(robots/boxes, [boxes_figure/2]).
 :- use_module(robots/pole, [pole_figure/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
@@ -30,14 +32,16 @@ opt_type(out,      out,      atom).
 opt_help(help(header), "Simulated NXT robots, each driven by a host of its \c
 own over a serial line\n").
 opt_help(help(usage), " -- [options]").
-opt_help(figure,   "pole: four robots carry a pole (thesis 5.7), or all [all]").
+opt_help(figure,   "pole: four robots carry a pole (thesis 5.7), boxes: \c
+seven push boxes (7.7), or all [all]").
 opt_help(seed,     "Seed of the first run; the next has the next [1]").
 opt_help(runs,     "Number of runs [1]").
 opt_help(agents,   "Agents that synchronise the robots with the pole [2]").
 opt_help(delta,    "Their penalty bias, above 0 [0.5]").
 opt_help(hop_time, "MIN-MAX host seconds that a hop takes [0.3-0.6]").
 opt_help(clock,    "Host seconds in a real second [5]").
-opt_help(limit,    "Real seconds to wait for the agents of a run [90]").
+opt_help(limit,    "Real seconds to wait for the agents of a run, or of two \c
+boxes [90]").
 opt_help(out,      "Directory for logs, tables and pictures [out/robots]").
 
 opt_meta(figure,   'FIGURE').
@@ -66,6 +70,7 @@ check(Options) :-
 %   figure(?Name, ?Predicate): Predicate(Options, Claims) makes it.
 
 figure(pole, pole_figure).
+figure(boxes, boxes_figure).
 
 run(Options) :-
     option(figure(Wanted), Options),

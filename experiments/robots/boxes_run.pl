@@ -59,7 +59,7 @@ settings([bi_max-15, monitor-60, seed-random]).
 %     - clock(Rate), hop_time(Min-Max)
 %       Of the hosts; the arena has the same clock.
 %     - limit(Real)
-%       Real seconds after which the run is given up.
+%       Real seconds that a phase may take, else the run is given up.
 %
 %   In Directory are afterwards the logs events.pl and arena.pl, and the
 %   moving picture arena.svg.  Run is a list of
@@ -134,10 +134,7 @@ play(Script, Options, Stage, Bricks0, Hosts, Shift) :-
     job_program(Program),
     script_jobs(Script, Jobs),
     length(Jobs, Total),
-    option(limit(Limit), Options),
-    get_time(Now),
-    Deadline is Now + Limit,
-    Setting = setting(Stage, Program, Options, Deadline, Total),
+    Setting = setting(Stage, Program, Options, Total),
     foldl(phase(Setting), Phases, scene(Hosts0, 0, []), scene(Hosts, _, _)).
 
 shift(Arena, [Host|_], Shift) :-
@@ -151,13 +148,16 @@ shift(Arena, [Host|_], Shift) :-
 
 phase(Setting, phase(Jobs, Joining), scene(Hosts0, Done0, Old),
       scene(Hosts, Done, Names)) :-
-    Setting = setting(stage(Arena, _, Log), _, _, _, _),
+    Setting = setting(stage(Arena, _, Log), _, Options, _),
+    option(limit(Limit), Options),
+    get_time(Now),
+    Deadline is Now + Limit,
     forall(member(Box, Old), arena_ask(Arena, 'remove ~w'-[Box], ok)),
     findall(Name, member(job(Name, _, _), Jobs), Names),
     watch_start(Names, Watch0),
     new_lines(Log, 0, Position0, _),
     forall(member(Job, Jobs), release(Setting, Hosts0, Job)),
-    Follow0 = follow(Position0, Watch0, []),
+    Follow0 = follow(Position0, Watch0, [], Deadline),
     await(all_allocated(Names), Setting, Done0, Follow0, Follow1),
     join(Joining, Setting, Hosts0, Hosts),
     await(over, Setting, Done0, Follow1, _),
@@ -167,7 +167,7 @@ phase(Setting, phase(Jobs, Joining), scene(Hosts0, Done0, Old),
 %   The allocator of the second location begins at the other side.
 
 release(Setting, Hosts, Job) :-
-    Setting = setting(stage(Arena, _, _), Program, Options, _, _),
+    Setting = setting(stage(Arena, _, _), Program, Options, _),
     job_box(Job, Line),
     arena_ask(Arena, Line, ok),
     job_task(Job, Program, Task),
@@ -216,7 +216,7 @@ beside([First|Hosts], Host, First) :-
 join(0, _, Hosts, Hosts) :-
     !.
 join(Count, Setting, Hosts0, Hosts) :-
-    Setting = setting(Stage, _, _, _, _),
+    Setting = setting(Stage, _, _, _),
     Stage = stage(Arena, _, _),
     length(Hosts0, Have),
     Slot is Have + 1,
@@ -232,12 +232,12 @@ join(Count, Setting, Hosts0, Hosts) :-
                 *******************************/
 
 %   await(+What, +Setting, +Done, +Follow0, -Follow): Follow is
-%   follow(Position, Watch, Allocated), how far the log has been read, and
-%   what it says.
+%   follow(Position, Watch, Allocated, Deadline), how far the log has been
+%   read, what it says, and when the phase must be over.
 
 await(What, Setting, Done, Follow0, Follow) :-
-    Setting = setting(stage(_, _, Log), _, _, Deadline, Total),
-    Follow0 = follow(Position0, Watch0, Allocated0),
+    Setting = setting(stage(_, _, Log), _, _, Total),
+    Follow0 = follow(Position0, Watch0, Allocated0, Deadline),
     new_lines(Log, Position0, Position, Lines),
     foldl(look_at, Lines, Watch0-Allocated0, Watch-Allocated),
     watch_done(Watch, Some),
@@ -246,7 +246,7 @@ await(What, Setting, Done, Follow0, Follow) :-
     length(Held, Count),
     format(atom(Note), 'boxes pushed, ~d robots held', [Count]),
     progress(user_error, AllDone, Total, Note),
-    Follow1 = follow(Position, Watch, Allocated),
+    Follow1 = follow(Position, Watch, Allocated, Deadline),
     get_time(Now),
     (   satisfied(What, Follow1)
     ->  Follow = Follow1
@@ -256,9 +256,9 @@ await(What, Setting, Done, Follow0, Follow) :-
         await(What, Setting, Done, Follow1, Follow)
     ).
 
-satisfied(all_allocated(Names), follow(_, _, Allocated)) :-
+satisfied(all_allocated(Names), follow(_, _, Allocated, _)) :-
     subtract(Names, Allocated, []).
-satisfied(over, follow(_, Watch, _)) :-
+satisfied(over, follow(_, Watch, _, _)) :-
     watch_over(Watch).
 
 look_at(Line, Watch0-Allocated0, Watch-Allocated) :-

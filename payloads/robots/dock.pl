@@ -16,12 +16,12 @@ dock_robot(Job, Place, Away) :-
     dock_side(Job, Turn, Compass),
     X0 is 2.8 + 0.16*(Place - 1),
     X is 0.4 + 0.3*(Slot - 1),
-    lane_turn_round(Brick, Compass),
+    lane_face(Brick, Compass),
     lane_between(X0, X, right, Way0),
     append(Way0, [0.5-stop], Way),
     lane_follow(Brick, [Away-Turn|Way]),
     lane_check(Brick, 0),
-    lane_turn_round(Brick, 180).
+    lane_face(Brick, 180).
 
 %   Job 1 is north of the main line, the dock in the west.
 

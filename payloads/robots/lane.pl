@@ -1,6 +1,6 @@
 :- payload(lane,
            [ provides([ lane_follow/2, lane_find/3, lane_between/4,
-                        lane_turn_round/2, lane_check/2, lane_driven/2 ]) ]).
+                        lane_face/2, lane_check/2, lane_driven/2 ]) ]).
 
 /*  Driving along black lines (thesis section 7.7), on a robot that keeps to
     them: what its program does is to take the right turn where lines meet.
@@ -44,26 +44,37 @@ lane_legs([Metres-Turn,Next-Other|Way], Start, [leg(Turn, End)|Legs]) :-
 lane_drive([], _).
 lane_drive([leg(Turn, Metres)|Legs], Brick) :-
     lane_driven(Brick, Driven),
-    lane_steering(Turn, Wheels, Power, Ratio),
+    lane_steering(Turn, Wheels, Ratio),
     Degrees is (Metres - Driven) / (pi*0.056) * 360,
-    lane_leg(Degrees, Brick, Wheels, Power, Ratio),
+    lane_leg(Degrees, Brick, Wheels, Ratio),
     lane_drive(Legs, Brick).
 
-%   lane_steering(?Turn, -Wheels, -Power, -Ratio): the outer wheel begins,
-%   so that to be the only one for a moment does not lead it astray.
+%   lane_steering(?Turn, -Wheels, -Ratio): the outer wheel begins, so that
+%   to be the only one for a moment does not lead it astray.
 
-lane_steering(straight, [b,c], 75, 0).
-lane_steering(left, [c,b], 60, 10).
-lane_steering(right, [b,c], 60, -10).
+lane_steering(straight, [b,c], 0).
+lane_steering(left, [c,b], 10).
+lane_steering(right, [b,c], -10).
 
-lane_leg(Degrees, _, _, _, _) :-
+lane_leg(Degrees, _, _, _) :-
     Degrees < 1,
     !.
-lane_leg(Degrees0, Brick, Wheels, Power, Ratio) :-
+lane_leg(Degrees0, Brick, Wheels, Ratio) :-
     Degrees is round(Degrees0 / (1 - abs(Ratio)/100)),  % of the outer one
-    nxt_run(Brick, Wheels, Power,
-            [sync(Ratio), brake(true), degrees(Degrees)]),
+    lane_start(Ratio, Brick, Wheels, Degrees),
     lane_await(Brick).
+
+%   Straight on it begins slowly: the second wheel comes later.  Of wheels
+%   in step c follows b, and c has the limit.
+
+lane_start(0, Brick, Wheels, Degrees) :-
+    !,
+    nxt_run(Brick, Wheels, 10,
+            [sync(0), brake(true), degrees(Degrees)]),
+    nxt_run(Brick, b, 75, [sync(0), brake(true)]).
+lane_start(Ratio, Brick, Wheels, Degrees) :-
+    nxt_run(Brick, Wheels, 60,
+            [sync(Ratio), brake(true), degrees(Degrees)]).
 
 %!  lane_driven(+Brick, -Metres) is det.
 %
@@ -153,28 +164,49 @@ lane_pieces([X0,X|Xs], Turn, [Metres-straight|Way]) :-
     Metres is abs(X - X0),
     lane_pieces([X|Xs], Turn, Way).
 
-%!  lane_turn_round(+Brick, +Compass) is det.
+%!  lane_face(+Brick, +Compass) is det.
 %
-%   Turns on the spot, to where the compass shows about Compass degrees.
+%   Turns on the spot until the compass shows about Compass degrees.  If the
+%   wheels did not begin at the same moment it takes more than one turn.
 
-lane_turn_round(Brick, Compass) :-
-    nxt_turn(Brick, b, 35, 360),
-    nxt_turn(Brick, c, 35, -360),
+lane_face(Brick, Compass) :-
+    lane_face(12, Brick, Compass).
+
+lane_face(_, Brick, Compass) :-
+    lane_off(Brick, Compass, Off),
+    abs(Off) < 20,
+    !.
+lane_face(Tries, Brick, Compass) :-
+    Tries > 0,
+    !,
+    lane_off(Brick, Compass, Off),
+    Left is 2*Off,
+    Right is -2*Off,
+    nxt_turn(Brick, b, 25, Left),
+    nxt_turn(Brick, c, 25, Right),
     lane_await(Brick),
+    Tries1 is Tries - 1,
+    lane_face(Tries1, Brick, Compass).
+lane_face(_, Brick, Compass) :-
     lane_check(Brick, Compass).
+
+%   lane_off(+Brick, +Compass, -Off): degrees to turn, to the right.
+
+lane_off(Brick, Compass, Off) :-
+    nxt_compass(Brick, 2, Degrees),
+    Off is (Compass - Degrees + 180) mod 360 - 180.
 
 %!  lane_check(+Brick, +Compass) is det.
 %
-%   Raises robot_lost(heading(Degrees)) if that is not about Compass.
+%   Raises robot_lost(heading(Off)) if the compass shows something else.
 
 lane_check(Brick, Compass) :-
-    nxt_compass(Brick, 2, Degrees),
-    Off is abs((Degrees - Compass + 180) mod 360 - 180),
-    lane_faces(Off, Brick, Degrees).
+    lane_off(Brick, Compass, Off),
+    lane_check_off(Off, Brick).
 
-lane_faces(Off, _, _) :-
-    Off < 45,
+lane_check_off(Off, _) :-
+    abs(Off) < 45,
     !.
-lane_faces(_, Brick, Degrees) :-
+lane_check_off(Off, Brick) :-
     nxt_float(Brick, [b,c]),
-    throw(error(robot_lost(heading(Degrees)), _)).
+    throw(error(robot_lost(heading(Off)), _)).

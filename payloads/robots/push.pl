@@ -61,7 +61,7 @@ push_on(Brick, Metres) :-
     Least is Metres + 0.05,
     push_done(Brick, Least, 0, Deadline),
     nxt_run(Brick, [b,c], -50, [regulated(true)]),
-    sleep(0.5),
+    sleep(0.8),
     nxt_stop(Brick, [b,c]).
 
 push_touched(Brick, _) :-
