@@ -60,6 +60,7 @@ push_on(Brick, Metres) :-
     push_touched(Brick, Deadline),
     Least is Metres + 0.05,
     push_done(Brick, Least, 0, Deadline),
+    nxt_stop(Brick, [b,c]),                     % else it turns
     nxt_run(Brick, [b,c], -50, [regulated(true)]),
     sleep(0.8),
     nxt_stop(Brick, [b,c]).
