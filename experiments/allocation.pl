@@ -85,7 +85,7 @@ opt_help(slack,      "Host seconds that auctioneers wait beyond the way \c
 there and back [4]").
 opt_help(limit,      "Host seconds after which a run is ended [5000]").
 opt_help(tasks,      "Length of each sequence, for integrated [3]").
-opt_help(task_time,  "Host seconds of each of its tasks [1]").
+opt_help(task_time,  "Host seconds of each of its tasks [5]").
 opt_help(late,       "Host seconds until the last task comes, for urgent [3]").
 opt_help(priority,   "Of it, in a single run [0]").
 opt_help(deadline,   "Of all tasks, in a single run; 0 is none [0]").
@@ -108,7 +108,7 @@ defaults([ figure(all), runs(3), seed(1), jobs(2), clock(4),
            dynamic(links(uniform(10,20),0.5,0.5)), processes(2),
            eligible(15), required(10), allocators(5), duration(5),
            bi_min(10), bi_max(500), slack(4), limit(5000),
-           tasks(3), task_time(1), late(3), priority(0), deadline(0),
+           tasks(3), task_time(5), late(3), priority(0), deadline(0),
            mechanism(proposed), links(dynamic), single(false),
            out('out/allocation')
          ]).
