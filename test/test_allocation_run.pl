@@ -304,7 +304,10 @@ test(robot_that_is_left_reserved,
      Error == reservation_faults([held(r, a, x)])) :-
     faulty([reserved(r, a, x)], true, Error).
 test(robot_that_is_held_when_a_run_is_cut_short, Error == none) :-
-    faulty([reserved(r, a, x)], false, Error).
+    faulty([begun(x), reserved(r, a, x)], false, Error).
+test(robot_that_is_held_for_ever,
+     Error == reservation_faults([held(r, a, x)])) :-
+    faulty([begun(x), reserved(r, a, x), completed(x)], false, Error).
 
 timeless(reservation_faults([twice(R, A, B, _)|_]),
          reservation_faults([twice(R, A, B)])).
