@@ -29,7 +29,9 @@ crew_services([File]) :-
 %
 %   Each of Hosts connects to the brick at the end of the serial line that
 %   stands at the same place in Ports, and leaves brick(Brick).  A brick has
-%   ten seconds to answer: the computer may be busy.
+%   ten seconds to answer: the computer may be busy.  It does not acknowledge
+%   motor commands: each wheel has one of its own, and while the robot waited
+%   for the first answer it would turn.
 %
 %   @error what nxt_connect/3 throws, host_unreachable(Host)
 
@@ -37,7 +39,8 @@ crew_join(Hosts, Ports) :-
     concurrent_maplist(join, Hosts, Ports).
 
 join(Host, Port) :-
-    remote(Host, ( nxt_connect(robot, Port, [deadline(10)]),
+    remote(Host, ( nxt_connect(robot, Port,
+                               [deadline(10), confirm(false)]),
                    leave(brick(robot)) )).
 
 %!  crew_task(+Name, +Spec, -Task) is det.

@@ -4,7 +4,8 @@
 
     The wheels, 56 mm wide, are motors b and c.  Their tachometers have
     counted since the pole was clasped, so a robot that is told to do this
-    again goes only what is left of the way.
+    again goes only what is left of the way.  The brick itself stops them
+    there: however busy the host is, no robot goes too far.
 */
 
 carry :-
@@ -12,7 +13,9 @@ carry :-
     now(Start),
     Deadline is Start + 60,
     carry_way(All),
-    nxt_run(Robot, [b,c], 10, [sync(0), brake(true)]),
+    nxt_tacho(Robot, b, Before),
+    Left is max(1, All - Before),
+    nxt_run(Robot, [b,c], 10, [sync(0), brake(true), degrees(Left)]),
     carry_end(Robot, All, Deadline, Done),
     nxt_stop(Robot, [b,c]),
     Done == true.
@@ -22,7 +25,7 @@ carry_way(Degrees) :-
 
 carry_end(Robot, All, _, true) :-
     nxt_tacho(Robot, b, Degrees),
-    Degrees >= All,
+    Degrees >= All - 3,
     !.
 carry_end(_, _, Deadline, false) :-
     now(Now),
