@@ -111,9 +111,11 @@ arena_ask(arena(_, In, Out, _), Line0, Answer) :-
     ->  format(atom(Line), Format, Arguments)
     ;   Line = Line0
     ),
-    format(In, '~w~n', [Line]),
-    flush_output(In),
-    read(Out, Term),
+    catch(( format(In, '~w~n', [Line]),
+            flush_output(In),
+            read(Out, Term) ),
+          error(io_error(_, _), _),
+          Term = end_of_file),
     answer(Term, Line, Answer).
 
 answer(error(Text), Line, _) :-
