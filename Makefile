@@ -15,7 +15,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools demo demo-robots experiments experiments-allocation \
-    experiments-sieve experiments-sync test check bench \
+    experiments-learning experiments-sieve experiments-sync test check bench \
     test-portability install clean
 
 help:
@@ -27,10 +27,11 @@ help:
 demo: tools             ## sixty hosts, ten agents, six tasks in step
 	@$(SWIPL) experiments/synchronisation.pl -- --out out/demo
 
-demo-robots: tools      ## four simulated robots carry a pole, in step and not
+demo-robots: tools      ## simulated robots carry a pole, and push boxes
 	@$(SWIPL) experiments/robots.pl -- --out out/robots
 
 experiments: experiments-sync experiments-sieve ## all; what has been run stays
+experiments: experiments-learning experiments-allocation
 
 experiments-sync: tools ## chapters 5 and 6; one figure: FIGURE=5.6, RUNS=3, JOBS=3
 	@case '$(FIGURE)' in 6.3*|6.4*) ;; *) \
@@ -47,17 +48,12 @@ experiments-sieve: tools ## chapter 3; one figure: FIGURE=3.4, RUNS=3, JOBS=3
 	@$(SWIPL) experiments/sieve.pl -- --figure '$(FIGURE)' --runs $(RUNS) \
 	    --jobs $(JOBS)
 
-.PHONY: experiments-learning
-experiments: experiments-learning
-
 experiments-learning: tools ## chapter 4; one figure: FIGURE=4.9, RUNS=3, JOBS=3
 	@$(SWIPL) experiments/learning.pl -- --figure '$(FIGURE)' \
 	    --runs $(RUNS) --jobs $(JOBS)
 	@case '$(FIGURE)' in all) \
 	    $(SWIPL) experiments/algorithms.pl -- --runs $(RUNS) \
 	        --jobs $(JOBS) ;; esac
-
-experiments: experiments-allocation
 
 # Runs disturb each other: not as many at a time, unless JOBS is given.
 experiments-allocation: tools ## chapter 7; one figure: FIGURE=7.1, RUNS=3
