@@ -7,6 +7,7 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/paths', []).
+:- use_module(tasks, [check_task/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(error),
@@ -186,21 +187,6 @@ auction_post(Mechanism, Task, Host) :-
     check_task(Task),
     node(Mechanism, Host, Node),
     agent_send(Node, post(Task)).
-
-check_task(Task) :-
-    (   subsumes_term(task(_, _, _), Task),
-        Task = task(Name, Teams, Details),
-        atomic(Name),
-        is_list(Details),
-        is_list(Teams),
-        Teams = [_|_],
-        forall(member(Team, Teams),
-               ( subsumes_term(_-_, Team),
-                 Team = Count-Requirements,
-                 integer(Count), Count > 0, is_list(Requirements) ))
-    ->  true
-    ;   type_error(task, Task)
-    ).
 
 node(Mechanism, Host, Node) :-
     (   remote(Host, sense(node(Mechanism, Node0)))

@@ -10,7 +10,8 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/paths', []).
-:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(tasks, [check_task/1]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
@@ -148,25 +149,6 @@ task_allocate(Task, Host, Options, Agent) :-
     agent_create(agents(allocation/allocator), Agent,
                  [ name(Name), host(Host), payloads([Payload]),
                    facts([Task|Settings]) ]).
-
-check_task(Task) :-
-    (   subsumes_term(task(_, _, _), Task),
-        Task = task(Name, Teams, Details),
-        atomic(Name),
-        is_list(Details),
-        is_list(Teams),
-        Teams \== [],
-        maplist(team, Teams)
-    ->  true
-    ;   throw(error(type_error(task, Task), _))
-    ).
-
-team(Team) :-
-    subsumes_term(_-_, Team),
-    Team = Count-Requirements,
-    integer(Count),
-    Count > 0,
-    is_list(Requirements).
 
 settings(Names, Options, Settings) :-
     option(settings(Pairs), Options, []),
