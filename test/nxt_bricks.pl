@@ -4,7 +4,6 @@
             start_brick/2,              % +Args, -Brick
             stop_brick/1,               % +Brick
             end_status/3,               % +Pid, +Seconds, -Status
-            until/2,                    % :Goal, +Seconds
             ask/3,                      % +Brick, +Line, -Term
             tell/2,                     % +Brick, +Line
             tell/3,                     % +Brick, +Format, +Args
@@ -30,7 +29,7 @@ digits, without the two bytes of length.
 *Threading*: the predicates may be called in any thread.
 */
 
-:- use_module(common, [project_file/2]).
+:- use_module(common, [project_file/2, wait_until/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_kill/2,
                                  process_wait/2, process_wait/3]).
@@ -39,8 +38,7 @@ digits, without the two bytes of length.
 :- meta_predicate
     with_brick(+, -, 0),
     with_world(+, +, -, 0),
-    with_line(+, -, 0),
-    until(0, +).
+    with_line(+, -, 0).
 
 %!  python(-Executable) is det.
 %
@@ -107,37 +105,13 @@ stop_brick(sim(Pid, In, Out, _)) :-
 %   Status is how the process ended, or `timeout`.
 
 end_status(Pid, Seconds, Status) :-
-    catch(until(ended(Pid, Status), Seconds),
-          error(timeout_error(until, _), _),
+    catch(wait_until(ended(Pid, Status), Seconds),
+          error(timeout_error(_, _), _),
           Status = timeout).
 
 ended(Pid, Status) :-
     process_wait(Pid, Status, [timeout(0)]),
     Status \== timeout.
-
-%!  until(:Goal, +Seconds) is det.
-%
-%   Waits for Goal to become true. It sleeps in between: a wait for a
-%   message that is too short has been seen to spin for ever where there is
-%   one thread only.
-%
-%   @error timeout_error(until, Goal)
-
-until(Goal, Seconds) :-
-    get_time(Now),
-    Deadline is Now+Seconds,
-    poll(Goal, Deadline).
-
-poll(Goal, _) :-
-    call(Goal),
-    !.
-poll(Goal, Deadline) :-
-    get_time(Now),
-    (   Now < Deadline
-    ->  sleep(0.01),
-        poll(Goal, Deadline)
-    ;   throw(error(timeout_error(until, Goal), _))
-    ).
 
 %!  ask(+Brick, +Line, -Term) is det.
 %

@@ -90,7 +90,7 @@ test(cut_and_back, Reply == Version) :-
                 send(Line, '0188'),
                 receive_bytes(Line, 9, _),
                 place(tcp, Brick, Place),
-                until(reachable(Place), 20),
+                wait_until(reachable(Place), 20),
                 with_line(Place, Again, exchange(Again, '0188', Reply)) )).
 test(battery_runs_down, Levels == ['020b00781e', '020b007017']) :-
     with_both(tcp, ['--fault', 'battery 6000 after 1'], _, Line,
@@ -108,7 +108,7 @@ place_is_gone(tcp, Brick) :-
     \+ reachable(Place).
 
 reachable(Place) :-
-    catch(with_line(Place, _, true), error(_, _), fail).
+    catch(with_line(Place, _, true), error(socket_error(_, _), _), fail).
 
 bad_line(Line) :-
     member(Line, [ jump, 'fault', 'fault fire', 'fault delay', 'fault cut x',

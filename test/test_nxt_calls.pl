@@ -121,6 +121,15 @@ programs :-
 old_names(Brick, Port) :-
     initialize_nxt(lizzy, Port, 0, Response),
     assertion(Response == started),
+    old_motors,
+    old_sensors(Brick),
+    old_files,
+    old_telegrams,
+    catch(move_forward_nxt(lizzy, 1, 50), error(E, _), true),
+    assertion(E == type_error(atom, 1)),
+    close_nxt(lizzy).
+
+old_motors :-
     set_motorspeed_nxt(lizzy, 'A', 100),
     rotate_nxt(lizzy, 'A', 90, 'C'),
     nxt_tacho(lizzy, a, Degrees),
@@ -133,20 +142,23 @@ old_names(Brick, Port) :-
     stop_nxt(lizzy, 'B'),
     getmode_nxt(lizzy, 'B', 3),
     flt_nxt(lizzy, 'B'),
-    getmode_nxt(lizzy, 'B', 4),
+    getmode_nxt(lizzy, 'B', 4).
+
+old_sensors(Brick) :-
     brick_ask(Brick, 'set 1 1', ok),
     init_touch_nxt(lizzy, 1),
-    read_touch_nxt(lizzy, 1, 1),
+    read_touch_nxt(lizzy, 1, 1).
+
+old_files :-
     exists_nxt(lizzy, 'Demo.rxe', Exists),
     assertion(Exists == '1'),
     with_output_to(string(_), get_files_nxt(lizzy, Files)),
-    assertion(sub_atom(Files, _, _, _, 'Demo.rxe')),
+    assertion(sub_atom(Files, _, _, _, 'Demo.rxe')).
+
+old_telegrams :-
     write_nxt(lizzy, 'GETBATTERYLEVEL'),
     read_res_nxt(lizzy, Values),
-    assertion(get_dict(millivolts, Values, _)),
-    catch(move_forward_nxt(lizzy, 1, 50), error(E, _), true),
-    assertion(E == type_error(atom, 1)),
-    close_nxt(lizzy).
+    assertion(get_dict(millivolts, Values, _)).
 
 old_name(Name/Arity) :-
     member(Name-Arities,

@@ -1,5 +1,6 @@
 :- module(test_sieve, []).
 :- use_module(common).
+:- use_module(event_log).
 :- use_module(fixtures).
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -8,7 +9,6 @@
 :- use_module(library(lists),
               [append/2, append/3, max_list/2, member/2, numlist/3,
                sum_list/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module('../agents/sieve/operator').
 :- use_module('../experiments/sieve/programs').
@@ -176,19 +176,12 @@ sieve_in(Topology, Options, Settings, Goal, Dir) :-
 
 %   What was logged so far, in order.
 
-logged(File, What) :-
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    split_string(Text, "\n", "", Lines0),
-    append(Lines, [_], Lines0),         % what is just being written
-    !,
-    findall(Told,
-            ( member(Line, Lines),
-              catch(term_string(event(_, _, _, Told), Line), _, fail) ),
-            All),
-    What = All.
+told(File, Whats) :-
+    logged(File, Events),
+    findall(What, member(event(_, _, _, What), Events), Whats).
 
 count(File, Pattern, Count) :-
-    logged(File, All),
+    told(File, All),
     aggregate_all(count, ( member(Told, All), \+ Told \= Pattern ), Count).
 
 settled(File, Attacks) :-
@@ -217,14 +210,14 @@ alone([Host], File) :-
     antigen_attack([Host], Antigen),
     settled(File, 1),
     wait_until(count(File, born(host, _), 1), 10),
-    logged(File, All),
+    told(File, All),
     member(generated(Antigen, Antibody, Wait), All),
     affinity(Antigen, Antibody, Psi),
     Psi >= 4,
     Wait >= 1,
     antigen_attack([Host], Antigen),    % now there is somebody
     settled(File, 2),
-    logged(File, Later),
+    told(File, Later),
     memberchk(served(Antigen, Antibody, _, 1), Later).
 
 %   Whoever is chosen: the better one clones.
@@ -242,7 +235,7 @@ better([Host], File) :-
     antigen_attack([Host], Antigen),
     settled(File, 1),
     wait_until(count(File, born(clone, Best), 1), 10),
-    logged(File, All),
+    told(File, All),
     memberchk(served(Antigen, _, _, 2), All),
     count(File, born(clone, _), 1).
 
@@ -308,7 +301,7 @@ attacks(Hosts, File) :-
     antigen_attack(Hosts, A),
     antigen_attack(Hosts, B),
     settled(File, 30),
-    logged(File, All),
+    told(File, All),
     forall(( member(served(Antigen, Antibody, _, Kinds), All) ),
            ( affinity(Antigen, Antibody, Psi), Psi >= 4,
              between(1, 6, Kinds) )),
@@ -329,7 +322,7 @@ programs([Host], File) :-
            antibody_release(Host, payloads(sieve/maze), Program, [], _)),
     antigen_attack([Host], wall(left)),
     settled(File, 1),
-    logged(File, All),
+    told(File, All),
     member(served(wall(left), Program, _, _), All),
     memberchk(Program, [First, Second]).
 
