@@ -1,7 +1,7 @@
 :- use_module(common).
+:- use_module(spent, [spent/4]).
 :- use_module(library(typhon)).
 :- use_module('../agents/learning/operator', [learning_start/5]).
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2, nth0/3]).
 
 /*  What a hop of an agent that learns costs: 25 of them on 30 hosts, in a
@@ -68,44 +68,3 @@ traveller(clauses([ (:- agent(traveller, [state([left/1])])),
 
 all_end(Agents) :-
     forall(member(Agent, Agents), agent_join(Agent, done, 300)).
-
-                /*******************************
-                *           MEASURES           *
-                *******************************/
-
-:- meta_predicate spent(+, 0, -, -).
-
-%   Cpu is that of all processes, in microseconds for each hop.
-
-spent(Hosts, Goal, Hops, Cpu) :-
-    arrived(Hosts, Hops0),
-    processor_time(Hosts, Cpu0),
-    call(Goal),
-    processor_time(Hosts, Cpu1),
-    arrived(Hosts, Hops1),
-    Hops is Hops1 - Hops0,
-    Cpu is (Cpu1 - Cpu0) / Hops * 1.0e6.
-
-arrived(Hosts, Count) :-
-    aggregate_all(sum(N),
-                  ( member(Host, Hosts),
-                    host_property(Host, hop_time(in, stats(N, _, _, _))) ),
-                  Count).
-
-%   One host of each process is asked, and this process.
-
-processor_time(Hosts, Seconds) :-
-    statistics(process_cputime, Own),
-    findall(Endpoint-Host,
-            ( member(Host, Hosts),
-              atomic_list_concat([_, Endpoint], @, Host) ),
-            Pairs0),
-    sort(1, @<, Pairs0, Pairs),
-    (   Pairs = [_]                     % the hosts are in this process
-    ->  Seconds = Own
-    ;   aggregate_all(sum(S),
-                      ( member(_-Host, Pairs),
-                        remote(Host, statistics(process_cputime, S)) ),
-                      There),
-        Seconds is Own + There
-    ).

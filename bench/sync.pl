@@ -1,4 +1,5 @@
 :- use_module(common).
+:- use_module(spent, [spent/4]).
 :- use_module(library(typhon)).
 :- use_module('../agents/sync/operator', [sequence_start/5]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -6,7 +7,6 @@
 :- use_module(library(assoc), [del_assoc/4, empty_assoc/1, put_assoc/4]).
 :- use_module(library(lists),
               [max_member/2, member/2, memberchk/2, nth0/3]).
-:- use_module(library(pairs), [pairs_values/2]).
 
 /*  Synchronised execution at full speed: a grid of 60 hosts, ten agents, six
 tasks that do nothing, hops without delay, in one process and in four.
@@ -98,43 +98,6 @@ sequence(I, Hosts, run(Sequence, Agents, Hops, Cpu)) :-
           ( sequence_start(Sequence, Hosts, Tasks, [seed(I)], Agents),
             forall(member(Agent, Agents), agent_join(Agent, done, 120))
           ), Hops, Cpu).
-
-:- meta_predicate spent(+, 0, -, -).
-
-%   Cpu is that of all processes, in microseconds for each hop.
-
-spent(Hosts, Goal, Hops, Cpu) :-
-    arrived(Hosts, Hops0),
-    cpu_time(Hosts, Cpu0),
-    call(Goal),
-    cpu_time(Hosts, Cpu1),
-    arrived(Hosts, Hops1),
-    Hops is Hops1 - Hops0,
-    Cpu is (Cpu1 - Cpu0) / Hops * 1.0e6.
-
-arrived(Hosts, Count) :-
-    aggregate_all(sum(N),
-                  ( member(Host, Hosts),
-                    host_property(Host, hop_time(in, stats(N, _, _, _))) ),
-                  Count).
-
-cpu_time(Hosts, Seconds) :-
-    findall(Endpoint-Host,
-            ( member(Host, Hosts),
-              atomic_list_concat([_, Endpoint], '@', Host) ),
-            Pairs0),
-    sort(1, @<, Pairs0, Pairs),
-    pairs_values(Pairs, Samples),
-    statistics(process_cputime, Own),
-    aggregate_all(sum(S), ( member(Host, Samples), cpu_time_at(Host, S) ),
-                  There),
-    (   Samples = [_]                   % the hosts are in this process
-    ->  Seconds = Own
-    ;   Seconds is Own + There
-    ).
-
-cpu_time_at(Host, Seconds) :-
-    remote(Host, statistics(process_cputime, Seconds)).
 
 %   The log has the times: services per second until the last service is
 %   completed, hops per second until the last agent has ended.
