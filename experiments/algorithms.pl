@@ -16,7 +16,7 @@
 :- use_module(lib/command, [acceptable/3, command/5]).
 :- use_module(lib/jobs, [job_directory/3, jobs_run/3]).
 :- use_module(lib/report,
-              [ claims_sentence/2, print_claims/2, print_table/3, save_csv/3,
+              [ claims_sentence/2, print_claims/2, print_options/3, print_table/3, save_csv/3,
                 save_facts/2
               ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -98,7 +98,7 @@ run(Options) :-
     directory_file_path(Out, 'result.pl', File),
     save_facts(File, [result(Result)]).
 run(Options) :-
-    print_options(Options),
+    print_options(user_output, Options, []),
     option(figure(Wanted), Options),
     findall(Figure, ( figure(Figure, _), wanted(Wanted, Figure) ), Figures),
     maplist(make_figure(Options), Figures).
@@ -106,13 +106,6 @@ run(Options) :-
 wanted(all, _) :-
     !.
 wanted(Figure, Figure).
-
-print_options(Options) :-
-    findall([Name, Value],
-            ( member(Option, Options), Option =.. [Name, Value] ),
-            Rows0),
-    sort(Rows0, Rows),
-    print_table(user_output, [parameter, value], Rows).
 
                 /*******************************
                 *            FIGURES           *

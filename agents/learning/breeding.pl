@@ -40,17 +40,13 @@ bred(unreached, Length) :-
     replicate(Reward, Queue, Role),
     counted_from(Role).
 
-progress(Length, Reward) :-
-    (   take(progress(Longest))
-    ->  true
-    ;   Longest = 0
-    ),
-    (   Length > Longest
-    ->  Reward = 1
-    ;   Reward = 0
-    ),
-    Most is max(Length, Longest),
-    leave(progress(Most)).
+progress(Length, 1) :-
+    Length > 0,
+    \+ ( sense(progress(Longest)), Longest >= Length ),
+    !,
+    ignore(take(progress(_))),
+    leave(progress(Length)).
+progress(_, 0).
 
 counted_from(parent).
 counted_from(clone) :-

@@ -151,8 +151,7 @@ learnt(Units, Plan) :-
     findall(Plan0, once(plan(Start, Units, Plan0)), [Plan]).
 
 provided(PI) :-
-    current_predicate(PI),
-    !.
+    once(current_predicate(PI)).
 
                 /*******************************
                 *           CONVERGER          *

@@ -7,7 +7,7 @@
                                         % +Cases, +Data
           ]).
 :- use_module('../lib/chart', [draw_chart/3, median/2]).
-:- use_module('../lib/report', [print_table/3, save_csv/3, save_facts/2]).
+:- use_module('../lib/report', [print_options/3, print_table/3, save_csv/3, save_facts/2]).
 :- use_module(cases, [figure/3, panels/2]).
 :- use_module(curves, [values/4]).
 :- use_module(mechanisms, [mechanism/2]).
@@ -29,14 +29,8 @@
 %   What is going to be run.
 
 print_parameters(Stream, Options) :-
-    findall([Name, Text],
-            ( member(Option, Options), Option =.. [Name, Value],
-              \+ memberchk(Name, [ mechanism, links, single, priority,
-                                   deadline ]),
-              term_to_atom(Value, Text) ),
-            Rows0),
-    sort(Rows0, Rows),
-    print_table(Stream, [parameter, value], Rows),
+    print_options(Stream, Options,
+                  [mechanism, links, single, priority, deadline]),
     option(clock(Rate), Options),
     option(hop_time(Min-Max), Options),
     Low is 1000*Min/Rate,

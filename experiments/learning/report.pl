@@ -4,7 +4,8 @@
             runs_table/3,               % +CaseRuns, -Header, -Rows
             load_result/2               % +Directory, -Result
           ]).
-:- use_module('../lib/report', [print_table/3]).
+:- use_module('../lib/report',
+              [print_options/3, print_settings/3, print_table/3]).
 :- use_module(cases, [case_name/2]).
 :- use_module(metrics, [executions/2, mean/2, sharing/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -31,20 +32,10 @@ learning_run.
 
 print_parameters(Stream, Options) :-
     memberchk(settings(Settings), Options),
-    findall([Name, Text],
-            ( member(Option, Options), Option =.. [Name, Value],
-              \+ memberchk(Name, [nodes, agents, single]),
-              term_to_atom(Value, Text) ),
-            Rows0),
-    sort(Rows0, Given),
-    findall([Name, Value],
-            ( default(Name, Default), Name \== seed,
-              ( memberchk(Name-Value0, Settings) -> Value = Value0
-              ; Value = Default ) ),
-            Agents),
-    print_table(Stream, [parameter, value], Given),
+    print_options(Stream, Options, [nodes, agents, single]),
     nl(Stream),
-    print_table(Stream, ['of the agents', value], Agents),
+    findall(Name-Value, ( default(Name, Value), Name \== seed ), Defaults),
+    print_settings(Stream, Defaults, Settings),
     nl(Stream),
     flush_output(Stream).
 

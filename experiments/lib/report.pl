@@ -1,5 +1,7 @@
 :- module(experiment_report,
           [ print_table/3,              % +Stream, +Header, +Rows
+            print_options/3,            % +Stream, +Options, +Hidden
+            print_settings/3,           % +Stream, +Defaults, +Settings
             print_claims/2,             % +Stream, +Claims
             claims_sentence/2,          % +Claims, -Sentence
             save_csv/3,                 % +File, +Header, +Rows
@@ -7,7 +9,7 @@
           ]).
 :- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
 :- use_module(library(csv), [csv_write_file/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 
 /** <module> What an experiment prints and writes
 
@@ -55,6 +57,35 @@ print_cell(Stream, Width, Text) :-
     Column is Width + 2,
     format(atom(Cell), '~t~w~*|', [Text, Column]),
     write(Stream, Cell).
+
+%!  print_options(+Stream, +Options, +Hidden:list(atom)) is det.
+%!  print_settings(+Stream, +Defaults, +Settings) is det.
+%
+%   Tables of Options, but for those that are named in Hidden, and of what
+%   agents have: Defaults and Settings are pairs Name-Value, the latter
+%   taking the place of the former.
+
+print_options(Stream, Options, Hidden) :-
+    findall([Name, Text],
+            ( member(Option, Options), Option =.. [Name, Value],
+              \+ memberchk(Name, Hidden),
+              term_to_atom(Value, Text) ),
+            Rows0),
+    sort(Rows0, Rows),
+    print_table(Stream, [parameter, value], Rows).
+
+print_settings(Stream, Defaults, Settings) :-
+    findall([Name, Value],
+            ( member(Name-Default, Defaults),
+              in_force(Name, Default, Settings, Value) ),
+            Rows),
+    print_table(Stream, ['of the agents', value], Rows).
+
+in_force(Name, _, Settings, Value) :-
+    memberchk(Name-Given, Settings),
+    !,
+    Value = Given.
+in_force(_, Value, _, Value).
 
 %!  print_claims(+Stream, +Claims) is det.
 %

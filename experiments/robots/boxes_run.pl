@@ -2,7 +2,7 @@
           [ boxes_run/4                 % +Script, +Options, +Directory,
                                         % -Run
           ]).
-:- use_module('../../prolog/typhon', [link/2, log_events/2, remote/2]).
+:- use_module('../../prolog/typhon', [link/2, remote/2]).
 :- use_module('../../agents/allocation/operator',
               [robot_start/3, task_allocate/4]).
 :- use_module('../allocation/watch',
@@ -10,14 +10,13 @@
                watch_start/2]).
 :- use_module('../lib/follow', [new_lines/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
-:- use_module(arena, [arena_ask/3, arena_log/2, arena_start/4, arena_stop/1]).
+:- use_module(arena, [arena_ask/3]).
 :- use_module(boxes_script,
               [job_box/2, job_program/1, job_task/3, script_jobs/2]).
 :- use_module(crew, [crew_join/2]).
 :- use_module(fleet, [fleet_add/3, fleet_start/2, fleet_stop/1]).
+:- use_module(stage, [stage/6]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
-:- use_module(library(filesex),
-              [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists),
               [append/3, last/2, member/2, numlist/3, subtract/3]).
 :- use_module(library(option), [option/2]).
@@ -35,14 +34,6 @@ stopped.
 
 :- multifile
     prolog:error_message//1.
-
-:- dynamic
-    scene_file/1.               % File
-
-:- prolog_load_context(directory, Dir),
-   atom_concat(Dir, '/../../bridges/nxt/scenes/boxes.json', File),
-   retractall(scene_file(_)),
-   assertz(scene_file(File)).
 
 %   Settings of the allocators that are not the defaults: they rest no
 %   longer than a box takes, and have patience with robots that compute.
@@ -72,40 +63,15 @@ settings([bi_max-15, monitor-60, seed-random]).
 %   @error timeout_error(boxes, Done-Total)
 
 boxes_run(Script, Options, Directory, Run) :-
-    make_directory_path(Directory),
-    maplist(fresh(Directory), ['events.pl', 'arena.pl', 'arena.svg'],
-            [Log, Terms, Picture]),
-    get_time(T0),
-    setup_call_cleanup(
-        start_arena(Options, Terms, Picture, Arena, Bricks),
-        in_arena(Script, Options, Log, Arena, Bricks, Hosts, Shift),
-        arena_stop(Arena)),
-    get_time(T1),
-    Wall is T1 - T0,
-    log_events(Log, Events0),
+    stage(boxes, [every(0.2)|Options], Directory,
+          in_arena(Script, Options, Hosts, Shift), logs(Events0, Terms),
+          Wall),
     sort(1, @=<, Events0, Events),
-    arena_log(Terms, ArenaTerms),
-    Run = [ hosts(Hosts), events(Events), arena(ArenaTerms), wall(Wall),
+    Run = [ hosts(Hosts), events(Events), arena(Terms), wall(Wall),
             shift(Shift)
           ].
 
-fresh(Directory, Name, File) :-
-    directory_file_path(Directory, Name, File),
-    (   exists_file(File)
-    ->  delete_file(File)
-    ;   true
-    ).
-
-start_arena(Options, Log, Picture, Arena, Bricks) :-
-    scene_file(Scene),
-    option(seed(Seed), Options),
-    option(clock(Rate), Options),
-    arena_start(Scene,
-                [ clock(Rate), seed(Seed), log(Log), every(0.2),
-                  picture(Picture)
-                ], Arena, Bricks).
-
-in_arena(Script, Options, Log, Arena, Bricks, Hosts, Shift) :-
+in_arena(Script, Options, Hosts, Shift, Log, Arena, Bricks) :-
     option(clock(Rate), Options),
     option(hop_time(HopTime), Options),
     setup_call_cleanup(

@@ -4,7 +4,7 @@
                                         % -Result
           ]).
 :- use_module('../../prolog/typhon',
-              [ agent_create/3, agent_join/3, agent_send/2, log_events/2,
+              [ agent_create/3, agent_join/3, agent_send/2,
                 network_property/2, network_start/3, network_stop/1, remote/2
               ]).
 :- use_module('../../prolog/typhon/paths', []).
@@ -12,13 +12,12 @@
 :- use_module('../lib/follow', [new_lines/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
 :- use_module('../sync/run', [sync_result/4]).
-:- use_module(arena, [arena_ask/3, arena_log/2, arena_start/4, arena_stop/1]).
+:- use_module(arena, [arena_ask/3]).
 :- use_module(crew, [crew_join/2, crew_services/1, crew_task/3]).
 :- use_module(pole_metrics, [pole_states/4]).
+:- use_module(stage, [scene_file/2, stage/6]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/6, maplist/3]).
-:- use_module(library(filesex),
-              [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(http/json), [json_read_dict/2]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, reverse/2]).
 :- use_module(library(option), [option/2]).
@@ -33,14 +32,6 @@ the arena.  The robots are to execute the four tasks of the sequence.
 signal that raises an exception there ends the run: network and arena are
 stopped.
 */
-
-:- dynamic
-    scene_file/1.               % File
-
-:- prolog_load_context(directory, Dir),
-   atom_concat(Dir, '/../../bridges/nxt/scenes/pole.json', File),
-   retractall(scene_file(_)),
-   assertz(scene_file(File)).
 
 %   pole_task(?Number, ?Payload): the sequence of the thesis.
 
@@ -66,38 +57,12 @@ pole_task(4, payloads(robots/release)).
 %   moving picture arena.svg.  Result is that of pole_result/5.
 
 pole_run(Case, Options, Directory, Result) :-
-    make_directory_path(Directory),
-    maplist(fresh(Directory), ['events.pl', 'arena.pl', 'arena.svg'],
-            [Events, Terms, Picture]),
-    get_time(T0),
-    setup_call_cleanup(
-        start_arena(Options, Terms, Picture, Arena, Bricks),
-        in_arena(Case, Options, Events, Arena, Bricks, Run0),
-        arena_stop(Arena)),
-    get_time(T1),
-    Wall is T1 - T0,
-    log_events(Events, EventList),
-    arena_log(Terms, TermList),
-    pole_result(Options, EventList, TermList, [case(Case), wall(Wall)|Run0],
+    stage(pole, [every(0.1)|Options], Directory,
+          in_arena(Case, Options, Run), logs(Events, Terms), Wall),
+    pole_result(Options, Events, Terms, [case(Case), wall(Wall)|Run],
                 Result).
 
-fresh(Directory, Name, File) :-
-    directory_file_path(Directory, Name, File),
-    (   exists_file(File)
-    ->  delete_file(File)
-    ;   true
-    ).
-
-start_arena(Options, Log, Picture, Arena, Bricks) :-
-    scene_file(Scene),
-    option(seed(Seed), Options),
-    option(clock(Rate), Options),
-    arena_start(Scene,
-                [ clock(Rate), seed(Seed), log(Log), every(0.1),
-                  picture(Picture)
-                ], Arena, Bricks).
-
-in_arena(Case, Options, Log, Arena, Bricks, Run) :-
+in_arena(Case, Options, Run, Log, Arena, Bricks) :-
     option(seed(Seed), Options),
     option(clock(Rate), Options),
     option(hop_time(Min-Max), Options),
@@ -125,7 +90,7 @@ in_network(Case, Options, Network, Log, Arena, Bricks, Run) :-
           ].
 
 tilt_limit(Limit) :-
-    scene_file(File),
+    scene_file(pole, File),
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
         json_read_dict(In, Scene),

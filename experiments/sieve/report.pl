@@ -4,7 +4,7 @@
             load_rounds/2               % +Directory, -Rounds
           ]).
 :- use_module(claims, [kind_name/2]).
-:- use_module('../lib/report', [print_table/3]).
+:- use_module('../lib/report', [print_options/3, print_settings/3]).
 :- use_module(rounds, [population/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -26,19 +26,10 @@
 
 print_parameters(Stream, Options) :-
     memberchk(settings(Settings), Options),
-    findall([Name, Text],
-            ( member(Option, Options), Option =.. [Name, Value],
-              term_to_atom(Value, Text) ),
-            Rows0),
-    sort(Rows0, Given),
-    findall([Name, Value],
-            ( default(Name, Default), Name \== seed,
-              ( memberchk(Name-Value0, Settings) -> Value = Value0
-              ; Value = Default ) ),
-            Agents),
-    print_table(Stream, [parameter, value], Given),
+    print_options(Stream, Options, []),
     nl(Stream),
-    print_table(Stream, ['of the agents', value], Agents).
+    findall(Name-Value, ( default(Name, Value), Name \== seed ), Defaults),
+    print_settings(Stream, Defaults, Settings).
 
 %!  figure_table(+CaseRuns, -Header, -Rows) is det.
 %

@@ -17,9 +17,6 @@
 */
 
 plan(_, Units, Plan) :-
-    findall(Plan0, planned(Units, Plan0), [Plan]).
-
-planned(Units, Plan) :-
     samples(Units, Samples),
     summary(Samples, Summary),
     promising(Summary, First),

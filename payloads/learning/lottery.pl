@@ -17,7 +17,7 @@ plan(_, Units, Plan) :-
     retract(plans(Count0)),
     Count is Count0 + 1,
     assertz(plans(Count)),
-    findall(Plan0, planned(Units, Count, Plan0), [Plan]).
+    planned(Units, Count, Plan).
 
 planned(Units, Count, Plan) :-
     term_hash(Count-Units, Seed),
