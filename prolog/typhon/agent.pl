@@ -1,19 +1,17 @@
 :- module(typhon_agent,
           [ agent/5,                    % ?Id, ?Host, ?Module, ?Hash, ?Life
             agent_status/3,             % ?Id, ?Status, ?Goals
-            agent_install/6,            % +Id, +Host, +Place, +Hash, +Life,
-                                        % +State
+            agent_module/5,             % +Id, +Place, +Hash, +State, -Module
+            agent_enter/5,              % +Id, +Host, +Module, +Hash, +Life
             agent_remove/1,             % +Id
             agent_state/2,              % +Module, -State
             agent_put_life/2,           % +Id, +Life
             agent_put/3,                % +Id, +Status, +Goals
             agent_take/2,               % +Id, -Goals
+            agent_departs/3,            % +Id, -Dest, -Goals
             agent_ready/2,              % +Id, +Goals
             with_agent/2,               % +Id, :Goal
             agent_mail/2,               % +Id, +Message
-            agent_take_mail/2,          % +Id, ?Message
-            agent_all_mail/2,           % +Id, -Messages
-            agent_return_mail/2,        % +Id, +Messages
             agent_order/2,              % +Id, +Order
             agent_next_order/2,         % +Id, -Order
             agent_all_orders/2,         % +Id, -Orders
@@ -29,6 +27,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(code, [code_module/2]).
+:- use_module(mailbox, [mail_all/2, mail_put/2]).
 :- use_module(program, [clause_parts/3]).
 :- use_module(scheduler, [schedule/2]).
 
@@ -44,7 +43,7 @@ The records of agents, each with one owner: this module.  An agent is
     transit(Host, Sent), cloning(Host, Sent) or faulty(Error), with
     the goals still to run.  While a control predicate is under way the
     goals are Hole-Goals, see typhon_machine;
-  - a mailbox and orders from outside.
+  - a mailbox, see typhon_mailbox, and orders from outside.
 
 Changes of the database are what a hop costs most of.  So an agent that
 runs has no status at all: whoever removes `ready` has it.
@@ -64,7 +63,6 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 :- dynamic
     agent/5,                    % Id, Host, Module, Hash, Life
     status/3,                   % Id, Status, Goals; none: it runs
-    mailbox/2,                  % Id, From-Message
     order/2.                    % Id, Order
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
@@ -158,21 +156,38 @@ agent_name(Id, Name, Number) :-
                 *       MODULES AND STATE      *
                 *******************************/
 
-%!  agent_install(+Id, +Host, +Place, +Hash, +Life, +State) is det.
+%!  agent_module(+Id, +Place, +Hash, +State, -Module) is det.
+%!  agent_enter(+Id, +Host, +Module, +Hash, +Life) is det.
 %
-%   Make the record of an agent; its status and goals come separately.
+%   Make a module with the state of an agent, and then its record; status and
+%   goals come separately.  What is wrong with the state is found by the
+%   former, which leaves nothing behind.
 %
 %   @arg State is state(Empty, Clauses): what is dynamic without having
 %        clauses, and the clauses of all else.
+%   @error what assertz/1 raises
 
-agent_install(Id, Host, Place, Hash, Life, state(Empty, Clauses)) :-
-    Module = Id,
+agent_module(Id, Place, Hash, state(Empty, Clauses), Module) :-
+    free_module(Id, Module),
     code_module(Hash, Program),
     set_module(Module:class(temporary)),
     set_module(Module:base(Program)),
     add_import_module(Module, Place, end),
-    declare_all(Empty, Module),
-    add_clauses(Clauses, Module),
+    catch(( declare_all(Empty, Module),
+            add_clauses(Clauses, Module) ),
+          error(Formal, Context),
+          ( '$destroy_module'(Module),
+            throw(error(Formal, Context)) )).
+
+%   A copy that waits for the end of its hop has a module already.
+
+free_module(Id, Module) :-
+    (   agent(Id, _, Id, _, _)
+    ->  atom_concat(Id, ' again', Module)
+    ;   Module = Id
+    ).
+
+agent_enter(Id, Host, Module, Hash, Life) :-
     assertz(agent(Id, Host, Module, Hash, Life)).
 
 declare_all([], _).
@@ -224,7 +239,7 @@ split([Item|Items], Empty, Clauses) :-
 agent_remove(Id) :-
     retract(agent(Id, _, Module, _, _)),
     retractall(status(Id, _, _)),
-    retractall(mailbox(Id, _)),
+    mail_all(Id, _),
     retractall(order(Id, _)),
     '$destroy_module'(Module).
 
@@ -293,6 +308,15 @@ agent_take(Id, Goals) :-
     retract(status(Id, ready, Goals)),
     !.
 
+%!  agent_departs(+Id, -Dest, -Goals) is semidet.
+%
+%   Id, which was leaving for Dest, belongs to the caller from now on: an
+%   order from outside can no longer end it.
+
+agent_departs(Id, Dest, Goals) :-
+    retract(status(Id, leaving(Dest, _), Goals)),
+    !.
+
 %!  agent_ready(+Id, +Goals) is det.
 %
 %   Id goes on with Goals when its turn comes.
@@ -311,7 +335,7 @@ agent_put_life(Id, Life) :-
     assertz(agent(Id, Host, Module, Hash, Life)).
 
                 /*******************************
-                *       MAILBOX AND ORDERS     *
+                *       MAIL AND ORDERS        *
                 *******************************/
 
 %!  agent_mail(+Id, +Message) is det.
@@ -319,7 +343,7 @@ agent_put_life(Id, Life) :-
 %   Put Message in the mailbox and wake the agent if it waits for it.
 
 agent_mail(Id, Message) :-
-    assertz(mailbox(Id, Message)),
+    mail_put(Id, Message),
     (   status(Id, Status, Goals),
         wakes(Status, Message)
     ->  agent_ready(Id, Goals)
@@ -329,34 +353,6 @@ agent_mail(Id, Message) :-
 wakes(resident, _).
 wakes(waiting(Pattern, _), Message) :-
     \+ Pattern \= Message.
-
-%!  agent_take_mail(+Id, ?Message) is semidet.
-%
-%   The oldest message that unifies.
-
-agent_take_mail(Id, Message) :-
-    clause(mailbox(Id, Message0), true, Ref),
-    Message = Message0,
-    !,
-    erase(Ref).
-
-%!  agent_all_mail(+Id, -Messages:list) is det.
-%
-%   Empty the mailbox.
-
-agent_all_mail(Id, Messages) :-
-    findall(Message, retract(mailbox(Id, Message)), Messages).
-
-%!  agent_return_mail(+Id, +Messages) is det.
-%
-%   Messages were there before those that are there now.
-
-agent_return_mail(_, []) :-
-    !.
-agent_return_mail(Id, Older) :-
-    agent_all_mail(Id, Newer),
-    append(Older, Newer, Messages),
-    forall(member(Message, Messages), assertz(mailbox(Id, Message))).
 
 %!  agent_order(+Id, +Order) is det.
 %!  agent_next_order(+Id, -Order) is semidet.
@@ -370,8 +366,14 @@ agent_next_order(Id, Order) :-
     retract(order(Id, Order)),
     !.
 
+%   One by one: see typhon_mailbox.
+
 agent_all_orders(Id, Orders) :-
-    findall(Order, retract(order(Id, Order)), Orders).
+    (   agent_next_order(Id, Order)
+    ->  Orders = [Order|More],
+        agent_all_orders(Id, More)
+    ;   Orders = []
+    ).
 
 agent_ordered(Id) :-
     order(Id, _),

@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(agent).
-:- use_module(code, [code_install/2, code_program/2]).
+:- use_module(code, [code_program/2, code_receive/2]).
 :- use_module(endpoint,
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2 ]).
 :- use_module(hop, [hop_state/2]).
@@ -14,8 +14,9 @@
 :- use_module(inside, []).
 :- use_module(birth, [agent_start/4, agent_clone_here/5]).
 :- use_module(life, [agent_do/2]).
+:- use_module(mailbox, [mail_list/2]).
 :- use_module(scheduler, [scheduler_call/1]).
-:- use_module(whereabouts, [whereabouts/3]).
+:- use_module(whereabouts, [whereabouts/2]).
 
 /** <module> Questions and orders that find an agent
 
@@ -48,7 +49,7 @@ start_endpoint(Agent, here) :-
     agent(Agent, _, _, _, _),
     !.
 start_endpoint(Agent, Endpoint) :-
-    (   whereabouts(Agent, Address, _)
+    (   whereabouts(Agent, Address)
     ;   agent_home(Agent, Address)
     ),
     !,
@@ -120,7 +121,7 @@ request(create(HostName, Name, Start, Program), ReplyTo) :-
 create(HostName, Name, Start, Program, Answer) :-
     Start = start(Hash, _, _, _, _),
     (   host(HostName, Address, _)
-    ->  code_install(Hash, Program),
+    ->  code_receive(Hash, Program),
         agent_id(Name, Address, Id),
         agent_start(Id, HostName, Start, Answer0),
         (   Answer0 == ok
@@ -165,7 +166,7 @@ at_once(move(_)).
 at_once(dispose).
 
 not_here(Agent, Asker) :-
-    (   whereabouts(Agent, Address, _),
+    (   whereabouts(Agent, Address),
         address_parts(Address, _, Endpoint),
         \+ endpoint_address(Endpoint)
     ->  Answer = elsewhere(Endpoint)
@@ -236,7 +237,7 @@ carried_out(image, Agent,
     code_program(Hash, Program),
     agent_name(Agent, Name, _),
     agent_state(Module, State),
-    findall(M, typhon_agent:mailbox(Agent, M), Mail),
+    mail_list(Agent, Mail),
     mobile_term(State-Goals).
 
                 /*******************************

@@ -46,7 +46,8 @@ agent_start(Id, Host, start(Hash, Life, State, Goals, Mail), Answer) :-
     ).
 
 born(Id, Host, Place, Hash, Life, State, Mail) :-
-    agent_install(Id, Host, Place, Hash, Life, State),
+    agent_module(Id, Place, Hash, State, Module),
+    agent_enter(Id, Host, Module, Hash, Life),
     agent_put(Id, arriving, []),
     forall(member(Message, Mail), agent_mail(Id, Message)).
 

@@ -1,16 +1,18 @@
 :- module(typhon_code,
           [ code_install/2,             % +Hash, +Program
+            code_receive/2,             % +Hash, +Program
             code_module/2,              % ?Hash, -Module
             code_program/2,             % ?Hash, -Program
             code_clear/0
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
+:- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(machine, [body_goals/4]).
 :- use_module(mobility, [mobility/3]).
-:- use_module(program, [clause_parts/3]).
+:- use_module(program, [clause_parts/3, program_hash/2]).
 
 /** <module> Programs installed in this process
 
@@ -48,6 +50,22 @@ code_install(Hash, Program) :-
     ;   with_mutex(typhon_code, install(Hash, Program))
     ).
 
+%!  code_receive(+Hash, +Program) is det.
+%
+%   As code_install/2, for a program that somebody else says has this Hash.
+%
+%   @error domain_error(program_of_hash(Hash), Program)
+
+code_receive(Hash, Program) :-
+    (   code_module(Hash, _)
+    ->  true
+    ;   Program = program(_, State, Libraries, Clauses),
+        maplist(is_list, [State, Libraries, Clauses]),
+        program_hash(Program, Hash)
+    ->  code_install(Hash, Program)
+    ;   domain_error(program_of_hash(Hash), Program)
+    ).
+
 %!  code_module(?Hash, -Module) is semidet.
 %!  code_program(?Hash, -Program) is semidet.
 %
@@ -62,7 +80,9 @@ install(Hash, Program) :-
     ;   evict,
         flag(typhon_code_module, N, N+1),
         atom_concat('program ', N, Module),
-        fill(Module, Program)
+        catch(fill(Module, Program), error(Formal, Context),
+              ( '$destroy_module'(Module),
+                throw(error(Formal, Context)) ))
     ),
     assertz(code_program(Hash, Program)),
     assertz(code_module(Hash, Module)).

@@ -10,6 +10,7 @@
 :- use_module(clock, [host_time/2, real_time/3]).
 :- use_module(hop, [hop/5, hop_clone/6]).
 :- use_module(host, [host/3, host_option/2, host_resolve/2]).
+:- use_module(mailbox, [mail_take/2]).
 :- use_module(scheduler, [alarm_set/3, schedule/2]).
 
 /** <module> What each control predicate does
@@ -104,7 +105,7 @@ receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
     ).
 
 take_or_wait(Message, _, _, true, Goals, Id-_, go(Goals)) :-
-    agent_take_mail(Id, Message),
+    mail_take(Id, Message),
     !.
 take_or_wait(_, Until, _, fail, Goals, _-Here, go(Goals)) :-
     number(Until),

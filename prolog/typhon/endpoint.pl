@@ -4,6 +4,7 @@
             endpoint_address/1,         % -Address
             endpoint_process/1,         % -Id
             endpoint_post/3,            % +Address, +Kind, +Term
+            endpoint_post_up/3,         % +Address, +Kind, +Term
             endpoint_request/4,         % +Address, +Kind, +Term, :OnAnswer
             endpoint_call/5,            % +Address, +Kind, +Term, -Answer,
                                         % +Timeout
@@ -198,6 +199,16 @@ endpoint_post(Address, Kind, Term) :-
     catch(session_send(Session, post(Kind, Term)),
           error(session_closed, _),
           throw(error(unreachable(Address), _))).
+
+%!  endpoint_post_up(+Address, +Kind, +Term) is semidet.
+%
+%   As endpoint_post/3 if there is a connection; fails at once if not.
+
+endpoint_post_up(Address, Kind, Term) :-
+    up_session(Address, Session),
+    catch(session_send(Session, post(Kind, Term)),
+          error(session_closed, _),
+          fail).
 
 up_session(Address, Session) :-
     route(Address, Session),

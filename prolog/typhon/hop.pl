@@ -12,13 +12,16 @@
 :- use_module(clock, [host_time/2]).
 :- use_module(code, [code_program/2]).
 :- use_module(endpoint,
-              [ endpoint_address/1, endpoint_request/4, endpoint_peer/2 ]).
+              [ endpoint_address/1, endpoint_gone/1, endpoint_peer/2,
+                endpoint_request/4 ]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(host, [host/3, host_leave/1, address_parts/3, host_hop/3]).
+:- use_module(mailbox, [mail_all/2, mail_back/2]).
 :- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
 :- use_module(post, [post_on/2]).
 :- use_module(whereabouts,
-              [ agent_left/4, agent_born/2, agent_ended/3, agent_reached/3 ]).
+              [ agent_left/4, agent_born/2, agent_ended/3, agent_reached/3,
+                agent_reached_at/4 ]).
 
 /** <module> A hop is a transaction
 
@@ -34,7 +37,7 @@ that it had arrived.
   | refused(Why) | raises move_refused(Host, Why) at the move       |
   | need_program | sends again, with the program                    |
   | unreachable  | raises host_unreachable(Host) at the move        |
-  | lost         | asks the home whether it got away, see settle/1  |
+  | lost         | asks whether it got away, see settle/1           |
 
 A destination is dest(Address, Name, Endpoint).  What an answer is for is
 hop(Id, Dest, Hops) or clone(Id, Dest, CloneId).
@@ -46,7 +49,7 @@ endpoint, which never wait.
 :- setting(doubt_seconds, number, 3,
            "An agent under way for longer is shown as in doubt").
 :- setting(settle_seconds, number, 1,
-           "Seconds until a home that did not answer is asked again").
+           "Seconds until those who did not answer are asked again").
 
 :- multifile
     forward_order/2,            % Id, Order: the agent has left
@@ -73,14 +76,23 @@ hop(Id, Where, Hole, Goals, Since) :-
     ignore(Hole1 = true),
     mobile_term(State-Going),
     destination(Where, Dest, Address),
+    sig_atomic(
+        ( with_agent(Id, freeze(Id, Address, hop(Hole-Goals, Hops, Mail, Since),
+                                Mail))
+        ->  send(hop(Id, Dest, Hops),
+                 image(Id, Hash, Life, State, Going, Mail, Since))
+        ;   true                        % it was ended meanwhile
+        )).
+
+%   An interrupt comes before or after both, or an agent would wait for the
+%   answer to what was never sent.
+
+freeze(Id, Address, Hop, Mail) :-
+    agent_status(Id, Status, _),
+    memberchk(Status, [running, obeying]),
     get_time(Sent),
-    with_agent(Id,
-               ( agent_all_mail(Id, Mail),
-                 agent_put(Id, transit(Address, Sent),
-                           hop(Hole-Goals, Hops, Mail, Since))
-               )),
-    send(hop(Id, Dest, Hops),
-         image(Id, Hash, Life, State, Going, Mail, Since)).
+    mail_all(Id, Mail),
+    agent_put(Id, transit(Address, Sent), Hop).
 
 one_hop_more(life(Parent, Hops0, Lifetime, Tokens, Payloads, Static),
              life(Parent, Hops, Lifetime, Tokens, Payloads, Static), Hops) :-
@@ -99,12 +111,13 @@ hop_clone(Id, Where, CloneId, Who, Hole, Goals) :-
     host_time(Host, Since),
     destination(Where, Dest, Address),
     get_time(Sent),
-    with_agent(Id, agent_put(Id, cloning(Address, Sent),
-                             clone(Hole-Goals-Who, CloneId, Since))),
     host(Host, Here, _),
     agent_born(CloneId, Here),
-    send(clone(Id, Dest, CloneId),
-         image(CloneId, Hash, Life, State, Going, [], Since)).
+    sig_atomic(
+        ( with_agent(Id, agent_put(Id, cloning(Address, Sent),
+                                   clone(Hole-Goals-Who, CloneId, Since))),
+          send(clone(Id, Dest, CloneId),
+               image(CloneId, Hash, Life, State, Going, [], Since)) )).
 
 clone_life(Id, life(_, _, Lifetime, Tokens, Payloads, Static),
            life(Id, 1, Lifetime, Tokens, Payloads, Static)).
@@ -156,7 +169,20 @@ program(Endpoint, Hash, known) :-
     !.
 program(Endpoint, Hash, Program) :-
     code_program(Hash, Program),
+    bound_programs,
     assertz(has_program(Endpoint, Hash)).
+
+%   What is forgotten is sent once more.
+
+most_programs(10000).
+
+bound_programs :-
+    predicate_property(has_program(_, _), number_of_clauses(Count)),
+    most_programs(Most),
+    Count > Most,
+    !,
+    retractall(has_program(_, _)).
+bound_programs.
 
 typhon_endpoint:connection(Endpoint, down) :-
     retractall(has_program(Endpoint, _)).
@@ -192,24 +218,34 @@ unreachable(For) :-
     stays(For, host_unreachable(Address)).
 
 %   settle(+For): the process that was asked is gone.  If the home knows of
-%   this hop or a later one the agent got away in time; else it has not
-%   survived there, and goes on here.  If the home is gone with that
-%   process, nobody can have heard of it, and it goes on here, too.
+%   this hop or a later one the agent got away in time.  If it does not, the
+%   news may be under way, or the home was started again, or died together
+%   with that process: everybody we know is asked.  If nobody has seen the
+%   agent it has not survived there, and goes on here.
 
 settle(For) :-
     traveller(For, Id, Hops),
-    agent_reached(Id, Hops, typhon_hop:settled(For)).
+    agent_reached(Id, Hops, typhon_hop:home_said(For)).
 
 traveller(hop(Id, _, Hops), Id, Hops).
 traveller(clone(_, _, CloneId), CloneId, 1).
 
-settled(For, answer(true)) :-
+home_said(For, answer(true)) :-
     !,
     arrived(For).
-settled(For, answer(false)) :-
+home_said(For, answer(Reached)) :-
     !,
-    unreachable(For).
-settled(For, _) :-
+    scheduler_call(typhon_hop:survey(For, Reached)).
+home_said(For, _) :-
+    traveller(For, Id, _),
+    agent_home(Id, Home),
+    address_parts(Home, _, Endpoint),
+    (   endpoint_gone(Endpoint)
+    ->  scheduler_call(typhon_hop:survey(For, unknown))
+    ;   settle_later(For)
+    ).
+
+settle_later(For) :-
     setting(settle_seconds, Seconds),
     get_time(Now),
     Stamp is Now+Seconds,
@@ -221,6 +257,35 @@ typhon_scheduler:fire(_, settle(For)) :-
     (   image(For, _)
     ->  settle(For)
     ;   stays(For, given_up)
+    ).
+
+%   survey(+For, +HomeSaid): in a worker.  Where the home has lived on and
+%   knows nothing, nobody waits for those who do not answer; else they might
+%   be the ones who have the agent.
+
+survey(For, HomeSaid) :-
+    traveller(For, Id, Hops),
+    findall(Said,
+            ( endpoint_peer(Peer, process(_)),
+              says(Peer, Id, Hops, Said)
+            ),
+            All),
+    (   memberchk(true, All)
+    ->  arrived(For)
+    ;   HomeSaid == unknown,
+        memberchk(nothing, All)
+    ->  settle_later(For)
+    ;   unreachable(For)
+    ).
+
+says(Peer, Id, Hops, Said) :-
+    catch(agent_reached_at(Id, Hops, Peer, Said), error(_, _),
+          no_answer(Peer, Said)).
+
+no_answer(Peer, Said) :-
+    (   endpoint_gone(Peer)
+    ->  Said = false
+    ;   Said = nothing
     ).
 
                 /*******************************
@@ -257,7 +322,7 @@ moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
 hop_let_go(Id, Mail, Orders, typhon_hop:gone(Host, Since)) :-
     agent_status(Id, transit(_, _), hop(_, _, _, Since)),
     agent(Id, Host, _, _, _),
-    agent_all_mail(Id, Mail),
+    mail_all(Id, Mail),
     agent_all_orders(Id, Orders),
     agent_remove(Id).
 
@@ -289,7 +354,7 @@ stays(clone(Id, _, CloneId), Error) :-
 
 back(Id, Hops, Error) :-
     agent_status(Id, transit(_, _), hop(Hole-Goals, Hops, Mail, _)),
-    agent_return_mail(Id, Mail),
+    mail_back(Id, Mail),
     (   Hole == ordered
     ->  print_message(warning, typhon(order_failed(Id, Error)))
     ;   Hole = throw(error(Error, _))

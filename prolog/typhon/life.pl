@@ -9,6 +9,7 @@
 :- use_module(effect, [effect/5, effect_depart/5, effect_order/4]).
 :- use_module(hop, [hop_state/2]).
 :- use_module(machine, [machine_run/3]).
+:- use_module(mailbox, [mail_take/2]).
 :- use_module(whereabouts, [agent_ended/3]).
 
 /** <module> The life of an agent on a host
@@ -41,7 +42,7 @@ take(Id, Task) :-
     ;   Task = run(Goals)
     ).
 take(Id, leave(Dest, Hole, Goals, Since)) :-
-    agent_status(Id, leaving(Dest, _), hop(Hole-Goals, Since)).
+    agent_departs(Id, Dest, hop(Hole-Goals, Since)).
 
 perform(order(Order, Goals), Id) :-
     obey(Order, Id, Goals).
@@ -111,7 +112,7 @@ next_message(Id, Next) :-
     (   agent_ordered(Id)
     ->  agent_ready(Id, []),
         Next = stop
-    ;   agent_take_mail(Id, From-Message)
+    ;   mail_take(Id, From-Message)
     ->  Next = go([( on_message(From, Message)
                    ->  true
                    ;   message_failed(From, Message)

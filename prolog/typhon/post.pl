@@ -1,44 +1,63 @@
 :- module(typhon_post,
           [ post/3,                     % +Id, +From, +Message
             post_via/4,                 % +Id, +Endpoint, +From, +Message
-            post_on/2                   % +Id, +Mail
+            post_on/2,                  % +Id, +Messages
+            post_waiting/2              % +Id, -Messages
           ]).
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(agent,
               [ agent/5, agent_status/3, with_agent/2, agent_mail/2,
                 agent_home/2 ]).
+:- use_module(backlog).
 :- use_module(endpoint,
-              [ endpoint_address/1, endpoint_post/3, endpoint_peer/2 ]).
+              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
+                endpoint_post_up/3 ]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(host, [address_parts/3]).
 :- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
-:- use_module(whereabouts, [whereabouts/3, agent_outcome/2]).
+:- use_module(whereabouts, [whereabouts/2, agent_outcome/2]).
 
 /** <module> Messages
 
 A message is put in the mailbox of an agent that stands in this process,
-also while it is under way out of it: it then follows.  Otherwise the
-message goes where the agent went, or to its home, which knows.
+also while it is under way out of it: it then follows.  Otherwise it goes
+where the agent went, or to its home, which knows.
 
-Mail is a list of From-Message, oldest first.  What follows an agent
-together stays together, so that whatever waited for one that hops without
-pause reaches it at once, and not each message after a chase of its own.
+What travels is letter(Mail, Left).  Mail is a list of
+mail(Origin, From, Message), the oldest first; Origin is the endpoint at
+which it was sent, to which it is told if the agent cannot be found.  What
+follows an agent together stays together, so that whatever waited for one
+that hops without pause reaches it at once, and not each message after a
+chase of its own.
 
-*Threading*: any thread.
+A letter that cannot be passed on waits, see typhon_backlog, and is tried
+again: for as long as the next process may be alive, and for a while longer,
+since the news that the agent had left it may be under way.
+
+*Threading*: any thread.  post/3 and post_via/4 may wait for a connection,
+post_on/2 and the hooks never do.
 */
 
 :- multifile
     typhon_endpoint:received/3,
     typhon_scheduler:fire/2.
 
-%   A message that has been forwarded so often chases its agent in vain
-%   for the moment, or those who should know do not know yet: it waits a
-%   little.
+%   A letter that has been forwarded so often at once chases its agent in
+%   vain for the moment, or those who should know do not know yet: it waits
+%   a little.
 
 max_forwards(12800).
 forwards_at_once(64).
-pause(0.05).                    % seconds
+
+%   The pause before a backlog is tried again, for the next time.  Nobody is
+%   there any more if that has been so for some tries.
+
+pause(Tries, Seconds) :-
+    Seconds is min(2.0, 0.05*2**min(Tries, 10)).
+
+most_tries(6).
 
 %!  post(+Id, +From, +Message) is det.
 %
@@ -48,8 +67,19 @@ pause(0.05).                    % seconds
 
 post(Id, From, Message) :-
     mobile_term(Message),
-    max_forwards(Max),
-    route(Id, [From-Message], Max).
+    (   with_agent(Id, put_in(Id, [mail(here, From, Message)]))
+    ->  true
+    ;   new_letter(From, Message, Letter),
+        with_agent(Id, way(Id, Letter, Way)),
+        go(Way, Id)
+    ).
+
+new_letter(From, Message, letter([mail(Origin, From, Message)], Max)) :-
+    (   endpoint_address(Origin)
+    ->  true
+    ;   Origin = none
+    ),
+    max_forwards(Max).
 
 %!  post_via(+Id, +Endpoint, +From, +Message) is det.
 %
@@ -62,75 +92,65 @@ post_via(Id, Endpoint, From, Message) :-
         ;   endpoint_address(Endpoint)
         )
     ->  post(Id, From, Message)
-    ;   max_forwards(Max),
-        send_on(Endpoint, Id, [From-Message], Max)
+    ;   new_letter(From, Message, Letter),
+        send(Endpoint, Id, Letter)
     ).
 
-%!  post_on(+Id, +Mail) is det.
+%!  post_on(+Id, +Messages) is det.
 %
-%   As post/3 for each of Mail, for a thread that must not wait for a
-%   connection to be made.  What cannot be delivered is reported.
+%   As post/3 for each of Messages, From-Message, for a thread that must not
+%   wait for a connection to be made.
 
-post_on(Id, Mail) :-
-    max_forwards(Max),
-    pass_on(Id, Mail, Max).
-
-pass_on(_, [], _) :-
+post_on(_, []) :-
     !.
-pass_on(Id, Mail, Left) :-
-    (   with_agent(Id, put_in(Id, Mail))
-    ->  true
-    ;   whereabouts(Id, Address, _),
-        address_parts(Address, _, Endpoint),
-        endpoint_peer(Endpoint, state(up))
-    ->  deliver(Id, Mail, Left)
-    ;   scheduler_call(typhon_post:deliver(Id, Mail, Left))
-    ).
+post_on(Id, Messages) :-
+    endpoint_address(Origin),
+    max_forwards(Max),
+    findall(mail(Origin, From, Text), member(From-Text, Messages), Mail),
+    pass_on(Id, letter(Mail, Max)).
+
+pass_on(Id, Letter) :-
+    with_agent(Id,
+               (   way(Id, Letter, Way),
+                   Way \== done
+               ->  keep(Id, Letter, Way)
+               ;   true
+               )).
 
 typhon_endpoint:received(message, message(Id, Mail, Left), _) :-
-    pass_on(Id, Mail, Left).
+    pass_on(Id, letter(Mail, Left)).
+typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
+    report(Formal, Id, Mail).
 
-deliver(Id, Mail, Left) :-
-    catch(route(Id, Mail, Left),
-          error(Formal, _),
-          undeliverable(Formal, Id, Mail)).
+%!  post_waiting(+Id, -Messages:list) is det.
+%
+%   The messages that waited here for Id, which has arrived; inside
+%   with_agent/2.
 
-undeliverable(Formal, Id, Mail) :-
-    (   agent_outcome(Id, _)
-    ->  Severity = silent
-    ;   Severity = warning
-    ),
-    forall(member(From-Message, Mail),
-           print_message(Severity,
-                         typhon(undeliverable(Formal, Id, From, Message)))).
+post_waiting(Id, Messages) :-
+    backlog_all(Id, Letters),
+    findall(From-Message,
+            ( member(letter(Mail, _), Letters),
+              member(mail(_, From, Message), Mail) ),
+            Messages).
 
                 /*******************************
-                *             ROUTE            *
+                *             WAYS             *
                 *******************************/
 
-%   route(+Id, +Mail, +Left): after at most Left forwards.
+%   way(+Id, +Letter, -Way): one step, inside with_agent/2.  Way is `done`,
+%   to(Endpoint, Letter) if a connection has to be made first, wait(Letter)
+%   if it is better to wait, or nowhere.
 
-route(Id, Mail, _) :-
-    with_agent(Id, put_in(Id, Mail)),
+way(Id, letter(Mail, _), done) :-
+    put_in(Id, Mail),
     !.
-route(Id, Mail, Left) :-
-    Left > 0,
-    next_endpoint(Id, Endpoint),
+way(Id, Letter, done) :-
+    backlog(Id),
     !,
-    Left1 is Left-1,
-    forwards_at_once(Most),
-    (   (   Left1 mod Most =:= 0
-        ;   endpoint_address(Endpoint)  % on its way in
-        )
-    ->  later(Id, Mail, Left1)
-    ;   send_on(Endpoint, Id, Mail, Left1)
-    ).
-route(Id, _, _) :-
-    existence_error(agent, Id).
-
-%   Who is not here has left a trace, or the home knows.  The record of an
-%   agent is looked at under its mutex only: there is none for a moment when
-%   it goes from host to host inside a process.
+    backlog_add(Id, Letter).
+way(Id, Letter, Way) :-
+    way_out(Id, Letter, Way).
 
 put_in(Id, Mail) :-
     agent(Id, _, _, _, _),
@@ -141,14 +161,35 @@ put_in(Id, Mail) :-
     ).
 
 put_all([], _).
-put_all([Message|Mail], Id) :-
-    agent_mail(Id, Message),
+put_all([mail(_, From, Message)|Mail], Id) :-
+    agent_mail(Id, From-Message),
     put_all(Mail, Id).
 
-next_endpoint(Id, Endpoint) :-
-    whereabouts(Id, Address, _),
+way_out(Id, letter(Mail, Left), Way) :-
+    Left > 0,
+    next_endpoint(Id, Endpoint),
     !,
-    address_parts(Address, _, Endpoint).
+    Left1 is Left-1,
+    Letter = letter(Mail, Left1),
+    forwards_at_once(Most),
+    (   (   Left1 mod Most =:= 0
+        ;   endpoint_address(Endpoint)  % on its way in
+        )
+    ->  Way = wait(Letter)
+    ;   sent(Endpoint, Id, Letter, endpoint_post_up)
+    ->  Way = done
+    ;   Way = to(Endpoint, Letter)
+    ).
+way_out(_, _, nowhere).
+
+%   Who is not here has left a trace, or the home knows.
+
+next_endpoint(Id, Endpoint) :-
+    whereabouts(Id, Address),
+    address_parts(Address, _, Endpoint0),
+    \+ endpoint_gone(Endpoint0),
+    !,
+    Endpoint = Endpoint0.
 next_endpoint(Id, Endpoint) :-
     home_endpoint(Id, Endpoint),
     \+ endpoint_address(Endpoint).
@@ -157,43 +198,43 @@ home_endpoint(Id, Endpoint) :-
     agent_home(Id, Home),
     address_parts(Home, _, Endpoint).
 
-later(Id, Mail, Left) :-
-    pause(Seconds),
-    get_time(Now),
-    Stamp is Now+Seconds,
-    flag(typhon_later, N, N+1),
-    alarm_set(Stamp, Id, deliver(N, Mail, Left)).
+%   go(+Way, +Id): in a thread that may wait, and wants to know.
 
-typhon_scheduler:fire(Id, deliver(_, Mail, Left)) :-
-    !,
-    scheduler_call(typhon_post:deliver(Id, Mail, Left)).
+go(done, _).
+go(to(Endpoint, Letter), Id) :-
+    send(Endpoint, Id, Letter).
+go(wait(Letter), Id) :-
+    with_agent(Id, keep(Id, Letter, wait(Letter))).
+go(nowhere, Id) :-
+    existence_error(agent, Id).
 
 %   Where a forwarding address leads to a process that is gone, the home
 %   may know better.
 
-send_on(Endpoint, Id, Mail, Left) :-
-    catch(send_to(Endpoint, Id, Mail, Left),
+send(Endpoint, Id, Letter) :-
+    catch(sent(Endpoint, Id, Letter, endpoint_post),
           error(unreachable(_), _),
-          send_home(Endpoint, Id, Mail, Left)).
+          send_home(Endpoint, Id, Letter)).
 
-send_home(Failed, Id, Mail, Left) :-
+send_home(Failed, Id, Letter) :-
     (   home_endpoint(Id, Home),
         Home \== Failed,
         \+ endpoint_address(Home)
-    ->  catch(send_to(Home, Id, Mail, Left),
+    ->  catch(sent(Home, Id, Letter, endpoint_post),
               error(unreachable(_), _),
               throw(error(host_unreachable(Home), _)))
     ;   throw(error(host_unreachable(Failed), _))
     ).
 
-%   What is too long for one frame goes in two.
+%   sent(+Endpoint, +Id, +Letter, :Post): what is too long for one frame goes
+%   in two.
 
-send_to(Endpoint, Id, Mail, Left) :-
-    catch(endpoint_post(Endpoint, message, message(Id, Mail, Left)),
+sent(Endpoint, Id, letter(Mail, Left), Post) :-
+    catch(call(Post, Endpoint, message, message(Id, Mail, Left)),
           error(resource_error(frame_bytes), Context),
-          ( halves(Mail, Older, Newer)
-          ->  send_to(Endpoint, Id, Older, Left),
-              send_to(Endpoint, Id, Newer, Left)
+          (   halves(Mail, Older, Newer)
+          ->  sent(Endpoint, Id, letter(Older, Left), Post),
+              sent(Endpoint, Id, letter(Newer, Left), Post)
           ;   throw(error(resource_error(frame_bytes), Context))
           )).
 
@@ -203,3 +244,133 @@ halves(Mail, Older, Newer) :-
     Half is Count//2,
     length(Older, Half),
     append(Older, Newer, Mail).
+
+                /*******************************
+                *            WAITING           *
+                *******************************/
+
+%   keep(+Id, +Letter, +Way): Letter waits; inside with_agent/2.
+
+keep(Id, _, wait(Letter)) :-
+    !,
+    backlog_add(Id, Letter),
+    try_later(Id, 0).
+keep(Id, _, to(_, Letter)) :-
+    !,
+    backlog_add(Id, Letter),
+    scheduler_call(typhon_post:try(Id)).
+keep(Id, letter(Mail, _), nowhere) :-
+    agent_outcome(Id, _),
+    !,
+    lost(existence_error(agent, Id), Id, Mail).
+keep(Id, Letter, nowhere) :-
+    backlog_add(Id, Letter),
+    try_later(Id, 0).
+
+try_later(Id, Tries) :-
+    pause(Tries, Seconds),
+    get_time(Now),
+    Stamp is Now+Seconds,
+    alarm_set(Stamp, Id, mail).
+
+typhon_scheduler:fire(Id, mail) :-
+    !,
+    scheduler_call(typhon_post:try(Id)).
+
+%   try(+Id): in a worker.
+
+try(Id) :-
+    (   with_agent(Id, backlog_begin(Id, Letters, Tries))
+    ->  foldl(one_letter, Letters, letter([], 0), Letter),
+        catch(tried(Id, Letter, Way), error(Formal, _), Way = failed(Formal)),
+        with_agent(Id, conclude(Way, Id, Letter, Tries))
+    ;   true
+    ).
+
+one_letter(letter(New, Left), letter(Mail0, Left0), letter(Mail, Left1)) :-
+    append(Mail0, New, Mail),
+    Left1 is max(Left, Left0).
+
+tried(Id, Letter, Way) :-
+    with_agent(Id, step(Id, Letter, Way0)),
+    (   Way0 = to(Endpoint, Letter1)
+    ->  send(Endpoint, Id, Letter1),
+        Way = done
+    ;   Way = Way0
+    ).
+
+step(Id, letter(Mail, _), done) :-
+    put_in(Id, Mail),
+    !.
+step(Id, Letter, Way) :-
+    way_out(Id, Letter, Way).
+
+conclude(done, Id, _, _) :-
+    (   backlog_done(Id)
+    ->  true
+    ;   scheduler_call(typhon_post:try(Id))
+    ).
+conclude(wait(Letter), Id, _, _) :-
+    backlog_again(Id, [Letter], 0),
+    try_later(Id, 0).
+conclude(nowhere, Id, Letter, Tries) :-
+    in_vain(Id, Letter, Tries, existence_error(agent, Id)).
+conclude(failed(Formal), Id, Letter, Tries) :-
+    in_vain(Id, Letter, Tries, Formal).
+
+in_vain(Id, letter(Mail, _), Tries, Formal) :-
+    hopeless(Formal, Id, Tries),
+    !,
+    lost(Formal, Id, Mail),
+    conclude(done, Id, _, 0).
+in_vain(Id, Letter, Tries, _) :-
+    Tries1 is Tries+1,
+    backlog_again(Id, [Letter], Tries1),
+    try_later(Id, Tries1).
+
+hopeless(existence_error(agent, Id), Id, Tries) :-
+    (   agent_outcome(Id, _)
+    ->  true
+    ;   most_tries(Most),
+        Tries >= Most
+    ).
+hopeless(host_unreachable(Endpoint), _, Tries) :-
+    endpoint_gone(Endpoint),
+    most_tries(Most),
+    Tries >= Most.
+hopeless(resource_error(_), _, _).
+hopeless(existence_error(endpoint, _), _, _).   % this process ends
+
+                /*******************************
+                *             LOST             *
+                *******************************/
+
+%   lost(+Formal, +Id, +Mail): tell those who sent it.  That an agent has
+%   ended is nothing special.
+
+lost(_, Id, _) :-
+    agent_outcome(Id, _),
+    !.
+lost(Formal, Id, Mail) :-
+    scheduler_call(typhon_post:tell_origins(Formal, Id, Mail)).
+
+tell_origins(Formal, Id, Mail) :-
+    findall(Origin, member(mail(Origin, _, _), Mail), Origins0),
+    sort(Origins0, Origins),
+    forall(member(Origin, Origins),
+           ( findall(mail(Origin, From, Message),
+                     member(mail(Origin, From, Message), Mail), Lost),
+             tell_origin(Origin, Formal, Id, Lost) )).
+
+tell_origin(Origin, Formal, Id, Mail) :-
+    (   endpoint_address(Origin)
+    ->  report(Formal, Id, Mail)
+    ;   catch(endpoint_post(Origin, message, lost(Formal, Id, Mail)),
+              error(_, _),
+              report(Formal, Id, Mail))
+    ).
+
+report(Formal, Id, Mail) :-
+    forall(member(mail(_, From, Message), Mail),
+           print_message(warning,
+                         typhon(undeliverable(Formal, Id, From, Message)))).

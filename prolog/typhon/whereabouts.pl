@@ -4,19 +4,22 @@
             agent_left/4,               % +Id, +Address, +Hops, +Peer
             agent_ended/3,              % +Id, +Outcome, +Hops
             agent_reached/3,            % +Id, +Hops, :OnAnswer
-            whereabouts/3,              % +Id, -Address, -Hops
+            agent_reached_at/4,         % +Id, +Hops, +Endpoint, -Answer
+            agent_heard_of/2,           % +Id, -Hops
+            whereabouts/2,              % +Id, -Address
             agent_outcome/2,            % +Id, -Outcome
-            agent_alive/1,              % ?Id
             outcome_wait/3              % +Id, +Seconds, +Asker
           ]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent, [agent_home/2, agent/5]).
 :- use_module(host, [address_parts/3]).
 :- use_module(endpoint,
-              [ endpoint_address/1, endpoint_post/3, endpoint_reply/2,
-                endpoint_request/4 ]).
-:- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
+              [ endpoint_address/1, endpoint_call/5, endpoint_peer/2,
+                endpoint_reply/2, endpoint_request/4 ]).
+:- use_module(news, [news_tell/3]).
+:- use_module(scheduler, [alarm_set/3]).
 
 /** <module> Where agents went, and how they ended
 
@@ -26,8 +29,12 @@ agents that left it.  Both are ordered by the number of hops: older news
 never replace newer ones.  Forwarding addresses and outcomes are bounded;
 the oldest are forgotten.
 
+An agent is in a process, not at an address: when another process has the
+address now, the agent has died with the one it went to, or has moved on.
+A home that was started again knows of its agents what they tell it.
+
 *Threading*: any thread; one mutex per table.  Telling the home is left to
-a worker, since it may have to connect.
+a courier, see typhon_news, since it may have to connect.
 */
 
 :- setting(forwards, positive_integer, 20000,
@@ -36,12 +43,11 @@ a worker, since it may have to connect.
 
 :- setting(outcomes, positive_integer, 20000,
            "Outcomes of ended agents kept by their home").
-:- setting(news_seconds, number, 300,
-           "News for a home that cannot be reached are kept so long").
 
 :- dynamic
-    born/3,                     % Id, Address, Hops: alive, home is here
-    forward/3,                  % Id, Address, Hops
+    born/4,                     % Id, Address, Hops, Process: its home is
+                                % here, and it has not ended
+    forward/4,                  % Id, Address, Hops, Process
     outcome/2,                  % Id, Outcome
     waiter/3.                   % Id, Token, Asker
 
@@ -53,7 +59,7 @@ a worker, since it may have to connect.
 %!  agent_born(+Id, +Address) is det.
 
 agent_born(Id, Address) :-
-    assertz(born(Id, Address, 0)).
+    assertz(born(Id, Address, 0, here)).
 
 %!  agent_seen(+Id, +Address, +Hops, +Peer) is det.
 %
@@ -63,10 +69,10 @@ agent_seen(Id, Address, Hops, Peer) :-
     home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  true                            % it is here, and so are we
-    ;   retractall(forward(Id, _, _)),
+    ;   retractall(forward(Id, _, _, _)),
         (   Home == Peer                % it knows when it has our answer
         ->  true
-        ;   tell(Home, located(Id, Address, Hops))
+        ;   news_tell(Home, Id, located(Id, Address, Hops))
         )
     ).
 
@@ -78,34 +84,52 @@ agent_left(Id, Address, Hops, Peer) :-
     home_endpoint(Id, Home),
     (   endpoint_address(Peer)
     ->  true
-    ;   endpoint_address(Home),
-        \+ outcome(Id, _)               % else it was given up in doubt
-    ->  moved(Id, Address, Hops)
-    ;   remember_forward(Id, Address, Hops)
+    ;   process_at(Peer, Process),
+        (   endpoint_address(Home),
+            \+ outcome(Id, _)           % else it was given up in doubt
+        ->  moved(Id, Address, Hops, Process)
+        ;   remember_forward(Id, Address, Hops, Process)
+        )
     ).
 
 home_endpoint(Id, Endpoint) :-
     agent_home(Id, Home),
     address_parts(Home, _, Endpoint).
 
-moved(Id, Address, Hops) :-
-    with_mutex(typhon_born, moved_(Id, Address, Hops)).
+process_at(Endpoint, Process) :-
+    (   endpoint_peer(Endpoint, process(Process0))
+    ->  Process = Process0
+    ;   Process = unknown
+    ).
 
-%   The new fact comes before the old one goes: others read meanwhile.
+moved(Id, Address, Hops, Process) :-
+    with_mutex(typhon_born, moved_(Id, Address, Hops, Process)).
 
-moved_(Id, Address, Hops) :-
-    clause(born(Id, _, Hops0), true, Old),
-    Hops0 < Hops,
+%   The new fact comes before the old one goes: others read meanwhile.  Of
+%   whom it has never heard a home was born before it was started again.
+
+moved_(Id, Address, Hops, Process) :-
+    clause(born(Id, _, Hops0, _), true, Old),
     !,
-    assertz(born(Id, Address, Hops)),
-    erase(Old).
-moved_(_, _, _).
+    (   Hops0 < Hops
+    ->  assertz(born(Id, Address, Hops, Process)),
+        erase(Old)
+    ;   true
+    ).
+moved_(Id, _, _, _) :-
+    outcome(Id, _),
+    !.
+moved_(Id, Address, Hops, Process) :-
+    assertz(born(Id, Address, Hops, Process)).
 
-remember_forward(Id, Address, Hops) :-
-    findall(Old, clause(forward(Id, _, _), true, Old), Olds),
-    assertz(forward(Id, Address, Hops)),
-    forall(member(Old, Olds), erase(Old)),
-    now_and_then(forward(_, _, _), forwards).
+remember_forward(Id, Address, Hops, Process) :-
+    with_mutex(typhon_forward,
+               (   clause(forward(Id, _, _, _), true, Old)
+               ->  assertz(forward(Id, Address, Hops, Process)),
+                   erase(Old)
+               ;   assertz(forward(Id, Address, Hops, Process))
+               )),
+    now_and_then(forward(_, _, _, _), forwards).
 
 %   Every 100 times, forget the oldest of what exceeds a setting.
 
@@ -127,33 +151,8 @@ agent_ended(Id, Outcome, Hops) :-
     home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  ended(Id, Outcome, Hops)
-    ;   tell(Home, ended(Id, Outcome, Hops))
+    ;   news_tell(Home, Id, ended(Id, Outcome, Hops))
     ).
-
-tell(Home, News) :-
-    scheduler_call(typhon_whereabouts:post_news(Home, News, 1)).
-
-%   A home that cannot be reached now may be so later: messages and those
-%   who wait for the end of the agent depend on it.
-
-post_news(Home, News, Seconds) :-
-    catch(endpoint_post(Home, whereabouts, News),
-          error(unreachable(_), _),
-          news_later(Home, News, Seconds)).
-
-news_later(Home, News, Seconds) :-
-    setting(news_seconds, Max),
-    (   Seconds > Max
-    ->  print_message(silent, typhon(home_unreachable(Home, News)))
-    ;   get_time(Now),
-        Stamp is Now+Seconds,
-        Longer is 2*Seconds,
-        alarm_set(Stamp, Home, news(News, Longer))
-    ).
-
-typhon_scheduler:fire(Home, news(News, Seconds)) :-
-    !,
-    scheduler_call(typhon_whereabouts:post_news(Home, News, Seconds)).
 
 ended(Id, Outcome, Hops) :-
     with_mutex(typhon_born, ended_(Id, Outcome, Hops, Askers)),
@@ -164,29 +163,40 @@ ended(Id, Outcome, Hops) :-
 
 ended_(Id, _, Hops, []) :-
     (   outcome(Id, _)
-    ;   born(Id, _, Hops0),
+    ;   born(Id, _, Hops0, _),
         Hops0 > Hops
     ),
     !.
 ended_(Id, Outcome, _, Askers) :-
-    retractall(born(Id, _, _)),
+    retractall(born(Id, _, _, _)),
     assertz(outcome(Id, Outcome)),
     now_and_then(outcome(_, _), outcomes),
-    findall(Asker, retract(waiter(Id, _, Asker)), Askers).
+    waiters(Id, Askers).
 
-typhon_endpoint:received(whereabouts, News, _Peer) :-
-    news(News).
+%   One by one: see typhon_mailbox.
 
-news(located(Id, Address, Hops)) :-
-    moved(Id, Address, Hops).
-news(ended(Id, Outcome, Hops)) :-
+waiters(Id, Askers) :-
+    (   retract(waiter(Id, _, Asker))
+    ->  Askers = [Asker|More],
+        waiters(Id, More)
+    ;   Askers = []
+    ).
+
+typhon_endpoint:received(whereabouts, All, Peer) :-
+    process_at(Peer, Process),
+    maplist(news(Process), All).
+
+news(Process, located(Id, Address, Hops)) :-
+    moved(Id, Address, Hops, Process).
+news(_, ended(Id, Outcome, Hops)) :-
     ended(Id, Outcome, Hops).
 
 %!  agent_reached(+Id, +Hops, :OnAnswer) is det.
 %
-%   Call OnAnswer with answer(Boolean), whether Id has made so many hops as
-%   far as its home knows, or with what endpoint_request/4 says if the home
-%   does not answer.  A home that was restarted knows nothing.
+%   Call OnAnswer with answer(Reached): `true` or `false`, whether Id has made
+%   so many hops as far as its home knows, or `unknown`: the home was started
+%   after Id was born there; or with what endpoint_request/4 says if the home
+%   does not answer.
 
 agent_reached(Id, Hops, OnAnswer) :-
     home_endpoint(Id, Home),
@@ -200,38 +210,75 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
     reached(Id, Hops, Reached),
     endpoint_reply(ReplyTo, Reached).
 
-reached(Id, Hops, Reached) :-
-    (   (   outcome(Id, _)
-        ;   whereabouts(Id, _, Hops0),
-            Hops0 >= Hops
-        ;   agent(Id, _, _, _, life(_, Hops0, _, _, _, _)),
-            Hops0 >= Hops
-        )
-    ->  Reached = true
-    ;   Reached = false
-    ).
+reached(Id, Hops, true) :-
+    (   outcome(Id, _)
+    ;   hops_of(Id, Hops0),
+        Hops0 >= Hops
+    ),
+    !.
+reached(Id, _, false) :-
+    hops_of(Id, _),
+    !.
+reached(_, _, unknown).
 
-%!  whereabouts(+Id, -Address, -Hops) is semidet.
+hops_of(Id, Hops) :-
+    forward(Id, _, Hops, _).
+hops_of(Id, Hops) :-
+    born(Id, _, Hops, _).
+hops_of(Id, Hops) :-
+    agent(Id, _, _, _, life(_, Hops, _, _, _, _)).
+
+%!  agent_reached_at(+Id, +Hops, +Endpoint, -Reached) is det.
 %
-%   The last that this process knows of an agent that is not in it.
+%   Ask the process at Endpoint instead of the home, and wait.
+%
+%   @error as endpoint_call/5
 
-whereabouts(Id, Address, Hops) :-
-    forward(Id, Address, Hops),
+agent_reached_at(Id, Hops, Endpoint, Reached) :-
+    endpoint_call(Endpoint, whereabouts, reached(Id, Hops), answer(Reached),
+                  5).
+
+%!  agent_heard_of(+Id, -Hops) is semidet.
+%
+%   Id, which is not in this process, has made Hops hops at least.
+
+agent_heard_of(Id, Hops) :-
+    forward(Id, _, Hops, _),
     !.
-whereabouts(Id, Address, Hops) :-
-    born(Id, Address, Hops),
+agent_heard_of(Id, Hops) :-
+    born(Id, _, Hops, _),
     !.
+
+%!  whereabouts(+Id, -Address) is semidet.
+%
+%   The last that this process knows of an agent that is not in it.  Fails if
+%   the process to which it went is no more.
+
+whereabouts(Id, Address) :-
+    forward(Id, Address0, _, Process),
+    lives(Address0, Process),
+    !,
+    Address = Address0.
+whereabouts(Id, Address) :-
+    born(Id, Address0, _, Process),
+    lives(Address0, Process),
+    !,
+    Address = Address0.
+
+lives(_, Process) :-
+    memberchk(Process, [here, unknown]),
+    !.
+lives(Address, Process) :-
+    address_parts(Address, _, Endpoint),
+    \+ ( endpoint_peer(Endpoint, process(Now)),
+         Now \== Process ).
 
 %!  agent_outcome(+Id, -Outcome) is semidet.
-%!  agent_alive(?Id) is nondet.
 %
 %   What the home knows.
 
 agent_outcome(Id, Outcome) :-
     outcome(Id, Outcome).
-
-agent_alive(Id) :-
-    born(Id, _, _).
 
                 /*******************************
                 *      WAITING FOR THE END     *
@@ -255,7 +302,7 @@ wait_or_answer(Id, _, _, Outcome) :-
     outcome(Id, Outcome),
     !.
 wait_or_answer(Id, Seconds, Asker, wait) :-
-    born(Id, _, _),
+    born(Id, _, _, _),
     !,
     flag(typhon_waiter, Token, Token+1),
     assertz(waiter(Id, Token, Asker)),
