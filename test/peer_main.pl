@@ -84,6 +84,9 @@ raised(Ball, raised(Ball)).
 agent_here(Id) :-
     typhon_agent:agent(Id, _, _, _, _).
 
+status_here(Id) :-
+    typhon_agent:agent_status(Id, _, _).
+
 agent_state_here(Id, State) :-
     agent_here(Id),
     agent_property(Id, state(State)).
@@ -128,6 +131,34 @@ try_move(Host, Options, Error) :-
 send_in_background(Id, Count) :-
     thread_create(forall(between(1, Count, I), agent_send(Id, n(I))), _,
                   [detached(true)]).
+
+%   Attempts to connect that come to nothing do so soon.
+
+hurried :-
+    set_setting(typhon_keeper:connect_time, 0.3).
+
+%   Letters for Id wait here, and have been tried.
+
+kept(Id) :-
+    typhon_backlog:backlog(Id).
+
+tried_in_vain(Id) :-
+    typhon_backlog:waits(Id, _, Tries, _),
+    Tries > 0.
+
+news_kept(Count) :-
+    aggregate_all(count, typhon_news:news(_, _, _), Count).
+
+%   Count the letters that come.
+
+:- dynamic message_seen/0.
+
+count_messages :-
+    wrap_predicate(typhon_post:pass_on(_, _), count, Wrapped,
+                   ( assertz(peer_main:message_seen), Wrapped )).
+
+messages_seen(Count) :-
+    aggregate_all(count, message_seen, Count).
 
 %   Count the programs in the frames that come.
 

@@ -554,7 +554,7 @@ mailed(Clauses, Messages, Facts) :-
 
 at_rest(Agent) :-
     state_of(Agent, resident),
-    \+ typhon_agent:mailbox(Agent, _).
+    typhon_mailbox:mail_list(Agent, []).
 
 :- end_tests(waiting).
 

@@ -1,6 +1,6 @@
 :- module(test_faults, []).
 :- use_module(common).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [maplist/2, maplist/3, maplist/4]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_stream_to_codes/2]).
@@ -96,6 +96,8 @@ test(agent_goes_on_at_its_source, forall(born(Born))) :-
     with_doubt([a, b, c], restarted(Born)).
 test(agent_that_got_away_is_not_doubled) :-
     with_doubt([a, b, c], got_away).
+test(nor_when_its_home_died_too, forall(home_of_lost(Home))) :-
+    with_doubt([a, b, c, d], got_away_from(Home)).
 test(move_to_a_dead_host_raises) :-
     with_peers([a, b], dead_host).
 
@@ -158,6 +160,29 @@ got_away :-
     steps_at(a, Id, [0]),
     steps_at(c, Id, [2, 3]).
 
+%   Its home, d or the process that it had reached, is started again and
+%   knows nothing; but others do.
+
+home_of_lost(d).
+home_of_lost(b).
+
+got_away_from(Home) :-
+    maplist(peer_host, [a, b, c], [A, B, C]),
+    travel(Home, [A, C, A], 3),
+    travel(Home, [A, B, C], 3),
+    peer_do(b, silence_answers),
+    set_out(Home, [A, sit, B, C, sit, A], 20, Id),
+    wait_until(step_on(a, Id, 1), 10),
+    peer_do(a, agent_send(Id, go)),
+    wait_until(step_on(c, Id, 4), 10),
+    wait_until(agent_state(a, Id, in_doubt), 10),
+    sort([b, Home], Dead),
+    forall(member(Peer, Dead), peer_kill(Peer)),
+    forall(member(Peer, Dead), peer_restart(Peer)),
+    wait_until(\+ peer_do(a, agent_here(Id)), 20),
+    peer_do(c, agent_here(Id)),
+    maplist(steps_at, [a, b, c], [Id, Id, Id], [[1, 2], [], [4]]).
+
 dead_host :-
     peer_host(b, B),
     travel(a, [B], 1),
@@ -165,6 +190,33 @@ dead_host :-
     wait_until(\+ peer_do(a, connected_to(B)), 10),
     peer_do(a, try_move(B, [], Error)),
     Error == error(host_unreachable(B)).
+
+:- begin_tests(departing).
+
+test(who_is_disposed_of_does_not_go_on) :-
+    with_peers([ a-[host([hop_time(uniform(0.005, 0.01))])], b ],
+               disposed_while_leaving(60)).
+
+:- end_tests(departing).
+
+%   Large agents leave, and take a while to be packed; meanwhile they are
+%   disposed of.  Each then ends on one of the two sides.
+
+disposed_while_leaving(Count) :-
+    peer_host(b, B),
+    travel(a, [B], 1),
+    findall(fact(I), between(1, 2000, I), Facts),
+    Program = clauses([ (:- agent(large, [state([fact/1])])),
+                        (main :- move(B), receive(_)) ]),
+    forall(between(1, Count, I),
+           ( peer_do(a, agent_create(Program, Id, [facts(Facts)])),
+             Pause is 0.004 + 0.0001*I,
+             sleep(Pause),
+             peer_do(a, agent_dispose(Id)),
+             ended(a, Id, disposed) )),
+    wait_until(forall(member(Peer, [a, b]),
+                      peer_do(Peer, \+ agent_here(_))), 10),
+    peer_do(a, \+ status_here(_)).
 
 :- begin_tests(bouncing).
 

@@ -345,30 +345,24 @@ hopeless(existence_error(endpoint, _), _, _).   % this process ends
                 *             LOST             *
                 *******************************/
 
-%   lost(+Formal, +Id, +Mail): tell those who sent it.  That an agent has
-%   ended is nothing special.
+%   lost(+Formal, +Id, +Mail): said here and where it was sent.  That an agent
+%   has ended is nothing special.
 
 lost(_, Id, _) :-
     agent_outcome(Id, _),
     !.
 lost(Formal, Id, Mail) :-
-    scheduler_call(typhon_post:tell_origins(Formal, Id, Mail)).
-
-tell_origins(Formal, Id, Mail) :-
+    report(Formal, Id, Mail),
     findall(Origin, member(mail(Origin, _, _), Mail), Origins0),
     sort(Origins0, Origins),
-    forall(member(Origin, Origins),
-           ( findall(mail(Origin, From, Message),
-                     member(mail(Origin, From, Message), Mail), Lost),
-             tell_origin(Origin, Formal, Id, Lost) )).
+    forall(( member(Origin, Origins), \+ endpoint_address(Origin) ),
+           scheduler_call(typhon_post:tell_origin(Origin, Formal, Id, Mail))).
 
 tell_origin(Origin, Formal, Id, Mail) :-
-    (   endpoint_address(Origin)
-    ->  report(Formal, Id, Mail)
-    ;   catch(endpoint_post(Origin, message, lost(Formal, Id, Mail)),
-              error(_, _),
-              report(Formal, Id, Mail))
-    ).
+    include([mail(Origin, _, _)]>>true, Mail, Lost),
+    catch(endpoint_post(Origin, message, lost(Formal, Id, Lost)),
+          error(unreachable(_), _),
+          true).                        % gone, and it was said here
 
 report(Formal, Id, Mail) :-
     forall(member(mail(_, From, Message), Mail),
