@@ -23,7 +23,7 @@ layer(networks, '#fbe3d0',
         topology ]).
 layer(agents, '#fdf3c8',
       [ api, ask, restore, life, effect, birth, hop, arrival, whereabouts,
-        post, remote, inside, vocabulary, pheromone, strategy, chance,
+        post, mailbox, backlog, news, remote, inside, vocabulary, pheromone, strategy, chance,
         agent, context ]).
 layer(hosts, '#dcedc8', [hosting, host, place, clock, process, scheduler]).
 layer(programs, '#d6e4f5',

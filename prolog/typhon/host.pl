@@ -206,7 +206,18 @@ host_unlink(Name, Address) :-
 %!  host_neighbours(+Name, -Addresses:list(atom)) is det.
 
 host_neighbours(Name, Addresses) :-
-    findall(Address, neighbour(Name, Address), Addresses).
+    findall(Address, neighbour(Name, Address), Addresses0),
+    once_each(Addresses0, Addresses).
+
+%   While links are made elsewhere 9.0.4 may yield one twice in a row.
+
+once_each([A,B|Rest], Set) :-
+    A == B,
+    !,
+    once_each([B|Rest], Set).
+once_each([A|Rest], [A|Set]) :-
+    once_each(Rest, Set).
+once_each([], []).
 
                 /*******************************
                 *       HOP TIMES, LOG         *

@@ -1,9 +1,10 @@
 :- module(typhon_news,
-          [ news_tell/3                 % +Home, +Id, +News
+          [ news_tell/3,                % +Home, +Id, +News
+            news_flush/0
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(endpoint, [endpoint_post/3]).
+:- use_module(endpoint, [endpoint_post/3, endpoint_post_up/3]).
 :- use_module(scheduler, [alarm_set/3, scheduler_call/1]).
 
 /** <module> News for the homes of agents
@@ -52,41 +53,59 @@ note(Home, Id, News, Courier) :-
         Courier = wanted
     ).
 
+%!  news_flush is det.
+%
+%   The process is about to end: what can be sent at once is, the rest is
+%   given up.
+
+news_flush :-
+    forall(courier(Home),
+           ( flush(Home),
+             give_up(Home) )).
+
+flush(Home) :-
+    with_mutex(typhon_news, take(Home, All)),
+    All \== [],
+    endpoint_post_up(Home, whereabouts, All),
+    !,
+    flush(Home).
+flush(_).
+
 %   carry(+Home, +Try): until nothing is left.  Try is try(Since, Pause): it
 %   has not worked since then, 0 if it has, and the pause after this one.
 
 carry(Home, Try) :-
-    load(Most),
-    with_mutex(typhon_news, take(Most, Home, All)),
+    with_mutex(typhon_news, ( take(Home, All), off_duty(Home, All) )),
     (   All == []
     ->  true
-    ;   catch(( endpoint_post(Home, whereabouts, All), Sent = true ),
-              error(unreachable(_), _),
-              Sent = false),
-        sent(Sent, Home, All, Try)
+    ;   catch(( endpoint_post(Home, whereabouts, All), Answer = ok ),
+              error(Answer, _),
+              true),
+        carried(Answer, Home, All, Try)
     ).
 
-take(0, _, []) :-
-    !.
+take(Home, All) :-
+    load(Most),
+    take(Most, Home, All).
+
 take(Most, Home, [News|All]) :-
+    Most > 0,
     retract(news(Home, _, News)),
     !,
     Most1 is Most-1,
     take(Most1, Home, All).
-take(Most, Home, []) :-
-    load(Most),                 % nothing left: the courier goes
-    !,
-    retractall(courier(Home)).
 take(_, _, []).
 
-sent(true, Home, _, _) :-
+off_duty(Home, []) :-
+    !,
+    retractall(courier(Home)).
+off_duty(_, _).
+
+carried(ok, Home, _, _) :-
     carry(Home, try(0, 0.5)).
-sent(false, Home, All, try(Since0, Pause)) :-
+carried(unreachable(_), Home, All, try(Since0, Pause)) :-
     get_time(Now),
-    (   Since0 =:= 0
-    ->  Since = Now
-    ;   Since = Since0
-    ),
+    since(Since0, Now, Since),
     setting(news_seconds, Max),
     (   Now-Since > Max
     ->  give_up(Home)
@@ -96,6 +115,12 @@ sent(false, Home, All, try(Since0, Pause)) :-
         Stamp is Now+Pause,
         alarm_set(Stamp, Home, news(try(Since, Pause1)))
     ).
+carried(existence_error(endpoint, _), Home, _, _) :-
+    give_up(Home).                      % this process ends
+
+since(0, Now, Now) :-
+    !.
+since(Since, _, Since).
 
 %   What came meanwhile is newer.
 

@@ -4,9 +4,9 @@
             post_on/2,                  % +Id, +Messages
             post_waiting/2              % +Id, -Messages
           ]).
-:- use_module(library(apply), [foldl/4]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(agent,
               [ agent/5, agent_status/3, with_agent/2, agent_mail/2,
                 agent_home/2 ]).
@@ -281,15 +281,16 @@ typhon_scheduler:fire(Id, mail) :-
 
 try(Id) :-
     (   with_agent(Id, backlog_begin(Id, Letters, Tries))
-    ->  foldl(one_letter, Letters, letter([], 0), Letter),
+    ->  one_letter(Letters, Letter),
         catch(tried(Id, Letter, Way), error(Formal, _), Way = failed(Formal)),
         with_agent(Id, conclude(Way, Id, Letter, Tries))
     ;   true
     ).
 
-one_letter(letter(New, Left), letter(Mail0, Left0), letter(Mail, Left1)) :-
-    append(Mail0, New, Mail),
-    Left1 is max(Left, Left0).
+one_letter(Letters, letter(Mail, Left)) :-
+    findall(Some, member(letter(Some, _), Letters), Parts),
+    append(Parts, Mail),
+    aggregate_all(max(L), member(letter(_, L), Letters), Left).
 
 tried(Id, Letter, Way) :-
     with_agent(Id, step(Id, Letter, Way0)),
@@ -359,7 +360,8 @@ lost(Formal, Id, Mail) :-
            scheduler_call(typhon_post:tell_origin(Origin, Formal, Id, Mail))).
 
 tell_origin(Origin, Formal, Id, Mail) :-
-    include([mail(Origin, _, _)]>>true, Mail, Lost),
+    findall(mail(Origin, From, Message),
+            member(mail(Origin, From, Message), Mail), Lost),
     catch(endpoint_post(Origin, message, lost(Formal, Id, Lost)),
           error(unreachable(_), _),
           true).                        % gone, and it was said here

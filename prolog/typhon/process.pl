@@ -7,6 +7,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(aside, [aside/1]).
 :- use_module(code, [code_clear/0]).
+:- use_module(news, [news_flush/0]).
 :- use_module(endpoint,
               [ endpoint_start/3, endpoint_stop/0, endpoint_address/1 ]).
 :- use_module(scheduler, [scheduler_start/0, scheduler_stop/0]).
@@ -71,7 +72,8 @@ process_release(User) :-
 release(User) :-
     (   retract(user(User)),
         \+ user(_)
-    ->  endpoint_stop,
+    ->  news_flush,
+        endpoint_stop,
         scheduler_stop,
         code_clear
     ;   true
