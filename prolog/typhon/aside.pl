@@ -138,7 +138,10 @@ answer(Answers, Status) :-
 no_help(Queue) :-
     (   with_mutex(typhon_aside, retract(helper(Me, Queue)))
     ->  thread_detach(Me),
-        print_message(warning, typhon(no_helper))
+        catch(( aside_start,
+                print_message(warning, typhon(new_helper)) ),
+              error(Formal, _),
+              no_helper(Formal))
     ;   true
     ),
     forsake(Queue),
@@ -153,7 +156,14 @@ forsake(Queue) :-
     ;   true
     ).
 
+no_helper(permission_error(create, thread, _)) :-
+    !.                          % Prolog is halting
+no_helper(Formal) :-
+    print_message(warning, typhon(no_helper(Formal))).
+
 :- multifile prolog:message//1.
 
-prolog:message(typhon(no_helper)) -->
-    [ 'The thread that helps to stop hosts has ended' ].
+prolog:message(typhon(new_helper)) -->
+    [ 'The thread that helps to stop hosts has ended; there is another' ].
+prolog:message(typhon(no_helper(Formal))) -->
+    [ 'The thread that helps to stop hosts has ended (~p)'-[Formal] ].

@@ -18,13 +18,13 @@
 Which worker does what, and since when.  A native goal that blocks holds
 its worker; nobody knows beforehand which goals do.  A worker that has done
 one thing for longer than `held_seconds` is held.  The pool may grow beyond
-its maximum by as many as are held, so there are always workers for what
-does not block, and people are told which agents do.
+its maximum by as many as are held, so there are workers for what does not
+block, and people are told which agents do.
 
-This ends when `held_workers` are held, or no more threads can be made.
-From then on work of the kinds that hold workers, agents of the same
-program, is held back until so many have come back, while the workers that
-are left do the rest.
+When there are `held_workers`, or no more threads can be made, it is known
+what kinds of work hold workers: agents of one program are of one kind.
+From then on these are held back until enough have come back.  `max_workers`
+more can be made for the other kinds.
 
 *Threading*: workers note what they begin and end; held_all/2, held_room/2
 and held_full/2 are for the timer's thread alone.
@@ -37,7 +37,7 @@ and held_full/2 are for the timer's thread alone.
 :- setting(held_seconds, number, 1,
            "A worker that does one thing for longer is held").
 :- setting(held_workers, positive_integer, 768,
-           "Workers that may be held beside max_workers others").
+           "When there are so many workers, what blocks is held back").
 
 :- dynamic
     turn/3,                     % Worker, Work, Since
@@ -117,12 +117,12 @@ held_room(Count, Max) :-
     retractall(warned(grown)).
 held_room(Count, Max) :-
     held(Held),
+    Count-Held < Max,
     setting(held_workers, Most),
-    (   Held < Most
-    ->  Count-Held < Max,
-        warn(Count)
+    (   Count < Most
+    ->  warn(Count)
     ;   held_full(Count, held_workers),
-        fail
+        Count < Most+Max
     ).
 
 held(Count) :-

@@ -313,7 +313,8 @@ superfluous :-
                 *******************************/
 
 %   The pool is watched since the time Since: work waits, and nobody was
-%   idle.  When none was taken meanwhile there is one worker more.
+%   idle.  When none was taken meanwhile there are more workers: one, or
+%   some where there are many.
 
 fire(pool, watch(Since)) :-
     !,
@@ -330,6 +331,14 @@ grow(Queue, Since) :-
     scheduler_workers(Count),
     held_all(Count, Since),
     setting(max_workers, Max),
+    Some is 1+Count//8,
+    forall(between(1, Some, _), grow_by_one(Queue, Max)).
+
+%   Fails when there is no room, or no thread.
+
+grow_by_one(Queue, Max) :-
+    waits(Queue),
+    scheduler_workers(Count),
     held_room(Count, Max),
     catch(add_worker(Queue), error(resource_error(What), _),
-          held_full(Count, What)).
+          ( held_full(Count, What), fail )).

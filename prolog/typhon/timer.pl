@@ -30,9 +30,9 @@ at once.
 *Threading*: alarms from any thread; they are facts before the timer hears
 of them.  The index is the timer's own, and only says what the facts say.
 So whatever happens to the timer, no alarm is lost with it: after an error
-it makes a new index; when it has no room for one it looks the alarms up
-one by one; when its thread ends nevertheless, another begins with the
-same facts.  If no thread can be made, whoever sets the next alarm tries
+it makes a new index; where that would not fit on its stack it does with
+the first stamp; when its thread ends nevertheless, another begins with
+the same facts.  If no thread can be made, whoever sets the next alarm tries
 again, as do idle workers (timer_check/0).
 */
 
@@ -90,7 +90,6 @@ timer_ended :-
     thread_self(Me),
     with_mutex(typhon_timer, disowned(Me)),
     !,
-    print_message(error, typhon(timer_ended)),
     timer_check.
 timer_ended.
 
@@ -113,9 +112,14 @@ replace_timer :-
     timing,
     \+ timer(_),
     !,
-    catch(new_timer, error(Formal, _), no_timer(Formal)).
+    catch(( new_timer,
+            print_message(error, typhon(timer_ended)) ),
+          error(Formal, _),
+          no_timer(Formal)).
 replace_timer.
 
+no_timer(permission_error(create, thread, _)) :-
+    !.                                  % Prolog is halting
 no_timer(_) :-
     told,
     !.
@@ -157,12 +161,12 @@ alarm_clear(Stamp0, Agent, Token) :-
 %   for tests.
 
 alarm_count(Alarms, Indexed) :-
-    count(Alarms),
     setup_call_cleanup(
         message_queue_create(Queue),
         ( tell_timer(count(Queue)),
           thread_get_message(Queue, Indexed) ),
-        message_queue_destroy(Queue)).
+        message_queue_destroy(Queue)),
+    count(Alarms).
 
 tell_timer(Message) :-
     (   timer(Timer)
@@ -180,13 +184,16 @@ tell(Timer, Message) :-
                 *******************************/
 
 %   tick: one index after another, until it is told to stop.  What is
-%   thrown at the timer has no meaning for it.
+%   thrown at the timer has no meaning for it, but `abort`, which ends it.
 
 tick :-
     repeat,
     catch(ticking, Ball, survive(Ball)),
     !.
 
+survive('$aborted') :-
+    !,
+    throw('$aborted').
 survive(Ball) :-
     print_message(error, typhon(timer(Ball))),
     \+ timing.
@@ -257,17 +264,41 @@ take(Alarm, Agent, Token) :-
                 *            INDEX             *
                 *******************************/
 
-%   index(Stamps, Left): a tree of stamps, to be made anew when Left more
-%   have been set.  It holds all that alarm/3 holds, and some more.
-%   none(Count): there was no room for it when there were Count alarms.
+%   index(-Index): it holds all the stamps in alarm/3, and some more, and
+%   is to be made anew when Left more have been set.  It is
+%   index(Stamps, Left), a tree, or least(Stamp, Left), only the first,
+%   where a tree would fill the stack.  Then the next is looked for when
+%   that has gone off.
 
 index(Index) :-
-    catch(new_index(Index), error(resource_error(What), _),
-          no_index(What, Index)).
-
-no_index(What, none(Count)) :-
+    forall(clause(alarm(_, Agent, Token), true, Alarm),
+           forget_if_over(Alarm, Agent, Token)),
     count(Count),
-    print_message(error, typhon(no_index(What, Count))).
+    More is max(500, Count),
+    current_prolog_flag(stack_limit, Bytes),
+    Room is Bytes//512-Count,
+    (   Room > 0
+    ->  tree(Stamps),
+        Left is min(Room, More),
+        Index = index(Stamps, Left)
+    ;   print_message(warning, typhon(no_index(Count))),
+        least(Stamp),
+        Index = least(Stamp, More)
+    ).
+
+tree(Stamps) :-
+    findall(Stamp, alarm(Stamp, _, _), List),
+    sort(List, Set),
+    pairs_keys_values(Pairs, Set, Set),
+    ord_list_to_rbtree(Pairs, Stamps).
+
+least(Stamp) :-
+    Least = least(inf),
+    forall(( alarm(Stamp0, _, _), arg(1, Least, Stamp1), Stamp0 < Stamp1 ),
+           nb_setarg(1, Least, Stamp0)),
+    arg(1, Least, Stamp).
+
+%   This is slow: clauses are counted.
 
 count(Count) :-
     (   predicate_property(alarm(_, _, _), number_of_clauses(Count0))
@@ -275,29 +306,18 @@ count(Count) :-
     ;   Count = 0
     ).
 
-new_index(index(Stamps, Left)) :-
-    forall(clause(alarm(_, Agent, Token), true, Alarm),
-           forget_if_over(Alarm, Agent, Token)),
-    findall(Stamp, alarm(Stamp, _, _), List),
-    sort(List, Set),
-    pairs_keys_values(Pairs, Set, Set),
-    ord_list_to_rbtree(Pairs, Stamps),
-    length(Set, Size),
-    Left is max(500, Size).
-
 forget_if_over(Alarm, Agent, Token) :-
     (   catch(typhon_scheduler:over(Agent, Token), error(_, _), fail)
     ->  catch(erase(Alarm), error(existence_error(_, _), _), true)
     ;   true
     ).
 
-insert(none(Count0), _, Index) :-
-    count(Count),
-    (   Count > Count0//2,
-        Count < 2*Count0
-    ->  Index = none(Count0)
-    ;   index(Index)
-    ).
+insert(least(_, 0), _, Index) :-
+    !,
+    index(Index).
+insert(least(Stamp0, Left0), Stamp1, least(Stamp, Left)) :-
+    Left is Left0-1,
+    Stamp is min(Stamp0, Stamp1).
 insert(index(_, 0), _, Index) :-
     !,
     index(Index).
@@ -305,7 +325,8 @@ insert(index(Stamps0, Left0), Stamp, index(Stamps, Left)) :-
     Left is Left0-1,
     rb_insert(Stamps0, Stamp, Stamp, Stamps).
 
-delete(none(Count), _, none(Count)).
+delete(least(_, Left), _, least(Stamp, Left)) :-
+    least(Stamp).
 delete(index(Stamps0, Left), Stamp, index(Stamps, Left)) :-
     (   rb_delete(Stamps0, Stamp, Stamps)
     ->  true
@@ -314,18 +335,13 @@ delete(index(Stamps0, Left), Stamp, index(Stamps, Left)) :-
 
 %   first(+Index, -Stamp) is semidet.
 
-first(none(_), Stamp) :-
-    alarm(_, _, _),
-    !,
-    Least = least(inf),
-    forall(( alarm(Stamp0, _, _), arg(1, Least, Stamp1), Stamp0 < Stamp1 ),
-           nb_setarg(1, Least, Stamp0)),
-    arg(1, Least, Stamp).
+first(least(Stamp, _), Stamp) :-
+    Stamp < inf.
 first(index(Stamps, _), Stamp) :-
     \+ rb_empty(Stamps),
     rb_min(Stamps, Stamp, _).
 
-index_size(none(_), 0).
+index_size(least(_, _), 1).
 index_size(index(Stamps, _), Size) :-
     rb_size(Stamps, Size).
 
@@ -341,6 +357,6 @@ prolog:message(typhon(timer_ended)) -->
 prolog:message(typhon(no_timer(Formal))) -->
     [ 'There is no timer, and none can be made (~p): \c
        alarms wait until one can'-[Formal] ].
-prolog:message(typhon(no_index(What, Count))) -->
-    [ 'The timer has no room (~w) for an index of ~D alarms: it is slow'-
-      [What, Count] ].
+prolog:message(typhon(no_index(Count))) -->
+    [ 'The timer has no room for an index of ~D alarms, and is slow'-
+      [Count] ].
