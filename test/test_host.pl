@@ -8,6 +8,7 @@
 :- use_module(library(lists)).
 :- use_module(library(settings)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/place)).
 :- use_module(library(typhon/scheduler), [scheduler_workers/1]).
 
 /** <module> Tests of hosts: what they offer, admit, and leave behind
@@ -414,7 +415,47 @@ test(place_module_outlives_the_host, true(X == 1)) :-
     with_hosts([alpha-[place(test_place_2)]], true),
     call(test_place_2:hidden(X)).
 
+test(what_cannot_be_delivered_changes_nothing,
+     true(Ps-Es == [1]-[permission_error(modify, static_procedure, write/1),
+                        type_error(callable, 1)])) :-
+    with_place(P, ( place_deliver(P, payload(x, [p/1], [p(1)]), _),
+                    findall(E, ( bad_payload(New),
+                                 catch(place_deliver(P, New, _),
+                                       error(E, _), true) ), Es),
+                    findall(X, P:p(X), Ps),
+                    \+ catch(P:r(_), error(existence_error(_, _), _),
+                             fail) )).
+test(a_payload_is_replaced_without_a_gap, true(S == true)) :-
+    with_place(P, ( place_deliver(P, payload(x, [p/1, q/0], [p(0), q]), _),
+                    thread_create(test_host:reads_one(P), T),
+                    forall(between(1, 5000, I),
+                           place_deliver(P, payload(x, [p/1], [p(I)]), _)),
+                    thread_send_message(T, stop),
+                    thread_join(T, S),
+                    catch(P:q, error(existence_error(_, _), _), true) )).
+
+bad_payload(payload(x, [p/1,write/1], [p(2),write(2)])).
+bad_payload(payload(x, [p/1,r/1], [p(2),(r(1) :- 1)])).
+
+:- meta_predicate with_place(-, 0).
+
+with_place(Place, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 place_create(test, [], [], Place),
+                 once(Goal),
+                 place_destroy(Place))).
+
 :- end_tests(places).
+
+reads_one(Place) :-
+    findall(X, Place:p(X), Xs),
+    (   Xs \= [_]
+    ->  throw(gap(Xs))
+    ;   thread_peek_message(stop)
+    ->  true
+    ;   reads_one(Place)
+    ).
+
 
 :- begin_tests(tuple_space).
 

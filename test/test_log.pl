@@ -3,8 +3,10 @@
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex),
+              [chmod/2, directory_file_path/3, link_file/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon/endpoint),
               [endpoint_address/1, endpoint_post/3, endpoint_stop/0]).
@@ -238,7 +240,76 @@ test(a_full_disk_is_told_once,
               wait_until(printed(_), 5),
               hundred(Address, _),
               log_server_stop(Address) ), Messages),
-    aggregate_all(count, member(log_not_written(_), Messages), Count).
+    aggregate_all(count, member(log_not_written('/dev/full', _), Messages),
+                  Count),
+    assertion(memberchk(log_lost('/dev/full', 200), Messages)).
+test(plain_words, [ condition(exists_file_device('/dev/full')),
+                    true(Text == "No space left on device") ]) :-
+    quietly(( log_server_start([file('/dev/full')], Address),
+              hundred(Address, _),
+              log_server_stop(Address) ), Messages),
+    memberchk(log_not_written(File, Error), Messages),
+    phrase(prolog:message(typhon(log_not_written(File, Error))),
+           [_-[File], _-[Reason]|_]), !,
+    atom_string(Reason, Text).
+test(what_was_lost_while_the_disk_was_full,
+     [ condition(exists_file_device('/dev/full')),
+       true(Kept-Bad == [after]-[]) ]) :-
+    with_tmp_dir(full_for_a_while(Kept, Bad)).
+
+full_for_a_while(Kept, Bad, Dir) :-
+    directory_file_path(Dir, link, Link),
+    directory_file_path(Dir, real, Real),
+    link_file('/dev/full', Link, symbolic),
+    quietly(setup_call_cleanup(
+                log_server_start([file(Link)], Address),
+                fill_and_free(Address, Link, Real),
+                log_server_stop(Address)), Messages),
+    memberchk(log_written_again(_, Lost), Messages),
+    Lost >= 100,
+    quietly(log_events(Real, Events), Bad),
+    findall(W, ( member(event(_, _, _, W), Events), W \== meanwhile ), Kept).
+fill_and_free(Address, Link, Real) :-
+    hundred(Address, _),
+    wait_until(printed(log_not_written(_, _)), 5),
+    delete_file(Link),
+    link_file(Real, Link, symbolic),
+    wait_until(( arrives(Address, h, a, meanwhile),
+                 printed(log_written_again(_, _)) ), 10),
+    arrives(Address, h, a, after).
+
+test(a_place_where_nothing_can_be_written,
+     error(permission_error(open, source_sink, '/proc/typhon_log'))) :-
+    no_leaks(log_server_start([file('/proc/typhon_log')], _)).
+test(a_read_only_directory, [ condition(exists_file('/usr/bin/setpriv')),
+                              true(Out == "open"-"none") ]) :-
+    with_tmp_dir(read_only(Out)).
+
+%   Root may write everywhere: nobody tries.
+
+read_only(Opened-Left, Dir) :-
+    directory_file_path(Dir, events, File),
+    chmod(Dir, -w),
+    project_file(prolog, Library),
+    current_prolog_flag(executable, Swipl),
+    format(atom(Goal),
+           'assertz(file_search_path(library, ~q)),\c
+            use_module(library(typhon)),\c
+            catch(log_server_start([file(~q)], _),\c
+                  error(permission_error(What, _, _), _), write(What)),\c
+            ( exists_file(~q) -> Left = some ; Left = none ),\c
+            write(Left), halt', [Library, File, File]),
+    setup_call_cleanup(
+        process_create('/usr/bin/setpriv',
+                       [ '--reuid=65534', '--regid=65534', '--clear-groups',
+                         Swipl, '-q', '-f', none, '-g', Goal ],
+                       [ stdout(pipe(Stream)), stderr(null), stdin(null),
+                         environment(['TYPHON_COOKIE'=abcdefabcdefabcdef]) ]),
+        read_string(Stream, _, Text),
+        close(Stream)),
+    chmod(Dir, +w),
+    string_concat(Opened, Left, Text),
+    string_length(Opened, 4).
 
 exists_file_device(File) :-
     access_file(File, write).

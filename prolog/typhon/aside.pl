@@ -1,5 +1,7 @@
 :- module(typhon_aside,
-          [ aside/1                     % :Goal
+          [ aside/1,                    % :Goal
+            aside_start/0,
+            aside_stop/0
           ]).
 
 /** <module> What must not be done in a cleanup handler
@@ -10,11 +12,19 @@ alone sees to, then a wait with a deadline that expires does not end: it
 spins for ever. Programs like to stop things in cleanup handlers, and
 stopping has to wait. So whatever stops something does it aside.
 
-*Threading*: any thread. thread_join/2 waits soundly in all of them.
+Stopping must also be possible when no more threads can be made: while
+hosts run, a helper stands by for that.
+
+*Threading*: any thread. thread_join/2 and waits without a deadline are
+sound in all of them. What is done aside within something done aside needs
+no other thread: so the helper never waits for itself.
 */
 
 :- meta_predicate
     aside(0).
+
+:- dynamic
+    helper/2.                   % Thread, Queue
 
 %!  aside(:Goal) is semidet.
 %
@@ -22,11 +32,138 @@ stopping has to wait. So whatever stops something does it aside.
 %   interrupted while waiting leaves Goal to itself.
 
 aside(Goal) :-
-    thread_create(Goal, Thread),
+    nb_current(typhon_aside, true),
+    !,
+    once(Goal).
+aside(Goal) :-
+    catch(thread_create(typhon_aside:alone(Goal), Thread),
+          error(resource_error(_), _), fail),
+    !,
     catch(thread_join(Thread, Status), Interrupt,
           ( thread_detach(Thread),
             throw(Interrupt) )),
+    conclude(Status).
+aside(Goal) :-
+    ask_helper(Goal, Status),
+    !,
+    conclude(Status).
+aside(Goal) :-
+    once(Goal).
+
+alone(Goal) :-
+    nb_setval(typhon_aside, true),
+    call(Goal).
+
+conclude(Status) :-
     (   Status = exception(Error)
     ->  throw(Error)
     ;   Status == true
     ).
+
+                /*******************************
+                *           THE HELPER         *
+                *******************************/
+
+%!  aside_start is det.
+%!  aside_stop is det.
+%
+%   The helper begins; and ends when it has done what it was asked for,
+%   which may be this.
+
+aside_start :-
+    message_queue_create(Queue),
+    catch(thread_create(typhon_aside:help(Queue), Thread,
+                        [at_exit(typhon_aside:no_help(Queue))]),
+          error(Formal, Context),
+          ( message_queue_destroy(Queue),
+            throw(error(Formal, Context)) )),
+    assertz(helper(Thread, Queue)).
+
+aside_stop :-
+    (   with_mutex(typhon_aside, retract(helper(Thread, Queue)))
+    ->  end_helper(Thread, Queue)
+    ;   true
+    ).
+
+%   One that is busy may be the thread that runs this, or wait for it.
+
+end_helper(Thread, Queue) :-
+    message_queue_property(Queue, waiting(_)),
+    message_queue_property(Queue, size(0)),
+    !,
+    thread_send_message(Queue, stop),
+    thread_join(Thread, _).
+end_helper(Thread, Queue) :-
+    thread_detach(Thread),
+    thread_send_message(Queue, stop).
+
+%   ask_helper(:Goal, -Status) fails if there is none.
+
+ask_helper(Goal, Status) :-
+    setup_call_cleanup(
+        message_queue_create(Answers),
+        ( with_mutex(typhon_aside,
+                     ( helper(_, Queue),
+                       thread_send_message(Queue, do(Goal, Answers)) )),
+          thread_get_message(Answers, Status)
+        ),
+        message_queue_destroy(Answers)).
+
+help(Queue) :-
+    nb_setval(typhon_aside, true),
+    repeat,
+    thread_get_message(Queue, Message),
+    helped(Message),
+    Message == stop,
+    !.
+
+helped(stop).
+helped(do(Goal, Answers)) :-
+    catch(outcome(Goal, Status), Ball, Status = exception(Ball)),
+    answer(Answers, Status).
+
+outcome(Goal, Status) :-
+    (   call(Goal)
+    ->  Status = true
+    ;   Status = false
+    ).
+
+answer(Answers, Status) :-
+    catch(thread_send_message(Answers, Status),
+          error(existence_error(_, _), _),
+          true).                % nobody waits any more
+
+%   Nobody who asks a helper that has ended waits for ever.
+
+no_help(Queue) :-
+    (   with_mutex(typhon_aside, retract(helper(Me, Queue)))
+    ->  thread_detach(Me),
+        catch(( aside_start,
+                print_message(warning, typhon(new_helper)) ),
+              error(Formal, _),
+              no_helper(Formal))
+    ;   true
+    ),
+    forsake(Queue),
+    message_queue_destroy(Queue).
+
+forsake(Queue) :-
+    (   thread_peek_message(Queue, do(_, _))
+    ->  thread_get_message(Queue, do(Goal, Answers)),
+        answer(Answers,
+               exception(error(system_error(not_done(Goal)), _))),
+        forsake(Queue)
+    ;   true
+    ).
+
+no_helper(permission_error(create, thread, _)) :-
+    !.                          % Prolog is halting
+no_helper(Formal) :-
+    print_message(warning, typhon(no_helper(Formal))).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(new_helper)) -->
+    [ 'The thread that helps to stop hosts has ended; there is another' ].
+prolog:message(typhon(no_helper(Formal))) -->
+    [ 'The thread that helps to stop hosts has ended (~p)'-[Formal] ].

@@ -22,7 +22,10 @@ it: it goes on at once, waits, travels or ends.
 timer.
 */
 
-:- multifile typhon_scheduler:fire/2.
+:- multifile
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2,
+    typhon_scheduler:kind/2.
 
 %!  effect(+Control, +Hole, +Goals, +Where, -Next) is det.
 %
@@ -143,12 +146,25 @@ typhon_scheduler:fire(Id, leave) :-
     ).
 
 rouse(Id, Until) :-
+    rests(Id, Until, Goals),
+    !,
+    agent_ready(Id, Goals).
+
+rests(Id, Until, Goals) :-
     agent_status(Id, Status, Goals),
     (   Status = sleeping(Until)
     ;   Status = waiting(_, Until)
-    ),
-    !,
-    agent_ready(Id, Goals).
+    ).
+
+typhon_scheduler:over(Id, until(Until)) :-
+    \+ rests(Id, Until, _).
+typhon_scheduler:over(Id, leave) :-
+    \+ agent_status(Id, leaving(_, _), _).
+
+%   Agents of one program are apt to block alike.
+
+typhon_scheduler:kind(Id, Program) :-
+    agent(Id, _, _, Program, _).
 
                 /*******************************
                 *        MOVE AND CLONE        *

@@ -41,6 +41,7 @@ that peer is read. They may post, request and reply.
                                 tcp_setopt/2, tcp_socket/1]).
 :- use_module(auth, [cookie/1, random_hex/2]).
 :- use_module(acceptor, [accept_all/2]).
+:- use_module(aside, [aside/1]).
 :- use_module(contacts, [contact/3]).
 :- use_module(crew, [crew_bury/1, crew_retire/2, crew_spawn/2, crew_start/0,
                      crew_stop/1, crew_tell/1]).
@@ -147,8 +148,7 @@ stop :-
     crew_retire(Acceptor, stopped),
     tcp_close_socket(Socket),
     setting(flush_time, Seconds),
-    crew_spawn(flush(Seconds, up), Flusher),
-    crew_bury(Flusher),
+    aside(flush(Seconds, up)),
     forall(session(_, Session), session_control(Session, bye)),
     crew_tell(stop),
     crew_bury(Keeper),

@@ -24,7 +24,7 @@
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(process, [process_acquire/2, process_release/1]).
 :- use_module(scheduler,
-              [ scheduler_limit/2, scheduler_unlimit/1, scheduler_signal/1 ]).
+              [ scheduler_limit/2, scheduler_unlimit/1, scheduler_signal/2 ]).
 
 /** <module> Starting, stopping and linking hosts
 
@@ -203,7 +203,7 @@ stays(Id) :-
 
 interrupt(Id) :-
     (   agent_status(Id, running, _)
-    ->  scheduler_signal(typhon_hosting:stop_running(Id))
+    ->  scheduler_signal(Id, typhon_hosting:stop_running(Id))
     ;   ignore(agent_end(Id, disposed))
     ).
 

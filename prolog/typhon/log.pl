@@ -69,7 +69,8 @@ end, nothing is dropped.
 %   @error domain_error(log_server_option, Option),
 %   existence_error(option, file),
 %   permission_error(start, log_server, Name) when it is running,
-%   permission_error(open, source_sink, File)
+%   existence_error(directory, Dir), permission_error(open, source_sink,
+%   File)
 
 log_server_start(Options, Address) :-
     must_be(list, Options),
@@ -110,10 +111,8 @@ start(Name, File, Options, Address) :-
     clock_option(Options, Clock),
     include(of_endpoint, Options, EndpointOptions),
     process_acquire(log(Name), EndpointOptions),
-    catch(open_log(File, Mode, Stream), Error,
+    catch(start_writer(File, Mode, Queue, Thread), Error,
           ( process_release(log(Name)), throw(Error) )),
-    message_queue_create(Queue, [max_size(100 000)]),
-    thread_create(write_events(Queue, Stream, ok), Thread),
     assertz(writer(Name, Thread)),
     retractall(homeless(Name)),
     assertz(server(Name, Queue, Clock)),
@@ -123,10 +122,39 @@ start(Name, File, Options, Address) :-
 of_endpoint(bind(_)).
 of_endpoint(port(_)).
 
-open_log(Spec, Mode, Stream) :-
-    absolute_file_name(Spec, File, [access(Mode)]),
-    open(File, Mode, Stream,
-         [ encoding(ascii), newline(posix), buffer(full) ]),
+start_writer(Spec, Mode, Queue, Thread) :-
+    (   absolute_file_name(Spec, File)
+    ->  may_write(File)
+    ;   existence_error(source_sink, Spec)
+    ),
+    open_log(File, Mode, Stream),
+    message_queue_create(Queue, [max_size(100 000)]),
+    catch(thread_create(write_events(Queue, File, open(Stream, 0)), Thread),
+          Error,
+          ( close(Stream), message_queue_destroy(Queue), throw(Error) )).
+
+may_write(File) :-
+    access_file(File, write),
+    \+ exists_directory(File),
+    !.
+may_write(File) :-
+    file_directory_name(File, Dir),
+    \+ exists_directory(Dir),
+    !,
+    existence_error(directory, Dir).
+may_write(File) :-
+    not_writable(File).
+
+not_writable(File) :-
+    Text = 'the log cannot be written there',
+    throw(error(permission_error(open, source_sink, File),
+                context(log_server_start/2, Text))).
+
+open_log(File, Mode, Stream) :-
+    catch(open(File, Mode, Stream,
+               [ encoding(ascii), newline(posix), buffer(full) ]),
+          error(existence_error(_, _), _),
+          not_writable(File)),
     (   Mode == append,
         cut_short(File)
     ->  nl(Stream)
@@ -212,35 +240,90 @@ stamp(Name, Host, _, _) :-
     assertz(homeless(Name)),
     print_message(warning, typhon(no_log_server(Name, Host))).
 
-%   write_events(+Queue, +Stream, +State): State is failing while the file
-%   cannot be written, so that a full disk is told once, not per event.
+%   write_events(+Queue, +File, +State): State is open(Stream, Unsure),
+%   where the last Unsure events may be in memory only; or lost(Count,
+%   Again), where the file could not be written, is tried again at the time
+%   Again, and Count events are lost.  People are told when it begins and
+%   when it ends, not of each event.
 
-write_events(Queue, Stream, State0) :-
-    next_event(Queue, Stream, Event, State0, State1),
+write_events(Queue, File, State0) :-
+    next_event(Queue, File, Event, State0, State1),
     (   Event == stop
-    ->  try(close(Stream), State1, _)
-    ;   try(write_fact(Stream, Event), State1, State),
-        write_events(Queue, Stream, State)
+    ->  finish(State1, File)
+    ;   write_event(State1, File, Event, State),
+        write_events(Queue, File, State)
     ).
 
-next_event(Queue, Stream, Event, State0, State) :-
+next_event(Queue, File, Event, State0, State) :-
     (   thread_get_message(Queue, Event, [timeout(0)])
     ->  State = State0
-    ;   try(flush_output(Stream), State0, State),
+    ;   flush(State0, File, State),
         thread_get_message(Queue, Event)
     ).
+
+flush(open(Stream, Unsure), File, State) :-
+    !,
+    catch(( flush_output(Stream), State = open(Stream, 0) ),
+          error(Formal, Context),
+          broken(Stream, Unsure, File, error(Formal, Context), State)).
+flush(State, _, State).
+
+write_event(open(Stream, Unsure0), File, Event, State) :-
+    Unsure is Unsure0+1,
+    catch(( write_fact(Stream, Event), State0 = open(Stream, Unsure) ),
+          error(Formal, Context),
+          broken(Stream, Unsure, File, error(Formal, Context), State0)),
+    (   Unsure mod 1000 =:= 0
+    ->  flush(State0, File, State)
+    ;   State = State0
+    ).
+write_event(lost(Count0, Again), _, _, lost(Count, Again)) :-
+    get_time(Now),
+    Now < Again,
+    !,
+    Count is Count0+1.
+write_event(lost(Count, _), File, Event, open(Stream, 0)) :-
+    reopened(File, Event, Stream),
+    !,
+    print_message(warning, typhon(log_written_again(File, Count))).
+write_event(lost(Count0, _), _, _, lost(Count, Again)) :-
+    Count is Count0+1,
+    next_try(Again).
+
+next_try(Again) :-
+    get_time(Now),
+    Again is Now+1.
+
+%   What is left in the buffer must not be written later, in the middle of
+%   a line.
+
+broken(Stream, Count, File, Error, lost(Count, Again)) :-
+    close(Stream, [force(true)]),
+    print_message(error, typhon(log_not_written(File, Error))),
+    next_try(Again).
+
+reopened(File, Event, Stream) :-
+    catch(open_log(File, append, Stream), error(_, _), fail),
+    catch(( write_fact(Stream, Event),
+            flush_output(Stream) ),
+          error(_, _),
+          ( close(Stream, [force(true)]), fail )).
+
+finish(open(Stream, Unsure), File) :-
+    flush(open(Stream, Unsure), File, State),
+    (   State = open(_, _)
+    ->  catch(close(Stream), error(Formal, Context),
+              print_message(error,
+                            typhon(log_not_written(File,
+                                                   error(Formal, Context)))))
+    ;   finish(State, File)
+    ).
+finish(lost(Count, _), File) :-
+    print_message(error, typhon(log_lost(File, Count))).
 
 write_fact(Stream, Event) :-
     write_canonical(Stream, Event),
     write(Stream, '.\n').
-
-try(Goal, State0, State) :-
-    catch(( Goal, State = State0 ), error(Formal, Context),
-          failing(State0, error(Formal, Context), State)).
-
-failing(failing, _, failing).
-failing(ok, Error, failing) :-
-    print_message(error, typhon(log_not_written(Error))).
 
                 /*******************************
                 *           READING            *
@@ -285,9 +368,21 @@ line_event(Line, Event) :-
 
 prolog:message(typhon(no_log_server(Name, Host))) -->
     [ 'There is no log server ~w here: events of ~w are lost'-[Name, Host] ].
-prolog:message(typhon(log_not_written(Error))) -->
-    [ 'The log cannot be written', nl ],
-    '$messages':translate_message(Error).
+prolog:message(typhon(log_not_written(File, Error))) -->
+    [ 'The log ~w cannot be written: '-[File] ],
+    reason(Error),
+    [ nl, 'Its events are lost until it can.'-[] ].
+prolog:message(typhon(log_written_again(File, Count))) -->
+    [ 'The log ~w is written again; ~D events were lost'-[File, Count] ].
+prolog:message(typhon(log_lost(File, Count))) -->
+    [ 'The log ~w ends; ~D events were lost'-[File, Count] ].
 prolog:message(typhon(log_line_skipped(File:Number, Line))) -->
     { ( sub_string(Line, 0, 60, _, Start) -> true ; Start = Line ) },
     [ '~w:~d: not an event, or cut short: ~s'-[File, Number, Start] ].
+
+reason(error(io_error(_, _), context(_, Text))) -->
+    { atomic(Text) },
+    !,
+    [ '~w'-[Text] ].
+reason(Error) -->
+    '$messages':translate_message(Error).

@@ -9,7 +9,8 @@
           ]).
 :- use_module(library(error),
               [must_be/2, permission_error/3, existence_error/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(lists), [member/2, subtract/3]).
 :- use_module(program, [clause_parts/3]).
 
 /** <module> Places: what a host offers to the agents on it
@@ -105,19 +106,50 @@ tuple_take(Place, Fact) :-
 %!  place_deliver(+Place, +Payload, -PIs) is det.
 %
 %   Install the clauses of payload(Name, PIs, Clauses).  A payload of the
-%   same name is replaced.
+%   same name is replaced: who calls it meanwhile meets the old clauses or
+%   the new ones.  On an error nothing has changed.
 %
 %   @error permission_error(deliver, procedure, PI) if the place defines
 %          PI otherwise
 
 place_deliver(Place, payload(Name, PIs, Clauses), PIs) :-
-    with_mutex(typhon_place,
-               ( ignore(remove(Place, Name)),
-                 forall(member(PI, PIs), free(Place, PI)),
-                 forall(member(PI, PIs), dynamic(Place:PI)),
-                 forall(member(Clause, Clauses), add(Place, Clause)),
-                 assertz(delivered(Place, Name, PIs))
-               )).
+    with_mutex(typhon_place, deliver(Place, Name, PIs, Clauses)).
+
+deliver(Place, Name, PIs, Clauses) :-
+    old_payload(Place, Name, OldPIs),
+    subtract(PIs, OldPIs, New),
+    subtract(OldPIs, PIs, Gone),
+    forall(member(PI, New), free(Place, PI)),
+    exclude(own(Place), New, Unknown),
+    catch(( forall(member(PI, Unknown), dynamic(Place:PI)),
+            transaction(replace(Place, Name, OldPIs, PIs, Clauses))
+          ),
+          error(Formal, Context),
+          ( forall(( member(PI, Unknown), own(Place, PI) ),
+                   abolish(Place:PI)),
+            throw(error(Formal, Context)) )),
+    forall(member(PI, Gone), abolish(Place:PI)).
+
+old_payload(Place, Name, PIs) :-
+    (   delivered(Place, Name, PIs0)
+    ->  PIs = PIs0
+    ;   PIs = []
+    ).
+
+own(Place, Name/Arity) :-
+    functor(Head, Name, Arity),
+    predicate_property(Place:Head, dynamic),
+    \+ predicate_property(Place:Head, imported_from(_)).
+
+replace(Place, Name, OldPIs, PIs, Clauses) :-
+    retractall(delivered(Place, Name, _)),
+    forall(member(PI, OldPIs), empty(Place, PI)),
+    forall(member(Clause, Clauses), add(Place, Clause)),
+    assertz(delivered(Place, Name, PIs)).
+
+empty(Place, Name/Arity) :-
+    functor(Head, Name, Arity),
+    retractall(Place:Head).
 
 free(Place, Name/Arity) :-
     functor(Head, Name, Arity),

@@ -42,7 +42,8 @@ post_on/2 and the hooks never do.
 
 :- multifile
     typhon_endpoint:received/3,
-    typhon_scheduler:fire/2.
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
 
 %   A letter that has been forwarded so often at once chases its agent in
 %   vain for the moment, or those who should know do not know yet: it waits
@@ -276,6 +277,9 @@ try_later(Id, Tries) :-
 typhon_scheduler:fire(Id, mail) :-
     !,
     scheduler_call(typhon_post:try(Id)).
+
+typhon_scheduler:over(Id, mail) :-
+    \+ backlog(Id).
 
 %   try(+Id): in a worker.
 

@@ -5,7 +5,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(aside, [aside/1]).
+:- use_module(aside, [aside/1, aside_start/0, aside_stop/0]).
 :- use_module(code, [code_clear/0]).
 :- use_module(news, [news_flush/0]).
 :- use_module(endpoint,
@@ -44,9 +44,12 @@ acquire(User, Options) :-
 start(Options) :-
     option(port(Port), Options, 0),
     option(bind(Interface), Options, localhost),
-    scheduler_start,
-    catch(endpoint_start(Interface, Port, _), Ball,
-          ( scheduler_stop, throw(Ball) )).
+    aside_start,
+    catch(( scheduler_start,
+            endpoint_start(Interface, Port, _)
+          ),
+          Ball,
+          ( scheduler_stop, aside_stop, throw(Ball) )).
 
 must_agree(Option) :-
     (   disagrees(Option)
@@ -75,6 +78,7 @@ release(User) :-
     ->  news_flush,
         endpoint_stop,
         scheduler_stop,
-        code_clear
+        code_clear,
+        aside_stop
     ;   true
     ).

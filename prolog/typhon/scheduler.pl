@@ -8,13 +8,15 @@
             alarm_clear/3,              % +Stamp, +Agent, +Token
             scheduler_call/1,           % :Goal
             scheduler_signal/1,         % :Goal
+            scheduler_signal/2,         % +Agent, :Goal
             scheduler_workers/1         % -Count
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(rbtrees),
-              [ rb_new/1, rb_insert/4, rb_delete/3, rb_min/3, rb_empty/1 ]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(held).
+:- use_module(limits).
+:- use_module(timer).
 
 /** <module> The scheduler: few threads for many agents
 
@@ -24,30 +26,39 @@ that sleeps, waits or is resident is not here at all.  A native goal that
 blocks holds its worker, so the pool grows when the queue is stuck and
 shrinks when workers are idle.
 
-What an agent is, the room above says with the hooks run/1 and fire/2.
+There are at most `max_workers`, not counting those that were held for
+long, see room `held`.
+
+What an agent is, the room above says with the hooks run/1, fire/2, over/2
+and kind/2.
 
 *Threading*: schedule/2 and alarms from any thread.  The timer thread
-owns the tree of alarms and decides when to grow.
+decides when to grow.  A mutex makes the pool, and its end, whole: when
+the run queue is gone no worker is added.
 */
 
-:- meta_predicate scheduler_call(0), scheduler_signal(0).
+:- meta_predicate
+    scheduler_call(0),
+    scheduler_signal(0),
+    scheduler_signal(+, 0).
 
 :- multifile
     run/1,                      % Agent: run it until it has to wait
-    fire/2.                     % Agent, Token: an alarm went off
+    fire/2,                     % Agent, Token: an alarm went off
+    over/2,                     % Agent, Token: nobody waits for this alarm
+    kind/2,                     % Agent, Kind: Agents that may block alike
+    prolog:message//1.
 
 :- setting(min_workers, positive_integer, 2, "Workers kept when idle").
-:- setting(max_workers, positive_integer, 256, "Workers at the most").
+:- setting(max_workers, positive_integer, 256,
+           "Workers at the most, but for those that were held for long").
 :- setting(idle_seconds, number, 10, "Idle workers beyond the minimum end").
 :- setting(stuck_seconds, number, 0.01,
            "The pool grows when the run queue has not moved for so long").
 
 :- dynamic
     run_queue/1,                % Queue
-    timer/1,                    % Thread
-    worker/1,                   % Thread
-    limit/2,                    % Host, Concurrency
-    parked/2.                   % Host, Agent: waits for its turn on Host
+    worker/1.                   % Thread
 
                 /*******************************
                 *        START AND STOP        *
@@ -65,14 +76,14 @@ start :-
     !.
 start :-
     message_queue_create(Queue),
-    flag(typhon_idle, _, 0),
-    flag(typhon_taken, _, 0),
     flag(typhon_watched, _, 0),
     assertz(run_queue(Queue)),
-    thread_create(timer_loop, Timer, [alias(typhon_timer)]),
-    assertz(timer(Timer)),
     setting(min_workers, N),
-    forall(between(1, N, _), add_worker(Queue)).
+    catch(( timer_start,
+            forall(between(1, N, _), add_worker(Queue)) ),
+          error(Formal, Context),
+          ( scheduler_stop,
+            throw(error(Formal, Context)) )).
 
 %!  scheduler_stop is det.
 %
@@ -82,15 +93,14 @@ start :-
 scheduler_stop :-
     with_mutex(typhon_scheduler, retract(run_queue(Queue))),
     !,
-    retract(timer(Timer)),
-    thread_send_message(Timer, stop),
-    thread_join(Timer, _),
-    findall(Worker, retract(worker(Worker)), Workers),
+    timer_stop,
+    findall(Worker, worker(Worker), Workers),
     forall(member(_, Workers), thread_send_message(Queue, stop)),
     maplist(stop_worker, Workers),
     message_queue_destroy(Queue),
-    retractall(parked(_, _)),
-    retractall(limit(_, _)).
+    retractall(worker(_)),
+    held_forget,
+    limits_forget.
 scheduler_stop.
 
 %   A worker that does not come to its end is interrupted.
@@ -130,54 +140,24 @@ scheduler_workers(0).
 %
 %   At most Concurrency agents of Host run at a time.
 
-scheduler_limit(_, inf) :-
-    !.
 scheduler_limit(Host, Concurrency) :-
-    running_key(Host, Key),
-    flag(Key, _, 0),
-    assertz(limit(Host, Concurrency)).
+    limit_set(Host, Concurrency).
 
 %!  scheduler_unlimit(+Host) is det.
 
 scheduler_unlimit(Host) :-
-    retractall(limit(Host, _)),
-    forall(retract(parked(Host, Agent)), enqueue(agent(Agent))).
+    limit_clear(Host, Agents),
+    forall(member(Agent, Agents), enqueue(agent(Agent))).
 
 %!  schedule(+Host, +Agent) is det.
 %
 %   Agent, which stands on Host, is ready to run.
 
 schedule(Host, Agent) :-
-    limit(Host, Limit),
-    !,
-    with_mutex(typhon_park, park(Host, Limit, Agent)).
-schedule(_, Agent) :-
-    enqueue(agent(Agent)).
-
-park(Host, Limit, Agent) :-
-    running_key(Host, Key),
-    flag(Key, Running, Running),
-    (   Running < Limit
-    ->  flag(Key, Running, Running+1),
-        enqueue(agent(Host, Agent))
-    ;   assertz(parked(Host, Agent))
+    (   limit_enter(Host, Agent, Work)
+    ->  enqueue(Work)
+    ;   true                            % parked
     ).
-
-%   An agent of a host with a limit has run: the next one, please.
-
-unpark(Host) :-
-    with_mutex(typhon_park, unpark_(Host)).
-
-unpark_(Host) :-
-    retract(parked(Host, Agent)),
-    !,
-    enqueue(agent(Host, Agent)).
-unpark_(Host) :-
-    running_key(Host, Key),
-    flag(Key, Running, max(0, Running-1)).
-
-running_key(Host, Key) :-
-    atom_concat('typhon running ', Host, Key).
 
 %!  scheduler_call(:Goal) is det.
 %
@@ -190,10 +170,9 @@ enqueue(Work) :-
     run_queue(Queue),
     !,
     thread_send_message(Queue, Work),
-    flag(typhon_idle, Idle, Idle),
-    (   Idle =< 0
-    ->  watch_pool
-    ;   true
+    (   message_queue_property(Queue, waiting(_))
+    ->  true
+    ;   watch_pool
     ).
 enqueue(_).                             % stopping
 
@@ -201,21 +180,29 @@ enqueue(_).                             % stopping
 
 watch_pool :-
     flag(typhon_watched, Watched, 1),
-    (   Watched =:= 0,
-        timer(Timer)
-    ->  flag(typhon_taken, Taken, Taken),
-        catch(thread_send_message(Timer, watch(Taken)), error(_, _), true)
+    (   Watched =:= 0
+    ->  setting(stuck_seconds, Seconds),
+        get_time(Now),
+        Stamp is Now+Seconds,
+        alarm_set(Stamp, pool, watch(Now))
     ;   true
     ).
 
 %!  scheduler_signal(:Goal) is det.
+%!  scheduler_signal(+Agent, :Goal) is det.
 %
-%   Run Goal in all workers, in the middle of whatever they do.
+%   Run Goal in all workers, or in the one that runs Agent, in the middle
+%   of whatever they do.
 
 scheduler_signal(Goal) :-
-    forall(worker(Worker),
-           catch(thread_signal(Worker, Goal),
-                 error(existence_error(_, _), _), true)).
+    forall(worker(Worker), signal(Worker, Goal)).
+
+scheduler_signal(Agent, Goal) :-
+    forall(held_by(Agent, Worker), signal(Worker, Goal)).
+
+signal(Worker, Goal) :-
+    catch(thread_signal(Worker, Goal),
+          error(existence_error(_, _), _), true).
 
                 /*******************************
                 *            WORKERS           *
@@ -229,26 +216,23 @@ add_worker(Queue) :-
 
 replace_worker :-
     thread_self(Me),
-    (   retract(worker(Me))
-    ->  thread_detach(Me),
-        (   run_queue(Queue)
-        ->  catch(add_worker(Queue),
-                  error(permission_error(create, thread, _), _),
-                  true)                 % Prolog is halting
-        ;   true
-        )
-    ;   true
-    ).
+    held_ended(Me),
+    with_mutex(typhon_scheduler, replace_worker(Me)).
+
+replace_worker(Me) :-
+    run_queue(Queue),
+    retract(worker(Me)),
+    !,
+    thread_detach(Me),
+    catch(add_worker(Queue), error(_, _), true).    % watching makes one
+replace_worker(_).
 
 worker_loop(Queue) :-
-    flag(typhon_idle, Idle, Idle+1),
     setting(idle_seconds, Seconds),
     (   thread_get_message(Queue, Work, [timeout(Seconds)])
-    ->  flag(typhon_idle, Idle1, Idle1-1),
-        flag(typhon_taken, Taken, Taken+1),
-        watch_if_last(Idle1, Queue),
+    ->  watch_if_last(Queue),
         work(Work, Queue)
-    ;   flag(typhon_idle, Idle1, Idle1-1),
+    ;   timer_check,
         (   superfluous
         ->  watch_if_stuck(Queue)       % it may have been woken for this
         ;   worker_loop(Queue)
@@ -258,29 +242,38 @@ worker_loop(Queue) :-
 %   What was queued while somebody was idle still may find nobody when its
 %   turn comes.
 
-watch_if_last(Idle, Queue) :-
-    (   Idle =< 1
-    ->  watch_if_stuck(Queue)
-    ;   true
+watch_if_last(Queue) :-
+    (   message_queue_property(Queue, waiting(_))
+    ->  true
+    ;   watch_if_stuck(Queue)
     ).
 
 watch_if_stuck(Queue) :-
-    (   message_queue_property(Queue, size(Size)),
-        Size > 0
+    (   waits(Queue)
     ->  watch_pool
     ;   true
     ).
 
+waits(Queue) :-
+    message_queue_property(Queue, size(Size)),
+    Size > 0.
+
 work(stop, _) :-
     !.
 work(Work, Queue) :-
-    catch(work(Work), Ball, survive(Ball)),
+    (   held_back(Work)
+    ->  true
+    ;   held_begin(Work, Turn),
+        catch(work(Work), Ball, survive(Ball)),
+        held_end(Turn, Works),
+        maplist(enqueue, Works)
+    ),
     worker_loop(Queue).
 
 work(agent(Agent)) :-
     run_one(Agent).
 work(agent(Host, Agent)) :-
-    call_cleanup(run_one(Agent), unpark(Host)).
+    call_cleanup(run_one(Agent), next_turn(Host)).
 work(goal(Goal)) :-
     (   call(Goal)
     ->  true
@@ -291,6 +284,12 @@ run_one(Agent) :-
     (   run(Agent)
     ->  true
     ;   print_message(error, typhon(run_failed(Agent)))
+    ).
+
+next_turn(Host) :-
+    (   limit_leave(Host, Agent)
+    ->  enqueue(agent(Host, Agent))
+    ;   true
     ).
 
 survive('$aborted') :-
@@ -310,86 +309,36 @@ superfluous :-
                )).
 
                 /*******************************
-                *             TIMER            *
+                *          THE POOL GROWS      *
                 *******************************/
 
-%!  alarm_set(+Stamp, +Agent, +Token) is det.
-%
-%   Have fire(Agent, Token) called at the real time Stamp.
+%   The pool is watched since the time Since: work waits, and nobody was
+%   idle.  When none was taken meanwhile there are more workers: one, or
+%   some where there are many.
 
-alarm_set(Stamp, Agent, Token) :-
-    tell_timer(set(Stamp, Agent, Token)).
-
-%!  alarm_clear(+Stamp, +Agent, +Token) is det.
-
-alarm_clear(Stamp, Agent, Token) :-
-    tell_timer(clear(Stamp, Agent, Token)).
-
-tell_timer(Message) :-
-    (   timer(Timer)
-    ->  catch(thread_send_message(Timer, Message), error(_, _), true)
-    ;   true
-    ).
-
-timer_loop :-
-    rb_new(Alarms),
-    timer_loop(Alarms).
-
-timer_loop(Alarms0) :-
-    thread_self(Me),
-    (   rb_empty(Alarms0)
-    ->  thread_get_message(Message),
-        timer_message(Message, Alarms0, Alarms, Next)
-    ;   rb_min(Alarms0, alarm(Stamp, Agent, Token), _),
-        (   thread_get_message(Me, Message, [deadline(Stamp)])
-        ->  timer_message(Message, Alarms0, Alarms, Next)
-        ;   rb_delete(Alarms0, alarm(Stamp, Agent, Token), Alarms),
-            go_off(Agent, Token, Next)
-        )
-    ),
-    (   Next == stop
-    ->  true
-    ;   timer_loop(Alarms)
-    ).
-
-timer_message(stop, Alarms, Alarms, stop).
-timer_message(set(Stamp, Agent, Token), Alarms0, Alarms, go) :-
-    rb_insert(Alarms0, alarm(Stamp, Agent, Token), true, Alarms).
-timer_message(clear(Stamp, Agent, Token), Alarms0, Alarms, go) :-
-    (   rb_delete(Alarms0, alarm(Stamp, Agent, Token), Alarms)
-    ->  true
-    ;   Alarms = Alarms0
-    ).
-timer_message(watch(Taken), Alarms0, Alarms, go) :-
-    setting(stuck_seconds, Seconds),
-    get_time(Now),
-    Stamp is Now+Seconds,
-    rb_insert(Alarms0, alarm(Stamp, '', watch(Taken)), true, Alarms).
-
-go_off('', watch(Taken), go) :-
+fire(pool, watch(Since)) :-
     !,
     flag(typhon_watched, _, 0),
     (   run_queue(Queue),
-        message_queue_property(Queue, size(Size)),
-        Size > 0
-    ->  flag(typhon_taken, Taken1, Taken1),
-        (   Taken1 =:= Taken
-        ->  grow(Queue)
-        ;   true
-        ),
+        waits(Queue)
+    ->  ignore(with_mutex(typhon_scheduler, grow(Queue, Since))),
         watch_pool
     ;   true
     ).
-go_off(Agent, Token, go) :-
-    catch(ignore(fire(Agent, Token)), Ball, survive(Ball)).
 
-grow(Queue) :-
-    with_mutex(typhon_scheduler,
-               ( run_queue(Queue),
-                 scheduler_workers(Count),
-                 setting(max_workers, Max),
-                 Count < Max
-               )),
-    !,
-    add_worker(Queue).
-grow(_).
+grow(Queue, Since) :-
+    run_queue(Queue),
+    scheduler_workers(Count),
+    held_all(Count, Since),
+    setting(max_workers, Max),
+    Some is 1+Count//8,
+    forall(between(1, Some, _), grow_by_one(Queue, Max)).
+
+%   Fails when there is no room, or no thread.
+
+grow_by_one(Queue, Max) :-
+    waits(Queue),
+    scheduler_workers(Count),
+    held_room(Count, Max),
+    catch(add_worker(Queue), error(resource_error(What), _),
+          ( held_full(Count, What), fail )).

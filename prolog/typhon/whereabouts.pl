@@ -54,7 +54,8 @@ a courier, see typhon_news, since it may have to connect.
 :- multifile
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4,
-    typhon_scheduler:fire/2.
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
 
 %!  agent_born(+Id, +Address) is det.
 
@@ -320,6 +321,9 @@ typhon_scheduler:fire(Id, join(Token)) :-
     ->  tell_asker(Asker, timeout)
     ;   true
     ).
+
+typhon_scheduler:over(Id, join(Token)) :-
+    \+ waiter(Id, Token, _).
 
 tell_asker(queue(Queue, Tag), Outcome) :-
     catch(thread_send_message(Queue, outcome(Tag, Outcome)),
