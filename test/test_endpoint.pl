@@ -349,7 +349,7 @@ with_peer_in(In, Address, Goal) :-
 
 test(what_they_send,
      [forall(member(Text, [ "", "\n", "GET / HTTP/1.1\r\n\r\n",
-                            "typhon 1 x y\n", "typhon 2 a b\n" ]))]) :-
+                            "typhon 2 x y\n", "typhon 1 a b\n" ]))]) :-
     with_endpoint(( endpoint_address(A),
                     quiet(( stranger(A, Text),
                             wait_until(warned(turned_away(_, _)), 5) )),

@@ -11,8 +11,8 @@
 Both ends of a connection prove that they know a shared secret, the cookie,
 before either decodes a term of the other. Four short lines pass:
 
-    client: typhon 1 <nonce> <hello>
-    server: typhon 1 <nonce> <hello>
+    client: typhon 2 <nonce> <hello>
+    server: typhon 2 <nonce> <hello>
     client: <proof>
     server: <proof>
 
@@ -71,7 +71,7 @@ authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
 greeting(Hello, Line) :-
     random_hex(16, Nonce),
     hello_line(Hello, HelloLine),
-    format(string(Line), "typhon 1 ~w ~w", [Nonce, HelloLine]).
+    format(string(Line), "typhon 2 ~w ~w", [Nonce, HelloLine]).
 
 greeting_hello(Line, Hello) :-
     (   split_string(Line, " ", "", [_, _, _|Fields])
@@ -92,7 +92,7 @@ exchange_greetings(server, In, Out, Deadline, Ours, Theirs) :-
     line_write(Out, Ours).
 
 check_protocol(Line) :-
-    (   string_concat("typhon 1 ", _, Line)
+    (   string_concat("typhon 2 ", _, Line)
     ->  true
     ;   permission_error(authenticate, peer, protocol)
     ).

@@ -211,7 +211,8 @@ hear_count(In, Count) :-
     line_read(In, Deadline, Line),
     (   string_concat("resume ", Digits, Line),
         number_string(Count, Digits),
-        integer(Count)
+        integer(Count),
+        Count >= 0
     ->  true
     ;   syntax_error(resume)
     ).
