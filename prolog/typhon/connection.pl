@@ -1,5 +1,5 @@
 :- module(typhon_connection,
-          [ incoming/4,                 % +Socket, +Ip, :Welcomed, +Me
+          [ incoming/4,                 % +Socket, +Ip, :Stage, +Me
             outgoing/2                  % +Address, +Me
           ]).
 
@@ -26,6 +26,7 @@ are held back while a frame is being handled and counted.
 :- use_module(auth, [authenticate/5]).
 :- use_module(crew, [crew_tell/1]).
 :- use_module(hello, [hello_codec/3, line_read/3, line_write/2]).
+:- use_module(refusals, [refused/2]).
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
 :- use_module(session, [route/2, route_add/2, session_adopting/2,
@@ -34,27 +35,28 @@ are held back while a frame is being handled and counted.
                         session_open/4, session_peer/3,
                         session_received/2, session_retire/1]).
 
-%!  incoming(+Socket, +Ip, :Welcomed, +Me) is det.
+%!  incoming(+Socket, +Ip, :Stage, +Me) is det.
 %
-%   Serve the client at Ip, that has connected; Me is our hello. Welcomed
-%   is called when it has proved itself.
+%   Serve the client at Ip, that has connected; Me is our hello. Stage is
+%   called with `silent`, and from then on we see to the socket; with `heard`
+%   when the client has said something; with `proved`. If it fails, that was
+%   all.
 
-incoming(Socket, Ip, Welcomed, Me) :-
-    catch(with_streams(Socket, In, Out,
-                       ( meet(server, In, Out, Me, Peer, Session),
-                         call(Welcomed),
+incoming(Socket, Ip, Stage, Me) :-
+    catch(with_streams(call(Stage, silent), Socket, In, Out,
+                       ( await_word(In),
+                         call(Stage, heard),
+                         meet(server, In, Out, Me, Peer, Session),
+                         call(Stage, proved),
                          reachable(Peer, Ip, Session),
                          serve(Session, In) )),
           error(Formal, _),
-          turned_away(Ip, Formal)).
+          refused(Ip, Formal)).
 
-turned_away(Ip, Formal) :-
-    (   memberchk(Formal, [io_error(_, _), socket_error(_, _),
-                           syntax_error(end_of_file)])
-    ->  Level = informational
-    ;   Level = warning
-    ),
-    print_message(Level, typhon(endpoint, turned_away(Ip, Formal))).
+await_word(In) :-
+    setting(typhon_auth:handshake_time, Seconds),
+    set_stream(In, timeout(Seconds)),
+    peek_byte(In, _).
 
 %   The peer at Ip can be reached at the address it says it listens to,
 %   unless that is meaningless here.
@@ -88,7 +90,7 @@ outgoing(Address, Me) :-
 outgoing(Address, Me, Times) :-
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
-            with_streams(Socket, In, Out,
+            with_streams(true, Socket, In, Out,
                          ( meet(client, In, Out, Me, Peer, Session),
                            route_add(Address, Session),
                            reachable(Peer, Interface, Session),
@@ -109,6 +111,10 @@ missed(Address, Me, Times, Formal) :-
     Times1 is Times-1,
     outgoing(Address, Me, Times1).
 missed(Address, _, _, Formal) :-
+    (   Formal = permission_error(authenticate, peer, version(_))
+    ->  print_message(warning, typhon(endpoint, foreign(Address, Formal)))
+    ;   true
+    ),
     ignore(crew_tell(missed(Address, Formal))).
 
 broken_off(syntax_error(end_of_file)).
@@ -132,22 +138,26 @@ address_parts(Address, Interface, Port) :-
     ).
 
 :- meta_predicate
-    incoming(+, +, 0, +),
-    with_streams(+, -, -, 0).
+    incoming(+, +, 1, +),
+    with_streams(0, +, -, -, 0).
 
 %   Once opened, the streams own the socket.
 
-with_streams(Socket, In, Out, Goal) :-
+with_streams(Claim, Socket, In, Out, Goal) :-
     setup_call_cleanup(
-        open_streams(Socket, In, Out),
+        ( call(Claim),
+          open_streams(Socket, In, Out) ),
         Goal,
         ( session_left,
           close(Out, [force(true)]),
           close(In, [force(true)]) )).
 
 open_streams(Socket, In, Out) :-
-    tcp_setopt(Socket, nodelay),
-    tcp_open_socket(Socket, In, Out),
+    catch(( tcp_setopt(Socket, nodelay),
+            tcp_open_socket(Socket, In, Out) ),
+          Error,
+          ( tcp_close_socket(Socket),
+            throw(Error) )),
     set_stream(In, encoding(octet)),
     set_stream(Out, encoding(octet)),
     set_stream(In, buffer_size(65536)),
@@ -243,7 +253,9 @@ report_break(session(Key, _, _, _, _), Formal) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(typhon(endpoint, turned_away(Ip, Formal))) -->
-    [ 'Endpoint: turned away a client at ~w: ~p'-[Ip, Formal] ].
+prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
+    { arg(3, Formal, version(Theirs)) },
+    [ 'Endpoint: ~w speaks another version of the protocol, ~w'
+      -[Address, Theirs] ].
 prolog:message(typhon(endpoint, broken(Address, Formal))) -->
     [ 'Endpoint: connection with ~w broken: ~p'-[Address, Formal] ].
