@@ -8,8 +8,11 @@ Every client has a thread of its own and, until it has proved itself, one of
 a bounded number of slots. When all are taken a newcomer gets that of
 another: of an address nobody has proved himself from, before others; of the
 address that holds most slots; of one that has said nothing yet; of the one
-that came first. So who only wants to hold slots holds them no longer than
-nobody else wants them.
+that came first. So who only wants to hold slots holds them as long as nobody
+else wants them.
+
+Most strangers take us for something else. Whose first byte is there, and is
+not that of a greeting, gets neither slot nor thread.
 
 _Threading_: accept_all/2 is the goal of a crew thread, which is woken by a
 signal: closing the socket would not wake it. The slots are guarded by a
@@ -18,9 +21,10 @@ far it has come and gives its own back.
 */
 
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(error), [permission_error/3, syntax_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(socket), [tcp_accept/3, tcp_close_socket/1]).
-:- use_module(connection, [incoming/4]).
+:- use_module(library(socket), [tcp_accept/3]).
+:- use_module(connection, [incoming/5, open_streams/3]).
 :- use_module(crew, [crew_signal/2, crew_spawn/3, crew_tell/1]).
 :- use_module(refusals, [refusals_tell/0, refused/2]).
 
@@ -50,7 +54,8 @@ accept_all(Socket, Me) :-
 accept(Socket, Me) :-
     tcp_accept(Socket, Client, ip(A, B, C, D)),
     atomic_list_concat([A, B, C, D], '.', Ip),
-    sig_atomic(admit(Client, Ip, Me)).
+    sig_atomic(( open_streams(Client, In, Out),
+                 admit(In, Out, Ip, Me) )).
 
 %   Out of descriptors, most likely, which strangers may hold.
 
@@ -59,24 +64,44 @@ accept_failed(Formal) :-
     sig_atomic(ignore(slot(evict(_)))),
     sleep(0.1).
 
-admit(Client, Ip, Me) :-
-    catch(slot(give(Client, Ip, Me, Evicted)),
+admit(In, Out, Ip, Me) :-
+    catch(let_in(In, Out, Ip, Me, Evicted),
           error(Formal, _),
           Refused = Formal),
     (   nonvar(Refused)
-    ->  tcp_close_socket(Client),
+    ->  close_streams(In, Out),
         refused(Ip, Refused)
     ;   nonvar(Evicted)
     ->  refused(Evicted, silent)
     ;   true
     ).
 
+let_in(In, Out, Ip, Me, Evicted) :-
+    (   wait_for_input([In], [_], 0)
+    ->  peek_byte(In, Byte),
+        check_first(Byte)
+    ;   true
+    ),
+    slot(give(In, Out, Ip, Me, Evicted)).
+
+check_first(0't) :-
+    !.
+check_first(-1) :-
+    !,
+    syntax_error(end_of_file).
+check_first(_) :-
+    permission_error(authenticate, peer, protocol).
+
+close_streams(In, Out) :-
+    close(Out, [force(true)]),
+    close(In, [force(true)]).
+
 :- meta_predicate slot(0).
 
 slot(Goal) :-
     with_mutex(typhon_strangers, Goal).
 
-give(Client, Ip, Me, Evicted) :-
+give(In, Out, Ip, Me, Evicted) :-
     (   room
     ->  true
     ;   evict(Evicted)
@@ -84,8 +109,8 @@ give(Client, Ip, Me, Evicted) :-
     ;   throw(error(crowd, _))
     ),
     get_time(Now),
-    crew_spawn(serve(Client, Ip, Me), Thread,
-               assertz(stranger(Thread, Ip, Now, new(Client)))).
+    crew_spawn(serve(In, Out, Ip, Me), Thread,
+               assertz(stranger(Thread, Ip, Now, new(In, Out)))).
 
 		 /*******************************
 		 *            SLOTS             *
@@ -117,21 +142,24 @@ bury(Thread) :-
     ignore(crew_tell(ended(Thread))).
 
 evict(Ip) :-
-    findall(Rank-(Thread-Ip1),
-            ( stranger(Thread, Ip1, Since, Stage),
-              rank(Ip1, Since, Stage, Rank) ),
-            Ranked),
-    keysort(Ranked, [_-(Thread-Ip)|_]),
+    victim(Thread, Ip),
     take_slot(Thread),
     crew_signal(Thread, evicted).
 
-%   The socket of a client that is new is still ours.
+victim(Thread, Ip) :-
+    findall(Rank-(Thread0-Ip0),
+            ( stranger(Thread0, Ip0, Since, Stage),
+              rank(Ip0, Since, Stage, Rank) ),
+            Ranked),
+    keysort(Ranked, [_-(Thread-Ip)|_]).
+
+%   The streams of a client that is new are still ours.
 
 take_slot(Thread) :-
     retract(stranger(Thread, _, _, Stage)),
     !,
-    (   Stage = new(Client)
-    ->  tcp_close_socket(Client)
+    (   Stage = new(In, Out)
+    ->  close_streams(In, Out)
     ;   true
     ).
 
@@ -153,11 +181,11 @@ rank(Ip, Since, Stage, rank(Known, Free, Spoke, Since)) :-
 		 *            CLIENTS           *
 		 *******************************/
 
-serve(Client, Ip, Me) :-
-    call_cleanup(incoming(Client, Ip, typhon_acceptor:stage(Ip), Me),
+serve(In, Out, Ip, Me) :-
+    call_cleanup(incoming(In, Out, Ip, typhon_acceptor:stage(Ip), Me),
                  leave).
 
-%   stage(+Ip, +Stage): this client has come so far: its socket is its
+%   stage(+Ip, +Stage): this client has come so far: its streams are its
 %   thread's own, and it is `silent`; it is `heard`; it has `proved` itself.
 %   Fails if its slot is another's now.
 

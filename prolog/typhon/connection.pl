@@ -1,6 +1,7 @@
 :- module(typhon_connection,
-          [ incoming/4,                 % +Socket, +Ip, :Stage, +Me
-            outgoing/2                  % +Address, +Me
+          [ incoming/5,                 % +In, +Out, +Ip, :Stage, +Me
+            outgoing/2,                 % +Address, +Me
+            open_streams/3              % +Socket, -In, -Out
           ]).
 
 /** <module> The thread of one connection
@@ -14,7 +15,7 @@ side only. So a new connection always replaces an old one, and of two
 processes the one with the smaller key, the arbiter, decides in which order
 that happens: it speaks first, and about one connection at a time.
 
-_Threading_: incoming/4 and outgoing/2 are the goals of crew threads. Signals
+_Threading_: incoming/5 and outgoing/2 are the goals of crew threads. Signals
 are held back while a frame is being handled and counted.
 */
 
@@ -35,15 +36,15 @@ are held back while a frame is being handled and counted.
                         session_open/4, session_peer/3,
                         session_received/2, session_retire/1]).
 
-%!  incoming(+Socket, +Ip, :Stage, +Me) is det.
+%!  incoming(+In, +Out, +Ip, :Stage, +Me) is det.
 %
-%   Serve the client at Ip, that has connected; Me is our hello. Stage is
-%   called with `silent`, and from then on we see to the socket; with `heard`
-%   when the client has said something; with `proved`. If it fails, that was
-%   all.
+%   Serve the client at Ip, whose streams are In and Out; Me is our hello.
+%   Stage is called with `silent`, from when on we see to the streams, with
+%   `heard` when the client has said something, and with `proved`. If it
+%   fails, that was all.
 
-incoming(Socket, Ip, Stage, Me) :-
-    catch(with_streams(call(Stage, silent), Socket, In, Out,
+incoming(In, Out, Ip, Stage, Me) :-
+    catch(with_streams(call(Stage, silent), In, Out,
                        ( await_word(In),
                          call(Stage, heard),
                          meet(server, In, Out, Me, Peer, Session),
@@ -90,7 +91,7 @@ outgoing(Address, Me) :-
 outgoing(Address, Me, Times) :-
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
-            with_streams(true, Socket, In, Out,
+            with_streams(open_streams(Socket, In, Out), In, Out,
                          ( meet(client, In, Out, Me, Peer, Session),
                            route_add(Address, Session),
                            reachable(Peer, Interface, Session),
@@ -138,19 +139,20 @@ address_parts(Address, Interface, Port) :-
     ).
 
 :- meta_predicate
-    incoming(+, +, 1, +),
-    with_streams(0, +, -, -, 0).
+    incoming(+, +, +, 1, +),
+    with_streams(0, ?, ?, 0).
 
-%   Once opened, the streams own the socket.
-
-with_streams(Claim, Socket, In, Out, Goal) :-
+with_streams(Open, In, Out, Goal) :-
     setup_call_cleanup(
-        ( call(Claim),
-          open_streams(Socket, In, Out) ),
+        Open,
         Goal,
         ( session_left,
           close(Out, [force(true)]),
           close(In, [force(true)]) )).
+
+%!  open_streams(+Socket, -In, -Out) is det.
+%
+%   From now on the streams own Socket.
 
 open_streams(Socket, In, Out) :-
     catch(( tcp_setopt(Socket, nodelay),
