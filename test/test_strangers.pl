@@ -65,6 +65,10 @@ with_silent(Count, Clients, Goal) :-
                        Goal,
                        maplist(closed, Clients)).
 
+shouts(Text) :-
+    setup_call_cleanup(connected(Client), say(Text, Client),
+                       closed(Client)).
+
 %   Prove oneself to the endpoint; how long it takes.
 
 newcomer(I, Seconds) :-
@@ -96,14 +100,20 @@ test(newcomers_get_in_at_once) :-
               forall(member(Time, Times), assertion(Time < 1)) )))).
 test(who_talks_stays) :-
     with_endpoint(with_setting(typhon_acceptor:strangers, 4,
-        with_silent(1, [Talker],
+        with_silent(4, [Talker|_],
             ( say("ty", Talker),
-              wait_until(typhon_acceptor:stranger(_, _, _, heard), 5),
-              with_silent(8, _,
-                  ( wait_until(aggregate_all(count, told(_), Told), 5),
-                    assertion(Told > 0),
-                    wait_until(typhon_acceptor:stranger(_, _, _, heard), 5)
+              wait_until(stages([heard, silent, silent, silent]), 5),
+              with_silent(3, _,
+                  ( wait_until(silenced(3), 5),
+                    wait_until(stages([heard, silent, silent, silent]), 5)
                   )) )))).
+
+silenced(Count) :-
+    aggregate_all(count, told(turned_away(_, silent)), Count).
+
+stages(Stages) :-
+    findall(Stage, typhon_acceptor:stranger(_, _, _, Stage), Stages0),
+    msort(Stages0, Stages).
 
 crowded(Silent) :-
     with_silent(Silent, _,
@@ -146,12 +156,17 @@ forget_all :-
 
 :- begin_tests(no_slot_is_lost).
 
-test(no_thread_can_be_made,
-     [ setup(wrap_predicate(system:thread_create(_, _, _), none, _,
-                            throw(error(resource_error(threads), _)))),
-       cleanup(unwrap_predicate(system:thread_create/3, none)),
-       blocked('needs a thread to begin with') ]) :-
-    true.
+test(no_thread_can_be_made) :-
+    no_leaks(with_endpoint(
+        ( setup_call_cleanup(
+              wrap_predicate(typhon_crew:spawn(_, _, _), none, _,
+                             throw(error(resource_error(threads), _))),
+              ( forall(between(1, 3, _), shouts("typhon")),
+                wait_until(threadless(3), 5) ),
+              unwrap_predicate(typhon_crew:spawn/3, none)),
+          assertion(slots(0)),
+          newcomer(x, Time),
+          assertion(Time < 1) ))).
 test(clients_die_at_any_moment) :-
     no_leaks(with_endpoint(
         ( forall(between(1, 300, I), dies(I)),
@@ -162,6 +177,10 @@ test(evicted_at_any_moment) :-
     no_leaks(with_endpoint(with_setting(typhon_acceptor:strangers, 2,
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 5) )))).
+
+threadless(Count) :-
+    aggregate_all(count, told(turned_away(_, resource_error(threads))),
+                  Count).
 
 %   A greeting of so many bytes, and gone.
 
@@ -205,10 +224,6 @@ test(another_version, Line == "typhon 2") :-
 test(another_version_of_a_server,
      [error(permission_error(authenticate, peer, version(3)))]) :-
     typhon_auth:check_protocol("typhon 3").
-
-shouts(Text) :-
-    setup_call_cleanup(connected(Client), say(Text, Client),
-                       closed(Client)).
 
 counted(Sum) :-
     aggregate_all(count, told(turned_away(_, _)), Alone),
