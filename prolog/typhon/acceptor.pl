@@ -54,8 +54,7 @@ accept_all(Socket, Me) :-
 accept(Socket, Me) :-
     tcp_accept(Socket, Client, ip(A, B, C, D)),
     atomic_list_concat([A, B, C, D], '.', Ip),
-    sig_atomic(( open_streams(Client, In, Out),
-                 admit(In, Out, Ip, Me) )).
+    sig_atomic(admit(Client, Ip, Me)).
 
 %   Out of descriptors, most likely, which strangers may hold.
 
@@ -64,14 +63,21 @@ accept_failed(Formal) :-
     sig_atomic(ignore(slot(evict(_)))),
     sleep(0.1).
 
+admit(Client, Ip, Me) :-
+    catch(open_streams(Client, In, Out),
+          error(Formal, _),
+          refused(Ip, Formal)),
+    (   nonvar(In)
+    ->  admit(In, Out, Ip, Me)
+    ;   true
+    ).
+
 admit(In, Out, Ip, Me) :-
     catch(let_in(In, Out, Ip, Me, Evicted),
           error(Formal, _),
-          Refused = Formal),
-    (   nonvar(Refused)
-    ->  close_streams(In, Out),
-        refused(Ip, Refused)
-    ;   nonvar(Evicted)
+          ( close_streams(In, Out),
+            refused(Ip, Formal) )),
+    (   nonvar(Evicted)
     ->  refused(Evicted, silent)
     ;   true
     ).
