@@ -6,6 +6,7 @@
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
+:- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(machine, [body_goals/4]).
@@ -41,11 +42,24 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 %!  code_install(+Hash, +Program) is det.
 %
 %   Make Program available; nothing to do where it is already.
+%
+%   @error type_error(program, Program)
 
 code_install(Hash, Program) :-
     (   code_module(Hash, _)
     ->  true
-    ;   with_mutex(typhon_code, install(Hash, Program))
+    ;   check_program(Program),
+        with_mutex(typhon_code, install(Hash, Program))
+    ).
+
+%   What comes from elsewhere may be no program at all.
+
+check_program(Program) :-
+    (   subsumes_term(program(_, _, _, _), Program),
+        Program = program(_, State, Libraries, Clauses),
+        maplist(is_list, [State, Libraries, Clauses])
+    ->  true
+    ;   type_error(program, Program)
     ).
 
 %!  code_module(?Hash, -Module) is semidet.

@@ -25,7 +25,8 @@ counted.
 :- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
 :- use_module(request, [dispatch/2, requests_open/1]).
 :- use_module(session, [session_acked/3, session_control/2,
-                        session_note_received/2, session_pending/2,
+                        session_note_received/2, session_peer/3,
+                        session_pending/2,
                         session_push/1, session_received/2, session_send/2,
                         session_sent/2]).
 

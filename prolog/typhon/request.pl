@@ -152,7 +152,8 @@ attempt(Goal, Kind) :-
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, unknown_frame(Frame))) -->
-    [ 'Endpoint: a frame nobody understands: ~p'-[Frame] ].
+    [ 'Endpoint: a frame nobody understands: ~W'
+      -[Frame, [quoted(true), max_depth(8)]] ].
 prolog:message(typhon(endpoint, hook(Kind, failed))) -->
     [ 'Endpoint: nobody takes ~q'-[Kind] ].
 prolog:message(typhon(endpoint, hook(Kind, Error))) -->

@@ -26,10 +26,10 @@ _Threading_: the main thread.
 :- use_module('../peers').
 :- use_module(fuzz_inputs).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2, append/3]).
+:- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/3]).
-:- use_module(library(random), [random_between/3]).
+:- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket)).
 :- use_module(library(typhon/auth), [authenticate/5]).
@@ -37,9 +37,14 @@ _Threading_: the main thread.
 :- use_module(library(typhon/hello),
               [hello/4, hello_codec/3, line_read/3, line_write/2]).
 
-:- initialization(main, main).
-
 :- public main/1.
+
+%   Only where this file is the program.
+
+:- current_prolog_flag(argv, _),
+   prolog_load_context(script, true)
+   ->  initialization(main, main)
+   ;   true.
 
 opt_type(count, count, nonneg).
 opt_type(seed, seed, nonneg).
@@ -68,7 +73,19 @@ fuzz(Options, Faults) :-
     option(seed(Seed), Options, 1),
     option(progress(Progress), Options, false),
     with_peers([victim, honest],
-               attack(Count, Seed, Progress, Faults)).
+               ( attack(Count, Seed, Progress, Faults),
+                 tell(Faults) )).
+
+%   Beside faults stand the last words of the victim.
+
+tell([]) :-
+    !.
+tell(_) :-
+    peer_messages(victim, Lines),
+    length(Lines, Count),
+    Skip is max(0, Count-20),
+    forall(( nth1(I, Lines, Line), I > Skip ),
+           format(user_error, 'victim: ~s~n', [Line])).
 
 attack(Count, Seed, Progress, Faults) :-
     peer_host(victim, Host),

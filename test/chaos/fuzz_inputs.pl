@@ -11,8 +11,11 @@ stands for an input.
 _Threading_: no state.
 */
 
-:- use_module(library(lists), [append/3, member/2, nth0/3, nth1/3, nth0/4]).
-:- use_module(library(random), [random/3, random_between/3, random_member/2]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists),
+              [append/2, append/3, member/2, nth0/4, nth1/4, numlist/3]).
+:- use_module(library(random), [random_between/3, random_member/2]).
+:- use_module(library(yall), [(>>)/3]).
 :- use_module(library(typhon/frame), [check_bytes/2, term_bytes/3]).
 :- use_module(library(typhon/hello), [hello/4, hello_line/2]).
 
@@ -226,8 +229,7 @@ mutated(Times, Term0, Term) :-
     Times1 is Times-1,
     mutated(Times1, Term1, Term).
 
-%   Some subterm becomes something else. The name of a goal, of a hook's
-%   kind or of a host may become anything but that of another.
+%   Some subterm becomes something else.
 
 mutated(Term0, Term) :-
     compound(Term0),
