@@ -3,7 +3,7 @@
 % The fuzzer's short form; the long one is `make fuzz`.
 
 :- use_module(common).
-:- use_module(chaos/fuzz).
+:- use_module(chaos/fuzz_run).
 :- use_module(library(plunit)).
 
 :- begin_tests(nonsense_does_no_harm).
