@@ -6,6 +6,9 @@ SWIPL ?= swipl
 FIGURE ?= all
 RUNS ?= 3
 JOBS ?= 3
+# Of the fuzzer: inputs, and the seed of the first.
+COUNT ?= 100000
+SEED ?= 1
 MAKEFLAGS += --no-print-directory
 ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
     $(wildcard experiments/*.pl bench/run.pl)
@@ -16,7 +19,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
 
 .PHONY: help tools demo demo-robots experiments experiments-allocation \
     experiments-learning experiments-sieve experiments-sync test check bench \
-    test-portability install clean
+    fuzz test-portability install clean
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
@@ -68,6 +71,9 @@ check:                  ## a quick look for mistakes, offline
 	    $(SWIPL) -q --on-error=status --on-warning=status \
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \
 	done
+
+fuzz:                   ## what nobody should send; COUNT=100000, SEED=1
+	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED)
 
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench

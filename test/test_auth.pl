@@ -143,7 +143,7 @@ trickle(In, Out) :-
            )).
 
 endless(_, Out) :-
-    forall(between(1, 100000, _), write(Out, "typhon 1 ")),
+    forall(between(1, 100000, _), write(Out, "typhon 2 ")),
     flush_output(Out).
 
 %   Says back whatever it hears.
@@ -151,7 +151,7 @@ endless(_, Out) :-
 reflect(In, Out) :-
     hello(x, 1, 'c:1', Hello),
     hello_line(Hello, HelloLine),
-    format(string(First), "typhon 1 00 ~w", [HelloLine]),
+    format(string(First), "typhon 2 00 ~w", [HelloLine]),
     line_write(Out, First),
     get_time(Now),
     Deadline is Now+5,

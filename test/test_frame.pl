@@ -1,6 +1,7 @@
 :- module(test_frame, []).
 
 :- use_module(common).
+:- use_module(library(lists), [nth1/4, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon/frame)).
@@ -97,11 +98,28 @@ test(several, Read == ["", "abc", Long, end_of_file]) :-
     all_bytes(Long),
     framed(["", "abc", Long], Bytes),
     read_frames(Bytes, 10000, 4, Read).
-test(truncated, [forall(member(Cut, [1, 2, 3, 4, 5])),
+test(truncated, [forall(member(Cut, [1, 2, 3, 4, 5, 8])),
                  error(syntax_error(truncated_frame))]) :-
     framed(["abc"], Bytes),
     sub_string(Bytes, 0, _, Cut, Short),
     read_frames(Short, 10000, 1, _).
+test(damaged, [forall(between(4, 9, At)),
+               error(syntax_error(damaged_frame))]) :-
+    framed(["abc"], Bytes),             % the check, and what it is of
+    flipped(At, Bytes, Damaged),
+    read_frames(Damaged, 10000, 1, _).
+test(each_flipped_bit_of_a_record) :-
+    term_bytes(fast, f(a, "b", [1, 2.0|_]), Body),
+    check_bytes(Body, Check),
+    string_length(Body, Length),
+    forall(( between(1, Length, At), between(0, 7, Bit) ),
+           ( flipped(At, Bit, Body, Damaged),
+             check_bytes(Damaged, Other),
+             assertion(Other =\= Check) )).
+test(what_follows_damage, Next == "def") :-
+    framed(["abc", "def"], Bytes),
+    flipped(8, Bytes, Damaged),
+    with_bytes(Damaged, second_frame(Next)).
 test(cut_in_the_length, error(syntax_error(truncated_frame))) :-
     read_frames("\x0\\x0\", 10000, 1, _).
 test(too_long, error(resource_error(frame_bytes))) :-
@@ -111,6 +129,48 @@ test(absurdly_long, error(resource_error(frame_bytes))) :-
     read_frames("GET / HTTP/1.1\r\n", 67108864, 1, _).
 
 :- end_tests(frames_are_counted_bytes).
+
+:- begin_tests(what_cannot_be_read_is_known).
+
+test(text, [forall(member(Term-Mark, [request(17, hop, x)-request(17),
+                                      answer(0, x)-answer(0)])),
+            Found == Mark]) :-
+    term_bytes(text, Term, Bytes),
+    bytes_mark(Bytes, Found),
+    bytes_term(text, Bytes, Again),
+    assertion(Again == Term).
+test(neither, fail) :-
+    term_bytes(text, post(hop, x), Bytes),
+    bytes_mark(Bytes, _).
+test(long_record, Mark == request(3)) :-
+    numlist(1, 100000, Long),
+    Term = request(3, hop, Long),
+    term_bytes(fast, Term, Bytes),
+    bytes_mark(Bytes, Mark),
+    bytes_term(fast, Bytes, Again),
+    assertion(Again == Term).
+test(short_record, fail) :-
+    term_bytes(fast, request(3, hop, x), Bytes),
+    bytes_mark(Bytes, _).
+test(no_record_begins_so) :-
+    set_random(seed(22)),
+    forall(between(1, 3000, _),
+           ( random_term(4, Term),
+             term_bytes(fast, Term, Bytes),
+             string_code(1, Bytes, Code),
+             assertion(\+ memberchk(Code, `#!`)) )).
+
+:- end_tests(what_cannot_be_read_is_known).
+
+flipped(At, Bytes, Damaged) :-
+    flipped(At, 0, Bytes, Damaged).
+
+flipped(At, Bit, Bytes, Damaged) :-
+    string_codes(Bytes, Codes0),
+    nth1(At, Codes0, Code0, Rest),
+    Code is Code0 xor (1<<Bit),
+    nth1(At, Codes, Code, Rest),
+    string_codes(Damaged, Codes).
 
 flag_or(Flag, Default, Value) :-
     (   current_prolog_flag(Flag, Value0)
@@ -131,6 +191,11 @@ framed(List, Bytes) :-
 
 read_frames(Bytes, Max, Count, Frames) :-
     length(Frames, Count),
+    with_bytes(Bytes, read_each(Frames, Max)).
+
+:- meta_predicate with_bytes(+, 1).
+
+with_bytes(Bytes, Goal) :-
     with_file(File,
               ( setup_call_cleanup(
                     open(File, write, Out, [type(binary)]),
@@ -138,13 +203,17 @@ read_frames(Bytes, Max, Count, Frames) :-
                     close(Out)),
                 setup_call_cleanup(
                     open(File, read, In, [type(binary)]),
-                    read_each(Frames, In, Max),
+                    call(Goal, In),
                     close(In)) )).
 
 read_each([], _, _).
-read_each([Frame|Frames], In, Max) :-
+read_each([Frame|Frames], Max, In) :-
     frame_read(In, Max, Frame),
-    read_each(Frames, In, Max).
+    read_each(Frames, Max, In).
+
+second_frame(Frame, In) :-
+    catch(frame_read(In, 100, _), error(syntax_error(_), _), true),
+    frame_read(In, 100, Frame).
 
 :- meta_predicate with_file(-, 0).
 

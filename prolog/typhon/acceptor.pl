@@ -4,21 +4,40 @@
 
 /** <module> Taking connections
 
+Every client has a thread of its own and, until it has proved itself, one of
+a bounded number of slots. When all are taken a newcomer gets that of
+another: of an address nobody has proved himself from, before others; of the
+address that holds most slots; of one that has said nothing yet; of the one
+that came first. So who only wants to hold slots holds them as long as nobody
+else wants them.
+
+Most strangers take us for something else. Whose first byte is there, and is
+not that of a greeting, gets neither slot nor thread.
+
 _Threading_: accept_all/2 is the goal of a crew thread, which is woken by a
-signal: closing the socket would not wake it. Every client gets a thread of
-its own, few at a time until they have proved themselves.
+signal: closing the socket would not wake it. The slots are guarded by a
+mutex: the acceptor gives and takes them, the thread of a client says how
+far it has come and gives its own back.
 */
 
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(error), [permission_error/3, syntax_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(socket), [tcp_accept/3, tcp_close_socket/1]).
-:- use_module(connection, [incoming/4]).
-:- use_module(crew, [crew_spawn/2]).
+:- use_module(library(socket), [tcp_accept/3]).
+:- use_module(connection, [incoming/5, open_streams/3]).
+:- use_module(crew, [crew_signal/2, crew_spawn/3, crew_tell/1]).
+:- use_module(refusals, [refusals_tell/0, refused/2]).
 
-:- setting(strangers, positive_integer, 32,
+:- setting(strangers, positive_integer, 128,
            "Connections at a time that have not proved themselves").
 
 :- dynamic
-    stranger/1.                         % Socket
+    stranger/4,                         % Thread, Ip, Since, Stage
+    proved/1.                           % Ip, of a peer; the newest last
+
+%   Addresses that are remembered.
+
+proved_addresses(256).
 
 %!  accept_all(+Socket, +Me)
 %
@@ -26,31 +45,181 @@ its own, few at a time until they have proved themselves.
 %   an exception of the crew.
 
 accept_all(Socket, Me) :-
+    forall(stranger(Thread, _, _, _), take_slot(Thread)),
+    refusals_tell,
     repeat,
-    catch(accept(Socket, Me), error(Formal, Context), report(Formal, Context)),
+    catch(accept(Socket, Me), error(Formal, _), accept_failed(Formal)),
     fail.
 
 accept(Socket, Me) :-
     tcp_accept(Socket, Client, ip(A, B, C, D)),
-    sig_atomic(admit(Client, ip(A, B, C, D), Me)).
-
-admit(Client, ip(A, B, C, D), Me) :-
     atomic_list_concat([A, B, C, D], '.', Ip),
-    setting(strangers, Max),
-    predicate_property(stranger(_), number_of_clauses(Count)),
-    (   Count < Max
-    ->  assertz(stranger(Client)),
-        crew_spawn(serve(Client, Ip, Me), _)
-    ;   tcp_close_socket(Client),
-        print_message(warning, typhon(endpoint, turned_away(Ip, strangers)))
+    sig_atomic(admit(Client, Ip, Me)).
+
+%   Out of descriptors, most likely, which strangers may hold.
+
+accept_failed(Formal) :-
+    refused(anywhere, Formal),
+    sig_atomic(ignore(slot(evict(_)))),
+    sleep(0.1).
+
+admit(Client, Ip, Me) :-
+    catch(open_streams(Client, In, Out),
+          error(Formal, _),
+          refused(Ip, Formal)),
+    (   nonvar(In)
+    ->  admit(In, Out, Ip, Me)
+    ;   true
     ).
 
-serve(Client, Ip, Me) :-
-    Welcomed = retractall(stranger(Client)),
-    call_cleanup(incoming(Client, Ip, Welcomed, Me), Welcomed).
+admit(In, Out, Ip, Me) :-
+    catch(let_in(In, Out, Ip, Me, Evicted),
+          error(Formal, _),
+          ( close_streams(In, Out),
+            refused(Ip, Formal) )),
+    (   nonvar(Evicted)
+    ->  refused(Evicted, silent)
+    ;   true
+    ).
 
-%   Out of descriptors, most likely: they come back.
+let_in(In, Out, Ip, Me, Evicted) :-
+    (   wait_for_input([In], [_], 0)
+    ->  peek_byte(In, Byte),
+        check_first(Byte)
+    ;   true
+    ),
+    slot(give(In, Out, Ip, Me, Evicted)).
 
-report(Formal, Context) :-
-    print_message(error, error(Formal, Context)),
-    sleep(0.1).
+check_first(0't) :-
+    !.
+check_first(-1) :-
+    !,
+    syntax_error(end_of_file).
+check_first(_) :-
+    permission_error(authenticate, peer, protocol).
+
+close_streams(In, Out) :-
+    close(Out, [force(true)]),
+    close(In, [force(true)]).
+
+:- meta_predicate slot(0).
+
+slot(Goal) :-
+    with_mutex(typhon_strangers, Goal).
+
+give(In, Out, Ip, Me, Evicted) :-
+    (   room
+    ->  true
+    ;   evict(Evicted)
+    ->  true
+    ;   throw(error(crowd, _))
+    ),
+    get_time(Now),
+    crew_spawn(serve(In, Out, Ip, Me), Thread,
+               assertz(stranger(Thread, Ip, Now, new(In, Out)))).
+
+		 /*******************************
+		 *            SLOTS             *
+		 *******************************/
+
+room :-
+    free_slot,
+    !.
+room :-
+    forall(( stranger(Thread, _, _, _), \+ running(Thread) ),
+           bury(Thread)),
+    free_slot.
+
+free_slot :-
+    predicate_property(stranger(_, _, _, _), number_of_clauses(Count)),
+    setting(strangers, Max),
+    Count < Max.
+
+running(Thread) :-
+    catch(thread_property(Thread, status(running)),
+          error(existence_error(_, _), _),
+          fail).
+
+%   A thread that was interrupted on its first or last steps may not have
+%   said that it ended.
+
+bury(Thread) :-
+    take_slot(Thread),
+    ignore(crew_tell(ended(Thread))).
+
+evict(Ip) :-
+    victim(Thread, Ip),
+    take_slot(Thread),
+    crew_signal(Thread, evicted).
+
+victim(Thread, Ip) :-
+    findall(Rank-(Thread0-Ip0),
+            ( stranger(Thread0, Ip0, Since, Stage),
+              rank(Ip0, Since, Stage, Rank) ),
+            Ranked),
+    keysort(Ranked, [_-(Thread-Ip)|_]).
+
+%   The streams of a client that is new are still ours.
+
+take_slot(Thread) :-
+    retract(stranger(Thread, _, _, Stage)),
+    !,
+    (   Stage = new(In, Out)
+    ->  close_streams(In, Out)
+    ;   true
+    ).
+
+%   Who is new has not had a chance to say anything.
+
+rank(Ip, Since, Stage, rank(Known, Free, Spoke, Since)) :-
+    (   Stage == silent
+    ->  Spoke = 0
+    ;   Spoke = 1
+    ),
+    (   proved(Ip)
+    ->  Known = 1
+    ;   Known = 0
+    ),
+    aggregate_all(count, stranger(_, Ip, _, _), Slots),
+    Free is -Slots.
+
+		 /*******************************
+		 *            CLIENTS           *
+		 *******************************/
+
+serve(In, Out, Ip, Me) :-
+    call_cleanup(incoming(In, Out, Ip, typhon_acceptor:stage(Ip), Me),
+                 leave).
+
+%   stage(+Ip, +Stage): this client has come so far: its streams are its
+%   thread's own, and it is `silent`; it is `heard`; it has `proved` itself.
+%   Fails if its slot is another's now.
+
+stage(Ip, Stage) :-
+    sig_atomic(slot(reach(Stage, Ip))).
+
+reach(proved, Ip) :-
+    !,
+    leave,
+    remember(Ip).
+reach(Stage, _) :-
+    thread_self(Me),
+    retract(stranger(Me, Ip, Since, _)),
+    !,
+    assertz(stranger(Me, Ip, Since, Stage)).
+
+leave :-
+    thread_self(Me),
+    retractall(stranger(Me, _, _, _)).
+
+remember(Ip) :-
+    proved(Ip),
+    !.
+remember(Ip) :-
+    assertz(proved(Ip)),
+    predicate_property(proved(_), number_of_clauses(Count)),
+    proved_addresses(Max),
+    (   Count > Max
+    ->  once(retract(proved(_)))
+    ;   true
+    ).

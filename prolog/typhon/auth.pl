@@ -11,14 +11,16 @@
 Both ends of a connection prove that they know a shared secret, the cookie,
 before either decodes a term of the other. Four short lines pass:
 
-    client: typhon 1 <nonce> <hello>
-    server: typhon 1 <nonce> <hello>
+    client: typhon 2 <nonce> <hello>
+    server: typhon 2 <nonce> <hello>
     client: <proof>
     server: <proof>
 
 A proof is the HMAC-SHA256 under the cookie of the prover's role and both
 first lines: it cannot be replayed, reflected, or moved to other hellos. The
 server proves nothing to a client that has not.
+
+Who speaks another version of the protocol is told ours, as `typhon 2`.
 
 _Threading_: any thread. The cookie is kept with the time stamp of its file
 in one fact; two threads that read it at once store the same.
@@ -47,31 +49,41 @@ in one fact; two threads that read it at once store the same.
 %   proof, Role being `client` or `server`. Stops listening after
 %   `handshake_time` seconds in all.
 %
-%   @error permission_error(authenticate, peer, Why) Why: cookie, protocol
+%   @error permission_error(authenticate, peer, Why) Why: cookie, protocol,
+%   version(Theirs)
 %   @error timeout_error(read, In)
 %   @error syntax_error(Message) what comes is no hello.
 
 authenticate(Role, In, Out, Hello, PeerHello) :-
-    cookie(Cookie),
-    authenticate(Role, In, Out, Hello, Cookie, PeerHello).
+    prove(Role, In, Out, Hello, cookie, PeerHello).
 
 authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
+    prove(Role, In, Out, Hello, =(Cookie), PeerHello).
+
+%   prove(+Role, +In, +Out, +Hello, :Cookie, -PeerHello): a stranger that
+%   does not even greet costs us neither cookie nor nonce.
+
+prove(Role, In, Out, Hello, Cookie, PeerHello) :-
     must_be(oneof([client, server]), Role),
     setting(handshake_time, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
-    greeting(Hello, Ours),
-    exchange_greetings(Role, In, Out, Deadline, Ours, Theirs),
+    exchange_greetings(Role, In, Out, Deadline, Hello, Ours, Theirs),
+    call(Cookie, Secret),
     roles(Role, Ours, Theirs, Client, Server),
-    proof(Cookie, client, Client, Server, ClientProof),
-    proof(Cookie, server, Client, Server, ServerProof),
+    proof(Secret, client, Client, Server, ClientProof),
+    proof(Secret, server, Client, Server, ServerProof),
     exchange_proofs(Role, In, Out, Deadline, ClientProof, ServerProof),
     greeting_hello(Theirs, PeerHello).
 
-greeting(Hello, Line) :-
+greet(Out, Hello, Line) :-
     random_hex(16, Nonce),
     hello_line(Hello, HelloLine),
-    format(string(Line), "typhon 1 ~w ~w", [Nonce, HelloLine]).
+    protocol(Protocol),
+    format(string(Line), "~w ~w ~w", [Protocol, Nonce, HelloLine]),
+    line_write(Out, Line).
+
+protocol("typhon 2").
 
 greeting_hello(Line, Hello) :-
     (   split_string(Line, " ", "", [_, _, _|Fields])
@@ -80,21 +92,42 @@ greeting_hello(Line, Hello) :-
     ;   syntax_error(hello)
     ).
 
-%   The server does not answer somebody who speaks something else.
+%   The server does not answer somebody who speaks something else, but it
+%   tells another version which one it is.
 
-exchange_greetings(client, In, Out, Deadline, Ours, Theirs) :-
-    line_write(Out, Ours),
+exchange_greetings(client, In, Out, Deadline, Hello, Ours, Theirs) :-
+    greet(Out, Hello, Ours),
     line_read(In, Deadline, Theirs),
     check_protocol(Theirs).
-exchange_greetings(server, In, Out, Deadline, Ours, Theirs) :-
+exchange_greetings(server, In, Out, Deadline, Hello, Ours, Theirs) :-
     line_read(In, Deadline, Theirs),
+    (   speaks(Theirs, version(_))
+    ->  protocol(Protocol),
+        line_write(Out, Protocol)
+    ;   true
+    ),
     check_protocol(Theirs),
-    line_write(Out, Ours).
+    greet(Out, Hello, Ours).
 
 check_protocol(Line) :-
-    (   string_concat("typhon 1 ", _, Line)
+    speaks(Line, What),
+    (   What == ours
     ->  true
-    ;   permission_error(authenticate, peer, protocol)
+    ;   permission_error(authenticate, peer, What)
+    ).
+
+%   speaks(+Line, -What): `ours`, version(Number) or `protocol`.
+
+speaks(Line, What) :-
+    protocol(Protocol),
+    (   string_concat(Protocol, Rest, Line),
+        sub_string(Rest, 0, 1, _, " ")
+    ->  What = ours
+    ;   split_string(Line, " ", "", ["typhon", Number|_]),
+        number_string(Version, Number),
+        integer(Version)
+    ->  What = version(Version)
+    ;   What = protocol
     ).
 
 roles(client, Ours, Theirs, Ours, Theirs).

@@ -59,7 +59,8 @@ code_install(Hash, Program) :-
 code_receive(Hash, Program) :-
     (   code_module(Hash, _)
     ->  true
-    ;   Program = program(_, State, Libraries, Clauses),
+    ;   subsumes_term(program(_, _, _, _), Program),
+        Program = program(_, State, Libraries, Clauses),
         maplist(is_list, [State, Libraries, Clauses]),
         program_hash(Program, Hash)
     ->  code_install(Hash, Program)

@@ -1,6 +1,7 @@
 :- module(typhon_connection,
-          [ incoming/4,                 % +Socket, +Ip, :Welcomed, +Me
-            outgoing/2                  % +Address, +Me
+          [ incoming/5,                 % +In, +Out, +Ip, :Stage, +Me
+            outgoing/2,                 % +Address, +Me
+            open_streams/3              % +Socket, -In, -Out
           ]).
 
 /** <module> The thread of one connection
@@ -14,7 +15,7 @@ side only. So a new connection always replaces an old one, and of two
 processes the one with the smaller key, the arbiter, decides in which order
 that happens: it speaks first, and about one connection at a time.
 
-_Threading_: incoming/4 and outgoing/2 are the goals of crew threads. Signals
+_Threading_: incoming/5 and outgoing/2 are the goals of crew threads. Signals
 are held back while a frame is being handled and counted.
 */
 
@@ -27,6 +28,7 @@ are held back while a frame is being handled and counted.
 :- use_module(contacts, [contact_gone/1, contact_met/2]).
 :- use_module(crew, [crew_tell/1]).
 :- use_module(hello, [hello_codec/3, line_read/3, line_write/2]).
+:- use_module(refusals, [refused/2]).
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
 :- use_module(session, [route/2, route_add/2, session_adopting/2,
@@ -35,27 +37,28 @@ are held back while a frame is being handled and counted.
                         session_open/4, session_peer/3,
                         session_received/2, session_retire/1]).
 
-%!  incoming(+Socket, +Ip, :Welcomed, +Me) is det.
+%!  incoming(+In, +Out, +Ip, :Stage, +Me) is det.
 %
-%   Serve the client at Ip, that has connected; Me is our hello. Welcomed
-%   is called when it has proved itself.
+%   Serve the client at Ip, whose streams are In and Out; Me is our hello.
+%   Stage is called with `silent`, from when on we see to the streams, with
+%   `heard` when the client has said something, and with `proved`. If it
+%   fails, that was all.
 
-incoming(Socket, Ip, Welcomed, Me) :-
-    catch(with_streams(Socket, In, Out,
-                       ( meet(server, In, Out, Me, Peer, Session),
-                         call(Welcomed),
+incoming(In, Out, Ip, Stage, Me) :-
+    catch(with_streams(call(Stage, silent), In, Out,
+                       ( await_word(In),
+                         call(Stage, heard),
+                         meet(server, In, Out, Me, Peer, Session),
+                         call(Stage, proved),
                          reachable(Peer, Ip, Session),
                          serve(Session, In) )),
           error(Formal, _),
-          turned_away(Ip, Formal)).
+          refused(Ip, Formal)).
 
-turned_away(Ip, Formal) :-
-    (   memberchk(Formal, [io_error(_, _), socket_error(_, _),
-                           syntax_error(end_of_file)])
-    ->  Level = informational
-    ;   Level = warning
-    ),
-    print_message(Level, typhon(endpoint, turned_away(Ip, Formal))).
+await_word(In) :-
+    setting(typhon_auth:handshake_time, Seconds),
+    set_stream(In, timeout(Seconds)),
+    peek_byte(In, _).
 
 %   The peer at Ip can be reached at the address it says it listens to,
 %   unless that is meaningless here.
@@ -93,7 +96,7 @@ outgoing(Address, Me) :-
 outgoing(Address, Me, Times) :-
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
-            with_streams(Socket, In, Out,
+            with_streams(open_streams(Socket, In, Out), In, Out,
                          ( meet(client, In, Out, Me, Peer, Session),
                            arg(1, Peer, Process),
                            found(Address, Process, Session),
@@ -117,6 +120,8 @@ missed(Address, Me, Times, Formal) :-
 missed(Address, _, _, Formal) :-
     (   Formal = socket_error(econnrefused, _)
     ->  contact_gone(Address)
+    ;   Formal = permission_error(authenticate, peer, version(_))
+    ->  print_message(warning, typhon(endpoint, foreign(Address, Formal)))
     ;   true
     ),
     ignore(crew_tell(missed(Address, Formal))).
@@ -142,22 +147,27 @@ address_parts(Address, Interface, Port) :-
     ).
 
 :- meta_predicate
-    incoming(+, +, 0, +),
-    with_streams(+, -, -, 0).
+    incoming(+, +, +, 1, +),
+    with_streams(0, ?, ?, 0).
 
-%   Once opened, the streams own the socket.
-
-with_streams(Socket, In, Out, Goal) :-
+with_streams(Open, In, Out, Goal) :-
     setup_call_cleanup(
-        open_streams(Socket, In, Out),
+        Open,
         Goal,
         ( session_left,
           close(Out, [force(true)]),
           close(In, [force(true)]) )).
 
+%!  open_streams(+Socket, -In, -Out) is det.
+%
+%   From now on the streams own Socket.
+
 open_streams(Socket, In, Out) :-
-    tcp_setopt(Socket, nodelay),
-    tcp_open_socket(Socket, In, Out),
+    catch(( tcp_setopt(Socket, nodelay),
+            tcp_open_socket(Socket, In, Out) ),
+          Error,
+          ( tcp_close_socket(Socket),
+            throw(Error) )),
     set_stream(In, encoding(octet)),
     set_stream(Out, encoding(octet)),
     set_stream(In, buffer_size(65536)),
@@ -221,7 +231,8 @@ hear_count(In, Count) :-
     line_read(In, Deadline, Line),
     (   string_concat("resume ", Digits, Line),
         number_string(Count, Digits),
-        integer(Count)
+        integer(Count),
+        Count >= 0
     ->  true
     ;   syntax_error(resume)
     ).
@@ -252,7 +263,9 @@ report_break(session(Key, _, _, _, _), Formal) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(typhon(endpoint, turned_away(Ip, Formal))) -->
-    [ 'Endpoint: turned away a client at ~w: ~p'-[Ip, Formal] ].
+prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
+    { arg(3, Formal, version(Theirs)) },
+    [ 'Endpoint: ~w speaks another version of the protocol, ~w'
+      -[Address, Theirs] ].
 prolog:message(typhon(endpoint, broken(Address, Formal))) -->
     [ 'Endpoint: connection with ~w broken: ~p'-[Address, Formal] ].

@@ -2,6 +2,7 @@
           [ crew_start/0,
             crew_stop/1,                % -Unheard
             crew_spawn/2,               % :Goal, -Thread
+            crew_spawn/3,               % :Goal, -Thread, :Before
             crew_retire/2,              % +Thread, +Why
             crew_signal/2,              % +Thread, +Why
             crew_bury/1,                % +Thread
@@ -21,7 +22,8 @@ the caller.
 */
 
 :- meta_predicate
-    crew_spawn(0, -).
+    crew_spawn(0, -),
+    crew_spawn(0, -, 0).
 
 :- dynamic
     crew_queue/1,                       % Queue
@@ -59,23 +61,30 @@ unheard(Queue, Message) :-
     ).
 
 %!  crew_spawn(:Goal, -Thread) is det.
+%!  crew_spawn(:Goal, -Thread, :Before) is det.
 %
 %   Run Goal in a new thread. Goal reports its own errors; the exception
-%   crew(Why) ends it quietly.
+%   crew(Why) ends it quietly. Before is called here, in between: Thread is
+%   known, and has not begun.
 
 crew_spawn(Goal, Thread) :-
-    sig_atomic(spawn(Goal, Thread)).
+    crew_spawn(Goal, Thread, true).
 
-spawn(Goal, Thread) :-
+crew_spawn(Goal, Thread, Before) :-
+    sig_atomic(spawn(Goal, Thread, Before)).
+
+spawn(Goal, Thread, Before) :-
     thread_create(typhon_crew:work(Goal), Thread, []),
     assertz(member_thread(Thread)),
+    call(Before),
     thread_send_message(Thread, crew_registered).
 
 work(Goal) :-
-    thread_get_message(crew_registered),
     setup_call_cleanup(
         true,
-        catch(ignore(Goal), crew(_), true),
+        catch(( thread_get_message(crew_registered), ignore(Goal) ),
+              crew(_),
+              true),
         ended).
 
 ended :-

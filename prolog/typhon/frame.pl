@@ -3,13 +3,16 @@
             frame_read/3,               % +In, +MaxBytes, -Bytes
             term_bytes/3,               % +Codec, +Term, -Bytes
             bytes_term/3,               % +Codec, +Bytes, -Term
+            bytes_mark/2,               % +Bytes, -Mark
+            check_bytes/2,              % +Bytes, -Check
             mobile_term/1               % +Term
           ]).
 
 /** <module> Frames: terms as counted bytes
 
-A frame is a big-endian four-byte length and that many bytes. Bytes are
-a string of codes 0..255, the body of one term in one of two codecs:
+A frame is a big-endian four-byte length, a check of three bytes, and as
+many bytes as the length says. Bytes are a string of codes 0..255, the body
+of one term in one of two codecs:
 
   - `fast` is the internal record format. It is only for peers of one
     word size, byte order and a tried range of versions: a record of
@@ -17,12 +20,20 @@ a string of codes 0..255, the body of one term in one of two codecs:
   - `text` is canonical text in UTF-8, independent of the operators and
     flags of both sides.
 
+The check tells what was damaged on its way before it is decoded: a damaged
+record aborts the process, too. It is no proof of anything.
+
+Before the body of a request or an answer that may turn out to be more than
+the other side can decode, long ones and all text, stands a mark with its
+number, so that nobody waits for an answer to what could not be read.
+
 _Threading_: no state; every predicate may be called from any thread. The
 owner of a stream sees to it that one thread at a time writes to it.
 */
 
 :- use_module(library(error), [resource_error/1, syntax_error/1,
                                type_error/2]).
+:- use_module(library(sha), [sha_hash/3]).
 :- use_module(text, [term_text/2, text_term/2]).
 
 %!  frame_write(+Out, +Bytes) is det.
@@ -35,10 +46,17 @@ frame_write(Out, Bytes) :-
     B2 is (Length>>16) /\ 255,
     B1 is (Length>>8) /\ 255,
     B0 is Length /\ 255,
+    check_bytes(Bytes, Check),
+    C2 is Check>>16,
+    C1 is (Check>>8) /\ 255,
+    C0 is Check /\ 255,
     put_byte(Out, B3),
     put_byte(Out, B2),
     put_byte(Out, B1),
     put_byte(Out, B0),
+    put_byte(Out, C2),
+    put_byte(Out, C1),
+    put_byte(Out, C0),
     write(Out, Bytes).
 
 %!  frame_read(+In, +MaxBytes, -Bytes) is det.
@@ -47,20 +65,24 @@ frame_write(Out, Bytes) :-
 %   would begin.
 %
 %   @error syntax_error(truncated_frame) In ends inside the frame.
+%   @error syntax_error(damaged_frame) its bytes are not those of its check;
+%   the context is check(Read, Found). In is where the next frame begins.
 %   @error resource_error(frame_bytes) the frame is longer than MaxBytes.
 
 frame_read(In, MaxBytes, Bytes) :-
-    get_byte(In, B3),
-    (   B3 == -1
-    ->  Bytes = end_of_file
-    ;   get_byte(In, B2),
-        get_byte(In, B1),
-        get_byte(In, B0),
-        (   B0 == -1
-        ->  syntax_error(truncated_frame)
-        ;   Length is B3<<24 \/ B2<<16 \/ B1<<8 \/ B0,
-            frame_body(In, Length, MaxBytes, Bytes)
+    read_string(In, 7, Head),
+    (   string_codes(Head, [B3, B2, B1, B0, C2, C1, C0])
+    ->  Length is B3<<24 \/ B2<<16 \/ B1<<8 \/ B0,
+        frame_body(In, Length, MaxBytes, Bytes),
+        Check is C2<<16 \/ C1<<8 \/ C0,
+        check_bytes(Bytes, Found),
+        (   Found == Check
+        ->  true
+        ;   throw(error(syntax_error(damaged_frame), check(Check, Found)))
         )
+    ;   Head == ""
+    ->  Bytes = end_of_file
+    ;   syntax_error(truncated_frame)
     ).
 
 frame_body(_, Length, MaxBytes, _) :-
@@ -74,6 +96,20 @@ frame_body(In, Length, _, Bytes) :-
     ;   syntax_error(truncated_frame)
     ).
 
+%!  check_bytes(+Bytes, -Check) is det.
+%
+%   Check is an integer of 24 bits. That of a record is what costs least
+%   and the same for all who may exchange records, see byte_order/1 in
+%   hello.pl; that of a text is the same everywhere.
+
+check_bytes(Bytes, Check) :-
+    is_text(Bytes),
+    !,
+    sha_hash(Bytes, [C2, C1, C0|_], [encoding(octet)]),
+    Check is C2<<16 \/ C1<<8 \/ C0.
+check_bytes(Bytes, Check) :-
+    term_hash(Bytes, Check).
+
 %!  term_bytes(+Codec, +Term, -Bytes) is det.
 %
 %   Bytes are Term in Codec, `fast` or `text`.
@@ -82,13 +118,18 @@ frame_body(In, Length, _, Bytes) :-
 %   `fast` only notices blobs: ask mobile_term/1 about foreign terms.
 
 term_bytes(fast, Term, Bytes) :-
-    (   serialized(Term, Bytes)
-    ->  true
+    (   serialized(Term, Body)
+    ->  (   string_length(Body, Length),
+            Length > 65536
+        ->  marked(0'!, Term, Body, Bytes)
+        ;   Bytes = Body
+        )
     ;   refuse(Term)
     ).
 term_bytes(text, Term, Bytes) :-
     mobile_term(Term),
-    term_text(Term, Bytes).
+    term_text(Term, Body),
+    marked(0'#, Term, Body, Bytes).
 
 serialized(Term, Bytes) :-
     catch(fast_term_serialized(Term, Bytes),
@@ -103,9 +144,64 @@ serialized(Term, Bytes) :-
 %   @error syntax_error(Message) the text is damaged.
 
 bytes_term(fast, Bytes, Term) :-
-    fast_term_serialized(Term, Bytes).
+    (   string_code(1, Bytes, 0'!)
+    ->  unmarked(Bytes, Body),
+        fast_term_serialized(Term, Body)
+    ;   fast_term_serialized(Term, Bytes)
+    ).
 bytes_term(text, Bytes, Term) :-
-    text_term(Bytes, Term).
+    unmarked(Bytes, Body),
+    text_term(Body, Term).
+
+		 /*******************************
+		 *             MARKS            *
+		 *******************************/
+
+%   A mark is `#` before text, `!` before a record, which never begins so;
+%   then what the term is, and its number in eighteen digits.
+
+marked(Code, Term, Body, Bytes) :-
+    term_mark(Term, Kind, Id),
+    format(string(Mark), "~c~w~`0t~d~20|", [Code, Kind, Id]),
+    string_concat(Mark, Body, Bytes).
+
+term_mark(request(Id, _, _), ?, Id) :-
+    integer(Id),
+    !.
+term_mark(answer(Id, _), =, Id) :-
+    integer(Id),
+    !.
+term_mark(_, -, 0).
+
+is_text(Bytes) :-
+    string_code(1, Bytes, 0'#).
+
+unmarked(Bytes, Body) :-
+    (   sub_string(Bytes, 20, _, 0, Body0)
+    ->  Body = Body0
+    ;   syntax_error(mark)
+    ).
+
+%!  bytes_mark(+Bytes, -Mark) is semidet.
+%
+%   Mark is request(Id) or answer(Id), if that is what Bytes say they are.
+
+bytes_mark(Bytes, Mark) :-
+    sub_string(Bytes, 0, 20, _, Text),
+    string_code(1, Text, Code),
+    memberchk(Code, `#!`),
+    sub_atom(Text, 1, 1, _, Kind),
+    mark_kind(Kind, Id, Mark),
+    sub_string(Text, 2, 18, 0, Digits),
+    number_string(Id, Digits),
+    integer(Id).
+
+mark_kind(?, Id, request(Id)).
+mark_kind(=, Id, answer(Id)).
+
+		 /*******************************
+		 *      WHAT CAN TRAVEL         *
+		 *******************************/
 
 %!  mobile_term(+Term) is det.
 %

@@ -23,6 +23,7 @@ lines are exchanged.
 
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(frame, [check_bytes/2]).
 
 :- setting(records, boolean, true,
            "Whether terms may travel as records; else always as text").
@@ -38,17 +39,20 @@ hello(Process, Start, Address,
     current_prolog_flag(address_bits, Word),
     byte_order(Order).
 
-%   1.5 is 0x3ff8 and zeros: a record shows which end comes first.
+%   1.5 is 0x3ff8 and zeros: a record shows which end comes first. Beside
+%   the order stands the check of these bytes, which must agree as well.
 
 byte_order(none) :-
     setting(records, false),
     !.
 byte_order(Order) :-
     fast_term_serialized(1.5, Bytes),
+    check_bytes(Bytes, Check),
     (   sub_string(Bytes, _, _, _, "\xf8\\x3f\")
-    ->  Order = little
-    ;   Order = big
-    ).
+    ->  End = little
+    ;   End = big
+    ),
+    atomic_list_concat([End, Check], '.', Order).
 
 %!  hello_line(+Hello, -Line:string) is det.
 

@@ -30,7 +30,8 @@ dynamic predicates below. Others talk to it through crew_tell/1.
 :- dynamic
     attempt/3,                          % Address, Thread, Deadline
     waiter/2,                           % Address, Queue
-    again/3.                            % Key, Time, Wait
+    again/3,                            % Key, Time, Wait
+    due/2.                              % Time, Goal
 
 %!  keeper_connect(+Address) is semidet.
 %
@@ -77,10 +78,11 @@ keep(Me) :-
 rest :-
     forall(retract(waiter(_, Queue)), tell_waiter(Queue, missed)),
     retractall(attempt(_, _, _)),
-    retractall(again(_, _, _)).
+    retractall(again(_, _, _)),
+    run_due(inf).
 
 next_deadline(Deadline) :-
-    findall(T, ( attempt(_, _, T) ; again(_, T, _) ), Times),
+    findall(T, ( attempt(_, _, T) ; again(_, T, _) ; due(T, _) ), Times),
     (   Times == []
     ->  Deadline = infinite
     ;   min_list(Times, Deadline)
@@ -112,8 +114,18 @@ hear(gone(Key), _) :-                   % it said goodbye
     forall(route(Address, session(Key, _, _, _, _)),
            contact_gone(Address)),
     gone(Key).
+hear(later(Time, Goal), _) :-           % Goal is quick
+    assertz(due(Time, Goal)).
 hear(overdue, Me) :-
+    get_time(Now),
+    run_due(Now),
     overdue(Me).
+
+run_due(Now) :-
+    findall(Time-Goal, ( due(Time, Goal), Time =< Now ), Due),
+    forall(member(Time-Goal, Due),
+           ( retractall(due(Time, Goal)),
+             call(Goal) )).
 
 gone(Key) :-
     (   session(Key, Session)

@@ -8,21 +8,33 @@ The reader counts what it has handled, tells the peer now and then, and is
 also the watchdog of the connection: a peer that owes us something and is
 silent is asked for a sign of life, and given up when it gives none.
 
+A frame that was damaged on its way ends the connection: over the next one
+it comes again. What comes damaged in the same way three times was sent so,
+and is skipped.
+
 _Threading_: runs in the thread of the connection, see connection.pl. The
-counts are that thread's own and are stored when it ends. Signals are held
-back while a frame is being handled and counted.
+counts are that thread's own and are stored when it ends, as is what it
+knows of damage. Signals are held back while a frame is being handled and
+counted.
 */
+
+:- use_module(library(error), [domain_error/2]).
 
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(crew, [crew_tell/1]).
-:- use_module(frame, [bytes_term/3, frame_read/3]).
+:- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
 :- use_module(request, [dispatch/2, requests_open/1]).
 :- use_module(session, [session_acked/3, session_control/2,
-                        session_note_received/2, session_pending/2,
-                        session_push/1, session_received/2]).
+                        session_note_received/2, session_peer/3,
+                        session_pending/2,
+                        session_push/1, session_received/2, session_send/2,
+                        session_sent/2]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is asked for a sign of life").
+
+:- dynamic
+    damaged/4.                          % Key, Count, Which, Times
 
 %   After so many frames or bytes the peer is told that they have come.
 
@@ -34,7 +46,9 @@ ack_bytes(32768).
 %   Handle all frames until In ends.
 %
 %   @error timeout_error(read, In) the peer is silent for too long
-%   @error resource_error(frame_bytes), syntax_error(truncated_frame)
+%   @error resource_error(frame_bytes), syntax_error(truncated_frame),
+%   syntax_error(damaged_frame)
+%   @error domain_error(acknowledged, Count) more than was sent
 
 read_frames(Session, In) :-
     Session = session(Key, _, _, _, _),
@@ -48,7 +62,7 @@ read_frames(Session, In) :-
     State = count(Count, Count, Bytes, 0),
     call_cleanup(
         call_cleanup(
-            read_all(Session, In, Max, State),
+            read_or_skip(Session, In, Max, State),
             note_received(Key, State)),
         note_received(Key, State)).
 
@@ -58,6 +72,16 @@ read_frames(Session, In) :-
 note_received(Key, State) :-
     arg(1, State, Count),
     session_note_received(Key, Count).
+
+read_or_skip(Session, In, Max, State) :-
+    catch(read_all(Session, In, Max, State),
+          error(syntax_error(damaged_frame), Which),
+          true),
+    (   var(Which)
+    ->  true
+    ;   skip(Session, Which, State),
+        read_or_skip(Session, In, Max, State)
+    ).
 
 read_all(Session, In, Max, State) :-
     Session = session(_, Codec, _, _, _),
@@ -97,12 +121,61 @@ push_late(Session, In) :-
     ).
 
 %   A frame that cannot be read has come all the same: asking for it again
-%   would not help.
+%   would not help. Whoever waits for an answer hears of it at once, here or
+%   there.
 
 frame_term(Codec, Bytes, Term) :-
     catch(bytes_term(Codec, Bytes, Term),
           error(Formal, _),
-          Term = unreadable(Formal)).
+          unreadable(Formal, Bytes, Term)).
+
+unreadable(Formal, Bytes, unreadable(Formal, Mark)) :-
+    (   bytes_mark(Bytes, Mark0)
+    ->  Mark = Mark0
+    ;   Mark = none
+    ).
+
+take(unreadable(Formal, Mark), Session) :-
+    !,
+    arg(1, Session, Key),
+    ignore(session_peer(Key, _, Address)),
+    print_message(warning, typhon(endpoint, unreadable(Address, Formal))),
+    spoil(Mark, Session).
+take(Frame, Session) :-
+    dispatch(Session, Frame).
+
+spoil(request(Id), Session) :-
+    !,
+    catch(session_send(Session, spoilt(Id)),
+          error(session_closed, _),
+          true).
+spoil(answer(Id), Session) :-
+    !,
+    dispatch(Session, spoilt(Id)).
+spoil(_, _).
+
+%   skip(+Session, +Which, +State): throws as long as it may be an accident.
+
+skip(Session, Which, State) :-
+    arg(1, Session, Key),
+    arg(1, State, Count),
+    times_damaged(Key, Count, Which, Times),
+    (   Times < 3
+    ->  throw(error(syntax_error(damaged_frame), Which))
+    ;   Count1 is Count+1,
+        nb_setarg(1, State, Count1),
+        ignore(session_peer(Key, _, Address)),
+        print_message(error, typhon(endpoint, skipped(Address)))
+    ).
+
+times_damaged(Key, Count, Which, Times) :-
+    (   damaged(Key, Count, Which, Times0)
+    ->  true
+    ;   Times0 = 0
+    ),
+    Times is Times0+1,
+    retractall(damaged(Key, _, _, _)),
+    assertz(damaged(Key, Count, Which, Times)).
 
 %   Fails when nothing begins to come. The time out of a peek loses nothing.
 
@@ -132,6 +205,7 @@ owes(Session) :-
 
 handle(ack(Count, Bytes), Session, _, State) :-
     !,
+    check_ack(Count, Bytes, Session),
     nb_setarg(4, State, 0),
     session_acked(Session, Count, Bytes).
 handle(ping, Session, In, State) :-
@@ -141,7 +215,7 @@ handle(bye, session(Key, _, _, _, _), _, _) :-
     !,
     ignore(crew_tell(gone(Key))).
 handle(Frame, Session, In, State) :-
-    dispatch(Session, Frame),
+    take(Frame, Session),
     State = count(Count0, Told, ToldBytes, _),
     Count is Count0+1,
     nb_setarg(1, State, Count),
@@ -155,9 +229,28 @@ handle(Frame, Session, In, State) :-
     ;   acknowledge(Session, In, State)
     ).
 
+%   Who acknowledges what was never sent would make us forget it.
+
+check_ack(Count, Bytes, Session) :-
+    integer(Count),
+    integer(Bytes),
+    session_sent(Session, Sent),
+    Count =< Sent,
+    !.
+check_ack(Count, _, _) :-
+    domain_error(acknowledged, Count).
+
 acknowledge(Session, In, State) :-
     arg(1, State, Count),
     byte_count(In, Bytes),
     nb_setarg(2, State, Count),
     nb_setarg(3, State, Bytes),
     session_control(Session, ack(Count, Bytes)).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, unreadable(Address, Formal))) -->
+    [ 'Endpoint: a frame of ~w cannot be read: ~p'-[Address, Formal] ].
+prolog:message(typhon(endpoint, skipped(Address))) -->
+    [ 'Endpoint: skipped a frame of ~w that is damaged where it comes from'
+      -[Address] ].

@@ -24,7 +24,6 @@ it. The table of open requests is shared; a request is taken out by retract/1
 and so answered once.
 */
 
-:- use_module(library(apply), [maplist/2]).
 :- use_module(session,
               [ session_peer/3, session_send/2, session_send_later/2 ]).
 
@@ -82,12 +81,15 @@ requests_open(session(Key, _, _, _, _)) :-
 %   who wait for its answers.
 
 requests_lost(session(Key, _, _, _, _), Unsent) :-
-    forall(member(request(Id, _, _), Unsent), conclude(unreachable, Id)),
-    findall(Id, open_request(Id, Key, _), Ids),
-    maplist(conclude(lost), Ids).
+    forall(member(request(Id, _, _), Unsent),
+           conclude(unreachable, Id, Key)),
+    forall(open_request(Id, Key, _), conclude(lost, Id, Key)).
 
-conclude(Result, Id) :-
-    (   retract(open_request(Id, _, OnAnswer))
+%   Only who was asked can answer.
+
+conclude(Result, Id, Key) :-
+    (   integer(Id),
+        retract(open_request(Id, Key, OnAnswer))
     ->  guarded(call(OnAnswer, Result), answer)
     ;   true
     ).
@@ -108,12 +110,12 @@ dispatch(Session, request(Id, Kind, Term)) :-
     ->  true
     ;   guarded(session_send(Session, spoilt(Id)), Kind)
     ).
-dispatch(_, answer(Id, Term)) :-
+dispatch(session(Key, _, _, _, _), answer(Id, Term)) :-
     !,
-    conclude(answer(Term), Id).
-dispatch(_, spoilt(Id)) :-
+    conclude(answer(Term), Id, Key).
+dispatch(session(Key, _, _, _, _), spoilt(Id)) :-
     !,
-    conclude(lost, Id).
+    conclude(lost, Id, Key).
 dispatch(_, Frame) :-                   % of a later version, or damaged
     print_message(warning, typhon(endpoint, unknown_frame(Frame))).
 
@@ -150,7 +152,8 @@ attempt(Goal, Kind) :-
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, unknown_frame(Frame))) -->
-    [ 'Endpoint: a frame nobody understands: ~p'-[Frame] ].
+    [ 'Endpoint: a frame nobody understands: ~W'
+      -[Frame, [quoted(true), max_depth(8)]] ].
 prolog:message(typhon(endpoint, hook(Kind, failed))) -->
     [ 'Endpoint: nobody takes ~q'-[Kind] ].
 prolog:message(typhon(endpoint, hook(Kind, Error))) -->

@@ -8,6 +8,7 @@
             session_push/1,             % +Session
             session_control/2,          % +Session, +Term
             session_acked/3,            % +Session, +Count, +Bytes
+            session_sent/2,             % +Session, -Count
             session_received/2,         % +Key, -Count
             session_note_received/2,    % +Key, +Count
             session_install/4,          % +Session, +Thread, +Out, +PeerCount
@@ -329,6 +330,16 @@ session_acked(session(Key, _, _, Sent, _), Count, Bytes) :-
     forall(( flusher(Key, Wanted, Queue), Wanted =< Count ),
            ( retractall(flusher(Key, Wanted, Queue)),
              thread_send_message(Queue, flushed) )).
+
+%!  session_sent(+Session, -Count) is semidet.
+%
+%   No more than Count frames have been sent. For the reader only.
+
+session_sent(Session, Count) :-
+    arg(1, Session, Key),
+    acked(Key, Acked, _),
+    session_pending(Session, Pending),
+    Count is Acked+Pending.
 
 forget(Count0, Count, Sent) :-
     Gone is Count-Count0,

@@ -1,0 +1,299 @@
+:- module(fuzz_run,
+          [ fuzz/2                      % +Options, -Faults
+          ]).
+
+/** <module> Nonsense for a host, and what came of it
+
+Most inputs come from strangers, one in eight from a peer that knows the
+cookie and not its business; while another process asks the victim for a
+service now and then.
+
+At the end the process must be alive and serve; no stranger may have got in;
+and no slot, session, request, agent, thread or queue may be left of all
+that.
+
+What is left out: a damaged record behind a right check kills the process.
+Only who knows the cookie can send that.
+
+_Threading_: the main thread.
+*/
+
+:- use_module('../common').
+:- use_module('../peers').
+:- use_module(fuzz_inputs).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2, nth1/3]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(random), [random_between/3, random_member/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(socket)).
+:- use_module(library(typhon/auth), [authenticate/5]).
+:- use_module(library(typhon/frame), [frame_write/2, term_bytes/3]).
+:- use_module(library(typhon/hello),
+              [hello/4, hello_codec/3, line_read/3, line_write/2]).
+
+%!  fuzz(+Options, -Faults:list) is det.
+%
+%   Options: count(N), seed(N), progress(Bool). Input I has the seed I of its
+%   own; a fault names the seeds between which it was seen.
+
+fuzz(Options, Faults) :-
+    option(count(Count), Options, 2000),
+    option(seed(Seed), Options, 1),
+    option(progress(Progress), Options, false),
+    with_peers([victim, honest],
+               ( attack(Count, Seed, Progress, Faults),
+                 tell(Faults) )).
+
+%   Beside faults stand the last words of the victim.
+
+tell([]) :-
+    !.
+tell(_) :-
+    peer_messages(victim, Lines),
+    length(Lines, Count),
+    Skip is max(0, Count-20),
+    forall(( nth1(I, Lines, Line), I > Skip ),
+           format(user_error, 'victim: ~s~n', [Line])).
+
+attack(Count, Seed, Progress, Faults) :-
+    peer_host(victim, Host),
+    atomic_list_concat([_, PortText], ':', Host),
+    atom_number(PortText, Port),
+    served(Host),
+    footprint(Before),
+    memory(M0),
+    Last is Seed+Count-1,
+    batches(Seed, Last, Port, Host, Progress, Faults0, M0),
+    (   Faults0 == []
+    ->  aftermath(Before, Faults)
+    ;   Faults = Faults0
+    ).
+
+%   A hundred inputs, and a look; to the first fault.
+
+batches(From, Last, _, _, _, [], _) :-
+    From > Last,
+    !.
+batches(From, Last, Port, Host, Progress, Faults, Memory) :-
+    To is min(Last, From+99),
+    catch(( forall(between(From, To, Seed), input(Seed, Port)),
+            check(served(Host), not_served),
+            check(nobody_in, somebody_got_in),
+            check(small(Memory), grows) ),
+          error(Formal, _),
+          true),
+    (   nonvar(Formal)
+    ->  Faults = [fault(Formal, seeds(From, To))]
+    ;   progress(Progress, To),
+        Next is To+1,
+        batches(Next, Last, Port, Host, Progress, Faults, Memory)
+    ).
+
+progress(true, To) :-
+    To mod 5000 =:= 0,
+    !,
+    memory(Memory),
+    format('% seed ~d, ~d kB~n', [To, Memory]),
+    flush_output.
+progress(_, _).
+
+:- meta_predicate check(0, +).
+
+check(Goal, Fault) :-
+    (   call(Goal)
+    ->  true
+    ;   throw(error(Fault, _))
+    ).
+
+		 /*******************************
+		 *            INPUTS            *
+		 *******************************/
+
+%   One in eight is from a peer.
+
+input(Seed, Port) :-
+    set_random(seed(Seed)),
+    random_between(1, 8, N),
+    (   N == 1
+    ->  peer(Seed, Port)
+    ;   stranger_input(send(Codes, End)),
+        catch(stranger(Port, Codes, End), error(_, _), true)
+    ).
+
+:- dynamic lingering/2.                 % In, Out
+
+stranger(Port, Codes, End) :-
+    connect(Port, In, Out),
+    catch(say(End, Codes, Out), error(_, _), true),
+    (   End == close
+    ->  close_streams(In, Out)
+    ;   assertz(lingering(In, Out)),
+        linger_no_more(40)
+    ).
+
+say(drip, Codes, Out) :-
+    !,
+    forall(member(Code, Codes),
+           ( put_byte(Out, Code), flush_output(Out) )).
+say(_, Codes, Out) :-
+    maplist(put_byte(Out), Codes),
+    flush_output(Out).
+
+linger_no_more(Most) :-
+    predicate_property(lingering(_, _), number_of_clauses(Count)),
+    Count > Most,
+    !,
+    once(retract(lingering(In, Out))),
+    close_streams(In, Out),
+    linger_no_more(Most).
+linger_no_more(_).
+
+connect(Port, In, Out) :-
+    tcp_socket(Socket),
+    catch(tcp_connect(Socket, '127.0.0.1':Port), Error,
+          ( tcp_close_socket(Socket), throw(Error) )),
+    tcp_open_socket(Socket, In, Out),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)),
+    set_stream(In, timeout(10)).
+
+close_streams(In, Out) :-
+    close(Out, [force(true)]),
+    close(In, [force(true)]).
+
+%   A peer says its nonsense over one connection, and goodbye over another,
+%   after which nothing of it should be left.
+
+peer(Seed, Port) :-
+    format(atom(Process), 'fuzz~d', [Seed]),
+    random_member(Speaks, [fast, text]),
+    hello(Process, 1, '127.0.0.1:1', Hello),
+    (   Speaks == text
+    ->  setarg(6, Hello, none)
+    ;   true
+    ),
+    peer_frames(Speaks, Frames),
+    try(3, with_session(Port, Hello, say_frames(Frames))),
+    try(3, with_session(Port, Hello, goodbye(Speaks))).
+
+%   On a busy machine a handshake may take too long.
+
+:- meta_predicate try(+, 0).
+
+try(Times, Goal) :-
+    catch(Goal, error(Formal, Context), true),
+    (   var(Formal)
+    ->  true
+    ;   Times > 1
+    ->  Times1 is Times-1,
+        try(Times1, Goal)
+    ;   throw(error(Formal, Context))
+    ).
+
+:- meta_predicate with_session(+, +, 2).
+
+with_session(Port, Hello, Goal) :-
+    setup_call_cleanup(
+        connect(Port, In, Out),
+        ( authenticate(client, In, Out, Hello, Peer),
+          resume(Hello, Peer, In, Out),
+          call(Goal, In, Out) ),
+        close_streams(In, Out)).
+
+resume(Hello, Peer, In, Out) :-
+    key(Hello, Mine),
+    key(Peer, Theirs),
+    (   Mine @< Theirs
+    ->  line_write(Out, "resume 0"),
+        hear_line(In)
+    ;   hear_line(In),
+        line_write(Out, "resume 0")
+    ).
+
+key(hello(Process, Start, _, _, _, _), Key) :-
+    atomic_list_concat([Process, Start], '.', Key).
+
+hear_line(In) :-
+    get_time(Now),
+    Deadline is Now+10,
+    line_read(In, Deadline, _).
+
+say_frames(Frames, _, Out) :-
+    catch(( forall(member(Codes, Frames), maplist(put_byte(Out), Codes)),
+            flush_output(Out) ),
+          error(_, _),
+          true).
+
+%   The end of the connection shows that it was heard.
+
+goodbye(Codec, In, Out) :-
+    term_bytes(Codec, bye, Bytes),
+    catch(( frame_write(Out, Bytes),
+            flush_output(Out),
+            read_string(In, _, _) ),
+          error(_, _),
+          true).
+
+		 /*******************************
+		 *            VERDICT           *
+		 *******************************/
+
+served(Host) :-
+    catch(peer_do(honest, remote(Host, true)), error(_, _), fail).
+
+%   Who has a session is `honest`, of a random id, or one of our peers.
+
+nobody_in :-
+    peer_do(victim,
+            forall(typhon_session:session_peer(_, Process, _),
+                   ( atom_length(Process, 16)
+                   ; sub_atom(Process, 0, _, _, fuzz) ))).
+
+small(Memory0) :-
+    memory(Memory),
+    Memory < Memory0+150 000.
+
+%   Resident memory of the victim, in kB.
+
+memory(KB) :-
+    test_peers:peer(victim, Pid, _, _),
+    format(atom(File), '/proc/~d/status', [Pid]),
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", Lines),
+    member(Line, Lines),
+    string_concat("VmRSS:", Rest, Line),
+    !,
+    split_string(Rest, " \t", " \tkB", Words),
+    member(Word, Words),
+    number_string(KB, Word),
+    !.
+
+%   Workers come and go, and are not counted.
+
+footprint([slots-Slots, sessions-Sessions, requests-Requests,
+           agents-Agents, crew-Crew, queues-Queues]) :-
+    peer_do(victim,
+        ( aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), Slots),
+          aggregate_all(count, typhon_session:session(_, _), Sessions),
+          aggregate_all(count, typhon_request:open_request(_, _, _),
+                        Requests),
+          aggregate_all(count, typhon_agent:agent(_, _, _, _, _), Agents),
+          aggregate_all(count, typhon_crew:member_thread(_), Crew),
+          aggregate_all(count, message_queue_property(_, size(_)),
+                        Queues) )).
+
+aftermath(Before, Faults) :-
+    linger_no_more(0),
+    catch(wait_until(left(Before, []), 20),
+          error(timeout_error(wait_until, _), _),
+          true),
+    left(Before, Faults).
+
+left(Before, Faults) :-
+    footprint(After),
+    findall(fault(left(What, Count0, Count), at_the_end),
+            ( member(What-Count, After),
+              member(What-Count0, Before),
+              Count > Count0 ),
+            Faults).
