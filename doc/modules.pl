@@ -25,7 +25,8 @@ layer(agents, '#fdf3c8',
       [ api, ask, restore, life, effect, birth, hop, arrival, whereabouts,
         post, mailbox, backlog, news, remote, inside, vocabulary, pheromone, strategy, chance,
         agent, context ]).
-layer(hosts, '#dcedc8', [hosting, host, place, clock, process, scheduler]).
+layer(hosts, '#dcedc8', [hosting, host, place, clock, process, scheduler,
+               limits, held, timer]).
 layer(programs, '#d6e4f5',
       [ program, faults, source, mobility, machine, code, paths ]).
 layer('the wire', '#e6dcf0',

@@ -400,6 +400,19 @@ freeze(Network) :-
     pids(Network, [_, Pid|_]),
     process_kill(Pid, stop).
 
+test(a_process_that_hangs_is_soon_killed, true(Seconds < 5)) :-
+    quiet(nothing_left(( network_start(ring(4), Network, [processes(4)]),
+                         go_round(Network),
+                         freeze(Network),
+                         seconds(network_stop(Network), Seconds) ))).
+
+go_round(Network) :-
+    hosts(Network, [A,B|_]),
+    agent_create(clauses([ (:- agent(busy, [])),
+                           ( main :- round(A, B) ),
+                           ( round(X, Y) :- move(X), move(Y), round(X, Y) )
+                         ]), _, [host(A)]).
+
 %   The end of the output and the signal race.
 
 test(every_killed_process_is_noticed, Missed == 0) :-

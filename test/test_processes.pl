@@ -374,3 +374,24 @@ test(link_two_others, true(X-Y == [C]-[B])) :-
     host_property(B, neighbours([])).
 
 :- end_tests(hosts_of_other_processes).
+
+:- begin_tests(peers_that_hang).
+
+test(host_stop, true(Seconds < 5)) :-
+    no_leaks(with_peers([beta], stop_beside_a_hanging_one(Seconds))).
+
+stop_beside_a_hanging_one(Seconds) :-
+    host_start(alpha),
+    there(beta, B), address(alpha, A),
+    forall(between(1, 10, _),
+           create([(main :- round(A, B)),
+                   (round(X, Y) :- move(Y), move(X), round(X, Y))], _)),
+    create([on_message(_, _)], C, [host(B)]),
+    peer_signal(beta, stop),
+    forall(between(1, 1000, I), agent_send(C, I)),
+    get_time(T0),
+    call_cleanup(true, host_stop(alpha)),
+    get_time(T1),
+    Seconds is T1-T0.
+
+:- end_tests(peers_that_hang).

@@ -258,6 +258,11 @@ test(three_hundred_agents_that_block, true(O-S == done-done)) :-
 caught(Q) :-
     catch(blocked(Q, me), signalled, happens(done)).
 
+timer_signal(Goal) :-
+    forall(typhon_timer:timer(Timer),
+           catch(thread_signal(Timer, Goal),
+                 error(existence_error(_, _), _), true)).
+
 :- begin_tests(no_threads, [condition(exists_file('/usr/bin/prlimit'))]).
 
 %   without_threads(:Goal): while no thread can be made, since there is no
@@ -335,7 +340,7 @@ test(a_timer_that_ends_comes_back, true(O == done)) :-
     listening(with_hosts([alpha],
                          ( create([(main :- sleep(0.5))], A),
                            without_threads(
-                               ( thread_signal(typhon_timer, abort),
+                               ( timer_signal(abort),
                                  wait_until(\+ thread_property(
                                                    _, alias(typhon_timer)),
                                             5) )),
@@ -449,7 +454,7 @@ test(the_timer_survives_what_is_thrown_at_it, true(N == 100)) :-
                            forall(between(1, 100, I),
                                   ( S is T+I*0.001,
                                     alarm_set(S, test(I), t),
-                                    thread_signal(typhon_timer, throw(I)) )),
+                                    timer_signal(throw(I)) )),
                            wait_until(test_scheduler:count(100), 5) ), _)),
     count(N).
 test(another_timer_takes_over, true(N == 100)) :-
@@ -457,10 +462,10 @@ test(another_timer_takes_over, true(N == 100)) :-
                            forall(between(1, 100, I),
                                   ( S is T+I*0.001,
                                     alarm_set(S, test(I), t) )),
-                           thread_signal(typhon_timer, abort),
+                           timer_signal(abort),
                            wait_until(test_scheduler:count(100), 5) ),
                          Messages)),
-    Messages == [error-typhon(timer_ended)],
+    memberchk(error-typhon(timer_ended), Messages),
     count(N).
 test(a_full_stack, true(E == [x-t])) :-
     setup_call_cleanup(

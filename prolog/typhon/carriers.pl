@@ -9,7 +9,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(children,
               [ child_close/1, child_kill/1, child_release/1, child_start/5 ]).
-:- use_module(endpoint, [endpoint_request/4]).
+:- use_module(endpoint, [endpoint_address/1, endpoint_request/4]).
 :- use_module(orders, [order_do/2]).
 
 /** <module> The processes that carry a network
@@ -32,8 +32,14 @@ that starting and stopping wait on.
            "The processes of a network have so long to start").
 :- setting(order_seconds, number, 60,
            "A process has so long to answer an order").
+:- setting(answer_seconds, number, 2,
+           "A process that is to end and says nothing for so long is killed").
 :- setting(kill_seconds, number, 10,
            "A process that was killed has so long to be gone").
+
+:- meta_predicate
+    ask(+, +, +, +, 0, -),
+    order_children(+, +, 0).
 
 :- dynamic
     queue/2,                    % Network, Queue
@@ -155,7 +161,7 @@ carrier_order(Network, P, Order, Answer) :-
     order_do(Order, Answer).
 carrier_order(Network, P, Order, Answer) :-
     setting(order_seconds, Seconds),
-    ask([P], Network, Order, Seconds, [_-Result]),
+    ask([P], Network, Order, Seconds, true, [_-Result]),
     result(Result, Network-P, Answer).
 
 result(answer(done(Answer)), _, Answer).
@@ -170,16 +176,17 @@ result(lost, Carrier, _) :-
 result(late, Carrier, _) :-
     throw(error(timeout_error(answer, Carrier), _)).
 
-%   ask(+Ps, +Network, +Order, +Seconds, -Results): what children Ps answer,
-%   P-Result in order of arrival. Result is one of endpoint_request/4, `down`
-%   or `late`. The endpoint alone cannot tell a peer that is dead from one
-%   that will be back.
+%   ask(+Ps, +Network, +Order, +Seconds, :Meanwhile, -Results): what children
+%   Ps answer, P-Result in order of arrival; Meanwhile is done here. Result
+%   is one of endpoint_request/4, `down` or `late`. The endpoint alone cannot
+%   tell a peer that is dead from one that will be back.
 
-ask(Ps, Network, Order, Seconds, Results) :-
+ask(Ps, Network, Order, Seconds, Meanwhile, Results) :-
     deadline(Seconds, Deadline),
     setup_call_cleanup(
         message_queue_create(Queue),
         ( forall(member(P, Ps), send(Network, P, Order, Queue)),
+          call(Meanwhile),
           answers(Ps, Queue, Deadline, Results)
         ),
         ( retractall(waiting(_, _, Queue)),
@@ -223,17 +230,19 @@ answers(Ps, Queue, Deadline, [P-Result|Results]) :-
 %   Ends the carriers that carriers_start/4 began to start, in order if
 %   they can, else by force. This process stays, of course.
 %
-%   First the hosts of all children stop, then what the children have sent
+%   First the hosts of all children stop, and those that hang are killed:
+%   the others need not wait for them. Then what the children have sent
 %   arrives, at the log for one, and only then they end: so none waits for
 %   another that is gone.
 
 carriers_stop(Network) :-
     retractall(wanted(Network)),
-    order_children(Network, stop),
-    order_children(Network, flush(2)),
+    order_children(Network, stop, kill_hanging(Network)),
+    peers(Network, Peers),
+    order_children(Network, flush(2, Peers), true),
     forall(child(Network, _, Child), child_close(Child)),
     (   queue(Network, Queue)
-    ->  end_children(Network, Queue),
+    ->  end_children(Network),
         forall(retract(child(Network, _, Child)), child_release(Child)),
         retractall(queue(Network, _)),
         message_queue_destroy(Queue)
@@ -242,45 +251,78 @@ carriers_stop(Network) :-
     retractall(up(Network, _, _, _)),
     retractall(down(Network, _, _)).
 
-%   All children that are up do Order; one that cannot is left to later.
+%   This process, and the children that are left.
 
-order_children(Network, Order) :-
+peers(Network, Peers) :-
+    findall(Peer,
+            ( endpoint_address(Peer)
+            ; carrier(Network, P, _), up(Network, P, Peer, _) ),
+            Peers).
+
+kill_hanging(Network) :-
+    setting(answer_seconds, Seconds),
+    children_up(Network, Ps),
+    ask(Ps, Network, alive, Seconds, true, Results),
+    findall(P, member(P-late, Results), Hanging),
+    (   Hanging == []
+    ->  true
+    ;   ignore(kill_all(Network, Hanging))
+    ).
+
+%   kill_all(+Network, +Ps) fails when not all are gone in time.
+
+kill_all(Network, Ps) :-
+    forall(( member(P, Ps), child(Network, P, Child) ),
+           ( print_message(warning, typhon(carrier_killed(Network, P))),
+             child_kill(Child) )),
+    setting(kill_seconds, Seconds),
+    wait_down(Network, Ps, Seconds).
+
+children_up(Network, Ps) :-
+    findall(P, ( child(Network, P, _), carrier(Network, P, _) ), Ps).
+
+%   All children that are up do Order, and we do Meanwhile; one that cannot
+%   is left to later.
+
+order_children(Network, Order, Meanwhile) :-
     setting(typhon_children:stop_seconds, Seconds),
-    findall(P, ( child(Network, P, _), carrier(Network, P, _) ), Ps),
-    ask(Ps, Network, Order, Seconds, Results),
+    children_up(Network, Ps),
+    ask(Ps, Network, Order, Seconds, Meanwhile, Results),
     forall(( member(P-Result, Results), Result \== answer(done(ok)) ),
            print_message(warning, typhon(carrier_order(P, Order, Result)))).
 
 %   The children kill themselves when they cannot end in order within
 %   stop_seconds, so those that are left after that are really stuck.
 
-end_children(Network, Queue) :-
+end_children(Network) :-
     setting(typhon_children:stop_seconds, Seconds),
-    deadline(Seconds + 1, Deadline),
-    wait_down(Network, Queue, Deadline),
+    findall(P, child(Network, P, _), Ps),
+    wait_down(Network, Ps, Seconds + 1),
     !.
-end_children(Network, Queue) :-
-    forall(left(Network, P, Child), kill(Network, P, Child)),
-    setting(kill_seconds, Seconds),
-    deadline(Seconds, Deadline),
-    wait_down(Network, Queue, Deadline),
+end_children(Network) :-
+    findall(P, left(Network, P), Ps),
+    kill_all(Network, Ps),
     !.
-end_children(Network, _) :-
-    forall(retract(child(Network, P, _)),
+end_children(Network) :-
+    forall(( left(Network, P), retract(child(Network, P, _)) ),
            print_message(error, typhon(carrier_stays(Network, P)))).
 
-kill(Network, P, Child) :-
-    print_message(warning, typhon(carrier_killed(Network, P))),
-    child_kill(Child).
-
-left(Network, P, Child) :-
-    child(Network, P, Child),
+left(Network, P) :-
+    child(Network, P, _),
     \+ down(Network, P, _).
 
-wait_down(Network, Queue, Deadline) :-
-    (   left(Network, _, _)
+%   wait_down(+Network, +Ps, +Seconds) fails when one of Ps is left.
+
+wait_down(Network, Ps, Seconds) :-
+    queue(Network, Queue),
+    deadline(Seconds, Deadline),
+    await_down(Network, Ps, Queue, Deadline).
+
+await_down(Network, Ps, Queue, Deadline) :-
+    (   member(P, Ps),
+        left(Network, P)
     ->  next(Queue, down(_), Deadline),
-        wait_down(Network, Queue, Deadline)
+        await_down(Network, Ps, Queue, Deadline)
     ;   true
     ).
 

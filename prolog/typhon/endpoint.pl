@@ -12,7 +12,8 @@
             endpoint_reply_later/2,     % +ReplyTo, +Term
             endpoint_peer/2,            % ?Address, ?Property
             endpoint_gone/1,            % +Address
-            endpoint_flush/1            % +Seconds
+            endpoint_flush/1,           % +Seconds
+            endpoint_flush/2            % +Seconds, +Peers
           ]).
 
 /** <module> The endpoint: one per process
@@ -35,6 +36,7 @@ that peer is read. They may post, request and reply.
 
 :- use_module(library(error), [existence_error/2, must_be/2,
                                permission_error/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket), [tcp_accept/3, tcp_bind/2,
                                 tcp_close_socket/1, tcp_listen/2,
@@ -148,7 +150,7 @@ stop :-
     crew_retire(Acceptor, stopped),
     tcp_close_socket(Socket),
     setting(flush_time, Seconds),
-    aside(flush(Seconds, up)),
+    aside(ignore(flush(Seconds, up))),
     forall(session(_, Session), session_control(Session, bye)),
     crew_tell(stop),
     crew_bury(Keeper),
@@ -381,12 +383,21 @@ endpoint_gone(Address) :-
     \+ up_session(Address, _).
 
 %!  endpoint_flush(+Seconds) is semidet.
+%!  endpoint_flush(+Seconds, +Peers:list) is semidet.
 %
-%   Wait until all that was posted has arrived; fails after Seconds.
+%   Wait until all that was posted has arrived, or all to these addresses;
+%   fails after Seconds.
 
 endpoint_flush(Seconds) :-
     must_be(number, Seconds),
     flush(Seconds, _).
+
+endpoint_flush(Seconds, Peers) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(( member(Peer, Peers),
+             route(Peer, Session) ),
+           session_flush(Session, Deadline)).
 
 flush(Seconds, State) :-
     get_time(Now),

@@ -11,6 +11,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 
 /** <module> Workers that are held by what blocks
@@ -40,7 +41,7 @@ and held_full/2 are for the timer's thread alone.
            "When there are so many workers, what blocks is held back").
 
 :- dynamic
-    turn/3,                     % Worker, Work, Since
+    turn/4,                     % Worker, agent or goal, Agent or PI, Since
     blocking/1,                 % Kind: is held back
     back/1,                     % Work that is held back
     warned/1.                   % grown, full: people were told
@@ -59,18 +60,16 @@ and held_full/2 are for the timer's thread alone.
 held_begin(Work, Turn) :-
     thread_self(Me),
     get_time(Now),
-    doing(Work, Doing),
-    asserta(turn(Me, Doing, Now), Turn).
+    doing(Work, Type, What),
+    asserta(turn(Me, Type, What, Now), Turn).
 
 %   A goal may be large: its name will do.
 
-doing(goal(Goal), goal(Module:Name/Arity)) :-
-    !,
+doing(agent(Agent), agent, Agent).
+doing(agent(_, Agent), agent, Agent).
+doing(goal(Goal), goal, Module:Name/Arity) :-
     strip_module(Goal, Module, Plain),
     functor(Plain, Name, Arity).
-doing(agent(_, Agent), agent(Agent)) :-
-    !.
-doing(Work, Work).
 
 held_end(Turn, Works) :-
     erase(Turn),
@@ -80,17 +79,17 @@ held_end(Turn, Works) :-
     ).
 
 held_ended(Worker) :-
-    retractall(turn(Worker, _, _)).
+    retractall(turn(Worker, _, _, _)).
 
 %!  held_by(+Agent, -Worker) is nondet.
 
 held_by(Agent, Worker) :-
-    turn(Worker, agent(Agent), _).
+    turn(Worker, agent, Agent, _).
 
 %!  held_forget is det.
 
 held_forget :-
-    retractall(turn(_, _, _)),
+    retractall(turn(_, _, _, _)),
     retractall(blocking(_)),
     retractall(back(_)),
     retractall(warned(_)).
@@ -104,7 +103,7 @@ held_forget :-
 %   Each of Count workers does what it did at the time Since.
 
 held_all(Count, Since) :-
-    aggregate_all(count, held_since(Since, _), Count).
+    aggregate_all(count, held_since(Since, _, _), Count).
 
 %!  held_room(+Count, +Max) is semidet.
 %
@@ -127,10 +126,10 @@ held_room(Count, Max) :-
 
 held(Count) :-
     long_ago(Stamp),
-    aggregate_all(count, held_since(Stamp, _), Count).
+    aggregate_all(count, held_since(Stamp, _, _), Count).
 
-held_since(Stamp, Doing) :-
-    turn(_, Doing, Since),
+held_since(Stamp, Type, What) :-
+    turn(_, Type, What, Since),
     Since < Stamp.
 
 long_ago(Stamp) :-
@@ -149,9 +148,9 @@ warn(Count) :-
 %   What has been done for longest comes first.
 
 doers(Doers) :-
-    findall(Since-Doing, turn(_, Doing, Since), Pairs),
+    findall(Since-What, turn(_, _, What, Since), Pairs),
     keysort(Pairs, Sorted),
-    findall(Who, ( member(_-Doing, Sorted), arg(1, Doing, Who) ), Doers).
+    pairs_values(Sorted, Doers).
 
                 /*******************************
                 *           NO MORE ROOM       *
@@ -164,7 +163,8 @@ doers(Doers) :-
 
 held_full(Count, Why) :-
     long_ago(Stamp),
-    findall(Kind, ( held_since(Stamp, Doing), kind(Doing, Kind) ), Kinds0),
+    findall(Kind, ( held_since(Stamp, Type, What), kind(Type, What, Kind) ),
+            Kinds0),
     sort(Kinds0, Kinds),
     findall(Kind, ( member(Kind, Kinds), \+ blocking(Kind) ), New),
     forall(member(Kind, New), assertz(blocking(Kind))),
@@ -177,10 +177,10 @@ held_full(Count, Why) :-
         print_message(warning, typhon(held_full(Count, Why, Doers)))
     ).
 
-kind(agent(Agent), Kind) :-
+kind(agent, Agent, Kind) :-
     typhon_scheduler:kind(Agent, Kind),
     !.
-kind(goal(Goal), goal(Goal)).
+kind(goal, Goal, goal(Goal)).
 
 %!  held_back(+Work) is semidet.
 %
@@ -189,8 +189,8 @@ kind(goal(Goal), goal(Goal)).
 
 held_back(Work) :-
     blocking(_),
-    doing(Work, Doing),
-    kind(Doing, Kind),
+    doing(Work, Type, What),
+    kind(Type, What, Kind),
     with_mutex(typhon_held, put_back(Kind, Work)).
 
 put_back(Kind, Work) :-

@@ -28,8 +28,10 @@ process stops in order, hosts first, then what is still to be sent, when
 its standard input ends or on SIGTERM and SIGINT, and at the latest
 StopSeconds later it is gone, whatever hangs.
 
-*Threading*: the main thread carries orders out, one after the other. One
-thread waits for the end of standard input.
+*Threading*: the main thread carries orders out, one after the other; that
+the process is alive the thread of the connection says itself. One thread
+waits for the end of standard input, and one for the order to stop: it sees
+to it that there is an end.
 */
 
 :- multifile
@@ -45,12 +47,13 @@ node_main :-
     set_stream(user_output, buffer(line)),
     read_term(user_input, node(Cookie, Interface, Seconds), []),
     setenv('TYPHON_COOKIE', Cookie),
-    nb_setval(typhon_stop_seconds, Seconds),
+    thread_create(see_to_end(Seconds), _,
+                  [alias(typhon_end), detached(true)]),
     on_signal(term, _, typhon_node:on_stop_signal),
     on_signal(int, _, typhon_node:on_stop_signal),
     process_acquire(node, [bind(Interface)]),
     endpoint_address(Endpoint),
-    thread_create(watch_input(Seconds), _, [detached(true)]),
+    thread_create(watch_input, _, [detached(true)]),
     current_prolog_flag(pid, Pid),
     format('typhon_node ~w ~d~n', [Endpoint, Pid]),
     flush_output,
@@ -58,24 +61,21 @@ node_main :-
     stop.
 
 on_stop_signal(_) :-
-    nb_getval(typhon_stop_seconds, Seconds),
-    ask_to_stop(Seconds).
+    thread_send_message(typhon_end, stop).
 
 %   Nothing more is expected on standard input but its end.
 
-watch_input(Seconds) :-
+watch_input :-
     repeat,
     catch(get_char(user_input, Char), error(io_error(_, _), _),
           Char = end_of_file),
     Char == end_of_file,
     !,
-    ask_to_stop(Seconds).
+    thread_send_message(typhon_end, stop).
 
-ask_to_stop(Seconds) :-
+see_to_end(Seconds) :-
+    thread_get_message(stop),
     thread_send_message(main, stop),
-    thread_create(deadline(Seconds), _, [detached(true)]).
-
-deadline(Seconds) :-
     thread_self(Me),
     \+ thread_get_message(Me, never, [timeout(Seconds)]),
     current_prolog_flag(pid, Pid),
@@ -85,6 +85,9 @@ deadline(Seconds) :-
                 *            ORDERS            *
                 *******************************/
 
+typhon_endpoint:requested(node, alive, _, ReplyTo) :-
+    !,
+    endpoint_reply(ReplyTo, done(ok)).
 typhon_endpoint:requested(node, Order, _, ReplyTo) :-
     thread_send_message(main, order(Order, ReplyTo)).
 

@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(endpoint, [endpoint_flush/1]).
+:- use_module(endpoint, [endpoint_flush/2]).
 :- use_module(host, [host_link/2, host_neighbours/2, host_unlink/2]).
 :- use_module(hosting, [host_property/2, host_start/2, host_stop/1]).
 
@@ -27,8 +27,9 @@ hosts is a few requests.
 %       Stops these hosts; `ok`. One that is gone already is no error.
 %     - stop
 %       Stops all hosts of the process; `ok`.
-%     - flush(Seconds)
-%       `ok` when all that the process has sent has arrived, else `late`.
+%     - flush(Seconds, Peers)
+%       `ok` when all that the process has sent to the endpoints Peers has
+%       arrived, else `late`.
 %     - link(Pairs), unlink(Pairs)
 %       One direction of a link for each Name-Address; `ok`.
 %     - neighbours(Names)
@@ -47,8 +48,8 @@ order_do(stop(Names), ok) :-
 order_do(stop, ok) :-
     findall(Name, host_property(Name, address(_)), Names),
     order_do(stop(Names), ok).
-order_do(flush(Seconds), Answer) :-
-    (   endpoint_flush(Seconds)
+order_do(flush(Seconds, Peers), Answer) :-
+    (   endpoint_flush(Seconds, Peers)
     ->  Answer = ok
     ;   Answer = late
     ).

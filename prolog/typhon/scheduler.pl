@@ -4,8 +4,6 @@
             scheduler_limit/2,          % +Host, +Concurrency
             scheduler_unlimit/1,        % +Host
             schedule/2,                 % +Host, +Agent
-            alarm_set/3,                % +Stamp, +Agent, +Token
-            alarm_clear/3,              % +Stamp, +Agent, +Token
             scheduler_call/1,           % :Goal
             scheduler_signal/1,         % :Goal
             scheduler_signal/2,         % +Agent, :Goal
@@ -16,7 +14,8 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(held).
 :- use_module(limits).
-:- use_module(timer).
+:- use_module(timer, [timer_start/0, timer_stop/0, timer_check/0]).
+:- reexport(timer, [alarm_set/3, alarm_clear/3]).
 
 /** <module> The scheduler: few threads for many agents
 
