@@ -6,6 +6,9 @@ SWIPL ?= swipl
 FIGURE ?= all
 RUNS ?= 3
 JOBS ?= 3
+# Of the attack: how long, and with which schedule.
+SECONDS ?= 600
+SEED ?= 1
 MAKEFLAGS += --no-print-directory
 ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
     $(wildcard experiments/*.pl bench/run.pl)
@@ -15,8 +18,8 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools demo demo-robots experiments experiments-allocation \
-    experiments-learning experiments-sieve experiments-sync test check bench \
-    test-portability install clean
+    experiments-learning experiments-sieve experiments-sync test chaos check \
+    bench test-portability install clean
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
@@ -62,6 +65,9 @@ experiments-allocation: tools ## chapter 7; one figure: FIGURE=7.1, RUNS=3
 
 test: tools             ## install what is missing, run every test suite
 	@$(SWIPL) test/run.pl
+
+chaos: tools            ## attack a network of processes; SECONDS=600, SEED=1
+	@$(SWIPL) test/chaos/run.pl -- --seconds $(SECONDS) --seed $(SEED)
 
 check:                  ## a quick look for mistakes, offline
 	@for file in $(ENTRY_POINTS); do \

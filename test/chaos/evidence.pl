@@ -1,5 +1,5 @@
 :- module(chaos_evidence,
-          [ settle/1,                   % +Seconds
+          [ settle/3,                   % +Seconds, +Expected, -Rest
             evidence/2                  % +Dir, -Evidence
           ]).
 
@@ -11,59 +11,63 @@ Waits until nothing happens any more, and gathers what the verdict needs.
 */
 
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(filesex), [directory_member/3]).
-:- use_module(library(lists), [append/2, member/2, sum_list/2]).
-:- use_module(library(pairs), [pairs_values/2]).
+:- use_module(library(lists), [append/2, member/2]).
 :- use_module(cluster).
 :- use_module(work).
 
 call_seconds(30).
 
-%!  settle(+Seconds) is det.
+%!  settle(+Seconds, +Expected, -Rest) is det.
 %
-%   Wait until all agents are at rest and what was written to them has
-%   come; or until, for twelve seconds, nothing has changed; but not longer
-%   than Seconds.
+%   Wait until no more agents are restless, and no more messages have not
+%   come, than was Expected; or until nothing has changed for a while; but
+%   not longer than Seconds.
+%
+%   @arg Expected, Rest are rest(Agents, Messages)
 
-quiet_seconds(12).
+quiet_seconds(8).
 
-settle(Seconds) :-
+settle(Seconds, Expected, Rest) :-
     get_time(Now),
     End is Now+Seconds,
-    settle(End, none, Now).
+    settle(Now, End, none, Expected, Rest).
 
-settle(End, Before, Since0) :-
+settle(Since0, End, Before, Expected, Rest) :-
     picture(Picture),
     get_time(Now),
-    quiet_seconds(Quiet),
     (   Picture == Before
     ->  Since = Since0
     ;   Since = Now
     ),
-    (   (   Now >= End
-        ;   Now-Since >= Quiet
-        ;   Picture == Before,
-            complete(Picture)
-        )
-    ->  true
+    (   settled(Since, Now, End, Picture, Expected)
+    ->  Picture = picture(Rest, _)
     ;   Soon is Now+0.5,
         cluster_wait(Soon),
-        settle(End, Picture, Since)
+        settle(Since, End, Picture, Expected, Rest)
     ).
 
-%   picture(Restless, Ticks, Said, Heard)
+settled(_, Now, End, _, _) :-
+    Now >= End.
+settled(Since, Now, _, _, _) :-
+    quiet_seconds(Quiet),
+    Now-Since >= Quiet.
+settled(Since, Now, _, picture(rest(A, M), _), rest(A0, M0)) :-
+    Now > Since,                        % it was the same before
+    A =< A0,
+    M =< M0.
 
-picture(picture(Restless, Ticks, Said, Heard)) :-
+%   picture(rest(Agents, Messages), Ticks)
+
+picture(picture(rest(Restless, Missing), Ticks)) :-
     agents(Agents),
     work_mail(Mail),
     length(Mail, Posted),
     aggregate_all(count, ( member(agent(_, _, State, _, _), Agents),
                            State \== resident ), Restless),
     sum_of(tick(N)-N, Agents, Ticks),
-    sum_of(said(_, K)-K, Agents, Said0),
+    sum_of(said(_, K)-K, Agents, Said),
     sum_of(heard(H)-H, Agents, Heard),
-    Said is Said0+Posted.
+    Missing is Said+Posted-Heard.
 
 sum_of(Pattern, Agents, Sum) :-
     aggregate_all(sum(N),
@@ -71,8 +75,6 @@ sum_of(Pattern, Agents, Sum) :-
                     member(Fact, Facts),
                     copy_term(Pattern, Fact-N) ),
                   Sum).
-
-complete(picture(0, _, Said, Said)).
 
 agents(Agents) :-
     call_seconds(Seconds),

@@ -1,5 +1,5 @@
 :- module(chaos_faults,
-          [ scenario/2,                 % ?Name, -Description
+          [ scenario/3,                 % ?Name, -Share, -Description
             schedule/5,                 % +Scenario, +Seed, +Seconds, +Names,
                                         % -Events
             fault/1,                    % +Fault
@@ -24,23 +24,23 @@ agents, see chaos_work:
 *Threading*: for the main thread.
 */
 
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
-:- use_module(library(pairs), [map_list_to_pairs/3]).
 :- use_module(library(random),
               [random/1, random_between/3, random_member/2]).
 :- use_module(cluster).
 
-%!  scenario(?Name, -Description) is nondet.
+%!  scenario(?Name, -Share, -Description) is nondet.
+%
+%   Share is what of a hundred seconds it gets when all are run.
 
-scenario(calm,   'no faults at all').
-scenario(cuts,   'connections are cut, held and slowed down').
-scenario(stops,  'and processes stopped, and the machine is busy').
-scenario(kills,  'processes are killed, too, and started again').
-scenario(deaths, 'one of them is not').
+scenario(calm,   10, 'no faults at all').
+scenario(cuts,   35, 'connections are cut, held and slowed down').
+scenario(stops,  20, 'processes are stopped, too, and the machine is busy').
+scenario(kills,  25, 'processes are killed, too, and started again').
+scenario(deaths, 10, 'and one of them is not started again').
 
-%   stream(?Scenario, ?Kind, -Pause): faults of this Kind come after so many
-%   seconds on the average.
+%   stream(?Scenario, ?Kind, -Pause): events of this Kind come at intervals
+%   of so many seconds on the average.
 
 stream(cuts,   cut,   0.4).
 stream(cuts,   after, 0.5).

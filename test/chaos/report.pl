@@ -35,11 +35,15 @@ report_begin(Scenario, Seconds, Dir) :-
 
 report(Scenario, Dir, Events, Evidence, Findings,
        report(Scenario, Figures, Findings)) :-
-    findall(Name-Number, figure(Name, Events, Evidence, Number), Figures),
+    messages(Dir, Evidence.lives, Messages),
+    findall(Name-Number,
+            ( figure(Name, Events, Evidence, Number)
+            ; Name = lines_printed,
+              aggregate_all(sum(N), member(N-_, Messages), Number) ),
+            Figures),
     write_terms(Dir, 'schedule.pl', Events),
     write_terms(Dir, 'findings.pl', Findings),
     write_terms(Dir, 'lives.pl', Evidence.lives),
-    messages(Dir, Evidence.lives, Messages),
     write_terms(Dir, 'messages.pl', Messages).
 
 write_terms(Dir, Name, Terms) :-
@@ -127,10 +131,11 @@ line(Head, Goal, Reports) :-
     format('~w~t~46|', [Head]),
     forall(member(Report, Reports),
            ( call(Goal, Report, Cell),
-             format('~t~w~9+', [Cell]) )),
+             format(atom(Column), '~t~w~9|', [Cell]),
+             write(Column) )),
     nl.
 
-%   The first few of each kind, and messages that were printed most.
+%   The first few of each kind.
 
 examples(report(Scenario, _, Findings)) :-
     forall(( finding_kind(Kind, wrong, _),

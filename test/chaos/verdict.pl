@@ -357,11 +357,12 @@ passed([M0-_|Got0], M, Got) :-
     passed(Got0, M, Got).
 passed(Got, _, Got).
 
-%   A message for an agent that was lost is no loss of its own.
+%   A message for an agent that was lost, or is in doubt, is no loss of its
+%   own.
 
 lost_message(m(From, To, K), Time, finding(Kind, m(From, To, K))) :-
     created(To, _, Id, Home, _),
-    once(standing(Id, _, _, _, _)),
+    once(standing(Id, _, resident, _, _)),
     (   death_near(To, Time)
     ->  Kind = message_died
     ;   \+ alive(Home)

@@ -2,7 +2,8 @@
           [ work_begin/1,               % +Scale
             work_event/1,               % +Event
             work_answers/0,
-            work_finish/0,
+            work_halt/0,
+            work_roll_call/0,
             work_agents/1,              % -Agents
             work_mail/1,                % -Mail
             work_disposed/1,            % -Pairs
@@ -267,7 +268,7 @@ answered(yes(agent_create(_, Id, _)), create(Key, Kind), Name) :-
     created(Kind, Key, Id, Name).
 answered(Result, dispose(Key, Id, Tries), Name) :-
     (   disposed_of(Result, Tries)
-    ->  ask(Name, agent_join(Id, _, 30), join(disposed, Key))
+    ->  ask(Name, agent_join(Id, _, 10), join(disposed, Key))
     ;   Tries1 is Tries+1,
         assertz(victim(Key, Id, Tries1))
     ).
@@ -293,7 +294,7 @@ created(sprinter, Key, Id, Name) :-
     ->  true
     ;   Names = [Other|_]
     ),
-    ask(Other, agent_join(Id, _, 30), join(done, Key)).
+    ask(Other, agent_join(Id, _, 10), join(done, Key)).
 
 life(Name, Name-Number) :-
     cluster_lives(Lives),
@@ -318,15 +319,19 @@ note_call(What, Name, Result) :-
                 *              END             *
                 *******************************/
 
-%!  work_finish is det.
+%!  work_halt is det.
+%!  work_roll_call is det.
 %
-%   Have the agents stop, and everybody write to everybody once more.
+%   Have the agents stop; have everybody write to everybody once more.
 
-work_finish :-
+work_halt :-
     await_all,
     cluster_living(Names),
     forall(member(Name, Names), ask(Name, on_all_hosts(leave(halt)), halt)),
-    await_all,
+    await_all.
+
+work_roll_call :-
+    cluster_living(Names),
     stays(Kinds),
     forall(( member(Name, Names),
              agent(Key, Kind, Id, _, _),
