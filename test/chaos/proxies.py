@@ -176,7 +176,11 @@ class Flow:
 
     def end(self):
         self.ended = True
-        self.sink.transport.write_eof()
+        try:
+            self.sink.transport.write_eof()
+        except OSError:                         # it was reset meanwhile
+            self.source.pair.close()
+            return
         if all(flow.ended for flow in self.source.pair.flows):
             self.source.transport.close()
             self.sink.transport.close()

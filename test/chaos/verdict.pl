@@ -9,21 +9,14 @@ A finding is finding(Kind, What).  Where no process was killed nothing is
 excused; else what was lost is, if the process it was in, or on its way to,
 was killed afterwards, see doc/agents.md.  Nothing excuses two of one thing.
 
-*Threading*: for one thread at a time: what is compared is in tables here.
+*Threading*: for one thread at a time, see chaos_facts.
 */
 
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
-:- use_module(library(lists), [append/3, last/2, member/2]).
-:- use_module(library(pairs), [pairs_values/2]).
-
-:- dynamic
-    life/4,                             % Name, Number, From, To
-    created/5,                          % Key, Kind, Id, Life, Time
-    standing/5,                         % Id, Name, State, Hops, Facts
-    event/5,                            % Key, Tick, Event, Time, Life
-    disposed/2,                         % Key, Time
-    outcome/2.                          % Id, Outcome
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module(facts).
+:- use_module(goods, [message_finding/2, token_finding/2]).
 
 %!  finding_kind(?Kind, ?Severity, ?Meaning) is nondet.
 %
@@ -57,34 +50,11 @@ finding_kind(error,         told,    'errors while there were faults').
 %!  verdict(+Scenario, +Evidence, -Findings) is det.
 
 verdict(Scenario, Evidence, Findings) :-
-    load(Evidence),
+    facts_load(Evidence),
     call_cleanup(
         findall(Finding, finding(Scenario, Evidence, Finding), Findings0),
-        clear),
+        facts_clear),
     sort(Findings0, Findings).
-
-load(Evidence) :-
-    clear,
-    forall(member(Life, Evidence.lives), assertz(Life)),
-    forall(member(agent(K, Kind, Id, L, T), Evidence.agents),
-           assertz(created(K, Kind, Id, L, T))),
-    forall(member(agent(Name, Id, State, Hops, Facts), Evidence.standing),
-           assertz(standing(Id, Name, State, Hops, Facts))),
-    forall(member(e(K, N, E, T, L), Evidence.events),
-           assertz(event(K, N, E, T, L))),
-    forall(( event(P, _, clone(N, Id), T, L), clone_key(P, N, K) ),
-           assertz(created(K, clone, Id, L, T))),
-    forall(member(K-T, Evidence.disposed), assertz(disposed(K, T))),
-    forall(member(Id-O, Evidence.outcomes), assertz(outcome(Id, O))).
-
-clear :-
-    forall(member(Fact, [ life(_, _, _, _), created(_, _, _, _, _),
-                          standing(_, _, _, _, _), event(_, _, _, _, _),
-                          disposed(_, _), outcome(_, _) ]),
-           retractall(Fact)).
-
-clone_key(Parent, N, Key) :-
-    atomic_list_concat([Parent, +, N], Key).
 
 finding(Scenario, _, Finding) :-
     agent_finding(Scenario, Finding).
@@ -111,10 +81,10 @@ agent_finding(_, finding(Kind, copies(Key, Id, Names))) :-
 agent_finding(_, finding(stuck, at(Key, State))) :-
     standing_as(Key, State, _, _),
     State \== resident,
-    \+ ( State == in_doubt, bound_for_the_dead(Key) ).
+    \+ ( State == in_doubt, depends_on_the_dead(Key) ).
 agent_finding(_, finding(in_doubt, Key)) :-
     standing_as(Key, in_doubt, _, _),
-    bound_for_the_dead(Key).
+    depends_on_the_dead(Key).
 agent_finding(_, Finding) :-
     created(Key, _, _, _, _),
     findall(Tick-at(Life, Event),
@@ -133,8 +103,7 @@ agent_finding(_, finding(outcome, Key-Outcome)) :-
     \+ right_outcome(Key, Outcome).
 agent_finding(_, finding(undead, Key:Event)) :-
     disposed(Key, Time),
-    event(Key, _, Event, Later, _),
-    Later > Time.
+    once(( event(Key, _, Event, Later, _), Later > Time )).
 agent_finding(_, finding(doubled, unwanted_clone(Key))) :-
     event(Parent, _, no_clone(N, _), _, _),
     clone_key(Parent, N, Key),
@@ -198,10 +167,6 @@ last_trace(Key, Event, Time, Life) :-
 last_trace(Key, none, Time, Life) :-
     created(Key, _, _, Life, Time).
 
-death_of(Name, Time) :-
-    life(Name, _, _, Time),
-    number(Time).
-
 %   The hosts of a process have its name and a number.
 
 home_of(Host, Name) :-
@@ -209,10 +174,19 @@ home_of(Host, Name) :-
     sub_atom(Host, 0, _, _, Name),
     !.
 
-bound_for_the_dead(Key) :-
-    last_trace(Key, go(Host), _, _),
-    home_of(Host, Name),
-    death_of(Name, _),
+%   Where it went, or those who would know, are gone for good.
+
+depends_on_the_dead(Key) :-
+    gone(Name),
+    (   last_trace(Key, go(Host), _, _),
+        home_of(Host, Name)
+    ;   created(Key, _, _, Name-_, _)
+    ;   created(Key, sleeper, _, _, _)
+    ),
+    !.
+
+gone(Name) :-
+    life(Name, 1, _, _),
     \+ life(Name, _, _, inf).
 
 %   Ticks are 1, 2, 3 and so on, each once.
@@ -229,9 +203,6 @@ tick_finding(Groups, Key, finding(Kind, twice(Key, Tick, Events))) :-
 tick_finding(Groups, Key, finding(count, gap(Key, Tick, Next))) :-
     append(_, [Tick-_,Next-_|_], Groups),
     Next =\= Tick+1.
-
-alive(Name-Number) :-
-    life(Name, Number, _, inf).
 
 dead_among(Events) :-
     member(at(Life, _), Events),
@@ -274,158 +245,6 @@ ended_as(Key, Outcome) :-
     ;   Outcome == done
     ).
 ended_as(_, timeout).                   % it has not
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
-message_finding(Mail, Finding) :-
-    unsaid(Unsaid),
-    findall(Pair, said(Mail, Unsaid, Pair), Said0),
-    findall(m(From, To, K)-got(Tick, Life),
-            event(To, Tick, got(From, K), _, Life), Got0),
-    keysort(Said0, Said1),
-    keysort(Got0, Got1),
-    group_pairs_by_key(Said1, Said),
-    group_pairs_by_key(Got1, Got),
-    message_finding(Said, Got, Finding).
-
-%   What could not be sent has not been said, and is said again.
-
-said(Mail, _, m(From, To, K)-Time) :-
-    member(sent(From, To, K, Time), Mail).
-said(_, Unsaid, Message-Time) :-
-    findall(m(From, To, K)-T, event(From, _, said(To, K), T, _), Pairs0),
-    keysort(Pairs0, Pairs),
-    group_pairs_by_key(Pairs, Groups),
-    member(Message-Times, Groups),
-    length(Times, Said),
-    (   get_assoc(Message, Unsaid, Not)
-    ->  Said > Not
-    ;   true
-    ),
-    last(Times, Time).
-
-unsaid(Unsaid) :-
-    findall(m(From, To, K)-x, event(From, _, unsaid(To, K, _), _, _), Pairs0),
-    keysort(Pairs0, Pairs),
-    group_pairs_by_key(Pairs, Groups),
-    findall(Message-Count,
-            ( member(Message-Xs, Groups), length(Xs, Count) ), Counts),
-    list_to_assoc(Counts, Unsaid).
-
-message_finding(Said, Got, Finding) :-
-    missing(Said, Got, Missing),
-    member(Message-Times, Missing),
-    last(Times, Time),
-    lost_message(Message, Time, Finding).
-message_finding(_, Got, finding(Kind, Message-Gets)) :-
-    member(Message-Gets, Got),
-    Gets = [_,_|_],
-    (   findall(Life, ( member(got(_, Life), Gets), alive(Life) ), [_,_|_])
-    ->  Kind = message_twice
-    ;   member(got(_, Life), Gets),
-        \+ alive(Life)
-    ->  Kind = again
-    ;   Kind = message_twice
-    ).
-message_finding(_, Got, Finding) :-
-    findall(From-To-(Tick-K),
-            member(m(From, To, K)-[got(Tick, _)|_], Got), Pairs0),
-    keysort(Pairs0, Pairs),
-    group_pairs_by_key(Pairs, Groups),
-    member(From-To-Ticks0, Groups),
-    order_kind(From, To, Kind),
-    keysort(Ticks0, Ticks),
-    pairs_values(Ticks, Numbers),
-    append(_, [A,B|_], Numbers),
-    A > B,
-    Finding = finding(Kind, From-To:[A,B]).
-
-missing([], _, []).
-missing([M-Times|Said], Got0, Missing) :-
-    passed(Got0, M, Got),
-    (   Got = [M-_|_]
-    ->  Missing = More
-    ;   Missing = [M-Times|More]
-    ),
-    missing(Said, Got, More).
-
-passed([M0-_|Got0], M, Got) :-
-    M0 @< M,
-    !,
-    passed(Got0, M, Got).
-passed(Got, _, Got).
-
-%   A message for an agent that was lost, or is in doubt, is no loss of its
-%   own.
-
-lost_message(m(From, To, K), Time, finding(Kind, m(From, To, K))) :-
-    created(To, _, Id, Home, _),
-    once(standing(Id, _, resident, _, _)),
-    (   death_near(To, Time)
-    ->  Kind = message_died
-    ;   \+ alive(Home)
-    ->  Kind = message_died
-    ;   Kind = message_lost
-    ).
-
-%   Those who take their messages as they come have done so after some
-%   seconds; with others they may have waited to the end.
-
-death_near(To, Time) :-
-    death_of(_, Dead),
-    Dead >= Time-2,
-    (   Dead =< Time+15
-    ->  true
-    ;   created(To, Kind, _, _, _),
-        \+ memberchk(Kind, [rover,sitter])
-    ),
-    !.
-
-%   The order is promised to agents that stand; processes write from many
-%   threads.
-
-order_kind(From, To, Kind) :-
-    created(From, _, _, _, _),
-    created(To, To1, _, _, _),
-    (   To1 == sitter
-    ->  Kind = order_still
-    ;   Kind = order_moving
-    ).
-
-                /*******************************
-                *            TOKENS            *
-                *******************************/
-
-token_finding(Tuples, finding(Kind, Token)) :-
-    findall(K, member(token(K), Tuples), There),
-    findall(K, ( standing(_, _, _, _, Facts), member(token(K), Facts) ),
-            Carried),
-    append(There, Carried, Tokens0),
-    msort(Tokens0, Tokens),
-    wrong_token(Tokens, Token, Kind).
-
-wrong_token(Tokens, Token, token_twice) :-
-    append(_, [Token,Token|_], Tokens).
-wrong_token(Tokens, Token, Kind) :-
-    first_and_last(First, Last),
-    between(First, Last, Token),
-    Token =\= 0,
-    \+ memberchk(Token, Tokens),
-    (   death_of(_, _)
-    ->  Kind = token_died
-    ;   Kind = token_lost
-    ).
-
-%   As given out by chaos_work: to the first travellers, and three for each
-%   of the three hosts of a process.
-
-first_and_last(First, Last) :-
-    aggregate_all(count, created(_, traveller, _, _-1, _), Count),
-    First is -Count,
-    aggregate_all(count, life(_, 1, _, _), Processes),
-    Last is 9*Processes.
 
                 /*******************************
                 *             CALLS            *
