@@ -88,7 +88,8 @@ agent_finding(_, finding(in_doubt, Key)) :-
 agent_finding(_, Finding) :-
     created(Key, _, _, _, _),
     findall(Tick-at(Life, Event),
-            event(Key, Tick, Event, _, Life), Pairs),
+            event(Key, Tick, Event, _, Life), Pairs0),
+    keysort(Pairs0, Pairs),
     group_pairs_by_key(Pairs, Groups),
     tick_finding(Groups, Key, Finding).
 agent_finding(_, finding(count, What)) :-
@@ -181,7 +182,8 @@ depends_on_the_dead(Key) :-
     (   last_trace(Key, go(Host), _, _),
         home_of(Host, Name)
     ;   created(Key, _, _, Name-_, _)
-    ;   created(Key, sleeper, _, _, _)
+    ;   created(Key, Kind, _, _, _),    % which do not say where they go
+        memberchk(Kind, [sleeper,cloner])
     ),
     !.
 
