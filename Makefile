@@ -6,7 +6,8 @@ SWIPL ?= swipl
 FIGURE ?= all
 RUNS ?= 3
 JOBS ?= 3
-# Of the fuzzer: inputs, and the seed of the first.
+# Of what attacks: how long, or how many inputs, and the seed.
+SECONDS ?= 600
 COUNT ?= 100000
 SEED ?= 1
 MAKEFLAGS += --no-print-directory
@@ -18,8 +19,8 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools demo demo-robots experiments experiments-allocation \
-    experiments-learning experiments-sieve experiments-sync test check bench \
-    fuzz test-portability install clean
+    experiments-learning experiments-sieve experiments-sync test chaos fuzz \
+    check bench test-portability install clean
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
@@ -65,6 +66,9 @@ experiments-allocation: tools ## chapter 7; one figure: FIGURE=7.1, RUNS=3
 
 test: tools             ## install what is missing, run every test suite
 	@$(SWIPL) test/run.pl
+
+chaos: tools            ## attack a network of processes; SECONDS=600, SEED=1
+	@$(SWIPL) test/chaos/run.pl -- --seconds $(SECONDS) --seed $(SEED)
 
 check:                  ## a quick look for mistakes, offline
 	@for file in $(ENTRY_POINTS); do \

@@ -1,0 +1,175 @@
+:- module(chaos_evidence,
+          [ settle/3,                   % +Seconds, +Expected, -Rest
+            evidence/2                  % +Dir, -Evidence
+          ]).
+
+/** <module> What is there when all is over
+
+Waits until nothing happens any more, and gathers what the verdict needs.
+
+*Threading*: for the main thread.
+*/
+
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [append/2, member/2]).
+:- use_module(cluster).
+:- use_module(work).
+
+call_seconds(30).
+
+%!  settle(+Seconds, +Expected, -Rest) is det.
+%
+%   Wait until no more agents are restless, and no more messages have not
+%   come, than was Expected; or until nothing has changed for a while; but
+%   not longer than Seconds.
+%
+%   @arg Expected, Rest are rest(Agents, Messages)
+
+quiet_seconds(8).
+
+settle(Seconds, Expected, Rest) :-
+    get_time(Now),
+    End is Now+Seconds,
+    settle(Now, End, none, Expected, Rest).
+
+settle(Since0, End, Before, Expected, Rest) :-
+    picture(Picture),
+    get_time(Now),
+    (   Picture == Before
+    ->  Since = Since0
+    ;   Since = Now
+    ),
+    (   settled(Since, Now, End, Picture, Expected)
+    ->  Picture = picture(Rest, _)
+    ;   Soon is Now+0.5,
+        cluster_wait(Soon),
+        settle(Since, End, Picture, Expected, Rest)
+    ).
+
+settled(_, Now, End, _, _) :-
+    Now >= End.
+settled(Since, Now, _, _, _) :-
+    quiet_seconds(Quiet),
+    Now-Since >= Quiet.
+settled(Since, Now, _, picture(rest(A, M), _), rest(A0, M0)) :-
+    Now > Since,                        % it was the same before
+    A =< A0,
+    M =< M0.
+
+%   picture(rest(Agents, Messages), Ticks)
+
+picture(picture(rest(Restless, Missing), Ticks)) :-
+    agents(Agents),
+    work_mail(Mail),
+    length(Mail, Posted),
+    aggregate_all(count, ( member(agent(_, _, State, _, _), Agents),
+                           State \== resident ), Restless),
+    sum_of(tick(N)-N, Agents, Ticks),
+    sum_of(said(_, K)-K, Agents, Said),
+    sum_of(heard(H)-H, Agents, Heard),
+    Missing is Said+Posted-Heard.
+
+sum_of(Pattern, Agents, Sum) :-
+    aggregate_all(sum(N),
+                  ( member(agent(_, _, _, _, Facts), Agents),
+                    member(Fact, Facts),
+                    copy_term(Pattern, Fact-N) ),
+                  Sum).
+
+agents(Agents) :-
+    call_seconds(Seconds),
+    cluster_call_all(census(_), Seconds, Results),
+    findall(agent(Name, Id, State, Hops, Facts),
+            ( member(Name-yes(census(List)), Results),
+              member(agent(Id, State, Hops, Facts), List) ),
+            Agents).
+
+%!  evidence(+Dir, -Evidence) is det.
+%
+%   Evidence is a dict: lives, agents (as created), standing (agent(Name,
+%   Id, State, Hops, Facts) for each that stands somewhere), tuples, events
+%   (e(Key, Tick, Event, Time, Life)), mail, disposed, outcomes (Id-Outcome
+%   as its home says), calls, left (Name-Things), timers (kB), proxies.
+%   Afterwards there are no hosts any more.
+
+evidence(Dir, _{ lives:Lives, agents:Agents, standing:Standing,
+                 tuples:Tuples, events:Events, mail:Mail,
+                 disposed:Disposed, outcomes:Outcomes, calls:Calls,
+                 left:Left, timers:Timers, proxies:Proxies }) :-
+    call_seconds(Seconds),
+    cluster_lives(Lives),
+    work_agents(Agents),
+    agents(Standing),
+    answers(tuples(Found), Found, Lists),
+    append(Lists, Tuples),
+    events(Dir, Events),
+    outcomes(Agents, Events, Outcomes),
+    answers(timer_size(Size), Size, Timers),
+    cluster_proxy([counts], Proxies),
+    cluster_call_all(close_hosts(_), Seconds, Closed),
+    findall(Name-Things,
+            ( member(Name-yes(close_hosts(Things)), Closed), Things \== [] ),
+            Left),
+    work_answers,
+    work_mail(Mail),
+    work_disposed(Disposed),
+    work_calls(Calls).
+
+answers(Goal, Template, List) :-
+    call_seconds(Seconds),
+    cluster_call_all(Goal, Seconds, Results),
+    findall(Template, member(_-yes(Goal), Results), List).
+
+%   The homes of those that should have ended are asked.
+
+outcomes(Agents, Events, Outcomes) :-
+    findall(Name-Id, ending(Agents, Events, Name, Id), Pairs),
+    cluster_living(Names),
+    call_seconds(Seconds),
+    findall(Name-Tag,
+            ( member(Name, Names),
+              findall(Id, member(Name-Id, Pairs), Ids),
+              cluster_ask(Name, outcomes(Ids, _), Seconds, Tag) ),
+            Tags),
+    findall(Outcome,
+            ( member(_-Tag, Tags),
+              cluster_result(Tag, yes(outcomes(_, List))),
+              member(Outcome, List) ),
+            Outcomes).
+
+ending(Agents, _, Name, Id) :-
+    member(agent(_, Kind, Id, Name-_, _), Agents),
+    memberchk(Kind, [sprinter,victim]).
+ending(_, Events, Name, Id) :-
+    member(e(_, _, clone(_, Id), _, _), Events),
+    once(( cluster_names(Names),
+           member(Name, Names),
+           cluster_hosts(Name, Hosts),
+           member(Host, Hosts),
+           atom_concat(@, Host, Home),
+           sub_atom(Id, _, _, 0, Home) )).
+
+%   What a killed process was just writing does not count.
+
+events(Dir, Events) :-
+    cluster_lives(Lives),
+    findall(Event,
+            ( member(life(Name, Number, _, _), Lives),
+              format(atom(File), '~w/~w.~d.ledger', [Dir, Name, Number]),
+              event_in(File, Name-Number, Event) ),
+            Events0),
+    msort(Events0, Events).
+
+event_in(File, Life, e(Key, Tick, Event, Time, Life)) :-
+    exists_file(File),
+    setup_call_cleanup(
+        open(File, read, In),
+        ( repeat,
+          catch(read_term(In, Term, []), error(_, _), Term = end_of_file),
+          (   Term == end_of_file
+          ->  !,
+              fail
+          ;   Term = e(Key, Tick, Event, Time)
+          )
+        ),
+        close(In)).

@@ -1,0 +1,71 @@
+:- module(chaos_facts,
+          [ facts_load/1,               % +Evidence
+            facts_clear/0,
+            life/4,                     % ?Name, ?Number, ?From, ?To
+            created/5,                  % ?Key, ?Kind, ?Id, ?Life, ?Time
+            standing/5,                 % ?Id, ?Name, ?State, ?Hops, ?Facts
+            event/5,                    % ?Key, ?Tick, ?Event, ?Time, ?Life
+            disposed/2,                 % ?Key, ?Time
+            outcome/2,                  % ?Id, ?Outcome
+            alive/1,                    % +Life
+            death_of/2,                 % ?Name, -Time
+            clone_key/3                 % +Parent, +Number, -Key
+          ]).
+
+/** <module> What is known of a run, in tables
+
+A life, of a process, is Name-Number.  Clones are among those created: their
+parents tell of them.
+
+*Threading*: for one thread at a time.
+*/
+
+:- use_module(library(lists), [member/2]).
+
+:- dynamic
+    life/4,                             % Name, Number, From, To
+    created/5,                          % Key, Kind, Id, Life, Time
+    standing/5,                         % Id, Name, State, Hops, Facts
+    event/5,                            % Key, Tick, Event, Time, Life
+    disposed/2,                         % Key, Time
+    outcome/2.                          % Id, Outcome
+
+%!  facts_load(+Evidence) is det.
+%!  facts_clear is det.
+%
+%   Evidence as of chaos_evidence.
+
+facts_load(Evidence) :-
+    facts_clear,
+    forall(member(Life, Evidence.lives), assertz(Life)),
+    forall(member(agent(K, Kind, Id, L, T), Evidence.agents),
+           assertz(created(K, Kind, Id, L, T))),
+    forall(member(agent(Name, Id, State, Hops, Facts), Evidence.standing),
+           assertz(standing(Id, Name, State, Hops, Facts))),
+    forall(member(e(K, N, E, T, L), Evidence.events),
+           assertz(event(K, N, E, T, L))),
+    forall(( event(P, _, clone(N, Id), T, L), clone_key(P, N, K) ),
+           assertz(created(K, clone, Id, L, T))),
+    forall(member(K-T, Evidence.disposed), assertz(disposed(K, T))),
+    forall(member(Id-O, Evidence.outcomes), assertz(outcome(Id, O))).
+
+facts_clear :-
+    forall(member(Fact, [ life(_, _, _, _), created(_, _, _, _, _),
+                          standing(_, _, _, _, _), event(_, _, _, _, _),
+                          disposed(_, _), outcome(_, _) ]),
+           retractall(Fact)).
+
+clone_key(Parent, N, Key) :-
+    atomic_list_concat([Parent, +, N], Key).
+
+%!  alive(+Life) is semidet.
+%!  death_of(?Name, -Time) is nondet.
+%
+%   Life has not ended yet; a life of Name ended at Time.
+
+alive(Name-Number) :-
+    life(Name, Number, _, inf).
+
+death_of(Name, Time) :-
+    life(Name, _, _, Time),
+    number(Time).

@@ -1,0 +1,175 @@
+:- module(chaos_goods,
+          [ message_finding/2,          % +Mail, -Finding
+            token_finding/2             % +Tuples, -Finding
+          ]).
+
+/** <module> Messages and tokens: is everything there, and once
+
+*Threading*: for one thread at a time, see chaos_facts.
+*/
+
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
+:- use_module(library(lists), [append/3, last/2, member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
+:- use_module(facts).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+%!  message_finding(+Mail, -Finding) is nondet.
+%
+%   Mail is sent(From, To, Number, Time) for what the processes wrote.
+
+message_finding(Mail, Finding) :-
+    unsaid(Unsaid),
+    findall(Pair, said(Mail, Unsaid, Pair), Said0),
+    findall(m(From, To, K)-got(Tick, Life),
+            event(To, Tick, got(From, K), _, Life), Got0),
+    keysort(Said0, Said1),
+    keysort(Got0, Got1),
+    group_pairs_by_key(Said1, Said),
+    group_pairs_by_key(Got1, Got),
+    message_finding(Said, Got, Finding).
+
+%   What could not be sent has not been said, and is said again.
+
+said(Mail, _, m(From, To, K)-Time) :-
+    member(sent(From, To, K, Time), Mail).
+said(_, Unsaid, Message-Time) :-
+    findall(m(From, To, K)-T, event(From, _, said(To, K), T, _), Pairs0),
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    member(Message-Times, Groups),
+    length(Times, Said),
+    (   get_assoc(Message, Unsaid, Not)
+    ->  Said > Not
+    ;   true
+    ),
+    last(Times, Time).
+
+unsaid(Unsaid) :-
+    findall(m(From, To, K)-x, event(From, _, unsaid(To, K, _), _, _), Pairs0),
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    findall(Message-Count,
+            ( member(Message-Xs, Groups), length(Xs, Count) ), Counts),
+    list_to_assoc(Counts, Unsaid).
+
+message_finding(Said, Got, Finding) :-
+    missing(Said, Got, Missing),
+    member(Message-Times, Missing),
+    last(Times, Time),
+    lost_message(Message, Time, Finding).
+message_finding(_, Got, finding(Kind, Message-Gets)) :-
+    member(Message-Gets, Got),
+    Gets = [_,_|_],
+    (   findall(Life, ( member(got(_, Life), Gets), alive(Life) ), [_,_|_])
+    ->  Kind = message_twice
+    ;   member(got(_, Life), Gets),
+        \+ alive(Life)
+    ->  Kind = again
+    ;   Kind = message_twice
+    ).
+message_finding(_, Got, Finding) :-
+    findall(From-To-(Tick-K),
+            member(m(From, To, K)-[got(Tick, _)|_], Got), Pairs0),
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    member(From-To-Ticks0, Groups),
+    order_kind(From, To, Kind),
+    keysort(Ticks0, Ticks),
+    pairs_values(Ticks, Numbers),
+    append(_, [A,B|_], Numbers),
+    A > B,
+    Finding = finding(Kind, From-To:[A,B]).
+
+missing([], _, []).
+missing([M-Times|Said], Got0, Missing) :-
+    passed(Got0, M, Got),
+    (   Got = [M-_|_]
+    ->  Missing = More
+    ;   Missing = [M-Times|More]
+    ),
+    missing(Said, Got, More).
+
+passed([M0-_|Got0], M, Got) :-
+    M0 @< M,
+    !,
+    passed(Got0, M, Got).
+passed(Got, _, Got).
+
+%   A message for an agent that was lost, or is in doubt, is no loss of its
+%   own.
+
+lost_message(m(From, To, K), Time, finding(Kind, m(From, To, K))) :-
+    created(To, _, Id, Home, _),
+    once(standing(Id, _, resident, _, _)),
+    (   death_near(To, Time)
+    ->  Kind = message_died
+    ;   \+ alive(Home)
+    ->  Kind = message_died
+    ;   Kind = message_lost
+    ).
+
+%   Those who take their messages as they come have done so after some
+%   seconds; with others they may have waited to the end.
+
+death_near(To, Time) :-
+    death_of(_, Dead),
+    Dead >= Time-2,
+    (   Dead =< Time+15
+    ->  true
+    ;   created(To, Kind, _, _, _),
+        \+ memberchk(Kind, [rover,sitter])
+    ),
+    !.
+
+%   The order is promised to agents that stand; processes write from many
+%   threads.
+
+order_kind(From, To, Kind) :-
+    created(From, _, _, _, _),
+    created(To, To1, _, _, _),
+    (   To1 == sitter
+    ->  Kind = order_still
+    ;   Kind = order_moving
+    ).
+
+                /*******************************
+                *            TOKENS            *
+                *******************************/
+
+%!  token_finding(+Tuples, -Finding) is nondet.
+%
+%   Tuples are token(K) for those on the hosts.
+
+token_finding(Tuples, finding(Kind, Token)) :-
+    findall(K, member(token(K), Tuples), There),
+    findall(K, ( standing(_, _, _, _, Facts), member(token(K), Facts) ),
+            Carried),
+    append(There, Carried, Tokens0),
+    msort(Tokens0, Tokens),
+    wrong_token(Tokens, Token, Kind).
+
+wrong_token(Tokens, Token, token_twice) :-
+    append(_, [Token,Token|_], Tokens).
+wrong_token(Tokens, Token, Kind) :-
+    first_and_last(First, Last),
+    between(First, Last, Token),
+    Token =\= 0,
+    \+ memberchk(Token, Tokens),
+    (   death_of(_, _)
+    ->  Kind = token_died
+    ;   Kind = token_lost
+    ).
+
+%   As given out by chaos_work: to the first travellers, and three for each
+%   of the three hosts of a process.
+
+first_and_last(First, Last) :-
+    aggregate_all(count, created(_, traveller, _, _-1, _), Count),
+    First is -Count,
+    aggregate_all(count, life(_, 1, _, _), Processes),
+    Last is 9*Processes.

@@ -1,0 +1,298 @@
+:- module(chaos_verdict,
+          [ verdict/3,                  % +Scenario, +Evidence, -Findings
+            finding_kind/3              % ?Kind, ?Severity, ?Meaning
+          ]).
+
+/** <module> What must be, compared with what is
+
+A finding is finding(Kind, What).  Where no process was killed nothing is
+excused; else what was lost is, if the process it was in, or on its way to,
+was killed afterwards, see doc/agents.md.  Nothing excuses two of one thing.
+
+*Threading*: for one thread at a time, see chaos_facts.
+*/
+
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module(facts).
+:- use_module(goods, [message_finding/2, token_finding/2]).
+
+%!  finding_kind(?Kind, ?Severity, ?Meaning) is nondet.
+%
+%   Severity is `wrong`, `excused` (only where processes were killed), or
+%   `told`: not promised otherwise.
+
+finding_kind(lost,          wrong,   'agents lost').
+finding_kind(doubled,       wrong,   'agents doubled').
+finding_kind(count,         wrong,   'wrong counts').
+finding_kind(outcome,       wrong,   'wrong outcomes').
+finding_kind(undead,        wrong,   'agents that went on when disposed of').
+finding_kind(stuck,         wrong,   'agents not at rest at the end').
+finding_kind(message_lost,  wrong,   'messages lost').
+finding_kind(message_twice, wrong,   'messages doubled').
+finding_kind(order_still,   wrong,   'out of order, to agents that stand').
+finding_kind(token_lost,    wrong,   'tokens lost').
+finding_kind(token_twice,   wrong,   'tokens doubled').
+finding_kind(hung,          wrong,   'calls that hung').
+finding_kind(crashed,       wrong,   'processes that ended by themselves').
+finding_kind(denied,        wrong,   'agents said not to exist').
+finding_kind(refused,       wrong,   'errors without a cause').
+finding_kind(left,          wrong,   'threads and queues left').
+finding_kind(died,          excused, 'agents that died with a process').
+finding_kind(again,         excused, 'steps done again after a death').
+finding_kind(message_died,  excused, 'messages that died with a process').
+finding_kind(token_died,    excused, 'tokens that died with a process').
+finding_kind(in_doubt,      excused, 'agents in doubt, to who is dead').
+finding_kind(order_moving,  told,    'out of order, to agents that move').
+finding_kind(error,         told,    'errors while there were faults').
+
+%!  verdict(+Scenario, +Evidence, -Findings) is det.
+
+verdict(Scenario, Evidence, Findings) :-
+    facts_load(Evidence),
+    call_cleanup(
+        findall(Finding, finding(Scenario, Evidence, Finding), Findings0),
+        facts_clear),
+    sort(Findings0, Findings).
+
+finding(Scenario, _, Finding) :-
+    agent_finding(Scenario, Finding).
+finding(_, Evidence, Finding) :-
+    message_finding(Evidence.mail, Finding).
+finding(_, Evidence, Finding) :-
+    token_finding(Evidence.tuples, Finding).
+finding(Scenario, Evidence, Finding) :-
+    member(Call, Evidence.calls),
+    call_finding(Call, Scenario, Finding).
+finding(_, Evidence, finding(left, Name:Thing)) :-
+    member(Name-Things, Evidence.left),
+    member(Thing, Things).
+
+                /*******************************
+                *            AGENTS            *
+                *******************************/
+
+agent_finding(_, finding(Kind, copies(Key, Id, Names))) :-
+    created(Key, _, Id, _, _),
+    findall(Name, standing(Id, Name, _, _, _), Names),
+    length(Names, Count),
+    copies(Count, Key, Kind).
+agent_finding(_, finding(stuck, at(Key, State))) :-
+    standing_as(Key, State, _, _),
+    State \== resident,
+    \+ ( State == in_doubt, depends_on_the_dead(Key) ).
+agent_finding(_, finding(in_doubt, Key)) :-
+    standing_as(Key, in_doubt, _, _),
+    depends_on_the_dead(Key).
+agent_finding(_, Finding) :-
+    created(Key, _, _, _, _),
+    findall(Tick-at(Life, Event),
+            event(Key, Tick, Event, _, Life), Pairs0),
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    tick_finding(Groups, Key, Finding).
+agent_finding(_, finding(count, What)) :-
+    standing_as(Key, _, Hops, Facts),
+    wrong_count(Key, Hops, Facts, What).
+agent_finding(_, finding(count, Key:Event)) :-
+    event(Key, _, Event, _, _),
+    ( Event = wrong(_) ; Event = astray(_, _) ).
+agent_finding(_, finding(outcome, Key-Outcome)) :-
+    created(Key, _, Id, _, _),
+    outcome(Id, Outcome),
+    \+ right_outcome(Key, Outcome).
+agent_finding(_, finding(undead, Key:Event)) :-
+    disposed(Key, Time),
+    once(( event(Key, _, Event, Later, _), Later > Time )).
+agent_finding(_, finding(doubled, unwanted_clone(Key))) :-
+    event(Parent, _, no_clone(N, _), _, _),
+    clone_key(Parent, N, Key),
+    once(event(Key, _, _, _, _)).
+agent_finding(Scenario, finding(Kind, Key:stays(Why))) :-
+    event(Key, _, stays(Why), _, _),
+    (   Scenario == calm
+    ->  Kind = refused
+    ;   Kind = error
+    ).
+
+standing_as(Key, State, Hops, Facts) :-
+    created(Key, _, Id, _, _),
+    standing(Id, _, State, Hops, Facts).
+
+%   copies(+Count, +Key, -Kind): what is wrong with so many.
+
+copies(0, Key, Kind) :-
+    \+ has_ended(Key),
+    (   excused(Key)
+    ->  Kind = died
+    ;   Kind = lost
+    ).
+copies(1, Key, undead) :-
+    has_ended(Key).
+copies(Count, _, doubled) :-
+    Count > 1.
+
+has_ended(Key) :-
+    disposed(Key, _),
+    !.
+has_ended(Key) :-
+    event(Key, _, end, _, _),
+    !.
+has_ended(Key) :-
+    created(Key, victim, Id, _, _),
+    outcome(Id, disposed).
+
+%   Whoever was sent somewhere from outside says nothing of it beforehand,
+%   nor does a clone, or one to be disposed of.
+
+excused(Key) :-
+    last_trace(Key, Event, Time, Name-Number),
+    (   life(Name, Number, _, Dead),
+        number(Dead)
+    ;   Event = go(Host),
+        home_of(Host, Other),
+        death_of(Other, Dead),
+        Dead >= Time
+    ;   created(Key, Kind, _, _, _),
+        memberchk(Kind, [sleeper,clone,victim]),
+        death_of(_, Dead),
+        Dead >= Time-1
+    ),
+    !.
+
+last_trace(Key, Event, Time, Life) :-
+    aggregate_all(max(T, E-L), event(Key, _, E, T, L),
+                  max(Time, Event-Life)),
+    !.
+last_trace(Key, none, Time, Life) :-
+    created(Key, _, _, Life, Time).
+
+%   The hosts of a process have its name and a number.
+
+home_of(Host, Name) :-
+    life(Name, 1, _, _),
+    sub_atom(Host, 0, _, _, Name),
+    !.
+
+%   Where it went, or those who would know, are gone for good.
+
+depends_on_the_dead(Key) :-
+    gone(Name),
+    (   last_trace(Key, go(Host), _, _),
+        home_of(Host, Name)
+    ;   created(Key, _, _, Name-_, _)
+    ;   created(Key, Kind, _, _, _),    % which do not say where they go
+        memberchk(Kind, [sleeper,cloner])
+    ),
+    !.
+
+gone(Name) :-
+    life(Name, 1, _, _),
+    \+ life(Name, _, _, inf).
+
+%   Ticks are 1, 2, 3 and so on, each once.
+
+tick_finding(Groups, Key, finding(Kind, twice(Key, Tick, Events))) :-
+    member(Tick-Events, Groups),
+    Events = [_,_|_],
+    (   findall(Life, ( member(at(Life, _), Events), alive(Life) ), Lives),
+        \+ Lives = [_,_|_],
+        dead_among(Events)
+    ->  Kind = again
+    ;   Kind = doubled
+    ).
+tick_finding(Groups, Key, finding(count, gap(Key, Tick, Next))) :-
+    append(_, [Tick-_,Next-_|_], Groups),
+    Next =\= Tick+1.
+
+dead_among(Events) :-
+    member(at(Life, _), Events),
+    \+ alive(Life),
+    !.
+
+wrong_count(Key, _, Facts, ticks(Key, Tick, Noted)) :-
+    memberchk(tick(Tick), Facts),
+    aggregate_all(max(T, L), event(Key, T, _, _, L), max(Noted, Life)),
+    Tick =\= Noted,
+    \+ ( Tick < Noted, \+ alive(Life) ).
+wrong_count(Key, Hops, Facts, hops(Key, Steps, Hops)) :-
+    created(Key, Kind, _, _, _),
+    Kind \== sleeper,
+    memberchk(steps(Steps), Facts),
+    Steps =\= Hops.
+
+right_outcome(Key, Outcome) :-
+    (   copies(0, Key, died)
+    ->  true                            % nobody can know
+    ;   created(Key, _, _, Life, _),
+        \+ alive(Life)                  % its home has forgotten
+    ->  true
+    ;   ended_as(Key, Outcome)
+    ).
+
+ended_as(Key, Outcome) :-
+    disposed(Key, _),
+    !,
+    Outcome == disposed.
+ended_as(Key, disposed) :-
+    created(Key, victim, _, _, _),      % whoever ordered it was not told
+    !.
+ended_as(Key, Outcome) :-
+    event(Key, _, end, _, _),
+    !,
+    created(Key, Kind, _, _, _),
+    (   Kind == clone
+    ->  Outcome == disposed
+    ;   Outcome == done
+    ).
+ended_as(_, timeout).                   % it has not
+
+                /*******************************
+                *             CALLS            *
+                *******************************/
+
+call_finding(call(What, Name, Result), Scenario, finding(Kind, Found)) :-
+    Found = call(What, Name, Result),
+    call_kind(Result, What, Scenario, Kind).
+
+call_kind(hung, _, _, Kind) :-
+    !,
+    Kind = hung.
+call_kind(crashed(_), _, _, Kind) :-
+    !,
+    Kind = crashed.
+call_kind(died, _, _, _) :-
+    !,
+    fail.
+call_kind(outcome(_), join(_, Key), _, Kind) :-
+    !,
+    \+ copies(0, Key, died),
+    Kind = outcome.
+call_kind(_, What, _, Kind) :-
+    looks(What),
+    !,
+    Kind = refused.
+call_kind(Result, _, _, Kind) :-
+    no_such_agent(Result),
+    !,
+    (   death_of(_, _)
+    ->  Kind = error
+    ;   Kind = denied
+    ).
+call_kind(_, _, calm, Kind) :-
+    !,
+    Kind = refused.
+call_kind(_, _, _, error).
+
+%   What we ask at the end for our own sake, of processes that are well.
+
+looks(halt).
+looks(census(_)).
+looks(tuples(_)).
+looks(outcomes(_, _)).
+looks(timer_size(_)).
+looks(close_hosts(_)).
+
+no_such_agent(no).
+no_such_agent(raised(existence_error(agent, _))).
