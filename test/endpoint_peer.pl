@@ -5,10 +5,11 @@
     swipl -g "serve(Port)" test/endpoint_peer.pl
 
 listens to Port, prints its address, and ends when its standard input does.
-Posts of kind `note` are remembered; requests are `echo`, `notes` (all notes
-so far), `later` (answered by another thread), `never`, `wrong` (the hook
-raises), `back` (posts N notes to the asker and then answers) and
-`greet(Address, N)` (the same to another, in a thread of its own).
+Posts of kind `note` are remembered; requests are `echo`, `process` (its id),
+`notes` (all notes so far), `later` (answered by another thread), `never`,
+`wrong` (the hook raises), `back` (posts N notes to the asker and then
+answers) and `greet(Address, N)` (the same to another, in a thread of its
+own).
 */
 
 :- use_module(common).
@@ -25,6 +26,9 @@ typhon_endpoint:received(note, Note, _) :-
 
 typhon_endpoint:requested(echo, Term, _, ReplyTo) :-
     endpoint_reply(ReplyTo, Term).
+typhon_endpoint:requested(process, _, _, ReplyTo) :-
+    endpoint_process(Id),
+    endpoint_reply(ReplyTo, Id).
 typhon_endpoint:requested(notes, _, _, ReplyTo) :-
     findall(Note, note(Note), Notes),
     endpoint_reply(ReplyTo, Notes).

@@ -334,6 +334,57 @@ test(it_says_goodbye, Result == lost) :-
           flush_output(In),
           thread_get_message(Me, Result, [timeout(20)]) ))).
 
+test(is_gone_when_nobody_listens, Before-After == false-true) :-
+    with_endpoint(with_peer(0, Pid, A,
+        ( ask(A, echo, x, x),
+          gone(A, Before),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          wait_until(endpoint_peer(A, state(down)), 5),
+          catch(endpoint_post(A, note, x), error(unreachable(_), _), true),
+          gone(A, After) ))).
+test(is_gone_when_it_said_goodbye) :-
+    with_endpoint(with_peer_in(In, A,
+        ( ask(A, echo, x, x),
+          format(In, "end.~n", []),
+          flush_output(In),
+          wait_until(endpoint_gone(A), 10) ))).
+test(is_not_gone_when_stopped, State-Gone == down-false) :-
+    with_endpoint(with_setting(typhon_reader:silence, 0.2,
+        with_peer(0, Pid, A,
+            ( ask(A, echo, x, x),
+              process_kill(Pid, stop),
+              endpoint_post(A, note, x),
+              quiet(wait_until(endpoint_peer(A, state(down)), 10)),
+              endpoint_peer(A, state(State)),
+              gone(A, Gone),
+              process_kill(Pid, cont) )))).
+test(somebody_is_there_again, Process == New) :-
+    with_endpoint(with_peer(0, Pid, A,
+        ( ask(A, echo, x, x),
+          endpoint_peer(A, process(Old)),
+          port_of(A, Port),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          wait_until(unreachable(A), 5),
+          assertion(endpoint_gone(A)),
+          assertion(endpoint_peer(A, process(Old))),
+          with_peer(Port, _, A,
+                    ( ask(A, process, x, New),
+                      assertion(\+ endpoint_gone(A)),
+                      endpoint_peer(A, process(Process)) )) ))).
+
+gone(Address, Gone) :-
+    (   endpoint_gone(Address)
+    ->  Gone = true
+    ;   Gone = false
+    ).
+
+unreachable(Address) :-
+    catch(( endpoint_post(Address, note, x), fail ),
+          error(unreachable(_), _),
+          true).
+
 :- meta_predicate with_peer_in(-, -, 0).
 
 with_peer_in(In, Address, Goal) :-

@@ -24,6 +24,7 @@ are held back while a frame is being handled and counted.
                                 tcp_open_socket/3, tcp_setopt/2,
                                 tcp_socket/1]).
 :- use_module(auth, [authenticate/5]).
+:- use_module(contacts, [contact_gone/1, contact_met/2]).
 :- use_module(crew, [crew_tell/1]).
 :- use_module(hello, [hello_codec/3, line_read/3, line_write/2]).
 :- use_module(request, [connection_is/2]).
@@ -62,16 +63,20 @@ turned_away(Ip, Formal) :-
 reachable(_, _, session(Key, _, _, _, _)) :-
     memberchk(Key, [self_client, self_server]),
     !.
-reachable(hello(_, _, Claimed, _, _, _), Ip, Session) :-
+reachable(hello(Process, _, Claimed, _, _, _), Ip, Session) :-
     address_parts(Claimed, Interface, Port),
     (   Interface == '0.0.0.0'
     ->  atomic_list_concat([Ip, Port], :, Address),
-        route_add(Address, Session)
+        found(Address, Process, Session)
     ;   loopback(Interface),
         \+ loopback(Ip)
     ->  true
-    ;   route_add(Claimed, Session)
+    ;   found(Claimed, Process, Session)
     ).
+
+found(Address, Process, Session) :-
+    route_add(Address, Session),
+    contact_met(Address, Process).
 
 loopback(localhost).
 loopback(Ip) :-
@@ -90,7 +95,8 @@ outgoing(Address, Me, Times) :-
             connect(Interface, Port, Socket),
             with_streams(Socket, In, Out,
                          ( meet(client, In, Out, Me, Peer, Session),
-                           route_add(Address, Session),
+                           arg(1, Peer, Process),
+                           found(Address, Process, Session),
                            reachable(Peer, Interface, Session),
                            ignore(crew_tell(met(Address, Session))),
                            serve(Session, In) ))
@@ -109,6 +115,10 @@ missed(Address, Me, Times, Formal) :-
     Times1 is Times-1,
     outgoing(Address, Me, Times1).
 missed(Address, _, _, Formal) :-
+    (   Formal = socket_error(econnrefused, _)
+    ->  contact_gone(Address)
+    ;   true
+    ),
     ignore(crew_tell(missed(Address, Formal))).
 
 broken_off(syntax_error(end_of_file)).

@@ -10,6 +10,7 @@
             endpoint_reply/2,           % +ReplyTo, +Term
             endpoint_reply_later/2,     % +ReplyTo, +Term
             endpoint_peer/2,            % ?Address, ?Property
+            endpoint_gone/1,            % +Address
             endpoint_flush/1            % +Seconds
           ]).
 
@@ -39,6 +40,7 @@ that peer is read. They may post, request and reply.
                                 tcp_setopt/2, tcp_socket/1]).
 :- use_module(auth, [cookie/1, random_hex/2]).
 :- use_module(acceptor, [accept_all/2]).
+:- use_module(contacts, [contact/3]).
 :- use_module(crew, [crew_bury/1, crew_retire/2, crew_spawn/2, crew_start/0,
                      crew_stop/1, crew_tell/1]).
 :- use_module(frame, [mobile_term/1]).
@@ -50,7 +52,6 @@ that peer is read. They may post, request and reply.
                         requests_lost/2]).
 :- use_module(session, [route/2, session/2, session_close/2,
                         session_control/2, session_flush/2,
-                        session_peer/3,
                         session_pending/2, session_send/2, session_up/1]).
 
 :- meta_predicate
@@ -338,15 +339,16 @@ endpoint_reply_later(ReplyTo, Term) :-
 
 %!  endpoint_peer(?Address, ?Property) is nondet.
 %
-%   Property of the peer at Address: process(Id), state(up or down),
-%   pending(Frames), codec(fast or text).
+%   Property of the peer at Address: process(Id), the one last met there,
+%   state(up or down), pending(Frames), codec(fast or text).
 
+endpoint_peer(Address, process(Id)) :-
+    contact(Address, Id, _),
+    Id \== none.
 endpoint_peer(Address, Property) :-
     route(Address, Session),
     peer_property(Property, Session).
 
-peer_property(process(Id), session(Key, _, _, _, _)) :-
-    session_peer(Key, Id, _).
 peer_property(state(State), session(Key, _, _, _, _)) :-
     (   session_up(Key)
     ->  State = up
@@ -355,6 +357,17 @@ peer_property(state(State), session(Key, _, _, _, _)) :-
 peer_property(pending(Count), Session) :-
     session_pending(Session, Count).
 peer_property(codec(Codec), session(_, Codec, _, _, _)).
+
+%!  endpoint_gone(+Address) is semidet.
+%
+%   As far as this process knows there is no process at Address any more to
+%   which it can have talked: nobody listened there when it last tried to
+%   connect, or the one that did said goodbye. Not true of a process that
+%   has been stopped, or is behind a network that is cut.
+
+endpoint_gone(Address) :-
+    contact(Address, _, gone),
+    \+ up_session(Address, _).
 
 %!  endpoint_flush(+Seconds) is semidet.
 %

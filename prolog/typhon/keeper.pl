@@ -16,6 +16,7 @@ dynamic predicates below. Others talk to it through crew_tell/1.
 
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(connection, [outgoing/2]).
+:- use_module(contacts, [contact_gone/1]).
 :- use_module(crew, [crew_bury/1, crew_hear/2, crew_retire/2, crew_spawn/2,
                      crew_tell/1]).
 :- use_module(request, [requests_lost/2, requests_open/1]).
@@ -107,7 +108,9 @@ hear(displaced(Key), _) :-              % another process has its address
     ->  true
     ;   gone(Key)
     ).
-hear(gone(Key), _) :-
+hear(gone(Key), _) :-                   % it said goodbye
+    forall(route(Address, session(Key, _, _, _, _)),
+           contact_gone(Address)),
     gone(Key).
 hear(overdue, Me) :-
     overdue(Me).

@@ -1,0 +1,64 @@
+:- module(typhon_contacts,
+          [ contact_met/2,              % +Address, +Process
+            contact_gone/1,             % +Address
+            contact/3                   % ?Address, ?Process, ?State
+          ]).
+
+/** <module> What is known of addresses
+
+Which process was last met at an address, and whether it has left: nobody
+listens there any more, or it said goodbye. A process that is silent, and
+one behind a cut network, has not left. A bounded number of addresses is
+kept, the oldest are forgotten.
+
+_Threading_: any thread; a mutex makes changes one at a time.
+*/
+
+:- use_module(library(settings), [setting/2, setting/4]).
+
+:- setting(contacts, positive_integer, 10000,
+           "Addresses of which is known who was met there").
+
+:- dynamic
+    contact/3.                          % Address, Process, met or gone
+
+%!  contact(?Address, ?Process, ?State) is nondet.
+%
+%   Process was the last one met at Address, `none` if there never was one.
+%   State is `met`, or `gone` if it has left.
+
+%!  contact_met(+Address, +Process) is det.
+%!  contact_gone(+Address) is det.
+%
+%   Process is at Address; nobody is there any more.
+
+contact_met(Address, Process) :-
+    with_mutex(typhon_contacts, note(Address, Process, met)).
+
+contact_gone(Address) :-
+    with_mutex(typhon_contacts,
+               ( last_met(Address, Process),
+                 note(Address, Process, gone) )).
+
+last_met(Address, Process) :-
+    contact(Address, Process0, _),
+    !,
+    Process = Process0.
+last_met(_, none).
+
+note(Address, Process, State) :-
+    contact(Address, Process, State),
+    !.
+note(Address, Process, State) :-
+    findall(Old, clause(contact(Address, _, _), true, Old), Olds),
+    assertz(contact(Address, Process, State)),
+    forall(member(Old, Olds), erase(Old)),
+    forget_oldest.
+
+forget_oldest :-
+    predicate_property(contact(_, _, _), number_of_clauses(Count)),
+    setting(contacts, Max),
+    (   Count > Max
+    ->  ignore(retract(contact(_, _, _)))
+    ;   true
+    ).
