@@ -15,7 +15,8 @@ processes the one with the smaller key, the arbiter, decides in which order
 that happens: it speaks first, and about one connection at a time.
 
 _Threading_: incoming/4 and outgoing/2 are the goals of crew threads. Signals
-are held back while a frame is being handled and counted.
+are held back while a session is given its connection, and while a frame is
+being handled and counted.
 */
 
 :- use_module(library(error), [domain_error/2, syntax_error/1]).
@@ -29,11 +30,15 @@ are held back while a frame is being handled and counted.
 :- use_module(hello, [hello_codec/3, line_read/3, line_write/2]).
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
-:- use_module(session, [route/2, route_add/2, session_adopting/2,
-                        session_down/2,
-                        session_install/4, session_left/0,
-                        session_open/4, session_peer/3,
-                        session_received/2, session_retire/1]).
+:- use_module(outbox, [session_down/2, session_install/4, session_left/0,
+                       session_retire/1]).
+:- use_module(session, [route_add/2, session_adopting/2, session_open/4,
+                        session_received/2]).
+
+:- meta_predicate
+    incoming(+, +, 0, +),
+    with_streams(+, -, -, 0),
+    meet(+, +, +, +, +, -, 1).
 
 %!  incoming(+Socket, +Ip, :Welcomed, +Me) is det.
 %
@@ -42,9 +47,10 @@ are held back while a frame is being handled and counted.
 
 incoming(Socket, Ip, Welcomed, Me) :-
     catch(with_streams(Socket, In, Out,
-                       ( meet(server, In, Out, Me, Peer, Session),
+                       ( prove(server, In, Out, Me, Peer),
                          call(Welcomed),
-                         reachable(Peer, Ip, Session),
+                         meet(server, In, Out, Me, Peer, Session,
+                              reachable(Peer, Ip)),
                          serve(Session, In) )),
           error(Formal, _),
           turned_away(Ip, Formal)).
@@ -67,14 +73,14 @@ reachable(hello(Process, _, Claimed, _, _, _), Ip, Session) :-
     address_parts(Claimed, Interface, Port),
     (   Interface == '0.0.0.0'
     ->  atomic_list_concat([Ip, Port], :, Address),
-        found(Address, Process, Session)
+        leads_to(Address, Process, Session)
     ;   loopback(Interface),
         \+ loopback(Ip)
     ->  true
-    ;   found(Claimed, Process, Session)
+    ;   leads_to(Claimed, Process, Session)
     ).
 
-found(Address, Process, Session) :-
+leads_to(Address, Process, Session) :-
     route_add(Address, Session),
     contact_met(Address, Process).
 
@@ -84,47 +90,33 @@ loopback(Ip) :-
 
 %!  outgoing(+Address, +Me) is det.
 %
-%   Connect to Address. The keeper hears met(Address, Session) or
-%   missed(Address, Formal).
+%   Connect to Address. If there comes no connection of it the keeper hears
+%   missed(Address, Thread, Formal).
 
 outgoing(Address, Me) :-
-    outgoing(Address, Me, 4).
-
-outgoing(Address, Me, Times) :-
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(Socket, In, Out,
-                         ( meet(client, In, Out, Me, Peer, Session),
-                           arg(1, Peer, Process),
-                           found(Address, Process, Session),
-                           reachable(Peer, Interface, Session),
-                           ignore(crew_tell(met(Address, Session))),
+                         ( prove(client, In, Out, Me, Peer),
+                           meet(client, In, Out, Me, Peer, Session,
+                                found(Address, Interface, Peer)),
                            serve(Session, In) ))
           ),
           error(Formal, _),
-          missed(Address, Me, Times, Formal)).
+          missed(Address, Formal)).
 
-%   A peer we have met before and that takes the connection, which breaks
-%   before we have met again, is tried again at once.
+found(Address, Interface, Peer, Session) :-
+    arg(1, Peer, Process),
+    leads_to(Address, Process, Session),
+    reachable(Peer, Interface, Session).
 
-missed(Address, Me, Times, Formal) :-
-    broken_off(Formal),
-    Times > 0,
-    route(Address, _),
-    !,
-    Times1 is Times-1,
-    outgoing(Address, Me, Times1).
-missed(Address, _, _, Formal) :-
+missed(Address, Formal) :-
     (   Formal = socket_error(econnrefused, _)
     ->  contact_gone(Address)
     ;   true
     ),
-    ignore(crew_tell(missed(Address, Formal))).
-
-broken_off(syntax_error(end_of_file)).
-broken_off(io_error(_, _)).
-broken_off(socket_error(Code, _)) :-
-    Code \== econnrefused.
+    thread_self(Me),
+    ignore(crew_tell(missed(Address, Me, Formal))).
 
 connect(Interface, Port, Socket) :-
     tcp_socket(Socket),
@@ -140,10 +132,6 @@ address_parts(Address, Interface, Port) :-
     ->  true
     ;   domain_error(endpoint_address, Address)
     ).
-
-:- meta_predicate
-    incoming(+, +, 0, +),
-    with_streams(+, -, -, 0).
 
 %   Once opened, the streams own the socket.
 
@@ -167,13 +155,27 @@ open_streams(Socket, In, Out) :-
 		 *            MEETING           *
 		 *******************************/
 
-%   Prove each other and give the connection to the session.
+%   A server tells a client in vain at the door that it does not know the
+%   cookie: it need not come back.
 
-meet(Role, In, Out, Me, Peer, Session) :-
-    authenticate(Role, In, Out, Me, Peer),
+prove(client, In, Out, Me, Peer) :-
+    authenticate(client, In, Out, Me, Peer).
+prove(server, In, Out, Me, Peer) :-
+    catch(authenticate(server, In, Out, Me, Peer),
+          error(permission_error(authenticate, peer, cookie), Context),
+          ( line_write(Out, refused),
+            throw(error(permission_error(authenticate, peer, cookie),
+                        Context)) )).
+
+%   meet(+Role, +In, +Out, +Me, +Peer, -Session, :Known): give the connection
+%   to the session with Peer. call(Known, Session) notes the addresses that
+%   lead to it before that: whoever gives it a connection does so for all.
+
+meet(Role, In, Out, Me, Peer, Session, Known) :-
     hello_codec(Me, Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
     session_open(Key, Peer, Codec, Session),
+    call(Known, Session),
     adopt(MyKey, Key, Session, In, Out).
 
 %   A process that connects to itself has a session for either end.
@@ -231,23 +233,23 @@ hear_count(In, Count) :-
 
 serve(Session, In) :-
     thread_self(Me),
-    connection_is(Session, up),
     call_cleanup(
-        catch(read_frames(Session, In),
-              error(Formal, _),
-              report_break(Session, Formal)),
+        ( connection_is(Session, up),
+          catch(read_frames(Session, In),
+                error(Formal, _),
+                report_break(Session, Formal))
+        ),
         ( session_down(Session, Me),
           connection_is(Session, down) )).
 
 %   A break is nothing special, but what the peer does may be.
 
-report_break(session(Key, _, _, _, _), Formal) :-
+report_break(session(_, _, _, _, peer(_, Address)), Formal) :-
     (   memberchk(Formal, [io_error(_, _), socket_error(_, _),
                            syntax_error(truncated_frame)])
     ->  Level = silent
     ;   Level = warning
     ),
-    ignore(session_peer(Key, _, Address)),
     print_message(Level, typhon(endpoint, broken(Address, Formal))).
 
 :- multifile prolog:message//1.

@@ -6,40 +6,54 @@
 
 /** <module> The keeper: connects, and connects again
 
-One thread per endpoint keeps its sessions alive. It starts the attempts to
-connect, gives each a deadline, tells those who wait for one how it went,
-and repeats those of sessions that have something to send or to hear.
+One thread per endpoint keeps its sessions alive. For each address that
+somebody wants to reach there is a quest: attempts to connect, with growing
+pauses, until the session is up, whoever gave it its connection. Those who
+wait are told when it is, or that it cannot be; the quest of a session with
+something to send or to hear goes on.
 
 _Threading_: keep/1 is the goal of the keeper's thread, which owns all the
-dynamic predicates below. Others talk to it through crew_tell/1.
+dynamic predicates below. Others talk to it through crew_tell/1. It waits
+for nobody: what may take a while is done by a thread of the crew.
 */
 
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2, min_list/2]).
+:- use_module(library(random), [random/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(contacts, [contact_gone/1]).
 :- use_module(crew, [crew_bury/1, crew_hear/2, crew_retire/2, crew_spawn/2,
                      crew_tell/1]).
+:- use_module(held, [held_fail/1, held_send/2]).
+:- use_module(outbox, [session_close/2, session_pending/2,
+                       session_retire/1, session_up/1]).
 :- use_module(request, [requests_lost/2, requests_open/1]).
-:- use_module(session, [route/2, session/2, session_close/2,
-                        session_peer/3, session_pending/2, session_retire/1,
-                        session_up/1]).
+:- use_module(session, [route/2, session/2, session_adopting/2]).
 
 :- setting(connect_time, number, 5,
-           "Seconds an attempt to connect may take").
+           "Seconds until it is told that a peer cannot be reached").
+:- setting(resting, positive_integer, 1000,
+           "Sessions without connection kept though nothing is pending").
 
 :- dynamic
-    attempt/3,                          % Address, Thread, Deadline
     waiter/2,                           % Address, Queue
-    again/3.                            % Key, Time, Wait
+    quest/4,                            % Address, State, Pause, Deadline
+    resting/1.                          % Key
+
+%   The State of a quest is trying(Thread, Until) or pausing(Until), its
+%   Deadline that of those who wait, `none` if nobody does.
 
 %!  keeper_connect(+Address) is semidet.
 %
 %   See to it that there is a connection to Address; fails if there can be
 %   none. The keeper always answers, so there is no deadline here: a wait
 %   with a deadline may never end in a clean-up handler or a hook, where
-%   signals are held back (SWI-Prolog 9.0.4).
+%   signals are held back (SWI-Prolog 9.0.4). The keeper itself does not
+%   wait for the keeper.
 
 keeper_connect(Address) :-
+    \+ nb_current(typhon_keeper, true),
     setup_call_cleanup(
         message_queue_create(Queue),
         ( crew_tell(connect(Address, Queue)),
@@ -52,13 +66,15 @@ keeper_connect(Address) :-
 %   Answer those who asked too late.
 
 keeper_unheard(Messages) :-
-    forall(member(connect(_, Queue), Messages), tell_waiter(Queue, missed)).
+    forall(member(connect(_, Queue), Messages), tell_waiter(Queue, missed)),
+    held_fail(_).
 
 %!  keep(+Me) is det.
 %
 %   The life of the keeper, Me being our hello. Ends on the message `stop`.
 
 keep(Me) :-
+    nb_setval(typhon_keeper, true),
     repeat,
     next_deadline(Deadline),
     (   crew_hear(Message, Deadline)
@@ -75,91 +91,182 @@ keep(Me) :-
     ).
 
 rest :-
-    forall(retract(waiter(_, Queue)), tell_waiter(Queue, missed)),
-    retractall(attempt(_, _, _)),
-    retractall(again(_, _, _)).
+    findall(Address, waiter(Address, _), Waited),
+    maplist(tell_waiters(missed), Waited),
+    held_fail(_),
+    retractall(quest(_, _, _, _)),
+    retractall(resting(_)).
 
 next_deadline(Deadline) :-
-    findall(T, ( attempt(_, _, T) ; again(_, T, _) ), Times),
+    findall(Until, due(_, _, Until), Times),
     (   Times == []
     ->  Deadline = infinite
     ;   min_list(Times, Deadline)
     ).
 
+due(Address, State, Until) :-
+    quest(Address, State, _, _),
+    until(State, Until).
+
+until(trying(_, Until), Until).
+until(pausing(Until), Until).
+
 hear(connect(Address, Queue), Me) :-
-    (   route(Address, session(Key, _, _, _, _)),
-        session_up(Key)
+    (   up(Address, _)
     ->  tell_waiter(Queue, met)
     ;   assertz(waiter(Address, Queue)),
-        start_attempt(Address, Me)
+        want(Address, Me)
     ).
-hear(met(Address, session(Key, _, _, _, _)), _) :-
-    retractall(attempt(Address, _, _)),
-    retractall(again(Key, _, _)),
-    tell_waiters(Address, met).
-hear(missed(Address, Formal), _) :-
-    missed(Address, Formal).
+hear(requests(Address), Me) :-
+    (   up(Address, Session)
+    ->  held_send(Address, Session)
+    ;   want(Address, Me)
+    ).
+hear(up(Key), _) :-
+    retractall(resting(Key)),
+    findall(Address, leads_to(Address, Key), Addresses),
+    maplist(met, Addresses).
+hear(missed(Address, Thread, Formal), _) :-
+    (   quest(Address, trying(Thread, _), _, _)
+    ->  verdict(Address, Formal)
+    ;   true
+    ).
 hear(wanted(Key), _) :-
-    plan(Key, 0.05).
+    (   session(Key, Session),
+        \+ session_up(Key)
+    ->  without_connection(Session)
+    ;   true
+    ).
 hear(ended(Thread), _) :-
-    crew_bury(Thread).
+    crew_bury(Thread),
+    (   quest(Address, trying(Thread, _), _, _)
+    ->  verdict(Address, ended)         % another connection replaced it
+    ;   true
+    ).
 hear(displaced(Key), _) :-              % another process has its address
-    (   route(_, session(Key, _, _, _, _))
+    (   leads_to(_, Key)
     ->  true
     ;   gone(Key)
     ).
 hear(gone(Key), _) :-                   % it said goodbye
-    forall(route(Address, session(Key, _, _, _, _)),
-           contact_gone(Address)),
+    forall(leads_to(Address, Key), contact_gone(Address)),
     gone(Key).
 hear(overdue, Me) :-
-    overdue(Me).
+    get_time(Now),
+    findall(Address-State,
+            ( due(Address, State, Until), Until =< Now ),
+            Due),
+    forall(member(Address-State, Due), overdue(State, Address, Me)).
 
-gone(Key) :-
-    (   session(Key, Session)
-    ->  retractall(again(Key, _, _)),
-        session_retire(Session),
-        session_close(Session, Unsent),
-        requests_lost(Session, Unsent)
+leads_to(Address, Key) :-
+    route(Address, session(Key, _, _, _, _)).
+
+up(Address, Session) :-
+    route(Address, Session),
+    arg(1, Session, Key),
+    session_up(Key),
+    !.
+
+		 /*******************************
+		 *            QUESTS            *
+		 *******************************/
+
+first_pause(0.02).
+longest_pause(2).
+
+%   Somebody wants to reach Address; who comes later waits with the first.
+
+want(Address, _) :-
+    quest(Address, _, _, Deadline),
+    Deadline \== none,
+    !.
+want(Address, Me) :-
+    in_time(Deadline),
+    first_pause(Pause),
+    (   quest(Address, trying(Thread, Until), _, _)
+    ->  set_quest(Address, trying(Thread, Until), Pause, Deadline)
+    ;   try(Address, Pause, Deadline, Me)
+    ).
+
+in_time(Deadline) :-
+    setting(connect_time, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds.
+
+set_quest(Address, State, Pause, Deadline) :-
+    retractall(quest(Address, _, _, _)),
+    assertz(quest(Address, State, Pause, Deadline)).
+
+try(Address, Pause, Deadline, Me) :-
+    in_time(Until0),
+    earlier(Deadline, Until0, Until),
+    catch(crew_spawn(outgoing(Address, Me), Thread),
+          error(Formal, _),
+          Thread = none),
+    set_quest(Address, trying(Thread, Until), Pause, Deadline),
+    (   Thread == none
+    ->  verdict(Address, Formal)
     ;   true
     ).
 
-start_attempt(Address, Me) :-
-    (   attempt(Address, _, _)
-    ->  true
-    ;   setting(connect_time, Seconds),
-        get_time(Now),
-        Deadline is Now+Seconds,
-        crew_spawn(outgoing(Address, Me), Thread),
-        assertz(attempt(Address, Thread, Deadline))
+%   verdict(+Address, +Formal): an attempt has ended without connection.
+
+verdict(Address, _) :-
+    up(Address, _),
+    !,
+    met(Address).
+verdict(Address, Formal) :-
+    quest(Address, _, Pause, Deadline),
+    get_time(Now),
+    (   told(Deadline, Formal, Now)
+    ->  missed(Address, Formal),
+        go_on(Address, Now, Pause, none)
+    ;   go_on(Address, Now, Pause, Deadline)
     ).
 
-missed(Address, Formal) :-
-    retractall(attempt(Address, _, _)),
-    print_message(silent,
-                  typhon(endpoint, unreachable(Address, Formal))),
-    tell_waiters(Address, missed).
+told(Deadline, _, Now) :-
+    number(Deadline),
+    Deadline =< Now,
+    !.
+told(Deadline, Formal, _) :-
+    number(Deadline),
+    \+ may_pass(Formal).
 
-tell_waiters(Address, Result) :-
-    forall(retract(waiter(Address, Queue)), tell_waiter(Queue, Result)).
+%   Somebody listens there, it seems, or may do so in a moment. What else
+%   there is, nobody listening first of all, is told at once.
 
-tell_waiter(Queue, Result) :-
-    catch(thread_send_message(Queue, Result),
-          error(existence_error(_, _), _),
-          true).
+may_pass(ended).
+may_pass(session_closed).
+may_pass(timeout_error(_, _)).
+may_pass(resource_error(_)).
+may_pass(io_error(_, _)).
+may_pass(syntax_error(end_of_file)).
+may_pass(socket_error(Code, _)) :-
+    memberchk(Code, [ econnreset, econnaborted, epipe, etimedout, eagain,
+                      eai_again, eintr, emfile, enfile, enobufs, enomem,
+                      eaddrnotavail ]).
 
-%   Connect again as long as something is unfinished.
+go_on(Address, _, _, none) :-
+    \+ needed(Address),
+    !,
+    retractall(quest(Address, _, _, _)).
+go_on(Address, Now, Pause, Deadline) :-
+    random(Some),
+    Until0 is Now+Pause*(0.5+Some),
+    earlier(Deadline, Until0, Until),
+    longest_pause(Longest),
+    Pause1 is min(Longest, 2*Pause),
+    set_quest(Address, pausing(Until), Pause1, Deadline).
 
-plan(Key, Wait) :-
-    (   session(Key, Session),
-        \+ session_up(Key),
-        unfinished(Session),
-        \+ again(Key, _, _)
-    ->  get_time(Now),
-        Time is Now+Wait,
-        assertz(again(Key, Time, Wait))
-    ;   true
-    ).
+earlier(none, Time, Time) :-
+    !.
+earlier(Deadline, Time0, Time) :-
+    Time is min(Deadline, Time0).
+
+needed(Address) :-
+    route(Address, Session),
+    unfinished(Session),
+    !.
 
 unfinished(Session) :-
     session_pending(Session, Pending),
@@ -168,29 +275,108 @@ unfinished(Session) :-
 unfinished(Session) :-
     requests_open(Session).
 
-overdue(Me) :-
+overdue(State, Address, _) :-
+    \+ quest(Address, State, _, _),
+    !.
+overdue(_, Address, _) :-
+    up(Address, _),
+    !,
+    met(Address).
+overdue(trying(Thread, _), Address, _) :-
+    aside(crew_retire(Thread, late)),
+    verdict(Address, late).
+overdue(pausing(_), Address, Me) :-
+    quest(Address, _, Pause, Deadline),
     get_time(Now),
-    forall(( attempt(Address, Thread, Deadline), Deadline =< Now ),
-           ( crew_retire(Thread, late),
-             missed(Address, late) )),
-    forall(( again(Key, Time, Wait), Time =< Now ),
-           try_again(Key, Wait, Me)).
+    (   ( told(Deadline, ended, Now)
+        ; Deadline == none, \+ needed(Address) )
+    ->  verdict(Address, late)
+    ;   try(Address, Pause, Deadline, Me)
+    ).
 
-try_again(Key, Wait, Me) :-
-    retractall(again(Key, _, _)),
-    (   session(Key, Session),
-        \+ session_up(Key),
-        unfinished(Session),
-        session_address(Session, Address)
-    ->  start_attempt(Address, Me),
-        Wait1 is min(2, 2*Wait),
-        plan(Key, Wait1)
+%   The session may be down again: what is sent in it comes through when it
+%   is up the next time.
+
+met(Address) :-
+    retractall(quest(Address, _, _, _)),
+    (   route(Address, Session)
+    ->  held_send(Address, Session)
+    ;   true
+    ),
+    tell_waiters(met, Address).
+
+missed(Address, Formal) :-
+    print_message(silent,
+                  typhon(endpoint, unreachable(Address, Formal))),
+    held_fail(Address),
+    tell_waiters(missed, Address).
+
+tell_waiters(Result, Address) :-
+    findall(Queue, waiter(Address, Queue), Queues),
+    retractall(waiter(Address, _)),
+    forall(member(Queue, Queues), tell_waiter(Queue, Result)).
+
+tell_waiter(Queue, Result) :-
+    catch(thread_send_message(Queue, Result),
+          error(existence_error(_, _), _),
+          true).
+
+		 /*******************************
+		 *           SESSIONS           *
+		 *******************************/
+
+%   One with something unfinished is connected again. The others are kept
+%   for the sake of their counts: the peer may be cut off only, and come
+%   back with frames that have arrived before.
+
+without_connection(Session) :-
+    unfinished(Session),
+    !,
+    (   route(Address, Session),
+        \+ quest(Address, _, _, _)
+    ->  get_time(Now),
+        go_on(Address, Now, 0.05, none)
+    ;   true
+    ).
+without_connection(session(Key, _, _, _, _)) :-
+    retractall(resting(Key)),
+    assertz(resting(Key)),
+    predicate_property(resting(_), number_of_clauses(Count)),
+    setting(resting, Max),
+    (   Count > Max,
+        retract(resting(Oldest)),
+        session(Oldest, Session)
+    ->  aside(forget(Session))
     ;   true
     ).
 
-session_address(Session, Address) :-
-    route(Address, Session),
-    !.
+forget(Session) :-
+    arg(1, Session, Key),
+    session_adopting(Session,
+                     (   ( session_up(Key) ; unfinished(Session) )
+                     ->  true
+                     ;   ignore(session_close(Session, _))
+                     )).
+
+gone(Key) :-
+    retractall(resting(Key)),
+    (   session(Key, Session)
+    ->  aside(part(Session))
+    ;   true
+    ).
+
+%   Whoever waits for an answer is told, whatever happens.
+
+part(Session) :-
+    sig_atomic(( session_adopting(Session,
+                                  ( session_retire(Session),
+                                    session_close(Session, Unsent) )),
+                 requests_lost(Session, Unsent) )).
+
+:- meta_predicate aside(0).
+
+aside(Goal) :-
+    catch(crew_spawn(Goal, _), error(_, _), ignore(Goal)).
 
 :- multifile prolog:message//1.
 
