@@ -19,7 +19,6 @@ for nobody: what may take a while is done by a thread of the crew.
 
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, min_list/2]).
-:- use_module(library(random), [random/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(contacts, [contact_gone/1]).
@@ -41,8 +40,9 @@ for nobody: what may take a while is done by a thread of the crew.
     quest/4,                            % Address, State, Pause, Deadline
     resting/1.                          % Key
 
-%   The State of a quest is trying(Thread, Until) or pausing(Until), its
-%   Deadline that of those who wait, `none` if nobody does.
+%   The State of a quest is `queued`, trying(Thread, Start, Until) or
+%   pausing(Until); its Deadline that of those who wait, `unset` before the
+%   first attempt, `none` if nobody waits.
 
 %!  keeper_connect(+Address) is semidet.
 %
@@ -87,6 +87,7 @@ keep(Me) :-
     ;   catch(hear(Message, Me),
               error(Formal, Context),
               print_message(error, error(Formal, Context))),
+        try_queued(Me),
         fail
     ).
 
@@ -98,7 +99,11 @@ rest :-
     retractall(resting(_)).
 
 next_deadline(Deadline) :-
-    findall(Until, due(_, _, Until), Times),
+    findall(Until,
+            ( due(_, _, Until)
+            ; quest(_, queued, _, _), young(Until)
+            ),
+            Times),
     (   Times == []
     ->  Deadline = infinite
     ;   min_list(Times, Deadline)
@@ -108,26 +113,26 @@ due(Address, State, Until) :-
     quest(Address, State, _, _),
     until(State, Until).
 
-until(trying(_, Until), Until).
+until(trying(_, _, Until), Until).
 until(pausing(Until), Until).
 
-hear(connect(Address, Queue), Me) :-
+hear(connect(Address, Queue), _) :-
     (   up(Address, _)
     ->  tell_waiter(Queue, met)
     ;   assertz(waiter(Address, Queue)),
-        want(Address, Me)
+        want(Address)
     ).
-hear(requests(Address), Me) :-
+hear(requests(Address), _) :-
     (   up(Address, Session)
     ->  held_send(Address, Session)
-    ;   want(Address, Me)
+    ;   want(Address)
     ).
 hear(up(Key), _) :-
     retractall(resting(Key)),
     findall(Address, leads_to(Address, Key), Addresses),
     maplist(met, Addresses).
 hear(missed(Address, Thread, Formal), _) :-
-    (   quest(Address, trying(Thread, _), _, _)
+    (   quest(Address, trying(Thread, _, _), _, _)
     ->  verdict(Address, Formal)
     ;   true
     ).
@@ -139,7 +144,7 @@ hear(wanted(Key), _) :-
     ).
 hear(ended(Thread), _) :-
     crew_bury(Thread),
-    (   quest(Address, trying(Thread, _), _, _)
+    (   quest(Address, trying(Thread, _, _), _, _)
     ->  verdict(Address, ended)         % another connection replaced it
     ;   true
     ).
@@ -176,16 +181,16 @@ longest_pause(2).
 
 %   Somebody wants to reach Address; who comes later waits with the first.
 
-want(Address, _) :-
+want(Address) :-
     quest(Address, _, _, Deadline),
     Deadline \== none,
     !.
-want(Address, Me) :-
-    in_time(Deadline),
+want(Address) :-
     first_pause(Pause),
-    (   quest(Address, trying(Thread, Until), _, _)
-    ->  set_quest(Address, trying(Thread, Until), Pause, Deadline)
-    ;   try(Address, Pause, Deadline, Me)
+    (   quest(Address, trying(Thread, Start, Until), _, _)
+    ->  in_time(Deadline),
+        set_quest(Address, trying(Thread, Start, Until), Pause, Deadline)
+    ;   set_quest(Address, queued, Pause, unset)
     ).
 
 in_time(Deadline) :-
@@ -197,13 +202,49 @@ set_quest(Address, State, Pause, Deadline) :-
     retractall(quest(Address, _, _, _)),
     assertz(quest(Address, State, Pause, Deadline)).
 
-try(Address, Pause, Deadline, Me) :-
+%   Where many begin at once each of a pair would connect to the other, and
+%   all would be late together. So few are begun at a time, in order: of
+%   the rest most peers come by themselves. Their time begins with the first
+%   attempt.
+
+crowd(12).
+crowd_seconds(1).
+
+try_queued(Me) :-
+    quest(Address, queued, Pause, Deadline),
+    \+ crowded,
+    !,
+    try(Address, Pause, Deadline, Me),
+    try_queued(Me).
+try_queued(_).
+
+crowded :-
+    crowd(Many),
+    findall(x, young(_), Young),
+    length(Young, Count),
+    Count >= Many.
+
+%   young(-Until): an attempt that may soon have ended.
+
+young(Until) :-
+    crowd_seconds(Seconds),
+    get_time(Now),
+    quest(_, trying(_, Start, _), _, _),
+    Until is Start+Seconds,
+    Until > Now.
+
+try(Address, Pause, Deadline0, Me) :-
     in_time(Until0),
+    get_time(Start),
+    (   Deadline0 == unset
+    ->  Deadline = Until0
+    ;   Deadline = Deadline0
+    ),
     earlier(Deadline, Until0, Until),
     catch(crew_spawn(outgoing(Address, Me), Thread),
           error(Formal, _),
           Thread = none),
-    set_quest(Address, trying(Thread, Until), Pause, Deadline),
+    set_quest(Address, trying(Thread, Start, Until), Pause, Deadline),
     (   Thread == none
     ->  verdict(Address, Formal)
     ;   true
@@ -251,12 +292,17 @@ go_on(Address, _, _, none) :-
     !,
     retractall(quest(Address, _, _, _)).
 go_on(Address, Now, Pause, Deadline) :-
-    random(Some),
+    some(Now, Some),
     Until0 is Now+Pause*(0.5+Some),
     earlier(Deadline, Until0, Until),
     longest_pause(Longest),
     Pause1 is min(Longest, 2*Pause),
     set_quest(Address, pausing(Until), Pause1, Deadline).
+
+%   A number from 0 to 1: library(random) takes milliseconds to begin.
+
+some(Now, Some) :-
+    Some is float_fractional_part(Now*1000).
 
 earlier(none, Time, Time) :-
     !.
@@ -282,7 +328,7 @@ overdue(_, Address, _) :-
     up(Address, _),
     !,
     met(Address).
-overdue(trying(Thread, _), Address, _) :-
+overdue(trying(Thread, _, _), Address, _) :-
     aside(crew_retire(Thread, late)),
     verdict(Address, late).
 overdue(pausing(_), Address, Me) :-
