@@ -37,7 +37,13 @@ in one fact; two threads that read it at once store the same.
 :- setting(handshake_time, number, 5,
            "Seconds a peer has to prove itself").
 
+%   greeted: the server has said who it is, which is still to be proved.
+
+:- multifile
+    greeted/0.
+
 :- dynamic
+    greeted/0,
     known_cookie/3.                     % File, Time, Cookie
 
 %!  authenticate(+Role, +In, +Out, +Hello, -PeerHello) is det.
@@ -85,7 +91,8 @@ greeting_hello(Line, Hello) :-
 exchange_greetings(client, In, Out, Deadline, Ours, Theirs) :-
     line_write(Out, Ours),
     line_read(In, Deadline, Theirs),
-    check_protocol(Theirs).
+    check_protocol(Theirs),
+    ignore(greeted).
 exchange_greetings(server, In, Out, Deadline, Ours, Theirs) :-
     line_read(In, Deadline, Theirs),
     check_protocol(Theirs),

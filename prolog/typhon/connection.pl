@@ -31,9 +31,12 @@ being handled and counted.
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
 :- use_module(outbox, [session_down/2, session_install/4, session_left/0,
-                       session_retire/1]).
+                       session_retire/1, session_up_since/2]).
 :- use_module(session, [route_add/2, session_adopting/2, session_open/4,
                         session_received/2]).
+
+:- multifile
+    typhon_auth:greeted/0.
 
 :- meta_predicate
     incoming(+, +, 0, +),
@@ -49,6 +52,7 @@ incoming(Socket, Ip, Welcomed, Me) :-
     catch(with_streams(Socket, In, Out,
                        ( prove(server, In, Out, Me, Peer),
                          call(Welcomed),
+                         nb_setval(typhon_proved, true),
                          meet(server, In, Out, Me, Peer, Session,
                               reachable(Peer, Ip)),
                          serve(Session, In) )),
@@ -56,7 +60,9 @@ incoming(Socket, Ip, Welcomed, Me) :-
           turned_away(Ip, Formal)).
 
 turned_away(Ip, Formal) :-
-    (   memberchk(Formal, [io_error(_, _), socket_error(_, _),
+    (   nb_current(typhon_proved, true) % it came to us by another way
+    ->  Level = silent
+    ;   memberchk(Formal, [io_error(_, _), socket_error(_, _),
                            syntax_error(end_of_file)])
     ->  Level = informational
     ;   Level = warning
@@ -94,6 +100,8 @@ loopback(Ip) :-
 %   missed(Address, Thread, Formal).
 
 outgoing(Address, Me) :-
+    get_time(Start),
+    nb_setval(typhon_set_out, Address-Start),
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(Socket, In, Out,
@@ -104,6 +112,11 @@ outgoing(Address, Me) :-
           ),
           error(Formal, _),
           missed(Address, Formal)).
+
+typhon_auth:greeted :-
+    nb_current(typhon_set_out, Address-_),
+    thread_self(Me),
+    crew_tell(greeted(Address, Me)).
 
 found(Address, Interface, Peer, Session) :-
     arg(1, Peer, Process),
@@ -196,16 +209,28 @@ adopt(MyKey, Key, Session, In, Out) :-
     MyKey @< Key,
     !,
     session_adopting(Session,
-                     ( session_retire(Session),
+                     ( make_way(Session),
                        say_count(Key, Out),
                        hear_count(In, Count),
                        install(Session, Out, Count) )).
 adopt(_, Key, Session, In, Out) :-
     hear_count(In, Count),
     session_adopting(Session,
-                     ( session_retire(Session),
+                     ( make_way(Session),
                        say_count(Key, Out),
                        install(Session, Out, Count) )).
+
+%   Where the peer has come meanwhile there is no need for what we set out
+%   for. It has said its count over that connection and will not give it up
+%   for the same reason; over ours we have not.
+
+make_way(Session) :-
+    nb_current(typhon_set_out, _-Start),
+    session_up_since(Session, Start),
+    !,
+    throw(crew(met)).
+make_way(Session) :-
+    session_retire(Session).
 
 install(Session, Out, Count) :-
     thread_self(Me),
@@ -245,7 +270,9 @@ serve(Session, In) :-
 %   A break is nothing special, but what the peer does may be.
 
 report_break(session(_, _, _, _, peer(_, Address)), Formal) :-
-    (   memberchk(Formal, [io_error(_, _), socket_error(_, _),
+    (   nb_current(typhon_proved, true) % it came to us by another way
+    ->  Level = silent
+    ;   memberchk(Formal, [io_error(_, _), socket_error(_, _),
                            syntax_error(truncated_frame)])
     ->  Level = silent
     ;   Level = warning

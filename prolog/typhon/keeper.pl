@@ -18,7 +18,7 @@ for nobody: what may take a while is done by a thread of the crew.
 */
 
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2, min_list/2]).
+:- use_module(library(lists), [member/2, min_list/2, min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(contacts, [contact_gone/1]).
@@ -131,6 +131,12 @@ hear(up(Key), _) :-
     retractall(resting(Key)),
     findall(Address, leads_to(Address, Key), Addresses),
     maplist(met, Addresses).
+hear(greeted(Address, Thread), _) :-
+    (   quest(Address, trying(Thread, Start, _), Pause, Deadline),
+        number(Deadline)
+    ->  greeted(Address, Thread, Start, Pause)
+    ;   true
+    ).
 hear(missed(Address, Thread, Formal), _) :-
     (   quest(Address, trying(Thread, _, _), _, _)
     ->  verdict(Address, Formal)
@@ -202,19 +208,25 @@ set_quest(Address, State, Pause, Deadline) :-
     retractall(quest(Address, _, _, _)),
     assertz(quest(Address, State, Pause, Deadline)).
 
-%   Where many begin at once each of a pair would connect to the other, and
-%   all would be late together. So few are begun at a time, in order: of
-%   the rest most peers come by themselves. Their time begins with the first
-%   attempt.
+%   Where many processes begin at once all would be late together, and of
+%   each pair both would connect. So few attempts are begun at a time, by
+%   each process in an order of its own: most peers come by themselves before
+%   it is their turn. The time of those who wait begins with the attempt.
 
-crowd(12).
-crowd_seconds(1).
+crowd(4).
+crowd_seconds(2).
 
 try_queued(Me) :-
-    quest(Address, queued, Pause, Deadline),
+    quest(_, queued, _, _),
     \+ crowded,
     !,
-    try(Address, Pause, Deadline, Me),
+    findall(Hash-Address,
+            ( quest(Address, queued, _, _),
+              term_hash(Address-Me, Hash) ),
+            Queued),
+    min_member(_-Next, Queued),
+    quest(Next, queued, Pause, Deadline),
+    try(Next, Pause, Deadline, Me),
     try_queued(Me).
 try_queued(_).
 
@@ -247,6 +259,17 @@ try(Address, Pause, Deadline0, Me) :-
     set_quest(Address, trying(Thread, Start, Until), Pause, Deadline),
     (   Thread == none
     ->  verdict(Address, Formal)
+    ;   true
+    ).
+
+%   Somebody is there, and slow, as all are where many begin at once: there
+%   is time again, unless it has gone wrong often.
+
+greeted(Address, Thread, Start, Pause) :-
+    longest_pause(Longest),
+    (   Pause < Longest
+    ->  in_time(Until),
+        set_quest(Address, trying(Thread, Start, Until), Pause, Until)
     ;   true
     ).
 

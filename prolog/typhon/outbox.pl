@@ -4,6 +4,7 @@
             session_push/1,             % +Session
             session_control/2,          % +Session, +Term
             session_up/1,               % +Key
+            session_up_since/2,         % +Session, +Time
             session_install/4,          % +Session, +Thread, +Out, +PeerCount
             session_down/2,             % +Session, +Thread
             session_left/0,
@@ -47,7 +48,7 @@ empty.
 :- dynamic
     queues/3,                           % Key, Sent, Waiting
     link/4,                             % Key, Thread, Out, Sent
-    serving/2,                          % Key, Thread
+    serving/3,                          % Key, Thread, Since
     pushing/2,                          % Key, Thread
     control/3,                          % Key, Kind, Bytes: before Waiting
     acked/3,                            % Key, Count, Bytes
@@ -284,6 +285,16 @@ session_up(Key) :-
     link(Key, _, _, _),
     !.
 
+%!  session_up_since(+Session, +Time) is semidet.
+%
+%   The session is up, and got its connection after Time.
+
+session_up_since(session(Key, _, _, _, _), Time) :-
+    serving(Key, Thread, Since),
+    Since > Time,
+    link(Key, Thread, _, _),
+    !.
+
 %!  session_install(+Session, +Thread, +Out, +PeerCount) is det.
 %
 %   Thread has a new connection for Session, Out; the peer has received
@@ -303,7 +314,8 @@ install(Key, Thread, Out, PeerCount) :-
     byte_count(Out, Bytes),
     acknowledged(Key, Sent, PeerCount, Bytes),
     retractall(control(Key, _, _)),     % of another connection
-    assertz(serving(Key, Thread)),
+    get_time(Now),
+    assertz(serving(Key, Thread, Now)),
     assertz(link(Key, Thread, Out, Sent)),
     queue_list(Sent, Again),
     (   Again == [],
@@ -338,7 +350,7 @@ session_down(session(Key, _, Mutex, _, _), Thread) :-
     ignore(crew_tell(wanted(Key))).
 
 at_rest(Key, Thread) :-
-    retractall(serving(Key, Thread)),
+    retractall(serving(Key, Thread, _)),
     retractall(control(Key, _, _)),
     (   queues(Key, Sent, Waiting),
         queue_size(Sent, 0),
@@ -362,7 +374,7 @@ drop_queues(Key) :-
 
 session_left :-
     thread_self(Me),
-    forall(( serving(Key, Me), session(Key, Session) ),
+    forall(( serving(Key, Me, _), session(Key, Session) ),
            session_down(Session, Me)).
 
 %!  session_retire(+Session) is det.
@@ -370,7 +382,7 @@ session_left :-
 %   End the connection of Session, if any, and wait for that.
 
 session_retire(session(Key, _, _, _, _)) :-
-    forall(serving(Key, Thread), crew_retire(Thread, replaced)).
+    forall(serving(Key, Thread, _), crew_retire(Thread, replaced)).
 
 %!  session_close(+Session, -Unsent) is semidet.
 %
