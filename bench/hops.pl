@@ -1,5 +1,6 @@
 :- use_module(common).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/outbox), []).
 :- use_module(library(typhon/session), []).
 :- use_module(library(apply), [maplist/3, foldl/4]).
 :- use_module(library(lists), [member/2, nth0/3, append/3]).
@@ -124,7 +125,7 @@ once_round(Peer, Bytes) :-
 sent(Peer, Bytes) :-
     atomic_list_concat([_, Endpoint], '@', Peer),
     (   typhon_session:route(Endpoint, session(Key, _, _, _, _)),
-        typhon_session:link(Key, _, Out)
+        typhon_outbox:link(Key, _, Out, _)
     ->  byte_count(Out, Bytes)
     ;   Bytes = 0
     ).

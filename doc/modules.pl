@@ -31,7 +31,7 @@ layer(programs, '#d6e4f5',
       [ program, faults, source, mobility, machine, code, paths ]).
 layer('the wire', '#e6dcf0',
       [ endpoint, keeper, acceptor, connection, reader, request, session,
-        contacts, crew, hello, auth, frame, text, aside ]).
+        outbox, unsent, contacts, refusals, crew, hello, auth, frame, text, aside ]).
 
 picture :-
     rooms(Dir),

@@ -96,9 +96,7 @@ connected_to(Host) :-
     typhon_endpoint:endpoint_peer(Endpoint, state(up)).
 
 connecting :-
-    (   typhon_keeper:attempt(_, _, _)
-    ;   typhon_keeper:again(_, _, _)
-    ),
+    typhon_keeper:quest(_, _, _, _),
     !.
 
 outcome_here(Id, Outcome) :-

@@ -170,8 +170,9 @@ test(request, Result == unreachable) :-
 test(not_running, error(existence_error(endpoint, _))) :-
     endpoint_post('127.0.0.1:1', note, x).
 test(listens_and_is_silent, error(unreachable(_))) :-
-    with_endpoint(with_setting(typhon_auth:handshake_time, 0.5,
-                               with_listener(A, endpoint_post(A, note, x)))).
+    with_endpoint(with_setting(typhon_keeper:connect_time, 1,
+        with_setting(typhon_auth:handshake_time, 0.3,
+                     with_listener(A, endpoint_post(A, note, x))))).
 test(twice, error(permission_error(start, endpoint, _))) :-
     with_endpoint(endpoint_start(localhost, 0, _)).
 

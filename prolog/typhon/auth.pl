@@ -39,7 +39,13 @@ in one fact; two threads that read it at once store the same.
 :- setting(handshake_time, number, 5,
            "Seconds a peer has to prove itself").
 
+%   greeted: the server has said who it is, which is still to be proved.
+
+:- multifile
+    greeted/0.
+
 :- dynamic
+    greeted/0,
     known_cookie/3.                     % File, Time, Cookie
 
 %!  authenticate(+Role, +In, +Out, +Hello, -PeerHello) is det.
@@ -98,7 +104,8 @@ greeting_hello(Line, Hello) :-
 exchange_greetings(client, In, Out, Deadline, Hello, Ours, Theirs) :-
     greet(Out, Hello, Ours),
     line_read(In, Deadline, Theirs),
-    check_protocol(Theirs).
+    check_protocol(Theirs),
+    ignore(greeted).
 exchange_greetings(server, In, Out, Deadline, Hello, Ours, Theirs) :-
     line_read(In, Deadline, Theirs),
     (   speaks(Theirs, version(_))

@@ -16,7 +16,8 @@ processes the one with the smaller key, the arbiter, decides in which order
 that happens: it speaks first, and about one connection at a time.
 
 _Threading_: incoming/5 and outgoing/2 are the goals of crew threads. Signals
-are held back while a frame is being handled and counted.
+are held back while a session is given its connection, and while a frame is
+being handled and counted.
 */
 
 :- use_module(library(error), [domain_error/2, syntax_error/1]).
@@ -31,11 +32,18 @@ are held back while a frame is being handled and counted.
 :- use_module(refusals, [refused/2]).
 :- use_module(request, [connection_is/2]).
 :- use_module(reader, [read_frames/2]).
-:- use_module(session, [route/2, route_add/2, session_adopting/2,
-                        session_down/2,
-                        session_install/4, session_left/0,
-                        session_open/4, session_peer/3,
-                        session_received/2, session_retire/1]).
+:- use_module(outbox, [session_down/2, session_install/4, session_left/0,
+                       session_retire/1, session_up_since/2]).
+:- use_module(session, [route_add/2, session_adopting/2, session_open/4,
+                        session_received/2]).
+
+:- multifile
+    typhon_auth:greeted/0.
+
+:- meta_predicate
+    incoming(+, +, +, 1, +),
+    with_streams(0, ?, ?, 0),
+    meet(+, +, +, +, +, -, 1).
 
 %!  incoming(+In, +Out, +Ip, :Stage, +Me) is det.
 %
@@ -48,17 +56,25 @@ incoming(In, Out, Ip, Stage, Me) :-
     catch(with_streams(call(Stage, silent), In, Out,
                        ( await_word(In),
                          call(Stage, heard),
-                         meet(server, In, Out, Me, Peer, Session),
+                         prove(server, In, Out, Me, Peer),
                          call(Stage, proved),
-                         reachable(Peer, Ip, Session),
+                         nb_setval(typhon_proved, true),
+                         meet(server, In, Out, Me, Peer, Session,
+                              reachable(Peer, Ip)),
                          serve(Session, In) )),
           error(Formal, _),
-          refused(Ip, Formal)).
+          turned_away(Ip, Formal)).
 
 await_word(In) :-
     setting(typhon_auth:handshake_time, Seconds),
     set_stream(In, timeout(Seconds)),
     peek_byte(In, _).
+
+turned_away(Ip, Formal) :-
+    (   nb_current(typhon_proved, true) % it came to us by another way
+    ->  true
+    ;   refused(Ip, Formal)
+    ).
 
 %   The peer at Ip can be reached at the address it says it listens to,
 %   unless that is meaningless here.
@@ -70,14 +86,14 @@ reachable(hello(Process, _, Claimed, _, _, _), Ip, Session) :-
     address_parts(Claimed, Interface, Port),
     (   Interface == '0.0.0.0'
     ->  atomic_list_concat([Ip, Port], :, Address),
-        found(Address, Process, Session)
+        leads_to(Address, Process, Session)
     ;   loopback(Interface),
         \+ loopback(Ip)
     ->  true
-    ;   found(Claimed, Process, Session)
+    ;   leads_to(Claimed, Process, Session)
     ).
 
-found(Address, Process, Session) :-
+leads_to(Address, Process, Session) :-
     route_add(Address, Session),
     contact_met(Address, Process).
 
@@ -87,49 +103,42 @@ loopback(Ip) :-
 
 %!  outgoing(+Address, +Me) is det.
 %
-%   Connect to Address. The keeper hears met(Address, Session) or
-%   missed(Address, Formal).
+%   Connect to Address. If there comes no connection of it the keeper hears
+%   missed(Address, Thread, Formal).
 
 outgoing(Address, Me) :-
-    outgoing(Address, Me, 4).
-
-outgoing(Address, Me, Times) :-
+    get_time(Start),
+    nb_setval(typhon_set_out, Address-Start),
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
-                         ( meet(client, In, Out, Me, Peer, Session),
-                           arg(1, Peer, Process),
-                           found(Address, Process, Session),
-                           reachable(Peer, Interface, Session),
-                           ignore(crew_tell(met(Address, Session))),
+                         ( prove(client, In, Out, Me, Peer),
+                           meet(client, In, Out, Me, Peer, Session,
+                                found(Address, Interface, Peer)),
                            serve(Session, In) ))
           ),
           error(Formal, _),
-          missed(Address, Me, Times, Formal)).
+          missed(Address, Formal)).
 
-%   A peer we have met before and that takes the connection, which breaks
-%   before we have met again, is tried again at once.
+typhon_auth:greeted :-
+    nb_current(typhon_set_out, Address-_),
+    thread_self(Me),
+    crew_tell(greeted(Address, Me)).
 
-missed(Address, Me, Times, Formal) :-
-    broken_off(Formal),
-    Times > 0,
-    route(Address, _),
-    !,
-    Times1 is Times-1,
-    outgoing(Address, Me, Times1).
-missed(Address, _, _, Formal) :-
+found(Address, Interface, Peer, Session) :-
+    arg(1, Peer, Process),
+    leads_to(Address, Process, Session),
+    reachable(Peer, Interface, Session).
+
+missed(Address, Formal) :-
     (   Formal = socket_error(econnrefused, _)
     ->  contact_gone(Address)
     ;   Formal = permission_error(authenticate, peer, version(_))
     ->  print_message(warning, typhon(endpoint, foreign(Address, Formal)))
     ;   true
     ),
-    ignore(crew_tell(missed(Address, Formal))).
-
-broken_off(syntax_error(end_of_file)).
-broken_off(io_error(_, _)).
-broken_off(socket_error(Code, _)) :-
-    Code \== econnrefused.
+    thread_self(Me),
+    ignore(crew_tell(missed(Address, Me, Formal))).
 
 connect(Interface, Port, Socket) :-
     tcp_socket(Socket),
@@ -145,10 +154,6 @@ address_parts(Address, Interface, Port) :-
     ->  true
     ;   domain_error(endpoint_address, Address)
     ).
-
-:- meta_predicate
-    incoming(+, +, +, 1, +),
-    with_streams(0, ?, ?, 0).
 
 with_streams(Open, In, Out, Goal) :-
     setup_call_cleanup(
@@ -177,13 +182,27 @@ open_streams(Socket, In, Out) :-
 		 *            MEETING           *
 		 *******************************/
 
-%   Prove each other and give the connection to the session.
+%   A server tells a client in vain at the door that it does not know the
+%   cookie: it need not come back.
 
-meet(Role, In, Out, Me, Peer, Session) :-
-    authenticate(Role, In, Out, Me, Peer),
+prove(client, In, Out, Me, Peer) :-
+    authenticate(client, In, Out, Me, Peer).
+prove(server, In, Out, Me, Peer) :-
+    catch(authenticate(server, In, Out, Me, Peer),
+          error(permission_error(authenticate, peer, cookie), Context),
+          ( line_write(Out, refused),
+            throw(error(permission_error(authenticate, peer, cookie),
+                        Context)) )).
+
+%   meet(+Role, +In, +Out, +Me, +Peer, -Session, :Known): give the connection
+%   to the session with Peer. call(Known, Session) notes the addresses that
+%   lead to it before that: whoever gives it a connection does so for all.
+
+meet(Role, In, Out, Me, Peer, Session, Known) :-
     hello_codec(Me, Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
     session_open(Key, Peer, Codec, Session),
+    call(Known, Session),
     adopt(MyKey, Key, Session, In, Out).
 
 %   A process that connects to itself has a session for either end.
@@ -204,16 +223,28 @@ adopt(MyKey, Key, Session, In, Out) :-
     MyKey @< Key,
     !,
     session_adopting(Session,
-                     ( session_retire(Session),
+                     ( make_way(Session),
                        say_count(Key, Out),
                        hear_count(In, Count),
                        install(Session, Out, Count) )).
 adopt(_, Key, Session, In, Out) :-
     hear_count(In, Count),
     session_adopting(Session,
-                     ( session_retire(Session),
+                     ( make_way(Session),
                        say_count(Key, Out),
                        install(Session, Out, Count) )).
+
+%   Where the peer has come meanwhile there is no need for what we set out
+%   for. It has said its count over that connection and will not give it up
+%   for the same reason; over ours we have not.
+
+make_way(Session) :-
+    nb_current(typhon_set_out, _-Start),
+    session_up_since(Session, Start),
+    !,
+    throw(crew(met)).
+make_way(Session) :-
+    session_retire(Session).
 
 install(Session, Out, Count) :-
     thread_self(Me),
@@ -242,23 +273,25 @@ hear_count(In, Count) :-
 
 serve(Session, In) :-
     thread_self(Me),
-    connection_is(Session, up),
     call_cleanup(
-        catch(read_frames(Session, In),
-              error(Formal, _),
-              report_break(Session, Formal)),
+        ( connection_is(Session, up),
+          catch(read_frames(Session, In),
+                error(Formal, _),
+                report_break(Session, Formal))
+        ),
         ( session_down(Session, Me),
           connection_is(Session, down) )).
 
 %   A break is nothing special, but what the peer does may be.
 
-report_break(session(Key, _, _, _, _), Formal) :-
-    (   memberchk(Formal, [io_error(_, _), socket_error(_, _),
+report_break(session(_, _, _, _, peer(_, Address)), Formal) :-
+    (   nb_current(typhon_proved, true) % it came to us by another way
+    ->  Level = silent
+    ;   memberchk(Formal, [io_error(_, _), socket_error(_, _),
                            syntax_error(truncated_frame)])
     ->  Level = silent
     ;   Level = warning
     ),
-    ignore(session_peer(Key, _, Address)),
     print_message(Level, typhon(endpoint, broken(Address, Formal))).
 
 :- multifile prolog:message//1.

@@ -48,15 +48,16 @@ that peer is read. They may post, request and reply.
 :- use_module(crew, [crew_bury/1, crew_retire/2, crew_spawn/2, crew_start/0,
                      crew_stop/1, crew_tell/1]).
 :- use_module(frame, [mobile_term/1]).
+:- use_module(unsent, [unsent/1, unsent_forget/1, unsent_request/4]).
 :- use_module(hello, [hello/4]).
 :- use_module(keeper, [keep/1, keeper_connect/1,
                        keeper_unheard/1]).
-:- use_module(request, [request_forget/1, request_reply/2,
+:- use_module(outbox, [session_close/2, session_control/2, session_flush/2,
+                       session_pending/2, session_send/2, session_up/1]).
+:- use_module(request, [request_answer/2, request_forget/1, request_reply/2,
                         request_reply_later/2, request_send/4,
                         requests_lost/2]).
-:- use_module(session, [route/2, session/2, session_close/2,
-                        session_control/2, session_flush/2,
-                        session_pending/2, session_send/2, session_up/1]).
+:- use_module(session, [route/2, session/2]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).
@@ -119,7 +120,7 @@ listen(Interface, Port, Bound, Socket) :-
     tcp_socket(Socket),
     catch(( tcp_setopt(Socket, reuseaddr),
             tcp_bind(Socket, Interface:Bound),
-            tcp_listen(Socket, 64)
+            tcp_listen(Socket, 512)
           ),
           Error,
           ( tcp_close_socket(Socket),
@@ -192,11 +193,8 @@ endpoint_process(Id) :-
 %   @error type_error(mobile_term, Culprit)
 
 endpoint_post(Address, Kind, Term) :-
-    (   up_session(Address, Session)
+    (   way(Address, Session)
     ->  true
-    ;   in_hook,
-        route(Address, Session)
-    ->  true                            % it waits for the next connection
     ;   connect(Address, Session)
     ),
     catch(session_send(Session, post(Kind, Term)),
@@ -208,10 +206,29 @@ endpoint_post(Address, Kind, Term) :-
 %   As endpoint_post/3 if there is a connection; fails at once if not.
 
 endpoint_post_up(Address, Kind, Term) :-
-    up_session(Address, Session),
+    open_way(Address, Session),
     catch(session_send(Session, post(Kind, Term)),
           error(session_closed, _),
           fail).
+
+%   way(+Address, -Session): nothing has to be waited for. In a hook there
+%   must be no waiting: what is sent there waits in the session for the next
+%   connection, which cannot be made while its thread is in a hook.
+
+way(Address, Session) :-
+    open_way(Address, Session),
+    !.
+way(Address, Session) :-
+    nb_current(typhon_reader, true),
+    route(Address, Session),
+    !.
+
+%   What is asked now must not overtake what waits to be asked.
+
+open_way(Address, Session) :-
+    up_session(Address, Session),
+    \+ unsent(Address),
+    !.
 
 up_session(Address, Session) :-
     route(Address, Session),
@@ -239,42 +256,15 @@ check_running :-
 %   never arrived) or `lost` (it may have). Does not block.
 
 endpoint_request(Address, Kind, Term, OnAnswer) :-
-    (   up_session(Address, Session)
-    ->  true
-    ;   in_hook,
-        route(Address, Session)
-    ),
+    way(Address, Session),
     !,
-    request_near(Session, Kind, Term, OnAnswer).
+    catch(request_send(Session, Kind, Term, OnAnswer),
+          error(session_closed, _),
+          request_answer(unreachable, OnAnswer)).
 endpoint_request(Address, Kind, Term, OnAnswer) :-
     check_running,
     mobile_term(Term),
-    crew_spawn(request_far(Address, Kind, Term, OnAnswer), _).
-
-%   A connection cannot be replaced while its thread is in a hook: that
-%   must not wait for a new one.
-
-in_hook :-
-    nb_current(typhon_reader, true).
-
-request_near(Session, Kind, Term, OnAnswer) :-
-    catch(request_send(Session, Kind, Term, OnAnswer),
-          error(session_closed, _),
-          call(OnAnswer, unreachable)).
-
-request_far(Address, Kind, Term, OnAnswer) :-
-    catch(( connect(Address, Session),
-            request_near(Session, Kind, Term, OnAnswer)
-          ),
-          error(Formal, Context),
-          ( report(Formal, Context),
-            call(OnAnswer, unreachable) )).
-
-report(Formal, _) :-
-    memberchk(Formal, [unreachable(_), existence_error(endpoint, _)]),
-    !.
-report(Formal, Context) :-
-    print_message(error, error(Formal, Context)).
+    unsent_request(Address, Kind, Term, OnAnswer).
 
 %!  endpoint_call(+Address, +Kind, +Term, -Answer, +Timeout) is det.
 %
@@ -292,7 +282,8 @@ endpoint_call(Address, Kind, Term, Answer, Timeout) :-
     setup_call_cleanup(
         message_queue_create(Queue),
         ( endpoint_request(Address, Kind, Term, tell(Queue)),
-          await(Queue, Address, Deadline, Now, Result)
+          await(Queue, Address, Deadline, Now, Result),
+          no_longer(Result, tell(Queue))
         ),
         message_queue_destroy(Queue)),
     call_result(Result, Address, Answer).
@@ -315,6 +306,14 @@ await(Queue, Address, Deadline, Up0, Result) :-
         )
     ;   await(Queue, Address, Deadline, Now, Result)
     ).
+
+%   What nobody waits for must not keep a session busy.
+
+no_longer(late, OnAnswer) :-
+    !,
+    unsent_forget(OnAnswer),
+    request_forget(OnAnswer).
+no_longer(_, _).
 
 tell(Queue, Result) :-
     catch(thread_send_message(Queue, Result),

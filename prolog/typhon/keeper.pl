@@ -6,41 +6,55 @@
 
 /** <module> The keeper: connects, and connects again
 
-One thread per endpoint keeps its sessions alive. It starts the attempts to
-connect, gives each a deadline, tells those who wait for one how it went,
-and repeats those of sessions that have something to send or to hear.
+One thread per endpoint keeps its sessions alive. For each address that
+somebody wants to reach there is a quest: attempts to connect, with growing
+pauses, until the session is up, whoever gave it its connection. Those who
+wait are told when it is, or that it cannot be; the quest of a session with
+something to send or to hear goes on.
 
 _Threading_: keep/1 is the goal of the keeper's thread, which owns all the
-dynamic predicates below. Others talk to it through crew_tell/1.
+dynamic predicates below. Others talk to it through crew_tell/1. It waits
+for nobody: what may take a while is done by a thread of the crew.
 */
 
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2, min_list/2, min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(contacts, [contact_gone/1]).
 :- use_module(crew, [crew_bury/1, crew_hear/2, crew_retire/2, crew_spawn/2,
                      crew_tell/1]).
+:- use_module(unsent, [unsent_fail/1, unsent_send/2]).
+:- use_module(outbox, [session_close/2, session_pending/2,
+                       session_retire/1, session_up/1]).
 :- use_module(request, [requests_lost/2, requests_open/1]).
-:- use_module(session, [route/2, session/2, session_close/2,
-                        session_peer/3, session_pending/2, session_retire/1,
-                        session_up/1]).
+:- use_module(session, [route/2, session/2, session_adopting/2]).
 
 :- setting(connect_time, number, 5,
-           "Seconds an attempt to connect may take").
+           "Seconds until it is told that a peer cannot be reached").
+:- setting(resting, positive_integer, 1000,
+           "Sessions without connection kept though nothing is pending").
 
 :- dynamic
-    attempt/3,                          % Address, Thread, Deadline
     waiter/2,                           % Address, Queue
-    again/3,                            % Key, Time, Wait
-    due/2.                              % Time, Goal
+    quest/4,                            % Address, State, Pause, Deadline
+    resting/1,                          % Key
+    errand/2.                           % Time, Goal
+
+%   The State of a quest is `queued`, trying(Thread, Start, Until) or
+%   pausing(Until); its Deadline that of those who wait, `unset` before the
+%   first attempt, `none` if nobody waits.
 
 %!  keeper_connect(+Address) is semidet.
 %
 %   See to it that there is a connection to Address; fails if there can be
 %   none. The keeper always answers, so there is no deadline here: a wait
 %   with a deadline may never end in a clean-up handler or a hook, where
-%   signals are held back (SWI-Prolog 9.0.4).
+%   signals are held back (SWI-Prolog 9.0.4). The keeper itself does not
+%   wait for the keeper.
 
 keeper_connect(Address) :-
+    \+ nb_current(typhon_keeper, true),
     setup_call_cleanup(
         message_queue_create(Queue),
         ( crew_tell(connect(Address, Queue)),
@@ -53,13 +67,15 @@ keeper_connect(Address) :-
 %   Answer those who asked too late.
 
 keeper_unheard(Messages) :-
-    forall(member(connect(_, Queue), Messages), tell_waiter(Queue, missed)).
+    forall(member(connect(_, Queue), Messages), tell_waiter(Queue, missed)),
+    unsent_fail(_).
 
 %!  keep(+Me) is det.
 %
 %   The life of the keeper, Me being our hello. Ends on the message `stop`.
 
 keep(Me) :-
+    nb_setval(typhon_keeper, true),
     repeat,
     next_deadline(Deadline),
     (   crew_hear(Message, Deadline)
@@ -72,106 +88,267 @@ keep(Me) :-
     ;   catch(hear(Message, Me),
               error(Formal, Context),
               print_message(error, error(Formal, Context))),
+        try_queued(Me),
         fail
     ).
 
 rest :-
-    forall(retract(waiter(_, Queue)), tell_waiter(Queue, missed)),
-    retractall(attempt(_, _, _)),
-    retractall(again(_, _, _)),
-    run_due(inf).
+    findall(Address, waiter(Address, _), Waited),
+    maplist(tell_waiters(missed), Waited),
+    unsent_fail(_),
+    retractall(quest(_, _, _, _)),
+    retractall(resting(_)),
+    run_errands(inf).
 
 next_deadline(Deadline) :-
-    findall(T, ( attempt(_, _, T) ; again(_, T, _) ; due(T, _) ), Times),
+    findall(Until,
+            ( due(_, _, Until)
+            ; quest(_, queued, _, _), young(Until)
+            ),
+            Times),
     (   Times == []
     ->  Deadline = infinite
     ;   min_list(Times, Deadline)
     ).
 
-hear(connect(Address, Queue), Me) :-
-    (   route(Address, session(Key, _, _, _, _)),
-        session_up(Key)
+due(Address, State, Until) :-
+    quest(Address, State, _, _),
+    until(State, Until).
+
+until(trying(_, _, Until), Until).
+until(pausing(Until), Until).
+
+hear(connect(Address, Queue), _) :-
+    (   up(Address, _)
     ->  tell_waiter(Queue, met)
     ;   assertz(waiter(Address, Queue)),
-        start_attempt(Address, Me)
+        want(Address)
     ).
-hear(met(Address, session(Key, _, _, _, _)), _) :-
-    retractall(attempt(Address, _, _)),
-    retractall(again(Key, _, _)),
-    tell_waiters(Address, met).
-hear(missed(Address, Formal), _) :-
-    missed(Address, Formal).
+hear(requests(Address), _) :-
+    (   up(Address, Session)
+    ->  unsent_send(Address, Session)
+    ;   want(Address)
+    ).
+hear(up(Key), _) :-
+    retractall(resting(Key)),
+    findall(Address, leads_to(Address, Key), Addresses),
+    maplist(met, Addresses).
+hear(greeted(Address, Thread), _) :-
+    (   quest(Address, trying(Thread, Start, _), Pause, Deadline),
+        number(Deadline)
+    ->  greeted(Address, Thread, Start, Pause)
+    ;   true
+    ).
+hear(missed(Address, Thread, Formal), _) :-
+    (   quest(Address, trying(Thread, _, _), _, _)
+    ->  verdict(Address, Formal)
+    ;   true
+    ).
 hear(wanted(Key), _) :-
-    plan(Key, 0.05).
+    (   session(Key, Session),
+        \+ session_up(Key)
+    ->  without_connection(Session)
+    ;   true
+    ).
 hear(ended(Thread), _) :-
-    crew_bury(Thread).
+    crew_bury(Thread),
+    (   quest(Address, trying(Thread, _, _), _, _)
+    ->  verdict(Address, ended)         % another connection replaced it
+    ;   true
+    ).
 hear(displaced(Key), _) :-              % another process has its address
-    (   route(_, session(Key, _, _, _, _))
+    (   leads_to(_, Key)
     ->  true
     ;   gone(Key)
     ).
 hear(gone(Key), _) :-                   % it said goodbye
-    forall(route(Address, session(Key, _, _, _, _)),
-           contact_gone(Address)),
+    forall(leads_to(Address, Key), contact_gone(Address)),
     gone(Key).
 hear(later(Time, Goal), _) :-           % Goal is quick
-    assertz(due(Time, Goal)).
+    assertz(errand(Time, Goal)).
 hear(overdue, Me) :-
     get_time(Now),
-    run_due(Now),
-    overdue(Me).
+    run_errands(Now),
+    findall(Address-State,
+            ( due(Address, State, Until), Until =< Now ),
+            Due),
+    forall(member(Address-State, Due), overdue(State, Address, Me)).
 
-run_due(Now) :-
-    findall(Time-Goal, ( due(Time, Goal), Time =< Now ), Due),
+%   What others have asked to be done at some time.
+
+run_errands(Now) :-
+    findall(Time-Goal, ( errand(Time, Goal), Time =< Now ), Due),
     forall(member(Time-Goal, Due),
-           ( retractall(due(Time, Goal)),
+           ( retractall(errand(Time, Goal)),
              call(Goal) )).
 
-gone(Key) :-
-    (   session(Key, Session)
-    ->  retractall(again(Key, _, _)),
-        session_retire(Session),
-        session_close(Session, Unsent),
-        requests_lost(Session, Unsent)
+leads_to(Address, Key) :-
+    route(Address, session(Key, _, _, _, _)).
+
+up(Address, Session) :-
+    route(Address, Session),
+    arg(1, Session, Key),
+    session_up(Key),
+    !.
+
+		 /*******************************
+		 *            QUESTS            *
+		 *******************************/
+
+first_pause(0.02).
+longest_pause(2).
+
+%   Somebody wants to reach Address; who comes later waits with the first.
+
+want(Address) :-
+    quest(Address, _, _, Deadline),
+    Deadline \== none,
+    !.
+want(Address) :-
+    first_pause(Pause),
+    (   quest(Address, trying(Thread, Start, Until), _, _)
+    ->  in_time(Deadline),
+        set_quest(Address, trying(Thread, Start, Until), Pause, Deadline)
+    ;   set_quest(Address, queued, Pause, unset)
+    ).
+
+in_time(Deadline) :-
+    setting(connect_time, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds.
+
+set_quest(Address, State, Pause, Deadline) :-
+    retractall(quest(Address, _, _, _)),
+    assertz(quest(Address, State, Pause, Deadline)).
+
+%   Where many processes begin at once all would be late together, and of
+%   each pair both would connect. So few attempts are begun at a time, by
+%   each process in an order of its own: most peers come by themselves before
+%   it is their turn. The time of those who wait begins with the attempt.
+
+crowd(4).
+crowd_seconds(2).
+
+try_queued(Me) :-
+    quest(_, queued, _, _),
+    \+ crowded,
+    !,
+    findall(Hash-Address,
+            ( quest(Address, queued, _, _),
+              term_hash(Address-Me, Hash) ),
+            Queued),
+    min_member(_-Next, Queued),
+    quest(Next, queued, Pause, Deadline),
+    try(Next, Pause, Deadline, Me),
+    try_queued(Me).
+try_queued(_).
+
+crowded :-
+    crowd(Many),
+    findall(x, young(_), Young),
+    length(Young, Count),
+    Count >= Many.
+
+%   young(-Until): an attempt that may soon have ended.
+
+young(Until) :-
+    crowd_seconds(Seconds),
+    get_time(Now),
+    quest(_, trying(_, Start, _), _, _),
+    Until is Start+Seconds,
+    Until > Now.
+
+try(Address, Pause, Deadline0, Me) :-
+    in_time(Until0),
+    get_time(Start),
+    (   Deadline0 == unset
+    ->  Deadline = Until0
+    ;   Deadline = Deadline0
+    ),
+    earlier(Deadline, Until0, Until),
+    catch(crew_spawn(outgoing(Address, Me), Thread),
+          error(Formal, _),
+          Thread = none),
+    set_quest(Address, trying(Thread, Start, Until), Pause, Deadline),
+    (   Thread == none
+    ->  verdict(Address, Formal)
     ;   true
     ).
 
-start_attempt(Address, Me) :-
-    (   attempt(Address, _, _)
-    ->  true
-    ;   setting(connect_time, Seconds),
-        get_time(Now),
-        Deadline is Now+Seconds,
-        crew_spawn(outgoing(Address, Me), Thread),
-        assertz(attempt(Address, Thread, Deadline))
-    ).
+%   Somebody is there, and slow, as all are where many begin at once: there
+%   is time again, unless it has gone wrong often.
 
-missed(Address, Formal) :-
-    retractall(attempt(Address, _, _)),
-    print_message(silent,
-                  typhon(endpoint, unreachable(Address, Formal))),
-    tell_waiters(Address, missed).
-
-tell_waiters(Address, Result) :-
-    forall(retract(waiter(Address, Queue)), tell_waiter(Queue, Result)).
-
-tell_waiter(Queue, Result) :-
-    catch(thread_send_message(Queue, Result),
-          error(existence_error(_, _), _),
-          true).
-
-%   Connect again as long as something is unfinished.
-
-plan(Key, Wait) :-
-    (   session(Key, Session),
-        \+ session_up(Key),
-        unfinished(Session),
-        \+ again(Key, _, _)
-    ->  get_time(Now),
-        Time is Now+Wait,
-        assertz(again(Key, Time, Wait))
+greeted(Address, Thread, Start, Pause) :-
+    longest_pause(Longest),
+    (   Pause < Longest
+    ->  in_time(Until),
+        set_quest(Address, trying(Thread, Start, Until), Pause, Until)
     ;   true
     ).
+
+%   verdict(+Address, +Formal): an attempt has ended without connection.
+
+verdict(Address, _) :-
+    up(Address, _),
+    !,
+    met(Address).
+verdict(Address, Formal) :-
+    quest(Address, _, Pause, Deadline),
+    get_time(Now),
+    (   told(Deadline, Formal, Now)
+    ->  missed(Address, Formal),
+        go_on(Address, Now, Pause, none)
+    ;   go_on(Address, Now, Pause, Deadline)
+    ).
+
+told(Deadline, _, Now) :-
+    number(Deadline),
+    Deadline =< Now,
+    !.
+told(Deadline, Formal, _) :-
+    number(Deadline),
+    \+ may_pass(Formal).
+
+%   Somebody listens there, it seems, or may do so in a moment. What else
+%   there is, nobody listening first of all, is told at once.
+
+may_pass(ended).
+may_pass(session_closed).
+may_pass(timeout_error(_, _)).
+may_pass(resource_error(_)).
+may_pass(io_error(_, _)).
+may_pass(syntax_error(end_of_file)).
+may_pass(socket_error(Code, _)) :-
+    memberchk(Code, [ econnreset, econnaborted, epipe, etimedout, eagain,
+                      eai_again, eintr, emfile, enfile, enobufs, enomem,
+                      eaddrnotavail ]).
+
+go_on(Address, _, _, none) :-
+    \+ needed(Address),
+    !,
+    retractall(quest(Address, _, _, _)).
+go_on(Address, Now, Pause, Deadline) :-
+    some(Now, Some),
+    Until0 is Now+Pause*(0.5+Some),
+    earlier(Deadline, Until0, Until),
+    longest_pause(Longest),
+    Pause1 is min(Longest, 2*Pause),
+    set_quest(Address, pausing(Until), Pause1, Deadline).
+
+%   A number from 0 to 1: library(random) takes milliseconds to begin.
+
+some(Now, Some) :-
+    Some is float_fractional_part(Now*1000).
+
+earlier(none, Time, Time) :-
+    !.
+earlier(Deadline, Time0, Time) :-
+    Time is min(Deadline, Time0).
+
+needed(Address) :-
+    route(Address, Session),
+    unfinished(Session),
+    !.
 
 unfinished(Session) :-
     session_pending(Session, Pending),
@@ -180,29 +357,108 @@ unfinished(Session) :-
 unfinished(Session) :-
     requests_open(Session).
 
-overdue(Me) :-
+overdue(State, Address, _) :-
+    \+ quest(Address, State, _, _),
+    !.
+overdue(_, Address, _) :-
+    up(Address, _),
+    !,
+    met(Address).
+overdue(trying(Thread, _, _), Address, _) :-
+    aside(crew_retire(Thread, late)),
+    verdict(Address, late).
+overdue(pausing(_), Address, Me) :-
+    quest(Address, _, Pause, Deadline),
     get_time(Now),
-    forall(( attempt(Address, Thread, Deadline), Deadline =< Now ),
-           ( crew_retire(Thread, late),
-             missed(Address, late) )),
-    forall(( again(Key, Time, Wait), Time =< Now ),
-           try_again(Key, Wait, Me)).
+    (   ( told(Deadline, ended, Now)
+        ; Deadline == none, \+ needed(Address) )
+    ->  verdict(Address, late)
+    ;   try(Address, Pause, Deadline, Me)
+    ).
 
-try_again(Key, Wait, Me) :-
-    retractall(again(Key, _, _)),
-    (   session(Key, Session),
-        \+ session_up(Key),
-        unfinished(Session),
-        session_address(Session, Address)
-    ->  start_attempt(Address, Me),
-        Wait1 is min(2, 2*Wait),
-        plan(Key, Wait1)
+%   The session may be down again: what is sent in it comes through when it
+%   is up the next time.
+
+met(Address) :-
+    retractall(quest(Address, _, _, _)),
+    (   route(Address, Session)
+    ->  unsent_send(Address, Session)
+    ;   true
+    ),
+    tell_waiters(met, Address).
+
+missed(Address, Formal) :-
+    print_message(silent,
+                  typhon(endpoint, unreachable(Address, Formal))),
+    unsent_fail(Address),
+    tell_waiters(missed, Address).
+
+tell_waiters(Result, Address) :-
+    findall(Queue, waiter(Address, Queue), Queues),
+    retractall(waiter(Address, _)),
+    forall(member(Queue, Queues), tell_waiter(Queue, Result)).
+
+tell_waiter(Queue, Result) :-
+    catch(thread_send_message(Queue, Result),
+          error(existence_error(_, _), _),
+          true).
+
+		 /*******************************
+		 *           SESSIONS           *
+		 *******************************/
+
+%   One with something unfinished is connected again. The others are kept
+%   for the sake of their counts: the peer may be cut off only, and come
+%   back with frames that have arrived before.
+
+without_connection(Session) :-
+    unfinished(Session),
+    !,
+    (   route(Address, Session),
+        \+ quest(Address, _, _, _)
+    ->  get_time(Now),
+        go_on(Address, Now, 0.05, none)
+    ;   true
+    ).
+without_connection(session(Key, _, _, _, _)) :-
+    retractall(resting(Key)),
+    assertz(resting(Key)),
+    predicate_property(resting(_), number_of_clauses(Count)),
+    setting(resting, Max),
+    (   Count > Max,
+        retract(resting(Oldest)),
+        session(Oldest, Session)
+    ->  aside(forget(Session))
     ;   true
     ).
 
-session_address(Session, Address) :-
-    route(Address, Session),
-    !.
+forget(Session) :-
+    arg(1, Session, Key),
+    session_adopting(Session,
+                     (   ( session_up(Key) ; unfinished(Session) )
+                     ->  true
+                     ;   ignore(session_close(Session, _))
+                     )).
+
+gone(Key) :-
+    retractall(resting(Key)),
+    (   session(Key, Session)
+    ->  aside(part(Session))
+    ;   true
+    ).
+
+%   Whoever waits for an answer is told, whatever happens.
+
+part(Session) :-
+    sig_atomic(( session_adopting(Session,
+                                  ( session_retire(Session),
+                                    session_close(Session, Unsent) )),
+                 requests_lost(Session, Unsent) )).
+
+:- meta_predicate aside(0).
+
+aside(Goal) :-
+    catch(crew_spawn(Goal, _), error(_, _), ignore(Goal)).
 
 :- multifile prolog:message//1.
 

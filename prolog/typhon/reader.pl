@@ -24,11 +24,11 @@ counted.
 :- use_module(crew, [crew_tell/1]).
 :- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
 :- use_module(request, [dispatch/2, requests_open/1]).
-:- use_module(session, [session_acked/3, session_control/2,
-                        session_note_received/2, session_peer/3,
-                        session_pending/2,
-                        session_push/1, session_received/2, session_send/2,
-                        session_sent/2]).
+:- use_module(outbox, [session_acked/3, session_control/2,
+                       session_pending/2, session_push/1, session_send/2,
+                       session_sent/2]).
+:- use_module(session, [session_note_received/2, session_peer/3,
+                        session_received/2]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is asked for a sign of life").
@@ -203,11 +203,12 @@ owes(Session) :-
 owes(Session) :-
     requests_open(Session).
 
-handle(ack(Count, Bytes), Session, _, State) :-
+handle(ack(Count, Bytes), Session, In, State) :-
     !,
     check_ack(Count, Bytes, Session),
     nb_setarg(4, State, 0),
-    session_acked(Session, Count, Bytes).
+    session_acked(Session, Count, Bytes),
+    acknowledge_now_and_then(Session, In, State).
 handle(ping, Session, In, State) :-
     !,
     acknowledge(Session, In, State).
@@ -216,10 +217,16 @@ handle(bye, session(Key, _, _, _, _), _, _) :-
     ignore(crew_tell(gone(Key))).
 handle(Frame, Session, In, State) :-
     take(Frame, Session),
-    State = count(Count0, Told, ToldBytes, _),
+    arg(1, State, Count0),
     Count is Count0+1,
     nb_setarg(1, State, Count),
     nb_setarg(4, State, 0),
+    acknowledge_now_and_then(Session, In, State).
+
+%   Acks are under way, too: their bytes are told as well.
+
+acknowledge_now_and_then(Session, In, State) :-
+    State = count(Count, Told, ToldBytes, _),
     byte_count(In, Bytes),
     ack_frames(MaxFrames),
     ack_bytes(MaxBytes),

@@ -2,7 +2,8 @@
           [ request_send/4,             % +Session, +Kind, +Term, :OnAnswer
             request_reply/2,            % +ReplyTo, +Term
             request_reply_later/2,      % +ReplyTo, +Term
-            request_forget/1,           % +Id
+            request_answer/2,           % +Result, :OnAnswer
+            request_forget/1,           % :OnAnswer
             requests_lost/2,            % +Session, +Unsent
             requests_open/1,            % +Session
             dispatch/2,                 % +Session, +Frame
@@ -24,11 +25,13 @@ it. The table of open requests is shared; a request is taken out by retract/1
 and so answered once.
 */
 
-:- use_module(session,
-              [ session_peer/3, session_send/2, session_send_later/2 ]).
+:- use_module(outbox,
+              [ session_send/2, session_send_later/2 ]).
 
 :- meta_predicate
-    request_send(+, +, +, 1).
+    request_send(+, +, +, 1),
+    request_answer(+, 1),
+    request_forget(1).
 
 :- dynamic
     open_request/3.                     % Id, Key, OnAnswer
@@ -41,13 +44,22 @@ request_send(Session, Kind, Term, OnAnswer) :-
     assertz(open_request(Id, Key, OnAnswer)),
     catch(session_send(Session, request(Id, Kind, Term)),
           Error,
-          ( request_forget(Id),
+          ( retractall(open_request(Id, _, _)),
             throw(Error) )).
 
-%!  request_forget(+Id) is det.
+%!  request_answer(+Result, :OnAnswer) is det.
+%
+%   Tell who asked. Never raises: what goes wrong is reported.
 
-request_forget(Id) :-
-    retractall(open_request(Id, _, _)).
+request_answer(Result, OnAnswer) :-
+    guarded(call(OnAnswer, Result), answer).
+
+%!  request_forget(:OnAnswer) is det.
+%
+%   Nobody waits for this answer any more.
+
+request_forget(OnAnswer) :-
+    retractall(open_request(_, _, OnAnswer)).
 
 %!  request_reply(+ReplyTo, +Term) is det.
 
@@ -90,7 +102,7 @@ requests_lost(session(Key, _, _, _, _), Unsent) :-
 conclude(Result, Id, Key) :-
     (   integer(Id),
         retract(open_request(Id, Key, OnAnswer))
-    ->  guarded(call(OnAnswer, Result), answer)
+    ->  request_answer(Result, OnAnswer)
     ;   true
     ).
 
@@ -123,14 +135,12 @@ dispatch(_, Frame) :-                   % of a later version, or damaged
 %
 %   Tell who wants to know that the connection is `up` or `down`.
 
-connection_is(session(Key, _, _, _, _), State) :-
-    forall(( session_peer(Key, _, Peer),
-             clause(typhon_endpoint:connection(Peer, State), Body) ),
+connection_is(Session, State) :-
+    peer(Session, Peer),
+    forall(clause(typhon_endpoint:connection(Peer, State), Body),
            guarded(typhon_endpoint:Body, connection)).
 
-peer(session(Key, _, _, _, _), Address) :-
-    session_peer(Key, _, Address),
-    !.
+peer(session(_, _, _, _, peer(_, Address)), Address).
 
 guarded(Goal, Kind) :-
     (   attempt(Goal, Kind)
