@@ -16,7 +16,7 @@ The long form is `make chaos`, see doc/chaos.md.
 :- dynamic report/2.                    % Scenario, Findings
 
 attack(Dir) :-
-    chaos([ seconds(40), seed(1), processes(3), agents(24), settle(20),
+    chaos([ seconds(40), seed(1), processes(3), agents(24), settle(12),
             out(Dir) ],
           Reports),
     forall(member(report(Scenario, _, Findings), Reports),
