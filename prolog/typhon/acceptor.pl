@@ -20,8 +20,9 @@ mutex: the acceptor gives and takes them, the thread of a client says how
 far it has come and gives its own back.
 */
 
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [permission_error/3, syntax_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket), [tcp_accept/3]).
 :- use_module(connection, [incoming/5, open_streams/3]).
@@ -153,9 +154,16 @@ evict(Ip) :-
     crew_signal(Thread, evicted).
 
 victim(Thread, Ip) :-
-    findall(Rank-(Thread0-Ip0),
-            ( stranger(Thread0, Ip0, Since, Stage),
-              rank(Ip0, Since, Stage, Rank) ),
+    findall(Ip0, stranger(_, Ip0, _, _), Ips0),
+    msort(Ips0, Ips),
+    pairs_keys_values(Pairs, Ips, Ips),
+    group_pairs_by_key(Pairs, Holders),
+    findall(Rank-(Thread1-Ip1),
+            ( member(Ip1-Slots, Holders),
+              address_rank(Ip1, Slots, Known, Free),
+              stranger(Thread1, Ip1, Since, Stage),
+              stage_rank(Stage, Spoke),
+              Rank = rank(Known, Free, Spoke, Since) ),
             Ranked),
     keysort(Ranked, [_-(Thread-Ip)|_]).
 
@@ -169,19 +177,20 @@ take_slot(Thread) :-
     ;   true
     ).
 
-%   Who is new has not had a chance to say anything.
-
-rank(Ip, Since, Stage, rank(Known, Free, Spoke, Since)) :-
-    (   Stage == silent
-    ->  Spoke = 0
-    ;   Spoke = 1
-    ),
+address_rank(Ip, Slots, Known, Free) :-
     (   proved(Ip)
     ->  Known = 1
     ;   Known = 0
     ),
-    aggregate_all(count, stranger(_, Ip, _, _), Slots),
-    Free is -Slots.
+    length(Slots, Count),
+    Free is -Count.
+
+%   Who is new has not had a chance to say anything.
+
+stage_rank(silent, Spoke) =>
+    Spoke = 0.
+stage_rank(_, Spoke) =>
+    Spoke = 1.
 
 		 /*******************************
 		 *            CLIENTS           *

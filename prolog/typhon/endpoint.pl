@@ -114,7 +114,7 @@ listen(Interface, Port, Bound, Socket) :-
     tcp_socket(Socket),
     catch(( tcp_setopt(Socket, reuseaddr),
             tcp_bind(Socket, Interface:Bound),
-            tcp_listen(Socket, 64)
+            tcp_listen(Socket, 1024)
           ),
           Error,
           ( tcp_close_socket(Socket),
