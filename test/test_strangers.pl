@@ -118,7 +118,14 @@ test(who_talks_stays) :-
                   )) ))))).
 
 silenced(Count) :-
-    aggregate_all(count, told(turned_away(_, silent)), Count).
+    findall(Some,
+            (   told(turned_away(_, silent)),
+                Some = 1
+            ;   told(turned_away(Groups)),
+                member(Some-(_-silent), Groups)
+            ),
+            Counts),
+    sum_list(Counts, Count).
 
 stages(Stages) :-
     findall(Stage, typhon_acceptor:stranger(_, _, _, Stage), Stages0),
@@ -180,6 +187,9 @@ test(clients_die_at_any_moment) :-
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30),
           newcomer(x, _) ))).
+test(stopped_at_any_moment) :-
+    no_leaks(forall(between(1, 20, _),
+                    with_endpoint(forall(between(1, 15, I), dies(I))))).
 test(evicted_at_any_moment) :-
     no_leaks(with_endpoint(with_setting(typhon_acceptor:strangers, 2,
         ( forall(between(1, 300, I), dies(I)),

@@ -1,5 +1,6 @@
 :- module(typhon_acceptor,
-          [ accept_all/2                % +Socket, +Me
+          [ accept_all/2,               % +Socket, +Me
+            accept_no_more/0
           ]).
 
 /** <module> Taking connections
@@ -46,11 +47,18 @@ proved_addresses(256).
 %   an exception of the crew.
 
 accept_all(Socket, Me) :-
-    forall(stranger(Thread, _, _, _), take_slot(Thread)),
     refusals_tell,
     repeat,
     catch(accept(Socket, Me), error(Formal, _), accept_failed(Formal)),
     fail.
+
+%!  accept_no_more is det.
+%
+%   All threads of the endpoint have ended: close what some had not begun
+%   with.
+
+accept_no_more :-
+    forall(stranger(Thread, _, _, _), take_slot(Thread)).
 
 accept(Socket, Me) :-
     tcp_accept(Socket, Client, ip(A, B, C, D)),

@@ -38,7 +38,7 @@ that peer is read. They may post, request and reply.
                                 tcp_close_socket/1, tcp_listen/2,
                                 tcp_setopt/2, tcp_socket/1]).
 :- use_module(auth, [cookie/1, random_hex/2]).
-:- use_module(acceptor, [accept_all/2]).
+:- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(crew, [crew_bury/1, crew_retire/2, crew_spawn/2, crew_start/0,
                      crew_stop/1, crew_tell/1]).
 :- use_module(frame, [mobile_term/1]).
@@ -151,6 +151,7 @@ stop :-
     crew_tell(stop),
     crew_bury(Keeper),
     crew_stop(Unheard),
+    accept_no_more,
     keeper_unheard(Unheard),
     forall(session(_, Session),
            ( session_close(Session, Unsent),
