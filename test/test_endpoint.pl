@@ -325,6 +325,11 @@ test(unreadable_answer, error(connection_lost(_))) :-
             ;   Original
             ),
             A, ask(A, echo, zork, _)).
+test(more_than_there_is_memory_for, error(connection_lost(_))) :-
+    numlist(1, 100000, Long),
+    with_endpoint(with_peer(A,
+        wrapped(typhon_frame:unmarked(_, _), _, resource_error(memory),
+                ask(A, echo, Long, _)))).
 test(acknowledged_too_much, Notes == [1, 2]) :-
     with_endpoint(with_peer(A,
         ( ask(A, echo, x, x),

@@ -11,7 +11,7 @@
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
-:- use_module(library(thread), [first_solution/3, concurrent_maplist/3]).
+:- use_module(library(thread), [concurrent_maplist/3]).
 :- use_module(library(typhon/auth)).
 :- use_module(library(typhon/endpoint)).
 :- use_module(library(typhon/hello)).
@@ -25,6 +25,7 @@ user:message_hook(typhon(endpoint, Message), _, _) :-
 :- meta_predicate
     with_endpoint(0),
     with_setting(+, +, 0),
+    patiently(0),
     with_silent(+, -, 0).
 
 with_endpoint(Goal) :-
@@ -38,6 +39,14 @@ with_setting(Setting, Value, Goal) :-
     setup_call_cleanup(set_setting(Setting, Value),
                        Goal,
                        set_setting(Setting, Old)).
+
+%   Nobody is turned away for being slow; `soon` is long before that.
+
+patiently(Goal) :-
+    with_setting(typhon_auth:handshake_time, 120, Goal).
+
+soon(Seconds) :-
+    assertion(Seconds < 20).
 
 port(Port) :-
     endpoint_address(Address),
@@ -89,27 +98,34 @@ slots(Count) :-
 
 test(newcomers_get_in, [forall(member(Slots-Silent, [32-32, 32-200,
                                                      128-200]))]) :-
-    no_leaks(with_endpoint(with_setting(typhon_acceptor:strangers, Slots,
-                                        crowded(Silent)))).
+    no_leaks(with_endpoint(patiently(
+        with_setting(typhon_acceptor:strangers, Slots, crowded(Silent))))).
 test(newcomers_get_in_at_once) :-
-    with_endpoint(with_setting(typhon_acceptor:strangers, 16,
+    with_endpoint(patiently(with_setting(typhon_acceptor:strangers, 16,
         with_silent(16, _,
-            ( wait_until(slots(16), 5),
+            ( wait_until(slots(16), 30),
               numlist(1, 6, Newcomers),
               concurrent_maplist(newcomer, Newcomers, Times),
-              forall(member(Time, Times), assertion(Time < 1)) )))).
+              maplist(soon, Times) ))))).
 test(who_talks_stays) :-
-    with_endpoint(with_setting(typhon_acceptor:strangers, 4,
+    with_endpoint(patiently(with_setting(typhon_acceptor:strangers, 4,
         with_silent(4, [Talker|_],
             ( say("ty", Talker),
-              wait_until(stages([heard, silent, silent, silent]), 5),
+              wait_until(stages([heard, silent, silent, silent]), 30),
               with_silent(3, _,
-                  ( wait_until(silenced(3), 5),
-                    wait_until(stages([heard, silent, silent, silent]), 5)
-                  )) )))).
+                  ( wait_until(silenced(3), 30),
+                    wait_until(stages([heard, silent, silent, silent]), 30)
+                  )) ))))).
 
 silenced(Count) :-
-    aggregate_all(count, told(turned_away(_, silent)), Count).
+    findall(Some,
+            (   told(turned_away(_, silent)),
+                Some = 1
+            ;   told(turned_away(Groups)),
+                member(Some-(_-silent), Groups)
+            ),
+            Counts),
+    sum_list(Counts, Count).
 
 stages(Stages) :-
     findall(Stage, typhon_acceptor:stranger(_, _, _, Stage), Stages0),
@@ -119,8 +135,8 @@ crowded(Silent) :-
     with_silent(Silent, _,
         ( numlist(1, 6, Newcomers),
           maplist(newcomer, Newcomers, Times),
-          forall(member(Time, Times), assertion(Time < 1)) )),
-    wait_until(slots(0), 5).
+          maplist(soon, Times) )),
+    wait_until(slots(0), 30).
 
 :- end_tests(silent_strangers_lock_nobody_out).
 
@@ -162,21 +178,22 @@ test(no_thread_can_be_made) :-
               wrap_predicate(typhon_crew:spawn(_, _, _), none, _,
                              throw(error(resource_error(threads), _))),
               ( forall(between(1, 3, _), shouts("typhon")),
-                wait_until(threadless(3), 5) ),
+                wait_until(threadless(3), 30) ),
               unwrap_predicate(typhon_crew:spawn/3, none)),
           assertion(slots(0)),
-          newcomer(x, Time),
-          assertion(Time < 1) ))).
+          newcomer(x, _) ))).
 test(clients_die_at_any_moment) :-
     no_leaks(with_endpoint(
         ( forall(between(1, 300, I), dies(I)),
-          wait_until(slots(0), 5),
-          newcomer(x, Time),
-          assertion(Time < 1) ))).
+          wait_until(slots(0), 30),
+          newcomer(x, _) ))).
+test(stopped_at_any_moment) :-
+    no_leaks(forall(between(1, 20, _),
+                    with_endpoint(forall(between(1, 15, I), dies(I))))).
 test(evicted_at_any_moment) :-
     no_leaks(with_endpoint(with_setting(typhon_acceptor:strangers, 2,
         ( forall(between(1, 300, I), dies(I)),
-          wait_until(slots(0), 5) )))).
+          wait_until(slots(0), 30) )))).
 
 threadless(Count) :-
     aggregate_all(count, told(turned_away(_, resource_error(threads))),
@@ -200,16 +217,16 @@ dies(I) :-
 :- begin_tests(strangers_are_told_of).
 
 test(few_lines_all_counted, Sum == 500) :-
+    get_time(T0),
     with_endpoint(( forall(between(1, 500, _), shouts("GET / HTTP/1.0\r\n")),
-                    wait_until(counted(500), 5) )),
+                    wait_until(counted(500), 30) )),
+    get_time(T1),
     counted(Sum),
-    aggregate_all(count, told(turned_away(_, _)), Lines),
-    aggregate_all(count, told(turned_away(_)), More),
-    assertion(Lines =< 5),
-    assertion(More =< 5).
+    aggregate_all(count, told(_), Lines),
+    assertion(Lines =< 10+6*(T1-T0)).
 test(told_at_the_end, Sum == 20) :-
     with_endpoint(( forall(between(1, 20, _), shouts("\n")),
-                    wait_until(noted(20), 5) )),
+                    wait_until(noted(20), 30) )),
     counted(Sum).
 test(another_version, Line == "typhon 2") :-
     with_endpoint(setup_call_cleanup(
@@ -219,7 +236,7 @@ test(another_version, Line == "typhon 2") :-
           get_time(Now),
           Deadline is Now+5,
           line_read(In, Deadline, Line),
-          wait_until(told(turned_away(_, version(1))), 5) ),
+          wait_until(told(turned_away(_, version(1))), 30) ),
         closed(Client))).
 test(another_version_of_a_server,
      [error(permission_error(authenticate, peer, version(3)))]) :-

@@ -1,5 +1,6 @@
 :- module(typhon_acceptor,
-          [ accept_all/2                % +Socket, +Me
+          [ accept_all/2,               % +Socket, +Me
+            accept_no_more/0
           ]).
 
 /** <module> Taking connections
@@ -20,8 +21,9 @@ mutex: the acceptor gives and takes them, the thread of a client says how
 far it has come and gives its own back.
 */
 
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [permission_error/3, syntax_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket), [tcp_accept/3]).
 :- use_module(connection, [incoming/5, open_streams/3]).
@@ -45,11 +47,18 @@ proved_addresses(256).
 %   an exception of the crew.
 
 accept_all(Socket, Me) :-
-    forall(stranger(Thread, _, _, _), take_slot(Thread)),
     refusals_tell,
     repeat,
     catch(accept(Socket, Me), error(Formal, _), accept_failed(Formal)),
     fail.
+
+%!  accept_no_more is det.
+%
+%   All threads of the endpoint have ended: close what some had not begun
+%   with.
+
+accept_no_more :-
+    forall(stranger(Thread, _, _, _), take_slot(Thread)).
 
 accept(Socket, Me) :-
     tcp_accept(Socket, Client, ip(A, B, C, D)),
@@ -153,9 +162,16 @@ evict(Ip) :-
     crew_signal(Thread, evicted).
 
 victim(Thread, Ip) :-
-    findall(Rank-(Thread0-Ip0),
-            ( stranger(Thread0, Ip0, Since, Stage),
-              rank(Ip0, Since, Stage, Rank) ),
+    findall(Ip0, stranger(_, Ip0, _, _), Ips0),
+    msort(Ips0, Ips),
+    pairs_keys_values(Pairs, Ips, Ips),
+    group_pairs_by_key(Pairs, Holders),
+    findall(Rank-(Thread1-Ip1),
+            ( member(Ip1-Slots, Holders),
+              address_rank(Ip1, Slots, Known, Free),
+              stranger(Thread1, Ip1, Since, Stage),
+              stage_rank(Stage, Spoke),
+              Rank = rank(Known, Free, Spoke, Since) ),
             Ranked),
     keysort(Ranked, [_-(Thread-Ip)|_]).
 
@@ -169,19 +185,20 @@ take_slot(Thread) :-
     ;   true
     ).
 
-%   Who is new has not had a chance to say anything.
-
-rank(Ip, Since, Stage, rank(Known, Free, Spoke, Since)) :-
-    (   Stage == silent
-    ->  Spoke = 0
-    ;   Spoke = 1
-    ),
+address_rank(Ip, Slots, Known, Free) :-
     (   proved(Ip)
     ->  Known = 1
     ;   Known = 0
     ),
-    aggregate_all(count, stranger(_, Ip, _, _), Slots),
-    Free is -Slots.
+    length(Slots, Count),
+    Free is -Count.
+
+%   Who is new has not had a chance to say anything.
+
+stage_rank(silent, Spoke) =>
+    Spoke = 0.
+stage_rank(_, Spoke) =>
+    Spoke = 1.
 
 		 /*******************************
 		 *            CLIENTS           *

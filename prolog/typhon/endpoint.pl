@@ -42,7 +42,7 @@ that peer is read. They may post, request and reply.
                                 tcp_close_socket/1, tcp_listen/2,
                                 tcp_setopt/2, tcp_socket/1]).
 :- use_module(auth, [cookie/1, random_hex/2]).
-:- use_module(acceptor, [accept_all/2]).
+:- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(aside, [aside/1]).
 :- use_module(contacts, [contact/3]).
 :- use_module(crew, [crew_bury/1, crew_retire/2, crew_spawn/2, crew_start/0,
@@ -120,7 +120,7 @@ listen(Interface, Port, Bound, Socket) :-
     tcp_socket(Socket),
     catch(( tcp_setopt(Socket, reuseaddr),
             tcp_bind(Socket, Interface:Bound),
-            tcp_listen(Socket, 512)
+            tcp_listen(Socket, 1024)
           ),
           Error,
           ( tcp_close_socket(Socket),
@@ -156,6 +156,7 @@ stop :-
     crew_tell(stop),
     crew_bury(Keeper),
     crew_stop(Unheard),
+    accept_no_more,
     keeper_unheard(Unheard),
     forall(session(_, Session),
            ( session_close(Session, Unsent),

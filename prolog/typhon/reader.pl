@@ -19,7 +19,6 @@ counted.
 */
 
 :- use_module(library(error), [domain_error/2]).
-
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(crew, [crew_tell/1]).
 :- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
@@ -175,7 +174,17 @@ times_damaged(Key, Count, Which, Times) :-
     ),
     Times is Times0+1,
     retractall(damaged(Key, _, _, _)),
+    forget_damage,
     assertz(damaged(Key, Count, Which, Times)).
+
+%   That of sessions which are over is not asked for any more.
+
+forget_damage :-
+    predicate_property(damaged(_, _, _, _), number_of_clauses(Count)),
+    Count >= 64,
+    !,
+    once(retract(damaged(_, _, _, _))).
+forget_damage.
 
 %   Fails when nothing begins to come. The time out of a peek loses nothing.
 

@@ -91,7 +91,7 @@ batches(From, Last, Port, Host, Progress, Faults, Memory) :-
     ).
 
 progress(true, To) :-
-    To mod 5000 =:= 0,
+    (To+1) mod 5000 < 100,
     !,
     memory(Memory),
     format('% seed ~d, ~d kB~n', [To, Memory]),
