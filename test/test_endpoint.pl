@@ -335,7 +335,7 @@ test(acknowledged_too_much, Notes == [1, 2]) :-
         ( ask(A, echo, x, x),
           endpoint_post(A, note, 1),
           once(typhon_session:route(A, Session)),
-          typhon_session:session_control(Session, ack(1000000000, 0)),
+          typhon_outbox:session_control(Session, ack(1000000000, 0)),
           endpoint_post(A, note, 2),
           ask(A, notes, x, Notes) ))).
 

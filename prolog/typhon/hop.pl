@@ -3,6 +3,7 @@
             hop_clone/6,                % +Id, +Where, +CloneId, +Who, +Hole,
                                         % +Goals
             hop_state/2,                % +Status, -State
+            hop_overdue/1,              % +Status
             hop_given_up/2,             % +Id, +Goals
             hop_let_go/4                % +Id, -Mail, -Orders, -Gone
           ]).
@@ -382,16 +383,24 @@ clone_back(Id, CloneId, Answer) :-
 
 hop_state(Status, State) :-
     arg(1, Status, Address),
-    arg(2, Status, Sent),
-    (   address_parts(Address, _, Endpoint),
-        endpoint_peer(Endpoint, state(down))
-    ->  State = in_doubt
-    ;   get_time(Now),
-        setting(doubt_seconds, Limit),
-        Now-Sent > Limit
+    address_parts(Address, _, Endpoint),
+    (   (   endpoint_peer(Endpoint, state(down))
+        ;   hop_overdue(Status)
+        )
     ->  State = in_doubt
     ;   State = in_transit
     ).
+
+%!  hop_overdue(+Status) is semidet.
+%
+%   The answer is overdue: an order to end is not put off any longer. Before
+%   that it follows the agent.
+
+hop_overdue(Status) :-
+    arg(2, Status, Sent),
+    get_time(Now),
+    setting(doubt_seconds, Limit),
+    Now-Sent > Limit.
 
 %!  hop_given_up(+Id, +Goals) is det.
 %

@@ -7,7 +7,7 @@
 :- use_module(code, [code_module/2]).
 :- use_module(context, [context_set/3, context_clear/0]).
 :- use_module(effect, [effect/5, effect_depart/5, effect_order/4]).
-:- use_module(hop, [hop_state/2]).
+:- use_module(hop, [hop_overdue/1]).
 :- use_module(machine, [machine_run/3]).
 :- use_module(mailbox, [mail_take/2]).
 :- use_module(whereabouts, [agent_ended/3]).
@@ -144,9 +144,9 @@ at_rest(resident).
 at_rest(leaving(_, _)).
 at_rest(faulty(_)).
 at_rest(transit(Host, Sent)) :-
-    hop_state(transit(Host, Sent), in_doubt).
+    hop_overdue(transit(Host, Sent)).
 at_rest(cloning(Host, Sent)) :-
-    hop_state(cloning(Host, Sent), in_doubt).
+    hop_overdue(cloning(Host, Sent)).
 
 order(Id, Order) :-
     agent_status(Id, Status, Goals),
