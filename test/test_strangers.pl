@@ -78,6 +78,18 @@ shouts(Text) :-
     setup_call_cleanup(connected(Client), say(Text, Client),
                        closed(Client)).
 
+%   So many were turned away for this reason, as we are told.
+
+turned_away(Why, Count) :-
+    findall(Some,
+            (   told(turned_away(_, Why)),
+                Some = 1
+            ;   told(turned_away(Groups)),
+                member(Some-(_-Why), Groups)
+            ),
+            Counts),
+    sum_list(Counts, Count).
+
 %   Prove oneself to the endpoint; how long it takes.
 
 newcomer(I, Seconds) :-
@@ -113,19 +125,9 @@ test(who_talks_stays) :-
             ( say("ty", Talker),
               wait_until(stages([heard, silent, silent, silent]), 30),
               with_silent(3, _,
-                  ( wait_until(silenced(3), 30),
+                  ( wait_until(turned_away(silent, 3), 30),
                     wait_until(stages([heard, silent, silent, silent]), 30)
                   )) ))))).
-
-silenced(Count) :-
-    findall(Some,
-            (   told(turned_away(_, silent)),
-                Some = 1
-            ;   told(turned_away(Groups)),
-                member(Some-(_-silent), Groups)
-            ),
-            Counts),
-    sum_list(Counts, Count).
 
 stages(Stages) :-
     findall(Stage, typhon_acceptor:stranger(_, _, _, Stage), Stages0),
@@ -178,7 +180,7 @@ test(no_thread_can_be_made) :-
               wrap_predicate(typhon_crew:spawn(_, _, _), none, _,
                              throw(error(resource_error(threads), _))),
               ( forall(between(1, 3, _), shouts("typhon")),
-                wait_until(threadless(3), 30) ),
+                wait_until(turned_away(resource_error(threads), 3), 30) ),
               unwrap_predicate(typhon_crew:spawn/3, none)),
           assertion(slots(0)),
           newcomer(x, _) ))).
@@ -194,10 +196,6 @@ test(evicted_at_any_moment) :-
     no_leaks(with_endpoint(with_setting(typhon_acceptor:strangers, 2,
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30) )))).
-
-threadless(Count) :-
-    aggregate_all(count, told(turned_away(_, resource_error(threads))),
-                  Count).
 
 %   A greeting of so many bytes, and gone.
 
@@ -243,12 +241,7 @@ test(another_version_of_a_server,
     typhon_auth:check_protocol("typhon 3").
 
 counted(Sum) :-
-    aggregate_all(count, told(turned_away(_, _)), Alone),
-    findall(Count,
-            ( told(turned_away(Groups)), member(Count-_, Groups) ),
-            Counts),
-    sum_list(Counts, More),
-    Sum is Alone+More.
+    turned_away(_, Sum).
 
 noted(Sum) :-
     counted(Told),
