@@ -84,8 +84,8 @@ told_when_dead :-
     noting_on_c(Id),
     peer_kill(c),
     peer_do(b, agent_send(Id, n(1))),
-    wait_until(said(b, "is lost", Id), 20),
-    said(a, "is lost", Id).
+    wait_until(said(b, " lost: ", Id), 20),
+    said(a, " lost: ", Id).
 
 said(Peer, Text, Id) :-
     peer_messages(Peer, Lines),
@@ -111,7 +111,7 @@ no_storm :-
     peer_kill(c),
     peer_restart(c),
     peer_do(b, forall(between(1, 100, N), agent_send(Id, n(N)))),
-    wait_until(said(b, "is lost", Id), 30),
+    wait_until(said(b, " lost: ", Id), 30),
     wait_until(peer_do(a, \+ kept(Id)), 30),
     peer_do(c, messages_seen(Seen)),
     Seen =< 1000,

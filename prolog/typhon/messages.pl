@@ -99,7 +99,11 @@ prolog:message(typhon(order_failed(Agent, Formal))) -->
     explained(error(Formal, _)).
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
     [ 'A message for ~w is lost: ~p from ~w'-[Agent, Message, From], nl ],
-    explained(error(Formal, _)).
+    lost_since(Formal).
+prolog:message(typhon(undeliverable(Formal, Agent, From, Message, Others))) -->
+    [ 'Messages for ~w are lost: ~p from ~w, and ~D more'-
+      [Agent, Message, From, Others], nl ],
+    lost_since(Formal).
 prolog:message(typhon(log(Host, Agent, What))) -->
     [ '~w at ~w: ~p'-[Agent, Host, What] ].
 prolog:message(typhon(told(Agent, Message))) -->
@@ -117,6 +121,12 @@ prolog:message(typhon(goal_failed(Goal))) -->
     [ 'This should not have failed: ~p'-[Goal] ].
 prolog:message(typhon(run_failed(Agent))) -->
     [ 'The step of agent ~w was not completed'-[Agent] ].
+
+lost_since(existence_error(agent, _)) -->
+    !,
+    [ 'There is no such agent, or its process has died' ].
+lost_since(Formal) -->
+    explained(error(Formal, _)).
 
 explained(Error) -->
     '$messages':translate_message(Error).

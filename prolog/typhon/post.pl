@@ -370,7 +370,10 @@ tell_origin(Origin, Formal, Id, Mail) :-
           error(unreachable(_), _),
           true).                        % gone, and it was said here
 
-report(Formal, Id, Mail) :-
-    forall(member(mail(_, From, Message), Mail),
-           print_message(warning,
-                         typhon(undeliverable(Formal, Id, From, Message)))).
+report(Formal, Id, [mail(_, From, Message)|More]) :-
+    (   More == []
+    ->  Told = undeliverable(Formal, Id, From, Message)
+    ;   length(More, Others),
+        Told = undeliverable(Formal, Id, From, Message, Others)
+    ),
+    print_message(warning, typhon(Told)).
