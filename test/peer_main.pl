@@ -135,6 +135,12 @@ send_in_background(Id, Count) :-
 hurried :-
     set_setting(typhon_keeper:connect_time, 0.3).
 
+%   This process makes no connections: others do.
+
+calls_nobody :-
+    wrap_predicate(typhon_connection:connect(_, _, _), calls_nobody, _,
+                   throw(error(socket_error(econnreset, reset), _))).
+
 %   Letters for Id wait here, and have been tried.
 
 kept(Id) :-

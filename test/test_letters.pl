@@ -17,13 +17,17 @@ live.  When it does not, that is said where the message was sent.
 :- begin_tests(unreachable_process).
 
 test(mail_waits_for_its_way) :-
-    with_peers([ a-[setup(hurried)], b, c-[proxy(true)] ], waits_for_way).
+    with_cut(waits_for_way).
 test(mail_in_order_behind_what_waits) :-
-    with_peers([ a-[setup(hurried)], b, c-[proxy(true)] ], waits_in_order).
+    with_cut(waits_in_order).
 test(told_to_the_sender_when_the_process_is_dead) :-
     with_peers([a, b, c], told_when_dead).
 
 :- end_tests(unreachable_process).
+
+with_cut(Goal) :-
+    with_peers([ a-[setup(hurried)], b,
+                 c-[proxy(true), setup(calls_nobody)] ], Goal).
 
 %   An agent born on a stands on c; b knows only its home.
 
@@ -40,7 +44,8 @@ noting_on_c(Id) :-
 noted(Numbers) :-
     peer_do(c, remote(c, findall(N, sense(noted(N)), Numbers))).
 
-%   a can no longer reach c: the proxy takes connections, and is silent.
+%   a can no longer reach c, nor c anybody: the proxy takes connections, and
+%   is silent.
 
 cut_off :-
     peer_proxy(c, Proxy),
