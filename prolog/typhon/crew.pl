@@ -161,11 +161,13 @@ crew_tell(Message) :-
 
 %!  crew_hear(-Message, +Deadline) is semidet.
 %
-%   The next message; fails at Deadline, a time stamp or `infinite`.
+%   The next message; fails at Deadline, a time stamp or `infinite`, if
+%   there is none.
 
 crew_hear(Message, Deadline) :-
     crew_queue(Queue),
-    (   Deadline == infinite
+    (   ( Deadline == infinite
+        ; thread_peek_message(Queue, _) )
     ->  thread_get_message(Queue, Message)
     ;   thread_get_message(Queue, Message, [deadline(Deadline)])
     ).
