@@ -29,7 +29,7 @@ layer(hosts, '#dcedc8', [hosting, host, place, clock, process, scheduler]).
 layer(programs, '#d6e4f5',
       [ program, faults, source, mobility, machine, code, paths ]).
 layer('the wire', '#e6dcf0',
-      [ endpoint, keeper, acceptor, connection, reader, request, session,
+      [ endpoint, keeper, quest, acceptor, connection, reader, request, session,
         outbox, held, contacts, crew, hello, auth, frame, text, aside ]).
 
 picture :-
