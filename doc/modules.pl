@@ -30,8 +30,9 @@ layer(hosts, '#dcedc8', [hosting, host, place, clock, process, scheduler,
 layer(programs, '#d6e4f5',
       [ program, faults, source, mobility, machine, code, paths ]).
 layer('the wire', '#e6dcf0',
-      [ endpoint, keeper, acceptor, connection, reader, request, session,
-        outbox, unsent, contacts, refusals, crew, hello, auth, frame, text, aside ]).
+      [ endpoint, keeper, quest, acceptor, connection, reader, request,
+        session, outbox, unsent, contacts, refusals, crew, hello, auth, frame,
+        text, aside ]).
 
 picture :-
     rooms(Dir),

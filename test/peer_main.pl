@@ -96,7 +96,7 @@ connected_to(Host) :-
     typhon_endpoint:endpoint_peer(Endpoint, state(up)).
 
 connecting :-
-    typhon_keeper:quest(_, _, _, _),
+    typhon_quest:quest(_, _, _, _),
     !.
 
 outcome_here(Id, Outcome) :-

@@ -311,10 +311,12 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     ;   typhon_whereabouts:agent_outcome(Agent, _)
     ),
     !,
-    thread_self(Me),
-    flag(typhon_join, Tag, Tag+1),
-    outcome_wait(Agent, Seconds, queue(Me, Tag)),
-    thread_get_message(outcome(Tag, Outcome)).
+    setup_call_cleanup(
+        message_queue_create(Queue),    % who is interrupted leaves nothing
+        ( outcome_wait(Agent, Seconds, queue(Queue, join)),
+          thread_get_message(Queue, outcome(join, Outcome))
+        ),
+        message_queue_destroy(Queue)).
 join(Endpoint, Agent, Seconds, Outcome) :-
     (   Seconds == inf
     ->  Limit = 1.0e9

@@ -88,13 +88,12 @@ pause(Deadline, Agent) :-
 
 ask_at(here, Agent, Question, Deadline, Answer) :-
     !,
-    thread_self(Me),
-    flag(typhon_question, Tag, Tag+1),
-    answer(Question, Agent, queue(Me, Tag)),
-    (   thread_get_message(Me, answer(Tag, Answer0), [deadline(Deadline)])
-    ->  Answer = Answer0
-    ;   throw(error(timeout_error(order, Agent), _))
-    ).
+    setup_call_cleanup(
+        message_queue_create(Queue),    % what comes too late goes with it
+        ( answer(Question, Agent, queue(Queue)),
+          wait_for(Queue, Deadline, Agent, Answer)
+        ),
+        message_queue_destroy(Queue)).
 ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
     get_time(Now),
     Seconds is max(0.01, Deadline-Now),
@@ -102,6 +101,12 @@ ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
                         answer(Answer), Seconds),
           error(unreachable(_), _),
           throw(error(host_unreachable(Endpoint), _))).
+
+wait_for(Queue, Deadline, Agent, Answer) :-
+    (   thread_get_message(Queue, Answer0, [deadline(Deadline)])
+    ->  Answer = Answer0
+    ;   throw(error(timeout_error(order, Agent), _))
+    ).
 
                 /*******************************
                 *            ANSWERS           *
@@ -178,8 +183,8 @@ not_here(Agent, Asker) :-
     ),
     tell(Asker, Answer).
 
-tell(queue(Queue, Tag), Answer) :-
-    catch(thread_send_message(Queue, answer(Tag, Answer)),
+tell(queue(Queue), Answer) :-
+    catch(thread_send_message(Queue, Answer),
           error(existence_error(_, _), _), true).
 tell(reply(ReplyTo), Answer) :-
     endpoint_reply(ReplyTo, Answer).

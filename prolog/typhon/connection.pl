@@ -104,11 +104,11 @@ loopback(Ip) :-
 %!  outgoing(+Address, +Me) is det.
 %
 %   Connect to Address. If there comes no connection of it the keeper hears
-%   missed(Address, Thread, Formal).
+%   missed(Thread, Formal).
 
 outgoing(Address, Me) :-
     get_time(Start),
-    nb_setval(typhon_set_out, Address-Start),
+    nb_setval(typhon_set_out, Start),
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
@@ -121,9 +121,9 @@ outgoing(Address, Me) :-
           missed(Address, Formal)).
 
 typhon_auth:greeted :-
-    nb_current(typhon_set_out, Address-_),
+    nb_current(typhon_set_out, _),
     thread_self(Me),
-    crew_tell(greeted(Address, Me)).
+    crew_tell(greeted(Me)).
 
 found(Address, Interface, Peer, Session) :-
     arg(1, Peer, Process),
@@ -138,7 +138,7 @@ missed(Address, Formal) :-
     ;   true
     ),
     thread_self(Me),
-    ignore(crew_tell(missed(Address, Me, Formal))).
+    ignore(crew_tell(missed(Me, Formal))).
 
 connect(Interface, Port, Socket) :-
     tcp_socket(Socket),
@@ -239,7 +239,7 @@ adopt(_, Key, Session, In, Out) :-
 %   for the same reason; over ours we have not.
 
 make_way(Session) :-
-    nb_current(typhon_set_out, _-Start),
+    nb_current(typhon_set_out, Start),
     session_up_since(Session, Start),
     !,
     throw(crew(met)).

@@ -58,7 +58,6 @@ note(Address, Process, State) :-
 forget_oldest :-
     predicate_property(contact(_, _, _), number_of_clauses(Count)),
     setting(contacts, Max),
-    (   Count > Max
-    ->  ignore(retract(contact(_, _, _)))
-    ;   true
-    ).
+    Excess is Count-Max,
+    forall(between(1, Excess, _),
+           ignore(retract(contact(_, _, _)))).

@@ -3,6 +3,7 @@
             crew_stop/1,                % -Unheard
             crew_spawn/2,               % :Goal, -Thread
             crew_spawn/3,               % :Goal, -Thread, :Before
+            crew_aside/1,               % :Goal
             crew_retire/2,              % +Thread, +Why
             crew_signal/2,              % +Thread, +Why
             crew_bury/1,                % +Thread
@@ -17,13 +18,14 @@ that none outlives the endpoint. A thread that ends says so in the queue
 of the endpoint, which one thread, the keeper, listens to.
 
 _Threading_: crew_hear/2 and crew_bury/1 are for the keeper, the rest may
-be called from any thread. crew_start/0 and crew_stop/0 are serialised by
+be called from any thread. crew_start/0 and crew_stop/1 are serialised by
 the caller.
 */
 
 :- meta_predicate
     crew_spawn(0, -),
-    crew_spawn(0, -, 0).
+    crew_spawn(0, -, 0),
+    crew_aside(0).
 
 :- dynamic
     crew_queue/1,                       % Queue
@@ -90,6 +92,13 @@ work(Goal) :-
 ended :-
     thread_self(Me),
     ignore(crew_tell(ended(Me))).
+
+%!  crew_aside(:Goal) is det.
+%
+%   Run Goal in a new thread or, where none can be made, here.
+
+crew_aside(Goal) :-
+    catch(crew_spawn(Goal, _), error(_, _), ignore(Goal)).
 
 %!  crew_retire(+Thread, +Why) is det.
 %
@@ -170,11 +179,13 @@ crew_tell(Message) :-
 
 %!  crew_hear(-Message, +Deadline) is semidet.
 %
-%   The next message; fails at Deadline, a time stamp or `infinite`.
+%   The next message; fails at Deadline, a time stamp or `infinite`, if
+%   there is none.
 
 crew_hear(Message, Deadline) :-
     crew_queue(Queue),
-    (   Deadline == infinite
+    (   ( Deadline == infinite
+        ; thread_peek_message(Queue, _) )
     ->  thread_get_message(Queue, Message)
     ;   thread_get_message(Queue, Message, [deadline(Deadline)])
     ).

@@ -65,7 +65,7 @@ disagrees(port(Port)) :-
 disagrees(bind(Interface)) :-
     Interface \== localhost,
     endpoint_address(Endpoint),
-    \+ sub_atom(Endpoint, 0, _, _, Interface).
+    \+ atomic_list_concat([Interface,_], ':', Endpoint).
 
 %!  process_release(+User) is det.
 

@@ -195,7 +195,11 @@ next(In, Max, Bytes) :-
 %   Three silences in a row while we wait for something is one too many.
 
 silent(Session, In, State) :-
-    State = count(_, _, _, Silent),
+    State = count(Count, Told, _, Silent),
+    (   Count > Told                    % it need not keep them any longer
+    ->  acknowledge(Session, In, State)
+    ;   true
+    ),
     (   \+ owes(Session)
     ->  nb_setarg(4, State, 0)
     ;   Silent < 2

@@ -94,10 +94,14 @@ route_add(Address, Session) :-
                ;   true
                )).
 
+%   The keeper asks whether another route leads to it: this one must be gone.
+
 displace(Address) :-
-    forall(route(Address, session(Key, _, _, _, _)),
-           ignore(crew_tell(displaced(Key)))),
-    retractall(route(Address, _)).
+    retract(route(Address, session(Key, _, _, _, _))),
+    !,
+    ignore(crew_tell(displaced(Key))),
+    displace(Address).
+displace(_).
 
 %!  session_received(+Key, -Count) is semidet.
 %!  session_note_received(+Key, +Count) is det.

@@ -1,9 +1,9 @@
 :- module(typhon_unsent,
-          [ unsent_request/4,             % +Address, +Kind, +Term, :OnAnswer
-            unsent/1,                     % ?Address
-            unsent_send/2,                % +Address, +Session
-            unsent_fail/1,                % ?Address
-            unsent_forget/1               % :OnAnswer
+          [ unsent_request/4,           % +Address, +Kind, +Term, :OnAnswer
+            unsent/1,                   % ?Address
+            unsent_send/2,              % +Address, +Session
+            unsent_fail/1,              % ?Address
+            unsent_forget/1             % :OnAnswer
           ]).
 
 /** <module> Requests that wait for a connection
@@ -25,7 +25,7 @@ a request answers for it.
     unsent_forget(1).
 
 :- dynamic
-    unsent/5.                             % Address, Number, Kind, Term,
+    unsent/5.                           % Address, Number, Kind, Term,
                                         % OnAnswer
 
 %!  unsent_request(+Address, +Kind, +Term, :OnAnswer) is det.
