@@ -124,9 +124,17 @@ test(message_died, true(Kinds == [message_died])) :-
     kinds(true, [more(mail, sent(a, s, 2, 49))], Kinds).
 test(message_twice, true(Kinds == [count,message_twice])) :-
     kinds(false, [more(events, e(s, 3, got(a, 1), 61, a-1))], Kinds).
-test(out_of_order, true(Kinds == [order_still])) :-
+test(out_of_order_from_one_that_moves, true(Kinds == [order_moving])) :-
     kinds(false, [ more(events, e(t, 0, said(s, 2), 47, a-1)),
                    more(events, e(s, 0, got(t, 2), 47, a-1)) ], Kinds).
+test(out_of_order, true(Kinds == [order_still])) :-
+    kinds(false, [ more(agents, agent(r, sitter, idr, a-1, 1)),
+                   more(standing, agent(a, idr, resident, 0,
+                                        [me(r), tick(2), steps(0)])),
+                   more(events, e(r, 1, said(s, 1), 46, a-1)),
+                   more(events, e(r, 2, said(s, 2), 47, a-1)),
+                   more(events, e(s, -1, got(r, 2), 47, a-1)),
+                   more(events, e(s, 0, got(r, 1), 47, a-1)) ], Kinds).
 test(token_lost, true(Kinds == [token_lost])) :-
     kinds(false, [less(tuples, token(7))], Kinds).
 test(token_twice, true(Kinds == [token_twice])) :-

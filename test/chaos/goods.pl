@@ -126,13 +126,14 @@ death_near(To, Time) :-
     ),
     !.
 
-%   The order is promised to agents that stand; processes write from many
-%   threads.
+%   The order is promised while neither of two agents moves; processes write
+%   from many threads.
 
 order_kind(From, To, Kind) :-
-    created(From, _, _, _, _),
-    created(To, To1, _, _, _),
-    (   To1 == sitter
+    created(From, FromKind, _, _, _),
+    created(To, ToKind, _, _, _),
+    (   FromKind == sitter,
+        ToKind == sitter
     ->  Kind = order_still
     ;   Kind = order_moving
     ).

@@ -31,7 +31,7 @@ finding_kind(undead,        wrong,   'agents that went on when disposed of').
 finding_kind(stuck,         wrong,   'agents not at rest at the end').
 finding_kind(message_lost,  wrong,   'messages lost').
 finding_kind(message_twice, wrong,   'messages doubled').
-finding_kind(order_still,   wrong,   'out of order, to agents that stand').
+finding_kind(order_still,   wrong,   'out of order, between agents that stand').
 finding_kind(token_lost,    wrong,   'tokens lost').
 finding_kind(token_twice,   wrong,   'tokens doubled').
 finding_kind(hung,          wrong,   'calls that hung').
@@ -44,7 +44,7 @@ finding_kind(again,         excused, 'steps done again after a death').
 finding_kind(message_died,  excused, 'messages that died with a process').
 finding_kind(token_died,    excused, 'tokens that died with a process').
 finding_kind(in_doubt,      excused, 'agents in doubt, to who is dead').
-finding_kind(order_moving,  told,    'out of order, to agents that move').
+finding_kind(order_moving,  told,    'out of order, where one moves').
 finding_kind(error,         told,    'errors while there were faults').
 
 %!  verdict(+Scenario, +Evidence, -Findings) is det.
