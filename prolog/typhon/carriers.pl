@@ -243,13 +243,23 @@ carriers_stop(Network) :-
     forall(child(Network, _, Child), child_close(Child)),
     (   queue(Network, Queue)
     ->  end_children(Network),
-        forall(retract(child(Network, _, Child)), child_release(Child)),
+        release_children(Network),
         retractall(queue(Network, _)),
         message_queue_destroy(Queue)
     ;   true
     ),
     retractall(up(Network, _, _, _)),
     retractall(down(Network, _, _)).
+
+%   One by one: other threads may start children meanwhile, see
+%   typhon_mailbox.
+
+release_children(Network) :-
+    retract(child(Network, _, Child)),
+    !,
+    child_release(Child),
+    release_children(Network).
+release_children(_).
 
 %   This process, and the children that are left.
 

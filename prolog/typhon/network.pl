@@ -241,12 +241,16 @@ network_stop(Network) :-
     ).
 
 end(Network) :-
-    forall(retract(part(Network, dynamics(Dynamics))),
-           step(dynamics_stop(Dynamics))),
+    (   retract(part(Network, dynamics(Dynamics)))
+    ->  step(dynamics_stop(Dynamics))
+    ;   true
+    ),
     step(wire_stop_own(Network)),
     step(carriers_stop(Network)),
-    forall(retract(part(Network, log(Address, _))),
-           step(log_server_stop(Address))),
+    (   retract(part(Network, log(Address, _)))
+    ->  step(log_server_stop(Address))
+    ;   true
+    ),
     step(process_release(network(Network))),
     wire_forget(Network),
     retractall(part(Network, _)),

@@ -73,9 +73,16 @@ consult_into(Place, Spec) :-
 %!  place_destroy(+Place) is det.
 
 place_destroy(Place) :-
-    forall(retract(loaded(Place, Id)), unload_file(Id)),
+    unload(Place),
     retractall(delivered(Place, _, _)),
     '$destroy_module'(Place).
+
+unload(Place) :-
+    retract(loaded(Place, Id)),
+    !,
+    unload_file(Id),
+    unload(Place).
+unload(_).
 
                 /*******************************
                 *          TUPLE SPACE         *
