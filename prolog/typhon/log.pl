@@ -255,8 +255,9 @@ write_events(Queue, File, State0) :-
     ).
 
 next_event(Queue, File, Event, State0, State) :-
-    (   thread_get_message(Queue, Event, [timeout(0)])
-    ->  State = State0
+    (   thread_peek_message(Queue, _)
+    ->  State = State0,
+        thread_get_message(Queue, Event)
     ;   flush(State0, File, State),
         thread_get_message(Queue, Event)
     ).

@@ -11,7 +11,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(rbtrees),
               [ ord_list_to_rbtree/2, rb_insert/4, rb_delete/3, rb_min/3,
-                rb_empty/1, rb_size/2 ]).
+                rb_size/2 ]).
 
 /** <module> The timer: alarms that go off
 
@@ -27,8 +27,14 @@ holds more than twice those that count, and some hundreds.
 What sets an alarm first notes what the alarm is for: over/2 may be asked
 at once.
 
+Most alarms never go off, so setting one seldom wakes the timer: its stamp
+is put in a queue, which the timer empties when it wakes; it is woken for
+one that comes before the next, and when the queue grows long.
+
 *Threading*: alarms from any thread; they are facts before the timer hears
-of them.  The index is the timer's own, and only says what the facts say.
+of them.  The flag typhon_next says what the timer waits for; it is written
+before the timer looks at the queue for the last time, and read by who sets
+an alarm after it was put there: so one of the two sees the other.  The index is the timer's own, and only says what the facts say.
 So whatever happens to the timer, no alarm is lost with it: after an error
 it makes a new index; where that would not fit on its stack it does with
 the first stamp; when its thread ends nevertheless, another begins with
@@ -45,6 +51,7 @@ again, as do idle workers (timer_check/0).
     alarm/3,                            % Stamp, Agent, Token
     timing/0,                           % between start and stop
     timer/1,                            % Thread
+    new/1,                              % Queue of stamps
     told/0.                             % that there is no timer
 
                 /*******************************
@@ -54,7 +61,12 @@ again, as do idle workers (timer_check/0).
 %!  timer_start is det.
 
 timer_start :-
-    with_mutex(typhon_timer, ( assertz(timing), new_timer )).
+    with_mutex(typhon_timer,
+               ( message_queue_create(New),
+                 assertz(new(New)),
+                 announce(inf),
+                 assertz(timing),
+                 new_timer )).
 
 new_timer :-
     (   thread_property(_, alias(typhon_timer))
@@ -75,6 +87,7 @@ timer_stop :-
                  findall(Timer, timer(Timer), Timers),
                  retractall(timer(_)) )),
     maplist(end_timer, Timers),
+    forall(retract(new(New)), message_queue_destroy(New)),
     retractall(alarm(_, _, _)),
     retractall(told).
 
@@ -140,7 +153,7 @@ alarm_set(Stamp0, Agent, Token) :-
     (   known(Stamp, Agent, Token)
     ->  true
     ;   assertz(alarm(Stamp, Agent, Token)),
-        tell_timer(set(Stamp))
+        put(Stamp)
     ).
 
 known(Stamp, Agent, Token) :-
@@ -167,6 +180,30 @@ alarm_count(Alarms, Indexed) :-
           thread_get_message(Queue, Indexed) ),
         message_queue_destroy(Queue)),
     count(Alarms).
+
+put(Stamp) :-
+    new(New),
+    !,
+    catch(thread_send_message(New, Stamp), error(existence_error(_, _), _),
+          true),                        % stopping
+    (   urgent(Stamp, New)
+    ->  tell_timer(look)
+    ;   timer(_)
+    ->  true
+    ;   timer_check
+    ).
+put(_).
+
+urgent(Stamp, _) :-
+    flag(typhon_next, Next, Next),
+    Stamp < Next,
+    !.
+urgent(_, New) :-
+    most_new(Most),
+    message_queue_property(New, size(Size)),
+    Size > Most.
+
+most_new(500).
 
 tell_timer(Message) :-
     (   timer(Timer)
@@ -203,32 +240,51 @@ ticking :-
     tick(Index).
 
 tick(Index0) :-
-    (   hear(Index0, Message)
-    ->  heard(Message, Index0, Index)
-    ;   rung(Index0, Index)
-    ),
-    (   Index == stop
-    ->  true
-    ;   tick(Index)
+    new(New),
+    empty(New, Index0, Index1),
+    first(Index1, Stamp),
+    announce(Stamp),
+    (   message_queue_property(New, size(Size)),
+        Size > 0
+    ->  tick(Index1)
+    ;   turn(Stamp, Index1, Index),
+        (   Index == stop
+        ->  true
+        ;   tick(Index)
+        )
     ).
+
+turn(Stamp, Index0, Index) :-
+    (   hear(Stamp, Message)
+    ->  heard(Message, Index0, Index)
+    ;   rung(Stamp, Index0, Index)
+    ).
+
+empty(New, Index0, Index) :-
+    (   thread_peek_message(New, _)
+    ->  thread_get_message(New, Stamp),
+        insert(Index0, Stamp, Index1),
+        empty(New, Index1, Index)
+    ;   Index = Index0
+    ).
+
+announce(Stamp) :-
+    flag(typhon_next, _, min(Stamp, 1.0e300)).
 
 %   No wait is longer than a day: the system may not know so late a time.
 
-hear(Index, Message) :-
-    (   first(Index, Stamp)
-    ->  thread_self(Me),
-        get_time(Now),
-        Deadline is min(Stamp, Now+86400),
-        thread_get_message(Me, Message, [deadline(Deadline)])
-    ;   thread_get_message(Message)
-    ).
+hear(inf, Message) :-
+    !,
+    thread_get_message(Message).
+hear(Stamp, Message) :-
+    thread_self(Me),
+    get_time(Now),
+    Deadline is min(Stamp, Now+86400),
+    thread_get_message(Me, Message, [deadline(Deadline)]).
 
 heard(stop, _, stop) :-
     \+ timing,
     !.
-heard(set(Stamp), Index0, Index) :-
-    !,
-    insert(Index0, Stamp, Index).
 heard(count(Queue), Index, Index) :-
     !,
     index_size(Index, Size),
@@ -237,15 +293,14 @@ heard(_, Index, Index).
 
 %   What is due may have been cleared.
 
-rung(Index0, Index) :-
+rung(Stamp, Index0, Index) :-
     get_time(Now),
-    first(Index0, Stamp),
     Stamp =< Now,
     !,
     findall(Alarm, clause(alarm(Stamp, _, _), true, Alarm), Alarms),
     maplist(go_off, Alarms),
     delete(Index0, Stamp, Index).
-rung(Index, Index).
+rung(_, Index, Index).
 
 %   An alarm goes off once, whatever signals the timer.
 
@@ -333,13 +388,14 @@ delete(index(Stamps0, Left), Stamp, index(Stamps, Left)) :-
     ;   Stamps = Stamps0
     ).
 
-%   first(+Index, -Stamp) is semidet.
+%   first(+Index, -Stamp): `inf` if there is none.
 
-first(least(Stamp, _), Stamp) :-
-    Stamp < inf.
+first(least(Stamp, _), Stamp).
 first(index(Stamps, _), Stamp) :-
-    \+ rb_empty(Stamps),
-    rb_min(Stamps, Stamp, _).
+    (   rb_min(Stamps, First, _)
+    ->  Stamp = First
+    ;   Stamp = inf
+    ).
 
 index_size(least(_, _), 1).
 index_size(index(Stamps, _), Size) :-
