@@ -5,7 +5,7 @@
             post_waiting/2              % +Id, -Messages
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(agent,
               [ agent/5, agent_status/3, with_agent/2, agent_mail/2,
@@ -41,6 +41,7 @@ post_on/2 and the hooks never do.
 */
 
 :- multifile
+    error:has_type/2,
     typhon_endpoint:received/3,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
@@ -119,9 +120,21 @@ pass_on(Id, Letter) :-
                )).
 
 typhon_endpoint:received(message, message(Id, Mail, Left), _) :-
-    pass_on(Id, letter(Mail, Left)).
+    must_be(atom, Id),
+    must_be(nonneg, Left),
+    must_be(list(mail), Mail),
+    (   Mail == []
+    ->  true
+    ;   pass_on(Id, letter(Mail, Left))
+    ).
 typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
+    must_be(list(mail), Mail),
     report(Formal, Id, Mail).
+
+error:has_type(mail, Mail) :-
+    subsumes_term(mail(_, _, _), Mail),
+    arg(1, Mail, Origin),
+    atom(Origin).
 
 %!  post_waiting(+Id, -Messages:list) is det.
 %

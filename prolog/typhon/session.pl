@@ -23,6 +23,7 @@ _Threading_: any thread; a mutex makes sessions and routes one at a time.
 The count of what was received is for the thread of the connection alone.
 */
 
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module(crew, [crew_tell/1]).
 
@@ -89,19 +90,17 @@ route_add(Address, Session) :-
     arg(1, Session, Key),
     with_mutex(typhon_session,
                (   session(Key, Session)
-               ->  displace(Address),
-                   assertz(route(Address, Session))
+               ->  reroute(Address, Session)
                ;   true
                )).
 
-%   The keeper asks whether another route leads to it: this one must be gone.
+%   The keeper looks whether another address leads to the displaced one.
 
-displace(Address) :-
-    retract(route(Address, session(Key, _, _, _, _))),
-    !,
-    ignore(crew_tell(displaced(Key))),
-    displace(Address).
-displace(_).
+reroute(Address, Session) :-
+    findall(Key, route(Address, session(Key, _, _, _, _)), Displaced),
+    retractall(route(Address, _)),
+    assertz(route(Address, Session)),
+    forall(member(Key, Displaced), ignore(crew_tell(displaced(Key)))).
 
 %!  session_received(+Key, -Count) is semidet.
 %!  session_note_received(+Key, +Count) is det.

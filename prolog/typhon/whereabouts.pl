@@ -11,6 +11,7 @@
             outcome_wait/3              % +Id, +Seconds, +Asker
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent, [agent_home/2, agent/5]).
@@ -107,7 +108,7 @@ moved(Id, Address, Hops, Process) :-
     with_mutex(typhon_born, moved_(Id, Address, Hops, Process)).
 
 %   The new fact comes before the old one goes: others read meanwhile.  Of
-%   whom it has never heard a home was born before it was started again.
+%   whom the home has never heard was born before it was started again.
 
 moved_(Id, Address, Hops, Process) :-
     clause(born(Id, _, Hops0, _), true, Old),
@@ -121,7 +122,11 @@ moved_(Id, _, _, _) :-
     outcome(Id, _),
     !.
 moved_(Id, Address, Hops, Process) :-
+    home_endpoint(Id, Home),
+    endpoint_address(Home),
+    !,
     assertz(born(Id, Address, Hops, Process)).
+moved_(_, _, _, _).
 
 remember_forward(Id, Address, Hops, Process) :-
     with_mutex(typhon_forward,
@@ -188,8 +193,11 @@ typhon_endpoint:received(whereabouts, All, Peer) :-
     maplist(news(Process), All).
 
 news(Process, located(Id, Address, Hops)) :-
+    must_be(nonneg, Hops),
+    address_parts(Address, _, _),
     moved(Id, Address, Hops, Process).
 news(_, ended(Id, Outcome, Hops)) :-
+    must_be(nonneg, Hops),
     ended(Id, Outcome, Hops).
 
 %!  agent_reached(+Id, +Hops, :OnAnswer) is det.
