@@ -122,16 +122,16 @@ pass_on(Id, Letter) :-
 typhon_endpoint:received(message, message(Id, Mail, Left), _) :-
     must_be(atom, Id),
     must_be(nonneg, Left),
-    must_be(list(mail), Mail),
+    must_be(list(typhon_mail), Mail),
     (   Mail == []
     ->  true
     ;   pass_on(Id, letter(Mail, Left))
     ).
 typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
-    must_be(list(mail), Mail),
+    must_be(list(typhon_mail), Mail),
     report(Formal, Id, Mail).
 
-error:has_type(mail, Mail) :-
+error:has_type(typhon_mail, Mail) :-
     subsumes_term(mail(_, _, _), Mail),
     arg(1, Mail, Origin),
     atom(Origin).
