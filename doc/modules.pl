@@ -32,7 +32,7 @@ layer(programs, '#d6e4f5',
 layer('the wire', '#e6dcf0',
       [ endpoint, keeper, quest, acceptor, connection, reader, request,
         session, outbox, unsent, contacts, refusals, crew, hello, auth, frame,
-        text, aside ]).
+        text, fifo, aside ]).
 
 picture :-
     rooms(Dir),

@@ -8,7 +8,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3]).
-:- use_module(mailbox, [queue_empty/2]).
+:- use_module(fifo, [fifo_empty/2]).
 
 /** <module> Mail that waits for a way to its agent
 
@@ -50,13 +50,13 @@ backlog_add(Id, Letter) :-
 backlog_begin(Id, Letters, Tries) :-
     retract(waits(Id, Queue, Tries, idle)),
     !,
-    queue_empty(Queue, Letters),
+    fifo_empty(Queue, Letters),
     assertz(waits(Id, Queue, Tries, tried)).
 
 backlog_again(Id, Letters, Tries) :-
     retract(waits(Id, Queue, _, tried)),
     !,
-    queue_empty(Queue, Newer),
+    fifo_empty(Queue, Newer),
     append(Letters, Newer, All),
     maplist(thread_send_message(Queue), All),
     assertz(waits(Id, Queue, Tries, idle)).
@@ -77,7 +77,7 @@ backlog_done(Id) :-
 
 backlog_all(Id, Letters) :-
     (   retract(waits(Id, Queue, _, idle))
-    ->  queue_empty(Queue, Letters),
+    ->  fifo_empty(Queue, Letters),
         message_queue_destroy(Queue)
     ;   Letters = []
     ).

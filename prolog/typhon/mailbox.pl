@@ -3,11 +3,10 @@
             mail_take/2,                % +Id, ?Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
-            mail_back/2,                % +Id, +Messages
-            queue_take/2,               % +Queue, ?Message
-            queue_empty/2               % +Queue, -Messages
+            mail_back/2                 % +Id, +Messages
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(fifo, [fifo_empty/2, fifo_take/2]).
 
 /** <module> The mailboxes of agents
 
@@ -40,7 +39,7 @@ mail_put(Id, Message) :-
 
 mail_take(Id, Message) :-
     box(Id, Queue),
-    queue_take(Queue, Message).
+    fifo_take(Queue, Message).
 
 %!  mail_all(+Id, -Messages:list) is det.
 %!  mail_list(+Id, -Messages:list) is det.
@@ -49,14 +48,14 @@ mail_take(Id, Message) :-
 
 mail_all(Id, Messages) :-
     (   retract(box(Id, Queue))
-    ->  queue_empty(Queue, Messages),
+    ->  fifo_empty(Queue, Messages),
         message_queue_destroy(Queue)
     ;   Messages = []
     ).
 
 mail_list(Id, Messages) :-
     (   box(Id, Queue)
-    ->  queue_empty(Queue, Messages),
+    ->  fifo_empty(Queue, Messages),
         maplist(thread_send_message(Queue), Messages)
     ;   Messages = []
     ).
@@ -71,22 +70,3 @@ mail_back(Id, Older) :-
     mail_all(Id, Newer),
     maplist(mail_put(Id), Older),
     maplist(mail_put(Id), Newer).
-
-%!  queue_take(+Queue, ?Message) is semidet.
-%!  queue_empty(+Queue, -Messages:list) is det.
-%
-%   Take the first message of a queue that unifies, or all.  Only for queues
-%   from which nobody else takes at the same time.  They never wait: in
-%   sig_atomic/1 a wait that expires does not end on 9.0.4, see
-%   typhon_aside.
-
-queue_take(Queue, Message) :-
-    thread_peek_message(Queue, Message),
-    thread_get_message(Queue, Message, [timeout(0)]).
-
-queue_empty(Queue, Messages) :-
-    (   queue_take(Queue, Message)
-    ->  Messages = [Message|More],
-        queue_empty(Queue, More)
-    ;   Messages = []
-    ).

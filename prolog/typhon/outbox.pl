@@ -42,6 +42,7 @@ empty.
 :- use_module(library(settings), [setting/2]).
 :- use_module(crew, [crew_retire/2, crew_signal/2, crew_spawn/2,
                      crew_tell/1]).
+:- use_module(fifo, [fifo_empty/2, fifo_take/2]).
 :- use_module(frame, [bytes_term/3, frame_write/2, term_bytes/3]).
 :- use_module(session, [session/2, session_forget/1]).
 
@@ -260,18 +261,11 @@ next_frame(queues(_, Key, _, _), frame(Bytes)) :-
     retract(control(Key, _, Bytes)),
     !.
 next_frame(queues(_, _, Sent, Waiting), frame(Bytes)) :-
-    take(Waiting, Bytes),
+    fifo_take(Waiting, Bytes),
     !,
     thread_send_message(Sent, Bytes).
 next_frame(queues(_, Key, _, _), none) :-
     retractall(pushing(Key, _)).
-
-%   Never wait for what may not come: in sig_atomic/1 a wait that expires
-%   does not end on 9.0.4, see typhon_aside.
-
-take(Queue, Message) :-
-    thread_peek_message(Queue, _),
-    thread_get_message(Queue, Message, [timeout(0)]).
 
 		 /*******************************
 		 *             LINKS            *
@@ -326,15 +320,8 @@ install(Key, Thread, Out, PeerCount) :-
     ignore(crew_tell(up(Key))).
 
 queue_list(Queue, List) :-
-    empty(Queue, List),
+    fifo_empty(Queue, List),
     forall(member(Message, List), thread_send_message(Queue, Message)).
-
-empty(Queue, List) :-
-    (   take(Queue, Message)
-    ->  List = [Message|More],
-        empty(Queue, More)
-    ;   List = []
-    ).
 
 %!  session_down(+Session, +Thread) is det.
 %
@@ -398,7 +385,7 @@ session_close(Session, Unsent) :-
 close_queues(Session, Key, List) :-
     session_forget(Session),
     (   queues(Key, _, Waiting)
-    ->  empty(Waiting, List)
+    ->  fifo_empty(Waiting, List)
     ;   List = []
     ),
     drop_queues(Key),
