@@ -23,18 +23,22 @@ real agent is called.
     typhon_scheduler:run/1,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2,
-    typhon_scheduler:kind/2.
+    typhon_scheduler:kind/2,
+    typhon_scheduler:running/1.
 :- dynamic
     typhon_scheduler:run/1,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2,
     typhon_scheduler:kind/2,
+    typhon_scheduler:running/1,
     event/1.
 
 :- asserta((typhon_scheduler:run(test(Goal)) :- !, call(Goal))).
 :- asserta((typhon_scheduler:fire(test(X), Token) :- !,
                 test_scheduler:happens(X-Token))).
 :- asserta(typhon_scheduler:over(test(_), over)).
+:- asserta((typhon_scheduler:running(test(test_scheduler:blocked(_, I))) :-
+                test_scheduler:event(blocked(I)))).
 :- asserta((typhon_scheduler:kind(test(_:Goal), Kind) :- !,
                 functor(Goal, Kind, _))).
 
@@ -206,6 +210,21 @@ test(fresh_work_beside_many_that_block, true(Held-N == 30-60)) :-
     Messages = [warning-typhon(held(8, Doers))],
     aggregate_all(count, member(test(_:blocked(_, _)), Doers), 8),
     Held = 30.
+test(the_census_ends) :-
+    few(Settings),
+    listening(scheduling(Settings,
+                         ( ends_after_census,
+                           wait_until(\+ typhon_held:census(_), 10) )), _).
+
+ends_after_census :-
+    message_queue_create(Q),
+    forall(between(1, 30, I),
+           schedule(none, test(test_scheduler:blocked(Q, I)))),
+    wait_until(test_scheduler:count(30), 10),
+    assertion(typhon_held:census(_)),
+    forall(between(1, 30, _), thread_send_message(Q, go)),
+    wait_until(message_queue_property(Q, size(0)), 10),
+    message_queue_destroy(Q).
 
 alarm_beside_them :-
     get_time(Now),
@@ -224,19 +243,6 @@ test(their_like_waits_when_there_is_no_more_room, true(Most =< 24)) :-
     memberchk(warning-typhon(held_full(_, held_workers, _)), Messages),
     length(Messages, Told),
     assertion(Told =< 4).
-test(a_signal_to_the_worker_of_an_agent, true(E == [done])) :-
-    message_queue_create(Q),
-    Blocked = test(test_scheduler:caught(Q)),
-    scheduling(( forall(between(1, 5, I),
-                        schedule(none, test(test_scheduler:blocked(Q, I)))),
-                 schedule(none, Blocked),
-                 wait_until(test_scheduler:count(6), 5),
-                 forget,
-                 scheduler_signal(Blocked, throw(signalled)),
-                 wait_until(test_scheduler:happened(done), 5),
-                 findall(X, event(X), E),
-                 forall(between(1, 5, _), thread_send_message(Q, go)) )),
-    message_queue_destroy(Q).
 test(three_hundred_agents_that_block, true(O-S == done-done)) :-
     message_queue_create(_, [alias(test_never)]),
     listening(with_hosts([alpha],
@@ -254,9 +260,6 @@ test(three_hundred_agents_that_block, true(O-S == done-done)) :-
     assertion(Messages = [warning-typhon(held(256, _))]).
 
 :- end_tests(held).
-
-caught(Q) :-
-    catch(blocked(Q, me), signalled, happens(done)).
 
 timer_signal(Goal) :-
     forall(typhon_timer:timer(Timer),
@@ -335,7 +338,7 @@ test(sleepers_wake_and_the_pool_says_why_it_does_not_grow,
                                  \+ agent_join(C, done, 0.3) )),
                            joined(C, done) )), Messages),
     message_queue_destroy(test_never),
-    memberchk(warning-typhon(held_full(2, no_memory, _)), Messages).
+    memberchk(warning-typhon(held_full(_, no_memory, _)), Messages).
 test(a_timer_that_ends_comes_back, true(O == done)) :-
     listening(with_hosts([alpha],
                          ( create([(main :- sleep(0.5))], A),
@@ -352,7 +355,7 @@ test(a_timer_that_ends_comes_back, true(O == done)) :-
 :- end_tests(no_threads).
 
 blocked(Queue, I) :-
-    happens(I),
+    happens(blocked(I)),
     thread_get_message(Queue, go).
 
 busy(I) :-

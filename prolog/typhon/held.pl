@@ -1,38 +1,43 @@
 :- module(typhon_held,
-          [ held_begin/2,               % +Work, -Turn
-            held_end/2,                 % +Turn, -Works
+          [ held_worker/0,
             held_ended/1,               % +Worker
-            held_by/2,                  % +Agent, -Worker
-            held_all/2,                 % +Count, +Since
+            held_begin/2,               % +Work, -Turn
+            held_end/1,                 % +Turn
+            held_turns/1,               % -Count
             held_room/2,                % +Count, +Max
-            held_full/2,                % +Count, +Why
+            held_full/1,                % +Why
             held_back/1,                % +Work
+            held_review/3,              % +Count, +Max, -Works
             held_forget/0
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(pairs), [pairs_values/2]).
+:- use_module(library(lists), [append/3, member/2, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 
 /** <module> Workers that are held by what blocks
 
-Which worker does what, and since when.  A native goal that blocks holds
-its worker; nobody knows beforehand which goals do.  A worker that has done
-one thing for longer than `held_seconds` is held.  The pool may grow beyond
-its maximum by as many as are held, so there are workers for what does not
-block, and people are told which agents do.
+A native goal that blocks holds its worker; nobody knows beforehand which
+goals do.  When all workers the pool may have are busy and the run queue
+does not move, a census begins: from then on workers note what they do and
+since when.  One that has not come back for `held_seconds` is held.  The
+pool may grow beyond its maximum by as many as are held, so there are
+workers for what does not block, and people are told which agents do.
 
-When there are `held_workers`, or no more threads can be made, it is known
-what kinds of work hold workers: agents of one program are of one kind.
-From then on these are held back until enough have come back.  `max_workers`
-more can be made for the other kinds.
+When there are `held_workers`, or no more threads can be made, the pool is
+full.  Then it matters what kinds of work hold workers: agents of one
+program are of one kind.  These kinds are held back until fewer workers are
+held.  `max_workers` more can be made for the other kinds.
 
-*Threading*: workers note what they begin and end; held_all/2, held_room/2
-and held_full/2 are for the timer's thread alone.
+The census ends when few workers are held.  Without one the notes would
+cost a third of the speed of hops; the count of turns is all that is kept.
+
+*Threading*: workers note what they begin and end.  held_room/2,
+held_full/1 and held_review/3 are for the timer's thread alone.
 */
 
 :- multifile
     typhon_scheduler:kind/2,            % Agent, Kind
+    typhon_scheduler:running/1,         % Agent
     prolog:message//1.
 
 :- setting(held_seconds, number, 1,
@@ -41,27 +46,61 @@ and held_full/2 are for the timer's thread alone.
            "When there are so many workers, what blocks is held back").
 
 :- dynamic
+    census/1,                   % Began
+    returned/1,                 % Worker: came back during the census
     turn/4,                     % Worker, agent or goal, Agent or PI, Since
+    full/1,                     % Why there can be no more workers
     blocking/1,                 % Kind: is held back
     back/1,                     % Work that is held back
-    warned/1.                   % grown, full: people were told
+    warned/0.                   % that the pool is beyond its maximum
 
                 /*******************************
                 *             TURNS            *
                 *******************************/
 
-%!  held_begin(+Work, -Turn) is det.
-%!  held_end(+Turn, -Works) is det.
+%!  held_worker is det.
 %!  held_ended(+Worker) is det.
 %
-%   This worker begins with Work, ends it, or has ended itself.  Works were
-%   held back, and may be done now.
+%   This thread is a worker from now on; Worker has ended.
+
+held_worker :-
+    (   census(_)
+    ->  thread_self(Me),
+        comes_back(Me)
+    ;   true
+    ).
+
+held_ended(Worker) :-
+    retractall(returned(Worker)),
+    retractall(turn(Worker, _, _, _)).
+
+comes_back(Worker) :-
+    (   returned(Worker)
+    ->  true
+    ;   assertz(returned(Worker))
+    ).
+
+%!  held_begin(+Work, -Turn) is det.
+%!  held_end(+Turn) is det.
+%
+%   This worker begins with Work, and ends it.
 
 held_begin(Work, Turn) :-
-    thread_self(Me),
-    get_time(Now),
-    doing(Work, Type, What),
-    asserta(turn(Me, Type, What, Now), Turn).
+    flag(typhon_taken, Taken, Taken+1),
+    (   census(_)
+    ->  thread_self(Me),
+        comes_back(Me),
+        get_time(Now),
+        doing(Work, Type, What),
+        asserta(turn(Me, Type, What, Now), Turn)
+    ;   Turn = none
+    ).
+
+held_end(none) :-
+    !,
+    held_worker.
+held_end(Turn) :-
+    catch(erase(Turn), error(existence_error(_, _), _), true).
 
 %   A goal may be large: its name will do.
 
@@ -71,62 +110,68 @@ doing(goal(Goal), goal, Module:Name/Arity) :-
     strip_module(Goal, Module, Plain),
     functor(Plain, Name, Arity).
 
-held_end(Turn, Works) :-
-    erase(Turn),
-    (   blocking(_)
-    ->  may_go(Works)
-    ;   Works = []
-    ).
+%!  held_turns(-Count) is det.
+%
+%   How often workers have begun with something.
 
-held_ended(Worker) :-
-    retractall(turn(Worker, _, _, _)).
-
-%!  held_by(+Agent, -Worker) is nondet.
-
-held_by(Agent, Worker) :-
-    turn(Worker, agent, Agent, _).
+held_turns(Count) :-
+    flag(typhon_taken, Count, Count).
 
 %!  held_forget is det.
 
 held_forget :-
-    retractall(turn(_, _, _, _)),
+    end_census,
+    retractall(full(_)),
     retractall(blocking(_)),
     retractall(back(_)),
-    retractall(warned(_)).
+    retractall(warned).
 
                 /*******************************
-                *          IS THERE ROOM       *
+                *            CENSUS            *
                 *******************************/
-
-%!  held_all(+Count, +Since) is semidet.
-%
-%   Each of Count workers does what it did at the time Since.
-
-held_all(Count, Since) :-
-    aggregate_all(count, held_since(Since, _, _), Count).
 
 %!  held_room(+Count, +Max) is semidet.
 %
-%   Of Count workers so many are held that there is room for one more where
-%   Max others may be.
+%   The run queue is stuck with Count workers.  There may be one more: so
+%   many are held that Max others are not reached.
 
 held_room(Count, Max) :-
     Count < Max,
-    !,
-    retractall(warned(grown)).
+    !.
 held_room(Count, Max) :-
-    held(Held),
+    begin_census,
+    held(Count, Held),
     Count-Held < Max,
     setting(held_workers, Most),
     (   Count < Most
     ->  warn(Count)
-    ;   held_full(Count, held_workers),
+    ;   held_full(held_workers),
         Count < Most+Max
     ).
 
-held(Count) :-
+begin_census :-
+    census(_),
+    !.
+begin_census :-
+    get_time(Now),
+    assertz(census(Now)).
+
+end_census :-
+    retractall(census(_)),
+    retractall(turn(_, _, _, _)),
+    retractall(returned(_)).
+
+%   held(+Count, -Held): of Count workers.
+
+held(Count, Held) :-
     long_ago(Stamp),
-    aggregate_all(count, held_since(Stamp, _, _), Count).
+    (   census(Began),
+        Began < Stamp
+    ->  aggregate_all(count, returned(_), Returned),
+        aggregate_all(count, held_since(Stamp, _, _), Late),
+        Held is max(0, Count-Returned)+Late
+    ;   Held = 0
+    ).
 
 held_since(Stamp, Type, What) :-
     turn(_, Type, What, Since),
@@ -137,43 +182,65 @@ long_ago(Stamp) :-
     get_time(Now),
     Stamp is Now-Seconds.
 
-warn(_) :-
-    warned(grown),
-    !.
-warn(Count) :-
-    assertz(warned(grown)),
-    doers(Doers),
-    print_message(warning, typhon(held(Count, Doers))).
-
-%   What has been done for longest comes first.
-
-doers(Doers) :-
-    findall(Since-What, turn(_, _, What, Since), Pairs),
-    keysort(Pairs, Sorted),
-    pairs_values(Sorted, Doers).
-
-                /*******************************
-                *           NO MORE ROOM       *
-                *******************************/
-
-%!  held_full(+Count, +Why) is det.
+%!  held_full(+Why) is det.
 %
-%   There are Count workers, and cannot be more: what is known to block is
-%   held back.
+%   There cannot be more workers.
 
-held_full(Count, Why) :-
+held_full(Why) :-
+    begin_census,
+    (   full(_)
+    ->  true
+    ;   assertz(full(Why))
+    ).
+
+%!  held_review(+Count, +Max, -Works) is semidet.
+%
+%   From time to time: what blocks is held back when the pool is full, and
+%   when few workers are held, Works that were held back may be done, and
+%   the census ends.  Fails when there is none any more.
+
+held_review(Count, Max, Works) :-
+    held(Count, Held),
     long_ago(Stamp),
-    findall(Kind, ( held_since(Stamp, Type, What), kind(Type, What, Kind) ),
+    census(Began),
+    (   Began < Stamp,
+        few(Count, Held, Max)
+    ->  let_go(Works),
+        end_census
+    ;   Works = [],
+        full(Why)
+    ->  hold_back(Count, Why, Stamp)
+    ;   Works = []
+    ).
+
+%   The pool is far from full.
+
+few(Count, Held, Max) :-
+    full(_),
+    !,
+    Held < Count//2,
+    Held < Max.
+few(_, Held, Max) :-
+    Held < Max//2.
+
+let_go(Works) :-
+    retractall(warned),
+    with_mutex(typhon_held,
+               ( retractall(full(_)),
+                 retractall(blocking(_)),
+                 findall(Work, back(Work), Works),
+                 retractall(back(_)) )).
+
+hold_back(Count, Why, Stamp) :-
+    findall(Kind, ( doer(Stamp, Type, What), kind(Type, What, Kind) ),
             Kinds0),
     sort(Kinds0, Kinds),
-    findall(Kind, ( member(Kind, Kinds), \+ blocking(Kind) ), New),
+    findall(Kind, blocking(Kind), Old),
+    subtract(Kinds, Old, New),
     forall(member(Kind, New), assertz(blocking(Kind))),
-    (   New == [],
-        warned(full)
+    (   New == []
     ->  true
-    ;   retractall(warned(full)),
-        assertz(warned(full)),
-        doers(Doers),
+    ;   doers(Doers),
         print_message(warning, typhon(held_full(Count, Why, Doers)))
     ).
 
@@ -181,6 +248,31 @@ kind(agent, Agent, Kind) :-
     typhon_scheduler:kind(Agent, Kind),
     !.
 kind(goal, Goal, goal(Goal)).
+
+%   doer(+Stamp, ?Type, ?What): it holds a worker since before Stamp.  What
+%   began before the census is not on record, but agents that run are known.
+
+doer(Stamp, Type, What) :-
+    held_since(Stamp, Type, What).
+doer(_, agent, Agent) :-
+    typhon_scheduler:running(Agent),
+    \+ turn(_, agent, Agent, _).
+
+warn(_) :-
+    warned,
+    !.
+warn(Count) :-
+    assertz(warned),
+    doers(Doers),
+    print_message(warning, typhon(held(Count, Doers))).
+
+doers(Doers) :-
+    long_ago(Stamp),
+    findall(What, doer(Stamp, _, What), Doers).
+
+                /*******************************
+                *           HELD BACK          *
+                *******************************/
 
 %!  held_back(+Work) is semidet.
 %
@@ -198,21 +290,6 @@ put_back(Kind, Work) :-
     !,
     assertz(back(Work)).
 
-%   may_go(-Works): a worker has come back.  What is held back may go when
-%   there is room again.
-
-may_go(Works) :-
-    held(Held),
-    setting(held_workers, Most),
-    Held < Most*3//4,
-    !,
-    with_mutex(typhon_held,
-               ( retractall(blocking(_)),
-                 retractall(warned(full)),
-                 findall(Work, back(Work), Works),
-                 retractall(back(_)) )).
-may_go([]).
-
                 /*******************************
                 *           MESSAGES           *
                 *******************************/
@@ -222,9 +299,9 @@ prolog:message(typhon(held(Count, Doers))) -->
       nl ],
     doers(Doers).
 prolog:message(typhon(held_full(Count, Why, Doers))) -->
-    [ 'All ~D workers are held by what blocks, and there cannot be more \c
-       (~w):'-[Count, Why], nl,
-      'their like waits until some have come back.'-[], nl ],
+    [ '~D workers are held or busy, and there cannot be more (~w).'-
+      [Count, Why], nl,
+      'The like of what blocks waits until some have come back.'-[], nl ],
     doers(Doers).
 
 doers(Doers) -->
@@ -233,6 +310,6 @@ doers(Doers) -->
       !,
       length(More, Count)
     },
-    [ 'They are ~p and ~D more'-[First, Count] ].
+    [ 'It is ~p and ~D more'-[First, Count] ].
 doers(Doers) -->
-    [ 'They are ~p'-[Doers] ].
+    [ 'It is ~p'-[Doers] ].

@@ -24,7 +24,7 @@
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(process, [process_acquire/2, process_release/1]).
 :- use_module(scheduler,
-              [ scheduler_limit/2, scheduler_unlimit/1, scheduler_signal/2 ]).
+              [ scheduler_limit/2, scheduler_unlimit/1, scheduler_signal/1 ]).
 
 /** <module> Starting, stopping and linking hosts
 
@@ -189,7 +189,10 @@ clear(Name, Deadline) :-
     ->  true
     ;   forall(( member(Id, Ids), stays(Id) ),
                ignore(agent_do(Id, dispose))),
-        forall(( member(Id, Ids), Now > Deadline ), interrupt(Id)),
+        (   Now > Deadline
+        ->  interrupt(Name, Ids)
+        ;   true
+        ),
         thread_self(Me),
         \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
         clear(Name, Deadline)
@@ -201,15 +204,19 @@ stays(Id) :-
 
 %   abort is the one exception that the agent's own catch/3 cannot stop.
 
-interrupt(Id) :-
-    (   agent_status(Id, running, _)
-    ->  scheduler_signal(Id, typhon_hosting:stop_running(Id))
-    ;   ignore(agent_end(Id, disposed))
+interrupt(Name, Ids) :-
+    forall(( member(Id, Ids), \+ agent_status(Id, running, _) ),
+           ignore(agent_end(Id, disposed))),
+    (   member(Id, Ids),
+        agent_status(Id, running, _)
+    ->  scheduler_signal(typhon_hosting:stop_running(Name))
+    ;   true
     ).
 
-stop_running(Id) :-
-    (   nb_current(typhon_context, context(_, Id0, _)),
-        Id0 == Id
+stop_running(Name) :-
+    (   nb_current(typhon_context, context(Name0, Id, _)),
+        Name0 == Name,
+        Id \== none
     ->  abort
     ;   true
     ).

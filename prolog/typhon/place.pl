@@ -9,7 +9,7 @@
           ]).
 :- use_module(library(error),
               [must_be/2, permission_error/3, existence_error/2]).
-:- use_module(library(apply), [exclude/3]).
+:- use_module(library(apply), [exclude/3, include/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module(program, [clause_parts/3]).
 
@@ -113,8 +113,8 @@ tuple_take(Place, Fact) :-
 %!  place_deliver(+Place, +Payload, -PIs) is det.
 %
 %   Install the clauses of payload(Name, PIs, Clauses).  A payload of the
-%   same name is replaced: who calls it meanwhile meets the old clauses or
-%   the new ones.  On an error nothing has changed.
+%   same name is replaced: the new clauses come before the old ones go, so
+%   whoever calls it meanwhile meets some.  On an error nothing has changed.
 %
 %   @error permission_error(deliver, procedure, PI) if the place defines
 %          PI otherwise
@@ -128,14 +128,32 @@ deliver(Place, Name, PIs, Clauses) :-
     subtract(OldPIs, PIs, Gone),
     forall(member(PI, New), free(Place, PI)),
     exclude(own(Place), New, Unknown),
+    refs(Place, OldPIs, Old),
     catch(( forall(member(PI, Unknown), dynamic(Place:PI)),
-            transaction(replace(Place, Name, OldPIs, PIs, Clauses))
+            forall(member(Clause, Clauses), add(Place, Clause))
           ),
           error(Formal, Context),
-          ( forall(( member(PI, Unknown), own(Place, PI) ),
-                   abolish(Place:PI)),
+          ( withdraw(Place, PIs, Old, Unknown),
             throw(error(Formal, Context)) )),
-    forall(member(PI, Gone), abolish(Place:PI)).
+    forall(member(Ref, Old), erase(Ref)),
+    forall(member(PI, Gone), abolish(Place:PI)),
+    retractall(delivered(Place, Name, _)),
+    assertz(delivered(Place, Name, PIs)).
+
+withdraw(Place, PIs, Old, Unknown) :-
+    include(own(Place), PIs, Own),
+    refs(Place, Own, Now),
+    subtract(Now, Old, New),
+    forall(member(Ref, New), erase(Ref)),
+    include(own(Place), Unknown, Declared),
+    forall(member(PI, Declared), abolish(Place:PI)).
+
+refs(Place, PIs, Refs) :-
+    findall(Ref,
+            ( member(Name/Arity, PIs),
+              functor(Head, Name, Arity),
+              clause(Place:Head, _, Ref) ),
+            Refs).
 
 old_payload(Place, Name, PIs) :-
     (   delivered(Place, Name, PIs0)
@@ -147,16 +165,6 @@ own(Place, Name/Arity) :-
     functor(Head, Name, Arity),
     predicate_property(Place:Head, dynamic),
     \+ predicate_property(Place:Head, imported_from(_)).
-
-replace(Place, Name, OldPIs, PIs, Clauses) :-
-    retractall(delivered(Place, Name, _)),
-    forall(member(PI, OldPIs), empty(Place, PI)),
-    forall(member(Clause, Clauses), add(Place, Clause)),
-    assertz(delivered(Place, Name, PIs)).
-
-empty(Place, Name/Arity) :-
-    functor(Head, Name, Arity),
-    retractall(Place:Head).
 
 free(Place, Name/Arity) :-
     functor(Head, Name, Arity),

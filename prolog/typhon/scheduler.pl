@@ -6,7 +6,6 @@
             schedule/2,                 % +Host, +Agent
             scheduler_call/1,           % :Goal
             scheduler_signal/1,         % :Goal
-            scheduler_signal/2,         % +Agent, :Goal
             scheduler_workers/1         % -Count
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -28,8 +27,8 @@ shrinks when workers are idle.
 There are at most `max_workers`, not counting those that were held for
 long, see room `held`.
 
-What an agent is, the room above says with the hooks run/1, fire/2, over/2
-and kind/2.
+What an agent is, the room above says with the hooks run/1, fire/2, over/2,
+kind/2 and running/1.
 
 *Threading*: schedule/2 and alarms from any thread.  The timer thread
 decides when to grow.  A mutex makes the pool, and its end, whole: when
@@ -38,14 +37,14 @@ the run queue is gone no worker is added.
 
 :- meta_predicate
     scheduler_call(0),
-    scheduler_signal(0),
-    scheduler_signal(+, 0).
+    scheduler_signal(0).
 
 :- multifile
     run/1,                      % Agent: run it until it has to wait
     fire/2,                     % Agent, Token: an alarm went off
     over/2,                     % Agent, Token: nobody waits for this alarm
     kind/2,                     % Agent, Kind: Agents that may block alike
+    running/1,                  % Agent: has a worker
     prolog:message//1.
 
 :- setting(min_workers, positive_integer, 2, "Workers kept when idle").
@@ -76,6 +75,7 @@ start :-
 start :-
     message_queue_create(Queue),
     flag(typhon_watched, _, 0),
+    flag(typhon_reviewed, _, 0),
     assertz(run_queue(Queue)),
     setting(min_workers, N),
     catch(( timer_start,
@@ -181,34 +181,31 @@ watch_pool :-
     flag(typhon_watched, Watched, 1),
     (   Watched =:= 0
     ->  setting(stuck_seconds, Seconds),
-        get_time(Now),
-        Stamp is Now+Seconds,
-        alarm_set(Stamp, pool, watch(Now))
+        held_turns(Turns),
+        alarm_in(Seconds, watch(Turns))
     ;   true
     ).
 
+alarm_in(Seconds, Token) :-
+    get_time(Now),
+    Stamp is Now+Seconds,
+    alarm_set(Stamp, pool, Token).
+
 %!  scheduler_signal(:Goal) is det.
-%!  scheduler_signal(+Agent, :Goal) is det.
 %
-%   Run Goal in all workers, or in the one that runs Agent, in the middle
-%   of whatever they do.
+%   Run Goal in all workers, in the middle of whatever they do.
 
 scheduler_signal(Goal) :-
-    forall(worker(Worker), signal(Worker, Goal)).
-
-scheduler_signal(Agent, Goal) :-
-    forall(held_by(Agent, Worker), signal(Worker, Goal)).
-
-signal(Worker, Goal) :-
-    catch(thread_signal(Worker, Goal),
-          error(existence_error(_, _), _), true).
+    forall(worker(Worker),
+           catch(thread_signal(Worker, Goal),
+                 error(existence_error(_, _), _), true)).
 
                 /*******************************
                 *            WORKERS           *
                 *******************************/
 
 add_worker(Queue) :-
-    thread_create(worker_loop(Queue), Worker, [at_exit(replace_worker)]),
+    thread_create(work_from(Queue), Worker, [at_exit(replace_worker)]),
     assertz(worker(Worker)).
 
 %   A worker that was aborted in the middle of a goal.
@@ -225,6 +222,10 @@ replace_worker(Me) :-
     thread_detach(Me),
     catch(add_worker(Queue), error(_, _), true).    % watching makes one
 replace_worker(_).
+
+work_from(Queue) :-
+    held_worker,
+    worker_loop(Queue).
 
 worker_loop(Queue) :-
     setting(idle_seconds, Seconds),
@@ -264,8 +265,7 @@ work(Work, Queue) :-
     ->  true
     ;   held_begin(Work, Turn),
         catch(work(Work), Ball, survive(Ball)),
-        held_end(Turn, Works),
-        maplist(enqueue, Works)
+        held_end(Turn)
     ),
     worker_loop(Queue).
 
@@ -311,24 +311,35 @@ superfluous :-
                 *          THE POOL GROWS      *
                 *******************************/
 
-%   The pool is watched since the time Since: work waits, and nobody was
-%   idle.  When none was taken meanwhile there are more workers: one, or
-%   some where there are many.
+%   The pool is watched since Turns turns began: work waits, and nobody was
+%   idle.  When none began meanwhile there are more workers: one, or some
+%   where there are many.
 
-fire(pool, watch(Since)) :-
+fire(pool, watch(Turns)) :-
     !,
     flag(typhon_watched, _, 0),
     (   run_queue(Queue),
         waits(Queue)
-    ->  ignore(with_mutex(typhon_scheduler, grow(Queue, Since))),
+    ->  ignore(with_mutex(typhon_scheduler, grow(Queue, Turns))),
         watch_pool
     ;   true
     ).
-
-grow(Queue, Since) :-
-    run_queue(Queue),
+fire(pool, review) :-
+    !,
+    flag(typhon_reviewed, _, 0),
     scheduler_workers(Count),
-    held_all(Count, Since),
+    setting(max_workers, Max),
+    (   run_queue(_),
+        held_review(Count, Max, Works)
+    ->  maplist(enqueue, Works),
+        review_later
+    ;   true
+    ).
+
+grow(Queue, Turns) :-
+    run_queue(Queue),
+    held_turns(Turns),
+    scheduler_workers(Count),
     setting(max_workers, Max),
     Some is 1+Count//8,
     forall(between(1, Some, _), grow_by_one(Queue, Max)).
@@ -338,6 +349,20 @@ grow(Queue, Since) :-
 grow_by_one(Queue, Max) :-
     waits(Queue),
     scheduler_workers(Count),
+    (   Count < Max
+    ->  true
+    ;   review_later
+    ),
     held_room(Count, Max),
     catch(add_worker(Queue), error(resource_error(What), _),
-          ( held_full(Count, What), fail )).
+          ( held_full(What), review_later, fail )).
+
+%   While workers are held, this is looked at from time to time.
+
+review_later :-
+    flag(typhon_reviewed, Reviewed, 1),
+    (   Reviewed =:= 0
+    ->  setting(typhon_held:held_seconds, Seconds),
+        alarm_in(Seconds, review)
+    ;   true
+    ).
