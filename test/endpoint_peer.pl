@@ -22,6 +22,8 @@ Posts of kind `note` are remembered. Requests are
   - greet(Address, N): the same to another, in a thread of its own
   - cross(Address, Size, N): posts a string of Size to Address N times, and
     asks it for one, in a thread of its own
+  - ask(Address, Size), of kind `ask_back`: asks Address for a string, in a
+    thread of its own
   - reach(Addresses): posts to all of them at once; the answer are those that
     could not be reached
   - string(Size): the answer is one
@@ -68,6 +70,9 @@ typhon_endpoint:requested(remember, Note, _, ReplyTo) :-
     endpoint_reply(ReplyTo, Note).
 typhon_endpoint:requested(cross, cross(Address, Size, N), _, ReplyTo) :-
     in_thread(( cross(Address, Size, N),
+                endpoint_reply(ReplyTo, done) )).
+typhon_endpoint:requested(ask_back, ask(Address, Size), _, ReplyTo) :-
+    in_thread(( endpoint_call(Address, string, Size, answer(_), 60),
                 endpoint_reply(ReplyTo, done) )).
 typhon_endpoint:requested(reach, Addresses, _, ReplyTo) :-
     in_thread(( reach(Addresses, Missed),

@@ -708,6 +708,19 @@ test(dispose, [forall(in_state(State, _, _)), O == disposed]) :-
                  joined(A, O),
                  gone(A),
                  wait_until(host_property(alpha, load(0)), 5) )).
+test(late_answers_are_left_to_nobody, Left == 0) :-
+    with_hosts([alpha],
+               ( create([(main :- leave(begun), shell('sleep 0.5')),
+                         on_message(_, _)], A),
+                 wait_until(remote(alpha, sense(begun)), 5),
+                 catch(typhon_ask:agent_ask(A, order(clone), 0.1, _),
+                       error(timeout_error(order, A), _),
+                       true),
+                 wait_until(host_property(alpha, load(2)), 5),
+                 wait_until(forall(agent_property(_, state(S)),
+                                   S == resident), 5),
+                 thread_self(Me),
+                 message_queue_property(Me, size(Left)) )).
 test(dispose_in_flight, O == disposed) :-
     with_hosts([alpha-[hop_time(uniform(1000, 1001))],beta],
                ( create([(main :- move(beta))], A),

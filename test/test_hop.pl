@@ -47,6 +47,37 @@ test(before_the_answer) :-
 
 :- end_tests(hop_cut).
 
+:- begin_tests(hop_big).
+
+test(among_small_ones, forall(heavy(Codec, Facts))) :-
+    with_peers([ a-[codec(Codec)], b-[codec(Codec)] ],
+               cross_heavily(Facts)).
+
+:- end_tests(hop_big).
+
+heavy(fast, 20 000).
+heavy(text, 2 000).
+
+%   Agents of so many facts go to and fro on both sides, and small ones
+%   among them.
+
+cross_heavily(Facts) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    findall(Peer-Id,
+            ( member(Peer-Route, [a-[B, A], b-[A, B]]),
+              (   between(1, 3, _),
+                  heavy(Peer, Route, 10, Facts, Id)
+              ;   between(1, 4, _),
+                  set_out(Peer, Route, 100, Id)
+              ) ),
+            Ids),
+    forall(member(Peer-Id, Ids),
+           (   atom_concat(heavy, _, Id)
+           ->  ended_well(Peer, Id, 10)
+           ;   ended_well(Peer, Id, 100)
+           )).
+
 codec(fast).
 codec(text).
 

@@ -69,6 +69,14 @@ test(same_port_again, true(P1 == P2)) :-
                  atomic_list_concat([_,P], :, B), atom_number(P, P2) )).
 test(another_port, error(permission_error(change, endpoint, port(1)))) :-
     with_hosts([alpha], host_start(beta, [port(1)])).
+test(same_interface_again) :-
+    with_hosts([alpha],
+               ( setup_call_cleanup(host_start(beta, [bind('127.0.0.1')]),
+                                    true,
+                                    host_stop(beta)) )).
+test(another_interface, [ forall(member(I, ['127.0.0', '127.0.0.10'])),
+                          error(permission_error(change, endpoint, _)) ]) :-
+    with_hosts([alpha], host_start(beta, [bind(I)])).
 test(port_in_use, error(socket_error(eaddrinuse, _))) :-
     no_leaks(setup_call_cleanup(
                  ( tcp_socket(S), tcp_bind(S, localhost:P), tcp_listen(S, 5) ),

@@ -3,6 +3,7 @@
             travel/4,                   % +Peer, +Route, +Hops, +Options
             set_out/4,                  % +Peer, +Route, +Hops, -Id
             set_out/5,                  % +Peer, +Route, +Hops, -Id, +Options
+            heavy/5,                    % +Peer, +Route, +Hops, +Facts, -Id
             ended/3,                    % +Peer, +Id, +Outcome
             ended_well/3,               % +Peer, +Id, +Hops
             steps/2,                    % +Id, -Steps
@@ -54,6 +55,23 @@ set_out(Peer, Route, Hops, Id, Options) :-
     peer_do(Peer, agent_create(clauses(Clauses), Id,
                                [ host(Peer), facts([plan(Hops, Route)])
                                | Options ])).
+
+%!  heavy(+Peer, +Route, +Hops, +Facts, -Id) is det.
+%
+%   As set_out/4; it carries as many facts.
+
+heavy(Peer, Route, Hops, Facts, Id) :-
+    walker([_, _|Clauses]),
+    Heavy =
+    [ (:- agent(heavy, [state([plan/2, facts/1, load/2])])),
+      (main :- facts(Count),
+           forall(between(1, Count, I), assertz(load(I, some(load)))),
+           plan(All, Stops), walk(0, All, Stops))
+    | Clauses ],
+    peer_do(Peer, agent_create(clauses(Heavy), Id,
+                               [ host(Peer),
+                                 facts([ plan(Hops, Route),
+                                         facts(Facts) ]) ])).
 
 walker([ (:- agent(walker, [state([plan/2])])),
          (main :- plan(Hops, Route), walk(0, Hops, Route)),

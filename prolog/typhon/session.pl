@@ -97,10 +97,12 @@ route_add(Address, Session) :-
 %   The keeper looks whether another address leads to the displaced one.
 
 reroute(Address, Session) :-
-    findall(Key, route(Address, session(Key, _, _, _, _)), Displaced),
-    retractall(route(Address, _)),
+    findall(Old-Key,
+            clause(route(Address, session(Key, _, _, _, _)), true, Old),
+            Displaced),
     assertz(route(Address, Session)),
-    forall(member(Key, Displaced), ignore(crew_tell(displaced(Key)))).
+    forall(member(Old-_, Displaced), erase(Old)),
+    forall(member(_-Key, Displaced), ignore(crew_tell(displaced(Key)))).
 
 %!  session_received(+Key, -Count) is semidet.
 %!  session_note_received(+Key, +Count) is det.
