@@ -19,6 +19,8 @@ tried they are with whoever tries; there is one at a time.
 *Threading*: inside with_agent/2 of the agent.
 */
 
+:- multifile typhon_process:ending/1.
+
 :- dynamic waits/4.             % Id, Queue, Tries, State: idle or tried
 
 %!  backlog(+Id) is semidet.
@@ -81,3 +83,10 @@ backlog_all(Id, Letters) :-
         message_queue_destroy(Queue)
     ;   Letters = []
     ).
+
+%   Nobody is left to try them.
+
+typhon_process:ending(after) :-
+    retract(waits(_, Queue, _, _)),
+    message_queue_destroy(Queue),
+    fail.

@@ -1,6 +1,5 @@
 :- module(typhon_news,
-          [ news_tell/3,                % +Home, +Id, +News
-            news_flush/0
+          [ news_tell/3                 % +Home, +Id, +News
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -22,7 +21,9 @@ that waits for the next.
 :- setting(news_seconds, number, 300,
            "News for a home that cannot be reached are kept so long").
 
-:- multifile typhon_scheduler:fire/2.
+:- multifile
+    typhon_process:ending/1,
+    typhon_scheduler:fire/2.
 
 :- dynamic
     news/3,                     % Home, Id, News: the newest, not yet sent
@@ -53,12 +54,10 @@ note(Home, Id, News, Courier) :-
         Courier = wanted
     ).
 
-%!  news_flush is det.
-%
 %   The process is about to end: what can be sent at once is, the rest is
 %   given up.
 
-news_flush :-
+typhon_process:ending(before) :-
     forall(courier(Home),
            ( flush(Home),
              give_up(Home) )).

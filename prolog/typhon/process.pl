@@ -7,7 +7,6 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(aside, [aside/1, aside_start/0, aside_stop/0]).
 :- use_module(code, [code_clear/0]).
-:- use_module(news, [news_flush/0]).
 :- use_module(endpoint,
               [ endpoint_start/3, endpoint_stop/0, endpoint_address/1 ]).
 :- use_module(scheduler, [scheduler_start/0, scheduler_stop/0]).
@@ -16,12 +15,18 @@
 
 The endpoint and the scheduler run as long as anybody in the process uses
 them: hosts, log servers.  The first user starts them, the last one stops
-them.
+them.  The rooms above that have something to see to then say so with the
+hook ending/1.
 
 *Threading*: a mutex makes users come and go one at a time.
 */
 
-:- dynamic user/1.                      % Name of a user
+:- multifile
+    ending/1.                           % before or after both have stopped
+
+:- dynamic
+    ending/1,
+    user/1.                             % Name of a user
 
 %!  process_acquire(+User, +Options) is det.
 %
@@ -75,10 +80,11 @@ process_release(User) :-
 release(User) :-
     (   retract(user(User)),
         \+ user(_)
-    ->  news_flush,
+    ->  forall(ending(before), true),
         endpoint_stop,
         scheduler_stop,
         code_clear,
+        forall(ending(after), true),
         aside_stop
     ;   true
     ).

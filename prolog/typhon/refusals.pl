@@ -1,5 +1,6 @@
 :- module(typhon_refusals,
           [ refused/2,                  % +Ip, +Why
+            refusals_begin/0,
             refusals_tell/0
           ]).
 
@@ -76,6 +77,14 @@ plan :-
     get_time(Now),
     Time is Now+1,
     ignore(crew_tell(later(Time, typhon_refusals:refusals_tell))).
+
+%!  refusals_begin is det.
+%
+%   An endpoint begins, with a burst of its own.
+
+refusals_begin :-
+    refusals_tell,
+    retractall(burst(_)).
 
 %!  refusals_tell is det.
 %
