@@ -28,7 +28,7 @@ far it has come and gives its own back.
 :- use_module(library(socket), [tcp_accept/3]).
 :- use_module(connection, [incoming/5, open_streams/3]).
 :- use_module(crew, [crew_signal/2, crew_spawn/3, crew_tell/1]).
-:- use_module(refusals, [refusals_begin/0, refusals_tell/0, refused/2]).
+:- use_module(refusals, [refusals_begin/0, refused/2]).
 
 :- setting(strangers, positive_integer, 128,
            "Connections at a time that have not proved themselves").
