@@ -38,8 +38,8 @@ that starting and stopping wait on.
            "A process that was killed has so long to be gone").
 
 :- meta_predicate
-    ask(+, +, +, +, 0, -),
-    order_children(+, +, 0).
+    ask(+, +, +, +, 1, -),
+    order_children(+, +, 1).
 
 :- dynamic
     queue/2,                    % Network, Queue
@@ -161,7 +161,7 @@ carrier_order(Network, P, Order, Answer) :-
     order_do(Order, Answer).
 carrier_order(Network, P, Order, Answer) :-
     setting(order_seconds, Seconds),
-    ask([P], Network, Order, Seconds, true, [_-Result]),
+    ask([P], Network, Order, Seconds, unwatched, [_-Result]),
     result(Result, Network-P, Answer).
 
 result(answer(done(Answer)), _, Answer).
@@ -176,22 +176,24 @@ result(lost, Carrier, _) :-
 result(late, Carrier, _) :-
     throw(error(timeout_error(answer, Carrier), _)).
 
-%   ask(+Ps, +Network, +Order, +Seconds, :Meanwhile, -Results): what children
-%   Ps answer, P-Result in order of arrival; Meanwhile is done here. Result
-%   is one of endpoint_request/4, `down` or `late`. The endpoint alone cannot
-%   tell a peer that is dead from one that will be back.
+%   ask(+Ps, +Network, +Order, +Seconds, :Watch, -Results): what children Ps
+%   answer, P-Result in order of arrival. While some have not answered,
+%   call(Watch, Those) again and again. Result is one of endpoint_request/4,
+%   `down` or `late`. The endpoint alone cannot tell a peer that is dead from
+%   one that will be back.
 
-ask(Ps, Network, Order, Seconds, Meanwhile, Results) :-
+ask(Ps, Network, Order, Seconds, Watch, Results) :-
     deadline(Seconds, Deadline),
     setup_call_cleanup(
         message_queue_create(Queue),
         ( forall(member(P, Ps), send(Network, P, Order, Queue)),
-          call(Meanwhile),
-          answers(Ps, Queue, Deadline, Results)
+          answers(Ps, Queue, Deadline, Watch, Results)
         ),
         ( retractall(waiting(_, _, Queue)),
           message_queue_destroy(Queue)
         )).
+
+unwatched(_).
 
 send(Network, P, Order, Queue) :-
     assertz(waiting(Network, P, Queue)),
@@ -207,19 +209,25 @@ answered(Queue, P, Result) :-
           error(existence_error(_, _), _),
           true).                % nobody waits any more
 
-answers([], _, _, []) :-
+answers([], _, _, _, []) :-
     !.
-answers(Ps, Queue, Deadline, [P-Result|Results]) :-
-    (   next(Queue, P0-Result0, Deadline)
-    ->  (   selectchk(P0, Ps, Rest)
-        ->  P-Result = P0-Result0,
-            answers(Rest, Queue, Deadline, Results)
-        ;   answers(Ps, Queue, Deadline, [P-Result|Results])
-        )
-    ;   Ps = [P|Rest],
-        Result = late,
-        answers(Rest, Queue, Deadline, Results)
-    ).
+answers(Ps, Queue, Deadline, Watch, Results) :-
+    call(Watch, Ps),
+    deadline(1, Soon),
+    Slice is min(Soon, Deadline),
+    (   next(Queue, Answer, Slice)
+    ->  take(Answer, Ps, Rest, Results, Others)
+    ;   Soon < Deadline
+    ->  Rest = Ps,
+        Results = Others
+    ;   take(_-late, Ps, Rest, Results, Others)
+    ),
+    answers(Rest, Queue, Deadline, Watch, Others).
+
+take(P-Result, Ps, Rest, [P-Result|Others], Others) :-
+    selectchk(P, Ps, Rest),
+    !.
+take(_, Ps, Ps, Others, Others).
 
                 /*******************************
                 *           STOPPING           *
@@ -239,7 +247,7 @@ carriers_stop(Network) :-
     retractall(wanted(Network)),
     order_children(Network, stop, kill_hanging(Network)),
     peers(Network, Peers),
-    order_children(Network, flush(2, Peers), true),
+    order_children(Network, flush(2, Peers), unwatched),
     forall(child(Network, _, Child), child_close(Child)),
     (   queue(Network, Queue)
     ->  end_children(Network),
@@ -269,10 +277,11 @@ peers(Network, Peers) :-
             ; carrier(Network, P, _), up(Network, P, Peer, _) ),
             Peers).
 
-kill_hanging(Network) :-
+%   One may begin to hang after it has said that it is alive.
+
+kill_hanging(Network, Ps) :-
     setting(answer_seconds, Seconds),
-    children_up(Network, Ps),
-    ask(Ps, Network, alive, Seconds, true, Results),
+    ask(Ps, Network, alive, Seconds, unwatched, Results),
     findall(P, member(P-late, Results), Hanging),
     (   Hanging == []
     ->  true
@@ -291,13 +300,13 @@ kill_all(Network, Ps) :-
 children_up(Network, Ps) :-
     findall(P, ( child(Network, P, _), carrier(Network, P, _) ), Ps).
 
-%   All children that are up do Order, and we do Meanwhile; one that cannot
-%   is left to later.
+%   All children that are up do Order, watched by Watch; one that cannot is
+%   left to later.
 
-order_children(Network, Order, Meanwhile) :-
+order_children(Network, Order, Watch) :-
     setting(typhon_children:stop_seconds, Seconds),
     children_up(Network, Ps),
-    ask(Ps, Network, Order, Seconds, Meanwhile, Results),
+    ask(Ps, Network, Order, Seconds, Watch, Results),
     forall(( member(P-Result, Results), Result \== answer(done(ok)) ),
            print_message(warning, typhon(carrier_order(P, Order, Result)))).
 
