@@ -186,12 +186,12 @@ try(Address, Me) :-
 %   gone wrong often.
 
 quest_greeted(Thread) :-
-    (   quest(Address, trying(Thread, Start), Pause, Since),
+    (   quest(Address, trying(Thread, _), Pause, Since),
         number(Since),
         longest_pause(Longest),
         Pause < Longest
     ->  get_time(Now),
-        set(Address, trying(Thread, Start), Pause, Now)
+        set(Address, trying(Thread, Now), Pause, Now)
     ;   true
     ).
 
@@ -286,7 +286,8 @@ unfinished(Session) :-
 
 %!  quest_due(-Time) is nondet.
 %
-%   When something has to be done.
+%   When something has to be done. A silent attempt is given up in time for
+%   another one: it may be the connection that is dead.
 
 quest_due(Time) :-
     quest(_, State, _, Since),
@@ -296,9 +297,11 @@ due(pausing(Until), _, Until).
 due(queued, _, Until) :-
     young(Until).
 due(trying(_, Start), Since, Until) :-
+    patience(Seconds),
+    Until0 is Start+0.6*Seconds,
     (   number(Since)
-    ->  deadline(Since, Until)
-    ;   deadline(Start, Until)
+    ->  Until is min(Until0, Since+Seconds)
+    ;   Until = Until0
     ).
 
 %!  quest_overdue(+Me) is det.
