@@ -50,6 +50,7 @@ held_full/1 and held_review/3 are for the timer's thread alone.
     returned/1,                 % Worker: came back during the census
     turn/4,                     % Worker, agent or goal, Agent or PI, Since
     full/1,                     % Why there can be no more workers
+    noted/0,                    % it is known what blocks
     blocking/1,                 % Kind: is held back
     back/1,                     % Work that is held back
     warned/0.                   % that the pool is beyond its maximum
@@ -122,6 +123,7 @@ held_turns(Count) :-
 held_forget :-
     end_census,
     retractall(full(_)),
+    retractall(noted),
     retractall(blocking(_)),
     retractall(back(_)),
     retractall(warned).
@@ -146,6 +148,7 @@ held_room(Count, Max) :-
     (   Count < Most
     ->  warn(Count)
     ;   held_full(held_workers),
+        noted,
         Count < Most+Max
     ).
 
@@ -227,6 +230,7 @@ let_go(Works) :-
     retractall(warned),
     with_mutex(typhon_held,
                ( retractall(full(_)),
+                 retractall(noted),
                  retractall(blocking(_)),
                  findall(Work, back(Work), Works),
                  retractall(back(_)) )).
@@ -238,6 +242,10 @@ hold_back(Count, Why, Stamp) :-
     findall(Kind, blocking(Kind), Old),
     subtract(Kinds, Old, New),
     forall(member(Kind, New), assertz(blocking(Kind))),
+    (   noted
+    ->  true
+    ;   assertz(noted)
+    ),
     (   New == []
     ->  true
     ;   doers(Doers),
