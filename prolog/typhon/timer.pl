@@ -34,12 +34,14 @@ one that comes before the next, and when the queue grows long.
 *Threading*: alarms from any thread; they are facts before the timer hears
 of them.  The flag typhon_next says what the timer waits for; it is written
 before the timer looks at the queue for the last time, and read by who sets
-an alarm after it was put there: so one of the two sees the other.  The index is the timer's own, and only says what the facts say.
-So whatever happens to the timer, no alarm is lost with it: after an error
-it makes a new index; where that would not fit on its stack it does with
-the first stamp; when its thread ends nevertheless, another begins with
-the same facts.  If no thread can be made, whoever sets the next alarm tries
-again, as do idle workers (timer_check/0).
+an alarm after it was put there: so one of the two sees the other.
+
+The index is the timer's own, and only says what the facts say.  So whatever
+happens to the timer, no alarm is lost with it: after an error it makes a
+new index; where that would not fit on its stack it does with the first
+stamp; when its thread ends nevertheless, another begins with the same
+facts.  If no thread can be made, whoever sets the next alarm tries again,
+as do idle workers (timer_check/0).
 */
 
 :- multifile
