@@ -90,7 +90,7 @@ test(by_the_shorter_way, Found-Next == [100-a]-a) :-
          ( link(d, a),
            emit(a, fire),
            wait_until(( at(c, fire, [S-a]), round(S) =:= 67 ), 10),
-           wait_until(at(d, fire, [_]), 10),
+           wait_until(( at(d, fire, [T-a]), round(T) =:= 100 ), 10),
            at(d, fire, Found),
            remote(d, sense(pheromone(fire, _, _, N, _))),
            name_of(N, Next) )).
