@@ -16,9 +16,9 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 */
 
 :- use_module('../prolog/typhon').
-:- use_module('../prolog/typhon/log', [log_server_stop/1]).
-:- use_module('../prolog/typhon/process',
-              [process_acquire/2, process_release/1]).
+:- use_module('../prolog/typhon/network/log', [log_server_stop/1]).
+:- use_module('../prolog/typhon/host/runtime',
+              [runtime_acquire/2, runtime_release/1]).
 :- use_module(commands, [command/4, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
@@ -104,9 +104,9 @@ run_connected(Command, Arguments, Options) :-
     !,
     run(Command, Arguments, Options).
 run_connected(Command, Arguments, Options) :-
-    process_acquire(client, []),
+    runtime_acquire(client, []),
     and_then(run(Command, Arguments, Options),
-             process_release(client)).
+             runtime_release(client)).
 
 serves(host, _).
 serves(network, _).

@@ -1,7 +1,7 @@
 :- use_module(common).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/outbox), []).
-:- use_module(library(typhon/session), []).
+:- use_module(library(typhon/wire/outbox), []).
+:- use_module(library(typhon/wire/session), []).
 :- use_module(library(apply), [maplist/3, foldl/4]).
 :- use_module(library(lists), [member/2, nth0/3, append/3]).
 :- use_module(library(socket)).

@@ -2,28 +2,23 @@
 
 /** <module> Typhon: agents that travel
 
-The whole public interface of the platform.  Nothing is defined here: see
-the rooms.
+The whole public interface of the platform.  Nothing is defined here: each
+layer has a door, and behind it a folder with its rooms.
 
-  | hosts and links          | typhon/hosting    |
-  | agents                   | typhon/api        |
-  | checking programs        | typhon/program    |
-  | goals on any host        | typhon/remote     |
-  | networks                 | typhon/network    |
-  | the log server           | typhon/log        |
-  | tables for people        | typhon/tables     |
-  | what agents can say      | typhon/inside     |
+  | checking programs              | typhon/program    |
+  | hosts, links, goals on a host  | typhon/host       |
+  | agents                         | typhon/lifecycle  |
+  | what agents can say            | typhon/language   |
+  | networks, the log server       | typhon/network    |
+  | tables for people              | typhon/people     |
 */
 
-:- reexport(typhon/hosting).
-:- reexport(typhon/api).
 :- reexport(typhon/program, [agent_check/1]).
-:- reexport(typhon/remote).
-:- reexport(typhon/network,
-            [network_start/3, network_stop/1, network_property/2]).
-:- reexport(typhon/log,
-            [log_server_start/2, log_server_stop/1, log_events/2]).
-:- reexport(typhon/tables).
-:- use_module(typhon/vocabulary, []).
-:- use_module(typhon/paths, []).
-:- use_module(typhon/messages, []).
+:- reexport(typhon/host,
+            [ host_start/1, host_start/2, host_stop/1, host_property/2,
+              link/2, unlink/2, remote/2
+            ]).
+:- reexport(typhon/lifecycle).
+:- reexport(typhon/network).
+:- reexport(typhon/people).
+:- use_module(typhon/language, []).

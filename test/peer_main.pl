@@ -82,17 +82,17 @@ raised(Ball, raised(Ball)).
 %   What stands in this process, whatever others know.
 
 agent_here(Id) :-
-    typhon_agent:agent(Id, _, _, _, _).
+    typhon_agents:agent(Id, _, _, _, _).
 
 status_here(Id) :-
-    typhon_agent:agent_status(Id, _, _).
+    typhon_agents:agent_status(Id, _, _).
 
 agent_state_here(Id, State) :-
     agent_here(Id),
     agent_property(Id, state(State)).
 
 connected_to(Host) :-
-    typhon_host:address_parts(Host, _, Endpoint),
+    typhon_hosts:address_parts(Host, _, Endpoint),
     typhon_endpoint:endpoint_peer(Endpoint, state(up)).
 
 connecting :-
@@ -107,7 +107,7 @@ outcome_here(Id, Outcome) :-
 
 steps_here(Id, Steps) :-
     findall(K,
-            ( typhon_host:host(_, _, Place),
+            ( typhon_hosts:host(_, _, Place),
               Place:'$tuple'(Tuple),
               Tuple = step(Id, K) ),
             Steps).
@@ -122,7 +122,7 @@ try_move(Host, Options, Error) :-
                          leave(tried(E))) ],
     agent_create(clauses(Clauses), Id, [facts([to(Host)])|Options]),
     agent_join(Id, done, 20),
-    once(( typhon_host:host(Name, _, _),
+    once(( typhon_hosts:host(Name, _, _),
            remote(Name, take(tried(Error0))) )),
     Error = error(Error0).
 

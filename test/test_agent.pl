@@ -602,7 +602,7 @@ test(faulty_can_be_disposed_of, O == raised(oops)) :-
                            joined(A, O),
                            host_property(alpha, load(0)) ), _)).
 test(faulty_are_bounded, N == 3) :-
-    with_settings([typhon_birth:faulty=3],
+    with_settings([typhon_creation:faulty=3],
         with_hosts([alpha],
                    listening(( findall(A, ( between(1, 10, _),
                                             create([(main :- throw(x))], A) ),
@@ -713,7 +713,7 @@ test(late_answers_are_left_to_nobody, Left == 0) :-
                ( create([(main :- leave(begun), shell('sleep 0.5')),
                          on_message(_, _)], A),
                  wait_until(remote(alpha, sense(begun)), 5),
-                 catch(typhon_ask:agent_ask(A, order(clone), 0.1, _),
+                 catch(typhon_questions:agent_ask(A, order(clone), 0.1, _),
                        error(timeout_error(order, A), _),
                        true),
                  wait_until(host_property(alpha, load(2)), 5),

@@ -157,7 +157,7 @@ cost_of(Payload, Details, Properties, Cost) :-
         abolish(test_allocation_payload:cost/3)).
 
 payload_clauses(Payload, Clauses) :-
-    typhon_program:payload_load(Payload, payload(_, _, Clauses)).
+    typhon_programs:payload_load(Payload, payload(_, _, Clauses)).
 
 test(nearest, Cost =:= 5.0) :-
     cost_of(payloads(allocation/nearest), [at(p(4, 6))], [position=p(1, 2)],

@@ -292,7 +292,7 @@ told(Log, Ended, [Host|_], _, Ended) :-
     sub_atom(Host, Before, _, _, @),
     sub_atom(Host, 0, Before, _, Name),
     forall(member(What, Log),
-           remote(Host, typhon_host:host_log(Name, someone, What))).
+           remote(Host, typhon_hosts:host_log(Name, someone, What))).
 
 :- begin_tests(allocation_experiment).
 

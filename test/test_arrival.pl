@@ -4,8 +4,8 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/endpoint), []).
-:- use_module(library(typhon/program), []).
+:- use_module(library(typhon/wire/endpoint), []).
+:- use_module(library(typhon/program/programs), []).
 :- use_module(fixtures).
 
 /** <module> An agent arrives whole or not at all
@@ -78,7 +78,7 @@ bad_image(since(X), image(I, H, L, S, G, M, _), image(I, H, L, S, G, M, X)).
 
 program(Hash, Program) :-
     Program = program(x, [], [], [(main:-true), (on_message(_,_):-true)]),
-    typhon_program:program_hash(Program, Hash).
+    typhon_programs:program_hash(Program, Hash).
 
 image(Mail, image('x.1.7@far@127.0.0.1:1', Hash,
                   life(none, 3, inf, [], [], false),

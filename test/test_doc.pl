@@ -24,7 +24,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/program), [payload_load/2, program_load/3]).
+:- use_module(library(typhon/program/programs), [payload_load/2, program_load/3]).
 
 document(File) :-
     member(Pattern, ['README.md', 'doc/*.md']),

@@ -9,8 +9,8 @@
                 same_length/2, subtract/3, sum_list/2
               ]).
 :- use_module(library(yall)).
-:- use_module(library(typhon/dynamics)).
-:- use_module(library(typhon/topology)).
+:- use_module(library(typhon/network/dynamics)).
+:- use_module(library(typhon/network/topology)).
 
 %   history(+Spec, +Topology, +Seed, +Until, -N, -Edges, -Events): the
 %   Events, Time-Changes, before Until.

@@ -4,7 +4,7 @@
 :- use_module(library(lists), [nth1/4, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(random), [random_between/3, random_member/2]).
-:- use_module(library(typhon/frame)).
+:- use_module(library(typhon/wire/frame)).
 
 :- begin_tests(terms_travel_unchanged).
 

@@ -8,9 +8,9 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(typhon/endpoint),
+:- use_module(library(typhon/wire/endpoint),
               [endpoint_address/1, endpoint_post/3, endpoint_stop/0]).
-:- use_module(library(typhon/log)).
+:- use_module(library(typhon/network/log)).
 
 %   with_log(+Options, :Goal): Goal(Address, File), with a server running.
 

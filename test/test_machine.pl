@@ -4,10 +4,10 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(random)).
-:- use_module(library(typhon/machine)).
-:- use_module(library(typhon/program)).
-:- use_module(library(typhon/code)).
-:- use_module(library(typhon/frame)).
+:- use_module(library(typhon/program/machine)).
+:- use_module(library(typhon/program/programs)).
+:- use_module(library(typhon/program/code)).
+:- use_module(library(typhon/wire/frame)).
 
 /** <module> Tests of typhon_machine: stopping and going on anywhere
 

@@ -13,10 +13,10 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/children)).
-:- use_module(library(typhon/log)).
-:- use_module(library(typhon/network)).
-:- use_module(library(typhon/topology)).
+:- use_module(library(typhon/network/children)).
+:- use_module(library(typhon/network/log)).
+:- use_module(library(typhon/network/networks)).
+:- use_module(library(typhon/network/topology)).
 
 :- meta_predicate
     with_network(+, +, 1),
@@ -462,7 +462,7 @@ test(children_end_when_their_parent_is_killed,
 orphans(Signal, Pids) :-
     project_file(prolog, Library),
     format(atom(Path), 'library=~w', [Library]),
-    Goal = 'use_module(library(typhon/network)),\c
+    Goal = 'use_module(library(typhon/network/networks)),\c
             network_start(ring(6),N,[processes(3)]),\c
             network_property(N,processes(P)),\c
             format("~q.~n",[P]),flush_output,thread_get_message(x)',
@@ -496,7 +496,7 @@ test(a_machine_that_is_not_there,
     with_setting(typhon_children:ssh, false,
                  network_start(ring(4), _, [machines([nowhere])])).
 test(a_machine_that_says_nothing, error(timeout_error(start, _))) :-
-    with_setting(typhon_carriers:start_seconds, 0.5,
+    with_setting(typhon_processes:start_seconds, 0.5,
         with_setting(typhon_children:stop_seconds, 0.5,
             with_tmp_dir(silent))).
 
@@ -548,7 +548,7 @@ hidden(Cookie, Network) :-
 test(what_children_print_is_printed_here) :-
     project_file(prolog, Library),
     format(atom(Path), 'library=~w', [Library]),
-    Goal = 'use_module(library(typhon)),use_module(library(typhon/network)),\c
+    Goal = 'use_module(library(typhon)),use_module(library(typhon/network/networks)),\c
             network_start(ring(2),N,[processes(2)]),\c
             network_property(N,hosts([_,H])),\c
             agent_create(clauses([(:-agent(a,[])),(main:-writeln(hello))]),\c

@@ -6,7 +6,7 @@
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/program)).
+:- use_module(library(typhon/program/programs)).
 
 /** <module> Tests of agent programs: what loads, what does not, and why
 

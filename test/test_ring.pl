@@ -6,8 +6,8 @@
 :- use_module(library(process), [process_create/3, process_kill/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/auth), [random_hex/2]).
-:- use_module(library(typhon/endpoint), [endpoint_peer/2]).
+:- use_module(library(typhon/wire/auth), [random_hex/2]).
+:- use_module(library(typhon/wire/endpoint), [endpoint_peer/2]).
 
 /** <module> Agents around a ring of three processes
 

@@ -9,9 +9,9 @@
 :- use_module(library(readutil)).
 :- use_module(library(settings)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/aside)).
-:- use_module(library(typhon/scheduler)).
-:- use_module(library(typhon/timer)).
+:- use_module(library(typhon/base/own_thread)).
+:- use_module(library(typhon/host/scheduler)).
+:- use_module(library(typhon/host/timer)).
 
 /** <module> Tests of the pool of workers, and of alarms
 
@@ -51,7 +51,7 @@ scheduling(Settings, Goal) :-
     forget,
     with_settings(Settings,
         no_leaks(setup_call_cleanup(scheduler_start, once(Goal),
-                                    aside(scheduler_stop)))).
+                                    in_own_thread(scheduler_stop)))).
 
 forget :-
     retractall(event(_)).

@@ -6,7 +6,7 @@
 :- use_module('../experiments/simulation/reading').
 :- use_module('../experiments/simulation/study').
 :- use_module('../experiments/sync/metrics').
-:- use_module('../prolog/typhon/chance').
+:- use_module('../prolog/typhon/base/chance').
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
 

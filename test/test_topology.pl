@@ -6,7 +6,7 @@
 :- use_module(library(lists),
               [append/3, member/2, numlist/3, sum_list/2]).
 :- use_module(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
-:- use_module(library(typhon/topology)).
+:- use_module(library(typhon/network/topology)).
 
 degrees(N, Edges, Degrees) :-
     numlist(1, N, Hosts),

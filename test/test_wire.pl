@@ -16,8 +16,8 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
-:- use_module(library(typhon/endpoint)).
-:- use_module(library(typhon/session), [session/2]).
+:- use_module(library(typhon/wire/endpoint)).
+:- use_module(library(typhon/wire/session), [session/2]).
 :- use_module(endpoint_peer, [big_string/2, sleep_until/1]).
 
 :- dynamic
@@ -136,7 +136,7 @@ test(nobody_is_there, Answers == Expected) :-
     with_endpoint(( send_all('127.0.0.1:1', Numbers),
                     maplist(answered, Numbers, Answers) )).
 test(a_wrong_cookie_is_told_at_once) :-
-    project_file('prolog/typhon/endpoint', File),
+    project_file('prolog/typhon/wire/endpoint', File),
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
                            "use_module('~w'),endpoint_start(localhost,0,_),\c

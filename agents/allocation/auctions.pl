@@ -6,7 +6,7 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
-:- use_module('../../prolog/typhon/paths', []).
+:- use_module('../../prolog/typhon/program/paths', []).
 :- use_module(tasks, [check_task/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
@@ -129,7 +129,7 @@ longest_hop(Hosts, Longest) :-
 
 hop_time(Host, Times) :-
     host_name(Host, Name),
-    (   remote(Host, typhon_host:host_option(Name, hop_time(Time)))
+    (   remote(Host, typhon_hosts:host_option(Name, hop_time(Time)))
     ->  Times = [setting(hop_time, Time)]
     ;   Times = []
     ).

@@ -9,7 +9,7 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
-:- use_module('../../prolog/typhon/paths', []).
+:- use_module('../../prolog/typhon/program/paths', []).
 :- use_module(tasks, [check_task/1]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error),

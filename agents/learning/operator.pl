@@ -7,7 +7,7 @@
               [ agent_create/3, agent_send/2, payload_attach/2,
                 payload_detach/2, remote/2
               ]).
-:- use_module('../../prolog/typhon/paths', []).
+:- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../starts', [starts/4]).
 :- use_module(library(apply), [maplist/2, maplist/4]).
 :- use_module(library(error), [must_be/2]).

@@ -6,7 +6,7 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
-:- use_module('../../prolog/typhon/paths', []).
+:- use_module('../../prolog/typhon/program/paths', []).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).

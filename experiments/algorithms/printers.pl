@@ -1,7 +1,7 @@
 :- module(algorithms_printers,
           [ shortfalls/2                % +Runs, -Shortfalls
           ]).
-:- use_module('../../prolog/typhon/chance', []).
+:- use_module('../../prolog/typhon/base/chance', []).
 :- use_module(library(lists),
               [append/3, member/2, memberchk/2, sum_list/2]).
 

@@ -3,7 +3,7 @@
             case_topology/3,            % +Case, +Degree, -Topology
             options_case/2              % +Options, -Case
           ]).
-:- use_module('../../prolog/typhon/chance', [chance_sample/5, chance_seed/2]).
+:- use_module('../../prolog/typhon/base/chance', [chance_sample/5, chance_seed/2]).
 :- use_module(library(lists), [append/3]).
 :- use_module(library(option), [option/2]).
 

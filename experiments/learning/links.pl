@@ -1,7 +1,7 @@
 :- module(learning_links,
           [ degrees/5                   % +Model, +Nodes, +Seed, +End, -Degrees
           ]).
-:- use_module('../../prolog/typhon/dynamics', [dynamics_model/2]).
+:- use_module('../../prolog/typhon/network/dynamics', [dynamics_model/2]).
 :- use_module('../sieve/ground', [ground_links/4, ground_start/4]).
 :- use_module(library(lists), [max_list/2, min_list/2]).
 

@@ -7,7 +7,7 @@
               [ agent_dispose/1, log_events/2, network_property/2,
                 network_start/3, network_stop/1
               ]).
-:- use_module('../../prolog/typhon/chance', [chance_sample/5, chance_seed/2]).
+:- use_module('../../prolog/typhon/base/chance', [chance_sample/5, chance_seed/2]).
 :- use_module('../lib/follow', [new_lines/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
 :- use_module('../sync/metrics',

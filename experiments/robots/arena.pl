@@ -4,7 +4,7 @@
             arena_stop/1,               % +Arena
             arena_log/2                 % +File, -Terms
           ]).
-:- use_module('../../prolog/typhon/aside', [aside/1]).
+:- use_module('../../prolog/typhon/base/own_thread', [in_own_thread/1]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
@@ -132,7 +132,7 @@ answer(Answer, _, Answer).
 %   before.
 
 arena_stop(arena(Pid, In, Out, Dir)) :-
-    aside(stop(Pid, In)),
+    in_own_thread(stop(Pid, In)),
     close(Out, [force(true)]),
     (   exists_directory(Dir)
     ->  delete_directory_and_contents(Dir)

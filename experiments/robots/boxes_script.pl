@@ -5,8 +5,8 @@
             job_box/2,                  % +Job, -Line
             job_program/1               % -Program
           ]).
-:- use_module('../../prolog/typhon/paths', []).
-:- use_module('../../prolog/typhon/program', [payload_load/2]).
+:- use_module('../../prolog/typhon/program/paths', []).
+:- use_module('../../prolog/typhon/program/programs', [payload_load/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2]).
 

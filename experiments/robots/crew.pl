@@ -4,8 +4,8 @@
             crew_task/3                 % +Name, +Spec, -Task
           ]).
 :- use_module('../../prolog/typhon', [remote/2]).
-:- use_module('../../prolog/typhon/paths', []).
-:- use_module('../../prolog/typhon/program', [payload_load/2]).
+:- use_module('../../prolog/typhon/program/paths', []).
+:- use_module('../../prolog/typhon/program/programs', [payload_load/2]).
 :- use_module(library(thread), [concurrent_maplist/3]).
 
 /** <module> Hosts that have robots

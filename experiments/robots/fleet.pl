@@ -4,10 +4,10 @@
             fleet_stop/1                % +Fleet
           ]).
 :- use_module('../../prolog/typhon', [log_server_start/2, log_server_stop/1]).
-:- use_module('../../prolog/typhon/aside', [aside/1]).
-:- use_module('../../prolog/typhon/children',
+:- use_module('../../prolog/typhon/base/own_thread', [in_own_thread/1]).
+:- use_module('../../prolog/typhon/network/children',
               [child_close/1, child_kill/1, child_release/1, child_start/5]).
-:- use_module('../../prolog/typhon/endpoint', [endpoint_call/5]).
+:- use_module('../../prolog/typhon/wire/endpoint', [endpoint_call/5]).
 :- use_module(crew, [crew_services/1]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
@@ -124,7 +124,7 @@ started(raised(Formal, Text), _) :-
 %   force, and then the log.  Takes seconds at the most.
 
 fleet_stop(Fleet) :-
-    aside(stop(Fleet)).
+    in_own_thread(stop(Fleet)).
 
 stop(Fleet) :-
     retract(fleet(Fleet, Queue, Log, _)),

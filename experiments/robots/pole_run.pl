@@ -7,7 +7,7 @@
               [ agent_create/3, agent_join/3, agent_send/2,
                 network_property/2, network_start/3, network_stop/1, remote/2
               ]).
-:- use_module('../../prolog/typhon/paths', []).
+:- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../../agents/sync/operator', [sequence_start/5]).
 :- use_module('../lib/follow', [new_lines/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).

@@ -5,11 +5,11 @@
             ground_step/6               % +Links, +Maps, +From, -To,
                                         % +Chance0, -Chance
           ]).
-:- use_module('../../prolog/typhon/chance', [chance_member/4]).
-:- use_module('../../prolog/typhon/dynamics',
+:- use_module('../../prolog/typhon/base/chance', [chance_member/4]).
+:- use_module('../../prolog/typhon/network/dynamics',
               [dynamics_event/4, dynamics_model/2, dynamics_state/5]).
-:- use_module('../../prolog/typhon/strategy', [memory_mark/3, next_host/6]).
-:- use_module('../../prolog/typhon/topology', [topology_edges/4]).
+:- use_module('../../prolog/typhon/language/strategy', [memory_mark/3, next_host/6]).
+:- use_module('../../prolog/typhon/network/topology', [topology_edges/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).

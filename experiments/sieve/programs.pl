@@ -2,8 +2,8 @@
           [ draw_programs/3,            % +Directory, +Subtitle, +Runs
             programs_claims/2           % +Runs, -Claims
           ]).
-:- use_module('../../prolog/typhon/paths', []).
-:- use_module('../../prolog/typhon/program', [payload_load/2]).
+:- use_module('../../prolog/typhon/program/paths', []).
+:- use_module('../../prolog/typhon/program/programs', [payload_load/2]).
 :- use_module('../lib/chart', [draw_chart/3]).
 :- use_module(rounds, [plan/2, population/3]).
 :- use_module(library(apply), [maplist/3]).

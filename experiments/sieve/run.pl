@@ -5,7 +5,7 @@
               [ log_events/2, network_property/2, network_start/3,
                 network_stop/1, remote/2
               ]).
-:- use_module('../../prolog/typhon/chance', [chance_sample/5, chance_seed/2]).
+:- use_module('../../prolog/typhon/base/chance', [chance_sample/5, chance_seed/2]).
 :- use_module('../../agents/sieve/operator',
               [antigen_attack/2, sieve_start/3]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).

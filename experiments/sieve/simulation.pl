@@ -1,9 +1,9 @@
 :- module(sieve_simulation,
           [ simulate/2                  % +Options, -Rounds
           ]).
-:- use_module('../../prolog/typhon/chance',
+:- use_module('../../prolog/typhon/base/chance',
               [chance_below/4, chance_float/3, chance_seed/2]).
-:- use_module('../../prolog/typhon/strategy', [strategy_memory/2]).
+:- use_module('../../prolog/typhon/language/strategy', [strategy_memory/2]).
 :- use_module(ground, [ground_links/4, ground_map/4, ground_start/4,
                        ground_step/6]).
 :- use_module(rounds, [plan/2, plan_rounds/2]).

@@ -9,7 +9,7 @@
 :- use_module('../sync/metrics',
               [ idle_time/2, marks/3, overlaps/2, required/5, task_rows/2,
                 tau/2, tau_max/2 ]).
-:- use_module('../../prolog/typhon/topology', [topology_names/2]).
+:- use_module('../../prolog/typhon/network/topology', [topology_names/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [include/3, maplist/3, maplist/4]).
 :- use_module(library(lists),

@@ -2,7 +2,7 @@
           [ failure_trace/6             % +Execution, +Hosts, +Trace0, -Trace,
                                         % +Chance0, -Chance
           ]).
-:- use_module('../../prolog/typhon/chance', [chance_sample/5]).
+:- use_module('../../prolog/typhon/base/chance', [chance_sample/5]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(lists), [member/2, numlist/3]).
 

@@ -7,9 +7,9 @@
 :- use_module(world,
               [ world_agents/6, world_change/4, world_hosts/2,
                 world_network/5 ]).
-:- use_module('../../prolog/typhon/chance',
+:- use_module('../../prolog/typhon/base/chance',
               [ chance_seed/2, chance_uniform/5 ]).
-:- use_module('../../prolog/typhon/strategy', [next_host/6]).
+:- use_module('../../prolog/typhon/language/strategy', [next_host/6]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(heaps), [add_to_heap/4, get_from_heap/4]).
 :- use_module(library(lists), [last/2, nth1/3, reverse/2, selectchk/3]).

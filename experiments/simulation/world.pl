@@ -6,13 +6,13 @@
             world_change/4              % +Now, +Links, +Changes0, -Changes
           ]).
 :- use_module(reading, [reading_full/1]).
-:- use_module('../../prolog/typhon/chance',
+:- use_module('../../prolog/typhon/base/chance',
               [chance_below/4, chance_float/3]).
-:- use_module('../../prolog/typhon/dynamics',
+:- use_module('../../prolog/typhon/network/dynamics',
               [ dynamics_event/4, dynamics_model/2, dynamics_state/5 ]).
-:- use_module('../../prolog/typhon/strategy',
+:- use_module('../../prolog/typhon/language/strategy',
               [memory_visited/2, strategy_memory/2]).
-:- use_module('../../prolog/typhon/topology', [topology_edges/4]).
+:- use_module('../../prolog/typhon/network/topology', [topology_edges/4]).
 :- use_module(library(apply), [foldl/4, foldl/5, partition/4]).
 :- use_module(library(heaps), [list_to_heap/2]).
 :- use_module(library(lists), [append/3, member/2, numlist/3, reverse/2]).

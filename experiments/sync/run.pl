@@ -6,7 +6,7 @@
               [ agent_join/3, log_events/2, network_property/2,
                 network_start/3, network_stop/1
               ]).
-:- use_module('../../prolog/typhon/chance', [chance_sample/5, chance_seed/2]).
+:- use_module('../../prolog/typhon/base/chance', [chance_sample/5, chance_seed/2]).
 :- use_module('../../agents/sync/operator',
               [sequence_start/5, task_fail/4, tasks_fail/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).

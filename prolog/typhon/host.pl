@@ -1,266 +1,33 @@
-:- module(typhon_host,
-          [ host/3,                     % ?Name, ?Address, ?Place
-            host_add/4,                 % +Name, +Address, +Place, +Options
-            host_close/1,               % +Name
-            host_remove/1,              % +Name
-            host_option/2,              % ?Name, ?Option
-            host_enter/3,               % +Name, +Tokens, -Answer
-            host_leave/1,               % +Name
-            host_load/2,                % +Name, -Load
-            host_neighbours/2,          % +Name, -Addresses
-            host_link/2,                % +Name, +Address
-            host_unlink/2,              % +Name, +Address
-            host_resolve/2,             % +Host, -Where
-            host_address/2,             % +Host, -Address
-            address_parts/3,            % ?Address, ?Name, ?Endpoint
-            host_hop/3,                 % +Name, +Direction, +Seconds
-            host_hop_stats/3,           % +Name, ?Direction, -Stats
-            host_log/3                  % +Name, +Agent, +What
-          ]).
-:- use_module(library(lists), [member/2]).
-:- use_module(library(error), [must_be/2, existence_error/2]).
-:- use_module(endpoint, [endpoint_post/3]).
+:- module(typhon_host, []).
 
-/** <module> Hosts of this process
+/** <module> Hosts
 
-The records of hosts: name, address, place, options, neighbours, how many
-agents stand on them and how long hops take.
-
-*Threading*: any thread.  Load and statistics are flags, each of which is
-changed atomically.
+Places, clocks, threads for agents, and goals in the place of any host.
+This is the door of the layer: who is above takes what it needs from here.
 */
 
-:- dynamic
-    host/3,                     % Name, Address, Place
-    option/2,                   % Name, Option
-    neighbour/2,                % Name, Address
-    load_key/2,                 % Name, Flag
-    hop_keys/3.                 % Name, Direction, Flags
-
-%!  host(?Name, ?Address, ?Place) is nondet.
-%
-%   The hosts of this process, in the order in which they were started.
-
-%!  host_add(+Name, +Address, +Place, +Options) is det.
-
-host_add(Name, Address, Place, Options) :-
-    make_keys(Name),
-    forall(member(Option, Options), assertz(option(Name, Option))),
-    assertz(host(Name, Address, Place)).
-
-%   Flags are counters that many threads change without leaving garbage.
-
-make_keys(Name) :-
-    atom_concat('typhon load ', Name, Load),
-    flag(Load, _, 0),
-    assertz(load_key(Name, Load)),
-    forall(member(Direction, [in,out]), make_hop_keys(Name, Direction)).
-
-make_hop_keys(Name, Direction) :-
-    findall(Key,
-            ( member(What-Zero, [count-0, min-inf, sum-0.0, max-0.0]),
-              atomic_list_concat(['typhon hop ', Direction, What, Name],
-                                 ' ', Key),
-              Value is Zero,
-              flag(Key, _, Value)
-            ),
-            Keys),
-    Flags =.. [flags|Keys],
-    assertz(hop_keys(Name, Direction, Flags)).
-
-%!  host_close(+Name) is det.
-%
-%   From now on nobody is admitted.
-
-host_close(Name) :-
-    assertz(option(Name, closed)).
-
-%!  host_remove(+Name) is det.
-
-host_remove(Name) :-
-    retractall(host(Name, _, _)),
-    retractall(option(Name, _)),
-    retractall(neighbour(Name, _)),
-    retractall(load_key(Name, _)),
-    retractall(hop_keys(Name, _, _)).
-
-%!  host_option(?Name, ?Option) is nondet.
-
-host_option(Name, Option) :-
-    option(Name, Option).
-
-                /*******************************
-                *           ADDRESSES          *
-                *******************************/
-
-%!  address_parts(?Address, ?Name, ?Endpoint) is semidet.
-%
-%   Address is Name@Endpoint, where Endpoint is 'Interface:Port'.
-
-address_parts(Address, Name, Endpoint) :-
-    atom(Address),
-    !,
-    atomic_list_concat([Name,Endpoint], '@', Address),
-    Name \== '',
-    Endpoint \== ''.
-address_parts(Address, Name, Endpoint) :-
-    atomic_list_concat([Name,Endpoint], '@', Address).
-
-%!  host_resolve(+Host, -Where) is det.
-%
-%   Where is local(Name) or remote(Address, Name, Endpoint).
-%
-%   @error existence_error(host, Host)
-
-host_resolve(Host, _) :-
-    \+ atom(Host),
-    !,
-    must_be(atom, Host).
-host_resolve(Host, local(Host)) :-
-    host(Host, _, _),
-    !.
-host_resolve(Host, local(Name)) :-
-    host(Name, Host, _),
-    !.
-host_resolve(Host, remote(Host, Name, Endpoint)) :-
-    address_parts(Host, Name, Endpoint),
-    sub_atom(Endpoint, _, _, _, :),
-    !.
-host_resolve(Host, _) :-
-    existence_error(host, Host).
-
-%!  host_address(+Host, -Address) is det.
-%
-%   The address of Host, a name or an address.
-
-host_address(Host, Address) :-
-    host_resolve(Host, Where),
-    where_address(Where, Address).
-
-where_address(local(Name), Address) :-
-    host(Name, Address, _).
-where_address(remote(Address, _, _), Address).
-
-                /*******************************
-                *          ADMISSION           *
-                *******************************/
-
-%!  host_enter(+Name, +Tokens, -Answer) is det.
-%
-%   An agent with Tokens asks to enter.  Answer is `ok`, and a place is
-%   taken for it, or refused(Reason).
-
-host_enter(Name, _, refused(unknown_host)) :-
-    (   \+ host(Name, _, _)
-    ;   option(Name, closed)
-    ),
-    !.
-host_enter(Name, Tokens, refused(token)) :-
-    option(Name, tokens(Wanted)),
-    Wanted \== [],
-    \+ ( member(Token, Wanted), memberchk(Token, Tokens) ),
-    !.
-host_enter(Name, _, Answer) :-
-    load_key(Name, Key),
-    (   option(Name, capacity(Capacity)),
-        Capacity \== inf
-    ->  flag(Key, Load, Load+max(0, min(1, Capacity-Load))),
-        ( Load < Capacity -> Answer = ok ; Answer = refused(capacity) )
-    ;   flag(Key, Load, Load+1),
-        Answer = ok
-    ).
-
-%!  host_leave(+Name) is det.
-
-host_leave(Name) :-
-    (   load_key(Name, Key)
-    ->  flag(Key, Load, Load-1)
-    ;   true                            % stopped meanwhile
-    ).
-
-%!  host_load(+Name, -Load:integer) is det.
-
-host_load(Name, Load) :-
-    load_key(Name, Key),
-    flag(Key, Load, Load).
-
-                /*******************************
-                *             LINKS            *
-                *******************************/
-
-%!  host_link(+Name, +Address) is det.
-%!  host_unlink(?Name, +Address) is det.
-%
-%   One direction of a link; nothing to do where it is so already.
-
-host_link(Name, Address) :-
-    with_mutex(typhon_links,
-               (   neighbour(Name, Address)
-               ->  true
-               ;   assertz(neighbour(Name, Address))
-               )).
-
-host_unlink(Name, Address) :-
-    retractall(neighbour(Name, Address)).
-
-%!  host_neighbours(+Name, -Addresses:list(atom)) is det.
-
-host_neighbours(Name, Addresses) :-
-    findall(Address, neighbour(Name, Address), Addresses0),
-    once_each(Addresses0, Addresses).
-
-%   While links are made elsewhere 9.0.4 may yield one twice in a row.
-
-once_each([A,B|Rest], Set) :-
-    A == B,
-    !,
-    once_each([B|Rest], Set).
-once_each([A|Rest], [A|Set]) :-
-    once_each(Rest, Set).
-once_each([], []).
-
-                /*******************************
-                *       HOP TIMES, LOG         *
-                *******************************/
-
-%!  host_hop(+Name, +Direction, +Seconds) is det.
-%
-%   A hop into (`in`) or out of (`out`) Name took Seconds of host time.
-
-host_hop(Name, Direction, Seconds) :-
-    hop_keys(Name, Direction, flags(Count, Min, Sum, Max)),
-    !,
-    flag(Count, N, N+1),
-    flag(Min, Min0, min(Min0, Seconds)),
-    flag(Sum, Sum0, Sum0+Seconds),
-    flag(Max, Max0, max(Max0, Seconds)).
-host_hop(_, _, _).
-
-%!  host_hop_stats(+Name, ?Direction, -Stats) is nondet.
-%
-%   Stats is stats(Count, Min, Mean, Max), in host seconds.
-
-host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
-    hop_keys(Name, Direction, flags(CountKey, MinKey, SumKey, MaxKey)),
-    flag(CountKey, Count, Count),
-    (   Count =:= 0
-    ->  Min = 0.0, Mean = 0.0, Max = 0.0
-    ;   flag(MinKey, Min, Min),
-        flag(SumKey, Sum, Sum),
-        flag(MaxKey, Max, Max),
-        Mean is Sum/Count
-    ).
-
-%!  host_log(+Name, +Agent, +What) is det.
-%
-%   Send an event to the log server of Name, if it has one.
-
-host_log(Name, Agent, What) :-
-    option(Name, log(Log)),
-    !,
-    host(Name, Address, _),
-    address_parts(Log, _, Endpoint),
-    catch(endpoint_post(Endpoint, log, event(Log, Address, Agent, What)),
-          error(Formal, Context),
-          print_message(warning, error(Formal, Context))).
-host_log(_, _, _).
+:- reexport(host/hosts,
+            [ address_parts/3, host/3, host_address/2, host_enter/3,
+              host_hop/3, host_leave/1, host_link/2, host_load/2,
+              host_log/3, host_neighbours/2, host_option/2, host_resolve/2,
+              host_unlink/2
+            ]).
+:- reexport(host/place,
+            [ place_deliver/3, place_undeliver/2, tuple_leave/2,
+              tuple_sense/2, tuple_take/2
+            ]).
+:- reexport(host/clock, [host_time/2, real_time/3]).
+:- reexport(host/context,
+            [ context/3, context_agent/1, context_clear/0, context_host/1,
+              context_set/3
+            ]).
+:- reexport(host/scheduler,
+            [ schedule/2, scheduler_call/1, scheduler_signal/1
+            ]).
+:- reexport(host/timer, [alarm_set/3]).
+:- reexport(host/runtime, [runtime_acquire/2, runtime_release/1]).
+:- reexport(host/hosting,
+            [ host_start/1, host_start/2, host_stop/1, host_property/2,
+              link/2, unlink/2
+            ]).
+:- reexport(host/remote, [remote/2]).

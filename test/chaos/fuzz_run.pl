@@ -27,9 +27,9 @@ _Threading_: the main thread.
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket)).
-:- use_module(library(typhon/auth), [authenticate/5]).
-:- use_module(library(typhon/frame), [frame_write/2, term_bytes/3]).
-:- use_module(library(typhon/hello),
+:- use_module(library(typhon/wire/auth), [authenticate/5]).
+:- use_module(library(typhon/wire/frame), [frame_write/2, term_bytes/3]).
+:- use_module(library(typhon/wire/hello),
               [hello/4, hello_codec/3, line_read/3, line_write/2]).
 
 %!  fuzz(+Options, -Faults:list) is det.
@@ -278,8 +278,8 @@ footprint([slots-Slots, sessions-Sessions, requests-Requests,
           aggregate_all(count, typhon_session:session(_, _), Sessions),
           aggregate_all(count, typhon_request:open_request(_, _, _),
                         Requests),
-          aggregate_all(count, typhon_agent:agent(_, _, _, _, _), Agents),
-          aggregate_all(count, typhon_crew:member_thread(_), Crew),
+          aggregate_all(count, typhon_agents:agent(_, _, _, _, _), Agents),
+          aggregate_all(count, typhon_threads:member_thread(_), Crew),
           aggregate_all(count, message_queue_property(_, size(_)),
                         Queues) )).
 

@@ -12,7 +12,7 @@
 :- use_module(library(http/json), [atom_json_dict/3]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(option), [option/3]).
-:- use_module('../aside', [aside/1]).
+:- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(errors, [nxt_failure/4]).
 :- use_module(helper,
               [ helper_end/1, helper_kill/1, helper_release/1,
@@ -64,7 +64,7 @@ open_link(Brick, Port, Options) :-
 %   @error existence_error(nxt_brick, Brick)
 
 link_close(Brick) :-
-    aside(close_link(Brick)).
+    in_own_thread(close_link(Brick)).
 
 close_link(Brick) :-
     (   retract(brick(Brick, _, _, Owner))

@@ -1,0 +1,67 @@
+:- module(typhon_clock,
+          [ clock_set/3,                % +Host, +Epoch, +Rate
+            clock_clear/1,              % +Host
+            clock/3,                    % ?Host, ?Epoch, ?Rate
+            host_time/2,                % +Host, -Seconds
+            real_time/3,                % +Host, +Seconds, -Stamp
+            real_seconds/3              % +Host, +Seconds, -Real
+          ]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+
+/** <module> Host clocks
+
+A host has a clock: host seconds are (real time - Epoch) * Rate.  The
+default, epoch 0 and rate 1, is the time of day.  Hosts of one network
+share epoch and rate, so that agents and experiments are written in host
+seconds and run as fast as Rate says.
+
+*Threading*: any thread.
+*/
+
+:- dynamic clock/3.             % Host, Epoch, Rate
+
+%!  clock(?Host, ?Epoch, ?Rate) is nondet.
+%
+%   The clocks that are set, as by clock_set/3.
+
+%!  clock_set(+Host, +Epoch, +Rate) is det.
+%
+%   Epoch is a time stamp in real seconds, Rate a positive number.
+
+clock_set(Host, Epoch, Rate) :-
+    must_be(number, Epoch),
+    must_be(number, Rate),
+    (   Rate > 0
+    ->  true
+    ;   domain_error(clock_rate, Rate)
+    ),
+    clock_clear(Host),
+    assertz(clock(Host, Epoch, Rate)).
+
+%!  clock_clear(+Host) is det.
+
+clock_clear(Host) :-
+    retractall(clock(Host, _, _)).
+
+%!  host_time(+Host, -Seconds:float) is semidet.
+
+host_time(Host, Seconds) :-
+    clock(Host, Epoch, Rate),
+    get_time(Now),
+    Seconds is (Now-Epoch)*Rate.
+
+%!  real_time(+Host, +Seconds, -Stamp:float) is semidet.
+%
+%   Stamp is the real time at which the clock of Host shows Seconds.
+
+real_time(Host, Seconds, Stamp) :-
+    clock(Host, Epoch, Rate),
+    Stamp is Epoch+Seconds/Rate.
+
+%!  real_seconds(+Host, +Seconds, -Real:float) is semidet.
+%
+%   A duration in host seconds as one in real seconds.
+
+real_seconds(Host, Seconds, Real) :-
+    clock(Host, _, Rate),
+    Real is Seconds/Rate.

@@ -1,0 +1,195 @@
+:- module(typhon_place,
+          [ place_create/4,             % +Host, +Files, +Services, -Place
+            place_destroy/1,            % +Place
+            tuple_leave/2,              % +Place, +Fact
+            tuple_sense/2,              % +Place, ?Fact
+            tuple_take/2,               % +Place, ?Fact
+            place_deliver/3,            % +Place, +Payload, -PIs
+            place_undeliver/2           % +Place, +Name
+          ]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
+:- use_module(library(apply), [exclude/3, include/3]).
+:- use_module(library(lists), [member/2, subtract/3]).
+:- use_module('../program', [clause_parts/3]).
+
+/** <module> Places: what a host offers to the agents on it
+
+The place of a host is a module: the facts, services, delivered payloads
+and robot interface of the host.  Agents that stand on the host find its
+predicates through the import chain agent, place, vocabulary, system.  The
+tuple space of the host is the predicate '$tuple'/1 of its place.
+
+*Threading*: any thread.  tuple_take/2 is atomic.
+*/
+
+:- dynamic
+    loaded/2,                   % Place, SourceId: consulted into it
+    delivered/3.                % Place, Payload name, PIs
+
+%!  place_create(+Host, +Files, +Services, -Place) is det.
+%
+%   @arg Files are clause files consulted into the place
+%   @arg Services are modules (or files that define one) whose exports the
+%        place offers; module(M) makes all predicates of M visible.
+
+place_create(Host, Files, Services, Place) :-
+    flag(typhon_place, N, N+1),
+    atomic_list_concat(['place ', Host, ' ', N], Place),
+    set_module(Place:class(temporary)),
+    set_module(Place:base(typhon_vocabulary)),
+    dynamic(Place:'$tuple'/1),
+    catch(( forall(member(Service, Services), offer(Service, Place)),
+            forall(member(File, Files), consult_into(Place, File))
+          ),
+          Ball,
+          ( place_destroy(Place), throw(Ball) )).
+
+offer(module(Module), Place) :-
+    !,
+    must_be(atom, Module),
+    add_import_module(Place, Module, start).
+offer(Service, Place) :-
+    atom(Service),
+    module_property(Service, exports(PIs)),
+    !,
+    forall(member(PI, PIs), Place:import(Service:PI)).
+offer(Service, Place) :-
+    Place:use_module(Service).
+
+%   A file may be consulted into many places: each time as another source.
+
+consult_into(Place, Spec) :-
+    absolute_file_name(Spec, File,
+                       [ file_type(prolog), access(read) ]),
+    atomic_list_concat([Place, ': ', File], Id),
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        ( assertz(loaded(Place, Id)),
+          load_files(Place:Id, [stream(In), silent(true)])
+        ),
+        close(In)).
+
+%!  place_destroy(+Place) is det.
+
+place_destroy(Place) :-
+    unload(Place),
+    retractall(delivered(Place, _, _)),
+    '$destroy_module'(Place).
+
+unload(Place) :-
+    retract(loaded(Place, Id)),
+    !,
+    unload_file(Id),
+    unload(Place).
+unload(_).
+
+                /*******************************
+                *          TUPLE SPACE         *
+                *******************************/
+
+%!  tuple_leave(+Place, +Fact) is det.
+%!  tuple_sense(+Place, ?Fact) is nondet.
+%!  tuple_take(+Place, ?Fact) is semidet.
+%
+%   Put, read and take a fact.  Of many agents that take one fact, one
+%   gets it.
+
+tuple_leave(Place, Fact) :-
+    must_be(callable, Fact),
+    assertz(Place:'$tuple'(Fact)).
+
+tuple_sense(Place, Fact) :-
+    Place:'$tuple'(Fact).
+
+tuple_take(Place, Fact) :-
+    retract(Place:'$tuple'(Fact)),
+    !.
+
+                /*******************************
+                *            PAYLOADS          *
+                *******************************/
+
+%!  place_deliver(+Place, +Payload, -PIs) is det.
+%
+%   Install the clauses of payload(Name, PIs, Clauses).  A payload of the
+%   same name is replaced: the new clauses come before the old ones go, so
+%   whoever calls it meanwhile meets some.  On an error nothing has changed.
+%
+%   @error permission_error(deliver, procedure, PI) if the place defines
+%          PI otherwise
+
+place_deliver(Place, payload(Name, PIs, Clauses), PIs) :-
+    with_mutex(typhon_place, deliver(Place, Name, PIs, Clauses)).
+
+deliver(Place, Name, PIs, Clauses) :-
+    old_payload(Place, Name, OldPIs),
+    subtract(PIs, OldPIs, New),
+    subtract(OldPIs, PIs, Gone),
+    forall(member(PI, New), free(Place, PI)),
+    exclude(own(Place), New, Unknown),
+    refs(Place, OldPIs, Old),
+    catch(( forall(member(PI, Unknown), dynamic(Place:PI)),
+            forall(member(Clause, Clauses), add(Place, Clause))
+          ),
+          error(Formal, Context),
+          ( withdraw(Place, PIs, Old, Unknown),
+            throw(error(Formal, Context)) )),
+    forall(member(Ref, Old), erase(Ref)),
+    forall(member(PI, Gone), abolish(Place:PI)),
+    retractall(delivered(Place, Name, _)),
+    assertz(delivered(Place, Name, PIs)).
+
+withdraw(Place, PIs, Old, Unknown) :-
+    include(own(Place), PIs, Own),
+    refs(Place, Own, Now),
+    subtract(Now, Old, New),
+    forall(member(Ref, New), erase(Ref)),
+    include(own(Place), Unknown, Declared),
+    forall(member(PI, Declared), abolish(Place:PI)).
+
+refs(Place, PIs, Refs) :-
+    findall(Ref,
+            ( member(Name/Arity, PIs),
+              functor(Head, Name, Arity),
+              clause(Place:Head, _, Ref) ),
+            Refs).
+
+old_payload(Place, Name, PIs) :-
+    (   delivered(Place, Name, PIs0)
+    ->  PIs = PIs0
+    ;   PIs = []
+    ).
+
+own(Place, Name/Arity) :-
+    functor(Head, Name, Arity),
+    predicate_property(Place:Head, dynamic),
+    \+ predicate_property(Place:Head, imported_from(_)).
+
+free(Place, Name/Arity) :-
+    functor(Head, Name, Arity),
+    (   predicate_property(Place:Head, defined),
+        \+ predicate_property(Place:Head, imported_from(_)),
+        predicate_property(Place:Head, number_of_clauses(N)),
+        N > 0
+    ->  permission_error(deliver, procedure, Name/Arity)
+    ;   true
+    ).
+
+add(Place, Clause) :-
+    clause_parts(Clause, Head, Body),
+    assertz(Place:(Head:-Body)).
+
+%!  place_undeliver(+Place, +Name) is det.
+%
+%   @error existence_error(payload, Name)
+
+place_undeliver(Place, Name) :-
+    (   with_mutex(typhon_place, remove(Place, Name))
+    ->  true
+    ;   existence_error(payload, Name)
+    ).
+
+remove(Place, Name) :-
+    retract(delivered(Place, Name, PIs)),
+    forall(member(PI, PIs), abolish(Place:PI)).

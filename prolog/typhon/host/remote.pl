@@ -1,0 +1,103 @@
+:- module(typhon_remote,
+          [ remote/2                    % +Host, +Goal
+          ]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
+:- use_module('../wire', [endpoint_call/5, endpoint_reply/2, mobile_term/1]).
+:- use_module(context, [in_context/2]).
+:- use_module(hosts, [host/3, host_option/2, host_resolve/2]).
+:- use_module(scheduler, [scheduler_call/1]).
+
+/** <module> Goals in the place of any host
+
+remote/2 is for administrators: whoever holds the cookie can run any goal
+on a host, unless the host was started with remote(false).
+
+*Threading*: the goal runs in the thread that calls, or in a worker of the
+other process.
+*/
+
+:- multifile typhon_endpoint:requested/4.
+
+%!  remote(+Host, +Goal) is semidet.
+%
+%   once(Goal) in the place of Host, here or in another process.  Bindings
+%   come back; failure and errors, too.  A goal M:G is run in module M
+%   instead, with the place only as its context.  leave/1, sense/1 and take/1
+%   work on the tuple space of Host.
+%
+%   @error permission_error(remote, host, Host) if the host refuses
+%   @error host_unreachable(Host)
+%   @error connection_lost(Host): whether Goal ran is not known
+
+remote(Host, Goal) :-
+    host_resolve(Host, Where),
+    must_be(callable, Goal),
+    run(Where, Host, Goal).
+
+run(local(Name), _, Goal) :-
+    run_here(Name, Goal).
+run(remote(_, Name, Endpoint), Host, Goal) :-
+    mobile_term(Goal),
+    catch(endpoint_call(Endpoint, remote, remote(Name, Goal),
+                        answer(Answer), 1.0e9),
+          error(Formal, _),
+          failed(Formal, Host)),
+    conclude(Answer, Host, Goal).
+
+failed(unreachable(_), Host) :-
+    !,
+    throw(error(host_unreachable(Host), _)).
+failed(connection_lost(_), Host) :-
+    !,
+    throw(error(connection_lost(Host), _)).
+failed(Formal, _) :-
+    throw(error(Formal, _)).
+
+conclude(true(Goal), _, Goal).
+conclude(raised(Ball), _, _) :-
+    throw(Ball).
+conclude(unknown_host, Host, _) :-
+    existence_error(host, Host).
+
+run_here(Name, Goal) :-
+    host(Name, _, Place),
+    (   host_option(Name, remote(false))
+    ->  permission_error(remote, host, Name)
+    ;   in_context(Name, Place:Goal)
+    ).
+
+typhon_endpoint:requested(remote, remote(Name, Goal), _Peer, ReplyTo) :-
+    (   host(Name, _, _)
+    ->  scheduler_call(typhon_remote:serve(Name, Goal, ReplyTo))
+    ;   endpoint_reply(ReplyTo, unknown_host)
+    ).
+
+serve(Name, Goal, ReplyTo) :-
+    catch(outcome(Name, Goal, Answer), Ball, raised(Ball, Answer)),
+    endpoint_reply(ReplyTo, Answer).
+
+%   What cannot travel goes as text: who asked must get an answer.
+
+raised(Ball, raised(Portable)) :-
+    catch(( mobile_term(Ball), Portable = Ball ),
+          error(type_error(mobile_term, _), _),
+          portable(Ball, Portable)).
+
+portable(Ball, Portable) :-
+    (   Ball = error(Formal, _),
+        catch(mobile_term(Formal), error(type_error(mobile_term, _), _), fail)
+    ->  Portable = error(Formal, _)
+    ;   Ball = error(type_error(mobile_term, Culprit), _)
+    ->  format(atom(Text), '~q', [Culprit]),
+        Portable = error(type_error(mobile_term, Text), _)
+    ;   format(atom(Text), '~q', [Ball]),
+        Portable = error(system_error(Text), _)
+    ).
+
+outcome(Name, Goal, Answer) :-
+    (   run_here(Name, Goal)
+    ->  mobile_term(Goal),
+        Answer = true(Goal)
+    ;   Answer = false
+    ).

@@ -1,0 +1,91 @@
+:- module(typhon_runtime,
+          [ runtime_acquire/2,          % +User, +Options
+            runtime_release/1           % +User
+          ]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/own_thread',
+              [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
+:- use_module('../program', [code_clear/0]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_start/3, endpoint_stop/0]).
+:- use_module(scheduler, [scheduler_start/0, scheduler_stop/0]).
+
+/** <module> What the hosts of a process share
+
+The endpoint and the scheduler run as long as anybody in the process uses
+them: hosts, log servers.  The first user starts them, the last one stops
+them.  The rooms above that have something to see to then say so with the
+hook ending/1.
+
+*Threading*: a mutex makes users come and go one at a time.
+*/
+
+:- multifile
+    ending/1.                           % before or after both have stopped
+
+:- dynamic
+    ending/1,
+    user/1.                             % Name of a user
+
+%!  runtime_acquire(+User, +Options) is det.
+%
+%   User, any ground term, needs endpoint and scheduler.  Options port(P)
+%   and bind(Interface) are for the first user; later ones may only repeat
+%   what is so.
+%
+%   @error permission_error(change, endpoint, Option)
+
+runtime_acquire(User, Options) :-
+    with_mutex(typhon_runtime, acquire(User, Options)).
+
+acquire(User, Options) :-
+    (   user(_)
+    ->  forall(member(Option, Options), must_agree(Option))
+    ;   start(Options)
+    ),
+    assertz(user(User)).
+
+start(Options) :-
+    option(port(Port), Options, 0),
+    option(bind(Interface), Options, localhost),
+    own_thread_start,
+    catch(( scheduler_start,
+            endpoint_start(Interface, Port, _)
+          ),
+          Ball,
+          ( scheduler_stop, own_thread_stop, throw(Ball) )).
+
+must_agree(Option) :-
+    (   disagrees(Option)
+    ->  permission_error(change, endpoint, Option)
+    ;   true
+    ).
+
+disagrees(port(Port)) :-
+    Port \== 0,
+    endpoint_address(Endpoint),
+    atomic_list_concat([_,Port0], ':', Endpoint),
+    \+ atom_number(Port0, Port).
+disagrees(bind(Interface)) :-
+    Interface \== localhost,
+    endpoint_address(Endpoint),
+    \+ atomic_list_concat([Interface,_], ':', Endpoint).
+
+%!  runtime_release(+User) is det.
+
+runtime_release(User) :-
+    in_own_thread(with_mutex(typhon_runtime, release(User))).
+
+release(User) :-
+    (   retract(user(User)),
+        \+ user(_)
+    ->  forall(ending(before), true),
+        endpoint_stop,
+        scheduler_stop,
+        code_clear,
+        forall(ending(after), true),
+        own_thread_stop
+    ;   true
+    ).

@@ -1,0 +1,212 @@
+:- module(typhon_pheromone,
+          [ pheromone_emit/3,           % +Host, +Problem, +Options
+            pheromone_withdraw/2,       % +Host, +Problem
+            pheromone_here/4,           % +Host, ?Problem, -Source, -Strength
+            pheromone_strength/4,       % +Maximum, +Span, +Distance, -Strength
+            pheromone_until/5           % +Emitted, +Period, +Span, +Distance,
+                                        % -Until
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
+:- use_module('../base/chance', [chance_member/4]).
+:- use_module('../wire', [endpoint_address/1, endpoint_post/3, mobile_term/1]).
+:- use_module('../host',
+              [ address_parts/3, host/3, host_neighbours/2, host_time/2,
+                scheduler_call/1, tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
+:- use_module(strategy, [memory_chance/4]).
+
+/** <module> Pheromones, and the agents that follow them
+
+A host that needs service emits a pheromone for its problem. It spreads
+over the links as they are then, weaker at every hop, and is gone after
+Span hops. An agent that can solve the problem follows it to its source by
+the migration strategy phercon(Problem): at a host with pheromones whose
+problem Problem subsumes it goes to where the strongest came from. Where
+there are none it goes on as a conscientious agent does. (PherCon: Godfrey
+and Nair.)
+
+At a host a pheromone is the tuple
+
+    pheromone(Problem, Source, Strength, Next, Until)
+
+Source is the host that emitted it, Next the neighbour it came from, Until
+the host time at which it has evaporated. Of the same problem and source
+the stronger one stays, and of two that are equally strong the younger.
+
+*Threading*: any thread. What arrives is stored and passed on by a worker.
+*/
+
+:- multifile
+    typhon_endpoint:received/3,
+    typhon_strategy:choose/6,
+    typhon_strategy:strategy/1.
+
+                /*******************************
+                *           DIFFUSION          *
+                *******************************/
+
+%!  pheromone_strength(+Maximum, +Span, +Distance:integer, -Strength) is det.
+%!  pheromone_until(+Emitted, +Period, +Span, +Distance:integer, -Until) is det.
+%
+%   The strength of a pheromone Distance hops from its source, and when it
+%   evaporates there. It is 0 beyond Span hops. Near the source it lasts
+%   for Span periods, and one less at each hop.
+
+pheromone_strength(Maximum, Span, Distance, Strength) :-
+    Strength is max(0, Maximum - (Distance - 1) * Maximum / Span).
+
+pheromone_until(Emitted, Period, Span, Distance, Until) :-
+    Until is Emitted + max(0, Span - Distance + 1) * Period.
+
+%!  pheromone_emit(+Host, +Problem, +Options) is det.
+%
+%   Host, a name, emits a pheromone for Problem, a ground term. Options:
+%
+%     - span(Hops): how far it spreads; default 3
+%     - strength(Number): next to the source; default 100
+%     - period(Seconds): of host time, see pheromone_until/5; default 10
+%
+%   Emitting again refreshes what is left.
+%
+%   @error type_error(mobile_term, Culprit), instantiation_error
+
+pheromone_emit(Host, Problem, Options) :-
+    must_be(ground, Problem),
+    mobile_term(Problem),
+    option(span(Span), Options, 3),
+    option(strength(Maximum), Options, 100),
+    option(period(Period), Options, 10),
+    must_be(positive_integer, Span),
+    must_be(number, Maximum),
+    must_be(number, Period),
+    host(Host, Source, _),
+    host_time(Host, Now),
+    spread(Host, Source,
+           signal(Problem, Source, Maximum, Span, Period, Now, 1)).
+
+%   A signal is signal(Problem, Source, Maximum, Span, Period, Emitted,
+%   Distance), Distance being that of those who get it.
+
+spread(Host, From, Signal) :-
+    arg(2, Signal, Source),
+    host(Host, Here, _),
+    host_neighbours(Host, Neighbours),
+    forall(( member(To, Neighbours), To \== From, To \== Source ),
+           tell(To, smelt(Here, Signal))).
+
+tell(To, News) :-
+    address_parts(To, Name, Endpoint),
+    (   endpoint_address(Endpoint)
+    ->  scheduler_call(typhon_pheromone:news(Name, News))
+    ;   catch(endpoint_post(Endpoint, pheromone, pheromone(Name, News)),
+              error(Formal, _),
+              debug(typhon(pheromone), 'not told ~w: ~p', [To, Formal]))
+    ).
+
+typhon_endpoint:received(pheromone, pheromone(Name, News), _) :-
+    scheduler_call(typhon_pheromone:news(Name, News)).
+
+news(Host, News) :-
+    (   host(Host, _, Place)
+    ->  heard(News, Host, Place)
+    ;   true                            % it was stopped meanwhile
+    ).
+
+heard(smelt(From, Signal), Host, Place) :-
+    Signal = signal(Problem, Source, Maximum, Span, Period, Emitted, D),
+    pheromone_strength(Maximum, Span, D, Strength),
+    pheromone_until(Emitted, Period, Span, D, Until),
+    host_time(Host, Now),
+    Pheromone = pheromone(Problem, Source, Strength, From, Until),
+    (   with_mutex(typhon_pheromone, store(Place, Now, Pheromone)),
+        D < Span
+    ->  D1 is D + 1,
+        spread(Host, From,
+               signal(Problem, Source, Maximum, Span, Period, Emitted, D1))
+    ;   true
+    ).
+heard(withdrawn(Source, Problem), Host, Place) :-
+    (   with_mutex(typhon_pheromone, remove(Place, Problem, Source))
+    ->  spread_withdrawal(Host, Source, Problem)
+    ;   true
+    ).
+
+%   store(+Place, +Now, +Pheromone) is semidet: fails if there is a better
+%   one.
+
+store(Place, Now, Pheromone) :-
+    Pheromone = pheromone(Problem, Source, Strength, _, Until),
+    Until > Now,
+    \+ ( tuple_sense(Place, pheromone(Problem, Source, S0, _, U0)),
+         U0 > Now,
+         better(S0, U0, Strength, Until) ),
+    ignore(remove(Place, Problem, Source)),
+    tuple_leave(Place, Pheromone).
+
+better(S0, _, S, _) :-
+    S0 > S.
+better(S0, U0, S, U) :-
+    S0 =:= S,
+    U0 >= U.
+
+remove(Place, Problem, Source) :-
+    tuple_take(Place, pheromone(Problem, Source, _, _, _)).
+
+%!  pheromone_withdraw(+Host, +Problem) is det.
+%
+%   The pheromone that Host emitted for Problem goes from wherever it has
+%   come to, over the links as they are now. What is not reached like this
+%   evaporates.
+
+pheromone_withdraw(Host, Problem) :-
+    must_be(ground, Problem),
+    host(Host, Source, _),
+    spread_withdrawal(Host, Source, Problem).
+
+spread_withdrawal(Host, Source, Problem) :-
+    host_neighbours(Host, Neighbours),
+    forall(( member(To, Neighbours), To \== Source ),
+           tell(To, withdrawn(Source, Problem))).
+
+                /*******************************
+                *           FOLLOWING          *
+                *******************************/
+
+%!  pheromone_here(+Host, ?Problem, -Source, -Strength) is nondet.
+%
+%   There is a pheromone for Problem at Host, a name, now.
+
+pheromone_here(Host, Problem, Source, Strength) :-
+    live(Host, Problem, Source, Strength, _).
+
+live(Host, Problem, Source, Strength, Next) :-
+    host(Host, _, Place),
+    host_time(Host, Now),
+    tuple_sense(Place, pheromone(Problem, Source, Strength, Next, Until)),
+    Until > Now.
+
+%   Only what leads to a neighbour can be followed. Of equally strong ones
+%   the agent draws one.
+
+typhon_strategy:strategy(phercon(_)).
+
+typhon_strategy:choose(phercon(Problem), Hosts, Here, Memory0, Host, Memory) :-
+    findall(Strength-Next, followable(Here, Problem, Hosts, Strength, Next),
+            Trails),
+    aggregate_all(max(Strength), member(Strength-_, Trails), Most),
+    !,
+    findall(Next, member(Most-Next, Trails), Nexts0),
+    sort(Nexts0, Nexts),
+    memory_chance(Memory0, Chance0, Chance, Memory),
+    chance_member(Host, Nexts, Chance0, Chance).
+typhon_strategy:choose(phercon(_), Hosts, Here, Memory0, Host, Memory) :-
+    typhon_strategy:choose(conscientious, Hosts, Here, Memory0, Host, Memory).
+
+followable(Here, Problem, Hosts, Strength, Next) :-
+    host(Name, Here, _),
+    live(Name, Found, _, Strength, Next),
+    subsumes_term(Problem, Found),
+    memberchk(Next, Hosts).

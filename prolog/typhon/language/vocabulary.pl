@@ -1,0 +1,25 @@
+:- module(typhon_vocabulary, []).
+
+/** <module> What is visible to agents
+
+This module is the import parent of all places.  It defines nothing: it
+brings together the vocabulary of agents (typhon_words) and libraries
+without state that agents may use without asking.
+
+*Threading*: nothing happens here.
+*/
+
+:- set_module(base(system)).
+
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(assoc)).
+:- use_module(library(error)).
+:- use_module(library(lists)).
+:- use_module(library(option)).
+:- use_module(library(ordsets)).
+:- use_module(library(pairs)).
+:- use_module(library(random)).
+:- use_module(library(solution_sequences)).
+:- use_module(library(yall)).
+:- use_module(words, []).

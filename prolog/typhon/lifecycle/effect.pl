@@ -1,0 +1,234 @@
+:- module(typhon_effect,
+          [ effect/5,                   % +Control, +Hole, +Goals, +Where, -Next
+            effect_depart/5,            % +Id, +Where, +Hole, +Goals, +Since
+            effect_order/4              % +Id, +Here, +Host, +Goals
+          ]).
+:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module('../host',
+              [ alarm_set/3, host/3, host_option/2, host_resolve/2,
+                host_time/2, real_time/3, schedule/2 ]).
+:- use_module('../agent',
+              [ agent/5, agent_id/3, agent_name/3, agent_ordered/1,
+                agent_put/3, agent_ready/2, agent_status/3, mail_take/2,
+                with_agent/2 ]).
+:- use_module('../travel', [hop/5, hop_clone/6]).
+:- use_module(creation, [agent_clone_here/5, agent_end/2]).
+
+/** <module> What each control predicate does
+
+The machine stops an agent at a control predicate; here is what becomes of
+it: it goes on at once, waits, travels or ends.
+
+*Threading*: effects happen in the worker that has the agent, alarms in the
+timer.
+*/
+
+:- multifile
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2,
+    typhon_scheduler:kind/2,
+    typhon_scheduler:running/1.
+
+%!  effect(+Control, +Hole, +Goals, +Where, -Next) is det.
+%
+%   @arg Where is Id-Host
+%   @arg Next is go(Goals) if the agent goes on at once, else `stop`
+%   @error what is to be raised at the control predicate
+
+effect(move(Host), Hole, Goals, Id-Here, Next) :-
+    destination(Host, Dest),
+    (   Dest == local(Here)
+    ->  Hole = true,
+        Next = go(Goals)
+    ;   agent(Id, _, _, _, Life),
+        may_move(Life, Id, May),
+        set_out(May, Dest, Hole, Goals, Id-Here),
+        Next = stop
+    ).
+effect(clone(Who), Hole, Goals, Id-Here, go(Goals)) :-
+    clone_id(Id, Here, CloneId),
+    copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
+    agent_clone_here(Id, CloneId, Here, Going, Answer),
+    (   Answer = refused(Reason)
+    ->  host(Here, Address, _),
+        Hole = throw(error(move_refused(Address, Reason), _))
+    ;   Hole = (Who=parent(CloneId))
+    ).
+effect(clone(Host, Who), Hole, Goals, Id-Here, Next) :-
+    destination(Host, Dest),
+    (   Dest == local(Here)
+    ->  effect(clone(Who), Hole, Goals, Id-Here, Next)
+    ;   clone_id(Id, Here, CloneId),
+        hop_clone(Id, Dest, CloneId, Who, Hole, Goals),
+        Next = stop
+    ).
+effect(sleep(Seconds), Hole, Goals, Id-Here, Next) :-
+    must_be(number, Seconds),
+    host_time(Here, Now),
+    Until is Now+Seconds,
+    effect(sleep_until(Until), Hole, Goals, Id-Here, Next).
+effect(sleep_until(Until), Hole, Goals, Id-Here, Next) :-
+    host_time(Here, Now),
+    (   Now >= Until
+    ->  Hole = true,
+        Next = go(Goals)
+    ;   Hole = sleep_until(Until),
+        wait(Id, Here, sleeping(Until), Until, Goals),
+        Next = stop
+    ).
+effect(receive(Message), Hole, Goals, Id-Here, Next) :-
+    receive(Message, inf, receive(Message), Hole, Goals, Id-Here, Next).
+effect(receive(Message, Seconds), Hole, Goals, Id-Here, Next) :-
+    (   infinite(Seconds)
+    ->  effect(receive(Message), Hole, Goals, Id-Here, Next)
+    ;   must_be(number, Seconds),
+        host_time(Here, Now),
+        Until is Now+Seconds,
+        effect(receive_until(Message, Until), Hole, Goals, Id-Here, Next)
+    ).
+effect(receive_until(Message, Until), Hole, Goals, Id-Here, Next) :-
+    receive(Message, Until, receive_until(Message, Until), Hole, Goals,
+            Id-Here, Next).
+effect(dispose, _, _, Id-_, stop) :-
+    ignore(agent_end(Id, disposed)).
+
+infinite(Seconds) :- Seconds == inf.
+infinite(Seconds) :- Seconds == infinite.
+infinite(Seconds) :- float(Seconds), Seconds =:= inf.
+
+%   receive(+Message, +Until, +Again, ...): take a message or wait for it;
+%   Again is the goal that does it when the agent is woken.
+
+receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
+    with_agent(Id, take_or_wait(Message, Until, Again, Hole, Goals,
+                                Id-Here, Next)),
+    (   Next == stop,
+        number(Until)
+    ->  real_time(Here, Until, Stamp),
+        alarm_set(Stamp, Id, until(Until))
+    ;   true
+    ).
+
+take_or_wait(Message, _, _, true, Goals, Id-_, go(Goals)) :-
+    mail_take(Id, Message),
+    !.
+take_or_wait(_, Until, _, fail, Goals, _-Here, go(Goals)) :-
+    number(Until),
+    host_time(Here, Now),
+    Now >= Until,
+    !.
+take_or_wait(Message, Until, Again, Again, Goals, Id-_, stop) :-
+    agent_put(Id, waiting(Message, Until), Goals),
+    rouse_if_ordered(Id).
+
+wait(Id, Host, Status, Until, Goals) :-
+    with_agent(Id, ( agent_put(Id, Status, Goals),
+                     rouse_if_ordered(Id)
+                   )),
+    real_time(Host, Until, Stamp),
+    alarm_set(Stamp, Id, until(Until)).
+
+%   An order may have come while the agent was running.
+
+rouse_if_ordered(Id) :-
+    (   agent_ordered(Id)
+    ->  agent_status(Id, _, Goals),
+        agent_ready(Id, Goals)
+    ;   true
+    ).
+
+typhon_scheduler:fire(Id, until(Until)) :-
+    !,
+    ignore(with_agent(Id, rouse(Id, Until))).
+typhon_scheduler:fire(Id, leave) :-
+    !,
+    (   agent(Id, Host, _, _, _)
+    ->  schedule(Host, Id)
+    ;   true
+    ).
+
+rouse(Id, Until) :-
+    rests(Id, Until, Goals),
+    !,
+    agent_ready(Id, Goals).
+
+rests(Id, Until, Goals) :-
+    agent_status(Id, Status, Goals),
+    (   Status = sleeping(Until)
+    ;   Status = waiting(_, Until)
+    ).
+
+typhon_scheduler:over(Id, until(Until)) :-
+    \+ rests(Id, Until, _).
+typhon_scheduler:over(Id, leave) :-
+    \+ agent_status(Id, leaving(_, _), _).
+
+%   Agents of one program are apt to block alike.
+
+typhon_scheduler:kind(Id, Program) :-
+    agent(Id, _, _, Program, _).
+
+typhon_scheduler:running(Id) :-
+    agent(Id, _, _, _, _),
+    agent_status(Id, running, _).
+
+                /*******************************
+                *        MOVE AND CLONE        *
+                *******************************/
+
+may_move(life(_, _, _, _, _, true), Id, _) :-
+    permission_error(move, static_agent, Id).
+may_move(life(_, Hops, Lifetime, _, _, _), _, end) :-
+    integer(Lifetime),
+    Hops >= Lifetime,
+    !.
+may_move(_, _, go).
+
+set_out(end, _, _, _, Id-_) :-
+    ignore(agent_end(Id, disposed)).
+set_out(go, Dest, Hole, Goals, Id-Here) :-
+    host_time(Here, Now),
+    (   host_option(Here, hop_time(uniform(Min, Max)))
+    ->  At is Now+Min+random_float*(Max-Min),
+        with_agent(Id, agent_put(Id, leaving(Dest, At),
+                                 hop(Hole-Goals, Now))),
+        real_time(Here, At, Stamp),
+        alarm_set(Stamp, Id, leave)
+    ;   hop(Id, Dest, Hole, Goals, Now)
+    ).
+
+%   A name that no host has is like one that the other process lacks.
+
+destination(Host, Dest) :-
+    catch(host_resolve(Host, Dest),
+          error(existence_error(host, _), _),
+          throw(error(move_refused(Host, unknown_host), _))).
+
+%!  effect_depart(+Id, +Where, +Hole, +Goals, +Since) is det.
+%
+%   The delay of the hop is over.  What cannot travel is found now.
+
+effect_depart(Id, Dest, Hole, Goals, Since) :-
+    catch(hop(Id, Dest, Hole, Goals, Since),
+          error(Formal, Where),
+          ( Hole = throw(error(Formal, Where)),
+            with_agent(Id, agent_ready(Id, Goals))
+          )).
+
+clone_id(Id, Here, CloneId) :-
+    agent_name(Id, Name, _),
+    host(Here, Address, _),
+    agent_id(Name, Address, CloneId).
+
+%!  effect_order(+Id, +Here, +Host, +Goals) is det.
+%
+%   Id, which stands on Here and is to do Goals, is told to move to Host.
+
+effect_order(Id, Here, Host, Goals) :-
+    host_resolve(Host, Dest),
+    (   Dest == local(Here)
+    ->  with_agent(Id, agent_ready(Id, Goals))
+    ;   agent(Id, _, _, _, Life),
+        may_move(Life, Id, May),
+        set_out(May, Dest, ordered, Goals, Id-Here)
+    ).

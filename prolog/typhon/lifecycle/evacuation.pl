@@ -1,0 +1,63 @@
+:- module(typhon_evacuation, []).
+:- use_module(library(lists), [member/2]).
+:- use_module('../host', [host_load/2, scheduler_signal/1]).
+:- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
+:- use_module(creation, [agent_end/2]).
+:- use_module(running, [agent_do/2]).
+
+/** <module> The agents on a host that is being stopped
+
+Agents that rest are disposed of at once, those that run at their next
+effect; those that do not come to one are interrupted.  Those that are about
+to arrive elsewhere may do so.
+
+*Threading*: the thread that stops the host.
+*/
+
+:- multifile typhon_hosting:evacuate/2.
+
+typhon_hosting:evacuate(Host, Deadline) :-
+    evacuate(Host, Deadline).
+
+%   One that is on its way in counts as load before it stands here.
+
+evacuate(Host, Deadline) :-
+    findall(Id, agent(Id, Host, _, _, _), Ids),
+    host_load(Host, Load),
+    get_time(Now),
+    (   Ids == [],
+        ( Load =< 0 ; Now > Deadline )
+    ->  true
+    ;   forall(( member(Id, Ids), stays(Id) ),
+               ignore(agent_do(Id, dispose))),
+        (   Now > Deadline
+        ->  interrupt(Host, Ids)
+        ;   true
+        ),
+        thread_self(Me),
+        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
+        evacuate(Host, Deadline)
+    ).
+
+stays(Id) :-
+    \+ agent_ordered(Id),
+    \+ agent_status(Id, transit(_, _), _).
+
+%   abort is the one exception that the agent's own catch/3 cannot stop.
+
+interrupt(Host, Ids) :-
+    forall(( member(Id, Ids), \+ agent_status(Id, running, _) ),
+           ignore(agent_end(Id, disposed))),
+    (   member(Id, Ids),
+        agent_status(Id, running, _)
+    ->  scheduler_signal(typhon_evacuation:stop_running(Host))
+    ;   true
+    ).
+
+stop_running(Host) :-
+    (   nb_current(typhon_context, context(Host0, Id, _)),
+        Host0 == Host,
+        Id \== none
+    ->  abort
+    ;   true
+    ).

@@ -1,0 +1,212 @@
+:- module(typhon_carrier,
+          [ order_do/2,                 % +Order, -Answer
+            carrier_main/0
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_kill/2]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_flush/2, endpoint_reply/2]).
+:- use_module('../host',
+              [ host_link/2, host_neighbours/2, host_property/2, host_start/2,
+                host_stop/1, host_unlink/2, runtime_acquire/2,
+                runtime_release/1 ]).
+
+/** <module> A process that carries hosts of a network
+
+What a network asks of whoever carries its hosts is done by direct call in
+its own process, and by request in a child. Whole lists go in one order: a
+network of a thousand hosts is a few requests.
+
+A child is started by the room `children` as `swipl -g carrier_main
+carrier.pl`. The first line of its standard input is node(Cookie, Interface,
+StopSeconds). When the endpoint listens, one line is written:
+
+    typhon_carrier <Interface>:<Port> <Pid>
+
+From then on orders come over the wire, as requests of kind `node`. The
+process stops in order, hosts first, then what is still to be sent, when
+its standard input ends or on SIGTERM and SIGINT, and at the latest
+StopSeconds later it is gone, whatever hangs.
+
+*Threading*: order_do/2 in any thread. In a child the main thread carries
+orders out, one after the other; that the process is alive the thread of the
+connection says itself. One thread waits for the end of standard input, and
+one for the order to stop: it sees to it that there is an end.
+*/
+
+:- multifile
+    typhon_endpoint:requested/4.
+
+:- dynamic
+    child/0.                    % this process is one
+
+                /*******************************
+                *            ORDERS            *
+                *******************************/
+
+%!  order_do(+Order, -Answer) is det.
+%
+%   Orders and their answers:
+%
+%     - hosts(Specs)
+%       Starts a host for each Name-Options, or none. Answer is the list
+%       of their addresses.
+%     - stop(Names)
+%       Stops these hosts; `ok`. One that is gone already is no error.
+%     - stop
+%       Stops all hosts of the process; `ok`.
+%     - flush(Seconds, Peers)
+%       `ok` when all that the process has sent to the endpoints Peers has
+%       arrived, else `late`.
+%     - link(Pairs), unlink(Pairs)
+%       One direction of a link for each Name-Address; `ok`.
+%     - neighbours(Names)
+%       Answer is the list of their lists of neighbours; `[]` for a host
+%       that is gone.
+%
+%   @error what host_start/2 throws
+
+order_do(hosts(Specs), Addresses) :-
+    start_all(Specs, []),
+    findall(Address,
+            ( member(Name-_, Specs), host_property(Name, address(Address)) ),
+            Addresses).
+order_do(stop(Names), ok) :-
+    forall(member(Name, Names), stop_host(Name)).
+order_do(stop, ok) :-
+    findall(Name, host_property(Name, address(_)), Names),
+    order_do(stop(Names), ok).
+order_do(flush(Seconds, Peers), Answer) :-
+    (   endpoint_flush(Seconds, Peers)
+    ->  Answer = ok
+    ;   Answer = late
+    ).
+order_do(link(Pairs), ok) :-
+    forall(member(Name-Address, Pairs), host_link(Name, Address)).
+order_do(unlink(Pairs), ok) :-
+    forall(member(Name-Address, Pairs), host_unlink(Name, Address)).
+order_do(neighbours(Names), Lists) :-
+    maplist(host_neighbours, Names, Lists).
+
+start_all([], _).
+start_all([Name-Options|Specs], Started) :-
+    catch(host_start(Name, Options), Error, true),
+    (   var(Error)
+    ->  start_all(Specs, [Name|Started])
+    ;   forall(member(Host, Started), stop_host(Host)),
+        throw(Error)
+    ).
+
+stop_host(Name) :-
+    catch(host_stop(Name), error(existence_error(host, _), _), true).
+
+                /*******************************
+                *            A CHILD           *
+                *******************************/
+
+%!  carrier_main
+%
+%   Never returns: the process ends.
+
+carrier_main :-
+    load_platform,
+    set_stream(user_input, encoding(utf8)),
+    set_stream(user_output, encoding(utf8)),
+    set_stream(user_output, buffer(line)),
+    read_term(user_input, node(Cookie, Interface, Seconds), []),
+    setenv('TYPHON_COOKIE', Cookie),
+    thread_create(see_to_end(Seconds), _,
+                  [alias(typhon_end), detached(true)]),
+    on_signal(term, _, typhon_carrier:on_stop_signal),
+    on_signal(int, _, typhon_carrier:on_stop_signal),
+    assertz(child),
+    runtime_acquire(node, [bind(Interface)]),
+    endpoint_address(Endpoint),
+    thread_create(watch_input, _, [detached(true)]),
+    current_prolog_flag(pid, Pid),
+    format('typhon_carrier ~w ~d~n', [Endpoint, Pid]),
+    flush_output,
+    serve,
+    stop.
+
+%   This room knows only what it needs: agents need the rest.
+
+load_platform :-
+    (   exists_source(library(typhon))
+    ->  true
+    ;   module_property(typhon_carrier, file(File)),
+        relative_library(File, Library),
+        asserta(user:file_search_path(library, Library))
+    ),
+    use_module(library(typhon), []).
+
+relative_library(File, Library) :-
+    atom_concat(Library, '/typhon/network/carrier.pl', File).
+
+on_stop_signal(_) :-
+    thread_send_message(typhon_end, stop).
+
+%   Nothing more is expected on standard input but its end.
+
+watch_input :-
+    repeat,
+    catch(get_char(user_input, Char), error(io_error(_, _), _),
+          Char = end_of_file),
+    Char == end_of_file,
+    !,
+    thread_send_message(typhon_end, stop).
+
+see_to_end(Seconds) :-
+    thread_get_message(stop),
+    thread_send_message(main, stop),
+    thread_self(Me),
+    \+ thread_get_message(Me, never, [timeout(Seconds)]),
+    current_prolog_flag(pid, Pid),
+    process_kill(Pid, kill).
+
+typhon_endpoint:requested(node, alive, _, ReplyTo) :-
+    child,
+    !,
+    endpoint_reply(ReplyTo, done(ok)).
+typhon_endpoint:requested(node, Order, _, ReplyTo) :-
+    child,
+    thread_send_message(main, order(Order, ReplyTo)).
+
+serve :-
+    thread_get_message(Message),
+    (   Message = order(Order, ReplyTo)
+    ->  answer(Order, Answer),
+        endpoint_reply(ReplyTo, Answer),
+        serve
+    ;   Message == stop
+    ->  true
+    ;   debug(typhon(network), 'unexpected message: ~p', [Message]),
+        serve
+    ).
+
+%   The context of an error may hold what cannot travel: its text does.
+
+answer(Order, Answer) :-
+    catch(answer_(Order, Answer), Error, raised(Error, Answer)).
+
+answer_(Order, Answer) :-
+    (   order_do(Order, Value)
+    ->  Answer = done(Value)
+    ;   Answer = raised(system_error(failed(Order)), "")
+    ).
+
+raised(Error, raised(Formal, Text)) :-
+    '$messages':translate_message(Error, Lines, []),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)),
+    (   Error = error(Formal, _)
+    ->  true
+    ;   Formal = system_error(Text)
+    ).
+
+stop :-
+    order_do(stop, ok),
+    runtime_release(node),
+    halt(0).

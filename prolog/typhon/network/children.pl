@@ -1,0 +1,207 @@
+:- module(typhon_children,
+          [ child_start/5,              % +Tag, +Machine, +Interface,
+                                        % :OnEvent, -Child
+            child_close/1,              % +Child
+            child_kill/1,               % +Child
+            child_release/1             % +Child
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [must_be/2, type_error/2]).
+:- use_module(library(lists), [last/2]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../wire', [cookie/1]).
+
+/** <module> Processes that carry the hosts of a network
+
+A child runs carrier.pl, on this machine or through ssh on another. It is told
+what it must know in one line on its standard input, the cookie among it,
+which therefore is in no argument list and no environment of ssh. It says
+in one line on its standard output where its endpoint listens. Whatever it
+prints later is printed here.
+
+Its standard input stays open as long as it is wanted. The end of it is
+the order to stop, and it comes by itself when this process dies.
+
+Children are leaders of sessions of their own: the interrupt key of a
+terminal stops the query of the person who sits there, not the network.
+
+*Threading*: one thread per child reads its output and waits for its end.
+It calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, Pid
+being that of the child on its machine, and with down(Tag, Status) when it
+has ended.
+*/
+
+:- meta_predicate
+    child_start(+, +, +, 1, -).
+
+:- public
+    stop_reading/0.             % goal of a signal
+
+:- multifile
+    prolog:message//1.
+
+:- setting(ssh, atom, ssh, "The program that reaches other machines").
+:- setting(stop_seconds, number, 5,
+           "A child has so long to end in order, then it is killed").
+
+:- dynamic
+    node_file/1.                % File
+
+:- prolog_load_context(directory, Dir),
+   atom_concat(Dir, '/carrier.pl', File),
+   retractall(node_file(_)),
+   assertz(node_file(File)).
+
+%!  child_start(+Tag, +Machine, +Interface, :OnEvent, -Child) is det.
+%
+%   Machine is `local`, a target of ssh, or machine(Target, Options) with
+%   the options swipl(Program), default `swipl`, node(File), the place of
+%   carrier.pl there, default the same as here, and bind(Interface), the
+%   interface at which the child listens, default the host of Target.
+%   A local child listens at Interface.
+%
+%   @error type_error(machine, Machine), and what process_create/3 throws
+
+child_start(Tag, Machine, Interface, OnEvent, child(Pid, In, Thread)) :-
+    command(Machine, Interface, Program, Args, Bind),
+    cookie(Cookie),
+    setting(stop_seconds, Seconds),
+    process_create(Program, Args,
+                   [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
+                     detached(true)
+                   ]),
+    thread_create(follow(Tag, Pid, Out, OnEvent), Thread),
+    catch(tell(In, node(Cookie, Bind, Seconds)), error(io_error(_, _), _),
+          true).                % it has ended already: down(Tag, _) follows
+
+tell(In, Term) :-
+    set_stream(In, encoding(utf8)),
+    format(In, '~k.~n', [Term]),
+    flush_output(In).
+
+command(local, Interface, Swipl, Args, Interface) :-
+    !,
+    current_prolog_flag(executable, Swipl),
+    node_file(File),
+    node_args(File, Args).
+command(Machine, _, Program, [Target|Command], Bind) :-
+    (   atom(Machine)
+    ->  Target = Machine,
+        Options = []
+    ;   Machine = machine(Target, Options)
+    ->  must_be(atom, Target),
+        must_be(list, Options)
+    ;   type_error(machine, Machine)
+    ),
+    setting(ssh, Ssh),
+    (   is_absolute_file_name(Ssh)
+    ->  Program = Ssh
+    ;   Program = path(Ssh)
+    ),
+    target_host(Target, Host),
+    node_file(Here),
+    option(bind(Bind), Options, Host),
+    option(swipl(Swipl), Options, swipl),
+    option(node(File), Options, Here),
+    node_args(File, Args),
+    maplist(shell_word, [Swipl|Args], Command).
+
+node_args(File, ['-q', '-f', none, '-g', carrier_main, '-t', 'halt(1)', File]).
+
+%   The command goes through the shell of the other machine.
+
+shell_word(Word, Quoted) :-
+    atomic_list_concat(Parts, '\'', Word),
+    atomic_list_concat(Parts, '\'\\\'\'', Inner),
+    atomic_list_concat(['\'', Inner, '\''], Quoted).
+
+target_host(Target, Host) :-
+    atomic_list_concat(Parts, @, Target),
+    last(Parts, Host).
+
+                /*******************************
+                *          FOLLOWING           *
+                *******************************/
+
+follow(Tag, Pid, Out, OnEvent) :-
+    set_stream(Out, encoding(utf8)),
+    catch(( nb_setval(typhon_reading, true),
+            lines(Tag, Out, OnEvent),
+            nb_setval(typhon_reading, false) ),
+          stop_reading,
+          true),
+    close(Out),
+    process_wait(Pid, Status),
+    call(OnEvent, down(Tag, Status)).
+
+lines(Tag, Out, OnEvent) :-
+    read_line_to_string(Out, Line),
+    (   Line == end_of_file
+    ->  true
+    ;   line(Line, Tag, OnEvent),
+        lines(Tag, Out, OnEvent)
+    ).
+
+line(Line, Tag, OnEvent) :-
+    (   split_string(Line, " ", "", ["typhon_carrier", Endpoint0, Pid0])
+    ->  atom_string(Endpoint, Endpoint0),
+        number_string(Pid, Pid0),
+        call(OnEvent, up(Tag, Endpoint, Pid))
+    ;   format(user_output, '~s~n', [Line])
+    ).
+
+                /*******************************
+                *            ENDING            *
+                *******************************/
+
+%!  child_close(+Child) is det.
+%
+%   The order to stop: the child's standard input ends.
+
+child_close(child(_, In, _)) :-
+    catch(close(In, [force(true)]), error(Formal, _),
+          debug(typhon(network), 'closing a child: ~p', [Formal])).
+
+%!  child_kill(+Child) is det.
+%
+%   Ends the process at once. What has a child's output open still, as a
+%   program that it started may, is no longer waited for.
+
+child_kill(child(Pid, _, Thread)) :-
+    catch(process_kill(Pid, kill), error(existence_error(_, _), _), true),
+    catch(thread_signal(Thread, typhon_children:stop_reading),
+          error(existence_error(_, _), _), true).
+
+%   The signal may come before the thread reads, and after: the output may
+%   end first, or another signal. Only while it reads there is something to
+%   catch the ball.
+
+stop_reading :-
+    (   nb_current(typhon_reading, true)
+    ->  nb_setval(typhon_reading, false),
+        throw(stop_reading)
+    ;   true
+    ).
+
+%!  child_release(+Child) is det.
+%
+%   Gives up what belonged to a child that is down.
+
+child_release(child(_, _, Thread)) :-
+    thread_join(Thread, Status),
+    (   Status == true
+    ->  true
+    ;   print_message(warning, typhon(child_thread(Status)))
+    ).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(child_thread(Status))) -->
+    [ 'The thread that followed a process ended with ~p'-[Status] ].

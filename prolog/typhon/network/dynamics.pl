@@ -1,0 +1,287 @@
+:- module(typhon_dynamics,
+          [ dynamics_model/2,           % +Spec, -Model
+            dynamics_state/5,           % +Model, +N, +Edges, +Seed, -State
+            dynamics_event/4,           % +State0, -Time, -Changes, -State
+            dynamics_start/4,           % +State, +Clock, :OnChange, -Dynamics
+            dynamics_stop/1             % +Dynamics
+          ]).
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2, put_assoc/4]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(heaps), [add_to_heap/4, empty_heap/1, get_from_heap/4]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(ordsets),
+              [ord_add_element/3, ord_del_element/3, ord_subtract/3]).
+:- use_module('../base/chance',
+              [ chance_member/4, chance_seed/2, chance_true/4,
+                chance_uniform/5 ]).
+
+/** <module> Links that come and go
+
+A model says how the links of a network change. Each host acts by itself,
+again and again after an Interval in host seconds, uniform(Min,Max), drawn
+anew each time:
+
+  - links(Interval, Drop, Add)
+    It drops one of its links, drawn at random, with probability Drop, and
+    then makes a link to a host it has none with, drawn at random, with
+    probability Add. Drop may be each(P): then every one of its links is
+    dropped with probability P by itself.
+  - toggle(Interval, Drop, Add)
+    It draws one of the links that the network began with at this host.
+    If the link stands it is dropped with probability Drop, if not it is
+    made again with probability Add. No other link is ever made.
+
+Models with a name, after the experiments of the thesis:
+
+| random_links | links(uniform(10,20), 0.3, 0.5)        | section 4.4.7 |
+| thesis_4_4_7 | links(uniform(10,20), each(0.3), 0.5)  | section 4.4.7 |
+| dynamic_1    | toggle(uniform(10,20), 0.5, 0.7)       | section 5.5   |
+| dynamic_2    | links(uniform(10,20), 0.5, 0.7)        | section 5.5   |
+
+Section 4.4.7 begins with a mesh of 50 hosts and reports degrees from 0 to
+27. One link dropped at a time never leads there (a mesh stays above degree
+44 for ever, as more is added than dropped); each link by itself does: so
+there are two readings. For Dynamic I the thesis prints no probabilities
+and no intervals for either network of chapter 5; those of Dynamic II and
+of section 4.4.7 are taken. Different ones are given by the general forms.
+
+The decisions are pure: a state is a term, and the sequence of events
+follows from the seed. The times of a run differ only by how late the
+thread that applies the events is.
+
+*Threading*: dynamics_start/4 creates one thread for a whole network, which
+sleeps on its message queue until the next event is due. Hosts in other
+processes are reached from there by what OnChange does.
+*/
+
+:- meta_predicate
+    dynamics_start(+, +, 1, -).
+
+:- multifile
+    prolog:message//1.
+
+                /*******************************
+                *            MODELS            *
+                *******************************/
+
+%!  dynamics_model(+Spec, -Model) is det.
+%
+%   Model is the general form of Spec.
+%
+%   @error domain_error(dynamic_model, Spec)
+
+dynamics_model(Spec, Model) :-
+    must_be(nonvar, Spec),
+    (   named_model(Spec, Model)
+    ->  true
+    ;   general_model(Spec)
+    ->  Model = Spec
+    ;   domain_error(dynamic_model, Spec)
+    ).
+
+named_model(random_links, links(uniform(10, 20), 0.3, 0.5)).
+named_model(thesis_4_4_7, links(uniform(10, 20), each(0.3), 0.5)).
+named_model(dynamic_1, toggle(uniform(10, 20), 0.5, 0.7)).
+named_model(dynamic_2, links(uniform(10, 20), 0.5, 0.7)).
+
+general_model(links(Interval, Drop, Add)) :-
+    interval(Interval),
+    (   Drop = each(P)
+    ->  probability(P)
+    ;   probability(Drop)
+    ),
+    probability(Add).
+general_model(toggle(Interval, Drop, Add)) :-
+    interval(Interval),
+    probability(Drop),
+    probability(Add).
+
+interval(uniform(Min, Max)) :-
+    number(Min),
+    number(Max),
+    Min > 0,
+    Max >= Min.
+
+probability(P) :-
+    number(P),
+    P >= 0,
+    P =< 1.
+
+                /*******************************
+                *          DECISIONS           *
+                *******************************/
+
+%!  dynamics_state(+Model, +N, +Edges, +Seed, -State) is det.
+%
+%   State is the beginning of a network of N hosts with Edges, pairs I-J of
+%   host numbers. The time of the first event of each host is drawn.
+
+dynamics_state(Model, N, Edges, Seed, state(Model, N, Own, Own, Due, Chance)) :-
+    findall(I-J, ( member(A-B, Edges), ends(A, B, I, J) ), Ends0),
+    sort(Ends0, Ends),
+    numlist(1, N, Hosts),
+    findall(Host-Ns,
+            ( member(Host, Hosts),
+              findall(J, member(Host-J, Ends), Ns) ),
+            Pairs),
+    list_to_assoc(Pairs, Own),
+    chance_seed(Seed, Chance0),
+    empty_heap(Due0),
+    foldl(schedule(Model, 0), Hosts, Due0-Chance0, Due-Chance).
+
+ends(A, B, A, B).
+ends(A, B, B, A).
+
+schedule(Model, Now, Host, Due0-Chance0, Due-Chance) :-
+    arg(1, Model, uniform(Min, Max)),
+    chance_uniform(Min, Max, Wait, Chance0, Chance),
+    Time is Now + Wait,
+    add_to_heap(Due0, Time, Host, Due).
+
+%!  dynamics_event(+State0, -Time, -Changes, -State) is semidet.
+%
+%   At Time, in host seconds after the beginning, the links of one host
+%   change as Changes says: link(I,J) and unlink(I,J), in this order to be
+%   done. Fails when nothing can ever change.
+
+dynamics_event(state(Model, N, Own, Links0, Due0, Chance0), Time, Changes,
+               state(Model, N, Own, Links, Due, Chance)) :-
+    get_from_heap(Due0, Time, Host, Due1),
+    get_assoc(Host, Links0, Ns),
+    get_assoc(Host, Own, OwnNs),
+    changes(Model, host(Host, N, Ns, OwnNs), Changes, Chance0, Chance1),
+    foldl(change, Changes, Links0, Links),
+    schedule(Model, Time, Host, Due1-Chance1, Due-Chance).
+
+change(link(I, J), Links0, Links) :-
+    change_end(ord_add_element, I, J, Links0, Links1),
+    change_end(ord_add_element, J, I, Links1, Links).
+change(unlink(I, J), Links0, Links) :-
+    change_end(ord_del_element, I, J, Links0, Links1),
+    change_end(ord_del_element, J, I, Links1, Links).
+
+change_end(Op, I, J, Links0, Links) :-
+    get_assoc(I, Links0, Ns0),
+    call(Op, Ns0, J, Ns),
+    put_assoc(I, Links0, Ns, Links).
+
+%   changes(+Model, +Host, -Changes, +Chance0, -Chance): what a host
+%   host(I, N, Neighbours, OwnNeighbours) does when its time has come.
+
+changes(links(_, Drop, Add), host(I, N, Ns, _), Changes, Chance0, Chance) :-
+    dropped(Drop, Ns, Gone, Chance0, Chance1),
+    ord_subtract(Ns, Gone, Left),
+    added(Add, I, N, Ns, New, Chance1, Chance),
+    findall(unlink(I, J), member(J, Gone), Changes, Made),
+    findall(link(I, J), ( member(J, New), \+ memberchk(J, Left) ), Made).
+changes(toggle(_, Drop, Add), host(I, _, Ns, Own), Changes, Chance0, Chance) :-
+    (   chance_member(J, Own, Chance0, Chance1)
+    ->  (   memberchk(J, Ns)
+        ->  chance_true(Drop, Bool, Chance1, Chance),
+            Change = unlink(I, J)
+        ;   chance_true(Add, Bool, Chance1, Chance),
+            Change = link(I, J)
+        ),
+        ( Bool == true -> Changes = [Change] ; Changes = [] )
+    ;   Changes = [],
+        Chance = Chance0
+    ).
+
+dropped(each(P), Ns, Gone, Chance0, Chance) :-
+    !,
+    foldl(drop_one(P), Ns, Gone-Chance0, []-Chance).
+dropped(P, Ns, Gone, Chance0, Chance) :-
+    chance_true(P, Bool, Chance0, Chance1),
+    (   Bool == true,
+        chance_member(J, Ns, Chance1, Chance)
+    ->  Gone = [J]
+    ;   Gone = [],
+        Chance = Chance1
+    ).
+
+drop_one(P, J, Gone0-Chance0, Gone-Chance) :-
+    chance_true(P, Bool, Chance0, Chance),
+    (   Bool == true
+    ->  Gone0 = [J|Gone]
+    ;   Gone0 = Gone
+    ).
+
+%   A link that was dropped in this very event is not made again in it:
+%   the host it led to counts as a neighbour still.
+
+added(P, I, N, Ns, New, Chance0, Chance) :-
+    chance_true(P, Bool, Chance0, Chance1),
+    (   Bool == true,
+        numlist(1, N, All),
+        ord_add_element(Ns, I, Taken),
+        ord_subtract(All, Taken, Others),
+        chance_member(J, Others, Chance1, Chance)
+    ->  New = [J]
+    ;   New = [],
+        Chance = Chance1
+    ).
+
+                /*******************************
+                *           RUNNING            *
+                *******************************/
+
+%!  dynamics_start(+State, +Clock, :OnChange, -Dynamics) is det.
+%
+%   Carries the events of State out, each when the clock that started with
+%   the State says so: Clock is clock(Epoch, Rate), Epoch the beginning.
+%   OnChange is called with each change. An error in it is printed, and the
+%   next change follows. Dynamics is for dynamics_stop/1.
+
+dynamics_start(State, Clock, OnChange, dynamics(Thread, Done)) :-
+    message_queue_create(Done),
+    thread_create(run(State, Clock, OnChange), Thread,
+                  [ at_exit(thread_send_message(Done, done)) ]).
+
+run(State, Clock, OnChange) :-
+    catch(events(State, Clock, OnChange), stopped, true).
+
+events(State0, Clock, OnChange) :-
+    (   dynamics_event(State0, Time, Changes, State),
+        wait_for(Time, Clock)
+    ->  forall(member(Change, Changes), make(OnChange, Change)),
+        events(State, Clock, OnChange)
+    ;   true
+    ).
+
+%   True when Time has come, false when told to stop before.
+
+wait_for(Time, clock(Epoch, Rate)) :-
+    get_time(Now),
+    Wait is max(0, Epoch + Time / Rate - Now),
+    thread_self(Me),
+    \+ thread_get_message(Me, stop, [timeout(Wait)]).
+
+make(OnChange, Change) :-
+    catch(call(OnChange, Change), error(Formal, Context),
+          print_message(warning, error(Formal, Context))),
+    !.
+make(_, Change) :-
+    print_message(warning, typhon(link_not_changed(Change))).
+
+%!  dynamics_stop(+Dynamics) is det.
+%
+%   No change begins after this. One that hangs, because a process does, is
+%   interrupted after a second.
+
+dynamics_stop(dynamics(Thread, Done)) :-
+    thread_send_message(Thread, stop),
+    (   thread_get_message(Done, done, [timeout(1)])
+    ->  true
+    ;   thread_signal(Thread, throw(stopped)),
+        thread_get_message(Done, done)
+    ),
+    thread_join(Thread, _),
+    message_queue_destroy(Done).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(link_not_changed(Change))) -->
+    [ 'The links of the network could not be changed: ~p'-[Change] ].

@@ -1,0 +1,242 @@
+:- module(typhon_topology,
+          [ topology_edges/4,           % +Topology, +Seed, -N, -Edges
+            topology_names/2            % +Topology, -Names
+          ]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(error), [domain_error/2, must_be/2, type_error/2]).
+:- use_module(library(lists),
+              [append/2, append/3, list_to_set/2, member/2, nth1/3, numlist/3]).
+:- use_module(library(ordsets), [ord_subtract/3]).
+:- use_module(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
+:- use_module('../base/chance',
+              [chance_member/4, chance_seed/2, chance_true/4]).
+
+/** <module> The shapes of networks
+
+A topology is a term. Its hosts are numbered from 1, its edges are pairs
+`I-J` with I < J, sorted, each once.
+
+  - star_bus(Arms, Len): a chain of Arms hubs, each with Len-1 leaves, the
+    hub first in its star: Arms*Len hosts (thesis, Figure 5.4 a)
+  - ring(N): each host between two others
+  - tree(N): binary, the parent of host I is I//2
+  - grid(Rows, Cols): row after row, each host linked to the next in its
+    row and in its column
+  - mesh(N): every host to every other
+  - random(N, P): Erdos-Renyi G(N,P), and connected: see below
+  - edges(List): as listed, pairs A-B of positive integers or atoms
+
+In random(N, P) every pair of hosts is linked with probability P. Where
+that leaves the network in pieces, each piece is tied to the one before
+it by one link between hosts drawn from the two, for an agent that starts
+in a piece of a network would never see the rest of it. Above P = ln(N)/N
+there is rarely anything to tie.
+
+Host I is named `n<I>`. In edges(List) integer I stands for `n<I>` too,
+an atom for the host of that name, and hosts are numbered in the order in
+which the list first names them.
+
+*Threading*: pure.
+*/
+
+%!  topology_edges(+Topology, +Seed:integer, -N, -Edges) is det.
+%
+%   Topology has N hosts and the links Edges. Only random(_,_) draws on
+%   Seed; the same Seed gives the same Edges.
+%
+%   @error type_error(Type, X), domain_error(topology, Topology),
+%   domain_error(probability, P), domain_error(edge, A-A)
+
+topology_edges(Topology, Seed, N, Edges) :-
+    must_be(nonvar, Topology),
+    must_be(integer, Seed),
+    (   shape(Topology, Seed, N, Edges0)
+    ->  sort(Edges0, Edges)
+    ;   domain_error(topology, Topology)
+    ).
+
+%!  topology_names(+Topology, -Names:list(atom)) is det.
+%
+%   The name of each host, in the order of their numbers.
+%
+%   @error as topology_edges/4
+
+topology_names(Topology, Names) :-
+    must_be(nonvar, Topology),
+    (   Topology = edges(List)
+    ->  listed_names(List, Names)
+    ;   topology_size(Topology, N)
+    ->  numbered_names(N, Names)
+    ;   domain_error(topology, Topology)
+    ).
+
+topology_size(star_bus(Arms, Len), N) :-
+    sizes([Arms, Len]),
+    N is Arms * Len.
+topology_size(ring(N), N) :-
+    sizes([N]).
+topology_size(tree(N), N) :-
+    sizes([N]).
+topology_size(grid(Rows, Cols), N) :-
+    sizes([Rows, Cols]),
+    N is Rows * Cols.
+topology_size(mesh(N), N) :-
+    sizes([N]).
+topology_size(random(N, P), N) :-
+    sizes([N]),
+    probability(P).
+
+sizes(Sizes) :-
+    maplist(must_be(positive_integer), Sizes).
+
+probability(P) :-
+    must_be(number, P),
+    (   P >= 0, P =< 1
+    ->  true
+    ;   domain_error(probability, P)
+    ).
+
+numbered_names(N, Names) :-
+    numlist(1, N, Numbers),
+    maplist(number_name, Numbers, Names).
+
+number_name(I, Name) :-
+    atom_concat(n, I, Name).
+
+                /*******************************
+                *            SHAPES            *
+                *******************************/
+
+shape(edges(List), _, N, Edges) :-
+    !,
+    listed_names(List, Names),
+    length(Names, N),
+    maplist(listed_edge(Names), List, Edges).
+shape(Topology, Seed, N, Edges) :-
+    topology_size(Topology, N),
+    (   Topology = random(_, P)
+    ->  random_edges(N, P, Seed, Edges)
+    ;   findall(I-J, linked(Topology, I, J), Edges)
+    ).
+
+%   linked(+Topology, -I, -J): host I is linked to host J, and I < J.
+
+linked(star_bus(Arms, Len), I, J) :-
+    between(1, Arms, Arm),
+    I is (Arm - 1) * Len + 1,
+    (   Arm < Arms,
+        J is I + Len
+    ;   Last is I + Len - 1,
+        First is I + 1,
+        between(First, Last, J)
+    ).
+linked(ring(N), I, J) :-
+    between(2, N, J),
+    I is J - 1.
+linked(ring(N), 1, N) :-
+    N > 2.
+linked(tree(N), I, J) :-
+    between(2, N, J),
+    I is J // 2.
+linked(grid(Rows, Cols), I, J) :-
+    between(1, Rows, Row),
+    between(1, Cols, Col),
+    I is (Row - 1) * Cols + Col,
+    (   Col < Cols,
+        J is I + 1
+    ;   Row < Rows,
+        J is I + Cols
+    ).
+linked(mesh(N), I, J) :-
+    pair_below(N, I, J).
+
+pair_below(N, I, J) :-
+    between(2, N, J),
+    Last is J - 1,
+    between(1, Last, I).
+
+                /*******************************
+                *            RANDOM            *
+                *******************************/
+
+random_edges(N, P, Seed, Edges) :-
+    chance_seed(Seed, Chance0),
+    findall(I-J, pair_below(N, I, J), Pairs),
+    foldl(draw_edge(P), Pairs, []-Chance0, Drawn-Chance),
+    numlist(1, N, Hosts),
+    pieces(Hosts, Drawn, Pieces),
+    tie(Pieces, Chance, Ties),
+    append(Ties, Drawn, Edges).
+
+draw_edge(P, Edge, Edges0-Chance0, Edges-Chance) :-
+    chance_true(P, Bool, Chance0, Chance),
+    (   Bool == true
+    ->  Edges = [Edge|Edges0]
+    ;   Edges = Edges0
+    ).
+
+%   pieces(+Hosts, +Edges, -Pieces): the connected components.
+
+pieces(Hosts, Edges, Pieces) :-
+    findall(J-I, member(I-J, Edges), Back),
+    append(Back, Edges, Both),
+    vertices_edges_to_ugraph(Hosts, Both, Graph),
+    pieces_of(Hosts, Graph, Pieces).
+
+pieces_of([], _, []).
+pieces_of([Host|Hosts], Graph, [Piece|Pieces]) :-
+    reachable(Host, Graph, Piece),
+    ord_subtract(Hosts, Piece, Rest),
+    pieces_of(Rest, Graph, Pieces).
+
+tie([Piece1, Piece2|Pieces], Chance0, [I-J|Ties]) :-
+    !,
+    chance_member(A, Piece1, Chance0, Chance1),
+    chance_member(B, Piece2, Chance1, Chance2),
+    I is min(A, B),
+    J is max(A, B),
+    tie([Piece2|Pieces], Chance2, Ties).
+tie(_, _, []).
+
+                /*******************************
+                *            LISTED            *
+                *******************************/
+
+listed_names(List, Names) :-
+    must_be(list, List),
+    maplist(edge_names, List, Nested),
+    append(Nested, All),
+    list_to_set(All, Names),
+    (   Names == []
+    ->  domain_error(topology, edges(List))
+    ;   true
+    ).
+
+edge_names(Edge, [A, B]) :-
+    must_be(nonvar, Edge),
+    (   Edge = X-Y
+    ->  maplist(end_name, [X, Y], [A, B])
+    ;   type_error(edge, Edge)
+    ),
+    (   A == B
+    ->  domain_error(edge, Edge)
+    ;   true
+    ).
+
+end_name(End, Name) :-
+    must_be(nonvar, End),
+    (   integer(End),
+        End > 0
+    ->  number_name(End, Name)
+    ;   atom(End)
+    ->  Name = End
+    ;   type_error(host_name, End)
+    ).
+
+listed_edge(Names, Edge, I-J) :-
+    edge_names(Edge, [A, B]),
+    nth1(AtA, Names, A),
+    nth1(AtB, Names, B),
+    !,
+    I is min(AtA, AtB),
+    J is max(AtA, AtB).

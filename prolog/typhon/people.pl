@@ -1,0 +1,10 @@
+:- module(typhon_people, []).
+
+/** <module> For people
+
+Tables, and the texts of errors and reports.
+This is the door of the layer: who is above takes what it needs from here.
+*/
+
+:- reexport(people/tables).
+:- use_module(people/messages, []).

@@ -1,0 +1,233 @@
+:- module(typhon_code,
+          [ code_install/2,             % +Hash, +Program
+            code_receive/2,             % +Hash, +Program
+            code_module/2,              % ?Hash, -Module
+            code_program/2,             % ?Hash, -Program
+            code_clear/0
+          ]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(machine, [body_goals/4]).
+:- use_module(mobile, [mobile_predicates/3]).
+:- use_module(programs, [clause_parts/3, program_hash/2]).
+
+/** <module> Programs installed in this process
+
+The static clauses of a program live once in a process, in a module that
+all its agents share, however many there are and however often they come
+back.  The predicates in it are transparent: they run in the context of
+the agent that calls them, so that state, place and meta-calls resolve in
+the module of the agent.  A goal in a body that is neither defined in the
+program nor by the system is therefore compiled as call(Goal).
+
+A mobile predicate p/N has, besides its native form, clauses
+`'mobile p'(A1, ..., AN, Goals, Rest, Barrier)`: facts that unfold a call
+into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
+
+*Threading*: one mutex guards the table; reading it needs none.
+*/
+
+:- setting(programs, nonneg, 256,
+           "Programs kept when no agent uses them").
+
+:- multifile in_use/1.          % Hash: an agent of this process runs it
+
+:- dynamic
+    code_module/2,              % Hash, Module
+    code_program/2,             % Hash, Program: as it is sent
+    retired/2.                  % Hash, Module: goes at the next eviction
+
+%!  code_install(+Hash, +Program) is det.
+%
+%   Make Program available; nothing to do where it is already.
+
+code_install(Hash, Program) :-
+    (   code_module(Hash, _)
+    ->  true
+    ;   with_mutex(typhon_code, install(Hash, Program))
+    ).
+
+%!  code_receive(+Hash, +Program) is det.
+%
+%   As code_install/2, for a program that somebody else says has this Hash.
+%
+%   @error domain_error(program_of_hash(Hash), Program)
+
+code_receive(Hash, Program) :-
+    (   code_module(Hash, _)
+    ->  true
+    ;   subsumes_term(program(_, _, _, _), Program),
+        Program = program(_, State, Libraries, Clauses),
+        maplist(is_list, [State, Libraries, Clauses]),
+        program_hash(Program, Hash)
+    ->  code_install(Hash, Program)
+    ;   domain_error(program_of_hash(Hash), Program)
+    ).
+
+%!  code_module(?Hash, -Module) is semidet.
+%!  code_program(?Hash, -Program) is semidet.
+%
+%   The module of an installed program, and the whole of it.
+
+install(Hash, _) :-
+    code_module(Hash, _),
+    !.
+install(Hash, Program) :-
+    (   retract(retired(Hash, Module))
+    ->  true
+    ;   evict,
+        flag(typhon_code_module, N, N+1),
+        atom_concat('program ', N, Module),
+        catch(fill(Module, Program), error(Formal, Context),
+              ( '$destroy_module'(Module),
+                throw(error(Formal, Context)) ))
+    ),
+    assertz(code_program(Hash, Program)),
+    assertz(code_module(Hash, Module)).
+
+%!  code_clear is det.
+%
+%   Forget all programs.  No agent may be left.
+
+code_clear :-
+    with_mutex(typhon_code,
+               ( forall(code_module(Hash, _), retire(Hash)),
+                 forall(retract(retired(_, Module)),
+                        '$destroy_module'(Module))
+               )).
+
+%   Retire what is unused.  It goes one round later, so that an agent on
+%   its way in never finds its program gone.
+
+evict :-
+    predicate_property(code_module(_,_), number_of_clauses(Count)),
+    setting(programs, Max),
+    Count >= Max,
+    !,
+    forall(( retired(Hash, Module), \+ in_use(Hash) ),
+           ( retract(retired(Hash, Module)),
+             '$destroy_module'(Module)
+           )),
+    forall(( code_module(Hash, _), \+ in_use(Hash) ),
+           retire(Hash)).
+evict.
+
+retire(Hash) :-
+    retract(code_module(Hash, Module)),
+    retractall(code_program(Hash, _)),
+    assertz(retired(Hash, Module)).
+
+                /*******************************
+                *          COMPILING           *
+                *******************************/
+
+fill(Module, program(_, State, Libraries, Clauses)) :-
+    set_module(Module:class(temporary)),
+    set_module(Module:base(system)),
+    maplist(import_library(Module), Libraries),
+    maplist(rule_at_no_place, Clauses, Rules),
+    mobile_predicates(Rules, Kinds, _),
+    findall(PI-state, member(PI, State), StateKinds),
+    append(Kinds, StateKinds, OwnKinds),
+    list_to_assoc(OwnKinds, Own),
+    dynamic(Module:'$mobile'/6),
+    maplist(declare(Module), Kinds),
+    maplist(add_clause(Module, Own), Clauses),
+    findall(Module:PI, member(PI-_, Kinds), PIs),
+    compile_predicates(PIs).
+
+rule_at_no_place(Clause, (Head:-Body)-none) :-
+    clause_parts(Clause, Head, Body).
+
+import_library(Module, Library-all) :-
+    !,
+    Module:use_module(Library).
+import_library(Module, Library-Imports) :-
+    Module:use_module(Library, Imports).
+
+declare(Module, (Name/Arity)-Kind) :-
+    module_transparent(Module:Name/Arity),
+    dynamic(Module:Name/Arity),
+    declare_mobile(Kind, Module, Name, Arity).
+
+declare_mobile(native, _, _, _) :-
+    !.
+declare_mobile(Kind, Module, Name, Arity) :-
+    guard(Kind, Guard),
+    functor(Head, Name, Arity),
+    mobile_head(Head, Goals, Rest, Barrier, Mobile),
+    functor(Mobile, MName, MArity),
+    dynamic(Module:MName/MArity),
+    assertz(Module:'$mobile'(Head, Mobile, Goals, Rest, Barrier, Guard)).
+
+guard(guarded(PIs), guarded(Heads)) :-
+    !,
+    maplist(indicator_head, PIs, Heads).
+guard(Kind, Kind).
+
+indicator_head(Name/Arity, Head) :-
+    functor(Head, Name, Arity).
+
+mobile_head(Head, Goals, Rest, Barrier, Mobile) :-
+    Head =.. [Name|Args],
+    atom_concat('mobile ', Name, MName),
+    append(Args, [Goals,Rest,Barrier], MArgs),
+    Mobile =.. [MName|MArgs].
+
+add_clause(Module, Own, Clause) :-
+    clause_parts(Clause, Head, Body0),
+    native_body(Body0, Module, Own, Body),
+    assertz(Module:(Head:-Body)),
+    functor(Head, Name, Arity),
+    get_assoc(Name/Arity, Own, Kind),
+    add_mobile(Kind, Module, Head, Body0).
+
+add_mobile(native, _, _, _) :-
+    !.
+add_mobile(_, Module, Head, Body) :-
+    body_goals(Body, Barrier, Goals, Rest),
+    mobile_head(Head, Goals, Rest, Barrier, Mobile),
+    assertz(Module:Mobile).
+
+%   native_body(+Body0, +Module, +Own, -Body): goals that depend on where
+%   the agent is are called in its context.
+
+native_body(Body, _, _, call(Body)) :-
+    var(Body),
+    !.
+native_body(Body0, Module, Own, Body) :-
+    construct(Body0, Args0, Args, Body),
+    !,
+    maplist(native_part(Module, Own), Args0, Args).
+native_body(_:Goal, _, _, call(Goal)) :-
+    var(Goal),
+    !.
+native_body(Goal, Module, Own, Body) :-
+    (   bound_here(Goal, Module, Own)
+    ->  Body = Goal
+    ;   Body = call(Goal)
+    ).
+
+native_part(Module, Own, Body0, Body) :-
+    native_body(Body0, Module, Own, Body).
+
+construct((A0,B0), [A0,B0], [A,B], (A,B)).
+construct((A0;B0), [A0,B0], [A,B], (A;B)).
+construct((A0->B0), [A0,B0], [A,B], (A->B)).
+construct((A0*->B0), [A0,B0], [A,B], (A*->B)).
+construct(\+A0, [A0], [A], \+A).
+construct(!, [], [], !).
+
+bound_here(_:_, _, _).
+bound_here(Goal, _, Own) :-
+    functor(Goal, Name, Arity),
+    get_assoc(Name/Arity, Own, Kind),
+    !,
+    Kind \== state.                     % also if a library has it as well
+bound_here(Goal, _, _) :-               % not what could be autoloaded
+    '$get_predicate_attribute'(system:Goal, system, 1).
+bound_here(Goal, Module, _) :-
+    '$get_predicate_attribute'(Module:Goal, imported, _).

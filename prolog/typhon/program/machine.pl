@@ -1,0 +1,363 @@
+:- module(typhon_machine,
+          [ machine_run/3,              % +Context, +Goals, -Outcome
+            machine_goals/2,            % +Body, -Goals
+            body_goals/4,               % +Body, ?Barrier, -Goals, ?Rest
+            control/1                   % ?Head
+          ]).
+:- use_module(library(lists), [append/3]).
+
+/** <module> The machine: agents that can stop in the middle of a clause
+
+The control state of an agent is a list of goals still to run.  The
+machine takes goals from its front.  Control constructs and mobile
+predicates (those that can reach a control predicate, see typhon_mobile)
+are unfolded into the list; every other goal is called natively.  At a
+control predicate the machine stops and returns the goals that remain as a
+plain term: it can be printed, stored, sent and run again elsewhere.
+
+A suspended goal list holds only what the programmer wrote.  Three rules
+make this possible:
+
+  - A control predicate commits.  Choice points left of it are given up,
+    so `!` in a suspended list can only cut what is done after it is
+    resumed: to the base of the run.
+  - Conditions and catch/3 are _frames_: what remains of a condition
+    stands as the condition of the remaining if-then-else, what remains
+    of a catch/3 inside that catch/3.  The else branch and the recovery
+    survive the suspension.
+  - The control predicate itself is replaced by a _hole_, a variable:
+    who resumes the agent binds it to `true`, `fail`, `throw(Error)` or
+    any other goal.
+
+*Threading*: pure with respect to the agent; any thread may run any
+machine.  Two threads must not run the same agent.
+*/
+
+%!  control(?Head) is nondet.
+%
+%   Head is the head of a control predicate: the machine stops at it.
+
+control(move(_)).
+control(clone(_)).
+control(clone(_, _)).
+control(sleep(_)).
+control(receive(_)).
+control(receive(_, _)).
+control(dispose).
+control(sleep_until(_)).
+control(receive_until(_, _)).
+
+%!  machine_run(+Context, +Goals, -Outcome) is det.
+%
+%   Run Goals up to the next effect.
+%
+%   @arg Context is context(Program, Agent): the module of the program
+%        (see typhon_code) and the module of the agent.
+%   @arg Outcome is one of `done`, `failed`, raised(Error) or
+%        effect(Control, Hole, Goals), where Control is the control
+%        predicate reached and Goals what is left to run.  Goals contains
+%        the variable Hole where Control stood.
+
+machine_run(Context, Goals, Outcome) :-
+    catch(first_outcome(Goals, Context, Outcome), Ball,
+          raised(Ball, Outcome)).
+
+raised(Ball, _) :-
+    unwinding(Ball),
+    !,
+    throw(Ball).
+raised(Ball, raised(Ball)).
+
+first_outcome(Goals, Context, Outcome) :-
+    sub_run(Goals, Context, Out),
+    !,
+    outcome(Out, Outcome).
+first_outcome(_, _, failed).
+
+outcome(exit, done).
+outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
+    plain_list(Goals0, Goals).
+
+%   Exceptions that end a thread are not the agent's business.
+
+unwinding(Ball) :- var(Ball), !, fail.
+unwinding('$aborted').
+unwinding(unwind(_)).
+
+                /*******************************
+                *           THE RUN            *
+                *******************************/
+
+%   sub_run(+Goals, +Context, -Out) is nondet.
+%
+%   Out is `exit` for each solution of Goals, or effect(...) where a
+%   control predicate is reached.  `!` in Goals is local.
+
+sub_run(Goals, Context, Out) :-
+    prolog_current_choice(Base),
+    run(Goals, Context, Base, Out).
+
+run([], _, _, exit).
+run([Goal|Goals], Context, Base, Out) :-
+    step(Goal, Goals, Context, Base, Out).
+
+step(Goal, _, _, _, _) :-
+    var(Goal),
+    !,
+    throw(error(instantiation_error, _)).
+step(true, Goals, X, Base, Out) :-
+    !,
+    run(Goals, X, Base, Out).
+step((A,B), Goals, X, Base, Out) :-
+    !,
+    step(A, [B|Goals], X, Base, Out).
+step(!, Goals, X, Base, Out) :-
+    !,
+    prolog_cut_to(Base),
+    run(Goals, X, Base, Out).
+step('$cut'(Barrier), Goals, X, Base, Out) :-
+    !,
+    prolog_cut_to(Barrier),
+    run(Goals, X, Base, Out).
+step((Or;Else), Goals, X, Base, Out) :-
+    !,
+    disjunction(Or, Else, Goals, X, Base, Out).
+step((If->Then), Goals, X, Base, Out) :-
+    !,
+    disjunction((If->Then), fail, Goals, X, Base, Out).
+step((If*->Then), Goals, X, Base, Out) :-
+    !,
+    sub_run([If], X, Out0),
+    proceed(Out0, Then, Goals, Sub-(Sub*->Then), X, Base, Out).
+step(\+ Goal, Goals, X, Base, Out) :-
+    !,
+    \+ native(Goal, X),
+    run(Goals, X, Base, Out).
+step(call(Goal), Goals, X, Base, Out) :-
+    !,
+    prolog_current_choice(Barrier),
+    body_goals(Goal, Barrier, More, Goals),
+    run(More, X, Base, Out).
+step(once(Goal), Goals, X, Base, Out) :-
+    !,
+    disjunction((Goal->true), fail, Goals, X, Base, Out).
+step(ignore(Goal), Goals, X, Base, Out) :-
+    !,
+    disjunction((Goal->true), true, Goals, X, Base, Out).
+step(catch(Goal, Catcher, Recovery), Goals, X, Base, Out) :-
+    !,
+    guarded(Goal, Catcher, Recovery, Goals, X, Base, Out).
+step(Goal, Goals, _, _, effect(Goal, Hole, [Hole|Goals])) :-
+    control(Goal),
+    !.
+step(Goal, Goals, X, Base, Out) :-
+    X = context(Program, Agent),
+    (   call_n(Goal, Called)
+    ->  step(call(Called), Goals, X, Base, Out)
+    ;   Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Guard),
+        mobile(Guard, Agent)
+    ->  prolog_current_choice(Barrier),
+        Program:Clause,
+        run(More, X, Base, Out)
+    ;   state_rule(Agent, Goal)
+    ->  prolog_current_choice(Barrier),
+        clause(Agent:Goal, Body),
+        body_goals(Body, Barrier, More, Goals),
+        run(More, X, Base, Out)
+    ;   Agent:Goal,
+        run(Goals, X, Base, Out)
+    ).
+
+disjunction((If->Then), Else, Goals, X, Base, Out) :-
+    !,
+    (   sub_run([If], X, Out0)
+    ->  proceed(Out0, Then, Goals, Sub-(Sub->Then;Else), X, Base, Out)
+    ;   step(Else, Goals, X, Base, Out)
+    ).
+disjunction((If*->Then), Else, Goals, X, Base, Out) :-
+    !,
+    (   sub_run([If], X, Out0)
+    *-> proceed(Out0, Then, Goals, Sub-(Sub*->Then;Else), X, Base, Out)
+    ;   step(Else, Goals, X, Base, Out)
+    ).
+disjunction(Or, Else, Goals, X, Base, Out) :-
+    (   step(Or, Goals, X, Base, Out)
+    ;   step(Else, Goals, X, Base, Out)
+    ).
+
+guarded(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
+    catch(sub_run([Goal], X, Out0), Ball, Out0 = caught(Ball)),
+    (   Out0 = caught(Ball)
+    ->  recoverable(Ball, Catcher),
+        step(call(Recovery), Goals, X, Base, Out)
+    ;   proceed(Out0, true, Goals, Sub-catch(Sub,Catcher,Recovery),
+                X, Base, Out)
+    ).
+
+recoverable(Ball, Catcher) :-
+    (   \+ unwinding(Ball),
+        Ball = Catcher
+    ->  true
+    ;   throw(Ball)
+    ).
+
+%   proceed(+Out0, +Then, +Goals, +Frame, ...): a sub run has ended or
+%   stopped.  Frame is Sub-Goal: the goal that continues the rest Sub.
+
+proceed(exit, Then, Goals, _, X, Base, Out) :-
+    step(Then, Goals, X, Base, Out).
+proceed(effect(Control, Hole, Sub), _, Goals, Rest-Frame, _, _,
+        effect(Control, Hole, [Frame|Goals])) :-
+    list_body(Sub, Rest).
+
+%   call/N, N > 1, as the goal it calls.
+
+call_n(Goal, Called) :-
+    functor(Goal, call, Arity),
+    Arity > 1,
+    Goal =.. [_,Closure|Extra],
+    must_be_closure(Closure),
+    extend(Closure, Extra, Called).
+
+extend(Module:Closure, Extra, Module:Called) :-
+    !,
+    extend(Closure, Extra, Called).
+extend(Closure, Extra, Called) :-
+    Closure =.. List0,
+    append(List0, Extra, List),
+    Called =.. List.
+
+must_be_closure(Closure) :-
+    (   callable(Closure)
+    ->  true
+    ;   var(Closure)
+    ->  throw(error(instantiation_error, _))
+    ;   throw(error(type_error(callable, Closure), _))
+    ).
+
+%   mobile(+Guard, +Agent): must this static predicate be unfolded?
+
+mobile(mobile, _).
+mobile(open, _).
+mobile(guarded(Heads), Agent) :-
+    has_rule(Heads, Agent).
+
+has_rule([Head|Heads], Agent) :-
+    (   state_rule(Agent, Head)
+    ->  true
+    ;   has_rule(Heads, Agent)
+    ).
+
+%   Goal is a predicate of the agent's own state that holds rules.
+
+state_rule(Agent, Goal) :-
+    '$c_current_predicate'(_, Agent:Goal),
+    '$get_predicate_attribute'(Agent:Goal, number_of_rules, N),
+    N > 0,
+    predicate_property(Agent:Goal, dynamic),
+    \+ predicate_property(Agent:Goal, imported_from(_)).
+
+%   A goal that is called natively, such as what is under \+.
+
+native(Goal, X) :-
+    sub_run([Goal], X, Out),
+    (   Out = effect(Control, _, _)
+    ->  functor(Control, Name, Arity),
+        throw(error(permission_error(call, control_predicate,
+                                     Name/Arity), _))
+    ;   true
+    ).
+
+                /*******************************
+                *            BODIES            *
+                *******************************/
+
+%!  machine_goals(+Body, -Goals) is det.
+%
+%   The goal list that runs Body from the start of an agent.
+
+machine_goals(Body, Goals) :-
+    body_goals(Body, Barrier, Goals0, []),
+    Barrier = 0,
+    plain_list(Goals0, Goals).
+
+%!  body_goals(+Body, ?Barrier, -Goals, ?Rest) is det.
+%
+%   Goals is the clause body Body as a list that ends in Rest.  Cuts that
+%   belong to the clause become '$cut'(Barrier).
+
+body_goals(Body, _, [Body|Rest], Rest) :-
+    var(Body),
+    !.
+body_goals((A,B), Barrier, Goals, Rest) :-
+    !,
+    body_goals(A, Barrier, Goals, Goals1),
+    body_goals(B, Barrier, Goals1, Rest).
+body_goals(true, _, Rest, Rest) :-
+    !.
+body_goals(Body, Barrier, [Goal|Rest], Rest) :-
+    mark_cuts(Body, '$cut'(Barrier), Goal).
+
+%   mark_cuts(+Body0, +Mark, -Body): replace the cuts of the clause.
+
+mark_cuts(Body, _, Body) :-
+    var(Body),
+    !.
+mark_cuts(!, Mark, Mark) :-
+    !.
+mark_cuts((A0,B0), Mark, (A,B)) :-
+    !,
+    mark_cuts(A0, Mark, A),
+    mark_cuts(B0, Mark, B).
+mark_cuts((A0;B0), Mark, (A;B)) :-
+    !,
+    mark_cuts(A0, Mark, A),
+    mark_cuts(B0, Mark, B).
+mark_cuts((If->A0), Mark, (If->A)) :-
+    !,
+    mark_cuts(A0, Mark, A).
+mark_cuts((If*->A0), Mark, (If*->A)) :-
+    !,
+    mark_cuts(A0, Mark, A).
+mark_cuts(Body, _, Body).
+
+%   plain_list(+Goals0, -Goals): '$cut'(_) becomes `!` again.
+
+plain_list([], []).
+plain_list([Goal0|Goals0], [Goal|Goals]) :-
+    plain(Goal0, Goal),
+    plain_list(Goals0, Goals).
+
+plain(Goal, Goal) :-
+    var(Goal),
+    !.
+plain('$cut'(_), !) :-
+    !.
+plain((A0,B0), (A,B)) :-
+    !,
+    plain(A0, A),
+    plain(B0, B).
+plain((A0;B0), (A;B)) :-
+    !,
+    plain(A0, A),
+    plain(B0, B).
+plain((A0->B0), (A->B)) :-
+    !,
+    plain(A0, A),
+    plain(B0, B).
+plain((A0*->B0), (A*->B)) :-
+    !,
+    plain(A0, A),
+    plain(B0, B).
+plain(catch(A0,C,R), catch(A,C,R)) :-
+    !,
+    plain(A0, A).
+plain(Goal, Goal).
+
+list_body([], true).
+list_body([Goal|Goals], Body) :-
+    (   Goals == []
+    ->  Body = Goal
+    ;   Body = (Goal,Rest),
+        list_body(Goals, Rest)
+    ).

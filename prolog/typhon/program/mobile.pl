@@ -1,0 +1,275 @@
+:- module(typhon_mobile,
+          [ mobile_predicates/3,                 % +Clauses, -Kinds, -Problems
+            body_calls/2                % +Body, -Calls
+          ]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(assoc),
+              [assoc_to_keys/2, empty_assoc/1, get_assoc/3, put_assoc/4]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(ordsets), [ord_union/3]).
+:- use_module(machine, [control/1]).
+
+/** <module> Which predicates of a program can reach a control predicate
+
+A static predicate of an agent program is
+
+  - `mobile` if it can reach a control predicate through its own
+    clauses: the machine unfolds it;
+  - `open` if it calls a goal that is known only at run time, or adds
+    rules to the state: the machine unfolds it, too;
+  - guarded(PIs) if it calls predicates that are not in the program (state,
+    payloads, the place): unfolded as long as one of them holds rules;
+  - `native` otherwise: called at full speed.
+
+A mobile goal under a construct that must run it to its end, such as
+findall/3, forall/2 or \+, is a problem.
+
+*Threading*: pure, but for what is remembered of library predicates.
+*/
+
+%!  mobile_predicates(+Clauses, -Kinds, -Problems) is det.
+%
+%   @arg Clauses are the static clauses as (Head:-Body)-Location
+%   @arg Kinds is an ordered list of PI-Kind, one for each predicate
+%   @arg Problems is a list of problem(Formal, Location, Advice)
+
+mobile_predicates(Clauses, Kinds, Problems) :-
+    maplist(clause_calls, Clauses, Located),
+    empty_assoc(Empty),
+    foldl(add_calls, Located, Empty, Calls),
+    assoc_to_keys(Calls, Own),
+    reach(Own, Calls, [], Mobile),
+    maplist(kind(Calls, Mobile), Own, Kinds),
+    findall(Problem, misplaced(Located, Mobile, Problem), Problems1),
+    findall(Problem, changed(Located, Own, Problem), Problems2),
+    append(Problems1, Problems2, Problems).
+
+clause_calls((Head:-Body)-Location, calls(Name/Arity, Calls, Location)) :-
+    functor(Head, Name, Arity),
+    body_calls(Body, Calls).
+
+add_calls(calls(PI, New, _), Calls0, Calls) :-
+    (   get_assoc(PI, Calls0, Old)
+    ->  ord_union(Old, New, All)
+    ;   All = New
+    ),
+    put_assoc(PI, Calls0, All, Calls).
+
+%   reach(+Own, +Calls, +Mobile0, -Mobile): the least fixed point.
+
+reach(Own, Calls, Mobile0, Mobile) :-
+    findall(PI,
+            ( member(PI, Own),
+              \+ memberchk(PI, Mobile0),
+              get_assoc(PI, Calls, List),
+              memberchk_mobile(List, Mobile0)
+            ),
+            New),
+    (   New == []
+    ->  Mobile = Mobile0
+    ;   append(New, Mobile0, Mobile1),
+        reach(Own, Calls, Mobile1, Mobile)
+    ).
+
+memberchk_mobile(List, Mobile) :-
+    member(call(PI, run), List),
+    is_mobile(PI, Mobile),
+    !.
+
+is_mobile(Name/Arity, Mobile) :-
+    (   functor(Head, Name, Arity),
+        control(Head)
+    ->  true
+    ;   memberchk(Name/Arity, Mobile)
+    ).
+
+kind(Calls, Mobile, PI, PI-Kind) :-
+    (   memberchk(PI, Mobile)
+    ->  Kind = mobile
+    ;   closure([PI], Calls, [], Reached),
+        kind_of(Reached, Calls, Kind)
+    ).
+
+kind_of(Reached, _, open) :-
+    memberchk(unknown, Reached),
+    !.
+kind_of(Reached, Calls, Kind) :-
+    findall(PI,
+            ( member(PI, Reached),
+              \+ get_assoc(PI, Calls, _)
+            ),
+            Outside),
+    (   Outside == []
+    ->  Kind = native
+    ;   Kind = guarded(Outside)
+    ).
+
+%   closure(+Agenda, +Calls, +Seen, -Reached): what is called at the level
+%   of the machine; what runs natively needs no unfolding.
+
+closure([], _, Seen, Seen).
+closure([PI|Agenda0], Calls, Seen, Reached) :-
+    memberchk(PI, Seen),
+    !,
+    closure(Agenda0, Calls, Seen, Reached).
+closure([PI|Agenda0], Calls, Seen, Reached) :-
+    (   get_assoc(PI, Calls, List)
+    ->  findall(Next, next_call(List, Next), More),
+        append(More, Agenda0, Agenda)
+    ;   Agenda = Agenda0
+    ),
+    closure(Agenda, Calls, [PI|Seen], Reached).
+
+next_call(List, PI) :-
+    member(call(PI, run), List),
+    \+ built_in(PI).
+next_call(List, unknown) :-
+    memberchk(unknown(run), List).
+
+built_in(Name/Arity) :-
+    functor(Head, Name, Arity),
+    (   '$get_predicate_attribute'(typhon_vocabulary:Head, defined, 1)
+    ->  true
+    ;   predicate_property(system:Head, visible)
+    ).
+
+misplaced(Located, Mobile,
+          problem(permission_error(call, control_predicate, PI), Location,
+                  inside(Context))) :-
+    member(calls(_, Calls, Location), Located),
+    member(call(PI, inside(Context)), Calls),
+    is_mobile(PI, Mobile).
+
+%   An agent that changed a predicate of its program would only hide it.
+
+changed(Located, Own,
+        problem(permission_error(modify, static_procedure, PI), Location,
+                undeclared(PI))) :-
+    member(calls(_, Calls, Location), Located),
+    member(changes(PI), Calls),
+    memberchk(PI, Own).
+
+                /*******************************
+                *         WALK A BODY          *
+                *******************************/
+
+%!  body_calls(+Body, -Calls) is det.
+%
+%   Calls is an ordered set of call(PI, Mode) and unknown(Mode), where Mode
+%   is `run` for goals that the machine may unfold and inside(PI) for
+%   goals that the meta predicate PI runs to their end, and of changes(PI)
+%   for assert and retract.
+
+body_calls(Body, Calls) :-
+    findall(Call, body_call(Body, run, Call), List),
+    sort(List, Calls).
+
+body_call(Var, Mode, unknown(Mode)) :-
+    var(Var),
+    !.
+body_call(Goal, Mode, Call) :-
+    part(Goal, Parts),
+    !,
+    member(Part, Parts),
+    body_call(Part, Mode, Call).
+body_call(_:_, _, _) :-
+    !,
+    fail.
+body_call(Goal, Mode, Call) :-
+    functor(Goal, call, Arity),
+    Arity > 1,
+    !,
+    Goal =.. [_,Closure|Extra],
+    extended(Closure, Extra, Mode, Call).
+body_call(Goal, Mode, Call) :-
+    callable(Goal),
+    functor(Goal, Name, Arity),
+    (   Call = call(Name/Arity, Mode)
+    ;   adds_rules(Goal),
+        Call = unknown(Mode)
+    ;   changes(Goal, Call)
+    ;   meta_argument(Goal, Name/Arity, Closure, Extra),
+        extended(Closure, Extra, inside(Name/Arity), Call)
+    ).
+
+%   What follows these may call rules that are not there yet.
+
+adds_rules(assert(Clause)) :- may_be_rule(Clause).
+adds_rules(asserta(Clause)) :- may_be_rule(Clause).
+adds_rules(assertz(Clause)) :- may_be_rule(Clause).
+adds_rules(attach(_)).
+
+may_be_rule(Clause) :- var(Clause), !.
+may_be_rule((_:-_)).
+
+changes(Goal, changes(Name/Arity)) :-
+    compound(Goal),
+    compound_name_arguments(Goal, Change, [Clause]),
+    memberchk(Change, [assert,asserta,assertz,retract,retractall]),
+    nonvar(Clause),
+    ( Clause = (Head:-_) -> true ; Head = Clause ),
+    callable(Head),
+    Head \= _:_,
+    functor(Head, Name, Arity).
+
+%   Constructs the machine knows.
+
+part((A,B), [A,B]).
+part((A;B), [A,B]).
+part((A->B), [A,B]).
+part((A*->B), [A,B]).
+part(call(A), [A]).
+part(once(A), [A]).
+part(ignore(A), [A]).
+part(catch(A,_,B), [A,B]).
+part(!, []).
+
+extended(Closure, _, Mode, unknown(Mode)) :-
+    var(Closure),
+    !.
+extended(_:_, _, _, _) :-
+    !,
+    fail.
+extended(_^Goal, Extra, Mode, Call) :-
+    !,
+    extended(Goal, Extra, Mode, Call).
+extended(_>>Lambda, _, Mode, Call) :-
+    !,
+    body_call(Lambda, Mode, Call).
+extended(Closure, Extra, Mode, Call) :-
+    callable(Closure),
+    Closure =.. List0,
+    append(List0, Extra, List),
+    Goal =.. List,
+    body_call(Goal, Mode, Call).
+
+meta_argument(Goal, PI, Closure, Extra) :-
+    meta(PI, Meta),
+    arg(I, Meta, Spec),
+    closure_arity(Spec, N),
+    arg(I, Goal, Closure),
+    length(Extra, N).
+
+%   meta(+PI, -Meta) is semidet: known for good, and slow to find out.
+
+:- dynamic meta_known/2.
+
+meta(PI, Meta) :-
+    (   meta_known(PI, Meta0)
+    ->  true
+    ;   find_meta(PI, Meta0),
+        assertz(meta_known(PI, Meta0))
+    ),
+    Meta0 \== none,
+    Meta = Meta0.
+
+find_meta(Name/Arity, Meta) :-
+    functor(General, Name, Arity),
+    (   predicate_property(typhon_vocabulary:General, meta_predicate(Meta0))
+    ->  Meta = Meta0
+    ;   Meta = none
+    ).
+
+closure_arity(N, N) :- integer(N).
+closure_arity(^, 0).
+closure_arity(//, 2).

@@ -1,0 +1,51 @@
+:- module(typhon_paths,
+          [ program_file/2              % +Spec, -File
+          ]).
+
+/** <module> Where agent programs and payloads are found
+
+Defines the file search paths `agents` and `payloads`.  agents(census) is
+agents/census.pl in the working directory, else in the directory this pack
+is installed in.  More directories are declared as for any search path, by
+adding clauses to user:file_search_path/2.
+
+*Threading*: any thread.
+*/
+
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+
+:- dynamic root/1.
+
+:- prolog_load_context(directory, Dir),
+   atom_concat(Root, '/prolog/typhon/program', Dir),
+   retractall(root(_)),
+   assertz(root(Root)).
+
+:- multifile user:file_search_path/2.
+:- dynamic user:file_search_path/2.
+
+user:file_search_path(agents, Dir) :-
+    program_directory(agents, Dir).
+user:file_search_path(payloads, Dir) :-
+    program_directory(payloads, Dir).
+
+program_directory(Kind, Dir) :-
+    (   working_directory(Parent, Parent)
+    ;   root(Parent)
+    ),
+    directory_file_path(Parent, Kind, Dir).
+
+%!  program_file(+Spec, -File) is det.
+%
+%   File is the absolute name of the clause file Spec: a term as
+%   agents(census), or a file name.  The extension `.pl` may be left out.
+%
+%   @error existence_error(source_sink, Spec)
+
+program_file(Spec, File) :-
+    must_be(callable, Spec),
+    absolute_file_name(Spec, File,
+                       [ extensions([pl, '']),
+                         access(read)
+                       ]).

@@ -1,0 +1,141 @@
+:- module(typhon_news,
+          [ news_tell/3                 % +Home, +Id, +News
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../wire', [endpoint_post/3, endpoint_post_up/3]).
+:- use_module('../host', [alarm_set/3, scheduler_call/1]).
+
+/** <module> News for the homes of agents
+
+Where an agent is and how it ended, told to the process in which it was
+born.  Of each agent only the newest news are kept until they are sent, and
+each home has one courier, who takes along all there are: a home that does
+not answer costs one attempt at a time, whatever the number of agents and
+of their hops.
+
+*Threading*: any thread tells; a courier is a call of a worker, or an alarm
+that waits for the next.
+*/
+
+:- setting(news_seconds, number, 300,
+           "News for a home that cannot be reached are kept so long").
+
+:- multifile
+    typhon_runtime:ending/1,
+    typhon_scheduler:fire/2.
+
+:- dynamic
+    news/3,                     % Home, Id, News: the newest, not yet sent
+    courier/1.                  % Home: somebody sees to its news
+
+%   So many are sent at a time, and the longest pause between attempts.
+
+load(500).
+longest_pause(10).              % seconds
+
+%!  news_tell(+Home, +Id, +News) is det.
+%
+%   Let Home, an endpoint, have News of Id, some time soon.
+
+news_tell(Home, Id, News) :-
+    with_mutex(typhon_news, note(Home, Id, News, Courier)),
+    (   Courier == wanted
+    ->  scheduler_call(typhon_news:carry(Home, try(0, 0.5)))
+    ;   true
+    ).
+
+note(Home, Id, News, Courier) :-
+    retractall(news(Home, Id, _)),
+    assertz(news(Home, Id, News)),
+    (   courier(Home)
+    ->  Courier = there
+    ;   assertz(courier(Home)),
+        Courier = wanted
+    ).
+
+%   The process is about to end: what can be sent at once is, the rest is
+%   given up.
+
+typhon_runtime:ending(before) :-
+    forall(courier(Home),
+           ( flush(Home),
+             give_up(Home) )).
+
+flush(Home) :-
+    with_mutex(typhon_news, take(Home, All)),
+    All \== [],
+    endpoint_post_up(Home, whereabouts, All),
+    !,
+    flush(Home).
+flush(_).
+
+%   carry(+Home, +Try): until nothing is left.  Try is try(Since, Pause): it
+%   has not worked since then, 0 if it has, and the pause after this one.
+
+carry(Home, Try) :-
+    with_mutex(typhon_news, ( take(Home, All), off_duty(Home, All) )),
+    (   All == []
+    ->  true
+    ;   catch(( endpoint_post(Home, whereabouts, All), Answer = ok ),
+              error(Answer, _),
+              true),
+        carried(Answer, Home, All, Try)
+    ).
+
+take(Home, All) :-
+    load(Most),
+    take(Most, Home, All).
+
+take(Most, Home, [News|All]) :-
+    Most > 0,
+    retract(news(Home, _, News)),
+    !,
+    Most1 is Most-1,
+    take(Most1, Home, All).
+take(_, _, []).
+
+off_duty(Home, []) :-
+    !,
+    retractall(courier(Home)).
+off_duty(_, _).
+
+carried(ok, Home, _, _) :-
+    carry(Home, try(0, 0.5)).
+carried(unreachable(_), Home, All, try(Since0, Pause)) :-
+    get_time(Now),
+    since(Since0, Now, Since),
+    setting(news_seconds, Max),
+    (   Now-Since > Max
+    ->  give_up(Home)
+    ;   with_mutex(typhon_news, forall(member(News, All), back(Home, News))),
+        longest_pause(Longest),
+        Pause1 is min(Longest, 2*Pause),
+        Stamp is Now+Pause,
+        alarm_set(Stamp, Home, news(try(Since, Pause1)))
+    ).
+carried(existence_error(endpoint, _), Home, _, _) :-
+    give_up(Home).                      % this process ends
+
+since(0, Now, Now) :-
+    !.
+since(Since, _, Since).
+
+%   What came meanwhile is newer.
+
+back(Home, News) :-
+    arg(1, News, Id),
+    (   news(Home, Id, _)
+    ->  true
+    ;   assertz(news(Home, Id, News))
+    ).
+
+give_up(Home) :-
+    with_mutex(typhon_news,
+               ( retractall(news(Home, _, _)),
+                 retractall(courier(Home)) )),
+    print_message(silent, typhon(home_unreachable(Home))).
+
+typhon_scheduler:fire(Home, news(Try)) :-
+    !,
+    scheduler_call(typhon_news:carry(Home, Try)).

@@ -1,0 +1,12 @@
+:- module(typhon_wire, []).
+
+/** <module> The wire
+
+Processes that know the same cookie, and what they say to each other, once
+and in order.  Nothing here knows of agents.
+This is the door of the layer: who is above takes what it needs from here.
+*/
+
+:- reexport(wire/endpoint).
+:- reexport(wire/frame, [mobile_term/1]).
+:- reexport(wire/auth, [cookie/1]).

@@ -1,0 +1,242 @@
+:- module(typhon_acceptor,
+          [ accept_all/2,               % +Socket, +Me
+            accept_no_more/0
+          ]).
+
+/** <module> Taking connections
+
+Every client has a thread of its own and, until it has proved itself, one of
+a bounded number of slots. When all are taken a newcomer gets that of
+another: of an address nobody has proved himself from, before others; of the
+address that holds most slots; of one that has said nothing yet; of the one
+that came first. So who only wants to hold slots holds them as long as nobody
+else wants them.
+
+Most strangers take us for something else. Whose first byte is there, and is
+not that of a greeting, gets neither slot nor thread.
+
+_Threading_: accept_all/2 is the goal of a crew thread, which is woken by a
+signal: closing the socket would not wake it. The slots are guarded by a
+mutex: the acceptor gives and takes them, the thread of a client says how
+far it has come and gives its own back.
+*/
+
+:- use_module(library(error), [permission_error/3, syntax_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(socket), [tcp_accept/3]).
+:- use_module(connection, [incoming/5, open_streams/3]).
+:- use_module(refusals, [refusals_begin/0, refused/2]).
+:- use_module(threads, [crew_signal/2, crew_spawn/3, crew_tell/1]).
+
+:- setting(strangers, positive_integer, 128,
+           "Connections at a time that have not proved themselves").
+
+:- dynamic
+    stranger/4,                         % Thread, Ip, Since, Stage
+    proved/1.                           % Ip, of a peer; the newest last
+
+%   Addresses that are remembered.
+
+proved_addresses(256).
+
+%!  accept_all(+Socket, +Me)
+%
+%   Serve all who connect to Socket, Me being our hello, until stopped by
+%   an exception of the crew.
+
+accept_all(Socket, Me) :-
+    refusals_begin,
+    repeat,
+    catch(accept(Socket, Me), error(Formal, _), accept_failed(Formal)),
+    fail.
+
+%!  accept_no_more is det.
+%
+%   All threads of the endpoint have ended: close what some had not begun
+%   with.
+
+accept_no_more :-
+    forall(stranger(Thread, _, _, _), take_slot(Thread)).
+
+accept(Socket, Me) :-
+    tcp_accept(Socket, Client, ip(A, B, C, D)),
+    atomic_list_concat([A, B, C, D], '.', Ip),
+    sig_atomic(admit(Client, Ip, Me)).
+
+%   Out of descriptors, most likely, which strangers may hold.
+
+accept_failed(Formal) :-
+    refused(anywhere, Formal),
+    sig_atomic(ignore(slot(evict(_)))),
+    sleep(0.1).
+
+admit(Client, Ip, Me) :-
+    catch(open_streams(Client, In, Out),
+          error(Formal, _),
+          refused(Ip, Formal)),
+    (   nonvar(In)
+    ->  admit(In, Out, Ip, Me)
+    ;   true
+    ).
+
+admit(In, Out, Ip, Me) :-
+    catch(let_in(In, Out, Ip, Me, Evicted),
+          error(Formal, _),
+          ( close_streams(In, Out),
+            refused(Ip, Formal) )),
+    (   nonvar(Evicted)
+    ->  refused(Evicted, silent)
+    ;   true
+    ).
+
+let_in(In, Out, Ip, Me, Evicted) :-
+    (   wait_for_input([In], [_], 0)
+    ->  peek_byte(In, Byte),
+        check_first(Byte)
+    ;   true
+    ),
+    slot(give(In, Out, Ip, Me, Evicted)).
+
+check_first(0't) :-
+    !.
+check_first(-1) :-
+    !,
+    syntax_error(end_of_file).
+check_first(_) :-
+    permission_error(authenticate, peer, protocol).
+
+close_streams(In, Out) :-
+    close(Out, [force(true)]),
+    close(In, [force(true)]).
+
+:- meta_predicate slot(0).
+
+slot(Goal) :-
+    with_mutex(typhon_strangers, Goal).
+
+give(In, Out, Ip, Me, Evicted) :-
+    (   room
+    ->  true
+    ;   evict(Evicted)
+    ->  true
+    ;   throw(error(crowd, _))
+    ),
+    get_time(Now),
+    crew_spawn(serve(In, Out, Ip, Me), Thread,
+               assertz(stranger(Thread, Ip, Now, new(In, Out)))).
+
+		 /*******************************
+		 *            SLOTS             *
+		 *******************************/
+
+room :-
+    free_slot,
+    !.
+room :-
+    forall(( stranger(Thread, _, _, _), \+ running(Thread) ),
+           bury(Thread)),
+    free_slot.
+
+free_slot :-
+    predicate_property(stranger(_, _, _, _), number_of_clauses(Count)),
+    setting(strangers, Max),
+    Count < Max.
+
+running(Thread) :-
+    catch(thread_property(Thread, status(running)),
+          error(existence_error(_, _), _),
+          fail).
+
+%   A thread that was interrupted on its first or last steps may not have
+%   said that it ended.
+
+bury(Thread) :-
+    take_slot(Thread),
+    ignore(crew_tell(ended(Thread))).
+
+evict(Ip) :-
+    victim(Thread, Ip),
+    take_slot(Thread),
+    crew_signal(Thread, evicted).
+
+victim(Thread, Ip) :-
+    findall(Ip0, stranger(_, Ip0, _, _), Ips0),
+    msort(Ips0, Ips),
+    pairs_keys_values(Pairs, Ips, Ips),
+    group_pairs_by_key(Pairs, Holders),
+    findall(Rank-(Thread1-Ip1),
+            ( member(Ip1-Slots, Holders),
+              address_rank(Ip1, Slots, Known, Free),
+              stranger(Thread1, Ip1, Since, Stage),
+              stage_rank(Stage, Spoke),
+              Rank = rank(Known, Free, Spoke, Since) ),
+            Ranked),
+    keysort(Ranked, [_-(Thread-Ip)|_]).
+
+%   The streams of a client that is new are still ours.
+
+take_slot(Thread) :-
+    retract(stranger(Thread, _, _, Stage)),
+    !,
+    (   Stage = new(In, Out)
+    ->  close_streams(In, Out)
+    ;   true
+    ).
+
+address_rank(Ip, Slots, Known, Free) :-
+    (   proved(Ip)
+    ->  Known = 1
+    ;   Known = 0
+    ),
+    length(Slots, Count),
+    Free is -Count.
+
+%   Who is new has not had a chance to say anything.
+
+stage_rank(silent, Spoke) =>
+    Spoke = 0.
+stage_rank(_, Spoke) =>
+    Spoke = 1.
+
+		 /*******************************
+		 *            CLIENTS           *
+		 *******************************/
+
+serve(In, Out, Ip, Me) :-
+    call_cleanup(incoming(In, Out, Ip, typhon_acceptor:stage(Ip), Me),
+                 leave).
+
+%   stage(+Ip, +Stage): this client has come so far: its streams are its
+%   thread's own, and it is `silent`; it is `heard`; it has `proved` itself.
+%   Fails if its slot is another's now.
+
+stage(Ip, Stage) :-
+    sig_atomic(slot(reach(Stage, Ip))).
+
+reach(proved, Ip) :-
+    !,
+    leave,
+    remember(Ip).
+reach(Stage, _) :-
+    thread_self(Me),
+    retract(stranger(Me, Ip, Since, _)),
+    !,
+    assertz(stranger(Me, Ip, Since, Stage)).
+
+leave :-
+    thread_self(Me),
+    retractall(stranger(Me, _, _, _)).
+
+remember(Ip) :-
+    proved(Ip),
+    !.
+remember(Ip) :-
+    assertz(proved(Ip)),
+    predicate_property(proved(_), number_of_clauses(Count)),
+    proved_addresses(Max),
+    (   Count > Max
+    ->  once(retract(proved(_)))
+    ;   true
+    ).

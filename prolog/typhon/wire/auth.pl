@@ -1,0 +1,275 @@
+:- module(typhon_auth,
+          [ cookie/1,                   % -Cookie
+            authenticate/5,             % +Role, +In, +Out, +Hello, -PeerHello
+            authenticate/6,             % +Role, +In, +Out, +Hello, +Cookie,
+                                        % -PeerHello
+            random_hex/2                % +Count, -Hex
+          ]).
+
+/** <module> Who may talk to us: those who know the cookie
+
+Both ends of a connection prove that they know a shared secret, the cookie,
+before either decodes a term of the other. Four short lines pass:
+
+    client: typhon 2 <nonce> <hello>
+    server: typhon 2 <nonce> <hello>
+    client: <proof>
+    server: <proof>
+
+A proof is the HMAC-SHA256 under the cookie of the prover's role and both
+first lines: it cannot be replayed, reflected, or moved to other hellos. The
+server proves nothing to a client that has not.
+
+Who speaks another version of the protocol is told ours, as `typhon 2`.
+
+_Threading_: any thread. The cookie is kept with the time stamp of its file
+in one fact; two threads that read it at once store the same.
+*/
+
+:- use_module(library(error), [must_be/2, permission_error/3, syntax_error/1]).
+:- use_module(library(filesex),
+              [chmod/2, delete_directory_and_contents/1, link_file/3]).
+:- use_module(library(process), [process_create/3]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
+:- use_module(hello, [hello_line/2, line_hello/2, line_read/3, line_write/2]).
+
+:- setting(handshake_time, number, 5,
+           "Seconds a peer has to prove itself").
+
+%   greeted: the server has said who it is, which is still to be proved.
+
+:- multifile
+    greeted/0.
+
+:- dynamic
+    greeted/0,
+    known_cookie/3.                     % File, Time, Cookie
+
+%!  authenticate(+Role, +In, +Out, +Hello, -PeerHello) is det.
+%!  authenticate(+Role, +In, +Out, +Hello, +Cookie, -PeerHello) is det.
+%
+%   Prove ourselves to the peer at the other end of In and Out and see its
+%   proof, Role being `client` or `server`. Stops listening after
+%   `handshake_time` seconds in all.
+%
+%   @error permission_error(authenticate, peer, Why) Why: cookie, protocol,
+%   version(Theirs)
+%   @error timeout_error(read, In)
+%   @error syntax_error(Message) what comes is no hello.
+
+authenticate(Role, In, Out, Hello, PeerHello) :-
+    prove(Role, In, Out, Hello, cookie, PeerHello).
+
+authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
+    prove(Role, In, Out, Hello, =(Cookie), PeerHello).
+
+%   prove(+Role, +In, +Out, +Hello, :Cookie, -PeerHello): a stranger that
+%   does not even greet costs us neither cookie nor nonce.
+
+prove(Role, In, Out, Hello, Cookie, PeerHello) :-
+    must_be(oneof([client, server]), Role),
+    setting(handshake_time, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    exchange_greetings(Role, In, Out, Deadline, Hello, Ours, Theirs),
+    call(Cookie, Secret),
+    roles(Role, Ours, Theirs, Client, Server),
+    proof(Secret, client, Client, Server, ClientProof),
+    proof(Secret, server, Client, Server, ServerProof),
+    exchange_proofs(Role, In, Out, Deadline, ClientProof, ServerProof),
+    greeting_hello(Theirs, PeerHello).
+
+greet(Out, Hello, Line) :-
+    random_hex(16, Nonce),
+    hello_line(Hello, HelloLine),
+    protocol(Protocol),
+    format(string(Line), "~w ~w ~w", [Protocol, Nonce, HelloLine]),
+    line_write(Out, Line).
+
+protocol("typhon 2").
+
+greeting_hello(Line, Hello) :-
+    (   split_string(Line, " ", "", [_, _, _|Fields])
+    ->  atomic_list_concat(Fields, ' ', HelloLine),
+        line_hello(HelloLine, Hello)
+    ;   syntax_error(hello)
+    ).
+
+%   The server does not answer somebody who speaks something else, but it
+%   tells another version which one it is.
+
+exchange_greetings(client, In, Out, Deadline, Hello, Ours, Theirs) :-
+    greet(Out, Hello, Ours),
+    line_read(In, Deadline, Theirs),
+    check_protocol(Theirs),
+    ignore(greeted).
+exchange_greetings(server, In, Out, Deadline, Hello, Ours, Theirs) :-
+    line_read(In, Deadline, Theirs),
+    (   speaks(Theirs, version(_))
+    ->  protocol(Protocol),
+        line_write(Out, Protocol)
+    ;   true
+    ),
+    check_protocol(Theirs),
+    greet(Out, Hello, Ours).
+
+check_protocol(Line) :-
+    speaks(Line, What),
+    (   What == ours
+    ->  true
+    ;   permission_error(authenticate, peer, What)
+    ).
+
+%   speaks(+Line, -What): `ours`, version(Number) or `protocol`.
+
+speaks(Line, What) :-
+    protocol(Protocol),
+    (   string_concat(Protocol, Rest, Line),
+        sub_string(Rest, 0, 1, _, " ")
+    ->  What = ours
+    ;   split_string(Line, " ", "", ["typhon", Number|_]),
+        number_string(Version, Number),
+        integer(Version)
+    ->  What = version(Version)
+    ;   What = protocol
+    ).
+
+roles(client, Ours, Theirs, Ours, Theirs).
+roles(server, Ours, Theirs, Theirs, Ours).
+
+exchange_proofs(client, In, Out, Deadline, Ours, Theirs) :-
+    line_write(Out, Ours),
+    check_proof(In, Deadline, Theirs).
+exchange_proofs(server, In, Out, Deadline, Theirs, Ours) :-
+    check_proof(In, Deadline, Theirs),
+    line_write(Out, Ours).
+
+%   A proof is good for one pair of nonces: how long the comparison takes
+%   tells nothing of use.
+
+check_proof(In, Deadline, Expected) :-
+    line_read(In, Deadline, Proof),
+    (   Proof == Expected
+    ->  true
+    ;   permission_error(authenticate, peer, cookie)
+    ).
+
+proof(Cookie, Role, Client, Server, Proof) :-
+    format(string(Data), "~w\n~w\n~w", [Role, Client, Server]),
+    hmac_sha(Cookie, Data, Hash, [algorithm(sha256), encoding(octet)]),
+    hash_atom(Hash, Hex),
+    atom_string(Hex, Proof).
+
+%!  random_hex(+Count, -Hex:atom) is det.
+%
+%   Hex are Count random bytes, good enough for secrets.
+
+random_hex(Count, Hex) :-
+    setup_call_cleanup(
+        open('/dev/urandom', read, In, [type(binary), buffer(false)]),
+        ( length(Bytes, Count),
+          read_bytes(Bytes, In)
+        ),
+        close(In)),
+    hash_atom(Bytes, Hex).
+
+read_bytes([], _).
+read_bytes([Byte|Bytes], In) :-
+    get_byte(In, Byte),
+    read_bytes(Bytes, In).
+
+%!  cookie(-Cookie:string) is det.
+%
+%   Cookie is the secret all processes of a network share: the value of
+%   the environment variable `TYPHON_COOKIE`, or the content of the file
+%   `TYPHON_COOKIE_FILE`, by default `~/.typhon.cookie`. The file is made
+%   with random content on first use.
+%
+%   @error permission_error(use, cookie_file, File) others may read it.
+
+cookie(Cookie) :-
+    getenv('TYPHON_COOKIE', Value),
+    Value \== '',
+    !,
+    atom_string(Value, Cookie).
+cookie(Cookie) :-
+    cookie_file(File),
+    (   exists_file(File)
+    ->  true
+    ;   make_cookie(File)
+    ),
+    time_file(File, Time),
+    (   known_cookie(File, Time, Known)
+    ->  Cookie = Known
+    ;   read_cookie(File, Cookie),
+        retractall(known_cookie(_, _, _)),
+        assertz(known_cookie(File, Time, Cookie))
+    ).
+
+cookie_file(File) :-
+    (   getenv('TYPHON_COOKIE_FILE', File0),
+        File0 \== ''
+    ->  true
+    ;   File0 = '~/.typhon.cookie'
+    ),
+    expand_file_name(File0, [File|_]).
+
+read_cookie(File, Cookie) :-
+    check_private(File),
+    setup_call_cleanup(
+        open(File, read, In),
+        read_line_to_string(In, Line),
+        close(In)),
+    (   string(Line),
+        string_length(Line, Length),
+        Length >= 16
+    ->  Cookie = Line
+    ;   permission_error(use, cookie_file, File)
+    ).
+
+%   Prolog cannot ask for the mode of a file; ls can, wherever there are
+%   modes: -rw-------
+
+check_private(_) :-
+    current_prolog_flag(windows, true),
+    !.
+check_private(File) :-
+    setup_call_cleanup(
+        process_create(path(ls), ['-lnd', '--', File], [stdout(pipe(Out))]),
+        read_line_to_string(Out, Line),
+        close(Out)),
+    (   string(Line),
+        sub_string(Line, 4, 6, _, "------")
+    ->  true
+    ;   permission_error(use, cookie_file, File)
+    ).
+
+%   The file appears complete and private, or not at all: it is written in
+%   a closed directory and linked to its name, which fails for all but the
+%   first of those who try at once.
+
+make_cookie(File) :-
+    random_hex(8, Suffix),
+    atomic_list_concat([File, '.', Suffix], Directory),
+    setup_call_cleanup(
+        make_directory(Directory),
+        make_cookie_in(Directory, File),
+        delete_directory_and_contents(Directory)).
+
+make_cookie_in(Directory, File) :-
+    chmod(Directory, 0o700),
+    atom_concat(Directory, '/cookie', New),
+    random_hex(32, Cookie),
+    setup_call_cleanup(
+        open(New, write, Out),
+        format(Out, "~w~n", [Cookie]),
+        close(Out)),
+    chmod(New, 0o600),
+    catch(link_file(New, File, hard), error(Formal, Context), true),
+    (   exists_file(File)
+    ->  true
+    ;   throw(error(Formal, Context))
+    ).
+

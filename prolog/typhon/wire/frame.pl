@@ -1,0 +1,247 @@
+:- module(typhon_frame,
+          [ frame_write/2,              % +Out, +Bytes
+            frame_read/3,               % +In, +MaxBytes, -Bytes
+            term_bytes/3,               % +Codec, +Term, -Bytes
+            bytes_term/3,               % +Codec, +Bytes, -Term
+            bytes_mark/2,               % +Bytes, -Mark
+            check_bytes/2,              % +Bytes, -Check
+            mobile_term/1               % +Term
+          ]).
+
+/** <module> Frames: terms as counted bytes
+
+A frame is a big-endian four-byte length, a check of three bytes, and as
+many bytes as the length says. Bytes are a string of codes 0..255, the body
+of one term in one of two codecs:
+
+  - `fast` is the internal record format. It is only for peers of one
+    word size, byte order and a tried range of versions: a record of
+    another word size does not raise, it aborts the process.
+  - `text` is canonical text in UTF-8, independent of the operators and
+    flags of both sides.
+
+The check tells what was damaged on its way before it is decoded: a damaged
+record aborts the process, too. It is no proof of anything.
+
+Before the body of a request or an answer that may turn out to be more than
+the other side can decode, long ones and all text, stands a mark with its
+number, so that nobody waits for an answer to what could not be read.
+
+_Threading_: no state; every predicate may be called from any thread. The
+owner of a stream sees to it that one thread at a time writes to it.
+*/
+
+:- use_module(library(error),
+              [resource_error/1, syntax_error/1, type_error/2]).
+:- use_module(library(sha), [sha_hash/3]).
+:- use_module(text, [term_text/2, text_term/2]).
+
+%!  frame_write(+Out, +Bytes) is det.
+%
+%   Write one frame to the binary stream Out. Does not flush.
+
+frame_write(Out, Bytes) :-
+    string_length(Bytes, Length),
+    B3 is (Length>>24) /\ 255,
+    B2 is (Length>>16) /\ 255,
+    B1 is (Length>>8) /\ 255,
+    B0 is Length /\ 255,
+    check_bytes(Bytes, Check),
+    C2 is Check>>16,
+    C1 is (Check>>8) /\ 255,
+    C0 is Check /\ 255,
+    put_byte(Out, B3),
+    put_byte(Out, B2),
+    put_byte(Out, B1),
+    put_byte(Out, B0),
+    put_byte(Out, C2),
+    put_byte(Out, C1),
+    put_byte(Out, C0),
+    write(Out, Bytes).
+
+%!  frame_read(+In, +MaxBytes, -Bytes) is det.
+%
+%   Read one frame. Bytes is `end_of_file` when In ends where a frame
+%   would begin.
+%
+%   @error syntax_error(truncated_frame) In ends inside the frame.
+%   @error syntax_error(damaged_frame) its bytes are not those of its check;
+%   the context is check(Read, Found). In is where the next frame begins.
+%   @error resource_error(frame_bytes) the frame is longer than MaxBytes.
+
+frame_read(In, MaxBytes, Bytes) :-
+    read_string(In, 7, Head),
+    (   string_codes(Head, [B3, B2, B1, B0, C2, C1, C0])
+    ->  Length is B3<<24 \/ B2<<16 \/ B1<<8 \/ B0,
+        frame_body(In, Length, MaxBytes, Bytes),
+        Check is C2<<16 \/ C1<<8 \/ C0,
+        check_bytes(Bytes, Found),
+        (   Found == Check
+        ->  true
+        ;   throw(error(syntax_error(damaged_frame), check(Check, Found)))
+        )
+    ;   Head == ""
+    ->  Bytes = end_of_file
+    ;   syntax_error(truncated_frame)
+    ).
+
+frame_body(_, Length, MaxBytes, _) :-
+    Length > MaxBytes,
+    !,
+    resource_error(frame_bytes).
+frame_body(In, Length, _, Bytes) :-
+    read_string(In, Length, Bytes),
+    (   string_length(Bytes, Length)
+    ->  true
+    ;   syntax_error(truncated_frame)
+    ).
+
+%!  check_bytes(+Bytes, -Check) is det.
+%
+%   Check is an integer of 24 bits. That of a record is what costs least
+%   and the same for all who may exchange records, see byte_order/1 in
+%   hello.pl; that of a text is the same everywhere.
+
+check_bytes(Bytes, Check) :-
+    is_text(Bytes),
+    !,
+    sha_hash(Bytes, [C2, C1, C0|_], [encoding(octet)]),
+    Check is C2<<16 \/ C1<<8 \/ C0.
+check_bytes(Bytes, Check) :-
+    term_hash(Bytes, Check).
+
+%!  term_bytes(+Codec, +Term, -Bytes) is det.
+%
+%   Bytes are Term in Codec, `fast` or `text`.
+%
+%   @error type_error(mobile_term, Culprit) as mobile_term/1. The codec
+%   `fast` only notices blobs: ask mobile_term/1 about foreign terms.
+
+term_bytes(fast, Term, Bytes) :-
+    (   serialized(Term, Body)
+    ->  (   string_length(Body, Length),
+            Length > 65536
+        ->  marked(0'!, Term, Body, Bytes)
+        ;   Bytes = Body
+        )
+    ;   refuse(Term)
+    ).
+term_bytes(text, Term, Bytes) :-
+    mobile_term(Term),
+    term_text(Term, Body),
+    marked(0'#, Term, Body, Bytes).
+
+serialized(Term, Bytes) :-
+    catch(fast_term_serialized(Term, Bytes),
+          error(permission_error(_, _, _), _),
+          fail).
+
+%!  bytes_term(+Codec, +Bytes, -Term) is det.
+%
+%   The inverse of term_bytes/3. Never call this on the bytes of somebody
+%   who has not proved himself.
+%
+%   @error syntax_error(Message) the text is damaged.
+
+bytes_term(fast, Bytes, Term) :-
+    (   string_code(1, Bytes, 0'!)
+    ->  unmarked(Bytes, Body),
+        fast_term_serialized(Term, Body)
+    ;   fast_term_serialized(Term, Bytes)
+    ).
+bytes_term(text, Bytes, Term) :-
+    unmarked(Bytes, Body),
+    text_term(Body, Term).
+
+		 /*******************************
+		 *             MARKS            *
+		 *******************************/
+
+%   A mark is `#` before text, `!` before a record, which never begins so;
+%   then what the term is, and its number in eighteen digits.
+
+marked(Code, Term, Body, Bytes) :-
+    term_mark(Term, Kind, Id),
+    format(string(Mark), "~c~w~`0t~d~20|", [Code, Kind, Id]),
+    string_concat(Mark, Body, Bytes).
+
+term_mark(request(Id, _, _), ?, Id) :-
+    integer(Id),
+    !.
+term_mark(answer(Id, _), =, Id) :-
+    integer(Id),
+    !.
+term_mark(_, -, 0).
+
+is_text(Bytes) :-
+    string_code(1, Bytes, 0'#).
+
+unmarked(Bytes, Body) :-
+    (   sub_string(Bytes, 20, _, 0, Body0)
+    ->  Body = Body0
+    ;   syntax_error(mark)
+    ).
+
+%!  bytes_mark(+Bytes, -Mark) is semidet.
+%
+%   Mark is request(Id) or answer(Id), if that is what Bytes say they are.
+
+bytes_mark(Bytes, Mark) :-
+    sub_string(Bytes, 0, 20, _, Text),
+    string_code(1, Text, Code),
+    memberchk(Code, `#!`),
+    sub_atom(Text, 1, 1, _, Kind),
+    mark_kind(Kind, Id, Mark),
+    sub_string(Text, 2, 18, 0, Digits),
+    number_string(Id, Digits),
+    integer(Id).
+
+mark_kind(?, Id, request(Id)).
+mark_kind(=, Id, answer(Id)).
+
+		 /*******************************
+		 *      WHAT CAN TRAVEL         *
+		 *******************************/
+
+%!  mobile_term(+Term) is det.
+%
+%   True when Term can travel.
+%
+%   @error type_error(mobile_term, Culprit) for a stream or another blob,
+%   an attributed variable, or a cyclic term inside Term.
+
+mobile_term(Term) :-
+    (   acyclic_term(Term),
+        term_attvars(Term, []),
+        serialized(Term, _)
+    ->  true
+    ;   refuse(Term)
+    ).
+
+refuse(Term) :-
+    (   culprit(Term, Culprit)
+    ->  type_error(mobile_term, Culprit)
+    ;   type_error(mobile_term, Term)
+    ).
+
+culprit(Term, Term) :-
+    cyclic_term(Term),
+    !.
+culprit(Term, Term) :-
+    attvar(Term),
+    !.
+culprit(Term, Term) :-
+    blob(Term, Type),
+    Type \== text,
+    Type \== reserved_symbol,
+    !.
+culprit(Term, Culprit) :-
+    compound(Term),
+    compound_name_arguments(Term, _, Args),
+    member_culprit(Args, Culprit).
+
+member_culprit([Arg|Args], Culprit) :-
+    (   culprit(Arg, Culprit0)
+    ->  Culprit = Culprit0
+    ;   member_culprit(Args, Culprit)
+    ).

@@ -1,0 +1,276 @@
+:- module(typhon_reader,
+          [ read_frames/2               % +Session, +In
+          ]).
+
+/** <module> Reading the frames of a session
+
+The reader counts what it has handled, tells the peer now and then, and is
+also the watchdog of the connection: a peer that owes us something and is
+silent is asked for a sign of life, and given up when it gives none.
+
+A frame that was damaged on its way ends the connection: over the next one
+it comes again. What comes damaged in the same way three times was sent so,
+and is skipped.
+
+_Threading_: runs in the thread of the connection, see connection.pl. The
+counts are that thread's own and are stored when it ends, as is what it
+knows of damage. Signals are held back while a frame is being handled and
+counted.
+*/
+
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
+:- use_module(outbox,
+              [ session_acked/3, session_control/2, session_pending/2,
+                session_push/1, session_send/2, session_sent/2 ]).
+:- use_module(request, [dispatch/2, requests_open/1]).
+:- use_module(session,
+              [session_note_received/2, session_peer/3, session_received/2]).
+:- use_module(threads, [crew_tell/1]).
+
+:- setting(silence, number, 5,
+           "Seconds of silence before a peer is asked for a sign of life").
+
+:- dynamic
+    damaged/4.                          % Key, Count, Which, Times
+
+%   After so many frames or bytes the peer is told that they have come.
+
+ack_frames(32).
+ack_bytes(32768).
+
+%!  read_frames(+Session, +In) is det.
+%
+%   Handle all frames until In ends.
+%
+%   @error timeout_error(read, In) the peer is silent for too long
+%   @error resource_error(frame_bytes), syntax_error(truncated_frame),
+%   syntax_error(damaged_frame)
+%   @error domain_error(acknowledged, Count) more than was sent
+
+read_frames(Session, In) :-
+    Session = session(Key, _, _, _, _),
+    setting(silence, Silence),
+    setting(typhon_session:frame_bytes, Max),
+    set_stream(In, timeout(Silence)),
+    session_received(Key, Count),
+    byte_count(In, Bytes),
+    nb_setval(typhon_reader, true),
+    nb_setval(typhon_later, 0),
+    State = count(Count, Count, Bytes, 0),
+    call_cleanup(
+        call_cleanup(
+            read_or_skip(Session, In, Max, State),
+            note_received(Key, State)),
+        note_received(Key, State)).
+
+%   Noted twice, as the one signal that ends this thread may come in the
+%   middle of the first: with an old count everything would come again.
+
+note_received(Key, State) :-
+    arg(1, State, Count),
+    session_note_received(Key, Count).
+
+read_or_skip(Session, In, Max, State) :-
+    catch(read_all(Session, In, Max, State),
+          error(syntax_error(damaged_frame), Which),
+          true),
+    (   var(Which)
+    ->  true
+    ;   skip(Session, Which, State),
+        read_or_skip(Session, In, Max, State)
+    ).
+
+read_all(Session, In, Max, State) :-
+    Session = session(_, Codec, _, _, _),
+    repeat,
+    push_late(Session, In),
+    (   next(In, Max, Bytes)
+    ->  (   Bytes == end_of_file
+        ->  !
+        ;   frame_term(Codec, Bytes, Term),
+            sig_atomic(handle(Term, Session, In, State)),
+            fail
+        )
+    ;   silent(Session, In, State),
+        fail
+    ).
+
+%   Answers that were left in the buffer go with the next frame that
+%   somebody sends, or now: when there are many, or nothing comes in for a
+%   moment in which the agent that was answered for may well move on. On
+%   9.2 an exception in the middle of wait_for_input/3 ruins the stacks: the
+%   signal that brings it is held back.
+
+late_answers(16).
+late_seconds(0.001).
+
+push_late(Session, In) :-
+    nb_getval(typhon_later, Count),
+    (   Count =:= 0
+    ->  true
+    ;   late_answers(Max),
+        Count < Max,
+        late_seconds(Seconds),
+        sig_atomic(wait_for_input([In], [_], Seconds))
+    ->  true
+    ;   session_push(Session),
+        nb_setval(typhon_later, 0)
+    ).
+
+%   A frame that cannot be read has come all the same: asking for it again
+%   would not help. Whoever waits for an answer hears of it at once, here or
+%   there.
+
+frame_term(Codec, Bytes, Term) :-
+    catch(bytes_term(Codec, Bytes, Term),
+          error(Formal, _),
+          unreadable(Formal, Bytes, Term)).
+
+unreadable(Formal, Bytes, unreadable(Formal, Mark)) :-
+    (   bytes_mark(Bytes, Mark0)
+    ->  Mark = Mark0
+    ;   Mark = none
+    ).
+
+take(unreadable(Formal, Mark), Session) :-
+    !,
+    arg(1, Session, Key),
+    ignore(session_peer(Key, _, Address)),
+    print_message(warning, typhon(endpoint, unreadable(Address, Formal))),
+    spoil(Mark, Session).
+take(Frame, Session) :-
+    dispatch(Session, Frame).
+
+spoil(request(Id), Session) :-
+    !,
+    catch(session_send(Session, spoilt(Id)),
+          error(session_closed, _),
+          true).
+spoil(answer(Id), Session) :-
+    !,
+    dispatch(Session, spoilt(Id)).
+spoil(_, _).
+
+%   skip(+Session, +Which, +State): throws as long as it may be an accident.
+
+skip(Session, Which, State) :-
+    arg(1, Session, Key),
+    arg(1, State, Count),
+    times_damaged(Key, Count, Which, Times),
+    (   Times < 3
+    ->  throw(error(syntax_error(damaged_frame), Which))
+    ;   Count1 is Count+1,
+        nb_setarg(1, State, Count1),
+        ignore(session_peer(Key, _, Address)),
+        print_message(error, typhon(endpoint, skipped(Address)))
+    ).
+
+times_damaged(Key, Count, Which, Times) :-
+    (   damaged(Key, Count, Which, Times0)
+    ->  true
+    ;   Times0 = 0
+    ),
+    Times is Times0+1,
+    retractall(damaged(Key, _, _, _)),
+    forget_damage,
+    assertz(damaged(Key, Count, Which, Times)).
+
+%   That of sessions which are over is not asked for any more.
+
+forget_damage :-
+    predicate_property(damaged(_, _, _, _), number_of_clauses(Count)),
+    Count >= 64,
+    !,
+    once(retract(damaged(_, _, _, _))).
+forget_damage.
+
+%   Fails when nothing begins to come. The time out of a peek loses nothing.
+
+next(In, Max, Bytes) :-
+    catch(peek_byte(In, _), error(timeout_error(_, _), _), fail),
+    frame_read(In, Max, Bytes).
+
+%   Three silences in a row while we wait for something is one too many.
+
+silent(Session, In, State) :-
+    State = count(Count, Told, _, Silent),
+    (   Count > Told                    % it need not keep them any longer
+    ->  acknowledge(Session, In, State)
+    ;   true
+    ),
+    (   \+ owes(Session)
+    ->  nb_setarg(4, State, 0)
+    ;   Silent < 2
+    ->  Silent1 is Silent+1,
+        nb_setarg(4, State, Silent1),
+        session_control(Session, ping)
+    ;   throw(error(timeout_error(read, In), _))
+    ).
+
+owes(Session) :-
+    session_pending(Session, Pending),
+    Pending > 0,
+    !.
+owes(Session) :-
+    requests_open(Session).
+
+handle(ack(Count, Bytes), Session, In, State) :-
+    !,
+    check_ack(Count, Bytes, Session),
+    nb_setarg(4, State, 0),
+    session_acked(Session, Count, Bytes),
+    acknowledge_now_and_then(Session, In, State).
+handle(ping, Session, In, State) :-
+    !,
+    acknowledge(Session, In, State).
+handle(bye, session(Key, _, _, _, _), _, _) :-
+    !,
+    ignore(crew_tell(gone(Key))).
+handle(Frame, Session, In, State) :-
+    take(Frame, Session),
+    arg(1, State, Count0),
+    Count is Count0+1,
+    nb_setarg(1, State, Count),
+    nb_setarg(4, State, 0),
+    acknowledge_now_and_then(Session, In, State).
+
+%   Acks are under way, too: their bytes are told as well.
+
+acknowledge_now_and_then(Session, In, State) :-
+    State = count(Count, Told, ToldBytes, _),
+    byte_count(In, Bytes),
+    ack_frames(MaxFrames),
+    ack_bytes(MaxBytes),
+    (   Count-Told < MaxFrames,
+        Bytes-ToldBytes < MaxBytes
+    ->  true
+    ;   acknowledge(Session, In, State)
+    ).
+
+%   Who acknowledges what was never sent would make us forget it.
+
+check_ack(Count, Bytes, Session) :-
+    integer(Count),
+    integer(Bytes),
+    session_sent(Session, Sent),
+    Count =< Sent,
+    !.
+check_ack(Count, _, _) :-
+    domain_error(acknowledged, Count).
+
+acknowledge(Session, In, State) :-
+    arg(1, State, Count),
+    byte_count(In, Bytes),
+    nb_setarg(2, State, Count),
+    nb_setarg(3, State, Bytes),
+    session_control(Session, ack(Count, Bytes)).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, unreadable(Address, Formal))) -->
+    [ 'Endpoint: a frame of ~w cannot be read: ~p'-[Address, Formal] ].
+prolog:message(typhon(endpoint, skipped(Address))) -->
+    [ 'Endpoint: skipped a frame of ~w that is damaged where it comes from'
+      -[Address] ].

@@ -1,0 +1,173 @@
+:- module(typhon_refusals,
+          [ refused/2,                  % +Ip, +Why
+            refusals_begin/0,
+            refusals_tell/0
+          ]).
+
+/** <module> Telling of those who were turned away
+
+Who scans a port, or floods it, must not fill the log, and must not go
+unnoticed. The first few of a burst are told one by one; of the rest one
+message a second says how many there were, from where, and why. A burst is
+over after a second in which nobody came.
+
+_Threading_: any thread; what there is to tell is guarded by one mutex. The
+keeper calls refusals_tell/0 when a second is over.
+*/
+
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(lists), [member/2]).
+:- use_module(threads, [crew_tell/1]).
+
+:- dynamic
+    burst/1,                            % Told: so many one by one
+    tally/3.                            % Ip, Why, Count: not yet told
+
+%   So many one by one, and so many pairs of where and why.
+
+singly(5).
+groups(16).
+
+%!  refused(+Ip, +Why) is det.
+%
+%   A client at Ip was turned away. Why is the formal term of an error,
+%   `silent` (its slot was needed), `crowd` (there was no slot), or
+%   version(V).
+
+refused(Ip, Formal) :-
+    reason(Formal, Why),
+    sig_atomic(with_mutex(typhon_refusals, note(Ip, Why, How))),
+    (   How == alone
+    ->  level(Why, Level),
+        print_message(Level, typhon(endpoint, turned_away(Ip, Why)))
+    ;   true
+    ).
+
+note(Ip, Why, How) :-
+    (   burst(Told)
+    ->  true
+    ;   Told = 0,
+        assertz(burst(0)),
+        plan
+    ),
+    singly(Max),
+    (   Told < Max
+    ->  How = alone,
+        retractall(burst(_)),
+        Told1 is Told+1,
+        assertz(burst(Told1))
+    ;   How = together,
+        add(Ip, Why)
+    ).
+
+add(Ip, Why) :-
+    retract(tally(Ip, Why, Count0)),
+    !,
+    Count is Count0+1,
+    assertz(tally(Ip, Why, Count)).
+add(Ip, Why) :-
+    predicate_property(tally(_, _, _), number_of_clauses(Groups)),
+    groups(Max),
+    (   ( Groups < Max ; Ip-Why == others-several )
+    ->  assertz(tally(Ip, Why, 1))
+    ;   add(others, several)
+    ).
+
+plan :-
+    get_time(Now),
+    Time is Now+1,
+    ignore(crew_tell(later(Time, typhon_refusals:refusals_tell))).
+
+%!  refusals_begin is det.
+%
+%   An endpoint begins, with a burst of its own.
+
+refusals_begin :-
+    refusals_tell,
+    retractall(burst(_)).
+
+%!  refusals_tell is det.
+%
+%   Tell of those that were not told of one by one.
+
+refusals_tell :-
+    sig_atomic(with_mutex(typhon_refusals, take(Groups))),
+    (   Groups == []
+    ->  true
+    ;   (   member(_-(_-Why), Groups), level(Why, warning)
+        ->  Level = warning
+        ;   Level = informational
+        ),
+        print_message(Level, typhon(endpoint, turned_away(Groups)))
+    ).
+
+take(Groups) :-
+    findall(Count-(Ip-Why), tally(Ip, Why, Count), Groups0),
+    retractall(tally(_, _, _)),
+    sort(1, @>=, Groups0, Groups),
+    (   Groups == []
+    ->  retractall(burst(_))
+    ;   plan
+    ).
+
+%   reason(+Formal, -Why): without what differs from case to case.
+
+reason(permission_error(authenticate, peer, Why), Why) :-
+    !.
+reason(syntax_error(end_of_file), hung_up) :-
+    !.
+reason(syntax_error(Why), Why) :-
+    !.
+reason(timeout_error(_, _), slow) :-
+    !.
+reason(io_error(_, _), broken) :-
+    !.
+reason(socket_error(_, _), broken) :-
+    !.
+reason(Why, Why).
+
+level(Why, Level) :-
+    (   memberchk(Why, [hung_up, broken])
+    ->  Level = informational
+    ;   Level = warning
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, turned_away(Ip, Why))) -->
+    [ 'Endpoint: turned away a client at ~w: '-[Ip] ],
+    why(Why).
+prolog:message(typhon(endpoint, turned_away(Groups))) -->
+    { foldl([Count-_, Sum0, Sum]>>(Sum is Sum0+Count), Groups, 0, Sum) },
+    [ 'Endpoint: turned away ~D more clients:'-[Sum] ],
+    groups(Groups).
+
+groups([]) -->
+    [].
+groups([Count-(Ip-Why)|Groups]) -->
+    [ nl, '  ~D at ~w: '-[Count, Ip] ],
+    why(Why),
+    groups(Groups).
+
+why(cookie) -->
+    !, [ 'it does not know the cookie' ].
+why(protocol) -->
+    !, [ 'it speaks something else' ].
+why(version(Version)) -->
+    !, [ 'it speaks another version of the protocol, ~w'-[Version] ].
+why(hung_up) -->
+    !, [ 'it hung up' ].
+why(broken) -->
+    !, [ 'the connection broke' ].
+why(slow) -->
+    !, [ 'it took too long' ].
+why(silent) -->
+    !, [ 'others wanted its place' ].
+why(crowd) -->
+    !, [ 'there are too many' ].
+why(line) -->
+    !, [ 'it said too much' ].
+why(several) -->
+    !, [ 'for several reasons' ].
+why(Why) -->
+    [ '~p'-[Why] ].

@@ -1,0 +1,170 @@
+:- module(typhon_request,
+          [ request_send/4,             % +Session, +Kind, +Term, :OnAnswer
+            request_reply/2,            % +ReplyTo, +Term
+            request_reply_later/2,      % +ReplyTo, +Term
+            request_answer/2,           % +Result, :OnAnswer
+            request_forget/1,           % :OnAnswer
+            requests_lost/2,            % +Session, +Unsent
+            requests_open/1,            % +Session
+            dispatch/2,                 % +Session, +Frame
+            connection_is/2             % +Session, +State
+          ]).
+
+/** <module> What the frames of a session say
+
+    post(Kind, Term)          one way
+    request(Id, Kind, Term)   wants an answer
+    answer(Id, Term)          here it is
+    spoilt(Id)                the request was taken, and went wrong
+
+Posts and requests go to the hooks of typhon_endpoint, answers to whoever
+asked.
+
+_Threading_: dispatch/2 runs in the thread of a connection, the hooks with
+it. The table of open requests is shared; a request is taken out by retract/1
+and so answered once.
+*/
+
+:- use_module(outbox, [session_send/2, session_send_later/2]).
+
+:- meta_predicate
+    request_send(+, +, +, 1),
+    request_answer(+, 1),
+    request_forget(1).
+
+:- dynamic
+    open_request/3.                     % Id, Key, OnAnswer
+
+%!  request_send(+Session, +Kind, +Term, :OnAnswer) is det.
+
+request_send(Session, Kind, Term, OnAnswer) :-
+    arg(1, Session, Key),
+    flag(typhon_request, Id, Id+1),
+    assertz(open_request(Id, Key, OnAnswer)),
+    catch(session_send(Session, request(Id, Kind, Term)),
+          Error,
+          ( retractall(open_request(Id, _, _)),
+            throw(Error) )).
+
+%!  request_answer(+Result, :OnAnswer) is det.
+%
+%   Tell who asked. Never raises: what goes wrong is reported.
+
+request_answer(Result, OnAnswer) :-
+    guarded(call(OnAnswer, Result), answer).
+
+%!  request_forget(:OnAnswer) is det.
+%
+%   Nobody waits for this answer any more.
+
+request_forget(OnAnswer) :-
+    retractall(open_request(_, _, OnAnswer)).
+
+%!  request_reply(+ReplyTo, +Term) is det.
+
+request_reply(reply_to(Session, Id), Term) :-
+    session_send(Session, answer(Id, Term)).
+
+%!  request_reply_later(+ReplyTo, +Term) is det.
+%
+%   As request_reply/2, if possible together with what is sent next.
+
+request_reply_later(reply_to(Session, Id), Term) :-
+    (   nb_current(typhon_later, Count),
+        integer(Count)
+    ->  session_send_later(Session, answer(Id, Term)),
+        Count1 is Count+1,
+        nb_setval(typhon_later, Count1)
+    ;   session_send(Session, answer(Id, Term))
+    ).
+
+%!  requests_open(+Session) is semidet.
+%
+%   Some request of Session has no answer yet.
+
+requests_open(session(Key, _, _, _, _)) :-
+    open_request(_, Key, _),
+    !.
+
+%!  requests_lost(+Session, +Unsent) is det.
+%
+%   The peer is gone for good and the frames Unsent never left: tell all
+%   who wait for its answers.
+
+requests_lost(session(Key, _, _, _, _), Unsent) :-
+    forall(member(request(Id, _, _), Unsent),
+           conclude(unreachable, Id, Key)),
+    forall(open_request(Id, Key, _), conclude(lost, Id, Key)).
+
+%   Only who was asked can answer.
+
+conclude(Result, Id, Key) :-
+    (   integer(Id),
+        retract(open_request(Id, Key, OnAnswer))
+    ->  request_answer(Result, OnAnswer)
+    ;   true
+    ).
+
+%!  dispatch(+Session, +Frame) is det.
+%
+%   Never raises: what goes wrong in a hook is reported.
+
+dispatch(Session, post(Kind, Term)) :-
+    !,
+    peer(Session, Peer),
+    guarded(typhon_endpoint:received(Kind, Term, Peer), Kind).
+dispatch(Session, request(Id, Kind, Term)) :-
+    !,
+    peer(Session, Peer),
+    (   attempt(typhon_endpoint:requested(Kind, Term, Peer,
+                                          reply_to(Session, Id)), Kind)
+    ->  true
+    ;   guarded(session_send(Session, spoilt(Id)), Kind)
+    ).
+dispatch(session(Key, _, _, _, _), answer(Id, Term)) :-
+    !,
+    conclude(answer(Term), Id, Key).
+dispatch(session(Key, _, _, _, _), spoilt(Id)) :-
+    !,
+    conclude(lost, Id, Key).
+dispatch(_, Frame) :-                   % of a later version, or damaged
+    print_message(warning, typhon(endpoint, unknown_frame(Frame))).
+
+%!  connection_is(+Session, +State) is det.
+%
+%   Tell who wants to know that the connection is `up` or `down`.
+
+connection_is(Session, State) :-
+    peer(Session, Peer),
+    forall(clause(typhon_endpoint:connection(Peer, State), Body),
+           guarded(typhon_endpoint:Body, connection)).
+
+peer(session(_, _, _, _, peer(_, Address)), Address).
+
+guarded(Goal, Kind) :-
+    (   attempt(Goal, Kind)
+    ->  true
+    ;   true
+    ).
+
+attempt(Goal, Kind) :-
+    (   catch(Goal, Error, true)
+    ->  (   var(Error)
+        ->  true
+        ;   print_message(error, typhon(endpoint, hook(Kind, Error))),
+            fail
+        )
+    ;   print_message(error, typhon(endpoint, hook(Kind, failed))),
+        fail
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, unknown_frame(Frame))) -->
+    [ 'Endpoint: a frame nobody understands: ~W'
+      -[Frame, [quoted(true), max_depth(8)]] ].
+prolog:message(typhon(endpoint, hook(Kind, failed))) -->
+    [ 'Endpoint: nobody takes ~q'-[Kind] ].
+prolog:message(typhon(endpoint, hook(Kind, Error))) -->
+    [ 'Endpoint: taking ~q: '-[Kind] ],
+    '$messages':translate_message(Error).
