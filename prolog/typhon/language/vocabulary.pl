@@ -22,4 +22,4 @@ without state that agents may use without asking.
 :- use_module(library(random)).
 :- use_module(library(solution_sequences)).
 :- use_module(library(yall)).
-:- use_module(words, []).
+:- use_module(words).
