@@ -4,8 +4,9 @@
 
     swipl test/run.pl [-- suite ...]
 
-runs every test/test_*.pl, or those named (`frame` for test/test_frame.pl),
-each in a process of its own, two at a time, and reports.  The last line is
+runs every test_*.pl in the folders of test/, or those named (`frame` for
+test/prolog/wire/test_frame.pl, `prolog/wire` for all in that folder), each
+in a process of its own, two at a time, and reports.  The last line is
 `N passed, N failed`; `, N skipped` follows if any were.  The exit status
 is 0 only if nothing failed.
 
@@ -18,10 +19,10 @@ variable TYPHON_SUITE which they inherit, and are killed.
 would have the signals blocked that the thread has, SIGINT for one.
 */
 
-:- use_module(common, [project_file/2, wait_until/2, with_tmp_dir/1]).
+:- use_module('lib/common', [project_file/2, wait_until/2, with_tmp_dir/1]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2, selectchk/3]).
+:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
+:- use_module(library(lists), [append/2, append/3, member/2, selectchk/3]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(process),
               [ process_create/3, process_kill/2, process_wait/2,
@@ -64,19 +65,44 @@ run_suites(Files, Jobs0, [Suite|Suites], Dir) :-
 
 suite_files([], Files) :-
     !,
-    project_file('test/test_*.pl', Pattern),
-    expand_file_name(Pattern, Files).
+    all_suites(Files).
 suite_files(Names, Files) :-
-    maplist(suite_file, Names, Files).
+    all_suites(All),
+    maplist(named_suites(All), Names, Lists),
+    append(Lists, Files).
 
-suite_file(Name, File) :-
-    format(atom(Relative), 'test/test_~w.pl', [Name]),
-    project_file(Relative, File),
-    (   exists_file(File)
-    ->  true
-    ;   format(user_error, 'No such test suite: ~w~n', [Name]),
+all_suites(Files) :-
+    project_file(test, Test),
+    findall(File, suite_in(Test, File), Files0),
+    sort(Files0, Files).
+
+suite_in(Dir, File) :-
+    directory_member(Dir, File,
+                     [ recursive(true), extensions([pl]) ]),
+    suite_name(File, _).
+
+suite_name(File, Name) :-
+    file_base_name(File, Base),
+    atom_concat(test_, Rest, Base),
+    file_name_extension(Name, pl, Rest).
+
+named_suites(All, Name, Files) :-
+    findall(File, ( member(File, All), is_named(Name, File) ), Files),
+    (   Files == []
+    ->  format(user_error, 'No such test suite: ~w~n', [Name]),
         halt(1)
+    ;   true
     ).
+
+is_named(Name, File) :-
+    suite_name(File, Name),
+    !.
+is_named(Name, File) :-
+    format(atom(Relative), 'test/~w', [Name]),
+    project_file(Relative, Dir),
+    atom_concat(Dir, /, Start),
+    sub_atom(File, 0, _, _, Start),
+    !.
 
 add_suite(suite(P1, F1, Skipped, _), sum(P0, F0, S0), sum(P, F, S)) :-
     length(Skipped, S1),

@@ -7,7 +7,7 @@ This is the door of the layer: who is above takes what it needs from here.
 */
 
 :- reexport(travel/hop,
-            [ hop/5, hop_clone/6, hop_given_up/2, hop_overdue/1, hop_state/2
+            [ hop/5, hop_clone/6, hop_given_up/2, hop_out_of_touch/1, hop_state/2
             ]).
 :- use_module(travel/arrival, []).
 :- reexport(travel/whereabouts,

@@ -12,7 +12,7 @@ doc/chaos.md.
 *Threading*: the main thread; see chaos_cluster.
 */
 
-:- use_module('../common', [project_file/2]).
+:- use_module('../lib/common', [project_file/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(filesex),

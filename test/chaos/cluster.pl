@@ -31,7 +31,7 @@ raised(Formal), `died` if the process was killed meanwhile, or `hung`.
 answers, and puts it in the queue `chaos_answers`.
 */
 
-:- use_module('../common', [free_port/1, project_file/2]).
+:- use_module('../lib/common', [free_port/1, project_file/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).

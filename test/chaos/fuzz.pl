@@ -6,7 +6,7 @@ sends N inputs to a process with a host. Each has a seed of its own, from the
 one given on: `--count 1 --seed I` repeats one. Faults are printed with the
 seeds between which they were seen; the exit status is then 1. */
 
-:- use_module('../common').
+:- use_module('../lib/common').
 :- use_module(fuzz_run).
 :- use_module(library(main), [argv_options/3, main/0]).
 

@@ -18,8 +18,8 @@ Only who knows the cookie can send that.
 _Threading_: the main thread.
 */
 
-:- use_module('../common').
-:- use_module('../peers').
+:- use_module('../lib/common').
+:- use_module('../lib/peers').
 :- use_module(fuzz_inputs).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, nth1/3]).

@@ -15,8 +15,8 @@ raised(Error).  Ends with its input.  Options:
 *Threading*: one thread reads, each goal has a thread of its own.
 */
 
-:- use_module('../common', []).
-:- use_module('../peer_main', []).
+:- use_module('../lib/common', []).
+:- use_module('../lib/peer_main', []).
 :- use_module(library(typhon)).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, subtract/3]).
@@ -71,6 +71,14 @@ chaos_note(Agent, Tick, Event) :-
     get_time(Now),
     ledger(Stream),
     format(Stream, '~k.~n', [e(Agent, Tick, Event, Now)]).
+
+%   Who ended an agent in doubt cannot know whether it goes on elsewhere.
+
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(ended_in_doubt(Id, _)), _, _) :-
+    chaos_note(Id, 0, ended_in_doubt),
+    fail.
 
                 /*******************************
                 *       WHAT IS ASKED FOR      *

@@ -44,6 +44,7 @@ finding_kind(again,         excused, 'steps done again after a death').
 finding_kind(message_died,  excused, 'messages that died with a process').
 finding_kind(token_died,    excused, 'tokens that died with a process').
 finding_kind(in_doubt,      excused, 'agents in doubt, to who is dead').
+finding_kind(late,          told,    'agents disposed of in doubt that went on').
 finding_kind(order_moving,  told,    'out of order, where one moves').
 finding_kind(error,         told,    'errors while there were faults').
 
@@ -102,9 +103,14 @@ agent_finding(_, finding(outcome, Key-Outcome)) :-
     created(Key, _, Id, _, _),
     outcome(Id, Outcome),
     \+ right_outcome(Key, Outcome).
-agent_finding(_, finding(undead, Key:Event)) :-
+agent_finding(_, finding(Kind, Key:Event)) :-
     disposed(Key, Time),
-    once(( event(Key, _, Event, Later, _), Later > Time )).
+    once(( event(Key, _, Event, Later, _), Later > Time )),
+    (   created(Key, _, Id, _, _),
+        event(Id, _, ended_in_doubt, _, _)
+    ->  Kind = late
+    ;   Kind = undead
+    ).
 agent_finding(_, finding(doubled, unwanted_clone(Key))) :-
     event(Parent, _, no_clone(N, _), _, _),
     clone_key(Parent, N, Key),

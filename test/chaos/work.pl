@@ -29,7 +29,7 @@ while the schedule runs.
 *Threading*: for the main thread.
 */
 
-:- use_module('../common', [project_file/2]).
+:- use_module('../lib/common', [project_file/2]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists),
               [append/2, append/3, member/2, nth0/3, numlist/3, select/3]).

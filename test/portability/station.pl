@@ -6,7 +6,7 @@
    records of any peer.
 */
 
-:- use_module('../common').
+:- use_module('../lib/common').
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 

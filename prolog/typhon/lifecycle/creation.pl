@@ -94,7 +94,8 @@ remove(Id, last(Host, Hops, Status)) :-
 removed(last(_, _, faulty(_)), Id, _) :-
     !,
     retractall(faulty(Id)).
-removed(last(Host, Hops, _), Id, Outcome) :-
+removed(last(Host, Hops, Status), Id, Outcome) :-
+    tell_of_doubt(Status, Id),
     host_leave(Host),
     host_log(Host, Id, ended(Outcome)),
     (   Outcome == failed
@@ -102,6 +103,11 @@ removed(last(Host, Hops, _), Id, Outcome) :-
     ;   true
     ),
     agent_ended(Id, Outcome, Hops).
+
+tell_of_doubt(transit(Address, _), Id) :-
+    !,
+    print_message(warning, typhon(ended_in_doubt(Id, Address))).
+tell_of_doubt(_, _).
 
 make_faulty(Id, Error, Host, Hops) :-
     agent(Id, Host, _, _, Life),

@@ -8,7 +8,7 @@
               [ agent/5, agent_departs/3, agent_handles/2, agent_next_order/2,
                 agent_order/2, agent_ordered/1, agent_put/3, agent_ready/2,
                 agent_status/3, agent_take/2, mail_take/2, with_agent/2 ]).
-:- use_module('../travel', [agent_ended/3, hop_overdue/1]).
+:- use_module('../travel', [agent_ended/3, hop_out_of_touch/1]).
 :- use_module(creation, [agent_clone_here/5, agent_end/2, agent_end/3]).
 :- use_module(effect, [effect/5, effect_depart/5, effect_order/4]).
 
@@ -144,9 +144,9 @@ at_rest(resident).
 at_rest(leaving(_, _)).
 at_rest(faulty(_)).
 at_rest(transit(Host, Sent)) :-
-    hop_overdue(transit(Host, Sent)).
+    hop_out_of_touch(transit(Host, Sent)).
 at_rest(cloning(Host, Sent)) :-
-    hop_overdue(cloning(Host, Sent)).
+    hop_out_of_touch(cloning(Host, Sent)).
 
 order(Id, Order) :-
     agent_status(Id, Status, Goals),

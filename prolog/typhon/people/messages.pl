@@ -88,6 +88,10 @@ prolog:message(typhon(faulty(Agent, Error))) -->
     explained(Error).
 prolog:message(typhon(agent_failed(Agent))) -->
     [ 'Agent ~w has failed'-[Agent] ].
+prolog:message(typhon(ended_in_doubt(Agent, Address))) -->
+    [ 'Agent ~w has ended here while in doubt: if it has arrived at ~w, '-
+      [Agent, Address],
+      'it ends there as soon as that is known' ].
 prolog:message(typhon(message_failed(Agent, From, Message))) -->
     [ 'Agent ~w does not understand a message: ~p from ~w'-
       [Agent, Message, From] ].

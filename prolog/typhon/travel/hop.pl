@@ -3,7 +3,7 @@
             hop_clone/6,                % +Id, +Where, +CloneId, +Who, +Hole,
                                         % +Goals
             hop_state/2,                % +Status, -State
-            hop_overdue/1,              % +Status
+            hop_out_of_touch/1,         % +Status
             hop_given_up/2,             % +Id, +Goals
             hop_let_go/4                % +Id, -Mail, -Orders, -Gone
           ]).
@@ -386,18 +386,25 @@ hop_state(Status, State) :-
     arg(1, Status, Address),
     address_parts(Address, _, Endpoint),
     (   (   endpoint_peer(Endpoint, state(down))
-        ;   hop_overdue(Status)
+        ;   overdue(Status)
         )
     ->  State = in_doubt
     ;   State = in_transit
     ).
 
-%!  hop_overdue(+Status) is semidet.
+%!  hop_out_of_touch(+Status) is semidet.
 %
-%   The answer is overdue: an order to end is not put off any longer. Before
-%   that it follows the agent.
+%   The answer is overdue, and there is no connection on which it could come:
+%   an order to end is not put off any longer.  Before that it follows the
+%   agent.
 
-hop_overdue(Status) :-
+hop_out_of_touch(Status) :-
+    overdue(Status),
+    arg(1, Status, Address),
+    address_parts(Address, _, Endpoint),
+    endpoint_peer(Endpoint, state(down)).
+
+overdue(Status) :-
     arg(2, Status, Sent),
     get_time(Now),
     setting(doubt_seconds, Limit),

@@ -1,0 +1,236 @@
+:- module(test_auction, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fake_agent').
+:- use_module('../../lib/fake_node').
+:- use_module(library(aggregate)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+
+/** <module> Murdoch and ANTA, one node at a time
+
+Floods, and the tree of ANTA; for bids and awards see test_auction_sides.
+*/
+
+                /*******************************
+                *             FLOOD            *
+                *******************************/
+
+:- begin_tests(auction_flood).
+
+test(passed_on_once_but_not_back) :-
+    node(murdoch, []),
+    link(a, 0, flood(77, start(x))),
+    bodies(First),
+    First == [b-start(x), c-start(x)],
+    link(b, 0, flood(77, start(x))),
+    link(a, 0, flood(77, start(x))),
+    bodies([]),
+    fact(sent(start, 2)).
+test(own_flood_goes_to_all_and_does_not_return) :-
+    node(murdoch, []),
+    fake_agent:flood(start(x)),
+    sent([a-flood(Id, _), b-flood(Id, _), c-flood(Id, _)]),
+    link(b, 0, flood(Id, start(x))),
+    bodies([]),
+    fact(sent(start, 3)).
+test(a_message_waits_until_it_is_due) :-
+    node(murdoch, []),
+    link(a, 3, flood(77, start(x))),
+    at(2.9),
+    bodies([]),
+    at(3),
+    bodies([b-_, c-_]).
+test(the_first_to_be_due_counts_not_the_first_to_come) :-
+    node(murdoch, []),
+    link(a, 3, flood(77, start(x))),
+    link(b, 2, flood(77, start(x))),
+    link(c, 4, flood(77, start(x))),
+    at(2),
+    bodies(Bodies),
+    Bodies == [a-start(x), c-start(x)],
+    at(5),
+    bodies([]).
+test(a_link_takes_as_long_as_a_hop) :-
+    node(murdoch, [setting(hop_time, uniform(0.5, 1.5))]),
+    at(10),
+    forall(between(1, 20, _), fake_agent:flood(start(x))),
+    findall(Due, retract(fake_host:did(send(_, link(Due, _, _)))), Dues),
+    length(Dues, 60),
+    forall(member(Due, Dues), ( Due >= 10.5, Due =< 11.5 )).
+test(what_is_passed_on_late_is_not_late) :-
+    node(murdoch, [setting(hop_time, uniform(1, 1))]),
+    at(10),                             % it was due at 3
+    link(a, 3, flood(77, start(x))),
+    findall(Due, retract(fake_host:did(send(_, link(Due, _, _)))), Dues),
+    sort(Dues, [Due]),
+    Due =:= 4.
+test(known_floods_are_bounded, Count == 3) :-
+    node(murdoch, [setting(memory, 3)]),
+    forall(between(1, 50, I), link(a, 0, flood(I, start(x)))),
+    aggregate_all(count, fake_agent:wave(_, _), Count).
+test(who_has_no_node_gets_nothing) :-
+    node(murdoch, []),
+    hears(peers([a-na, c-nc]), user),
+    fake_agent:flood(start(x)),
+    bodies([a-_, c-_]),
+    fact(sent(start, 2)).
+test(who_is_gone_is_forgotten) :-
+    node(murdoch, [gone(nb)]),
+    fake_agent:flood(start(x)),
+    bodies([a-_, c-_]),
+    \+ fact(peer(b, _)),
+    fact(sent(start, 3)),               % it was tried
+    fake_agent:flood(start(y)),
+    fact(sent(start, 5)).
+test(counts_are_told_once, Logged == [communications(start, 3)]) :-
+    node(murdoch, []),
+    fake_agent:flood(start(x)),
+    hears(account, user),
+    hears(account, user),
+    logged(Logged).
+
+:- end_tests(auction_flood).
+
+                /*******************************
+                *             ANTA             *
+                *******************************/
+
+:- begin_tests(auction_anta).
+
+%   In a tree of four levels, at level 2: reports at 10*(8-2)/8 = 7.5.
+
+trade(announce(Job, 1, Offer, 0, 2)) :-
+    announced([], 1, announce(Job, 1, Offer)).
+
+planted :-
+    planted([]).
+
+planted(Facts) :-
+    node(anta, [setting(level, 4)|Facts]),
+    trade(Trade),
+    link(a, 0, flood(77, Trade)).
+
+from_child(Child, List) :-
+    job(Job),
+    link(Child, 0, only(owner(Job, bids(1, List)))).
+
+test(levels_are_counted) :-
+    planted,
+    bodies(Bodies),
+    memberchk(b-announce(_, _, _, 0, 3), Bodies),
+    memberchk(c-announce(_, _, _, 0, 3), Bodies),
+    \+ memberchk(a-_, Bodies).
+test(the_last_level_passes_nothing_on) :-
+    node(anta, [setting(level, 2)]),
+    trade(Trade),
+    link(a, 0, flood(77, Trade)),
+    bodies([robot-_]).
+test(bids_are_merged_and_go_to_the_parent_at_their_time) :-
+    planted,
+    job(Job),
+    hears(answer(ref(Job, 1, 1), bid(7)), robot),
+    from_child(b, [x-[1-3], y-[1-9]]),
+    from_child(c, [z-[1-1]]),
+    sent(_),
+    at(7.4),
+    sent([]),
+    at(7.5),
+    sent([a-only(owner(Job, bids(1, List)))]),
+    msort(List, [x-[1-3], z-[1-1]]).    % two are needed
+test(late_bids_go_on_at_once) :-
+    planted,
+    job(Job),
+    at(7.5),
+    sent(_),
+    from_child(b, [x-[1-3]]),
+    sent([a-only(owner(Job, bids(1, [x-[1-3]])))]).
+test(no_bids_no_report) :-
+    planted,
+    sent(_),
+    at(9),
+    sent([]).
+test(without_the_parent_bids_are_flooded) :-
+    planted,
+    job(Job),
+    from_child(b, [x-[1-3]]),
+    sent(_),
+    fake_neighbours([b, c]),
+    at(7.5),
+    sent([b-flood(Id, Body), c-flood(Id, Body)]),
+    Body == flooded(owner(Job, bids(1, [x-[1-3]]))),
+    fact(sent(bid, 2)).
+test(with_nobody_at_the_parent_bids_are_flooded) :-
+    planted([gone(na)]),
+    from_child(b, [x-[1-3]]),
+    sent(_),
+    at(7.5),
+    sent([b-flood(Id, Body), c-flood(Id, Body)]).
+test(awards_part_on_their_way_down) :-
+    planted,
+    job(Job),
+    hears(answer(ref(Job, 1, 1), bid(7)), robot),
+    from_child(b, [x-[1-3], y-[1-9]]),
+    from_child(c, [z-[1-1]]),
+    at(8),
+    sent(_),
+    Award = award(Job, 1, [here-1, x-1, y-1, z-1]),
+    link(a, 0, only(robots(Job, [here, x, y, z], Award))),
+    sent(Sent),
+    memberchk(robot-reserve(_, boss, _), Sent),
+    memberchk(b-only(robots(Job, [x, y], Award)), Sent),
+    memberchk(c-only(robots(Job, [z], Award)), Sent),
+    length(Sent, 3),
+    fact(sent(award, 2)).
+test(without_the_child_an_award_is_flooded) :-
+    planted,
+    job(Job),
+    from_child(b, [x-[1-3]]),
+    at(8),
+    sent(_),
+    fake_neighbours([a, c]),
+    link(a, 0, only(robots(Job, [x], award(Job, 1, [x-1])))),
+    sent([a-flood(Id, Body), c-flood(Id, Body)]),
+    Body == flooded(robots(Job, [x], award(Job, 1, [x-1]))).
+test(a_flooded_award_concerns_those_it_is_for) :-
+    planted,
+    job(Job),
+    hears(answer(ref(Job, 1, 1), bid(7)), robot),
+    sent(_),
+    Award = award(Job, 1, [here-1, x-1]),
+    link(c, 0, flood(88, flooded(robots(Job, [x], Award)))),
+    sent(First),
+    \+ memberchk(robot-_, First),
+    link(c, 0, flood(89, flooded(robots(Job, [here], Award)))),
+    sent(Then),
+    memberchk(robot-reserve(_, _, _), Then).
+test(answers_go_up_the_tree) :-
+    planted,
+    job(Job),
+    sent(_),
+    link(b, 0, only(owner(Job, report(1, x, reserved)))),
+    sent([a-only(owner(Job, report(1, x, reserved)))]),
+    fact(sent(ack, 1)).
+test(the_root_takes_what_is_flooded_and_floods_the_answer) :-
+    node(anta, [setting(window, 10), setting(level, 4)]),
+    hears(post(task(t, [1-[push]], [])), user),
+    fact(job(Job, _, _, _, _, _)),
+    sent(_),
+    link(b, 0, only(owner(Job, bids(1, [x-[1-3]])))),
+    link(c, 0, flood(90, flooded(owner(Job, bids(1, [y-[1-1]]))))),
+    bodies([a-_, b-_]),                 % it is passed on all the same
+    at(10),
+    bodies(Bodies),
+    Award = award(Job, 1, [y-1]),
+    findall(To, member(To-flooded(robots(Job, [y], Award)), Bodies),
+            [a, b, c]).
+test(trees_are_bounded, Count == 3) :-
+    node(anta, [setting(jobs, 3), setting(level, 4)]),
+    offer([], Offer),
+    forall(between(1, 20, I),
+           ( link(a, 0, flood(I, announce(job(owner, I), 1, Offer, 0, 2))),
+             link(b, 0, only(owner(job(owner, I), bids(1, [x-[1-3]])))) )),
+    aggregate_all(count, fake_agent:tree(_, _, _), Count),
+    aggregate_all(count, fake_agent:way(_, _, _), Ways),
+    Ways =< 3.
+
+:- end_tests(auction_anta).

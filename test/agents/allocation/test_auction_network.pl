@@ -1,0 +1,434 @@
+:- module(test_auction_network, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/event_log').
+:- use_module('../../lib/fixtures').
+:- use_module('../../lib/peers').
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+:- use_module(library(typhon)).
+:- use_module('../../../agents/allocation/auctions').
+:- use_module('../../../agents/allocation/faults').
+:- use_module('../../../agents/allocation/operator').
+
+/** <module> Murdoch and ANTA on small networks
+
+What is counted is compared with what follows from the graph.  Every test
+looks in the log for robots that were reserved twice, or still are at the
+end; where hosts die those of these are left out.
+*/
+
+%   auctions(+Mechanism, +Topology, +Options, +Robots, :Goal): Goal(Hosts,
+%   File), with robots that push on the hosts of those numbers, the cheaper
+%   the lower the number.  Of Options, auction(List) is for auction_start/3.
+
+:- meta_predicate auctions(+, +, +, +, 2).
+
+auctions(Mechanism, Topology, Options, Robots, Goal) :-
+    no_leaks(with_tmp_dir(auctions_in(Mechanism, Topology, Options, Robots,
+                                      Goal))).
+
+auctions_in(Mechanism, Topology, Options0, Robots, Goal, Dir) :-
+    atom_concat(Dir, '/events.pl', File),
+    (   selectchk(auction(AuctionOptions), Options0, Options)
+    ->  true
+    ;   AuctionOptions = [],
+        Options = Options0
+    ),
+    setup_call_cleanup(
+        network_start(Topology, Network,
+                      [clock(100), seed(1), log(File)|Options]),
+        ( network_property(Network, hosts(Hosts)),
+          forall(( member(I, Robots), nth1(I, Hosts, Host) ),
+                 robot_start(Host, [push, position=p(I,0)],
+                             [settings([watch-6000, patience-1000])])),
+          unhurried(AuctionOptions, Unhurried),
+          auction_start(Mechanism, Hosts, Unhurried),
+          once(call(Goal, Hosts, File)) ),
+        network_stop(Network)),
+    log_events(File, Events),
+    reservation_faults(Events, Faults),
+    exclude(died, Faults, []).
+
+%   Where nothing else is said nobody is given up soon.
+
+unhurried(Options0, [settings(Settings)|Options]) :-
+    (   selectchk(settings(Settings0), Options0, Options)
+    ->  true
+    ;   Settings0 = [],
+        Options = Options0
+    ),
+    append(Settings0, [renew-1000, contract-3000], Settings).
+
+:- dynamic dead/1.
+
+died(held(Host, _, _)) :-
+    dead(Host).
+
+post(Mechanism, Name, Count, Details, Host) :-
+    auction_post(Mechanism,
+                 task(Name, [Count-[push]], [at(p(0,0))|Details]), Host).
+
+happened(File, What) :-
+    wait_until(( so_far(File, Whats), memberchk(What, Whats) ), 40).
+
+so_far(File, Whats) :-
+    logged(File, Events),
+    findall(What, member(event(_, _, _, What), Events), Whats).
+
+%   all(+File, +Pattern, ?Found): what is logged, which may lag, comes to be
+%   Found.
+
+all(File, Pattern, Found) :-
+    wait_until(( so_far(File, Whats),
+                 include(subsumes_term(Pattern), Whats, Found) ), 40).
+
+all_free(Hosts) :-
+    wait_until(forall(member(Host, Hosts), free(Host)), 40).
+
+free(Host) :-
+    catch(robot_status(Host, Status), error(existence_error(robot, _), _),
+          Status = free),
+    Status == free.
+
+counted(Mechanism, Hosts, Expected) :-
+    wait_until(( auction_counts(Mechanism, Hosts, Counts),
+                 Counts == Expected ), 40).
+
+%   What must not go wrong when others keep the computer busy.
+
+patient(auction([slack(400)])).
+
+                /*******************************
+                *             FLOOD            *
+                *******************************/
+
+:- begin_tests(auction_flood_network).
+
+%   Nobody bids, so what is sent is one flood: 2E - (N-1) messages.
+
+test(closed_form, [ forall(member(Topology-Count,
+                                  [ring(6)-7, grid(3,4)-23])) ]) :-
+    auctions(murdoch, Topology,
+             [ hop_time(uniform(0.1, 0.3)),
+               auction([slack(5), settings([bi_min-5000])]) ],
+             [], one_flood(Topology, Count)).
+
+one_flood(Topology, Count, [Host|Hosts], File) :-
+    All = [Host|Hosts],
+    post(murdoch, t, 1, [], Host),
+    happened(File, backoff(_)),
+    counted(murdoch, All, [announce-Count]),
+    typhon_topology:topology_edges(Topology, 1, N, Edges),
+    length(Edges, E),
+    Count =:= 2*E - (N - 1),
+    forall(member(Other, Hosts),
+           ( remote(Other, neighbours(Neighbours)),
+             length(Neighbours, Degree),
+             auction_counts(murdoch, [Other], Counts),
+             sum(Counts, Sent),
+             Sent =:= Degree - 1 )).
+
+sum(Counts, Sum) :-
+    aggregate_all(sum(Count), member(_-Count, Counts), Sum).
+
+test(level_of_a_tree) :-
+    auctions(anta, ring(6),
+             [ auction([slack(5), settings([level-2, bi_min-5000])]) ],
+             [], level(4)).
+
+level(Count, [Host|Hosts], File) :-
+    post(anta, t, 1, [], Host),
+    happened(File, backoff(_)),
+    counted(anta, [Host|Hosts], [announce-Count]).
+
+test(two_processes) :-
+    auctions(murdoch, ring(6),
+             [ processes(2), hop_time(uniform(0.1, 0.3)),
+               auction([slack(5), settings([bi_min-5000])]) ],
+             [], two_processes).
+
+two_processes(Hosts, File) :-
+    Hosts = [Host|_],
+    post(murdoch, t, 1, [], Host),
+    happened(File, backoff(_)),
+    counted(murdoch, Hosts, [announce-7]),
+    auction_account(murdoch, Hosts),
+    counted(murdoch, Hosts, []),
+    wait_until(( all(File, communications(announce, _), Told),
+                 aggregate_all(sum(N),
+                               member(communications(announce, N), Told),
+                               7) ), 40).
+
+:- end_tests(auction_flood_network).
+
+                /*******************************
+                *           AUCTIONS           *
+                *******************************/
+
+:- begin_tests(auction_network).
+
+%   Of five robots the three that cost least: announcement, five bids, one
+%   award, three answers, the start, three that are done, the release.
+
+test(murdoch_step_by_step) :-
+    patient(Patient),
+    auctions(murdoch, grid(2, 3), [Patient, hop_time(uniform(0.2, 0.4))],
+             [2, 3, 4, 5, 6], steps_of_murdoch).
+
+steps_of_murdoch(Hosts, File) :-
+    step_by_step(murdoch, Hosts, File),
+    Flood is 2*7 - 5,
+    findall(Kind-Count,
+            ( member(Kind-Times, [ ack-6, announce-1, award-1, bid-5,
+                                   release-1, start-1 ]),
+              Count is Times*Flood ),
+            Counts),
+    counted(murdoch, Hosts, Counts).
+
+%   On a chain: each of five nodes reports once; awards, the start and the
+%   release go three links down, answers 1 + 2 + 3 links up, twice.
+
+test(anta_step_by_step) :-
+    patient(Patient),
+    auctions(anta, edges([1-2, 2-3, 3-4, 4-5, 5-6]),
+             [Patient, hop_time(uniform(0.2, 0.4))],
+             [2, 3, 4, 5, 6], steps_of_anta).
+
+steps_of_anta(Hosts, File) :-
+    step_by_step(anta, Hosts, File),
+    counted(anta, Hosts,
+            [ack-12, announce-5, award-3, bid-5, release-3, start-3]).
+
+step_by_step(Mechanism, Hosts, File) :-
+    Hosts = [Host|_],
+    post(Mechanism, t, 3, [duration(2)], Host),
+    happened(File, completed(t)),
+    all_free(Hosts),
+    all(File, released(_, _, t), [_, _, _]),
+    Hosts = [_, A, B, C|_],
+    so_far(File, Whats0),
+    exclude(of_agents, Whats0, Whats),
+    Whats = [begun(t)|_],
+    append(Before, [allocated(t, Robots)|Then], Whats),
+    msort(Robots, [A, B, C]),
+    findall(R, member(reserved(R, _, t), Before), Reserved),
+    msort(Reserved, [A, B, C]),
+    append(While, [completed(t)|After], Then),
+    findall(R, member(executed(R, _, t), While), Executed),
+    msort(Executed, [A, B, C]),
+    findall(R, member(released(R, _, t), After), Released),
+    msort(Released, [A, B, C]).
+
+%   What the hosts log of their agents.
+
+of_agents(created).
+of_agents(ended(_)).
+
+test(too_few_robots) :-
+    auctions(anta, ring(4),
+             [ auction([slack(15), settings([bi_min-5, bi_max-10])]) ],
+             [2, 3], too_few(anta)).
+
+too_few(Mechanism, Hosts, File) :-
+    Hosts = [Host, _, _, Last],
+    post(Mechanism, t, 3, [duration(1)], Host),
+    happened(File, backoff(Interval)),
+    Interval >= 5,
+    Interval =< 20,                     % 5 or 10, and up to 10
+    all(File, reserved(_, _, _), []),
+    robot_start(Last, [push, position=p(4,0)], []),
+    happened(File, completed(t)),
+    all_free(Hosts).
+
+test(two_that_need_all_robots,
+     [forall(member(Mechanism, [murdoch, anta]))]) :-
+    auctions(Mechanism, grid(2, 3),
+             [ hop_time(uniform(0.1, 0.3)),
+               auction([slack(15), settings([bi_min-2, bi_max-20])]) ],
+             [1, 2, 3, 4, 5, 6], both_all(Mechanism)).
+
+both_all(Mechanism, Hosts, File) :-
+    Hosts = [First|_],
+    last(Hosts, Last),
+    post(Mechanism, a, 6, [duration(2)], First),
+    post(Mechanism, b, 6, [duration(2)], Last),
+    happened(File, completed(a)),
+    happened(File, completed(b)),
+    all_free(Hosts),
+    forall(member(Name, [a, b]),
+           ( all(File, executed(_, _, Name), Executed),
+             length(Executed, 6) )).
+
+test(the_urgent_one_comes_first) :-
+    auctions(murdoch, ring(4),
+             [auction([slack(300), settings([bi_min-2, bi_max-20])])],
+             [1, 2, 3, 4], urgent(murdoch)).
+
+urgent(Mechanism, Hosts, File) :-
+    Hosts = [First, _, Third|_],
+    post(Mechanism, slow, 4, [duration(2)], First),
+    post(Mechanism, quick, 4, [duration(2), priority(5)], Third),
+    happened(File, completed(slow)),
+    all_free(Hosts),
+    all(File, completed(_), Completed),
+    Completed == [completed(quick), completed(slow)].
+
+test(a_deadline_is_missed) :-
+    auctions(murdoch, ring(4), [auction([slack(15)])], [1, 2, 3, 4],
+             missed(murdoch)).
+
+missed(Mechanism, Hosts, File) :-
+    Hosts = [First|_],
+    post(Mechanism, t, 4, [duration(1000), deadline(60)], First),
+    happened(File, allocated(t, _)),
+    happened(File, missed(t, 60)),
+    all_free(Hosts).
+
+test(a_failed_robot_is_replaced) :-
+    auctions(anta, ring(5), [auction([slack(15)])], [1, 2, 3, 4],
+             replaced(anta)).
+
+replaced(Mechanism, Hosts, File) :-
+    Hosts = [First, Second, _, Fourth, _],
+    post(Mechanism, t, 3, [duration(60)], First),
+    wait_until(robot_status(Second, executing(_, t)), 40),
+    robot_fail(Second),
+    happened(File, completed(t)),
+    exclude(==(Second), Hosts, Others),
+    all_free(Others),
+    happened(File, executed(Fourth, _, t)),
+    all(File, executed(Second, _, t), []).
+
+%   The node of a chain that is cut off from its parent has another way.
+
+test(a_parent_has_vanished) :-
+    auctions(anta, edges([1-2, 2-3, 3-4]), [auction([slack(300)])], [4],
+             orphan).
+
+orphan(Hosts, File) :-
+    Hosts = [First, _, Third, Fourth],
+    post(anta, t, 1, [duration(1)], First),
+    wait_until(( remote(Fourth, sense(node(anta, Node))),
+                 agent_property(Node, facts(Facts)),
+                 memberchk(gathered(_, _, Fourth, _), Facts) ), 20),
+    link(First, Fourth),
+    unlink(Third, Fourth),
+    happened(File, completed(t)),
+    all_free(Hosts).
+
+:- end_tests(auction_network).
+
+                /*******************************
+                *          HOSTS DIE           *
+                *******************************/
+
+stops(Host) :-
+    dies(Host),
+    host_stop(Host).
+
+dies(Host) :-
+    assertz(dead(Host)).
+
+quick([slack(15), settings([renew-50, contract-160, bi_min-5])]).
+
+%   What is wrong is said at once.
+
+:- begin_tests(auction_operator).
+
+test(no_such_mechanism, error(type_error(mechanism, vickrey))) :-
+    auction_start(vickrey, [], []).
+test(no_such_setting, error(domain_error(setting, bid_window-3))) :-
+    auction_start(anta, [], [settings([bid_window-3])]).
+test(no_task, [ forall(member(Task, [ _, task(_, [1-[push]], []),
+                                      task(t, [], []),
+                                      task(t, [0-[push]], []),
+                                      task(t, [1-push], []), t ])),
+                error(type_error(task, _)) ]) :-
+    auction_post(anta, Task, nowhere).
+test(no_node) :-
+    with_hosts([alpha],
+               ( address(alpha, Address),
+                 catch(auction_post(anta, task(t, [1-[push]], []), Address),
+                       error(Formal, _), true),
+                 Formal = existence_error(node, Address) )).
+test(a_host_gets_one_node, Loads == [1, 1]) :-
+    with_hosts([alpha, beta],
+               ( findall(A, address(_, A), Hosts),
+                 auction_start(murdoch, Hosts, []),
+                 auction_start(murdoch, Hosts, []),
+                 findall(Load, ( member(H, Hosts),
+                                 remote(H, host_load(Load)) ), Loads) )).
+test(diameter, Found == [3]) :-
+    auctions(anta, grid(2,3), [hop_time(uniform(0.2, 0.5)),
+                               auction([slack(2)])], [], level_of(Found)).
+
+level_of([Level], [Host|_], _) :-
+    remote(Host, sense(node(anta, Node))),
+    agent_property(Node, facts(Facts)),
+    memberchk(setting(level, Level), Facts),
+    memberchk(setting(window, Window), Facts),
+    Window =:= 2*Level*0.5 + 2.
+
+:- end_tests(auction_operator).
+
+:- begin_tests(auction_dead, [cleanup(test_auction_network:forget_dead)]).
+
+test(the_host_of_an_auctioneer_stops) :-
+    quick(Quick),
+    auctions(murdoch, mesh(3), [auction(Quick)], [2, 3],
+             auctioneer_stops(murdoch)).
+
+auctioneer_stops(Mechanism, Hosts, File) :-
+    Hosts = [First|Others],
+    Others = [Second, _],
+    post(Mechanism, t, 2, [duration(1000)], First),
+    wait_until(robot_status(Second, executing(_, t)), 40),
+    stops(First),
+    all_free(Others),
+    all(File, released(_, _, t), [_, _]),
+    post(Mechanism, u, 2, [duration(1)], Second),
+    happened(File, completed(u)),
+    all_free(Others).
+
+%   A robot's host in a process of its own, which does not say that it goes.
+
+test(a_process_is_killed) :-
+    quick(Quick),
+    auctions(anta, mesh(3), [auction(Quick)], [2, 3],
+             beside_a_process(anta)).
+
+beside_a_process(Mechanism, Hosts, File) :-
+    typhon_clock:clock(n1, Epoch, Rate),
+    typhon_hosts:host_option(n1, log(Log)),
+    with_peers([gone-[host([clock(Epoch, Rate), log(Log)])]],
+               killed(Mechanism, Hosts, File)).
+
+killed(Mechanism, Hosts, File) :-
+    Hosts = [First, Second, Third],
+    peer_host(gone, Gone),
+    dies(Gone),
+    forall(member(Host, Hosts), link(Host, Gone)),
+    robot_start(Gone, [push, position=p(0,0)], []),
+    quick(Quick),
+    auction_start(Mechanism, [Gone|Hosts], Quick),
+    post_from(gone, Mechanism, First),
+    wait_until(robot_status(Gone, executing(_, t)), 40),
+    peer_kill(gone),
+    happened(File, completed(t)),
+    happened(File, executed(Third, _, t)),
+    all_free([Second, Third]).
+
+:- end_tests(auction_dead).
+
+%   Whoever holds the cookie may post a task at any host.
+
+post_from(Peer, Mechanism, Host) :-
+    project_file('agents/allocation/auctions', File),
+    peer_do(Peer, use_module(File)),
+    Task = task(t, [2-[push]], [at(p(0,0)), duration(60)]),
+    peer_do(Peer, auction_operator:auction_post(Mechanism, Task, Host)).
+
+forget_dead :-
+    retractall(dead(_)).

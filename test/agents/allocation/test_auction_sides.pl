@@ -1,0 +1,456 @@
+:- module(test_auction_sides, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fake_agent').
+:- use_module('../../lib/fake_node').
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+
+/** <module> The two sides of an auction, one node at a time
+
+Who has a robot and who has a task; the node is one of Murdoch.
+*/
+
+                /*******************************
+                *          CONTRACTOR          *
+                *******************************/
+
+:- begin_tests(auction_contractor).
+
+%   A node of Murdoch that has bid.
+
+bidder(Facts) :-
+    node(murdoch, Facts),
+    announced([], 1, Announce),
+    link(a, 0, flood(77, Announce)),
+    job(Job),
+    hears(answer(ref(Job, 1, 1), bid(7)), robot).
+
+winner(Facts) :-
+    bidder(Facts),
+    job(Job),
+    link(a, 0, flood(78, award(Job, 1, [here-1, x-1]))).
+
+reserved(Facts) :-
+    winner(Facts),
+    job(Job),
+    hears(answer(ref(Job, 1, 1), reserved), robot),
+    sent(_).
+
+test(asks_its_robot_and_bids) :-
+    bidder([]),
+    job(Job),
+    bodies(Bodies),
+    memberchk(robot-ask(ref(Job, 1, 1), need(t, [push], [])), Bodies),
+    findall(To, member(To-owner(Job, bids(1, [here-[1-7]])), Bodies),
+            [a, b, c]).
+test(a_robot_that_refuses_does_not_bid) :-
+    node(murdoch, []),
+    announced([], 1, Announce),
+    link(a, 0, flood(77, Announce)),
+    sent(_),
+    job(Job),
+    hears(answer(ref(Job, 1, 1), refused(unfit)), robot),
+    sent([]),
+    \+ fact(hold(_, _, _, _)).
+test(bids_for_one_auction_at_a_time) :-
+    bidder([]),
+    sent(_),
+    offer([], Offer),
+    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
+    sent(Sent),
+    \+ memberchk(robot-_, Sent).
+test(bids_for_a_more_urgent_one) :-
+    bidder([]),
+    sent(_),
+    offer([priority(2)], Offer),
+    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
+    sent(Sent),
+    memberchk(robot-ask(ref(job(other, 5), 1, 1), _), Sent),
+    job(Job),
+    link(a, 0, flood(78, award(Job, 1, [here-1]))),
+    bodies(Bodies),
+    memberchk(a-owner(Job, report(1, here, refused)), Bodies).
+test(bids_again_when_the_auction_was_lost) :-
+    bidder([]),
+    job(Job),
+    link(a, 0, flood(78, award(Job, 1, [x-1, y-1]))),
+    sent(_),
+    offer([], Offer),
+    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
+    sent(Sent),
+    memberchk(robot-ask(_, _), Sent).
+test(bids_again_when_the_time_is_over) :-
+    bidder([setting(answer, 5)]),
+    sent(_),
+    at(15),                             % closed at 10
+    offer([], Offer),
+    link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
+    sent(Sent),
+    memberchk(robot-ask(_, _), Sent).
+test(a_winner_reserves_its_robot_for_the_auctioneer) :-
+    winner([]),
+    job(Job),
+    bodies(Bodies),
+    memberchk(robot-reserve(ref(Job, 1, 1), boss, need(t, [push], [])),
+              Bodies),
+    hears(answer(ref(Job, 1, 1), reserved), robot),
+    bodies(Then),
+    memberchk(b-owner(Job, report(1, here, reserved)), Then).
+test(a_winner_that_was_taken_says_so) :-
+    winner([]),
+    sent(_),
+    job(Job),
+    hears(answer(ref(Job, 1, 1), refused(reserved)), robot),
+    bodies(Bodies),
+    memberchk(a-owner(Job, report(1, here, refused)), Bodies),
+    \+ fact(contract(_, _, _, _, _, _)).
+test(executes_and_reports) :-
+    reserved([]),
+    job(Job),
+    link(a, 0, flood(79, start(Job))),
+    bodies(Bodies),
+    memberchk(robot-start(ref(Job, 1, 1), sleep(5)), Bodies),
+    link(b, 0, flood(80, start(Job))),
+    sent(Again),
+    \+ memberchk(robot-start(_, _), Again),
+    hears(done(ref(Job, 1, 1)), robot),
+    bodies(Then),
+    memberchk(a-owner(Job, report(1, here, done)), Then).
+test(releases_its_robot_once) :-
+    reserved([]),
+    job(Job),
+    link(a, 0, flood(79, release(Job, 1, all))),
+    sent(Sent),
+    memberchk(robot-release(ref(Job, 1, 1)), Sent),
+    link(a, 0, flood(80, release(Job, 1, all))),
+    sent(Then),
+    \+ memberchk(robot-release(_), Then).
+test(not_released_when_others_are) :-
+    reserved([]),
+    job(Job),
+    link(a, 0, flood(79, release(Job, 1, [x, y]))),
+    sent(Sent),
+    \+ memberchk(robot-release(_), Sent).
+test(an_award_that_comes_after_the_release_is_void) :-
+    bidder([]),
+    job(Job),
+    link(a, 0, flood(79, release(Job, 1, all))),
+    link(a, 0, flood(78, award(Job, 1, [here-1]))),
+    sent(Sent),
+    \+ memberchk(robot-reserve(_, _, _), Sent).
+test(a_late_release_does_not_end_the_next_round) :-
+    bidder([]),
+    job(Job),
+    announced([], 2, Announce),
+    fake_agent:retractall(hold(_, _, _, _)),
+    link(a, 0, flood(80, Announce)),
+    hears(answer(ref(Job, 2, 1), bid(7)), robot),
+    link(a, 0, flood(81, award(Job, 2, [here-1]))),
+    hears(answer(ref(Job, 2, 1), reserved), robot),
+    sent(_),
+    link(a, 0, flood(82, release(Job, 1, all))),
+    sent(Sent),
+    \+ memberchk(robot-release(_), Sent).
+test(a_contract_that_is_not_renewed_lapses) :-
+    reserved([setting(contract, 60)]),
+    job(Job),
+    at(59),
+    sent([]),
+    at(60),
+    sent(Sent),
+    memberchk(robot-release(ref(Job, 1, 1)), Sent),
+    \+ fact(contract(_, _, _, _, _, _)).
+test(a_contract_that_is_renewed_does_not) :-
+    reserved([setting(contract, 60)]),
+    job(Job),
+    at(50),
+    link(a, 50, flood(79, renew(Job, reserved))),
+    bodies(Bodies),
+    memberchk(a-owner(Job, report(1, here, reserved)), Bodies),
+    at(109),
+    sent([]),
+    at(110),
+    sent(Sent),
+    memberchk(robot-release(_), Sent).
+test(who_missed_the_start_is_started_by_a_renewal) :-
+    reserved([]),
+    job(Job),
+    link(a, 0, flood(79, renew(Job, executing))),
+    bodies(Bodies),
+    memberchk(robot-start(_, _), Bodies),
+    memberchk(a-owner(Job, report(1, here, executing)), Bodies).
+test(a_lost_robot_is_reported) :-
+    reserved([]),
+    job(Job),
+    hears(lost(ref(Job, 1, 1), preempted), robot),
+    bodies(Bodies),
+    memberchk(a-owner(Job, report(1, here, lost(preempted))), Bodies).
+test(the_robot_is_told_whether_it_is_still_needed) :-
+    reserved([]),
+    job(Job),
+    hears(still(ref(Job, 1, 1)), robot),
+    hears(still(ref(other, 1, 1)), robot),
+    sent(Sent),
+    Sent == [robot-yes(ref(Job, 1, 1)), robot-no(ref(other, 1, 1))].
+
+:- end_tests(auction_contractor).
+
+                /*******************************
+                *          AUCTIONEER          *
+                *******************************/
+
+:- begin_tests(auction_auctioneer).
+
+%   An auctioneer that wants two robots, beside whom there are x, y, z.
+
+auctioneer(Facts, Job) :-
+    node(murdoch, [setting(window, 10), setting(answer, 10)|Facts]),
+    hears(post(task(t, [2-[push]], [])), user),
+    fact(job(Job, _, 1, bidding, 0, 0)).
+
+bid(Job, Round, Host, Cost) :-
+    tell(Job, bids(Round, [Host-[1-Cost]])).
+
+tell(Job, Body) :-
+    flag(test_auction, N, N+1),
+    Id is 1000 + N,
+    link(a, 0, flood(Id, owner(Job, Body))).
+
+report(Job, Round, Host, Phase) :-
+    tell(Job, report(Round, Host, Phase)).
+
+award(Job) :-
+    bid(Job, 1, x, 5), bid(Job, 1, y, 3), bid(Job, 1, z, 4),
+    sent(_),
+    at(10).
+
+executing(Job) :-
+    award(Job),
+    report(Job, 1, y, reserved),
+    report(Job, 1, z, reserved),
+    sent(_).
+
+said(To, Body) :-
+    bodies(Bodies),
+    memberchk(To-Body, Bodies).
+
+silent :-
+    bodies(Bodies),
+    \+ ( member(_-Body, Bodies), Body \= owner(_, _) ).
+
+test(announces_to_all) :-
+    auctioneer([], Job),
+    bodies(Bodies),
+    subtract(Bodies, [robot-_], Announced),
+    Announced = [a-Announce, b-Announce, c-Announce],
+    Announce = announce(Job, 1, offer(t, me, [(1-[push])-2], [], Close)),
+    Close =:= 10,
+    logged([begun(t)]).
+test(those_that_cost_least_win) :-
+    auctioneer([], Job),
+    award(Job),
+    said(a, award(Job, 1, Winners)),
+    Winners == [y-1, z-1].
+test(a_second_bid_of_a_host_does_not_count) :-
+    auctioneer([], Job),
+    bid(Job, 1, x, 5), bid(Job, 1, x, 1), bid(Job, 1, x, 0),
+    sent(_),
+    at(10),
+    \+ said(a, award(_, _, _)).
+test(two_teams) :-
+    node(murdoch, [setting(window, 10)]),
+    hears(post(task(t, [1-[push], 1-[lift]], [])), user),
+    fact(job(Job, _, 1, _, _, _)),
+    tell(Job, bids(1, [x-[1-1, 2-1]])),
+    tell(Job, bids(1, [y-[2-9]])),
+    sent(_),
+    at(10),
+    said(a, award(Job, 1, Winners)),
+    Winners == [x-1, y-2].
+test(starts_when_all_have_answered) :-
+    auctioneer([], Job),
+    award(Job),
+    report(Job, 1, y, reserved),
+    sent(_),
+    logged(_),
+    report(Job, 1, z, reserved),
+    said(a, start(Job)),
+    logged([allocated(t, Robots)]),
+    msort(Robots, [y, z]).
+test(completes_and_releases_when_all_are_done) :-
+    auctioneer([], Job),
+    executing(Job),
+    logged(_),
+    report(Job, 1, y, done),
+    silent,
+    report(Job, 1, z, done),
+    said(b, release(Job, 1, all)),
+    logged([completed(t)]),
+    \+ fact(job(_, _, _, _, _, _)),
+    report(Job, 1, z, done),            % once more
+    silent.
+test(done_may_come_before_reserved) :-
+    auctioneer([], Job),
+    award(Job),
+    report(Job, 1, y, done),
+    report(Job, 1, z, reserved),
+    report(Job, 1, y, reserved),
+    report(Job, 1, z, done),
+    logged([begun(t), allocated(t, _), completed(t)]).
+test(too_few_bids_release_and_back_off) :-
+    auctioneer([setting(bi_min, 4), setting(bi_max, 100)], Job),
+    bid(Job, 1, x, 5),
+    sent(_), logged(_),
+    at(10),
+    said(c, release(Job, 1, all)),
+    logged([backoff(Interval)]),
+    Interval >= 4, Interval =< 12,      % 4 + [0, 8]
+    Early is 9.99 + Interval,
+    at(Early),
+    silent,
+    Then is 10.01 + Interval,
+    at(Then),
+    said(a, announce(Job, 2, _)).
+test(without_any_bid_there_is_nothing_to_release) :-
+    auctioneer([], _),
+    sent(_), logged(_),
+    at(10),
+    silent,
+    logged([backoff(_)]).
+test(intervals_grow_with_bids_and_back_offs) :-
+    auctioneer([setting(bi_min, 4), setting(bi_max, 1.0e9)], Job),
+    node_backs_off(12, Job, Intervals),
+    last(Intervals, Last),
+    Last >= 4,
+    forall(nth1(I, Intervals, Interval),
+           ( Most is 4 + 2**I*4, Interval =< Most )),
+    max_list(Intervals, Max),
+    Max > 100.
+test(intervals_are_bounded) :-
+    auctioneer([setting(bi_min, 4), setting(bi_max, 10)], Job),
+    node_backs_off(30, Job, Intervals),
+    forall(member(Interval, Intervals), ( Interval >= 4, Interval =< 14 )).
+
+%   One bid each time, and always too few.
+
+node_backs_off(0, _, []) :-
+    !.
+node_backs_off(N, Job, [Interval|Intervals]) :-
+    fact(job(Job, _, Round, bidding, _, _)),
+    bid(Job, Round, x, 5),
+    logged(_),
+    pass(11),
+    logged(Logged),
+    memberchk(backoff(Interval), Logged),
+    pass(Interval),
+    N1 is N - 1,
+    node_backs_off(N1, Job, Intervals).
+
+pass(Seconds) :-
+    fake_host:time(Now),
+    Time is Now + Seconds,
+    at(Time).
+
+test(a_refusal_is_auctioned_again) :-
+    auctioneer([], Job),
+    award(Job),
+    report(Job, 1, y, reserved),
+    sent(_),
+    report(Job, 1, z, refused),
+    said(a, announce(Job, 2, offer(_, _, Places, _, _))),
+    Places == [(1-[push])-1],
+    bid(Job, 2, x, 9),
+    sent(_),
+    at(20),
+    said(a, award(Job, 2, [x-1])),
+    report(Job, 2, x, reserved),
+    said(a, start(Job)).
+test(who_does_not_answer_is_released_and_replaced) :-
+    auctioneer([], Job),
+    award(Job),
+    report(Job, 1, y, reserved),
+    sent(_),
+    at(20),
+    bodies(Bodies),
+    memberchk(a-release(Job, 1, [z]), Bodies),
+    memberchk(a-announce(Job, 2, _), Bodies),
+    report(Job, 1, z, reserved),        % too late
+    said(a, release(Job, 1, [z])).
+test(after_some_rounds_it_backs_off) :-
+    auctioneer([setting(tries, 2)], Job),
+    award(Job),
+    report(Job, 1, y, reserved),
+    report(Job, 1, z, refused),
+    bid(Job, 2, x, 9),
+    at(20),
+    sent(_), logged(_),
+    report(Job, 2, x, refused),
+    said(a, release(Job, 2, all)),
+    logged([backoff(_)]),
+    \+ fact(member(_, _, _, _, _, _)).
+test(a_robot_lost_while_executing_is_replaced) :-
+    auctioneer([], Job),
+    executing(Job),
+    report(Job, 1, y, done),
+    report(Job, 1, z, lost(failed)),
+    said(a, announce(Job, 2, _)),
+    bid(Job, 2, x, 9),
+    at(25),
+    sent(_), logged(_),
+    report(Job, 2, x, reserved),
+    said(a, start(Job)),
+    report(Job, 2, x, done),
+    logged([completed(t)]).
+test(what_a_lost_robot_has_done_stays_done) :-
+    auctioneer([setting(renew, 20)], Job),
+    executing(Job),
+    report(Job, 1, y, done),
+    report(Job, 1, y, lost(failed)),
+    silent,
+    forall(member(Time, [30, 50, 70, 90]),
+           ( at(Time), report(Job, 1, z, executing) )),
+    logged(_),
+    report(Job, 1, z, done),
+    logged([completed(t)]).
+test(contracts_are_renewed) :-
+    auctioneer([setting(renew, 20)], Job),
+    executing(Job),
+    at(30),
+    said(a, renew(Job, executing)),
+    report(Job, 1, y, executing), report(Job, 1, z, executing),
+    sent(_),
+    at(50),
+    said(a, renew(Job, executing)).
+test(who_lets_renewals_pass_is_lost) :-
+    auctioneer([setting(renew, 20)], Job),
+    executing(Job),
+    forall(member(Time, [30, 50]), ( at(Time), report(Job, 1, y, executing) )),
+    sent(_),
+    at(70),
+    bodies(Bodies),
+    memberchk(a-release(Job, 1, [z]), Bodies),
+    memberchk(a-announce(Job, 2, offer(_, _, [_-1], _, _)), Bodies).
+test(a_missed_deadline_releases_all) :-
+    node(murdoch, []),
+    hears(post(task(t, [2-[push]], [deadline(25)])), user),
+    fact(job(Job, _, 1, _, _, _)),
+    executing(Job),
+    logged(_),
+    at(25),
+    said(a, release(Job, 1, all)),
+    logged([missed(t, 25)]),
+    \+ fact(job(_, _, _, _, _, _)),
+    at(500),
+    silent.
+test(two_jobs_of_one_auctioneer_do_not_mix) :-
+    auctioneer([], Job1),
+    hears(post(task(u, [1-[push]], [])), user),
+    fact(job(Job2, task(u, _, _), _, _, _, _)),
+    bid(Job1, 1, x, 5), bid(Job1, 1, y, 5), bid(Job2, 1, z, 1),
+    sent(_),
+    at(10),
+    bodies(Bodies),
+    memberchk(a-award(Job1, 1, [x-1, y-1]), Bodies),
+    memberchk(a-award(Job2, 1, [z-1]), Bodies).
+
+:- end_tests(auction_auctioneer).

@@ -1,0 +1,309 @@
+:- module(test_learning_network, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/event_log', [logged/2]).
+
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(lists), [append/3, last/2, member/2, memberchk/2]).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(typhon)).
+:- use_module('../../../agents/learning/operator').
+
+:- discontiguous payload/2.
+payload(_, _).
+:- include('../../../payloads/learning/maze').
+
+/** <module> Agents that learn the maze on small networks
+
+What they converge to is walked through in a maze of this process.
+*/
+
+:- dynamic setting/2.
+
+setting(size, 5).
+
+%   network(+Topology, +Options, :Goal): Goal(Hosts, File), with a log.
+
+:- meta_predicate network(+, +, 2).
+
+network(Topology, Options, Goal) :-
+    no_leaks(with_tmp_dir(network_in(Topology, Options, Goal))).
+
+network_in(Topology, Options, Goal, Dir) :-
+    atom_concat(Dir, '/events.pl', File),
+    setup_call_cleanup(
+        network_start(Topology, Network,
+                      [clock(100), seed(1), log(File)|Options]),
+        ( network_property(Network, hosts(Hosts)),
+          once(call(Goal, Hosts, File)) ),
+        network_stop(Network)).
+
+learn(Hosts, Options, Agents) :-
+    learn(Hosts, [], Options, Agents).
+
+%   Settings come before those that make for short journeys.
+
+learn(Hosts, Settings0, Options, Agents) :-
+    append(Settings0, [size-5, rho_max-4], Settings),
+    learning_start(Hosts, payloads(learning/maze),
+                   [payloads(learning/greedy)],
+                   [seed(1), settings(Settings)|Options], Agents).
+
+all_end(Agents) :-
+    forall(member(Agent, Agents), agent_join(Agent, done, 60)).
+
+%   await(+File, +Pattern): until such a thing is logged.
+
+await(File, Event) :-
+    wait_until(( logged(File, Events), memberchk(Event, Events) ), 30).
+
+%   at_least(+File, +Event, +Count): as many of them.
+
+at_least(File, Event, Count) :-
+    wait_until(( logged(File, Events),
+                 aggregate_all(count, member(Event, Events), Found),
+                 Found >= Count ), 60).
+
+%   The way that an agent has found, in the end.
+
+converged(Events, Agent) :-
+    member(event(_, _, Agent, converged(Count, Hops, Actions)), Events),
+    Count > 0,
+    Hops >= 5,
+    start(none, State0),
+    foldl(act, Actions, State0, State),
+    reached(State).
+
+                /*******************************
+                *             TESTS            *
+                *******************************/
+
+:- begin_tests(learning_network).
+
+test(three_agents_in_two_processes) :-
+    network(mesh(4), [processes(2)], three_agents).
+test(one_agent_alone) :-
+    network(ring(3), [], alone).
+test(nothing_is_shared_where_it_is_not_allowed) :-
+    network(mesh(3), [], unshared).
+test(full_queue) :-
+    network(mesh(3), [hosts([capacity(2)])], full_queue).
+test(isolated_host) :-
+    network(edges([a-b, b-c]), [], isolated).
+test(peer_is_disposed_of) :-
+    network(edges([a-b]), [], disposed).
+test(peer_is_in_a_process_that_is_killed) :-
+    network(edges([a-b, b-c, c-d]), [processes(2)], killed).
+test(algorithm_is_exchanged) :-
+    network(mesh(3), [], exchanged).
+test(algorithm_is_taken_away) :-
+    network(mesh(3), [], taken_away).
+test(no_second_trainer) :-
+    network(ring(3), [], furnished_twice).
+test(algorithms_in_turn) :-
+    network(mesh(3), [], two_algorithms).
+test(no_hosts, error(domain_error(hosts, []))) :-
+    learn([], [agents(1)], _).
+
+three_agents(Hosts, File) :-
+    learn(Hosts, [agents(3)], Agents),
+    all_end(Agents),
+    at_least(File, event(_, _, _, converged(_, _, _)), 3),
+    logged(File, Events),
+    maplist(converged(Events), Agents),
+    memberchk(event(_, _, _, shared(_, _)), Events),
+    executing_processes(Events, [_, _]).
+
+executing_processes(Events, Endpoints) :-
+    findall(Endpoint,
+            ( member(event(_, Host, _, executed(_, _, _, _)), Events),
+              atomic_list_concat([_, Endpoint], @, Host) ),
+            Endpoints0),
+    sort(Endpoints0, Endpoints).
+
+alone(Hosts, File) :-
+    learn(Hosts, [agents(1)], [Agent]),
+    all_end([Agent]),
+    await(File, event(_, _, _, converged(_, _, _))),
+    logged(File, Events),
+    converged(Events, Agent),
+    \+ memberchk(event(_, _, _, shared(_, _)), Events).
+
+unshared(Hosts, File) :-
+    learn(Hosts, [size-3, sharing-false], [agents(3)], Agents),
+    all_end(Agents),
+    at_least(File, event(_, _, _, converged(_, _, _)), 3),
+    logged(File, Events),
+    \+ memberchk(event(_, _, _, shared(_, _)), Events).
+
+%   There is room for one besides the trainer.  Only when who takes the room
+%   at B has gone something is executed there.
+
+full_queue([A, B, C], File) :-
+    learn([A, B, C], [agents(0)], []),
+    lodger(B, Lodger),
+    learn([A, B, C], [size-50], [agents(1), starts([A])], [Learner]),
+    at_least(File, event(_, _, Learner, executed(_, _, _, _)), 5),
+    agent_property(Learner, hops(Hops)),
+    Hops >= 20,                         % between A and C, then
+    logged(File, Events),
+    \+ memberchk(event(_, B, Learner, _), Events),
+    agent_dispose(Lodger),
+    await(File, event(_, B, Learner, executed(_, _, _, _))),
+    agent_dispose(Learner).
+
+lodger(Host, Agent) :-
+    agent_create(clauses([ (:- agent(lodger)),
+                           (main :- receive(_-go)) ]),
+                 Agent, [host(Host)]).
+
+%   At A, which has lost its link, it tries again and again.
+
+isolated([A, B, C], File) :-
+    unlink(A, B),
+    learn([A, B, C], [size-3], [agents(1), starts([A])], [Learner]),
+    await(File, event(_, A, Learner, executed(1, _, _, _))),
+    wait_until(lingers(Learner, First), 20),
+    wait_until(( lingers(Learner, Second), Second > First ), 20),
+    agent_property(Learner, hops(0)),
+    link(A, B),
+    all_end([Learner]),
+    await(File, event(_, _, Learner, converged(_, _, _))).
+
+lingers(Agent, Until) :-
+    agent_property(Agent, goals(Goals)),
+    sub_term(Sub, Goals),
+    nonvar(Sub),
+    Sub = receive_until(_, Until),
+    !.
+
+%   mute(+Host, +Where, -Agent): stands in the queue of Host, goes on to Where
+%   without a word, says so when it is asked, and does not answer.
+
+mute(Host, Where, Agent) :-
+    agent_create(clauses([ (:- agent(mute)),
+                           (main :- self(Me), leave(queued(Me)), move(Where),
+                                    log(ready), receive(_-share(_)),
+                                    log(asked), receive(_-never)) ]),
+                 Agent, [host(Host)]).
+
+disposed([A, B], File) :-
+    mute(B, B, Mute),
+    await(File, event(_, B, Mute, ready)),
+    learn([A, B], [size-3], [agents(1), starts([A])], [Learner]),
+    await(File, event(_, B, Mute, asked)),
+    agent_dispose(Mute),
+    all_end([Learner]),
+    \+ remote(B, sense(queued(_))).
+
+%   The first is asked before its process is killed, the second after.
+
+killed([A, B, C, _], File) :-
+    mute(B, C, Mute1),
+    await(File, event(_, C, Mute1, ready)),
+    mute(B, C, Mute2),
+    await(File, event(_, C, Mute2, ready)),
+    learn([A, B], [size-3], [agents(1), starts([A])], [Learner]),
+    await(File, event(_, C, Mute1, asked)),
+    process_of(C, Pid),
+    process_kill(Pid, kill),
+    all_end([Learner]),
+    \+ remote(B, sense(queued(_))),
+    logged(File, Events),
+    \+ memberchk(event(_, _, Mute2, asked), Events).
+
+process_of(Host, Pid) :-
+    remote(Host, current_prolog_flag(pid, Pid)).
+
+%   With an algorithm that never plans anything, then with the first again.
+
+exchanged(Hosts, File) :-
+    learn(Hosts, [size-20], [agents(3)], Agents),
+    Planned = event(_, _, _, executed(_, Length, _, _)),
+    wait_until(( logged(File, Events0), member(Planned, Events0),
+                 Length > 0 ), 30),
+    with_tmp_dir(to_idle_and_back(Agents, File)),
+    forall(member(Agent, Agents), agent_dispose(Agent)).
+
+to_idle_and_back(Agents, File, Dir) :-
+    atom_concat(Dir, '/idle.pl', Idle),
+    write_idle(Idle),
+    learning_exchange(Agents, greedy, Idle),
+    forall(member(Agent, Agents), unplanned(File, Agent, 2)),
+    learning_exchange(Agents, idle, payloads(learning/greedy)),
+    forall(member(Agent, Agents), planned(File, Agent)).
+
+write_idle(File) :-
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- payload(idle, [provides([plan/3, better/2])]).~n\c
+                     plan(_, _, []).~nbetter(_, _) :- fail.~n', []),
+        close(Out)).
+
+%   The last Count executions had no plan; the last one had.
+
+unplanned(File, Agent, Count) :-
+    wait_until(( lengths(File, Agent, Lengths),
+                 length(Last, Count),
+                 append(Begin, Last, Lengths),
+                 Begin = [_|_],
+                 maplist(==(0), Last) ), 60).
+
+planned(File, Agent) :-
+    wait_until(( lengths(File, Agent, Lengths),
+                 last(Lengths, Length),
+                 Length > 0 ), 60).
+
+lengths(File, Agent, Lengths) :-
+    logged(File, Events),
+    findall(Length,
+            member(event(_, _, Agent, executed(_, Length, _, _)), Events),
+            Lengths).
+
+taken_away(Hosts, File) :-
+    learn(Hosts, [agents(2)], Agents),
+    forall(member(Agent, Agents), payload_detach(Agent, greedy)),
+    maplist(assimilates, Agents),
+    logged(File, Events0),
+    count_executed(Events0, Count0),
+    maplist(assimilates, Agents),
+    logged(File, Events1),
+    count_executed(Events1, Count0),
+    forall(member(Agent, Agents),
+           payload_attach(Agent, payloads(learning/greedy))),
+    all_end(Agents),
+    at_least(File, event(_, _, _, converged(_, _, _)), 2).
+
+count_executed(Events, Count) :-
+    aggregate_all(count,
+                  member(event(_, _, _, executed(_, _, _, _)), Events),
+                  Count).
+
+%   It lingers before it assimilates again.
+
+assimilates(Agent) :-
+    wait_until(( agent_property(Agent, goals(Goals)),
+                 last(Goals, assimilator) ), 30).
+
+furnished_twice(Hosts, _) :-
+    learn(Hosts, [agents(0)], []),
+    learn(Hosts, [agents(0)], []),
+    forall(member(Host, Hosts), remote(Host, host_load(1))).
+
+two_algorithms(Hosts, File) :-
+    with_tmp_dir(start_four(Hosts, Agents)),
+    findall(Name, ( member(Agent, Agents),
+                    agent_property(Agent, payloads([Name])) ), Names),
+    Names == [greedy, idle, greedy, idle],
+    await(File, event(_, _, _, executed(2, _, _, _))).
+
+start_four(Hosts, Agents, Dir) :-
+    atom_concat(Dir, '/idle.pl', Idle),
+    write_idle(Idle),
+    learning_start(Hosts, payloads(learning/maze),
+                   [payloads(learning/greedy), Idle],
+                   [agents(4), settings([size-50])], Agents).
+
+:- end_tests(learning_network).

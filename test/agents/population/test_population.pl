@@ -1,0 +1,528 @@
+:- use_module('../../lib/common', [wait_until/2, with_tmp_dir/1, project_file/2]).
+:- use_module('../../lib/fake_agent').
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+:- use_module(library(random)).
+:- use_module('../../../prolog/typhon').
+:- use_module('../../../experiments/population/claims').
+:- use_module('../../../experiments/population/mesh').
+:- use_module('../../../experiments/population/metrics').
+:- use_module('../../../experiments/population/track').
+:- include('../../../agents/population/resource').
+
+/** <module> The cloning controller, the queue of a host, and their measures
+*/
+
+close_to(X, Y) :-
+    abs(X - Y) < 1.0e-6.
+
+                /*******************************
+                *           EQUATIONS          *
+                *******************************/
+
+charged(Resource0, Pressure, Reward, Resource) :-
+    recharged(Resource0, Pressure, Reward, charge(0.1, 15, 100), Resource).
+
+:- begin_tests(resource).
+
+test(pressure, [ forall(member(Length-Pressure,
+                               [0-4, 1-3, 3-1, 4-0, 5-0, 9-0])),
+                 P =:= Pressure ]) :-
+    pressure(4, Length, P).
+test(clones, [ forall(member(R-Pressure-Resource-Count,
+                             [ round-3-10-0, floor-3-10-0,      % 0.3
+                               round-3-25.2-1, floor-3-25.2-0,  % 0.756
+                               round-1-50-1, floor-1-50-0,      % 0.5
+                               round-3-100-3, floor-3-100-3,
+                               round-0-100-0, floor-0-100-0,
+                               round-3-0-0, floor-2-50-1 ])),
+               C =:= Count ]) :-
+    clones(R, Pressure, Resource, 100, C).
+test(conferred, R-C == 25-2) :-
+    conferred(35, 2, 5, R, C).
+test(as_much_is_left_as_is_given, R-C == 10-1) :-
+    conferred(20, 1, 10, R, C).
+test(not_a_bit_less, R-C == 19.9-0) :-
+    conferred(19.9, 1, 10, R, C).
+test(all_or_none, R-C == 35-0) :-
+    conferred(35, 3, 10, R, C).
+test(none_to_make, R-C == 35-0) :-
+    conferred(35, 0, 10, R, C).
+test(poor_and_none_to_make, R-C == 3-0) :-
+    conferred(3, 0, 10, R, C).
+test(pressure_above_one_by_hand) :-
+    charged(10, 3, 0, R),
+    close_to(R, 10.1947734041),         % 10 + 0.1 exp(2/3)
+    charged(10, 2, 0, R2),
+    close_to(R2, 10.1648721271).        % 10 + 0.1 exp(1/2)
+test(pressure_of_one_by_hand) :-
+    charged(10, 1, 0, R),
+    close_to(R, 10.0904837418).         % 10 + 0.1 exp(-1/10)
+test(no_pressure_by_hand) :-
+    charged(1, 0, 0, R),
+    close_to(R, 1.0367879441).          % 1 + 0.1 exp(-1)
+test(little_resource, R =:= 0.6) :-
+    charged(0.5, 0, 0, R).
+test(no_resource, R =:= 0.1) :-
+    charged(0, 1, 0, R).
+test(reward_by_hand) :-
+    charged(10, 3, 1, R),
+    close_to(R, 25.1947734041).
+test(no_more_than_the_maximum, R =:= 100) :-
+    charged(95, 3, 1, R).
+test(lifetime, L1-L2 == 17-10) :-
+    prolonged(10, 1, 7, L1),
+    prolonged(10, 0, 7, L2).
+test(no_end_no_prolongation, L == inf) :-
+    prolonged(inf, 1, 7, L).
+
+%   A full agent that gets no reward, among no others: thesis parameters.
+
+test(nine_clones, Counts == [3, 2, 2, 1, 1, 0]) :-
+    spend(round, 6, 100, Counts).
+test(seven_clones, Counts == [3, 2, 1, 1, 0, 0]) :-
+    spend(floor, 6, 100, Counts).
+
+spend(_, 0, _, []) :-
+    !.
+spend(Rounding, N, Resource0, [Count|Counts]) :-
+    charged(Resource0, 3, 0, Resource1),
+    clones(Rounding, 3, Resource1, 100, Count0),
+    conferred(Resource1, Count0, 10, Resource, Count),
+    N1 is N - 1,
+    spend(Rounding, N1, Resource, Counts).
+
+test(properties, [ forall(between(1, 100, Seed)) ]) :-
+    set_random(seed(Seed)),
+    random_between(0, 8, Length),
+    Resource0 is 100*random_float,
+    random_between(0, 1, Reward),
+    random_member(Rounding, [round, floor]),
+    pressure(4, Length, Pressure),
+    between(0, 4, Pressure),
+    charged(Resource0, Pressure, Reward, Resource1),
+    Resource1 =< 100,
+    Resource1 >= min(100, Resource0 + 15*Reward),
+    Resource1 =< Resource0 + 15*Reward + 0.1*exp(1),
+    clones(Rounding, Pressure, Resource1, 100, Count0),
+    Count0 =< Pressure,                 % never more than there is room
+    conferred(Resource1, Count0, 10, Resource, Count),
+    memberchk(Count, [0, Count0]),
+    close_to(Resource1, Resource + 10*Count),
+    ( Count > 0 -> Resource >= 10 ; true ).
+
+:- end_tests(resource).
+
+                /*******************************
+                *           THE ROOM           *
+                *******************************/
+
+%   An agent in the room itself, at a host with a queue q.
+
+member_of(Resource, Lifetime, More) :-
+    fake_agent('agents/population/cloning.pl',
+               [ resource(Resource), lifetime(Lifetime) | More ],
+               [queue(q)]),
+    retractall(fake_agent:fertile),
+    assertz(fake_agent:fertile).
+
+account(Resource, Lifetime) :-
+    fake_agent:resource(Resource),
+    fake_agent:lifetime(Lifetime).
+
+:- begin_tests(controller).
+
+test(joins_and_waits_for_its_turn) :-
+    member_of(10, 10, []),
+    fake_mail(q-turn(2)),
+    fake_agent:await_turn(Length),
+    Length == 2,
+    did(Acts),
+    Acts == [send(q, join)].
+test(dies_in_the_queue) :-
+    member_of(10, 3, [setting(tick, 2)]),
+    catch(fake_agent:await_turn(_), disposed, true),
+    fake_host:time(Time),
+    Time =:= 8,                         % 3 ticks, and one for the answer
+    did(Acts),
+    Acts == [send(q, join), log(state(death)), send(q, quit)].
+test(a_turn_may_be_under_way_to_who_dies) :-
+    member_of(10, 0, []),
+    fake_mail(q-gone),
+    catch(fake_agent:die, disposed, true),
+    fake_host:time(Time),
+    Time =:= 0.
+test(no_queue_no_waiting, Length-Acts == 1-[]) :-
+    fake_agent('agents/population/cloning.pl', [lifetime(inf)], []),
+    fake_agent:await_turn(Length),
+    did(Acts).
+test(a_turn_costs_a_tick) :-
+    member_of(10, 10, []),
+    fake_agent:depart,
+    account(_, Lifetime),
+    Lifetime =:= 9,
+    fake_host:time(Time),
+    Time =:= 1,
+    did(Acts),
+    Acts == [send(q, leave), move(next)].
+test(the_first_agent_never_dies, Lifetime == inf) :-
+    member_of(10, inf, []),
+    fake_agent:depart,
+    account(_, Lifetime).
+test(dies_during_its_turn) :-
+    member_of(10, 0.4, []),
+    fake_mail(q-gone),
+    catch(fake_agent:depart, disposed, true),
+    fake_host:time(Time),
+    close_to(Time, 0.4),
+    did(Acts),
+    Acts == [log(state(death)), send(q, quit)].
+test(who_is_refused_has_left_the_head, Acts == [send(q, leave)]) :-
+    member_of(10, 10, []),
+    fake_refusal(next),
+    \+ fake_agent:depart,
+    did(Acts).
+test(reward) :-
+    member_of(10, 10, []),
+    fake_agent:gain(1, 1),
+    account(Resource, Lifetime),
+    close_to(Resource, 25.1947734041),
+    Lifetime =:= 17,
+    did(Acts),
+    Acts == [log(resource(Resource))].
+test(no_reward) :-
+    member_of(10, 10, []),
+    fake_agent:gain(0, 4),
+    account(Resource, Lifetime),
+    close_to(Resource, 10.0904837418),
+    Lifetime =:= 10,
+    did(Acts),
+    Acts == [].
+test(clones_after_a_reward, Role-Acts == parent-[log(state(replicate)),
+                                                 log(resource(15))]) :-
+    member_of(25, 10, []),
+    fake_agent:replicate(1, 1, Role),
+    did(Acts).
+test(the_rounding_decides, Role-Acts == parent-[]) :-
+    member_of(25, 10, [setting(rounding, floor)]),
+    fake_agent:replicate(1, 1, Role),
+    did(Acts).
+test(no_clone_without_reward, Acts == []) :-
+    member_of(25, 10, []),
+    fake_agent:replicate(0, 1, parent),
+    did(Acts).
+test(unless_told_so, Resource =:= 15) :-
+    member_of(25, 10, [setting(replication, always)]),
+    fake_agent:replicate(0, 1, parent),
+    account(Resource, _).
+test(no_clone_while_not_fertile, Acts == []) :-
+    member_of(25, 10, []),
+    retractall(fake_agent:fertile),
+    fake_agent:replicate(1, 1, parent),
+    did(Acts).
+test(no_clone_in_a_full_queue, Acts == []) :-
+    member_of(100, 10, []),
+    fake_agent:replicate(1, 4, parent),
+    did(Acts).
+test(several_clones, Resource-Count == 70-3) :-
+    member_of(100, 10, []),
+    fake_agent:replicate(1, 1, parent),
+    account(Resource, _),
+    did(Acts),
+    aggregate_all(count, member(log(state(replicate)), Acts), Count).
+test(no_room_after_all, Role-Resource == parent-90) :-
+    member_of(100, 10, []),
+    fake_clone(parent(child)),
+    fake_clone(error(move_refused(here, capacity), _)),
+    fake_agent:replicate(1, 1, Role),
+    account(Resource, _).
+test(what_a_clone_is_given) :-
+    member_of(100, 3, [setting(lifetime, 8), '$memory'(elsewhere)]),
+    fake_clone(clone(me)),
+    fake_agent:replicate(1, 1, Role),
+    Role == clone,
+    account(Resource, Lifetime),
+    Resource-Lifetime == 10-8,
+    \+ fake_agent:'$memory'(_),
+    did(Acts),
+    Acts == [log(state(replicate)), log(cloned)].
+
+:- end_tests(controller).
+
+%   What the queue tells agents that say Mail, in turn.  When nothing more
+%   comes the head is given up, and in the end it waits for ever.
+
+told(Mail, Told) :-
+    fake_agent('agents/population/queue.pl', [], []),
+    maplist(fake_mail, Mail),
+    \+ fake_agent:serve([]),
+    did(Acts),
+    findall(Agent-What, member(send(Agent, What), Acts), Told).
+
+:- begin_tests(queue).
+
+test(offers_itself, Tuples == [queue(me)]) :-
+    fake_agent('agents/population/queue.pl', [], []),
+    \+ fake_agent:main,
+    tuples(Tuples).
+test(first_come_first_served,
+     Told == [a-turn(1), b-turn(2), c-turn(1)]) :-
+    told([a-join, b-join, c-join, a-leave, b-leave, c-leave], Told).
+test(only_the_head_has_a_turn, Told == [a-turn(1), c-turn(1)]) :-
+    told([a-join, b-join, c-join, b-leave, a-leave, c-leave], Told).
+test(who_comes_back_goes_to_the_tail,
+     Told == [a-turn(1), b-turn(2), c-turn(2), a-turn(1)]) :-
+    told([ a-join, b-join, c-join, a-leave, a-join, b-leave, c-leave,
+           a-leave ], Told).
+test(alone_it_has_the_next_turn_too, Told == [a-turn(1), a-turn(1)]) :-
+    told([a-join, a-leave, a-join, a-leave], Told).
+test(nobody_is_in_the_queue_twice, Told == [a-turn(1)]) :-
+    told([a-join, a-join, a-leave], Told).
+test(who_is_not_there_cannot_leave, Told == [a-turn(1)]) :-
+    told([b-leave, a-join], Told).
+test(dying_agents_get_an_answer, Told == [a-turn(1), a-gone, b-turn(1)]) :-
+    told([a-join, b-join, a-quit, b-leave], Told).
+test(a_head_that_is_gone_is_given_up,
+     Told-Time == [a-turn(1), b-turn(2), c-turn(1)]-180) :-
+    told([a-join, b-join, c-join], Told),
+    fake_host:time(Time).
+
+:- end_tests(queue).
+
+                /*******************************
+                *           DEMAND             *
+                *******************************/
+
+%   Agents that are rewarded wherever they go, on three hosts: they fill
+%   the queues, and there is never one more.
+
+harvester([ ":- agent(harvester, [state([harvest/1])]).",
+            ":- include(agents(population/cloning)).",
+            "main :- live.",
+            "visit(1).",
+            "fertile."
+          ]).
+
+write_harvester(Dir, File) :-
+    harvester(Lines),
+    atomic_list_concat([Dir, '/harvester.pl'], File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        forall(member(Line, Lines), format(Out, '~s~n', [Line])),
+        close(Out)).
+
+crowd(Most, Dir) :-
+    write_harvester(Dir, File),
+    atomic_list_concat([Dir, '/events.pl'], Log),
+    setup_call_cleanup(
+        network_start(ring(3), Network,
+                      [ log(Log), clock(20), hosts([capacity(5)]), seed(1) ]),
+        ( network_property(Network, hosts(Hosts)),
+          forall(member(Host, Hosts),
+                 agent_create(agents(population/queue), _,
+                              [host(Host), static(true)])),
+          Hosts = [Host1|_],
+          agent_create(File, _, [host(Host1), name(agent1)]),
+          wait_until(alive(Log, 12), 15),
+          wait_until(serviced(Log, 300), 15)
+        ),
+        network_stop(Network)),
+    log_events(Log, Events),
+    populations(Events, [1], Steps),
+    peak(total, Steps, _-Most).
+
+alive(Log, Enough) :-
+    log_events(Log, Events),
+    track_start([], State0),
+    foldl(track, Events, State0, State),
+    track_alive(State, Count),
+    Count >= Enough.
+
+serviced(Log, Enough) :-
+    log_events(Log, Events),
+    aggregate_all(count, member(event(_, _, _, resource(_)), Events), Count),
+    Count >= Enough.
+
+:- begin_tests(demand).
+
+test(fills_the_queues_and_no_more, Most =:= 12) :-
+    with_tmp_dir(crowd(Most)).
+
+:- end_tests(demand).
+
+                /*******************************
+                *           MEASURES           *
+                *******************************/
+
+%   Two hosts, two tasks; the second kind has a clone that dies.
+
+small_log([ event(-2, a, 'agent1.x.1@a', created),
+            event(-1, b, 'agent2.x.2@b', created),
+            event(-1, b, 'worker.x.3@b', created),
+            event(0, a, 'agent1.x.1@a', begun),
+            event(1, a, w, executing(s, 1)), event(2, a, w, completed(s, 1)),
+            event(2, b, w, executing(s, 1)), event(3, b, w, completed(s, 1)),
+            event(5, b, w, executing(s, 2)),
+            event(5, b, 'agent2.x.4@b', created),
+            event(6, b, w, completed(s, 2)),
+            event(6, a, w, executing(s, 2)), event(7, a, w, completed(s, 2)),
+            event(8, b, 'agent2.x.4@b', ended(disposed)),
+            event(9, a, 'agent1.x.1@a', ended(disposed))
+          ]).
+
+:- begin_tests(measures).
+
+test(kind, Kind == 12) :-
+    agent_kind('agent12.mark.3@n1@127.0.0.1:1', Kind).
+test(no_kind, [fail]) :-
+    agent_kind('worker.mark.3@n1@127.0.0.1:1', _).
+test(populations, Steps == [ step(0, [1, 1], 2), step(5, [1, 2], 3),
+                             step(8, [1, 1], 2) ]) :-
+    small_log(Events0),
+    until_settled(Events0, [1, 2], 2, Events),
+    populations(Events, [1, 2], Steps).
+test(goes_on_until_settled, Last == event(8, b, 'agent2.x.4@b',
+                                          ended(disposed))) :-
+    small_log(Events0),
+    until_settled(Events0, [1, 2], 2, Events),
+    last(Events, Last).
+test(never_settled, Count == 15) :-
+    small_log(Events0),
+    until_settled(Events0, [1, 2], 3, Events),
+    length(Events, Count).
+test(lost_is_not_done, Count == 1) :-
+    track_start([1, 2], State0),
+    foldl(track, [ event(1, a, w, completed(s, 1)),
+                   event(1, b, w, completed(s, 1)),
+                   event(2, a, w, failed(s, 1)) ], State0, State),
+    track_done(State, 1, Count).
+test(peak, Peak == 5-2) :-
+    peak(2, [ step(0, [1, 1], 2), step(5, [1, 2], 3), step(6, [0, 2], 2),
+              step(8, [1, 1], 2) ], Peak).
+test(later_peak, Peak == 6-2) :-
+    peak(total, 5.5, [ step(0, [1, 4], 5), step(5, [0, 1], 1),
+                       step(6, [0, 2], 2) ], Peak).
+test(what_there_was_counts, Peak == 5.5-5) :-
+    peak(total, 5.5, [step(0, [1, 4], 5), step(6, [0, 2], 2)], Peak).
+test(population_at, Counts == [1, 2]) :-
+    population_at(7, [step(0, [1, 1], 2), step(5, [1, 2], 3)], Counts).
+test(again, First-Again == [E1, E2]-[E3]) :-
+    E1 = execution(1, a, 0, 1),
+    E2 = execution(1, b, 0, 1),
+    E3 = execution(1, a, 5, 6),
+    again([E1, E2, E3], First, Again).
+
+test(mesh_is_connected, [ forall(member(Seed, [1, 2, 3])),
+                          Reached == 30 ]) :-
+    mesh(rings, 30, 4, Seed, edges(Edges)),
+    reach([1], Edges, [1], All),
+    length(All, Reached).
+test(mesh_degree) :-
+    mesh(rings, 40, 10, 7, edges(Edges)),
+    length(Edges, Count),
+    Count =< 200,                       % five rings of forty
+    Count >= 160,
+    forall(between(1, 40, Host),
+           ( aggregate_all(count, ( member(I-J, Edges),
+                                    ( I == Host ; J == Host ) ), Degree),
+             Degree =< 10, Degree >= 2 )).
+test(mesh_repeats, Edges1 == Edges2) :-
+    mesh(rings, 20, 6, 5, Edges1),
+    mesh(rings, 20, 6, 5, Edges2).
+test(mesh_differs) :-
+    mesh(rings, 20, 6, 5, Edges1),
+    mesh(rings, 20, 6, 6, Edges2),
+    Edges1 \== Edges2.
+test(random_mesh, Topology == random(21, 0.2)) :-
+    mesh(random, 21, 4, 1, Topology).
+test(smallest_mesh, Edges == [1-2]) :-
+    mesh(rings, 2, 10, 1, edges(Edges)).
+
+reach([], _, All, All).
+reach([Host|Hosts], Edges, Seen, All) :-
+    findall(Other,
+            ( member(I-J, Edges),
+              ( I == Host, Other = J ; J == Host, Other = I ),
+              \+ memberchk(Other, Seen)
+            ),
+            Others0),
+    sort(Others0, Others),
+    append(Others, Seen, Seen1),
+    append(Others, Hosts, Next),
+    reach(Next, Edges, Seen1, All).
+
+:- end_tests(measures).
+
+%   Two hosts, two tasks of 31 s each, five s between.
+
+a_result(Crash, More, Result) :-
+    append(More,
+           [ nodes(2), seed(1), tasks([1, 2]), crash(Crash),
+             executions([ execution(1, a, 10, 11), execution(1, b, 40, 41),
+                          execution(2, a, 46, 47), execution(2, b, 76, 77)
+                        ]),
+             rows([ task(1, 10, 40, 41, 2, 5), task(2, 46, 76, 77, 2, none)
+                  ]),
+             again([]), failures([]),
+             steps([ step(0, [1, 1], 2), step(20, [2, 1], 3),
+                     step(40, [1, 1], 2), step(50, [1, 2], 3),
+                     step(80, [1, 1], 2) ]),
+             end(80), settled(true), wall(8)
+           ], Result).
+
+held(Results, Pairs) :-
+    population_claims(Results, Claims),
+    findall(Held, member(claim(_, Held, _), Claims), Pairs).
+
+:- begin_tests(population_claims).
+
+test(spans, Spans-Gaps == [31, 31]-[5]) :-
+    a_result(0, [], Result),
+    task_spans(Result, Spans),
+    task_gaps(Result, Gaps).
+test(held, Held == [ true, true, true, true, true, true, false, false,
+                        true ]) :-
+    a_result(0, [], Result),
+    held([Result], Held).
+test(one_run_of_two_is_not_enough) :-
+    a_result(0, [], Good),
+    a_result(0, [rows([ task(1, 10, 40, 45, 2, 0),
+                        task(2, 44, 70, 77, 2, none) ])], Bad),
+    population_claims([Good, Bad], Claims),
+    memberchk(claim('2 hosts: the agents are idle between any two tasks',
+                    false, '1 of 2 runs; -1 to 5 s'), Claims).
+test(overlaps) :-
+    a_result(0, [executions([ execution(1, a, 10, 11),
+                              execution(2, a, 20, 21),
+                              execution(1, b, 40, 41),
+                              execution(2, b, 76, 77) ])], Result),
+    population_claims([Result], Claims),
+    memberchk(claim('2 hosts: at most one execution overlaps with an \c
+earlier task', true, '1 of 1 runs; 1 overlapped'), Claims).
+test(healing) :-
+    a_result(1, [ failures([60-a]), again([execution(2, a, 62, 63)]) ],
+             Result),
+    population_claims([Result], Claims),
+    length(Claims, 13),
+    memberchk(claim('2 hosts: all that lost T2 execute it again, nothing \c
+else is', true, '1 of 1 runs; 1 again'), Claims),
+    memberchk(claim('2 hosts: meanwhile there are a few more Agent-2',
+                    false, '0 of 1 runs; 0 more'), Claims).
+test(not_healed) :-
+    a_result(1, [ failures([60-a, 60-b]), again([execution(2, a, 62, 63)]) ],
+             Result),
+    population_claims([Result], Claims),
+    memberchk(claim('2 hosts: all that lost T2 execute it again, nothing \c
+else is', false, _), Claims).
+test(sizes, Held == [false, true]) :-
+    a_result(0, [], Small),
+    a_result(0, [nodes(4)], Large),
+    size_claims([2-[Small], 4-[Large]], Claims),
+    findall(H, member(claim(_, H, _), Claims), Held).
+test(one_size_has_no_ratio, Claims == []) :-
+    a_result(0, [], Result),
+    size_claims([2-[Result]], Claims).
+
+:- end_tests(population_claims).

@@ -1,0 +1,476 @@
+:- module(test_sieve, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/event_log').
+:- use_module('../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists),
+              [append/2, append/3, max_list/2, member/2, numlist/3,
+               sum_list/2]).
+:- use_module(library(typhon)).
+:- use_module('../../../agents/sieve/operator').
+:- use_module('../../../experiments/sieve/programs').
+:- use_module('../../../experiments/sieve/claims').
+:- use_module('../../../experiments/sieve/rounds').
+:- use_module('../../../experiments/sieve/simulation').
+:- include('../../../agents/sieve/idiotypic').
+
+:- discontiguous payload/2.
+payload(bits, _).
+:- include('../../../payloads/sieve/bits').
+
+/** <module> The idiotypic sieve
+
+Equations against numbers; guard and antibodies on one host; the whole on
+networks.
+*/
+
+close_to(X, Y) :-
+    abs(X - Y) < 1.0e-3.
+
+bits(Name, Bits) :-
+    atom_chars(Name, Chars),
+    maplist(atom_number, Chars, Bits).
+
+%   gammas(+Reading, +Antigen, +Cells, -Gammas): Cells are
+%   Gamma-[Antigen-Xi, ...].
+
+gammas(Reading, Antigen, Pairs, Gammas) :-
+    length(Pairs, N),
+    numlist(1, N, Ids),
+    maplist(cell, Ids, Pairs, Cells),
+    interaction(Reading, Antigen, 0.5-0.5, Cells, Gammas).
+
+cell(Id, Gamma-Memory, cell(Id, Gamma, Memory)).
+
+:- begin_tests(sieve_bits).
+
+test(affinity_counts_bits_that_differ,
+     [ forall(member(A-P-Psi, ['00000'-'11111'-5, '00000'-'11110'-4,
+                               '00011'-'11111'-3, '10101'-'01000'-4,
+                               '10101'-'10101'-0])),
+       Found == Psi ]) :-
+    bits(A, Antigen),
+    bits(P, Antibody),
+    affinity(Antigen, Antibody, Found).
+test(feedback_of_the_generic_antibody, Xis == [30, 31, 29]) :-
+    bits('11110', Antibody),
+    findall(Xi,
+            ( member(A, ['00000', '00001', '00011']), bits(A, Antigen),
+              feedback(Antigen, Antibody, Xi) ),
+            Xis).
+test(kinds_that_can_serve_figure_3_3, Count == 16) :-
+    aggregate_all(count, servant(['00000', '11111', '10101']), Count).
+test(kinds_that_can_serve_figure_3_4, Count == 13) :-
+    aggregate_all(count, servant(['00000', '00001', '00011']), Count).
+test(drawn_antibodies_have_five_bits_and_differ) :-
+    numlist(1, 200, Draws),
+    typhon_chance:chance_seed(7, Chance),
+    foldl(draw, Draws, []-Chance, Drawn-_),
+    sort(Drawn, Kinds),
+    length(Kinds, Count),
+    Count > 28,
+    forall(member(Kind, Kinds), antigen(Kind)).
+
+servant(Names) :-
+    antigen(Antibody),
+    \+ \+ ( member(Name, Names), bits(Name, Antigen),
+            affinity(Antigen, Antibody, Psi), Psi >= 4 ).
+
+draw(_, Drawn-Chance0, [Antibody|Drawn]-Chance) :-
+    random_antibody(Chance0, Antibody, Chance).
+
+:- end_tests(sieve_bits).
+
+:- begin_tests(sieve_equations).
+
+test(squashed, [ forall(member(Xi-S, [31-0.9959, 30-0.9933, 29-0.9890,
+                                      27-0.9707, 23-0.8176, 20-0.5,
+                                      16-0.1192, 0-0.0])),
+                 true(close_to(Squashed, S)) ]) :-
+    squashed(Xi, 10, 0.5, Squashed).
+test(a_winner_is_stimulated, Gamma =:= 1.75) :-
+    stimulated(1.25, 0.5, Gamma).
+test(memory_keeps_the_last_feedback, Memory == [b-3, a-1]) :-
+    learnt([a-1, b-2], b, 3, Memory).
+test(better_one_is_stimulated_worse_one_suppressed,
+     Gammas == [1.5, 0.5]) :-
+    gammas(current, a, [1.0-[a-31], 1.0-[a-30]], Gammas).
+test(effect_is_that_of_the_other_potential, Gammas == [1.3, 0.1]) :-
+    gammas(current, a, [1.0-[a-31], 0.6-[a-30]], Gammas0),
+    maplist(rounded, Gammas0, Gammas).
+test(three_agents_by_hand, Gammas == [2.0, 1.0, 0.0]) :-
+    gammas(current, a, [1.0-[a-31], 1.0-[a-30], 1.0-[a-16]], Gammas).
+test(equals_do_nothing, Gammas == [1.0, 1.0]) :-
+    gammas(current, a, [1.0-[a-30], 1.0-[a-30]], Gammas).
+test(who_never_met_the_antigen_is_left_alone, Gammas == [1.0, 1.0]) :-
+    gammas(current, a, [1.0-[a-31], 1.0-[b-30]], Gammas).
+test(unmatched_antigens_divide_the_effect, Gammas == [1.25, 0.5]) :-
+    gammas(current, a, [1.0-[a-31], 1.0-[a-30, b-1, c-1]], Gammas).
+test(similar_antigens_count_together, Gammas == [0.5, 1.5]) :-
+    bits('00000', A),
+    bits('00001', B),
+    gammas(similar, B, [1.0-[A-31], 1.0-[A-30, B-31]], Gammas).
+test(dissimilar_antigens_do_not, Gammas == [1.5, 0.5]) :-
+    bits('11111', A),
+    bits('10101', B),
+    gammas(similar, A, [1.0-[A-31], 1.0-[A-23, B-29]], Gammas0),
+    maplist(rounded, Gammas0, Gammas1),
+    gammas(current, A, [1.0-[A-31], 1.0-[A-23, B-29]], Gammas0),
+    Gammas1 == [1.5, 0.5],
+    Gammas = Gammas1.
+test(total_prefers_the_generalist, Gammas == [0.5, 1.5]) :-
+    gammas(total, a, [1.0-[a-31], 1.0-[a-23, b-29]], Gammas0),
+    maplist(rounded, Gammas0, Gammas).
+test(common_compares_what_both_know, Gammas == [1.5, 0.5]) :-
+    gammas(common, a, [1.0-[a-31], 1.0-[a-23, b-29]], Gammas0),
+    maplist(rounded, Gammas0, [G1, G2]),
+    Gammas = [G1, G2].
+test(fates, Fates == [clone, stay, stay, die]) :-
+    findall(Fate,
+            ( member(Gamma, [1.51, 1.5, 0.5, 0.49]),
+              fate(Gamma, 0.5, 1.5, Fate) ),
+            Fates).
+test(roulette, [ forall(member(Turn-Chosen, [0.0-a, 0.24-a, 0.26-b, 0.74-b,
+                                             0.76-d, 1.0-d])),
+                 Found == Chosen ]) :-
+    roulette([1-a, 2-b, 0-c, 1-d], Turn, Found).
+test(roulette_without_weights, fail) :-
+    roulette([0-a], 0.5, _).
+
+rounded(X, Y) :-
+    Y is round(X*100)/100.
+
+:- end_tests(sieve_equations).
+
+                /*******************************
+                *            HOSTS             *
+                *******************************/
+
+%   sieve(+Topology, +Options, +Settings, :Goal): with guards on all hosts,
+%   and a log.  One of Settings may be application(Payload).
+
+:- meta_predicate sieve(+, +, +, 2).
+
+sieve(Topology, Options, Settings, Goal) :-
+    no_leaks(with_tmp_dir(sieve_in(Topology, Options, Settings, Goal))).
+
+sieve_in(Topology, Options, Settings, Goal, Dir) :-
+    atom_concat(Dir, '/events.pl', File),
+    setup_call_cleanup(
+        network_start(Topology, Network,
+                      [clock(20), seed(1), log(File)|Options]),
+        ( network_property(Network, hosts(Hosts)),
+          (   select(application(Application), Settings, Settings1)
+          ->  true
+          ;   Application = payloads(sieve/bits),
+              Settings1 = Settings
+          ),
+          sieve_start(Hosts, Application, [settings([seed-1|Settings1])]),
+          sieve_start(Hosts, Application, []),  % no second guard
+          forall(member(Host, Hosts), remote(Host, host_load(1))),
+          once(call(Goal, Hosts, File)) ),
+        network_stop(Network)).
+
+%   What was logged so far, in order.
+
+told(File, Whats) :-
+    logged(File, Events),
+    findall(What, member(event(_, _, _, What), Events), Whats).
+
+count(File, Pattern, Count) :-
+    told(File, All),
+    aggregate_all(count, ( member(Told, All), \+ Told \= Pattern ), Count).
+
+settled(File, Attacks) :-
+    wait_until(( count(File, served(_, _, _, _), Served),
+                 count(File, generated(_, _, _), Generated),
+                 Served + Generated =:= Attacks ), 30).
+
+%   An antibody with a memory, Name-[Antigen-Xi, ...].
+
+release(Host, Settings, Name-Memory, Agent) :-
+    bits(Name, Antibody),
+    findall(setting(S, V), member(S-V, Settings), Facts),
+    agent_create(agents(sieve/antibody), Agent,
+                 [ host(Host), payloads([payloads(sieve/bits)]),
+                   facts([ antibody(Antibody), gamma(1.0), memory(Memory),
+                           wins(0), expiry(inf), shunned([])|Facts ])
+                 ]).
+
+:- begin_tests(sieve_host).
+
+test(left_alone_a_host_helps_itself) :-
+    sieve(ring(1), [], [patience-1], alone).
+
+alone([Host], File) :-
+    bits('00000', Antigen),
+    antigen_attack([Host], Antigen),
+    settled(File, 1),
+    wait_until(count(File, born(host, _), 1), 10),
+    told(File, All),
+    member(generated(Antigen, Antibody, Wait), All),
+    affinity(Antigen, Antibody, Psi),
+    Psi >= 4,
+    Wait >= 1,
+    antigen_attack([Host], Antigen),    % now there is somebody
+    settled(File, 2),
+    told(File, Later),
+    memberchk(served(Antigen, Antibody, _, 1), Later).
+
+%   Whoever is chosen: the better one clones.
+
+test(the_better_one_clones_the_same_one_is_redundant) :-
+    sieve(ring(1), [], [gather-2], better).
+
+better([Host], File) :-
+    bits('00000', Antigen),
+    bits('11111', Best),
+    release(Host, [], '11111'-[Antigen-31], _),
+    release(Host, [], '11111'-[Antigen-31], _),
+    release(Host, [], '11110'-[Antigen-30], _),
+    release(Host, [], '00111'-[], _),   % cannot help
+    antigen_attack([Host], Antigen),
+    settled(File, 1),
+    wait_until(count(File, born(clone, Best), 1), 10),
+    told(File, All),
+    memberchk(served(Antigen, _, _, 2), All),
+    count(File, born(clone, _), 1).
+
+test(one_memory_cell_and_no_more) :-
+    sieve(ring(1), [], [gather-1, memory_cells-1, memory_wins-1], cells).
+
+cells([Host], File) :-
+    bits('00000', Antigen),
+    release(Host, [], '11111'-[], _),
+    antigen_attack([Host], Antigen),
+    settled(File, 1),
+    wait_until(count(File, memory_cell(_), 1), 10),
+    antigen_attack([Host, Host], Antigen),
+    settled(File, 3),
+    count(File, memory_cell(_), 1).
+
+test(no_clone_in_a_crowd) :-
+    sieve(ring(1), [], [gather-1], crowd).
+
+crowd([Host], File) :-
+    bits('00000', Antigen),
+    release(Host, [crowd-1], '11111'-[], _),
+    antigen_attack([Host, Host], Antigen),
+    settled(File, 2),
+    count(File, born(clone, _), 0).
+test(a_guard_survives_what_it_does_not_know) :-
+    sieve(ring(1), [], [patience-0.5], unknown_antigen).
+
+unknown_antigen([Host], File) :-
+    bits('00000', Antigen),
+    antigen_attack([Host], bolt),
+    antigen_attack([Host], Antigen),
+    settled(File, 1),
+    count(File, unanswered(bolt), 1).
+
+test(nothing_drawn_is_no_answer) :-
+    sieve(ring(1), [], [patience-0.5, draws-0], nothing_drawn).
+
+nothing_drawn([Host], File) :-
+    bits('00000', Antigen),
+    antigen_attack([Host], Antigen),
+    wait_until(count(File, unanswered(Antigen), 1), 20),
+    count(File, generated(_, _, _), 0).
+
+test(unknown_guard, error(existence_error(guard, _))) :-
+    with_hosts([alpha], ( address(alpha, Address),
+                          antigen_attack([Address], x) )).
+
+:- end_tests(sieve_host).
+
+:- begin_tests(sieve_network).
+
+test(ten_hosts_in_two_processes) :-
+    sieve(random(10, 0.3), [processes(2), hop_time(uniform(0.2, 0.4))],
+          [patience-4, gather-2], attacks).
+
+attacks(Hosts, File) :-
+    bits('00000', A),
+    bits('11111', B),
+    antigen_attack(Hosts, A),
+    settled(File, 10),
+    wait_until(count(File, born(host, _), 10), 20),
+    antigen_attack(Hosts, A),
+    antigen_attack(Hosts, B),
+    settled(File, 30),
+    told(File, All),
+    forall(( member(served(Antigen, Antibody, _, Kinds), All) ),
+           ( affinity(Antigen, Antibody, Psi), Psi >= 4,
+             between(1, 6, Kinds) )),
+    aggregate_all(count, member(served(A, _, _, _), All), Served),
+    Served > 0,
+    memberchk(born(clone, _), All).
+
+%   Another application: what is sieved are programs.
+
+test(programs_are_sieved) :-
+    sieve(ring(1), [], [application(payloads(sieve/maze)), gather-2],
+          programs).
+
+programs([Host], File) :-
+    First = [(left:-wall(ahead)), (right:-free(right),after(forward))],
+    Second = [(forward:-after(left)), (right:-goal(right))],
+    forall(member(Program, [First, Second]),
+           antibody_release(Host, payloads(sieve/maze), Program, [], _)),
+    antigen_attack([Host], wall(left)),
+    settled(File, 1),
+    told(File, All),
+    member(served(wall(left), Program, _, _), All),
+    memberchk(Program, [First, Second]).
+
+test(clones_grow_old) :-
+    sieve(ring(3), [hop_time(uniform(0.2, 0.4))], [omega-3, gather-1], ages).
+
+ages(Hosts, File) :-
+    Hosts = [Host|_],
+    bits('00000', Antigen),
+    bits('11111', Antibody),
+    release(Host, [omega-3], '11111'-[], _),
+    antigen_attack(Hosts, Antigen),
+    wait_until(( count(File, born(clone, Antibody), Clones),
+                 Clones > 0 ), 20),
+    wait_until(( count(File, died(aged, Antibody), Died),
+                 Died > 0 ), 20).
+
+%   No more agents than the hosts admit, however many attacks there are.
+
+test(attack_storm) :-
+    sieve(ring(4), [hosts([capacity(5)]), hop_time(uniform(0.1, 0.2))],
+          [patience-0.4, gather-0.2, crowd-5], storm).
+
+storm(Hosts, File) :-
+    numlist(1, 12, Times),
+    findall(A, antigen(A), Antigens),
+    forall(( member(Time, Times), nth1(Time, Antigens, Antigen) ),
+           antigen_attack(Hosts, Antigen)),
+    watch(File, 48, Most),
+    Most =< 20,
+    count(File, born(_, _), Born),
+    count(File, died(_, _), Died),
+    Born - Died =< 16.                  % and four guards
+
+%   Most agents there were at a time, until all attacks are settled.
+
+watch(File, Attacks, Most) :-
+    nb_setval(most, 0),
+    wait_until(( aggregate_all(count, agent_property(_, host(_)), Count),
+                 nb_getval(most, Most0),
+                 Most1 is max(Most0, Count),
+                 nb_setval(most, Most1),
+                 count(File, served(_, _, _, _), Served),
+                 count(File, generated(_, _, _), Generated),
+                 Served + Generated =:= Attacks ), 60),
+    nb_getval(most, Most).
+
+:- end_tests(sieve_network).
+
+                /*******************************
+                *          EXPERIMENT          *
+                *******************************/
+
+:- begin_tests(sieve_experiment).
+
+test(rounds_of_a_log, Populations == [[2-a], [2-a, 1-b], [1-b, 1-a]]) :-
+    event_rounds([ event(1, h, x, born(host, a)), event(2, h, x, arrived),
+                   event(3, h, x, born(clone, a)),
+                   event(4, h, x, born(host, b)),
+                   event(9, h, x, died(aged, a)) ], [0, 4, 8], Rounds),
+    findall(Population,
+            ( between(1, 3, R), population(Rounds, R, Population) ),
+            Populations).
+test(waits, Waits == [3, 6]) :-
+    waits([round([ served(a, k, 3), served(b, k, 9), generated(a, k, 6) ])],
+          1, a, Waits).
+test(claims_of_figure_3_3, Helds == [true, true, true, true, true]) :-
+    findall(round([born(clone, A), born(clone, B), born(clone, C)]),
+            ( between(1, 15, _),
+              maplist(bits, ['11111', '00000', '01010'], [A, B, C]) ),
+            Rounds),
+    sieve_claims('3.3', [1-Rounds], Claims),
+    findall(Held, member(claim(_, Held, _), Claims), Helds).
+test(claims_can_fail, Helds == [false, false, true, false, false]) :-
+    findall(round([born(clone, A), born(clone, B)]),
+            ( between(1, 15, R),
+              ( R =< 5 -> X = '11111' ; X = '11110' ),
+              maplist(bits, [X, '00000'], [A, B]) ),
+            Rounds),
+    sieve_claims('3.3', [1-Rounds], Claims),
+    findall(Held, member(claim(_, Held, _), Claims), Helds).
+test(claims_of_programs, Helds == [true, true]) :-
+    program_rounds(good, Good),
+    programs_helds([1-Good, 2-Good], Helds).
+test(claims_of_programs_can_fail, Helds == [false, false]) :-
+    program_rounds(good, Good),
+    program_rounds(bad, Bad),
+    programs_helds([1-Good, 2-Bad], Helds).
+
+programs_helds(Runs, Helds) :-
+    programs_claims(Runs, Claims),
+    findall(Held, member(claim(_, Held, _), Claims), Helds).
+
+%   One program that goes round the block, and one that goes nowhere.
+
+program_rounds(Last, Rounds) :-
+    Along = [(right :- free(right), after(forward)), (left :- wall(ahead))],
+    Rounds = [ round([ generated(block(left), [], 4), born(host, []) ]),
+               round([ served(block(left), Program, 3)|Events ]) ],
+    (   Last == good
+    ->  Program = Along,
+        Events = [born(clone, Along)]
+    ;   Program = [],
+        Events = [born(clone, [])]
+    ).
+
+test(a_simulation_follows_from_its_seed, Rounds1 == Rounds2) :-
+    simulated(3, Rounds1),
+    simulated(3, Rounds2),
+    simulated(4, Rounds3),
+    Rounds3 \== Rounds1.
+test(every_simulated_attack_is_met, Counts == [9]) :-
+    simulated(1, Rounds),
+    findall(Count,
+            ( member(round(Events), Rounds),
+              aggregate_all(count,
+                            ( member(E, Events),
+                              ( E = served(_, _, _)
+                              ; E = generated(_, _, _) ) ),
+                            Count) ),
+            Counts0),
+    sort(Counts0, Counts).
+
+test(program) :-
+    with_tmp_dir(figure_made).
+
+figure_made(Dir) :-
+    project_file('experiments/sieve.pl', Script),
+    run_swipl([ Script, '--', '--figure', '3.4', '--model', simulation,
+                '--runs', '1', '--topology', 'random(20,0.2)',
+                '--attacked', '3', '--round', '20',
+                '--settings', '[omega-60]', '--out', Dir ],
+              [], exit(0), Out, _),
+    sub_string(Out, _, _, _, "settings"),
+    sub_string(Out, _, _, _, "claims"),
+    forall(member(Name, ['sieve-3.4.csv', 'sieve-3.4.gnuplot']),
+           ( directory_file_path(Dir, Name, File), exists_file(File) )).
+test(no_such_figure, Status-Known == exit(1)-true) :-
+    project_file('experiments/sieve.pl', Script),
+    run_swipl([Script, '--', '--figure', '3.9'], [], Status, _, Err),
+    (   sub_string(Err, _, _, _, "figure")
+    ->  Known = true
+    ;   Known = false
+    ).
+
+simulated(Seed, Rounds) :-
+    simulate([ topology(random(20, 0.2)), seed(Seed), figure('3.5'),
+               dynamic(links(uniform(10,20),0.5,0.5)), attacked(3),
+               round(20), settings([omega-60]) ], Rounds).
+
+:- end_tests(sieve_experiment).

@@ -1,0 +1,272 @@
+:- module(test_sieve_maze, []).
+
+/** <module> Programs round obstacles: payloads(sieve/maze)
+
+The boards against a breadth-first search, the steps of programs counted by
+hand, and what is found by drawing programs at random.
+*/
+
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/base/chance)).
+:- use_module(library(typhon/program/programs), [payload_load/2]).
+
+%   The clauses of the payload in a module of their own, as in an agent.
+
+:- initialization(( payload_load(payloads('sieve/maze'),
+                                 payload(_, PIs, Clauses)),
+                    forall(member(PI, PIs), dynamic(maze:PI)),
+                    forall(member(C, Clauses), assertz(maze:C)) )).
+
+%   The first one goes along walls, to its right; the second turns to the
+%   goal; the third is for corridors; the others go nowhere.
+
+program(along, [ (right :- free(right), after(forward)),
+                 (left :- wall(ahead)) ]).
+program(compass, [ (forward :- after(right)),
+                   (right :- free(right), goal(right)),
+                   (left :- wall(ahead)) ]).
+program(bends, [ (left :- wall(ahead), free(left)),
+                 (right :- wall(ahead)) ]).
+program(spins, [ (left :- free(ahead)), (left :- wall(ahead)) ]).
+program(bumps, []).
+
+%   by_hand(Name, Antigen, Xi): Xi is 31, less what the program needs more than
+%   the shortest way, by hand.
+
+by_hand(along, block(left), 31).
+by_hand(along, box(left), 31).
+by_hand(compass, wall(left), 31).
+by_hand(compass, block(right), 29).          % 3 left, 2 up, 3 right, 3 turns
+by_hand(compass, wall(right), 9).            % all along the border: 31 steps
+by_hand(compass, box(left), 0).
+by_hand(bends, corridor(left), 31).
+by_hand(bends, corridor(right), 31).
+by_hand(bends, block(left), 0).
+by_hand(spins, wall(left), 0).
+by_hand(bumps, corner(left), 0).
+
+xi(Antigen, Xi, Program) :-
+    maze:feedback(Antigen, Program, Xi).
+
+psi(Antigen, Psi, Program) :-
+    maze:affinity(Antigen, Program, Psi).
+
+                /*******************************
+                *           THE WAYS           *
+                *******************************/
+
+%   to_goal(+Rows, -Pairs): Robot-Steps for all squares and headings from
+%   which the goal can be reached; a robot is at(X, Y, Heading).
+
+to_goal(Rows, Pairs) :-
+    once(maze:board_square(Rows, X, Y, g)),
+    findall(at(X, Y, H), heading(H), Goals),
+    wave(Goals, 0, Rows, Goals, Pairs).
+
+wave([], _, _, _, []).
+wave(Wave, Steps, Rows, Seen, Pairs) :-
+    Wave = [_|_],
+    findall(Robot-Steps, member(Robot, Wave), Pairs, More),
+    findall(From, ( member(To, Wave), before(Rows, To, From),
+                    \+ memberchk(From, Seen) ), Next0),
+    sort(Next0, Next),
+    append(Next, Seen, Seen1),
+    Steps1 is Steps + 1,
+    wave(Next, Steps1, Rows, Seen1, More).
+
+heading(0/(-1)).
+heading(0/1).
+heading(1/0).
+heading(-1/0).
+
+before(Rows, at(X, Y, DX/DY), at(X0, Y0, DX/DY)) :-
+    X0 is X - DX,
+    Y0 is Y - DY,
+    maze:board_free(Rows, X0, Y0).
+before(_, at(X, Y, H), at(X, Y, H0)) :-
+    heading(H0),
+    ( maze:robot_turned(left, H0, H) ; maze:robot_turned(right, H0, H) ).
+
+%   A step on a shortest way.
+
+on_the_way(Rows, Pairs, Reading, Action) :-
+    once(maze:board_square(Rows, GX, GY, g)),
+    Reading = [after(Last)|_],
+    member(at(X, Y, H)-Steps, Pairs),
+    maze:robot_sees(robot(X, Y, H, Last), board(Rows, GX, GY), Seen),
+    subset(Reading, Seen),
+    maze:robot_does(Action, robot(X, Y, H, Last), Seen,
+                    robot(X1, Y1, H1, _)),
+    memberchk(at(X1, Y1, H1)-Less, Pairs),
+    Less < Steps.
+
+:- begin_tests(sieve_maze_boards).
+
+test(antigens, Count == 10) :-
+    findall(A, maze:antigen(A), As),
+    sort(As, Sorted),
+    length(Sorted, Count),
+    ground(Sorted).
+test(rows, [ forall(maze:obstacle(_, _, Rows)) ]) :-
+    maplist(atom_length, Rows, Lengths),
+    sort(Lengths, [_]),
+    aggregate_all(count, maze:board_square(Rows, _, _, ^), 1),
+    aggregate_all(count, maze:board_square(Rows, _, _, g), 1).
+test(shortest, [ forall(maze:obstacle(_, Steps, Rows)),
+                 true(Found == Steps) ]) :-
+    to_goal(Rows, Pairs),
+    once(maze:board_square(Rows, X, Y, ^)),
+    memberchk(at(X, Y, 0/(-1))-Found, Pairs).
+test(five_sights, [ forall(maze:known_by(_, Sights)), true(N == 5) ]) :-
+    length(Sights, N).
+test(sights_are_seen, [ forall(maze:obstacle(Kind, _, Rows)),
+                        true(Wrong == []) ]) :-
+    to_goal(Rows, Pairs),
+    maze:known_by(Kind, Sights),
+    findall(Sight-Answer,
+            ( member(Sight-Answers, Sights),
+              maze:sight(Sight, Reading),
+              member(Answer, Answers),
+              \+ on_the_way(Rows, Pairs, Reading, Answer) ),
+            Wrong).
+test(unknown, fail) :-
+    maze:affinity([0,1,0,1,0], [], _).
+test(no_other_way, fail) :-
+    maze:feedback(wall(behind), [], _).
+
+:- end_tests(sieve_maze_boards).
+
+                /*******************************
+                *        RANDOM PROGRAMS       *
+                *******************************/
+
+drawn(Seed, Count, Programs) :-
+    chance_seed(Seed, Chance),
+    length(Programs, Count),
+    foldl(draw, Programs, Chance, _).
+
+draw(Program, Chance0, Chance) :-
+    maze:random_antibody(Chance0, Program, Chance).
+
+worth_trying(Antigen, Program) :-
+    maze:affinity_threshold(Gamma),
+    maze:affinity(Antigen, Program, Psi),
+    Psi >= Gamma.
+
+%   The feedback for those that are worth trying, and for the others.
+
+tried(Antigen, Programs, Worth, Others) :-
+    partition(worth_trying(Antigen), Programs, Ps, Qs),
+    maplist(maze:feedback(Antigen), Ps, Worth),
+    maplist(maze:feedback(Antigen), Qs, Others).
+
+%   The share of programs that are good enough to last.
+
+share(Xis, Share) :-
+    aggregate_all(count, ( member(Xi, Xis), Xi >= 23 ), Good),
+    length(Xis, Count),
+    Share is Good/Count.
+
+:- begin_tests(sieve_maze_programs).
+
+test(by_hand, [ forall(by_hand(Name, Antigen, Expected)),
+                true(Xi == Expected) ]) :-
+    program(Name, Program),
+    maze:feedback(Antigen, Program, Xi).
+test(each_is_solvable, [ forall(maze:antigen(Antigen)), true(Xi == 31) ]) :-
+    program(along, Program),
+    (   arg(1, Antigen, left)
+    ->  maze:feedback(Antigen, Program, Xi)
+    ;   maze:mirrored(Program, Image),
+        maze:feedback(Antigen, Image, Xi)
+    ).
+test(one_for_all, true(Least >= 1)) :-
+    program(along, Program),
+    aggregate_all(min(Xi),
+                  ( maze:antigen(A), maze:feedback(A, Program, Xi) ), Least).
+test(each_has_its_place, Best-Other == 15-3) :-
+    program(compass, Compass),
+    program(along, Along),
+    xi(box(right), Best, Compass),
+    xi(box(right), Other, Along).
+test(worth_trying_is_not_good, Psi-Xi == 4-0) :-
+    program(compass, Program),
+    psi(box(left), Psi, Program),
+    xi(box(left), Xi, Program).
+test(mirror, [ forall(program(_, Program)), true(Lefts == Rights) ]) :-
+    maze:mirrored(Program, Image),
+    maze:mirrored(Image, Program),
+    findall(Xi-Psi, ( maze:obstacle(Kind, _, _), A =.. [Kind,left],
+                      xi(A, Xi, Program), psi(A, Psi, Program) ), Lefts),
+    findall(Xi-Psi, ( maze:obstacle(Kind, _, _), A =.. [Kind,right],
+                      xi(A, Xi, Image), psi(A, Psi, Image) ), Rights).
+test(first_clause, Action == left) :-
+    maze:program_answer([ (right :- free(left), goal(left)),
+                          (left :- free(left)), (right :- free(left)) ],
+                        [free(left),goal(right)], Action).
+test(no_clause, Action == forward) :-
+    maze:program_answer([(right :- wall(left))], [free(left)], Action).
+test(a_bump_costs_a_step, [ Robot == robot(1, 1, 1/0, forward), nondet ]) :-
+    maze:robot_does(forward, robot(1, 1, 1/0, left), [wall(ahead)], Robot).
+test(ends_in_time, Result-Xi == (!)-0) :-
+    program(spins, Program),
+    call_with_inference_limit(maze:feedback(box(left), Program, Xi),
+                              20 000, Result).
+test(in_the_last_step, Lefts == [0]) :-
+    program(compass, Program),
+    maze:obstacle(wall, 9, Rows),
+    findall(Left, maze:program_solves(Program, Rows, 9, Left), Lefts),
+    \+ maze:program_solves(Program, Rows, 8, _).
+test(nonsense_is_harmless, [ forall(member(P, [ [x, f(y)], [(halt :- true)],
+                                               [(left :- halt)],
+                                               [(halt :- free(left))] ])),
+                             true(Xi == 0) ]) :-
+    maze:feedback(block(left), P, Xi).
+
+:- end_tests(sieve_maze_programs).
+
+:- begin_tests(sieve_maze_random).
+
+test(repeatable, Programs == Again) :-
+    drawn(7, 20, Programs),
+    drawn(7, 20, Again).
+test(mobile_clauses, Wrong == []) :-
+    drawn(8, 100, Programs),
+    findall(C, ( member(P, Programs), member(C, P),
+                 \+ ( C = (A :- _), ground(C),
+                      memberchk(A, [forward,left,right]) ) ), Wrong).
+test(selection, [ forall(member(Antigen, [ block(left), wall(right),
+                                           corner(left), corridor(right) ]))
+                ]) :-
+    drawn(1, 600, Programs),
+    tried(Antigen, Programs, Worth, Others),
+    max_list(Worth, Best),
+    assertion(Best >= 29),
+    share(Worth, Good),
+    share(Others, Rest),
+    assertion(Good > 0.02),
+    assertion(Good > 4*Rest).
+test(in_an_agent, Found == found(Program, Psi, Xi)) :-
+    drawn(3, 1, [Program]),
+    psi(wall(left), Psi, Program),
+    xi(wall(left), Xi, Program),
+    chance_seed(3, Chance),
+    with_hosts([a],
+               ( create([ (main :- r(C),
+                                   random_antibody(C, P, _),
+                                   affinity(wall(left), P, Y),
+                                   feedback(wall(left), P, X),
+                                   leave(found(P, Y, X))) ],
+                        Agent,
+                        [ host(a), facts([r(Chance)]),
+                          payloads([payloads('sieve/maze')]) ]),
+                 joined(Agent, done),
+                 remote(a, sense(Found)) )).
+
+:- end_tests(sieve_maze_random).

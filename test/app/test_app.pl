@@ -1,0 +1,241 @@
+:- module(test_app, []).
+
+% The command line, as a person at a shell meets it: separate processes.
+
+:- use_module('../lib/common').
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+
+typhon(Args, Status, Out, Err) :-
+    typhon_args(Args, SwiplArgs),
+    run_swipl(SwiplArgs, [timeout(60)], Status, Out, Err).
+
+typhon_args(Args, [App|Args]) :-
+    project_file('app/typhon.pl', App).
+
+%   What a command that works prints, in lines.
+
+typhon_lines(Args, Lines) :-
+    typhon(Args, Status, Out, Err),
+    assertion(Status-Err == exit(0)-""),
+    split_string(Out, "\n", "", Lines0),
+    append(Lines, [_], Lines0),
+    !.
+
+%   An expected error: one line, no stack, status 1.
+
+typhon_error(Args, Text) :-
+    typhon(Args, Status, Out, Err),
+    assertion(Status-Out == exit(1)-""),
+    split_string(Err, "\n", "\n", Lines),
+    assertion(Lines = [_]),
+    assertion(sub_string(Err, _, _, _, Text)).
+
+:- meta_predicate with_typhon(+, -, -, 0).
+
+%   Goal runs while `typhon Args` does; Line is the first it printed.
+
+with_typhon(Args, Pid, Line, Goal) :-
+    typhon_args(Args, SwiplArgs),
+    with_swipl(SwiplArgs, Pid, _, Out,
+               ( read_line_to_string(Out, Line0),
+                 assertion(string(Line0)),
+                 atom_string(Line, Line0),
+                 call(Goal)
+               )).
+
+has_line(Lines, Pattern) :-
+    member(Line, Lines),
+    wildcard_match(Pattern, Line),
+    !.
+
+write_file(Dir, Name, Text, File) :-
+    directory_file_path(Dir, Name, File),
+    setup_call_cleanup(open(File, write, Out),
+                       write(Out, Text),
+                       close(Out)).
+
+:- begin_tests(app_help).
+
+test(overview) :-
+    typhon_lines(['--help'], Lines),
+    forall(member(Command, [host, network, create, agents, hosts, send, log,
+                            diagnose]),
+           ( atom_concat(Command, ' *', Pattern0),
+             atom_concat('  ', Pattern0, Pattern),
+             assertion(has_line(Lines, Pattern))
+           )).
+test(without_arguments, Lines1 == Lines2) :-
+    typhon_lines([], Lines1),
+    typhon_lines(['--help'], Lines2).
+test(command, forall(member(Command-Pattern,
+                            [ host-'*--port=PORT*', network-'*--processes=N*',
+                              create-'*--join=SECONDS*',
+                              agents-'*--host=ADDRESS*',
+                              hosts-'*--host=ADDRESS*',
+                              send-'*--host=ADDRESS*', log-'*--serve*',
+                              diagnose-'Usage:*'
+                            ]))) :-
+    typhon_lines([Command, '--help'], Lines),
+    assertion(has_line(Lines, Pattern)).
+
+:- end_tests(app_help).
+
+:- begin_tests(app_errors).
+
+test(unknown_command) :-
+    typhon_error([hots], "no command hots").
+test(too_few_arguments) :-
+    typhon_error([host], "host takes NAME").
+test(unknown_option) :-
+    typhon_error([host, alpha, '--prot', 7], "prot").
+test(wrong_type) :-
+    typhon_error([host, alpha, '--port', many], "many").
+test(missing_option) :-
+    typhon_error([create, 'agents(x)'], "--host").
+test(not_a_term) :-
+    typhon_error([network, 'grid(2,'], "grid(2,").
+test(not_a_topology) :-
+    typhon_error([network, 'blob(2)'], "blob(2)").
+test(no_such_file) :-
+    typhon_error([host, alpha, '--consult', '/no/such.pl'], "/no/such.pl").
+test(nobody_there) :-
+    free_port(Port),
+    format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
+    typhon_error([hosts, '--host', Address], Address).
+
+:- end_tests(app_errors).
+
+:- begin_tests(app_host).
+
+test(stops_cleanly, [ forall(member(Signal, [term, int])),
+                      Status == exit(0) ]) :-
+    with_typhon([host, alpha], Pid, Address,
+                ( assertion(wildcard_match('alpha@127.0.0.1:*', Address)),
+                  typhon_lines([agents, '--host', Address], ["No agents"]),
+                  process_kill(Pid, Signal),
+                  wait_for_end(Pid, 10, Status)
+                )).
+test(port) :-
+    free_port(Port),
+    with_typhon([host, alpha, '--port', Port], _, Address, true),
+    assertion(format(atom(Address), 'alpha@127.0.0.1:~d', [Port])).
+test(serves) :-
+    with_tmp_dir(serves).
+
+serves(Dir) :-
+    write_file(Dir, 'place.pl', 'colour(red).\n', Place),
+    write_file(Dir, 'painter.pl',
+               ':- agent(painter, []).\n\c
+                main :- colour(C), leave(seen(C)).\n\c
+                on_message(_, paint(C)) :- leave(painted(C)).\n',
+               Program),
+    with_typhon([host, alpha, '--consult', Place], _, Address,
+                paint(Address, Program)).
+
+paint(Address, Program) :-
+    typhon_lines([create, Program, '--host', Address, '--name', bob],
+                 [Agent]),
+    assertion(has_line([Agent], 'bob.*@alpha@*')),
+    wait_until(is_resident(Address), 20),
+    typhon_lines([send, Agent, 'paint(blue)'], []),
+    typhon_lines([hosts, '--host', Address], Hosts),
+    assertion(has_line(Hosts, '*alpha@*1*')).
+
+is_resident(Address) :-
+    typhon([agents, '--host', Address], exit(0), Out, _),
+    split_string(Out, "\n", "", Agents),
+    has_line(Agents, '*bob.*resident*').
+
+test(join) :-
+    with_tmp_dir(join).
+
+join(Dir) :-
+    write_file(Dir, 'ends.pl',
+               ':- agent(ends, [state([n/1])]).\nmain :- n(1).\n',
+               Program),
+    with_typhon([host, alpha], _, Address,
+                ( typhon_lines([create, Program, '--host', Address,
+                                '--fact', 'n(1)', '--join', 10],
+                               [_, Outcome]),
+                  typhon([create, Program, '--host', Address,
+                          '--join', 10], Status, _, _)
+                )),
+    assertion(Outcome == "done"),
+    assertion(Status == exit(1)).
+
+test(link) :-
+    with_typhon([host, alpha], _, Alpha,
+        with_typhon([host, beta, '--link', Alpha], _, _,
+                    ( typhon_lines([hosts, '--host', Alpha], Hosts),
+                      assertion(has_line(Hosts, '*alpha@*beta*'))
+                    ))).
+
+:- end_tests(app_host).
+
+:- begin_tests(app_network).
+
+test(runs_until_stopped, Status == exit(0)) :-
+    with_typhon([network, 'ring(4)', '--processes', 2], Pid, Address,
+                ( typhon_lines([hosts, '--host', Address], Hosts),
+                  process_kill(Pid, int),
+                  wait_for_end(Pid, 20, Status)
+                )),
+    assertion(length(Hosts, 3)).
+
+:- end_tests(app_network).
+
+:- begin_tests(app_log).
+
+test(serve_and_print) :-
+    with_tmp_dir(serve_and_print).
+
+serve_and_print(Dir) :-
+    directory_file_path(Dir, events, File),
+    with_typhon([log, File, '--serve'], Pid, Log,
+                ( with_typhon([host, alpha, '--log', Log], _, Address,
+                              log_something(Dir, Address)),
+                  process_kill(Pid, term),
+                  wait_for_end(Pid, 10, Status)
+                )),
+    assertion(Status == exit(0)),
+    typhon_lines([log, File], Lines),
+    assertion(has_line(Lines, '*alpha@*chatty*hello(world)*')).
+
+log_something(Dir, Address) :-
+    write_file(Dir, 'chatty.pl',
+               ':- agent(chatty, []).\nmain :- log(hello(world)).\n',
+               Program),
+    typhon_lines([create, Program, '--host', Address, '--join', 10],
+                 [_, "done"]).
+
+:- end_tests(app_log).
+
+:- begin_tests(app_diagnose).
+
+test(works) :-
+    with_typhon([host, alpha], _, Address,
+                ( typhon_lines([diagnose, Address], Lines),
+                  assertion(has_line(Lines, '*ok*authentication*codec*'))
+                )).
+test(nobody_there, Status == exit(1)) :-
+    free_port(Port),
+    format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
+    typhon([diagnose, Address], Status, Out, _),
+    split_string(Out, "\n", "\n", Lines),
+    assertion(has_line(Lines, '*ok*cookie*')),
+    assertion(has_line(Lines, '*FAIL*connection*')).
+test(other_cookie, Status == exit(1)) :-
+    with_typhon([host, alpha], _, Address,
+                ( typhon_args([diagnose, Address], Args),
+                  run_swipl(Args, [environment(['TYPHON_COOKIE'=other])],
+                            Status, Out, _),
+                  split_string(Out, "\n", "\n", Lines),
+                  assertion(has_line(Lines, '*FAIL*authentication*'))
+                )).
+
+:- end_tests(app_diagnose).

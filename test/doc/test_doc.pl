@@ -1,0 +1,208 @@
+:- module(test_doc, []).
+
+% What README.md and doc/*.md show is what happens.
+%
+%   - A block ```prolog whose first line is `% name.pl` is a file. Agent
+%     programs and payloads must be without problems. Other ```prolog blocks
+%     must be clauses.
+%   - A block ```text whose first line is `% name.pl` is a file, too, and may
+%     be wrong.
+%   - A block ```prolog-session is typed at the top level, one for each
+%     document, in a directory that holds its files. Ports, marks of agents,
+%     numbers of variables and long floats are not compared, nor are the
+%     bindings of `$Var`. A line `...` stands for any lines.
+%
+% And every export of the library has a PlDoc comment with modes.
+
+:- use_module('../lib/common').
+:- use_module('../lib/transcript', [transcript_differences/3]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(filesex),
+              [ directory_file_path/3, directory_member/3,
+                make_directory_path/1 ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/program/programs), [payload_load/2, program_load/3]).
+
+document(File) :-
+    member(Pattern, ['README.md', 'doc/*.md']),
+    project_file(Pattern, Absolute),
+    expand_file_name(Absolute, Files),
+    member(File, Files).
+
+                /*******************************
+                *            BLOCKS            *
+                *******************************/
+
+%   blocks(+File, -Blocks): Blocks are block(Kind, Line, Lines), Line being
+%   where the block begins.
+
+blocks(File, Blocks) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    split_string(Text, "\n", "", Lines),
+    blocks(Lines, 1, Blocks).
+
+blocks([], _, []).
+blocks([Line|Lines], N, Blocks) :-
+    string_concat("```", Kind, Line),
+    !,
+    append(Body, ["```"|Rest], Lines),
+    !,
+    length(Body, Length),
+    N1 is N+Length+2,
+    Blocks = [block(Kind, N, Body)|More],
+    blocks(Rest, N1, More).
+blocks([_|Lines], N, Blocks) :-
+    N1 is N+1,
+    blocks(Lines, N1, Blocks).
+
+block_file(block(Kind, _, [First|_]), Name) :-
+    memberchk(Kind, ["prolog", "text"]),
+    split_string(First, " ", ":", ["%", Name|_]),
+    string_concat(_, ".pl", Name).
+
+text(Lines, Text) :-
+    atomic_list_concat(Lines, '\n', Text0),
+    atom_concat(Text0, '\n', Text).
+
+                /*******************************
+                *             FILES            *
+                *******************************/
+
+write_block(Dir, Block) :-
+    (   block_file(Block, Name)
+    ->  Block = block(_, _, Lines),
+        directory_file_path(Dir, Name, File),
+        file_directory_name(File, Parent),
+        make_directory_path(Parent),
+        text(Lines, Text),
+        setup_call_cleanup(
+            open(File, write, Out, [encoding(utf8)]),
+            write(Out, Text),
+            close(Out))
+    ;   true
+    ).
+
+%   Must load, or at least be clauses.
+
+check_block(Dir, Block) :-
+    Block = block("prolog", _, Lines),
+    !,
+    (   block_file(Block, Name)
+    ->  directory_file_path(Dir, Name, File),
+        check_file(Lines, File)
+    ;   text(Lines, Text),
+        setup_call_cleanup(
+            open_string(Text, In),
+            read_all(In),
+            close(In))
+    ).
+check_block(_, _).
+
+check_file(Lines, File) :-
+    member(Line, Lines),
+    (   string_concat(":- agent(", _, Line)
+    ->  program_load(File, _, _)
+    ;   string_concat(":- payload(", _, Line)
+    ->  payload_load(File, _)
+    ),
+    !.
+check_file(_, File) :-
+    setup_call_cleanup(open(File, read, In), read_all(In), close(In)).
+
+read_all(In) :-
+    read_term(In, Term, [syntax_errors(error)]),
+    (   Term == end_of_file
+    ->  true
+    ;   read_all(In)
+    ).
+
+run_blocks(Blocks, Differences, Dir) :-
+    maplist(write_block(Dir), Blocks),
+    maplist(check_block(Dir), Blocks),
+    findall(Line-Lines,
+            member(block("prolog-session", Line, Lines), Blocks),
+            Sessions),
+    transcript_differences(Sessions, Dir, Differences).
+
+                /*******************************
+                *            PLDOC             *
+                *******************************/
+
+library_file(File) :-
+    project_file(prolog, Dir),
+    directory_member(Dir, File, [extensions([pl]), recursive(true)]).
+
+undocumented(File, PI) :-
+    library_file(File),
+    exports(File, PIs),
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    split_string(Text, "\n", "", Lines),
+    findall(Documented, documented(Lines, Documented), All),
+    member(PI, PIs),
+    \+ memberchk(PI, All).
+
+exports(File, PIs) :-
+    setup_call_cleanup(
+        open(File, read, In),
+        read(In, (:- module(_, PIs))),
+        close(In)).
+
+%   The head of a comment, with a mode for each argument.
+
+documented(Lines, Name/Arity) :-
+    append(_, [Line|More], Lines),
+    string_concat("%!", Head0, Line),
+    head(Head0, More, Head),
+    functor(Head, Name, Arity),
+    forall(( compound(Head), arg(_, Head, Arg) ), has_mode(Arg)).
+
+head(Text0, _, Head) :-
+    catch(term_string(Term, Text0,
+                      [module(test_doc_modes), syntax_errors(quiet)]),
+          error(syntax_error(_), _), fail),
+    !,
+    head_of(Term, Head).
+head(Text0, [Line|Lines], Head) :-
+    string_concat("%", More, Line),
+    string_concat(Text0, More, Text),
+    head(Text, Lines, Head).
+
+head_of(is(Head, _), Head) :- !.
+head_of(Head, Head).
+
+has_mode(Arg0) :-
+    nonvar(Arg0),
+    (   Arg0 = (Arg:_Type)
+    ->  true
+    ;   Arg = Arg0
+    ),
+    functor(Arg, Mode, 1),
+    memberchk(Mode, [+, -, ?, :, @, !, ++, --]).
+
+:- op(200, fy, test_doc_modes:(:)).
+:- op(200, fy, test_doc_modes:(?)).
+:- op(200, fy, test_doc_modes:(@)).
+:- op(200, fy, test_doc_modes:(!)).
+:- op(200, fy, test_doc_modes:(++)).
+:- op(200, fy, test_doc_modes:(--)).
+
+                /*******************************
+                *             TESTS            *
+                *******************************/
+
+:- begin_tests(documentation).
+
+test(shows_what_happens,
+     [ forall(document(File)), Differences == [] ]) :-
+    blocks(File, Blocks),
+    with_tmp_dir(run_blocks(Blocks, Differences)).
+
+test(every_export_has_a_comment_with_modes, Missing == []) :-
+    findall(Base:PI,
+            ( undocumented(File, PI), file_base_name(File, Base) ),
+            Missing).
+
+:- end_tests(documentation).

@@ -1,0 +1,314 @@
+:- module(test_robots, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fake_agent').
+:- use_module('../../lib/fixtures', [wait_state/2, with_hosts/2]).
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(filesex), [delete_directory_and_contents/1]).
+:- use_module(library(lists)).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(readutil)).
+:- use_module(library(typhon)).
+:- use_module(library(yall)).
+:- use_module('../../../experiments/robots/arena').
+:- use_module('../../../experiments/robots/crew').
+:- use_module('../../../experiments/robots/pole_metrics', [carried/2, pole_states/4]).
+:- use_module('../../../experiments/robots/pole_run', []).
+
+/** <module> Robots that carry a pole
+
+The programs of the robots on a robot that is a few facts, tasks that carry
+their programs, the arena as a process, and the whole with a fast clock.
+*/
+
+                /*******************************
+                *        A ROBOT OF FACTS      *
+                *******************************/
+
+%   Motors turn ten degrees in a second for each per cent of power; the
+%   clock is that of the fake host.
+
+:- dynamic
+    motor/4,                            % Motor, Degrees, Power, Since
+    pole_after/1.                       % Seconds of driving
+
+fake_host:payload(_, _).
+
+fake_host:nxt_run(robot, Motors, Power, _) :-
+    test_robots:told(run(Motors, Power)),
+    test_robots:set_motors(Motors, Power).
+fake_host:nxt_stop(robot, Motors) :-
+    test_robots:told(stop(Motors)),
+    test_robots:set_motors(Motors, 0).
+fake_host:nxt_float(robot, Motors) :-
+    test_robots:told(float(Motors)),
+    test_robots:set_motors(Motors, 0).
+fake_host:nxt_tacho(robot, Motor, Degrees) :-
+    test_robots:turned(Motor, Degrees).
+fake_host:nxt_tacho_reset(robot, Motors) :-
+    test_robots:told(reset(Motors)),
+    forall(member(Motor, Motors),
+           ( retractall(test_robots:motor(Motor, _, _, _)),
+             assertz(test_robots:motor(Motor, 0, 0, 0)) )).
+fake_host:nxt_touch(robot, 1, Touch) :-
+    fake_host:now(Now),
+    (   test_robots:pole_after(Seconds),
+        Now >= Seconds
+    ->  Touch = true
+    ;   Touch = false
+    ).
+
+told(What) :-
+    assertz(fake_host:did(What)).
+
+set_motors(Motors, Power) :-
+    ( is_list(Motors) -> List = Motors ; List = [Motors] ),
+    fake_host:now(Now),
+    forall(member(Motor, List),
+           ( turned(Motor, Degrees),
+             retractall(motor(Motor, _, _, _)),
+             assertz(motor(Motor, Degrees, Power, Now)) )).
+
+turned(Motor, Degrees) :-
+    motor(Motor, Degrees0, Power, Since),
+    fake_host:now(Now),
+    Degrees is Degrees0 + 10*Power*(Now - Since).
+
+%   program(+Name, +Angles, +Pole, -Outcome, -Acts)
+
+program(Name, Angles, Pole, Outcome, Acts) :-
+    format(atom(File), 'payloads/robots/~w.pl', [Name]),
+    fake_agent(File, [], [brick(robot)]),
+    retractall(motor(_, _, _, _)),
+    forall(member(Motor-Degrees, Angles),
+           assertz(motor(Motor, Degrees, 0, 0))),
+    retractall(pole_after(_)),
+    forall(member(Seconds, Pole), assertz(pole_after(Seconds))),
+    (   call(fake_agent:Name)
+    ->  Outcome = true
+    ;   Outcome = fail
+    ),
+    did(Acts).
+
+:- begin_tests(robot_programs).
+
+test(approach, Outcome-Acts ==
+               true-[ run([b,c], 12), stop([b,c]), run(a, 10), stop(a),
+                      reset([b,c]) ]) :-
+    program(approach, [a-0, b-0, c-0], [5], Outcome, Acts),
+    turned(a, Angle),
+    assertion(between_(85, 100, Angle)),
+    fake_host:now(Now),
+    assertion(between_(5, 8, Now)).
+test(approach_without_pole,
+     Outcome-Acts == fail-[run([b,c], 12), stop([b,c])]) :-
+    program(approach, [a-0, b-0, c-0], [], Outcome, Acts).
+test(lift, Outcome-Acts == true-[run(a, 3), stop(a)]) :-
+    program(lift, [a-90], [], Outcome, Acts),
+    turned(a, Angle),
+    assertion(between_(265, 275, Angle)).
+test(lift_that_sticks, Outcome-Acts == fail-[run(a, 3), stop(a)]) :-
+    program(lift, [a-(-9999)], [], Outcome, Acts).
+test(carry, Outcome-Acts == true-[run([b,c], 10), stop([b,c])]) :-
+    program(carry, [b-0, c-0], [], Outcome, Acts),
+    turned(b, Degrees),
+    Metres is Degrees/360 * pi*0.056,
+    assertion(between_(1.2, 1.21, Metres)).
+test(carry_the_rest, Acts == [run([b,c], 10), stop([b,c])]) :-
+    program(carry, [b-2000, c-2000], [], true, Acts),
+    fake_host:now(Now),
+    assertion(between_(4, 5, Now)).
+test(release, Outcome-Acts == true-[run(a, -3), float(a)]) :-
+    program(release, [a-270], [], Outcome, Acts),
+    turned(a, Angle),
+    assertion(between_(-6, 4, Angle)).
+
+between_(Low, High, X) :-
+    Low =< X,
+    X =< High.
+
+:- end_tests(robot_programs).
+
+                /*******************************
+                *            TASKS             *
+                *******************************/
+
+:- begin_tests(robot_tasks).
+
+test(carried_along, Seen == [hello, none]) :-
+    with_hosts([robot1], performed(greet, [(greet :- leave(said(hello)))],
+                                   true, Seen)).
+test(laid_down_after_failure, Seen == [failed, none]) :-
+    with_hosts([robot1], performed(greet, [(greet :- fail)],
+                                   leave(said(failed)), Seen)).
+test(laid_down_after_error, Seen == [raised, none]) :-
+    with_hosts([robot1],
+               performed(greet, [(greet :- throw(oops))],
+                         leave(said(raised)), Seen)).
+test(unfolded, Seen == [slept, none]) :-
+    Clauses = [ (greet :- sleep(0.01), leave(said(slept))) ],
+    with_hosts([robot1], performed(greet, Clauses, true, Seen)).
+
+%   performed(+Name, +Clauses, +Otherwise, -Seen): an agent calls the goal of
+%   a task with these clauses twice; Otherwise if that fails or raises oops.
+%   Seen is what was left, and the payloads that the agent then has.
+
+performed(Name, Clauses, Otherwise, [Said, Payloads]) :-
+    crew_task(1, payload(Name, [Name/0], Clauses), 1-Goal),
+    agent_create(clauses([ (:- agent(doer, [state([goal/1])])),
+                           (main :- do, do, receive(_-end)),
+                           (do :- goal(Goal1),
+                                  ( catch(Goal1, oops, fail)
+                                  ->  true
+                                  ;   Otherwise )) ]),
+                 Agent, [host(robot1), facts([goal(Goal)])]),
+    wait_until(remote(robot1, ( findall(S, sense(said(S)), L),
+                                L = [Said, _] )), 20),
+    wait_state(Agent, waiting),
+    agent_property(Agent, payloads(Names)),
+    ( Names == [] -> Payloads = none ; Payloads = Names ),
+    agent_dispose(Agent).
+
+:- end_tests(robot_tasks).
+
+                /*******************************
+                *           THE ARENA          *
+                *******************************/
+
+scene(File) :-
+    project_file('bridges/nxt/scenes/pole.json', File).
+
+:- meta_predicate
+    with_arena(+, 2).
+
+with_arena(Options, Goal) :-
+    scene(Scene),
+    no_leaks(setup_call_cleanup(
+                 arena_start(Scene, Options, Arena, Bricks),
+                 ( call(Goal, Arena, Bricks), ! ),
+                 arena_stop(Arena))).
+
+:- begin_tests(arena).
+
+test(bricks) :-
+    with_arena([clock(0)], four_bricks).
+test(time_goes_by_order, Times == [time(0.0), ok, time(2.5)]) :-
+    with_arena([clock(0), seed(3)], times(Times)).
+test(does_not_understand, error(arena_error('fly away', _))) :-
+    with_arena([clock(0)], [Arena, _]>>arena_ask(Arena, 'fly away', _)).
+test(no_scene, error(existence_error(_, _))) :-
+    no_leaks(arena_start('/no/such/scene.json', [], _, _)).
+test(bad_scene, error(arena_error(start, _))) :-
+    project_file('bridges/nxt/world.py', Bad),
+    no_leaks(arena_start(Bad, [], _, _)).
+test(killed, error(arena_error(time, _))) :-
+    with_arena([clock(0)], killed).
+test(log_and_picture) :-
+    with_tmp_dir(logged).
+
+four_bricks(arena(_, _, _, Dir), Bricks) :-
+    maplist([Name-Port, Name]>>exists_link(Port), Bricks, Names),
+    Names == [r1, r2, r3, r4],
+    exists_directory(Dir).
+
+exists_link(Port) :-
+    read_link(Port, _, _).
+
+times([A, B, C], Arena, _) :-
+    arena_ask(Arena, time, A),
+    arena_ask(Arena, 'advance ~w'-[2.5], B),
+    arena_ask(Arena, time, C).
+
+killed(Arena, _) :-
+    Arena = arena(Pid, _, _, _),
+    process_kill(Pid, kill),
+    repeat,
+    arena_ask(Arena, time, _),
+    fail.
+
+logged(Dir) :-
+    atom_concat(Dir, '/arena.pl', Log),
+    atom_concat(Dir, '/arena.svg', Picture),
+    with_arena([clock(0), log(Log), every(0.5), picture(Picture)],
+               [Arena, _]>>arena_ask(Arena, 'advance 2', ok)),
+    arena_log(Log, Terms),
+    aggregate_all(count, member(state(_, [_,_,_,_], _, []), Terms), Count),
+    assertion(Count >= 4),
+    pole_states(Terms, [0-0], 1, States),
+    assertion(States = [_, _|_]),
+    read_file_to_string(Picture, Text, []),
+    assertion(sub_string(Text, _, _, _, "<svg")),
+    !.
+
+:- end_tests(arena).
+
+                /*******************************
+                *        THE EXPERIMENT        *
+                *******************************/
+
+script(More, Arguments) :-
+    project_file('experiments/robots.pl', Script),
+    append([Script, '--'], More, Arguments).
+
+%   The agents are quick, so that the robots hardly wait for them.
+
+fast(Dir, [ '--figure', pole, '--clock', '10', '--hop_time', '0.1-0.2',
+            '--limit', '200', '--out', Dir ]).
+
+:- begin_tests(pole_run).
+
+%   What cannot fail however busy the computer is: that the robots wait for
+%   each other as long as they must is for the experiment to show.
+
+test(synchronised, [setup(setting(Dir)), cleanup(gone(Dir))]) :-
+    no_leaks(robots_pole_run:pole_run(synchronised,
+                                      [ seed(1), clock(10), agents(2),
+                                        hop_time(0.3-0.6), delta(0.5),
+                                        limit(200)
+                                      ], Dir, Result)),
+    memberchk(outcomes([done, done]), Result),
+    memberchk(executions(Executions), Result),
+    assertion(sync_metrics:out_of_order(Executions, [])),
+    forall(member(Task, [1, 2, 3, 4]),
+           assertion(memberchk(execution(Task, _, _, _), Executions))),
+    memberchk(states(States), Result),
+    carried(States, Metres),
+    assertion(Metres > 0.2),
+    atom_concat(Dir, '/arena.pl', Log),
+    arena_log(Log, Terms),
+    forall(member(What, [clasped(_), lifted(pole), released(_)]),
+           assertion(memberchk(event(_, What), Terms))).
+test(interrupted, Status == exit(130)) :-
+    with_tmp_dir(stopped_by(int, Status)).
+test(wrong_figure, [Status-Told == exit(1)-true]) :-
+    script(['--figure', 'ball'], Arguments),
+    run_swipl(Arguments, [timeout(60)], Status, _, Err),
+    ( sub_string(Err, _, _, _, "figure") -> Told = true ; Told = Err ).
+
+setting(Dir) :-
+    tmp_file(robots, Dir),
+    make_directory(Dir).
+
+gone(Dir) :-
+    delete_directory_and_contents(Dir).
+
+%   What is left behind is told by test/run.pl.
+
+stopped_by(Signal, Status, Dir) :-
+    fast(Dir, Options),
+    script(Options, Arguments),
+    atom_concat(Dir, '/pole/synchronised/events.pl', Log),
+    with_swipl(Arguments, Pid, _, _,
+               ( wait_until(executing(Log), 60),
+                 process_kill(Pid, Signal),
+                 wait_for_end(Pid, 40, Status)
+               )).
+
+executing(Log) :-
+    exists_file(Log),
+    read_file_to_string(Log, Text, []),
+    sub_string(Text, _, _, _, "executing("),
+    !.
+
+:- end_tests(pole_run).

@@ -1,0 +1,308 @@
+:- module(test_common,
+          [ project_file/2,             % +Relative, -Absolute
+            with_tmp_dir/1,             % :Goal
+            no_leaks/1,                 % :Goal
+            wait_until/2,               % :Goal, +Seconds
+            with_swipl/5,               % +Args, -Pid, -In, -Out, :Goal
+            run_swipl/5,                % +Args, +Options, -Status, -Out, -Err
+            wait_for_end/3,             % +Pid, +Seconds, -Status
+            free_port/1                 % -Port
+          ]).
+
+/** <module> What all test suites share
+
+A suite begins with `:- use_module('../lib/common')`, after which library(typhon),
+agents(X) and payloads(X) are those of this tree, and the cookie of the
+endpoints is a private one.
+
+*Threading*: the predicates may be called in any thread.  no_leaks/1 looks at
+the whole process, so nothing else should be coming and going meanwhile.
+*/
+
+:- use_module(library(filesex),
+              [ delete_directory_and_contents/1,
+                directory_file_path/3,
+                make_directory_path/1
+              ]).
+:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(option), [select_option/4]).
+:- use_module(library(ordsets), [ord_subtract/3]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/3]).
+:- use_module(library(random), [random_between/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(socket),
+              [ tcp_bind/2, tcp_close_socket/1, tcp_setopt/2,
+                tcp_socket/1 ]).
+
+:- meta_predicate
+    with_tmp_dir(1),
+    no_leaks(0),
+    wait_until(0, +),
+    with_swipl(+, -, -, -, 0).
+
+:- dynamic root/1.
+
+:- prolog_load_context(directory, Dir),
+   atom_concat(Root, '/test/lib', Dir),
+   retractall(root(_)),
+   assertz(root(Root)).
+
+:- multifile user:file_search_path/2.
+:- dynamic user:file_search_path/2.
+
+user:file_search_path(library, Dir) :-
+    root(Root),
+    atom_concat(Root, '/prolog', Dir).
+
+%!  project_file(+Relative, -Absolute) is det.
+%
+%   Absolute is the file at Relative, seen from the root of the tree.
+
+project_file(Relative, Absolute) :-
+    root(Root),
+    directory_file_path(Root, Relative, Absolute).
+
+                /*******************************
+                *           FIXTURES           *
+                *******************************/
+
+%!  with_tmp_dir(:Goal) is semidet.
+%
+%   Calls Goal(Dir) once, Dir being a directory that is gone afterwards.
+
+with_tmp_dir(Goal) :-
+    setup_call_cleanup(
+        make_tmp_dir(Dir),
+        once(call(Goal, Dir)),
+        delete_directory_and_contents(Dir)).
+
+make_tmp_dir(Dir) :-
+    tmp_file(typhon_test, Dir),
+    make_directory_path(Dir).
+
+%!  wait_until(:Goal, +Seconds) is det.
+%
+%   Waits for Goal to become true, trying it again and again.  It sleeps in
+%   between: waits for messages that are this short have been seen to spin
+%   for ever on a busy machine.
+%
+%   @error timeout_error(wait_until, Goal)
+
+wait_until(Goal, Seconds) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    poll(Goal, 0.001, Deadline).
+
+poll(Goal, _, _) :-
+    call(Goal),
+    !.
+poll(Goal, Pause, Deadline) :-
+    get_time(Now),
+    (   Now < Deadline
+    ->  sleep(Pause),
+        Longer is min(0.05, 2*Pause),
+        poll(Goal, Longer, Deadline)
+    ;   throw(error(timeout_error(wait_until, Goal), _))
+    ).
+
+                /*******************************
+                *             LEAKS            *
+                *******************************/
+
+%!  no_leaks(:Goal) is semidet.
+%
+%   Calls Goal once.  It must leave behind no thread, stream, message queue,
+%   temporary module or child process; they have five seconds to go away.
+%
+%   @error leaked(Things) where Things are thread(Id), stream(S), queue(Q),
+%   module(M) and process(Pid)
+
+no_leaks(Goal) :-
+    footprint(Before),
+    once(Goal),
+    catch(wait_until(leaked(Before, []), 5),
+          error(timeout_error(wait_until, _), _),
+          true),
+    leaked(Before, Things),
+    (   Things == []
+    ->  true
+    ;   throw(error(leaked(Things), _))
+    ).
+
+%   What nobody refers to any more is there until it is collected.
+
+leaked(Before, Things) :-
+    garbage_collect_clauses,
+    garbage_collect_atoms,
+    footprint(After),
+    ord_subtract(After, Before, Things).
+
+footprint(Set) :-
+    findall(Thing, thing(Thing), List),
+    sort(List, Set).
+
+thing(thread(Thread)) :-
+    thread_property(Thread, status(_)),
+    \+ system_thread(Thread).
+thing(stream(Stream)) :-
+    stream_property(Stream, mode(_)).
+thing(queue(Queue)) :-
+    message_queue_property(Queue, size(_)).
+thing(module(Module)) :-
+    module_property(Module, class(temporary)).
+thing(process(Pid)) :-
+    child_process(Pid).
+
+system_thread(Thread) :-
+    thread_property(Thread, alias(Alias)),
+    system_alias(Alias).
+
+system_alias(gc).
+system_alias('__thread_pool_manager').
+
+child_process(Pid) :-
+    exists_directory('/proc/self'),
+    current_prolog_flag(pid, Me),
+    directory_files('/proc', Entries),
+    member(Entry, Entries),
+    atom_number(Entry, Pid),
+    parent(Pid, Me).
+
+parent(Pid, Parent) :-
+    format(atom(File), '/proc/~d/stat', [Pid]),
+    catch(read_file_to_string(File, Text, []),
+          error(_, _), fail),           % it has ended
+    % the name, in parentheses, may hold blanks and parentheses itself
+    split_string(Text, ")", "", Parts),
+    last(Parts, Rest),
+    split_string(Rest, " ", " ", [_State, Field|_]),
+    number_string(Parent, Field).
+
+                /*******************************
+                *       SEPARATE PROCESSES     *
+                *******************************/
+
+%!  with_swipl(+Args, -Pid, -In, -Out, :Goal) is semidet.
+%
+%   Calls Goal once while a `swipl Args` of its own is running.  In is the
+%   stream that writes to its standard input, Out reads its standard output.
+%   However Goal ends, the process is dead afterwards; Goal itself may have
+%   waited for its end.
+
+with_swipl(Args, Pid, In, Out, Goal) :-
+    setup_call_cleanup(
+        start_swipl(Args, Pid, In, Out),
+        once(Goal),
+        end_swipl(Pid, In, Out)).
+
+start_swipl(Args, Pid, In, Out) :-
+    current_prolog_flag(executable, Swipl),
+    process_create(Swipl, Args,
+                   [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]).
+
+end_swipl(Pid, In, Out) :-
+    kill_swipl(Pid),
+    close(In, [force(true)]),
+    close(Out, [force(true)]).
+
+kill_swipl(Pid) :-
+    catch(process_wait(Pid, Status, [timeout(0)]), error(_, _), Status = gone),
+    (   Status == timeout
+    ->  process_kill(Pid, kill),
+        process_wait(Pid, _, [])
+    ;   true
+    ).
+
+%!  run_swipl(+Args, +Options, -Status, -Out, -Err) is det.
+%
+%   Runs `swipl Args` to its end with an empty standard input.  Status is as
+%   of process_wait/2, or `timeout`: then it was killed.  Out and Err are the
+%   strings it wrote.  Options: timeout(Seconds), default 60; others as of
+%   process_create/3.
+
+run_swipl(Args, Options0, Status, Out, Err) :-
+    select_option(timeout(Seconds), Options0, Options, 60),
+    with_tmp_dir(run_swipl_in(Args, Options, Seconds, Status, Out, Err)).
+
+run_swipl_in(Args, Options, Seconds, Status, Out, Err, Dir) :-
+    directory_file_path(Dir, out, OutFile),
+    directory_file_path(Dir, err, ErrFile),
+    setup_call_cleanup(
+        ( open(OutFile, write, OutStream),
+          open(ErrFile, write, ErrStream)
+        ),
+        run_process(Args, [ stdin(null),
+                            stdout(stream(OutStream)),
+                            stderr(stream(ErrStream))
+                          | Options
+                          ], Seconds, Status),
+        ( close(OutStream),
+          close(ErrStream)
+        )),
+    read_file_to_string(OutFile, Out, []),
+    read_file_to_string(ErrFile, Err, []).
+
+run_process(Args, Options, Seconds, Status) :-
+    current_prolog_flag(executable, Swipl),
+    setup_call_cleanup(
+        process_create(Swipl, Args, [process(Pid)|Options]),
+        wait_for_end(Pid, Seconds, Status),
+        kill_swipl(Pid)).
+
+%!  wait_for_end(+Pid, +Seconds, -Status) is det.
+%
+%   Status is how the process ended, or `timeout`.  On Unix process_wait/3
+%   knows only the timeouts 0 and infinite, hence the polling.
+
+wait_for_end(Pid, Seconds, Status) :-
+    catch(wait_until(ended(Pid, Status), Seconds),
+          error(timeout_error(wait_until, _), _),
+          Status = timeout).
+
+ended(Pid, Status) :-
+    process_wait(Pid, Status, [timeout(0)]),
+    Status \== timeout.
+
+%!  free_port(-Port:integer) is det.
+%
+%   A port of the loopback interface that is free now, and that the system
+%   gives to nobody who does not ask for it: it draws the ports of outgoing
+%   connections from a higher range.
+
+free_port(Port) :-
+    repeat,
+    random_between(10000, 30000, Port),
+    catch(try_port(Port), error(socket_error(_, _), _), fail),
+    !.
+
+try_port(Port) :-
+    tcp_socket(Socket),
+    call_cleanup(( tcp_setopt(Socket, reuseaddr),
+                   tcp_bind(Socket, '127.0.0.1':Port) ),
+                 tcp_close_socket(Socket)).
+
+                /*******************************
+                *         PRIVATE COOKIE       *
+                *******************************/
+
+%   A process started by a test inherits the cookie of the test.
+
+private_cookie :-
+    getenv('TYPHON_COOKIE_FILE', _),
+    !.
+private_cookie :-
+    make_tmp_dir(Dir),
+    directory_file_path(Dir, cookie, File),
+    unsetenv('TYPHON_COOKIE'),
+    setenv('TYPHON_COOKIE_FILE', File),
+    at_halt(delete_directory_and_contents(Dir)).
+
+:- initialization(private_cookie).
+
+:- multifile prolog:error_message//1.
+
+prolog:error_message(leaked(Things)) -->
+    [ 'Left behind: ~p'-[Things] ].
+prolog:error_message(timeout_error(wait_until, Goal)) -->
+    [ 'Waited in vain for ~p'-[Goal] ].

@@ -1,0 +1,113 @@
+:- module(test_nxt_fixtures,
+          [ with_peer/3,                % -Peer, -Port, :Goal
+            peer_tell/2,                % +Peer, +Line
+            peer_heard/2,               % +Peer, -Telegram
+            with_brick/3,               % -Brick, -Port, :Goal
+            brick_ask/3,                % +Brick, +Line, -Answer
+            connected/4,                % +Name, +Port, +Options, :Goal
+            helper_pid/1                % -Pid
+          ]).
+
+/** <module> Far ends for the bridge to NXT bricks
+
+A peer is nxt_peer.py, which answers what it is told to; a brick is the
+simulated one.  Both are processes of their own behind pseudo-terminals.
+
+*Threading*: one test at a time.
+*/
+
+:- use_module(common).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(typhon/nxt)).
+
+:- meta_predicate
+    with_peer(-, -, 0),
+    with_brick(-, -, 0),
+    connected(+, +, +, 0).
+
+%!  with_peer(-Peer, -Port, :Goal) is semidet.
+%
+%   Calls Goal once while a peer is running at Port, as all here do.
+
+with_peer(Peer, Port, Goal) :-
+    project_file('test/lib/nxt_peer.py', File),
+    with_python([File], Peer,
+                ( peer_heard(Peer, Port),
+                  call(Goal)
+                )).
+
+with_python(Args, far(In, Out), Goal) :-
+    no_leaks(setup_call_cleanup(
+                 process_create('/usr/bin/python3', Args,
+                                [ stdin(pipe(In)), stdout(pipe(Out)),
+                                  process(Pid)
+                                ]),
+                 once(Goal),
+                 end_python(In, Out, Pid))).
+
+%   Both end with their standard input.
+
+end_python(In, Out, Pid) :-
+    close(In, [force(true)]),
+    close(Out, [force(true)]),
+    process_wait(Pid, _).
+
+%!  peer_tell(+Peer, +Line) is det.
+%
+%   What it shall do at the next telegram.
+
+peer_tell(far(In, _), Line) :-
+    format(In, '~w~n', [Line]),
+    flush_output(In).
+
+%!  peer_heard(+Peer, -Telegram:atom) is det.
+%
+%   The next telegram, hexadecimal; waits for it.
+
+peer_heard(far(_, Out), Telegram) :-
+    read_line_to_string(Out, Line),
+    assertion(string(Line)),
+    atom_string(Telegram, Line).
+
+%!  with_brick(-Brick, -Port, :Goal) is semidet.
+
+with_brick(Brick, Port, Goal) :-
+    project_file('bridges/nxt/brick.py', File),
+    with_tmp_dir(brick_in(File, Brick, Port, Goal)).
+
+brick_in(File, Brick, Port, Goal, Dir) :-
+    directory_file_path(Dir, brick, Port),
+    with_python([File, '--pty', Port, '--until-eof'], Brick,
+                ( answer(Brick, ready(_)),
+                  call(Goal)
+                )).
+
+answer(far(_, Out), Term) :-
+    read(Out, Term0),
+    assertion(Term0 \== end_of_file),
+    Term = Term0.
+
+%!  brick_ask(+Brick, +Line, -Answer) is det.
+%
+%   What the simulated brick says to a line, a term.
+
+brick_ask(Brick, Line, Answer) :-
+    peer_tell(Brick, Line),
+    answer(Brick, Answer).
+
+%!  connected(+Name, +Port, +Options, :Goal) is semidet.
+
+connected(Name, Port, Options, Goal) :-
+    setup_call_cleanup(
+        nxt_connect(Name, Port, Options),
+        once(Goal),
+        nxt_disconnect(Name)).
+
+%!  helper_pid(-Pid) is semidet.
+%
+%   The one helper that is running.
+
+helper_pid(Pid) :-
+    typhon_nxt_helper:running(_, Pid).

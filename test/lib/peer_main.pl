@@ -1,0 +1,187 @@
+:- module(peer_main, [peer_main/0]).
+
+/** <module> The other processes of the tests of hops
+
+    swipl -g peer_main test/lib/peer_main.pl -- Options
+
+carries out the goals that come on standard input, one after the other, and
+answers each with a line: yes(Goal), `no` or raised(Error). Ends with its
+input. Options:
+
+    --port=R --known-as=P    the endpoint listens at port R, but says P: a
+                             proxy stands before it
+    --codec=text             speak text to everybody
+
+*Threading*: the main thread carries out the goals.
+*/
+
+:- use_module(common).
+:- use_module(library(typhon)).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(settings), [set_setting/2]).
+:- use_module(library(main), [argv_options/3]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(socket),
+              [tcp_socket/1, tcp_setopt/2, tcp_bind/2, tcp_listen/2]).
+
+peer_main :-
+    current_prolog_flag(argv, Argv),
+    argv_options(Argv, _, Options),
+    set_up(Options),
+    set_prolog_flag(toplevel_mode, backtracking),
+    serve,
+    halt.
+
+set_up(Options) :-
+    (   option(known_as(Known), Options)
+    ->  option(port(Port), Options),
+        stand_behind(Port, Known)
+    ;   true
+    ),
+    (   option(codec(text), Options)
+    ->  set_setting(typhon_hello:records, false)
+    ;   true
+    ).
+
+stand_behind(Port, Known) :-
+    wrap_predicate(typhon_endpoint:listen(Interface, _, Bound, Socket),
+                   behind, _,
+                   ( peer_main:listen(Interface, Port, Socket),
+                     Bound = Known )).
+
+listen(Interface, Port, Socket) :-
+    tcp_socket(Socket),
+    tcp_setopt(Socket, reuseaddr),
+    tcp_bind(Socket, Interface:Port),
+    tcp_listen(Socket, 64).
+
+serve :-
+    read_term(user_input, Goal, []),
+    (   Goal == end_of_file
+    ->  true
+    ;   answer(Goal, Answer),
+        format('~k.~n', [Answer]),
+        flush_output,
+        serve
+    ).
+
+answer(Goal, Answer) :-
+    catch(( peer_main:Goal -> Answer = yes(Goal) ; Answer = no ),
+          Error,
+          raised(Error, Answer)).
+
+raised(error(Formal, _), raised(error(Formal, _))) :-
+    !.
+raised(Ball, raised(Ball)).
+
+                /*******************************
+                *        WHAT TESTS ASK        *
+                *******************************/
+
+%   What stands in this process, whatever others know.
+
+agent_here(Id) :-
+    typhon_agents:agent(Id, _, _, _, _).
+
+status_here(Id) :-
+    typhon_agents:agent_status(Id, _, _).
+
+agent_state_here(Id, State) :-
+    agent_here(Id),
+    agent_property(Id, state(State)).
+
+connected_to(Host) :-
+    typhon_hosts:address_parts(Host, _, Endpoint),
+    typhon_endpoint:endpoint_peer(Endpoint, state(up)).
+
+connecting :-
+    typhon_quest:quest(_, _, _, _),
+    !.
+
+outcome_here(Id, Outcome) :-
+    typhon_whereabouts:agent_outcome(Id, Outcome).
+
+%   Without an index on Id: in one that is made while clauses are added SWI-
+%   Prolog 9.0.4 may list a clause twice.
+
+steps_here(Id, Steps) :-
+    findall(K,
+            ( typhon_hosts:host(_, _, Place),
+              Place:'$tuple'(Tuple),
+              Tuple = step(Id, K) ),
+            Steps).
+
+%   try_move(+Host, +Options, -Error): an agent of Options tries to move
+%   to Host.
+
+try_move(Host, Options, Error) :-
+    Clauses = [ (:- agent(trier, [state([to/1])])),
+                (main :- to(To),
+                         catch(move(To), error(E, _), true),
+                         leave(tried(E))) ],
+    agent_create(clauses(Clauses), Id, [facts([to(Host)])|Options]),
+    agent_join(Id, done, 20),
+    once(( typhon_hosts:host(Name, _, _),
+           remote(Name, take(tried(Error0))) )),
+    Error = error(Error0).
+
+send_in_background(Id, Count) :-
+    thread_create(forall(between(1, Count, I), agent_send(Id, n(I))), _,
+                  [detached(true)]).
+
+%   Attempts to connect that come to nothing do so soon.
+
+hurried :-
+    set_setting(typhon_keeper:connect_time, 0.3).
+
+%   This process makes no connections: others do.
+
+calls_nobody :-
+    wrap_predicate(typhon_connection:connect(_, _, _), calls_nobody, _,
+                   throw(error(socket_error(econnreset, reset), _))).
+
+%   Letters for Id wait here, and have been tried.
+
+kept(Id) :-
+    typhon_backlog:backlog(Id).
+
+tried_in_vain(Id) :-
+    typhon_backlog:waits(Id, _, Tries, _),
+    Tries > 0.
+
+news_kept(Count) :-
+    aggregate_all(count, typhon_news:news(_, _, _), Count).
+
+%   Count the letters that come.
+
+:- dynamic message_seen/0.
+
+count_messages :-
+    wrap_predicate(typhon_post:pass_on(_, _), count, Wrapped,
+                   ( assertz(peer_main:message_seen), Wrapped )).
+
+messages_seen(Count) :-
+    aggregate_all(count, message_seen, Count).
+
+%   Count the programs in the frames that come.
+
+:- dynamic program_seen/0.
+
+count_programs :-
+    wrap_predicate(typhon_arrival:arrive(_, _, Program, _, _), count,
+                   Wrapped,
+                   ( ( Program == known
+                     -> true
+                     ;  assertz(peer_main:program_seen)
+                     ),
+                     Wrapped )).
+
+programs_seen(Count) :-
+    aggregate_all(count, program_seen, Count).
+
+%   What arrives is installed, and its source never hears of it.
+
+silence_answers :-
+    wrap_predicate(typhon_endpoint:endpoint_reply_later(_, _), mute, _,
+                   true).

@@ -1,0 +1,199 @@
+:- module(test_peers,
+          [ with_peers/2,               % +Specs, :Goal
+            peer_restart/1,             % +Peer
+            peer_do/2,                  % +Peer, ?Goal
+            peer_try/3,                 % +Peer, ?Goal, -Outcome
+            peer_proxy/2,               % +Peer, -Proxy
+            peer_signal/2,              % +Peer, +Signal
+            peer_kill/1,                % +Peer
+            peer_host/2,                % +Peer, -Address
+            peer_messages/2             % +Peer, -Lines
+          ]).
+
+/** <module> Processes with hosts in them, for tests
+
+A peer is another Prolog process, known by an atom, that carries out goals.
+It talks to the test through pipes, so that tests can do to its endpoint
+what they like.
+
+*Threading*: for the main thread of a test.
+*/
+
+:- use_module(common, [free_port/1, project_file/2, wait_until/2]).
+:- use_module(cutting_proxy, [proxy_start/3, proxy_stop/1]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+:- meta_predicate with_peers(+, 0).
+
+:- dynamic
+    spec/2,                             % Peer, Args
+    peer/4,                             % Peer, Pid, In, Out
+    host/3,                             % Peer, Address, Options
+    proxy/2,                            % Peer, Proxy
+    messages/2.                         % Peer, File
+
+%!  with_peers(+Specs, :Goal) is semidet.
+%
+%   Run Goal once with processes. A spec is a name or Name-Options, where
+%   Options are: host(Options) for the host that has the name of the peer;
+%   proxy(true): others reach it through a cutting proxy; codec(text);
+%   setup(Goal): done before the host is started.
+
+with_peers(Specs, Goal) :-
+    setup_call_cleanup(
+        true,
+        ( maplist(start, Specs), once(Goal) ),
+        stop_all).
+
+start(Peer-Options) :-
+    !,
+    free_port(Port),
+    place(Peer, Options, Port, Known, PlaceArgs),
+    codec(Options, CodecArgs),
+    append(CodecArgs, PlaceArgs, Args),
+    option(host(HostOptions), Options, []),
+    option(setup(Setup), Options, true),
+    format(atom(Host), '~w@127.0.0.1:~d', [Peer, Known]),
+    tmp_file(Peer, File),
+    assertz(messages(Peer, File)),
+    assertz(spec(Peer, Args)),
+    assertz(host(Peer, Host,
+                 ( Setup, host_start(Peer, [port(Known)|HostOptions]) ))),
+    launch(Peer).
+start(Peer) :-
+    start(Peer-[]).
+
+%   place(+Peer, +Options, +Port, -Known, -Args): it listens at Port, and is
+%   known by another where a proxy stands before it.
+
+place(Peer, Options, Port, Known, [Behind, At]) :-
+    option(proxy(true), Options),
+    !,
+    atom_concat('127.0.0.1:', Port, Target),
+    proxy_start(Target, Proxy, Address),
+    assertz(proxy(Peer, Proxy)),
+    atom_concat('127.0.0.1:', KnownText, Address),
+    atom_number(KnownText, Known),
+    format(atom(Behind), '--known-as=~d', [Known]),
+    format(atom(At), '--port=~d', [Port]).
+place(_, _, Port, Port, []).
+
+codec(Options, [Speak]) :-
+    option(codec(Codec), Options),
+    !,
+    format(atom(Speak), '--codec=~w', [Codec]).
+codec(_, []).
+
+launch(Peer) :-
+    spec(Peer, Args),
+    messages(Peer, File),
+    project_file('test/lib/peer_main.pl', Main),
+    current_prolog_flag(executable, Swipl),
+    append(['-g', peer_main, Main, '--'], Args, Argv),
+    setup_call_cleanup(
+        open(File, append, Err),
+        process_create(Swipl, Argv,
+                       [ stdin(pipe(In)), stdout(pipe(Out)),
+                         stderr(stream(Err)), process(Pid) ]),
+        close(Err)),
+    set_stream(Out, timeout(60)),
+    assertz(peer(Peer, Pid, In, Out)),
+    host(Peer, _, Start),
+    peer_do(Peer, Start).
+
+stop_all :-
+    forall(peer(Peer, _, _, _), peer_kill(Peer)),
+    forall(retract(proxy(_, Proxy)), proxy_stop(Proxy)),
+    forall(retract(messages(_, File)),
+           ( exists_file(File) -> delete_file(File) ; true )),
+    retractall(spec(_, _)),
+    retractall(host(_, _, _)).
+
+%!  peer_restart(+Peer) is det.
+%
+%   Start a Peer that was killed, with its host at the same address.
+
+peer_restart(Peer) :-
+    launch(Peer).
+
+%!  peer_kill(+Peer) is det.
+
+peer_kill(Peer) :-
+    retract(peer(Peer, Pid, In, Out)),
+    process_kill(Pid, kill),
+    process_wait(Pid, _),
+    close(In, [force(true)]),
+    close(Out, [force(true)]).
+
+%!  peer_signal(+Peer, +Signal) is det.
+%
+%   When it returns Peer has stopped, if that is what `stop` should do.
+
+peer_signal(Peer, Signal) :-
+    peer(Peer, Pid, _, _),
+    process_kill(Pid, Signal),
+    (   Signal == stop
+    ->  wait_until(stopped(Pid), 10)
+    ;   true
+    ).
+
+stopped(Pid) :-
+    format(atom(Dir), '/proc/~d/task', [Pid]),
+    directory_files(Dir, Tasks),
+    forall(( member(Task, Tasks), atom_number(Task, _) ),
+           ( format(atom(File), '~w/~w/stat', [Dir, Task]),
+             read_file_to_string(File, Text, []),
+             sub_string(Text, _, _, _, ") T ") )).
+
+%!  peer_proxy(+Peer, -Proxy) is det.
+
+peer_proxy(Peer, Proxy) :-
+    proxy(Peer, Proxy).
+
+%!  peer_host(+Peer, -Address) is det.
+
+peer_host(Peer, Address) :-
+    host(Peer, Address, _).
+
+%!  peer_do(+Peer, ?Goal) is semidet.
+%
+%   once(Goal) in the process Peer; errors are thrown here.
+
+peer_do(Peer, Goal) :-
+    peer_try(Peer, Goal, Outcome),
+    (   Outcome = raised(Error)
+    ->  throw(Error)
+    ;   Outcome = yes
+    ).
+
+%!  peer_try(+Peer, ?Goal, -Outcome) is det.
+%
+%   Outcome is `yes`, `no` or raised(Error).
+
+peer_try(Peer, Goal, Outcome) :-
+    peer(Peer, _, In, Out),
+    format(In, '~k.~n', [Goal]),
+    flush_output(In),
+    read_term(Out, Answer, []),
+    (   Answer = yes(Done)
+    ->  Goal = Done,
+        Outcome = yes
+    ;   Answer == end_of_file
+    ->  throw(error(system_error(peer_died(Peer)), _))
+    ;   Outcome = Answer
+    ).
+
+%!  peer_messages(+Peer, -Lines:list(string)) is det.
+%
+%   What Peer has printed.
+
+peer_messages(Peer, Lines) :-
+    messages(Peer, File),
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", Lines0),
+    findall(Line, ( member(Line, Lines0), Line \== "" ), Lines).

@@ -1,0 +1,118 @@
+:- module(test_make, []).
+
+% The Makefile and the installer, with an apt-get that only takes notes.
+
+:- use_module('../lib/common').
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex),
+              [ chmod/2, directory_file_path/3, link_file/3 ]).
+:- use_module(library(lists), [member/2, subtract/3]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_stream_to_codes/2]).
+
+run(Program, Args, Options, Status, Output) :-
+    project_file('.', Root),
+    setup_call_cleanup(
+        process_create(Program, Args,
+                       [ cwd(Root), stdin(null), stdout(pipe(Out)),
+                         stderr(null), process(Pid)
+                       | Options
+                       ]),
+        read_stream_to_codes(Out, Codes),
+        close(Out)),
+    process_wait(Pid, Status),
+    string_codes(Output, Codes).
+
+%   The installer in a world where only Commands exist.  Notes are the
+%   lines of what apt-get was called with; its first Failures calls fail.
+
+install_with(Commands, Failures, Status, Notes) :-
+    with_tmp_dir(install_in(Commands, Failures, Status, Notes)).
+
+install_in(Commands, Failures, Status, Notes, Dir) :-
+    forall(( member(Command, [env, id, grep, wc, cat|Commands]) ),
+           link_command(Dir, Command)),
+    directory_file_path(Dir, notes, File),
+    fake_apt(Dir, File, Failures),
+    run('.ci/install', [], [environment(['PATH'=Dir])], Status, _),
+    (   exists_file(File)
+    ->  read_file_to_string(File, Text, []),
+        split_string(Text, "\n", "\n", Notes)
+    ;   Notes = []
+    ).
+
+link_command(Dir, Command) :-
+    directory_file_path(Dir, Command, Link),
+    absolute_file_name(path(Command), File, [access(execute)]),
+    link_file(File, Link, symbolic).
+
+fake_apt(Dir, Notes, Failures) :-
+    directory_file_path(Dir, 'apt-get', Apt),
+    setup_call_cleanup(
+        open(Apt, write, Out),
+        format(Out, '#!/bin/sh~n\c
+                     echo "$@" >> ~w~n\c
+                     [ "$(wc -l < ~w)" -gt ~d ]~n',
+               [Notes, Notes, Failures]),
+        close(Out)),
+    chmod(Apt, +x).
+
+commands([swipl, gnuplot, dot, ip]).
+
+has_serial :-
+    catch(( process_create('/usr/bin/python3', ['-c', 'import serial'],
+                           [stderr(null), process(Pid)]),
+            process_wait(Pid, exit(0))
+          ),
+          error(_, _), fail).
+
+root :-
+    run(path(id), ['-u'], [], exit(0), "0\n").
+
+:- begin_tests(make).
+
+test(lists_targets, Status == exit(0)) :-
+    run(path(make), [], [], Status, Output),
+    split_string(Output, "\n", "\n", Lines),
+    assertion(forall(member(Line, Lines),
+                     sub_string(Line, 0, _, _, "  make "))),
+    forall(member(Target, [demo, test, bench, check]),
+           ( atom_concat('  make ', Target, Start),
+             assertion(( member(Line, Lines),
+                         sub_string(Line, 0, _, _, Start)
+                       ))
+           )).
+
+test(install_does_nothing, Status-Output == exit(0)-"") :-
+    run(path(make), [install], [], Status, Output).
+
+:- end_tests(make).
+
+:- begin_tests(installer, [condition(( has_serial, root ))]).
+
+test(nothing_missing, Status-Notes == exit(0)-[]) :-
+    commands(Commands),
+    install_with(Commands, 0, Status, Notes).
+
+test(only_what_is_missing, Status == exit(0)) :-
+    commands(Commands),
+    subtract(Commands, [dot, ip], Rest),
+    install_with(Rest, 0, Status, [Note]),
+    assertion(sub_string(Note, _, _, 0, " graphviz iproute2")).
+
+test(update_only_when_needed, Status == exit(0)) :-
+    commands(Commands),
+    subtract(Commands, [gnuplot], Rest),
+    install_with(Rest, 1, Status, [First, Second, Third]),
+    assertion(sub_string(First, _, _, 0, " gnuplot-nox")),
+    assertion(sub_string(Second, 0, _, _, "update")),
+    assertion(Third == First).
+
+test(cannot, Status == exit(1)) :-
+    commands(Commands),
+    subtract(Commands, [gnuplot], Rest),
+    install_with(Rest, 3, Status, _).
+
+:- end_tests(installer).

@@ -1,0 +1,101 @@
+:- module(test_pack, []).
+
+% Installed as a pack, offline and without questions, the library works from
+% anywhere.  Each test has a home directory of its own.
+
+:- use_module('../lib/common').
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3]).
+
+swipl_at_home(Home, Directory, Goals, Out) :-
+    findall(Arg, goal_arg(Goals, Arg), Args),
+    run_swipl(Args,
+              [ cwd(Directory), timeout(120),
+                environment([ 'HOME'=Home, 'XDG_DATA_HOME'=Home ])
+              ],
+              Status, Out, Err),
+    assertion(Status+Err == exit(0)+Err).
+
+goal_arg(Goals, Arg) :-
+    member(Goal, Goals),
+    member(Arg, ['-g', Goal]).
+goal_arg(_, Arg) :-
+    member(Arg, ['-t', halt]).
+
+install(Spec, Options, Home, Directory) :-
+    format(atom(Goal), 'pack_install(~q, ~q)',
+           [Spec, [interactive(false),register(false)|Options]]),
+    swipl_at_home(Home, Directory, [Goal], _).
+
+%   What must work then, in a directory that has nothing to do with it.
+
+works(Home) :-
+    with_tmp_dir(works_in(Home)).
+
+works_in(Home, Dir) :-
+    make_program(Dir, agents, mine),
+    make_program(Dir, payloads, load),
+    make_program(Dir, elsewhere, other),
+    swipl_at_home(Home, Dir,
+                  [ 'use_module(library(typhon))',
+                    'assertz(user:file_search_path(agents, elsewhere))',
+                    'forall(member(F, [agents(mine), payloads(load), \c
+                                       agents(other), \c
+                                       agents(\'sync/worker\')]), \c
+                            ( typhon_paths:program_file(F, P), \c
+                              writeln(P) ))',
+                    'host_start(here)',
+                    'agent_create(clauses([(:- agent(a, [])), (main)]), A)'
+                  ], Out0),
+    split_string(Out0, "\n", "\n", Lines),
+    assertion(length(Lines, 4)).
+
+make_program(Dir, Folder, Name) :-
+    directory_file_path(Dir, Folder, Path),
+    make_directory(Path),
+    file_name_extension(Name, pl, Base),
+    directory_file_path(Path, Base, File),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, ':- agent(~q, []).~nmain.~n', [Name]),
+                       close(Out)).
+
+archive(Archive) :-
+    project_file('.', Root),
+    process_create(path(tar),
+                   [ '--exclude=./.git', '--exclude=./out',
+                     '--transform', 's,^\\.,typhon-0.1.0,',
+                     '-czf', Archive, '-C', Root, '.'
+                   ], []).
+
+:- begin_tests(pack).
+
+test(directory) :-
+    with_tmp_dir(from_directory).
+test(directory_url) :-
+    with_tmp_dir(from_directory_url).
+test(archive_url) :-
+    with_tmp_dir(from_archive_url).
+
+from_directory(Home) :-
+    project_file('.', Root),
+    install('.', [], Home, Root),
+    works(Home).
+
+from_directory_url(Home) :-
+    project_file('.', Root0),
+    absolute_file_name(Root0, Root),
+    atom_concat('file://', Root, URL),
+    install(URL, [], Home, Home),
+    works(Home).
+
+from_archive_url(Home) :-
+    directory_file_path(Home, 'typhon-0.1.0.tgz', Archive),
+    archive(Archive),
+    atom_concat('file://', Archive, URL),
+    install(typhon, [url(URL)], Home, Home),
+    works(Home).
+
+:- end_tests(pack).

@@ -1,0 +1,119 @@
+:- module(test_mailbox, []).
+:- use_module('../../lib/common').
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/travel/backlog)).
+:- use_module(library(typhon/agent/mailbox)).
+
+/** <module> Mailboxes: each message once, in order, whatever others get
+
+*Threading*: each thread has the mailboxes of its own agents, as it would
+have inside with_agent/2.
+*/
+
+:- begin_tests(mailbox).
+
+test(the_oldest_that_unifies, true(X-Rest == 2-[a-1,b-3])) :-
+    filled(me, [a-1,b-2,b-3]),
+    mail_take(me, b-X),
+    mail_all(me, Rest).
+test(nothing_unifies, true(Rest == [a-1])) :-
+    filled(me, [a-1]),
+    \+ mail_take(me, b-_),
+    mail_all(me, Rest).
+test(no_mailbox, true(All-List == []-[])) :-
+    \+ mail_take(nobody, _),
+    mail_all(nobody, All),
+    mail_list(nobody, List).
+test(a_look_takes_nothing, true(Twice == [[1,2],[1,2]])) :-
+    filled(me, [1,2]),
+    mail_list(me, First),
+    mail_all(me, Second),
+    Twice = [First,Second].
+test(older_ones_come_back_first, true(All == [1,2,3,4])) :-
+    filled(me, [3,4]),
+    mail_back(me, [1,2]),
+    mail_all(me, All).
+test(leaves_no_queue) :-
+    no_leaks(( filled(me, [1,2]),
+               mail_all(me, _) )).
+test(each_once_while_others_receive, true(Bad == [])) :-
+    busy_boxes(4, 8000, Bad).
+
+:- end_tests(mailbox).
+
+filled(Id, Messages) :-
+    mail_all(Id, _),
+    maplist(mail_put(Id), Messages).
+
+%   Each of some threads fills and empties the box of its agent; Bad are the
+%   lists that were not what had been put in.
+
+busy_boxes(Threads, Rounds, Bad) :-
+    numlist(1, Threads, Numbers),
+    numlist(1, 8, Messages),
+    concurrent_maplist(rounds(Rounds, Messages), Numbers, Lists),
+    append(Lists, Bad).
+
+rounds(Rounds, Messages, Number, Bad) :-
+    findall(All,
+            ( between(1, Rounds, Round),
+              Agents is Round mod 40,
+              atomic_list_concat([agent, Number, Agents], '.', Id),
+              maplist(mail_put(Id), Messages),
+              mail_all(Id, All),
+              All \== Messages ),
+            Bad).
+
+:- begin_tests(backlog).
+
+test(tried_in_order, true(Letters-Tries == [a,b]-0)) :-
+    with_backlog([a,b], backlog_begin(x, Letters, Tries)).
+test(one_tries_at_a_time) :-
+    with_backlog([a], ( backlog_begin(x, _, _),
+                        \+ backlog_begin(x, _, _) )).
+test(back_in_front_of_what_came, true(Letters-Tries == [a,b,c]-3)) :-
+    with_backlog([a,b],
+                 ( backlog_begin(x, L0, _),
+                   backlog_add(x, c),
+                   backlog_again(x, L0, 3),
+                   backlog_begin(x, Letters, Tries) )).
+test(not_done_if_more_came, true(Letters == [c])) :-
+    with_backlog([a],
+                 ( backlog_begin(x, _, _),
+                   backlog_add(x, c),
+                   \+ backlog_done(x),
+                   backlog_begin(x, Letters, _) )).
+test(done) :-
+    with_backlog([a],
+                 ( backlog_begin(x, _, _),
+                   backlog_done(x),
+                   \+ backlog(x) )).
+test(for_who_has_arrived, true(Letters == [a,b])) :-
+    with_backlog([a,b], backlog_all(x, Letters)).
+test(not_what_is_being_tried, true(Letters == [])) :-
+    with_backlog([a,b],
+                 ( backlog_begin(x, _, _),
+                   backlog_all(x, Letters) )).
+
+:- end_tests(backlog).
+
+:- meta_predicate with_backlog(+, 0).
+
+with_backlog(Letters, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 maplist(backlog_add(x), Letters),
+                 once(Goal),
+                 emptied)).
+
+emptied :-
+    (   backlog_begin(x, _, _)
+    ->  true
+    ;   true
+    ),
+    (   backlog(x)
+    ->  ( backlog_done(x) -> true ; emptied )
+    ;   true
+    ).

@@ -1,0 +1,372 @@
+:- module(test_log, []).
+:- use_module('../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(filesex),
+              [chmod/2, directory_file_path/3, link_file/3]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(process), [process_create/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(typhon/wire/endpoint),
+              [endpoint_address/1, endpoint_post/3, endpoint_stop/0]).
+:- use_module(library(typhon/network/log)).
+
+%   with_log(+Options, :Goal): Goal(Address, File), with a server running.
+
+:- meta_predicate with_log(+, 2, -).
+
+with_log(Options, Goal, Events) :-
+    with_tmp_dir(with_log_in(Options, Goal, Events)).
+
+with_log_in(Options, Goal, Events, Dir) :-
+    directory_file_path(Dir, 'events.pl', File),
+    log_server_start([file(File)|Options], Address),
+    call_cleanup(once(call(Goal, Address, File)), log_server_stop(Address)),
+    log_events(File, Events).
+
+arrives(Address, Host, Agent, What) :-
+    typhon_endpoint:received(log, event(Address, Host, Agent, What), tester).
+
+write_text(File, Text) :-
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        write(Out, Text),
+        close(Out)).
+
+%   quietly(:Goal, -Messages): what Goal printed under typhon(_).
+
+:- meta_predicate quietly(0, -).
+:- dynamic printed/1.
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+quietly(Goal, Messages) :-
+    retractall(printed(_)),
+    setup_call_cleanup(
+        asserta((user:message_hook(typhon(M), _, _) :-
+                     test_log:note(M)), Ref),
+        Goal,
+        erase(Ref)),
+    findall(M, retract(printed(M)), Messages).
+
+note(Message) :-
+    assertz(printed(Message)).
+
+odd_term('it''s a "quoted" \\ atom').
+odd_term("a string\nof two lines\t").
+odd_term('\x1\\x7f\é日本😀').
+odd_term(a:-b).
+odd_term([:-, (','), '|', {}, [], '[]', '{}', -, (dynamic)]).
+odd_term(- 1 - -1 - (-(1)) - -(-(a))).
+odd_term(p:-(a,b;c->d)).
+odd_term({x,y}).
+odd_term(f(1.0e10, 0.1, -0.0, 5.0e-324)).
+odd_term(123456789012345678901234567890).
+odd_term('$VAR'(1)).
+odd_term('$VAR'('X')).
+odd_term(['.', 'a.b', '. ', '%', '/*']).
+odd_term(f(X, _, X)).
+odd_term(X) :-
+    X is inf.
+odd_term(X) :-
+    compound_name_arguments(X, foo, []).
+
+:- begin_tests(log_server, [cleanup(stop_endpoint)]).
+
+stop_endpoint :-
+    (   endpoint_address(_)
+    ->  endpoint_stop
+    ;   true
+    ).
+
+test(address) :-
+    with_log([], address, _).
+
+address(Address, _) :-
+    endpoint_address(Endpoint),
+    atom_concat('log@', Endpoint, Address).
+
+test(events_are_stamped_in_order_of_arrival, Times == Sorted) :-
+    get_time(T0),
+    with_log([], hundred, Events),
+    get_time(T1),
+    findall(N, member(event(_, h, a, step(N)), Events), Ns),
+    numlist(1, 100, Ns),
+    findall(T, member(event(T, _, _, _), Events), Times),
+    msort(Times, Sorted),
+    forall(member(T, Times), ( T > T0 - 0.001, T < T1 + 0.001 )).
+
+hundred(Address, _) :-
+    forall(between(1, 100, N), arrives(Address, h, a, step(N))).
+
+test(clock) :-
+    get_time(Now),
+    Epoch is Now - 10,
+    with_log([clock(Epoch, 50)], one(x), [event(Time, h, a, x)]),
+    Time >= 500,
+    Time < 600.
+
+one(What, Address, _) :-
+    arrives(Address, h, a, What).
+
+test(every_term_reads_back) :-
+    findall(X, odd_term(X), Odd),
+    with_log([], odd, Events),
+    findall(X, member(event(_, h, a, X), Events), Read),
+    Read =@= Odd.
+test(one_fact_per_line) :-
+    with_log([], odd_lines, _).
+
+odd(Address, _) :-
+    forall(odd_term(X), arrives(Address, h, a, X)).
+
+odd_lines(Address, File) :-
+    odd(Address, File),
+    aggregate_all(count, odd_term(_), Count),
+    wait_until(( read_file_to_string(File, Text, [encoding(octet)]),
+                 split_string(Text, "\n", "", Lines),
+                 length(Lines, Length),
+                 Length =:= Count + 1 ), 5),
+    string_codes(Text, Codes),
+    forall(member(Code, Codes), Code < 128).
+
+test(consultable_under_any_operator_table) :-
+    with_tmp_dir(consult_odd).
+
+consult_odd(Dir) :-
+    directory_file_path(Dir, 'events.pl', File),
+    log_server_start([file(File)], Address),
+    odd(Address, File),
+    log_server_stop(Address),
+    Ops = [op(200, xfy, event), op(700, fx, h), op(0, xfx, :-),
+           op(0, yfx, -), op(0, fy, -), op(900, yf, a)],
+    forall(member(op(P, T, N), Ops), op(P, T, test_log_reader:N)),
+    load_files(test_log_reader:File, [silent(true)]),
+    findall(X, test_log_reader:event(_, h, a, X), Read),
+    findall(X, odd_term(X), Odd),
+    Read =@= Odd.
+
+test(written_when_idle) :-
+    with_log([], seen_at_once, _).
+
+seen_at_once(Address, File) :-
+    arrives(Address, h, a, x),
+    wait_until(log_events(File, [_]), 5).
+
+test(stop_writes_what_waits, Count == 20000) :-
+    with_log([], many, Events),
+    length(Events, Count).
+
+many(Address, _) :-
+    forall(between(1, 20000, N), arrives(Address, h, a, N)).
+
+test(posts_of_this_process_arrive_before_the_stop, Numbers == Expected) :-
+    numlist(1, 5000, Expected),
+    with_log([], posts(Expected), Events),
+    findall(N, member(event(_, h, a, N), Events), Numbers).
+
+posts(Numbers, Address, _) :-
+    endpoint_address(Endpoint),
+    forall(member(N, Numbers),
+           endpoint_post(Endpoint, log, event(Address, h, a, N))).
+
+test(many_senders_at_once) :-
+    numlist(1, 8, Threads),
+    with_log([], senders(Threads), Events),
+    numlist(1, 500, Steps),
+    forall(member(T, Threads),
+           ( findall(N, member(event(_, T, a, N), Events), Ns),
+             Ns == Steps )).
+
+senders(Threads, Address, _) :-
+    maplist(start_sender(Address), Threads, Ids),
+    forall(member(Id, Ids), thread_join(Id, true)).
+
+start_sender(Address, T, Id) :-
+    thread_create(sender(Address, T), Id).
+
+sender(Address, T) :-
+    forall(between(1, 500, N), arrives(Address, T, a, N)).
+
+test(two_servers_in_one_process, A-B == [to(a)]-[to(b)]) :-
+    with_log([name(a)], second(EventsB), EventsA),
+    findall(W, member(event(_, _, _, W), EventsA), A),
+    findall(W, member(event(_, _, _, W), EventsB), B).
+
+second(Events, AddressA, _) :-
+    with_log([name(b)], both(AddressA), Events).
+
+both(AddressA, AddressB, _) :-
+    arrives(AddressA, h, x, to(a)),
+    arrives(AddressB, h, x, to(b)).
+
+test(started_twice, error(permission_error(start, log_server, log))) :-
+    with_log([], again, _).
+test(started_again_after_an_error, Events == []) :-
+    with_log([], nothing, Events).
+test(stopped_twice, error(existence_error(log_server, _))) :-
+    with_log([], keep, _),
+    nb_getval(test_log, Address),
+    log_server_stop(Address).
+
+nothing(_, _).
+
+again(_, _) :-
+    with_log([], nothing, _).
+
+keep(Address, _) :-
+    nb_setval(test_log, Address).
+
+test(unknown_option, error(domain_error(log_server_option, colour(red)))) :-
+    log_server_start([file('/tmp/x'), colour(red)], _).
+test(no_file, error(existence_error(option, file))) :-
+    log_server_start([], _).
+test(no_such_directory, error(_)) :-
+    log_server_start([file('/no/such/directory/events')], _).
+test(nothing_is_left_behind) :-
+    no_leaks(( with_log([], hundred, _),
+               garbage_collect,           % the queues of closed sessions
+               garbage_collect_clauses,
+               garbage_collect_atoms )).
+test(events_for_nobody_are_told_once,
+     Messages == [no_log_server(nobody, h)]) :-
+    quietly(( arrives('nobody@127.0.0.1:1', h, a, 1),
+              arrives('nobody@127.0.0.1:1', h, a, 2) ), Messages).
+test(a_full_disk_is_told_once,
+     [ condition(exists_file_device('/dev/full')), true(Count == 1) ]) :-
+    quietly(( log_server_start([file('/dev/full')], Address),
+              hundred(Address, _),
+              wait_until(printed(_), 5),
+              hundred(Address, _),
+              log_server_stop(Address) ), Messages),
+    aggregate_all(count, member(log_not_written('/dev/full', _), Messages),
+                  Count),
+    assertion(memberchk(log_lost('/dev/full', 200), Messages)).
+test(plain_words, [ condition(exists_file_device('/dev/full')),
+                    true(Text == "No space left on device") ]) :-
+    quietly(( log_server_start([file('/dev/full')], Address),
+              hundred(Address, _),
+              log_server_stop(Address) ), Messages),
+    memberchk(log_not_written(File, Error), Messages),
+    phrase(prolog:message(typhon(log_not_written(File, Error))),
+           [_-[File], _-[Reason]|_]), !,
+    atom_string(Reason, Text).
+test(what_was_lost_while_the_disk_was_full,
+     [ condition(exists_file_device('/dev/full')),
+       true(Kept-Bad == [after]-[]) ]) :-
+    with_tmp_dir(full_for_a_while(Kept, Bad)).
+
+full_for_a_while(Kept, Bad, Dir) :-
+    directory_file_path(Dir, link, Link),
+    directory_file_path(Dir, real, Real),
+    link_file('/dev/full', Link, symbolic),
+    quietly(setup_call_cleanup(
+                log_server_start([file(Link)], Address),
+                fill_and_free(Address, Link, Real),
+                log_server_stop(Address)), Messages),
+    memberchk(log_written_again(_, Lost), Messages),
+    Lost >= 100,
+    quietly(log_events(Real, Events), Bad),
+    findall(W, ( member(event(_, _, _, W), Events), W \== meanwhile ), Kept).
+fill_and_free(Address, Link, Real) :-
+    hundred(Address, _),
+    wait_until(printed(log_not_written(_, _)), 5),
+    delete_file(Link),
+    link_file(Real, Link, symbolic),
+    wait_until(( arrives(Address, h, a, meanwhile),
+                 printed(log_written_again(_, _)) ), 10),
+    arrives(Address, h, a, after).
+
+test(a_place_where_nothing_can_be_written,
+     error(permission_error(open, source_sink, '/proc/typhon_log'))) :-
+    no_leaks(log_server_start([file('/proc/typhon_log')], _)).
+test(a_read_only_directory, [ condition(exists_file('/usr/bin/setpriv')),
+                              true(Out == "open"-"none") ]) :-
+    with_tmp_dir(read_only(Out)).
+
+%   Root may write everywhere: nobody tries.
+
+read_only(Opened-Left, Dir) :-
+    directory_file_path(Dir, events, File),
+    chmod(Dir, -w),
+    project_file(prolog, Library),
+    current_prolog_flag(executable, Swipl),
+    format(atom(Goal),
+           'assertz(file_search_path(library, ~q)),\c
+            use_module(library(typhon)),\c
+            catch(log_server_start([file(~q)], _),\c
+                  error(permission_error(What, _, _), _), write(What)),\c
+            ( exists_file(~q) -> Left = some ; Left = none ),\c
+            write(Left), halt', [Library, File, File]),
+    setup_call_cleanup(
+        process_create('/usr/bin/setpriv',
+                       [ '--reuid=65534', '--regid=65534', '--clear-groups',
+                         Swipl, '-q', '-f', none, '-g', Goal ],
+                       [ stdout(pipe(Stream)), stderr(null), stdin(null),
+                         environment(['TYPHON_COOKIE'=abcdefabcdefabcdef]) ]),
+        read_string(Stream, _, Text),
+        close(Stream)),
+    chmod(Dir, +w),
+    string_concat(Opened, Left, Text),
+    string_length(Opened, 4).
+
+exists_file_device(File) :-
+    access_file(File, write).
+
+:- end_tests(log_server).
+
+:- begin_tests(log_files).
+
+test(truncated_last_line_costs_itself_only,
+     Ns-Messages == [1,2]-[log_line_skipped(3)]) :-
+    with_tmp_dir(read_text("event(1.0,h,a,1).\nevent(2.0,h,a,2).\nevent(3.0,h,",
+                           Ns, Messages)).
+test(truncated_inside_a_quote, Ns-Messages == [1]-[log_line_skipped(2)]) :-
+    with_tmp_dir(read_text("event(1.0,h,a,1).\nevent(3.0,'h",
+                           Ns, Messages)).
+test(broken_line_in_the_middle, Ns-Messages == [1,3]-[log_line_skipped(2)]) :-
+    with_tmp_dir(read_text("event(1.0,h,a,1).\nevent(2.0,h\nevent(3.0,h,a,3).\n",
+                           Ns, Messages)).
+test(empty, Ns-Messages == []-[]) :-
+    with_tmp_dir(read_text("", Ns, Messages)).
+test(no_such_file, error(existence_error(_, _))) :-
+    log_events('/no/such/file', _).
+
+read_text(Text, Ns, Messages, Dir) :-
+    directory_file_path(Dir, 'events.pl', File),
+    write_text(File, Text),
+    quietly(log_events(File, Events), Printed),
+    findall(N, member(event(_, _, _, N), Events), Ns),
+    findall(log_line_skipped(L),
+            member(log_line_skipped(_:L, _), Printed), Messages).
+
+test(append_after_a_crash, Ns-Messages == [1,3]-[log_line_skipped(2)]) :-
+    with_tmp_dir(append_to("event(1.0,h,a,1).\nevent(2.0,h,", Ns, Messages)).
+test(append_after_an_orderly_end, Ns-Messages == [1,3]-[]) :-
+    with_tmp_dir(append_to("event(1.0,h,a,1).\n", Ns, Messages)).
+
+append_to(Text, Ns, Messages, Dir) :-
+    directory_file_path(Dir, 'events.pl', File),
+    write_text(File, Text),
+    log_server_start([file(File), mode(append)], Address),
+    arrives(Address, h, a, 3),
+    log_server_stop(Address),
+    quietly(log_events(File, Events), Printed),
+    findall(N, member(event(_, _, _, N), Events), Ns),
+    findall(log_line_skipped(L),
+            member(log_line_skipped(_:L, _), Printed), Messages).
+
+test(begun_anew_by_default, Ns == [3]) :-
+    with_tmp_dir(begin_anew(Ns)).
+
+begin_anew(Ns, Dir) :-
+    directory_file_path(Dir, 'events.pl', File),
+    write_text(File, "event(1.0,h,a,1).\n"),
+    log_server_start([file(File)], Address),
+    arrives(Address, h, a, 3),
+    log_server_stop(Address),
+    log_events(File, Events),
+    findall(N, member(event(_, _, _, N), Events), Ns).
+
+:- end_tests(log_files).

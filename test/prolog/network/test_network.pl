@@ -1,0 +1,639 @@
+:- module(test_network, []).
+:- use_module('../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists),
+              [append/3, last/2, member/2, nth1/3, numlist/3]).
+:- use_module(library(ordsets), [ord_subset/2]).
+:- use_module(library(process), [process_create/3, process_kill/2]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_line_to_string/2]).
+:- use_module(library(settings), [set_setting/2, setting/2]).
+:- use_module(library(yall)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/network/children)).
+:- use_module(library(typhon/network/log)).
+:- use_module(library(typhon/network/networks)).
+:- use_module(library(typhon/network/topology)).
+
+:- meta_predicate
+    with_network(+, +, 1),
+    with_setting(+, +, 0),
+    quiet(0),
+    seconds(0, -),
+    nothing_left(0).
+
+%   with_network(+Topology, +Options, :Goal): call(Goal, Network).
+
+with_network(Topology, Options, Goal) :-
+    setup_call_cleanup(
+        network_start(Topology, Network, Options),
+        once(call(Goal, Network)),
+        network_stop(Network)).
+
+with_setting(Setting, Value, Goal) :-
+    setting(Setting, Old),
+    setup_call_cleanup(
+        set_setting(Setting, Value),
+        once(Goal),
+        set_setting(Setting, Old)).
+
+%   Messages that a test provokes are not printed.
+
+:- dynamic expected/1, printed/1.
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(typhon(Message), _, _) :-
+    expected(Message),
+    assertz(printed(Message)).
+
+quiet(Goal) :-
+    retractall(printed(_)),
+    setup_call_cleanup(
+        maplist([M]>>assertz(expected(M)),
+                [ carrier_down(_, _, _), carrier_killed(_, _),
+                  carrier_order(_, _, _) ]),
+        once(Goal),
+        retractall(expected(_))).
+
+%   As no_leaks/1, but for message queues: those of sessions are left to the
+%   garbage collector, which takes them when it likes.
+
+nothing_left(Goal) :-
+    things(Before),
+    once(Goal),
+    wait_until(none_but(Before), 5).
+
+none_but(Before) :-
+    things(Now),
+    ord_subset(Now, Before).
+
+things(Things) :-
+    findall(Thing, thing(Thing), List),
+    sort(List, Things).
+
+thing(thread(Thread)) :-
+    thread_property(Thread, status(_)),
+    Thread \== gc.
+thing(stream(Stream)) :-
+    stream_property(Stream, mode(_)).
+thing(process(Pids)) :-
+    expand_file_name('/proc/self/task/*/children', Files),
+    member(File, Files),
+    catch(read_file_to_string(File, Pids, []), error(_, _), fail),
+    Pids \== "".
+
+alive(Pid) :-
+    atom_concat('/proc/', Pid, Dir),
+    exists_directory(Dir),
+    atom_concat(Dir, '/stat', Stat),
+    catch(read_file_to_string(Stat, Text, []), error(_, _), fail),
+    split_string(Text, ")", "", Parts),
+    last(Parts, Rest),
+    split_string(Rest, " ", " ", [State|_]),
+    State \== "Z".
+
+ended(Pids) :-
+    \+ ( member(Pid, Pids), alive(Pid) ).
+
+hosts(Network, Hosts) :-
+    network_property(Network, hosts(Hosts)).
+
+pids(Network, Pids) :-
+    network_property(Network, processes(Pids)).
+
+seconds(Goal, Seconds) :-
+    get_time(T0),
+    once(Goal),
+    get_time(T1),
+    Seconds is T1 - T0.
+
+hosts_there(Network) :-
+    hosts(Network, [_|_]).
+
+script(File, Line) :-
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, "#!/bin/sh~n~s~n", [Line]),
+        close(Out)),
+    process_create(path(chmod), ['+x', file(File)], []).
+
+:- begin_tests(networks).
+
+test(in_this_process) :-
+    nothing_left(with_network(grid(6, 10), [], own_grid)).
+
+own_grid(Network) :-
+    current_prolog_flag(pid, Me),
+    pids(Network, [Me]),
+    hosts(Network, Hosts),
+    length(Hosts, 60),
+    maplist([Host, Name]>>atomic_list_concat([Name, _], @, Host),
+            Hosts, Names),
+    topology_names(grid(6, 10), Names),
+    edges_as_in(grid(6, 10), Network),
+    nth1(1, Hosts, First),
+    nth1(2, Hosts, Second),
+    nth1(11, Hosts, Below),
+    host_property(n1, neighbours(Neighbours)),
+    msort(Neighbours, Sorted),
+    msort([Second, Below], Sorted),
+    host_property(n1, address(First)).
+
+edges_as_in(Topology, Network) :-
+    network_property(Network, seed(Seed)),
+    topology_edges(Topology, Seed, _, Edges),
+    hosts(Network, Hosts),
+    findall(A-B,
+            ( member(I-J, Edges), nth1(I, Hosts, A), nth1(J, Hosts, B) ),
+            Expected),
+    network_property(Network, edges(Expected)).
+
+test(in_four_processes) :-
+    nothing_left(with_network(grid(6, 10), [processes(4)], four)).
+
+four(Network) :-
+    current_prolog_flag(pid, Me),
+    pids(Network, Pids),
+    length(Pids, 4),
+    sort(Pids, Distinct),
+    length(Distinct, 4),
+    \+ memberchk(Me, Pids),
+    maplist(alive, Pids),
+    edges_as_in(grid(6, 10), Network),
+    hosts(Network, Hosts),
+    maplist([Host, Endpoint]>>atomic_list_concat([_, Endpoint], @, Host),
+            Hosts, Endpoints),
+    blocks(Endpoints, Blocks),
+    Blocks == [15, 15, 15, 15],
+    nth1(15, Hosts, Last),
+    nth1(16, Hosts, Next),
+    host_property(Last, neighbours(Ns)),
+    memberchk(Next, Ns),
+    host_property(Next, neighbours(Back)),
+    memberchk(Last, Back).
+
+blocks([], []).
+blocks([E|Es], [N|Ns]) :-
+    run(Es, E, 1, N, Rest),
+    blocks(Rest, Ns).
+
+run([E|Es], E, N0, N, Rest) :-
+    !,
+    N1 is N0 + 1,
+    run(Es, E, N1, N, Rest).
+run(Es, _, N, N, Es).
+
+test(every_topology,
+     forall(member(T, [star_bus(3,4), ring(7), tree(7), grid(2,3), mesh(6),
+                       random(8, 0.4), edges([a-b, b-3])]))) :-
+    with_network(T, [processes(2), seed(5)], edges_as_in(T)).
+test(no_more_processes_than_hosts, Count == 2) :-
+    network_start(ring(2), Network, [processes(5)]),
+    pids(Network, Pids),
+    length(Pids, Count),
+    network_stop(Network).
+test(starts_fast, true(Seconds < 30)) :-
+    seconds(with_network(grid(6, 10), [processes(4)], hosts_there), Seconds).
+
+test(agents_travel_all_over, Count == 12) :-
+    with_network(ring(12), [processes(3)], round_trip(Count)).
+
+round_trip(Count, Network) :-
+    hosts(Network, [First|_]),
+    agent_create(clauses([ (:- agent(rounder, [state([at/1])])),
+                           ( main :- neighbours([_|_]), here(H),
+                                     assertz(at(H)), step(12) ),
+                           ( step(0) :- !, findall(H, at(H), Hs),
+                                        sort(Hs, Set), length(Set, N),
+                                        leave(round(N)) ),
+                           ( step(N) :- next_host(conscientious, H), move(H),
+                                        assertz(at(H)), N1 is N - 1,
+                                        step(N1) ) ]),
+                 Agent, [host(First)]),
+    agent_join(Agent, done, 20),
+    remote(First, take(round(Count))).
+
+test(two_networks_at_once, true(Disjoint)) :-
+    setup_call_cleanup(
+        network_start(ring(3), A, [processes(2)]),
+        with_network(ring(3), [processes(2)], other(A, Disjoint)),
+        network_stop(A)).
+
+other(A, Disjoint, B) :-
+    hosts(A, HostsA),
+    hosts(B, HostsB),
+    (   member(Host, HostsA),
+        memberchk(Host, HostsB)
+    ->  Disjoint = false
+    ;   Disjoint = true
+    ).
+
+test(host_options) :-
+    with_network(ring(2), [processes(2), hosts([capacity(3)])], capacity(3)).
+
+capacity(N, Network) :-
+    hosts(Network, Hosts),
+    forall(member(Host, Hosts), host_property(Host, capacity(N))).
+
+test(machines_through_a_program_like_ssh) :-
+    with_tmp_dir(machines).
+
+machines(Dir) :-
+    directory_file_path(Dir, 'rsh', Program),
+    script(Program, "echo noise; shift; exec sh -c \"$*\""),
+    with_setting(typhon_children:ssh, Program,
+                 with_network(ring(5),
+                              [ machines(['user@127.0.0.1',
+                                          machine(other,
+                                                  [bind('127.0.0.1')])]) ],
+                              spread(2))).
+
+spread(Count, Network) :-
+    pids(Network, Pids),
+    length(Pids, Count),
+    edges_as_in(ring(5), Network).
+
+:- end_tests(networks).
+
+:- begin_tests(network_time).
+
+test(one_clock_for_all_hosts) :-
+    with_tmp_dir(clocks).
+
+clocks(Dir) :-
+    directory_file_path(Dir, log, File),
+    get_time(T0),
+    with_network(ring(4), [processes(2), clock(20), log(File)], tell_time),
+    get_time(T1),
+    log_events(File, Events),
+    findall(Time-Now, member(event(Time, _, _, at(Now)), Events), Pairs),
+    length(Pairs, 4),
+    Most is (T1 - T0) * 20,
+    forall(member(Time-Now, Pairs),
+           ( Now > 0, Now < Most, abs(Time - Now) < 4 )).
+
+tell_time(Network) :-
+    hosts(Network, Hosts),
+    findall(Agent,
+            ( member(Host, Hosts),
+              agent_create(clauses([ (:- agent(clock, [])),
+                                     ( main :- now(T), log(at(T)) ) ]),
+                           Agent, [host(Host)]) ),
+            Agents),
+    forall(member(Agent, Agents), agent_join(Agent, done, 10)).
+
+test(hop_time, true(( Mean >= 1, Mean < 4 ))) :-
+    with_network(ring(2),
+                 [processes(2), clock(10), hop_time(uniform(1, 2))],
+                 hop_mean(Mean)).
+
+hop_mean(Mean, Network) :-
+    hosts(Network, [A, B]),
+    agent_create(clauses([ (:- agent(hopper, [])),
+                           ( main :- home(A), neighbours([B]),
+                                     now(T0), hop(5, B, A), now(T),
+                                     Mean is (T - T0) / 10,
+                                     leave(mean(Mean)) ),
+                           hop(0, _, _),
+                           ( hop(N, B, A) :- N > 0, move(B), move(A),
+                                             N1 is N - 1, hop(N1, B, A) ) ]),
+                 Agent, [host(A)]),
+    agent_join(Agent, done, 20),
+    remote(A, take(mean(Mean))),
+    nonvar(B).
+
+:- end_tests(network_time).
+
+:- begin_tests(network_log).
+
+test(nothing_is_lost, Counts == [2000, 2000]) :-
+    with_tmp_dir(flood(Counts)).
+
+flood(Counts, Dir) :-
+    directory_file_path(Dir, log, File),
+    with_network(ring(4), [processes(2), log(File)], flood_all(File)),
+    log_events(File, Events),
+    aggregate_all(count, member(event(_, _, _, n(_)), Events), Count),
+    findall(A-N, member(event(_, _, A, n(N)), Events), Pairs),
+    sort(Pairs, Distinct),
+    length(Distinct, Count2),
+    Counts = [Count, Count2].
+
+flood_all(File, Network) :-
+    network_property(Network, log(File)),
+    hosts(Network, Hosts),
+    findall(Agent,
+            ( member(Host, Hosts),
+              agent_create(clauses([ (:- agent(talker, [])),
+                                     ( main :- forall(between(1, 500, N),
+                                                      log(n(N))) ) ]),
+                           Agent, [host(Host)]) ),
+            Agents),
+    forall(member(Agent, Agents), agent_join(Agent, done, 20)).
+
+test(in_this_process_too, Count == 500) :-
+    with_tmp_dir(flood_here(Count)).
+
+flood_here(Count, Dir) :-
+    directory_file_path(Dir, log, File),
+    with_network(ring(1), [log(File)], flood_all(File)),
+    log_events(File, Events),
+    aggregate_all(count, member(event(_, _, _, n(_)), Events), Count).
+
+test(ends_of_resident_agents_are_logged, Ends == 4) :-
+    with_tmp_dir(residents(Ends)).
+
+residents(Ends, Dir) :-
+    directory_file_path(Dir, log, File),
+    with_network(ring(4), [processes(2), log(File)], settle),
+    log_events(File, Events),
+    aggregate_all(count, member(event(_, _, _, ended(_)), Events), Ends).
+
+settle(Network) :-
+    hosts(Network, Hosts),
+    forall(member(Host, Hosts),
+           agent_create(clauses([ (:- agent(resident, [])),
+                                  main,
+                                  on_message(_, _) ]),
+                        _, [host(Host)])).
+
+:- end_tests(network_log).
+
+:- begin_tests(network_ends).
+
+test(stop_ends_the_processes, true) :-
+    network_start(ring(8), Network, [processes(4)]),
+    pids(Network, Pids),
+    network_stop(Network),
+    ended(Pids),
+    \+ network_property(_, hosts(_)).
+test(stopped_twice, error(existence_error(network, _))) :-
+    network_start(ring(2), Network, []),
+    network_stop(Network),
+    network_stop(Network).
+test(hosts_of_others_stay, true) :-
+    setup_call_cleanup(
+        host_start(bystander),
+        ( with_network(ring(2), [], hosts_there),
+          host_property(bystander, state(running)) ),
+        host_stop(bystander)).
+test(a_process_that_died, Count == 3) :-
+    quiet(nothing_left(with_network(ring(8), [processes(4)], bury(Count)))).
+
+bury(Count, Network) :-
+    pids(Network, [Pid|_]),
+    process_kill(Pid, kill),
+    wait_until(( pids(Network, Rest), length(Rest, Count), Count < 4 ), 5),
+    wait_until(printed(carrier_down(Network, Pid, killed(9))), 5).
+
+test(a_process_that_hangs, true(Seconds < 20)) :-
+    quiet(nothing_left(seconds(with_setting(
+                typhon_children:stop_seconds, 1,
+                with_network(ring(8), [processes(4)], freeze)), Seconds))),
+    once(printed(carrier_killed(_, _))).
+
+freeze(Network) :-
+    pids(Network, [_, Pid|_]),
+    process_kill(Pid, stop).
+
+test(a_process_that_hangs_is_soon_killed, true(Seconds < 5)) :-
+    quiet(nothing_left(( network_start(ring(4), Network, [processes(4)]),
+                         go_round(Network),
+                         freeze(Network),
+                         seconds(network_stop(Network), Seconds) ))).
+
+go_round(Network) :-
+    hosts(Network, [A,B|_]),
+    agent_create(clauses([ (:- agent(busy, [])),
+                           ( main :- round(A, B) ),
+                           ( round(X, Y) :- move(X), move(Y), round(X, Y) )
+                         ]), _, [host(A)]).
+
+%   The end of the output and the signal race.
+
+test(every_killed_process_is_noticed, Missed == 0) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        aggregate_all(count,
+                      ( between(1, 50, N), \+ killed(N, Queue) ),
+                      Missed),
+        message_queue_destroy(Queue)).
+
+killed(N, Queue) :-
+    child_start(N, local, '127.0.0.1', tell(Queue), Child),
+    child_kill(Child),
+    thread_get_message(Queue, down(N, Status), [timeout(20)]),
+    Status == killed(9),
+    child_close(Child),
+    child_release(Child).
+
+tell(Queue, Event) :-
+    thread_send_message(Queue, Event).
+
+test(a_busy_agent_does_not_hold_it_up, true(Seconds < 25)) :-
+    nothing_left(seconds(with_network(ring(4), [processes(2)], busy),
+                         Seconds)).
+
+busy(Network) :-
+    hosts(Network, Hosts),
+    forall(member(Host, Hosts),
+           agent_create(clauses([ (:- agent(busy, [])),
+                                  ( main :- repeat, fail ) ]),
+                        _, [host(Host)])).
+
+test(children_end_on_sigterm, true) :-
+    quiet(with_network(ring(2), [processes(2)], terminate)).
+
+terminate(Network) :-
+    pids(Network, Pids),
+    forall(member(Pid, Pids), process_kill(Pid, term)),
+    wait_until(ended(Pids), 10).
+
+test(children_end_when_their_parent_is_killed,
+     forall(member(Signal, [kill, term]))) :-
+    orphans(Signal, Pids),
+    length(Pids, 3),
+    wait_until(ended(Pids), 10).
+
+orphans(Signal, Pids) :-
+    project_file(prolog, Library),
+    format(atom(Path), 'library=~w', [Library]),
+    Goal = 'use_module(library(typhon/network/networks)),\c
+            network_start(ring(6),N,[processes(3)]),\c
+            network_property(N,processes(P)),\c
+            format("~q.~n",[P]),flush_output,thread_get_message(x)',
+    with_swipl(['-f', none, '-p', Path, '-g', Goal], Pid, _, Out,
+               ( read_line_to_string(Out, Line),
+                 term_string(Pids, Line),
+                 maplist(alive, Pids),
+                 process_kill(Pid, Signal) )).
+
+test(all_or_nothing_when_a_host_does_not_start,
+     error(domain_error(host_option, colour(red)))) :-
+    nothing_left(( catch(network_start(ring(4), _, [ processes(2),
+                                                     hosts([colour(red)]) ]),
+                         Error, true),
+                   nonvar(Error) )),
+    throw(Error).
+test(all_or_nothing_in_this_process,
+     error(permission_error(start, host, n3))) :-
+    setup_call_cleanup(
+        host_start(n3),
+        nothing_left(( catch(network_start(ring(4), _, []), Error, true),
+                       \+ own_host(n1) )),
+        host_stop(n3)),
+    throw(Error).
+own_host(Name) :-
+    host_property(Host, state(_)),
+    Host == Name.
+
+test(a_machine_that_is_not_there,
+     error(system_error(process_ended(exit(1))))) :-
+    with_setting(typhon_children:ssh, false,
+                 network_start(ring(4), _, [machines([nowhere])])).
+test(a_machine_that_says_nothing, error(timeout_error(start, _))) :-
+    with_setting(typhon_processes:start_seconds, 0.5,
+        with_setting(typhon_children:stop_seconds, 0.5,
+            with_tmp_dir(silent))).
+
+%   As the setup of a cleanup, with a signal pending.
+
+silent(Dir) :-
+    directory_file_path(Dir, rsh, Program),
+    script(Program, "exec sleep 60"),
+    with_setting(typhon_children:ssh, Program,
+                 quiet(setup_call_cleanup(
+                           ( fill_atoms,
+                             network_start(ring(4), _,
+                                           [machines([nowhere])]) ),
+                           true,
+                           true))).
+
+fill_atoms :-
+    forall(between(1, 30000, N), atom_concat(test_network_, N, _)).
+
+test(a_program_that_is_not_there, error(existence_error(_, _))) :-
+    with_setting(typhon_children:ssh, no_such_program,
+                 network_start(ring(4), _, [machines([nowhere])])).
+test(options, [ forall(member(Option-Formal,
+                              [ colour(red)-
+                                domain_error(network_option, colour(red)),
+                                processes(0)-type_error(positive_integer, 0),
+                                clock(0)-domain_error(clock_rate, 0),
+                                hop_time(3)-domain_error(hop_time, 3),
+                                dynamic(chaos)-
+                                domain_error(dynamic_model, chaos) ])),
+                error(Formal) ]) :-
+    network_start(ring(3), _, [Option]).
+test(topology, error(domain_error(topology, torus(3)))) :-
+    network_start(torus(3), _, []).
+test(unknown_network, error(existence_error(network, atlantis))) :-
+    network_property(atlantis, hosts(_)).
+test(cookie_in_no_argument_list, true) :-
+    typhon_auth:cookie(Cookie0),
+    format(string(Cookie), "~w", [Cookie0]),
+    with_network(ring(2), [processes(2)], hidden(Cookie)).
+
+hidden(Cookie, Network) :-
+    pids(Network, Pids),
+    forall(( member(Pid, Pids), member(Which, [cmdline, environ]) ),
+           ( format(atom(File), '/proc/~w/~w', [Pid, Which]),
+             read_file_to_string(File, Text, [encoding(octet)]),
+             \+ sub_string(Text, _, _, _, Cookie) )).
+
+test(what_children_print_is_printed_here) :-
+    project_file(prolog, Library),
+    format(atom(Path), 'library=~w', [Library]),
+    Goal = 'use_module(library(typhon)),use_module(library(typhon/network/networks)),\c
+            network_start(ring(2),N,[processes(2)]),\c
+            network_property(N,hosts([_,H])),\c
+            agent_create(clauses([(:-agent(a,[])),(main:-writeln(hello))]),\c
+                         A,[host(H)]),\c
+            agent_join(A,_,10),network_stop(N),halt',
+    run_swipl(['-f', none, '-p', Path, '-g', Goal], [], exit(0), Text, _),
+    sub_string(Text, _, _, _, "hello\n").
+
+:- end_tests(network_ends).
+
+:- begin_tests(dynamic_networks).
+
+test(links_come_and_go, true) :-
+    with_network(grid(3, 3), [ processes(2), clock(50), seed(1),
+                               dynamic(dynamic_1) ], changing).
+
+changing(Network) :-
+    network_property(Network, edges(Before)),
+    wait_until(( network_property(Network, edges(Now)), Now \== Before ), 10),
+    topology_edges(grid(3, 3), 1, _, Numbered),
+    hosts(Network, Hosts),
+    forall(member(A-B, Now),
+           ( nth1(I, Hosts, A), nth1(J, Hosts, B),
+             memberchk(I-J, Numbered) )).
+
+test(an_isolated_host_keeps_its_agents_until_it_is_linked) :-
+    with_network(mesh(4), [ processes(2), clock(50),
+                            dynamic(links(uniform(1, 1), each(1), 0)) ],
+                 isolation).
+
+isolation(Network) :-
+    hosts(Network, [A, B|_]),
+    wait_until(network_property(Network, edges([])), 10),
+    agent_create(clauses([ (:- agent(prisoner, [])),
+                           ( main :- next_host(random, H), !, move(H),
+                                     leave(escaped) ),
+                           ( main :- sleep(1), main ) ]),
+                 Agent, [host(A)]),
+    \+ agent_join_soon(Agent),
+    agent_property(Agent, host(A)),
+    free(Agent, A, B),
+    remote(B, take(escaped)).
+
+%   The link may be dropped again before the agent sees it.
+
+free(Agent, A, B) :-
+    link(A, B),
+    agent_join(Agent, Outcome, 0.2),
+    (   Outcome == done
+    ->  true
+    ;   free(Agent, A, B)
+    ).
+
+agent_join_soon(Agent) :-
+    agent_join(Agent, done, 0.5).
+
+test(changes_follow_the_seed, A == B) :-
+    snapshot(A),
+    snapshot(B).
+
+%   Within the first event of each host nothing is late enough to matter.
+
+snapshot(Edges) :-
+    with_network(ring(6), [ seed(3), clock(100),
+                            dynamic(links(uniform(10, 500), 1, 0)) ],
+                 first_dropped(Edges)).
+
+first_dropped(Numbered, Network) :-
+    network_property(Network, edges(Before)),
+    wait_until(( network_property(Network, edges(Now)), Now \== Before ), 20),
+    hosts(Network, Hosts),
+    findall(I-J,
+            ( member(A-B, Now), nth1(I, Hosts, A), nth1(J, Hosts, B) ),
+            Numbered).
+
+test(a_dead_process_does_not_stop_the_rest) :-
+    quiet(with_network(mesh(8), [ processes(4), clock(100),
+                                  dynamic(links(uniform(1, 2), 0.5, 0.5)) ],
+                       limping)).
+
+limping(Network) :-
+    pids(Network, [Pid|_]),
+    process_kill(Pid, kill),
+    wait_until(printed(carrier_down(_, Pid, _)), 5),
+    network_property(Network, edges(Before)),
+    wait_until(( network_property(Network, edges(Now)), Now \== Before ), 10).
+
+:- end_tests(dynamic_networks).

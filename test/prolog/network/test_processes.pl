@@ -1,0 +1,397 @@
+:- module(test_processes, []).
+:- use_module(library(plunit)).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module('../../lib/peers').
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(typhon)).
+
+/** <module> Tests of agents and hosts in separate processes
+
+The host alpha is in the process of the test, beta and gamma each in one of
+their own, which a unit of tests shares.
+*/
+
+world_start :-
+    host_start(alpha),
+    maplist(test_peers:start, [beta,gamma]).
+
+world_end :-
+    test_peers:stop_all,
+    host_stop(alpha).
+
+there(Peer, Host) :-
+    peer_host(Peer, Host).
+
+stands(Agent, Host) :-
+    agent_property(Agent, host(Host)),
+    !.
+
+has_all(Agent, N) :-
+    aggregate_all(count, fact_of(Agent, s(_)), N).
+
+collector([(on_message(_, stop) :- dispose),
+           (on_message(_, M) :- assertz(s(M)))]).
+
+disposed(Agent) :-
+    agent_dispose(Agent),
+    joined(Agent, disposed).
+
+:- begin_tests(processes, [setup(world_start), cleanup(world_end)]).
+
+test(create, true(H-Home == B-B)) :-
+    there(beta, B),
+    create([on_message(_, _)], A, [host(B)]),
+    agent_property(A, host(H)),
+    agent_property(A, home(Home)),
+    disposed(A).
+test(create_with_everything, true(Fs == [p(7),s(0),s(1)])) :-
+    there(beta, B),
+    create([on_message(_, _), s(0)], A,
+           [host(B), name(scout), facts([s(1)]), tokens([x]),
+            payloads([payload(seven, [p/1], [p(7)])]), lifetime(3)]),
+    facts(A, Fs),
+    sub_atom(A, 0, _, _, 'scout.'),
+    agent_property(A, payloads([seven])),
+    disposed(A).
+test(create_where_there_is_no_such_host, error(existence_error(host, _))) :-
+    there(beta, B),
+    atom_concat(beta, Rest, B),
+    atom_concat(nowhere, Rest, Nowhere),
+    create([main], _, [host(Nowhere)]).
+test(create_where_nobody_answers,
+     error(host_unreachable('x@127.0.0.1:1'))) :-
+    create([main], _, [host('x@127.0.0.1:1')]).
+test(join_one_created_elsewhere, true(O == done)) :-
+    there(beta, B),
+    create([(main :- receive(_))], A, [host(B)]),
+    agent_send(A, go),
+    joined(A, O).
+test(join_after_the_end, true(Os == [done,done])) :-
+    there(beta, B),
+    create([main], A, [host(B)]),
+    joined(A, O1),
+    joined(A, O2),
+    Os = [O1,O2].
+test(join_times_out, true(O == timeout)) :-
+    there(beta, B),
+    create([on_message(_, _)], A, [host(B)]),
+    agent_join(A, O, 0.05),
+    disposed(A).
+test(join_one_that_went_away, true(O == done)) :-
+    there(beta, B), there(gamma, C),
+    create([(main :- r(X), move(X), receive(_-go))], A,
+           [facts([r(B),s(C)])]),
+    wait_until(stands(A, B), 10),
+    agent_send(A, go),
+    joined(A, O).
+test(join_nobody_there, error(existence_error(agent, _))) :-
+    there(beta, B),
+    atom_concat('x.1.2@', B, A),
+    agent_join(A, _, 10).
+test(failed_and_raised, true(Os == [failed,raised(oops)])) :-
+    there(beta, B),
+    findall(O, ( member(G, [fail,throw(oops)]),
+                 create([(main :- G)], A, [host(B)]), joined(A, O) ), Os).
+test(an_agent_joined_by_another_process, true(O == done)) :-
+    create([(main :- receive(_))], A),
+    agent_send(A, go),
+    peer_do(beta, agent_join(A, O, 10)).
+test(faulty_elsewhere, true(S-F == faulty(oops)-[s(1)])) :-
+    there(beta, B),
+    create([s(1), (main :- throw(oops))], A, [host(B)]),
+    joined(A, _),
+    agent_property(A, state(S)),
+    agent_property(A, facts(F)),
+    agent_dispose(A),
+    \+ agent_property(A, state(_)).
+test(properties, true(Ps =@= [ facts([s(1)]), goals([receive(_-go),foo]),
+                               home(H), hops(1), host(B), payloads([x]),
+                               program(test), state(waiting) ])) :-
+    there(beta, B), address(alpha, H),
+    create([s(1), foo, (main :- parent_host(X), move(X), receive(_-go), foo),
+            parent_host(B)], A, [payloads([payload(x, [], [])])]),
+    wait_until(( stands(A, B), state_of(A, waiting) ), 10),
+    findall(P, agent_property(A, P), Ps0),
+    sort(Ps0, Ps),
+    disposed(A).
+test(seen_from_a_third_process, true(H == B)) :-
+    there(beta, B),
+    create([(main :- to(X), move(X), receive(_)), to(B)], A),
+    wait_until(stands(A, B), 10),
+    peer_do(gamma, agent_property(A, host(H))),
+    disposed(A).
+test(ids_are_unique_among_processes, true(N == 150)) :-
+    there(beta, B), there(gamma, C), address(alpha, H),
+    findall(A, ( member(Host, [H,B,C]), between(1, 50, _),
+                 create([main], A, [host(Host)]) ), As),
+    maplist(joined, As, _),
+    findall(Id, ( member(A, As), atomic_list_concat([Id,_,_], @, A) ), Ids),
+    sort(Ids, Set),
+    length(Set, N).
+
+test(move_from_outside, true(F == [s(1)])) :-
+    there(beta, B),
+    create([on_message(_, _), s(1)], A),
+    agent_move(A, B),
+    wait_until(stands(A, B), 10),
+    agent_property(A, facts(F)),
+    disposed(A).
+test(clone_from_outside, true(Hs == [B,B])) :-
+    there(beta, B),
+    create([on_message(_, _)], A, [host(B)]),
+    agent_clone(A, C),
+    findall(H, ( member(X, [A,C]), agent_property(X, host(H)) ), Hs),
+    maplist(disposed, [A,C]).
+test(clone_to_another_process, true(H1-H2 == H-B)) :-
+    there(beta, B), address(alpha, H),
+    create([on_message(_, _), to(B),
+            (main :- to(X), clone(X, W), assertz(s(W)))], A),
+    wait_state(A, resident),
+    fact_of(A, s(parent(C))),
+    wait_state(C, resident),
+    agent_property(A, host(H1)),
+    agent_property(C, host(H2)),
+    fact_of(C, s(clone(A))),
+    maplist(disposed, [A,C]).
+test(payload_from_outside, true(P1-P2 == [seven]-[])) :-
+    there(beta, B),
+    create([(main :- ( receive(_-stop, 0.001) -> true ; main ))], A,
+           [host(B)]),
+    payload_attach(A, payload(seven, [p/1], [p(7)])),
+    agent_property(A, payloads(P1)),
+    payload_detach(A, seven),
+    agent_property(A, payloads(P2)),
+    disposed(A).
+test(errors_of_orders_come_back,
+     error(permission_error(attach, procedure, s/1))) :-
+    there(beta, B),
+    create([on_message(_, _)], A, [host(B)]),
+    call_cleanup(payload_attach(A, payload(x, [s/1], [])), disposed(A)).
+test(order_to_nobody_there, error(existence_error(agent, _))) :-
+    there(beta, B),
+    atom_concat('x.1.2@', B, A),
+    agent_dispose(A).
+test(order_where_nobody_answers, error(host_unreachable(_))) :-
+    agent_dispose('x.1.2@y@127.0.0.1:1').
+test(save_elsewhere_load_here, true(F-H == [s(1),s(2)]-Here)) :-
+    there(beta, B), address(alpha, Here),
+    with_tmp_dir(test_processes:save_and_load(B, F, H)).
+test(orders_to_one_that_never_rests, true(O == disposed)) :-
+    there(beta, B), there(gamma, C),
+    create([(main :- to(X), move(X), main), to(B), to(C)], A),
+    forall(between(1, 10, I),
+           ( atom_concat(p, I, P),
+             payload_attach(A, payload(P, [], [])),
+             payload_detach(A, P),
+             once(agent_property(A, state(_))) )),
+    agent_dispose(A),
+    joined(A, O).
+test(orders_to_one_that_goes_round_three_processes, true(O == disposed)) :-
+    there(beta, B), there(gamma, C), address(alpha, H),
+    create([(main :- round), round_trip([B,C,H]),
+            (round :- round_trip(L), go(L), round),
+            (go([]) :- true), (go([X|Xs]) :- move(X), go(Xs))], A),
+    forall(between(1, 10, I),
+           ( atom_concat(p, I, P),
+             payload_attach(A, payload(P, [], [])),
+             payload_detach(A, P),
+             once(agent_property(A, hops(_))) )),
+    agent_dispose(A),
+    joined(A, O).
+
+:- end_tests(processes).
+
+save_and_load(B, Facts, Host, Dir) :-
+    directory_file_path(Dir, point, File),
+    create([on_message(_, _),
+            (main :- assertz(s(1)), receive(_-go), assertz(s(2)))], A,
+           [host(B)]),
+    wait_state(A, waiting),
+    agent_save(A, File),
+    agent_load(File, C),
+    agent_send(C, go),
+    wait_state(C, resident),
+    agent_property(C, facts(Facts)),
+    agent_property(C, host(Host)),
+    maplist(disposed, [A,C]).
+
+:- begin_tests(messages_between_processes,
+               [setup(world_start), cleanup(world_end)]).
+
+test(in_order, true(Ns == Sent)) :-
+    numlist(1, 2000, Sent),
+    there(beta, B),
+    collector(Cs),
+    create(Cs, A, [host(B)]),
+    forall(member(N, Sent), agent_send(A, N)),
+    wait_until(has_all(A, 2000), 20),
+    findall(N, fact_of(A, s(N)), Ns),
+    disposed(A).
+test(answers, true(O == done)) :-
+    there(beta, B),
+    create([(on_message(W, ask(X)) :- Y is X*2, send(W, Y))], A, [host(B)]),
+    create([(main :- s(Who), send(Who, ask(21)), receive(Who-42))], C,
+           [facts([s(A)])]),
+    joined(C, O),
+    disposed(A).
+test(find_one_that_went_away, true(Ns == [1,2,3])) :-
+    there(beta, B), there(gamma, C),
+    collector(Cs),
+    create([(main :- to(X,Y), move(X), move(Y)), to(B,C)|Cs], A),
+    wait_until(stands(A, C), 10),
+    forall(member(N, [1,2,3]), agent_send(A, N)),
+    wait_until(has_all(A, 3), 10),
+    findall(N, fact_of(A, s(N)), Ns),
+    disposed(A).
+test(from_a_process_that_has_never_heard_of_it, true(Ns == [1])) :-
+    there(beta, B),
+    collector(Cs),
+    create([(main :- to(X), move(X)), to(B)|Cs], A),
+    wait_until(stands(A, B), 10),
+    peer_do(gamma, agent_send(A, 1)),
+    wait_until(has_all(A, 1), 10),
+    findall(N, fact_of(A, s(N)), Ns),
+    disposed(A).
+test(hints, [forall(member(Hint, [alpha,beta,gamma])), true(Ns == [1])]) :-
+    there(beta, B),
+    ( Hint == alpha -> H = alpha ; there(Hint, H) ),
+    collector(Cs),
+    create([(main :- to(X), move(X)), to(B)|Cs], A),
+    wait_until(stands(A, B), 10),
+    agent_send(at(A, H), 1),
+    wait_until(has_all(A, 1), 10),
+    findall(N, fact_of(A, s(N)), Ns),
+    disposed(A).
+test(a_moving_target_gets_all_once, true(N == 1500)) :-
+    there(beta, B), there(gamma, C), address(alpha, H),
+    create([ (main :- ( receive(_-stop, 0)
+                      -> true
+                      ;  round_trip(L), go(L), main )),
+             round_trip([B,C,H]),
+             (go([]) :- true), (go([X|Xs]) :- move(X), go(Xs)),
+             (on_message(_, M) :- assertz(s(M))) ], A),
+    forall(member(P, [beta,gamma]),
+           peer_do(P, send_in_background(A, 500))),
+    forall(between(1, 500, I), agent_send(A, n(I))),
+    agent_send(A, stop),
+    wait_until(has_all(A, 1500), 30),
+    findall(I, fact_of(A, s(n(I))), Is),
+    length(Is, N),
+    sort(Is, Set),
+    assertion(length(Set, 500)),
+    disposed(A).
+test(to_one_that_has_ended_is_lost_quietly) :-
+    there(beta, B),
+    create([main], A, [host(B)]),
+    joined(A, done),
+    agent_send(A, hello),
+    peer_do(beta, true).
+test(to_nobody_there_is_reported_there) :-
+    there(beta, B),
+    atom_concat('x.1.2@', B, A),
+    agent_send(A, hello),
+    wait_until(( peer_messages(beta, Lines), member(Line, Lines),
+                 sub_string(Line, _, _, _, "x.1.2@") ), 10).
+
+:- end_tests(messages_between_processes).
+
+:- begin_tests(hosts_of_other_processes,
+               [setup(world_start), cleanup(world_end)]).
+
+test(remote, true(X-Y == 3-B)) :-
+    there(beta, B),
+    remote(B, ( X is 1+2, here(Y) )).
+test(remote_fails, [fail]) :-
+    there(beta, B), remote(B, fail).
+test(remote_once, true(Xs == [1])) :-
+    there(beta, B), findall(X, remote(B, member(X, [1,2])), Xs).
+test(remote_error, error(type_error(evaluable, foo/0))) :-
+    there(beta, B), remote(B, _ is foo).
+test(remote_exception, throws(oops(1))) :-
+    there(beta, B), remote(B, throw(oops(1))).
+test(remote_exception_that_cannot_travel, error(_)) :-
+    there(beta, B), remote(B, ( current_output(S), throw(error(foo(S), _)) )).
+test(remote_result_that_cannot_travel, error(type_error(mobile_term, _))) :-
+    there(beta, B), remote(B, current_output(_)).
+test(remote_goal_that_cannot_travel, error(type_error(mobile_term, _))) :-
+    there(beta, B), current_output(S), remote(B, write(S, x)).
+test(remote_shares_variables, true(X == Y)) :-
+    there(beta, B), remote(B, X = Y).
+test(remote_tuple_space, true(X == 1)) :-
+    there(beta, B), remote(B, leave(p(1))), remote(B, take(p(X))).
+test(remote_where_there_is_no_such_host, error(existence_error(host, _))) :-
+    there(beta, B), atom_concat(beta, Rest, B),
+    atom_concat(nowhere, Rest, Nowhere),
+    remote(Nowhere, true).
+test(remote_and_back, true(X == H)) :-
+    there(beta, B), address(alpha, H),
+    remote(B, typhon:remote(H, here(X))).
+test(remote_from_many_threads, true(N == 100)) :-
+    there(beta, B),
+    numlist(1, 100, Is),
+    concurrent_maplist([I]>>remote(B, leave(i(I))), Is),
+    remote(B, aggregate_all(count, sense(i(_)), N)).
+test(remote_of_a_process_that_dies_and_comes_back,
+     true(E = connection_lost(D))) :-
+    test_peers:start(delta),
+    there(delta, D),
+    thread_create(( catch(remote(D, ( leave(busy), repeat, fail )),
+                          error(E0, _), true),
+                    thread_exit(E0) ), T),
+    wait_until(peer_do(delta, remote(delta, sense(busy))), 10),
+    peer_kill(delta),
+    peer_restart(delta),
+    thread_join(T, exited(E)).
+
+test(host_property, true(S-N == running-B)) :-
+    there(beta, B),
+    host_property(B, state(S)),
+    host_property(B, address(N)).
+test(host_property_of_nobody, error(existence_error(host, _))) :-
+    there(beta, B), atom_concat(beta, Rest, B),
+    atom_concat(nowhere, Rest, Nowhere),
+    host_property(Nowhere, state(_)).
+test(host_property_where_nobody_answers, error(host_unreachable(_))) :-
+    host_property('x@127.0.0.1:1', state(_)).
+test(link, true(A-C == [B]-[H])) :-
+    there(beta, B), address(alpha, H),
+    link(alpha, B),
+    host_property(alpha, neighbours(A)),
+    host_property(B, neighbours(C)),
+    unlink(B, H),
+    host_property(alpha, neighbours([])),
+    host_property(B, neighbours([])).
+test(link_two_others, true(X-Y == [C]-[B])) :-
+    there(beta, B), there(gamma, C),
+    link(B, C),
+    host_property(B, neighbours(X)),
+    host_property(C, neighbours(Y)),
+    unlink(C, B),
+    host_property(B, neighbours([])).
+
+:- end_tests(hosts_of_other_processes).
+
+:- begin_tests(peers_that_hang).
+
+test(host_stop, true(Seconds < 5)) :-
+    no_leaks(with_peers([beta], stop_beside_a_hanging_one(Seconds))).
+
+stop_beside_a_hanging_one(Seconds) :-
+    host_start(alpha),
+    there(beta, B), address(alpha, A),
+    forall(between(1, 10, _),
+           create([(main :- round(A, B)),
+                   (round(X, Y) :- move(Y), move(X), round(X, Y))], _)),
+    create([on_message(_, _)], C, [host(B)]),
+    peer_signal(beta, stop),
+    forall(between(1, 1000, I), agent_send(C, I)),
+    get_time(T0),
+    call_cleanup(true, host_stop(alpha)),
+    get_time(T1),
+    Seconds is T1-T0.
+
+:- end_tests(peers_that_hang).

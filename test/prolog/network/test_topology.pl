@@ -1,0 +1,132 @@
+:- module(test_topology, []).
+:- use_module('../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists),
+              [append/3, member/2, numlist/3, sum_list/2]).
+:- use_module(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
+:- use_module(library(typhon/network/topology)).
+
+degrees(N, Edges, Degrees) :-
+    numlist(1, N, Hosts),
+    maplist(degree(Edges), Hosts, Degrees).
+
+degree(Edges, Host, Degree) :-
+    aggregate_all(count, touches(Host, Edges), Degree).
+
+touches(Host, Edges) :-
+    member(A-B, Edges),
+    ( A == Host ; B == Host ).
+
+connected(N, Edges) :-
+    numlist(1, N, Hosts),
+    findall(B-A, member(A-B, Edges), Back),
+    append(Edges, Back, Both),
+    vertices_edges_to_ugraph(Hosts, Both, Graph),
+    reachable(1, Graph, Reachable),
+    length(Reachable, N).
+
+well_formed(N, Edges) :-
+    sort(Edges, Edges),
+    forall(member(A-B, Edges),
+           ( integer(A), integer(B), 1 =< A, A < B, B =< N )).
+
+:- begin_tests(topologies).
+
+test(every_shape_is_well_formed_and_connected,
+     forall(member(T, [star_bus(6,10), star_bus(1,1), star_bus(4,1), ring(1),
+                       ring(2), ring(3), ring(60), tree(1), tree(60),
+                       grid(6,10), grid(1,5), grid(1,1), mesh(1), mesh(50),
+                       random(50, 0.1), random(50, 0.0), random(9, 1),
+                       edges([a-b, b-c])]))) :-
+    topology_edges(T, 1, N, Edges),
+    well_formed(N, Edges),
+    connected(N, Edges),
+    topology_names(T, Names),
+    length(Names, N).
+test(star_bus_of_sixty) :-
+    topology_edges(star_bus(6, 10), 1, N, Edges),
+    N == 60,
+    length(Edges, 59),
+    degrees(N, Edges, Degrees),
+    msort(Degrees, Sorted),
+    length(Leaves, 54),
+    maplist(=(1), Leaves),
+    append(Leaves, [10, 10, 11, 11, 11, 11], Sorted).
+test(star_bus_hubs_in_a_chain, Hubs == [1-11, 11-21]) :-
+    topology_edges(star_bus(3, 10), 1, _, Edges),
+    findall(A-B, ( member(A-B, Edges), A mod 10 =:= 1, B mod 10 =:= 1 ),
+            Hubs).
+test(ring, true) :-
+    topology_edges(ring(60), 1, N, Edges),
+    degrees(N, Edges, Degrees),
+    maplist(=(2), Degrees).
+test(small_rings, [Two, One] == [[1-2], []]) :-
+    topology_edges(ring(2), 1, 2, Two),
+    topology_edges(ring(1), 1, 1, One).
+test(tree, Edges == [1-2, 1-3, 2-4, 2-5, 3-6, 3-7]) :-
+    topology_edges(tree(7), 1, 7, Edges).
+test(grid, Edges == [1-2, 1-4, 2-3, 2-5, 3-6, 4-5, 5-6]) :-
+    topology_edges(grid(2, 3), 1, 6, Edges).
+test(grid_of_sixty, L == 104) :-
+    topology_edges(grid(6, 10), 1, 60, Edges),
+    length(Edges, L).
+test(mesh, L == 4950) :-
+    topology_edges(mesh(100), 1, 100, Edges),
+    length(Edges, L).
+test(random_without_chance_is_a_tree, L == 29) :-
+    topology_edges(random(30, 0), 7, 30, Edges),
+    length(Edges, L).
+test(random_with_certainty_is_a_mesh, L == 435) :-
+    topology_edges(random(30, 1.0), 7, 30, Edges),
+    length(Edges, L).
+test(random_is_repeatable, A == B) :-
+    topology_edges(random(40, 0.2), 5, 40, A),
+    topology_edges(random(40, 0.2), 5, 40, B),
+    topology_edges(random(40, 0.2), 6, 40, C),
+    A \== C.
+test(random_has_the_density_asked_for, true) :-
+    findall(L,
+            ( between(1, 20, Seed),
+              topology_edges(random(50, 0.3), Seed, 50, Edges),
+              length(Edges, L) ),
+            Ls),
+    sum_list(Ls, Sum),
+    Mean is Sum / (20 * 1225),
+    abs(Mean - 0.3) < 0.012.            % four standard deviations
+test(edges_by_name, N-Edges-Names == 4-[1-2, 2-3, 2-4]-[a, n7, b, n2]) :-
+    T = edges([a-7, 7-b, b-7, n2-7]),
+    topology_edges(T, 0, N, Edges),
+    topology_names(T, Names).
+test(names, Names == [n1, n2, n3]) :-
+    topology_names(ring(3), Names).
+
+:- end_tests(topologies).
+
+:- begin_tests(topology_errors).
+
+nonsense(_, instantiation_error).
+nonsense(ring(_), instantiation_error).
+nonsense(ring(0), type_error(positive_integer, 0)).
+nonsense(ring(many), type_error(positive_integer, many)).
+nonsense(torus(3), domain_error(topology, torus(3))).
+nonsense(grid(3), domain_error(topology, grid(3))).
+nonsense(random(5, 1.5), domain_error(probability, 1.5)).
+nonsense(random(5, p), type_error(number, p)).
+nonsense(edges([]), domain_error(topology, edges([]))).
+nonsense(edges([a]), type_error(edge, a)).
+nonsense(edges([a-a]), domain_error(edge, a-a)).
+nonsense(edges([1-n1]), domain_error(edge, 1-n1)).
+nonsense(edges([a-"b"]), type_error(host_name, "b")).
+nonsense(edges(a), type_error(list, a)).
+
+test(nonsense, forall(nonsense(Topology, Formal))) :-
+    catch(topology_edges(Topology, 1, _, _), error(Formal1, _), true),
+    assertion(Formal1 =@= Formal),
+    catch(topology_names(Topology, _), error(Formal2, _), true),
+    assertion(Formal2 =@= Formal).
+test(seed, error(type_error(integer, a))) :-
+    topology_edges(ring(3), a, _, _).
+
+:- end_tests(topology_errors).
