@@ -14,7 +14,6 @@ so it is tried in a thread of its own, which a dead network may hold for a
 while after the answer is known.
 */
 
-:- use_module(library(lists), [member/2]).
 :- use_module(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_host_to_address/2,
                 tcp_socket/1

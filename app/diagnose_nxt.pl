@@ -11,7 +11,7 @@ and stops with advice at the step that does not work.  Nothing moves.
 */
 
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [memberchk/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module('../prolog/typhon/nxt').
 :- use_module('../prolog/typhon/nxt/helper', [helper_python/2]).

@@ -22,7 +22,6 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(commands, [command/4, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).

@@ -2,11 +2,10 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/wire/outbox), []).
 :- use_module(library(typhon/wire/session), []).
-:- use_module(library(apply), [maplist/3, foldl/4]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth0/3, append/3]).
 :- use_module(library(socket)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
-:- use_module(library(readutil), [read_line_to_string/2]).
 
 /*  Hops between two processes, against a bare ping-pong of the same bytes.
 

@@ -1,6 +1,6 @@
 :- use_module(common).
 :- use_module(library(typhon)).
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [member/2]).
 
 /*  Many agents in one process: birth, memory, and what they cost others. */
 

@@ -1,5 +1,5 @@
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).

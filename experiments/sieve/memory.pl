@@ -7,7 +7,7 @@
 :- use_module(rounds, [plan/2, plan_rounds/2, population/3, waits/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists),
-              [append/3, member/2, nth0/3, nth1/3, numlist/3, sum_list/2]).
+              [member/2, nth0/3, nth1/3, numlist/3, sum_list/2]).
 
 /** <module> Memory cells: the second response to an antigen
 

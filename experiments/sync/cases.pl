@@ -9,8 +9,7 @@
 :- use_module(run, [sync_result/4]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists),
-              [append/3, max_list/2, member/2, memberchk/2, min_list/2]).
+:- use_module(library(lists), [max_list/2, member/2, memberchk/2, min_list/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 
 /** <module> Runs that have been made, read again

@@ -30,7 +30,7 @@ _Threading_: the main thread.
 :- use_module(library(typhon/wire/auth), [authenticate/5]).
 :- use_module(library(typhon/wire/frame), [frame_write/2, term_bytes/3]).
 :- use_module(library(typhon/wire/hello),
-              [hello/4, hello_codec/3, line_read/3, line_write/2]).
+              [hello/4, line_read/3, line_write/2]).
 
 %!  fuzz(+Options, -Faults:list) is det.
 %

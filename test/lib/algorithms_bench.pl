@@ -8,7 +8,6 @@
           ]).
 :- use_module(common).
 :- use_module(fake_agent).
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists), [append/3, member/2, nth0/3, numlist/3]).
 :- use_module(library(ordsets), [ord_union/3]).

@@ -23,7 +23,6 @@
 *Threading*: for the main thread of a test.
 */
 
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
 :- use_module(peers).
 

@@ -6,9 +6,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists),
-              [append/2, append/3, max_list/2, member/2, numlist/3,
-               sum_list/2]).
+:- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
 :- use_module(library(typhon)).
 :- use_module('../../../agents/sieve/operator').
 :- use_module('../../../experiments/sieve/programs').

@@ -1,4 +1,4 @@
-:- use_module('../../lib/common', [wait_until/2, with_tmp_dir/1, project_file/2]).
+:- use_module('../../lib/common', [wait_until/2, with_tmp_dir/1]).
 :- use_module('../../lib/fake_agent').
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).

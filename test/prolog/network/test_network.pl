@@ -2,10 +2,9 @@
 :- use_module('../../lib/common').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists),
-              [append/3, last/2, member/2, nth1/3, numlist/3]).
+:- use_module(library(lists), [last/2, member/2, nth1/3]).
 :- use_module(library(ordsets), [ord_subset/2]).
 :- use_module(library(process), [process_create/3, process_kill/2]).
 :- use_module(library(readutil),

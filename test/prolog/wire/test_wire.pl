@@ -18,7 +18,7 @@
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/wire/endpoint)).
 :- use_module(library(typhon/wire/session), [session/2]).
-:- use_module('../../lib/endpoint_peer', [big_string/2, sleep_until/1]).
+:- use_module('../../lib/endpoint_peer', [sleep_until/1]).
 
 :- dynamic
     peer/3.                             % Address, Pid, In
