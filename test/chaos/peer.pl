@@ -129,12 +129,13 @@ tuples(Tuples) :-
             Lists),
     append(Lists, Tuples).
 
-%   outcomes(+Ids, -Pairs): how those of Ids ended that have.
+%   outcomes(+Ids, -Pairs): how those of Ids ended that have. News of the last
+%   ends may be under way: a courier pauses for up to ten seconds.
 
 outcomes(Ids, Pairs) :-
     findall(Id-Outcome,
             ( member(Id, Ids),
-              catch(agent_join(Id, Outcome, 0.5), error(Formal, _),
+              catch(agent_join(Id, Outcome, 12), error(Formal, _),
                     Outcome = error(Formal)) ),
             Pairs).
 
