@@ -10,7 +10,7 @@
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(machine, [body_goals/4]).
+:- use_module(bodies, [body_goals/4]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(programs, [clause_parts/3, program_hash/2]).
 

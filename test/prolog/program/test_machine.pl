@@ -30,9 +30,8 @@ travel(Terms, Reply, Outcome, Trace, Stops) :-
     program_hash(Program, Hash),
     code_install(Hash, Program),
     code_module(Hash, Module),
-    machine_goals(main, Goals),
     fresh(Module, Initial, Agent),
-    journey(Agent, Module, Goals, Reply, 0, Stops, Outcome, Final),
+    journey(Agent, Module, [main], Reply, 0, Stops, Outcome, Final),
     findall(X, Final:t_(X), Trace),
     '$destroy_module'(Final).
 
