@@ -404,15 +404,6 @@ test(several_at_one_time, true(N == 10)) :-
                  forall(between(1, 10, I), alarm_set(T, test(I), t)),
                  wait_until(test_scheduler:count(10), 5) )),
     count(N).
-test(cleared, true(E == [y-t])) :-
-    scheduling(( at(0.05, T), at(0.1, U),
-                 alarm_set(T, test(x), t),
-                 alarm_set(U, test(y), t),
-                 alarm_clear(T, test(x), t),
-                 wait_until(test_scheduler:happened(y-t), 5) )),
-    findall(X, event(X), E).
-test(clear_what_is_not_set) :-
-    scheduling(( at(0.05, T), alarm_clear(T, test(x), t) )).
 test(an_earlier_one_comes_later, true(E == [early-t,late-t])) :-
     scheduling(( at(0.2, T), at(0.05, U),
                  alarm_set(T, test(late), t),
