@@ -5,8 +5,7 @@
             scheduler_unlimit/1,        % +Host
             schedule/2,                 % +Host, +Agent
             scheduler_call/1,           % :Goal
-            scheduler_signal/1,         % :Goal
-            scheduler_workers/1         % -Count
+            scheduler_signal/1          % :Goal
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
@@ -17,8 +16,7 @@
               [limit_clear/2, limit_enter/3, limit_set/2, limits_forget/0]).
 :- use_module(queue, [enqueue/1, queue_begin/1, queue_end/1, run_queue/1]).
 :- use_module(timer, [timer_start/0, timer_stop/0]).
-:- use_module(workers,
-              [worker/1, worker_add/1, workers_count/1, workers_end/1]).
+:- use_module(workers, [worker/1, worker_add/1, workers_end/1]).
 
 /** <module> The scheduler: few threads for many agents
 
@@ -78,11 +76,6 @@ scheduler_stop :-
     held_forget,
     limits_forget.
 scheduler_stop.
-
-%!  scheduler_workers(-Count) is det.
-
-scheduler_workers(Count) :-
-    workers_count(Count).
 
 %!  scheduler_limit(+Host, +Concurrency) is det.
 %

@@ -25,16 +25,15 @@ may be asked at once.
 Most alarms never go off, so setting one seldom wakes the timer: only one
 that comes before the next does, and many that it has not heard of yet.
 
-*Threading*: alarms from any thread; they are facts before the timer hears
-of them.  The flag typhon_next says what the timer waits for; it is written
-before the timer looks at the queue for the last time, and read by who sets
-an alarm after it was put there: so one of the two sees the other.
+*Threading*: alarms from any thread.  The flag typhon_next says what the
+timer waits for; it is written before the timer looks for new alarms for the
+last time, and read by who adds one after that: so one of the two sees the
+other.
 
-The index only says what the facts say.  So whatever happens to the timer,
-no alarm is lost with it: after an error it makes a new index; when its
-thread ends nevertheless, another begins with the same facts.  If no thread
-can be made, whoever sets the next alarm tries again, as do idle workers
-(timer_check/0).
+Whatever happens to the timer, no alarm is lost with it: after an error it
+makes a new index; when its thread ends nevertheless, another begins.  If no
+thread can be made, whoever sets the next alarm tries again, as do idle
+workers (timer_check/0).
 */
 
 :- multifile
@@ -60,13 +59,20 @@ timer_start :-
                  new_timer )).
 
 new_timer :-
-    (   thread_property(_, alias(typhon_timer))
-    ->  Alias = []                      % of one that is about to end
-    ;   Alias = [alias(typhon_timer)]
-    ),
-    thread_create(tick, Timer, [at_exit(typhon_timer:timer_ended)|Alias]),
+    alias(Alias),
+    thread_create(tick, Timer,
+                  [alias(Alias), at_exit(typhon_timer:timer_ended)]),
     assertz(timer(Timer)),
     retractall(told).
+
+%   One that is about to end may have the name still.
+
+alias(typhon_timer) :-
+    \+ thread_property(_, alias(typhon_timer)),
+    !.
+alias(Alias) :-
+    flag(typhon_timer, N, N+1),
+    atom_concat(typhon_timer_, N, Alias).
 
 %!  timer_stop is det.
 %
@@ -135,8 +141,9 @@ no_timer(Formal) :-
                 *******************************/
 
 %!  alarm_set(+Stamp, +Agent, +Token) is det.
+%!  alarm_in(+Seconds, +Agent, +Token) is det.
 %
-%   Have fire(Agent, Token) called at the real time Stamp.
+%   Have fire(Agent, Token) called at the real time Stamp, or in Seconds.
 
 alarm_set(Stamp0, Agent, Token) :-
     Stamp is float(Stamp0),
@@ -145,10 +152,6 @@ alarm_set(Stamp0, Agent, Token) :-
     ->  hasten(Stamp)
     ;   true
     ).
-
-%!  alarm_in(+Seconds, +Agent, +Token) is det.
-%
-%   As alarm_set/3, in so many seconds of real time.
 
 alarm_in(Seconds, Agent, Token) :-
     get_time(Now),
@@ -160,18 +163,15 @@ alarm_in(Seconds, Agent, Token) :-
 %   How many alarms, and how many stamps in the index; for tests.
 
 alarm_count(Alarms, Indexed) :-
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        ( tell_timer(count(Queue)),
-          thread_get_message(Queue, Indexed) ),
-        message_queue_destroy(Queue)),
+    setup_call_cleanup(message_queue_create(Queue),
+                       ( tell_timer(count(Queue)),
+                         thread_get_message(Queue, Indexed) ),
+                       message_queue_destroy(Queue)),
     alarms_number(Alarms).
 
 hasten(Stamp) :-
     (   urgent(Stamp)
     ->  tell_timer(look)
-    ;   timer(_)
-    ->  true
     ;   timer_check
     ).
 
@@ -184,15 +184,15 @@ urgent(_) :-
     Count > 500.
 
 tell_timer(Message) :-
-    (   timer(Timer)
-    ->  tell(Timer, Message)
-    ;   timer_check
-    ).
+    timer(Timer),
+    !,
+    tell(Timer, Message).
+tell_timer(_) :-
+    timer_check.
 
 tell(Timer, Message) :-
     catch(thread_send_message(Timer, Message),
-          error(existence_error(_, _), _),
-          true).
+          error(existence_error(_, _), _), true).
 
                 /*******************************
                 *           THE TIMER          *
@@ -265,8 +265,6 @@ heard(count(Queue), Index, Index) :-
     index_size(Index, Size),
     thread_send_message(Queue, Size).
 heard(_, Index, Index).
-
-%   What is due may have been forgotten.
 
 rung(Stamp, Index0, Index) :-
     get_time(Now),

@@ -8,6 +8,7 @@
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -104,7 +105,8 @@ install(Hash, Program, Kinds) :-
                 throw(error(Formal, Context)) ))
     ),
     assertz(code_program(Hash, Program)),
-    assertz(code_module(Hash, Module)).
+    assertz(code_module(Hash, Module)),
+    debug(typhon(program), 'program ~w is in module ~q', [Hash, Module]).
 
 %!  code_clear is det.
 %
@@ -136,7 +138,8 @@ evict.
 retire(Hash) :-
     retract(code_module(Hash, Module)),
     retractall(code_program(Hash, _)),
-    assertz(retired(Hash, Module)).
+    assertz(retired(Hash, Module)),
+    debug(typhon(program), 'program ~w is retired', [Hash]).
 
                 /*******************************
                 *          COMPILING           *

@@ -2,7 +2,6 @@
           [ program_read/5,             % +Spec, -Program, -Initial, -Kinds,
                                         % -Sources
             payload_load/2,             % +Spec, -Payload
-            program_problems/2,         % +Spec, -Problems
             program_hash/2,             % +Program, -Hash
             agent_check/1               % +Spec
           ]).
@@ -75,18 +74,13 @@ payload_load(Spec, payload(Name, PIs, Clauses)) :-
     append(Provided, Defined, PIs0),
     sort(PIs0, PIs).
 
-%!  program_problems(+Spec, -Problems:list) is det.
-%
-%   All problems of an agent program, in the order of the file.
-
-program_problems(Spec, Problems) :-
-    source_terms(Spec, Located),
-    program(Located, _, _, _, Problems).
-
 no_problems([]).
 no_problems([problem(Formal, Location, Advice)|_]) :-
     advice_text(Advice, Text),
     throw(error(Formal, context(Location, Text))).
+
+%   program(+Located, -Program, -Initial, -Kinds, -Problems): the problems in
+%   the order of the file.
 
 program(Located, program(Name, State, Libraries, Static), Initial, Kinds,
         Problems) :-

@@ -95,10 +95,6 @@ syntax_line(Line, File) :-
     catch(load(File), error(syntax_error(_), file(File, Line, _, _)), true),
     nonvar(Line).
 
-problem_lines(Lines, File) :-
-    program_problems(File, Problems),
-    findall(Line, member(problem(_, File:Line, _), Problems), Lines).
-
 load_quietly(File) :-
     catch(load(File), error(_, _), true).
 
@@ -172,8 +168,8 @@ test(not_a_program, error(type_error(callable, 7))) :-
 test(no_declaration, F-L == existence_error(declaration, agent)-2) :-
     problem(['% nothing', 'main.'], F, L, A),
     says(A, 'begin the file with :- agent(Name').
-test(empty_file, [F == existence_error(declaration, agent)]) :-
-    program_problems(clauses([]), [problem(F, _, _)|_]).
+test(empty_file, error(existence_error(declaration, agent))) :-
+    load(clauses([])).
 test(declaration_that_is_none, F-L == existence_error(declaration, agent)-2) :-
     problem(['main.', ':- agent("census", []).'], F, L, _).
 test(second_declaration, F-L == permission_error(declare, agent, b)-3) :-
@@ -272,8 +268,8 @@ test(static_clauses_cannot_be_changed, Ms == [assertz,retract,retractall]) :-
 test(first_in_the_file, F-L == type_error(callable, 1)-2) :-
     problem([':- agent(a).', '1.', ':- foo.', 'main :- 3.'], F, L, _).
 test(all_in_the_order_of_the_file, Lines == [1,2,3,4]) :-
-    with_file([':- agent(a, [x]).', '1.', ':- foo.', 'p :- 3.', 'main.'],
-              test_program:problem_lines(Lines)).
+    check([':- agent(a, [x]).', '1.', ':- foo.', 'p :- 3.', 'main.'], Told),
+    findall(Line, member(error-Line, Told), Lines).
 test(payload_without_a_name, F-L == existence_error(declaration, payload)-1) :-
     with_file(['p(1).'],
               test_program:error_of(payload, F, L, A)),
