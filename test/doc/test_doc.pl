@@ -24,7 +24,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/program/programs), [payload_load/2, program_read/5]).
+:- use_module(library(typhon/program/programs),
+              [payload_load/2, program_read/5]).
 
 document(File) :-
     member(Pattern, ['README.md', 'doc/*.md']),

@@ -177,7 +177,8 @@ typhon_endpoint:requested(node, Order, _, ReplyTo) :-
 serve :-
     thread_get_message(Message),
     (   Message = order(Order, ReplyTo)
-    ->  debug(typhon(network), 'order ~p', [Order]),
+    ->  functor(Order, What, _),
+        debug(typhon(network), 'order: ~w', [What]),
         answer(Order, Answer),
         endpoint_reply(ReplyTo, Answer),
         serve

@@ -129,7 +129,8 @@ result(late, Carrier, _) :-
 %   peer that is dead from one that will be back.
 
 carriers_ask(Network, Ps, Order, Seconds, Watch, Results) :-
-    debug(typhon(network), 'processes ~w of ~w: ~p', [Ps, Network, Order]),
+    functor(Order, What, _),            % options of hosts may be secret
+    debug(typhon(network), 'processes ~w of ~w: ~w', [Ps, Network, What]),
     deadline(Seconds, Deadline),
     setup_call_cleanup(
         message_queue_create(Queue),

@@ -69,6 +69,9 @@ happens(y-t(_)) :-
 happens(X) :-
     assertz(event(X)).
 
+scheduler_threads(Threads) :-
+    findall(Thread, ( worker(Thread) ; typhon_timer:timer(Thread) ), Threads).
+
 :- begin_tests(scheduler).
 
 test(runs_what_is_scheduled, N == 1000) :-
@@ -178,6 +181,13 @@ test(unlimited_again, N == 30) :-
                  forall(between(1, 30, _), thread_send_message(Q, go)) )),
     count(N),
     message_queue_destroy(Q).
+test(threads_have_names, [true(Others == [])]) :-
+    scheduling(( scheduler_threads(Threads),
+                 findall(Thread,
+                         ( member(Thread, Threads),
+                           \+ sub_atom(Thread, 0, _, _, typhon_) ),
+                         Others) )),
+    assertion(length(Threads, 3)).
 test(stop_ends_stuck_workers) :-
     scheduling(( scheduler_call(test_scheduler:loop),
                  wait_until(test_scheduler:happened(looping), 5) )).
