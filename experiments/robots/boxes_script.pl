@@ -65,7 +65,7 @@ side(2, 1.2, -90).
 %
 %   The payloads that a robot needs for a job, loaded.
 %
-%   @error those of a payload file, see program_problems/2
+%   @error those of a payload file, see agent_check/1
 
 job_program(Program) :-
     maplist(payload_load,

@@ -50,7 +50,7 @@ join(Host, Port) :-
 %   has the name of the payload and no arguments, and lays it down again,
 %   also when that fails or raises something.
 %
-%   @error those of a payload file, see program_problems/2
+%   @error those of a payload file, see agent_check/1
 
 crew_task(Name, Spec, Name-Goal) :-
     payload_load(Spec, Payload),

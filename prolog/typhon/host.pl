@@ -26,8 +26,6 @@ This is the door of the layer: who is above takes what it needs from here.
             ]).
 :- reexport(host/timer, [alarm_set/3]).
 :- reexport(host/runtime, [runtime_acquire/2, runtime_release/1]).
-:- reexport(host/hosting,
-            [ host_start/1, host_start/2, host_stop/1, host_property/2,
-              link/2, unlink/2
-            ]).
+:- reexport(host/hosting, [host_start/1, host_start/2, host_stop/1]).
+:- reexport(host/host_questions, [host_property/2, link/2, unlink/2]).
 :- reexport(host/remote, [remote/2]).

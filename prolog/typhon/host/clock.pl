@@ -3,8 +3,7 @@
             clock_clear/1,              % +Host
             clock/3,                    % ?Host, ?Epoch, ?Rate
             host_time/2,                % +Host, -Seconds
-            real_time/3,                % +Host, +Seconds, -Stamp
-            real_seconds/3              % +Host, +Seconds, -Real
+            real_time/3                 % +Host, +Seconds, -Stamp
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 
@@ -57,11 +56,3 @@ host_time(Host, Seconds) :-
 real_time(Host, Seconds, Stamp) :-
     clock(Host, Epoch, Rate),
     Stamp is Epoch+Seconds/Rate.
-
-%!  real_seconds(+Host, +Seconds, -Real:float) is semidet.
-%
-%   A duration in host seconds as one in real seconds.
-
-real_seconds(Host, Seconds, Real) :-
-    clock(Host, _, Rate),
-    Real is Seconds/Rate.

@@ -1,38 +1,35 @@
 :- module(typhon_held,
-          [ held_worker/0,
-            held_ended/1,               % +Worker
-            held_begin/2,               % +Work, -Turn
-            held_end/1,                 % +Turn
-            held_turns/1,               % -Count
-            held_room/2,                % +Count, +Max
+          [ held_room/2,                % +Count, +Max
             held_full/1,                % +Why
             held_back/1,                % +Work
             held_review/3,              % +Count, +Max, -Works
             held_forget/0
           ]).
-:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3, member/2, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(census,
+              [ census/1, census_begin/0, census_end/0, held_count/3,
+                held_since/3, turn_of/2, work_doer/3 ]).
 
-/** <module> Workers that are held by what blocks
+/** <module> What is done when workers are held
 
 A native goal that blocks holds its worker; nobody knows beforehand which
 goals do.  When all workers the pool may have are busy and the run queue
-does not move, a census begins: from then on workers note what they do and
-since when.  One that has not come back for `held_seconds` is held.  The
-pool may grow beyond its maximum by as many as are held, so there are
-workers for what does not block, and people are told which agents do.
+does not move, a census begins, see room `census`.  A worker that has not
+come back for `held_seconds` is held.  The pool may grow beyond its maximum
+by as many as are held, so there are workers for what does not block, and
+people are told which agents do.
 
 When there are `held_workers`, or no more threads can be made, the pool is
 full.  Then it matters what kinds of work hold workers: agents of one
 program are of one kind.  These kinds are held back until fewer workers are
 held.  `max_workers` more can be made for the other kinds.
 
-The census ends when few workers are held.  Without one the notes would
-cost a third of the speed of hops; the count of turns is all that is kept.
+The census ends when few workers are held.
 
-*Threading*: workers note what they begin and end.  held_room/2,
-held_full/1 and held_review/3 are for the timer's thread alone.
+*Threading*: workers ask held_back/1.  The rest is for the timer's thread
+alone.
 */
 
 :- multifile
@@ -46,82 +43,16 @@ held_full/1 and held_review/3 are for the timer's thread alone.
            "When there are so many workers, what blocks is held back").
 
 :- dynamic
-    census/1,                   % Began
-    returned/1,                 % Worker: came back during the census
-    turn/4,                     % Worker, agent or goal, Agent or PI, Since
     full/1,                     % Why there can be no more workers
     noted/0,                    % it is known what blocks
     blocking/1,                 % Kind: is held back
     back/1,                     % Work that is held back
     warned/0.                   % that the pool is beyond its maximum
 
-                /*******************************
-                *             TURNS            *
-                *******************************/
-
-%!  held_worker is det.
-%!  held_ended(+Worker) is det.
-%
-%   This thread is a worker from now on; Worker has ended.
-
-held_worker :-
-    (   census(_)
-    ->  thread_self(Me),
-        comes_back(Me)
-    ;   true
-    ).
-
-held_ended(Worker) :-
-    retractall(returned(Worker)),
-    retractall(turn(Worker, _, _, _)).
-
-comes_back(Worker) :-
-    (   returned(Worker)
-    ->  true
-    ;   assertz(returned(Worker))
-    ).
-
-%!  held_begin(+Work, -Turn) is det.
-%!  held_end(+Turn) is det.
-%
-%   This worker begins with Work, and ends it.
-
-held_begin(Work, Turn) :-
-    flag(typhon_taken, Taken, Taken+1),
-    (   census(_)
-    ->  thread_self(Me),
-        comes_back(Me),
-        get_time(Now),
-        doing(Work, Type, What),
-        asserta(turn(Me, Type, What, Now), Turn)
-    ;   Turn = none
-    ).
-
-held_end(none) :-
-    !,
-    held_worker.
-held_end(Turn) :-
-    catch(erase(Turn), error(existence_error(_, _), _), true).
-
-%   A goal may be large: its name will do.
-
-doing(agent(Agent), agent, Agent).
-doing(agent(_, Agent), agent, Agent).
-doing(goal(Goal), goal, Module:Name/Arity) :-
-    strip_module(Goal, Module, Plain),
-    functor(Plain, Name, Arity).
-
-%!  held_turns(-Count) is det.
-%
-%   How often workers have begun with something.
-
-held_turns(Count) :-
-    flag(typhon_taken, Count, Count).
-
 %!  held_forget is det.
 
 held_forget :-
-    end_census,
+    census_end,
     retractall(full(_)),
     retractall(noted),
     retractall(blocking(_)),
@@ -129,7 +60,7 @@ held_forget :-
     retractall(warned).
 
                 /*******************************
-                *            CENSUS            *
+                *          IS THERE ROOM       *
                 *******************************/
 
 %!  held_room(+Count, +Max) is semidet.
@@ -141,8 +72,9 @@ held_room(Count, Max) :-
     Count < Max,
     !.
 held_room(Count, Max) :-
-    begin_census,
-    held(Count, Held),
+    census_begin,
+    long_ago(Stamp),
+    held_count(Count, Stamp, Held),
     Count-Held < Max,
     setting(held_workers, Most),
     (   Count < Most
@@ -151,34 +83,6 @@ held_room(Count, Max) :-
         noted,
         Count < Most+Max
     ).
-
-begin_census :-
-    census(_),
-    !.
-begin_census :-
-    get_time(Now),
-    assertz(census(Now)).
-
-end_census :-
-    retractall(census(_)),
-    retractall(turn(_, _, _, _)),
-    retractall(returned(_)).
-
-%   held(+Count, -Held): of Count workers.
-
-held(Count, Held) :-
-    long_ago(Stamp),
-    (   census(Began),
-        Began < Stamp
-    ->  aggregate_all(count, returned(_), Returned),
-        aggregate_all(count, held_since(Stamp, _, _), Late),
-        Held is max(0, Count-Returned)+Late
-    ;   Held = 0
-    ).
-
-held_since(Stamp, Type, What) :-
-    turn(_, Type, What, Since),
-    Since < Stamp.
 
 long_ago(Stamp) :-
     setting(held_seconds, Seconds),
@@ -190,7 +94,7 @@ long_ago(Stamp) :-
 %   There cannot be more workers.
 
 held_full(Why) :-
-    begin_census,
+    census_begin,
     (   full(_)
     ->  true
     ;   assertz(full(Why))
@@ -203,13 +107,14 @@ held_full(Why) :-
 %   the census ends.  Fails when there is none any more.
 
 held_review(Count, Max, Works) :-
-    held(Count, Held),
-    long_ago(Stamp),
     census(Began),
+    long_ago(Stamp),
+    held_count(Count, Stamp, Held),
+    debug(typhon(scheduler), '~D of ~D workers are held', [Held, Count]),
     (   Began < Stamp,
         few(Count, Held, Max)
     ->  let_go(Works),
-        end_census
+        census_end
     ;   Works = [],
         full(Why)
     ->  hold_back(Count, Why, Stamp)
@@ -264,7 +169,7 @@ doer(Stamp, Type, What) :-
     held_since(Stamp, Type, What).
 doer(_, agent, Agent) :-
     typhon_scheduler:running(Agent),
-    \+ turn(_, agent, Agent, _).
+    \+ turn_of(agent, Agent).
 
 warn(_) :-
     warned,
@@ -289,7 +194,7 @@ doers(Doers) :-
 
 held_back(Work) :-
     blocking(_),
-    doing(Work, Type, What),
+    work_doer(Work, Type, What),
     kind(Type, What, Kind),
     with_mutex(typhon_held, put_back(Kind, Work)).
 

@@ -1,32 +1,26 @@
 :- module(typhon_hosting,
           [ host_start/1,               % +Name
             host_start/2,               % +Name, +Options
-            host_stop/1,                % +Name
-            host_property/2,            % ?Name, ?Property
-            link/2,                     % +HostA, +HostB
-            unlink/2                    % +HostA, +HostB
+            host_stop/1                 % +Name
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
-:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../wire',
-              [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
+:- use_module('../wire', [endpoint_address/1]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(hosts,
-              [ address_parts/3, host/3, host_add/4, host_address/2,
-                host_close/1, host_hop_stats/3, host_link/2, host_load/2,
-                host_neighbours/2, host_option/2, host_remove/1,
-                host_resolve/2, host_unlink/2 ]).
+              [ address_parts/3, host/3, host_add/4, host_close/1,
+                host_remove/1, host_resolve/2, host_unlink/2 ]).
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(runtime, [runtime_acquire/2, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
 
-/** <module> Starting, stopping and linking hosts
+/** <module> Starting and stopping hosts
 
 A host holds a place, a clock, an entry in the scheduler, and with the
 other users of the process its endpoint, see typhon_runtime.
@@ -38,8 +32,7 @@ other users of the process its endpoint, see typhon_runtime.
            "Agents have so long to come to an effect when their host stops").
 
 :- multifile
-    evacuate/2,                 % Name, Deadline: nobody is left on the host
-    typhon_endpoint:requested/4.
+    evacuate/2.                 % Name, Deadline: nobody is left on the host
 
 :- dynamic evacuate/2.
 
@@ -126,7 +119,8 @@ start_host(Name, Options) :-
     place_create(Name, Files, Services, Place),
     clock_set(Name, Epoch, Rate),
     scheduler_limit(Name, Concurrency),
-    host_add(Name, Address, Place, Options).
+    host_add(Name, Address, Place, Options),
+    debug(typhon(host), '~w is started', [Address]).
 
 place_parts(Options, Files, Services) :-
     option(consult(Files0), Options, []),
@@ -170,6 +164,7 @@ stop(Name0) :-
     host_remove(Name),
     clock_clear(Name),
     place_destroy(Place),
+    debug(typhon(host), '~w is stopped', [Address]),
     runtime_release(host(Name)).
 
 local_name(Host, Name) :-
@@ -178,126 +173,3 @@ local_name(Host, Name) :-
     ->  true
     ;   existence_error(host, Host)
     ).
-
-                /*******************************
-                *          PROPERTIES          *
-                *******************************/
-
-%!  host_property(?Name, ?Property) is nondet.
-%
-%   Property is address(A), state(running), capacity(N), load(N),
-%   neighbours(L), hop_time(Direction, stats(Count,Min,Mean,Max)) (host
-%   seconds) or place(M).  Name may be the address of a host of another
-%   process, too.
-%
-%   @error existence_error(host, Name)
-
-host_property(Name, Property) :-
-    var(Name),
-    !,
-    host(Name, _, _),
-    local_property(Property, Name).
-host_property(Host, Property) :-
-    host_resolve(Host, Where),
-    property(Where, Host, Property).
-
-property(local(Name), _, Property) :-
-    local_property(Property, Name).
-property(remote(_, Name, Endpoint), Host, Property) :-
-    ask(Endpoint, host_properties(Name), Properties),
-    (   Properties == none
-    ->  existence_error(host, Host)
-    ;   member(Property, Properties)
-    ).
-
-local_property(address(Address), Name) :-
-    host(Name, Address, _).
-local_property(state(running), _).
-local_property(capacity(Capacity), Name) :-
-    (   host_option(Name, capacity(Capacity0))
-    ->  Capacity = Capacity0
-    ;   Capacity = inf
-    ).
-local_property(load(Load), Name) :-
-    host_load(Name, Load).
-local_property(neighbours(Neighbours), Name) :-
-    host_neighbours(Name, Neighbours).
-local_property(hop_time(Direction, Stats), Name) :-
-    host_hop_stats(Name, Direction, Stats).
-local_property(place(Place), Name) :-
-    host(Name, _, Place).
-
-ask(Endpoint, Question, Answer) :-
-    catch(endpoint_call(Endpoint, hosting, Question, answer(Answer), 10),
-          error(unreachable(_), _),
-          throw(error(host_unreachable(Endpoint), _))).
-
-typhon_endpoint:requested(hosting, Question, _Peer, ReplyTo) :-
-    hosting_answer(Question, Answer),
-    endpoint_reply(ReplyTo, Answer).
-
-hosting_answer(host_properties(Name), Properties) :-
-    (   host(Name, _, _)
-    ->  findall(P, local_property(P, Name), Properties)
-    ;   Properties = none
-    ).
-hosting_answer(link(Name, Address), Answer) :-
-    change_link(Name, Address, host_link, Answer).
-hosting_answer(unlink(Name, Address), Answer) :-
-    change_link(Name, Address, host_unlink, Answer).
-
-change_link(Name, Address, Change, Answer) :-
-    (   host(Name, _, _)
-    ->  call(Change, Name, Address),
-        Answer = ok
-    ;   Answer = none
-    ).
-
-                /*******************************
-                *             LINKS            *
-                *******************************/
-
-%!  link(+A, +B) is det.
-%!  unlink(+A, +B) is det.
-%
-%   Make or break the overlay link between two hosts, both ways; either may
-%   be in another process.
-%
-%   @error existence_error(host, Host)
-
-link(A, B) :-
-    both(A, B, link).
-
-unlink(A, B) :-
-    both(A, B, unlink).
-
-both(A, B, Change) :-
-    must_be(atom, A),
-    must_be(atom, B),
-    host_address(A, AddressA),
-    host_address(B, AddressB),
-    (   AddressA == AddressB
-    ->  domain_error(other_host, B)
-    ;   one_way(AddressA, AddressB, Change),
-        one_way(AddressB, AddressA, Change)
-    ).
-
-one_way(From, To, Change) :-
-    host_resolve(From, Where),
-    (   Where = local(Name)
-    ->  hosting_answer_for(Change, Name, To, Answer)
-    ;   Where = remote(_, Name, Endpoint),
-        hosting_question(Change, Name, To, Question),
-        ask(Endpoint, Question, Answer)
-    ),
-    (   Answer == ok
-    ->  true
-    ;   existence_error(host, From)
-    ).
-
-hosting_answer_for(Change, Name, To, Answer) :-
-    hosting_question(Change, Name, To, Question),
-    hosting_answer(Question, Answer).
-
-hosting_question(link, Name, To, link(Name, To)).
-hosting_question(unlink, Name, To, unlink(Name, To)).

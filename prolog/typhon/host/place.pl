@@ -7,9 +7,10 @@
             place_deliver/3,            % +Place, +Payload, -PIs
             place_undeliver/2           % +Place, +Name
           ]).
+:- use_module(library(apply), [exclude/3, include/3]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
-:- use_module(library(apply), [exclude/3, include/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module('../program', [clause_parts/3]).
 
@@ -138,7 +139,8 @@ deliver(Place, Name, PIs, Clauses) :-
     forall(member(Ref, Old), erase(Ref)),
     forall(member(PI, Gone), abolish(Place:PI)),
     retractall(delivered(Place, Name, _)),
-    assertz(delivered(Place, Name, PIs)).
+    assertz(delivered(Place, Name, PIs)),
+    debug(typhon(host), '~w has payload ~w', [Place, Name]).
 
 withdraw(Place, PIs, Old, Unknown) :-
     include(own(Place), PIs, Own),

@@ -1,6 +1,7 @@
 :- module(typhon_remote,
           [ remote/2                    % +Host, +Goal
           ]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module('../wire', [endpoint_call/5, endpoint_reply/2, mobile_term/1]).
@@ -74,6 +75,7 @@ typhon_endpoint:requested(remote, remote(Name, Goal), _Peer, ReplyTo) :-
     ).
 
 serve(Name, Goal, ReplyTo) :-
+    debug(typhon(host), 'remote(~w, ~p) of another process', [Name, Goal]),
     catch(outcome(Name, Goal, Answer), Ball, raised(Ball, Answer)),
     endpoint_reply(ReplyTo, Answer).
 

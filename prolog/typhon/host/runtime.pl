@@ -2,9 +2,10 @@
           [ runtime_acquire/2,          % +User, +Options
             runtime_release/1           % +User
           ]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../program', [code_clear/0]).
@@ -45,7 +46,8 @@ acquire(User, Options) :-
     ->  forall(member(Option, Options), must_agree(Option))
     ;   start(Options)
     ),
-    assertz(user(User)).
+    assertz(user(User)),
+    debug(typhon(host), '~p uses the process', [User]).
 
 start(Options) :-
     option(port(Port), Options, 0),
@@ -79,6 +81,7 @@ runtime_release(User) :-
     in_own_thread(with_mutex(typhon_runtime, release(User))).
 
 release(User) :-
+    debug(typhon(host), '~p has done with the process', [User]),
     (   retract(user(User)),
         \+ user(_)
     ->  forall(ending(before), true),

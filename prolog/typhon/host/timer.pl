@@ -3,56 +3,46 @@
             timer_stop/0,
             timer_check/0,
             alarm_set/3,                % +Stamp, +Agent, +Token
-            alarm_clear/3,              % +Stamp, +Agent, +Token
+            alarm_in/3,                 % +Seconds, +Agent, +Token
             alarm_count/2               % -Alarms, -Indexed
           ]).
-:- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(rbtrees),
-              [ ord_list_to_rbtree/2, rb_delete/3, rb_insert/4, rb_min/3,
-                rb_size/2 ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(alarms,
+              [ alarm_add/3, alarm_new/1, alarm_take/3, alarms_at/2,
+                alarms_begin/0, alarms_end/0, alarms_new/1, alarms_number/1
+              ]).
+:- use_module(alarm_index,
+              [ index_delete/3, index_first/2, index_insert/3, index_make/1,
+                index_size/2 ]).
 
-/** <module> The timer: alarms that go off
+/** <module> The timer: a thread that sets alarms off
 
-An alarm is a fact: at Stamp, fire(Agent, Token) is to be called.  The
-timer is a thread that has an index of the stamps on its stack and waits
-for the first of them.
+It has an index of the stamps of all alarms on its stack and waits for the
+first of them.  What sets an alarm first notes what the alarm is for: over/2
+may be asked at once.
 
-An alarm whose purpose is over does no harm, so nobody need clear it: the
-rooms that set alarms say with over/2 which are, and the timer forgets
-these when as many have been set as there were alarms.  Thus it never
-holds more than twice those that count, and some hundreds.
+Most alarms never go off, so setting one seldom wakes the timer: only one
+that comes before the next does, and many that it has not heard of yet.
 
-What sets an alarm first notes what the alarm is for: over/2 may be asked
-at once.
+*Threading*: alarms from any thread.  The flag typhon_next says what the
+timer waits for; it is written before the timer looks for new alarms for the
+last time, and read by who adds one after that: so one of the two sees the
+other.
 
-Most alarms never go off, so setting one seldom wakes the timer: its stamp
-is put in a queue, which the timer empties when it wakes; it is woken for
-one that comes before the next, and when the queue grows long.
-
-*Threading*: alarms from any thread; they are facts before the timer hears
-of them.  The flag typhon_next says what the timer waits for; it is written
-before the timer looks at the queue for the last time, and read by who sets
-an alarm after it was put there: so one of the two sees the other.
-
-The index is the timer's own, and only says what the facts say.  So whatever
-happens to the timer, no alarm is lost with it: after an error it makes a
-new index; where that would not fit on its stack it does with the first
-stamp; when its thread ends nevertheless, another begins with the same
-facts.  If no thread can be made, whoever sets the next alarm tries again,
-as do idle workers (timer_check/0).
+Whatever happens to the timer, no alarm is lost with it: after an error it
+makes a new index; when its thread ends nevertheless, another begins.  If no
+thread can be made, whoever sets the next alarm tries again, as do idle
+workers (timer_check/0).
 */
 
 :- multifile
     typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
-    typhon_scheduler:over/2,            % Agent, Token: nobody waits for it
     prolog:message//1.
 
 :- dynamic
-    alarm/3,                            % Stamp, Agent, Token
     timing/0,                           % between start and stop
     timer/1,                            % Thread
-    new/1,                              % Queue of stamps
     told/0.                             % that there is no timer
 
                 /*******************************
@@ -63,20 +53,26 @@ as do idle workers (timer_check/0).
 
 timer_start :-
     with_mutex(typhon_timer,
-               ( message_queue_create(New),
-                 assertz(new(New)),
+               ( alarms_begin,
                  announce(inf),
                  assertz(timing),
                  new_timer )).
 
 new_timer :-
-    (   thread_property(_, alias(typhon_timer))
-    ->  Alias = []                      % of one that is about to end
-    ;   Alias = [alias(typhon_timer)]
-    ),
-    thread_create(tick, Timer, [at_exit(typhon_timer:timer_ended)|Alias]),
+    alias(Alias),
+    thread_create(tick, Timer,
+                  [alias(Alias), at_exit(typhon_timer:timer_ended)]),
     assertz(timer(Timer)),
     retractall(told).
+
+%   One that is about to end may have the name still.
+
+alias(typhon_timer) :-
+    \+ thread_property(_, alias(typhon_timer)),
+    !.
+alias(Alias) :-
+    flag(typhon_timer, N, N+1),
+    atom_concat(typhon_timer_, N, Alias).
 
 %!  timer_stop is det.
 %
@@ -88,8 +84,7 @@ timer_stop :-
                  findall(Timer, timer(Timer), Timers),
                  retractall(timer(_)) )),
     maplist(end_timer, Timers),
-    forall(retract(new(New)), message_queue_destroy(New)),
-    retractall(alarm(_, _, _)),
+    alarms_end,
     retractall(told).
 
 %   One that ends just now by itself can be joined as well.
@@ -146,76 +141,58 @@ no_timer(Formal) :-
                 *******************************/
 
 %!  alarm_set(+Stamp, +Agent, +Token) is det.
+%!  alarm_in(+Seconds, +Agent, +Token) is det.
 %
-%   Have fire(Agent, Token) called at the real time Stamp.
+%   Have fire(Agent, Token) called at the real time Stamp, or in Seconds.
 
 alarm_set(Stamp0, Agent, Token) :-
     Stamp is float(Stamp0),
-    (   known(Stamp, Agent, Token)
-    ->  true
-    ;   assertz(alarm(Stamp, Agent, Token)),
-        put(Stamp)
+    (   timing,
+        alarm_add(Stamp, Agent, Token)
+    ->  hasten(Stamp)
+    ;   true
     ).
 
-known(Stamp, Agent, Token) :-
-    (   alarm(Stamp, Agent, Token)
-    ;   \+ timing
-    ),
-    !.
-
-%!  alarm_clear(+Stamp, +Agent, +Token) is det.
-
-alarm_clear(Stamp0, Agent, Token) :-
-    Stamp is float(Stamp0),
-    retractall(alarm(Stamp, Agent, Token)).
+alarm_in(Seconds, Agent, Token) :-
+    get_time(Now),
+    Stamp is Now+Seconds,
+    alarm_set(Stamp, Agent, Token).
 
 %!  alarm_count(-Alarms, -Indexed) is det.
 %
-%   How many alarms there are, and how many stamps in the timer's index;
-%   for tests.
+%   How many alarms, and how many stamps in the index; for tests.
 
 alarm_count(Alarms, Indexed) :-
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        ( tell_timer(count(Queue)),
-          thread_get_message(Queue, Indexed) ),
-        message_queue_destroy(Queue)),
-    count(Alarms).
+    setup_call_cleanup(message_queue_create(Queue),
+                       ( tell_timer(count(Queue)),
+                         thread_get_message(Queue, Indexed) ),
+                       message_queue_destroy(Queue)),
+    alarms_number(Alarms).
 
-put(Stamp) :-
-    new(New),
-    !,
-    catch(thread_send_message(New, Stamp), error(existence_error(_, _), _),
-          true),                        % stopping
-    (   urgent(Stamp, New)
+hasten(Stamp) :-
+    (   urgent(Stamp)
     ->  tell_timer(look)
-    ;   timer(_)
-    ->  true
     ;   timer_check
     ).
-put(_).
 
-urgent(Stamp, _) :-
+urgent(Stamp) :-
     flag(typhon_next, Next, Next),
     Stamp < Next,
     !.
-urgent(_, New) :-
-    most_new(Most),
-    message_queue_property(New, size(Size)),
-    Size > Most.
-
-most_new(500).
+urgent(_) :-
+    alarms_new(Count),
+    Count > 500.
 
 tell_timer(Message) :-
-    (   timer(Timer)
-    ->  tell(Timer, Message)
-    ;   timer_check
-    ).
+    timer(Timer),
+    !,
+    tell(Timer, Message).
+tell_timer(_) :-
+    timer_check.
 
 tell(Timer, Message) :-
     catch(thread_send_message(Timer, Message),
-          error(existence_error(_, _), _),
-          true).
+          error(existence_error(_, _), _), true).
 
                 /*******************************
                 *           THE TIMER          *
@@ -237,36 +214,33 @@ survive(Ball) :-
     \+ timing.
 
 ticking :-
-    index(Index),
+    index_make(Index),
     tick(Index).
 
 tick(Index0) :-
-    new(New),
-    empty(New, Index0, Index1),
-    first(Index1, Stamp),
+    hear_new(Index0, Index1),
+    index_first(Index1, Stamp),
     announce(Stamp),
-    (   message_queue_property(New, size(Size)),
-        Size > 0
-    ->  tick(Index1)
-    ;   turn(Stamp, Index1, Index),
+    (   alarms_new(0)
+    ->  turn(Stamp, Index1, Index),
         (   Index == stop
         ->  true
         ;   tick(Index)
         )
+    ;   tick(Index1)
+    ).
+
+hear_new(Index0, Index) :-
+    (   alarm_new(Stamp)
+    ->  index_insert(Index0, Stamp, Index1),
+        hear_new(Index1, Index)
+    ;   Index = Index0
     ).
 
 turn(Stamp, Index0, Index) :-
     (   hear(Stamp, Message)
     ->  heard(Message, Index0, Index)
     ;   rung(Stamp, Index0, Index)
-    ).
-
-empty(New, Index0, Index) :-
-    (   thread_peek_message(New, _)
-    ->  thread_get_message(New, Stamp),
-        insert(Index0, Stamp, Index1),
-        empty(New, Index1, Index)
-    ;   Index = Index0
     ).
 
 announce(Stamp) :-
@@ -292,115 +266,24 @@ heard(count(Queue), Index, Index) :-
     thread_send_message(Queue, Size).
 heard(_, Index, Index).
 
-%   What is due may have been cleared.
-
 rung(Stamp, Index0, Index) :-
     get_time(Now),
     Stamp =< Now,
     !,
-    findall(Alarm, clause(alarm(Stamp, _, _), true, Alarm), Alarms),
+    alarms_at(Stamp, Alarms),
     maplist(go_off, Alarms),
-    delete(Index0, Stamp, Index).
+    index_delete(Index0, Stamp, Index).
 rung(_, Index, Index).
 
 %   An alarm goes off once, whatever signals the timer.
 
 go_off(Alarm) :-
-    sig_atomic(( take(Alarm, Agent, Token)
-               ->  catch(ignore(typhon_scheduler:fire(Agent, Token)), Ball,
+    sig_atomic(( alarm_take(Alarm, Agent, Token)
+               ->  debug(typhon(scheduler), 'alarm ~p of ~p', [Token, Agent]),
+                   catch(ignore(typhon_scheduler:fire(Agent, Token)), Ball,
                          print_message(error, typhon(timer(Ball))))
                ;   true
                )).
-
-take(Alarm, Agent, Token) :-
-    clause(alarm(_, Agent, Token), true, Alarm),
-    catch(erase(Alarm), error(existence_error(_, _), _), fail).
-
-                /*******************************
-                *            INDEX             *
-                *******************************/
-
-%   index(-Index): it holds all the stamps in alarm/3, and some more, and
-%   is to be made anew when Left more have been set.  It is
-%   index(Stamps, Left), a tree, or least(Stamp, Left), only the first,
-%   where a tree would fill the stack.  Then the next is looked for when
-%   that has gone off.
-
-index(Index) :-
-    forall(clause(alarm(_, Agent, Token), true, Alarm),
-           forget_if_over(Alarm, Agent, Token)),
-    count(Count),
-    More is max(500, Count),
-    current_prolog_flag(stack_limit, Bytes),
-    Room is Bytes//512-Count,
-    (   Room > 0
-    ->  tree(Stamps),
-        Left is min(Room, More),
-        Index = index(Stamps, Left)
-    ;   print_message(warning, typhon(no_index(Count))),
-        least(Stamp),
-        Index = least(Stamp, More)
-    ).
-
-tree(Stamps) :-
-    findall(Stamp, alarm(Stamp, _, _), List),
-    sort(List, Set),
-    pairs_keys_values(Pairs, Set, Set),
-    ord_list_to_rbtree(Pairs, Stamps).
-
-least(Stamp) :-
-    Least = least(inf),
-    forall(( alarm(Stamp0, _, _), arg(1, Least, Stamp1), Stamp0 < Stamp1 ),
-           nb_setarg(1, Least, Stamp0)),
-    arg(1, Least, Stamp).
-
-%   This is slow: clauses are counted.
-
-count(Count) :-
-    (   predicate_property(alarm(_, _, _), number_of_clauses(Count0))
-    ->  Count = Count0
-    ;   Count = 0
-    ).
-
-forget_if_over(Alarm, Agent, Token) :-
-    (   catch(typhon_scheduler:over(Agent, Token), error(_, _), fail)
-    ->  catch(erase(Alarm), error(existence_error(_, _), _), true)
-    ;   true
-    ).
-
-insert(least(_, 0), _, Index) :-
-    !,
-    index(Index).
-insert(least(Stamp0, Left0), Stamp1, least(Stamp, Left)) :-
-    Left is Left0-1,
-    Stamp is min(Stamp0, Stamp1).
-insert(index(_, 0), _, Index) :-
-    !,
-    index(Index).
-insert(index(Stamps0, Left0), Stamp, index(Stamps, Left)) :-
-    Left is Left0-1,
-    rb_insert(Stamps0, Stamp, Stamp, Stamps).
-
-delete(least(_, Left), _, least(Stamp, Left)) :-
-    least(Stamp).
-delete(index(Stamps0, Left), Stamp, index(Stamps, Left)) :-
-    (   rb_delete(Stamps0, Stamp, Stamps)
-    ->  true
-    ;   Stamps = Stamps0
-    ).
-
-%   first(+Index, -Stamp): `inf` if there is none.
-
-first(least(Stamp, _), Stamp).
-first(index(Stamps, _), Stamp) :-
-    (   rb_min(Stamps, First, _)
-    ->  Stamp = First
-    ;   Stamp = inf
-    ).
-
-index_size(least(_, _), 1).
-index_size(index(Stamps, _), Size) :-
-    rb_size(Stamps, Size).
 
                 /*******************************
                 *           MESSAGES           *
@@ -414,6 +297,3 @@ prolog:message(typhon(timer_ended)) -->
 prolog:message(typhon(no_timer(Formal))) -->
     [ 'There is no timer, and none can be made (~p): \c
        alarms wait until one can'-[Formal] ].
-prolog:message(typhon(no_index(Count))) -->
-    [ 'The timer has no room for an index of ~D alarms, and is slow'-
-      [Count] ].

@@ -19,8 +19,9 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../program',
-              [ clause_parts/3, code_install/2, code_program/2,
-                payload_load/2, program_hash/2, program_load/3 ]).
+              [ clause_parts/3, code_install/2, code_install/3,
+                code_program/2, payload_load/2, program_hash/2,
+                program_load/5 ]).
 :- use_module('../wire', [endpoint_address/1, endpoint_call/5, mobile_term/1]).
 :- use_module('../host',
               [address_parts/3, host/3, host_address/2, host_resolve/2]).
@@ -64,14 +65,13 @@ agent_create(Spec, Agent, Options) :-
     must_be(list, Options),
     maplist(check_option, Options),
     target(Options, Target),
-    program_load(Spec, Program, Initial),
+    program_load(Spec, Program, Initial, Hash, Kinds),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
     birth(Options, Declared, Initial, Clauses, Life, State),
     mobile_term(State),
     start_goals(Clauses, Initial, Goals),
-    program_hash(Program, Hash),
-    code_install(Hash, Program),
+    code_install(Hash, Program, Kinds),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
 
 check_option(Option) :-

@@ -124,7 +124,7 @@ carrier_main :-
     assertz(child),
     runtime_acquire(node, [bind(Interface)]),
     endpoint_address(Endpoint),
-    thread_create(watch_input, _, [detached(true)]),
+    thread_create(watch_input, _, [alias(typhon_input), detached(true)]),
     current_prolog_flag(pid, Pid),
     format('typhon_carrier ~w ~d~n', [Endpoint, Pid]),
     flush_output,
@@ -177,7 +177,9 @@ typhon_endpoint:requested(node, Order, _, ReplyTo) :-
 serve :-
     thread_get_message(Message),
     (   Message = order(Order, ReplyTo)
-    ->  answer(Order, Answer),
+    ->  functor(Order, What, _),
+        debug(typhon(network), 'order: ~w', [What]),
+        answer(Order, Answer),
         endpoint_reply(ReplyTo, Answer),
         serve
     ;   Message == stop

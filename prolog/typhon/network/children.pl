@@ -75,9 +75,18 @@ child_start(Tag, Machine, Interface, OnEvent, child(Pid, In, Thread)) :-
                    [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
                      detached(true)
                    ]),
-    thread_create(follow(Tag, Pid, Out, OnEvent), Thread),
+    follower_alias(Tag, Alias),
+    thread_create(follow(Tag, Pid, Out, OnEvent), Thread, [alias(Alias)]),
+    debug(typhon(network), 'process ~w of ~w is started: ~w, ~p',
+          [Pid, Tag, Program, Args]),
     catch(tell(In, node(Cookie, Bind, Seconds)), error(io_error(_, _), _),
           true).                % it has ended already: down(Tag, _) follows
+
+%   Tags need not be unique, and may be any term.
+
+follower_alias(Tag, Alias) :-
+    flag(typhon_follower, N, N+1),
+    format(atom(Alias), 'typhon_follower_~w_~d', [Tag, N]).
 
 tell(In, Term) :-
     set_stream(In, encoding(utf8)),

@@ -7,6 +7,7 @@
           ]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2, put_assoc/4]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(heaps), [add_to_heap/4, empty_heap/1, get_from_heap/4]).
 :- use_module(library(lists), [member/2, numlist/3]).
@@ -235,8 +236,11 @@ added(P, I, N, Ns, New, Chance0, Chance) :-
 
 dynamics_start(State, Clock, OnChange, dynamics(Thread, Done)) :-
     message_queue_create(Done),
+    flag(typhon_dynamics, N, N+1),
+    atom_concat(typhon_link_changer_, N, Alias),
     thread_create(run(State, Clock, OnChange), Thread,
-                  [ at_exit(thread_send_message(Done, done)) ]).
+                  [ alias(Alias),
+                    at_exit(thread_send_message(Done, done)) ]).
 
 run(State, Clock, OnChange) :-
     catch(events(State, Clock, OnChange), stopped, true).
@@ -258,6 +262,7 @@ wait_for(Time, clock(Epoch, Rate)) :-
     \+ thread_get_message(Me, stop, [timeout(Wait)]).
 
 make(OnChange, Change) :-
+    debug(typhon(network), 'dynamics: ~p', [Change]),
     catch(call(OnChange, Change), error(Formal, Context),
           print_message(warning, error(Formal, Context))),
     !.

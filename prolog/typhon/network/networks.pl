@@ -3,20 +3,18 @@
             network_stop/1,             % +Network
             network_property/2          % ?Network, ?Property
           ]).
-:- use_module(library(apply), [exclude/3, maplist/2]).
-:- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
-:- use_module(library(lists), [append/3, nth1/3]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(pairs), [pairs_values/2]).
-:- use_module(library(random), [random_between/3]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host', [runtime_acquire/2, runtime_release/1]).
-:- use_module(dynamics,
-              [ dynamics_model/2, dynamics_start/4, dynamics_state/5,
-                dynamics_stop/1 ]).
+:- use_module(dynamics, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
-:- use_module(processes, [carrier/3, carriers_start/4, carriers_stop/1]).
-:- use_module(topology, [topology_edges/4, topology_names/2]).
+:- use_module(orders, [carrier/3]).
+:- use_module(plan,
+              [ network_plan/3, plan_dynamics/2, plan_edges/2, plan_hosts/4,
+                plan_option/2, plan_processes/3 ]).
+:- use_module(processes, [carriers_start/4, carriers_stop/1]).
 :- use_module(wiring,
               [ wire_change/2, wire_forget/1, wire_hosts/3, wire_links/3,
                 wire_stop_own/1, wired_edges/2, wired_hosts/2 ]).
@@ -41,7 +39,7 @@ none of its own.
     prolog:message//1.
 
 :- dynamic
-    network/2,                  % Network, Options
+    network/2,                  % Network, Plan
     running/1,                  % Network
     part/2.                     % Network, log(Address, File),
                                 % or dynamics(Dynamics)
@@ -79,57 +77,15 @@ none of its own.
 %   timeout_error(start, Network), system_error(process_ended(Status)),
 %   and what host_start/2 throws
 
-network_start(Topology, Network, Options0) :-
-    must_be(list, Options0),
-    maplist(check_option, Options0),
-    seeded(Options0, Seed, Options),
-    topology_edges(Topology, Seed, N, Edges),
-    topology_names(Topology, Names),
+network_start(Topology, Network, Options) :-
+    network_plan(Topology, Options, Plan),
     flag(typhon_networks, Id, Id + 1),
     atom_concat(network, Id, Network),
     setup_call_catcher_cleanup(
-        assertz(network(Network, Options)),
-        build(Network, plan(N, Names, Edges, Seed, Options)),
+        assertz(network(Network, Plan)),
+        build(Network, Plan),
         Catcher,
         unless_built(Catcher, Network)).
-
-check_option(Option) :-
-    must_be(nonvar, Option),
-    (   option_check(Option, Check)
-    ->  call(Check)
-    ;   domain_error(network_option, Option)
-    ).
-
-option_check(processes(P), must_be(positive_integer, P)).
-option_check(machines(Machines), must_be(list, Machines)).
-option_check(bind(Interface), must_be(atom, Interface)).
-option_check(hosts(Options), must_be(list, Options)).
-option_check(hop_time(Time), check_hop_time(Time)).
-option_check(clock(Rate), check_rate(Rate)).
-option_check(log(File), must_be(ground, File)).
-option_check(dynamic(Model), dynamics_model(Model, _)).
-option_check(seed(Seed), must_be(integer, Seed)).
-
-check_hop_time(Time) :-
-    (   Time = uniform(Min, Max),
-        number(Min), number(Max),
-        0 =< Min, Min =< Max
-    ->  true
-    ;   domain_error(hop_time, Time)
-    ).
-
-check_rate(Rate) :-
-    must_be(number, Rate),
-    (   Rate > 0
-    ->  true
-    ;   domain_error(clock_rate, Rate)
-    ).
-
-seeded(Options, Seed, Options) :-
-    option(seed(Seed), Options),
-    !.
-seeded(Options, Seed, [seed(Seed)|Options]) :-
-    random_between(1, 0x3fffffff, Seed).
 
 unless_built(exit, _) :-
     !.
@@ -140,80 +96,56 @@ unless_built(_, Network) :-
                 *            BUILD             *
                 *******************************/
 
-build(Network, plan(N, Names, Edges, Seed, Options)) :-
-    listen(Network, Options),
-    start_carriers(Network, N, P, Options),
-    get_time(Epoch),
-    option(clock(Rate), Options, 1),
-    Clock = clock(Epoch, Rate),
-    start_log(Network, Clock, Options),
-    start_hosts(Network, Names, P, [Clock, seed(Seed)], Options),
+build(Network, Plan) :-
+    listen(Network, Plan),
+    plan_processes(Plan, P, Machines),
+    interface(Plan, Interface),
+    carriers_start(Network, P, Machines, Interface),
+    clock(Plan, Clock),
+    start_log(Network, Clock, Plan, Log),
+    plan_hosts(Plan, P, [Clock|Log], Hosts),
+    wire_hosts(Network, P, Hosts),
+    plan_edges(Plan, Edges),
     wire_links(Network, P, Edges),
-    start_dynamics(Network, plan(N, Edges, Seed), Clock, Options),
+    start_dynamics(Network, Clock, Plan),
+    debug(typhon(network), '~w is built, ~w processes', [Network, P]),
     assertz(running(Network)).
 
-listen(Network, Options) :-
-    (   option(bind(Interface), Options)
+listen(Network, Plan) :-
+    (   plan_option(Plan, bind(Interface))
     ->  runtime_acquire(network(Network), [bind(Interface)])
     ;   runtime_acquire(network(Network), [])
     ).
 
-start_carriers(Network, N, P, Options) :-
-    (   option(machines([Machine|Rest]), Options)
-    ->  Machines = [Machine|Rest]
-    ;   Machines = [local]
-    ),
-    length(Machines, M),
-    option(processes(P0), Options, M),
-    P is min(P0, N),
-    option(bind(Interface), Options, localhost),
-    carriers_start(Network, P, Machines, Interface).
-
-start_log(Network, clock(Epoch, Rate), Options) :-
-    (   option(log(Spec), Options)
-    ->  absolute_file_name(Spec, File),
-        atom_concat(Network, '_log', Name),
-        log_server_start([file(File), name(Name), clock(Epoch, Rate)],
-                         Address),
-        assertz(part(Network, log(Address, File)))
-    ;   true
+interface(Plan, Interface) :-
+    (   plan_option(Plan, bind(Interface0))
+    ->  Interface = Interface0
+    ;   Interface = localhost
     ).
 
-%   Host I of N is in process (I-1)*P//N + 1: blocks of nearly one size.
+%   It begins now.
 
-start_hosts(Network, Names, P, Common, Options) :-
-    length(Names, N),
-    findall(host(At, I, Name, HostOptions),
-            ( nth1(I, Names, Name),
-              At is (I - 1) * P // N + 1,
-              host_options(Network, I, Common, Options, HostOptions) ),
-            Hosts),
-    wire_hosts(Network, P, Hosts).
+clock(Plan, clock(Epoch, Rate)) :-
+    get_time(Epoch),
+    (   plan_option(Plan, clock(Rate0))
+    ->  Rate = Rate0
+    ;   Rate = 1
+    ).
 
-%   What hosts(Own) says comes before what the network says.
+%   start_log(+Network, +Clock, +Plan, -HostOptions)
 
-host_options(Network, I, [Clock, seed(Seed)], Options, HostOptions) :-
-    HostSeed is Seed * 65536 + I,
-    findall(Option, given(Network, Options, Option), Given),
-    option(hosts(Own), Options, []),
-    exclude(overridden(Own), [Clock, seed(HostSeed)|Given], Ours),
-    append(Own, Ours, HostOptions).
+start_log(Network, clock(Epoch, Rate), Plan, [log(Address)]) :-
+    plan_option(Plan, log(Spec)),
+    !,
+    absolute_file_name(Spec, File),
+    atom_concat(Network, '_log', Name),
+    log_server_start([file(File), name(Name), clock(Epoch, Rate)], Address),
+    assertz(part(Network, log(Address, File))).
+start_log(_, _, _, []).
 
-given(Network, _, log(Address)) :-
-    part(Network, log(Address, _)).
-given(_, Options, hop_time(Time)) :-
-    option(hop_time(Time), Options).
-
-overridden(Own, Option) :-
-    functor(Option, Name, Arity),
-    functor(General, Name, Arity),
-    memberchk(General, Own).
-
-start_dynamics(Network, plan(N, Edges, Seed), Clock, Options) :-
-    (   option(dynamic(Spec), Options)
-    ->  dynamics_model(Spec, Model),
-        dynamics_state(Model, N, Edges, Seed, State),
-        dynamics_start(State, Clock, wire_change(Network), Dynamics),
+start_dynamics(Network, Clock, Plan) :-
+    (   plan_dynamics(Plan, State)
+    ->  dynamics_start(State, Clock, wire_change(Network), Dynamics),
         assertz(part(Network, dynamics(Dynamics)))
     ;   true
     ).
@@ -250,6 +182,7 @@ end(Network) :-
     ),
     step(runtime_release(network(Network))),
     wire_forget(Network),
+    debug(typhon(network), '~w has ended', [Network]),
     retractall(part(Network, _)),
     retractall(network(Network, _)).
 
@@ -303,8 +236,8 @@ property(processes(Pids), Network) :-
 property(log(File), Network) :-
     part(Network, log(_, File)).
 property(seed(Seed), Network) :-
-    network(Network, Options),
-    option(seed(Seed), Options).
+    network(Network, Plan),
+    plan_option(Plan, seed(Seed)).
 
                 /*******************************
                 *           MESSAGES           *

@@ -1,27 +1,24 @@
 :- module(typhon_processes,
           [ carriers_start/4,           % +Network, +P, +Machines, +Interface
-            carriers_stop/1,            % +Network
-            carrier/3,                  % ?Network, ?P, ?Pid
-            carrier_order/4             % +Network, +P, +Order, -Answer
+            carriers_stop/1             % +Network
           ]).
-:- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [member/2, nth1/3, selectchk/3]).
+:- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../wire', [endpoint_address/1, endpoint_request/4]).
+:- use_module('../wire', [endpoint_address/1]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/5]).
-:- use_module(carrier, [order_do/2]).
+:- use_module(orders,
+              [ carrier/3, carrier/4, carrier_came/4, carrier_gone/2,
+                carrier_went/3, carriers_ask/6, carriers_forget/1,
+                unwatched/1 ]).
+:- use_module(waiting, [deadline/2, message_before/3]).
 
-/** <module> The processes that carry a network
+/** <module> The processes that carry a network begin and end
 
-The carriers of a network are numbered from 1. Either there is one, this
-process, or each is a child (see room `children`). Orders (see room
-`orders`) are done here in the first case and go over the wire in the
-second.
+See room `children` for what a child is, and `orders` for what it is told.
 
-*Threading*: any thread may give orders. The threads that follow the
-children tell what happens to them: as facts, and as messages to a queue
-that starting and stopping wait on.
+*Threading*: the threads that follow the children tell what happens to them:
+as facts, and as messages to a queue that starting and stopping wait on.
 */
 
 :- multifile
@@ -30,24 +27,18 @@ that starting and stopping wait on.
 
 :- setting(start_seconds, number, 60,
            "The processes of a network have so long to start").
-:- setting(order_seconds, number, 60,
-           "A process has so long to answer an order").
 :- setting(answer_seconds, number, 2,
            "A process that is to end and says nothing for so long is killed").
 :- setting(kill_seconds, number, 10,
            "A process that was killed has so long to be gone").
 
 :- meta_predicate
-    ask(+, +, +, +, 1, -),
     order_children(+, +, 1).
 
 :- dynamic
     queue/2,                    % Network, Queue
     wanted/1,                   % Network: its carriers are to stay
-    child/3,                    % Network, P, Child
-    up/4,                       % Network, P, local or Endpoint, Pid
-    down/3,                     % Network, P, Status
-    waiting/3.                  % Network, P, Queue: for an answer of P
+    child/3.                    % Network, P, Child
 
                 /*******************************
                 *           STARTING           *
@@ -65,7 +56,7 @@ that starting and stopping wait on.
 carriers_start(Network, 1, [local], _) :-
     !,
     current_prolog_flag(pid, Pid),
-    assertz(up(Network, 1, local, Pid)).
+    carrier_came(Network, 1, local, Pid).
 carriers_start(Network, P, Machines, Interface) :-
     message_queue_create(Queue),
     assertz(queue(Network, Queue)),
@@ -75,8 +66,9 @@ carriers_start(Network, P, Machines, Interface) :-
              nth1(At, Machines, Machine),
              start(Network, I, Machine, Interface) )),
     setting(start_seconds, Seconds),
+    atom_concat(typhon_starting_, Network, Alias),
     setup_call_cleanup(
-        thread_create(alarm(Seconds, Queue), Alarm),
+        thread_create(alarm(Seconds, Queue), Alarm, [alias(Alias)]),
         wait_up(P, Network, Queue),
         ( thread_send_message(Alarm, done),
           thread_join(Alarm, _)
@@ -98,16 +90,15 @@ start(Network, P, Machine, Interface) :-
     assertz(child(Network, P, Child)).
 
 event(up(Network-P, Endpoint, Pid)) :-
-    assertz(up(Network, P, Endpoint, Pid)),
+    carrier_came(Network, P, Endpoint, Pid),
     tell(Network, up).
 event(down(Network-P, Status)) :-
     (   wanted(Network),
-        up(Network, P, _, Pid)
+        carrier(Network, P, Pid)
     ->  print_message(warning, typhon(carrier_down(Network, Pid, Status)))
     ;   true
     ),
-    assertz(down(Network, P, Status)),
-    forall(waiting(Network, P, Queue), answered(Queue, P, down)),
+    carrier_went(Network, P, Status),
     tell(Network, down(Status)).
 
 tell(Network, Event) :-
@@ -125,109 +116,6 @@ wait_up(P, Network, Queue) :-
     ->  throw(error(system_error(process_ended(Status)), _))
     ;   throw(error(timeout_error(start, Network), _))
     ).
-
-deadline(Seconds, Deadline) :-
-    get_time(Now),
-    Deadline is Now + Seconds.
-
-next(Queue, Event, Deadline) :-
-    get_time(Now),
-    Wait is max(0, Deadline - Now),
-    thread_get_message(Queue, Event, [timeout(Wait)]).
-
-                /*******************************
-                *            ORDERS            *
-                *******************************/
-
-%!  carrier(?Network, ?P, ?Pid) is nondet.
-%
-%   Carrier P of Network is up; Pid is its process on its machine.
-
-carrier(Network, P, Pid) :-
-    up(Network, P, _, Pid),
-    \+ down(Network, P, _).
-
-%!  carrier_order(+Network, +P, +Order, -Answer) is det.
-%
-%   Carrier P does Order.
-%
-%   @error existence_error(carrier, Network-P) when it is not up, or ends
-%   before it has answered; timeout_error(answer, Network-P); what order_do/2
-%   throws there
-
-carrier_order(Network, P, Order, Answer) :-
-    up(Network, P, local, _),
-    !,
-    order_do(Order, Answer).
-carrier_order(Network, P, Order, Answer) :-
-    setting(order_seconds, Seconds),
-    ask([P], Network, Order, Seconds, unwatched, [_-Result]),
-    result(Result, Network-P, Answer).
-
-result(answer(done(Answer)), _, Answer).
-result(answer(raised(Formal, Text)), _, _) :-
-    throw(error(Formal, context(_, Text))).
-result(down, Carrier, _) :-
-    existence_error(carrier, Carrier).
-result(unreachable, Carrier, _) :-
-    existence_error(carrier, Carrier).
-result(lost, Carrier, _) :-
-    existence_error(carrier, Carrier).
-result(late, Carrier, _) :-
-    throw(error(timeout_error(answer, Carrier), _)).
-
-%   ask(+Ps, +Network, +Order, +Seconds, :Watch, -Results): what children Ps
-%   answer, P-Result in order of arrival. While some have not answered,
-%   call(Watch, Those) again and again. Result is one of endpoint_request/4,
-%   `down` or `late`. The endpoint alone cannot tell a peer that is dead from
-%   one that will be back.
-
-ask(Ps, Network, Order, Seconds, Watch, Results) :-
-    deadline(Seconds, Deadline),
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        ( forall(member(P, Ps), send(Network, P, Order, Queue)),
-          answers(Ps, Queue, Deadline, Watch, Results)
-        ),
-        ( retractall(waiting(_, _, Queue)),
-          message_queue_destroy(Queue)
-        )).
-
-unwatched(_).
-
-send(Network, P, Order, Queue) :-
-    assertz(waiting(Network, P, Queue)),
-    (   carrier(Network, P, _),
-        up(Network, P, Endpoint, _)
-    ->  endpoint_request(Endpoint, node, Order,
-                         typhon_processes:answered(Queue, P))
-    ;   answered(Queue, P, down)
-    ).
-
-answered(Queue, P, Result) :-
-    catch(thread_send_message(Queue, P-Result),
-          error(existence_error(_, _), _),
-          true).                % nobody waits any more
-
-answers([], _, _, _, []) :-
-    !.
-answers(Ps, Queue, Deadline, Watch, Results) :-
-    call(Watch, Ps),
-    deadline(1, Soon),
-    Slice is min(Soon, Deadline),
-    (   next(Queue, Answer, Slice)
-    ->  take(Answer, Ps, Rest, Results, Others)
-    ;   Soon < Deadline
-    ->  Rest = Ps,
-        Results = Others
-    ;   take(_-late, Ps, Rest, Results, Others)
-    ),
-    answers(Rest, Queue, Deadline, Watch, Others).
-
-take(P-Result, Ps, Rest, [P-Result|Others], Others) :-
-    selectchk(P, Ps, Rest),
-    !.
-take(_, Ps, Ps, Others, Others).
 
                 /*******************************
                 *           STOPPING           *
@@ -256,8 +144,7 @@ carriers_stop(Network) :-
         message_queue_destroy(Queue)
     ;   true
     ),
-    retractall(up(Network, _, _, _)),
-    retractall(down(Network, _, _)).
+    carriers_forget(Network).
 
 %   One by one: other threads may start children meanwhile, see
 %   typhon_mailbox.
@@ -274,14 +161,14 @@ release_children(_).
 peers(Network, Peers) :-
     findall(Peer,
             ( endpoint_address(Peer)
-            ; carrier(Network, P, _), up(Network, P, Peer, _) ),
+            ; carrier(Network, _, _, Peer) ),
             Peers).
 
 %   One may begin to hang after it has said that it is alive.
 
 kill_hanging(Network, Ps) :-
     setting(answer_seconds, Seconds),
-    ask(Ps, Network, alive, Seconds, unwatched, Results),
+    carriers_ask(Network, Ps, alive, Seconds, unwatched, Results),
     findall(P, member(P-late, Results), Hanging),
     (   Hanging == []
     ->  true
@@ -306,7 +193,7 @@ children_up(Network, Ps) :-
 order_children(Network, Order, Watch) :-
     setting(typhon_children:stop_seconds, Seconds),
     children_up(Network, Ps),
-    ask(Ps, Network, Order, Seconds, Watch, Results),
+    carriers_ask(Network, Ps, Order, Seconds, Watch, Results),
     forall(( member(P-Result, Results), Result \== answer(done(ok)) ),
            print_message(warning, typhon(carrier_order(P, Order, Result)))).
 
@@ -328,7 +215,7 @@ end_children(Network) :-
 
 left(Network, P) :-
     child(Network, P, _),
-    \+ down(Network, P, _).
+    \+ carrier_gone(Network, P).
 
 %   wait_down(+Network, +Ps, +Seconds) fails when one of Ps is left.
 
@@ -340,7 +227,7 @@ wait_down(Network, Ps, Seconds) :-
 await_down(Network, Ps, Queue, Deadline) :-
     (   member(P, Ps),
         left(Network, P)
-    ->  next(Queue, down(_), Deadline),
+    ->  message_before(Queue, down(_), Deadline),
         await_down(Network, Ps, Queue, Deadline)
     ;   true
     ).
@@ -362,5 +249,3 @@ prolog:error_message(system_error(process_ended(Status))) -->
     [ 'A process of the network ended before it was ready: ~p'-[Status] ].
 prolog:error_message(timeout_error(start, Network)) -->
     [ 'The processes of ~w were not ready in time'-[Network] ].
-prolog:error_message(existence_error(carrier, Network-P)) -->
-    [ 'Process ~w of ~w is not there'-[P, Network] ].

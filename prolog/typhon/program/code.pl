@@ -1,5 +1,6 @@
 :- module(typhon_code,
           [ code_install/2,             % +Hash, +Program
+            code_install/3,             % +Hash, +Program, +Kinds
             code_receive/2,             % +Hash, +Program
             code_module/2,              % ?Hash, -Module
             code_program/2,             % ?Hash, -Program
@@ -7,12 +8,14 @@
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(machine, [body_goals/4]).
+:- use_module(bodies, [body_goals/4]).
 :- use_module(mobile, [mobile_predicates/3]).
-:- use_module(programs, [clause_parts/3, program_hash/2]).
+:- use_module(programs, [program_hash/2]).
+:- use_module(source, [clause_parts/3]).
 
 /** <module> Programs installed in this process
 
@@ -41,14 +44,30 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
     retired/2.                  % Hash, Module: goes at the next eviction
 
 %!  code_install(+Hash, +Program) is det.
+%!  code_install(+Hash, +Program, +Kinds) is det.
 %
-%   Make Program available; nothing to do where it is already.
+%   Make Program available; nothing to do where it is already.  Kinds is
+%   what mobile_predicates/3 finds, where that is known.
 
 code_install(Hash, Program) :-
     (   code_module(Hash, _)
     ->  true
-    ;   with_mutex(typhon_code, install(Hash, Program))
+    ;   program_kinds(Program, Kinds),
+        code_install(Hash, Program, Kinds)
     ).
+
+code_install(Hash, Program, Kinds) :-
+    (   code_module(Hash, _)
+    ->  true
+    ;   with_mutex(typhon_code, install(Hash, Program, Kinds))
+    ).
+
+program_kinds(program(_, _, _, Clauses), Kinds) :-
+    maplist(rule_at_no_place, Clauses, Rules),
+    mobile_predicates(Rules, Kinds, _).
+
+rule_at_no_place(Clause, (Head:-Body)-none) :-
+    clause_parts(Clause, Head, Body).
 
 %!  code_receive(+Hash, +Program) is det.
 %
@@ -72,21 +91,22 @@ code_receive(Hash, Program) :-
 %
 %   The module of an installed program, and the whole of it.
 
-install(Hash, _) :-
+install(Hash, _, _) :-
     code_module(Hash, _),
     !.
-install(Hash, Program) :-
+install(Hash, Program, Kinds) :-
     (   retract(retired(Hash, Module))
     ->  true
     ;   evict,
         flag(typhon_code_module, N, N+1),
         atom_concat('program ', N, Module),
-        catch(fill(Module, Program), error(Formal, Context),
+        catch(fill(Module, Program, Kinds), error(Formal, Context),
               ( '$destroy_module'(Module),
                 throw(error(Formal, Context)) ))
     ),
     assertz(code_program(Hash, Program)),
-    assertz(code_module(Hash, Module)).
+    assertz(code_module(Hash, Module)),
+    debug(typhon(program), 'program ~w is in module ~q', [Hash, Module]).
 
 %!  code_clear is det.
 %
@@ -118,18 +138,17 @@ evict.
 retire(Hash) :-
     retract(code_module(Hash, Module)),
     retractall(code_program(Hash, _)),
-    assertz(retired(Hash, Module)).
+    assertz(retired(Hash, Module)),
+    debug(typhon(program), 'program ~w is retired', [Hash]).
 
                 /*******************************
                 *          COMPILING           *
                 *******************************/
 
-fill(Module, program(_, State, Libraries, Clauses)) :-
+fill(Module, program(_, State, Libraries, Clauses), Kinds) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(system)),
     maplist(import_library(Module), Libraries),
-    maplist(rule_at_no_place, Clauses, Rules),
-    mobile_predicates(Rules, Kinds, _),
     findall(PI-state, member(PI, State), StateKinds),
     append(Kinds, StateKinds, OwnKinds),
     list_to_assoc(OwnKinds, Own),
@@ -138,9 +157,6 @@ fill(Module, program(_, State, Libraries, Clauses)) :-
     maplist(add_clause(Module, Own), Clauses),
     findall(Module:PI, member(PI-_, Kinds), PIs),
     compile_predicates(PIs).
-
-rule_at_no_place(Clause, (Head:-Body)-none) :-
-    clause_parts(Clause, Head, Body).
 
 import_library(Module, Library-all) :-
     !,

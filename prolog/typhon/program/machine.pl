@@ -1,10 +1,9 @@
 :- module(typhon_machine,
           [ machine_run/3,              % +Context, +Goals, -Outcome
-            machine_goals/2,            % +Body, -Goals
-            body_goals/4,               % +Body, ?Barrier, -Goals, ?Rest
             control/1                   % ?Head
           ]).
 :- use_module(library(lists), [append/3]).
+:- use_module(bodies, [body_goals/4, goals_body/2, plain_goals/2]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
 
@@ -76,7 +75,7 @@ first_outcome(_, _, failed).
 
 outcome(exit, done).
 outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
-    plain_list(Goals0, Goals).
+    plain_goals(Goals0, Goals).
 
 %   Exceptions that end a thread are not the agent's business.
 
@@ -101,60 +100,54 @@ run([], _, _, exit).
 run([Goal|Goals], Context, Base, Out) :-
     step(Goal, Goals, Context, Base, Out).
 
-step(Goal, _, _, _, _) :-
-    var(Goal),
-    !,
-    throw(error(instantiation_error, _)).
-step(true, Goals, X, Base, Out) :-
-    !,
+%   step(+Goal, +Goals, +Context, +Base, -Out) is nondet: one rule for each
+%   construct; `!` cuts to Base, the choice point at which the run began.
+
+step(true, Goals, X, Base, Out) =>
     run(Goals, X, Base, Out).
-step((A,B), Goals, X, Base, Out) :-
-    !,
+step((A,B), Goals, X, Base, Out) =>
     step(A, [B|Goals], X, Base, Out).
-step(!, Goals, X, Base, Out) :-
-    !,
+step(!, Goals, X, Base, Out) =>
     prolog_cut_to(Base),
     run(Goals, X, Base, Out).
-step('$cut'(Barrier), Goals, X, Base, Out) :-
-    !,
+step('$cut'(Barrier), Goals, X, Base, Out) =>
     prolog_cut_to(Barrier),
     run(Goals, X, Base, Out).
-step((Or;Else), Goals, X, Base, Out) :-
-    !,
-    disjunction(Or, Else, Goals, X, Base, Out).
-step((If->Then), Goals, X, Base, Out) :-
-    !,
-    disjunction((If->Then), fail, Goals, X, Base, Out).
-step((If*->Then), Goals, X, Base, Out) :-
-    !,
+step((Or;Else), Goals, X, Base, Out) =>
+    either(Or, Else, Goals, X, Base, Out).
+step((If->Then), Goals, X, Base, Out) =>
+    either((If->Then), fail, Goals, X, Base, Out).
+step((If*->Then), Goals, X, Base, Out) =>
     sub_run([If], X, Out0),
     proceed(Out0, Then, Goals, Sub-(Sub*->Then), X, Base, Out).
-step(\+ Goal, Goals, X, Base, Out) :-
-    !,
+step(\+ Goal, Goals, X, Base, Out) =>
     \+ native(Goal, X),
     run(Goals, X, Base, Out).
-step(call(Goal), Goals, X, Base, Out) :-
-    !,
+step(call(Goal), Goals, X, Base, Out) =>
     prolog_current_choice(Barrier),
     body_goals(Goal, Barrier, More, Goals),
     run(More, X, Base, Out).
-step(once(Goal), Goals, X, Base, Out) :-
-    !,
-    disjunction((Goal->true), fail, Goals, X, Base, Out).
-step(ignore(Goal), Goals, X, Base, Out) :-
-    !,
-    disjunction((Goal->true), true, Goals, X, Base, Out).
-step(catch(Goal, Catcher, Recovery), Goals, X, Base, Out) :-
-    !,
+step(once(Goal), Goals, X, Base, Out) =>
+    either((Goal->true), fail, Goals, X, Base, Out).
+step(ignore(Goal), Goals, X, Base, Out) =>
+    either((Goal->true), true, Goals, X, Base, Out).
+step(catch(Goal, Catcher, Recovery), Goals, X, Base, Out) =>
     guarded(Goal, Catcher, Recovery, Goals, X, Base, Out).
-step(Goal, Goals, _, _, effect(Goal, Hole, [Hole|Goals])) :-
-    control(Goal),
-    !.
-step(Goal, Goals, X, Base, Out) :-
+step(Goal, _, _, _, _), var(Goal) =>
+    throw(error(instantiation_error, _)).
+step(Goal, Goals, _, _, Out), control(Goal) =>
+    Out = effect(Goal, Hole, [Hole|Goals]).
+step(Goal, Goals, X, Base, Out), call_n(Goal, Called) =>
+    step(call(Called), Goals, X, Base, Out).
+step(Goal, Goals, X, Base, Out) =>
+    called(Goal, Goals, X, Base, Out).
+
+%   called(+Goal, ...): a goal that is no construct is unfolded by a clause
+%   of the program or of the agent's own rules, or called natively.
+
+called(Goal, Goals, X, Base, Out) :-
     X = context(Program, Agent),
-    (   call_n(Goal, Called)
-    ->  step(call(Called), Goals, X, Base, Out)
-    ;   Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Guard),
+    (   Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Guard),
         mobile(Guard, Agent)
     ->  prolog_current_choice(Barrier),
         Program:Clause,
@@ -168,19 +161,19 @@ step(Goal, Goals, X, Base, Out) :-
         run(Goals, X, Base, Out)
     ).
 
-disjunction((If->Then), Else, Goals, X, Base, Out) :-
-    !,
+%   either(+Or, +Else, ...): (Or;Else), where Or may be a condition.
+
+either((If->Then), Else, Goals, X, Base, Out) =>
     (   sub_run([If], X, Out0)
     ->  proceed(Out0, Then, Goals, Sub-(Sub->Then;Else), X, Base, Out)
     ;   step(Else, Goals, X, Base, Out)
     ).
-disjunction((If*->Then), Else, Goals, X, Base, Out) :-
-    !,
+either((If*->Then), Else, Goals, X, Base, Out) =>
     (   sub_run([If], X, Out0)
     *-> proceed(Out0, Then, Goals, Sub-(Sub*->Then;Else), X, Base, Out)
     ;   step(Else, Goals, X, Base, Out)
     ).
-disjunction(Or, Else, Goals, X, Base, Out) :-
+either(Or, Else, Goals, X, Base, Out) =>
     (   step(Or, Goals, X, Base, Out)
     ;   step(Else, Goals, X, Base, Out)
     ).
@@ -208,7 +201,7 @@ proceed(exit, Then, Goals, _, X, Base, Out) :-
     step(Then, Goals, X, Base, Out).
 proceed(effect(Control, Hole, Sub), _, Goals, Rest-Frame, _, _,
         effect(Control, Hole, [Frame|Goals])) :-
-    list_body(Sub, Rest).
+    goals_body(Sub, Rest).
 
 %   call/N, N > 1, as the goal it calls.
 
@@ -266,98 +259,4 @@ native(Goal, X) :-
         throw(error(permission_error(call, control_predicate,
                                      Name/Arity), _))
     ;   true
-    ).
-
-                /*******************************
-                *            BODIES            *
-                *******************************/
-
-%!  machine_goals(+Body, -Goals) is det.
-%
-%   The goal list that runs Body from the start of an agent.
-
-machine_goals(Body, Goals) :-
-    body_goals(Body, Barrier, Goals0, []),
-    Barrier = 0,
-    plain_list(Goals0, Goals).
-
-%!  body_goals(+Body, ?Barrier, -Goals, ?Rest) is det.
-%
-%   Goals is the clause body Body as a list that ends in Rest.  Cuts that
-%   belong to the clause become '$cut'(Barrier).
-
-body_goals(Body, _, [Body|Rest], Rest) :-
-    var(Body),
-    !.
-body_goals((A,B), Barrier, Goals, Rest) :-
-    !,
-    body_goals(A, Barrier, Goals, Goals1),
-    body_goals(B, Barrier, Goals1, Rest).
-body_goals(true, _, Rest, Rest) :-
-    !.
-body_goals(Body, Barrier, [Goal|Rest], Rest) :-
-    mark_cuts(Body, '$cut'(Barrier), Goal).
-
-%   mark_cuts(+Body0, +Mark, -Body): replace the cuts of the clause.
-
-mark_cuts(Body, _, Body) :-
-    var(Body),
-    !.
-mark_cuts(!, Mark, Mark) :-
-    !.
-mark_cuts((A0,B0), Mark, (A,B)) :-
-    !,
-    mark_cuts(A0, Mark, A),
-    mark_cuts(B0, Mark, B).
-mark_cuts((A0;B0), Mark, (A;B)) :-
-    !,
-    mark_cuts(A0, Mark, A),
-    mark_cuts(B0, Mark, B).
-mark_cuts((If->A0), Mark, (If->A)) :-
-    !,
-    mark_cuts(A0, Mark, A).
-mark_cuts((If*->A0), Mark, (If*->A)) :-
-    !,
-    mark_cuts(A0, Mark, A).
-mark_cuts(Body, _, Body).
-
-%   plain_list(+Goals0, -Goals): '$cut'(_) becomes `!` again.
-
-plain_list([], []).
-plain_list([Goal0|Goals0], [Goal|Goals]) :-
-    plain(Goal0, Goal),
-    plain_list(Goals0, Goals).
-
-plain(Goal, Goal) :-
-    var(Goal),
-    !.
-plain('$cut'(_), !) :-
-    !.
-plain((A0,B0), (A,B)) :-
-    !,
-    plain(A0, A),
-    plain(B0, B).
-plain((A0;B0), (A;B)) :-
-    !,
-    plain(A0, A),
-    plain(B0, B).
-plain((A0->B0), (A->B)) :-
-    !,
-    plain(A0, A),
-    plain(B0, B).
-plain((A0*->B0), (A*->B)) :-
-    !,
-    plain(A0, A),
-    plain(B0, B).
-plain(catch(A0,C,R), catch(A,C,R)) :-
-    !,
-    plain(A0, A).
-plain(Goal, Goal).
-
-list_body([], true).
-list_body([Goal|Goals], Body) :-
-    (   Goals == []
-    ->  Body = Goal
-    ;   Body = (Goal,Rest),
-        list_body(Goals, Rest)
     ).

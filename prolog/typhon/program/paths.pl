@@ -1,5 +1,6 @@
 :- module(typhon_paths,
-          [ program_file/2              % +Spec, -File
+          [ program_file/2,             % +Spec, -File
+            included_file/3             % +Spec, +Includer, -File
           ]).
 
 /** <module> Where agent programs and payloads are found
@@ -37,15 +38,20 @@ program_directory(Kind, Dir) :-
     directory_file_path(Parent, Kind, Dir).
 
 %!  program_file(+Spec, -File) is det.
+%!  included_file(+Spec, +Includer, -File) is det.
 %
 %   File is the absolute name of the clause file Spec: a term as
-%   agents(census), or a file name.  The extension `.pl` may be left out.
+%   agents(census), or a file name, relative to the working directory or to
+%   that of the file Includer.  The extension `.pl` may be left out.
 %
 %   @error existence_error(source_sink, Spec)
 
 program_file(Spec, File) :-
     must_be(callable, Spec),
+    absolute_file_name(Spec, File, [extensions(['',pl]), access(read)]).
+
+included_file(Spec, Includer, File) :-
+    file_directory_name(Includer, Dir),
     absolute_file_name(Spec, File,
-                       [ extensions([pl, '']),
-                         access(read)
-                       ]).
+                       [ extensions(['',pl]), access(read),
+                         relative_to(Dir) ]).

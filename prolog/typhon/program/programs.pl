@@ -1,7 +1,7 @@
 :- module(typhon_programs,
-          [ program_load/3,             % +Spec, -Program, -Initial
+          [ program_read/5,             % +Spec, -Program, -Initial, -Kinds,
+                                        % -Sources
             payload_load/2,             % +Spec, -Payload
-            program_problems/2,         % +Spec, -Problems
             program_hash/2,             % +Program, -Hash
             agent_check/1               % +Spec
           ]).
@@ -15,8 +15,9 @@
 :- use_module(problems,
               [ advice_text/2, clause_problem/2, directive_problem/2,
                 entry_problem/3, option_problem/2 ]).
-:- use_module(source, [declaration/4, library_import/2, source_terms/2]).
-:- reexport(source, [clause_parts/3]).
+:- use_module(source,
+              [ clause_parts/3, declaration/4, library_import/2,
+                source_terms/2, source_terms/3 ]).
 
 /** <module> Agent programs and payloads
 
@@ -35,18 +36,20 @@ stands and what to do about it.
 *Threading*: any thread; nothing is stored here.
 */
 
-%!  program_load(+Spec, -Program, -Initial) is det.
+%!  program_read(+Spec, -Program, -Initial, -Kinds, -Sources) is det.
 %
 %   Read an agent program.
 %
 %   @arg Initial are the clauses of its state predicates: the state of an
 %        agent at birth.
+%   @arg Kinds is what mobile_predicates/3 finds.
+%   @arg Sources is what it was read from, see source_terms/3.
 %   @error The first problem of the program, as an ISO error whose context
 %        is context(Location, Advice).
 
-program_load(Spec, Program, Initial) :-
-    source_terms(Spec, Located),
-    program(Located, Program, Initial, Problems),
+program_read(Spec, Program, Initial, Kinds, Sources) :-
+    source_terms(Spec, Located, Sources),
+    program(Located, Program, Initial, Kinds, Problems),
     no_problems(Problems).
 
 %!  payload_load(+Spec, -Payload) is det.
@@ -71,20 +74,15 @@ payload_load(Spec, payload(Name, PIs, Clauses)) :-
     append(Provided, Defined, PIs0),
     sort(PIs0, PIs).
 
-%!  program_problems(+Spec, -Problems:list) is det.
-%
-%   All problems of an agent program, in the order of the file.
-
-program_problems(Spec, Problems) :-
-    source_terms(Spec, Located),
-    program(Located, _, _, Problems).
-
 no_problems([]).
 no_problems([problem(Formal, Location, Advice)|_]) :-
     advice_text(Advice, Text),
     throw(error(Formal, context(Location, Text))).
 
-program(Located, program(Name, State, Libraries, Static), Initial,
+%   program(+Located, -Program, -Initial, -Kinds, -Problems): the problems in
+%   the order of the file.
+
+program(Located, program(Name, State, Libraries, Static), Initial, Kinds,
         Problems) :-
     declared(agent, Located, Name, Options, Rest, Problems0),
     partition(is_directive, Rest, Directives, Clauses0),
@@ -99,17 +97,18 @@ program(Located, program(Name, State, Libraries, Static), Initial,
     findall(P, option_problem(Located, P), Problems4),
     append([Problems0, Problems1, Problems2, Problems3, Problems4],
            Problems5),
-    moves(Problems5, Static0, Problems6),
+    moves(Problems5, Static0, Kinds, Problems6),
     in_file_order(Problems6, Located, Problems),
     maplist(located_clause, Static0, Static),
     maplist(located_clause, Initial0, Initial).
 
-moves([], Static, Problems) :-
-    !,
-    mobile_predicates(Static, _, Problems).
-moves(Problems, _, Problems).
-
 %   A program whose clauses are faulty is not looked at any further.
+
+moves([], Static, Kinds, Problems) :-
+    !,
+    mobile_predicates(Static, Kinds, Problems).
+moves(Problems, _, [], Problems).
+
 %   in_file_order(+Problems0, +Located, -Problems)
 
 in_file_order(Problems0, Located, Problems) :-
@@ -220,7 +219,7 @@ print_canonical(Term) :-
 
 agent_check(Spec) :-
     source_terms(Spec, Located),
-    program(Located, _, _, Problems),
+    program(Located, _, _, _, Problems),
     findall(Warning, undefined(Located, Warning), Warnings0),
     sort(Warnings0, Warnings),
     forall(member(P, Problems), report(error, P)),

@@ -12,6 +12,7 @@
 :- use_module(library(typhon/base/own_thread)).
 :- use_module(library(typhon/host/scheduler)).
 :- use_module(library(typhon/host/timer)).
+:- use_module(library(typhon/host/workers)).
 
 /** <module> Tests of the pool of workers, and of alarms
 
@@ -68,6 +69,9 @@ happens(y-t(_)) :-
 happens(X) :-
     assertz(event(X)).
 
+scheduler_threads(Threads) :-
+    findall(Thread, ( worker(Thread) ; typhon_timer:timer(Thread) ), Threads).
+
 :- begin_tests(scheduler).
 
 test(runs_what_is_scheduled, N == 1000) :-
@@ -89,9 +93,9 @@ test(survives_errors, true(N == 20)) :-
                            wait_until(test_scheduler:count(20), 10) ), _)),
     count(N).
 test(starts_with_the_minimum, N == 2) :-
-    scheduling(scheduler_workers(N)).
+    scheduling(workers_count(N)).
 test(start_twice, N == 2) :-
-    scheduling(( scheduler_start, scheduler_workers(N) )).
+    scheduling(( scheduler_start, workers_count(N) )).
 test(stop_twice) :-
     scheduler_stop.
 test(grows_when_workers_are_blocked, N == 40) :-
@@ -99,7 +103,7 @@ test(grows_when_workers_are_blocked, N == 40) :-
     scheduling(( forall(between(1, 40, I),
                         scheduler_call(test_scheduler:blocked(Q, I))),
                  wait_until(test_scheduler:count(40), 10),
-                 scheduler_workers(Many),
+                 workers_count(Many),
                  assertion(Many >= 40),
                  forall(between(1, 40, _), thread_send_message(Q, go)) )),
     count(N),
@@ -111,7 +115,7 @@ test(never_more_than_the_most, true(Most-N == 8-20)) :-
                         scheduler_call(test_scheduler:blocked(Q, I))),
                  wait_until(test_scheduler:count(8), 10),
                  \+ thread_get_message(Q, never, [timeout(0.1)]),
-                 scheduler_workers(Most),
+                 workers_count(Most),
                  forall(between(1, 20, _), thread_send_message(Q, go)),
                  wait_until(test_scheduler:count(20), 10) )),
     count(N),
@@ -123,8 +127,8 @@ test(shrinks_when_there_is_nothing_to_do, N == 2) :-
                         scheduler_call(test_scheduler:blocked(Q, I))),
                  wait_until(test_scheduler:count(20), 10),
                  forall(between(1, 20, _), thread_send_message(Q, go)),
-                 wait_until(scheduler_workers(2), 10),
-                 scheduler_workers(N) )),
+                 wait_until(workers_count(2), 10),
+                 workers_count(N) )),
     message_queue_destroy(Q).
 test(grows_and_shrinks_again_and_again) :-
     message_queue_create(Q),
@@ -135,7 +139,7 @@ test(grows_and_shrinks_again_and_again) :-
                                scheduler_call(test_scheduler:blocked(Q, I))),
                         wait_until(test_scheduler:count(16), 10),
                         forall(between(1, 16, _), thread_send_message(Q, go)),
-                        wait_until(scheduler_workers(2), 10) ))),
+                        wait_until(workers_count(2), 10) ))),
     message_queue_destroy(Q).
 test(work_goes_on_beside_a_blocked_pool, N == 104) :-
     message_queue_create(Q),
@@ -152,8 +156,8 @@ test(an_aborted_worker_is_replaced, true((W >= 2, N == 50))) :-
                  forall(between(1, 50, I),
                         scheduler_call(test_scheduler:happens(I))),
                  wait_until(test_scheduler:count(50), 10),
-                 wait_until(( scheduler_workers(W0), W0 >= 2 ), 5),
-                 scheduler_workers(W) )),
+                 wait_until(( workers_count(W0), W0 >= 2 ), 5),
+                 workers_count(W) )),
     count(N).
 test(limit, true(Most-N == 2-30)) :-
     message_queue_create(Q),
@@ -177,6 +181,13 @@ test(unlimited_again, N == 30) :-
                  forall(between(1, 30, _), thread_send_message(Q, go)) )),
     count(N),
     message_queue_destroy(Q).
+test(threads_have_names, [true(Others == [])]) :-
+    scheduling(( scheduler_threads(Threads),
+                 findall(Thread,
+                         ( member(Thread, Threads),
+                           \+ sub_atom(Thread, 0, _, _, typhon_) ),
+                         Others) )),
+    assertion(length(Threads, 3)).
 test(stop_ends_stuck_workers) :-
     scheduling(( scheduler_call(test_scheduler:loop),
                  wait_until(test_scheduler:happened(looping), 5) )).
@@ -243,7 +254,7 @@ test(their_like_waits_when_there_is_no_more_room, true(Most =< 24)) :-
                              alarm_beside_them,
                              schedule(none, test(test_scheduler:happens(y))),
                              wait_until(test_scheduler:happened(y), 10),
-                             scheduler_workers(Most) )), Messages),
+                             workers_count(Most) )), Messages),
     memberchk(warning-typhon(held_full(_, held_workers, _)), Messages),
     length(Messages, Told),
     assertion(Told =< 4).
@@ -404,15 +415,6 @@ test(several_at_one_time, true(N == 10)) :-
                  forall(between(1, 10, I), alarm_set(T, test(I), t)),
                  wait_until(test_scheduler:count(10), 5) )),
     count(N).
-test(cleared, true(E == [y-t])) :-
-    scheduling(( at(0.05, T), at(0.1, U),
-                 alarm_set(T, test(x), t),
-                 alarm_set(U, test(y), t),
-                 alarm_clear(T, test(x), t),
-                 wait_until(test_scheduler:happened(y-t), 5) )),
-    findall(X, event(X), E).
-test(clear_what_is_not_set) :-
-    scheduling(( at(0.05, T), alarm_clear(T, test(x), t) )).
 test(an_earlier_one_comes_later, true(E == [early-t,late-t])) :-
     scheduling(( at(0.2, T), at(0.05, U),
                  alarm_set(T, test(late), t),

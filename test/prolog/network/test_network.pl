@@ -14,6 +14,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/network/children)).
 :- use_module(library(typhon/network/log)).
+:- use_module(library(typhon/network/log_file)).
 :- use_module(library(typhon/network/networks)).
 :- use_module(library(typhon/network/topology)).
 

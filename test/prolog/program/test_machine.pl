@@ -5,7 +5,7 @@
 :- use_module(library(lists)).
 :- use_module(library(random)).
 :- use_module(library(typhon/program/machine)).
-:- use_module(library(typhon/program/programs)).
+:- use_module(library(typhon/program/loaded)).
 :- use_module(library(typhon/program/code)).
 :- use_module(library(typhon/wire/frame)).
 
@@ -26,13 +26,11 @@ module, as on another host.
 
 travel(Terms, Reply, Outcome, Trace, Stops) :-
     program_load(clauses([(:- agent(test, [state([t_/1,n/1,rule/1])]))|Terms]),
-                 Program, Initial),
-    program_hash(Program, Hash),
-    code_install(Hash, Program),
+                 Program, Initial, Hash, Kinds),
+    code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
-    machine_goals(main, Goals),
     fresh(Module, Initial, Agent),
-    journey(Agent, Module, Goals, Reply, 0, Stops, Outcome, Final),
+    journey(Agent, Module, [main], Reply, 0, Stops, Outcome, Final),
     findall(X, Final:t_(X), Trace),
     '$destroy_module'(Final).
 
@@ -183,9 +181,8 @@ test(goals_are_what_the_programmer_wrote,
      Goals =@= [(_->writeln(x);true), (a, ! ; b), !, main]) :-
     program_load(clauses([(:- agent(g)),
                           (main :- ( sleep(1) -> writeln(x) ; true ),
-                                   ( a, ! ; b ), !, main)]), P, _),
-    program_hash(P, H),
-    code_install(H, P),
+                                   ( a, ! ; b ), !, main)]), P, _, H, Kinds),
+    code_install(H, P, Kinds),
     code_module(H, M),
     machine_run(context(M, M), [main], effect(sleep(1), _, Goals)).
 test(a_tail_recursive_agent_does_not_grow, O-N-L == done-1000000-2) :-
@@ -193,9 +190,8 @@ test(a_tail_recursive_agent_does_not_grow, O-N-L == done-1000000-2) :-
                           (main :- n(0), !),
                           (main :- retract(n(N)), N1 is N-1, assertz(n(N1)),
                                    move(there), main),
-                          n(1000000)]), P, [Fact]),
-    program_hash(P, H),
-    code_install(H, P),
+                          n(1000000)]), P, [Fact], H, Kinds),
+    code_install(H, P, Kinds),
     code_module(H, M),
     fresh(M, [Fact], A),
     hops(M, A, [main], 0, N, 0, L, O).

@@ -6,6 +6,7 @@
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/program/loaded), [program_load/5]).
 :- use_module(library(typhon/program/programs)).
 
 /** <module> Tests of agent programs: what loads, what does not, and why
@@ -14,6 +15,11 @@ Programs are written to files here, so that places in files are tested as
 people see them.
 */
 
+
+%   program_load(+Spec, -Program, -Initial): whatever is remembered.
+
+program_load(Spec, Program, Initial) :-
+    program_read(Spec, Program, Initial, _, _).
 
 %   with_file(+Lines, :Goal): Goal(File) for a file of these lines.
 
@@ -89,10 +95,6 @@ syntax_line(Line, File) :-
     catch(load(File), error(syntax_error(_), file(File, Line, _, _)), true),
     nonvar(Line).
 
-problem_lines(Lines, File) :-
-    program_problems(File, Problems),
-    findall(Line, member(problem(_, File:Line, _), Problems), Lines).
-
 load_quietly(File) :-
     catch(load(File), error(_, _), true).
 
@@ -166,8 +168,8 @@ test(not_a_program, error(type_error(callable, 7))) :-
 test(no_declaration, F-L == existence_error(declaration, agent)-2) :-
     problem(['% nothing', 'main.'], F, L, A),
     says(A, 'begin the file with :- agent(Name').
-test(empty_file, [F == existence_error(declaration, agent)]) :-
-    program_problems(clauses([]), [problem(F, _, _)|_]).
+test(empty_file, error(existence_error(declaration, agent))) :-
+    load(clauses([])).
 test(declaration_that_is_none, F-L == existence_error(declaration, agent)-2) :-
     problem(['main.', ':- agent("census", []).'], F, L, _).
 test(second_declaration, F-L == permission_error(declare, agent, b)-3) :-
@@ -266,8 +268,8 @@ test(static_clauses_cannot_be_changed, Ms == [assertz,retract,retractall]) :-
 test(first_in_the_file, F-L == type_error(callable, 1)-2) :-
     problem([':- agent(a).', '1.', ':- foo.', 'main :- 3.'], F, L, _).
 test(all_in_the_order_of_the_file, Lines == [1,2,3,4]) :-
-    with_file([':- agent(a, [x]).', '1.', ':- foo.', 'p :- 3.', 'main.'],
-              test_program:problem_lines(Lines)).
+    check([':- agent(a, [x]).', '1.', ':- foo.', 'p :- 3.', 'main.'], Told),
+    findall(Line, member(error-Line, Told), Lines).
 test(payload_without_a_name, F-L == existence_error(declaration, payload)-1) :-
     with_file(['p(1).'],
               test_program:error_of(payload, F, L, A)),
@@ -357,6 +359,102 @@ test(reading_leaves_nothing) :-
                        test_program:load_quietly)).
 
 :- end_tests(programs).
+
+                /*******************************
+                *           REMEMBERED         *
+                *******************************/
+
+%   loads(+File, -Fact): the last clause of File, as agents are created
+%   from it.
+
+loads(File, Fact) :-
+    program_load(File, program(_, _, _, Clauses), _, _, _),
+    last(Clauses, Fact).
+
+remembered(File) :-
+    typhon_loaded:loaded(File, _, _),
+    !.
+
+%   set_age(+Seconds, +File): File was changed so long ago.
+
+set_age(Seconds, File) :-
+    get_time(Now),
+    Time is Now-Seconds,
+    set_time_file(File, _, [modified(Time)]).
+
+change(Dir, Name, Lines, Age) :-
+    write_lines(Dir, Name, Lines),
+    path(Dir, Name, File),
+    set_age(Age, File).
+
+two_files(Age, Goal) :-
+    with_tmp_dir(test_program:in_two_files(Age, Goal)).
+
+in_two_files(Age, Goal, Dir) :-
+    change(Dir, a, [':- agent(a).', 'main.', ':- include(b).'], Age),
+    change(Dir, b, ['p(1).'], Age),
+    path(Dir, a, File),
+    call(Goal, Dir, File).
+
+old_files(Dir, File) :-
+    loads(File, p(1)),
+    remembered(File),
+    typhon_loaded:loaded(File, _, Loaded),
+    loads(File, p(1)),
+    typhon_loaded:loaded(File, _, Again),
+    Loaded =@= Again,
+    change(Dir, b, ['p(2).'], 50),
+    loads(File, p(2)),
+    change(Dir, a, [':- agent(a).', 'main.', 'p(3).'], 100),
+    loads(File, p(3)),
+    set_age(70, File),
+    loads(File, p(3)).
+
+new_files(Dir, File) :-
+    loads(File, p(1)),
+    \+ remembered(File),
+    change(Dir, b, ['p(2).'], 1),
+    loads(File, p(2)).
+
+gone(Dir, File) :-
+    loads(File, p(1)),
+    path(Dir, b, Included),
+    delete_file(Included),
+    catch(loads(File, _), error(existence_error(_, _), _), true).
+
+another(Dir, File) :-
+    change(Dir, a, [':- agent(a).', 'main.', ':- include(\'b\').'], 100),
+    loads(File, p(1)),
+    path(Dir, b, Included),
+    file_name_extension(Base, pl, Included),
+    setup_call_cleanup(open(Base, write, Out), format(Out, 'p(4).~n', []),
+                       close(Out)),
+    loads(File, p(4)).
+
+many(Dir, _) :-
+    forall(between(1, 5, I),
+           ( atom_concat(c, I, Name),
+             change(Dir, Name, [':- agent(a).', 'main.'], 100),
+             path(Dir, Name, File),
+             loads(File, main) )),
+    findall(F, typhon_loaded:loaded(F, _, _), Files),
+    length(Files, 3).
+
+:- begin_tests(remembered).
+
+test(until_a_file_changes) :-
+    two_files(100, test_program:old_files).
+test(not_while_a_file_is_new) :-
+    two_files(1, test_program:new_files).
+test(not_when_a_file_is_gone) :-
+    two_files(100, test_program:gone).
+test(not_when_another_file_is_meant) :-
+    two_files(100, test_program:another).
+test(bounded) :-
+    with_settings([typhon_loaded:files=3],
+                  two_files(100, test_program:many)).
+
+:- end_tests(remembered).
 
 :- begin_tests(agent_check).
 

@@ -1,0 +1,145 @@
+:- module(typhon_host_questions,
+          [ host_property/2,            % ?Name, ?Property
+            link/2,                     % +HostA, +HostB
+            unlink/2                    % +HostA, +HostB
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../wire', [endpoint_call/5, endpoint_reply/2]).
+:- use_module(hosts,
+              [ host/3, host_address/2, host_hop_stats/3, host_link/2,
+                host_load/2, host_neighbours/2, host_option/2,
+                host_resolve/2, host_unlink/2 ]).
+
+/** <module> Hosts anywhere: what they are, and their links
+
+A host of another process is asked by a request of kind `hosting`.
+
+*Threading*: any thread.  Requests are answered in the threads of
+connections.
+*/
+
+:- multifile
+    typhon_endpoint:requested/4.
+
+%!  host_property(?Name, ?Property) is nondet.
+%
+%   Property is address(A), state(running), capacity(N), load(N),
+%   neighbours(L), hop_time(Direction, stats(Count,Min,Mean,Max)) (host
+%   seconds) or place(M).  Name may be the address of a host of another
+%   process, too.
+%
+%   @error existence_error(host, Name)
+
+host_property(Name, Property) :-
+    var(Name),
+    !,
+    host(Name, _, _),
+    local_property(Property, Name).
+host_property(Host, Property) :-
+    host_resolve(Host, Where),
+    property(Where, Host, Property).
+
+property(local(Name), _, Property) :-
+    local_property(Property, Name).
+property(remote(_, Name, Endpoint), Host, Property) :-
+    ask(Endpoint, host_properties(Name), Properties),
+    (   Properties == none
+    ->  existence_error(host, Host)
+    ;   member(Property, Properties)
+    ).
+
+local_property(address(Address), Name) :-
+    host(Name, Address, _).
+local_property(state(running), _).
+local_property(capacity(Capacity), Name) :-
+    (   host_option(Name, capacity(Capacity0))
+    ->  Capacity = Capacity0
+    ;   Capacity = inf
+    ).
+local_property(load(Load), Name) :-
+    host_load(Name, Load).
+local_property(neighbours(Neighbours), Name) :-
+    host_neighbours(Name, Neighbours).
+local_property(hop_time(Direction, Stats), Name) :-
+    host_hop_stats(Name, Direction, Stats).
+local_property(place(Place), Name) :-
+    host(Name, _, Place).
+
+                /*******************************
+                *             LINKS            *
+                *******************************/
+
+%!  link(+A, +B) is det.
+%!  unlink(+A, +B) is det.
+%
+%   Make or break the overlay link between two hosts, both ways; either may
+%   be in another process.
+%
+%   @error existence_error(host, Host)
+
+link(A, B) :-
+    both(A, B, link).
+
+unlink(A, B) :-
+    both(A, B, unlink).
+
+both(A, B, Change) :-
+    must_be(atom, A),
+    must_be(atom, B),
+    host_address(A, AddressA),
+    host_address(B, AddressB),
+    (   AddressA == AddressB
+    ->  domain_error(other_host, B)
+    ;   one_way(AddressA, AddressB, Change),
+        one_way(AddressB, AddressA, Change)
+    ).
+
+one_way(From, To, Change) :-
+    host_resolve(From, Where),
+    change(Where, Change, To, Answer),
+    (   Answer == ok
+    ->  debug(typhon(host), '~w: ~w ~w', [From, Change, To])
+    ;   existence_error(host, From)
+    ).
+
+change(local(Name), Change, To, Answer) :-
+    hosting_question(Change, Name, To, Question),
+    hosting_answer(Question, Answer).
+change(remote(_, Name, Endpoint), Change, To, Answer) :-
+    hosting_question(Change, Name, To, Question),
+    ask(Endpoint, Question, Answer).
+
+hosting_question(link, Name, To, link(Name, To)).
+hosting_question(unlink, Name, To, unlink(Name, To)).
+
+                /*******************************
+                *             ASKING           *
+                *******************************/
+
+ask(Endpoint, Question, Answer) :-
+    catch(endpoint_call(Endpoint, hosting, Question, answer(Answer), 10),
+          error(unreachable(_), _),
+          throw(error(host_unreachable(Endpoint), _))).
+
+typhon_endpoint:requested(hosting, Question, _Peer, ReplyTo) :-
+    hosting_answer(Question, Answer),
+    endpoint_reply(ReplyTo, Answer).
+
+hosting_answer(host_properties(Name), Properties) :-
+    (   host(Name, _, _)
+    ->  findall(P, local_property(P, Name), Properties)
+    ;   Properties = none
+    ).
+hosting_answer(link(Name, Address), Answer) :-
+    change_link(Name, Address, host_link, Answer).
+hosting_answer(unlink(Name, Address), Answer) :-
+    change_link(Name, Address, host_unlink, Answer).
+
+change_link(Name, Address, Change, Answer) :-
+    (   host(Name, _, _)
+    ->  call(Change, Name, Address),
+        Answer = ok
+    ;   Answer = none
+    ).

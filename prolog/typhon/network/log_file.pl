@@ -1,0 +1,119 @@
+:- module(typhon_log_file,
+          [ log_open/3,                 % +File, +Mode, -Stream
+            log_write/2,                % +Stream, +Event
+            log_events/2                % +Spec, -Events
+          ]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+
+/** <module> The file of a log
+
+One fact per line,
+
+    event(Time, Host, Agent, What).
+
+The file is plain ASCII, whatever characters the events hold, and needs no
+operators: consult/1 reads it back on every system. log_events/2 reads it
+line by line, so a line cut short by a crash costs that line and no other.
+
+*Threading*: any thread; a stream is one thread's.
+*/
+
+:- multifile
+    prolog:message//1.
+
+%!  log_open(+File, +Mode, -Stream) is det.
+%!  log_write(+Stream, +Event) is det.
+%
+%   Write events to File, begun anew (`write`) or not (`append`).
+%
+%   @error existence_error(directory, Dir), permission_error(open,
+%   source_sink, File)
+
+log_open(File, Mode, Stream) :-
+    may_write(File),
+    catch(open(File, Mode, Stream,
+               [ encoding(ascii), newline(posix), buffer(full) ]),
+          error(existence_error(_, _), _),
+          not_writable(File)),
+    (   Mode == append,
+        cut_short(File)
+    ->  nl(Stream)
+    ;   true
+    ).
+
+%   The last line has no end: the server that wrote it was killed.
+
+cut_short(File) :-
+    size_file(File, Size),
+    Size > 0,
+    setup_call_cleanup(
+        open(File, read, In, [type(binary)]),
+        ( Last is Size - 1,
+          seek(In, Last, bof, _),
+          get_byte(In, Byte)
+        ),
+        close(In)),
+    Byte =\= 0'\n.
+
+may_write(File) :-
+    access_file(File, write),
+    \+ exists_directory(File),
+    !.
+may_write(File) :-
+    file_directory_name(File, Dir),
+    \+ exists_directory(Dir),
+    !,
+    existence_error(directory, Dir).
+may_write(File) :-
+    not_writable(File).
+
+not_writable(File) :-
+    Text = 'the log cannot be written there',
+    throw(error(permission_error(open, source_sink, File),
+                context(log_server_start/2, Text))).
+
+log_write(Stream, Event) :-
+    write_canonical(Stream, Event),
+    write(Stream, '.\n').
+
+%!  log_events(+File, -Events:list) is det.
+%
+%   Events are the event(Time, Host, Agent, What) facts in File, in the
+%   order in which they arrived. A line that is no fact is reported by a
+%   warning, and the others are read.
+%
+%   @error existence_error(source_sink, File)
+
+log_events(Spec, Events) :-
+    absolute_file_name(Spec, File, [access(read)]),
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        read_events(In, File, Events),
+        close(In)).
+
+read_events(In, File, Events) :-
+    line_count(In, Number),
+    read_line_to_string(In, Line),
+    (   Line == end_of_file
+    ->  Events = []
+    ;   line_event(Line, Event)
+    ->  Events = [Event|Rest],
+        read_events(In, File, Rest)
+    ;   print_message(warning, typhon(log_line_skipped(File:Number, Line))),
+        read_events(In, File, Events)
+    ).
+
+line_event(Line, Event) :-
+    catch(term_string(Event, Line, [module(typhon_log_file)]),
+          error(syntax_error(_), _), fail),
+    nonvar(Event),
+    Event = event(_, _, _, _).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(log_line_skipped(File:Number, Line))) -->
+    { ( sub_string(Line, 0, 60, _, Start) -> true ; Start = Line ) },
+    [ '~w:~d: not an event, or cut short: ~s'-[File, Number, Start] ].

@@ -1,0 +1,188 @@
+:- module(typhon_orders,
+          [ carrier_came/4,             % +Network, +P, +Where, +Pid
+            carrier_went/3,             % +Network, +P, +Status
+            carriers_forget/1,          % +Network
+            carrier/3,                  % ?Network, ?P, ?Pid
+            carrier/4,                  % ?Network, ?P, ?Pid, ?Where
+            carrier_gone/2,             % +Network, +P
+            carrier_order/4,            % +Network, +P, +Order, -Answer
+            carriers_ask/6,             % +Network, +Ps, +Order, +Seconds,
+                                        % :Watch, -Results
+            unwatched/1                 % +Ps
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [member/2, selectchk/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../wire', [endpoint_request/4]).
+:- use_module(carrier, [order_do/2]).
+:- use_module(waiting, [deadline/2, message_before/3]).
+
+/** <module> Who carries a network, and orders to them
+
+The carriers of a network are numbered from 1. Either there is one, this
+process, or each is a child. Orders (see room `carrier`) are done here in the
+first case and go over the wire in the second.
+
+*Threading*: any thread may give orders. That a carrier is down is told by
+the thread that follows it: as a fact, and to those who wait for an answer.
+*/
+
+:- multifile
+    prolog:error_message//1.
+
+:- setting(typhon_processes:order_seconds, number, 60,
+           "A process has so long to answer an order").
+
+:- meta_predicate
+    carriers_ask(+, +, +, +, 1, -).
+
+:- dynamic
+    up/4,                       % Network, P, local or Endpoint, Pid
+    down/3,                     % Network, P, Status
+    waiting/3.                  % Network, P, Queue: for an answer of P
+
+                /*******************************
+                *           CARRIERS           *
+                *******************************/
+
+%!  carrier_came(+Network, +P, +Where, +Pid) is det.
+%!  carrier_went(+Network, +P, +Status) is det.
+%!  carriers_forget(+Network) is det.
+%
+%   Carrier P is up, Where being `local` or the endpoint of a child; it is
+%   down; all are forgotten.
+
+carrier_came(Network, P, Where, Pid) :-
+    assertz(up(Network, P, Where, Pid)),
+    debug(typhon(network), 'process ~w of ~w is up: ~w, ~w',
+          [P, Network, Where, Pid]).
+
+carrier_went(Network, P, Status) :-
+    assertz(down(Network, P, Status)),
+    debug(typhon(network), 'process ~w of ~w is down: ~p',
+          [P, Network, Status]),
+    forall(waiting(Network, P, Queue), answered(Queue, P, down)).
+
+carriers_forget(Network) :-
+    retractall(up(Network, _, _, _)),
+    retractall(down(Network, _, _)).
+
+%!  carrier(?Network, ?P, ?Pid) is nondet.
+%!  carrier(?Network, ?P, ?Pid, ?Where) is nondet.
+%
+%   Carrier P of Network is up; Pid is its process on its machine.
+
+carrier(Network, P, Pid) :-
+    carrier(Network, P, Pid, _).
+
+carrier(Network, P, Pid, Where) :-
+    up(Network, P, Where, Pid),
+    \+ down(Network, P, _).
+
+%!  carrier_gone(+Network, +P) is semidet.
+%
+%   Carrier P has ended, whether it was up or not.
+
+carrier_gone(Network, P) :-
+    down(Network, P, _),
+    !.
+
+                /*******************************
+                *            ORDERS            *
+                *******************************/
+
+%!  carrier_order(+Network, +P, +Order, -Answer) is det.
+%
+%   Carrier P does Order.
+%
+%   @error existence_error(carrier, Network-P) when it is not up, or ends
+%   before it has answered; timeout_error(answer, Network-P); what order_do/2
+%   throws there
+
+carrier_order(Network, P, Order, Answer) :-
+    up(Network, P, local, _),
+    !,
+    order_do(Order, Answer).
+carrier_order(Network, P, Order, Answer) :-
+    setting(typhon_processes:order_seconds, Seconds),
+    carriers_ask(Network, [P], Order, Seconds, unwatched, [_-Result]),
+    result(Result, Network-P, Answer).
+
+result(answer(done(Answer)), _, Answer).
+result(answer(raised(Formal, Text)), _, _) :-
+    throw(error(Formal, context(_, Text))).
+result(down, Carrier, _) :-
+    existence_error(carrier, Carrier).
+result(unreachable, Carrier, _) :-
+    existence_error(carrier, Carrier).
+result(lost, Carrier, _) :-
+    existence_error(carrier, Carrier).
+result(late, Carrier, _) :-
+    throw(error(timeout_error(answer, Carrier), _)).
+
+%!  carriers_ask(+Network, +Ps, +Order, +Seconds, :Watch, -Results) is det.
+%
+%   What children Ps answer, P-Result in order of arrival. While some have
+%   not answered, call(Watch, Those) again and again. Result is one of
+%   endpoint_request/4, `down` or `late`. The endpoint alone cannot tell a
+%   peer that is dead from one that will be back.
+
+carriers_ask(Network, Ps, Order, Seconds, Watch, Results) :-
+    functor(Order, What, _),            % options of hosts may be secret
+    debug(typhon(network), 'processes ~w of ~w: ~w', [Ps, Network, What]),
+    deadline(Seconds, Deadline),
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( forall(member(P, Ps), send(Network, P, Order, Queue)),
+          answers(Ps, Queue, Deadline, Watch, Results)
+        ),
+        ( retractall(waiting(_, _, Queue)),
+          message_queue_destroy(Queue)
+        )).
+
+%!  unwatched(+Ps) is det.
+%
+%   For those who do not watch.
+
+unwatched(_).
+
+send(Network, P, Order, Queue) :-
+    assertz(waiting(Network, P, Queue)),
+    (   carrier(Network, P, _, Endpoint)
+    ->  endpoint_request(Endpoint, node, Order,
+                         typhon_orders:answered(Queue, P))
+    ;   answered(Queue, P, down)
+    ).
+
+answered(Queue, P, Result) :-
+    catch(thread_send_message(Queue, P-Result),
+          error(existence_error(_, _), _),
+          true).                % nobody waits any more
+
+answers([], _, _, _, []) :-
+    !.
+answers(Ps, Queue, Deadline, Watch, Results) :-
+    call(Watch, Ps),
+    deadline(1, Soon),
+    Slice is min(Soon, Deadline),
+    (   message_before(Queue, Answer, Slice)
+    ->  take(Answer, Ps, Rest, Results, Others)
+    ;   Soon < Deadline
+    ->  Rest = Ps,
+        Results = Others
+    ;   take(_-late, Ps, Rest, Results, Others)
+    ),
+    answers(Rest, Queue, Deadline, Watch, Others).
+
+take(P-Result, Ps, Rest, [P-Result|Others], Others) :-
+    selectchk(P, Ps, Rest),
+    !.
+take(_, Ps, Ps, Others, Others).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(existence_error(carrier, Network-P)) -->
+    [ 'Process ~w of ~w is not there'-[P, Network] ].

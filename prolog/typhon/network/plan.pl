@@ -1,0 +1,146 @@
+:- module(typhon_plan,
+          [ network_plan/3,             % +Topology, +Options, -Plan
+            plan_option/2,              % +Plan, ?Option
+            plan_processes/3,           % +Plan, -P, -Machines
+            plan_hosts/4,               % +Plan, +P, +Common, -Hosts
+            plan_edges/2,               % +Plan, -Edges
+            plan_dynamics/2             % +Plan, -State
+          ]).
+:- use_module(library(apply), [exclude/3, maplist/2]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [append/3, nth1/3]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(random), [random_between/3]).
+:- use_module(dynamics, [dynamics_model/2, dynamics_state/5]).
+:- use_module(topology, [topology_edges/4, topology_names/2]).
+
+/** <module> What a network is to be
+
+A plan is all that follows from the arguments of network_start/3, and from a
+seed.
+
+*Threading*: pure, but for the seed that is drawn where none is given.
+*/
+
+%!  network_plan(+Topology, +Options, -Plan) is det.
+%
+%   @error domain_error(network_option, Option), domain_error(topology, T)
+
+network_plan(Topology, Options0, plan(Names, Edges, Options)) :-
+    must_be(list, Options0),
+    maplist(check_option, Options0),
+    seeded(Options0, Seed, Options),
+    topology_edges(Topology, Seed, _, Edges),
+    topology_names(Topology, Names).
+
+%!  plan_option(+Plan, ?Option) is semidet.
+%
+%   An option that was given, or drawn.
+
+plan_option(plan(_, _, Options), Option) :-
+    option(Option, Options).
+
+%!  plan_edges(+Plan, -Edges) is det.
+
+plan_edges(plan(_, Edges, _), Edges).
+
+check_option(Option) :-
+    must_be(nonvar, Option),
+    (   option_check(Option, Check)
+    ->  call(Check)
+    ;   domain_error(network_option, Option)
+    ).
+
+option_check(processes(P), must_be(positive_integer, P)).
+option_check(machines(Machines), must_be(list, Machines)).
+option_check(bind(Interface), must_be(atom, Interface)).
+option_check(hosts(Options), must_be(list, Options)).
+option_check(hop_time(Time), check_hop_time(Time)).
+option_check(clock(Rate), check_rate(Rate)).
+option_check(log(File), must_be(ground, File)).
+option_check(dynamic(Model), dynamics_model(Model, _)).
+option_check(seed(Seed), must_be(integer, Seed)).
+
+check_hop_time(Time) :-
+    (   Time = uniform(Min, Max),
+        number(Min), number(Max),
+        0 =< Min, Min =< Max
+    ->  true
+    ;   domain_error(hop_time, Time)
+    ).
+
+check_rate(Rate) :-
+    must_be(number, Rate),
+    (   Rate > 0
+    ->  true
+    ;   domain_error(clock_rate, Rate)
+    ).
+
+seeded(Options, Seed, Options) :-
+    option(seed(Seed), Options),
+    !.
+seeded(Options, Seed, [seed(Seed)|Options]) :-
+    random_between(1, 0x3fffffff, Seed).
+
+                /*******************************
+                *             PARTS            *
+                *******************************/
+
+%!  plan_processes(+Plan, -P, -Machines) is det.
+%
+%   P processes carry the network, blocks of them on each of Machines.
+
+plan_processes(plan(Names, _, Options), P, Machines) :-
+    (   option(machines([Machine|Rest]), Options)
+    ->  Machines = [Machine|Rest]
+    ;   Machines = [local]
+    ),
+    length(Machines, M),
+    length(Names, N),
+    option(processes(P0), Options, M),
+    P is min(P0, N).
+
+%!  plan_hosts(+Plan, +P, +Common, -Hosts) is det.
+%
+%   Hosts are terms host(At, I, Name, HostOptions), with the options Common.
+%   Host I of N is in process At = (I-1)*P//N + 1: blocks of nearly one size.
+
+plan_hosts(Plan, P, Common, Hosts) :-
+    Plan = plan(Names, _, _),
+    length(Names, N),
+    findall(host(At, I, Name, HostOptions),
+            ( nth1(I, Names, Name),
+              At is (I - 1) * P // N + 1,
+              host_options(Plan, I, Common, HostOptions) ),
+            Hosts).
+
+%   What hosts(Own) says comes before what the network says.
+
+host_options(Plan, I, Common, HostOptions) :-
+    plan_option(Plan, seed(Seed)),
+    HostSeed is Seed * 65536 + I,
+    (   plan_option(Plan, hop_time(Time))
+    ->  Given = [seed(HostSeed), hop_time(Time)|Common]
+    ;   Given = [seed(HostSeed)|Common]
+    ),
+    (   plan_option(Plan, hosts(Own))
+    ->  exclude(overridden(Own), Given, Ours),
+        append(Own, Ours, HostOptions)
+    ;   HostOptions = Given
+    ).
+
+overridden(Own, Option) :-
+    functor(Option, Name, Arity),
+    functor(General, Name, Arity),
+    memberchk(General, Own).
+
+%!  plan_dynamics(+Plan, -State) is semidet.
+%
+%   The beginning of what changes its links, if something does.
+
+plan_dynamics(plan(Names, Edges, Options), State) :-
+    option(dynamic(Spec), Options),
+    option(seed(Seed), Options),
+    dynamics_model(Spec, Model),
+    length(Names, N),
+    dynamics_state(Model, N, Edges, Seed, State).

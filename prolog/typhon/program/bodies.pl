@@ -1,0 +1,99 @@
+:- module(typhon_bodies,
+          [ body_goals/4,               % +Body, ?Barrier, -Goals, ?Rest
+            plain_goals/2,              % +Goals0, -Goals
+            goals_body/2                % +Goals, -Body
+          ]).
+
+/** <module> Clause bodies as lists of goals, and back
+
+The machine runs lists of goals; programs are made of clause bodies.  While
+a list is run, `'$cut'(Barrier)` stands for a cut of the clause it came
+from.
+
+*Threading*: pure.
+*/
+
+%!  body_goals(+Body, ?Barrier, -Goals, ?Rest) is det.
+%
+%   Goals is the clause body Body as a list that ends in Rest.  Cuts that
+%   belong to the clause become '$cut'(Barrier).
+
+body_goals(Body, _, [Body|Rest], Rest) :-
+    var(Body),
+    !.
+body_goals((A,B), Barrier, Goals, Rest) :-
+    !,
+    body_goals(A, Barrier, Goals, Goals1),
+    body_goals(B, Barrier, Goals1, Rest).
+body_goals(true, _, Rest, Rest) :-
+    !.
+body_goals(Body, Barrier, [Goal|Rest], Rest) :-
+    mark_cuts(Body, '$cut'(Barrier), Goal).
+
+%   mark_cuts(+Body0, +Mark, -Body): replace the cuts of the clause.
+
+mark_cuts(Body, _, Body) :-
+    var(Body),
+    !.
+mark_cuts(!, Mark, Mark) :-
+    !.
+mark_cuts((A0,B0), Mark, (A,B)) :-
+    !,
+    mark_cuts(A0, Mark, A),
+    mark_cuts(B0, Mark, B).
+mark_cuts((A0;B0), Mark, (A;B)) :-
+    !,
+    mark_cuts(A0, Mark, A),
+    mark_cuts(B0, Mark, B).
+mark_cuts((If->A0), Mark, (If->A)) :-
+    !,
+    mark_cuts(A0, Mark, A).
+mark_cuts((If*->A0), Mark, (If*->A)) :-
+    !,
+    mark_cuts(A0, Mark, A).
+mark_cuts(Body, _, Body).
+
+%!  plain_goals(+Goals0, -Goals) is det.
+%
+%   `'$cut'(_)` becomes `!` again: what a suspended agent shows.
+
+plain_goals([], []).
+plain_goals([Goal0|Goals0], [Goal|Goals]) :-
+    plain(Goal0, Goal),
+    plain_goals(Goals0, Goals).
+
+plain(Goal, Goal) :-
+    var(Goal),
+    !.
+plain('$cut'(_), !) :-
+    !.
+plain((A0,B0), (A,B)) :-
+    !,
+    plain(A0, A),
+    plain(B0, B).
+plain((A0;B0), (A;B)) :-
+    !,
+    plain(A0, A),
+    plain(B0, B).
+plain((A0->B0), (A->B)) :-
+    !,
+    plain(A0, A),
+    plain(B0, B).
+plain((A0*->B0), (A*->B)) :-
+    !,
+    plain(A0, A),
+    plain(B0, B).
+plain(catch(A0,C,R), catch(A,C,R)) :-
+    !,
+    plain(A0, A).
+plain(Goal, Goal).
+
+%!  goals_body(+Goals, -Body) is det.
+
+goals_body([], true).
+goals_body([Goal|Goals], Body) :-
+    (   Goals == []
+    ->  Body = Goal
+    ;   Body = (Goal,Rest),
+        goals_body(Goals, Rest)
+    ).

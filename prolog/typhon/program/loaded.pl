@@ -1,0 +1,73 @@
+:- module(typhon_loaded,
+          [ program_load/5              % +Spec, -Program, -Initial, -Hash,
+                                        % -Kinds
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(paths, [program_file/2]).
+:- use_module(programs, [program_hash/2, program_read/5]).
+:- use_module(source, [source_same/1, source_settled/1]).
+
+/** <module> Programs that were read lately
+
+A program file is read, checked and analysed when the first agent is created
+from it, and again when it, or a file that it includes, has changed.  What a
+library that it imports defines is taken as it was then.
+
+*Threading*: any thread.  One mutex is held to remember; to look needs none.
+*/
+
+:- setting(files, nonneg, 64, "Program files remembered as they were read").
+
+:- dynamic
+    loaded/3.                   % File, Sources, Loaded: the oldest first
+
+%!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds) is det.
+%
+%   As program_read/5, with the hash of Program.
+
+program_load(Spec, Program, Initial, Hash, Kinds) :-
+    load(Spec, loaded(Program, Initial, Hash, Kinds)).
+
+load(Spec, Loaded) :-
+    in_file(Spec),
+    !,
+    program_file(Spec, File),
+    load_file(File, Loaded).
+load(Spec, Loaded) :-
+    read_program(Spec, Loaded, _).
+
+in_file(Spec) :-
+    callable(Spec),
+    Spec \= clauses(_).
+
+load_file(File, Loaded) :-
+    loaded(File, Sources, Loaded0),
+    source_same(Sources),
+    !,
+    Loaded = Loaded0.
+load_file(File, Loaded) :-
+    read_program(File, Loaded, Sources),
+    debug(typhon(program), 'read ~w', [File]),
+    (   source_settled(Sources)
+    ->  with_mutex(typhon_loaded, remember(File, Sources, Loaded))
+    ;   true
+    ).
+
+read_program(Spec, loaded(Program, Initial, Hash, Kinds), Sources) :-
+    program_read(Spec, Program, Initial, Kinds, Sources),
+    program_hash(Program, Hash).
+
+remember(File, Sources, Loaded) :-
+    retractall(loaded(File, _, _)),
+    assertz(loaded(File, Sources, Loaded)),
+    forget_oldest.
+
+forget_oldest :-
+    predicate_property(loaded(_,_,_), number_of_clauses(Count)),
+    setting(files, Max),
+    Count > Max,
+    retract(loaded(_, _, _)),
+    !,
+    forget_oldest.
+forget_oldest.
