@@ -246,7 +246,8 @@ served(Host) :-
 
 nobody_in :-
     peer_do(victim,
-            forall(typhon_session:session_peer(_, Process, _),
+            forall(( typhon_session:session(_, Session),
+                     typhon_session:session_peer(Session, Process, _) ),
                    ( atom_length(Process, 16)
                    ; sub_atom(Process, 0, _, _, fuzz) ))).
 
@@ -272,14 +273,14 @@ memory(KB) :-
 %   Workers come and go, and are not counted.
 
 footprint([slots-Slots, sessions-Sessions, requests-Requests,
-           agents-Agents, crew-Crew, queues-Queues]) :-
+           agents-Agents, threads-Threads, queues-Queues]) :-
     peer_do(victim,
         ( aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), Slots),
           aggregate_all(count, typhon_session:session(_, _), Sessions),
           aggregate_all(count, typhon_request:open_request(_, _, _),
                         Requests),
           aggregate_all(count, typhon_agents:agent(_, _, _, _, _), Agents),
-          aggregate_all(count, typhon_threads:member_thread(_), Crew),
+          aggregate_all(count, typhon_threads:wire_thread(_), Threads),
           aggregate_all(count, message_queue_property(_, size(_)),
                         Queues) )).
 
