@@ -27,7 +27,7 @@ _Threading_: the main thread.
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket)).
-:- use_module(library(typhon/wire/auth), [authenticate/5]).
+:- use_module(library(typhon/wire/auth), [authenticate/6, cookie/1]).
 :- use_module(library(typhon/wire/frame), [frame_write/2, term_bytes/3]).
 :- use_module(library(typhon/wire/hello),
               [hello/4, hello_codec/3, line_read/3, line_write/2]).
@@ -196,7 +196,7 @@ try(Times, Goal) :-
 with_session(Port, Hello, Goal) :-
     setup_call_cleanup(
         connect(Port, In, Out),
-        ( authenticate(client, In, Out, Hello, Peer),
+        ( authenticate(client, In, Out, Hello, cookie, Peer),
           resume(Hello, Peer, In, Out),
           call(Goal, In, Out) ),
         close_streams(In, Out)).

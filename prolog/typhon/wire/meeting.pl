@@ -22,7 +22,7 @@ adoption gives it the connection.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(settings), [setting/2]).
-:- use_module(auth, [authenticate/5]).
+:- use_module(auth, [authenticate/6, cookie/1]).
 :- use_module(counts, [received/2]).
 :- use_module(hello,
               [hello_codec/3, hello_peer/4, line_read/3, line_write/2]).
@@ -42,9 +42,9 @@ adoption gives it the connection.
 %   cookie: it need not come back.
 
 prove(client(_), In, Out, Me, Peer) :-
-    authenticate(client, In, Out, Me, Peer).
+    authenticate(client, In, Out, Me, cookie, Peer).
 prove(server, In, Out, Me, Peer) :-
-    catch(authenticate(server, In, Out, Me, Peer),
+    catch(authenticate(server, In, Out, Me, cookie, Peer),
           error(permission_error(authenticate, peer, cookie), Context),
           ( line_write(Out, refused),
             throw(error(permission_error(authenticate, peer, cookie),
@@ -61,8 +61,9 @@ meet(Role, In, Out, Me, Peer, Session, Known) :-
     session_keys(Role, Me, Peer, MyKey, Key),
     session_open(Key, Peer, Codec, Session),
     call(Known, Session),
-    thread_self(Thread),
-    debug(typhon(session), '~w: met in ~w, ~w', [Key, Thread, Codec]),
+    hello_peer(Peer, _, _, Address),
+    debug(typhon(session), '~w: a connection, with ~w, ~w',
+          [Key, Address, Codec]),
     adopt(MyKey, Key, Role, Session, In, Out).
 
 %   A process that connects to itself has a session for either end.

@@ -25,12 +25,12 @@ order. While a session is up and nobody is pushing, nothing waits.
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2]).
 :- use_module(counts, [acknowledged/3]).
-:- use_module(frame, [frame_write/2, term_bytes/3]).
+:- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
-:- use_module(pusher, [pusher_control/3, pusher_start/4, pushing/1]).
+:- use_module(pusher, [pusher/2, pusher_control/3, pusher_start/4]).
 :- use_module(session,
               [ session_codec/2, session_key/2, session_locked/2,
-                session_must_exist/1 ]).
+                session_must_exist/2 ]).
 :- use_module(transport, [session_up/1, transport/3, transport_broken/2]).
 :- use_module(unacked,
               [ unacked_await/3, unacked_no_wait/1, unacked_sent/2,
@@ -81,7 +81,7 @@ session_push(Session) :-
 
 push_out(Key) :-
     (   transport(Key, Thread, Out),
-        \+ pushing(Key)
+        \+ pusher(Key, _)
     ->  catch(flush_output(Out),
               error(_, _),
               transport_broken(Key, Thread))
@@ -98,12 +98,11 @@ frame_bytes(Session, Term, Bytes) :-
         setting(typhon_session:frame_bytes, Max),
         Length > Max
     ->  resource_error(frame_bytes)
-    ;   watch_frame(to, Session, Term, Length)
+    ;   watch_frame(to, Session, Term, Bytes)
     ).
 
 put_frame(Session, Bytes) :-
-    session_must_exist(Session),
-    session_key(Session, Key),
+    session_must_exist(Session, Key),
     (   writable(Key, Bytes, Thread, Out)
     ->  unacked_sent(Key, Bytes),
         write_now(Key, Thread, Out, Bytes)
@@ -112,8 +111,7 @@ put_frame(Session, Bytes) :-
     ).
 
 put_later(Session, Bytes) :-
-    session_must_exist(Session),
-    session_key(Session, Key),
+    session_must_exist(Session, Key),
     (   writable(Key, Bytes, Thread, Out)
     ->  unacked_sent(Key, Bytes),
         catch(frame_write(Out, Bytes),
@@ -128,7 +126,7 @@ put_later(Session, Bytes) :-
 
 writable(Key, Bytes, Thread, Out) :-
     transport(Key, Thread, Out),
-    \+ pushing(Key),
+    \+ pusher(Key, _),
     byte_count(Out, Written),
     acknowledged(Key, _, Acked),
     string_length(Bytes, Length),
@@ -139,7 +137,7 @@ writable(Key, Bytes, Thread, Out) :-
 %   Something waits: it is written, or a connection made.
 
 see_to(Session, Key) :-
-    (   pushing(Key)
+    (   pusher(Key, _)
     ->  true
     ;   transport(Key, Thread, Out)
     ->  pusher_start(Session, Thread, Out, [])
@@ -147,9 +145,7 @@ see_to(Session, Key) :-
     ).
 
 write_now(Key, Thread, Out, Bytes) :-
-    catch(( frame_write(Out, Bytes),
-            flush_output(Out)
-          ),
+    catch(frame_write_now(Out, Bytes),
           error(_, _),
           transport_broken(Key, Thread)).
 
@@ -161,8 +157,7 @@ write_now(Key, Thread, Out, Bytes) :-
 session_control(Session, Term) :-
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
-    string_length(Bytes, Length),
-    watch_frame(to, Session, Term, Length),
+    watch_frame(to, Session, Term, Bytes),
     functor(Term, Kind, _),
     session_locked(Session, put_control(Session, Kind, Bytes)).
 

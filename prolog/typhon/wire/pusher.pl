@@ -1,5 +1,5 @@
 :- module(typhon_pusher,
-          [ pushing/1,                  % +Key
+          [ pusher/2,                   % ?Key, ?Thread
             pusher_start/4,             % +Session, +Thread, +Out, +Again
             pusher_stop/1,              % +Key
             pusher_control/3,           % +Key, +Kind, +Bytes
@@ -19,7 +19,7 @@ the session; pusher_stop/1 is for the thread of the connection, without it.
 
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(frame, [frame_write/2]).
+:- use_module(frame, [frame_write_now/2]).
 :- use_module(session, [session_key/2, session_locked/2]).
 :- use_module(threads, [wire_thread_create/3, wire_thread_end/2]).
 :- use_module(transport, [transport_broken/2]).
@@ -29,13 +29,9 @@ the session; pusher_stop/1 is for the thread of the connection, without it.
     pusher/2,                           % Key, Thread
     control/3.                          % Key, Kind, Bytes: before what waits
 
-%!  pushing(+Key) is semidet.
+%!  pusher(?Key, ?Thread) is nondet.
 %
-%   Only the pusher of the session may write.
-
-pushing(Key) :-
-    pusher(Key, _),
-    !.
+%   Thread alone may write what is sent in the session.
 
 %!  pusher_start(+Session, +Thread, +Out, +Again) is det.
 %
@@ -56,7 +52,7 @@ pusher_start(Session, Thread, Out, Again) :-
 
 push(Session, Thread, Out, Again) :-
     call_cleanup(
-        catch(( forall(member(Bytes, Again), write_frame(Out, Bytes)),
+        catch(( forall(member(Bytes, Again), frame_write_now(Out, Bytes)),
                 push_waiting(Session, Out) ),
               error(_, _),
               true),
@@ -77,7 +73,7 @@ push_waiting(Session, Out) :-
     repeat,
     session_locked(Session, next_frame(Key, Next)),
     (   Next = frame(Bytes)
-    ->  write_frame(Out, Bytes),
+    ->  frame_write_now(Out, Bytes),
         fail
     ;   !
     ).
@@ -90,10 +86,6 @@ next_frame(Key, frame(Bytes)) :-
     !.
 next_frame(Key, none) :-
     retractall(pusher(Key, _)).
-
-write_frame(Out, Bytes) :-
-    frame_write(Out, Bytes),
-    flush_output(Out).
 
 %!  pusher_stop(+Key) is det.
 %

@@ -100,8 +100,7 @@ read_all(Session, In, Max, State) :-
     ->  (   Bytes == end_of_file
         ->  !
         ;   frame_term(Codec, Bytes, Term),
-            string_length(Bytes, Length),
-            watch_frame(from, Session, Term, Length),
+            watch_frame(from, Session, Term, Bytes),
             sig_atomic(handle(Term, Session, In, State)),
             fail
         )

@@ -24,7 +24,7 @@ have ended.
 :- use_module(pusher, [pusher_no_control/1, pusher_start/4, pusher_stop/1]).
 :- use_module(session,
               [ session/2, session_codec/2, session_forget/1, session_key/2,
-                session_locked/2, session_must_exist/1 ]).
+                session_locked/2, session_must_exist/2 ]).
 :- use_module(threads, [wire_thread_end/2]).
 :- use_module(transport,
               [ transport_attach/3, transport_detach/2, transport_stop/2,
@@ -43,14 +43,11 @@ have ended.
 
 session_install(Session, Thread, Out, PeerCount) :-
     session_locked(Session,
-                   ( session_must_exist(Session),
-                     install(Session, Thread, Out, PeerCount) )),
-    session_key(Session, Key),
-    debug(typhon(session), '~w: up, in ~w; it has ~D frames',
-          [Key, Thread, PeerCount]).
+                   install(Session, Key, Thread, Out, PeerCount)),
+    debug(typhon(session), '~w: up; it has ~D frames', [Key, PeerCount]).
 
-install(Session, Thread, Out, PeerCount) :-
-    session_key(Session, Key),
+install(Session, Key, Thread, Out, PeerCount) :-
+    session_must_exist(Session, Key),
     unacked_open(Key),
     byte_count(Out, Bytes),
     unacked_gone(Key, PeerCount, Bytes),
@@ -74,7 +71,7 @@ session_down(Session, Thread) :-
     pusher_stop(Key),
     session_locked(Session, at_rest(Key, Thread)),
     ignore(keeper_tell(wanted(Key))),
-    debug(typhon(session), '~w: down, in ~w', [Key, Thread]).
+    debug(typhon(session), '~w: down', [Key]).
 
 at_rest(Key, Thread) :-
     transport_detach(Key, Thread),

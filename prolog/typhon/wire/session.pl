@@ -2,7 +2,7 @@
           [ session/2,                  % ?Key, -Session
             session_open/4,             % +Key, +Hello, +Codec, -Session
             session_forget/1,           % +Session
-            session_must_exist/1,       % +Session
+            session_must_exist/2,       % +Session, -Key
             session_key/2,              % +Session, -Key
             session_codec/2,            % +Session, -Codec
             session_peer/3,             % +Session, -Process, -Address
@@ -97,13 +97,13 @@ session_forget(Session) :-
                  counts_forget(Key) )),
     debug(typhon(session), '~w: forgotten', [Key]).
 
-%!  session_must_exist(+Session) is det.
+%!  session_must_exist(+Session, -Key) is det.
 %
-%   Another session may have its key by now.
+%   Session has not been closed; another may have its key by now.
 %
 %   @error session_closed
 
-session_must_exist(Session) :-
+session_must_exist(Session, Key) :-
     session_key(Session, Key),
     (   session(Key, Session)
     ->  true

@@ -58,10 +58,12 @@ queues_of(Key, Sent, Waiting) :-
 %!  unacked_sent(+Key, +Bytes) is det.
 %!  unacked_waits(+Key, +Bytes) is det.
 %
-%   A frame is about to be written; it waits until others are.
+%   A frame is about to be written, as the session is up; it waits until
+%   others are.
 
 unacked_sent(Key, Bytes) :-
-    queues_of(Key, Sent, _),
+    queues(Key, Sent, _),
+    !,
     thread_send_message(Sent, Bytes).
 
 unacked_waits(Key, Bytes) :-

@@ -1,5 +1,5 @@
 :- module(typhon_watch,
-          [ watch_frame/4               % +Way, +Session, +Term, +Length
+          [ watch_frame/4               % +Way, +Session, +Term, +Bytes
           ]).
 
 /** <module> One can see the frames
@@ -14,14 +14,15 @@ _Threading_: no state.
 :- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(session, [session_key/2]).
 
-%!  watch_frame(+Way, +Session, +Term, +Length) is det.
+%!  watch_frame(+Way, +Session, +Term, +Bytes) is det.
 %
 %   Way is `to` or `from` the peer. Costs next to nothing if nobody looks.
 
-watch_frame(Way, Session, Term, Length) :-
+watch_frame(Way, Session, Term, Bytes) :-
     (   debugging(typhon(frame))
     ->  session_key(Session, Key),
         frame_words(Term, Words),
+        string_length(Bytes, Length),
         debug(typhon(frame), '~w ~w: ~w, ~D bytes',
               [Way, Key, Words, Length])
     ;   true

@@ -235,7 +235,7 @@ at_end(Socket, Goal, Result) :-
         ( close(Out, [force(true)]), close(In, [force(true)]) )).
 
 authenticate_as(Role, Hello, Cookie, In, Out) :-
-    authenticate(Role, In, Out, Hello, Cookie, Peer),
+    authenticate(Role, In, Out, Hello, =(Cookie), Peer),
     nb_setval(seen, Peer).
 
 with_env(Name, Value, Goal) :-

@@ -98,7 +98,7 @@ newcomer(I, Seconds) :-
     hello(Process, 1, '127.0.0.1:1', Hello),
     setup_call_cleanup(connected(Client),
                        ( Client = streams(In, Out),
-                         authenticate(client, In, Out, Hello, _) ),
+                         authenticate(client, In, Out, Hello, cookie, _) ),
                        closed(Client)),
     get_time(T1),
     Seconds is T1-T0.
