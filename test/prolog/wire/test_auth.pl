@@ -200,7 +200,7 @@ test(without_records, Codecs == [text, text, text]) :-
 
 %   meeting(:Server, :Client, -ServerResult, -ClientResult): both are
 %   called with the two streams of their end; a result is true(X), what
-%   authenticate/5 saw, or the exception.
+%   authenticate/6 saw, or the exception.
 
 :- meta_predicate
     meeting(2, 2, -, -),
