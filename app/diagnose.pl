@@ -19,8 +19,7 @@ while after the answer is known.
                 tcp_socket/1
               ]).
 :- use_module('../prolog/typhon', [remote/2]).
-:- use_module('../prolog/typhon/wire/auth', [cookie/1]).
-:- use_module('../prolog/typhon/wire/endpoint', [endpoint_peer/2]).
+:- use_module('../prolog/typhon/wire', [cookie/1, endpoint_peer/2]).
 
 connect_deadline(5).                    % seconds
 

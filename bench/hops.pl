@@ -1,6 +1,6 @@
 :- use_module(common).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/wire/outbox), []).
+:- use_module(library(typhon/wire/transport), []).
 :- use_module(library(typhon/wire/session), []).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth0/3, append/3]).
@@ -123,8 +123,9 @@ once_round(Peer, Bytes) :-
 
 sent(Peer, Bytes) :-
     atomic_list_concat([_, Endpoint], '@', Peer),
-    (   typhon_session:route(Endpoint, session(Key, _, _, _, _)),
-        typhon_outbox:link(Key, _, Out, _)
+    (   typhon_session:route(Endpoint, Session),
+        typhon_session:session_key(Session, Key),
+        typhon_transport:transport(Key, _, Out)
     ->  byte_count(Out, Bytes)
     ;   Bytes = 0
     ).

@@ -7,7 +7,7 @@
 :- use_module('../../prolog/typhon/base/own_thread', [in_own_thread/1]).
 :- use_module('../../prolog/typhon/network/children',
               [child_close/1, child_kill/1, child_release/1, child_start/5]).
-:- use_module('../../prolog/typhon/wire/endpoint', [endpoint_call/5]).
+:- use_module('../../prolog/typhon/wire', [endpoint_call/5]).
 :- use_module(crew, [crew_services/1]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).

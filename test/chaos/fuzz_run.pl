@@ -27,7 +27,7 @@ _Threading_: the main thread.
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket)).
-:- use_module(library(typhon/wire/auth), [authenticate/5]).
+:- use_module(library(typhon/wire/auth), [authenticate/6, cookie/1]).
 :- use_module(library(typhon/wire/frame), [frame_write/2, term_bytes/3]).
 :- use_module(library(typhon/wire/hello),
               [hello/4, line_read/3, line_write/2]).
@@ -196,7 +196,7 @@ try(Times, Goal) :-
 with_session(Port, Hello, Goal) :-
     setup_call_cleanup(
         connect(Port, In, Out),
-        ( authenticate(client, In, Out, Hello, Peer),
+        ( authenticate(client, In, Out, Hello, cookie, Peer),
           resume(Hello, Peer, In, Out),
           call(Goal, In, Out) ),
         close_streams(In, Out)).
@@ -246,7 +246,8 @@ served(Host) :-
 
 nobody_in :-
     peer_do(victim,
-            forall(typhon_session:session_peer(_, Process, _),
+            forall(( typhon_session:session(_, Session),
+                     typhon_session:session_peer(Session, Process, _) ),
                    ( atom_length(Process, 16)
                    ; sub_atom(Process, 0, _, _, fuzz) ))).
 
@@ -272,14 +273,14 @@ memory(KB) :-
 %   Workers come and go, and are not counted.
 
 footprint([slots-Slots, sessions-Sessions, requests-Requests,
-           agents-Agents, crew-Crew, queues-Queues]) :-
+           agents-Agents, threads-Threads, queues-Queues]) :-
     peer_do(victim,
         ( aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), Slots),
           aggregate_all(count, typhon_session:session(_, _), Sessions),
           aggregate_all(count, typhon_request:open_request(_, _, _),
                         Requests),
           aggregate_all(count, typhon_agents:agent(_, _, _, _, _), Agents),
-          aggregate_all(count, typhon_threads:member_thread(_), Crew),
+          aggregate_all(count, typhon_threads:wire_thread(_), Threads),
           aggregate_all(count, message_queue_property(_, size(_)),
                         Queues) )).
 

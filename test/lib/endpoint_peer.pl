@@ -32,7 +32,7 @@ Posts of kind `note` are remembered. Requests are
 :- use_module(common).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(typhon/wire/endpoint)).
+:- use_module(library(typhon/wire)).
 
 :- dynamic note/1.
 

@@ -93,10 +93,10 @@ agent_state_here(Id, State) :-
 
 connected_to(Host) :-
     typhon_hosts:address_parts(Host, _, Endpoint),
-    typhon_endpoint:endpoint_peer(Endpoint, state(up)).
+    typhon_wire:endpoint_peer(Endpoint, state(up)).
 
 connecting :-
-    typhon_quest:quest(_, _, _, _),
+    typhon_attempts:attempt(_, _, _, _),
     !.
 
 outcome_here(Id, Outcome) :-
@@ -183,5 +183,5 @@ programs_seen(Count) :-
 %   What arrives is installed, and its source never hears of it.
 
 silence_answers :-
-    wrap_predicate(typhon_endpoint:endpoint_reply_later(_, _), mute, _,
+    wrap_predicate(typhon_messaging:endpoint_reply_later(_, _), mute, _,
                    true).

@@ -7,7 +7,7 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/wire/auth), [random_hex/2]).
-:- use_module(library(typhon/wire/endpoint), [endpoint_peer/2]).
+:- use_module(library(typhon/wire), [endpoint_peer/2]).
 
 /** <module> Agents around a ring of three processes
 

@@ -15,7 +15,7 @@ else wants them.
 Most strangers take us for something else. Whose first byte is there, and is
 not that of a greeting, gets neither slot nor thread.
 
-_Threading_: accept_all/2 is the goal of a crew thread, which is woken by a
+_Threading_: accept_all/2 is the goal of a thread, which is woken by a
 signal: closing the socket would not wake it. The slots are guarded by a
 mutex: the acceptor gives and takes them, the thread of a client says how
 far it has come and gives its own back.
@@ -27,8 +27,11 @@ far it has come and gives its own back.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket), [tcp_accept/3]).
 :- use_module(connection, [incoming/5, open_streams/3]).
+:- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(refusals, [refusals_begin/0, refused/2]).
-:- use_module(threads, [crew_signal/2, crew_spawn/3, crew_tell/1]).
+:- use_module(threads,
+              [ wire_thread_create/4, wire_thread_running/1,
+                wire_thread_signal/2 ]).
 
 :- setting(strangers, positive_integer, 128,
            "Connections at a time that have not proved themselves").
@@ -44,7 +47,7 @@ proved_addresses(256).
 %!  accept_all(+Socket, +Me)
 %
 %   Serve all who connect to Socket, Me being our hello, until stopped by
-%   an exception of the crew.
+%   a signal.
 
 accept_all(Socket, Me) :-
     refusals_begin,
@@ -124,8 +127,8 @@ give(In, Out, Ip, Me, Evicted) :-
     ;   throw(error(crowd, _))
     ),
     get_time(Now),
-    crew_spawn(serve(In, Out, Ip, Me), Thread,
-               assertz(stranger(Thread, Ip, Now, new(In, Out)))).
+    wire_thread_create(serve(In, Out, Ip, Me), in-Ip, Thread,
+                       assertz(stranger(Thread, Ip, Now, new(In, Out)))).
 
 		 /*******************************
 		 *            SLOTS             *
@@ -135,7 +138,7 @@ room :-
     free_slot,
     !.
 room :-
-    forall(( stranger(Thread, _, _, _), \+ running(Thread) ),
+    forall(( stranger(Thread, _, _, _), \+ wire_thread_running(Thread) ),
            bury(Thread)),
     free_slot.
 
@@ -144,22 +147,17 @@ free_slot :-
     setting(strangers, Max),
     Count < Max.
 
-running(Thread) :-
-    catch(thread_property(Thread, status(running)),
-          error(existence_error(_, _), _),
-          fail).
-
 %   A thread that was interrupted on its first or last steps may not have
 %   said that it ended.
 
 bury(Thread) :-
     take_slot(Thread),
-    ignore(crew_tell(ended(Thread))).
+    ignore(keeper_tell(ended(Thread))).
 
 evict(Ip) :-
     victim(Thread, Ip),
     take_slot(Thread),
-    crew_signal(Thread, evicted).
+    wire_thread_signal(Thread, evicted).
 
 victim(Thread, Ip) :-
     findall(Ip0, stranger(_, Ip0, _, _), Ips0),

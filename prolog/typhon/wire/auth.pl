@@ -1,7 +1,6 @@
 :- module(typhon_auth,
           [ cookie/1,                   % -Cookie
-            authenticate/5,             % +Role, +In, +Out, +Hello, -PeerHello
-            authenticate/6,             % +Role, +In, +Out, +Hello, +Cookie,
+            authenticate/6,             % +Role, +In, +Out, +Hello, :Cookie,
                                         % -PeerHello
             random_hex/2                % +Count, -Hex
           ]).
@@ -40,6 +39,9 @@ in one fact; two threads that read it at once store the same.
 
 %   greeted: the server has said who it is, which is still to be proved.
 
+:- meta_predicate
+    authenticate(+, +, +, +, 1, -).
+
 :- multifile
     greeted/0.
 
@@ -47,28 +49,20 @@ in one fact; two threads that read it at once store the same.
     greeted/0,
     known_cookie/3.                     % File, Time, Cookie
 
-%!  authenticate(+Role, +In, +Out, +Hello, -PeerHello) is det.
-%!  authenticate(+Role, +In, +Out, +Hello, +Cookie, -PeerHello) is det.
+%!  authenticate(+Role, +In, +Out, +Hello, :Cookie, -PeerHello) is det.
 %
 %   Prove ourselves to the peer at the other end of In and Out and see its
 %   proof, Role being `client` or `server`. Stops listening after
-%   `handshake_time` seconds in all.
+%   `handshake_time` seconds in all. call(Cookie, Secret) gives what both
+%   must know: a stranger that does not even greet costs us neither that nor
+%   a nonce.
 %
 %   @error permission_error(authenticate, peer, Why) Why: cookie, protocol,
 %   version(Theirs)
 %   @error timeout_error(read, In)
 %   @error syntax_error(Message) what comes is no hello.
 
-authenticate(Role, In, Out, Hello, PeerHello) :-
-    prove(Role, In, Out, Hello, cookie, PeerHello).
-
 authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
-    prove(Role, In, Out, Hello, =(Cookie), PeerHello).
-
-%   prove(+Role, +In, +Out, +Hello, :Cookie, -PeerHello): a stranger that
-%   does not even greet costs us neither cookie nor nonce.
-
-prove(Role, In, Out, Hello, Cookie, PeerHello) :-
     must_be(oneof([client, server]), Role),
     setting(handshake_time, Seconds),
     get_time(Now),

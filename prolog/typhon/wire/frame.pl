@@ -1,5 +1,6 @@
 :- module(typhon_frame,
           [ frame_write/2,              % +Out, +Bytes
+            frame_write_now/2,          % +Out, +Bytes
             frame_read/3,               % +In, +MaxBytes, -Bytes
             term_bytes/3,               % +Codec, +Term, -Bytes
             bytes_term/3,               % +Codec, +Bytes, -Term
@@ -37,8 +38,13 @@ owner of a stream sees to it that one thread at a time writes to it.
 :- use_module(text, [term_text/2, text_term/2]).
 
 %!  frame_write(+Out, +Bytes) is det.
+%!  frame_write_now(+Out, +Bytes) is det.
 %
-%   Write one frame to the binary stream Out. Does not flush.
+%   Write one frame to the binary stream Out; the second flushes it.
+
+frame_write_now(Out, Bytes) :-
+    frame_write(Out, Bytes),
+    flush_output(Out).
 
 frame_write(Out, Bytes) :-
     string_length(Bytes, Length),

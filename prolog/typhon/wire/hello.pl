@@ -1,5 +1,6 @@
 :- module(typhon_hello,
           [ hello/4,                    % +Process, +Start, +Address, -Hello
+            hello_peer/4,               % +Hello, -Process, -Start, -Address
             hello_line/2,               % +Hello, -Line
             line_hello/2,               % +Line, -Hello
             hello_codec/3,              % +Hello, +PeerHello, -Codec
@@ -53,6 +54,12 @@ byte_order(Order) :-
     ;   End = big
     ),
     atomic_list_concat([End, Check], '.', Order).
+
+%!  hello_peer(+Hello, -Process, -Start, -Address) is det.
+%
+%   Who says Hello.
+
+hello_peer(hello(Process, Start, Address, _, _, _), Process, Start, Address).
 
 %!  hello_line(+Hello, -Line:string) is det.
 

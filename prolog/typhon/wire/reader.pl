@@ -1,5 +1,6 @@
 :- module(typhon_reader,
-          [ read_frames/2               % +Session, +In
+          [ read_frames/2,              % +Session, +In
+            in_reader/0
           ]).
 
 /** <module> Reading the frames of a session
@@ -20,14 +21,16 @@ counted.
 
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(counts, [note_received/2, received/2]).
 :- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
+:- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(outbox,
-              [ session_acked/3, session_control/2, session_pending/2,
-                session_push/1, session_send/2, session_sent/2 ]).
-:- use_module(request, [dispatch/2, requests_open/1]).
-:- use_module(session,
-              [session_note_received/2, session_peer/3, session_received/2]).
-:- use_module(threads, [crew_tell/1]).
+              [ session_control/2, session_later/1, session_push/1,
+                session_send/2 ]).
+:- use_module(request, [dispatch/2, session_unfinished/1]).
+:- use_module(session, [session_codec/2, session_key/2, session_peer/3]).
+:- use_module(unacked, [session_acked/3, session_sent/2]).
+:- use_module(watch, [watch_frame/4]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is asked for a sign of life").
@@ -50,27 +53,34 @@ ack_bytes(32768).
 %   @error domain_error(acknowledged, Count) more than was sent
 
 read_frames(Session, In) :-
-    Session = session(Key, _, _, _, _),
+    session_key(Session, Key),
     setting(silence, Silence),
     setting(typhon_session:frame_bytes, Max),
     set_stream(In, timeout(Silence)),
-    session_received(Key, Count),
+    received(Key, Count),
     byte_count(In, Bytes),
     nb_setval(typhon_reader, true),
-    nb_setval(typhon_later, 0),
+    session_push(Session),
     State = count(Count, Count, Bytes, 0),
     call_cleanup(
         call_cleanup(
             read_or_skip(Session, In, Max, State),
-            note_received(Key, State)),
-        note_received(Key, State)).
+            keep_count(Key, State)),
+        keep_count(Key, State)).
 
-%   Noted twice, as the one signal that ends this thread may come in the
+%!  in_reader is semidet.
+%
+%   This thread reads the frames of a session: it must not wait.
+
+in_reader :-
+    nb_current(typhon_reader, true).
+
+%   Kept twice, as the one signal that ends this thread may come in the
 %   middle of the first: with an old count everything would come again.
 
-note_received(Key, State) :-
+keep_count(Key, State) :-
     arg(1, State, Count),
-    session_note_received(Key, Count).
+    note_received(Key, Count).
 
 read_or_skip(Session, In, Max, State) :-
     catch(read_all(Session, In, Max, State),
@@ -83,13 +93,14 @@ read_or_skip(Session, In, Max, State) :-
     ).
 
 read_all(Session, In, Max, State) :-
-    Session = session(_, Codec, _, _, _),
+    session_codec(Session, Codec),
     repeat,
     push_late(Session, In),
     (   next(In, Max, Bytes)
     ->  (   Bytes == end_of_file
         ->  !
         ;   frame_term(Codec, Bytes, Term),
+            watch_frame(from, Session, Term, Bytes),
             sig_atomic(handle(Term, Session, In, State)),
             fail
         )
@@ -107,7 +118,7 @@ late_answers(16).
 late_seconds(0.001).
 
 push_late(Session, In) :-
-    nb_getval(typhon_later, Count),
+    session_later(Count),
     (   Count =:= 0
     ->  true
     ;   late_answers(Max),
@@ -115,8 +126,7 @@ push_late(Session, In) :-
         late_seconds(Seconds),
         sig_atomic(wait_for_input([In], [_], Seconds))
     ->  true
-    ;   session_push(Session),
-        nb_setval(typhon_later, 0)
+    ;   session_push(Session)
     ).
 
 %   A frame that cannot be read has come all the same: asking for it again
@@ -136,8 +146,7 @@ unreadable(Formal, Bytes, unreadable(Formal, Mark)) :-
 
 take(unreadable(Formal, Mark), Session) :-
     !,
-    arg(1, Session, Key),
-    ignore(session_peer(Key, _, Address)),
+    session_peer(Session, _, Address),
     print_message(warning, typhon(endpoint, unreadable(Address, Formal))),
     spoil(Mark, Session).
 take(Frame, Session) :-
@@ -156,14 +165,14 @@ spoil(_, _).
 %   skip(+Session, +Which, +State): throws as long as it may be an accident.
 
 skip(Session, Which, State) :-
-    arg(1, Session, Key),
+    session_key(Session, Key),
     arg(1, State, Count),
     times_damaged(Key, Count, Which, Times),
     (   Times < 3
     ->  throw(error(syntax_error(damaged_frame), Which))
     ;   Count1 is Count+1,
         nb_setarg(1, State, Count1),
-        ignore(session_peer(Key, _, Address)),
+        session_peer(Session, _, Address),
         print_message(error, typhon(endpoint, skipped(Address)))
     ).
 
@@ -200,7 +209,7 @@ silent(Session, In, State) :-
     ->  acknowledge(Session, In, State)
     ;   true
     ),
-    (   \+ owes(Session)
+    (   \+ session_unfinished(Session)
     ->  nb_setarg(4, State, 0)
     ;   Silent < 2
     ->  Silent1 is Silent+1,
@@ -208,13 +217,6 @@ silent(Session, In, State) :-
         session_control(Session, ping)
     ;   throw(error(timeout_error(read, In), _))
     ).
-
-owes(Session) :-
-    session_pending(Session, Pending),
-    Pending > 0,
-    !.
-owes(Session) :-
-    requests_open(Session).
 
 handle(ack(Count, Bytes), Session, In, State) :-
     !,
@@ -225,9 +227,10 @@ handle(ack(Count, Bytes), Session, In, State) :-
 handle(ping, Session, In, State) :-
     !,
     acknowledge(Session, In, State).
-handle(bye, session(Key, _, _, _, _), _, _) :-
+handle(bye, Session, _, _) :-
     !,
-    ignore(crew_tell(gone(Key))).
+    session_key(Session, Key),
+    ignore(keeper_tell(gone(Key))).
 handle(Frame, Session, In, State) :-
     take(Frame, Session),
     arg(1, State, Count0),

@@ -1,7 +1,6 @@
 :- module(typhon_refusals,
           [ refused/2,                  % +Ip, +Why
-            refusals_begin/0,
-            refusals_tell/0
+            refusals_begin/0
           ]).
 
 /** <module> Telling of those who were turned away
@@ -12,12 +11,12 @@ message a second says how many there were, from where, and why. A burst is
 over after a second in which nobody came.
 
 _Threading_: any thread; what there is to tell is guarded by one mutex. The
-keeper calls refusals_tell/0 when a second is over.
+keeper calls tell/0 when a second is over.
 */
 
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists), [member/2]).
-:- use_module(threads, [crew_tell/1]).
+:- use_module(keeper_queue, [keeper_tell/1]).
 
 :- dynamic
     burst/1,                            % Told: so many one by one
@@ -76,21 +75,19 @@ add(Ip, Why) :-
 plan :-
     get_time(Now),
     Time is Now+1,
-    ignore(crew_tell(later(Time, typhon_refusals:refusals_tell))).
+    ignore(keeper_tell(later(Time, typhon_refusals:tell))).
 
 %!  refusals_begin is det.
 %
 %   An endpoint begins, with a burst of its own.
 
 refusals_begin :-
-    refusals_tell,
+    tell,
     retractall(burst(_)).
 
-%!  refusals_tell is det.
-%
 %   Tell of those that were not told of one by one.
 
-refusals_tell :-
+tell :-
     sig_atomic(with_mutex(typhon_refusals, take(Groups))),
     (   Groups == []
     ->  true

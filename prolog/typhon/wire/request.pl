@@ -5,7 +5,7 @@
             request_answer/2,           % +Result, :OnAnswer
             request_forget/1,           % :OnAnswer
             requests_lost/2,            % +Session, +Unsent
-            requests_open/1,            % +Session
+            session_unfinished/1,       % +Session
             dispatch/2,                 % +Session, +Frame
             connection_is/2             % +Session, +State
           ]).
@@ -25,7 +25,10 @@ it. The table of open requests is shared; a request is taken out by retract/1
 and so answered once.
 */
 
+:- use_module(library(lists), [member/2]).
 :- use_module(outbox, [session_send/2, session_send_later/2]).
+:- use_module(session, [session_key/2, session_peer/3]).
+:- use_module(unacked, [session_pending/2]).
 
 :- meta_predicate
     request_send(+, +, +, 1),
@@ -38,7 +41,7 @@ and so answered once.
 %!  request_send(+Session, +Kind, +Term, :OnAnswer) is det.
 
 request_send(Session, Kind, Term, OnAnswer) :-
-    arg(1, Session, Key),
+    session_key(Session, Key),
     flag(typhon_request, Id, Id+1),
     assertz(open_request(Id, Key, OnAnswer)),
     catch(session_send(Session, request(Id, Kind, Term)),
@@ -70,19 +73,18 @@ request_reply(reply_to(Session, Id), Term) :-
 %   As request_reply/2, if possible together with what is sent next.
 
 request_reply_later(reply_to(Session, Id), Term) :-
-    (   nb_current(typhon_later, Count),
-        integer(Count)
-    ->  session_send_later(Session, answer(Id, Term)),
-        Count1 is Count+1,
-        nb_setval(typhon_later, Count1)
-    ;   session_send(Session, answer(Id, Term))
-    ).
+    session_send_later(Session, answer(Id, Term)).
 
-%!  requests_open(+Session) is semidet.
+%!  session_unfinished(+Session) is semidet.
 %
-%   Some request of Session has no answer yet.
+%   There is something to send, or some request has no answer yet.
 
-requests_open(session(Key, _, _, _, _)) :-
+session_unfinished(Session) :-
+    session_pending(Session, Pending),
+    Pending > 0,
+    !.
+session_unfinished(Session) :-
+    session_key(Session, Key),
     open_request(_, Key, _),
     !.
 
@@ -91,7 +93,8 @@ requests_open(session(Key, _, _, _, _)) :-
 %   The peer is gone for good and the frames Unsent never left: tell all
 %   who wait for its answers.
 
-requests_lost(session(Key, _, _, _, _), Unsent) :-
+requests_lost(Session, Unsent) :-
+    session_key(Session, Key),
     forall(member(request(Id, _, _), Unsent),
            conclude(unreachable, Id, Key)),
     forall(open_request(Id, Key, _), conclude(lost, Id, Key)).
@@ -111,21 +114,23 @@ conclude(Result, Id, Key) :-
 
 dispatch(Session, post(Kind, Term)) :-
     !,
-    peer(Session, Peer),
+    session_peer(Session, _, Peer),
     guarded(typhon_endpoint:received(Kind, Term, Peer), Kind).
 dispatch(Session, request(Id, Kind, Term)) :-
     !,
-    peer(Session, Peer),
+    session_peer(Session, _, Peer),
     (   attempt(typhon_endpoint:requested(Kind, Term, Peer,
                                           reply_to(Session, Id)), Kind)
     ->  true
     ;   guarded(session_send(Session, spoilt(Id)), Kind)
     ).
-dispatch(session(Key, _, _, _, _), answer(Id, Term)) :-
+dispatch(Session, answer(Id, Term)) :-
     !,
+    session_key(Session, Key),
     conclude(answer(Term), Id, Key).
-dispatch(session(Key, _, _, _, _), spoilt(Id)) :-
+dispatch(Session, spoilt(Id)) :-
     !,
+    session_key(Session, Key),
     conclude(lost, Id, Key).
 dispatch(_, Frame) :-                   % of a later version, or damaged
     print_message(warning, typhon(endpoint, unknown_frame(Frame))).
@@ -135,11 +140,9 @@ dispatch(_, Frame) :-                   % of a later version, or damaged
 %   Tell who wants to know that the connection is `up` or `down`.
 
 connection_is(Session, State) :-
-    peer(Session, Peer),
+    session_peer(Session, _, Peer),
     forall(clause(typhon_endpoint:connection(Peer, State), Body),
            guarded(typhon_endpoint:Body, connection)).
-
-peer(session(_, _, _, _, peer(_, Address)), Address).
 
 guarded(Goal, Kind) :-
     (   attempt(Goal, Kind)

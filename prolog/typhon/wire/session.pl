@@ -2,51 +2,68 @@
           [ session/2,                  % ?Key, -Session
             session_open/4,             % +Key, +Hello, +Codec, -Session
             session_forget/1,           % +Session
-            session_peer/3,             % ?Key, -Process, -Address
-            session_received/2,         % +Key, -Count
-            session_note_received/2,    % +Key, +Count
+            session_must_exist/2,       % +Session, -Key
+            session_key/2,              % +Session, -Key
+            session_codec/2,            % +Session, -Codec
+            session_peer/3,             % +Session, -Process, -Address
+            session_locked/2,           % +Session, :Goal
             session_adopting/2,         % +Session, :Goal
             route/2,                    % ?Address, ?Session
+            route_key/2,                % ?Address, ?Key
             route_add/2                 % +Address, +Session
           ]).
 
 /** <module> Sessions: who we are joined to
 
 A session joins this process to another for the life of both, over however
-many connections. What is sent in it is the business of outbox.pl.
+many connections. What is sent in it is the business of outbox.pl, what
+connections it has that of resumption.pl.
 
 A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address)).
 Key names the peer. Mutex guards the sending side; that of Adoption is held
-by who gives the session a new connection.
+by who gives the session a new connection. Nobody else takes it apart.
 
 _Threading_: any thread; a mutex makes sessions and routes one at a time.
-The count of what was received is for the thread of the connection alone.
 */
 
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module(threads, [crew_tell/1]).
+:- use_module(counts, [counts_forget/1, counts_open/1]).
+:- use_module(hello, [hello_peer/4]).
+:- use_module(keeper_queue, [keeper_tell/1]).
 
 :- setting(frame_bytes, positive_integer, 67108864,
            "The longest frame sent or taken, in bytes").
 
 :- meta_predicate
+    session_locked(+, 0),
     session_adopting(+, 0).
 
 :- dynamic
     session/2,                          % Key, Session
-    route/2,                            % Address, Session
-    received/2.                         % Key, Count
+    route/2.                            % Address, Session
 
 %!  session(?Key, -Session) is nondet.
-%!  session_peer(?Key, -Process, -Address) is nondet.
 %!  route(?Address, ?Session) is nondet.
+%!  route_key(?Address, ?Key) is nondet.
 %
-%   The sessions there are, whom each one joins us to, and which addresses
-%   lead to it.
+%   The sessions there are, and which addresses lead to each.
 
-session_peer(Key, Process, Address) :-
-    session(Key, session(_, _, _, _, peer(Process, Address))).
+route_key(Address, Key) :-
+    route(Address, session(Key, _, _, _, _)).
+
+%!  session_key(+Session, -Key) is det.
+%!  session_codec(+Session, -Codec) is det.
+%!  session_peer(+Session, -Process, -Address) is det.
+%
+%   Address is where the peer says it listens.
+
+session_key(session(Key, _, _, _, _), Key).
+
+session_codec(session(_, Codec, _, _, _), Codec).
+
+session_peer(session(_, _, _, _, peer(Process, Address)), Process, Address).
 
 %!  session_open(+Key, +Hello, +Codec, -Session) is det.
 %
@@ -58,11 +75,12 @@ session_open(Key, Hello, Codec, Session) :-
 open_session(Key, _, _, Session) :-
     session(Key, Session),
     !.
-open_session(Key, hello(Process, _, Address, _, _, _), Codec, Session) :-
+open_session(Key, Hello, Codec, Session) :-
+    hello_peer(Hello, Process, _, Address),
     mutex_create(Mutex),
     mutex_create(Adoption),
     Session = session(Key, Codec, Mutex, Adoption, peer(Process, Address)),
-    assertz(received(Key, 0)),
+    counts_open(Key),
     assertz(session(Key, Session)).
 
 %!  session_forget(+Session) is semidet.
@@ -72,11 +90,39 @@ open_session(Key, hello(Process, _, Address, _, _, _), Codec, Session) :-
 %   them.
 
 session_forget(Session) :-
-    Session = session(Key, _, _, _, _),
+    session_key(Session, Key),
     with_mutex(typhon_session,
                ( retract(session(Key, Session)),
                  retractall(route(_, Session)),
-                 retractall(received(Key, _)) )).
+                 counts_forget(Key) )),
+    debug(typhon(session), '~w: forgotten', [Key]).
+
+%!  session_must_exist(+Session, -Key) is det.
+%
+%   Session has not been closed; another may have its key by now.
+%
+%   @error session_closed
+
+session_must_exist(Session, Key) :-
+    session_key(Session, Key),
+    (   session(Key, Session)
+    ->  true
+    ;   throw(error(session_closed, _))
+    ).
+
+%!  session_locked(+Session, :Goal) is semidet.
+%
+%   Run once(Goal) alone with the sending side of Session: in one step.
+
+session_locked(session(_, _, Mutex, _, _), Goal) :-
+    sig_atomic(with_mutex(Mutex, Goal)).
+
+%!  session_adopting(+Session, :Goal) is semidet.
+%
+%   Run Goal, which gives Session a new connection, one at a time.
+
+session_adopting(session(_, _, _, Adoption, _), Goal) :-
+    with_mutex(Adoption, Goal).
 
 %!  route_add(+Address, +Session) is det.
 %
@@ -87,7 +133,7 @@ route_add(Address, Session) :-
     route(Address, Session),
     !.
 route_add(Address, Session) :-
-    arg(1, Session, Key),
+    session_key(Session, Key),
     with_mutex(typhon_session,
                (   session(Key, Session)
                ->  reroute(Address, Session)
@@ -98,27 +144,9 @@ route_add(Address, Session) :-
 
 reroute(Address, Session) :-
     findall(Old-Key,
-            clause(route(Address, session(Key, _, _, _, _)), true, Old),
+            ( clause(route(Address, Other), true, Old),
+              session_key(Other, Key) ),
             Displaced),
     assertz(route(Address, Session)),
     forall(member(Old-_, Displaced), erase(Old)),
-    forall(member(_-Key, Displaced), ignore(crew_tell(displaced(Key)))).
-
-%!  session_received(+Key, -Count) is semidet.
-%!  session_note_received(+Key, +Count) is det.
-%
-%   How many frames had been received when the last connection ended.
-
-session_received(Key, Count) :-
-    received(Key, Count).
-
-session_note_received(Key, Count) :-
-    retractall(received(Key, _)),
-    assertz(received(Key, Count)).
-
-%!  session_adopting(+Session, :Goal) is semidet.
-%
-%   Run Goal, which gives Session a new connection, one at a time.
-
-session_adopting(session(_, _, _, Adoption, _), Goal) :-
-    with_mutex(Adoption, Goal).
+    forall(member(_-Key, Displaced), ignore(keeper_tell(displaced(Key)))).

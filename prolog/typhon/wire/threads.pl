@@ -1,131 +1,118 @@
 :- module(typhon_threads,
-          [ crew_start/0,
-            crew_stop/1,                % -Unheard
-            crew_spawn/2,               % :Goal, -Thread
-            crew_spawn/3,               % :Goal, -Thread, :Before
-            crew_aside/1,               % :Goal
-            crew_retire/2,              % +Thread, +Why
-            crew_signal/2,              % +Thread, +Why
-            crew_bury/1,                % +Thread
-            crew_tell/1,                % +Message
-            crew_hear/2                 % -Message, +Deadline
+          [ wire_thread_create/3,       % :Goal, +Name, -Thread
+            wire_thread_create/4,       % :Goal, +Name, -Thread, :Before
+            wire_thread_running/1,      % +Thread
+            wire_thread_end/2,          % +Thread, +Why
+            wire_thread_signal/2,       % +Thread, +Why
+            wire_thread_join/1,         % +Thread
+            wire_threads_end/0,
+            in_background/2             % :Goal, +Name
           ]).
 
 /** <module> The threads of an endpoint
 
 Every thread of an endpoint is made here and is joined when it ends, so
-that none outlives the endpoint. A thread that ends says so in the queue
-of the endpoint, which one thread, the keeper, listens to.
+that none outlives the endpoint. A thread that ends says so to the keeper.
 
-_Threading_: crew_hear/2 and crew_bury/1 are for the keeper, the rest may
-be called from any thread. crew_start/0 and crew_stop/1 are serialised by
-the caller.
+A thread has an alias that tells what it is and for whom, with a number
+that no other has: what is meant for one never reaches the next.
+
+_Threading_: wire_thread_join/1 is for the keeper, the rest may be called
+from any thread.
 */
 
+:- use_module(keeper_queue, [keeper_tell/1]).
+
 :- meta_predicate
-    crew_spawn(0, -),
-    crew_spawn(0, -, 0),
-    crew_aside(0).
+    wire_thread_create(0, +, -),
+    wire_thread_create(0, +, -, 0),
+    in_background(0, +).
 
 :- dynamic
-    crew_queue/1,                       % Queue
-    member_thread/1.                    % Thread
+    wire_thread/1.                      % Thread
 
-%!  crew_start is det.
-
-crew_start :-
-    message_queue_create(Queue),
-    assertz(crew_queue(Queue)).
-
-%!  crew_stop(-Unheard) is det.
+%!  wire_thread_create(:Goal, +Name, -Thread) is det.
+%!  wire_thread_create(:Goal, +Name, -Thread, :Before) is det.
 %
-%   Stop and join all threads, whatever they do. Unheard are the messages
-%   that nobody will hear any more.
+%   Run Goal in a new thread; Name, `Role` or Role-Whom, goes into its
+%   alias. Goal reports its own errors; the exception wire_thread_end(Why)
+%   ends it quietly. Before is called here, in between: Thread is known, and
+%   has not begun.
 
-crew_stop(Unheard) :-
-    forall(member_thread(Thread), crew_retire(Thread, stopped)),
-    (   member_thread(_)
-    ->  crew_stop(Unheard)
-    ;   with_mutex(typhon_threads, close_queue(Unheard))
-    ).
+wire_thread_create(Goal, Name, Thread) :-
+    wire_thread_create(Goal, Name, Thread, true).
 
-close_queue(Unheard) :-
-    retract(crew_queue(Queue)),
-    findall(Message, unheard(Queue, Message), Unheard),
-    message_queue_destroy(Queue).
+wire_thread_create(Goal, Name, Thread, Before) :-
+    thread_alias(Name, Alias),
+    sig_atomic(create(Goal, Alias, Thread, Before)).
 
-unheard(Queue, Message) :-
-    repeat,
-    (   thread_peek_message(Queue, _)
-    ->  thread_get_message(Queue, Message)
-    ;   !,
-        fail
-    ).
+thread_alias(Role-Whom, Alias) :-
+    !,
+    flag(typhon_wire_thread, Number, Number+1),
+    atomic_list_concat([typhon, Role, Whom, Number], '_', Alias).
+thread_alias(Role, Alias) :-
+    flag(typhon_wire_thread, Number, Number+1),
+    atomic_list_concat([typhon, Role, Number], '_', Alias).
 
-%!  crew_spawn(:Goal, -Thread) is det.
-%!  crew_spawn(:Goal, -Thread, :Before) is det.
-%
-%   Run Goal in a new thread. Goal reports its own errors; the exception
-%   crew(Why) ends it quietly. Before is called here, in between: Thread is
-%   known, and has not begun.
-
-crew_spawn(Goal, Thread) :-
-    crew_spawn(Goal, Thread, true).
-
-crew_spawn(Goal, Thread, Before) :-
-    sig_atomic(spawn(Goal, Thread, Before)).
-
-spawn(Goal, Thread, Before) :-
-    thread_create(typhon_threads:work(Goal), Thread, []),
-    assertz(member_thread(Thread)),
+create(Goal, Alias, Thread, Before) :-
+    thread_create(typhon_threads:work(Goal), Thread, [alias(Alias)]),
+    assertz(wire_thread(Thread)),
     call(Before),
-    thread_send_message(Thread, crew_registered).
+    thread_send_message(Thread, wire_thread_begin).
 
 work(Goal) :-
     setup_call_cleanup(
         true,
-        catch(( thread_get_message(crew_registered), ignore(Goal) ),
-              crew(_),
+        catch(( thread_get_message(wire_thread_begin), ignore(Goal) ),
+              wire_thread_end(_),
               true),
         ended).
 
 ended :-
     thread_self(Me),
-    ignore(crew_tell(ended(Me))).
+    ignore(keeper_tell(ended(Me))).
 
-%!  crew_aside(:Goal) is det.
+%!  in_background(:Goal, +Name) is det.
 %
 %   Run Goal in a new thread or, where none can be made, here.
 
-crew_aside(Goal) :-
-    catch(crew_spawn(Goal, _), error(_, _), ignore(Goal)).
+in_background(Goal, Name) :-
+    catch(wire_thread_create(Goal, Name, _), error(_, _), ignore(Goal)).
 
-%!  crew_retire(+Thread, +Why) is det.
+%!  wire_thread_running(+Thread) is semidet.
+
+wire_thread_running(Thread) :-
+    catch(thread_property(Thread, status(running)),
+          error(existence_error(_, _), _),
+          fail).
+
+%!  wire_thread_end(+Thread, +Why) is det.
 %
-%   Throw crew(Why) in Thread, unless it has ended, and wait for its end.
+%   Throw wire_thread_end(Why) in Thread, unless it has ended, and wait for
+%   its end.
 
-crew_retire(Thread, Why) :-
+wire_thread_end(Thread, Why) :-
     insist(Thread, Why, 0.001),
-    crew_bury(Thread).
+    wire_thread_join(Thread).
 
 %   A signal that comes just before the thread blocks in a system call does
 %   not wake it: insist.
 
 insist(Thread, Why, Wait) :-
-    (   running(Thread)
-    ->  crew_signal(Thread, Why),
+    (   wire_thread_running(Thread)
+    ->  wire_thread_signal(Thread, Why),
         sleep(Wait),
         Wait1 is min(0.1, 2*Wait),
         insist(Thread, Why, Wait1)
     ;   true
     ).
 
-%!  crew_signal(+Thread, +Why) is det.
+%!  wire_thread_signal(+Thread, +Why) is det.
 %
-%   Throw crew(Why) in Thread, unless it has ended or was told before: a
-%   second exception would break off the clean-up after the first.
+%   Throw wire_thread_end(Why) in Thread, unless it has ended or was told
+%   before: a second exception would break off the clean-up after the first.
 
-crew_signal(Thread, Why) :-
+wire_thread_signal(Thread, Why) :-
     catch(thread_signal(Thread, typhon_threads:end_once(Why)),
           error(existence_error(_, _), _),
           true).
@@ -134,20 +121,15 @@ end_once(Why) :-
     (   nb_current(typhon_ending, true)
     ->  true
     ;   nb_setval(typhon_ending, true),
-        throw(crew(Why))
+        throw(wire_thread_end(Why))
     ).
 
-running(Thread) :-
-    catch(thread_property(Thread, status(running)),
-          error(existence_error(_, _), _),
-          fail).
-
-%!  crew_bury(+Thread) is det.
+%!  wire_thread_join(+Thread) is det.
 %
 %   Wait for the end of Thread.
 
-crew_bury(Thread) :-
-    (   retract(member_thread(Thread))
+wire_thread_join(Thread) :-
+    (   retract(wire_thread(Thread))
     ->  thread_join(Thread, Status),
         report(Status)
     ;   true
@@ -155,37 +137,26 @@ crew_bury(Thread) :-
 
 report(true) :-
     !.
-report(exception(crew(_))) :-
+report(exception(wire_thread_end(_))) :-
     !.
 report(exception(Error)) :-
     !,
     print_message(error, typhon(endpoint, thread_died(Error))).
 report(_).
 
+%!  wire_threads_end is det.
+%
+%   End and join all threads, whatever they do.
+
+wire_threads_end :-
+    forall(wire_thread(Thread), wire_thread_end(Thread, stopped)),
+    (   wire_thread(_)
+    ->  wire_threads_end
+    ;   true
+    ).
+
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, thread_died(Error))) -->
     [ 'Endpoint: a thread died: ' ],
     '$messages':translate_message(Error).
-
-%!  crew_tell(+Message) is semidet.
-%
-%   Tell the keeper; fails when there is none any more.
-
-crew_tell(Message) :-
-    with_mutex(typhon_threads,
-               ( crew_queue(Queue),
-                 thread_send_message(Queue, Message) )).
-
-%!  crew_hear(-Message, +Deadline) is semidet.
-%
-%   The next message; fails at Deadline, a time stamp or `infinite`, if
-%   there is none.
-
-crew_hear(Message, Deadline) :-
-    crew_queue(Queue),
-    (   ( Deadline == infinite
-        ; thread_peek_message(Queue, _) )
-    ->  thread_get_message(Queue, Message)
-    ;   thread_get_message(Queue, Message, [deadline(Deadline)])
-    ).

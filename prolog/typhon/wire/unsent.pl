@@ -18,7 +18,7 @@ a request answers for it.
 */
 
 :- use_module(request, [request_answer/2, request_send/4]).
-:- use_module(threads, [crew_tell/1]).
+:- use_module(keeper_queue, [keeper_tell/1]).
 
 :- meta_predicate
     unsent_request(+, +, +, 1),
@@ -35,7 +35,7 @@ a request answers for it.
 unsent_request(Address, Kind, Term, OnAnswer) :-
     flag(typhon_unsent, Number, Number+1),
     assertz(unsent(Address, Number, Kind, Term, OnAnswer)),
-    (   crew_tell(requests(Address))
+    (   keeper_tell(requests(Address))
     ->  true
     ;   fail_one(Address, Number)
     ).

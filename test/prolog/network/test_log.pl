@@ -8,7 +8,7 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(typhon/wire/endpoint),
+:- use_module(library(typhon/wire),
               [endpoint_address/1, endpoint_post/3, endpoint_stop/0]).
 :- use_module(library(typhon/network/log)).
 :- use_module(library(typhon/network/log_file)).

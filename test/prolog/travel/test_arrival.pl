@@ -4,7 +4,7 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/wire/endpoint), []).
+:- use_module(library(typhon/wire), []).
 :- use_module(library(typhon/program/programs), []).
 :- use_module('../../lib/fixtures').
 
@@ -91,8 +91,8 @@ sent(Image, Answer) :-
     sent(Image, Program, Answer).
 
 sent(Image, Program, Answer) :-
-    typhon_endpoint:endpoint_address(Endpoint),
-    typhon_endpoint:endpoint_call(Endpoint, hop, hop(alpha, Image, Program),
+    typhon_wire:endpoint_address(Endpoint),
+    typhon_wire:endpoint_call(Endpoint, hop, hop(alpha, Image, Program),
                                   answer(Answer), 10).
 
 arrived(Image) :-

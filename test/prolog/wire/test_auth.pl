@@ -200,7 +200,7 @@ test(without_records, Codecs == [text, text, text]) :-
 
 %   meeting(:Server, :Client, -ServerResult, -ClientResult): both are
 %   called with the two streams of their end; a result is true(X), what
-%   authenticate/5 saw, or the exception.
+%   authenticate/6 saw, or the exception.
 
 :- meta_predicate
     meeting(2, 2, -, -),
@@ -235,7 +235,7 @@ at_end(Socket, Goal, Result) :-
         ( close(Out, [force(true)]), close(In, [force(true)]) )).
 
 authenticate_as(Role, Hello, Cookie, In, Out) :-
-    authenticate(Role, In, Out, Hello, Cookie, Peer),
+    authenticate(Role, In, Out, Hello, =(Cookie), Peer),
     nb_setval(seen, Peer).
 
 with_env(Name, Value, Goal) :-

@@ -12,7 +12,7 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
-:- use_module(library(typhon/wire/endpoint)).
+:- use_module(library(typhon/wire)).
 
 :- dynamic
     note/1,                             % Note, posted to us
@@ -531,7 +531,7 @@ crowd :-
     ask(A, echo, x, x).
 
 other_cookie(Address) :-
-    project_file('prolog/typhon/wire/endpoint', File),
+    project_file('prolog/typhon/wire', File),
     format(atom(Goal), "use_module('~w'),endpoint_start(localhost,0,_),\c
                         catch(endpoint_post('~w',note,x),\c
                               error(unreachable(_),_),\c

@@ -13,7 +13,7 @@
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_maplist/3]).
 :- use_module(library(typhon/wire/auth)).
-:- use_module(library(typhon/wire/endpoint)).
+:- use_module(library(typhon/wire)).
 :- use_module(library(typhon/wire/hello)).
 
 :- dynamic told/1.
@@ -98,7 +98,7 @@ newcomer(I, Seconds) :-
     hello(Process, 1, '127.0.0.1:1', Hello),
     setup_call_cleanup(connected(Client),
                        ( Client = streams(In, Out),
-                         authenticate(client, In, Out, Hello, _) ),
+                         authenticate(client, In, Out, Hello, cookie, _) ),
                        closed(Client)),
     get_time(T1),
     Seconds is T1-T0.
@@ -177,11 +177,11 @@ forget_all :-
 test(no_thread_can_be_made) :-
     no_leaks(with_endpoint(
         ( setup_call_cleanup(
-              wrap_predicate(typhon_threads:spawn(_, _, _), none, _,
+              wrap_predicate(typhon_threads:create(_, _, _, _), none, _,
                              throw(error(resource_error(threads), _))),
               ( forall(between(1, 3, _), shouts("typhon")),
                 wait_until(turned_away(resource_error(threads), 3), 30) ),
-              unwrap_predicate(typhon_threads:spawn/3, none)),
+              unwrap_predicate(typhon_threads:create/4, none)),
           assertion(slots(0)),
           newcomer(x, _) ))).
 test(clients_die_at_any_moment) :-

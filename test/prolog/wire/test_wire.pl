@@ -16,7 +16,7 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
-:- use_module(library(typhon/wire/endpoint)).
+:- use_module(library(typhon/wire)).
 :- use_module(library(typhon/wire/session), [session/2]).
 :- use_module('../../lib/endpoint_peer', [sleep_until/1]).
 
@@ -136,7 +136,7 @@ test(nobody_is_there, Answers == Expected) :-
     with_endpoint(( send_all('127.0.0.1:1', Numbers),
                     maplist(answered, Numbers, Answers) )).
 test(a_wrong_cookie_is_told_at_once) :-
-    project_file('prolog/typhon/wire/endpoint', File),
+    project_file('prolog/typhon/wire', File),
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
                            "use_module('~w'),endpoint_start(localhost,0,_),\c
@@ -361,7 +361,7 @@ test(contacts_are_bounded, true(Count =< 5)) :-
                             Count) ))).
 
 queues(Count) :-
-    aggregate_all(count, typhon_outbox:queues(_, _, _), Sessions),
+    aggregate_all(count, typhon_unacked:queues(_, _, _), Sessions),
     aggregate_all(count, message_queue_property(_, size(_)), All),
     Count = Sessions-All.
 

@@ -1,0 +1,215 @@
+:- module(typhon_attempts,
+          [ attempt/4,                  % ?Address, ?State, -Pause, -Since
+            attempt_want/1,             % +Address
+            attempt_begun/2,            % +Address, +Thread
+            attempt_greeted/1,          % +Thread
+            attempt_pause/3,            % +Address, +Pause, +Since
+            attempt_end/1,              % ?Address
+            attempt_expired/1,          % +Since
+            attempt_next/2,             % +Me, -Address
+            attempt_due/1,              % -Time
+            attempts_due/1              % -Due
+          ]).
+
+/** <module> Attempts to connect, and their times
+
+For each address that is to be reached there is one attempt: it has yet to
+begin, is being made, or pauses until it is made again. What becomes of it
+decides connector.pl.
+
+_Threading_: the thread of the keeper owns all that is here.
+*/
+
+:- use_module(library(lists), [min_member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(session, [session/2]).
+
+:- setting(typhon_keeper:connect_time, number, 5,
+           "Seconds until it is told that a peer cannot be reached").
+
+:- dynamic
+    attempt/4.                          % Address, State, Pause, Since
+
+%!  attempt(?Address, ?State, -Pause, -Since) is nondet.
+%
+%   State is `queued`, trying(Thread, Start) or pausing(Until). Pause is the
+%   one that comes next. Somebody has waited Since then, `unset` before it
+%   first begins, `none` if nobody does.
+
+first_pause(0.02).
+longest_pause(2).
+
+%   Where there are many processes they may all be busy at once, as they are
+%   when they begin: then it takes longer until silence means something.
+
+patience(Seconds) :-
+    setting(typhon_keeper:connect_time, Seconds0),
+    predicate_property(attempt(_, _, _, _), number_of_clauses(Attempts)),
+    predicate_property(session(_, _), number_of_clauses(Sessions)),
+    Seconds is Seconds0*min(4, 1+(Attempts+Sessions)//16).
+
+		 /*******************************
+		 *            STATES            *
+		 *******************************/
+
+%!  attempt_want(+Address) is det.
+%
+%   Somebody waits for Address. Who comes later waits with the first.
+
+attempt_want(Address) :-
+    attempt(Address, _, _, Since),
+    Since \== none,
+    !.
+attempt_want(Address) :-
+    first_pause(Pause),
+    (   attempt(Address, trying(Thread, Start), _, _)
+    ->  get_time(Now),
+        set(Address, trying(Thread, Start), Pause, Now)
+    ;   set(Address, queued, Pause, unset)
+    ).
+
+%!  attempt_begun(+Address, +Thread) is det.
+%
+%   Thread tries to reach Address. The time of those who wait begins with
+%   the first time.
+
+attempt_begun(Address, Thread) :-
+    attempt(Address, _, Pause, Since0),
+    get_time(Now),
+    (   Since0 == unset
+    ->  Since = Now
+    ;   Since = Since0
+    ),
+    set(Address, trying(Thread, Now), Pause, Since).
+
+%!  attempt_greeted(+Thread) is det.
+%
+%   The attempt of Thread has been answered: somebody is there, and slow, as
+%   all are where many begin at once. The time begins again, unless it has
+%   gone wrong often.
+
+attempt_greeted(Thread) :-
+    (   attempt(Address, trying(Thread, _), Pause, Since),
+        number(Since),
+        longest_pause(Longest),
+        Pause < Longest
+    ->  get_time(Now),
+        set(Address, trying(Thread, Now), Pause, Now)
+    ;   true
+    ).
+
+%!  attempt_pause(+Address, +Pause, +Since) is det.
+%
+%   Try again after about Pause seconds, the next time after twice as many,
+%   but not later than there is time for who waits Since then.
+
+attempt_pause(Address, Pause, Since) :-
+    get_time(Now),
+    Some is float_fractional_part(Now*1000),    % library(random) is slow
+    Until0 is Now+Pause*(0.5+Some),             % to begin
+    (   number(Since)
+    ->  deadline(Since, Deadline),
+        Until is min(Deadline, Until0)
+    ;   Until = Until0
+    ),
+    longest_pause(Longest),
+    Longer is min(Longest, 2*Pause),
+    set(Address, pausing(Until), Longer, Since).
+
+set(Address, State, Pause, Since) :-
+    retractall(attempt(Address, _, _, _)),
+    assertz(attempt(Address, State, Pause, Since)).
+
+%!  attempt_end(?Address) is det.
+
+attempt_end(Address) :-
+    retractall(attempt(Address, _, _, _)).
+
+		 /*******************************
+		 *             ORDER            *
+		 *******************************/
+
+%!  attempt_next(+Me, -Address) is semidet.
+%
+%   Address is tried next, Me being our hello. Where many processes begin at
+%   once all would be late together, and of each pair both would connect. So
+%   few attempts are begun at a time, by each process in an order of its own:
+%   most peers come by themselves before it is their turn.
+
+attempt_next(Me, Address) :-
+    attempt(_, queued, _, _),
+    \+ crowded,
+    !,
+    findall(Hash-Queued,
+            ( attempt(Queued, queued, _, _),
+              term_hash(Queued-Me, Hash) ),
+            Order),
+    min_member(_-Address, Order).
+
+crowd(4).
+crowd_seconds(2).
+
+crowded :-
+    crowd(Many),
+    findall(x, young(_), Young),
+    length(Young, Count),
+    Count >= Many.
+
+%   young(-Until): an attempt that may soon have ended.
+
+young(Until) :-
+    crowd_seconds(Seconds),
+    get_time(Now),
+    attempt(_, trying(_, Start), _, _),
+    Until is Start+Seconds,
+    Until > Now.
+
+		 /*******************************
+		 *           DEADLINES          *
+		 *******************************/
+
+%!  attempt_expired(+Since) is semidet.
+%
+%   Who has waited Since then need not wait any longer.
+
+attempt_expired(Since) :-
+    deadline(Since, Deadline),
+    get_time(Now),
+    Deadline =< Now.
+
+deadline(Since, Deadline) :-
+    patience(Seconds),
+    Deadline is Since+Seconds.
+
+%!  attempt_due(-Time) is nondet.
+%
+%   When something has to be done. A silent attempt is given up in time for
+%   another one: it may be the connection that is dead.
+
+attempt_due(Time) :-
+    attempt(_, State, _, Since),
+    due(State, Since, Time).
+
+due(pausing(Until), _, Until).
+due(queued, _, Until) :-
+    young(Until).
+due(trying(_, Start), Since, Until) :-
+    patience(Seconds),
+    Until0 is Start+0.6*Seconds,
+    (   number(Since)
+    ->  Until is min(Until0, Since+Seconds)
+    ;   Until = Until0
+    ).
+
+%!  attempts_due(-Due) is det.
+%
+%   Due are those that have tried or paused for long enough, Address-State.
+
+attempts_due(Due) :-
+    get_time(Now),
+    findall(Address-State,
+            ( attempt(Address, State, _, Since),
+              State \== queued,
+              due(State, Since, Until),
+              Until =< Now ),
+            Due).

@@ -1,0 +1,82 @@
+:- module(typhon_peers,
+          [ endpoint_peer/2,            % ?Address, ?Property
+            endpoint_gone/1,            % +Address
+            endpoint_flush/1,           % +Seconds
+            endpoint_flush/2,           % +Seconds, +Peers
+            peers_flush/2               % +Seconds, ?State
+          ]).
+
+/** <module> How it stands with the peers
+
+_Threading_: any thread.
+*/
+
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(contacts, [contact/3]).
+:- use_module(outbox, [session_flush/2]).
+:- use_module(session, [route/2, session/2, session_codec/2, session_key/2]).
+:- use_module(transport, [route_up/2, session_up/1]).
+:- use_module(unacked, [session_pending/2]).
+
+%!  endpoint_peer(?Address, ?Property) is nondet.
+%
+%   Property of the peer at Address: process(Id), the one last met there,
+%   state(up or down), pending(Frames), codec(fast or text).
+
+endpoint_peer(Address, process(Id)) :-
+    contact(Address, Id, _),
+    Id \== none.
+endpoint_peer(Address, Property) :-
+    route(Address, Session),
+    peer_property(Property, Session).
+
+peer_property(state(State), Session) :-
+    session_key(Session, Key),
+    (   session_up(Key)
+    ->  State = up
+    ;   State = down
+    ).
+peer_property(pending(Count), Session) :-
+    session_pending(Session, Count).
+peer_property(codec(Codec), Session) :-
+    session_codec(Session, Codec).
+
+%!  endpoint_gone(+Address) is semidet.
+%
+%   As far as this process knows there is no process at Address any more to
+%   which it can have talked: nobody listened there when it last tried to
+%   connect, or the one that did said goodbye. Not true of a process that
+%   has been stopped, or is behind a network that is cut.
+
+endpoint_gone(Address) :-
+    contact(Address, _, gone),
+    \+ route_up(Address, _).
+
+%!  endpoint_flush(+Seconds) is semidet.
+%!  endpoint_flush(+Seconds, +Peers:list) is semidet.
+%
+%   Wait until all that was posted has arrived, or all to these addresses;
+%   fails after Seconds.
+
+endpoint_flush(Seconds) :-
+    must_be(number, Seconds),
+    peers_flush(Seconds, _).
+
+endpoint_flush(Seconds, Peers) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(( member(Peer, Peers),
+             route(Peer, Session) ),
+           session_flush(Session, Deadline)).
+
+%!  peers_flush(+Seconds, ?State) is semidet.
+%
+%   As endpoint_flush/1, to those peers that are in State.
+
+peers_flush(Seconds, State) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(( session(_, Session),
+             peer_property(state(State), Session) ),
+           session_flush(Session, Deadline)).

@@ -1,0 +1,229 @@
+:- module(typhon_unacked,
+          [ unacked_open/1,             % +Key
+            unacked_sent/2,             % +Key, +Bytes
+            unacked_waits/2,            % +Key, +Bytes
+            unacked_waiting/1,          % +Key
+            unacked_next/2,             % +Key, -Bytes
+            unacked_again/2,            % +Key, -Frames
+            unacked_gone/3,             % +Key, +Count, +Bytes
+            unacked_rest/1,             % +Key
+            unacked_close/2,            % +Key, -Waiting
+            unacked_await/3,            % +Session, +Queue, -Count
+            unacked_no_wait/1,          % +Queue
+            session_acked/3,            % +Session, +Count, +Bytes
+            session_sent/2,             % +Session, -Count
+            session_pending/2           % +Session, -Count
+          ]).
+
+/** <module> What the peer has not acknowledged
+
+Frames of a session that were written to some connection and are not
+acknowledged are in the queue Sent; those that never were, in the queue
+Waiting. A session without connection from which nothing is pending has no
+queues.
+
+_Threading_: the mutex of the session guards its queues: who calls what
+begins with unacked_ holds it. session_acked/3 and session_sent/2 are for
+the thread of the connection, session_pending/2 is for any thread.
+*/
+
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
+:- use_module(counts, [acknowledged/3, note_acknowledged/3]).
+:- use_module(session, [session_key/2, session_locked/2]).
+
+:- dynamic
+    queues/3,                           % Key, Sent, Waiting
+    flusher/3.                          % Key, Count, Queue
+
+		 /*******************************
+		 *            QUEUES            *
+		 *******************************/
+
+%!  unacked_open(+Key) is det.
+%
+%   The session has queues.
+
+unacked_open(Key) :-
+    queues_of(Key, _, _).
+
+queues_of(Key, Sent, Waiting) :-
+    queues(Key, Sent, Waiting),
+    !.
+queues_of(Key, Sent, Waiting) :-
+    message_queue_create(Sent),
+    message_queue_create(Waiting),
+    assertz(queues(Key, Sent, Waiting)).
+
+%!  unacked_sent(+Key, +Bytes) is det.
+%!  unacked_waits(+Key, +Bytes) is det.
+%
+%   A frame is about to be written, as the session is up; it waits until
+%   others are.
+
+unacked_sent(Key, Bytes) :-
+    queues(Key, Sent, _),
+    !,
+    thread_send_message(Sent, Bytes).
+
+unacked_waits(Key, Bytes) :-
+    queues_of(Key, _, Waiting),
+    thread_send_message(Waiting, Bytes).
+
+%!  unacked_waiting(+Key) is semidet.
+%
+%   Some frame waits.
+
+unacked_waiting(Key) :-
+    queues(Key, _, Waiting),
+    thread_peek_message(Waiting, _),
+    !.
+
+%!  unacked_next(+Key, -Bytes) is semidet.
+%
+%   The frame that has waited longest is about to be written.
+
+unacked_next(Key, Bytes) :-
+    queues(Key, Sent, Waiting),
+    fifo_take(Waiting, Bytes),
+    !,
+    thread_send_message(Sent, Bytes).
+
+%!  unacked_again(+Key, -Frames) is det.
+%
+%   What was written, and has to be once more.
+
+unacked_again(Key, Frames) :-
+    queues_of(Key, Sent, _),
+    fifo_empty(Sent, Frames),
+    forall(member(Bytes, Frames), thread_send_message(Sent, Bytes)).
+
+%!  unacked_rest(+Key) is det.
+%
+%   The session has lost its connection: without anything pending it needs
+%   no queues.
+
+unacked_rest(Key) :-
+    (   queues(Key, Sent, Waiting),
+        queue_size(Sent, 0),
+        queue_size(Waiting, 0)
+    ->  drop_queues(Key)
+    ;   true
+    ).
+
+%!  unacked_close(+Key, -Waiting) is det.
+%
+%   The session is over; Waiting was never written.
+
+unacked_close(Key, List) :-
+    (   queues(Key, _, Waiting)
+    ->  fifo_empty(Waiting, List)
+    ;   List = []
+    ),
+    drop_queues(Key).
+
+drop_queues(Key) :-
+    (   retract(queues(Key, Sent, Waiting))
+    ->  message_queue_destroy(Sent),
+        message_queue_destroy(Waiting)
+    ;   true
+    ).
+
+		 /*******************************
+		 *       ACKNOWLEDGEMENTS       *
+		 *******************************/
+
+%!  session_acked(+Session, +Count, +Bytes) is det.
+%
+%   The peer has received Count frames of this session, and Bytes bytes of
+%   this connection. For the reader only.
+
+session_acked(Session, Count, Bytes) :-
+    session_key(Session, Key),
+    session_locked(Session,
+                   (   queues(Key, _, _)
+                   ->  unacked_gone(Key, Count, Bytes)
+                   ;   true
+                   )).
+
+%!  unacked_gone(+Key, +Count, +Bytes) is det.
+%
+%   As session_acked/3.  Who counts what is pending, or what is under way,
+%   sees all of this or nothing.
+
+unacked_gone(Key, Count, Bytes) :-
+    acked_frames(Key, Count0),
+    queues_of(Key, Sent, _),
+    forget(Count0, Count, Sent),
+    Count1 is max(Count0, Count),
+    note_acknowledged(Key, Count1, Bytes),
+    forall(( flusher(Key, Wanted, Queue), Wanted =< Count1 ),
+           flushed(Key, Wanted, Queue)).
+
+acked_frames(Key, Count) :-
+    acknowledged(Key, Count0, _),
+    !,
+    Count = Count0.
+acked_frames(_, 0).
+
+forget(Count0, Count, Sent) :-
+    queue_size(Sent, Size),
+    Gone is min(Count-Count0, Size),
+    forall(between(1, Gone, _),
+           thread_get_message(Sent, _)).
+
+%!  session_sent(+Session, -Count) is det.
+%
+%   No more than Count frames have been sent. For the reader only.
+
+session_sent(Session, Count) :-
+    session_key(Session, Key),
+    acked_frames(Key, Acked),
+    session_pending(Session, Pending),
+    Count is Acked+Pending.
+
+%!  session_pending(+Session, -Count) is det.
+%
+%   Count frames are not acknowledged.
+
+session_pending(Session, Count) :-
+    session_key(Session, Key),
+    (   queues(Key, Sent, Waiting)
+    ->  queue_size(Sent, S),
+        queue_size(Waiting, W),
+        Count is S+W
+    ;   Count = 0
+    ).
+
+%   The queue may be gone: the session was closed.
+
+queue_size(Queue, Size) :-
+    catch(message_queue_property(Queue, size(Size0)),
+          error(existence_error(_, _), _),
+          fail),
+    !,
+    Size = Size0.
+queue_size(_, 0).
+
+%!  unacked_await(+Session, +Queue, -Count) is det.
+%!  unacked_no_wait(+Queue) is det.
+%
+%   Count frames are pending; Queue hears `flushed` when all these have been
+%   acknowledged.  Nobody listens to Queue any more.
+
+unacked_await(Session, Queue, Count) :-
+    session_key(Session, Key),
+    session_pending(Session, Count),
+    session_sent(Session, Sent),
+    assertz(flusher(Key, Sent, Queue)).
+
+unacked_no_wait(Queue) :-
+    retractall(flusher(_, _, Queue)).
+
+%   Who waited may have given up just now.
+
+flushed(Key, Wanted, Queue) :-
+    retractall(flusher(Key, Wanted, Queue)),
+    catch(thread_send_message(Queue, flushed),
+          error(existence_error(_, _), _),
+          true).
