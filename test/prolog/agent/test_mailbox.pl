@@ -39,6 +39,16 @@ test(older_ones_come_back_first, true(All == [1,2,3,4])) :-
 test(leaves_no_queue) :-
     no_leaks(( filled(me, [1,2]),
                mail_all(me, _) )).
+test(others_that_wait_are_not_disturbed, true(Length-Waiting == 5000-8)) :-
+    forall(between(1, 7, I),
+           ( N is 60*I*I,
+             numlist(1, N, Long),
+             mail_put(me, from-no(I, Long)) )),
+    numlist(1, 5000, Longest),
+    mail_put(me, from-yes(Longest)),
+    taken_again(200, [], Length),
+    mail_all(me, Mail),
+    length(Mail, Waiting).
 test(each_once_while_others_receive, true(Bad == [])) :-
     busy_boxes(4, 8000, Bad).
 
@@ -47,6 +57,22 @@ test(each_once_while_others_receive, true(Bad == [])) :-
 filled(Id, Messages) :-
     mail_all(Id, _),
     maplist(mail_put(Id), Messages).
+
+%   The last message is taken, and put back, again and again, while more and
+%   more of what was taken is kept: so stacks are collected in between.
+
+taken_again(0, [Last|_], Length) :-
+    !,
+    length(Last, Length).
+taken_again(N, Kept0, Length) :-
+    mail_take(me, from-yes(List)),
+    mail_put(me, from-yes(List)),
+    (   N mod 7 =:= 0
+    ->  Kept = [List]
+    ;   Kept = [List|Kept0]
+    ),
+    N1 is N-1,
+    taken_again(N1, Kept, Length).
 
 %   Each of some threads fills and empties the box of its agent; Bad are the
 %   lists that were not what had been put in.
