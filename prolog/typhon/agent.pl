@@ -7,13 +7,25 @@ This is the door of the layer: who is above takes what it needs from here.
 */
 
 :- reexport(agent/agents,
-            [ agent/5, agent_all_orders/2, agent_departs/3, agent_enter/5,
-              agent_handles/2, agent_home/2, agent_id/3, agent_mail/2,
-              agent_module/5, agent_name/3, agent_next_order/2,
-              agent_order/2, agent_ordered/1, agent_put/3, agent_put_life/2,
-              agent_ready/2, agent_remove/1, agent_state/2, agent_status/3,
-              agent_take/2, attach_clauses/3, detach_clauses/2, with_agent/2
+            [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
+              agent_order/2, agent_ordered/1, agent_put/3, agent_ready/2,
+              agent_remove/3, agent_rest/3, agent_status/3, agent_take/3,
+              with_agent/2
             ]).
+:- reexport(agent/agent_module,
+            [agent_handles/2, agent_module/5, agent_state/2]).
+:- reexport(agent/identity,
+            [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3
+            ]).
+:- reexport(agent/life,
+            [ is_life/1, life_clone/3, life_hops/2, life_may_move/2,
+              life_parent/2, life_payloads/2, life_tokens/2, make_life/2
+            ]).
+:- reexport(agent/image,
+            [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
+              image_label/2, image_module/3
+            ]).
+:- reexport(agent/payloads,
+            [agent_attach/2, agent_detach/2, agent_payload/3]).
 :- reexport(agent/mailbox,
-            [ mail_all/2, mail_back/2, mail_list/2, mail_take/2
-            ]).
+            [mail_all/2, mail_back/2, mail_list/2, mail_take/2]).

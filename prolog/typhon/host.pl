@@ -19,7 +19,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/clock, [host_time/2, real_time/3]).
 :- reexport(host/context,
             [ context/3, context_agent/1, context_clear/0, context_host/1,
-              context_set/3
+              context_now/2, context_set/3
             ]).
 :- reexport(host/scheduler,
             [ schedule/2, scheduler_call/1, scheduler_signal/1

@@ -3,9 +3,8 @@
 /** <module> What agents can say
 
 The predicates that agents find on every host, and where they go next.
-This is the door of the layer: who is above takes what it needs from here.
+This is the door of the layer: who is above needs no more of it than that it
+is there.
 */
 
 :- use_module(language/vocabulary, []).
-:- reexport(language/strategy).
-:- reexport(language/pheromone).

@@ -2,6 +2,7 @@
           [ context_set/3,              % +Host, +Agent, +Module
             context_clear/0,
             context/3,                  % -Host, -Agent, -Module
+            context_now/2,              % ?Host, -Agent
             context_host/1,             % -Host
             context_agent/1,            % -Agent
             in_context/2                % +Host, :Goal
@@ -28,6 +29,14 @@ context_set(Host, Agent, Module) :-
 context_clear :-
     nb_setval(typhon_context, none).
 
+%!  context_now(?Host, -Agent) is semidet.
+%
+%   The running agent, `none` for somebody else on Host.  Fails if there is
+%   nobody.
+
+context_now(Host, Agent) :-
+    nb_current(typhon_context, context(Host, Agent, _)).
+
 %!  context(-Host, -Agent, -Module) is det.
 %
 %   @error existence_error(running_agent, here)
@@ -50,7 +59,7 @@ context_agent(Agent) :-
 %   @error existence_error(host, here)
 
 context_host(Host) :-
-    (   nb_current(typhon_context, context(Host, _, _))
+    (   context_now(Host, _)
     ->  true
     ;   throw(error(existence_error(host, here),
                     context(_, 'only an agent or remote/2 can do this')))

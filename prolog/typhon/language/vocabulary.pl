@@ -3,8 +3,8 @@
 /** <module> What is visible to agents
 
 This module is the import parent of all places.  It defines nothing: it
-brings together the vocabulary of agents (typhon_words) and libraries
-without state that agents may use without asking.
+brings together the vocabulary of agents (typhon_words, typhon_memory) and
+libraries without state that agents may use without asking.
 
 *Threading*: nothing happens here.
 */
@@ -22,4 +22,5 @@ without state that agents may use without asking.
 :- use_module(library(random)).
 :- use_module(library(solution_sequences)).
 :- use_module(library(yall)).
+:- use_module(memory, [next_host/2]).
 :- use_module(words).

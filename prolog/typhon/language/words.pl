@@ -7,7 +7,6 @@
             now/1,                      % -Time
             neighbours/1,               % -Hosts
             host_load/1,                % -Count
-            next_host/2,                % +Strategy, -Host
             send/2,                     % +Agent, +Message
             leave/1,                    % +Fact
             sense/1,                    % ?Fact
@@ -29,29 +28,27 @@
             receive/2,                  % ?Message, +Timeout
             dispose/0
           ]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module(library(lists), [member/2, selectchk/3]).
+:- use_module(library(error), [must_be/2]).
 :- use_module('../program', [payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
-              [ address_parts/3, context/3, context_agent/1, context_host/1,
-                host/3, host_load/2, host_log/3, host_neighbours/2,
-                host_option/2, host_time/2, place_deliver/3,
-                place_undeliver/2, tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
+              [ context_agent/1, context_host/1, context_now/2, host/3,
+                host_load/2, host_log/3, host_neighbours/2, host_option/2,
+                host_time/2, place_deliver/3, place_undeliver/2,
+                tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_home/2, agent_name/3, agent_put_life/2,
-                attach_clauses/3, detach_clauses/2, with_agent/2 ]).
+              [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
+                agent_payload/3, life_hops/2, life_parent/2 ]).
 :- use_module('../travel', [post/3]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
-:- use_module(strategy, [next_host/6, strategy_memory/2]).
 
 /** <module> What an agent can say
 
 The vocabulary of agents, found through the place of the host on which
-they stand.  The control predicates at the end are here only to say that
-they were called where an agent cannot stop: the machine takes care of
-them everywhere else.
+they stand; next_host/2 is in typhon_memory.  The control predicates at the
+end are here only to say that they were called where an agent cannot stop:
+the machine takes care of them everywhere else.
 
 *Threading*: whatever thread runs the agent; see typhon_context.
 */
@@ -79,11 +76,13 @@ home(Address) :-
     agent_home(Id, Address).
 
 parent(Parent) :-
-    life(life(Parent, _, _, _, _, _)),
+    life(Life),
+    life_parent(Life, Parent),
     Parent \== none.
 
 hops(Count) :-
-    life(life(_, Count, _, _, _, _)).
+    life(Life),
+    life_hops(Life, Count).
 
 now(Time) :-
     context_host(Host),
@@ -105,45 +104,6 @@ neighbours(Hosts) :-
 host_load(Count) :-
     context_host(Host),
     host_load(Host, Count).
-
-%!  next_host(+Strategy, -Host) is semidet.
-%
-%   Choose a neighbour, see typhon_strategy.  What the strategy has to
-%   remember travels with the agent.  Fails on an isolated host.
-
-next_host(Strategy, Host) :-
-    context(Here, Id, Module),
-    host(Here, Address, _),
-    host_neighbours(Here, Neighbours),
-    strategy_memory(Module, Id, Here, Memory0),
-    next_host(Strategy, Neighbours, Address, Memory0, Next, Memory),
-    retractall(Module:'$memory'(_)),
-    assertz(Module:'$memory'(Memory)),
-    Host = Next.
-
-strategy_memory(Module, _, _, Memory) :-
-    catch(Module:'$memory'(Memory),
-          error(existence_error(procedure, _), _), fail),
-    !.
-strategy_memory(_, Id, Here, Memory) :-
-    (   host_option(Here, seed(Seed0))
-    ->  true
-    ;   Seed0 = random
-    ),
-    agent_seed(Seed0, Id, Seed),
-    strategy_memory(Seed, Memory).
-
-%   With a seed an agent's choices depend on it, on the name and number of
-%   the agent, and on the host where it was born.
-
-agent_seed(random, _, Seed) :-
-    !,
-    Seed is random(1<<30).
-agent_seed(Seed0, Id, Seed) :-
-    agent_name(Id, Name, Number),
-    agent_home(Id, Home),
-    address_parts(Home, HomeName, _),
-    term_hash(s(Seed0, Name, Number, HomeName), Seed).
 
 %!  send(+Agent, +Message) is det.
 %
@@ -203,31 +163,11 @@ place(Place) :-
 attach(Spec) :-
     payload_load(Spec, Payload),
     context_agent(Id),
-    attach_to(Id, Payload).
-
-%   Also for those who give orders from outside.
-
-attach_to(Id, Payload) :-
-    Payload = payload(Name, PIs, _),
-    agent(Id, _, Module, Hash, Life0),
-    Life0 = life(Parent, Hops, Lifetime, Tokens, Payloads, Static),
-    attach_clauses(Module, Hash, Payload),
-    with_agent(Id, agent_put_life(Id, life(Parent, Hops, Lifetime, Tokens,
-                                           [Name-PIs|Payloads], Static))).
+    agent_attach(Id, Payload).
 
 detach(Name) :-
     context_agent(Id),
-    detach_from(Id, Name).
-
-detach_from(Id, Name) :-
-    agent(Id, _, Module, _, Life0),
-    Life0 = life(Parent, Hops, Lifetime, Tokens, Payloads0, Static),
-    (   selectchk(Name-PIs, Payloads0, Payloads)
-    ->  detach_clauses(Module, PIs),
-        with_agent(Id, agent_put_life(Id, life(Parent, Hops, Lifetime,
-                                               Tokens, Payloads, Static)))
-    ;   existence_error(payload, Name)
-    ).
+    agent_detach(Id, Name).
 
 %!  deliver(+Name) is det.
 %!  undeliver(+Name) is det.
@@ -239,19 +179,10 @@ detach_from(Id, Name) :-
 %   @error permission_error(deliver, procedure, PI)
 
 deliver(Name) :-
-    life(life(_, _, _, _, Payloads, _)),
-    (   memberchk(Name-PIs, Payloads)
-    ->  context(_, _, Module),
-        findall(Clause, payload_clause(Module, PIs, Clause), Clauses),
-        place(Place),
-        place_deliver(Place, payload(Name, PIs, Clauses), _)
-    ;   existence_error(payload, Name)
-    ).
-
-payload_clause(Module, PIs, (Head:-Body)) :-
-    member(Name/Arity, PIs),
-    functor(Head, Name, Arity),
-    clause(Module:Head, Body).
+    context_agent(Id),
+    agent_payload(Id, Name, Payload),
+    place(Place),
+    place_deliver(Place, Payload, _).
 
 undeliver(Name) :-
     place(Place),
@@ -288,10 +219,7 @@ pheromone(Problem, Source, Strength) :-
 
 log(What) :-
     context_host(Host),
-    (   nb_current(typhon_context, context(_, Agent, _))
-    ->  true
-    ;   Agent = none
-    ),
+    context_now(Host, Agent),
     (   host_option(Host, log(_))
     ->  mobile_term(What),
         host_log(Host, Agent, What)

@@ -1,142 +1,255 @@
 :- module(typhon_creation,
-          [ agent_start/4,              % +Id, +Host, +Spec, -Answer
-            agent_clone_here/5,         % +Id, +CloneId, +Host, +Goals, -Answer
-            agent_end/2,                % +Id, +Outcome
-            agent_end/3                 % +Id, :Test, +Outcome
+          [ agent_create/2,             % +Program, -Agent
+            agent_create/3,             % +Program, -Agent, +Options
+            agent_create_here/3,        % +Name, +Start, -Agent
+            agent_clone_here/3,         % +Id, +Goals, -CloneId
+            clone_id/2                  % +Id, -CloneId
           ]).
-:- use_module(library(lists), [member/2, nth1/3]).
-:- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [host/3, host_enter/3, host_leave/1, host_log/3]).
+:- use_module(library(apply), [foldl/4, maplist/2]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error),
+              [ domain_error/2, existence_error/2, must_be/2,
+                permission_error/3, type_error/2 ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module('../program',
+              [ clause_parts/3, code_install/3, code_program/2,
+                code_receive/2, payload_load/2, program_load/5 ]).
+:- use_module('../wire', [endpoint_call/5, endpoint_reply/2, mobile_term/1]).
+:- use_module('../host',
+              [ host/3, host_address/2, host_enter/3, host_leave/1,
+                host_log/3, host_resolve/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_enter/5, agent_mail/2, agent_module/5,
-                agent_put/3, agent_ready/2, agent_remove/1, agent_state/2,
-                agent_status/3, with_agent/2 ]).
-:- use_module('../travel', [agent_born/2, agent_ended/3, hop_given_up/2]).
+              [ agent/5, agent_enter/3, agent_id/3, agent_mail/2,
+                agent_module/5, agent_name/3, agent_ready/2,
+                agent_state/2, is_life/1, life_clone/3, life_tokens/2,
+                make_life/2, with_agent/2 ]).
+:- use_module('../travel', [agent_born/2]).
 
-/** <module> How agents begin and end
+/** <module> How agents begin
 
-*Threading*: any thread.  Who removes the record of an agent, inside
-with_agent/2, is the one who reports its end.
+From a program, here or in another process, from a restore point, or as the
+clone of another.  What begins is
+
+    start(Hash, Life, State, Goals, Mail)
+
+*Threading*: any thread; agents for others are created in the reader threads
+of the endpoint.
 */
 
-:- meta_predicate agent_end(+, 1, +).
+:- multifile typhon_endpoint:requested/4.
 
-:- dynamic faulty/1.                    % Id, the oldest first
-
-:- setting(faulty, nonneg, 100, "Faulty agents kept for inspection").
-
-%!  agent_start(+Id, +Host, +Spec, -Answer) is det.
+%!  agent_create(+Program, -Agent) is det.
+%!  agent_create(+Program, -Agent, +Options) is det.
 %
-%   Let an agent begin on Host, a host of this process.
+%   Create an agent.  Program is a file specification, as agents(census),
+%   or clauses(Terms), the terms as they would stand in a file.  Options:
 %
-%   @arg Spec is start(Hash, Life, State, Goals, Mail)
-%   @arg Answer is `ok` or refused(Reason)
+%     - name(+Atom): from which the id is made; default that of the program
+%     - host(+Host): where, also in another process; default the first
+%       host of this process
+%     - tokens(+List): that it shows to hosts that ask for one
+%     - payloads(+Specs): attached from the start
+%     - facts(+Clauses): added to its initial state
+%     - lifetime(+Hops): at the next move after so many it is disposed of
+%     - static(+Boolean): whether it may not move
+%
+%   @error existence_error(host, Host)
+%   @error move_refused(Host, Reason), host_unreachable(Host)
+%   @error any problem of the program, see typhon_programs
 
-agent_start(Id, Host, start(Hash, Life, State, Goals, Mail), Answer) :-
-    arg(4, Life, Tokens),
-    host_enter(Host, Tokens, Answer),
-    (   Answer == ok
-    ->  host(Host, Address, Place),
-        catch(with_agent(Id, born(Id, Host, Place, Hash, Life, State, Mail)),
-              Ball,
-              ( host_leave(Host), throw(Ball) )),
-        agent_born(Id, Address),
-        host_log(Host, Id, created),
-        with_agent(Id, agent_ready(Id, Goals))
+agent_create(Program, Agent) :-
+    agent_create(Program, Agent, []).
+
+agent_create(Spec, Agent, Options) :-
+    must_be(list, Options),
+    maplist(check_option, Options),
+    target(Options, Target),
+    program_load(Spec, Program, Initial, Hash, Kinds),
+    Program = program(Name0, Declared, _, Clauses),
+    option(name(Name), Options, Name0),
+    birth(Options, Declared, Initial, Clauses, Life, State),
+    mobile_term(State),
+    start_goals(Clauses, Initial, Goals),
+    code_install(Hash, Program, Kinds),
+    create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
+
+check_option(Option) :-
+    (   option_type(Option, Type, Value)
+    ->  must_be(Type, Value)
+    ;   domain_error(agent_option, Option)
+    ).
+
+option_type(name(X), atom, X).
+option_type(host(X), atom, X).
+option_type(tokens(X), list, X).
+option_type(payloads(X), list, X).
+option_type(facts(X), list, X).
+option_type(lifetime(X), oneof([inf]), X) :- X == inf, !.
+option_type(lifetime(X), nonneg, X).
+option_type(static(X), boolean, X).
+
+target(Options, Where) :-
+    (   option(host(Host), Options)
+    ->  host_resolve(Host, Where)
+    ;   host(Name, _, _)
+    ->  Where = local(Name)
+    ;   throw(error(existence_error(host, here),
+                    context(agent_create/3,
+                            'start one with host_start/1')))
+    ).
+
+birth(Options, Declared, Initial, Clauses, Life,
+      state(PIs, StateClauses)) :-
+    option(tokens(Tokens), Options, []),
+    option(lifetime(Lifetime), Options, inf),
+    option(static(Static), Options, false),
+    option(facts(Facts), Options, []),
+    option(payloads(Specs), Options, []),
+    maplist(clash(Clauses), Facts),
+    append(Initial, Facts, StateClauses0),
+    foldl(add_payload(Clauses), Specs, []-(Declared-StateClauses0),
+          Payloads-(PIs-StateClauses)),
+    make_life([ tokens(Tokens), lifetime(Lifetime), static(Static),
+                payloads(Payloads) ], Life).
+
+clash(Clauses, Fact) :-
+    clause_parts(Fact, Head, _),
+    must_be(callable, Head),
+    functor(Head, Name, Arity),
+    not_static(Clauses, Name/Arity).
+
+not_static(Clauses, Name/Arity) :-
+    functor(General, Name, Arity),
+    (   member(Clause, Clauses),
+        clause_parts(Clause, General, _)
+    ->  permission_error(attach, procedure, Name/Arity)
     ;   true
     ).
 
-born(Id, Host, Place, Hash, Life, State, Mail) :-
-    agent_module(Id, Place, Hash, State, Module),
-    agent_enter(Id, Host, Module, Hash, Life),
-    agent_put(Id, arriving, []),
-    forall(member(Message, Mail), agent_mail(Id, Message)).
+add_payload(Clauses, Spec, Payloads-(PIs0-State0),
+            [Name-New|Payloads]-(PIs-State)) :-
+    payload_load(Spec, payload(Name, New, More)),
+    maplist(not_static(Clauses), New),
+    append(PIs0, New, PIs),
+    append(State0, More, State).
 
-%!  agent_end(+Id, +Outcome) is semidet.
+start_goals(Clauses, Initial, Goals) :-
+    (   ( member(Clause, Clauses) ; member(Clause, Initial) ),
+        clause_parts(Clause, Head, _),
+        Head == main
+    ->  Goals = [main]
+    ;   Goals = []
+    ).
+
+                /*******************************
+                *       HERE OR ELSEWHERE      *
+                *******************************/
+
+create(local(Host), Name, Start, Agent) :-
+    start(Host, Name, Start, Answer),
+    begun(Answer, Host, Agent).
+create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
+    Start = start(Hash, _, _, _, _),
+    code_program(Hash, Program),
+    catch(endpoint_call(Endpoint, agent,
+                        create(HostName, Name, Start, Program),
+                        answer(Answer), 10),
+          error(unreachable(_), _),
+          throw(error(host_unreachable(Address), _))),
+    created(Answer, Address, Agent).
+
+begun(created(Id), _, Id) :-
+    !.
+begun(Answer, Host, Id) :-
+    host_address(Host, Address),
+    created(Answer, Address, Id).
+
+created(created(Id), _, Id).
+created(refused(unknown_host), Address, _) :-
+    existence_error(host, Address).
+created(refused(Reason), Address, _) :-
+    throw(error(move_refused(Address, Reason), _)).
+
+typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), _,
+                          ReplyTo) :-
+    catch(create_for(HostName, Name, Start, Program, Answer),
+          error(Formal, _),
+          Answer = refused(error(Formal))),
+    endpoint_reply(ReplyTo, Answer).
+
+create_for(HostName, Name, Start, Program, Answer) :-
+    Start = start(Hash, Life, _, _, _),
+    must_be_life(Life),
+    (   host(HostName, _, _)
+    ->  code_receive(Hash, Program),
+        start(HostName, Name, Start, Answer)
+    ;   Answer = refused(unknown_host)
+    ).
+
+must_be_life(Life) :-
+    (   is_life(Life)
+    ->  true
+    ;   type_error(agent_life, Life)
+    ).
+
+%!  agent_create_here(+Name, +Start, -Agent) is det.
 %
-%   Id ends.  An agent that raised is kept as faulty(Error).
+%   Create an agent on the first host of this process.
 
-agent_end(Id, raised(Error)) :-
-    !,
-    with_agent(Id, make_faulty(Id, Error, Host, Hops)),
-    host_leave(Host),
-    portable(Error, Portable),
-    host_log(Host, Id, faulty(Portable)),
-    print_message(error, typhon(faulty(Id, Error))),
-    agent_ended(Id, raised(Portable), Hops),
-    forget_faulty.
-agent_end(Id, Outcome) :-
-    with_agent(Id, remove(Id, Last)),
-    removed(Last, Id, Outcome).
+agent_create_here(Name, Start, Agent) :-
+    target([], Where),
+    create(Where, Name, Start, Agent).
 
-%!  agent_end(+Id, :Test, +Outcome) is semidet.
-%
-%   Id ends if call(Test, Status) is true of it.
-
-agent_end(Id, Test, Outcome) :-
-    with_agent(Id, ( agent_status(Id, Status, _),
-                     call(Test, Status),
-                     remove(Id, Last)
-                   )),
-    removed(Last, Id, Outcome).
-
-remove(Id, last(Host, Hops, Status)) :-
-    agent(Id, Host, _, _, Life),
-    arg(2, Life, Hops),
-    once(agent_status(Id, Status, Goals)),
-    (   Status = transit(_, _)
-    ->  hop_given_up(Id, Goals)
-    ;   true
-    ),
-    agent_remove(Id).
-
-removed(last(_, _, faulty(_)), Id, _) :-
-    !,
-    retractall(faulty(Id)).
-removed(last(Host, Hops, Status), Id, Outcome) :-
-    tell_of_doubt(Status, Id),
-    host_leave(Host),
-    host_log(Host, Id, ended(Outcome)),
-    (   Outcome == failed
-    ->  print_message(warning, typhon(agent_failed(Id)))
-    ;   true
-    ),
-    agent_ended(Id, Outcome, Hops).
-
-tell_of_doubt(transit(Address, _), Id) :-
-    !,
-    print_message(warning, typhon(ended_in_doubt(Id, Address))).
-tell_of_doubt(_, _).
-
-make_faulty(Id, Error, Host, Hops) :-
-    agent(Id, Host, _, _, Life),
-    arg(2, Life, Hops),
-    agent_put(Id, faulty(Error), []),
-    assertz(faulty(Id)).
-
-portable(Error, Portable) :-
-    catch(( mobile_term(Error), Portable = Error ),
-          error(_, _),
-          term_to_atom(Error, Portable)).
-
-%   The oldest faulty agents go when there are too many.
-
-forget_faulty :-
-    setting(faulty, Max),
-    findall(Id, faulty(Id), Ids),
-    length(Ids, Count),
-    Excess is Count-Max,
-    forall(( nth1(N, Ids, Oldest), N =< Excess ),
-           ignore(agent_end(Oldest, disposed))).
-
-%!  agent_clone_here(+Id, +CloneId, +Host, +Goals, -Answer) is det.
+%!  agent_clone_here(+Id, +Goals, -CloneId) is det.
 %
 %   Make a clone of Id beside it, with Goals to do.
+%
+%   @error move_refused(Host, Reason)
 
-agent_clone_here(Id, CloneId, Host, Goals, Answer) :-
+agent_clone_here(Id, Goals, CloneId) :-
     agent(Id, Host, Module, Hash, Life0),
     agent_state(Module, State),
-    Life0 = life(_, _, Lifetime, Tokens, Payloads, Static),
-    Life = life(Id, 0, Lifetime, Tokens, Payloads, Static),
-    agent_start(CloneId, Host, start(Hash, Life, State, Goals, []), Answer).
+    life_clone(Id, Life0, Life),
+    agent_name(Id, Name, _),
+    start(Host, Name, start(Hash, Life, State, Goals, []), Answer),
+    begun(Answer, Host, CloneId).
+
+%!  clone_id(+Id, -CloneId) is det.
+%
+%   An id for a clone of Id.
+
+clone_id(Id, CloneId) :-
+    agent(Id, Host, _, _, _),
+    host(Host, Address, _),
+    agent_name(Id, Name, _),
+    agent_id(Name, Address, CloneId).
+
+                /*******************************
+                *             START            *
+                *******************************/
+
+%   start(+Host, +Name, +Start, -Answer): let an agent begin on Host, a host
+%   of this process.  Answer is created(Id) or refused(Reason).
+
+start(Host, Name, Start, Answer) :-
+    Start = start(_, Life, _, Goals, _),
+    life_tokens(Life, Tokens),
+    host_enter(Host, Tokens, Entered),
+    (   Entered == ok
+    ->  host(Host, Address, Place),
+        agent_id(Name, Address, Id),
+        catch(with_agent(Id, born(Id, Host, Place, Start)), Ball,
+              ( host_leave(Host), throw(Ball) )),
+        agent_born(Id, Address),
+        host_log(Host, Id, created),
+        debug(typhon(agent), '~w: created on ~w', [Id, Address]),
+        with_agent(Id, agent_ready(Id, Goals)),
+        Answer = created(Id)
+    ;   Answer = Entered
+    ).
+
+born(Id, Host, Place, start(Hash, Life, State, _, Mail)) :-
+    agent_module(Id, Place, Hash, State, Module),
+    agent_enter(agent(Id, Host, Module, Hash, Life), arriving, []),
+    agent_mail(Id, Mail).

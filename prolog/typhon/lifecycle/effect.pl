@@ -5,14 +5,14 @@
           ]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module('../host',
-              [ alarm_set/3, host/3, host_option/2, host_resolve/2,
-                host_time/2, real_time/3, schedule/2 ]).
+              [ alarm_set/3, host_option/2, host_resolve/2, host_time/2,
+                real_time/3, schedule/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_id/3, agent_name/3, agent_ordered/1,
-                agent_put/3, agent_ready/2, agent_status/3, mail_take/2,
-                with_agent/2 ]).
+              [ agent/5, agent_put/3, agent_ready/2, agent_rest/3,
+                agent_status/3, life_may_move/2, mail_take/2, with_agent/2 ]).
 :- use_module('../travel', [hop/5, hop_clone/6]).
-:- use_module(creation, [agent_clone_here/5, agent_end/2]).
+:- use_module(creation, [agent_clone_here/3, clone_id/2]).
+:- use_module(ending, [agent_end/2]).
 
 /** <module> What each control predicate does
 
@@ -41,24 +41,19 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     ->  Hole = true,
         Next = go(Goals)
     ;   agent(Id, _, _, _, Life),
-        may_move(Life, Id, May),
+        life_may_move(Life, May),
         set_out(May, Dest, Hole, Goals, Id-Here),
         Next = stop
     ).
-effect(clone(Who), Hole, Goals, Id-Here, go(Goals)) :-
-    clone_id(Id, Here, CloneId),
+effect(clone(Who), Hole, Goals, Id-_, go(Goals)) :-
     copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
-    agent_clone_here(Id, CloneId, Here, Going, Answer),
-    (   Answer = refused(Reason)
-    ->  host(Here, Address, _),
-        Hole = throw(error(move_refused(Address, Reason), _))
-    ;   Hole = (Who=parent(CloneId))
-    ).
+    agent_clone_here(Id, Going, CloneId),
+    Hole = (Who=parent(CloneId)).
 effect(clone(Host, Who), Hole, Goals, Id-Here, Next) :-
     destination(Host, Dest),
     (   Dest == local(Here)
     ->  effect(clone(Who), Hole, Goals, Id-Here, Next)
-    ;   clone_id(Id, Here, CloneId),
+    ;   clone_id(Id, CloneId),
         hop_clone(Id, Dest, CloneId, Who, Hole, Goals),
         Next = stop
     ).
@@ -118,24 +113,12 @@ take_or_wait(_, Until, _, fail, Goals, _-Here, go(Goals)) :-
     Now >= Until,
     !.
 take_or_wait(Message, Until, Again, Again, Goals, Id-_, stop) :-
-    agent_put(Id, waiting(Message, Until), Goals),
-    rouse_if_ordered(Id).
+    agent_rest(Id, waiting(Message, Until), Goals).
 
 wait(Id, Host, Status, Until, Goals) :-
-    with_agent(Id, ( agent_put(Id, Status, Goals),
-                     rouse_if_ordered(Id)
-                   )),
+    with_agent(Id, agent_rest(Id, Status, Goals)),
     real_time(Host, Until, Stamp),
     alarm_set(Stamp, Id, until(Until)).
-
-%   An order may have come while the agent was running.
-
-rouse_if_ordered(Id) :-
-    (   agent_ordered(Id)
-    ->  agent_status(Id, _, Goals),
-        agent_ready(Id, Goals)
-    ;   true
-    ).
 
 typhon_scheduler:fire(Id, until(Until)) :-
     !,
@@ -176,14 +159,8 @@ typhon_scheduler:running(Id) :-
                 *        MOVE AND CLONE        *
                 *******************************/
 
-may_move(life(_, _, _, _, _, true), Id, _) :-
+set_out(static, _, _, _, Id-_) :-
     permission_error(move, static_agent, Id).
-may_move(life(_, Hops, Lifetime, _, _, _), _, end) :-
-    integer(Lifetime),
-    Hops >= Lifetime,
-    !.
-may_move(_, _, go).
-
 set_out(end, _, _, _, Id-_) :-
     ignore(agent_end(Id, disposed)).
 set_out(go, Dest, Hole, Goals, Id-Here) :-
@@ -215,11 +192,6 @@ effect_depart(Id, Dest, Hole, Goals, Since) :-
             with_agent(Id, agent_ready(Id, Goals))
           )).
 
-clone_id(Id, Here, CloneId) :-
-    agent_name(Id, Name, _),
-    host(Here, Address, _),
-    agent_id(Name, Address, CloneId).
-
 %!  effect_order(+Id, +Here, +Host, +Goals) is det.
 %
 %   Id, which stands on Here and is to do Goals, is told to move to Host.
@@ -229,6 +201,6 @@ effect_order(Id, Here, Host, Goals) :-
     (   Dest == local(Here)
     ->  with_agent(Id, agent_ready(Id, Goals))
     ;   agent(Id, _, _, _, Life),
-        may_move(Life, Id, May),
+        life_may_move(Life, May),
         set_out(May, Dest, ordered, Goals, Id-Here)
     ).

@@ -1,9 +1,9 @@
 :- module(typhon_evacuation, []).
 :- use_module(library(lists), [member/2]).
-:- use_module('../host', [host_load/2, scheduler_signal/1]).
+:- use_module('../host', [context_now/2, host_load/2, scheduler_signal/1]).
 :- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
-:- use_module(creation, [agent_end/2]).
-:- use_module(running, [agent_do/2]).
+:- use_module(ending, [agent_end/2]).
+:- use_module(orders, [order_take/2]).
 
 /** <module> The agents on a host that is being stopped
 
@@ -29,7 +29,7 @@ evacuate(Host, Deadline) :-
         ( Load =< 0 ; Now > Deadline )
     ->  true
     ;   forall(( member(Id, Ids), stays(Id) ),
-               ignore(agent_do(Id, dispose))),
+               ignore(order_take(Id, dispose))),
         (   Now > Deadline
         ->  interrupt(Host, Ids)
         ;   true
@@ -55,9 +55,8 @@ interrupt(Host, Ids) :-
     ).
 
 stop_running(Host) :-
-    (   nb_current(typhon_context, context(Host0, Id, _)),
-        Host0 == Host,
-        Id \== none
+    (   context_now(Host, Agent),
+        Agent \== none
     ->  abort
     ;   true
     ).

@@ -1,9 +1,13 @@
 :- module(typhon_restore,
-          [ restore_write/2,            % +File, +Image
-            restore_read/2              % +File, -Image
+          [ agent_save/2,               % +Agent, +File
+            agent_load/2                % +File, -Agent
           ]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../program', [code_install/2, program_hash/2]).
+:- use_module('../agent', [is_life/1]).
+:- use_module(creation, [agent_create_here/3]).
+:- use_module(orders, [order_give/3]).
 
 /** <module> Restore points: agents as text
 
@@ -13,13 +17,36 @@ still to run can be read, compared and edited.
 *Threading*: any thread.
 */
 
+%!  agent_save(+Agent, +File) is det.
+%!  agent_load(+File, -Agent) is det.
+%
+%   A restore point: what Agent is at its next effect, as text.  The agent
+%   that is made of it goes on where the first one was, on the first host
+%   of this process, under an id of its own.
+%
+%   @error type_error(mobile_term, Culprit)
+%   @error domain_error(restore_point, File)
+
+agent_save(Agent, File) :-
+    order_give(Agent, image, Image),
+    write_image(File, Image).
+
+agent_load(File, Agent) :-
+    read_image(File, image(Name, Program, Life, State, Goals, Mail)),
+    program_hash(Program, Hash),
+    code_install(Hash, Program),
+    agent_create_here(Name, start(Hash, Life, State, Goals, Mail), Agent).
+
+                /*******************************
+                *            THE FILE          *
+                *******************************/
+
 format_version(1).
 
-%!  restore_write(+File, +Image) is det.
-%
-%   @arg Image is image(Name, Program, Life, State, Goals, Mail)
+%   write_image(+File, +Image), read_image(+File, -Image): Image is
+%   image(Name, Program, Life, State, Goals, Mail).
 
-restore_write(File, Image) :-
+write_image(File, Image) :-
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
         forall(line(Image, Line), write_line(Out, Line)),
@@ -44,12 +71,8 @@ line(image(_, _, _, _, Goals, _), goals(Goals)).
 line(image(_, _, _, _, _, Mail), mail(Message)) :-
     member(Message, Mail).
 
-%!  restore_read(+File, -Image) is det.
-%
-%   @error domain_error(restore_point, File)
-
-restore_read(File, image(Name, program(Program, PIs, Libraries, Clauses),
-                         Life, state(Dynamic, State), Goals, Mail)) :-
+read_image(File, image(Name, program(Program, PIs, Libraries, Clauses),
+                       Life, state(Dynamic, State), Goals, Mail)) :-
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
         read_lines(In, Lines),
@@ -57,6 +80,7 @@ restore_read(File, image(Name, program(Program, PIs, Libraries, Clauses),
     (   Lines = [restore_point(Version)|_],
         format_version(Version),
         memberchk(agent(Name, Life), Lines),
+        is_life(Life),
         memberchk(program(Program, PIs, Libraries), Lines),
         memberchk(goals(Goals), Lines),
         memberchk(dynamic(Dynamic), Lines)

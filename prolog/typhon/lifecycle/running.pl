@@ -1,31 +1,24 @@
-:- module(typhon_running,
-          [ agent_do/2                  % +Id, +Order
-          ]).
-:- use_module(library(error), [permission_error/3]).
+:- module(typhon_running, []).
 :- use_module('../program', [code_module/2, machine_run/3]).
 :- use_module('../host', [context_clear/0, context_set/3]).
 :- use_module('../agent',
-              [ agent/5, agent_departs/3, agent_handles/2, agent_next_order/2,
-                agent_order/2, agent_ordered/1, agent_put/3, agent_ready/2,
-                agent_status/3, agent_take/2, mail_take/2, with_agent/2 ]).
-:- use_module('../travel', [agent_ended/3, hop_out_of_touch/1]).
-:- use_module(creation, [agent_clone_here/5, agent_end/2, agent_end/3]).
-:- use_module(effect, [effect/5, effect_depart/5, effect_order/4]).
+              [ agent/5, agent_departs/3, agent_handles/2, agent_ordered/1,
+                agent_ready/2, agent_rest/3, agent_take/3, mail_take/2,
+                with_agent/2 ]).
+:- use_module(effect, [effect/5, effect_depart/5]).
+:- use_module(ending, [agent_end/2]).
+:- use_module(orders, [order_obey/3]).
 
 /** <module> The life of an agent on a host
 
 A worker of the scheduler runs an agent from one effect of the machine to
-the next, see typhon_effect.  Orders from outside are taken in between.
+the next, see typhon_effect.  Orders from outside are obeyed in between.
 
 *Threading*: run/1 in workers.  While its status is `running` an agent
 belongs to one worker.
 */
 
 :- multifile typhon_scheduler:run/1.
-
-                /*******************************
-                *            RUNNING           *
-                *******************************/
 
 typhon_scheduler:run(Id) :-
     (   with_agent(Id, take(Id, Task))
@@ -34,18 +27,17 @@ typhon_scheduler:run(Id) :-
     ).
 
 take(Id, Task) :-
-    agent_take(Id, Goals),
+    agent_take(Id, Goals, Order),
     !,
-    (   agent_next_order(Id, Order)
-    ->  agent_put(Id, obeying, Goals),
-        Task = order(Order, Goals)
-    ;   Task = run(Goals)
+    (   Order == none
+    ->  Task = run(Goals)
+    ;   Task = order(Order, Goals)
     ).
 take(Id, leave(Dest, Hole, Goals, Since)) :-
     agent_departs(Id, Dest, hop(Hole-Goals, Since)).
 
 perform(order(Order, Goals), Id) :-
-    obey(Order, Id, Goals).
+    order_obey(Order, Id, Goals).
 perform(leave(Dest, Hole, Goals, Since), Id) :-
     effect_depart(Id, Dest, Hole, Goals, Since).
 perform(run(Goals), Id) :-
@@ -100,97 +92,22 @@ conclude(effect(Control, Hole, Goals), Id, Host, _, Next) :-
 %   No goals are left: take the next message, or stay resident, or end.  A
 %   message that on_message/2 does not want is no reason to end.
 
-finish(Id, context(_, Module), Next) :-
-    agent(Id, _, Module, Hash, _),
-    agent_handles(Module, Hash),
+finish(Id, context(Program, Module), Next) :-
+    agent_handles(Program, Module),
     !,
     with_agent(Id, next_message(Id, Next)).
 finish(Id, _, stop) :-
     ignore(agent_end(Id, done)).
 
+%   An order comes first.
+
 next_message(Id, Next) :-
-    (   agent_ordered(Id)
-    ->  agent_ready(Id, []),
-        Next = stop
-    ;   mail_take(Id, From-Message)
+    (   \+ agent_ordered(Id),
+        mail_take(Id, From-Message)
     ->  Next = go([( on_message(From, Message)
                    ->  true
                    ;   message_failed(From, Message)
                    )])
-    ;   agent_put(Id, resident, []),
+    ;   agent_rest(Id, resident, []),
         Next = stop
     ).
-
-                /*******************************
-                *            ORDERS            *
-                *******************************/
-
-%!  agent_do(+Id, +Order) is semidet.
-%
-%   Order from outside: `dispose`, move(Dest), clone(CloneId),
-%   attach(Payload) or detach(Name).  An agent that runs takes it at its
-%   next effect.  Fails if there is no such agent in this process.
-
-agent_do(Id, dispose) :-
-    agent_end(Id, at_rest, disposed),
-    !.
-agent_do(Id, Order) :-
-    with_agent(Id, order(Id, Order)).
-
-at_rest(ready).
-at_rest(sleeping(_)).
-at_rest(waiting(_, _)).
-at_rest(resident).
-at_rest(leaving(_, _)).
-at_rest(faulty(_)).
-at_rest(transit(Host, Sent)) :-
-    hop_out_of_touch(transit(Host, Sent)).
-at_rest(cloning(Host, Sent)) :-
-    hop_out_of_touch(cloning(Host, Sent)).
-
-order(Id, Order) :-
-    agent_status(Id, Status, Goals),
-    not_faulty(Status, Id),
-    agent_order(Id, Order),
-    (   idle(Status)
-    ->  agent_ready(Id, Goals)
-    ;   true
-    ).
-
-not_faulty(Status, Id) :-
-    (   Status = faulty(_)
-    ->  permission_error(order, faulty_agent, Id)
-    ;   true
-    ).
-
-idle(sleeping(_)).
-idle(waiting(_, _)).
-idle(resident).
-
-%   obey(+Order, +Id, +Goals): the agent, which is ready to do Goals, takes
-%   an order.
-
-obey(dispose, Id, _) :-
-    ignore(agent_end(Id, disposed)).
-obey(move(Host), Id, Goals) :-
-    agent(Id, Here, _, _, _),
-    catch(effect_order(Id, Here, Host, Goals),
-          error(Formal, _),
-          disobey(Id, Formal, Goals)).
-obey(clone(CloneId), Id, Goals) :-
-    agent(Id, Here, _, _, _),
-    agent_clone_here(Id, CloneId, Here, Goals, Answer),
-    (   Answer = refused(Reason)
-    ->  agent_ended(CloneId, failed, 0),
-        print_message(warning, typhon(order_failed(Id, refused(Reason))))
-    ;   true
-    ),
-    with_agent(Id, agent_ready(Id, Goals)).
-obey(call(Goal), Id, Goals) :-
-    catch(Goal, error(Formal, _),
-          print_message(warning, typhon(order_failed(Id, Formal)))),
-    with_agent(Id, agent_ready(Id, Goals)).
-
-disobey(Id, Formal, Goals) :-
-    print_message(warning, typhon(order_failed(Id, Formal))),
-    with_agent(Id, agent_ready(Id, Goals)).

@@ -41,7 +41,7 @@ longest_pause(10).              % seconds
 news_tell(Home, Id, News) :-
     with_mutex(typhon_news, note(Home, Id, News, Courier)),
     (   Courier == wanted
-    ->  scheduler_call(typhon_news:carry(Home, try(0, 0.5)))
+    ->  scheduler_call(carry(Home, try(0, 0.5)))
     ;   true
     ).
 
@@ -138,4 +138,4 @@ give_up(Home) :-
 
 typhon_scheduler:fire(Home, news(Try)) :-
     !,
-    scheduler_call(typhon_news:carry(Home, Try)).
+    scheduler_call(carry(Home, Try)).

@@ -21,6 +21,8 @@ test(in_doubt_then_settled_once) :-
     with_doubt([a, b], silent_then_back).
 test(in_doubt_until_disposed_of) :-
     with_doubt([a, b], killed_for_good).
+test(order_to_end_waits) :-
+    with_doubt([a, b], told_then_back).
 test(order_to_end_follows) :-
     with_doubt([a, b], disposed_then_back).
 test(clone_in_doubt) :-
@@ -62,10 +64,24 @@ killed_for_good :-
     ended(a, Id, disposed),
     \+ peer_do(a, agent_here(Id)).
 
+%   The order waits for what b says, as long as b may say something.
+
+told_then_back :-
+    in_doubt(Id),
+    peer_do(a, agent_dispose(Id)),
+    peer_do(a, agent_here(Id)),
+    peer_signal(b, cont),
+    ended(a, Id, disposed),
+    \+ peer_do(a, agent_here(Id)),
+    \+ peer_do(b, agent_here(Id)).
+
 %   The operator decides before b does: b hears of it.
 
 disposed_then_back :-
+    peer_do(a, set_setting(typhon_reader:silence, 1)),
     in_doubt(Id),
+    peer_host(b, B),
+    wait_until(\+ peer_do(a, connected_to(B)), 20),
     peer_do(a, agent_dispose(Id)),
     ended(a, Id, disposed),
     peer_signal(b, cont),

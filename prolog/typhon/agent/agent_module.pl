@@ -1,0 +1,131 @@
+:- module(typhon_agent_module,
+          [ agent_module/5,             % +Id, +Place, +Hash, +State, -Module
+            agent_state/2,              % +Module, -State
+            agent_handles/2,            % +Program, +Module
+            attach_clauses/3,           % +Module, +Hash, +Payload
+            detach_clauses/2            % +Module, +PIs
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../program', [code_module/2]).
+:- use_module(agents, [agent/5]).
+
+/** <module> The module of an agent
+
+Everything dynamic in this temporary module is the agent's state.  Its
+program is found through the import chain, see typhon_code and typhon_place.
+
+*Threading*: any thread; the module of an agent that runs belongs to its
+worker.
+*/
+
+%!  agent_module(+Id, +Place, +Hash, +State, -Module) is semidet.
+%
+%   Make a module with the state of an agent.  What is wrong with the state
+%   is found here, and nothing is left behind then.  Fails if there is no
+%   program of that Hash.
+%
+%   @arg State is state(Empty, Clauses): what is dynamic without having
+%        clauses, and the clauses of all else.
+%   @error what assertz/1 raises
+
+agent_module(Id, Place, Hash, state(Empty, Clauses), Module) :-
+    code_module(Hash, Program),
+    free_module(Id, Module),
+    set_module(Module:class(temporary)),
+    set_module(Module:base(Program)),
+    add_import_module(Module, Place, end),
+    catch(( declare_all(Empty, Module),
+            add_clauses(Clauses, Module) ),
+          error(Formal, Context),
+          ( '$destroy_module'(Module),
+            throw(error(Formal, Context)) )).
+
+%   A copy that waits for the end of its hop has a module already.
+
+free_module(Id, Module) :-
+    (   agent(Id, _, Id, _, _)
+    ->  atom_concat(Id, ' again', Module)
+    ;   Module = Id
+    ).
+
+declare_all([], _).
+declare_all([PI|PIs], Module) :-
+    dynamic(Module:PI),
+    declare_all(PIs, Module).
+
+add_clauses([], _).
+add_clauses([Clause|Clauses], Module) :-
+    assertz(Module:Clause),
+    add_clauses(Clauses, Module).
+
+%!  agent_state(+Module, -State) is det.
+
+agent_state(Module, state(Empty, Clauses)) :-
+    findall(Item, state_item(Module, Item), Items),
+    split(Items, Empty, Clauses).
+
+%   The internal forms of predicate_property/2, which is ten times slower.
+
+state_item(Module, Item) :-
+    '$c_current_predicate'(_, Module:Head),
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _),
+    (   '$get_predicate_attribute'(Module:Head, number_of_clauses, N),
+        N > 0
+    ->  clause(Module:Head, Body),
+        (   Body == true
+        ->  Item = Head
+        ;   Item = (Head:-Body)
+        )
+    ;   functor(Head, Name, Arity),
+        Item = (:- dynamic(Name/Arity))
+    ).
+
+split([], [], []).
+split([Item|Items], Empty, Clauses) :-
+    (   Item = (:- dynamic(PI))
+    ->  Empty = [PI|Empty1],
+        split(Items, Empty1, Clauses)
+    ;   Clauses = [Item|Clauses1],
+        split(Items, Empty, Clauses1)
+    ).
+
+%!  agent_handles(+Program, +Module) is semidet.
+%
+%   True if there is a handler for messages in the agent's program or state.
+
+agent_handles(Program, Module) :-
+    (   '$c_current_predicate'(_, Program:on_message(_,_))
+    ->  true
+    ;   predicate_property(Module:on_message(_,_), number_of_clauses(N)),
+        N > 0
+    ).
+
+%!  attach_clauses(+Module, +Hash, +Payload) is det.
+%
+%   @error permission_error(attach, procedure, PI) if the agent has a
+%          predicate of that name already
+
+attach_clauses(Module, Hash, payload(_, PIs, Clauses)) :-
+    code_module(Hash, Program),
+    maplist(free(Module, Program), PIs),
+    declare_all(PIs, Module),
+    add_clauses(Clauses, Module).
+
+free(Module, Program, Name/Arity) :-
+    functor(Head, Name, Arity),
+    (   (   '$c_current_predicate'(_, Program:Head),
+            \+ predicate_property(Program:Head, imported_from(_))
+        ;   '$c_current_predicate'(_, Module:Head),
+            predicate_property(Module:Head, dynamic)
+        )
+    ->  permission_error(attach, procedure, Name/Arity)
+    ;   true
+    ).
+
+%!  detach_clauses(+Module, +PIs) is det.
+
+detach_clauses(Module, PIs) :-
+    forall(member(PI, PIs), abolish(Module:PI)).

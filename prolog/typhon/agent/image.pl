@@ -1,0 +1,105 @@
+:- module(typhon_image,
+          [ image_hop/6,                % +Id, -Hops, +Goals, ?Mail, +Since,
+                                        % -Image
+            image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
+            image_hash/2,               % +Image, -Hash
+            image_label/2,              % +Image, -Label
+            image_module/3,             % +Image, +Place, -Module
+            image_enter/4               % +Image, +Host, +Module, +More
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [type_error/2]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
+:- use_module(agent_module, [agent_module/5, agent_state/2]).
+:- use_module(identity, [agent_home/2]).
+:- use_module(life,
+              [ is_life/1, life_clone/3, life_hop/3, life_hops/2,
+                life_tokens/2 ]).
+
+/** <module> What of an agent goes over the wire
+
+    image(Id, Hash, Life, State, Goals, Mail, Since)
+
+Hash names its program, Mail is a list of From-Message, the oldest first,
+and Since the host time at which it set out.
+
+*Threading*: any thread; image_enter/4 inside with_agent/2.
+*/
+
+%!  image_hop(+Id, -Hops, +Goals, ?Mail, +Since, -Image) is det.
+%!  image_clone(+Id, +CloneId, +Goals, +Since, -Image) is det.
+%
+%   Image is what Id is now, on its way with that many hops; or what its
+%   clone is to be elsewhere.
+
+image_hop(Id, Hops, Goals, Mail, Since,
+          image(Id, Hash, Life, State, Goals, Mail, Since)) :-
+    agent(Id, _, Module, Hash, Life0),
+    life_hop(Life0, Life, Hops),
+    agent_state(Module, State).
+
+image_clone(Id, CloneId, Goals, Since,
+            image(CloneId, Hash, Life, State, Goals, [], Since)) :-
+    agent(Id, _, Module, Hash, Life0),
+    life_clone(Id, Life0, Life1),
+    life_hop(Life1, Life, _),
+    agent_state(Module, State).
+
+%!  image_hash(+Image, -Hash) is det.
+
+image_hash(image(_, Hash, _, _, _, _, _), Hash).
+
+%!  image_label(+Image, -Label) is det.
+%
+%   What one has to know of Image before it is installed: Label is
+%   label(Id, Hops, Hash, Tokens, Since).  What is not an agent is refused.
+%   Whether the state can be installed is seen when its module is made.
+%
+%   @error type_error(agent_image, Name)
+
+image_label(Image, label(Id, Hops, Hash, Tokens, Since)) :-
+    (   is_image(Image)
+    ->  Image = image(Id, Hash, Life, _, _, _, Since),
+        life_hops(Life, Hops),
+        life_tokens(Life, Tokens)
+    ;   image_name(Image, Name),
+        type_error(agent_image, Name)
+    ).
+
+is_image(image(Id, Hash, Life, State, Goals, Mail, Since)) :-
+    atom(Id),
+    agent_home(Id, _),
+    atom(Hash),
+    is_life(Life),
+    subsumes_term(state(_, _), State),
+    State = state(Empty, Clauses),
+    maplist(is_list, [Empty, Clauses, Goals, Mail]),
+    forall(member(Message, Mail), subsumes_term(_-_, Message)),
+    number(Since).
+
+%   The whole would be too long for a message.
+
+image_name(image(Id, _, _, _, _, _, _), Name) :-
+    atom(Id),
+    !,
+    Name = Id.
+image_name(Image, Name/Arity) :-
+    callable(Image),
+    !,
+    functor(Image, Name, Arity).
+image_name(Image, Image).
+
+%!  image_module(+Image, +Place, -Module) is semidet.
+%!  image_enter(+Image, +Host, +Module, +More:list) is det.
+%
+%   Install the agent in two steps: make its module, as agent_module/5, and
+%   then its record, with its mail and More.  It is ready, but not scheduled.
+
+image_module(image(Id, Hash, _, State, _, _, _), Place, Module) :-
+    agent_module(Id, Place, Hash, State, Module).
+
+image_enter(image(Id, Hash, Life, _, Goals, Mail0, _), Host, Module, More) :-
+    agent_enter(agent(Id, Host, Module, Hash, Life), ready, Goals),
+    append(Mail0, More, Mail),
+    agent_mail(Id, Mail).

@@ -1,0 +1,72 @@
+:- module(typhon_life,
+          [ is_life/1,                  % @Term
+            make_life/2,                % +Fields, -Life
+            life_parent/2,              % +Life, -Id
+            life_hops/2,                % +Life, -Count
+            life_tokens/2,              % +Life, -Tokens
+            life_payloads/2,            % +Life, -Payloads
+            set_payloads_of_life/3,     % +Payloads, +Life0, -Life
+            life_may_move/2,            % +Life, -May
+            life_hop/3,                 % +Life0, -Life, -Hops
+            life_clone/3                % +Id, +Life0, -Life
+          ]).
+:- use_module(library(record), [(record)/1, op(_, _, record)]).
+
+/** <module> What an agent takes along besides its state
+
+A life is
+
+    life(Parent, Hops, Lifetime, Tokens, Payloads, Static)
+
+the agent of which it is a clone or `none`, how often it moved, after how
+many hops it ends or `inf`, what it shows to hosts that ask for a token, a
+list of Name-PIs, and whether it may not move.  It goes over the wire and
+into restore points as it is; nobody else takes it apart.
+
+*Threading*: pure.
+*/
+
+:- record life(parent:atom=none, hops:integer=0, lifetime:atomic=inf,
+               tokens:list=[], payloads:list=[], static:atom=false).
+
+%!  is_life(@Term) is semidet.
+%!  make_life(+Fields:list, -Life) is det.
+%!  life_parent(+Life, -Id) is det.
+%!  life_hops(+Life, -Count:integer) is det.
+%!  life_tokens(+Life, -Tokens:list) is det.
+%!  life_payloads(+Life, -Payloads:list) is det.
+%!  set_payloads_of_life(+Payloads:list, +Life0, -Life) is det.
+%
+%   See library(record).
+
+%!  life_may_move(+Life, -May) is det.
+%
+%   May is `go`, `static` if it never may, or `end`: it has made all its hops.
+
+life_may_move(Life, May) :-
+    (   life_static(Life, true)
+    ->  May = static
+    ;   life_lifetime(Life, Most),
+        integer(Most),
+        life_hops(Life, Hops),
+        Hops >= Most
+    ->  May = end
+    ;   May = go
+    ).
+
+%!  life_hop(+Life0, -Life, -Hops:integer) is det.
+%
+%   One hop more, which makes Hops.
+
+life_hop(Life0, Life, Hops) :-
+    life_hops(Life0, Hops0),
+    Hops is Hops0+1,
+    set_hops_of_life(Hops, Life0, Life).
+
+%!  life_clone(+Id, +Life0, -Life) is det.
+%
+%   Life0 is that of Id, Life that of a clone of it.
+
+life_clone(Id, Life0, Life) :-
+    set_parent_of_life(Id, Life0, Life1),
+    set_hops_of_life(0, Life1, Life).

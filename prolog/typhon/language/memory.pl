@@ -1,0 +1,55 @@
+:- module(typhon_memory,
+          [ next_host/2                 % +Strategy, -Host
+          ]).
+:- use_module('../host',
+              [ address_parts/3, context/3, host/3, host_neighbours/2,
+                host_option/2 ]).
+:- use_module('../agent', [agent_home/2, agent_name/3]).
+:- use_module(strategy, [next_host/6, strategy_memory/2]).
+
+/** <module> What agents remember of where they were
+
+The memory of the migration strategies is the fact '$memory'/1 of the
+agent's state.
+
+*Threading*: whatever thread runs the agent.
+*/
+
+%!  next_host(+Strategy, -Host) is semidet.
+%
+%   Choose a neighbour, see typhon_strategy.  What the strategy has to
+%   remember travels with the agent.  Fails on an isolated host.
+
+next_host(Strategy, Host) :-
+    context(Here, Id, Module),
+    host(Here, Address, _),
+    host_neighbours(Here, Neighbours),
+    memory(Module, Id, Here, Memory0),
+    next_host(Strategy, Neighbours, Address, Memory0, Next, Memory),
+    retractall(Module:'$memory'(_)),
+    assertz(Module:'$memory'(Memory)),
+    Host = Next.
+
+memory(Module, _, _, Memory) :-
+    catch(Module:'$memory'(Memory),
+          error(existence_error(procedure, _), _), fail),
+    !.
+memory(_, Id, Here, Memory) :-
+    (   host_option(Here, seed(Seed0))
+    ->  true
+    ;   Seed0 = random
+    ),
+    agent_seed(Seed0, Id, Seed),
+    strategy_memory(Seed, Memory).
+
+%   With a seed an agent's choices depend on it, on the name and number of
+%   the agent, and on the host where it was born.
+
+agent_seed(random, _, Seed) :-
+    !,
+    Seed is random(1<<30).
+agent_seed(Seed0, Id, Seed) :-
+    agent_name(Id, Name, Number),
+    agent_home(Id, Home),
+    address_parts(Home, HomeName, _),
+    term_hash(s(Seed0, Name, Number, HomeName), Seed).

@@ -1,0 +1,125 @@
+:- module(typhon_properties,
+          [ agent_property/2            % ?Agent, ?Property
+          ]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [pairs_keys/2]).
+:- use_module('../program', [code_program/2]).
+:- use_module('../host', [host/3]).
+:- use_module('../agent',
+              [ agent/5, agent_home/2, agent_state/2, agent_status/3,
+                life_hops/2, life_payloads/2, with_agent/2 ]).
+:- use_module('../travel', [in_doubt/1, transfer_held/2]).
+:- use_module(questions, [agent_ask/4, question_answered/2]).
+
+/** <module> What can be seen of an agent
+
+*Threading*: any thread.
+*/
+
+:- multifile typhon_questions:here/3.
+
+%!  agent_property(?Agent, ?Property) is nondet.
+%
+%   Property is host(Address), program(Name), state(State), hops(N),
+%   home(Address), goals(List), facts(Clauses) or payloads(Names).  State
+%   is `running`, `sleeping`, `waiting`, `resident`, `in_transit`,
+%   `in_doubt` or faulty(Error).  If Agent is unbound, the agents of this
+%   process are enumerated.
+
+agent_property(Agent, Property) :-
+    var(Agent),
+    !,
+    agent(Agent, _, _, _, _),
+    agent_ask(Agent, properties, 10, answer(Properties)),
+    one_of(Property, Properties).
+agent_property(Agent, Property) :-
+    must_be(atom, Agent),
+    agent_home(Agent, _),
+    agent_ask(Agent, properties, 10, answer(Properties)),
+    one_of(Property, Properties).
+
+%   There is one property of each name: people are not asked for more.
+
+one_of(Property, Properties) :-
+    (   var(Property)
+    ->  member(Property, Properties)
+    ;   memberchk(Property, Properties)
+    ).
+
+                /*******************************
+                *             HERE             *
+                *******************************/
+
+typhon_questions:here(properties, Agent, Asker) :-
+    with_agent(Agent, findall(P, property(P, Agent), Properties)),
+    Properties \== [],
+    question_answered(Asker, answer(Properties)).
+
+property(host(Address), Agent) :-
+    agent(Agent, Host, _, _, _),
+    host(Host, Address, _).
+property(program(Name), Agent) :-
+    agent(Agent, _, _, Hash, _),
+    code_program(Hash, program(Name, _, _, _)).
+property(state(State), Agent) :-
+    agent_status(Agent, Status, _),
+    shown(Status, State).
+property(hops(Hops), Agent) :-
+    agent(Agent, _, _, _, Life),
+    life_hops(Life, Hops).
+property(home(Home), Agent) :-
+    agent(Agent, _, _, _, _),
+    agent_home(Agent, Home).
+property(goals(Goals), Agent) :-
+    agent_status(Agent, _, Goals0),
+    goal_list(Goals0, Goals).
+property(facts(Facts), Agent) :-
+    agent(Agent, _, Module, _, _),
+    agent_state(Module, state(_, Clauses)),
+    findall(Clause, visible(Clauses, Clause), Facts).
+property(payloads(Names), Agent) :-
+    agent(Agent, _, _, _, Life),
+    life_payloads(Life, Payloads),
+    pairs_keys(Payloads, Names).
+
+visible(Clauses, Clause) :-
+    member(Clause, Clauses),
+    Clause \= '$memory'(_).
+
+shown(ready, running).
+shown(running, running).
+shown(obeying, running).
+shown(arriving, in_transit).
+shown(leaving(_, _), in_transit).
+shown(sleeping(_), sleeping).
+shown(waiting(_, _), waiting).
+shown(resident, resident).
+shown(faulty(Error), faulty(Error)).
+shown(transit(Host, Sent), State) :-
+    if_certain(transit(Host, Sent), in_transit, State).
+shown(cloning(Host, Sent), State) :-
+    if_certain(cloning(Host, Sent), waiting, State).
+
+if_certain(Status, State0, State) :-
+    (   in_doubt(Status)
+    ->  State = in_doubt
+    ;   State = State0
+    ).
+
+goal_list(Frozen, Goals) :-
+    transfer_held(Frozen, Held),
+    !,
+    without_hole(Held, Goals).
+goal_list(hop(Held, _), Goals) :-       % leaving
+    !,
+    without_hole(Held, Goals).
+goal_list(Goals, Goals).
+
+without_hole(Hole-Goals0, Goals) :-
+    (   Goals0 = [Goal|Goals1],
+        Goal == Hole
+    ->  Goals = Goals1
+    ;   ignore(Hole = true),
+        Goals = Goals0
+    ).

@@ -1,0 +1,132 @@
+:- module(typhon_doubt,
+          [ doubt_settle/1,             % +Transfer
+            in_doubt/1,                 % +Status
+            out_of_touch/1              % +Status
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../wire', [endpoint_gone/1, endpoint_peer/2]).
+:- use_module('../host', [address_parts/3, alarm_set/3, scheduler_call/1]).
+:- use_module('../agent', [agent_home_endpoint/2]).
+:- use_module(transfer,
+              [ transfer_arrived/1, transfer_image/2, transfer_stays/2,
+                transfer_traveller/3, transfer_unreachable/1 ]).
+:- use_module(whereabouts, [agent_reached/3, agent_reached_at/4]).
+
+/** <module> Transfers in doubt
+
+The process to which an agent was sent is gone before it has answered.  If
+the home knows of this hop or a later one the agent got away in time.  If it
+does not, the news may be under way, or the home was started again, or died
+together with that process: everybody we know is asked.  If nobody has seen
+the agent it has not survived there, and goes on here.
+
+*Threading*: doubt_settle/1 in reader threads, which never wait; surveys in
+a worker.
+*/
+
+%   The name under which people know it.
+
+:- setting(typhon_hop:doubt_seconds, number, 3,
+           "An agent under way for longer is shown as in doubt").
+:- setting(settle_seconds, number, 1,
+           "Seconds until those who did not answer are asked again").
+
+:- multifile typhon_scheduler:fire/2.
+
+%!  doubt_settle(+Transfer) is det.
+%
+%   Find out whether the agent has arrived, some time.
+
+doubt_settle(Transfer) :-
+    transfer_traveller(Transfer, Id, Hops),
+    debug(typhon(hop), '~w hop ~D: in doubt', [Id, Hops]),
+    agent_reached(Id, Hops, home_said(Transfer)).
+
+home_said(Transfer, answer(true)) :-
+    !,
+    transfer_arrived(Transfer).
+home_said(Transfer, answer(Reached)) :-
+    !,
+    scheduler_call(survey(Transfer, Reached)).
+home_said(Transfer, _) :-
+    transfer_traveller(Transfer, Id, _),
+    agent_home_endpoint(Id, Endpoint),
+    (   endpoint_gone(Endpoint)
+    ->  scheduler_call(survey(Transfer, unknown))
+    ;   settle_later(Transfer)
+    ).
+
+settle_later(Transfer) :-
+    setting(settle_seconds, Seconds),
+    get_time(Now),
+    Stamp is Now+Seconds,
+    arg(1, Transfer, Id),
+    alarm_set(Stamp, Id, settle(Transfer)).
+
+typhon_scheduler:fire(_, settle(Transfer)) :-
+    !,
+    (   transfer_image(Transfer, _)
+    ->  doubt_settle(Transfer)
+    ;   transfer_stays(Transfer, given_up)
+    ).
+
+%   survey(+Transfer, +HomeSaid): in a worker.  Where the home has lived on
+%   and knows nothing, nobody waits for those who do not answer; else they
+%   might be the ones who have the agent.
+
+survey(Transfer, HomeSaid) :-
+    transfer_traveller(Transfer, Id, Hops),
+    findall(Said,
+            ( endpoint_peer(Peer, process(_)),
+              says(Peer, Id, Hops, Said)
+            ),
+            All),
+    (   memberchk(true, All)
+    ->  transfer_arrived(Transfer)
+    ;   HomeSaid == unknown,
+        memberchk(nothing, All)
+    ->  settle_later(Transfer)
+    ;   transfer_unreachable(Transfer)
+    ).
+
+says(Peer, Id, Hops, Said) :-
+    catch(agent_reached_at(Id, Hops, Peer, Said), error(_, _),
+          no_answer(Peer, Said)).
+
+no_answer(Peer, Said) :-
+    (   endpoint_gone(Peer)
+    ->  Said = false
+    ;   Said = nothing
+    ).
+
+%!  in_doubt(+Status) is semidet.
+%!  out_of_touch(+Status) is semidet.
+%
+%   The answer is overdue, or the connection on which it should come is
+%   broken; or both: then an order to end is not put off any longer.  Before
+%   that it follows the agent.
+%
+%   @arg Status is transit(Address, Sent) or cloning(Address, Sent)
+
+in_doubt(Status) :-
+    (   down(Status)
+    ;   overdue(Status)
+    ),
+    !.
+
+out_of_touch(Status) :-
+    overdue(Status),
+    down(Status).
+
+down(Status) :-
+    arg(1, Status, Address),
+    address_parts(Address, _, Endpoint),
+    endpoint_peer(Endpoint, state(down)),
+    !.
+
+overdue(Status) :-
+    arg(2, Status, Sent),
+    get_time(Now),
+    setting(typhon_hop:doubt_seconds, Limit),
+    Now-Sent > Limit.

@@ -1,0 +1,174 @@
+:- module(typhon_home,
+          [ agent_born/2,               % +Id, +Address
+            home_moved/4,               % +Id, +Address, +Hops, +Process
+            home_ended/3,               % +Id, +Outcome, +Hops
+            home_knows/4,               % +Id, -Address, -Hops, -Process
+            agent_outcome/2,            % +Id, -Outcome
+            outcome_wait/3              % +Id, +Seconds, +Asker
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
+:- use_module('../host', [alarm_set/3]).
+:- use_module('../agent', [agent_home_endpoint/2]).
+
+/** <module> What a home knows of its agents
+
+The home of an agent, the process in which it was born, always knows where
+it went and how it ended, and tells those who wait for that.  Older news
+never replace newer ones: they are ordered by the number of hops.  Of the
+outcomes the oldest are forgotten.  A home that was started again knows of
+its agents what they tell it.
+
+*Threading*: any thread; one mutex.
+*/
+
+%   The name under which people know it.
+
+:- setting(typhon_whereabouts:outcomes, positive_integer, 20000,
+           "Outcomes of ended agents kept by their home").
+
+:- dynamic
+    born/4,                     % Id, Address, Hops, Process: its home is
+                                % here, and it has not ended
+    outcome/2,                  % Id, Outcome
+    waiter/3.                   % Id, Token, Asker
+
+:- multifile
+    typhon_endpoint:requested/4,
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
+
+%!  agent_born(+Id, +Address) is det.
+
+agent_born(Id, Address) :-
+    assertz(born(Id, Address, 0, here)).
+
+%!  home_knows(+Id, -Address, -Hops, -Process) is semidet.
+%
+%   Id, which has not ended, was last told to be at Address, in Process.
+
+home_knows(Id, Address, Hops, Process) :-
+    born(Id, Address0, Hops0, Process0),
+    !,
+    Address = Address0, Hops = Hops0, Process = Process0.
+
+%!  agent_outcome(+Id, -Outcome) is semidet.
+
+agent_outcome(Id, Outcome) :-
+    outcome(Id, Outcome).
+
+%!  home_moved(+Id, +Address, +Hops, +Process) is det.
+%!  home_ended(+Id, +Outcome, +Hops) is det.
+%
+%   News of Id: it has gone to Address, in Process, or has ended, after Hops
+%   hops.
+
+home_moved(Id, Address, Hops, Process) :-
+    debug(typhon(hop), '~w hop ~D: home hears that it is on ~w',
+          [Id, Hops, Address]),
+    with_mutex(typhon_born, moved(Id, Address, Hops, Process)).
+
+%   The new fact comes before the old one goes: others read meanwhile.  Of
+%   whom the home has never heard was born before it was started again.
+
+moved(Id, Address, Hops, Process) :-
+    clause(born(Id, _, Hops0, _), true, Old),
+    !,
+    (   Hops0 < Hops
+    ->  assertz(born(Id, Address, Hops, Process)),
+        erase(Old)
+    ;   true
+    ).
+moved(Id, Address, Hops, Process) :-
+    \+ outcome(Id, _),
+    agent_home_endpoint(Id, Home),
+    endpoint_address(Home),
+    !,
+    assertz(born(Id, Address, Hops, Process)).
+moved(_, _, _, _).
+
+home_ended(Id, Outcome, Hops) :-
+    debug(typhon(agent), '~w: home hears that it ended after ~D hops, ~p',
+          [Id, Hops, Outcome]),
+    with_mutex(typhon_born, ended(Id, Outcome, Hops, Askers)),
+    forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
+
+%   A copy that was given up in doubt says nothing of an agent that is
+%   known to have gone on.
+
+ended(Id, _, Hops, []) :-
+    (   outcome(Id, _)
+    ;   born(Id, _, Hops0, _),
+        Hops0 > Hops
+    ),
+    !.
+ended(Id, Outcome, _, Askers) :-
+    retractall(born(Id, _, _, _)),
+    assertz(outcome(Id, Outcome)),
+    bounded(outcome(_, _), typhon_whereabouts:outcomes),
+    waiters(Id, Askers).
+
+%   One by one: see typhon_mailbox.
+
+waiters(Id, Askers) :-
+    (   retract(waiter(Id, _, Asker))
+    ->  Askers = [Asker|More],
+        waiters(Id, More)
+    ;   Askers = []
+    ).
+
+                /*******************************
+                *      WAITING FOR THE END     *
+                *******************************/
+
+%!  outcome_wait(+Id, +Seconds, +Asker) is det.
+%
+%   Tell Asker the outcome of Id, whose home is here, when it is known;
+%   `timeout` after Seconds and `unknown` if there is no such agent.
+%
+%   @arg Asker is queue(Queue, Tag) or reply(ReplyTo)
+
+outcome_wait(Id, Seconds, Asker) :-
+    with_mutex(typhon_born, wait_or_answer(Id, Seconds, Asker, Answer)),
+    (   Answer == wait
+    ->  true
+    ;   tell_asker(Asker, Answer)
+    ).
+
+wait_or_answer(Id, _, _, Outcome) :-
+    outcome(Id, Outcome),
+    !.
+wait_or_answer(Id, Seconds, Asker, wait) :-
+    born(Id, _, _, _),
+    !,
+    flag(typhon_waiter, Token, Token+1),
+    assertz(waiter(Id, Token, Asker)),
+    (   number(Seconds)
+    ->  get_time(Now),
+        Stamp is Now+Seconds,
+        alarm_set(Stamp, Id, join(Token))
+    ;   true
+    ).
+wait_or_answer(_, _, _, unknown).
+
+typhon_scheduler:fire(Id, join(Token)) :-
+    !,
+    (   retract(waiter(Id, Token, Asker))
+    ->  tell_asker(Asker, timeout)
+    ;   true
+    ).
+
+typhon_scheduler:over(Id, join(Token)) :-
+    \+ waiter(Id, Token, _).
+
+tell_asker(queue(Queue, Tag), Outcome) :-
+    catch(thread_send_message(Queue, outcome(Tag, Outcome)),
+          error(existence_error(_, _), _), true).
+tell_asker(reply(ReplyTo), Outcome) :-
+    endpoint_reply(ReplyTo, Outcome).
+
+typhon_endpoint:requested(join, join(Id, Seconds), _Peer, ReplyTo) :-
+    outcome_wait(Id, Seconds, reply(ReplyTo)).

@@ -1,0 +1,113 @@
+:- module(typhon_ways,
+          [ way_in/2,                   % +Id, +Mail
+            way_out/3,                  % +Id, +Letter, -Way
+            way_send/3                  % +Endpoint, +Id, +Letter
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
+                endpoint_post_up/3 ]).
+:- use_module('../host', [address_parts/3]).
+:- use_module('../agent', [agent_home_endpoint/2, agent_mail/2]).
+:- use_module(whereabouts, [whereabouts/2]).
+
+/** <module> The next step of a letter
+
+A letter(Mail, Left) may be forwarded Left times more.  Mail is a list of
+mail(Origin, From, Message), the oldest first.
+
+*Threading*: way_in/2 and way_out/3 inside with_agent/2; they never wait.
+way_send/3 may wait for a connection.
+*/
+
+%   A letter that has been forwarded so often at once chases its agent in
+%   vain for the moment, or those who should know do not know yet: it waits
+%   a little.
+
+forwards_at_once(64).
+
+%!  way_in(+Id, +Mail) is semidet.
+%
+%   Put Mail in the mailbox of Id, which stands here.
+
+way_in(Id, Mail) :-
+    findall(From-Message, member(mail(_, From, Message), Mail), Messages),
+    agent_mail(Id, Messages).
+
+%!  way_out(+Id, +Letter, -Way) is det.
+%
+%   Way is `done`, to(Endpoint, Letter) if a connection has to be made first,
+%   wait(Letter) if it is better to wait, or `nowhere`.
+
+way_out(Id, letter(Mail, Left), Way) :-
+    Left > 0,
+    next_endpoint(Id, Endpoint),
+    !,
+    Left1 is Left-1,
+    Letter = letter(Mail, Left1),
+    forwards_at_once(Most),
+    (   (   Left1 mod Most =:= 0
+        ;   endpoint_address(Endpoint)  % on its way in
+        )
+    ->  Way = wait(Letter)
+    ;   sent(Endpoint, Id, Letter, endpoint_post_up)
+    ->  Way = done
+    ;   Way = to(Endpoint, Letter)
+    ).
+way_out(_, _, nowhere).
+
+%   Who is not here has left a trace, or the home knows.
+
+next_endpoint(Id, Endpoint) :-
+    whereabouts(Id, Address),
+    address_parts(Address, _, Endpoint0),
+    \+ endpoint_gone(Endpoint0),
+    !,
+    Endpoint = Endpoint0.
+next_endpoint(Id, Endpoint) :-
+    agent_home_endpoint(Id, Endpoint),
+    \+ endpoint_address(Endpoint).
+
+%!  way_send(+Endpoint, +Id, +Letter) is det.
+%
+%   Where a forwarding address leads to a process that is gone, the home
+%   may know better.
+%
+%   @error host_unreachable(Endpoint)
+
+way_send(Endpoint, Id, Letter) :-
+    catch(sent(Endpoint, Id, Letter, endpoint_post),
+          error(unreachable(_), _),
+          send_home(Endpoint, Id, Letter)).
+
+send_home(Failed, Id, Letter) :-
+    (   agent_home_endpoint(Id, Home),
+        Home \== Failed,
+        \+ endpoint_address(Home)
+    ->  catch(sent(Home, Id, Letter, endpoint_post),
+              error(unreachable(_), _),
+              throw(error(host_unreachable(Home), _)))
+    ;   throw(error(host_unreachable(Failed), _))
+    ).
+
+%   sent(+Endpoint, +Id, +Letter, :Post): what is too long for one frame goes
+%   in two.
+
+sent(Endpoint, Id, letter(Mail, Left), Post) :-
+    catch(( call(Post, Endpoint, message, message(Id, Mail, Left)),
+            debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint])
+          ),
+          error(resource_error(frame_bytes), Context),
+          (   halves(Mail, Older, Newer)
+          ->  sent(Endpoint, Id, letter(Older, Left), Post),
+              sent(Endpoint, Id, letter(Newer, Left), Post)
+          ;   throw(error(resource_error(frame_bytes), Context))
+          )).
+
+halves(Mail, Older, Newer) :-
+    length(Mail, Count),
+    Count > 1,
+    Half is Count//2,
+    length(Older, Half),
+    append(Older, Newer, Mail).
