@@ -36,7 +36,7 @@ started the hosts.
 %   of Hosts, and speak to neighbours only. Options:
 %
 %     - settings(+Pairs)
-%       Name-Value, to replace what node.pl has as a default.
+%       Name-Value, to replace what auctions/participant.pl has as a default.
 %     - diameter(+Links)
 %       Of the network; default what it is now. It is the setting `level`,
 %       and with the longest time of a hop it makes the settings `window`

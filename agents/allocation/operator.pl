@@ -25,8 +25,8 @@ holds the cookie, whoever started the hosts.  There is one robot for a host,
 which is named by it.
 
 A task is task(Name, Teams, Details).  Teams are pairs Count-Requirements;
-requirements and the properties of robots are described in needs.pl.
-Details are a list, in which all may be missing:
+requirements and the properties of robots are described in
+common/requirements.pl.  Details are a list, in which all may be missing:
 
   - priority(Number)
     Default 0.  Robots that are reserved for a task, but do not yet execute

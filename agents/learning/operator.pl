@@ -8,7 +8,7 @@
                 payload_detach/2, remote/2
               ]).
 :- use_module('../../prolog/typhon/paths', []).
-:- use_module('../starts', [starts/4]).
+:- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [maplist/2, maplist/4]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, nth0/3]).

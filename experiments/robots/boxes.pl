@@ -2,7 +2,7 @@
           [ boxes_figure/2,             % +Options, -Claims
             boxes_result/2              % +Run, -Result
           ]).
-:- use_module('../../agents/allocation/faults', [reservation_faults/2]).
+:- use_module('../../agents/allocation/reservations', [reservation_faults/2]).
 :- use_module('../lib/report',
               [ claims_sentence/2, print_claims/2, print_table/3,
                 save_csv/3, save_facts/2

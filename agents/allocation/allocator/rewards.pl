@@ -1,0 +1,67 @@
+% Expects: task/3; lib, common; mobility_resource, held_robots, sojourn.
+% Gives: reward/1, penalty/0, decay/0, exhausted/0, replenish/0; state chi/1.
+
+/*  The mobility resource of an allocator, chi(Chi): the equations of
+    mobility_resource.pl in its life.
+*/
+
+:- dynamic chi/1.
+
+%!  reward(+Reserved) is det.
+%
+%   A robot was reserved, beside so many: equation 7.1.
+
+reward(Reserved) :-
+    note(reward),
+    frequency(reward, _, Frequency),
+    task(_, Teams, _),
+    required(Teams, Required),
+    chi(Chi0),
+    rewarded(Chi0, Frequency, Required, Reserved, Chi),
+    keep(chi(Chi)).
+
+%!  penalty is det.
+%
+%   A robot it could use was reserved already: equation 7.2.
+
+penalty :-
+    note(penalty),
+    frequency(penalty, Penalties, Frequency),
+    task(_, Teams, _),
+    required(Teams, Required),
+    reserved(Reserved),
+    chi(Chi0),
+    penalised(Chi0, Frequency, Penalties, Required, Reserved, Chi),
+    keep(chi(Chi)).
+
+%!  decay is det.
+%
+%   A hop: equation 7.3.
+
+decay :-
+    sojourn(Visited, _, _, _),
+    discovered(Found),
+    parameter(cd, Cd),
+    chi(Chi0),
+    decayed(Chi0, Found, Visited, Cd, Chi),
+    keep(chi(Chi)).
+
+%!  replenish is det.
+%
+%   After a back-off: equation 7.4.
+
+replenish :-
+    discovered(Found),
+    parameter(cd, Cd),
+    parameter(alpha_k, Threshold),
+    restarted(Found, Cd, Threshold, Chi),
+    keep(chi(Chi)).
+
+%!  exhausted is semidet.
+%
+%   "chi becomes almost equal to 0."
+
+exhausted :-
+    chi(Chi),
+    parameter(alpha_k, Threshold),
+    exhausted(Chi, Threshold).
