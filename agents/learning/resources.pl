@@ -1,5 +1,8 @@
+% Expects: nothing; pure.
+% Gives: equations 4.1 to 4.6 by name, from bag_weight/2 to action_reward/3.
+
 /*  Migration resource and execution potential: thesis section 4.2.6,
-    equations 4.1 to 4.6.  Pure: included in the programs that need it.
+    equations 4.1 to 4.6.
 
     Intelligence is a list of pairs Unit-Weight; the weight, phi_w, is what
     the problem says.
