@@ -32,7 +32,7 @@
 
     What stands here is the whole in few lines; each step has a file of its
     own in the folder `allocator`, which calls none that is included after
-    it.  doc/allocation.md has the text of the thesis beside them.
+    it.  doc/allocation.md has the steps of the thesis beside them.
 
     Facts: task(Name, Teams, Details), see common/requirements.pl;
     setting(Name, Value) replaces a default.  Its payload defines
@@ -103,7 +103,7 @@ miss :-
                 *             SEARCH           *
                 *******************************/
 
-%   "This process continues till all the required robots are reserved."
+%   Migrate and negotiate, until all the robots required are reserved.
 
 search :-
     complete,

@@ -1,4 +1,4 @@
-% Expects: count/1; lib; discontiguous default/2.
+% Expects: count/1; lib; default/2 is discontiguous.
 % Gives: bred/2, and what population/replication gives.
 
 /*  Cloning of agents that make progress, under the controller of chapter 6

@@ -1,5 +1,6 @@
 % Expects: nothing; pure.
-% Gives: equations 4.1 to 4.6 by name, from bag_weight/2 to action_reward/3.
+% Gives: bag_weight/2, migration_penalty/4, migration_reward/6,
+%   initial_potential/4, action_cost/3, action_reward/3.
 
 /*  Migration resource and execution potential: thesis section 4.2.6,
     equations 4.1 to 4.6.

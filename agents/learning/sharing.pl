@@ -1,4 +1,5 @@
-% Expects: shareable/1, bag/1, solution/1; queue/0, unqueue/0, provided/1; lib.
+% Expects: lib; resources, telling; shareable/1, bag/1, solution/1; queue/0,
+%   unqueue/0, provided/1; better/2 of a payload.
 % Gives: visit/2, deadline/2, await/3, answer_until/1.
 
 /*  How learning agents share: in the queue of a host, and by messages

@@ -1,10 +1,10 @@
-% Expects: backoffs/1; lib, common; all that allocator.pl has above it.
+% Expects: backoffs/1; lib, common; deadline, attendance, sojourn, migration,
+%   deallocation.
 % Gives: back_off/0.
 
-/*  "The manner in which the computing of the back-off interval needs to be
-    performed": thesis section 7.4.1, Contention Resolution.  The equations
-    of backoff_interval.pl in the life of an allocator; backoffs(Count) is
-    its beta.
+/*  Backing off before others: thesis section 7.4.1, Contention Resolution.
+    The equations of backoff_interval.pl in the life of an allocator;
+    backoffs(Count) is its beta.
 */
 
 %!  back_off is det.
@@ -48,7 +48,7 @@ hop_time(Seconds) :-
     typhon:host_property(Host, hop_time(in, stats(_, _, Seconds, _))),
     !.
 
-%   "During this period it remains within the last robot visited."
+%   Dormant, at the robot where it is.
 
 rest(Until) :-
     attend,

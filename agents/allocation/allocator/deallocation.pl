@@ -69,8 +69,7 @@ spawned(clone(_), Share) :-
                 *            A CHILD           *
                 *******************************/
 
-%   "Spawned child agents are programmed to die (apoptosis) after the
-%   completion of their de-allocation target(s)."
+%   When it has freed all, it dies: apoptosis.
 
 child(Share) :-
     retractall(held(_, _, _, _, _)),

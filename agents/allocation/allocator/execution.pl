@@ -1,8 +1,8 @@
 % Expects: task/3; lib, common; deadline, messages, held_robots, attendance.
 % Gives: execute/1.
 
-/*  "The mobile agent initiates the execution of the allocated task(s)"; "as
-    the robots make progress ... monitors their status".
+/*  All robots are reserved: the allocator has them begin, and monitors them
+    until all are done.
 */
 
 %!  execute(-Outcome) is det.

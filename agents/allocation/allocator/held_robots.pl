@@ -48,8 +48,7 @@ mark(Ref, Phase) :-
 
 %!  give_up(+Host, +Ref, +Why) is semidet.
 %
-%   The robot at Host is lost: "records any failures or disruptions".  What
-%   was done stays done.
+%   The robot at Host is lost, which is logged.  What was done stays done.
 
 give_up(Host, Ref, Why) :-
     retract(held(Host, Robot, Ref, Team, Phase)),

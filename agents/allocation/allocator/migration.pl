@@ -1,8 +1,7 @@
 % Expects: lib, common; trail, held_robots, sojourn, rewards.
 % Gives: set_out/0, restart/0, migrate/0, pause/0.
 
-/*  "The extent to which the agents need to migrate": thesis section 7.4.1,
-    Agent Migration.
+/*  How an allocator gets about: thesis section 7.4.1, Agent Migration.
 */
 
 %!  set_out is det.
@@ -12,8 +11,7 @@
 %   robots may have to go back to them.
 
 set_out :-
-    parameter(chi, Chi),
-    keep(chi(Chi)),
+    endow,
     begin_sojourn,
     here(Host),
     keep(trail([Host])),

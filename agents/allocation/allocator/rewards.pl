@@ -1,5 +1,6 @@
 % Expects: task/3; lib, common; mobility_resource, held_robots, sojourn.
-% Gives: reward/1, penalty/0, decay/0, exhausted/0, replenish/0; state chi/1.
+% Gives: endow/0, replenish/0, reward/1, penalty/0, decay/0, exhausted/0; its
+%   state.
 
 /*  The mobility resource of an allocator, chi(Chi): the equations of
     mobility_resource.pl in its life.
@@ -46,9 +47,14 @@ decay :-
     decayed(Chi0, Found, Visited, Cd, Chi),
     keep(chi(Chi)).
 
+%!  endow is det.
 %!  replenish is det.
 %
-%   After a back-off: equation 7.4.
+%   What it begins with, and begins anew with after a back-off: equation 7.4.
+
+endow :-
+    parameter(chi, Chi),
+    keep(chi(Chi)).
 
 replenish :-
     discovered(Found),
@@ -59,7 +65,7 @@ replenish :-
 
 %!  exhausted is semidet.
 %
-%   "chi becomes almost equal to 0."
+%   Of the resource next to nothing is left: it has to back off.
 
 exhausted :-
     chi(Chi),

@@ -1,5 +1,6 @@
 % Expects: lib.
-% Gives: begin_sojourn/0, note/1, visited/1, discovered/1, frequency/3; state.
+% Gives: begin_sojourn/0, note/1, visited/1, discovered/1, frequency/3; its
+%   state.
 
 /*  What an allocator has met: UR, VR, Lambda, and the frequencies mu of
     thesis section 7.4.1.

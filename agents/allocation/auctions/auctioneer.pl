@@ -1,4 +1,5 @@
-% Expects: lib, common; agenda, memory, jobs, awards; publish/1, tell_robots/3.
+% Expects: lib, common; agenda, memory, contractor, jobs, awards; publish/1,
+%   tell_robots/3.
 % Gives: post/1, to_owner/2, auction_due/1.
 
 /*  The side of a node that auctions tasks, the auctioneer.  It announces the task, takes

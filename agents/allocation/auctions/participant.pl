@@ -1,5 +1,6 @@
-% Expects: what Murdoch and ANTA do differently; setting/2 among the state.
-% Gives: the whole of a node but for that; from lib, common and this folder.
+% Expects: setting/2; publish/1, tell_robots/3, tell_owner/2, offer_bids/3,
+%   arrived/3, onward/2, undertake/2.
+% Gives: main/0, and all else that a node needs: it includes the files here.
 
 /*  A node: the static agent of a host that takes part in auctions.  It
     passes on messages (flooding.pl), bids for the robot of its host
