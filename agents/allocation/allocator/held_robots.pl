@@ -1,5 +1,6 @@
 % Expects: task/3; common; messages.
-% Gives: complete/0, reserved/1, open_teams/1, mark/2, give_up/3; its state.
+% Gives: complete/0, needed/1, reserved/1, open_teams/1, mark/2, give_up/3; its
+%   state.
 
 /*  The robots of an allocator.
 
@@ -16,13 +17,18 @@
 %   All robots that the task requires are reserved, or have done their part.
 
 complete :-
-    task(_, Teams, _),
-    required(Teams, Required),
+    needed(Required),
     reserved(Required).
 
+%!  needed(-Required) is det.
 %!  reserved(-Count) is det.
 %
-%   How many those are: NQ of equations 7.1 and 7.2.
+%   NR and NQ of equations 7.1 and 7.2: how many robots the task requires, and
+%   how many are reserved, or have done their part.
+
+needed(Required) :-
+    task(_, Teams, _),
+    required(Teams, Required).
 
 reserved(Count) :-
     aggregate_all(count, ( held(_, _, _, _, _) ; achieved(_) ), Count).

@@ -1,4 +1,4 @@
-% Expects: task/3; lib, common; mobility_resource, held_robots, sojourn.
+% Expects: lib; mobility_resource, held_robots, sojourn.
 % Gives: endow/0, replenish/0, reward/1, penalty/0, decay/0, exhausted/0; its
 %   state.
 
@@ -15,8 +15,7 @@
 reward(Reserved) :-
     note(reward),
     frequency(reward, _, Frequency),
-    task(_, Teams, _),
-    required(Teams, Required),
+    needed(Required),
     chi(Chi0),
     rewarded(Chi0, Frequency, Required, Reserved, Chi),
     keep(chi(Chi)).
@@ -28,8 +27,7 @@ reward(Reserved) :-
 penalty :-
     note(penalty),
     frequency(penalty, Penalties, Frequency),
-    task(_, Teams, _),
-    required(Teams, Required),
+    needed(Required),
     reserved(Reserved),
     chi(Chi0),
     penalised(Chi0, Frequency, Penalties, Required, Reserved, Chi),

@@ -2,12 +2,13 @@
 %   tell_robots/3.
 % Gives: post/1, to_owner/2, auction_due/1.
 
-/*  The side of a node that auctions tasks, the auctioneer.  It announces the task, takes
-    bids for some time, and awards contracts to those that cost least, to all
-    robots the task needs at once.  When all have answered it starts them,
-    renews their contracts, and releases them when all are done.  Where there
-    are too few bids it releases what it has and backs off (thesis equations
-    7.5 and 7.7); where a robot is lost it auctions that place again.
+/*  The side of a node that auctions tasks, the auctioneer.  It announces
+    the task, takes bids for some time, and awards contracts to those that
+    cost least, to all robots the task needs at once.  When all have
+    answered it starts them, renews their contracts, and releases them when
+    all are done.  Where there are too few bids it releases what it has and
+    backs off (thesis equations 7.5 and 7.7); where a robot is lost it
+    auctions that place again.
 */
 
 %!  to_owner(+Job, +Body) is semidet.

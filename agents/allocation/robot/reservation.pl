@@ -75,7 +75,7 @@ lose(_).
 
 free :-
     retract(hold(_, Owner, need(Task, _, _), _, Phase)),
-    retractall(due(_, _)),
+    remind_nothing,
     stop(Phase),
     here(Host),
     log(released(Host, Owner, Task)).

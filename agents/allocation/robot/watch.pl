@@ -1,5 +1,5 @@
 % Expects: nothing.
-% Gives: next/1, remind/2; state due/2.
+% Gives: next/1, remind/2, remind_nothing/0; state due/2.
 
 /*  What a robot waits for: a message, or the time due(Time, What) at which it
     asks its contact whether it is still wanted, or has waited long enough
@@ -29,10 +29,15 @@ next(Event) :-
 %   Of What, `ask` or `answer`, and of nothing else.
 
 remind(Seconds, What) :-
-    retractall(due(_, _)),
+    remind_nothing,
     (   Seconds == inf
     ->  true
     ;   now(Now),
         Time is Now + Seconds,
         assertz(due(Time, What))
     ).
+
+%!  remind_nothing is det.
+
+remind_nothing :-
+    retractall(due(_, _)).
