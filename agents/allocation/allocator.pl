@@ -1,42 +1,49 @@
-:- agent(allocator,
-         [ state([task/3, setting/2, chi/1, sojourn/4, found/1, trail/1,
-                  held/5, achieved/1, backoffs/1, until/1, chance/1,
-                  sent/2, stage/1])
-         ]).
-:- include(mobility).
-:- include(backoff).
-:- include(needs).
-:- include(way).
-:- include(exploration).
-:- include(tell).
-:- include(dealings).
-:- include(deallocation).
+:- agent(allocator, [state([task/3, setting/2, backoffs/1, stage/1])]).
+:- include('../lib/parameters').
+:- include('../lib/keep').
+:- include('../lib/await_order').
+:- include('../lib/chance').
+:- include('../lib/clones').
+:- include('../lib/tell').
+:- include('common/requirements').
+:- include('common/backoff_interval').
+:- include('common/communications').
+:- include('allocator/mobility_resource').
+:- include('allocator/trail').
+:- include('allocator/deadline').
+:- include('allocator/messages').
+:- include('allocator/held_robots').
+:- include('allocator/attendance').
+:- include('allocator/sojourn').
+:- include('allocator/rewards').
+:- include('allocator/migration').
+:- include('allocator/negotiation').
+:- include('allocator/deallocation').
+:- include('allocator/contention').
+:- include('allocator/execution').
 
 /*  The allocator of a task: thesis section 7.4.  A mobile agent that finds
     as many robots as its task needs, reserves them by negotiation with
-    their static agents, has them execute the task, and lets them go.
+    their static agents, has them execute the task, and de-allocates them.
 
     It searches conscientiously as long as its mobility resource lasts.
-    When that is used up it backs off: children of it let the robots go, and
-    it rests for a while, so that others can complete.
+    When that is used up it backs off: children of it de-allocate the
+    robots, and it rests for a while, so that others can complete.
 
-    Facts: task(Name, Teams, Details), see needs.pl; setting(Name, Value)
-    replaces a default.  Its payload defines agreed(+Cost, +Details,
-    +Backoffs), which is true if a robot is to be reserved for that cost.
+    What stands here is the whole in few lines; each step has a file of its
+    own in the folder `allocator`, which calls none that is included after
+    it.  doc/allocation.md has the steps of the thesis beside them.
 
-        chi(Chi)                the mobility resource
-        sojourn(Visited, Hops, Rewards, Penalties)
-                                since it began to search, or last rested
-        found(Host)             the distinct robots ever discovered
-        trail(Hosts)            how it came here, see way.pl
-        held(Host, Robot, Ref, Team, Phase)
-                                its robots; Phase is `reserved`, `started`
-                                or `done`
-        achieved(Team)          for each robot that has done its part and
-                                has been let go
-        backoffs(Count), until(Deadline), sent(Kind, Count)
+    Facts: task(Name, Teams, Details), see common/requirements.pl;
+    setting(Name, Value) replaces a default.  Its payload defines
+    agreed(+Cost, +Details, +Backoffs), which is true if a robot is to be
+    reserved for that cost.
+
+        backoffs(Count)         beta, how often it has backed off
         stage(Stage)            `waiting`, `searching`, `resting`,
                                 `executing`, for who asks from outside
+
+    The other facts are said in the files that own them.
 */
 
 default(cd, 5).
@@ -54,46 +61,22 @@ default(pause, 1).              % seconds, where there is no way on
 default(start, now).            % or `order`: waits for the message `begin`
 default(seed, random).
 
-parameter(Name, Value) :-
-    (   setting(Name, Value0)
-    ->  Value = Value0
-    ;   default(Name, Value)
-    ).
-
 main :-
     keep(stage(waiting)),
     await_order,
     prepare,
     catch(accomplish, missed, miss),
-    report.
-
-await_order :-
-    parameter(start, order),
-    !,
-    receive(_-begin).
-await_order.
+    log_communications.
 
 prepare :-
     task(Name, _, Details),
     detail(deadline, Details, never, Deadline),
     set_deadline(Deadline),
-    parameter(chi, Chi),
-    keep(chi(Chi)),
     keep(backoffs(0)),
-    seed_chance,
+    self(Me),
+    seed_chance(Me),
     log(begun(Name)),
-    here(Host),
-    keep(trail([Host])),
-    keep(sojourn(0, 0, 0, 0)),
-    visited(Host).
-
-set_deadline(never) :-
-    !,
-    keep(until(never)).
-set_deadline(Seconds) :-
-    now(Now),
-    Until is Now + Seconds,
-    keep(until(Until)).
+    set_out.
 
 %   Until all its robots have done their part; those that fail meanwhile
 %   are replaced.
@@ -106,7 +89,7 @@ accomplish :-
 accomplished(done) :-
     task(Name, _, _),
     log(completed(Name)),
-    let_go([done]).
+    deallocate([done]).
 accomplished(missing) :-
     accomplish.
 
@@ -114,11 +97,13 @@ miss :-
     task(Name, _, Details),
     detail(deadline, Details, never, Deadline),
     log(missed(Name, Deadline)),
-    let_go([reserved, started, done]).
+    deallocate([reserved, started, done]).
 
                 /*******************************
                 *             SEARCH           *
                 *******************************/
+
+%   Migrate and negotiate, until all the robots required are reserved.
 
 search :-
     complete,
@@ -137,126 +122,8 @@ proceed :-
     complete,
     !.
 proceed :-
-    chi(Chi),
-    parameter(alpha_k, Threshold),
-    exhausted(Chi, Threshold),
+    exhausted,
     !,
     back_off.
 proceed :-
     migrate.
-
-complete :-
-    task(_, Teams, _),
-    required(Teams, Required),
-    reserved(Required).
-
-%   reserved(-Count): robots it has, or that have done their part.
-
-reserved(Count) :-
-    aggregate_all(count, ( held(_, _, _, _, _) ; achieved(_) ), Count).
-
-                /*******************************
-                *           EXECUTION          *
-                *******************************/
-
-%   Outcome is `done`, or `missing` as soon as robots must be replaced.
-
-execute(Outcome) :-
-    keep(stage(executing)),
-    findall(Host, held(Host, _, _, _, reserved), Hosts),
-    start(Hosts),
-    supervise(Outcome).
-
-start(Hosts) :-
-    task(_, _, Details),
-    detail(duration, Details, 5, Seconds),
-    detail(goal, Details, sleep(Seconds), Goal),
-    forall(( member(Host, Hosts), held(Host, Robot, Ref, _, _) ),
-           start(Host, Robot, Ref, Goal)).
-
-start(Host, Robot, Ref, Goal) :-
-    mark(Ref, started),
-    (   post(Host, Robot, start(Ref, Goal))
-    ->  true
-    ;   give_up(Host, Ref, unreachable)
-    ).
-
-%   supervise(+Asked, +Look, -Outcome): at the time Look it asks those
-%   that have not finished how they are.  Asked are the robots that have not
-%   answered since the last time.
-
-supervise(Outcome) :-
-    look_again(Look),
-    supervise([], Look, Outcome).
-
-supervise(_, _, missing) :-
-    \+ complete,
-    !.
-supervise(_, _, done) :-
-    \+ ( held(_, _, _, _, Phase), Phase \== done ),
-    !.
-supervise(Asked, Look, Outcome) :-
-    check_deadline,
-    now(Now),
-    Left is max(0, Look - Now),
-    soon(Left, Seconds),
-    (   receive(From-Message, Seconds)
-    ->  heed(Message, From),
-        subtract(Asked, [From], Asked1),
-        supervise(Asked1, Look, Outcome)
-    ;   inquire(Asked, Asked1),
-        look_again(Look1),
-        supervise(Asked1, Look1, Outcome)
-    ).
-
-look_again(Look) :-
-    now(Now),
-    parameter(monitor, Seconds),
-    Look is Now + Seconds.
-
-%   Who did not answer the last time is given up.
-
-inquire(Asked, Asking) :-
-    forall(( held(Host, Robot, Ref, _, started),
-             memberchk(Robot, Asked) ),
-           give_up(Host, Ref, silent)),
-    forall(held(Host, Robot, Ref, _, started),
-           ignore(post(Host, Robot, status(Ref)))),
-    findall(Robot, held(_, Robot, _, _, started), Asking).
-
-mark(Ref, Phase) :-
-    (   retract(held(Host, Robot, Ref, Team, _))
-    ->  assertz(held(Host, Robot, Ref, Team, Phase))
-    ;   true
-    ).
-
-                /*******************************
-                *             TIME             *
-                *******************************/
-
-check_deadline :-
-    until(never),
-    !.
-check_deadline :-
-    until(Until),
-    now(Now),
-    (   Now >= Until
-    ->  throw(missed)
-    ;   true
-    ).
-
-%   soon(+Seconds0, -Seconds): not beyond the deadline.
-
-soon(Seconds, Seconds) :-
-    until(never),
-    !.
-soon(Seconds0, Seconds) :-
-    until(Until),
-    now(Now),
-    Seconds is max(0, min(Seconds0, Until - Now)).
-
-keep(Fact) :-
-    functor(Fact, Name, Arity),
-    functor(Old, Name, Arity),
-    retractall(Old),
-    assertz(Fact).

@@ -1,8 +1,5 @@
-:- agent(anta, [ state([ setting/2, peer/2, agenda/2, item/2, wave/2, kept/2,
-                         next_id/1, sent/2, hold/4, asked/4, contract/6,
-                         over/2, job/6, member/6, bid/4, allocated/1, renewal/2,
-                         tree/3, way/3, gathered/4 ]) ]).
-:- include(node).
+:- agent(anta, [state([setting/2, tree/3, way/3, gathered/4])]).
+:- include('auctions/participant').
 
 /*  ANTA (Lee, Zaheer, Kim): the trade message spreads as a tree, down to a
     level; bids go up the tree, are merged on the way, and only the lowest
@@ -46,7 +43,7 @@ planted(Job, Round, Parent) :-
     ->  retractall(tree(Job, _, _)),
         assertz(tree(Job, Round, Parent))
     ;   forget_ways(Most),
-        keep(tree(Job, Round, Parent), tree(_, _, _), Most)
+        remember(tree(Job, Round, Parent), tree(_, _, _), Most)
     ).
 
 %   The oldest tree is about to go.
@@ -140,7 +137,7 @@ pass_up(Job, Body) :-
     (   tree(Job, _, Parent),
         Parent \== none,
         now(Now),
-        cross(Parent, only(owner(Job, Body)), Now)
+        cross(Parent, owner(Job, Body), Now)
     ->  true
     ;   flood(flooded(owner(Job, Body)))
     ).
@@ -172,7 +169,7 @@ pass_down([], _, _, []).
 pass_down([Child-Hosts|Groups], Job, Body, Left) :-
     now(Now),
     (   Child \== none,
-        cross(Child, only(robots(Job, Hosts, Body)), Now)
+        cross(Child, robots(Job, Hosts, Body), Now)
     ->  Left = Left1
     ;   append(Hosts, Left1, Left)
     ),

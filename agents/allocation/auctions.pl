@@ -7,14 +7,15 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
+:- use_module('../lib/settings', [known_settings/3]).
 :- use_module(tasks, [check_task/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(error),
-              [domain_error/2, existence_error/2, must_be/2, type_error/2]).
+              [existence_error/2, must_be/2, type_error/2]).
 :- use_module(library(lists),
               [append/3, max_list/2, member/2, memberchk/2]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(option), [option/2]).
 :- use_module(library(ordsets), [ord_subtract/3, ord_union/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(ugraphs), [neighbours/3, vertices_edges_to_ugraph/3]).
@@ -36,7 +37,7 @@ started the hosts.
 %   of Hosts, and speak to neighbours only. Options:
 %
 %     - settings(+Pairs)
-%       Name-Value, to replace what node.pl has as a default.
+%       Name-Value, to replace what auctions/participant.pl has as a default.
 %     - diameter(+Links)
 %       Of the network; default what it is now. It is the setting `level`,
 %       and with the longest time of a hop it makes the settings `window`
@@ -84,9 +85,9 @@ node_at(Mechanism, Settings, Host, Node) :-
                 *******************************/
 
 settings(Hosts, Options, Settings) :-
-    option(settings(Pairs), Options, []),
-    must_be(list(pair), Pairs),
-    forall(member(Pair, Pairs), check_setting(Pair)),
+    known_settings([ window, answer, renew, contract, tries, bi_min, bi_max,
+                     level, memory, jobs ],
+                   Options, Pairs),
     (   option(diameter(Diameter), Options)
     ->  must_be(positive_integer, Diameter)
     ;   diameter(Hosts, Diameter)
@@ -101,13 +102,6 @@ settings(Hosts, Options, Settings) :-
               \+ memberchk(Name-_, Pairs)
             ),
             Settings).
-
-check_setting(Name-_) :-
-    memberchk(Name, [ window, answer, renew, contract, tries, bi_min, bi_max,
-                      level, memory, jobs ]),
-    !.
-check_setting(Setting) :-
-    domain_error(setting, Setting).
 
 slack(_, Options, Slack) :-
     option(slack(Slack), Options),

@@ -1,8 +1,5 @@
-:- agent(murdoch, [ state([ setting/2, peer/2, agenda/2, item/2, wave/2,
-                            kept/2, next_id/1, sent/2, hold/4, asked/4,
-                            contract/6, over/2, job/6, member/6, bid/4,
-                            allocated/1, renewal/2 ]) ]).
-:- include(node).
+:- agent(murdoch, [state([setting/2])]).
+:- include('auctions/participant').
 
 /*  Murdoch (Gerkey and Mataric): tasks are announced, those who can do them
     bid, the fittest get a contract that the auctioneer renews.  As in thesis

@@ -10,10 +10,9 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
+:- use_module('../lib/settings', [known_settings/3, setting_facts/2]).
 :- use_module(tasks, [check_task/1]).
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(error),
-              [domain_error/2, existence_error/2, must_be/2]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/3]).
 
@@ -25,8 +24,8 @@ holds the cookie, whoever started the hosts.  There is one robot for a host,
 which is named by it.
 
 A task is task(Name, Teams, Details).  Teams are pairs Count-Requirements;
-requirements and the properties of robots are described in needs.pl.
-Details are a list, in which all may be missing:
+requirements and the properties of robots are described in
+common/requirements.pl.  Details are a list, in which all may be missing:
 
   - priority(Number)
     Default 0.  Robots that are reserved for a task, but do not yet execute
@@ -151,15 +150,8 @@ task_allocate(Task, Host, Options, Agent) :-
                    facts([Task|Settings]) ]).
 
 settings(Names, Options, Settings) :-
-    option(settings(Pairs), Options, []),
-    must_be(list(pair), Pairs),
-    maplist(setting_fact(Names), Pairs, Settings).
-
-setting_fact(Names, Name-Value, setting(Name, Value)) :-
-    memberchk(Name, Names),
-    !.
-setting_fact(_, Setting, _) :-
-    domain_error(setting, Setting).
+    known_settings(Names, Options, _),
+    setting_facts(Options, Settings).
 
 %!  allocation_stage(+Agent, -Stage, -Robots:list(atom)) is semidet.
 %

@@ -1,6 +1,10 @@
-:- agent(robot, [state([property/1, setting/2, hold/5, due/2, failed/0])]).
-:- include(needs).
-:- include(tell).
+:- agent(robot, [state([property/1, setting/2, failed/0])]).
+:- include('../lib/parameters').
+:- include('../lib/tell').
+:- include('common/requirements').
+:- include('robot/watch').
+:- include('robot/reservation').
+:- include('robot/execution').
 
 /*  The static agent of a robot: says what the robot can do and what that
     would cost, and holds one task at a time (thesis sections 7.3, 7.4).
@@ -40,32 +44,13 @@
 default(watch, 60).             % seconds from one question to the next
 default(patience, 20).          % seconds for the answer
 
-parameter(Name, Value) :-
-    (   setting(Name, Value0)
-    ->  Value = Value0
-    ;   default(Name, Value)
-    ).
-
 main :-
     next(Event),
     handle(Event),
     main.
 
-next(Event) :-
-    due(Time, _),
+handle(overdue(What)) :-
     !,
-    now(Now),
-    Left is max(0, Time - Now),
-    (   receive(From-Message, Left)
-    ->  Event = From-Message
-    ;   Event = overdue
-    ).
-next(Event) :-
-    receive(Event).
-
-handle(overdue) :-
-    !,
-    due(_, What),
     overdue(What).
 handle(From-start(Ref, Goal)) :-
     !,
@@ -104,117 +89,6 @@ answer(release(Ref), _, Ref, released) :-
     ;   true
     ).
 
-%   verdict(+Need, -Verdict): what would come of it now.
-
-verdict(Need, refused(unfit)) :-
-    \+ able(Need, _),
-    !.
-verdict(_, refused(failed)) :-
-    failed,
-    !.
-verdict(Need, refused(Reason)) :-
-    hold(_, _, Held, _, Phase),
-    \+ yields(Held, Phase, Need),
-    !,
-    (   Phase == reserved
-    ->  Reason = reserved
-    ;   Reason = executing
-    ).
-verdict(Need, bid(Cost)) :-
-    able(Need, Cost).
-
-able(Need, Cost) :-
-    Need = need(_, Requirements, _),
-    findall(Property, property(Property), Properties),
-    fit(Requirements, Properties),
-    cost(Need, Properties, Cost),
-    !.
-
-yields(Held, reserved, Need) :-
-    urgency(Held, Old),
-    urgency(Need, New),
-    New > Old.
-
-urgency(need(_, _, Details), Priority) :-
-    detail(priority, Details, 0, Priority).
-
-                /*******************************
-                *          RESERVATION         *
-                *******************************/
-
-reserve(bid(_), Hold, reserved) :-
-    !,
-    lose(preempted),
-    assertz(Hold),
-    Hold = hold(_, Owner, need(Task, _, _), _, _),
-    here(Host),
-    log(reserved(Host, Owner, Task)),
-    parameter(watch, Seconds),
-    remind(Seconds, ask).
-reserve(Refusal, _, Refusal).
-
-%   lose(+Why): the reservation, if there is one, ends without its owner.
-
-lose(Why) :-
-    hold(Ref, _, _, Contact, _),
-    !,
-    free,
-    ignore(tell(Contact, lost(Ref, Why))).
-lose(_).
-
-free :-
-    retract(hold(_, Owner, need(Task, _, _), _, Phase)),
-    retractall(due(_, _)),
-    stop(Phase),
-    here(Host),
-    log(released(Host, Owner, Task)).
-
-                /*******************************
-                *           EXECUTION          *
-                *******************************/
-
-%   A clone, the hand, executes the task, so that the robot can answer.
-
-start(Ref, Goal, Answer) :-
-    hold(Ref, _, _, _, reserved),
-    !,
-    catch(clone(Who), error(move_refused(_, Reason), _),
-          Who = refused(Reason)),
-    begin(Who, Ref, Goal, Answer).
-start(Ref, _, Answer) :-
-    (   hold(Ref, _, _, _, _)
-    ->  Answer = started
-    ;   Answer = refused(none)
-    ).
-
-begin(parent(Hand), Ref, _, started) :-
-    phase(Ref, executing(Hand)).
-begin(refused(Reason), _, _, refused(Reason)).
-begin(clone(Robot), Ref, Goal, _) :-
-    (   catch(Goal, Ball, true)
-    ->  outcome(Ball, Outcome)
-    ;   Outcome = failed
-    ),
-    send(Robot, finished(Ref, Outcome)),
-    dispose.
-
-outcome(Ball, Outcome) :-
-    (   var(Ball)
-    ->  Outcome = done
-    ;   Ball = error(What, _)
-    ->  Outcome = raised(What)
-    ;   Outcome = raised(Ball)
-    ).
-
-stop(executing(Hand)) :-
-    !,
-    catch(typhon:agent_dispose(Hand), error(_, _), true).
-stop(_).
-
-phase(Ref, Phase) :-
-    retract(hold(Ref, Owner, Need, Contact, _)),
-    assertz(hold(Ref, Owner, Need, Contact, Phase)).
-
                 /*******************************
                 *            NOTICES           *
                 *******************************/
@@ -241,28 +115,7 @@ heed(repair, _) :-
     retract(failed),
     log(robot(repaired)).
 
-finished(done, Ref) :-
-    !,
-    phase(Ref, done),
-    hold(Ref, Owner, need(Task, _, _), Contact, _),
-    here(Host),
-    log(executed(Host, Owner, Task)),
-    ignore(tell(Contact, done(Ref))).
-finished(Outcome, _) :-
-    lose(Outcome).
-
-                /*******************************
-                *             WATCH            *
-                *******************************/
-
-remind(Seconds, What) :-
-    retractall(due(_, _)),
-    (   Seconds == inf
-    ->  true
-    ;   now(Now),
-        Time is Now + Seconds,
-        assertz(due(Time, What))
-    ).
+%   The contact is asked, or has not answered.
 
 overdue(ask) :-
     hold(Ref, _, _, Contact, _),

@@ -1,5 +1,8 @@
+% Expects: count/1; lib; default/2 is discontiguous.
+% Gives: bred/2, and what population/replication gives.
+
 /*  Cloning of agents that make progress, under the controller of chapter 6
-    (thesis section 8.2).  To be included; with the setting cloning-true.
+    (thesis section 8.2); with the setting cloning-true.
 
     A step of life is an execution.  Progress, which is rewarded, is a plan
     that is longer than any that has been executed at this host; each host

@@ -2,7 +2,11 @@
                           solution/1])]).
 :- discontiguous default/2.
 :- include(parameters).
+:- include('../lib/keep').
+:- include('../lib/await_order').
+:- include('../lib/clones').
 :- include(resources).
+:- include(telling).
 :- include(sharing).
 :- include(breeding).
 
@@ -36,18 +40,12 @@
 */
 
 main :-
-    ready,
+    await_order,
     keep(shareable([])),
     keep(bag([])),
     keep(count(0)),
     endowed,
     executor([]).
-
-ready :-
-    parameter(start, order),
-    !,
-    receive(_-begin).
-ready.
 
                 /*******************************
                 *           EXECUTOR           *
@@ -215,9 +213,3 @@ queue :-
 unqueue :-
     self(Me),
     ignore(take(queued(Me))).
-
-keep(Fact) :-
-    functor(Fact, Name, Arity),
-    functor(Old, Name, Arity),
-    retractall(Old),
-    assertz(Fact).

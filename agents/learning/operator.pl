@@ -8,10 +8,11 @@
                 payload_detach/2, remote/2
               ]).
 :- use_module('../../prolog/typhon/program/paths', []).
-:- use_module('../starts', [starts/4]).
+:- use_module('../lib/settings', [setting_facts/2]).
+:- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [maplist/2, maplist/4]).
 :- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(lists), [nth0/3]).
 :- use_module(library(option), [option/3]).
 
 /** <module> Agents that learn, as seen from outside
@@ -63,13 +64,9 @@ in_turn(Count, Algorithms, Algorithm) :-
     Index is Number mod Kinds,
     nth0(Index, Algorithms, Algorithm).
 
-settings(Options, Settings) :-
-    option(settings(Pairs), Options, []),
-    must_be(list(pair), Pairs),
-    option(seed(Seed), Options, random),
-    findall(setting(Name, Value),
-            ( member(Name-Value, [seed-Seed|Pairs]) ),
-            Settings).
+settings(Options, [setting(seed, Seed)|Settings]) :-
+    setting_facts(Options, Settings),
+    option(seed(Seed), Options, random).
 
 furnish(_, _, Host) :-
     remote(Host, sense(trainer(_))),

@@ -1,10 +1,15 @@
-/*  The parameters of learning agents (thesis section 4.4).  Included in the
-    programs that need them; facts setting(Name, Value) replace the defaults.
+% Expects: setting/2 among the state.
+% Gives: default/2, and parameter/2 of lib.
+
+/*  The parameters of learning agents (thesis section 4.4); facts
+    setting(Name, Value) replace the defaults.
 
     The thesis prints epsilon and rho_max.  k_d, k_r and `search` were chosen
     once, together, so that an agent that learns the maze alone needs about
     as many executions as in the thesis.
 */
+
+:- include('../lib/parameters').
 
 default(epsilon, 0.2).          % how often a step is random
 default(rho_max, 10).           % migration resource
@@ -21,9 +26,3 @@ default(execution, 60).         % seconds for the trainer's feedback
 default(start, now).            % or `order`: waits for the message `begin`
 default(seed, random).          % of what trainers choose
 default(trace, false).          % trainers log the actions tried
-
-parameter(Name, Value) :-
-    (   setting(Name, Value0)
-    ->  Value = Value0
-    ;   default(Name, Value)
-    ).

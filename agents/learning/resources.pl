@@ -1,5 +1,9 @@
+% Expects: nothing; pure.
+% Gives: bag_weight/2, migration_penalty/4, migration_reward/6,
+%   initial_potential/4, action_cost/3, action_reward/3.
+
 /*  Migration resource and execution potential: thesis section 4.2.6,
-    equations 4.1 to 4.6.  Pure: included in the programs that need it.
+    equations 4.1 to 4.6.
 
     Intelligence is a list of pairs Unit-Weight; the weight, phi_w, is what
     the problem says.

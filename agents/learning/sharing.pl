@@ -1,6 +1,10 @@
+% Expects: lib; resources, telling; shareable/1, bag/1, solution/1; queue/0,
+%   unqueue/0, provided/1; better/2 of a payload.
+% Gives: visit/2, deadline/2, await/3, answer_until/1.
+
 /*  How learning agents share: in the queue of a host, and by messages
-    (thesis section 4.2.2).  Included in the program of an agent that has
-    shareable/1, bag/1 and, once it has reached the goal, solution/1.
+    (thesis section 4.2.2).  An agent has solution/1 once it has reached the
+    goal.
 
         share(Host)         what do you have, if you are at Host, too?
         shared(units(Units, solution(Actions) or none)), shared(nothing)
@@ -78,11 +82,6 @@ collected(New, gain(Before, After)) :-
                 /*******************************
                 *            MESSAGES          *
                 *******************************/
-
-%   told(+Agent, +Message): fails if its process is known to be gone.
-
-told(Agent, Message) :-
-    catch(send(Agent, Message), error(host_unreachable(_), _), fail).
 
 deadline(Seconds, Until) :-
     now(Now),

@@ -1,5 +1,8 @@
-:- agent(trainer, [state([setting/2, chance/1])]).
+:- agent(trainer, [state([setting/2])]).
 :- include(parameters).
+:- include('../lib/keep').
+:- include('../lib/chance').
+:- include(telling).
 :- include(resources).
 
 /*  The static agent of a host: executes actions on what is to be learnt
@@ -36,33 +39,13 @@
 */
 
 main :-
-    seed(Seed),
-    typhon_chance:chance_seed(Seed, Chance),
-    keep_chance(Chance).
-
-seed(Seed) :-
-    parameter(seed, Seed0),
-    here(Host),
-    atomic_list_concat([Name|_], @, Host),
-    (   integer(Seed0)
-    ->  term_hash(Seed0-Name, Seed)
-    ;   Seed is random(1<<30)
-    ).
-
-keep_chance(Chance) :-
-    retractall(chance(_)),
-    assertz(chance(Chance)).
+    seed_chance_here.
 
 on_message(Agent, execute(Plan, Xi)) :-
     findall(Steps-Feedback, once(execute(Plan, Xi, Steps, Feedback)),
             [Steps-Feedback]),          % not unfolded, so fast
     trace(Agent, Steps),
-    told(Agent, Feedback).
-
-%   Who asked may have gone to a process that has died since.
-
-told(Agent, Feedback) :-
-    catch(send(Agent, Feedback), error(host_unreachable(_), _), true).
+    ignore(told(Agent, Feedback)).      % it may be gone
 
 %   For those who look on: the actions, in order.
 
@@ -84,7 +67,7 @@ execute(Plan, Xi, Steps, feedback(Start, Units, Outcome)) :-
     sensed(State0, Start),
     executed(Plan, Xi, at(State0, Start), Steps, at(State, _), Chance1,
              Chance),
-    keep_chance(Chance),
+    keep(chance(Chance)),
     shareable(Steps, Units),
     outcome(State, Steps, Outcome).
 

@@ -1,5 +1,8 @@
+% Expects: visit/1, fertile/0 of the program.
+% Gives: live/0; also parameters, keep and clones of lib, and replication.
+
 /*  The stigmergic cloning controller: a room for agents whose number is to
-    follow the demand for them (thesis section 6.2).  To be included.
+    follow the demand for them (thesis section 6.2).
 
     An agent lives by going from queue to queue.  On its turn it does what
     its program says, is charged, and moves on after a tick.  After a reward
@@ -18,6 +21,9 @@
 */
 
 :- discontiguous default/2.
+:- include('../lib/parameters').
+:- include('../lib/keep').
+:- include('../lib/clones').
 :- include(replication).
 :- use_module(library(lists)).
 :- dynamic arrival/1.
@@ -25,20 +31,13 @@
 default(tick, 1).               % seconds: the step of time
 default(strategy, conscientious).
 
-parameter(Name, Value) :-
-    (   setting(Name, Value0)
-    ->  Value = Value0
-    ;   default(Name, Value)
-    ).
-
 live :-
     endowed,
     stay.
 
 stay :-
     now(Now),
-    retractall(arrival(_)),
-    assertz(arrival(Now)),
+    keep(arrival(Now)),
     turns.
 
 turns :-

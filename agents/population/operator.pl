@@ -4,11 +4,11 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
-:- use_module('../starts', [starts/4]).
+:- use_module('../lib/settings', [setting_facts/2]).
+:- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [maplist/2, maplist/4]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, nth1/3]).
-:- use_module(library(option), [option/3]).
 
 /** <module> Starting a population of specialists
 
@@ -82,8 +82,7 @@ kind(Sequence, Tasks, Options,
        setting(start, order)
      | Settings
      ]) :-
-    option(settings(Pairs), Options, []),
-    findall(setting(Name, Value), member(Name-Value, Pairs), Settings),
+    setting_facts(Options, Settings),
     nth1(Number, Tasks, Task-Goal),
     (   nth1(Before, Tasks, Previous-_),
         Before =:= Number - 1

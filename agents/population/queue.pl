@@ -1,4 +1,5 @@
 :- agent(queue, [state([setting/2])]).
+:- include('../lib/parameters').
 
 /*  The queue of a host: travelling agents join it and have their turns one
     after the other, first come, first served.  The tuple queue(Id) tells
@@ -36,16 +37,10 @@ serve(Line0) :-
 next([], Agent-What) :-
     receive(Agent-What).
 next([Head|_], Event) :-
-    patience(Seconds),
+    parameter(patience, Seconds),
     (   receive(Agent-What, Seconds)
     ->  Event = Agent-What
     ;   Event = Head-leave
-    ).
-
-patience(Seconds) :-
-    (   setting(patience, Seconds0)
-    ->  Seconds = Seconds0
-    ;   default(patience, Seconds)
     ).
 
 %   changed(+Event, +Line0, -Line).

@@ -1,9 +1,11 @@
+% Expects: parameters, keep, clones of lib; fertile/0, die/0 of the program.
+% Gives: endowed/0, older/1, gain/2, replicate/3; its state.
+
 /*  What an agent pays for its clones, and how long these live: the cloning
-    resource of thesis section 6.2 in the life of an agent.  To be included.
+    resource of thesis section 6.2 in the life of an agent.
 
     The program that includes this says
 
-        parameter(Name, Value)  the defaults here are clauses of default/2
         fertile                 true while it may clone
         die                     what it does when its lifetime is over
 
@@ -30,8 +32,8 @@ default(replication, rewarded). % or `always`: also without a reward
 
 endowed :-
     parameter(cr_start, Resource),
-    keep_resource(Resource),
-    keep_lifetime(inf).
+    keep(resource(Resource)),
+    keep(lifetime(inf)).
 
 %!  older(+Ticks) is det.
 %
@@ -43,7 +45,7 @@ older(_) :-
 older(Ticks) :-
     lifetime(Lifetime0),
     Lifetime is Lifetime0 - Ticks,
-    keep_lifetime(Lifetime),
+    keep(lifetime(Lifetime)),
     (   Lifetime > 0
     ->  true
     ;   die
@@ -64,10 +66,10 @@ gain(Reward, Length) :-
     resource(Resource0),
     recharged(Resource0, Pressure, Reward, charge(Inherent, Bonus, Maximum),
               Resource),
-    keep_resource(Resource),
+    keep(resource(Resource)),
     lifetime(Lifetime0),
     prolonged(Lifetime0, Reward, Extension, Lifetime),
-    keep_lifetime(Lifetime),
+    keep(lifetime(Lifetime)),
     (   Reward =:= 1
     ->  log(resource(Resource))
     ;   true
@@ -108,7 +110,7 @@ multiply(0, Role) :-
     Role = parent.
 multiply(Count, Role) :-
     log(state(replicate)),
-    catch(clone(Who), error(move_refused(_, _), _), Who = refused),
+    clone_if_room(Who),
     multiplied(Who, Count, Role).
 
 multiplied(refused, _, parent).
@@ -118,25 +120,15 @@ multiplied(parent(_), Count0, Role) :-
     parameter(cr_min, Minimum),
     resource(Resource0),
     Resource is Resource0 - Minimum,
-    keep_resource(Resource),
+    keep(resource(Resource)),
     log(resource(Resource)),
     Count is Count0 - 1,
     multiply(Count, Role).
 
-%   A clone has been nowhere else, and chooses its ways by itself.
-
 newborn :-
     log(cloned),
     parameter(cr_min, Resource),
-    keep_resource(Resource),
+    keep(resource(Resource)),
     parameter(lifetime, Lifetime),
-    keep_lifetime(Lifetime),
-    retractall('$memory'(_)).
-
-keep_resource(Resource) :-
-    retractall(resource(_)),
-    assertz(resource(Resource)).
-
-keep_lifetime(Lifetime) :-
-    retractall(lifetime(_)),
-    assertz(lifetime(Lifetime)).
+    keep(lifetime(Lifetime)),
+    forget_visits.

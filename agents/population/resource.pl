@@ -1,5 +1,8 @@
+% Expects: nothing; pure.
+% Gives: pressure/3, clones/5, conferred/5, recharged/5, prolonged/4.
+
 /*  The cloning resource of an agent: thesis section 6.2, equations 6.1 to
-    6.5.  Pure: included in the programs that need it.
+    6.5.
 
     Three readings of the thesis are settled here.  The number of clones is
     rounded (`round`, half away from zero, or `floor`).  Clones are made all

@@ -1,4 +1,5 @@
 :- agent(alone, [state([tasks/2])]).
+:- include('../sync/execution').
 
 /*  Executes the tasks of a sequence on the host where it is, one after the
     other, and heeds nobody: what robots do that are not synchronised.
@@ -17,17 +18,8 @@ main :-
 
 execute([], _).
 execute([Task-Goal|Tasks], Sequence) :-
-    log(executing(Sequence, Task)),
-    (   catch(Goal, Ball, raised(Sequence, Task, Ball))
+    (   executed(Sequence, Task, Goal)
     ->  log(completed(Sequence, Task)),
         execute(Tasks, Sequence)
     ;   log(failed(Sequence, Task))
     ).
-
-raised(Sequence, Task, Ball) :-
-    (   Ball = error(What, _)
-    ->  true
-    ;   What = Ball
-    ),
-    log(raised(Sequence, Task, What)),
-    fail.

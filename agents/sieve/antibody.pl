@@ -1,6 +1,8 @@
 :- agent(antibody, [state([setting/2, antibody/1, gamma/1, memory/1, wins/1,
                            expiry/1, shunned/1])]).
 :- include(parameters).
+:- include('../lib/keep').
+:- include('../lib/clones').
 :- include(idiotypic).
 
 /*  A mobile agent that carries an antibody: a solution to some problems
@@ -120,7 +122,7 @@ multiply :-
     parameter(crowd, Crowd),
     Load < Crowd,
     !,
-    catch(clone(Who), error(move_refused(_, _), _), Who = refused),
+    clone_if_room(Who),
     multiplied(Who).
 multiply.
 
@@ -132,7 +134,7 @@ multiplied(clone(_)) :-
     Expiry is Hops + Omega,
     keep(expiry(Expiry)),
     keep(wins(0)),
-    retractall('$memory'(_)),
+    forget_visits,
     antibody(Antibody),
     log(born(clone, Antibody)).
 
@@ -176,9 +178,3 @@ strongest(Scents, Attack) :-
     max_list(Strengths, Most),
     findall(Attack, member(Most-Attack, Scents), Attacks),
     random_member(Attack, Attacks).
-
-keep(Fact) :-
-    functor(Fact, Name, 1),
-    functor(Old, Name, 1),
-    retractall(Old),
-    assertz(Fact).

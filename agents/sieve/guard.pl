@@ -1,5 +1,7 @@
-:- agent(guard, [state([setting/2, application/1, chance/1, cells/1])]).
+:- agent(guard, [state([setting/2, application/1, cells/1])]).
 :- include(parameters).
+:- include('../lib/keep').
+:- include('../lib/chance').
 :- include(idiotypic).
 
 /*  The guard of a host, which does not move.  Told attack(Antigen), it
@@ -19,20 +21,9 @@
 */
 
 main :-
-    seed(Seed),
-    typhon_chance:chance_seed(Seed, Chance),
-    keep_chance(Chance),
-    assertz(cells(0)),
+    seed_chance_here,
+    keep(cells(0)),
     watch(1).
-
-seed(Seed) :-
-    parameter(seed, Seed0),
-    here(Host),
-    atomic_list_concat([Name|_], @, Host),
-    (   integer(Seed0)
-    ->  term_hash(Seed0-Name, Seed)
-    ;   Seed is random(1<<30)
-    ).
 
 watch(Number) :-
     receive(From-What),
@@ -134,14 +125,8 @@ select_one(Offers, Antigen, Winner) :-
             ( member(Agent-offer(_, Antibody, _, _, _), Offers),
               affinity(Antigen, Antibody, Psi) ),
             Weighted),
-    chance(Chance0),
-    typhon_chance:chance_float(Turn, Chance0, Chance),
-    keep_chance(Chance),
+    chance_turn(Turn),
     roulette(Weighted, Turn, Winner).
-
-keep_chance(Chance) :-
-    retractall(chance(_)),
-    assertz(chance(Chance)).
 
 %   What the agents know and how they are when they begin to interact.
 
@@ -183,8 +168,7 @@ appoint(Wins, true) :-
     Count < Most,
     !,
     Count1 is Count + 1,
-    retractall(cells(_)),
-    assertz(cells(Count1)).
+    keep(cells(Count1)).
 appoint(_, false).
 
                 /*******************************
@@ -198,7 +182,7 @@ generate(attack(Antigen, Host, _), Begin) :-
     chance(Chance0),
     parameter(draws, Draws),
     draw(Draws, Antigen, Drawn, Chance0, Chance),
-    keep_chance(Chance),
+    keep(chance(Chance)),
     Drawn = suitable(Antibody),
     feedback(Antigen, Antibody, Xi),
     now(Now),

@@ -1,6 +1,8 @@
+% Expects: similar/2 of an application, or none; pure.
+% Gives: squashed/4, stimulated/3, learnt/4, interaction/5, fate/4, roulette/3.
+
 /*  What passes between antibodies at a host: thesis section 3.4.3,
     equations 3.1 to 3.5, and the choice by roulette of section 3.4.1.
-    Pure: included in the programs that need it.
 
     A memory is a list Antigen-Xi, each antigen once: the antigens that an
     agent has neutralized, and the feedback it had.

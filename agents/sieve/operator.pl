@@ -7,10 +7,10 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
+:- use_module('../lib/settings', [setting_facts/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(lists), [memberchk/2]).
 
 /** <module> The idiotypic sieve, as seen from outside
 
@@ -43,7 +43,7 @@ An application is a payload file, as payloads(sieve/bits), that provides
 
 sieve_start(Hosts, Application, Options) :-
     must_be(list(atom), Hosts),
-    settings(Options, Settings),
+    setting_facts(Options, Settings),
     maplist(guarded(Application, Settings), Hosts).
 
 guarded(_, _, Host) :-
@@ -55,11 +55,6 @@ guarded(Application, Settings, Host) :-
                    facts([application(Application)|Settings])
                  ]),
     remote(Host, leave(guard(Guard))).
-
-settings(Options, Settings) :-
-    option(settings(Pairs), Options, []),
-    must_be(list(pair), Pairs),
-    findall(setting(Name, Value), member(Name-Value, Pairs), Settings).
 
 %!  antigen_attack(+Hosts, +Antigen) is det.
 %
@@ -86,7 +81,7 @@ attack(Antigen, Host) :-
 %   are those of sieve_start/3.
 
 antibody_release(Host, Application, Antibody, Options, Agent) :-
-    settings(Options, Settings),
+    setting_facts(Options, Settings),
     (   memberchk(setting(gamma, Gamma), Settings)
     ->  true
     ;   Gamma = 1.0

@@ -1,9 +1,14 @@
-/*  The parameters of the sieve (thesis section 3.6).  Included in the
-    programs that need them; facts setting(Name, Value) replace the defaults.
+% Expects: setting/2 among the state.
+% Gives: default/2, and parameter/2 of lib.
+
+/*  The parameters of the sieve (thesis section 3.6); facts
+    setting(Name, Value) replace the defaults.
 
     What the thesis does not print: gamma, with which an endurance potential
     starts, is the middle between its thresholds; and all from `reading` on.
 */
+
+:- include('../lib/parameters').
 
 default(gamma_max, 1.5).        % above it an agent clones
 default(gamma_min, 0.5).        % below it an agent dies
@@ -23,9 +28,3 @@ default(crowd, 12).             % so many agents are too many for a clone
 default(memory_cells, 0).       % so many may a host appoint
 default(memory_wins, 3).        % after so many wins
 default(seed, random).
-
-parameter(Name, Value) :-
-    (   setting(Name, Value0)
-    ->  Value = Value0
-    ;   default(Name, Value)
-    ).

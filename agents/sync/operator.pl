@@ -8,7 +8,7 @@
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
-:- use_module('../starts', [starts/4]).
+:- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [foldl/4, include/3, maplist/2, maplist/3]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2]).

@@ -1,5 +1,8 @@
+% Expects: nothing; pure.
+% Gives: theta/5, increase/4, decrease/3, slide/4, rewarded/5, penalised/6.
+
 /*  Potentials, rewards and penalties of a synchronising agent (thesis
-    section 5.4.1).  Pure: included in the programs that need them.
+    section 5.4.1).
 
     Three readings of the thesis are settled here.  The penalty bias is
     added to the product, not inside it; the history is averaged over the

@@ -1,6 +1,7 @@
 :- agent(specialist, [state([sequence/1, task/2, previous/1, mood/1, psi/1,
                              history/1, start/1])]).
 :- include('../population/cloning').
+:- include('../lib/await_order').
 :- include(stimulation).
 
 /*  One kind of agent for each task (thesis chapter 6).  Agents that know
@@ -34,12 +35,6 @@ main :-
     turn_to(dormant),
     log(begun),
     live.
-
-await_order :-
-    parameter(start, order),
-    !,
-    receive(_-begin).
-await_order.
 
 fertile :-
     mood(active).
@@ -163,6 +158,5 @@ stimulate(Sign) :-
     ).
 
 turn_to(Mood) :-
-    retractall(mood(_)),
-    assertz(mood(Mood)),
+    keep(mood(Mood)),
     log(state(Mood)).

@@ -1,6 +1,8 @@
+% Expects: nothing; pure.
+% Gives: stimulated/5, remembered/4, normalised/2, dispersion/3.
+
 /*  The action potential of an agent that waits for its task's turn: thesis
-    section 6.3.2, equations 6.6 to 6.10.  Pure: included in the programs
-    that need it.
+    section 6.3.2, equations 6.6 to 6.10.
 
     What the thesis leaves open: equation 6.6 multiplies, so a potential
     never becomes zero by itself; below a threshold it counts as zero.  The

@@ -1,22 +1,26 @@
 :- agent(traveller, [state([plan/3, setting/2, drive/3])]).
+:- include('../lib/parameters').
+:- include('../lib/await_order').
 :- include(potential).
+:- include(plans).
 
 /*  Algorithm 2 of the thesis: agents that know nothing of each other
     execute a sequence of tasks on hosts, and go on to the next task at the
-    same time.
+    same time.  Lines are those of the algorithm.
 
     The fact plan(Sequence, Version, Tasks) says what is to be done: the
-    name of the sequence, a number that is greater the newer the plan is,
-    and a list of Task-Goal in order.  Goal is the task's code, handed over
-    at each host.  Facts setting(Name, Value) replace the defaults below.
+    name of the sequence, and a list of Task-Goal in order.  Goal is the
+    task's code, handed over at each host.  What Version is for stands in
+    plans.pl, and can be passed over.  The fact drive(Task, Potential,
+    History) is there for each task.  Facts setting(Name, Value) replace the
+    defaults below.
 
     On the hosts: task(Sequence, Task, Status, Time) says what was done and
     when.  worker(Sequence, Id) is there while the host's worker is free.
     Who takes it has the host for himself until it is put back, so two
     agents never service one host at the same time.  Where there is none,
     because the host is executing or has no part in the sequence, an agent
-    passes.  plan(Sequence, Version, Tasks) is the newest plan that was
-    brought there.
+    passes.
 */
 
 default(delta, 0.5).             % penalty bias
@@ -26,23 +30,11 @@ default(window, 15).             % length of the history
 default(patience, 1).            % seconds before an isolated agent looks again
 default(start, now).             % or `order`: waits for the message `begin`
 
-setting_or_default(Name, Value) :-
-    (   setting(Name, Value0)
-    ->  Value = Value0
-    ;   default(Name, Value)
-    ).
-
 main :-
     await_order,
     fill_new,
     log(begun),
     patrol.
-
-await_order :-
-    setting_or_default(start, order),
-    !,
-    receive(_-begin).
-await_order.
 
 patrol :-
     compare_plans,
@@ -53,6 +45,8 @@ patrol :-
     patrol.
 patrol.                          % all potentials are zero
 
+%   Lines 15, 18 and 23.
+
 travel :-
     next_host(conscientious, Host),
     !,
@@ -61,10 +55,11 @@ travel :-
     pause.
 
 pause :-
-    setting_or_default(patience, Seconds),
+    parameter(patience, Seconds),
     sleep(Seconds).
 
-%   The task it searches for: the first that has potential left.
+%   Lines 2 to 10, the task it searches for: the first that has potential
+%   left.
 
 current(Task) :-
     plan(_, _, Tasks),
@@ -73,9 +68,9 @@ current(Task) :-
     Potential =\= 0,
     !.
 
-%   At a host that executes a task, an agent is neither rewarded nor
-%   penalised.  This is tested first: as printed in the thesis, a task
-%   that is executing would be serviced again.
+%   Lines 11 to 24.  At a host that executes a task, an agent is neither
+%   rewarded nor penalised.  This is tested first: as printed in the thesis,
+%   a task that is executing would be serviced again.
 
 visit(Task) :-
     plan(Sequence, _, Tasks),
@@ -100,8 +95,8 @@ service_if(_, _, Worker) :-
     plan(Sequence, _, _),
     leave(worker(Sequence, Worker)).
 
-%   Missing is the first task up to Task that is not completed here: the
-%   self-healing line of the algorithm.
+%   Line 29, for line 11: Missing is the first task up to Task that is not
+%   completed here.
 
 missing([Missing-_|_], Sequence, _, Missing) :-
     \+ sense(task(Sequence, Missing, completed, _)),
@@ -109,6 +104,8 @@ missing([Missing-_|_], Sequence, _, Missing) :-
 missing([Earlier-_|Tasks], Sequence, Task, Missing) :-
     Earlier \== Task,
     missing(Tasks, Sequence, Task, Missing).
+
+%   Lines 12 to 14.
 
 service(Task, Worker) :-
     bring_plan,
@@ -143,9 +140,9 @@ heal(Missing, Task) :-
     drive(Task, _, History),
     last(History, Theta),
     drive(Missing, Potential0, _),
-    setting_or_default(maximum, Maximum),
+    parameter(maximum, Maximum),
     increase(Potential0, Theta, Maximum, Potential),
-    setting_or_default(theta, Theta0),
+    parameter(theta, Theta0),
     keep(Missing, drive(Potential, [Theta0])),
     log(revived(Missing, Potential)).
 
@@ -168,9 +165,11 @@ refill(First, _) :-
                 *      REWARDS, PENALTIES      *
                 *******************************/
 
+%   Lines 13 and 14, 21 and 22.
+
 reward(Task) :-
-    setting_or_default(maximum, Maximum),
-    setting_or_default(window, Window),
+    parameter(maximum, Maximum),
+    parameter(window, Window),
     drive(Task, Potential0, History0),
     rewarded(drive(Potential0, History0), Maximum, Window, Theta, Drive),
     keep(Task, Drive),
@@ -178,9 +177,9 @@ reward(Task) :-
     log(reward(Task, Potential, Theta)).
 
 penalise(Task) :-
-    setting_or_default(maximum, Maximum),
-    setting_or_default(window, Window),
-    setting_or_default(delta, Delta),
+    parameter(maximum, Maximum),
+    parameter(window, Window),
+    parameter(delta, Delta),
     drive(Task, Potential0, History0),
     penalised(drive(Potential0, History0), Maximum, Window, Delta, Theta,
               Drive),
@@ -189,64 +188,10 @@ penalise(Task) :-
     log(penalty(Task, Potential, Theta)).
 
 fill(Task) :-
-    setting_or_default(maximum, Potential),
-    setting_or_default(theta, Theta),
+    parameter(maximum, Potential),
+    parameter(theta, Theta),
     keep(Task, drive(Potential, [Theta])).
 
 keep(Task, drive(Potential, History)) :-
     retractall(drive(Task, _, _)),
     assertz(drive(Task, Potential, History)).
-
-                /*******************************
-                *             PLANS            *
-                *******************************/
-
-bring_plan :-
-    plan(Sequence, _, _),
-    sense(plan(Sequence, _, _)),
-    !.
-bring_plan :-
-    plan(Sequence, Version, Tasks),
-    leave(plan(Sequence, Version, Tasks)).
-
-%   The newer of two plans replaces the older one, here or in the agent.
-
-compare_plans :-
-    plan(Sequence, Mine, _),
-    sense(plan(Sequence, Theirs, _)),
-    Mine =\= Theirs,
-    !,
-    (   Mine > Theirs
-    ->  replace(Sequence, Theirs)
-    ;   adopt(Sequence, Theirs)
-    ).
-compare_plans.
-
-%   Another agent may be doing the same.
-
-replace(Sequence, Old) :-
-    (   take(plan(Sequence, Old, _))
-    ->  plan(Sequence, Version, Tasks),
-        leave(plan(Sequence, Version, Tasks))
-    ;   true
-    ).
-
-adopt(Sequence, Version) :-
-    (   sense(plan(Sequence, Version, Tasks))
-    ->  retractall(plan(_, _, _)),
-        assertz(plan(Sequence, Version, Tasks)),
-        forget_removed,
-        fill_new,
-        log(adopted(Version))
-    ;   true
-    ).
-
-forget_removed :-
-    plan(_, _, Tasks),
-    forall(( drive(Task, _, _), \+ memberchk(Task-_, Tasks) ),
-           retractall(drive(Task, _, _))).
-
-fill_new :-
-    plan(_, _, Tasks),
-    forall(( member(Task-_, Tasks), \+ drive(Task, _, _) ),
-           fill(Task)).

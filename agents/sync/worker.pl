@@ -1,4 +1,5 @@
 :- agent(worker, [state([sequence/1])]).
+:- include(execution).
 
 /*  The worker of a host for one sequence of tasks, named by the fact
     sequence(Sequence): executes the tasks that travelling agents hand
@@ -19,21 +20,12 @@ main :-
 
 on_message(_, execute(Task, Goal)) :-
     sequence(Sequence),
-    log(executing(Sequence, Task)),
-    (   catch(Goal, Ball, raised(Sequence, Task, Ball))
+    (   executed(Sequence, Task, Goal)
     ->  settle(Sequence, Task, completed)
     ;   settle(Sequence, Task, failed(atomic))
     ),
     self(Me),
     leave(worker(Sequence, Me)).
-
-raised(Sequence, Task, Ball) :-
-    (   Ball = error(What, _)
-    ->  true
-    ;   What = Ball
-    ),
-    log(raised(Sequence, Task, What)),
-    fail.
 
 settle(Sequence, Task, Status) :-
     take(task(Sequence, Task, executing, _)),

@@ -6,7 +6,7 @@
 :- use_module('../../agents/allocation/sequence', [sequence_allocate/7]).
 :- use_module('../sync/metrics',
               [executions/2, out_of_order/2, overlaps/2]).
-:- use_module(metrics, [communications/2]).
+:- use_module(metrics, [communications/2, from_first/2]).
 :- use_module(network, [await_end/5, on_network/5]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/4]).
@@ -102,14 +102,7 @@ end(Thread) :-
 integrated_measures(Events0, Names, Tasks,
                     [ tasks(Tasks), sequences(Sequences),
                       strangers(Strangers), communications(Sum) ]) :-
-    (   memberchk(event(Start, _, _, begun(_)), Events0)
-    ->  true
-    ;   Start = 0
-    ),
-    findall(event(Time, Host, Agent, What),
-            ( member(event(Time0, Host, Agent, What), Events0),
-              Time is Time0 - Start ),
-            Events),
+    from_first(Events0, Events),
     findall(Sequence,
             ( member(Name, Names), sequence(Events, Name, Sequence) ),
             Sequences),

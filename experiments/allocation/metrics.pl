@@ -1,6 +1,7 @@
 :- module(allocation_metrics,
           [ allocation_measures/2,      % +Events, -Measures
             communications/2,           % +Events, -Sum
+            from_first/2,               % +Events0, -Events
             measure/3                   % +Name, +Result, -Value
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -41,6 +42,20 @@ allocation_measures(Events,
     length(Intervals, Count),
     mean(Intervals, Interval),
     Backoffs is Count/max(1, Allocators).
+
+%!  from_first(+Events0, -Events) is det.
+%
+%   The time begins when the first allocator begins.
+
+from_first(Events0, Events) :-
+    (   memberchk(event(Start, _, _, begun(_)), Events0)
+    ->  true
+    ;   Start = 0
+    ),
+    findall(event(Time, Host, Agent, What),
+            ( member(event(Time0, Host, Agent, What), Events0),
+              Time is Time0 - Start ),
+            Events).
 
 happened(Events, What) :-
     member(event(_, _, _, What), Events).

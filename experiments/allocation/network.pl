@@ -7,7 +7,7 @@
               [ log_events/2, network_property/2, network_start/3,
                 network_stop/1, remote/2
               ]).
-:- use_module('../../agents/allocation/faults', [reservation_faults/2]).
+:- use_module('../../agents/allocation/reservations', [reservation_faults/2]).
 :- use_module('../../agents/allocation/operator', [robot_start/3]).
 :- use_module('../lib/follow', [new_lines/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).

@@ -2,23 +2,24 @@
           [ boxes_figure/2,             % +Options, -Claims
             boxes_result/2              % +Run, -Result
           ]).
-:- use_module('../../agents/allocation/faults', [reservation_faults/2]).
+:- use_module('../../agents/allocation/reservations', [reservation_faults/2]).
+:- use_module('../allocation/metrics', [from_first/2]).
 :- use_module('../lib/report',
-              [ claims_sentence/2, print_claims/2, print_table/3,
-                save_csv/3, save_facts/2
-              ]).
+              [print_claims/2, print_table/3, save_csv/3]).
 :- use_module(boxes_claims, [boxes_claims/3]).
 :- use_module(boxes_metrics,
               [from_dock/2, holdings/2, jobs/2, joined/2, pushed/2]).
 :- use_module(boxes_picture, [draw_boxes/4]).
 :- use_module(boxes_run, [boxes_run/4]).
 :- use_module(boxes_script, [thesis_script/1]).
+:- use_module(series,
+              [ series_directory/4, series_end/2, series_save/3,
+                series_seeds/2 ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists),
-              [append/2, last/2, list_to_set/2, member/2, memberchk/2,
-                numlist/3, sum_list/2]).
+              [append/2, last/2, member/2, memberchk/2, sum_list/2]).
 :- use_module(library(option), [option/2]).
 
 /** <module> Pushing boxes: thesis section 7.7
@@ -47,34 +48,24 @@
 
 boxes_figure(Options, Claims) :-
     option(out(Out), Options),
-    option(seed(First), Options),
-    option(runs(Runs), Options),
     directory_file_path(Out, boxes, Directory),
     thesis_script(Script),
     how(Options, How),
     format('Pushing boxes: up to 7 robots, 6 boxes~n~w~n', [How]),
     flush_output,
-    Last is First + Runs - 1,
-    numlist(First, Last, Seeds),
+    series_seeds(Options, Seeds),
     findall(Some,
             ( member(Seed, Seeds),
-              seed_directory(Runs, Directory, Seed, Part),
+              series_directory(Options, Directory, Seed, Part),
               seed_run(Script, [seed(Seed)|Options], Part, Some) ),
             Lists),
     append(Lists, Claims),
-    claims_sentence(Claims, Sentence),
-    format('~n~w~nLogs, tables and pictures: ~w/~n', [Sentence, Directory]).
+    series_end(Directory, Claims).
 
 how(Options, How) :-
     option(hop_time(Min-Max), Options),
     option(clock(Rate), Options),
     format(atom(How), 'hop ~w–~w s, host clock ×~w', [Min, Max, Rate]).
-
-seed_directory(1, Directory, _, Directory) :-
-    !.
-seed_directory(_, Directory, Seed, Part) :-
-    atom_concat(seed, Seed, Name),
-    directory_file_path(Directory, Name, Part).
 
 seed_run(Script, Options, Directory, Claims) :-
     make_directory_path(Directory),
@@ -101,13 +92,7 @@ save(Directory, Options, Result, Header-Rows, Claims) :-
             member(holding(Robot, Task, From, Start, To), Holdings), Held),
     directory_file_path(Directory, 'reservations.csv', Reservations),
     save_csv(Reservations, [robot, task, reserved, started, released], Held),
-    findall(parameter(Name, Value),
-            ( member(Option, Options), Option =.. [Name, Value] ),
-            Parameters0),
-    list_to_set(Parameters0, Parameters),
-    append([Parameters, Claims], Facts),
-    directory_file_path(Directory, 'metadata.pl', Metadata),
-    save_facts(Metadata, Facts).
+    series_save(Directory, Options, Claims).
 
                 /*******************************
                 *            RESULT            *
@@ -141,16 +126,6 @@ boxes_result(Run,
     pushed(Terms, Pushed),
     from_dock(Terms, Metres),
     last_release(Holdings, End).
-
-from_first(Events0, Events) :-
-    (   memberchk(event(Start, _, _, begun(_)), Events0)
-    ->  true
-    ;   Start = 0
-    ),
-    findall(event(Time, Host, Agent, What),
-            ( member(event(Time0, Host, Agent, What), Events0),
-              Time is Time0 - Start ),
-            Events).
 
 last_release(Holdings, End) :-
     findall(To, member(holding(_, _, _, _, To), Holdings), Times0),

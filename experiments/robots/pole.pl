@@ -2,20 +2,20 @@
           [ pole_figure/2               % +Options, -Claims
           ]).
 :- use_module('../lib/report',
-              [ claims_sentence/2, print_claims/2, print_table/3,
-                save_csv/3, save_facts/2
-              ]).
+              [print_claims/2, print_table/3, save_csv/3]).
 :- use_module('../sync/figure', [draw_figure/3]).
 :- use_module('../sync/metrics', [idle_time/2, overlaps/2]).
 :- use_module(pole_claims, [pole_claims/3]).
 :- use_module(pole_metrics, [carried/2, max_tilt/2, mingled/2]).
 :- use_module(pole_picture, [draw_pole/4]).
 :- use_module(pole_run, [pole_run/4]).
+:- use_module(series,
+              [ series_directory/4, series_end/2, series_save/3,
+                series_seeds/2 ]).
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
-              [append/2, append/3, list_to_set/2, member/2, memberchk/2,
-                numlist/3]).
+              [append/2, list_to_set/2, member/2, memberchk/2]).
 :- use_module(library(option), [option/2]).
 
 /** <module> Carrying a pole: thesis section 5.7 and Figure 5.14
@@ -38,10 +38,7 @@
 pole_figure(Options, Claims) :-
     option(out(Out), Options),
     directory_file_path(Out, pole, Directory),
-    option(seed(First), Options),
-    option(runs(Runs), Options),
-    Last is First + Runs - 1,
-    numlist(First, Last, Seeds),
+    series_seeds(Options, Seeds),
     how(Options, How),
     format('Carrying a pole: 4 robots, 4 tasks~n~w~n', [How]),
     maplist(seed_run(Options, Directory), Seeds, RowLists, ClaimLists),
@@ -54,8 +51,7 @@ pole_figure(Options, Claims) :-
     all_claims(ClaimLists, Claims),
     nl,
     print_claims(user_output, Claims),
-    claims_sentence(Claims, Sentence),
-    format('~n~w~nLogs, tables and pictures: ~w/~n', [Sentence, Directory]).
+    series_end(Directory, Claims).
 
 how(Options, How) :-
     option(agents(Agents), Options),
@@ -70,25 +66,14 @@ how(Options, How) :-
 
 seed_run(Options0, Directory0, Seed, Rows, Claims) :-
     Options = [seed(Seed)|Options0],
-    option(runs(Runs), Options),
-    (   Runs =:= 1
-    ->  Directory = Directory0
-    ;   atom_concat(seed, Seed, Part),
-        directory_file_path(Directory0, Part, Directory)
-    ),
+    series_directory(Options, Directory0, Seed, Directory),
     Cases = [synchronised, alone],
     maplist(run(Options, Directory), Cases, Results),
     Results = [Synchronised, Alone],
     pole_claims(Synchronised, Alone, Claims),
     maplist(row(Seed), Results, Rows),
     draw(Options, Directory, Synchronised, Alone),
-    directory_file_path(Directory, 'metadata.pl', File),
-    findall(parameter(Name, Value),
-            ( member(Option, Options), Option =.. [Name, Value] ),
-            Parameters0),
-    list_to_set(Parameters0, Parameters),
-    append(Parameters, Claims, Facts),
-    save_facts(File, Facts).
+    series_save(Directory, Options, Claims).
 
 run(Options, Directory, Case, Result) :-
     directory_file_path(Directory, Case, Part),

@@ -10,7 +10,7 @@
 :- use_module('../host', [runtime_acquire/2, runtime_release/1]).
 :- use_module(dynamics, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
-:- use_module(orders, [carrier/3]).
+:- use_module(carriers, [carrier/3]).
 :- use_module(plan,
               [ network_plan/3, plan_dynamics/2, plan_edges/2, plan_hosts/4,
                 plan_option/2, plan_processes/3 ]).

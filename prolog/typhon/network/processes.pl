@@ -7,7 +7,7 @@
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/5]).
-:- use_module(orders,
+:- use_module(carriers,
               [ carrier/3, carrier/4, carrier_came/4, carrier_gone/2,
                 carrier_went/3, carriers_ask/6, carriers_forget/1,
                 unwatched/1 ]).

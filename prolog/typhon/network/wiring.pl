@@ -9,7 +9,7 @@
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
-:- use_module(orders, [carrier/3, carrier_order/4]).
+:- use_module(carriers, [carrier/3, carrier_order/4]).
 
 /** <module> The hosts of a network and the links between them
 

@@ -5,12 +5,12 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module('../../../prolog/typhon').
-:- use_module('../../../agents/allocation/faults').
+:- use_module('../../../agents/allocation/reservations').
 :- use_module('../../../agents/allocation/operator').
-:- include('../../../agents/allocation/mobility').
-:- include('../../../agents/allocation/backoff').
-:- include('../../../agents/allocation/needs').
-:- include('../../../agents/allocation/way').
+:- include('../../../agents/allocation/allocator/mobility_resource').
+:- include('../../../agents/allocation/common/backoff_interval').
+:- include('../../../agents/allocation/common/requirements').
+:- include('../../../agents/allocation/allocator/trail').
 
 /** <module> Allocation: equations, and decisions on a host of a few facts
 */
@@ -562,7 +562,7 @@ test(child_goes_back, Acts == [ move(b), send(q, release(x)),
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
     fake_clone(clone(me)),
     fake_neighbours([b, a, c]),
-    catch(fake_agent:let_go([reserved]), disposed, true),
+    catch(fake_agent:deallocate([reserved]), disposed, true),
     did(Acts).
 test(child_leaves_out_who_refuses_it) :-
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
@@ -570,7 +570,7 @@ test(child_leaves_out_who_refuses_it) :-
     fake_neighbours([b, a, c]),
     fake_refusal(b),
     fake_refusal(next),
-    catch(fake_agent:let_go([reserved]), disposed, true),
+    catch(fake_agent:deallocate([reserved]), disposed, true),
     did(Acts),
     Acts = [ move(a), send(p, release(y)), log(not_reached([b])) | Sums ],
     memberchk(log(communications(child, 1)), Sums),
@@ -579,7 +579,7 @@ test(child_leaves_out_who_refuses_it) :-
 test(no_room_for_a_child) :-
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
     fake_clone(error(move_refused(here, capacity), _)),
-    fake_agent:let_go([reserved]),
+    fake_agent:deallocate([reserved]),
     did(Acts),
     msort(Acts, [send(p, release(y)), send(q, release(x))]),
     fake_agent:sent(message, 3).
@@ -648,6 +648,6 @@ test(robot_that_answers_is_not_given_up, Outcome == done) :-
     fake_agent:inquire([], Asked),
     Asked == [p],
     fake_mail(p-answer(y, status(done))),
-    fake_agent:supervise(Asked, 10, Outcome).
+    fake_agent:monitor(Asked, 10, Outcome).
 
 :- end_tests(allocation_allocator).

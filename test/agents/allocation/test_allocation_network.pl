@@ -7,7 +7,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
-:- use_module('../../../agents/allocation/faults').
+:- use_module('../../../agents/allocation/reservations').
 :- use_module('../../../agents/allocation/operator').
 :- use_module('../../../agents/allocation/sequence').
 

@@ -9,7 +9,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 :- use_module('../../../agents/allocation/auctions').
-:- use_module('../../../agents/allocation/faults').
+:- use_module('../../../agents/allocation/reservations').
 :- use_module('../../../agents/allocation/operator').
 
 /** <module> Murdoch and ANTA on small networks

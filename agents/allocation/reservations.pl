@@ -1,4 +1,4 @@
-:- module(allocation_faults,
+:- module(allocation_reservations,
           [ reservation_faults/2        % +Events, -Faults
           ]).
 :- use_module(library(apply), [foldl/4]).

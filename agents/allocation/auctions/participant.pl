@@ -1,5 +1,9 @@
+% Expects: setting/2; publish/1, tell_robots/3, tell_owner/2, offer_bids/3,
+%   arrived/3, onward/2, undertake/2.
+% Gives: main/0, and all else that a node needs: it includes the files here.
+
 /*  A node: the static agent of a host that takes part in auctions.  It
-    passes on messages (link.pl), bids for the robot of its host
+    passes on messages (flooding.pl), bids for the robot of its host
     (contractor.pl), and holds the auctions of the tasks that are posted at
     its host (auctioneer.pl).  Included in murdoch.pl and anta.pl, which say
     how messages get from an auctioneer to robots and back:
@@ -19,11 +23,17 @@
     auctioned once or more, each time is a Round.
 */
 
-:- include(needs).
-:- include(backoff).
-:- include(tell).
-:- include(link).
+:- include('../../lib/parameters').
+:- include('../../lib/tell').
+:- include('../common/requirements').
+:- include('../common/backoff_interval').
+:- include('../common/communications').
+:- include(agenda).
+:- include(memory).
+:- include(flooding).
 :- include(contractor).
+:- include(jobs).
+:- include(awards).
 :- include(auctioneer).
 
 default(window, 10).            % seconds for bids
@@ -36,12 +46,6 @@ default(bi_max, 500).
 default(level, 10).             % of a broadcast tree
 default(memory, 1000).          % floods that a node knows again
 default(jobs, 100).             % jobs of others that it remembers
-
-parameter(Name, Value) :-
-    (   setting(Name, Value0)
-    ->  Value = Value0
-    ;   default(Name, Value)
-    ).
 
 main :-
     first_id,
@@ -59,19 +63,15 @@ heard(Message, From) :-
     !.
 heard(_, _).
 
-hear(done(Ref), _) :-
-    robot_done(Ref).
-hear(lost(Ref, Why), _) :-
-    robot_lost(Ref, Why).
-hear(still(Ref), Robot) :-
-    robot_asks(Ref, Robot).
+hear(Message, Robot) :-
+    from_robot(Message, Robot).
 hear(post(Task), _) :-
     post(Task).
 hear(peers(Peers), _) :-
     retractall(peer(_, _)),
     forall(member(Host-Node, Peers), assertz(peer(Host, Node))).
 hear(account, _) :-
-    account.
+    log_communications.
 
 perform(flooded(From, Id, Body), Now) :-
     !,
@@ -82,45 +82,12 @@ perform(told(From, Body), Now) :-
 perform(What, Now) :-
     (   undertake(What, Now)
     ->  true
-    ;   due(What)
+    ;   auction_due(What)
+    ->  true
+    ;   contract_due(What)
     ->  true
     ;   true                            % it is no longer of use
     ).
-
-%   What the contractor and the auctioneer have put on the agenda.
-
-due(lapse(Job)) :-
-    lapse(Job).
-due(close(Job, Round)) :-
-    close_auction(Job, Round).
-due(settle(Job, Round)) :-
-    settle(Job, Round).
-due(again(Job, Round)) :-
-    again(Job, Round).
-due(renew(Job, Since)) :-
-    renew(Job, Since).
-due(deadline(Job)) :-
-    deadline(Job).
-
-%   to_robot(+Body): what auctioneers tell the contractor of this host.
-
-to_robot(announce(Job, Round, Offer)) :-
-    invited(Job, Round, Offer).
-to_robot(award(Job, Round, Winners)) :-
-    awarded(Job, Round, Winners).
-to_robot(start(Job)) :-
-    start(Job).
-to_robot(renew(Job, Phase)) :-
-    renewed(Job, Phase).
-to_robot(release(Job, Round, Hosts)) :-
-    released(Job, Round, Hosts).
-
-%   to_owner(+Job, +Body): what nodes tell the auctioneer, who is here.
-
-to_owner(Job, bids(Round, List)) :-
-    bids(Job, Round, List).
-to_owner(Job, report(Round, Host, Phase)) :-
-    report(Phase, Job, Round, Host).
 
 %   body_kind(+Body, -Kind): under which name a message is counted.
 

@@ -1,5 +1,5 @@
-/*  Telling agents that may be gone.  To be included.
-*/
+% Expects: nothing.
+% Gives: tell/2.
 
 %!  tell(+Agent, +Message) is semidet.
 %

@@ -1,14 +1,45 @@
+% Expects: lib, common; agenda, memory; tell_owner/2, offer_bids/3.
+% Gives: to_robot/1, answered/3, from_robot/2, contract_due/1, is_over/2.
+
 /*  The side of a node that speaks for the robot of its host.  It bids for
     one auction at a time, and for another one only when that is over, or
     more urgent.  Who wins has a contract, which ends unless the auctioneer
     renews it: so no robot stays reserved for an auctioneer that is gone.
 
-    State: hold(Job, Round, Offer, Until), the auction for which it has bid;
-    asked(Job, Round, Left, Bids), its robot has not answered all yet;
-    contract(Job, Round, Ref, Details, Phase, Until), Phase one of reserving,
-    reserved, executing, done; over(Job, Round), what is not to be believed
-    any more if it comes late.
+        hold(Job, Round, Offer, Until)
+                                the auction for which it has bid
+        asked(Job, Round, Left, Bids)
+                                its robot has not answered all yet
+        contract(Job, Round, Ref, Details, Phase, Until)
+                                Phase is `reserving`, `reserved`,
+                                `executing` or `done`
+        over(Job, Round)        what is not to be believed any more if it
+                                comes late
 */
+
+:- dynamic hold/4, asked/4, contract/6, over/2.
+
+%!  to_robot(+Body) is semidet.
+%
+%   What auctioneers tell the contractor of this host.
+
+to_robot(announce(Job, Round, Offer)) :-
+    invited(Job, Round, Offer).
+to_robot(award(Job, Round, Winners)) :-
+    awarded(Job, Round, Winners).
+to_robot(start(Job)) :-
+    start(Job).
+to_robot(renew(Job, Phase)) :-
+    renewed(Job, Phase).
+to_robot(release(Job, Round, Hosts)) :-
+    released(Job, Round, Hosts).
+
+%!  contract_due(+What) is semidet.
+%
+%   What the contractor has put on the agenda.
+
+contract_due(lapse(Job)) :-
+    lapse(Job).
 
                 /*******************************
                 *             BIDS             *
@@ -44,7 +75,9 @@ engaged(offer(_, _, _, Details, _), Now) :-
     detail(priority, Held, 0, Old),
     New =< Old.
 
-%   answered(+Answer, +Ref, +Robot): what the robot says.
+%!  answered(+Answer, +Ref, +Robot) is semidet.
+%
+%   What the robot says.
 
 answered(bid(Cost), ref(Job, Round, Number), _) :-
     !,
@@ -147,21 +180,17 @@ phase_quietly(Job, Phase) :-
     retract(contract(Job, Round, Ref, Details, _, Until)),
     assertz(contract(Job, Round, Ref, Details, Phase, Until)).
 
-task_goal(Details, Goal) :-
-    detail(duration, Details, 5, Seconds),
-    detail(goal, Details, sleep(Seconds), Goal).
-
-robot_done(Ref) :-
-    contract(Job, _, Ref, _, _, _),
-    phase(Job, done).
-
-robot_lost(Ref, Why) :-
-    retract(contract(Job, Round, Ref, _, _, _)),
-    inform(Job, Round, lost(Why)).
-
+%!  from_robot(+Message, +Robot) is semidet.
+%
 %   The auctioneer is not asked whether it still needs the robot: it renews.
 
-robot_asks(Ref, Robot) :-
+from_robot(done(Ref), _) :-
+    contract(Job, _, Ref, _, _, _),
+    phase(Job, done).
+from_robot(lost(Ref, Why), _) :-
+    retract(contract(Job, Round, Ref, _, _, _)),
+    inform(Job, Round, lost(Why)).
+from_robot(still(Ref), Robot) :-
     (   contract(_, _, Ref, _, _, _)
     ->  send(Robot, yes(Ref))
     ;   send(Robot, no(Ref))
@@ -195,7 +224,7 @@ released(Job, Round, Hosts) :-
     ),
     !,
     parameter(jobs, Most),
-    keep(over(Job, Round), over(_, _), Most),
+    remember(over(Job, Round), over(_, _), Most),
     (   hold(Job, Held, _, _),
         Held =< Round
     ->  retractall(hold(_, _, _, _))
@@ -211,6 +240,8 @@ give_up(Job, Round) :-
     retractall(contract(Job, _, _, _, _, _)),
     forall(sense(robot(Robot)), send(Robot, release(Ref))).
 give_up(_, _).
+
+%!  is_over(+Job, +Round) is semidet.
 
 is_over(Job, Round) :-
     over(Job, Last),

@@ -1,12 +1,16 @@
-/*  The way back.  Pure: included in the programs that need it.
+% Expects: nothing.
+% Gives: stepped/5, links/3, nearer/6; state trail/1.
 
-    A trail is the list of hosts that an agent came by, the last one first.
-    It forgets detours: where it comes to a host that is on the trail, or
+/*  The way back, trail(Hosts): the hosts that an agent came by, the last one
+    first.  What is said here of trails is pure.
+
+    A trail forgets detours: where it comes to a host that is on the trail, or
     linked with one, what lies between is left out, unless there is a host
     among it that it has to go back to.
 */
 
 :- use_module(library(lists)).
+:- dynamic trail/1.
 
 %!  stepped(+Host, +Neighbours, +Wanted, +Trail0, -Trail) is det.
 %

@@ -1,21 +1,47 @@
-/*  The side of a node that auctions tasks.  It announces the task, takes
-    bids for some time, and awards contracts to those that cost least, to all
-    robots the task needs at once.  When all have answered it starts them,
-    renews their contracts, and releases them when all are done.  Where there
-    are too few bids it releases what it has and backs off (thesis equations
-    7.5 and 7.7); where a robot is lost it auctions that place again.
+% Expects: lib, common; agenda, memory, contractor, jobs, awards; publish/1,
+%   tell_robots/3.
+% Gives: post/1, to_owner/2, auction_due/1.
 
-    State: job(Job, Task, Round, Phase, Tries, Backoffs), Phase one of
-    bidding, awarding, executing, waiting; bid(Job, Round, Host, Bids), Bids
-    being Number-Cost for each team; member(Job, Host, Number, Round, Phase,
-    Heard), Phase one of awarded, reserved, executing, done, Heard the time
-    of the last sign of life; allocated(Job), once all were reserved;
-    renewal(Job, Round), since which round contracts are renewed.
+/*  The side of a node that auctions tasks, the auctioneer.  It announces
+    the task, takes bids for some time, and awards contracts to those that
+    cost least, to all robots the task needs at once.  When all have
+    answered it starts them, renews their contracts, and releases them when
+    all are done.  Where there are too few bids it releases what it has and
+    backs off (thesis equations 7.5 and 7.7); where a robot is lost it
+    auctions that place again.
 */
+
+%!  to_owner(+Job, +Body) is semidet.
+%
+%   What nodes tell the auctioneer, who is here.
+
+to_owner(Job, bids(Round, List)) :-
+    bids(Job, Round, List).
+to_owner(Job, report(Round, Host, Phase)) :-
+    report(Phase, Job, Round, Host).
+
+%!  auction_due(+What) is semidet.
+%
+%   What the auctioneer has put on the agenda.
+
+auction_due(close(Job, Round)) :-
+    close_auction(Job, Round).
+auction_due(settle(Job, Round)) :-
+    settle(Job, Round).
+auction_due(again(Job, Round)) :-
+    again(Job, Round).
+auction_due(renew(Job, Since)) :-
+    renew(Job, Since).
+auction_due(deadline(Job)) :-
+    deadline(Job).
 
                 /*******************************
                 *            ROUNDS            *
                 *******************************/
+
+%!  post(+Task) is det.
+%
+%   Auctions Task from now on.
 
 post(Task) :-
     Task = task(Name, _, Details),
@@ -43,17 +69,6 @@ open_auction(Job) :-
     at(Close, close(Job, Round)),
     publish(announce(Job, Round, offer(Name, Me, Places, Details, Close))).
 
-%   open_places(+Job, +Task, -Places): (Number-Requirements)-Count.
-
-open_places(Job, task(_, Teams, _), Places) :-
-    findall(Number, member(Job, _, Number, _, _, _), Taken),
-    findall((Number-Requirements)-Count,
-            ( open_team(Teams, Taken, Number, Requirements),
-              nth1(Number, Teams, Wanted-_),
-              aggregate_all(count, member(Number, Taken), Have),
-              Count is Wanted - Have ),
-            Places).
-
 %   bids(+Job, +Round, +List): List of Host-Bids; what comes late is lost.
 
 bids(Job, Round, List) :-
@@ -72,25 +87,6 @@ close_auction(Job, Round) :-
     ;   back_off(Job)
     ).
 
-%   winners(+Places, +Bids, -Winners) is semidet: who costs least, team by
-%   team.  Winners are Host-Number.
-
-winners([], _, []).
-winners([(Number-_)-Count|Places], Bids0, Winners) :-
-    findall(Cost-Host,
-            ( member(Host-Bids, Bids0), memberchk(Number-Cost, Bids) ),
-            Offers0),
-    sort(Offers0, Offers),
-    length(Chosen, Count),
-    append(Chosen, _, Offers),
-    !,
-    findall(Host-Number, member(_-Host, Chosen), Team),
-    findall(Host-Bids,
-            ( member(Host-Bids, Bids0), \+ memberchk(Host-_, Team) ),
-            Bids1),
-    winners(Places, Bids1, More),
-    append(Team, More, Winners).
-
 award(Job, Round, Winners) :-
     phase_of(Job, awarding),
     now(Now),
@@ -105,10 +101,6 @@ award(Job, Round, Winners) :-
     ),
     findall(Host, member(Host-_, Winners), Hosts),
     tell_robots(Job, Hosts, award(Job, Round, Winners)).
-
-phase_of(Job, Phase) :-
-    retract(job(Job, Task, Round, _, Tries, Backoffs)),
-    assertz(job(Job, Task, Round, Phase, Tries, Backoffs)).
 
                 /*******************************
                 *           REPORTS            *
@@ -131,24 +123,6 @@ report(Phase, Job, Round, Host) :-
     !,                                  % given up meanwhile
     tell_robots(Job, [Host], release(Job, Round, [Host])).
 report(_, _, _, _).
-
-%   becomes(+Before, +Phase, -After) is semidet.  What a robot has done stays
-%   done, even if the robot is lost.
-
-becomes(done, _, done) :-
-    !.
-becomes(Before, Phase, After) :-
-    later_phase(Before, Phase, After).
-
-%   Reports may come in any order.
-
-later_phase(Before, Phase, After) :-
-    Order = [awarded, reserved, executing, done],
-    nth1(I, Order, Before),
-    nth1(J, Order, Phase),
-    !,
-    Last is max(I, J),
-    nth1(Last, Order, After).
 
 proceed(Job) :-
     job(Job, Task, _, Phase, _, _),
@@ -196,9 +170,6 @@ begin_execution(Job) :-
     ),
     tell_robots(Job, Hosts, start(Job)).
 
-members(Job, Hosts) :-
-    findall(Host, member(Job, Host, _, _, _, _), Hosts).
-
                 /*******************************
                 *           BACK-OFF           *
                 *******************************/
@@ -243,7 +214,7 @@ release_all(Job, Count) :-
     append(Members, Bidders, Hosts0),
     sort(Hosts0, Hosts),
     parameter(jobs, Most),
-    keep(over(Job, Round), over(_, _), Most),
+    remember(over(Job, Round), over(_, _), Most),
     (   Hosts == []
     ->  true
     ;   tell_robots(Job, Hosts, release(Job, Round, all))
@@ -281,12 +252,6 @@ renew(Job, Since) :-
     (   Lost == []
     ->  true
     ;   proceed(Job)
-    ).
-
-wanted_phase(Job, Phase) :-
-    (   allocated(Job)
-    ->  Phase = executing
-    ;   Phase = reserved
     ).
 
 deadline(Job) :-

@@ -1,5 +1,8 @@
+% Expects: nothing; pure.
+% Gives: reach_time/3, bid_time/3, interval/5.
+
 /*  How long to back off: thesis sections 7.4.1 and 7.5, equations 7.5 to
-    7.7.  Pure: included in the programs that need it.
+    7.7.
 
     The thesis prints "2 beta Theta" and calls it binary: it is Theta times
     2 to the power of beta, the number of back-offs so far with this one.

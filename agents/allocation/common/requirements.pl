@@ -1,5 +1,7 @@
-/*  What a task requires, against what a robot is.  Pure: included in the
-    programs that need it.
+% Expects: nothing; pure.
+% Gives: fit/2, required/2, open_team/4, detail/4, task_goal/2.
+
+/*  What a task requires, against what a robot is.
 
     A robot has properties: capabilities, any terms, and states,
     Name=Value.  A task needs teams, Count-Requirements; a requirement is a
@@ -62,3 +64,11 @@ detail(Name, Details, Default, Value) :-
     ->  Value = Value0
     ;   Value = Default
     ).
+
+%!  task_goal(+Details, -Goal) is det.
+%
+%   What each robot executes.
+
+task_goal(Details, Goal) :-
+    detail(duration, Details, 5, Seconds),
+    detail(goal, Details, sleep(Seconds), Goal).

@@ -1,5 +1,8 @@
-/*  How an allocator lets its robots go: by children that go back the way it
-    came, free them, and die.  To be included.
+% Expects: lib, common; trail, messages, held_robots, migration.
+% Gives: deallocate/1.
+
+/*  How robots are let go: by children that go back the way their parent
+    came, free the robots, and die.
 
     A child goes by the trail of its parent, with short cuts, to the robot
     that is nearest; where links have gone it looks for the way
@@ -7,9 +10,11 @@
     ask the allocator, and are told that they are free, or get no answer.
 */
 
-%   let_go(+Phases): of the robots in one of Phases.
+%!  deallocate(+Phases:list) is det.
+%
+%   The robots in one of Phases are free, or will soon be.
 
-let_go(Phases) :-
+deallocate(Phases) :-
     findall(Host-free(Robot, Ref),
             ( held(Host, Robot, Ref, _, Phase), memberchk(Phase, Phases) ),
             Robots),
@@ -17,21 +22,21 @@ let_go(Phases) :-
            achieve(Team, Ref)),
     forall(member(_-free(_, Ref), Robots),
            retractall(held(_, _, Ref, _, _))),
-    free_here(Robots, Elsewhere),
+    release_here(Robots, Elsewhere),
     parameter(children, Children),
     shares(Children, Elsewhere, Shares),
-    send_children(Shares).
+    spawn_children(Shares).
 
 achieve(Team, Ref) :-
     retractall(held(_, _, Ref, _, _)),
     assertz(achieved(Team)).
 
-free_here(Robots, Elsewhere) :-
+release_here(Robots, Elsewhere) :-
     here(Host),
     selectchk(Host-free(Robot, Ref), Robots, Elsewhere),
     !,
     ask(Robot, Ref, release(Ref), _).
-free_here(Robots, Robots).
+release_here(Robots, Robots).
 
 %   shares(+Count, +List, -Shares): Count lists or less, none empty.
 
@@ -47,60 +52,65 @@ shares(Count, List, [Share|Shares]) :-
 
 %   Where there is no room for a child, robots are written to.
 
-send_children([]).
-send_children([Share|Shares]) :-
-    catch(clone(Who), error(move_refused(_, _), _), Who = refused),
-    sent_child(Who, Share),
-    send_children(Shares).
+spawn_children([]).
+spawn_children([Share|Shares]) :-
+    clone_if_room(Who),
+    spawned(Who, Share),
+    spawn_children(Shares).
 
-sent_child(parent(_), _).
-sent_child(refused, Share) :-
+spawned(parent(_), _).
+spawned(refused, Share) :-
     forall(member(Host-free(Robot, Ref), Share),
            ignore(post(Host, Robot, release(Ref)))).
-sent_child(clone(_), Share) :-
-    retractall(held(_, _, _, _, _)),
-    retractall(sent(_, _)),
-    retractall('$memory'(_)),
-    parameter(child_life, Life),
-    now(Now),
-    Until is Now + Life,
-    deallocate(Share, Until),
-    report,
-    dispose.
+spawned(clone(_), Share) :-
+    child(Share).
 
                 /*******************************
                 *            A CHILD           *
                 *******************************/
 
-deallocate(Robots, Until) :-
+%   When it has freed all, it dies: apoptosis.
+
+child(Share) :-
+    retractall(held(_, _, _, _, _)),
+    retractall(sent(_, _)),
+    forget_visits,
+    parameter(child_life, Life),
+    now(Now),
+    Until is Now + Life,
+    release_all(Share, Until),
+    log_communications,
+    dispose.
+
+release_all(Robots, Until) :-
     trail(Trail),
     length(Trail, Far),
-    deallocate(Robots, Far, Until).
+    release_all(Robots, Far, Until).
 
-%   deallocate(+Robots, +Distance, +Until): it has been so near to one of
+%   release_all(+Robots, +Distance, +Until): it has been so near to one of
 %   Robots, along the trail.
 
-deallocate([], _, _) :-
+release_all([], _, _) :-
     !.
-deallocate(Robots, _, Until) :-
+release_all(Robots, _, Until) :-
     now(Now),
     Now >= Until,
     !,
     pairs_keys(Robots, Hosts),
     log(not_reached(Hosts)).
-deallocate(Robots, Distance0, Until) :-
+release_all(Robots, Distance0, Until) :-
     way_on(Robots, Distance0, Host, Distance),
     !,
     catch(move(Host), error(_, _), Arrived = false),
     arrived(Arrived, Host, Distance0-Distance, Distance1),
-    free_here(Robots, Left),
+    release_here(Robots, Left),
     (   Left == Robots
-    ->  deallocate(Robots, Distance1, Until)
-    ;   deallocate(Left, Until)
+    ->  release_all(Robots, Distance1, Until)
+    ;   release_all(Left, Until)
     ).
-deallocate(Robots, Distance, Until) :-
+release_all(Robots, Distance, Until) :-
     pause,
-    deallocate(Robots, Distance, Until).
+    release_all(Robots, Distance, Until).
 
 way_on(Robots, Distance0, Host, Distance) :-
     trail(Trail),
@@ -119,7 +129,7 @@ arrived(Arrived, _, _-Distance, Distance) :-
     count(child, 1).
 arrived(false, Host, Distance-_, Distance) :-
     count(refusal, 1),
-    retract(trail(Trail0)),
+    trail(Trail0),
     subtract(Trail0, [Host], Trail),
-    assertz(trail(Trail)),
+    keep(trail(Trail)),
     pause.

@@ -1,5 +1,8 @@
+% Expects: nothing; pure.
+% Gives: rewarded/5, penalised/6, decayed/5, restarted/4, exhausted/2.
+
 /*  The mobility resource of an allocator: thesis section 7.4.1, equations
-    7.1 to 7.4.  Pure: included in the programs that need it.
+    7.1 to 7.4.
 
     What the thesis leaves open, or prints otherwise.  A penalty decrements
     the resource, so equation 7.2 has a minus.  In equation 7.4 the power of

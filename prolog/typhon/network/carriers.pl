@@ -1,4 +1,4 @@
-:- module(typhon_orders,
+:- module(typhon_carriers,
           [ carrier_came/4,             % +Network, +P, +Where, +Pid
             carrier_went/3,             % +Network, +P, +Status
             carriers_forget/1,          % +Network
@@ -151,7 +151,7 @@ send(Network, P, Order, Queue) :-
     assertz(waiting(Network, P, Queue)),
     (   carrier(Network, P, _, Endpoint)
     ->  endpoint_request(Endpoint, node, Order,
-                         typhon_orders:answered(Queue, P))
+                         typhon_carriers:answered(Queue, P))
     ;   answered(Queue, P, down)
     ).
 

@@ -1,0 +1,63 @@
+% Expects: lib, common; trail, held_robots, sojourn, rewards.
+% Gives: set_out/0, restart/0, migrate/0, pause/0.
+
+/*  How an allocator gets about: thesis section 7.4.1, Agent Migration.
+*/
+
+%!  set_out is det.
+%!  restart is det.
+%
+%   Begin to search: knowing nothing, and after a back-off.  Who still has
+%   robots may have to go back to them.
+
+set_out :-
+    endow,
+    begin_sojourn,
+    here(Host),
+    keep(trail([Host])),
+    visited(Host).
+
+restart :-
+    replenish,
+    begin_sojourn,
+    (   held(_, _, _, _, _)
+    ->  true
+    ;   here(Host),
+        keep(trail([Host]))
+    ).
+
+%!  migrate is det.
+%
+%   Where there is no way on the resource decays, too: who is cut off does
+%   not keep robots from others.
+
+migrate :-
+    decay,
+    parameter(strategy, Strategy),
+    (   next_host(Strategy, Host)
+    ->  catch(move(Host), error(_, _), Arrived = false),
+        landed(Arrived)
+    ;   pause
+    ).
+
+landed(Arrived) :-
+    var(Arrived),
+    !,
+    count(migration, 1),
+    here(Host),
+    trail(Trail0),
+    findall(Other, held(Other, _, _, _, _), Wanted),
+    neighbours(Neighbours),
+    stepped(Host, Neighbours, Wanted, Trail0, Trail),
+    keep(trail(Trail)),
+    note(hop),
+    visited(Host).
+landed(false) :-
+    count(refusal, 1),
+    pause.
+
+%!  pause is det.
+
+pause :-
+    parameter(pause, Seconds),
+    sleep(Seconds).

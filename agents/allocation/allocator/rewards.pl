@@ -1,0 +1,71 @@
+% Expects: lib; mobility_resource, held_robots, sojourn.
+% Gives: endow/0, replenish/0, reward/1, penalty/0, decay/0, exhausted/0; its
+%   state.
+
+/*  The mobility resource of an allocator, chi(Chi): the equations of
+    mobility_resource.pl in its life.
+*/
+
+:- dynamic chi/1.
+
+%!  reward(+Reserved) is det.
+%
+%   A robot was reserved, beside so many: equation 7.1.
+
+reward(Reserved) :-
+    note(reward),
+    frequency(reward, _, Frequency),
+    needed(Required),
+    chi(Chi0),
+    rewarded(Chi0, Frequency, Required, Reserved, Chi),
+    keep(chi(Chi)).
+
+%!  penalty is det.
+%
+%   A robot it could use was reserved already: equation 7.2.
+
+penalty :-
+    note(penalty),
+    frequency(penalty, Penalties, Frequency),
+    needed(Required),
+    reserved(Reserved),
+    chi(Chi0),
+    penalised(Chi0, Frequency, Penalties, Required, Reserved, Chi),
+    keep(chi(Chi)).
+
+%!  decay is det.
+%
+%   A hop: equation 7.3.
+
+decay :-
+    sojourn(Visited, _, _, _),
+    discovered(Found),
+    parameter(cd, Cd),
+    chi(Chi0),
+    decayed(Chi0, Found, Visited, Cd, Chi),
+    keep(chi(Chi)).
+
+%!  endow is det.
+%!  replenish is det.
+%
+%   What it begins with, and begins anew with after a back-off: equation 7.4.
+
+endow :-
+    parameter(chi, Chi),
+    keep(chi(Chi)).
+
+replenish :-
+    discovered(Found),
+    parameter(cd, Cd),
+    parameter(alpha_k, Threshold),
+    restarted(Found, Cd, Threshold, Chi),
+    keep(chi(Chi)).
+
+%!  exhausted is semidet.
+%
+%   Of the resource next to nothing is left: it has to back off.
+
+exhausted :-
+    chi(Chi),
+    parameter(alpha_k, Threshold),
+    exhausted(Chi, Threshold).

@@ -1,0 +1,64 @@
+% Expects: lib.
+% Gives: begin_sojourn/0, note/1, visited/1, discovered/1, frequency/3; its
+%   state.
+
+/*  What an allocator has met: UR, VR, Lambda, and the frequencies mu of
+    thesis section 7.4.1.
+
+        sojourn(Visited, Hops, Rewards, Penalties)
+                                since it began to search, or last rested
+        found(Host)             the distinct robots ever discovered
+*/
+
+:- dynamic sojourn/4, found/1.
+
+%!  begin_sojourn is det.
+
+begin_sojourn :-
+    keep(sojourn(0, 0, 0, 0)).
+
+%!  note(+What) is det.
+%
+%   One more of what sojourn/4 counts.
+
+note(What) :-
+    sojourn(Visited, Hops, Rewards, Penalties),
+    noted(What, sojourn(Visited, Hops, Rewards, Penalties), Sojourn),
+    keep(Sojourn).
+
+noted(visit, sojourn(V0, H, R, P), sojourn(V, H, R, P)) :-
+    V is V0 + 1.
+noted(hop, sojourn(V, H0, R, P), sojourn(V, H, R, P)) :-
+    H is H0 + 1.
+noted(reward, sojourn(V, H, R0, P), sojourn(V, H, R, P)) :-
+    R is R0 + 1.
+noted(penalty, sojourn(V, H, R, P0), sojourn(V, H, R, P)) :-
+    P is P0 + 1.
+
+%!  visited(+Host) is det.
+
+visited(Host) :-
+    note(visit),
+    (   found(Host)
+    ->  true
+    ;   assertz(found(Host))
+    ).
+
+%!  discovered(-Found) is det.
+%
+%   UR: how many distinct robots it knows.
+
+discovered(Count) :-
+    aggregate_all(count, found(_), Count).
+
+%!  frequency(+What, -Times, -Frequency) is det.
+%
+%   How many rewards or penalties, and how many per hop: mu.  Where it begins
+%   it has not yet moved.
+
+frequency(reward, Rewards, Frequency) :-
+    sojourn(_, Hops, Rewards, _),
+    Frequency is Rewards/max(1, Hops).
+frequency(penalty, Penalties, Frequency) :-
+    sojourn(_, Hops, _, Penalties),
+    Frequency is Penalties/max(1, Hops).

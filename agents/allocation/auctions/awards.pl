@@ -1,0 +1,46 @@
+% Expects: nothing; pure.
+% Gives: winners/3, becomes/3, later_phase/3.
+
+/*  Who gets a contract, and what becomes of it.
+*/
+
+%!  winners(+Places, +Bids, -Winners) is semidet.
+%
+%   Who costs least, team by team.  Bids are Host-Bids, Winners Host-Number.
+
+winners([], _, []).
+winners([(Number-_)-Count|Places], Bids0, Winners) :-
+    findall(Cost-Host,
+            ( member(Host-Bids, Bids0), memberchk(Number-Cost, Bids) ),
+            Offers0),
+    sort(Offers0, Offers),
+    length(Chosen, Count),
+    append(Chosen, _, Offers),
+    !,
+    findall(Host-Number, member(_-Host, Chosen), Team),
+    findall(Host-Bids,
+            ( member(Host-Bids, Bids0), \+ memberchk(Host-_, Team) ),
+            Bids1),
+    winners(Places, Bids1, More),
+    append(Team, More, Winners).
+
+%!  becomes(+Before, +Phase, -After) is semidet.
+%
+%   What a robot has done stays done, even if the robot is lost.
+
+becomes(done, _, done) :-
+    !.
+becomes(Before, Phase, After) :-
+    later_phase(Before, Phase, After).
+
+%!  later_phase(+Before, +Phase, -After) is semidet.
+%
+%   Reports may come in any order.
+
+later_phase(Before, Phase, After) :-
+    Order = [awarded, reserved, executing, done],
+    nth1(I, Order, Before),
+    nth1(J, Order, Phase),
+    !,
+    Last is max(I, J),
+    nth1(Last, Order, After).

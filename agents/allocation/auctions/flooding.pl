@@ -1,0 +1,128 @@
+% Expects: lib, common; agenda, memory; body_kind/2, onward/2, arrived/3.
+% Gives: cross/3, crossed/3, flood/1, flooded/4; its state.
+
+/*  Messages over one link, and floods, for an agent that does not move.
+
+    A message over a link takes as long as a hop of an agent would (setting
+    hop_time).  It is sent at once, with the host time at which it is due;
+    until then it is on the agenda of who gets it.  What is passed on was
+    passed on at the time it was due, so the computer adds nothing to the
+    time of a flood as long as it keeps pace.
+
+    Each node passes a flood on once, to all neighbours but the one it came
+    from: over N hosts with E links it takes 2E - (N-1) messages.
+
+        peer(Host, Node)        each node there is
+        wave(Flood, Due)        floods known, -1 once they are passed on
+*/
+
+:- dynamic peer/2, wave/2.
+
+                /*******************************
+                *            LINKS             *
+                *******************************/
+
+%!  cross(+To, +Body, +Now) is semidet.
+%
+%   Body goes over the link to host To.  Fails if there is none, or nobody
+%   at its end, who is forgotten.
+
+cross(To, Body, Now) :-
+    neighbours(Neighbours),
+    memberchk(To, Neighbours),
+    peer(To, _),
+    here(Here),
+    transmit([To], Here, Now, only(Body)),
+    body_kind(Body, Kind),
+    count(Kind, 1),
+    peer(To, _),
+    !.
+
+transmit([], _, _, _).
+transmit([To|Tos], Here, Now, Load) :-
+    link_seconds(Seconds),
+    Due is Now + Seconds,
+    peer(To, Node),
+    (   tell(Node, link(Due, Here, Load))
+    ->  true
+    ;   retractall(peer(To, _))
+    ),
+    transmit(Tos, Here, Now, Load).
+
+link_seconds(Seconds) :-
+    (   setting(hop_time, uniform(Min, Max))
+    ->  Seconds is Min + random_float*(Max - Min)
+    ;   Seconds = 0
+    ).
+
+%!  crossed(+Due, +From, +Load) is det.
+%
+%   A message from host From is here, and due later.  Of a flood that is
+%   known the first to be due counts.
+
+crossed(Due, From, flood(Id, Body)) :-
+    !,
+    (   wave(Id, Due0),
+        Due0 =< Due
+    ->  true
+    ;   new_wave(Id, Due),
+        at(Due, flooded(From, Id, Body))
+    ).
+crossed(Due, From, only(Body)) :-
+    at(Due, told(From, Body)).
+
+                /*******************************
+                *            FLOODS            *
+                *******************************/
+
+%!  flood(+Body) is det.
+%
+%   To all nodes but this one.
+
+flood(Body) :-
+    new_id(Id),
+    new_wave(Id, -1),
+    now(Now),
+    spread(none, Id, Body, Now).
+
+%!  flooded(+From, +Id, +Body, +Now) is det.
+%
+%   It is due.
+
+flooded(From, Id, Body, Now) :-
+    (   wave(Id, -1)
+    ->  true
+    ;   retractall(wave(Id, _)),
+        assertz(wave(Id, -1)),
+        (   onward(Body, Onward)
+        ->  spread(From, Id, Onward, Now)
+        ;   true
+        ),
+        arrived(Body, From, Now)
+    ).
+
+spread(From, Id, Body, Now) :-
+    here(Here),
+    neighbours(Neighbours),
+    others(Neighbours, From, Count, Others),
+    transmit(Others, Here, Now, flood(Id, Body)),
+    body_kind(Body, Kind),
+    count(Kind, Count).
+
+others([], _, 0, []).
+others([Host|Hosts], From, Count, Others) :-
+    (   Host \== From,
+        peer(Host, _)
+    ->  Others = [Host|Others1],
+        others(Hosts, From, Count1, Others1),
+        Count is Count1 + 1
+    ;   others(Hosts, From, Count, Others)
+    ).
+
+new_wave(Id, Due) :-
+    (   wave(Id, _)
+    ->  retractall(wave(Id, _)),
+        assertz(wave(Id, Due))
+    ;   parameter(memory, Most),
+        remember(wave(Id, Due), wave(_, _), Most)
+    ).

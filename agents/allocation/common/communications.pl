@@ -1,0 +1,29 @@
+% Expects: nothing.
+% Gives: count/2, log_communications/0; state sent/2.
+
+/*  What an agent has sent, or how often it has moved: the inter-node
+    communications of thesis section 7.6.  sent(Kind, Count).
+*/
+
+:- dynamic sent/2.
+
+%!  count(+Kind, +Times) is det.
+%
+%   So many more of Kind.
+
+count(_, 0) :-
+    !.
+count(Kind, Times) :-
+    (   retract(sent(Kind, Count0))
+    ->  true
+    ;   Count0 = 0
+    ),
+    Count is Count0 + Times,
+    assertz(sent(Kind, Count)).
+
+%!  log_communications is det.
+%
+%   Tells the log what was counted since the last time.
+
+log_communications :-
+    forall(retract(sent(Kind, Count)), log(communications(Kind, Count))).

@@ -1,0 +1,54 @@
+% Expects: lib; reservation.
+% Gives: start/3, finished/2.
+
+/*  A clone, the hand, executes the task, so that the robot can answer.
+*/
+
+%!  start(+Ref, +Goal, -Answer) is det.
+%
+%   In the hand it does not return.
+
+start(Ref, Goal, Answer) :-
+    hold(Ref, _, _, _, reserved),
+    !,
+    catch(clone(Who), error(move_refused(_, Reason), _),
+          Who = refused(Reason)),
+    begin(Who, Ref, Goal, Answer).
+start(Ref, _, Answer) :-
+    (   hold(Ref, _, _, _, _)
+    ->  Answer = started
+    ;   Answer = refused(none)
+    ).
+
+begin(parent(Hand), Ref, _, started) :-
+    phase(Ref, executing(Hand)).
+begin(refused(Reason), _, _, refused(Reason)).
+begin(clone(Robot), Ref, Goal, _) :-
+    (   catch(Goal, Ball, true)
+    ->  outcome(Ball, Outcome)
+    ;   Outcome = failed
+    ),
+    send(Robot, finished(Ref, Outcome)),
+    dispose.
+
+outcome(Ball, Outcome) :-
+    (   var(Ball)
+    ->  Outcome = done
+    ;   Ball = error(What, _)
+    ->  Outcome = raised(What)
+    ;   Outcome = raised(Ball)
+    ).
+
+%!  finished(+Outcome, +Ref) is det.
+%
+%   What the hand says.
+
+finished(done, Ref) :-
+    !,
+    phase(Ref, done),
+    hold(Ref, Owner, need(Task, _, _), Contact, _),
+    here(Host),
+    log(executed(Host, Owner, Task)),
+    ignore(tell(Contact, done(Ref))).
+finished(Outcome, _) :-
+    lose(Outcome).

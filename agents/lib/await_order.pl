@@ -1,0 +1,12 @@
+% Expects: parameters; default(start, now).
+% Gives: await_order/0.
+
+%!  await_order is det.
+%
+%   With start-order the agent waits for the message `begin`.
+
+await_order :-
+    parameter(start, order),
+    !,
+    receive(_-begin).
+await_order.

@@ -1,0 +1,36 @@
+% Expects: parameters, keep; default(seed, random).
+% Gives: seed_chance/1, seed_chance_here/0, chance_turn/1; state chance/1.
+
+:- dynamic chance/1.
+
+%!  seed_chance(+Who) is det.
+%
+%   The state of typhon_chance is that of the parameter `seed`, an integer,
+%   and of Who, or any.
+
+seed_chance(Who) :-
+    parameter(seed, Seed0),
+    (   integer(Seed0)
+    ->  term_hash(Seed0-Who, Seed)
+    ;   Seed is random(1<<30)
+    ),
+    typhon_chance:chance_seed(Seed, Chance),
+    keep(chance(Chance)).
+
+%!  seed_chance_here is det.
+%
+%   As seed_chance/1, for who stays: by the name of the host.
+
+seed_chance_here :-
+    here(Host),
+    atomic_list_concat([Name|_], @, Host),
+    seed_chance(Name).
+
+%!  chance_turn(-Turn) is det.
+%
+%   A random number from 0 to 1.
+
+chance_turn(Turn) :-
+    chance(Chance0),
+    typhon_chance:chance_float(Turn, Chance0, Chance),
+    keep(chance(Chance)).

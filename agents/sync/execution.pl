@@ -1,0 +1,19 @@
+% Expects: nothing.
+% Gives: executed/3.
+
+%!  executed(+Sequence, +Task, +Goal) is nondet.
+%
+%   Runs Goal, the code of Task, and logs when it begins and what it raises.
+%   Then it fails.
+
+executed(Sequence, Task, Goal) :-
+    log(executing(Sequence, Task)),
+    catch(Goal, Ball, raised(Sequence, Task, Ball)).
+
+raised(Sequence, Task, Ball) :-
+    (   Ball = error(What, _)
+    ->  true
+    ;   What = Ball
+    ),
+    log(raised(Sequence, Task, What)),
+    fail.

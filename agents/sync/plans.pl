@@ -1,0 +1,72 @@
+% Expects: plan/3, drive/3; fill/1.
+% Gives: compare_plans/0, bring_plan/0, fill_new/0.
+
+/*  Plans that change while they are carried out: beyond the thesis.  Of two
+    plans, that of a host and that of a travelling agent, the newer one
+    replaces the older one.  So a change that is told to a few hosts comes to
+    all others.
+
+    Of plan(Sequence, Version, Tasks) Version is a number that is greater the
+    newer the plan is; the tuple of a host is the newest plan that was brought
+    there.
+*/
+
+%!  bring_plan is det.
+%
+%   To a host that has none.
+
+bring_plan :-
+    plan(Sequence, _, _),
+    sense(plan(Sequence, _, _)),
+    !.
+bring_plan :-
+    plan(Sequence, Version, Tasks),
+    leave(plan(Sequence, Version, Tasks)).
+
+%!  compare_plans is det.
+%
+%   The newer of two plans replaces the older one, here or in the agent.
+
+compare_plans :-
+    plan(Sequence, Mine, _),
+    sense(plan(Sequence, Theirs, _)),
+    Mine =\= Theirs,
+    !,
+    (   Mine > Theirs
+    ->  replace(Sequence, Theirs)
+    ;   adopt(Sequence, Theirs)
+    ).
+compare_plans.
+
+%   Another agent may be doing the same.
+
+replace(Sequence, Old) :-
+    (   take(plan(Sequence, Old, _))
+    ->  plan(Sequence, Version, Tasks),
+        leave(plan(Sequence, Version, Tasks))
+    ;   true
+    ).
+
+adopt(Sequence, Version) :-
+    (   sense(plan(Sequence, Version, Tasks))
+    ->  retractall(plan(_, _, _)),
+        assertz(plan(Sequence, Version, Tasks)),
+        forget_removed,
+        fill_new,
+        log(adopted(Version))
+    ;   true
+    ).
+
+forget_removed :-
+    plan(_, _, Tasks),
+    forall(( drive(Task, _, _), \+ memberchk(Task-_, Tasks) ),
+           retractall(drive(Task, _, _))).
+
+%!  fill_new is det.
+%
+%   The potentials of tasks that are new to the agent are full.
+
+fill_new :-
+    plan(_, _, Tasks),
+    forall(( member(Task-_, Tasks), \+ drive(Task, _, _) ),
+           fill(Task)).
