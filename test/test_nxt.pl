@@ -10,7 +10,7 @@ from LEGO's document, by other code than that of the bridge.
 :- use_module(nxt_fixtures).
 :- use_module(library(plunit)).
 :- use_module(library(apply), [foldl/4, maplist/3]).
-:- use_module(library(http/json), [atom_json_dict/3]).
+:- use_module(library(typhon/nxt/json), [atom_json_dict/3]).
 :- use_module(library(lists),
               [append/2, append/3, member/2, nth0/3, numlist/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
