@@ -60,9 +60,14 @@ test(flags_of_both_sides,
     set_prolog_flag(Flag, Old),
     assertion(Bytes == Plain),
     assertion(same(Again, Term)).
-test(text_is_ascii) :-
-    term_bytes(text, f('é\u4e00\U0001F600', "é", 'é'(x)), Bytes),
-    forall(string_code(_, Bytes, Code), assertion(Code =< 127)).
+test(bytes_are_bytes) :-
+    term_bytes(text, 'é\u4e00\U0001F600', Bytes),
+    forall(string_code(_, Bytes, Code), assertion(Code =< 255)).
+test(letters_in_quotes) :-
+    term_bytes(text, f('é', "«é", 'é«'(x)), Bytes),
+    assertion(sub_string(Bytes, _, _, 0,
+                         "f('\xc3\\xa9\',\"\\u00ab\xc3\\xa9\\",\c
+                            '\xc3\\xa9\\\u00ab'(x)). ")).
 test(text_of_any_character) :-
     forall(( some_code(Code), char_code(Char, Code) ),
            ( foreign_term(Char, Term), round_trip(text, Term) )).

@@ -164,7 +164,7 @@ seed_chance :-
     parameter(seed, Seed0),
     self(Me),
     (   integer(Seed0)
-    ->  term_hash(Seed0-Me, Seed)
+    ->  typhon_chance:chance_hash(Seed0-Me, Seed)
     ;   Seed is random(1<<30)
     ),
     typhon_chance:chance_seed(Seed, Chance),

@@ -30,7 +30,7 @@ seed(Seed) :-
     here(Host),
     atomic_list_concat([Name|_], @, Host),
     (   integer(Seed0)
-    ->  term_hash(Seed0-Name, Seed)
+    ->  typhon_chance:chance_hash(Seed0-Name, Seed)
     ;   Seed is random(1<<30)
     ).
 

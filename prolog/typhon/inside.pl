@@ -34,6 +34,7 @@
 :- use_module(agent,
               [ agent/5, agent_home/2, agent_name/3, agent_put_life/2,
                 with_agent/2, attach_clauses/3, detach_clauses/2 ]).
+:- use_module(chance, [chance_hash/2]).
 :- use_module(clock, [host_time/2]).
 :- use_module(context, [context/3, context_agent/1, context_host/1]).
 :- use_module(frame, [mobile_term/1]).
@@ -146,7 +147,7 @@ agent_seed(Seed0, Id, Seed) :-
     agent_name(Id, Name, Number),
     agent_home(Id, Home),
     address_parts(Home, HomeName, _),
-    term_hash(s(Seed0, Name, Number, HomeName), Seed).
+    chance_hash(s(Seed0, Name, Number, HomeName), Seed).
 
 %!  send(+Agent, +Message) is det.
 %

@@ -4,6 +4,7 @@
           ]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(text, [portable/2]).
 
 /** <module> Restore points: agents as text
 
@@ -28,6 +29,7 @@ restore_write(File, Image) :-
 write_line(Out, Line) :-
     write_term(Out, Line,
                [ module(system), quoted(true), spacing(next_argument),
+                 numbervars(false), portray_goal(typhon_text:portable),
                  fullstop(true), nl(true) ]).
 
 line(_, restore_point(Version)) :-

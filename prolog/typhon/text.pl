@@ -8,8 +8,9 @@
 
 Text that any SWI-Prolog of any word size reads back as the same term,
 whatever operators and flags either side has set: functional notation,
-special floats spelled out, and ASCII, as versions do not agree which other
-characters stand without quotes, nor (10.1) on what may stand in them.
+special floats spelled out, UTF-8. What is not ASCII stands in quotes, and
+if it is no letter, as an escape sequence: versions do not agree which
+characters need quotes, and 10.1 writes some there that it cannot read.
 
 _Threading_: no shared state. The flags that govern writing and reading are
 local to a thread and are put back.
@@ -68,9 +69,8 @@ text_bytes(Term, Options, Bytes, Characters) :-
 %!  portable(+Term, +Options) is semidet.
 %
 %   For the option portray_goal(typhon_text:portable) of write_term/3: Term
-%   is written so that every version reads it, its characters beyond ASCII
-%   as escape sequences in quotes. False if it has none outside of its
-%   arguments.
+%   is written so that every version reads it. False if it has no characters
+%   beyond ASCII outside of its arguments.
 
 portable(Term, _) :-
     atom(Term),
@@ -106,8 +106,7 @@ write_codes(Quote, Codes) :-
 %   Not as \xHH\, which cannot be read if it begins with d8 to df.
 
 write_code(Code, Quote) :-
-    between(32, 126, Code),
-    Code =\= 0'\\,
+    plain_code(Code),
     Code =\= Quote,
     !,
     put_char(Code).
@@ -117,6 +116,14 @@ write_code(Code, _) :-
     format("\\u~|~`0t~16r~4+", [Code]).
 write_code(Code, _) :-
     format("\\U~|~`0t~16r~8+", [Code]).
+
+plain_code(Code) :-
+    Code =< 126,
+    !,
+    Code >= 32,
+    Code =\= 0'\\.
+plain_code(Code) :-
+    code_type(Code, alnum).
 
 write_arguments([], _).
 write_arguments([Arg|Args], Options) :-
