@@ -1,5 +1,6 @@
 :- module(test_brick, []).
 :- use_module(common).
+:- needs(['python3-serial']).
 :- use_module(nxt_bricks).
 :- use_module(brick_scenarios).
 :- use_module(library(plunit)).

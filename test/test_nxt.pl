@@ -7,6 +7,7 @@ from LEGO's document, by other code than that of the bridge.
 */
 
 :- use_module(common).
+:- needs(['python3-serial']).
 :- use_module(nxt_fixtures).
 :- use_module(library(plunit)).
 :- use_module(library(apply), [foldl/4, maplist/3]).

@@ -7,6 +7,7 @@ whom, and what is left when one of the three processes dies.
 */
 
 :- use_module(common).
+:- needs(['python3-serial']).
 :- use_module(fixtures).
 :- use_module(nxt_fixtures).
 :- use_module(library(plunit)).

@@ -1,5 +1,6 @@
 :- module(test_robots, []).
 :- use_module(common).
+:- needs(['python3-serial']).
 :- use_module(fake_agent).
 :- use_module(fixtures, [wait_state/2, with_hosts/2]).
 :- use_module(library(plunit)).

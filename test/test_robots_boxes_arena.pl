@@ -1,5 +1,6 @@
 :- module(test_robots_boxes_arena, []).
 :- use_module(common).
+:- needs(['python3-serial']).
 :- use_module(fake_agent).
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).
