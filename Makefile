@@ -82,7 +82,7 @@ fuzz:                   ## what nobody should send; COUNT=100000, SEED=1
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench
 
-test-portability:       ## the suites on other Prologs (root only); SWIPL=one more
+test-portability:       ## the suites on other Prologs (root); SWIPL=one more
 	@SWIPL='$(SWIPL)' test/portability/run
 
 clean:                  ## remove what runs have left in out/
