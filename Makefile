@@ -18,8 +18,8 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools demo demo-robots experiments experiments-allocation \
-    experiments-learning experiments-sieve experiments-sync test chaos fuzz \
+.PHONY: help tools tools-all demo demo-robots experiments \
+    experiments-allocation experiments-learning experiments-sieve experiments-sync test chaos fuzz \
     check bench test-portability install clean
 
 help:
@@ -82,14 +82,17 @@ fuzz:                   ## what nobody should send; COUNT=100000, SEED=1
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench
 
-test-portability:       ## the suites on other Prologs (root only)
-	@test/portability/run
+test-portability:       ## the suites on other Prologs (root); SWIPL=one more
+	@SWIPL='$(SWIPL)' test/portability/run
 
 clean:                  ## remove what runs have left in out/
 	@rm -rf out
 
-tools:
+tools:                  ## install what the core needs and is missing
 	@.ci/install
+
+tools-all:              ## install all that .ci/packages lists
+	@.ci/install all
 
 install:
 	@:

@@ -14,6 +14,7 @@ are unit, test and line in SWI-Prolog 9.0 and 9.2 alike.  A test without a
 result was skipped by its condition; if it has none, its setup failed.
 */
 
+:- use_module(common, [missing/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(main), [main/0]).
@@ -36,10 +37,14 @@ main([File, Results]) :-
 
 run_suite(File, Suite) :-
     load_suite(File, LoadProblems),
-    (   LoadProblems == []
-    ->  run_units,
+    missing(Packages),
+    (   LoadProblems \== []
+    ->  Suite = suite(0, 0, [], LoadProblems)
+    ;   Packages \== []
+    ->  atomic_list_concat([all, of, it, without|Packages], ' ', Skipped),
+        Suite = suite(0, 0, [Skipped], [])
+    ;   run_units,
         suite_results(Suite)
-    ;   Suite = suite(0, 0, [], LoadProblems)
     ).
 
 load_suite(File, Problems) :-

@@ -11,7 +11,7 @@
 seed_chance(Who) :-
     parameter(seed, Seed0),
     (   integer(Seed0)
-    ->  term_hash(Seed0-Who, Seed)
+    ->  typhon_chance:chance_hash(Seed0-Who, Seed)
     ;   Seed is random(1<<30)
     ),
     typhon_chance:chance_seed(Seed, Chance),

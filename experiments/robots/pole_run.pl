@@ -18,7 +18,7 @@
 :- use_module(stage, [scene_file/2, stage/6]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/6, maplist/3]).
-:- use_module(library(http/json), [json_read_dict/2]).
+:- use_module('../../prolog/typhon/nxt/json', [json_read_dict/2]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, reverse/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(pairs), [pairs_values/2]).

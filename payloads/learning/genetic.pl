@@ -34,7 +34,7 @@ plan(_, Units, Plan) :-
     planned(Units, Count, Plan).
 
 planned(Units, Count, Plan) :-
-    term_hash(Count-Units, Seed),
+    typhon_chance:chance_hash(Count-Units, Seed),
     typhon_chance:chance_seed(Seed, Chance),
     population(Units, Population),
     pool(Units, Pool),

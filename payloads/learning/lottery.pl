@@ -20,7 +20,7 @@ plan(_, Units, Plan) :-
     planned(Units, Count, Plan).
 
 planned(Units, Count, Plan) :-
-    term_hash(Count-Units, Seed),
+    typhon_chance:chance_hash(Count-Units, Seed),
     typhon_chance:chance_seed(Seed, Chance),
     findall(Settings, member(unit(_, Settings, _)-_, Units), Known),
     levels(Known, Levels),

@@ -35,7 +35,7 @@ planned(Start, Units, Count, Plan) :-
     findall(Way, ( gen_assoc(Vector, Ways, way(_, Way)),
                    \+ get_assoc(Vector, Onward, on) ),
             Ends),
-    term_hash(Count-Root-Ends, Seed),
+    typhon_chance:chance_hash(Count-Root-Ends, Seed),
     typhon_chance:chance_seed(Seed, Chance),
     typhon_chance:chance_member(Backwards, Ends, Chance, _),
     reverse(Backwards, Forwards),

@@ -147,7 +147,7 @@ printer(Name) :-
 makes(Printer, makes(Density, Heat, Wear)) :-
     known(printers, Which),
     known(difference, Far),
-    term_hash(Which-Printer, Seed),
+    typhon_chance:chance_hash(Which-Printer, Seed),
     typhon_chance:chance_seed(Seed, Chance0),
     Near is -Far,
     typhon_chance:chance_uniform(Near, Far, Density, Chance0, Chance1),

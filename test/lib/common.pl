@@ -1,5 +1,7 @@
 :- module(test_common,
-          [ project_file/2,             % +Relative, -Absolute
+          [ needs/1,                    % +Names
+            missing/1,                  % -Packages
+            project_file/2,             % +Relative, -Absolute
             with_tmp_dir/1,             % :Goal
             no_leaks/1,                 % :Goal
             wait_until/2,               % :Goal, +Seconds
@@ -13,7 +15,8 @@
 
 A suite begins with `:- use_module('../lib/common')`, after which library(typhon),
 agents(X) and payloads(X) are those of this tree, and the cookie of the
-endpoints is a private one.
+endpoints is a private one; then `:- needs(Names)` if it needs what not every
+machine has.
 
 *Threading*: the predicates may be called in any thread.  no_leaks/1 looks at
 the whole process, so nothing else should be coming and going meanwhile.
@@ -24,7 +27,7 @@ the whole process, so nothing else should be coming and going meanwhile.
                 directory_file_path/3,
                 make_directory_path/1
               ]).
-:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(lists), [last/2, member/2, subtract/3]).
 :- use_module(library(option), [select_option/4]).
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module(library(process),
@@ -54,6 +57,38 @@ the whole process, so nothing else should be coming and going meanwhile.
 user:file_search_path(library, Dir) :-
     root(Root),
     atom_concat(Root, '/prolog', Dir).
+
+%!  needs(+Names) is det.
+%
+%   The suite needs the packages or groups Names of .ci/packages. As a
+%   directive: where something of them is missing the suite is skipped, and
+%   test/run.pl says what is missing.
+
+:- dynamic needed/1.
+
+needs(Names) :-
+    assertz(needed(Names)).
+
+%!  missing(-Packages:list(string)) is det.
+%
+%   What the suite needs, and this machine does not have.
+
+missing(Packages) :-
+    findall(Name, ( needed(Names), member(Name, Names) ), Names),
+    missing(Names, Packages).
+
+missing([], []) :-
+    !.
+missing(Names, Packages) :-
+    project_file('.ci/install', Install),
+    setup_call_cleanup(
+        process_create(Install, ['--missing'|Names],
+                       [stdin(null), stdout(pipe(Out)), process(Pid)]),
+        read_string(Out, _, Text),
+        close(Out)),
+    process_wait(Pid, exit(0), []),
+    split_string(Text, " ", " \n", Parts),
+    subtract(Parts, [""], Packages).
 
 %!  project_file(+Relative, -Absolute) is det.
 %

@@ -29,14 +29,17 @@ run(Program, Args, Options, Status, Output) :-
 %   lines of what apt-get was called with; its first Failures calls fail.
 
 install_with(Commands, Failures, Status, Notes) :-
-    with_tmp_dir(install_in(Commands, Failures, Status, Notes)).
+    install_with(Commands, [], Failures, Status, Notes).
 
-install_in(Commands, Failures, Status, Notes, Dir) :-
+install_with(Commands, Names, Failures, Status, Notes) :-
+    with_tmp_dir(install_in(Commands, Names, Failures, Status, Notes)).
+
+install_in(Commands, Names, Failures, Status, Notes, Dir) :-
     forall(( member(Command, [env, id, grep, wc, cat|Commands]) ),
            link_command(Dir, Command)),
     directory_file_path(Dir, notes, File),
     fake_apt(Dir, File, Failures),
-    run('.ci/install', [], [environment(['PATH'=Dir])], Status, _),
+    run('.ci/install', Names, [environment(['PATH'=Dir])], Status, _),
     (   exists_file(File)
     ->  read_file_to_string(File, Text, []),
         split_string(Text, "\n", "\n", Notes)
@@ -59,7 +62,7 @@ fake_apt(Dir, Notes, Failures) :-
         close(Out)),
     chmod(Apt, +x).
 
-commands([swipl, gnuplot, dot, ip]).
+commands([swipl, make, git, gnuplot, dot, ip]).
 
 has_serial :-
     catch(( process_create('/usr/bin/python3', ['-c', 'import serial'],
@@ -101,6 +104,27 @@ test(only_what_is_missing, Status == exit(0)) :-
     subtract(Commands, [dot, ip], Rest),
     install_with(Rest, 0, Status, [Note]),
     assertion(sub_string(Note, _, _, 0, " graphviz iproute2")).
+
+test(by_name, Status == exit(0)) :-
+    commands(Commands),
+    subtract(Commands, [gnuplot, dot], Rest),
+    install_with(Rest, [graphviz], 0, Status, [Note]),
+    assertion(sub_string(Note, _, _, 0, "recommends graphviz")).
+test(unknown_name, Status-Notes == exit(2)-[]) :-
+    install_with([], [core, 'no-such'], 0, Status, Notes).
+test(lists_what_it_would_install, Output == "graphviz\n") :-
+    with_tmp_dir(missing([graphviz, make], [make], Output)).
+test(lists_all) :-
+    run('.ci/install', ['--packages'], [], exit(0), Core),
+    run('.ci/install', ['--packages', all], [], exit(0), All),
+    assertion(string_concat("swi-prolog-nox ", _, Core)),
+    split_string(Core, "", "\n", [Packages]),
+    assertion(string_concat(Packages, _, All)).
+
+missing(Names, Commands, Output, Dir) :-
+    forall(member(Command, [env|Commands]), link_command(Dir, Command)),
+    run('.ci/install', ['--missing'|Names], [environment(['PATH'=Dir])],
+        exit(0), Output).
 
 test(update_only_when_needed, Status == exit(0)) :-
     commands(Commands),

@@ -1,5 +1,6 @@
 :- module(typhon_chance,
           [ chance_seed/2,              % +Seed, -Chance
+            chance_hash/2,              % +Term, -Seed
             chance_float/3,             % -Float, +Chance0, -Chance
             chance_below/4,             % +N, -Index, +Chance0, -Chance
             chance_uniform/5,           % +Min, +Max, -X, +Chance0, -Chance
@@ -48,6 +49,16 @@ chance_seed(Seed, chance(A, B)) :-
     scramble(Other, S3),
     A is 1 + S2 mod 2147483562,
     B is 1 + S3 mod 2147483398.
+
+%!  chance_hash(+Term, -Seed) is det.
+%
+%   Seed belongs to the ground Term, and is the same in every process: of
+%   term_hash/2, which has 24 bits or, since SWI-Prolog 9.1, 32, those that
+%   versions and word sizes have in common.
+
+chance_hash(Term, Seed) :-
+    term_hash(Term, Hash),
+    Seed is Hash /\ 0xffffff.
 
 %   A bijection of 32-bit numbers in which each bit of the input moves
 %   about half of the bits of the output.

@@ -206,12 +206,16 @@ tick :-
     catch(ticking, Ball, survive(Ball)),
     !.
 
-survive('$aborted') :-
+survive(Ball) :-
+    unwinding(Ball),
     !,
-    throw('$aborted').
+    throw(Ball).
 survive(Ball) :-
     print_message(error, typhon(timer(Ball))),
     \+ timing.
+
+unwinding('$aborted').
+unwinding(unwind(_)).                   % SWI-Prolog 9.3 and later
 
 ticking :-
     index_make(Index),

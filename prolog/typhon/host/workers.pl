@@ -168,6 +168,8 @@ next_turn(Host) :-
 
 survive('$aborted') :-
     !.
+survive(unwind(_)) :-                   % SWI-Prolog 9.3 and later
+    !.
 survive(Ball) :-
     print_message(error, Ball).
 

@@ -1,6 +1,7 @@
 :- module(typhon_memory,
           [ next_host/2                 % +Strategy, -Host
           ]).
+:- use_module('../base/chance', [chance_hash/2]).
 :- use_module('../host',
               [ address_parts/3, context/3, host/3, host_neighbours/2,
                 host_option/2 ]).
@@ -52,4 +53,4 @@ agent_seed(Seed0, Id, Seed) :-
     agent_name(Id, Name, Number),
     agent_home(Id, Home),
     address_parts(Home, HomeName, _),
-    term_hash(s(Seed0, Name, Number, HomeName), Seed).
+    chance_hash(s(Seed0, Name, Number, HomeName), Seed).

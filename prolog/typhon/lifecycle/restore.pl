@@ -55,6 +55,7 @@ write_image(File, Image) :-
 write_line(Out, Line) :-
     write_term(Out, Line,
                [ module(system), quoted(true), spacing(next_argument),
+                 numbervars(false), portray_goal(typhon_text:portable),
                  fullstop(true), nl(true) ]).
 
 line(_, restore_point(Version)) :-

@@ -8,7 +8,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(http/json), [atom_json_dict/3]).
+:- use_module(json, [atom_json_dict/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/3]).

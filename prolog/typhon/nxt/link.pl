@@ -9,7 +9,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
-:- use_module(library(http/json), [atom_json_dict/3]).
+:- use_module(json, [atom_json_dict/3]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(option), [option/3]).
 :- use_module('../base/own_thread', [in_own_thread/1]).

@@ -114,7 +114,8 @@ check_bytes(Bytes, Check) :-
     sha_hash(Bytes, [C2, C1, C0|_], [encoding(octet)]),
     Check is C2<<16 \/ C1<<8 \/ C0.
 check_bytes(Bytes, Check) :-
-    term_hash(Bytes, Check).
+    term_hash(Bytes, Hash),             % of 24 bits or, since 9.1, of 32
+    Check is Hash /\ 0xffffff.
 
 %!  term_bytes(+Codec, +Term, -Bytes) is det.
 %
@@ -123,6 +124,11 @@ check_bytes(Bytes, Check) :-
 %   @error type_error(mobile_term, Culprit) as mobile_term/1. The codec
 %   `fast` only notices blobs: ask mobile_term/1 about foreign terms.
 
+term_bytes(fast, Term, Bytes) :-
+    rational(Term),
+    \+ integer(Term),
+    !,                                  % 10.1.12 reads 3 from that of 1r3
+    term_bytes(text, Term, Bytes).
 term_bytes(fast, Term, Bytes) :-
     (   serialized(Term, Body)
     ->  (   string_length(Body, Length),
@@ -150,14 +156,23 @@ serialized(Term, Bytes) :-
 %   @error syntax_error(Message) the text is damaged.
 
 bytes_term(fast, Bytes, Term) :-
-    (   string_code(1, Bytes, 0'!)
-    ->  unmarked(Bytes, Body),
-        fast_term_serialized(Term, Body)
+    (   string_code(1, Bytes, Mark)
+    ->  marked_term(Mark, Bytes, Term)
     ;   fast_term_serialized(Term, Bytes)
     ).
 bytes_term(text, Bytes, Term) :-
+    marked_term(0'#, Bytes, Term).
+
+marked_term(0'!, Bytes, Term) :-
+    !,
+    unmarked(Bytes, Body),
+    fast_term_serialized(Term, Body).
+marked_term(0'#, Bytes, Term) :-
+    !,
     unmarked(Bytes, Body),
     text_term(Body, Term).
+marked_term(_, Bytes, Term) :-
+    fast_term_serialized(Term, Bytes).
 
 		 /*******************************
 		 *             MARKS            *

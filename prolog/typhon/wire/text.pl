@@ -1,21 +1,24 @@
 :- module(typhon_text,
           [ term_text/2,                % +Term, -Bytes
-            text_term/2                 % +Bytes, -Term
+            text_term/2,                % +Bytes, -Term
+            portable/2                  % +Term, +Options
           ]).
 
 /** <module> The canonical text of a term
 
 Text that any SWI-Prolog of any word size reads back as the same term,
 whatever operators and flags either side has set: functional notation,
-special floats spelled out, UTF-8.
+special floats spelled out, UTF-8. What is not ASCII stands in quotes, and
+if it is no letter, as an escape sequence: versions do not agree which
+characters need quotes, and 10.1 writes some there that it cannot read.
 
 _Threading_: no shared state. The flags that govern writing and reading are
 local to a thread and are put back.
 */
 
-:- use_module(library(memfile),
-              [ free_memory_file/1, memory_file_to_string/3,
-                new_memory_file/1, open_memory_file/3, open_memory_file/4 ]).
+:- use_module(library(memfile), [free_memory_file/1, memory_file_to_string/3,
+                                 new_memory_file/1, open_memory_file/3,
+                                 open_memory_file/4, size_memory_file/3]).
 
 % Terms are read in a module of their own: it inherits from system, so
 % that nobody's operators in user reach it, and has system's switched off.
@@ -36,18 +39,97 @@ bare_syntax :-
 %   Bytes are the text of Term. Term must be mobile_term/1.
 
 term_text(Term, Bytes) :-
+    text_options(Options),
+    text_bytes(Term, Options, Bytes0, Characters),
+    (   string_length(Bytes0, Characters)
+    ->  Bytes = Bytes0
+    ;   portable_options(Portable),
+        text_bytes(Term, [fullstop(true)|Portable], Bytes, _)
+    ).
+
+text_options([ quoted(true), ignore_ops(true), fullstop(true),
+               module(typhon_text_syntax) ]).
+
+portable_options([ quoted(true), ignore_ops(true), numbervars(false),
+                   module(typhon_text_syntax),
+                   portray_goal(typhon_text:portable) ]).
+
+text_bytes(Term, Options, Bytes, Characters) :-
     setup_call_cleanup(
         new_memory_file(File),
         ( setup_call_cleanup(
               open_memory_file(File, write, Out, [encoding(utf8)]),
-              plain_flags(write_text(Out, Term)),
+              plain_flags(write_term(Out, Term, Options)),
               close(Out)),
-          memory_file_to_string(File, Bytes, octet)
+          memory_file_to_string(File, Bytes, octet),
+          size_memory_file(File, Characters, utf8)
         ),
         free_memory_file(File)).
 
-write_text(Out, Term) :-
-    write_term(Out, Term, [quoted(true), ignore_ops(true), fullstop(true)]).
+%!  portable(+Term, +Options) is semidet.
+%
+%   For the option portray_goal(typhon_text:portable) of write_term/3: Term
+%   is written so that every version reads it. False if it has no characters
+%   beyond ASCII outside of its arguments.
+
+portable(Term, _) :-
+    atom(Term),
+    !,
+    foreign_codes(Term, Codes),
+    write_codes(0'\', Codes).
+portable(Term, _) :-
+    string(Term),
+    !,
+    foreign_codes(Term, Codes),
+    write_codes(0'", Codes).
+portable(Term, _) :-
+    compound(Term),
+    compound_name_arguments(Term, Name, Args),
+    foreign_codes(Name, Codes),
+    write_codes(0'\', Codes),
+    put_char('('),
+    portable_options(Options),
+    write_arguments(Args, Options),
+    put_char(')').
+
+foreign_codes(Text, Codes) :-
+    string_codes(Text, Codes),
+    member(Code, Codes),
+    Code > 127,
+    !.
+
+write_codes(Quote, Codes) :-
+    put_char(Quote),
+    forall(member(Code, Codes), write_code(Code, Quote)),
+    put_char(Quote).
+
+%   Not as \xHH\, which cannot be read if it begins with d8 to df.
+
+write_code(Code, Quote) :-
+    plain_code(Code),
+    Code =\= Quote,
+    !,
+    put_char(Code).
+write_code(Code, _) :-
+    Code =< 0xffff,
+    !,
+    format("\\u~|~`0t~16r~4+", [Code]).
+write_code(Code, _) :-
+    format("\\U~|~`0t~16r~8+", [Code]).
+
+plain_code(Code) :-
+    Code =< 126,
+    !,
+    Code >= 32,
+    Code =\= 0'\\.
+plain_code(Code) :-
+    code_type(Code, alnum).
+
+write_arguments([], _).
+write_arguments([Arg|Args], Options) :-
+    write_term(Arg, Options),
+    forall(member(Next, Args),
+           ( put_char(','), write_term(Next, Options) )).
 
 %!  text_term(+Bytes, -Term) is det.
 %

@@ -1,5 +1,6 @@
 :- module(test_brick, []).
 :- use_module('../../lib/common').
+:- needs(['python3-serial']).
 :- use_module('../../lib/nxt_bricks').
 :- use_module('../../lib/brick_scenarios').
 :- use_module(library(plunit)).

@@ -1,5 +1,6 @@
 :- module(test_brick_faults, []).
 :- use_module('../../lib/common').
+:- needs(['python3-serial']).
 :- use_module('../../lib/nxt_bricks').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3, link_file/3]).

@@ -1,5 +1,6 @@
 :- module(test_world, []).
-:- use_module('../../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../../lib/common', [needs/1, project_file/2, with_tmp_dir/1]).
+:- needs(['python3-serial']).
 :- use_module('../../lib/nxt_bricks').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).

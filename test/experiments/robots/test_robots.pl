@@ -1,5 +1,6 @@
 :- module(test_robots, []).
 :- use_module('../../lib/common').
+:- needs(['python3-serial']).
 :- use_module('../../lib/fake_agent').
 :- use_module('../../lib/fixtures', [wait_state/2, with_hosts/2]).
 :- use_module(library(plunit)).

@@ -1,5 +1,6 @@
 :- module(test_robots_boxes, []).
 :- use_module('../../lib/common').
+:- needs(['python3-serial']).
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_file_path/3]).

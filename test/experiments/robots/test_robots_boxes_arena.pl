@@ -1,5 +1,6 @@
 :- module(test_robots_boxes_arena, []).
 :- use_module('../../lib/common').
+:- needs(['python3-serial']).
 :- use_module('../../lib/fake_agent').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).

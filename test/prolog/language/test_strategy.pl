@@ -76,6 +76,8 @@ test(state_is_the_same_on_every_platform,
      C == chance(310702730, 1339802110)) :-
     chance_seed(1, C0),
     chance_float(_, C0, C).
+test(seed_of_a_term_is_the_same_on_every_platform, Seed == 11129677) :-
+    chance_hash(c(1, 2.5, [a]), Seed).
 test(probability_moves_nothing_else, C1 == C2) :-
     chance_seed(3, C0),
     chance_true(0, false, C0, C1),

@@ -7,6 +7,7 @@ with a real robot if there is one.
 */
 
 :- use_module('../../lib/common').
+:- needs(['python3-serial']).
 :- use_module('../../lib/nxt_fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).

@@ -7,6 +7,7 @@ whom, and what is left when one of the three processes dies.
 */
 
 :- use_module('../../lib/common').
+:- needs(['python3-serial']).
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/nxt_fixtures').
 :- use_module(library(plunit)).

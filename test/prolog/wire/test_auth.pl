@@ -165,10 +165,11 @@ reflect(In, Out) :-
 test(same, Codec == fast) :-
     hello(p, 1, a, Hello),
     hello_codec(Hello, Hello, Codec).
-test(within_the_tried_range, Codec == fast) :-
+test(within_the_tried_range, [ forall(member(Tried, [90004, 90209, 100112])),
+                               Codec == fast ]) :-
     hello(p, 1, a, Hello),
     Hello = hello(P, S, A, _, W, O),
-    hello_codec(Hello, hello(P, S, A, 90209, W, O), Codec).
+    hello_codec(Hello, hello(P, S, A, Tried, W, O), Codec).
 test(other_word_size, Codec == text) :-
     hello(p, 1, a, Hello),
     Hello = hello(P, S, A, V, W, O),
@@ -181,7 +182,7 @@ test(other_byte_order, Codec == text) :-
 test(untried_version, Codec == text) :-
     hello(p, 1, a, Hello),
     Hello = hello(P, S, A, _, W, O),
-    hello_codec(Hello, hello(P, S, A, 100100, W, O), Codec).
+    hello_codec(Hello, hello(P, S, A, 990000, W, O), Codec).
 test(without_records, Codecs == [text, text, text]) :-
     hello(p, 1, a, With),
     setting(typhon_hello:records, Old),
