@@ -19,8 +19,9 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools tools-all demo demo-robots experiments \
-    experiments-allocation experiments-learning experiments-sieve experiments-sync test chaos fuzz \
-    check bench test-portability install clean
+    experiments-allocation experiments-learning experiments-sieve \
+    experiments-sync test chaos fuzz check bench test-portability install \
+    clean
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
@@ -71,6 +72,7 @@ chaos: tools            ## attack a network of processes; SECONDS=600, SEED=1
 	@$(SWIPL) test/chaos/run.pl -- --seconds $(SECONDS) --seed $(SEED)
 
 check:                  ## a quick look for mistakes, offline
+	@$(SWIPL) doc/rooms.pl -- check
 	@for file in $(ENTRY_POINTS); do \
 	    $(SWIPL) -q --on-error=status --on-warning=status \
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \

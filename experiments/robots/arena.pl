@@ -6,8 +6,7 @@
           ]).
 :- use_module('../../prolog/typhon/base/own_thread', [in_own_thread/1]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(filesex),
-              [delete_directory_and_contents/1, directory_file_path/3]).
+:- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [append/2, append/3]).
 :- use_module(library(option), [option/2, select_option/4]).
 :- use_module(library(process),

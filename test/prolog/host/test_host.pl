@@ -9,7 +9,6 @@
 :- use_module(library(settings)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/host/place)).
-:- use_module(library(typhon/host/workers), [workers_count/1]).
 
 /** <module> Tests of hosts: what they offer, admit, and leave behind
 
