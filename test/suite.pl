@@ -14,7 +14,7 @@ are unit, test and line in SWI-Prolog 9.0 and 9.2 alike.  A test without a
 result was skipped by its condition; if it has none, its setup failed.
 */
 
-:- use_module(common, [missing/1]).
+:- use_module('lib/common', [missing/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(main), [main/0]).
