@@ -1,5 +1,6 @@
 :- module(typhon_fifo,
-          [ fifo_take/2,                % +Queue, ?Message
+          [ fifo_next/2,                % +Queue, -Message
+            fifo_take/2,                % +Queue, ?Message
             fifo_empty/2                % +Queue, -Messages
           ]).
 
@@ -16,6 +17,22 @@ the stacks of the thread.
 *Threading*: only for queues from which nobody else takes at the same time.
 */
 
+%!  fifo_next(+Queue, -Message) is semidet.
+%!  fifo_empty(+Queue, -Messages:list) is det.
+%
+%   Take the first message of Queue, or all of them.  These never wait.
+
+fifo_next(Queue, Message) :-
+    thread_peek_message(Queue, _),
+    thread_get_message(Queue, Message).
+
+fifo_empty(Queue, Messages) :-
+    (   fifo_next(Queue, Message)
+    ->  Messages = [Message|More],
+        fifo_empty(Queue, More)
+    ;   Messages = []
+    ).
+
 %!  fifo_take(+Queue, ?Message) is semidet.
 %
 %   Take the first message of Queue that unifies.  Not in sig_atomic/1: if
@@ -23,15 +40,3 @@ the stacks of the thread.
 
 fifo_take(Queue, Message) :-
     thread_get_message(Queue, Message, [timeout(0)]).
-
-%!  fifo_empty(+Queue, -Messages:list) is det.
-%
-%   Take all messages of Queue.  Never waits.
-
-fifo_empty(Queue, Messages) :-
-    (   thread_peek_message(Queue, _)
-    ->  Messages = [Message|More],
-        thread_get_message(Queue, Message),
-        fifo_empty(Queue, More)
-    ;   Messages = []
-    ).

@@ -28,7 +28,7 @@ the thread of the connection, session_pending/2 is for any thread.
 */
 
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
+:- use_module('../base/fifo', [fifo_empty/2, fifo_next/2]).
 :- use_module(counts, [acknowledged/3, note_acknowledged/3]).
 :- use_module(session, [session_key/2, session_locked/2]).
 
@@ -85,7 +85,7 @@ unacked_waiting(Key) :-
 
 unacked_next(Key, Bytes) :-
     queues(Key, Sent, Waiting),
-    fifo_take(Waiting, Bytes),
+    fifo_next(Waiting, Bytes),
     !,
     thread_send_message(Sent, Bytes).
 
