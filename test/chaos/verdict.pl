@@ -188,6 +188,9 @@ depends_on_the_dead(Key) :-
     (   last_trace(Key, go(Host), _, _),
         home_of(Host, Name)
     ;   created(Key, _, _, Name-_, _)
+    ;   created(Key, _, _, Home-_, _),  % who has forgotten, and asks all
+        life(Home, _, _, Died),
+        Died \== inf
     ;   created(Key, Kind, _, _, _),    % which do not say where they go
         memberchk(Kind, [sleeper,cloner])
     ),

@@ -278,7 +278,9 @@ special(" ")           --> " ", blanks_too.
 special("")            --> "[Thread ", string(_), "] ".
 special("(_")          --> "(_", integer(_).
 special(",_")          --> ",_", integer(_).
-special("F")           --> digits([_|_]), ".", digits([_,_,_,_|_]).
+special("F")           --> digits([_|_]), ".", digits([_,_,_,_|_]), \+ letter.
+
+letter --> [C], { code_type(C, alpha) }.
 
 mark --> [C], { code_type(C, csymf) ; code_type(C, digit) }, !, mark_rest.
 

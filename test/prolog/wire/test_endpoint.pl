@@ -13,6 +13,7 @@
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/wire)).
+:- use_module(library(typhon/wire/endpoint), [endpoint_process/1]).
 
 :- dynamic
     note/1,                             % Note, posted to us
