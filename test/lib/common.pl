@@ -303,11 +303,14 @@ ended(Pid, Status) :-
 %
 %   A port of the loopback interface that is free now, and that the system
 %   gives to nobody who does not ask for it: it draws the ports of outgoing
-%   connections from a higher range.
+%   connections from a higher range. Processes that have drawn the same seed
+%   begin at different ports.
 
 free_port(Port) :-
+    current_prolog_flag(pid, Pid),
     repeat,
-    random_between(10000, 30000, Port),
+    random_between(0, 20000, Drawn),
+    Port is 10000 + (Drawn + 7919*Pid) mod 20001,
     catch(try_port(Port), error(socket_error(_, _), _), fail),
     !.
 
