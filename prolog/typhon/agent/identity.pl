@@ -24,7 +24,24 @@ agent_id(Name, Home, Id) :-
     process_mark(Mark),
     atomic_list_concat([Name, '.', Mark, N, '@', Home], Id).
 
-:- dynamic mark/1.
+:- multifile
+    ids_anew/0,                 % what is known of old ids is forgotten
+    typhon_runtime:beginning/1.
+
+:- dynamic
+    ids_anew/0,
+    mark/1.
+
+%   In virtual time the same ids come again.
+
+typhon_runtime:beginning(Kind) :-
+    retractall(mark(_)),
+    (   Kind == virtual
+    ->  flag(typhon_agent_id, _, 0),
+        assertz(mark('v.')),
+        forall(ids_anew, true)
+    ;   true
+    ).
 
 process_mark(Mark) :-
     mark(Mark),

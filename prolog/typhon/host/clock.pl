@@ -6,6 +6,7 @@
             real_time/3                 % +Host, +Seconds, -Stamp
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(time, [time_now/1]).
 
 /** <module> Host clocks
 
@@ -46,7 +47,7 @@ clock_clear(Host) :-
 
 host_time(Host, Seconds) :-
     clock(Host, Epoch, Rate),
-    get_time(Now),
+    time_now(Now),
     Seconds is (Now-Epoch)*Rate.
 
 %!  real_time(+Host, +Seconds, -Stamp:float) is semidet.

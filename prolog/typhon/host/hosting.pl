@@ -8,6 +8,7 @@
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
@@ -56,6 +57,8 @@ other users of the process its endpoint, see typhon_runtime.
 %     - place(+Module): a module all of whose predicates it offers
 %     - log(+Address): the log server
 %     - remote(+Boolean): whether remote/2 is answered, default `true`
+%     - clock(virtual): time is virtual, see typhon_virtual; so it is then
+%       for all hosts of the process, which cannot be reached from others
 %     - clock(+Epoch, +Rate): see typhon_clock
 %     - hop_time(uniform(Min, Max)): delay added to hops out of it
 %     - seed(+Integer): for the choices of migration strategies
@@ -94,6 +97,7 @@ host_option_type(services(X), ground, X).
 host_option_type(place(X), atom, X).
 host_option_type(log(X), atom, X).
 host_option_type(remote(X), boolean, X).
+host_option_type(clock(X), oneof([virtual]), X).
 host_option_type(clock(X, Y), list(number), [X,Y]).
 host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
 host_option_type(seed(X), integer, X).
@@ -103,9 +107,21 @@ start(Name, _) :-
     !,
     permission_error(start, host, Name).
 start(Name, Options) :-
-    runtime_acquire(host(Name), Options),
+    kind_of_time(Options, Kind),
+    append(Kind, Options, Options1),
+    runtime_acquire(host(Name), Options1),
     catch(start_host(Name, Options), Ball,
           ( runtime_release(host(Name)), throw(Ball) )).
+
+%   A network gives its hosts a clock of whatever kind it has.
+
+kind_of_time(Options, [time(virtual)]) :-
+    memberchk(clock(virtual), Options),
+    !.
+kind_of_time(Options, []) :-
+    memberchk(clock(_, _), Options),
+    !.
+kind_of_time(_, [time(real)]).
 
 start_host(Name, Options) :-
     endpoint_address(Endpoint),

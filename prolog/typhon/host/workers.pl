@@ -11,11 +11,11 @@
 :- use_module(census,
               [turn_begin/2, turn_end/1, worker_came/0, worker_ended/1]).
 :- use_module(held, [held_back/1]).
-:- use_module(limits, [limit_leave/2]).
 :- use_module(queue,
               [ enqueue/1, queue_watch_if_last/1, queue_watch_if_stuck/1,
                 run_queue/1 ]).
 :- use_module(timer, [timer_check/0]).
+:- use_module(work, [work_do/2]).
 
 /** <module> Workers: threads that do what is in the run queue
 
@@ -25,10 +25,6 @@ takes the next.  One that is idle for long ends, if there are enough others.
 *Threading*: the mutex of the scheduler makes the pool, and its end, whole:
 when the run queue is gone no worker is added.
 */
-
-:- multifile
-    typhon_scheduler:run/1,     % Agent: run it until it has to wait
-    prolog:message//1.
 
 :- setting(typhon_scheduler:min_workers, positive_integer, 2,
            "Workers kept when idle").
@@ -139,39 +135,10 @@ work(Work, Queue) :-
     (   held_back(Work)
     ->  true
     ;   turn_begin(Work, Turn),
-        catch(work(Work), Ball, survive(Ball)),
+        work_do(Work, enqueue),
         turn_end(Turn)
     ),
     next(Queue).
-
-work(agent(Agent)) :-
-    run_one(Agent).
-work(agent(Host, Agent)) :-
-    call_cleanup(run_one(Agent), next_turn(Host)).
-work(goal(Goal)) :-
-    (   call(Goal)
-    ->  true
-    ;   print_message(warning, typhon(goal_failed(Goal)))
-    ).
-
-run_one(Agent) :-
-    (   typhon_scheduler:run(Agent)
-    ->  true
-    ;   print_message(error, typhon(run_failed(Agent)))
-    ).
-
-next_turn(Host) :-
-    (   limit_leave(Host, Agent)
-    ->  enqueue(agent(Host, Agent))
-    ;   true
-    ).
-
-survive('$aborted') :-
-    !.
-survive(unwind(_)) :-                   % SWI-Prolog 9.3 and later
-    !.
-survive(Ball) :-
-    print_message(error, Ball).
 
 superfluous :-
     thread_self(Me),

@@ -4,12 +4,15 @@
             effect_order/4              % +Id, +Here, +Host, +Goals
           ]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module('../base/chance',
+              [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../host',
               [ alarm_set/3, host_option/2, host_resolve/2, host_time/2,
                 real_time/3, schedule/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_put/3, agent_ready/2, agent_rest/3,
-                agent_status/3, life_may_move/2, mail_take/2, with_agent/2 ]).
+              [ agent/5, agent_name/3, agent_put/3, agent_ready/2,
+                agent_rest/3, agent_status/3, life_hops/2, life_may_move/2,
+                mail_take/2, with_agent/2 ]).
 :- use_module('../travel', [hop/5, hop_clone/6]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2]).
@@ -166,13 +169,29 @@ set_out(end, _, _, _, Id-_) :-
 set_out(go, Dest, Hole, Goals, Id-Here) :-
     host_time(Here, Now),
     (   host_option(Here, hop_time(uniform(Min, Max)))
-    ->  At is Now+Min+random_float*(Max-Min),
+    ->  hop_delay(Id, Here, Min, Max, Delay),
+        At is Now+Delay,
         with_agent(Id, agent_put(Id, leaving(Dest, At),
                                  hop(Hole-Goals, Now))),
         real_time(Here, At, Stamp),
         alarm_set(Stamp, Id, leave)
     ;   hop(Id, Dest, Hole, Goals, Now)
     ).
+
+%   On hosts with a seed it follows from that, from the agent and from the
+%   number of its hops.
+
+hop_delay(Id, Here, Min, Max, Delay) :-
+    host_option(Here, seed(Seed0)),
+    !,
+    agent(Id, _, _, _, Life),
+    life_hops(Life, Hops),
+    agent_name(Id, Name, Number),
+    chance_hash(hop(Seed0, Name, Number, Hops), Seed),
+    chance_seed(Seed, Chance),
+    chance_uniform(Min, Max, Delay, Chance, _).
+hop_delay(_, _, Min, Max, Delay) :-
+    Delay is Min+random_float*(Max-Min).
 
 %   A name that no host has is like one that the other process lacks.
 

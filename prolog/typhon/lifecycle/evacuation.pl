@@ -1,6 +1,6 @@
 :- module(typhon_evacuation, []).
 :- use_module(library(lists), [member/2]).
-:- use_module('../host', [context_now/2, host_load/2, scheduler_signal/1]).
+:- use_module('../host', [context_now/2, host_load/2, time_signal/1]).
 :- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
 :- use_module(ending, [agent_end/2]).
 :- use_module(orders, [order_take/2]).
@@ -50,7 +50,7 @@ interrupt(Host, Ids) :-
            ignore(agent_end(Id, disposed))),
     (   member(Id, Ids),
         agent_status(Id, running, _)
-    ->  scheduler_signal(typhon_evacuation:stop_running(Host))
+    ->  time_signal(typhon_evacuation:stop_running(Host))
     ;   true
     ).
 

@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_call/5]).
+:- use_module('../host', [time_wait/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module('../travel', [agent_outcome/2, outcome_wait/3]).
 
@@ -48,7 +49,7 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     setup_call_cleanup(
         message_queue_create(Queue),    % who is interrupted leaves nothing
         ( outcome_wait(Agent, Seconds, queue(Queue, join)),
-          thread_get_message(Queue, outcome(join, Outcome))
+          time_wait(Queue, outcome(join, Outcome), inf)
         ),
         message_queue_destroy(Queue)).
 join(Endpoint, Agent, Seconds, Outcome) :-

@@ -4,7 +4,7 @@
           ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
-:- use_module('../host', [address_parts/3]).
+:- use_module('../host', [address_parts/3, time_now/1, time_wait/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2]).
 :- use_module('../travel', [whereabouts/2]).
 
@@ -34,7 +34,7 @@ reader threads, which never wait.
 %   @error timeout_error(order, Agent)
 
 agent_ask(Agent, Question, Seconds, Answer) :-
-    get_time(Now),
+    time_now(Now),
     Deadline is Now+Seconds,
     start_endpoint(Agent, Endpoint),
     ask(Endpoint, Agent, Question, Deadline, 16, Answer).
@@ -72,7 +72,7 @@ ask(Where, Agent, Question, Deadline, Left, Answer) :-
 %   It runs away from us: wait a little.
 
 pause(Deadline, Agent) :-
-    get_time(Now),
+    time_now(Now),
     (   Now < Deadline
     ->  thread_self(Me),
         \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)])
@@ -88,7 +88,7 @@ ask_at(here, Agent, Question, Deadline, Answer) :-
         ),
         message_queue_destroy(Queue)).
 ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
-    get_time(Now),
+    time_now(Now),
     Seconds is max(0.01, Deadline-Now),
     catch(endpoint_call(Endpoint, agent, question(Agent, Question),
                         answer(Answer), Seconds),
@@ -96,7 +96,7 @@ ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
           throw(error(host_unreachable(Endpoint), _))).
 
 wait_for(Queue, Deadline, Agent, Answer) :-
-    (   thread_get_message(Queue, Answer0, [deadline(Deadline)])
+    (   time_wait(Queue, Answer0, Deadline)
     ->  Answer = Answer0
     ;   throw(error(timeout_error(order, Agent), _))
     ).

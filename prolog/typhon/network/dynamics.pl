@@ -16,6 +16,7 @@
 :- use_module('../base/chance',
               [ chance_member/4, chance_seed/2, chance_true/4,
                 chance_uniform/5 ]).
+:- use_module('../host', [alarm_set/3, scheduler_call/1]).
 
 /** <module> Links that come and go
 
@@ -51,16 +52,24 @@ The decisions are pure: a state is a term, and the sequence of events
 follows from the seed. The times of a run differ only by how late the
 thread that applies the events is.
 
-*Threading*: dynamics_start/4 creates one thread for a whole network, which
-sleeps on its message queue until the next event is due. Hosts in other
-processes are reached from there by what OnChange does.
+*Threading*: the next event of a whole network is an alarm; a worker does
+what is due. Hosts in other processes are reached from there by what OnChange
+does.
 */
 
 :- meta_predicate
     dynamics_start(+, +, 1, -).
 
 :- multifile
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2,
     prolog:message//1.
+
+:- dynamic
+    dynamics/3,                 % Dynamics, Clock, OnChange
+    due/3,                      % Dynamics, Changes, State after them
+    changing/2,                 % Dynamics, Thread: makes changes just now
+    stopping/2.                 % Dynamics, Queue: waits for the end of that
 
                 /*******************************
                 *            MODELS            *
@@ -234,32 +243,48 @@ added(P, I, N, Ns, New, Chance0, Chance) :-
 %   OnChange is called with each change. An error in it is printed, and the
 %   next change follows. Dynamics is for dynamics_stop/1.
 
-dynamics_start(State, Clock, OnChange, dynamics(Thread, Done)) :-
-    message_queue_create(Done),
+dynamics_start(State, Clock, OnChange, Dynamics) :-
     flag(typhon_dynamics, N, N+1),
-    atom_concat(typhon_link_changer_, N, Alias),
-    thread_create(run(State, Clock, OnChange), Thread,
-                  [ alias(Alias),
-                    at_exit(thread_send_message(Done, done)) ]).
+    atom_concat(typhon_dynamics_, N, Dynamics),
+    assertz(dynamics(Dynamics, Clock, OnChange)),
+    next(Dynamics, State).
 
-run(State, Clock, OnChange) :-
-    catch(events(State, Clock, OnChange), stopped, true).
-
-events(State0, Clock, OnChange) :-
-    (   dynamics_event(State0, Time, Changes, State),
-        wait_for(Time, Clock)
-    ->  forall(member(Change, Changes), make(OnChange, Change)),
-        events(State, Clock, OnChange)
+next(Dynamics, State0) :-
+    (   dynamics(Dynamics, clock(Epoch, Rate), _),
+        dynamics_event(State0, Time, Changes, State)
+    ->  assertz(due(Dynamics, Changes, State)),
+        Stamp is Epoch+Time/Rate,
+        alarm_set(Stamp, Dynamics, links)
     ;   true
     ).
 
-%   True when Time has come, false when told to stop before.
+typhon_scheduler:fire(Dynamics, links) :-
+    !,
+    scheduler_call(typhon_dynamics:step(Dynamics)).
 
-wait_for(Time, clock(Epoch, Rate)) :-
-    get_time(Now),
-    Wait is max(0, Epoch + Time / Rate - Now),
+typhon_scheduler:over(Dynamics, links) :-
+    \+ due(Dynamics, _, _).
+
+%   In a worker: what is done for hosts of other processes may take long.
+
+step(Dynamics) :-
     thread_self(Me),
-    \+ thread_get_message(Me, stop, [timeout(Wait)]).
+    setup_call_cleanup(
+        assertz(changing(Dynamics, Me)),
+        catch(change_links(Dynamics), stop_changing, true),
+        ( nb_setval(typhon_changing, none),
+          retractall(changing(Dynamics, _)),
+          forall(stopping(Dynamics, Queue), thread_send_message(Queue, done))
+        )).
+
+change_links(Dynamics) :-
+    nb_setval(typhon_changing, Dynamics),
+    (   retract(due(Dynamics, Changes, State)),
+        dynamics(Dynamics, _, OnChange)
+    ->  forall(member(Change, Changes), make(OnChange, Change)),
+        next(Dynamics, State)
+    ;   true
+    ).
 
 make(OnChange, Change) :-
     debug(typhon(network), 'dynamics: ~p', [Change]),
@@ -274,15 +299,35 @@ make(_, Change) :-
 %   No change begins after this. One that hangs, because a process does, is
 %   interrupted after a second.
 
-dynamics_stop(dynamics(Thread, Done)) :-
-    thread_send_message(Thread, stop),
-    (   thread_get_message(Done, done, [timeout(1)])
+dynamics_stop(Dynamics) :-
+    retractall(dynamics(Dynamics, _, _)),
+    retractall(due(Dynamics, _, _)),
+    setup_call_cleanup(
+        ( message_queue_create(Queue),
+          assertz(stopping(Dynamics, Queue)) ),
+        await_change(Dynamics, Queue),
+        ( retractall(stopping(Dynamics, _)),
+          message_queue_destroy(Queue) )).
+
+await_change(Dynamics, Queue) :-
+    (   \+ changing(Dynamics, _)
     ->  true
-    ;   thread_signal(Thread, throw(stopped)),
-        thread_get_message(Done, done)
-    ),
-    thread_join(Thread, _),
-    message_queue_destroy(Done).
+    ;   thread_get_message(Queue, done, [timeout(1)])
+    ->  true
+    ;   forall(changing(Dynamics, Thread),
+               catch(thread_signal(Thread, typhon_dynamics:interrupt(Dynamics)),
+                     error(existence_error(_, _), _), true)),
+        await_change(Dynamics, Queue)
+    ).
+
+%   The signal may come when the change is over.
+
+interrupt(Dynamics) :-
+    (   nb_current(typhon_changing, Dynamics)
+    ->  nb_setval(typhon_changing, none),
+        throw(stop_changing)
+    ;   true
+    ).
 
                 /*******************************
                 *           MESSAGES           *

@@ -11,7 +11,7 @@
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
-:- use_module('../host', [runtime_acquire/2, runtime_release/1]).
+:- use_module('../host', [runtime_acquire/2, runtime_release/1, time_now/1]).
 :- use_module(log_writer, [log_writer_start/5, log_writer_stop/2]).
 
 /** <module> The log server
@@ -168,7 +168,7 @@ typhon_endpoint:received(log, event(Log, Host, Agent, What), _) :-
 stamp(Name, Host, Agent, What) :-
     server(Name, Queue, clock(Epoch, Rate)),
     !,
-    get_time(Now),
+    time_now(Now),
     Time is round((Now - Epoch) * Rate * 1000000) / 1000000.0,
     thread_send_message(Queue, event(Time, Host, Agent, What)).
 stamp(Name, _, _, _) :-

@@ -1,19 +1,23 @@
 :- module(typhon_networks,
           [ network_start/3,            % +Topology, -Network, +Options
             network_stop/1,             % +Network
+            network_advance/2,          % +Network, +Seconds
+            network_at/3,               % +Network, +Time, :Goal
             network_property/2          % ?Network, ?Property
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../host', [runtime_acquire/2, runtime_release/1]).
+:- use_module('../host',
+              [ alarm_set/3, runtime_acquire/2, runtime_release/1,
+                scheduler_call/1, time_now/1, time_wait/3 ]).
 :- use_module(dynamics, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
 :- use_module(carriers, [carrier/3]).
 :- use_module(plan,
               [ network_plan/3, plan_dynamics/2, plan_edges/2, plan_hosts/4,
-                plan_option/2, plan_processes/3 ]).
+                plan_option/2, plan_processes/3, plan_time/2 ]).
 :- use_module(processes, [carriers_start/4, carriers_stop/1]).
 :- use_module(wiring,
               [ wire_change/2, wire_forget/1, wire_hosts/3, wire_links/3,
@@ -38,7 +42,15 @@ none of its own.
 :- multifile
     prolog:message//1.
 
+:- multifile
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
+
+:- meta_predicate network_at(+, +, 0).
+
 :- dynamic
+    clock_of/2,                 % Network, clock(Epoch, Rate)
+    due/3,                      % Network, Number, Goal: see network_at/3
     network/2,                  % Network, Plan
     running/1,                  % Network
     part/2.                     % Network, log(Address, File),
@@ -64,7 +76,10 @@ none of its own.
 %     - hop_time(uniform(Min, Max))
 %       An emulated link delay in host seconds, added to every hop.
 %     - clock(Rate)
-%       Host seconds per second; default 1.
+%       Host seconds per second; default 1. With clock(virtual) nothing
+%       waits, and the same Seed gives the same events: time runs while
+%       somebody waits, in agent_join/3 and network_advance/2, and jumps to
+%       what is due next. One process.
 %     - log(File)
 %       A log server writes the events of all hosts to File, begun anew.
 %     - dynamic(Model)
@@ -109,12 +124,14 @@ build(Network, Plan) :-
     wire_links(Network, P, Edges),
     start_dynamics(Network, Clock, Plan),
     debug(typhon(network), '~w is built, ~w processes', [Network, P]),
+    assertz(clock_of(Network, Clock)),
     assertz(running(Network)).
 
 listen(Network, Plan) :-
+    plan_time(Plan, Kind),
     (   plan_option(Plan, bind(Interface))
-    ->  runtime_acquire(network(Network), [bind(Interface)])
-    ;   runtime_acquire(network(Network), [])
+    ->  runtime_acquire(network(Network), [time(Kind), bind(Interface)])
+    ;   runtime_acquire(network(Network), [time(Kind)])
     ).
 
 interface(Plan, Interface) :-
@@ -126,8 +143,9 @@ interface(Plan, Interface) :-
 %   It begins now.
 
 clock(Plan, clock(Epoch, Rate)) :-
-    get_time(Epoch),
-    (   plan_option(Plan, clock(Rate0))
+    time_now(Epoch),
+    (   plan_option(Plan, clock(Rate0)),
+        number(Rate0)
     ->  Rate = Rate0
     ;   Rate = 1
     ).
@@ -184,6 +202,8 @@ end(Network) :-
     wire_forget(Network),
     debug(typhon(network), '~w has ended', [Network]),
     retractall(part(Network, _)),
+    retractall(clock_of(Network, _)),
+    retractall(due(Network, _, _)),
     retractall(network(Network, _)).
 
 %   What goes wrong in one step must not leave the others undone.
@@ -194,6 +214,59 @@ step(Goal) :-
     !.
 step(Goal) :-
     print_message(warning, typhon(network_step(Goal))).
+
+                /*******************************
+                *             TIME             *
+                *******************************/
+
+%!  network_advance(+Network, +Seconds) is det.
+%
+%   Let Seconds pass, by the clock of the hosts: in virtual time at once.
+%
+%   @error existence_error(network, Network)
+
+network_advance(Network, Seconds) :-
+    must_be(number, Seconds),
+    clock_of_running(Network, clock(_, Rate)),
+    time_now(Now),
+    Stamp is Now+Seconds/Rate,
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        \+ time_wait(Queue, _, Stamp),
+        message_queue_destroy(Queue)).
+
+%!  network_at(+Network, +Time, :Goal) is det.
+%
+%   Run Goal once when the clock of the hosts shows Time, or as soon as may
+%   be if that is past; never, if Network is stopped before. What Goal
+%   raises is told.
+%
+%   @error existence_error(network, Network)
+
+network_at(Network, Time, Goal) :-
+    must_be(number, Time),
+    clock_of_running(Network, clock(Epoch, Rate)),
+    flag(typhon_network_at, N, N+1),
+    assertz(due(Network, N, Goal)),
+    Stamp is Epoch+Time/Rate,
+    alarm_set(Stamp, Network, at(N)).
+
+typhon_scheduler:fire(Network, at(N)) :-
+    !,
+    (   retract(due(Network, N, Goal))
+    ->  scheduler_call(Goal)
+    ;   true
+    ).
+
+typhon_scheduler:over(Network, at(N)) :-
+    \+ due(Network, N, _).
+
+clock_of_running(Network, Clock) :-
+    must_be(atom, Network),
+    (   running(Network)
+    ->  clock_of(Network, Clock)
+    ;   existence_error(network, Network)
+    ).
 
                 /*******************************
                 *          PROPERTIES          *

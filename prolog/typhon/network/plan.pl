@@ -1,14 +1,15 @@
 :- module(typhon_plan,
           [ network_plan/3,             % +Topology, +Options, -Plan
             plan_option/2,              % +Plan, ?Option
+            plan_time/2,                % +Plan, -Kind
             plan_processes/3,           % +Plan, -P, -Machines
             plan_hosts/4,               % +Plan, +P, +Common, -Hosts
             plan_edges/2,               % +Plan, -Edges
             plan_dynamics/2             % +Plan, -State
           ]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(lists), [append/3, nth1/3]).
+:- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
+:- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(random), [random_between/3]).
 :- use_module(dynamics, [dynamics_model/2, dynamics_state/5]).
@@ -29,6 +30,7 @@ seed.
 network_plan(Topology, Options0, plan(Names, Edges, Options)) :-
     must_be(list, Options0),
     maplist(check_option, Options0),
+    check_virtual(Options0),
     seeded(Options0, Seed, Options),
     topology_edges(Topology, Seed, _, Edges),
     topology_names(Topology, Names).
@@ -69,12 +71,28 @@ check_hop_time(Time) :-
     ;   domain_error(hop_time, Time)
     ).
 
+check_rate(virtual) :-
+    !.
 check_rate(Rate) :-
     must_be(number, Rate),
     (   Rate > 0
     ->  true
     ;   domain_error(clock_rate, Rate)
     ).
+
+%   What is virtual happens in one process.
+
+check_virtual(Options) :-
+    (   memberchk(clock(virtual), Options),
+        member(Option, Options),
+        elsewhere(Option)
+    ->  permission_error(carry, virtual_time, Option)
+    ;   true
+    ).
+
+elsewhere(processes(P)) :-
+    P > 1.
+elsewhere(machines([_|_])).
 
 seeded(Options, Seed, Options) :-
     option(seed(Seed), Options),
@@ -85,6 +103,16 @@ seeded(Options, Seed, [seed(Seed)|Options]) :-
                 /*******************************
                 *             PARTS            *
                 *******************************/
+
+%!  plan_time(+Plan, -Kind) is det.
+%
+%   Kind is `real` or `virtual`.
+
+plan_time(Plan, Kind) :-
+    (   plan_option(Plan, clock(virtual))
+    ->  Kind = virtual
+    ;   Kind = real
+    ).
 
 %!  plan_processes(+Plan, -P, -Machines) is det.
 %

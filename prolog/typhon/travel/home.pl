@@ -11,7 +11,7 @@
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
-:- use_module('../host', [alarm_set/3]).
+:- use_module('../host', [alarm_set/3, time_now/1]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 
 /** <module> What a home knows of its agents
@@ -37,9 +37,15 @@ its agents what they tell it.
     waiter/3.                   % Id, Token, Asker
 
 :- multifile
+    typhon_identity:ids_anew/0,
     typhon_endpoint:requested/4,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
+
+typhon_identity:ids_anew :-
+    retractall(born(_, _, _, _)),
+    retractall(outcome(_, _)),
+    retractall(waiter(_, _, _)).
 
 %!  agent_born(+Id, +Address) is det.
 
@@ -147,7 +153,7 @@ wait_or_answer(Id, Seconds, Asker, wait) :-
     flag(typhon_waiter, Token, Token+1),
     assertz(waiter(Id, Token, Asker)),
     (   number(Seconds)
-    ->  get_time(Now),
+    ->  time_now(Now),
         Stamp is Now+Seconds,
         alarm_set(Stamp, Id, join(Token))
     ;   true

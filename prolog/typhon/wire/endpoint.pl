@@ -1,5 +1,6 @@
 :- module(typhon_endpoint,
           [ endpoint_start/3,           % +Interface, +Port, -Address
+            endpoint_start_alone/1,     % +Address
             endpoint_stop/0,
             endpoint_address/1,         % -Address
             endpoint_process/1          % -Id
@@ -31,6 +32,7 @@ that peer is read. They may post, request and reply.
                 tcp_socket/1 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
+:- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
 :- use_module(auth, [cookie/1, random_hex/2]).
 :- use_module(hello, [hello/4]).
 :- use_module(keeper, [keep/1, keeper_unheard/1]).
@@ -74,7 +76,7 @@ endpoint_start(Interface, Port, Address) :-
     with_mutex(typhon_endpoint, start(Interface, Port, Address)).
 
 start(_, _, _) :-
-    running(Address, _, _, _),
+    endpoint_address(Address),
     !,
     permission_error(start, endpoint, Address).
 start(Interface0, Port, Address) :-
@@ -94,6 +96,22 @@ start(Interface0, Port, Address) :-
     assertz(running(Address, Socket, Acceptor, Keeper)),
     debug(typhon(session), 'endpoint: starts at ~w, ~w.~w',
           [Address, Process, Start]).
+
+%!  endpoint_start_alone(+Address) is det.
+%
+%   Have an endpoint that reaches nobody but itself, see typhon_alone.
+%
+%   @error permission_error(start, endpoint, Address) one is running.
+
+endpoint_start_alone(Address) :-
+    with_mutex(typhon_endpoint, start_alone(Address)).
+
+start_alone(_) :-
+    endpoint_address(Address),
+    !,
+    permission_error(start, endpoint, Address).
+start_alone(Address) :-
+    alone_begin(Address).
 
 listen(Interface, Port, Bound, Socket) :-
     (   Port =:= 0
@@ -145,12 +163,15 @@ stop :-
     forall(session(_, Session),
            ( session_close(Session, Unsent),
              requests_lost(Session, Unsent) )).
-stop.
+stop :-
+    alone_end.
 
 %!  endpoint_address(-Address) is semidet.
 
 endpoint_address(Address) :-
     running(Address, _, _, _).
+endpoint_address(Address) :-
+    alone(Address).
 
 %!  endpoint_process(-Id) is det.
 %

@@ -17,6 +17,7 @@ block it, unless it is in a hook of the endpoint.
 */
 
 :- use_module(library(error), [existence_error/2]).
+:- use_module(alone, [alone/1, alone_post/3, alone_request/4]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(keeper, [keeper_connect/1]).
@@ -41,6 +42,10 @@ block it, unless it is in a hook of the endpoint.
 %   @error type_error(mobile_term, Culprit)
 
 endpoint_post(Address, Kind, Term) :-
+    alone(_),
+    !,
+    alone_post(Address, Kind, Term).
+endpoint_post(Address, Kind, Term) :-
     (   way(Address, Session)
     ->  true
     ;   connect(Address, Session)
@@ -53,6 +58,10 @@ endpoint_post(Address, Kind, Term) :-
 %
 %   As endpoint_post/3 if there is a connection; fails at once if not.
 
+endpoint_post_up(Address, Kind, Term) :-
+    alone(Address),
+    !,
+    alone_post(Address, Kind, Term).
 endpoint_post_up(Address, Kind, Term) :-
     open_way(Address, Session),
     catch(session_send(Session, post(Kind, Term)),
@@ -98,6 +107,10 @@ check_running :-
 %   it must be quick. Result is answer(Term), `unreachable` (it certainly
 %   never arrived) or `lost` (it may have). Does not block.
 
+endpoint_request(Address, Kind, Term, OnAnswer) :-
+    alone(_),
+    !,
+    alone_request(Address, Kind, Term, OnAnswer).
 endpoint_request(Address, Kind, Term, OnAnswer) :-
     way(Address, Session),
     !,

@@ -7,6 +7,8 @@
             requests_lost/2,            % +Session, +Unsent
             session_unfinished/1,       % +Session
             dispatch/2,                 % +Session, +Frame
+            take_post/3,                % +Kind, +Term, +Peer
+            take_request/4,             % +Kind, +Term, +Peer, +ReplyTo
             connection_is/2             % +Session, +State
           ]).
 
@@ -64,9 +66,14 @@ request_forget(OnAnswer) :-
     retractall(open_request(_, _, OnAnswer)).
 
 %!  request_reply(+ReplyTo, +Term) is det.
+%
+%   ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see typhon_alone.
 
 request_reply(reply_to(Session, Id), Term) :-
     session_send(Session, answer(Id, Term)).
+request_reply(alone(OnAnswer), Term) :-
+    copy_term(Term, Copy),
+    request_answer(answer(Copy), OnAnswer).
 
 %!  request_reply_later(+ReplyTo, +Term) is det.
 %
@@ -74,6 +81,8 @@ request_reply(reply_to(Session, Id), Term) :-
 
 request_reply_later(reply_to(Session, Id), Term) :-
     session_send_later(Session, answer(Id, Term)).
+request_reply_later(alone(OnAnswer), Term) :-
+    request_reply(alone(OnAnswer), Term).
 
 %!  session_unfinished(+Session) is semidet.
 %
@@ -115,12 +124,11 @@ conclude(Result, Id, Key) :-
 dispatch(Session, post(Kind, Term)) :-
     !,
     session_peer(Session, _, Peer),
-    guarded(typhon_endpoint:received(Kind, Term, Peer), Kind).
+    take_post(Kind, Term, Peer).
 dispatch(Session, request(Id, Kind, Term)) :-
     !,
     session_peer(Session, _, Peer),
-    (   attempt(typhon_endpoint:requested(Kind, Term, Peer,
-                                          reply_to(Session, Id)), Kind)
+    (   take_request(Kind, Term, Peer, reply_to(Session, Id))
     ->  true
     ;   guarded(session_send(Session, spoilt(Id)), Kind)
     ).
@@ -134,6 +142,17 @@ dispatch(Session, spoilt(Id)) :-
     conclude(lost, Id, Key).
 dispatch(_, Frame) :-                   % of a later version, or damaged
     print_message(warning, typhon(endpoint, unknown_frame(Frame))).
+
+%!  take_post(+Kind, +Term, +Peer) is det.
+%!  take_request(+Kind, +Term, +Peer, +ReplyTo) is semidet.
+%
+%   Hand over what Peer sent.  The latter fails if nobody takes it.
+
+take_post(Kind, Term, Peer) :-
+    guarded(typhon_endpoint:received(Kind, Term, Peer), Kind).
+
+take_request(Kind, Term, Peer, ReplyTo) :-
+    attempt(typhon_endpoint:requested(Kind, Term, Peer, ReplyTo), Kind).
 
 %!  connection_is(+Session, +State) is det.
 %

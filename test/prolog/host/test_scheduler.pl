@@ -11,6 +11,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/base/own_thread)).
 :- use_module(library(typhon/host/scheduler)).
+:- use_module(library(typhon/host/time), [time_start/1, time_stop/0]).
 :- use_module(library(typhon/host/timer)).
 :- use_module(library(typhon/host/workers)).
 
@@ -51,8 +52,12 @@ scheduling(Goal) :-
 scheduling(Settings, Goal) :-
     forget,
     with_settings(Settings,
-        no_leaks(setup_call_cleanup(scheduler_start, once(Goal),
-                                    in_own_thread(scheduler_stop)))).
+        no_leaks(setup_call_cleanup(time_start(real), once(Goal),
+                                    in_own_thread(stop)))).
+
+stop :-
+    time_stop,
+    scheduler_forget.
 
 forget :-
     retractall(event(_)).
@@ -95,9 +100,9 @@ test(survives_errors, true(N == 20)) :-
 test(starts_with_the_minimum, N == 2) :-
     scheduling(workers_count(N)).
 test(start_twice, N == 2) :-
-    scheduling(( scheduler_start, workers_count(N) )).
+    scheduling(( time_start(real), workers_count(N) )).
 test(stop_twice) :-
-    scheduler_stop.
+    time_stop.
 test(grows_when_workers_are_blocked, N == 40) :-
     message_queue_create(Q),
     scheduling(( forall(between(1, 40, I),

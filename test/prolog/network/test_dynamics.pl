@@ -9,6 +9,7 @@
                 same_length/2, subtract/3, sum_list/2
               ]).
 :- use_module(library(yall)).
+:- use_module(library(typhon/host), [runtime_acquire/2, runtime_release/1]).
 :- use_module(library(typhon/network/dynamics)).
 :- use_module(library(typhon/network/topology)).
 
@@ -158,8 +159,13 @@ start(Spec, Rate, OnChange, Dynamics) :-
     dynamics_model(Spec, Model),
     topology_edges(grid(6, 10), 1, N, Edges),
     dynamics_state(Model, N, Edges, 1, State),
+    runtime_acquire(test_dynamics, []),
     get_time(Now),
     dynamics_start(State, clock(Now, Rate), OnChange, Dynamics).
+
+stop(Dynamics) :-
+    dynamics_stop(Dynamics),
+    runtime_release(test_dynamics).
 
 test(changes_come_in_order_at_the_pace_of_the_clock, Got == Expected) :-
     no_leaks(( message_queue_create(Queue),
@@ -170,7 +176,7 @@ test(changes_come_in_order_at_the_pace_of_the_clock, Got == Expected) :-
                          thread_get_message(Queue, Change, [timeout(20)]) ),
                        Got),
                get_time(T1),
-               dynamics_stop(Dynamics),
+               stop(Dynamics),
                message_queue_destroy(Queue) )),
     history(random_links, grid(6, 10), 1, 200, _, _, Events),
     findall(C, ( member(_-Cs, Events), member(C, Cs) ), All),
@@ -185,7 +191,7 @@ test(changes_come_in_order_at_the_pace_of_the_clock, Got == Expected) :-
 test(stops_at_once, true(Took < 5)) :-
     no_leaks(( start(random_links, 1, nothing, Dynamics),
                get_time(T0),
-               dynamics_stop(Dynamics),
+               stop(Dynamics),
                get_time(T1),
                Took is T1 - T0 )).
 test(stops_when_a_change_hangs, true(Took < 10)) :-
@@ -193,7 +199,7 @@ test(stops_when_a_change_hangs, true(Took < 10)) :-
                start(links(uniform(1, 1), 1, 1), 1000, hang(Queue), Dynamics),
                thread_get_message(Queue, hanging, [timeout(5)]),
                get_time(T0),
-               dynamics_stop(Dynamics),
+               stop(Dynamics),
                get_time(T1),
                Took is T1 - T0,
                message_queue_destroy(Queue) )).
@@ -202,7 +208,7 @@ test(an_error_does_not_end_it) :-
                start(links(uniform(1, 1), 1, 1), 1000, fault(Queue), Dynamics),
                forall(between(1, 5, _),
                       thread_get_message(Queue, _, [timeout(5)])),
-               dynamics_stop(Dynamics),
+               stop(Dynamics),
                message_queue_destroy(Queue) )).
 
 due(N, [Time-Changes|Events], Due) :-

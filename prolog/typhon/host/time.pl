@@ -1,0 +1,127 @@
+:- module(typhon_time,
+          [ time_start/1,               % +Kind
+            time_stop/0,
+            time_kind/1,                % ?Kind
+            time_now/1,                 % -Stamp
+            time_work/1,                % +Work
+            time_wait/3,                % +Queue, -Message, +Stamp
+            time_signal/1,              % :Goal
+            alarm_set/3                 % +Stamp, +Agent, +Token
+          ]).
+:- use_module(pool, [pool_signal/1, pool_start/0, pool_stop/0]).
+:- use_module(queue, [enqueue/1]).
+:- use_module(timer, [alarm_set/3 as timer_set]).
+:- use_module(virtual,
+              [ virtual_alarm/3, virtual_signal/1, virtual_start/0,
+                virtual_stop/0, virtual_wait/3, virtual_work/1 ]).
+:- use_module(virtual_loop, [virtual_now/1]).
+
+/** <module> The kinds of time
+
+Work that is to be done, alarms that are to go off and those who wait are
+seen to in one of two ways:
+
+  | real    | by a pool of threads, when the time of day has come: room pool |
+  | virtual | by one thread, as quick as it can; time jumps: room virtual   |
+
+A process has one kind of time for as long as it has hosts.  Stamps are
+seconds: those of the time of day, or those since virtual time began.
+
+*Threading*: any thread; time_start/1 and time_stop/0 are called by one at a
+time.
+*/
+
+:- meta_predicate time_signal(0).
+
+:- dynamic time_kind/1.                 % real or virtual: while it runs
+
+%!  time_kind(?Kind) is semidet.
+%
+%   Time runs, and is of that Kind.
+
+%!  time_start(+Kind) is det.
+%!  time_stop is det.
+%
+%   Nothing to do where it runs already, or not.
+
+time_start(Kind) :-
+    time_kind(Kind),
+    !.
+time_start(Kind) :-
+    start(Kind),
+    assertz(time_kind(Kind)).
+
+time_stop :-
+    (   retract(time_kind(Kind))
+    ->  stop(Kind)
+    ;   true
+    ).
+
+start(real)    :- pool_start.
+start(virtual) :- virtual_start.
+
+stop(real)    :- pool_stop.
+stop(virtual) :- virtual_stop.
+
+%!  time_now(-Stamp:float) is det.
+
+time_now(Stamp) :-
+    time_kind(virtual),
+    !,
+    virtual_now(Stamp).
+time_now(Stamp) :-
+    get_time(Stamp).
+
+%!  time_work(+Work) is det.
+%
+%   Work, see room `work`, is done some time soon.
+
+time_work(Work) :-
+    time_kind(Kind),
+    !,
+    work(Kind, Work).
+time_work(_).                           % stopping
+
+work(real, Work)    :- enqueue(Work).
+work(virtual, Work) :- virtual_work(Work).
+
+%!  alarm_set(+Stamp, +Agent, +Token) is det.
+%
+%   Have fire(Agent, Token) called at Stamp.
+
+alarm_set(Stamp, Agent, Token) :-
+    time_kind(Kind),
+    !,
+    alarm_set(Kind, Stamp, Agent, Token).
+alarm_set(_, _, _).
+
+alarm_set(real, Stamp, Agent, Token)    :- timer_set(Stamp, Agent, Token).
+alarm_set(virtual, Stamp, Agent, Token) :- virtual_alarm(Stamp, Agent, Token).
+
+%!  time_wait(+Queue, -Message, +Stamp) is semidet.
+%
+%   Take the first Message of Queue, from which nobody else takes.  Fails if
+%   there is none before Stamp, a number or `inf`.
+
+time_wait(Queue, Message, Stamp) :-
+    time_kind(virtual),
+    !,
+    virtual_wait(Queue, Message, Stamp).
+time_wait(Queue, Message, inf) :-
+    !,
+    thread_get_message(Queue, Message).
+time_wait(Queue, Message, Stamp) :-
+    thread_get_message(Queue, Message, [deadline(Stamp)]).
+
+%!  time_signal(:Goal) is det.
+%
+%   Run Goal in all threads that do work, in the middle of whatever they do.
+
+time_signal(Goal) :-
+    time_kind(Kind),
+    !,
+    signal(Kind, Goal).
+time_signal(_).
+
+signal(real, Goal)    :- pool_signal(Goal).
+signal(virtual, Goal) :- virtual_signal(Goal).

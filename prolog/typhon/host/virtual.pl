@@ -1,0 +1,184 @@
+:- module(typhon_virtual,
+          [ virtual_start/0,
+            virtual_stop/0,
+            virtual_work/1,             % +Work
+            virtual_alarm/3,            % +Stamp, +Agent, +Token
+            virtual_wait/3,             % +Queue, -Message, +Stamp
+            virtual_signal/1            % :Goal
+          ]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(virtual_loop,
+              [ virtual_begin/0, virtual_doing/1, virtual_loop/1,
+                virtual_now/1, virtual_steps/1 ]).
+
+/** <module> Virtual time: nothing waits
+
+One thread does all work, in the order in which it came.  When there is no
+more, the clock jumps to the next alarm.  What is done thus follows from the
+programs alone: not from how busy the machine is, nor from other threads.
+
+Time runs while somebody waits, in virtual_wait/3, and stands still from the
+moment at which what he waits for is there.  So whoever writes a program that
+starts agents, waits, looks, and waits again finds the same each time.
+
+A native goal takes no time.  One that does not end, and agents that go on
+for ever at one instant, are told of.
+
+*Threading*: any thread may call, and what two of them do at the same time
+comes in any order; with one there is no chance.
+*/
+
+:- multifile
+    prolog:message//1.
+
+:- meta_predicate virtual_signal(0).
+
+:- setting(patience, number, 10,
+           "Virtual time that stands still for so long is told of").
+
+:- dynamic
+    loop/2.                             % Thread, Queue
+
+                /*******************************
+                *         START AND STOP       *
+                *******************************/
+
+%!  virtual_start is det.
+%!  virtual_stop is det.
+%
+%   Time begins at 0.0, and stands still.  It ends, and what was to be done
+%   is forgotten; a goal that runs is interrupted.
+
+virtual_start :-
+    message_queue_create(Queue),
+    virtual_begin,
+    thread_create(virtual_loop(Queue), Thread, [alias(typhon_virtual_time)]),
+    assertz(loop(Thread, Queue)).
+
+virtual_stop :-
+    retract(loop(Thread, Queue)),
+    !,
+    thread_send_message(Queue, ask(stop)),
+    end(Thread, 500),
+    message_queue_destroy(Queue).
+virtual_stop.
+
+end(Thread, _) :-
+    \+ thread_property(Thread, status(running)),
+    !,
+    thread_join(Thread, _).
+end(Thread, 0) :-
+    !,
+    print_message(warning, typhon(stuck_worker(Thread))),
+    thread_detach(Thread).
+end(Thread, Tries) :-
+    thread_self(Me),
+    \+ thread_get_message(Me, '$typhon_never', [timeout(0.002)]),
+    (   Tries mod 50 =:= 0
+    ->  catch(thread_signal(Thread, abort), error(_, _), true)
+    ;   true
+    ),
+    Tries1 is Tries-1,
+    end(Thread, Tries1).
+
+%!  virtual_work(+Work) is det.
+%!  virtual_alarm(+Stamp, +Agent, +Token) is det.
+%
+%   What is to be done as soon as time runs, and what at Stamp.  Of two
+%   alarms at the same Stamp the one that was set first goes off first.
+
+virtual_work(Work) :-
+    tell(do(Work)).
+
+virtual_alarm(Stamp0, Agent, Token) :-
+    Stamp is float(Stamp0),
+    tell(alarm(Stamp, Agent-Token)).
+
+tell(Message) :-
+    (   loop(_, Queue)
+    ->  catch(thread_send_message(Queue, Message),
+              error(existence_error(_, _), _), true)
+    ;   true                            % it has ended
+    ).
+
+%!  virtual_signal(:Goal) is det.
+
+virtual_signal(Goal) :-
+    forall(loop(Thread, _),
+           catch(thread_signal(Thread, Goal),
+                 error(existence_error(_, _), _), true)).
+
+                /*******************************
+                *            WAITING           *
+                *******************************/
+
+%!  virtual_wait(+Queue, -Message, +Stamp) is semidet.
+%
+%   Let time run until there is a Message in Queue, which is taken; fails at
+%   Stamp, a number or `inf`.  Who is asked by an agent cannot wait: for as
+%   long as a goal runs there is no time.
+
+virtual_wait(Queue, Message, _) :-
+    there(Queue),
+    !,
+    thread_get_message(Queue, Message).
+virtual_wait(Queue, Message, Stamp) :-
+    loop(Thread, Loop),
+    \+ thread_self(Thread),
+    setup_call_cleanup(
+        message_queue_create(Reply),
+        ( thread_send_message(Loop, ask(wait(Reply, Queue, Stamp))),
+          answer(Reply, Answer)
+        ),
+        ( tell(ask(no_longer(Reply))),
+          message_queue_destroy(Reply)
+        )),
+    Answer == there,
+    thread_get_message(Queue, Message).
+
+there(Queue) :-
+    message_queue_property(Queue, size(Size)),
+    Size > 0.
+
+%   Meanwhile it is watched that something goes on.
+
+answer(Reply, Answer) :-
+    setting(patience, Seconds),
+    course(Course),
+    (   thread_get_message(Reply, Answer0, [timeout(Seconds)])
+    ->  Answer = Answer0
+    ;   complain(Course),
+        answer(Reply, Answer)
+    ).
+
+course(course(Now, Steps)) :-
+    virtual_now(Now),
+    virtual_steps(Steps).
+
+complain(course(Now, Steps0)) :-
+    course(course(Now, Steps)),
+    !,
+    (   Steps-Steps0 =< 1               % it may just have begun
+    ->  virtual_signal(typhon_virtual:tell_who)
+    ;   print_message(warning, typhon(virtual_busy(Now)))
+    ).
+complain(_).
+
+%   In the thread of virtual time, in the middle of what keeps it.
+
+tell_who :-
+    (   virtual_doing(Work)
+    ->  virtual_now(Now),
+        print_message(warning, typhon(virtual_stuck(Work, Now)))
+    ;   true
+    ).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(virtual_stuck(Work, Now))) -->
+    [ 'Virtual time stands still at ~3f: this does not end: ~p'-[Now, Work] ].
+prolog:message(typhon(virtual_busy(Now))) -->
+    [ 'Virtual time stands still at ~3f: there is always more to do at this \c
+       instant'-[Now] ].

@@ -1,0 +1,194 @@
+:- module(typhon_virtual_loop,
+          [ virtual_begin/0,
+            virtual_loop/1,             % +Queue
+            virtual_now/1,              % -Stamp
+            virtual_steps/1,            % -Count
+            virtual_doing/1             % -Work
+          ]).
+:- use_module(library(apply), [exclude/3, partition/4]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(heaps),
+              [add_to_heap/4, empty_heap/1, get_from_heap/4, min_of_heap/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(work, [work_do/2]).
+
+/** <module> The thread of virtual time
+
+It hears in one queue of what is to be done, in order:
+
+  | do(Work)                  | see room `work`                          |
+  | alarm(Stamp, Agent-Token) | of two at one Stamp the first goes first |
+  | ask(wait(Reply, Waited, Stamp)) | somebody waits for a message in Waited, until Stamp; Reply will hear `there` or `late` |
+  | ask(no_longer(Reply))     | he does not                              |
+  | ask(stop)                 |                                          |
+
+While nobody waits it takes but what is asked: time stands still.
+
+*Threading*: the heap of alarms and the list of those who wait are on the
+stack of this thread. The time and the number of steps are flags, which any
+thread may ask for.
+*/
+
+:- multifile
+    typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
+    prolog:message//1.
+
+%!  virtual_begin is det.
+%
+%   Time is 0.0.
+
+virtual_begin :-
+    flag(typhon_virtual_now, _, 0.0),
+    flag(typhon_virtual_steps, _, 0).
+
+%!  virtual_loop(+Queue) is det.
+%
+%   Until ask(stop) comes. What agents draw by library(random) comes from the
+%   generator of this thread: it begins alike each time.
+
+virtual_loop(Queue) :-
+    set_random(seed(1)),
+    empty_heap(Alarms),
+    stand(Queue, alarms(0, Alarms)).
+
+%!  virtual_now(-Stamp:float) is det.
+%!  virtual_steps(-Count) is det.
+
+virtual_now(Stamp) :-
+    flag(typhon_virtual_now, Stamp, Stamp).
+
+virtual_steps(Count) :-
+    flag(typhon_virtual_steps, Count, Count).
+
+%!  virtual_doing(-Work) is semidet.
+%
+%   What this thread is about to do, if it is that of virtual time.
+
+virtual_doing(Work) :-
+    nb_current(typhon_virtual_work, Work),
+    Work \== none.
+
+                /*******************************
+                *           THE LOOP           *
+                *******************************/
+
+%   stand(+Queue, +Alarms): nobody waits.  Alarms is alarms(Count, Heap), by
+%   the keys at(Stamp, Number).
+
+stand(Queue, Alarms) :-
+    thread_get_message(Queue, ask(Ask)),
+    asked(Ask, [], Queue, Alarms).
+
+asked(stop, _, _, _) :-
+    !.
+asked(wait(Reply, Waited, Stamp), Waiting0, Queue, Alarms) :-
+    !,
+    satisfied([waits(Reply, Waited, Stamp)|Waiting0], Waiting),
+    go(Waiting, Queue, Alarms).
+asked(no_longer(Reply), Waiting0, Queue, Alarms) :-
+    exclude(is_of(Reply), Waiting0, Waiting),
+    go(Waiting, Queue, Alarms).
+
+is_of(Reply, waits(Reply, _, _)).
+
+%   go(+Waiting, +Queue, +Alarms)
+
+go([], Queue, Alarms) :-
+    !,
+    stand(Queue, Alarms).
+go(Waiting, Queue, Alarms) :-
+    (   there(Queue)
+    ->  thread_get_message(Queue, Message),
+        step(Message, Waiting, Queue, Alarms)
+    ;   jump(Waiting, Queue, Alarms)
+    ).
+
+step(do(Work), Waiting0, Queue, Alarms) :-
+    flag(typhon_virtual_steps, Steps, Steps+1),
+    nb_setval(typhon_virtual_work, Work),
+    work_do(Work, again(Queue)),
+    nb_setval(typhon_virtual_work, none),
+    satisfied(Waiting0, Waiting),
+    go(Waiting, Queue, Alarms).
+step(alarm(Stamp, What), Waiting, Queue, alarms(Count0, Heap0)) :-
+    add_to_heap(Heap0, at(Stamp, Count0), What, Heap),
+    Count is Count0+1,
+    go(Waiting, Queue, alarms(Count, Heap)).
+step(ask(Ask), Waiting, Queue, Alarms) :-
+    asked(Ask, Waiting, Queue, Alarms).
+
+again(Queue, Work) :-
+    thread_send_message(Queue, do(Work)).
+
+%   There is nothing more to do at this instant.
+
+jump(Waiting, Queue, alarms(Count, Heap)) :-
+    first_end(Waiting, End),
+    (   min_of_heap(Heap, at(Stamp, _), _),
+        before(Stamp, End)
+    ->  get_from_heap(Heap, _, What, Heap1),
+        pass_to(Stamp),
+        go_off(What),
+        satisfied(Waiting, Waiting1),
+        go(Waiting1, Queue, alarms(Count, Heap1))
+    ;   number(End)
+    ->  pass_to(End),
+        partition(ends_at(End), Waiting, Late, Waiting1),
+        forall(member(waits(Reply, _, _), Late), reply(Reply, late)),
+        go(Waiting1, Queue, alarms(Count, Heap))
+    ;   print_message(warning, typhon(virtual_nothing_due)),
+        thread_get_message(Queue, Message),
+        step(Message, Waiting, Queue, alarms(Count, Heap))
+    ).
+
+first_end([], inf).
+first_end([waits(_, _, End0)|Waiting], End) :-
+    first_end(Waiting, End1),
+    (   before(End0, End1)
+    ->  End = End0
+    ;   End = End1
+    ).
+
+before(_, inf) :-
+    !.
+before(Stamp, End) :-
+    number(Stamp),
+    Stamp =< End.
+
+ends_at(End, waits(_, _, End0)) :-
+    number(End0),
+    End0 =< End.
+
+pass_to(Stamp) :-
+    flag(typhon_virtual_now, Now, max(Now, float(Stamp))).
+
+go_off(Agent-Token) :-
+    debug(typhon(scheduler), 'alarm ~p of ~p', [Token, Agent]),
+    catch(ignore(typhon_scheduler:fire(Agent, Token)), error(Formal, Where),
+          print_message(error, error(Formal, Where))).
+
+there(Queue) :-
+    message_queue_property(Queue, size(Size)),
+    Size > 0.
+
+%   satisfied(+Waiting0, -Waiting): those who have what they wait for hear of
+%   it.
+
+satisfied(Waiting0, Waiting) :-
+    partition(has_got, Waiting0, Happy, Waiting),
+    forall(member(waits(Reply, _, _), Happy), reply(Reply, there)).
+
+has_got(waits(_, Queue, _)) :-
+    catch(there(Queue), error(existence_error(_, _), _), true).
+
+reply(Reply, Answer) :-
+    catch(thread_send_message(Reply, Answer), error(existence_error(_, _), _),
+          true).                        % who waited was interrupted
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(virtual_nothing_due)) -->
+    [ 'Virtual time has come to its end: no agent is ready, and nothing is \c
+       due'-[] ].
