@@ -7,6 +7,7 @@
             virtual_signal/1            % :Goal
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module(virtual_loop,
               [ virtual_begin/0, virtual_doing/1, virtual_loop/1,
                 virtual_now/1, virtual_steps/1 ]).
@@ -59,27 +60,9 @@ virtual_stop :-
     retract(loop(Thread, Queue)),
     !,
     thread_send_message(Queue, ask(stop)),
-    end(Thread, 500),
+    stop_thread(Thread),
     message_queue_destroy(Queue).
 virtual_stop.
-
-end(Thread, _) :-
-    \+ thread_property(Thread, status(running)),
-    !,
-    thread_join(Thread, _).
-end(Thread, 0) :-
-    !,
-    print_message(warning, typhon(stuck_worker(Thread))),
-    thread_detach(Thread).
-end(Thread, Tries) :-
-    thread_self(Me),
-    \+ thread_get_message(Me, '$typhon_never', [timeout(0.002)]),
-    (   Tries mod 50 =:= 0
-    ->  catch(thread_signal(Thread, abort), error(_, _), true)
-    ;   true
-    ),
-    Tries1 is Tries-1,
-    end(Thread, Tries1).
 
 %!  virtual_work(+Work) is det.
 %!  virtual_alarm(+Stamp, +Agent, +Token) is det.

@@ -8,6 +8,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module(census,
               [turn_begin/2, turn_end/1, worker_came/0, worker_ended/1]).
 :- use_module(held, [held_back/1]).
@@ -84,30 +85,8 @@ replace_worker(_).
 workers_end(Queue) :-
     findall(Worker, worker(Worker), Workers),
     forall(member(_, Workers), thread_send_message(Queue, stop)),
-    maplist(end_worker(1000), Workers),
+    maplist(stop_thread, Workers),
     retractall(worker(_)).
-
-end_worker(_, Worker) :-
-    \+ thread_property(Worker, status(running)),
-    !,
-    thread_join(Worker, _).
-end_worker(0, Worker) :-
-    !,
-    print_message(warning, typhon(stuck_worker(Worker))),
-    thread_detach(Worker).
-end_worker(Tries, Worker) :-
-    thread_self(Me),
-    \+ thread_get_message(Me, '$typhon_never', [timeout(0.002)]),
-    interrupt(Tries, Worker),
-    Tries1 is Tries-1,
-    end_worker(Tries1, Worker).
-
-interrupt(Tries, Worker) :-
-    (   Tries =< 500,
-        Tries mod 50 =:= 0
-    ->  catch(thread_signal(Worker, abort), error(_, _), true)
-    ;   true
-    ).
 
                 /*******************************
                 *             WORK             *

@@ -1,0 +1,39 @@
+:- module(typhon_stop_thread,
+          [ stop_thread/1               % +Thread
+          ]).
+
+/** <module> The end of threads that run what others wrote
+
+*Threading*: any thread but the one that is to end.
+*/
+
+%!  stop_thread(+Thread) is det.
+%
+%   Join Thread, which has been told to end.  After a second it is aborted,
+%   in the middle of whatever it does, again and again; after another one it
+%   is left to itself, and that is told.
+
+stop_thread(Thread) :-
+    stop_thread(1000, Thread).
+
+stop_thread(_, Thread) :-
+    \+ thread_property(Thread, status(running)),
+    !,
+    thread_join(Thread, _).
+stop_thread(0, Thread) :-
+    !,
+    print_message(warning, typhon(stuck_worker(Thread))),
+    thread_detach(Thread).
+stop_thread(Tries, Thread) :-
+    thread_self(Me),
+    \+ thread_get_message(Me, '$typhon_never', [timeout(0.002)]),
+    interrupt(Tries, Thread),
+    Tries1 is Tries-1,
+    stop_thread(Tries1, Thread).
+
+interrupt(Tries, Thread) :-
+    (   Tries =< 500,
+        Tries mod 50 =:= 0
+    ->  catch(thread_signal(Thread, abort), error(_, _), true)
+    ;   true
+    ).
