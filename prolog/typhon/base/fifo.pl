@@ -35,8 +35,40 @@ fifo_empty(Queue, Messages) :-
 
 %!  fifo_take(+Queue, ?Message) is semidet.
 %
-%   Take the first message of Queue that unifies.  Not in sig_atomic/1: if
-%   there is none this is a wait that expires, see typhon_own_thread.
+%   Take the first message of Queue that unifies; nobody may add to it
+%   meanwhile.  Not in sig_atomic/1: if there is none among many this is a
+%   wait that expires, see typhon_own_thread.
+%
+%   Such a wait costs as much as taking out, and putting back, a dozen.
 
 fifo_take(Queue, Message) :-
-    thread_get_message(Queue, Message, [timeout(0)]).
+    message_queue_property(Queue, size(Size)),
+    Size > 0,
+    (   Size > 16
+    ->  thread_get_message(Queue, Message, [timeout(0)])
+    ;   sig_atomic(turn(Size, first, Queue, Message))
+    ).
+
+%   turn(+Size, +Seen, +Queue, ?Message): Seen is `first` as long as none has
+%   been put back, then `none`, or `found`.
+
+turn(0, Seen, _, _) :-
+    !,
+    Seen == found.
+turn(Size, Seen0, Queue, Message) :-
+    thread_get_message(Queue, Next),
+    Left is Size-1,
+    (   Seen0 \== found,
+        Next = Message
+    ->  (   Seen0 == first
+        ->  true                        % the others are in order
+        ;   turn(Left, found, Queue, Message)
+        )
+    ;   thread_send_message(Queue, Next),
+        seen(Seen0, Seen),
+        turn(Left, Seen, Queue, Message)
+    ).
+
+seen(first, none).
+seen(none, none).
+seen(found, found).

@@ -111,6 +111,11 @@ typhon_endpoint:received(message, message(Id, Mail, Left), _) :-
 
 post_waiting(Id, Messages) :-
     backlog_all(Id, Letters),
+    messages_in(Letters, Messages).
+
+messages_in([], []) :-                  % nearly always
+    !.
+messages_in(Letters, Messages) :-
     findall(From-Message,
             ( member(letter(Mail, _), Letters),
               member(mail(_, From, Message), Mail) ),

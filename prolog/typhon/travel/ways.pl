@@ -4,7 +4,7 @@
             way_send/3                  % +Endpoint, +Id, +Letter
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_post_up/3 ]).
@@ -32,8 +32,12 @@ forwards_at_once(64).
 %   Put Mail in the mailbox of Id, which stands here.
 
 way_in(Id, Mail) :-
-    findall(From-Message, member(mail(_, From, Message), Mail), Messages),
+    messages(Mail, Messages),
     agent_mail(Id, Messages).
+
+messages([], []).
+messages([mail(_, From, Message)|Mail], [From-Message|Messages]) :-
+    messages(Mail, Messages).
 
 %!  way_out(+Id, +Letter, -Way) is det.
 %

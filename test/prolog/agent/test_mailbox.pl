@@ -19,6 +19,15 @@ test(the_oldest_that_unifies, true(X-Rest == 2-[a-1,b-3])) :-
     filled(me, [a-1,b-2,b-3]),
     mail_take(me, b-X),
     mail_all(me, Rest).
+test(the_others_stay_in_order, [forall(member(N-K, [1-1, 2-1, 2-2, 12-3,
+                                                    16-16, 17-9, 40-40])),
+                                true(Left == Others)]) :-
+    numlist(1, N, Numbers),
+    findall(x-I, member(I, Numbers), All),
+    filled(me, All),
+    mail_take(me, x-K),
+    mail_all(me, Left),
+    findall(x-I, ( member(I, Numbers), I =\= K ), Others).
 test(nothing_unifies, true(Rest == [a-1])) :-
     filled(me, [a-1]),
     \+ mail_take(me, b-_),
