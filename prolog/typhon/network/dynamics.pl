@@ -1,13 +1,10 @@
 :- module(typhon_dynamics,
           [ dynamics_model/2,           % +Spec, -Model
             dynamics_state/5,           % +Model, +N, +Edges, +Seed, -State
-            dynamics_event/4,           % +State0, -Time, -Changes, -State
-            dynamics_start/4,           % +State, +Clock, :OnChange, -Dynamics
-            dynamics_stop/1             % +Dynamics
+            dynamics_event/4            % +State0, -Time, -Changes, -State
           ]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2, put_assoc/4]).
-:- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(heaps), [add_to_heap/4, empty_heap/1, get_from_heap/4]).
 :- use_module(library(lists), [member/2, numlist/3]).
@@ -16,7 +13,6 @@
 :- use_module('../base/chance',
               [ chance_member/4, chance_seed/2, chance_true/4,
                 chance_uniform/5 ]).
-:- use_module('../host', [alarm_set/3, scheduler_call/1]).
 
 /** <module> Links that come and go
 
@@ -52,24 +48,8 @@ The decisions are pure: a state is a term, and the sequence of events
 follows from the seed. The times of a run differ only by how late the
 thread that applies the events is.
 
-*Threading*: the next event of a whole network is an alarm; a worker does
-what is due. Hosts in other processes are reached from there by what OnChange
-does.
+*Threading*: pure; who carries events out is room `changes`.
 */
-
-:- meta_predicate
-    dynamics_start(+, +, 1, -).
-
-:- multifile
-    typhon_scheduler:fire/2,
-    typhon_scheduler:over/2,
-    prolog:message//1.
-
-:- dynamic
-    dynamics/3,                 % Dynamics, Clock, OnChange
-    due/3,                      % Dynamics, Changes, State after them
-    changing/2,                 % Dynamics, Thread: makes changes just now
-    stopping/2.                 % Dynamics, Queue: waits for the end of that
 
                 /*******************************
                 *            MODELS            *
@@ -231,107 +211,3 @@ added(P, I, N, Ns, New, Chance0, Chance) :-
     ;   New = [],
         Chance = Chance1
     ).
-
-                /*******************************
-                *           RUNNING            *
-                *******************************/
-
-%!  dynamics_start(+State, +Clock, :OnChange, -Dynamics) is det.
-%
-%   Carries the events of State out, each when the clock that started with
-%   the State says so: Clock is clock(Epoch, Rate), Epoch the beginning.
-%   OnChange is called with each change. An error in it is printed, and the
-%   next change follows. Dynamics is for dynamics_stop/1.
-
-dynamics_start(State, Clock, OnChange, Dynamics) :-
-    flag(typhon_dynamics, N, N+1),
-    atom_concat(typhon_dynamics_, N, Dynamics),
-    assertz(dynamics(Dynamics, Clock, OnChange)),
-    next(Dynamics, State).
-
-next(Dynamics, State0) :-
-    (   dynamics(Dynamics, clock(Epoch, Rate), _),
-        dynamics_event(State0, Time, Changes, State)
-    ->  assertz(due(Dynamics, Changes, State)),
-        Stamp is Epoch+Time/Rate,
-        alarm_set(Stamp, Dynamics, links)
-    ;   true
-    ).
-
-typhon_scheduler:fire(Dynamics, links) :-
-    !,
-    scheduler_call(typhon_dynamics:step(Dynamics)).
-
-typhon_scheduler:over(Dynamics, links) :-
-    \+ due(Dynamics, _, _).
-
-%   In a worker: what is done for hosts of other processes may take long.
-
-step(Dynamics) :-
-    thread_self(Me),
-    setup_call_cleanup(
-        assertz(changing(Dynamics, Me)),
-        catch(change_links(Dynamics), stop_changing, true),
-        ( nb_setval(typhon_changing, none),
-          retractall(changing(Dynamics, _)),
-          forall(stopping(Dynamics, Queue), thread_send_message(Queue, done))
-        )).
-
-change_links(Dynamics) :-
-    nb_setval(typhon_changing, Dynamics),
-    (   retract(due(Dynamics, Changes, State)),
-        dynamics(Dynamics, _, OnChange)
-    ->  forall(member(Change, Changes), make(OnChange, Change)),
-        next(Dynamics, State)
-    ;   true
-    ).
-
-make(OnChange, Change) :-
-    debug(typhon(network), 'dynamics: ~p', [Change]),
-    catch(call(OnChange, Change), error(Formal, Context),
-          print_message(warning, error(Formal, Context))),
-    !.
-make(_, Change) :-
-    print_message(warning, typhon(link_not_changed(Change))).
-
-%!  dynamics_stop(+Dynamics) is det.
-%
-%   No change begins after this. One that hangs, because a process does, is
-%   interrupted after a second.
-
-dynamics_stop(Dynamics) :-
-    retractall(dynamics(Dynamics, _, _)),
-    retractall(due(Dynamics, _, _)),
-    setup_call_cleanup(
-        ( message_queue_create(Queue),
-          assertz(stopping(Dynamics, Queue)) ),
-        await_change(Dynamics, Queue),
-        ( retractall(stopping(Dynamics, _)),
-          message_queue_destroy(Queue) )).
-
-await_change(Dynamics, Queue) :-
-    (   \+ changing(Dynamics, _)
-    ->  true
-    ;   thread_get_message(Queue, done, [timeout(1)])
-    ->  true
-    ;   forall(changing(Dynamics, Thread),
-               catch(thread_signal(Thread, typhon_dynamics:interrupt(Dynamics)),
-                     error(existence_error(_, _), _), true)),
-        await_change(Dynamics, Queue)
-    ).
-
-%   The signal may come when the change is over.
-
-interrupt(Dynamics) :-
-    (   nb_current(typhon_changing, Dynamics)
-    ->  nb_setval(typhon_changing, none),
-        throw(stop_changing)
-    ;   true
-    ).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
-prolog:message(typhon(link_not_changed(Change))) -->
-    [ 'The links of the network could not be changed: ~p'-[Change] ].

@@ -1,18 +1,16 @@
 :- module(typhon_networks,
           [ network_start/3,            % +Topology, -Network, +Options
             network_stop/1,             % +Network
-            network_advance/2,          % +Network, +Seconds
-            network_at/3,               % +Network, +Time, :Goal
-            network_property/2          % ?Network, ?Property
+            network_property/2,         % ?Network, ?Property
+            network_clock/2             % +Network, -Clock
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host',
-              [ alarm_set/3, runtime_acquire/2, runtime_release/1,
-                scheduler_call/1, time_now/1, time_wait/3 ]).
-:- use_module(dynamics, [dynamics_start/4, dynamics_stop/1]).
+              [runtime_acquire/2, runtime_release/1, time_now/1]).
+:- use_module(changes, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
 :- use_module(carriers, [carrier/3]).
 :- use_module(plan,
@@ -43,14 +41,11 @@ none of its own.
     prolog:message//1.
 
 :- multifile
-    typhon_scheduler:fire/2,
-    typhon_scheduler:over/2.
-
-:- meta_predicate network_at(+, +, 0).
+    ended/1.                    % Network
 
 :- dynamic
+    ended/1,
     clock_of/2,                 % Network, clock(Epoch, Rate)
-    due/3,                      % Network, Number, Goal: see network_at/3
     network/2,                  % Network, Plan
     running/1,                  % Network
     part/2.                     % Network, log(Address, File),
@@ -203,7 +198,7 @@ end(Network) :-
     debug(typhon(network), '~w has ended', [Network]),
     retractall(part(Network, _)),
     retractall(clock_of(Network, _)),
-    retractall(due(Network, _, _)),
+    forall(ended(Network), true),
     retractall(network(Network, _)).
 
 %   What goes wrong in one step must not leave the others undone.
@@ -216,61 +211,21 @@ step(Goal) :-
     print_message(warning, typhon(network_step(Goal))).
 
                 /*******************************
-                *             TIME             *
+                *          PROPERTIES          *
                 *******************************/
 
-%!  network_advance(+Network, +Seconds) is det.
+%!  network_clock(+Network, -Clock) is det.
 %
-%   Let Seconds pass, by the clock of the hosts: in virtual time at once.
-%
-%   @error existence_error(network, Network)
-
-network_advance(Network, Seconds) :-
-    must_be(number, Seconds),
-    clock_of_running(Network, clock(_, Rate)),
-    time_now(Now),
-    Stamp is Now+Seconds/Rate,
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        \+ time_wait(Queue, _, Stamp),
-        message_queue_destroy(Queue)).
-
-%!  network_at(+Network, +Time, :Goal) is det.
-%
-%   Run Goal once when the clock of the hosts shows Time, or as soon as may
-%   be if that is past; never, if Network is stopped before. What Goal
-%   raises is told.
+%   Clock is clock(Epoch, Rate).
 %
 %   @error existence_error(network, Network)
 
-network_at(Network, Time, Goal) :-
-    must_be(number, Time),
-    clock_of_running(Network, clock(Epoch, Rate)),
-    flag(typhon_network_at, N, N+1),
-    assertz(due(Network, N, Goal)),
-    Stamp is Epoch+Time/Rate,
-    alarm_set(Stamp, Network, at(N)).
-
-typhon_scheduler:fire(Network, at(N)) :-
-    !,
-    (   retract(due(Network, N, Goal))
-    ->  scheduler_call(Goal)
-    ;   true
-    ).
-
-typhon_scheduler:over(Network, at(N)) :-
-    \+ due(Network, N, _).
-
-clock_of_running(Network, Clock) :-
+network_clock(Network, Clock) :-
     must_be(atom, Network),
     (   running(Network)
     ->  clock_of(Network, Clock)
     ;   existence_error(network, Network)
     ).
-
-                /*******************************
-                *          PROPERTIES          *
-                *******************************/
 
 %!  network_property(?Network, ?Property) is nondet.
 %

@@ -10,6 +10,7 @@
               ]).
 :- use_module(library(yall)).
 :- use_module(library(typhon/host), [runtime_acquire/2, runtime_release/1]).
+:- use_module(library(typhon/network/changes)).
 :- use_module(library(typhon/network/dynamics)).
 :- use_module(library(typhon/network/topology)).
 

@@ -1,0 +1,68 @@
+:- module(typhon_appointments,
+          [ network_advance/2,          % +Network, +Seconds
+            network_at/3                % +Network, +Time, :Goal
+          ]).
+:- use_module(library(error), [must_be/2]).
+:- use_module('../host',
+              [alarm_set/3, scheduler_call/1, time_now/1, time_wait/3]).
+:- use_module(networks, [network_clock/2]).
+
+/** <module> What is to happen when, in a network
+
+*Threading*: any thread. Goals run in a worker.
+*/
+
+:- multifile
+    typhon_networks:ended/1,
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
+
+:- meta_predicate network_at(+, +, 0).
+
+:- dynamic
+    due/3.                      % Network, Number, Goal
+
+typhon_networks:ended(Network) :-
+    retractall(due(Network, _, _)).
+
+%!  network_advance(+Network, +Seconds) is det.
+%
+%   Let Seconds pass, by the clock of the hosts: in virtual time at once.
+%
+%   @error existence_error(network, Network)
+
+network_advance(Network, Seconds) :-
+    must_be(number, Seconds),
+    network_clock(Network, clock(_, Rate)),
+    time_now(Now),
+    Stamp is Now+Seconds/Rate,
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        \+ time_wait(Queue, _, Stamp),
+        message_queue_destroy(Queue)).
+
+%!  network_at(+Network, +Time, :Goal) is det.
+%
+%   Run Goal once when the clock of the hosts shows Time, or as soon as may
+%   be if that is past; never, if Network is stopped before. What Goal
+%   raises is told.
+%
+%   @error existence_error(network, Network)
+
+network_at(Network, Time, Goal) :-
+    must_be(number, Time),
+    network_clock(Network, clock(Epoch, Rate)),
+    flag(typhon_network_at, N, N+1),
+    assertz(due(Network, N, Goal)),
+    Stamp is Epoch+Time/Rate,
+    alarm_set(Stamp, Network, at(N)).
+
+typhon_scheduler:fire(Network, at(N)) :-
+    !,
+    (   retract(due(Network, N, Goal))
+    ->  scheduler_call(Goal)
+    ;   true
+    ).
+
+typhon_scheduler:over(Network, at(N)) :-
+    \+ due(Network, N, _).
