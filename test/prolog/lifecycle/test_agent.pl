@@ -411,12 +411,12 @@ test(order_refused, error(move_refused(_, capacity))) :-
 
 test(sleep, true(S >= 0.1)) :-
     with_hosts([alpha],
-               ( create([(main :- sleep(0.1))], A),
-                 elapsed(joined(A, done), S) )).
+               elapsed(( create([(main :- sleep(0.1))], A),
+                         joined(A, done) ), S)).
 test(sleep_is_in_host_seconds, true((S >= 0.1, S < 5))) :-
     with_hosts([alpha-[clock(0, 100)]],
-               ( create([(main :- sleep(10))], A),
-                 elapsed(joined(A, done), S) )).
+               elapsed(( create([(main :- sleep(10))], A),
+                         joined(A, done) ), S)).
 test(sleepers_wake_in_order, F == [1,2,3,4,5]) :-
     with_hosts([alpha-[concurrency(1)]],
                ( remote(alpha, now(T0)),
