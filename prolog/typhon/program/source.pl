@@ -186,7 +186,8 @@ source_same(Sources) :-
 same(file(File, Stamp, _)) :-
     catch(file_stamp(File, Stamp), error(_, _), fail).
 same(include(Spec, File, Path)) :-
-    catch(included_file(Spec, File, Path), error(_, _), fail).
+    catch(included_file(Spec, File, Now), error(_, _), fail),
+    Now == Path.                        % if bound, 10.1 looks for any
 
                 /*******************************
                 *             FORMS            *
