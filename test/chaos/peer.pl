@@ -133,11 +133,17 @@ tuples(Tuples) :-
 %   ends may be under way: a courier pauses for up to ten seconds.
 
 outcomes(Ids, Pairs) :-
+    get_time(Now),
+    Deadline is Now+12,
     findall(Id-Outcome,
-            ( member(Id, Ids),
-              catch(agent_join(Id, Outcome, 12), error(Formal, _),
-                    Outcome = error(Formal)) ),
+            ( member(Id, Ids), outcome(Id, Deadline, Outcome) ),
             Pairs).
+
+outcome(Id, Deadline, Outcome) :-
+    get_time(Now),
+    Seconds is max(0.5, Deadline-Now),
+    catch(agent_join(Id, Outcome, Seconds), error(Formal, _),
+          Outcome = error(Formal)).
 
 %   What the timer holds: its stack, in kB.
 
