@@ -14,7 +14,7 @@
                 permission_error/3 ]).
 :- use_module('../program', [code_program/2, payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [host_address/2]).
+:- use_module('../host', [alarm_set/3, host_address/2, scheduler_call/1]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
@@ -37,6 +37,8 @@ that has the agent.
 */
 
 :- multifile
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2,
     typhon_questions:here/3,
     typhon_transfer:forward_order/2.
 
@@ -122,7 +124,40 @@ order_take(Id, dispose) :-
     agent_end(Id, at_rest, disposed),
     !.
 order_take(Id, Order) :-
-    with_agent(Id, note_order(Id, Order)).
+    with_agent(Id, note_order(Id, Order)),
+    (   Order == dispose
+    ->  look_again_later(Id)
+    ;   true
+    ).
+
+%   Who is under way may be out of touch before long.
+
+look_again_later(Id) :-
+    (   under_way(Id)
+    ->  get_time(Now),
+        Stamp is Now+1,
+        alarm_set(Stamp, Id, dispose)
+    ;   true
+    ).
+
+under_way(Id) :-
+    agent_status(Id, Status, _),
+    ( Status = transit(_, _) ; Status = cloning(_, _) ),
+    !.
+
+typhon_scheduler:fire(Id, dispose) :-
+    !,
+    scheduler_call(typhon_orders:look_again(Id)).
+
+typhon_scheduler:over(Id, dispose) :-
+    \+ under_way(Id).
+
+look_again(Id) :-
+    (   under_way(Id),
+        \+ agent_end(Id, at_rest, disposed)
+    ->  look_again_later(Id)
+    ;   true
+    ).
 
 at_rest(ready).
 at_rest(sleeping(_)).
