@@ -1,0 +1,172 @@
+:- module(rooms_check,
+          [ problem/1,          % -Problem
+            report/1            % +Problem
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2, nth1/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(tree).
+
+/** <module> What is not in order
+
+A name is taken to be used where it occurs at all: what is found is unused,
+what is not found may be.
+
+*Threading*: the main thread.
+*/
+
+problem(unused_import(File, Target, PI)) :-
+    import(File, Target, List),
+    \+ inside('prolog/typhon/language/vocabulary.pl', File),   % for agents
+    is_list(List),
+    member(Import, List),
+    imported_as(Import, PI, Name),
+    \+ mentions_too(File, Name).
+problem(unused_export(File, PI)) :-
+    room(File, _, _),
+    export(File, PI),
+    \+ used(File, PI).
+problem(unused_at_door(Door, PI)) :-
+    door(Door, _),
+    reexport(Door, Room, List),
+    offered(Room, List, PI),
+    \+ used(Door, PI).
+problem(against_layers(File, Target)) :-
+    room(File, Layer, _),
+    ( import(File, Target, _) ; reexport(File, Target, _) ),
+    \+ may_import(Layer, Target).
+problem(past_door(File, Module, PI)) :-
+    reaches(File, Module, PI),
+    PI \= _/0,                          % settings are named like this
+    room(File, _, _),
+    \+ module_of(File, Module),
+    module_of(Room, Module),
+    room(Room, _, _),
+    \+ hook(Room, PI).
+problem(circle(File)) :-
+    room(File, _, _),
+    reaches_by_import(File, File).
+
+%   What a file includes is a part of it.
+
+mentions_too(File, Name) :-
+    mentions(File, Name),
+    !.
+mentions_too(File, Name) :-
+    import(File, Part, include),
+    mentions_too(Part, Name),
+    !.
+
+imported_as((PI as New), PI, New) :- !.
+imported_as(Name/Arity, Name/Arity, Name).
+imported_as(Name//Arity, Name//Arity, Name).
+
+%   used(+File, +PI): somebody who imports File mentions it, or it is
+%   offered on. What only its own tests use is not used.
+
+used(File, _) :-
+    inside('prolog/typhon/language/words.pl', File),
+    !.                                  % agents do
+used(File, Name/_) :-
+    import(User, File, List),
+    User \== File,
+    \+ is_test(User),
+    (   List == all
+    ->  mentions(User, Name)
+    ;   is_list(List),
+        member(Import, List),
+        imported_as(Import, Name/_, _)
+    ),
+    !.
+used(File, PI) :-
+    reexport(User, File, List),
+    offered(File, List, PI),
+    used_at(User, PI),
+    !.
+used(File, Name/Arity) :-
+    module_of(File, Module),
+    reaches(_, Module, Name/Arity),
+    !.
+used(File, Name/_) :-                   % started from a shell
+    module_of(File, Module),
+    mentions(User, Module),
+    User \== File,
+    mentions(User, Name),
+    !.
+
+used_at(Face, _) :-
+    face(Face),
+    !.
+used_at(Door, PI) :-
+    used(Door, PI).
+
+is_test(File) :-
+    inside('test/', Tests),
+    atom_concat(Tests, _, File).
+
+face(File) :- inside('prolog/typhon.pl', File).
+face(File) :- inside('prolog/typhon/nxt.pl', File).
+
+may_import(_, Target) :-
+    \+ module_of(Target, _),
+    !.
+may_import(Layer, Target) :-
+    room(Target, Layer, _),
+    !.
+may_import(_, Target) :-
+    room(Target, base, _),
+    !.
+may_import(Layer, Target) :-
+    door(Target, Lower),
+    layers(Layers),
+    nth1(L, Layers, Lower),
+    nth1(H, Layers, Layer),
+    L < H.
+
+%   A hook is declared multifile by the room that calls it.
+
+hook(Room, Name/Arity) :-
+    read_file_to_string(Room, Text, []),
+    format(string(Declared), "~w/~w", [Name, Arity]),
+    once(sub_string(Text, M, _, _, "multifile")),
+    sub_string(Text, B, _, _, Declared),
+    B > M,
+    !.
+
+reaches_by_import(From, To) :-
+    reaches_by_import(From, To, [From]).
+
+reaches_by_import(From, To, _) :-
+    next_room(From, To).
+reaches_by_import(From, To, Seen) :-
+    next_room(From, Next),
+    Next \== To,
+    \+ memberchk(Next, Seen),
+    reaches_by_import(Next, To, [Next|Seen]).
+
+next_room(From, To) :-
+    room(From, Layer, _),
+    import(From, To, _),
+    room(To, Layer, _).
+
+report(Problem) :-
+    says(Problem, Format, Args0),
+    maplist(short, Args0, Args),
+    format(user_error, Format, Args),
+    nl(user_error).
+
+says(unused_import(F, T, PI), '~w: ~w of ~w is imported, and not used',
+     [F, PI, T]).
+says(unused_export(F, PI), '~w: nobody uses its export ~w', [F, PI]).
+says(unused_at_door(F, PI), '~w: nobody takes ~w from this door', [F, PI]).
+says(against_layers(F, T), '~w: imports ~w, against the layers', [F, T]).
+says(past_door(F, M, PI), '~w: reaches for ~w of ~w past the door',
+     [F, PI, M]).
+says(circle(F), '~w: imports itself, in a circle', [F]).
+
+short(File, Short) :-
+    atom(File),
+    inside('', Root),
+    atom_concat(Root, Short, File),
+    !.
+short(Term, Term).

@@ -1,0 +1,211 @@
+:- module(rooms_tree,
+          [ read_tree/0,
+            tree_file/1,        % -File
+            module_of/2,        % ?File, ?Module
+            export/2,           % ?File, ?PI
+            import/3,           % ?File, ?Target, ?List
+            reexport/3,         % ?File, ?Target, ?List
+            mentions/2,         % ?File, ?Name
+            reaches/3,          % ?File, ?Module, ?PI
+            size/4,             % ?File, ?PI, ?First, ?Last
+            inside/2,           % ?Relative, ?File
+            layers/1,           % -Layers
+            room/3,             % ?File, ?Layer, ?Name
+            door/2,             % ?File, ?Layer
+            offered/3           % +Room, +List, ?PI
+          ]).
+:- use_module(library(filesex),
+              [directory_file_path/3, directory_member/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(library(prolog_source),
+              [ prolog_close_source/1, prolog_open_source/2,
+                prolog_read_source_term/4 ]).
+
+/** <module> The files of the tree, read as facts
+
+*Threading*: the main thread.
+*/
+
+:- dynamic
+    root/1,                     % Directory of the tree
+    module_of/2,                % File, Module
+    export/2,                   % File, PI
+    import/3,                   % File, Target, all or List; a file, if ours
+    reexport/3,                 % as import/3
+    mentions/2,                 % File, Name: in clauses and directives
+    reaches/3,                  % File, Module, PI: Module:Goal in a clause
+    size/4.                     % File, PI, first and last line
+
+:- prolog_load_context(directory, Dir),
+   file_directory_name(Dir, Doc),
+   file_directory_name(Doc, Root),
+   retractall(root(_)),
+   assertz(root(Root)).
+
+                /*******************************
+                *           READING            *
+                *******************************/
+
+read_tree :-
+    style_check(-singleton),
+    forall(tree_file(File), read_source(File)).
+
+tree_file(File) :-
+    root(Root),
+    member(Top, [prolog, app, agents, payloads, experiments, test, bench,
+                 doc]),
+    directory_file_path(Root, Top, Dir),
+    directory_member(Dir, File, [recursive(true), extensions([pl])]).
+
+read_source(File) :-
+    setup_call_cleanup(
+        prolog_open_source(File, In),
+        read_terms(In, File),
+        prolog_close_source(In)).
+
+read_terms(In, File) :-
+    repeat,
+    prolog_read_source_term(In, Term, _, [term_position(Position)]),
+    (   Term == end_of_file
+    ->  !
+    ;   stream_position_data(line_count, Position, First),
+        line_count(In, Last),
+        note(Term, File, First, Last),
+        fail
+    ).
+
+note((:- Directive), File, _, _) :-
+    !,
+    note_directive(Directive, File).
+note(Clause, File, First, Last) :-
+    note_names(Clause, File),
+    (   clause_head(Clause, Head)
+    ->  functor(Head, Name, Arity),
+        assertz(size(File, Name/Arity, First, Last))
+    ;   true
+    ).
+
+clause_head((Head-->_), Head) :- !, callable(Head).
+clause_head((Head:-_), Head) :- !, callable(Head).
+clause_head((Head=>_), Head) :- !, callable(Head).
+clause_head(Head, Head) :- callable(Head).
+
+note_directive(module(Module, Exports), File) :-
+    !,
+    assertz(module_of(File, Module)),
+    forall(member(PI, Exports), assertz(export(File, PI))).
+note_directive(use_module(Spec), File) :-
+    !,
+    note_import(import, File, Spec, all).
+note_directive(use_module(Spec, List), File) :-
+    !,
+    note_import(import, File, Spec, List).
+note_directive(reexport(Spec), File) :-
+    !,
+    note_import(reexport, File, Spec, all).
+note_directive(reexport(Spec, List), File) :-
+    !,
+    note_import(reexport, File, Spec, List).
+note_directive(include(Spec), File) :-
+    !,
+    note_import(import, File, Spec, include).
+note_directive(Directive, File) :-
+    note_names(Directive, File).
+
+note_import(Kind, File, Spec, List) :-
+    target(Spec, File, Target),
+    Fact =.. [Kind, File, Target, List],
+    assertz(Fact).
+
+%   target(+Spec, +File, -Target): a file of the tree, else Spec.
+
+target(Spec, File, Target) :-
+    root(Root),
+    (   Spec = library(Path)
+    ->  format(atom(Relative), 'prolog/~w', [Path]),
+        directory_file_path(Root, Relative, Base)
+    ;   ( atomic(Spec) ; Spec = _/_ )
+    ->  file_directory_name(File, Dir),
+        format(atom(Path), '~w', [Spec]),
+        directory_file_path(Dir, Path, Base)
+    ),
+    member(Extension, ['.pl', '']),
+    atom_concat(Base, Extension, Full),
+    exists_file(Full),
+    !,
+    absolute_file_name(Full, Target).
+target(Spec, _, Spec).
+
+note_names(Term, File) :-
+    forall(( sub_term(Part, Term), name_in(Part, Name) ),
+           ( mentions(File, Name) -> true ; assertz(mentions(File, Name)) )),
+    forall(( sub_term(Part, Term), reach(Part, Module, PI) ),
+           assertz(reaches(File, Module, PI))).
+
+name_in(Part, Part) :-
+    atom(Part).
+name_in(Part, Name) :-
+    compound(Part),
+    compound_name_arity(Part, Name, _).
+name_in(Part, Name) :-                  % in strings that are run elsewhere
+    string(Part),
+    split_string(Part, " \n\t()[]{},:;.'|", "", Words),
+    member(Word, Words),
+    Word \== "",
+    atom_string(Name, Word).
+
+reach(Part, Module, Name/Arity) :-
+    nonvar(Part),
+    Part = Module:Goal,
+    atom(Module),
+    atom_concat(typhon_, _, Module),
+    callable(Goal),
+    \+ Goal = _/_,
+    functor(Goal, Name, Arity).
+
+                /*******************************
+                *       ROOMS AND DOORS        *
+                *******************************/
+
+%!  layers(-Layers)
+%
+%   From below: who stands higher imports from who stands lower.
+
+layers([ base, program, wire, host, agent, travel, lifecycle, language,
+         network, people ]).
+
+%!  room(?File, ?Layer, ?Name) is nondet.
+%!  door(?File, ?Layer) is nondet.
+
+room(File, Layer, Name) :-
+    module_of(File, _),
+    inside('prolog/typhon/', House),
+    atom_concat(House, Relative, File),
+    atomic_list_concat([Layer, Base], /, Relative),
+    file_name_extension(Name, pl, Base).
+
+door(File, Layer) :-
+    layers(Layers),
+    member(Layer, Layers),
+    format(atom(Relative), 'prolog/typhon/~w.pl', [Layer]),
+    inside(Relative, File).
+
+%!  offered(+Room, +List, ?PI) is nondet.
+%
+%   Who takes List, or `all`, from Room can take PI.
+
+offered(Room, all, PI) :-
+    export(Room, PI).
+offered(Room, all, PI) :-
+    reexport(Room, Deeper, List),
+    offered(Deeper, List, PI).
+offered(_, List, PI) :-
+    is_list(List),
+    member(PI, List).
+
+%!  inside(+Relative, -File) is det.
+
+inside(Relative, File) :-
+    root(Root),
+    directory_file_path(Root, Relative, File).
