@@ -34,14 +34,13 @@ agent_id(Name, Home, Id) :-
 
 %   In virtual time the same ids come again.
 
-typhon_runtime:beginning(Kind) :-
+typhon_runtime:beginning(real) :-
+    retractall(mark(_)).
+typhon_runtime:beginning(virtual) :-
+    flag(typhon_agent_id, _, 0),
     retractall(mark(_)),
-    (   Kind == virtual
-    ->  flag(typhon_agent_id, _, 0),
-        assertz(mark('v.')),
-        forall(ids_anew, true)
-    ;   true
-    ).
+    assertz(mark('v.')),
+    forall(ids_anew, true).
 
 process_mark(Mark) :-
     mark(Mark),
