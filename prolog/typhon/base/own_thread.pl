@@ -10,14 +10,15 @@ In SWI-Prolog 9.0.4 a thread that runs a cleanup handler, sig_atomic/1 or a
 directive leaves its signals pending. If one is, which garbage collection
 alone sees to, then a wait with a deadline that expires does not end: it
 spins for ever. Programs like to stop things in cleanup handlers, and
-stopping has to wait. So whatever stops something does it aside.
+stopping has to wait. So whatever stops something does it in a thread of its
+own.
 
 Stopping must also be possible when no more threads can be made: while
 hosts run, a helper stands by for that.
 
 *Threading*: any thread. thread_join/2 and waits without a deadline are
-sound in all of them. What is done aside within something done aside needs
-no other thread: so the helper never waits for itself.
+sound in all of them. Goals in a thread of its own, or in the helper, need
+no other: so the helper never waits for itself.
 */
 
 :- meta_predicate
@@ -36,7 +37,9 @@ in_own_thread(Goal) :-
     !,
     once(Goal).
 in_own_thread(Goal) :-
-    catch(thread_create(typhon_own_thread:alone(Goal), Thread),
+    alias(stopper, Alias),
+    catch(thread_create(typhon_own_thread:alone(Goal), Thread,
+                        [alias(Alias)]),
           error(resource_error(_), _), fail),
     !,
     catch(thread_join(Thread, Status), Interrupt,
@@ -49,6 +52,12 @@ in_own_thread(Goal) :-
     conclude(Status).
 in_own_thread(Goal) :-
     once(Goal).
+
+%   There may be several of a role, and who is about to end has its name still.
+
+alias(Role, Alias) :-
+    flag(typhon_own_thread, N, N+1),
+    atomic_list_concat([typhon, Role, N], '_', Alias).
 
 alone(Goal) :-
     nb_setval(typhon_own_thread, true),
@@ -71,9 +80,11 @@ conclude(Status) :-
 %   which may be this.
 
 own_thread_start :-
+    alias(helper, Alias),
     message_queue_create(Queue),
     catch(thread_create(typhon_own_thread:help(Queue), Thread,
-                        [at_exit(typhon_own_thread:no_help(Queue))]),
+                        [ alias(Alias),
+                          at_exit(typhon_own_thread:no_help(Queue)) ]),
           error(Formal, Context),
           ( message_queue_destroy(Queue),
             throw(error(Formal, Context)) )),

@@ -8,6 +8,7 @@
 :- use_module(library(lists)).
 :- use_module(library(settings)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/base/own_thread), [in_own_thread/1]).
 :- use_module(library(typhon/host/place)).
 
 /** <module> Tests of hosts: what they offer, admit, and leave behind
@@ -709,5 +710,11 @@ test(from_inside_a_cleanup_handler) :-
     no_leaks(setup_call_cleanup(host_start(alpha),
                                 stays([], _),
                                 host_stop(alpha))).
+test(every_thread_has_a_name) :-
+    with_hosts([alpha], in_own_thread(\+ nameless(_))).
+
+nameless(Thread) :-
+    thread_property(Thread, status(_)),
+    \+ thread_property(Thread, alias(_)).
 
 :- end_tests(stopping).
