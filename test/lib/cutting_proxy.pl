@@ -29,6 +29,7 @@ thread.
 
 :- meta_predicate
     with_proxy(+, -, 0),
+    till_broken(0),
     quietly(0).
 
 :- dynamic
@@ -135,7 +136,7 @@ accept_all(Socket, Proxy, Target) :-
 forward(Client, Proxy, Target) :-
     setup_call_cleanup(
         open_streams(Client, In, Out),
-        catch(forward_streams(In, Out, Proxy, Target), _, true),
+        till_broken(forward_streams(In, Out, Proxy, Target)),
         close_streams(In, Out)).
 
 forward_streams(In, Out, Proxy, Target) :-
@@ -158,8 +159,13 @@ forward_streams(In, Out, Proxy, Target) :-
 
 pump_down(In, Out, Proxy, Owner) :-
     call_cleanup(
-        catch(pump(In, Out, Proxy, down), _, true),
+        till_broken(pump(In, Out, Proxy, down)),
         signal(Owner)).
+
+%   A connection ends when it is cut, or when one of its two sides breaks.
+
+till_broken(Goal) :-
+    catch(catch(Goal, cut, true), error(_, _), true).
 
 pump(In, Out, Proxy, Direction) :-
     repeat,
