@@ -2,6 +2,7 @@
           [ with_hosts/2,               % +Specs, :Goal
             with_settings/2,            % +Values, :Goal
             listening/2,                % :Goal, -Messages
+            was_told/2,                 % +Kind, ?Message
             create/2,                   % +Clauses, -Agent
             create/3,                   % +Clauses, -Agent, +Options
             joined/2,                   % +Agent, -Outcome
@@ -98,6 +99,14 @@ listening(Goal, Messages) :-
         once(Goal),
         retractall(listens)),
     findall(Kind-Term, retract(heard(Kind, Term)), Messages).
+
+%!  was_told(+Kind, ?Message) is semidet.
+%
+%   The Goal of listening/2 can wait until there was this Message.
+
+was_told(Kind, Message) :-
+    heard(Kind, Message),
+    !.
 
                 /*******************************
                 *            AGENTS            *
