@@ -11,6 +11,7 @@
             alarms_number/1,            % -Count
             alarms_thin/0
           ]).
+:- use_module(library(apply), [maplist/2]).
 
 /** <module> What the timer is to do, and when
 
@@ -44,7 +45,9 @@ alarms_begin :-
     assertz(new(New)).
 
 alarms_end :-
-    forall(retract(new(New)), message_queue_destroy(New)),
+    findall(New, new(New), Queues),
+    retractall(new(_)),
+    maplist(message_queue_destroy, Queues),
     retractall(alarm(_, _, _)).
 
 %!  alarm_add(+Stamp, +Agent, +Token) is semidet.

@@ -115,8 +115,9 @@ install(Hash, Program, Kinds) :-
 code_clear :-
     with_mutex(typhon_code,
                ( forall(code_module(Hash, _), retire(Hash)),
-                 forall(retract(retired(_, Module)),
-                        '$destroy_module'(Module))
+                 findall(Module, retired(_, Module), Modules),
+                 retractall(retired(_, _)),
+                 maplist('$destroy_module', Modules)
                )).
 
 %   Retire what is unused.  It goes one round later, so that an agent on
