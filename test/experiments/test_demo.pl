@@ -1,9 +1,9 @@
-:- use_module('../lib/common', [run_swipl/5, with_swipl/5, wait_for_end/3,
-                       wait_until/2, with_tmp_dir/1, project_file/2]).
+:- use_module('../lib/common', [run_swipl/5, wait_until/2, with_tmp_dir/1,
+                       project_file/2]).
+:- use_module('../lib/event_log', [stopped_executing/4]).
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
-:- use_module(library(process)).
 :- use_module(library(readutil)).
 :- use_module('../../experiments/sync/metrics').
 
@@ -142,16 +142,6 @@ refused(Option, Value, Name, Status, Text, Dir) :-
 stopped_by(Signal, Status, Dir) :-
     arguments(Dir, ['--clock', '1'], Arguments),
     file(Dir, 'events.pl', Log),
-    with_swipl(Arguments, Pid, _, _,
-               ( wait_until(executing(Log), 30),
-                 process_kill(Pid, Signal),
-                 wait_for_end(Pid, 20, Status)
-               )).
-
-executing(Log) :-
-    exists_file(Log),
-    read_file_to_string(Log, Text, []),
-    sub_string(Text, _, _, _, "executing("),
-    !.
+    stopped_executing(Arguments, Log, Signal, Status).
 
 :- end_tests(demo).

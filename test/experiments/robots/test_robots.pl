@@ -1,6 +1,7 @@
 :- module(test_robots, []).
 :- use_module('../../lib/common').
 :- needs(['python3-serial']).
+:- use_module('../../lib/event_log', [stopped_executing/4]).
 :- use_module('../../lib/fake_agent').
 :- use_module('../../lib/fixtures', [wait_state/2, with_hosts/2]).
 :- use_module(library(plunit)).
@@ -300,16 +301,6 @@ stopped_by(Signal, Status, Dir) :-
     fast(Dir, Options),
     script(Options, Arguments),
     atom_concat(Dir, '/pole/synchronised/events.pl', Log),
-    with_swipl(Arguments, Pid, _, _,
-               ( wait_until(executing(Log), 60),
-                 process_kill(Pid, Signal),
-                 wait_for_end(Pid, 40, Status)
-               )).
-
-executing(Log) :-
-    exists_file(Log),
-    read_file_to_string(Log, Text, []),
-    sub_string(Text, _, _, _, "executing("),
-    !.
+    stopped_executing(Arguments, Log, Signal, Status).
 
 :- end_tests(pole_run).
