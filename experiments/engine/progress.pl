@@ -1,4 +1,4 @@
-:- module(experiment_progress,
+:- module(study_progress,
           [ progress/4,                 % +Stream, +Done, +Total, +Note
             progress_done/1             % +Stream
           ]).

@@ -1,4 +1,4 @@
-:- module(experiment_signals,
+:- module(study_signals,
           [ stopping_on_signals/1       % :Goal
           ]).
 
@@ -20,7 +20,7 @@ stopping_on_signals/1.
 
 stopping_on_signals(Goal) :-
     forall(stop_signal(Signal, _),
-           on_signal(Signal, _, experiment_signals:stop)),
+           on_signal(Signal, _, study_signals:stop)),
     catch(once(Goal), stopped_by(Signal), end_by(Signal)).
 
 stop_signal(int, 130).
@@ -29,7 +29,7 @@ stop_signal(hup, 129).
 
 stop(Signal) :-
     forall(stop_signal(Other, _),
-           on_signal(Other, _, experiment_signals:ignore_signal)),
+           on_signal(Other, _, study_signals:ignore_signal)),
     print_message(informational, format("Stopping on signal ~w", [Signal])),
     throw(stopped_by(Signal)).
 

@@ -1,0 +1,56 @@
+:- module(study_numbers,
+          [ median/2,                   % +Numbers, -Median
+            spread/4,                   % +Numbers, -Least, -Median, -Most
+            number_text/2               % +Number, -Text
+          ]).
+:- use_module(library(lists), [last/2, nth0/3]).
+
+/** <module> Numbers of several runs
+
+*Threading*: pure.
+*/
+
+%!  median(+Numbers:list(number), -Median:number) is semidet.
+%
+%   Median is the one in the middle, or the mean of the two in the middle.
+%   Fails for an empty list.
+
+median(Numbers, Median) :-
+    msort(Numbers, Sorted),
+    length(Sorted, Count),
+    Count > 0,
+    Low is (Count - 1) // 2,
+    High is Count // 2,
+    nth0(Low, Sorted, A),
+    nth0(High, Sorted, B),
+    (   Low =:= High
+    ->  Median = A
+    ;   Median is (A + B)/2
+    ).
+
+%!  spread(+Numbers:list(number), -Least, -Median, -Most) is semidet.
+
+spread(Numbers, Least, Median, Most) :-
+    median(Numbers, Median),
+    sort(0, @=<, Numbers, Sorted),
+    Sorted = [Least|_],
+    last(Sorted, Most).
+
+%!  number_text(+Number, -Text:atom) is det.
+%
+%   As short as is of use: 12,345  104.5  0.042.
+
+number_text(Number, Text) :-
+    (   integer(Number)
+    ->  format(atom(Text), '~D', [Number])
+    ;   number(Number),
+        Size is abs(Number),
+        digits(Size, Digits)
+    ->  format(atom(Text), '~*f', [Digits, Number])
+    ;   format(atom(Text), '~w', [Number])
+    ).
+
+digits(Size, 0) :- Size >= 1000, !.
+digits(Size, 1) :- Size >= 10, !.
+digits(Size, 2) :- Size >= 0.1, !.
+digits(_, 3).
