@@ -124,5 +124,6 @@ new_wave(Id, Due) :-
     ->  retractall(wave(Id, _)),
         assertz(wave(Id, Due))
     ;   parameter(memory, Most),
-        remember(wave(Id, Due), wave(_, _), Most)
+        make_room(wave(_, _), Most),
+        assertz(wave(Id, Due))
     ).
