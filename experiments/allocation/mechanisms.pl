@@ -1,5 +1,6 @@
 :- module(allocation_mechanisms,
           [ mechanism_allocate/4,       % +Mechanism, +Pairs, +Case, +Network
+            task_start/3,               % +Task, +Host, +Case
             allocators_end/1            % +Limit
           ]).
 :- use_module('../../prolog/typhon',
@@ -42,16 +43,24 @@ mechanism_allocate(Mechanism, Pairs, Case, Network) :-
     network_advance(Network, 0).
 mechanism_allocate(Mechanism, Pairs, Case, _) :-
     backoff(Mechanism, Backoff),
-    forall(member(Task-Host, Pairs),
-           task_allocate(Task, Host,
-                         [ settings([ backoff-Backoff, seed-Case.seed,
-                                      bi_min-Case.bi_min,
-                                      bi_max-Case.bi_max ]) ],
-                         _)),
+    forall(member(Task-Host, Pairs), start(Backoff, Task, Host, Case)),
     allocators_end(Case.limit).
 
 backoff(proposed, adaptive).
 backoff(constant, constant).
+
+%!  task_start(+Task, +Host, +Case) is det.
+%
+%   Task is allocated from Host on by the proposed mechanism.
+
+task_start(Task, Host, Case) :-
+    start(adaptive, Task, Host, Case).
+
+start(Backoff, Task, Host, Case) :-
+    task_allocate(Task, Host,
+                  [ settings([ backoff-Backoff, seed-Case.seed,
+                               bi_min-Case.bi_min, bi_max-Case.bi_max ]) ],
+                  _).
 
 %   Nodes do not end: they are looked at.  The last messages, which free the
 %   robots, take less than the time between two looks.

@@ -3,10 +3,12 @@
             kind_sums/2,                % +Events, -Pairs
             completed/2,                % +Events, -Pairs
             backoffs/2,                 % +Events, -Seconds
+            lasted/3,                   % +Events, ?Task, -Seconds
+            overdue/3,                  % +Events, -Reported, -Free
             from_first/2                % +Events0, -Events
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [member/2, memberchk/2, min_list/2]).
+:- use_module(library(lists), [max_list/2, member/2, memberchk/2, min_list/2]).
 
 /** <module> What an event log says about allocations
 
@@ -60,6 +62,30 @@ completed(Events, Completed) :-
 
 backoffs(Events, Intervals) :-
     findall(Seconds, happened(Events, backoff(Seconds)), Intervals).
+
+%!  lasted(+Events, ?Task, -Seconds) is nondet.
+%
+%   From when the allocator of Task began until Task was completed.
+
+lasted(Events, Task, Seconds) :-
+    member(event(End, _, _, completed(Task)), Events),
+    memberchk(event(Begin, _, _, begun(Task)), Events),
+    Seconds is End - Begin.
+
+%!  overdue(+Events, -Reported, -Free) is nondet.
+%
+%   For each task that was missed the seconds between its deadline and when
+%   it was reported, and until the last of its robots was free.
+
+overdue(Events, Reported, Free) :-
+    member(event(Missed, _, _, missed(Task, Deadline)), Events),
+    memberchk(event(Begin, _, _, begun(Task)), Events),
+    Due is Begin + Deadline,
+    Reported is Missed - Due,
+    findall(Time, member(event(Time, _, _, released(_, _, Task)), Events),
+            Times),
+    max_list([Missed|Times], Last),
+    Free is Last - Due.
 
 %!  from_first(+Events0, -Events) is det.
 %
