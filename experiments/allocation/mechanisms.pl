@@ -62,17 +62,20 @@ start(Backoff, Task, Host, Case) :-
                                bi_min-Case.bi_min, bi_max-Case.bi_max ]) ],
                   _).
 
-%   Nodes do not end: they are looked at.  The last messages, which free the
-%   robots, take less than the time between two looks.
+%   Nodes do not end: they are looked at.  A robot that the last message does
+%   not reach, for it has no link just then, is free when its contract lapses.
 
 auctions_end(Mechanism, Auctioneers, Network, Limit) :-
     Limit > 0,
     network_advance(Network, 10),
     (   auction_open(Mechanism, Auctioneers, [])
-    ->  network_advance(Network, 10)
+    ->  lapse(Seconds),
+        network_advance(Network, Seconds)
     ;   Left is Limit - 10,
         auctions_end(Mechanism, Auctioneers, Network, Left)
     ).
+
+lapse(70).                      % ten more than a contract lasts
 
 %!  allocators_end(+Limit) is semidet.
 %
