@@ -105,7 +105,8 @@ is_number(Value-_) :-
 
 %!  value(+E, +Point, +Context, -Number) is semidet.
 %
-%   The expression E has the value Number at Point.  Fails if it has none.
+%   The expression E has the value Number at Point.  Fails if it has none,
+%   as what is divided by zero.
 
 value(Number, _, _, Value) :-
     number(Number),
@@ -144,7 +145,7 @@ value(Term, Point, Context, Value) :-
     Term =.. [Function|Es],
     maplist(value_at(Point, Context), Es, Values),
     Expression =.. [Function|Values],
-    Value is Expression.
+    catch(Value is Expression, error(evaluation_error(_), _), fail).
 
 value_at(Point, Context, E, Value) :-
     value(E, Point, Context, Value).

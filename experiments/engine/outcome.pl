@@ -79,26 +79,23 @@ median_points(Rows, Points) :-
               dict_create(Measures, measures, Pairs) ),
             Points).
 
-claim(Study, Names, OfSeeds, Medians,
-      claim(Text, Notes, Held, Of, OfMedians, Found)) :-
+claim(Study, Names, OfSeeds, Medians, claim(Text, Notes, Held, Of, M, Found)) :-
     study_call(Study, claim(Text, Notes, Test)),
     length(OfSeeds, Of),
+    catch(judged(Study:Test, Names, OfSeeds, Medians, Held, M, Found),
+          error(Formal, Context),
+          ( print_message(warning, study_claim(Text, error(Formal, Context))),
+            Held-M-Found = 0-false-'a mistake in the claim' )).
+
+judged(Test, Names, OfSeeds, Medians, Held, OfMedians, Found) :-
     aggregate_all(count,
-                  ( member(Points, OfSeeds), holds(Study, Text, Test, Points) ),
+                  ( member(Points, OfSeeds), claim_holds(Test, Points, Points) ),
                   Held),
-    (   holds(Study, Text, Test, Medians)
+    (   claim_holds(Test, Medians, Medians)
     ->  OfMedians = true
     ;   OfMedians = false
     ),
-    claim_found(Study:Test, Medians, Names, Found).
-
-%   A mistake in a claim is told, and does not cost what others found.
-
-holds(Study, Text, Test, Points) :-
-    catch(claim_holds(Study:Test, Points, Points),
-          error(Formal, Context),
-          ( print_message(warning, study_claim(Text, error(Formal, Context))),
-            fail )).
+    claim_found(Test, Medians, Names, Found).
 
 prolog:message(study_claim(Text, Error)) -->
     [ 'Claim "~w": '-[Text] ],
