@@ -9,13 +9,14 @@
 :- use_module(metrics,
               [backoffs/2, communications/2, completed/2, kind_sums/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [member/2, sum_list/2]).
+:- use_module(library(lists), [member/2, memberchk/2, sum_list/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
 label(communications, "Messages over a link, and migrations").
 label(time, "Until the last task is completed (s)").
 label(backoffs, "Back-offs of an allocator").
 label(interval, "Mean length of a back-off (s)").
+label(upkeep, "Share of answers and renewals in the messages").
 label(rate, "Time for each robot that an allocator requires (s)").
 label(proposed, "proposed").
 label(constant, "proposed, constant back-off").
@@ -50,6 +51,12 @@ measure(interval, View, Mean) :-
     sum_list(View.intervals, Sum),
     length(View.intervals, Count),
     Mean is Sum/Count.
+measure(upkeep, View, Share) :-
+    kind_sums(View.events, Pairs),
+    aggregate_all(sum(Sum), ( member(Kind-Sum, Pairs),
+                              memberchk(Kind, [ack, renew]) ), Upkeep),
+    communications(View.events, All),
+    Share is Upkeep/All.
 measure(Kind, View, Sum) :-
     kind_sums(View.events, Pairs),
     member(Kind-Sum, Pairs).

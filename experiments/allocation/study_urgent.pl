@@ -85,16 +85,16 @@ measure(free, View, Seconds) :-
 
 claim("the task that comes last is completed sooner if it is urgent", [ours],
       at([deadline=0], falls(late, along(priority)))).
-claim("the others are completed all the same", [ours],
-      at([deadline=0], done =:= allocators)).
-claim("with deadlines each task is completed or reported as missed", [ours],
-      done + missed =:= allocators).
+claim("the others are completed as well, on average in less than half as much \c
+time again", [ours],
+      at([deadline=0, priority=1], others < 3/2*at([priority=0], others))).
 claim("a missed deadline is reported within 2 s", [ours], reported =< 2).
 claim("all robots of a task that is missed are free within 60 s, when they \c
 would ask", [ours], free =< 60).
 claim("the later the deadline, the more is completed", [ours],
-      ( at([deadline=30], done =< at([deadline=60, priority=0], done)),
-        at([deadline=60], done =< at([deadline=120, priority=0], done)) )).
+      ( at([deadline=30], done =< at([deadline=60], done)),
+        at([deadline=60], done =< at([deadline=120], done)),
+        at([deadline=30], done < at([deadline=120], done)) )).
 
 plot(urgent, "Priorities: the last task comes late",
      lines([ x(priority), y([late, others]), where([deadline=0]) ])).
