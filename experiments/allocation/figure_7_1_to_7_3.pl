@@ -14,9 +14,6 @@ vary(allocators, [1, 2, 3, 4, 5]).
 skip(Case) :-
     Case.links == static,
     Case.mechanism == constant.
-fixed(hosts, 100, printed("section 7.6.1")).
-fixed(eligible, 15, printed("section 7.6.1")).
-fixed(required, 10, printed("section 7.6.1")).
 
 printed(backoffs, [links=dynamic, mechanism=proposed, allocators=1], 2.6).
 printed(interval, [links=dynamic, mechanism=proposed, allocators=1], 5.16).

@@ -7,10 +7,6 @@ study('7.4', "The density of eligible robots").
 
 vary(mechanism, [proposed, murdoch, anta]).
 vary(eligible, [10, 20, 30, 40, 50]).
-fixed(links, dynamic, printed("section 7.6.3")).
-fixed(hosts, 100, printed("section 7.6.3")).
-fixed(required, 10, printed("section 7.6.3")).
-fixed(allocators, 5, printed("section 7.6.3")).
 
 claim("communications of proposed fall with the density", [line(4976)],
       at([mechanism=proposed], falls(communications, along(eligible)))).

@@ -4,8 +4,8 @@
 
 study('7.5', "The size of the network, 1:2:10").
 text("Of ten hosts two have robots that are eligible, and each allocator \c
-requires one of these.  Murdoch and ANTA are there because the thesis compares \c
-the largest network with theirs of half the size.").
+requires one of these.  Murdoch and ANTA are there because the thesis \c
+compares the largest network with theirs of half the size.").
 
 vary(mechanism, [proposed, murdoch, anta]).
 vary(hosts, [50, 100, 150, 200]).
@@ -14,8 +14,6 @@ skip(Case) :-
     Case.hosts =\= 100.
 derive(eligible, Case, N) :- N is Case.hosts // 5.
 derive(required, Case, N) :- N is Case.hosts // 10.
-fixed(links, dynamic, printed("section 7.6.4")).
-fixed(allocators, 5, printed("section 7.6.4")).
 
 claim("communications grow with the size", [line(5023)],
       at([mechanism=proposed], rises(communications, along(hosts)))).

@@ -1,15 +1,15 @@
 %   Chapter 7: what one run of a mechanism is, and what is measured of it.
 %
-%   Expects what `robots` does, and the parameter `mechanism`.  Gives: run/2,
+%   Expects the parameter `mechanism`.  Gives: what `robots` does, run/2,
 %   view/2, and the measures that have a label here.
 
 :- include(robots).
 :- use_module(faults, [no_reservation_faults/1]).
 :- use_module(mechanisms, [mechanism_allocate/4]).
 :- use_module(metrics,
-              [backoffs/2, communications/2, completed/2, kind_sums/2]).
+              [backoffs/2, communications/2, completed/2, kind_sums/2, mean/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [member/2, memberchk/2, sum_list/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
 label(communications, "Messages over a link, and migrations").
@@ -47,10 +47,7 @@ measure(backoffs, View, Mean) :-
     length(View.intervals, Count),
     Mean is Count/View.case.allocators.
 measure(interval, View, Mean) :-
-    View.intervals = [_|_],
-    sum_list(View.intervals, Sum),
-    length(View.intervals, Count),
-    Mean is Sum/Count.
+    mean(View.intervals, Mean).
 measure(upkeep, View, Share) :-
     kind_sums(View.events, Pairs),
     aggregate_all(sum(Sum), ( member(Kind-Sum, Pairs),

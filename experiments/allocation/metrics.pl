@@ -5,10 +5,12 @@
             backoffs/2,                 % +Events, -Seconds
             lasted/3,                   % +Events, ?Task, -Seconds
             overdue/3,                  % +Events, -Reported, -Free
-            from_first/2                % +Events0, -Events
+            from_first/2,               % +Events0, -Events
+            mean/2                      % +Numbers, -Mean
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [max_list/2, member/2, memberchk/2, min_list/2]).
+:- use_module(library(lists),
+              [max_list/2, member/2, memberchk/2, min_list/2, sum_list/2]).
 
 /** <module> What an event log says about allocations
 
@@ -100,3 +102,13 @@ from_first(Events0, Events) :-
             ( member(event(Time0, Host, Agent, What), Events0),
               Time is Time0 - Start ),
             Events).
+
+%!  mean(+Numbers, -Mean) is semidet.
+%
+%   Fails if there are none.
+
+mean(Numbers, Mean) :-
+    length(Numbers, Count),
+    Count > 0,
+    sum_list(Numbers, Sum),
+    Mean is Sum/Count.

@@ -1,8 +1,7 @@
 %   Chapter 7: a network of robots, and where allocators begin.
 %
-%   Expects of the study that includes this: the parameters `links`, `hosts`,
-%   `eligible`, `required` and `allocators`.  Gives: network/3, places/3,
-%   tasks/2, wait_for_all/2.
+%   Gives: network/3, places/3, tasks/2, and parameters that a study may fix
+%   anew.
 
 :- use_module('../../prolog/typhon/base/chance',
               [chance_sample/5, chance_seed/2]).
@@ -10,6 +9,11 @@
 :- use_module('../../agents/allocation/operator', [robot_start/3]).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
 
+fixed(links, dynamic, printed("section 7.6")).
+fixed(hosts, 100, printed("section 7.6.1")).
+fixed(eligible, 15, printed("section 7.6.1")).
+fixed(required, 10, printed("section 7.6.1")).
+fixed(allocators, 5, printed("section 7.6.3")).
 fixed(probability, 0.06,
       assumed("G(n,p) is printed in section 7.5, not p: six links at a \c
 host of 100")).

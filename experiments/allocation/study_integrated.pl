@@ -13,16 +13,14 @@
 
 study(integrated, "Sequences of tasks on robots that were found for them").
 text("Two sequences of three tasks want ten of the same fifteen robots.  For \c
-each an allocator finds and holds its robots, and agents whose number regulates \c
-itself have them execute the tasks in step.").
+each an allocator finds and holds its robots, and agents whose number \c
+regulates itself have them execute the tasks in step.").
 
 fixed(sequences, 2, assumed("so that one has to wait")).
 fixed(length, 3, assumed("tasks of each")).
 fixed(task_time, 5, assumed("seconds")).
-fixed(links, dynamic, assumed("as in section 7.6.1")).
 fixed(hosts, 30, assumed("agents of chapter 6 look on all hosts")).
-fixed(eligible, 15, assumed("as in section 7.6.1")).
-fixed(required, 10, assumed("as in section 7.6.1")).
+fixed(probability, 0.2, assumed("six links at a host")).
 derive(allocators, Case, Case.sequences).
 
 label(found, "The last sequence has its robots (s)").
