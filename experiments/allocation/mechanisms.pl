@@ -9,7 +9,8 @@
 :- use_module('../../agents/allocation/auctions',
               [auction_account/2, auction_open/3, auction_post/3,
                auction_start/3]).
-:- use_module('../../agents/allocation/operator', [task_allocate/4]).
+:- use_module('../../agents/allocation/operator',
+              [robot_status/2, task_allocate/4]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 
@@ -38,7 +39,8 @@ mechanism_allocate(Mechanism, Pairs, Case, Network) :-
                     slack(0) ]),
     forall(member(Task-Host, Pairs), auction_post(Mechanism, Task, Host)),
     pairs_values(Pairs, Auctioneers),
-    auctions_end(Mechanism, Auctioneers, Network, Case.limit),
+    auctions_end(auctions(Mechanism, Auctioneers, Hosts), Network,
+                 Case.limit),
     auction_account(Mechanism, Hosts),
     network_advance(Network, 0).
 mechanism_allocate(Mechanism, Pairs, Case, _) :-
@@ -62,20 +64,23 @@ start(Backoff, Task, Host, Case) :-
                                bi_min-Case.bi_min, bi_max-Case.bi_max ]) ],
                   _).
 
-%   Nodes do not end: they are looked at.  A robot that the last message does
-%   not reach, for it has no link just then, is free when its contract lapses.
+%   Nodes do not end: they and the robots are looked at.  A robot that the
+%   last message does not reach, for it has no link just then, is free when
+%   its contract lapses.  That message takes less than the time between two
+%   looks.
 
-auctions_end(Mechanism, Auctioneers, Network, Limit) :-
+auctions_end(Auctions, Network, Limit) :-
     Limit > 0,
     network_advance(Network, 10),
-    (   auction_open(Mechanism, Auctioneers, [])
-    ->  lapse(Seconds),
-        network_advance(Network, Seconds)
+    (   over(Auctions)
+    ->  network_advance(Network, 10)
     ;   Left is Limit - 10,
-        auctions_end(Mechanism, Auctioneers, Network, Left)
+        auctions_end(Auctions, Network, Left)
     ).
 
-lapse(70).                      % ten more than a contract lasts
+over(auctions(Mechanism, Auctioneers, Hosts)) :-
+    auction_open(Mechanism, Auctioneers, []),
+    forall(member(Host, Hosts), robot_status(Host, free)).
 
 %!  allocators_end(+Limit) is semidet.
 %
