@@ -6,7 +6,8 @@
             spread_text/3,              % +Row, +Measure, -Text
             shown_measures/3,           % +Study, +Rows, -Measures
             parameter_rows/3,           % +Study, +Given, -Rows
-            held_text/3                 % +Held, +Of, -Text
+            held_text/3,                % +Held, +Of, -Text
+            medians_text/4              % +Held, +Of, +OfMedians, -Text
           ]).
 :- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
 :- use_module(library(csv), [csv_write_file/2]).
@@ -93,10 +94,7 @@ range_text(Least, Most, Text) :-
 
 print_claim(Stream, claim(Text, _, Held, Of, OfMedians, Found)) :-
     held_text(Held, Of, Word),
-    (   OfMedians == true
-    ->  Medians = ''
-    ;   Medians = ' (not of the medians)'
-    ),
+    medians_text(Held, Of, OfMedians, Medians),
     format(Stream, '  ~w~t~18|~w~w~n~18|~w~n', [Word, Text, Medians, Found]).
 
 %!  held_text(+Held, +Of, -Text) is det.
@@ -106,6 +104,19 @@ held_text(1, 1, held) :- !.
 held_text(Of, Of, Text) :- !, format(atom(Text), 'held, ~d runs', [Of]).
 held_text(0, _, 'DID NOT HOLD') :- !.
 held_text(Held, Of, Text) :- format(atom(Text), 'held in ~d of ~d', [Held, Of]).
+
+%!  medians_text(+Held, +Of, +OfMedians, -Text) is det.
+%
+%   Whether a claim is true of the medians, where that is not as with runs.
+
+medians_text(Held, Of, false, ' (not of the medians)') :-
+    Of > 1,
+    Held > 0,
+    !.
+medians_text(0, Of, true, ' (but of the medians)') :-
+    Of > 1,
+    !.
+medians_text(_, _, _, '').
 
 %!  print_table(+Stream, +Header, +Rows) is det.
 %
