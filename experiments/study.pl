@@ -240,12 +240,24 @@ make_one(Study, Case, Options) :-
 
 print_command(Study, N, Seed, Options) :-
     module_property(study, file(Script)),
+    prolog(Swipl),
     out(Options, Out),
     findall(Argument, repeated(Options, Argument), More),
-    append([ [swipl, Script, '--', Study, '--case', N, '--seed', Seed],
+    append([ [Swipl, Script, '--', Study, '--case', N, '--seed', Seed],
              More, ['--out', Out] ], Words),
     command_text(Words, Text),
     format('~w~n', [Text]).
+
+%   By its usual name, if that is who this is.
+
+prolog(Swipl) :-
+    current_prolog_flag(executable, Executable),
+    (   absolute_file_name(path(swipl), Usual,
+                           [access(execute), file_errors(fail)]),
+        same_file(Usual, Executable)
+    ->  Swipl = swipl
+    ;   Swipl = Executable
+    ).
 
 %   Of all runs, for people, and from here.
 

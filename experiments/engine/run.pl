@@ -9,7 +9,7 @@
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(sources, [sources_hash/2]).
 :- use_module(store, [log_file/2, result_save/2]).
-:- use_module(studies, [study_call/2, study_says/2]).
+:- use_module(studies, [study_at_work/1, study_call/2, study_says/2]).
 
 /** <module> One run of a study
 
@@ -110,6 +110,7 @@ environment(load(Load)) :-
 run_log(Study, Case0, Seed, File, Log) :-
     file_directory_name(File, Directory),
     Case = Case0.put(_{seed:Seed, directory:Directory}),
+    study_at_work(Study),
     set_random(seed(Seed)),
     (   study_says(Study, network/3)
     ->  network_log(Study, Case, File, Log)
