@@ -25,6 +25,9 @@ A picture is
     the data file NAME.dat; options size(W,H), seed(first): only the runs
     of the first seed, and variables(Goal): call(Goal, Runs, Pairs) of
     gnuplot variables Name-Value.
+  - file(File, Where): what a run has drawn itself, an SVG file in its
+    directory: the first run of the case that is as Where, a list of
+    Name=Value, says.
 
 Runs are run(Case, Seed, Measures).
 
@@ -73,6 +76,16 @@ picture(Study, plot(Name, Title, script(File, Tables, Options)), Runs0,
     directory_file_path(Beside, File, Script),
     draw(Directory, Name, W-H, Script,
          ['NAME'-Name, 'TITLE'-Title, 'HEIGHT'-H|More]).
+
+picture(_, plot(Name, _, file(File, Where)), Runs0, Directory) :-
+    matching(Where, Runs0, Runs),
+    (   of_seed([seed(first)], Runs, [run(_, _, Measures)|_])
+    ->  directory_file_path(Measures.directory, File, Drawn),
+        file_name_extension(Name, svg, Copy),
+        directory_file_path(Directory, Copy, Path),
+        copy_file(Drawn, Path)
+    ;   true                    % the run has failed
+    ).
 
 of_seed(Options, Runs0, Runs) :-
     option(seed(first), Options),

@@ -77,13 +77,14 @@ environment(load(Load)) :-
 
 %!  run_log(+Study, +Case, +Seed, +File, -Log) is det.
 %
-%   Log is a dict with `case`, which also has the `seed`, and, of a study with
-%   a network, `hosts` and `events`, which are in File too.
+%   Log is a dict with `case`, which also has the `seed` and the `directory`
+%   of the run, and, of a study with a network, `hosts` and `events`, which
+%   are in File too.
 
 run_log(Study, Case0, Seed, File, Log) :-
     has_network(Study),
     !,
-    Case = Case0.put(seed, Seed),
+    run_case(Case0, Seed, File, Case),
     must(Study, network(Case, Topology, Options0)),
     append(Options0,
            [ clock(Case.clock), processes(Case.processes), seed(Seed),
@@ -97,9 +98,13 @@ run_log(Study, Case0, Seed, File, Log) :-
         network_stop(Network)),
     log_events(File, Events),
     Log = log{case:Case, hosts:Hosts, events:Events}.
-run_log(_, Case0, Seed, _, log{case:Case}) :-
-    Case = Case0.put(seed, Seed),
+run_log(_, Case0, Seed, File, log{case:Case}) :-
+    run_case(Case0, Seed, File, Case),
     set_random(seed(Seed)).
+
+run_case(Case0, Seed, File, Case) :-
+    file_directory_name(File, Directory),
+    Case = Case0.put(_{seed:Seed, directory:Directory}).
 
 prolog:error_message(study_goal_failed(PI)) -->
     [ 'The study\'s own ~q failed'-[PI] ].

@@ -62,14 +62,15 @@ run_done(Root, Study, Case, Seed) :-
 
 %!  run_result(+Root, +Study, +Case, +Seed, -Measures:dict) is semidet.
 %
-%   What was measured; fails if the run is not there.
+%   What was measured, and the `directory` of the run; fails if it is not
+%   there.
 
 run_result(Root, Study, Case, Seed, Measures) :-
     run_directory(Root, Study, Case, Seed, Directory),
     exists_directory(Directory),
     run_facts(Directory, Facts),
     findall(Name-Value, member(measure(Name, Value), Facts), Pairs),
-    dict_create(Measures, measures, Pairs).
+    dict_create(Measures, measures, [directory-Directory|Pairs]).
 
 %!  run_facts(+Directory, -Facts:list) is det.
 %!  result_save(+Directory, +Facts:list) is det.
