@@ -1,18 +1,20 @@
 :- module(robots_pole_metrics,
-          [ pole_states/4,              % +Terms, +Moments, +Start, -States
+          [ pole_states/3,              % +Terms, +Moments, -States
             host_time/3,                % +Moments, +ArenaTime, -HostTime
             max_tilt/2,                 % +States, -Tilt
             over_limit/3,               % +States, +Limit, -Seconds
             carried/2,                  % +States, -Metres
             durations/3,                % +Executions, +Task, -Seconds
             starts_apart/3,             % +Executions, +Task, -Seconds
-            mingled/2                   % +Executions, -Mingled
+            mingled/2,                  % +Executions, -Mingled
+            bar_rows/4,                 % +Hosts, +Segments, +Executions, -Rows
+            start_rows/2                % +Executions, -Rows
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists),
-              [last/2, max_list/2, member/2, min_list/2]).
+              [append/3, last/2, max_list/2, member/2, min_list/2, nth1/3]).
 
-/** <module> What the log of the arena says about the pole
+/** <module> What the logs say about a pole that was carried
 
 A state is state(Time, Pole), where Pole is the term that the arena gives:
 
@@ -23,17 +25,16 @@ in metres and degrees.  X and Y are the centre.
 *Threading*: pure.
 */
 
-%!  pole_states(+Terms, +Moments, +Start, -States) is det.
+%!  pole_states(+Terms, +Moments, -States) is det.
 %
-%   States are those from host time Start on, which is then 0.  Terms are
-%   those of arena_log/2; Moments as of host_time/3.
+%   States are those from host time 0 on.  Terms are those of arena_log/2;
+%   Moments as of host_time/3.
 
-pole_states(Terms, Moments, Start, States) :-
+pole_states(Terms, Moments, States) :-
     findall(state(Time, Pole),
             ( member(state(ArenaTime, _, Pole, _), Terms),
               Pole \== none,
-              host_time(Moments, ArenaTime, HostTime),
-              Time is HostTime - Start,
+              host_time(Moments, ArenaTime, Time),
               Time >= 0
             ),
             States).
@@ -138,3 +139,36 @@ mingled(Executions, Mingled) :-
                       End > Start )
             ),
             Mingled).
+
+%!  bar_rows(+Hosts, +Segments, +Executions, -Rows) is det.
+%
+%   Rows [I, Task, From, To, Executed]: what host I of Hosts required (0), and
+%   then what it executed (1), which is drawn over it.  Segments are those of
+%   required/5 in sync_metrics.
+
+bar_rows(Hosts, Segments, Executions, Rows) :-
+    findall([I, Task, From, To, 0],
+            ( member(segment(Host, Task, From, To), Segments),
+              nth1(I, Hosts, Host) ),
+            Required),
+    findall([I, Task, From, To, 1],
+            ( member(execution(Task, Host, From, To), Executions),
+              nth1(I, Hosts, Host) ),
+            Executed),
+    append(Required, Executed, Rows).
+
+%!  start_rows(+Executions, -Rows) is det.
+%
+%   Rows [Second, Task, Below]: Task was switched on in this second, in which
+%   Below others had been before.
+
+start_rows(Executions, Rows) :-
+    findall(Second-Task,
+            ( member(execution(Task, _, Start, _), Executions),
+              Second is floor(Start) ),
+            Starts0),
+    msort(Starts0, Starts),
+    findall([Second, Task, Below],
+            ( append(Before, [Second-Task|_], Starts),
+              aggregate_all(count, member(Second-_, Before), Below) ),
+            Rows).
