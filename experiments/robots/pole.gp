@@ -28,7 +28,7 @@ plot LIMIT lw 1.5 dt 2 lc rgb "#333333" title "limit", \
      for [i=1:2] "tilt.dat" index i-1 with lines lw 2 lc rgb Full[i] title Way[i]
 unset label; unset key
 
-set yrange [4.5:0]; set ytics 1; set ylabel "robot"
+set yrange [4.5:0]; set ytics 1,1,4; set ylabel "robot"
 do for [i=1:2] {
     top = 0.455 - 0.225*(i-1)
     set tmargin at screen top; set bmargin at screen top-0.165

@@ -1,0 +1,176 @@
+:- module(robots_boxes_play,
+          [ boxes_play/4                % +Case, +Network, +Arena, +Bricks
+          ]).
+:- use_module('../../prolog/typhon',
+              [agent_join/3, link/2, network_advance/2, network_property/2,
+               remote/2, unlink/2]).
+:- use_module('../../agents/allocation/operator',
+              [allocation_stage/3, robot_start/3, robot_status/2,
+               task_allocate/4]).
+:- use_module(arena, [arena_ask/3]).
+:- use_module(boxes_jobs, [job_box/2, job_program/1, job_task/3]).
+:- use_module(crew, [crew_join/2]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
+:- use_module(library(lists), [append/3, last/2, member/2, memberchk/2, numlist/3]).
+
+/** <module> Robots push boxes
+
+Each robot is a host, in a process of its own, with the static agent of a
+robot and a brick in the arena.  An allocator is released for each box.
+
+*Threading*: it is the caller's thread that waits.
+*/
+
+%   Settings of the allocators that are not the defaults: they rest no
+%   longer than a box takes, and have patience with robots that compute.
+
+settings(Case, [bi_max-15, monitor-60, seed-(Case.seed)]).
+
+%!  boxes_play(+Case, +Network, +Arena, +Bricks) is semidet.
+%
+%   Plays the phases of Case.script, one after the other, in Arena, where
+%   Bricks of the scene are.  Case has
+%
+%     - script: a list of phase(Jobs, Joining).  The boxes of a phase are
+%       there at the same time; while the last of them is being pushed so many
+%       more robots join.
+%     - robots: so many are there at first.  The other hosts of Network have
+%       none yet, and no links.
+%     - seed: of the back-offs
+%     - limit: real seconds that a phase may take.  Then this fails.
+
+boxes_play(Case, Network, Arena, Bricks0) :-
+    network_property(Network, hosts(Hosts)),
+    length(First, Case.robots),
+    append(First, Later, Hosts),
+    stand_apart(Network, First, Later),
+    length(Bricks, Case.robots),
+    append(Bricks, Others, Bricks0),
+    forall(member(Robot-_, Others), remove(Arena, Robot)),
+    forall(member(Box, [box1, box2]), remove(Arena, Box)),   % of the scene
+    Stage = stage(Case, Network, Arena, Bricks),
+    enlist(Stage, First),
+    job_program(Program),
+    foldl(phase(Stage, Program), Case.script, First-Later, _).
+
+remove(Arena, Name) :-
+    arena_ask(Arena, 'remove ~w'-[Name], ok).
+
+%   The network is a ring: that of the first is closed, the later ones have
+%   no links.
+
+stand_apart(Network, First, Later) :-
+    network_property(Network, edges(Edges)),
+    forall(( member(A-B, Edges),
+             ( memberchk(A, Later) -> true ; memberchk(B, Later) ) ),
+           unlink(A, B)),
+    First = [A|_],
+    last(First, B),
+    link(A, B).
+
+                /*******************************
+                *             PHASES           *
+                *******************************/
+
+phase(Stage, Program, phase(Jobs, Joining), Here0-Later0, Here-Later) :-
+    Stage = stage(Case, Network, Arena, _),
+    get_time(Now),
+    Deadline is Now + Case.limit,
+    maplist(release(Stage, Program, Here0), Jobs, Allocators),
+    forall(member(Allocator, Allocators),
+           until(begun(Allocator), Network, Deadline)),
+    length(New, Joining),
+    append(New, Later, Later0),
+    join(New, Stage, Here0, Here),
+    forall(member(Allocator, Allocators),
+           ( left(Deadline, Seconds),
+             agent_join(Allocator, done, Seconds) )),
+    forall(member(Host, Here), until(idle(Host), Network, Deadline)),
+    forall(member(job(Box, _, _), Jobs), remove(Arena, Box)).
+
+%   The allocator of the second location begins at the other side.
+
+release(stage(Case, _, Arena, _), Program, Hosts, Job, Allocator) :-
+    job_box(Job, Line),
+    arena_ask(Arena, Line, ok),
+    job_task(Job, Program, Task),
+    Job = job(_, Location, _),
+    (   Location =:= 1
+    ->  Hosts = [Host|_]
+    ;   last(Hosts, Host)
+    ),
+    settings(Case, Settings),
+    task_allocate(Task, Host, [settings(Settings)], Allocator).
+
+begun(Allocator) :-
+    allocation_stage(Allocator, executing, _).
+begun(Allocator) :-
+    agent_join(Allocator, Outcome, 0),
+    Outcome \== timeout.
+
+idle(Host) :-
+    robot_status(Host, Status),
+    memberchk(Status, [free, failed]).
+
+:- meta_predicate until(0, +, +).
+
+until(Goal, _, _) :-
+    call(Goal),
+    !.
+until(Goal, Network, Deadline) :-
+    left(Deadline, Seconds),
+    Seconds > 0,
+    network_advance(Network, 1),
+    until(Goal, Network, Deadline).
+
+left(Deadline, Seconds) :-
+    get_time(Now),
+    Seconds is max(0, Deadline - Now).
+
+                /*******************************
+                *            ROBOTS            *
+                *******************************/
+
+%   enlist(+Stage, +Hosts): each connects to the brick of its robot.
+
+enlist(stage(_, _, Arena, Bricks), Hosts) :-
+    maplist(name, Hosts, Names),
+    maplist(port(Arena, Bricks), Names, Ports),
+    crew_join(Hosts, Ports),
+    maplist(equip, Hosts, Names).
+
+name(Host, Name) :-
+    atomic_list_concat([Name|_], @, Host).
+
+%   Who joins comes into its slot of the dock.
+
+port(_, Bricks, Name, Port) :-
+    memberchk(Name-Port, Bricks),
+    !.
+port(Arena, _, Name, Port) :-
+    slot(Name, Slot),
+    arena_ask(Arena, 'robot ~w lane slot~d 0.5 pusher -1'-[Name, Slot],
+              brick(Name, pty(Port), _)).
+
+slot(Name, Slot) :-
+    atom_concat(r, Number, Name),
+    atom_number(Number, Slot).
+
+equip(Host, Name) :-
+    slot(Name, Slot),
+    remote(Host, leave(slot(Slot))),
+    numlist(1, 5, Places),
+    findall(place(Place), member(Place, Places), Properties),
+    robot_start(Host, [push|Properties], []).
+
+%   Each is linked with the last one that was there, and with the first.
+
+join([], _, Hosts, Hosts).
+join([Host|New], Stage, Hosts0, Hosts) :-
+    enlist(Stage, [Host]),
+    Hosts0 = [First|_],
+    last(Hosts0, Last),
+    link(Last, Host),
+    link(Host, First),
+    append(Hosts0, [Host], Hosts1),
+    join(New, Stage, Hosts1, Hosts).
