@@ -196,13 +196,15 @@ claim("all robots begin the first task at the same time (within 3 s)",
       at([way=in_step], started_within =< 3)).
 claim("the robots take different times to reach the pole", [line(3707)],
       at([way=in_step], slowest > 1.5*quickest)).
-claim("they begin to lift at 27 s, and to carry around 54 s (within 5 s)",
-      [line(3709)],
-      at([way=in_step], ( near(second, 27, 5), near(third, 54, 5) ))).
+claim("they begin to lift at the 27th second (within 5 s)", [line(3709)],
+      at([way=in_step], near(second, 27, 5))).
+claim("they begin to carry around the 54th second (within 5 s)",
+      [line(3709), why("how long lifting took is not printed; here it is 6 s")],
+      at([way=in_step], near(third, 54, 5))).
 claim("no robot begins a task before all have ended the previous one",
       [line(3700)],
       at([way=in_step], ( early =:= 0, overlaps =:= 0 ))).
-claim("never more than two distinct tasks are required (τ)", [],
+claim("never more than two distinct tasks are required (τ)", [line(3211)],
       at([way=in_step], tau =< 2)).
 claim("the pole is carried 1.2 m (within 5 cm), and put down", [line(3697)],
       at([way=in_step], ( near(carried, 1.2, 0.05), lying =:= 1 ))).
