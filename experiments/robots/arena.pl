@@ -2,7 +2,7 @@
           [ arena_start/4,              % +Scene, +Options, -Arena, -Bricks
             arena_ask/3,                % +Arena, +Line, -Answer
             arena_stop/1,               % +Arena
-            arena_log/2                 % +File, -Terms
+            scene_file/2                % +Scene, -File
           ]).
 :- use_module('../../prolog/typhon/base/own_thread', [in_own_thread/1]).
 :- use_module(library(apply), [maplist/3]).
@@ -11,7 +11,6 @@
 :- use_module(library(option), [option/2, select_option/4]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/3]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
 
 /** <module> The arena: simulated robots in a process of their own
 
@@ -25,16 +24,21 @@ or push.  Whoever drives a robot knows nothing of the arena, only the line.
 :- multifile
     prolog:error_message//1.
 
-:- dynamic
-    world_file/1.               % File
-
-:- prolog_load_context(directory, Dir),
-   atom_concat(Dir, '/../../bridges/nxt/world.py', File),
-   retractall(world_file(_)),
-   assertz(world_file(File)).
-
 answer_seconds(30).
 end_seconds(20).                % it may have a long picture to write
+
+%!  scene_file(+Scene:atom, -File) is det.
+%
+%   The file of a scene that comes with the bricks.
+
+scene_file(Scene, File) :-
+    format(atom(Name), 'scenes/~w.json', [Scene]),
+    nxt_file(Name, File).
+
+nxt_file(Name, File) :-
+    module_property(robots_arena, file(Here)),
+    atom_concat('../../bridges/nxt/', Name, Relative),
+    relative_file_name(File, Here, Relative).
 
 %!  arena_start(+Scene, +Options, -Arena, -Bricks) is det.
 %
@@ -44,7 +48,9 @@ end_seconds(20).                % it may have a long picture to write
 %     - clock(Rate): arena seconds in a second, default 1; 0: the time goes
 %       only by the line `advance SECONDS`
 %     - seed(Integer): of the gains of the motors and the noise of sensors
-%     - log(File), every(Seconds): see arena_log/2
+%     - log(File), every(Seconds): a log of terms state(Time, Robots, Pole,
+%       Boxes), one every so many arena seconds, and event(Time, What), with
+%       Time in arena seconds
 %     - picture(File): an animated picture of all, written at the end
 %
 %   @error arena_error(start, Text)
@@ -74,7 +80,7 @@ python('/usr/bin/python3') :-
 python(path(python3)).
 
 arguments(Scene, Dir, Options0, Arguments) :-
-    world_file(World),
+    nxt_file('world.py', World),
     absolute_file_name(Scene, File, [access(read)]),
     select_option(clock(Rate), Options0, Options, 1),
     findall([Flag, Value],
@@ -159,15 +165,6 @@ ended(Pid, Deadline) :-
         sleep(0.02),
         ended(Pid, Deadline)
     ).
-
-%!  arena_log(+File, -Terms:list) is det.
-%
-%   What an arena with log(File) and every(Seconds) has written: terms
-%   state(Time, Robots, Pole, Boxes), one every so many arena seconds, and
-%   event(Time, What), with Time in arena seconds.
-
-arena_log(File, Terms) :-
-    read_file_to_terms(File, Terms, [encoding(utf8)]).
 
                 /*******************************
                 *           MESSAGES           *

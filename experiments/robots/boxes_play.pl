@@ -1,5 +1,6 @@
 :- module(robots_boxes_play,
-          [ boxes_play/4                % +Case, +Network, +Arena, +Bricks
+          [ boxes_play/4,               % +Case, +Network, +Arena, +Bricks
+            robot_name/2                % +Host, -Name
           ]).
 :- use_module('../../prolog/typhon',
               [agent_join/3, link/2, network_advance/2, network_property/2,
@@ -11,7 +12,7 @@
 :- use_module(boxes_jobs, [job_box/2, job_program/1, job_task/3]).
 :- use_module(crew, [crew_join/2]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
-:- use_module(library(lists), [append/3, last/2, member/2, memberchk/2, numlist/3]).
+:- use_module(library(lists), [append/3, last/2, member/2, memberchk/2]).
 
 /** <module> Robots push boxes
 
@@ -20,11 +21,6 @@ robot and a brick in the arena.  An allocator is released for each box.
 
 *Threading*: it is the caller's thread that waits.
 */
-
-%   Settings of the allocators that are not the defaults: they rest no
-%   longer than a box takes, and have patience with robots that compute.
-
-settings(Case, [bi_max-15, monitor-60, seed-(Case.seed)]).
 
 %!  boxes_play(+Case, +Network, +Arena, +Bricks) is semidet.
 %
@@ -88,7 +84,8 @@ phase(Stage, Program, phase(Jobs, Joining), Here0-Later0, Here-Later) :-
     forall(member(Host, Here), until(idle(Host), Network, Deadline)),
     forall(member(job(Box, _, _), Jobs), remove(Arena, Box)).
 
-%   The allocator of the second location begins at the other side.
+%   The allocator of the second location begins at the other side.  It rests
+%   no longer than a box takes, and has patience with robots that compute.
 
 release(stage(Case, _, Arena, _), Program, Hosts, Job, Allocator) :-
     job_box(Job, Line),
@@ -99,8 +96,9 @@ release(stage(Case, _, Arena, _), Program, Hosts, Job, Allocator) :-
     ->  Hosts = [Host|_]
     ;   last(Hosts, Host)
     ),
-    settings(Case, Settings),
-    task_allocate(Task, Host, [settings(Settings)], Allocator).
+    task_allocate(Task, Host,
+                  [settings([bi_max-15, monitor-60, seed-(Case.seed)])],
+                  Allocator).
 
 begun(Allocator) :-
     allocation_stage(Allocator, executing, _).
@@ -134,12 +132,16 @@ left(Deadline, Seconds) :-
 %   enlist(+Stage, +Hosts): each connects to the brick of its robot.
 
 enlist(stage(_, _, Arena, Bricks), Hosts) :-
-    maplist(name, Hosts, Names),
+    maplist(robot_name, Hosts, Names),
     maplist(port(Arena, Bricks), Names, Ports),
     crew_join(Hosts, Ports),
     maplist(equip, Hosts, Names).
 
-name(Host, Name) :-
+%!  robot_name(+Host, -Name) is det.
+%
+%   A host is named as its robot.
+
+robot_name(Host, Name) :-
     atomic_list_concat([Name|_], @, Host).
 
 %   Who joins comes into its slot of the dock.
@@ -159,9 +161,8 @@ slot(Name, Slot) :-
 equip(Host, Name) :-
     slot(Name, Slot),
     remote(Host, leave(slot(Slot))),
-    numlist(1, 5, Places),
-    findall(place(Place), member(Place, Places), Properties),
-    robot_start(Host, [push|Properties], []).
+    findall(place(Place), between(1, 5, Place), Places),
+    robot_start(Host, [push|Places], []).
 
 %   Each is linked with the last one that was there, and with the first.
 

@@ -8,24 +8,23 @@
 %   options of the network, and what the two worlds have in common.
 
 :- use_module('../../prolog/typhon', [remote/2]).
-:- use_module(arena, [arena_ask/3, arena_log/2, arena_start/4, arena_stop/1]).
+:- use_module(arena,
+              [arena_ask/3, arena_start/4, arena_stop/1, scene_file/2]).
 :- use_module(crew, [crew_services/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
 
 fixed(clock, 5, assumed("bricks and the way to them take real time; five \c
 times as fast nobody is late")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
-fixed(limit, 90, assumed("real seconds, for all agents that wait for each \c
-other")).
+fixed(limit, 90, assumed("real seconds; then a run, or a pair of boxes, is \c
+given up")).
 
-robot_options(Case, [hop_time(uniform(Min, Max)), hosts([services(Services)])]) :-
+robot_options(Case, [ hop_time(uniform(Min, Max)),
+                      hosts([services(Services)]) ]) :-
     Min-Max = Case.hop_time,
     crew_services(Services).
-
-                /*******************************
-                *           THE ARENA          *
-                *******************************/
 
 %   in_arena(+Case, +Scene, :Goal): call(Goal, Arena, Bricks) while the arena
 %   is there.
@@ -42,21 +41,9 @@ in_arena(Case, Scene, Goal) :-
         call(Goal, Arena, Bricks),
         arena_stop(Arena)).
 
-:- dynamic scenes/1.
-
-:- prolog_load_context(directory, Directory),
-   directory_file_path(Directory, '../../bridges/nxt/scenes', Scenes),
-   retractall(scenes(_)),
-   assertz(scenes(Scenes)).
-
-scene_file(Scene, File) :-
-    scenes(Directory),
-    file_name_extension(Scene, json, Name),
-    directory_file_path(Directory, Name, File).
-
 arena_terms(Log, Terms) :-
     directory_file_path(Log.case.directory, 'arena.pl', File),
-    arena_log(File, Terms).
+    read_file_to_terms(File, Terms, [encoding(utf8)]).
 
 %   Both clocks go to the log together: on a busy computer that of the arena
 %   falls behind.
@@ -68,10 +55,6 @@ note_clocks(Arena, Host) :-
 clocks(Events, Moments) :-
     findall(ArenaTime-Time,
             member(event(Time, _, _, arena_time(ArenaTime)), Events), Moments).
-
-                /*******************************
-                *            PICTURES          *
-                *******************************/
 
 about(Case, Seed, Text) :-
     Min-Max = Case.hop_time,

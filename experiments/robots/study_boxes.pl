@@ -4,9 +4,10 @@
 :- use_module('../../agents/allocation/reservations', [reservation_faults/2]).
 :- use_module('../allocation/metrics', [from_first/2]).
 :- use_module(boxes_metrics).
-:- use_module(boxes_play, [boxes_play/4]).
+:- use_module(boxes_play, [boxes_play/4, robot_name/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [max_list/2, memberchk/2, nth1/3]).
+:- use_module(library(solution_sequences), [distinct/2]).
 
 study(boxes, "Robots push boxes").
 text("Boxes come in pairs, each of which needs so many robots to be moved. An \c
@@ -70,17 +71,14 @@ measure(boxes, View, Count) :-
     aggregate_all(count, ( member(phase(Jobs, _), View.case.script),
                            member(_, Jobs) ), Count).
 measure(pushed, View, Count) :-
-    pushed(View.terms, Boxes),
-    length(Boxes, Count).
+    aggregate_all(count, member(event(_, arrived(_)), View.terms), Count).
 measure(completed, View, Count) :-
     aggregate_all(count, ( member(job(_, _, _, End, _, _), View.jobs),
                            number(End) ), Count).
 measure(backoffs, View, Count) :-
-    rest_rows(View.jobs, Rests),
-    length(Rests, Count).
+    aggregate_all(count, rest(View, _), Count).
 measure(rested, View, Seconds) :-
-    rest_rows(View.jobs, Rests),
-    aggregate_all(sum(S), member([_, _, S], Rests), Seconds).
+    aggregate_all(sum(S), rest(View, [_, _, S]), Seconds).
 measure(contending, View, Count) :-
     aggregate_all(count, pair(View, _, false), Count).
 measure(yielded, View, Count) :-
@@ -94,8 +92,7 @@ measure(together, View, Count) :-
 measure(newcomers, View, Count) :-
     aggregate_all(count, newcomer(View, _), Count).
 measure(newcomers_used, View, Count) :-
-    aggregate_all(count, ( newcomer(View, Host),
-                           worked(View.holdings, Host) ), Count).
+    aggregate_all(count, distinct(Host, pushing_newcomer(View, Host)), Count).
 measure(from_dock, View, Metres) :-
     from_dock(View.terms, Metres).
 measure(end, View, View.end).
@@ -107,18 +104,44 @@ newcomer(View, Host) :-
     nth1(I, View.hosts, Host),
     I > View.case.robots.
 
-%   Rows for the picture: see boxes_metrics; and robot, name, when it came.
+pushing_newcomer(View, Host) :-
+    newcomer(View, Host),
+    member(holding(Host, _, _, Start, _), View.holdings),
+    number(Start).
+
+%   Rows for the picture, and for people: box, its name, robots, begun,
+%   allocated, completed, back-offs, seconds rested, who; box, rests from, for
+%   so long; robot, box, reserved, executes from, released; robot, its name,
+%   when it came.
 
 measure(jobs, View, Rows) :-
-    job_rows(View.jobs, Rows).
+    findall(Row, job_row(View, Row), Rows).
 measure(rests, View, Rows) :-
-    rest_rows(View.jobs, Rows).
+    findall(Row, rest(View, Row), Rows).
 measure(holdings, View, Rows) :-
-    holding_rows(View.hosts, View.jobs, View.holdings, Rows).
+    findall([I, J, From, Start, To],
+            ( member(holding(Host, Box, From, Start, To), View.holdings),
+              nth1(I, View.hosts, Host),
+              nth1(J, View.jobs, job(Box, _, _, _, _, _)) ),
+            Rows).
 measure(robots, View, Rows) :-
     findall([I, Name, Time], ( nth1(I, View.hosts, Host),
                                memberchk(Host-Time, View.joined),
-                               name(Host, Name) ), Rows).
+                               robot_name(Host, Name) ), Rows).
+
+job_row(View, [I, Box, Count, Begun, Allocated, End, Backoffs, Rested, Who]) :-
+    nth1(I, View.jobs, job(Box, Begun, Allocated, End, Hosts, Rests)),
+    length(Hosts, Count),
+    length(Rests, Backoffs),
+    aggregate_all(sum(S), member(_-S, Rests), Rested),
+    findall(Name, ( member(Host, Hosts), robot_name(Host, Name) ), Names0),
+    msort(Names0, Names),
+    atomic_list_concat(Names, ' ', Text),
+    atom_string(Text, Who).
+
+rest(View, [I, From, Seconds]) :-
+    nth1(I, View.jobs, job(_, _, _, _, _, Rests)),
+    member(From-Seconds, Rests).
 
                 /*******************************
                 *            CLAIMS            *
@@ -151,7 +174,8 @@ plot(arena, "The run", file('arena.svg', [])).
 rows(Measure, [run(_, _, Measures)|_], Measures.Measure).
 
 variables([run(Case, Seed, Measures)|_],
-          [ 'SUBTITLE'-Text, 'END'-(Measures.end), robots-Robots, jobs-Jobs ]) :-
+          [ 'SUBTITLE'-Text, 'END'-(Measures.end), robots-Robots,
+            jobs-Jobs ]) :-
     about(Case, Seed, Text),
     length(Measures.robots, Robots),
     length(Measures.jobs, Jobs).

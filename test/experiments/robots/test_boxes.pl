@@ -119,38 +119,12 @@ test(yields_to_nobody, fail) :-
     yields([job(a, 0, 1, 5, [], [3-1]), job(b, 0, 4, 9, [], [])], a-b).
 test(nobody_yields, fail) :-
     yields([job(a, 0, 1, 5, [], []), job(b, 0, 6, 9, [], [])], a-b).
-test(worked) :-
-    worked([holding(a, x, 1, none, 2), holding(a, y, 3, 4, 5)], a).
-test(never_worked, fail) :-
-    worked([holding(a, x, 1, none, 2), holding(b, y, 3, 4, 5)], a).
-test(pushed, Boxes-Centimetres == [box1, box2]-5) :-
+test(from_dock, Centimetres == 5) :-
     terms(Terms),
-    pushed(Terms, Boxes),
     from_dock(Terms, Metres),
     Centimetres is round(100*Metres).
 
 :- end_tests(boxes_metrics).
-
-:- begin_tests(boxes_tables).
-
-test(jobs, Rows == [ [1, box1, 2, 1, 4, 9, 0, 0, "a b"],
-                     [2, box2, 2, 1, 12, 20, 1, 2.5, "b c"] ]) :-
-    events(Events),
-    jobs(Events, Jobs),
-    job_rows(Jobs, Rows).
-test(rests, Rows == [[2, 3, 2.5]]) :-
-    events(Events),
-    jobs(Events, Jobs),
-    rest_rows(Jobs, Rows).
-test(holdings, Rows == [ [1, 1, 1, 4, 10], [2, 2, 2, none, 3],
-                         [2, 1, 4, 4, 10], [2, 2, 11, 12, 21],
-                         [3, 2, 12, 12, 21] ]) :-
-    events(Events),
-    jobs(Events, Jobs),
-    holdings(Events, Holdings),
-    holding_rows([a, b, c], Jobs, Holdings, Rows).
-
-:- end_tests(boxes_tables).
 
                 /*******************************
                 *            CLAIMS            *
@@ -185,6 +159,17 @@ test(measures) :-
                     contending-1, yielded-1, enough-0, together-0,
                     newcomers-1, newcomers_used-1, from_dock-0.05, end-20 ]),
            assertion(abs(Ms.Name - Value) < 1.0e-6)).
+test(tables) :-
+    events(Events),
+    terms(Terms),
+    point(Events, Terms, _-Ms),
+    assertion(Ms.jobs == [ [1, box1, 2, 0, 3, 8, 0, 0, "a b"],
+                           [2, box2, 2, 0, 11, 19, 1, 2.5, "b c"] ]),
+    assertion(Ms.rests == [[2, 2, 2.5]]),
+    assertion(Ms.holdings == [ [1, 1, 0, 3, 9], [2, 2, 1, none, 2],
+                               [2, 1, 3, 3, 9], [2, 2, 10, 11, 20],
+                               [3, 2, 11, 11, 20] ]),
+    assertion(Ms.robots == [[1, a, -1], [2, b, -1], [3, c, 5]]).
 test(all_hold, Numbers == [1, 2, 3, 4, 5, 6]) :-
     robot_study(boxes, Study),
     events(Events),
