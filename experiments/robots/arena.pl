@@ -8,7 +8,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [append/2, append/3]).
-:- use_module(library(option), [option/2, select_option/4]).
+:- use_module(library(option), [option/2]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/3]).
 
@@ -23,9 +23,6 @@ or push.  Whoever drives a robot knows nothing of the arena, only the line.
 
 :- multifile
     prolog:error_message//1.
-
-answer_seconds(30).
-end_seconds(20).                % it may have a long picture to write
 
 %!  scene_file(+Scene:atom, -File) is det.
 %
@@ -64,8 +61,7 @@ arena_start(Scene, Options, Arena, Bricks) :-
                    [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
                      detached(true)     % a signal is for us alone
                    ]),
-    answer_seconds(Seconds),
-    set_stream(Out, timeout(Seconds)),
+    set_stream(Out, timeout(30)),
     Arena = arena(Pid, In, Out, Dir),
     catch(ready(Out, Bricks), Ball,
           ( arena_stop(Arena),
@@ -79,17 +75,17 @@ python('/usr/bin/python3') :-
     !.
 python(path(python3)).
 
-arguments(Scene, Dir, Options0, Arguments) :-
+arguments(Scene, Dir, Options, Arguments) :-
     nxt_file('world.py', World),
     absolute_file_name(Scene, File, [access(read)]),
-    select_option(clock(Rate), Options0, Options, 1),
     findall([Flag, Value],
             ( flag(Option, Flag, Value), option(Option, Options) ),
             Pairs),
     append(Pairs, More),
-    append(['-u', World, File, '--pty', Dir, '--clock', Rate,
-            '--until-eof'], More, Arguments).
+    append(['-u', World, File, '--pty', Dir, '--until-eof'], More,
+           Arguments).
 
+flag(clock(Rate), '--clock', Rate).
 flag(seed(Seed), '--seed', Seed).
 flag(log(File), '--log', File).
 flag(every(Seconds), '--every', Seconds).
@@ -139,17 +135,13 @@ answer(Answer, _, Answer).
 arena_stop(arena(Pid, In, Out, Dir)) :-
     in_own_thread(stop(Pid, In)),
     close(Out, [force(true)]),
-    (   exists_directory(Dir)
-    ->  delete_directory_and_contents(Dir)
-    ;   true
-    ).
+    delete_directory_and_contents(Dir).
 
 stop(Pid, In) :-
     catch(( format(In, 'quit~n', []), flush_output(In) ), error(_, _), true),
     catch(close(In, [force(true)]), error(_, _), true),
-    end_seconds(Seconds),
     get_time(Now),
-    Deadline is Now + Seconds,
+    Deadline is Now + 20,       % it may have a long picture to write
     (   ended(Pid, Deadline)
     ->  true
     ;   process_kill(Pid, kill),

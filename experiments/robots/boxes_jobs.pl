@@ -1,7 +1,6 @@
 :- module(robots_boxes_jobs,
-          [ job_task/3,                 % +Job, +Program, -Task
-            job_box/2,                  % +Job, -Line
-            job_program/1               % -Program
+          [ job_task/2,                 % +Job, -Task
+            job_box/2                   % +Job, -Line
           ]).
 :- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../../prolog/typhon/program/programs', [payload_load/2]).
@@ -39,27 +38,19 @@ job_box(job(Name, Location, Needs),
 side(1, 2.2, 90).
 side(2, 1.2, -90).
 
-%!  job_program(-Program) is det.
-%
-%   The payloads that a robot needs for a job, loaded.
-%
-%   @error those of a payload file, see agent_check/1
-
-job_program(Program) :-
-    maplist(payload_load,
-            [ payloads(robots/lane), payloads(robots/push),
-              payloads(robots/dock)
-            ], Program).
-
-%!  job_task(+Job, +Program, -Task) is det.
+%!  job_task(+Job, -Task) is det.
 %
 %   Task is for task_allocate/4.  Each place behind the box is a team of one
 %   robot, so a robot learns from what is asked of it where to push.
+%
+%   @error those of a payload file, see agent_check/1
 
-job_task(job(Name, Location, Needs), Program,
-         task(Name, Teams, [goal(Goal)])) :-
+job_task(job(Name, Location, Needs), task(Name, Teams, [goal(Goal)])) :-
     row(Needs, _, Places),
     findall(1-[push, place(Place)], member(Place, Places), Teams),
+    maplist(payload_load,
+            [ payloads(robots/lane), payloads(robots/push),
+              payloads(robots/dock) ], Program),
     distance(Metres),
     goal(Program, Location, Metres, Goal).
 

@@ -9,10 +9,11 @@
               [allocation_stage/3, robot_start/3, robot_status/2,
                task_allocate/4]).
 :- use_module(arena, [arena_ask/3]).
-:- use_module(boxes_jobs, [job_box/2, job_program/1, job_task/3]).
+:- use_module(boxes_jobs, [job_box/2, job_task/2]).
 :- use_module(crew, [crew_join/2]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
 :- use_module(library(lists), [append/3, last/2, member/2, memberchk/2]).
+:- use_module(library(pairs), [pairs_keys/2]).
 
 /** <module> Robots push boxes
 
@@ -24,8 +25,8 @@ robot and a brick in the arena.  An allocator is released for each box.
 
 %!  boxes_play(+Case, +Network, +Arena, +Bricks) is semidet.
 %
-%   Plays the phases of Case.script, one after the other, in Arena, where
-%   Bricks of the scene are.  Case has
+%   Plays the phases of Case.script, one after the other, in Arena, whose own
+%   boxes and robots, with Bricks, are not used.  Case has
 %
 %     - script: a list of phase(Jobs, Joining).  The boxes of a phase are
 %       there at the same time; while the last of them is being pushed so many
@@ -33,21 +34,18 @@ robot and a brick in the arena.  An allocator is released for each box.
 %     - robots: so many are there at first.  The other hosts of Network have
 %       none yet, and no links.
 %     - seed: of the back-offs
-%     - limit: real seconds that a phase may take.  Then this fails.
+%     - limit, clock: real seconds that something may take, else this fails;
+%       host seconds in one.
 
-boxes_play(Case, Network, Arena, Bricks0) :-
+boxes_play(Case, Network, Arena, Bricks) :-
     network_property(Network, hosts(Hosts)),
     length(First, Case.robots),
     append(First, Later, Hosts),
     stand_apart(Network, First, Later),
-    length(Bricks, Case.robots),
-    append(Bricks, Others, Bricks0),
-    forall(member(Robot-_, Others), remove(Arena, Robot)),
-    forall(member(Box, [box1, box2]), remove(Arena, Box)),   % of the scene
-    Stage = stage(Case, Network, Arena, Bricks),
-    enlist(Stage, First),
-    job_program(Program),
-    foldl(phase(Stage, Program), Case.script, First-Later, _).
+    pairs_keys(Bricks, Robots),
+    forall(member(Name, [box1, box2|Robots]), remove(Arena, Name)),
+    enlist(Arena, First),
+    foldl(phase(stage(Case, Network, Arena)), Case.script, First-Later, _).
 
 remove(Arena, Name) :-
     arena_ask(Arena, 'remove ~w'-[Name], ok).
@@ -68,29 +66,27 @@ stand_apart(Network, First, Later) :-
                 *             PHASES           *
                 *******************************/
 
-phase(Stage, Program, phase(Jobs, Joining), Here0-Later0, Here-Later) :-
-    Stage = stage(Case, Network, Arena, _),
-    get_time(Now),
-    Deadline is Now + Case.limit,
-    maplist(release(Stage, Program, Here0), Jobs, Allocators),
+phase(Stage, phase(Jobs, Joining), Here0-Later0, Here-Later) :-
+    Stage = stage(Case, Network, Arena),
+    Limit is Case.limit * Case.clock,
+    maplist(job_task, Jobs, Tasks),
+    maplist(release(Stage, Here0), Jobs, Tasks, Allocators),
     forall(member(Allocator, Allocators),
-           until(begun(Allocator), Network, Deadline)),
+           until(begun(Allocator), Network, Limit)),
     length(New, Joining),
     append(New, Later, Later0),
-    join(New, Stage, Here0, Here),
+    foldl(join(Arena), New, Here0, Here),
     forall(member(Allocator, Allocators),
-           ( left(Deadline, Seconds),
-             agent_join(Allocator, done, Seconds) )),
-    forall(member(Host, Here), until(idle(Host), Network, Deadline)),
+           agent_join(Allocator, done, Case.limit)),
+    forall(member(Host, Here), until(idle(Host), Network, Limit)),
     forall(member(job(Box, _, _), Jobs), remove(Arena, Box)).
 
 %   The allocator of the second location begins at the other side.  It rests
 %   no longer than a box takes, and has patience with robots that compute.
 
-release(stage(Case, _, Arena, _), Program, Hosts, Job, Allocator) :-
+release(stage(Case, _, Arena), Hosts, Job, Task, Allocator) :-
     job_box(Job, Line),
     arena_ask(Arena, Line, ok),
-    job_task(Job, Program, Task),
     Job = job(_, Location, _),
     (   Location =:= 1
     ->  Hosts = [Host|_]
@@ -110,30 +106,28 @@ idle(Host) :-
     robot_status(Host, Status),
     memberchk(Status, [free, failed]).
 
+%   Looks every second.
+
 :- meta_predicate until(0, +, +).
 
 until(Goal, _, _) :-
     call(Goal),
     !.
-until(Goal, Network, Deadline) :-
-    left(Deadline, Seconds),
+until(Goal, Network, Seconds) :-
     Seconds > 0,
     network_advance(Network, 1),
-    until(Goal, Network, Deadline).
-
-left(Deadline, Seconds) :-
-    get_time(Now),
-    Seconds is max(0, Deadline - Now).
+    Seconds1 is Seconds - 1,
+    until(Goal, Network, Seconds1).
 
                 /*******************************
                 *            ROBOTS            *
                 *******************************/
 
-%   enlist(+Stage, +Hosts): each connects to the brick of its robot.
+%   enlist(+Arena, +Hosts): their robots come, and are connected.
 
-enlist(stage(_, _, Arena, Bricks), Hosts) :-
+enlist(Arena, Hosts) :-
     maplist(robot_name, Hosts, Names),
-    maplist(port(Arena, Bricks), Names, Ports),
+    maplist(place_robot(Arena), Names, Ports),
     crew_join(Hosts, Ports),
     maplist(equip, Hosts, Names).
 
@@ -144,12 +138,9 @@ enlist(stage(_, _, Arena, Bricks), Hosts) :-
 robot_name(Host, Name) :-
     atomic_list_concat([Name|_], @, Host).
 
-%   Who joins comes into its slot of the dock.
+%   Robot r3 is at home in slot 3 of the dock.
 
-port(_, Bricks, Name, Port) :-
-    memberchk(Name-Port, Bricks),
-    !.
-port(Arena, _, Name, Port) :-
+place_robot(Arena, Name, Port) :-
     slot(Name, Slot),
     arena_ask(Arena, 'robot ~w lane slot~d 0.5 pusher -1'-[Name, Slot],
               brick(Name, pty(Port), _)).
@@ -164,14 +155,12 @@ equip(Host, Name) :-
     findall(place(Place), between(1, 5, Place), Places),
     robot_start(Host, [push|Places], []).
 
-%   Each is linked with the last one that was there, and with the first.
+%   Who joins is linked with the last one that was there, and the first.
 
-join([], _, Hosts, Hosts).
-join([Host|New], Stage, Hosts0, Hosts) :-
-    enlist(Stage, [Host]),
+join(Arena, Host, Hosts0, Hosts) :-
+    enlist(Arena, [Host]),
     Hosts0 = [First|_],
     last(Hosts0, Last),
     link(Last, Host),
     link(Host, First),
-    append(Hosts0, [Host], Hosts1),
-    join(New, Stage, Hosts1, Hosts).
+    append(Hosts0, [Host], Hosts).

@@ -12,14 +12,12 @@
               [arena_ask/3, arena_start/4, arena_stop/1, scene_file/2]).
 :- use_module(crew, [crew_services/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 
 fixed(clock, 5, assumed("bricks and the way to them take real time; five \c
 times as fast nobody is late")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
-fixed(limit, 90, assumed("real seconds; then a run, or a pair of boxes, is \c
-given up")).
+fixed(limit, 90, assumed("real seconds to wait for what is to come")).
 
 robot_options(Case, [ hop_time(uniform(Min, Max)),
                       hosts([services(Services)]) ]) :-
@@ -51,10 +49,6 @@ arena_terms(Log, Terms) :-
 note_clocks(Arena, Host) :-
     arena_ask(Arena, time, time(Time)),
     remote(Host, log(arena_time(Time))).
-
-clocks(Events, Moments) :-
-    findall(ArenaTime-Time,
-            member(event(Time, _, _, arena_time(ArenaTime)), Events), Moments).
 
 about(Case, Seed, Text) :-
     Min-Max = Case.hop_time,

@@ -6,7 +6,7 @@
 :- use_module(boxes_metrics).
 :- use_module(boxes_play, [boxes_play/4, robot_name/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [max_list/2, memberchk/2, nth1/3]).
+:- use_module(library(lists), [max_list/2, member/2, memberchk/2, nth1/3]).
 :- use_module(library(solution_sequences), [distinct/2]).
 
 study(boxes, "Robots push boxes").
@@ -143,10 +143,6 @@ rest(View, [I, From, Seconds]) :-
     nth1(I, View.jobs, job(_, _, _, _, _, Rests)),
     member(From-Seconds, Rests).
 
-                /*******************************
-                *            CLAIMS            *
-                *******************************/
-
 claim("every box is pushed to its destination", [line(5073)],
       pushed =:= boxes).
 claim("every job is completed", [line(5073)],
@@ -159,10 +155,6 @@ claim("robots that join while others push are used", [line(5074)],
       newcomers_used =:= newcomers).
 claim("in the end all robots are in the dock (within 10 cm)", [line(5065)],
       from_dock < 0.1).
-
-                /*******************************
-                *           PICTURES           *
-                *******************************/
 
 plot(boxes, "Robots push boxes",
      script('boxes.gp',

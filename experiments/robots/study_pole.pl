@@ -15,7 +15,8 @@
 :- use_module(pole_metrics).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(lists), [append/2, last/2, memberchk/2, nth1/3]).
+:- use_module(library(lists),
+              [append/2, last/2, member/2, memberchk/2, nth1/3]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
 
@@ -96,7 +97,8 @@ view(Log, view{ hosts:(Log.hosts), executions:Executions, rows:Rows,
     aggregate_all(max(End), member(execution(_, _, _, End), Executions), Last),
     required(Log.hosts, [1, 2, 3, 4], Marks, Last, Segments),
     tau(Segments, Steps),
-    clocks(Events, Moments),
+    findall(ArenaTime-Time,
+            member(event(Time, _, _, arena_time(ArenaTime)), Events), Moments),
     arena_terms(Log, Terms),
     pole_states(Terms, Moments, States).
 
@@ -197,10 +199,6 @@ bar(View, [I, Task, From, To, 1]) :-
 printed(second, [way=in_step], 27).
 printed(third, [way=in_step], 54).
 
-                /*******************************
-                *            CLAIMS            *
-                *******************************/
-
 claim("every robot executes the four tasks once, in order", [line(3695)],
       at([way=in_step],
          ( executions =:= 16, pairs =:= 16, out_of_order =:= 0 ))).
@@ -229,10 +227,6 @@ claim("alone, robots begin tasks before others are ready", [ours],
       at([way=alone], early > 0)).
 claim("alone, the pole tilts beyond the limit", [ours],
       at([way=alone], tilt > tilt_limit)).
-
-                /*******************************
-                *           PICTURES           *
-                *******************************/
 
 plot('5.14', "Four robots carry a pole",
      script('pole.gp',

@@ -28,8 +28,7 @@ test(script, Needs-Robots == [3, 3, 3, 4, 2, 5]-7) :-
     assertion(Robots =:= Case.processes).
 test(one_team_for_each_place, [ forall(between(2, 5, Needs)),
                                 Count == Needs ]) :-
-    job_program(Program),
-    job_task(job(box, 1, Needs), Program, task(box, Teams, [goal(_)])),
+    job_task(job(box, 1, Needs), task(box, Teams, [goal(_)])),
     findall(Place, member(1-[push, place(Place)], Teams), Places),
     sort(Places, Distinct),
     length(Distinct, Count).
