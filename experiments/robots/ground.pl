@@ -14,8 +14,11 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 
-fixed(clock, 5, assumed("bricks and the way to them take real time; five \c
-times as fast nobody is late")).
+text("The robots are simulated in real time: where a computer has much else to \c
+do, they are late, and a slower clock helps.").
+
+fixed(clock, 5, assumed("bricks and the way to them take real time; at this \c
+rate nobody is late on an idle computer")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 fixed(limit, 90, assumed("real seconds to wait for what is to come")).
 
