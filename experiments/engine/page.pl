@@ -33,7 +33,7 @@ page_save(Directory, Outcomes, Options) :-
 
 whole(Style, Outcomes, Options) -->
     page([title('Studies'), meta([charset('utf-8')]), style(Style)],
-         \body(Outcomes, Options)).
+         \everything(Outcomes, Options)).
 
 style('body{font:16px/1.45 system-ui,sans-serif;max-width:70em;margin:2em auto;
 padding:0 1em;color:#222}h2{margin-top:2.5em;border-top:1px solid #ccc;
@@ -43,7 +43,9 @@ text-align:left;vertical-align:top}td.n{text-align:right;white-space:nowrap}
 .no{background:#fbe9e7}.some{background:#fff8e1}.yes{background:#e8f5e9}
 code{background:#f4f4f4;padding:.1em .3em}.small{color:#666;font-size:85%}').
 
-body(Outcomes, Options) -->
+%   Not named body//2, which html_write would take for its hook.
+
+everything(Outcomes, Options) -->
     html([ h1('Studies'),
            \contents(Outcomes),
            \studies(Outcomes, Options) ]).
