@@ -8,7 +8,7 @@
             case_name/3                 % +Study, +Case, -Name
           ]).
 :- use_module(library(error), [domain_error/2, existence_error/2]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
 
 /** <module> A study is a short file
 
@@ -102,7 +102,8 @@ study_title(Study, Name, Title) :-
 %
 %   Parameters are parameter(Name, Value, Why) in the order of the file:
 %   for one that varies Value is a list and Why is `varied`.  The engine's
-%   own come last.
+%   own come last.  What varies is not fixed, and of what is fixed twice, in
+%   a file that is included and by the study, the last counts.
 
 study_parameters(Study, Parameters) :-
     findall(parameter(Name, Value, Why),
@@ -111,7 +112,10 @@ study_parameters(Study, Parameters) :-
 parameter(Study, Name, Values, varied) :-
     study_call(Study, vary(Name, Values)).
 parameter(Study, Name, Value, Why) :-
-    study_call(Study, fixed(Name, Value, Why)).
+    findall(fixed(N, V, W), study_call(Study, fixed(N, V, W)), All),
+    append(_, [fixed(Name, Value, Why)|Later], All),
+    \+ memberchk(fixed(Name, _, _), Later),
+    \+ study_call(Study, vary(Name, _)).
 parameter(Study, Name, Value, Why) :-
     own_parameter(Study, Name, Value, Why),
     \+ study_call(Study, fixed(Name, _, _)),
