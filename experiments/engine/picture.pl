@@ -68,7 +68,8 @@ picture(Study, plot(Name, Title, script(File, Tables, Options)), Runs0,
     ->  study_call(Study, call(Goal, Runs, More))
     ;   More = []
     ),
-    option(size(W, H), Options, size(1200, 1000)),
+    append(Options, [size(1200, 1000)], Sizes),
+    memberchk(size(W, H), Sizes),
     file_directory_name(Study, Beside),
     directory_file_path(Beside, File, Script),
     draw(Directory, Name, W-H, Script,
