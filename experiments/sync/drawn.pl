@@ -21,7 +21,8 @@ gallery(Subtitle, Count, script('gallery.gp', [ starts-starts, hosts-hosts,
 
 one_run(Subtitle, script('run.gp', [ starts-starts, hosts-hosts, names-names,
                                      bands-bands, tau-taus ],
-                         [seed(first), variables(of_runs(Subtitle))])).
+                         [ seed(first), size(1200, 1000),
+                           variables(of_runs(Subtitle)) ])).
 
 of_runs(Subtitle, Runs, [ 'SUBTITLE'-Text, rows-Count, end-End, most-Most,
                           hosts-Hosts, 'Row'-Titles, 'Failed'-Failed ]) :-
@@ -39,6 +40,14 @@ of_runs(Subtitle, Runs, [ 'SUBTITLE'-Text, rows-Count, end-End, most-Most,
                      row_title(Case, Ms, Title) ), Titles),
     findall(Time, ( member(run(_, _, Ms), Runs), failed_at(Ms, Time) ),
             Failed).
+
+%   healed_title(+Name, +Delta, +Measures, -Title): what came of a failure.
+
+healed_title(Name, Delta, Ms, Title) :-
+    format(string(Title), "{/:Bold ~w (δ = ~w)}   ~d of ~d lost executions \c
+done again in ~1f s, {/:Italic τ} = ~d meanwhile",
+           [Name, Delta, Ms.redone, Ms.lost, Ms.healing_time,
+            Ms.healing_tau]).
 
 failed_at(Measures, Time) :-
     (   get_dict(failed_at, Measures, Time)

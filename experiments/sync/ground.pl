@@ -58,8 +58,16 @@ best_delta(grid,     0.5).
 network(Case, Topology, Options) :-
     shape(Case.topology, Case.hosts, Topology),
     Min-Max = Case.hop_time,
-    findall(dynamic(Model), ( Model = Case.links, Model \== none ), More),
+    findall(dynamic(Model), model(Case, Model), More),
     Options = [hop_time(uniform(Min, Max))|More].
+
+%   A study may say what is meant by a name of `links`.
+
+:- discontiguous model/2.
+
+model(Case, Case.links) :-
+    Case.links \== none,
+    \+ get_dict(interval, Case, _).
 
 %   The networks of Figure 5.4.
 
@@ -154,7 +162,8 @@ fail_now(cascaded, Task, Hosts) :-
 
 view(Log, view{ hosts:(Log.hosts), tasks:Tasks, executions:Executions,
                 rows:Rows, segments:Segments, steps:Steps, phases:Phases,
-                failures:Failures, healing:Healing }) :-
+                failures:Failures, healing:Healing, kind:Kind }) :-
+    functor(Log.case.failure, Kind, _),
     numlist(1, Log.case.tasks, Tasks),
     from_start(Log.events, Events),
     executions(Events, Executions),
@@ -182,6 +191,10 @@ measure(tau, View, Tau) :-
 measure(total, View, Total) :-
     aggregate_all(max(End), member(execution(_, _, _, End), View.executions),
                   Total).
+measure(healing_time, View, Time) :-
+    memberchk(failed_at(From), View.healing),
+    memberchk(healed_at(To), View.healing),
+    Time is To - From.
 measure(executions, View, Count) :-
     length(View.executions, Count).
 measure(missing, View, Missing) :-
@@ -190,8 +203,17 @@ measure(missing, View, Missing) :-
     maplist(length, [View.hosts, View.tasks, Pairs], [Hosts, Tasks, Found]),
     Missing is Hosts*Tasks - Found.
 measure(out_of_order, View, Count) :-
-    out_of_order(View.executions, OutOfOrder),
+    ordered_part(View, Executions),
+    out_of_order(Executions, OutOfOrder),
     length(OutOfOrder, Count).
 measure(Name, View, Value) :-
     member(Measure, View.healing),
     Measure =.. [Name, Value].
+
+%   After a cascaded failure the tasks begin again.
+
+ordered_part(View, After) :-
+    View.kind == cascaded,
+    View.phases = [_, After],
+    !.
+ordered_part(View, View.executions).
