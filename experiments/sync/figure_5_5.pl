@@ -14,13 +14,6 @@ label(unrequired, "T1 is no longer required (s)").
 label(second, "T2 begins (s)").
 label(pause, "Longest time without execution within a task (s)").
 
-measure(burst, View, Count) :-
-    burst(1, 1, View.executions, Count).
-measure(later_burst, View, Most) :-
-    aggregate_all(max(Count),
-                  ( member(T, View.tasks), T > 1,
-                    burst(T, 1, View.executions, Count) ),
-                  Most).
 measure(serviced, View, Time) :-
     memberchk(task(1, _, Time, _, _, _), View.rows).
 measure(unrequired, View, Time) :-

@@ -1,30 +1,12 @@
 %   Figures 5.9 and 5.10: links that come and go.
 
 :- include(ground).
+:- include(links).
 
 study('5.9', "Dynamic networks: idle time, overlaps, time for all tasks").
 
 vary(links, [dynamic_1, dynamic_2]).
 vary(agents, [5, 10, 15, 20]).
-fixed(topology, grid, printed("section 5.5")).
-fixed(delta, 0.2, printed("section 5.6.5")).
-fixed(interval, 10-20, assumed("as in section 4.4.7: each host, every 10 to \c
-20 s")).
-fixed(drop_1, 0.2, chosen("Dynamic I: a link that stands is dropped; no \c
-probability is printed. With 0.5 some hosts are cut off for long")).
-fixed(make_1, 0.9, chosen("Dynamic I: a link of the grid is made again")).
-fixed(drop_2, 0.5, printed("section 5.5")).
-fixed(make_2, 0.7, printed("section 5.5")).
-
-model(Case, toggle(uniform(Min, Max), Case.drop_1, Case.make_1)) :-
-    Case.links == dynamic_1,
-    Min-Max = Case.interval.
-model(Case, links(uniform(Min, Max), Case.drop_2, Case.make_2)) :-
-    Case.links == dynamic_2,
-    Min-Max = Case.interval.
-
-label(dynamic_1, "Dynamic I").
-label(dynamic_2, "Dynamic II").
 label(agents, "agents").
 label(missing, "Executions missing").
 

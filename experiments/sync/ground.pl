@@ -195,6 +195,13 @@ measure(healing_time, View, Time) :-
     memberchk(failed_at(From), View.healing),
     memberchk(healed_at(To), View.healing),
     Time is To - From.
+measure(burst, View, Count) :-
+    burst(1, 1, View.executions, Count).
+measure(later_burst, View, Most) :-
+    aggregate_all(max(Count),
+                  ( member(T, View.tasks), T > 1,
+                    burst(T, 1, View.executions, Count) ),
+                  Most).
 measure(executions, View, Count) :-
     length(View.executions, Count).
 measure(missing, View, Missing) :-

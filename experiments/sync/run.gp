@@ -6,6 +6,7 @@
 # starts.dat, hosts.dat, names.dat, bands.dat and tau.dat the first block is
 # drawn.
 
+stats "tau.dat" index 0 using 2 nooutput
 set multiplot
 set label 1 "{/:Bold=16 ".TITLE."}" at screen 0.075,0.972
 set label 2 SUBTITLE at screen 0.075,0.943 tc rgb "#555555"
@@ -32,7 +33,6 @@ set label 3 "Task required by each host (light), and executed (full colour)" at 
 plot "hosts.dat" index 0 using 1:2:3:4:5:6:7 with boxxyerror lc rgb variable
 unset label
 
-stats "tau.dat" index 0 using 2 nooutput
 set tmargin at screen 0.135; set bmargin at screen 0.065
 set yrange [0:(STATS_max > 3 ? STATS_max : 3) + 0.4]; set ytics 1
 set ylabel "{/:Italic τ}"
