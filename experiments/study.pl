@@ -11,7 +11,9 @@
 :- use_module(engine/outcome, [outcome/4]).
 :- use_module(engine/page, [page_save/3]).
 :- use_module(engine/picture, [picture/4]).
-:- use_module(engine/report, [outcome_save/4, print_outcome/3, print_table/3]).
+:- use_module(engine/report,
+              [ claims_sentence/2, outcome_save/4, print_outcome/3,
+                print_table/3 ]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/store, [run_result/5]).
 :- use_module(engine/studies,
@@ -25,6 +27,7 @@
 :- use_module(library(lists), [member/2, memberchk/2, nth1/3, numlist/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module(library(pairs), [pairs_values/2]).
 
 :- initialization(main, main).
 
@@ -196,8 +199,10 @@ collect(Plans, Options) :-
               show(Study, Cases, Options, Out, Outcome) ),
             Outcomes),
     page_save(Out, Outcomes, Options),
+    pairs_values(Outcomes, Found),
+    claims_sentence(Found, Sentence),
     directory_file_path(Out, 'index.html', Page),
-    format('~nTables, pictures, claims: ~w~n', [Page]).
+    format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]).
 
 show(Study, Cases, Options, Out, Outcome) :-
     seeds(Options, Seeds),

@@ -2,10 +2,11 @@
           [ print_outcome/3,            % +Stream, +Study, +Outcome
             print_table/3,              % +Stream, +Header, +Rows
             outcome_save/4,             % +Study, +Outcome, +Runs, +Directory
+            claims_sentence/2,          % +Outcomes, -Sentence
             parameter_rows/2,           % +Study, -Rows
             held_text/3                 % +Held, +Of, -Text
           ]).
-:- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
+:- use_module(library(apply), [foldl/4, maplist/3, maplist/4, partition/4]).
 :- use_module(library(csv), [csv_write_file/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, memberchk/2]).
@@ -88,6 +89,28 @@ held_text(0, _, 'DID NOT HOLD') :-
     !.
 held_text(Held, Of, Text) :-
     format(atom(Text), 'held in ~d of ~d', [Held, Of]).
+
+%!  claims_sentence(+Outcomes:list, -Sentence:atom) is det.
+%
+%   How many of the claims of all Outcomes held.
+
+claims_sentence(Outcomes, Sentence) :-
+    findall(claim(Text, Held, Of),
+            ( member(Outcome, Outcomes),
+              member(claim(Text, _, Held, Of, _, _), Outcome.claims) ),
+            Claims),
+    partition([claim(_, Of, Of)]>>( Of > 0 ), Claims, Held, Others),
+    length(Claims, Count),
+    length(Held, HeldCount),
+    (   Others == []
+    ->  format(atom(Sentence), 'All ~d claims held.', [Count])
+    ;   Others = [claim(Text, _, Of)],
+        Of =< 1
+    ->  format(atom(Sentence), '1 of ~d claims did not hold: ~w.',
+               [Count, Text])
+    ;   format(atom(Sentence), '~d of ~d claims held in all runs.',
+               [HeldCount, Count])
+    ).
 
 %!  print_table(+Stream, +Header, +Rows) is det.
 %

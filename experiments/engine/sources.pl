@@ -157,7 +157,7 @@ of_no_run(Term) :-
     functor(Head, Name, Arity),
     memberchk(Name/Arity,
               [ study/2, text/1, vary/2, fixed/3, derive/3, skip/1, label/2,
-                printed/3, claim/3, plot/3 ]).
+                printed/3, claim/3, plot/3, progress/3 ]).
 
 text_hash(Text, Hash) :-
     sha_hash(Text, Bytes, [encoding(utf8)]),

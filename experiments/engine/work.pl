@@ -15,7 +15,8 @@
 :- use_module(run, [run_make/4]).
 :- use_module(signals, [stopping_on_signals/1]).
 :- use_module(store, [run_directory/5, run_done/4]).
-:- use_module(studies, [study_load/2]).
+:- use_module(studies, [study_call/2, study_load/2]).
+:- use_module(watch, [watching/4]).
 
 /** <module> Many runs on several processors
 
@@ -59,6 +60,13 @@ outcome(Made, Run, Outcome) :-
 
 make_missing([], _, _, []) :-
     !.
+make_missing([Run], Root, _, [Run-Kind]) :-
+    watched(Run, What, Total),
+    !,
+    part_directory(Run, Root, Part),
+    directory_file_path(Part, 'events.pl', Log),
+    watching(Log, What, Total, run_here(Run, Root, Outcome)),
+    made(Run, Outcome, Kind).
 make_missing(Runs, Root, Wanted, Made) :-
     length(Runs, Total),
     Workers is min(Wanted, Total),
@@ -93,11 +101,21 @@ handle(idle(Thread), Root, [Run|Runs], Runs, Made, Made) :-
     thread_send_message(Thread, make(Run, Directory)).
 handle(idle(_), _, [], [], Made, Made).
 handle(ended(Run, Outcome), _, Runs, Runs, [Run-Kind|Made], Made) :-
-    (   Outcome == made
-    ->  Kind = made
-    ;   Kind = failed,
-        print_message(error, study_run(Run, Outcome))
-    ).
+    made(Run, Outcome, Kind).
+
+made(_, made, made) :-
+    !.
+made(Run, Outcome, failed) :-
+    print_message(error, study_run(Run, Outcome)).
+
+%   watched(+Run, -What, -Total): a single run in real time is made here, and
+%   its events that are What are counted meanwhile, if the study says so.
+
+watched(run(Study, Case, _), What, Total) :-
+    get_dict(clock, Case, Clock),
+    number(Clock),
+    study_call(Study, progress(Case, What, Total)),
+    !.
 
 show(Done, Total, Begin) :-
     time_left(Done, Total, Begin, Left),
@@ -231,9 +249,16 @@ run_here(Run, Root, Outcome) :-
     run_directory(Root, Study, Case, Seed, Directory),
     make_in(Directory, Run, Outcome).
 
-make_in(Directory, run(Study, Case, Seed), Outcome) :-
+part_directory(run(Study, Case, Seed), Root, Part) :-
+    run_directory(Root, Study, Case, Seed, Directory),
+    part_of(Directory, Part).
+
+part_of(Directory, Part) :-
     current_prolog_flag(pid, Pid),
-    atomic_list_concat([Directory, Pid, part], '.', Part),
+    atomic_list_concat([Directory, Pid, part], '.', Part).
+
+make_in(Directory, run(Study, Case, Seed), Outcome) :-
+    part_of(Directory, Part),
     remove(Part),
     make_directory_path(Part),
     catch_with_backtrace(run_make(Study, Case, Seed, Part), Error, true),

@@ -3,7 +3,7 @@
             stopped_executing/4         % +Args, +File, +Signal, -Status
           ]).
 :- use_module(common, [wait_for_end/3, wait_until/2, with_swipl/5]).
-:- use_module('../../experiments/lib/follow', [new_lines/4]).
+:- use_module('../../experiments/engine/follow', [new_lines/4]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(process), [process_kill/2]).
 
