@@ -10,7 +10,7 @@
 :- use_module('../../agents/sync/operator',
               [sequence_start/5, task_fail/4, tasks_fail/4]).
 :- use_module('../lib/progress', [progress/4, progress_done/1]).
-:- use_module('../lib/follow', [new_lines/4]).
+:- use_module('../engine/follow', [new_lines/4]).
 :- use_module(healing, [failures/2, healing/4, phases/4]).
 :- use_module(metrics,
               [ executions/2, from_start/2, marks/3, required/5, task_rows/2,

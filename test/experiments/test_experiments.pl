@@ -2,7 +2,7 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(readutil)).
-:- use_module('../../experiments/lib/follow').
+:- use_module('../../experiments/engine/follow').
 :- use_module('../../experiments/lib/progress').
 :- use_module('../../experiments/lib/report').
 :- use_module('../../experiments/sync/claims').
