@@ -4,11 +4,9 @@
 %   `delta`, or best_delta/2 derived from the topology, and what it says of
 %   others.  Gives: network/3, run/2, view/2 and the measures of one run.
 
-:- use_module('../../prolog/typhon',
-              [ agent_join/3, network_at/3, network_property/2, remote/2 ]).
-:- use_module('../../agents/lib/starts', [starts/4]).
-:- use_module('../../agents/sync/operator',
-              [sequence_start/5, task_fail/4, tasks_fail/4]).
+:- use_module('../../prolog/typhon', [agent_join/3, network_property/2]).
+:- use_module('../../agents/sync/operator', [sequence_start/5]).
+:- include(failure).
 :- use_module(healing).
 :- use_module(metrics).
 :- use_module(orderly, []).
@@ -23,7 +21,8 @@ fixed(hosts, 60, printed("section 5.6.1")).
 fixed(tasks, 6, printed("section 5.5")).
 fixed(task_time, 3, assumed("read off: T1 is required up to 6 s and executed \c
 up to 9 s (section 5.6.1)")).
-fixed(hop_time, 0.27-0.53, assumed("fits three of four idle times of Table 5.1")).
+fixed(hop_time, 0.27-0.53,
+      assumed("fits three of four idle times of Table 5.1")).
 fixed(starts, of_topology, chosen("drawn by the seed; on the ring at even \c
 distances, as it is called symmetric")).
 fixed(choices, of_topology, chosen("by chance among hosts never visited; on \c
@@ -124,37 +123,6 @@ strategy(Case, orderly) :-
     ; Case.choices == of_topology, Case.topology == ring ),
     !.
 strategy(_, conscientious).
-
-                /*******************************
-                *            FAILURE           *
-                *******************************/
-
-%   A failure is atomic(Task, Count, During), or cascaded: so many hosts
-%   lose Task, or it and all later ones, when the first host is seen to
-%   execute During.  One looks every second.
-
-prepare_failure(Case, _, _) :-
-    Case.failure == none,
-    !.
-prepare_failure(Case, Network, Hosts) :-
-    Case.failure =.. [Kind, Task, Count, During],
-    Seed is Case.seed + 1000,              % not where the agents started
-    starts(Count, Hosts, [seed(Seed)], Drawn),
-    fail_during(During, fail_now(Kind, Task, Drawn), Network, Hosts, 1).
-
-fail_during(During, Failure, Network, Hosts, Time) :-
-    network_at(Network, Time,
-               (   member(Host, Hosts),
-                   remote(Host, sense(task(main, During, executing, _)))
-               ->  call(Failure)
-               ;   Next is Time + 1,
-                   fail_during(During, Failure, Network, Hosts, Next)
-               )).
-
-fail_now(atomic, Task, Hosts) :-
-    task_fail(main, Task, Hosts, _).
-fail_now(cascaded, Task, Hosts) :-
-    tasks_fail(main, Task, Hosts, _).
 
                 /*******************************
                 *           MEASURES           *
