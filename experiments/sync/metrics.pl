@@ -202,6 +202,9 @@ requires(_, _, none).
 
 segment(none, _, _, _, Segments, Segments) :-
     !.
+segment(_, _, From, To, Segments, Segments) :-
+    From >= To,
+    !.
 segment(Task, Host, From, To, [segment(Host, Task, From, To)|Rest], Rest).
 
 %!  tau(+Segments, -Steps) is det.
