@@ -19,7 +19,7 @@ claim(Text, [line(3437)],
       at([topology=Name], falls(idle, along(delta)))) :-
     of(Name, "idle time falls as δ grows", Text).
 claim(Text, [line(3443)],
-      holds(overlaps_up_to(Name, Delta, none))) :-
+      holds(no_overlaps_up_to(Name, Delta))) :-
     best_delta(Name, Delta),
     of(Name, "no overlaps up to the best δ", Text).
 claim(Text, [line(3444)],
@@ -43,7 +43,7 @@ of(Name, Said, Text) :-
     label(Name, Title),
     format(string(Text), "~w: ~w", [Title, Said]).
 
-overlaps_up_to(Name, Best, none, Points) :-
+no_overlaps_up_to(Name, Best, Points) :-
     forall(( member(Case-Ms, Points), Case.topology == Name,
              Case.delta =< Best ),
            Ms.overlaps =:= 0).

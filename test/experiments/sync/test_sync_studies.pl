@@ -23,7 +23,7 @@ a_study(Name, Count) :-
     member(Name-Count,
            [ figure_5_2-5, figure_5_5-4, figure_5_6-20, figure_5_7-28,
              figure_5_8-1, figure_5_9-8, figure_5_11-4, figure_5_12-2,
-             study_choices-16, study_links-9, study_onset-84,
+             study_choices-16, study_links-9, study_onset-48,
              study_readings-35, study_demo-1 ]).
 
 claims(Name, Claims) :-
