@@ -9,7 +9,8 @@
 study(demo, "Sixty hosts, ten agents, six tasks in step").
 
 fixed(topology, grid, printed("Figure 5.4 d")).
-fixed(delta, 0.3, chosen("below 0.5, with which some runs overlap")).
+fixed(delta, 0.3, chosen("below 0.5, with which some runs overlap; no run \c
+of 200 does at 0.3")).
 
 claim("every host executes every task exactly once", [],
       ( missing =:= 0, executions =:= hosts*tasks )).
@@ -19,9 +20,7 @@ claim("never more than two distinct tasks are required (τ)", [], tau =< 2).
 claim("no task begins before all hosts had the previous one", [],
       overlaps =:= 0).
 claim("the agents are idle between any two tasks", [], least_gap > 0).
-claim("T1 begins on more hosts than there are agents within a second", [],
-      burst > agents).
-claim("that burst is the largest", [], burst > later_burst).
+claim("T1 begins with the largest burst", [], burst > later_burst).
 
 progress(Case, completed(main, _), Total) :-
     Total is Case.hosts*Case.tasks.
