@@ -76,7 +76,7 @@ print_claim(Stream, claim(Text, _, Held, Of, OfMedians, Found)) :-
     ->  Medians = ''
     ;   Medians = ' (not of the medians)'
     ),
-    format(Stream, '  ~w~t~18|~w~w~n~18|~w~n', [Word, Text, Medians, Found]).
+    format(Stream, '  ~w~t~22|~w~w~n~22|~w~n', [Word, Text, Medians, Found]).
 
 %!  held_text(+Held, +Of, -Text) is det.
 
