@@ -14,8 +14,8 @@
 :- use_module(engine/page, [page_save/2]).
 :- use_module(engine/picture, [picture/4]).
 :- use_module(engine/report,
-              [ outcome_save/4, parameter_rows/3, print_outcome/3,
-                print_table/3 ]).
+              [ claims_sentence/2, outcome_save/4, parameter_rows/3,
+                print_outcome/3, print_table/3 ]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies,
@@ -282,8 +282,10 @@ collect(Plans, Options) :-
             ( member(Plan, Plans), show(Plan, Options, Out, Shown) ),
             All),
     page_save(Out, All),
+    findall(Outcome, member(shown(_, Outcome, _, _), All), Outcomes),
+    claims_sentence(Outcomes, Sentence),
     directory_file_path(Out, 'index.html', Page),
-    format('~nTables, pictures, claims: ~w~n', [Page]).
+    format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]).
 
 show(plan(Study, Given, Cases), Options, Out,
      shown(Study, Outcome, Again, Directory)) :-
