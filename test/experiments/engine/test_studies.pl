@@ -5,8 +5,7 @@
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
-              [save_lines/3, study_command/4, with_study/2,
-               with_study_file/2]).
+              [study_command/4, with_study/2, with_study_file/2]).
 :- use_module('../../../experiments/engine/catalogue').
 :- use_module('../../../experiments/engine/studies').
 :- use_module(library(apply), [maplist/3]).
@@ -187,9 +186,9 @@ test(what_there_is) :-
 test(table_and_claims) :-
     prints(['--runs', 2, '--out', out], exit(0), Text),
     says(Text, [ "toy: A toy", "  a      b  runs   m", "2      x     2  23",
-                 "held, 2 runs    m grows", "n: no value",
+                 "held, 2 runs        m grows", "n: no value",
                  "claim(\"n is small\"): no run has given n",
-                 "index.html" ]).
+                 "1 of 2 claims held in all runs.", "index.html" ]).
 test(set) :-
     prints(['--set', 'c=[4,5]', '--set', 'a=1', '--set', 'b=x', '--runs', 1],
            exit(0), Text),
