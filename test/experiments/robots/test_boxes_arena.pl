@@ -1,27 +1,21 @@
-:- module(test_robots_boxes_arena, []).
+:- module(test_boxes_arena, []).
 :- use_module('../../lib/common').
 :- needs(['python3-serial']).
 :- use_module('../../lib/fake_agent').
+:- use_module('../../lib/robot_logs').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists)).
-:- use_module(library(process),
-              [process_create/3, process_kill/2, process_wait/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/nxt), []).
 :- use_module(library(yall)).
 :- use_module('../../../experiments/robots/arena').
-:- use_module('../../../experiments/robots/boxes').
-:- use_module('../../../experiments/robots/boxes_claims').
-:- use_module('../../../experiments/robots/boxes_run').
-:- use_module('../../../experiments/robots/fleet').
 
 /** <module> Robots that push boxes, in the arena
 
-Their programs, with a clock that stands but for their commands; the
-experiment with two robots, and interrupted.
+Their programs, with a clock that stands but for their commands; the study
+with few robots, with too few, and interrupted.
 */
 
                 /*******************************
@@ -43,15 +37,15 @@ fake_host:payload(_, _).
 fake_host:nxt_run(B, M, P, O) :-
     (   is_list(M)
     ->  forall(member(One, M),
-               test_robots_boxes_arena:later(nxt_run(B, One, P, O)))
-    ;   test_robots_boxes_arena:later(nxt_run(B, M, P, O))
+               test_boxes_arena:later(nxt_run(B, One, P, O)))
+    ;   test_boxes_arena:later(nxt_run(B, M, P, O))
     ).
 fake_host:nxt_motor(B, M, S) :-
-    test_robots_boxes_arena:later(nxt_motor(B, M, S)).
+    test_boxes_arena:later(nxt_motor(B, M, S)).
 fake_host:nxt_tacho(B, M, D) :-
-    test_robots_boxes_arena:later(nxt_tacho(B, M, D)).
+    test_boxes_arena:later(nxt_tacho(B, M, D)).
 fake_host:nxt_tacho_reset(B, M) :-
-    test_robots_boxes_arena:later(nxt_tacho_reset(B, M)).
+    test_boxes_arena:later(nxt_tacho_reset(B, M)).
 
 in_arena(Goal) :-
     project_file('bridges/nxt/scenes/boxes.json', Scene),
@@ -124,57 +118,53 @@ test(to_job_2) :-
 :- end_tests(boxes_programs).
 
                 /*******************************
-                *        THE EXPERIMENT        *
+                *           THE STUDY          *
                 *******************************/
 
 :- begin_tests(boxes_run).
 
-test(two_robots) :-
-    with_tmp_dir(two_robots).
-test(no_hosts_without_a_program, error(_)) :-
-    with_tmp_dir(bad_host).
+test(two_robots_and_one) :-
+    with_tmp_dir(two_robots_and_one).
+test(no_robot, error(study_goal_failed(run/2))) :-
+    with_tmp_dir(no_robot).
 test(interrupted, Status == exit(130)) :-
     with_tmp_dir(interrupted(Status)).
 
-two_robots(Dir) :-
-    Script = script(2, [phase([job(box1, 1, 2)], 0)]),
-    no_leaks(boxes_run(Script,
-                       [ seed(1), clock(4), hop_time(0.1-0.2), limit(250) ],
-                       Dir, Run)),
-    boxes_result(Run, Result),
-    boxes_claims(Script, Result, Claims),
-    findall(Text, member(claim(Text, false, _), Claims), Failed),
-    assertion(Failed == []),
-    memberchk(holdings(Holdings), Result),
-    assertion(length(Holdings, 2)).
+%   The third one comes while the others push.
 
-%   All that was begun is ended when a host does not start.
+two_robots_and_one(Dir) :-
+    robot_study(boxes, Study),
+    Script = [phase([job(box1, 1, 2)], 1)],
+    no_leaks(small_run(Study,
+                       [ robots-2, processes-3, script-[Script], clock-4,
+                         hop_time-(0.1-0.2), limit-250 ],
+                       Dir, Case-Ms)),
+    assertion(Ms.pushed =:= 1),
+    assertion(Ms.completed =:= 1),
+    assertion(Ms.from_dock < 0.1),
+    assertion(length(Ms.holdings, 2)),
+    assertion(Ms.robots = [[1, r1, _], [2, r2, _], [3, r3, _]]),
+    directory_file_path(Dir, pictures, Pictures),
+    make_directory(Pictures),
+    drawn(Study, [Case-Ms], Pictures, Files),
+    assertion(subset([ 'arena.svg', 'boxes.gnuplot', 'jobs.dat', 'rests.dat',
+                       'reservations.dat', 'robots.dat' ], Files)).
 
-bad_host(Dir) :-
-    directory_file_path(Dir, 'events.pl', Log),
-    no_leaks(setup_call_cleanup(
-                 fleet_start([ clock(1), log(Log), hop_time(0-0) ], Fleet),
-                 fleet_add(Fleet, ['r@1'], _),
-                 fleet_stop(Fleet))).
+%   All that was begun is ended when there are never robots enough.
+
+no_robot(Dir) :-
+    robot_study(boxes, Study),
+    Script = [phase([job(box1, 1, 3)], 0)],
+    no_leaks(small_run(Study,
+                       [robots-2, processes-2, script-[Script], limit-1],
+                       Dir, _)).
 
 %   Ctrl-C, when boxes are being pushed.
 
 interrupted(Status, Dir) :-
-    project_file('experiments/robots.pl', Script),
-    current_prolog_flag(executable, Swipl),
-    setup_call_cleanup(
-        process_create(Swipl,
-                       [ Script, '--', '--figure', boxes, '--clock', '2',
-                         '--out', Dir ],
-                       [ process(Pid), stdin(null), stdout(null),
-                         stderr(null) ]),
-        ( directory_file_path(Dir, 'boxes/events.pl', Log),
-          wait_until(( exists_file(Log),
-                       read_file_to_string(Log, Text, []),
-                       sub_string(Text, _, _, _, "allocated(") ), 60),
-          process_kill(Pid, int),
-          process_wait(Pid, Status) ),
-        catch(( process_kill(Pid, kill), process_wait(Pid, _) ),
-              error(_, _), true)).
+    project_file('experiments/study.pl', Script),
+    stopped_when("allocated(",
+                 [ Script, '--', boxes, '--runs', '1', '--set', 'clock=2',
+                   '--out', Dir ], Dir, int, Status).
 
 :- end_tests(boxes_run).

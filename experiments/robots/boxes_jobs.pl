@@ -1,42 +1,19 @@
-:- module(robots_boxes_script,
-          [ thesis_script/1,            % -Script
-            script_jobs/2,              % +Script, -Jobs
-            job_task/3,                 % +Job, +Program, -Task
-            job_box/2,                  % +Job, -Line
-            job_program/1               % -Program
+:- module(robots_boxes_jobs,
+          [ job_task/2,                 % +Job, -Task
+            job_box/2                   % +Job, -Line
           ]).
 :- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../../prolog/typhon/program/programs', [payload_load/2]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(lists), [member/2]).
 
 /** <module> Boxes that are to be pushed, and by how many
-
-A script is script(Robots, Phases): so many robots at first, and phases,
-one after the other, phase(Jobs, Joining).  The boxes of a phase are there
-at the same time; while the last of them is being pushed so many more robots
-join.
 
 A job is job(Name, Location, Needs): Name is that of box and task, Location
 1 or 2, Needs how many robots it takes to move the box.
 
 *Threading*: no state; any thread.
 */
-
-%!  thesis_script(-Script) is det.
-%
-%   That of section 7.7.
-
-thesis_script(script(5,
-                     [ phase([job(box1, 1, 3), job(box2, 2, 3)], 1),
-                       phase([job(box3, 1, 3), job(box4, 2, 4)], 1),
-                       phase([job(box5, 1, 2), job(box6, 2, 5)], 0) ])).
-
-%!  script_jobs(+Script, -Jobs) is det.
-
-script_jobs(script(_, Phases), Jobs) :-
-    findall(Some, member(phase(Some, _), Phases), Lists),
-    append(Lists, Jobs).
 
 distance(0.5).                  % metres that each box is pushed
 
@@ -61,27 +38,19 @@ job_box(job(Name, Location, Needs),
 side(1, 2.2, 90).
 side(2, 1.2, -90).
 
-%!  job_program(-Program) is det.
-%
-%   The payloads that a robot needs for a job, loaded.
-%
-%   @error those of a payload file, see agent_check/1
-
-job_program(Program) :-
-    maplist(payload_load,
-            [ payloads(robots/lane), payloads(robots/push),
-              payloads(robots/dock)
-            ], Program).
-
-%!  job_task(+Job, +Program, -Task) is det.
+%!  job_task(+Job, -Task) is det.
 %
 %   Task is for task_allocate/4.  Each place behind the box is a team of one
 %   robot, so a robot learns from what is asked of it where to push.
+%
+%   @error those of a payload file, see agent_check/1
 
-job_task(job(Name, Location, Needs), Program,
-         task(Name, Teams, [goal(Goal)])) :-
+job_task(job(Name, Location, Needs), task(Name, Teams, [goal(Goal)])) :-
     row(Needs, _, Places),
     findall(1-[push, place(Place)], member(Place, Places), Teams),
+    maplist(payload_load,
+            [ payloads(robots/lane), payloads(robots/push),
+              payloads(robots/dock) ], Program),
     distance(Metres),
     goal(Program, Location, Metres, Goal).
 
