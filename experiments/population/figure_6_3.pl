@@ -13,4 +13,4 @@ plot('6.3', "One kind of agent for each task",
      script('population.gp',
             [ starts-bar_rows, kinds-kind_rows, others-other_rows,
               spans-span_rows, crash-crash_rows ],
-            [size(1600, 1050)])).
+            [size(1600, 1050), variables(panel_variables)])).

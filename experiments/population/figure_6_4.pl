@@ -71,4 +71,4 @@ plot('6.4', "Twenty hosts lose task 2 while task 4 is executed",
      script('population.gp',
             [ starts-bar_rows, kinds-kind_rows, others-other_rows,
               spans-span_rows, crash-crash_rows ],
-            [size(1600, 1050)])).
+            [size(1600, 1050), variables(panel_variables)])).

@@ -19,7 +19,7 @@
               [again/3, peak/3, peak/4, population_at/3, populations/3,
                until_settled/4]).
 :- use_module(pictures, [bar_rows/2, crash_rows/2, kind_rows/2, other_rows/2,
-                         span_rows/2]).
+                         panel_variables/2, span_rows/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists),
               [last/2, max_list/2, member/2, min_list/2, numlist/3,

@@ -3,7 +3,8 @@
             kind_rows/2,                % +Runs, -Rows
             other_rows/2,               % +Runs, -Rows
             span_rows/2,                % +Runs, -Rows
-            crash_rows/2                % +Runs, -Rows
+            crash_rows/2,               % +Runs, -Rows
+            panel_variables/2           % +Runs, -Pairs
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4]).
@@ -98,15 +99,33 @@ crash_rows(Runs, Rows) :-
 crash([_-Ms|_], Rows) :-
     findall([Time], get_dict(crash_time, Ms, Time), Rows).
 
+%!  panel_variables(+Runs, -Pairs) is det.
+
+panel_variables(Runs, [ columns-Columns, 'Hosts'-Sizes, seeds-SeedCount,
+                        crashed-Crashed ]) :-
+    sizes(Runs, Sizes),
+    length(Sizes, Columns),
+    findall(Seed, member(run(_, Seed, _), Runs), Seeds0),
+    sort(Seeds0, Seeds),
+    length(Seeds, SeedCount),
+    (   member(run(_, _, Ms), Runs),
+        get_dict(crash_time, Ms, _)
+    ->  Crashed = 1
+    ;   Crashed = 0
+    ).
+
+sizes(Runs, Sizes) :-
+    findall(Hosts, ( member(run(Case, _, _), Runs), Hosts = Case.hosts ),
+            Sizes0),
+    sort(Sizes0, Sizes).
+
 %   blocks(+Runs, :Goal, -Rows): call(Goal, Seeds, Block) for each number of
 %   hosts, Seeds being pairs Seed-Measures.
 
 :- meta_predicate blocks(+, 2, -).
 
 blocks(Runs, Goal, Rows) :-
-    findall(Hosts, ( member(run(Case, _, _), Runs), Hosts = Case.hosts ),
-            Sizes0),
-    sort(Sizes0, Sizes),
+    sizes(Runs, Sizes),
     findall([Block, [gap, gap]],
             ( member(Hosts, Sizes),
               findall(Seed-Ms,
