@@ -27,17 +27,17 @@
 
 vary(hosts, [50, 100]).
 fixed(tasks, 5, printed("section 6.5")).
-fixed(psi, 100, printed("section 6.5")).
+fixed(psi, 100, printed("section 6.5: Ψ(0)")).
 fixed(q_th, 4, printed("section 6.5")).
-fixed(task_time, 1, assumed("as short as it may be")).
+fixed(task_time, 1, assumed("an agent does not wait for it")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
-fixed(tick, 1, assumed("")).
-fixed(threshold, 0.01, chosen("")).
-fixed(rounding, floor, assumed("")).
-fixed(replication, rewarded, assumed("")).
-fixed(mesh, rings, chosen("")).
-fixed(degree, 10, chosen("")).
-fixed(crash_share, 0.2, assumed("T4 is in progress when so many have it")).
+fixed(tick, 2, chosen("seconds of a turn in a queue: sets the scale of time")).
+fixed(threshold, 1, chosen("below it Ψ is zero: sets how long agents wait")).
+fixed(rounding, floor, chosen("of the number of clones; round makes more")).
+fixed(replication, rewarded, assumed("clones only after a reward")).
+fixed(mesh, rings, chosen("links drawn by chance leave some hosts with few")).
+fixed(degree, 20, chosen("with 10 some tasks take above 60 s")).
+fixed(crash_share, 0.2, assumed("task 4 is in progress on so many hosts")).
 fixed(limit, 2000, assumed("host seconds; runs end long before")).
 
                 /*******************************
