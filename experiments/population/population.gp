@@ -1,8 +1,8 @@
 # Tasks and populations, one column for each number of hosts.
 #
-# Before this is loaded: TITLE, columns, an array Hosts of their numbers, 
-# seeds, how many runs there are, and crashed (0 or 1).  Tables have a block for each column, see
-# pictures.pl.
+# Before this is loaded: TITLE, columns, an array Hosts of their numbers,
+# seeds, how many runs there are, and crashed (0 or 1).  Tables have a block
+# for each column, see pictures.pl.
 
 array Colour[6] = [0x4477aa, 0xee6677, 0x228833, 0xccbb44, 0x66ccee, 0xaa3377]
 do for [i=1:6] { set linetype i lc rgb Colour[i] }

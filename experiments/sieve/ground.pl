@@ -1,7 +1,8 @@
 %   Chapter 3: antibodies carried by mobile agents, on hosts under attack.
 %
 %   The study that includes this says plan(Case, Plan), which antigens attack
-%   in which rounds: see rounds.pl.  The view of a run is its rounds.
+%   in which rounds: see rounds.pl; and, for its picture, panel(Runs, Panel),
+%   panel by panel: see pictures.pl.  The view of a run is its rounds.
 
 :- use_module('../../agents/sieve/operator',
               [antigen_attack/2, sieve_start/3]).
@@ -9,6 +10,7 @@
               [network_advance/2, network_at/3, network_property/2]).
 :- use_module('../../prolog/typhon/base/chance',
               [chance_sample/5, chance_seed/2]).
+:- use_module(pictures, [dot_rows/2, median_rows/2, panel_variables/2]).
 :- use_module(rounds, [event_rounds/3, plan_rounds/2]).
 :- use_module(library(apply), [foldl/5, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, nth0/3]).
@@ -95,3 +97,21 @@ view(Log, Rounds) :-
     findall(Start, ( nth0(I, Planned, _), Start is I*Log.case.round ),
             Starts),
     event_rounds(Log.events, Starts, Rounds).
+
+                /*******************************
+                *            PICTURE           *
+                *******************************/
+
+%   Tables and variables of rounds.gp.
+
+panel_rows(Runs, Rows) :-
+    findall(Panel, panel(Runs, Panel), Panels),
+    median_rows(Panels, Rows).
+
+panel_dots(Runs, Rows) :-
+    findall(Panel, panel(Runs, Panel), Panels),
+    dot_rows(Panels, Rows).
+
+panels(Runs, Pairs) :-
+    findall(Panel, panel(Runs, Panel), Panels),
+    panel_variables(Panels, Pairs).

@@ -3,7 +3,6 @@
 
 :- include(ground).
 :- use_module(kinds_panels, [kind_panels/2]).
-:- use_module(pictures, [dot_rows/2, median_rows/2, panel_variables/2]).
 :- use_module(rounds, [born/4, count/5, kinds/2, population/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [max_list/2, memberchk/2, min_list/2]).
@@ -34,14 +33,6 @@ most_but(Kinds, Rounds, Round, N) :-
             Counts),
     max_list([0|Counts], N).
 
-panel_rows(Runs, Rows) :-
+panel(Runs, Panel) :-
     kind_panels(Runs, Panels),
-    median_rows(Panels, Rows).
-
-panel_dots(Runs, Rows) :-
-    kind_panels(Runs, Panels),
-    dot_rows(Panels, Rows).
-
-panels(Runs, Pairs) :-
-    kind_panels(Runs, Panels),
-    panel_variables(Panels, Pairs).
+    member(Panel, Panels).
