@@ -36,7 +36,7 @@ do for [c=0:columns-1] {
 
     set tmargin at screen 0.59; set bmargin at screen 0.28
     set label 3 "Agents" at screen left,0.62
-    set key at screen (left + 0.95/columns - 0.02),0.605 right center horizontal samplen 0.8 width -2 font ",10" maxrows 1
+    set key at screen (left + 0.95/columns - 0.02),0.605 right center horizontal samplen 0.8 width 0 font ",9" maxrows 1
     plot for [i=2:(seeds > 1 ? 2 : 1)] "others.dat" index c using 1:7 \
              with steps lw 1 lc rgb "#c4c4c4" title "others", \
          "kinds.dat" index c using 1:7 with steps lw 1.6 lc rgb "#333333" title "all", \
