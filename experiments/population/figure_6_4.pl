@@ -1,11 +1,17 @@
 %   Figure 6.4: hosts lose task 2 while task 4 is executed.
 
 :- include(ground).
+:- use_module('../sync/metrics', [overlaps/2]).
+:- use_module(metrics, [peak/3, peak/4, population_at/3]).
+:- use_module(pictures,
+              [bar_rows/2, crash_rows/2, kind_rows/2, other_rows/2,
+               panel_variables/2, span_rows/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2, min_member/2, subtract/3]).
 
 study('6.4', "Twenty hosts lose task 2 while task 4 is executed").
-text("As in Figure 6.3, but 20 hosts drawn at random lose task 2 while task \c
-4 is being executed. Some agent of the second kind comes by and executes it \c
-again, and clones itself.").
+text("As in Figure 6.3, but 20 hosts lose task 2 while task 4 is executed. \c
+Some agent of the second kind comes by, executes it again, clones itself.").
 
 fixed(crash, 20, printed("section 6.5")).
 

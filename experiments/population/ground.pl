@@ -16,14 +16,12 @@
                task_rows/2]).
 :- use_module(mesh, [mesh/5]).
 :- use_module(metrics,
-              [again/3, peak/3, peak/4, population_at/3, populations/3,
-               until_settled/4]).
-:- use_module(pictures, [bar_rows/2, crash_rows/2, kind_rows/2, other_rows/2,
-                         panel_variables/2, span_rows/2]).
+              [again/3, gaps/2, peak/3, population_at/3, populations/3,
+               spans/2, until_settled/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists),
-              [last/2, max_list/2, member/2, min_list/2, numlist/3,
-               sum_list/2]).
+              [last/2, max_list/2, member/2, min_list/2, nextto/3,
+               numlist/3, same_length/2, sum_list/2]).
 
 vary(hosts, [50, 100]).
 fixed(tasks, 5, printed("section 6.5")).
@@ -39,10 +37,6 @@ fixed(mesh, rings, chosen("links drawn by chance leave some hosts with few")).
 fixed(degree, 20, chosen("with 10 a host is more often found late")).
 fixed(crash_share, 0.2, assumed("task 4 is in progress on so many hosts")).
 fixed(limit, 2000, assumed("host seconds; runs end long before")).
-
-                /*******************************
-                *             RUN              *
-                *******************************/
 
 %   Beside the agents of the queue a host has the queue and a worker.
 
@@ -144,10 +138,10 @@ measure(overlapped, View, Count) :-
     overlaps(View.executions, Overlapping),
     length(Overlapping, Count).
 measure(Name, View, Value) :-
-    findall(Span, span(View.rows, Span), Spans),
+    spans(View.rows, Spans),
     extreme(Name, span, Spans, Value).
 measure(Name, View, Value) :-
-    findall(Gap, gap(View.rows, Gap), Gaps),
+    gaps(View.rows, Gaps),
     extreme(Name, gap, Gaps, Value).
 measure(Name, View, Value) :-
     findall(Count, member(_-Count, View.peaks), Counts),
@@ -177,21 +171,6 @@ extreme(Name, Of, Values, Value) :-
 extreme(Name, Of, Values, Value) :-
     atom_concat(Of, '_most', Name),
     max_list(Values, Value).
-
-%   Times from the first start to the last end of a task, and from there to
-%   the next, negative where they overlap.
-
-span(Rows, Span) :-
-    member(task(_, First, _, End, _, _), Rows),
-    Span is End - First.
-
-gap(Rows, Gap) :-
-    nextto(task(_, _, _, End, _, _), task(_, Next, _, _, _, _), Rows),
-    Gap is Next - End.
-
-                /*******************************
-                *            CLAIMS            *
-                *******************************/
 
 claim("every host executes all tasks, in their order", [line(4330)],
       ( missing =:= 0, out_of_order =:= 0 )).

@@ -10,11 +10,13 @@
             peak/3,                     % +Kind, +Steps, -Peak
             peak/4,                     % +Kind, +From, +Steps, -Peak
             population_at/3,            % +Time, +Steps, -Counts
-            again/3                     % +Executions, -First, -Again
+            again/3,                    % +Executions, -First, -Again
+            spans/2,                    % +Rows, -Seconds
+            gaps/2                      % +Rows, -Seconds
           ]).
 :- use_module(library(apply), [foldl/5, maplist/3]).
 :- use_module(library(lists),
-              [last/2, member/2, memberchk/2, nth1/3, selectchk/4,
+              [last/2, member/2, memberchk/2, nextto/3, nth1/3, selectchk/4,
                sum_list/2]).
 :- use_module(library(ordsets), [ord_add_element/3, ord_del_element/3]).
 
@@ -215,3 +217,23 @@ split([E|Es], Seen, First, Again) :-
     ;   First = [E|First1],
         split(Es, [Host-Task|Seen], First1, Again)
     ).
+
+%!  spans(+Rows, -Seconds:list) is det.
+%!  gaps(+Rows, -Seconds:list) is det.
+%
+%   Of the rows of task_rows/2, see sync_metrics: the time from the first
+%   start to the last end of each task, and from there to the first start of
+%   the next, negative where they overlap.
+
+spans(Rows, Spans) :-
+    findall(Span,
+            ( member(task(_, First, _, End, _, _), Rows),
+              Span is End - First ),
+            Spans).
+
+gaps(Rows, Gaps) :-
+    findall(Gap,
+            ( nextto(task(_, _, _, End, _, _), task(_, Next, _, _, _, _),
+                     Rows),
+              Gap is Next - End ),
+            Gaps).

@@ -1,6 +1,10 @@
 %   Figure 3.3: the complements of the antigens.
 
 :- include(kinds).
+:- use_module(rounds, [born/4, count/5, kinds/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists),
+              [max_list/2, member/2, memberchk/2, min_list/2]).
 
 study('3.3', "Antigens 00000, 11111, 10101: their complements are left").
 text("Three dissimilar antigens attack hosts drawn at random in each of 15 \c

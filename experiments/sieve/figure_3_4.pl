@@ -1,6 +1,9 @@
 %   Figure 3.4: one antibody that is good for three antigens.
 
 :- include(kinds).
+:- use_module(rounds, [born/4, count/5]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [max_list/2, member/2, min_list/2]).
 
 study('3.4', "Antigens 00000, 00001, 00011: a generic antibody").
 text("Three antigens that are nearly alike attack in each of 15 rounds. \c

@@ -1,6 +1,9 @@
 %   Figure 3.5: other antigens from round 6 on.
 
 :- include(kinds).
+:- use_module(rounds, [count/5]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2, min_list/2]).
 
 study('3.5', "Other antigens from round 6 on: the populations follow").
 text("For five rounds 00000, 00001 and 00011 attack, for five more 11100, \c

@@ -4,7 +4,7 @@
 :- use_module(pictures, [curve_points/3]).
 :- use_module(rounds, [population/3, waits/4]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [sum_list/2]).
+:- use_module(library(lists), [member/2, nth1/3, sum_list/2]).
 
 study(memory, "The antigen of rounds 1 to 5 returns in round 14").
 text("00000 attacks for five rounds, then 11111 for eight, until the clones \c
@@ -18,8 +18,6 @@ fixed(calls, 3, chosen("with 1 hosts help themselves too soon")).
 
 plan(_, [['00000']-5, ['11111']-8, ['00000']-3]).
 
-label(0, "without memory cells").
-label(1, "with memory cells").
 label(first, "First response: a host waits (s)").
 label(second, "Second response: a host waits (s)").
 label(helped, "Share of hosts that agents help in rounds 14 to 16").
@@ -56,10 +54,11 @@ waited(Rounds, R, Mean) :-
 
 able(Rounds, R, Count) :-
     population(Rounds, R, Population),
-    aggregate_all(sum(N), ( member(N-Kind, Population),
-                            aggregate_all(count,
-                                          sub_atom(Kind, _, _, _, '1'), 4) ;
-                            member(N-'11111', Population) ), Count).
+    aggregate_all(sum(N),
+                  ( member(N-Kind, Population),
+                    aggregate_all(count, sub_atom(Kind, _, _, _, '1'), Ones),
+                    Ones >= 4 ),
+                  Count).
 
 claim("with memory cells the second response is faster than the first",
       [ours], at([memory_cells=1], second < first)).

@@ -6,7 +6,7 @@
 :- use_module(pictures, [curve_points/3]).
 :- use_module(rounds, [population/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [max_list/2, sum_list/2]).
+:- use_module(library(lists), [member/2, nth1/3, sum_list/2]).
 
 study(programs, "Programs that steer a robot round obstacles, sieved").
 text("Antibodies are small programs, drawn at random. Three obstacles attack \c

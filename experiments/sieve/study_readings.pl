@@ -2,6 +2,8 @@
 %   what becomes of Figures 3.3 to 3.5 with each.
 
 :- include(kinds).
+:- use_module(rounds, [count/5]).
+:- use_module(library(lists), [member/2, min_list/2]).
 
 study(readings, "Who is the better one? Four readings").
 text("\"Past performance\" may be the feedback for the present antigen, for \c

@@ -5,7 +5,6 @@
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
 :- use_module(library(typhon)).
 :- use_module('../../../agents/sieve/operator').

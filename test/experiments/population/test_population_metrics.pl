@@ -67,6 +67,11 @@ test(again, First-Again == [E1, E2]-[E3]) :-
     E3 = execution(1, a, 5, 6),
     again([E1, E2, E3], First, Again).
 
+test(spans_and_gaps, Spans-Gaps == [31, 31]-[-5]) :-
+    Rows = [ task(1, 10, 40, 41, 2, 0), task(2, 36, 60, 67, 2, none) ],
+    spans(Rows, Spans),
+    gaps(Rows, Gaps).
+
 :- end_tests(measures).
 
 :- begin_tests(mesh).
