@@ -1,0 +1,100 @@
+%   Chapter 4: agents learn the way through a maze, and share what they know.
+%
+%   Expects of the study that includes this: the parameters `network`, a
+%   number of hosts, or wall(Hosts) where there is an obstacle in the maze;
+%   and `density`, agents by hosts.  It may have `sharing`, `dynamic` and
+%   `trace`.  Gives: network/3, run/2, view/2, and measures of one run.
+
+:- use_module('../../agents/learning/operator', [learning_start/5]).
+:- use_module('../../prolog/typhon', [agent_join/3, network_property/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists),
+              [append/3, last/2, list_to_set/2, member/2, memberchk/2,
+               nth0/3, nth1/3, numlist/3]).
+:- use_module('../engine/numbers', [spread/4]).
+:- use_module(maze).
+:- use_module(metrics).
+
+fixed(size, 50, printed("section 4.4: 50 x 50")).
+fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
+fixed(queue, 5, assumed("agents that a host admits beside its own")).
+fixed(light, 100, assumed("brightness at the goal; see study light")).
+fixed(settings, [], assumed("of agents/learning/parameters.pl")).
+fixed(limit, 50000, assumed("host seconds; runs end long before")).
+
+label(executions, "Executions per agent until all have converged").
+label(sharing, "Sharing events per execution").
+label(total, "Executions of all agents").
+label(duration, "Time until all have converged (s)").
+label(density, "Agents by hosts, D").
+
+%   Both are averages of ten runs.
+
+printed(executions, [network=10, density=0.1], 195).
+printed(executions, [network=10, density=0.2], 110).
+
+                /*******************************
+                *              RUNS            *
+                *******************************/
+
+hosts(wall(N), N) :-
+    !.
+hosts(N, N).
+
+agents(Case, Count) :-
+    hosts(Case.network, N),
+    Count is max(1, round(N*Case.density)).
+
+network(Case, mesh(N),
+        [hop_time(uniform(Min, Max)), hosts([capacity(Capacity)])|More]) :-
+    hosts(Case.network, N),
+    Min-Max = Case.hop_time,
+    Capacity is Case.queue + 1,         % and the trainer
+    findall(dynamic(Model), get_dict(dynamic, Case, Model), More).
+
+run(Case, Network) :-
+    network_property(Network, hosts(Hosts)),
+    agents(Case, Count),
+    settings(Case, Settings),
+    learning_start(Hosts, payloads(learning/maze),
+                   [payloads(learning/greedy)],
+                   [ agents(Count), seed(Case.seed), settings(Settings) ],
+                   Agents),
+    forall(member(Agent, Agents), agent_join(Agent, done, Case.limit)).
+
+settings(Case, Settings) :-
+    findall(Setting, setting(Case, Setting), More),
+    append(More, Case.settings, Settings).
+
+setting(Case, Name-Value) :-
+    member(Name, [size, light, sharing, trace]),
+    get_dict(Name, Case, Value).
+setting(Case, obstacles-[(X,0)-(X,X)]) :-
+    wall(_) = Case.network,
+    X is 4*Case.size // 5.              % (40,0)-(40,40) in the thesis
+
+                /*******************************
+                *            MEASURES          *
+                *******************************/
+
+view(Log, view{case:Log.case, learners:Learners, events:Log.events}) :-
+    learners(Log.events, Learners),
+    forall(member(Learner, Learners), arg(3, Learner, converged(_, _, _))).
+
+measure(executions, View, Mean) :-
+    executed(View.learners, Count),
+    length(View.learners, Agents),
+    Mean is Count/Agents.
+measure(total, View, Count) :-
+    executed(View.learners, Count).
+measure(sharing, View, Ratio) :-
+    executed(View.learners, Count),
+    shared_times(View.learners, Times),
+    length(Times, Events),
+    Ratio is Events/Count.
+measure(duration, View, Time) :-
+    duration(View.learners, Time).
+measure(hops, View, Mean) :-
+    findall(Hops, member(learner(_, _, converged(_, Hops, _)), View.learners),
+            All),
+    mean(All, Mean).
