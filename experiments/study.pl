@@ -22,7 +22,7 @@
 :- use_module(library(error), [domain_error/2, existence_error/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2, memberchk/2, nth1/3, numlist/3]).
+:- use_module(library(lists), [member/2, nth1/3, numlist/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2, option/3]).
 

@@ -7,7 +7,7 @@
 :- use_module(library(apply), [foldl/4, include/3, maplist/2, maplist/3]).
 :- use_module(library(lists),
               [ append/3, last/2, max_list/2, member/2, memberchk/2,
-                min_list/2, subtract/3, sum_list/2
+                min_list/2, sum_list/2
               ]).
 :- use_module(numbers, [median/2, number_text/2]).
 
