@@ -4,6 +4,7 @@
 %   Expects: ground, and the parameters `network` and `density`, which vary.
 
 :- use_module('../engine/gnuplot', [colour/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
 
 label(trend, "Sharing events at the end against the beginning (%)").
 label(wall(50), "50 hosts, obstacle").
@@ -51,33 +52,84 @@ drop(Measure, D1, D2,
                 *******************************/
 
 %   sets(+Name, +Measure, -Picture): a set of points for each network, one
-%   for each density, as in the thesis.
+%   for each density.
 
 sets(Name, Measure,
      script('sets.gp',
-            [ Medians-set_rows(Measure), All-set_runs(Measure),
-              Printed-set_printed(Measure) ],
-            [size(1100, 470), variables(sets_drawn(Measure))])) :-
+            [ Medians-set_rows(Measure, medians),
+              All-set_rows(Measure, each),
+              Printed-set_rows(Measure, printed) ],
+            [size(1100, 480), variables(sets_drawn(Measure))])) :-
     maplist(atom_concat(Name), ['-medians', '-runs', '-printed'],
             [Medians, All, Printed]).
 
-set_at(Network, Density, At) :-
-    vary(network, Networks),
-    nth0(I, Networks, Network),
-    At is 6*I + 10*Density.
+%   A block for each network.
 
-of_network(Network, Runs, Density, Values, Measure) :-
-    findall(D, member(run(_{network:Network, density:D}, _, _), Runs), _),
-    findall(D, ( member(run(Case, _, _), Runs), Case.network == Network,
-                 D = Case.density ), Ds0),
-    sort(Ds0, Ds),
-    member(Density, Ds),
-    findall(V, ( member(run(Case, _, Ms), Runs), Case.network == Network,
-                 Case.density =:= Density, get_dict(Measure, Ms, V) ),
-            Values).
+set_rows(Measure, What, Runs, Rows) :-
+    drawn(Runs, Networks),
+    findall(Row,
+            ( nth0(I, Networks, Network),
+              findall(Row0, point(What, I, Network, Measure, Runs, Row0),
+                      Rows0),
+              ( member(Row, Rows0)
+              ; Rows0 == [], Row = ['NaN', 'NaN', 'NaN', 'NaN']
+              ; member(Row, [gap, gap]) ) ),
+            Rows).
 
-set_rows(Measure, Runs, Rows) :-
-    blocks(Runs,
-           [N, D, Vs, [At, Median, Least, Most]]>>
-               ( spread(Vs, Least, Median, Most), set_at(N, D, At) ),
-           Measure, Rows).
+drawn(Runs, Networks) :-
+    findall(Network, ( member(run(Case, _, _), Runs),
+                       get_dict(network, Case, Network) ), All),
+    list_to_set(All, Networks).
+
+point(What, I, Network, Measure, Runs, [X|Ys]) :-
+    findall(D-Value,
+            ( member(run(Case, _, Measures), Runs),
+              get_dict(network, Case, Network),
+              get_dict(density, Case, D),
+              get_dict(Measure, Measures, Value) ),
+            Pairs),
+    keysort(Pairs, Sorted),
+    group_pairs_by_key(Sorted, Groups),
+    member(D-Values, Groups),
+    X is 6*I + 10*D,
+    ordinates(What, Network, D, Measure, Values, Ys).
+
+ordinates(medians, _, _, _, Values, [Median, Least, Most]) :-
+    spread(Values, Least, Median, Most).
+ordinates(each, _, _, _, Values, [Value]) :-
+    member(Value, Values).
+ordinates(printed, Network, D, Measure, _, [Value]) :-
+    printed(Measure, [network=Network, density=D], Value).
+
+sets_drawn(Measure, Runs,
+           [ 'LABEL'-Label, 'RUNS'-Count, sets-Sets, 'Set'-Names,
+             'Colour'-Colours ]) :-
+    label(Measure, Label),
+    drawn(Runs, Networks),
+    length(Networks, Sets),
+    findall(Name, ( member(N, Networks), label(N, Name) ), Names),
+    findall(Colour, ( nth0(I, Networks, _), C is I mod 6, colour(C, Colour) ),
+            Colours),
+    findall(Seed, member(run(_, Seed, _), Runs), Seeds),
+    list_to_set(Seeds, Distinct),
+    length(Distinct, Count).
+
+%   In 30 equal parts of the first run that has kept its times.
+
+kept(Runs, Seed, Times, End) :-
+    member(run(_, Seed, Measures), Runs),
+    get_dict(times, Measures, Times),
+    get_dict(duration, Measures, End),
+    !.
+
+times_rows(Runs, Rows) :-
+    kept(Runs, _, Times, End),
+    bins(Times, End, 30, Points),
+    findall([X, Y], member(X-Y, Points), Rows).
+
+trend_rows(Runs, [[0, Level], [End, Last]]) :-
+    kept(Runs, _, Times, End),
+    trend_line(Times, End, Level, Last).
+
+times_drawn(Runs, ['SEED'-Seed, 'END'-End]) :-
+    kept(Runs, Seed, _, End).
