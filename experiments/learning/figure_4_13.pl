@@ -23,7 +23,7 @@ measure(most_degree, View, Most) :-
     of_hosts(View, _-Most).
 
 of_hosts(View, Degrees) :-
-    hosts(View.case.network, N),
+    hosts(View.case, N),
     duration(View.learners, End),
     degrees(View.case.dynamic, N, View.case.seed, End, Degrees).
 

@@ -10,9 +10,9 @@ in the maze. Overlap is the share of cells that two ways have in common, of \c
 those in one of them. A way is compared with 200 shortest ways through the \c
 same maze, drawn at random: most of them are near the diagonal, too.").
 
-vary(network, [50, wall(50)]).
+vary(network, [50, obstacle]).
 vary(sharing, [false, true]).
-skip(Case) :- Case.network = wall(_), Case.sharing == false.
+skip(Case) :- Case.network == obstacle, Case.sharing == false.
 fixed(density, 0.1, printed("section 4.4.1")).
 fixed(trace, true, assumed("trainers log the actions tried")).
 
@@ -57,11 +57,11 @@ claim("final paths are nearer to the diagonal with sharing than without",
 claim("and than 19 in 20 of all shortest ways", [line(2556), ours], Test) :-
     five(true, nearer < 5, Test).
 claim("with an obstacle, nearer to it than 19 in 20 of all shortest ways",
-      [line(2557), ours], at([network=wall(50)], nearer < 5)).
+      [line(2557), ours], at([network=obstacle], nearer < 5)).
 claim("final paths are as short as any", [line(2562)],
       at([sharing=true], detour =:= 0)).
 claim("more executions with an obstacle", [line(2557)],
-      at([network=wall(50)], executions > at([network=50], executions))).
+      at([network=obstacle], executions > at([network=50], executions))).
 
 pair(Cases) :-
     Cases = [ 'without sharing'-[sharing=false, network=50],
@@ -76,4 +76,4 @@ plot('4.8', "Length of the plan that is executed", Lengths) :-
 plot('4.11', "All moves of robots until all have converged, and final ways",
      Mazes) :-
     mazes('4.11', [ 'no obstacle'-[sharing=true, network=50],
-                    'with an obstacle'-[network=wall(50)] ], moves, Mazes).
+                    'with an obstacle'-[network=obstacle] ], moves, Mazes).

@@ -7,7 +7,7 @@ study('4.9', "Executions and sharing against the density of agents").
 text("Each set of points is a network, and goes from one agent to each ten \c
 hosts to five of them. One agent alone has nobody to share with.").
 
-vary(network, [10, 20, 30, 40, 50, wall(50)]).
+vary(network, [10, 20, 30, 40, 50, obstacle]).
 vary(density, [0.1, 0.2, 0.3, 0.4, 0.5]).
 
 printed(executions, [network=50, density=0.1], 92).
@@ -32,7 +32,7 @@ claim("no significant difference (0.15) between networks at D 0.5",
       at([density=0.5],
          most(no_obstacle) - least(no_obstacle) =< 0.15*mean(no_obstacle))).
 claim("more executions with an obstacle, at every density", [line(2486)],
-      at([network=wall(50)], executions > at([network=50], executions))).
+      at([network=obstacle], executions > at([network=50], executions))).
 claim("195 executions with 1 agent on 10 hosts, within a tenth",
       [line(2483)],
       at([network=10, density=0.1], near(executions, 195, 19.5))).
@@ -48,7 +48,7 @@ claim(Text, [line(2528)],
          abs(sharing - at([density=0.5], sharing)) < 0.05)) :-
     each_network("less than 0.05 between D 0.4 and 0.5", N, Text).
 claim("more sharing with an obstacle, at every density", [line(2526)],
-      at([network=wall(50)], sharing > at([network=50], sharing))).
+      at([network=obstacle], sharing > at([network=50], sharing))).
 claim("sharing becomes less with time: 25 agents, 50 hosts", [line(2591)],
       at([network=50, density=0.5], trend < 0)).
 claim("and in all other cases", [line(2597)], trend < 0).

@@ -1,8 +1,8 @@
 %   Chapter 4: agents learn the way through a maze, and share what they know.
 %
 %   Expects of the study that includes this: the parameters `network`, a
-%   number of hosts, or wall(Hosts) where there is an obstacle in the maze;
-%   and `density`, agents by hosts.  It may have `sharing`, `dynamic` and
+%   number of hosts, or `obstacle`, where there is one in the maze; and
+%   `density`, agents by hosts.  It may have `sharing`, `dynamic` and
 %   `trace`.  Gives: network/3, run/2, view/2, and measures of one run.
 
 :- use_module('../../agents/learning/operator', [learning_start/5]).
@@ -15,6 +15,7 @@
 :- use_module(maze).
 :- use_module(metrics).
 
+fixed(obstacle_hosts, 50, printed("section 4.4")).
 fixed(size, 50, printed("section 4.4: 50 x 50")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 fixed(queue, 5, assumed("agents that a host admits beside its own")).
@@ -37,17 +38,19 @@ printed(executions, [network=10, density=0.2], 110).
                 *              RUNS            *
                 *******************************/
 
-hosts(wall(N), N) :-
-    !.
-hosts(N, N).
+hosts(Case, N) :-
+    (   integer(Case.network)
+    ->  N = Case.network
+    ;   N = Case.obstacle_hosts
+    ).
 
 agents(Case, Count) :-
-    hosts(Case.network, N),
+    hosts(Case, N),
     Count is max(1, round(N*Case.density)).
 
 network(Case, mesh(N),
         [hop_time(uniform(Min, Max)), hosts([capacity(Capacity)])|More]) :-
-    hosts(Case.network, N),
+    hosts(Case, N),
     Min-Max = Case.hop_time,
     Capacity is Case.queue + 1,         % and the trainer
     findall(dynamic(Model), get_dict(dynamic, Case, Model), More).
@@ -70,7 +73,7 @@ setting(Case, Name-Value) :-
     member(Name, [size, light, sharing, trace]),
     get_dict(Name, Case, Value).
 setting(Case, obstacles-[(X,0)-(X,X)]) :-
-    wall(_) = Case.network,
+    Case.network == obstacle,
     X is 4*Case.size // 5.              % (40,0)-(40,40) in the thesis
 
                 /*******************************

@@ -7,7 +7,7 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 
 label(trend, "Sharing events at the end against the beginning (%)").
-label(wall(50), "50 hosts, obstacle").
+label(obstacle, "50 hosts, obstacle").
 label(N, Text) :-
     vary(network, Networks),
     member(N, Networks),

@@ -68,7 +68,7 @@ aside(View, Line, Mean) :-
     mean(Ds, Mean).
 
 line(Case, Line) :-
-    (   Case.network = wall(_)
+    (   Case.network == obstacle
     ->  settings(Case, Settings),
         memberchk(obstacles-[(X,_)-(X,Top)], Settings),
         Line = wall(X, Top)
