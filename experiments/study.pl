@@ -7,24 +7,28 @@
 */
 
 :- module(study, []).
+:- use_module(engine/cases,
+              [case_name/3, study_cases/3, study_parameter/2]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
 :- use_module(engine/outcome, [outcome/4]).
-:- use_module(engine/page, [page_save/3]).
+:- use_module(engine/page, [page_save/2]).
 :- use_module(engine/picture, [picture/4]).
 :- use_module(engine/report, [outcome_save/4, print_outcome/3, print_table/3]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
-:- use_module(engine/store, [run_result/5]).
+:- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies,
-              [case_name/3, study_call/2, study_cases/3, study_load/2,
-               study_title/3]).
-:- use_module(engine/work, [run_here/3, runs_make/4]).
+              [study_call/2, study_load/2, study_name/3, study_title/3]).
+:- use_module(engine/work, [runs_make/4]).
+:- use_module(engine/worker, [run_here/4]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [domain_error/2, existence_error/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2, nth1/3, numlist/3]).
+:- use_module(library(lists), [append/2, append/3, member/2, memberchk/2, nth1/3]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(solution_sequences), [distinct/2]).
 
 :- initialization(main, main).
 
@@ -35,22 +39,28 @@ opt_type(seed,    seed,    integer).
 opt_type(jobs,    jobs,    natural).
 opt_type(set,     set,     atom).
 opt_type(case,    case,    atom).
+opt_type(logs,    logs,    boolean).
 opt_type(list,    list,    boolean).
 opt_type(collect, collect, boolean).
 opt_type(out,     out,     atom).
 
-opt_help(help(header), "Makes runs of studies, and tables, claims and pictures \c
-of them\n").
-opt_help(help(usage), " -- STUDY ... [options]\n\nA STUDY is a file, or a figure \c
-of the thesis, as 5.6; without any, the studies\nare listed.").
+opt_help(help(header),
+"Makes runs of studies, and tables, claims and pictures of them\n").
+opt_help(help(usage),
+" -- STUDY ... [options]
+
+A STUDY is a file, a figure of the thesis, as 5.6, a folder of experiments/, or
+`thesis`: all. Without any, those of the thesis are listed. What has been run
+stays, and is not run again.").
 opt_help(runs,    "Runs of each case, with consecutive seeds [3]").
 opt_help(seed,    "The first seed [1]").
 opt_help(jobs,    "Runs at the same time [2]").
-opt_help(set,     "NAME=VALUE: a parameter of the study; a list is varied. May \c
-be given again").
-opt_help(case,    "Make this case alone, with the first seed, in this process: \c
-its number, or its name").
-opt_help(list,    "Print the command of each run, and make none [false]").
+opt_help(set,     "NAME=VALUE: a parameter of the study; a list, [1,2], is \c
+varied. May be given again").
+opt_help(case,    "Make one run, of this case with the first seed, in this \c
+process: its number, or its name, as delta=0.5,topology=ring").
+opt_help(logs,    "Keep the log of each run, events.pl [false]").
+opt_help(list,    "Print a command for each run, and make none [false]").
 opt_help(collect, "Make no runs; show those that are there [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 
@@ -61,8 +71,8 @@ opt_meta(out,  'DIRECTORY').
 main(Argv) :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_error, encoding(utf8)),
-    argv_options(Argv, Named, Options),
-    catch(stopping_on_signals(command(Named, Options)),
+    argv_options(Argv, Names, Options),
+    catch(stopping_on_signals(command(Names, Options)),
           error(Formal, Context),
           ( print_message(error, error(Formal, Context)),
             halt(1) )).
@@ -71,31 +81,39 @@ command([], _) :-
     !,
     catalogue(Rows),
     print_table(user_output, [study, title], Rows).
-command(Named, Options) :-
-    studies_named(Named, Files),
+command(Names, Options) :-
+    studies_named(Names, Files),
     maplist(study_load, Files, Studies),
     given(Options, Given),
-    findall(plan(Study, Cases),
+    findall(plan(Study, Given, Cases),
             ( member(Study, Studies), study_cases(Study, Given, Cases) ),
             Plans),
     perform(Plans, Options).
 
-%   given(+Options, -Given): what --set says, as pairs.
+%   given(+Options, -Given): what --set says, as pairs; the last counts.
 
 given(Options, Given) :-
     findall(Name-Value,
-            ( member(set(Text), Options), setting(Text, Name, Value) ),
+            ( append(_, [set(Text)|Later], Options),
+              setting(Text, Name, Value),
+              \+ ( member(set(Other), Later), setting(Other, Name, _) ) ),
             Given).
 
 setting(Text, Name, Value) :-
     (   sub_atom(Text, B, _, A, =)
     ->  sub_atom(Text, 0, B, _, Name),
         sub_atom(Text, _, A, 0, ValueText),
-        catch(term_to_atom(Value0, ValueText), error(syntax_error(_), _),
-              Value0 = ValueText),
-        Value = Value0
+        value(ValueText, Value)
     ;   domain_error('NAME=VALUE', Text)
     ).
+
+%   What is no term is text, as is what Prolog takes for a variable.
+
+value(Text, Value) :-
+    catch(term_to_atom(Value, Text), error(syntax_error(_), _), fail),
+    ground(Value),
+    !.
+value(Text, Text).
 
                 /*******************************
                 *             RUNS             *
@@ -109,111 +127,176 @@ perform(Plans, Options) :-
 perform(Plans, Options) :-
     option(case(Text), Options),
     !,
-    (   member(plan(Study, Cases), Plans),
+    (   member(plan(Study, _, Cases), Plans),
         the_case(Text, Study, Cases, Case)
     ->  make_one(Study, Case, Options)
     ;   existence_error(case, Text)
     ).
 perform(Plans, Options) :-
+    option(collect(true), Options),
+    !,
+    collect(Plans, Options).
+perform(Plans, Options) :-
     findall(Run, planned(Plans, Options, _, Run), Runs),
-    (   option(collect(true), Options)
-    ->  Failed = []
-    ;   root(Options, Root),
-        option(jobs(Jobs), Options, 2),
-        runs_make(Runs, Root, Jobs, Outcomes),
-        findall(failed, member(failed, Outcomes), Failed)
-    ),
+    root(Options, Root),
+    runs_make(Runs, Root, Options, Outcomes),
     collect(Plans, Options),
-    (   Failed == []
-    ->  true
-    ;   halt(1)
+    (   memberchk(failed, Outcomes)
+    ->  halt(1)
+    ;   true
     ).
 
 %   planned(+Plans, +Options, -N, -Run): the first run of every case comes
 %   first.  N is the number of the case.
 
 planned(Plans, Options, N, run(Study, Case, Seed)) :-
-    seeds(Options, Seeds),
-    member(Seed, Seeds),
-    member(plan(Study, Cases), Plans),
+    seed(Options, Seed),
+    member(plan(Study, _, Cases), Plans),
     nth1(N, Cases, Case).
 
-seeds(Options, Seeds) :-
+seed(Options, Seed) :-
     option(seed(First), Options, 1),
     option(runs(Runs), Options, 3),
     Last is First + Runs - 1,
-    numlist(First, Last, Seeds).
+    between(First, Last, Seed).
 
 root(Options, Root) :-
-    option(out(Out), Options, 'out/studies'),
+    out(Options, Out),
     directory_file_path(Out, runs, Root).
+
+out(Options, Out) :-
+    option(out(Out0), Options, 'out/studies'),
+    absolute_file_name(Out0, Out).
 
 the_case(Text, Study, Cases, Case) :-
     (   atom_number(Text, N)
     ->  nth1(N, Cases, Case)
     ;   member(Case, Cases),
         case_name(Study, Case, Text)
-    ).
+    ),
+    !.
 
 make_one(Study, Case, Options) :-
     option(seed(Seed), Options, 1),
-    root(Options, Root),
     Run = run(Study, Case, Seed),
-    runs_here(Run, Root),
-    run_result(Root, Study, Case, Seed, Measures),
-    dict_pairs(Measures, _, Pairs),
-    findall([Name, Value], ( member(Name-Value, Pairs), number(Value) ), Rows),
-    print_table(user_output, [measure, value], Rows).
-
-runs_here(Run, Root) :-
-    run_here(Run, Root, Outcome),
-    (   Outcome = failed(File)
-    ->  print_message(error, format("The run failed; see ~w", [File])),
+    root(Options, Root),
+    run_here(Run, Root, Options, Outcome),
+    (   Outcome = failed(Directory)
+    ->  directory_file_path(Directory, output, File),
+        read_file_to_string(File, Text, [encoding(utf8)]),
+        format(user_error, '~w~nThe run failed; this is in ~w~n',
+               [Text, File]),
         halt(1)
-    ;   true
+    ;   run_result(Root, Run, Measures),
+        dict_pairs(Measures, _, Pairs),
+        findall([Name, Value],
+                ( member(Name-Value, Pairs), number(Value) ), Rows),
+        print_table(user_output, [measure, value], Rows),
+        format('~nIn ~w~n', [Measures.directory])
     ).
 
-%   One line of a shell for each run.
+                /*******************************
+                *           COMMANDS           *
+                *******************************/
+
+%   One line of a shell for each run, for any directory.
 
 print_command(Study, N, Seed, Options) :-
     module_property(study, file(Script)),
-    option(out(Out), Options, 'out/studies'),
-    findall(Set, ( member(set(Text), Options),
-                   format(atom(Set), ' --set \'~w\'', [Text]) ), Sets),
-    atomic_list_concat(Sets, Settings),
-    format('swipl ~w -- ~w --case ~d --seed ~d~w --out ~w~n',
-           [Script, Study, N, Seed, Settings, Out]).
+    out(Options, Out),
+    findall(Argument, repeated(Options, Argument), More),
+    append([ [swipl, Script, '--', Study, '--case', N, '--seed', Seed],
+             More, ['--out', Out] ], Words),
+    command_text(Words, Text),
+    format('~w~n', [Text]).
+
+%   Of all runs, for people, and from here.
+
+again(Study, Options, Text) :-
+    module_property(study, file(Script0)),
+    maplist(from_here, [Script0, Study], [Script, File]),
+    option(runs(Runs), Options, 3),
+    option(seed(Seed), Options, 1),
+    findall(Argument, repeated(Options, Argument), More),
+    append([swipl, Script, '--', File, '--runs', Runs, '--seed', Seed], More,
+           Words),
+    command_text(Words, Text).
+
+repeated(Options, Argument) :-
+    member(set(Setting), Options),
+    member(Argument, ['--set', Setting]).
+repeated(Options, '--logs') :-
+    option(logs(true), Options).
+
+from_here(File, Relative) :-
+    absolute_file_name('.', Here, [file_type(directory)]),
+    atom_concat(Here, /, Start),
+    (   atom_concat(Start, Relative, File)
+    ->  true
+    ;   Relative = File
+    ).
+
+command_text(Words, Text) :-
+    maplist(quoted, Words, Quoted),
+    atomic_list_concat(Quoted, ' ', Text).
+
+quoted(Word, Word) :-
+    atom_codes(Word, Codes),
+    forall(member(Code, Codes),
+           ( code_type(Code, alnum) ; memberchk(Code, `_-=,./:`) )),
+    !.
+quoted(Word, Quoted) :-
+    atomic_list_concat(Parts, '\'', Word),
+    atomic_list_concat(Parts, '\'\\\'\'', Inside),
+    format(atom(Quoted), '\'~w\'', [Inside]).
 
                 /*******************************
                 *           FIGURES            *
                 *******************************/
 
 collect(Plans, Options) :-
-    option(out(Out), Options, 'out/studies'),
+    out(Options, Out),
     make_directory_path(Out),
-    findall(Study-Outcome,
-            ( member(plan(Study, Cases), Plans),
-              show(Study, Cases, Options, Out, Outcome) ),
-            Outcomes),
-    page_save(Out, Outcomes, Options),
+    findall(Shown,
+            ( member(Plan, Plans), show(Plan, Options, Out, Shown) ),
+            All),
+    page_save(Out, All),
     directory_file_path(Out, 'index.html', Page),
     format('~nTables, pictures, claims: ~w~n', [Page]).
 
-show(Study, Cases, Options, Out, Outcome) :-
-    seeds(Options, Seeds),
+show(plan(Study, Given, Cases), Options, Out,
+     shown(Study, Outcome, Again, Directory)) :-
     root(Options, Root),
     findall(run(Case, Seed, Measures),
-            ( member(Seed, Seeds), member(Case, Cases),
-              run_result(Root, Study, Case, Seed, Measures) ),
+            ( seed(Options, Seed), member(Case, Cases),
+              run_result(Root, run(Study, Case, Seed), Measures) ),
             Runs),
-    outcome(Study, Cases, Runs, Outcome),
+    outcome(Study, Cases, Runs, Outcome0),
+    Outcome = Outcome0.put(given, Given),
     study_title(Study, Name, _),
-    directory_file_path(Out, Name, Directory),
-    make_directory_path(Directory),
-    outcome_save(Study, Outcome, Runs, Directory),
-    (   Runs == []
-    ->  true
-    ;   forall(study_call(Study, plot(Plot, Title, Picture)),
-               picture(Study, plot(Plot, Title, Picture), Runs, Directory))
-    ),
-    print_outcome(user_output, Study, Outcome).
+    directory_file_path(Out, Name, Figures),
+    make_directory_path(Figures),
+    outcome_save(Study, Outcome, Runs, Figures),
+    forall(study_call(Study, plot(Plot, Title, Picture)),
+           picture(Study, plot(Plot, Title, Picture), Runs, Figures)),
+    print_outcome(user_output, Study, Outcome),
+    forall(never_measured(Study, Runs, Where, Measure),
+           print_message(warning, study_measure(Where, Measure))),
+    again(Study, Options, Again),
+    (   Runs = [run(_, _, First)|_]
+    ->  Directory = First.directory
+    ;   Directory = none
+    ).
+
+%   A name that no run has given.
+
+never_measured(Study, Runs, Where, Name) :-
+    Runs = [_|_],
+    distinct(Where-Name, study_name(Study, Where, Name)),
+    \+ study_parameter(Study, Name),
+    \+ ( member(run(_, _, Measures), Runs), get_dict(Name, Measures, _) ).
+
+:- multifile prolog:message//1.
+
+prolog:message(study_measure(Where, Name)) -->
+    [ '~p: no run has given ~q'-[Where, Name] ].

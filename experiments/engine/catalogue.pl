@@ -2,15 +2,17 @@
           [ catalogue/1,                % -Rows
             studies_named/2             % +Names, -Files
           ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [convlist/3, maplist/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(filesex), [directory_member/3]).
+:- use_module(library(lists), [append/2, list_to_set/2, member/2]).
+:- use_module(library(pairs), [pairs_values/2]).
 :- use_module(studies, [study_call/2, study_load/2, study_title/3]).
 
 /** <module> The studies that are there
 
-Studies of the thesis are the files figure_*.pl below `experiments`.
+Studies of the thesis are the files figure_*.pl below `experiments`, and
+study_*.pl.
 
 *Threading*: the thread that loads studies.
 */
@@ -22,59 +24,97 @@ Studies of the thesis are the files figure_*.pl below `experiments`.
    retractall(experiments(_)),
    assertz(experiments(Experiments)).
 
-study_file(File) :-
+study_files(Files) :-
     experiments(Directory),
     findall(File, ( directory_member(Directory, File,
                                      [ recursive(true), extensions([pl]) ]),
-                    file_base_name(File, Base),
-                    ( sub_atom(Base, 0, _, _, figure_)
-                    ; sub_atom(Base, 0, _, _, study_) ) ),
+                    is_study(File) ),
             Files0),
-    sort(Files0, Files),
-    member(File, Files).
+    sort(Files0, Files).
+
+is_study(File) :-
+    file_base_name(File, Base),
+    member(Start, [figure_, study_]),
+    sub_atom(Base, 0, _, _, Start),
+    !.
+
+%   One that does not load is told, and does not cost the others.
+
+loads(File, Study) :-
+    catch(study_load(File, Study), error(Formal, Context),
+          ( print_message(warning, error(Formal, Context)),
+            fail )).
 
 %!  catalogue(-Rows:list) is det.
 %
-%   Rows are [Name, Title], in the order of names.
+%   Rows are [Name, Title], in the order of names: 5.10 after 5.9.
 
 catalogue(Rows) :-
-    findall([Name, Title],
-            ( study_file(File),
-              study_load(File, Study),
-              study_title(Study, Name, Title) ),
-            Rows0),
-    sort(Rows0, Rows).
+    study_files(Files),
+    convlist(loads, Files, Studies),
+    findall(Key-[Name, Title],
+            ( member(Study, Studies),
+              study_title(Study, Name, Title),
+              natural_key(Name, Key) ),
+            Keyed0),
+    keysort(Keyed0, Keyed),
+    pairs_values(Keyed, Rows).
+
+natural_key(Name, Key) :-
+    atomic_list_concat(Parts, '.', Name),
+    maplist(number_or_text, Parts, Key).
+
+number_or_text(Part, Key) :-
+    (   atom_number(Part, Number)
+    ->  Key = Number
+    ;   Key = Part
+    ).
 
 %!  studies_named(+Names:list(atom), -Files:list(atom)) is det.
 %
-%   A name is that of a file, of a study or of one of its plots, `thesis` (all
-%   but those that are named real), or a folder below `experiments`.
+%   A name is that of a file, of a study or of one of its plots, a folder
+%   below `experiments`, or `thesis`: all.
 %
 %   @error existence_error(study, Name)
 
 studies_named(Names, Files) :-
     maplist(named, Names, Lists),
-    append(Lists, Files).
+    append(Lists, All),
+    list_to_set(All, Files).
 
 named(Name, [File]) :-
     absolute_file_name(Name, File,
                        [ file_type(prolog), access(read), file_errors(fail) ]),
     !.
+named(thesis, Files) :-
+    !,
+    study_files(Files).
 named(Name, Files) :-
-    findall(File, ( study_file(File), goes_by(Name, File) ), Files),
+    study_files(All),
+    (   Finder = in_folder
+    ;   Finder = by_name
+    ;   Finder = goes_by
+    ),
+    findall(File, ( member(File, All), call(Finder, Name, File) ), Files),
     Files = [_|_],
     !.
 named(Name, _) :-
     existence_error(study, Name).
 
-goes_by(thesis, _) :-
-    !.
-goes_by(Name, File) :-
+in_folder(Name, File) :-
     file_directory_name(File, Directory),
-    file_base_name(Directory, Name),
-    !.
+    file_base_name(Directory, Name).
+
+%   5.6 is in figure_5_6.pl: nothing else needs to be loaded.
+
+by_name(Name, File) :-
+    atomic_list_concat(Parts, '.', Name),
+    atomic_list_concat([figure|Parts], '_', Base),
+    file_base_name(File, FileBase),
+    file_name_extension(Base, pl, FileBase).
+
 goes_by(Name, File) :-
-    study_load(File, Study),
+    loads(File, Study),
     (   study_title(Study, Name, _)
     ;   study_call(Study, plot(Name, _, _))
     ),

@@ -92,11 +92,14 @@ save_row(Out, Row) :-
 column(Number, Text) :-
     float(Number),
     !,
-    format(atom(Text), '~6g', [Number]).
-column(String, Text) :-
-    string(String),
+    format(atom(Text), '~10g', [Number]).
+column(Value, Text) :-
+    (   string(Value)
+    ;   atom(Value),
+        sub_atom(Value, _, _, _, ' ')
+    ),
     !,
-    format(atom(Text), '"~w"', [String]).
+    format(atom(Text), '"~w"', [Value]).
 column(Value, Value).
 
 %!  save_variables(+File, +Pairs) is det.

@@ -41,7 +41,10 @@ spread(Numbers, Least, Median, Most) :-
 %   As short as is of use: 12,345  104.5  0.042.
 
 number_text(Number, Text) :-
-    (   integer(Number)
+    (   number(Number),
+        Number =:= 0
+    ->  Text = '0'
+    ;   integer(Number)
     ->  format(atom(Text), '~D', [Number])
     ;   number(Number),
         Size is abs(Number),

@@ -1,100 +1,102 @@
 :- module(study_outcome,
-          [ outcome/4,                  % +Study, +Cases, +Runs, -Outcome
-            claim_outcomes/4            % +Study, +Runs, +Cases, -Claims
+          [ outcome/4                   % +Study, +Cases, +Runs, -Outcome
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(claims, [claim_found/4, claim_holds/3]).
+:- use_module(cases, [varied/3]).
+:- use_module(claims, [claim_holds/3]).
+:- use_module(found, [claim_found/4]).
 :- use_module(numbers, [spread/4]).
 :- use_module(studies, [study_call/2]).
 
 /** <module> What came out of the runs of a study
 
-Runs are run(Case, Seed, Measures), Measures a dict.
-
 *Threading*: pure.
 */
 
+:- multifile
+    prolog:message//1.
+
 %!  outcome(+Study, +Cases, +Runs, -Outcome:dict) is det.
 %
-%   Outcome has
+%   Runs are run(Case, Seed, Measures), Measures a dict.  Outcome has
 %
+%     - `names`: the parameters that vary
 %     - `rows`: a list of row(Case, Count, Spreads), one for each case of
 %       which there are runs; Spreads are
-%       spread(Measure, Least, Median, Most) of measures that are numbers
-%     - `claims`: see claim_outcomes/4
+%       spread(Measure, Least, Median, Most, Count) of measures that are
+%       numbers in Count of them
+%     - `claims`: a list of claim(Text, Notes, Held, Of, OfMedians, Found):
+%       the claim held in Held of Of seeds, and OfMedians (`true` or `false`)
+%       of the medians of all runs; Found is what the medians were, as text.
+%       Seeds of which a case is missing are not counted.
 
-outcome(Study, Cases, Runs, outcome{rows:Rows, claims:Claims}) :-
+outcome(Study, Cases, Runs, outcome{names:Names, rows:Rows, claims:Claims}) :-
+    varied(Study, Cases, Names),
     findall(Row, ( member(Case, Cases), row(Runs, Case, Row) ), Rows),
-    claim_outcomes(Study, Runs, Cases, Claims).
+    seeds(Runs, Cases, Seeds),
+    findall(Points,
+            ( member(Seed, Seeds),
+              findall(Case-Ms, member(run(Case, Seed, Ms), Runs), Points) ),
+            OfSeeds),
+    median_points(Rows, Medians),
+    findall(Claim, claim(Study, Names, OfSeeds, Medians, Claim), Claims).
 
 row(Runs, Case, row(Case, Count, Spreads)) :-
     findall(Ms, ( member(run(Case1, _, Ms), Runs), Case1 == Case ), All),
     length(All, Count),
     Count > 0,
-    findall(Name,
-            ( member(Ms, All), get_dict(Name, Ms, V), number(V) ), Names0),
+    findall(Name-Value,
+            ( member(Ms, All), get_dict(Name, Ms, Value), number(Value) ),
+            Values),
+    findall(Name, member(Name-_, Values), Names0),
     sort(Names0, Names),
-    findall(spread(Name, Least, Median, Most),
+    findall(spread(Name, Least, Median, Most, Number),
             ( member(Name, Names),
-              findall(V, ( member(Ms, All), get_dict(Name, Ms, V),
-                           number(V) ), Vs),
+              findall(Value, member(Name-Value, Values), Vs),
+              length(Vs, Number),
               spread(Vs, Least, Median, Most) ),
             Spreads).
-
-%!  claim_outcomes(+Study, +Runs, +Cases, -Claims:list) is det.
-%
-%   Claims are claim(Text, Notes, Held, Of, OfMedians, Found): the claim held
-%   in Held of Of seeds, and OfMedians (`true` or `false`) of the medians of
-%   all runs; Found is what the medians were, as text.  Seeds of which a case
-%   is missing are not counted.  A claim of which nothing is known does not
-%   hold.
-
-claim_outcomes(Study, Runs, Cases, Claims) :-
-    seeds(Runs, Cases, Seeds),
-    length(Seeds, Of),
-    findall(Points, ( member(Seed, Seeds), seed_points(Runs, Seed, Points) ),
-            PointLists),
-    median_points(Runs, Cases, Medians),
-    findall(Name, study_call(Study, vary(Name, _)), Names),
-    findall(claim(Text, Notes, Held, Of, OfMedians, Found),
-            ( study_call(Study, claim(Text, Notes, Test)),
-              aggregate_all(count,
-                            ( member(Points, PointLists),
-                              \+ \+ claim_holds(Study:Test, Points, Points) ),
-                            Held),
-              truth(claim_holds(Study:Test, Medians, Medians), OfMedians),
-              claim_found(Study:Test, Medians, Names, Found) ),
-            Claims).
-
-:- meta_predicate truth(0, -).
-
-truth(Goal, true) :-
-    \+ \+ call(Goal),
-    !.
-truth(_, false).
 
 %   seeds(+Runs, +Cases, -Seeds): those of which all cases are there.
 
 seeds(Runs, Cases, Seeds) :-
     length(Cases, Count),
-    findall(Seed, member(run(_, Seed, _), Runs), Seeds0),
-    sort(Seeds0, Seeds1),
+    findall(Seed, member(run(_, Seed, _), Runs), All),
+    sort(All, Distinct),
     findall(Seed,
-            ( member(Seed, Seeds1),
+            ( member(Seed, Distinct),
               aggregate_all(count, member(run(_, Seed, _), Runs), Count) ),
             Seeds).
 
-seed_points(Runs, Seed, Points) :-
-    findall(Case-Measures, member(run(Case, Seed, Measures), Runs), Points).
-
 %   Measures that are no numbers are of a single run, and have no median.
 
-median_points(Runs, Cases, Points) :-
+median_points(Rows, Points) :-
     findall(Case-Measures,
-            ( member(Case, Cases),
-              row(Runs, Case, row(_, _, Spreads)),
-              findall(Name-Median, member(spread(Name, _, Median, _), Spreads),
-                      Pairs),
+            ( member(row(Case, _, Spreads), Rows),
+              findall(Name-Median,
+                      member(spread(Name, _, Median, _, _), Spreads), Pairs),
               dict_create(Measures, measures, Pairs) ),
             Points).
+
+claim(Study, Names, OfSeeds, Medians, claim(Text, Notes, Held, Of, M, Found)) :-
+    study_call(Study, claim(Text, Notes, Test)),
+    length(OfSeeds, Of),
+    catch(judged(Study:Test, Names, OfSeeds, Medians, Held, M, Found),
+          error(Formal, Context),
+          ( print_message(warning, study_claim(Text, error(Formal, Context))),
+            Held-M-Found = 0-false-'a mistake in the claim' )).
+
+judged(Test, Names, OfSeeds, Medians, Held, OfMedians, Found) :-
+    aggregate_all(count,
+                  ( member(Points, OfSeeds), claim_holds(Test, Points, Points) ),
+                  Held),
+    (   claim_holds(Test, Medians, Medians)
+    ->  OfMedians = true
+    ;   OfMedians = false
+    ),
+    claim_found(Test, Medians, Names, Found).
+
+prolog:message(study_claim(Text, Error)) -->
+    [ 'Claim "~w": '-[Text] ],
+    '$messages':translate_message(Error).

@@ -2,15 +2,20 @@
           [ print_outcome/3,            % +Stream, +Study, +Outcome
             print_table/3,              % +Stream, +Header, +Rows
             outcome_save/4,             % +Study, +Outcome, +Runs, +Directory
-            parameter_rows/2,           % +Study, -Rows
+            case_texts/3,               % +Case, +Names, -Texts
+            spread_text/3,              % +Row, +Measure, -Text
+            shown_measures/3,           % +Study, +Rows, -Measures
+            parameter_rows/3,           % +Study, +Given, -Rows
             held_text/3                 % +Held, +Of, -Text
           ]).
 :- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
 :- use_module(library(csv), [csv_write_file/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/2, append/3, member/2, memberchk/2]).
+:- use_module(library(lists),
+              [append/2, append/3, list_to_set/2, member/2, memberchk/2]).
+:- use_module(cases, [parameters/3]).
 :- use_module(numbers, [number_text/2]).
-:- use_module(studies, [study_call/2, study_parameters/2, study_title/3]).
+:- use_module(studies, [study_call/2, study_title/3]).
 
 /** <module> Tables for people, CSV for other programs
 
@@ -25,49 +30,66 @@
 print_outcome(Stream, Study, Outcome) :-
     study_title(Study, Name, Title),
     format(Stream, '~n~w: ~w~n~n', [Name, Title]),
-    varied(Study, Names),
     shown_measures(Study, Outcome.rows, Measures),
-    findall(Cells, ( member(Row, Outcome.rows),
-                     row_cells(Row, Names, Measures, Cells) ), Rows),
-    append([Names, [runs], Measures], Header),
+    findall(Cells,
+            ( member(Row, Outcome.rows),
+              row_cells(Row, Outcome.names, Measures, Cells) ),
+            Rows),
+    append([Outcome.names, [runs], Measures], Header),
     print_table(Stream, Header, Rows),
     nl(Stream),
     forall(member(Claim, Outcome.claims), print_claim(Stream, Claim)).
 
-varied(Study, Names) :-
-    findall(Name, study_call(Study, vary(Name, _)), Names).
+row_cells(Row, Names, Measures, Cells) :-
+    Row = row(Case, Count, _),
+    case_texts(Case, Names, Keys),
+    maplist(spread_text(Row), Measures, Values),
+    append([Keys, [Count], Values], Cells).
 
+%!  shown_measures(+Study, +Rows, -Measures:list(atom)) is det.
+%
 %   Those that have a label, if any has one.
 
 shown_measures(Study, Rows, Measures) :-
     findall(Name, ( member(row(_, _, Spreads), Rows),
-                    member(spread(Name, _, _, _), Spreads) ), Names0),
-    sort(Names0, All),
+                    member(spread(Name, _, _, _, _), Spreads) ), Names),
+    sort(Names, All),
     findall(Name, ( study_call(Study, label(Name, _)), memberchk(Name, All) ),
             Labelled),
     (   Labelled == []
     ->  Measures = All
-    ;   Measures = Labelled
+    ;   list_to_set(Labelled, Measures)
     ).
 
-row_cells(row(Case, Count, Spreads), Names, Measures, Cells) :-
-    maplist([Name, Text]>>( get_dict(Name, Case, Value),
-                            format(atom(Text), '~w', [Value]) ),
-            Names, Keys),
-    maplist(spread_cell(Spreads), Measures, Values),
-    append([Keys, [Count], Values], Cells).
+%!  case_texts(+Case, +Names, -Texts) is det.
+%!  spread_text(+Row, +Measure, -Text) is det.
+%
+%   What Names are in Case; the median of Measure, and from which to which.
 
-spread_cell(Spreads, Measure, Cell) :-
-    memberchk(spread(Measure, Least, Median, Most), Spreads),
+case_texts(Case, Names, Texts) :-
+    findall(Text, ( member(Name, Names), get_dict(Name, Case, Value),
+                    format(atom(Text), '~w', [Value]) ),
+            Texts).
+
+spread_text(row(_, Count, Spreads), Measure, Text) :-
+    memberchk(spread(Measure, Least, Median, Most, Number), Spreads),
     !,
-    number_text(Median, Text),
-    (   Least =:= Most
-    ->  Cell = Text
-    ;   number_text(Least, LeastText),
-        number_text(Most, MostText),
-        format(atom(Cell), '~w (~w-~w)', [Text, LeastText, MostText])
-    ).
-spread_cell(_, _, '').
+    number_text(Median, Middle),
+    range_text(Least, Most, Range),
+    (   Number =:= Count
+    ->  Share = ''
+    ;   format(atom(Share), ' in ~d', [Number])
+    ),
+    atomic_list_concat([Middle, Range, Share], Text).
+spread_text(_, _, '').
+
+range_text(Least, Most, '') :-
+    Least =:= Most,
+    !.
+range_text(Least, Most, Text) :-
+    number_text(Least, A),
+    number_text(Most, B),
+    format(atom(Text), ' (~w–~w)', [A, B]).
 
 print_claim(Stream, claim(Text, _, Held, Of, OfMedians, Found)) :-
     held_text(Held, Of, Word),
@@ -79,15 +101,11 @@ print_claim(Stream, claim(Text, _, Held, Of, OfMedians, Found)) :-
 
 %!  held_text(+Held, +Of, -Text) is det.
 
-held_text(_, 0, 'not known') :-
-    !.
-held_text(Of, Of, Text) :-
-    !,
-    ( Of =:= 1 -> Text = held ; format(atom(Text), 'held, ~d runs', [Of]) ).
-held_text(0, _, 'DID NOT HOLD') :-
-    !.
-held_text(Held, Of, Text) :-
-    format(atom(Text), 'held in ~d of ~d', [Held, Of]).
+held_text(_, 0, 'not known') :- !.
+held_text(1, 1, held) :- !.
+held_text(Of, Of, Text) :- !, format(atom(Text), 'held, ~d runs', [Of]).
+held_text(0, _, 'DID NOT HOLD') :- !.
+held_text(Held, Of, Text) :- format(atom(Text), 'held in ~d of ~d', [Held, Of]).
 
 %!  print_table(+Stream, +Header, +Rows) is det.
 %
@@ -109,8 +127,11 @@ cell(Cell, Text) :-
     format(atom(Text), '~w', [Cell]).
 
 widen(Line, Widths0, Widths) :-
-    maplist(atom_length, Line, Lengths),
-    maplist([A, B, C]>>( C is max(A, B) ), Widths0, Lengths, Widths).
+    maplist(wider, Line, Widths0, Widths).
+
+wider(Text, Width0, Width) :-
+    atom_length(Text, Length),
+    Width is max(Width0, Length).
 
 print_row(Stream, Widths, Line) :-
     maplist(print_cell(Stream), Widths, Line),
@@ -121,46 +142,57 @@ print_cell(Stream, Width, Text) :-
     format(atom(Cell), '~t~w~*|', [Text, Column]),
     write(Stream, Cell).
 
-%!  parameter_rows(+Study, -Rows) is det.
+%!  parameter_rows(+Study, +Given, -Rows) is det.
 %
 %   Rows are [Name, Value, Why], as text.
 
-parameter_rows(Study, Rows) :-
-    study_parameters(Study, Parameters),
+parameter_rows(Study, Given, Rows) :-
+    parameters(Study, Given, Parameters),
     findall([Name, ValueText, WhyText],
             ( member(parameter(Name, Value, Why), Parameters),
-              format(atom(ValueText), '~w', [Value]),
+              ( var(Value) -> ValueText = ''
+              ; format(atom(ValueText), '~w', [Value]) ),
               why(Why, WhyText) ),
             Rows).
 
-why(varied, 'varied') :- !.
 why(default, '') :- !.
+why(derived, 'follows from others') :- !.
+why(given, 'given by --set') :- !.
 why(printed(Where), Text) :- !, format(atom(Text), 'thesis, ~w', [Where]).
 why(assumed(Why), Text) :- !, format(atom(Text), 'assumed: ~w', [Why]).
 why(chosen(Why), Text) :- !,
     format(atom(Text), 'chosen after results were seen: ~w', [Why]).
 why(Why, Text) :- format(atom(Text), '~w', [Why]).
 
+                /*******************************
+                *             CSV              *
+                *******************************/
+
 %!  outcome_save(+Study, +Outcome, +Runs, +Directory) is det.
 %
-%   Write runs.csv, claims.csv and parameters.csv.
+%   Write runs.csv, claims.csv and parameters.csv.  Outcome has `given`, too:
+%   what was given by --set.
 
 outcome_save(Study, Outcome, Runs, Directory) :-
-    varied(Study, Names),
     measured(Runs, Measures),
-    findall(Row, run_row(Runs, Names, Measures, Row), RunRows),
-    append([[seed], Names, Measures], Header),
-    save_csv(Directory, 'runs.csv', Header, RunRows),
+    findall([Seed|Cells],
+            ( member(run(Case, Seed, Ms), Runs),
+              case_texts(Case, Outcome.names, Keys),
+              maplist(csv_cell(Ms), Measures, Values),
+              append(Keys, Values, Cells) ),
+            RunRows),
+    append([[seed], Outcome.names, Measures], Header),
+    save_csv(Directory, 'runs.csv', [Header|RunRows]),
     findall([Text, Held, Of, OfMedians, Found, Notes],
             ( member(claim(Text, Notes0, Held, Of, OfMedians, Found),
                      Outcome.claims),
               format(atom(Notes), '~w', [Notes0]) ),
             ClaimRows),
     save_csv(Directory, 'claims.csv',
-             [claim, held, of, of_medians, found, notes], ClaimRows),
-    parameter_rows(Study, ParameterRows),
-    save_csv(Directory, 'parameters.csv', [parameter, value, why],
-             ParameterRows).
+             [[claim, held, of, of_medians, found, notes]|ClaimRows]),
+    parameter_rows(Study, Outcome.given, ParameterRows),
+    save_csv(Directory, 'parameters.csv',
+             [[parameter, value, why]|ParameterRows]).
 
 measured(Runs, Measures) :-
     findall(Name,
@@ -168,21 +200,14 @@ measured(Runs, Measures) :-
             Names),
     sort(Names, Measures).
 
-run_row(Runs, Names, Measures, [Seed|Cells]) :-
-    member(run(Case, Seed, Ms), Runs),
-    maplist([Name, Text]>>( get_dict(Name, Case, V),
-                            format(atom(Text), '~w', [V]) ), Names, Keys),
-    maplist(csv_cell(Ms), Measures, Values),
-    append(Keys, Values, Cells).
-
 csv_cell(Ms, Name, Value) :-
-    get_dict(Name, Ms, Value0),
-    number(Value0),
-    !,
-    Value = Value0.
-csv_cell(_, _, '').
+    (   get_dict(Name, Ms, Value0),
+        number(Value0)
+    ->  Value = Value0
+    ;   Value = ''
+    ).
 
-save_csv(Directory, Name, Header, Rows) :-
+save_csv(Directory, Name, Rows) :-
     directory_file_path(Directory, Name, File),
-    findall(Line, ( member(Row, [Header|Rows]), Line =.. [row|Row] ), Lines),
+    findall(Line, ( member(Row, Rows), Line =.. [row|Row] ), Lines),
     csv_write_file(File, Lines).

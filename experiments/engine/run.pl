@@ -6,10 +6,11 @@
               [log_events/2, network_property/2, network_start/3,
                network_stop/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2]).
-:- use_module(studies, [has_network/1, study_call/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(sources, [sources_hash/2]).
 :- use_module(store, [result_save/2]).
-
+:- use_module(studies, [study_call/2, study_says/2]).
 
 /** <module> One run of a study
 
@@ -25,30 +26,32 @@ exception in the caller ends the run, and the network is stopped.
 %   Make the run of Case with Seed, and write what was measured and its log
 %   below Directory, which must be there.
 %
-%   @error study_goal_failed(Goal) if run/2 or view/2 fails
+%   @error study_goal_failed(Name/Arity) if network/3, run/2 or view/2 fails
+%   @error study_measures(Name, Values) if there is more than one value
 
 run_make(Study, Case, Seed, Directory) :-
     directory_file_path(Directory, 'events.pl', File),
+    findall(Fact, environment(Fact), Environment),
     get_time(T0),
-    statistics(cputime, C0),
+    statistics(process_cputime, C0),
     run_log(Study, Case, Seed, File, Log),
     view(Study, Log, View),
-    findall(measure(Name, Value),
-            study_call(Study, measure(Name, View, Value)), Measures),
+    measures(Study, View, Measures),
     get_time(T1),
-    statistics(cputime, C1),
+    statistics(process_cputime, C1),
     Wall is T1 - T0,
     Cpu is C1 - C0,
+    sources_hash(Study, Hash),
+    findall(events(Count), ( get_dict(events, Log, Events),
+                             length(Events, Count) ), Counted),
     dict_pairs(Case, _, Pairs),
     findall(parameter(Name, Value), member(Name-Value, Pairs), Parameters),
-    findall(Fact, environment(Fact), Environment),
-    append(Environment, [wall(Wall), cpu(Cpu)|Measures], Facts0),
-    append([seed(Seed)|Parameters], Facts0, Facts),
+    append([ [seed(Seed)], Parameters, [sources(Hash)], Environment, Counted,
+             [wall(Wall), cpu(Cpu)], Measures ], Facts),
     result_save(Directory, Facts).
 
 view(Study, Log, View) :-
-    (   predicate_property(Study:view(_, _), number_of_clauses(N)),
-        N > 0
+    (   study_says(Study, view/2)
     ->  must(Study, view(Log, View))
     ;   View = Log
     ).
@@ -60,46 +63,84 @@ must(Study, Goal) :-
         throw(error(study_goal_failed(Name/Arity), _))
     ).
 
+%   A measure that fails has no value in this run.
+
+measures(Study, View, Measures) :-
+    findall(Name-Value, study_call(Study, measure(Name, View, Value)), Pairs0),
+    sort(Pairs0, Pairs),
+    (   append(_, [Name-A, Name-B|_], Pairs)
+    ->  throw(error(study_measures(Name, [A, B]), _))
+    ;   findall(measure(Name, Value), member(Name-Value, Pairs), Measures)
+    ).
+
+                /*******************************
+                *          ENVIRONMENT         *
+                *******************************/
+
 environment(version(prolog, Version)) :-
     current_prolog_flag(version, Version).
+environment(version(typhon, Version)) :-
+    module_property(study_run, file(Here)),
+    absolute_file_name('../../pack', Pack,
+                       [ relative_to(Here), extensions([pl]), access(read),
+                         file_errors(fail) ]),
+    read_file_to_terms(Pack, Facts, []),
+    member(version(Version), Facts).
 environment(bits(Bits)) :-
     current_prolog_flag(address_bits, Bits).
 environment(processors(Count)) :-
     current_prolog_flag(cpu_count, Count).
 environment(load(Load)) :-
-    catch(setup_call_cleanup(
-              open('/proc/loadavg', read, In),
-              read_string(In, " ", "", _, Text),
-              close(In)),
-          error(_, _),
-          fail),
+    exists_file('/proc/loadavg'),
+    setup_call_cleanup(
+        open('/proc/loadavg', read, In),
+        read_string(In, " ", "", _, Text),
+        close(In)),
     number_string(Load, Text).
+
+                /*******************************
+                *              LOG             *
+                *******************************/
 
 %!  run_log(+Study, +Case, +Seed, +File, -Log) is det.
 %
-%   Log is a dict with `case`, which also has the `seed`, and, of a study with
-%   a network, `hosts` and `events`, which are in File too.
+%   Log is a dict with `case`, which also has the `seed` and the `directory`
+%   of the run, and, of a study with a network, `hosts` and `events`, which
+%   are in File too.
 
 run_log(Study, Case0, Seed, File, Log) :-
-    has_network(Study),
-    !,
-    Case = Case0.put(seed, Seed),
+    file_directory_name(File, Directory),
+    Case = Case0.put(_{seed:Seed, directory:Directory}),
+    set_random(seed(Seed)),
+    (   study_says(Study, network/3)
+    ->  network_log(Study, Case, File, Log)
+    ;   Log = log{case:Case}
+    ).
+
+network_log(Study, Case, File, log{case:Case, hosts:Hosts, events:Events}) :-
     must(Study, network(Case, Topology, Options0)),
     append(Options0,
-           [ clock(Case.clock), processes(Case.processes), seed(Seed),
+           [ clock(Case.clock), processes(Case.processes), seed(Case.seed),
              log(File) ],
            Options),
-    set_random(seed(Seed)),
     setup_call_cleanup(
         network_start(Topology, Network, Options),
         ( network_property(Network, hosts(Hosts)),
-          must(Study, run(Case, Network)) ),
+          on_network(Study, Case, Network) ),
         network_stop(Network)),
-    log_events(File, Events),
-    Log = log{case:Case, hosts:Hosts, events:Events}.
-run_log(_, Case0, Seed, _, log{case:Case}) :-
-    Case = Case0.put(seed, Seed),
-    set_random(seed(Seed)).
+    log_events(File, Events).
+
+on_network(Study, Case, Network) :-
+    (   study_says(Study, run/2)
+    ->  must(Study, run(Case, Network))
+    ;   true
+    ).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
 
 prolog:error_message(study_goal_failed(PI)) -->
     [ 'The study\'s own ~q failed'-[PI] ].
+prolog:error_message(study_measures(Name, Values)) -->
+    [ 'The measure ~q has several values: ~p'-[Name, Values] ].

@@ -1,27 +1,35 @@
 :- module(study_sources,
-          [ study_sources/2,            % +Study, -Files
-            sources_hash/2              % +Study, -Hash
+          [ sources_hash/2,             % +Study, -Hash
+            sources_changed/2           % +Study, -File
           ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [include/3, partition/4]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [append/2, append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, subtract/3]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(prolog_source),
               [prolog_close_source/1, prolog_open_source/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
+:- use_module(library(terms), [mapargs/3]).
 
 /** <module> What a run is made by
 
-The sources of a study are its own file and what that names in directives,
-and what these name; the platform and the engine as a whole.  Agents are
-clause files that hosts read when they create one: those beside the study
-count, and all in directories of `agents` that something else is named in,
-in `agents/lib` and `payloads`.
+Of a study and the files that it includes count the clauses of network/3,
+run/2, view/2 and measure/3, and of what these mention; of other files that
+are named, by use_module/2 and the like or as agents(_) or payloads(_), all,
+unless nothing of what is imported is mentioned.  The agents beside a study
+count, and those in the directory of one that counts, in `agents/lib` and in
+`payloads`; the platform as a whole; of the engine what makes a run.
 
-*Threading*: no state; any thread.
+What a study says of cases, which runs are known by, and of what is shown of
+them, claims, plots, labels, does not count: it may change, and the runs stay.
+
+*Threading*: one thread.
 */
 
-:- dynamic project/1.
+:- dynamic
+    project/1,
+    hashed/3.                   % Study, Hash, Times
 
 :- prolog_load_context(directory, Engine),
    file_directory_name(Engine, Experiments),
@@ -29,136 +37,231 @@ in `agents/lib` and `payloads`.
    retractall(project(_)),
    assertz(project(Root)).
 
-%!  study_sources(+Study, -Files:list(atom)) is det.
+%!  sources_hash(+Study, -Hash:atom) is det.
 %
-%   Absolute names, sorted.  Study is the name of its file.
+%   Eight hexadecimal digits, found once in a process.  Study is the name of
+%   its file.
 
-study_sources(Study, Files) :-
-    findall(Program, program_beside(Study, Program), Programs),
-    named_from([Study|Programs], [], Named),
-    findall(File, ( of_agents(Named, Directory),
-                    below_directory(Directory, [pl], File) ), Agents),
+sources_hash(Study, Hash) :-
+    hashed(Study, Hash, _),
+    !.
+sources_hash(Study, Hash) :-
+    sources(Study, Terms, Named, Files),
+    findall(File-Time, ( member(File, Files), time_file(File, Time) ),
+            Times),
+    findall(Base-Digest,
+            ( member(File, Named), file_digest(File, Base, Digest) ),
+            Digests0),
+    msort(Digests0, Digests),
+    plain(Terms, Plain),
+    format(string(Text), '~k', [Plain-Digests]),
+    text_hash(Text, Hash),
+    assertz(hashed(Study, Hash, Times)).
+
+%   plain(+Term, -Plain): without dicts, which are written in an order that
+%   differs between processes.
+
+plain(Term, dict(Tag, Plain)) :-
+    is_dict(Term),
+    !,
+    dict_pairs(Term, Tag, Pairs),
+    plain(Pairs, Plain).
+plain(Term, Plain) :-
+    compound(Term),
+    !,
+    mapargs(plain, Term, Plain).
+plain(Term, Term).
+
+file_digest(File, Base, Digest) :-
+    file_base_name(File, Base),
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    text_hash(Text, Digest).
+
+text_hash(Text, Hash) :-
+    sha_hash(Text, Bytes, [encoding(utf8)]),
+    hash_atom(Bytes, Hex),
+    sub_atom(Hex, 0, 8, _, Hash).
+
+%!  sources_changed(+Study, -File) is nondet.
+%
+%   File counts for Study, and has been written since its hash was found.
+
+sources_changed(Study, File) :-
+    hashed(Study, _, Times),
+    member(File-Time, Times),
+    \+ ( exists_file(File), time_file(File, Time) ).
+
+                /*******************************
+                *            FILES             *
+                *******************************/
+
+%   sources(+Study, -Terms, -Named, -Files): Terms are those that count of
+%   the study and of what it includes, Named the other files, Files all.
+
+sources(Study, Terms, Named, Files) :-
+    included([Study], [], Included),
+    findall(Term, ( member(File, Included), source_term(File, Term) ), All),
+    of_run(All, Terms),
+    findall(File, named_by(Study, Included, Terms, File), First),
     findall(File, common(File), Common),
-    append([Named, Agents, Common], All),
-    sort(All, Files).
+    append(First, Common, Begin),
+    followed(Begin, [], Followed),
+    sort(Followed, Named),
+    append(Included, Named, Files).
 
-%   program_beside(+Study, -File): an agent program, or a payload.
+included([], Seen, Seen).
+included([File|Files], Seen, All) :-
+    (   memberchk(File, Seen)
+    ->  included(Files, Seen, All)
+    ;   findall(Next, ( source_term(File, (:- include(Spec))),
+                        source_file_of(Spec, File, Next) ), Nexts),
+        append(Nexts, Files, Files1),
+        append(Seen, [File], Seen1),
+        included(Files1, Seen1, All)
+    ).
 
-program_beside(Study, File) :-
+named_by(_, Included, Terms, File) :-
+    member(From, Included),
+    member(Term, Terms),
+    names(Term, Spec),
+    source_file_of(Spec, From, File),
+    \+ memberchk(File, Included).
+named_by(Study, _, _, File) :-
     file_directory_name(Study, Directory),
     directory_member(Directory, File, [extensions([pl])]),
-    first_term(File, (:- Declaration)),
-    nonvar(Declaration),
+    once(source_term(File, First)),
+    nonvar(First),
+    First = (:- Declaration),
+    compound(Declaration),
     functor(Declaration, Kind, _),
     memberchk(Kind, [agent, payload]).
 
-of_agents(Named, Directory) :-
-    below(agents, Agents),
-    findall(D, ( member(File, Named), file_directory_name(File, D),
-                 atom_concat(Agents, _, D) ), Directories),
-    sort(Directories, Distinct),
-    member(Directory, Distinct).
-of_agents(_, Directory) :-
-    member(Name, ['agents/lib', payloads]),
-    below(Name, Directory).
-
 common(File) :-
-    member(Name, [prolog, 'experiments/engine']),
-    below(Name, Directory),
-    below_directory(Directory, [pl], File).
-
-below_directory(Directory, Extensions, File) :-
-    exists_directory(Directory),
-    directory_member(Directory, File,
-                     [recursive(true), extensions(Extensions)]).
-
-below(Name, Path) :-
+    member(Name, [prolog, 'agents/lib', payloads]),
     project(Root),
-    directory_file_path(Root, Name, Path).
+    directory_file_path(Root, Name, Directory),
+    exists_directory(Directory),
+    directory_member(Directory, File, [recursive(true), extensions([pl])]).
+common(File) :-
+    module_property(study_sources, file(Here)),
+    source_file_of(run, Here, File).
 
-%   named_from(+Files, +Seen, -Named): what comes with Prolog, and the
-%   platform, are not followed.
+%   followed(+Files, +Seen, -All): what comes with Prolog, and the platform,
+%   are not followed.
 
-named_from([], Named, Named).
-named_from([File|Files], Seen, Named) :-
-    memberchk(File, Seen),
+followed([], All, All).
+followed([File|Files], Seen, All) :-
+    (   memberchk(File, Seen)
+    ->  followed(Files, Seen, All)
+    ;   findall(Next, named_in(File, Next), Nexts),
+        append(Nexts, Files, Files1),
+        followed(Files1, [File|Seen], All)
+    ).
+
+named_in(File, _) :-
+    in_platform(File),
     !,
-    named_from(Files, Seen, Named).
-named_from([File|Files], Seen, Named) :-
-    findall(Next, ( names(File, Next), followed(Next) ), Nexts),
-    append(Nexts, Files, Files1),
-    named_from(Files1, [File|Seen], Named).
+    fail.
+named_in(File, Next) :-
+    source_term(File, Term),
+    names(Term, Spec),
+    source_file_of(Spec, File, Next).
+named_in(File, Next) :-
+    project(Root),
+    directory_file_path(Root, agents, Agents),
+    atom_concat(Agents, _, File),
+    file_directory_name(File, Directory),
+    directory_member(Directory, Next, [extensions([pl])]).
 
-followed(File) :-
-    below(prolog, Platform),
-    \+ atom_concat(Platform, _, File),
+in_platform(File) :-
+    project(Root),
+    member(Name, [prolog, experiments/engine]),
+    format(atom(Start), '~w/~w/', [Root, Name]),
+    atom_concat(Start, _, File).
+
+source_file_of(Spec, From, File) :-
+    absolute_file_name(Spec, File,
+                       [ file_type(prolog), access(read),
+                         relative_to(From), file_errors(fail) ]),
     current_prolog_flag(home, Home),
     \+ atom_concat(Home, _, File).
 
-names(File, Named) :-
-    source_term(File, (:- Directive)),
-    file_of(Directive, Spec),
-    absolute_file_name(Spec, Named,
-                       [ file_type(prolog), access(read),
-                         relative_to(File), file_errors(fail) ]).
+%   names(+Term, -Spec): of a file that Term names.
 
-first_term(File, Term) :-
-    once(source_term(File, First)),
-    First = Term.
+names((:- Directive), Spec) :-
+    compound(Directive),
+    functor(Directive, Name, _),
+    memberchk(Name, [use_module, reexport, ensure_loaded, include, consult]),
+    !,
+    arg(1, Directive, Files),
+    (   is_list(Files)
+    ->  member(Spec, Files)
+    ;   Spec = Files
+    ),
+    ground(Spec).
+names(Term, Spec) :-
+    sub_term(Spec, Term),
+    compound(Spec),
+    ( Spec = agents(_) ; Spec = payloads(_) ),
+    ground(Spec).
+
+                /*******************************
+                *            TERMS             *
+                *******************************/
 
 source_term(File, Term) :-
     setup_call_cleanup(
         prolog_open_source(File, In),
         ( repeat,
-          read_term(In, Term0, []),
+          read_term(In, Term0, [syntax_errors(quiet)]),
           ( Term0 == end_of_file -> !, fail ; true ),
           Term = Term0 ),
         prolog_close_source(In)).
 
-file_of(Directive, File) :-
-    compound(Directive),
-    functor(Directive, Name, _),
-    memberchk(Name, [use_module, reexport, ensure_loaded, include, consult]),
-    arg(1, Directive, Files),
-    (   is_list(Files)
-    ->  member(File, Files)
-    ;   File = Files
-    ).
+%   of_run(+Terms, -OfRun): directives, but for imports that are not
+%   mentioned, and clauses that are: by their names, whatever the arity.
 
-%!  sources_hash(+Study, -Hash:atom) is det.
-%
-%   Of the names and the contents of the sources.  What Study itself says
-%   of cases, which runs are known by, and of what is shown of them, does not
-%   count: it may change, and the runs stay.
+of_run(Terms, OfRun) :-
+    partition(is_directive, Terms, Directives, Clauses),
+    reached([network, run, view, measure], Clauses, [], Mentioned, Used),
+    include(imports_any(Mentioned), Directives, Kept),
+    append(Kept, Used, OfRun).
 
-sources_hash(Study, Hash) :-
-    study_sources(Study, Files),
-    maplist(file_hash(Study), Files, Hashes),
-    format(string(Text), '~w', [Hashes]),
-    text_hash(Text, Hash).
+is_directive((:- _)).
 
-file_hash(Study, Study, study-Hash) :-
-    !,
-    findall(Text,
-            ( source_term(Study, Term),
-              \+ of_no_run(Term),
-              format(string(Text), '~k', [Term]) ),
-            Texts),
-    atomic_list_concat(Texts, '\n', All),
-    text_hash(All, Hash).
-file_hash(_, File, Name-Hash) :-
-    file_base_name(File, Name),
-    read_file_to_string(File, Text, [encoding(utf8)]),
-    text_hash(Text, Hash).
+imports_any(Mentioned, (:- Directive)) :-
+    (   Directive = use_module(_, Imports),
+        is_list(Imports)
+    ->  member(PI, Imports),
+        ( PI = (Name/_ as _) ; PI = Name/_ ; PI = Name//_ ),
+        memberchk(Name, Mentioned)
+    ;   true
+    ),
+    !.
 
-of_no_run(Term) :-
-    ( Term = (Head :- _) -> true ; Head = Term ),
+reached([], _, Seen, Seen, []).
+reached(Names, Clauses, Seen0, Seen, Used) :-
+    Names = [_|_],
+    partition(defines(Names), Clauses, Now, Later),
+    append(Names, Seen0, Seen1),
+    findall(Name, ( member(Clause, Now), mentions(Clause, Name) ), All0),
+    sort(All0, All),
+    subtract(All, Seen1, Next),
+    reached(Next, Later, Seen1, Seen, Used0),
+    append(Now, Used0, Used).
+
+defines(Names, Clause) :-
+    head(Clause, Head),
     callable(Head),
-    functor(Head, Name, Arity),
-    memberchk(Name/Arity,
-              [ study/2, text/1, vary/2, fixed/3, derive/3, skip/1, label/2,
-                printed/3, claim/3, plot/3 ]).
+    functor(Head, Name, _),
+    memberchk(Name, Names).
 
-text_hash(Text, Hash) :-
-    sha_hash(Text, Bytes, [encoding(utf8)]),
-    hash_atom(Bytes, Hash).
+head((Head :- _), Head) :- !.
+head((Head --> _), Head) :- !.
+head((Head => _), Head) :- !.
+head(Head, Head).
+
+mentions(Term, Name) :-
+    sub_term(Sub, Term),
+    callable(Sub),
+    functor(Sub, Name, _).

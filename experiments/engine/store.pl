@@ -1,75 +1,103 @@
 :- module(study_store,
-          [ run_directory/5,            % +Root, +Study, +Case, +Seed, -Directory
-            run_done/4,                 % +Root, +Study, +Case, +Seed
-            run_result/5,               % +Root, +Study, +Case, +Seed, -Measures
+          [ run_directory/3,            % +Root, +Run, -Directory
+            run_done/3,                 % +Root, +Logs, +Run
+            run_result/3,               % +Root, +Run, -Measures
             run_facts/2,                % +Directory, -Facts
             result_save/2,              % +Directory, +Facts
-            text_digest/2               % +Term, -Digest
+            part_directory/3,           % +Directory, +Pid, -Part
+            part_begin/1,               % +Part
+            part_install/3,             % +Part, +Directory, +Logs
+            part_fail/4,                % +Part, +Directory, :Goal, -Failed
+            part_remove/1               % +Part
           ]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex),
+              [ delete_directory_and_contents/1, directory_file_path/3,
+                make_directory_path/1 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
+:- use_module(cases, [case_name/3]).
 :- use_module(sources, [sources_hash/2]).
-:- use_module(studies, [study_title/3, case_name/3]).
+:- use_module(studies, [study_title/3]).
 
 /** <module> Where runs are kept
 
-A run is a directory below Root/STUDY, whose name tells people the case and
-the seed, and has a hash of all parameters and one of all sources. What was
-made from other sources is not found, and so never mixed in.
+A run is a term run(Study, Case, Seed).  It is kept in a directory below
+Root/STUDY, whose name tells people the case and the seed, and has a hash of
+all parameters and one of all sources. What was made from other sources is
+not found, and so never mixed in.
 
-*Threading*: hashes of sources are found once in a process.
+While it is made this is Directory.PID.part, and if it fails
+Directory.failed: then the file `output` says why.  Sessions that make the
+same run at once do not disturb each other.
+
+*Threading*: one thread in a process.
 */
 
-:- dynamic hash_known/2.        % Study, Hash
+:- meta_predicate
+    part_fail(+, +, 1, -).
 
-%!  run_directory(+Root, +Study, +Case, +Seed, -Directory) is det.
+%!  run_directory(+Root, +Run, -Directory) is det.
 
-run_directory(Root, Study, Case, Seed, Directory) :-
+run_directory(Root, run(Study, Case, Seed), Directory) :-
     study_title(Study, Name, _),
     case_name(Study, Case, CaseName),
+    file_text(CaseName, Text),
     dict_pairs(Case, _, Pairs),
-    text_digest(Pairs-Seed, Parameters),
-    study_hash(Study, Sources),
+    digest(Pairs-Seed, Parameters),
+    sources_hash(Study, Sources),
     format(atom(Below), '~w/~w,seed=~w-~w-~w',
-           [Name, CaseName, Seed, Parameters, Sources]),
+           [Name, Text, Seed, Parameters, Sources]),
     directory_file_path(Root, Below, Directory).
 
-study_hash(Study, Hash) :-
-    hash_known(Study, Hash),
-    !.
-study_hash(Study, Hash) :-
-    sources_hash(Study, Long),
-    sub_atom(Long, 0, 8, _, Hash),
-    assertz(hash_known(Study, Hash)).
+%   Not too long for the name of a file, and without a slash.
 
-%!  text_digest(+Term, -Digest:atom) is det.
-%
-%   Eight hexadecimal digits of a hash of Term as text.
+file_text(Name, Text) :-
+    atomic_list_concat(Parts, /, Name),
+    atomic_list_concat(Parts, :, Whole),
+    (   sub_atom(Whole, 0, 100, _, Begin)
+    ->  Text = Begin
+    ;   Text = Whole
+    ).
 
-text_digest(Term, Digest) :-
+digest(Term, Digest) :-
     format(string(Text), '~q', [Term]),
     sha_hash(Text, Bytes, [encoding(utf8)]),
     hash_atom(Bytes, Hex),
     sub_atom(Hex, 0, 8, _, Digest).
 
-%!  run_done(+Root, +Study, +Case, +Seed) is semidet.
-
-run_done(Root, Study, Case, Seed) :-
-    run_directory(Root, Study, Case, Seed, Directory),
-    exists_directory(Directory).
-
-%!  run_result(+Root, +Study, +Case, +Seed, -Measures:dict) is semidet.
+%!  run_done(+Root, +Logs:boolean, +Run) is semidet.
 %
-%   What was measured; fails if the run is not there.
+%   Run is there; with its log, if Logs is true and it has one at all.
 
-run_result(Root, Study, Case, Seed, Measures) :-
-    run_directory(Root, Study, Case, Seed, Directory),
+run_done(Root, Logs, Run) :-
+    run_directory(Root, Run, Directory),
+    exists_directory(Directory),
+    (   Logs == true
+    ->  run_facts(Directory, Facts),
+        (   member(events(_), Facts)
+        ->  log_file(Directory, File),
+            exists_file(File)
+        ;   true
+        )
+    ;   true
+    ),
+    !.
+
+log_file(Directory, File) :-
+    directory_file_path(Directory, 'events.pl', File).
+
+%!  run_result(+Root, +Run, -Measures:dict) is semidet.
+%
+%   What was measured, and the `directory` of the run; fails if it is not
+%   there.
+
+run_result(Root, Run, Measures) :-
+    run_directory(Root, Run, Directory),
     exists_directory(Directory),
     run_facts(Directory, Facts),
     findall(Name-Value, member(measure(Name, Value), Facts), Pairs),
-    dict_create(Measures, measures, Pairs).
+    dict_create(Measures, measures, [directory-Directory|Pairs]).
 
 %!  run_facts(+Directory, -Facts:list) is det.
 %!  result_save(+Directory, +Facts:list) is det.
@@ -83,7 +111,79 @@ run_facts(Directory, Facts) :-
 
 result_save(Directory, Facts) :-
     directory_file_path(Directory, 'result.pl', File),
+    write_file(File, facts(Facts)).
+
+facts(Facts, Out) :-
+    forall(member(Fact, Facts), format(Out, '~q.~n', [Fact])).
+
+write_file(File, Goal) :-
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
-        forall(member(Fact, Facts), format(Out, '~q.~n', [Fact])),
+        call(Goal, Out),
         close(Out)).
+
+                /*******************************
+                *            PARTS             *
+                *******************************/
+
+%!  part_directory(+Directory, +Pid, -Part) is det.
+%!  part_begin(+Part) is det.
+%
+%   Part is where the process Pid makes the run of Directory; it is empty at
+%   the beginning.
+
+part_directory(Directory, Pid, Part) :-
+    atomic_list_concat([Directory, Pid, part], '.', Part).
+
+part_begin(Part) :-
+    part_remove(Part),
+    make_directory_path(Part).
+
+%!  part_install(+Part, +Directory, +Logs:boolean) is det.
+%
+%   Part is complete; its log stays if Logs is true.  If another session has
+%   made it meanwhile, or it was there without its log, only the log is taken.
+
+part_install(Part, Directory, Logs) :-
+    failed_directory(Directory, Failed),
+    part_remove(Failed),
+    log_file(Part, Log),
+    (   Logs \== true,
+        exists_file(Log)
+    ->  delete_file(Log)
+    ;   true
+    ),
+    (   \+ exists_directory(Directory),
+        catch(rename_file(Part, Directory), error(_, _), fail)
+    ->  true
+    ;   log_file(Directory, Old),
+        ( exists_file(Log) -> rename_file(Log, Old) ; true ),
+        part_remove(Part)
+    ).
+
+%!  part_fail(+Part, +Directory, :Explain, -Failed) is det.
+%
+%   Call Explain(Stream), whose output is added to what the run has printed,
+%   and keep that in the directory Failed.
+
+part_fail(Part, Directory, Explain, Failed) :-
+    failed_directory(Directory, Failed),
+    make_directory_path(Part),
+    directory_file_path(Part, output, File),
+    setup_call_cleanup(
+        open(File, append, Out, [encoding(utf8)]),
+        call(Explain, Out),
+        close(Out)),
+    part_remove(Failed),
+    rename_file(Part, Failed).
+
+failed_directory(Directory, Failed) :-
+    atom_concat(Directory, '.failed', Failed).
+
+%!  part_remove(+Part) is det.
+
+part_remove(Directory) :-
+    (   exists_directory(Directory)
+    ->  delete_directory_and_contents(Directory)
+    ;   true
+    ).

@@ -1,14 +1,13 @@
 :- module(study_studies,
           [ study_load/2,               % +File, -Study
             study_title/3,              % +Study, -Name, -Title
-            study_parameters/2,         % +Study, -Parameters
-            study_cases/3,              % +Study, +Given, -Cases
             study_call/2,               % +Study, :Goal
-            has_network/1,              % +Study
-            case_name/3                 % +Study, +Case, -Name
+            study_says/2,               % +Study, +PI
+            study_name/3                % +Study, -Where, -Name
           ]).
-:- use_module(library(error), [domain_error/2, existence_error/2]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(cases, [study_parameter/2]).
+:- use_module(claims, [claim_name/2, claim_shape/2]).
 
 /** <module> A study is a short file
 
@@ -39,8 +38,11 @@ was chosen after results had been seen.
 *Threading*: studies are loaded by one thread.
 */
 
+:- multifile
+    prolog:error_message//1.
+
 :- dynamic
-    loaded/2.                   % File, Study
+    loaded/1.                   % Study
 
 word(study/2).
 word(text/1).
@@ -59,156 +61,128 @@ word(plot/3).
 
 %!  study_load(+File, -Study) is det.
 %
-%   Study is the module of File.  A file is loaded once.
+%   Study is the module of File, and named like it.  A file is loaded once.
 %
-%   @error existence_error(study, File) if it has no study/2 or no
-%          measure/3
+%   @error study(File, Problems) if it is not as a study should be
 
-study_load(File0, Study) :-
-    absolute_file_name(File0, File,
-                       [file_type(prolog), access(read)]),
-    (   loaded(File, Study)
+study_load(File, Study) :-
+    absolute_file_name(File, Study, [file_type(prolog), access(read)]),
+    (   loaded(Study)
     ->  true
-    ;   Study = File,
-        forall(word(Name/Arity), declare(Study, Name/Arity)),
-        load_files(Study:File, [silent(true)]),
-        complete(Study),
-        assertz(loaded(File, Study))
+    ;   forall(word(PI), ( Study:dynamic(PI), Study:discontiguous(PI) )),
+        statistics(errors, Before),
+        load_files(Study:Study, [silent(true), if(true)]),
+        statistics(errors, After),
+        findall(Problem, problem(Study, Before-After, Problem), Problems),
+        complain(Problems, Study),
+        assertz(loaded(Study))
     ).
 
-declare(Study, PI) :-
-    Study:dynamic(PI),
-    Study:discontiguous(PI).
-
-complete(Study) :-
-    (   study_call(Study, study(_, _)),
-        predicate_property(Study:measure(_, _, _), number_of_clauses(N)),
-        N > 0
-    ->  true
-    ;   existence_error(study, Study)
-    ).
+complain([], _) :-
+    !.
+complain(Problems, Study) :-
+    throw(error(study(Study, Problems), _)).
 
 %!  study_call(+Study, :Goal) is nondet.
 
 study_call(Study, Goal) :-
     Study:Goal.
 
+%!  study_says(+Study, +PI) is semidet.
+%
+%   Study has clauses of the word PI.
+
+study_says(Study, Name/Arity) :-
+    functor(Head, Name, Arity),
+    predicate_property(Study:Head, number_of_clauses(Count)),
+    Count > 0.
+
 %!  study_title(+Study, -Name, -Title) is det.
 
 study_title(Study, Name, Title) :-
     once(study_call(Study, study(Name, Title))).
 
-%!  study_parameters(+Study, -Parameters:list) is det.
+                /*******************************
+                *           PROBLEMS           *
+                *******************************/
+
+problem(_, Before-After, errors) :-
+    After > Before.
+problem(Study, _, missing(Word)) :-
+    member(Word, [study/2, measure/3]),
+    \+ study_says(Study, Word).
+problem(Study, _, arity(Name/Other, Word)) :-
+    Word = Name/Arity,
+    member(Word, [study/2, text/1, vary/2, fixed/3, claim/3, plot/3]),
+    current_predicate(Study:Name/Other),
+    Other =\= Arity,
+    study_says(Study, Name/Other).
+problem(Study, _, no_values(Name)) :-
+    study_call(Study, vary(Name, Values)),
+    \+ Values = [_|_].
+problem(Study, _, said(claim(Text), no_test(Part))) :-
+    study_call(Study, claim(Text, _, Test)),
+    claim_shape(Study:Test, Part).
+problem(Study, _, said(plot(Name), no_picture(Picture))) :-
+    study_call(Study, plot(Name, _, Picture)),
+    \+ is_picture(Picture).
+problem(Study, _, said(Where, unknown(Name))) :-
+    study_name(Study, Where, Name),
+    unknown(Study, Name).
+
+%!  study_name(+Study, -Where, -Name) is nondet.
 %
-%   Parameters are parameter(Name, Value, Why) in the order of the file:
-%   for one that varies Value is a list and Why is `varied`.  The engine's
-%   own come last.
+%   Where, claim(Text) or plot(Plot), speaks of Name, as of a measure or a
+%   parameter.
 
-study_parameters(Study, Parameters) :-
-    findall(parameter(Name, Value, Why),
-            parameter(Study, Name, Value, Why), Parameters).
-
-parameter(Study, Name, Values, varied) :-
-    study_call(Study, vary(Name, Values)).
-parameter(Study, Name, Value, Why) :-
-    study_call(Study, fixed(Name, Value, Why)).
-parameter(Study, Name, Value, Why) :-
-    own_parameter(Study, Name, Value, Why),
-    \+ study_call(Study, fixed(Name, _, _)),
-    \+ study_call(Study, vary(Name, _)).
-
-%   Of studies that have a network.
-
-own_parameter(Study, clock, virtual, default) :-
-    has_network(Study).
-own_parameter(Study, processes, 1, default) :-
-    has_network(Study).
-
-%!  has_network(+Study) is semidet.
-
-has_network(Study) :-
-    predicate_property(Study:network(_, _, _), number_of_clauses(N)),
-    N > 0.
-
-%!  study_cases(+Study, +Given:list(pair), -Cases:list(dict)) is det.
-%
-%   All combinations of what varies, but for those to be skipped, in the
-%   order of the file: what is named first varies slowest.  Given, pairs
-%   Name-Value, take the place of what the file says; a list is varied.
-%
-%   @error domain_error(parameter, Name) for a name the study does not have
-
-study_cases(Study, Given, Cases) :-
-    known(Study, Given),
-    findall(Case, study_case(Study, Given, Case), Cases).
-
-known(Study, Given) :-
-    forall(member(Name-_, Given),
-           (   named(Study, Name)
-           ->  true
-           ;   domain_error(parameter, Name)
-           )).
-
-named(Study, Name) :-
-    parameter(Study, Name, _, _).
-named(Study, Name) :-
-    clause(Study:derive(Name0, _, _), _),
-    Name0 == Name.
-
-study_case(Study, Given, Case) :-
-    findall(Name-Values, values(Study, Given, Name, Values), Lists),
-    choice(Lists, Pairs),
-    dict_pairs(Case0, case, Pairs),
-    derived(Study, Given, Case0, Case),
-    \+ study_call(Study, skip(Case)).
-
-values(Study, Given, Name, Values) :-
-    parameter(Study, Name, Value, Why),
-    (   memberchk(Name-Other, Given)
-    ->  as_list(Other, Values)
-    ;   Why == varied
-    ->  Values = Value
-    ;   Values = [Value]
+study_name(Study, claim(Text), Name) :-
+    study_call(Study, claim(Text, _, Test)),
+    claim_name(Study:Test, Name).
+study_name(Study, plot(Plot), Name) :-
+    study_call(Study, plot(Plot, _, lines(Options))),
+    member(Option, Options),
+    (   Option = y(Measures),
+        is_list(Measures)
+    ->  member(Name, Measures)
+    ;   member(Option, [x(Name), y(Name), line(Name)])
     ).
 
-as_list(Values, Values) :-
-    is_list(Values),
-    !.
-as_list(Value, [Value]).
+is_picture(lines(_)).
+is_picture(script(_, _, _)).
+is_picture(file(_, _)).
 
-choice([], []).
-choice([Name-Values|Lists], [Name-Value|Pairs]) :-
-    member(Value, Values),
-    choice(Lists, Pairs).
+%   Which measures there are is only known if all their clauses say it.
 
-%   What follows from other parameters, unless it was given.
+unknown(Study, Name) :-
+    findall(Measure, clause(Study:measure(Measure, _, _), _), Measures),
+    \+ ( member(Measure, Measures), var(Measure) ),
+    \+ ( member(Measure, Measures), Measure == Name ),
+    \+ study_parameter(Study, Name).
 
-derived(Study, Given, Case0, Case) :-
-    findall(Name-Value, derived_one(Study, Given, Case0, Name, Value), Pairs),
-    dict_create(More, case, Pairs),
-    Case = Case0.put(More).
+prolog:error_message(study(File, Problems)) -->
+    [ '~w is no study yet'-[File] ],
+    problems(Problems).
 
-derived_one(_, Given, Case, Name, Value) :-
-    member(Name-Value, Given),
-    \+ get_dict(Name, Case, _).
-derived_one(Study, Given, Case, Name, Value) :-
-    study_call(Study, derive(Name, Case, Value)),
-    \+ memberchk(Name-_, Given).
+problems([]) --> [].
+problems([Problem|Problems]) -->
+    [ nl, '  ' ],
+    says(Problem),
+    problems(Problems).
 
-%!  case_name(+Study, +Case, -Name:atom) is det.
-%
-%   What varies, for people: delta=0.5,topology=ring.
-
-case_name(Study, Case, Name) :-
-    findall(Part,
-            ( study_call(Study, vary(Parameter, _)),
-              get_dict(Parameter, Case, Value),
-              format(atom(Part), '~w=~w', [Parameter, Value]) ),
-            Parts),
-    atomic_list_concat(Parts, ',', Name0),
-    atomic_list_concat(Words, '/', Name0),     % it names a directory, too
-    atomic_list_concat(Words, ':', Name1),
-    (   Name1 == ''
-    ->  Name = case
-    ;   Name = Name1
-    ).
+says(errors) -->
+    [ 'it does not load without errors'-[] ].
+says(missing(Word)) -->
+    [ 'it has no ~q'-[Word] ].
+says(arity(PI, Word)) -->
+    [ 'it has ~q; the word is ~q'-[PI, Word] ].
+says(no_values(Name)) -->
+    [ 'vary(~q, Values): Values is not a list of values'-[Name] ].
+says(said(Where, Problem)) -->
+    [ '~p: '-[Where] ],
+    says(Problem).
+says(no_test(Part)) -->
+    [ '~q is no test'-[Part] ].
+says(no_picture(Part)) -->
+    [ '~q is no picture'-[Part] ].
+says(unknown(Name)) -->
+    [ '~q is neither a measure nor a parameter'-[Name] ].

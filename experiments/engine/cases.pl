@@ -1,0 +1,191 @@
+:- module(study_cases,
+          [ study_cases/3,              % +Study, +Given, -Cases
+            study_parameter/2,          % +Study, ?Name
+            parameters/3,               % +Study, +Given, -Parameters
+            varied/3,                   % +Study, +Cases, -Names
+            case_name/3                 % +Study, +Case, -Name
+          ]).
+:- use_module(library(apply), [exclude/3, foldl/4]).
+:- use_module(library(lists), [last/2, list_to_set/2, member/2, memberchk/2]).
+
+/** <module> The cases of a study
+
+All combinations of what varies.  A parameter may be said by a study and by
+a file that it includes: then what the study itself says counts.
+
+*Threading*: no state; any thread.
+*/
+
+:- multifile
+    prolog:error_message//1.
+
+%!  study_cases(+Study, +Given:list(pair), -Cases:list(dict)) is det.
+%
+%   All combinations of what varies, but for those to be skipped, in the
+%   order of the file: what is named first varies slowest.  Given, pairs
+%   Name-Value, take the place of what the file says; a list is varied.
+%
+%   @error study_parameter(Study, Name) for a name the study does not have
+
+study_cases(Study, Given, Cases) :-
+    forall(member(Name-_, Given), must_have(Study, Name)),
+    parameters(Study, Given, Parameters),
+    findall(Name-Values,
+            ( member(parameter(Name, Value, Why), Parameters),
+              values(Why, Value, Values) ), Lists),
+    findall(Name, member(parameter(Name, _, derived), Parameters), Derived),
+    findall(Case, study_case(Study, Lists, Derived, Case), Cases0),
+    list_to_set(Cases0, Cases).
+
+must_have(Study, Name) :-
+    study_parameter(Study, Name),
+    !.
+must_have(Study, Name) :-
+    throw(error(study_parameter(Study, Name), _)).
+
+values(varied, Values, Values) :- !.
+values(given, Values, Values) :- is_list(Values), !.
+values(derived, _, _) :- !, fail.
+values(_, Value, [Value]).
+
+study_case(Study, Lists, Derived, Case) :-
+    choice(Lists, Pairs),
+    dict_pairs(Case0, case, Pairs),
+    foldl(derive(Study), Derived, Case0, Case),
+    \+ Study:skip(Case).
+
+choice([], []).
+choice([Name-Values|Lists], [Name-Value|Pairs]) :-
+    member(Value, Values),
+    choice(Lists, Pairs).
+
+derive(Study, Name, Case0, Case) :-
+    (   Study:derive(Name, Case0, Value)
+    ->  Case = Case0.put(Name, Value)
+    ;   throw(error(study_goal_failed(derive(Name)), _))
+    ).
+
+                /*******************************
+                *          PARAMETERS          *
+                *******************************/
+
+%!  parameters(+Study, +Given, -Parameters:list) is det.
+%
+%   Parameters are parameter(Name, Value, Why) in the order of the file. Why
+%   is as the file has it, `varied` or `given` (then Value may be a list),
+%   `derived` (then Value is not bound), or `default`: those of the engine,
+%   for studies that have a network.
+
+parameters(Study, Given, Parameters) :-
+    findall(Name, said(Study, Name, _, _, _), Names0),
+    list_to_set(Names0, Names),
+    findall(parameter(Name, Value, Why),
+            ( member(Name, Names),
+              counts(Study, Given, Name, Value, Why) ),
+            Parameters).
+
+counts(_, Given, Name, Value, given) :-
+    memberchk(Name-Value, Given),
+    !.
+counts(Study, _, Name, Value, Why) :-
+    findall(Source-(Value0-Why0), said(Study, Name, Value0, Why0, Source),
+            All),
+    (   member(own-_, All)
+    ->  findall(Pair, member(own-Pair, All), Pairs)
+    ;   findall(Pair, member(_-Pair, All), Pairs)
+    ),
+    best(Pairs, Value-Why).
+
+%   What varies is not fixed; of what is fixed twice the last counts.
+
+best(Pairs, Value-varied) :-
+    findall(Values, member(Values-varied, Pairs), Varied),
+    last(Varied, Value),
+    !.
+best(Pairs, Pair) :-
+    exclude(is_default, Pairs, Said),
+    last(Said, Pair),
+    !.
+best([Pair|_], Pair).
+
+is_default(_-default).
+
+%   said(+Study, ?Name, -Value, -Why, -Source): Source is `own` or `included`.
+
+said(Study, Name, Value, Why, Source) :-
+    in_file(Study, Name, Value, Why, Source).
+said(Study, Name, Value, default, included) :-
+    once(clause(Study:network(_, _, _), _)),
+    default(Name, Value).
+
+default(clock, virtual).
+default(processes, 1).
+
+
+in_file(Study, Name, Values, varied, Source) :-
+    clause(Study:vary(Name, Values), Body, Clause),
+    Study:Body,
+    source(Study, Clause, Source).
+in_file(Study, Name, Value, Why, Source) :-
+    clause(Study:fixed(Name, Value, Why), Body, Clause),
+    Study:Body,
+    source(Study, Clause, Source).
+in_file(Study, Name, _, derived, Source) :-
+    clause(Study:derive(Name0, _, _), _, Clause),
+    atom(Name0),
+    Name = Name0,
+    source(Study, Clause, Source).
+source(Study, Clause, Source) :-
+    (   clause_property(Clause, file(Study))
+    ->  Source = own
+    ;   Source = included
+    ).
+
+%!  study_parameter(+Study, ?Name) is nondet.
+
+study_parameter(Study, Name) :-
+    said(Study, Name, _, _, _).
+
+%!  varied(+Study, +Cases, -Names:list(atom)) is det.
+%
+%   Names of the parameters that vary: those that the file says, and others
+%   of which Cases have several values.
+
+varied(Study, Cases, Names) :-
+    parameters(Study, [], Parameters),
+    findall(Name,
+            ( member(parameter(Name, _, Why), Parameters),
+              (   Why == varied
+              ->  true
+              ;   Why \== derived,
+                  several(Name, Cases)
+              ) ),
+            Names).
+
+several(Name, [Case|Cases]) :-
+    get_dict(Name, Case, First),
+    member(Other, Cases),
+    \+ get_dict(Name, Other, First),
+    !.
+
+%!  case_name(+Study, +Case, -Name:atom) is det.
+%
+%   What varies, for people: delta=0.5,topology=ring.
+
+case_name(Study, Case, Name) :-
+    varied(Study, [], Names),
+    findall(Part,
+            ( member(Parameter, Names),
+              get_dict(Parameter, Case, Value),
+              format(atom(Part), '~w=~w', [Parameter, Value]) ),
+            Parts),
+    (   Parts == []
+    ->  Name = case
+    ;   atomic_list_concat(Parts, ',', Name)
+    ).
+
+prolog:error_message(study_parameter(Study, Name)) -->
+    { file_base_name(Study, Base),
+      findall(N, study_parameter(Study, N), Names),
+      atomic_list_concat(Names, ', ', Known) },
+    [ '~w has no parameter ~q; it has ~w'-[Base, Name, Known] ].

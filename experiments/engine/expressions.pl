@@ -1,0 +1,202 @@
+:- module(study_expressions,
+          [ context/3,                  % :Points, +All, -Context
+            selected/3,                 % +Where, +Context, -Selected
+            line/3,                     % +P, +Context, -Line
+            value/4,                    % +E, +Point, +Context, -Number
+            aggregate/3,                % ?Term, -Function, -E
+            on_line/4                   % ?Term, -Function, -E, -P
+          ]).
+:- use_module(library(apply), [exclude/3, include/3, maplist/3, partition/4]).
+:- use_module(library(lists),
+              [ last/2, max_list/2, member/2, memberchk/2, min_list/2,
+                sum_list/2 ]).
+:- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
+:- use_module(numbers, [median/2]).
+
+/** <module> Expressions in claims
+
+Expressions are numbers, measures and parameters by their names, arithmetic
+over expressions, and
+
+  - at(Where, E): where the case differs from this point's as Where says
+  - sum(E), mean(E), median(E), least(E), most(E), number(E): over all
+    points (of those that Where selects)
+  - rise(E, along(P)), first(E, along(P)), last(E, along(P)): of the line
+    through this point: the points that differ in P alone
+
+A point is Case-Measures, two dicts.  A context is context(Points, All,
+Follows): the points looked at, all those that at/2 may select from, and the
+names of parameters that are derived from others: of two cases that differ in
+one parameter these may differ, too.
+
+*Threading*: pure.
+*/
+
+:- meta_predicate
+    context(:, +, -).
+
+%!  context(:Points:list(pair), +All:list(pair), -Context) is det.
+%
+%   Points are of a study that is the module.
+
+context(M:Points, All, context(Points, All, Follows)) :-
+    findall(Name, follows(M, All, Name), Follows).
+
+%   Unless it was given by itself: then cases differ in it alone.
+
+follows(M, All, Name) :-
+    current_predicate(M:derive/3),
+    clause(M:derive(Name, _, _), _),
+    atom(Name),
+    \+ varies_alone(Name, All).
+
+varies_alone(Name, All) :-
+    findall(Key-Value,
+            ( member(Case-_, All), get_dict(Name, Case, Value),
+              key([Name], Case, Key) ),
+            Keys0),
+    sort(Keys0, Keys),
+    group_pairs_by_key(Keys, Groups),
+    memberchk(_-[_, _|_], Groups).
+
+%   key(+Names, +Case, -Key): equal of cases that differ in Names alone.
+
+key(Names, Case, Key) :-
+    dict_pairs(Case, _, Pairs),
+    exclude(names(Names), Pairs, Key).
+
+names(Names, Name-_) :-
+    memberchk(Name, Names).
+
+%!  selected(+Where:list, +Context, -Selected) is det.
+%
+%   Selected is the context of points at which it is as Where, a list of
+%   Name=Value, says.
+
+selected(Where, context(Points0, All, Follows),
+         context(Points, All, Follows)) :-
+    include(is_where(Where), Points0, Points).
+
+is_where(Where, Case-_) :-
+    forall(member(Name=Value, Where), get_dict(Name, Case, Value)).
+
+%!  line(+P, +Context, -Line:list(pair)) is nondet.
+%
+%   Line has the points that differ in the parameter P alone, with their
+%   values of P: ordered by these if they are numbers, else as they are in
+%   Context.
+
+line(P, context(Points, _, Follows), Line) :-
+    findall(Key-(V-(Case-Measures)),
+            ( member(Case-Measures, Points), get_dict(P, Case, V),
+              key([P|Follows], Case, Key) ),
+            Keyed0),
+    keysort(Keyed0, Keyed),
+    group_pairs_by_key(Keyed, Groups),
+    member(_-Line0, Groups),
+    partition(is_number, Line0, _, Others),
+    (   Others == []
+    ->  keysort(Line0, Line)
+    ;   Line = Line0
+    ).
+
+is_number(Value-_) :-
+    number(Value).
+
+%!  value(+E, +Point, +Context, -Number) is semidet.
+%
+%   The expression E has the value Number at Point.  Fails if it has none,
+%   as what is divided by zero.
+
+value(Number, _, _, Value) :-
+    number(Number),
+    !,
+    Value = Number.
+value(Name, Case-Measures, _, Value) :-
+    atom(Name),
+    !,
+    (   get_dict(Name, Measures, Value)
+    ->  true
+    ;   get_dict(Name, Case, Value)
+    ),
+    number(Value).
+value(at(Where, E), Case-_, context(_, All, Follows), Value) :-
+    !,
+    include(is_where(Where), All, Points),
+    elsewhere(Where, Case, Points, Follows, Point),
+    value(E, Point, context(Points, All, Follows), Value).
+value(Aggregate, _, Context, Value) :-
+    aggregate(Aggregate, Function, E),
+    !,
+    Context = context(Points, _, _),
+    values(E, Points, Context, Values),
+    call(Function, Values, Value).
+value(OnLine, Case-_, Context, Value) :-
+    on_line(OnLine, Function, E, P),
+    !,
+    Context = context(_, All, Follows),
+    line(P, context(All, All, Follows), Line),
+    memberchk(_-(Case-_), Line),
+    pairs_values(Line, Points),
+    values(E, Points, Context, Values),
+    call(Function, Values, Value).
+value(Term, Point, Context, Value) :-
+    compound(Term),
+    Term =.. [Function|Es],
+    maplist(value_at(Point, Context), Es, Values),
+    Expression =.. [Function|Values],
+    catch(Value is Expression, error(evaluation_error(_), _), fail).
+
+value_at(Point, Context, E, Value) :-
+    value(E, Point, Context, Value).
+
+values(E, Points, Context, Values) :-
+    findall(V, ( member(Point, Points), value(E, Point, Context, V) ), Values).
+
+%   elsewhere(+Where, +Case, +Points, +Follows, -Point): that of the case as
+%   Where says.  Where it is missing there are no measures, but aggregates.
+
+elsewhere(Where, Case, Points, Follows, Point) :-
+    dict_create(Other, case, Where),
+    exclude(is_said(Where), Follows, Free),
+    key(Free, Case.put(Other), Key),
+    (   member(Case1-Measures, Points),
+        key(Free, Case1, Key)
+    ->  Point = Case1-Measures
+    ;   Point = Case-_{}
+    ).
+
+is_said(Where, Name) :-
+    memberchk(Name=_, Where).
+
+%!  aggregate(?Term, -Function, -E) is semidet.
+%!  on_line(?Term, -Function, -E, -P) is semidet.
+%
+%   Term is Function of the values that E has at several points.
+
+aggregate(sum(E), sum, E).
+aggregate(mean(E), mean, E).
+aggregate(median(E), median, E).
+aggregate(least(E), min_list, E).
+aggregate(most(E), max_list, E).
+aggregate(number(E), length, E).
+
+on_line(rise(E, along(P)), rise, E, P).
+on_line(first(E, along(P)), first, E, P).
+on_line(last(E, along(P)), last, E, P).
+
+:- public [sum/2, mean/2, rise/2, first/2].
+
+sum([V|Values], Sum) :-
+    sum_list([V|Values], Sum).
+
+mean(Values, Mean) :-
+    sum(Values, Sum),
+    length(Values, Count),
+    Mean is Sum/Count.
+
+rise([First|Values], Rise) :-
+    last(Values, Last),
+    Rise is Last - First.
+
+first([Value|_], Value).

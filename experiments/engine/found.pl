@@ -1,0 +1,110 @@
+:- module(study_found,
+          [ claim_found/4               % :Test, +Points, +Names, -Text
+          ]).
+:- use_module(library(lists),
+              [append/3, list_to_set/2, member/2]).
+:- use_module(claims, [connective/2, leaf/3]).
+:- use_module(expressions, [context/3, selected/3, value/4]).
+:- use_module(numbers, [number_text/2]).
+
+/** <module> What a claim has looked at, as text
+
+*Threading*: pure.
+*/
+
+:- meta_predicate
+    claim_found(:, +, +, -).
+
+%!  claim_found(:Test, +Points, +Names:list(atom), -Text:atom) is det.
+%
+%   Text has the values of the expressions that Test looks at, of Points,
+%   usually medians; Names are the parameters that vary.  Of many values
+%   only some are shown.
+
+claim_found(M:Test, Points, Names, Text) :-
+    context(M:Points, Points, Context0),
+    findall(Part,
+            ( looked_at(Test, Context0, E, Context),
+              part(E, Context, Names, Part) ),
+            Parts0),
+    list_to_set(Parts0, Parts),
+    atomic_list_concat(Parts, '; ', Text).
+
+looked_at(at(Where, Test), Context0, E, EContext) :-
+    !,
+    selected(Where, Context0, Context),
+    looked_at(Test, Context, E, EContext).
+looked_at(Test, Context, E, EContext) :-
+    connective(Test, Tests),
+    !,
+    member(One, Tests),
+    looked_at(One, Context, E, EContext).
+looked_at(Test, Context, E, Context) :-
+    leaf(Test, Es, _),
+    member(E, Es),
+    \+ number(E).
+
+part(at(Where, E), context(_, All, Follows), Names, Part) :-
+    !,
+    selected(Where, context(All, All, Follows), Context),
+    part(E, Context, Names, Text),
+    where_text(Where, Said),
+    format(atom(Part), '~w ~w', [Said, Text]).
+part(E, Context, Names, Part) :-
+    Context = context(Points, _, _),
+    findall(Case-Value,
+            ( member(Case-Measures, Points),
+              value(E, Case-Measures, Context, Value) ),
+            Values),
+    text(Values, Names, Text),
+    format(atom(Part), '~w: ~w', [E, Text]).
+
+where_text(Where, Text) :-
+    findall(Value, member(_=Value, Where), Values),
+    atomic_list_concat(Values, ' ', Text).
+
+%   The last parameter that varies makes the values of a line, all others
+%   name it.  What is the same everywhere is said once.
+
+text([], _, 'no value') :-
+    !.
+text(Values, _, Text) :-
+    Values = [_-Value|_],
+    \+ ( member(_-Other, Values), Other =\= Value ),
+    !,
+    number_text(Value, Text).
+text(Values, Names, Text) :-
+    findall(Name, ( member(Name, Names), differs(Name, Values) ), Varied),
+    (   append(Naming, [_], Varied)
+    ->  true
+    ;   Naming = []
+    ),
+    findall(Key, ( member(Case-_, Values), key(Naming, Case, Key) ), Keys0),
+    list_to_set(Keys0, Keys),
+    findall(Line, ( member(Key, Keys), line(Key, Naming, Values, Line) ),
+            Lines),
+    atomic_list_concat(Lines, ', ', Text).
+
+differs(Name, [Case0-_|Values]) :-
+    get_dict(Name, Case0, First),
+    member(Case-_, Values),
+    \+ get_dict(Name, Case, First),
+    !.
+
+key(Names, Case, Key) :-
+    findall(Value, ( member(Name, Names), get_dict(Name, Case, Value) ), Key).
+
+line(Key, Naming, Values, Line) :-
+    findall(Text, ( member(Case-Value, Values), key(Naming, Case, Key),
+                    number_text(Value, Text) ),
+            Texts),
+    shortened(Texts, Shown),
+    append(Key, Shown, Words),
+    atomic_list_concat(Words, ' ', Line).
+
+shortened(Texts, Shown) :-
+    length(Some, 11),
+    append(Some, [_, _|_], Texts),
+    !,
+    append(Some, [...], Shown).
+shortened(Texts, Texts).

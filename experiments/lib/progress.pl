@@ -1,0 +1,2 @@
+:- module(experiment_progress, []).
+:- reexport('../engine/progress').

@@ -1,0 +1,2 @@
+:- module(experiment_signals, []).
+:- reexport('../engine/signals').

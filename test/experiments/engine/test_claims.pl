@@ -1,0 +1,260 @@
+:- module(test_claims, []).
+
+% What claims can say. Each test and each expression: one that holds, and one
+% that must not, of made-up numbers.
+
+:- use_module('../../lib/common').
+:- use_module('../../../experiments/engine/claims').
+:- use_module('../../../experiments/engine/found').
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+
+%   Two lines, k = a and k = b, along n: `up` rises on both, `bent` on a only,
+%   `same` nowhere; `gap` has no value at n = 2.
+
+point(a, 1, 10, 1, 5, 1).
+point(a, 2, 20, 2, 5, none).
+point(a, 3, 30, 3, 5, 3).
+point(b, 1, 11, 3, 5, 4).
+point(b, 2, 22, 1, 5, none).
+point(b, 3, 33, 4, 5, 6).
+
+points(Points) :-
+    findall(case{k:K, n:N}-measures{up:Up, bent:Bent, same:Same, gap:Gap},
+            point(K, N, Up, Bent, Same, Gap), Points).
+
+holds(Test) :-
+    points(Points),
+    claim_holds(test_claims:Test, Points, Points).
+
+%   holding(Test), and failing(Test).
+
+holding(up < 34).
+holding(up =< 33).
+holding(up > 9).
+holding(up >= 10).
+holding(same =:= 5).
+holding(same =\= 4).
+holding(up =:= at([k=a], up) + (n * (up - at([k=a], up)) / n)).
+holding(gap < 7).                       % none is not compared
+holding(near(up, 20, 13)).
+holding(between(up, 10, 33)).
+holding(between(bent, n - 1, n + 2)).
+holding(rises(up, along(n))).
+holding(rises(gap, along(n))).
+holding(falls(-up, along(n))).
+holding(rises(bent, along(n), ends)).
+holding(falls(-bent, along(n), ends)).
+holding(least(up, k=a)).
+holding(most(up, k=b)).
+holding(at([k=a], rises(bent, along(n)))).
+holding(at([k=a, n=3], up =:= 30)).
+holding(some(bent =:= 4)).
+holding((up > 9, same =:= 5)).
+holding((up > 99 ; same =:= 5)).
+holding(\+ up > 99).
+holding(holds(six)).
+holding(at([k=b], up) > at([k=a], up)).
+holding(up =< at([n=3], up)).
+holding(sum(same) =:= 30).
+holding(mean(same) =:= 5).
+holding(median(n) =:= 2).
+holding(least(up) =:= 10).
+holding(most(up) =:= 33).
+holding(number(gap) =:= 4).
+holding(at([k=a], number(gap)) =:= 2).
+holding(at([k=a], sum(up) =:= 60)).
+holding(rise(up, along(n)) >= 20).
+holding(first(up, along(n)) =< up).
+holding(last(up, along(n)) >= up).
+holding(at([k=b], rise(up, along(n)) =:= 22)).
+holding(at([k=b], rise(up, along(n))) > at([k=a], rise(up, along(n)))).
+holding(2*n + 8 =< up).
+holding(at([k=b, n=2], bent) =:= 1).
+
+failing(up < 33).
+failing(up =< 32).
+failing(up > 10).
+failing(up >= 11).
+failing(bent =:= n).
+failing(same =\= 5).
+failing(near(up, 20, 12)).
+failing(between(up, 11, 33)).
+failing(between(up, 10, 32)).
+failing(rises(same, along(n))).         % strictly
+failing(falls(same, along(n))).
+failing(rises(bent, along(n))).         % on one line only
+failing(falls(bent, along(n), ends)).
+failing(rises(same, along(n), ends)).
+failing(least(up, k=b)).
+failing(most(up, k=a)).
+failing(least(same, k=a)).
+failing(least(bent, k=a)).              % not with n = 2
+failing(at([k=b], rises(bent, along(n)))).
+failing(at([k=a, n=3], up =:= 31)).
+failing(some(bent =:= 7)).
+failing((up > 9, same =:= 6)).
+failing((up > 99 ; same =:= 6)).
+failing(\+ up > 9).
+failing(holds(seven)).
+failing(at([k=b], up) < at([k=a], up)).
+failing(sum(same) =:= 29).
+failing(mean(same) =:= 6).
+failing(median(n) =:= 3).
+failing(least(up) =:= 11).
+failing(most(up) =:= 30).
+failing(number(gap) =:= 6).
+failing(rise(up, along(n)) > 20).
+failing(first(up, along(n)) < up).
+failing(last(up, along(n)) > up).
+
+%   Of which nothing is known.
+
+unknown(rises(up, along(k))).           % words do not rise, but see below
+unknown(nothing > 1).
+unknown(at([n=4], up > 1)).
+unknown(at([n=4], up) > 1).
+unknown(at([n=2], gap < 7)).
+unknown(at([n=2], rises(up, along(n)))).
+unknown(at([n=2], rise(gap, along(k))) > 0).
+unknown(at([n=2], mean(gap)) > 0).
+unknown(some(nothing > 1)).
+unknown(least(up, k=c)).
+unknown((nothing > 1, up > 9)).
+unknown((nothing > 1 ; up > 99)).
+
+six(Points) :-
+    length(Points, 6).
+
+seven(Points) :-
+    length(Points, 7).
+
+%   What is derived follows when something else varies.
+
+:- dynamic derive/3.
+
+derive(agents, Case, N) :-
+    N is Case.hosts // 5.
+
+derived(Pairs, Test) :-
+    findall(case{hosts:H, agents:N}-measures{m:M}, member(H-N-M, Pairs),
+            Points),
+    claim_holds(test_claims:Test, Points, Points).
+
+%   A case is missing.
+
+holes(Test) :-
+    Points = [ case{k:a, n:1}-measures{m:1}, case{k:a, n:2}-measures{m:2},
+               case{k:b, n:1}-measures{m:3} ],
+    claim_holds(test_claims:Test, Points, Points).
+
+problems(Test, Problems) :-
+    findall(Problem, claim_shape(test_claims:Test, Problem), Problems).
+
+names(Test, Names) :-
+    findall(Name, claim_name(test_claims:Test, Name), Names0),
+    sort(Names0, Names).
+
+found(Test, Text) :-
+    points(Points),
+    claim_found(test_claims:Test, Points, [k, n], Text).
+
+:- begin_tests(claims).
+
+test(holds, [forall(holding(Test)), nondet]) :-
+    holds(Test).
+test(must_not_hold, [forall(failing(Test)), fail]) :-
+    holds(Test).
+test(is_denied, [forall(failing(Test)), nondet]) :-
+    holds(\+ Test).
+test(is_not_known, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
+    holds(Test).
+test(is_not_known_nor_denied,
+     [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
+    holds(\+ Test).
+test(half_of_it_is_known, nondet) :-
+    holds((nothing > 1 ; up > 9)),
+    holds(\+ (nothing > 1, up > 99)).
+
+test(words_are_in_the_order_of_the_study) :-
+    holds(rises(up, along(k))).
+test(numbers_are_in_their_own, fail) :-
+    Points = [ case{n:3}-m{up:1}, case{n:1}-m{up:2}, case{n:2}-m{up:3} ],
+    claim_holds(test_claims:rises(up, along(n)), Points, Points).
+test(numbers_of_two_kinds) :-
+    Points = [ case{n:2}-m{up:3}, case{n:0.5}-m{up:1}, case{n:1}-m{up:2} ],
+    claim_holds(test_claims:rises(up, along(n)), Points, Points).
+
+test(along_what_others_follow) :-
+    derived([10-2-1, 20-4-2, 30-6-3], rises(m, along(hosts))).
+test(at_what_others_follow) :-
+    derived([10-2-1, 20-4-2], at([hosts=20], m) > at([hosts=10], m)).
+test(least_with_what_others_follow) :-
+    derived([10-2-1, 20-4-2], least(m, hosts=10)).
+test(what_follows_may_be_compared, nondet) :-
+    derived([10-2-1, 20-4-2], m < agents).
+test(given_by_itself_it_makes_lines) :-
+    derived([10-2-1, 10-4-9, 20-2-2, 20-4-10], rises(m, along(hosts))),
+    derived([10-2-1, 10-4-9, 20-2-2, 20-4-10], rises(m, along(agents))).
+test(given_by_itself_it_keeps_lines_apart, fail) :-
+    derived([10-2-1, 10-4-9, 20-2-8, 20-4-5], rises(m, along(hosts))).
+
+test(a_missing_case_is_not_another, fail) :-
+    holes(at([n=2], at([k=b], m) > 0)).
+test(a_missing_case_is_not_compared) :-
+    holes(at([k=b], m) > at([k=a], m)).
+test(a_missing_case_has_aggregates, nondet) :-
+    holes(at([n=2], at([k=b], sum(m)) =:= 3)).
+
+test(divided_by_zero_it_has_no_value, nondet) :-
+    holds(up / (n-1) < 23),
+    \+ holds(up / (n-n) < 99).
+test(a_mistake, error(type_error(evaluable, _))) :-
+    holds(foo(up) > 1).
+
+:- end_tests(claims).
+
+:- begin_tests(claim_shapes).
+
+test(well_formed, [forall(( holding(T) ; failing(T) )), Problems == []]) :-
+    problems(T, Problems).
+test(no_test, [ forall(member(Test-Problem,
+                              [ (up < 1, foo(up))-foo(up),
+                                up-up,
+                                "text"-"text",
+                                at(k=a, up > 1)-(k=a),
+                                at([k], up > 1)-[k],
+                                (up < foo(n))-foo(n),
+                                (at([k=a], up, 1) > 1)-at([k=a], up, 1),
+                                rises(up, n)-rises(up, n),
+                                some(least(up))-least(up),
+                                holds(nine)-holds(nine) ])),
+                Problems == [Problem] ]) :-
+    problems(Test, Problems).
+test(names, Names == [a, b, k, n, p, q]) :-
+    names(( at([k=x], rises(a, along(n))) ; \+ sum(b) > at([p=3], q) ), Names).
+test(names_of_extremes, Names == [a, k]) :-
+    names(least(a, k=x), Names).
+
+:- end_tests(claim_shapes).
+
+:- begin_tests(claims_found).
+
+test(lines, Text == 'up: a 10 20 30, b 11 22 33') :-
+    found(rises(up, along(n)), Text).
+test(same, Text == 'same: 5') :-
+    found(same =:= 5, Text).
+test(selected, Text == 'up: 30') :-
+    found(at([k=a, n=3], up =:= 30), Text).
+test(both_sides, Text == 'b up: 11 22 33; a up: 10 20 30') :-
+    found(at([k=b], up) > at([k=a], up), Text).
+test(parts, Text == 'bent: a 1 2 3, b 3 1 4; same: 5') :-
+    found(( bent > 0, \+ same < 4 ), Text).
+test(nothing, Text == 'nothing: no value') :-
+    found(nothing > 0, Text).
+test(many_are_shortened, Text == 'm: 1 2 3 4 5 6 7 8 9 10 11 ...') :-
+    findall(case{n:N}-m{m:N}, between(1, 13, N), Points),
+    claim_found(test_claims:(m > 0), Points, [n], Text).
+
+:- end_tests(claims_found).

@@ -1,0 +1,82 @@
+:- module(test_study_files,
+          [ with_study/2,               % +Lines, :Goal
+            with_study_file/2,          % +Lines, :Goal
+            save_lines/3,               % +Dir, +Name, +Lines
+            study_command/4,            % +Dir, +Arguments, -Status, -Text
+            study_messages/2            % :Goal, -Text
+          ]).
+
+/** <module> Studies that are made up
+
+*Threading*: the thread that loads studies.
+*/
+
+:- use_module(common).
+:- use_module('../../experiments/engine/studies', [study_load/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+:- meta_predicate
+    with_study(+, 1),
+    with_study_file(+, 2),
+    study_messages(0, -).
+
+%!  with_study(+Lines, :Goal) is semidet.
+%!  with_study_file(+Lines, :Goal) is semidet.
+%
+%   Call Goal(Study), or Goal(Dir, File), with a study that has Lines, in a
+%   directory of its own.
+
+with_study(Lines, Goal) :-
+    with_study_file(Lines, load_and(Goal)).
+
+load_and(Goal, _, File) :-
+    study_load(File, Study),
+    call(Goal, Study).
+
+with_study_file(Lines, Goal) :-
+    with_tmp_dir(made_up(Lines, Goal)).
+
+made_up(Lines, Goal, Dir) :-
+    save_lines(Dir, 'study.pl', Lines),
+    directory_file_path(Dir, 'study.pl', File),
+    call(Goal, Dir, File).
+
+%!  save_lines(+Dir, +Name, +Lines) is det.
+
+save_lines(Dir, Name, Lines) :-
+    directory_file_path(Dir, Name, File),
+    atomic_list_concat(Lines, '\n', Text),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        format(Out, '~w~n', [Text]),
+        close(Out)).
+
+%!  study_command(+Dir, +Arguments, -Status, -Text) is det.
+%
+%   What experiments/study.pl does with Arguments in Dir: its exit status,
+%   and all that it prints.
+
+study_command(Dir, Arguments, Status, Text) :-
+    project_file('experiments/study.pl', Script),
+    run_swipl([Script, --|Arguments], [cwd(Dir), timeout(120)],
+              Status, Out, Err),
+    string_concat(Out, Err, Text).
+
+%!  study_messages(:Goal, -Text) is semidet.
+%
+%   Text is what Goal prints on user_error.
+
+study_messages(Goal, Text) :-
+    with_tmp_dir(messages(Goal, Text)).
+
+messages(Goal, Text, Dir) :-
+    directory_file_path(Dir, messages, File),
+    stream_property(Old, alias(user_error)),
+    setup_call_cleanup(
+        ( open(File, write, Out, [encoding(utf8)]),
+          set_stream(Out, alias(user_error)) ),
+        once(Goal),
+        ( set_stream(Old, alias(user_error)),
+          close(Out) )),
+    read_file_to_string(File, Text, [encoding(utf8)]).
