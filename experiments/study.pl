@@ -13,14 +13,16 @@
 :- use_module(engine/outcome, [outcome/4]).
 :- use_module(engine/page, [page_save/2]).
 :- use_module(engine/picture, [picture/4]).
-:- use_module(engine/report, [outcome_save/4, print_outcome/3, print_table/3]).
+:- use_module(engine/report,
+              [ claims_sentence/2, outcome_save/4, parameter_rows/3,
+                print_outcome/3, print_table/3 ]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies,
               [study_call/2, study_load/2, study_name/3, study_title/3]).
 :- use_module(engine/work, [runs_make/4]).
 :- use_module(engine/worker, [run_here/4]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [domain_error/2, existence_error/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
@@ -56,7 +58,7 @@ opt_help(runs,    "Runs of each case, with consecutive seeds [3]").
 opt_help(seed,    "The first seed [1]").
 opt_help(jobs,    "Runs at the same time [2]").
 opt_help(set,     "NAME=VALUE: a parameter of the study; a list, [1,2], is \c
-varied. May be given again").
+varied. May be given again; `STUDY --help` lists them").
 opt_help(case,    "Make one run, of this case with the first seed, in this \c
 process: its number, or its name, as delta=0.5,topology=ring").
 opt_help(logs,    "Keep the log of each run, events.pl [false]").
@@ -71,11 +73,19 @@ opt_meta(out,  'DIRECTORY').
 main(Argv) :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_error, encoding(utf8)),
-    argv_options(Argv, Names, Options),
+    parsed(Argv, Names, Options),
     catch(stopping_on_signals(command(Names, Options)),
           error(Formal, Context),
           ( print_message(error, error(Formal, Context)),
             halt(1) )).
+
+parsed(Argv, Names, [help(true)]) :-
+    append(Names, [Help], Argv),
+    Names \== [],
+    memberchk(Help, ['--help', '-h']),
+    !.
+parsed(Argv, Names, Options) :-
+    argv_options(Argv, Names, Options).
 
 command([], _) :-
     !,
@@ -84,11 +94,22 @@ command([], _) :-
 command(Names, Options) :-
     studies_named(Names, Files),
     maplist(study_load, Files, Studies),
-    given(Options, Given),
-    findall(plan(Study, Given, Cases),
-            ( member(Study, Studies), study_cases(Study, Given, Cases) ),
-            Plans),
-    perform(Plans, Options).
+    (   option(help(true), Options)
+    ->  maplist(print_help, Studies)
+    ;   given(Options, Given),
+        findall(plan(Study, Given, Cases),
+                ( member(Study, Studies), study_cases(Study, Given, Cases) ),
+                Plans),
+        perform(Plans, Options)
+    ).
+
+%   What a study may be told by --set.
+
+print_help(Study) :-
+    study_title(Study, Name, Title),
+    format('~w: ~w~n~n', [Name, Title]),
+    parameter_rows(Study, [], Rows),
+    print_table(user_output, [parameter, value, why], Rows).
 
 %   given(+Options, -Given): what --set says, as pairs; the last counts.
 
@@ -261,8 +282,10 @@ collect(Plans, Options) :-
             ( member(Plan, Plans), show(Plan, Options, Out, Shown) ),
             All),
     page_save(Out, All),
+    findall(Outcome, member(shown(_, Outcome, _, _), All), Outcomes),
+    claims_sentence(Outcomes, Sentence),
     directory_file_path(Out, 'index.html', Page),
-    format('~nTables, pictures, claims: ~w~n', [Page]).
+    format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]).
 
 show(plan(Study, Given, Cases), Options, Out,
      shown(Study, Outcome, Again, Directory)) :-

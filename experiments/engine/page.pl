@@ -7,7 +7,7 @@
 :- use_module(library(uri), [uri_encoded/3]).
 :- use_module(numbers, [number_text/2]).
 :- use_module(report,
-              [ case_texts/3, held_text/3, parameter_rows/3,
+              [ case_texts/3, held_text/3, medians_text/4, parameter_rows/3,
                 shown_measures/3, spread_text/3 ]).
 :- use_module(store, [run_facts/2]).
 :- use_module(studies, [study_call/2, study_title/3]).
@@ -114,7 +114,7 @@ claims(Claims) -->
               ( member(claim(Text, Notes, Held, Of, Medians, Found), Claims),
                 held_text(Held, Of, Word0),
                 verdict(Held, Of, Medians, Class),
-                medians_word(Medians, Of, Word1),
+                medians_text(Held, Of, Medians, Word1),
                 atom_concat(Word0, Word1, Word),
                 noted(Text, Notes, Said) ),
               Rows) },
@@ -123,9 +123,6 @@ claims(Claims) -->
 verdict(Of, Of, true, yes) :- Of > 0, !.
 verdict(0, _, false, no) :- !.
 verdict(_, _, _, some).
-
-medians_word(false, Of, '; not of the medians') :- Of > 1, !.
-medians_word(_, _, '').
 
 noted(Text, [], Text) :-
     !.

@@ -5,10 +5,12 @@
             case_texts/3,               % +Case, +Names, -Texts
             spread_text/3,              % +Row, +Measure, -Text
             shown_measures/3,           % +Study, +Rows, -Measures
+            claims_sentence/2,          % +Outcomes, -Sentence
             parameter_rows/3,           % +Study, +Given, -Rows
-            held_text/3                 % +Held, +Of, -Text
+            held_text/3,                % +Held, +Of, -Text
+            medians_text/4              % +Held, +Of, +OfMedians, -Text
           ]).
-:- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
+:- use_module(library(apply), [foldl/4, maplist/3, maplist/4, partition/4]).
 :- use_module(library(csv), [csv_write_file/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
@@ -93,11 +95,8 @@ range_text(Least, Most, Text) :-
 
 print_claim(Stream, claim(Text, _, Held, Of, OfMedians, Found)) :-
     held_text(Held, Of, Word),
-    (   OfMedians == true
-    ->  Medians = ''
-    ;   Medians = ' (not of the medians)'
-    ),
-    format(Stream, '  ~w~t~18|~w~w~n~18|~w~n', [Word, Text, Medians, Found]).
+    medians_text(Held, Of, OfMedians, Medians),
+    format(Stream, '  ~w~t~22|~w~w~n~22|~w~n', [Word, Text, Medians, Found]).
 
 %!  held_text(+Held, +Of, -Text) is det.
 
@@ -106,6 +105,41 @@ held_text(1, 1, held) :- !.
 held_text(Of, Of, Text) :- !, format(atom(Text), 'held, ~d runs', [Of]).
 held_text(0, _, 'DID NOT HOLD') :- !.
 held_text(Held, Of, Text) :- format(atom(Text), 'held in ~d of ~d', [Held, Of]).
+
+%!  medians_text(+Held, +Of, +OfMedians, -Text) is det.
+%
+%   Whether a claim is true of the medians, where that is not as with runs.
+
+medians_text(Held, Of, false, ' (not of the medians)') :-
+    Of > 1,
+    Held > 0,
+    !.
+medians_text(0, Of, true, ' (but of the medians)') :-
+    Of > 1,
+    !.
+medians_text(_, _, _, '').
+
+%!  claims_sentence(+Outcomes:list, -Sentence:atom) is det.
+%
+%   How many of the claims of all Outcomes held.
+
+claims_sentence(Outcomes, Sentence) :-
+    findall(claim(Text, Held, Of),
+            ( member(Outcome, Outcomes),
+              member(claim(Text, _, Held, Of, _, _), Outcome.claims) ),
+            Claims),
+    partition([claim(_, Of, Of)]>>( Of > 0 ), Claims, Held, Others),
+    length(Claims, Count),
+    length(Held, HeldCount),
+    (   Others == []
+    ->  format(atom(Sentence), 'All ~d claims held.', [Count])
+    ;   Others = [claim(Text, _, Of)],
+        Of =< 1
+    ->  format(atom(Sentence), '1 of ~d claims did not hold: ~w.',
+               [Count, Text])
+    ;   format(atom(Sentence), '~d of ~d claims held in all runs.',
+               [HeldCount, Count])
+    ).
 
 %!  print_table(+Stream, +Header, +Rows) is det.
 %

@@ -28,6 +28,8 @@ what is claimed and what is drawn.  Its words are
     printed(Measure, Where, Value).
     claim(Text, Notes, Test).
     plot(Name, Title, Picture).
+    progress(Case, What, Total).
+    real(Where, Settings).
 
 Only the first and measure/3 are required.  doc/studies.md explains each.
 A case is a dict: of each parameter its value.
@@ -58,6 +60,8 @@ word(label/2).
 word(printed/3).
 word(claim/3).
 word(plot/3).
+word(progress/3).
+word(real/2).
 
 %!  study_load(+File, -Study) is det.
 %

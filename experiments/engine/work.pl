@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [memberchk/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process),
@@ -11,6 +12,9 @@
 :- use_module(progress, [progress/4, progress_done/1]).
 :- use_module(store,
               [part_directory/3, part_fail/4, run_directory/3, run_done/3]).
+:- use_module(studies, [study_call/2]).
+:- use_module(watch, [watching/4]).
+:- use_module(worker, [run_here/4]).
 
 /** <module> Many runs on several processors
 
@@ -45,13 +49,7 @@ runs_make(Runs, Root, Options, Outcomes) :-
     option(jobs(Jobs), Options, 2),
     option(logs(Logs), Options, false),
     exclude(run_done(Root, Logs), Runs, Missing),
-    length(Missing, Total),
-    get_time(Begin),
-    catch(( make(Missing, desk(Jobs, Root, Logs), Begin-Total, 0, Made),
-            dismiss ),
-          Ball,
-          ( end_workers,
-            throw(Ball) )),
+    make_missing(Missing, desk(Jobs, Root, Logs), Made),
     maplist(outcome(Made), Runs, Outcomes).
 
 outcome(Made, Run, Outcome) :-
@@ -59,6 +57,35 @@ outcome(Made, Run, Outcome) :-
     ->  Outcome = Outcome0
     ;   Outcome = kept
     ).
+
+%   A single run that one can watch is made here.
+
+make_missing([Run], desk(_, Root, Logs), [Run-Kind]) :-
+    watched(Run, What, Total),
+    !,
+    run_directory(Root, Run, Directory),
+    current_prolog_flag(pid, Pid),
+    part_directory(Directory, Pid, Part),
+    directory_file_path(Part, 'events.pl', Log),
+    watching(Log, What, Total, run_here(Run, Root, [logs(Logs)], Outcome)),
+    told(Outcome, Run, Kind).
+make_missing(Runs, Desk, Made) :-
+    length(Runs, Total),
+    get_time(Begin),
+    catch(( make(Runs, Desk, Begin-Total, 0, Made),
+            dismiss ),
+          Ball,
+          ( end_workers,
+            throw(Ball) )).
+
+%   watched(+Run, -What, -Total): on a real clock, and the study says which
+%   events to count.
+
+watched(run(Study, Case, _), What, Total) :-
+    get_dict(clock, Case, Clock),
+    number(Clock),
+    study_call(Study, progress(Case, What, Total)),
+    !.
 
 %   make(+Runs, +Desk, +Task, +Done, -Made): who is free gets the next.
 
