@@ -28,7 +28,7 @@ claim(Text, [line(2490)], at([network=N], Test)) :-
     each_network("the largest drop is from D 0.1 to 0.2", N, Text),
     first_drop(executions, Test).
 claim("no significant difference (0.15) between networks at D 0.5",
-      [line(2479), ours],
+      [line(2479), ours, why("on 10 hosts these are five agents")],
       at([density=0.5],
          most(no_obstacle) - least(no_obstacle) =< 0.15*mean(no_obstacle))).
 claim("more executions with an obstacle, at every density", [line(2486)],
@@ -52,6 +52,9 @@ claim("more sharing with an obstacle, at every density", [line(2526)],
 claim("sharing becomes less with time: 25 agents, 50 hosts", [line(2591)],
       at([network=50, density=0.5], trend < 0)).
 claim("and in all other cases", [line(2597)], trend < 0).
+claim("it decreases gradually, also before the first agent has converged",
+      [line(2594), why("agents share evenly while all are at work")],
+      at([network=50, density=0.5], early_trend < 0)).
 
 plot('4.9', "Executions that an agent needs until all have converged",
      Sets) :-

@@ -11,7 +11,6 @@
 :- use_module(library(lists),
               [append/3, last/2, list_to_set/2, member/2, memberchk/2,
                nth0/3, nth1/3, numlist/3]).
-:- use_module('../engine/numbers', [spread/4]).
 :- use_module(maze).
 :- use_module(metrics).
 

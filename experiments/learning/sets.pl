@@ -4,9 +4,13 @@
 %   Expects: ground, and the parameters `network` and `density`, which vary.
 
 :- use_module('../engine/gnuplot', [colour/2]).
+:- use_module('../engine/numbers', [spread/4]).
+:- use_module(library(apply), [include/3]).
+:- use_module(library(lists), [min_list/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 
-label(trend, "Sharing events at the end against the beginning (%)").
+label(trend, "Trend of sharing events (%)").
+label(early_trend, "Until the first has converged (%)").
 label(obstacle, "50 hosts, obstacle").
 label(N, Text) :-
     vary(network, Networks),
@@ -14,14 +18,25 @@ label(N, Text) :-
     integer(N),
     format(string(Text), "~d hosts", [N]).
 
-%   The linear trend of sharing events in 30 equal parts of the run.
+%   By how much the linear trend of sharing events changes, of their mean, in
+%   30 equal parts of the run; and of the time in which all agents are at work:
+%   who has converged does not share any more.
 
 measure(trend, View, Percent) :-
-    shared_times(View.learners, Times),
     duration(View.learners, End),
+    change(View.learners, End, Percent).
+measure(early_trend, View, Percent) :-
+    findall(T, member(learner(_, _, converged(T, _, _)), View.learners), Ts),
+    min_list(Ts, First),
+    change(View.learners, First, Percent).
+
+change(Learners, End, Percent) :-
+    shared_times(Learners, Times0),
+    include(>=(End), Times0, Times),
+    length(Times, Count),
+    Count > 0,
     trend_line(Times, End, Level, Last),
-    Level > 0,
-    Percent is 100*(Last - Level)/Level.
+    Percent is 100*(Last - Level)/(Count/30).
 
 trend_line(Times, End, Level, Last) :-
     bins(Times, End, 30, Points),
