@@ -10,6 +10,7 @@
 :- use_module(engine/cases,
               [case_name/3, study_cases/3, study_parameter/2]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
+:- use_module(engine/cross_check, [cross_checks/4]).
 :- use_module(engine/outcome, [outcome/4]).
 :- use_module(engine/page, [page_save/2]).
 :- use_module(engine/picture, [picture/4]).
@@ -44,6 +45,7 @@ opt_type(case,    case,    atom).
 opt_type(logs,    logs,    boolean).
 opt_type(list,    list,    boolean).
 opt_type(collect, collect, boolean).
+opt_type(real,    real,    boolean).
 opt_type(out,     out,     atom).
 
 opt_help(help(header),
@@ -64,6 +66,8 @@ process: its number, or its name, as delta=0.5,topology=ring").
 opt_help(logs,    "Keep the log of each run, events.pl [false]").
 opt_help(list,    "Print a command for each run, and make none [false]").
 opt_help(collect, "Make no runs; show those that are there [false]").
+opt_help(real,    "Make one case of each study, which says which, on real \c
+sockets too, and compare [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 
 opt_meta(set,  'NAME=VALUE').
@@ -157,6 +161,12 @@ perform(Plans, Options) :-
     option(collect(true), Options),
     !,
     collect(Plans, Options).
+perform(Plans, Options) :-
+    option(real(true), Options),
+    !,
+    findall(Seed, seed(Options, Seed), Seeds),
+    root(Options, Root),
+    cross_checks(Plans, Seeds, Root, Options).
 perform(Plans, Options) :-
     findall(Run, planned(Plans, Options, _, Run), Runs),
     root(Options, Root),

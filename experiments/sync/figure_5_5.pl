@@ -7,6 +7,7 @@ study('5.5', "Execution in step in four topologies, and Table 5.1").
 
 vary(topology, [star_bus, ring, tree, grid]).
 derive(delta, Case, Delta) :- best_delta(Case.topology, Delta).
+real([topology=grid], [clock=10, processes=4]).
 
 label(burst, "Hosts on which T1 begins within a second").
 label(serviced, "T1 has begun everywhere (s)").
