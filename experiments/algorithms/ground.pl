@@ -80,8 +80,11 @@ view(Log, view{case:Log.case, result:Result}) :-
             Agents),
     algorithms_result(Log.events, Agents, Result).
 
+%   Units of a maze are no pages.
+
 measure(Name, View, Number) :-
-    result_number(Name, View.result, Number).
+    result_number(Name, View.result, Number),
+    \+ ( Name == pages, View.case.problem == maze ).
 measure(most_short, View, Most) :-
     short(View, Shortfalls),
     max_list(Shortfalls, Most).

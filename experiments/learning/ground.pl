@@ -7,12 +7,9 @@
 
 :- use_module('../../agents/learning/operator', [learning_start/5]).
 :- use_module('../../prolog/typhon', [agent_join/3, network_property/2]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(lists),
-              [append/3, last/2, list_to_set/2, member/2, memberchk/2,
-               nth0/3, nth1/3, numlist/3]).
-:- use_module(maze).
-:- use_module(metrics).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(metrics,
+              [ duration/2, executed/2, learners/2, mean/2, shared_times/2 ]).
 
 fixed(obstacle_hosts, 50, printed("section 4.4")).
 fixed(size, 50, printed("section 4.4: 50 x 50")).

@@ -5,8 +5,9 @@
 
 :- use_module('../engine/gnuplot', [colour/2]).
 :- use_module('../engine/numbers', [spread/4]).
-:- use_module(library(apply), [include/3]).
-:- use_module(library(lists), [min_list/2]).
+:- use_module(metrics, [bins/4, duration/2, shared_times/2, trend/3]).
+:- use_module(library(apply), [include/3, maplist/3]).
+:- use_module(library(lists), [list_to_set/2, member/2, min_list/2, nth0/3]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 
 label(trend, "Trend of sharing events (%)").

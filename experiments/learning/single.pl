@@ -4,7 +4,12 @@
 %   Expects: ground, and the parameters `network` and `sharing`.
 
 :- use_module('../engine/gnuplot', [colour/2]).
-:- use_module(ways).
+:- use_module(maze, [maze_path/3, maze_walls/2]).
+:- use_module(metrics, [first_executions/2, mean/2, overlap/2, spread/2]).
+:- use_module(ways, [distance/3, nearer/4, random_ways/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists),
+              [append/3, member/2, memberchk/2, nth0/3, nth1/3]).
 
 label(distinct, "Different final ways").
 label(overlap, "Overlap of final ways").
