@@ -67,7 +67,7 @@ test(what_is_passed_on_late_is_not_late) :-
 test(known_floods_are_bounded, Count == 3) :-
     node(murdoch, [setting(memory, 3)]),
     forall(between(1, 50, I), link(a, 0, flood(I, start(x)))),
-    aggregate_all(count, fake_agent:wave(_, _), Count).
+    aggregate_all(count, fake_agent:wave(_, _, _), Count).
 test(who_has_no_node_gets_nothing) :-
     node(murdoch, []),
     hears(peers([a-na, c-nc]), user),
