@@ -10,17 +10,20 @@
 :- use_module(engine/cases,
               [case_name/3, study_cases/3, study_parameter/2]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
+:- use_module(engine/cross_check, [cross_check/4, real_case/4]).
 :- use_module(engine/outcome, [outcome/4]).
 :- use_module(engine/page, [page_save/2]).
 :- use_module(engine/picture, [picture/4]).
-:- use_module(engine/report, [outcome_save/4, print_outcome/3, print_table/3]).
+:- use_module(engine/report,
+              [ claims_sentence/2, outcome_save/4, parameter_rows/3,
+                print_outcome/3, print_table/3, shown_measures/3 ]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies,
               [study_call/2, study_load/2, study_name/3, study_title/3]).
 :- use_module(engine/work, [runs_make/4]).
 :- use_module(engine/worker, [run_here/4]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [domain_error/2, existence_error/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
@@ -42,6 +45,7 @@ opt_type(case,    case,    atom).
 opt_type(logs,    logs,    boolean).
 opt_type(list,    list,    boolean).
 opt_type(collect, collect, boolean).
+opt_type(real,    real,    boolean).
 opt_type(out,     out,     atom).
 
 opt_help(help(header),
@@ -56,12 +60,14 @@ opt_help(runs,    "Runs of each case, with consecutive seeds [3]").
 opt_help(seed,    "The first seed [1]").
 opt_help(jobs,    "Runs at the same time [2]").
 opt_help(set,     "NAME=VALUE: a parameter of the study; a list, [1,2], is \c
-varied. May be given again").
+varied. May be given again; `STUDY --help` lists them").
 opt_help(case,    "Make one run, of this case with the first seed, in this \c
 process: its number, or its name, as delta=0.5,topology=ring").
 opt_help(logs,    "Keep the log of each run, events.pl [false]").
 opt_help(list,    "Print a command for each run, and make none [false]").
 opt_help(collect, "Make no runs; show those that are there [false]").
+opt_help(real,    "Make one case on real sockets, too, and say whether what \c
+it gives lies within what virtual time gives [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 
 opt_meta(set,  'NAME=VALUE').
@@ -71,11 +77,19 @@ opt_meta(out,  'DIRECTORY').
 main(Argv) :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_error, encoding(utf8)),
-    argv_options(Argv, Names, Options),
+    parsed(Argv, Names, Options),
     catch(stopping_on_signals(command(Names, Options)),
           error(Formal, Context),
           ( print_message(error, error(Formal, Context)),
             halt(1) )).
+
+parsed(Argv, Names, [help(true)]) :-
+    append(Names, [Help], Argv),
+    Names \== [],
+    memberchk(Help, ['--help', '-h']),
+    !.
+parsed(Argv, Names, Options) :-
+    argv_options(Argv, Names, Options).
 
 command([], _) :-
     !,
@@ -84,11 +98,22 @@ command([], _) :-
 command(Names, Options) :-
     studies_named(Names, Files),
     maplist(study_load, Files, Studies),
-    given(Options, Given),
-    findall(plan(Study, Given, Cases),
-            ( member(Study, Studies), study_cases(Study, Given, Cases) ),
-            Plans),
-    perform(Plans, Options).
+    (   option(help(true), Options)
+    ->  maplist(print_help, Studies)
+    ;   given(Options, Given),
+        findall(plan(Study, Given, Cases),
+                ( member(Study, Studies), study_cases(Study, Given, Cases) ),
+                Plans),
+        perform(Plans, Options)
+    ).
+
+%   What a study may be told by --set.
+
+print_help(Study) :-
+    study_title(Study, Name, Title),
+    format('~w: ~w~n~n', [Name, Title]),
+    parameter_rows(Study, [], Rows),
+    print_table(user_output, [parameter, value, why], Rows).
 
 %   given(+Options, -Given): what --set says, as pairs; the last counts.
 
@@ -140,8 +165,12 @@ perform(Plans, Options) :-
     findall(Run, planned(Plans, Options, _, Run), Runs),
     root(Options, Root),
     runs_make(Runs, Root, Options, Outcomes),
+    findall(Run, real(Plans, Options, Run), RealRuns),
+    runs_make(RealRuns, Root, [jobs(1)|Options], RealOutcomes),
     collect(Plans, Options),
     (   memberchk(failed, Outcomes)
+    ->  halt(1)
+    ;   memberchk(failed, RealOutcomes)
     ->  halt(1)
     ;   true
     ).
@@ -153,6 +182,14 @@ planned(Plans, Options, N, run(Study, Case, Seed)) :-
     seed(Options, Seed),
     member(plan(Study, _, Cases), Plans),
     nth1(N, Cases, Case).
+
+%   In real time runs disturb each other: they are made one by one.
+
+real(Plans, Options, run(Study, Real, Seed)) :-
+    option(real(true), Options),
+    member(plan(Study, _, Cases), Plans),
+    real_case(Study, Cases, _, Real),
+    seed(Options, Seed).
 
 seed(Options, Seed) :-
     option(seed(First), Options, 1),
@@ -203,12 +240,24 @@ make_one(Study, Case, Options) :-
 
 print_command(Study, N, Seed, Options) :-
     module_property(study, file(Script)),
+    prolog(Swipl),
     out(Options, Out),
     findall(Argument, repeated(Options, Argument), More),
-    append([ [swipl, Script, '--', Study, '--case', N, '--seed', Seed],
+    append([ [Swipl, Script, '--', Study, '--case', N, '--seed', Seed],
              More, ['--out', Out] ], Words),
     command_text(Words, Text),
     format('~w~n', [Text]).
+
+%   By its usual name, if that is who this is.
+
+prolog(Swipl) :-
+    current_prolog_flag(executable, Executable),
+    (   absolute_file_name(path(swipl), Usual,
+                           [access(execute), file_errors(fail)]),
+        same_file(Usual, Executable)
+    ->  Swipl = swipl
+    ;   Swipl = Executable
+    ).
 
 %   Of all runs, for people, and from here.
 
@@ -225,8 +274,9 @@ again(Study, Options, Text) :-
 repeated(Options, Argument) :-
     member(set(Setting), Options),
     member(Argument, ['--set', Setting]).
-repeated(Options, '--logs') :-
-    option(logs(true), Options).
+repeated(Options, Argument) :-
+    member(Argument-Option, ['--logs'-logs(true), '--real'-real(true)]),
+    option(Option, Options).
 
 from_here(File, Relative) :-
     absolute_file_name('.', Here, [file_type(directory)]),
@@ -261,8 +311,10 @@ collect(Plans, Options) :-
             ( member(Plan, Plans), show(Plan, Options, Out, Shown) ),
             All),
     page_save(Out, All),
+    findall(Outcome, member(shown(_, Outcome, _, _), All), Outcomes),
+    claims_sentence(Outcomes, Sentence),
     directory_file_path(Out, 'index.html', Page),
-    format('~nTables, pictures, claims: ~w~n', [Page]).
+    format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]).
 
 show(plan(Study, Given, Cases), Options, Out,
      shown(Study, Outcome, Again, Directory)) :-
@@ -272,7 +324,8 @@ show(plan(Study, Given, Cases), Options, Out,
               run_result(Root, run(Study, Case, Seed), Measures) ),
             Runs),
     outcome(Study, Cases, Runs, Outcome0),
-    Outcome = Outcome0.put(given, Given),
+    checks(Study, Cases, Runs, Outcome0.rows, Options, Checks),
+    Outcome = Outcome0.put(_{given:Given, checks:Checks}),
     study_title(Study, Name, _),
     directory_file_path(Out, Name, Figures),
     make_directory_path(Figures),
@@ -287,6 +340,22 @@ show(plan(Study, Given, Cases), Options, Out,
     ->  Directory = First.directory
     ;   Directory = none
     ).
+
+%   checks(+Study, +Cases, +Runs, +Rows, +Options, -Checks): of the case that
+%   is made on real sockets as well.
+
+checks(Study, Cases, Runs, Rows, Options, Checks) :-
+    option(real(true), Options),
+    real_case(Study, Cases, Case, Real),
+    !,
+    root(Options, Root),
+    findall(Ms, member(run(Case, _, Ms), Runs), Virtual),
+    findall(Ms, ( seed(Options, Seed),
+                  run_result(Root, run(Study, Real, Seed), Ms) ),
+            OnSockets),
+    shown_measures(Study, Rows, Measures),
+    cross_check(Virtual, OnSockets, Measures, Checks).
+checks(_, _, _, _, _, []).
 
 %   A name that no run has given.
 

@@ -44,10 +44,11 @@ host, and may stop, as in sleep(1).
 %       `starts`
 %     - starts(+Hosts), seed(+Integer): where they start, see starts/4
 %     - settings(+Pairs): Name-Value, to replace what traveller.pl has as
-%       the default of `delta`, `theta`, `maximum`, `window`, `patience`
+%       the default of `delta`, `theta`, `maximum`, `window`, `patience`:
+%       numbers above 0; or of `strategy`, which next_host/2 knows
 %
 %   @error type_error(pair, X), domain_error(distinct_tasks, Names)
-%   @error domain_error(setting, X): unknown, or not above 0
+%   @error domain_error(setting, X): unknown, or no such value
 %   @error host_unreachable(Host), existence_error(host, Host) and others
 %   of agent_create/3
 
@@ -104,6 +105,9 @@ traveller_facts(Options, [setting(start, order)|Settings]) :-
     option(settings(Pairs), Options, []),
     maplist(setting_fact, Pairs, Settings).
 
+setting_fact(strategy-Strategy, setting(strategy, Strategy)) :-
+    ground(Strategy),
+    !.
 setting_fact(Name-Value, setting(Name, Value)) :-
     memberchk(Name, [delta, theta, maximum, window, patience]),
     number(Value),

@@ -27,6 +27,7 @@ default(delta, 0.5).             % penalty bias
 default(theta, 15).              % what a history starts with
 default(maximum, 100).           % of a potential; its initial value, too
 default(window, 15).             % length of the history
+default(strategy, conscientious). % of migration
 default(patience, 1).            % seconds before an isolated agent looks again
 default(start, now).             % or `order`: waits for the message `begin`
 
@@ -48,7 +49,8 @@ patrol.                          % all potentials are zero
 %   Lines 15, 18 and 23.
 
 travel :-
-    next_host(conscientious, Host),
+    parameter(strategy, Strategy),
+    next_host(Strategy, Host),
     !,
     catch(move(Host), error(_, _), pause).
 travel :-

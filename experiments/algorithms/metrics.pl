@@ -1,9 +1,7 @@
 :- module(algorithms_metrics,
           [ algorithms_result/3,        % +Events, +Agents, -Result
-            measure/3,                  % +What, +Result, -Number
-            runs_table/3                % +CaseRuns, -Header, -Rows
+            result_number/3             % ?What, +Result, -Number
           ]).
-:- use_module(cases, [case_name/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists),
@@ -110,52 +108,27 @@ population(event(_, _, Agent, ended(_)), Now0-Most, Now-Most) :-
     Now is Now0 - 1.
 population(_, State, State).
 
-%!  measure(+What, +Result, -Number) is semidet.
+%!  result_number(?What, +Result, -Number) is nondet.
 %
 %   What is the name of a number in Result, or
 %
 %     - reached: how many of the agents have reached the goal, in percent
 %     - mean: executions that one agent needed, the mean of those that have
-%       reached it.  Fails if none has.
+%       reached it; not known if none has.
 
-measure(reached, Result, Percent) :-
-    !,
+result_number(reached, Result, Percent) :-
     memberchk(reached(Reached), Result),
     memberchk(agents(Count), Result),
     length(Reached, Some),
     Percent is 100*Some/Count.
-measure(mean, Result, Mean) :-
-    !,
+result_number(mean, Result, Mean) :-
     memberchk(reached(Reached), Result),
     findall(N, member(first(_, _, N), Reached), Ns),
     length(Ns, Count),
     Count > 0,
     sum_list(Ns, Sum),
     Mean is Sum/Count.
-measure(What, Result, Number) :-
+result_number(What, Result, Number) :-
+    member(Term, Result),
     Term =.. [What, Number],
-    memberchk(Term, Result),
     number(Number).
-
-%!  runs_table(+CaseRuns, -Header, -Rows) is det.
-%
-%   A row for each run.  CaseRuns are pairs Case-Runs, Runs pairs
-%   Seed-Result.
-
-runs_table(CaseRuns, [case, seed|Columns], Rows) :-
-    Columns = [ agents, reached, mean, first, executions, pages, shared,
-                clones, most, time ],
-    findall([Name, Seed|Cells],
-            ( member(Case-Runs, CaseRuns),
-              case_name(Case, Name),
-              member(Seed-Result, Runs),
-              findall(Cell, ( member(Column, Columns),
-                              cell(Column, Result, Cell) ), Cells)
-            ),
-            Rows).
-
-cell(Column, Result, Cell) :-
-    (   measure(Column, Result, Number)
-    ->  Cell = Number
-    ;   Cell = none
-    ).

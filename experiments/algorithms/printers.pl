@@ -1,9 +1,9 @@
 :- module(algorithms_printers,
-          [ shortfalls/2                % +Runs, -Shortfalls
+          [ shortfalls/3                % +Seed, +Solutions, -Shortfalls
           ]).
 :- use_module('../../prolog/typhon/base/chance', []).
 :- use_module(library(lists),
-              [append/3, member/2, memberchk/2, sum_list/2]).
+              [append/3, member/2, sum_list/2]).
 
 /** <module> How good settings are without noise
 
@@ -21,17 +21,15 @@ payload(_, _).
 
 :- include('../../payloads/learning/settings').
 
-%!  shortfalls(+Runs, -Shortfalls:list(number)) is det.
+%!  shortfalls(+Seed, +Solutions, -Shortfalls:list(number)) is det.
 %
-%   For each agent of Runs, pairs Seed-Result, that has converged, how much
-%   worse than good its settings are on the printer where they were found; 0
-%   if they are good.
+%   For each of Solutions, Host-Actions, how much worse than good the last
+%   settings are on the printer of Host; 0 if they are good.  Seed says which
+%   printers there were.
 
-shortfalls(Runs, Shortfalls) :-
+shortfalls(Seed, Solutions, Shortfalls) :-
     findall(Shortfall,
-            ( member(Seed-Result, Runs),
-              memberchk(solutions(Solutions), Result),
-              member(Host-Actions, Solutions),
+            ( member(Host-Actions, Solutions),
               shortfall(Seed, Host, Actions, Shortfall) ),
             Shortfalls).
 

@@ -2,7 +2,7 @@
           [ catalogue/1,                % -Rows
             studies_named/2             % +Names, -Files
           ]).
-:- use_module(library(apply), [convlist/3, maplist/3]).
+:- use_module(library(apply), [convlist/3, exclude/3, maplist/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [append/2, list_to_set/2, member/2]).
@@ -73,7 +73,7 @@ number_or_text(Part, Key) :-
 %!  studies_named(+Names:list(atom), -Files:list(atom)) is det.
 %
 %   A name is that of a file, of a study or of one of its plots, a folder
-%   below `experiments`, or `thesis`: all.
+%   below `experiments`, or `thesis`: all but those in real time.
 %
 %   @error existence_error(study, Name)
 
@@ -88,7 +88,8 @@ named(Name, [File]) :-
     !.
 named(thesis, Files) :-
     !,
-    study_files(Files).
+    study_files(All),
+    exclude(in_real_time, All, Files).
 named(Name, Files) :-
     study_files(All),
     (   Finder = in_folder
@@ -100,6 +101,12 @@ named(Name, Files) :-
     !.
 named(Name, _) :-
     existence_error(study, Name).
+
+in_real_time(File) :-
+    loads(File, Study),
+    study_call(Study, fixed(clock, Clock, _)),
+    number(Clock),
+    !.
 
 in_folder(Name, File) :-
     file_directory_name(File, Directory),

@@ -7,7 +7,7 @@
 :- use_module(library(uri), [uri_encoded/3]).
 :- use_module(numbers, [number_text/2]).
 :- use_module(report,
-              [ case_texts/3, held_text/3, parameter_rows/3,
+              [ case_texts/3, held_text/3, medians_text/4, parameter_rows/3,
                 shown_measures/3, spread_text/3 ]).
 :- use_module(store, [run_facts/2]).
 :- use_module(studies, [study_call/2, study_title/3]).
@@ -76,6 +76,7 @@ studies([shown(Study, Outcome, Command, Run)|Shown], Directory) -->
     html(Figures),
     claims(Outcome.claims),
     medians(Study, Outcome),
+    checks(Outcome.checks),
     parameters(Study, Outcome.given),
     one_run(Run),
     html(p(class(small),
@@ -114,7 +115,7 @@ claims(Claims) -->
               ( member(claim(Text, Notes, Held, Of, Medians, Found), Claims),
                 held_text(Held, Of, Word0),
                 verdict(Held, Of, Medians, Class),
-                medians_word(Medians, Of, Word1),
+                medians_text(Held, Of, Medians, Word1),
                 atom_concat(Word0, Word1, Word),
                 noted(Text, Notes, Said) ),
               Rows) },
@@ -123,9 +124,6 @@ claims(Claims) -->
 verdict(Of, Of, true, yes) :- Of > 0, !.
 verdict(0, _, false, no) :- !.
 verdict(_, _, _, some).
-
-medians_word(false, Of, '; not of the medians') :- Of > 1, !.
-medians_word(_, _, '').
 
 noted(Text, [], Text) :-
     !.
@@ -176,6 +174,18 @@ printed_text(Study, Case, Measure, Text) :-
     number_text(Value, Number),
     format(atom(Text), ' [~w]', [Number]).
 printed_text(_, _, _, '').
+
+checks([]) -->
+    !,
+    [].
+checks(Rows) -->
+    { findall(tr(Cells), ( member(Row, Rows),
+                           findall(td(Text), member(Text, Row), Cells) ),
+              Trs) },
+    html(details([ summary('one case on real sockets'),
+                   table([ tr([ th(measure), th(virtual), th('on sockets'),
+                                th(verdict) ])
+                         | Trs ]) ])).
 
 parameters(Study, Given) -->
     { parameter_rows(Study, Given, Rows),

@@ -6,9 +6,11 @@
             spread_text/3,              % +Row, +Measure, -Text
             shown_measures/3,           % +Study, +Rows, -Measures
             parameter_rows/3,           % +Study, +Given, -Rows
-            held_text/3                 % +Held, +Of, -Text
+            claims_sentence/2,          % +Outcomes, -Sentence
+            held_text/3,                % +Held, +Of, -Text
+            medians_text/4              % +Held, +Of, +OfMedians, -Text
           ]).
-:- use_module(library(apply), [foldl/4, maplist/3, maplist/4]).
+:- use_module(library(apply), [exclude/3, foldl/4, maplist/3, maplist/4]).
 :- use_module(library(csv), [csv_write_file/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
@@ -25,7 +27,8 @@
 %!  print_outcome(+Stream, +Study, +Outcome) is det.
 %
 %   A line for each case: medians, and from which to which; and a line for
-%   each claim.
+%   each claim.  Outcome has two keys more: `given`, what --set has given, and
+%   `checks`, see cross_check/4.
 
 print_outcome(Stream, Study, Outcome) :-
     study_title(Study, Name, Title),
@@ -38,7 +41,14 @@ print_outcome(Stream, Study, Outcome) :-
     append([Outcome.names, [runs], Measures], Header),
     print_table(Stream, Header, Rows),
     nl(Stream),
-    forall(member(Claim, Outcome.claims), print_claim(Stream, Claim)).
+    forall(member(Claim, Outcome.claims), print_claim(Stream, Claim)),
+    print_checks(Stream, Outcome.checks).
+
+print_checks(_, []) :-
+    !.
+print_checks(Stream, Rows) :-
+    nl(Stream),
+    print_table(Stream, [measure, virtual, 'on sockets', verdict], Rows).
 
 row_cells(Row, Names, Measures, Cells) :-
     Row = row(Case, Count, _),
@@ -93,11 +103,8 @@ range_text(Least, Most, Text) :-
 
 print_claim(Stream, claim(Text, _, Held, Of, OfMedians, Found)) :-
     held_text(Held, Of, Word),
-    (   OfMedians == true
-    ->  Medians = ''
-    ;   Medians = ' (not of the medians)'
-    ),
-    format(Stream, '  ~w~t~18|~w~w~n~18|~w~n', [Word, Text, Medians, Found]).
+    medians_text(Held, Of, OfMedians, Medians),
+    format(Stream, '  ~w~t~22|~w~w~n~22|~w~n', [Word, Text, Medians, Found]).
 
 %!  held_text(+Held, +Of, -Text) is det.
 
@@ -106,6 +113,48 @@ held_text(1, 1, held) :- !.
 held_text(Of, Of, Text) :- !, format(atom(Text), 'held, ~d runs', [Of]).
 held_text(0, _, 'DID NOT HOLD') :- !.
 held_text(Held, Of, Text) :- format(atom(Text), 'held in ~d of ~d', [Held, Of]).
+
+%!  claims_sentence(+Outcomes:list, -Sentence:atom) is det.
+%
+%   How many of the claims of all Outcomes held.
+
+claims_sentence(Outcomes, Sentence) :-
+    findall(Text-(Held-Of),
+            ( member(Outcome, Outcomes),
+              member(claim(Text, _, Held, Of, _, _), Outcome.claims) ),
+            Claims),
+    exclude(all_held, Claims, Others),
+    length(Claims, Count),
+    length(Others, OtherCount),
+    HeldCount is Count - OtherCount,
+    sentence(Others, HeldCount, Count, Sentence).
+
+all_held(_-(Of-Of)) :-
+    Of > 0.
+
+sentence(_, _, 0, 'Nothing is claimed.') :-
+    !.
+sentence([], _, Count, Sentence) :-
+    !,
+    format(atom(Sentence), 'All ~d claims held.', [Count]).
+sentence([Text-(_-1)], _, Count, Sentence) :-
+    !,
+    format(atom(Sentence), '1 of ~d claims did not hold: ~w.', [Count, Text]).
+sentence(_, Held, Count, Sentence) :-
+    format(atom(Sentence), '~d of ~d claims held in all runs.', [Held, Count]).
+
+%!  medians_text(+Held, +Of, +OfMedians, -Text) is det.
+%
+%   Whether a claim is true of the medians, where that is not as with runs.
+
+medians_text(Held, Of, false, ' (not of the medians)') :-
+    Of > 1,
+    Held > 0,
+    !.
+medians_text(0, Of, true, ' (but of the medians)') :-
+    Of > 1,
+    !.
+medians_text(_, _, _, '').
 
 %!  print_table(+Stream, +Header, +Rows) is det.
 %
@@ -170,8 +219,7 @@ why(Why, Text) :- format(atom(Text), '~w', [Why]).
 
 %!  outcome_save(+Study, +Outcome, +Runs, +Directory) is det.
 %
-%   Write runs.csv, claims.csv and parameters.csv.  Outcome has `given`, too:
-%   what was given by --set.
+%   Write runs.csv, claims.csv and parameters.csv.
 
 outcome_save(Study, Outcome, Runs, Directory) :-
     measured(Runs, Measures),

@@ -3,6 +3,7 @@
             study_title/3,              % +Study, -Name, -Title
             study_call/2,               % +Study, :Goal
             study_says/2,               % +Study, +PI
+            study_at_work/1,            % +Study
             study_name/3                % +Study, -Where, -Name
           ]).
 :- use_module(library(lists), [member/2]).
@@ -28,6 +29,8 @@ what is claimed and what is drawn.  Its words are
     printed(Measure, Where, Value).
     claim(Text, Notes, Test).
     plot(Name, Title, Picture).
+    progress(Case, What, Total).
+    real(Where, Settings).
 
 Only the first and measure/3 are required.  doc/studies.md explains each.
 A case is a dict: of each parameter its value.
@@ -39,7 +42,11 @@ was chosen after results had been seen.
 */
 
 :- multifile
-    prolog:error_message//1.
+    prolog:error_message//1,
+    user:file_search_path/2.
+
+:- dynamic
+    user:file_search_path/2.
 
 :- dynamic
     loaded/1.                   % Study
@@ -58,6 +65,8 @@ word(label/2).
 word(printed/3).
 word(claim/3).
 word(plot/3).
+word(progress/3).
+word(real/2).
 
 %!  study_load(+File, -Study) is det.
 %
@@ -96,6 +105,23 @@ study_says(Study, Name/Arity) :-
     functor(Head, Name, Arity),
     predicate_property(Study:Head, number_of_clauses(Count)),
     Count > 0.
+
+%!  study_at_work(+Study) is det.
+%
+%   From now on agents(Name) and payloads(Name) are looked for beside Study,
+%   too.
+
+:- dynamic at_work/1.           % Directory
+
+study_at_work(Study) :-
+    file_directory_name(Study, Directory),
+    retractall(at_work(_)),
+    assertz(at_work(Directory)).
+
+user:file_search_path(agents, Directory) :-
+    at_work(Directory).
+user:file_search_path(payloads, Directory) :-
+    at_work(Directory).
 
 %!  study_title(+Study, -Name, -Title) is det.
 

@@ -10,7 +10,11 @@
                 process_wait/3 ]).
 :- use_module(progress, [progress/4, progress_done/1]).
 :- use_module(store,
-              [part_directory/3, part_fail/4, run_directory/3, run_done/3]).
+              [ log_file/2, part_directory/3, part_fail/4, run_directory/3,
+                run_done/3 ]).
+:- use_module(studies, [study_call/2]).
+:- use_module(watch, [watching/4]).
+:- use_module(worker, [run_here/4]).
 
 /** <module> Many runs on several processors
 
@@ -47,7 +51,7 @@ runs_make(Runs, Root, Options, Outcomes) :-
     exclude(run_done(Root, Logs), Runs, Missing),
     length(Missing, Total),
     get_time(Begin),
-    catch(( make(Missing, desk(Jobs, Root, Logs), Begin-Total, 0, Made),
+    catch(( make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total, Made),
             dismiss ),
           Ball,
           ( end_workers,
@@ -59,6 +63,27 @@ outcome(Made, Run, Outcome) :-
     ->  Outcome = Outcome0
     ;   Outcome = kept
     ).
+
+%   A single run in real time is made here, and its events are counted
+%   meanwhile, if the study says which.
+
+make_missing([Run], desk(_, Root, Logs), _, [Run-Kind]) :-
+    watched(Run, What, Total),
+    !,
+    run_directory(Root, Run, Directory),
+    current_prolog_flag(pid, Pid),
+    part_directory(Directory, Pid, Part),
+    log_file(Part, Log),
+    watching(Log, What, Total, run_here(Run, Root, [logs(Logs)], Outcome)),
+    told(Outcome, Run, Kind).
+make_missing(Runs, Desk, Task, Made) :-
+    make(Runs, Desk, Task, 0, Made).
+
+watched(run(Study, Case, _), What, Total) :-
+    get_dict(clock, Case, Clock),
+    number(Clock),
+    study_call(Study, progress(Case, What, Total)),
+    !.
 
 %   make(+Runs, +Desk, +Task, +Done, -Made): who is free gets the next.
 

@@ -34,7 +34,7 @@
 work :-
     stream_property(Answers, alias(user_output)),
     stream_property(Errors, alias(user_error)),
-    set_stream(Errors, alias(user_output)),
+    say_to(Errors),
     set_stream(Answers, encoding(utf8)),
     set_stream(user_input, encoding(utf8)),
     stopping_on_signals(answers(Answers)).
@@ -120,7 +120,8 @@ writing(Part, Goal) :-
 
 say_to(Stream) :-
     set_stream(Stream, alias(user_error)),
-    set_stream(Stream, alias(user_output)).
+    set_stream(Stream, alias(user_output)),
+    set_output(Stream).
 
 explain(Error, Out) :-
     phrase(prolog:translate_message(Error), Lines),

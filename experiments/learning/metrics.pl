@@ -1,19 +1,21 @@
 :- module(learning_metrics,
-          [ learning_result/2,          % +Events, -Result
-            executions/2,               % +Results, -Mean
-            sharing/2,                  % +Results, -Ratio
+          [ learners/2,                 % +Events, -Learners
+            first_executions/2,         % +Events, -Agents
+            executed/2,                 % +Learners, -Count
+            shared_times/2,             % +Learners, -Times
+            duration/2,                 % +Learners, -Time
+            spread/2,                   % +Learners, -Share
+            overlap/2,                  % +Ways, -Overlap
             mean/2,                     % +Numbers, -Mean
-            spread/3,                   % +Results, -Actions, -Share
-            overlap/2,                  % +Paths, -Overlap
-            slope/3,                    % +Points, -Slope, -Level
+            trend/3,                    % +Points, -Slope, -Level
             bins/4                      % +Times, +End, +Count, -Points
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(lists),
-              [append/3, member/2, memberchk/2, nth1/3, sum_list/2]).
-:- use_module(library(ordsets),
-              [ord_intersection/3, ord_union/3]).
+              [append/3, max_list/2, member/2, memberchk/2, nth1/3,
+               sum_list/2]).
+:- use_module(library(ordsets), [ord_intersection/3, ord_union/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
 /** <module> What an event log says about agents that learn
@@ -21,54 +23,37 @@
 *Threading*: pure.
 */
 
-%!  learning_result(+Events, -Result) is det.
+%!  learners(+Events, -Learners:list) is det.
 %
-%   What came of a run, as a list.  Times are in host seconds after the
-%   first execution.
-%
-%     - learners(List)
-%       Of terms learner(Lengths, Shared, End), in the order of the first
-%       executions.  Lengths are those of the plans that it had executed,
-%       Shared the times at which another agent shared something with it,
-%       End is converged(Time, Hops, Actions) or `none`.
-%     - duration(Time)
-%       Until the last of them had converged.
-%     - unanswered(Count)
-%       How often a trainer did not answer in time.
+%   Terms learner(Lengths, Shared, End), in the order of the first
+%   executions: Lengths are those of the plans that it had executed, Shared
+%   the times at which another agent shared something with it, and End is
+%   converged(Time, Hops, Actions) or `none`.  Times are in host seconds
+%   after the first execution of all.
 
-learning_result(Events, [ learners(Learners), duration(Duration),
-                          unanswered(Unanswered) ]) :-
-    findall(Agent-Time,
-            member(event(Time, _, Agent, executed(1, _, _, _)), Events),
-            Firsts),
-    first_time(Firsts, T0),
-    pairs_keys_values(Firsts, Agents, _),
-    by_agent(Events, T0, ByAgent),
-    findall(Learner,
-            ( member(Agent, Agents), learner(ByAgent, Agent, Learner) ),
-            Learners),
-    aggregate_all(max(T), last_time(Events, T0, T), Duration0),
-    Duration is max(0, Duration0),
-    aggregate_all(count, member(event(_, _, _, unanswered(_)), Events),
-                  Unanswered).
-
-first_time([_-T0|_], T0).
-first_time([], 0).
-
-last_time(_, _, 0).
-last_time(Events, T0, Time) :-
-    (   member(event(T, _, _, converged(_, _, _)), Events)
-    ;   member(event(T, _, _, executed(_, _, _, _)), Events)
+learners(Events, Learners) :-
+    first_executions(Events, Agents),
+    findall(Time, member(event(Time, _, _, executed(1, _, _, _)), Events),
+            Times),
+    (   Times = [T0|_]
+    ->  true
+    ;   T0 = 0
     ),
-    Time is T - T0.
-
-by_agent(Events, T0, ByAgent) :-
     findall(Agent-What,
             ( member(event(Time, _, Agent, Told), Events),
               T is Time - T0,
               told(Told, T, What) ),
             Pairs),
-    keysort(Pairs, ByAgent).
+    keysort(Pairs, ByAgent),
+    maplist(learner(ByAgent), Agents, Learners).
+
+%!  first_executions(+Events, -Agents) is det.
+%
+%   Agents in the order of their first executions.
+
+first_executions(Events, Agents) :-
+    findall(Agent, member(event(_, _, Agent, executed(1, _, _, _)), Events),
+            Agents).
 
 told(executed(_, Length, _, _), _, length(Length)).
 told(shared(_, _), T, shared(T)).
@@ -86,39 +71,26 @@ learner(ByAgent, Agent, learner(Lengths, Shared, End)) :-
                 *           MEASURES           *
                 *******************************/
 
-%!  executions(+Results, -Mean) is det.
+%!  executed(+Learners, -Count:integer) is det.
+%!  shared_times(+Learners, -Times:list) is det.
+%!  duration(+Learners, -Time) is det.
 %
-%   Executions in all runs by the number of agents (thesis section 4.4).
+%   Executions of all, times of all sharing events, and when the last one
+%   has converged.
 
-executions(Results, Mean) :-
-    total(Results, executed, Executions),
-    total(Results, one, Agents),
-    Mean is Executions/Agents.
+executed(Learners, Count) :-
+    aggregate_all(count,
+                  ( member(learner(Lengths, _, _), Learners),
+                    member(_, Lengths) ),
+                  Count).
 
-%!  sharing(+Results, -Ratio) is det.
-%
-%   Sharing events per execution: the average of the runs by the average of
-%   the runs (thesis section 4.4.4).
+shared_times(Learners, Times) :-
+    findall(T, ( member(learner(_, Shared, _), Learners),
+                 member(T, Shared) ), Times).
 
-sharing(Results, Ratio) :-
-    total(Results, shared, Events),
-    total(Results, executed, Executions),
-    Ratio is Events/max(1, Executions).
-
-total(Results, What, Total) :-
-    findall(N,
-            ( member(Result, Results),
-              memberchk(learners(Learners), Result),
-              member(Learner, Learners),
-              number_of(What, Learner, N) ),
-            Ns),
-    sum_list(Ns, Total).
-
-number_of(executed, learner(Lengths, _, _), N) :-
-    length(Lengths, N).
-number_of(shared, learner(_, Shared, _), N) :-
-    length(Shared, N).
-number_of(one, _, 1).
+duration(Learners, Time) :-
+    findall(T, member(learner(_, _, converged(T, _, _)), Learners), Ts),
+    max_list([0|Ts], Time).
 
 %!  mean(+Numbers, -Mean) is semidet.
 %
@@ -130,28 +102,22 @@ mean(Numbers, Mean) :-
     sum_list(Numbers, Sum),
     Mean is Sum/Count.
 
-%!  spread(+Results, -Actions, -Share) is det.
+%!  spread(+Learners, -Share) is det.
 %
-%   How far the plans of the agents of one run differ in length: Actions is
-%   the standard deviation of their lengths at one and the same execution,
-%   the mean of all executions that all agents have made, in all runs.
-%   Share is this by the mean length: plans that grow faster differ by more
-%   actions, though the agents are as near to each other.
+%   How far plans differ in length: the standard deviation of the lengths at
+%   one and the same execution by their mean, over all executions that all
+%   agents have made.  Plans that grow faster differ by more actions, though
+%   the agents are as near to each other.
 
-spread(Results, Actions, Share) :-
+spread([learner(First, _, _)|Others], Share) :-
     findall(Deviation-Mean,
-            ( member(Result, Results),
-              memberchk(learners(Learners), Result),
-              Learners = [learner(First, _, _)|Others],
-              nth1(I, First, Length),
+            ( nth1(I, First, Length),
               maplist(length_at(I), Others, Lengths),
               deviation([Length|Lengths], Mean, Deviation) ),
             Pairs),
     pairs_keys_values(Pairs, Deviations, Means),
     sum_list(Deviations, Deviated),
     sum_list(Means, Length),
-    length(Pairs, Count),
-    Actions is Deviated/max(1, Count),
     Share is Deviated/max(1, Length).
 
 length_at(I, learner(Lengths, _, _), Length) :-
@@ -164,37 +130,37 @@ deviation(Numbers, Mean, Deviation) :-
     mean(Squares, Variance),
     Deviation is sqrt(Variance).
 
-%!  overlap(+Paths:list(list), -Overlap) is det.
+%!  overlap(+Ways:list(list), -Overlap) is det.
 %
-%   How much of two Paths is the same: the cells that are in both by those
+%   How much of two Ways is the same: the cells that are in both by those
 %   that are in one of them, the mean of all pairs.  1 if all go through the
 %   same cells, or there is one only.
 
-overlap(Paths0, Overlap) :-
-    maplist(sort, Paths0, Paths),
+overlap(Ways0, Overlap) :-
+    maplist(sort, Ways0, Ways),
     findall(Share,
-            ( append(_, [Path|Others], Paths),
+            ( append(_, [Way|Others], Ways),
               member(Other, Others),
-              common(Path, Other, Share) ),
+              common(Way, Other, Share) ),
             Shares),
     (   mean(Shares, Overlap)
     ->  true
     ;   Overlap = 1
     ).
 
-common(Path, Other, Share) :-
-    ord_intersection(Path, Other, Both),
-    ord_union(Path, Other, Either),
+common(Way, Other, Share) :-
+    ord_intersection(Way, Other, Both),
+    ord_union(Way, Other, Either),
     length(Both, Count),
     length(Either, All),
     Share is Count/max(1, All).
 
-%!  slope(+Points, -Slope, -Level) is semidet.
+%!  trend(+Points, -Slope, -Level) is semidet.
 %
 %   The line Y = Level + Slope*X that is nearest to Points, pairs X-Y, by
 %   least squares.  Fails if they have not two different X.
 
-slope(Points, Slope, Level) :-
+trend(Points, Slope, Level) :-
     pairs_keys_values(Points, Xs, Ys),
     mean(Xs, MeanX),
     mean(Ys, MeanY),

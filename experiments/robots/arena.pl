@@ -2,16 +2,15 @@
           [ arena_start/4,              % +Scene, +Options, -Arena, -Bricks
             arena_ask/3,                % +Arena, +Line, -Answer
             arena_stop/1,               % +Arena
-            arena_log/2                 % +File, -Terms
+            scene_file/2                % +Scene, -File
           ]).
 :- use_module('../../prolog/typhon/base/own_thread', [in_own_thread/1]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [append/2, append/3]).
-:- use_module(library(option), [option/2, select_option/4]).
+:- use_module(library(option), [option/2]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/3]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
 
 /** <module> The arena: simulated robots in a process of their own
 
@@ -25,16 +24,18 @@ or push.  Whoever drives a robot knows nothing of the arena, only the line.
 :- multifile
     prolog:error_message//1.
 
-:- dynamic
-    world_file/1.               % File
+%!  scene_file(+Scene:atom, -File) is det.
+%
+%   The file of a scene that comes with the bricks.
 
-:- prolog_load_context(directory, Dir),
-   atom_concat(Dir, '/../../bridges/nxt/world.py', File),
-   retractall(world_file(_)),
-   assertz(world_file(File)).
+scene_file(Scene, File) :-
+    format(atom(Name), 'scenes/~w.json', [Scene]),
+    nxt_file(Name, File).
 
-answer_seconds(30).
-end_seconds(20).                % it may have a long picture to write
+nxt_file(Name, File) :-
+    module_property(robots_arena, file(Here)),
+    atom_concat('../../bridges/nxt/', Name, Relative),
+    relative_file_name(File, Here, Relative).
 
 %!  arena_start(+Scene, +Options, -Arena, -Bricks) is det.
 %
@@ -44,7 +45,9 @@ end_seconds(20).                % it may have a long picture to write
 %     - clock(Rate): arena seconds in a second, default 1; 0: the time goes
 %       only by the line `advance SECONDS`
 %     - seed(Integer): of the gains of the motors and the noise of sensors
-%     - log(File), every(Seconds): see arena_log/2
+%     - log(File), every(Seconds): a log of terms state(Time, Robots, Pole,
+%       Boxes), one every so many arena seconds, and event(Time, What), with
+%       Time in arena seconds
 %     - picture(File): an animated picture of all, written at the end
 %
 %   @error arena_error(start, Text)
@@ -58,8 +61,7 @@ arena_start(Scene, Options, Arena, Bricks) :-
                    [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
                      detached(true)     % a signal is for us alone
                    ]),
-    answer_seconds(Seconds),
-    set_stream(Out, timeout(Seconds)),
+    set_stream(Out, timeout(30)),
     Arena = arena(Pid, In, Out, Dir),
     catch(ready(Out, Bricks), Ball,
           ( arena_stop(Arena),
@@ -73,17 +75,17 @@ python('/usr/bin/python3') :-
     !.
 python(path(python3)).
 
-arguments(Scene, Dir, Options0, Arguments) :-
-    world_file(World),
+arguments(Scene, Dir, Options, Arguments) :-
+    nxt_file('world.py', World),
     absolute_file_name(Scene, File, [access(read)]),
-    select_option(clock(Rate), Options0, Options, 1),
     findall([Flag, Value],
             ( flag(Option, Flag, Value), option(Option, Options) ),
             Pairs),
     append(Pairs, More),
-    append(['-u', World, File, '--pty', Dir, '--clock', Rate,
-            '--until-eof'], More, Arguments).
+    append(['-u', World, File, '--pty', Dir, '--until-eof'], More,
+           Arguments).
 
+flag(clock(Rate), '--clock', Rate).
 flag(seed(Seed), '--seed', Seed).
 flag(log(File), '--log', File).
 flag(every(Seconds), '--every', Seconds).
@@ -133,17 +135,13 @@ answer(Answer, _, Answer).
 arena_stop(arena(Pid, In, Out, Dir)) :-
     in_own_thread(stop(Pid, In)),
     close(Out, [force(true)]),
-    (   exists_directory(Dir)
-    ->  delete_directory_and_contents(Dir)
-    ;   true
-    ).
+    delete_directory_and_contents(Dir).
 
 stop(Pid, In) :-
     catch(( format(In, 'quit~n', []), flush_output(In) ), error(_, _), true),
     catch(close(In, [force(true)]), error(_, _), true),
-    end_seconds(Seconds),
     get_time(Now),
-    Deadline is Now + Seconds,
+    Deadline is Now + 20,       % it may have a long picture to write
     (   ended(Pid, Deadline)
     ->  true
     ;   process_kill(Pid, kill),
@@ -159,15 +157,6 @@ ended(Pid, Deadline) :-
         sleep(0.02),
         ended(Pid, Deadline)
     ).
-
-%!  arena_log(+File, -Terms:list) is det.
-%
-%   What an arena with log(File) and every(Seconds) has written: terms
-%   state(Time, Robots, Pole, Boxes), one every so many arena seconds, and
-%   event(Time, What), with Time in arena seconds.
-
-arena_log(File, Terms) :-
-    read_file_to_terms(File, Terms, [encoding(utf8)]).
 
                 /*******************************
                 *           MESSAGES           *

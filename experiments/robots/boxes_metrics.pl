@@ -2,17 +2,20 @@
           [ holdings/2,                 % +Events, -Holdings
             jobs/2,                     % +Events, -Jobs
             joined/2,                   % +Events, -Joined
-            together/3,                 % +Jobs, +Name1, +Name2
-            pushed/2,                   % +Terms, -Boxes
+            pair/4,                     % +Script, +Robots, -Names, -Enough
+            yields/2,                   % +Jobs, +Names
+            together/2,                 % +Jobs, +Names
             from_dock/2                 % +Terms, -Metres
           ]).
 :- use_module(library(lists),
               [append/3, last/2, max_list/2, member/2, memberchk/2]).
+:- use_module(library(solution_sequences), [distinct/2]).
 
 /** <module> What the logs say about boxes that were pushed
 
 Events are event(Time, Host, Agent, What), sorted by time; a robot is named
-by the address of its host.  Terms are those of arena_log/2.
+by the address of its host.  Terms are those
+of the log of an arena.
 
 *Threading*: pure.
 */
@@ -30,15 +33,15 @@ holdings(Events, Holdings) :-
 holding(Events, holding(Robot, Task, From, Start, To)) :-
     append(_, [event(From, _, _, reserved(Robot, Owner, Task))|Later],
            Events),
-    (   append(During, [event(To0, _, _, released(Robot, Owner, Task))|_],
+    (   append(During, [event(To, _, _, released(Robot, Owner, Task))|_],
                Later)
-    ->  To = To0
+    ->  true
     ;   During = Later,
         To = none
     ),
-    (   member(event(Start0, _, Owner, allocated(Task, Robots)), During),
+    (   member(event(Start, _, Owner, allocated(Task, Robots)), During),
         memberchk(Robot, Robots)
-    ->  Start = Start0
+    ->  true
     ;   Start = none
     ).
 
@@ -52,62 +55,68 @@ holding(Events, holding(Robot, Task, From, Start, To)) :-
 jobs(Events, Jobs) :-
     findall(job(Task, Begun, Allocated, Completed, Robots, Rests),
             ( member(event(Begun, _, Agent, begun(Task)), Events),
-              allocated(Events, Task, Allocated, Robots),
-              completed(Events, Task, Completed),
+              when(allocated(Task, Robots0), Events, Allocated),
+              ( var(Robots0) -> Robots = [] ; Robots = Robots0 ),
+              when(completed(Task), Events, Completed),
               findall(Time-Seconds,
                       member(event(Time, _, Agent, backoff(Seconds)),
                              Events),
                       Rests) ),
             Jobs).
 
-allocated(Events, Task, Time, Robots) :-
-    member(event(Time, _, _, allocated(Task, Robots)), Events),
+when(What, Events, Time) :-
+    memberchk(event(Time, _, _, What), Events),
     !.
-allocated(_, _, none, []).
-
-completed(Events, Task, Time) :-
-    member(event(Time, _, _, completed(Task)), Events),
-    !.
-completed(_, _, none).
+when(_, _, none).
 
 %!  joined(+Events, -Joined:list) is det.
 %
-%   Robot-Time, when the agent of each robot was created there.
+%   Robot-Time, when the agent of each robot was created there.  The others
+%   execute the tasks.
 
 joined(Events, Joined) :-
     findall(Robot-Time,
-            ( member(event(Time, Robot, Agent, created), Events),
-              static(Agent, Robot, Events, Time) ),
+            distinct(Robot,
+                     ( member(event(Time, Robot, Agent, created), Events),
+                       sub_atom(Agent, 0, _, _, 'robot.') )),
             Joined).
 
-%   What executes the tasks is created by the robot later.
+%!  pair(+Script, +Robots, -Names:pair, -Enough) is nondet.
+%
+%   The boxes Names of a phase are there together.  Enough is `true` if there
+%   are robots enough for both when it begins, with Robots at first, else
+%   `false`.  For Script see boxes_play/4.
 
-static(Agent, Robot, Events, Time) :-
-    sub_atom(Agent, 0, _, _, 'robot.'),
-    \+ ( member(event(Before, Robot, Other, created), Events),
-         Before < Time,
-         sub_atom(Other, 0, _, _, 'robot.') ).
+pair([phase([job(A, _, Needs1), job(B, _, Needs2)], _)|_], Robots, A-B,
+     Enough) :-
+    (   Needs1 + Needs2 =< Robots
+    ->  Enough = true
+    ;   Enough = false
+    ).
+pair([phase(_, Joining)|Script], Robots0, Names, Enough) :-
+    Robots is Robots0 + Joining,
+    pair(Script, Robots, Names, Enough).
 
-%!  together(+Jobs, +Name1, +Name2) is semidet.
+%!  yields(+Jobs, +Names:pair) is semidet.
+%
+%   True if one of two jobs backed off, and they were not executed together.
+
+yields(Jobs, A-B) :-
+    \+ together(Jobs, A-B),
+    member(Name, [A, B]),
+    memberchk(job(Name, _, _, _, _, [_|_]), Jobs),
+    !.
+
+%!  together(+Jobs, +Names:pair) is semidet.
 %
 %   True if the robots of two jobs executed them at the same time.
 
-together(Jobs, Name1, Name2) :-
+together(Jobs, Name1-Name2) :-
     memberchk(job(Name1, _, Start1, End1, _, _), Jobs),
     memberchk(job(Name2, _, Start2, End2, _, _), Jobs),
-    all_numbers([Start1, End1, Start2, End2]),
+    \+ memberchk(none, [Start1, End1, Start2, End2]),
     Start1 < End2,
     Start2 < End1.
-
-all_numbers(Values) :-
-    \+ ( member(Value, Values), \+ number(Value) ).
-
-%!  pushed(+Terms, -Boxes:list(atom)) is det.
-%
-%   Boxes have come to their destinations.
-
-pushed(Terms, Boxes) :-
-    findall(Box, member(event(_, arrived(Box)), Terms), Boxes).
 
 %!  from_dock(+Terms, -Metres) is det.
 %

@@ -1,39 +1,36 @@
 :- module(robots_pole_metrics,
-          [ pole_states/4,              % +Terms, +Moments, +Start, -States
+          [ pole_states/3,              % +Terms, +Moments, -States
             host_time/3,                % +Moments, +ArenaTime, -HostTime
-            max_tilt/2,                 % +States, -Tilt
-            over_limit/3,               % +States, +Limit, -Seconds
-            carried/2,                  % +States, -Metres
-            durations/3,                % +Executions, +Task, -Seconds
+            over_limit/3,               % +Tilts, +Limit, -Seconds
             starts_apart/3,             % +Executions, +Task, -Seconds
-            mingled/2                   % +Executions, -Mingled
+            mingled/2,                  % +Executions, -Mingled
+            start_rows/2                % +Executions, -Rows
           ]).
-:- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists),
-              [last/2, max_list/2, member/2, min_list/2]).
+:- use_module(library(aggregate), [aggregate/3, aggregate_all/3]).
+:- use_module(library(lists), [append/3, member/2]).
 
-/** <module> What the log of the arena says about the pole
+/** <module> What the logs say about a pole that was carried
 
 A state is state(Time, Pole), where Pole is the term that the arena gives:
 
     pole(X, Y, Height, Pitch, Yaw, Tilt, MaxTilt, Strain, Phase)
 
-in metres and degrees.  X and Y are the centre.
+in metres and degrees.  X and Y are the centre.  Executions are those of
+executions/2 in sync_metrics.
 
 *Threading*: pure.
 */
 
-%!  pole_states(+Terms, +Moments, +Start, -States) is det.
+%!  pole_states(+Terms, +Moments, -States) is det.
 %
-%   States are those from host time Start on, which is then 0.  Terms are
-%   those of arena_log/2; Moments as of host_time/3.
+%   States are those from host time 0 on.  Terms are those of the log of an
+%   arena; Moments as of host_time/3.
 
-pole_states(Terms, Moments, Start, States) :-
+pole_states(Terms, Moments, States) :-
     findall(state(Time, Pole),
             ( member(state(ArenaTime, _, Pole, _), Terms),
               Pole \== none,
-              host_time(Moments, ArenaTime, HostTime),
-              Time is HostTime - Start,
+              host_time(Moments, ArenaTime, Time),
               Time >= 0
             ),
             States).
@@ -45,11 +42,8 @@ pole_states(Terms, Moments, Start, States) :-
 %   is at least one.  Between two of them time passes evenly, before and
 %   after them equally fast at both.
 
-host_time([Arena-Host], Time, HostTime) :-
-    !,
-    HostTime is Host + Time - Arena.
-host_time([Arena-Host|_], Time, HostTime) :-
-    Time =< Arena,
+host_time([Arena-Host|Moments], Time, HostTime) :-
+    ( Moments == [] ; Time =< Arena ),
     !,
     HostTime is Host + Time - Arena.
 host_time([Arena0-Host0, Arena-Host|_], Time, HostTime) :-
@@ -59,68 +53,25 @@ host_time([Arena0-Host0, Arena-Host|_], Time, HostTime) :-
 host_time([_|Moments], Time, HostTime) :-
     host_time(Moments, Time, HostTime).
 
-%!  max_tilt(+States, -Tilt) is det.
+%!  over_limit(+Tilts, +Limit, -Seconds) is det.
 %
-%   The greatest tilt of the pole, in degrees.  The arena has looked more
-%   often than the states that it has written.
+%   For how long the pole was tilted by more than Limit degrees, of pairs
+%   Time-Tilt in order.
 
-max_tilt(States, Tilt) :-
-    aggregate_all(max(T), a_tilt(States, T), Tilt0),
-    !,
-    Tilt = Tilt0.
-max_tilt(_, 0).
+over_limit(Tilts, Limit, Seconds) :-
+    aggregate_all(sum(To - From),
+                  ( append(_, [From-Tilt, To-_|_], Tilts),
+                    Tilt > Limit ),
+                  Seconds).
 
-a_tilt(States, Tilt) :-
-    member(state(_, Pole), States),
-    tilt(Pole, Tilt).
-
-tilt(pole(_, _, _, _, _, Tilt, _, _, _), Tilt).
-
-%!  over_limit(+States, +Limit, -Seconds) is det.
-%
-%   For how long the pole was tilted by more than Limit degrees.
-
-over_limit(States, Limit, Seconds) :-
-    aggregate_all(sum(Step), step_over(States, Limit, Step), Seconds).
-
-step_over([state(T0, Pole), state(T1, _)|_], Limit, Step) :-
-    tilt(Pole, Tilt),
-    Tilt > Limit,
-    Step is T1 - T0.
-step_over([_|States], Limit, Step) :-
-    step_over(States, Limit, Step).
-
-%!  carried(+States, -Metres) is det.
-%
-%   How far the centre of the pole is in the end from where it was first.
-
-carried(States, Metres) :-
-    States = [state(_, First)|_],
-    last(States, state(_, Last)),
-    First = pole(X0, Y0, _, _, _, _, _, _, _),
-    Last = pole(X1, Y1, _, _, _, _, _, _, _),
-    !,
-    Metres is sqrt((X1 - X0)**2 + (Y1 - Y0)**2).
-carried(_, 0).
-
-%!  durations(+Executions, +Task, -Seconds:list) is det.
-%
-%   How long the executions of Task took.  Executions are those of
-%   executions/2 in sync_metrics.
-
-durations(Executions, Task, Seconds) :-
-    findall(S, ( member(execution(Task, _, Start, End), Executions),
-                 S is End - Start ),
-            Seconds).
-
-%!  starts_apart(+Executions, +Task, -Seconds) is semidet.
+%!  starts_apart(+Executions, ?Task, -Seconds) is nondet.
 %
 %   Time from the first to the last start of Task.
 
 starts_apart(Executions, Task, Seconds) :-
-    findall(S, member(execution(Task, _, S, _), Executions), Starts),
-    min_list(Starts, First),
-    max_list(Starts, Last),
+    aggregate(r(min(S), max(S)),
+              H^E^member(execution(Task, H, S, E), Executions),
+              r(First, Last)),
     Seconds is Last - First.
 
 %!  mingled(+Executions, -Mingled) is det.
@@ -138,3 +89,19 @@ mingled(Executions, Mingled) :-
                       End > Start )
             ),
             Mingled).
+
+%!  start_rows(+Executions, -Rows) is det.
+%
+%   Rows [Second, Task, Below]: Task was switched on in this second, in which
+%   Below others had been before.
+
+start_rows(Executions, Rows) :-
+    findall(Second-Task,
+            ( member(execution(Task, _, Start, _), Executions),
+              Second is floor(Start) ),
+            Starts0),
+    msort(Starts0, Starts),
+    findall([Second, Task, Below],
+            ( append(Before, [Second-Task|_], Starts),
+              aggregate_all(count, member(Second-_, Before), Below) ),
+            Rows).

@@ -145,12 +145,14 @@ out_of_order(Executions, OutOfOrder) :-
 %!  marks(+Executions, +Failures, -Marks) is det.
 %
 %   Marks is a list, in order of time, of mark(Time, Host, Task, Change):
-%   Task is `completed` or `lost` there.  Failures are terms
-%   failure(Time, Host, Task).
+%   Task is `executing` from then on, `completed` or `lost` there.
+%   Failures are terms failure(Time, Host, Task).
 
 marks(Executions, Failures, Marks) :-
-    findall(mark(Time, Host, Task, completed),
-            member(execution(Task, Host, _, Time), Executions), Marks1),
+    findall(mark(Time, Host, Task, Change),
+            ( member(execution(Task, Host, Start, End), Executions),
+              member(Time-Change, [Start-executing, End-completed]) ),
+            Marks1),
     findall(mark(Time, Host, Task, lost),
             member(failure(Time, Host, Task), Failures), Marks2),
     append(Marks1, Marks2, Marks0),
@@ -160,7 +162,7 @@ marks(Executions, Failures, Marks) :-
 %
 %   Segments is a list of segment(Host, Task, From, To): Host required Task
 %   in this time.  What it requires is the first task that is not completed
-%   there; from time 0 to End, or until nothing is required.
+%   there; nothing while it executes one.  From time 0 to End.
 
 required(Hosts, Tasks, Marks, End, Segments) :-
     maplist(host_segments(Tasks, Marks, End), Hosts, Lists),
@@ -168,36 +170,40 @@ required(Hosts, Tasks, Marks, End, Segments) :-
 
 host_segments(Tasks, Marks, End, Host, Segments) :-
     findall(M, ( member(M, Marks), arg(2, M, Host) ), HostMarks),
-    first_missing(Tasks, [], Task),
-    segments(HostMarks, Tasks, [], Task, Host, 0, End, Segments).
+    requires(state(none, []), Tasks, Task),
+    segments(HostMarks, Tasks, state(none, []), Task, Host, 0, End, Segments).
 
-%   segments(+Marks, +Tasks, +Completed, +Required, +Host, +From, +End,
-%   -Segments)
+%   segments(+Marks, +Tasks, +State, +Required, +Host, +From, +End,
+%   -Segments): State is state(Executing, Completed).
 
 segments([], _, _, Task, Host, From, End, Segments) :-
     segment(Task, Host, From, End, Segments, []).
-segments([mark(Time, _, Task, Change)|Marks], Tasks, Done0, Required, Host,
+segments([mark(Time, _, Task, Change)|Marks], Tasks, State0, Required, Host,
          From, End, Segments) :-
-    complete(Change, Task, Done0, Done),
-    first_missing(Tasks, Done, Next),
+    changed(Change, Task, State0, State),
+    requires(State, Tasks, Next),
     (   Next == Required
-    ->  segments(Marks, Tasks, Done, Required, Host, From, End, Segments)
+    ->  segments(Marks, Tasks, State, Required, Host, From, End, Segments)
     ;   segment(Required, Host, From, Time, Segments, Rest),
-        segments(Marks, Tasks, Done, Next, Host, Time, End, Rest)
+        segments(Marks, Tasks, State, Next, Host, Time, End, Rest)
     ).
 
-complete(completed, Task, Done0, Done) :-
+changed(executing, Task, state(_, Done), state(Task, Done)).
+changed(completed, Task, state(_, Done0), state(none, Done)) :-
     ord_add_element(Done0, Task, Done).
-complete(lost, Task, Done0, Done) :-
+changed(lost, Task, state(Executing, Done0), state(Executing, Done)) :-
     ord_del_element(Done0, Task, Done).
 
-first_missing(Tasks, Done, Task) :-
+requires(state(none, Done), Tasks, Task) :-
     member(Task, Tasks),
     \+ memberchk(Task, Done),
     !.
-first_missing(_, _, none).
+requires(_, _, none).
 
 segment(none, _, _, _, Segments, Segments) :-
+    !.
+segment(_, _, From, To, Segments, Segments) :-
+    From >= To,
     !.
 segment(Task, Host, From, To, [segment(Host, Task, From, To)|Rest], Rest).
 

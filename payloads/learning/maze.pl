@@ -19,7 +19,8 @@
     move that follows.
 
     Facts of who carries it replace the defaults: setting(size, N),
-    setting(obstacles, List) of (X1,Y1)-(X2,Y2), lines along an axis.
+    setting(obstacles, List) of (X1,Y1)-(X2,Y2), lines along an axis;
+    setting(light, L), how bright the light is at the goal.
 */
 
 start(_, at(Size, 0, up)) :-
@@ -110,8 +111,14 @@ sensed(State, sv(Light, Obstacle, Heading, Cell)) :-
         Light = 0.0
     ;   Obstacle = 0,
         goal(GX, GY),
-        Light is 100/(1 + sqrt((X - GX)**2 + (Y - GY)**2))
+        brightest(Brightest),
+        Light is Brightest/(1 + sqrt((X - GX)**2 + (Y - GY)**2))
     ).
+
+brightest(Light) :-
+    setting(light, Light),
+    !.
+brightest(100).
 
 signature(_, _, 0) :-
     setting(signature, false),

@@ -8,9 +8,9 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(agent/agents,
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
-              agent_order/2, agent_ordered/1, agent_put/3, agent_ready/2,
-              agent_remove/3, agent_rest/3, agent_status/3, agent_take/3,
-              with_agent/2
+              agent_move/5, agent_order/2, agent_ordered/1, agent_put/3,
+              agent_ready/2, agent_remove/3, agent_rest/3, agent_status/3,
+              agent_take/3, with_agent/2
             ]).
 :- reexport(agent/agent_module,
             [agent_handles/2, agent_module/5, agent_state/2]).
@@ -18,7 +18,7 @@ This is the door of the layer: who is above takes what it needs from here.
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3
             ]).
 :- reexport(agent/life,
-            [ is_life/1, life_clone/3, life_hops/2, life_may_move/2,
+            [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
               life_parent/2, life_payloads/2, life_tokens/2, make_life/2
             ]).
 :- reexport(agent/image,

@@ -3,7 +3,7 @@
             stopped_executing/4         % +Args, +File, +Signal, -Status
           ]).
 :- use_module(common, [wait_for_end/3, wait_until/2, with_swipl/5]).
-:- use_module('../../experiments/lib/follow', [new_lines/4]).
+:- use_module('../../experiments/engine/follow', [new_lines/4]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(process), [process_kill/2]).
 
@@ -27,7 +27,8 @@ logged(File, Events) :-
 
 %!  stopped_executing(+Args, +File, +Signal, -Status) is det.
 %
-%   A `swipl Args` that writes the log File gets Signal when a task has begun.
+%   A `swipl Args` that writes the log File, or one that this is a pattern of,
+%   gets Signal when a task has begun.
 %   Status is as of wait_for_end/3.
 
 stopped_executing(Args, File, Signal, Status) :-
@@ -37,6 +38,8 @@ stopped_executing(Args, File, Signal, Status) :-
                  wait_for_end(Pid, 40, Status)
                )).
 
-executing(File) :-
+executing(Pattern) :-
+    expand_file_name(Pattern, Files),
+    member(File, Files),
     logged(File, Events),
     memberchk(event(_, _, _, executing(_, _)), Events).

@@ -56,12 +56,18 @@ save_lines(Dir, Name, Lines) :-
 %
 %   What experiments/study.pl does with Arguments in Dir: its exit status,
 %   and all that it prints.
+%
+%   @error unexpected(Status, Text) if the status is another
 
 study_command(Dir, Arguments, Status, Text) :-
     project_file('experiments/study.pl', Script),
     run_swipl([Script, --|Arguments], [cwd(Dir), timeout(120)],
-              Status, Out, Err),
-    string_concat(Out, Err, Text).
+              Ended, Out, Err),
+    string_concat(Out, Err, Text),
+    (   Ended = Status
+    ->  true
+    ;   throw(error(unexpected(Ended, Text), _))
+    ).
 
 %!  study_messages(:Goal, -Text) is semidet.
 %

@@ -3,6 +3,7 @@
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/3,             % +Id, -Mail, -Orders
+            agent_move/5,               % +Id, +Host, +Module, +Life, +Goals
             agent_put_life/2,           % +Id, +Life
             agent_put/3,                % +Id, +Status, +Goals
             agent_rest/3,               % +Id, +Status, +Goals
@@ -98,6 +99,18 @@ agent_remove(Id, Mail, Orders) :-
     mail_all(Id, Mail),
     orders(Id, Orders),
     '$destroy_module'(Module).
+
+%!  agent_move(+Id, +Host, +Module, +Life, +Goals) is det.
+%
+%   The agent is on Host from now on, with its state in Module, ready to do
+%   Goals; the module that it had is no more.
+
+agent_move(Id, Host, Module, Life, Goals) :-
+    retract(agent(Id, _, Old, Hash, _)),
+    !,
+    assertz(agent(Id, Host, Module, Hash, Life)),
+    agent_put(Id, ready, Goals),
+    '$destroy_module'(Old).
 
 %   One by one: see typhon_mailbox.
 

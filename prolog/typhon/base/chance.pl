@@ -31,6 +31,8 @@ argument, so choices thread through a clause like a DCG's list.
 *Threading*: pure.
 */
 
+:- set_prolog_flag(optimise, true).      % arithmetic is all there is here
+
 %!  chance_seed(+Seed:integer, -Chance) is det.
 %
 %   Chance is the state that belongs to Seed. Seeds that differ little

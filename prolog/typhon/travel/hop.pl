@@ -11,12 +11,14 @@
 :- use_module('../agent', [agent/5, image_hash/2, with_agent/2]).
 :- use_module(doubt, [doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
+:- use_module(within, [hop_within/5]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_freeze/4, transfer_image/2,
                 transfer_image/5, transfer_stays/2, transfer_unreachable/1 ]).
 
 /** <module> A hop is a transaction
 
+Between hosts of one process see typhon_within; this is of hops to others.
 The source freezes the agent and sends its image: state, payloads, goals,
 mail.  The receiver installs it and answers, see typhon_arrival, and only
 then does the source let its copy go, see typhon_transfer.  An agent that
@@ -46,6 +48,9 @@ endpoint, which never wait.
 %   @arg Since is the host time at which it set out
 %   @error type_error(mobile_term, Culprit)
 
+hop(Id, local(Name), Hole, Goals, Since) :-
+    hop_within(Id, Name, Hole, Goals, Since),
+    !.
 hop(Id, Where, Hole, Goals, Since) :-
     destination(Where, Dest),
     Transfer = hop(Id, Dest, _),

@@ -317,6 +317,15 @@ test(two_tasks_of_one_name, error(domain_error(distinct_tasks, [1, 1]))) :-
 test(no_agent_ends_without_bias, error(domain_error(setting, delta-0))) :-
     hosts(Hosts),
     sequence_start(odd, Hosts, [1-true], [settings([delta-0])], _).
+test(no_strategy, error(domain_error(setting, strategy-_))) :-
+    hosts(Hosts),
+    sequence_start(odd, Hosts, [1-true], [settings([strategy-_])], _).
+test(another_strategy) :-
+    hosts(Hosts),
+    sequence_start(random, Hosts, [1-true],
+                   [ agents(2),
+                     settings([delta-20, strategy-random]) ], Agents),
+    forall(member(Agent, Agents), agent_join(Agent, done, 60)).
 test(unknown_setting, error(domain_error(setting, hurry-1))) :-
     hosts(Hosts),
     sequence_start(odd, Hosts, [1-true], [settings([hurry-1])], _).

@@ -8,12 +8,10 @@
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 :- use_module('../../../agents/learning/operator').
-:- use_module('../../../experiments/algorithms/cases').
-:- use_module('../../../experiments/algorithms/claims').
 :- use_module('../../../experiments/algorithms/metrics').
 :- use_module('../../../experiments/algorithms/printers').
 
-/** <module> Two algorithms in one population, exchange, cloning, figures
+/** <module> Two algorithms in one population, exchange, cloning, measures
 */
 
                 /*******************************
@@ -229,9 +227,9 @@ together(Hosts, Log) :-
     forall(member(Agent, Agents), agent_join(Agent, done, 60)),
     log_events(Log, Events),
     algorithms_result(Events, Agents, Result),
-    measure(reached, Result, 100),
-    measure(clones, Result, 0),
-    measure(pages, Result, Pages),
+    result_number(reached, Result, 100),
+    result_number(clones, Result, 0),
+    result_number(pages, Result, Pages),
     Pages > 0.
 
 %   With three places at each of three hosts, and lives of two executions.
@@ -249,7 +247,7 @@ clones(Hosts, Log) :-
                  at_least(Log, state(death), 2) ), 40),
     log_events(Log, Events),
     algorithms_result(Events, Agents, Result),
-    measure(most, Result, Most),
+    result_number(most, Result, Most),
     Most > 2,
     Most =< 9.
 
@@ -271,6 +269,7 @@ events([ event(1, h, l1, executed(1, 0, 4, unreached)),
          event(10, h, l2, executed(3, 2, 12, unreached)),
          event(11, h, l1, converged(2, 7, [a])) ]).
 
+
 :- begin_tests(algorithms_figures).
 
 test(result, Result == [ agents(2), reached([first(l1, 6, 2),
@@ -282,43 +281,21 @@ test(result, Result == [ agents(2), reached([first(l1, 6, 2),
 test(not_all_have_reached_it, Time-Count-Mean == 11-6-2) :-
     events(Events),
     algorithms_result(Events, [l1, l2, l3], Result),
-    measure(time, Result, Time),
-    measure(executions, Result, Count),
-    measure(mean, Result, Mean0),
+    result_number(time, Result, Time),
+    result_number(executions, Result, Count),
+    result_number(mean, Result, Mean0),
     Mean is truncate(Mean0).
 test(none_has, [Reached, First] == [0, none]) :-
     algorithms_result([event(1, h, l1, executed(1, 0, 4, unreached))], [l1],
                       Result),
-    measure(reached, Result, Reached),
-    \+ measure(mean, Result, _),
-    \+ measure(first, Result, _),
+    result_number(reached, Result, Reached),
+    \+ result_number(mean, Result, _),
+    \+ result_number(first, Result, _),
     memberchk(first(First), Result).
-test(every_case_is_complete) :-
-    forall(( figure(Figure, _), figure_case(Figure, Case) ),
-           ( case_options(Case, Options),
-             forall(member(Name, [ problem, algorithms, agents, nodes,
-                                   settings, exchange, limit ]),
-                    ( functor(Option, Name, 1),
-                      findall(Option, member(Option, Options), [_]) )) )).
 test(shortfalls, [S1, S2] == [0, 1]) :-
-    shortfalls([1-[solutions(['n1@x:1'-[use([3,photo,glossy,6,6,2]),again],
-                              'n1@x:1'-[set(1,1)]])]], [A, B]),
+    shortfalls(1, [ 'n1@x:1'-[use([3,photo,glossy,6,6,2]),again],
+                    'n1@x:1'-[set(1,1)] ], [A, B]),
     S1 is ceiling(A),
     ( B > 0.2 -> S2 = 1 ; S2 = 0 ).
-test(claims, Verdicts == [true, true, true]) :-
-    cloning_claims(10, 20, Verdicts).
-test(claims_that_do_not_hold, Verdicts == [false, true, true]) :-
-    cloning_claims(30, 20, Verdicts).
-
-cloning_claims(Mine, Theirs, Verdicts) :-
-    result(Mine, 50, R1),
-    result(Theirs, 40, R2),
-    algorithms_claims(cloning, [barren-[1-R2], breeding-[1-R1], crowd-[1-R2]],
-                      Claims),
-    findall(Held, member(claim(_, Held, _), Claims), Verdicts).
-
-result(Count, Executions,
-       [ agents(1), reached([first(a, 1, Count)]), executions(Executions),
-         most(5) ]).
 
 :- end_tests(algorithms_figures).

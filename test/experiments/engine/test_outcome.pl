@@ -41,7 +41,7 @@ outcome_of(Values, Outcome, Study) :-
               M \== missing ),
             Runs),
     outcome(Study, Cases, Runs, Outcome0),
-    Outcome = Outcome0.put(_{given:[], study:Study, runs:Runs}).
+    Outcome = Outcome0.put(_{given:[], checks:[], study:Study, runs:Runs}).
 
 claim(Outcome, Text, Held-Of-OfMedians) :-
     memberchk(claim(Text, _, Held, Of, OfMedians, _), Outcome.claims).
@@ -142,7 +142,7 @@ test(printed) :-
     three(Values),
     printed(Values, Text),
     forall(member(Part, [ "toy: A toy", "  1     3  12 (10–14)",
-                          "held in 2 of 3  rises",
+                          "held in 2 of 3      rises",
                           "m: 12 20" ]),
            assertion(once(sub_string(Text, _, _, _, Part)))).
 test(shown_are_those_with_labels) :-

@@ -1,19 +1,19 @@
 :- module(test_pole, []).
 :- use_module('../../lib/common', []).
+:- use_module('../../lib/robot_logs').
 :- use_module(library(plunit)).
-:- use_module(library(apply), [include/3]).
+:- use_module(library(apply), [include/3, maplist/3]).
 :- use_module(library(lists)).
 :- use_module(library(yall)).
-:- use_module('../../../experiments/robots/pole_claims').
 :- use_module('../../../experiments/robots/pole_metrics').
-:- use_module('../../../experiments/sync/metrics', [task_rows/2]).
 
 /** <module> What is said of a pole that was carried, on logs made by hand
 */
 
 pole(Y, Tilt, Phase, pole(1.5, Y, 0.1, 0, 0, Tilt, 0, 0, Phase)).
 
-%   Five states of 0.5 s, from 10 on, of a pole that is carried 1.2 m.
+%   States of 0.5 s, from 9.5 on, of a pole that is carried: with seven of
+%   them 1.2 m.
 
 terms(Tilts, Terms) :-
     findall(state(Time, [], Pole, []),
@@ -26,43 +26,75 @@ terms(Tilts, Terms) :-
 %   Four robots that take 5, 6, 7 and 8 s for each task; robot R begins task
 %   T at Start.
 
-executions(Case, Executions) :-
+executions(Way, Executions) :-
     findall(execution(T, R, Start, End),
             ( between(1, 4, T),
               between(1, 4, R),
-              start(Case, T, R, Start),
+              start(Way, T, R, Start),
               End is Start + R + 4 ),
             Executions0),
     sort(3, @=<, Executions0, Executions).
 
-start(synchronised, T, R, Start) :-
-    Start is 20*(T - 1) + 0.2*R.
+start(in_step, T, R, Start) :-
+    Start is 27*(T - 1) + 0.2*(R - 1).
 start(alone, T, R, Start) :-
     Start is (R + 4)*(T - 1).
 
-result(Case, Tilts, Result) :-
-    executions(Case, Executions),
-    terms(Tilts, Terms),
-    pole_states(Terms, [10-10], 10, States),
-    task_rows(Executions, Rows),
-    numlist(1, 4, Hosts),
-    Result = [ outcomes([done, done]), hosts(Hosts), tasks(Hosts),
-               executions(Executions), rows(Rows), steps([0-1, 5-2]),
-               states(States), tilt_limit(4)
-             ].
+%   What the network logs of them.  When the first agent begins the clock of
+%   the hosts shows 20, that of the arena 10.
 
-held(Synchronised, Alone, Helds) :-
-    result(synchronised, Synchronised, Result1),
-    result(alone, Alone, Result2),
-    pole_claims(Result1, Result2, Claims),
-    findall(Held, member(claim(_, Held, _), Claims), Helds).
+events(Way, [event(20, 1, agent, begun), event(20, 1, none, arena_time(10))
+            |Events]) :-
+    executions(Way, Executions),
+    findall(event(Time, R, agent, What),
+            ( member(execution(T, R, Start, End), Executions),
+              (   Time is Start + 20,
+                  What = executing(pole, T)
+              ;   Time is End + 20,
+                  What = completed(pole, T)
+              ) ),
+            Events).
+
+point(Way, Tilts, Point) :-
+    robot_study(pole, Study),
+    events(Way, Events),
+    terms(Tilts, Terms),
+    measured(Study, [way-Way], [1, 2, 3, 4], Events, Terms, Point).
+
+%   Claims 1 to 9 are of robots in step, the last ones of robots alone, too.
+
+points([InStep, Alone]) :-
+    point(in_step, [9, 0, 0, 1, 3, 1, 0], InStep),
+    point(alone, [0, 0, 6, 5, 4, 4, 0], Alone).
+
+worse(in_step-_{executions:15}, 1).
+worse(in_step-_{pairs:15}, 1).
+worse(in_step-_{out_of_order:1}, 1).
+worse(in_step-_{started_within:3.5}, 2).
+worse(in_step-_{slowest:7.4}, 3).
+worse(in_step-_{second:21}, 4).
+worse(in_step-_{third:47}, 5).
+worse(in_step-_{early:1}, 6).
+worse(in_step-_{overlaps:1}, 6).
+worse(in_step-_{tau:3}, 7).
+worse(in_step-_{carried:1.1}, 8).
+worse(in_step-_{lying:0}, 8).
+worse(in_step-_{tilt:4.1}, 9).
+worse(in_step-_{apart:9.5}, 10).
+worse(alone-_{early:0}, 11).
+worse(alone-_{tilt:3.9}, 12).
+
+spoilt(Way-More, Points0, [Case-Ms|Points]) :-
+    select(Case-Ms0, Points0, Points),
+    Case.way == Way,
+    !,
+    Ms = Ms0.put(More).
 
 :- begin_tests(pole_metrics).
 
 test(states_from_the_start, Times == [0.0, 0.5, 1.0]) :-
     terms([9, 0, 1, 2], Terms),
-    pole_states([event(1, x), state(20, [], none, [])|Terms], [10-15], 15,
-                States),
+    pole_states([event(1, x), state(20, [], none, [])|Terms], [10-0], States),
     findall(T, member(state(T, _), States), Times).
 test(clocks, Times == [8.0, 10.0, 11.0, 12.0, 14.0, 17.0]) :-
     findall(Host,
@@ -72,29 +104,15 @@ test(clocks, Times == [8.0, 10.0, 11.0, 12.0, 14.0, 17.0]) :-
 test(clock_that_stands, Time =:= 13) :-
     host_time([1-11, 2-12, 2-13, 3-14], 2.0, Time0),
     Time is Time0 + 1.
-test(tilt, Tilt-Seconds =:= 6-1.0) :-
-    terms([9, 0, 6, 5, 1, 0], Terms),
-    pole_states(Terms, [10-10], 10, States),
-    max_tilt(States, Tilt0),
-    over_limit(States, 4, Seconds0),
-    Tilt-Seconds = Tilt0-Seconds0.
-test(nothing_seen, [Tilt, Seconds, Metres] == [0, 0, 0]) :-
-    max_tilt([], Tilt),
-    over_limit([], 4, Seconds),
-    carried([], Metres).
-test(carried, true(abs(Metres - 0.96) < 1.0e-6)) :-
-    terms([0, 0, 0, 0, 0, 0], Terms),
-    pole_states(Terms, [10-10], 10, States),
-    carried(States, Metres).
-test(durations, Seconds == [5, 6, 7, 8]) :-
-    executions(alone, Executions),
-    durations(Executions, 1, Seconds0),
-    msort(Seconds0, Seconds).
+test(over_limit, Seconds =:= 1.0) :-
+    over_limit([0-0, 0.5-6, 1.0-5, 1.5-1, 2.0-6], 4, Seconds).
+test(never_over_limit, Seconds =:= 0) :-
+    over_limit([0-0, 0.5-4, 1.0-4], 4, Seconds).
 test(starts, true(abs(Seconds - 0.6) < 1.0e-6)) :-
-    executions(synchronised, Executions),
+    executions(in_step, Executions),
     starts_apart(Executions, 2, Seconds).
 test(none_mingled, Mingled == []) :-
-    executions(synchronised, Executions),
+    executions(in_step, Executions),
     mingled(Executions, Mingled).
 test(mingled, Mingled == [execution(2, 1, 5, 10), execution(2, 2, 6, 12)]) :-
     executions(alone, Executions0),
@@ -102,27 +120,42 @@ test(mingled, Mingled == [execution(2, 1, 5, 10), execution(2, 2, 6, 12)]) :-
             Executions),
     mingled(Executions, Mingled).
 
+test(stacked, Rows == [[0, 1, 0], [0, 1, 1], [0, 2, 2], [3, 2, 0]]) :-
+    start_rows([ execution(1, a, 0.1, 2), execution(1, b, 0.2, 2),
+                 execution(2, b, 0.7, 2), execution(2, a, 3.5, 4) ], Rows).
+
 :- end_tests(pole_metrics).
 
 :- begin_tests(pole_claims).
 
-test(all_hold, Helds == [true, true, true, true, true, true, true, true,
-                         true, true]) :-
-    held([9, 0, 0, 1, 3, 1, 0], [0, 0, 6, 5, 4, 4, 0], Helds).
-test(tilted, Helds == [true, true, true, true, true, true, false, true,
-                       true, true]) :-
-    held([9, 0, 0, 1, 5, 1, 0], [0, 0, 6, 5, 4, 4, 0], Helds).
-test(not_carried, Held == false) :-
-    held([9, 0, 0, 1], [0, 0, 6, 5, 4, 4, 0], Helds),
-    nth1(8, Helds, Held).
-test(alone_is_no_worse, Held == false) :-
-    held([9, 0, 0, 1, 3, 1, 0], [0, 0, 3, 3, 3, 3, 0], Helds),
-    nth1(10, Helds, Held).
-test(not_synchronised, Helds == [true, true, true, true, false, true, true,
-                                 true, false, true]) :-
-    result(alone, [9, 0, 0, 1, 3, 1, 0], Result1),
-    result(synchronised, [0, 0, 6, 5, 4, 4, 0], Result2),
-    pole_claims(Result1, Result2, Claims),
-    findall(Held, member(claim(_, Held, _), Claims), Helds).
+test(well_formed, Problems == []) :-
+    robot_study(pole, Study),
+    shapeless(Study, Problems).
+test(measures) :-
+    points([_-Ms|_]),
+    forall(member(Name-Value,
+                  [ executions-16, pairs-16, out_of_order-0, early-0,
+                    overlaps-0, tau-2, quickest-5, slowest-8, second-27,
+                    third-54, tilt-3, tilt_limit-4, over-0, lying-1,
+                    started_within-0.6, carried-1.2 ]),
+           assertion(abs(Ms.Name - Value) < 1.0e-6)).
+test(bars) :-
+    points([_, _-Ms]),
+    forall(member(Bar, [[1, 1, 0, 5.0, 0], [1, 1, 0.0, 5.0, 1],
+                        [4, 2, 8.0, 16.0, 0], [4, 2, 8.0, 16.0, 1]]),
+           assertion(( member(Row, Ms.bars), maplist(=:=, Row, Bar) ))),
+    assertion(length(Ms.bars, 32)).
+test(all_hold, true(Numbers == All)) :-
+    robot_study(pole, Study),
+    points(Points),
+    holding(Study, Points, Numbers),
+    numlist(1, 12, All).
+test(each_may_fail, [forall(worse(Worse, N)), true(Failing == [N])]) :-
+    robot_study(pole, Study),
+    points(Points0),
+    spoilt(Worse, Points0, Points),
+    holding(Study, Points, Numbers),
+    numlist(1, 12, All),
+    subtract(All, Numbers, Failing).
 
 :- end_tests(pole_claims).

@@ -1,13 +1,13 @@
 :- module(test_robots, []).
 :- use_module('../../lib/common').
 :- needs(['python3-serial']).
-:- use_module('../../lib/event_log', [stopped_executing/4]).
 :- use_module('../../lib/fake_agent').
 :- use_module('../../lib/fixtures', [wait_state/2, with_hosts/2]).
+:- use_module('../../lib/robot_logs').
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(filesex), [delete_directory_and_contents/1]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil)).
@@ -15,8 +15,7 @@
 :- use_module(library(yall)).
 :- use_module('../../../experiments/robots/arena').
 :- use_module('../../../experiments/robots/crew').
-:- use_module('../../../experiments/robots/pole_metrics', [carried/2, pole_states/4]).
-:- use_module('../../../experiments/robots/pole_run', []).
+:- use_module('../../../experiments/robots/pole_metrics', [pole_states/3]).
 
 /** <module> Robots that carry a pole
 
@@ -234,10 +233,10 @@ logged(Dir) :-
     atom_concat(Dir, '/arena.svg', Picture),
     with_arena([clock(0), log(Log), every(0.5), picture(Picture)],
                [Arena, _]>>arena_ask(Arena, 'advance 2', ok)),
-    arena_log(Log, Terms),
+    read_file_to_terms(Log, Terms, []),
     aggregate_all(count, member(state(_, [_,_,_,_], _, []), Terms), Count),
     assertion(Count >= 4),
-    pole_states(Terms, [0-0], 1, States),
+    pole_states(Terms, [0-(-1)], States),
     assertion(States = [_, _|_]),
     read_file_to_string(Picture, Text, []),
     assertion(sub_string(Text, _, _, _, "<svg")),
@@ -246,61 +245,44 @@ logged(Dir) :-
 :- end_tests(arena).
 
                 /*******************************
-                *        THE EXPERIMENT        *
+                *           THE STUDY          *
                 *******************************/
-
-script(More, Arguments) :-
-    project_file('experiments/robots.pl', Script),
-    append([Script, '--'], More, Arguments).
-
-%   The agents are quick, so that the robots hardly wait for them.
-
-fast(Dir, [ '--figure', pole, '--clock', '10', '--hop_time', '0.1-0.2',
-            '--limit', '200', '--out', Dir ]).
 
 :- begin_tests(pole_run).
 
 %   What cannot fail however busy the computer is: that the robots wait for
-%   each other as long as they must is for the experiment to show.
+%   each other as long as they must is for the study to show.
 
-test(synchronised, [setup(setting(Dir)), cleanup(gone(Dir))]) :-
-    no_leaks(robots_pole_run:pole_run(synchronised,
-                                      [ seed(1), clock(10), agents(2),
-                                        hop_time(0.3-0.6), delta(0.5),
-                                        limit(200)
-                                      ], Dir, Result)),
-    memberchk(outcomes([done, done]), Result),
-    memberchk(executions(Executions), Result),
-    assertion(sync_metrics:out_of_order(Executions, [])),
-    forall(member(Task, [1, 2, 3, 4]),
-           assertion(memberchk(execution(Task, _, _, _), Executions))),
-    memberchk(states(States), Result),
-    carried(States, Metres),
-    assertion(Metres > 0.2),
-    atom_concat(Dir, '/arena.pl', Log),
-    arena_log(Log, Terms),
-    forall(member(What, [clasped(_), lifted(pole), released(_)]),
-           assertion(memberchk(event(_, What), Terms))).
+test(in_step) :-
+    with_tmp_dir(carried_in_step).
 test(interrupted, Status == exit(130)) :-
-    with_tmp_dir(stopped_by(int, Status)).
-test(wrong_figure, [Status-Told == exit(1)-true]) :-
-    script(['--figure', 'ball'], Arguments),
-    run_swipl(Arguments, [timeout(60)], Status, _, Err),
-    ( sub_string(Err, _, _, _, "figure") -> Told = true ; Told = Err ).
+    with_tmp_dir(interrupted(Status)).
 
-setting(Dir) :-
-    tmp_file(robots, Dir),
-    make_directory(Dir).
-
-gone(Dir) :-
-    delete_directory_and_contents(Dir).
+carried_in_step(Dir) :-
+    robot_study(pole, Study),
+    no_leaks(small_run(Study, [way-in_step, clock-10, limit-200], Dir,
+                       Case-Ms)),
+    assertion(Ms.out_of_order =:= 0),
+    assertion(forall(member(Name, [first, second, third, fourth]),
+                     get_dict(Name, Ms, _))),
+    assertion(Ms.carried > 0.2),
+    atom_concat(Dir, '/arena.pl', Log),
+    read_file_to_terms(Log, Terms, []),
+    forall(member(What, [clasped(_), lifted(pole), released(_)]),
+           assertion(memberchk(event(_, What), Terms))),
+    directory_file_path(Dir, pictures, Pictures),
+    make_directory(Pictures),
+    drawn(Study, [Case-Ms], Pictures, Files),
+    assertion(subset([ 'in_step.svg', '5.14.gnuplot', 'hosts.dat',
+                       'starts.dat', 'tasks.dat', 'tau.dat',
+                       'tilt.dat' ], Files)).
 
 %   What is left behind is told by test/run.pl.
 
-stopped_by(Signal, Status, Dir) :-
-    fast(Dir, Options),
-    script(Options, Arguments),
-    atom_concat(Dir, '/pole/synchronised/events.pl', Log),
-    stopped_executing(Arguments, Log, Signal, Status).
+interrupted(Status, Dir) :-
+    project_file('experiments/study.pl', Script),
+    stopped_when("executing(",
+                 [ Script, '--', pole, '--runs', '1', '--jobs', '1', '--set',
+                   'clock=10', '--out', Dir ], Dir, int, Status).
 
 :- end_tests(pole_run).

@@ -1,0 +1,70 @@
+:- module(study_cross_check,
+          [ real_case/4,                % +Study, +Cases, -Case, -Real
+            cross_check/4               % +Runs, +RealRuns, +Measures, -Rows
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(numbers, [number_text/2, spread/4]).
+:- use_module(studies, [study_call/2]).
+
+/** <module> Are runs on real sockets like those in virtual time?
+
+A study says by real(Where, Settings) which of its cases is made both ways,
+and with which clock and how many processes.  What a real run gave should lie
+between the least and the greatest of the virtual ones.
+
+*Threading*: pure.
+*/
+
+%!  real_case(+Study, +Cases, -Case, -Real) is semidet.
+%
+%   Real is Case, the one that Study names, on a real clock.
+
+real_case(Study, Cases, Case, Real) :-
+    study_call(Study, real(Where, Settings)),
+    member(Case, Cases),
+    forall(member(Name=Value, Where), get_dict(Name, Case, Value)),
+    !,
+    dict_create(Changes, case, Settings),
+    Real = Case.put(Changes).
+
+%!  cross_check(+Runs:list, +RealRuns:list, +Measures:list, -Rows) is det.
+%
+%   Runs and RealRuns are dicts of measures.  Rows are [Measure, Virtual,
+%   Real, Verdict], as text, of the measures that are numbers.
+
+cross_check(Runs, RealRuns, Measures, Rows) :-
+    findall([Measure, Virtual, Real, Verdict],
+            ( member(Measure, Measures),
+              values(Measure, Runs, Values),
+              values(Measure, RealRuns, RealValues),
+              spread(Values, Least, Median, Most),
+              spread_text(Least, Median, Most, Virtual),
+              spread(RealValues, RealLeast, RealMedian, RealMost),
+              spread_text(RealLeast, RealMedian, RealMost, Real),
+              verdict(Least, Most, RealMedian, Verdict) ),
+            Rows).
+
+values(Measure, Runs, Values) :-
+    findall(Value,
+            ( member(Run, Runs), get_dict(Measure, Run, Value),
+              number(Value) ),
+            Values),
+    Values \== [].
+
+spread_text(Least, Median, Most, Text) :-
+    number_text(Median, Middle),
+    (   Least =:= Most
+    ->  Text = Middle
+    ;   number_text(Least, A),
+        number_text(Most, B),
+        format(atom(Text), '~w (~w-~w)', [Middle, A, B])
+    ).
+
+verdict(Least, Most, Real, inside) :-
+    Least =< Real,
+    Real =< Most,
+    !.
+verdict(Least, _, Real, below) :-
+    Real < Least,
+    !.
+verdict(_, _, _, above).

@@ -1,0 +1,44 @@
+:- module(study_watch,
+          [ watching/4                  % +Log, +What, +Total, :Goal
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(follow, [new_lines/4]).
+:- use_module(progress, [progress/4, progress_done/1]).
+
+/** <module> Looking on while a run goes on
+
+*Threading*: a thread looks on while the caller works.
+*/
+
+:- meta_predicate
+    watching(+, +, +, 0).
+
+%!  watching(+Log, +What, +Total, :Goal) is semidet.
+%
+%   Call Goal once.  Meanwhile it is shown on user_error how many of Total
+%   events of the file Log are What.
+
+watching(Log, What, Total, Goal) :-
+    setup_call_cleanup(
+        thread_create(look_on(Log, What, Total, 0, 0), Thread, []),
+        once(Goal),
+        ( thread_send_message(Thread, stop),
+          thread_join(Thread, _),
+          progress_done(user_error) )).
+
+look_on(Log, What, Total, Position0, Count0) :-
+    new_lines(Log, Position0, Position, Lines),
+    aggregate_all(count, ( member(Line, Lines), tells(Line, What) ), New),
+    Count is Count0 + New,
+    Shown is min(Count, Total),
+    progress(user_error, Shown, Total, events),
+    thread_self(Me),
+    (   thread_get_message(Me, stop, [timeout(0.2)])
+    ->  true
+    ;   look_on(Log, What, Total, Position, Count)
+    ).
+
+tells(Line, What) :-
+    catch(term_string(event(_, _, _, Event), Line), error(_, _), fail),
+    subsumes_term(What, Event).

@@ -1,0 +1,34 @@
+%   What depends on how bright the light is, which the thesis does not say.
+
+:- include(ground).
+
+study(light, "Executions and sharing against the brightness of the light").
+text("The brightness at the goal scales the weight of all that is learnt, and \c
+so of the bag: the heavier it is, the sooner an agent ends its journey \c
+(equation 4.2), and the less it can meet. What the thesis prints is 195 and \c
+110 executions with one agent and two on 10 hosts, 92 with five on 50.").
+
+vary(network, [10, 50]).
+vary(light, [10, 100]).
+vary(density, [0.1, 0.2, 0.5]).
+
+printed(executions, [network=50, density=0.1], 92).
+
+claim("the brighter, the fewer sharing events", [ours],
+      at([network=50], falls(sharing, along(light)))).
+claim("195 executions with 1 agent on 10 hosts, within a tenth",
+      [line(2483)],
+      at([network=10, density=0.1], near(executions, 195, 19.5))).
+claim("110 with 2 agents on 10 hosts, within a tenth", [line(2484)],
+      at([network=10, density=0.2], near(executions, 110, 11))).
+claim("92 with 5 agents on 50 hosts, within a tenth", [line(2425)],
+      at([network=50, density=0.1], near(executions, 92, 9.2))).
+claim("runs take 300 to 3000 s", [line(2373)], between(duration, 300, 3000)).
+claim("no significant difference (0.15) between networks at D 0.5",
+      [line(2479), ours],
+      at([density=0.5, network=10],
+         near(executions/at([network=50], executions), 1, 0.15))).
+
+plot(light, "Executions and sharing against the brightness, D = 0.5",
+     lines([ x(light), y([executions, sharing, duration]), line(network),
+             where([density=0.5]), log(duration) ])).

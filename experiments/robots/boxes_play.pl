@@ -1,0 +1,166 @@
+:- module(robots_boxes_play,
+          [ boxes_play/4,               % +Case, +Network, +Arena, +Bricks
+            robot_name/2                % +Host, -Name
+          ]).
+:- use_module('../../prolog/typhon',
+              [agent_join/3, link/2, network_advance/2, network_property/2,
+               remote/2, unlink/2]).
+:- use_module('../../agents/allocation/operator',
+              [allocation_stage/3, robot_start/3, robot_status/2,
+               task_allocate/4]).
+:- use_module(arena, [arena_ask/3]).
+:- use_module(boxes_jobs, [job_box/2, job_task/2]).
+:- use_module(crew, [crew_join/2]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
+:- use_module(library(lists), [append/3, last/2, member/2, memberchk/2]).
+:- use_module(library(pairs), [pairs_keys/2]).
+
+/** <module> Robots push boxes
+
+Each robot is a host, in a process of its own, with the static agent of a
+robot and a brick in the arena.  An allocator is released for each box.
+
+*Threading*: it is the caller's thread that waits.
+*/
+
+%!  boxes_play(+Case, +Network, +Arena, +Bricks) is semidet.
+%
+%   Plays the phases of Case.script, one after the other, in Arena, whose own
+%   boxes and robots, with Bricks, are not used.  Case has
+%
+%     - script: a list of phase(Jobs, Joining).  The boxes of a phase are
+%       there at the same time; while the last of them is being pushed so many
+%       more robots join.
+%     - robots: so many are there at first.  The other hosts of Network have
+%       none yet, and no links.
+%     - seed: of the back-offs
+%     - limit, clock: real seconds that something may take, else this fails;
+%       host seconds in one.
+
+boxes_play(Case, Network, Arena, Bricks) :-
+    network_property(Network, hosts(Hosts)),
+    length(First, Case.robots),
+    append(First, Later, Hosts),
+    stand_apart(Network, First, Later),
+    pairs_keys(Bricks, Robots),
+    forall(member(Name, [box1, box2|Robots]), remove(Arena, Name)),
+    enlist(Arena, First),
+    foldl(phase(stage(Case, Network, Arena)), Case.script, First-Later, _).
+
+remove(Arena, Name) :-
+    arena_ask(Arena, 'remove ~w'-[Name], ok).
+
+%   The network is a ring: that of the first is closed, the later ones have
+%   no links.
+
+stand_apart(Network, First, Later) :-
+    network_property(Network, edges(Edges)),
+    forall(( member(A-B, Edges),
+             ( memberchk(A, Later) -> true ; memberchk(B, Later) ) ),
+           unlink(A, B)),
+    First = [A|_],
+    last(First, B),
+    link(A, B).
+
+                /*******************************
+                *             PHASES           *
+                *******************************/
+
+phase(Stage, phase(Jobs, Joining), Here0-Later0, Here-Later) :-
+    Stage = stage(Case, Network, Arena),
+    Limit is Case.limit * Case.clock,
+    maplist(job_task, Jobs, Tasks),
+    maplist(release(Stage, Here0), Jobs, Tasks, Allocators),
+    forall(member(Allocator, Allocators),
+           until(begun(Allocator), Network, Limit)),
+    length(New, Joining),
+    append(New, Later, Later0),
+    foldl(join(Arena), New, Here0, Here),
+    forall(member(Allocator, Allocators),
+           agent_join(Allocator, done, Case.limit)),
+    forall(member(Host, Here), until(idle(Host), Network, Limit)),
+    forall(member(job(Box, _, _), Jobs), remove(Arena, Box)).
+
+%   The allocator of the second location begins at the other side.  It rests
+%   no longer than a box takes, and has patience with robots that compute.
+
+release(stage(Case, _, Arena), Hosts, Job, Task, Allocator) :-
+    job_box(Job, Line),
+    arena_ask(Arena, Line, ok),
+    Job = job(_, Location, _),
+    (   Location =:= 1
+    ->  Hosts = [Host|_]
+    ;   last(Hosts, Host)
+    ),
+    task_allocate(Task, Host,
+                  [settings([bi_max-15, monitor-60, seed-(Case.seed)])],
+                  Allocator).
+
+begun(Allocator) :-
+    allocation_stage(Allocator, executing, _).
+begun(Allocator) :-
+    agent_join(Allocator, Outcome, 0),
+    Outcome \== timeout.
+
+idle(Host) :-
+    robot_status(Host, Status),
+    memberchk(Status, [free, failed]).
+
+%   Looks every second.
+
+:- meta_predicate until(0, +, +).
+
+until(Goal, _, _) :-
+    call(Goal),
+    !.
+until(Goal, Network, Seconds) :-
+    Seconds > 0,
+    network_advance(Network, 1),
+    Seconds1 is Seconds - 1,
+    until(Goal, Network, Seconds1).
+
+                /*******************************
+                *            ROBOTS            *
+                *******************************/
+
+%   enlist(+Arena, +Hosts): their robots come, and are connected.
+
+enlist(Arena, Hosts) :-
+    maplist(robot_name, Hosts, Names),
+    maplist(place_robot(Arena), Names, Ports),
+    crew_join(Hosts, Ports),
+    maplist(equip, Hosts, Names).
+
+%!  robot_name(+Host, -Name) is det.
+%
+%   A host is named as its robot.
+
+robot_name(Host, Name) :-
+    atomic_list_concat([Name|_], @, Host).
+
+%   Robot r3 is at home in slot 3 of the dock.
+
+place_robot(Arena, Name, Port) :-
+    slot(Name, Slot),
+    arena_ask(Arena, 'robot ~w lane slot~d 0.5 pusher -1'-[Name, Slot],
+              brick(Name, pty(Port), _)).
+
+slot(Name, Slot) :-
+    atom_concat(r, Number, Name),
+    atom_number(Number, Slot).
+
+equip(Host, Name) :-
+    slot(Name, Slot),
+    remote(Host, leave(slot(Slot))),
+    findall(place(Place), between(1, 5, Place), Places),
+    robot_start(Host, [push|Places], []).
+
+%   Who joins is linked with the last one that was there, and the first.
+
+join(Arena, Host, Hosts0, Hosts) :-
+    enlist(Arena, [Host]),
+    Hosts0 = [First|_],
+    last(Hosts0, Last),
+    link(Last, Host),
+    link(Host, First),
+    append(Hosts0, [Host], Hosts).

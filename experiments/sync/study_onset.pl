@@ -1,0 +1,38 @@
+%   Where overlaps begin: against δ, for tasks of different lengths.
+
+:- include(ground).
+
+study(onset, "Where overlapped executions begin").
+text("Only the ratio of task time to hop time can matter for who overlaps, so \c
+hops stay as they are. The thesis has 0.2 on star-bus and tree, 0.5 on the \c
+grid, and none on the ring.").
+
+vary(task_time, [1, 3]).
+vary(topology, [star_bus, ring, tree, grid]).
+vary(delta, [0.2, 0.3, 0.4, 0.5, 0.8, 1.0]).
+
+label(overlapped, "Runs with an overlapped execution (1: yes)").
+
+measure(overlapped, View, Yes) :-
+    maplist(overlaps, View.phases, Lists),
+    ( append(Lists, [_|_]) -> Yes = 1 ; Yes = 0 ).
+
+claim("at every task time none at the best δ of the thesis", [ours],
+      holds(none_at_best)).
+claim("at every task time star-bus and tree overlap at 0.5", [ours],
+      ( at([topology=star_bus, delta=0.5], overlaps > 0),
+        at([topology=tree, delta=0.5], overlaps > 0) )).
+claim("at every task time ring and grid do not at 0.4", [ours],
+      ( at([topology=ring, delta=0.4], overlaps =:= 0),
+        at([topology=grid, delta=0.4], overlaps =:= 0) )).
+
+none_at_best(Points) :-
+    forall(( member(Case-Ms, Points), best_delta(Case.topology, Case.delta) ),
+           Ms.overlaps =:= 0).
+
+plot(onset, "Overlapped executions against the penalty bias, tasks of 3 s",
+     lines([x(delta), y([overlaps, idle]), line(topology),
+            where([task_time=3]), subtitle("60 hosts, 10 agents")])).
+plot('onset-1', "Overlapped executions against the penalty bias, tasks of 1 s",
+     lines([x(delta), y([overlaps, idle]), line(topology),
+            where([task_time=1]), subtitle("60 hosts, 10 agents")])).

@@ -1,0 +1,79 @@
+:- module(typhon_within,
+          [ hop_within/5                % +Id, +Name, +Hole, +Goals, +Since
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module('../wire', [endpoint_address/1, mobile_term/1]).
+:- use_module('../host',
+              [ host/3, host_enter/3, host_hop/3, host_leave/1, host_time/2,
+                schedule/2 ]).
+:- use_module('../agent',
+              [ agent/5, agent_module/5, agent_move/5, agent_state/2,
+                agent_status/3, life_hop/3, life_tokens/2, with_agent/2 ]).
+:- use_module(whereabouts, [agent_seen/4]).
+
+/** <module> Hops between hosts of one process
+
+Nothing has to be sent, answered or doubted: the record of the agent changes
+in one step.  Its mail and its orders stay where they are.  What the agent
+can see of a hop is as ever: what could not travel does not, its state is
+installed anew, and its place is another.
+
+*Threading*: in a worker, which has the agent.
+*/
+
+%!  hop_within(+Id, +Name, +Hole, +Goals, +Since) is semidet.
+%
+%   Id, which set out at Since, is on host Name of this process, with Goals,
+%   its Hole bound to `true`.  Fails, and nothing has changed, where Name does
+%   not let it in: the way over the wire tells why.
+%
+%   @error type_error(mobile_term, Culprit)
+
+hop_within(Id, Name, Hole, Goals, Since) :-
+    agent(Id, Here, Module, _, Life0),
+    !,
+    life_hop(Life0, Life, Hops),
+    life_tokens(Life, Tokens),
+    agent_state(Module, State),
+    mobile_term(State-Goals),
+    host_enter(Name, Tokens, Answer),
+    Answer == ok,
+    sig_atomic(( with_agent(Id, move(Id, Name, State, Life, Hole-Goals))
+               ->  Left = Here
+               ;   Left = Name          % it was ended meanwhile, or Name was
+               )),
+    host_leave(Left),
+    (   Left == Here
+    ->  arrived(Id, Here, Name, Hops, Since)
+    ;   \+ agent(Id, _, _, _, _)
+    ).
+
+%   An agent that was told to move has no hole.
+
+move(Id, Name, State, Life, Hole-Goals) :-
+    host(Name, _, Place),
+    agent_status(Id, Status, _),
+    memberchk(Status, [running, obeying]),
+    agent(Id, _, _, Hash, _),
+    agent_module(Id, Place, Hash, State, Module),
+    ignore(Hole = true),
+    agent_move(Id, Name, Module, Life, Goals).
+
+arrived(Id, Here, Name, Hops, Since) :-
+    host(Name, Address, _),
+    endpoint_address(Own),
+    !,
+    debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
+          [Id, Hops, Address]),
+    agent_seen(Id, Address, Hops, Own),
+    took(Here, out, Since),
+    took(Name, in, Since),
+    schedule(Name, Id).
+arrived(_, _, _, _, _).                 % it is being stopped
+
+took(Host, Direction, Since) :-
+    (   host_time(Host, Now)
+    ->  Seconds is max(0.0, Now-Since),
+        host_hop(Host, Direction, Seconds)
+    ;   true                            % the host was stopped meanwhile
+    ).

@@ -1,0 +1,238 @@
+:- module(test_studies, []).
+
+% Studies that are there, what is said of those with mistakes, and the
+% command.
+
+:- use_module('../../lib/common').
+:- use_module('../../lib/study_files',
+              [study_command/4, with_study/2, with_study_file/2]).
+:- use_module('../../../experiments/engine/catalogue').
+:- use_module('../../../experiments/engine/studies').
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2, nth1/3]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+
+base([ 'study(toy, "A toy").', 'vary(a, [1, 2]).',
+       'measure(m, _, 1).' ]).
+
+with_base(More, Goal) :-
+    base(Base),
+    append(Base, More, Lines),
+    with_study(Lines, Goal).
+
+loads(_).
+
+problems(Lines, Problems) :-
+    catch(( with_study(Lines, loads), Problems = [] ),
+          error(study(_, Problems), _),
+          true).
+
+more_problems(More, Problems) :-
+    base(Base),
+    append(Base, More, Lines),
+    problems(Lines, Problems).
+
+title(Title, Study) :-
+    study_title(Study, Name, Text),
+    Title = Name-Text.
+
+says(Text, Parts) :-
+    forall(member(Part, Parts),
+           assertion(once(sub_string(Text, _, _, _, Part)))).
+
+:- begin_tests(studies).
+
+test(title, Title == toy-"A toy") :-
+    with_base([], title(Title)).
+test(no_study, Problems == [missing(study/2), missing(measure/3)]) :-
+    problems(['a.'], Problems).
+test(arity, Problems == [arity(claim/2, claim/3)]) :-
+    more_problems(['claim("small", m < 2).'], Problems).
+test(helpers_may_have_such_names, Problems == []) :-
+    more_problems(['run(a, b, c).', 'label(a).'], Problems).
+test(no_values, Problems == [no_values(b)]) :-
+    more_problems(['vary(b, 1).'], Problems).
+test(no_test, Problems == [said(claim("small"), no_test(smal(m)))]) :-
+    more_problems(['claim("small", [], smal(m)).'], Problems).
+test(unknown_in_a_claim, Problems == [said(claim("small"), unknown(n))]) :-
+    more_problems(['claim("small", [], n < a).'], Problems).
+test(unknown_in_a_plot, Problems == [ said(plot(p), unknown(b)),
+                                      said(plot(p), unknown(n)) ]) :-
+    more_problems(['plot(p, "P", lines([x(b), y([m, n]), line(a)])).'],
+                  Problems).
+test(measures_may_have_many_names, Problems == []) :-
+    more_problems([ 'measure(Name, _, 2) :- member(Name, [n, o]).',
+                    'claim("small", [], n < a).' ], Problems).
+test(parameters_may_follow, Problems == []) :-
+    more_problems([ 'derive(d, Case, D) :- D is Case.a.',
+                    'claim("small", [], m < d).' ], Problems).
+test(no_picture, Problems == [said(plot(p), no_picture(bars([])))]) :-
+    more_problems(['plot(p, "P", bars([])).'], Problems).
+test(own_test_is_missing,
+     Problems == [said(claim("own"), no_test(holds(own)))]) :-
+    more_problems(['claim("own", [], holds(own)).'], Problems).
+test(all_is_told) :-
+    with_study_file([ 'study(toy, "A toy").', 'vary(b, 1).',
+                      'measure(m, _, 1).', 'plot(p, bars([])).',
+                      'claim("small", [], n < 1).',
+                      'claim("large", [], big(m)).', 'a b.' ], told(Text)),
+    says(Text, [ "study.pl is no study yet", "it does not load",
+                 "vary(b, Values)", "it has plot/2; the word is plot/3",
+                 "claim(\"small\"): n is neither a measure nor a parameter",
+                 "claim(\"large\"): big(m) is no test" ]).
+
+:- end_tests(studies).
+
+told(Text, Dir, File) :-
+    study_command(Dir, [File], exit(1), Text).
+
+named(Names, Bases) :-
+    studies_named(Names, Files),
+    maplist(file_base_name, Files, Bases).
+
+:- begin_tests(catalogue).
+
+test(names, true(memberchk(['5.6', _], Rows))) :-
+    catalogue(Rows).
+test(each_has_another_name, Names == Sorted) :-
+    catalogue(Rows),
+    findall(Name, member([Name, _], Rows), Names0),
+    msort(Names0, Names),
+    sort(Names0, Sorted).
+test(numbers_are_in_order, Keys == [[5, 9], [5, 10], [a]]) :-
+    maplist(study_catalogue:natural_key, ['5.9', '5.10', a], Keys0),
+    msort(Keys0, Keys).
+test(by_number, Bases == ['figure_5_6.pl']) :-
+    named(['5.6'], Bases).
+test(by_folder, true(memberchk('figure_5_6.pl', Bases))) :-
+    named([sync], Bases).
+test(thesis, true(memberchk('figure_5_6.pl', Bases))) :-
+    named([thesis], Bases).
+test(once, Bases == ['figure_5_6.pl']) :-
+    project_file('experiments/sync/figure_5_6', File),
+    named(['5.6', File, '5.6'], Bases).
+test(unknown, error(existence_error(study, '99.9'))) :-
+    named(['99.9'], _).
+
+:- end_tests(catalogue).
+
+                /*******************************
+                *            COMMAND           *
+                *******************************/
+
+command_study([ 'study(toy, "A toy").', 'vary(a, [1, 2]).',
+                'vary(b, [x, \'it is\']).', 'fixed(c, 3, assumed("so")).',
+                'measure(m, Log, M) :- M is 10*Log.case.a + Log.case.c.',
+                'measure(n, Log, M) :- M = Log.case.b, number(M).',
+                'claim("m grows", [], rises(m, along(a))).',
+                'claim("n is small", [], n < 5).' ]).
+
+:- meta_predicate with_command(2).
+
+with_command(Goal) :-
+    command_study(Lines),
+    with_study_file(Lines, Goal).
+
+prints(Args, Status, Text, Dir, File) :-
+    study_command(Dir, [File|Args], Status, Text).
+
+prints(Args, Status, Text) :-
+    with_command(prints(Args, Status, Text)).
+
+%   What --list prints is a program for the shell.
+
+listed(Dir, File) :-
+    study_command(Dir, [ File, '--list', '--runs', 2, '--out', 'o u t',
+                         '--set', 'c=it\'s here', '--set', 'a=[1,2]' ],
+                  exit(0), Text),
+    split_string(Text, "\n", "\n", Lines),
+    length(Lines, Count),
+    assertion(Count == 8),
+    study_command(Dir, [ File, '--list', '--runs', 1, '--out', 'o u t' ],
+                  exit(0), Short),
+    split_string(Short, "\n", "\n", Commands),
+    forall(member(Command, Commands), assertion(shell_in('/', Command))),
+    study_command(Dir, [ File, '--collect', '--runs', 1, '--out', 'o u t' ],
+                  exit(0), Shown),
+    says(Shown, ["1  it is     1  13", "2      x     1  23", "held"]),
+    forall(nth1(1, Commands, Command), assertion(shell_in('/', Command))).
+
+shell_in(Dir, Command) :-
+    process_create(path(sh), ['-c', Command],
+                   [cwd(Dir), stdout(null), process(Pid)]),
+    process_wait(Pid, exit(0)).
+
+one_case(Args, Parts, Dir, File) :-
+    study_command(Dir, [File, '--out', out|Args], exit(0), Text),
+    says(Text, Parts),
+    directory_file_path(Dir, 'out/index.html', Page),
+    assertion(\+ exists_file(Page)).
+
+:- begin_tests(study_command).
+
+test(help) :-
+    with_tmp_dir(help(Text)),
+    says(Text, ["STUDY", "--runs", "--set=NAME=VALUE", "--case", "--logs",
+                "--list", "--collect", "--out"]).
+test(help_of_a_study) :-
+    prints(['--help'], exit(0), Text),
+    says(Text, ["toy: A toy", " a      [1,2]       varied", "assumed: so"]).
+test(what_there_is) :-
+    with_tmp_dir(what_there_is(Text)),
+    says(Text, ["5.6  Idle time and overlaps"]).
+test(table_and_claims) :-
+    prints(['--runs', 2, '--out', out], exit(0), Text),
+    says(Text, [ "toy: A toy", "  a      b  runs   m", "2      x     2  23",
+                 "held, 2 runs        m grows", "n: no value",
+                 "claim(\"n is small\"): no run has given n",
+                 "1 of 2 claims held in all runs.", "index.html" ]).
+test(set) :-
+    prints(['--set', 'c=[4,5]', '--set', 'a=1', '--set', 'b=x', '--runs', 1],
+           exit(0), Text),
+    says(Text, ["  a  b  c  runs   m", "  1  x  4     1  14",
+                "  1  x  5     1  15"]).
+test(set_twice_the_last_counts) :-
+    prints(['--set', 'a=1', '--set', 'b=x', '--set', 'a=2', '--runs', 1],
+           exit(0), Text),
+    says(Text, ["  2  x     1  23"]),
+    assertion(\+ sub_string(Text, _, _, _, "  1  x")).
+test(set_text) :-
+    prints(['--set', 'b=Some Text', '--set', 'a=1', '--runs', 1], exit(0),
+           Text),
+    says(Text, ["  1  Some Text     1  13"]).
+test(set_nothing) :-
+    prints(['--set', b], exit(1), Text),
+    says(Text, ["NAME=VALUE"]).
+test(case_by_number) :-
+    with_command(one_case(['--case', 3], ["m     23", "a=2,b=x,seed=1"])).
+test(case_by_name) :-
+    with_command(one_case(['--case', 'a=1,b=it is', '--seed', 4],
+                          ["m     13", "a=1,b=it is,seed=4"])).
+test(no_such_case, forall(member(Case, [9, 'a=3,b=x']))) :-
+    prints(['--case', Case], exit(1), Text),
+    says(Text, ["case", "does not exist"]).
+test(no_such_study) :-
+    with_tmp_dir(no_such_study(Text)),
+    says(Text, ["study", "99.9", "does not exist"]).
+test(list) :-
+    with_command(listed).
+test(collect_what_is_not_there) :-
+    prints(['--collect', '--out', out], exit(0), Text),
+    says(Text, ["not known"]).
+test(no_runs, forall(member(Option, ['--runs', '--jobs']))) :-
+    prints([Option, 0], Status, _),
+    assertion(Status \== exit(0)).
+
+:- end_tests(study_command).
+
+help(Text, Dir) :-
+    study_command(Dir, ['--help'], exit(0), Text).
+
+what_there_is(Text, Dir) :-
+    study_command(Dir, [], exit(0), Text).
+
+no_such_study(Text, Dir) :-
+    study_command(Dir, ['99.9'], exit(1), Text).

@@ -1,0 +1,244 @@
+:- module(test_study_pictures, []).
+
+% What is drawn, from which data, and the page that shows it.
+
+:- use_module('../../lib/common').
+:- use_module('../../lib/study_files',
+              [save_lines/3, study_messages/2, with_study_file/2]).
+:- use_module('../../../experiments/engine/cases', [study_cases/3]).
+:- use_module('../../../experiments/engine/outcome', [outcome/4]).
+:- use_module('../../../experiments/engine/page').
+:- use_module('../../../experiments/engine/picture').
+:- use_module('../../../experiments/engine/report', [outcome_save/4]).
+:- use_module('../../../experiments/engine/studies',
+              [study_call/2, study_load/2]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex),
+              [directory_file_path/3, make_directory_path/1]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(sgml), [load_html/3]).
+:- use_module(library(uri), [uri_encoded/3]).
+:- use_module(library(xpath)).
+
+study([ 'study(\'toy 1\', "A <toy>").',
+        'text("What it is & does.").',
+        'vary(n, [1, 10, 2]).',
+        'vary(kind, [new_one, old]).',
+        'fixed(c, [1,2], assumed("<so>")).',
+        'measure(m, Log, M) :- M = Log.case.n.',
+        'measure(w, Log, M) :- M = Log.case.kind.',
+        'label(m, "What <is> measured").',
+        'label(old, "Old ones").',
+        'printed(m, [n=10, kind=old], 12).',
+        'claim("m < 3 & more", [line(7), why("so")], m < 3).',
+        'claim("never", [ours, formula], w > 3).',
+        'plot(one, "One \\"picture\\"",',
+        '     lines([ x(n), y([m]), line(kind), log(m), rule(m, 5),',
+        '             subtitle("of toys") ])).',
+        'plot(two, "Two", lines([x(kind), y(m), where([n=in([1, 2])])])).',
+        'plot(three, "Three", script(\'own.gp\', [own-rows],',
+        '     [seed(first), size(300, 200), variables(given)])).',
+        'plot(four, "Four", file(\'drawn.svg\', [n=2, kind=old])).',
+        'plot(none, "None", lines([x(n), y([m]), where([n=3])])).',
+        'plot(wrong, "Wrong", script(\'own.gp\', [own-missing], [])).',
+        'rows(Runs, [["a b", 1.5], [x, Count], gap, [\'c d\', 3]]) :-',
+        '    length(Runs, Count).',
+        'given(_, [\'X\'-1, \'Names\'-["a", \'b"c\']]).' ]).
+
+%   pictures(+Dir, +File, -Out, -Messages)
+
+pictures(Dir, File, Out, Text) :-
+    save_lines(Dir, 'own.gp', ["plot 'own.dat' using 2"]),
+    directory_file_path(Dir, 'drawn.svg', Drawn),
+    save_lines(Dir, 'drawn.svg', ["<svg/>"]),
+    assertion(exists_file(Drawn)),
+    directory_file_path(Dir, out, Out),
+    make_directory_path(Out),
+    study_load(File, Study),
+    runs(Study, Dir, _, Runs),
+    study_messages(forall(study_call(Study, plot(Name, Title, Picture)),
+                          picture(Study, plot(Name, Title, Picture), Runs,
+                                  Out)),
+                   Text).
+
+%   m is 10*n + seed, and 100 more with old ones.
+
+runs(Study, Dir, Cases, Runs) :-
+    study_cases(Study, [], Cases),
+    findall(run(Case, Seed, measures{m:M, directory:Dir}),
+            ( member(Seed, [1, 2, 3]), member(Case, Cases),
+              ( Case.kind == old -> More = 100 ; More = 0 ),
+              M is 10*Case.n + Seed + More ),
+            Runs).
+
+:- meta_predicate with_pictures(2).
+
+with_pictures(Goal) :-
+    study(Lines),
+    with_study_file(Lines, drawn(Goal)).
+
+drawn(Goal, Dir, File) :-
+    pictures(Dir, File, Out, Text),
+    call(Goal, Out, Text).
+
+text(Out, Name, Text) :-
+    directory_file_path(Out, Name, File),
+    read_file_to_string(File, Text, [encoding(utf8)]).
+
+data(Name, Text, Out, _) :-
+    text(Out, Name, Text).
+
+has(Name, Parts, Out, _) :-
+    text(Out, Name, Text),
+    forall(member(Part, Parts),
+           assertion(once(sub_string(Text, _, _, _, Part)))).
+
+said(Text, _, Text).
+
+is_drawn(Name, Out, _) :-
+    forall(member(Extension, [svg, png]),
+           ( file_name_extension(Name, Extension, Base),
+             directory_file_path(Out, Base, File),
+             wait_until(( exists_file(File), size_file(File, Size),
+                          Size > 0 ), 30) )).
+
+copied(Out, _) :-
+    text(Out, 'four.svg', Text),
+    assertion(Text == "<svg/>\n").
+
+gnuplot :-
+    absolute_file_name(path(gnuplot), _, [access(execute), file_errors(fail)]).
+
+:- begin_tests(study_pictures).
+
+test(medians, Text == "1 12 11 13\n2 22 21 23\n10 102 101 103\n\n\n\c
+1 112 111 113\n2 122 121 123\n10 202 201 203\n\n\n") :-
+    with_pictures(data('one.dat', Text)).
+test(runs, nondet) :-
+    with_pictures(data('one-runs.dat', Text)),
+    sub_string(Text, 0, _, _, "1 11\n1 12\n1 13\n2 21\n").
+test(printed, Text == "NaN NaN NaN NaN\n\n\n10 12\n\n\n") :-
+    with_pictures(data('one-printed.dat', Text)).
+test(variables) :-
+    with_pictures(has('one.gnuplot',
+        [ "TITLE = \"One \\\"picture\\\"\"", "panels = 1", "series = 2",
+          "PRINTED = 1", "Log[1] = [1]", "Rules[1] = [\"5\"]",
+          "Panel[1] = [\"What <is> measured\"]",
+          "Series[2] = [\"new one\", \"Old ones\"]",
+          "of toys; 3 runs of each: medians, least and greatest\"",
+          "load \"lines.gp\"" ])).
+test(words_stand_side_by_side, Text == "1 17 11 23\n2 117 111 123\n\n\n") :-
+    with_pictures(data('two.dat', Text)).
+test(says_what_is_put_together) :-
+    with_pictures(has('two.gnuplot', ["least and greatest; over all n\""])).
+test(own_script, Text == "\"a b\" 1.5\nx 6\n\n\"c d\" 3\n") :-
+    with_pictures(data('own.dat', Text)).
+test(own_variables) :-
+    with_pictures(has('three.gnuplot',
+        [ "NAME = \"three\"", "HEIGHT = 200", "X = 1",
+          "array Names[2] = [\"a\", \"b\\\"c\"]", "load \"own.gp\"" ])).
+test(what_a_run_has_drawn) :-
+    with_pictures(copied).
+test(what_cannot_be_drawn_is_told) :-
+    with_pictures(said(Text)),
+    forall(member(Part, [ "Picture none is not drawn: there is nothing",
+                          "Picture wrong is not drawn:", "missing/2" ]),
+           assertion(once(sub_string(Text, _, _, _, Part)))).
+test(drawn, [condition(gnuplot), forall(member(Name, [one, two, three]))]) :-
+    with_pictures(is_drawn(Name)).
+test(without_gnuplot) :-
+    with_study_file(['study(toy, "A toy").'], without_gnuplot(Text)),
+    assertion(once(sub_string(Text, _, _, _, "apt-get install gnuplot"))).
+
+:- end_tests(study_pictures).
+
+without_gnuplot(Text, Dir, _) :-
+    getenv('PATH', Path),
+    setup_call_cleanup(
+        setenv('PATH', Dir),
+        ( study(Lines),
+          with_study_file(Lines, no_gnuplot(Text)) ),
+        setenv('PATH', Path)).
+
+no_gnuplot(Text, Dir, File) :-
+    pictures(Dir, File, Out, Text),
+    directory_file_path(Out, 'one.gnuplot', Script),
+    assertion(exists_file(Script)).
+
+                /*******************************
+                *             PAGE             *
+                *******************************/
+
+:- meta_predicate with_page(2).
+
+with_page(Goal) :-
+    study(Lines),
+    with_study_file(Lines, page(Goal)).
+
+page(Goal, Dir, File) :-
+    study_load(File, Study),
+    runs(Study, Dir, Cases, Runs),
+    outcome(Study, Cases, Runs, Outcome0),
+    Outcome = Outcome0.put(_{given:[c-[5]], checks:[[m, 1, 2, above]]}),
+    atomic_list_concat([Dir, '/toy 1'], Figures),
+    make_directory_path(Figures),
+    outcome_save(Study, Outcome, Runs, Figures),
+    save_lines(Figures, 'one.svg', ["<svg/>"]),
+    save_lines(Dir, 'result.pl', ["version(prolog,90004).", "wall(1.5).",
+                                  "measure(m,3).", "measure(l,[a])."]),
+    page_save(Dir, [shown(Study, Outcome, 'swipl a -- b', Dir)]),
+    directory_file_path(Dir, 'index.html', Index),
+    study_messages(load_html(Index, DOM, [dialect(html5)]), Complaints),
+    assertion(Complaints == ""),
+    call(Goal, Dir, DOM).
+
+links(Missing, Dir, DOM) :-
+    findall(File,
+            ( member(Path, [a(@href), img(@src)]),
+              xpath(DOM, //Path, Link),
+              \+ sub_atom(Link, 0, _, _, #),
+              uri_encoded(path, File0, Link),
+              directory_file_path(Dir, File0, File),
+              \+ exists_file(File) ),
+            Missing).
+
+links_inside(Missing, _, DOM) :-
+    findall(Link,
+            ( xpath(DOM, //a(@href), Link),
+              atom_concat(#, Encoded, Link),
+              uri_encoded(fragment, Id, Encoded),
+              \+ xpath(DOM, //h2(@id=Id), _) ),
+            Missing).
+
+cells(Rows, _, DOM) :-
+    findall(Row, ( xpath(DOM, //tr, Tr),
+                   findall(Text, xpath(Tr, td(text), Text), Row) ), Rows).
+
+words(Text, _, DOM) :-
+    findall(T, xpath(DOM, //(*(text)), T), [Text|_]).
+
+:- begin_tests(study_page).
+
+test(links_lead_somewhere, Missing-Inside == []-[]) :-
+    with_page(links(Missing)),
+    with_page(links_inside(Inside)).
+test(tables) :-
+    with_page(cells(Rows)),
+    forall(member(Row, [ ['toy 1', 'A <toy>', '0 of 2'],
+                         [c, '[5]', 'given by --set'],
+                         ['10', old, '3', '202 (201–203) [12]'],
+                         ['m < 3 & more (line 7, so)', 'DID NOT HOLD', _],
+                         ['version prolog', '90004'],
+                         ['measure m', '3'],
+                         [m, '1', '2', above] ]),
+           assertion(memberchk(Row, Rows))),
+    assertion(\+ memberchk(['measure l'|_], Rows)).
+test(says_how_to_make_it_again) :-
+    with_page(words(Text)),
+    forall(member(Part, [ 'swipl a -- b', 'What it is & does.',
+                          'not drawn' ]),
+           assertion(once(sub_atom(Text, _, _, _, Part)))).
+
+:- end_tests(study_page).

@@ -1,0 +1,250 @@
+:- module(test_study_work, []).
+
+% Many runs: made once, by several processes, and whatever ends these.
+
+:- use_module('../../lib/common').
+:- use_module('../../lib/study_files', [study_command/4, with_study_file/2]).
+:- use_module(library(apply), [include/3]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex),
+              [directory_file_path/3, directory_member/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_file_to_terms/3]).
+
+%   Each run leaves the number of its process and what it is in the file
+%   `log` beside the study.
+
+study([ 'study(toy, "A toy").',
+        'vary(what, [a, b]).',
+        'measure(m, Log, 1) :-',
+        '    What = Log.case.what,',
+        '    note(Log.case.seed-What),',
+        '    format("~w says it~n", [What]),',
+        '    work(What).',
+        'note(What) :-',
+        '    beside(log, File),',
+        '    current_prolog_flag(pid, Pid),',
+        '    setup_call_cleanup(open(File, append, Out),',
+        '        format(Out, "~q.~n", [run(Pid, What)]), close(Out)).',
+        'beside(Name, File) :-',
+        '    source_file(study_here, Here),',
+        '    file_directory_name(Here, Dir),',
+        '    atomic_list_concat([Dir, Name], /, File).',
+        'study_here.',
+        'work(fail) :- !, throw(error(existence_error(luck, here), _)).',
+        'work(ball) :- !, throw(ball).',
+        'work(kill) :- !, current_prolog_flag(pid, Pid),',
+        '    format(atom(Kill), "kill -9 ~d", [Pid]), shell(Kill), sleep(60).',
+        'work(halt) :- !, halt(7).',
+        'work(wait) :- !, sleep(100).',
+        'work(stuck) :- !, on_signal(term, _, ignore), sleep(100).',
+        'work(until) :- !, beside(go, Go), until(Go).',
+        'work(_).',
+        'until(File) :- exists_file(File), !.',
+        'until(File) :- sleep(0.05), until(File).'
+      ]).
+
+:- meta_predicate with_toy(2).
+
+with_toy(Goal) :-
+    study(Lines),
+    with_study_file(Lines, Goal).
+
+runs(Dir, File, Whats, More, Status, Text) :-
+    format(atom(Set), 'what=~w', [Whats]),
+    study_command(Dir, [File, '--out', out, '--set', Set|More], Status, Text).
+
+noted(Dir, Notes) :-
+    directory_file_path(Dir, log, File),
+    (   exists_file(File)
+    ->  catch(read_file_to_terms(File, Terms, []), error(_, _), Terms = [])
+    ;   Terms = []
+    ),
+    findall(What, member(run(_, What), Terms), Notes).
+
+%   below(+Dir, +Suffix, -Files): directories of runs that end so.
+
+below(Dir, Suffix, Files) :-
+    directory_file_path(Dir, 'out/runs', Runs),
+    findall(File,
+            ( exists_directory(Runs),
+              directory_member(Runs, File, [recursive(true)]),
+              atom_concat(_, Suffix, File) ),
+            Files).
+
+says(Text, Part) :-
+    assertion(once(sub_string(Text, _, _, _, Part))).
+
+made_once(Dir, File) :-
+    runs(Dir, File, '[a,b]', ['--runs', 2], Status, Text),
+    assertion(Status == exit(0)),
+    says(Text, "4/4 runs"),
+    noted(Dir, Notes),
+    msort(Notes, Sorted),
+    assertion(Sorted == [1-a, 1-b, 2-a, 2-b]),
+    runs(Dir, File, '[a,b]', ['--runs', 2], exit(0), Again),
+    assertion(\+ sub_string(Again, _, _, _, "runs,")),
+    runs(Dir, File, '[a,b,c]', ['--runs', 2], exit(0), _),
+    noted(Dir, More),
+    length(More, Count),
+    assertion(Count == 6),
+    below(Dir, '.part', Left),
+    assertion(Left == []).
+
+first_of_each_case_first(Dir, File) :-
+    runs(Dir, File, '[a,b]', ['--runs', 2, '--jobs', 1], exit(0), _),
+    noted(Dir, Notes),
+    assertion(Notes == [1-a, 1-b, 2-a, 2-b]).
+
+one_process_for_many(Dir, File) :-
+    runs(Dir, File, '[a,b]', ['--runs', 3, '--jobs', 1], exit(0), _),
+    directory_file_path(Dir, log, Log),
+    read_file_to_terms(Log, Terms, []),
+    findall(Pid, member(run(Pid, _), Terms), Pids),
+    sort(Pids, Distinct),
+    assertion(Distinct = [_]).
+
+what_it_printed(Dir, File) :-
+    runs(Dir, File, '[a]', ['--runs', 1], exit(0), Text),
+    assertion(\+ sub_string(Text, _, _, _, "a says it")),
+    below(Dir, '/output', [Output]),
+    read_file_to_string(Output, Said, []),
+    assertion(Said == "a says it\n").
+
+%   A run that fails is told, others are made, and it is tried again.
+
+failing(What, Why, Dir, File) :-
+    format(atom(Whats), '[a,~w,b]', [What]),
+    runs(Dir, File, Whats, ['--runs', 1, '--jobs', 1], Status, Text),
+    assertion(Status == exit(1)),
+    says(Text, "failed; see"),
+    says(Text, "3/3 runs"),
+    below(Dir, '.failed', [Failed]),
+    directory_file_path(Failed, output, Output),
+    read_file_to_string(Output, Said, []),
+    format(string(Start), "~w says it", [What]),
+    says(Said, Start),
+    says(Said, Why),
+    below(Dir, 'result.pl', Results),
+    length(Results, 2),
+    below(Dir, '.part', Parts),
+    assertion(Parts == []),
+    runs(Dir, File, Whats, ['--runs', 1, '--jobs', 1], exit(1), _),
+    noted(Dir, Notes),
+    include(==(1-What), Notes, Tries),
+    length(Tries, Count),
+    assertion(Count == 2).
+
+collected_anyway(Dir, File) :-
+    runs(Dir, File, '[a,fail]', ['--runs', 1], exit(1), Text),
+    says(Text, "index.html"),
+    runs(Dir, File, '[a,fail]', ['--runs', 1, '--collect'], exit(0), Text1),
+    says(Text1, "index.html").
+
+%   A session is told to end in the middle of a run.
+
+interrupted(Signal, Status, What, Dir, File) :-
+    format(atom(Whats), 'what=[a,~w]', [What]),
+    project_file('experiments/study.pl', Script),
+    directory_file_path(Dir, out, Out),
+    with_swipl([Script, --, File, '--out', Out, '--set', Whats, '--jobs', 2],
+               Pid, _, _,
+               ( wait_until(under_way(Dir, 1-What), 60),
+                 process_kill(Pid, Signal),
+                 wait_for_end(Pid, 60, Ended) )),
+    assertion(Ended == exit(Status)),
+    directory_file_path(Dir, log, Log),
+    read_file_to_terms(Log, Terms, []),
+    forall(member(run(Worker, _), Terms),
+           wait_until(\+ alive(Worker), 10)).
+
+under_way(Dir, Run) :-
+    noted(Dir, Notes),
+    memberchk(Run, Notes).
+
+alive(Pid) :-
+    format(atom(Directory), '/proc/~d', [Pid]),
+    exists_directory(Directory).
+
+leaves_nothing(Signal, Status, Dir, File) :-
+    interrupted(Signal, Status, wait, Dir, File),
+    below(Dir, '.part', Parts),
+    assertion(Parts == []).
+
+ends_what_is_stuck(Dir, File) :-
+    interrupted(term, 143, stuck, Dir, File).
+
+%   Two sessions need the same run, which takes until both are in it.
+
+together(Dir, File) :-
+    project_file('experiments/study.pl', Script),
+    directory_file_path(Dir, out, Out),
+    Args = [ Script, --, File, '--out', Out, '--set', 'what=[until,a]',
+             '--runs', 1, '--jobs', 2 ],
+    with_swipl(Args, One, _, _,
+        with_swipl(Args, Two, _, _,
+            ( wait_until(both(Dir), 60),
+              directory_file_path(Dir, go, Go),
+              setup_call_cleanup(open(Go, write, S), true, close(S)),
+              wait_for_end(One, 60, StatusOne),
+              wait_for_end(Two, 60, StatusTwo) ))),
+    assertion(StatusOne-StatusTwo == exit(0)-exit(0)),
+    below(Dir, '.part', Parts),
+    assertion(Parts == []),
+    below(Dir, '/result.pl', Results),
+    length(Results, Count),
+    assertion(Count == 2).
+
+both(Dir) :-
+    noted(Dir, Notes),
+    include(==(1-until), Notes, [_, _]).
+
+%   The study is changed while its runs are made.
+
+changed(Dir, File) :-
+    project_file('experiments/study.pl', Script),
+    directory_file_path(Dir, out, Out),
+    with_swipl([ Script, --, File, '--out', Out, '--set', 'what=[until,a]',
+                 '--runs', 1, '--jobs', 1 ],
+               Pid, _, _,
+               ( wait_until(under_way(Dir, 1-until), 60),
+                 set_time_file(File, _, [modified(1000)]),
+                 directory_file_path(Dir, go, Go),
+                 setup_call_cleanup(open(Go, write, S), true, close(S)),
+                 wait_for_end(Pid, 60, Status) )),
+    assertion(Status == exit(1)),
+    below(Dir, '.failed', [Failed|_]),
+    directory_file_path(Failed, output, Output),
+    read_file_to_string(Output, Said, []),
+    says(Said, "has changed").
+
+:- begin_tests(study_work).
+
+test(made_once) :-
+    with_toy(made_once).
+test(first_of_each_case_first) :-
+    with_toy(first_of_each_case_first).
+test(one_process_for_many) :-
+    with_toy(one_process_for_many).
+test(what_it_printed) :-
+    with_toy(what_it_printed).
+test(failing, forall(member(What-Why, [ fail-"`here' does not exist",
+                                        ball-"Unknown message: ball",
+                                        halt-"exit(7)",
+                                        kill-"killed(9)" ]))) :-
+    with_toy(failing(What, Why)).
+test(collected_anyway) :-
+    with_toy(collected_anyway).
+test(interrupted, forall(member(Signal-Status, [int-130, term-143]))) :-
+    with_toy(leaves_nothing(Signal, Status)).
+test(stuck) :-
+    with_toy(ends_what_is_stuck).
+test(two_sessions) :-
+    with_toy(together).
+test(changed_meanwhile) :-
+    with_toy(changed).
+
+:- end_tests(study_work).

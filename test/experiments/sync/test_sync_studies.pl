@@ -1,0 +1,268 @@
+:- module(test_sync_studies, []).
+:- use_module('../../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+:- use_module('../../../experiments/engine/cases').
+:- use_module('../../../experiments/engine/claims').
+:- use_module('../../../experiments/engine/picture').
+:- use_module('../../../experiments/engine/run').
+:- use_module('../../../experiments/engine/store').
+:- use_module('../../../experiments/engine/studies').
+
+/** <module> The studies of chapter 5: what is claimed, and small runs
+*/
+
+study_file(Name, Study) :-
+    atomic_list_concat(['experiments/sync/', Name, '.pl'], File),
+    project_file(File, Path),
+    study_load(Path, Study).
+
+a_study(Name, Count) :-
+    member(Name-Count,
+           [ figure_5_2-5, figure_5_5-4, figure_5_6-20, figure_5_7-28,
+             figure_5_8-1, figure_5_9-8, figure_5_11-4, figure_5_12-2,
+             study_choices-16, study_links-9, study_onset-48,
+             study_readings-35, study_demo-1 ]).
+
+claims(Name, Claims) :-
+    study_file(Name, Study),
+    findall(Text-Test, study_call(Study, claim(Text, _, Test)), Claims).
+
+:- begin_tests(studies).
+
+test(cases, [forall(a_study(Name, Count)), true(Found == Count)]) :-
+    study_file(Name, Study),
+    study_cases(Study, [], Cases),
+    length(Cases, Found).
+test(claims_are_well_formed, [forall(a_study(Name, _)), true(Odd == [])]) :-
+    study_file(Name, Study),
+    claims(Name, Claims),
+    assertion(Claims = [_|_]),
+    findall(Text-Problem,
+            ( member(Text-Test, Claims), claim_shape(Study:Test, Problem) ),
+            Odd).
+test(best_delta_of_the_topology, Deltas == [0.2, 0.8, 0.2, 0.5]) :-
+    study_file(figure_5_5, Study),
+    study_cases(Study, [], Cases),
+    findall(Delta, ( member(Case, Cases), Delta = Case.delta ), Deltas).
+
+:- end_tests(studies).
+
+                /*******************************
+                *            CLAIMS            *
+                *******************************/
+
+%   made(+Held, +Name, +Case, -Pairs): measures of which every claim holds, or
+%   none does, besides those of any/2.
+
+made(true, figure_5_2, Case, [ visits-Visits, first_penalty-20, last_theta-D,
+                               not_raised-0, early-Early, late-Late ]) :-
+    D = Case.delta,
+    Visits is 100 - 50*D,
+    Early is 10 + 4*D,
+    Late is 5 + D/100.
+made(false, figure_5_2, Case, [ visits-Visits, first_penalty-0.1,
+                                last_theta-Last, not_raised-1, early-10,
+                                late-D ]) :-
+    D = Case.delta,
+    Visits is 50*D,
+    Last is 5 - D.
+made(Held, figure_5_5, Case, [idle-Idle|Pairs]) :-
+    member(Held-Idles, [ true-[star_bus-66, ring-32, tree-142, grid-25],
+                         false-[star_bus-20, ring-45, tree-10, grid-50] ]),
+    memberchk(Case.topology-Idle, Idles),
+    member(Held-Pairs,
+           [ true-[serviced-8, unrequired-6, second-37, pause-1],
+             false-[serviced-10, unrequired-20, second-60, pause-0] ]).
+made(true, Name, Case, [idle-Idle, overlaps-Overlaps, tau-Tau]) :-
+    memberchk(Name, [figure_5_6, study_onset]),
+    best(Case.topology, Best),
+    Idle is 50/Case.delta,
+    (   Case.delta > Best,
+        Case.topology \== ring
+    ->  Overlaps is integer(Case.delta*10), Tau = 3
+    ;   Overlaps = 0, Tau = 2
+    ).
+made(false, figure_5_6, Case, [idle-Idle, overlaps-Overlaps, tau-2]) :-
+    Idle is 50*Case.delta,
+    (   Case.topology == star_bus,
+        Case.delta =:= 0.3
+    ->  Overlaps = 0
+    ;   Overlaps is integer((2 - Case.delta)*10)
+    ).
+made(false, study_onset, Case, [overlaps-Overlaps]) :-
+    (   memberchk(Case.topology, [star_bus, tree]),
+        Case.delta =:= 0.5
+    ->  Overlaps = 0
+    ;   Overlaps = 1
+    ).
+made(true, figure_5_7, Case, [idle-Idle, overlaps-Overlaps]) :-
+    least(Case.topology, Case.agents, Idle),
+    (   member(some(T, A, N), [some(grid, 5, 8), some(ring, 20, 2)]),
+        Case.topology == T,
+        Case.agents =:= A
+    ->  Overlaps = N
+    ;   Overlaps = 0
+    ).
+made(false, figure_5_7, Case, [idle-Idle, overlaps-9]) :-
+    Idle is 1000/Case.agents.
+made(Held, figure_5_9, Case, [idle-Idle, total-Total]) :-
+    member(Held-Sign-Twice, [true-1-190, false-(-1)-90]),
+    Idle is 100 + Sign*Case.agents,
+    ( Case.links == dynamic_1 -> Total = 100 ; Total = Twice ).
+made(true, figure_5_11, _, [executions-380]).
+made(true, figure_5_12, _, [lost-180, redone-180, lost_hosts-60,
+                            healing_tau-2]).
+made(false, figure_5_12, _, [lost-180, lost_hosts-60, healing_tau-3]).
+made(Held, study_choices, _, [idle-Idle]) :-
+    member(Held-Idle, [true-32, false-10]).
+made(Held, study_readings, Case, Pairs) :-
+    (   Case.reading == agents
+    ->  member(Held-Visits, [true-76, false-10]),
+        Pairs = [visits-Visits]
+    ;   Held == false
+    ->  Pairs = [visits-76]
+    ;   Pairs = []
+    ).
+made(_, Name, _, []) :-
+    memberchk(Name, [figure_5_8, study_links, study_demo]).
+made(false, figure_5_11, _, []).
+
+any(true, [ idle-10, overlaps-0, tau-2, least_gap-5, out_of_order-0,
+            missing-0, executions-360, burst-19, later_burst-5, lost-20,
+            redone-20, healing_tau-3, meanwhile-5, later_tau-2 ]).
+any(false, [ idle-10, overlaps-1, tau-3, least_gap-0, out_of_order-1,
+             missing-1, executions-359, burst-5, later_burst-6, lost-20,
+             redone-19, healing_tau-2, meanwhile-0, later_tau-3 ]).
+
+best(star_bus, 0.2).
+best(ring,     0.8).
+best(tree,     0.2).
+best(grid,     0.5).
+
+least(tree, Agents, Idle) :-
+    !,
+    memberchk(Agents-Idle, [5-98, 10-48, 15-60, 20-116]).
+least(ring, Agents, Agents) :-
+    !.
+least(_, Agents, Idle) :-
+    Idle is abs(Agents - 10).
+
+points(Held, Name, Points) :-
+    study_file(Name, Study),
+    study_cases(Study, [], Cases),
+    maplist(point(Held, Name), Cases, Points).
+
+point(Held, Name, Case, Case-Measures) :-
+    any(Held, Common),
+    once(made(Held, Name, Case, Pairs)),
+    dict_pairs(Any, measures, Common),
+    dict_pairs(Own, measures, Pairs),
+    (   Name == study_readings
+    ->  Measures = Own
+    ;   Measures = Any.put(Own)
+    ).
+
+:- begin_tests(claims).
+
+test(can_hold_and_can_fail,
+     [ forall(( a_study(Name, _), member(Held, [true, false]) )),
+       true(Others == []) ]) :-
+    study_file(Name, Study),
+    points(Held, Name, Points),
+    claims(Name, Claims),
+    findall(Text,
+            ( member(Text-Test, Claims),
+              ( claim_holds(Study:Test, Points, Points) -> Found = true
+              ; Found = false
+              ),
+              Found \== Held ),
+            Others).
+
+:- end_tests(claims).
+
+                /*******************************
+                *             RUNS             *
+                *******************************/
+
+%   small(+Name, +Given, -Measures, +Dir): one small run of the first case.
+
+small(Name, Given, Measures, Dir) :-
+    study_file(Name, Study),
+    study_cases(Study, Given, [Case|_]),
+    run_make(Study, Case, 1, Dir),
+    run_facts(Dir, Facts),
+    findall(M-V, member(measure(M, V), Facts), Pairs),
+    dict_create(Measures, measures, Pairs).
+
+%   Drawn from it, where gnuplot is there.
+
+drawn(Name, Given, Measures, Dir) :-
+    study_file(Name, Study),
+    study_cases(Study, Given, [Case|_]),
+    once(study_call(Study, plot(Plot, Title, Picture))),
+    picture(Study, plot(Plot, Title, Picture), [run(Case, 1, Measures)], Dir),
+    file_name_extension(Plot, svg, File),
+    directory_file_path(Dir, File, Path),
+    size_file(Path, Size),
+    Size > 2000.
+
+has_gnuplot :-
+    absolute_file_name(path(gnuplot), _, [ access(execute),
+                                           file_errors(fail) ]).
+
+:- begin_tests(runs).
+
+test(in_step, [ forall(member(T, [star_bus, ring, tree, grid])),
+                true(Missing-Disorder == 0-0) ]) :-
+    with_tmp_dir(small(figure_5_5, [ topology-T, hosts-20, tasks-2,
+                                     agents-4 ], M)),
+    assertion(M.tau =< 2),
+    Missing = M.missing,
+    Disorder = M.out_of_order.
+test(repeats, A == B) :-
+    Given = [hosts-20, tasks-2, agents-4],
+    with_tmp_dir(small(figure_5_8, Given, A)),
+    with_tmp_dir(small(figure_5_8, Given, B)).
+test(ring_by_chance_is_another_run, [true(A \== B)]) :-
+    Given = [topology-ring, hosts-20, tasks-1, agents-4],
+    with_tmp_dir(small(figure_5_5, Given, A)),
+    with_tmp_dir(small(figure_5_5, [choices-by_chance|Given], B)).
+test(atomic, Lost-Redone == 5-5) :-
+    with_tmp_dir(small(figure_5_11, [ topology-grid, hosts-20, tasks-3,
+                                      failure-atomic(1,5,2) ], M)),
+    Lost = M.lost,
+    Redone = M.redone.
+test(cascaded, [true(Lost == Redone)]) :-
+    with_tmp_dir(small(figure_5_12, [ links-none, hosts-20, tasks-3,
+                                      failure-cascaded(1,20,3) ], M)),
+    Lost = M.lost,
+    Redone = M.redone,
+    assertion(Lost >= 40),
+    assertion(M.lost_hosts == 20).
+test(dynamic, Missing == 0) :-
+    with_tmp_dir(small(figure_5_9, [ links-dynamic_2, agents-5, hosts-20,
+                                     tasks-1 ], M)),
+    Missing = M.missing.
+test(gallery, [condition(has_gnuplot)]) :-
+    with_tmp_dir(gallery).
+test(one_run, [condition(has_gnuplot)]) :-
+    with_tmp_dir(one_run).
+test(potentials, Visits == 97) :-
+    with_tmp_dir(small(figure_5_2, [delta-0.2], M)),
+    Visits = M.visits.
+
+gallery(Dir) :-
+    Given = [topology-grid, hosts-20, tasks-2, agents-4],
+    small(figure_5_5, Given, M, Dir),
+    drawn(figure_5_5, Given, M, Dir).
+
+one_run(Dir) :-
+    Given = [hosts-20, tasks-2, agents-4],
+    small(figure_5_8, Given, M, Dir),
+    drawn(figure_5_8, Given, M, Dir).
+
+:- end_tests(runs).

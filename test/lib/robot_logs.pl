@@ -1,0 +1,123 @@
+:- module(test_robot_logs,
+          [ robot_study/2,              % +Name, -Study
+            measured/6,                 % +Study, +Given, +Hosts, +Events,
+                                        % +Terms, -Point
+            holding/3,                  % +Study, +Points, -Numbers
+            shapeless/2,                % +Study, -Problems
+            small_run/4,                % +Study, +Given, +Dir, -Point
+            drawn/4,                    % +Study, +Points, +Dir, -Files
+            stopped_when/5              % +Text, +Args, +Dir, +Signal, -Status
+          ]).
+:- use_module(common,
+              [project_file/2, wait_for_end/3, wait_until/2, with_swipl/5,
+               with_tmp_dir/1]).
+:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
+:- use_module(library(lists), [member/2, nth1/3]).
+:- use_module('../../experiments/engine/claims',
+              [claim_holds/3, claim_shape/2]).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module('../../experiments/engine/picture', [picture/4]).
+:- use_module('../../experiments/engine/run', [run_make/4]).
+:- use_module('../../experiments/engine/store', [run_facts/2]).
+:- use_module('../../experiments/engine/studies',
+              [study_call/2, study_cases/3, study_load/2]).
+
+/** <module> Studies of robots: what they say of logs made by hand, and runs
+
+*Threading*: one test at a time.
+*/
+
+%!  robot_study(+Name, -Study) is det.
+
+robot_study(Name, Study) :-
+    format(atom(Relative), 'experiments/robots/study_~w.pl', [Name]),
+    project_file(Relative, File),
+    study_load(File, Study).
+
+%!  measured(+Study, +Given, +Hosts, +Events, +Terms, -Point) is semidet.
+%
+%   Point is the first case with parameters Given, and what is measured where
+%   the network has logged Events and the arena Terms.
+
+measured(Study, Given, Hosts, Events, Terms, Point) :-
+    with_tmp_dir(in_directory(Study, Given, Hosts, Events, Terms, Point)).
+
+in_directory(Study, Given, Hosts, Events, Terms, Case-Measures, Dir) :-
+    study_cases(Study, Given, [Case|_]),
+    directory_file_path(Dir, 'arena.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        forall(member(Term, Terms), format(Out, '~q.~n', [Term])),
+        close(Out)),
+    Log = log{case:(Case.put(directory, Dir)), hosts:Hosts, events:Events},
+    study_call(Study, view(Log, View)),
+    !,
+    findall(Name-Value, study_call(Study, measure(Name, View, Value)), Pairs),
+    dict_create(Measures, measures, Pairs).
+
+%!  holding(+Study, +Points, -Numbers:list(integer)) is det.
+%
+%   The numbers of the claims that hold.
+
+holding(Study, Points, Numbers) :-
+    findall(N,
+            ( nth_claim(Study, N, Test),
+              \+ \+ claim_holds(Study:Test, Points, Points) ),
+            Numbers).
+
+nth_claim(Study, N, Test) :-
+    findall(Test, study_call(Study, claim(_, _, Test)), Tests),
+    nth1(N, Tests, Test).
+
+%!  shapeless(+Study, -Problems:list) is det.
+%
+%   What in the claims is no test.
+
+shapeless(Study, Problems) :-
+    findall(Problem,
+            ( nth_claim(Study, _, Test),
+              claim_shape(Study:Test, Problem) ),
+            Problems).
+
+%!  small_run(+Study, +Given, +Dir, -Point) is det.
+%
+%   Make the first case with parameters Given in Dir.
+
+small_run(Study, Given, Dir, Case-Measures) :-
+    study_cases(Study, Given, [Case|_]),
+    run_make(Study, Case, 1, Dir),
+    run_facts(Dir, Facts),
+    findall(Name-Value, member(measure(Name, Value), Facts), Pairs),
+    dict_create(Measures, measures, [directory-Dir|Pairs]).
+
+%!  drawn(+Study, +Points, +Dir, -Files:list(atom)) is det.
+%
+%   Files are there when the pictures of a run with Points are drawn in Dir.
+
+drawn(Study, Points, Dir, Files) :-
+    findall(run(Case, 1, Ms), member(Case-Ms, Points), Runs),
+    forall(study_call(Study, plot(Name, Title, Picture)),
+           picture(Study, plot(Name, Title, Picture), Runs, Dir)),
+    directory_files(Dir, Files).
+
+%!  stopped_when(+Text, +Args, +Dir, +Signal, -Status) is det.
+%
+%   A `swipl Args` gets Signal when a log below Dir has Text.  Status is as
+%   of wait_for_end/3.
+
+stopped_when(Text, Args, Dir, Signal, Status) :-
+    with_swipl(Args, Pid, _, _,
+               ( wait_until(logged_below(Dir, Text), 60),
+                 process_kill(Pid, Signal),
+                 wait_for_end(Pid, 40, Status)
+               )).
+
+%   A run may be renamed meanwhile.
+
+logged_below(Dir, Text) :-
+    directory_member(Dir, File, [recursive(true), matches('events.pl')]),
+    catch(read_file_to_string(File, Log, []), error(existence_error(_, _), _),
+          fail),
+    sub_string(Log, _, _, _, Text),
+    !.
