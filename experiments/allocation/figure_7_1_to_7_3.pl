@@ -21,7 +21,7 @@ printed(interval, [links=dynamic, mechanism=proposed, allocators=1], 5.16).
 %   What is said of both figures stands in `competing`.
 
 claim(Text, Notes, at([links=Links], Test)) :-
-    member(Links-Figure, [dynamic-'7.1', static-'7.2']),
+    member(Links-Figure, [(dynamic)-'7.1', static-'7.2']),
     competing(Text0, Notes, Test),
     format(string(Text), "~w, ~w: ~w", [Figure, Links, Text0]).
 

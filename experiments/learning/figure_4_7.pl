@@ -15,6 +15,7 @@ vary(sharing, [false, true]).
 skip(Case) :- Case.network == obstacle, Case.sharing == false.
 fixed(density, 0.1, printed("section 4.4.1")).
 fixed(trace, true, assumed("trainers log the actions tried")).
+real([network=50, sharing=true], [clock=40, processes=2]).
 
 printed(executions, [network=50, sharing=false], 195).
 printed(executions, [network=50, sharing=true], 92).

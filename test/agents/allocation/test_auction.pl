@@ -44,12 +44,21 @@ test(the_first_to_be_due_counts_not_the_first_to_come) :-
     node(murdoch, []),
     link(a, 3, flood(77, start(x))),
     link(b, 2, flood(77, start(x))),
-    link(c, 4, flood(77, start(x))),
+    at(1.9),
+    bodies([]),
     at(2),
     bodies(Bodies),
-    Bodies == [a-start(x), c-start(x)],
+    Bodies == [c-start(x)],
     at(5),
     bodies([]).
+test(what_both_ends_of_a_link_send_is_counted_and_spared) :-
+    node(murdoch, []),
+    link(a, 3, flood(77, start(x))),
+    link(b, 2, flood(77, start(x))),
+    link(c, 4, flood(77, start(x))),
+    at(5),
+    bodies([]),
+    fact(sent(start, 2)).
 test(a_link_takes_as_long_as_a_hop) :-
     node(murdoch, [setting(hop_time, uniform(0.5, 1.5))]),
     at(10),
