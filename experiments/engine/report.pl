@@ -10,11 +10,13 @@
             held_text/3,                % +Held, +Of, -Text
             medians_text/4              % +Held, +Of, +OfMedians, -Text
           ]).
-:- use_module(library(apply), [exclude/3, foldl/4, maplist/3, maplist/4]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).
 :- use_module(library(csv), [csv_write_file/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
-              [append/2, append/3, list_to_set/2, member/2, memberchk/2]).
+              [ append/2, append/3, list_to_set/2, member/2, memberchk/2,
+                nth1/3 ]).
 :- use_module(cases, [parameters/3]).
 :- use_module(numbers, [number_text/2]).
 :- use_module(studies, [study_call/2, study_title/3]).
@@ -158,15 +160,13 @@ medians_text(_, _, _, '').
 
 %!  print_table(+Stream, +Header, +Rows) is det.
 %
-%   Rows are lists of cells, as many as Header has.  The columns are right
-%   aligned.
+%   Rows are lists of cells, as many as Header has.  Columns of numbers are
+%   right aligned, others left.
 
 print_table(Stream, Header, Rows0) :-
-    maplist(maplist(cell), [Header|Rows0], Lines),
-    Lines = [First|Others],
-    maplist(atom_length, First, Widths0),
-    foldl(widen, Others, Widths0, Widths),
-    forall(member(Line, Lines), print_row(Stream, Widths, Line)).
+    maplist(maplist(cell), Rows0, Rows),
+    findall(Column, column(Header, Rows, Column), Columns),
+    forall(member(Row, [Header|Rows]), print_row(Stream, Columns, Row)).
 
 cell(Cell, Text) :-
     number(Cell),
@@ -175,21 +175,37 @@ cell(Cell, Text) :-
 cell(Cell, Text) :-
     format(atom(Text), '~w', [Cell]).
 
-widen(Line, Widths0, Widths) :-
-    maplist(wider, Line, Widths0, Widths).
+%   column(+Header, +Rows, -Column) is nondet: column(Side, Width).
 
-wider(Text, Width0, Width) :-
-    atom_length(Text, Length),
-    Width is max(Width0, Length).
+column(Header, Rows, column(Side, Width)) :-
+    nth1(N, Header, Title),
+    findall(Cell, ( member(Row, Rows), nth1(N, Row, Cell) ), Cells),
+    (   forall(member(Cell, Cells), of_numbers(Cell))
+    ->  Side = right
+    ;   Side = left
+    ),
+    aggregate_all(max(Length),
+                  ( member(Cell, [Title|Cells]), atom_length(Cell, Length) ),
+                  Longest),
+    Width is Longest + 2.
 
-print_row(Stream, Widths, Line) :-
-    maplist(print_cell(Stream), Widths, Line),
-    nl(Stream).
+of_numbers('').
+of_numbers(Cell) :-
+    sub_atom(Cell, 0, 1, _, First),
+    ( First == (-) ; char_type(First, digit) ),
+    !.
 
-print_cell(Stream, Width, Text) :-
-    Column is Width + 2,
-    format(atom(Cell), '~t~w~*|', [Text, Column]),
-    write(Stream, Cell).
+print_row(Stream, Columns, Row) :-
+    maplist(cell_text, Columns, Row, Texts),
+    atomic_list_concat(Texts, Line),
+    split_string(Line, "", " ", [Inside]),
+    once(sub_string(Line, Indent, _, _, Inside)),
+    format(Stream, '~t~*|~w~n', [Indent, Inside]).
+
+cell_text(column(right, Width), Cell, Text) :-
+    format(atom(Text), '  ~t~w~*|', [Cell, Width]).
+cell_text(column(left, Width), Cell, Text) :-
+    format(atom(Text), '  ~w~t~*|', [Cell, Width]).
 
 %!  parameter_rows(+Study, +Given, -Rows) is det.
 %

@@ -135,9 +135,10 @@ test(held, [ forall(member(H/N-T, [ 0/0-'not known', 1/1-held,
                                     2/3-'held in 2 of 3' ])),
              Text == T ]) :-
     held_text(H, N, Text).
-test(table, Text == "  a    bb\n  1  2.50\n") :-
+test(table, Text == "  a    bb  c\n  1  2.50  some\n  2     3  x\n") :-
     with_output_to(string(Text),
-                   print_table(current_output, [a, bb], [[1, 2.5]])).
+                   print_table(current_output, [a, bb, c],
+                               [[1, 2.5, some], [2, 3, x]])).
 test(printed) :-
     three(Values),
     printed(Values, Text),
