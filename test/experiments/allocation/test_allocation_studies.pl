@@ -19,8 +19,8 @@ study(Name, Study) :-
 name(figure_7_1_to_7_3).
 name(figure_7_4).
 name(figure_7_5).
-name(study_integrated).
-name(study_urgent).
+name(beyond_integrated).
+name(beyond_urgent).
 
 %   holding(+Name, +World, -Holding, -Failing): texts of the claims that hold,
 %   and do not, in a World made up of numbers: made(Name, World, Case,
@@ -64,11 +64,11 @@ made(figure_7_5, reverse, Case, ms{communications:C, time:T, rate:R}) :-
     ->  C is 30000 - Case.hosts
     ;   C = 9000
     ).
-made(study_integrated, thesis, _, ms{faulty:0, strangers:0, overlaps:0,
+made(beyond_integrated, thesis, _, ms{faulty:0, strangers:0, overlaps:0,
                                      disorder:0, both:0}).
-made(study_integrated, reverse, _, ms{faulty:1, strangers:1, overlaps:1,
+made(beyond_integrated, reverse, _, ms{faulty:1, strangers:1, overlaps:1,
                                       disorder:1, both:1}).
-made(study_urgent, World, Case, Measures) :-
+made(beyond_urgent, World, Case, Measures) :-
     urgent(World, Case.priority, Case.deadline, Measures).
 
 %   competing(World, Mechanism, Links, Allocators, Communications, Time,
@@ -180,7 +180,7 @@ mechanism_run(Mechanism, Dir) :-
     Ms.backoffs >= 0.
 
 integrated_run(Dir) :-
-    measures(study_integrated,
+    measures(beyond_integrated,
              [hosts-6, probability-0.5, eligible-3, required-2, task_time-1],
              Dir, Ms),
     forall(member(Name, [faulty, strangers, overlaps, disorder, both]),
@@ -190,7 +190,7 @@ integrated_run(Dir) :-
 
 urgent_run(Dir) :-
     small(Small),
-    measures(study_urgent, [priority-0, deadline-1|Small], Dir, Ms),
+    measures(beyond_urgent, [priority-0, deadline-1|Small], Dir, Ms),
     Ms.done + Ms.missed =:= 2,
     Ms.missed > 0,
     Ms.reported =< 2.

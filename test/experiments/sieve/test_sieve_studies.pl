@@ -17,8 +17,8 @@ study(Name, Study) :-
     study_load(File, Study).
 
 a_study(Name) :-
-    member(Name, [ figure_3_3, figure_3_4, figure_3_5, study_memory,
-                   study_programs, study_readings ]).
+    member(Name, [ figure_3_3, figure_3_4, figure_3_5, beyond_memory,
+                   beyond_programs, study_readings ]).
 
 claims(Study, Tests) :-
     findall(Test, study_call(Study, claim(_, _, Test)), Tests).
@@ -104,19 +104,19 @@ test(memory, [ forall(member(Second-Helds,
                              [ 3-[true, true, true], 5-[true, false, true],
                                9-[false, false, true] ])),
                Found == Helds ]) :-
-    study(study_memory, Study),
+    study(beyond_memory, Study),
     Points = [ case{memory_cells:0}-ms{first:6, second:4, helped:0.5},
                case{memory_cells:1}-ms{first:6, second:Second, helped:0.9} ],
     holding(Study, Points, Found).
 test(programs, Helds == [true, true]) :-
     along(Along),
-    rounds_hold(study_programs,
+    rounds_hold(beyond_programs,
                 [ round([generated(block(left), [], 4), born(host, [])]),
                   round([ served(block(left), Along, 3),
                           born(clone, Along) ]) ], Helds).
 test(programs_that_do_not_help, Helds == [false, false]) :-
     along(Along),
-    rounds_hold(study_programs,
+    rounds_hold(beyond_programs,
                 [ round([ generated(block(left), Along, 4),
                           born(host, Along) ]),
                   round([served(block(left), [], 3), born(clone, [])]) ],
@@ -153,7 +153,7 @@ check_rounds(Dir) :-
     Present > 0.
 
 check_memory(Dir) :-
-    measured(study_memory,
+    measured(beyond_memory,
              [memory_cells-1, topology-random(12, 0.3), attacked-3, round-6,
               omega-30],
              1, Ms, Dir),
