@@ -1,6 +1,7 @@
 :- use_module('../../lib/common', [project_file/2, with_tmp_dir/1]).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/claims').
 :- use_module('../../../experiments/engine/run').
 :- use_module('../../../experiments/engine/store').

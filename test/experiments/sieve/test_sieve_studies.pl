@@ -2,6 +2,7 @@
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/claims').
 :- use_module('../../../experiments/engine/run').
 :- use_module('../../../experiments/engine/store').
