@@ -27,7 +27,8 @@ help:
 	    done
 
 demo: tools             ## sixty hosts, ten agents, six tasks in step
-	@$(SWIPL) experiments/study.pl -- demo --runs 1 --out out/demo
+	@$(SWIPL) experiments/study.pl -- demo --runs 1 --logs \
+	    --out out/demo
 
 demo-robots: tools      ## simulated robots carry a pole, and push boxes
 	@$(SWIPL) experiments/study.pl -- pole boxes --runs 1 --out out/robots

@@ -8,6 +8,7 @@
 :- use_module(library(process),
               [ process_create/3, process_kill/2, process_wait/2,
                 process_wait/3 ]).
+:- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(progress, [progress/4, progress_done/1]).
 :- use_module(store,
               [ log_file/2, part_directory/3, part_fail/4, run_directory/3,
@@ -169,7 +170,7 @@ hand_over(Out, Run, desk(_, Root, Logs)) :-
 next_answer(Run, Outcome) :-
     findall(Out, busy(Out, _, _), Outs),
     wait_for_input(Outs, [Out|_], infinite),
-    catch(read(Out, Answer), error(_, _), Answer = nothing),
+    answer(Out, Answer),
     retract(busy(Out, Run, Directory)),
     (   Answer = answer(Outcome)
     ->  true
@@ -180,6 +181,14 @@ next_answer(Run, Outcome) :-
         Outcome = failed(Failed)
     ),
     !.
+
+%   A whole line: what is left of it would look like the next answer.
+
+answer(Out, Answer) :-
+    catch(( read_line_to_string(Out, Line),
+            term_string(Answer, Line) ),
+          error(_, _),
+          Answer = nothing).
 
 died(Status, Out) :-
     format(Out, 'Its process ended: ~p~n', [Status]).

@@ -244,7 +244,25 @@ test(stuck) :-
     with_toy(ends_what_is_stuck).
 test(two_sessions) :-
     with_toy(together).
+test(nobody_waits_for_a_long_run) :-
+    with_study_file([ 'study(long, "The third waits for the last").',
+                      'vary(n, [1, 2, 3, 4, 5, 6]).',
+                      'measure(m, Log, 1) :- work(Log.case.n).',
+                      'work(6) :- !, open(done, write, Out), close(Out).',
+                      'work(3) :- !, get_time(Now), Deadline is Now + 30,',
+                      '    await(Deadline).',
+                      'work(_).',
+                      'await(_) :- exists_file(done), !.',
+                      'await(Deadline) :-',
+                      '    get_time(Now),',
+                      '    ( Now < Deadline -> sleep(0.05), await(Deadline)',
+                      '    ; throw(error(timeout_error(await, done), _)) ).' ],
+                    by_two).
 test(changed_meanwhile) :-
     with_toy(changed).
+
+
+by_two(Dir, File) :-
+    study_command(Dir, [File, '--runs', '1', '--jobs', '2'], exit(0), _).
 
 :- end_tests(study_work).
