@@ -33,7 +33,7 @@ do for [p=1:panels] {
     } else {
         unset logscale y; set yrange [0:1<*]; set format y "%g"
     }
-    set offsets 0,0,graph 0.06,0
+    if (Log[p]) { unset offsets } else { set offsets 0,0,graph 0.06,0 }
     if (p == panels) { set xlabel XLABEL tc rgb "#333333" }
     unset arrow
     do for [r in Rules[p]] {

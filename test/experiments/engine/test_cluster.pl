@@ -108,14 +108,22 @@ starts(Goal) :-
     fail.
 
 nothing(_).
-nothing(_, _).
+
+%   A Prolog that is not installed may need what ssh does not hand on.
+
+prolog_there(Dir, Ssh) :-
+    current_prolog_flag(executable, Swipl),
+    format(atom(Command), '~w 127.0.0.1 ~w --version', [Ssh, Swipl]),
+    process_create(path(sh), ['-c', Command],
+                   [cwd(Dir), stdout(null), stderr(null), process(Pid)]),
+    process_wait(Pid, exit(0)).
 
 :- begin_tests(parallel).
 
 test(on_this_machine) :-
     with_tmp_dir(parallel_here(Output)),
     all_there(Output).
-test(over_ssh, [condition(test_cluster:starts(with_sshd(nothing)))]) :-
+test(over_ssh, [condition(test_cluster:starts(with_sshd(prolog_there)))]) :-
     with_sshd(parallel_over_ssh(Output)),
     all_there(Output).
 
