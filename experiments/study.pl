@@ -10,13 +10,13 @@
 :- use_module(engine/cases,
               [case_name/3, study_cases/3, study_parameter/2]).
 :- use_module(engine/catalogue, [catalogue/1, studies_named/2]).
-:- use_module(engine/cross_check, [cross_checks/4]).
+:- use_module(engine/cross_check, [cross_check/4, real_case/4]).
 :- use_module(engine/outcome, [outcome/4]).
 :- use_module(engine/page, [page_save/2]).
 :- use_module(engine/picture, [picture/4]).
 :- use_module(engine/report,
               [ claims_sentence/2, outcome_save/4, parameter_rows/3,
-                print_outcome/3, print_table/3 ]).
+                print_outcome/3, print_table/3, shown_measures/3 ]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
 :- use_module(engine/store, [run_result/3]).
 :- use_module(engine/studies,
@@ -66,8 +66,8 @@ process: its number, or its name, as delta=0.5,topology=ring").
 opt_help(logs,    "Keep the log of each run, events.pl [false]").
 opt_help(list,    "Print a command for each run, and make none [false]").
 opt_help(collect, "Make no runs; show those that are there [false]").
-opt_help(real,    "Make one case of each study, which says which, on real \c
-sockets too, and compare [false]").
+opt_help(real,    "Make one case on real sockets, too, and say whether what \c
+it gives lies within what virtual time gives [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 
 opt_meta(set,  'NAME=VALUE').
@@ -162,17 +162,15 @@ perform(Plans, Options) :-
     !,
     collect(Plans, Options).
 perform(Plans, Options) :-
-    option(real(true), Options),
-    !,
-    findall(Seed, seed(Options, Seed), Seeds),
-    root(Options, Root),
-    cross_checks(Plans, Seeds, Root, Options).
-perform(Plans, Options) :-
     findall(Run, planned(Plans, Options, _, Run), Runs),
     root(Options, Root),
     runs_make(Runs, Root, Options, Outcomes),
+    findall(Run, real(Plans, Options, Run), RealRuns),
+    runs_make(RealRuns, Root, [jobs(1)|Options], RealOutcomes),
     collect(Plans, Options),
     (   memberchk(failed, Outcomes)
+    ->  halt(1)
+    ;   memberchk(failed, RealOutcomes)
     ->  halt(1)
     ;   true
     ).
@@ -184,6 +182,14 @@ planned(Plans, Options, N, run(Study, Case, Seed)) :-
     seed(Options, Seed),
     member(plan(Study, _, Cases), Plans),
     nth1(N, Cases, Case).
+
+%   In real time runs disturb each other: they are made one by one.
+
+real(Plans, Options, run(Study, Real, Seed)) :-
+    option(real(true), Options),
+    member(plan(Study, _, Cases), Plans),
+    real_case(Study, Cases, _, Real),
+    seed(Options, Seed).
 
 seed(Options, Seed) :-
     option(seed(First), Options, 1),
@@ -234,12 +240,24 @@ make_one(Study, Case, Options) :-
 
 print_command(Study, N, Seed, Options) :-
     module_property(study, file(Script)),
+    prolog(Swipl),
     out(Options, Out),
     findall(Argument, repeated(Options, Argument), More),
-    append([ [swipl, Script, '--', Study, '--case', N, '--seed', Seed],
+    append([ [Swipl, Script, '--', Study, '--case', N, '--seed', Seed],
              More, ['--out', Out] ], Words),
     command_text(Words, Text),
     format('~w~n', [Text]).
+
+%   By its usual name, if that is who this is.
+
+prolog(Swipl) :-
+    current_prolog_flag(executable, Executable),
+    (   absolute_file_name(path(swipl), Usual,
+                           [access(execute), file_errors(fail)]),
+        same_file(Usual, Executable)
+    ->  Swipl = swipl
+    ;   Swipl = Executable
+    ).
 
 %   Of all runs, for people, and from here.
 
@@ -256,8 +274,9 @@ again(Study, Options, Text) :-
 repeated(Options, Argument) :-
     member(set(Setting), Options),
     member(Argument, ['--set', Setting]).
-repeated(Options, '--logs') :-
-    option(logs(true), Options).
+repeated(Options, Argument) :-
+    member(Argument-Option, ['--logs'-logs(true), '--real'-real(true)]),
+    option(Option, Options).
 
 from_here(File, Relative) :-
     absolute_file_name('.', Here, [file_type(directory)]),
@@ -305,7 +324,8 @@ show(plan(Study, Given, Cases), Options, Out,
               run_result(Root, run(Study, Case, Seed), Measures) ),
             Runs),
     outcome(Study, Cases, Runs, Outcome0),
-    Outcome = Outcome0.put(given, Given),
+    checks(Study, Cases, Runs, Outcome0.rows, Options, Checks),
+    Outcome = Outcome0.put(_{given:Given, checks:Checks}),
     study_title(Study, Name, _),
     directory_file_path(Out, Name, Figures),
     make_directory_path(Figures),
@@ -320,6 +340,22 @@ show(plan(Study, Given, Cases), Options, Out,
     ->  Directory = First.directory
     ;   Directory = none
     ).
+
+%   checks(+Study, +Cases, +Runs, +Rows, +Options, -Checks): of the case that
+%   is made on real sockets as well.
+
+checks(Study, Cases, Runs, Rows, Options, Checks) :-
+    option(real(true), Options),
+    real_case(Study, Cases, Case, Real),
+    !,
+    root(Options, Root),
+    findall(Ms, member(run(Case, _, Ms), Runs), Virtual),
+    findall(Ms, ( seed(Options, Seed),
+                  run_result(Root, run(Study, Real, Seed), Ms) ),
+            OnSockets),
+    shown_measures(Study, Rows, Measures),
+    cross_check(Virtual, OnSockets, Measures, Checks).
+checks(_, _, _, _, _, []).
 
 %   A name that no run has given.
 

@@ -43,7 +43,8 @@ planted(Job, Round, Parent) :-
     ->  retractall(tree(Job, _, _)),
         assertz(tree(Job, Round, Parent))
     ;   forget_ways(Most),
-        remember(tree(Job, Round, Parent), tree(_, _, _), Most)
+        make_room(tree(_, _, _), Most),
+        assertz(tree(Job, Round, Parent))
     ).
 
 %   The oldest tree is about to go.

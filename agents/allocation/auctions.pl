@@ -1,6 +1,7 @@
 :- module(auction_operator,
           [ auction_start/3,            % +Mechanism, +Hosts, +Options
             auction_post/3,             % +Mechanism, +Task, +Host
+            auction_open/3,             % +Mechanism, +Hosts, -Tasks
             auction_counts/3,           % +Mechanism, +Hosts, -Counts
             auction_account/2           % +Mechanism, +Hosts
           ]).
@@ -187,6 +188,21 @@ node(Mechanism, Host, Node) :-
     ->  Node = Node0
     ;   existence_error(node, Host)
     ).
+
+%!  auction_open(+Mechanism, +Hosts, -Tasks:list) is det.
+%
+%   Tasks are the names of those that the nodes at Hosts still auction, or
+%   have executed.
+%
+%   @error existence_error(node, Host), host_unreachable(Host)
+
+auction_open(Mechanism, Hosts, Tasks) :-
+    findall(Name,
+            ( member(Host, Hosts),
+              node(Mechanism, Host, Node),
+              agent_property(Node, facts(Facts)),
+              member(job(_, task(Name, _, _), _, _, _, _), Facts) ),
+            Tasks).
 
                 /*******************************
                 *            COUNTS            *

@@ -1,6 +1,10 @@
 :- module(allocation_sequence,
-          [ sequence_allocate/7         % +Name, +Teams, +Host, +Tasks,
+          [ sequence_allocate/7,        % +Name, +Teams, +Host, +Tasks,
                                         % +Options, -Robots, -Outcome
+            sequence_begin/6,           % +Name, +Teams, +Host, +Tasks,
+                                        % +Options, -Sequence
+            sequence_proceed/2,         % +Sequence0, -Sequence
+            sequence_over/3             % +Sequence, -Robots, -Outcome
           ]).
 :- use_module('../../prolog/typhon',
               [ agent_dispose/1, agent_join/3, agent_property/2,
@@ -11,8 +15,6 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [last/2]).
 :- use_module(library(option), [option/3]).
-
-:- meta_predicate wait_for(+, 0, -).
 
 /** <module> A sequence of tasks on the robots that an allocator has found
 
@@ -46,8 +48,39 @@ execute a sequence of tasks in step.  Then it lets them go.
 %   the robots free themselves
 
 sequence_allocate(Name, Teams, Host, Tasks, Options, Robots, Outcome) :-
+    sequence_begin(Name, Teams, Host, Tasks, Options, Sequence),
+    see_through(Sequence, Robots, Outcome).
+
+see_through(Sequence0, Robots, Outcome) :-
+    catch(sequence_proceed(Sequence0, Sequence), Error,
+          ( abandon(Sequence0),
+            throw(Error) )),
+    (   sequence_over(Sequence, Robots0, Outcome0)
+    ->  Robots = Robots0,
+        Outcome = Outcome0
+    ;   wait(Sequence),
+        see_through(Sequence, Robots, Outcome)
+    ).
+
+%   For a while, in any kind of time.
+
+wait(sequence(_, Agent, _)) :-
+    catch(agent_join(Agent, _, 0.1), error(existence_error(agent, _), _),
+          true).
+
+%!  sequence_begin(+Name, +Teams, +Host, +Tasks:list(pair), +Options,
+%!                 -Sequence) is det.
+%!  sequence_proceed(+Sequence0, -Sequence) is det.
+%!  sequence_over(+Sequence, -Robots, -Outcome) is semidet.
+%
+%   The same for who has several sequences, and time: Sequence is to be
+%   looked at again and again until it is over.
+%
+%   @error as sequence_allocate/7; then Sequence0 is not to be used again
+
+sequence_begin(Name, Teams, Host, Tasks, Options,
+               sequence(searching, Agent, plan(Name, Tasks, Population))) :-
     must_be(list(pair), Tasks),
-    last(Tasks, Last-_),
     option(deadline(Deadline), Options, 600),
     option(priority(Priority), Options, 0),
     option(allocation(Allocation), Options, []),
@@ -55,43 +88,46 @@ sequence_allocate(Name, Teams, Host, Tasks, Options, Robots, Outcome) :-
     task_allocate(task(Name, Teams,
                        [ deadline(Deadline), priority(Priority),
                          goal(receive(_-finish)) ]),
-                  Host, Allocation, Agent),
-    catch(conduct(Agent, Name, Tasks, Population, Last, Robots, Outcome),
-          Error,
-          ( catch(agent_dispose(Agent), error(_, _), true),
-            throw(Error) )).
+                  Host, Allocation, Agent).
 
-conduct(Agent, Name, Tasks, Options, Last, Robots, Outcome) :-
-    wait_for(Agent, held(Agent, Name, Robots0), Found),
-    (   Found == true
-    ->  Robots = Robots0,
-        setup_call_cleanup(
-            population_start(Name, Robots, Tasks, Options, Agents),
-            wait_for(Agent, maplist(completed(Name, Last), Robots), Done),
-            maplist(dismiss, Agents))
-    ;   Robots = [],
-        Done = false
-    ),
-    conclude(Done, Agent, Outcome).
+%   The stage is searching, executing(Robots, Agents), leaving(Robots), and
+%   in the end over(Robots, Outcome).
 
-conclude(true, Agent, Outcome) :-
-    !,
-    catch(agent_send(Agent, finish), error(_, _), true),
-    agent_join(Agent, _, inf),
-    Outcome = completed.
-conclude(false, _, missed).
-
-%   wait_for(+Agent, :Goal, -Result): `true` as soon as Goal is, `false` if
-%   Agent has ended before.
-
-wait_for(Agent, Goal, Result) :-
-    (   call(Goal)
-    ->  Result = true
+sequence_proceed(sequence(Stage0, Agent, Plan), sequence(Stage, Agent, Plan)) :-
+    (   next(Stage0, Agent, Plan, Stage1)
+    ->  Stage = Stage1
     ;   catch(agent_property(Agent, host(_)), error(_, _), fail)
-    ->  sleep(0.1),
-        wait_for(Agent, Goal, Result)
-    ;   Result = false
+    ->  Stage = Stage0
+    ;   left(Stage0, Stage)
     ).
+
+next(searching, Agent, plan(Name, Tasks, Options),
+     executing(Robots, Agents)) :-
+    held(Agent, Name, Robots),
+    population_start(Name, Robots, Tasks, Options, Agents).
+next(executing(Robots, Agents), Agent, plan(Name, Tasks, _),
+     leaving(Robots)) :-
+    last(Tasks, Last-_),
+    maplist(completed(Name, Last), Robots),
+    maplist(dismiss, Agents),
+    catch(agent_send(Agent, finish), error(_, _), true).
+
+%   Its allocator has ended.
+
+left(searching, over([], missed)).
+left(executing(Robots, Agents), over(Robots, missed)) :-
+    maplist(dismiss, Agents).
+left(leaving(Robots), over(Robots, completed)).
+left(over(Robots, Outcome), over(Robots, Outcome)).
+
+sequence_over(sequence(over(Robots, Outcome), _, _), Robots, Outcome).
+
+abandon(sequence(Stage, Agent, _)) :-
+    (   Stage = executing(_, Agents)
+    ->  maplist(dismiss, Agents)
+    ;   true
+    ),
+    dismiss(Agent).
 
 %   All robots have answered that they hold the task.
 

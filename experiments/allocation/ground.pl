@@ -1,59 +1,59 @@
-:- module(allocation_ground,
-          [ ground/4,                   % +Case, +Seed, +Hosts, -Ground
-            case_topology/3,            % +Case, +Degree, -Topology
-            options_case/2              % +Options, -Case
-          ]).
-:- use_module('../../prolog/typhon/base/chance', [chance_sample/5, chance_seed/2]).
-:- use_module(library(lists), [append/3]).
-:- use_module(library(option), [option/2]).
-
-/** <module> Who has which robot, and where allocators begin
-
-A case is case(Mechanism, Links, Hosts, Eligible, Required, Allocators):
-so many allocators, each of which requires so many robots of those that are
-eligible; see cases.pl.
-
-*Threading*: pure.
-*/
-
-%!  ground(+Case, +Seed:integer, +Hosts:list(atom), -Ground) is det.
+%   Chapter 7: what one run of a mechanism is, and what is measured of it.
 %
-%   Ground is ground(Able, Others, Starts): the Hosts whose robots are
-%   eligible, the other ones, and the hosts where allocators begin.  All of
-%   it follows from Seed, and is the same for every mechanism.  Fewer
-%   eligible robots are among the more ones, fewer starts among the more.
+%   Expects the parameter `mechanism`.  Gives: what `robots` does, run/2,
+%   view/2, and the measures that have a label here.
 
-ground(case(_, _, _, Eligible, _, Allocators), Seed, Hosts,
-       ground(Able, Others, Starts)) :-
-    length(Hosts, Count),
-    chance_seed(Seed, Chance0),
-    chance_sample(Count, Hosts, Order, Chance0, Chance),
-    length(Able, Eligible),
-    append(Able, Others, Order),
-    !,
-    chance_sample(Count, Hosts, All, Chance, _),
-    length(Starts, Allocators),
-    append(Starts, _, All),
-    !.
+:- include(robots).
+:- use_module(faults, [no_reservation_faults/1]).
+:- use_module(mechanisms, [mechanism_allocate/4]).
+:- use_module(metrics,
+              [backoffs/2, communications/2, completed/2, kind_sums/2, mean/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
 
-%!  case_topology(+Case, +Degree, -Topology) is det.
-%
-%   Topology, for network_start/3, has Degree links at a host on average,
-%   whatever the number of hosts.
+label(communications, "Messages over a link, and migrations").
+label(time, "Until the last task is completed (s)").
+label(backoffs, "Back-offs of an allocator").
+label(interval, "Mean length of a back-off (s)").
+label(upkeep, "Share of answers and renewals in the messages").
+label(rate, "Time for each robot that an allocator requires (s)").
+label(proposed, "proposed").
+label(constant, "proposed, constant back-off").
+label(murdoch, "Murdoch").
+label(anta, "ANTA").
 
-case_topology(case(_, _, Hosts, _, _, _), Degree, random(Hosts, P)) :-
-    P is min(1.0, Degree/max(1, Hosts - 1)).
+run(Case, Network) :-
+    places(Case, Network, Starts),
+    tasks(Case, Tasks),
+    pairs_keys_values(Pairs, Tasks, Starts),
+    mechanism_allocate(Case.mechanism, Pairs, Case, Network).
 
-%!  options_case(+Options, -Case) is det.
-%
-%   The case that mechanism(M), links(L), hosts(N), eligible(N), required(N)
-%   and allocators(N) of Options make.
+view(Log, view{case:Log.case, events:Log.events, intervals:Intervals}) :-
+    no_reservation_faults(Log.events),
+    completed(Log.events, Completed),
+    length(Completed, Log.case.allocators),
+    backoffs(Log.events, Intervals).
 
-options_case(Options, case(Mechanism, Links, Hosts, Eligible, Required,
-                           Allocators)) :-
-    option(mechanism(Mechanism), Options),
-    option(links(Links), Options),
-    option(hosts(Hosts), Options),
-    option(eligible(Eligible), Options),
-    option(required(Required), Options),
-    option(allocators(Allocators), Options).
+measure(communications, View, Sum) :-
+    communications(View.events, Sum).
+measure(time, View, Time) :-
+    completed(View.events, Completed),
+    aggregate_all(max(Seconds), member(_-Seconds, Completed), Time).
+measure(rate, View, Rate) :-
+    measure(time, View, Time),
+    Rate is Time/View.case.required.
+measure(backoffs, View, Mean) :-
+    length(View.intervals, Count),
+    Mean is Count/View.case.allocators.
+measure(interval, View, Mean) :-
+    mean(View.intervals, Mean).
+measure(upkeep, View, Share) :-
+    kind_sums(View.events, Pairs),
+    aggregate_all(sum(Sum), ( member(Kind-Sum, Pairs),
+                              memberchk(Kind, [ack, renew]) ), Upkeep),
+    communications(View.events, All),
+    Share is Upkeep/All.
+measure(Kind, View, Sum) :-
+    kind_sums(View.events, Pairs),
+    member(Kind-Sum, Pairs).

@@ -1,100 +1,100 @@
 :- module(allocation_mechanisms,
-          [ mechanism/2,                % ?Mechanism, ?Title
-            mechanism_start/3,          % +Mechanism, +Hosts, +Options
-            mechanism_allocate/4,       % +Mechanism, +Pairs, +Options, -Agents
-            mechanism_account/3         % +Mechanism, +Hosts, -Total
+          [ mechanism_allocate/4,       % +Mechanism, +Pairs, +Case, +Network
+            task_start/3,               % +Task, +Host, +Case
+            allocators_end/1            % +Limit
           ]).
-:- use_module('../../prolog/typhon', [agent_send/2]).
+:- use_module('../../prolog/typhon',
+              [agent_join/3, agent_property/2, network_advance/2,
+               network_property/2]).
 :- use_module('../../agents/allocation/auctions',
-              [ auction_account/2, auction_counts/3, auction_post/3,
-                auction_start/3 ]).
-:- use_module('../../agents/allocation/operator', [task_allocate/4]).
-:- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(option), [option/2]).
+              [auction_account/2, auction_open/3, auction_post/3,
+               auction_start/3]).
+:- use_module('../../agents/allocation/operator',
+              [robot_status/2, task_allocate/4]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(pairs), [pairs_values/2]).
 
 /** <module> What is compared: ways to allocate tasks
 
-*Threading*: no state; any thread, one at a time.
+  | proposed | the allocators of the thesis                       |
+  | constant | the same, with equation 7.7 instead of 7.6         |
+  | murdoch, anta | auctions                                      |
+
+*Threading*: one thread, which waits.
 */
 
-%!  mechanism(?Mechanism, ?Title) is nondet.
-
-mechanism(proposed, 'proposed').
-mechanism(constant, 'constant back-off').
-mechanism(murdoch, 'Murdoch').
-mechanism(anta, 'ANTA').
-
-auction(murdoch).
-auction(anta).
-
-%!  mechanism_start(+Mechanism, +Hosts, +Options) is det.
-%
-%   Hosts get what Mechanism needs beside robots.  Options: bi_min(S),
-%   bi_max(S), slack(S), all required.
-
-mechanism_start(Mechanism, Hosts, Options) :-
-    auction(Mechanism),
-    !,
-    option(bi_min(Min), Options),
-    option(bi_max(Max), Options),
-    option(slack(Slack), Options),
-    auction_start(Mechanism, Hosts,
-                  [settings([bi_min-Min, bi_max-Max]), slack(Slack)]).
-mechanism_start(_, _, _).
-
-%!  mechanism_allocate(+Mechanism, +Pairs, +Options, -Agents) is det.
+%!  mechanism_allocate(+Mechanism, +Pairs, +Case, +Network) is semidet.
 %
 %   Pairs Task-Host: each Task is allocated from Host on, all from now on.
-%   Agents are the allocators, none where it is nodes that allocate.
-%   Options are those of mechanism_start/3 and seed(N).
+%   Waits until all is over, robots are free, and what was sent is in the
+%   log; fails if that is not so at Case.limit.  Case has also `bi_min`,
+%   `bi_max` and `seed`.
 
-mechanism_allocate(Mechanism, Pairs, _, []) :-
-    auction(Mechanism),
+mechanism_allocate(Mechanism, Pairs, Case, Network) :-
+    memberchk(Mechanism, [murdoch, anta]),
     !,
-    forall(member(Task-Host, Pairs), auction_post(Mechanism, Task, Host)).
-mechanism_allocate(Mechanism, Pairs, Options, Agents) :-
-    settings(Mechanism, Options, Settings),
-    maplist(allocator(Settings), Pairs, Agents),
-    forall(member(Agent, Agents), agent_send(Agent, begin)).
+    network_property(Network, hosts(Hosts)),
+    auction_start(Mechanism, Hosts,
+                  [ settings([bi_min-Case.bi_min, bi_max-Case.bi_max]),
+                    slack(0) ]),
+    forall(member(Task-Host, Pairs), auction_post(Mechanism, Task, Host)),
+    pairs_values(Pairs, Auctioneers),
+    auctions_end(auctions(Mechanism, Auctioneers, Hosts), Network,
+                 Case.limit),
+    auction_account(Mechanism, Hosts),
+    network_advance(Network, 0).
+mechanism_allocate(Mechanism, Pairs, Case, _) :-
+    backoff(Mechanism, Backoff),
+    forall(member(Task-Host, Pairs), start(Backoff, Task, Host, Case)),
+    allocators_end(Case.limit).
 
-allocator(Settings, Task-Host, Agent) :-
-    task_allocate(Task, Host, [settings([start-order|Settings])], Agent).
+backoff(proposed, adaptive).
+backoff(constant, constant).
 
-settings(Mechanism, Options, Settings) :-
-    option(bi_min(Min), Options),
-    option(bi_max(Max), Options),
-    option(seed(Seed), Options),
-    Settings0 = [bi_min-Min, bi_max-Max, seed-Seed],
-    (   Mechanism == constant
-    ->  append(Settings0, [backoff-constant], Settings)
-    ;   Settings = Settings0
-    ).
-
-%!  mechanism_account(+Mechanism, +Hosts, -Total:integer) is det.
+%!  task_start(+Task, +Host, +Case) is det.
 %
-%   Once all is over: nodes log what they have sent, which is Total in all.
-%   Allocators and their children have logged it themselves; Total is 0.
+%   Task is allocated from Host on by the proposed mechanism.
 
-mechanism_account(Mechanism, Hosts, Total) :-
-    auction(Mechanism),
-    !,
-    quiet(Mechanism, Hosts, Total),
-    auction_account(Mechanism, Hosts).
-mechanism_account(_, _, 0).
+task_start(Task, Host, Case) :-
+    start(adaptive, Task, Host, Case).
 
-%   The last messages are still on their way when the last robot is free.
+start(Backoff, Task, Host, Case) :-
+    task_allocate(Task, Host,
+                  [ settings([ backoff-Backoff, seed-Case.seed,
+                               bi_min-Case.bi_min, bi_max-Case.bi_max ]) ],
+                  _).
 
-quiet(Mechanism, Hosts, Total) :-
-    sent(Mechanism, Hosts, Total0),
-    sleep(0.3),
-    sent(Mechanism, Hosts, Total1),
-    (   Total1 =:= Total0
-    ->  Total = Total1
-    ;   quiet(Mechanism, Hosts, Total)
+%   Nodes do not end: they and the robots are looked at.  A robot that the
+%   last message does not reach, for it has no link just then, is free when
+%   its contract lapses.  That message takes less than the time between two
+%   looks.
+
+auctions_end(Auctions, Network, Limit) :-
+    Limit > 0,
+    network_advance(Network, 10),
+    (   over(Auctions)
+    ->  network_advance(Network, 10)
+    ;   Left is Limit - 10,
+        auctions_end(Auctions, Network, Left)
     ).
 
-sent(Mechanism, Hosts, Total) :-
-    auction_counts(Mechanism, Hosts, Counts),
-    aggregate_all(sum(Count), member(_-Count, Counts), Total).
+over(auctions(Mechanism, Auctioneers, Hosts)) :-
+    auction_open(Mechanism, Auctioneers, []),
+    forall(member(Host, Hosts), robot_status(Host, free)).
+
+%!  allocators_end(+Limit) is semidet.
+%
+%   Wait until there are none, nor any children of one; fails where one does
+%   not end in Limit seconds.
+
+allocators_end(Limit) :-
+    findall(Agent,
+            ( agent_property(Agent, program(Program)),
+              sub_atom(Program, _, _, 0, allocator) ),
+            Agents),
+    (   Agents = [Agent|_]
+    ->  agent_join(Agent, Outcome, Limit),
+        Outcome \== timeout,
+        allocators_end(Limit)
+    ;   true
+    ).

@@ -1,8 +1,12 @@
 :- module(allocation_metrics,
-          [ allocation_measures/2,      % +Events, -Measures
-            communications/2,           % +Events, -Sum
+          [ communications/2,           % +Events, -Sum
+            kind_sums/2,                % +Events, -Pairs
+            completed/2,                % +Events, -Pairs
+            backoffs/2,                 % +Events, -Seconds
+            lasted/3,                   % +Events, ?Task, -Seconds
+            overdue/3,                  % +Events, -Reported, -Free
             from_first/2,               % +Events0, -Events
-            measure/3                   % +Name, +Result, -Value
+            mean/2                      % +Numbers, -Mean
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists),
@@ -15,33 +19,75 @@ Of events event(Time, Host, Agent, What), which all mechanisms log alike.
 *Threading*: pure.
 */
 
-%!  allocation_measures(+Events, -Measures:list) is det.
+%!  communications(+Events, -Sum:integer) is det.
 %
-%   Measures are, for the whole run:
-%
-%     - communications(N): messages over one link, and migrations
-%     - kinds(Pairs): Kind-N, of which these are the sum
-%     - time(Seconds): host seconds from when the first allocator has begun
-%       until the last task is completed, `none` if none is
-%     - backoffs(Mean): back-offs per allocator
-%     - interval(Mean): host seconds of a back-off, `none` without any
-%     - completed(Pairs): Task-Seconds, in the order of completion, in host
-%       seconds since the first has begun
+%   Messages over one link, and migrations: the sum of what was logged as
+%   communications(Kind, Count).
 
-allocation_measures(Events,
-                    [ communications(Sum), kinds(Kinds), time(Time),
-                      backoffs(Backoffs), interval(Interval),
-                      completed(Completed) ]) :-
-    communications(Events, Sum),
-    kinds(Events, Kinds),
-    completed(Events, Completed),
-    last_time(Completed, Time),
-    findall(Task, happened(Events, begun(Task)), Tasks),
-    findall(Seconds, happened(Events, backoff(Seconds)), Intervals),
-    length(Tasks, Allocators),
-    length(Intervals, Count),
-    mean(Intervals, Interval),
-    Backoffs is Count/max(1, Allocators).
+communications(Events, Sum) :-
+    aggregate_all(sum(Count), happened(Events, communications(_, Count)),
+                  Sum).
+
+%!  kind_sums(+Events, -Pairs) is det.
+%
+%   Pairs are Kind-Count, of which communications/2 is the sum.
+
+kind_sums(Events, Pairs) :-
+    findall(Kind, happened(Events, communications(Kind, _)), Kinds0),
+    sort(Kinds0, Kinds),
+    findall(Kind-Sum,
+            ( member(Kind, Kinds),
+              aggregate_all(sum(Count),
+                            happened(Events, communications(Kind, Count)),
+                            Sum) ),
+            Pairs).
+
+happened(Events, What) :-
+    member(event(_, _, _, What), Events).
+
+%!  completed(+Events, -Pairs) is det.
+%
+%   Pairs are Task-Seconds, in the order of completion, since the first
+%   allocator has begun.
+
+completed(Events, Completed) :-
+    findall(Time, member(event(Time, _, _, begun(_)), Events), Begins),
+    min_list([inf|Begins], First),
+    findall(Task-Seconds,
+            ( member(event(Time, _, _, completed(Task)), Events),
+              Seconds is Time - First ),
+            Completed).
+
+%!  backoffs(+Events, -Seconds:list) is det.
+%
+%   How long each back-off was to be.
+
+backoffs(Events, Intervals) :-
+    findall(Seconds, happened(Events, backoff(Seconds)), Intervals).
+
+%!  lasted(+Events, ?Task, -Seconds) is nondet.
+%
+%   From when the allocator of Task began until Task was completed.
+
+lasted(Events, Task, Seconds) :-
+    member(event(End, _, _, completed(Task)), Events),
+    memberchk(event(Begin, _, _, begun(Task)), Events),
+    Seconds is End - Begin.
+
+%!  overdue(+Events, -Reported, -Free) is nondet.
+%
+%   For each task that was missed the seconds between its deadline and when
+%   it was reported, and until the last of its robots was free.
+
+overdue(Events, Reported, Free) :-
+    member(event(Missed, _, _, missed(Task, Deadline)), Events),
+    memberchk(event(Begin, _, _, begun(Task)), Events),
+    Due is Begin + Deadline,
+    Reported is Missed - Due,
+    findall(Time, member(event(Time, _, _, released(_, _, Task)), Events),
+            Times),
+    max_list([Missed|Times], Last),
+    Free is Last - Due.
 
 %!  from_first(+Events0, -Events) is det.
 %
@@ -57,55 +103,12 @@ from_first(Events0, Events) :-
               Time is Time0 - Start ),
             Events).
 
-happened(Events, What) :-
-    member(event(_, _, _, What), Events).
+%!  mean(+Numbers, -Mean) is semidet.
+%
+%   Fails if there are none.
 
-completed(Events, Completed) :-
-    findall(Time, member(event(Time, _, _, begun(_)), Events), Begins),
-    min_list([inf|Begins], First),
-    findall(Task-Seconds,
-            ( member(event(Time, _, _, completed(Task)), Events),
-              Seconds is Time - First ),
-            Completed).
-
-last_time([], none) :-
-    !.
-last_time(Completed, Time) :-
-    findall(Seconds, member(_-Seconds, Completed), All),
-    max_list(All, Time).
-
-mean([], none) :-
-    !.
 mean(Numbers, Mean) :-
-    sum_list(Numbers, Sum),
     length(Numbers, Count),
+    Count > 0,
+    sum_list(Numbers, Sum),
     Mean is Sum/Count.
-
-%!  communications(+Events, -Sum:integer) is det.
-%
-%   Sum is that of what was logged as communications(Kind, Count).
-
-communications(Events, Sum) :-
-    aggregate_all(sum(Count), happened(Events, communications(_, Count)),
-                  Sum).
-
-kinds(Events, Kinds) :-
-    findall(Kind, happened(Events, communications(Kind, _)), All),
-    sort(All, Names),
-    findall(Kind-Sum,
-            ( member(Kind, Names),
-              aggregate_all(sum(Count),
-                            happened(Events, communications(Kind, Count)),
-                            Sum) ),
-            Kinds).
-
-%!  measure(+Name, +Result, -Value) is semidet.
-%
-%   Value is the number that Result, a list, has as Name(Value); fails if
-%   it is none.
-
-measure(Name, Result, Value) :-
-    Measure =.. [Name, Value0],
-    memberchk(Measure, Result),
-    number(Value0),
-    Value = Value0.

@@ -1,121 +1,150 @@
 :- module(allocation_timetable,
-          [ draw_timetable/3,           % +Directory, +Subtitle, +Result
-            save_executions/2,          % +Directory, +Runs
-            print_sequences/2           % +Stream, +Runs
+          [ timetable/4,                % +Events, +Names, +Tasks, -Timetable
+            timetable_measure/3,        % ?Name, +Timetable, -Value
+            held_rows/2,                % +Runs, -Rows
+            executed_rows/2,            % +Runs, -Rows
+            timetable_extent/2          % +Runs, -Variables
           ]).
-:- use_module('../lib/plot', [colour/2, plot/4, save_columns/2]).
-:- use_module('../lib/report', [print_table/3, save_csv/3]).
+:- use_module('../sync/metrics',
+              [executions/2, out_of_order/2, overlaps/2]).
+:- use_module(metrics, [communications/2, from_first/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [max_list/2, member/2, memberchk/2, nth1/3]).
+:- use_module(library(lists),
+              [last/2, member/2, memberchk/2, nth1/3, subtract/3]).
 
-/** <module> Who was allocated to which sequence, and executed it when
+/** <module> Which robot was allocated to which sequence, and executed it when
 
-Of results of integrated_run/3.
+A timetable is timetable(Tasks, Sequences, Communications): the number of
+tasks of each sequence, and sequence(Name, Robots, times(Allocated,
+Completed), Executions), Robots being those that were allocated, Executions
+those of executions/2, times in seconds since the first allocator began.
 
-*Threading*: no state; any thread.
+*Threading*: pure.
 */
 
-%!  draw_timetable(+Directory, +Subtitle, +Result) is det.
+%!  timetable(+Events, +Names:list(atom), +Tasks:integer, -Timetable) is det.
 %
-%   Write Directory/allocation-integrated.svg and .png: a line for each
-%   robot, on which it is allocated to a sequence for some time (a pale
-%   bar) and executes its tasks (dark bars, a colour for each task).
+%   Of the sequences Names that were completed.  Events are in order of time.
 
-draw_timetable(Directory, Subtitle, Result) :-
-    memberchk(sequences(Sequences), Result),
-    robots(Sequences, Robots),
-    findall([Middle, Row, Start, End, Low, High, 0xdddddd],
-            ( member(sequence(_, Its, times(_, Start, End), _), Sequences),
+timetable(Events0, Names, Tasks, timetable(Tasks, Sequences, Sum)) :-
+    from_first(Events0, Events),
+    findall(Sequence,
+            ( member(Name, Names), sequence(Events, Name, Sequence) ),
+            Sequences),
+    communications(Events, Sum).
+
+%   A robot that is replaced is allocated anew: the last time counts.
+
+sequence(Events, Name,
+         sequence(Name, Robots, times(Allocated, Completed), Executions)) :-
+    memberchk(event(Completed, _, _, completed(Name)), Events),
+    findall(Time-Hosts,
+            member(event(Time, _, _, allocated(Name, Hosts)), Events), All),
+    last(All, Allocated-Robots),
+    findall(event(Time, Host, Agent, What),
+            ( member(event(Time, Host, Agent, What), Events),
+              step(What, Name) ),
+            Steps),
+    executions(Steps, Executions).
+
+step(executing(Name, _), Name).
+step(completed(Name, _), Name).
+
+                /*******************************
+                *           MEASURES           *
+                *******************************/
+
+%!  timetable_measure(?Name, +Timetable, -Value) is nondet.
+%
+%   `timetable` is Timetable itself, all others are numbers.
+
+timetable_measure(timetable, Timetable, Timetable).
+timetable_measure(communications, timetable(_, _, Sum), Sum).
+timetable_measure(found, timetable(_, Sequences, _), Time) :-
+    aggregate_all(max(T), member(sequence(_, _, times(T, _), _), Sequences),
+                  Time).
+timetable_measure(completed, timetable(_, Sequences, _), Time) :-
+    aggregate_all(max(T), member(sequence(_, _, times(_, T), _), Sequences),
+                  Time).
+timetable_measure(Name, Timetable, Count) :-
+    counted(Name),
+    aggregate_all(count, wrong(Name, Timetable), Count).
+
+counted(faulty).
+counted(strangers).
+counted(overlaps).
+counted(disorder).
+counted(both).
+
+%   wrong(+Name, +Timetable): once for each thing that is not as it should be.
+
+wrong(faulty, timetable(Tasks, Sequences, _)) :-
+    member(sequence(_, Robots, _, Executions), Sequences),
+    member(Robot, Robots),
+    \+ forall(between(1, Tasks, Task),
+              aggregate_all(count,
+                            member(execution(Task, Robot, _, _), Executions),
+                            1)).
+wrong(strangers, timetable(_, Sequences, _)) :-
+    member(sequence(_, Robots, _, Executions), Sequences),
+    findall(Host, member(execution(_, Host, _, _), Executions), Hosts0),
+    sort(Hosts0, Hosts),
+    subtract(Hosts, Robots, Others),
+    member(_, Others).
+wrong(overlaps, timetable(_, Sequences, _)) :-
+    member(sequence(_, _, _, Executions), Sequences),
+    overlaps(Executions, Overlapping),
+    member(_, Overlapping).
+wrong(disorder, timetable(_, Sequences, _)) :-
+    member(sequence(_, _, _, Executions), Sequences),
+    out_of_order(Executions, OutOfOrder),
+    member(_, OutOfOrder).
+wrong(both, timetable(_, Sequences, _)) :-
+    member(sequence(Name1, _, _, Executions1), Sequences),
+    member(sequence(Name2, _, _, Executions2), Sequences),
+    Name1 @< Name2,
+    member(execution(_, Host, Start1, End1), Executions1),
+    member(execution(_, Host, Start2, End2), Executions2),
+    Start1 < End2,
+    Start2 < End1.
+
+                /*******************************
+                *            PICTURE           *
+                *******************************/
+
+%!  held_rows(+Runs, -Rows) is det.
+%!  executed_rows(+Runs, -Rows) is det.
+%
+%   Rows are [Number, From, Till, Task], Number that of a robot, of the one
+%   run in Runs.
+
+held_rows([Run|_], Rows) :-
+    robots(Run, Sequences, Robots),
+    findall([Number, From, Till, 0],
+            ( member(sequence(_, Its, times(From, Till), _), Sequences),
               member(Robot, Its),
-              bar(Robots, Robot, Start, End, 0.4, Middle, Row, Low, High) ),
-            Held),
-    findall([Middle, Row, Start, End, Low, High, Colour],
-            ( member(sequence(_, _, _, Executions), Sequences),
-              member(execution(Task, Robot, Start, End), Executions),
-              bar(Robots, Robot, Start, End, 0.4, Middle, Row, Low, High),
-              Index is (Task - 1) mod 6,
-              colour(Index, Colour) ),
-            Executed),
-    save(Directory, held, Held),
-    save(Directory, executed, Executed),
-    length(Robots, Count),
-    findall(End, member(sequence(_, _, times(_, _, End), _), Sequences),
-            Ends),
-    max_list([1|Ends], Last),
-    plot(Directory, 'allocation-integrated', 1000-600,
-         script(Subtitle, Count, Last)).
+              nth1(Number, Robots, Robot) ),
+            Rows).
 
-robots(Sequences, Robots) :-
-    findall(Robot,
-            ( member(sequence(_, Its, _, _), Sequences),
-              member(Robot, Its) ),
+executed_rows([Run|_], Rows) :-
+    robots(Run, Sequences, Robots),
+    findall([Number, From, Till, Task],
+            ( member(sequence(_, _, _, Executions), Sequences),
+              member(execution(Task, Robot, From, Till), Executions),
+              nth1(Number, Robots, Robot) ),
+            Rows).
+
+robots(run(_, _, Measures), Sequences, Robots) :-
+    get_dict(timetable, Measures, timetable(_, Sequences, _)),
+    findall(Robot, ( member(sequence(_, Its, _, _), Sequences),
+                     member(Robot, Its) ),
             All),
     sort(All, Robots).
 
-bar(Robots, Robot, Start, End, Half, Middle, Row, Low, High) :-
-    nth1(Row, Robots, Robot),
-    Middle is (Start + End)/2,
-    Low is Row - Half,
-    High is Row + Half.
+%!  timetable_extent(+Runs, -Variables) is det.
 
-save(Directory, Part, Rows) :-
-    data_name(Part, Name),
-    directory_file_path(Directory, Name, File),
-    save_columns(File, Rows).
-
-data_name(Part, Name) :-
-    atomic_list_concat(['allocation-integrated-', Part, '.dat'], Name).
-
-script(Subtitle, Count, Last, Out) :-
-    Right is Last*1.01,
-    Top is Count + 1,
-    data_name(held, Held),
-    data_name(executed, Executed),
-    format(Out, 'set label 1 "{/:Bold=15 ~w}" at screen 0.085,0.955~n\c
-set label 2 "{/*0.9 ~w}" at screen 0.085,0.91 tc rgb "#555555"~n\c
-set xrange [0:~4f]; set yrange [0:~d]~n\c
-set border 3 lc rgb "#888888"~n\c
-set tics nomirror out scale 0.6 tc rgb "#333333"~n\c
-set ytics 1; set style fill solid 1.0 noborder; unset key~n\c
-set lmargin at screen 0.085; set rmargin at screen 0.975~n\c
-set tmargin at screen 0.87~n\c
-set xlabel "host seconds" tc rgb "#333333"~n\c
-set ylabel "robot" tc rgb "#333333"~n\c
-plot "~w" using 1:2:3:4:5:6:7 with boxxyerror lc rgb variable, \c
-"~w" using 1:2:3:4:5:6:7 with boxxyerror lc rgb variable~n',
-           ['Two sequences of tasks on the robots that were found for them',
-            Subtitle, Right, Top, Held, Executed]).
-
-%!  save_executions(+Directory, +Runs) is det.
-%
-%   Write Directory/allocation-integrated.csv, of all Runs, pairs
-%   Seed-Result.
-
-save_executions(Directory, Runs) :-
-    findall([Seed, Name, Task, Robot, Start, End],
-            ( member(Seed-Result, Runs),
-              memberchk(sequences(Sequences), Result),
-              member(sequence(Name, _, _, Executions), Sequences),
-              member(execution(Task, Robot, Start, End), Executions) ),
-            Rows),
-    directory_file_path(Directory, 'allocation-integrated.csv', File),
-    save_csv(File, [seed, sequence, task, robot, start, end], Rows).
-
-%!  print_sequences(+Stream, +Runs) is det.
-%
-%   A line for each sequence of each run.
-
-print_sequences(Stream, Runs) :-
-    findall([Seed, Name, Robots, Found, First, Completed],
-            ( member(Seed-Result, Runs),
-              memberchk(sequences(Sequences), Result),
-              member(sequence(Name, Its, times(_, Found, Completed),
-                              Executions), Sequences),
-              length(Its, Robots),
-              aggregate_all(min(Start),
-                            member(execution(_, _, Start, _), Executions),
-                            First) ),
-            Rows),
-    print_table(Stream, [ seed, sequence, robots, 'allocated at',
-                          'first task at', 'completed at' ], Rows).
+timetable_extent([Run|_], [robots-Count, 'END'-End]) :-
+    robots(Run, Sequences, Robots),
+    length(Robots, Count),
+    aggregate_all(max(T), member(sequence(_, _, times(_, T), _), Sequences),
+                  End).

@@ -2,7 +2,7 @@
           [ catalogue/1,                % -Rows
             studies_named/2             % +Names, -Files
           ]).
-:- use_module(library(apply), [convlist/3, exclude/3, maplist/3]).
+:- use_module(library(apply), [convlist/3, include/3, maplist/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [append/2, list_to_set/2, member/2]).
@@ -11,8 +11,9 @@
 
 /** <module> The studies that are there
 
-Studies of the thesis are the files figure_*.pl below `experiments`, and
-study_*.pl.
+Below `experiments` they are the files figure_*.pl, what the thesis has,
+beyond_*.pl, what goes beyond it, and study_*.pl, what stands behind them:
+readings of the thesis, values it does not print, demos.
 
 *Threading*: the thread that loads studies.
 */
@@ -33,8 +34,11 @@ study_files(Files) :-
     sort(Files0, Files).
 
 is_study(File) :-
+    begins(File, [figure_, beyond_, study_]).
+
+begins(File, Starts) :-
     file_base_name(File, Base),
-    member(Start, [figure_, study_]),
+    member(Start, Starts),
     sub_atom(Base, 0, _, _, Start),
     !.
 
@@ -73,7 +77,7 @@ number_or_text(Part, Key) :-
 %!  studies_named(+Names:list(atom), -Files:list(atom)) is det.
 %
 %   A name is that of a file, of a study or of one of its plots, a folder
-%   below `experiments`, or `thesis`: all but those in real time.
+%   below `experiments`, or `thesis`: its figures, and what goes beyond.
 %
 %   @error existence_error(study, Name)
 
@@ -89,7 +93,7 @@ named(Name, [File]) :-
 named(thesis, Files) :-
     !,
     study_files(All),
-    exclude(in_real_time, All, Files).
+    include([File]>>begins(File, [figure_, beyond_]), All, Files).
 named(Name, Files) :-
     study_files(All),
     (   Finder = in_folder
@@ -101,12 +105,6 @@ named(Name, Files) :-
     !.
 named(Name, _) :-
     existence_error(study, Name).
-
-in_real_time(File) :-
-    loads(File, Study),
-    study_call(Study, fixed(clock, Clock, _)),
-    number(Clock),
-    !.
 
 in_folder(Name, File) :-
     file_directory_name(File, Directory),

@@ -44,20 +44,31 @@ looked_at(Test, Context, E, Context) :-
     member(E, Es),
     \+ number(E).
 
-part(at(Where, E), context(_, All, Follows), Names, Part) :-
-    !,
-    selected(Where, context(All, All, Follows), Context),
-    part(E, Context, Names, Text),
-    where_text(Where, Said),
-    format(atom(Part), '~w ~w', [Said, Text]).
 part(E, Context, Names, Part) :-
     Context = context(Points, _, _),
     findall(Case-Value,
-            ( member(Case-Measures, Points),
-              value(E, Case-Measures, Context, Value) ),
-            Values),
+            ( member(Case0-Measures, Points),
+              value(E, Case0-Measures, Context, Value),
+              led_to(E, Case0, Case) ),
+            Values0),
+    list_to_set(Values0, Values),
     text(Values, Names, Text),
-    format(atom(Part), '~w: ~w', [E, Text]).
+    called(E, Name),
+    format(atom(Part), '~w: ~w', [Name, Text]).
+
+%   at/2 leads to another case.
+
+led_to(at(Where, _), Case0, Case) :-
+    !,
+    dict_create(Other, case, Where),
+    Case = Case0.put(Other).
+led_to(_, Case, Case).
+
+called(at(Where, E), Name) :-
+    !,
+    where_text(Where, Said),
+    format(atom(Name), '~w ~w', [Said, E]).
+called(E, E).
 
 where_text(Where, Text) :-
     findall(Value, member(_=Value, Where), Values),

@@ -76,6 +76,7 @@ studies([shown(Study, Outcome, Command, Run)|Shown], Directory) -->
     html(Figures),
     claims(Outcome.claims),
     medians(Study, Outcome),
+    checks(Outcome.checks),
     parameters(Study, Outcome.given),
     one_run(Run),
     html(p(class(small),
@@ -173,6 +174,18 @@ printed_text(Study, Case, Measure, Text) :-
     number_text(Value, Number),
     format(atom(Text), ' [~w]', [Number]).
 printed_text(_, _, _, '').
+
+checks([]) -->
+    !,
+    [].
+checks(Rows) -->
+    { findall(tr(Cells), ( member(Row, Rows),
+                           findall(td(Text), member(Text, Row), Cells) ),
+              Trs) },
+    html(details([ summary('one case on real sockets'),
+                   table([ tr([ th(measure), th(virtual), th('on sockets'),
+                                th(verdict) ])
+                         | Trs ]) ])).
 
 parameters(Study, Given) -->
     { parameter_rows(Study, Given, Rows),

@@ -5,16 +5,18 @@
             case_texts/3,               % +Case, +Names, -Texts
             spread_text/3,              % +Row, +Measure, -Text
             shown_measures/3,           % +Study, +Rows, -Measures
-            claims_sentence/2,          % +Outcomes, -Sentence
             parameter_rows/3,           % +Study, +Given, -Rows
+            claims_sentence/2,          % +Outcomes, -Sentence
             held_text/3,                % +Held, +Of, -Text
             medians_text/4              % +Held, +Of, +OfMedians, -Text
           ]).
-:- use_module(library(apply), [foldl/4, maplist/3, maplist/4, partition/4]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).
 :- use_module(library(csv), [csv_write_file/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
-              [append/2, append/3, list_to_set/2, member/2, memberchk/2]).
+              [ append/2, append/3, list_to_set/2, member/2, memberchk/2,
+                nth1/3 ]).
 :- use_module(cases, [parameters/3]).
 :- use_module(numbers, [number_text/2]).
 :- use_module(studies, [study_call/2, study_title/3]).
@@ -27,7 +29,8 @@
 %!  print_outcome(+Stream, +Study, +Outcome) is det.
 %
 %   A line for each case: medians, and from which to which; and a line for
-%   each claim.
+%   each claim.  Outcome has two keys more: `given`, what --set has given, and
+%   `checks`, see cross_check/4.
 
 print_outcome(Stream, Study, Outcome) :-
     study_title(Study, Name, Title),
@@ -40,7 +43,14 @@ print_outcome(Stream, Study, Outcome) :-
     append([Outcome.names, [runs], Measures], Header),
     print_table(Stream, Header, Rows),
     nl(Stream),
-    forall(member(Claim, Outcome.claims), print_claim(Stream, Claim)).
+    forall(member(Claim, Outcome.claims), print_claim(Stream, Claim)),
+    print_checks(Stream, Outcome.checks).
+
+print_checks(_, []) :-
+    !.
+print_checks(Stream, Rows) :-
+    nl(Stream),
+    print_table(Stream, [measure, virtual, 'on sockets', verdict], Rows).
 
 row_cells(Row, Names, Measures, Cells) :-
     Row = row(Case, Count, _),
@@ -106,6 +116,35 @@ held_text(Of, Of, Text) :- !, format(atom(Text), 'held, ~d runs', [Of]).
 held_text(0, _, 'DID NOT HOLD') :- !.
 held_text(Held, Of, Text) :- format(atom(Text), 'held in ~d of ~d', [Held, Of]).
 
+%!  claims_sentence(+Outcomes:list, -Sentence:atom) is det.
+%
+%   How many of the claims of all Outcomes held.
+
+claims_sentence(Outcomes, Sentence) :-
+    findall(Text-(Held-Of),
+            ( member(Outcome, Outcomes),
+              member(claim(Text, _, Held, Of, _, _), Outcome.claims) ),
+            Claims),
+    exclude(all_held, Claims, Others),
+    length(Claims, Count),
+    length(Others, OtherCount),
+    HeldCount is Count - OtherCount,
+    sentence(Others, HeldCount, Count, Sentence).
+
+all_held(_-(Of-Of)) :-
+    Of > 0.
+
+sentence(_, _, 0, 'Nothing is claimed.') :-
+    !.
+sentence([], _, Count, Sentence) :-
+    !,
+    format(atom(Sentence), 'All ~d claims held.', [Count]).
+sentence([Text-(_-1)], _, Count, Sentence) :-
+    !,
+    format(atom(Sentence), '1 of ~d claims did not hold: ~w.', [Count, Text]).
+sentence(_, Held, Count, Sentence) :-
+    format(atom(Sentence), '~d of ~d claims held in all runs.', [Held, Count]).
+
 %!  medians_text(+Held, +Of, +OfMedians, -Text) is det.
 %
 %   Whether a claim is true of the medians, where that is not as with runs.
@@ -119,39 +158,15 @@ medians_text(0, Of, true, ' (but of the medians)') :-
     !.
 medians_text(_, _, _, '').
 
-%!  claims_sentence(+Outcomes:list, -Sentence:atom) is det.
-%
-%   How many of the claims of all Outcomes held.
-
-claims_sentence(Outcomes, Sentence) :-
-    findall(claim(Text, Held, Of),
-            ( member(Outcome, Outcomes),
-              member(claim(Text, _, Held, Of, _, _), Outcome.claims) ),
-            Claims),
-    partition([claim(_, Of, Of)]>>( Of > 0 ), Claims, Held, Others),
-    length(Claims, Count),
-    length(Held, HeldCount),
-    (   Others == []
-    ->  format(atom(Sentence), 'All ~d claims held.', [Count])
-    ;   Others = [claim(Text, _, Of)],
-        Of =< 1
-    ->  format(atom(Sentence), '1 of ~d claims did not hold: ~w.',
-               [Count, Text])
-    ;   format(atom(Sentence), '~d of ~d claims held in all runs.',
-               [HeldCount, Count])
-    ).
-
 %!  print_table(+Stream, +Header, +Rows) is det.
 %
-%   Rows are lists of cells, as many as Header has.  The columns are right
-%   aligned.
+%   Rows are lists of cells, as many as Header has.  Columns of numbers are
+%   right aligned, others left.
 
 print_table(Stream, Header, Rows0) :-
-    maplist(maplist(cell), [Header|Rows0], Lines),
-    Lines = [First|Others],
-    maplist(atom_length, First, Widths0),
-    foldl(widen, Others, Widths0, Widths),
-    forall(member(Line, Lines), print_row(Stream, Widths, Line)).
+    maplist(maplist(cell), Rows0, Rows),
+    findall(Column, column(Header, Rows, Column), Columns),
+    forall(member(Row, [Header|Rows]), print_row(Stream, Columns, Row)).
 
 cell(Cell, Text) :-
     number(Cell),
@@ -160,21 +175,37 @@ cell(Cell, Text) :-
 cell(Cell, Text) :-
     format(atom(Text), '~w', [Cell]).
 
-widen(Line, Widths0, Widths) :-
-    maplist(wider, Line, Widths0, Widths).
+%   column(+Header, +Rows, -Column) is nondet: column(Side, Width).
 
-wider(Text, Width0, Width) :-
-    atom_length(Text, Length),
-    Width is max(Width0, Length).
+column(Header, Rows, column(Side, Width)) :-
+    nth1(N, Header, Title),
+    findall(Cell, ( member(Row, Rows), nth1(N, Row, Cell) ), Cells),
+    (   forall(member(Cell, Cells), of_numbers(Cell))
+    ->  Side = right
+    ;   Side = left
+    ),
+    aggregate_all(max(Length),
+                  ( member(Cell, [Title|Cells]), atom_length(Cell, Length) ),
+                  Longest),
+    Width is Longest + 2.
 
-print_row(Stream, Widths, Line) :-
-    maplist(print_cell(Stream), Widths, Line),
-    nl(Stream).
+of_numbers('').
+of_numbers(Cell) :-
+    sub_atom(Cell, 0, 1, _, First),
+    ( First == (-) ; char_type(First, digit) ),
+    !.
 
-print_cell(Stream, Width, Text) :-
-    Column is Width + 2,
-    format(atom(Cell), '~t~w~*|', [Text, Column]),
-    write(Stream, Cell).
+print_row(Stream, Columns, Row) :-
+    maplist(cell_text, Columns, Row, Texts),
+    atomic_list_concat(Texts, Line),
+    split_string(Line, "", " ", [Inside]),
+    once(sub_string(Line, Indent, _, _, Inside)),
+    format(Stream, '~t~*|~w~n', [Indent, Inside]).
+
+cell_text(column(right, Width), Cell, Text) :-
+    format(atom(Text), '  ~t~w~*|', [Cell, Width]).
+cell_text(column(left, Width), Cell, Text) :-
+    format(atom(Text), '  ~w~t~*|', [Cell, Width]).
 
 %!  parameter_rows(+Study, +Given, -Rows) is det.
 %
@@ -204,8 +235,7 @@ why(Why, Text) :- format(atom(Text), '~w', [Why]).
 
 %!  outcome_save(+Study, +Outcome, +Runs, +Directory) is det.
 %
-%   Write runs.csv, claims.csv and parameters.csv.  Outcome has `given`, too:
-%   what was given by --set.
+%   Write runs.csv, claims.csv and parameters.csv.
 
 outcome_save(Study, Outcome, Runs, Directory) :-
     measured(Runs, Measures),

@@ -5,12 +5,11 @@
 :- use_module('../../prolog/typhon',
               [log_events/2, network_property/2, network_start/3,
                network_stop/1]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(sources, [sources_hash/2]).
-:- use_module(store, [result_save/2]).
-:- use_module(studies, [study_call/2, study_says/2]).
+:- use_module(store, [log_file/2, result_save/2]).
+:- use_module(studies, [study_at_work/1, study_call/2, study_says/2]).
 
 /** <module> One run of a study
 
@@ -30,7 +29,7 @@ exception in the caller ends the run, and the network is stopped.
 %   @error study_measures(Name, Values) if there is more than one value
 
 run_make(Study, Case, Seed, Directory) :-
-    directory_file_path(Directory, 'events.pl', File),
+    log_file(Directory, File),
     findall(Fact, environment(Fact), Environment),
     get_time(T0),
     statistics(process_cputime, C0),
@@ -111,6 +110,7 @@ environment(load(Load)) :-
 run_log(Study, Case0, Seed, File, Log) :-
     file_directory_name(File, Directory),
     Case = Case0.put(_{seed:Seed, directory:Directory}),
+    study_at_work(Study),
     set_random(seed(Seed)),
     (   study_says(Study, network/3)
     ->  network_log(Study, Case, File, Log)

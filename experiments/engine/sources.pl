@@ -11,6 +11,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module(library(terms), [mapargs/3]).
+:- use_module(studies, [study_at_work/1]).
 
 /** <module> What a run is made by
 
@@ -99,6 +100,7 @@ sources_changed(Study, File) :-
 %   the study and of what it includes, Named the other files, Files all.
 
 sources(Study, Terms, Named, Files) :-
+    study_at_work(Study),
     included([Study], [], Included),
     findall(Term, ( member(File, Included), source_term(File, Term) ), All),
     of_run(All, Terms),

@@ -1,6 +1,7 @@
 :- module(study_store,
           [ run_directory/3,            % +Root, +Run, -Directory
             run_done/3,                 % +Root, +Logs, +Run
+            log_file/2,                 % +Directory, -File
             run_result/3,               % +Root, +Run, -Measures
             run_facts/2,                % +Directory, -Facts
             result_save/2,              % +Directory, +Facts
@@ -83,6 +84,8 @@ run_done(Root, Logs, Run) :-
     ;   true
     ),
     !.
+
+%!  log_file(+Directory, -File) is det.
 
 log_file(Directory, File) :-
     directory_file_path(Directory, 'events.pl', File).

@@ -3,6 +3,7 @@
             study_title/3,              % +Study, -Name, -Title
             study_call/2,               % +Study, :Goal
             study_says/2,               % +Study, +PI
+            study_at_work/1,            % +Study
             study_name/3                % +Study, -Where, -Name
           ]).
 :- use_module(library(lists), [member/2]).
@@ -41,7 +42,11 @@ was chosen after results had been seen.
 */
 
 :- multifile
-    prolog:error_message//1.
+    prolog:error_message//1,
+    user:file_search_path/2.
+
+:- dynamic
+    user:file_search_path/2.
 
 :- dynamic
     loaded/1.                   % Study
@@ -100,6 +105,23 @@ study_says(Study, Name/Arity) :-
     functor(Head, Name, Arity),
     predicate_property(Study:Head, number_of_clauses(Count)),
     Count > 0.
+
+%!  study_at_work(+Study) is det.
+%
+%   From now on agents(Name) and payloads(Name) are looked for beside Study,
+%   too.
+
+:- dynamic at_work/1.           % Directory
+
+study_at_work(Study) :-
+    file_directory_name(Study, Directory),
+    retractall(at_work(_)),
+    assertz(at_work(Directory)).
+
+user:file_search_path(agents, Directory) :-
+    at_work(Directory).
+user:file_search_path(payloads, Directory) :-
+    at_work(Directory).
 
 %!  study_title(+Study, -Name, -Title) is det.
 

@@ -3,7 +3,6 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [memberchk/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process),
@@ -11,7 +10,8 @@
                 process_wait/3 ]).
 :- use_module(progress, [progress/4, progress_done/1]).
 :- use_module(store,
-              [part_directory/3, part_fail/4, run_directory/3, run_done/3]).
+              [ log_file/2, part_directory/3, part_fail/4, run_directory/3,
+                run_done/3 ]).
 :- use_module(studies, [study_call/2]).
 :- use_module(watch, [watching/4]).
 :- use_module(worker, [run_here/4]).
@@ -49,7 +49,13 @@ runs_make(Runs, Root, Options, Outcomes) :-
     option(jobs(Jobs), Options, 2),
     option(logs(Logs), Options, false),
     exclude(run_done(Root, Logs), Runs, Missing),
-    make_missing(Missing, desk(Jobs, Root, Logs), Made),
+    length(Missing, Total),
+    get_time(Begin),
+    catch(( make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total, Made),
+            dismiss ),
+          Ball,
+          ( end_workers,
+            throw(Ball) )),
     maplist(outcome(Made), Runs, Outcomes).
 
 outcome(Made, Run, Outcome) :-
@@ -58,28 +64,20 @@ outcome(Made, Run, Outcome) :-
     ;   Outcome = kept
     ).
 
-%   A single run that one can watch is made here.
+%   A single run in real time is made here, and its events are counted
+%   meanwhile, if the study says which.
 
-make_missing([Run], desk(_, Root, Logs), [Run-Kind]) :-
+make_missing([Run], desk(_, Root, Logs), _, [Run-Kind]) :-
     watched(Run, What, Total),
     !,
     run_directory(Root, Run, Directory),
     current_prolog_flag(pid, Pid),
     part_directory(Directory, Pid, Part),
-    directory_file_path(Part, 'events.pl', Log),
+    log_file(Part, Log),
     watching(Log, What, Total, run_here(Run, Root, [logs(Logs)], Outcome)),
     told(Outcome, Run, Kind).
-make_missing(Runs, Desk, Made) :-
-    length(Runs, Total),
-    get_time(Begin),
-    catch(( make(Runs, Desk, Begin-Total, 0, Made),
-            dismiss ),
-          Ball,
-          ( end_workers,
-            throw(Ball) )).
-
-%   watched(+Run, -What, -Total): on a real clock, and the study says which
-%   events to count.
+make_missing(Runs, Desk, Task, Made) :-
+    make(Runs, Desk, Task, 0, Made).
 
 watched(run(Study, Case, _), What, Total) :-
     get_dict(clock, Case, Clock),

@@ -1,16 +1,24 @@
 :- module(population_metrics,
-          [ until_settled/4,            % +Events, +Tasks, +Hosts, -Kept
+          [ track_start/2,              % +Tasks, -State
+            track/3,                    % +Event, +State0, -State
+            track_done/3,               % +State, +Task, -Count
+            track_alive/2,              % +State, -Count
+            track_settled/2,            % +State, +Hosts
+            until_settled/4,            % +Events, +Tasks, +Hosts, -Kept
+            agent_kind/2,               % +Agent, -Kind
             populations/3,              % +Events, +Kinds, -Steps
             peak/3,                     % +Kind, +Steps, -Peak
             peak/4,                     % +Kind, +From, +Steps, -Peak
             population_at/3,            % +Time, +Steps, -Counts
-            again/3                     % +Executions, -First, -Again
+            again/3,                    % +Executions, -First, -Again
+            spans/2,                    % +Rows, -Seconds
+            gaps/2                      % +Rows, -Seconds
           ]).
-:- use_module(track,
-              [agent_kind/2, track/3, track_settled/2, track_start/2]).
 :- use_module(library(apply), [foldl/5, maplist/3]).
 :- use_module(library(lists),
-              [last/2, member/2, memberchk/2, nth1/3, sum_list/2]).
+              [last/2, member/2, memberchk/2, nextto/3, nth1/3, selectchk/4,
+               sum_list/2]).
+:- use_module(library(ordsets), [ord_add_element/3, ord_del_element/3]).
 
 /** <module> What an event log says about populations
 
@@ -19,6 +27,62 @@ there are Counts agents of each kind, Total in all.
 
 *Threading*: pure.
 */
+
+%!  track_start(+Tasks, -State) is det.
+%!  track(+Event, +State0, -State) is det.
+%
+%   State is where a network stands after the event(Time, Host, Agent, What)
+%   facts of its log so far: what is completed where, and how many agents
+%   there are of kinds that have a number.
+
+track_start(Tasks, state(Done, 0)) :-
+    maplist(none_done, Tasks, Done).
+
+none_done(Task, Task-[]).
+
+track(event(_, Host, _, completed(_, Task)), State0, State) :-
+    !,
+    change(ord_add_element, Task, Host, State0, State).
+track(event(_, Host, _, failed(_, Task)), State0, State) :-
+    !,
+    change(ord_del_element, Task, Host, State0, State).
+track(event(_, _, Agent, created), state(Done, Alive0), state(Done, Alive)) :-
+    agent_kind(Agent, _),
+    !,
+    Alive is Alive0 + 1.
+track(event(_, _, Agent, ended(_)), state(Done, Alive0),
+      state(Done, Alive)) :-
+    agent_kind(Agent, _),
+    !,
+    Alive is Alive0 - 1.
+track(_, State, State).
+
+change(Change, Task, Host, state(Done0, Alive), state(Done, Alive)) :-
+    selectchk(Task-Hosts0, Done0, Task-Hosts, Done),
+    !,
+    call(Change, Hosts0, Host, Hosts).
+change(_, _, _, State, State).
+
+%!  track_done(+State, +Task, -Count) is semidet.
+%!  track_alive(+State, -Count) is det.
+%
+%   On how many hosts Task is completed; how many agents there are.
+
+track_done(state(Done, _), Task, Count) :-
+    member(Task-Hosts, Done),
+    !,
+    length(Hosts, Count).
+
+track_alive(state(_, Alive), Alive).
+
+%!  track_settled(+State, +Hosts:integer) is semidet.
+%
+%   All tasks are completed at so many Hosts, and of each kind there is but
+%   one agent left.
+
+track_settled(state(Done, Alive), Hosts) :-
+    length(Done, Alive),
+    forall(member(_-At, Done), length(At, Hosts)).
 
 %!  until_settled(+Events, +Tasks, +Hosts:integer, -Kept) is det.
 %
@@ -36,6 +100,18 @@ until_settled_([Event|Events], State0, Hosts, [Event|Kept]) :-
     ->  Kept = []
     ;   until_settled_(Events, State, Hosts, Kept)
     ).
+
+%!  agent_kind(+Agent, -Kind:integer) is semidet.
+%
+%   Kind is the number in the name of Agent, `agent<Kind>`.
+
+agent_kind(Agent, Kind) :-
+    sub_atom(Agent, 0, _, _, agent),
+    sub_atom(Agent, Dot, _, _, '.'),
+    !,
+    Length is Dot - 5,
+    sub_atom(Agent, 5, Length, _, Digits),
+    atom_number(Digits, Kind).
 
 %!  populations(+Events, +Kinds:list(integer), -Steps) is det.
 %
@@ -141,3 +217,23 @@ split([E|Es], Seen, First, Again) :-
     ;   First = [E|First1],
         split(Es, [Host-Task|Seen], First1, Again)
     ).
+
+%!  spans(+Rows, -Seconds:list) is det.
+%!  gaps(+Rows, -Seconds:list) is det.
+%
+%   Of the rows of task_rows/2, see sync_metrics: the time from the first
+%   start to the last end of each task, and from there to the first start of
+%   the next, negative where they overlap.
+
+spans(Rows, Spans) :-
+    findall(Span,
+            ( member(task(_, First, _, End, _, _), Rows),
+              Span is End - First ),
+            Spans).
+
+gaps(Rows, Gaps) :-
+    findall(Gap,
+            ( nextto(task(_, _, _, End, _, _), task(_, Next, _, _, _, _),
+                     Rows),
+              Gap is Next - End ),
+            Gaps).

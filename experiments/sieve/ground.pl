@@ -1,134 +1,119 @@
-:- module(sieve_ground,
-          [ ground_start/4,             % +Topology, +Model, +Seed, -Ground
-            ground_links/4,             % +Now, +Ground0, -Ground, -Links
-            ground_map/4,               % +Links, +Host, +Span, -Map
-            ground_step/6               % +Links, +Maps, +From, -To,
-                                        % +Chance0, -Chance
-          ]).
-:- use_module('../../prolog/typhon/base/chance', [chance_member/4]).
-:- use_module('../../prolog/typhon/network/dynamics',
-              [dynamics_event/4, dynamics_model/2, dynamics_state/5]).
-:- use_module('../../prolog/typhon/language/strategy', [memory_mark/3, next_host/6]).
-:- use_module('../../prolog/typhon/network/topology', [topology_edges/4]).
-:- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [foldl/4]).
-:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
-:- use_module(library(lists), [member/2, numlist/3]).
-:- use_module(library(ordsets),
-              [ord_add_element/3, ord_del_element/3, ord_subtract/3]).
-
-/** <module> The network of a simulation, and ways through it
-
-A ground is ground(N, Links, Due): N hosts, numbered from 1, the neighbours
-of each, and the changes of links that come next.
-
-*Threading*: pure.
-*/
-
-%!  ground_start(+Topology, +Model, +Seed:integer, -Ground) is det.
+%   Chapter 3: antibodies carried by mobile agents, on hosts under attack.
 %
-%   As a network of that topology, with links that change by Model, or
-%   `none`.
+%   The study that includes this says plan(Case, Plan), which antigens attack
+%   in which rounds: see rounds.pl; and, for its picture, panel(Runs, Panel),
+%   panel by panel: see pictures.pl.  The view of a run is its rounds.
 
-ground_start(Topology, Model, Seed, ground(N, Links, Due)) :-
-    topology_edges(Topology, Seed, N, Edges),
-    numlist(1, N, Hosts),
-    findall(Ns,
-            ( member(Host, Hosts),
-              findall(J, ( member(Host-J, Edges)
-                         ; member(J-Host, Edges) ), Ns0),
-              sort(Ns0, Ns) ),
-            All),
-    Links =.. [links|All],
-    (   Model == none
-    ->  Due = none
-    ;   dynamics_model(Model, General),
-        dynamics_state(General, N, Edges, Seed, State),
-        next_changes(State, Due)
+:- use_module('../../agents/sieve/operator',
+              [antigen_attack/2, sieve_start/3]).
+:- use_module('../../prolog/typhon',
+              [network_advance/2, network_at/3, network_property/2]).
+:- use_module('../../prolog/typhon/base/chance',
+              [chance_sample/5, chance_seed/2]).
+:- use_module(pictures, [dot_rows/2, median_rows/2, panel_variables/2]).
+:- use_module(rounds, [event_rounds/3, plan_rounds/2]).
+:- use_module(library(apply), [foldl/5, maplist/3]).
+:- use_module(library(lists), [append/3, member/2, nth0/3]).
+
+fixed(application, payloads(sieve/bits), printed("section 3.5.2: five bits")).
+fixed(topology, random(100, 0.06),
+      assumed("100 nodes are printed, not how they are linked")).
+fixed(dynamic, links(uniform(4, 8), 0.5, 0.5),
+      assumed("dynamic is printed, not how; the number of links stays")).
+fixed(attacked, 10, assumed("hosts for each antigen in a round: several")).
+fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
+fixed(round, 16, chosen("40 hops; see omega")).
+fixed(omega, 200,
+      chosen("printed: 1000 hops; these are the lives of five rounds")).
+fixed(reading, similar,
+      chosen("who is better: by feedback for similar antigens")).
+fixed(patience, 1.2,
+      chosen("until a danger signal has died down: 3 hops, as it spreads")).
+fixed(gather, 1.2, assumed("from the first offer to the choice: 3 hops")).
+fixed(crowd, 12,
+      chosen("no clones where so many agents are; not of the thesis")).
+fixed(capacity, 40, assumed("of a host; never reached")).
+
+network(Case, Case.topology,
+        [ hop_time(uniform(Min, Max)), hosts([capacity(Case.capacity)])
+        | Dynamic ]) :-
+    Min-Max = Case.hop_time,
+    (   get_dict(dynamic, Case, none)
+    ->  Dynamic = []
+    ;   get_dict(dynamic, Case, Model),
+        Dynamic = [dynamic(Model)]
     ).
 
-next_changes(State0, Due) :-
-    (   dynamics_event(State0, Time, Changes, State)
-    ->  Due = due(Time, Changes, State)
-    ;   Due = none
-    ).
+%   All attacks are arranged before time begins to run.
 
-%!  ground_links(+Now, +Ground0, -Ground, -Links) is det.
-%
-%   Links, a term whose argument I is the list of neighbours of host I, as
-%   they are at Now.
+run(Case, Network) :-
+    network_property(Network, hosts(Hosts)),
+    findall(Name-Value,
+            ( member(Name, [omega, reading, patience, gather, crowd, seed,
+                            calls, memory_cells, memory_wins]),
+              get_dict(Name, Case, Value) ),
+            Settings),
+    sieve_start(Hosts, Case.application, [settings(Settings)]),
+    rounds_of(Case, Rounds),
+    chance_seed(Case.seed, Chance),
+    foldl(targets(Hosts, Case.attacked), Rounds, Attacks, Chance, _),
+    forall(( nth0(I, Attacks, Attack), Time is I*Case.round ),
+           network_at(Network, Time, attack_all(Attack))),
+    length(Rounds, Count),
+    Seconds is Count*Case.round,
+    network_advance(Network, Seconds).
 
-ground_links(Now, ground(N, Links0, due(Time, Changes, State)), Ground,
-             Links) :-
-    Time =< Now,
+rounds_of(Case, Rounds) :-
+    plan(Case, Plan),
+    plan_rounds(Plan, Rounds).
+
+%   Hosts that are attacked in one round are different ones.
+
+targets(Hosts, Each, Antigens, Attacks, Chance0, Chance) :-
+    length(Antigens, Kinds),
+    Count is Kinds*Each,
+    chance_sample(Count, Hosts, Attacked, Chance0, Chance),
+    dealt(Antigens, Each, Attacked, Attacks).
+
+dealt([], _, _, []).
+dealt([Antigen|Antigens], Each, Hosts0, [Antigen-Own|Attacks]) :-
+    length(Own, Each),
+    append(Own, Hosts, Hosts0),
+    dealt(Antigens, Each, Hosts, Attacks).
+
+attack_all(Attacks) :-
+    forall(( member(Antigen-Hosts, Attacks), antigen(Antigen, Term) ),
+           antigen_attack(Hosts, Term)).
+
+%   antigen(+Antigen, -Term): bits are written as one atom here.
+
+antigen(Antigen, Bits) :-
+    atom(Antigen),
     !,
-    foldl(change, Changes, Links0, Links1),
-    next_changes(State, Due),
-    ground_links(Now, ground(N, Links1, Due), Ground, Links).
-ground_links(_, Ground, Ground, Links) :-
-    arg(2, Ground, Links).
+    atom_chars(Antigen, Chars),
+    maplist(atom_number, Chars, Bits).
+antigen(Antigen, Antigen).
 
-change(link(I, J), Links0, Links) :-
-    changed(ord_add_element, I, J, Links0, Links1),
-    changed(ord_add_element, J, I, Links1, Links).
-change(unlink(I, J), Links0, Links) :-
-    changed(ord_del_element, I, J, Links0, Links1),
-    changed(ord_del_element, J, I, Links1, Links).
+view(Log, Rounds) :-
+    rounds_of(Log.case, Planned),
+    findall(Start, ( nth0(I, Planned, _), Start is I*Log.case.round ),
+            Starts),
+    event_rounds(Log.events, Starts, Rounds).
 
-changed(Change, I, J, Links0, Links) :-
-    duplicate_term(Links0, Links),
-    arg(I, Links, Ns0),
-    call(Change, Ns0, J, Ns),
-    setarg(I, Links, Ns).
+                /*******************************
+                *            PICTURE           *
+                *******************************/
 
-%!  ground_map(+Links, +Host, +Span, -Map) is det.
-%
-%   Map has the distance from Host of hosts that are at most Span away.
+%   Tables and variables of rounds.gp.
 
-ground_map(Links, Host, Span, Map) :-
-    spread([Host], 0, Span, Links, [Host], [Host-0], Pairs),
-    list_to_assoc(Pairs, Map).
+panel_rows(Runs, Rows) :-
+    findall(Panel, panel(Runs, Panel), Panels),
+    median_rows(Panels, Rows).
 
-spread([], _, _, _, _, Pairs, Pairs) :-
-    !.
-spread(_, Span, Span, _, _, Pairs, Pairs) :-
-    !.
-spread(Edge, Distance, Span, Links, Seen, Pairs0, Pairs) :-
-    findall(J, ( member(I, Edge), arg(I, Links, Ns), member(J, Ns) ), Js0),
-    sort(Js0, Js),
-    ord_subtract(Js, Seen, New),
-    Distance1 is Distance + 1,
-    findall(J-Distance1, member(J, New), NewPairs, Pairs0),
-    foldl(see, New, Seen, Seen1),
-    spread(New, Distance1, Span, Links, Seen1, NewPairs, Pairs).
+panel_dots(Runs, Rows) :-
+    findall(Panel, panel(Runs, Panel), Panels),
+    dot_rows(Panels, Rows).
 
-see(Host, Seen0, Seen) :-
-    ord_add_element(Seen0, Host, Seen).
-
-%!  ground_step(+Links, +Maps, +From, -To, +Chance0, -Chance) is det.
-%
-%   A hop nearer to the source of the nearest of Maps, or on conscientiously
-%   where none is near.  From and To are pairs Host-Trip, Trip being the
-%   memory of the strategy.
-
-ground_step(Links, Maps, Host-Trip0, Next-Trip, Chance0, Chance) :-
-    arg(Host, Links, Neighbours),
-    findall(Distance-J,
-            ( member(Map, Maps), get_assoc(Host, Map, Here),
-              Distance is Here - 1, member(J, Neighbours),
-              get_assoc(J, Map, Distance) ),
-            Steps),
-    aggregate_all(min(D), member(D-_, Steps), Least),
-    !,
-    findall(J, member(Least-J, Steps), Nearer),
-    chance_member(Next, Nearer, Chance0, Chance),
-    memory_mark(Host, Trip0, Trip1),
-    memory_mark(Next, Trip1, Trip).
-ground_step(Links, _, Host-Trip0, Next-Trip, Chance, Chance) :-
-    arg(Host, Links, Neighbours),
-    (   next_host(conscientious, Neighbours, Host, Trip0, Next0, Trip1)
-    ->  Next = Next0,
-        Trip = Trip1
-    ;   Next = Host,
-        Trip = Trip0
-    ).
+panels(Runs, Pairs) :-
+    findall(Panel, panel(Runs, Panel), Panels),
+    panel_variables(Panels, Pairs).

@@ -1,21 +1,23 @@
 :- module(sieve_rounds,
-          [ plan/2,                     % ?Figure, -Plan
-            plan_rounds/2,              % +Plan, -Rounds
-            application/2,              % +Figure, -Payload
+          [ plan_rounds/2,              % +Plan, -Rounds
             event_rounds/3,             % +Events, +Starts, -Rounds
             population/3,               % +Rounds, +Round, -Population
+            count/5,                    % +What, +Kind, +Rounds, +Round, -N
             born/4,                     % +Rounds, ?Round, ?How, ?Kind
-            waits/4                     % +Rounds, +Round, +Antigen, -Waits
+            kinds/2,                    % +Rounds, -Kinds
+            waits/4,                    % +Rounds, +Round, ?Antigen, -Waits
+            kind_name/2                 % +Kind, -Name
           ]).
-:- use_module(library(apply), [foldl/4]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
 /** <module> What is attacked in each round, and what came of it
 
 A plan is a list of Antigens-Count: in so many rounds each of Antigens
-attacks.  Kinds are antibodies.  What happened is a list of terms
-round(Events), one for each round; Events, in order, are
+attacks.  Kinds are antibodies; bits are an atom, as '11110'.  What happened
+is a list of terms round(Events), one for each round; Events, in order, are
 
     born(How, Kind)             How is `host` or `clone`
     died(Cause, Kind)           `suppressed` or `aged`
@@ -27,31 +29,6 @@ round(Events), one for each round; Events, in order, are
 
 *Threading*: pure.
 */
-
-%!  plan(?Figure, -Plan) is nondet.
-%
-%   The antigens of the figures of thesis section 3.6, and of those for
-%   memory cells and programs.
-
-plan('3.3', [First-15]) :-
-    First = [[0,0,0,0,0], [1,1,1,1,1], [1,0,1,0,1]].
-plan('3.4', [First-15]) :-
-    close_antigens(First).
-plan('3.5', [First-5, Second-5]) :-
-    close_antigens(First),
-    Second = [[1,1,1,0,0], [1,1,1,0,1], [1,1,0,0,1]].
-plan(memory, [[[0,0,0,0,0]]-5, [[1,1,1,1,1]]-8, [[0,0,0,0,0]]-3]).
-plan(programs, [[block(left), corner(right), corridor(left)]-12]).
-
-close_antigens([[0,0,0,0,0], [0,0,0,0,1], [0,0,0,1,1]]).
-
-%!  application(+Figure, -Payload) is det.
-%
-%   What is sieved.
-
-application(programs, payloads(sieve/maze)) :-
-    !.
-application(_, payloads(sieve/bits)).
 
 %!  plan_rounds(+Plan, -Rounds:list) is det.
 %
@@ -82,11 +59,30 @@ within(Events, From, To, What) :-
     Time < To,
     told(Told, What).
 
-told(born(How, Kind), born(How, Kind)).
-told(died(Cause, Kind), died(Cause, Kind)).
-told(served(Antigen, Kind, Wait, _), served(Antigen, Kind, Wait)).
-told(generated(Antigen, Kind, Wait), generated(Antigen, Kind, Wait)).
-told(memory_cell(Kind), memory_cell(Kind)).
+told(born(How, Kind), born(How, Name)) :-
+    kind_name(Kind, Name).
+told(died(Cause, Kind), died(Cause, Name)) :-
+    kind_name(Kind, Name).
+told(served(Antigen, Kind, Wait, _), served(Attacker, Name, Wait)) :-
+    kind_name(Antigen, Attacker),
+    kind_name(Kind, Name).
+told(generated(Antigen, Kind, Wait), generated(Attacker, Name, Wait)) :-
+    kind_name(Antigen, Attacker),
+    kind_name(Kind, Name).
+told(memory_cell(Kind), memory_cell(Name)) :-
+    kind_name(Kind, Name).
+
+%!  kind_name(+Kind, -Name) is det.
+%
+%   Bits as one atom; anything else is its own name.
+
+kind_name(Kind, Name) :-
+    is_list(Kind),
+    Kind = [_|_],
+    maplist(integer, Kind),
+    !,
+    atomic_list_concat(Kind, Name).
+kind_name(Kind, Kind).
 
 %!  population(+Rounds, +Round:integer, -Population) is det.
 %
@@ -116,13 +112,38 @@ add(Kind-Change, [Kind-Count0|Counts], [Kind-Count|Counts]) :-
     Count is Count0 + Change.
 add(Kind-Change, Counts, [Kind-Change|Counts]).
 
+%!  count(+What, ?Kind, +Rounds, +Round:integer, -N:integer) is det.
+%
+%   What is `population`, at the end of Round; `clone` or `host`, how many
+%   such were born in it; or `suppressed` or `aged`, how many died so.  Of
+%   all kinds where Kind is unbound.
+
+count(population, Kind, Rounds, Round, N) :-
+    !,
+    population(Rounds, Round, Population),
+    aggregate_all(sum(Count), member(Count-Kind, Population), N).
+count(What, Kind, Rounds, Round, N) :-
+    nth1(Round, Rounds, round(Events)),
+    aggregate_all(count,
+                  ( member(born(What, Kind), Events)
+                  ; member(died(What, Kind), Events) ),
+                  N).
+
 %!  born(+Rounds, ?Round, ?How, ?Kind) is nondet.
 
 born(Rounds, Round, How, Kind) :-
     nth1(Round, Rounds, round(Events)),
     member(born(How, Kind), Events).
 
-%!  waits(+Rounds, +Round, +Antigen, -Waits:list(number)) is det.
+%!  kinds(+Rounds, -Kinds) is det.
+%
+%   All that were ever there.
+
+kinds(Rounds, Kinds) :-
+    findall(Kind, born(Rounds, _, _, Kind), Kinds0),
+    sort(Kinds0, Kinds).
+
+%!  waits(+Rounds, +Round, ?Antigen, -Waits:list(number)) is det.
 %
 %   How long hosts under attack waited, also those that had to help
 %   themselves.

@@ -17,7 +17,7 @@ arguments(Dir, More, Arguments) :-
     project_file('experiments/study.pl', Script),
     append([ Script, '--', demo, '--runs', '1', '--set', 'processes=2',
              '--set', 'hosts=20', '--set', 'agents=4', '--set', 'tasks=2',
-             '--out', Dir
+             '--logs', '--out', Dir
            ], More, Arguments).
 
 small_run(Dir, More, Out, Err) :-

@@ -17,11 +17,12 @@
               [claim_holds/3, claim_shape/2]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module('../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../experiments/engine/picture', [picture/4]).
 :- use_module('../../experiments/engine/run', [run_make/4]).
 :- use_module('../../experiments/engine/store', [run_facts/2]).
 :- use_module('../../experiments/engine/studies',
-              [study_call/2, study_cases/3, study_load/2]).
+              [study_call/2, study_load/2]).
 
 /** <module> Studies of robots: what they say of logs made by hand, and runs
 

@@ -214,7 +214,8 @@ release_all(Job, Count) :-
     append(Members, Bidders, Hosts0),
     sort(Hosts0, Hosts),
     parameter(jobs, Most),
-    remember(over(Job, Round), over(_, _), Most),
+    make_room(over(_, _), Most),
+    assertz(over(Job, Round)),
     (   Hosts == []
     ->  true
     ;   tell_robots(Job, Hosts, release(Job, Round, all))

@@ -224,7 +224,8 @@ released(Job, Round, Hosts) :-
     ),
     !,
     parameter(jobs, Most),
-    remember(over(Job, Round), over(_, _), Most),
+    make_room(over(_, _), Most),
+    assertz(over(Job, Round)),
     (   hold(Job, Held, _, _),
         Held =< Round
     ->  retractall(hold(_, _, _, _))

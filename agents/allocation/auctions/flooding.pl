@@ -10,13 +10,17 @@
     time of a flood as long as it keeps pace.
 
     Each node passes a flood on once, to all neighbours but the one it came
-    from: over N hosts with E links it takes 2E - (N-1) messages.
+    from: over N hosts with E links it takes 2E - (N-1) messages.  Two nodes
+    often send each other the same.  The later one has got the earlier
+    message, though it is not yet due: its own would find the flood known,
+    so it is counted, and spared the computer.
 
         peer(Host, Node)        each node there is
-        wave(Flood, Due)        floods known, -1 once they are passed on
+        wave(Flood, Due, Froms) floods known, -1 once they are passed on;
+                                the neighbours from which they came
 */
 
-:- dynamic peer/2, wave/2.
+:- dynamic peer/2, wave/3.
 
                 /*******************************
                 *            LINKS             *
@@ -62,11 +66,15 @@ link_seconds(Seconds) :-
 
 crossed(Due, From, flood(Id, Body)) :-
     !,
-    (   wave(Id, Due0),
-        Due0 =< Due
+    (   retract(wave(Id, Due0, Froms))
+    ->  Due1 is min(Due0, Due),
+        assertz(wave(Id, Due1, [From|Froms]))
+    ;   Due0 = inf,
+        new_wave(Id, Due, [From])
+    ),
+    (   Due0 =< Due
     ->  true
-    ;   new_wave(Id, Due),
-        at(Due, flooded(From, Id, Body))
+    ;   at(Due, flooded(From, Id, Body))
     ).
 crossed(Due, From, only(Body)) :-
     at(Due, told(From, Body)).
@@ -81,31 +89,33 @@ crossed(Due, From, only(Body)) :-
 
 flood(Body) :-
     new_id(Id),
-    new_wave(Id, -1),
+    new_wave(Id, -1, []),
     now(Now),
-    spread(none, Id, Body, Now).
+    spread(none, [], Id, Body, Now).
 
 %!  flooded(+From, +Id, +Body, +Now) is det.
 %
 %   It is due.
 
 flooded(From, Id, Body, Now) :-
-    (   wave(Id, -1)
-    ->  true
-    ;   retractall(wave(Id, _)),
-        assertz(wave(Id, -1)),
+    (   wave(Id, Due, Froms),
+        Due \== -1
+    ->  retract(wave(Id, Due, Froms)),
+        assertz(wave(Id, -1, Froms)),
         (   onward(Body, Onward)
-        ->  spread(From, Id, Onward, Now)
+        ->  spread(From, Froms, Id, Onward, Now)
         ;   true
         ),
         arrived(Body, From, Now)
+    ;   true
     ).
 
-spread(From, Id, Body, Now) :-
+spread(From, Froms, Id, Body, Now) :-
     here(Here),
     neighbours(Neighbours),
     others(Neighbours, From, Count, Others),
-    transmit(Others, Here, Now, flood(Id, Body)),
+    subtract(Others, Froms, Tos),
+    transmit(Tos, Here, Now, flood(Id, Body)),
     body_kind(Body, Kind),
     count(Kind, Count).
 
@@ -119,10 +129,7 @@ others([Host|Hosts], From, Count, Others) :-
     ;   others(Hosts, From, Count, Others)
     ).
 
-new_wave(Id, Due) :-
-    (   wave(Id, _)
-    ->  retractall(wave(Id, _)),
-        assertz(wave(Id, Due))
-    ;   parameter(memory, Most),
-        remember(wave(Id, Due), wave(_, _), Most)
-    ).
+new_wave(Id, Due, Froms) :-
+    parameter(memory, Most),
+    make_room(wave(_, _, _), Most),
+    assertz(wave(Id, Due, Froms)).

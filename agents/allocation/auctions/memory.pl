@@ -1,5 +1,5 @@
 % Expects: nothing.
-% Gives: remember/3, first_id/0, new_id/1; its state.
+% Gives: make_room/2, first_id/0, new_id/1; its state.
 
 /*  What a node remembers for a while, and how it numbers what it sends.
 
@@ -9,13 +9,14 @@
 
 :- dynamic kept/2, next_id/1.
 
-%!  remember(+Fact, +Any, +Most) is det.
+%!  make_room(+Any, +Most) is det.
 %
-%   Assert Fact; of more than Most that match Any the oldest goes.
+%   The caller is about to assert a fact that matches Any: of more than Most
+%   the oldest goes.  (A clause that asserts what it does not know by name
+%   could add rules, and would be run by the machine, step by step.)
 
-remember(Fact, Any, Most) :-
-    assertz(Fact),
-    functor(Fact, Name, _),
+make_room(Any, Most) :-
+    functor(Any, Name, _),
     (   retract(kept(Name, Count0))
     ->  true
     ;   Count0 = 0

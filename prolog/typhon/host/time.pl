@@ -6,6 +6,7 @@
             time_work/1,                % +Work
             time_wait/3,                % +Queue, -Message, +Stamp
             time_signal/1,              % :Goal
+            time_seed/1,                % +Seed
             alarm_set/3                 % +Stamp, +Agent, +Token
           ]).
 :- use_module(pool, [pool_signal/1, pool_start/0, pool_stop/0]).
@@ -71,6 +72,18 @@ time_now(Stamp) :-
     virtual_now(Stamp).
 time_now(Stamp) :-
     get_time(Stamp).
+
+%!  time_seed(+Seed:integer) is det.
+%
+%   Where one thread does all work, what it draws by library(random) follows
+%   from Seed.
+
+time_seed(Seed) :-
+    time_kind(Kind),
+    seed(Kind, Seed).
+
+seed(real, _).
+seed(virtual, Seed) :- virtual_work(goal(set_random(seed(Seed)))).
 
 %!  time_work(+Work) is det.
 %

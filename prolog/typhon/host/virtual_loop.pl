@@ -44,7 +44,7 @@ virtual_begin :-
 %!  virtual_loop(+Queue) is det.
 %
 %   Until ask(stop) comes. What agents draw by library(random) comes from the
-%   generator of this thread: it begins alike each time.
+%   generator of this thread: it begins alike each time, or see time_seed/1.
 
 virtual_loop(Queue) :-
     set_random(seed(1)),

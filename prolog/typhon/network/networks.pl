@@ -9,7 +9,7 @@
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host',
-              [runtime_acquire/2, runtime_release/1, time_now/1]).
+              [runtime_acquire/2, runtime_release/1, time_now/1, time_seed/1]).
 :- use_module(changes, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
 :- use_module(carriers, [carrier/3]).
@@ -108,6 +108,8 @@ unless_built(_, Network) :-
 
 build(Network, Plan) :-
     listen(Network, Plan),
+    plan_option(Plan, seed(Seed)),
+    time_seed(Seed),
     plan_processes(Plan, P, Machines),
     interface(Plan, Interface),
     carriers_start(Network, P, Machines, Interface),

@@ -5,14 +5,9 @@
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
 :- use_module(library(typhon)).
 :- use_module('../../../agents/sieve/operator').
-:- use_module('../../../experiments/sieve/programs').
-:- use_module('../../../experiments/sieve/claims').
-:- use_module('../../../experiments/sieve/rounds').
-:- use_module('../../../experiments/sieve/simulation').
 :- include('../../../agents/sieve/idiotypic').
 
 :- discontiguous payload/2.
@@ -369,106 +364,3 @@ watch(File, Attacks, Most) :-
     nb_getval(most, Most).
 
 :- end_tests(sieve_network).
-
-                /*******************************
-                *          EXPERIMENT          *
-                *******************************/
-
-:- begin_tests(sieve_experiment).
-
-test(rounds_of_a_log, Populations == [[2-a], [2-a, 1-b], [1-b, 1-a]]) :-
-    event_rounds([ event(1, h, x, born(host, a)), event(2, h, x, arrived),
-                   event(3, h, x, born(clone, a)),
-                   event(4, h, x, born(host, b)),
-                   event(9, h, x, died(aged, a)) ], [0, 4, 8], Rounds),
-    findall(Population,
-            ( between(1, 3, R), population(Rounds, R, Population) ),
-            Populations).
-test(waits, Waits == [3, 6]) :-
-    waits([round([ served(a, k, 3), served(b, k, 9), generated(a, k, 6) ])],
-          1, a, Waits).
-test(claims_of_figure_3_3, Helds == [true, true, true, true, true]) :-
-    findall(round([born(clone, A), born(clone, B), born(clone, C)]),
-            ( between(1, 15, _),
-              maplist(bits, ['11111', '00000', '01010'], [A, B, C]) ),
-            Rounds),
-    sieve_claims('3.3', [1-Rounds], Claims),
-    findall(Held, member(claim(_, Held, _), Claims), Helds).
-test(claims_can_fail, Helds == [false, false, true, false, false]) :-
-    findall(round([born(clone, A), born(clone, B)]),
-            ( between(1, 15, R),
-              ( R =< 5 -> X = '11111' ; X = '11110' ),
-              maplist(bits, [X, '00000'], [A, B]) ),
-            Rounds),
-    sieve_claims('3.3', [1-Rounds], Claims),
-    findall(Held, member(claim(_, Held, _), Claims), Helds).
-test(claims_of_programs, Helds == [true, true]) :-
-    program_rounds(good, Good),
-    programs_helds([1-Good, 2-Good], Helds).
-test(claims_of_programs_can_fail, Helds == [false, false]) :-
-    program_rounds(good, Good),
-    program_rounds(bad, Bad),
-    programs_helds([1-Good, 2-Bad], Helds).
-
-programs_helds(Runs, Helds) :-
-    programs_claims(Runs, Claims),
-    findall(Held, member(claim(_, Held, _), Claims), Helds).
-
-%   One program that goes round the block, and one that goes nowhere.
-
-program_rounds(Last, Rounds) :-
-    Along = [(right :- free(right), after(forward)), (left :- wall(ahead))],
-    Rounds = [ round([ generated(block(left), [], 4), born(host, []) ]),
-               round([ served(block(left), Program, 3)|Events ]) ],
-    (   Last == good
-    ->  Program = Along,
-        Events = [born(clone, Along)]
-    ;   Program = [],
-        Events = [born(clone, [])]
-    ).
-
-test(a_simulation_follows_from_its_seed, Rounds1 == Rounds2) :-
-    simulated(3, Rounds1),
-    simulated(3, Rounds2),
-    simulated(4, Rounds3),
-    Rounds3 \== Rounds1.
-test(every_simulated_attack_is_met, Counts == [9]) :-
-    simulated(1, Rounds),
-    findall(Count,
-            ( member(round(Events), Rounds),
-              aggregate_all(count,
-                            ( member(E, Events),
-                              ( E = served(_, _, _)
-                              ; E = generated(_, _, _) ) ),
-                            Count) ),
-            Counts0),
-    sort(Counts0, Counts).
-
-test(program) :-
-    with_tmp_dir(figure_made).
-
-figure_made(Dir) :-
-    project_file('experiments/sieve.pl', Script),
-    run_swipl([ Script, '--', '--figure', '3.4', '--model', simulation,
-                '--runs', '1', '--topology', 'random(20,0.2)',
-                '--attacked', '3', '--round', '20',
-                '--settings', '[omega-60]', '--out', Dir ],
-              [], exit(0), Out, _),
-    sub_string(Out, _, _, _, "settings"),
-    sub_string(Out, _, _, _, "claims"),
-    forall(member(Name, ['sieve-3.4.csv', 'sieve-3.4.gnuplot']),
-           ( directory_file_path(Dir, Name, File), exists_file(File) )).
-test(no_such_figure, Status-Known == exit(1)-true) :-
-    project_file('experiments/sieve.pl', Script),
-    run_swipl([Script, '--', '--figure', '3.9'], [], Status, _, Err),
-    (   sub_string(Err, _, _, _, "figure")
-    ->  Known = true
-    ;   Known = false
-    ).
-
-simulated(Seed, Rounds) :-
-    simulate([ topology(random(20, 0.2)), seed(Seed), figure('3.5'),
-               dynamic(links(uniform(10,20),0.5,0.5)), attacked(3),
-               round(20), settings([omega-60]) ], Rounds).
-
-:- end_tests(sieve_experiment).

@@ -10,7 +10,6 @@
 :- use_module('../../../agents/population/operator').
 :- use_module('../../../agents/sync/operator').
 :- use_module('../../../experiments/population/metrics').
-:- use_module('../../../experiments/population/track').
 :- use_module('../../../experiments/sync/metrics', [executions/2, out_of_order/2]).
 :- include('../../../agents/sync/stimulation').
 

@@ -6,7 +6,6 @@
 :- use_module('../../lib/common').
 :- use_module('../../../experiments/engine/claims').
 :- use_module('../../../experiments/engine/found').
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 

@@ -41,7 +41,7 @@ outcome_of(Values, Outcome, Study) :-
               M \== missing ),
             Runs),
     outcome(Study, Cases, Runs, Outcome0),
-    Outcome = Outcome0.put(_{given:[], study:Study, runs:Runs}).
+    Outcome = Outcome0.put(_{given:[], checks:[], study:Study, runs:Runs}).
 
 claim(Outcome, Text, Held-Of-OfMedians) :-
     memberchk(claim(Text, _, Held, Of, OfMedians, _), Outcome.claims).
@@ -135,14 +135,15 @@ test(held, [ forall(member(H/N-T, [ 0/0-'not known', 1/1-held,
                                     2/3-'held in 2 of 3' ])),
              Text == T ]) :-
     held_text(H, N, Text).
-test(table, Text == "  a    bb\n  1  2.50\n") :-
+test(table, Text == "  a    bb  c\n  1  2.50  some\n  2     3  x\n") :-
     with_output_to(string(Text),
-                   print_table(current_output, [a, bb], [[1, 2.5]])).
+                   print_table(current_output, [a, bb, c],
+                               [[1, 2.5, some], [2, 3, x]])).
 test(printed) :-
     three(Values),
     printed(Values, Text),
     forall(member(Part, [ "toy: A toy", "  1     3  12 (10–14)",
-                          "held in 2 of 3  rises",
+                          "held in 2 of 3      rises",
                           "m: 12 20" ]),
            assertion(once(sub_string(Text, _, _, _, Part)))).
 test(shown_are_those_with_labels) :-

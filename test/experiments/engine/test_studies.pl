@@ -5,8 +5,7 @@
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
-              [save_lines/3, study_command/4, with_study/2,
-               with_study_file/2]).
+              [study_command/4, with_study/2, with_study_file/2]).
 :- use_module('../../../experiments/engine/catalogue').
 :- use_module('../../../experiments/engine/studies').
 :- use_module(library(apply), [maplist/3]).
@@ -158,7 +157,7 @@ listed(Dir, File) :-
     forall(member(Command, Commands), assertion(shell_in('/', Command))),
     study_command(Dir, [ File, '--collect', '--runs', 1, '--out', 'o u t' ],
                   exit(0), Shown),
-    says(Shown, ["1  it is     1  13", "2      x     1  23", "held"]),
+    says(Shown, ["1  it is     1  13", "2  x         1  23", "held"]),
     forall(nth1(1, Commands, Command), assertion(shell_in('/', Command))).
 
 shell_in(Dir, Command) :-
@@ -180,16 +179,16 @@ test(help) :-
                 "--list", "--collect", "--out"]).
 test(help_of_a_study) :-
     prints(['--help'], exit(0), Text),
-    says(Text, ["toy: A toy", " a      [1,2]       varied", "assumed: so"]).
+    says(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
 test(what_there_is) :-
     with_tmp_dir(what_there_is(Text)),
-    says(Text, ["5.6  Idle time and overlaps"]).
+    says(Text, ["  5.6          Idle time and overlaps"]).
 test(table_and_claims) :-
     prints(['--runs', 2, '--out', out], exit(0), Text),
-    says(Text, [ "toy: A toy", "  a      b  runs   m", "2      x     2  23",
-                 "held, 2 runs    m grows", "n: no value",
+    says(Text, [ "toy: A toy", "  a  b      runs   m", "2  x         2  23",
+                 "held, 2 runs        m grows", "n: no value",
                  "claim(\"n is small\"): no run has given n",
-                 "index.html" ]).
+                 "1 of 2 claims held in all runs.", "index.html" ]).
 test(set) :-
     prints(['--set', 'c=[4,5]', '--set', 'a=1', '--set', 'b=x', '--runs', 1],
            exit(0), Text),
@@ -208,10 +207,10 @@ test(set_nothing) :-
     prints(['--set', b], exit(1), Text),
     says(Text, ["NAME=VALUE"]).
 test(case_by_number) :-
-    with_command(one_case(['--case', 3], ["m     23", "a=2,b=x,seed=1"])).
+    with_command(one_case(['--case', 3], ["  m           23", "a=2,b=x,seed=1"])).
 test(case_by_name) :-
     with_command(one_case(['--case', 'a=1,b=it is', '--seed', 4],
-                          ["m     13", "a=1,b=it is,seed=4"])).
+                          ["  m           13", "a=1,b=it is,seed=4"])).
 test(no_such_case, forall(member(Case, [9, 'a=3,b=x']))) :-
     prints(['--case', Case], exit(1), Text),
     says(Text, ["case", "does not exist"]).

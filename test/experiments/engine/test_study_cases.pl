@@ -10,7 +10,7 @@
 :- use_module('../../../experiments/engine/studies', [study_load/2]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 
 base([ 'study(toy, "A toy").',

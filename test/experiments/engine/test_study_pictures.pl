@@ -181,7 +181,7 @@ page(Goal, Dir, File) :-
     study_load(File, Study),
     runs(Study, Dir, Cases, Runs),
     outcome(Study, Cases, Runs, Outcome0),
-    Outcome = Outcome0.put(given, [c-[5]]),
+    Outcome = Outcome0.put(_{given:[c-[5]], checks:[[m, 1, 2, above]]}),
     atomic_list_concat([Dir, '/toy 1'], Figures),
     make_directory_path(Figures),
     outcome_save(Study, Outcome, Runs, Figures),
@@ -231,7 +231,8 @@ test(tables) :-
                          ['10', old, '3', '202 (201–203) [12]'],
                          ['m < 3 & more (line 7, so)', 'DID NOT HOLD', _],
                          ['version prolog', '90004'],
-                         ['measure m', '3'] ]),
+                         ['measure m', '3'],
+                         [m, '1', '2', above] ]),
            assertion(memberchk(Row, Rows))),
     assertion(\+ memberchk(['measure l'|_], Rows)).
 test(says_how_to_make_it_again) :-

@@ -46,7 +46,9 @@ study([ 'study(toy, "A toy").',
         '    aggregate_all(count, member(event(_, _, _, step(_, _)),',
         '                                Log.events), Count).',
         'measure(hosts, Log, Count) :- length(Log.hosts, Count).',
-        'measure(drawn, _, X) :- random_between(1, 1000000, X).'
+        'measure(drawn, _, X) :- random_between(1, 1000000, X).',
+        'real([hosts=5], [clock=50]).',
+        'progress(_, step(_, _), 60).'
       ]).
 
 :- meta_predicate with_walkers(2).
@@ -117,6 +119,13 @@ kept(Dir, Out, Start, Text) :-
     !,
     text(Run, 'events.pl', Text).
 
+on_sockets(Text, Dir, File) :-
+    study_command(Dir, [File, '--runs', 1, '--real'], exit(0), Text).
+
+watched(Text, Dir, File) :-
+    study_command(Dir, [ File, '--runs', 1, '--set', 'hosts=5',
+                         '--set', 'clock=50' ], exit(0), Text).
+
 what_was_measured(Dir, File) :-
     made(Dir, File, 1, 1, _, Result),
     forall(member(Part, [ "measure(steps,60)", "measure(hosts,5)",
@@ -145,6 +154,13 @@ test(same_seed_same_run) :-
     with_walkers(same_again).
 test(in_a_worker_and_elsewhere) :-
     with_walkers(same_elsewhere).
+test(one_case_on_sockets, nondet) :-
+    with_walkers(on_sockets(Text)),
+    sub_string(Text, _, _, _, "on sockets  verdict"),
+    sub_string(Text, _, _, _, "hosts          5           5  inside").
+test(watched_in_real_time, nondet) :-
+    with_walkers(watched(Text)),
+    sub_string(Text, _, _, _, "/60 events").
 test(what_was_measured) :-
     with_walkers(what_was_measured).
 test(leaves_nothing) :-

@@ -22,9 +22,9 @@ a_study(Name, Count) :-
     member(Name-Count,
            [ 'learning/figure_4_7'-3, 'learning/figure_4_9'-30,
              'learning/figure_4_13'-5, 'learning/study_light'-12,
-             'algorithms/study_settings'-4, 'algorithms/study_islands'-3,
-             'algorithms/study_mixed'-6, 'algorithms/study_exchange'-2,
-             'algorithms/study_cloning'-3 ]).
+             'algorithms/beyond_settings'-4, 'algorithms/beyond_islands'-3,
+             'algorithms/beyond_mixed'-6, 'algorithms/beyond_exchange'-2,
+             'algorithms/beyond_cloning'-3 ]).
 
 :- begin_tests(learning_studies).
 
@@ -187,7 +187,7 @@ densities(Dir) :-
     drawn(Name, '4.9', Runs, Dir, ['4.9-medians.dat', '4.9-printed.dat']).
 
 printers(Dir) :-
-    study_file('algorithms/study_settings', Study),
+    study_file('algorithms/beyond_settings', Study),
     study_cases(Study,
                 [ algorithm-climb, sharing-true, agents-2, hosts-3,
                   settings-[[good-0.75]] ], [Case]),
@@ -199,7 +199,7 @@ printers(Dir) :-
 %   Nobody is waited for after the limit.
 
 given_up(Dir) :-
-    study_file('algorithms/study_exchange', Study),
+    study_file('algorithms/beyond_exchange', Study),
     study_cases(Study, [limit-60, exchange-at(20, greedy, scout)], [Case]),
     run_make(Study, Case, 1, Dir),
     measured(Dir, Measures),

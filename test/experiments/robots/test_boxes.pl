@@ -3,7 +3,7 @@
 :- use_module('../../lib/robot_logs').
 :- use_module(library(plunit)).
 :- use_module(library(lists)).
-:- use_module('../../../experiments/engine/studies', [study_cases/3]).
+:- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/robots/boxes_jobs').
 :- use_module('../../../experiments/robots/boxes_metrics').
 

@@ -5,6 +5,7 @@
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module('../../../experiments/engine/cases').
 :- use_module('../../../experiments/engine/claims').
 :- use_module('../../../experiments/engine/picture').
 :- use_module('../../../experiments/engine/run').
@@ -37,10 +38,11 @@ test(cases, [forall(a_study(Name, Count)), true(Found == Count)]) :-
     study_cases(Study, [], Cases),
     length(Cases, Found).
 test(claims_are_well_formed, [forall(a_study(Name, _)), true(Odd == [])]) :-
+    study_file(Name, Study),
     claims(Name, Claims),
     assertion(Claims = [_|_]),
     findall(Text-Problem,
-            ( member(Text-Test, Claims), claim_shape(user:Test, Problem) ),
+            ( member(Text-Test, Claims), claim_shape(Study:Test, Problem) ),
             Odd).
 test(best_delta_of_the_topology, Deltas == [0.2, 0.8, 0.2, 0.5]) :-
     study_file(figure_5_5, Study),

@@ -161,10 +161,24 @@ test(same_seed_same_log, true(A == B)) :-
     with_tmp_dir(two_logs(3, 3, A, B)).
 test(other_seed_other_log, true(A \== B)) :-
     with_tmp_dir(two_logs(3, 4, A, B)).
+test(what_agents_draw_follows_the_seed, true(( A == B, A =\= C ))) :-
+    maplist(drawn, [3,3,4], [A,B,C]).
 test(in_another_process_on_a_busy_machine, true(A == B)) :-
     with_tmp_dir(logs_of_processes(A, B)).
 
 :- end_tests(virtual_runs_are_alike).
+
+drawn(Seed, X) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(4), N, [clock(virtual), seed(Seed)]),
+                 ( first_host(N, Host),
+                   agent_create(clauses([ (:- agent(drawer, [state([x/1])])),
+                                          (main :- random(X), assertz(x(X))),
+                                          on_message(_, _) ]),
+                                Agent, [host(Host)]),
+                   network_advance(N, 1),
+                   agent_property(Agent, facts([x(X)])) ),
+                 network_stop(N))).
 
 two_logs(Seed1, Seed2, A, B, Dir) :-
     maplist(log_of(Dir), [Seed1,Seed2], [A,B]).

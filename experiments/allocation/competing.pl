@@ -1,0 +1,60 @@
+%   Chapter 7: what sections 7.6.1 and 7.6.3 say of the proposed mechanism
+%   beside the others.
+%
+%   Gives: competing/3, beside/6.
+
+:- use_module(library(lists), [member/2]).
+
+%   competing(-Text, -Notes, -Test): of allocators from one to five.
+
+competing("fewer than 10,000 communications of proposed with five",
+          [line(4866)],
+          at([mechanism=proposed, allocators=5], communications < 10000)).
+competing("more than 50,000 of Murdoch with five", [line(4867)],
+          at([mechanism=murdoch, allocators=5], communications > 50000)).
+competing(Text, [line(4864)],
+          at([mechanism=M], rises(communications, along(allocators)))) :-
+    member(M-Title,
+           [proposed-"proposed", murdoch-"Murdoch", anta-"ANTA"]),
+    format(string(Text), "communications of ~w grow", [Title]).
+competing(Text, [line(4868)],
+          at([mechanism=proposed, allocators=5],
+             rise(communications, along(allocators)) <
+             at([mechanism=M], rise(communications, along(allocators))))) :-
+    auction(M, Title),
+    format(string(Text), "a sharper rise of ~w's", [Title]).
+competing("proposed backs off for longer, the more allocators there are",
+          [line(4891)],
+          at([mechanism=proposed], rises(interval, along(allocators)))).
+competing(Text, Notes, Test) :-
+    member(said(Measure, What, Order, Line),
+           [ said(communications, "fewer communications", <, 4866),
+             said(time, "completed sooner", <, 4882),
+             said(backoffs, "more back-offs", >, 4887),
+             said(interval, "shorter back-offs", <, 4888) ]),
+    beside(Measure, What, Order, Text0, Test0),
+    so_many(Measure, Line, Text0-Test0, Text, Notes, Test).
+
+%   beside(+Measure, +What, +Order, -Text, -Test): proposed and an auction.
+
+beside(Measure, What, Order, Text, at([mechanism=proposed], Test)) :-
+    auction(Auction, Title),
+    Test =.. [Order, Measure, at([mechanism=Auction], Measure)],
+    format(string(Text), "~w with proposed than with ~w", [What, Title]).
+
+auction(murdoch, "Murdoch").
+auction(anta, "ANTA").
+
+%   Of one who is alone, too; and of those who compete.
+
+so_many(_, Line, Text0-Test, Text, [line(Line)|Notes], Test) :-
+    alone(Notes),
+    string_concat(Text0, ", of one to five", Text).
+so_many(Measure, Line, Text0-Test, Text, [line(Line), ours],
+        ( at([allocators=2], Test), at([allocators=3], Test),
+          at([allocators=4], Test), at([allocators=5], Test) )) :-
+    member(Measure, [communications, time]),
+    string_concat(Text0, ", of two to five", Text).
+
+alone([why("An auction that nobody disturbs takes three floods and the \c
+execution; an agent has to meet ten robots, host by host.")]).

@@ -1,0 +1,47 @@
+%   Figure 7.4: the density of eligible robots.
+
+:- include(ground).
+:- include(competing).
+
+study('7.4', "The density of eligible robots").
+
+vary(mechanism, [proposed, murdoch, anta]).
+vary(eligible, [10, 20, 30, 40, 50]).
+
+claim("communications of proposed fall with the density", [line(4976)],
+      at([mechanism=proposed], falls(communications, along(eligible)))).
+claim("those of ANTA, too", [line(4976)],
+      at([mechanism=anta], falls(communications, along(eligible)))).
+claim("those of Murdoch grow", [line(4977)],
+      at([mechanism=murdoch], rises(communications, along(eligible)))).
+claim("proposed is completed sooner, the more robots there are", [line(4982)],
+      at([mechanism=proposed], falls(time, along(eligible)))).
+claim("Murdoch, too", [line(4982)],
+      at([mechanism=murdoch], falls(time, along(eligible)))).
+claim("ANTA, too", [line(4982)],
+      at([mechanism=anta], falls(time, along(eligible)))).
+claim(Text, [line(4979)], Test) :-
+    beside(communications, "fewer communications", <, Text, Test).
+claim(Text, [line(4983), why("With ten of ten an agent must find every one.")],
+      Test) :-
+    beside(time, "completed sooner", <, Text, Test).
+claim(Text, [line(4983), ours],
+      ( at([eligible=20], Test), at([eligible=30], Test),
+        at([eligible=40], Test), at([eligible=50], Test) )) :-
+    beside(time, "completed sooner", <, Text0, Test),
+    string_concat(Text0, ", of 20 and more", Text).
+claim("back-offs of proposed fall with the density", [line(5004)],
+      at([mechanism=proposed], falls(backoffs, along(eligible)))).
+claim("they get shorter", [line(5004)],
+      at([mechanism=proposed], falls(interval, along(eligible)))).
+claim("back-offs of Murdoch fall from first to last", [line(5005)],
+      at([mechanism=murdoch], falls(backoffs, along(eligible), ends))).
+claim("those of ANTA, too", [line(5005)],
+      at([mechanism=anta], falls(backoffs, along(eligible), ends))).
+claim("their intervals follow no pattern", [line(5006)],
+      ( \+ at([mechanism=murdoch], falls(interval, along(eligible))),
+        \+ at([mechanism=anta], falls(interval, along(eligible))) )).
+
+plot('7.4', "Density of eligible robots",
+     lines([ x(eligible), y([communications, time, backoffs, interval]),
+             line(mechanism), log(communications), log(time) ])).

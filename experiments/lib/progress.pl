@@ -1,2 +1,0 @@
-:- module(experiment_progress, []).
-:- reexport('../engine/progress').

@@ -1,2 +1,0 @@
-:- module(experiment_signals, []).
-:- reexport('../engine/signals').

@@ -1,0 +1,79 @@
+%   Figure 6.4: hosts lose task 2 while task 4 is executed.
+
+:- include(ground).
+:- use_module('../sync/metrics', [overlaps/2]).
+:- use_module(metrics, [peak/3, peak/4, population_at/3]).
+:- use_module(pictures,
+              [bar_rows/2, crash_rows/2, kind_rows/2, other_rows/2,
+               panel_variables/2, span_rows/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2, min_member/2, subtract/3]).
+
+study('6.4', "Twenty hosts lose task 2 while task 4 is executed").
+text("As in Figure 6.3, but 20 hosts lose task 2 while task 4 is executed. \c
+Some agent of the second kind comes by, executes it again, clones itself.").
+
+fixed(crash, 20, printed("section 6.5")).
+
+label(crash_time, "When T2 was lost (s)").
+label(rise, "More Agent-2 than at the crash, at most").
+label(rise_time, "When there were most Agent-2 after the crash (s)").
+label(healed, "When the last host had T2 again (s)").
+
+measure(lost, View, Count) :-
+    length(View.failures, Count).
+measure(crash_time, View, Time) :-
+    min_member(Time-_, View.failures).
+measure(healed, View, Time) :-
+    aggregate_all(max(End), member(execution(2, _, _, End), View.again),
+                  Time).
+measure(rise, View, Rise) :-
+    agent_2(View, Before, _-Peak),
+    Rise is Peak - Before.
+measure(rise_time, View, Time) :-
+    agent_2(View, _, Time-_).
+measure(first_peak, View, Count) :-
+    peak(2, View.steps, _-Count).
+measure(second_peak, View, Count) :-
+    agent_2(View, _, _-Count).
+measure(not_healed, View, Count) :-
+    findall(Host, member(_-Host, View.failures), Lost),
+    findall(Host, member(execution(2, Host, _, _), View.again), Healed),
+    subtract(Lost, Healed, Missing),
+    length(Missing, Count).
+measure(again, View, Count) :-
+    length(View.again, Count).
+measure(later_overlapped, View, Count) :-
+    findall(execution(Task, Host, Start, End),
+            ( member(execution(Task, Host, Start, End), View.executions),
+              Task >= 4 ),
+            Later),
+    overlaps(Later, Overlapping),
+    length(Overlapping, Count).
+
+%   agent_2(+View, -Before, -Peak): of the second kind, how many there were
+%   at the crash, and most from then on.
+
+agent_2(View, Before, Peak) :-
+    min_member(Crash-_, View.failures),
+    population_at(Crash, View.steps, [_, Before|_]),
+    peak(2, Crash, View.steps, Peak).
+
+claim("all hosts that lost T2 execute it again, nothing else is executed \c
+again", [line(4347)],
+      ( not_healed =:= 0, again =:= lost )).
+claim("meanwhile there are a few more Agent-2, fewer than at first",
+      [line(4350)],
+      ( rise > 0, second_peak < first_peak )).
+claim("this rise is at around 250 s with 50 hosts",
+      [line(4350), why("four tasks of 30 s and four idle times come first")],
+      at([hosts=50], near(rise_time, 250, 25))).
+claim("and at around 300 s with 100", [line(4351)],
+      at([hosts=100], near(rise_time, 300, 25))).
+claim("T4 and T5 keep their order", [line(4351)], later_overlapped =:= 0).
+
+plot('6.4', "Twenty hosts lose task 2 while task 4 is executed",
+     script('population.gp',
+            [ starts-bar_rows, kinds-kind_rows, others-other_rows,
+              spans-span_rows, crash-crash_rows ],
+            [size(1600, 1050), variables(panel_variables)])).

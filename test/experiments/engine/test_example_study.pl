@@ -1,0 +1,55 @@
+:- module(test_example_study, []).
+
+% The study that doc/studies.md shows is the one in examples/studies, and
+% gives what is shown there.
+
+:- use_module('../../lib/common').
+:- use_module('../../lib/study_files', [study_command/4]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+block(Kind, Begin, Lines) :-
+    project_file('doc/studies.md', File),
+    read_file_to_string(File, Document, [encoding(utf8)]),
+    atomic_list_concat(Parts, '```', Document),
+    atom_concat(Kind, '\n', Start0),
+    atom_concat(Start0, Begin, Start),
+    member(Part, Parts),
+    atom_concat(Start, More, Part),
+    !,
+    atomic_list_concat([_|Lines], '\n', More).
+
+%   What stands behind the comment at the beginning.
+
+file(Name, Text) :-
+    project_file(Name, File),
+    read_file_to_string(File, Text0, [encoding(utf8)]),
+    once(sub_string(Text0, Before, _, _, "\n\n")),
+    sub_string(Text0, Before, _, 0, Text).
+
+:- begin_tests(example_study).
+
+test(same_agent, Shown == Text) :-
+    block(prolog, '% explorer.pl', Lines),
+    atomic_list_concat([''|Lines], '\n', Atom),
+    atom_string(Atom, Shown),
+    file('examples/studies/explorer.pl', Text).
+test(same_study) :-
+    block(prolog, '% coverage.pl', [_|Lines]),
+    file('examples/studies/coverage.pl', Text),
+    forall(( member(Line, Lines),
+             Line \== ':- use_module(library(typhon)).' ),
+           assertion(once(sub_string(Text, _, _, _, Line)))).
+test(gives_what_is_shown) :-
+    block(text, '$ swipl', Lines),
+    with_tmp_dir(output(Output)),
+    forall(member(Line, Lines),
+           assertion(once(sub_string(Output, _, _, _, Line)))).
+
+:- end_tests(example_study).
+
+output(Output, Dir) :-
+    project_file('examples/studies/coverage.pl', Study),
+    study_command(Dir, [Study, '--runs', 10], exit(0), Output).
