@@ -60,7 +60,7 @@ claim("and than 19 in 20 of all shortest ways", [line(2556), ours], Test) :-
 claim("with an obstacle, nearer to it than 19 in 20 of all shortest ways",
       [line(2557), ours], at([network=obstacle], nearer < 5)).
 claim("final paths are as short as any",
-      [line(2562), why("random steps right before the goal are part of the way")],
+      [line(2562), why("random steps right before the goal are part of it")],
       at([sharing=true], detour =:= 0)).
 claim("more executions with an obstacle", [line(2557)],
       at([network=obstacle], executions > at([network=50], executions))).
