@@ -53,7 +53,7 @@ claim("sharing becomes less with time: 25 agents, 50 hosts", [line(2591)],
       at([network=50, density=0.5], trend < 0)).
 claim("and in all other cases", [line(2597)], trend < 0).
 claim("it decreases gradually, also before the first agent has converged",
-      [line(2594), why("agents share evenly while all are at work")],
+      [line(2594), why("it hardly changes while all are at work")],
       at([network=50, density=0.5], early_trend < 0)).
 
 plot('4.9', "Executions that an agent needs until all have converged",

@@ -15,7 +15,7 @@ fixed(obstacle_hosts, 50, printed("section 4.4")).
 fixed(size, 50, printed("section 4.4: 50 x 50")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 fixed(queue, 5, assumed("agents that a host admits beside its own")).
-fixed(light, 100, assumed("brightness at the goal; see study light")).
+fixed(light, 100, assumed("brightness at the goal; study light tries ten")).
 fixed(settings, [], assumed("of agents/learning/parameters.pl")).
 fixed(limit, 50000, assumed("host seconds; runs end long before")).
 
