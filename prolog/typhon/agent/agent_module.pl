@@ -1,6 +1,8 @@
 :- module(typhon_agent_module,
           [ agent_module/5,             % +Id, +Place, +Hash, +State, -Module
             agent_state/2,              % +Module, -State
+            agent_changed/4,            % +Module, +Since, -Clauses, -Until
+            agent_elsewhere/3,          % +Module, +Place0, +Place
             agent_handles/2,            % +Program, +Module
             attach_clauses/3,           % +Module, +Hash, +Payload
             detach_clauses/2            % +Module, +PIs
@@ -91,6 +93,40 @@ split([Item|Items], Empty, Clauses) :-
     ;   Clauses = [Item|Clauses1],
         split(Items, Empty, Clauses1)
     ).
+
+%!  agent_changed(+Module, +Since:integer, -Clauses:list, -Until) is det.
+%
+%   Clauses are those of the predicates of the state that have changed since
+%   the state was Until before; begin with 0.
+
+agent_changed(Module, Since, Clauses, Until) :-
+    findall(Last-Head, changed(Module, Since, Head, Last), Changed),
+    latest(Changed, Since, Until),
+    findall(Head-Body,
+            ( member(_-Head, Changed), clause(Module:Head, Body) ),
+            Clauses).
+
+changed(Module, Since, Head, Last) :-
+    '$c_current_predicate'(_, Module:Head),
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    '$get_predicate_attribute'(Module:Head, last_modified_generation, Last),
+    Last > Since.
+
+latest([], Until, Until).
+latest([Last-_|Changed], Until0, Until) :-
+    Until1 is max(Last, Until0),
+    latest(Changed, Until1, Until).
+
+%!  agent_elsewhere(+Module, +Place0, +Place) is semidet.
+%
+%   What an agent does not have it finds in Place, and no longer in Place0.
+%   Fails if something of Place0 was bound to Module for good.
+
+agent_elsewhere(Module, Place0, Place) :-
+    \+ ( '$c_current_predicate'(_, Module:Head),
+         '$get_predicate_attribute'(Module:Head, imported, Place0) ),
+    delete_import_module(Module, Place0),
+    add_import_module(Module, Place, end).
 
 %!  agent_handles(+Program, +Module) is semidet.
 %

@@ -4,6 +4,8 @@
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/3,             % +Id, -Mail, -Orders
             agent_move/5,               % +Id, +Host, +Module, +Life, +Goals
+            agent_mobile/2,             % +Id, -Until
+            agent_put_mobile/2,         % +Id, +Until
             agent_put_life/2,           % +Id, +Life
             agent_put/3,                % +Id, +Status, +Goals
             agent_rest/3,               % +Id, +Status, +Goals
@@ -50,7 +52,8 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 :- dynamic
     agent/5,                    % Id, Host, Module, Hash, Life
     status/3,                   % Id, Status, Goals; none: it runs
-    order/2.                    % Id, Order
+    order/2,                    % Id, Order
+    mobile/2.                   % Id, Until: its state can travel
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
@@ -96,6 +99,7 @@ agent_enter(Agent, Status, Goals) :-
 agent_remove(Id, Mail, Orders) :-
     retract(agent(Id, _, Module, _, _)),
     retractall(status(Id, _, _)),
+    retractall(mobile(Id, _)),
     mail_all(Id, Mail),
     orders(Id, Orders),
     '$destroy_module'(Module).
@@ -103,14 +107,33 @@ agent_remove(Id, Mail, Orders) :-
 %!  agent_move(+Id, +Host, +Module, +Life, +Goals) is det.
 %
 %   The agent is on Host from now on, with its state in Module, ready to do
-%   Goals; the module that it had is no more.
+%   Goals; another module that it had is no more.
 
 agent_move(Id, Host, Module, Life, Goals) :-
     retract(agent(Id, _, Old, Hash, _)),
     !,
     assertz(agent(Id, Host, Module, Hash, Life)),
     agent_put(Id, ready, Goals),
-    '$destroy_module'(Old).
+    (   Old == Module
+    ->  true
+    ;   '$destroy_module'(Old)
+    ).
+
+%!  agent_mobile(+Id, -Until:integer) is det.
+%!  agent_put_mobile(+Id, +Until:integer) is det.
+%
+%   The state of Id can travel as it was Until, see agent_changed/4; 0 if it
+%   was not looked at in this process.
+
+agent_mobile(Id, Until) :-
+    (   mobile(Id, Until0)
+    ->  Until = Until0
+    ;   Until = 0
+    ).
+
+agent_put_mobile(Id, Until) :-
+    retractall(mobile(Id, _)),
+    assertz(mobile(Id, Until)).
 
 %   One by one: see typhon_mailbox.
 

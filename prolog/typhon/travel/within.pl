@@ -7,16 +7,17 @@
               [ host/3, host_enter/3, host_hop/3, host_leave/1, host_time/2,
                 schedule/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_module/5, agent_move/5, agent_state/2,
-                agent_status/3, life_hop/3, life_tokens/2, with_agent/2 ]).
+              [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/2,
+                agent_module/5, agent_move/5, agent_put_mobile/2, agent_state/2, agent_status/3,
+                life_hop/3, life_tokens/2, with_agent/2 ]).
 :- use_module(whereabouts, [agent_seen/4]).
 
 /** <module> Hops between hosts of one process
 
 Nothing has to be sent, answered or doubted: the record of the agent changes
-in one step.  Its mail and its orders stay where they are.  What the agent
-can see of a hop is as ever: what could not travel does not, its state is
-installed anew, and its place is another.
+in one step.  Its mail and its orders stay where they are, and mostly its
+state does, too.  What the agent can see of a hop is as ever: what could not
+travel does not, and its place is another.
 
 *Threading*: in a worker, which has the agent.
 */
@@ -34,11 +35,10 @@ hop_within(Id, Name, Hole, Goals, Since) :-
     !,
     life_hop(Life0, Life, Hops),
     life_tokens(Life, Tokens),
-    agent_state(Module, State),
-    mobile_term(State-Goals),
+    can_travel(Id, Module, Goals),
     host_enter(Name, Tokens, Answer),
     Answer == ok,
-    sig_atomic(( with_agent(Id, move(Id, Name, State, Life, Hole-Goals))
+    sig_atomic(( with_agent(Id, move(Id, Here, Name, Life, Hole-Goals))
                ->  Left = Here
                ;   Left = Name          % it was ended meanwhile, or Name was
                )),
@@ -48,14 +48,27 @@ hop_within(Id, Name, Hole, Goals, Since) :-
     ;   \+ agent(Id, _, _, _, _)
     ).
 
+%   Of the state only what has changed since it was last looked at.
+
+can_travel(Id, Module, Goals) :-
+    agent_mobile(Id, Since),
+    agent_changed(Module, Since, Clauses, Until),
+    mobile_term(Clauses-Goals),
+    agent_put_mobile(Id, Until).
+
 %   An agent that was told to move has no hole.
 
-move(Id, Name, State, Life, Hole-Goals) :-
+move(Id, Here, Name, Life, Hole-Goals) :-
     host(Name, _, Place),
     agent_status(Id, Status, _),
     memberchk(Status, [running, obeying]),
-    agent(Id, _, _, Hash, _),
-    agent_module(Id, Place, Hash, State, Module),
+    agent(Id, _, Module0, Hash, _),
+    (   host(Here, _, Place0),
+        agent_elsewhere(Module0, Place0, Place)
+    ->  Module = Module0
+    ;   agent_state(Module0, State),
+        agent_module(Id, Place, Hash, State, Module)
+    ),
     ignore(Hole = true),
     agent_move(Id, Name, Module, Life, Goals).
 
