@@ -135,16 +135,15 @@ test(measures) :-
     points([_-Ms|_]),
     forall(member(Name-Value,
                   [ executions-16, pairs-16, out_of_order-0, early-0,
-                    overlaps-0, tau-2, quickest-5, slowest-8, second-27,
+                    overlaps-0, tau-1, quickest-5, slowest-8, second-27,
                     third-54, tilt-3, tilt_limit-4, over-0, lying-1,
                     started_within-0.6, carried-1.2 ]),
            assertion(abs(Ms.Name - Value) < 1.0e-6)).
 test(bars) :-
     points([_, _-Ms]),
-    forall(member(Bar, [[1, 1, 0, 5.0, 0], [1, 1, 0.0, 5.0, 1],
-                        [4, 2, 8.0, 16.0, 0], [4, 2, 8.0, 16.0, 1]]),
+    forall(member(Bar, [[1, 1, 0.0, 5.0, 1], [4, 2, 8.0, 16.0, 1]]),
            assertion(( member(Row, Ms.bars), maplist(=:=, Row, Bar) ))),
-    assertion(length(Ms.bars, 32)).
+    assertion(length(Ms.bars, 16)).    % nobody waits, alone
 test(all_hold, true(Numbers == All)) :-
     robot_study(pole, Study),
     points(Points),
