@@ -109,6 +109,7 @@ agent_changed(Module, Since, Clauses, Until) :-
 changed(Module, Since, Head, Last) :-
     '$c_current_predicate'(_, Module:Head),
     '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _),
     '$get_predicate_attribute'(Module:Head, last_modified_generation, Last),
     Last > Since.
 
@@ -120,13 +121,34 @@ latest([Last-_|Changed], Until0, Until) :-
 %!  agent_elsewhere(+Module, +Place0, +Place) is semidet.
 %
 %   What an agent does not have it finds in Place, and no longer in Place0.
-%   Fails if something of Place0 was bound to Module for good.
+%   Fails if Module has more than its state, which is to travel, and links to
+%   what is the same everywhere: its program and the vocabulary.
 
 agent_elsewhere(Module, Place0, Place) :-
     \+ ( '$c_current_predicate'(_, Module:Head),
-         '$get_predicate_attribute'(Module:Head, imported, Place0) ),
+         bound_here(Module, Place0, Head) ),
     delete_import_module(Module, Place0),
     add_import_module(Module, Place, end).
+
+bound_here(Module, Place0, Head) :-
+    '$get_predicate_attribute'(Module:Head, imported, From),
+    !,
+    \+ everywhere(Module, Place0, Head, From).
+bound_here(Module, _, Head) :-
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    !,
+    '$get_predicate_attribute'(Module:Head, (thread_local), 1).
+bound_here(Module, _, Head) :-
+    '$get_predicate_attribute'(Module:Head, defined, 1).
+
+everywhere(Module, Place0, Head, From) :-
+    (   Base = typhon_vocabulary
+    ;   import_module(Module, Base), Base \== Place0
+    ),
+    (   From == Base
+    ;   '$get_predicate_attribute'(Base:Head, imported, From)
+    ),
+    !.
 
 %!  agent_handles(+Program, +Module) is semidet.
 %

@@ -110,9 +110,10 @@ agent_remove(Id, Mail, Orders) :-
 %   Goals; another module that it had is no more.
 
 agent_move(Id, Host, Module, Life, Goals) :-
-    retract(agent(Id, _, Old, Hash, _)),
+    clause(agent(Id, _, Old, Hash, _), true, Record),
     !,
     assertz(agent(Id, Host, Module, Hash, Life)),
+    erase(Record),                      % others always find one
     agent_put(Id, ready, Goals),
     (   Old == Module
     ->  true
@@ -208,9 +209,10 @@ agent_ready(Id, Goals) :-
 %!  agent_put_life(+Id, +Life) is det.
 
 agent_put_life(Id, Life) :-
-    retract(agent(Id, Host, Module, Hash, _)),
+    clause(agent(Id, Host, Module, Hash, _), true, Record),
     !,
-    assertz(agent(Id, Host, Module, Hash, Life)).
+    assertz(agent(Id, Host, Module, Hash, Life)),
+    erase(Record).
 
                 /*******************************
                 *       MAIL AND ORDERS        *

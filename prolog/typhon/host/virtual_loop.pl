@@ -174,15 +174,12 @@ there(Queue) :-
 %   satisfied(+Waiting0, -Waiting): those who have what they wait for hear of
 %   it.
 
-satisfied([], []).
-satisfied([Waits|Waiting0], Waiting) :-
-    (   has_got(Waits)
-    ->  arg(1, Waits, Reply),
-        reply(Reply, there),
-        Waiting = Waiting1
-    ;   Waiting = [Waits|Waiting1]
-    ),
-    satisfied(Waiting0, Waiting1).
+satisfied(Waiting, Waiting) :-
+    \+ ( member(Waits, Waiting), has_got(Waits) ),
+    !.
+satisfied(Waiting0, Waiting) :-
+    partition(has_got, Waiting0, Happy, Waiting),
+    forall(member(waits(Reply, _, _), Happy), reply(Reply, there)).
 
 has_got(waits(_, Queue, _)) :-
     catch(there(Queue), error(existence_error(_, _), _), true).

@@ -207,9 +207,14 @@ destination(Host, Dest) :-
 effect_depart(Id, Dest, Hole, Goals, Since) :-
     catch(hop(Id, Dest, Hole, Goals, Since),
           error(Formal, Where),
-          ( Hole = throw(error(Formal, Where)),
+          ( cannot_depart(Hole, Id, error(Formal, Where)),
             with_agent(Id, agent_ready(Id, Goals))
           )).
+
+cannot_depart(ordered, Id, error(Formal, _)) :-
+    !,
+    print_message(warning, typhon(order_failed(Id, Formal))).
+cannot_depart(throw(Error), _, Error).
 
 %!  effect_order(+Id, +Here, +Host, +Goals) is det.
 %

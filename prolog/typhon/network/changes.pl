@@ -109,9 +109,8 @@ dynamics_stop(Dynamics) :-
           assertz(stopping(Dynamics, Queue)) ),
         await_change(Dynamics, Queue),
         ( retractall(stopping(Dynamics, _)),
-          message_queue_destroy(Queue) )),
-    retract(due(Dynamics, Due)),
-    message_queue_destroy(Due).
+          message_queue_destroy(Queue),
+          forall(retract(due(Dynamics, Due)), message_queue_destroy(Due)) )).
 
 await_change(Dynamics, Queue) :-
     (   \+ changing(Dynamics, _)

@@ -8,8 +8,8 @@
                 schedule/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/2,
-                agent_module/5, agent_move/5, agent_put_mobile/2, agent_state/2, agent_status/3,
-                life_hop/3, life_tokens/2, with_agent/2 ]).
+                agent_module/5, agent_move/5, agent_put_mobile/2, agent_state/2,
+                agent_status/3, life_hop/3, life_tokens/2, with_agent/2 ]).
 :- use_module(whereabouts, [agent_seen/4]).
 
 /** <module> Hops between hosts of one process
@@ -17,7 +17,8 @@
 Nothing has to be sent, answered or doubted: the record of the agent changes
 in one step.  Its mail and its orders stay where they are, and mostly its
 state does, too.  What the agent can see of a hop is as ever: what could not
-travel does not, and its place is another.
+travel does not, and its place is another.  Only the length of a frame does
+not matter here.
 
 *Threading*: in a worker, which has the agent.
 */
@@ -34,27 +35,57 @@ hop_within(Id, Name, Hole, Goals, Since) :-
     agent(Id, Here, Module, _, Life0),
     !,
     life_hop(Life0, Life, Hops),
-    life_tokens(Life, Tokens),
-    can_travel(Id, Module, Goals),
-    host_enter(Name, Tokens, Answer),
-    Answer == ok,
-    sig_atomic(( with_agent(Id, move(Id, Here, Name, Life, Hole-Goals))
-               ->  Left = Here
-               ;   Left = Name          % it was ended meanwhile, or Name was
-               )),
-    host_leave(Left),
-    (   Left == Here
-    ->  arrived(Id, Here, Name, Hops, Since)
-    ;   \+ agent(Id, _, _, _, _)
+    can_travel(Id, Module, Life-Goals),
+    sig_atomic(enter(Id, Here-Name, Life, Hole-Goals, How)),
+    (   How == moved
+    ->  sig_atomic(told(arrived(Id, Here, Name, Hops, Since)))
+    ;   How == ended
     ).
 
 %   Of the state only what has changed since it was last looked at.
 
-can_travel(Id, Module, Goals) :-
+can_travel(Id, Module, Others) :-
     agent_mobile(Id, Since),
     agent_changed(Module, Since, Clauses, Until),
-    mobile_term(Clauses-Goals),
-    agent_put_mobile(Id, Until).
+    mobile_term(Clauses-Others),
+    (   Until == Since
+    ->  true
+    ;   agent_put_mobile(Id, Until)
+    ).
+
+%   enter(+Id, +Hosts, +Life, +Held, -How): How is `moved`, `refused`, or
+%   `ended` if the agent was ended meanwhile.  Nobody keeps the room that was
+%   taken for one who does not come.
+
+enter(Id, Here-Name, Life, Held, How) :-
+    life_tokens(Life, Tokens),
+    host_enter(Name, Tokens, Answer),
+    (   Answer == ok
+    ->  catch(moved(Id, Here-Name, Life, Held, Left, How), Ball,
+              ( host_leave(Name),
+                throw(Ball) )),
+        host_leave(Left)
+    ;   How = refused
+    ).
+
+moved(Id, Here-Name, Life, Held, Left, How) :-
+    (   with_agent(Id, move(Id, Here, Name, Life, Held))
+    ->  Left = Here,
+        How = moved
+    ;   Left = Name,
+        (   agent(Id, _, _, _, _)
+        ->  How = refused               % Name is being stopped
+        ;   How = ended
+        )
+    ).
+
+%   The agent is there, whatever comes: nobody must think it is still here.
+
+:- meta_predicate told(0).
+
+told(Goal) :-
+    catch(Goal, error(Formal, Context),
+          print_message(error, error(Formal, Context))).
 
 %   An agent that was told to move has no hole.
 

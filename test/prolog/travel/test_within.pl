@@ -1,7 +1,7 @@
 :- module(test_within, []).
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
-:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(apply), [include/3, maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
@@ -48,7 +48,63 @@ test(orders_find_it_wherever_it_is, true(Loads == [0,0,0])) :-
                  maplist(joined_as(disposed), Agents),
                  maplist(load, [alpha,beta,gamma], Loads) )).
 
+test(services_are_those_of_the_new_place, true(F == [s(a),s(b)])) :-
+    lamp(within_a, a),
+    lamp(within_b, b),
+    with_hosts([ alpha-[services([within_a])], beta-[services([within_b])] ],
+               ( create([ (main :- assertz((look(X) :- light(X))), see,
+                                   move(beta), see),
+                          (see :- forall(look(X), assertz(s(X)))),
+                          on_message(_, _) ], A),
+                 wait_state(A, resident),
+                 agent_property(A, facts(F0)),
+                 include([s(_)]>>true, F0, F) )).
+test(what_a_place_holds_is_not_the_agents, true(At == beta)) :-
+    with_tmp_dir(device(At)).
+test(what_does_not_travel_stays_behind, true(F == [s(gone)])) :-
+    with_hosts([alpha,beta],
+               ( create([ (main :- assertz(kept(1)),
+                                   compile_predicates([kept/1]), move(beta),
+                                   catch(kept(_), _, assertz(s(gone)))),
+                          on_message(_, _) ], A),
+                 wait_state(A, resident),
+                 agent_property(A, facts(F)) )).
+test(an_order_that_cannot_be_obeyed, true(At-Ended == alpha-disposed)) :-
+    with_hosts([alpha-[hop_time(uniform(0.01, 0.02))],beta],
+               ( create([ (main :- current_output(S), assertz(s(S))),
+                          on_message(_, _) ], A),
+                 wait_state(A, resident),
+                 listening(( agent_move(A, beta),
+                             wait_until(was_told(warning, typhon(order_failed(A, _))), 5) ), _),
+                 wait_state(A, resident),
+                 stands(A, At),
+                 agent_dispose(A),
+                 joined(A, Ended) )).
+
+device(At, Dir) :-
+    atom_concat(Dir, '/place.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- dynamic device/1.~n\c
+:- current_output(S), assertz(device(S)).~n', []),
+        close(Out)),
+    with_hosts([alpha-[consult(File)],beta-[consult(File)]],
+               ( create([ (main :- assertz((look(ok) :- device(_))), look(_),
+                                   move(beta)),
+                          on_message(_, _) ], A),
+                 wait_state(A, resident),
+                 stands(A, At) )).
+
 :- end_tests(hops_within_a_process).
+
+stands(Agent, Name) :-
+    agent_property(Agent, host(Address)),
+    atomic_list_concat([Name|_], @, Address).
+
+lamp(Module, Light) :-
+    retractall(Module:light(_)),
+    assertz(Module:light(Light)),
+    Module:export(Module:light/1).
 
 load(Host, Load) :-
     host_property(Host, load(Load)).
