@@ -68,6 +68,17 @@ word(plot/3).
 word(progress/3).
 word(real/2).
 
+%   A study may say library(typhon) wherever it is.  It is this platform, the
+%   one that the engine has loaded, also where another is installed.
+
+:- prolog_load_context(directory, Engine),
+   absolute_file_name('../../prolog', Platform,
+                      [relative_to(Engine), file_type(directory)]),
+   (   user:file_search_path(library, Platform)
+   ->  true
+   ;   asserta(user:file_search_path(library, Platform))
+   ).
+
 %!  study_load(+File, -Study) is det.
 %
 %   Study is the module of File, and named like it.  A file is loaded once.
