@@ -114,6 +114,8 @@ test(thesis, true(memberchk('figure_5_6.pl', Bases))) :-
 test(once, Bases == ['figure_5_6.pl']) :-
     project_file('experiments/sync/figure_5_6', File),
     named(['5.6', File, '5.6'], Bases).
+test(a_name_is_one_study, Bases == ['study_readings.pl']) :-
+    named([readings], Bases).
 test(unknown, error(existence_error(study, '99.9'))) :-
     named(['99.9'], _).
 
