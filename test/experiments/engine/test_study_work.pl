@@ -121,6 +121,7 @@ failing(What, Why, Dir, File) :-
     runs(Dir, File, Whats, ['--runs', 1, '--jobs', 1], Status, Text),
     assertion(Status == exit(1)),
     says(Text, "failed; see"),
+    says(Text, Why),
     says(Text, "3/3 runs"),
     below(Dir, '.failed', [Failed]),
     directory_file_path(Failed, output, Output),
@@ -137,6 +138,14 @@ failing(What, Why, Dir, File) :-
     include(==(1-What), Notes, Tries),
     length(Tries, Count),
     assertion(Count == 2).
+
+%   Of many that fail by the same the first is told, and how many they are.
+
+same_cause(Dir, File) :-
+    runs(Dir, File, '[fail]', ['--runs', 3], exit(1), Text),
+    says(Text, "3 runs failed: "),
+    findall(x, sub_string(Text, _, _, _, "failed; see"), Told),
+    assertion(Told == [x]).
 
 collected_anyway(Dir, File) :-
     runs(Dir, File, '[a,fail]', ['--runs', 1], exit(1), Text),
@@ -236,6 +245,8 @@ test(failing, forall(member(What-Why, [ fail-"`here' does not exist",
                                         halt-"exit(7)",
                                         kill-"killed(9)" ]))) :-
     with_toy(failing(What, Why)).
+test(same_cause) :-
+    with_toy(same_cause).
 test(collected_anyway) :-
     with_toy(collected_anyway).
 test(interrupted, forall(member(Signal-Status, [int-130, term-143]))) :-
