@@ -249,6 +249,15 @@ test(same_cause) :-
     with_toy(same_cause).
 test(collected_anyway) :-
     with_toy(collected_anyway).
+test(no_such_agent) :-
+    with_study_file([ ':- use_module(library(typhon)).',
+                      'study(lost, "Nobody is there").',
+                      'network(_, ring(2), []).',
+                      'run(_, Network) :-',
+                      '    network_property(Network, hosts([Host|_])),',
+                      '    agent_create(agents(nobody), _, [host(Host)]).',
+                      'measure(m, _, 1).' ],
+                    no_such_agent).
 test(interrupted, forall(member(Signal-Status, [int-130, term-143]))) :-
     with_toy(leaves_nothing(Signal, Status)).
 test(stuck) :-
@@ -272,6 +281,10 @@ test(nobody_waits_for_a_long_run) :-
 test(changed_meanwhile) :-
     with_toy(changed).
 
+no_such_agent(Dir, File) :-
+    study_command(Dir, [File, '--runs', '1'], exit(1), Text),
+    says(Text, "study.pl, seed 1"),
+    says(Text, "There is no file agents(nobody)").
 
 by_two(Dir, File) :-
     study_command(Dir, [File, '--runs', '1', '--jobs', '2'], exit(0), _).
