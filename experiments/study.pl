@@ -27,7 +27,9 @@
 :- use_module(library(error), [domain_error/2, existence_error/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [append/2, append/3, member/2, memberchk/2, nth1/3]).
+:- use_module(library(lists), 
+              [ append/2, append/3, member/2, memberchk/2, nth1/3,
+                selectchk/3 ]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -83,10 +85,11 @@ main(Argv) :-
           ( print_message(error, error(Formal, Context)),
             halt(1) )).
 
-parsed(Argv, Names, [help(true)]) :-
-    append(Names, [Help], Argv),
+parsed(Argv0, Names, [help(true)|Options]) :-
+    member(Help, ['--help', '-h']),
+    selectchk(Help, Argv0, Argv),
+    argv_options(Argv, Names, Options),
     Names \== [],
-    memberchk(Help, ['--help', '-h']),
     !.
 parsed(Argv, Names, Options) :-
     argv_options(Argv, Names, Options).
@@ -132,12 +135,17 @@ setting(Text, Name, Value) :-
     ;   domain_error('NAME=VALUE', Text)
     ).
 
-%   What is no term is text, as is what Prolog takes for a variable.
+%   What is no term is text, as is what Prolog takes for a variable; but what
+%   should be one is not.
 
 value(Text, Value) :-
     catch(term_to_atom(Value, Text), error(syntax_error(_), _), fail),
-    ground(Value),
-    !.
+    !,
+    ( ground(Value) -> true ; Value = Text ).
+value(Text, _) :-
+    sub_atom(Text, _, 1, _, Char),
+    memberchk(Char, ['[', ']', '(', ')', '{', '}', ',']),
+    domain_error(value, Text).
 value(Text, Text).
 
                 /*******************************

@@ -179,8 +179,10 @@ test(help) :-
     with_tmp_dir(help(Text)),
     says(Text, ["STUDY", "--runs", "--set=NAME=VALUE", "--case", "--logs",
                 "--list", "--collect", "--out"]).
-test(help_of_a_study) :-
-    prints(['--help'], exit(0), Text),
+test(help_of_a_study, forall(member(Args, [ ['--help'],
+                                            ['--runs', 1, '--help'],
+                                            ['-h', '--set', 'c=4'] ]))) :-
+    prints(Args, exit(0), Text),
     says(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
 test(what_there_is) :-
     with_tmp_dir(what_there_is(Text)),
@@ -205,6 +207,10 @@ test(set_text) :-
     prints(['--set', 'b=Some Text', '--set', 'a=1', '--runs', 1], exit(0),
            Text),
     says(Text, ["  1  Some Text     1  13"]).
+test(set_half_a_term, forall(member(Half, ['[1,', 'f(1', '1,2)']))) :-
+    atom_concat('a=', Half, Set),
+    prints(['--set', Set], exit(1), Text),
+    says(Text, [Half]).
 test(set_nothing) :-
     prints(['--set', b], exit(1), Text),
     says(Text, ["NAME=VALUE"]).
