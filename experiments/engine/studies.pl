@@ -6,9 +6,9 @@
             study_at_work/1,            % +Study
             study_name/3                % +Study, -Where, -Name
           ]).
-:- use_module(library(lists), [member/2]).
-:- use_module(cases, [study_parameter/2]).
-:- use_module(claims, [claim_name/2, claim_shape/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(cases, [parameters/3, study_parameter/2]).
+:- use_module(claims, [claim_name/2, claim_shape/2, claim_value/2]).
 
 /** <module> A study is a short file
 
@@ -166,6 +166,14 @@ problem(Study, _, said(plot(Name), no_picture(Picture))) :-
 problem(Study, _, said(Where, unknown(Name))) :-
     study_name(Study, Where, Name),
     unknown(Study, Name).
+problem(Study, _, said(claim(Text), no_case(Name=Value))) :-
+    study_call(Study, claim(Text, _, Test)),
+    claim_value(Study:Test, Name=Value),
+    atom(Value),
+    parameters(Study, [], Parameters),
+    memberchk(parameter(Name, Values, varied), Parameters),
+    is_list(Values),
+    \+ memberchk(Value, Values).
 
 %!  study_name(+Study, -Where, -Name) is nondet.
 %
@@ -221,5 +229,7 @@ says(no_test(Part)) -->
     [ '~q is no test'-[Part] ].
 says(no_picture(Part)) -->
     [ '~q is no picture'-[Part] ].
+says(no_case(Name=Value)) -->
+    [ '~q is never ~q'-[Name, Value] ].
 says(unknown(Name)) -->
     [ '~q is neither a measure nor a parameter'-[Name] ].

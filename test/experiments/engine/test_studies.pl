@@ -59,6 +59,9 @@ test(no_test, Problems == [said(claim("small"), no_test(smal(m)))]) :-
     more_problems(['claim("small", [], smal(m)).'], Problems).
 test(unknown_in_a_claim, Problems == [said(claim("small"), unknown(n))]) :-
     more_problems(['claim("small", [], n < a).'], Problems).
+test(no_such_value, Problems == [said(claim("small"), no_case(k=gird))]) :-
+    more_problems([ 'vary(k, [grid, ring]).',
+                    'claim("small", [], least(m, k=gird)).' ], Problems).
 test(unknown_in_a_plot, Problems == [ said(plot(p), unknown(b)),
                                       said(plot(p), unknown(n)) ]) :-
     more_problems(['plot(p, "P", lines([x(b), y([m, n]), line(a)])).'],
@@ -227,6 +230,9 @@ test(no_such_study) :-
     says(Text, ["study", "99.9", "does not exist"]).
 test(list) :-
     with_command(listed).
+test(nothing_is_left_to_compare) :-
+    prints(['--set', 'a=1', '--runs', 1], exit(0), Text),
+    says(Text, ["not known           m grows"]).
 test(collect_what_is_not_there) :-
     prints(['--collect', '--out', out], exit(0), Text),
     says(Text, ["not known"]).
