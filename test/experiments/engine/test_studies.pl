@@ -13,6 +13,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 
 base([ 'study(toy, "A toy").', 'vary(a, [1, 2]).',
@@ -224,7 +225,14 @@ test(case_by_name) :-
                           ["  m           13", "a=1,b=it is,seed=4"])).
 test(no_such_case, forall(member(Case, [9, 'a=3,b=x']))) :-
     prints(['--case', Case], exit(1), Text),
-    says(Text, ["case", "does not exist"]).
+    says(Text, ["case", "does not exist; there are a=1,b=x  a=1,b=it is  "]).
+test(parts_of_a_name_in_any_order) :-
+    with_command(one_case(['--case', 'b=x,a=2'], ["a=2,b=x,seed=1"])).
+test(nothing_is_real) :-
+    prints(['--real', '--runs', 1, '--set', 'a=1'], exit(0), Text),
+    says(Text, ["--real: no case"]).
+test(again_where_it_was) :-
+    with_command(again).
 test(no_such_study) :-
     with_tmp_dir(no_such_study(Text)),
     says(Text, ["study", "99.9", "does not exist"]).
@@ -235,12 +243,18 @@ test(nothing_is_left_to_compare) :-
     says(Text, ["not known           m grows"]).
 test(collect_what_is_not_there) :-
     prints(['--collect', '--out', out], exit(0), Text),
-    says(Text, ["not known"]).
+    says(Text, ["not known", "12 of 12 runs are not there"]).
 test(no_runs, forall(member(Option, ['--runs', '--jobs']))) :-
     prints([Option, 0], Status, _),
     assertion(Status \== exit(0)).
 
 :- end_tests(study_command).
+
+again(Dir, File) :-
+    study_command(Dir, [File, '--runs', 1, '--out', there], exit(0), _),
+    directory_file_path(Dir, 'there/index.html', Page),
+    read_file_to_string(Page, Text, [encoding(utf8)]),
+    says(Text, ["--seed 1 --out there"]).
 
 help(Text, Dir) :-
     study_command(Dir, ['--help'], exit(0), Text).
