@@ -18,16 +18,18 @@
               [ claims_sentence/2, outcome_save/4, parameter_rows/3,
                 print_outcome/3, print_table/3, shown_measures/3 ]).
 :- use_module(engine/signals, [stopping_on_signals/1]).
-:- use_module(engine/store, [run_result/3]).
+:- use_module(engine/store, [run_done/3, run_result/3]).
 :- use_module(engine/studies,
               [study_call/2, study_load/2, study_name/3, study_title/3]).
 :- use_module(engine/work, [runs_make/4]).
 :- use_module(engine/worker, [run_here/4]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(error), [domain_error/2, existence_error/2]).
+:- use_module(library(apply), [exclude/3, maplist/2, maplist/3]).
+:- use_module(library(error), [domain_error/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [append/2, append/3, member/2, memberchk/2, nth1/3]).
+:- use_module(library(lists), 
+              [ append/2, append/3, member/2, memberchk/2, nth1/3,
+                selectchk/3 ]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -83,10 +85,11 @@ main(Argv) :-
           ( print_message(error, error(Formal, Context)),
             halt(1) )).
 
-parsed(Argv, Names, [help(true)]) :-
-    append(Names, [Help], Argv),
+parsed(Argv0, Names, [help(true)|Options]) :-
+    member(Help, ['--help', '-h']),
+    selectchk(Help, Argv0, Argv),
+    argv_options(Argv, Names, Options),
     Names \== [],
-    memberchk(Help, ['--help', '-h']),
     !.
 parsed(Argv, Names, Options) :-
     argv_options(Argv, Names, Options).
@@ -132,12 +135,17 @@ setting(Text, Name, Value) :-
     ;   domain_error('NAME=VALUE', Text)
     ).
 
-%   What is no term is text, as is what Prolog takes for a variable.
+%   What is no term is text, as is what Prolog takes for a variable; but what
+%   should be one is not.
 
 value(Text, Value) :-
     catch(term_to_atom(Value, Text), error(syntax_error(_), _), fail),
-    ground(Value),
-    !.
+    !,
+    ( ground(Value) -> true ; Value = Text ).
+value(Text, _) :-
+    sub_atom(Text, _, 1, _, Char),
+    memberchk(Char, ['[', ']', '(', ')', '{', '}', ',']),
+    domain_error(value, Text).
 value(Text, Text).
 
                 /*******************************
@@ -155,7 +163,11 @@ perform(Plans, Options) :-
     (   member(plan(Study, _, Cases), Plans),
         the_case(Text, Study, Cases, Case)
     ->  make_one(Study, Case, Options)
-    ;   existence_error(case, Text)
+    ;   findall(Name, ( member(plan(Study, _, Cases), Plans),
+                        member(Case, Cases),
+                        case_name(Study, Case, Name) ),
+                Names),
+        throw(error(no_study_case(Text, Names), _))
     ).
 perform(Plans, Options) :-
     option(collect(true), Options),
@@ -166,6 +178,7 @@ perform(Plans, Options) :-
     root(Options, Root),
     runs_make(Runs, Root, Options, Outcomes),
     findall(Run, real(Plans, Options, Run), RealRuns),
+    tell_if_none_is_real(Options, RealRuns),
     runs_make(RealRuns, Root, [jobs(1)|Options], RealOutcomes),
     collect(Plans, Options),
     (   memberchk(failed, Outcomes)
@@ -191,6 +204,12 @@ real(Plans, Options, run(Study, Real, Seed)) :-
     real_case(Study, Cases, _, Real),
     seed(Options, Seed).
 
+tell_if_none_is_real(Options, []) :-
+    option(real(true), Options),
+    !,
+    print_message(warning, study_none_is_real).
+tell_if_none_is_real(_, _).
+
 seed(Options, Seed) :-
     option(seed(First), Options, 1),
     option(runs(Runs), Options, 3),
@@ -205,13 +224,21 @@ out(Options, Out) :-
     option(out(Out0), Options, 'out/studies'),
     absolute_file_name(Out0, Out).
 
+%   The parts of a name may stand in any order.
+
 the_case(Text, Study, Cases, Case) :-
     (   atom_number(Text, N)
     ->  nth1(N, Cases, Case)
-    ;   member(Case, Cases),
-        case_name(Study, Case, Text)
+    ;   parts(Text, Parts),
+        member(Case, Cases),
+        case_name(Study, Case, Name),
+        parts(Name, Parts)
     ),
     !.
+
+parts(Name, Sorted) :-
+    atomic_list_concat(Parts, ',', Name),
+    msort(Parts, Sorted).
 
 make_one(Study, Case, Options) :-
     option(seed(Seed), Options, 1),
@@ -267,8 +294,10 @@ again(Study, Options, Text) :-
     option(runs(Runs), Options, 3),
     option(seed(Seed), Options, 1),
     findall(Argument, repeated(Options, Argument), More),
-    append([swipl, Script, '--', File, '--runs', Runs, '--seed', Seed], More,
-           Words),
+    findall(Argument, ( option(out(Out), Options),
+                        member(Argument, ['--out', Out]) ), Where),
+    append([ [swipl, Script, '--', File, '--runs', Runs, '--seed', Seed],
+             More, Where ], Words),
     command_text(Words, Text).
 
 repeated(Options, Argument) :-
@@ -314,7 +343,19 @@ collect(Plans, Options) :-
     findall(Outcome, member(shown(_, Outcome, _, _), All), Outcomes),
     claims_sentence(Outcomes, Sentence),
     directory_file_path(Out, 'index.html', Page),
-    format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]).
+    format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]),
+    tell_missing(Plans, Options).
+
+tell_missing(Plans, Options) :-
+    root(Options, Root),
+    findall(Run, planned(Plans, Options, _, Run), Runs),
+    exclude(run_done(Root, false), Runs, Missing),
+    length(Runs, Count),
+    length(Missing, MissingCount),
+    (   Missing == []
+    ->  true
+    ;   format('~d of ~d runs are not there~n', [MissingCount, Count])
+    ).
 
 show(plan(Study, Given, Cases), Options, Out,
      shown(Study, Outcome, Again, Directory)) :-
@@ -365,7 +406,26 @@ never_measured(Study, Runs, Where, Name) :-
     \+ study_parameter(Study, Name),
     \+ ( member(run(_, _, Measures), Runs), get_dict(Name, Measures, _) ).
 
-:- multifile prolog:message//1.
+:- multifile
+    prolog:error_message//1,
+    prolog:message//1.
+
+prolog:error_message(no_study_case(Text, Names)) -->
+    [ 'case ~w does not exist; there are '-[Text] ],
+    first_names(Names).
+
+first_names(Names) -->
+    { length(Some, 4),
+      append(Some, [_|_], Names),
+      !,
+      atomic_list_concat(Some, '  ', Shown) },
+    [ '~w  ...'-[Shown] ].
+first_names(Names) -->
+    { atomic_list_concat(Names, '  ', Shown) },
+    [ '~w'-[Shown] ].
+
+prolog:message(study_none_is_real) -->
+    [ '--real: no case that is made has real/2, which names it'-[] ].
 
 prolog:message(study_measure(Where, Name)) -->
     [ '~p: no run has given ~q'-[Where, Name] ].

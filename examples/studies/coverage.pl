@@ -2,7 +2,7 @@
 %
 %     swipl experiments/study.pl -- examples/studies/coverage.pl --runs 10
 
-:- use_module('../../prolog/typhon').   % library(typhon), once installed
+:- use_module(library(typhon)).
 
 study(coverage, "An explorer sees every host of a grid").
 text("One chooses the next host by chance, the other prefers hosts that it \c

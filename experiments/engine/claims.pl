@@ -1,7 +1,9 @@
 :- module(study_claims,
           [ claim_holds/3,              % :Test, +Points, +All
+            claim_known/3,              % :Test, +Points, +All
             claim_shape/2,              % :Test, -Problem
             claim_name/2,               % :Test, -Name
+            claim_value/2,              % :Test, -NameValue
             connective/2,               % ?Test, -Tests
             leaf/3                      % ?Test, -Expressions, -Parameters
           ]).
@@ -39,8 +41,10 @@ Then it does not hold, and neither does \+ of it.
 
 :- meta_predicate
     claim_holds(:, +, +),
+    claim_known(:, +, +),
     claim_shape(:, -),
-    claim_name(:, -).
+    claim_name(:, -),
+    claim_value(:, -).
 
 %!  claim_holds(:Test, +Points:list(pair), +All:list(pair)) is semidet.
 %
@@ -49,6 +53,14 @@ Then it does not hold, and neither does \+ of it.
 claim_holds(M:Test, Points, All) :-
     context(M:Points, All, Context),
     verdict(Test, M, Context, true).
+
+%!  claim_known(:Test, +Points:list(pair), +All:list(pair)) is semidet.
+%
+%   There is something to compare: Test holds, or it does not.
+
+claim_known(M:Test, Points, All) :-
+    context(M:Points, All, Context),
+    verdict(Test, M, Context, _).
 
 %   verdict(+Test, +Module, +Context, -Truth) is semidet: `true` or `false`;
 %   fails if nothing is known.
@@ -76,6 +88,7 @@ verdict(some(Test), M, context(Points, All, Follows), Truth) :-
     truth(memberchk(true, [First|Truths]), Truth).
 verdict(holds(Goal), M, context(Points, _, _), Truth) :-
     !,
+    Points = [_|_],
     truth(call(M:Goal, Points), Truth).
 verdict(Test, _, Context, Truth) :-
     findall(Relation-Values, related(Test, Context, Relation, Values),
@@ -190,6 +203,13 @@ claim_shape(M:Test, Problem) :-
 claim_name(M:Test, Name) :-
     part(Test, M, name(Name)).
 
+%!  claim_value(:Test, -NameValue) is nondet.
+%
+%   Test looks at the cases in which NameValue, Name=Value, is so.
+
+claim_value(M:Test, NameValue) :-
+    part(Test, M, value(NameValue)).
+
 part(Test, _, problem(Test)) :-
     \+ callable(Test),
     !.
@@ -215,6 +235,8 @@ part(Test, _, Part) :-
     !,
     (   member(P, Ps),
         Part = name(P)
+    ;   extreme(Test, _, _, P, V),
+        Part = value(P=V)
     ;   member(E, Es),
         of_expression(E, Part)
     ).
@@ -240,6 +262,9 @@ leaf(Comparison, [A, B], []) :- comparison(Comparison, _, A, B).
 of_where(Where, name(Name)) :-
     is_list(Where),
     member(Name=_, Where).
+of_where(Where, value(Name=Value)) :-
+    is_list(Where),
+    member(Name=Value, Where).
 of_where(Where, problem(Where)) :-
     \+ ( is_list(Where), forall(member(W, Where), W = (_=_)) ).
 

@@ -4,7 +4,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(cases, [varied/3]).
-:- use_module(claims, [claim_holds/3]).
+:- use_module(claims, [claim_holds/3, claim_known/3]).
 :- use_module(found, [claim_found/4]).
 :- use_module(numbers, [spread/4]).
 :- use_module(studies, [study_call/2]).
@@ -29,7 +29,8 @@
 %     - `claims`: a list of claim(Text, Notes, Held, Of, OfMedians, Found):
 %       the claim held in Held of Of seeds, and OfMedians (`true` or `false`)
 %       of the medians of all runs; Found is what the medians were, as text.
-%       Seeds of which a case is missing are not counted.
+%       Seeds of which a case is missing are not counted, and none are if
+%       in none there is anything to compare.
 
 outcome(Study, Cases, Runs, outcome{names:Names, rows:Rows, claims:Claims}) :-
     varied(Study, Cases, Names),
@@ -81,11 +82,22 @@ median_points(Rows, Points) :-
 
 claim(Study, Names, OfSeeds, Medians, claim(Text, Notes, Held, Of, M, Found)) :-
     study_call(Study, claim(Text, Notes, Test)),
-    length(OfSeeds, Of),
-    catch(judged(Study:Test, Names, OfSeeds, Medians, Held, M, Found),
+    length(OfSeeds, Count),
+    catch(( judged(Study:Test, Names, OfSeeds, Medians, Held, M, Found),
+            counted(Study:Test, OfSeeds, Count, Of) ),
           error(Formal, Context),
           ( print_message(warning, study_claim(Text, error(Formal, Context))),
-            Held-M-Found = 0-false-'a mistake in the claim' )).
+            t(Held, M, Found, Of)
+            = t(0, false, 'a mistake in the claim', Count) )).
+
+%   Parameters that are given may leave nothing to compare.
+
+counted(Test, OfSeeds, Count, Of) :-
+    (   member(Points, OfSeeds),
+        claim_known(Test, Points, Points)
+    ->  Of = Count
+    ;   Of = 0
+    ).
 
 judged(Test, Names, OfSeeds, Medians, Held, OfMedians, Found) :-
     aggregate_all(count,

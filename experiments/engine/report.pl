@@ -129,7 +129,12 @@ claims_sentence(Outcomes, Sentence) :-
     length(Claims, Count),
     length(Others, OtherCount),
     HeldCount is Count - OtherCount,
-    sentence(Others, HeldCount, Count, Sentence).
+    sentence(Others, HeldCount, Count, Sentence0),
+    aggregate_all(count, member(_-(_-0), Others), Unknown),
+    (   Unknown =:= 0
+    ->  Sentence = Sentence0
+    ;   format(atom(Sentence), '~w ~d not known.', [Sentence0, Unknown])
+    ).
 
 all_held(_-(Of-Of)) :-
     Of > 0.

@@ -9,13 +9,14 @@
             part_begin/1,               % +Part
             part_install/3,             % +Part, +Directory, +Logs
             part_fail/4,                % +Part, +Directory, :Goal, -Failed
+            failed_cause/2,             % +Failed, -Cause
             part_remove/1               % +Part
           ]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3,
                 make_directory_path/1 ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module(cases, [case_name/3]).
 :- use_module(sources, [sources_hash/2]).
@@ -167,18 +168,32 @@ part_install(Part, Directory, Logs) :-
 %!  part_fail(+Part, +Directory, :Explain, -Failed) is det.
 %
 %   Call Explain(Stream), whose output is added to what the run has printed,
-%   and keep that in the directory Failed.
+%   and keep that in the directory Failed.  Its first line is the cause.
 
 part_fail(Part, Directory, Explain, Failed) :-
     failed_directory(Directory, Failed),
     make_directory_path(Part),
-    directory_file_path(Part, output, File),
-    setup_call_cleanup(
-        open(File, append, Out, [encoding(utf8)]),
-        call(Explain, Out),
-        close(Out)),
+    with_output_to(string(Why), ( current_output(Out), call(Explain, Out) )),
+    add_text(Part, output, Why),
+    split_string(Why, "\n", " \n", [Cause|_]),
+    add_text(Part, cause, Cause),
     part_remove(Failed),
     rename_file(Part, Failed).
+
+add_text(Directory, Name, Text) :-
+    directory_file_path(Directory, Name, File),
+    setup_call_cleanup(
+        open(File, append, Out, [encoding(utf8)]),
+        write(Out, Text),
+        close(Out)).
+
+%!  failed_cause(+Failed, -Cause:string) is det.
+%
+%   Why the run failed that is kept in the directory Failed.
+
+failed_cause(Failed, Cause) :-
+    directory_file_path(Failed, cause, File),
+    read_file_to_string(File, Cause, [encoding(utf8)]).
 
 failed_directory(Directory, Failed) :-
     atom_concat(Directory, '.failed', Failed).

@@ -6,9 +6,9 @@
             study_at_work/1,            % +Study
             study_name/3                % +Study, -Where, -Name
           ]).
-:- use_module(library(lists), [member/2]).
-:- use_module(cases, [study_parameter/2]).
-:- use_module(claims, [claim_name/2, claim_shape/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(cases, [parameters/3, study_parameter/2]).
+:- use_module(claims, [claim_name/2, claim_shape/2, claim_value/2]).
 
 /** <module> A study is a short file
 
@@ -67,6 +67,17 @@ word(claim/3).
 word(plot/3).
 word(progress/3).
 word(real/2).
+
+%   A study may say library(typhon) wherever it is.  It is this platform, the
+%   one that the engine has loaded, also where another is installed.
+
+:- prolog_load_context(directory, Engine),
+   absolute_file_name('../../prolog', Platform,
+                      [relative_to(Engine), file_type(directory)]),
+   (   user:file_search_path(library, Platform)
+   ->  true
+   ;   asserta(user:file_search_path(library, Platform))
+   ).
 
 %!  study_load(+File, -Study) is det.
 %
@@ -155,6 +166,14 @@ problem(Study, _, said(plot(Name), no_picture(Picture))) :-
 problem(Study, _, said(Where, unknown(Name))) :-
     study_name(Study, Where, Name),
     unknown(Study, Name).
+problem(Study, _, said(claim(Text), no_case(Name=Value))) :-
+    study_call(Study, claim(Text, _, Test)),
+    claim_value(Study:Test, Name=Value),
+    atom(Value),
+    parameters(Study, [], Parameters),
+    memberchk(parameter(Name, Values, varied), Parameters),
+    is_list(Values),
+    \+ memberchk(Value, Values).
 
 %!  study_name(+Study, -Where, -Name) is nondet.
 %
@@ -210,5 +229,7 @@ says(no_test(Part)) -->
     [ '~q is no test'-[Part] ].
 says(no_picture(Part)) -->
     [ '~q is no picture'-[Part] ].
+says(no_case(Name=Value)) -->
+    [ '~q is never ~q'-[Name, Value] ].
 says(unknown(Name)) -->
     [ '~q is neither a measure nor a parameter'-[Name] ].

@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3]).
-:- use_module(library(lists), [memberchk/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process),
               [ process_create/3, process_kill/2, process_wait/2,
@@ -11,8 +11,8 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(progress, [progress/4, progress_done/1]).
 :- use_module(store,
-              [ log_file/2, part_directory/3, part_fail/4, run_directory/3,
-                run_done/3 ]).
+              [ failed_cause/2, log_file/2, part_directory/3, part_fail/4,
+                run_directory/3, run_done/3 ]).
 :- use_module(studies, [study_call/2]).
 :- use_module(watch, [watching/4]).
 :- use_module(worker, [run_here/4]).
@@ -33,7 +33,8 @@ they are still there ten seconds later.
 
 :- dynamic
     worker/3,                   % Out, In, Pid: its streams
-    busy/3.                     % Out, Run, Directory
+    busy/3,                     % Out, Run, Directory
+    failed_by/1.                % Cause, of each run that failed
 
 %!  runs_make(+Runs, +Root, +Options, -Outcomes) is det.
 %
@@ -52,11 +53,13 @@ runs_make(Runs, Root, Options, Outcomes) :-
     exclude(run_done(Root, Logs), Runs, Missing),
     length(Missing, Total),
     get_time(Begin),
+    retractall(failed_by(_)),
     catch(( make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total, Made),
             dismiss ),
           Ball,
           ( end_workers,
             throw(Ball) )),
+    tell_counts,
     maplist(outcome(Made), Runs, Outcomes).
 
 outcome(Made, Run, Outcome) :-
@@ -108,7 +111,22 @@ make(Runs, Desk, Task, Done, [Run-Kind|Made]) :-
 told(made, _, made) :-
     !.
 told(failed(Directory), Run, failed) :-
-    print_message(error, study_run(Run, Directory)).
+    failed_cause(Directory, Cause),
+    (   failed_by(Cause)
+    ->  true
+    ;   print_message(error, study_run(Run, Directory, Cause))
+    ),
+    assertz(failed_by(Cause)).
+
+%   What many runs have failed by is told of the first, and counted.
+
+tell_counts :-
+    findall(Cause, failed_by(Cause), All),
+    sort(All, Causes),
+    forall(( member(Cause, Causes),
+             aggregate_all(count, failed_by(Cause), Count),
+             Count > 1 ),
+           print_message(error, study_runs(Count, Cause))).
 
 show(Done, Begin-Total) :-
     time_left(Done, Total, Begin, Left),
@@ -239,8 +257,11 @@ all_ended(Deadline) :-
                 *           MESSAGES           *
                 *******************************/
 
-prolog:message(study_run(run(Study, Case, Seed), Directory)) -->
+prolog:message(study_runs(Count, Cause)) -->
+    [ '~d runs failed: ~w'-[Count, Cause] ].
+prolog:message(study_run(run(Study, Case, Seed), Directory, Cause)) -->
     { file_base_name(Study, Name),
       dict_pairs(Case, _, Pairs) },
     [ '~w, seed ~w, ~p'-[Name, Seed, Pairs], nl,
+      '~w'-[Cause], nl,
       'failed; see ~w/output'-[Directory] ].

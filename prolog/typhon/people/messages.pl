@@ -172,7 +172,8 @@ program_name(Alias, Name) :-
                          file_errors(fail)
                        ]),
     directory_member(Dir, File, [extensions([pl]), recursive(true)]),
-    atomic_list_concat([Dir, /, Relative], File),
+    atom_concat(Dir, /, Start),
+    atom_concat(Start, Relative, File),
     file_name_extension(Name, pl, Relative).
 
 %   near_names(+Name, +Names, -Near)

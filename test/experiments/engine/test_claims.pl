@@ -27,6 +27,10 @@ holds(Test) :-
     points(Points),
     claim_holds(test_claims:Test, Points, Points).
 
+known(Test) :-
+    points(Points),
+    once(claim_known(test_claims:Test, Points, Points)).
+
 %   holding(Test), and failing(Test).
 
 holding(up < 34).
@@ -120,6 +124,8 @@ unknown(at([n=2], rise(gap, along(k))) > 0).
 unknown(at([n=2], mean(gap)) > 0).
 unknown(some(nothing > 1)).
 unknown(least(up, k=c)).
+unknown(at([k=a], least(up, k=a))).
+unknown(at([k=c], holds(nine_of_them))).
 unknown((nothing > 1, up > 9)).
 unknown((nothing > 1 ; up > 99)).
 
@@ -172,6 +178,10 @@ test(is_not_known, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
 test(is_not_known_nor_denied,
      [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
     holds(\+ Test).
+test(known, [ forall(( holding(Test) ; failing(Test) )) ]) :-
+    known(Test).
+test(not_known, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
+    known(Test).
 test(half_of_it_is_known, nondet) :-
     holds((nothing > 1 ; up > 9)),
     holds(\+ (nothing > 1, up > 99)).

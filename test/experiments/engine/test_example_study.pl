@@ -36,12 +36,11 @@ test(same_agent, Shown == Text) :-
     atomic_list_concat([''|Lines], '\n', Atom),
     atom_string(Atom, Shown),
     file('examples/studies/explorer.pl', Text).
-test(same_study) :-
-    block(prolog, '% coverage.pl', [_|Lines]),
-    file('examples/studies/coverage.pl', Text),
-    forall(( member(Line, Lines),
-             Line \== ':- use_module(library(typhon)).' ),
-           assertion(once(sub_string(Text, _, _, _, Line)))).
+test(same_study, Shown == Text) :-
+    block(prolog, '% coverage.pl', Lines),
+    atomic_list_concat([''|Lines], '\n', Atom),
+    atom_string(Atom, Shown),
+    file('examples/studies/coverage.pl', Text).
 test(gives_what_is_shown) :-
     block(text, '$ swipl', Lines),
     with_tmp_dir(output(Output)),

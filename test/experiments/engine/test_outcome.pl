@@ -87,7 +87,7 @@ test(nothing_is_known_without_runs, Share-Rows == (0-0-false)-[]) :-
     quietly_outcome_of([], Outcome),
     claim(Outcome, "rises", Share),
     Rows = Outcome.rows.
-test(never_measured, Share == 0-3-false) :-
+test(never_measured_is_not_known, Share == 0-0-false) :-
     three(Values),
     quietly_outcome_of(Values, Outcome),
     claim(Outcome, "never measured", Share).

@@ -13,6 +13,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 
 base([ 'study(toy, "A toy").', 'vary(a, [1, 2]).',
@@ -59,6 +60,9 @@ test(no_test, Problems == [said(claim("small"), no_test(smal(m)))]) :-
     more_problems(['claim("small", [], smal(m)).'], Problems).
 test(unknown_in_a_claim, Problems == [said(claim("small"), unknown(n))]) :-
     more_problems(['claim("small", [], n < a).'], Problems).
+test(no_such_value, Problems == [said(claim("small"), no_case(k=gird))]) :-
+    more_problems([ 'vary(k, [grid, ring]).',
+                    'claim("small", [], least(m, k=gird)).' ], Problems).
 test(unknown_in_a_plot, Problems == [ said(plot(p), unknown(b)),
                                       said(plot(p), unknown(n)) ]) :-
     more_problems(['plot(p, "P", lines([x(b), y([m, n]), line(a)])).'],
@@ -114,6 +118,8 @@ test(thesis, true(memberchk('figure_5_6.pl', Bases))) :-
 test(once, Bases == ['figure_5_6.pl']) :-
     project_file('experiments/sync/figure_5_6', File),
     named(['5.6', File, '5.6'], Bases).
+test(a_name_is_one_study, Bases == ['study_readings.pl']) :-
+    named([readings], Bases).
 test(unknown, error(existence_error(study, '99.9'))) :-
     named(['99.9'], _).
 
@@ -177,8 +183,10 @@ test(help) :-
     with_tmp_dir(help(Text)),
     says(Text, ["STUDY", "--runs", "--set=NAME=VALUE", "--case", "--logs",
                 "--list", "--collect", "--out"]).
-test(help_of_a_study) :-
-    prints(['--help'], exit(0), Text),
+test(help_of_a_study, forall(member(Args, [ ['--help'],
+                                            ['--runs', 1, '--help'],
+                                            ['-h', '--set', 'c=4'] ]))) :-
+    prints(Args, exit(0), Text),
     says(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
 test(what_there_is) :-
     with_tmp_dir(what_there_is(Text)),
@@ -203,6 +211,10 @@ test(set_text) :-
     prints(['--set', 'b=Some Text', '--set', 'a=1', '--runs', 1], exit(0),
            Text),
     says(Text, ["  1  Some Text     1  13"]).
+test(set_half_a_term, forall(member(Half, ['[1,', 'f(1', '1,2)']))) :-
+    atom_concat('a=', Half, Set),
+    prints(['--set', Set], exit(1), Text),
+    says(Text, [Half]).
 test(set_nothing) :-
     prints(['--set', b], exit(1), Text),
     says(Text, ["NAME=VALUE"]).
@@ -213,20 +225,36 @@ test(case_by_name) :-
                           ["  m           13", "a=1,b=it is,seed=4"])).
 test(no_such_case, forall(member(Case, [9, 'a=3,b=x']))) :-
     prints(['--case', Case], exit(1), Text),
-    says(Text, ["case", "does not exist"]).
+    says(Text, ["case", "does not exist; there are a=1,b=x  a=1,b=it is  "]).
+test(parts_of_a_name_in_any_order) :-
+    with_command(one_case(['--case', 'b=x,a=2'], ["a=2,b=x,seed=1"])).
+test(nothing_is_real) :-
+    prints(['--real', '--runs', 1, '--set', 'a=1'], exit(0), Text),
+    says(Text, ["--real: no case"]).
+test(again_where_it_was) :-
+    with_command(again).
 test(no_such_study) :-
     with_tmp_dir(no_such_study(Text)),
     says(Text, ["study", "99.9", "does not exist"]).
 test(list) :-
     with_command(listed).
+test(nothing_is_left_to_compare) :-
+    prints(['--set', 'a=1', '--runs', 1], exit(0), Text),
+    says(Text, ["not known           m grows"]).
 test(collect_what_is_not_there) :-
     prints(['--collect', '--out', out], exit(0), Text),
-    says(Text, ["not known"]).
+    says(Text, ["not known", "12 of 12 runs are not there"]).
 test(no_runs, forall(member(Option, ['--runs', '--jobs']))) :-
     prints([Option, 0], Status, _),
     assertion(Status \== exit(0)).
 
 :- end_tests(study_command).
+
+again(Dir, File) :-
+    study_command(Dir, [File, '--runs', 1, '--out', there], exit(0), _),
+    directory_file_path(Dir, 'there/index.html', Page),
+    read_file_to_string(Page, Text, [encoding(utf8)]),
+    says(Text, ["--seed 1 --out there"]).
 
 help(Text, Dir) :-
     study_command(Dir, ['--help'], exit(0), Text).

@@ -121,6 +121,7 @@ failing(What, Why, Dir, File) :-
     runs(Dir, File, Whats, ['--runs', 1, '--jobs', 1], Status, Text),
     assertion(Status == exit(1)),
     says(Text, "failed; see"),
+    says(Text, Why),
     says(Text, "3/3 runs"),
     below(Dir, '.failed', [Failed]),
     directory_file_path(Failed, output, Output),
@@ -137,6 +138,14 @@ failing(What, Why, Dir, File) :-
     include(==(1-What), Notes, Tries),
     length(Tries, Count),
     assertion(Count == 2).
+
+%   Of many that fail by the same the first is told, and how many they are.
+
+same_cause(Dir, File) :-
+    runs(Dir, File, '[fail]', ['--runs', 3], exit(1), Text),
+    says(Text, "3 runs failed: "),
+    findall(x, sub_string(Text, _, _, _, "failed; see"), Told),
+    assertion(Told == [x]).
 
 collected_anyway(Dir, File) :-
     runs(Dir, File, '[a,fail]', ['--runs', 1], exit(1), Text),
@@ -236,8 +245,19 @@ test(failing, forall(member(What-Why, [ fail-"`here' does not exist",
                                         halt-"exit(7)",
                                         kill-"killed(9)" ]))) :-
     with_toy(failing(What, Why)).
+test(same_cause) :-
+    with_toy(same_cause).
 test(collected_anyway) :-
     with_toy(collected_anyway).
+test(no_such_agent) :-
+    with_study_file([ ':- use_module(library(typhon)).',
+                      'study(lost, "Nobody is there").',
+                      'network(_, ring(2), []).',
+                      'run(_, Network) :-',
+                      '    network_property(Network, hosts([Host|_])),',
+                      '    agent_create(agents(nobody), _, [host(Host)]).',
+                      'measure(m, _, 1).' ],
+                    no_such_agent).
 test(interrupted, forall(member(Signal-Status, [int-130, term-143]))) :-
     with_toy(leaves_nothing(Signal, Status)).
 test(stuck) :-
@@ -261,6 +281,10 @@ test(nobody_waits_for_a_long_run) :-
 test(changed_meanwhile) :-
     with_toy(changed).
 
+no_such_agent(Dir, File) :-
+    study_command(Dir, [File, '--runs', '1'], exit(1), Text),
+    says(Text, "study.pl, seed 1"),
+    says(Text, "There is no file agents(nobody)").
 
 by_two(Dir, File) :-
     study_command(Dir, [File, '--runs', '1', '--jobs', '2'], exit(0), _).

@@ -18,7 +18,7 @@ study(Name, Study) :-
 
 a_study(Name) :-
     member(Name, [ figure_3_3, figure_3_4, figure_3_5, beyond_memory,
-                   beyond_programs, study_readings ]).
+                   beyond_programs, study_comparisons ]).
 
 claims(Study, Tests) :-
     findall(Test, study_call(Study, claim(_, _, Test)), Tests).

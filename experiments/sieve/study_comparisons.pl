@@ -59,5 +59,5 @@ claim(Text, [ours], at([reading=Reading, figure=Figure], Test)) :-
     member(Reading, Readings),
     format(string(Text), "Figure ~w, ~w: ~w", [Figure, Reading, Said]).
 
-plot(readings, "Agents of the complements, and share of 11110, by reading",
+plot(comparisons, "Agents of the complements, and share of 11110, by reading",
      lines([x(reading), y([complements, generic, new]), line(figure)])).
