@@ -196,7 +196,7 @@ release(Host, Settings, Name-Memory, Agent) :-
 :- begin_tests(sieve_host).
 
 test(left_alone_a_host_helps_itself) :-
-    sieve(ring(1), [], [patience-1], alone).
+    sieve(ring(1), [], [patience-20], alone).
 
 alone([Host], File) :-
     bits('00000', Antigen),
@@ -207,7 +207,7 @@ alone([Host], File) :-
     member(generated(Antigen, Antibody, Wait), All),
     affinity(Antigen, Antibody, Psi),
     Psi >= 4,
-    Wait >= 1,
+    Wait >= 20,
     antigen_attack([Host], Antigen),    % now there is somebody
     settled(File, 2),
     told(File, Later),
