@@ -53,7 +53,6 @@ number_text(Number, Text) :-
     ;   format(atom(Text), '~w', [Number])
     ).
 
-digits(Size, 0) :- Size >= 1000, !.
 digits(Size, 1) :- Size >= 10, !.
 digits(Size, 2) :- Size >= 0.1, !.
 digits(_, 3).
