@@ -41,17 +41,24 @@ spread(Numbers, Least, Median, Most) :-
 %   As short as is of use: 12,345  104.5  0.042.
 
 number_text(Number, Text) :-
-    (   number(Number),
-        Number =:= 0
-    ->  Text = '0'
-    ;   integer(Number)
-    ->  format(atom(Text), '~D', [Number])
-    ;   number(Number),
-        Size is abs(Number),
-        digits(Size, Digits)
-    ->  format(atom(Text), '~*f', [Digits, Number])
-    ;   format(atom(Text), '~w', [Number])
-    ).
+    number(Number),
+    !,
+    Size is abs(Number),
+    number_text(Size, Number, Text).
+number_text(Other, Text) :-
+    format(atom(Text), '~w', [Other]).
+
+number_text(Size, _, '0') :-
+    Size =:= 0,
+    !.
+number_text(Size, Number, Text) :-
+    ( integer(Number) ; Size >= 1000 ),
+    !,
+    Rounded is round(Number),
+    format(atom(Text), '~D', [Rounded]).
+number_text(Size, Number, Text) :-
+    digits(Size, Digits),
+    format(atom(Text), '~*f', [Digits, Number]).
 
 digits(Size, 1) :- Size >= 10, !.
 digits(Size, 2) :- Size >= 0.1, !.
