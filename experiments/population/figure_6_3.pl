@@ -6,6 +6,8 @@
                panel_variables/2, span_rows/2]).
 
 study('6.3', "One kind of agent for each task, on 50 and 100 hosts").
+
+real([hosts=50], [clock=10, processes=2]).
 text("Five kinds of agents execute five tasks in order on every host of a \c
 mesh. Agents that are rewarded for their task clone themselves; clones that \c
 find nothing to do die.").
