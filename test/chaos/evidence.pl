@@ -149,7 +149,8 @@ ending(_, Events, Name, Id) :-
            atom_concat(@, Host, Home),
            sub_atom(Id, _, _, 0, Home) )).
 
-%   What a killed process was just writing does not count.
+%   What a killed process was just writing does not count, nor what somebody
+%   wrote who was interrupted: only that, not what comes after it.
 
 events(Dir, Events) :-
     cluster_lives(Lives),
@@ -165,7 +166,8 @@ event_in(File, Life, e(Key, Tick, Event, Time, Life)) :-
     setup_call_cleanup(
         open(File, read, In),
         ( repeat,
-          catch(read_term(In, Term, []), error(_, _), Term = end_of_file),
+          catch(read_term(In, Term, []), error(syntax_error(_), _),
+                Term = broken),
           (   Term == end_of_file
           ->  !,
               fail
