@@ -2,7 +2,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../host', [context_now/2, host_load/2, time_signal/1]).
 :- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
-:- use_module(ending, [agent_end/2]).
+:- use_module(ending, [agent_end/3]).
 :- use_module(orders, [order_take/2]).
 
 /** <module> The agents on a host that is being stopped
@@ -29,7 +29,7 @@ evacuate(Host, Deadline) :-
         ( Load =< 0 ; Now > Deadline )
     ->  true
     ;   forall(( member(Id, Ids), stays(Id) ),
-               ignore(order_take(Id, dispose))),
+               ignore(order_take(Id, evacuate(Host)))),
         (   Now > Deadline
         ->  interrupt(Host, Ids)
         ;   true
@@ -46,13 +46,17 @@ stays(Id) :-
 %   abort is the one exception that the agent's own catch/3 cannot stop.
 
 interrupt(Host, Ids) :-
-    forall(( member(Id, Ids), \+ agent_status(Id, running, _) ),
-           ignore(agent_end(Id, disposed))),
+    forall(member(Id, Ids),
+           ignore(agent_end(Id, idles_on(Host, Id), disposed))),
     (   member(Id, Ids),
         agent_status(Id, running, _)
     ->  time_signal(typhon_evacuation:stop_running(Host))
     ;   true
     ).
+
+idles_on(Host, Id, Status) :-
+    Status \== running,
+    agent(Id, Host, _, _, _).
 
 stop_running(Host) :-
     (   context_now(Host, Agent),

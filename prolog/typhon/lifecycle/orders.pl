@@ -119,10 +119,19 @@ at_once(dispose).
 %!  order_take(+Id, +Order) is semidet.
 %
 %   Order comes to Id.  Fails if there is no such agent in this process.
+%   Besides those of order_give/3 there is evacuate(Host): it ends who stands
+%   on Host, of this process, and nobody who has left it meanwhile.
 
 order_take(Id, dispose) :-
     agent_end(Id, at_rest, disposed),
     !.
+order_take(Id, evacuate(Host)) :-
+    agent_end(Id, rests_on(Host, Id), disposed),
+    !.
+order_take(Id, evacuate(Host)) :-
+    !,
+    with_agent(Id, ( agent(Id, Host, _, _, _),
+                     note_order(Id, evacuate(Host)) )).
 order_take(Id, Order) :-
     with_agent(Id, note_order(Id, Order)),
     (   Order == dispose
@@ -170,6 +179,10 @@ at_rest(transit(Host, Sent)) :-
 at_rest(cloning(Host, Sent)) :-
     out_of_touch(cloning(Host, Sent)).
 
+rests_on(Host, Id, Status) :-
+    agent(Id, Host, _, _, _),
+    at_rest(Status).
+
 note_order(Id, Order) :-
     agent_status(Id, Status, Goals),
     not_faulty(Status, Id),
@@ -189,8 +202,11 @@ idle(sleeping(_)).
 idle(waiting(_, _)).
 idle(resident).
 
-%   Orders to an agent that left in the meantime follow it.
+%   Orders to an agent that left in the meantime follow it, but for what was
+%   meant for those who stay.
 
+typhon_transfer:forward_order(_, evacuate(_)) :-
+    !.
 typhon_transfer:forward_order(Agent, Order) :-
     (   Order = asked(Order1, Asker)
     ->  forward(Agent, Order1, Answer),
@@ -221,6 +237,11 @@ order_obey(Order, Id, Goals) :-
 
 obey(dispose, Id, _) :-
     ignore(agent_end(Id, disposed)).
+obey(evacuate(Host), Id, Goals) :-
+    (   agent(Id, Host, _, _, _)
+    ->  ignore(agent_end(Id, disposed))
+    ;   go_on(Id, Goals)
+    ).
 obey(move(Host), Id, Goals) :-
     agent(Id, Here, _, _, _),
     catch(effect_order(Id, Here, Host, Goals),

@@ -110,7 +110,13 @@ dynamics_stop(Dynamics) :-
         await_change(Dynamics, Queue),
         ( retractall(stopping(Dynamics, _)),
           message_queue_destroy(Queue),
-          forall(retract(due(Dynamics, Due)), message_queue_destroy(Due)) )).
+          forget(Dynamics) )).
+
+forget(Dynamics) :-
+    (   retract(due(Dynamics, Queue))
+    ->  message_queue_destroy(Queue)
+    ;   true
+    ).
 
 await_change(Dynamics, Queue) :-
     (   \+ changing(Dynamics, _)

@@ -47,10 +47,11 @@ endpoint, which never wait.
 %
 %   @arg Since is the host time at which it set out
 %   @error type_error(mobile_term, Culprit)
+%   @error move_refused(Address, Reason), of a host of this process
 
 hop(Id, local(Name), Hole, Goals, Since) :-
-    hop_within(Id, Name, Hole, Goals, Since),
-    !.
+    !,
+    hop_within(Id, Name, Hole, Goals, Since).
 hop(Id, Where, Hole, Goals, Since) :-
     destination(Where, Dest),
     Transfer = hop(Id, Dest, _),

@@ -4,8 +4,8 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
-              [ host/3, host_enter/3, host_hop/3, host_leave/1, host_time/2,
-                schedule/2 ]).
+              [ address_parts/3, host/3, host_enter/3, host_hop/3, host_leave/1,
+                host_time/2, schedule/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/2,
                 agent_module/5, agent_move/5, agent_put_mobile/2, agent_state/2,
@@ -23,13 +23,13 @@ not matter here.
 *Threading*: in a worker, which has the agent.
 */
 
-%!  hop_within(+Id, +Name, +Hole, +Goals, +Since) is semidet.
+%!  hop_within(+Id, +Name, +Hole, +Goals, +Since) is det.
 %
 %   Id, which set out at Since, is on host Name of this process, with Goals,
-%   its Hole bound to `true`.  Fails, and nothing has changed, where Name does
-%   not let it in: the way over the wire tells why.
+%   its Hole bound to `true`; or it was ended meanwhile.
 %
 %   @error type_error(mobile_term, Culprit)
+%   @error move_refused(Address, Reason)
 
 hop_within(Id, Name, Hole, Goals, Since) :-
     agent(Id, Here, Module, _, Life0),
@@ -37,10 +37,17 @@ hop_within(Id, Name, Hole, Goals, Since) :-
     life_hop(Life0, Life, Hops),
     can_travel(Id, Module, Life-Goals),
     sig_atomic(enter(Id, Here-Name, Life, Hole-Goals, How)),
-    (   How == moved
-    ->  sig_atomic(told(arrived(Id, Here, Name, Hops, Since)))
-    ;   How == ended
-    ).
+    went(How, Id, Here-Name, Hops, Since).
+hop_within(_, _, _, _, _).              % it was ended
+
+went(moved, Id, Here-Name, Hops, Since) :-
+    sig_atomic(told(arrived(Id, Here, Name, Hops, Since))).
+went(ended, _, _, _, _).
+went(refused(Reason), Id, _-Name, Hops, _) :-
+    endpoint_address(Own),
+    address_parts(Address, Name, Own),
+    debug(typhon(hop), '~w hop ~D: stays, ~w', [Id, Hops, Reason]),
+    throw(error(move_refused(Address, Reason), _)).
 
 %   Of the state only what has changed since it was last looked at.
 
@@ -53,9 +60,9 @@ can_travel(Id, Module, Others) :-
     ;   agent_put_mobile(Id, Until)
     ).
 
-%   enter(+Id, +Hosts, +Life, +Held, -How): How is `moved`, `refused`, or
-%   `ended` if the agent was ended meanwhile.  Nobody keeps the room that was
-%   taken for one who does not come.
+%   enter(+Id, +Hosts, +Life, +Held, -How): How is `moved`, `ended`, or
+%   refused(Reason).  Nobody keeps the room that was taken for one who does
+%   not come.
 
 enter(Id, Here-Name, Life, Held, How) :-
     life_tokens(Life, Tokens),
@@ -65,19 +72,16 @@ enter(Id, Here-Name, Life, Held, How) :-
               ( host_leave(Name),
                 throw(Ball) )),
         host_leave(Left)
-    ;   How = refused
+    ;   How = Answer
     ).
 
-moved(Id, Here-Name, Life, Held, Left, How) :-
-    (   with_agent(Id, move(Id, Here, Name, Life, Held))
-    ->  Left = Here,
-        How = moved
-    ;   Left = Name,
-        (   agent(Id, _, _, _, _)
-        ->  How = refused               % Name is being stopped
-        ;   How = ended
-        )
-    ).
+moved(Id, Here-Name, Life, Held, Here, moved) :-
+    with_agent(Id, move(Id, Here, Name, Life, Held)),
+    !.
+moved(Id, _-Name, _, _, Name, refused(unknown_host)) :-
+    agent(Id, _, _, _, _),              % Name is being stopped
+    !.
+moved(_, _-Name, _, _, Name, ended).
 
 %   The agent is there, whatever comes: nobody must think it is still here.
 

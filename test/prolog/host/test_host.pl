@@ -570,6 +570,31 @@ test(hop_time_in_host_seconds, true((Min >= 5.0, Max < 100))) :-
                 *        START AND STOP        *
                 *******************************/
 
+%   Walkers that were on their way when n1 was told to stop.
+
+ended_elsewhere(Elsewhere, Dir) :-
+    atom_concat(Dir, '/events.pl', Log),
+    setup_call_cleanup(
+        network_start(ring(3), Network, [log(Log)]),
+        ( network_property(Network, hosts(Hosts)),
+          forall(between(1, 300, _), walker(Hosts)),
+          host_stop(n1),
+          aggregate_all(sum(Load), ( member(Host, [n2,n3]),
+                                     host_property(Host, load(Load)) ), Left),
+          Ended is 300-Left,
+          wait_until(( log_events(Log, Events),
+                       aggregate_all(count, member(event(_, _, _, ended(_)),
+                                                   Events), Ended) ), 20) ),
+        network_stop(Network)),
+    findall(At, ( member(event(_, At, _, ended(_)), Events),
+                  \+ sub_atom(At, 0, _, _, 'n1@') ), Elsewhere).
+
+walker([Home|_]) :-
+    agent_create(clauses([ (:- agent(walker)),
+                           (main :- go(n2), go(n3), go(n1), main),
+                           (go(H) :- catch(move(H), _, true)) ]), _,
+                 [host(Home)]).
+
 :- begin_tests(stopping).
 
 test(a_thousand_times, true((T1 == T0, Q1 == Q0, M1 =< M0+2))) :-
@@ -604,6 +629,8 @@ test(a_thousand_residents, true(N == 1000)) :-
                               create([on_message(_, _)], A) ), As),
                  host_stop(alpha) )),
     aggregate_all(count, ( member(A, As), agent_join(A, disposed, 10) ), N).
+test(who_has_left_lives_on, true(Elsewhere == [])) :-
+    with_tmp_dir(test_host:ended_elsewhere(Elsewhere)).
 test(one_of_two_hosts, true(S == resident)) :-
     with_hosts([alpha,beta],
                ( create([on_message(_, _)], A, [host(beta)]),
