@@ -7,7 +7,8 @@
             time_wait/3,                % +Queue, -Message, +Stamp
             time_signal/1,              % :Goal
             time_seed/1,                % +Seed
-            alarm_set/3                 % +Stamp, +Agent, +Token
+            alarm_set/3,                % +Stamp, +Agent, +Token
+            alarm_in/3                  % +Seconds, +Agent, +Token
           ]).
 :- use_module(pool, [pool_signal/1, pool_start/0, pool_stop/0]).
 :- use_module(queue, [enqueue/1]).
@@ -99,14 +100,20 @@ work(real, Work)    :- enqueue(Work).
 work(virtual, Work) :- virtual_work(Work).
 
 %!  alarm_set(+Stamp, +Agent, +Token) is det.
+%!  alarm_in(+Seconds, +Agent, +Token) is det.
 %
-%   Have fire(Agent, Token) called at Stamp.
+%   Have fire(Agent, Token) called at Stamp, or in Seconds.
 
 alarm_set(Stamp, Agent, Token) :-
     time_kind(Kind),
     !,
     alarm_set(Kind, Stamp, Agent, Token).
 alarm_set(_, _, _).
+
+alarm_in(Seconds, Agent, Token) :-
+    time_now(Now),
+    Stamp is Now+Seconds,
+    alarm_set(Stamp, Agent, Token).
 
 alarm_set(real, Stamp, Agent, Token)    :- timer_set(Stamp, Agent, Token).
 alarm_set(virtual, Stamp, Agent, Token) :- virtual_alarm(Stamp, Agent, Token).

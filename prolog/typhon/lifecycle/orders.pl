@@ -14,7 +14,7 @@
                 permission_error/3 ]).
 :- use_module('../program', [code_program/2, payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [alarm_set/3, host_address/2, scheduler_call/1]).
+:- use_module('../host', [alarm_in/3, host_address/2, scheduler_call/1]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
@@ -143,9 +143,7 @@ order_take(Id, Order) :-
 
 look_again_later(Id) :-
     (   under_way(Id)
-    ->  get_time(Now),
-        Stamp is Now+1,
-        alarm_set(Stamp, Id, dispose)
+    ->  alarm_in(1, Id, dispose)
     ;   true
     ).
 

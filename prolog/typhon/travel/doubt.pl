@@ -6,7 +6,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../wire', [endpoint_gone/1, endpoint_peer/2]).
-:- use_module('../host', [address_parts/3, alarm_set/3, scheduler_call/1]).
+:- use_module('../host', [address_parts/3, alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_image/2, transfer_stays/2,
@@ -59,10 +59,8 @@ home_said(Transfer, _) :-
 
 settle_later(Transfer) :-
     setting(settle_seconds, Seconds),
-    get_time(Now),
-    Stamp is Now+Seconds,
     arg(1, Transfer, Id),
-    alarm_set(Stamp, Id, settle(Transfer)).
+    alarm_in(Seconds, Id, settle(Transfer)).
 
 typhon_scheduler:fire(_, settle(Transfer)) :-
     !,

@@ -11,7 +11,7 @@
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
-:- use_module('../host', [alarm_set/3, time_now/1]).
+:- use_module('../host', [alarm_in/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 
 /** <module> What a home knows of its agents
@@ -153,9 +153,7 @@ wait_or_answer(Id, Seconds, Asker, wait) :-
     flag(typhon_waiter, Token, Token+1),
     assertz(waiter(Id, Token, Asker)),
     (   number(Seconds)
-    ->  time_now(Now),
-        Stamp is Now+Seconds,
-        alarm_set(Stamp, Id, join(Token))
+    ->  alarm_in(Seconds, Id, join(Token))
     ;   true
     ).
 wait_or_answer(_, _, _, unknown).

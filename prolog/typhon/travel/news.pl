@@ -4,7 +4,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_up/3]).
-:- use_module('../host', [alarm_set/3, scheduler_call/1]).
+:- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
 /** <module> News for the homes of agents
 
@@ -111,8 +111,7 @@ carried(unreachable(_), Home, All, try(Since0, Pause)) :-
     ;   with_mutex(typhon_news, forall(member(News, All), back(Home, News))),
         longest_pause(Longest),
         Pause1 is min(Longest, 2*Pause),
-        Stamp is Now+Pause,
-        alarm_set(Stamp, Home, news(try(Since, Pause1)))
+        alarm_in(Pause, Home, news(try(Since, Pause1)))
     ).
 carried(existence_error(endpoint, _), Home, _, _) :-
     give_up(Home).                      % this process ends

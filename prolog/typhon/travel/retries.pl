@@ -5,7 +5,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/2, member/2]).
 :- use_module('../wire', [endpoint_gone/1]).
-:- use_module('../host', [alarm_set/3, scheduler_call/1]).
+:- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [with_agent/2]).
 :- use_module(backlog,
               [ backlog/1, backlog_add/2, backlog_again/3, backlog_begin/3,
@@ -58,9 +58,7 @@ retry_later(Id, Letter, nowhere) :-
 try_later(Id, Tries) :-
     pause(Tries, Seconds),
     debug(typhon(mail), '~w: a letter waits ~3f seconds', [Id, Seconds]),
-    get_time(Now),
-    Stamp is Now+Seconds,
-    alarm_set(Stamp, Id, mail).
+    alarm_in(Seconds, Id, mail).
 
 typhon_scheduler:fire(Id, mail) :-
     !,
