@@ -6,7 +6,7 @@
 :- use_module('../../agents/allocation/sequence',
               [sequence_begin/6, sequence_over/3, sequence_proceed/2]).
 :- use_module(faults, [no_reservation_faults/1]).
-:- use_module(mechanisms, [allocators_end/1]).
+:- use_module(mechanisms, [allocators_end/2]).
 :- use_module(timetable).
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(lists), [member/2, numlist/3]).
@@ -37,7 +37,7 @@ run(Case, Network) :-
     names(Case, Names),
     maplist(begin(Case), Names, Starts, Sequences),
     proceed(Sequences, Case.limit, Network),
-    allocators_end(Case.limit).
+    allocators_end(Network, Case.limit).
 
 begin(Case, Name, Host, Sequence) :-
     findall(Task-sleep(Case.task_time), between(1, Case.length, Task), Tasks),

@@ -3,7 +3,7 @@
 :- include(robots).
 :- use_module('../../prolog/typhon', [network_advance/2]).
 :- use_module(faults, [no_reservation_faults/1]).
-:- use_module(mechanisms, [allocators_end/1, task_start/3]).
+:- use_module(mechanisms, [allocators_end/2, task_start/3]).
 :- use_module(metrics, [lasted/3, mean/2, overdue/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
@@ -39,7 +39,7 @@ run(Case, Network) :-
     forall(member(Task-Host, Early), task_start(Task, Host, Case)),
     network_advance(Network, Case.late),
     task_start(Task1, Host1, Case),
-    allocators_end(Case.limit).
+    allocators_end(Network, Case.limit).
 
 %   Names are numbers, the last one the greatest.
 

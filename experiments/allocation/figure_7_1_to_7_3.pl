@@ -15,6 +15,9 @@ skip(Case) :-
     Case.links == static,
     Case.mechanism == constant.
 
+real([links=(dynamic), mechanism=proposed, allocators=2],
+     [clock=4, processes=2]).
+
 printed(backoffs, [links=dynamic, mechanism=proposed, allocators=1], 2.6).
 printed(interval, [links=dynamic, mechanism=proposed, allocators=1], 5.16).
 

@@ -1,14 +1,13 @@
 :- module(allocation_mechanisms,
           [ mechanism_allocate/4,       % +Mechanism, +Pairs, +Case, +Network
             task_start/3,               % +Task, +Host, +Case
-            allocators_end/1            % +Limit
+            allocators_end/2            % +Network, +Limit
           ]).
 :- use_module('../../prolog/typhon',
-              [agent_join/3, agent_property/2, network_advance/2,
-               network_property/2]).
+              [agent_join/3, network_advance/2, network_property/2]).
 :- use_module('../../agents/allocation/auctions',
-              [auction_account/2, auction_open/3, auction_post/3,
-               auction_start/3]).
+              [auction_account/2, auction_counts/3, auction_open/3,
+               auction_post/3, auction_start/3]).
 :- use_module('../../agents/allocation/operator',
               [robot_status/2, task_allocate/4]).
 :- use_module(library(lists), [member/2, memberchk/2]).
@@ -41,12 +40,11 @@ mechanism_allocate(Mechanism, Pairs, Case, Network) :-
     pairs_values(Pairs, Auctioneers),
     auctions_end(auctions(Mechanism, Auctioneers, Hosts), Network,
                  Case.limit),
-    auction_account(Mechanism, Hosts),
-    network_advance(Network, 0).
-mechanism_allocate(Mechanism, Pairs, Case, _) :-
+    log_counts(Mechanism, Hosts, Network).
+mechanism_allocate(Mechanism, Pairs, Case, Network) :-
     backoff(Mechanism, Backoff),
     forall(member(Task-Host, Pairs), start(Backoff, Task, Host, Case)),
-    allocators_end(Case.limit).
+    allocators_end(Network, Case.limit).
 
 backoff(proposed, adaptive).
 backoff(constant, constant).
@@ -82,19 +80,29 @@ over(auctions(Mechanism, Auctioneers, Hosts)) :-
     auction_open(Mechanism, Auctioneers, []),
     forall(member(Host, Hosts), robot_status(Host, free)).
 
-%!  allocators_end(+Limit) is semidet.
+%   Until nothing is left that nodes have not logged.
+
+log_counts(Mechanism, Hosts, Network) :-
+    auction_account(Mechanism, Hosts),
+    network_advance(Network, 0),
+    (   auction_counts(Mechanism, Hosts, [])
+    ->  true
+    ;   log_counts(Mechanism, Hosts, Network)
+    ).
+
+%!  allocators_end(+Network, +Limit) is semidet.
 %
 %   Wait until there are none, nor any children of one; fails where one does
 %   not end in Limit seconds.
 
-allocators_end(Limit) :-
+allocators_end(Network, Limit) :-
+    network_property(Network, agents(Agents)),
     findall(Agent,
-            ( agent_property(Agent, program(Program)),
-              sub_atom(Program, _, _, 0, allocator) ),
-            Agents),
-    (   Agents = [Agent|_]
-    ->  agent_join(Agent, Outcome, Limit),
-        Outcome \== timeout,
-        allocators_end(Limit)
-    ;   true
+            ( member(Agent, Agents), sub_atom(Agent, 0, _, _, 'allocator.') ),
+            Allocators),
+    (   Allocators == []
+    ->  true
+    ;   forall(member(Agent, Allocators),
+               ( agent_join(Agent, Outcome, Limit), Outcome \== timeout )),
+        allocators_end(Network, Limit)
     ).

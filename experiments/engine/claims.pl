@@ -1,15 +1,15 @@
 :- module(study_claims,
-          [ claim_holds/3,              % :Test, +Points, +All
-            claim_known/3,              % :Test, +Points, +All
+          [ claim_holds/2,              % :Test, +Points
+            claim_known/2,              % :Test, +Points
             claim_shape/2,              % :Test, -Problem
             claim_name/2,               % :Test, -Name
             claim_value/2,              % :Test, -NameValue
             connective/2,               % ?Test, -Tests
-            leaf/3                      % ?Test, -Expressions, -Parameters
+            leaf/4                      % ?Test, -Relation, -Where, -Es
           ]).
 :- use_module(library(lists), [append/3, last/2, member/2, memberchk/2]).
 :- use_module(expressions,
-              [ aggregate/3, context/3, line/3, on_line/4, selected/3,
+              [ aggregate/3, context/2, line/3, on_line/4, selected/3,
                 value/4 ]).
 
 /** <module> Claims are terms
@@ -40,26 +40,24 @@ Then it does not hold, and neither does \+ of it.
 */
 
 :- meta_predicate
-    claim_holds(:, +, +),
-    claim_known(:, +, +),
+    claim_holds(:, +),
+    claim_known(:, +),
     claim_shape(:, -),
     claim_name(:, -),
     claim_value(:, -).
 
-%!  claim_holds(:Test, +Points:list(pair), +All:list(pair)) is semidet.
-%
-%   Points are those looked at, All those that at/2 may select from.
+%!  claim_holds(:Test, +Points:list(pair)) is semidet.
 
-claim_holds(M:Test, Points, All) :-
-    context(M:Points, All, Context),
+claim_holds(M:Test, Points) :-
+    context(M:Points, Context),
     verdict(Test, M, Context, true).
 
-%!  claim_known(:Test, +Points:list(pair), +All:list(pair)) is semidet.
+%!  claim_known(:Test, +Points:list(pair)) is semidet.
 %
 %   There is something to compare: Test holds, or it does not.
 
-claim_known(M:Test, Points, All) :-
-    context(M:Points, All, Context),
+claim_known(M:Test, Points) :-
+    context(M:Points, Context),
     verdict(Test, M, Context, _).
 
 %   verdict(+Test, +Module, +Context, -Truth) is semidet: `true` or `false`;
@@ -124,61 +122,37 @@ truth(Goal, Truth) :-
 %   related(+Test, +Context, -Relation, -Values) is nondet: Test holds if
 %   all these stand in their relation.
 
-related(near(E, Value, Within), Context, near, Values) :-
-    !,
-    at_a_point([E, Value, Within], Context, Values).
-related(between(E, Least, Most), Context, between, Values) :-
-    !,
-    at_a_point([E, Least, Most], Context, Values).
-related(Extreme, Context, Relation, [This, Other]) :-
-    extreme(Extreme, Relation, E, P, V),
-    !,
+related(Test, Context, Relation, Values) :-
+    leaf(Test, Relation, Where, Es),
+    compared(Where, Es, Context, Values).
+
+compared(points, Es, Context, Values) :-
+    Context = context(Points, _, _),
+    member(Point, Points),
+    values(Es, Point, Context, Values).
+compared(against(P, V), [E], Context, [This, Other]) :-
     line(P, Context, Line),
     member(V-Point, Line),
     value(E, Point, Context, This),
     member(W-Another, Line),
     W \== V,
     value(E, Another, Context, Other).
-related(Trend, Context, Relation, [A, B]) :-
-    trend(Trend, Relation, E, P, Steps),
-    !,
-    line(P, Context, Line),
-    findall(Value, ( member(_-Point, Line), value(E, Point, Context, Value) ),
-            Values),
-    step(Steps, Values, A, B).
-related(Comparison, Context, Relation, Values) :-
-    comparison(Comparison, Relation, A, B),
-    at_a_point([A, B], Context, Values).
-
-at_a_point(Es, Context, Values) :-
-    Context = context(Points, _, _),
-    member(Point, Points),
-    values(Es, Point, Context, Values).
+compared(steps(P), [E], Context, [A, B]) :-
+    along(P, E, Context, Values),
+    append(_, [A, B|_], Values).
+compared(ends(P), [E], Context, [A, B]) :-
+    along(P, E, Context, [A|Values]),
+    last(Values, B).
 
 values([], _, _, []).
 values([E|Es], Point, Context, [Value|Values]) :-
     value(E, Point, Context, Value),
     values(Es, Point, Context, Values).
 
-comparison(A < B, <, A, B).
-comparison(A =< B, =<, A, B).
-comparison(A > B, >, A, B).
-comparison(A >= B, >=, A, B).
-comparison(A =:= B, =:=, A, B).
-comparison(A =\= B, =\=, A, B).
-
-extreme(least(E, P=V), <, E, P, V).
-extreme(most(E, P=V), >, E, P, V).
-
-trend(rises(E, along(P)), <, E, P, each).
-trend(falls(E, along(P)), >, E, P, each).
-trend(rises(E, along(P), ends), <, E, P, ends).
-trend(falls(E, along(P), ends), >, E, P, ends).
-
-step(each, Values, A, B) :-
-    append(_, [A, B|_], Values).
-step(ends, [A|Values], A, B) :-
-    last(Values, B).
+along(P, E, Context, Values) :-
+    line(P, Context, Line),
+    findall(Value, ( member(_-Point, Line), value(E, Point, Context, Value) ),
+            Values).
 
 stand(near, [A, B, Within]) :- !, abs(A - B) =< Within.
 stand(between, [A, Least, Most]) :- !, Least =< A, A =< Most.
@@ -231,11 +205,11 @@ part(Test, M, Part) :-
     member(One, Tests),
     part(One, M, Part).
 part(Test, _, Part) :-
-    leaf(Test, Es, Ps),
+    leaf(Test, _, Where, Es),
     !,
-    (   member(P, Ps),
+    (   Where =.. [_, P|_],
         Part = name(P)
-    ;   extreme(Test, _, _, P, V),
+    ;   Where = against(P, V),
         Part = value(P=V)
     ;   member(E, Es),
         of_expression(E, Part)
@@ -249,15 +223,32 @@ connective((A ; B), [A, B]).
 connective(\+ A, [A]).
 connective(some(A), [A]).
 
-%!  leaf(?Test, -Expressions:list, -Parameters:list) is semidet.
+%!  leaf(?Test, -Relation, -Where, -Es:list) is semidet.
 %
-%   Test looks at Expressions, and along or at Parameters.
+%   Test says that the values of Es stand in Relation, an order,
+%   `near` or `between`.  Where tells which values:
+%
+%     - points
+%       those of each point by itself
+%     - against(P, V)
+%       with the value V of the parameter P, and with any other
+%     - steps(P), ends(P)
+%       with each value of P and the next, or with the first and the last
 
-leaf(near(E, Value, Within), [E, Value, Within], []) :- !.
-leaf(between(E, Least, Most), [E, Least, Most], []) :- !.
-leaf(Extreme, [E], [P]) :- extreme(Extreme, _, E, P, _), !.
-leaf(Trend, [E], [P]) :- trend(Trend, _, E, P, _), !.
-leaf(Comparison, [A, B], []) :- comparison(Comparison, _, A, B).
+leaf(near(E, Value, Within), near, points, [E, Value, Within]).
+leaf(between(E, Least, Most), between, points, [E, Least, Most]).
+leaf(A < B, <, points, [A, B]).
+leaf(A =< B, =<, points, [A, B]).
+leaf(A > B, >, points, [A, B]).
+leaf(A >= B, >=, points, [A, B]).
+leaf(A =:= B, =:=, points, [A, B]).
+leaf(A =\= B, =\=, points, [A, B]).
+leaf(least(E, P=V), <, against(P, V), [E]).
+leaf(most(E, P=V), >, against(P, V), [E]).
+leaf(rises(E, along(P)), <, steps(P), [E]).
+leaf(falls(E, along(P)), >, steps(P), [E]).
+leaf(rises(E, along(P), ends), <, ends(P), [E]).
+leaf(falls(E, along(P), ends), >, ends(P), [E]).
 
 of_where(Where, name(Name)) :-
     is_list(Where),

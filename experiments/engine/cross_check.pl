@@ -3,7 +3,7 @@
             cross_check/4               % +Runs, +RealRuns, +Measures, -Rows
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(numbers, [number_text/2, spread/4]).
+:- use_module(numbers, [spread/4, spread_text/4]).
 :- use_module(studies, [study_call/2]).
 
 /** <module> Are runs on real sockets like those in virtual time?
@@ -50,15 +50,6 @@ values(Measure, Runs, Values) :-
               number(Value) ),
             Values),
     Values \== [].
-
-spread_text(Least, Median, Most, Text) :-
-    number_text(Median, Middle),
-    (   Least =:= Most
-    ->  Text = Middle
-    ;   number_text(Least, A),
-        number_text(Most, B),
-        format(atom(Text), '~w (~w-~w)', [Middle, A, B])
-    ).
 
 verdict(Least, Most, Real, inside) :-
     Least =< Real,

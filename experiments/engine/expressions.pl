@@ -1,5 +1,5 @@
 :- module(study_expressions,
-          [ context/3,                  % :Points, +All, -Context
+          [ context/2,                  % :Points, -Context
             selected/3,                 % +Where, +Context, -Selected
             line/3,                     % +P, +Context, -Line
             value/4,                    % +E, +Point, +Context, -Number
@@ -33,13 +33,13 @@ one parameter these may differ, too.
 */
 
 :- meta_predicate
-    context(:, +, -).
+    context(:, -).
 
-%!  context(:Points:list(pair), +All:list(pair), -Context) is det.
+%!  context(:Points:list(pair), -Context) is det.
 %
-%   Points are of a study that is the module.
+%   All Points, of a study that is the module.
 
-context(M:Points, All, context(Points, All, Follows)) :-
+context(M:All, context(All, All, Follows)) :-
     findall(Name, follows(M, All, Name), Follows).
 
 %   Unless it was given by itself: then cases differ in it alone.

@@ -3,8 +3,8 @@
           ]).
 :- use_module(library(lists),
               [append/3, list_to_set/2, member/2]).
-:- use_module(claims, [connective/2, leaf/3]).
-:- use_module(expressions, [context/3, selected/3, value/4]).
+:- use_module(claims, [connective/2, leaf/4]).
+:- use_module(expressions, [context/2, selected/3, value/4]).
 :- use_module(numbers, [number_text/2]).
 
 /** <module> What a claim has looked at, as text
@@ -22,7 +22,7 @@
 %   only some are shown.
 
 claim_found(M:Test, Points, Names, Text) :-
-    context(M:Points, Points, Context0),
+    context(M:Points, Context0),
     findall(Part,
             ( looked_at(Test, Context0, E, Context),
               part(E, Context, Names, Part) ),
@@ -40,7 +40,7 @@ looked_at(Test, Context, E, EContext) :-
     member(One, Tests),
     looked_at(One, Context, E, EContext).
 looked_at(Test, Context, E, Context) :-
-    leaf(Test, Es, _),
+    leaf(Test, _, _, Es),
     member(E, Es),
     \+ number(E).
 

@@ -1,8 +1,10 @@
 :- module(study_numbers,
           [ median/2,                   % +Numbers, -Median
             spread/4,                   % +Numbers, -Least, -Median, -Most
-            number_text/2               % +Number, -Text
+            spread_text/4,              % +Least, +Median, +Most, -Text
+           number_text/2               % +Number, -Text
           ]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [last/2, nth0/3]).
 
 /** <module> Numbers of several runs
@@ -35,6 +37,18 @@ spread(Numbers, Least, Median, Most) :-
     sort(0, @=<, Numbers, Sorted),
     Sorted = [Least|_],
     last(Sorted, Most).
+
+%!  spread_text(+Least, +Median, +Most, -Text:atom) is det.
+%
+%   12 (10-14); 12 if all are the same.
+
+spread_text(Least, Median, Most, Text) :-
+    Least =:= Most,
+    !,
+    number_text(Median, Text).
+spread_text(Least, Median, Most, Text) :-
+    maplist(number_text, [Median, Least, Most], Texts),
+    format(atom(Text), '~w (~w\u2013~w)', Texts).
 
 %!  number_text(+Number, -Text:atom) is det.
 %

@@ -4,7 +4,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(cases, [varied/3]).
-:- use_module(claims, [claim_holds/3, claim_known/3]).
+:- use_module(claims, [claim_holds/2, claim_known/2]).
 :- use_module(found, [claim_found/4]).
 :- use_module(numbers, [spread/4]).
 :- use_module(studies, [study_call/2]).
@@ -94,16 +94,16 @@ claim(Study, Names, OfSeeds, Medians, claim(Text, Notes, Held, Of, M, Found)) :-
 
 counted(Test, OfSeeds, Count, Of) :-
     (   member(Points, OfSeeds),
-        claim_known(Test, Points, Points)
+        claim_known(Test, Points)
     ->  Of = Count
     ;   Of = 0
     ).
 
 judged(Test, Names, OfSeeds, Medians, Held, OfMedians, Found) :-
     aggregate_all(count,
-                  ( member(Points, OfSeeds), claim_holds(Test, Points, Points) ),
+                  ( member(Points, OfSeeds), claim_holds(Test, Points) ),
                   Held),
-    (   claim_holds(Test, Medians, Medians)
+    (   claim_holds(Test, Medians)
     ->  OfMedians = true
     ;   OfMedians = false
     ),

@@ -18,7 +18,7 @@
               [ append/2, append/3, list_to_set/2, member/2, memberchk/2,
                 nth1/3 ]).
 :- use_module(cases, [parameters/3]).
-:- use_module(numbers, [number_text/2]).
+:- use_module(numbers, [number_text/2, spread_text/4]).
 :- use_module(studies, [study_call/2, study_title/3]).
 
 /** <module> Tables for people, CSV for other programs
@@ -86,22 +86,12 @@ case_texts(Case, Names, Texts) :-
 spread_text(row(_, Count, Spreads), Measure, Text) :-
     memberchk(spread(Measure, Least, Median, Most, Number), Spreads),
     !,
-    number_text(Median, Middle),
-    range_text(Least, Most, Range),
+    spread_text(Least, Median, Most, Spread),
     (   Number =:= Count
-    ->  Share = ''
-    ;   format(atom(Share), ' in ~d', [Number])
-    ),
-    atomic_list_concat([Middle, Range, Share], Text).
+    ->  Text = Spread
+    ;   format(atom(Text), '~w in ~d', [Spread, Number])
+    ).
 spread_text(_, _, '').
-
-range_text(Least, Most, '') :-
-    Least =:= Most,
-    !.
-range_text(Least, Most, Text) :-
-    number_text(Least, A),
-    number_text(Most, B),
-    format(atom(Text), ' (~w–~w)', [A, B]).
 
 print_claim(Stream, claim(Text, _, Held, Of, OfMedians, Found)) :-
     held_text(Held, Of, Word),

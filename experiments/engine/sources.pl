@@ -1,6 +1,7 @@
 :- module(study_sources,
           [ sources_hash/2,             % +Study, -Hash
-            sources_changed/2           % +Study, -File
+            sources_changed/2,          % +Study, -File
+            text_hash/2                 % +Text, -Hash
           ]).
 :- use_module(library(apply), [include/3, partition/4]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
@@ -77,6 +78,8 @@ file_digest(File, Base, Digest) :-
     file_base_name(File, Base),
     read_file_to_string(File, Text, [encoding(utf8)]),
     text_hash(Text, Digest).
+
+%!  text_hash(+Text, -Hash:atom) is det.
 
 text_hash(Text, Hash) :-
     sha_hash(Text, Bytes, [encoding(utf8)]),

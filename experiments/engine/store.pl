@@ -8,18 +8,18 @@
             part_directory/3,           % +Directory, +Pid, -Part
             part_begin/1,               % +Part
             part_install/3,             % +Part, +Directory, +Logs
-            part_fail/4,                % +Part, +Directory, :Goal, -Failed
-            failed_cause/2,             % +Failed, -Cause
-            part_remove/1               % +Part
+            part_fail/4,                % +Part, +Directory, +Why, -Failure
+            part_remove/1,              % +Part
+            left_parts_remove/2         % +Root, +Study
           ]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3,
-                make_directory_path/1 ]).
-:- use_module(library(lists), [member/2]).
-:- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
-:- use_module(library(sha), [hash_atom/2, sha_hash/3]).
+                directory_member/3, make_directory_path/1 ]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(socket), [gethostname/1]).
 :- use_module(cases, [case_name/3]).
-:- use_module(sources, [sources_hash/2]).
+:- use_module(sources, [sources_hash/2, text_hash/2]).
 :- use_module(studies, [study_title/3]).
 
 /** <module> Where runs are kept
@@ -29,15 +29,12 @@ Root/STUDY, whose name tells people the case and the seed, and has a hash of
 all parameters and one of all sources. What was made from other sources is
 not found, and so never mixed in.
 
-While it is made this is Directory.PID.part, and if it fails
+While it is made this is Directory.MACHINE.PID.part, and if it fails
 Directory.failed: then the file `output` says why.  Sessions that make the
 same run at once do not disturb each other.
 
 *Threading*: one thread in a process.
 */
-
-:- meta_predicate
-    part_fail(+, +, 1, -).
 
 %!  run_directory(+Root, +Run, -Directory) is det.
 
@@ -46,7 +43,8 @@ run_directory(Root, run(Study, Case, Seed), Directory) :-
     case_name(Study, Case, CaseName),
     file_text(CaseName, Text),
     dict_pairs(Case, _, Pairs),
-    digest(Pairs-Seed, Parameters),
+    format(string(Values), '~q', [Pairs-Seed]),
+    text_hash(Values, Parameters),
     sources_hash(Study, Sources),
     format(atom(Below), '~w/~w,seed=~w-~w-~w',
            [Name, Text, Seed, Parameters, Sources]),
@@ -62,12 +60,6 @@ file_text(Name, Text) :-
     ;   Text = Whole
     ).
 
-digest(Term, Digest) :-
-    format(string(Text), '~q', [Term]),
-    sha_hash(Text, Bytes, [encoding(utf8)]),
-    hash_atom(Bytes, Hex),
-    sub_atom(Hex, 0, 8, _, Digest).
-
 %!  run_done(+Root, +Logs:boolean, +Run) is semidet.
 %
 %   Run is there; with its log, if Logs is true and it has one at all.
@@ -75,16 +67,13 @@ digest(Term, Digest) :-
 run_done(Root, Logs, Run) :-
     run_directory(Root, Run, Directory),
     exists_directory(Directory),
-    (   Logs == true
-    ->  run_facts(Directory, Facts),
-        (   member(events(_), Facts)
-        ->  log_file(Directory, File),
-            exists_file(File)
-        ;   true
-        )
-    ;   true
-    ),
-    !.
+    \+ ( Logs == true, lacks_log(Directory) ).
+
+lacks_log(Directory) :-
+    run_facts(Directory, Facts),
+    memberchk(events(_), Facts),
+    log_file(Directory, File),
+    \+ exists_file(File).
 
 %!  log_file(+Directory, -File) is det.
 
@@ -115,15 +104,9 @@ run_facts(Directory, Facts) :-
 
 result_save(Directory, Facts) :-
     directory_file_path(Directory, 'result.pl', File),
-    write_file(File, facts(Facts)).
-
-facts(Facts, Out) :-
-    forall(member(Fact, Facts), format(Out, '~q.~n', [Fact])).
-
-write_file(File, Goal) :-
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
-        call(Goal, Out),
+        forall(member(Fact, Facts), format(Out, '~q.~n', [Fact])),
         close(Out)).
 
                 /*******************************
@@ -133,11 +116,12 @@ write_file(File, Goal) :-
 %!  part_directory(+Directory, +Pid, -Part) is det.
 %!  part_begin(+Part) is det.
 %
-%   Part is where the process Pid makes the run of Directory; it is empty at
-%   the beginning.
+%   Part is where the process Pid of this machine makes the run of Directory;
+%   it is empty at the beginning.
 
 part_directory(Directory, Pid, Part) :-
-    atomic_list_concat([Directory, Pid, part], '.', Part).
+    gethostname(Machine),
+    atomic_list_concat([Directory, Machine, Pid, part], '.', Part).
 
 part_begin(Part) :-
     part_remove(Part),
@@ -165,35 +149,22 @@ part_install(Part, Directory, Logs) :-
         part_remove(Part)
     ).
 
-%!  part_fail(+Part, +Directory, :Explain, -Failed) is det.
+%!  part_fail(+Part, +Directory, +Why:string, -Failure) is det.
 %
-%   Call Explain(Stream), whose output is added to what the run has printed,
-%   and keep that in the directory Failed.  Its first line is the cause.
+%   Add Why to what the run has printed, and keep that: Failure is
+%   failed(Where, Cause), the directory and the first line of Why.
 
-part_fail(Part, Directory, Explain, Failed) :-
+part_fail(Part, Directory, Why, failed(Failed, Cause)) :-
     failed_directory(Directory, Failed),
     make_directory_path(Part),
-    with_output_to(string(Why), ( current_output(Out), call(Explain, Out) )),
-    add_text(Part, output, Why),
-    split_string(Why, "\n", " \n", [Cause|_]),
-    add_text(Part, cause, Cause),
-    part_remove(Failed),
-    rename_file(Part, Failed).
-
-add_text(Directory, Name, Text) :-
-    directory_file_path(Directory, Name, File),
+    directory_file_path(Part, output, File),
     setup_call_cleanup(
         open(File, append, Out, [encoding(utf8)]),
-        write(Out, Text),
-        close(Out)).
-
-%!  failed_cause(+Failed, -Cause:string) is det.
-%
-%   Why the run failed that is kept in the directory Failed.
-
-failed_cause(Failed, Cause) :-
-    directory_file_path(Failed, cause, File),
-    read_file_to_string(File, Cause, [encoding(utf8)]).
+        write(Out, Why),
+        close(Out)),
+    split_string(Why, "\n", " ", [Cause|_]),
+    part_remove(Failed),
+    rename_file(Part, Failed).
 
 failed_directory(Directory, Failed) :-
     atom_concat(Directory, '.failed', Failed).
@@ -203,5 +174,34 @@ failed_directory(Directory, Failed) :-
 part_remove(Directory) :-
     (   exists_directory(Directory)
     ->  delete_directory_and_contents(Directory)
+    ;   true
+    ).
+
+%!  left_parts_remove(+Root, +Study) is det.
+%
+%   Remove what processes of this machine have left that were killed.
+
+left_parts_remove(Root, Study) :-
+    study_title(Study, Name, _),
+    directory_file_path(Root, Name, Runs),
+    forall(( exists_directory(Runs),
+             directory_member(Runs, Part, [extensions([part])]),
+             left(Part) ),
+           catch(part_remove(Part), error(_, _), true)). % others do it, too
+
+left(Part) :-
+    atomic_list_concat(Texts, '.', Part),
+    append(_, [Text, part], Texts),
+    atom_number(Text, Pid),
+    part_directory('', Pid, End),
+    atom_concat(_, End, Part),
+    \+ may_live(Pid).
+
+%   All may, on systems that do not show them so.
+
+may_live(Pid) :-
+    (   exists_directory('/proc/self')
+    ->  atom_concat('/proc/', Pid, Directory),
+        exists_directory(Directory)
     ;   true
     ).

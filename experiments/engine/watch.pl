@@ -21,7 +21,8 @@
 
 watching(Log, What, Total, Goal) :-
     setup_call_cleanup(
-        thread_create(look_on(Log, What, Total, 0, 0), Thread, []),
+        thread_create(look_on(Log, What, Total, 0, 0), Thread,
+                      [alias(study_onlooker)]),
         once(Goal),
         ( thread_send_message(Thread, stop),
           thread_join(Thread, _),

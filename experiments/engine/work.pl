@@ -1,17 +1,17 @@
 :- module(study_work,
-          [ runs_make/4                 % +Runs, +Root, +Options, -Outcomes
+          [ runs_make/4                 % +Runs, +Root, +Options, -Failed
           ]).
-:- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [exclude/3, maplist/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(aggregate), [aggregate/3, aggregate_all/3]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process),
-              [ process_create/3, process_kill/2, process_wait/2,
-                process_wait/3 ]).
+              [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(solution_sequences), [distinct/2]).
 :- use_module(progress, [progress/4, progress_done/1]).
 :- use_module(store,
-              [ failed_cause/2, log_file/2, part_directory/3, part_fail/4,
+              [ left_parts_remove/2, log_file/2, part_directory/3, part_fail/4,
                 run_directory/3, run_done/3 ]).
 :- use_module(studies, [study_call/2]).
 :- use_module(watch, [watching/4]).
@@ -24,8 +24,8 @@ input, and answer each with a term on their standard output.  So a run does
 not pay for the start of Prolog, and one that crashes takes nothing with it.
 
 *Threading*: the main thread, which waits for any of the workers.  Whatever
-exception makes it leave, they are ended: asked by SIGTERM, and killed if
-they are still there ten seconds later.
+exception makes it leave, they are ended: asked by SIGTERM, and killed by a
+thread that stands by if they are still there ten seconds later.
 */
 
 :- multifile
@@ -36,42 +36,38 @@ they are still there ten seconds later.
     busy/3,                     % Out, Run, Directory
     failed_by/1.                % Cause, of each run that failed
 
-%!  runs_make(+Runs, +Root, +Options, -Outcomes) is det.
+%!  runs_make(+Runs, +Root, +Options, -Failed:integer) is det.
 %
-%   Make what is not there yet of Runs.  Outcomes are, in the order of Runs,
-%   `kept`, `made` or `failed`.  Progress is shown, and failures are told, on
-%   user_error.  Options:
+%   Make what is not there yet of Runs, of which Failed fail.  What sessions
+%   that were killed have begun is removed.  Progress is shown, and failures
+%   are told, on user_error.  Options:
 %
 %     - jobs(Count)
 %       So many processes at a time; default 2.
 %     - logs(Boolean)
 %       Whether the log of each run is kept; default `false`.
 
-runs_make(Runs, Root, Options, Outcomes) :-
+runs_make(Runs, Root, Options, Failed) :-
     option(jobs(Jobs), Options, 2),
     option(logs(Logs), Options, false),
+    forall(distinct(Study, member(run(Study, _, _), Runs)),
+           left_parts_remove(Root, Study)),
     exclude(run_done(Root, Logs), Runs, Missing),
     length(Missing, Total),
     get_time(Begin),
     retractall(failed_by(_)),
-    catch(( make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total, Made),
+    catch(( make_missing(Missing, desk(Jobs, Root, Logs), Begin-Total),
             dismiss ),
           Ball,
           ( end_workers,
             throw(Ball) )),
     tell_counts,
-    maplist(outcome(Made), Runs, Outcomes).
-
-outcome(Made, Run, Outcome) :-
-    (   memberchk(Run-Outcome0, Made)
-    ->  Outcome = Outcome0
-    ;   Outcome = kept
-    ).
+    aggregate_all(count, failed_by(_), Failed).
 
 %   A single run in real time is made here, and its events are counted
 %   meanwhile, if the study says which.
 
-make_missing([Run], desk(_, Root, Logs), _, [Run-Kind]) :-
+make_missing([Run], desk(_, Root, Logs), _) :-
     watched(Run, What, Total),
     !,
     run_directory(Root, Run, Directory),
@@ -79,9 +75,9 @@ make_missing([Run], desk(_, Root, Logs), _, [Run-Kind]) :-
     part_directory(Directory, Pid, Part),
     log_file(Part, Log),
     watching(Log, What, Total, run_here(Run, Root, [logs(Logs)], Outcome)),
-    told(Outcome, Run, Kind).
-make_missing(Runs, Desk, Task, Made) :-
-    make(Runs, Desk, Task, 0, Made).
+    told(Outcome, Run).
+make_missing(Runs, Desk, Task) :-
+    make(Runs, Desk, Task, 0).
 
 watched(run(Study, Case, _), What, Total) :-
     get_dict(clock, Case, Clock),
@@ -89,42 +85,38 @@ watched(run(Study, Case, _), What, Total) :-
     study_call(Study, progress(Case, What, Total)),
     !.
 
-%   make(+Runs, +Desk, +Task, +Done, -Made): who is free gets the next.
+%   make(+Runs, +Desk, +Task, +Done): who is free gets the next.
 
-make([Run|Runs], Desk, Task, Done, Made) :-
+make([Run|Runs], Desk, Task, Done) :-
     free_worker(Desk, Worker),
     !,
     hand_over(Worker, Run, Desk),
-    make(Runs, Desk, Task, Done, Made).
-make([], _, _, _, []) :-
+    make(Runs, Desk, Task, Done).
+make([], _, _, _) :-
     \+ busy(_, _, _),
     !,
     progress_done(user_error).
-make(Runs, Desk, Task, Done, [Run-Kind|Made]) :-
+make(Runs, Desk, Task, Done) :-
     show(Done, Task),
     next_answer(Run, Outcome),
-    told(Outcome, Run, Kind),
+    told(Outcome, Run),
     Done1 is Done + 1,
     show(Done1, Task),
-    make(Runs, Desk, Task, Done1, Made).
+    make(Runs, Desk, Task, Done1).
 
-told(made, _, made) :-
-    !.
-told(failed(Directory), Run, failed) :-
-    failed_cause(Directory, Cause),
+told(failed(Directory, Cause), Run) :-
+    !,
     (   failed_by(Cause)
     ->  true
     ;   print_message(error, study_run(Run, Directory, Cause))
     ),
     assertz(failed_by(Cause)).
+told(_, _).
 
 %   What many runs have failed by is told of the first, and counted.
 
 tell_counts :-
-    findall(Cause, failed_by(Cause), All),
-    sort(All, Causes),
-    forall(( member(Cause, Causes),
-             aggregate_all(count, failed_by(Cause), Count),
+    forall(( aggregate(count, failed_by(Cause), Count),
              Count > 1 ),
            print_message(error, study_runs(Count, Cause))).
 
@@ -164,7 +156,8 @@ worker_start(Out) :-
     current_prolog_flag(executable, Swipl),
     module_property(study_work, file(Here)),
     absolute_file_name(worker, File, [file_type(prolog), relative_to(Here)]),
-    process_create(Swipl, ['-q', '-g', 'study_worker:work', '-t', 'halt(1)', File],
+    process_create(Swipl,
+                   [ '-q', '-g', 'study_worker:work', '-t', 'halt(1)', File ],
                    [ stdin(pipe(In, [encoding(utf8)])),
                      stdout(pipe(Out, [encoding(utf8)])),
                      process(Pid) ]),
@@ -183,7 +176,8 @@ hand_over(Out, Run, desk(_, Root, Logs)) :-
           error(_, _),
           true).
 
-%   next_answer(-Run, -Outcome): Outcome is `made` or failed(Directory).
+%   next_answer(-Run, -Outcome): Outcome is `made` or failed(Directory,
+%   Cause).
 
 next_answer(Run, Outcome) :-
     findall(Out, busy(Out, _, _), Outs),
@@ -195,8 +189,8 @@ next_answer(Run, Outcome) :-
     ;   worker(Out, _, Pid),
         worker_end(Out, Status),
         part_directory(Directory, Pid, Part),
-        part_fail(Part, Directory, died(Status), Failed),
-        Outcome = failed(Failed)
+        format(string(Why), 'Its process ended: ~p~n', [Status]),
+        part_fail(Part, Directory, Why, Outcome)
     ),
     !.
 
@@ -207,9 +201,6 @@ answer(Out, Answer) :-
             term_string(Answer, Line) ),
           error(_, _),
           Answer = nothing).
-
-died(Status, Out) :-
-    format(Out, 'Its process ended: ~p~n', [Status]).
 
 %   A worker ends when its input does.
 
@@ -223,35 +214,27 @@ worker_end(Out, Status) :-
     close(Out, [force(true)]),
     retractall(worker(Out, _, _)).
 
+%   They are asked, and killed if they do not heed it.
+
 end_workers :-
     retractall(busy(_, _, _)),
     signal_workers(term),
-    get_time(Now),
-    Deadline is Now + 10,
-    (   all_ended(Deadline)
+    thread_create(kill_later, Killer, [alias(study_work_killer)]),
+    dismiss,
+    thread_send_message(Killer, all_ended),
+    thread_join(Killer).
+
+kill_later :-
+    thread_self(Me),
+    (   thread_get_message(Me, all_ended, [timeout(10)])
     ->  true
     ;   signal_workers(kill),
-        dismiss
+        thread_get_message(all_ended)
     ).
 
 signal_workers(Signal) :-
     forall(worker(_, _, Pid),
            catch(process_kill(Pid, Signal), error(_, _), true)).
-
-all_ended(_) :-
-    \+ worker(_, _, _),
-    !.
-all_ended(Deadline) :-
-    forall(( worker(Out, In, Pid),
-             process_wait(Pid, Status, [timeout(0)]),
-             Status \== timeout ),
-           ( retractall(worker(Out, _, _)),
-             close(In, [force(true)]),
-             close(Out, [force(true)]) )),
-    get_time(Now),
-    Now < Deadline,
-    sleep(0.05),
-    all_ended(Deadline).
 
                 /*******************************
                 *           MESSAGES           *

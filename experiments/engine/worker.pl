@@ -8,8 +8,8 @@
 :- use_module(signals, [stopping_on_signals/1]).
 :- use_module(sources, [sources_changed/2, sources_hash/2]).
 :- use_module(store,
-              [ part_begin/1, part_directory/3, part_fail/4, part_install/3, part_remove/1,
-                run_directory/3, run_done/3 ]).
+              [ part_begin/1, part_directory/3, part_fail/4, part_install/3,
+                part_remove/1, run_directory/3, run_done/3 ]).
 :- use_module(studies, [study_load/2]).
 
 /** <module> Making one run after the other
@@ -55,8 +55,8 @@ answers(Answers) :-
 %!  run_here(+Run, +Root, +Options, -Outcome) is det.
 %
 %   Make Run in this process, if it is not there: Outcome is `kept`, `made`
-%   or failed(Directory), where the file `output` says why.  Options has
-%   logs(Boolean).
+%   or failed(Directory, Cause); the file `output` there says why.  Options
+%   has logs(Boolean).
 
 run_here(Run, Root, Options, Outcome) :-
     option(logs(Logs), Options, false),
@@ -84,8 +84,8 @@ make(Run, Directory, Logs, How, Outcome) :-
     ;   Error = stopped_by(_)
     ->  part_remove(Part),
         throw(Error)
-    ;   part_fail(Part, Directory, explain(Error), Failed),
-        Outcome = failed(Failed)
+    ;   explanation(Error, Why),
+        part_fail(Part, Directory, Why, Outcome)
     ).
 
 make_in(run(Study, Case, Seed), Part) :-
@@ -123,10 +123,10 @@ say_to(Stream) :-
     set_stream(Stream, alias(user_output)),
     set_output(Stream).
 
-explain(Error, Out) :-
+explanation(Error, Why) :-
     phrase(prolog:translate_message(Error), Lines),
-    print_message_lines(Out, '', Lines),
-    nl(Out).
+    with_output_to(string(Why),
+                   print_message_lines(current_output, '', Lines)).
 
 prolog:error_message(study_changed(File)) -->
     [ '~w, or what it needs, has changed since this session began'-[File] ].

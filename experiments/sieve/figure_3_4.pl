@@ -9,6 +9,8 @@ study('3.4', "Antigens 00000, 00001, 00011: a generic antibody").
 text("Three antigens that are nearly alike attack in each of 15 rounds. \c
 11110 answers all of them.").
 
+real([], [clock=2, processes=2]).
+
 plan(_, [['00000', '00001', '00011']-15]).
 
 label(leads_from, "Round from which on 11110 leads").

@@ -2,27 +2,20 @@
           [ robot_study/2,              % +Name, -Study
             measured/6,                 % +Study, +Given, +Hosts, +Events,
                                         % +Terms, -Point
-            holding/3,                  % +Study, +Points, -Numbers
-            shapeless/2,                % +Study, -Problems
             small_run/4,                % +Study, +Given, +Dir, -Point
             drawn/4,                    % +Study, +Points, +Dir, -Files
             stopped_when/5              % +Text, +Args, +Dir, +Signal, -Status
           ]).
 :- use_module(common,
-              [project_file/2, wait_for_end/3, wait_until/2, with_swipl/5,
-               with_tmp_dir/1]).
+              [wait_for_end/3, wait_until/2, with_swipl/5, with_tmp_dir/1]).
+:- use_module(project_studies, [first_run/5, project_study/2]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [member/2, nth1/3]).
-:- use_module('../../experiments/engine/claims',
-              [claim_holds/3, claim_shape/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../experiments/engine/picture', [picture/4]).
-:- use_module('../../experiments/engine/run', [run_make/4]).
-:- use_module('../../experiments/engine/store', [run_facts/2]).
-:- use_module('../../experiments/engine/studies',
-              [study_call/2, study_load/2]).
+:- use_module('../../experiments/engine/studies', [study_call/2]).
 
 /** <module> Studies of robots: what they say of logs made by hand, and runs
 
@@ -32,9 +25,8 @@
 %!  robot_study(+Name, -Study) is det.
 
 robot_study(Name, Study) :-
-    format(atom(Relative), 'experiments/robots/study_~w.pl', [Name]),
-    project_file(Relative, File),
-    study_load(File, Study).
+    atom_concat('robots/study_', Name, File),
+    project_study(File, Study).
 
 %!  measured(+Study, +Given, +Hosts, +Events, +Terms, -Point) is semidet.
 %
@@ -57,40 +49,13 @@ in_directory(Study, Given, Hosts, Events, Terms, Case-Measures, Dir) :-
     findall(Name-Value, study_call(Study, measure(Name, View, Value)), Pairs),
     dict_create(Measures, measures, Pairs).
 
-%!  holding(+Study, +Points, -Numbers:list(integer)) is det.
-%
-%   The numbers of the claims that hold.
-
-holding(Study, Points, Numbers) :-
-    findall(N,
-            ( nth_claim(Study, N, Test),
-              \+ \+ claim_holds(Study:Test, Points, Points) ),
-            Numbers).
-
-nth_claim(Study, N, Test) :-
-    findall(Test, study_call(Study, claim(_, _, Test)), Tests),
-    nth1(N, Tests, Test).
-
-%!  shapeless(+Study, -Problems:list) is det.
-%
-%   What in the claims is no test.
-
-shapeless(Study, Problems) :-
-    findall(Problem,
-            ( nth_claim(Study, _, Test),
-              claim_shape(Study:Test, Problem) ),
-            Problems).
-
 %!  small_run(+Study, +Given, +Dir, -Point) is det.
 %
 %   Make the first case with parameters Given in Dir.
 
 small_run(Study, Given, Dir, Case-Measures) :-
-    study_cases(Study, Given, [Case|_]),
-    run_make(Study, Case, 1, Dir),
-    run_facts(Dir, Facts),
-    findall(Name-Value, member(measure(Name, Value), Facts), Pairs),
-    dict_create(Measures, measures, [directory-Dir|Pairs]).
+    first_run(Study, Given, 1, Dir, Case-Measures0),
+    Measures = Measures0.put(directory, Dir).
 
 %!  drawn(+Study, +Points, +Dir, -Files:list(atom)) is det.
 %

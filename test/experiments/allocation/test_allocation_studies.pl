@@ -1,20 +1,16 @@
-:- use_module('../../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../../lib/common', [with_tmp_dir/1]).
+:- use_module('../../lib/project_studies').
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(readutil)).
 :- use_module('../../../experiments/engine/cases').
-:- use_module('../../../experiments/engine/claims').
-:- use_module('../../../experiments/engine/run').
-:- use_module('../../../experiments/engine/store').
-:- use_module('../../../experiments/engine/studies').
 
 /** <module> The studies of chapter 7: their claims, and small runs
 */
 
 study(Name, Study) :-
-    atomic_list_concat(['experiments/allocation/', Name, '.pl'], Relative),
-    project_file(Relative, File),
-    study_load(File, Study).
+    atom_concat('allocation/', Name, File),
+    project_study(File, Study).
 
 name(figure_7_1_to_7_3).
 name(figure_7_4).
@@ -22,26 +18,18 @@ name(figure_7_5).
 name(beyond_integrated).
 name(beyond_urgent).
 
-%   holding(+Name, +World, -Holding, -Failing): texts of the claims that hold,
-%   and do not, in a World made up of numbers: made(Name, World, Case,
-%   Measures).
+%   texts(+Name, +World, +Held, -Texts): of the claims that hold, or do not,
+%   in a World made up of numbers: made(Name, World, Case, Measures).
 
-holding(Name, World, Holding, Failing) :-
+texts(Name, World, Held, Texts) :-
     study(Name, Study),
     study_cases(Study, [], Cases),
     findall(Case-Measures,
             ( member(Case, Cases), made(Name, World, Case, Measures) ),
             Points),
     same_length(Cases, Points),
-    findall(Text-Truth,
-            ( study_call(Study, claim(Text, _, Test)),
-              (   claim_holds(Study:Test, Points, Points)
-              ->  Truth = true
-              ;   Truth = false
-              ) ),
-            Verdicts),
-    findall(Text, member(Text-true, Verdicts), Holding),
-    findall(Text, member(Text-false, Verdicts), Failing).
+    verdicts(Study, Points, Verdicts),
+    findall(Text, member(Text-Held, Verdicts), Texts).
 
 made(figure_7_1_to_7_3, World, Case, ms{communications:C, time:T,
                                          backoffs:B, interval:I}) :-
@@ -127,14 +115,11 @@ urgent(reverse, 0, 120, ms{done:0, reported:3, free:70}).
 
 test(well_formed, [forall(name(Name)), Problems == []]) :-
     study(Name, Study),
-    findall(Text-Problem,
-            ( study_call(Study, claim(Text, _, Test)),
-              claim_shape(Study:Test, Problem) ),
-            Problems).
+    odd_claims(Study, Problems).
 test(all_may_hold, [forall(name(Name)), Failing == []]) :-
-    holding(Name, thesis, [_|_], Failing).
+    texts(Name, thesis, false, Failing).
 test(each_may_fail, [forall(name(Name)), Holding == []]) :-
-    holding(Name, reverse, Holding, [_|_]).
+    texts(Name, reverse, true, Holding).
 
 :- end_tests(allocation_claims).
 
@@ -142,8 +127,7 @@ test(each_may_fail, [forall(name(Name)), Holding == []]) :-
 
 test(counts, Counts == [35, 15, 6, 1, 5]) :-
     findall(Count,
-            ( name(Name), study(Name, Study), study_cases(Study, [], Cases),
-              length(Cases, Count) ),
+            ( name(Name), study(Name, Study), case_count(Study, Count) ),
             Counts).
 test(sizes, Sizes == [50-10-5, 100-20-10, 150-30-15, 200-40-20]) :-
     study(figure_7_5, Study),
@@ -161,19 +145,15 @@ test(sizes, Sizes == [50-10-5, 100-20-10, 150-30-15, 200-40-20]) :-
 
 measures(Name, Given, Dir, Measures) :-
     study(Name, Study),
-    study_cases(Study, Given, [Case|_]),
-    run_make(Study, Case, 1, Dir),
-    run_facts(Dir, Facts),
-    findall(Measure-Value, member(measure(Measure, Value), Facts), Pairs),
-    dict_create(Measures, ms, Pairs).
+    first_run(Study, Given, 1, Dir, _-Measures).
 
 small([ hosts-8, probability-0.4, eligible-3, required-2, allocators-2,
         duration-1 ]).
 
-mechanism_run(Mechanism, Dir) :-
+mechanism_run(Mechanism, Time, Dir) :-
     small(Small),
-    measures(figure_7_1_to_7_3, [links-(dynamic), mechanism-Mechanism|Small],
-             Dir, Ms),
+    append([links-(dynamic), mechanism-Mechanism|Time], Small, Given),
+    measures(figure_7_1_to_7_3, Given, Dir, Ms),
     Ms.time > 1,
     Ms.communications > 0,
     Ms.rate =:= Ms.time/2,
@@ -213,7 +193,9 @@ robots_in(Mechanism, Robots, Dir) :-
 :- begin_tests(allocation_runs).
 
 test(mechanism, [forall(member(M, [proposed, constant, murdoch, anta]))]) :-
-    with_tmp_dir(mechanism_run(M)).
+    with_tmp_dir(mechanism_run(M, [])).
+test(on_sockets) :-
+    with_tmp_dir(mechanism_run(proposed, [clock-20, processes-2])).
 test(integrated) :-
     with_tmp_dir(integrated_run).
 test(urgent) :-

@@ -25,11 +25,11 @@ points(Points) :-
 
 holds(Test) :-
     points(Points),
-    claim_holds(test_claims:Test, Points, Points).
+    claim_holds(test_claims:Test, Points).
 
 known(Test) :-
     points(Points),
-    once(claim_known(test_claims:Test, Points, Points)).
+    once(claim_known(test_claims:Test, Points)).
 
 %   holding(Test), and failing(Test).
 
@@ -145,14 +145,14 @@ derive(agents, Case, N) :-
 derived(Pairs, Test) :-
     findall(case{hosts:H, agents:N}-measures{m:M}, member(H-N-M, Pairs),
             Points),
-    claim_holds(test_claims:Test, Points, Points).
+    claim_holds(test_claims:Test, Points).
 
 %   A case is missing.
 
 holes(Test) :-
     Points = [ case{k:a, n:1}-measures{m:1}, case{k:a, n:2}-measures{m:2},
                case{k:b, n:1}-measures{m:3} ],
-    claim_holds(test_claims:Test, Points, Points).
+    claim_holds(test_claims:Test, Points).
 
 problems(Test, Problems) :-
     findall(Problem, claim_shape(test_claims:Test, Problem), Problems).
@@ -190,10 +190,10 @@ test(words_are_in_the_order_of_the_study) :-
     holds(rises(up, along(k))).
 test(numbers_are_in_their_own, fail) :-
     Points = [ case{n:3}-m{up:1}, case{n:1}-m{up:2}, case{n:2}-m{up:3} ],
-    claim_holds(test_claims:rises(up, along(n)), Points, Points).
+    claim_holds(test_claims:rises(up, along(n)), Points).
 test(numbers_of_two_kinds) :-
     Points = [ case{n:2}-m{up:3}, case{n:0.5}-m{up:1}, case{n:1}-m{up:2} ],
-    claim_holds(test_claims:rises(up, along(n)), Points, Points).
+    claim_holds(test_claims:rises(up, along(n)), Points).
 
 test(along_what_others_follow) :-
     derived([10-2-1, 20-4-2, 30-6-3], rises(m, along(hosts))).

@@ -12,10 +12,10 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [directory_file_path/3]).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, memberchk/2, selectchk/4]).
-:- use_module(library(yall)).
 :- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 %   file(Name, Lines): what the study below consists of.
@@ -180,7 +180,8 @@ installed(Measures, Root, [Run|_]) :-
 failed(Text, Root, [Run|_]) :-
     part(Root, Run, Directory, Part),
     save_lines(Part, output, ["it says"]),
-    part_fail(Part, Directory, [Out]>>format(Out, 'why~n', []), Failed),
+    part_fail(Part, Directory, "why\nso\n", failed(Failed, Cause)),
+    assertion(Cause == "why"),
     assertion(atom_concat(Directory, '.failed', Failed)),
     assertion(\+ exists_directory(Part)),
     assertion(\+ run_done(Root, false, Run)),
@@ -200,6 +201,28 @@ made_twice(Root, [Run|_]) :-
     part_install(Other, Directory, false),
     assertion(run_done(Root, false, Run)),
     assertion(\+ exists_directory(Other)).
+
+%   Of this process, of one that has ended, and of one elsewhere, of which
+%   nobody knows here.
+
+begun(Left, Root, [Run|_]) :-
+    Run = run(Study, _, _),
+    run_directory(Root, Run, Directory),
+    current_prolog_flag(pid, Mine),
+    process_create(path(true), [], [process(Ended)]),
+    process_wait(Ended, _),
+    part_directory(Directory, Mine, PartOfMine),
+    part_directory(Directory, Ended, PartOfEnded),
+    atomic_list_concat([Directory, 'else.where', Ended, part], '.', Elsewhere),
+    maplist(part_begin, [PartOfMine, PartOfEnded, Elsewhere]),
+    left_parts_remove(Root, Study),
+    maplist(is_there, [PartOfMine, PartOfEnded, Elsewhere], Left).
+
+is_there(Directory, Is) :-
+    (   exists_directory(Directory)
+    ->  Is = true
+    ;   Is = false
+    ).
 
 logs(Left, Root, [Run|_]) :-
     part(Root, Run, Directory, Part),
@@ -240,10 +263,12 @@ test(installed, M-N == 1-none) :-
     with_runs(installed(Measures)),
     M = Measures.m,
     N = Measures.n.
-test(failed, Text == "it says\nwhy\n") :-
+test(failed, Text == "it says\nwhy\nso\n") :-
     with_runs(failed(Text)).
 test(two_sessions) :-
     with_runs(made_twice).
+test(left_behind, Left == [true, false, true]) :-
+    with_runs(begun(Left)).
 test(logs, [forall(member(Left, [true, false]))]) :-
     with_runs(logs(Left)).
 test(log_comes_later) :-

@@ -183,8 +183,15 @@ leaves_nothing(Signal, Status, Dir, File) :-
     below(Dir, '.part', Parts),
     assertion(Parts == []).
 
+%   What it had begun goes with the next session.
+
 ends_what_is_stuck(Dir, File) :-
-    interrupted(term, 143, stuck, Dir, File).
+    interrupted(term, 143, stuck, Dir, File),
+    below(Dir, '.part', Parts),
+    assertion(Parts = [_|_]),
+    runs(Dir, File, '[a]', ['--runs', 1], exit(0), _),
+    below(Dir, '.part', Left),
+    assertion(Left == []).
 
 %   Two sessions need the same run, which takes until both are in it.
 

@@ -1,22 +1,16 @@
 :- module(test_learning_studies, []).
-:- use_module('../../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../../lib/common', [with_tmp_dir/1]).
+:- use_module('../../lib/project_studies').
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module('../../../experiments/engine/cases').
-:- use_module('../../../experiments/engine/claims').
 :- use_module('../../../experiments/engine/picture').
 :- use_module('../../../experiments/engine/run').
-:- use_module('../../../experiments/engine/store').
 :- use_module('../../../experiments/engine/studies').
 
 /** <module> The studies of agents that learn: claims, and small runs
 */
-
-study_file(Name, Study) :-
-    atomic_list_concat(['experiments/', Name, '.pl'], File),
-    project_file(File, Path),
-    study_load(Path, Study).
 
 a_study(Name, Count) :-
     member(Name-Count,
@@ -29,17 +23,11 @@ a_study(Name, Count) :-
 :- begin_tests(learning_studies).
 
 test(cases, [forall(a_study(Name, Count)), true(Found == Count)]) :-
-    study_file(Name, Study),
-    study_cases(Study, [], Cases),
-    length(Cases, Found).
+    project_study(Name, Study),
+    case_count(Study, Found).
 test(claims_are_well_formed, [forall(a_study(Name, _)), true(Odd == [])]) :-
-    study_file(Name, Study),
-    findall(Text-Test, study_call(Study, claim(Text, _, Test)), Claims),
-    assertion(Claims = [_|_]),
-    findall(Text-Problem,
-            ( member(Text-Test, Claims),
-              claim_shape(Study:Test, Problem) ),
-            Odd).
+    project_study(Name, Study),
+    odd_claims(Study, Odd).
 
 :- end_tests(learning_studies).
 
@@ -108,27 +96,23 @@ curve(false, I, Executions, Sharing) :-
     nth1(I, [100, 98, 50, 51, 40], Executions),
     nth1(I, [1.0, 0.9, 0.5, 0.4, 1.3], Sharing).
 
-verdicts(Held, Name, Verdicts) :-
-    study_file(Name, Study),
+made_up(Held, Name, Verdicts) :-
+    project_study(Name, Study),
     study_cases(Study, [], Cases),
     findall(Case-Measures,
             ( member(Case, Cases),
               made(Held, Name, Case, Pairs),
               dict_create(Measures, measures, Pairs) ),
             Points),
-    findall(Text-Verdict,
-            ( study_call(Study, claim(Text, _, Test)),
-              ( claim_holds(Study:Test, Points, Points) -> Verdict = true
-              ; Verdict = false ) ),
-            Verdicts).
+    verdicts(Study, Points, Verdicts).
 
 :- begin_tests(learning_claims).
 
 test(hold, [forall(figure(Name)), true(Others == [])]) :-
-    verdicts(true, Name, Verdicts),
+    made_up(true, Name, Verdicts),
     findall(Text, member(Text-false, Verdicts), Others).
 test(do_not_hold, [forall(figure(Name)), true(Others == [])]) :-
-    verdicts(false, Name, Verdicts),
+    made_up(false, Name, Verdicts),
     findall(Text, member(Text-true, Verdicts), Others).
 
 figure(Name) :-
@@ -146,7 +130,7 @@ figure(Name) :-
 small([ size-2, settings-[[rho_max-3]], obstacle_hosts-10 ]).
 
 run_small(Name, Given, Dir, Runs) :-
-    study_file(Name, Study),
+    project_study(Name, Study),
     small(Small),
     append(Given, Small, All),
     study_cases(Study, All, Cases),
@@ -155,16 +139,11 @@ run_small(Name, Given, Dir, Runs) :-
               atomic_list_concat([Dir, /, I], Directory),
               make_directory_path(Directory),
               run_make(Study, Case, 1, Directory),
-              measured(Directory, Measures) ),
+              run_measures(Directory, Measures) ),
             Runs).
 
-measured(Directory, Measures) :-
-    run_facts(Directory, Facts),
-    findall(N-V, member(measure(N, V), Facts), Pairs),
-    dict_create(Measures, measures, Pairs).
-
 drawn(Name, Plot, Runs, Dir, Tables) :-
-    study_file(Name, Study),
+    project_study(Name, Study),
     once(study_call(Study, plot(Plot, Title, Picture))),
     picture(Study, plot(Plot, Title, Picture), Runs, Dir),
     forall(member(Table, Tables),
@@ -187,22 +166,19 @@ densities(Dir) :-
     drawn(Name, '4.9', Runs, Dir, ['4.9-medians.dat', '4.9-printed.dat']).
 
 printers(Dir) :-
-    study_file('algorithms/beyond_settings', Study),
-    study_cases(Study,
-                [ algorithm-climb, sharing-true, agents-2, hosts-3,
-                  settings-[[good-0.75]] ], [Case]),
-    run_make(Study, Case, 1, Dir),
-    measured(Dir, Measures),
+    project_study('algorithms/beyond_settings', Study),
+    first_run(Study,
+              [ algorithm-climb, sharing-true, agents-2, hosts-3,
+                settings-[[good-0.75]] ], 1, Dir, _-Measures),
     assertion(Measures.reached =:= 100),
     assertion(Measures.pages > 0).
 
 %   Nobody is waited for after the limit.
 
 given_up(Dir) :-
-    study_file('algorithms/beyond_exchange', Study),
-    study_cases(Study, [limit-60, exchange-at(20, greedy, scout)], [Case]),
-    run_make(Study, Case, 1, Dir),
-    measured(Dir, Measures),
+    project_study('algorithms/beyond_exchange', Study),
+    first_run(Study, [limit-60, exchange-at(20, greedy, scout)], 1, Dir,
+              _-Measures),
     assertion(Measures.reached < 100),
     assertion(Measures.time < 100).
 

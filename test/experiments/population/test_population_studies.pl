@@ -1,21 +1,15 @@
-:- use_module('../../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../../lib/common', [with_tmp_dir/1]).
+:- use_module('../../lib/project_studies').
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
-:- use_module('../../../experiments/engine/cases', [study_cases/3]).
-:- use_module('../../../experiments/engine/claims').
-:- use_module('../../../experiments/engine/run').
-:- use_module('../../../experiments/engine/store').
-:- use_module('../../../experiments/engine/studies').
 :- use_module('../../../experiments/population/pictures').
 
 /** <module> The studies of chapter 6: their claims, a small run, pictures
 */
 
 study(Figure, Study) :-
-    atomic_list_concat(['experiments/population/figure_', Figure, '.pl'],
-                       Relative),
-    project_file(Relative, File),
-    study_load(File, Study).
+    atom_concat('population/figure_', Figure, File),
+    project_study(File, Study).
 
 %   good(-Points): what the claims of both figures hold of.
 
@@ -27,18 +21,6 @@ good([ case{hosts:50}-Small, case{hosts:100}-Large ]) :-
                second_peak:12, rise_time:255, later_overlapped:0},
     Large = Small.put(_{overlapped:1, gap_most:45, peak_least:50,
                         peak_most:70, rise_time:310}).
-
-%   holding(+Study, +Points, -Numbers): of the claims that hold.
-
-holding(Study, Points, Numbers) :-
-    findall(N,
-            ( nth_claim(Study, N, Test),
-              \+ \+ claim_holds(Study:Test, Points, Points) ),
-            Numbers).
-
-nth_claim(Study, N, Test) :-
-    findall(Test, study_call(Study, claim(_, _, Test)), Tests),
-    nth1(N, Tests, Test).
 
 %   With these measures of one size some claim fails that held.
 
@@ -80,8 +62,7 @@ fewer_hold(Figure, Worse) :-
 
 test(well_formed, [forall(member(Figure, ['6_3', '6_4'])), Problems == []]) :-
     study(Figure, Study),
-    findall(P, ( nth_claim(Study, _, Test), claim_shape(Study:Test, P) ),
-            Problems).
+    odd_claims(Study, Problems).
 test(all_may_hold, [forall(member(Figure-Count, ['6_3'-9, '6_4'-14]))]) :-
     study(Figure, Study),
     good(Points),
@@ -100,16 +81,9 @@ test(each_after_a_crash_may_fail, [forall(worse_after_crash(Worse))]) :-
 
 small([ hosts-8, degree-4, tasks-4, threshold-20, crash-2, tick-0.5 ]).
 
-measures(Study, Dir, Measures) :-
-    small(Given),
-    study_cases(Study, Given, [Case]),
-    run_make(Study, Case, 4, Dir),
-    run_facts(Dir, Facts),
-    findall(Name-Value, member(measure(Name, Value), Facts), Pairs),
-    dict_create(Measures, ms, Pairs).
-
 check_small(Study, Dir) :-
-    measures(Study, Dir, Ms),
+    small(Given),
+    first_run(Study, Given, 4, Dir, _-Ms),
     Ms.missing =:= 0,
     Ms.out_of_order =:= 0,
     Ms.lost =:= 2,

@@ -1,27 +1,21 @@
-:- use_module('../../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../../lib/common', [with_tmp_dir/1]).
+:- use_module('../../lib/project_studies').
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
+:- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(plunit)).
-:- use_module('../../../experiments/engine/cases', [study_cases/3]).
-:- use_module('../../../experiments/engine/claims').
-:- use_module('../../../experiments/engine/run').
-:- use_module('../../../experiments/engine/store').
-:- use_module('../../../experiments/engine/studies').
+:- use_module('../../../experiments/engine/studies', [study_call/2]).
 
 /** <module> The studies of chapter 3: their claims, and small runs
 */
 
 study(Name, Study) :-
-    atomic_list_concat(['experiments/sieve/', Name, '.pl'], Relative),
-    project_file(Relative, File),
-    study_load(File, Study).
+    atom_concat('sieve/', Name, File),
+    project_study(File, Study).
 
 a_study(Name) :-
     member(Name, [ figure_3_3, figure_3_4, figure_3_5, beyond_memory,
                    beyond_programs, study_comparisons ]).
-
-claims(Study, Tests) :-
-    findall(Test, study_call(Study, claim(_, _, Test)), Tests).
 
 %   round_of(+Kinds, -Round): a clone of each is born.
 
@@ -35,31 +29,22 @@ made_up(Study, Rounds, [case{}-Measures]) :-
             Pairs),
     dict_create(Measures, ms, Pairs).
 
-%   holding(+Study, +Points, -Helds): of each claim, whether it holds.
+%   helds(+Study, +Points, -Helds): of each claim, whether it holds.
 
-holding(Study, Points, Helds) :-
-    claims(Study, Tests),
-    findall(Held,
-            ( member(Test, Tests),
-              ( \+ \+ claim_holds(Study:Test, Points, Points)
-              -> Held = true
-              ;  Held = false
-              ) ),
-            Helds).
+helds(Study, Points, Helds) :-
+    verdicts(Study, Points, Verdicts),
+    pairs_values(Verdicts, Helds).
 
 rounds_hold(Name, Rounds, Helds) :-
     study(Name, Study),
     made_up(Study, Rounds, Points),
-    holding(Study, Points, Helds).
+    helds(Study, Points, Helds).
 
 :- begin_tests(sieve_claims).
 
 test(well_formed, [forall(a_study(Name)), Problems == []]) :-
     study(Name, Study),
-    claims(Study, Tests),
-    Tests = [_|_],
-    findall(P, ( member(Test, Tests), claim_shape(Study:Test, P) ),
-            Problems).
+    odd_claims(Study, Problems).
 test(complements_alone, Helds == [true, true, false, true, true, true]) :-
     findall(Round,
             ( between(1, 15, _),
@@ -107,7 +92,7 @@ test(memory, [ forall(member(Second-Helds,
     study(beyond_memory, Study),
     Points = [ case{memory_cells:0}-ms{first:6, second:4, helped:0.5},
                case{memory_cells:1}-ms{first:6, second:Second, helped:0.9} ],
-    holding(Study, Points, Found).
+    helds(Study, Points, Found).
 test(programs, Helds == [true, true]) :-
     along(Along),
     rounds_hold(beyond_programs,
@@ -134,17 +119,10 @@ along([(right :- free(right), after(forward)), (left :- wall(ahead))]).
 
 small([ topology-random(12, 0.3), attacked-3, round-6, omega-30 ]).
 
-measured(Name, Given, Seed, Measures, Dir) :-
-    study(Name, Study),
-    study_cases(Study, Given, [Case|_]),
-    run_make(Study, Case, Seed, Dir),
-    run_facts(Dir, Facts),
-    findall(M-V, member(measure(M, V), Facts), Pairs),
-    dict_create(Measures, ms, Pairs).
-
 check_rounds(Dir) :-
     small(Given),
-    measured(figure_3_5, Given, 1, Ms, Dir),
+    study(figure_3_5, Study),
+    first_run(Study, Given, 1, Dir, _-Ms),
     findall(R, member(r(R, _, _, _, _, _, _), Ms.table), Rs),
     sort(Rs, Rounds),
     numlist(1, 10, Rounds),
@@ -153,10 +131,9 @@ check_rounds(Dir) :-
     Present > 0.
 
 check_memory(Dir) :-
-    measured(beyond_memory,
-             [memory_cells-1, topology-random(12, 0.3), attacked-3, round-6,
-              omega-30],
-             1, Ms, Dir),
+    small(Given),
+    study(beyond_memory, Study),
+    first_run(Study, [memory_cells-1|Given], 1, Dir, _-Ms),
     length(Ms.able, 16),
     Ms.first > 0.
 

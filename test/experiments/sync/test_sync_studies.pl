@@ -1,24 +1,21 @@
 :- module(test_sync_studies, []).
-:- use_module('../../lib/common', [project_file/2, with_tmp_dir/1]).
+:- use_module('../../lib/common', [with_tmp_dir/1]).
+:- use_module('../../lib/project_studies').
 :- use_module(library(aggregate)).
 :- use_module(library(apply)).
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module('../../../experiments/engine/cases').
-:- use_module('../../../experiments/engine/claims').
 :- use_module('../../../experiments/engine/picture').
-:- use_module('../../../experiments/engine/run').
-:- use_module('../../../experiments/engine/store').
 :- use_module('../../../experiments/engine/studies').
 
 /** <module> The studies of chapter 5: what is claimed, and small runs
 */
 
-study_file(Name, Study) :-
-    atomic_list_concat(['experiments/sync/', Name, '.pl'], File),
-    project_file(File, Path),
-    study_load(Path, Study).
+sync_study(Name, Study) :-
+    atom_concat('sync/', Name, File),
+    project_study(File, Study).
 
 a_study(Name, Count) :-
     member(Name-Count,
@@ -27,25 +24,16 @@ a_study(Name, Count) :-
              study_choices-16, study_links-9, study_onset-48,
              study_readings-35, study_demo-1 ]).
 
-claims(Name, Claims) :-
-    study_file(Name, Study),
-    findall(Text-Test, study_call(Study, claim(Text, _, Test)), Claims).
-
 :- begin_tests(studies).
 
 test(cases, [forall(a_study(Name, Count)), true(Found == Count)]) :-
-    study_file(Name, Study),
-    study_cases(Study, [], Cases),
-    length(Cases, Found).
+    sync_study(Name, Study),
+    case_count(Study, Found).
 test(claims_are_well_formed, [forall(a_study(Name, _)), true(Odd == [])]) :-
-    study_file(Name, Study),
-    claims(Name, Claims),
-    assertion(Claims = [_|_]),
-    findall(Text-Problem,
-            ( member(Text-Test, Claims), claim_shape(Study:Test, Problem) ),
-            Odd).
+    sync_study(Name, Study),
+    odd_claims(Study, Odd).
 test(best_delta_of_the_topology, Deltas == [0.2, 0.8, 0.2, 0.5]) :-
-    study_file(figure_5_5, Study),
+    sync_study(figure_5_5, Study),
     study_cases(Study, [], Cases),
     findall(Delta, ( member(Case, Cases), Delta = Case.delta ), Deltas).
 
@@ -151,8 +139,7 @@ least(ring, Agents, Agents) :-
 least(_, Agents, Idle) :-
     Idle is abs(Agents - 10).
 
-points(Held, Name, Points) :-
-    study_file(Name, Study),
+points(Held, Name, Study, Points) :-
     study_cases(Study, [], Cases),
     maplist(point(Held, Name), Cases, Points).
 
@@ -171,16 +158,10 @@ point(Held, Name, Case, Case-Measures) :-
 test(can_hold_and_can_fail,
      [ forall(( a_study(Name, _), member(Held, [true, false]) )),
        true(Others == []) ]) :-
-    study_file(Name, Study),
-    points(Held, Name, Points),
-    claims(Name, Claims),
-    findall(Text,
-            ( member(Text-Test, Claims),
-              ( claim_holds(Study:Test, Points, Points) -> Found = true
-              ; Found = false
-              ),
-              Found \== Held ),
-            Others).
+    sync_study(Name, Study),
+    points(Held, Name, Study, Points),
+    verdicts(Study, Points, Verdicts),
+    findall(Text, ( member(Text-Found, Verdicts), Found \== Held ), Others).
 
 :- end_tests(claims).
 
@@ -191,17 +172,13 @@ test(can_hold_and_can_fail,
 %   small(+Name, +Given, -Measures, +Dir): one small run of the first case.
 
 small(Name, Given, Measures, Dir) :-
-    study_file(Name, Study),
-    study_cases(Study, Given, [Case|_]),
-    run_make(Study, Case, 1, Dir),
-    run_facts(Dir, Facts),
-    findall(M-V, member(measure(M, V), Facts), Pairs),
-    dict_create(Measures, measures, Pairs).
+    sync_study(Name, Study),
+    first_run(Study, Given, 1, Dir, _-Measures).
 
 %   Drawn from it, where gnuplot is there.
 
 drawn(Name, Given, Measures, Dir) :-
-    study_file(Name, Study),
+    sync_study(Name, Study),
     study_cases(Study, Given, [Case|_]),
     once(study_call(Study, plot(Plot, Title, Picture))),
     picture(Study, plot(Plot, Title, Picture), [run(Case, 1, Measures)], Dir),

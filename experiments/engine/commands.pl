@@ -1,0 +1,86 @@
+:- module(study_commands,
+          [ run_command/5,              % +Study, +N, +Seed, +Options, -Text
+            again_command/3             % +Study, +Options, -Text
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [append/2, member/2, memberchk/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(plan, [out_directory/2]).
+
+/** <module> Commands of the shell that make runs again
+
+*Threading*: no state; any thread.
+*/
+
+%!  run_command(+Study, +N, +Seed, +Options, -Text:atom) is det.
+%
+%   Makes one run, of the case with the number N, from any directory.
+
+run_command(Study, N, Seed, Options, Text) :-
+    script(Script),
+    prolog(Swipl),
+    out_directory(Options, Out),
+    findall(Argument, repeated(Options, Argument), More),
+    append([ [Swipl, Script, '--', Study, '--case', N, '--seed', Seed],
+             More, ['--out', Out] ], Words),
+    command_text(Words, Text).
+
+%!  again_command(+Study, +Options, -Text:atom) is det.
+%
+%   Makes all runs, for people, and from here.
+
+again_command(Study, Options, Text) :-
+    script(Script0),
+    maplist(from_here, [Script0, Study], [Script, File]),
+    option(runs(Runs), Options, 3),
+    option(seed(Seed), Options, 1),
+    findall(Argument, repeated(Options, Argument), More),
+    findall(Argument, ( option(out(Out), Options),
+                        member(Argument, ['--out', Out]) ), Where),
+    append([ [swipl, Script, '--', File, '--runs', Runs, '--seed', Seed],
+             More, Where ], Words),
+    command_text(Words, Text).
+
+script(Script) :-
+    module_property(study_commands, file(Here)),
+    absolute_file_name('../study.pl', Script, [relative_to(Here)]).
+
+%   By its usual name, if that is who this is.
+
+prolog(Swipl) :-
+    current_prolog_flag(executable, Executable),
+    (   absolute_file_name(path(swipl), Usual,
+                           [access(execute), file_errors(fail)]),
+        same_file(Usual, Executable)
+    ->  Swipl = swipl
+    ;   Swipl = Executable
+    ).
+
+repeated(Options, Argument) :-
+    member(set(Setting), Options),
+    member(Argument, ['--set', Setting]).
+repeated(Options, Argument) :-
+    member(Argument-Option, ['--logs'-logs(true), '--real'-real(true)]),
+    option(Option, Options).
+
+from_here(File, Relative) :-
+    absolute_file_name('.', Here, [file_type(directory)]),
+    atom_concat(Here, /, Start),
+    (   atom_concat(Start, Relative, File)
+    ->  true
+    ;   Relative = File
+    ).
+
+command_text(Words, Text) :-
+    maplist(quoted, Words, Quoted),
+    atomic_list_concat(Quoted, ' ', Text).
+
+quoted(Word, Word) :-
+    atom_codes(Word, Codes),
+    forall(member(Code, Codes),
+           ( code_type(Code, alnum) ; memberchk(Code, `_-=,./:`) )),
+    !.
+quoted(Word, Quoted) :-
+    atomic_list_concat(Parts, '\'', Word),
+    atomic_list_concat(Parts, '\'\\\'\'', Inside),
+    format(atom(Quoted), '\'~w\'', [Inside]).

@@ -1,0 +1,116 @@
+:- module(study_figures,
+          [ figures/2                   % +Plans, +Options
+          ]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(filesex),
+              [directory_file_path/3, make_directory_path/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/2]).
+:- use_module(library(solution_sequences), [distinct/2]).
+:- use_module(cases, [study_parameter/2]).
+:- use_module(commands, [again_command/3]).
+:- use_module(cross_check, [cross_check/4, real_case/4]).
+:- use_module(outcome, [outcome/4]).
+:- use_module(page, [page_save/2]).
+:- use_module(picture, [picture/4]).
+:- use_module(plan,
+              [ out_directory/2, planned/4, planned_seed/2,
+                runs_directory/2 ]).
+:- use_module(report,
+              [ claims_sentence/2, outcome_save/4, print_outcome/3,
+                shown_measures/3 ]).
+:- use_module(store, [run_done/3, run_result/3]).
+:- use_module(studies, [study_call/2, study_name/3, study_title/3]).
+
+/** <module> What runs that are there say: tables, claims, pictures, the page
+
+*Threading*: the main thread.
+*/
+
+:- multifile
+    prolog:message//1.
+
+%!  figures(+Plans, +Options) is det.
+%
+%   Print what came out of the runs of Plans that are there, and write it
+%   below the directory of out_directory/2.
+
+figures(Plans, Options) :-
+    out_directory(Options, Out),
+    make_directory_path(Out),
+    findall(Shown,
+            ( member(Plan, Plans), show(Plan, Options, Out, Shown) ),
+            All),
+    page_save(Out, All),
+    findall(Outcome, member(shown(_, Outcome, _, _), All), Outcomes),
+    claims_sentence(Outcomes, Sentence),
+    directory_file_path(Out, 'index.html', Page),
+    format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]),
+    tell_missing(Plans, Options).
+
+tell_missing(Plans, Options) :-
+    runs_directory(Options, Root),
+    findall(Run, planned(Plans, Options, _, Run), Runs),
+    exclude(run_done(Root, false), Runs, Missing),
+    length(Runs, Count),
+    length(Missing, MissingCount),
+    (   Missing == []
+    ->  true
+    ;   format('~d of ~d runs are not there~n', [MissingCount, Count])
+    ).
+
+show(plan(Study, Given, Cases), Options, Out,
+     shown(Study, Outcome, Again, Directory)) :-
+    found(Study, Cases, Options, Runs),
+    outcome(Study, Cases, Runs, Outcome0),
+    checks(Study, Cases, Runs, Outcome0.rows, Options, Checks),
+    Outcome = Outcome0.put(_{given:Given, checks:Checks}),
+    save(Study, Outcome, Runs, Out),
+    print_outcome(user_output, Study, Outcome),
+    forall(never_measured(Study, Runs, Where, Measure),
+           print_message(warning, study_measure(Where, Measure))),
+    again_command(Study, Options, Again),
+    (   Runs = [run(_, _, First)|_]
+    ->  Directory = First.directory
+    ;   Directory = none
+    ).
+
+found(Study, Cases, Options, Runs) :-
+    runs_directory(Options, Root),
+    findall(run(Case, Seed, Measures),
+            ( planned_seed(Options, Seed), member(Case, Cases),
+              run_result(Root, run(Study, Case, Seed), Measures) ),
+            Runs).
+
+save(Study, Outcome, Runs, Out) :-
+    study_title(Study, Name, _),
+    directory_file_path(Out, Name, Directory),
+    make_directory_path(Directory),
+    outcome_save(Study, Outcome, Runs, Directory),
+    forall(study_call(Study, plot(Plot, Title, Picture)),
+           picture(Study, plot(Plot, Title, Picture), Runs, Directory)).
+
+%   checks(+Study, +Cases, +Runs, +Rows, +Options, -Checks): of the case that
+%   is made on real sockets as well.
+
+checks(Study, Cases, Runs, Rows, Options, Checks) :-
+    option(real(true), Options),
+    real_case(Study, Cases, Case, Real),
+    !,
+    findall(Ms, member(run(Case, _, Ms), Runs), Virtual),
+    found(Study, [Real], Options, RealRuns),
+    findall(Ms, member(run(_, _, Ms), RealRuns), OnSockets),
+    shown_measures(Study, Rows, Measures),
+    cross_check(Virtual, OnSockets, Measures, Checks).
+checks(_, _, _, _, _, []).
+
+%   A name that no run has given.
+
+never_measured(Study, Runs, Where, Name) :-
+    Runs = [_|_],
+    distinct(Where-Name, study_name(Study, Where, Name)),
+    \+ study_parameter(Study, Name),
+    \+ ( member(run(_, _, Measures), Runs), get_dict(Name, Measures, _) ).
+
+prolog:message(study_measure(Where, Name)) -->
+    [ '~p: no run has given ~q'-[Where, Name] ].

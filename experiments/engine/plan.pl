@@ -1,0 +1,154 @@
+:- module(study_plan,
+          [ plans/3,                    % +Studies, +Options, -Plans
+            planned/4,                  % +Plans, +Options, -N, -Run
+            planned_real/3,             % +Plans, +Options, -Run
+            planned_seed/2,             % +Options, -Seed
+            planned_case/4,             % +Plans, +Text, -Study, -Case
+            out_directory/2,            % +Options, -Directory
+            runs_directory/2            % +Options, -Root
+          ]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(cases, [case_name/3, study_cases/3]).
+:- use_module(cross_check, [real_case/4]).
+
+/** <module> Which runs the options of a command ask for, and where they are
+
+A plan is a term plan(Study, Given, Cases): what --set has given, and the
+cases that follow.
+
+*Threading*: no state; any thread.
+*/
+
+:- multifile
+    prolog:error_message//1.
+
+%!  plans(+Studies, +Options, -Plans:list) is det.
+%
+%   @error domain_error('NAME=VALUE', Text) and others of what --set says
+
+plans(Studies, Options, Plans) :-
+    given(Options, Given),
+    findall(plan(Study, Given, Cases),
+            ( member(Study, Studies), study_cases(Study, Given, Cases) ),
+            Plans).
+
+%   given(+Options, -Given): what --set says, as pairs; the last counts.
+
+given(Options, Given) :-
+    findall(Name-Value,
+            ( append(_, [set(Text)|Later], Options),
+              setting(Text, Name, Value),
+              \+ ( member(set(Other), Later), setting(Other, Name, _) ) ),
+            Given).
+
+setting(Text, Name, Value) :-
+    (   sub_atom(Text, B, _, A, =)
+    ->  sub_atom(Text, 0, B, _, Name),
+        sub_atom(Text, _, A, 0, ValueText),
+        value(ValueText, Value)
+    ;   domain_error('NAME=VALUE', Text)
+    ).
+
+%   What is no term is text, as is what Prolog takes for a variable; but what
+%   should be one is not.
+
+value(Text, Value) :-
+    catch(term_to_atom(Value, Text), error(syntax_error(_), _), fail),
+    !,
+    ( ground(Value) -> true ; Value = Text ).
+value(Text, _) :-
+    sub_atom(Text, _, 1, _, Char),
+    memberchk(Char, ['[', ']', '(', ')', '{', '}', ',']),
+    domain_error(value, Text).
+value(Text, Text).
+
+%!  planned(+Plans, +Options, -N, -Run) is nondet.
+%
+%   Run is to be made, of the case with the number N.  The first run of every
+%   case comes first.
+
+planned(Plans, Options, N, run(Study, Case, Seed)) :-
+    planned_seed(Options, Seed),
+    member(plan(Study, _, Cases), Plans),
+    nth1(N, Cases, Case).
+
+%!  planned_real(+Plans, +Options, -Run) is nondet.
+%
+%   With --real, Run is to be made on real sockets.
+
+planned_real(Plans, Options, run(Study, Real, Seed)) :-
+    option(real(true), Options),
+    member(plan(Study, _, Cases), Plans),
+    real_case(Study, Cases, _, Real),
+    planned_seed(Options, Seed).
+
+%!  planned_seed(+Options, -Seed) is nondet.
+
+planned_seed(Options, Seed) :-
+    option(seed(First), Options, 1),
+    option(runs(Runs), Options, 3),
+    Last is First + Runs - 1,
+    between(First, Last, Seed).
+
+%!  planned_case(+Plans, +Text, -Study, -Case) is det.
+%
+%   Text is the number or the name of the case, whose parts may stand in any
+%   order.
+%
+%   @error no_study_case(Text, Names)
+
+planned_case(Plans, Text, Study, Case) :-
+    member(plan(Study, _, Cases), Plans),
+    the_case(Text, Study, Cases, Case),
+    !.
+planned_case(Plans, Text, _, _) :-
+    findall(Name,
+            ( member(plan(Study, _, Cases), Plans),
+              member(Case, Cases),
+              case_name(Study, Case, Name) ),
+            Names),
+    throw(error(no_study_case(Text, Names), _)).
+
+the_case(Text, _, Cases, Case) :-
+    atom_number(Text, N),
+    !,
+    nth1(N, Cases, Case).
+the_case(Text, Study, Cases, Case) :-
+    parts(Text, Parts),
+    member(Case, Cases),
+    case_name(Study, Case, Name),
+    parts(Name, Parts).
+
+parts(Name, Sorted) :-
+    atomic_list_concat(Parts, ',', Name),
+    msort(Parts, Sorted).
+
+%!  out_directory(+Options, -Directory) is det.
+%!  runs_directory(+Options, -Root) is det.
+%
+%   Where tables and pictures are, and where runs are.
+
+out_directory(Options, Out) :-
+    option(out(Out0), Options, 'out/studies'),
+    absolute_file_name(Out0, Out).
+
+runs_directory(Options, Root) :-
+    out_directory(Options, Out),
+    directory_file_path(Out, runs, Root).
+
+prolog:error_message(no_study_case(Text, Names)) -->
+    [ 'case ~w does not exist; there are '-[Text] ],
+    first_names(Names).
+
+first_names(Names) -->
+    { length(Some, 4),
+      append(Some, [_|_], Names),
+      !,
+      atomic_list_concat(Some, '  ', Shown) },
+    [ '~w  ...'-[Shown] ].
+first_names(Names) -->
+    { atomic_list_concat(Names, '  ', Shown) },
+    [ '~w'-[Shown] ].
