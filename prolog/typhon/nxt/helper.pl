@@ -58,7 +58,8 @@ helper_start(Port, Options, helper(In, Reader)) :-
     start_process(Python, ['-u', File, '--baudrate', Baud, '--', Port],
                   In, Out, Pid),
     with_mutex(typhon_nxt_pid, assertz(running(Owner, Pid))),
-    thread_create(follow(Owner, Pid, Out), Reader).
+    atom_concat(Owner, '_reader', Alias),
+    thread_create(follow(Owner, Pid, Out), Reader, [alias(Alias)]).
 
 start_process(Python, Args, In, Out, Pid) :-
     catch(process_create(Python, Args,

@@ -54,8 +54,15 @@ open_link(Brick, _, _) :-
     permission_error(connect, nxt_brick, Brick).
 open_link(Brick, Port, Options) :-
     State = state(Brick, Port, Options, none, [], none),
-    sig_atomic(( thread_create(own(State), Owner),
+    owner_alias(Brick, Alias),
+    sig_atomic(( thread_create(own(State), Owner, [alias(Alias)]),
                  assertz(brick(Brick, Port, Options, Owner)) )).
+
+%   One that is closed may have its name still.
+
+owner_alias(Brick, Alias) :-
+    flag(typhon_nxt_owner, N, N+1),
+    atomic_list_concat([typhon_nxt, Brick, N], '_', Alias).
 
 %!  link_close(+Brick) is det.
 %

@@ -11,6 +11,7 @@ whom, and what is left when one of the three processes dies.
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/nxt_fixtures').
 :- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
@@ -309,6 +310,17 @@ test(two_bricks_at_once) :-
                         connected(slow, Port1, [deadline(60)],
                                   connected(fast, Port2, [],
                                             at_once(Slow, Fast))))).
+
+test(threads_say_whose_they_are, Count == 2) :-
+    with_brick(_, Port,
+               connected(b, Port, [deadline(30)],
+                         ( nxt_battery(b, _),
+                           aggregate_all(count, thread_of(b), Count) ))).
+
+thread_of(Brick) :-
+    atomic_list_concat([typhon_nxt_, Brick, '_'], Start),
+    thread_property(_, alias(Alias)),
+    atom_concat(Start, _, Alias).
 
 %   The slow one has not answered when the fast one has.
 
