@@ -17,8 +17,9 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools tools-all demo demo-robots thesis thesis-real test \
-    chaos fuzz check bench test-portability install clean
+.PHONY: help tools tools-peers tools-all demo demo-robots thesis \
+    thesis-real test chaos fuzz check bench bench-peers profile \
+    test-portability install clean
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
@@ -60,6 +61,12 @@ fuzz:                   ## what nobody should send; COUNT=100000, SEED=1
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench
 
+bench-peers: tools      ## hops beside those of Erlang and JADE, if there
+	@$(SWIPL) bench/run.pl -- --out out/bench-peers peers
+
+profile: tools          ## which room takes how long of a hop
+	@$(SWIPL) bench/profile.pl
+
 test-portability:       ## the suites on other Prologs (root); SWIPL=one more
 	@SWIPL='$(SWIPL)' test/portability/run
 
@@ -68,6 +75,10 @@ clean:                  ## remove what runs have left in out/
 
 tools:                  ## install what the core needs and is missing
 	@.ci/install
+
+tools-peers:            ## install what `make bench-peers` compares with
+	@.ci/install peers
+	@bench/peers/jade --get >/dev/null
 
 tools-all:              ## install all that .ci/packages lists
 	@.ci/install all

@@ -1,5 +1,6 @@
 :- module(bench_common,
           [ figure/3,                   % +Name, +Value, +Unit
+            figure/4,                   % +Name, +Value, +Unit, +Note
             ratio/5,                    % +Name, +A, +B, +Unit, +What
             seconds/2,                  % :Goal, -Seconds
             resident_bytes/1,           % -Bytes
@@ -32,19 +33,20 @@ on its standard output; bench/run.pl starts it and makes the table.
 :- dynamic user:file_search_path/2.
 
 %!  figure(+Name, +Value, +Unit) is det.
+%!  figure(+Name, +Value, +Unit, +Note) is det.
 %!  ratio(+Name, +A, +B, +Unit, +What) is det.
 %
 %   Report a figure, or A/B with both sides.
 
 figure(Name, Value, Unit) :-
-    report(Name, Value, Unit, '').
+    figure(Name, Value, Unit, '').
 
 ratio(Name, A, B, Unit, What) :-
     Ratio is A/B,
     format(atom(Note), '~3g ~w against ~3g (~w)', [A, Unit, B, What]),
-    report(Name, Ratio, times, Note).
+    figure(Name, Ratio, times, Note).
 
-report(Name, Value0, Unit, Note) :-
+figure(Name, Value0, Unit, Note) :-
     Value is float(Value0),
     format('figure(~q, ~4g, ~q, ~q).~n', [Name, Value, Unit, Note]),
     flush_output.

@@ -1,5 +1,5 @@
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, memberchk/2]).
 :- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -8,8 +8,9 @@
 /*  The benchmarks, each in a process of its own: one line per figure, and
 all of them in OUT/bench.csv.
 
-    swipl bench/run.pl -- [--out DIR]
+    swipl bench/run.pl -- [--out DIR] [NAME ...]
 
+Names are those of the files here; without any, all but `peers` are run.
 Machines are noisy: compare figures of one run, placement by placement. */
 
 :- initialization(main, main).
@@ -24,17 +25,23 @@ opt_help(out, 'directory to write to (default out/bench)').
 opt_meta(out, 'DIR').
 
 main(Argv) :-
-    argv_options(Argv, _, Options),
+    argv_options(Argv, Names, Options),
     option(out(Out), Options, 'out/bench'),
     make_directory_path(Out),
     current_prolog_flag(version, Version),
     format('# SWI-Prolog ~d; name, value, unit, ratio of~n', [Version]),
     findall(Row, ( job(Script, Prefix, Argument),
+                   wanted(Names, Script),
                    figure_of(Script, Prefix, Argument, Row) ),
             Rows),
     directory_file_path(Out, 'bench.csv', File),
     csv_write_file(File, [row(name,value,unit,ratio_of)|Rows]),
     format('# ~w~n', [File]).
+
+wanted([], Script) :-
+    Script \== peers.
+wanted([Name|Names], Script) :-
+    memberchk(Script, [Name|Names]).
 
 job(hops, [env], unpinned).
 job(hops, [taskset, '-c', '0'], same_cpu).
@@ -43,10 +50,12 @@ job(messages, [env], unpinned).
 job(strangers, [env], unpinned).
 job(hosts, [env], unpinned).
 job(population, [env], unpinned).
+job(virtual, [env], 20000).
 job(phercon, [env], 3).
 job(sync, [env], unpinned).
 job(learning, [env], 1).
 job(learning, [env], 2).
+job(peers, [env], 3).
 
 figure_of(Script, Prefix, Argument, row(Name, Value, Unit, Note)) :-
     bench_directory(Dir),

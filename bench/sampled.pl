@@ -1,0 +1,175 @@
+:- module(bench_sampled,
+          [ patient_threads/0,
+            thread_times/1,             % -Times
+            sampling_begin/1,           % +Role
+            sampling_end/2              % -Times, -Spent
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(lists), [max_member/2, member/2]).
+:- use_module(library(process), [process_create/3]).
+:- use_module(library(yall)).
+
+/** <module> In which rooms threads of this process spend their time
+
+The profiler of SWI-Prolog looks at one thread of a process at a time. It is
+begun and ended in that thread, by a signal. It is told to look every five
+milliseconds of real time: by processor time it would look when any thread
+of the process works, and find the one that it looks at waiting. So what a
+thread does in the predicates it waits in cannot be seen: it is the
+processor time that is left over. A thread that has to wait for a processor
+or a mutex counts as at work. So that what wakes others up does not look
+dear, because these run in its stead, patient_threads/0 makes them wait.
+
+What the system and its libraries do counts for the room that called them,
+and garbage collection for itself. What the profiler takes for its own books
+is known to it, and left out. A thread can be looked at once only: what the
+profiler made for it must not be freed while a look may be under way, and
+while frames of the thread still lead to it.
+
+*Threading*: one thread at a time asks.
+*/
+
+:- dynamic
+    sampled/2.                  % Thread, Cpu: it is looked at, since then
+
+%!  patient_threads is det.
+%
+%   From now on workers and readers push nobody aside when they are woken: a
+%   policy of Linux for what calculates. The main thread, which does the
+%   looking, still does.
+
+patient_threads :-
+    forall(( member(Role, [worker,reader]), thread_time(Role, Thread, _) ),
+           patient(Thread)).
+
+patient(Thread) :-
+    thread_property(Thread, system_thread_id(Id)),
+    process_create(path(chrt), ['--batch', '--pid', 0, Id], []).
+
+%!  thread_times(-Times) is det.
+%
+%   Times are Role-Seconds, the processor time so far of all threads of a
+%   role: `worker`, `reader` (of frames) and `other`.
+
+thread_times(Times) :-
+    findall(Role-Seconds,
+            ( member(Role, [worker, reader, other]),
+              aggregate_all(sum(S), thread_time(Role, _, S), Seconds) ),
+            Times).
+
+thread_time(Role, Thread, Seconds) :-
+    thread_property(Thread, status(running)),
+    thread_role(Thread, Role),
+    thread_statistics(Thread, cputime, Seconds).
+
+thread_role(Thread, Role) :-
+    (   thread_property(Thread, alias(Alias)),
+        alias_role(Prefix, Role0),
+        sub_atom(Alias, 0, _, _, Prefix)
+    ->  Role = Role0
+    ;   Role = other
+    ).
+
+alias_role(typhon_worker_, worker).
+alias_role(typhon_in_, reader).
+alias_role(typhon_out_, reader).
+
+%!  sampling_begin(+Role) is det.
+%
+%   From now on the thread of Role is looked at that has worked most. It has
+%   never been looked at.
+
+sampling_begin(Role) :-
+    findall(Seconds-Thread, thread_time(Role, Thread, Seconds), Pairs),
+    max_member(_-Thread, Pairs),
+    thread_self(Me),
+    thread_signal(Thread, bench_sampled:begin(Me)),
+    thread_get_message(sampling(Cpu)),
+    assertz(sampled(Thread, Cpu)).
+
+begin(Asker) :-
+    statistics(cputime, Cpu),
+    thread_send_message(Asker, sampling(Cpu)),
+    profiler(_, walltime).
+
+%!  sampling_end(-Cpu-Seen, -Spent) is det.
+%
+%   Cpu is the processor time of the thread since sampling_begin/1, in
+%   seconds, Seen how long it seemed to work: more than Cpu where it had to
+%   wait to go on. Spent are facts spent(Room, How, Seconds), How `itself` or
+%   `called`: in what it called of the system. Room is a file such as
+%   `wire/reader`, `agent` for programs of agents, `garbage collection`,
+%   `waiting` or `not known`.
+
+sampling_end(Cpu-Seen, [spent(waiting, called, Waiting)|Spent]) :-
+    retract(sampled(Thread, Cpu0)),
+    thread_self(Me),
+    thread_signal(Thread, bench_sampled:end(Me)),
+    thread_get_message(sampling(Cpu1, Books, Spent0)),
+    Cpu is Cpu1-Cpu0,
+    exclude([spent(waiting,_,_)]>>true, Spent0, Spent),
+    aggregate_all(sum(S), member(spent(_, _, S), Spent), Seen0),
+    Seen is Seen0+Books,
+    Waiting is max(0.0, Cpu-Seen).
+
+end(Asker) :-
+    profiler(_, false),
+    statistics(cputime, Cpu),
+    findall(spent(Room, How, Seconds), spent(Room, How, Seconds), Spent),
+    books(Books),
+    thread_send_message(Asker, sampling(Cpu, Books, Spent)).
+
+                /*******************************
+                *        CALLS AND ROOMS       *
+                *******************************/
+
+%   spent(-Room, -How, -Seconds) is nondet. Ticks should be milliseconds,
+%   but the rest of each interval is dropped: so the time is shared out.
+
+spent(Room, How, Seconds) :-
+    '$prof_statistics'(_, Ticks, _, Time, _),
+    below(-, 'not known', Node, Room, How),
+    '$prof_node'(Node, _, _, _, _, _, Own, _),
+    Own > 0,
+    Seconds is Own*Time/Ticks.
+
+books(Seconds) :-
+    '$prof_statistics'(_, Ticks, Books, Time, _),
+    Seconds is Books*Time/max(1, Ticks).
+
+%   below(+Above, +RoomAbove, -Node, -Room, -How) is nondet.
+
+below(Above, RoomAbove, Node, Room, How) :-
+    '$prof_sibling_of'(Node0, Above),
+    '$prof_node'(Node0, Predicate, _, _, _, _, _, _),
+    counts_for(Predicate, RoomAbove, Room0, How0),
+    (   Node = Node0, Room = Room0, How = How0
+    ;   below(Node0, Room0, Node, Room, How)
+    ).
+
+counts_for(Predicate, _, waiting, called) :-
+    waits(Predicate),
+    !.
+counts_for(system:'$garbage_collect'/1, _, 'garbage collection', called) :-
+    !.
+counts_for(Module:_, RoomAbove, Room, How) :-
+    (   module_room(Module, Room0)
+    ->  Room = Room0, How = itself
+    ;   Room = RoomAbove, How = called
+    ).
+
+waits(system:thread_get_message/_).
+waits(system:wait_for_input/3).
+waits(system:peek_byte/2).
+
+%   Fails for the system and its libraries.
+
+module_room(Module, Room) :-
+    module_property(Module, file(File)),
+    atomic_list_concat([_,Path], '/prolog/typhon/', File),
+    !,
+    file_name_extension(Room, pl, Path).
+module_room(Module, agent) :-
+    \+ module_property(Module, file(_)),
+    \+ module_property(Module, class(system)).
