@@ -9,7 +9,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/agents,
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
               agent_mobile/2, agent_move/5, agent_order/2, agent_ordered/1,
-              agent_put/3, agent_put_mobile/2, agent_ready/2, agent_remove/3,
+              agent_put/3, agent_ready/2, agent_remove/3,
               agent_rest/3, agent_status/3, agent_take/3, with_agent/2
             ]).
 :- reexport(agent/agent_module,

@@ -21,7 +21,10 @@ This is the door of the layer: who is above takes what it needs from here.
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
             ]).
-:- reexport(host/scheduler, [schedule/2, scheduler_call/1]).
+:- reexport(host/scheduler,
+            [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,
+              schedule_stays/2, scheduler_call/1
+            ]).
 :- reexport(host/time,
             [ alarm_in/3, alarm_set/3, time_now/1, time_seed/1, time_signal/1,
               time_wait/3 ]).

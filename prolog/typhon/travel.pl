@@ -6,10 +6,10 @@ Transfers, which are transactions, and what is known of where agents went.
 This is the door of the layer: who is above takes what it needs from here.
 */
 
-:- reexport(travel/hop, [hop/5, hop_clone/6]).
+:- reexport(travel/hop, [hop/6, hop_clone/6]).
 :- reexport(travel/transfer, [transfer_given_up/2, transfer_held/2]).
 :- reexport(travel/doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
-:- reexport(travel/home, [agent_born/2, agent_outcome/2, outcome_wait/3]).
+:- reexport(travel/home, [ agent_born/2, agent_outcome/2, home_agents/1, outcome_wait/3 ]).
 :- reexport(travel/whereabouts, [agent_ended/3, whereabouts/2]).
 :- reexport(travel/post, [post/3, post_via/4]).

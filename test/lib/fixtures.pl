@@ -95,10 +95,10 @@ user:message_hook(Term, Kind, _) :-
 
 listening(Goal, Messages) :-
     setup_call_cleanup(
-        assertz(listens),
+        ( retractall(heard(_, _)), assertz(listens) ),
         once(Goal),
         retractall(listens)),
-    findall(Kind-Term, retract(heard(Kind, Term)), Messages).
+    findall(Kind-Term, heard(Kind, Term), Messages).
 
 %!  was_told(+Kind, ?Message) is semidet.
 %

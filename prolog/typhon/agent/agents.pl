@@ -3,9 +3,8 @@
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/3,             % +Id, -Mail, -Orders
-            agent_move/5,               % +Id, +Host, +Module, +Life, +Goals
             agent_mobile/2,             % +Id, -Until
-            agent_put_mobile/2,         % +Id, +Until
+            agent_move/5,               % +Id, +Host, +Module, +Life, +Until
             agent_put_life/2,           % +Id, +Life
             agent_put/3,                % +Id, +Status, +Goals
             agent_rest/3,               % +Id, +Status, +Goals
@@ -50,18 +49,20 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 :- multifile typhon_code:in_use/1.
 
 :- dynamic
-    agent/5,                    % Id, Host, Module, Hash, Life
+    stands/6,                   % Id, Host, Module, Hash, Life, Until
     status/3,                   % Id, Status, Goals; none: it runs
-    order/2,                    % Id, Order
-    mobile/2.                   % Id, Until: its state can travel
+    order/2.                    % Id, Order
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
 %   The agents of this process: where they stand, the module of their
 %   state, the hash of their program, and their life.
 
+agent(Id, Host, Module, Hash, Life) :-
+    stands(Id, Host, Module, Hash, Life, _).
+
 typhon_code:in_use(Hash) :-
-    agent(_, _, _, Hash, _),
+    stands(_, _, _, Hash, _, _),
     !.
 
 %!  with_agent(+Id, :Goal) is semidet.
@@ -91,50 +92,37 @@ make_shards :-
 %   Begin the record of an agent, Agent being its agent/5; forget it, with
 %   its module.
 
-agent_enter(Agent, Status, Goals) :-
-    arg(1, Agent, Id),
-    assertz(Agent),
+agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
+    assertz(stands(Id, Host, Module, Hash, Life, 0)),
     assertz(status(Id, Status, Goals)).
 
 agent_remove(Id, Mail, Orders) :-
-    retract(agent(Id, _, Module, _, _)),
+    retract(stands(Id, _, Module, _, _, _)),
     retractall(status(Id, _, _)),
-    retractall(mobile(Id, _)),
     mail_all(Id, Mail),
     orders(Id, Orders),
     '$destroy_module'(Module).
 
-%!  agent_move(+Id, +Host, +Module, +Life, +Goals) is det.
+%!  agent_mobile(+Id, -Until:integer) is semidet.
+%!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
 %
-%   The agent is on Host from now on, with its state in Module, ready to do
-%   Goals; another module that it had is no more.
+%   The agent is on Host from now on, with its state in Module; another
+%   module that it had is no more.  Until says that its state can travel as
+%   it was then, see agent_changed/4; it is 0 until somebody has looked.
 
-agent_move(Id, Host, Module, Life, Goals) :-
-    clause(agent(Id, _, Old, Hash, _), true, Record),
+agent_mobile(Id, Until) :-
+    stands(Id, _, _, _, _, Until),
+    !.
+
+agent_move(Id, Host, Module, Life, Until) :-
+    stands(Id, _, Old, Hash, _, _),
     !,
-    assertz(agent(Id, Host, Module, Hash, Life)),
-    erase(Record),                      % others always find one
-    agent_put(Id, ready, Goals),
+    assertz(stands(Id, Host, Module, Hash, Life, Until)),
+    forget_first(Id),
     (   Old == Module
     ->  true
     ;   '$destroy_module'(Old)
     ).
-
-%!  agent_mobile(+Id, -Until:integer) is det.
-%!  agent_put_mobile(+Id, +Until:integer) is det.
-%
-%   The state of Id can travel as it was Until, see agent_changed/4; 0 if it
-%   was not looked at in this process.
-
-agent_mobile(Id, Until) :-
-    (   mobile(Id, Until0)
-    ->  Until = Until0
-    ;   Until = 0
-    ).
-
-agent_put_mobile(Id, Until) :-
-    retractall(mobile(Id, _)),
-    assertz(mobile(Id, Until)).
 
 %   One by one: see typhon_mailbox.
 
@@ -209,10 +197,16 @@ agent_ready(Id, Goals) :-
 %!  agent_put_life(+Id, +Life) is det.
 
 agent_put_life(Id, Life) :-
-    clause(agent(Id, Host, Module, Hash, _), true, Record),
+    stands(Id, Host, Module, Hash, _, Until),
     !,
-    assertz(agent(Id, Host, Module, Hash, Life)),
-    erase(Record).
+    assertz(stands(Id, Host, Module, Hash, Life, Until)),
+    forget_first(Id).
+
+%   Others always find one.  Not by clause reference: see typhon_erased.
+
+forget_first(Id) :-
+    retract(stands(Id, _, _, _, _, _)),
+    !.
 
                 /*******************************
                 *       MAIL AND ORDERS        *

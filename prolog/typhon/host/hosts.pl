@@ -26,14 +26,15 @@
 The records of hosts: name, address, place, options, neighbours, how many
 agents stand on them and how long hops take.
 
-*Threading*: any thread.  Load and statistics are flags, each of which is
-changed atomically.
+*Threading*: any thread.  Load and statistics are flags; a mutex makes the
+four of a hop whole.
 */
 
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
     neighbour/2,                % Name, Address
+    door/4,                     % Name, Tokens, Capacity, Flag: while it is open
     load_key/2,                 % Name, Flag
     hop_keys/3.                 % Name, Direction, Flags
 
@@ -46,7 +47,17 @@ changed atomically.
 host_add(Name, Address, Place, Options) :-
     make_keys(Name),
     forall(member(Option, Options), assertz(option(Name, Option))),
-    assertz(host(Name, Address, Place)).
+    asked(Name, tokens(Tokens), []),
+    asked(Name, capacity(Capacity), inf),
+    assertz(host(Name, Address, Place)),
+    load_key(Name, Key),
+    assertz(door(Name, Tokens, Capacity, Key)).
+
+asked(Name, Option, Default) :-
+    (   option(Name, Option)
+    ->  true
+    ;   arg(1, Option, Default)
+    ).
 
 %   Flags are counters that many threads change without leaving garbage.
 
@@ -73,11 +84,12 @@ make_hop_keys(Name, Direction) :-
 %   From now on nobody is admitted.
 
 host_close(Name) :-
-    assertz(option(Name, closed)).
+    retractall(door(Name, _, _, _)).
 
 %!  host_remove(+Name) is det.
 
 host_remove(Name) :-
+    retractall(door(Name, _, _, _)),
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
     retractall(neighbour(Name, _)),
@@ -150,25 +162,28 @@ where_address(remote(Address, _, _), Address).
 %   An agent with Tokens asks to enter.  Answer is `ok`, and a place is
 %   taken for it, or refused(Reason).
 
-host_enter(Name, _, refused(unknown_host)) :-
-    (   \+ host(Name, _, _)
-    ;   option(Name, closed)
-    ),
-    !.
-host_enter(Name, Tokens, refused(token)) :-
-    option(Name, tokens(Wanted)),
-    Wanted \== [],
-    \+ ( member(Token, Wanted), memberchk(Token, Tokens) ),
-    !.
-host_enter(Name, _, Answer) :-
-    load_key(Name, Key),
-    (   option(Name, capacity(Capacity)),
-        Capacity \== inf
-    ->  flag(Key, Load, Load+max(0, min(1, Capacity-Load))),
-        ( Load < Capacity -> Answer = ok ; Answer = refused(capacity) )
-    ;   flag(Key, Load, Load+1),
-        Answer = ok
+host_enter(Name, Tokens, Answer) :-
+    (   door(Name, Wanted, Capacity, Load)
+    ->  (   shown(Wanted, Tokens)
+        ->  take_room(Capacity, Load, Answer)
+        ;   Answer = refused(token)
+        )
+    ;   Answer = refused(unknown_host)
     ).
+
+shown([], _) :-
+    !.
+shown(Wanted, Tokens) :-
+    member(Token, Wanted),
+    memberchk(Token, Tokens),
+    !.
+
+take_room(inf, Key, ok) :-
+    !,
+    flag(Key, Load, Load+1).
+take_room(Capacity, Key, Answer) :-
+    flag(Key, Load, Load+max(0, min(1, Capacity-Load))),
+    ( Load < Capacity -> Answer = ok ; Answer = refused(capacity) ).
 
 %!  host_leave(+Name) is det.
 
@@ -228,13 +243,18 @@ once_each([], []).
 %   A hop into (`in`) or out of (`out`) Name took Seconds of host time.
 
 host_hop(Name, Direction, Seconds) :-
-    hop_keys(Name, Direction, flags(Count, Min, Sum, Max)),
+    hop_keys(Name, Direction, Flags),
     !,
-    flag(Count, N, N+1),
-    flag(Min, Min0, min(Min0, Seconds)),
-    flag(Sum, Sum0, Sum0+Seconds),
-    flag(Max, Max0, max(Max0, Seconds)).
+    with_mutex(typhon_hop_times, add_hop(Flags, Seconds)).
 host_hop(_, _, _).
+
+%   flag/3 would lock for each of them.
+
+add_hop(flags(Count, Min, Sum, Max), Seconds) :-
+    get_flag(Count, N0), N is N0+1, set_flag(Count, N),
+    get_flag(Sum, Sum0), Sum1 is Sum0+Seconds, set_flag(Sum, Sum1),
+    get_flag(Min, Min0), ( Seconds < Min0 -> set_flag(Min, Seconds) ; true ),
+    get_flag(Max, Max0), ( Seconds > Max0 -> set_flag(Max, Seconds) ; true ).
 
 %!  host_hop_stats(+Name, ?Direction, -Stats) is nondet.
 %

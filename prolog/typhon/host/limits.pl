@@ -3,6 +3,7 @@
             limit_clear/2,              % +Host, -Agents
             limit_enter/3,              % +Host, +Agent, -Work
             limit_leave/2,              % +Host, -Agent
+            limited/1,                  % +Host
             limits_forget/0
           ]).
 
@@ -39,6 +40,12 @@ limit_clear(Host, Agents) :-
                ( retractall(limit(Host, _)),
                  findall(Agent, parked(Host, Agent), Agents),
                  retractall(parked(Host, _)) )).
+
+%!  limited(+Host) is semidet.
+
+limited(Host) :-
+    limit(Host, _),
+    !.
 
 %!  limits_forget is det.
 

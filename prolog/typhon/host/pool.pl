@@ -1,13 +1,17 @@
 :- module(typhon_pool,
           [ pool_start/0,
             pool_stop/0,
-            pool_signal/1               % :Goal
+            pool_signal/1,              % :Goal
+            pool_here/1                 % +Agent
           ]).
 :- use_module(library(settings), [setting/2]).
+:- use_module(census, [census/1]).
 :- use_module(growth, [growth_begin/0]).
 :- use_module(held, [held_forget/0]).
-:- use_module(queue, [queue_begin/1, queue_end/1, run_queue/1]).
+:- use_module(queue, [enqueue/1, queue_begin/1, queue_end/1, run_queue/1]).
+:- use_module(quick, [quick_turn/2]).
 :- use_module(timer, [timer_start/0, timer_stop/0]).
+:- use_module(work, [work_do/2]).
 :- use_module(workers, [worker/1, worker_add/1, workers_end/1]).
 
 /** <module> Work in real time: few threads for many agents
@@ -63,3 +67,13 @@ pool_signal(Goal) :-
     forall(worker(Worker),
            catch(thread_signal(Worker, Goal),
                  error(existence_error(_, _), _), true)).
+
+%!  pool_here(+Agent) is semidet.
+%
+%   Run Agent in this thread, which is of no pool; fails if it is apt to take
+%   long, or everybody's turns are noted.
+
+pool_here(Agent) :-
+    run_queue(_),
+    \+ census(_),
+    quick_turn(Agent, work_do(agent(Agent), enqueue)).

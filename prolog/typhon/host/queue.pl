@@ -4,12 +4,13 @@
             queue_end/1,                % -Queue
             enqueue/1,                  % +Work
             queue_waits/1,              % +Queue
+            queue_empty/0,
             queue_watch_if_last/1,      % +Queue
             queue_watch_if_stuck/1,     % +Queue
             queue_unwatched/0
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(census, [turns_begun/1]).
+:- use_module(census, [census/1, turns_begun/1]).
 :- use_module(timer, [alarm_in/3]).
 
 /** <module> The run queue, and the watch over it
@@ -67,6 +68,16 @@ enqueue(_).                             % stopping
 queue_waits(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
+
+%!  queue_empty is semidet.
+%
+%   There is a queue, and nothing waits in it.  While a census is held who
+%   works is to come back, and be counted.
+
+queue_empty :-
+    run_queue(Queue),
+    \+ queue_waits(Queue),
+    \+ census(_).
 
                 /*******************************
                 *            WATCH             *

@@ -6,6 +6,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
+:- use_module('../base/erased', [forget_erased/0]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../program', [code_clear/0]).
@@ -64,7 +65,8 @@ start(Options) :-
             forall(beginning(Kind), true)
           ),
           Ball,
-          ( time_stop, own_thread_stop, throw(Ball) )).
+          ( time_stop, own_thread_stop, throw(Ball) )),
+    forget_erased.
 
 start_endpoint(real, Options) :-
     option(port(Port), Options, 0),

@@ -3,13 +3,20 @@
             scheduler_unlimit/1,        % +Host
             scheduler_forget/0,
             schedule/2,                 % +Host, +Agent
+            schedule_stays/2,           % +Here, +There
+            schedule_here/2,            % +Host, +Agent
+            schedule_adopt/2,           % +Thread, +Agent
+            schedule_leave/0,
             scheduler_call/1            % :Goal
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(limits,
-              [limit_clear/2, limit_enter/3, limit_set/2, limits_forget/0]).
-:- use_module(time, [time_work/1]).
+              [ limit_clear/2, limit_enter/3, limit_set/2, limited/1,
+                limits_forget/0 ]).
+:- use_module(quick, [quick_not/2]).
+:- use_module(time, [time_alone/0, time_here/1, time_work/1]).
+:- use_module(workers, [worker_adopt/1, worker_leave/0]).
 
 /** <module> The scheduler: agents that are ready, and their turns
 
@@ -63,6 +70,44 @@ schedule(Host, Agent) :-
     ;   debug(typhon(scheduler), '~w waits for its turn on ~w',
               [Agent, Host])
     ).
+
+%!  schedule_stays(+Here, +There) is semidet.
+%
+%   Who runs an agent that was on Here may go on with it on There: nobody
+%   else waits to be run.  To wake another thread would cost as much as the
+%   hop.
+
+schedule_stays(Here, There) :-
+    \+ limited(Here),
+    \+ limited(There),
+    time_alone.
+
+%!  schedule_here(+Host, +Agent) is det.
+%
+%   As schedule/2, by this thread and at once if Agent's turns are short.
+
+schedule_here(Host, Agent) :-
+    (   \+ limited(Host),
+        time_here(Agent)
+    ->  true
+    ;   schedule(Host, Agent)
+    ).
+
+%!  schedule_adopt(+Thread, +Agent) is det.
+%!  schedule_leave is det.
+%
+%   Thread runs Agent by schedule_here/2, and has nothing else to do any more:
+%   it is a worker, until it calls schedule_leave/0.
+
+blocks(60).                             % seconds for which it is believed to
+
+schedule_adopt(Thread, Agent) :-
+    blocks(Seconds),
+    quick_not(Agent, Seconds),
+    worker_adopt(Thread).
+
+schedule_leave :-
+    worker_leave.
 
 %!  scheduler_call(:Goal) is det.
 %

@@ -4,19 +4,22 @@
             time_kind/1,                % ?Kind
             time_now/1,                 % -Stamp
             time_work/1,                % +Work
+            time_alone/0,
+            time_here/1,                % +Agent
             time_wait/3,                % +Queue, -Message, +Stamp
             time_signal/1,              % :Goal
             time_seed/1,                % +Seed
             alarm_set/3,                % +Stamp, +Agent, +Token
             alarm_in/3                  % +Seconds, +Agent, +Token
           ]).
-:- use_module(pool, [pool_signal/1, pool_start/0, pool_stop/0]).
-:- use_module(queue, [enqueue/1]).
+:- use_module(pool,
+              [pool_here/1, pool_signal/1, pool_start/0, pool_stop/0]).
+:- use_module(queue, [enqueue/1, queue_empty/0]).
 :- use_module(timer, [alarm_set/3 as timer_set]).
 :- use_module(virtual,
               [ virtual_alarm/3, virtual_signal/1, virtual_start/0,
                 virtual_stop/0, virtual_wait/3, virtual_work/1 ]).
-:- use_module(virtual_loop, [virtual_now/1]).
+:- use_module(virtual_loop, [virtual_alone/0, virtual_now/1]).
 
 /** <module> The kinds of time
 
@@ -98,6 +101,26 @@ time_work(_).                           % stopping
 
 work(real, Work)    :- enqueue(Work).
 work(virtual, Work) :- virtual_work(Work).
+
+%!  time_alone is semidet.
+%
+%   Nothing else waits to be done: who does something may go on with it.
+
+time_alone :-
+    time_kind(Kind),
+    alone(Kind).
+
+alone(real)    :- queue_empty.
+alone(virtual) :- virtual_alone.
+
+%!  time_here(+Agent) is semidet.
+%
+%   Run Agent in this thread, which has other things to do, too; fails
+%   where it is to be done by those who do the work.
+
+time_here(Agent) :-
+    time_kind(real),
+    pool_here(Agent).
 
 %!  alarm_set(+Stamp, +Agent, +Token) is det.
 %!  alarm_in(+Seconds, +Agent, +Token) is det.

@@ -3,7 +3,8 @@
             virtual_loop/1,             % +Queue
             virtual_now/1,              % -Stamp
             virtual_steps/1,            % -Count
-            virtual_doing/1             % -Work
+            virtual_doing/1,            % -Work
+            virtual_alone/0
           ]).
 :- use_module(library(apply), [exclude/3, partition/4]).
 :- use_module(library(debug), [debug/3]).
@@ -65,8 +66,18 @@ virtual_steps(Count) :-
 %   What this thread is about to do, if it is that of virtual time.
 
 virtual_doing(Work) :-
-    nb_current(typhon_virtual_work, Work),
-    Work \== none.
+    nb_current(typhon_virtual_work, doing(Work, _, _)).
+
+%!  virtual_alone is semidet.
+%
+%   What this thread does now may go on as if it had come again: nothing else
+%   is to be done, and nobody has what he waits for.
+
+virtual_alone :-
+    nb_current(typhon_virtual_work, doing(_, Waiting, Queue)),
+    \+ there(Queue),
+    \+ ( member(Waits, Waiting), has_got(Waits) ),
+    flag(typhon_virtual_steps, Steps, Steps+1).
 
                 /*******************************
                 *           THE LOOP           *
@@ -105,7 +116,7 @@ go(Waiting, Queue, Alarms) :-
 
 step(do(Work), Waiting0, Queue, Alarms) :-
     flag(typhon_virtual_steps, Steps, Steps+1),
-    nb_setval(typhon_virtual_work, Work),
+    nb_setval(typhon_virtual_work, doing(Work, Waiting0, Queue)),
     work_do(Work, again(Queue)),
     nb_setval(typhon_virtual_work, none),
     satisfied(Waiting0, Waiting),

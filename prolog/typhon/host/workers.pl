@@ -2,6 +2,8 @@
           [ worker/1,                   % ?Thread
             workers_count/1,            % -Count
             worker_add/1,               % +Queue
+            worker_adopt/1,             % +Thread
+            worker_leave/0,
             workers_end/1               % +Queue
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -87,6 +89,36 @@ workers_end(Queue) :-
     forall(member(_, Workers), thread_send_message(Queue, stop)),
     maplist(stop_thread, Workers),
     retractall(worker(_)).
+
+                /*******************************
+                *             GUESTS           *
+                *******************************/
+
+%!  worker_adopt(+Thread) is det.
+%!  worker_leave is det.
+%
+%   Thread, which runs an agent, is a worker until it has done so; this one
+%   has.  Nobody else joins it.
+
+worker_adopt(Thread) :-
+    with_mutex(typhon_scheduler, adopt(Thread)).
+
+adopt(Thread) :-
+    (   run_queue(_)
+    ->  assertz(worker(Thread))
+    ;   thread_detach(Thread)
+    ).
+
+worker_leave :-
+    thread_self(Me),
+    with_mutex(typhon_scheduler, leave(Me)).
+
+leave(Me) :-
+    (   run_queue(_),
+        retract(worker(Me))
+    ->  thread_detach(Me)
+    ;   true                            % who stops the pool waits for it
+    ).
 
                 /*******************************
                 *             WORK             *

@@ -135,9 +135,9 @@ add_payload(Clauses, Spec, Payloads-(PIs0-State0),
     append(State0, More, State).
 
 start_goals(Clauses, Initial, Goals) :-
-    (   ( member(Clause, Clauses) ; member(Clause, Initial) ),
-        clause_parts(Clause, Head, _),
-        Head == main
+    (   member(All, [Clauses,Initial]),
+        member(Clause, [main,(main:-_)]),
+        memberchk(Clause, All)
     ->  Goals = [main]
     ;   Goals = []
     ).

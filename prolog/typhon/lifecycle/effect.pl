@@ -1,6 +1,7 @@
 :- module(typhon_effect,
           [ effect/5,                   % +Control, +Hole, +Goals, +Where, -Next
-            effect_depart/5,            % +Id, +Where, +Hole, +Goals, +Since
+            effect_depart/6,            % +Id, +Where, +Hole, +Goals, +Since,
+                                        % -Next
             effect_order/4              % +Id, +Here, +Host, +Goals
           ]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
@@ -13,7 +14,7 @@
               [ agent/5, agent_name/3, agent_put/3, agent_ready/2,
                 agent_rest/3, agent_status/3, life_hops/2, life_may_move/2,
                 mail_take/2, with_agent/2 ]).
-:- use_module('../travel', [hop/5, hop_clone/6]).
+:- use_module('../travel', [hop/6, hop_clone/6]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2]).
 
@@ -35,7 +36,8 @@ timer.
 %!  effect(+Control, +Hole, +Goals, +Where, -Next) is det.
 %
 %   @arg Where is Id-Host
-%   @arg Next is go(Goals) if the agent goes on at once, else `stop`
+%   @arg Next is go(Goals) if the agent goes on at once, elsewhere(Goals) if
+%        it does so on another host, else `stop`
 %   @error what is to be raised at the control predicate
 
 effect(move(Host), Hole, Goals, Id-Here, Next) :-
@@ -45,8 +47,7 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
         Next = go(Goals)
     ;   agent(Id, _, _, _, Life),
         life_may_move(Life, May),
-        set_out(May, Dest, Hole, Goals, Id-Here),
-        Next = stop
+        set_out(May, Dest, Hole, Goals, Id-Here, Next)
     ).
 effect(clone(Who), Hole, Goals, Id-_, go(Goals)) :-
     copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
@@ -162,11 +163,11 @@ typhon_scheduler:running(Id) :-
                 *        MOVE AND CLONE        *
                 *******************************/
 
-set_out(static, _, _, _, Id-_) :-
+set_out(static, _, _, _, Id-_, _) :-
     permission_error(move, static_agent, Id).
-set_out(end, _, _, _, Id-_) :-
+set_out(end, _, _, _, Id-_, stop) :-
     ignore(agent_end(Id, disposed)).
-set_out(go, Dest, Hole, Goals, Id-Here) :-
+set_out(go, Dest, Hole, Goals, Id-Here, Next) :-
     host_time(Here, Now),
     (   host_option(Here, hop_time(uniform(Min, Max)))
     ->  hop_delay(Id, Here, Min, Max, Delay),
@@ -174,8 +175,9 @@ set_out(go, Dest, Hole, Goals, Id-Here) :-
         with_agent(Id, agent_put(Id, leaving(Dest, At),
                                  hop(Hole-Goals, Now))),
         real_time(Here, At, Stamp),
-        alarm_set(Stamp, Id, leave)
-    ;   hop(Id, Dest, Hole, Goals, Now)
+        alarm_set(Stamp, Id, leave),
+        Next = stop
+    ;   hop(Id, Dest, Hole, Goals, Now, Next)
     ).
 
 %   On hosts with a seed it follows from that, from the agent and from the
@@ -200,15 +202,16 @@ destination(Host, Dest) :-
           error(existence_error(host, _), _),
           throw(error(move_refused(Host, unknown_host), _))).
 
-%!  effect_depart(+Id, +Where, +Hole, +Goals, +Since) is det.
+%!  effect_depart(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
 %   The delay of the hop is over.  What cannot travel is found now.
 
-effect_depart(Id, Dest, Hole, Goals, Since) :-
-    catch(hop(Id, Dest, Hole, Goals, Since),
+effect_depart(Id, Dest, Hole, Goals, Since, Next) :-
+    catch(hop(Id, Dest, Hole, Goals, Since, Next),
           error(Formal, Where),
           ( cannot_depart(Hole, Id, error(Formal, Where)),
-            with_agent(Id, agent_ready(Id, Goals))
+            with_agent(Id, agent_ready(Id, Goals)),
+            Next = stop
           )).
 
 cannot_depart(ordered, Id, error(Formal, _)) :-
@@ -226,5 +229,5 @@ effect_order(Id, Here, Host, Goals) :-
     ->  with_agent(Id, agent_ready(Id, Goals))
     ;   agent(Id, _, _, _, Life),
         life_may_move(Life, May),
-        set_out(May, Dest, ordered, Goals, Id-Here)
+        set_out(May, Dest, ordered, Goals, Id-Here, _)
     ).

@@ -254,8 +254,15 @@ obey(asked(Order, Asker), Id, Goals) :-
           ),
           error(Formal, _),
           Answer = error(Formal)),
-    question_answered(Asker, Answer),
+    answered(Asker, Answer),
     go_on(Id, Goals).
+
+%   An answer may be too long to be sent.
+
+answered(Asker, Answer) :-
+    catch(question_answered(Asker, Answer),
+          error(Formal, _),
+          question_answered(Asker, error(Formal))).
 
 go_on(Id, Goals) :-
     with_agent(Id, agent_ready(Id, Goals)).

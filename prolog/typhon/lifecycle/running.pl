@@ -5,7 +5,7 @@
               [ agent/5, agent_departs/3, agent_handles/2, agent_ordered/1,
                 agent_ready/2, agent_rest/3, agent_take/3, mail_take/2,
                 with_agent/2 ]).
-:- use_module(effect, [effect/5, effect_depart/5]).
+:- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2]).
 :- use_module(orders, [order_obey/3]).
 
@@ -22,7 +22,11 @@ belongs to one worker.
 
 typhon_scheduler:run(Id) :-
     (   with_agent(Id, take(Id, Task))
-    ->  perform(Task, Id)
+    ->  setup_call_catcher_cleanup(
+            true,
+            perform(Task, Id),
+            Catcher,
+            left(Catcher, Id))
     ;   true                            % has ended
     ).
 
@@ -39,16 +43,18 @@ take(Id, leave(Dest, Hole, Goals, Since)) :-
 perform(order(Order, Goals), Id) :-
     order_obey(Order, Id, Goals).
 perform(leave(Dest, Hole, Goals, Since), Id) :-
-    effect_depart(Id, Dest, Hole, Goals, Since).
+    effect_depart(Id, Dest, Hole, Goals, Since, Next),
+    go_on(Next, Id).
 perform(run(Goals), Id) :-
     agent(Id, Host, Module, Hash, _),
     code_module(Hash, Program),
     context_set(Host, Id, Module),
-    setup_call_catcher_cleanup(
-        true,
-        live(Goals, Id, Host, context(Program, Module)),
-        Catcher,
-        left(Catcher, Id)).
+    live(Goals, Id, Host, context(Program, Module), Next),
+    go_on(Next, Id).
+
+go_on(stop, _).
+go_on(elsewhere(Goals), Id) :-
+    perform(run(Goals), Id).
 
 %   A worker that is interrupted leaves an agent in the middle of a goal:
 %   it cannot go on.
@@ -60,16 +66,15 @@ left(Catcher, Id) :-
     ;   true
     ).
 
-live(Goals0, Id, Host, Context) :-
+live(Goals0, Id, Host, Context, Next) :-
     machine_run(Context, Goals0, Outcome),
-    conclude(Outcome, Id, Host, Context, Next),
-    (   Next = go(Goals)
-    ->  live(Goals, Id, Host, Context)
-    ;   true
+    conclude(Outcome, Id, Host, Context, Next0),
+    (   Next0 = go(Goals)
+    ->  live(Goals, Id, Host, Context, Next)
+    ;   Next = Next0
     ).
 
-%   conclude(+Outcome, +Id, +Host, +Context, -Next): Next is go(Goals) if
-%   the agent goes on at once.
+%   conclude(+Outcome, +Id, +Host, +Context, -Next): Next as of effect/5.
 
 conclude(done, Id, _, Context, Next) :-
     finish(Id, Context, Next).

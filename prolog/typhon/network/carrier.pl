@@ -12,6 +12,7 @@
               [ host_link/2, host_neighbours/2, host_property/2, host_start/2,
                 host_stop/1, host_unlink/2, runtime_acquire/2,
                 runtime_release/1 ]).
+:- use_module('../travel', [home_agents/1]).
 
 /** <module> A process that carries hosts of a network
 
@@ -65,6 +66,9 @@ one for the order to stop: it sees to it that there is an end.
 %     - neighbours(Names)
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.
+%     - agents
+%       Answer is the list of the agents that were born in the process and
+%       have not ended.
 %
 %   @error what host_start/2 throws
 
@@ -89,6 +93,8 @@ order_do(unlink(Pairs), ok) :-
     forall(member(Name-Address, Pairs), host_unlink(Name, Address)).
 order_do(neighbours(Names), Lists) :-
     maplist(host_neighbours, Names, Lists).
+order_do(agents, Agents) :-
+    home_agents(Agents).
 
 start_all([], _).
 start_all([Name-Options|Specs], Started) :-

@@ -7,6 +7,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(pairs), [pairs_values/2]).
+:- use_module('../base/erased', [forget_erased/0]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host',
               [runtime_acquire/2, runtime_release/1, time_now/1, time_seed/1]).
@@ -19,7 +20,8 @@
 :- use_module(processes, [carriers_start/4, carriers_stop/1]).
 :- use_module(wiring,
               [ wire_change/2, wire_forget/1, wire_hosts/3, wire_links/3,
-                wire_stop_own/1, wired_edges/2, wired_hosts/2 ]).
+                wire_stop_own/1, wired_agents/2, wired_edges/2,
+                wired_hosts/2 ]).
 
 /** <module> Networks of hosts
 
@@ -95,7 +97,8 @@ network_start(Topology, Network, Options) :-
         assertz(network(Network, Plan)),
         build(Network, Plan),
         Catcher,
-        unless_built(Catcher, Network)).
+        unless_built(Catcher, Network)),
+    forget_erased.
 
 unless_built(exit, _) :-
     !.
@@ -238,6 +241,9 @@ network_clock(Network, Clock) :-
 %     - edges(Edges)
 %       The links between hosts of the network at this moment, pairs A-B
 %       of addresses. Asks each process.
+%     - agents(Agents)
+%       Those that were born on its hosts and have not ended, wherever they
+%       are, in no order. Asks each process.
 %     - processes(Pids)
 %       The processes that carry hosts and are alive.
 %     - log(File), seed(Seed)
@@ -259,6 +265,8 @@ property(hosts(Addresses), Network) :-
     wired_hosts(Network, Addresses).
 property(edges(Edges), Network) :-
     wired_edges(Network, Edges).
+property(agents(Agents), Network) :-
+    wired_agents(Network, Agents).
 property(processes(Pids), Network) :-
     findall(P-Pid, carrier(Network, P, Pid), Pairs),
     keysort(Pairs, Sorted),

@@ -5,10 +5,12 @@
             wire_stop_own/1,            % +Network
             wire_forget/1,              % +Network
             wired_hosts/2,              % +Network, -Addresses
-            wired_edges/2               % +Network, -Edges
+            wired_edges/2,              % +Network, -Edges
+            wired_agents/2              % +Network, -Agents
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
+:- use_module('../agent', [agent_home/2]).
 :- use_module(carriers, [carrier/3, carrier_order/4]).
 
 /** <module> The hosts of a network and the links between them
@@ -130,3 +132,18 @@ half_edge(Network, I-J) :-
     host(Network, B, _, _, Address),
     I is min(A, B),
     J is max(A, B).
+
+%!  wired_agents(+Network, -Agents) is det.
+%
+%   Agents that were born on hosts of Network and have not ended. Those born
+%   in a process that is down are missing.
+
+wired_agents(Network, Agents) :-
+    findall(Agent,
+            ( carrier(Network, P, _),
+              alive_order(Network, P, agents, Born),
+              Born \== none,
+              member(Agent, Born),
+              agent_home(Agent, Home),
+              host(Network, _, _, P, Home) ),
+            Agents).

@@ -11,16 +11,18 @@
 /** <module> Programs that were read lately
 
 A program file is read, checked and analysed when the first agent is created
-from it, and again when it, or a file that it includes, has changed.  What a
-library that it imports defines is taken as it was then.
+from it, and again when it, or a file that it includes, has changed; a program
+of clauses once for all that are variants of it.  What a library that it
+imports defines is taken as it was then.
 
 *Threading*: any thread.  One mutex is held to remember; to look needs none.
 */
 
-:- setting(files, nonneg, 64, "Program files remembered as they were read").
+:- setting(files, nonneg, 64, "Programs remembered as they were read").
 
 :- dynamic
-    loaded/3.                   % File, Sources, Loaded: the oldest first
+    loaded/3.                   % File or hash of clauses, Sources, Loaded:
+                                % the oldest first
 
 %!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds) is det.
 %
@@ -33,24 +35,28 @@ load(Spec, Loaded) :-
     in_file(Spec),
     !,
     program_file(Spec, File),
-    load_file(File, Loaded).
-load(Spec, Loaded) :-
+    load(File, File, Loaded).
+load(clauses(Terms), Loaded) :-
+    catch(variant_sha1(Terms, Hash), error(type_error(_, _), _), fail),
+    !,
+    load(Hash, clauses(Terms), Loaded).
+load(Spec, Loaded) :-                   % what no program can have is in it
     read_program(Spec, Loaded, _).
 
 in_file(Spec) :-
     callable(Spec),
     Spec \= clauses(_).
 
-load_file(File, Loaded) :-
-    loaded(File, Sources, Loaded0),
+load(Key, _, Loaded) :-
+    loaded(Key, Sources, Loaded0),
     source_same(Sources),
     !,
     Loaded = Loaded0.
-load_file(File, Loaded) :-
-    read_program(File, Loaded, Sources),
-    debug(typhon(program), 'read ~w', [File]),
+load(Key, Spec, Loaded) :-
+    read_program(Spec, Loaded, Sources),
+    debug(typhon(program), 'read ~w', [Key]),
     (   source_settled(Sources)
-    ->  with_mutex(typhon_loaded, remember(File, Sources, Loaded))
+    ->  with_mutex(typhon_loaded, remember(Key, Sources, Loaded))
     ;   true
     ).
 
@@ -58,9 +64,9 @@ read_program(Spec, loaded(Program, Initial, Hash, Kinds), Sources) :-
     program_read(Spec, Program, Initial, Kinds, Sources),
     program_hash(Program, Hash).
 
-remember(File, Sources, Loaded) :-
-    retractall(loaded(File, _, _)),
-    assertz(loaded(File, Sources, Loaded)),
+remember(Key, Sources, Loaded) :-
+    retractall(loaded(Key, _, _)),
+    assertz(loaded(Key, Sources, Loaded)),
     forget_oldest.
 
 forget_oldest :-

@@ -36,15 +36,21 @@ machine.  Two threads must not run the same agent.
 %
 %   Head is the head of a control predicate: the machine stops at it.
 
-control(move(_)).
-control(clone(_)).
-control(clone(_, _)).
-control(sleep(_)).
-control(receive(_)).
-control(receive(_, _)).
-control(dispose).
-control(sleep_until(_)).
-control(receive_until(_, _)).
+control(Head) :-
+    special(Head, control).
+
+special(move(_), control).
+special(clone(_), control).
+special(clone(_, _), control).
+special(sleep(_), control).
+special(receive(_), control).
+special(receive(_, _), control).
+special(dispose, control).
+special(sleep_until(_), control).
+special(receive_until(_, _), control).
+special(Goal, call) :-                  % with more than one argument
+    compound(Goal),
+    compound_name_arity(Goal, call, _).
 
 %!  machine_run(+Context, +Goals, -Outcome) is det.
 %
@@ -135,12 +141,15 @@ step(catch(Goal, Catcher, Recovery), Goals, X, Base, Out) =>
     guarded(Goal, Catcher, Recovery, Goals, X, Base, Out).
 step(Goal, _, _, _, _), var(Goal) =>
     throw(error(instantiation_error, _)).
-step(Goal, Goals, _, _, Out), control(Goal) =>
-    Out = effect(Goal, Hole, [Hole|Goals]).
-step(Goal, Goals, X, Base, Out), call_n(Goal, Called) =>
-    step(call(Called), Goals, X, Base, Out).
+step(Goal, Goals, X, Base, Out), special(Goal, Kind) =>
+    special(Kind, Goal, Goals, X, Base, Out).
 step(Goal, Goals, X, Base, Out) =>
     called(Goal, Goals, X, Base, Out).
+
+special(control, Goal, Goals, _, _, effect(Goal, Hole, [Hole|Goals])).
+special(call, Goal, Goals, X, Base, Out) :-
+    call_n(Goal, Called),
+    step(call(Called), Goals, X, Base, Out).
 
 %   called(+Goal, ...): a goal that is no construct is unfolded by a clause
 %   of the program or of the agent's own rules, or called natively.
@@ -206,8 +215,6 @@ proceed(effect(Control, Hole, Sub), _, Goals, Rest-Frame, _, _,
 %   call/N, N > 1, as the goal it calls.
 
 call_n(Goal, Called) :-
-    functor(Goal, call, Arity),
-    Arity > 1,
     Goal =.. [_,Closure|Extra],
     must_be_closure(Closure),
     extend(Closure, Extra, Called).

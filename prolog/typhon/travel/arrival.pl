@@ -3,10 +3,12 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../program', [code_module/2, code_receive/2]).
-:- use_module('../wire', [endpoint_reply/2, endpoint_reply_later/2]).
+:- use_module('../wire',
+              [endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2]).
 :- use_module('../host',
               [ host/3, host_enter/3, host_hop/3, host_leave/1, host_time/2,
-                schedule/2 ]).
+                schedule/2, schedule_adopt/2, schedule_here/2,
+                schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3,
                 image_enter/4, image_label/2, image_module/3, life_hops/2,
@@ -25,7 +27,10 @@ anyhow: the agent stands here, has gone on, or has ended.
 *Threading*: the reader threads of the endpoint.
 */
 
-:- multifile typhon_endpoint:requested/4.
+:- multifile
+    typhon_endpoint:lent/2,
+    typhon_endpoint:requested/4,
+    typhon_endpoint:returned/0.
 
 typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
     catch(arrive(Name, Image, Program, Peer, Answer),
@@ -41,9 +46,22 @@ typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
 answer(installed(Id), Name, ReplyTo) :-
     !,
     endpoint_reply_later(ReplyTo, accepted),
-    schedule(Name, Id).
+    endpoint_afterwards(go_on(Name, Id)).
 answer(Answer, _, ReplyTo) :-
     endpoint_reply(ReplyTo, Answer).
+
+%   go_on(+Name, +Id, +Where): `here`, in this thread, or `later`.
+
+go_on(Name, Id, here) :-
+    schedule_here(Name, Id).
+go_on(Name, Id, later) :-
+    schedule(Name, Id).
+
+typhon_endpoint:lent(_:go_on(_, Id), Thread) :-
+    schedule_adopt(Thread, Id).
+
+typhon_endpoint:returned :-
+    schedule_leave.
 
 arrive(Name, Image, Program, Peer, Answer) :-
     image_label(Image, Label),

@@ -3,6 +3,7 @@
             home_moved/4,               % +Id, +Address, +Hops, +Process
             home_ended/3,               % +Id, +Outcome, +Hops
             home_knows/4,               % +Id, -Address, -Hops, -Process
+            home_agents/1,              % -Ids
             agent_outcome/2,            % +Id, -Outcome
             outcome_wait/3              % +Id, +Seconds, +Asker
           ]).
@@ -61,6 +62,14 @@ home_knows(Id, Address, Hops, Process) :-
     !,
     Address = Address0, Hops = Hops0, Process = Process0.
 
+%!  home_agents(-Ids:list(atom)) is det.
+%
+%   Those who were born in this process and have not ended.
+
+home_agents(Ids) :-
+    findall(Id, born(Id, _, _, _), Ids0),
+    sort(Ids0, Ids).
+
 %!  agent_outcome(+Id, -Outcome) is semidet.
 
 agent_outcome(Id, Outcome) :-
@@ -81,11 +90,11 @@ home_moved(Id, Address, Hops, Process) :-
 %   whom the home has never heard was born before it was started again.
 
 moved(Id, Address, Hops, Process) :-
-    clause(born(Id, _, Hops0, _), true, Old),
+    born(Id, _, Hops0, _),
     !,
     (   Hops0 < Hops
     ->  assertz(born(Id, Address, Hops, Process)),
-        erase(Old)
+        forget_first(Id)
     ;   true
     ).
 moved(Id, Address, Hops, Process) :-
@@ -95,6 +104,10 @@ moved(Id, Address, Hops, Process) :-
     !,
     assertz(born(Id, Address, Hops, Process)).
 moved(_, _, _, _).
+
+forget_first(Id) :-
+    retract(born(Id, _, _, _)),
+    !.
 
 home_ended(Id, Outcome, Hops) :-
     debug(typhon(agent), '~w: home hears that it ended after ~D hops, ~p',

@@ -1,5 +1,6 @@
 :- module(typhon_hop,
-          [ hop/5,                      % +Id, +Where, +Hole, +Goals, +Since
+          [ hop/6,                      % +Id, +Where, +Hole, +Goals, +Since,
+                                        % -Next
             hop_clone/6                 % +Id, +Where, +CloneId, +Who, +Hole,
                                         % +Goals
           ]).
@@ -11,7 +12,7 @@
 :- use_module('../agent', [agent/5, image_hash/2, with_agent/2]).
 :- use_module(doubt, [doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
-:- use_module(within, [hop_within/5]).
+:- use_module(within, [hop_within/6]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_freeze/4, transfer_image/2,
                 transfer_image/5, transfer_stays/2, transfer_unreachable/1 ]).
@@ -32,7 +33,7 @@ comes back before the answer proves that it had arrived.
   | unreachable  | raises host_unreachable(Host) at the move        |
   | lost         | asks whether it got away, see typhon_doubt       |
 
-*Threading*: hop/5 in a worker; answers in the reader threads of the
+*Threading*: hop/6 in a worker; answers in the reader threads of the
 endpoint, which never wait.
 */
 
@@ -40,19 +41,20 @@ endpoint, which never wait.
 
 :- dynamic has_program/2.       % Endpoint, Hash: was sent there
 
-%!  hop(+Id, +Where, +Hole, +Goals, +Since) is det.
+%!  hop(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
 %   Send Id to Where, as of host_resolve/2, where it goes on with Goals,
-%   Hole bound to `true`.
+%   Hole bound to `true`.  Next is `stop`, or elsewhere(Goals) if this worker
+%   is to go on with it there.
 %
 %   @arg Since is the host time at which it set out
 %   @error type_error(mobile_term, Culprit)
 %   @error move_refused(Address, Reason), of a host of this process
 
-hop(Id, local(Name), Hole, Goals, Since) :-
+hop(Id, local(Name), Hole, Goals, Since, Next) :-
     !,
-    hop_within(Id, Name, Hole, Goals, Since).
-hop(Id, Where, Hole, Goals, Since) :-
+    hop_within(Id, Name, Hole, Goals, Since, Next).
+hop(Id, Where, Hole, Goals, Since, stop) :-
     destination(Where, Dest),
     Transfer = hop(Id, Dest, _),
     image(Transfer, Hole-Goals, Mail, Since, Image),

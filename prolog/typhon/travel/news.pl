@@ -46,13 +46,24 @@ news_tell(Home, Id, News) :-
     ).
 
 note(Home, Id, News, Courier) :-
-    retractall(news(Home, Id, _)),
-    assertz(news(Home, Id, News)),
+    (   news(Home, Id, Known),
+        \+ newer(News, Known)
+    ->  true
+    ;   retractall(news(Home, Id, _)),
+        assertz(news(Home, Id, News))
+    ),
     (   courier(Home)
     ->  Courier = there
     ;   assertz(courier(Home)),
         Courier = wanted
     ).
+
+%   Who is ended by somebody else as soon as it has come may have its end told
+%   before its coming.
+
+newer(located(_, _, Hops), located(_, _, Hops0)) :-
+    Hops > Hops0.
+newer(ended(_, _, _), located(_, _, _)).
 
 %   The process is about to end: what can be sent at once is, the rest is
 %   given up.

@@ -87,9 +87,9 @@ process_at(Endpoint, Process) :-
 
 remember_forward(Id, Address, Hops, Process) :-
     with_mutex(typhon_forward,
-               (   clause(forward(Id, _, _, _), true, Old)
+               (   forward(Id, _, _, _)
                ->  assertz(forward(Id, Address, Hops, Process)),
-                   erase(Old)
+                   once(retract(forward(Id, _, _, _)))
                ;   assertz(forward(Id, Address, Hops, Process))
                )),
     bounded(forward(_, _, _, _), typhon_whereabouts:forwards).

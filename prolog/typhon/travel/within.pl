@@ -1,14 +1,15 @@
 :- module(typhon_within,
-          [ hop_within/5                % +Id, +Name, +Hole, +Goals, +Since
+          [ hop_within/6                % +Id, +Name, +Hole, +Goals, +Since,
+                                        % -Next
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
               [ address_parts/3, host/3, host_enter/3, host_hop/3, host_leave/1,
-                host_time/2, schedule/2 ]).
+                host_time/2, schedule/2, schedule_stays/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/2,
-                agent_module/5, agent_move/5, agent_put_mobile/2, agent_state/2,
+                agent_module/5, agent_move/5, agent_put/3, agent_state/2,
                 agent_status/3, life_hop/3, life_tokens/2, with_agent/2 ]).
 :- use_module(whereabouts, [agent_seen/4]).
 
@@ -23,27 +24,28 @@ not matter here.
 *Threading*: in a worker, which has the agent.
 */
 
-%!  hop_within(+Id, +Name, +Hole, +Goals, +Since) is det.
+%!  hop_within(+Id, +Name, +Hole, +Goals, +Since, -Next) is det.
 %
 %   Id, which set out at Since, is on host Name of this process, with Goals,
-%   its Hole bound to `true`; or it was ended meanwhile.
+%   its Hole bound to `true`; or it was ended meanwhile.  Next is `stop`, or
+%   elsewhere(Goals) if it still has its worker.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error move_refused(Address, Reason)
 
-hop_within(Id, Name, Hole, Goals, Since) :-
+hop_within(Id, Name, Hole, Goals, Since, Next) :-
     agent(Id, Here, Module, _, Life0),
     !,
     life_hop(Life0, Life, Hops),
-    can_travel(Id, Module, Life-Goals),
-    sig_atomic(enter(Id, Here-Name, Life, Hole-Goals, How)),
-    went(How, Id, Here-Name, Hops, Since).
-hop_within(_, _, _, _, _).              % it was ended
+    can_travel(Id, Module, Life-Goals, Until),
+    sig_atomic(enter(Id, Here-Name, going(Life, Until), Hole-Goals, How)),
+    went(How, Id, Here-Name, Hops, Since, Next).
+hop_within(_, _, _, _, _, stop).        % it was ended
 
-went(moved, Id, Here-Name, Hops, Since) :-
-    sig_atomic(told(arrived(Id, Here, Name, Hops, Since))).
-went(ended, _, _, _, _).
-went(refused(Reason), Id, _-Name, Hops, _) :-
+went(moved(Next), Id, Here-Name, Hops, Since, Next) :-
+    sig_atomic(told(arrived(Id, Here, Name, Hops, Since, Next))).
+went(ended, _, _, _, _, stop).
+went(refused(Reason), Id, _-Name, Hops, _, _) :-
     endpoint_address(Own),
     address_parts(Address, Name, Own),
     debug(typhon(hop), '~w hop ~D: stays, ~w', [Id, Hops, Reason]),
@@ -51,32 +53,32 @@ went(refused(Reason), Id, _-Name, Hops, _) :-
 
 %   Of the state only what has changed since it was last looked at.
 
-can_travel(Id, Module, Others) :-
-    agent_mobile(Id, Since),
-    agent_changed(Module, Since, Clauses, Until),
-    mobile_term(Clauses-Others),
-    (   Until == Since
+can_travel(Id, Module, Others, Until) :-
+    (   agent_mobile(Id, Since)
     ->  true
-    ;   agent_put_mobile(Id, Until)
-    ).
+    ;   Since = 0                       % it was ended
+    ),
+    agent_changed(Module, Since, Clauses, Until),
+    mobile_term(Clauses-Others).
 
-%   enter(+Id, +Hosts, +Life, +Held, -How): How is `moved`, `ended`, or
+%   enter(+Id, +Hosts, +Going, +Held, -How): How is moved(Next), `ended`, or
 %   refused(Reason).  Nobody keeps the room that was taken for one who does
 %   not come.
 
-enter(Id, Here-Name, Life, Held, How) :-
+enter(Id, Here-Name, Going, Held, How) :-
+    Going = going(Life, _),
     life_tokens(Life, Tokens),
     host_enter(Name, Tokens, Answer),
     (   Answer == ok
-    ->  catch(moved(Id, Here-Name, Life, Held, Left, How), Ball,
+    ->  catch(moved(Id, Here-Name, Going, Held, Left, How), Ball,
               ( host_leave(Name),
                 throw(Ball) )),
         host_leave(Left)
     ;   How = Answer
     ).
 
-moved(Id, Here-Name, Life, Held, Here, moved) :-
-    with_agent(Id, move(Id, Here, Name, Life, Held)),
+moved(Id, Here-Name, Going, Held, Here, moved(Next)) :-
+    with_agent(Id, move(Id, Here-Name, Going, Held, Next)),
     !.
 moved(Id, _-Name, _, _, Name, refused(unknown_host)) :-
     agent(Id, _, _, _, _),              % Name is being stopped
@@ -93,10 +95,10 @@ told(Goal) :-
 
 %   An agent that was told to move has no hole.
 
-move(Id, Here, Name, Life, Hole-Goals) :-
+move(Id, Here-Name, going(Life, Until), Hole-Goals, Next) :-
     host(Name, _, Place),
     agent_status(Id, Status, _),
-    memberchk(Status, [running, obeying]),
+    next(Status, Here-Name, Goals, Next),
     agent(Id, _, Module0, Hash, _),
     (   host(Here, _, Place0),
         agent_elsewhere(Module0, Place0, Place)
@@ -105,9 +107,20 @@ move(Id, Here, Name, Life, Hole-Goals) :-
         agent_module(Id, Place, Hash, State, Module)
     ),
     ignore(Hole = true),
-    agent_move(Id, Name, Module, Life, Goals).
+    agent_move(Id, Name, Module, Life, Until),
+    (   Next == stop
+    ->  agent_put(Id, ready, Goals)
+    ;   true
+    ).
 
-arrived(Id, Here, Name, Hops, Since) :-
+next(running, Here-Name, Goals, Next) :-
+    (   schedule_stays(Here, Name)
+    ->  Next = elsewhere(Goals)
+    ;   Next = stop
+    ).
+next(obeying, _, _, stop).
+
+arrived(Id, Here, Name, Hops, Since, Next) :-
     host(Name, Address, _),
     endpoint_address(Own),
     !,
@@ -116,8 +129,11 @@ arrived(Id, Here, Name, Hops, Since) :-
     agent_seen(Id, Address, Hops, Own),
     took(Here, out, Since),
     took(Name, in, Since),
-    schedule(Name, Id).
-arrived(_, _, _, _, _).                 % it is being stopped
+    (   Next == stop
+    ->  schedule(Name, Id)
+    ;   true
+    ).
+arrived(_, _, _, _, _, _).              % it is being stopped
 
 took(Host, Direction, Since) :-
     (   host_time(Host, Now)

@@ -21,12 +21,13 @@ _Threading_: incoming/5 and outgoing/2 are the goals of threads of the wire.
 :- use_module(contacts, [contact_gone/1, contact_met/2]).
 :- use_module(hello, [hello_peer/4]).
 :- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(lending, [lent_away/0]).
 :- use_module(meeting, [meet/7, own_session/1, prove/5]).
-:- use_module(reader, [read_frames/2]).
+:- use_module(reader, [read_frames/3]).
 :- use_module(refusals, [refused/2]).
 :- use_module(request, [connection_is/2]).
-:- use_module(resumption, [session_down/2, session_left/0]).
-:- use_module(session, [route_add/2, session_peer/3]).
+:- use_module(resumption, [session_left/0, session_lost/2]).
+:- use_module(session, [route_add/2, session_adopting/2, session_peer/3]).
 
 :- multifile
     typhon_auth:greeted/0.
@@ -51,7 +52,7 @@ incoming(In, Out, Ip, Stage, Me) :-
                          nb_setval(typhon_proved, true),
                          meet(server, In, Out, Me, Peer, Session,
                               reachable(Peer, Ip)),
-                         serve(Session, In) )),
+                         serve(Session, In, Out) )),
           error(Formal, _),
           turned_away(Ip, Formal)).
 
@@ -108,7 +109,7 @@ outgoing(Address, Me) :-
                          ( prove(Role, In, Out, Me, Peer),
                            meet(Role, In, Out, Me, Peer, Session,
                                 found(Address, Interface, Peer)),
-                           serve(Session, In) ))
+                           serve(Session, In, Out) ))
           ),
           error(Formal, _),
           missed(Address, Formal)).
@@ -153,8 +154,15 @@ with_streams(Open, In, Out, Goal) :-
         Open,
         Goal,
         ( session_left,
-          close(Out, [force(true)]),
-          close(In, [force(true)]) )).
+          close_stream(Out),
+          close_stream(In) )).
+
+%   Who was lent finds them closed.
+
+close_stream(Stream) :-
+    catch(close(Stream, [force(true)]),
+          error(existence_error(stream, _), _),
+          true).
 
 %!  open_streams(+Socket, -In, -Out) is det.
 %
@@ -178,16 +186,24 @@ open_streams(Socket, In, Out) :-
 %   Read until the connection breaks; how is of no interest, since what is
 %   missing will be sent again.
 
-serve(Session, In) :-
+serve(Session, In, Out) :-
     thread_self(Me),
     call_cleanup(
         ( connection_is(Session, up),
-          catch(read_frames(Session, In),
+          catch(read_frames(Session, In, Out),
                 error(Formal, _),
                 report_break(Session, Formal))
         ),
-        ( session_down(Session, Me),
-          connection_is(Session, down) )).
+        lost(Session, Me)).
+
+%   Who was lent may find that somebody else is about to see to that.
+
+lost(Session, Me) :-
+    lent_away,
+    !,
+    session_adopting(Session, session_lost(Session, Me)).
+lost(Session, Me) :-
+    session_lost(Session, Me).
 
 %   A break is nothing special, but what the peer does may be.
 

@@ -16,6 +16,7 @@ message, in the room that owns the kind:
   - received(+Kind, +Term, +Peer)
   - requested(+Kind, +Term, +Peer, +ReplyTo)
   - connection(+Peer, +State)
+  - lent(+Goal, +Thread) and returned, see typhon_lending
 
 Peer is the address the sender listens to.
 
@@ -38,6 +39,7 @@ that peer is read. They may post, request and reply.
 :- use_module(keeper, [keep/1, keeper_unheard/1]).
 :- use_module(keeper_queue,
               [keeper_queue_close/1, keeper_queue_open/0, keeper_tell/1]).
+:- use_module(lending, [lending_anew/0]).
 :- use_module(outbox, [session_control/2]).
 :- use_module(peers, [peers_flush/2]).
 :- use_module(request, [requests_lost/2]).
@@ -50,11 +52,15 @@ that peer is read. They may post, request and reply.
 :- multifile
     received/3,                         % Kind, Term, Peer
     requested/4,                        % Kind, Term, Peer, ReplyTo
-    connection/2.                       % Peer, State
+    connection/2,                       % Peer, State
+    lent/2,                             % Goal, Thread
+    returned/0.
 :- dynamic
     received/3,
     requested/4,
-    connection/2.
+    connection/2,
+    lent/2,
+    returned/0.
 
 :- setting(flush_time, number, 2,
            "Seconds endpoint_stop/0 waits for the last frames to arrive").
@@ -91,6 +97,7 @@ start(Interface0, Port, Address) :-
     endpoint_process(Process),
     hello(Process, Start, Address, Me),
     keeper_queue_open,
+    lending_anew,
     wire_thread_create(keep(Me), keeper, Keeper),
     wire_thread_create(accept_all(Socket, Me), acceptor, Acceptor),
     assertz(running(Address, Socket, Acceptor, Keeper)),

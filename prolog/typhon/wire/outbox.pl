@@ -51,7 +51,23 @@ under_way(65536).
 
 session_send(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
+    answers_first(Session),
     session_locked(Session, put_frame(Session, Bytes)).
+
+%   What a reader has left goes along, or before what is said to others: who
+%   hears of an agent from the next process must not be ahead of who waits
+%   for the answer that it has come to this one.
+
+answers_first(Session) :-
+    nb_current(typhon_later, Count),
+    Count > 0,
+    nb_current(typhon_later_in, Own),
+    !,
+    (   Own == Session
+    ->  nb_setval(typhon_later, 0)
+    ;   session_push(Own)
+    ).
+answers_first(_).
 
 %!  session_send_later(+Session, +Term) is det.
 %!  session_later(-Count) is det.
@@ -77,7 +93,8 @@ session_later(Count) :-
 session_push(Session) :-
     session_key(Session, Key),
     session_locked(Session, push_out(Key)),
-    nb_setval(typhon_later, 0).
+    nb_setval(typhon_later, 0),
+    nb_setval(typhon_later_in, Session).
 
 push_out(Key) :-
     (   transport(Key, Thread, Out),

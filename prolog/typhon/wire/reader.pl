@@ -1,5 +1,5 @@
 :- module(typhon_reader,
-          [ read_frames/2,              % +Session, +In
+          [ read_frames/3,              % +Session, +In, +Out
             in_reader/0
           ]).
 
@@ -24,6 +24,8 @@ counted.
 :- use_module(counts, [note_received/2, received/2]).
 :- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(lending,
+              [lend/2, lending_close/0, lending_open/3, lent/0, lent_away/0]).
 :- use_module(outbox,
               [ session_control/2, session_later/1, session_push/1,
                 session_send/2 ]).
@@ -43,7 +45,7 @@ counted.
 ack_frames(32).
 ack_bytes(32768).
 
-%!  read_frames(+Session, +In) is det.
+%!  read_frames(+Session, +In, +Out) is det.
 %
 %   Handle all frames until In ends.
 %
@@ -52,7 +54,7 @@ ack_bytes(32768).
 %   syntax_error(damaged_frame)
 %   @error domain_error(acknowledged, Count) more than was sent
 
-read_frames(Session, In) :-
+read_frames(Session, In, Out) :-
     session_key(Session, Key),
     setting(silence, Silence),
     setting(typhon_session:frame_bytes, Max),
@@ -64,20 +66,28 @@ read_frames(Session, In) :-
     State = count(Count, Count, Bytes, 0),
     call_cleanup(
         call_cleanup(
-            read_or_skip(Session, In, Max, State),
+            setup_call_cleanup(
+                lending_open(Session, In, Out),
+                read_or_skip(Session, In, Max, State),
+                lending_close),
             keep_count(Key, State)),
         keep_count(Key, State)).
 
 %!  in_reader is semidet.
 %
-%   This thread reads the frames of a session: it must not wait.
+%   This thread reads the frames of a session: it must not wait, unless it is
+%   lent.
 
 in_reader :-
-    nb_current(typhon_reader, true).
+    nb_current(typhon_reader, true),
+    \+ lent.
 
 %   Kept twice, as the one signal that ends this thread may come in the
 %   middle of the first: with an old count everything would come again.
 
+keep_count(_, _) :-
+    lent_away,
+    !.                                  % another thread counts by now
 keep_count(Key, State) :-
     arg(1, State, Count),
     note_received(Key, Count).
@@ -95,6 +105,7 @@ read_or_skip(Session, In, Max, State) :-
 read_all(Session, In, Max, State) :-
     session_codec(Session, Codec),
     repeat,
+    afterwards(Session, In, State),
     push_late(Session, In),
     (   next(In, Max, Bytes)
     ->  (   Bytes == end_of_file
@@ -107,6 +118,25 @@ read_all(Session, In, Max, State) :-
     ;   silent(Session, In, State),
         fail
     ).
+
+%   What a hook has left to do is done here. What it says to the peer has
+%   taken the answers along, else they go now.
+
+afterwards(Session, In, State) :-
+    arg(1, State, Count),
+    (   lend(Count, more_first(In)),
+        session_later(Late),
+        Late > 0
+    ->  session_push(Session)
+    ;   true
+    ).
+
+%   More is read first where there are processors for those who do the work.
+
+more_first(In) :-
+    current_prolog_flag(cpu_count, Processors),
+    Processors > 2,
+    sig_atomic(wait_for_input([In], [_], 0)).
 
 %   Answers that were left in the buffer go with the next frame that
 %   somebody sends, or now: when there are many, or nothing comes in for a

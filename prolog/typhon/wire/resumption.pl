@@ -1,6 +1,6 @@
 :- module(typhon_resumption,
           [ session_install/4,          % +Session, +Thread, +Out, +PeerCount
-            session_down/2,             % +Session, +Thread
+            session_lost/2,             % +Session, +Thread
             session_left/0,
             session_retire/1,           % +Session
             session_close/2             % +Session, -Unsent
@@ -11,7 +11,7 @@
 After a break the two processes tell each other how many frames they have
 received, over the next connection, and send the rest again.
 
-_Threading_: session_install/4, session_down/2 and session_left/0 are for the
+_Threading_: session_install/4 and session_left/0 are for the
 thread of the connection. A session is retired and closed by who gives it
 another connection or none, inside session_adopting/2 or when all threads
 have ended.
@@ -22,6 +22,7 @@ have ended.
 :- use_module(frame, [bytes_term/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(pusher, [pusher_no_control/1, pusher_start/4, pusher_stop/1]).
+:- use_module(request, [connection_is/2]).
 :- use_module(session,
               [ session/2, session_codec/2, session_forget/1, session_key/2,
                 session_locked/2, session_must_exist/2 ]).
@@ -61,9 +62,10 @@ install(Session, Key, Thread, Out, PeerCount) :-
     ),
     ignore(keeper_tell(up(Key))).
 
-%!  session_down(+Session, +Thread) is det.
+%   session_down(+Session, +Thread)
 %
-%   The connection of Thread is no more. For that thread only.
+%   The connection of Thread is no more. For that thread only, or one that
+%   sees to it in its place.
 
 session_down(Session, Thread) :-
     session_key(Session, Key),
@@ -77,6 +79,19 @@ at_rest(Key, Thread) :-
     transport_detach(Key, Thread),
     pusher_no_control(Key),
     unacked_rest(Key).
+
+%!  session_lost(+Session, +Thread) is det.
+%
+%   If the session still has the connection of Thread, that is no more, and
+%   who wants to know is told.
+
+session_lost(Session, Thread) :-
+    session_key(Session, Key),
+    (   transport_thread(Key, Thread)
+    ->  session_down(Session, Thread),
+        connection_is(Session, down)
+    ;   true
+    ).
 
 %!  session_left is det.
 %
@@ -96,7 +111,8 @@ session_left :-
 session_retire(Session) :-
     session_key(Session, Key),
     forall(transport_thread(Key, Thread),
-           wire_thread_end(Thread, replaced)).
+           ( wire_thread_end(Thread, replaced),
+             session_lost(Session, Thread) )).  % who was lent is elsewhere
 
 %!  session_close(+Session, -Unsent) is semidet.
 %

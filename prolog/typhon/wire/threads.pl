@@ -4,6 +4,8 @@
             wire_thread_running/1,      % +Thread
             wire_thread_end/2,          % +Thread, +Why
             wire_thread_signal/2,       % +Thread, +Why
+            wire_thread_obey/1,         % +Why
+            wire_thread_leaves/1,       % +Thread
             wire_thread_join/1,         % +Thread
             wire_threads_end/0,
             in_background/2             % :Goal, +Name
@@ -28,7 +30,13 @@ from any thread.
     wire_thread_create(0, +, -, 0),
     in_background(0, +).
 
+:- multifile
+    not_now/1,                          % Why: this thread will hear of it
+    overdue/1.                          % Thread: do without it, if you can
+
 :- dynamic
+    not_now/1,
+    overdue/1,
     wire_thread/1.                      % Thread
 
 %!  wire_thread_create(:Goal, +Name, -Thread) is det.
@@ -99,13 +107,25 @@ wire_thread_end(Thread, Why) :-
 %   not wake it: insist.
 
 insist(Thread, Why, Wait) :-
-    (   wire_thread_running(Thread)
+    (   wire_thread(Thread),
+        wire_thread_running(Thread)
     ->  wire_thread_signal(Thread, Why),
         sleep(Wait),
+        (   Wait < 0.1
+        ->  true
+        ;   ignore(overdue(Thread))
+        ),
         Wait1 is min(0.1, 2*Wait),
         insist(Thread, Why, Wait1)
     ;   true
     ).
+
+%!  wire_thread_leaves(+Thread) is det.
+%
+%   Thread is no longer of the endpoint: others see to its end.
+
+wire_thread_leaves(Thread) :-
+    retractall(wire_thread(Thread)).
 
 %!  wire_thread_signal(+Thread, +Why) is det.
 %
@@ -120,9 +140,18 @@ wire_thread_signal(Thread, Why) :-
 end_once(Why) :-
     (   nb_current(typhon_ending, true)
     ->  true
-    ;   nb_setval(typhon_ending, true),
-        throw(wire_thread_end(Why))
+    ;   not_now(Why)
+    ->  true
+    ;   wire_thread_obey(Why)
     ).
+
+%!  wire_thread_obey(+Why) is erroneous.
+%
+%   This thread ends.
+
+wire_thread_obey(Why) :-
+    nb_setval(typhon_ending, true),
+    throw(wire_thread_end(Why)).
 
 %!  wire_thread_join(+Thread) is det.
 %

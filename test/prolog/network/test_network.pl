@@ -217,6 +217,48 @@ round_trip(Count, Network) :-
     agent_join(Agent, done, 20),
     remote(First, take(round(Count))).
 
+test(agents_until_they_end, forall(member(P, [1, 2]))) :-
+    with_network(ring(2), [processes(P)], census).
+
+%   An agent and its clone are born on A, and stand on B until they are
+%   told to go; a stranger, from a host that is not of the network, is with
+%   them.
+
+census(Network) :-
+    setup_call_cleanup(
+        host_start(elsewhere),
+        visited(Network),
+        host_stop(elsewhere)),
+    network_property(Network, agents([])).
+
+visited(Network) :-
+    hosts(Network, [A, B]),
+    agent_create(clauses([ (:- agent(twin, [])),
+                           ( main :- neighbours([B]), clone(_), move(B),
+                                     self(Me), leave(here(Me)),
+                                     receive(_-go) ) ]),
+                 Agent, [host(A)]),
+    agent_create(clauses([ (:- agent(stranger, [])),
+                           ( main :- move(B), leave(stranger),
+                                     receive(_-go) ) ]),
+                 Stranger, [host(elsewhere)]),
+    wait_until(remote(B, take(stranger)), 5),
+    wait_until(remote(B, take(here(One))), 5),
+    wait_until(remote(B, take(here(Two))), 5),
+    all_agents(Network, [One, Two]),
+    forall(member(Id, [Agent, Stranger]), gone(Id)),
+    network_property(Network, agents([Clone])),
+    gone(Clone).
+
+all_agents(Network, Expected) :-
+    network_property(Network, agents(Agents)),
+    msort(Agents, Sorted),
+    msort(Expected, Sorted).
+
+gone(Agent) :-
+    agent_send(Agent, go),
+    agent_join(Agent, done, 10).
+
 test(two_networks_at_once, true(Disjoint)) :-
     setup_call_cleanup(
         network_start(ring(3), A, [processes(2)]),

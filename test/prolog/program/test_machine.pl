@@ -128,6 +128,10 @@ test(cut_in_a_condition_is_local, T == [1,2]) :-
          _, T).
 test(call, T == [1,2]) :-
     runs([(main :- G = (t(1), move(a), t(2)), call(G))], _, T).
+test(call_with_many, T == [45]) :-
+    runs([(main :- call(sum, 1, 2, 3, 4, 5, 6, 7, 8, 9)),
+          (sum(A, B, C, D, E, F, G, H, I) :-
+               move(a), X is A+B+C+D+E+F+G+H+I, t(X))], _, T).
 test(call_n, T == [5,6]) :-
     runs([(main :- twice(go(5), 6)), (twice(G, X) :- call(G, X)),
           (go(X, Y) :- t(X), move(a), t(Y))], _, T).
