@@ -46,24 +46,31 @@ news_tell(Home, Id, News) :-
     ).
 
 note(Home, Id, News, Courier) :-
-    (   news(Home, Id, Known),
-        \+ newer(News, Known)
-    ->  true
-    ;   retractall(news(Home, Id, _)),
-        assertz(news(Home, Id, News))
-    ),
+    keep(Home, Id, News),
     (   courier(Home)
     ->  Courier = there
     ;   assertz(courier(Home)),
         Courier = wanted
     ).
 
-%   Who is ended by somebody else as soon as it has come may have its end told
-%   before its coming.
+keep(Home, Id, News) :-
+    news(Home, Id, Known),
+    \+ newer(News, Known),
+    !.
+keep(Home, Id, News) :-
+    retractall(news(Home, Id, _)),
+    assertz(news(Home, Id, News)).
+
+%   Neither the order in which they are told nor what came while a courier was
+%   away with them says which are newer: who is ended by somebody else as soon
+%   as it has come may have its end told before its coming.
 
 newer(located(_, _, Hops), located(_, _, Hops0)) :-
     Hops > Hops0.
-newer(ended(_, _, _), located(_, _, _)).
+newer(located(_, _, Hops), ended(_, _, Hops0)) :-
+    Hops > Hops0.                       % a copy given up in doubt
+newer(ended(_, _, Hops), located(_, _, Hops0)) :-
+    Hops >= Hops0.
 
 %   The process is about to end: what can be sent at once is, the rest is
 %   given up.
@@ -131,14 +138,9 @@ since(0, Now, Now) :-
     !.
 since(Since, _, Since).
 
-%   What came meanwhile is newer.
-
 back(Home, News) :-
     arg(1, News, Id),
-    (   news(Home, Id, _)
-    ->  true
-    ;   assertz(news(Home, Id, News))
-    ).
+    keep(Home, Id, News).
 
 give_up(Home) :-
     with_mutex(typhon_news,

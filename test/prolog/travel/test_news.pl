@@ -1,7 +1,11 @@
 :- module(test_news, []).
-:- use_module('../../lib/common', [free_port/1, wait_until/2]).
+:- use_module('../../lib/common', [wait_until/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
+:- use_module(library(settings), [set_setting/2, setting/2]).
+:- use_module(library(socket),
+              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
+                tcp_socket/1 ]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/travel/news), [news_tell/3]).
 
@@ -10,17 +14,47 @@
 *Threading*: the main thread; the courier is a worker.
 */
 
-%   told(+All, -Kept): of All, told one after the other, Kept are kept.
+%   told(+All, -Kept): of All, told one after the other, Kept are kept when the
+%   courier has found nobody at home.
 
 told(All, Kept) :-
-    free_port(Port),
-    format(atom(Home), '127.0.0.1:~d', [Port]),
+    with_silent_home(Home,
+                     ( forall(member(News, All), news_tell(Home, x, News)),
+                       kept(Home, Kept) )).
+
+%   told_under_way(+First, +Then, -Kept): Then is told while a courier is away
+%   with First.
+
+told_under_way(First, Then, Kept) :-
+    with_silent_home(Home,
+                     ( news_tell(Home, x, First),
+                       wait_until(\+ typhon_news:news(Home, x, _), 10),
+                       news_tell(Home, x, Then),
+                       kept(Home, Kept) )).
+
+%   with_silent_home(-Home, :Goal): a host is up, and Home is a port at which
+%   somebody listens who never says a word.
+
+:- meta_predicate with_silent_home(-, 0).
+
+with_silent_home(Home, Goal) :-
+    setting(typhon_keeper:connect_time, Time),
     setup_call_cleanup(
-        host_start(alpha),
-        ( forall(member(News, All), news_tell(Home, x, News)),
-          wait_until(( findall(News, typhon_news:news(Home, x, News), Kept),
-                       Kept \== [] ), 10) ),
-        host_stop(alpha)).
+        ( set_setting(typhon_keeper:connect_time, 0.2),
+          tcp_socket(Socket) ),
+        ( tcp_bind(Socket, '127.0.0.1':Port),
+          tcp_listen(Socket, 5),
+          format(atom(Home), '127.0.0.1:~d', [Port]),
+          setup_call_cleanup(host_start(alpha), Goal, host_stop(alpha)) ),
+        ( tcp_close_socket(Socket),
+          set_setting(typhon_keeper:connect_time, Time) )).
+
+%   A courier that is back waits for an alarm.
+
+kept(Home, Kept) :-
+    wait_until(( typhon_alarms:alarm(_, Home, news(_)),
+                 findall(News, typhon_news:news(Home, x, News), Kept),
+                 Kept \== [] ), 20).
 
 at(Hops, located(x, 'beta@127.0.0.1:1', Hops)).
 
@@ -40,5 +74,14 @@ test(an_end, Kept == [End]) :-
 test(an_end_that_is_told_first, Kept == [End]) :-
     at(2, News), end(2, End),
     told([End, News], Kept).
+test(an_end_told_while_the_courier_is_away, Kept == [End]) :-
+    at(2, News), end(2, End),
+    told_under_way(News, End, Kept).
+test(an_end_the_courier_has_with_it, Kept == [End]) :-
+    at(2, News), end(2, End),
+    told_under_way(End, News, Kept).
+test(a_copy_given_up_in_doubt, Kept == [News]) :-
+    end(1, End), at(2, News),
+    told_under_way(End, News, Kept).
 
 :- end_tests(news).
