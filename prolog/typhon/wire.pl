@@ -8,8 +8,8 @@ This is the door of the layer: who is above takes what it needs from here.
 */
 
 :- reexport(wire/endpoint,
-            [ endpoint_address/1, endpoint_start/3, endpoint_start_alone/1,
-              endpoint_stop/0
+            [ endpoint_address/1, endpoint_listen/2, endpoint_listen_end/1,
+              endpoint_start/3, endpoint_start_alone/1, endpoint_stop/0
             ]).
 :- reexport(wire/messaging).
 :- reexport(wire/lending, [endpoint_afterwards/1]).

@@ -1,6 +1,7 @@
 :- module(typhon_hosting,
           [ host_start/1,               % +Name
             host_start/2,               % +Name, +Options
+            host_change/2,              % +Host, +Option
             host_stop/1                 % +Name
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -8,17 +9,17 @@
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../wire', [endpoint_address/1]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(hosts,
               [ address_parts/3, host/3, host_add/4, host_close/1,
-                host_remove/1, host_resolve/2, host_unlink/2 ]).
-:- use_module(place, [place_create/4, place_destroy/1]).
-:- use_module(runtime, [runtime_acquire/2, runtime_release/1]).
+                host_put/2, host_remove/1, host_resolve/2, host_unlink/2 ]).
+:- use_module(place, [place_create/4, place_destroy/1, place_offer/2]).
+:- use_module(remote, [remote/2]).
+:- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
 
 /** <module> Starting and stopping hosts
@@ -46,8 +47,9 @@ other users of the process its endpoint, see typhon_runtime.
 %
 %   Start a host in this process.  Options:
 %
-%     - port(+Port): of the endpoint of the process, 0 for any; only for
-%       the first host
+%     - port(+Port): of the endpoint of the process, 0 for any.  A later
+%       host may have a port of its own, for which the process listens, too,
+%       as long as the host runs
 %     - bind(+Interface): default localhost; only for the first host
 %     - capacity(+N): that many agents at the most, or `inf`
 %     - tokens(+List): an agent must carry one of them to be let in
@@ -109,8 +111,8 @@ start(Name, _) :-
 start(Name, Options) :-
     kind_of_time(Options, Kind),
     append(Kind, Options, Options1),
-    runtime_acquire(host(Name), Options1),
-    catch(start_host(Name, Options), Ball,
+    runtime_acquire(host(Name), Options1, Endpoint),
+    catch(start_host(Name, Endpoint, Options), Ball,
           ( runtime_release(host(Name)), throw(Ball) )).
 
 %   A network gives its hosts a clock of whatever kind it has.
@@ -123,8 +125,7 @@ kind_of_time(Options, []) :-
     !.
 kind_of_time(_, [time(real)]).
 
-start_host(Name, Options) :-
-    endpoint_address(Endpoint),
+start_host(Name, Endpoint, Options) :-
     address_parts(Address, Name, Endpoint),
     (   memberchk(clock(Epoch, Rate), Options)
     ->  true
@@ -152,6 +153,49 @@ listed(List, List) :-
     is_list(List),
     !.
 listed(One, [One]).
+
+                /*******************************
+                *            CHANGE            *
+                *******************************/
+
+%!  host_change(+Host, +Option) is det.
+%
+%   Change an option of a host that runs, here or elsewhere: tokens, capacity,
+%   concurrency, hop_time, log, remote or seed, as of host_start/2, or
+%   services, to which those given are added.  Who stands on the host stays,
+%   also where fewer are let in from now on.
+%
+%   @error existence_error(host, Host)
+%   @error permission_error(change, host_option, Option)
+
+host_change(Host, Option) :-
+    check_option(Option),
+    host_resolve(Host, Where),
+    change_at(Where, Host, Option).
+
+change_at(local(Name), _, Option) :-
+    with_mutex(typhon_hosting, change(Option, Name)).
+change_at(remote(_, Name, _), Host, Option) :-
+    remote(Host, typhon_hosting:host_change(Name, Option)).
+
+change(concurrency(Concurrency), Name) =>
+    host_put(Name, concurrency(Concurrency)),
+    scheduler_limit(Name, Concurrency).
+change(services(Services0), Name) =>
+    host(Name, _, Place),
+    listed(Services0, Services),
+    forall(member(Service, Services), place_offer(Place, Service)).
+change(Option, Name), changes(Option) =>
+    host_put(Name, Option).
+change(Option, _) =>
+    permission_error(change, host_option, Option).
+
+changes(tokens(_)).
+changes(capacity(_)).
+changes(hop_time(_)).
+changes(log(_)).
+changes(remote(_)).
+changes(seed(_)).
 
                 /*******************************
                 *             STOP             *

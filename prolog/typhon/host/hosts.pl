@@ -4,6 +4,7 @@
             host_close/1,               % +Name
             host_remove/1,              % +Name
             host_option/2,              % ?Name, ?Option
+            host_put/2,                 % +Name, +Option
             host_enter/3,               % +Name, +Tokens, -Answer
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
@@ -47,9 +48,12 @@ four of a hop whole.
 host_add(Name, Address, Place, Options) :-
     make_keys(Name),
     forall(member(Option, Options), assertz(option(Name, Option))),
+    assertz(host(Name, Address, Place)),
+    open_door(Name).
+
+open_door(Name) :-
     asked(Name, tokens(Tokens), []),
     asked(Name, capacity(Capacity), inf),
-    assertz(host(Name, Address, Place)),
     load_key(Name, Key),
     assertz(door(Name, Tokens, Capacity, Key)).
 
@@ -100,6 +104,25 @@ host_remove(Name) :-
 
 host_option(Name, Option) :-
     option(Name, Option).
+
+%!  host_put(+Name, +Option) is det.
+%
+%   Option replaces that of its name.  The new comes before the old goes: a
+%   host is never without.
+
+host_put(Name, Option) :-
+    functor(Option, OptionName, Arity),
+    functor(Old, OptionName, Arity),
+    (   option(Name, Old)
+    ->  assertz(option(Name, Option)),
+        once(retract(option(Name, Old)))
+    ;   assertz(option(Name, Option))
+    ),
+    (   door(Name, Tokens, Capacity, Key)
+    ->  open_door(Name),
+        once(retract(door(Name, Tokens, Capacity, Key)))
+    ;   true                            % it stops
+    ).
 
                 /*******************************
                 *           ADDRESSES          *

@@ -1,5 +1,5 @@
 :- module(typhon_limits,
-          [ limit_set/2,                % +Host, +Concurrency
+          [ limit_set/3,                % +Host, +Concurrency, -Work
             limit_clear/2,              % +Host, -Agents
             limit_enter/3,              % +Host, +Agent, -Work
             limit_leave/2,              % +Host, -Agent
@@ -16,20 +16,43 @@ gives it its own.
 *Threading*: any thread; one mutex.
 */
 
+:- use_module(library(lists), [member/2]).
+
 :- dynamic
     limit/2,                    % Host, Concurrency
     parked/2.                   % Host, Agent: waits for its turn on Host
 
-%!  limit_set(+Host, +Concurrency) is det.
+%!  limit_set(+Host, +Concurrency, -Work:list) is det.
 %
-%   At most Concurrency agents of Host run at a time; `inf` is no limit.
+%   From now on at most Concurrency agents of Host run at a time; `inf` is no
+%   limit.  Who was parked and may run is in Work, as of limit_enter/3.  Who
+%   runs is not stopped.
 
-limit_set(_, inf) :-
-    !.
-limit_set(Host, Concurrency) :-
+limit_set(Host, inf, Work) :-
+    !,
+    limit_clear(Host, Agents),
+    findall(agent(Agent), member(Agent, Agents), Work).
+limit_set(Host, Concurrency, Work) :-
+    with_mutex(typhon_park, set(Host, Concurrency, Work)).
+
+set(Host, Concurrency, Work) :-
+    (   retract(limit(Host, _))
+    ->  true
+    ;   running_key(Host, Key),
+        flag(Key, _, 0)
+    ),
+    assertz(limit(Host, Concurrency)),
+    unpark(Host, Concurrency, Work).
+
+unpark(Host, Concurrency, [agent(Host, Agent)|Work]) :-
     running_key(Host, Key),
-    flag(Key, _, 0),
-    assertz(limit(Host, Concurrency)).
+    flag(Key, Running, Running),
+    Running < Concurrency,
+    retract(parked(Host, Agent)),
+    !,
+    flag(Key, _, Running+1),
+    unpark(Host, Concurrency, Work).
+unpark(_, _, []).
 
 %!  limit_clear(+Host, -Agents) is det.
 %
@@ -88,12 +111,21 @@ limit_leave(Host, Agent) :-
     with_mutex(typhon_park, pass_turn(Host, Agent)).
 
 pass_turn(Host, Agent) :-
+    \+ crowded(Host),
     retract(parked(Host, Agent)),
     !.
 pass_turn(Host, _) :-
     running_key(Host, Key),
     flag(Key, Running, max(0, Running-1)),
     fail.
+
+%   Its limit has become lower.
+
+crowded(Host) :-
+    limit(Host, Limit),
+    running_key(Host, Key),
+    flag(Key, Running, Running),
+    Running > Limit.
 
 running_key(Host, Key) :-
     atom_concat('typhon running ', Host, Key).

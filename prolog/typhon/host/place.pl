@@ -1,5 +1,6 @@
 :- module(typhon_place,
           [ place_create/4,             % +Host, +Files, +Services, -Place
+            place_offer/2,              % +Place, +Service
             place_destroy/1,            % +Place
             tuple_leave/2,              % +Place, +Fact
             tuple_sense/2,              % +Place, ?Fact
@@ -40,22 +41,26 @@ place_create(Host, Files, Services, Place) :-
     set_module(Place:class(temporary)),
     set_module(Place:base(typhon_vocabulary)),
     dynamic(Place:'$tuple'/1),
-    catch(( forall(member(Service, Services), offer(Service, Place)),
+    catch(( forall(member(Service, Services), place_offer(Place, Service)),
             forall(member(File, Files), consult_into(Place, File))
           ),
           Ball,
           ( place_destroy(Place), throw(Ball) )).
 
-offer(module(Module), Place) :-
+%!  place_offer(+Place, +Service) is det.
+%
+%   From now on Place offers a service, as of place_create/4.
+
+place_offer(Place, module(Module)) :-
     !,
     must_be(atom, Module),
     add_import_module(Place, Module, start).
-offer(Service, Place) :-
+place_offer(Place, Service) :-
     atom(Service),
     module_property(Service, exports(PIs)),
     !,
     forall(member(PI, PIs), Place:import(Service:PI)).
-offer(Service, Place) :-
+place_offer(Place, Service) :-
     Place:use_module(Service).
 
 %   A file may be consulted into many places: each time as another source.

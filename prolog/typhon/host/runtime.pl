@@ -1,5 +1,6 @@
 :- module(typhon_runtime,
           [ runtime_acquire/2,          % +User, +Options
+            runtime_acquire/3,          % +User, +Options, -Endpoint
             runtime_release/1           % +User
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -11,8 +12,8 @@
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_start/3, endpoint_start_alone/1,
-                endpoint_stop/0 ]).
+              [ endpoint_address/1, endpoint_listen/2, endpoint_listen_end/1,
+                endpoint_start/3, endpoint_start_alone/1, endpoint_stop/0 ]).
 :- use_module(scheduler, [scheduler_forget/0]).
 :- use_module(time, [time_kind/1, time_start/1, time_stop/0]).
 
@@ -33,29 +34,48 @@ hooks beginning/1 and ending/1.
 :- dynamic
     beginning/1,
     ending/1,
-    user/1.                             % Name of a user
+    user/2.                             % Name of a user, Endpoint
 
 %!  runtime_acquire(+User, +Options) is det.
+%!  runtime_acquire(+User, +Options, -Endpoint) is det.
 %
-%   User, any ground term, needs endpoint and time.  Options port(P) and
-%   bind(Interface) are for the first user; later ones may only repeat what
-%   is so.  The same goes for time(Kind), `real` or `virtual`: who does not
-%   say is content with either.  In virtual time the endpoint reaches nobody
-%   else.
+%   User, any ground term, needs endpoint and time.  Endpoint is the address
+%   at which he is reached.  Options port(P) and bind(Interface) are for the
+%   first user; of later ones the interface may only be what it is, and
+%   another port is listened to as long as one of them needs it.  The same
+%   goes for time(Kind), `real` or `virtual`: who does not say is content with
+%   either.  In virtual time the endpoint reaches nobody else, and ports mean
+%   nothing.
 %
 %   @error permission_error(change, endpoint, Option)
 %   @error permission_error(change, kind_of_time, Kind)
 
 runtime_acquire(User, Options) :-
-    with_mutex(typhon_runtime, acquire(User, Options)).
+    runtime_acquire(User, Options, _).
 
-acquire(User, Options) :-
-    (   user(_)
+runtime_acquire(User, Options, Endpoint) :-
+    with_mutex(typhon_runtime, acquire(User, Options, Endpoint)).
+
+acquire(User, Options, Endpoint) :-
+    (   user(_, _)
     ->  forall(member(Option, Options), must_agree(Option))
     ;   start(Options)
     ),
-    assertz(user(User)),
-    debug(typhon(host), '~p uses the process', [User]).
+    option(port(Port), Options, 0),
+    reached_at(Port, Endpoint),
+    assertz(user(User, Endpoint)),
+    debug(typhon(host), '~p uses the process, at ~w', [User, Endpoint]).
+
+reached_at(Port, Endpoint) :-
+    endpoint_address(First),
+    atomic_list_concat([Interface,_], ':', First),
+    atomic_list_concat([Interface,Port], ':', Wanted),
+    (   ( Port =:= 0 ; time_kind(virtual) )
+    ->  Endpoint = First
+    ;   endpoint_address(Wanted)
+    ->  Endpoint = Wanted
+    ;   endpoint_listen(Port, Endpoint)
+    ).
 
 start(Options) :-
     option(time(Kind), Options, real),
@@ -85,11 +105,6 @@ must_agree(Option) :-
     ;   true
     ).
 
-disagrees(port(Port)) :-
-    Port \== 0,
-    endpoint_address(Endpoint),
-    atomic_list_concat([_,Port0], ':', Endpoint),
-    \+ atom_number(Port0, Port).
 disagrees(bind(Interface)) :-
     Interface \== localhost,
     endpoint_address(Endpoint),
@@ -102,14 +117,23 @@ runtime_release(User) :-
 
 release(User) :-
     debug(typhon(host), '~p has done with the process', [User]),
-    (   retract(user(User)),
-        \+ user(_)
-    ->  forall(ending(before), true),
-        endpoint_stop,
-        time_stop,
-        scheduler_forget,
-        code_clear,
-        forall(ending(after), true),
-        own_thread_stop
+    (   retract(user(User, Endpoint))
+    ->  released(Endpoint)
     ;   true
     ).
+
+released(Endpoint) :-
+    user(_, Endpoint),
+    !.
+released(Endpoint) :-
+    user(_, _),
+    !,
+    endpoint_listen_end(Endpoint).
+released(_) :-
+    forall(ending(before), true),
+    endpoint_stop,
+    time_stop,
+    scheduler_forget,
+    code_clear,
+    forall(ending(after), true),
+    own_thread_stop.

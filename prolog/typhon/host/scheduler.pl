@@ -12,7 +12,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(limits,
-              [ limit_clear/2, limit_enter/3, limit_set/2, limited/1,
+              [ limit_clear/2, limit_enter/3, limit_set/3, limited/1,
                 limits_forget/0 ]).
 :- use_module(quick, [quick_not/2]).
 :- use_module(time, [time_alone/0, time_here/1, time_work/1]).
@@ -42,10 +42,11 @@ kind/2 and running/1.
 
 %!  scheduler_limit(+Host, +Concurrency) is det.
 %
-%   At most Concurrency agents of Host run at a time.
+%   From now on at most Concurrency agents of Host run at a time.
 
 scheduler_limit(Host, Concurrency) :-
-    limit_set(Host, Concurrency).
+    limit_set(Host, Concurrency, Work),
+    forall(member(One, Work), time_work(One)).
 
 %!  scheduler_unlimit(+Host) is det.
 

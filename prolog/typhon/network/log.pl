@@ -11,7 +11,7 @@
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
-:- use_module('../host', [runtime_acquire/2, runtime_release/1, time_now/1]).
+:- use_module('../host', [runtime_acquire/3, runtime_release/1, time_now/1]).
 :- use_module(log_writer, [log_writer_start/5, log_writer_stop/2]).
 
 /** <module> The log server
@@ -101,13 +101,12 @@ start(Name, File, Options, Address) :-
     option(mode(Mode), Options, write),
     clock_option(Options, Clock),
     include(of_endpoint, Options, EndpointOptions),
-    runtime_acquire(log(Name), EndpointOptions),
+    runtime_acquire(log(Name), EndpointOptions, Endpoint),
     catch(log_writer_start(Name, File, Mode, Queue, Thread), Error,
           ( runtime_release(log(Name)), throw(Error) )),
     assertz(writer(Name, Thread)),
     retractall(homeless(Name)),
     assertz(server(Name, Queue, Clock)),
-    endpoint_address(Endpoint),
     atomic_list_concat([Name, @, Endpoint], Address),
     debug(typhon(network), 'log server ~w writes ~p', [Address, File]).
 

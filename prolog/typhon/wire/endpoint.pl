@@ -2,7 +2,9 @@
           [ endpoint_start/3,           % +Interface, +Port, -Address
             endpoint_start_alone/1,     % +Address
             endpoint_stop/0,
-            endpoint_address/1,         % -Address
+            endpoint_listen/2,          % +Port, -Address
+            endpoint_listen_end/1,      % +Address
+            endpoint_address/1,         % ?Address
             endpoint_process/1          % -Id
           ]).
 
@@ -25,8 +27,10 @@ thread of a connection and must be quick: while one runs, nothing else of
 that peer is read. They may post, request and reply.
 */
 
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_setopt/2,
@@ -68,7 +72,8 @@ that peer is read. They may post, request and reply.
 :- dynamic
     process/1,                          % Id
     starts/1,                           % Count
-    running/4.                          % Address, Socket, Acceptor, Keeper
+    running/4,                          % Address, Socket, Acceptor, Keeper
+    further/3.                          % Address, Socket, Acceptor
 
 %!  endpoint_start(+Interface, +Port, -Address) is det.
 %
@@ -91,18 +96,16 @@ start(Interface0, Port, Address) :-
     ->  Interface = '127.0.0.1'
     ;   Interface = Interface0
     ),
-    listen(Interface, Port, Bound, Socket),
-    atomic_list_concat([Interface, Bound], :, Address),
+    listen(Interface, Port, Address, Socket),
     next_start(Start),
-    endpoint_process(Process),
-    hello(Process, Start, Address, Me),
+    our_hello(Start, Address, Me),
     keeper_queue_open,
     lending_anew,
     wire_thread_create(keep(Me), keeper, Keeper),
     wire_thread_create(accept_all(Socket, Me), acceptor, Acceptor),
     assertz(running(Address, Socket, Acceptor, Keeper)),
-    debug(typhon(session), 'endpoint: starts at ~w, ~w.~w',
-          [Address, Process, Start]).
+    debug(typhon(session), 'endpoint: starts at ~w, start ~w',
+          [Address, Start]).
 
 %!  endpoint_start_alone(+Address) is det.
 %
@@ -120,7 +123,10 @@ start_alone(_) :-
 start_alone(Address) :-
     alone_begin(Address).
 
-listen(Interface, Port, Bound, Socket) :-
+%   listen(+Interface, +Port, -Address, -Socket): a port is free again as soon
+%   as nobody listens there.
+
+listen(Interface, Port, Address, Socket) :-
     (   Port =:= 0
     ->  true                            % any free one
     ;   Bound = Port
@@ -132,7 +138,12 @@ listen(Interface, Port, Bound, Socket) :-
           ),
           Error,
           ( tcp_close_socket(Socket),
-            throw(Error) )).
+            throw(Error) )),
+    atomic_list_concat([Interface, Bound], :, Address).
+
+our_hello(Start, Address, Me) :-
+    endpoint_process(Process),
+    hello(Process, Start, Address, Me).
 
 next_start(Start) :-
     (   retract(starts(Start0))
@@ -141,6 +152,41 @@ next_start(Start) :-
     ),
     Start is Start0+1,
     assertz(starts(Start)).
+
+%!  endpoint_listen(+Port, -Address) is det.
+%!  endpoint_listen_end(+Address) is det.
+%
+%   Listen at a further Port, too, until the endpoint stops at the latest.
+%   Whoever connects there meets the endpoint as at its first port.
+%
+%   @error existence_error(endpoint, running)
+
+endpoint_listen(Port, Address) :-
+    must_be(between(1, 65535), Port),
+    with_mutex(typhon_endpoint, listen_too(Port, Address)).
+
+listen_too(Port, Address) :-
+    (   running(First, _, _, _)
+    ->  true
+    ;   existence_error(endpoint, running)
+    ),
+    atomic_list_concat([Interface, _], :, First),
+    starts(Start),
+    our_hello(Start, First, Me),
+    listen(Interface, Port, Address, Socket),
+    wire_thread_create(accept_all(Socket, Me), acceptor-Port, Acceptor),
+    assertz(further(Address, Socket, Acceptor)),
+    debug(typhon(session), 'endpoint: listens at ~w, too', [Address]).
+
+endpoint_listen_end(Address) :-
+    with_mutex(typhon_endpoint, listen_no_more(Address)).
+
+listen_no_more(Address) :-
+    retract(further(Address, Socket, Acceptor)),
+    !,
+    wire_thread_end(Acceptor, stopped),
+    tcp_close_socket(Socket).
+listen_no_more(_).
 
 %!  endpoint_stop is det.
 %
@@ -156,6 +202,8 @@ stop :-
     retract(running(Address, Socket, Acceptor, Keeper)),
     !,
     debug(typhon(session), 'endpoint: stops at ~w', [Address]),
+    findall(Further, further(Further, _, _), All),
+    maplist(listen_no_more, All),
     wire_thread_end(Acceptor, stopped),
     tcp_close_socket(Socket),
     setting(flush_time, Seconds),
@@ -173,10 +221,15 @@ stop :-
 stop :-
     alone_end.
 
-%!  endpoint_address(-Address) is semidet.
+%!  endpoint_address(?Address) is semidet.
+%
+%   Address is that of this process: the first, if unbound.
 
 endpoint_address(Address) :-
     running(Address, _, _, _).
+endpoint_address(Address) :-
+    nonvar(Address),
+    further(Address, _, _).
 endpoint_address(Address) :-
     alone(Address).
 

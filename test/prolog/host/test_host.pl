@@ -60,6 +60,17 @@ port(Port) :-
     atomic_list_concat([_,P], :, A),
     atom_number(P, Port).
 
+port_of(Host, Port) :-
+    address(Host, Address),
+    atomic_list_concat([_,P], :, Address),
+    atom_number(P, Port).
+
+listened_to(Port) :-
+    catch(setup_call_cleanup(tcp_connect('127.0.0.1':Port, S, []),
+                             true,
+                             close(S)),
+          error(socket_error(econnrefused, _), _), fail).
+
 test(same_port_again, true(P1 == P2)) :-
     with_hosts([alpha],
                ( port(P1),
@@ -67,8 +78,40 @@ test(same_port_again, true(P1 == P2)) :-
                                     address(beta, B),
                                     host_stop(beta)),
                  atomic_list_concat([_,P], :, B), atom_number(P, P2) )).
-test(another_port, error(permission_error(change, endpoint, port(1)))) :-
-    with_hosts([alpha], host_start(beta, [port(1)])).
+test(a_port_of_its_own, true([P2,Q] == [P,P])) :-
+    free_port(P),
+    with_hosts([alpha],
+               setup_call_cleanup(host_start(beta, [port(P)]),
+                                  ( port_of(beta, P2),
+                                    \+ port_of(alpha, P),
+                                    host_start(gamma, [port(P)]),
+                                    port_of(gamma, Q),
+                                    host_stop(gamma),
+                                    listened_to(P) ),
+                                  host_stop(beta))),
+    \+ listened_to(P).
+test(a_port_of_its_own_free_at_once) :-
+    free_port(P),
+    with_hosts([alpha],
+               forall(between(1, 3, _),
+                      ( host_start(beta, [port(P)]),
+                        listened_to(P),
+                        host_stop(beta) ))).
+test(a_port_of_its_own_in_use, error(socket_error(eaddrinuse, _))) :-
+    with_hosts([alpha],
+               setup_call_cleanup(
+                   ( tcp_socket(S), tcp_bind(S, '127.0.0.1':P),
+                     tcp_listen(S, 5) ),
+                   host_start(beta, [port(P)]),
+                   tcp_close_socket(S))).
+test(agents_between_ports_of_a_process, true(O-Hops == done-2)) :-
+    free_port(P),
+    with_hosts([alpha, beta-[port(P)]],
+               ( address(beta, B),
+                 create([(main :- move(B), move(alpha), hops(N), leave(n(N)))],
+                        A),
+                 joined(A, O),
+                 remote(alpha, sense(n(Hops))) )).
 test(same_interface_again) :-
     with_hosts([alpha],
                ( setup_call_cleanup(host_start(beta, [bind('127.0.0.1')]),
@@ -154,6 +197,106 @@ test(hop_times, true((C == 3, Min =< Mean, Mean =< Max, Min > 0))) :-
                  host_property(beta, hop_time(in, stats(C,Min,Mean,Max))) )).
 
 :- end_tests(host_property).
+
+:- begin_tests(host_change).
+
+visit(Host, Options, Outcome) :-
+    create([(main :- catch(move(Host), error(move_refused(_, Why), _),
+                           throw(refused(Why))))],
+           A, Options),
+    agent_join(A, Outcome0, 10),
+    (   Outcome0 = raised(refused(Why))
+    ->  Outcome = refused(Why)
+    ;   Outcome = Outcome0
+    ).
+
+%   hold(+N, -Agents): N agents that hold their worker until told to go on.
+
+hold(N, Agents) :-
+    findall(A, ( between(1, N, _),
+                 create([(main :- plunit_host_change:in_turn)], A) ),
+            Agents).
+
+in_turn :-
+    thread_send_message(here, here),
+    thread_get_message(go, go).
+
+%   began(+N): so many more have a turn, and nobody else has.
+
+began(N) :-
+    forall(between(1, N, _),
+           thread_get_message(here, here, [timeout(10)])),
+    \+ thread_peek_message(here, here).
+
+go_on(Agents) :-
+    forall(member(_, Agents), thread_send_message(go, go)),
+    forall(member(A, Agents), joined(A, done)).
+
+:- meta_predicate with_queues(0).
+
+with_queues(Goal) :-
+    setup_call_cleanup(
+        ( message_queue_create(_, [alias(here)]),
+          message_queue_create(_, [alias(go)]) ),
+        Goal,
+        ( message_queue_destroy(here), message_queue_destroy(go) )).
+
+test(tokens, true([O1,O2] == [refused(token), done])) :-
+    with_hosts([alpha,beta],
+               ( host_change(beta, tokens([7])),
+                 visit(beta, [], O1),
+                 visit(beta, [tokens([7])], O2) )).
+test(tokens_no_more, true([O1,O2] == [refused(token), done])) :-
+    with_hosts([alpha, beta-[tokens([7])]],
+               ( visit(beta, [], O1),
+                 host_change(beta, tokens([])),
+                 visit(beta, [], O2) )).
+test(capacity, true([O1,O2,C] == [refused(capacity), done, 3])) :-
+    with_hosts([alpha,beta],
+               ( host_change(beta, capacity(0)),
+                 visit(beta, [], O1),
+                 host_change(beta, capacity(3)),
+                 visit(beta, [], O2),
+                 host_property(beta, capacity(C)) )).
+test(more_run_at_a_time) :-
+    with_queues(with_hosts([alpha-[concurrency(1)]],
+                           ( hold(6, Agents),
+                             began(1),
+                             host_change(alpha, concurrency(3)),
+                             began(2),
+                             host_change(alpha, concurrency(inf)),
+                             began(3),
+                             go_on(Agents) ))).
+test(fewer_run_at_a_time) :-
+    with_queues(with_hosts([alpha-[concurrency(3)]],
+                           ( hold(6, Agents),
+                             began(3),
+                             host_change(alpha, concurrency(1)),
+                             thread_send_message(go, go),
+                             thread_send_message(go, go),
+                             began(0),
+                             thread_send_message(go, go),
+                             began(1),
+                             Agents = [_,_,_|Rest],
+                             go_on(Rest),
+                             maplist([A]>>joined(A, done), Agents) ))).
+test(services, F == [s(12)]) :-
+    with_hosts([alpha],
+               ( host_change(alpha, services(library(dcg/basics))),
+                 stays([(main :- phrase(integer(X), `12`), assertz(s(X)))], A),
+                 facts(A, F) )).
+test(unknown_option, error(domain_error(host_option, colour(red)))) :-
+    with_hosts([alpha], host_change(alpha, colour(red))).
+test(wrong_type, error(type_error(_, -1))) :-
+    with_hosts([alpha], host_change(alpha, capacity(-1))).
+test(what_cannot_change,
+     [ forall(member(O, [port(1), place(user), clock(virtual)])),
+       error(permission_error(change, host_option, O)) ]) :-
+    with_hosts([alpha], host_change(alpha, O)).
+test(unknown_host, error(existence_error(host, nowhere))) :-
+    with_hosts([alpha], host_change(nowhere, capacity(1))).
+
+:- end_tests(host_change).
 
 :- begin_tests(links).
 
