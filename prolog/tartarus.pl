@@ -1,0 +1,75 @@
+:- module(tartarus, []).
+
+/** <module> Programs written for Tartarus
+
+The names of Tartarus, of all its three generations, over library(typhon):
+programs written for it run as they are.
+
+    ?- use_module(library(tartarus)).
+
+A platform is a host called `tartarus` whose place is module `user`.  Agents
+are what they were there: clauses in `user` whose first argument is the name
+of the agent.  When one moves, a small agent of Typhon carries these clauses,
+so that it is neither lost nor doubled.
+
+  | starting and stopping             | tartarus/platform |
+  | agents: what they are made of     | tartarus/bodies   |
+  | agents: creating, running, ending | tartarus/agents   |
+  | from platform to platform         | tartarus/moves    |
+  | messages                          | tartarus/messages |
+  | saved platforms and agents        | tartarus/states   |
+  | log servers                       | tartarus/logs     |
+  | how long hops take                | tartarus/times    |
+  | the names before 2019             | tartarus/names    |
+  | speech, Python, robots, pins      | tartarus/devices  |
+
+Local definitions win: programs may have predicates of these names.
+*/
+
+:- reexport(tartarus/platform,
+            [ start_tartarus/2, start_tartarus/3, close_tartarus/0,
+              reset_tartarus/0, get_tartarus_details/2, set_token/1,
+              print_tartarus_status/0, assert_file_to_tartarus/1, verbose/1,
+              platform_start/2, nothing/0
+            ]).
+:- reexport(tartarus/agents).
+:- reexport(tartarus/moves, [move_agent/2, clone_agent/3]).
+:- reexport(tartarus/messages, [post_agent/2, post_agent/3]).
+:- reexport(tartarus/states).
+:- reexport(tartarus/logs, [set_log_server/2, send_log/2, set_log_serverr/2,
+                            send_log1/2, set_log_serverrr/2, send_log2/2]).
+:- reexport(tartarus/times, [in_hop_time/2, out_hop_time/2, in_hop_time/5,
+                             out_hop_time/5, in_hop_time_stat/3,
+                             out_hop_time_stat/3, overall_hop_time_stat/3,
+                             in_hop_times_info/1, out_hop_times_info/1,
+                             in_hop_times_details/1, out_hop_times_details/1,
+                             hoptime/4]).
+:- reexport(tartarus/names).
+:- reexport(tartarus/devices).
+
+                /*******************************
+                *    consult('platform.pl')    *
+                *******************************/
+
+%   Programs consult the file of the platform, wherever it was.  Where it is
+%   not, this library stands for it.
+
+:- multifile user:prolog_load_file/2.
+:- dynamic user:prolog_load_file/2.
+
+user:prolog_load_file(Spec, _) :-
+    strip_module(Spec, Module, File),
+    tartarus:platform_file(File),
+    Module:use_module(library(tartarus)).
+
+platform_file(File) :-
+    atomic(File),
+    atomic_list_concat(Parts, \, File),         % of Windows, too
+    atomic_list_concat(Parts, /, Path),
+    file_base_name(Path, Base),
+    downcase_atom(Base, Name),
+    once(( sub_atom(Name, 0, _, _, platform)
+         ; sub_atom(Name, 0, _, _, tartarus) )),
+    \+ absolute_file_name(File, _,
+                          [ file_type(prolog), access(exist),
+                            file_errors(fail) ]).

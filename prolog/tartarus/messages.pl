@@ -1,0 +1,132 @@
+:- module(tartarus_messages,
+          [ post_agent/2,               % +Agent, +Message
+            post_agent/3,               % +Platform, +Location, ?Message
+            accept/3                    % +Location, +Message, -Answer
+          ]).
+:- use_module(library(typhon), [agent_property/2, agent_send/2, remote/2]).
+:- use_module(platform, [here/1, location_address/2, same_location/2]).
+:- use_module(records, [record/3]).
+:- use_module(threads, [run_apart/1]).
+:- use_module(told, [told/2, wrong/2]).
+
+/** <module> Messages
+
+A message is a goal for another platform, as a list [Functor,Agent|Arguments].
+It is called there in a thread of its own; the sender knows only whether it
+was accepted.
+
+*Threading*: any thread; accept/3 in workers.
+*/
+
+%!  post_agent(+Platform, +Location, ?Message:list) is semidet.
+%!  post_agent(+Agent, +Message:list) is semidet.
+%
+%   Platform is `platform`.  A message is accepted if its agent lives at that
+%   Location, or is one of platform, server, serverr and serverrr; or if it is
+%   the id of an agent of Typhon, which gets Functor(Arguments...) as a
+%   message.  If the agent is unbound, it is bound to the first one there, or
+%   to `platform`.
+
+post_agent(platform, Location, Message) :-
+    nonvar(Location),
+    Location = (Ip,Port),
+    is_list(Message),
+    catch(delivered(Location, Message, Answer),
+          error(Formal, _),
+          ( wrong('No message can be sent to ~w, port ~w: ~p',
+                  [Ip, Port, Formal]),
+            fail )),
+    (   Answer = accepted(Agent)
+    ->  Message = [_,Agent|_]
+    ;   told("Ack:fail~n", []),
+        wrong('The message to ~w, port ~w was not accepted: ~p',
+              [Ip, Port, Message]),
+        fail
+    ).
+
+post_agent(Agent, Message) :-
+    record(Agent, _, Location),
+    post_agent(platform, Location, Message),
+    !.
+
+delivered(Location, Message, Answer) :-
+    here(Here),
+    own(Here, Location),
+    !,
+    accept(Location, Message, Answer).
+delivered(Location, Message, Answer) :-
+    location_address(Location, Address),
+    remote(Address, tartarus_messages:accept(Location, Message, Answer)).
+
+own(Here, Location) :-
+    same_location(Here, Location),
+    !.
+own(_, Location) :-
+    record(_, _, Own),
+    same_location(Own, Location),
+    !.
+
+%!  accept(+Location, +Message, -Answer) is det.
+%
+%   Answer is accepted(Agent) or `refused`.
+
+accept(Location, Message, Answer) :-
+    (   Message = [Functor,Agent|Arguments],
+        atom(Functor),
+        addressee(Agent, Location)
+    ->  deliver(Agent, Functor, Arguments),
+        Answer = accepted(Agent)
+    ;   Answer = refused
+    ).
+
+addressee(Agent, Location) :-
+    var(Agent),
+    !,
+    (   lives_at(Agent0, Location)
+    ->  Agent = Agent0
+    ;   Agent = platform
+    ).
+addressee(Agent, _) :-
+    memberchk(Agent, [platform,server,serverr,serverrr]),
+    !.
+addressee(Agent, Location) :-
+    lives_at(Agent, Location),
+    !.
+addressee(Agent, _) :-
+    native(Agent).
+
+lives_at(Agent, Location) :-
+    record(Agent, _, Own),
+    same_location(Own, Location),
+    !.
+
+native(Agent) :-
+    atom(Agent),
+    sub_atom(Agent, _, _, _, @),
+    \+ record(Agent, _, _),
+    agent_property(Agent, host(_)),
+    !.
+
+deliver(Agent, Functor, Arguments) :-
+    \+ record(Agent, _, _),
+    native(Agent),
+    !,
+    Message =.. [Functor|Arguments],
+    agent_send(Agent, Message).
+deliver(Agent, Functor, Arguments) :-
+    Goal =.. [Functor,Agent|Arguments],
+    run_apart(tartarus_messages:handle(Goal)).
+
+%   Only here is seen what becomes of it.
+
+handle(Goal) :-
+    catch(user:Goal, Error, true),
+    !,
+    (   var(Error)
+    ->  true
+    ;   Error == '$aborted'
+    ->  true
+    ;   print_message(warning, Error)
+    ).
+handle(Goal) :-
+    print_message(warning, format('Message ~p failed', [Goal])).

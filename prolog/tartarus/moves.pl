@@ -1,0 +1,191 @@
+:- module(tartarus_moves,
+          [ move_agent/2,               % +Name, +Location
+            clone_agent/3,              % +Name, +Location, -Clone
+            land/1                      % +Bundle
+          ]).
+:- use_module(library(gensym), [gensym/2]).
+:- use_module(library(typhon), [agent_create/3, agent_join/3]).
+:- use_module(bodies, [body/3, renamed/4]).
+:- use_module(lives, [life_begin/6, life_elsewhere/1]).
+:- use_module(platform, [here/1, location_address/2, same_location/2]).
+:- use_module(records,
+              [record/3, record_payload/2, record_static/2, record_tokens/2]).
+:- use_module(threads, [run_handler/4]).
+:- use_module(times, [hop_done/5]).
+:- use_module(told,
+              [must/1, told/2, verbosely/2, verbosity/1, wrong/2]).
+
+/** <module> From platform to platform
+
+What an agent is made of travels as a bundle, which a carrier, an agent of
+Typhon, takes to the other platform and hands over there.  So the bundle
+arrives once or not at all, whatever happens to the connection; only when it
+is in the agent goes here.
+
+*Threading*: move_agent/2 and clone_agent/3 return when it is known whether
+the agent was let in; land/1 is called by carriers, in a worker.
+*/
+
+:- dynamic turned_back/2.               % Carrier, Why
+
+%!  move_agent(+Name, +Location) is det.
+%
+%   Let an agent go to another platform, where its handler runs from `main`.
+%   The goals that follow run on, here.  What goes wrong is printed: the agent
+%   stays, then.
+
+move_agent(Name, Location) :-
+    must([ check(mov1, 'the agent is an atom', atom(Name)),
+           check(mov2, 'the port is an integer',
+                 ( nonvar(Location), Location = (_,Port), integer(Port) )) ]),
+    move(Name, Location).
+
+move(Name, _) :-
+    (   \+ record(Name, _, _)
+    ;   record_static(Name, _)
+    ),
+    !,
+    told("Move agent Failed for :~w~n", [Name]).
+move(_, Location) :-
+    here(Here),
+    same_location(Here, Location),
+    !,
+    told("Agent is already on same platform.~n", []),
+    abort.
+move(Name, Location) :-
+    bundle(Name, Bundle),
+    sent(Bundle, Location, Outcome),
+    moved(Outcome, Name).
+
+moved(landed, Name) :-
+    life_elsewhere(Name).
+moved(stays, _).
+
+%!  clone_agent(+Name, +Location, -Clone) is semidet.
+%
+%   A copy goes to Location, which may be here, and runs there from `main`;
+%   the original goes on.  Clone is Name with a number.
+
+clone_agent(Name, Location, Clone) :-
+    must([ check(clo1, 'the port is an integer',
+                 ( nonvar(Location), Location = (_,Port), integer(Port) )) ]),
+    (   record(Name, _, _)
+    ->  gensym(Name, Clone),
+        bundle(Name, Bundle0),
+        renamed(Name, Clone, Bundle0, Bundle),
+        sent(Bundle, Location, _)
+    ;   wrong('There is no agent ~w to be cloned', [Name]),
+        fail
+    ).
+
+%   bundle(+Name, -Bundle): bundle(Name, Handler, Payload, Clauses, Tokens,
+%   From, Time).
+
+bundle(Name, bundle(Name, Handler, Payload, Clauses, Tokens, Here, Time)) :-
+    record(Name, Handler, _),
+    !,
+    record_payload(Name, Payload),
+    record_tokens(Name, Tokens),
+    body(Name, [(Handler,3)|Payload], Clauses),
+    here(Here),
+    get_time(Time).
+
+%   sent(+Bundle, +Location, -Outcome): Outcome is `landed` or `stays`.
+
+sent(Bundle, Location, Outcome) :-
+    carried(Location, Bundle, Result),
+    get_time(Now),
+    Bundle = bundle(Name, _, _, _, _, Here, Time),
+    Seconds is Now-Time,
+    say(Result, Name, Location),
+    (   Result == landed
+    ->  hop_done(out, Name, Here, Location, Seconds),
+        verbosely("Time taken to get acknowledgement by agent ~w:~w~n",
+                  [Name, Seconds]),
+        Outcome = landed
+    ;   Outcome = stays
+    ).
+
+say(landed, _, _).
+say(refused, Name, _) :-
+    told("--------negative ACK received-----------~n", []),
+    told("Agent ~w was not allowed to enter the destination.~n", [Name]),
+    told("--------negative ack processed-----------~n", []).
+say(missed(Formal), Name, (Ip,Port)) :-
+    wrong('Agent ~w cannot go to ~w, port ~w: ~p', [Name, Ip, Port, Formal]),
+    told("Enter a valid IP address and Port number.~n", []).
+
+                /*******************************
+                *            CARRIERS          *
+                *******************************/
+
+%   carried(+Location, +Bundle, -Result): Result is `landed`, `refused` or
+%   missed(Formal).
+
+carried(Location, Bundle, Result) :-
+    here(Here),
+    same_location(Here, Location),
+    !,
+    arg(5, Bundle, Tokens),
+    (   user:platform_token(Token),
+        memberchk(Token, Tokens)
+    ->  land(Bundle),
+        Result = landed
+    ;   Result = refused
+    ).
+carried(Location, Bundle, Result) :-
+    location_address(Location, Address),
+    arg(5, Bundle, Tokens),
+    carrier(Program),
+    catch(( agent_create(clauses(Program), Carrier,
+                         [ host(tartarus_gate), tokens(Tokens),
+                           facts([bundle(Address, Bundle)]) ]),
+            agent_join(Carrier, Outcome, inf),
+            result(Outcome, Carrier, Result)
+          ),
+          error(Formal, _),
+          Result = missed(Formal)).
+
+carrier([ (:- agent(tartarus_carrier, [state([bundle/2])])),
+          (main :-
+               bundle(Address, Bundle),
+               catch(move(Address), error(Why, _), true),
+               (   var(Why)
+               ->  tartarus_moves:land(Bundle)
+               ;   self(Me),
+                   tartarus_moves:turn_back(Me, Why)
+               ))
+        ]).
+
+turn_back(Carrier, Why) :-
+    assertz(turned_back(Carrier, Why)).
+
+result(_, Carrier, Result) :-
+    retract(turned_back(Carrier, Why)),
+    !,
+    (   Why = move_refused(_, token)
+    ->  Result = refused
+    ;   Result = missed(Why)
+    ).
+result(done, _, landed) :-
+    !.
+result(Outcome, _, missed(Outcome)).
+
+%!  land(+Bundle) is det.
+%
+%   An agent has come: it is installed and runs.
+
+land(bundle(Name, Handler, Payload, Clauses, Tokens, From, Time)) :-
+    here(Here),
+    life_begin(Name, Here, Handler, Tokens, Payload, Clauses),
+    arrived(Name),
+    get_time(Now),
+    Seconds is Now-Time,
+    hop_done(in, Name, From, Here, Seconds),
+    run_handler(Name, Handler, main, now).
+
+arrived(Name) :-
+    (   verbosity(1)
+    ->  told("Agent bearing ~w has arrived to this platform. ~n", [Name])
+    ;   told("  ~n", [])
+    ).

@@ -1,0 +1,263 @@
+:- module(tartarus_platform,
+          [ start_tartarus/2,           % +A, +B
+            start_tartarus/3,           % +Ip, +Port, +Token
+            platform_start/2,           % +Ip, +Port
+            close_tartarus/0,
+            reset_tartarus/0,
+            get_tartarus_details/2,     % -Ip, -Port
+            set_token/1,                % +Token
+            print_tartarus_status/0,
+            assert_file_to_tartarus/1,  % +File
+            verbose/1,                  % +Bit
+            nothing/0,
+            here/1,                     % -Location
+            location_address/2,         % +Location, -Address
+            same_location/2,            % +Location, +Location
+            port_open/2,                % +Port, -Key
+            port_closed/1               % +Key
+          ]).
+:- use_module(library(typhon), [host_change/2, host_start/2, host_stop/1]).
+:- use_module(told,
+              [ must/1, set_verbosity/1, told/2, wrong/2 ]).
+
+/** <module> Platforms
+
+A platform is known by a pair (Ip,Port), as its user wrote it.  Under it is a
+host called `tartarus`, whose place is module `user`; agents that leave are
+born on another, `tartarus_gate`, which asks for no token.
+
+*Threading*: any thread; one mutex.
+*/
+
+:- multifile
+    closing/0,                          % agents and what they hold go
+    status/0.                           % print a section of the status
+:- dynamic
+    closing/0,
+    status/0,
+    asserted/1.                         % Clause reference, from a file
+
+:- dynamic                              % programs look at these
+    user:platform_Ip/1,
+    user:platform_port/1,
+    user:platform_token/1.
+
+%!  start_tartarus(+Ip, +Port, +Token) is semidet.
+%!  start_tartarus(+Port, +Token) is semidet.
+%!  start_tartarus(+Ip, +Port) is semidet.
+%!  platform_start(+Ip, +Port) is semidet.
+%
+%   Start the platform of this process, and print its banner.  Without a
+%   token nobody is let in.  Fails when the port is taken.  Ports above 65535
+%   are those modulo 65536.
+
+start_tartarus(Ip, Port) :-
+    atom(Ip),
+    !,
+    platform_start(Ip, Port).
+start_tartarus(Port, Token) :-
+    start_tartarus(localhost, Port, Token).
+
+start_tartarus(Ip, Port, Token) :-
+    must([ check(t1, 'the port is an integer', integer(Port)),
+           check(t2, 'the token is an integer', integer(Token)) ]),
+    started(Ip, Port, 0),
+    set_token(Token).
+
+platform_start(Ip, Port) :-
+    must([check(t1, 'the port is an integer', integer(Port))]),
+    started(Ip, Port, 1).
+
+started(Ip, Port, Verbosity) :-
+    with_mutex(tartarus_platform, start(Ip, Port, Verbosity)).
+
+start(_, _, _) :-
+    here(_),
+    !,
+    told("~n            Platform already created~n", []).
+start(Ip, Port, Verbosity) :-
+    catch(open_platform(Ip, Port), error(Formal, _),
+          ( wrong('The platform cannot be started at ~w, port ~w: ~p',
+                  [Ip, Port, Formal]),
+            fail )),
+    set_verbosity(Verbosity),
+    assertz(user:platform_Ip(Ip)),
+    assertz(user:platform_port(Port)),
+    format(atom(Line), '~`=t~48|', []),
+    told("~w~n  Tartarus, on Typhon~n  IP = ~w, Port = ~w~n~w~n",
+         [Line, Ip, Port, Line]).
+
+open_platform(Ip, Port0) :-
+    Port is Port0 mod 65536,
+    interface(Ip, Interface),
+    nobody_yet(Tokens),
+    host_start(tartarus, [ port(Port), bind(Interface), place(user),
+                           tokens(Tokens) ]),
+    catch(host_start(tartarus_gate, []), Ball,
+          ( host_stop(tartarus), throw(Ball) )).
+
+nobody_yet([Token]) :-
+    (   user:platform_token(Token)
+    ->  true
+    ;   Token = '$tartarus_no_token'
+    ).
+
+%!  close_tartarus is semidet.
+%
+%   Threads of handlers that run go on.
+
+close_tartarus :-
+    with_mutex(tartarus_platform, close),
+    told("Platform has been closed.~n", []).
+
+close :-
+    here(_),
+    !,
+    forall(closing, true),
+    host_stop(tartarus_gate),
+    host_stop(tartarus),
+    retractall(user:platform_Ip(_)),
+    retractall(user:platform_port(_)).
+close :-
+    wrong('There is no platform in this process', []),
+    fail.
+
+%!  reset_tartarus is semidet.
+%
+%   Agents and asserted files go; the platform goes on, at the same port.
+
+reset_tartarus :-
+    here(_),
+    !,
+    forall(closing, true),
+    told("-------platform restarted sucessfully-------~n", []).
+reset_tartarus :-
+    wrong('There is no platform in this process', []),
+    fail.
+
+%!  get_tartarus_details(-Ip, -Port) is semidet.
+
+get_tartarus_details(Ip, Port) :-
+    must([ check(d1, 'the first argument is unbound', var(Ip)),
+           check(d2, 'the second argument is unbound', var(Port)) ]),
+    here((Ip,Port)).
+
+%!  set_token(+Token) is det.
+%
+%   Agents must show this token from now on.
+
+set_token(Token) :-
+    retractall(user:platform_token(_)),
+    assertz(user:platform_token(Token)),
+    (   here(_)
+    ->  host_change(tartarus, tokens([Token]))
+    ;   true
+    ).
+
+%!  verbose(+Bit) is det.
+%
+%   Whether arrivals, creations and hop times are told: 0 or 1.
+
+verbose(Bit) :-
+    must([check(v1, 'the argument is 0 or 1', memberchk(Bit, [0,1]))]),
+    set_verbosity(Bit).
+
+%!  nothing is det.
+
+nothing.
+
+%!  print_tartarus_status is det.
+
+print_tartarus_status :-
+    (   here((Ip,Port))
+    ->  told("platform_Ip : ~w    platform_port : ~w~n", [Ip, Port])
+    ;   told("no platform~n", [])
+    ),
+    forall(status, true),
+    told("platform_token:~n", []),
+    forall(user:platform_token(Token), told("~w~n", [Token])).
+
+%!  assert_file_to_tartarus(+File) is semidet.
+%
+%   The clauses of File are asserted into `user`, dynamic.
+
+assert_file_to_tartarus(File) :-
+    must([check(f1, 'the file exists', exists_source_file(File))]),
+    absolute_file_name(File, Path, [file_type(prolog), access(read)]),
+    setup_call_cleanup(
+        open(Path, read, In),
+        assert_all(In),
+        close(In)).
+
+exists_source_file(File) :-
+    ground(File),
+    absolute_file_name(File, _, [ file_type(prolog), access(read),
+                                  file_errors(fail) ]).
+
+assert_all(In) :-
+    repeat,
+    read_term(In, Term, [module(user)]),
+    (   Term == end_of_file
+    ->  !
+    ;   assert_term(Term),
+        fail
+    ).
+
+assert_term((:-Directive)) :-
+    !,
+    ignore(catch(user:Directive, Error,
+                 print_message(warning, Error))).
+assert_term(Clause) :-
+    assertz(user:Clause, Ref),
+    assertz(asserted(Ref)).
+
+closing :-
+    forall(retract(asserted(Ref)),
+           catch(erase(Ref), error(existence_error(_, _), _), true)).
+
+                /*******************************
+                *           LOCATIONS          *
+                *******************************/
+
+%!  here(-Location) is semidet.
+%
+%   Location, (Ip,Port), is that of the platform of this process.
+
+here((Ip,Port)) :-
+    user:platform_Ip(Ip),
+    user:platform_port(Port),
+    !.
+
+%!  location_address(+Location, -Address) is det.
+%
+%   Address is that of the host which is the platform at Location.
+
+location_address((Ip,Port0), Address) :-
+    interface(Ip, Interface),
+    Port is Port0 mod 65536,
+    format(atom(Address), 'tartarus@~w:~d', [Interface, Port]).
+
+interface(Ip, Interface) :-
+    (   memberchk(Ip, [localhost, 'localhost.localdomain'])
+    ->  Interface = '127.0.0.1'
+    ;   Interface = Ip
+    ).
+
+%!  same_location(+Location1, +Location2) is semidet.
+
+same_location(Location1, Location2) :-
+    location_address(Location1, Address),
+    location_address(Location2, Address).
+
+%!  port_open(+Port, -Key) is det.
+%!  port_closed(+Key) is det.
+%
+%   This process listens at a further Port.
+
+port_open(Port0, Key) :-
+    Port is Port0 mod 65536,
+    atom_concat(tartarus_port_, Port, Key),
+    host_start(Key, [port(Port)]).
+
+port_closed(Key) :-
+    host_stop(Key).
