@@ -31,8 +31,7 @@
 :- use_module(platform,
               [ here/1, location_address/2, port_open/2, same_location/2 ]).
 :- use_module(records,
-              [ record/3, record_add/4, record_payload/2, record_static/2,
-                record_tokens/2,
+              [ record/3, record_payload/2, record_static/2, record_tokens/2,
                 set_payload/2, set_tokens/2 ]).
 :- use_module(threads, [run_handler/4]).
 :- use_module(told, [must/1, told/2, verbosely/2, wrong/2]).

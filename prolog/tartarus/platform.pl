@@ -81,6 +81,7 @@ start(Ip, Port, Verbosity) :-
                   [Ip, Port, Formal]),
             fail )),
     set_verbosity(Verbosity),
+    set_stream(user_output, buffer(line)),      % what threads print, too
     assertz(user:platform_Ip(Ip)),
     assertz(user:platform_port(Port)),
     format(atom(Line), '~`=t~48|', []),

@@ -1,0 +1,339 @@
+:- module(test_tartarus, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/tartarus_nodes').
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+
+/** <module> Programs written for Tartarus, as their users ran them
+
+Each platform is a process; what is typed and printed is what counts.
+
+*Threading*: one test at a time.
+*/
+
+line(Format, Arguments, Line) :-
+    format(string(Line), Format, Arguments).
+
+%   A goal that starts a platform, and says so when it stands.
+
+up(Node, Port, Token) :-
+    line("start_tartarus(localhost, ~w, ~w).", [Port, Token], Start),
+    says(Node, Start),
+    line("Port = ~w", [Port], Banner),
+    printed(Node, [Banner]).
+
+:- begin_tests(third_generation).
+
+test(a_visitor_is_listed_where_it_went) :-
+    ports(2, [P1,P2]),
+    line("   start_tartarus(localhost, ~w, 7),", [P1], Start),
+    line("   create_mobile_agent(bee, (localhost,~w), fly, [7]),", [P1], Create),
+    line("   move_agent(bee, (localhost,~w)).", [P2], Move),
+    with_nodes([[ ":- dynamic fly/3.",
+                  "go :- consult('platform.pl'),", Start, Create,
+                  "   writeln('off it goes'),", Move,
+                  "fly(guid, (Ip,Port), main) :-",
+                  "   writeln(guid:' has come to ':Ip:Port)." ],
+                []],
+               [A,B],
+               ( up(B, P2, 7),
+                 says(A, "go."),
+                 line("bee: has come to :localhost:~w", [P2], Come),
+                 printed(B, ["  \n", Come]),
+                 printed(A, ["off it goes"]),
+                 says(B, "list_agent."),
+                 line("Agent Name :bee, handler name:fly, residing on port:~w",
+                      [P2], Row),
+                 printed(B, ["====Agent list====", Row]),
+                 says(A, "list_agent(L), writeln(agents(L))."),
+                 printed(A, ["agents([])"]) )).
+test(a_payload_travels_and_its_template_stays) :-
+    ports(2, [P1,P2]),
+    with_nodes([[ ":- dynamic carry/3, load/2.",
+                  "load(guid, 150).",
+                  "carry(guid, _, main) :- load(guid, N),",
+                  "    writeln('it weighs ':N)." ],
+                []],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 line("create_mobile_agent(ant, (localhost,~w), carry, [1]), \c
+                       add_payload(ant, [(load,2)]), \c
+                       move_agent(ant, (localhost,~w)).", [P1,P2], Go),
+                 says(A, Go),
+                 printed(B, ["it weighs :150"]),
+                 says(B, "findall(X-N, load(X,N), L), writeln(loads(L))."),
+                 printed(B, ["loads([ant-150])"]),
+                 says(A, "findall(X-N, load(X,N), L), writeln(loads(L))."),
+                 printed(A, ["loads([guid-150])"]) )).
+test(there_and_back_and_a_clone_speaks) :-
+    ports(2, [P1,P2]),
+    line("next(~w, ~w).", [P1,P2], N1),
+    line("next(~w, ~w).", [P2,P1], N2),
+    Program = [ ":- dynamic thanos_task/3, energy/2.",
+                N1, N2,
+                "energy(guid, 2).",
+                "thanos_task(guid, (Ip,Port), main) :-",
+                "   energy(guid, E), writeln(guid:at(Port):energy(E)),",
+                "   next(Port, Other),",
+                "   (  E > 0",
+                "   -> E1 is E-1, retractall(energy(guid, _)),",
+                "      assertz(energy(guid, E1)),",
+                "      move_agent(guid, (Ip,Other))",
+                "   ;  E =:= 0",
+                "   -> retractall(energy(guid, _)), assertz(energy(guid, -1)),",
+                "      clone_agent(guid, (Ip,Other), C), writeln(clone:C)",
+                "   ;  true",
+                "   )." ],
+    with_nodes([Program,Program], [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 line("create_mobile_agent(thanos, (localhost,~w), \c
+                       thanos_task, [1]), \c
+                       add_payload(thanos, [(energy,2)]), \c
+                       execute_agent(thanos, (localhost,~w), thanos_task).",
+                      [P1,P1], Go),
+                 says(A, Go),
+                 line("thanos:at(~w):energy(2)", [P1], L1),
+                 line("thanos:at(~w):energy(1)", [P2], L2),
+                 line("thanos:at(~w):energy(0)", [P1], L3),
+                 line("thanos1:at(~w):energy(-1)", [P2], L4),
+                 printed(A, [L1,L3,"clone:thanos1"]),
+                 printed(B, [L2,L4]),
+                 says(B, "isexist_agent(N, L, H), writeln(N/L/H)."),
+                 line("thanos1/(localhost,~w)/thanos_task", [P2], L5),
+                 printed(B, [L5]) )).
+test(who_shows_no_token_is_refused_and_stays) :-
+    ports(2, [P1,P2]),
+    with_nodes([[ ":- dynamic h/3.", "h(guid, _, main) :- writeln(here(guid))."],
+                []],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 2),
+                 line("create_mobile_agent(fly, (localhost,~w), h, [1]), \c
+                       move_agent(fly, (localhost,~w)), writeln(told).",
+                      [P1,P2], Go),
+                 says(A, Go),
+                 printed(A, ["--------negative ACK received-----------",
+                             "Agent fly was not allowed to enter the destination.",
+                             "--------negative ack processed-----------",
+                             "told"]),
+                 says(B, "set_token(1)."),
+                 line("move_agent(fly, (localhost,~w)).", [P2], Again),
+                 says(A, Again),
+                 printed(B, ["here(fly)"]) )).
+test(a_dead_platform_and_the_same_one) :-
+    ports(2, [P1,P2]),
+    with_nodes([[":- dynamic h/3.", "h(guid, _, main)."]], [A],
+               ( up(A, P1, 1),
+                 line("create_mobile_agent(fly, (localhost,~w), h, [1]), \c
+                       move_agent(fly, (localhost,~w)), \c
+                       isexist_agent(fly, _, H), writeln(still(H)).",
+                      [P1,P2], Go),
+                 says(A, Go),
+                 printed(A, ["Enter a valid IP address and Port number.",
+                             "still(h)"]),
+                 line("move_agent(fly, ('127.0.0.1',~w)).", [P1], Same),
+                 says(A, Same),
+                 printed(A, ["Agent is already on same platform."]),
+                 says(A, "move_agent(nobody, (localhost,1)), writeln(true1)."),
+                 printed(A, ["Move agent Failed for :nobody", "true1"]) )).
+test(goals_after_a_move_run_on_where_it_was) :-
+    ports(2, [P1,P2]),
+    line("h(guid, (_,~w), main) :- !,", [P1], L1),
+    line("   move_agent(guid, (localhost,~w)), left(guid, X),", [P2], L2),
+    with_nodes([[ ":- dynamic h/3, left/2.", "left(guid, old).",
+                  L1, L2, "   writeln(here_still(X)).",
+                  "h(guid, _, main) :- writeln(there(guid))." ], []],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 line("create_mobile_agent(a, (localhost,~w), h, [1]), \c
+                       add_payload(a, [(left,2)]), \c
+                       execute_agent(a, (localhost,~w), h).", [P1,P1], Go),
+                 says(A, Go),
+                 printed(B, ["there(a)"]),
+                 printed(A, ["here_still(old)"]),
+                 says(A, "findall(X, left(X,_), L), writeln(left(L))."),
+                 printed(A, ["left([guid])"]) )).
+test(a_large_port) :-
+    ports(1, [P]),
+    Large is P+65536,
+    with_nodes([[]], [A],
+               ( up(A, Large, 1),
+                 says(A, "get_tartarus_details(I,P), writeln(I-P)."),
+                 line("localhost-~w", [Large], Details),
+                 printed(A, [Details]) )).
+test(wrong_arguments_abort) :-
+    with_nodes([[]], [A],
+               ( says(A, "start_tartarus(localhost, x, y) ; writeln(no)."),
+                 printed(A, ["Error# t1:", "Error# t2:", "errors found: 2"]),
+                 says(A, "writeln(alive)."),
+                 printed(A, ["alive"]),
+                 prints(A, Text),
+                 \+ sub_string(Text, _, _, _, "no\n") )).
+
+:- end_tests(third_generation).
+
+:- begin_tests(earlier_generations).
+
+test(first) :-
+    ports(2, [P1,P2]),
+    line("h(guid, (_,~w), main) :- !, sum(guid, S), S1 is S+1,", [P1], L1),
+    line("   agent_move(guid, (localhost,~w)).", [P2], L2),
+    with_nodes([[ ":- dynamic h/3, sum/2.", "sum(guid, 0).",
+                  L1, "   retractall(sum(guid,_)), assertz(sum(guid,S1)),", L2,
+                  "h(guid, _, main) :- sum(guid, S), writeln(sum:S)." ],
+                []],
+               [A,B],
+               ( line("platform_start(localhost, ~w), set_token(5).", [P1], S1),
+                 line("platform_start(localhost, ~w), set_token(5).", [P2], S2),
+                 says(A, S1), says(B, S2),
+                 line("Port = ~w", [P2], Banner), printed(B, [Banner]),
+                 line("agent_create(add, (localhost,~w), h), \c
+                       add_token(add, [5]), add_payload(add, [(sum,2)]), \c
+                       agent_execute(add, (localhost,~w), h).", [P1,P1], Go),
+                 says(A, Go),
+                 printed(B, ["Agent bearing add has arrived to this platform. ",
+                             "sum:1"]),
+                 printed(A, ["Time taken to get acknowledgement by agent add:"])
+               )).
+test(without_a_token_nobody_is_let_in) :-
+    ports(2, [P1,P2]),
+    with_nodes([[":- dynamic h/3.", "h(guid, _, main)."], []], [A,B],
+               ( line("start_tartarus(localhost, ~w).", [P2], _),
+                 line("start_tartarus(localhost,~w).", [P1], S1),
+                 line("start_tartarus(localhost,~w).", [P2], S2),
+                 says(A, S1), says(B, S2),
+                 line("Port = ~w", [P2], Banner), printed(B, [Banner]),
+                 line("create_mobile_agent(m, h), add_token(m, [1]), \c
+                       move_agent(m, (localhost,~w)).", [P2], Go),
+                 says(A, Go),
+                 printed(A, ["Agent m was not allowed to enter"]) )).
+test(a_static_agent_is_reached_at_its_port) :-
+    ports(3, [P1,P2,P3]),
+    with_nodes([[ "h(guid, (Ip,Port), main) :- writeln('Hello':guid:Ip:Port).",
+                  "h(guid, From, What) :- writeln(heard(guid, From, What))." ],
+                []],
+               [A,B],
+               ( line("start_tartarus(localhost,~w).", [P1], S1),
+                 line("start_tartarus(localhost,~w).", [P2], S2),
+                 says(A, S1), says(B, S2),
+                 line("create_static_agent(s, (localhost,~w), h), \c
+                       execute_agent(s, (localhost,~w), h), \c
+                       move_agent(s, (localhost,~w)).", [P3,P3,P2], Go),
+                 says(A, Go),
+                 line("Hello:s:localhost:~w", [P3], Hello),
+                 printed(A, [Hello]),
+                 printed(A, ["Move agent Failed for :s"]),
+                 line("post_agent(platform, (localhost,~w), \c
+                       [h,s,(localhost,~w),ping]).", [P3,P2], Post),
+                 says(B, Post),
+                 line("heard(s,(localhost,~w),ping)", [P2], Heard),
+                 printed(A, [Heard]),
+                 line("post_agent(platform, (localhost,~w), \c
+                       [h,s,(localhost,~w),ping]) ; writeln(refused).",
+                      [P1,P2], Wrong),
+                 says(B, Wrong),
+                 printed(B, ["Ack:fail", "refused"]) )).
+
+:- end_tests(earlier_generations).
+
+:- begin_tests(messages).
+
+test(to_whoever_is_there) :-
+    ports(2, [P1,P2]),
+    with_nodes([[], [ "hear(Who, (_,_), W) :- writeln(got(Who, W)).",
+                      "bad(_, _) :- fail." ]],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 line("post_agent(platform, (localhost,~w), \c
+                       [hear,X,(localhost,~w),\"Hello\"]), writeln(x(X)).",
+                      [P2,P1], Post),
+                 says(A, Post),
+                 printed(B, ["got(platform,Hello)"]),
+                 printed(A, ["x(platform)"]),
+                 line("post_agent(platform, (localhost,~w), [bad,platform,1]), \c
+                       writeln(accepted).", [P2], Bad),
+                 says(A, Bad),
+                 printed(A, ["accepted"]),
+                 printed(B, ["Message bad(platform,1) failed"]) )).
+test(to_nobody) :-
+    ports(2, [P1,P2]),
+    with_nodes([[]], [A],
+               ( up(A, P1, 1),
+                 line("post_agent(platform, (localhost,~w), [f,a]) \c
+                       ; writeln(failed).", [P2], Post),
+                 says(A, Post),
+                 printed(A, ["failed"]) )).
+test(logs) :-
+    ports(2, [P1,P2]),
+    with_nodes([[], []], [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 line("set_log_server(localhost,~w), send_log(me, done(1)).",
+                      [P2], Log),
+                 says(A, Log),
+                 line("me localhost ~w done(1)", [P1], Entry),
+                 printed(B, [Entry]),
+                 says(B, "read_file_to_string('server_log.txt', S, []), \c
+                          print(S), nl."),
+                 printed(B, ["\"\\n", Entry]) )).
+
+:- end_tests(messages).
+
+:- begin_tests(platforms).
+
+test(reset_works_at_once) :-
+    ports(2, [P1,P2]),
+    with_nodes([[":- dynamic h/3.", "h(guid, _, main) :- writeln(here)."], []],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 line("create_mobile_agent(a, (localhost,~w), h, [1]), \c
+                       move_agent(a, (localhost,~w)).", [P1,P2], Go),
+                 says(A, Go), printed(B, ["here"]),
+                 says(B, "reset_tartarus, list_agent(L), writeln(left(L))."),
+                 printed(B, ["restarted sucessfully", "left([])"]),
+                 says(A, Go), printed(B, ["left([])", "here"]),
+                 says(B, "close_tartarus."),
+                 printed(B, ["Platform has been closed."]),
+                 up(B, P2, 1),
+                 says(A, Go), printed(B, ["closed.", "here"]) )).
+test(an_agent_made_on_another) :-
+    ports(2, [P1,P2]),
+    with_nodes([[], [":- dynamic h/3.", "h(guid, _, main) :- writeln(ran)."]],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 line("create_mobile_agent(far, (localhost,~w), h, [1]).",
+                      [P2], Go),
+                 says(A, Go),
+                 line("Creating agent on platform with IP localhost and port \c
+                       number ~w", [P2], Said),
+                 printed(A, [Said, "true"]),
+                 line("execute_agent(far, (localhost,~w), h).", [P2], Run),
+                 says(B, Run),
+                 printed(B, ["ran"]) )).
+test(what_is_saved_is_loaded) :-
+    ports(2, [P1,P2]),
+    with_nodes([[ ":- dynamic h/3, n/2.", "n(guid, 1).",
+                  "h(guid, _, main) :- n(guid, N), writeln(guid:N)." ], []],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 says(A, "create_mobile_agent(a, _, h, [1]), \c
+                          add_payload(a, [(n,2)]), save_agent(a, 'a.pl'), \c
+                          save_tartarus_state('all.txt'), writeln(saved)."),
+                 printed(A, ["saved"]),
+                 says(B, "load_tartarus_state('all.txt')."),
+                 printed(B, ["a:1"]),
+                 says(B, "purge_agent(a), consult('a.pl'), n(a, X), \c
+                          writeln(n:X)."),
+                 printed(B, ["n:1"]) )).
+test(local_definitions_win) :-
+    ports(1, [P]),
+    with_nodes([[ "agent_list(mine).", "nothing :- writeln(my_nothing).",
+                  "move(X) :- writeln(moving(X)).",
+                  ":- dynamic platform_port/1, tts/1." ]],
+               [A],
+               ( up(A, P, 1),
+                 says(A, "agent_list(X), writeln(X), nothing, move(there)."),
+                 printed(A, ["mine", "my_nothing", "moving(there)"]),
+                 says(A, "\\+ tts(a), platform_port(Q), writeln(port:Q)."),
+                 line("port:~w", [P], Port),
+                 printed(A, [Port]) )).
+
+:- end_tests(platforms).
