@@ -1,8 +1,10 @@
 :- module(test_tartarus, []).
 :- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
 :- use_module('../../lib/tartarus_nodes').
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
+:- use_module(library(typhon)).
 
 /** <module> Programs written for Tartarus, as their users ran them
 
@@ -276,6 +278,47 @@ test(logs) :-
                  printed(B, ["\"\\n", Entry]) )).
 
 :- end_tests(messages).
+
+:- begin_tests(native_agents).
+
+%   A native agent goes to a platform, uses what is there, hears a message of
+%   Tartarus there, and comes home.
+
+test(visit_a_platform, What == heard(ping(7), 42)) :-
+    ports(1, [P]),
+    with_nodes([["answer(42)."]], [B],
+               ( up(B, P, 5),
+                 with_hosts([alpha], visit(P, B, What)) )).
+
+visit(P, B, What) :-
+    line("tartarus@127.0.0.1:~w", [P], Address0),
+    atom_string(Address, Address0),
+    create([ (main :- home(Home), move(Address), answer(X),
+                      writeln(native(X)), receive(_-Message), move(Home),
+                      leave(heard(Message, X))) ],
+           Agent, [tokens([5])]),
+    printed(B, ["native(42)"]),
+    line("post_agent(platform, (localhost,~w), [ping,'~w',7]).", [P, Agent],
+         Post),
+    says(B, Post),
+    joined(Agent, done),
+    remote(alpha, take(What0)),
+    What = What0.
+
+test(show_their_tokens, Why == token) :-
+    ports(1, [P]),
+    with_nodes([[]], [B],
+               ( up(B, P, 5),
+                 line("tartarus@127.0.0.1:~w", [P], Address0),
+                 atom_string(Address, Address0),
+                 with_hosts([alpha],
+                            ( create([(main :- catch(move(Address),
+                                                     error(move_refused(_, W), _),
+                                                     leave(W)))], Agent),
+                              joined(Agent, done),
+                              remote(alpha, take(Why)) )) )).
+
+:- end_tests(native_agents).
 
 :- begin_tests(platforms).
 
