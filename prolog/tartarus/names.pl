@@ -22,12 +22,31 @@
 *Threading*: as what they stand for.
 */
 
+%!  platform_close is semidet.
+%!  platform_reset is semidet.
+%!  get_platform_details(-Ip, -Port) is semidet.
+%!  platform_assert_file(+File) is semidet.
+%!  save_platform_state(+File) is det.
+%!  load_platform_state(+File) is semidet.
+
 platform_close :- close_tartarus.
 platform_reset :- reset_tartarus.
 get_platform_details(Ip, Port) :- get_tartarus_details(Ip, Port).
 platform_assert_file(File) :- assert_file_to_tartarus(File).
 save_platform_state(File) :- save_tartarus_state(File).
 load_platform_state(File) :- load_tartarus_state(File).
+
+%!  agent_execute(+Name, +Location, +Handler) is det.
+%!  agent_kill(+Name) is det.
+%!  agent_move(+Name, +Location) is det.
+%!  agent_clone(+Name, +Location, -Clone) is semidet.
+%!  agent_post(+Name, +Message) is semidet.
+%!  agent_post(+Platform, +Location, ?Message) is semidet.
+%!  agent_save(+Name, +File) is semidet.
+%!  agent_list is det.
+%!  agent_list(-Agents) is det.
+%!  list_agents is det.
+%!  agent_isexist(?Name, ?Location, ?Handler) is semidet.
 
 agent_execute(Name, Location, Handler) :-
     execute_agent(Name, Location, Handler).
