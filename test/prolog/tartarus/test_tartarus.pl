@@ -380,3 +380,88 @@ test(local_definitions_win) :-
                  printed(A, [Port]) )).
 
 :- end_tests(platforms).
+
+:- begin_tests(the_rest).
+
+%   answers(+Lines, +Goals, +Texts): a platform with this program, at which
+%   Goals are typed, prints Texts.
+
+answers(Lines, Goals, Texts) :-
+    ports(1, [P]),
+    with_nodes([Lines], [A],
+               ( up(A, P, 1),
+                 forall(member(Goal, Goals), says(A, Goal)),
+                 printed(A, Texts) )).
+
+test(atoms_are_replaced_and_not_text) :-
+    answers([ ":- dynamic h/3.",
+              "h(guid, _, main) :- \\+ fail, writeln([guid, guidance, \"guid\", \c
+               'It is', f(guid)])." ],
+            [ "create_mobile_agent(bob, _, h, [1]).",
+              "get_tartarus_details(I, P), execute_agent(bob, (I,P), h)." ],
+            ["[bob,guidance,guid,It is,f(bob)]"]).
+test(tokens_and_payloads) :-
+    answers([ ":- dynamic h/3, p/2, q/2.", "h(guid, _, main).", "p(guid, 1).",
+              "q(guid, X) :- X = guid." ],
+            [ "create_mobile_agent(b, _, h, [1]), add_token(b, [2,1,3]), \c
+               remove_token(b, [2]), agent_token(b, T), writeln(t:T).",
+              "add_payload(b, [(p,2),(q,2)]), q(b, X), writeln(x:X).",
+              "remove_payload(b, [(p,2)]), agent_payload(b, L), writeln(l:L), \c
+               \\+ p(b, _), p(guid, Y), writeln(y:Y).",
+              "purge_agent(b), \\+ q(b, _), \\+ isexist_agent(b, _, _), \c
+               writeln(gone)." ],
+            ["t:[1,3]", "x:b", "l:[(q,2)]", "y:1", "gone"]).
+test(names) :-
+    answers([], [ "get_new_name(foo, N), writeln(N), get_new_name_alpha(A), \c
+                   atom_length(A, L), writeln(len:L)." ],
+            ["foo1_localhost_", "len:6"]).
+test(execute_waits_for_the_last_one) :-
+    answers([ ":- dynamic h/3.",
+              "h(guid, _, S) :- writeln(begin(S)), thread_get_message(go(S)), \c
+               writeln(end(S))." ],
+            [ "create_mobile_agent(b, L, h, [1]), execute_agent(b, L, h, one), \c
+               tartarus_threads:last(b, T), execute_agent(b, L, h, two), \c
+               writeln(both), thread_send_message(T, go(one)).",
+              "tartarus_threads:last(b, T), thread_send_message(T, go(two))." ],
+            ["end(one)", "begin(two)", "end(two)"]).
+test(hop_times) :-
+    ports(2, [P1,P2]),
+    with_nodes([[":- dynamic h/3.", "h(guid, _, main) :- writeln(in)."], []],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 says(A, "in_hop_time_stat(X,Y,Z), writeln(X/Y/Z)."),
+                 line("create_mobile_agent(a, _, h, [1]), \c
+                       move_agent(a, (localhost,~w)).", [P2], Go),
+                 says(A, Go), printed(B, ["in"]),
+                 says(A, "out_hop_times_details([(N,F,T,(D,M),S)]), \c
+                          float(S), atom(D), writeln(N:F:T)."),
+                 line("a:(localhost,~w):(localhost,~w)", [P1,P2], Out),
+                 printed(A, ["0/0/0", Out]),
+                 says(B, "in_hop_time_stat(Max,Max,Max), in_hop_time(W,Max), \c
+                          writeln(w:W)."),
+                 printed(B, ["w:a"]) )).
+test(asserted_files_go_with_a_reset) :-
+    answers([":- dynamic h/3."],
+            [ "open('f.pl', write, S), writeln(S, 'colour(red).'), close(S), \c
+               assert_file_to_tartarus('f.pl'), call(colour, C), writeln(C).",
+              "reset_tartarus, \\+ call(colour, _), writeln(faded)." ],
+            ["red", "sucessfully", "faded"]).
+test(python) :-
+    answers([], [ "open('twice.py', write, S), \c
+                   writeln(S, 'def twice(x):'), \c
+                   writeln(S, '    print(\"so\"); return int(x)*2'), \c
+                   writeln(S, 'def five(): return 5'), close(S).",
+                  "python_call(twice, twice, 21, R), atom(R), writeln(r:R).",
+                  "python_call(twice, five, R), writeln(r:R).",
+                  "catch(python_call(twice, none, R), error(E, _), \c
+                         (functor(E, N, _), writeln(N)))." ],
+            ["r:42", "r:5", "process_error"]).
+test(what_is_not_here_says_so) :-
+    answers([], ["digitalWrite(1, 1)."],
+            ["pins are not reached from here"]).
+test(subtitles) :-
+    answers([], ["tts_off, subt_on, tts(hello(1)).", "subt_off, tts(bye), \c
+                  writeln(silence)."],
+            ["hello(1)", "silence"]).
+
+:- end_tests(the_rest).
