@@ -116,6 +116,15 @@ test(in_doubt, true(Kinds == [stuck])) :-
     kinds(false, [ less(standing, agent(_, ids, _, _, _)),
                    more(standing, agent(a, ids, in_doubt, 0, [tick(2)])) ],
           Kinds).
+test(in_doubt_to_who_died_when_it_was_sending_it_back,
+     true(Kinds == [in_doubt])) :-
+    kinds(true, [ less(lives, life(b, 2, _, _)),
+                  less(standing, agent(_, idt, _, _, _)),
+                  more(standing, agent(a, idt, in_doubt, 1,
+                                       [me(t), tick(3), steps(1), token(-1)])),
+                  more(events, e(t, 4, go('a1@x:1'), 49, b-1)) ],
+          Kinds0),
+    subtract(Kinds0, [again], Kinds).
 test(message_lost, true(Kinds == [message_lost])) :-
     kinds(false, [more(mail, sent(a, s, 2, 60))], Kinds).
 test(message_lost_after_the_death, true(Kinds == [message_lost])) :-

@@ -187,6 +187,8 @@ depends_on_the_dead(Key) :-
     gone(Name),
     (   last_trace(Key, go(Host), _, _),
         home_of(Host, Name)
+    ;   sent_on(Key, Host),
+        home_of(Host, Name)
     ;   created(Key, _, _, Name-_, _)
     ;   created(Key, _, _, Home-_, _),  % who has forgotten, and asks all
         life(Home, _, _, Died),
@@ -195,6 +197,14 @@ depends_on_the_dead(Key) :-
         memberchk(Kind, [sleeper,cloner])
     ),
     !.
+
+%   The copy that stands somewhere was sent to Host; it may have come further,
+%   and its last steps died with who was about to send it back.
+
+sent_on(Key, Host) :-
+    created(Key, _, Id, _, _),
+    standing(Id, Holder, _, _, _),
+    aggregate_all(max(T, E), event(Key, _, E, T, Holder-_), max(_, go(Host))).
 
 gone(Name) :-
     life(Name, 1, _, _),
