@@ -18,7 +18,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools tools-peers tools-all demo demo-robots thesis \
-    thesis-real test chaos fuzz check bench bench-peers profile \
+    thesis-real test chaos fuzz check doc bench bench-peers profile \
     test-portability install clean
 
 help:
@@ -57,6 +57,10 @@ check:                  ## a quick look for mistakes, offline
 
 fuzz:                   ## what nobody should send; COUNT=100000, SEED=1
 	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED)
+
+doc: tools              ## the documents as a site, in out/doc
+	@.ci/install doc
+	@$(SWIPL) doc/site.pl -- out/doc
 
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench

@@ -145,7 +145,7 @@ end_once(Why) :-
     ;   wire_thread_obey(Why)
     ).
 
-%!  wire_thread_obey(+Why) is erroneous.
+%!  wire_thread_obey(+Why).
 %
 %   This thread ends.
 

@@ -1,0 +1,67 @@
+// Looks up words in `sections` (sections.js). A section is found when each
+// word is in its title, its text or the title of its page.
+
+function search(query, limit = 20) {
+    const words = query.toLowerCase().split(/\s+/).filter(w => w);
+    if (words.length === 0) return [];
+    return sections
+        .map(section => ({section, score: score(section, words)}))
+        .filter(hit => hit.score > 0)
+        .sort((a, b) => b.score - a.score)
+        .slice(0, limit)
+        .map(hit => ({...hit.section, around: around(hit.section, words)}));
+}
+
+function score(section, words) {
+    const title = section.title.toLowerCase();
+    const page = section.page.toLowerCase();
+    const text = section.text.toLowerCase();
+    let sum = 0;
+    for (const word of words) {
+        const points =
+            title === word || title.startsWith(word + "/") ? 100 :
+            title.startsWith(word) ? 40 :
+            title.includes(word) ? 20 :
+            page.includes(word) ? 5 :
+            text.includes(word) ? 1 : 0;
+        if (points === 0) return 0;
+        sum += points;
+    }
+    return sum;
+}
+
+function around(section, words) {
+    const at = Math.max(0, ...words.map(word =>
+        section.text.toLowerCase().indexOf(word)));
+    const start = Math.max(0, at - 40);
+    return (start > 0 ? "…" : "") + section.text.slice(start, start + 120);
+}
+
+function show(found, hits) {
+    found.replaceChildren(...hits.map(hit => {
+        const link = document.createElement("a");
+        const text = document.createElement("small");
+        link.href = hit.at;
+        link.append(hit.title === hit.page
+            ? hit.title : hit.title + " · " + hit.page);
+        text.textContent = hit.around;
+        link.append(text);
+        return link;
+    }));
+}
+
+if (typeof document !== "undefined") {
+    const field = document.getElementById("search");
+    const found = document.getElementById("found");
+    field.addEventListener("input", () => show(found, search(field.value)));
+    field.addEventListener("keydown", event => {
+        if (event.key === "Enter") found.querySelector("a")?.click();
+        if (event.key === "Escape") { field.value = ""; show(found, []); }
+    });
+    document.addEventListener("keydown", event => {
+        if (event.key === "/" && event.target === document.body) {
+            event.preventDefault();
+            field.focus();
+        }
+    });
+}
