@@ -53,6 +53,7 @@ public(Module, Room:PI) :-
     module_property(Module, exports(PIs)),
     member(PI, PIs),
     defined_in(Module, PI, Room).
+public(typhon_words, typhon_words:sleep/1).     % with the name of another
 
 defined_in(Module, Name/Arity, Room) :-
     functor(Head, Name, Arity),

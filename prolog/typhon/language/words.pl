@@ -194,9 +194,9 @@ undeliver(Name) :-
 %!  pheromone(?Problem, -Source, -Strength) is nondet.
 %
 %   The host calls for someone who can solve Problem, and takes this back;
-%   and what pheromones from other hosts are here. See typhon_pheromone,
-%   also for the options. Agents follow them by the migration strategy
-%   phercon(Problem).
+%   and what pheromones from other hosts are here. For the options see
+%   pheromone_emit/3, for how it fades pheromone_strength/4. Agents follow
+%   pheromones by the migration strategy phercon(Problem).
 
 emit(Problem) :-
     emit(Problem, []).
@@ -261,6 +261,11 @@ clone(_) :-
     misplaced(clone/1).
 clone(_, _) :-
     misplaced(clone/2).
+
+%!  sleep(+Seconds) is det.
+%
+%   Go on after that much host time.  It is not the sleep/1 of the system:
+%   an agent that sleeps holds no thread.
 
 %!  receive(?Message) is det.
 %!  receive(?Message, +Timeout) is semidet.

@@ -121,6 +121,8 @@ unacknowledged('PLAYTONE').
 unacknowledged('PLAYSOUNDFILE').
 
 %!  nxt_battery(+Brick, -MilliVolts:integer) is det.
+%
+%   The voltage of the battery.
 
 nxt_battery(Brick, MilliVolts) :-
     nxt_command(Brick, 'GETBATTERYLEVEL', _{}, Values),
@@ -196,6 +198,8 @@ nxt_sound_file(Brick, File, Loop) :-
     nxt_command(Brick, 'PLAYSOUNDFILE', _{loop:Loop, name:File}, _).
 
 %!  nxt_sound_stop(+Brick) is det.
+%
+%   Whatever sounds on Brick is broken off.
 
 nxt_sound_stop(Brick) :-
     nxt_command(Brick, 'STOPSOUNDPLAYBACK', _{}, _).

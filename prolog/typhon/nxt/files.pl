@@ -70,6 +70,8 @@ close_handle(Brick, Handle) :-
     nxt_command(Brick, 'CLOSE', _{handle:Handle}, _).
 
 %!  nxt_file_exists(+Brick, +File) is semidet.
+%
+%   True if Brick has a file of that name.
 
 nxt_file_exists(Brick, File) :-
     nxt_files(Brick, File, [_|_]).

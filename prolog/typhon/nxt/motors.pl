@@ -227,6 +227,8 @@ output_state(Brick, Motor, State) :-
     nxt_command(Brick, 'GETOUTPUTSTATE', _{port:Port}, State).
 
 %!  nxt_tacho_reset(+Brick, +Motors) is det.
+%
+%   The motors stand at 0 degrees now. Motors is one, a list, or `all`.
 
 nxt_tacho_reset(Brick, Motors) :-
     ( Motors == all -> Ports = [0,1,2] ; motor_ports(Motors, Ports) ),

@@ -38,6 +38,8 @@ power, and anticlockwise.
 %!  move_forward_nxt(+Name, +P1, +P2, +Speed) is det.
 %!  move_backward_nxt(+Name, +P, +Speed) is det.
 %!  move_backward_nxt(+Name, +P1, +P2, +Speed) is det.
+%
+%   The motors run at Speed, -100 to 100, until they are stopped.
 
 move_forward_nxt(Name, P, Speed) :-
     clipped(Speed, Power),

@@ -68,6 +68,9 @@ infrared seeker and accelerometer are those of HiTechnic.
 %!  init_light_nxt(+Name, +P1, +P2) is det.
 %!  init_light_nxt(+Name, +P1, +P2, +P3) is det.
 %!  init_light_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%
+%   There are light sensors at these ports, their lamps as
+%   floodlight_nxt/3 has it.
 
 init_light_nxt(N, P1) :- init(light, N, [P1]).
 init_light_nxt(N, P1, P2) :- init(light, N, [P1, P2]).
@@ -78,6 +81,8 @@ init_light_nxt(N, P1, P2, P3, P4) :- init(light, N, [P1, P2, P3, P4]).
 %!  init_sound_nxt(+Name, +P1, +P2) is det.
 %!  init_sound_nxt(+Name, +P1, +P2, +P3) is det.
 %!  init_sound_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%
+%   There are sound sensors at these ports.
 
 init_sound_nxt(N, P1) :- init(sound, N, [P1]).
 init_sound_nxt(N, P1, P2) :- init(sound, N, [P1, P2]).
@@ -88,6 +93,8 @@ init_sound_nxt(N, P1, P2, P3, P4) :- init(sound, N, [P1, P2, P3, P4]).
 %!  init_ultrasonic_nxt(+Name, +P1, +P2) is det.
 %!  init_ultrasonic_nxt(+Name, +P1, +P2, +P3) is det.
 %!  init_ultrasonic_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%
+%   There are ultrasonic sensors at these ports.
 
 init_ultrasonic_nxt(N, P1) :- init(i2c, N, [P1]).
 init_ultrasonic_nxt(N, P1, P2) :- init(i2c, N, [P1, P2]).
@@ -98,6 +105,8 @@ init_ultrasonic_nxt(N, P1, P2, P3, P4) :- init(i2c, N, [P1, P2, P3, P4]).
 %!  init_touch_nxt(+Name, +P1, +P2) is det.
 %!  init_touch_nxt(+Name, +P1, +P2, +P3) is det.
 %!  init_touch_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%
+%   There are touch sensors at these ports.
 
 init_touch_nxt(N, P1) :- init(touch, N, [P1]).
 init_touch_nxt(N, P1, P2) :- init(touch, N, [P1, P2]).
@@ -108,6 +117,8 @@ init_touch_nxt(N, P1, P2, P3, P4) :- init(touch, N, [P1, P2, P3, P4]).
 %!  init_color_nxt(+Name, +P1, +P2) is det.
 %!  init_color_nxt(+Name, +P1, +P2, +P3) is det.
 %!  init_color_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%
+%   There are colour sensors at these ports.
 
 init_color_nxt(N, P1) :- init(i2c, N, [P1]).
 init_color_nxt(N, P1, P2) :- init(i2c, N, [P1, P2]).
@@ -116,23 +127,31 @@ init_color_nxt(N, P1, P2, P3, P4) :- init(i2c, N, [P1, P2, P3, P4]).
 
 %!  init_compass_nxt(+Name, +P1) is det.
 %!  init_compass_nxt(+Name, +P1, +P2) is det.
+%
+%   There are compasses at these ports.
 
 init_compass_nxt(N, P1) :- init(i2c, N, [P1]).
 init_compass_nxt(N, P1, P2) :- init(i2c, N, [P1, P2]).
 
 %!  init_gyro_nxt(+Name, +P1) is det.
 %!  init_gyro_nxt(+Name, +P1, +P2) is det.
+%
+%   There are gyroscopes at these ports.
 
 init_gyro_nxt(N, P1) :- init(gyro, N, [P1]).
 init_gyro_nxt(N, P1, P2) :- init(gyro, N, [P1, P2]).
 
 %!  init_irseeker_nxt(+Name, +P1) is det.
 %!  init_irseeker_nxt(+Name, +P1, +P2) is det.
+%
+%   There are infrared seekers at these ports.
 
 init_irseeker_nxt(N, P1) :- init(i2c, N, [P1]).
 init_irseeker_nxt(N, P1, P2) :- init(i2c, N, [P1, P2]).
 
 %!  init_accel_nxt(+Name, +P1) is det.
+%
+%   There is an accelerometer at this port.
 
 init_accel_nxt(N, P1) :- init(i2c, N, [P1]).
 
@@ -157,18 +176,24 @@ type(i2c, _, _, 0x0B, 0).
 
 %!  read_light_nxt(+Name, +P, -R) is det.
 %!  read_light_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
+%   The light at these ports, per cent, as of nxt_light/4.
 
 read_light_nxt(N, P, R) :- read_one(light, N, P, R).
 read_light_nxt(N, P1, P2, R1, R2) :- read_two(light, N, P1, P2, R1, R2).
 
 %!  read_sound_nxt(+Name, +P, -R) is det.
 %!  read_sound_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
+%   The loudness at these ports, per cent.
 
 read_sound_nxt(N, P, R) :- read_one(sound, N, P, R).
 read_sound_nxt(N, P1, P2, R1, R2) :- read_two(sound, N, P1, P2, R1, R2).
 
 %!  read_ultrasonic_nxt(+Name, +P, -R) is det.
 %!  read_ultrasonic_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
+%   The distance at these ports, in centimetres; 255 if there is nothing.
 
 read_ultrasonic_nxt(N, P, R) :- read_one(ultrasonic, N, P, R).
 read_ultrasonic_nxt(N, P1, P2, R1, R2) :-
@@ -176,30 +201,41 @@ read_ultrasonic_nxt(N, P1, P2, R1, R2) :-
 
 %!  read_touch_nxt(+Name, +P, -R) is det.
 %!  read_touch_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
+%   1 if the sensor is pressed, 0 if not.
 
 read_touch_nxt(N, P, R) :- read_one(touch, N, P, R).
 read_touch_nxt(N, P1, P2, R1, R2) :- read_two(touch, N, P1, P2, R1, R2).
 
 %!  read_color_nxt(+Name, +P, -R) is det.
 %!  read_color_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
+%   The number of the colour, as of nxt_colour_number/3.
 
 read_color_nxt(N, P, R) :- read_one(color, N, P, R).
 read_color_nxt(N, P1, P2, R1, R2) :- read_two(color, N, P1, P2, R1, R2).
 
 %!  read_compass_nxt(+Name, +P, -R) is det.
 %!  read_compass_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
+%   The direction, as of nxt_compass/3.
 
 read_compass_nxt(N, P, R) :- read_one(compass, N, P, R).
 read_compass_nxt(N, P1, P2, R1, R2) :- read_two(compass, N, P1, P2, R1, R2).
 
 %!  read_gyro_nxt(+Name, +P, -R) is det.
 %!  read_gyro_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
+%   The rate of turning, as of nxt_gyro/3, less what
+%   set_gyroffset_nxt/2 found.
 
 read_gyro_nxt(N, P, R) :- read_one(gyro, N, P, R).
 read_gyro_nxt(N, P1, P2, R1, R2) :- read_two(gyro, N, P1, P2, R1, R2).
 
 %!  read_irseeker_nxt(+Name, +P, -R) is det.
 %!  read_irseeker_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
+%   Where the infrared light is, as of nxt_infrared/3.
 
 read_irseeker_nxt(N, P, R) :- read_one(irseeker, N, P, R).
 read_irseeker_nxt(N, P1, P2, R1, R2) :- read_two(irseeker, N, P1, P2, R1, R2).
@@ -231,6 +267,8 @@ read_one(irseeker, Name, Port, R) :-
     nxt_infrared(Name, Port, R).
 
 %!  read_accel_nxt(+Name, +P, -X, -Y, -Z) is det.
+%
+%   The acceleration, as of nxt_accelerometer/5.
 
 read_accel_nxt(Name, P, X, Y, Z) :-
     nxt_accelerometer(Name, P, X, Y, Z).
@@ -258,6 +296,8 @@ floodlight_nxt(Name, P, OnOff) :-
 
 %!  start_compasscalibration_nxt(+Name, +P) is det.
 %!  stop_compasscalibration_nxt(+Name, +P) is det.
+%
+%   Begin and end to calibrate the compass, as of nxt_compass_calibrate/3.
 
 start_compasscalibration_nxt(Name, P) :-
     nxt_compass_calibrate(Name, P, on).

@@ -61,6 +61,8 @@ nxt_input(Brick, Port, Values) :-
     nxt_command(Brick, 'GETINPUTVALUES', _{port:Input}, Values).
 
 %!  nxt_touch(+Brick, +Port, -Pressed:boolean) is det.
+%
+%   Whether the touch sensor is pressed.
 
 nxt_touch(Brick, Port, Pressed) :-
     nxt_sensor(Brick, Port, 1, 0x20, Values),

@@ -72,6 +72,8 @@ connect_nxt(Name, Link, Port) :-
     nxt_connect(Name, Address).
 
 %!  close_nxt(+Name) is det.
+%
+%   Disconnect, and forget what was set for Name.
 
 close_nxt(Name) :-
     nxt_disconnect(Name),
@@ -189,6 +191,8 @@ exec_nxt(Name, Program) :-
     nxt_program_start(Name, File).
 
 %!  del_nxt(+Name, +File) is det.
+%
+%   Delete a file of the brick.
 
 del_nxt(Name, File) :-
     nxt_file_delete(Name, File).
