@@ -12,15 +12,17 @@
 %     numbers of variables and long floats are not compared, nor are the
 %     bindings of `$Var`. A line `...` stands for any lines.
 %
-% And every export of the library has a PlDoc comment with modes.
+% Links between documents, and to files of the tree, lead somewhere. And
+% every export of the library has a PlDoc comment with modes.
 
 :- use_module('../lib/common').
 :- use_module('../lib/transcript', [transcript_differences/3]).
+:- use_module('../../doc/site/markdown', [slug/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex),
               [ directory_file_path/3, directory_member/3,
                 make_directory_path/1 ]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, nth0/3]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
@@ -129,6 +131,59 @@ run_blocks(Blocks, Differences, Dir) :-
     transcript_differences(Sessions, Dir, Differences).
 
                 /*******************************
+                *             LINKS            *
+                *******************************/
+
+broken_link(File, Link) :-
+    prose(File, Text),
+    points_to(Text, Link),
+    \+ sub_atom(Link, _, _, _, '://'),
+    \+ leads_somewhere(File, Link).
+
+leads_somewhere(File, Link) :-
+    atomic_list_concat([Path|Place], #, Link),
+    (   Path == ''
+    ->  Target = File
+    ;   file_directory_name(File, Dir),
+        directory_file_path(Dir, Path, Target),
+        exists_file(Target)
+    ),
+    (   Place = [Id]
+    ->  heading(Target, Id)
+    ;   true
+    ),
+    !.
+
+%   The text of a document, without its blocks and what is code in a line.
+
+prose(File, Prose) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    outside(Text, "```", Lines),
+    atomic_list_concat(Lines, Joined),
+    outside(Joined, "`", Parts),
+    atomic_list_concat(Parts, Prose).
+
+outside(Text, Mark, Outside) :-
+    atomic_list_concat(Parts, Mark, Text),
+    findall(Part, ( nth0(N, Parts, Part), N mod 2 =:= 0 ), Outside).
+
+points_to(Text, Link) :-
+    atomic_list_concat([_|Parts], '](', Text),
+    member(Part, Parts),
+    once(sub_atom(Part, Length, _, _, ')')),
+    sub_atom(Part, 0, Length, _, Link).
+
+heading(File, Id) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    outside(Text, "```", Parts),
+    member(Part, Parts),
+    split_string(Part, "\n", "", Lines),
+    member(Line, Lines),
+    string_concat("#", More, Line),
+    split_string(More, "", "# ", [Heading]),
+    slug(Heading, Id).
+
+                /*******************************
                 *            PLDOC             *
                 *******************************/
 
@@ -190,6 +245,11 @@ has_mode(Arg0) :-
 :- op(200, fy, test_doc_modes:(++)).
 :- op(200, fy, test_doc_modes:(--)).
 
+broken_links_in(Text, Links, Dir) :-
+    directory_file_path(Dir, 'doc.md', File),
+    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)),
+    findall(Link, broken_link(File, Link), Links).
+
                 /*******************************
                 *             TESTS            *
                 *******************************/
@@ -200,6 +260,20 @@ test(shows_what_happens,
      [ forall(document(File)), Differences == [] ]) :-
     blocks(File, Blocks),
     with_tmp_dir(run_blocks(Blocks, Differences)).
+
+test(links_lead_somewhere, Broken == []) :-
+    findall(Base:Link,
+            ( document(File), broken_link(File, Link),
+              file_base_name(File, Base) ),
+            Broken).
+
+test(links_that_lead_nowhere_are_seen,
+     Links == ['none.md', 'doc.md#none', '#none']) :-
+    with_tmp_dir(broken_links_in(
+        "# A heading, `code` & more\n[a](doc.md) [b](none.md)\n\c
+         [c](doc.md#a-heading-code--more) [d](doc.md#none) [e](#none)\n\c
+         `[f](no)`\n```\n[g](no)\n# none\n```\n",
+        Links)).
 
 test(every_export_has_a_comment_with_modes, Missing == []) :-
     findall(Base:PI,
