@@ -1,0 +1,24 @@
+% explorer.pl: sees every host of a network, depth first
+
+:- agent(explorer, [state([seen/1])]).
+
+main :-
+    explore,
+    findall(Host, seen(Host), Hosts),
+    log(seen(Hosts)).
+
+explore :-
+    here(Here),
+    assertz(seen(Here)),
+    neighbours(Hosts),
+    explore(Hosts, Here).
+
+explore([], _).
+explore([Host|Hosts], Here) :-
+    (   seen(Host)
+    ->  true
+    ;   move(Host),
+        explore,
+        move(Here)                      % and go on where we left off
+    ),
+    explore(Hosts, Here).

@@ -1,0 +1,21 @@
+% game.pl: a game of tic-tac-toe goes from player to player
+
+:- agent(game, []).
+:- include(rules).
+
+main :-
+    neighbours([X, O]),
+    length(Board, 9),
+    maplist(=(-), Board),
+    play(Board, x-X, o-O).
+
+play(Board0, Mark-Host, Next) :-
+    move(Host),
+    choose(Board0, Mark, N),            % whoever lives here
+    put(Board0, N, Mark, Board),
+    (   won(Board, Mark)
+    ->  log(won(Mark, Board))
+    ;   memberchk(-, Board)
+    ->  play(Board, Next, Mark-Host)
+    ;   log(drawn(Board))
+    ).

@@ -1,0 +1,20 @@
+% sorter.pl: puts its number where it belongs in a line of hosts
+
+:- agent(sorter, [state([mine/1])]).
+
+main :-
+    mine(N),
+    insert(N, none).
+
+insert(N, From) :-
+    (   take(number(M))
+    ->  Less is min(N, M),
+        More is max(N, M),
+        leave(number(Less)),
+        here(Here),
+        neighbours(Hosts),
+        subtract(Hosts, [From], [Next]),
+        move(Next),
+        insert(More, Here)              % on with the greater of the two
+    ;   leave(number(N))
+    ).

@@ -1,0 +1,17 @@
+% sum.pl: adds up the numbers that lie on the hosts nearby
+
+:- agent(sum, []).
+
+main :-
+    neighbours(Hosts),
+    sum(Hosts, Sum),
+    log(sum(Sum)).
+
+sum([], 0) :-
+    home(Home),
+    move(Home).
+sum([Host|Hosts], Sum) :-
+    move(Host),
+    sense(number(N)),
+    sum(Hosts, Rest),
+    Sum is N+Rest.
