@@ -115,6 +115,20 @@ entry_dom(Entry, Dom) :-
     PI = Module:_,
     phrase(pldoc_html:objects([doc(PI, Place, Comment)],
                               [navtree(false), module(Module)]), Tokens),
+    tokens_dom(Tokens, Dom).
+
+%   The same of a module, without a heading with buttons.
+
+about_dom(File, Heading, Comment, Dom) :-
+    phrase(pldoc_html:file_header(File, [file(Heading, Comment)]), Tokens),
+    tokens_dom(Tokens, Dom).
+
+:- multifile prolog:doc_file_title//3.
+
+prolog:doc_file_title(_, _, _) -->
+    [].
+
+tokens_dom(Tokens, Dom) :-
     with_output_to(string(Html), print_html(Tokens)),
     html_dom(Html, Dom).
 
@@ -183,10 +197,11 @@ part_rooms(Id, part(Id, Rooms)) :-
 
 room(Module, PIs, room(Heading, Dom)) :-
     PIs = [_|_],
-    once(doc_comment(Module:module(Heading), _, _, _)),
+    once(doc_comment(Module:module(Heading), File:_, _, Comment)),
+    about_dom(File, Heading, Comment, About),
     entries(PIs, Entries),
     maplist(entry_dom, Entries, Doms),
-    append(Doms, Dom).
+    append([About|Doms], Dom).
 
 %   What is not public, and named by what is.
 
