@@ -1,0 +1,122 @@
+:- module(test_editors, []).
+
+% What an editor that asks SWI-Prolog sees of an agent program.
+
+:- use_module('../../lib/common').
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(prolog_colour), [prolog_colourise_stream/3]).
+:- use_module(library(prolog_xref),
+              [ xref_defined/3, xref_done/2, xref_exported/2, xref_source/2 ]).
+:- use_module(library(typhon)).
+
+%   seen(+Text, :Goal): call(Goal, File) for a file with Text that an editor
+%   has open.
+
+seen(Text, Goal) :-
+    with_tmp_dir(seen_in(Text, Goal)).
+
+seen_in(Text, Goal, Dir) :-
+    directory_file_path(Dir, 'program.pl', File),
+    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)),
+    looked_at(File, Goal).
+
+looked_at(File, Goal) :-
+    setup_call_cleanup(
+        xref_source(File, [silent(true)]),
+        once(call(Goal, File)),
+        xref_clean(File)).
+
+xref_clean(File) :-
+    prolog_xref:xref_clean(File).
+
+:- thread_local coloured/1.
+
+%   Which goals, and heads, are shown as Class.
+
+shown_as(Class, PIs, File) :-
+    retractall(coloured(_)),
+    setup_call_cleanup(
+        open(File, read, In),
+        prolog_colourise_stream(In, File, note),
+        close(In)),
+    findall(Name/Arity,
+            ( member(Kind, [goal(Class, Goal), head(Class, Goal)]),
+              coloured(Kind),
+              functor(Goal, Name, Arity) ),
+            Found),
+    sort(Found, PIs).
+
+note(Colour, _, _) :-
+    assertz(coloured(Colour)).
+
+census("\c
+:- agent(census, [state([seen/2])]).
+main :- neighbours(Hosts), tour(Hosts), next_host(random, _), nonsense.
+tour([]).
+tour([Host|Hosts]) :-
+    move(Host), here(Here), assertz(seen(Here, 1)), tour(Hosts).
+on_message(From, M) :- seen(M, _), sleep(1), send(From, yes), log(M).
+").
+
+comes_from(Goal, Module, File) :-
+    xref_defined(File, Goal, imported(From)),
+    module_property(Module, file(From)).
+
+program(Name, File) :-
+    atomic_list_concat(['examples/classics/', Name, '.pl'], Relative),
+    project_file(Relative, File).
+
+:- begin_tests(editors).
+
+test(vocabulary_is_known) :-
+    census(Text),
+    seen(Text, comes_from(move(_), typhon_words)),
+    seen(Text, comes_from(clone(_, _), typhon_words)),
+    seen(Text, comes_from(next_host(_, _), typhon_memory)).
+
+test(only_what_nobody_defines_is_undefined, PIs == [nonsense/0]) :-
+    census(Text),
+    seen(Text, shown_as(undefined, PIs)).
+
+test(nobody_need_call_what_the_platform_calls, PIs == []) :-
+    census(Text),
+    seen(Text, shown_as(unreferenced, PIs)).
+
+test(state_is_dynamic) :-
+    census(Text),
+    seen(Text, [File]>>xref_defined(File, seen(_, _), dynamic(_))).
+
+test(directive_is_known) :-
+    forall(member(Text, [":- agent(a).", ":- agent(a, [state([b/1])]).",
+                         ":- payload(a, [provides([b/1])])."]),
+           seen(Text, shown_as(undefined, []))).
+
+test(payload_offers_what_it_provides, PIs == [hidden/1]) :-
+    seen(":- payload(p, [provides([shown/1])]).\nshown(1).\nhidden(1).\n",
+         shown_as(unreferenced, PIs)).
+
+test(directive_half_written_is_no_error) :-
+    forall(member(Text, [":- agent(a, X).", ":- agent(a, [state(X)]).",
+                         ":- agent(a, [state([b|X])]).", ":- agent(A, B).",
+                         ":- payload(a, b).", ":- X."]),
+           seen(Text, shown_as(undefined, _))).
+
+test(other_files_are_not_concerned, PIs == [clone/2, move/1]) :-
+    seen(":- module(m, [p/1]).\np(X) :- move(X), clone(X, _).\n",
+         shown_as(undefined, PIs)).
+
+test(loading_is_not_concerned, Term == (:- agent(a, [state([b/1])]))) :-
+    expand_term((:- agent(a, [state([b/1])])), Term).
+
+test(classical_programs_are_in_order, Undefined == [choose/3, at/3]) :-
+    findall(PI,
+            ( member(Name, [ hello, sum, dictionary, game, salesman, flood,
+                             explorer, tree, sorter, pathfinder ]),
+              program(Name, File),
+              looked_at(File, shown_as(undefined, PIs)),
+              member(PI, PIs) ),
+            Undefined).
+
+:- end_tests(editors).
