@@ -12,7 +12,7 @@ the tree, which is the working directory.
 */
 
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(colour, [code_dom/3]).
 :- use_module(dom, [dom_attribute/3, dom_edit/3, dom_text/2]).

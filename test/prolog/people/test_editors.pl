@@ -8,7 +8,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(prolog_colour), [prolog_colourise_stream/3]).
 :- use_module(library(prolog_xref),
-              [ xref_defined/3, xref_done/2, xref_exported/2, xref_source/2 ]).
+              [ xref_clean/1, xref_defined/3, xref_source/2 ]).
 :- use_module(library(typhon)).
 
 %   seen(+Text, :Goal): call(Goal, File) for a file with Text that an editor
@@ -27,9 +27,6 @@ looked_at(File, Goal) :-
         xref_source(File, [silent(true)]),
         once(call(Goal, File)),
         xref_clean(File)).
-
-xref_clean(File) :-
-    prolog_xref:xref_clean(File).
 
 :- thread_local coloured/1.
 
