@@ -60,6 +60,7 @@ fuzz:                   ## what nobody should send; COUNT=100000, SEED=1
 
 doc: tools              ## the documents as a site, in out/doc
 	@.ci/install doc
+	@rm -rf out/doc
 	@$(SWIPL) doc/site.pl -- out/doc
 
 bench: tools            ## measure; one line per figure
