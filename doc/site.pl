@@ -59,21 +59,18 @@ report(twice(File, Id)) :-
                 *******************************/
 
 write_site(Dir, Groups0) :-
-    directory_file_path(Dir, img, Pictures),
-    make_directory_path(Pictures),
+    make_directory_path(Dir),
     public_names(Groups0, Public),
     findall(Path, along(Groups0, Path), Paths0),
     sort(Paths0, Paths),
-    forall(member(Path, Paths), copy_picture(Dir, Path)),
-    findall(Document, ( member(Path, Paths), site_file(source, Path, _),
-                        source_document(Path, Document) ), Sources),
+    copy_pictures(Dir, Paths),
+    source_pages(Public, Paths, Sources),
     maplist(group_pages(Public), Groups0, Groups),
-    maplist(document_page(Public), Sources, Others),
+    findall(Page, ( member(_-Some, Groups), member(Page, Some) ), Pages),
     version(Version),
-    forall(( member(_-Pages, [""-Others|Groups]), member(Page, Pages) ),
-           write_page(Dir, Groups, Version, Page)),
-    findall(Page, ( member(_-Pages, Groups), member(Page, Pages) ), All),
-    search_index(All, Index),
+    maplist(write_page(Dir, Groups, Version), Pages),
+    maplist(write_page(Dir, Groups, Version), Sources),
+    search_index(Pages, Index),
     write_file(Dir, 'sections.js', Index),
     forall(member(Own, ['doc/site/style.css', 'doc/site/search.js']),
            copy_file(Own, Dir)).
@@ -93,6 +90,14 @@ along(Groups, Path) :-
     linked(Source, Dom, Path),
     \+ site_file(page, Path, _).
 
+source_pages(Public, Paths, Pages) :-
+    findall(Document,
+            ( member(Path, Paths),
+              site_file(source, Path, _),
+              source_document(Path, Document) ),
+            Documents),
+    maplist(document_page(Public), Documents, Pages).
+
 group_pages(Public, Heading-Documents, Heading-Pages) :-
     maplist(document_page(Public), Documents, Pages).
 
@@ -105,12 +110,12 @@ write_page(Dir, Groups, Version, Page) :-
     page_html(Page, Groups, Version, Html),
     write_file(Dir, File, Html).
 
-copy_picture(Dir, Path) :-
-    (   site_file(picture, Path, File)
-    ->  directory_file_path(Dir, File, To),
-        copy_file(Path, To)
-    ;   true
-    ).
+copy_pictures(Dir, Paths) :-
+    directory_file_path(Dir, img, Pictures),
+    make_directory_path(Pictures),
+    forall(( member(Path, Paths), site_file(picture, Path, File) ),
+           ( directory_file_path(Dir, File, To),
+             copy_file(Path, To) )).
 
 write_file(Dir, Name, Text) :-
     directory_file_path(Dir, Name, File),
