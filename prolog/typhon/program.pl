@@ -10,7 +10,8 @@ This is the door of the layer: who is above takes what it needs from here.
 :- use_module(program/paths, []).
 :- reexport(program/source, [clause_parts/3]).
 :- reexport(program/programs,
-            [payload_load/2, program_hash/2, agent_check/1]).
+            [payload_load/2, program_hash/2]).
+:- reexport(program/check, [agent_check/1]).
 :- reexport(program/loaded, [program_load/5]).
 :- reexport(program/code,
             [ code_install/2, code_install/3, code_receive/2, code_module/2,

@@ -20,16 +20,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 
 :- multifile
     prolog:error_message//1,
-    prolog:message//1,
-    prolog:message_location//1.
-
-%   Where a program is faulty, as editors understand it.
-
-prolog:message_location(context(File:Line, _)) -->
-    { atom(File),
-      integer(Line)
-    },
-    [ '~w:~d: '-[File, Line] ].
+    prolog:message//1.
 
 %   More names than these are not looked through for a near one.
 
@@ -113,12 +104,13 @@ prolog:message(typhon(log(Host, Agent, What))) -->
     [ '~w at ~w: ~p'-[Agent, Host, What] ].
 prolog:message(typhon(told(Agent, Message))) -->
     [ '~w says ~p'-[Agent, Message] ].
-prolog:message(typhon(checked(Program, 0, 0))) -->
+prolog:message(typhon(checked(Program, 0, 0, 0))) -->
     !,
     [ '~p is in order'-[Program] ].
-prolog:message(typhon(checked(Program, Errors, Undefined))) -->
-    [ '~p: ~d errors, ~d calls of what others must define'-
-      [Program, Errors, Undefined] ].
+prolog:message(typhon(checked(Program, Errors, Doubts, Undefined))) -->
+    [ '~p: ~d errors, '-[Program, Errors] ],
+    doubts(Doubts),
+    [ '~d calls of what others must define'-[Undefined] ].
 prolog:message(typhon(stuck_worker(Worker))) -->
     [ 'Worker ~p does not stop: its agent neither ends nor yields'-
       [Worker] ].
@@ -126,6 +118,9 @@ prolog:message(typhon(goal_failed(Goal))) -->
     [ 'This should not have failed: ~p'-[Goal] ].
 prolog:message(typhon(run_failed(Agent))) -->
     [ 'The step of agent ~w was not completed'-[Agent] ].
+
+doubts(0) --> !.
+doubts(N) --> [ '~d warnings, '-[N] ].
 
 lost_since(existence_error(agent, _)) -->
     !,

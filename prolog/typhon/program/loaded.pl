@@ -3,9 +3,11 @@
                                         % -Kinds
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(paths, [program_file/2]).
-:- use_module(programs, [program_hash/2, program_read/5]).
+:- use_module(advice, [problem_error/3]).
+:- use_module(programs, [program_hash/2, program_read/6]).
 :- use_module(source, [source_same/1, source_settled/1]).
 
 /** <module> Programs that were read lately
@@ -13,7 +15,8 @@
 A program file is read, checked and analysed when the first agent is created
 from it, and again when it, or a file that it includes, has changed; a program
 of clauses once for all that are variants of it.  What a library that it
-imports defines is taken as it was then.
+imports defines is taken as it was then.  What is doubtful about a file is
+printed when it is read, and not again while it is the same.
 
 *Threading*: any thread.  One mutex is held to remember; to look needs none.
 */
@@ -21,12 +24,14 @@ imports defines is taken as it was then.
 :- setting(files, nonneg, 64, "Programs remembered as they were read").
 
 :- dynamic
-    loaded/3.                   % File or hash of clauses, Sources, Loaded:
+    loaded/3,                   % File or hash of clauses, Sources, Loaded:
                                 % the oldest first
+    warned/2.                   % File, Sources: its warnings were printed
 
 %!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds) is det.
 %
-%   As program_read/5, with the hash of Program.
+%   As program_read/6, with the hash of Program.  Warnings about a file are
+%   printed.
 
 program_load(Spec, Program, Initial, Hash, Kinds) :-
     load(Spec, loaded(Program, Initial, Hash, Kinds)).
@@ -41,7 +46,7 @@ load(clauses(Terms), Loaded) :-
     !,
     load(Hash, clauses(Terms), Loaded).
 load(Spec, Loaded) :-                   % what no program can have is in it
-    read_program(Spec, Loaded, _).
+    read_program(Spec, Loaded, _, _).
 
 in_file(Spec) :-
     callable(Spec),
@@ -53,27 +58,58 @@ load(Key, _, Loaded) :-
     !,
     Loaded = Loaded0.
 load(Key, Spec, Loaded) :-
-    read_program(Spec, Loaded, Sources),
+    read_program(Spec, Loaded, Sources, Warnings),
     debug(typhon(program), 'read ~w', [Key]),
+    warn(Spec, Sources, Warnings),
     (   source_settled(Sources)
     ->  with_mutex(typhon_loaded, remember(Key, Sources, Loaded))
     ;   true
     ).
 
-read_program(Spec, loaded(Program, Initial, Hash, Kinds), Sources) :-
-    program_read(Spec, Program, Initial, Kinds, Sources),
+read_program(Spec, loaded(Program, Initial, Hash, Kinds), Sources,
+             Warnings) :-
+    program_read(Spec, Program, Initial, Kinds, Sources, Warnings),
     program_hash(Program, Hash).
 
 remember(Key, Sources, Loaded) :-
     retractall(loaded(Key, _, _)),
     assertz(loaded(Key, Sources, Loaded)),
-    forget_oldest.
+    forget_oldest(loaded(_, _, _)).
 
-forget_oldest :-
-    predicate_property(loaded(_,_,_), number_of_clauses(Count)),
+%   warn(+Spec, +Sources, +Warnings): what makes clauses is a program, and
+%   is not told how to write them.
+
+warn(clauses(_), _, _) :-
+    !.
+warn(_, _, []) :-
+    !.
+warn(File, Sources, Warnings) :-
+    (   with_mutex(typhon_loaded, is_news(File, Sources))
+    ->  forall(member(Warning, Warnings), print_warning(Warning))
+    ;   true
+    ).
+
+is_news(File, _) :-
+    warned(File, Sources),
+    source_same(Sources),
+    !,
+    fail.
+is_news(File, Sources) :-
+    retractall(warned(File, _)),
+    assertz(warned(File, Sources)),
+    forget_oldest(warned(_, _)).
+
+print_warning(Warning) :-
+    problem_error(Warning, [], Error),
+    print_message(warning, Error).
+
+%   forget_oldest(+Table): keep no more than are remembered.
+
+forget_oldest(Table) :-
+    predicate_property(Table, number_of_clauses(Count)),
     setting(files, Max),
     Count > Max,
-    retract(loaded(_, _, _)),
+    \+ \+ retract(Table),
     !,
-    forget_oldest.
-forget_oldest.
+    forget_oldest(Table).
+forget_oldest(_).

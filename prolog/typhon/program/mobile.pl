@@ -1,6 +1,8 @@
 :- module(typhon_mobile,
           [ mobile_predicates/3,                 % +Clauses, -Kinds, -Problems
-            body_calls/2                % +Body, -Calls
+            body_calls/2,               % +Body, -Calls
+            is_mobile/2,                % +PI, +Mobile
+            built_in/1                  % +PI
           ]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(assoc),
@@ -76,6 +78,10 @@ memberchk_mobile(List, Mobile) :-
     is_mobile(PI, Mobile),
     !.
 
+%!  is_mobile(+PI, +Mobile) is semidet.
+%
+%   PI is a control predicate, or one of Mobile.
+
 is_mobile(Name/Arity, Mobile) :-
     (   functor(Head, Name, Arity),
         control(Head)
@@ -125,6 +131,10 @@ next_call(List, PI) :-
     \+ built_in(PI).
 next_call(List, unknown) :-
     memberchk(unknown(run), List).
+
+%!  built_in(+PI) is semidet.
+%
+%   PI belongs to the vocabulary of agents or to Prolog.
 
 built_in(Name/Arity) :-
     functor(Head, Name, Arity),

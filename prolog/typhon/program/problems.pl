@@ -2,8 +2,7 @@
           [ directive_problem/2,        % +Directives, -Problem
             clause_problem/2,           % +Clauses, -Problem
             entry_problem/3,            % +Located, +Clauses, -Problem
-            option_problem/2,           % +Located, -Problem
-            advice_text/2               % +Advice, -Text
+            option_problem/2            % +Located, -Problem
           ]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(machine, [control/1]).
@@ -12,7 +11,7 @@
 /** <module> What can be wrong with an agent program or a payload
 
 A problem is problem(Formal, Location, Advice): an ISO error, where it
-stands and what to do about it.
+stands and what to do about it, see typhon_advice.
 
 *Threading*: pure.
 */
@@ -152,52 +151,3 @@ faulty_option(Option, Formal, Advice) :-
     ;   Formal = domain_error(agent_option, Option),
         Advice = state
     ).
-
-                /*******************************
-                *            ADVICE            *
-                *******************************/
-
-%!  advice_text(+Advice, -Text:atom) is det.
-
-advice_text(Advice, Text) :-
-    phrase(advice(Advice), Parts),
-    atomic_list_concat(Parts, Text).
-
-advice(declare(agent)) -->
-    ['begin the file with :- agent(Name, [state([Name/Arity, ...])]).'].
-advice(declare(payload)) -->
-    ['begin the file with :- payload(Name, [provides([Name/Arity, ...])]).'].
-advice(directive) -->
-    ['nothing runs at load time; allowed are agent/1,2, payload/1,2, \c
-      dynamic/1, discontiguous/1, include/1 and use_module(library(_))'].
-advice(once) -->
-    ['a file begins with one declaration: move what follows it to a file \c
-      of its own'].
-advice(library) -->
-    ['there is no such library: install it, or write library(Name)'].
-advice(indicator) -->
-    ['write dynamic Name/Arity, ...'].
-advice(rule) -->
-    ['write Head :- Body'].
-advice(head) -->
-    ['a clause head is an atom or a compound term'].
-advice(body) -->
-    ['a clause body is built of callable terms'].
-advice(qualified) -->
-    ['an agent has no modules: write the head without one'].
-advice(redefined) -->
-    ['the name is taken: rename the predicate'].
-advice(entry) -->
-    ['define main/0, on_message/2 or both'].
-advice(state) -->
-    ['write agent(Name, [state([Name/Arity, ...])])'].
-advice(undeclared(Name/Arity)) -->
-    { term_to_atom(Name/Arity, Atom) },
-    ['what an agent changes is its state: write agent(Name, [state([',
-     Atom, '])])'].
-advice(offered) -->
-    ['a place or a payload must offer it'].
-advice(inside(Name/Arity)) -->
-    { term_to_atom(Name/Arity, Atom) },
-    ['an agent cannot stop inside ', Atom,
-     ': write a recursive predicate instead'].

@@ -1,23 +1,30 @@
 :- module(typhon_programs,
-          [ program_read/5,             % +Spec, -Program, -Initial, -Kinds,
-                                        % -Sources
+          [ program_read/6,             % +Spec, -Program, -Initial, -Kinds,
+                                        % -Sources, -Warnings
             payload_load/2,             % +Spec, -Payload
-            program_hash/2,             % +Program, -Hash
-            agent_check/1               % +Spec
+            program_terms/6,            % +Located, -Program, -Initial,
+                                        % -Kinds, -Errors, -Warnings
+            payload_terms/3,            % +Located, -Payload, -Errors
+            in_file_order/3,            % +Problems, +Located, -Ordered
+            program_hash/2              % +Program, -Hash
           ]).
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(lists),
-              [append/2, append/3, member/2, memberchk/2, nth1/3, selectchk/3]).
+              [append/2, append/3, member/2, memberchk/2, nth1/3]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module(mobile, [body_calls/2, mobile_predicates/3]).
+:- use_module(advice, [problem_error/3]).
+:- use_module(choices, [lost_choice/3]).
+:- use_module(mobile, [mobile_predicates/3]).
+:- use_module(parts,
+              [ clause_indicator/2, file_parts/4, in_state/2,
+                library_directive/2, located_clause/2, part/3 ]).
 :- use_module(problems,
-              [ advice_text/2, clause_problem/2, directive_problem/2,
-                entry_problem/3, option_problem/2 ]).
-:- use_module(source,
-              [ clause_parts/3, declaration/4, library_import/2,
-                source_terms/2, source_terms/3 ]).
+              [ clause_problem/2, directive_problem/2, entry_problem/3,
+                option_problem/2 ]).
+:- use_module(slips, [apart_problem/3, undeclared_problem/3]).
+:- use_module(source, [source_terms/5]).
 
 /** <module> Agent programs and payloads
 
@@ -30,27 +37,29 @@ becomes a plain term:
     use_module/1,2 named, Clauses the static clauses as Head:-Body.
   - payload(Name, Predicates, Clauses)
 
-A problem is problem(Formal, Location, Advice): an ISO error, where it
-stands and what to do about it.
-
 *Threading*: any thread; nothing is stored here.
 */
 
-%!  program_read(+Spec, -Program, -Initial, -Kinds, -Sources) is det.
+%!  program_read(+Spec, -Program, -Initial, -Kinds, -Sources,
+%!               -Warnings:list) is det.
 %
 %   Read an agent program.
 %
 %   @arg Initial are the clauses of its state predicates: the state of an
 %        agent at birth.
 %   @arg Kinds is what mobile_predicates/3 finds.
-%   @arg Sources is what it was read from, see source_terms/3.
-%   @error The first problem of the program, as an ISO error whose context
-%        is context(Location, Advice).
+%   @arg Sources is what it was read from, see source_terms/5.
+%   @arg Warnings are the problems of program_terms/6, and those of reading.
+%   @error The first problem that keeps the program from running, with the
+%        others in its context, see problem_error/3.
 
-program_read(Spec, Program, Initial, Kinds, Sources) :-
-    source_terms(Spec, Located, Sources),
-    program(Located, Program, Initial, Kinds, Problems),
-    no_problems(Problems).
+program_read(Spec, Program, Initial, Kinds, Sources, Warnings) :-
+    source_terms(Spec, Located, Sources, Unread, Once),
+    no_problems(Unread),
+    program_terms(Located, Program, Initial, Kinds, Errors, Warnings0),
+    no_problems(Errors),
+    append(Once, Warnings0, Warnings1),
+    in_file_order(Warnings1, Located, Warnings).
 
 %!  payload_load(+Spec, -Payload) is det.
 %
@@ -60,56 +69,88 @@ payload_load(payload(Name, PIs, Clauses), Payload) :-
     !,
     must_be(atom, Name),
     Payload = payload(Name, PIs, Clauses).
-payload_load(Spec, payload(Name, PIs, Clauses)) :-
-    source_terms(Spec, Located),
-    declared(payload, Located, Name, Options, Rest, Problems0),
-    partition(is_directive, Rest, Directives, Clauses0),
-    findall(P, directive_problem(Directives, P), Problems1),
-    findall(P, clause_problem(Clauses0, P), Problems2),
-    append([Problems0, Problems1, Problems2], Problems),
-    no_problems(Problems),
+payload_load(Spec, Payload) :-
+    source_terms(Spec, Located, _, Unread, _),
+    no_problems(Unread),
+    payload_terms(Located, Payload, Errors),
+    no_problems(Errors).
+
+no_problems([]).
+no_problems([Problem|Others]) :-
+    problem_error(Problem, Others, Error),
+    throw(Error).
+
+%!  program_terms(+Located, -Program, -Initial, -Kinds, -Errors:list,
+%!                -Warnings:list) is det.
+%
+%   As program_read/6, of terms with their locations.  Errors, in the order
+%   of the file, keep the program from running, Warnings do not.
+
+program_terms(Located, program(Name, State, Libraries, Static), Initial,
+              Kinds, Errors, Warnings) :-
+    file_parts(agent, Located, Parts, Errors0),
+    part(name, Parts, Name),
+    part(state, Parts, State),
+    part(rules, Parts, Rules),
+    findall(Library, library_directive(Parts, Library), Libraries),
+    partition(in_state(State), Rules, Initial0, Static0),
+    findall(Problem, faulty(Located, Parts, Problem), Errors1),
+    append(Errors0, Errors1, Errors2),
+    moves(Errors2, Static0, Kinds, Errors3),
+    in_file_order(Errors3, Located, Errors),
+    findall(Problem, doubtful(Errors2, Parts, Kinds, Problem), Warnings),
+    maplist(located_clause, Static0, Static),
+    maplist(located_clause, Initial0, Initial).
+
+faulty(Located, Parts, Problem) :-
+    part(directives, Parts, Directives),
+    part(clauses, Parts, Clauses),
+    part(rules, Parts, Rules),
+    (   directive_problem(Directives, Problem)
+    ;   clause_problem(Clauses, Problem)
+    ;   entry_problem(Located, Rules, Problem)
+    ;   option_problem(Located, Problem)
+    ).
+
+%   A program whose clauses are faulty is not looked at any further.
+
+moves([], Static, Kinds, Errors) :-
+    !,
+    mobile_predicates(Static, Kinds, Errors).
+moves(Errors, _, [], Errors).
+
+doubtful([], Parts, Kinds, Problem) :-
+    part(rules, Parts, Rules),
+    part(directives, Parts, Directives),
+    part(state, Parts, State),
+    findall(PI, member(PI-mobile, Kinds), Mobile),
+    (   apart_problem(Rules, Directives-State, Problem)
+    ;   undeclared_problem(Rules, State, Problem)
+    ;   lost_choice(Rules, own(State, Mobile), Problem)
+    ).
+
+%!  payload_terms(+Located, -Payload, -Errors:list) is det.
+%
+%   Payload as payload_load/2 reads it, and what keeps it from being used.
+
+payload_terms(Located, payload(Name, PIs, Clauses), Errors) :-
+    file_parts(payload, Located, Parts, Errors0),
+    part(name, Parts, Name),
+    part(options, Parts, Options),
+    part(directives, Parts, Directives),
+    part(clauses, Parts, Clauses0),
+    findall(P, directive_problem(Directives, P), Errors1),
+    findall(P, clause_problem(Clauses0, P), Errors2),
+    append([Errors0, Errors1, Errors2], Errors),
     ( memberchk(provides(Provided), Options) -> true ; Provided = [] ),
     maplist(located_clause, Clauses0, Clauses),
     findall(PI, clause_indicator(Clauses, PI), Defined),
     append(Provided, Defined, PIs0),
     sort(PIs0, PIs).
 
-no_problems([]).
-no_problems([problem(Formal, Location, Advice)|_]) :-
-    advice_text(Advice, Text),
-    throw(error(Formal, context(Location, Text))).
-
-%   program(+Located, -Program, -Initial, -Kinds, -Problems): the problems in
-%   the order of the file.
-
-program(Located, program(Name, State, Libraries, Static), Initial, Kinds,
-        Problems) :-
-    declared(agent, Located, Name, Options, Rest, Problems0),
-    partition(is_directive, Rest, Directives, Clauses0),
-    maplist(located_rule, Clauses0, Clauses1),
-    findall(PI, state_indicator(Options, Directives, PI), State0),
-    sort(State0, State),
-    findall(Library, library_directive(Directives, Library), Libraries),
-    partition(in_state(State), Clauses1, Initial0, Static0),
-    findall(P, directive_problem(Directives, P), Problems1),
-    findall(P, clause_problem(Clauses0, P), Problems2),
-    findall(P, entry_problem(Located, Clauses1, P), Problems3),
-    findall(P, option_problem(Located, P), Problems4),
-    append([Problems0, Problems1, Problems2, Problems3, Problems4],
-           Problems5),
-    moves(Problems5, Static0, Kinds, Problems6),
-    in_file_order(Problems6, Located, Problems),
-    maplist(located_clause, Static0, Static),
-    maplist(located_clause, Initial0, Initial).
-
-%   A program whose clauses are faulty is not looked at any further.
-
-moves([], Static, Kinds, Problems) :-
-    !,
-    mobile_predicates(Static, Kinds, Problems).
-moves(Problems, _, [], Problems).
-
-%   in_file_order(+Problems0, +Located, -Problems)
+%!  in_file_order(+Problems, +Located, -Ordered) is det.
+%
+%   Those that stand nowhere in Located come first.
 
 in_file_order(Problems0, Located, Problems) :-
     maplist(position(Located), Problems0, Keyed0),
@@ -122,67 +163,6 @@ position(Located, Problem, N-Problem) :-
     ->  N = N0
     ;   N = 0
     ).
-
-                /*******************************
-                *           THE PARTS          *
-                *******************************/
-
-declared(Kind, Located, Name, Options, Rest, []) :-
-    member(Term-_, Located),
-    declaration(Kind, Term, Name, Options),
-    !,
-    selectchk(Term-_, Located, Rest).
-declared(Kind, Located, unknown, [], Located,
-         [problem(existence_error(declaration, Kind), Location,
-                  declare(Kind))]) :-
-    (   member((:- Directive)-Location0, Located),
-        compound(Directive),
-        compound_name_arity(Directive, Kind, _)
-    ->  Location = Location0            % meant to be one
-    ;   Located = [_-Location0|_]
-    ->  Location = Location0
-    ;   Location = clause(0)
-    ).
-
-is_directive(Term-_) :-
-    nonvar(Term),
-    Term = (:- _).
-
-located_rule(Term-Location, (Head:-Body)-Location) :-
-    clause_parts(Term, Head, Body).
-
-located_clause(Term-_, Clause) :-
-    (   clause_parts(Term, Head, Body),
-        Body \== true
-    ->  Clause = (Head:-Body)
-    ;   clause_parts(Term, Clause, _)
-    ).
-
-clause_indicator(Clauses, Name/Arity) :-
-    member(Clause, Clauses),
-    clause_parts(Clause, Head, _),
-    functor(Head, Name, Arity).
-
-in_state(State, (Head:-_)-_) :-
-    callable(Head),
-    functor(Head, Name, Arity),
-    memberchk(Name/Arity, State).
-
-state_indicator(Options, _, PI) :-
-    member(state(PIs), Options),
-    indicator_in(PIs, PI).
-state_indicator(_, Directives, PI) :-
-    member((:- dynamic(PIs))-_, Directives),
-    indicator_in(PIs, PI).
-
-indicator_in(Var, _) :- var(Var), !, fail.
-indicator_in([H|T], PI) :- !, member(X, [H|T]), indicator_in(X, PI).
-indicator_in((A,B), PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
-indicator_in(Name/Arity, Name/Arity) :- atom(Name), integer(Arity).
-
-library_directive(Directives, Library) :-
-    member((:- Directive)-_, Directives),
-    library_import(Directive, Library).
 
                 /*******************************
                 *             HASH             *
@@ -206,58 +186,3 @@ print_canonical(Term) :-
             write_term(Term, [ quoted(true), ignore_ops(true) ]),
             nl
           ).
-
-                /*******************************
-                *            CHECK             *
-                *******************************/
-
-%!  agent_check(+Spec) is det.
-%
-%   Print what is wrong with an agent program: what would keep it from
-%   loading, and calls to predicates that neither the program nor the
-%   vocabulary defines, so that a place or a payload must offer them.
-
-agent_check(Spec) :-
-    source_terms(Spec, Located),
-    program(Located, _, _, _, Problems),
-    findall(Warning, undefined(Located, Warning), Warnings0),
-    sort(Warnings0, Warnings),
-    forall(member(P, Problems), report(error, P)),
-    forall(member(P, Warnings), report(warning, P)),
-    length(Problems, Errors),
-    length(Warnings, Undefined),
-    print_message(informational, typhon(checked(Spec, Errors, Undefined))).
-
-report(Severity, problem(Formal, Location, Advice)) :-
-    advice_text(Advice, Text),
-    print_message(Severity, error(Formal, context(Location, Text))).
-
-undefined(Located,
-          problem(existence_error(procedure, PI), Location, offered)) :-
-    declared(agent, Located, _, Options, Rest, _),
-    partition(is_directive, Rest, Directives, Clauses0),
-    maplist(located_rule, Clauses0, Clauses),
-    findall(P, state_indicator(Options, Directives, P), State),
-    member((_:-Body)-Location, Clauses),
-    body_calls(Body, Calls),
-    member(call(PI, _), Calls),
-    \+ memberchk(PI, State),
-    \+ defined(PI, Clauses, Directives).
-
-defined(Name/Arity, Clauses, Directives) :-
-    functor(Head, Name, Arity),
-    (   member((Head:-_)-_, Clauses)
-    ;   predicate_property(system:Head, visible)
-    ;   predicate_property(typhon_vocabulary:Head, defined)
-    ;   library_directive(Directives, Library-_),
-        offers(Library, Name/Arity)
-    ),
-    !.
-
-offers(Library, PI) :-
-    absolute_file_name(Library, File,
-                       [ file_type(prolog), access(read),
-                         file_errors(fail) ]),
-    module_property(Module, file(File)),
-    module_property(Module, exports(Exports)),
-    memberchk(PI, Exports).

@@ -1,15 +1,16 @@
 :- module(typhon_source,
-          [ source_terms/2,             % +Spec, -Located
-            source_terms/3,             % +Spec, -Located, -Sources
+          [ source_terms/5,             % +Spec, -Located, -Sources, -Errors,
+                                        % -Warnings
             source_settled/1,           % +Sources
             source_same/1,              % +Sources
             declaration/4,              % +Kind, +Term, -Name, -Options
             library_import/2,           % +Directive, -Import
+            indicator_in/2,             % +PIs, ?PI
             clause_parts/3              % +Clause, -Head, -Body
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(paths, [included_file/3, program_file/2]).
 
 /** <module> Clause files as terms that know where they stood
@@ -21,6 +22,10 @@ the file: directives are terms like the others, and only `:- include(F)`
 is followed.  Grammar rules are translated.  Operators that the file
 imports from libraries are known from there on.
 
+What cannot be read, or looks like a slip of the pen, is a problem as in
+typhon_problems, and reading goes on behind it.  A syntax error stands at
+file(File, Line, LinePos, CharNo).
+
 What was read can be compared with what would be read now, for who keeps
 it.  A file has changed when its size or its time has.  One that was changed
 within two seconds before it was read may change again without either: it
@@ -29,52 +34,68 @@ is not settled, and must not be relied on.
 *Threading*: any thread.
 */
 
-%!  source_terms(+Spec, -Located:list(pair)) is det.
-%!  source_terms(+Spec, -Located:list(pair), -Sources:list) is det.
+%!  source_terms(+Spec, -Located:list(pair), -Sources:list, -Errors:list,
+%!               -Warnings:list) is det.
 %
 %   Located are the terms of Spec, each as Term-Location, in order; Sources
-%   is what they were read from, for source_same/1.
+%   is what they were read from, for source_same/1.  Errors are terms that
+%   cannot be read and files that cannot be included, Warnings variables
+%   that occur once; both are problems, in order.
 %
 %   @arg Spec is a file specification as census, 'census.pl' or
 %        agents(census), or clauses(Terms).
 %   @error existence_error(source_sink, Spec)
-%   @error syntax_error(What), with the place in the file
 %   @error domain_error(program_source, Spec)
 
-source_terms(Spec, Located) :-
-    source_terms(Spec, Located, _).
+source_terms(Spec, Located, Sources, Errors, Warnings) :-
+    items(Spec, Items),
+    sorted_out(Items, Located, Sources, Errors, Warnings).
 
-source_terms(Spec, _, _) :-
+%   items(+Spec, -Items): what is found, in order: term(Term, Location),
+%   source(Source), error(Problem) and warning(Problem).
+
+items(Spec, _) :-
     var(Spec),
     !,
     throw(error(instantiation_error, _)).
-source_terms(clauses(Terms), Located, []) :-
+items(clauses(Terms), Items) :-
     !,
     must_be(list, Terms),
-    number_terms(Terms, 1, Located).
-source_terms(Spec, Located, Sources) :-
+    number_terms(Terms, 1, Items).
+items(Spec, Items) :-
     program_file(Spec, File),
     setup_call_cleanup(
         scratch_module(Module),
-        file_terms(File, reading([], Module), Located, Sources, []),
+        file_items(File, reading([], Module), Items, []),
         '$destroy_module'(Module)).
 
-number_terms([], _, []).
-number_terms([Term0|Terms0], N, [Term-clause(N)|Terms]) :-
-    grammar_rule(Term0, Term, clause(N)),
-    N1 is N+1,
-    number_terms(Terms0, N1, Terms).
+sorted_out([], [], [], [], []).
+sorted_out([Item|Items], Located, Sources, Errors, Warnings) :-
+    sort_out(Item, Located, Located1, Sources, Sources1, Errors, Errors1,
+             Warnings, Warnings1),
+    sorted_out(Items, Located1, Sources1, Errors1, Warnings1).
 
-%   file_terms(+File, +Reading, -Located, -Sources, ?Rest): Reading is
+sort_out(term(T, Location), [T-Location|L], L, S, S, E, E, W, W).
+sort_out(source(Source), L, L, [Source|S], S, E, E, W, W).
+sort_out(error(Problem), L, L, S, S, [Problem|E], E, W, W).
+sort_out(warning(Problem), L, L, S, S, E, E, [Problem|W], W).
+
+number_terms([], _, []).
+number_terms([Term|Terms], N, [Item|Items]) :-
+    grammar_rule(Term, clause(N), Item),
+    N1 is N+1,
+    number_terms(Terms, N1, Items).
+
+%   file_items(+File, +Reading, -Items, ?Rest): Reading is
 %   reading(Files, Module), Files being those that include it.
 
-file_terms(File, reading(Files, Module), Located,
-           [file(File, Stamp, Now)|Sources], Rest) :-
+file_items(File, reading(Files, Module),
+           [source(file(File, Stamp, Now))|Items], Rest) :-
     get_time(Now),
     file_stamp(File, Stamp),
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
-        read_terms(In, reading([File|Files], Module), Located, Sources, Rest),
+        read_items(In, reading([File|Files], Module), Items, Rest),
         close(In)).
 
 file_stamp(File, stamp(Size, Time)) :-
@@ -90,45 +111,65 @@ scratch_module(Module) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(system)).
 
-%   read_terms(+In, +Reading, -Located, -Sources, ?Rest): the first of the
-%   files of Reading is the one that is read.
+%   read_items(+In, +Reading, -Items, ?Rest): the first of the files of
+%   Reading is the one that is read.
 
-read_terms(In, Reading, Located, Sources, Rest) :-
-    Reading = reading([File|_], Module),
-    read_one(In, File, Module, Term, Line),
-    continue(Term, Line, In, Reading, Located, Sources, Rest).
+read_items(In, Reading, Items, Rest) :-
+    read_one(In, Reading, Read),
+    continue(Read, In, Reading, Items, Rest).
 
-read_one(In, File, Module, Term, Line) :-
-    catch(read_term(In, Term,
-                    [ module(Module),
-                      term_position(Position),
-                      syntax_errors(error)
-                    ]),
+%   read_one(+In, +Reading, -Read): Read is read(Term, Location, Once), Once
+%   being the names of variables that occur once, or error(Problem).
+
+read_one(In, reading([File|_], Module), Read) :-
+    catch(read_located(In, File, Module, Read),
           error(syntax_error(What), Where),
-          syntax_error(What, Where, File)),
-    stream_position_data(line_count, Position, Line).
+          not_read(What, Where, File, Read)).
 
-syntax_error(What, stream(_, Line, LinePos, CharNo), File) :-
-    !,
-    throw(error(syntax_error(What), file(File, Line, LinePos, CharNo))).
-syntax_error(What, Where, _) :-
-    throw(error(syntax_error(What), Where)).
+not_read(What, Where, File, error(Problem)) :-
+    (   Where = stream(_, Line, LinePos, CharNo)
+    ->  Location = file(File, Line, LinePos, CharNo)
+    ;   Location = Where
+    ),
+    Problem = problem(syntax_error(What), Location, none).
 
-continue(Term, _, _, _, [], Rest, Rest) :-
+read_located(In, File, Module, read(Term, File:Line, Once)) :-
+    read_term(In, Term,
+              [ module(Module),
+                term_position(Position),
+                singletons(Bindings),
+                syntax_errors(error)
+              ]),
+    stream_position_data(line_count, Position, Line),
+    findall(Name, ( member(Name=_, Bindings), may_be_slip(Name) ), Once).
+
+%   A variable that is marked by an underscore is meant to occur once.
+
+may_be_slip(Name) :-
+    \+ sub_atom(Name, 0, _, _, '_').
+
+continue(read(Term, _, _), _, _, Rest, Rest) :-
     Term == end_of_file,
     !.
-continue(Term, Line, In, Reading, Located, Sources, Rest) :-
+continue(read(Term, Location, _), In, Reading, Items, Rest) :-
     includes(Term, Spec),
     !,
-    include_file(Spec, Line, Reading, Included, Sources, Sources1),
-    append(Included, Located1, Located),
-    read_terms(In, Reading, Located1, Sources1, Rest).
-continue(Term0, Line, In, Reading, [Term-(File:Line)|Located], Sources,
-         Rest) :-
-    Reading = reading([File|_], Module),
-    grammar_rule(Term0, Term, File:Line),
+    include_file(Spec, Location, Reading, Items, Items1),
+    read_items(In, Reading, Items1, Rest).
+continue(read(Term, Location, Once), In, Reading, [Item|Items], Rest) :-
+    Reading = reading(_, Module),
+    grammar_rule(Term, Location, Item),
     import_operators(Term, Module),
-    read_terms(In, Reading, Located, Sources, Rest).
+    once_warning(Once, Location, Items, Items1),
+    read_items(In, Reading, Items1, Rest).
+continue(error(Problem), In, Reading, [error(Problem)|Items], Rest) :-
+    read_items(In, Reading, Items, Rest).
+
+once_warning([], _, Items, Items) :-
+    !.
+once_warning(Names, Location,
+             [warning(problem(singletons(Names), Location, singletons))|Items],
+             Items).
 
 includes(Term, Spec) :-
     nonvar(Term),
@@ -136,25 +177,28 @@ includes(Term, Spec) :-
     nonvar(Directive),
     Directive = include(Spec).
 
-include_file(Spec, Line, Reading, Included,
-             [include(Spec, File, Path)|Sources], Rest) :-
+%   A file that includes itself, or one that is not there, is a problem.
+
+include_file(Spec, Location, Reading, Items, Rest) :-
     Reading = reading([File|Files], _),
-    catch(included_file(Spec, File, Path), error(Formal, _),
-          throw(error(Formal, context(File:Line, 'cannot include')))),
-    (   memberchk(Path, [File|Files])
-    ->  throw(error(permission_error(include, source_sink, Spec),
-                    context(File:Line, 'a file cannot include itself')))
-    ;   file_terms(Path, Reading, Included, Sources, Rest)
+    catch(included_file(Spec, File, Path), error(Formal, _), true),
+    (   nonvar(Formal)
+    ->  Items = [error(problem(Formal, Location, include))|Rest]
+    ;   memberchk(Path, [File|Files])
+    ->  Formal = permission_error(include, source_sink, Spec),
+        Items = [error(problem(Formal, Location, include_itself))|Rest]
+    ;   Items = [source(include(Spec, File, Path))|Items1],
+        file_items(Path, Reading, Items1, Rest)
     ).
 
-grammar_rule(Term0, Term, Location) :-
-    (   nonvar(Term0),
-        Term0 = (_-->_)
-    ->  catch(dcg_translate_rule(Term0, Term), error(Formal, _),
-              throw(error(Formal,
-                          context(Location, 'not a grammar rule'))))
-    ;   Term = Term0
-    ).
+grammar_rule(Term0, Location, Item) :-
+    nonvar(Term0),
+    Term0 = (_-->_),
+    !,
+    catch(( dcg_translate_rule(Term0, Term), Item = term(Term, Location) ),
+          error(Formal, _),
+          Item = error(problem(Formal, Location, grammar))).
+grammar_rule(Term, Location, term(Term, Location)).
 
 %   A library that is not there is reported by typhon_programs.
 
@@ -214,6 +258,15 @@ library_import(use_module(library(L)), library(L)-all) :-
     ground(L).
 library_import(use_module(library(L), Imports), library(L)-Imports) :-
     ground(L-Imports).
+
+%!  indicator_in(+PIs, ?PI) is nondet.
+%
+%   PI is one of PIs, as they stand in dynamic/1.
+
+indicator_in(Var, _) :- var(Var), !, fail.
+indicator_in([H|T], PI) :- !, member(X, [H|T]), indicator_in(X, PI).
+indicator_in((A,B), PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
+indicator_in(Name/Arity, Name/Arity) :- atom(Name), integer(Arity).
 
 %!  clause_parts(+Clause, -Head, -Body) is det.
 

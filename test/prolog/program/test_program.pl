@@ -19,7 +19,7 @@ people see them.
 %   program_load(+Spec, -Program, -Initial): whatever is remembered.
 
 program_load(Spec, Program, Initial) :-
-    program_read(Spec, Program, Initial, _, _).
+    program_read(Spec, Program, Initial, _, _, _).
 
 %   with_file(+Lines, :Goal): Goal(File) for a file of these lines.
 
@@ -59,7 +59,7 @@ problem(Lines, Formal, Line, Advice) :-
 
 error_of(What, Formal, Line, Advice, File) :-
     catch(( call(What, File), Error = none ), Error, true),
-    Error = error(Formal, context(File:Line, Advice)),
+    Error = error(Formal, at(File:Line, Advice, _)),
     text_of(Error, Text),
     format(string(Place), '~w:~d', [File, Line]),
     assertion(sub_string(Text, _, _, _, Place)).
@@ -92,7 +92,8 @@ control_inside(M) :-
             permission_error(call, control_predicate, move/1), 2, _).
 
 syntax_line(Line, File) :-
-    catch(load(File), error(syntax_error(_), file(File, Line, _, _)), true),
+    catch(load(File),
+          error(syntax_error(_), at(file(File, Line, _, _), _, _)), true),
     nonvar(Line).
 
 load_quietly(File) :-
@@ -110,7 +111,7 @@ clauses_of(Clauses, File) :-
     program_load(File, program(_, _, _, Clauses), _).
 
 error_in(Name, Line, Formal, File) :-
-    catch(load(File), error(Formal, context(Where:Line, _)), true),
+    catch(load(File), error(Formal, at(Where:Line, _, _)), true),
     nonvar(Where),
     file_base_name(Where, Base),
     file_name_extension(Name, pl, Base).
@@ -142,9 +143,9 @@ check(Lines, Messages) :-
     listening(with_file(Lines, agent_check), Messages0),
     findall(M, ( member(M0, Messages0), short(M0, M) ), Messages).
 
-short(Kind-error(_, context(_:Line, _)), Kind-Line).
-short(Kind-typhon(checked(_, Errors, Undefined)),
-      Kind-checked(Errors, Undefined)).
+short(Kind-error(_, at(_:Line, _, _)), Kind-Line).
+short(Kind-typhon(checked(_, Errors, Doubts, Undefined)),
+      Kind-checked(Errors, Doubts, Undefined)).
 
 final(Clauses, Facts) :-
     with_hosts([alpha], final_(Clauses, Facts)).
@@ -458,22 +459,22 @@ test(bounded) :-
 
 :- begin_tests(agent_check).
 
-test(in_order, M == [informational-checked(0, 0)]) :-
+test(in_order, M == [informational-checked(0, 0, 0)]) :-
     check([':- agent(a, [state([p/1])]).',
            'main :- p(X), q(X), member(Y, [X]), here(_), move(Y).',
            'q(_).'], M).
 test(all_problems, M == [error-3, error-4, warning-2,
-                         informational-checked(2, 1)]) :-
+                         informational-checked(2, 0, 1)]) :-
     check([':- agent(a).',
            'main :- nowhere(1).',
            '1.',
            ':- foo.'], M).
-test(undefined_in_a_meta_call, M == [warning-2, informational-checked(0, 1)]) :-
+test(undefined_in_a_meta_call, M == [warning-2, informational-checked(0, 0, 1)]) :-
     check([':- agent(a).', 'main :- findall(X, nowhere(X), _).'], M).
-test(what_a_library_offers, M == [informational-checked(0, 0)]) :-
+test(what_a_library_offers, M == [informational-checked(0, 0, 0)]) :-
     check([':- agent(a).', ':- use_module(library(dcg/basics)).',
            'main :- phrase(integer(_), `12`).'], M).
-test(control_in_the_wrong_place, M == [error-2, informational-checked(1, 0)]) :-
+test(control_in_the_wrong_place, M == [error-2, informational-checked(1, 0, 0)]) :-
     check([':- agent(a).', 'main :- forall(true, move(a)).'], M).
 test(no_file, error(existence_error(source_sink, no_such_census))) :-
     agent_check(no_such_census).

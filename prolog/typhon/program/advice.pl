@@ -1,0 +1,178 @@
+:- module(typhon_advice,
+          [ problem_error/3             % +Problem, +Others, -Error
+          ]).
+
+/** <module> Problems of a program as errors, with advice
+
+A problem, see typhon_problems, is raised and printed as
+
+    error(Formal, at(Location, Text, Others))
+
+where Text says what to do about it, and Others are problems found with it.
+A context/2 of Prolog's own would be replaced by a trace of the reader's
+calls when nobody catches the error.
+
+*Threading*: pure.
+*/
+
+:- multifile
+    prolog:error_message//1,
+    prolog:message_context//1,
+    prolog:message_location//1.
+
+%!  problem_error(+Problem, +Others:list, -Error) is det.
+%
+%   Error is Problem, and tells Others as well.
+
+problem_error(problem(Formal, Location, Advice), Others,
+              error(Formal, at(Location, Text, Others))) :-
+    phrase(advice(Advice), Parts),
+    atomic_list_concat(Parts, Text).
+
+                /*******************************
+                *             TEXTS            *
+                *******************************/
+
+prolog:error_message(singletons(Names)) -->
+    { atomic_list_concat(Names, ', ', Text) },
+    [ 'Variables that occur once: ~w'-[Text] ].
+prolog:error_message(discontiguous(PI)) -->
+    [ 'Clauses of ~p are not together'-[PI] ].
+prolog:error_message(undeclared_state(PI)) -->
+    [ '~p is changed, and not declared as state'-[PI] ].
+prolog:error_message(unknown_procedure(PI)) -->
+    [ 'Unknown procedure: ~p'-[PI] ].
+prolog:error_message(lost_choice(Choice, Control, Test)) -->
+    [ '~p gives up '-[Control] ],
+    given_up(Choice),
+    [ ': ~p does not come back to them'-[Test] ].
+
+given_up(clause) --> !,
+    [ 'the clauses below' ].
+given_up(Choice) -->
+    [ 'the choices of ~p'-[Choice] ].
+
+%   As editors understand it.
+
+prolog:message_location(at(Location, _, _)) -->
+    place(Location).
+
+prolog:message_context(at(_, Advice, Others)) -->
+    advised(Advice),
+    others(Others).
+
+place(File:Line) -->
+    [ '~w:~d: '-[File, Line] ].
+place(clause(N)) -->
+    [ 'clause ~d: '-[N] ].
+place(file(File, Line, LinePos, _)) -->
+    [ '~w:~d:~d: '-[File, Line, LinePos] ].
+
+advised('') -->
+    !.
+advised(Advice) -->
+    [ ' (~w)'-[Advice] ].
+
+others([]) -->
+    [].
+others([Problem|Others]) -->
+    { problem_error(Problem, [], Error) },
+    [ nl ],
+    '$messages':translate_message(Error),
+    others(Others).
+
+                /*******************************
+                *            ADVICE            *
+                *******************************/
+
+%   advice(+Advice)//: the text, empty where the error says enough.
+
+advice(none) -->
+    [].
+advice(singletons) -->
+    ['if it is meant to occur once, write it with an underscore first'].
+advice(discontiguous(Name/Arity)) -->
+    { term_to_atom(Name/Arity, Atom) },
+    ['put them together, or write :- discontiguous ', Atom, '.'].
+advice(include) -->
+    ['cannot include'].
+advice(include_itself) -->
+    ['a file cannot include itself'].
+advice(grammar) -->
+    ['not a grammar rule'].
+advice(declare(agent)) -->
+    ['begin the file with :- agent(Name, [state([Name/Arity, ...])]).'].
+advice(declare(payload)) -->
+    ['begin the file with :- payload(Name, [provides([Name/Arity, ...])]).'].
+advice(directive) -->
+    ['nothing runs at load time; allowed are agent/1,2, payload/1,2, \c
+      dynamic/1, discontiguous/1, include/1 and use_module(library(_))'].
+advice(once) -->
+    ['a file begins with one declaration: move what follows it to a file \c
+      of its own'].
+advice(library) -->
+    ['there is no such library: install it, or write library(Name)'].
+advice(indicator) -->
+    ['write dynamic Name/Arity, ...'].
+advice(rule) -->
+    ['write Head :- Body'].
+advice(head) -->
+    ['a clause head is an atom or a compound term'].
+advice(body) -->
+    ['a clause body is built of callable terms'].
+advice(qualified) -->
+    ['an agent has no modules: write the head without one'].
+advice(redefined) -->
+    ['the name is taken: rename the predicate'].
+advice(entry) -->
+    ['define main/0, on_message/2 or both'].
+advice(state) -->
+    ['write agent(Name, [state([Name/Arity, ...])])'].
+advice(undeclared(Name/Arity)) -->
+    { term_to_atom(Name/Arity, Atom) },
+    ['what an agent changes is its state: write agent(Name, [state([',
+     Atom, '])])'].
+advice(offered) -->
+    ['a place or a payload must offer it'].
+advice(commits(Choice)) -->
+    ['what stops an agent commits it: '],
+    instead(Choice).
+advice(inside(Name/Arity)) -->
+    { term_to_atom(Name/Arity, Atom) },
+    ['an agent cannot stop inside ', Atom, ': '],
+    outside(Name/Arity).
+
+%   instead(+Choice)//: what to write for a choice that is given up.
+
+instead(clause) --> !,
+    ['write ( Goal -> ... ; ... ), which travels, instead of two clauses'].
+instead((;)/2) --> !,
+    ['write ( Goal -> ... ; ... ), which travels'].
+instead(_) -->
+    ['collect them with findall/3, and go through the list by recursion'].
+
+%   outside(+PI)//: what to write for a goal that must run to its end.
+
+outside(PI) --> { repeats(PI) }, !,
+    ['write a recursive predicate instead'].
+outside((\+)/1) --> !,
+    ['write ( Goal -> fail ; true ) instead'].
+outside(PI) --> { cleans_up(PI) }, !,
+    ['what it holds open cannot travel: let it end before the agent stops, \c
+      and catch errors with catch/3'].
+outside(call_with_time_limit/_) --> !,
+    ['receive/2 has a time limit'].
+outside(_) -->
+    ['stop before it, or after it'].
+
+repeats(Name/_) :-
+    memberchk(Name,
+              [ findall, findnsols, bagof, setof, aggregate_all, aggregate,
+                forall, foreach, maplist, foldl, include, exclude, partition,
+                foldr, call_nth, limit, offset, order_by,
+                distinct, convlist, phrase ]).
+
+cleans_up(Name/_) :-
+    memberchk(Name,
+              [ setup_call_cleanup, call_cleanup, with_output_to, with_mutex,
+                with_tty_raw, transaction, snapshot, sig_atomic ]).

@@ -1,0 +1,122 @@
+:- module(typhon_check,
+          [ agent_check/1               % +Spec
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [append/2, append/3, member/2, memberchk/2]).
+:- use_module(advice, [problem_error/3]).
+:- use_module(mobile, [body_calls/2, built_in/1, mobile_predicates/3]).
+:- use_module(parts, [file_parts/4, library_directive/2, part/3]).
+:- use_module(programs, [in_file_order/3, payload_terms/3, program_terms/6]).
+:- use_module(slips, [apart_problem/3]).
+:- use_module(choices, [lost_choice/3]).
+:- use_module(source, [declaration/4, source_terms/5]).
+
+/** <module> What is wrong with a program, for people
+
+*Threading*: any thread.
+*/
+
+%!  agent_check(+Spec) is det.
+%
+%   Print what is wrong with an agent program, or with a payload.  Errors
+%   would keep it from loading.  Warnings are
+%
+%     - variables that occur once, and clauses of a predicate with others in
+%       between
+%     - predicates that it changes, and has not declared as its state
+%     - choices that it gives up when it stops, and seems to count on
+%     - of an agent, calls to predicates that neither it nor the vocabulary
+%       defines, so that a place or a payload must offer them
+%
+%   While some of it cannot be read, only that is told.  All but the last are
+%   told when an agent is created, too: errors are raised, warnings printed
+%   once, until the file changes.
+
+agent_check(Spec) :-
+    source_terms(Spec, Located, _, Unread, Once),
+    looked_at(Unread, Located, Errors, Slips, Undefined),
+    append([Once, Slips, Undefined], Warnings0),
+    in_file_order(Warnings0, Located, Warnings),
+    forall(member(P, Errors), report(error, P)),
+    forall(member(P, Warnings), report(warning, P)),
+    maplist(length, [Errors, Warnings, Undefined], [E, W0, U]),
+    W is W0-U,
+    print_message(informational, typhon(checked(Spec, E, W, U))).
+
+report(Severity, Problem) :-
+    problem_error(Problem, [], Error),
+    print_message(Severity, Error).
+
+%   looked_at(+Unread, +Located, -Errors, -Warnings, -Undefined)
+
+looked_at([Error|Errors], _, [Error|Errors], [], []).
+looked_at([], Located, Errors, Warnings, Undefined) :-
+    (   is_payload(Located)
+    ->  payload_problems(Located, Errors, Warnings),
+        Undefined = []
+    ;   program_terms(Located, _, _, _, Errors, Warnings),
+        findall(P, undefined(Located, Warnings, P), Undefined0),
+        sort(Undefined0, Undefined)
+    ).
+
+is_payload(Located) :-
+    member(Term-_, Located),
+    declaration(payload, Term, _, _),
+    !,
+    \+ ( member(Agent-_, Located), declaration(agent, Agent, _, _) ).
+
+payload_problems(Located, Errors, Warnings) :-
+    payload_terms(Located, _, Errors0),
+    moves(Errors0, Located, Errors1, Warnings),
+    append(Errors0, Errors1, Errors2),
+    in_file_order(Errors2, Located, Errors).
+
+%   moves(+Errors0, +Located, -Errors, -Warnings): as of a program, but that a
+%   payload may change what it provides.
+
+moves([_|_], _, [], []).
+moves([], Located, Errors, Warnings) :-
+    file_parts(payload, Located, Parts, _),
+    part(rules, Parts, Rules),
+    part(directives, Parts, Directives),
+    mobile_predicates(Rules, Kinds, Errors0),
+    findall(E, ( member(E, Errors0), \+ E = problem(_, _, undeclared(_)) ),
+            Errors),
+    findall(PI, member(PI-mobile, Kinds), Mobile),
+    findall(W, ( apart_problem(Rules, Directives-[], W)
+               ; lost_choice(Rules, own([], Mobile), W) ),
+            Warnings).
+
+%   undefined(+Located, +Warnings, -Problem) is nondet: Warnings say what it
+%   should have declared.
+
+undefined(Located, Warnings,
+          problem(unknown_procedure(PI), Location, offered)) :-
+    file_parts(agent, Located, Parts, _),
+    part(rules, Parts, Rules),
+    part(state, Parts, State),
+    member((_:-Body)-Location, Rules),
+    body_calls(Body, Calls),
+    member(call(PI, _), Calls),
+    \+ memberchk(PI, State),
+    \+ memberchk(problem(undeclared_state(PI), _, _), Warnings),
+    \+ defined(PI, Parts).
+
+defined(PI, Parts) :-
+    (   built_in(PI)
+    ;   part(rules, Parts, Rules),
+        PI = Name/Arity,
+        functor(Head, Name, Arity),
+        member((Head:-_)-_, Rules)
+    ;   library_directive(Parts, Library-_),
+        offers(Library, PI)
+    ),
+    !.
+
+offers(Library, PI) :-
+    absolute_file_name(Library, File,
+                       [ file_type(prolog), access(read),
+                         file_errors(fail) ]),
+    module_property(Module, file(File)),
+    module_property(Module, exports(Exports)),
+    memberchk(PI, Exports).

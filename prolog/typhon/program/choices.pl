@@ -1,0 +1,299 @@
+:- module(typhon_choices,
+          [ lost_choice/3               % +Clauses, +Own, -Problem
+          ]).
+:- use_module(library(lists),
+              [append/3, intersection/3, member/2, memberchk/2, union/3]).
+:- use_module(mobile, [body_calls/2, built_in/1, is_mobile/2]).
+
+/** <module> Choices that an agent gives up, and seems to count on
+
+A control predicate commits: what was left to try when an agent stops is
+not tried later.  Whoever writes
+
+    member(Host, Hosts), move(Host), look_around, fail
+
+expects another hop for each of Hosts, and gets one.  That is a problem
+here when, in one conjunction of a clause,
+
+  1. a goal leaves choices,
+  2. after it, and no cut, an agent can stop,
+  3. after that, and no cut, stands a goal that is there to fail.
+
+What leaves choices is a goal that is known to (member/2, between/3, sense/1
+and the like, where they bind a variable that occurs there for the first
+time, or a predicate of several facts that is called so), a disjunction, and
+another clause with a head that is at least as general, unless something
+before the stop may be there to choose between the two.  Before a plain
+`fail` it is also retract/1, and any predicate that may have several clauses.
+What is there to fail is fail/0, a comparison, a type test, \+, memberchk/2,
+forall/2, sense/1 and take/1; and the stop itself, if it is a receive with a
+timeout.  What stands in a condition is there for this condition.
+
+*Threading*: pure.
+*/
+
+%!  lost_choice(+Clauses, +Own, -Problem) is nondet.
+%
+%   Clauses are rules, each with its location; Own is own(State, Mobile): the
+%   predicate indicators of what is mutable, and of what can reach a control
+%   predicate.  There is at most one Problem for each clause,
+%   problem(lost_choice(Choice, Control, Test), Location, commits(Choice)),
+%   of three predicate indicators; Choice may be `clause`.
+
+lost_choice(Clauses, Own,
+            problem(lost_choice(Choice, Control, Test), Location,
+                    commits(Choice))) :-
+    append(_, [(Head:-Body)-Location|Later], Clauses),
+    other_clause(Later, Head, Left),
+    phrase(walk(Body, Own-Clauses, path(Head, Left, []), _),
+           [lost(Choice, Control, Test)|_]).
+
+other_clause(Later, Head, Left) :-
+    (   member((General:-_)-_, Later),
+        subsumes_term(General, Head)
+    ->  Left = [other-clause]
+    ;   Left = []
+    ).
+
+                /*******************************
+                *            A BODY            *
+                *******************************/
+
+%   walk(+Body, +Program, +Path0, -Path)//: what is lost in Body, as
+%   lost(Choice, Control, Test).
+%
+%   A path is path(Seen, Left, Lost), or `dead` behind a fail/0.  Seen is a
+%   term of the variables so far.  Left are choices Kind-PI that are there
+%   now, Lost those that were given up, as Kind-PI-Control.  Kind is
+%
+%     - sure: there is more than one solution
+%     - other: another clause, or the other side of a disjunction
+%     - guarded: the same, but a goal was there to choose
+%     - maybe: there may be more than one solution
+
+walk(_, _, dead, dead) -->
+    !.
+walk(Var, _, Path, Path) -->
+    { var(Var) },
+    !.
+walk((A,B), Program, Path0, Path) -->
+    !,
+    walk(A, Program, Path0, Path1),
+    walk(B, Program, Path1, Path).
+walk(!, _, path(Seen, _, _), path(Seen, [], [])) -->
+    !.
+walk((If->Then;Else), Program, Path0, Path) -->
+    !,
+    condition(If, Program, Path0, Path1),
+    walk(Then, Program, Path1, Path2),
+    walk(Else, Program, Path0, Path3),
+    { joined(Path2, Path3, Path) }.
+walk((If*->Then;Else), Program, Path0, Path) -->
+    !,
+    walk((If->Then;Else), Program, Path0, Path).
+walk((A;B), Program, Path0, Path) -->
+    !,
+    { leaves(other, (;)/2, Path0, Path1) },
+    walk(A, Program, Path1, Path2),
+    walk(B, Program, Path0, Path3),
+    { joined(Path2, Path3, Path4),
+      leaves(maybe, (;)/2, Path4, Path)
+    }.
+walk((If->Then), Program, Path0, Path) -->
+    !,
+    condition(If, Program, Path0, Path1),
+    walk(Then, Program, Path1, Path).
+walk((If*->Then), Program, Path0, Path) -->
+    !,
+    walk((If->Then), Program, Path0, Path).
+walk(ignore(Goal), Program, Path0, Path) -->
+    !,
+    condition(Goal, Program, Path0, Path).
+walk(once(Goal), Program, Path0, Path) -->
+    !,
+    walk(Goal, Program, Path0, _),
+    { stopped(Goal, Program, Path0, Path) }.
+walk(call(Goal), Program, Path0, Path) -->
+    !,
+    walk(Goal, Program, Path0, Path).
+walk(catch(Goal,_,Recovery), Program, Path0, Path) -->
+    !,
+    walk(Goal, Program, Path0, Path),
+    walk(Recovery, Program, path(Goal, [], []), _).
+walk(Goal, Program, Path0, Path) -->
+    { stopped(Goal, Program, Path0, Path1) },
+    fails(Goal, Path1),
+    { goes_on(Goal, Program, Path1, Path) }.
+
+%   condition(+If, +Program, +Path0, -Path)//: when If fails, nothing before
+%   it is tried again.
+
+condition(If, Program, Path0, Path) -->
+    { Path0 = path(Seen, _, _) },
+    walk(If, Program, path(Seen, [], []), _),
+    { stopped(If, Program, Path0, Path) }.
+
+%   fails(+Goal, +Path)//: Goal may fail, and nobody comes back.
+
+fails(Goal, path(_, Left, Lost)) -->
+    { failing(Goal, Left, Kinds),
+      member(Kind-Choice-Control, Lost),
+      memberchk(Kind, Kinds)
+    },
+    !,
+    { indicator(Goal, Test) },
+    [ lost(Choice, Control, Test) ].
+fails(_, _) -->
+    [].
+
+%   failing(+Goal, +Left, -Kinds) is semidet: if Goal fails, choices of Kinds
+%   were meant, and not those that are Left.
+
+failing(Goal, Left, [sure,other,guarded,maybe]) :-
+    is_fail(Goal),
+    !,
+    \+ ( member(Kind-(;)/2, Left), Kind \== maybe ).
+failing(Goal, [], [sure,other]) :-
+    is_test(Goal).
+
+                /*******************************
+                *             PATHS            *
+                *******************************/
+
+%   stopped(+Goal, +Program, +Path0, -Path): the agent may stop in Goal.
+
+stopped(Goal, own(_, Mobile)-_, path(Seen, Left, Lost0),
+        path(Seen-Goal, [], Lost)) :-
+    body_calls(Goal, Calls),
+    member(call(PI, run), Calls),
+    is_mobile(PI, Mobile),
+    !,
+    findall(Choice-PI, member(Choice, Left), Given),
+    append(Given, Lost0, Lost).
+stopped(Goal, _, path(Seen, Left, Lost), path(Seen-Goal, Left, Lost)).
+
+%   goes_on(+Goal, +Program, +Path0, -Path): behind Goal, which does not
+%   matter any more as a stop.
+
+goes_on(Goal, _, _, dead) :-
+    is_fail(Goal),
+    !.
+goes_on(Goal, Program, path(Seen, Left0, Lost), Path) :-
+    Seen = Before-_,
+    (   chooses(Goal)
+    ->  guarded(Left0, Left)
+    ;   Left = Left0
+    ),
+    (   solutions(Goal, Before, Program, Kind)
+    ->  indicator(Goal, PI),
+        leaves(Kind, PI, path(Seen, Left, Lost), Path)
+    ;   Path = path(Seen, Left, Lost)
+    ).
+
+leaves(_, _, dead, dead) :-
+    !.
+leaves(Kind, PI, path(Seen, Left, Lost), path(Seen, [Kind-PI|Left], Lost)).
+
+guarded([], []).
+guarded([Kind0-PI|Left0], [Kind-PI|Left]) :-
+    ( Kind0 == other -> Kind = guarded ; Kind = Kind0 ),
+    guarded(Left0, Left).
+
+joined(dead, Path, Path) :-
+    !.
+joined(Path, dead, Path) :-
+    !.
+joined(path(Seen1, Left1, Lost1), path(Seen2, Left2, Lost2),
+       path(Seen1-Seen2, Left, Lost)) :-
+    intersection(Left1, Left2, Left),
+    union(Lost1, Lost2, Lost).
+
+                /*******************************
+                *             GOALS            *
+                *******************************/
+
+indicator(Goal, Name/Arity) :-
+    functor(Goal, Name, Arity).
+
+is_fail(fail).
+is_fail(false).
+
+%   is_test(+Goal): it is there to fail.
+
+is_test(Goal) :-
+    indicator(Goal, PI),
+    memberchk(PI, [ (\+)/1, (==)/2, (\==)/2, (\=)/2, (=:=)/2, (=\=)/2,
+                    (<)/2, (>)/2, (=<)/2, (>=)/2, (@<)/2, (@>)/2, (@=<)/2,
+                    (@>=)/2, var/1, nonvar/1, atom/1, number/1, integer/1,
+                    atomic/1, compound/1, callable/1, ground/1, is_list/1,
+                    memberchk/2, forall/2, sense/1, take/1, receive/2,
+                    receive_until/2 ]).
+
+%   chooses(+Goal): it may be there to choose between clauses.
+
+chooses(Goal) :-
+    is_test(Goal),
+    !.
+chooses(Goal) :-
+    indicator(Goal, PI),
+    (   memberchk(PI, [ (=)/2, retract/1 ])
+    ->  true
+    ;   \+ built_in(PI)
+    ).
+
+%   solutions(+Goal, +Seen, +Program, -Kind) is semidet.
+
+solutions(Goal, Seen, _-Clauses, sure) :-
+    (   finds(Goal, What)
+    ;   facts(Goal, Clauses, What)
+    ),
+    term_variables(Seen, Old),
+    term_variables(What, Variables),
+    \+ forall(member(V, Variables), (member(O, Old), O == V)),
+    !.
+solutions(repeat, _, _, sure) :-
+    !.
+solutions(retract(_), _, _, maybe) :-
+    !.
+solutions(Goal, _, own(State, _)-Clauses, maybe) :-
+    indicator(Goal, PI),
+    \+ built_in(PI),
+    (   memberchk(PI, State)
+    ->  true
+    ;   findall(x, clause_of(Goal, Clauses, _), [_])
+    ->  fail
+    ;   true
+    ).
+
+%   finds(+Goal, -What) is semidet: Goal has several solutions where What is
+%   not bound.
+
+finds(member(X, List), X) :- \+ subsumes_term([_], List).
+finds(select(X, _, _), X).
+finds(select(X, _, _, _), X).
+finds(nth0(I, _, _), I).
+finds(nth1(I, _, _), I).
+finds(between(_, _, X), X).
+finds(append(X, _, _), X).
+finds(permutation(_, X), X).
+finds(clause(_, Body), Body).
+finds(sub_atom(_, B, L, A, Sub), [B,L,A,Sub]).
+finds(sub_string(_, B, L, A, Sub), [B,L,A,Sub]).
+finds(current_op(P, T, N), [P,T,N]).
+finds(sense(Fact), Fact).
+finds(pheromone(Problem, Source, _), [Problem,Source]).
+finds(neighbour(Host, _), Host).
+
+%   facts(+Goal, +Clauses, -What): Goal has several clauses, all facts, and
+%   What would choose one.
+
+facts(Goal, Clauses, What) :-
+    compound(Goal),
+    arg(1, Goal, What),
+    findall(Body, clause_of(Goal, Clauses, Body), [_,_|_]),
+    \+ ( clause_of(Goal, Clauses, Body), Body \== true ).
+
+clause_of(Goal, Clauses, Body) :-
+    functor(Goal, Name, Arity),
+    functor(Head, Name, Arity),
+    member((Head:-Body)-_, Clauses).
