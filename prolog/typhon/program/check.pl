@@ -2,11 +2,13 @@
           [ agent_check/1               % +Spec
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/2, append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [append/2, member/2, memberchk/2]).
 :- use_module(advice, [problem_error/3]).
 :- use_module(mobile, [body_calls/2, built_in/1, mobile_predicates/3]).
 :- use_module(parts, [file_parts/4, library_directive/2, part/3]).
-:- use_module(programs, [in_file_order/3, payload_terms/3, program_terms/6]).
+:- use_module(programs,
+              [ in_file_order/3, payload_terms/3, program_doubts/3,
+                program_terms/5 ]).
 :- use_module(slips, [apart_problem/3]).
 :- use_module(choices, [lost_choice/3]).
 :- use_module(source, [declaration/4, source_terms/5]).
@@ -54,7 +56,8 @@ looked_at([], Located, Errors, Warnings, Undefined) :-
     (   is_payload(Located)
     ->  payload_problems(Located, Errors, Warnings),
         Undefined = []
-    ;   program_terms(Located, _, _, _, Errors, Warnings),
+    ;   program_terms(Located, _, _, Kinds, Errors),
+        program_doubts(Located, Kinds, Warnings),
         findall(P, undefined(Located, Warnings, P), Undefined0),
         sort(Undefined0, Undefined)
     ).
@@ -67,14 +70,12 @@ is_payload(Located) :-
 
 payload_problems(Located, Errors, Warnings) :-
     payload_terms(Located, _, Errors0),
-    moves(Errors0, Located, Errors1, Warnings),
-    append(Errors0, Errors1, Errors2),
-    in_file_order(Errors2, Located, Errors).
+    moves(Errors0, Located, Errors, Warnings).
 
 %   moves(+Errors0, +Located, -Errors, -Warnings): as of a program, but that a
 %   payload may change what it provides.
 
-moves([_|_], _, [], []).
+moves([Error|Errors], _, [Error|Errors], []).
 moves([], Located, Errors, Warnings) :-
     file_parts(payload, Located, Parts, _),
     part(rules, Parts, Rules),

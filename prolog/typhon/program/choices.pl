@@ -44,9 +44,17 @@ lost_choice(Clauses, Own,
             problem(lost_choice(Choice, Control, Test), Location,
                     commits(Choice))) :-
     append(_, [(Head:-Body)-Location|Later], Clauses),
+    may_stop(Head, Own),
     other_clause(Later, Head, Left),
     phrase(walk(Body, Own-Clauses, path(Head, Left, []), _),
            [lost(Choice, Control, Test)|_]).
+
+may_stop(Head, own(State, Mobile)) :-
+    indicator(Head, PI),
+    (   memberchk(PI, Mobile)
+    ->  true
+    ;   memberchk(PI, State)
+    ).
 
 other_clause(Later, Head, Left) :-
     (   member((General:-_)-_, Later),

@@ -76,11 +76,8 @@ remember(Key, Sources, Loaded) :-
     assertz(loaded(Key, Sources, Loaded)),
     forget_oldest(loaded(_, _, _)).
 
-%   warn(+Spec, +Sources, +Warnings): what makes clauses is a program, and
-%   is not told how to write them.
+%   warn(+File, +Sources, +Warnings): of clauses there are none.
 
-warn(clauses(_), _, _) :-
-    !.
 warn(_, _, []) :-
     !.
 warn(File, Sources, Warnings) :-

@@ -2,8 +2,9 @@
           [ program_read/6,             % +Spec, -Program, -Initial, -Kinds,
                                         % -Sources, -Warnings
             payload_load/2,             % +Spec, -Payload
-            program_terms/6,            % +Located, -Program, -Initial,
-                                        % -Kinds, -Errors, -Warnings
+            program_terms/5,            % +Located, -Program, -Initial,
+                                        % -Kinds, -Errors
+            program_doubts/3,           % +Located, +Kinds, -Warnings
             payload_terms/3,            % +Located, -Payload, -Errors
             in_file_order/3,            % +Problems, +Located, -Ordered
             program_hash/2              % +Program, -Hash
@@ -49,17 +50,25 @@ becomes a plain term:
 %        agent at birth.
 %   @arg Kinds is what mobile_predicates/3 finds.
 %   @arg Sources is what it was read from, see source_terms/5.
-%   @arg Warnings are the problems of program_terms/6, and those of reading.
+%   @arg Warnings are problems that do not keep it from running: what was
+%        found in reading, and program_doubts/3.  What makes clauses(Terms)
+%        is a program itself, and gets none.
 %   @error The first problem that keeps the program from running, with the
 %        others in its context, see problem_error/3.
 
 program_read(Spec, Program, Initial, Kinds, Sources, Warnings) :-
     source_terms(Spec, Located, Sources, Unread, Once),
     no_problems(Unread),
-    program_terms(Located, Program, Initial, Kinds, Errors, Warnings0),
+    program_terms(Located, Program, Initial, Kinds, Errors),
     no_problems(Errors),
-    append(Once, Warnings0, Warnings1),
-    in_file_order(Warnings1, Located, Warnings).
+    read_warnings(Spec, Located, Kinds, Once, Warnings).
+
+read_warnings(clauses(_), _, _, _, []) :-
+    !.
+read_warnings(_, Located, Kinds, Once, Warnings) :-
+    program_doubts(Located, Kinds, Doubts),
+    append(Once, Doubts, Warnings0),
+    in_file_order(Warnings0, Located, Warnings).
 
 %!  payload_load(+Spec, -Payload) is det.
 %
@@ -80,14 +89,13 @@ no_problems([Problem|Others]) :-
     problem_error(Problem, Others, Error),
     throw(Error).
 
-%!  program_terms(+Located, -Program, -Initial, -Kinds, -Errors:list,
-%!                -Warnings:list) is det.
+%!  program_terms(+Located, -Program, -Initial, -Kinds, -Errors:list) is det.
 %
-%   As program_read/6, of terms with their locations.  Errors, in the order
-%   of the file, keep the program from running, Warnings do not.
+%   As program_read/6, of terms with their locations; Errors, in the order of
+%   the file, keep the program from running.
 
 program_terms(Located, program(Name, State, Libraries, Static), Initial,
-              Kinds, Errors, Warnings) :-
+              Kinds, Errors) :-
     file_parts(agent, Located, Parts, Errors0),
     part(name, Parts, Name),
     part(state, Parts, State),
@@ -98,7 +106,6 @@ program_terms(Located, program(Name, State, Libraries, Static), Initial,
     append(Errors0, Errors1, Errors2),
     moves(Errors2, Static0, Kinds, Errors3),
     in_file_order(Errors3, Located, Errors),
-    findall(Problem, doubtful(Errors2, Parts, Kinds, Problem), Warnings),
     maplist(located_clause, Static0, Static),
     maplist(located_clause, Initial0, Initial).
 
@@ -119,7 +126,18 @@ moves([], Static, Kinds, Errors) :-
     mobile_predicates(Static, Kinds, Errors).
 moves(Errors, _, [], Errors).
 
-doubtful([], Parts, Kinds, Problem) :-
+%!  program_doubts(+Located, +Kinds, -Warnings:list) is det.
+%
+%   What hardly means what it says.  Kinds are those of program_terms/5: where
+%   they are none, its clauses are faulty.
+
+program_doubts(_, [], []) :-
+    !.
+program_doubts(Located, Kinds, Warnings) :-
+    file_parts(agent, Located, Parts, _),
+    findall(Problem, doubtful(Parts, Kinds, Problem), Warnings).
+
+doubtful(Parts, Kinds, Problem) :-
     part(rules, Parts, Rules),
     part(directives, Parts, Directives),
     part(state, Parts, State),
@@ -141,7 +159,8 @@ payload_terms(Located, payload(Name, PIs, Clauses), Errors) :-
     part(clauses, Parts, Clauses0),
     findall(P, directive_problem(Directives, P), Errors1),
     findall(P, clause_problem(Clauses0, P), Errors2),
-    append([Errors0, Errors1, Errors2], Errors),
+    append([Errors0, Errors1, Errors2], Errors3),
+    in_file_order(Errors3, Located, Errors),
     ( memberchk(provides(Provided), Options) -> true ; Provided = [] ),
     maplist(located_clause, Clauses0, Clauses),
     findall(PI, clause_indicator(Clauses, PI), Defined),

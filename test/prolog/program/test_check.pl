@@ -1,0 +1,281 @@
+:- module(test_check, []).
+:- use_module(library(plunit)).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module(library(apply)).
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(readutil)).
+:- use_module(library(typhon)).
+
+/** <module> Tests of what people are told about their programs
+
+Programs are written to files; what the check and creation print is compared
+by line and formal term, or as text.
+*/
+
+:- meta_predicate with_program(+, 1).
+
+%   with_program(+Lines, :Goal): Goal(File) for an agent `a` of these lines,
+%   with s/1 as its state; the first of Lines is the third of the file.
+
+with_program(Lines, Goal) :-
+    with_tmp_dir(test_check:in_dir(Lines, Goal)).
+
+in_dir(Lines, Goal, Dir) :-
+    directory_file_path(Dir, 'a.pl', File),
+    write_program([':- agent(a, [state([s/1])]).', 'main :- p, q.'|Lines],
+                  File),
+    call(Goal, File).
+
+write_program(Lines, File) :-
+    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
+                       forall(member(Line, Lines),
+                              format(Out, '~w~n', [Line])),
+                       close(Out)).
+
+%   found(+Lines, -Found): what the check finds in them, as Line-Formal, but
+%   for calls of what others must define.
+
+found(Lines, Found) :-
+    with_program(Lines, test_check:found_in(Found)).
+
+found_in(Found, File) :-
+    listening(agent_check(File), Messages),
+    findall(Line-Formal,
+            ( member(_-error(Formal, at(Place, _, _)), Messages),
+              line(Place, Line),
+              Formal \= unknown_procedure(_) ),
+            Found).
+
+line(_:Line, Line).
+line(file(_, Line, _, _), Line).
+
+%   loses(+Text, -What): what a program with the clauses Text and a predicate
+%   go/0 that can stop gives up.
+
+loses(Text, What) :-
+    found([Text, 'go :- move(a).'], Found),
+    findall(L, member(_-L, Found), What).
+
+text_of(Error, Text) :-
+    phrase('$messages':translate_message(Error), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)).
+
+creation_error(Error, File) :-
+    with_hosts([alpha],
+               catch(agent_create(File, _), Error, true)).
+
+creation_text(Lines, Text) :-
+    with_program(Lines, test_check:creation_error(Error)),
+    text_of(Error, Text).
+
+printed(Lines, Text) :-
+    with_program(Lines, test_check:printed_of(Text)).
+
+printed_of(Text, File) :-
+    listening(agent_check(File), Messages),
+    findall(T, ( member(_-Error, Messages), text_of(Error, T) ), Ts),
+    atomic_list_concat(Ts, Text).
+
+shows(Text, Words) :-
+    assertion(sub_string(Text, _, _, _, Words)).
+
+severities(Kinds, File) :-
+    listening(agent_check(File), Messages),
+    findall(Kind, member(Kind-error(_, _), Messages), Kinds).
+
+payload_in(Found, File) :-
+    write_program([':- payload(a, [provides([p/1])]).',
+                   'p(X) :- r(X, Y).',
+                   'r(_, L) :- member(X, L), move(X), assertz(m(X)), fail.'],
+                  File),
+    found_in(Found, File).
+
+warned([First,Second,Third], File) :-
+    with_hosts([alpha],
+               ( created(File, First),
+                 created(File, Second),
+                 write_program([':- agent(a, [state([s/1])]).',
+                                'main :- s(X).', 's(1).'], File),
+                 created(File, Third) )).
+
+created(File, Count) :-
+    listening(( agent_create(File, Agent), joined(Agent, _) ), Messages),
+    findall(x, member(warning-error(singletons(_), _), Messages), Found),
+    length(Found, Count).
+
+:- begin_tests(choices_given_up).
+
+test(failure_driven_loop, L == [lost_choice(member/2, move/1, fail/0)]) :-
+    loses('p :- neighbours(Hs), member(H, Hs), move(H), log(H), fail.', L).
+test(with_an_end, L == [lost_choice(member/2, go/0, false/0)]) :-
+    loses('p :- ( member(H, [a,b]), log(H), go, false ; true ), log(x).', L).
+test(state, L == [lost_choice(retract/1, move/1, fail/0)]) :-
+    loses('p :- retract(s(H)), move(H), fail.', L).
+test(search, L == [lost_choice(member/2, move/1, sense/1)]) :-
+    loses('p :- neighbours(Hs), member(H, Hs), move(H), sense(gold).', L).
+test(in_a_condition, L == [lost_choice(between/3, go/0, (>)/2)]) :-
+    loses('p :- ( between(1, 3, X), go, X > 2 -> true ; log(none) ).', L).
+test(under_once, L == [lost_choice(select/3, move/1, (==)/2)]) :-
+    loses('p :- once(( select(X, [a,b], _), move(X), X == b )).', L).
+test(facts, L == [lost_choice(h/1, move/1, (\==)/2)]) :-
+    loses('p :- h(X), catch(move(X), _, true), X \\== a. h(a). h(b).', L).
+test(another_clause, L == [lost_choice(clause, receive/2, receive/2)]) :-
+    loses('p :- receive(_-a, 5), log(a), p. p :- log(late).', L).
+test(a_clause_that_is_more_general,
+     L == [lost_choice(clause, move/1, take/1)]) :-
+    loses('q(f(X)) :- move(X), take(gold). q(_).', L).
+test(other_side_of_a_disjunction,
+     L == [lost_choice((;)/2, receive/2, receive/2)]) :-
+    loses('p :- ( receive(_-a, 5) ; log(late) ).', L).
+test(in_a_rule_of_the_state, L == [lost_choice(repeat/0, move/1, fail/0)]) :-
+    loses('s(X) :- repeat, move(X), fail.', L).
+
+%   What is well: each with why.
+
+fine('p :- retract(s(H)), !, move(H), p. p :- log(done).').  % cut
+fine('p :- neighbours(Hs), member(H, Hs), move(H).').        % the first will do
+fine('p :- member(H, [a]), move(H), H == a.').               % there is no other
+fine('p :- neighbours(Hs), member(H, Hs), !, move(H), sense(gold).').
+fine('p :- member(H, [a,b]), once(s(H)), log(H), fail. p :- go.').
+fine('p :- s(X), move(X), X > 3.').                          % may be one fact
+fine('p :- ( receive(_-a, 5) -> true ; log(late) ).').       % travels
+fine('p :- ( move(a), sense(gold) -> true ; log(none) ).').
+fine('p :- go, member(X, [a,b]), s(X), X == b.').            % choices behind it
+fine('p :- go, ( s(X), log(X), fail ; true ).').
+fine('p :- member(X, [a,b]), go, ( s(X), fail ; true ).').
+fine('q(X) :- X > 3, move(a), s(X), X < 9. q(X) :- X =< 3, log(X).').
+fine('q([]). q([H|T]) :- move(H), ( s(H) -> q(T) ; fail ).').
+fine('q([H|T]) :- move(H), H \\== a, q(T). q([]).').         % other cases
+fine('p :- s(X), ( X == a -> fail ; true ), move(X).').
+fine('p :- ignore(( go, sense(gold) )). p :- log(x).').
+fine('p :- go, fail.').                                      % meant to fail
+
+test(no_false_alarm, [forall(fine(Text)), L == []]) :-
+    loses(Text, L).
+test(says_what_to_write) :-
+    printed(['p :- member(H, [a,b]), move(H), fail.'], T1),
+    shows(T1, "a.pl:3: move/1 gives up the choices of member/2: \c
+               fail/0 does not come back to them"),
+    shows(T1, "findall/3"),
+    printed(['p :- receive(_-a, 5), p. p :- log(late).'], T2),
+    shows(T2, "( Goal -> ... ; ... )").
+
+:- end_tests(choices_given_up).
+
+:- begin_tests(slips).
+
+test(variables_that_occur_once, F == [4-singletons(['Y','Z'])]) :-
+    found(['p.', 'q :- s(Y), s(_X), s(Z), s(_).'], F).
+test(in_a_grammar_rule, F == [3-singletons(['Y'])]) :-
+    found(['g --> [Y], [].'], F).
+test(clauses_that_are_not_together, F == [5-discontiguous(p/0)]) :-
+    found(['p :- s(1).', 'q.', 'p.', 'q.', ':- discontiguous q/0.', 'p.'],
+          F).
+test(facts_of_the_state_may_be_anywhere, F == []) :-
+    found(['s(1).', 'p.', 's(2).', 'q.'], F).
+test(state_that_is_not_declared, F == [3-undeclared_state(n/1)]) :-
+    found(['p :- assertz(n(1)), retract(n(_)).', 'q :- n(1).'], F).
+test(is_not_also_unknown, M == [warning]) :-
+    with_program(['p :- assertz(n(1)), n(1).', 'q.'],
+                 test_check:severities(M)).
+test(payload, F == [2-singletons(['Y']),
+                    3-lost_choice(member/2, move/1, fail/0)]) :-
+    with_program([], test_check:payload_in(F)).
+
+:- end_tests(slips).
+
+:- begin_tests(errors).
+
+test(all_that_cannot_be_read, Lines == [3,5,7]) :-
+    found(['p :- a b.', 'q.', 'r(X :- y.', 's(Z).', ':- include(nothing).'],
+          Found0),
+    exclude([_-singletons(_)]>>true, Found0, Found),
+    findall(Line, member(Line-_, Found), Lines).
+test(that_does_not_end, [true(F = [_-syntax_error(_)])]) :-
+    found(['p :- "'], F).
+test(creation_tells_them_all) :-
+    creation_text(['p :- a b.', 'q :- c d.'], Text),
+    shows(Text, "a.pl:3:7: Syntax error"),
+    shows(Text, "a.pl:4:7: Syntax error").
+test(creation_says_where) :-
+    creation_text(['p :- forall(s(X), move(X)).', 'q.', 'move(_).'], Text),
+    shows(Text, "a.pl:5: No permission"),
+    creation_text(['p :- forall(s(X), move(X)).', 'q.'], Text2),
+    shows(Text2, "a.pl:3: No permission"),
+    shows(Text2, "recursive predicate").
+test(creation_tells_more_than_one) :-
+    creation_text(['p :- forall(s(X), move(X)).', 'q :- \\+ move(a).'], Text),
+    shows(Text, "a.pl:3: No permission"),
+    shows(Text, "a.pl:4: No permission").
+
+advice('setup_call_cleanup(true, move(a), true)', "cannot travel").
+advice('with_mutex(m, move(a))', "cannot travel").
+advice('\\+ move(a)', "( Goal -> fail ; true )").
+advice('findall(X, move(X), _)', "recursive predicate").
+advice('call_with_time_limit(3, move(a))', "receive/2").
+advice('with_output_to(string(_), move(a))', "cannot travel").
+
+test(advice_fits, [forall(advice(Goal, Words))]) :-
+    atomic_list_concat(['p :- ', Goal, '.'], Line),
+    printed([Line, 'q.'], Text),
+    shows(Text, Words),
+    (   Words == "recursive predicate"
+    ->  true
+    ;   assertion(\+ sub_string(Text, _, _, _, "recursive"))
+    ).
+
+:- end_tests(errors).
+
+:- begin_tests(creation).
+
+%   Warned of when the file is read, and again when it has changed.
+
+test(warns_once_for_a_version, Counts == [1,0,1]) :-
+    with_program(['p :- s(X).', 'q.'], test_check:warned(Counts)).
+test(clauses_are_not_warned_of, Messages == []) :-
+    with_hosts([alpha],
+               listening(clauses_created, Messages)).
+
+clauses_created :-
+    create([(main :- member(H, [alpha]), move(H), true),
+            (p :- member(H, [alpha]), move(H), fail)], Agent),
+    joined(Agent, done).
+
+:- end_tests(creation).
+
+:- begin_tests(ours).
+
+%   Each agent program and payload of the tree.
+
+doubtful(File, Found) :-
+    program_files(Files),
+    member(File, Files),
+    found_in(Found, File),
+    Found \== [].
+
+program_files(Files) :-
+    findall(Dir, ( member(F, [agents, payloads, examples, experiments]),
+                   project_file(F, Dir) ), Dirs),
+    findall(File,
+            ( member(Dir, Dirs),
+              directory_member(Dir, File,
+                               [extensions([pl]), recursive(true)]),
+              declares(File) ),
+            Files).
+
+declares(File) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    string_concat("\n", Text, Lines),
+    member(Declaration, ["\n:- agent(", "\n:- payload("]),
+    sub_string(Lines, _, _, _, Declaration),
+    !.
+
+test(are_without_a_warning, Found == []) :-
+    program_files(Files),
+    assertion(( length(Files, N), N > 30 )),
+    findall(F-P, doubtful(F, P), Found).
+
+:- end_tests(ours).
