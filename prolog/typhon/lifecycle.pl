@@ -9,11 +9,11 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(lifecycle/creation, [agent_create/2, agent_create/3]).
 :- use_module(lifecycle/running, []).
 :- use_module(lifecycle/evacuation, []).
-:- reexport(lifecycle/properties).
+:- reexport('lifecycle/properties').
 :- reexport(lifecycle/orders,
             [ agent_move/2, agent_clone/2, agent_dispose/1,
               payload_attach/2, payload_detach/2
             ]).
-:- reexport(lifecycle/sending).
-:- reexport(lifecycle/join).
-:- reexport(lifecycle/restore).
+:- reexport('lifecycle/sending').
+:- reexport('lifecycle/join').
+:- reexport('lifecycle/restore').

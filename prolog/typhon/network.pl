@@ -8,7 +8,7 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(network/networks,
             [network_start/3, network_stop/1, network_property/2]).
-:- reexport(network/appointments).
+:- reexport('network/appointments').
 :- reexport(network/log,
             [log_server_start/2, log_server_stop/1]).
 :- reexport(network/log_file, [log_events/2]).

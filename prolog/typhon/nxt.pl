@@ -15,8 +15,8 @@ with pyserial.  Nothing is defined here: see the rooms in nxt/.
   | the names of SWI-PRO-NXT    | typhon/nxt/swi_pro_nxt |
 */
 
-:- reexport(nxt/brick).
-:- reexport(nxt/motors).
-:- reexport(nxt/sensors).
-:- reexport(nxt/files).
-:- reexport(nxt/swi_pro_nxt).
+:- reexport('nxt/brick').
+:- reexport('nxt/motors').
+:- reexport('nxt/sensors').
+:- reexport('nxt/files').
+:- reexport('nxt/swi_pro_nxt').

@@ -6,6 +6,6 @@ Tables, and the texts of errors and reports.
 This is the door of the layer: who is above takes what it needs from here.
 */
 
-:- reexport(people/tables).
+:- reexport('people/tables').
 :- use_module(people/editors, []).
 :- use_module(people/messages, []).

@@ -11,9 +11,9 @@ This is the door of the layer: who is above takes what it needs from here.
             [ endpoint_address/1, endpoint_listen/2, endpoint_listen_end/1,
               endpoint_start/3, endpoint_start_alone/1, endpoint_stop/0
             ]).
-:- reexport(wire/messaging).
+:- reexport('wire/messaging').
 :- reexport(wire/lending, [endpoint_afterwards/1]).
-:- reexport(wire/call).
+:- reexport('wire/call').
 :- reexport(wire/peers,
             [endpoint_flush/1, endpoint_flush/2, endpoint_gone/1,
              endpoint_peer/2]).
