@@ -1,58 +1,76 @@
 :- module(typhon_editors, []).
+:- use_module(library(lists), [member/2]).
+:- use_module('../program', [declaration/4, indicator_in/2]).
+:- use_module('../language', []).
 
 /** <module> What editors know of agent programs
 
 Editors see a program through library(prolog_xref) and
 library(prolog_colour): PceEmacs, Sweep for Emacs, the language server
-lsp_server. These learn here that a file with `:- agent(Name, Options)` has
-the vocabulary of agents, calls main/0 and on_message/2, and which of its
-predicates are state; and that a payload offers what it provides. What is
-loaded is not concerned.
+lsp_server.  These learn here that in a file with `:- agent(Name, Options)`
+what agents can say is built in, main/0 and on_message/2 are called, and
+which of its predicates are state; and that a payload offers what it
+provides.  What is loaded is not concerned.
 
 *Threading*: any thread, see prolog_load_context/2.
 */
 
-
-:- use_module(library(lists), [member/2]).
-
 :- multifile
     user:term_expansion/2,
-    prolog_colour:directive_colours/2.
+    prolog_colour:directive_colours/2,
+    prolog_colour:goal_colours/3.
 :- dynamic
     user:term_expansion/2.
 
+%   To the cross-referencer, and to nobody else, a declaration is what it
+%   stands for.
+
 user:term_expansion((:- Directive), Directives) :-
     current_prolog_flag(xref, true),
-    means(Directive, Directives).
+    declared(Directive, Kind, Options),
+    findall((:- Meant), meant(Kind, Options, Meant), Directives).
 
-means(agent(Name), Directives) :-
-    means(agent(Name, []), Directives).
-means(agent(_, Options),
-      [ (:- export([main/0, on_message/2])),
-        (:- dynamic(State)),
-        (:- use_module(Vocabulary))
-      ]) :-
-    declared(state, Options, State),
-    findall(File, vocabulary(File), Vocabulary).
-means(payload(_, Options), [(:- export(Provided))]) :-
-    declared(provides, Options, Provided).
+declared(Directive, Kind, Options) :-
+    predicates_option(Kind, _, _),
+    declaration(Kind, (:- Directive), _, Options),
+    !.
 
-vocabulary(File) :-
+meant(_, _, use_module(File)) :-
+    words_file(File).
+meant(agent, _, public([main/0, on_message/2])).
+meant(Kind, Options, Meant) :-
+    predicates_option(Kind, PIs, Option),
+    member(Option, Options),
+    findall(PI, indicator_in(PIs, PI), List),
+    (   Kind == agent
+    ->  Meant = dynamic(List)
+    ;   Meant = public(List)
+    ).
+
+predicates_option(agent, PIs, state(PIs)).
+predicates_option(payload, PIs, provides(PIs)).
+
+%   words_file(?File) is nondet: where what agents can say is defined.
+
+words_file(File) :-
     member(Module, [typhon_words, typhon_memory]),
     module_property(Module, file(File)).
 
-%   What is being written may be anything.
+prolog_colour:goal_colours(_, imported(File), built_in-classify) :-
+    words_file(File).
 
-declared(Name, Options, PIs) :-
-    Option =.. [Name, PIs0],
-    (   is_list(Options),
-        memberchk(Option, Options),
-        is_list(PIs0)
-    ->  PIs = PIs0
-    ;   PIs = []
+prolog_colour:directive_colours(Directive, built_in-Arguments) :-
+    declared(Directive, Kind, Options),
+    (   Options == []
+    ->  Arguments = [identifier,classify]
+    ;   findall(Colours, option_colours(Kind, Options, Colours), List),
+        Arguments = [identifier,list-List]
     ).
 
-prolog_colour:directive_colours(agent(_), built_in-[classify]).
-prolog_colour:directive_colours(agent(_, _), built_in-[classify, classify]).
-prolog_colour:directive_colours(payload(_), built_in-[classify]).
-prolog_colour:directive_colours(payload(_, _), built_in-[classify, classify]).
+option_colours(Kind, Options, Colours) :-
+    member(Option, Options),
+    (   predicates_option(Kind, _, Known),
+        subsumes_term(Known, Option)
+    ->  Colours = functor-[predicates]
+    ;   Colours = type_error(option)
+    ).

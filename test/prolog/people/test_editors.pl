@@ -6,7 +6,8 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
-:- use_module(library(prolog_colour), [prolog_colourise_stream/3]).
+:- use_module(library(prolog_colour),
+              [ prolog_colourise_query/3, prolog_colourise_stream/3 ]).
 :- use_module(library(prolog_xref),
               [ xref_clean/1, xref_defined/3, xref_source/2 ]).
 :- use_module(library(typhon)).
@@ -57,6 +58,40 @@ tour([Host|Hosts]) :-
 on_message(From, M) :- seen(M, _), sleep(1), send(From, yes), log(M).
 ").
 
+%   Whether a fragment of Text is shown as Class.
+
+shows(Text, Part, Class) :-
+    seen(Text, shown(Part, Text, Class)).
+
+shown(Part, Text, Class, File) :-
+    retractall(coloured(_)),
+    setup_call_cleanup(
+        open(File, read, In),
+        prolog_colourise_stream(In, File, note_part(Text)),
+        close(In)),
+    coloured(Part-Class),
+    !.
+
+note_part(Text, Class, Start, Length) :-
+    (   sub_string(Text, Start, Length, _, Part)
+    ->  assertz(coloured(Part-Class))
+    ;   true                            % behind the end
+    ).
+
+asked(Query, Part, Class, File) :-
+    retractall(coloured(_)),
+    prolog_colourise_query(Query, File, note_part(Query)),
+    coloured(Part-Class),
+    !.
+
+unknown(PIs, File) :-
+    findall(Name/Arity,
+            ( xref_called(File, Goal, _),
+              \+ xref_defined(File, Goal, _),
+              \+ predicate_property(system:Goal, visible),
+              functor(Goal, Name, Arity) ),
+            PIs).
+
 comes_from(Goal, Module, File) :-
     xref_defined(File, Goal, imported(From)),
     module_property(Module, file(From)).
@@ -89,6 +124,33 @@ test(directive_is_known) :-
     forall(member(Text, [":- agent(a).", ":- agent(a, [state([b/1])]).",
                          ":- payload(a, [provides([b/1])])."]),
            seen(Text, shown_as(undefined, []))).
+
+test(what_agents_say_is_built_in) :-
+    census(Text),
+    forall(member(Part-Goal, [ "move"-move(_), "here"-here(_),
+                               "sleep"-sleep(_), "next_host"-next_host(_, _),
+                               "send"-send(_, _) ]),
+           shows(Text, Part, goal(built_in, Goal))).
+
+test(options_are_known) :-
+    Text = ":- agent(a, [state([b/1]), color(red)]).\n",
+    shows(Text, "a", identifier),
+    shows(Text, "b/1", predicate_indicator(dynamic(_), b(_))),
+    shows(Text, "color(red)", type_error(_)).
+
+test(query_about_a_program) :-
+    census(Text),
+    seen(Text, asked("seen(H, _), move(H)", "move", goal(built_in, _))),
+    seen(Text, asked("seen(H, _), move(H)", "seen", goal(dynamic(_), _))).
+
+test(users_of_the_library, PIs == [nonsense/0]) :-
+    project_file('prolog/typhon.pl', Typhon),
+    format(string(Text),
+           ":- use_module(~q).~n\c
+            :- initialization(main).~n\c
+            main :- host_start(a), agent_create(x, A), hosts, nonsense,~n\c
+                agent_join(A, _, 5), network_stop(A).~n", [Typhon]),
+    seen(Text, unknown(PIs)).
 
 test(payload_offers_what_it_provides, PIs == [hidden/1]) :-
     seen(":- payload(p, [provides([shown/1])]).\nshown(1).\nhidden(1).\n",
