@@ -21,11 +21,19 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     thesis-real test chaos fuzz check doc bench bench-peers profile \
     test-portability install clean
 
+# In the environment of pack_install there is where libraries of C go.
 help:
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
-	    while IFS='	' read -r target text; do \
-	        printf '  make %-22s %s\n' "$$target" "$$text"; \
-	    done
+	@if [ -n "$$PACKSODIR$$SWIPL_MODULE_DIR" ]; then \
+	    case "$$(pwd -P)" in \
+	    */pack/typhon) ;; \
+	    *) echo "the pack is a link: keep $$(pwd -P)" ;; \
+	    esac; \
+	else \
+	    sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | \
+	        while IFS='	' read -r target text; do \
+	            printf '  make %-22s %s\n' "$$target" "$$text"; \
+	        done; \
+	fi
 
 demo: tools             ## sixty hosts, ten agents, six tasks in step
 	@$(SWIPL) experiments/study.pl -- demo --runs 1 --logs \

@@ -11,6 +11,9 @@
 :- use_module(library(process), [process_create/3]).
 
 swipl_at_home(Home, Directory, Goals, Out) :-
+    swipl_at_home(Home, Directory, Goals, Out, _).
+
+swipl_at_home(Home, Directory, Goals, Out, Err) :-
     findall(Arg, goal_arg(Goals, Arg), Args),
     run_swipl(Args,
               [ cwd(Directory), timeout(120),
@@ -28,7 +31,20 @@ goal_arg(_, Arg) :-
 install(Spec, Options, Home, Directory) :-
     format(atom(Goal), 'pack_install(~q, ~q)',
            [Spec, [interactive(false),register(false)|Options]]),
-    swipl_at_home(Home, Directory, [Goal], _).
+    swipl_at_home(Home, Directory, [Goal], _, Err),
+    assertion(\+ sub_string(Err, _, _, _, "make demo")),
+    (   link_of(Home, Root)
+    ->  format(string(Says), "the pack is a link: keep ~w", [Root]),
+        assertion(sub_string(Err, _, _, _, Says))
+    ;   assertion(\+ sub_string(Err, _, _, _, "is a link"))
+    ).
+
+%   link_of(+Home, -Root) is semidet: the pack of Home is a link to Root.
+
+link_of(Home, Root) :-
+    directory_file_path(Home, 'swi-prolog/pack/typhon', Pack),
+    read_link(Pack, _, Target),
+    ( atom_concat(Root, /, Target) -> true ; Root = Target ).
 
 %   What must work then, in a directory that has nothing to do with it.
 

@@ -95,12 +95,20 @@ first(Count, All, First) :-
     !.
 first(_, All, All).
 
-%   asked(-Query): apropos/1 does not say what for.
+%   asked(-Query): apropos/1 does not say what for, but is still there.
 
 asked(Query) :-
     part(help, Help),
+    asking(Help, Query, Goal),
     prolog_current_frame(Frame),
-    prolog_frame_attribute(Frame, parent_goal, Help:apropos(Query)).
+    prolog_frame_attribute(Frame, parent_goal, Goal),
+    !.
+
+asking(Help, Query, Help:apropos(Query)).
+asking(Help, Query, Help:apropos_no_trace(Query)).
+asking(Help, Query,
+       system:setup_call_catcher_cleanup(
+                  _, system:once(Help:apropos_no_trace(Query)), _, _)).
 
 %   matches(+Query, -Pairs): PI-Summary of our predicates that have all words
 %   of Query in name or summary; names first.
