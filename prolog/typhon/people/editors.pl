@@ -42,9 +42,9 @@ meant(Kind, Options, Meant) :-
     predicates_option(Kind, PIs, Option),
     member(Option, Options),
     findall(PI, indicator_in(PIs, PI), List),
-    (   Kind == agent
-    ->  Meant = dynamic(List)
-    ;   Meant = public(List)
+    (   Meant = dynamic(List)
+    ;   Kind == payload,
+        Meant = public(List)            % who has it may call them
     ).
 
 predicates_option(agent, PIs, state(PIs)).

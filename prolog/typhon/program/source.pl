@@ -264,7 +264,7 @@ library_import(use_module(library(L), Imports), library(L)-Imports) :-
 %   PI is one of PIs, as they stand in dynamic/1.
 
 indicator_in(Var, _) :- var(Var), !, fail.
-indicator_in([H|T], PI) :- !, member(X, [H|T]), indicator_in(X, PI).
+indicator_in([A|B], PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
 indicator_in((A,B), PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
 indicator_in(Name/Arity, Name/Arity) :- atom(Name), integer(Arity).
 

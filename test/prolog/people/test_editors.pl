@@ -147,8 +147,7 @@ test(users_of_the_library, PIs == [nonsense/0]) :-
     project_file('prolog/typhon.pl', Typhon),
     format(string(Text),
            ":- use_module(~q).~n\c
-            :- initialization(main).~n\c
-            main :- host_start(a), agent_create(x, A), hosts, nonsense,~n\c
+            p :- host_start(a), agent_create(x, A), hosts, nonsense,~n\c
                 agent_join(A, _, 5), network_stop(A).~n", [Typhon]),
     seen(Text, unknown(PIs)).
 

@@ -236,6 +236,9 @@ test(state, F-L == type_error(predicate_indicator, seen)-2) :-
     problem(['% a file', ':- agent(a, [state([p/1, seen])]).', 'main.'],
             F, L, A),
     says(A, 'state([Name/Arity').
+test(state_that_does_not_end,
+     true(F-L = domain_error(agent_option, state(_))-1)) :-
+    problem([':- agent(a, [state([p/1|_])]).', 'main.'], F, L, _).
 test(state_of_control,
      F-L == permission_error(modify, control_predicate, sleep/1)-1) :-
     problem([':- agent(a, [state([sleep/1])]).', 'main.'], F, L, _).
