@@ -45,10 +45,10 @@ set_up(Options) :-
     ).
 
 stand_behind(Port, Known) :-
-    wrap_predicate(typhon_endpoint:listen(Interface, _, Bound, Socket),
+    wrap_predicate(typhon_endpoint:listen(Interface, _, Address, Socket),
                    behind, _,
                    ( peer_main:listen(Interface, Port, Socket),
-                     Bound = Known )).
+                     atomic_list_concat([Interface, Known], :, Address) )).
 
 listen(Interface, Port, Socket) :-
     tcp_socket(Socket),
