@@ -6,6 +6,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/options', [check_name/2]).
 :- use_module('../wire', [endpoint_call/5, endpoint_reply/2]).
 :- use_module(hosts,
               [ host/3, host_address/2, host_hop_stats/3, host_link/2,
@@ -21,6 +22,7 @@ connections.
 */
 
 :- multifile
+    typhon_names:known/2,
     typhon_endpoint:requested/4.
 
 %!  host_property(?Name, ?Property) is nondet.
@@ -31,13 +33,21 @@ connections.
 %   process, too.
 %
 %   @error existence_error(host, Name)
+%   @error domain_error(host_property, Property)
 
 host_property(Name, Property) :-
+    check_name(host_property, Property),
+    property_of(Name, Property).
+
+typhon_names:known(host_property, Property) :-
+    clause(local_property(Property, _), _).
+
+property_of(Name, Property) :-
     var(Name),
     !,
     host(Name, _, _),
     local_property(Property, Name).
-host_property(Host, Property) :-
+property_of(Host, Property) :-
     host_resolve(Host, Where),
     property(Where, Host, Property).
 

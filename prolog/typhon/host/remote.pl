@@ -4,6 +4,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
+:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../wire', [endpoint_call/5, endpoint_reply/2, mobile_term/1]).
 :- use_module(context, [in_context/2]).
 :- use_module(hosts, [host/3, host_option/2, host_resolve/2]).
@@ -34,7 +35,7 @@ other process.
 remote(Host, Goal) :-
     host_resolve(Host, Where),
     must_be(callable, Goal),
-    run(Where, Host, Goal).
+    raising_afresh(run(Where, Host, Goal)).
 
 run(local(Name), _, Goal) :-
     run_here(Name, Goal).

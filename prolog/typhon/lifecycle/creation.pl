@@ -12,6 +12,8 @@
                 permission_error/3, type_error/2 ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_program/2,
                 code_receive/2, payload_load/2, program_load/5 ]).
@@ -37,7 +39,9 @@ clone of another.  What begins is
 of the endpoint.
 */
 
-:- multifile typhon_endpoint:requested/4.
+:- multifile
+    typhon_options:declared/4,
+    typhon_endpoint:requested/4.
 
 %!  agent_create(+Program, -Agent) is det.
 %!  agent_create(+Program, -Agent, +Options) is det.
@@ -62,8 +66,10 @@ agent_create(Program, Agent) :-
     agent_create(Program, Agent, []).
 
 agent_create(Spec, Agent, Options) :-
-    must_be(list, Options),
-    maplist(check_option, Options),
+    check_options(agent_option, Options),
+    raising_afresh(create_by(Options, Spec, Agent)).
+
+create_by(Options, Spec, Agent) :-
     target(Options, Target),
     program_load(Spec, Program, Initial, Hash, Kinds),
     Program = program(Name0, Declared, _, Clauses),
@@ -74,19 +80,16 @@ agent_create(Spec, Agent, Options) :-
     code_install(Hash, Program, Kinds),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
 
-check_option(Option) :-
-    (   option_type(Option, Type, Value)
-    ->  must_be(Type, Value)
-    ;   domain_error(agent_option, Option)
-    ).
+typhon_options:declared(agent_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
 
 option_type(name(X), atom, X).
 option_type(host(X), atom, X).
 option_type(tokens(X), list, X).
 option_type(payloads(X), list, X).
 option_type(facts(X), list, X).
-option_type(lifetime(X), oneof([inf]), X) :- X == inf, !.
 option_type(lifetime(X), nonneg, X).
+option_type(lifetime(X), oneof([inf]), X).
 option_type(static(X), boolean, X).
 
 target(Options, Where) :-

@@ -12,6 +12,7 @@
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
+:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../program', [code_program/2, payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [alarm_in/3, host_address/2, scheduler_call/1]).
@@ -72,7 +73,7 @@ agent_dispose(Agent) :-
     order_give(Agent, dispose, _).
 
 payload_attach(Agent, Spec) :-
-    payload_load(Spec, Payload),
+    raising_afresh(payload_load(Spec, Payload)),
     order_give(Agent, attach(Payload), _).
 
 payload_detach(Agent, Name) :-

@@ -4,6 +4,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
+:- use_module('../base/options', [check_name/2]).
 :- use_module('../program', [code_program/2]).
 :- use_module('../host', [host/3]).
 :- use_module('../agent',
@@ -17,7 +18,9 @@
 *Threading*: any thread.
 */
 
-:- multifile typhon_questions:here/3.
+:- multifile
+    typhon_names:known/2,
+    typhon_questions:here/3.
 
 %!  agent_property(?Agent, ?Property) is nondet.
 %
@@ -26,18 +29,23 @@
 %   is `running`, `sleeping`, `waiting`, `resident`, `in_transit`,
 %   `in_doubt` or faulty(Error).  If Agent is unbound, the agents of this
 %   process are enumerated.
+%
+%   @error domain_error(agent_property, Property) if there is none like it
 
 agent_property(Agent, Property) :-
-    var(Agent),
-    !,
-    agent(Agent, _, _, _, _),
+    check_name(agent_property, Property),
+    (   var(Agent)
+    ->  agent(Agent, _, _, _, _)
+    ;   must_be(atom, Agent),
+        agent_home(Agent, _)
+    ),
     agent_ask(Agent, properties, 10, answer(Properties)),
     one_of(Property, Properties).
-agent_property(Agent, Property) :-
-    must_be(atom, Agent),
-    agent_home(Agent, _),
-    agent_ask(Agent, properties, 10, answer(Properties)),
-    one_of(Property, Properties).
+
+%   Those there are follow from the clauses.
+
+typhon_names:known(agent_property, Property) :-
+    clause(property(Property, _), _).
 
 %   There is one property of each name: people are not asked for more.
 

@@ -10,13 +10,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 *Threading*: called by print_message/2 in any thread.
 */
 
-:- use_module(library(apply), [foldl/6]).
-:- use_module(library(filesex), [directory_member/3]).
-:- use_module(library(lists), [last/2, member/2, min_list/2, numlist/3]).
-:- use_module(library(pairs), [pairs_values/2]).
-:- use_module(library(solution_sequences), [limit/2]).
-:- use_module('../host', [host_property/2]).
-:- use_module('../lifecycle', [agent_property/2]).
+:- use_module('../base/names', [meant//2, names/2]).
 
 :- multifile
     prolog:error_message//1,
@@ -31,10 +25,6 @@ prolog:message_location(context(File:Line, _)) -->
     },
     [ '~w:~d: '-[File, Line] ].
 
-%   More names than these are not looked through for a near one.
-
-most_names(2000).
-
                 /*******************************
                 *             ERRORS           *
                 *******************************/
@@ -44,14 +34,17 @@ prolog:error_message(existence_error(host, here)) -->
     [ 'This process has no host' ].
 prolog:error_message(existence_error(host, Host)) -->
     [ 'There is no host ~p here'-[Host] ],
-    meant(host, Host).
+    meant_of(host, Host).
 prolog:error_message(existence_error(agent, Agent)) -->
     [ 'There is no agent ~p'-[Agent] ],
-    meant(agent, Agent).
+    meant_of(agent, Agent).
 prolog:error_message(existence_error(source_sink, Spec)) -->
     { program_alias(Spec, Alias, Name) },
     [ 'There is no file ~p'-[Spec] ],
-    meant(Alias, Name).
+    meant_of(Alias, Name).
+prolog:error_message(existence_error(network, Network)) -->
+    [ 'There is no network ~p'-[Network] ],
+    meant_of(network, Network).
 prolog:error_message(existence_error(endpoint, running)) -->
     [ 'This process has no host: start one with host_start/1'-[] ].
 prolog:error_message(existence_error(payload, Name)) -->
@@ -75,9 +68,21 @@ refusal(Reason) --> [ '~p'-[Reason] ].
 
 program_alias(Spec, Alias, Name) :-
     compound(Spec),
-    compound_name_arguments(Spec, Alias, [Name]),
+    compound_name_arguments(Spec, Alias, [Name0]),
     memberchk(Alias, [agents, payloads]),
-    atom(Name).
+    program_path(Name0, Name).
+
+%   As in agents(census), and agents(survey/census).
+
+program_path(Name, Name) :-
+    atom(Name),
+    !.
+program_path(Path, Name) :-
+    compound(Path),
+    Path = Folder/File,
+    program_path(Folder, Begin),
+    atom(File),
+    atomic_list_concat([Begin, File], /, Name).
 
                 /*******************************
                 *            REPORTS           *
@@ -140,95 +145,6 @@ explained(Error) -->
                 *          NEAR NAMES          *
                 *******************************/
 
-meant(Kind, Name) -->
-    { atom(Name),
-      most_names(Most),
-      findall(Known, limit(Most, known(Kind, Known)), Names0),
-      sort(Names0, Names),
-      near_names(Name, Names, Near),
-      Near \== []
-    },
-    !,
-    { atomic_list_concat(Near, ' or ', Text) },
-    [ ' (did you mean ~w?)'-[Text] ].
-meant(_, _) -->
-    [].
-
-known(host, Host) :-
-    host_property(Host, state(_)).
-known(agent, Agent) :-
-    agent_property(Agent, state(_)).
-known(agents, Name) :-
-    program_name(agents, Name).
-known(payloads, Name) :-
-    program_name(payloads, Name).
-
-%   Name as it would stand in agents(Name), for programs in folders, too.
-
-program_name(Alias, Name) :-
-    Spec =.. [Alias, '.'],
-    absolute_file_name(Spec, Dir,
-                       [ file_type(directory), solutions(all),
-                         file_errors(fail)
-                       ]),
-    directory_member(Dir, File, [extensions([pl]), recursive(true)]),
-    atom_concat(Dir, /, Start),
-    atom_concat(Start, Relative, File),
-    file_name_extension(Name, pl, Relative).
-
-%   near_names(+Name, +Names, -Near)
-%
-%   Near are up to three of Names that a person may have meant by Name, the
-%   nearest first.  An id or address also counts by what stands before the
-%   first `.` or `@`, a path by its last part: `census` finds
-%   'census.4f2a1@alpha@...', and 'survey/census'.
-
-near_names(Name, Names, Near) :-
-    findall(Distance-Candidate,
-            ( member(Candidate, Names),
-              distance(Name, Candidate, Distance)
-            ),
-            Pairs),
-    keysort(Pairs, Sorted),
-    pairs_values(Sorted, All),
-    findall(One, limit(3, member(One, All)), Near).
-
-distance(Name, Candidate, Distance) :-
-    atom_string(Name, Text),
-    atom_string(Candidate, Whole),
-    short(Whole, Short),
-    short(Text, Plain),
-    edit_distance(Text, Whole, D1),
-    edit_distance(Text, Short, D2),
-    edit_distance(Plain, Short, D3),
-    min_list([D1, D2, D3], Distance),
-    string_length(Plain, Length),
-    Distance =< 1 + Length//4.
-
-short(Text, Short) :-
-    split_string(Text, ".@", "", [Head|_]),
-    split_string(Head, "/", "", Parts),
-    last(Parts, Short).
-
-%   Levenshtein's distance, row by row.
-
-edit_distance(A, B, Distance) :-
-    string_codes(A, As),
-    string_codes(B, Bs),
-    length(Bs, N),
-    numlist(0, N, Row),
-    distance_rows(As, Bs, Row, Distance).
-
-distance_rows([], _, Row, Distance) :-
-    last(Row, Distance).
-distance_rows([A|As], Bs, [D|Ds], Distance) :-
-    D1 is D+1,
-    foldl(distance_step(A), Bs, Ds, Row, D-D1, _),
-    distance_rows(As, Bs, [D1|Row], Distance).
-
-distance_step(A, B, Up, New, Diagonal-Left, Up-New) :-
-    (   A == B
-    ->  Change = Diagonal
-    ;   Change is Diagonal+1
-    ),
-    New is min(Change, min(Up, Left)+1).
+meant_of(Kind, Name) -->
+    { names(Kind, Names) },
+    meant(Name, Names).

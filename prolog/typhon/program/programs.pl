@@ -11,6 +11,7 @@
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
+:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module(mobile, [body_calls/2, mobile_predicates/3]).
 :- use_module(problems,
               [ advice_text/2, clause_problem/2, directive_problem/2,
@@ -218,7 +219,7 @@ print_canonical(Term) :-
 %   vocabulary defines, so that a place or a payload must offer them.
 
 agent_check(Spec) :-
-    source_terms(Spec, Located),
+    raising_afresh(source_terms(Spec, Located)),
     program(Located, _, _, _, Problems),
     findall(Warning, undefined(Located, Warning), Warnings0),
     sort(Warnings0, Warnings),

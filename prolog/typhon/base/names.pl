@@ -1,0 +1,118 @@
+:- module(typhon_names,
+          [ names/2,                    % +Kind, -Names
+            near_names/3,               % +Name, +Names, -Near
+            meant//2,                   % +Name, +Names
+            all_names//1                % +Names
+          ]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(solution_sequences), [limit/2]).
+
+/** <module> Names that people mistype
+
+What names there are of a kind, hosts, programs, options, topologies, is
+said by the rooms that know them, with clauses for known/2.  From that
+follow what a message proposes, what it lists, and what the top level
+completes.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    known/2.                    % Kind, Name: an atom, or a term like ring('N')
+
+%   More names than these are not looked through.
+
+most_names(2000).
+
+%   More than these are not listed.
+
+most_listed(40).
+
+%!  names(+Kind, -Names:list) is det.
+%
+%   Names are those there are of Kind, each once.
+
+names(Kind, Names) :-
+    most_names(Most),
+    findall(Name, limit(Most, known(Kind, Name)), Names0),
+    sort(Names0, Names).
+
+%!  near_names(+Name, +Names:list, -Near:list) is det.
+%
+%   Near are up to three of Names that a person may have meant by Name,
+%   an atom, as dwim_match/2 has it.  An id or address also counts by what
+%   stands before the first `.` or `@`, a path by its last part: `census`
+%   finds 'census.4f2a1@alpha@...', and 'survey/census'.
+
+near_names(Name, Names, Near) :-
+    findall(Known,
+            limit(3, ( member(Known, Names),
+                       once(is_near(Name, Known)) )),
+            Near).
+
+is_near(Name, Known) :-
+    Name \== Known,
+    name_of(Known, Plain),
+    form(Name, A),
+    form(Plain, B),
+    ( A == B ; dwim_match(A, B) ).
+
+name_of(Known, Name) :-
+    callable(Known),
+    functor(Known, Name, _).
+
+form(Name, Name).
+form(Name, Short) :-
+    split_string(Name, ".@", "", [Head|_]),
+    split_string(Head, "/", "", Parts),
+    last(Parts, Short0),
+    Short0 \== "",
+    atom_string(Short, Short0),
+    Short \== Name.
+
+                /*******************************
+                *            MESSAGES          *
+                *******************************/
+
+%!  meant(+Name, +Names:list)// is det.
+%
+%   Propose which of Names may have been meant by Name.
+
+meant(Name, Names) -->
+    { atom(Name),
+      near_names(Name, Names, Near),
+      Near \== []
+    },
+    !,
+    { listed(Near, ' or ', Text) },
+    [ ' (did you mean ~w?)'-[Text] ].
+meant(_, _) -->
+    [].
+
+%!  all_names(+Names:list)// is det.
+%
+%   Say what there is, unless that is too much.
+
+all_names([Name|Names]) -->
+    { length(Names, Count),
+      most_listed(Most),
+      Count < Most
+    },
+    !,
+    { listed([Name|Names], ', ', Text) },
+    [ '; there are ~w'-[Text] ].
+all_names(_) -->
+    [].
+
+listed(Names, Separator, Text) :-
+    maplist(name_text, Names, Texts),
+    atomic_list_concat(Texts, Separator, Text).
+
+%   ring('N') as ring(N), state(S) as state(_).
+
+name_text(Name, Text) :-
+    copy_term(Name, Copy),
+    term_variables(Copy, Variables),
+    maplist(=('_'), Variables),
+    format(atom(Text), '~w', [Copy]).
