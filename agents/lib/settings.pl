@@ -50,7 +50,7 @@ known(Names, Pair) :-
 
 unknown_setting(Names, Pair) :-
     atomic_list_concat(Names, ', ', Known),
-    format(string(Text), 'there are ~w', [Known]),
+    atom_concat('there are ', Known, Text),
     throw(error(domain_error(setting, Pair), context(_, Text))).
 
 pairs(Options, Pairs) :-

@@ -1,8 +1,7 @@
 :- module(typhon_names,
           [ names/2,                    % +Kind, -Names
-            near_names/3,               % +Name, +Names, -Near
-            meant//2,                   % +Name, +Names
-            all_names//1                % +Names
+            names_proposed/3,           % +Name, +Names, -Text
+            names_listed/2              % +Names, -Text
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [last/2, member/2]).
@@ -38,12 +37,10 @@ names(Kind, Names) :-
     findall(Name, limit(Most, known(Kind, Name)), Names0),
     sort(Names0, Names).
 
-%!  near_names(+Name, +Names:list, -Near:list) is det.
-%
-%   Near are up to three of Names that a person may have meant by Name,
-%   an atom, as dwim_match/2 has it.  An id or address also counts by what
-%   stands before the first `.` or `@`, a path by its last part: `census`
-%   finds 'census.4f2a1@alpha@...', and 'survey/census'.
+%   near_names(+Name, +Names, -Near): up to three of Names that a person may
+%   have meant by Name, an atom, as dwim_match/2 has it.  An id or address
+%   also counts by what stands before the first `.` or `@`, a path by its
+%   last part: `census` finds 'census.4f2a1@alpha@...', and 'survey/census'.
 
 near_names(Name, Names, Near) :-
     findall(Known,
@@ -72,38 +69,35 @@ form(Name, Short) :-
     Short \== Name.
 
                 /*******************************
-                *            MESSAGES          *
+                *            TEXTS             *
                 *******************************/
 
-%!  meant(+Name, +Names:list)// is det.
+%!  names_proposed(+Name, +Names:list, -Text:atom) is det.
 %
-%   Propose which of Names may have been meant by Name.
+%   Text asks whether one of Names was meant by Name; it is empty if none of
+%   them looks like it.
 
-meant(Name, Names) -->
-    { atom(Name),
-      near_names(Name, Names, Near),
-      Near \== []
-    },
+names_proposed(Name, Names, Text) :-
+    atom(Name),
+    near_names(Name, Names, Near),
+    Near \== [],
     !,
-    { listed(Near, ' or ', Text) },
-    [ ' (did you mean ~w?)'-[Text] ].
-meant(_, _) -->
-    [].
+    listed(Near, ' or ', Listed),
+    format(atom(Text), ' (did you mean ~w?)', [Listed]).
+names_proposed(_, _, '').
 
-%!  all_names(+Names:list)// is det.
+%!  names_listed(+Names:list, -Text:atom) is det.
 %
-%   Say what there is, unless that is too much.
+%   Text says what there is, and is empty if that is too much.
 
-all_names([Name|Names]) -->
-    { length(Names, Count),
-      most_listed(Most),
-      Count < Most
-    },
+names_listed(Names, Text) :-
+    most_listed(Most),
+    length(Names, Count),
+    between(1, Most, Count),
     !,
-    { listed([Name|Names], ', ', Text) },
-    [ '; there are ~w'-[Text] ].
-all_names(_) -->
-    [].
+    listed(Names, ', ', Listed),
+    format(atom(Text), '; there are ~w', [Listed]).
+names_listed(_, '').
 
 listed(Names, Separator, Text) :-
     maplist(name_text, Names, Texts),

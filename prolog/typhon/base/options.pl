@@ -6,7 +6,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, is_of_type/2, must_be/2]).
-:- use_module(names, [all_names//1, meant//2, names/2]).
+:- use_module(names, [names/2, names_listed/2, names_proposed/3]).
 
 /** <module> Options that nobody knows are errors
 
@@ -99,12 +99,12 @@ prolog:error_message(domain_error(Domain, Culprit)) -->
       atomic_list_concat(Words, '_', Domain),
       atomic_list_concat(Words, ' ', Kind)
     },
-    [ 'There is no ~w ~p'-[Kind, Culprit] ],
     { culprit_name(Culprit, Name),
-      names(Domain, Names)
+      names(Domain, Names),
+      names_proposed(Name, Names, Meant),
+      names_listed(Names, All)
     },
-    meant(Name, Names),
-    all_names(Names).
+    [ 'There is no ~w ~p~w~w'-[Kind, Culprit, Meant, All] ].
 
 %   An option may be written Name=Value, too, but not here.
 

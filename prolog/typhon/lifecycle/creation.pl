@@ -8,8 +8,7 @@
 :- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [ domain_error/2, existence_error/2, must_be/2,
-                permission_error/3, type_error/2 ]).
+              [existence_error/2, must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).

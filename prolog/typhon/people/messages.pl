@@ -10,7 +10,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 *Threading*: called by print_message/2 in any thread.
 */
 
-:- use_module('../base/names', [meant//2, names/2]).
+:- use_module('../base/names', [names/2, names_proposed/3]).
 
 :- multifile
     prolog:error_message//1,
@@ -34,17 +34,17 @@ prolog:error_message(existence_error(host, here)) -->
     [ 'This process has no host' ].
 prolog:error_message(existence_error(host, Host)) -->
     [ 'There is no host ~p here'-[Host] ],
-    meant_of(host, Host).
+    meant(host, Host).
 prolog:error_message(existence_error(agent, Agent)) -->
     [ 'There is no agent ~p'-[Agent] ],
-    meant_of(agent, Agent).
+    meant(agent, Agent).
 prolog:error_message(existence_error(source_sink, Spec)) -->
     { program_alias(Spec, Alias, Name) },
     [ 'There is no file ~p'-[Spec] ],
-    meant_of(Alias, Name).
+    meant(Alias, Name).
 prolog:error_message(existence_error(network, Network)) -->
     [ 'There is no network ~p'-[Network] ],
-    meant_of(network, Network).
+    meant(network, Network).
 prolog:error_message(existence_error(endpoint, running)) -->
     [ 'This process has no host: start one with host_start/1'-[] ].
 prolog:error_message(existence_error(payload, Name)) -->
@@ -145,6 +145,8 @@ explained(Error) -->
                 *          NEAR NAMES          *
                 *******************************/
 
-meant_of(Kind, Name) -->
-    { names(Kind, Names) },
-    meant(Name, Names).
+meant(Kind, Name) -->
+    { names(Kind, Names),
+      names_proposed(Name, Names, Text)
+    },
+    [ '~w'-[Text] ].
