@@ -8,7 +8,7 @@
 :- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [existence_error/2, must_be/2, permission_error/3, type_error/2]).
+              [must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).
@@ -16,10 +16,10 @@
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_program/2,
                 code_receive/2, payload_load/2, program_load/5 ]).
-:- use_module('../wire', [endpoint_call/5, endpoint_reply/2, mobile_term/1]).
+:- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
               [ host/3, host_address/2, host_enter/3, host_leave/1,
-                host_log/3, host_resolve/2 ]).
+                host_log/3, host_resolve/2, host_unknown/1, process_ask/6 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_id/3, agent_mail/2,
                 agent_module/5, agent_name/3, agent_ready/2,
@@ -154,11 +154,8 @@ create(local(Host), Name, Start, Agent) :-
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     Start = start(Hash, _, _, _, _),
     code_program(Hash, Program),
-    catch(endpoint_call(Endpoint, agent,
-                        create(HostName, Name, Start, Program),
-                        answer(Answer), 10),
-          error(unreachable(_), _),
-          throw(error(host_unreachable(Address), _))),
+    process_ask(Endpoint, Address, agent,
+                create(HostName, Name, Start, Program), Answer, 10),
     created(Answer, Address, Agent).
 
 begun(created(Id), _, Id) :-
@@ -169,7 +166,7 @@ begun(Answer, Host, Id) :-
 
 created(created(Id), _, Id).
 created(refused(unknown_host), Address, _) :-
-    existence_error(host, Address).
+    host_unknown(Address).
 created(refused(Reason), Address, _) :-
     throw(error(move_refused(Address, Reason), _)).
 

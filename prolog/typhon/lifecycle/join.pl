@@ -2,8 +2,8 @@
           [ agent_join/3                % +Agent, -Outcome, +Timeout
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module('../wire', [endpoint_address/1, endpoint_call/5]).
-:- use_module('../host', [time_wait/3]).
+:- use_module('../wire', [endpoint_address/1]).
+:- use_module('../host', [process_ask/6, time_wait/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module('../travel', [agent_outcome/2, outcome_wait/3]).
 
@@ -57,7 +57,5 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     ->  Limit = 1.0e9
     ;   Limit is Seconds+10
     ),
-    catch(endpoint_call(Endpoint, join, join(Agent, Seconds),
-                        answer(Outcome), Limit),
-          error(unreachable(_), _),
-          throw(error(host_unreachable(Endpoint), _))).
+    process_ask(Endpoint, Endpoint, join, join(Agent, Seconds), Outcome,
+                Limit).

@@ -2,7 +2,7 @@
           [ agent_send/2                % +Agent, +Message
           ]).
 :- use_module(library(error), [must_be/2]).
-:- use_module('../host', [address_parts/3, context_now/2, host_address/2]).
+:- use_module('../host', [address_parts/3, as_guest/1, context_now/2, host_address/2]).
 :- use_module('../travel', [post/3, post_via/4]).
 
 /** <module> Messages from outside
@@ -26,11 +26,11 @@ agent_send(at(Agent, Host), Message) :-
     host_address(Host, Address),
     address_parts(Address, _, Endpoint),
     sender(From),
-    post_via(Agent, Endpoint, From, Message).
+    as_guest(post_via(Agent, Endpoint, From, Message)).
 agent_send(Agent, Message) :-
     must_be(atom, Agent),
     sender(From),
-    post(Agent, From, Message).
+    as_guest(post(Agent, From, Message)).
 
 sender(From) :-
     (   context_now(_, Agent),

@@ -10,6 +10,8 @@ the wire, of networks and of the log keep the texts of their own messages.
 *Threading*: called by print_message/2 in any thread.
 */
 
+:- use_module('../wire', [endpoint_missed/2]).
+:- use_module('../host', [address_parts/3]).
 :- use_module('../base/names', [names/2, names_proposed/3]).
 
 :- multifile
@@ -33,6 +35,11 @@ prolog:error_message(existence_error(host, here)) -->
     !,
     [ 'This process has no host' ].
 prolog:error_message(existence_error(host, Host)) -->
+    { address_parts(Host, Name, Endpoint) },
+    !,
+    [ 'There is no host ~w at ~w'-[Name, Endpoint] ],
+    meant(host, Host).
+prolog:error_message(existence_error(host, Host)) -->
     [ 'There is no host ~p here'-[Host] ],
     meant(host, Host).
 prolog:error_message(existence_error(agent, Agent)) -->
@@ -53,13 +60,51 @@ prolog:error_message(move_refused(Host, Reason)) -->
     [ '~p refuses to admit the agent: '-[Host] ],
     refusal(Reason).
 prolog:error_message(host_unreachable(Host)) -->
-    [ 'Host ~p cannot be reached'-[Host] ].
+    [ 'Host ~p cannot be reached'-[Host] ],
+    reason(Host).
+prolog:error_message(permission_error(authenticate, host, Host)) -->
+    [ 'The process of ~p has another cookie than this one (see \c
+       TYPHON_COOKIE_FILE)'-[Host] ].
 prolog:error_message(unreachable(Address)) -->
-    [ 'Nothing answers at ~p'-[Address] ].
+    [ 'Nothing answers at ~p'-[Address] ],
+    reason(Address).
 prolog:error_message(connection_lost(Address)) -->
     [ 'The connection to ~p was lost before the answer came'-[Address] ].
 prolog:error_message(type_error(mobile_term, Culprit)) -->
     [ 'This term cannot travel: ~p'-[Culprit] ].
+
+%   Host is an address, or that of a process; this process has tried, or
+%   another one.
+
+reason(Host) -->
+    { endpoint_of(Host, Endpoint),
+      endpoint_missed(Endpoint, Formal),
+      missed(Formal, Text)
+    },
+    !,
+    [ ': ~w'-[Text] ].
+reason(_) -->
+    [].
+
+endpoint_of(Host, Endpoint) :-
+    (   address_parts(Host, _, Endpoint)
+    ->  true
+    ;   Endpoint = Host
+    ).
+
+missed(late, 'it does not answer').
+missed(timeout_error(_, _), 'it does not answer').
+missed(socket_error(_, Text0), Text) :-
+    downcase_atom(Text0, Text).
+missed(permission_error(authenticate, peer, cookie),
+       'it has another cookie').
+missed(permission_error(authenticate, peer, protocol),
+       'something else answers there').
+missed(permission_error(authenticate, peer, version(Version)), Text) :-
+    format(atom(Text), 'it speaks another version of the protocol, ~w',
+           [Version]).
+missed(permission_error(use, cookie_file, File), Text) :-
+    format(atom(Text), 'the cookie file ~w may not be used', [File]).
 
 refusal(capacity) --> !, [ 'it is full' ].
 refusal(token) --> !, [ 'none of its tokens is wanted there' ].
