@@ -8,7 +8,7 @@
 :- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [must_be/2, permission_error/3, type_error/2]).
+              [domain_error/2, must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).
@@ -26,6 +26,7 @@
                 agent_state/2, is_life/1, life_clone/3, life_tokens/2,
                 make_life/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2]).
+:- use_module(named, [agent_met/1]).
 
 /** <module> How agents begin
 
@@ -73,6 +74,7 @@ create_by(Options, Spec, Agent) :-
     program_load(Spec, Program, Initial, Hash, Kinds),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
+    check_agent_name(Name),
     birth(Options, Declared, Initial, Clauses, Life, State),
     mobile_term(State),
     start_goals(Clauses, Initial, Goals),
@@ -90,6 +92,14 @@ option_type(facts(X), list, X).
 option_type(lifetime(X), nonneg, X).
 option_type(lifetime(X), oneof([inf]), X).
 option_type(static(X), boolean, X).
+
+%   What stands before the first `@` of an id is no part of an address.
+
+check_agent_name(Name) :-
+    (   sub_atom(Name, _, _, _, @)
+    ->  domain_error(agent_name, Name)
+    ;   true
+    ).
 
 target(Options, Where) :-
     (   option(host(Host), Options)
@@ -156,7 +166,8 @@ create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     code_program(Hash, Program),
     process_ask(Endpoint, Address, agent,
                 create(HostName, Name, Start, Program), Answer, 10),
-    created(Answer, Address, Agent).
+    created(Answer, Address, Agent),
+    agent_met(Agent).
 
 begun(created(Id), _, Id) :-
     !.

@@ -1,7 +1,6 @@
 :- module(typhon_properties,
           [ agent_property/2            % ?Agent, ?Property
           ]).
-:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module('../base/options', [check_name/2]).
@@ -11,6 +10,7 @@
               [ agent/5, agent_home/2, agent_state/2, agent_status/3,
                 life_hops/2, life_payloads/2, with_agent/2 ]).
 :- use_module('../travel', [in_doubt/1, transfer_held/2]).
+:- use_module(named, [agent_named/2]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
 /** <module> What can be seen of an agent
@@ -30,16 +30,18 @@
 %   `in_doubt` or faulty(Error).  If Agent is unbound, the agents of this
 %   process are enumerated.
 %
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
+%   is a name; of an id that is no more this fails
 %   @error domain_error(agent_property, Property) if there is none like it
 
 agent_property(Agent, Property) :-
     check_name(agent_property, Property),
     (   var(Agent)
     ->  agent(Agent, _, _, _, _)
-    ;   must_be(atom, Agent),
-        agent_home(Agent, _)
+    ;   true
     ),
-    agent_ask(Agent, properties, 10, answer(Properties)),
+    agent_named(Agent, Id),
+    agent_ask(Id, properties, 10, answer(Properties)),
     one_of(Property, Properties).
 
 %   Those there are follow from the clauses.

@@ -6,6 +6,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/erased', [forget_erased/0]).
@@ -43,6 +44,7 @@ none of its own.
 
 :- multifile
     prolog:message//1,
+    typhon_named:elsewhere/1,
     typhon_names:known/2,
     ended/1.                    % Network
 
@@ -268,6 +270,11 @@ typhon_names:known(network_property, Property) :-
     clause(property(Property, _), _).
 typhon_names:known(network, Network) :-
     running(Network).
+
+typhon_named:elsewhere(Agent) :-
+    running(Network),
+    wired_agents(Network, Agents),
+    member(Agent, Agents).
 
 property(hosts(Addresses), Network) :-
     wired_hosts(Network, Addresses).

@@ -45,6 +45,9 @@ prolog:error_message(existence_error(host, Host)) -->
 prolog:error_message(existence_error(agent, Agent)) -->
     [ 'There is no agent ~p'-[Agent] ],
     meant(agent, Agent).
+prolog:error_message(ambiguous_agent(Name, Ids)) -->
+    { atomic_list_concat(Ids, ', ', Text) },
+    [ 'Several agents are called ~w: ~w'-[Name, Text] ].
 prolog:error_message(existence_error(source_sink, Spec)) -->
     { program_alias(Spec, Alias, Name) },
     [ 'There is no file ~p'-[Spec] ],

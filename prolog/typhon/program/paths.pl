@@ -59,19 +59,28 @@ included_file(Spec, Includer, File) :-
                        [ extensions(['',pl]), access(read),
                          relative_to(Dir) ]).
 
-%   Names as they would stand in agents(Name), for programs in folders, too.
+%   Names as they would stand in agents(Name), for programs in folders, too,
+%   but not for what these include.
 
 typhon_names:known(Alias, Name) :-
-    member(Alias, [agents, payloads]),
+    member(Alias-Kind, [agents-agent, payloads-payload]),
     Spec =.. [Alias, '.'],
     absolute_file_name(Spec, Dir,
                        [ file_type(directory), solutions(all),
                          file_errors(fail)
                        ]),
-    catch(program_in(Dir, Name), error(_, _), fail).
+    catch(program_in(Dir, Kind, Name), error(_, _), fail).
 
-program_in(Dir, Name) :-
+program_in(Dir, Kind, Name) :-
     directory_member(Dir, File, [extensions([pl]), recursive(true)]),
     exists_file(File),
+    catch(begins_with(File, Kind), error(_, _), fail),
     directory_file_path(Dir, Relative, File),
     file_name_extension(Name, pl, Relative).
+
+begins_with(File, Kind) :-
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        read_term(In, (:- Declaration), []),
+        close(In)),
+    functor(Declaration, Kind, _).
