@@ -11,7 +11,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/options', [check_options/2]).
+:- use_module('../base/options', [check_option/2, check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(hosts,
@@ -166,7 +166,7 @@ listed(One, [One]).
 %   @error permission_error(change, host_option, Option)
 
 host_change(Host, Option) :-
-    check_option(Option),
+    check_option(host_option, Option),
     host_resolve(Host, Where),
     change_at(Where, Host, Option).
 
