@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
 :- use_module('../agent', [agent/5, agent_name/3]).
@@ -51,7 +51,7 @@ agent_met(Id) :-
 %!  agent_once_named(+Agent, -Id) is det.
 %
 %   Id is Agent itself, or the only agent known here that is called Agent;
-%   in agent_once_named/2 one that has ended, if no other is known.
+%   in agent_once_named/2, if there is none, the last one that has ended.
 %
 %   @error existence_error(agent, Agent)
 %   @error ambiguous_agent(Agent, Ids)
@@ -73,10 +73,15 @@ agent_once_named(Name, Id) :-
     must_be(atom, Name),
     living(Name, Living),
     (   Living == []
-    ->  called(Name, ended, Ids)
+    ->  findall(Last, last_called(Name, Last), Ids)
     ;   Ids = Living
     ),
     the_only(Ids, Name, Id).
+
+last_called(Name, Id) :-
+    member(Which, [ended, gone]),
+    called(Name, Which, Ids),
+    last(Ids, Id).
 
 is_id(Agent) :-
     atom(Agent),
@@ -94,7 +99,8 @@ the_only([Id|Ids], Name, _) :-
 
 living(Name, Ids) :-
     called(Name, living, Ids0),
-    exclude(is_gone, Ids0, Ids).
+    sort(Ids0, Ids1),
+    exclude(is_gone, Ids1, Ids).
 
 is_gone(Id) :-
     met(Id, alive),
@@ -110,8 +116,7 @@ called(Name, Which, Ids) :-
             ( call(Which, Id),
               sub_atom(Id, 0, _, _, Begin),
               agent_name(Id, Name, _) ),
-            Ids0),
-    sort(Ids0, Ids).
+            Ids).
 
 living(Id) :-
     agent(Id, _, _, _, _).
@@ -125,5 +130,6 @@ living(Id) :-
 
 ended(Id) :-
     agent_outcome(Id, _).
-ended(Id) :-
+
+gone(Id) :-
     met(Id, gone).
