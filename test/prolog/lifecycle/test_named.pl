@@ -51,6 +51,12 @@ saved(Dir) :-
                  agent_property(bob, home(_)),
                  agent_dispose(Again) )).
 
+test(the_last_one_that_has_ended) :-
+    with_hosts([alpha],
+               ( bob(A), agent_dispose(A), agent_join(A, _, 5),
+                 create([main], B, [name(bob)]), agent_join(B, _, 5),
+                 agent_join(bob, Outcome, 5),
+                 assertion(Outcome == done) )).
 test(a_name_that_two_have_tells_both) :-
     with_hosts([alpha],
                ( bob(A), bob(B), bob(_, [name(bobby)]),
@@ -100,15 +106,15 @@ test(in_another_process) :-
 
 elsewhere(Network) :-
     network_property(Network, hosts([First, Second])),
-    bob(_, [host(First)]),
-    agent_move(bob, Second),
-    wait_until(agent_property(bob, host(Second)), 5),
-    agent_send(bob, hello),
-    wait_until(agent_property(bob, facts([got(hello)])), 5),
-    agent_dispose(bob),
-    agent_join(bob, Outcome, 5),
+    bob(_, [host(First), name(carl)]),
+    agent_move(carl, Second),
+    wait_until(agent_property(carl, host(Second)), 5),
+    agent_send(carl, hello),
+    wait_until(agent_property(carl, facts([got(hello)])), 5),
+    agent_dispose(carl),
+    agent_join(carl, Outcome, 5),
     assertion(Outcome == disposed),
-    catch(agent_send(bob, hello), error(Formal, _), true),
-    assertion(Formal == existence_error(agent, bob)).
+    catch(agent_send(carl, hello), error(Formal, _), true),
+    assertion(Formal == existence_error(agent, carl)).
 
 :- end_tests(names).
