@@ -10,6 +10,8 @@ the wire, of networks and of the log keep the texts of their own messages.
 *Threading*: called by print_message/2 in any thread.
 */
 
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../wire', [endpoint_missed/2]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../base/names', [names/2, names_proposed/3]).
@@ -52,6 +54,13 @@ prolog:error_message(existence_error(source_sink, Spec)) -->
     { program_alias(Spec, Alias, Name) },
     [ 'There is no file ~p'-[Spec] ],
     meant(Alias, Name).
+prolog:error_message(existence_error(source_sink, File)) -->
+    { atom(File),
+      catch(files_beside(File, Files), error(_, _), fail),
+      names_proposed(File, Files, Meant),
+      Meant \== ''
+    },
+    [ 'There is no file ~p~w'-[File, Meant] ].
 prolog:error_message(existence_error(network, Network)) -->
     [ 'There is no network ~p'-[Network] ],
     meant(network, Network).
@@ -113,6 +122,18 @@ refusal(capacity) --> !, [ 'it is full' ].
 refusal(token) --> !, [ 'none of its tokens is wanted there' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
 refusal(Reason) --> [ '~p'-[Reason] ].
+
+%   files_beside(+File, -Files): what might have been written for File.
+
+files_beside(File, Files) :-
+    file_directory_name(File, Dir),
+    directory_files(Dir, Entries),
+    findall(Name,
+            ( member(Entry, Entries),
+              file_name_extension(Base, pl, Entry),
+              directory_file_path(Dir, Base, Name0),
+              ( atom_concat('./', Name, Name0) -> true ; Name = Name0 ) ),
+            Files).
 
 program_alias(Spec, Alias, Name) :-
     compound(Spec),

@@ -177,6 +177,15 @@ test(agents) :-
     in_directory(says(agent_check(agents(tourst)),
                       ["There is no file agents(tourst) \c
                         (did you mean tourist?)"])).
+test(files) :-
+    in_directory(( says(agent_check('agents/turist'),
+                        ["There is no file 'agents/turist' \c
+                          (did you mean agents/tourist?)"]),
+                   working_directory(_, agents),
+                   says(agent_check(tourst),
+                        ["There is no file tourst (did you mean tourist?)"]),
+                   told(agent_check('no/such/file'), Text),
+                   assertion(sub_string(Text, _, _, _, "does not exist")) )).
 test(in_a_folder) :-
     in_directory(says(agent_check(agents(survey/cenus)),
                       ["(did you mean survey/census?)"])).
