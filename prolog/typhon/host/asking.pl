@@ -3,6 +3,7 @@
                                         % -Answer, +Seconds
             as_guest/1                  % :Goal
           ]).
+:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_call/5, endpoint_missed/2]).
 :- use_module(runtime, [runtime_acquire/2, runtime_release/1]).
@@ -12,7 +13,8 @@
 A process without hosts is a guest in the network for as long as a question
 takes: it has an endpoint of its own until the answer is there.
 
-*Threading*: any thread that may wait.
+*Threading*: any thread that may wait.  The platform's own are no guests:
+who stops it waits for them.
 */
 
 :- meta_predicate as_guest(0).
@@ -45,13 +47,18 @@ unreachable(Endpoint, Who) :-
 %   Run Goal once; if this process has no endpoint it has one meanwhile.
 
 as_guest(Goal) :-
-    endpoint_address(_),
+    (   endpoint_address(_)
+    ;   own_thread
+    ),
     !,
-    call(Goal),
-    !.
+    once(Goal).
 as_guest(Goal) :-
     flag(typhon_guest, N, N+1),
     runtime_acquire(guest(N), []),
-    catch(setup_call_cleanup(true, once(Goal), runtime_release(guest(N))),
-          Ball,
-          throw(Ball)).
+    raising_afresh(setup_call_cleanup(true, once(Goal),
+                                      runtime_release(guest(N)))).
+
+own_thread :-
+    thread_self(Me),
+    atom(Me),
+    sub_atom(Me, 0, _, _, typhon_).
