@@ -16,6 +16,8 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 */
 
 :- use_module('../prolog/typhon').
+:- use_module('../prolog/typhon/base/names',
+              [names_listed/2, names_proposed/3]).
 :- use_module('../prolog/typhon/network/log', [log_server_stop/1]).
 :- use_module('../prolog/typhon/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
@@ -81,7 +83,8 @@ dispatch([Command|Argv]) :-
     (   member(Help, ['--help', '-h']),
         memberchk(Help, Argv)
     ->  command_help
-    ;   argv_options(typhon_app:Argv, Arguments, Options, []),
+    ;   check_options(Argv, Command),
+        argv_options(typhon_app:Argv, Arguments, Options, []),
         check_count(Command, Positional, Arguments),
         run_connected(Command, Arguments, Options)
     ).
@@ -92,6 +95,27 @@ dispatch(Argv) :-
         throw(error(typhon_usage(unknown_command(Word, Commands)), _))
     ;   overview
     ).
+
+%   argv_options/4 would end the process itself, and propose nothing.
+
+check_options(Argv, Command) :-
+    findall(Option, option(Command, Option, _, _, _), Options),
+    forall(( member(Word, Argv), long_option(Word, Option) ),
+           check_option(Option, Options, Command)).
+
+long_option(Word, Option) :-
+    atom_concat('--', Text, Word),
+    atomic_list_concat([Name|_], =, Text),
+    Name \== '',
+    atomic_list_concat(Parts, -, Name),
+    atomic_list_concat(Parts, '_', Option).
+
+check_option(Option, Options, _) :-
+    ( Plain = Option ; atom_concat(no_, Plain, Option) ),
+    memberchk(Plain, Options),
+    !.
+check_option(Option, Options, Command) :-
+    throw(error(typhon_usage(unknown_option(Command, Option, Options)), _)).
 
 %   Who asks needs an endpoint for the answer.
 
@@ -350,8 +374,15 @@ prolog:error_message(typhon_usage(Problem)) -->
     usage(Problem).
 
 usage(unknown_command(Word, Commands)) -->
-    { atomic_list_concat(Commands, ', ', Text) },
-    [ 'no command ~w; there are ~w'-[Word, Text] ].
+    { names_proposed(Word, Commands, Meant),
+      names_listed(Commands, All)
+    },
+    [ 'no command ~w~w~w'-[Word, Meant, All] ].
+usage(unknown_option(Command, Option, Options)) -->
+    { names_proposed(Option, Options, Meant),
+      names_listed(Options, All)
+    },
+    [ '~w has no option --~w~w~w'-[Command, Option, Meant, All] ].
 usage(arguments(Command)) -->
     { command(Command, Arguments, _, _) },
     [ '~w takes ~w; see ~w --help'-[Command, Arguments, Command] ].

@@ -7,6 +7,7 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../lib/settings', [known_settings/3]).
 :- use_module(tasks, [check_task/1]).
@@ -32,6 +33,8 @@ started the hosts.
 *Threading*: any thread; no state.
 */
 
+:- multifile typhon_options:declared/4.
+
 %!  auction_start(+Mechanism, +Hosts, +Options) is det.
 %
 %   Each of Hosts that has none gets a node of Mechanism; nodes know those
@@ -50,12 +53,14 @@ started the hosts.
 %
 %   To be called by one at a time.
 %
-%   @error type_error(mechanism, X), domain_error(setting, X)
+%   @error type_error(mechanism, X), domain_error(auction_option, Option),
+%   domain_error(setting, X)
 %   @error existence_error(host, Host), host_unreachable(Host)
 
 auction_start(Mechanism, Hosts, Options) :-
     program(Mechanism, _),
     must_be(list(atom), Hosts),
+    check_options(auction_option, Options),
     settings(Hosts, Options, Settings),
     maplist(node_at(Mechanism, Settings), Hosts, Nodes),
     pairs_keys_values(Peers, Hosts, Nodes),
@@ -85,12 +90,16 @@ node_at(Mechanism, Settings, Host, Node) :-
                 *           SETTINGS           *
                 *******************************/
 
+typhon_options:declared(auction_option, settings(X), list, X).
+typhon_options:declared(auction_option, diameter(X), positive_integer, X).
+typhon_options:declared(auction_option, slack(X), number, X).
+
 settings(Hosts, Options, Settings) :-
     known_settings([ window, answer, renew, contract, tries, bi_min, bi_max,
                      level, memory, jobs ],
                    Options, Pairs),
     (   option(diameter(Diameter), Options)
-    ->  must_be(positive_integer, Diameter)
+    ->  true
     ;   diameter(Hosts, Diameter)
     ),
     slack(Hosts, Options, Slack),
@@ -106,8 +115,7 @@ settings(Hosts, Options, Settings) :-
 
 slack(_, Options, Slack) :-
     option(slack(Slack), Options),
-    !,
-    must_be(number, Slack).
+    !.
 slack([Host|_], _, Slack) :-
     host_name(Host, Name),
     remote(Host, typhon_clock:clock(Name, _, Rate)),

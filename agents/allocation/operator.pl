@@ -9,6 +9,7 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_property/2, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../lib/settings', [known_settings/3, setting_facts/2]).
 :- use_module(tasks, [check_task/1]).
@@ -40,6 +41,14 @@ common/requirements.pl.  Details are a list, in which all may be missing:
 *Threading*: any thread; no state.
 */
 
+:- multifile typhon_options:declared/4.
+
+typhon_options:declared(robot_option, cost(X), ground, X).
+typhon_options:declared(robot_option, settings(X), list, X).
+typhon_options:declared(task_option, negotiation(X), ground, X).
+typhon_options:declared(task_option, settings(X), list, X).
+typhon_options:declared(task_option, name(X), atom, X).
+
 %!  robot_start(+Host, +Properties:list, +Options) is det.
 %
 %   Host gets a robot with Properties, if it has none.  Options:
@@ -50,13 +59,17 @@ common/requirements.pl.  Details are a list, in which all may be missing:
 %       Name-Value, for `watch` and `patience`: see robot.pl.
 %
 %   @error existence_error(host, Host), host_unreachable(Host)
-%   @error domain_error(setting, X)
+%   @error domain_error(robot_option, Option), domain_error(setting, X)
 
-robot_start(Host, _, _) :-
-    remote(Host, sense(robot(_))),
-    !.
 robot_start(Host, Properties, Options) :-
     must_be(list(ground), Properties),
+    check_options(robot_option, Options),
+    (   remote(Host, sense(robot(_)))
+    ->  true
+    ;   create_robot(Host, Properties, Options)
+    ).
+
+create_robot(Host, Properties, Options) :-
     settings([watch, patience], Options, Settings),
     option(cost(Payload), Options, payloads(allocation/nearest)),
     findall(Fact,
@@ -134,11 +147,13 @@ status(_, free).
 %     - name(Name)
 %       From which the id of Agent is made.
 %
+%   @error domain_error(task_option, Option)
 %   @error type_error(task, Task), domain_error(setting, X)
 %   @error existence_error(host, Host), host_unreachable(Host)
 
 task_allocate(Task, Host, Options, Agent) :-
     check_task(Task),
+    check_options(task_option, Options),
     settings([ cd, alpha_k, chi, bi_min, bi_max, backoff, strategy,
                children, child_life, patience, monitor, pause, start, seed
              ],

@@ -9,6 +9,7 @@
 :- use_module('../../prolog/typhon',
               [ agent_dispose/1, agent_join/3, agent_property/2,
                 agent_send/2, remote/2 ]).
+:- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module('../population/operator', [population_start/5]).
 :- use_module(operator, [allocation_stage/3, robot_status/2, task_allocate/4]).
 :- use_module(library(apply), [maplist/2]).
@@ -24,6 +25,8 @@ execute a sequence of tasks in step.  Then it lets them go.
 
 *Threading*: any thread, which waits; no state.
 */
+
+:- multifile typhon_options:declared/4.
 
 %!  sequence_allocate(+Name, +Teams, +Host, +Tasks:list(pair), +Options,
 %!                    -Robots:list(atom), -Outcome) is det.
@@ -44,6 +47,7 @@ execute a sequence of tasks in step.  Then it lets them go.
 %   A robot that fails in the middle of the sequence is replaced for the
 %   task, but the sequence is not extended to the new one.
 %
+%   @error domain_error(sequence_allocation_option, Option)
 %   @error errors of task_allocate/4 and population_start/5, after which
 %   the robots free themselves
 
@@ -81,6 +85,7 @@ wait(sequence(_, Agent, _)) :-
 sequence_begin(Name, Teams, Host, Tasks, Options,
                sequence(searching, Agent, plan(Name, Tasks, Population))) :-
     must_be(list(pair), Tasks),
+    check_options(sequence_allocation_option, Options),
     option(deadline(Deadline), Options, 600),
     option(priority(Priority), Options, 0),
     option(allocation(Allocation), Options, []),
@@ -89,6 +94,14 @@ sequence_begin(Name, Teams, Host, Tasks, Options,
                        [ deadline(Deadline), priority(Priority),
                          goal(receive(_-finish)) ]),
                   Host, Allocation, Agent).
+
+typhon_options:declared(sequence_allocation_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
+
+option_type(deadline(X), number, X).
+option_type(priority(X), number, X).
+option_type(allocation(X), list, X).
+option_type(population(X), list, X).
 
 %   The stage is searching, executing(Robots, Agents), leaving(Robots), and
 %   in the end over(Robots, Outcome).

@@ -7,6 +7,7 @@
               [ agent_create/3, agent_send/2, payload_attach/2,
                 payload_detach/2, remote/2
               ]).
+:- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../lib/settings', [setting_facts/2]).
 :- use_module('../lib/starts', [starts/4]).
@@ -27,6 +28,8 @@ said in the programs that use them, trainer.pl and learner.pl.
 *Threading*: any thread; no state.
 */
 
+:- multifile typhon_options:declared/4.
+
 %!  learning_start(+Hosts, +Problem, +Algorithms, +Options, -Agents) is det.
 %
 %   Each of Hosts gets a trainer for Problem, where it has none.  Agents,
@@ -43,12 +46,14 @@ said in the programs that use them, trainer.pl and learner.pl.
 %   For no more than N agents in the queue of a host it must have been
 %   started with the capacity N + 1, for the trainer.
 %
+%   @error domain_error(learning_option, Option)
 %   @error type_error(list, X), domain_error(hosts, []),
 %   existence_error(host, Host), host_unreachable(Host)
 
 learning_start(Hosts, Problem, Algorithms, Options, Agents) :-
     must_be(list(atom), Hosts),
     must_be(list, Algorithms),
+    check_options(learning_option, Options),
     settings(Options, Settings),
     maplist(furnish(Problem, Settings), Hosts),
     option(agents(Count), Options, 5),
@@ -56,6 +61,11 @@ learning_start(Hosts, Problem, Algorithms, Options, Agents) :-
     findall(Algorithm, in_turn(Count, Algorithms, Algorithm), Chosen),
     maplist(create(Settings), Chosen, Starts, Agents),
     maplist(begin, Agents).
+
+typhon_options:declared(learning_option, agents(X), nonneg, X).
+typhon_options:declared(learning_option, starts(X), list(atom), X).
+typhon_options:declared(learning_option, seed(X), integer, X).
+typhon_options:declared(learning_option, settings(X), list, X).
 
 in_turn(Count, Algorithms, Algorithm) :-
     length(Algorithms, Kinds),

@@ -1,8 +1,9 @@
 :- module(agent_settings,
           [ setting_facts/2,            % +Options, -Facts
-            known_settings/3            % +Names, +Options, -Pairs
+            known_settings/3,           % +Names, +Options, -Pairs
+            unknown_setting/2           % +Names, +Pair
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/3]).
 
@@ -38,8 +39,19 @@ known_settings(Names, Options, Pairs) :-
 known(Names, Name-_) :-
     memberchk(Name, Names),
     !.
-known(_, Pair) :-
-    domain_error(setting, Pair).
+known(Names, Pair) :-
+    unknown_setting(Names, Pair).
+
+%!  unknown_setting(+Names, +Pair) is failure.
+%
+%   Say that Pair is none of the settings Names, or has no such value.
+%
+%   @error domain_error(setting, Pair)
+
+unknown_setting(Names, Pair) :-
+    atomic_list_concat(Names, ', ', Known),
+    atom_concat('there are ', Known, Text),
+    throw(error(domain_error(setting, Pair), context(_, Text))).
 
 pairs(Options, Pairs) :-
     option(settings(Pairs), Options, []),

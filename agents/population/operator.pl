@@ -4,6 +4,7 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module('../lib/settings', [setting_facts/2]).
 :- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [maplist/2, maplist/4]).
@@ -17,6 +18,8 @@ cookie, whoever started the hosts.
 
 *Threading*: any thread; no state.
 */
+
+:- multifile typhon_options:declared/4.
 
 %!  population_start(+Sequence, +Hosts, +Tasks:list(pair), +Options,
 %!                   -Agents) is det.
@@ -36,6 +39,7 @@ cookie, whoever started the hosts.
 %   For no more than q_th agents in a queue the hosts must have been started
 %   with the capacity q_th + 2, for the queue and the worker.
 %
+%   @error domain_error(population_option, Option)
 %   @error type_error(list, X), type_error(pair, X), domain_error(hosts, []),
 %   existence_error(host, Host), host_unreachable(Host)
 
@@ -43,6 +47,7 @@ population_start(Sequence, Hosts, Tasks, Options, Agents) :-
     must_be(atomic, Sequence),
     must_be(list(atom), Hosts),
     must_be(list(pair), Tasks),
+    check_options(population_option, Options),
     maplist(furnish(Sequence), Hosts),
     length(Tasks, Count),
     starts(Count, Hosts, Options, Starts),
@@ -50,6 +55,10 @@ population_start(Sequence, Hosts, Tasks, Options, Agents) :-
     findall(Number, between(1, Count, Number), Numbers),
     maplist(create, Numbers, Kinds, Starts, Agents),
     forall(member(Agent, Agents), agent_send(Agent, begin)).
+
+typhon_options:declared(population_option, starts(X), list(atom), X).
+typhon_options:declared(population_option, seed(X), integer, X).
+typhon_options:declared(population_option, settings(X), list, X).
 
 %   A worker that is busy has no tuple, but its task has.
 

@@ -6,6 +6,7 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../lib/settings', [setting_facts/2]).
 :- use_module(library(apply), [maplist/2]).
@@ -32,19 +33,25 @@ An application is a payload file, as payloads(sieve/bits), that provides
 *Threading*: any thread; no state.
 */
 
+:- multifile typhon_options:declared/4.
+
 %!  sieve_start(+Hosts, +Application, +Options) is det.
 %
 %   Hosts get a guard that knows Application, where they have none.
 %   Options: settings(Pairs), Name-Value, to replace what parameters.pl has
 %   as a default, for the guards and all antibodies they release.
 %
+%   @error domain_error(sieve_option, Option)
 %   @error type_error(list, X), existence_error(host, Host),
 %   host_unreachable(Host)
 
 sieve_start(Hosts, Application, Options) :-
     must_be(list(atom), Hosts),
+    check_options(sieve_option, Options),
     setting_facts(Options, Settings),
     maplist(guarded(Application, Settings), Hosts).
+
+typhon_options:declared(sieve_option, settings(X), list, X).
 
 guarded(_, _, Host) :-
     remote(Host, sense(guard(_))),
@@ -81,6 +88,7 @@ attack(Antigen, Host) :-
 %   are those of sieve_start/3.
 
 antibody_release(Host, Application, Antibody, Options, Agent) :-
+    check_options(sieve_option, Options),
     setting_facts(Options, Settings),
     (   memberchk(setting(gamma, Gamma), Settings)
     ->  true

@@ -7,7 +7,9 @@
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
+:- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module('../../prolog/typhon/program/paths', []).
+:- use_module('../lib/settings', [unknown_setting/2]).
 :- use_module('../lib/starts', [starts/4]).
 :- use_module(library(apply), [foldl/4, include/3, maplist/2, maplist/3]).
 :- use_module(library(error),
@@ -33,6 +35,8 @@ host, and may stop, as in sleep(1).
 *Threading*: any thread.
 */
 
+:- multifile typhon_options:declared/4.
+
 %!  sequence_start(+Sequence, +Hosts, +Tasks, +Options, -Agents) is det.
 %
 %   Hosts get a worker for Sequence, where they have none; other hosts have
@@ -48,6 +52,7 @@ host, and may stop, as in sleep(1).
 %       numbers above 0; or of `strategy`, which next_host/2 knows
 %
 %   @error type_error(pair, X), domain_error(distinct_tasks, Names)
+%   @error domain_error(sequence_option, Option)
 %   @error domain_error(setting, X): unknown, or no such value
 %   @error host_unreachable(Host), existence_error(host, Host) and others
 %   of agent_create/3
@@ -56,6 +61,7 @@ sequence_start(Sequence, Hosts, Tasks, Options, Agents) :-
     must_be(atom, Sequence),
     must_be(list(atom), Hosts),
     check_tasks(Tasks),
+    check_options(sequence_option, Options),
     traveller_facts(Options, Settings),
     count(Options, Count),
     starts(Count, Hosts, Options, Starts),
@@ -101,6 +107,11 @@ create_traveller(Facts, Host, Agent) :-
                 *            OPTIONS           *
                 *******************************/
 
+typhon_options:declared(sequence_option, agents(X), nonneg, X).
+typhon_options:declared(sequence_option, starts(X), list(atom), X).
+typhon_options:declared(sequence_option, seed(X), integer, X).
+typhon_options:declared(sequence_option, settings(X), list, X).
+
 traveller_facts(Options, [setting(start, order)|Settings]) :-
     option(settings(Pairs), Options, []),
     maplist(setting_fact, Pairs, Settings).
@@ -114,7 +125,8 @@ setting_fact(Name-Value, setting(Name, Value)) :-
     Value > 0,
     !.
 setting_fact(Setting, _) :-
-    domain_error(setting, Setting).
+    unknown_setting([delta, theta, maximum, window, patience, strategy],
+                    Setting).
 
 %   One on each of `starts`, if these are given and their number is not.
 

@@ -5,6 +5,7 @@
             varied/3,                   % +Study, +Cases, -Names
             case_name/3                 % +Study, +Case, -Name
           ]).
+:- use_module('../../prolog/typhon/base/names', [names_proposed/3]).
 :- use_module(library(apply), [exclude/3, foldl/4]).
 :- use_module(library(lists), [last/2, list_to_set/2, member/2, memberchk/2]).
 
@@ -186,6 +187,8 @@ case_name(Study, Case, Name) :-
 
 prolog:error_message(study_parameter(Study, Name)) -->
     { file_base_name(Study, Base),
-      findall(N, study_parameter(Study, N), Names),
+      findall(N, study_parameter(Study, N), Names0),
+      sort(Names0, Names),
+      names_proposed(Name, Names, Meant),
       atomic_list_concat(Names, ', ', Known) },
-    [ '~w has no parameter ~q; it has ~w'-[Base, Name, Known] ].
+    [ '~w has no parameter ~q~w; it has ~w'-[Base, Name, Meant, Known] ].

@@ -7,6 +7,7 @@
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [append/2, list_to_set/2, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
+:- use_module('../../prolog/typhon/base/names', [names_proposed/3]).
 :- use_module(studies, [study_call/2, study_load/2, study_title/3]).
 
 /** <module> The studies that are there
@@ -105,6 +106,16 @@ named(Name, Files) :-
     !.
 named(Name, _) :-
     existence_error(study, Name).
+
+:- multifile
+    prolog:error_message//1.
+
+prolog:error_message(existence_error(study, Name)) -->
+    { catalogue(Rows),
+      findall(Known, member([Known, _], Rows), Names),
+      names_proposed(Name, Names, Meant)
+    },
+    [ 'There is no study ~w~w'-[Name, Meant] ].
 
 in_folder(Name, File) :-
     file_directory_name(File, Directory),

@@ -7,6 +7,7 @@
             study_name/3                % +Study, -Where, -Name
           ]).
 :- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module(cases, [parameters/3, study_parameter/2]).
 :- use_module(claims, [claim_name/2, claim_shape/2, claim_value/2]).
 
@@ -43,6 +44,7 @@ was chosen after results had been seen.
 
 :- multifile
     prolog:error_message//1,
+    typhon_options:declared/4,
     user:file_search_path/2.
 
 :- dynamic
@@ -163,6 +165,10 @@ problem(Study, _, said(claim(Text), no_test(Part))) :-
 problem(Study, _, said(plot(Name), no_picture(Picture))) :-
     study_call(Study, plot(Name, _, Picture)),
     \+ is_picture(Picture).
+problem(Study, _, said(plot(Name), wrong(Formal))) :-
+    study_call(Study, plot(Name, _, Picture)),
+    picture_options(Picture, Domain, Options),
+    catch(( check_options(Domain, Options), fail ), error(Formal, _), true).
 problem(Study, _, said(Where, unknown(Name))) :-
     study_name(Study, Where, Name),
     unknown(Study, Name).
@@ -191,6 +197,23 @@ study_name(Study, plot(Plot), Name) :-
     ->  member(Name, Measures)
     ;   member(Option, [x(Name), y(Name), line(Name)])
     ).
+
+%   picture_options(+Picture, -Domain, -Options): see room picture.
+
+picture_options(lines(Options), lines_option, Options).
+picture_options(script(_, _, Options), script_option, Options).
+
+typhon_options:declared(lines_option, x(X), nonvar, X).
+typhon_options:declared(lines_option, y(X), nonvar, X).
+typhon_options:declared(lines_option, line(X), nonvar, X).
+typhon_options:declared(lines_option, where(X), list, X).
+typhon_options:declared(lines_option, log(X), nonvar, X).
+typhon_options:declared(lines_option, rule(X, Y), nonvar, X-Y).
+typhon_options:declared(lines_option, subtitle(X), ground, X).
+typhon_options:declared(lines_option, xlabel(X), ground, X).
+typhon_options:declared(script_option, size(W, H), list(integer), [W,H]).
+typhon_options:declared(script_option, seed(X), oneof([first]), X).
+typhon_options:declared(script_option, variables(X), callable, X).
 
 is_picture(lines(_)).
 is_picture(script(_, _, _)).
@@ -229,6 +252,8 @@ says(no_test(Part)) -->
     [ '~q is no test'-[Part] ].
 says(no_picture(Part)) -->
     [ '~q is no picture'-[Part] ].
+says(wrong(Formal)) -->
+    '$messages':translate_message(error(Formal, _)).
 says(no_case(Name=Value)) -->
     [ '~q is never ~q'-[Name, Value] ].
 says(unknown(Name)) -->

@@ -28,9 +28,11 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/time,
             [ alarm_in/3, alarm_set/3, time_now/1, time_seed/1, time_signal/1,
               time_wait/3 ]).
+:- reexport(host/asking, [as_guest/1, process_ask/6]).
 :- reexport(host/runtime,
             [runtime_acquire/2, runtime_acquire/3, runtime_release/1]).
 :- reexport(host/hosting,
             [host_change/2, host_start/1, host_start/2, host_stop/1]).
-:- reexport(host/host_questions, [host_property/2, link/2, unlink/2]).
+:- reexport(host/host_questions,
+            [host_property/2, host_unknown/1, link/2, unlink/2]).
 :- reexport(host/remote, [remote/2]).

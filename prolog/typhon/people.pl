@@ -8,5 +8,6 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport('people/tables').
 :- use_module(people/editors, []).
+:- use_module(people/completion, []).
 :- use_module(people/messages, []).
 :- use_module(people/manual, []).

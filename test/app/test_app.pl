@@ -88,11 +88,14 @@ test(command, forall(member(Command-Pattern,
 :- begin_tests(app_errors).
 
 test(unknown_command) :-
-    typhon_error([hots], "no command hots").
+    typhon_error([hots], "no command hots (did you mean host or hosts?)").
 test(too_few_arguments) :-
     typhon_error([host], "host takes NAME").
 test(unknown_option) :-
-    typhon_error([host, alpha, '--prot', 7], "prot").
+    typhon_error([host, alpha, '--prot', 7],
+                 "host has no option --prot (did you mean port?)"),
+    typhon_error([network, 'ring(2)', '--hop-tme=x'],
+                 "(did you mean hop_time?)").
 test(wrong_type) :-
     typhon_error([host, alpha, '--port', many], "many").
 test(missing_option) :-

@@ -1,12 +1,15 @@
 :- module(typhon_host_questions,
           [ host_property/2,            % ?Name, ?Property
+            host_unknown/1,             % +Address
             link/2,                     % +HostA, +HostB
             unlink/2                    % +HostA, +HostB
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../wire', [endpoint_call/5, endpoint_reply/2]).
+:- use_module('../base/options', [check_name/2]).
+:- use_module('../wire', [endpoint_reply/2]).
+:- use_module(asking, [process_ask/6]).
 :- use_module(hosts,
               [ host/3, host_address/2, host_hop_stats/3, host_link/2,
                 host_load/2, host_neighbours/2, host_option/2,
@@ -21,6 +24,7 @@ connections.
 */
 
 :- multifile
+    typhon_names:known/2,
     typhon_endpoint:requested/4.
 
 %!  host_property(?Name, ?Property) is nondet.
@@ -31,22 +35,30 @@ connections.
 %   process, too.
 %
 %   @error existence_error(host, Name)
+%   @error domain_error(host_property, Property)
 
 host_property(Name, Property) :-
+    check_name(host_property, Property),
+    property_of(Name, Property).
+
+typhon_names:known(host_property, Property) :-
+    clause(local_property(Property, _), _).
+
+property_of(Name, Property) :-
     var(Name),
     !,
     host(Name, _, _),
     local_property(Property, Name).
-host_property(Host, Property) :-
+property_of(Host, Property) :-
     host_resolve(Host, Where),
     property(Where, Host, Property).
 
 property(local(Name), _, Property) :-
     local_property(Property, Name).
 property(remote(_, Name, Endpoint), Host, Property) :-
-    ask(Endpoint, host_properties(Name), Properties),
+    ask(Endpoint, Host, host_properties(Name), Properties),
     (   Properties == none
-    ->  existence_error(host, Host)
+    ->  host_unknown(Host)
     ;   member(Property, Properties)
     ).
 
@@ -101,15 +113,15 @@ one_way(From, To, Change) :-
     change(Where, Change, To, Answer),
     (   Answer == ok
     ->  debug(typhon(host), '~w: ~w ~w', [From, Change, To])
-    ;   existence_error(host, From)
+    ;   host_unknown(From)
     ).
 
 change(local(Name), Change, To, Answer) :-
     hosting_question(Change, Name, To, Question),
     hosting_answer(Question, Answer).
-change(remote(_, Name, Endpoint), Change, To, Answer) :-
+change(remote(Host, Name, Endpoint), Change, To, Answer) :-
     hosting_question(Change, Name, To, Question),
-    ask(Endpoint, Question, Answer).
+    ask(Endpoint, Host, Question, Answer).
 
 hosting_question(link, Name, To, link(Name, To)).
 hosting_question(unlink, Name, To, unlink(Name, To)).
@@ -118,10 +130,26 @@ hosting_question(unlink, Name, To, unlink(Name, To)).
                 *             ASKING           *
                 *******************************/
 
-ask(Endpoint, Question, Answer) :-
-    catch(endpoint_call(Endpoint, hosting, Question, answer(Answer), 10),
-          error(unreachable(_), _),
-          throw(error(host_unreachable(Endpoint), _))).
+%!  host_unknown(+Address) is failure.
+%
+%   The process of Address has said that it has no such host: say which
+%   ones it has.
+%
+%   @error existence_error(host, Address)
+
+host_unknown(Address) :-
+    host_resolve(Address, remote(_, _, Endpoint)),
+    catch(ask(Endpoint, Address, hosts, Names), error(_, _), fail),
+    Names = [_|_],
+    !,
+    atomic_list_concat(Names, ', ', Listed),
+    atom_concat('there are: ', Listed, Text),
+    throw(error(existence_error(host, Address), context(_, Text))).
+host_unknown(Address) :-
+    existence_error(host, Address).
+
+ask(Endpoint, Host, Question, Answer) :-
+    process_ask(Endpoint, Host, hosting, Question, Answer, 10).
 
 typhon_endpoint:requested(hosting, Question, _Peer, ReplyTo) :-
     hosting_answer(Question, Answer),
@@ -132,6 +160,8 @@ hosting_answer(host_properties(Name), Properties) :-
     ->  findall(P, local_property(P, Name), Properties)
     ;   Properties = none
     ).
+hosting_answer(hosts, Names) :-
+    findall(Name, host(Name, _, _), Names).
 hosting_answer(link(Name, Address), Answer) :-
     change_link(Name, Address, host_link, Answer).
 hosting_answer(unlink(Name, Address), Answer) :-

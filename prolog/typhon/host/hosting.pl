@@ -4,7 +4,6 @@
             host_change/2,              % +Host, +Option
             host_stop/1                 % +Name
           ]).
-:- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
@@ -12,6 +11,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/options', [check_option/2, check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(hosts,
@@ -34,6 +34,7 @@ other users of the process its endpoint, see typhon_runtime.
            "Agents have so long to come to an effect when their host stops").
 
 :- multifile
+    typhon_options:declared/4,
     evacuate/2.                 % Name, Deadline: nobody is left on the host
 
 :- dynamic evacuate/2.
@@ -73,27 +74,23 @@ host_start(Name) :-
 
 host_start(Name, Options) :-
     must_be(atom, Name),
-    must_be(list, Options),
+    check_options(host_option, Options),
     (   sub_atom(Name, _, _, _, @)
     ->  domain_error(host_name, Name)
     ;   true
     ),
-    maplist(check_option, Options),
     with_mutex(typhon_hosting, start(Name, Options)).
 
-check_option(Option) :-
-    (   host_option_type(Option, Type, Value)
-    ->  must_be(Type, Value)
-    ;   domain_error(host_option, Option)
-    ).
+typhon_options:declared(host_option, Option, Type, Value) :-
+    host_option_type(Option, Type, Value).
 
 host_option_type(port(X), between(0, 65535), X).
 host_option_type(bind(X), atom, X).
-host_option_type(capacity(X), oneof([inf]), X) :- X == inf, !.
 host_option_type(capacity(X), nonneg, X).
+host_option_type(capacity(X), oneof([inf]), X).
 host_option_type(tokens(X), list, X).
-host_option_type(concurrency(X), oneof([inf]), X) :- X == inf, !.
 host_option_type(concurrency(X), positive_integer, X).
+host_option_type(concurrency(X), oneof([inf]), X).
 host_option_type(consult(X), ground, X).
 host_option_type(services(X), ground, X).
 host_option_type(place(X), atom, X).
@@ -169,7 +166,7 @@ listed(One, [One]).
 %   @error permission_error(change, host_option, Option)
 
 host_change(Host, Option) :-
-    check_option(Option),
+    check_option(host_option, Option),
     host_resolve(Host, Where),
     change_at(Where, Host, Option).
 

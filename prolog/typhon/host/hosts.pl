@@ -43,6 +43,16 @@ four of a hop whole.
 %
 %   The hosts of this process, in the order in which they were started.
 
+:- multifile typhon_names:known/2.
+
+%   Those of other processes by their addresses.
+
+typhon_names:known(host, Name) :-
+    host(Name, _, _).
+typhon_names:known(host, Address) :-
+    neighbour(_, Address),
+    \+ host(_, Address, _).
+
 %!  host_add(+Name, +Address, +Place, +Options) is det.
 
 host_add(Name, Address, Place, Options) :-

@@ -2,10 +2,12 @@
           [ remote/2                    % +Host, +Goal
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error),
-              [existence_error/2, must_be/2, permission_error/3]).
-:- use_module('../wire', [endpoint_call/5, endpoint_reply/2, mobile_term/1]).
+:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
+:- use_module(asking, [process_ask/6]).
 :- use_module(context, [in_context/2]).
+:- use_module(host_questions, [host_unknown/1]).
 :- use_module(hosts, [host/3, host_option/2, host_resolve/2]).
 :- use_module(scheduler, [scheduler_call/1]).
 
@@ -28,38 +30,29 @@ other process.
 %   work on the tuple space of Host.
 %
 %   @error permission_error(remote, host, Host) if the host refuses
-%   @error host_unreachable(Host)
+%   @error host_unreachable(Host), permission_error(authenticate, host, Host)
 %   @error connection_lost(Host): whether Goal ran is not known
 
 remote(Host, Goal) :-
     host_resolve(Host, Where),
     must_be(callable, Goal),
-    run(Where, Host, Goal).
+    raising_afresh(run(Where, Host, Goal)).
 
 run(local(Name), _, Goal) :-
     run_here(Name, Goal).
 run(remote(_, Name, Endpoint), Host, Goal) :-
     mobile_term(Goal),
-    catch(endpoint_call(Endpoint, remote, remote(Name, Goal),
-                        answer(Answer), 1.0e9),
-          error(Formal, _),
-          failed(Formal, Host)),
+    catch(process_ask(Endpoint, Host, remote, remote(Name, Goal), Answer,
+                      1.0e9),
+          error(connection_lost(_), _),
+          throw(error(connection_lost(Host), _))),
     conclude(Answer, Host, Goal).
-
-failed(unreachable(_), Host) :-
-    !,
-    throw(error(host_unreachable(Host), _)).
-failed(connection_lost(_), Host) :-
-    !,
-    throw(error(connection_lost(Host), _)).
-failed(Formal, _) :-
-    throw(error(Formal, _)).
 
 conclude(true(Goal), _, Goal).
 conclude(raised(Ball), _, _) :-
     throw(Ball).
 conclude(unknown_host, Host, _) :-
-    existence_error(host, Host).
+    host_unknown(Host).
 
 run_here(Name, Goal) :-
     host(Name, _, Place),

@@ -92,6 +92,12 @@ next_host(Strategy, Neighbours, Here, Memory0, Host, Memory) :-
                 *          STRATEGIES          *
                 *******************************/
 
+:- multifile typhon_names:known/2.
+
+typhon_names:known(migration_strategy, random).
+typhon_names:known(migration_strategy, conscientious).
+typhon_names:known(migration_strategy, epsilon_conscientious('E')).
+
 strategy(random).
 strategy(conscientious).
 strategy(epsilon_conscientious(E)) :-

@@ -8,23 +8,25 @@
 :- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [ domain_error/2, existence_error/2, must_be/2,
-                permission_error/3, type_error/2 ]).
+              [domain_error/2, must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_program/2,
                 code_receive/2, payload_load/2, program_load/5 ]).
-:- use_module('../wire', [endpoint_call/5, endpoint_reply/2, mobile_term/1]).
+:- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
               [ host/3, host_address/2, host_enter/3, host_leave/1,
-                host_log/3, host_resolve/2 ]).
+                host_log/3, host_resolve/2, host_unknown/1, process_ask/6 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_id/3, agent_mail/2,
                 agent_module/5, agent_name/3, agent_ready/2,
                 agent_state/2, is_life/1, life_clone/3, life_tokens/2,
                 make_life/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2]).
+:- use_module(named, [agent_met/1]).
 
 /** <module> How agents begin
 
@@ -37,7 +39,9 @@ clone of another.  What begins is
 of the endpoint.
 */
 
-:- multifile typhon_endpoint:requested/4.
+:- multifile
+    typhon_options:declared/4,
+    typhon_endpoint:requested/4.
 
 %!  agent_create(+Program, -Agent) is det.
 %!  agent_create(+Program, -Agent, +Options) is det.
@@ -62,32 +66,40 @@ agent_create(Program, Agent) :-
     agent_create(Program, Agent, []).
 
 agent_create(Spec, Agent, Options) :-
-    must_be(list, Options),
-    maplist(check_option, Options),
+    check_options(agent_option, Options),
+    raising_afresh(create_by(Options, Spec, Agent)).
+
+create_by(Options, Spec, Agent) :-
     target(Options, Target),
     program_load(Spec, Program, Initial, Hash, Kinds),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
+    check_agent_name(Name),
     birth(Options, Declared, Initial, Clauses, Life, State),
     mobile_term(State),
     start_goals(Clauses, Initial, Goals),
     code_install(Hash, Program, Kinds),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
 
-check_option(Option) :-
-    (   option_type(Option, Type, Value)
-    ->  must_be(Type, Value)
-    ;   domain_error(agent_option, Option)
-    ).
+typhon_options:declared(agent_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
 
 option_type(name(X), atom, X).
 option_type(host(X), atom, X).
 option_type(tokens(X), list, X).
 option_type(payloads(X), list, X).
 option_type(facts(X), list, X).
-option_type(lifetime(X), oneof([inf]), X) :- X == inf, !.
 option_type(lifetime(X), nonneg, X).
+option_type(lifetime(X), oneof([inf]), X).
 option_type(static(X), boolean, X).
+
+%   What stands before the first `@` of an id is no part of an address.
+
+check_agent_name(Name) :-
+    (   sub_atom(Name, _, _, _, @)
+    ->  domain_error(agent_name, Name)
+    ;   true
+    ).
 
 target(Options, Where) :-
     (   option(host(Host), Options)
@@ -152,12 +164,10 @@ create(local(Host), Name, Start, Agent) :-
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     Start = start(Hash, _, _, _, _),
     code_program(Hash, Program),
-    catch(endpoint_call(Endpoint, agent,
-                        create(HostName, Name, Start, Program),
-                        answer(Answer), 10),
-          error(unreachable(_), _),
-          throw(error(host_unreachable(Address), _))),
-    created(Answer, Address, Agent).
+    process_ask(Endpoint, Address, agent,
+                create(HostName, Name, Start, Program), Answer, 10),
+    created(Answer, Address, Agent),
+    agent_met(Agent).
 
 begun(created(Id), _, Id) :-
     !.
@@ -167,7 +177,7 @@ begun(Answer, Host, Id) :-
 
 created(created(Id), _, Id).
 created(refused(unknown_host), Address, _) :-
-    existence_error(host, Address).
+    host_unknown(Address).
 created(refused(Reason), Address, _) :-
     throw(error(move_refused(Address, Reason), _)).
 

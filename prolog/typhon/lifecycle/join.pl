@@ -2,10 +2,11 @@
           [ agent_join/3                % +Agent, -Outcome, +Timeout
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module('../wire', [endpoint_address/1, endpoint_call/5]).
-:- use_module('../host', [time_wait/3]).
+:- use_module('../wire', [endpoint_address/1]).
+:- use_module('../host', [process_ask/6, time_wait/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module('../travel', [agent_outcome/2, outcome_wait/3]).
+:- use_module(named, [agent_once_named/2]).
 
 /** <module> Waiting for the end of an agent
 
@@ -20,11 +21,11 @@ Its home is asked, see typhon_home, which answers when it knows.
 %   number or `inf`).  Outcome is `done`, `failed`, raised(Error),
 %   `disposed` or `timeout`.
 %
-%   @error existence_error(agent, Agent)
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error host_unreachable(Home), connection_lost(Home)
 
 agent_join(Agent, Outcome, Timeout) :-
-    must_be(atom, Agent),
+    agent_once_named(Agent, Id),
     (   Timeout == infinite
     ->  Seconds = inf
     ;   Timeout == inf
@@ -32,8 +33,8 @@ agent_join(Agent, Outcome, Timeout) :-
     ;   must_be(number, Timeout),
         Seconds is max(0, Timeout)
     ),
-    (   agent_home_endpoint(Agent, Endpoint)
-    ->  join(Endpoint, Agent, Seconds, Outcome0)
+    (   agent_home_endpoint(Id, Endpoint)
+    ->  join(Endpoint, Id, Seconds, Outcome0)
     ;   Outcome0 = unknown
     ),
     (   Outcome0 == unknown
@@ -57,7 +58,5 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     ->  Limit = 1.0e9
     ;   Limit is Seconds+10
     ),
-    catch(endpoint_call(Endpoint, join, join(Agent, Seconds),
-                        answer(Outcome), Limit),
-          error(unreachable(_), _),
-          throw(error(host_unreachable(Endpoint), _))).
+    process_ask(Endpoint, Endpoint, join, join(Agent, Seconds), Outcome,
+                Limit).

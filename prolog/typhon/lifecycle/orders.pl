@@ -12,17 +12,18 @@
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
+:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../program', [code_program/2, payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [alarm_in/3, host_address/2, scheduler_call/1]).
 :- use_module('../agent',
-              [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
-                agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
+              [ agent/5, agent_attach/2, agent_detach/2, agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
                 agent_status/3, mail_list/2, with_agent/2 ]).
 :- use_module('../travel', [out_of_touch/1]).
 :- use_module(creation, [agent_clone_here/3]).
 :- use_module(effect, [effect_order/4]).
 :- use_module(ending, [agent_end/2, agent_end/3]).
+:- use_module(named, [agent_named/2]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
 /** <module> Orders from outside
@@ -57,7 +58,8 @@ that has the agent.
 %   for 10 seconds at the most.  An agent that is refused at Host stays
 %   where it is, which is reported there.
 %
-%   @error existence_error(agent, Agent), existence_error(host, Host)
+%   @error existence_error(agent, Agent), existence_error(host, Host),
+%   ambiguous_agent(Agent, Ids) if Agent is a name that several have
 %   @error timeout_error(order, Agent)
 
 agent_move(Agent, Host) :-
@@ -72,7 +74,7 @@ agent_dispose(Agent) :-
     order_give(Agent, dispose, _).
 
 payload_attach(Agent, Spec) :-
-    payload_load(Spec, Payload),
+    raising_afresh(payload_load(Spec, Payload)),
     order_give(Agent, attach(Payload), _).
 
 payload_detach(Agent, Name) :-
@@ -85,9 +87,8 @@ payload_detach(Agent, Name) :-
 %        detach(Name) or `image`
 
 order_give(Agent, Order, Result) :-
-    must_be(atom, Agent),
-    (   agent_home(Agent, _),
-        agent_ask(Agent, order(Order), 10, Answer)
+    agent_named(Agent, Id),
+    (   agent_ask(Id, order(Order), 10, Answer)
     ->  ordered(Answer, Result)
     ;   existence_error(agent, Agent)
     ).

@@ -1,15 +1,16 @@
 :- module(typhon_properties,
           [ agent_property/2            % ?Agent, ?Property
           ]).
-:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
+:- use_module('../base/options', [check_name/2]).
 :- use_module('../program', [code_program/2]).
 :- use_module('../host', [host/3]).
 :- use_module('../agent',
               [ agent/5, agent_home/2, agent_state/2, agent_status/3,
                 life_hops/2, life_payloads/2, with_agent/2 ]).
 :- use_module('../travel', [in_doubt/1, transfer_held/2]).
+:- use_module(named, [agent_named/2]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
 /** <module> What can be seen of an agent
@@ -17,7 +18,9 @@
 *Threading*: any thread.
 */
 
-:- multifile typhon_questions:here/3.
+:- multifile
+    typhon_names:known/2,
+    typhon_questions:here/3.
 
 %!  agent_property(?Agent, ?Property) is nondet.
 %
@@ -26,18 +29,25 @@
 %   is `running`, `sleeping`, `waiting`, `resident`, `in_transit`,
 %   `in_doubt` or faulty(Error).  If Agent is unbound, the agents of this
 %   process are enumerated.
+%
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
+%   is a name; of an id that is no more this fails
+%   @error domain_error(agent_property, Property) if there is none like it
 
 agent_property(Agent, Property) :-
-    var(Agent),
-    !,
-    agent(Agent, _, _, _, _),
-    agent_ask(Agent, properties, 10, answer(Properties)),
+    check_name(agent_property, Property),
+    (   var(Agent)
+    ->  agent(Agent, _, _, _, _)
+    ;   true
+    ),
+    agent_named(Agent, Id),
+    agent_ask(Id, properties, 10, answer(Properties)),
     one_of(Property, Properties).
-agent_property(Agent, Property) :-
-    must_be(atom, Agent),
-    agent_home(Agent, _),
-    agent_ask(Agent, properties, 10, answer(Properties)),
-    one_of(Property, Properties).
+
+%   Those there are follow from the clauses.
+
+typhon_names:known(agent_property, Property) :-
+    clause(property(Property, _), _).
 
 %   There is one property of each name: people are not asked for more.
 

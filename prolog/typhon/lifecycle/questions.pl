@@ -3,8 +3,9 @@
             question_answered/2         % +Asker, +Answer
           ]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
-:- use_module('../host', [address_parts/3, time_now/1, time_wait/3]).
+              [endpoint_address/1, endpoint_reply/2]).
+:- use_module('../host',
+              [address_parts/3, process_ask/6, time_now/1, time_wait/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2]).
 :- use_module('../travel', [whereabouts/2]).
 
@@ -90,10 +91,8 @@ ask_at(here, Agent, Question, Deadline, Answer) :-
 ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
     time_now(Now),
     Seconds is max(0.01, Deadline-Now),
-    catch(endpoint_call(Endpoint, agent, question(Agent, Question),
-                        answer(Answer), Seconds),
-          error(unreachable(_), _),
-          throw(error(host_unreachable(Endpoint), _))).
+    process_ask(Endpoint, Endpoint, agent, question(Agent, Question), Answer,
+                Seconds).
 
 wait_for(Queue, Deadline, Agent, Answer) :-
     (   time_wait(Queue, Answer0, Deadline)

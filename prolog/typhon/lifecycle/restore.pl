@@ -4,6 +4,7 @@
           ]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../program', [code_install/2, program_hash/2]).
 :- use_module('../agent', [is_life/1]).
 :- use_module(creation, [agent_create_here/3]).
@@ -29,10 +30,11 @@ still to run can be read, compared and edited.
 
 agent_save(Agent, File) :-
     order_give(Agent, image, Image),
-    write_image(File, Image).
+    raising_afresh(write_image(File, Image)).
 
 agent_load(File, Agent) :-
-    read_image(File, image(Name, Program, Life, State, Goals, Mail)),
+    raising_afresh(read_image(File, Image)),
+    Image = image(Name, Program, Life, State, Goals, Mail),
     program_hash(Program, Hash),
     code_install(Hash, Program),
     agent_create_here(Name, start(Hash, Life, State, Goals, Mail), Agent).

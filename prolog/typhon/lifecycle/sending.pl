@@ -1,9 +1,9 @@
 :- module(typhon_sending,
           [ agent_send/2                % +Agent, +Message
           ]).
-:- use_module(library(error), [must_be/2]).
-:- use_module('../host', [address_parts/3, context_now/2, host_address/2]).
+:- use_module('../host', [address_parts/3, as_guest/1, context_now/2, host_address/2]).
 :- use_module('../travel', [post/3, post_via/4]).
+:- use_module(named, [agent_named/2]).
 
 /** <module> Messages from outside
 
@@ -12,25 +12,26 @@
 
 %!  agent_send(+Agent, +Message) is det.
 %
-%   Send Message to Agent, wherever it is; at(Agent, Host) says where it
+%   Send Message to Agent, wherever it is: its id, or its name, where it is
+%   the only agent known here of that name.  at(Agent, Host) says where it
 %   is believed to be.  Does not wait for it to arrive.  Messages from
 %   outside are from `user`.
 %
-%   @error existence_error(agent, Agent)
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error host_unreachable(Host)
 %   @error type_error(mobile_term, Culprit)
 
 agent_send(at(Agent, Host), Message) :-
     !,
-    must_be(atom, Agent),
+    agent_named(Agent, Id),
     host_address(Host, Address),
     address_parts(Address, _, Endpoint),
     sender(From),
-    post_via(Agent, Endpoint, From, Message).
+    as_guest(post_via(Id, Endpoint, From, Message)).
 agent_send(Agent, Message) :-
-    must_be(atom, Agent),
+    agent_named(Agent, Id),
     sender(From),
-    post(Agent, From, Message).
+    as_guest(post(Id, From, Message)).
 
 sender(From) :-
     (   context_now(_, Agent),

@@ -14,6 +14,7 @@
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../wire', [cookie/1]).
 
 /** <module> Processes that carry the hosts of a network
@@ -43,7 +44,8 @@ has ended.
     stop_reading/0.             % goal of a signal
 
 :- multifile
-    prolog:message//1.
+    prolog:message//1,
+    typhon_options:declared/4.
 
 :- setting(ssh, atom, ssh, "The program that reaches other machines").
 :- setting(stop_seconds, number, 5,
@@ -104,7 +106,7 @@ command(Machine, _, Program, [Target|Command], Bind) :-
         Options = []
     ;   Machine = machine(Target, Options)
     ->  must_be(atom, Target),
-        must_be(list, Options)
+        check_options(machine_option, Options)
     ;   type_error(machine, Machine)
     ),
     setting(ssh, Ssh),
@@ -119,6 +121,10 @@ command(Machine, _, Program, [Target|Command], Bind) :-
     option(node(File), Options, Here),
     node_args(File, Args),
     maplist(shell_word, [Swipl|Args], Command).
+
+typhon_options:declared(machine_option, bind(X), atom, X).
+typhon_options:declared(machine_option, swipl(X), atom, X).
+typhon_options:declared(machine_option, node(X), atom, X).
 
 node_args(File, ['-q', '-f', none, '-g', carrier_main, '-t', 'halt(1)', File]).
 

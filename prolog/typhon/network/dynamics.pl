@@ -70,6 +70,13 @@ dynamics_model(Spec, Model) :-
     ;   domain_error(dynamic_model, Spec)
     ).
 
+:- multifile typhon_names:known/2.
+
+typhon_names:known(dynamic_model, Name) :-
+    named_model(Name, _).
+typhon_names:known(dynamic_model, links('Interval', 'Drop', 'Add')).
+typhon_names:known(dynamic_model, toggle('Interval', 'Drop', 'Add')).
+
 named_model(random_links, links(uniform(10, 20), 0.3, 0.5)).
 named_model(thesis_4_4_7, links(uniform(10, 20), each(0.3), 0.5)).
 named_model(dynamic_1, toggle(uniform(10, 20), 0.5, 0.7)).

@@ -2,12 +2,12 @@
           [ log_server_start/2,         % +Options, -Address
             log_server_stop/1           % +Address
           ]).
-:- use_module(library(apply), [include/3, maplist/2]).
+:- use_module(library(apply), [include/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [ domain_error/2, existence_error/2, must_be/2,
-                permission_error/3 ]).
+              [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
@@ -31,6 +31,7 @@ per server writes, see room `log_writer`.
 
 :- multifile
     prolog:message//1,
+    typhon_options:declared/4,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
 
@@ -64,8 +65,7 @@ per server writes, see room `log_writer`.
 %   File)
 
 log_server_start(Options, Address) :-
-    must_be(list, Options),
-    maplist(check_option, Options),
+    check_options(log_server_option, Options),
     option(name(Name), Options, log),
     (   option(file(File), Options)
     ->  true
@@ -73,12 +73,8 @@ log_server_start(Options, Address) :-
     ),
     with_mutex(typhon_log, start(Name, File, Options, Address)).
 
-check_option(Option) :-
-    must_be(nonvar, Option),
-    (   option_type(Option, Value, Type)
-    ->  must_be(Type, Value)
-    ;   domain_error(log_server_option, Option)
-    ).
+typhon_options:declared(log_server_option, Option, Type, Value) :-
+    option_type(Option, Value, Type).
 
 option_type(file(File), File, ground).
 option_type(mode(Mode), Mode, oneof([write, append])).

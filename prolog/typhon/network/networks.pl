@@ -6,8 +6,11 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
+:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/erased', [forget_erased/0]).
+:- use_module('../base/options', [check_name/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host',
               [runtime_acquire/2, runtime_release/1, time_now/1, time_seed/1]).
@@ -40,9 +43,9 @@ none of its own.
 */
 
 :- multifile
-    prolog:message//1.
-
-:- multifile
+    prolog:message//1,
+    typhon_named:elsewhere/1,
+    typhon_names:known/2,
     ended/1.                    % Network
 
 :- dynamic
@@ -93,11 +96,12 @@ network_start(Topology, Network, Options) :-
     network_plan(Topology, Options, Plan),
     flag(typhon_networks, Id, Id + 1),
     atom_concat(network, Id, Network),
-    setup_call_catcher_cleanup(
-        assertz(network(Network, Plan)),
-        build(Network, Plan),
-        Catcher,
-        unless_built(Catcher, Network)),
+    raising_afresh(
+        setup_call_catcher_cleanup(
+            assertz(network(Network, Plan)),
+            build(Network, Plan),
+            Catcher,
+            unless_built(Catcher, Network))),
     forget_erased.
 
 unless_built(exit, _) :-
@@ -249,9 +253,10 @@ network_clock(Network, Clock) :-
 %     - log(File), seed(Seed)
 %
 %   @error type_error(atom, Network), and existence_error(network, Network)
-%   when it is bound and not running
+%   when it is bound and not running, domain_error(network_property, Property)
 
 network_property(Network, Property) :-
+    check_name(network_property, Property),
     (   var(Network)
     ->  running(Network)
     ;   must_be(atom, Network),
@@ -260,6 +265,16 @@ network_property(Network, Property) :-
     ;   existence_error(network, Network)
     ),
     property(Property, Network).
+
+typhon_names:known(network_property, Property) :-
+    clause(property(Property, _), _).
+typhon_names:known(network, Network) :-
+    running(Network).
+
+typhon_named:elsewhere(Agent) :-
+    running(Network),
+    wired_agents(Network, Agents),
+    member(Agent, Agents).
 
 property(hosts(Addresses), Network) :-
     wired_hosts(Network, Addresses).

@@ -12,6 +12,7 @@
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(random), [random_between/3]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module(dynamics, [dynamics_model/2, dynamics_state/5]).
 :- use_module(topology, [topology_edges/4, topology_names/2]).
 
@@ -23,12 +24,14 @@ seed.
 *Threading*: pure, but for the seed that is drawn where none is given.
 */
 
+:- multifile typhon_options:declared/4.
+
 %!  network_plan(+Topology, +Options, -Plan) is det.
 %
 %   @error domain_error(network_option, Option), domain_error(topology, T)
 
 network_plan(Topology, Options0, plan(Names, Edges, Options)) :-
-    must_be(list, Options0),
+    check_options(network_option, Options0),
     maplist(check_option, Options0),
     check_virtual(Options0),
     seeded(Options0, Seed, Options),
@@ -46,22 +49,31 @@ plan_option(plan(_, _, Options), Option) :-
 
 plan_edges(plan(_, Edges, _), Edges).
 
-check_option(Option) :-
-    must_be(nonvar, Option),
-    (   option_check(Option, Check)
-    ->  call(Check)
-    ;   domain_error(network_option, Option)
-    ).
+typhon_options:declared(network_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
 
-option_check(processes(P), must_be(positive_integer, P)).
-option_check(machines(Machines), must_be(list, Machines)).
-option_check(bind(Interface), must_be(atom, Interface)).
-option_check(hosts(Options), must_be(list, Options)).
-option_check(hop_time(Time), check_hop_time(Time)).
-option_check(clock(Rate), check_rate(Rate)).
-option_check(log(File), must_be(ground, File)).
-option_check(dynamic(Model), dynamics_model(Model, _)).
-option_check(seed(Seed), must_be(integer, Seed)).
+option_type(processes(P), positive_integer, P).
+option_type(machines(Machines), list, Machines).
+option_type(bind(Interface), atom, Interface).
+option_type(hosts(Options), list, Options).
+option_type(hop_time(Time), nonvar, Time).
+option_type(clock(Rate), nonvar, Rate).
+option_type(log(File), ground, File).
+option_type(dynamic(Model), nonvar, Model).
+option_type(seed(Seed), integer, Seed).
+
+%   What the type alone does not say.
+
+check_option(hosts(Options)) =>
+    check_options(host_option, Options).
+check_option(hop_time(Time)) =>
+    check_hop_time(Time).
+check_option(clock(Rate)) =>
+    check_rate(Rate).
+check_option(dynamic(Model)) =>
+    dynamics_model(Model, _).
+check_option(_) =>
+    true.
 
 check_hop_time(Time) :-
     (   Time = uniform(Min, Max),

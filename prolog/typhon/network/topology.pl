@@ -8,6 +8,7 @@
               [append/2, append/3, list_to_set/2, member/2, nth1/3, numlist/3]).
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
+:- use_module('../base/options', [blaming/2]).
 :- use_module('../base/chance',
               [chance_member/4, chance_seed/2, chance_true/4]).
 
@@ -47,10 +48,20 @@ which the list first names them.
 %   @error type_error(Type, X), domain_error(topology, Topology),
 %   domain_error(probability, P), domain_error(edge, A-A)
 
+:- multifile typhon_names:known/2.
+
+typhon_names:known(topology, star_bus('Arms', 'Len')).
+typhon_names:known(topology, ring('N')).
+typhon_names:known(topology, tree('N')).
+typhon_names:known(topology, grid('Rows', 'Cols')).
+typhon_names:known(topology, mesh('N')).
+typhon_names:known(topology, random('N', 'P')).
+typhon_names:known(topology, edges('List')).
+
 topology_edges(Topology, Seed, N, Edges) :-
     must_be(nonvar, Topology),
     must_be(integer, Seed),
-    (   shape(Topology, Seed, N, Edges0)
+    (   blaming(Topology, shape(Topology, Seed, N, Edges0))
     ->  sort(Edges0, Edges)
     ;   domain_error(topology, Topology)
     ).

@@ -22,8 +22,16 @@ gives the carriers their orders about hosts and links.
 whoever asks for properties.
 */
 
+:- multifile typhon_names:known/2.
+
 :- dynamic
     host/5.                     % Network, I, Name, P, Address
+
+typhon_names:known(host, Address) :-
+    current_prolog_flag(pid, Pid),
+    carrier(Network, P, Other),
+    Other \== Pid,
+    host(Network, _, _, P, Address).
 
 %!  wire_hosts(+Network, +P, +Hosts) is det.
 %

@@ -16,9 +16,10 @@
             nxt_message_write/3,        % +Brick, +Inbox, +Text
             nxt_message_read/4          % +Brick, +Inbox, +Remove, -Text
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module(data, [bytes_hex/2, hex_bytes/2, nxt_text/2]).
 :- use_module(link,
               [ link_brick/2, link_close/1, link_open/3, link_option/2,
@@ -29,6 +30,8 @@
 
 *Threading*: any thread; see typhon_nxt_link.
 */
+
+:- multifile typhon_options:declared/4.
 
 %!  nxt_connect(+Brick, +Port) is det.
 %!  nxt_connect(+Brick, +Port, +Options) is det.
@@ -59,8 +62,7 @@ nxt_connect(Brick, Port) :-
 nxt_connect(Brick, Port, Options) :-
     must_be(atom, Brick),
     must_be(atom, Port),
-    must_be(list, Options),
-    forall(member(Option, Options), check_option(Option)),
+    check_options(nxt_option, Options),
     link_open(Brick, Port, Options),
     option(connect_deadline(Seconds), Options, 15),
     catch(link_request(Brick, open, _{do:open}, Seconds, _), Ball,
@@ -68,11 +70,8 @@ nxt_connect(Brick, Port, Options) :-
                          error(existence_error(_, _), _), true)),
             throw(Ball) )).
 
-check_option(Option) :-
-    (   option_type(Option, Type, Value)
-    ->  must_be(Type, Value)
-    ;   domain_error(nxt_option, Option)
-    ).
+typhon_options:declared(nxt_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
 
 option_type(deadline(X), between(0.01, 3600), X).
 option_type(connect_deadline(X), between(0.01, 3600), X).

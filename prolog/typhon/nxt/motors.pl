@@ -17,6 +17,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module(brick, [nxt_command/4]).
 
 /** <module> Motors
@@ -27,6 +28,8 @@ come to its limit is let go, and may roll on for some degrees.
 
 *Threading*: any thread; see typhon_nxt_link.
 */
+
+:- multifile typhon_options:declared/4.
 
 %!  nxt_run(+Brick, +Motors, +Power) is det.
 %!  nxt_run(+Brick, +Motors, +Power, +Options) is det.
@@ -45,34 +48,39 @@ come to its limit is let go, and may roll on for some degrees.
 %       100 it turns against the other; -50 and -100 are for the other one.
 %     - state(State)
 %       `running` (default), `ramp_up` or `ramp_down`.
+%
+%   @error domain_error(nxt_motor_option, Option)
 
 nxt_run(Brick, Motors, Power) :-
     nxt_run(Brick, Motors, Power, []).
 
 nxt_run(Brick, Motors, Power, Options) :-
     must_be(between(-100, 100), Power),
-    must_be(list, Options),
+    check_options(nxt_motor_option, Options),
     motor_ports(Motors, Ports),
     option(regulated(Regulated), Options, false),
     option(brake(Brake), Options, Regulated),
     option(degrees(Degrees), Options, 0),
     option(state(State), Options, running),
-    maplist(must_be(boolean), [Regulated, Brake]),
-    must_be(nonneg, Degrees),
     regulation(Options, Regulated, Regulation, Ratio),
     mode(Brake, Regulation, Mode),
-    (   run_state(Run, State)
-    ->  true
-    ;   domain_error(nxt_run_state, State)
-    ),
+    run_state(Run, State),
     Output = _{power:Power, mode:Mode, regulation:Regulation,
                turn_ratio:Ratio, run_state:Run, limit:Degrees},
     output(Brick, Ports, Output).
 
+typhon_options:declared(nxt_motor_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
+
+option_type(regulated(X), boolean, X).
+option_type(brake(X), boolean, X).
+option_type(degrees(X), nonneg, X).
+option_type(sync(X), between(-100, 100), X).
+option_type(state(X), oneof([idle, running, ramp_up, ramp_down]), X).
+
 regulation(Options, _, 2, Ratio) :-
     option(sync(Ratio), Options),
-    !,
-    must_be(between(-100, 100), Ratio).
+    !.
 regulation(_, true, 1, 0).
 regulation(_, false, 0, 0).
 

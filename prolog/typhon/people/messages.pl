@@ -10,21 +10,15 @@ the wire, of networks and of the log keep the texts of their own messages.
 *Threading*: called by print_message/2 in any thread.
 */
 
-:- use_module(library(apply), [foldl/6]).
-:- use_module(library(filesex), [directory_member/3]).
-:- use_module(library(lists), [last/2, member/2, min_list/2, numlist/3]).
-:- use_module(library(pairs), [pairs_values/2]).
-:- use_module(library(solution_sequences), [limit/2]).
-:- use_module('../host', [host_property/2]).
-:- use_module('../lifecycle', [agent_property/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../wire', [endpoint_missed/2]).
+:- use_module('../host', [address_parts/3]).
+:- use_module('../base/names', [names/2, names_proposed/3]).
 
 :- multifile
     prolog:error_message//1,
     prolog:message//1.
-
-%   More names than these are not looked through for a near one.
-
-most_names(2000).
 
                 /*******************************
                 *             ERRORS           *
@@ -34,15 +28,33 @@ prolog:error_message(existence_error(host, here)) -->
     !,
     [ 'This process has no host' ].
 prolog:error_message(existence_error(host, Host)) -->
+    { address_parts(Host, Name, Endpoint) },
+    !,
+    [ 'There is no host ~w at ~w'-[Name, Endpoint] ],
+    meant(host, Host).
+prolog:error_message(existence_error(host, Host)) -->
     [ 'There is no host ~p here'-[Host] ],
     meant(host, Host).
 prolog:error_message(existence_error(agent, Agent)) -->
     [ 'There is no agent ~p'-[Agent] ],
     meant(agent, Agent).
+prolog:error_message(ambiguous_agent(Name, Ids)) -->
+    { atomic_list_concat(Ids, ', ', Text) },
+    [ 'Several agents are called ~w: ~w'-[Name, Text] ].
 prolog:error_message(existence_error(source_sink, Spec)) -->
     { program_alias(Spec, Alias, Name) },
     [ 'There is no file ~p'-[Spec] ],
     meant(Alias, Name).
+prolog:error_message(existence_error(source_sink, File)) -->
+    { atom(File),
+      catch(files_beside(File, Files), error(_, _), fail),
+      names_proposed(File, Files, Meant),
+      Meant \== ''
+    },
+    [ 'There is no file ~p~w'-[File, Meant] ].
+prolog:error_message(existence_error(network, Network)) -->
+    [ 'There is no network ~p'-[Network] ],
+    meant(network, Network).
 prolog:error_message(existence_error(endpoint, running)) -->
     [ 'This process has no host: start one with host_start/1'-[] ].
 prolog:error_message(existence_error(payload, Name)) -->
@@ -51,24 +63,86 @@ prolog:error_message(move_refused(Host, Reason)) -->
     [ '~p refuses to admit the agent: '-[Host] ],
     refusal(Reason).
 prolog:error_message(host_unreachable(Host)) -->
-    [ 'Host ~p cannot be reached'-[Host] ].
+    [ 'Host ~p cannot be reached'-[Host] ],
+    reason(Host).
+prolog:error_message(permission_error(authenticate, host, Host)) -->
+    [ 'The process of ~p has another cookie than this one (see \c
+       TYPHON_COOKIE_FILE)'-[Host] ].
 prolog:error_message(unreachable(Address)) -->
-    [ 'Nothing answers at ~p'-[Address] ].
+    [ 'Nothing answers at ~p'-[Address] ],
+    reason(Address).
 prolog:error_message(connection_lost(Address)) -->
     [ 'The connection to ~p was lost before the answer came'-[Address] ].
 prolog:error_message(type_error(mobile_term, Culprit)) -->
     [ 'This term cannot travel: ~p'-[Culprit] ].
+
+%   Host is an address, or that of a process; this process has tried, or
+%   another one.
+
+reason(Host) -->
+    { endpoint_of(Host, Endpoint),
+      endpoint_missed(Endpoint, Formal),
+      missed(Formal, Text)
+    },
+    !,
+    [ ': ~w'-[Text] ].
+reason(_) -->
+    [].
+
+endpoint_of(Host, Endpoint) :-
+    (   address_parts(Host, _, Endpoint)
+    ->  true
+    ;   Endpoint = Host
+    ).
+
+missed(late, 'it does not answer').
+missed(timeout_error(_, _), 'it does not answer').
+missed(socket_error(_, Text0), Text) :-
+    downcase_atom(Text0, Text).
+missed(permission_error(authenticate, peer, cookie),
+       'it has another cookie').
+missed(permission_error(authenticate, peer, protocol),
+       'something else answers there').
+missed(permission_error(authenticate, peer, version(Version)), Text) :-
+    format(atom(Text), 'it speaks another version of the protocol, ~w',
+           [Version]).
+missed(permission_error(use, cookie_file, File), Text) :-
+    format(atom(Text), 'the cookie file ~w may not be used', [File]).
 
 refusal(capacity) --> !, [ 'it is full' ].
 refusal(token) --> !, [ 'none of its tokens is wanted there' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
 refusal(Reason) --> [ '~p'-[Reason] ].
 
+%   files_beside(+File, -Files): what might have been written for File.
+
+files_beside(File, Files) :-
+    file_directory_name(File, Dir),
+    directory_files(Dir, Entries),
+    findall(Name,
+            ( member(Entry, Entries),
+              file_name_extension(Base, pl, Entry),
+              directory_file_path(Dir, Base, Name0),
+              ( atom_concat('./', Name, Name0) -> true ; Name = Name0 ) ),
+            Files).
+
 program_alias(Spec, Alias, Name) :-
     compound(Spec),
-    compound_name_arguments(Spec, Alias, [Name]),
+    compound_name_arguments(Spec, Alias, [Name0]),
     memberchk(Alias, [agents, payloads]),
-    atom(Name).
+    program_path(Name0, Name).
+
+%   As in agents(census), and agents(survey/census).
+
+program_path(Name, Name) :-
+    atom(Name),
+    !.
+program_path(Path, Name) :-
+    compound(Path),
+    Path = Folder/File,
+    program_path(Folder, Begin),
+    atom(File),
+    atomic_list_concat([Begin, File], /, Name).
 
                 /*******************************
                 *            REPORTS           *
@@ -136,94 +210,7 @@ explained(Error) -->
                 *******************************/
 
 meant(Kind, Name) -->
-    { atom(Name),
-      most_names(Most),
-      findall(Known, limit(Most, known(Kind, Known)), Names0),
-      sort(Names0, Names),
-      near_names(Name, Names, Near),
-      Near \== []
+    { names(Kind, Names),
+      names_proposed(Name, Names, Text)
     },
-    !,
-    { atomic_list_concat(Near, ' or ', Text) },
-    [ ' (did you mean ~w?)'-[Text] ].
-meant(_, _) -->
-    [].
-
-known(host, Host) :-
-    host_property(Host, state(_)).
-known(agent, Agent) :-
-    agent_property(Agent, state(_)).
-known(agents, Name) :-
-    program_name(agents, Name).
-known(payloads, Name) :-
-    program_name(payloads, Name).
-
-%   Name as it would stand in agents(Name), for programs in folders, too.
-
-program_name(Alias, Name) :-
-    Spec =.. [Alias, '.'],
-    absolute_file_name(Spec, Dir,
-                       [ file_type(directory), solutions(all),
-                         file_errors(fail)
-                       ]),
-    directory_member(Dir, File, [extensions([pl]), recursive(true)]),
-    atom_concat(Dir, /, Start),
-    atom_concat(Start, Relative, File),
-    file_name_extension(Name, pl, Relative).
-
-%   near_names(+Name, +Names, -Near)
-%
-%   Near are up to three of Names that a person may have meant by Name, the
-%   nearest first.  An id or address also counts by what stands before the
-%   first `.` or `@`, a path by its last part: `census` finds
-%   'census.4f2a1@alpha@...', and 'survey/census'.
-
-near_names(Name, Names, Near) :-
-    findall(Distance-Candidate,
-            ( member(Candidate, Names),
-              distance(Name, Candidate, Distance)
-            ),
-            Pairs),
-    keysort(Pairs, Sorted),
-    pairs_values(Sorted, All),
-    findall(One, limit(3, member(One, All)), Near).
-
-distance(Name, Candidate, Distance) :-
-    atom_string(Name, Text),
-    atom_string(Candidate, Whole),
-    short(Whole, Short),
-    short(Text, Plain),
-    edit_distance(Text, Whole, D1),
-    edit_distance(Text, Short, D2),
-    edit_distance(Plain, Short, D3),
-    min_list([D1, D2, D3], Distance),
-    string_length(Plain, Length),
-    Distance =< 1 + Length//4.
-
-short(Text, Short) :-
-    split_string(Text, ".@", "", [Head|_]),
-    split_string(Head, "/", "", Parts),
-    last(Parts, Short).
-
-%   Levenshtein's distance, row by row.
-
-edit_distance(A, B, Distance) :-
-    string_codes(A, As),
-    string_codes(B, Bs),
-    length(Bs, N),
-    numlist(0, N, Row),
-    distance_rows(As, Bs, Row, Distance).
-
-distance_rows([], _, Row, Distance) :-
-    last(Row, Distance).
-distance_rows([A|As], Bs, [D|Ds], Distance) :-
-    D1 is D+1,
-    foldl(distance_step(A), Bs, Ds, Row, D-D1, _),
-    distance_rows(As, Bs, [D1|Row], Distance).
-
-distance_step(A, B, Up, New, Diagonal-Left, Up-New) :-
-    (   A == B
-    ->  Change = Diagonal
-    ;   Change is Diagonal+1
-    ),
-    New is min(Change, min(Up, Left)+1).
+    [ '~w'-[Text] ].

@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2, memberchk/2]).
+:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module(advice, [problem_error/3]).
 :- use_module(mobile, [body_calls/2, built_in/1, mobile_predicates/3]).
 :- use_module(parts, [file_parts/4, library_directive/2, part/3]).
@@ -35,7 +36,7 @@
 %   once, until the file changes.
 
 agent_check(Spec) :-
-    source_terms(Spec, Located, _, Unread, Once),
+    raising_afresh(source_terms(Spec, Located, _, Unread, Once)),
     looked_at(Unread, Located, Errors, Slips, Undefined),
     append([Once, Slips, Undefined], Warnings0),
     in_file_order(Warnings0, Located, Warnings),

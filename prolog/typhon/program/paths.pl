@@ -14,7 +14,8 @@ adding clauses to user:file_search_path/2.
 */
 
 :- use_module(library(error), [must_be/2]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
+:- use_module(library(lists), [member/2]).
 
 :- dynamic root/1.
 
@@ -23,7 +24,9 @@ adding clauses to user:file_search_path/2.
    retractall(root(_)),
    assertz(root(Root)).
 
-:- multifile user:file_search_path/2.
+:- multifile
+    typhon_names:known/2,
+    user:file_search_path/2.
 :- dynamic user:file_search_path/2.
 
 user:file_search_path(agents, Dir) :-
@@ -55,3 +58,29 @@ included_file(Spec, Includer, File) :-
     absolute_file_name(Spec, File,
                        [ extensions(['',pl]), access(read),
                          relative_to(Dir) ]).
+
+%   Names as they would stand in agents(Name), for programs in folders, too,
+%   but not for what these include.
+
+typhon_names:known(Alias, Name) :-
+    member(Alias-Kind, [agents-agent, payloads-payload]),
+    Spec =.. [Alias, '.'],
+    absolute_file_name(Spec, Dir,
+                       [ file_type(directory), solutions(all),
+                         file_errors(fail)
+                       ]),
+    catch(program_in(Dir, Kind, Name), error(_, _), fail).
+
+program_in(Dir, Kind, Name) :-
+    directory_member(Dir, File, [extensions([pl]), recursive(true)]),
+    exists_file(File),
+    catch(begins_with(File, Kind), error(_, _), fail),
+    directory_file_path(Dir, Relative, File),
+    file_name_extension(Name, pl, Relative).
+
+begins_with(File, Kind) :-
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        read_term(In, (:- Declaration), []),
+        close(In)),
+    functor(Declaration, Kind, _).

@@ -148,6 +148,6 @@ faulty_option(Option, Formal, Advice) :-
         is_list(PIs)
     ->  faulty_indicator(PIs, Formal, Advice0),
         ( Advice0 == indicator -> Advice = state ; Advice = Advice0 )
-    ;   Formal = domain_error(agent_option, Option),
+    ;   Formal = domain_error(agent_declaration, Option),
         Advice = state
     ).

@@ -181,7 +181,8 @@ read_bytes([Byte|Bytes], In) :-
 %   `TYPHON_COOKIE_FILE`, by default `~/.typhon.cookie`. The file is made
 %   with random content on first use.
 %
-%   @error permission_error(use, cookie_file, File) others may read it.
+%   @error permission_error(use, cookie_file, File) others may read or write
+%   it, or there is no cookie in it; the context says which.
 
 cookie(Cookie) :-
     getenv('TYPHON_COOKIE', Value),
@@ -220,8 +221,12 @@ read_cookie(File, Cookie) :-
         string_length(Line, Length),
         Length >= 16
     ->  Cookie = Line
-    ;   permission_error(use, cookie_file, File)
+    ;   unfit(File, 'its first line has less than 16 characters; without \c
+                    the file a new one is made')
     ).
+
+unfit(File, Why) :-
+    throw(error(permission_error(use, cookie_file, File), context(_, Why))).
 
 %   Prolog cannot ask for the mode of a file; ls can, wherever there are
 %   modes: -rw-------
@@ -237,7 +242,8 @@ check_private(File) :-
     (   string(Line),
         sub_string(Line, 4, 6, _, "------")
     ->  true
-    ;   permission_error(use, cookie_file, File)
+    ;   format(atom(Why), 'others may use it: chmod 600 ~w', [File]),
+        unfit(File, Why)
     ).
 
 %   The file appears complete and private, or not at all: it is written in

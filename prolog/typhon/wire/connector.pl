@@ -30,6 +30,7 @@ _Threading_: for the thread of the keeper alone.
                 attempt_next/2, attempt_pause/3, attempt_want/1,
                 attempts_due/1 ]).
 :- use_module(connection, [outgoing/2]).
+:- use_module(contacts, [contact_missed/2]).
 :- use_module(request, [session_unfinished/1]).
 :- use_module(session, [route/2, route_key/2]).
 :- use_module(threads,
@@ -215,6 +216,7 @@ met(Address) :-
 missed(Address, Formal) :-
     print_message(silent,
                   typhon(endpoint, unreachable(Address, Formal))),
+    contact_missed(Address, Formal),
     unsent_fail(Address),
     waiters_tell(Address, missed).
 

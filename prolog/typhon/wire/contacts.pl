@@ -1,6 +1,8 @@
 :- module(typhon_contacts,
           [ contact_met/2,              % +Address, +Process
             contact_gone/1,             % +Address
+            contact_missed/2,           % +Address, +Formal
+            missed/2,                   % ?Address, ?Formal
             contact/3                   % ?Address, ?Process, ?State
           ]).
 
@@ -8,7 +10,8 @@
 
 Which process was last met at an address, and whether it has left: nobody
 listens there any more, or it said goodbye. A process that is silent, and
-one behind a cut network, has not left. A bounded number of addresses is
+one behind a cut network, has not left. Where nobody could be met, what went
+wrong the last time. A bounded number of addresses is
 kept, the oldest are forgotten.
 
 _Threading_: any thread; a mutex makes changes one at a time.
@@ -20,7 +23,8 @@ _Threading_: any thread; a mutex makes changes one at a time.
            "Addresses of which is known who was met there").
 
 :- dynamic
-    contact/3.                          % Address, Process, met or gone
+    contact/3,                          % Address, Process, met or gone
+    missed/2.                           % Address, Formal
 
 %!  contact(?Address, ?Process, ?State) is nondet.
 %
@@ -33,12 +37,33 @@ _Threading_: any thread; a mutex makes changes one at a time.
 %   Process is at Address; nobody is there any more.
 
 contact_met(Address, Process) :-
-    with_mutex(typhon_contacts, note(Address, Process, met)).
+    with_mutex(typhon_contacts,
+               ( note(Address, Process, met),
+                 retractall(missed(Address, _)) )).
 
 contact_gone(Address) :-
     with_mutex(typhon_contacts,
                ( last_met(Address, Process),
                  note(Address, Process, gone) )).
+
+%!  contact_missed(+Address, +Formal) is det.
+%!  missed(?Address, ?Formal) is nondet.
+%
+%   Nobody could be met at Address, because of the error Formal.
+
+contact_missed(Address, Formal) :-
+    with_mutex(typhon_contacts,
+               ( retractall(missed(Address, _)),
+                 assertz(missed(Address, Formal)),
+                 forget_missed )).
+
+forget_missed :-
+    predicate_property(missed(_, _), number_of_clauses(Count)),
+    setting(contacts, Max),
+    (   Count > Max
+    ->  once(retract(missed(_, _)))
+    ;   true
+    ).
 
 last_met(Address, Process) :-
     contact(Address, Process0, _),

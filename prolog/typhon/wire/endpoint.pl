@@ -80,6 +80,8 @@ that peer is read. They may post, request and reply.
 %   Listen at Port of Interface; Port 0 is any free one.
 %
 %   @error permission_error(start, endpoint, Address) one is running.
+%   @error socket_error(Code, Text): the port is taken, the interface unknown;
+%   the context names both
 
 endpoint_start(Interface, Port, Address) :-
     must_be(atom, Interface),
@@ -138,8 +140,17 @@ listen(Interface, Port, Address, Socket) :-
           ),
           Error,
           ( tcp_close_socket(Socket),
-            throw(Error) )),
+            blame(Error, Interface, Port) )),
     atomic_list_concat([Interface, Bound], :, Address).
+
+%   Which port is taken, or which interface is none of ours.
+
+blame(error(socket_error(Code, Text), _), Interface, Port) :-
+    !,
+    format(atom(Where), 'at ~w:~w', [Interface, Port]),
+    throw(error(socket_error(Code, Text), context(_, Where))).
+blame(Error, _, _) :-
+    throw(Error).
 
 our_hello(Start, Address, Me) :-
     endpoint_process(Process),

@@ -1,6 +1,7 @@
 :- module(typhon_peers,
           [ endpoint_peer/2,            % ?Address, ?Property
             endpoint_gone/1,            % +Address
+            endpoint_missed/2,          % +Address, ?Formal
             endpoint_flush/1,           % +Seconds
             endpoint_flush/2,           % +Seconds, +Peers
             peers_flush/2               % +Seconds, ?State
@@ -13,7 +14,7 @@ _Threading_: any thread.
 
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(contacts, [contact/3]).
+:- use_module(contacts, [contact/3, missed/2]).
 :- use_module(outbox, [session_flush/2]).
 :- use_module(session, [route/2, session/2, session_codec/2, session_key/2]).
 :- use_module(transport, [route_up/2, session_up/1]).
@@ -52,6 +53,17 @@ peer_property(codec(Codec), Session) :-
 endpoint_gone(Address) :-
     contact(Address, _, gone),
     \+ route_up(Address, _).
+
+%!  endpoint_missed(+Address, ?Formal) is semidet.
+%
+%   Why nobody could be met at Address when that was last tried: `late`, or
+%   the formal term of an error, as permission_error(authenticate, peer, Why)
+%   or socket_error(Code, Text).
+
+endpoint_missed(Address, Formal) :-
+    missed(Address, Formal0),
+    !,
+    Formal = Formal0.
 
 %!  endpoint_flush(+Seconds) is semidet.
 %!  endpoint_flush(+Seconds, +Peers:list) is semidet.

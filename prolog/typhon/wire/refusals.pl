@@ -147,7 +147,7 @@ groups([Count-(Ip-Why)|Groups]) -->
     groups(Groups).
 
 why(cookie) -->
-    !, [ 'it does not know the cookie' ].
+    !, [ 'it does not know our cookie' ].
 why(protocol) -->
     !, [ 'it speaks something else' ].
 why(version(Version)) -->

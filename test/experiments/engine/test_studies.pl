@@ -73,6 +73,9 @@ test(measures_may_have_many_names, Problems == []) :-
 test(parameters_may_follow, Problems == []) :-
     more_problems([ 'derive(d, Case, D) :- D is Case.a.',
                     'claim("small", [], m < d).' ], Problems).
+test(option_of_a_plot,
+     Problems == [said(plot(p), wrong(domain_error(lines_option, xlabl(t))))]) :-
+    more_problems(['plot(p, "P", lines([x(a), y(m), xlabl(t)])).'], Problems).
 test(no_picture, Problems == [said(plot(p), no_picture(bars([])))]) :-
     more_problems(['plot(p, "P", bars([])).'], Problems).
 test(own_test_is_missing,
@@ -235,7 +238,7 @@ test(again_where_it_was) :-
     with_command(again).
 test(no_such_study) :-
     with_tmp_dir(no_such_study(Text)),
-    says(Text, ["study", "99.9", "does not exist"]).
+    says(Text, ["There is no study 99.9"]).
 test(list) :-
     with_command(listed).
 test(nothing_is_left_to_compare) :-

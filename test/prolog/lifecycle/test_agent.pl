@@ -835,7 +835,7 @@ test(unknown, [fail]) :-
                  agent_property(A, _) )).
 test(unknown_to_nobody, error(host_unreachable('127.0.0.1:1'))) :-
     with_hosts([alpha], agent_property('x.1@alpha@127.0.0.1:1', _)).
-test(no_id, [fail]) :-
+test(no_id, error(existence_error(agent, foo))) :-
     with_hosts([alpha], agent_property(foo, _)).
 test(no_atom, error(type_error(atom, 12))) :-
     with_hosts([alpha], agent_property(12, _)).

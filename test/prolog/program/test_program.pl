@@ -230,14 +230,14 @@ test(grammar_rule, F-L == type_error(callable, 1)-3) :-
 test(no_entry, F-L == existence_error(entry, main/0)-1) :-
     problem([':- agent(a).', 'p(1).'], F, L, A),
     says(A, 'define main/0').
-test(option, F-L == domain_error(agent_option, colour(red))-1) :-
+test(option, F-L == domain_error(agent_declaration, colour(red))-1) :-
     problem([':- agent(a, [colour(red)]).', 'main.'], F, L, _).
 test(state, F-L == type_error(predicate_indicator, seen)-2) :-
     problem(['% a file', ':- agent(a, [state([p/1, seen])]).', 'main.'],
             F, L, A),
     says(A, 'state([Name/Arity').
 test(state_that_does_not_end,
-     true(F-L = domain_error(agent_option, state(_))-1)) :-
+     true(F-L = domain_error(agent_declaration, state(_))-1)) :-
     problem([':- agent(a, [state([p/1|_])]).', 'main.'], F, L, _).
 test(state_of_control,
      F-L == permission_error(modify, control_predicate, sleep/1)-1) :-

@@ -21,6 +21,13 @@ test(others_may_write, error(permission_error(use, cookie_file, _))) :-
     with_tmp_dir(others_may_read(0o602)).
 test(empty, error(permission_error(use, cookie_file, _))) :-
     with_tmp_dir(empty_file).
+test(why_it_is_not_used, [ forall(member(Why-Text,
+                                         [ others_may_read(0o644)-'chmod 600',
+                                           empty_file-'16 characters' ])) ]) :-
+    catch(( with_tmp_dir(Why), Said = none ),
+          error(permission_error(use, cookie_file, _), context(_, Said)),
+          true),
+    assertion(sub_atom(Said, _, _, _, Text)).
 test(twenty_at_once) :-
     with_tmp_dir(twenty_at_once).
 

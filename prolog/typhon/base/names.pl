@@ -1,0 +1,112 @@
+:- module(typhon_names,
+          [ names/2,                    % +Kind, -Names
+            names_proposed/3,           % +Name, +Names, -Text
+            names_listed/2              % +Names, -Text
+          ]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(solution_sequences), [limit/2]).
+
+/** <module> Names that people mistype
+
+What names there are of a kind, hosts, programs, options, topologies, is
+said by the rooms that know them, with clauses for known/2.  From that
+follow what a message proposes, what it lists, and what the top level
+completes.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    known/2.                    % Kind, Name: an atom, or a term like ring('N')
+
+%   More names than these are not looked through.
+
+most_names(2000).
+
+%   More than these are not listed.
+
+most_listed(40).
+
+%!  names(+Kind, -Names:list) is det.
+%
+%   Names are those there are of Kind, each once.
+
+names(Kind, Names) :-
+    most_names(Most),
+    findall(Name, limit(Most, known(Kind, Name)), Names0),
+    sort(Names0, Names).
+
+%   near_names(+Name, +Names, -Near): up to three of Names that a person may
+%   have meant by Name, an atom, as dwim_match/2 has it.  An id or address
+%   also counts by what stands before the first `.` or `@`, a path by its
+%   last part: `census` finds 'census.4f2a1@alpha@...', and 'survey/census'.
+
+near_names(Name, Names, Near) :-
+    findall(Known,
+            limit(3, ( member(Known, Names),
+                       once(is_near(Name, Known)) )),
+            Near).
+
+is_near(Name, Known) :-
+    Name \== Known,
+    name_of(Known, Plain),
+    form(Name, A),
+    form(Plain, B),
+    ( A == B ; dwim_match(A, B) ).
+
+name_of(Known, Name) :-
+    callable(Known),
+    functor(Known, Name, _).
+
+form(Name, Name).
+form(Name, Short) :-
+    split_string(Name, ".@", "", [Head|_]),
+    split_string(Head, "/", "", Parts),
+    last(Parts, Short0),
+    Short0 \== "",
+    atom_string(Short, Short0),
+    Short \== Name.
+
+                /*******************************
+                *            TEXTS             *
+                *******************************/
+
+%!  names_proposed(+Name, +Names:list, -Text:atom) is det.
+%
+%   Text asks whether one of Names was meant by Name; it is empty if none of
+%   them looks like it.
+
+names_proposed(Name, Names, Text) :-
+    atom(Name),
+    near_names(Name, Names, Near),
+    Near \== [],
+    !,
+    listed(Near, ' or ', Listed),
+    format(atom(Text), ' (did you mean ~w?)', [Listed]).
+names_proposed(_, _, '').
+
+%!  names_listed(+Names:list, -Text:atom) is det.
+%
+%   Text says what there is, and is empty if that is too much.
+
+names_listed(Names, Text) :-
+    most_listed(Most),
+    length(Names, Count),
+    between(1, Most, Count),
+    !,
+    listed(Names, ', ', Listed),
+    format(atom(Text), '; there are ~w', [Listed]).
+names_listed(_, '').
+
+listed(Names, Separator, Text) :-
+    maplist(name_text, Names, Texts),
+    atomic_list_concat(Texts, Separator, Text).
+
+%   ring('N') as ring(N), state(S) as state(_).
+
+name_text(Name, Text) :-
+    copy_term(Name, Copy),
+    term_variables(Copy, Variables),
+    maplist(=('_'), Variables),
+    format(atom(Text), '~w', [Copy]).

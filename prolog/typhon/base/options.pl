@@ -1,0 +1,117 @@
+:- module(typhon_options,
+          [ check_options/2,            % +Domain, +Options
+            check_option/2,             % +Domain, +Option
+            check_name/2,               % +Domain, +Term
+            blaming/2                   % +What, :Goal
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [domain_error/2, is_of_type/2, must_be/2]).
+:- use_module(names, [names/2, names_listed/2, names_proposed/3]).
+
+/** <module> Options that nobody knows are errors
+
+Each list of options belongs to a domain, as `host_option`.  What options it
+may have is declared by the room that takes them, with clauses for
+
+    declared(Domain, Option, Type, Value)
+
+Type is that of Value, a part of Option, as of must_be/2.  Where there are
+several clauses for an option, one has to agree.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    declared/4,                 % Domain, Option, Type, Value
+    typhon_names:known/2,
+    prolog:error_message//1.
+
+:- meta_predicate blaming(+, 0).
+
+typhon_names:known(Domain, Name) :-
+    declared(Domain, Option, _, _),
+    functor(Option, Name, _).
+
+%!  check_options(+Domain, +Options) is det.
+%!  check_option(+Domain, +Option) is det.
+%
+%   @error type_error(list, Options), domain_error(Domain, Option), and what
+%   must_be/2 says of values
+
+check_options(Domain, Options) :-
+    must_be(list, Options),
+    maplist(check_option(Domain), Options).
+
+check_option(Domain, Option) :-
+    must_be(callable, Option),
+    (   declared(Domain, Option, Type, Value),
+        is_of_type(Type, Value)
+    ->  true
+    ;   wrong_option(Domain, Option)
+    ).
+
+wrong_option(Domain, Option) :-
+    declared(Domain, Option, Type, Value),
+    !,
+    blaming(Option, must_be(Type, Value)).
+wrong_option(Domain, Option) :-
+    domain_error(Domain, Option).
+
+%!  check_name(+Domain, +Term) is det.
+%
+%   Term, if it is bound, has name and arity of something there is in Domain,
+%   as what stands for a property.
+%
+%   @error domain_error(Domain, Term)
+
+check_name(_, Term) :-
+    var(Term),
+    !.
+check_name(Domain, Term) :-
+    (   callable(Term),
+        functor(Term, Name, Arity),
+        functor(General, Name, Arity),
+        typhon_names:known(Domain, General)
+    ->  true
+    ;   domain_error(Domain, Term)
+    ).
+
+%!  blaming(+What, :Goal) is semidet.
+%
+%   Run Goal once; an error that it raises says that What is at fault.
+
+blaming(What, Goal) :-
+    catch(Goal, error(Formal, _), blame(Formal, What)),
+    !.
+
+blame(Formal, What) :-
+    format(string(Text), 'in ~p', [What]),
+    throw(error(Formal, context(_, Text))).
+
+                /*******************************
+                *            MESSAGES          *
+                *******************************/
+
+prolog:error_message(domain_error(Domain, Culprit)) -->
+    { atom(Domain),
+      typhon_names:known(Domain, _),
+      !,
+      atomic_list_concat(Words, '_', Domain),
+      atomic_list_concat(Words, ' ', Kind)
+    },
+    { culprit_name(Culprit, Name),
+      names(Domain, Names),
+      names_proposed(Name, Names, Meant),
+      names_listed(Names, All)
+    },
+    [ 'There is no ~w ~p~w~w'-[Kind, Culprit, Meant, All] ].
+
+%   An option may be written Name=Value, too, but not here.
+
+culprit_name(Name=_, Name) :-
+    !.
+culprit_name(Culprit, Name) :-
+    callable(Culprit),
+    !,
+    functor(Culprit, Name, _).
+culprit_name(_, none).

@@ -1,0 +1,64 @@
+:- module(typhon_asking,
+          [ process_ask/6,              % +Endpoint, +Who, +Kind, +Term,
+                                        % -Answer, +Seconds
+            as_guest/1                  % :Goal
+          ]).
+:- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_call/5, endpoint_missed/2]).
+:- use_module(runtime, [runtime_acquire/2, runtime_release/1]).
+
+/** <module> Questions to other processes
+
+A process without hosts is a guest in the network for as long as a question
+takes: it has an endpoint of its own until the answer is there.
+
+*Threading*: any thread that may wait.  The platform's own are no guests:
+who stops it waits for them.
+*/
+
+:- meta_predicate as_guest(0).
+
+%!  process_ask(+Endpoint, +Who, +Kind, +Term, -Answer, +Seconds) is det.
+%
+%   As endpoint_call/5, in behalf of a person who knows whom he asks as Who,
+%   a host.
+%
+%   @error host_unreachable(Who)
+%   @error permission_error(authenticate, host, Who): the process there has
+%   another cookie than this one
+%   @error those of endpoint_call/5
+
+process_ask(Endpoint, Who, Kind, Term, Answer, Seconds) :-
+    as_guest(catch(endpoint_call(Endpoint, Kind, Term, answer(Answer),
+                                 Seconds),
+                   error(unreachable(_), _),
+                   unreachable(Endpoint, Who))).
+
+unreachable(Endpoint, Who) :-
+    (   endpoint_missed(Endpoint, permission_error(authenticate, peer, cookie))
+    ->  Formal = permission_error(authenticate, host, Who)
+    ;   Formal = host_unreachable(Who)
+    ),
+    throw(error(Formal, _)).
+
+%!  as_guest(:Goal) is semidet.
+%
+%   Run Goal once; if this process has no endpoint it has one meanwhile.
+
+as_guest(Goal) :-
+    (   endpoint_address(_)
+    ;   own_thread
+    ),
+    !,
+    once(Goal).
+as_guest(Goal) :-
+    flag(typhon_guest, N, N+1),
+    runtime_acquire(guest(N), []),
+    raising_afresh(setup_call_cleanup(true, once(Goal),
+                                      runtime_release(guest(N)))).
+
+own_thread :-
+    thread_self(Me),
+    atom(Me),
+    sub_atom(Me, 0, _, _, typhon_).

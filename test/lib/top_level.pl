@@ -1,0 +1,35 @@
+:- module(test_top_level_lib,
+          [ typed/3                     % +Lines, +Dir, -Written
+          ]).
+
+/** <module> What a person sees who types at the top level
+
+*Threading*: any thread.
+*/
+
+:- use_module(common, [project_file/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+
+%!  typed(+Lines, +Dir, -Written:list(string)) is det.
+%
+%   Written is what a top level in Dir, that has loaded library(typhon), says
+%   to Lines, line by line and without empty ones.  It ends with its input.
+
+typed(Lines, Dir, Written) :-
+    directory_file_path(Dir, typed, File),
+    setup_call_cleanup(open(File, write, In),
+                       forall(member(Line, Lines), format(In, '~w~n', [Line])),
+                       close(In)),
+    current_prolog_flag(executable, Swipl),
+    project_file('prolog/typhon.pl', Typhon),
+    setup_call_cleanup(
+        process_create(path(sh),
+                       [ '-c', 'exec "$0" -q -f none "$1" < "$2" 2>&1',
+                         Swipl, Typhon, File ],
+                       [cwd(Dir), stdout(pipe(Out)), process(Pid)]),
+        read_string(Out, _, Text),
+        ( close(Out), process_wait(Pid, _) )),
+    split_string(Text, "\n", "\r", All),
+    findall(Line, ( member(Line, All), Line \== "" ), Written).

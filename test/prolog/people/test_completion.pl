@@ -1,0 +1,90 @@
+:- module(test_completion, []).
+:- use_module(library(plunit)).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module(library(lists)).
+:- use_module(library(typhon)).
+
+/** <module> What the tab key completes at the top level
+
+The hook is called as the line editors call it.
+*/
+
+%   completed(+Before, ?Completions), the cursor being at the end.
+
+completed(Before, Completions) :-
+    prolog:complete_input(Before, "", _, Completions).
+
+%   on_tab(+Before, -Line): what stands there where one completion is left.
+
+on_tab(Before, Line) :-
+    prolog:complete_input(Before, "", Delete, [Completion]),
+    string_length(Delete, Length),
+    sub_string(Before, 0, _, Length, Kept),
+    string_concat(Kept, Completion, Line).
+
+with_agents(Goal) :-
+    with_hosts([alpha, beta],
+               ( named(bob), named(tim), named(tim), call(Goal) )).
+
+named(Name) :-
+    create([on_message(_, _)], Agent, [name(Name), host(alpha)]),
+    wait_state(Agent, resident).
+
+:- begin_tests(completion).
+
+test(hosts, [forall(member(Before-Line,
+                           [ "host_stop(al"-"host_stop(alpha",
+                             "remote(b"-"remote(beta",
+                             "remote('b"-"remote('beta'",
+                             "link(alpha, be"-"link(alpha, beta",
+                             "agent_move(bob, a"-"agent_move(bob, alpha",
+                             "agent_move(f('x)', [1,2]), a"-
+                             "agent_move(f('x)', [1,2]), alpha",
+                             "agent_create(p, A, [host(al"-
+                             "agent_create(p, A, [host(alpha" ])),
+             Line == Completed]) :-
+    with_agents(on_tab(Before, Completed)).
+test(agents, [forall(member(Before-Line,
+                            [ "agent_send(b"-"agent_send(bob",
+                              "X = 1, agent_property(b"-
+                              "X = 1, agent_property(bob",
+                              "agent_send(at(b"-"agent_send(at(bob" ])),
+              Line == Completed]) :-
+    with_agents(on_tab(Before, Completed)).
+test(by_id_in_quotes) :-
+    with_agents(( on_tab("agent_send('bo", Line),
+                  string_concat(Line, ")", Text),
+                  term_string(agent_send(Id), Text),
+                  agent_property(Id, state(_)) )).
+test(who_shares_a_name_by_id) :-
+    with_agents(( completed("agent_send(t", Texts),
+                  length(Texts, Count),
+                  forall(member(Text, Texts),
+                         ( term_to_atom(Id, Text),
+                           agent_property(Id, state(_)) )) )),
+    assertion(Count == 2).
+test(programs, Line == "agent_create(agents(sync/traveller") :-
+    on_tab("agent_create(agents(sync/tr", Line).
+test(programs_of_a_folder) :-
+    completed("agent_create(agents(sync/", Texts),
+    subset(['sync/specialist', 'sync/traveller', 'sync/worker'], Texts),
+    assertion(\+ memberchk('sync/operator', Texts)).
+test(payloads) :-
+    completed("[payloads([payloads(sieve/", Texts),
+    assertion(memberchk('sieve/bits', Texts)).
+test(networks, Line == Wanted) :-
+    setup_call_cleanup(network_start(ring(2), Network, [clock(virtual)]),
+                       on_tab("network_stop(n", Line),
+                       network_stop(Network)),
+    format(string(Wanted), "network_stop(~w", [Network]).
+test(elsewhere_what_it_always_is) :-
+    with_agents(( completed("memberch", Texts),
+                  completed("foo(bo", Others) )),
+    assertion(memberchk(memberchk, Texts)),
+    assertion(\+ memberchk(bob, Others) ; memberchk(body, Others)).
+test(where_nothing_fits_too) :-
+    with_agents(completed("remote(memberch", Texts)),
+    assertion(memberchk(memberchk, Texts)).
+
+:- end_tests(completion).

@@ -1,0 +1,207 @@
+:- module(test_mistyped, []).
+:- use_module(library(plunit)).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module(library(apply)).
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/nxt)).
+:- use_module('../../../agents/allocation/operator').
+:- use_module('../../../agents/allocation/auctions').
+:- use_module('../../../agents/allocation/sequence').
+:- use_module('../../../agents/learning/operator').
+:- use_module('../../../agents/population/operator').
+:- use_module('../../../agents/sieve/operator').
+:- use_module('../../../agents/sync/operator').
+
+/** <module> What people are told who mistype a name
+
+*/
+
+%   told(:Goal, -Text): Goal raises an error, whose text is Text.
+
+:- meta_predicate told(0, -).
+
+told(Goal, Text) :-
+    catch(( call(Goal), Error = none ), error(Formal, Context),
+          Error = error(Formal, Context)),
+    assertion(Error \== none),
+    message_to_codes(Error, Text).
+
+message_to_codes(Error, Text) :-
+    '$messages':translate_message(Error, Lines, []),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)).
+
+says(Goal, Parts) :-
+    told(Goal, Text),
+    forall(member(Part, Parts),
+           assertion(sub_string(Text, _, _, _, Part))).
+
+:- begin_tests(options).
+
+%   What nobody knows, and what it is told to be.
+
+unknown(host_start(a, [capacty(1)]), host_option, capacity).
+unknown(host_start(a, [tokens([]), consut(f)]), host_option, consult).
+unknown(agent_create(clauses([]), _, [hots(a)]), agent_option, host).
+unknown(agent_create(clauses([]), _, [lifetme(3)]), agent_option, lifetime).
+unknown(network_start(ring(2), _, [proceses(2)]), network_option, processes).
+unknown(network_start(ring(2), _, [hosts([capacty(2)])]), host_option,
+        capacity).
+unknown(network_start(ring(2), _, [processes(2), hosts([capacty(2)])]),
+        host_option, capacity).
+unknown(network_start(ring(2), _,
+                      [machines([machine(m, [swipel(x)])])]),
+        machine_option, swipl).
+unknown(log_server_start([fil(x)], _), log_server_option, file).
+unknown(nxt_connect(b, '/dev/null', [baudrat(1)]), nxt_option, baudrate).
+unknown(nxt_run(b, a, 50, [regulatd(true)]), nxt_motor_option, regulated).
+unknown(sequence_start(s, [], [], [agnts(2)], _), sequence_option, agents).
+unknown(learning_start([], p, [], [agnts(2)], _), learning_option, agents).
+unknown(population_start(s, [], [], [stats([])], _), population_option,
+        starts).
+unknown(sieve_start([], a, [setings([])]), sieve_option, settings).
+unknown(robot_start(nowhere, [], [cots(x)]), robot_option, cost).
+unknown(task_allocate(task(t, [1-[a]], []), nowhere, [nmae(x)], _),
+        task_option, name).
+unknown(auction_start(anta, [], [slck(1)]), auction_option, slack).
+unknown(sequence_begin(s, [], nowhere, [], [dedline(1)], _),
+        sequence_allocation_option, deadline).
+
+test(is_an_error, [forall(unknown(Goal, Domain, _)),
+                   error(domain_error(Domain, _))]) :-
+    no_leaks(Goal).
+test(proposes_what_was_meant, [forall(unknown(Goal, _, Meant))]) :-
+    format(string(Proposed), '(did you mean ~w?); there are ', [Meant]),
+    says(Goal, [Proposed]).
+test(limit_of_a_motor, error(domain_error(nxt_motor_option, limit(90)))) :-
+    nxt_run(b, a, 50, [limit(90)]).
+test(all_are_listed) :-
+    says(nxt_run(b, a, 50, [limit(90)]),
+         ["; there are brake, degrees, regulated, state, sync"]).
+test(wrong_value_names_the_option) :-
+    says(host_start(a, [capacity(many)]), ["in capacity(many)"]).
+test(either_type_will_do) :-
+    with_hosts([a-[capacity(inf)], b-[capacity(3), concurrency(inf)]], true).
+test(nothing_is_proposed_for_one_letter) :-
+    told(agent_create(clauses([]), _, [x(1)]), Text),
+    assertion(\+ sub_string(Text, _, _, _, "did you mean")).
+test(an_option_with_an_equals_sign) :-
+    says(host_start(a, [port=9700]), ["host option port=9700", "port"]).
+test(setting_of_a_mechanism) :-
+    says(sequence_start(s, [], [], [settings([dleta-1])], _),
+         ["there are delta, theta, maximum, window, patience, strategy"]).
+test(a_robot_that_is_there_does_not_hide_it,
+     error(domain_error(robot_option, _))) :-
+    robot_start(nowhere, [], [cots(x)]).
+
+:- end_tests(options).
+
+:- begin_tests(names).
+
+test(topology) :-
+    says(network_start(rnig(4), _, []),
+         ["no topology rnig(4) (did you mean ring(N)?)", "grid(Rows,Cols)"]).
+test(arguments_of_a_topology) :-
+    says(network_start(grid(3), _, []), ["(did you mean grid(Rows,Cols)?)"]),
+    says(network_start(ring(a), _, []), ["in ring(a)"]).
+test(dynamic_model) :-
+    says(network_start(ring(4), _, [dynamic(dynamc_1)]),
+         ["(did you mean dynamic_1"]).
+test(property, [forall(member(Goal-Meant,
+                              [ agent_property(_, sate(_))-"state(_)",
+                                agent_property(bob, hosts(_))-"host(_)",
+                                host_property(_, adress(_))-"address(_)",
+                                network_property(_, host(_))-"hosts(_)" ]))]) :-
+    told(Goal, Text),
+    assertion(sub_string(Text, _, _, _, Meant)).
+test(property_is_an_error, error(domain_error(agent_property, sate(_)))) :-
+    agent_property(_, sate(_)).
+test(every_property_may_be_asked) :-
+    with_hosts([alpha],
+               ( create([(on_message(_, _))], A, [host(alpha)]),
+                 wait_state(A, resident),
+                 forall(agent_property(A, P),
+                        ( functor(P, Name, N), functor(General, Name, N),
+                          assertion(agent_property(A, General)) )),
+                 forall(host_property(alpha, P),
+                        ( functor(P, Name, N), functor(General, Name, N),
+                          assertion(host_property(alpha, General)) )) )).
+test(host) :-
+    with_hosts([alpha],
+               ( says(host_stop(alhpa), ["(did you mean alpha?)"]),
+                 says(link(alpha, alhpa), ["(did you mean alpha?)"]),
+                 says(agent_create(clauses([(:- agent(a)), main]), _,
+                                   [host(alhpa)]),
+                      ["There is no host alhpa here (did you mean alpha?)"]) )).
+test(network) :-
+    setup_call_cleanup(
+        network_start(ring(2), N, [clock(virtual)]),
+        ( atom_concat(N, x, Mistyped),
+          says(network_stop(Mistyped), ["(did you mean ", N]) ),
+        network_stop(N)).
+test(strategy) :-
+    says(typhon_strategy:next_host(consientious, [], a, memory(1, []), _, _),
+         ["(did you mean conscientious?)"]).
+
+:- end_tests(names).
+
+:- begin_tests(programs).
+
+in_directory(Goal) :-
+    with_tmp_dir(in_directory(Goal)).
+
+in_directory(Goal, Dir) :-
+    working_directory(Old, Dir),
+    call_cleanup(( forall(file(Name, Text), put(Name, Text)),
+                   catch(link_file('/nowhere', 'agents/broken.pl', symbolic),
+                         error(_, _), true),
+                   call(Goal)
+                 ), working_directory(_, Old)).
+
+file('agents/tourist.pl', ':- agent(tourist, []).\nmain.\n').
+file('agents/survey/census.pl', '% a census\n:- agent(census).\nmain.\n').
+file('agents/survey/cencus_part.pl', 'part.\n').
+file('agents/7.pl', ':- agent(seven).\nmain.\n').
+file('agents/bad.pl', ':- agent(bad, [.\n').
+file('payloads/thermo.pl', ':- payload(thermo, [provides([t/1])]).\nt(1).\n').
+
+put(Name, Text) :-
+    file_directory_name(Name, Folder),
+    make_directory_path(Folder),
+    setup_call_cleanup(open(Name, write, Out), write(Out, Text), close(Out)).
+
+test(agents) :-
+    in_directory(says(agent_check(agents(tourst)),
+                      ["There is no file agents(tourst) \c
+                        (did you mean tourist?)"])).
+test(files) :-
+    in_directory(( says(agent_check('agents/turist'),
+                        ["There is no file 'agents/turist' \c
+                          (did you mean agents/tourist?)"]),
+                   working_directory(_, agents),
+                   says(agent_check(tourst),
+                        ["There is no file tourst (did you mean tourist?)"]),
+                   told(agent_check('no/such/file'), Text),
+                   assertion(sub_string(Text, _, _, _, "does not exist")) )).
+test(in_a_folder) :-
+    in_directory(says(agent_check(agents(survey/cenus)),
+                      ["(did you mean survey/census?)"])).
+test(by_the_last_part) :-
+    in_directory(says(agent_check(agents(census)),
+                      ["(did you mean survey/census?)"])).
+test(payloads) :-
+    in_directory(
+        with_hosts([alpha],
+                   says(agent_create(agents(tourist), _,
+                                     [payloads([payloads(thrmo)])]),
+                        ["(did you mean thermo?)"]))).
+test(only_what_is_one) :-
+    in_directory(( typhon_names:names(agents, Names),
+                   assertion(memberchk(tourist, Names)),
+                   assertion(memberchk('survey/census', Names)),
+                   assertion(\+ memberchk('survey/cencus_part', Names)) )).
+
+:- end_tests(programs).

@@ -1,0 +1,191 @@
+:- module(test_top_level, []).
+:- use_module(library(plunit)).
+:- use_module('../../lib/common').
+:- use_module('../../lib/top_level').
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(process)).
+:- use_module(library(readutil)).
+:- use_module(library(typhon)).
+
+/** <module> A person at the top level who makes mistakes
+
+*/
+
+put(Dir, Name, Text) :-
+    directory_file_path(Dir, Name, File),
+    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
+
+:- begin_tests(mistakes).
+
+%   Each of these raises an error.  The line after it must be taken for a
+%   query, and not for an answer to the debugger.
+
+mistake('remote(alpha, X is a+1).').
+mistake('remote(alpha, no_such_thing(X)).').
+mistake('remote(alpha, throw(error(oops, _))).').
+mistake('network_start(ring(2), N, [log(\'/no/such/directory/log\')]).').
+mistake('network_start(ring(2), N, [hosts([consult(no_such_file)])]).').
+mistake('network_start(ring(2), N, [hosts([capacty(2)])]).').
+mistake('host_start(beta, [consult(no_such_file)]).').
+mistake('agent_create(broken, A).').
+mistake('agent_create(including, A).').
+mistake('agent_create(hi, A, [payloads([broken])]).').
+mistake('agent_check(broken).').
+mistake('agent_load(broken, A).').
+mistake('agent_save(bob, \'/no/such/directory/bob\').').
+mistake('payload_attach(bob, broken).').
+mistake('payload_detach(bob, broken).').
+mistake('agent_send(tim, hello).').
+mistake('agent_property(bob, sate(S)).').
+mistake('agent_move(bob, gamma).').
+mistake('agent_join(tim, O, 1).').
+mistake('host_stop(beta).').
+mistake('log_events(no_such_file, Es).').
+mistake('log_server_start([file(\'/no/such/directory/log\')], A).').
+
+file('broken.pl', ":- agent(broken, []).\nmain :- foo(.\n").
+file('including.pl', ":- agent(including).\n:- include(no_such_file).\nmain.\n").
+file('hi.pl', ":- agent(hi, []).\non_message(_, _).\n").
+
+test(the_debugger_does_not_open, Missing == []) :-
+    with_tmp_dir(mistakes(Missing)).
+
+mistakes(Missing, Dir) :-
+    forall(file(Name, Text), put(Dir, Name, Text)),
+    findall(Mistake, mistake(Mistake), Mistakes),
+    findall(Line, mistake_line(Mistakes, Line), Lines),
+    typed([ 'host_start(alpha), agent_create(hi, _, [name(bob)]).'|Lines],
+          Dir, Written),
+    findall(Mistake,
+            ( nth1(N, Mistakes, Mistake),
+              format(string(Mark), "after ~d", [N]),
+              \+ memberchk(Mark, Written) ),
+            Missing0),
+    (   member(Line, Written),
+        ( sub_string(Line, _, _, _, "Exception:")
+        ; sub_string(Line, _, _, _, "Call: (") )
+    ->  Missing = [Line|Missing0]
+    ;   Missing = Missing0
+    ).
+
+mistake_line(Mistakes, Line) :-
+    nth1(N, Mistakes, Mistake),
+    (   Line = Mistake
+    ;   format(atom(Line), 'format("~~nafter ~d~~n").', [N])
+    ).
+
+:- end_tests(mistakes).
+
+:- dynamic
+    delta/2.                    % Pid, Out
+
+%   Another process has a host delta; Out is what it says.
+
+start_delta :-
+    project_file('app/typhon.pl', App),
+    current_prolog_flag(executable, Swipl),
+    process_create(path(sh),
+                   [ '-c', 'exec "$0" "$1" host delta 2>&1', Swipl, App ],
+                   [stdin(null), stdout(pipe(Out)), process(Pid)]),
+    read_line_to_string(Out, Line),
+    atom_string(Address, Line),
+    nb_setval(test_delta, Address),
+    assertz(delta(Pid, Out)).
+
+stop_delta :-
+    retract(delta(Pid, Out)),
+    process_kill(Pid, term),
+    process_wait(Pid, _),
+    close(Out).
+
+said(Lines, Written) :-
+    with_tmp_dir(said(Lines, Written)).
+
+said(Lines, Written, Dir) :-
+    put(Dir, 'hi.pl', ":- agent(hi, [state([got/1])]).\n\c
+                       on_message(_, X) :- assertz(got(X)).\n"),
+    typed(Lines, Dir, Written).
+
+one_has(Lines, Text) :-
+    (   member(Line, Lines),
+        sub_string(Line, _, _, _, Text)
+    ->  true
+    ;   throw(error(existence_error(Text, Lines), _))
+    ).
+
+:- begin_tests(other_process, [setup(start_delta), cleanup(stop_delta)]).
+
+test(who_has_no_host_creates_and_orders_agents_there, Answers == Wanted) :-
+    nb_getval(test_delta, Delta),
+    format(atom(Create), 'agent_create(hi, A, [host(~q), name(bob)]).',
+           [Delta]),
+    format(atom(Remote), 'remote(~q, true), once(host_property(~q, load(_))).',
+           [Delta, Delta]),
+    said([ Create,
+           'agent_send(bob, hello).',
+           'agent_property(bob, facts(F)), print(F), nl.',
+           'agent_property(bob, host(H)), sub_atom(H, 0, 5, _, N), \c
+            writeln(N).',
+           'agent_property(bob, state(S)), writeln(S).',
+           Remote,
+           'agent_dispose(bob), agent_join(bob, O, 5), writeln(O).',
+           'between(1, 100, _), findall(T, ( thread_property(T, status(_)), \c
+            T \\== gc ), Ts), ( Ts == [main] ; sleep(0.05), fail ), !, \c
+            writeln(Ts).'
+         ], Written),
+    Wanted = [ "[got(hello)]", "delta", "resident", "disposed", "[main]" ],
+    findall(Line, ( member(Line, Written), memberchk(Line, Wanted) ),
+            Answers).
+
+test(guests_come_and_go_in_several_threads) :-
+    nb_getval(test_delta, Delta),
+    no_leaks(( findall(T, ( between(1, 6, _),
+                            thread_create(forall(between(1, 5, _),
+                                                 remote(Delta, true)), T) ),
+                       Ts),
+               forall(member(T, Ts),
+                      ( thread_join(T, Status),
+                        assertion(Status == true) )) )).
+
+test(mistyped_host_and_port_that_is_taken) :-
+    nb_getval(test_delta, Delta),
+    atomic_list_concat([_, Address], @, Delta),
+    atomic_list_concat([_, Port], :, Address),
+    format(atom(Create), 'agent_create(hi, A, [host(\'dlta@~w\')]).',
+           [Address]),
+    format(atom(Start), 'host_start(alpha, [port(~w)]).', [Port]),
+    said([Create, Start], Written),
+    one_has(Written, "There is no host dlta at "),
+    one_has(Written, "(there are: delta)"),
+    format(string(Where), "(at ~w)", [Address]),
+    one_has(Written, Where).
+
+%   A host of another network, whether a person asks or an agent moves.
+
+test(another_cookie_is_no_dead_host, Xs == [x, x, x, x]) :-
+    nb_getval(test_delta, Delta),
+    with_cookie('another cookie, of another network',
+                another_cookie(Delta, Written)),
+    findall(x, ( member(Line, Written),
+                 sub_string(Line, _, _, _, "has another cookie") ), Xs),
+    delta(_, Out),
+    read_line_to_string(Out, There),
+    one_has([There], "does not know our cookie").
+
+another_cookie(Delta, Written) :-
+    format(atom(Create), 'agent_create(hi, A, [host(~q)]).', [Delta]),
+    format(atom(Move), 'agent_move(bob, ~q), sleep(0.5).', [Delta]),
+    format(atom(Remote), 'remote(~q, true).', [Delta]),
+    said([ Create, Remote, 'host_start(alpha).',
+           'agent_create(hi, _, [name(bob)]).', Move, Remote ],
+         Written).
+
+:- meta_predicate with_cookie(+, 0).
+
+with_cookie(Cookie, Goal) :-
+    setup_call_cleanup(setenv('TYPHON_COOKIE', Cookie),
+                       Goal,
+                       unsetenv('TYPHON_COOKIE')).
+
+:- end_tests(other_process).
