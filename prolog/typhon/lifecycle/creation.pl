@@ -13,8 +13,8 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../program',
-              [ clause_parts/3, code_install/3, code_program/2,
-                code_receive/2, payload_load/2, program_load/5 ]).
+              [ clause_parts/3, code_install/3, code_receive/2, code_sent/2,
+                code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_call/5, endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
               [ host/3, host_address/2, host_enter/3, host_leave/1,
@@ -65,13 +65,14 @@ agent_create(Spec, Agent, Options) :-
     must_be(list, Options),
     maplist(check_option, Options),
     target(Options, Target),
-    program_load(Spec, Program, Initial, Hash, Kinds),
+    program_load(Spec, Program, Initial, Hash, Kinds, Places),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
     birth(Options, Declared, Initial, Clauses, Life, State),
     mobile_term(State),
     start_goals(Clauses, Initial, Goals),
     code_install(Hash, Program, Kinds),
+    code_stands(Hash, Places),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
 
 check_option(Option) :-
@@ -151,7 +152,7 @@ create(local(Host), Name, Start, Agent) :-
     begun(Answer, Host, Agent).
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     Start = start(Hash, _, _, _, _),
-    code_program(Hash, Program),
+    code_sent(Hash, Program),
     catch(endpoint_call(Endpoint, agent,
                         create(HostName, Name, Start, Program),
                         answer(Answer), 10),

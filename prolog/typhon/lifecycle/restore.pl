@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../program', [code_install/2, program_hash/2]).
+:- use_module('../program', [code_install/2, code_receive/2, program_hash/2]).
 :- use_module('../agent', [is_life/1]).
 :- use_module(creation, [agent_create_here/3]).
 :- use_module(orders, [order_give/3]).
