@@ -12,6 +12,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('lifecycle/properties').
 :- reexport(lifecycle/orders,
             [ agent_move/2, agent_clone/2, agent_dispose/1,
+              agent_resume/1, agent_change/2,
               payload_attach/2, payload_detach/2
             ]).
 :- reexport('lifecycle/sending').

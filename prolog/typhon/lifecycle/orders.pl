@@ -4,6 +4,8 @@
             agent_dispose/1,            % +Agent
             payload_attach/2,           % +Agent, +Payload
             payload_detach/2,           % +Agent, +Name
+            agent_resume/1,             % +Agent
+            agent_change/2,             % +Agent, +Change
             order_give/3,               % +Agent, +Order, -Result
             order_take/2,               % +Id, +Order
             order_obey/3                % +Order, +Id, +Goals
@@ -12,17 +14,21 @@
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
-:- use_module('../program', [code_program/2, payload_load/2]).
+:- use_module('../program', [code_sent/2, payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [alarm_in/3, host_address/2, scheduler_call/1]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
-                agent_status/3, mail_list/2, with_agent/2 ]).
-:- use_module('../travel', [out_of_touch/1]).
+                agent_status/3, fault_stamp/2, is_faulty/3, life_hops/2,
+                mail_list/2, with_agent/2 ]).
+:- use_module('../travel',
+              [agent_resumed/3, agent_resumed_from/3, out_of_touch/1]).
+:- use_module(change, [change_made/2, change_order/2]).
 :- use_module(creation, [agent_clone_here/3]).
 :- use_module(effect, [effect_order/4]).
-:- use_module(ending, [agent_end/2, agent_end/3]).
+:- use_module(ending, [agent_end/2, agent_end/3, agent_stays/2]).
+:- use_module(faulty, [faulty_stirs/1]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
 /** <module> Orders from outside
@@ -57,6 +63,8 @@ that has the agent.
 %   for 10 seconds at the most.  An agent that is refused at Host stays
 %   where it is, which is reported there.
 %
+%   An agent that is faulty obeys as others do, and is faulty still.
+%
 %   @error existence_error(agent, Agent), existence_error(host, Host)
 %   @error timeout_error(order, Agent)
 
@@ -79,10 +87,45 @@ payload_detach(Agent, Name) :-
     must_be(atom, Name),
     order_give(Agent, detach(Name), _).
 
+%!  agent_resume(+Agent) is det.
+%
+%   Let Agent, which is faulty, try again: it goes on with the goal that
+%   failed or raised an error, and is no longer faulty.  It counts on its host
+%   then, even where that is full.
+%
+%   @error permission_error(resume, agent, Agent) if it is not faulty
+%   @error existence_error(agent, Agent)
+%   @error timeout_error(order, Agent)
+
+agent_resume(Agent) :-
+    order_give(Agent, resume, resumed(Stamp, Hops)),
+    agent_resumed_from(Agent, Stamp, Hops).
+
+%!  agent_change(+Agent, +Change) is det.
+%
+%   Change Agent, faulty or not, at its next effect:
+%
+%     - facts(+Clauses): are added to its state
+%     - program(+Spec): is its program from now on, see agent_create/2.  Its
+%       state stays as it is, and so do the goals that it has left: what is
+%       left of a clause is left of the old one.
+%
+%   @error domain_error(agent_change, Change)
+%   @error permission_error(attach, procedure, PI) for a fact of a predicate
+%          of the program, and a program that has one of the state
+%   @error any problem of the program
+%   @error existence_error(agent, Agent)
+%   @error timeout_error(order, Agent)
+
+agent_change(Agent, Change) :-
+    must_be(nonvar, Change),
+    change_order(Change, Order),
+    order_give(Agent, change(Order), _).
+
 %!  order_give(+Agent, +Order, -Result) is det.
 %
 %   @arg Order is move(Host), `dispose`, `clone`, attach(Payload),
-%        detach(Name) or `image`
+%        detach(Name), `image`, `resume` or change(Change), see typhon_change
 
 order_give(Agent, Order, Result) :-
     must_be(atom, Agent),
@@ -183,19 +226,23 @@ rests_on(Host, Id, Status) :-
 
 note_order(Id, Order) :-
     agent_status(Id, Status, Goals),
-    not_faulty(Status, Id),
+    (   Status = faulty(_)
+    ->  faulty_stirs(Id)
+    ;   idle(Status),
+        Order = asked(resume, _)
+    ->  not_faulty(Id)
+    ;   true
+    ),
     agent_order(Id, Order),
     (   idle(Status)
     ->  agent_ready(Id, Goals)
     ;   true
     ).
 
-not_faulty(Status, Id) :-
-    (   Status = faulty(_)
-    ->  permission_error(order, faulty_agent, Id)
-    ;   true
-    ).
+not_faulty(Id) :-
+    permission_error(resume, agent, Id).
 
+idle(faulty(_)).
 idle(sleeping(_)).
 idle(waiting(_, _)).
 idle(resident).
@@ -247,6 +294,17 @@ obey(move(Host), Id, Goals) :-
           ( failed(Id, Formal),
             go_on(Id, Goals)
           )).
+obey(asked(resume, Asker), Id, Goals) :-
+    (   is_faulty(Goals, Fault, Left),
+        agent(Id, _, _, _, Life)
+    ->  fault_stamp(Fault, Stamp),
+        life_hops(Life, Hops),
+        agent_resumed(Id, Stamp, Hops),
+        answered(Asker, answer(resumed(Stamp, Hops))),
+        go_on(Id, Left)
+    ;   answered(Asker, error(permission_error(resume, agent, Id))),
+        go_on(Id, Goals)
+    ).
 obey(asked(Order, Asker), Id, Goals) :-
     catch((   carried_out(Order, Id, Result)
           ->  Answer = answer(Result)
@@ -265,7 +323,10 @@ answered(Asker, Answer) :-
           question_answered(Asker, error(Formal))).
 
 go_on(Id, Goals) :-
-    with_agent(Id, agent_ready(Id, Goals)).
+    (   is_faulty(Goals, _, _)
+    ->  agent_stays(Id, Goals)
+    ;   with_agent(Id, agent_ready(Id, Goals))
+    ).
 
 failed(Id, Formal) :-
     print_message(warning, typhon(order_failed(Id, Formal))).
@@ -277,11 +338,13 @@ carried_out(detach(Name), Agent, ok) :-
 carried_out(clone, Agent, CloneId) :-
     agent_status(Agent, _, Goals),
     agent_clone_here(Agent, Goals, CloneId).
+carried_out(change(Change), Agent, ok) :-
+    change_made(Change, Agent).
 carried_out(image, Agent,
             image(Name, Program, Life, State, Goals, Mail)) :-
     agent(Agent, _, Module, Hash, Life),
     agent_status(Agent, _, Goals),
-    code_program(Hash, Program),
+    code_sent(Hash, Program),
     agent_name(Agent, Name, _),
     agent_state(Module, State),
     mail_list(Agent, Mail),
