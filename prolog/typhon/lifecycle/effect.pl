@@ -84,11 +84,14 @@ effect(receive(Message, Seconds), Hole, Goals, Id-Here, Next) :-
     ;   must_be(number, Seconds),
         host_time(Here, Now),
         Until is Now+Seconds,
-        effect(receive_until(Message, Until), Hole, Goals, Id-Here, Next)
+        effect(receive_until(Message, Until, Seconds), Hole, Goals, Id-Here,
+               Next)
     ).
-effect(receive_until(Message, Until), Hole, Goals, Id-Here, Next) :-
-    receive(Message, Until, receive_until(Message, Until), Hole, Goals,
-            Id-Here, Next).
+effect(receive_until(Message, Until, Seconds), Hole, Goals, Id-Here, Next) :-
+    receive(Message, Until, receive_until(Message, Until, Seconds), Hole,
+            Goals, Id-Here, Next).
+effect(receive_until(Message, Until), Hole, Goals, Where, Next) :-
+    effect(receive_until(Message, Until, 0), Hole, Goals, Where, Next).
 effect(dispose, _, _, Id-_, stop) :-
     ignore(agent_end(Id, disposed)).
 effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
@@ -114,12 +117,13 @@ receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
 take_or_wait(Message, _, _, true, Goals, Id-_, go(Goals)) :-
     mail_take(Id, Message),
     !.
-take_or_wait(_, Until, Again, Hole, Goals, _-Here, go(Goals)) :-
+take_or_wait(Message, Until, Again, Hole, Goals, _-Here, go(Goals)) :-
     number(Until),
     host_time(Here, Now),
     Now >= Until,
     !,
-    answer_at(Again, fail, Hole).
+    Again = receive_until(Message, _, Seconds),
+    answer_at(receive(Message, Seconds), fail, Hole).
 take_or_wait(Message, Until, Again, Again, Goals, Id-_, stop) :-
     agent_rest(Id, waiting(Message, Until), Goals).
 

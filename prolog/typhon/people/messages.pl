@@ -80,12 +80,10 @@ program_alias(Spec, Alias, Name) :-
 prolog:message(typhon(faulty(Agent, Error, Fault))) -->
     who(Agent, Fault),
     explained(Error),
-    in_clauses(Fault).
+    raised_in(Fault).
 prolog:message(typhon(agent_failed(Agent, Fault))) -->
     who(Agent, Fault),
-    [ 'failed: the goal that failed last was ' ],
-    goal_of(Fault),
-    in_clauses(Fault).
+    failed_last(Fault).
 prolog:message(typhon(mailbox_full(Agent, Max))) -->
     [ 'Agent ~w is faulty, and its mailbox is full: of what comes now \c
        nothing is kept beside ~D messages'-[Agent, Max] ].
@@ -98,10 +96,9 @@ prolog:message(typhon(message_failed(Agent, From, Message))) -->
       [Agent, Message, From] ].
 prolog:message(typhon(message_undone(Agent, From, Message, Fault))) -->
     who(Agent, Fault),
-    [ 'on_message/2 failed with ~p from ~w: the goal that failed last was '-
+    [ 'did not do with ~p from ~w what on_message/2 says; it '-
       [Message, From] ],
-    goal_of(Fault),
-    in_clauses(Fault).
+    failed_last(Fault).
 prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
     !,
     [ 'Agent ~w could not obey: '-[Agent] ],
@@ -146,9 +143,21 @@ who(Agent, Fault) -->
     },
     [ 'Agent ~w at ~w (hop ~D): '-[Agent, Host, Hops] ].
 
-goal_of(Fault) -->
-    { fault_told(Fault, Goal, _, _, _) },
-    goal_told(Goal).
+failed_last(Fault) -->
+    { fault_told(Fault, Goal, Where, _, _) },
+    [ 'failed: the goal that failed last was ' ],
+    goal_told(Goal),
+    clauses_told(Where).
+
+%   Where nobody knows the clause, the goal says something.
+
+raised_in(Fault) -->
+    { fault_told(Fault, Goal, Where, _, _) },
+    (   { Where == [] }
+    ->  [ ', at ' ],
+        goal_told(Goal)
+    ;   clauses_told(Where)
+    ).
 
 goal_told((If->true)) -->
     !,
@@ -159,20 +168,18 @@ goal_told((If->_)) -->
 goal_told((If*->_)) -->
     !,
     [ '( ' ], goal_told(If), [ ' *-> ... ) without else' ].
-goal_told(Goal) -->
+goal_told(Goal0) -->
+    { copy_term(Goal0, Goal),
+      numbervars(Goal, 0, _, [singletons(true)])
+    },
     [ '~W'-[Goal, [ quoted(true), portray(true), max_depth(10),
                     spacing(next_argument), numbervars(true) ]] ].
 
 %   In which clause that was.
 
-in_clauses(Fault) -->
-    { fault_told(Fault, Goal, Where, _, _) },
-    clauses_told(Where, Goal).
-
-clauses_told([], Goal) -->
-    [ ', at ' ],
-    goal_told(Goal).
-clauses_told([Places|Callers], _) -->
+clauses_told([]) -->
+    [].
+clauses_told([Places|Callers]) -->
     [ ', in ' ],
     places_told(Places),
     callers_told(Callers).

@@ -12,11 +12,11 @@ leave the run, the goals that it leaves are read from the frames of the
 machine, which are still there then.  What is noted last is what ended the
 run: a fault
 
-    fault(Goal, Goals, Clauses)
+    fault(Goal, Goals, natives(Raising, Clauses))
 
 of the goal that failed or raised, the goals that were left to run from it
-on, and references to the clauses of native predicates in which that was,
-the innermost first.
+on, the goal that raised the error natively and references to the clauses in
+which that was, the innermost first.
 
 Nothing of this costs an agent anything that neither fails nor raises, and
 one that catches its errors half a microsecond.
@@ -51,7 +51,7 @@ fails(Goal, Goals) :-
     fail.
 
 note(How, Goal, Goals) :-
-    note(How, Goal, Goals, []).
+    note(How, Goal, Goals, natives(none, [])).
 
 note(How, Goal, Goals, Clauses) :-
     nb_setval(typhon_fault, How-fault(Goal, Goals, Clauses)).
@@ -111,10 +111,11 @@ frame_of(Frame, PI) :-
 %   What a hook binds is undone when it fails.
 
 note_raised(Frame) :-
+    native_goal(Frame, Raising),
     native_clauses(100, Frame, Clauses),
     raising(Frame, Goal, Goals, Outer),
     framed(Outer, [Goal|Goals], Left),
-    note(raised, Goal, Left, Clauses).
+    note(raised, Goal, Left, natives(Raising, Clauses)).
 
 raising(Frame, Control, Goals, Outer) :-
     prolog_frame_attribute(Frame, parent, Outer),
@@ -139,12 +140,21 @@ framed(Frame, Goals0, Goals) :-
     ;   Goals = Goals0
     ).
 
-%   The clauses of up to Most frames in the program.
+%   What raised the error itself is mostly no more than this.
+
+native_goal(Frame, Goal) :-
+    prolog_frame_attribute(Frame, goal, Goal0),
+    strip_module(Goal0, _, Goal),
+    '$term_size'(Goal, 1000, _),
+    !.
+native_goal(_, none).
+
+%   The clauses of up to Most frames.
 
 native_clauses(0, _, []) :-
     !.
 native_clauses(_, Frame, []) :-
-    frame_of(Frame, called/5),
+    ( frame_of(Frame, called/5) ; frame_of(Frame, raises/3) ),
     !.
 native_clauses(Most, Frame, Clauses) :-
     (   prolog_frame_attribute(Frame, clause, Clause)
@@ -172,7 +182,7 @@ fault(Outcome, Goals0, fault(Goal, Goals, Clauses)) :-
     ->  true
     ;   Goals0 = [Goal0|_],             % too little memory to note anything
         Goals1 = unknown,
-        Clauses = []
+        Clauses = natives(none, [])
     ),
     nb_setval(typhon_fault, none),
     ( Goals1 == unknown -> Goals2 = Goals0 ; Goals2 = Goals1 ),

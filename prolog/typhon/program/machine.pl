@@ -49,7 +49,8 @@ special(receive(_), control).
 special(receive(_, _), control).
 special(dispose, control).
 special(sleep_until(_), control).
-special(receive_until(_, _), control).
+special(receive_until(_, _, _), control).
+special(receive_until(_, _), control).  % in old restore points
 special('$fault'(_), control).          % stays as it was: see typhon_faulty
 special(Goal, call) :-                  % with more than one argument
     compound(Goal),

@@ -33,7 +33,9 @@ File:Line, clause(N) for the N-th clause of PI where that is not known, or
 fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
     code_module(Hash, Module),
     all_clauses(Hash, Agent, All),
-    native_places(Natives, Module, All, Inner),
+    Natives = natives(Raising, References),
+    native_places(References, Module, All, Inner0),
+    last_called(Inner0, Raising, Goal, All, Inner),
     level(Goal, Goals, Left),
     mobile_places(Inner, All, Left, Found),
     append(Inner, Found, Numbers0),
@@ -119,8 +121,39 @@ native_places(References, Module, All, Places) :-
     once_each(Pairs, none, Places0),
     maplist(native_place(All), Places0, Places).
 
+%   last_called(+Places0, +Raising, +Goal, +All, -Places): the clause whose
+%   last goal is Raising has no frame any more.  It is the one that calls it,
+%   if there is but one.
+
+last_called(Places0, Raising, Goal, All, Places) :-
+    (   calls_it(Raising, Goal, Places0, All, Clause),
+        Places0 \= [[Clause]|_]
+    ->  Places = [[Clause]|Places0]
+    ;   Places = Places0
+    ).
+
+calls_it(Raising, Goal, Places0, All, c(N, Name/Arity)) :-
+    callable(Raising),
+    Raising \== Goal,
+    \+ ( Places0 = [[Inner]|_],
+         has_goal(All, Inner, Raising) ),
+    findall(Head-N0, has_goal(All, c(N0, Head), Raising), Found),
+    sort(2, @<, Found, [Head-N]),
+    functor(Head, Name, Arity).
+
+has_goal(All, c(N, Of), Raising) :-
+    member(N-(Head:-Body), All),
+    of(Of, Head),
+    point(Body, [Called|_], _),
+    nonvar(Called),
+    subsumes_term(Called, Raising).
+
+of(Of, Head) :- var(Of), !, Of = Head.
+of(_, _).
+
 native_clause(Reference, Module, PI, I) :-
-    catch(( clause_property(Reference, predicate(Module:PI)),
+    catch(( clause_property(Reference, predicate(Home:PI)),
+            Home == Module,             % if bound, it is any that sees it
             nth_clause(_, I, Reference)
           ),
           error(_, _), fail).           % erased

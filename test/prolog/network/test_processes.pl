@@ -108,9 +108,35 @@ test(faulty_elsewhere, true(S-F == faulty(oops)-[s(1)])) :-
     agent_property(A, facts(F)),
     agent_dispose(A),
     \+ agent_property(A, state(_)).
+test(resumed_elsewhere, true(G-Os =@= [s(1),receive(_-go)]-
+                                    [failed,timeout,done])) :-
+    there(beta, B),
+    create([r(B), (main :- r(X), move(X), s(1), receive(_-go))], A),
+    joined(A, O1),
+    agent_property(A, fault(fault(failed, s(1), main/0:1, B))),
+    agent_property(A, goals(G0)),
+    copy_term(G0, G),
+    agent_change(A, facts([s(1)])),
+    agent_resume(A),
+    agent_join(A, O2, 0.1),
+    agent_send(A, go),
+    joined(A, O3),
+    Os = [O1,O2,O3].
+test(a_faulty_one_comes_home, true(L == 0)) :-
+    there(beta, B), address(alpha, H),
+    create([r(B), (main :- r(X), move(X), s(1))], A),
+    joined(A, failed),
+    agent_move(A, H),
+    wait_until(( stands(A, H), state_of(A, faulty(failed)) ), 10),
+    agent_property(A, fault(fault(failed, s(1), _, B))),
+    peer_do(gamma, agent_join(A, failed, 10)),
+    host_property(alpha, load(L)),
+    agent_dispose(A),
+    joined(A, failed).
 test(properties, true(Ps =@= [ facts([s(1)]), goals([receive(_-go),foo]),
-                               home(H), hops(1), host(B), payloads([x]),
-                               program(test), state(waiting) ])) :-
+                               home(H), hops(1), host(B), mailbox([]),
+                               payloads([x]), program(test),
+                               state(waiting) ])) :-
     there(beta, B), address(alpha, H),
     create([s(1), foo, (main :- parent_host(X), move(X), receive(_-go), foo),
             parent_host(B)], A, [payloads([payload(x, [], [])])]),
