@@ -1,45 +1,35 @@
 :- module(typhon_orders,
-          [ agent_move/2,               % +Agent, +Host
-            agent_clone/2,              % +Agent, -Clone
-            agent_dispose/1,            % +Agent
-            payload_attach/2,           % +Agent, +Payload
-            payload_detach/2,           % +Agent, +Name
-            agent_resume/1,             % +Agent
-            agent_change/2,             % +Agent, +Change
-            order_give/3,               % +Agent, +Order, -Result
-            order_take/2,               % +Id, +Order
+          [ order_take/2,               % +Id, +Order
             order_obey/3                % +Order, +Id, +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [ domain_error/2, existence_error/2, must_be/2,
-                permission_error/3 ]).
-:- use_module('../program', [code_sent/2, payload_load/2]).
+              [domain_error/2, permission_error/3]).
+:- use_module('../program', [code_sent/2]).
 :- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [alarm_in/3, host_address/2, scheduler_call/1]).
+:- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent',
-              [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
+              [ agent/5, agent_attach/2, agent_detach/2,
                 agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
                 agent_status/3, fault_stamp/2, is_faulty/3, life_hops/2,
                 mail_list/2, with_agent/2 ]).
 :- use_module('../travel',
-              [agent_resumed/3, agent_resumed_from/3, out_of_touch/1]).
-:- use_module(change, [change_made/2, change_order/2]).
+              [agent_resumed/3, out_of_touch/1]).
+:- use_module(change, [change_made/2]).
 :- use_module(creation, [agent_clone_here/3]).
 :- use_module(effect, [effect_order/4]).
 :- use_module(ending, [agent_end/2, agent_end/3, agent_stays/2]).
 :- use_module(faulty, [faulty_stirs/1]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
-/** <module> Orders from outside
+/** <module> Orders are taken and obeyed
 
-An order is put as a question, see typhon_questions, so that it finds the
-agent, and noted in its record.  The agent takes it at its next effect.  Who
-waits for what comes of it is noted with it: asked(Order, Asker).
+An order that has found its agent, see typhon_giving, is noted in its record.
+The agent takes it at its next effect.  Who waits for what comes of it is
+noted with it: asked(Order, Asker).
 
-*Threading*: any thread gives orders; they are taken in any thread, in the
-reader threads if they come from another process, and obeyed by the worker
-that has the agent.
+*Threading*: orders are taken in any thread, in the reader threads if they
+come from another process, and obeyed by the worker that has the agent.
 */
 
 :- multifile
@@ -47,97 +37,6 @@ that has the agent.
     typhon_scheduler:over/2,
     typhon_questions:here/3,
     typhon_transfer:forward_order/2.
-
-                /*******************************
-                *             GIVE             *
-                *******************************/
-
-%!  agent_move(+Agent, +Host) is det.
-%!  agent_clone(+Agent, -Clone) is det.
-%!  agent_dispose(+Agent) is det.
-%!  payload_attach(+Agent, +Payload) is det.
-%!  payload_detach(+Agent, +Name) is det.
-%
-%   Orders from outside.  An agent that runs takes them at its next effect.
-%   agent_move/2 and agent_dispose/1 do not wait for that, the others do,
-%   for 10 seconds at the most.  An agent that is refused at Host stays
-%   where it is, which is reported there.
-%
-%   An agent that is faulty obeys as others do, and is faulty still.
-%
-%   @error existence_error(agent, Agent), existence_error(host, Host)
-%   @error timeout_error(order, Agent)
-
-agent_move(Agent, Host) :-
-    host_address(Host, Address),
-    order_give(Agent, move(Address), _).
-
-agent_clone(Agent, Clone) :-
-    order_give(Agent, clone, Clone0),
-    Clone = Clone0.
-
-agent_dispose(Agent) :-
-    order_give(Agent, dispose, _).
-
-payload_attach(Agent, Spec) :-
-    payload_load(Spec, Payload),
-    order_give(Agent, attach(Payload), _).
-
-payload_detach(Agent, Name) :-
-    must_be(atom, Name),
-    order_give(Agent, detach(Name), _).
-
-%!  agent_resume(+Agent) is det.
-%
-%   Let Agent, which is faulty, try again: it goes on with the goal that
-%   failed or raised an error, and is no longer faulty.  It counts on its host
-%   then, even where that is full.
-%
-%   @error permission_error(resume, agent, Agent) if it is not faulty
-%   @error existence_error(agent, Agent)
-%   @error timeout_error(order, Agent)
-
-agent_resume(Agent) :-
-    order_give(Agent, resume, resumed(Stamp, Hops)),
-    agent_resumed_from(Agent, Stamp, Hops).
-
-%!  agent_change(+Agent, +Change) is det.
-%
-%   Change Agent, faulty or not, at its next effect:
-%
-%     - facts(+Clauses): are added to its state
-%     - program(+Spec): is its program from now on, see agent_create/2.  Its
-%       state stays as it is, and so do the goals that it has left: what is
-%       left of a clause is left of the old one.
-%
-%   @error domain_error(agent_change, Change)
-%   @error permission_error(attach, procedure, PI) for a fact of a predicate
-%          of the program, and a program that has one of the state
-%   @error any problem of the program
-%   @error existence_error(agent, Agent)
-%   @error timeout_error(order, Agent)
-
-agent_change(Agent, Change) :-
-    must_be(nonvar, Change),
-    change_order(Change, Order),
-    order_give(Agent, change(Order), _).
-
-%!  order_give(+Agent, +Order, -Result) is det.
-%
-%   @arg Order is move(Host), `dispose`, `clone`, attach(Payload),
-%        detach(Name), `image`, `resume` or change(Change), see typhon_change
-
-order_give(Agent, Order, Result) :-
-    must_be(atom, Agent),
-    (   agent_home(Agent, _),
-        agent_ask(Agent, order(Order), 10, Answer)
-    ->  ordered(Answer, Result)
-    ;   existence_error(agent, Agent)
-    ).
-
-ordered(answer(Result), Result).
-ordered(error(Formal), _) :-
-    throw(error(Formal, _)).
 
                 /*******************************
                 *             TAKE             *
@@ -162,7 +61,7 @@ at_once(dispose).
 %!  order_take(+Id, +Order) is semidet.
 %
 %   Order comes to Id.  Fails if there is no such agent in this process.
-%   Besides those of order_give/3 there is evacuate(Host): it ends who stands
+%   Besides those of typhon_giving there is evacuate(Host): it ends who stands
 %   on Host, of this process, and nobody who has left it meanwhile.
 
 order_take(Id, dispose) :-

@@ -117,21 +117,16 @@ receive(Hash, Program) :-
 %   if that is not known.  Of two files with the same clauses the first one
 %   counts.
 
-code_stands(_, []) :-
+code_stands(Hash, Places) :-
+    ( Places == [] ; stands(Hash, _) ),
     !.
 code_stands(Hash, Places) :-
-    (   stands(Hash, _)
-    ->  true
-    ;   with_mutex(typhon_code, stand(Hash, Places))
-    ).
-
-stand(Hash, Places) :-
-    (   stands(Hash, _)
-    ->  true
-    ;   code_program(Hash, _)
-    ->  assertz(stands(Hash, Places))
-    ;   true                            % is retired already
-    ).
+    with_mutex(typhon_code,
+               (   code_program(Hash, _),
+                   \+ stands(Hash, _)
+               ->  assertz(stands(Hash, Places))
+               ;   true                 % is retired already, or was quicker
+               )).
 
 code_places(Hash, Places) :-
     (   stands(Hash, Places0)

@@ -129,7 +129,8 @@ raising(Frame, Goal, Goals, Outer) :-
 %   Goals are looked up in the module that asks.
 
 outer(Frame, Goal, Outer) :-
-    typhon_machine:prolog_frame_attribute(Frame, parent_goal(Outer), Goal).
+    @(prolog_frame_attribute(Frame, parent_goal(Outer), Goal),
+      typhon_machine).
 
 %   framed(+Frame, +Goals0, -Goals): what of constructs is outside.
 

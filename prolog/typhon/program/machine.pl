@@ -3,8 +3,8 @@
             answer_at/3,                % +Control, +Answer, -Goal
             control/1                   % ?Head
           ]).
-:- use_module(library(lists), [append/3]).
-:- use_module(bodies, [body_goals/4, goals_body/2, plain_goals/2]).
+:- use_module(bodies,
+              [body_goals/4, called_goal/2, goals_body/2, plain_goals/2]).
 :- use_module(faults, [fails/2, fails_inside/2]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
@@ -163,7 +163,7 @@ step(Goal, Goals, X, Base, Out) =>
 
 special(control, Goal, Goals, _, _, effect(Goal, Hole, [Hole|Goals])).
 special(call, Goal, Goals, X, Base, Out) :-
-    (   call_n(Goal, Called)
+    (   called_goal(Goal, Called)
     ->  step(call(Called), Goals, X, Base, Out)
     ;   called(Goal, Goals, X, Base, Out)       % which raises
     ).
@@ -271,21 +271,6 @@ answered(throw(Error), Control, Goals) :-
 raises(Error, Control, Goals) :-
     throw(Error),
     stood(Control, Goals).
-
-%   call/N, N > 1, as the goal it calls.
-
-call_n(Goal, Called) :-
-    Goal =.. [_,Closure|Extra],
-    callable(Closure),
-    extend(Closure, Extra, Called).
-
-extend(Module:Closure, Extra, Module:Called) :-
-    !,
-    extend(Closure, Extra, Called).
-extend(Closure, Extra, Called) :-
-    Closure =.. List0,
-    append(List0, Extra, List),
-    Called =.. List.
 
 %   mobile(+Guard, +Agent): must this static predicate be unfolded?
 

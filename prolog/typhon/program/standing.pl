@@ -4,9 +4,9 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2, min_list/2, nth1/3]).
-:- use_module(bodies, [body_goals/4, goals_body/2, plain_goals/2]).
 :- use_module(code, [code_module/2, code_places/2, code_program/2]).
 :- use_module(places, [place/3]).
+:- use_module(points, [goal_level/3, goals_normal/2, point/3]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> In which clause a goal stands
@@ -36,7 +36,7 @@ fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
     Natives = natives(Raising, References),
     native_places(References, Module, All, Inner0),
     last_called(Inner0, Raising, Goal, All, Inner),
-    level(Goal, Goals, Left),
+    goal_level(Goal, Goals, Left),
     mobile_places(Inner, All, Left, Found),
     append(Inner, Found, Numbers0),
     first_two(Numbers0, Numbers),
@@ -181,7 +181,7 @@ native_place(All, PI-I, [c(N, PI)]) :-
 mobile_places([_,_|_], _, _, Places) =>
     Places = [].
 mobile_places(_, All, Goals0, Places) =>
-    normal(Goals0, Goals),
+    goals_normal(Goals0, Goals),
     findall(Left-c(N, PI), stands(Goals, All, Left, c(N, PI)), Found0),
     likely(Found0, All, Found),
     places_of(Found, All, Places).
@@ -275,86 +275,3 @@ calls(All, General, c(N, Name/Arity)) :-
     nonvar(Call),
     \+ Call \= General,
     functor(Head, Name, Arity).
-
-                /*******************************
-                *        POINTS OF CLAUSES     *
-                *******************************/
-
-%   normal(+Goals0, -Goals): as a clause body is.
-
-normal(Goals0, Goals) :-
-    goals_body(Goals0, Body),
-    body_list(Body, Goals).
-
-body_list(Body, Goals) :-
-    body_goals(Body, _, Goals0, []),
-    plain_goals(Goals0, Goals).
-
-%   point(+Body, -Sequel, -End) is nondet: what the machine still has to do of
-%   Body when it has come to the first goal of Sequel.  End is `open` if what
-%   comes after the body follows, `closed` inside a condition.
-
-point(Body, Sequel, End) :-
-    body_list(Body, Goals),
-    point_in(Goals, [], open, Sequel, End).
-
-%   point_in(+Goals, +After, +End0, -Sequel, -End): After comes after Goals.
-
-point_in(Goals, After0, End0, Sequel, End) :-
-    append(_, [Goal|Goals1], Goals),
-    append(Goals1, After0, After),
-    (   Sequel = [Goal|After],
-        End = End0
-    ;   nonvar(Goal),
-        part(Goal, Part, How),
-        body_list(Part, Goals2),
-        part_point(How, Goals2, After, End0, Sequel, End)
-    ).
-
-part_point(continued, Goals, After, End0, Sequel, End) :-
-    point_in(Goals, After, End0, Sequel, End).
-part_point(apart, Goals, _, _, Sequel, End) :-
-    point_in(Goals, [], closed, Sequel, End).
-
-%   part(+Goal, -Part, -How) is nondet: the machine goes on in Part, with what
-%   comes after Goal, or runs it apart.
-
-part((If->_), If, apart).
-part((_->Then), Then, continued).
-part((If*->_), If, apart).
-part((_*->Then), Then, continued).
-part((Or;_), Part, How) :-
-    part_of_or(Or, Part, How).
-part((_;Else), Else, continued).
-part(call(Goal), Goal, continued).
-part(once(Goal), Goal, apart).
-part(ignore(Goal), Goal, apart).
-part(catch(Goal,_,_), Goal, apart).
-part(catch(_,_,Recovery), Recovery, continued).
-part(\+ Goal, Goal, apart).
-
-part_of_or(Or, Part, How) :-
-    (   nonvar(Or),
-        ( Or = (_->_) ; Or = (_*->_) )
-    ->  part(Or, Part, How)
-    ;   Part = Or,
-        How = continued
-    ).
-
-%   level(+Goal, +Goals, -Left): Left begins with Goal, in Goals or in what is
-%   apart in the first of them.
-
-level(Goal, [First|Goals], Left) :-
-    (   First == Goal
-    ->  Left = [First|Goals]
-    ;   nonvar(First),
-        apart(First, Part),
-        body_list(Part, Left0),
-        level(Goal, Left0, Left)
-    ->  true
-    ;   Left = [First|Goals]
-    ).
-
-apart(Goal, Part) :-
-    part(Goal, Part, apart),
-    !.
