@@ -21,7 +21,6 @@ the same.
 %
 %   Locations are those of the clauses, see typhon_source.
 
-places([], []).
 places([File:Line|Locations], [File-[Line|Lines]|Places]) :-
     !,
     in_file(Locations, File, Lines, Rest),
