@@ -37,13 +37,26 @@ agent_property(Agent, Property) :-
     var(Agent),
     !,
     agent(Agent, _, _, _, _),
-    agent_ask(Agent, properties, 10, answer(Properties)),
-    one_of(Property, Properties).
+    property_of(Agent, Property).
 agent_property(Agent, Property) :-
     must_be(atom, Agent),
     agent_home(Agent, _),
-    agent_ask(Agent, properties, 10, answer(Properties)),
+    property_of(Agent, Property).
+
+property_of(Agent, Property) :-
+    question(Property, Question),
+    agent_ask(Agent, Question, 10, answer(Properties)),
     one_of(Property, Properties).
+
+%   A mailbox may be long: it comes only if it is wanted.
+
+question(Property, Question) :-
+    var(Property),
+    !,
+    member(Question, [properties,mailbox]).
+question(mailbox(_), mailbox) :-
+    !.
+question(_, properties).
 
 %   There is one property of each name: people are not asked for more.
 
@@ -61,6 +74,11 @@ typhon_questions:here(properties, Agent, Asker) :-
     with_agent(Agent, findall(P, property(P, Agent), Properties)),
     Properties \== [],
     question_answered(Asker, answer(Properties)).
+
+typhon_questions:here(mailbox, Agent, Asker) :-
+    with_agent(Agent, ( agent(Agent, _, _, _, _),
+                        mail_list(Agent, Messages) )),
+    question_answered(Asker, answer([mailbox(Messages)])).
 
 property(host(Address), Agent) :-
     agent(Agent, Host, _, _, _),
@@ -94,9 +112,6 @@ property(fault(Shown), Agent) :-
     goal_list(Goals0, Goals),
     is_faulty(Goals, Fault, _),
     fault_shown(Fault, Shown).
-property(mailbox(Messages), Agent) :-
-    agent(Agent, _, _, _, _),
-    mail_list(Agent, Messages).
 property(facts(Facts), Agent) :-
     agent(Agent, _, Module, _, _),
     agent_state(Module, state(_, Clauses)),

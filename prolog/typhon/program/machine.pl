@@ -152,8 +152,10 @@ step(ignore(Goal), Goals, X, Base, Out) =>
     either((Goal->true), true, Goals, X, Base, Out).
 step(catch(Goal, Catcher, Recovery), Goals, X, Base, Out) =>
     guarded(Goal, Catcher, Recovery, Goals, X, Base, Out).
-step('$at'(Control, Answer), Goals, _, _, _) =>
-    answered(Answer, Control, Goals).
+step('$at'(Control, fail), Goals, _, _, _) =>
+    fails(Control, Goals).
+step('$at'(Control, throw(Error)), Goals, _, _, _) =>
+    raises(Error, Control, Goals).
 step(Goal, Goals, X, Base, Out), var(Goal) =>
     called(call(Goal), Goals, X, Base, Out).
 step(Goal, Goals, X, Base, Out), special(Goal, Kind) =>
@@ -262,11 +264,6 @@ proceed(effect(Control, Hole, Sub), _, Goals, Rest-Frame, _, _,
 %   is `fail` or throw(Error).
 
 answer_at(Control, Answer, '$at'(Control, Answer)).
-
-answered(fail, Control, Goals) :-
-    fails(Control, Goals).
-answered(throw(Error), Control, Goals) :-
-    raises(Error, Control, Goals).
 
 raises(Error, Control, Goals) :-
     throw(Error),

@@ -122,6 +122,13 @@ test(resumed_elsewhere, true(G-Os =@= [s(1),receive(_-go)]-
     agent_send(A, go),
     joined(A, O3),
     Os = [O1,O2,O3].
+test(says_in_which_line_wherever_it_is, true(Name:Line == 'far.pl':4)) :-
+    there(beta, B),
+    with_tmp_dir(test_processes:far(B, A)),
+    joined(A, failed),
+    agent_property(A, fault(fault(failed, s(1), File:Line, B))),
+    file_base_name(File, Name).
+
 test(a_faulty_one_comes_home, true(L == 0)) :-
     there(beta, B), address(alpha, H),
     create([r(B), (main :- r(X), move(X), s(1))], A),
@@ -230,6 +237,18 @@ test(orders_to_one_that_goes_round_three_processes, true(O == disposed)) :-
     joined(A, O).
 
 :- end_tests(processes).
+
+%   far(+Address, -Agent, +Dir): created here from a file, it fails there.
+
+far(Address, Agent, Dir) :-
+    directory_file_path(Dir, 'far.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ":- agent(far, [state([s/1])]).~n~n\c
+                     main :- go(~q), move(nowhere).~n\c
+                     go(H) :- move(H), s(1).~n", [Address]),
+        close(Out)),
+    agent_create(File, Agent).
 
 save_and_load(B, Facts, Host, Dir) :-
     directory_file_path(Dir, point, File),
