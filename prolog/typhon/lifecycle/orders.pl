@@ -125,21 +125,21 @@ rests_on(Host, Id, Status) :-
 
 note_order(Id, Order) :-
     agent_status(Id, Status, Goals),
-    (   Status = faulty(_)
-    ->  faulty_stirs(Id)
-    ;   idle(Status),
-        Order = asked(resume, _)
-    ->  not_faulty(Id)
-    ;   true
-    ),
+    may_obey(Status, Order, Id),
     agent_order(Id, Order),
     (   idle(Status)
     ->  agent_ready(Id, Goals)
     ;   true
     ).
 
-not_faulty(Id) :-
+may_obey(faulty(_), _, Id) :-
+    !,
+    faulty_stirs(Id).
+may_obey(Status, asked(resume, _), Id) :-
+    idle(Status),
+    !,
     permission_error(resume, agent, Id).
+may_obey(_, _, _).
 
 idle(faulty(_)).
 idle(sleeping(_)).

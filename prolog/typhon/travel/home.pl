@@ -4,7 +4,7 @@
             home_ended/3,               % +Id, +Outcome, +Hops
             home_faulty/6,              % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops, +Process
-            home_resumed/2,             % +Id, +Stamp
+            home_resumed/3,             % +Id, +Stamp, +Hops
             home_knows/4,               % +Id, -Address, -Hops, -Process
             home_agents/1,              % -Ids
             agent_outcome/2,            % +Id, -Outcome
@@ -38,8 +38,9 @@ its agents what they tell it.
     born/4,                     % Id, Address, Hops, Process: its home is
                                 % here, and it has not ended
     outcome/2,                  % Id, Outcome
-    faulty/3,                   % Id, Outcome, Stamp: it has not ended yet, but
-                                % nobody waits any more
+    faulty/3,                   % Id, Outcome, Age: nobody waits for its end
+                                % any more; Outcome is `none` if it was
+                                % resumed since
     waiter/3.                   % Id, Token, Asker
 
 :- multifile
@@ -132,8 +133,9 @@ ended(Id, _, Hops, []) :-
     !.
 ended(Id, Outcome0, _, Askers) :-
     retractall(born(Id, _, _, _)),
-    (   retract(faulty(Id, Outcome, _)) % as was told
-    ->  true
+    (   retract(faulty(Id, Told, _)),
+        Told \== none
+    ->  Outcome = Told
     ;   Outcome = Outcome0
     ),
     assertz(outcome(Id, Outcome)),
@@ -141,7 +143,7 @@ ended(Id, Outcome0, _, Askers) :-
     waiters(Id, Askers).
 
 %!  home_faulty(+Id, +Outcome, +Stamp, +Address, +Hops, +Process) is det.
-%!  home_resumed(+Id, +Stamp) is det.
+%!  home_resumed(+Id, +Stamp, +Hops) is det.
 %
 %   News of Id: it has come to that Outcome, but is kept at Address, in
 %   Process, after Hops hops; or it goes on after the fault of that Stamp.
@@ -157,15 +159,28 @@ home_faulty(Id, Outcome, Stamp, Address, Hops, Process) :-
 has_fault(Id, Outcome, Stamp, Hops, Askers) :-
     born(Id, _, Hops0, _),
     Hops0 =< Hops,
+    \+ ( faulty(Id, _, Age), Age @>= Hops-Stamp ),
     !,
-    retractall(faulty(Id, _, _)),
-    assertz(faulty(Id, Outcome, Stamp)),
+    put_fault(Id, Outcome, Hops-Stamp),
     waiters(Id, Askers).
 has_fault(_, _, _, _, []).
 
-home_resumed(Id, Stamp) :-
+%   That it was resumed may be heard before that it was faulty: ages tell.
+
+home_resumed(Id, Stamp, Hops) :-
     debug(typhon(agent), '~w: home hears that it is resumed', [Id]),
-    with_mutex(typhon_born, retractall(faulty(Id, _, Stamp))).
+    with_mutex(typhon_born, resumed(Id, Hops-Stamp)).
+
+resumed(Id, Age) :-
+    (   born(Id, _, _, _),
+        \+ ( faulty(Id, _, Age0), Age0 @> Age )
+    ->  put_fault(Id, none, Age)
+    ;   true
+    ).
+
+put_fault(Id, Outcome, Age) :-
+    retractall(faulty(Id, _, _)),
+    assertz(faulty(Id, Outcome, Age)).
 
 %   One by one: see typhon_mailbox.
 
@@ -196,7 +211,8 @@ outcome_wait(Id, Seconds, Asker) :-
 
 wait_or_answer(Id, _, _, Outcome) :-
     (   outcome(Id, Outcome)
-    ;   faulty(Id, Outcome, _)
+    ;   faulty(Id, Outcome, _),
+        Outcome \== none
     ),
     !.
 wait_or_answer(Id, Seconds, Asker, wait) :-

@@ -23,7 +23,7 @@
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, life_hops/2]).
 :- use_module(home,
               [ agent_outcome/2, home_ended/3, home_faulty/6, home_knows/4,
-                home_moved/4, home_resumed/2 ]).
+                home_moved/4, home_resumed/3 ]).
 :- use_module(news, [news_tell/3]).
 
 /** <module> Where agents went
@@ -128,7 +128,7 @@ agent_faulty(Id, Outcome, Stamp, Address, Hops) :-
 agent_resumed(Id, Stamp, Hops) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  home_resumed(Id, Stamp)
+    ->  home_resumed(Id, Stamp, Hops)
     ;   news_tell(Home, Id, resumed(Id, Stamp, Hops))
     ).
 
@@ -140,7 +140,7 @@ agent_resumed(Id, Stamp, Hops) :-
 agent_resumed_from(Id, Stamp, Hops) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  home_resumed(Id, Stamp)
+    ->  home_resumed(Id, Stamp, Hops)
     ;   catch(endpoint_post(Home, whereabouts, [resumed(Id, Stamp, Hops)]),
               error(unreachable(_), _),
               true)                     % and will be told
@@ -164,7 +164,8 @@ news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
     home_faulty(Id, Outcome, Stamp, Address, Hops, Process).
 news(_, resumed(Id, Stamp, Hops)) :-
     must_be(nonneg, Hops),
-    home_resumed(Id, Stamp).
+    must_be(number, Stamp),
+    home_resumed(Id, Stamp, Hops).
 
                 /*******************************
                 *           QUESTIONS          *
