@@ -109,7 +109,8 @@ option_type(population(X), list, X).
 sequence_proceed(sequence(Stage0, Agent, Plan), sequence(Stage, Agent, Plan)) :-
     (   next(Stage0, Agent, Plan, Stage1)
     ->  Stage = Stage1
-    ;   catch(agent_property(Agent, host(_)), error(_, _), fail)
+    ;   catch(agent_property(Agent, state(State)), error(_, _), fail),
+        State \= faulty(_)
     ->  Stage = Stage0
     ;   left(Stage0, Stage)
     ).

@@ -9,6 +9,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/agents,
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
               agent_mobile/2, agent_move/5, agent_order/2, agent_ordered/1,
+              agent_program/4,
               agent_put/3, agent_ready/2, agent_remove/3,
               agent_rest/3, agent_status/3, agent_take/3, with_agent/2
             ]).
@@ -26,6 +27,8 @@ This is the door of the layer: who is above takes what it needs from here.
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
               image_label/2, image_module/3
             ]).
+:- reexport(agent/in_words).
+:- reexport(agent/fault).
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3]).
 :- reexport(agent/mailbox,

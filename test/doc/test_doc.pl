@@ -27,7 +27,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/program/programs),
-              [payload_load/2, program_read/6]).
+              [payload_load/2, program_read/7]).
 
 document(File) :-
     member(Pattern, ['README.md', 'doc/*.md']),
@@ -107,7 +107,7 @@ check_block(_, _).
 check_file(Lines, File) :-
     member(Line, Lines),
     (   string_concat(":- agent(", _, Line)
-    ->  program_read(File, _, _, _, _, _)
+    ->  program_read(File, _, _, _, _, _, _)
     ;   string_concat(":- payload(", _, Line)
     ->  payload_load(File, _)
     ),

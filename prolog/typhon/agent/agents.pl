@@ -6,6 +6,7 @@
             agent_mobile/2,             % +Id, -Until
             agent_move/5,               % +Id, +Host, +Module, +Life, +Until
             agent_put_life/2,           % +Id, +Life
+            agent_program/4,            % +Id, +Hash, +Module, +Life
             agent_put/3,                % +Id, +Status, +Goals
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
@@ -17,8 +18,9 @@
             agent_ordered/1             % +Id
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../host', [schedule/2]).
-:- use_module(mailbox, [mail_all/2, mail_put/2]).
+:- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
 
 /** <module> Agents that stand in this process
 
@@ -47,6 +49,11 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 :- meta_predicate with_agent(+, 0).
 
 :- multifile typhon_code:in_use/1.
+
+%   The name under which people know it.
+
+:- setting(typhon_creation:faulty_mail, nonneg, 1000,
+           "Messages kept for an agent that is faulty").
 
 :- dynamic
     stands/6,                   % Id, Host, Module, Hash, Life, Until
@@ -202,6 +209,18 @@ agent_put_life(Id, Life) :-
     assertz(stands(Id, Host, Module, Hash, Life, Until)),
     forget_first(Id).
 
+%!  agent_program(+Id, +Hash, +Module, +Life) is det.
+%
+%   The agent has the program Hash from now on, with its state in Module; its
+%   other module is no more.
+
+agent_program(Id, Hash, Module, Life) :-
+    stands(Id, Host, Old, _, _, _),
+    !,
+    assertz(stands(Id, Host, Module, Hash, Life, 0)),
+    forget_first(Id),
+    '$destroy_module'(Old).
+
 %   Others always find one.  Not by clause reference: see typhon_erased.
 
 forget_first(Id) :-
@@ -214,14 +233,15 @@ forget_first(Id) :-
 
 %!  agent_mail(+Id, +Messages:list) is semidet.
 %
-%   Put Messages in the mailbox and wake the agent if it waits for one.  An
-%   agent that is faulty takes none.  Fails if there is no such agent.
+%   Put Messages in the mailbox and wake the agent if it waits for one.  The
+%   mailbox of one that is faulty holds so many, and no more.  Fails if there
+%   is no such agent.
 
 agent_mail(Id, Messages) :-
     agent(Id, _, _, _, _),
     !,
     (   status(Id, faulty(_), _)
-    ->  true
+    ->  keep_mail(Messages, Id)
     ;   put_mail(Messages, Id)
     ).
 
@@ -235,6 +255,23 @@ put_mail([Message|Messages], Id) :-
     ;   true
     ),
     put_mail(Messages, Id).
+
+%   Who asks a faulty one again and again is told once.
+
+keep_mail([], _).
+keep_mail([Message|Messages], Id) :-
+    setting(typhon_creation:faulty_mail, Max),
+    mail_count(Id, Count),
+    (   Count < Max
+    ->  debug(typhon(mail), '~w: will get ~p', [Id, Message]),
+        mail_put(Id, Message)
+    ;   debug(typhon(mail), '~w: has no room for ~p', [Id, Message])
+    ),
+    (   Count =:= Max-1
+    ->  print_message(warning, typhon(mailbox_full(Id, Max)))
+    ;   true
+    ),
+    keep_mail(Messages, Id).
 
 wakes(resident, _).
 wakes(waiting(Pattern, _), Message) :-

@@ -3,6 +3,7 @@
             mail_take/2,                % +Id, ?Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
+            mail_count/2,               % +Id, -Count
             mail_back/2                 % +Id, +Messages
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -58,6 +59,14 @@ mail_list(Id, Messages) :-
     ->  fifo_empty(Queue, Messages),
         maplist(thread_send_message(Queue), Messages)
     ;   Messages = []
+    ).
+
+%!  mail_count(+Id, -Count:nonneg) is det.
+
+mail_count(Id, Count) :-
+    (   box(Id, Queue)
+    ->  message_queue_property(Queue, size(Count))
+    ;   Count = 0
     ).
 
 %!  mail_back(+Id, +Messages:list) is det.

@@ -6,6 +6,7 @@
             host_option/2,              % ?Name, ?Option
             host_put/2,                 % +Name, +Option
             host_enter/3,               % +Name, +Tokens, -Answer
+            host_again/1,               % +Name
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
             host_neighbours/2,          % +Name, -Addresses
@@ -218,7 +219,16 @@ take_room(Capacity, Key, Answer) :-
     flag(Key, Load, Load+max(0, min(1, Capacity-Load))),
     ( Load < Capacity -> Answer = ok ; Answer = refused(capacity) ).
 
+%!  host_again(+Name) is det.
 %!  host_leave(+Name) is det.
+%
+%   One who stands on Name counts again, whatever its capacity; or no longer.
+
+host_again(Name) :-
+    (   load_key(Name, Key)
+    ->  flag(Key, Load, Load+1)
+    ;   true                            % stopped meanwhile
+    ).
 
 host_leave(Name) :-
     (   load_key(Name, Key)

@@ -38,7 +38,8 @@
                 tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
-                agent_payload/3, life_hops/2, life_parent/2 ]).
+                agent_handled/3, agent_payload/3, life_hops/2,
+                life_parent/2 ]).
 :- use_module('../travel', [post/3]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
@@ -228,11 +229,16 @@ log(What) :-
 
 %!  message_failed(+From, +Message) is det.
 %
-%   on_message/2 has failed; the agent stays.
+%   on_message/2 has failed; the agent stays.  There may have been a clause
+%   for the message.
 
 message_failed(From, Message) :-
     context_agent(Id),
-    print_message(warning, typhon(message_failed(Id, From, Message))).
+    (   agent_handled(Id, on_message(From, Message), Fault)
+    ->  Told = message_undone(Id, From, Message, Fault)
+    ;   Told = message_failed(Id, From, Message)
+    ),
+    print_message(warning, typhon(Told)).
 
                 /*******************************
                 *            CONTROL           *

@@ -14,8 +14,8 @@
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../program',
-              [ clause_parts/3, code_install/3, code_program/2,
-                code_receive/2, payload_load/2, program_load/5 ]).
+              [ clause_parts/3, code_install/3, code_receive/2, code_sent/2,
+                code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
               [ host/3, host_address/2, host_enter/3, host_leave/1,
@@ -71,7 +71,7 @@ agent_create(Spec, Agent, Options) :-
 
 create_by(Options, Spec, Agent) :-
     target(Options, Target),
-    program_load(Spec, Program, Initial, Hash, Kinds),
+    program_load(Spec, Program, Initial, Hash, Kinds, Places),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
     check_agent_name(Name),
@@ -79,6 +79,7 @@ create_by(Options, Spec, Agent) :-
     mobile_term(State),
     start_goals(Clauses, Initial, Goals),
     code_install(Hash, Program, Kinds),
+    code_stands(Hash, Places),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
 
 typhon_options:declared(agent_option, Option, Type, Value) :-
@@ -163,7 +164,7 @@ create(local(Host), Name, Start, Agent) :-
     begun(Answer, Host, Agent).
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     Start = start(Hash, _, _, _, _),
-    code_program(Hash, Program),
+    code_sent(Hash, Program),
     process_ask(Endpoint, Address, agent,
                 create(HostName, Name, Start, Program), Answer, 10),
     created(Answer, Address, Agent),

@@ -7,6 +7,7 @@
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module('../base/chance',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
+:- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [ alarm_set/3, host_option/2, host_resolve/2, host_time/2,
                 real_time/3, schedule/2 ]).
@@ -16,7 +17,7 @@
                 mail_take/2, with_agent/2 ]).
 :- use_module('../travel', [hop/6, hop_clone/6]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
-:- use_module(ending, [agent_end/2]).
+:- use_module(ending, [agent_end/2, agent_stays/2]).
 
 /** <module> What each control predicate does
 
@@ -83,13 +84,18 @@ effect(receive(Message, Seconds), Hole, Goals, Id-Here, Next) :-
     ;   must_be(number, Seconds),
         host_time(Here, Now),
         Until is Now+Seconds,
-        effect(receive_until(Message, Until), Hole, Goals, Id-Here, Next)
+        effect(receive_until(Message, Until, Seconds), Hole, Goals, Id-Here,
+               Next)
     ).
-effect(receive_until(Message, Until), Hole, Goals, Id-Here, Next) :-
-    receive(Message, Until, receive_until(Message, Until), Hole, Goals,
-            Id-Here, Next).
+effect(receive_until(Message, Until, Seconds), Hole, Goals, Id-Here, Next) :-
+    receive(Message, Until, receive_until(Message, Until, Seconds), Hole,
+            Goals, Id-Here, Next).
+effect(receive_until(Message, Until), Hole, Goals, Where, Next) :-
+    effect(receive_until(Message, Until, 0), Hole, Goals, Where, Next).
 effect(dispose, _, _, Id-_, stop) :-
     ignore(agent_end(Id, disposed)).
+effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
+    agent_stays(Id, Goals).
 
 infinite(Seconds) :- Seconds == inf.
 infinite(Seconds) :- Seconds == infinite.
@@ -111,11 +117,13 @@ receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
 take_or_wait(Message, _, _, true, Goals, Id-_, go(Goals)) :-
     mail_take(Id, Message),
     !.
-take_or_wait(_, Until, _, fail, Goals, _-Here, go(Goals)) :-
+take_or_wait(Message, Until, Again, Hole, Goals, _-Here, go(Goals)) :-
     number(Until),
     host_time(Here, Now),
     Now >= Until,
-    !.
+    !,
+    Again = receive_until(Message, _, Seconds),
+    answer_at(receive(Message, Seconds), fail, Hole).
 take_or_wait(Message, Until, Again, Again, Goals, Id-_, stop) :-
     agent_rest(Id, waiting(Message, Until), Goals).
 
@@ -209,15 +217,20 @@ destination(Host, Dest) :-
 effect_depart(Id, Dest, Hole, Goals, Since, Next) :-
     catch(hop(Id, Dest, Hole, Goals, Since, Next),
           error(Formal, Where),
-          ( cannot_depart(Hole, Id, error(Formal, Where)),
+          ( cannot_depart(Hole, Id, Dest, error(Formal, Where)),
             with_agent(Id, agent_ready(Id, Goals)),
             Next = stop
           )).
 
-cannot_depart(ordered, Id, error(Formal, _)) :-
+cannot_depart(ordered, Id, _, error(Formal, _)) :-
     !,
     print_message(warning, typhon(order_failed(Id, Formal))).
-cannot_depart(throw(Error), _, Error).
+cannot_depart(Hole, _, Dest, Error) :-
+    where_address(Dest, Address),
+    answer_at(move(Address), throw(Error), Hole).
+
+where_address(local(Name), Name).
+where_address(remote(Address, _, _), Address).
 
 %!  effect_order(+Id, +Here, +Host, +Goals) is det.
 %

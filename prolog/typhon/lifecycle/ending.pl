@@ -1,16 +1,17 @@
 :- module(typhon_ending,
           [ agent_end/2,                % +Id, +Outcome
-            agent_end/3                 % +Id, :Test, +Outcome
+            agent_end/3,                % +Id, :Test, +Outcome
+            agent_fails/3,              % +Id, +Outcome, +Goals0
+            agent_stays/2               % +Id, +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [nth1/3]).
-:- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [host_leave/1, host_log/3]).
 :- use_module('../agent',
-              [ agent/5, agent_put/3, agent_remove/3, agent_status/3,
-                life_hops/2, with_agent/2 ]).
+              [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
+                fault_outcome/2, is_faulty/3, life_hops/2, with_agent/2 ]).
 :- use_module('../travel', [agent_ended/3, transfer_given_up/2]).
+:- use_module(faulty,
+              [faulty_gone/1, faulty_keep/3, faulty_oldest/1, faulty_tell/2]).
 
 /** <module> How agents end
 
@@ -20,27 +21,10 @@ with_agent/2, is the one who reports its end.
 
 :- meta_predicate agent_end(+, 1, +).
 
-:- dynamic faulty/1.                    % Id, the oldest first
-
-%   The name under which people know it.
-
-:- setting(typhon_creation:faulty, nonneg, 100,
-           "Faulty agents kept for inspection").
-
 %!  agent_end(+Id, +Outcome) is semidet.
 %
-%   Id ends.  An agent that raised is kept as faulty(Error).
+%   Id ends.
 
-agent_end(Id, raised(Error)) :-
-    !,
-    with_agent(Id, make_faulty(Id, Error, Host, Hops)),
-    debug(typhon(agent), '~w: is faulty, on ~w', [Id, Host]),
-    host_leave(Host),
-    portable(Error, Portable),
-    host_log(Host, Id, faulty(Portable)),
-    print_message(error, typhon(faulty(Id, Error))),
-    agent_ended(Id, raised(Portable), Hops),
-    forget_faulty.
 agent_end(Id, Outcome) :-
     with_agent(Id, remove(Id, Last)),
     removed(Last, Id, Outcome).
@@ -56,7 +40,7 @@ agent_end(Id, Test, Outcome) :-
                    )),
     removed(Last, Id, Outcome).
 
-remove(Id, last(Host, Hops, Status)) :-
+remove(Id, last(Host, Hops, Status, Goals)) :-
     agent(Id, Host, _, _, Life),
     life_hops(Life, Hops),
     once(agent_status(Id, Status, Goals)),
@@ -64,20 +48,21 @@ remove(Id, last(Host, Hops, Status)) :-
     ->  transfer_given_up(Id, Goals)
     ;   true
     ),
+    faulty_gone(Id),
     agent_remove(Id, _, _).
 
-removed(last(_, _, faulty(_)), Id, _) :-
+%   That it has ended badly is known.
+
+removed(last(_, Hops, faulty(_), Goals), Id, _) :-
     !,
-    retractall(faulty(Id)).
-removed(last(Host, Hops, Status), Id, Outcome) :-
+    is_faulty(Goals, Fault, _),
+    fault_outcome(Fault, Outcome),
+    agent_ended(Id, Outcome, Hops).
+removed(last(Host, Hops, Status, _), Id, Outcome) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
     tell_of_doubt(Status, Id),
     host_leave(Host),
     host_log(Host, Id, ended(Outcome)),
-    (   Outcome == failed
-    ->  print_message(warning, typhon(agent_failed(Id)))
-    ;   true
-    ),
     agent_ended(Id, Outcome, Hops).
 
 tell_of_doubt(transit(Address, _), Id) :-
@@ -85,23 +70,61 @@ tell_of_doubt(transit(Address, _), Id) :-
     print_message(warning, typhon(ended_in_doubt(Id, Address))).
 tell_of_doubt(_, _).
 
-make_faulty(Id, Error, Host, Hops) :-
-    agent(Id, Host, _, _, Life),
-    life_hops(Life, Hops),
-    agent_put(Id, faulty(Error), []),
-    assertz(faulty(Id)).
+                /*******************************
+                *           BAD ENDS           *
+                *******************************/
 
-portable(Error, Portable) :-
-    catch(( mobile_term(Error), Portable = Error ),
-          error(_, _),
-          term_to_atom(Error, Portable)).
+%!  agent_fails(+Id, +Outcome, +Goals0) is det.
+%
+%   Id has done Goals0 with that Outcome, `failed` or raised(Error): it is
+%   told, and kept as it was.
 
-%   The oldest faulty agents go when there are too many.
+agent_fails(Id, Outcome, Goals0) :-
+    (   agent_fault(Id, Outcome, Goals0, Fault, Left)
+    ->  report(Id, Fault),
+        is_faulty(Goals, Fault, Left),
+        agent_stays(Id, Goals)
+    ;   true                            % it was ended meanwhile
+    ).
 
-forget_faulty :-
-    setting(typhon_creation:faulty, Max),
-    findall(Id, faulty(Id), Ids),
-    length(Ids, Count),
-    Excess is Count-Max,
-    forall(( nth1(N, Ids, Oldest), N =< Excess ),
-           ignore(agent_end(Oldest, disposed))).
+report(Id, Fault) :-
+    agent(Id, Host, _, _, _),
+    !,
+    debug(typhon(agent), '~w: is faulty, on ~w', [Id, Host]),
+    fault_outcome(Fault, Outcome),
+    log_fault(Outcome, Host, Id),
+    print_fault(Outcome, Id, Fault).
+report(_, _).
+
+log_fault(failed, Host, Id) :-
+    host_log(Host, Id, ended(failed)).
+log_fault(raised(Error), Host, Id) :-
+    host_log(Host, Id, faulty(Error)).
+
+print_fault(failed, Id, Fault) :-
+    print_message(warning, typhon(agent_failed(Id, Fault))).
+print_fault(raised(Error), Id, Fault) :-
+    print_message(error, typhon(faulty(Id, Error, Fault))).
+
+%!  agent_stays(+Id, +Goals) is det.
+%
+%   Id is faulty, as its Goals say.  Of too many the oldest go.
+
+agent_stays(Id, Goals) :-
+    is_faulty(Goals, Fault, _),
+    (   with_agent(Id, faulty_keep(Id, Goals, Kept))
+    ->  faulty_tell(Id, Fault),
+        bound_faulty(Kept)
+    ;   true                            % it was ended meanwhile
+    ).
+
+bound_faulty(Kept) :-
+    (   Kept == true,
+        faulty_oldest(Oldest)
+    ->  faulty_gone(Oldest),
+        ignore(agent_end(Oldest, is_kept, disposed)),
+        bound_faulty(Kept)
+    ;   true
+    ).
+
+is_kept(faulty(_)).

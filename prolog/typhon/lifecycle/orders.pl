@@ -1,40 +1,35 @@
 :- module(typhon_orders,
-          [ agent_move/2,               % +Agent, +Host
-            agent_clone/2,              % +Agent, -Clone
-            agent_dispose/1,            % +Agent
-            payload_attach/2,           % +Agent, +Payload
-            payload_detach/2,           % +Agent, +Name
-            order_give/3,               % +Agent, +Order, -Result
-            order_take/2,               % +Id, +Order
+          [ order_take/2,               % +Id, +Order
             order_obey/3                % +Order, +Id, +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [ domain_error/2, existence_error/2, must_be/2,
-                permission_error/3 ]).
-:- use_module('../base/afresh', [raising_afresh/1]).
-:- use_module('../program', [code_program/2, payload_load/2]).
+              [domain_error/2, permission_error/3]).
+:- use_module('../program', [code_sent/2]).
 :- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [alarm_in/3, host_address/2, scheduler_call/1]).
+:- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent',
-              [ agent/5, agent_attach/2, agent_detach/2, agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
-                agent_status/3, mail_list/2, with_agent/2 ]).
-:- use_module('../travel', [out_of_touch/1]).
+              [ agent/5, agent_attach/2, agent_detach/2,
+                agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
+                agent_status/3, fault_stamp/2, is_faulty/3, life_hops/2,
+                mail_list/2, with_agent/2 ]).
+:- use_module('../travel',
+              [agent_resumed/3, out_of_touch/1]).
+:- use_module(change, [change_made/2]).
 :- use_module(creation, [agent_clone_here/3]).
 :- use_module(effect, [effect_order/4]).
-:- use_module(ending, [agent_end/2, agent_end/3]).
-:- use_module(named, [agent_named/2]).
+:- use_module(ending, [agent_end/2, agent_end/3, agent_stays/2]).
+:- use_module(faulty, [faulty_stirs/1]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
-/** <module> Orders from outside
+/** <module> Orders are taken and obeyed
 
-An order is put as a question, see typhon_questions, so that it finds the
-agent, and noted in its record.  The agent takes it at its next effect.  Who
-waits for what comes of it is noted with it: asked(Order, Asker).
+An order that has found its agent, see typhon_giving, is noted in its record.
+The agent takes it at its next effect.  Who waits for what comes of it is
+noted with it: asked(Order, Asker).
 
-*Threading*: any thread gives orders; they are taken in any thread, in the
-reader threads if they come from another process, and obeyed by the worker
-that has the agent.
+*Threading*: orders are taken in any thread, in the reader threads if they
+come from another process, and obeyed by the worker that has the agent.
 */
 
 :- multifile
@@ -42,60 +37,6 @@ that has the agent.
     typhon_scheduler:over/2,
     typhon_questions:here/3,
     typhon_transfer:forward_order/2.
-
-                /*******************************
-                *             GIVE             *
-                *******************************/
-
-%!  agent_move(+Agent, +Host) is det.
-%!  agent_clone(+Agent, -Clone) is det.
-%!  agent_dispose(+Agent) is det.
-%!  payload_attach(+Agent, +Payload) is det.
-%!  payload_detach(+Agent, +Name) is det.
-%
-%   Orders from outside.  An agent that runs takes them at its next effect.
-%   agent_move/2 and agent_dispose/1 do not wait for that, the others do,
-%   for 10 seconds at the most.  An agent that is refused at Host stays
-%   where it is, which is reported there.
-%
-%   @error existence_error(agent, Agent), existence_error(host, Host),
-%   ambiguous_agent(Agent, Ids) if Agent is a name that several have
-%   @error timeout_error(order, Agent)
-
-agent_move(Agent, Host) :-
-    host_address(Host, Address),
-    order_give(Agent, move(Address), _).
-
-agent_clone(Agent, Clone) :-
-    order_give(Agent, clone, Clone0),
-    Clone = Clone0.
-
-agent_dispose(Agent) :-
-    order_give(Agent, dispose, _).
-
-payload_attach(Agent, Spec) :-
-    raising_afresh(payload_load(Spec, Payload)),
-    order_give(Agent, attach(Payload), _).
-
-payload_detach(Agent, Name) :-
-    must_be(atom, Name),
-    order_give(Agent, detach(Name), _).
-
-%!  order_give(+Agent, +Order, -Result) is det.
-%
-%   @arg Order is move(Host), `dispose`, `clone`, attach(Payload),
-%        detach(Name) or `image`
-
-order_give(Agent, Order, Result) :-
-    agent_named(Agent, Id),
-    (   agent_ask(Id, order(Order), 10, Answer)
-    ->  ordered(Answer, Result)
-    ;   existence_error(agent, Agent)
-    ).
-
-ordered(answer(Result), Result).
-ordered(error(Formal), _) :-
-    throw(error(Formal, _)).
 
                 /*******************************
                 *             TAKE             *
@@ -120,7 +61,7 @@ at_once(dispose).
 %!  order_take(+Id, +Order) is semidet.
 %
 %   Order comes to Id.  Fails if there is no such agent in this process.
-%   Besides those of order_give/3 there is evacuate(Host): it ends who stands
+%   Besides those of typhon_giving there is evacuate(Host): it ends who stands
 %   on Host, of this process, and nobody who has left it meanwhile.
 
 order_take(Id, dispose) :-
@@ -184,19 +125,23 @@ rests_on(Host, Id, Status) :-
 
 note_order(Id, Order) :-
     agent_status(Id, Status, Goals),
-    not_faulty(Status, Id),
+    may_obey(Status, Order, Id),
     agent_order(Id, Order),
     (   idle(Status)
     ->  agent_ready(Id, Goals)
     ;   true
     ).
 
-not_faulty(Status, Id) :-
-    (   Status = faulty(_)
-    ->  permission_error(order, faulty_agent, Id)
-    ;   true
-    ).
+may_obey(faulty(_), _, Id) :-
+    !,
+    faulty_stirs(Id).
+may_obey(Status, asked(resume, _), Id) :-
+    idle(Status),
+    !,
+    permission_error(resume, agent, Id).
+may_obey(_, _, _).
 
+idle(faulty(_)).
 idle(sleeping(_)).
 idle(waiting(_, _)).
 idle(resident).
@@ -248,6 +193,17 @@ obey(move(Host), Id, Goals) :-
           ( failed(Id, Formal),
             go_on(Id, Goals)
           )).
+obey(asked(resume, Asker), Id, Goals) :-
+    (   is_faulty(Goals, Fault, Left),
+        agent(Id, _, _, _, Life)
+    ->  fault_stamp(Fault, Stamp),
+        life_hops(Life, Hops),
+        agent_resumed(Id, Stamp, Hops),
+        answered(Asker, answer(resumed(Stamp, Hops))),
+        go_on(Id, Left)
+    ;   answered(Asker, error(permission_error(resume, agent, Id))),
+        go_on(Id, Goals)
+    ).
 obey(asked(Order, Asker), Id, Goals) :-
     catch((   carried_out(Order, Id, Result)
           ->  Answer = answer(Result)
@@ -266,7 +222,10 @@ answered(Asker, Answer) :-
           question_answered(Asker, error(Formal))).
 
 go_on(Id, Goals) :-
-    with_agent(Id, agent_ready(Id, Goals)).
+    (   is_faulty(Goals, _, _)
+    ->  agent_stays(Id, Goals)
+    ;   with_agent(Id, agent_ready(Id, Goals))
+    ).
 
 failed(Id, Formal) :-
     print_message(warning, typhon(order_failed(Id, Formal))).
@@ -278,11 +237,13 @@ carried_out(detach(Name), Agent, ok) :-
 carried_out(clone, Agent, CloneId) :-
     agent_status(Agent, _, Goals),
     agent_clone_here(Agent, Goals, CloneId).
+carried_out(change(Change), Agent, ok) :-
+    change_made(Change, Agent).
 carried_out(image, Agent,
             image(Name, Program, Life, State, Goals, Mail)) :-
     agent(Agent, _, Module, Hash, Life),
     agent_status(Agent, _, Goals),
-    code_program(Hash, Program),
+    code_sent(Hash, Program),
     agent_name(Agent, Name, _),
     agent_state(Module, State),
     mail_list(Agent, Mail),

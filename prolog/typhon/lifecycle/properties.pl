@@ -8,7 +8,8 @@
 :- use_module('../host', [host/3]).
 :- use_module('../agent',
               [ agent/5, agent_home/2, agent_state/2, agent_status/3,
-                life_hops/2, life_payloads/2, with_agent/2 ]).
+                fault_error/2, fault_shown/2, in_words/2, is_faulty/3,
+                life_hops/2, life_payloads/2, mail_list/2, with_agent/2 ]).
 :- use_module('../travel', [in_doubt/1, transfer_held/2]).
 :- use_module(named, [agent_named/2]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
@@ -25,10 +26,15 @@
 %!  agent_property(?Agent, ?Property) is nondet.
 %
 %   Property is host(Address), program(Name), state(State), hops(N),
-%   home(Address), goals(List), facts(Clauses) or payloads(Names).  State
-%   is `running`, `sleeping`, `waiting`, `resident`, `in_transit`,
-%   `in_doubt` or faulty(Error).  If Agent is unbound, the agents of this
-%   process are enumerated.
+%   home(Address), goals(List), facts(Clauses), payloads(Names),
+%   mailbox(Messages) or fault(Fault).  State is `running`, `sleeping`,
+%   `waiting`, `resident`, `in_transit`, `in_doubt` or faulty(Error), Error
+%   being `failed` if it has failed.  Then, and only then, there is a fault:
+%   fault(Error, Goal, Place, Host), the goal that failed or raised the error,
+%   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
+%   predicate, or `unknown`, and on which host it was.  What cannot travel
+%   stands in goals and messages in words.  If Agent is unbound, the agents
+%   of this process are enumerated.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
 %   is a name; of an id that is no more this fails
@@ -41,13 +47,25 @@ agent_property(Agent, Property) :-
     ;   true
     ),
     agent_named(Agent, Id),
-    agent_ask(Id, properties, 10, answer(Properties)),
+    question(Property, Question),
+    agent_ask(Id, Question, 10, answer(Properties)),
     one_of(Property, Properties).
 
 %   Those there are follow from the clauses.
 
+typhon_names:known(agent_property, mailbox(_)).
 typhon_names:known(agent_property, Property) :-
     clause(property(Property, _), _).
+
+%   A mailbox may be long: it comes only if it is wanted.
+
+question(Property, Question) :-
+    var(Property),
+    !,
+    member(Question, [properties,mailbox]).
+question(mailbox(_), mailbox) :-
+    !.
+question(_, properties).
 
 %   There is one property of each name: people are not asked for more.
 
@@ -66,6 +84,11 @@ typhon_questions:here(properties, Agent, Asker) :-
     Properties \== [],
     question_answered(Asker, answer(Properties)).
 
+typhon_questions:here(mailbox, Agent, Asker) :-
+    with_agent(Agent, ( agent(Agent, _, _, _, _),
+                        mail_list(Agent, Messages) )),
+    question_answered(Asker, answer([mailbox(Messages)])).
+
 property(host(Address), Agent) :-
     agent(Agent, Host, _, _, _),
     host(Host, Address, _).
@@ -73,8 +96,13 @@ property(program(Name), Agent) :-
     agent(Agent, _, _, Hash, _),
     code_program(Hash, program(Name, _, _, _)).
 property(state(State), Agent) :-
-    agent_status(Agent, Status, _),
-    shown(Status, State).
+    agent_status(Agent, Status, Goals0),
+    (   goal_list(Goals0, Goals),
+        is_faulty(Goals, Fault, _)
+    ->  fault_error(Fault, Error),
+        State = faulty(Error)
+    ;   shown(Status, State)
+    ).
 property(hops(Hops), Agent) :-
     agent(Agent, _, _, _, Life),
     life_hops(Life, Hops).
@@ -83,7 +111,16 @@ property(home(Home), Agent) :-
     agent_home(Agent, Home).
 property(goals(Goals), Agent) :-
     agent_status(Agent, _, Goals0),
-    goal_list(Goals0, Goals).
+    goal_list(Goals0, Goals1),
+    (   is_faulty(Goals1, _, Left)
+    ->  in_words(Left, Goals)
+    ;   Goals = Goals1
+    ).
+property(fault(Shown), Agent) :-
+    agent_status(Agent, _, Goals0),
+    goal_list(Goals0, Goals),
+    is_faulty(Goals, Fault, _),
+    fault_shown(Fault, Shown).
 property(facts(Facts), Agent) :-
     agent(Agent, _, Module, _, _),
     agent_state(Module, state(_, Clauses)),

@@ -5,10 +5,10 @@
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
-:- use_module('../program', [code_install/2, program_hash/2]).
+:- use_module('../program', [code_receive/2, program_hash/2]).
 :- use_module('../agent', [is_life/1]).
 :- use_module(creation, [agent_create_here/3]).
-:- use_module(orders, [order_give/3]).
+:- use_module(giving, [order_give/3]).
 
 /** <module> Restore points: agents as text
 
@@ -34,9 +34,10 @@ agent_save(Agent, File) :-
 
 agent_load(File, Agent) :-
     raising_afresh(read_image(File, Image)),
-    Image = image(Name, Program, Life, State, Goals, Mail),
+    Image = image(Name, Sent, Life, State, Goals, Mail),
+    program_places(Sent, Program, _),
     program_hash(Program, Hash),
-    code_install(Hash, Program),
+    code_receive(Hash, Sent),
     agent_create_here(Name, start(Hash, Life, State, Goals, Mail), Agent).
 
                 /*******************************
@@ -46,7 +47,7 @@ agent_load(File, Agent) :-
 format_version(1).
 
 %   write_image(+File, +Image), read_image(+File, -Image): Image is
-%   image(Name, Program, Life, State, Goals, Mail).
+%   image(Name, Sent, Life, State, Goals, Mail), Sent as of code_sent/2.
 
 write_image(File, Image) :-
     setup_call_cleanup(
@@ -63,10 +64,14 @@ write_line(Out, Line) :-
 line(_, restore_point(Version)) :-
     format_version(Version).
 line(image(Name, _, Life, _, _, _), agent(Name, Life)).
-line(image(_, program(Name, State, Libraries, _), _, _, _, _),
-     program(Name, State, Libraries)).
-line(image(_, program(_, _, _, Clauses), _, _, _, _), clause(Clause)) :-
+line(image(_, Sent, _, _, _, _), program(Name, State, Libraries)) :-
+    program_places(Sent, program(Name, State, Libraries, _), _).
+line(image(_, Sent, _, _, _, _), clause(Clause)) :-
+    program_places(Sent, program(_, _, _, Clauses), _),
     member(Clause, Clauses).
+line(image(_, Sent, _, _, _, _), places(Places)) :-
+    program_places(Sent, _, Places),
+    Places \== [].
 line(image(_, _, _, state(PIs, _), _, _), dynamic(PIs)).
 line(image(_, _, _, state(_, Clauses), _, _), state(Clause)) :-
     member(Clause, Clauses).
@@ -74,7 +79,15 @@ line(image(_, _, _, _, Goals, _), goals(Goals)).
 line(image(_, _, _, _, _, Mail), mail(Message)) :-
     member(Message, Mail).
 
-read_image(File, image(Name, program(Program, PIs, Libraries, Clauses),
+program_places(Sent, Program, Places) :-
+    (   Sent = Program0-Places0
+    ->  Program = Program0,
+        Places = Places0
+    ;   Program = Sent,
+        Places = []
+    ).
+
+read_image(File, image(Name, program(Program, PIs, Libraries, Clauses)-Places,
                        Life, state(Dynamic, State), Goals, Mail)) :-
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
@@ -87,7 +100,8 @@ read_image(File, image(Name, program(Program, PIs, Libraries, Clauses),
         memberchk(program(Program, PIs, Libraries), Lines),
         memberchk(goals(Goals), Lines),
         memberchk(dynamic(Dynamic), Lines)
-    ->  findall(C, member(clause(C), Lines), Clauses),
+    ->  ( memberchk(places(Places), Lines) -> true ; Places = [] ),
+        findall(C, member(clause(C), Lines), Clauses),
         findall(C, member(state(C), Lines), State),
         findall(M, member(mail(M), Lines), Mail)
     ;   domain_error(restore_point, File)

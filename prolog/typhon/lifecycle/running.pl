@@ -1,12 +1,12 @@
 :- module(typhon_running, []).
-:- use_module('../program', [code_module/2, machine_run/3]).
+:- use_module('../program', [answer_at/3, code_module/2, machine_run/3]).
 :- use_module('../host', [context_clear/0, context_set/3]).
 :- use_module('../agent',
               [ agent/5, agent_departs/3, agent_handles/2, agent_ordered/1,
                 agent_ready/2, agent_rest/3, agent_take/3, mail_take/2,
                 with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
-:- use_module(ending, [agent_end/2]).
+:- use_module(ending, [agent_end/2, agent_fails/3]).
 :- use_module(orders, [order_obey/3]).
 
 /** <module> The life of an agent on a host
@@ -68,34 +68,35 @@ left(Catcher, Id) :-
 
 live(Goals0, Id, Host, Context, Next) :-
     machine_run(Context, Goals0, Outcome),
-    conclude(Outcome, Id, Host, Context, Next0),
+    conclude(Outcome, Goals0, Id, Host, Context, Next0),
     (   Next0 = go(Goals)
     ->  live(Goals, Id, Host, Context, Next)
     ;   Next = Next0
     ).
 
-%   conclude(+Outcome, +Id, +Host, +Context, -Next): Next as of effect/5.
+%   conclude(+Outcome, +Goals0, +Id, +Host, +Context, -Next): Goals0 were run,
+%   Next as of effect/5.
 
-conclude(done, Id, _, Context, Next) :-
+conclude(done, _, Id, _, Context, Next) :-
     finish(Id, Context, Next).
-conclude(failed, Id, _, _, stop) :-
-    ignore(agent_end(Id, failed)).
-conclude(raised(Error), Id, _, _, stop) :-
-    ignore(agent_end(Id, raised(Error))).
-conclude(effect(Control, Hole, Goals), Id, Host, _, Next) :-
+conclude(failed, Goals0, Id, _, _, stop) :-
+    agent_fails(Id, failed, Goals0).
+conclude(raised(Error), Goals0, Id, _, _, stop) :-
+    agent_fails(Id, raised(Error), Goals0).
+conclude(effect(Control, Hole, Goals), _, Id, Host, _, Next) :-
     (   agent_ordered(Id)
     ->  Hole = Control,
         with_agent(Id, agent_ready(Id, Goals)),
         Next = stop
     ;   catch(effect(Control, Hole, Goals, Id-Host, Next),
               error(Formal, Where),
-              ( Hole = throw(error(Formal, Where)),
+              ( answer_at(Control, throw(error(Formal, Where)), Hole),
                 Next = go(Goals)
               ))
     ).
 
-%   No goals are left: take the next message, or stay resident, or end.  A
-%   message that on_message/2 does not want is no reason to end.
+%   No goals are left: take the next message, or stay resident, or end.  That
+%   on_message/2 does not want a message, or fails, is no reason to end.
 
 finish(Id, context(Program, Module), Next) :-
     agent_handles(Program, Module),

@@ -148,11 +148,6 @@ program_path(Path, Name) :-
                 *            REPORTS           *
                 *******************************/
 
-prolog:message(typhon(faulty(Agent, Error))) -->
-    [ 'Agent ~w raised an error, and is kept as it was:'-[Agent], nl ],
-    explained(Error).
-prolog:message(typhon(agent_failed(Agent))) -->
-    [ 'Agent ~w has failed'-[Agent] ].
 prolog:message(typhon(ended_in_doubt(Agent, Address))) -->
     [ 'Agent ~w has ended here while in doubt: if it has arrived at ~w, '-
       [Agent, Address],

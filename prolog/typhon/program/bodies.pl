@@ -1,8 +1,10 @@
 :- module(typhon_bodies,
           [ body_goals/4,               % +Body, ?Barrier, -Goals, ?Rest
             plain_goals/2,              % +Goals0, -Goals
-            goals_body/2                % +Goals, -Body
+            goals_body/2,               % +Goals, -Body
+            called_goal/2               % +Goal, -Called
           ]).
+:- use_module(library(lists), [append/3]).
 
 /** <module> Clause bodies as lists of goals, and back
 
@@ -97,3 +99,21 @@ goals_body([Goal|Goals], Body) :-
     ;   Body = (Goal,Rest),
         goals_body(Goals, Rest)
     ).
+
+%!  called_goal(+Goal, -Called) is semidet.
+%
+%   Called is what Goal, call/N with N > 1, calls.  Fails if nothing can be
+%   called so.
+
+called_goal(Goal, Called) :-
+    Goal =.. [_,Closure|Extra],
+    callable(Closure),
+    extend(Closure, Extra, Called).
+
+extend(Module:Closure, Extra, Module:Called) :-
+    !,
+    extend(Closure, Extra, Called).
+extend(Closure, Extra, Called) :-
+    Closure =.. List0,
+    append(List0, Extra, List),
+    Called =.. List.

@@ -9,7 +9,7 @@
 :- use_module(parts, [file_parts/4, library_directive/2, part/3]).
 :- use_module(programs,
               [ in_file_order/3, payload_terms/3, program_doubts/3,
-                program_terms/5 ]).
+                program_terms/6 ]).
 :- use_module(slips, [apart_problem/3]).
 :- use_module(choices, [lost_choice/3]).
 :- use_module(source, [declaration/4, source_terms/5]).
@@ -57,7 +57,7 @@ looked_at([], Located, Errors, Warnings, Undefined) :-
     (   is_payload(Located)
     ->  payload_problems(Located, Errors, Warnings),
         Undefined = []
-    ;   program_terms(Located, _, _, Kinds, Errors),
+    ;   program_terms(Located, _, _, Kinds, _, Errors),
         program_doubts(Located, Kinds, Warnings),
         findall(P, undefined(Located, Warnings, P), Undefined0),
         sort(Undefined0, Undefined)

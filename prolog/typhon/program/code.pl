@@ -1,9 +1,12 @@
 :- module(typhon_code,
           [ code_install/2,             % +Hash, +Program
             code_install/3,             % +Hash, +Program, +Kinds
-            code_receive/2,             % +Hash, +Program
+            code_receive/2,             % +Hash, +Sent
             code_module/2,              % ?Hash, -Module
             code_program/2,             % ?Hash, -Program
+            code_sent/2,                % +Hash, -Sent
+            code_stands/2,              % +Hash, +Places
+            code_places/2,              % +Hash, -Places
             code_clear/0
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -14,6 +17,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(bodies, [body_goals/4]).
 :- use_module(mobile, [mobile_predicates/3]).
+:- use_module(places, [is_places/1]).
 :- use_module(programs, [program_hash/2]).
 :- use_module(source, [clause_parts/3]).
 
@@ -40,7 +44,8 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 
 :- dynamic
     code_module/2,              % Hash, Module
-    code_program/2,             % Hash, Program: as it is sent
+    code_program/2,             % Hash, Program
+    stands/2,                   % Hash, Places: where that is known
     retired/2.                  % Hash, Module: goes at the next eviction
 
 %!  code_install(+Hash, +Program) is det.
@@ -69,13 +74,32 @@ program_kinds(program(_, _, _, Clauses), Kinds) :-
 rule_at_no_place(Clause, (Head:-Body)-none) :-
     clause_parts(Clause, Head, Body).
 
-%!  code_receive(+Hash, +Program) is det.
+%!  code_sent(+Hash, -Sent) is semidet.
+%!  code_receive(+Hash, +Sent) is det.
 %
-%   As code_install/2, for a program that somebody else says has this Hash.
+%   Sent is what others need to have the program: the program, or
+%   Program-Places.  The second is as code_install/2, for what somebody else
+%   says has this Hash.
 %
 %   @error domain_error(program_of_hash(Hash), Program)
 
-code_receive(Hash, Program) :-
+code_sent(Hash, Sent) :-
+    code_program(Hash, Program),
+    (   stands(Hash, Places)
+    ->  Sent = Program-Places
+    ;   Sent = Program
+    ).
+
+code_receive(Hash, Sent) :-
+    (   subsumes_term(_-_, Sent),
+        Sent = Program-Places,
+        is_places(Places)
+    ->  receive(Hash, Program),
+        code_stands(Hash, Places)
+    ;   receive(Hash, Sent)
+    ).
+
+receive(Hash, Program) :-
     (   code_module(Hash, _)
     ->  true
     ;   subsumes_term(program(_, _, _, _), Program),
@@ -84,6 +108,30 @@ code_receive(Hash, Program) :-
         program_hash(Program, Hash)
     ->  code_install(Hash, Program)
     ;   domain_error(program_of_hash(Hash), Program)
+    ).
+
+%!  code_stands(+Hash, +Places) is det.
+%!  code_places(+Hash, -Places) is det.
+%
+%   Places say where the clauses of the program stand, see typhon_places; []
+%   if that is not known.  Of two files with the same clauses the first one
+%   counts.
+
+code_stands(Hash, Places) :-
+    ( Places == [] ; stands(Hash, _) ),
+    !.
+code_stands(Hash, Places) :-
+    with_mutex(typhon_code,
+               (   code_program(Hash, _),
+                   \+ stands(Hash, _)
+               ->  assertz(stands(Hash, Places))
+               ;   true                 % is retired already, or was quicker
+               )).
+
+code_places(Hash, Places) :-
+    (   stands(Hash, Places0)
+    ->  Places = Places0
+    ;   Places = []
     ).
 
 %!  code_module(?Hash, -Module) is semidet.
@@ -139,6 +187,7 @@ evict.
 retire(Hash) :-
     retract(code_module(Hash, Module)),
     retractall(code_program(Hash, _)),
+    retractall(stands(Hash, _)),
     assertz(retired(Hash, Module)),
     debug(typhon(program), 'program ~w is retired', [Hash]).
 

@@ -1,13 +1,15 @@
 :- module(typhon_loaded,
-          [ program_load/5              % +Spec, -Program, -Initial, -Hash,
+          [ program_load/5,             % +Spec, -Program, -Initial, -Hash,
                                         % -Kinds
+            program_load/6              % +Spec, -Program, -Initial, -Hash,
+                                        % -Kinds, -Places
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(paths, [program_file/2]).
 :- use_module(advice, [problem_error/3]).
-:- use_module(programs, [program_hash/2, program_read/6]).
+:- use_module(programs, [program_hash/2, program_read/7]).
 :- use_module(source, [source_same/1, source_settled/1]).
 
 /** <module> Programs that were read lately
@@ -29,12 +31,16 @@ printed when it is read, and not again while it is the same.
     warned/2.                   % File, Sources: its warnings were printed
 
 %!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds) is det.
+%!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds, -Places) is det.
 %
-%   As program_read/6, with the hash of Program.  Warnings about a file are
+%   As program_read/7, with the hash of Program.  Warnings about a file are
 %   printed.
 
 program_load(Spec, Program, Initial, Hash, Kinds) :-
-    load(Spec, loaded(Program, Initial, Hash, Kinds)).
+    program_load(Spec, Program, Initial, Hash, Kinds, _).
+
+program_load(Spec, Program, Initial, Hash, Kinds, Places) :-
+    load(Spec, loaded(Program, Initial, Hash, Kinds, Places)).
 
 load(Spec, Loaded) :-
     in_file(Spec),
@@ -66,9 +72,9 @@ load(Key, Spec, Loaded) :-
     ;   true
     ).
 
-read_program(Spec, loaded(Program, Initial, Hash, Kinds), Sources,
+read_program(Spec, loaded(Program, Initial, Hash, Kinds, Places), Sources,
              Warnings) :-
-    program_read(Spec, Program, Initial, Kinds, Sources, Warnings),
+    program_read(Spec, Program, Initial, Kinds, Places, Sources, Warnings),
     program_hash(Program, Hash).
 
 remember(Key, Sources, Loaded) :-

@@ -1,9 +1,11 @@
 :- module(typhon_machine,
           [ machine_run/3,              % +Context, +Goals, -Outcome
+            answer_at/3,                % +Control, +Answer, -Goal
             control/1                   % ?Head
           ]).
-:- use_module(library(lists), [append/3]).
-:- use_module(bodies, [body_goals/4, goals_body/2, plain_goals/2]).
+:- use_module(bodies,
+              [body_goals/4, called_goal/2, goals_body/2, plain_goals/2]).
+:- use_module(faults, [fails/2, fails_inside/2]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
 
@@ -47,7 +49,9 @@ special(receive(_), control).
 special(receive(_, _), control).
 special(dispose, control).
 special(sleep_until(_), control).
-special(receive_until(_, _), control).
+special(receive_until(_, _, _), control).
+special(receive_until(_, _), control).  % in old restore points
+special('$fault'(_), control).          % stays as it was: see typhon_faulty
 special(Goal, call) :-                  % with more than one argument
     compound(Goal),
     compound_name_arity(Goal, call, _).
@@ -63,15 +67,23 @@ special(Goal, call) :-                  % with more than one argument
 %        predicate reached and Goals what is left to run.  Goals contains
 %        the variable Hole where Control stood.
 
-machine_run(Context, Goals, Outcome) :-
-    catch(first_outcome(Goals, Context, Outcome), Ball,
-          raised(Ball, Outcome)).
+%
+%   What was the matter if it failed or raised is noted, see typhon_faults,
+%   which knows the frames of machine_run/3, first_outcome/3, inside/5,
+%   called/5 and raises/3.
 
-raised(Ball, _) :-
-    unwinding(Ball),
-    !,
-    throw(Ball).
-raised(Ball, raised(Ball)).
+machine_run(Context, Goals, Outcome) :-
+    catch(first_outcome(Goals, Context, Outcome), Ball, Raised = true),
+    (   Raised == true
+    ->  raised(Ball, Outcome)
+    ;   true
+    ).
+
+raised(Ball, Outcome) :-
+    (   unwinding(Ball)
+    ->  throw(Ball)
+    ;   Outcome = raised(Ball)
+    ).
 
 first_outcome(Goals, Context, Outcome) :-
     sub_run(Goals, Context, Out),
@@ -124,11 +136,12 @@ step((Or;Else), Goals, X, Base, Out) =>
 step((If->Then), Goals, X, Base, Out) =>
     either((If->Then), fail, Goals, X, Base, Out).
 step((If*->Then), Goals, X, Base, Out) =>
-    sub_run([If], X, Out0),
-    proceed(Out0, Then, Goals, Sub-(Sub*->Then), X, Base, Out).
+    either((If*->Then), fail, Goals, X, Base, Out).
 step(\+ Goal, Goals, X, Base, Out) =>
-    \+ native(Goal, X),
-    run(Goals, X, Base, Out).
+    (   \+ native(Goal, Goals, X)
+    ->  run(Goals, X, Base, Out)
+    ;   fails(\+ Goal, Goals)
+    ).
 step(call(Goal), Goals, X, Base, Out) =>
     prolog_current_choice(Barrier),
     body_goals(Goal, Barrier, More, Goals),
@@ -139,8 +152,12 @@ step(ignore(Goal), Goals, X, Base, Out) =>
     either((Goal->true), true, Goals, X, Base, Out).
 step(catch(Goal, Catcher, Recovery), Goals, X, Base, Out) =>
     guarded(Goal, Catcher, Recovery, Goals, X, Base, Out).
-step(Goal, _, _, _, _), var(Goal) =>
-    throw(error(instantiation_error, _)).
+step('$at'(Control, fail), Goals, _, _, _) =>
+    fails(Control, Goals).
+step('$at'(Control, throw(Error)), Goals, _, _, _) =>
+    raises(Error, Control, Goals).
+step(Goal, Goals, X, Base, Out), var(Goal) =>
+    called(call(Goal), Goals, X, Base, Out).
 step(Goal, Goals, X, Base, Out), special(Goal, Kind) =>
     special(Kind, Goal, Goals, X, Base, Out).
 step(Goal, Goals, X, Base, Out) =>
@@ -148,8 +165,10 @@ step(Goal, Goals, X, Base, Out) =>
 
 special(control, Goal, Goals, _, _, effect(Goal, Hole, [Hole|Goals])).
 special(call, Goal, Goals, X, Base, Out) :-
-    call_n(Goal, Called),
-    step(call(Called), Goals, X, Base, Out).
+    (   called_goal(Goal, Called)
+    ->  step(call(Called), Goals, X, Base, Out)
+    ;   called(Goal, Goals, X, Base, Out)       % which raises
+    ).
 
 %   called(+Goal, ...): a goal that is no construct is unfolded by a clause
 %   of the program or of the agent's own rules, or called natively.
@@ -159,49 +178,76 @@ called(Goal, Goals, X, Base, Out) :-
     (   Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Guard),
         mobile(Guard, Agent)
     ->  prolog_current_choice(Barrier),
-        Program:Clause,
-        run(More, X, Base, Out)
+        (   Program:Clause
+        *-> run(More, X, Base, Out)
+        ;   fails(Goal, Goals)
+        )
     ;   state_rule(Agent, Goal)
     ->  prolog_current_choice(Barrier),
-        clause(Agent:Goal, Body),
-        body_goals(Body, Barrier, More, Goals),
-        run(More, X, Base, Out)
-    ;   Agent:Goal,
-        run(Goals, X, Base, Out)
+        (   clause(Agent:Goal, Body)
+        *-> body_goals(Body, Barrier, More, Goals),
+            run(More, X, Base, Out)
+        ;   fails(Goal, Goals)
+        )
+    ;   Agent:Goal
+    *-> run(Goals, X, Base, Out)
+    ;   fails(Goal, Goals)
     ).
 
 %   either(+Or, +Else, ...): (Or;Else), where Or may be a condition.
 
 either((If->Then), Else, Goals, X, Base, Out) =>
-    (   sub_run([If], X, Out0)
-    ->  proceed(Out0, Then, Goals, Sub-(Sub->Then;Else), X, Base, Out)
-    ;   step(Else, Goals, X, Base, Out)
+    Frame = Sub-(Sub->Then;Else),
+    (   inside(If, Frame, Goals, X, Out0)
+    ->  proceed(Out0, Then, Goals, Frame, X, Base, Out)
+    ;   otherwise(Else, (If->Then), Goals, X, Base, Out)
     ).
 either((If*->Then), Else, Goals, X, Base, Out) =>
-    (   sub_run([If], X, Out0)
-    *-> proceed(Out0, Then, Goals, Sub-(Sub*->Then;Else), X, Base, Out)
-    ;   step(Else, Goals, X, Base, Out)
+    Frame = Sub-(Sub*->Then;Else),
+    (   inside(If, Frame, Goals, X, Out0)
+    *-> proceed(Out0, Then, Goals, Frame, X, Base, Out)
+    ;   otherwise(Else, (If*->Then), Goals, X, Base, Out)
     ).
 either(Or, Else, Goals, X, Base, Out) =>
     (   step(Or, Goals, X, Base, Out)
     ;   step(Else, Goals, X, Base, Out)
     ).
 
-guarded(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
-    catch(sub_run([Goal], X, Out0), Ball, Out0 = caught(Ball)),
-    (   Out0 = caught(Ball)
-    ->  recoverable(Ball, Catcher),
-        step(call(Recovery), Goals, X, Base, Out)
-    ;   proceed(Out0, true, Goals, Sub-catch(Sub,Catcher,Recovery),
-                X, Base, Out)
+%   Without an else it is the whole that fails.
+
+otherwise(Else, If, Goals, X, Base, Out) :-
+    (   Else == fail
+    ->  fails(If, Goals)
+    ;   step(Else, Goals, X, Base, Out)
     ).
 
-recoverable(Ball, Catcher) :-
-    (   \+ unwinding(Ball),
-        Ball = Catcher
-    ->  true
-    ;   throw(Ball)
+%   inside(+Goal, +Frame, +Goals, +X, -Out): run Goal as the part of a
+%   construct that Frame continues, see proceed/7.  Frame and Goals are there
+%   until it has ended.
+
+inside(Goal, Frame, Goals, X, Out) :-
+    sub_run([Goal], X, Out),
+    stood(Frame, Goals).
+
+stood(_, _).
+
+%   What is not caught here is not touched: else nobody would see where it
+%   was raised.
+
+guarded(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
+    Frame = Sub-catch(Sub,Catcher,Recovery),
+    (   catch(inside(Goal, Frame, Goals, X, Out0), Catcher,
+              Out0 = caught(Catcher))
+    *-> recovered(Out0, Recovery, Goals, Frame, X, Base, Out)
+    ;   fails_inside(Frame, Goals)
     ).
+
+recovered(caught(Ball), _, _, _, _, _, _), unwinding(Ball) =>
+    throw(Ball).
+recovered(caught(_), Recovery, Goals, _, X, Base, Out) =>
+    step(call(Recovery), Goals, X, Base, Out).
+recovered(Out0, _, Goals, Frame, X, Base, Out) =>
+    proceed(Out0, true, Goals, Frame, X, Base, Out).
 
 %   proceed(+Out0, +Then, +Goals, +Frame, ...): a sub run has ended or
 %   stopped.  Frame is Sub-Goal: the goal that continues the rest Sub.
@@ -212,28 +258,16 @@ proceed(effect(Control, Hole, Sub), _, Goals, Rest-Frame, _, _,
         effect(Control, Hole, [Frame|Goals])) :-
     goals_body(Sub, Rest).
 
-%   call/N, N > 1, as the goal it calls.
+%!  answer_at(+Control, +Answer, -Goal) is det.
+%
+%   Goal is what a hole is bound to where its Control fails or raises: Answer
+%   is `fail` or throw(Error).
 
-call_n(Goal, Called) :-
-    Goal =.. [_,Closure|Extra],
-    must_be_closure(Closure),
-    extend(Closure, Extra, Called).
+answer_at(Control, Answer, '$at'(Control, Answer)).
 
-extend(Module:Closure, Extra, Module:Called) :-
-    !,
-    extend(Closure, Extra, Called).
-extend(Closure, Extra, Called) :-
-    Closure =.. List0,
-    append(List0, Extra, List),
-    Called =.. List.
-
-must_be_closure(Closure) :-
-    (   callable(Closure)
-    ->  true
-    ;   var(Closure)
-    ->  throw(error(instantiation_error, _))
-    ;   throw(error(type_error(callable, Closure), _))
-    ).
+raises(Error, Control, Goals) :-
+    throw(Error),
+    stood(Control, Goals).
 
 %   mobile(+Guard, +Agent): must this static predicate be unfolded?
 
@@ -259,8 +293,8 @@ state_rule(Agent, Goal) :-
 
 %   A goal that is called natively, such as what is under \+.
 
-native(Goal, X) :-
-    sub_run([Goal], X, Out),
+native(Goal, Goals, X) :-
+    inside(Goal, _-(\+ Goal), Goals, X, Out),
     (   Out = effect(Control, _, _)
     ->  functor(Control, Name, Arity),
         throw(error(permission_error(call, control_predicate,

@@ -1,9 +1,9 @@
 :- module(typhon_programs,
-          [ program_read/6,             % +Spec, -Program, -Initial, -Kinds,
-                                        % -Sources, -Warnings
+          [ program_read/7,             % +Spec, -Program, -Initial, -Kinds,
+                                        % -Places, -Sources, -Warnings
             payload_load/2,             % +Spec, -Payload
-            program_terms/5,            % +Located, -Program, -Initial,
-                                        % -Kinds, -Errors
+            program_terms/6,            % +Located, -Program, -Initial,
+                                        % -Kinds, -Places, -Errors
             program_doubts/3,           % +Located, +Kinds, -Warnings
             payload_terms/3,            % +Located, -Payload, -Errors
             in_file_order/3,            % +Problems, +Located, -Ordered
@@ -21,6 +21,7 @@
 :- use_module(parts,
               [ clause_indicator/2, file_parts/4, in_state/2,
                 library_directive/2, located_clause/2, part/3 ]).
+:- use_module(places, [places/2]).
 :- use_module(problems,
               [ clause_problem/2, directive_problem/2, entry_problem/3,
                 option_problem/2 ]).
@@ -41,7 +42,7 @@ becomes a plain term:
 *Threading*: any thread; nothing is stored here.
 */
 
-%!  program_read(+Spec, -Program, -Initial, -Kinds, -Sources,
+%!  program_read(+Spec, -Program, -Initial, -Kinds, -Places, -Sources,
 %!               -Warnings:list) is det.
 %
 %   Read an agent program.
@@ -49,6 +50,7 @@ becomes a plain term:
 %   @arg Initial are the clauses of its state predicates: the state of an
 %        agent at birth.
 %   @arg Kinds is what mobile_predicates/3 finds.
+%   @arg Places say where its clauses stand, see typhon_places.
 %   @arg Sources is what it was read from, see source_terms/5.
 %   @arg Warnings are problems that do not keep it from running: what was
 %        found in reading, and program_doubts/3.  What makes clauses(Terms)
@@ -56,10 +58,10 @@ becomes a plain term:
 %   @error The first problem that keeps the program from running, with the
 %        others in its context, see problem_error/3.
 
-program_read(Spec, Program, Initial, Kinds, Sources, Warnings) :-
+program_read(Spec, Program, Initial, Kinds, Places, Sources, Warnings) :-
     source_terms(Spec, Located, Sources, Unread, Once),
     no_problems(Unread),
-    program_terms(Located, Program, Initial, Kinds, Errors),
+    program_terms(Located, Program, Initial, Kinds, Places, Errors),
     no_problems(Errors),
     read_warnings(Spec, Located, Kinds, Once, Warnings).
 
@@ -89,13 +91,14 @@ no_problems([Problem|Others]) :-
     problem_error(Problem, Others, Error),
     throw(Error).
 
-%!  program_terms(+Located, -Program, -Initial, -Kinds, -Errors:list) is det.
+%!  program_terms(+Located, -Program, -Initial, -Kinds, -Places,
+%!                -Errors:list) is det.
 %
-%   As program_read/6, of terms with their locations; Errors, in the order of
+%   As program_read/7, of terms with their locations; Errors, in the order of
 %   the file, keep the program from running.
 
 program_terms(Located, program(Name, State, Libraries, Static), Initial,
-              Kinds, Errors) :-
+              Kinds, Places, Errors) :-
     file_parts(agent, Located, Parts, Errors0),
     part(name, Parts, Name),
     part(state, Parts, State),
@@ -107,7 +110,9 @@ program_terms(Located, program(Name, State, Libraries, Static), Initial,
     moves(Errors2, Static0, Kinds, Errors3),
     in_file_order(Errors3, Located, Errors),
     maplist(located_clause, Static0, Static),
-    maplist(located_clause, Initial0, Initial).
+    maplist(located_clause, Initial0, Initial),
+    pairs_values(Static0, Locations),
+    places(Locations, Places).
 
 faulty(Located, Parts, Problem) :-
     part(directives, Parts, Directives),

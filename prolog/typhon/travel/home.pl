@@ -2,6 +2,9 @@
           [ agent_born/2,               % +Id, +Address
             home_moved/4,               % +Id, +Address, +Hops, +Process
             home_ended/3,               % +Id, +Outcome, +Hops
+            home_faulty/6,              % +Id, +Outcome, +Stamp, +Address,
+                                        % +Hops, +Process
+            home_resumed/3,             % +Id, +Stamp, +Hops
             home_knows/4,               % +Id, -Address, -Hops, -Process
             home_agents/1,              % -Ids
             agent_outcome/2,            % +Id, -Outcome
@@ -35,6 +38,9 @@ its agents what they tell it.
     born/4,                     % Id, Address, Hops, Process: its home is
                                 % here, and it has not ended
     outcome/2,                  % Id, Outcome
+    faulty/3,                   % Id, Outcome, Age: nobody waits for its end
+                                % any more; Outcome is `none` if it was
+                                % resumed since
     waiter/3.                   % Id, Token, Asker
 
 :- multifile
@@ -46,6 +52,7 @@ its agents what they tell it.
 typhon_identity:ids_anew :-
     retractall(born(_, _, _, _)),
     retractall(outcome(_, _)),
+    retractall(faulty(_, _, _)),
     retractall(waiter(_, _, _)).
 
 %!  agent_born(+Id, +Address) is det.
@@ -124,11 +131,56 @@ ended(Id, _, Hops, []) :-
         Hops0 > Hops
     ),
     !.
-ended(Id, Outcome, _, Askers) :-
+ended(Id, Outcome0, _, Askers) :-
     retractall(born(Id, _, _, _)),
+    (   retract(faulty(Id, Told, _)),
+        Told \== none
+    ->  Outcome = Told
+    ;   Outcome = Outcome0
+    ),
     assertz(outcome(Id, Outcome)),
     bounded(outcome(_, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).
+
+%!  home_faulty(+Id, +Outcome, +Stamp, +Address, +Hops, +Process) is det.
+%!  home_resumed(+Id, +Stamp, +Hops) is det.
+%
+%   News of Id: it has come to that Outcome, but is kept at Address, in
+%   Process, after Hops hops; or it goes on after the fault of that Stamp.
+
+home_faulty(Id, Outcome, Stamp, Address, Hops, Process) :-
+    debug(typhon(agent), '~w: home hears that it is faulty, ~p',
+          [Id, Outcome]),
+    with_mutex(typhon_born,
+               ( moved(Id, Address, Hops, Process),
+                 has_fault(Id, Outcome, Stamp, Hops, Askers) )),
+    forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
+
+has_fault(Id, Outcome, Stamp, Hops, Askers) :-
+    born(Id, _, Hops0, _),
+    Hops0 =< Hops,
+    \+ ( faulty(Id, _, Age), Age @>= Hops-Stamp ),
+    !,
+    put_fault(Id, Outcome, Hops-Stamp),
+    waiters(Id, Askers).
+has_fault(_, _, _, _, []).
+
+%   That it was resumed may be heard before that it was faulty: ages tell.
+
+home_resumed(Id, Stamp, Hops) :-
+    debug(typhon(agent), '~w: home hears that it is resumed', [Id]),
+    with_mutex(typhon_born, resumed(Id, Hops-Stamp)).
+
+resumed(Id, Age) :-
+    (   born(Id, _, _, _),
+        \+ ( faulty(Id, _, Age0), Age0 @> Age )
+    ->  put_fault(Id, none, Age)
+    ;   true
+    ).
+
+put_fault(Id, Outcome, Age) :-
+    retractall(faulty(Id, _, _)),
+    assertz(faulty(Id, Outcome, Age)).
 
 %   One by one: see typhon_mailbox.
 
@@ -158,7 +210,10 @@ outcome_wait(Id, Seconds, Asker) :-
     ).
 
 wait_or_answer(Id, _, _, Outcome) :-
-    outcome(Id, Outcome),
+    (   outcome(Id, Outcome)
+    ;   faulty(Id, Outcome, _),
+        Outcome \== none
+    ),
     !.
 wait_or_answer(Id, Seconds, Asker, wait) :-
     born(Id, _, _, _),

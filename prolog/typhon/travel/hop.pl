@@ -5,7 +5,7 @@
                                         % +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../program', [code_program/2]).
+:- use_module('../program', [code_sent/2]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_request/4, mobile_term/1]).
 :- use_module('../host', [address_parts/3, host/3, host_time/2]).
@@ -118,8 +118,8 @@ send(Transfer, Image) :-
 program(Endpoint, Hash, known) :-
     has_program(Endpoint, Hash),
     !.
-program(Endpoint, Hash, Program) :-
-    code_program(Hash, Program),
+program(Endpoint, Hash, Sent) :-
+    code_sent(Hash, Sent),
     bound_programs,
     assertz(has_program(Endpoint, Hash)).
 

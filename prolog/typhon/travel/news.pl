@@ -65,12 +65,16 @@ keep(Home, Id, News) :-
 %   away with them says which are newer: who is ended by somebody else as soon
 %   as it has come may have its end told before its coming.
 
-newer(located(_, _, Hops), located(_, _, Hops0)) :-
-    Hops > Hops0.
-newer(located(_, _, Hops), ended(_, _, Hops0)) :-
-    Hops > Hops0.                       % a copy given up in doubt
-newer(ended(_, _, Hops), located(_, _, Hops0)) :-
-    Hops >= Hops0.
+newer(News, Known) :-
+    age(News, Age),
+    age(Known, Age0),
+    Age @> Age0.
+
+age(located(_, _, Hops), age(Hops, 0, 0, 0)).
+age(faulty(_, _, Stamp, _, Hops), age(Hops, 1, Stamp, 0)).
+age(resumed(_, Stamp, Hops), age(Hops, 1, Stamp, 1)).
+age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % one of fewer hops, of a copy
+                                             % that was given up in doubt
 
 %   The process is about to end: what can be sent at once is, the rest is
 %   given up.

@@ -13,6 +13,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [host_hop/3, host_leave/1, host_time/2, scheduler_call/1]).
 :- use_module('../agent',
@@ -154,31 +155,31 @@ transfer_stays(Transfer, Error) :-
     debug(typhon(hop), '~w hop ~D: stays, ~p', [Who, Hop, Error]),
     stays(Transfer, Error).
 
-stays(hop(Id, _, Hops), Error) :-
+stays(hop(Id, dest(Address, _, _), Hops), Error) :-
     retractall(given_up(Id, Hops)),
-    ignore(with_agent(Id, back(Id, Hops, Error))).
-stays(clone(Id, _, CloneId), Error) :-
+    ignore(with_agent(Id, back(Id, Hops, Address, Error))).
+stays(clone(Id, dest(Address, _, _), CloneId), Error) :-
     agent_ended(CloneId, failed, 1),
-    ignore(with_agent(Id, clone_back(Id, CloneId, throw(error(Error, _))))).
+    ignore(with_agent(Id, clone_back(Id, CloneId, stays(Address, Error)))).
 
 transfer_unreachable(Transfer) :-
     arg(2, Transfer, dest(Address, _, _)),
     transfer_stays(Transfer, host_unreachable(Address)).
 
-back(Id, Hops, Error) :-
+back(Id, Hops, Address, Error) :-
     agent_status(Id, transit(_, _), hop(Hole-Goals, Hops, Mail, _)),
     mail_back(Id, Mail),
     (   Hole == ordered
     ->  print_message(warning, typhon(order_failed(Id, Error)))
-    ;   Hole = throw(error(Error, _))
+    ;   answer_at(move(Address), throw(error(Error, _)), Hole)
     ),
     agent_ready(Id, Goals).
 
 clone_back(Id, CloneId, Answer) :-
     agent_status(Id, cloning(_, _), clone(Hole-Goals-Who, CloneId, _)),
-    (   Answer = parent(_)
-    ->  Hole = (Who=Answer)
-    ;   Hole = Answer
+    (   Answer = stays(Address, Error)
+    ->  answer_at(clone(Address, Who), throw(error(Error, _)), Hole)
+    ;   Hole = (Who=Answer)
     ),
     agent_ready(Id, Goals).
 

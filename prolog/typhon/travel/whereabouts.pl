@@ -2,6 +2,10 @@
           [ agent_seen/4,               % +Id, +Address, +Hops, +Peer
             agent_left/4,               % +Id, +Address, +Hops, +Peer
             agent_ended/3,              % +Id, +Outcome, +Hops
+            agent_faulty/5,             % +Id, +Outcome, +Stamp, +Address,
+                                        % +Hops
+            agent_resumed/3,            % +Id, +Stamp, +Hops
+            agent_resumed_from/3,       % +Id, +Stamp, +Hops
             agent_reached/3,            % +Id, +Hops, :OnAnswer
             agent_reached_at/4,         % +Id, +Hops, +Endpoint, -Answer
             agent_heard_of/2,           % +Id, -Hops
@@ -13,11 +17,13 @@
 :- use_module('../base/bounded', [bounded/2]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_peer/2,
+                endpoint_post/3,
                 endpoint_reply/2, endpoint_request/4 ]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, life_hops/2]).
 :- use_module(home,
-              [agent_outcome/2, home_ended/3, home_knows/4, home_moved/4]).
+              [ agent_outcome/2, home_ended/3, home_faulty/6, home_knows/4,
+                home_moved/4, home_resumed/3 ]).
 :- use_module(news, [news_tell/3]).
 
 /** <module> Where agents went
@@ -105,6 +111,41 @@ agent_ended(Id, Outcome, Hops) :-
     ;   news_tell(Home, Id, ended(Id, Outcome, Hops))
     ).
 
+%!  agent_faulty(+Id, +Outcome, +Stamp, +Address, +Hops) is det.
+%!  agent_resumed(+Id, +Stamp, +Hops) is det.
+%
+%   Let the home of Id know that it has come to that Outcome at Address, a
+%   host of this process, but is kept there; or that it goes on after the
+%   fault of that Stamp.
+
+agent_faulty(Id, Outcome, Stamp, Address, Hops) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  home_faulty(Id, Outcome, Stamp, Address, Hops, here)
+    ;   news_tell(Home, Id, faulty(Id, Outcome, Stamp, Address, Hops))
+    ).
+
+agent_resumed(Id, Stamp, Hops) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  home_resumed(Id, Stamp, Hops)
+    ;   news_tell(Home, Id, resumed(Id, Stamp, Hops))
+    ).
+
+%!  agent_resumed_from(+Id, +Stamp, +Hops) is det.
+%
+%   As agent_resumed/3, for who has had it resumed from afar: what he asks the
+%   home next comes after that.  May wait for a connection.
+
+agent_resumed_from(Id, Stamp, Hops) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  home_resumed(Id, Stamp, Hops)
+    ;   catch(endpoint_post(Home, whereabouts, [resumed(Id, Stamp, Hops)]),
+              error(unreachable(_), _),
+              true)                     % and will be told
+    ).
+
 typhon_endpoint:received(whereabouts, All, Peer) :-
     process_at(Peer, Process),
     maplist(news(Process), All).
@@ -116,6 +157,15 @@ news(Process, located(Id, Address, Hops)) :-
 news(_, ended(Id, Outcome, Hops)) :-
     must_be(nonneg, Hops),
     home_ended(Id, Outcome, Hops).
+news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
+    must_be(nonneg, Hops),
+    must_be(number, Stamp),
+    address_parts(Address, _, _),
+    home_faulty(Id, Outcome, Stamp, Address, Hops, Process).
+news(_, resumed(Id, Stamp, Hops)) :-
+    must_be(nonneg, Hops),
+    must_be(number, Stamp),
+    home_resumed(Id, Stamp, Hops).
 
                 /*******************************
                 *           QUESTIONS          *

@@ -176,7 +176,7 @@ lingers(Agent, Until) :-
     agent_property(Agent, goals(Goals)),
     sub_term(Sub, Goals),
     nonvar(Sub),
-    Sub = receive_until(_, Until),
+    Sub = receive_until(_, Until, _),
     !.
 
 %   mute(+Host, +Where, -Agent): stands in the queue of Host, goes on to Where

@@ -108,9 +108,42 @@ test(faulty_elsewhere, true(S-F == faulty(oops)-[s(1)])) :-
     agent_property(A, facts(F)),
     agent_dispose(A),
     \+ agent_property(A, state(_)).
+test(resumed_elsewhere, true(G-Os =@= [s(1),receive(_-go)]-
+                                    [failed,timeout,done])) :-
+    there(beta, B),
+    create([r(B), (main :- r(X), move(X), s(1), receive(_-go))], A),
+    joined(A, O1),
+    agent_property(A, fault(fault(failed, s(1), main/0:1, B))),
+    agent_property(A, goals(G0)),
+    copy_term(G0, G),
+    agent_change(A, facts([s(1)])),
+    agent_resume(A),
+    agent_join(A, O2, 0.1),
+    agent_send(A, go),
+    joined(A, O3),
+    Os = [O1,O2,O3].
+test(says_in_which_line_wherever_it_is, true(Name:Line == 'far.pl':4)) :-
+    there(beta, B),
+    with_tmp_dir(test_processes:far(B, A)),
+    joined(A, failed),
+    agent_property(A, fault(fault(failed, s(1), File:Line, B))),
+    file_base_name(File, Name).
+
+test(a_faulty_one_comes_home, true(L == 0)) :-
+    there(beta, B), address(alpha, H),
+    create([r(B), (main :- r(X), move(X), s(1))], A),
+    joined(A, failed),
+    agent_move(A, H),
+    wait_until(( stands(A, H), state_of(A, faulty(failed)) ), 10),
+    agent_property(A, fault(fault(failed, s(1), _, B))),
+    peer_do(gamma, agent_join(A, failed, 10)),
+    host_property(alpha, load(L)),
+    agent_dispose(A),
+    joined(A, failed).
 test(properties, true(Ps =@= [ facts([s(1)]), goals([receive(_-go),foo]),
-                               home(H), hops(1), host(B), payloads([x]),
-                               program(test), state(waiting) ])) :-
+                               home(H), hops(1), host(B), mailbox([]),
+                               payloads([x]), program(test),
+                               state(waiting) ])) :-
     there(beta, B), address(alpha, H),
     create([s(1), foo, (main :- parent_host(X), move(X), receive(_-go), foo),
             parent_host(B)], A, [payloads([payload(x, [], [])])]),
@@ -204,6 +237,18 @@ test(orders_to_one_that_goes_round_three_processes, true(O == disposed)) :-
     joined(A, O).
 
 :- end_tests(processes).
+
+%   far(+Address, -Agent, +Dir): created here from a file, it fails there.
+
+far(Address, Agent, Dir) :-
+    directory_file_path(Dir, 'far.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ":- agent(far, [state([s/1])]).~n~n\c
+                     main :- go(~q), move(nowhere).~n\c
+                     go(H) :- move(H), s(1).~n", [Address]),
+        close(Out)),
+    agent_create(File, Agent).
 
 save_and_load(B, Facts, Host, Dir) :-
     directory_file_path(Dir, point, File),

@@ -19,7 +19,7 @@ people see them.
 %   program_load(+Spec, -Program, -Initial): whatever is remembered.
 
 program_load(Spec, Program, Initial) :-
-    program_read(Spec, Program, Initial, _, _, _).
+    program_read(Spec, Program, Initial, _, _, _, _).
 
 %   with_file(+Lines, :Goal): Goal(File) for a file of these lines.
 

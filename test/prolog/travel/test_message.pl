@@ -79,11 +79,12 @@ test(to_an_unbound, error(instantiation_error)) :-
 test(to_one_that_has_ended, error(existence_error(agent, _))) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, done), agent_send(A, hello) )).
-test(to_a_faulty_one_is_lost) :-
+test(to_a_faulty_one_is_kept, true(M == [user-hello])) :-
     with_hosts([alpha],
                listening(( create([(main :- throw(x))], A),
                            joined(A, _),
-                           agent_send(A, hello) ), _)).
+                           agent_send(A, hello),
+                           agent_property(A, mailbox(M)) ), _)).
 test(to_nobody_from_an_agent,
      true(O-M = done-[warning-typhon(undeliverable(_, foo, _, hello))])) :-
     with_hosts([alpha],

@@ -1,0 +1,125 @@
+:- module(typhon_fault,
+          [ agent_fault/5,              % +Id, +Outcome, +Goals0, -Fault, -Goals
+            agent_handled/3,            % +Id, +Goal, -Fault
+            fault_outcome/2,            % +Fault, -Outcome
+            fault_error/2,              % +Fault, -Error
+            fault_stamp/2,              % +Fault, -Stamp
+            fault_shown/2,              % +Fault, -Shown
+            fault_told/5,               % +Fault, -Goal, -Where, -Address,
+                                        % -Hops
+            is_faulty/3                 % ?Goals, ?Fault, ?Left
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module('../program', [fault/3, fault_where/4, where_handled/5]).
+:- use_module('../host', [host/3]).
+:- use_module(agents, [agent/5]).
+:- use_module(in_words, [in_words/2]).
+:- use_module(life, [life_hops/2]).
+
+/** <module> What is the matter with an agent
+
+A fault is
+
+    fault(Outcome, Goal, Where, Address, Hops, Stamp)
+
+`failed` or raised(Error); the goal that failed or raised, and where it
+stands, see typhon_standing; on which host that was, after how many hops,
+and when.  All of it can travel.  It comes first among the goals of an agent
+that is faulty, as '$fault'(Fault): the machine stops there, wherever the
+agent is brought, until that is taken away.
+
+*Threading*: agent_fault/5 in the worker that ran the agent.
+*/
+
+%!  agent_fault(+Id, +Outcome, +Goals0, -Fault, -Goals) is semidet.
+%
+%   The machine has run Goals0 of Id with that Outcome, `failed` or
+%   raised(Error): Goals are left, from the one on that was the matter.
+%   Fails if there is no such agent any more.
+
+agent_fault(Id, Outcome0, Goals0,
+            fault(Outcome, Goal, Where, Address, Hops, Stamp), Goals) :-
+    agent(Id, Host, Module, Hash, Life),
+    host(Host, Address, _),
+    !,
+    fault(Outcome0, Goals0, Fault),
+    Fault = fault(Goal0, Goals, _),
+    where(Hash, Module, Fault, Where),
+    in_words(Outcome0-Goal0, Outcome-Goal),
+    life_hops(Life, Hops),
+    get_time(Stamp).
+
+%!  agent_handled(+Id, +Goal, -Fault) is semidet.
+%
+%   Goal, which nobody in the program calls, has just failed in Id.  Fails if
+%   there is no clause for it.
+
+agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
+    agent(Id, Host, Module, Hash, Life),
+    host(Host, Address, _),
+    !,
+    fault(failed, [Goal0], Fault),
+    Fault = fault(Goal1, _, _),
+    where_handled(Hash, Module, Goal0, Fault, Where),
+    in_words(Goal1, Goal),
+    life_hops(Life, Hops),
+    get_time(Stamp).
+
+%   Nobody is to lose an agent because it is not known where it stands.
+
+where(Hash, Module, Fault, Where) :-
+    catch(fault_where(Hash, Module, Fault, Where0), error(Formal, _),
+          debug(typhon(agent), 'nobody knows where: ~p', [Formal])),
+    !,
+    ( var(Where0) -> Where = [] ; Where = Where0 ).
+where(_, _, _, []).
+
+%!  fault_outcome(+Fault, -Outcome) is det.
+%!  fault_error(+Fault, -Error) is det.
+%!  fault_stamp(+Fault, -Stamp:float) is det.
+%
+%   Error is `failed` for those that failed.
+
+fault_outcome(fault(Outcome, _, _, _, _, _), Outcome).
+
+fault_error(Fault, Error) :-
+    fault_outcome(Fault, Outcome),
+    (   Outcome = raised(Error0)
+    ->  Error = Error0
+    ;   Error = failed
+    ).
+
+fault_stamp(fault(_, _, _, _, _, Stamp), Stamp).
+
+%!  fault_shown(+Fault, -Shown) is det.
+%
+%   Shown is fault(Error, Goal, Place, Host), Place being File:Line, PI:N for
+%   the N-th clause of PI, or `unknown`.
+
+fault_shown(Fault, fault(Error, Goal, Place, Address)) :-
+    fault_error(Fault, Error),
+    Fault = fault(_, Goal, Where, Address, _, _),
+    place_shown(Where, Place).
+
+place_shown([[at(PI, At)|_]|_], Place) =>
+    (   At = clause(N)
+    ->  Place = PI:N
+    ;   At == state
+    ->  Place = PI:state
+    ;   Place = At
+    ).
+place_shown(_, Place) =>
+    Place = unknown.
+
+%!  fault_told(+Fault, -Goal, -Where, -Address, -Hops) is det.
+%
+%   What people are told.
+
+fault_told(fault(_, Goal, Where, Address, Hops, _), Goal, Where, Address,
+           Hops).
+
+%!  is_faulty(?Goals, ?Fault, ?Left) is semidet.
+%
+%   Goals are those of an agent that is faulty: Fault, and then Left.
+
+is_faulty(['$fault'(Fault)|Left], Fault, Left).

@@ -1,0 +1,82 @@
+:- module(typhon_change,
+          [ change_order/2,             % +Change, -Order
+            change_made/2               % +Order, +Id
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../program',
+              [ clause_parts/3, code_install/3, code_program/2,
+                code_receive/2, code_sent/2, code_stands/2, program_load/6 ]).
+:- use_module('../wire', [mobile_term/1]).
+:- use_module('../host', [host/3]).
+:- use_module('../agent',
+              [ agent/5, agent_module/5, agent_program/4, agent_state/2,
+                with_agent/2 ]).
+
+/** <module> Agents are changed from outside
+
+A program is read where the order is given, and goes along with it; the
+agent gets a module below that of the new program, with the state that it
+has.
+
+*Threading*: change_order/2 in any thread, change_made/2 in the worker that
+has the agent.
+*/
+
+%!  change_order(+Change, -Order) is det.
+%
+%   Order is what is sent to an agent that is to Change: facts(Clauses) or
+%   program(Hash, Sent).
+%
+%   @error domain_error(agent_change, Change)
+
+change_order(facts(Clauses), facts(Clauses)) :-
+    !,
+    must_be(list, Clauses),
+    maplist(must_be_clause, Clauses),
+    mobile_term(Clauses).
+change_order(program(Spec), program(Hash, Sent)) :-
+    !,
+    program_load(Spec, Program, _, Hash, Kinds, Places),
+    code_install(Hash, Program, Kinds),
+    code_stands(Hash, Places),
+    code_sent(Hash, Sent).
+change_order(Change, _) :-
+    domain_error(agent_change, Change).
+
+must_be_clause(Clause) :-
+    clause_parts(Clause, Head, Body),
+    must_be(callable, Head),
+    must_be(callable, Body).
+
+%!  change_made(+Order, +Id) is det.
+%
+%   @error permission_error(attach, procedure, PI)
+
+change_made(facts(Clauses), Id) :-
+    agent(Id, _, Module, Hash, _),
+    code_program(Hash, Program),
+    maplist(not_static(Program), Clauses),
+    forall(member(Clause, Clauses), assertz(Module:Clause)).
+change_made(program(Hash, Sent), Id) :-
+    code_receive(Hash, Sent),
+    code_program(Hash, Program),
+    Program = program(_, PIs, _, _),
+    agent(Id, Host, Module0, _, Life),
+    host(Host, _, Place),
+    agent_state(Module0, state(Empty, Clauses)),
+    maplist(not_static(Program), Clauses),
+    append(PIs, Empty, Declared),
+    agent_module(Id, Place, Hash, state(Declared, Clauses), Module),
+    with_agent(Id, agent_program(Id, Hash, Module, Life)).
+
+not_static(program(_, _, _, Static), Clause) :-
+    clause_parts(Clause, Head, _),
+    functor(Head, Name, Arity),
+    functor(General, Name, Arity),
+    (   member(Rule, Static),
+        clause_parts(Rule, General, _)
+    ->  permission_error(attach, procedure, Name/Arity)
+    ;   true
+    ).

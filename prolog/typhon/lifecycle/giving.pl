@@ -1,0 +1,114 @@
+:- module(typhon_giving,
+          [ agent_move/2,               % +Agent, +Host
+            agent_clone/2,              % +Agent, -Clone
+            agent_dispose/1,            % +Agent
+            payload_attach/2,           % +Agent, +Payload
+            payload_detach/2,           % +Agent, +Name
+            agent_resume/1,             % +Agent
+            agent_change/2,             % +Agent, +Change
+            order_give/3                % +Agent, +Order, -Result
+          ]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../program', [payload_load/2]).
+:- use_module('../host', [host_address/2]).
+:- use_module('../travel', [agent_resumed_from/3]).
+:- use_module(change, [change_order/2]).
+:- use_module(named, [agent_named/2]).
+:- use_module(questions, [agent_ask/4]).
+
+/** <module> Orders from outside
+
+An order is put as a question, see typhon_questions, so that it finds the
+agent; what becomes of it there see typhon_orders.
+
+*Threading*: any thread.
+*/
+
+%!  agent_move(+Agent, +Host) is det.
+%!  agent_clone(+Agent, -Clone) is det.
+%!  agent_dispose(+Agent) is det.
+%!  payload_attach(+Agent, +Payload) is det.
+%!  payload_detach(+Agent, +Name) is det.
+%
+%   Orders from outside.  An agent that runs takes them at its next effect.
+%   agent_move/2 and agent_dispose/1 do not wait for that, the others do,
+%   for 10 seconds at the most.  An agent that is refused at Host stays
+%   where it is, which is reported there.
+%
+%   An agent that is faulty obeys as others do, and is faulty still.
+%
+%   @error existence_error(agent, Agent), existence_error(host, Host),
+%   ambiguous_agent(Agent, Ids) if Agent is a name that several have
+%   @error timeout_error(order, Agent)
+
+agent_move(Agent, Host) :-
+    host_address(Host, Address),
+    order_give(Agent, move(Address), _).
+
+agent_clone(Agent, Clone) :-
+    order_give(Agent, clone, Clone0),
+    Clone = Clone0.
+
+agent_dispose(Agent) :-
+    order_give(Agent, dispose, _).
+
+payload_attach(Agent, Spec) :-
+    raising_afresh(payload_load(Spec, Payload)),
+    order_give(Agent, attach(Payload), _).
+
+payload_detach(Agent, Name) :-
+    must_be(atom, Name),
+    order_give(Agent, detach(Name), _).
+
+%!  agent_resume(+Agent) is det.
+%
+%   Let Agent, which is faulty, try again: it goes on with the goal that
+%   failed or raised an error, and is no longer faulty.  It counts on its host
+%   then, even where that is full.
+%
+%   @error permission_error(resume, agent, Agent) if it is not faulty
+%   @error existence_error(agent, Agent)
+%   @error timeout_error(order, Agent)
+
+agent_resume(Agent) :-
+    agent_named(Agent, Id),
+    order_give(Id, resume, resumed(Stamp, Hops)),
+    agent_resumed_from(Id, Stamp, Hops).
+
+%!  agent_change(+Agent, +Change) is det.
+%
+%   Change Agent, faulty or not, at its next effect:
+%
+%     - facts(+Clauses): are added to its state
+%     - program(+Spec): is its program from now on, see agent_create/2.  Its
+%       state stays as it is, and so do the goals that it has left: what is
+%       left of a clause is left of the old one.
+%
+%   @error domain_error(agent_change, Change)
+%   @error permission_error(attach, procedure, PI) for a fact of a predicate
+%          of the program, and a program that has one of the state
+%   @error any problem of the program
+%   @error existence_error(agent, Agent)
+%   @error timeout_error(order, Agent)
+
+agent_change(Agent, Change) :-
+    must_be(nonvar, Change),
+    raising_afresh(change_order(Change, Order)),
+    order_give(Agent, change(Order), _).
+
+%!  order_give(+Agent, +Order, -Result) is det.
+%
+%   @arg Order is move(Host), `dispose`, `clone`, attach(Payload),
+%        detach(Name), `image`, `resume` or change(Change), see typhon_change
+
+order_give(Agent, Order, Result) :-
+    agent_named(Agent, Id),
+    (   agent_ask(Id, order(Order), 10, Answer)
+    ->  ordered(Answer, Result)
+    ;   existence_error(agent, Agent)
+    ).
+
+ordered(answer(Result), Result).
+ordered(error(Formal), _) :-
+    throw(error(Formal, _)).

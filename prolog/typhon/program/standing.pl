@@ -1,0 +1,277 @@
+:- module(typhon_standing,
+          [ fault_where/4,              % +Hash, +Agent, +Fault, -Where
+            where_handled/5             % +Hash, +Agent, +Goal, +Fault, -Where
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [append/3, member/2, min_list/2, nth1/3]).
+:- use_module(code, [code_module/2, code_places/2, code_program/2]).
+:- use_module(places, [place/3]).
+:- use_module(points, [goal_level/3, goals_normal/2, point/3]).
+:- use_module(source, [clause_parts/3]).
+
+/** <module> In which clause a goal stands
+
+Nothing in a goal list says where its goals come from: marks would grow
+with recursion, and travel.  But a list [Goal|Goals] begins with an instance
+of what is left of a clause, and after that comes what is left of one that
+called it.  So it can be found out afterwards, when something is the matter.
+
+A place is at(PI, Place): a clause of the predicate PI, Place being its
+File:Line, clause(N) for the N-th clause of PI where that is not known, or
+`state` for a rule of the agent's own.
+
+*Threading*: any thread.
+*/
+
+%!  fault_where(+Hash, +Agent, +Fault, -Where:list) is det.
+%
+%   Where the goal of Fault stands, see typhon_faults, in an agent with the
+%   program Hash and the module Agent.  Where is a list of up to two lists of
+%   places: in one of the first, called from the one of the second.  What
+%   could be at more than three places is nowhere.
+
+fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
+    code_module(Hash, Module),
+    all_clauses(Hash, Agent, All),
+    Natives = natives(Raising, References),
+    native_places(References, Module, All, Inner0),
+    last_called(Inner0, Raising, Goal, All, Inner),
+    goal_level(Goal, Goals, Left),
+    mobile_places(Inner, All, Left, Found),
+    append(Inner, Found, Numbers0),
+    first_two(Numbers0, Numbers),
+    maplist(maplist(shown(Hash, All)), Numbers, Where).
+
+%!  where_handled(+Hash, +Agent, +Goal, +Fault, -Where) is semidet.
+%
+%   As fault_where/4, where Goal, which nobody in the program called, has
+%   failed with Fault.  Fails if no clause is for it.
+
+where_handled(Hash, Agent, Goal, Fault, Where) :-
+    all_clauses(Hash, Agent, All),
+    functor(Goal, Name, Arity),
+    findall(c(N, Name/Arity), ( member(N-(Head:-_), All), \+ Head \= Goal ),
+            Clauses),
+    Clauses \== [],
+    (   fault_where(Hash, Agent, Fault, Where0),
+        Where0 \== []
+    ->  Where = Where0
+    ;   maplist(shown(Hash, All), Clauses, Places),
+        Where = [Places]
+    ).
+
+all_clauses(Hash, Agent, All) :-
+    code_program(Hash, program(_, _, _, Clauses)),
+    numbered(Clauses, 1, Numbered),
+    findall(0-Rule, own_rule(Agent, Rule), Own),
+    append(Numbered, Own, All).
+
+numbered([], _, []).
+numbered([Clause|Clauses], N, [N-(Head:-Body)|Numbered]) :-
+    clause_parts(Clause, Head, Body),
+    N1 is N+1,
+    numbered(Clauses, N1, Numbered).
+
+own_rule(Agent, (Head:-Body)) :-
+    '$c_current_predicate'(_, Agent:Head),
+    '$get_predicate_attribute'(Agent:Head, number_of_rules, N),
+    N > 0,
+    '$get_predicate_attribute'(Agent:Head, (dynamic), 1),
+    clause(Agent:Head, Body),
+    Body \== true.
+
+first_two([A,B|_], [A,B]) :-
+    !.
+first_two(Few, Few).
+
+%   A clause is c(N, PI), the N-th of the program, or of the agent's own if N
+%   is 0.
+
+shown(_, _, c(0, PI), At) =>
+    At = at(PI, state).
+shown(Hash, All, c(N, PI), At) =>
+    At = at(PI, Place),
+    code_places(Hash, Places),
+    (   place(Places, N, Place0)
+    ->  Place = Place0
+    ;   of_predicate(All, PI, Ns),
+        nth1(I, Ns, N),
+        Place = clause(I)
+    ->  true
+    ).
+
+%   of_predicate(+All, +PI, -Ns): the numbers of its clauses.
+
+of_predicate(All, Name/Arity, Ns) :-
+    functor(Head, Name, Arity),
+    findall(N, ( member(N-(Head:-_), All), N > 0 ), Ns).
+
+                /*******************************
+                *        NATIVE CLAUSES        *
+                *******************************/
+
+%   native_places(+References, +Module, -Places): of a predicate that calls
+%   itself the innermost clause only.
+
+native_places(References, Module, All, Places) :-
+    findall(PI-I, ( member(Reference, References),
+                    native_clause(Reference, Module, PI, I)
+                  ),
+            Pairs),
+    once_each(Pairs, none, Places0),
+    maplist(native_place(All), Places0, Places).
+
+%   last_called(+Places0, +Raising, +Goal, +All, -Places): the clause whose
+%   last goal is Raising has no frame any more.  It is the one that calls it,
+%   if there is but one.
+
+last_called(Places0, Raising, Goal, All, Places) :-
+    (   calls_it(Raising, Goal, Places0, All, Clause),
+        Places0 \= [[Clause]|_]
+    ->  Places = [[Clause]|Places0]
+    ;   Places = Places0
+    ).
+
+calls_it(Raising, Goal, Places0, All, c(N, Name/Arity)) :-
+    callable(Raising),
+    Raising \== Goal,
+    \+ ( Places0 = [[Inner]|_],
+         has_goal(All, Inner, Raising) ),
+    findall(Head-N0, has_goal(All, c(N0, Head), Raising), Found),
+    sort(2, @<, Found, [Head-N]),
+    functor(Head, Name, Arity).
+
+has_goal(All, c(N, Of), Raising) :-
+    member(N-(Head:-Body), All),
+    of(Of, Head),
+    point(Body, [Called|_], _),
+    nonvar(Called),
+    subsumes_term(Called, Raising).
+
+of(Of, Head) :- var(Of), !, Of = Head.
+of(_, _).
+
+native_clause(Reference, Module, PI, I) :-
+    catch(( clause_property(Reference, predicate(Home:PI)),
+            Home == Module,             % if bound, it is any that sees it
+            nth_clause(_, I, Reference)
+          ),
+          error(_, _), fail).           % erased
+
+once_each([], _, []).
+once_each([PI-I|Pairs], Last, Once) :-
+    (   PI == Last
+    ->  Once = Once1
+    ;   Once = [PI-I|Once1]
+    ),
+    once_each(Pairs, PI, Once1).
+
+native_place(All, PI-I, [c(N, PI)]) :-
+    of_predicate(All, PI, Ns),
+    nth1(I, Ns, N),
+    !.
+
+                /*******************************
+                *        MOBILE CLAUSES        *
+                *******************************/
+
+%   mobile_places(+Inner, +All, +Goals, -Places): where the first of Goals
+%   stands, unless two places are known already.
+
+mobile_places([_,_|_], _, _, Places) =>
+    Places = [].
+mobile_places(_, All, Goals0, Places) =>
+    goals_normal(Goals0, Goals),
+    findall(Left-c(N, PI), stands(Goals, All, Left, c(N, PI)), Found0),
+    likely(Found0, All, Found),
+    places_of(Found, All, Places).
+
+places_of([Left-Clause], All, Places) =>
+    callers(Left, All, Clause, Callers),
+    ( Callers = [Caller] -> Places = [[Clause],[Caller]]
+    ; Places = [[Clause]]
+    ).
+places_of(Found, _, Places), Found = [_,_|_] =>
+    findall(Clause, member(_-Clause, Found), Clauses0),
+    sort(Clauses0, Clauses),
+    length(Clauses, Count),
+    ( Count =< 3 -> Places = [Clauses] ; Places = [] ).
+places_of(_, _, Places) =>
+    Places = [].
+
+%   stands(+Goals, +All, -Left, -Clause) is nondet: Goals begins with an
+%   instance of what comes from some point of Clause on; Left comes after.
+
+stands(Goals, All, Left, c(N, Name/Arity)) :-
+    member(N-(Head:-Body), All),
+    point(Body, Sequel, End),
+    after(Sequel, Goals, End, Left),
+    functor(Head, Name, Arity).
+
+after(Sequel, Goals, End, Left) :-
+    Sequel = [_|_],
+    length(Sequel, Count),
+    length(Begin, Count),
+    append(Begin, Left, Goals),
+    subsumes_term(Sequel, Begin),
+    ( End == open -> true ; Left == [] ).
+
+%   likely(+Found0, +All, -Found): those after which comes what can come, and
+%   of these the ones of which most is left.
+
+likely(Found0, All, Found) :-
+    findall(Count-Entry,
+            ( member(Entry, Found0),
+              Entry = Left-_,
+              may_follow(Left, All),
+              length(Left, Count)
+            ),
+            Counted),
+    findall(Count, member(Count-_, Counted), Counts),
+    (   Counts == []
+    ->  Found = []
+    ;   min_list(Counts, Least),
+        findall(Entry, member(Least-Entry, Counted), Found1),
+        sort(Found1, Found)
+    ).
+
+may_follow([], _) :-
+    !.
+may_follow(Goals, All) :-
+    returns(Goals, All, _, _),
+    !.
+
+%   returns(+Goals, +All, -Call, -Clause) is nondet: Goals begins with what
+%   comes after Call in Clause.
+
+returns(Goals, All, Call, c(N, Name/Arity)) :-
+    member(N-(Head:-Body), All),
+    point(Body, [Call|Sequel], End),
+    after(Sequel, Goals, End, _),
+    functor(Head, Name, Arity).
+
+%   callers(+Left, +All, +Clause, -Callers): who called Clause, Left being
+%   what comes after it.  After a last call nothing does: then it is known
+%   only if nobody else calls that predicate.
+
+callers(Left, All, c(_, Name/Arity), Callers) :-
+    functor(Head, Name, Arity),
+    findall(Caller,
+            ( returns(Left, All, Call, Caller),
+              nonvar(Call),
+              \+ Call \= Head
+            ),
+            Found),
+    (   Left == []
+    ->  findall(Caller, calls(All, Head, Caller), Callers0)
+    ;   Callers0 = Found
+    ),
+    sort(Callers0, Callers).
+
+calls(All, General, c(N, Name/Arity)) :-
+    member(N-(Head:-Body), All),
+    Head \= General,
+    point(Body, [Call|_], _),
+    nonvar(Call),
+    \+ Call \= General,
+    functor(Head, Name, Arity).
