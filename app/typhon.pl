@@ -17,6 +17,8 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 
 :- use_module('../prolog/typhon').
 :- use_module('../prolog/typhon/network/log', [log_server_stop/1]).
+:- use_module('../prolog/typhon/people/tables',
+              [print_agents/2, print_hosts/1]).
 :- use_module('../prolog/typhon/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
 :- use_module(commands, [command/4, option/5]).
@@ -167,12 +169,12 @@ run(create, [Program0], Options) :-
     ).
 run(agents, [], Options) :-
     required(agents, host(Host), Options),
-    remote(Host, with_output_to(string(Table), typhon:agents)),
-    write(Table).
+    must_answer(Host),
+    print_agents([Host], full).
 run(hosts, [], Options) :-
     required(hosts, host(Host), Options),
-    remote(Host, with_output_to(string(Table), typhon:hosts)),
-    write(Table).
+    must_answer(Host),
+    print_hosts([Host]).
 run(send, [Agent, Message0], Options) :-
     read_argument(Message0, Message),
     home_of(Agent, Home),
@@ -201,6 +203,12 @@ run(diagnose, [Kind, Port], _) :-
     ->  diagnose_nxt(Port)
     ;   throw(error(typhon_usage(arguments(diagnose)), _))
     ).
+
+%   A table would list a host that is not there as gone.
+
+must_answer(Host) :-
+    host_property(Host, state(_)),
+    !.
 
 host_option(Options, Option) :-
     member(Option, Options),

@@ -10,6 +10,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- use_module(lifecycle/running, []).
 :- use_module(lifecycle/evacuation, []).
 :- reexport('lifecycle/properties').
+:- reexport('lifecycle/glance').
 :- reexport(lifecycle/orders,
             [ agent_move/2, agent_clone/2, agent_dispose/1,
               payload_attach/2, payload_detach/2

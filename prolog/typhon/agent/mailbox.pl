@@ -3,6 +3,7 @@
             mail_take/2,                % +Id, ?Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
+            mail_count/2,               % +Id, -Count
             mail_back/2                 % +Id, +Messages
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -59,6 +60,16 @@ mail_list(Id, Messages) :-
         maplist(thread_send_message(Queue), Messages)
     ;   Messages = []
     ).
+
+%!  mail_count(+Id, -Count:integer) is det.
+
+mail_count(Id, Count) :-
+    box(Id, Queue),
+    catch(message_queue_property(Queue, size(Count0)),
+          error(existence_error(_, _), _), fail),
+    !,
+    Count = Count0.
+mail_count(_, 0).
 
 %!  mail_back(+Id, +Messages:list) is det.
 %
