@@ -111,6 +111,9 @@ prolog:message(typhon(checked(Program, Errors, Doubts, Undefined))) -->
     [ '~p: ~d errors, '-[Program, Errors] ],
     doubts(Doubts),
     [ '~d calls of what others must define'-[Undefined] ].
+prolog:message(typhon(place_reloaded(Place, File))) -->
+    { host_property(Host, place(Place)) -> true ; Host = Place },
+    [ '~w is loaded anew into the place of ~w'-[File, Host] ].
 prolog:message(typhon(stuck_worker(Worker))) -->
     [ 'Worker ~p does not stop: its agent neither ends nor yields'-
       [Worker] ].
