@@ -87,12 +87,13 @@ lines_stream(Colours, Stream) :-
     set_stream(Stream, buffer(false)),
     set_stream(Stream, tty(Colours)).
 
-%   Messages of threads whose output is shown so.
+%   Messages of threads whose output is shown so, unless they go elsewhere.
 
 user:message_property(Kind, stream(Stream)) :-
     Kind \== query,
     current_output(Stream),
-    typhon_output:shared(Stream).
+    typhon_output:shared(Stream),
+    stream_property(user_error, tty(true)).
 
                 /*******************************
                 *             LINES            *
