@@ -182,19 +182,13 @@ thing(thread(Thread)) :-
     \+ system_thread(Thread).
 thing(stream(Stream)) :-
     stream_property(Stream, mode(_)),
-    \+ output_of_threads(Stream).
+    \+ stream_property(Stream, alias(typhon_output)).
 thing(queue(Queue)) :-
     message_queue_property(Queue, size(_)).
 thing(module(Module)) :-
     module_property(Module, class(temporary)).
 thing(process(Pid)) :-
     child_process(Pid).
-
-%   At a terminal: see typhon_output.
-
-output_of_threads(Stream) :-
-    Module = typhon_output,             % not all suites load it
-    catch(Module:shared(Stream), error(existence_error(_, _), _), fail).
 
 system_thread(Thread) :-
     thread_property(Thread, alias(Alias)),

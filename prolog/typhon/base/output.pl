@@ -84,6 +84,7 @@ colours(true) :-
 
 lines_stream(Colours, Stream) :-
     open_prolog_stream(typhon_output, write, Stream, []),
+    set_stream(Stream, alias(typhon_output)),
     set_stream(Stream, buffer(false)),
     set_stream(Stream, tty(Colours)).
 

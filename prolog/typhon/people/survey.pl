@@ -49,11 +49,22 @@ survey(Most, Places, [Here|Seen], Silent) :-
     append(Known, Linked, Addresses),
     other_processes(Addresses, Others),
     ask(Others, Most, Results),
-    findall(Answer, member(_-answer(Answer), Results), Seen),
+    answers(Results, Seen),
     findall(Endpoint-Why,
             ( member(Endpoint-Result, Results), silence(Result, Why) ),
             Silent0),
     sort(Silent0, Silent).
+
+%   A process that listens at several ports answers at each.
+
+answers(Results, Seen) :-
+    findall(Names-Answer,
+            ( member(_-answer(Answer), Results),
+              Answer = seen(Hosts, _, _),
+              maplist(arg(1), Hosts, Names) ),
+            Pairs0),
+    sort(1, @<, Pairs0, Pairs),
+    pairs_values(Pairs, Seen).
 
 silence(gone, gone).
 silence(unreachable, gone).
