@@ -16,8 +16,8 @@ order/3 has one clause for each command, and fails when the answer is no.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../prolog/typhon',
-              [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/2, agent_property/2,
-                host_property/2, remote/2 ]).
+              [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/2,
+                agent_property/2, host_property/2, remote/2 ]).
 :- use_module('../prolog/typhon/agent/identity', [agent_name/3]).
 :- use_module('../prolog/typhon/host/hosts', [address_parts/3]).
 :- use_module('../prolog/typhon/program/programs', [program_read/5]).
@@ -37,7 +37,7 @@ order(move, [Text, HostText], Options) :-
     host_argument(HostText, Agent, Host),
     agent_move(Agent, Host),
     option(timeout(Seconds), Options, 10),
-    stands_at(Agent, Host, Seconds).
+    within(Seconds, is_at(Agent, Host)).
 order(join, [Text], Options) :-
     agent_argument(Text, Options, Agent),
     option(timeout(Seconds), Options, 1.0e9),
@@ -53,13 +53,21 @@ order(remote, [Host, Text], _) :-
 order(stop, [Host], Options) :-
     host_now(Host, Address),
     address_parts(Address, Name, _),
-    remote(Host, call(( catch(typhon_app:told_to_stop(stop),
-                              error(existence_error(procedure, _), _),
-                              thread_create(typhon:host_stop(Name), _,
-                                            [detached(true)]))
-                      ))),
+    tell_to_stop(Host, Name),
     option(timeout(Seconds), Options, 20),
     within(Seconds, is_gone(Host)).
+
+%   What the command line has started ends in order, as by a signal. The answer
+%   may be lost with the process.
+
+tell_to_stop(Host, Name) :-
+    catch(remote(Host,
+                 catch(typhon_app:told_to_stop(stop),
+                       error(existence_error(procedure, _), _),
+                       thread_create(typhon:host_stop(Name), _,
+                                     [detached(true)]))),
+          error(connection_lost(_), _),
+          true).
 
 in_order(Program) :-
     catch(program_read(Program, _, _, _, _), error(_, _), fail).
@@ -168,9 +176,6 @@ usage(Problem) :-
 
 %   Orders are taken at the next effect of an agent, and a host takes its time
 %   to stop.
-
-stands_at(Agent, Host, Seconds) :-
-    within(Seconds, is_at(Agent, Host)).
 
 is_at(Agent, Host) :-
     agent_property(Agent, host(Host)),

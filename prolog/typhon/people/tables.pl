@@ -88,13 +88,14 @@ silence(late, silent).
 
 host_row(host(Address, State, Load, Capacity, Arrived, Neighbours),
          [Address, State, Agents, Arrived, Text]) :-
-    (   Capacity == inf
-    ->  Agents = Load
-    ;   Capacity == ''
-    ->  Agents = ''
-    ;   format(atom(Agents), '~w of ~w', [Load, Capacity])
-    ),
+    host_agents(Capacity, Load, Agents),
     host_neighbours(Neighbours, Text).
+
+host_agents(Capacity, Load, Agents) :-
+    integer(Capacity),
+    !,
+    format(atom(Agents), '~w of ~w', [Load, Capacity]).
+host_agents(_, Load, Load).
 
 %   Enough of them to recognise the network.
 
@@ -136,45 +137,40 @@ print_agents(Places, Ids) :-
     longest_table(Longest),
     Most is Longest+1,          % tells whether the last name is unique
     survey(Most, Places, Seen, Silent),
-    findall(Agents, member(seen(_, Agents, _), Seen), Lists),
-    findall(Count, member(seen(_, _, Count), Seen), Counts),
-    append(Lists, All),
-    once_each(All, Agents),
-    in_order(Agents, Sorted),
-    first_few(Longest, Sorted, Shown, _),
-    maplist(agent_row(Ids, Sorted), Shown, Rows),
+    agents_seen(Seen, Agents, Count),
+    first_few(Longest, Agents, Shown, _),
+    maplist(agent_row(Ids, Agents), Shown, Rows),
     print_table([agent-left, host-left, program-left, state-left,
                  hops-right, mail-right],
                 Rows, agent),
-    sum_list(Counts, Total),
-    length(All, Sent),
-    length(Sorted, Different),
     length(Rows, Printed),
-    More is Total-(Sent-Different)-Printed,
+    More is Count-Printed,
     print_more(More),
     print_silent(Silent).
+
+%   agents_seen(+Seen, -Agents, -Count): the first of Count agents, in order.
+
+agents_seen(Seen, Agents, Count) :-
+    findall(Some, member(seen(_, Some, _), Seen), Lists),
+    findall(N, member(seen(_, _, N), Seen), Counts),
+    append(Lists, All),
+    once_each(All, Different),
+    in_order(Different, Agents),
+    sum_list(Counts, Total),
+    length(All, Sent),
+    length(Different, Left),
+    Count is Total-(Sent-Left).
 
 %   One under way may have been seen twice: where it has come counts.
 
 once_each(Agents, Set) :-
-    findall(key(Id, Left)-Agent,
-            ( member(Agent, Agents),
-              Agent = agent(Id, glance(_, _, _, Hops, _)),
-              Left is -Hops ),
-            Pairs0),
-    sort(1, @<, Pairs0, Pairs),
+    map_list_to_pairs(hops_left, Agents, Pairs0),
+    keysort(Pairs0, Pairs),
     pairs_values(Pairs, Sorted),
-    first_of_each(Sorted, Set).
+    sort(1, @<, Sorted, Set).           % the first of each
 
-first_of_each([], []).
-first_of_each([agent(Id, Glance)|Agents], [agent(Id, Glance)|Set]) :-
-    others(Agents, Id, Rest),
-    first_of_each(Rest, Set).
-
-others([agent(Id, _)|Agents], Id, Rest) :-
-    !,
-    others(Agents, Id, Rest).
-others(Agents, _, Agents).
+hops_left(agent(_, glance(_, _, _, Hops, _)), Left) :-
+    Left is -Hops.
 
 agent_row(Ids, All, agent(Id, glance(Address, Program, Doing, Hops, Mail)),
           [Name, Host, Program, Doing, Hops, Mail]) :-
