@@ -18,7 +18,7 @@ command(host, 'NAME', 1,
 command(network, 'TOPOLOGY', 1,
         'start a network, as grid(2,3), and run it until Ctrl-C').
 command(check, 'PROGRAM ...', 1-1000,
-        'say what is wrong with agent programs').
+        'say what is wrong with agent programs and payloads').
 command(create, 'PROGRAM', 1,
         'create an agent on a running host; prints its id').
 command(agents, '', 0,
