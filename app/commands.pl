@@ -1,5 +1,6 @@
 :- module(typhon_commands,
           [ command/4,                  % ?Command, ?Arguments, ?Count, ?Help
+            footer/2,                   % ?Command, ?Line
             option/5                    % ?Command, ?Option, ?Type, ?Meta, ?Help
           ]).
 
@@ -16,18 +17,57 @@ command(host, 'NAME', 1,
         'start a host and run it until SIGTERM or SIGINT').
 command(network, 'TOPOLOGY', 1,
         'start a network, as grid(2,3), and run it until Ctrl-C').
+command(check, 'PROGRAM ...', 1-1000,
+        'say what is wrong with agent programs and payloads').
 command(create, 'PROGRAM', 1,
         'create an agent on a running host; prints its id').
 command(agents, '', 0,
-        'the agents known to the process of a running host').
+        'the agents in the network of a running host').
 command(hosts, '', 0,
-        'the hosts of the process of a running host').
+        'the hosts in the network of a running host').
 command(send, 'AGENT MESSAGE', 2,
         'send a message, any term, to an agent').
+command(move, 'AGENT HOST', 2,
+        'send an agent to a host, and wait until it is there').
+command(dispose, 'AGENT', 1,
+        'end an agent').
+command(join, 'AGENT', 1,
+        'wait for the end of an agent, and print its outcome').
+command(remote, 'HOST GOAL', 2,
+        'run a goal in the place of a host, and print its bindings').
+command(stop, 'HOST', 1,
+        'stop a host, and wait until it has stopped').
 command(log, 'FILE', 1,
         'print the events of a log file, or with --serve write one').
 command(diagnose, '[ADDRESS]', 0-2,
         'find out why a host, or with nxt PORT a robot, is not reached').
+
+%!  footer(?Command, ?Line) is nondet.
+%
+%   What the help of Command ends with.
+
+footer(network, 'Shapes of networks:').
+footer(network, Line) :-
+    shape(Shape, Help),
+    format(atom(Line), '    ~w~t~28|~w', [Shape, Help]).
+footer(check, 'Exit status 0: programs without errors (warnings may be).').
+footer(join, 'Exit status 0: the outcome is `done`.').
+footer(remote, 'Exit status 0: the goal was true. Variables that begin with _').
+footer(remote, 'are not printed; what the goal prints, is.').
+footer(stop, 'A `host` or `network` of the command line ends with its host.').
+footer(Command, 'AGENT is an id, as `agents` prints it, or with --host a name.') :-
+    memberchk(Command, [send, move, dispose, join]).
+footer(move, 'HOST is an address or, where it is unique, a name.').
+
+shape('ring(N)', 'a ring').
+shape('line(N)', 'a line').
+shape('star(N)', 'one in the middle, N-1 around it').
+shape('star_bus(ARMS,LENGTH)', 'a chain of ARMS hubs, each with LENGTH-1 leaves').
+shape('tree(N)', 'a binary tree').
+shape('grid(ROWS,COLUMNS)', 'a grid').
+shape('mesh(N)', 'each linked with each').
+shape('random(N,P)', 'each pair linked with probability P').
+shape('edges([1-2,2-3,...])', 'the links themselves').
 
 %!  option(?Command, ?Option, ?Type, ?Meta, ?Help) is nondet.
 %
@@ -84,6 +124,15 @@ option(agents, host, atom, 'ADDRESS', 'host to ask (required)').
 option(hosts, host, atom, 'ADDRESS', 'host to ask (required)').
 option(send, host, atom, 'ADDRESS',
        'host that finds the agent (default its home)').
+option(Command, host, atom, 'ADDRESS',
+       'host in whose network AGENT is the name of one') :-
+    memberchk(Command, [move, dispose, join]).
+option(move, timeout, number, 'SECONDS',
+       'wait so long for its arrival (default 10)').
+option(join, timeout, number, 'SECONDS',
+       'wait no longer (default for ever)').
+option(stop, timeout, number, 'SECONDS',
+       'wait so long for its end (default 20)').
 option(log, host, atom, 'ADDRESS',
        'read FILE where this host runs').
 option(log, serve, boolean, '',

@@ -19,11 +19,15 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module('../prolog/typhon/base/names',
               [names_listed/2, names_proposed/3]).
 :- use_module('../prolog/typhon/network/log', [log_server_stop/1]).
+:- use_module('../prolog/typhon/people/tables',
+              [print_agents/2, print_hosts/1]).
 :- use_module('../prolog/typhon/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
-:- use_module(commands, [command/4, option/5]).
+:- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
+:- use_module(orders,
+              [agent_argument/3, host_now/2, order/3, program_argument/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).
@@ -73,8 +77,23 @@ main(_) :-
     halt(1).
 
 complain(Error) :-
-    print_message(error, Error),
+    (   Error = error(Formal, _),
+        hint(Formal, Hint)
+    ->  print_message(error, typhon_hint(Error, Hint))
+    ;   print_message(error, Error)
+    ),
     halt(1).
+
+%   What to try next.
+
+hint(host_unreachable(Host), Hint) :-
+    format(atom(Hint), 'diagnose ~w tells why', [Host]).
+hint(connection_lost(Host), Hint) :-
+    format(atom(Hint), 'diagnose ~w tells why', [Host]).
+hint(existence_error(agent, _), 'agents --host ADDRESS tells who is there').
+hint(existence_error(host, _), 'hosts --host ADDRESS tells which there are').
+hint(domain_error(topology, _), 'network --help tells the shapes').
+hint(existence_error(source_sink, _), 'a file, or a term as agents(census)').
 
 dispatch([Command|Argv]) :-
     command(Command, _, Positional, _),
@@ -150,12 +169,15 @@ overview :-
     format('Usage: swipl app/typhon.pl COMMAND ... [options]~n~n'),
     forall(command(Command, Arguments, _, Help),
            format('  ~w ~w~t~26|~w~n', [Command, Arguments, Help])),
-    format('~nCOMMAND --help tells the options of a command.~n').
+    format('~nCOMMAND --help tells the options of a command. Exit status: \c
+            0, it was done;~n1, it was not, or the answer is no.~n').
 
 command_help :-
     phrase(prolog:message(opt_usage(typhon_app)), Lines),
     print_message_lines(user_output, '', Lines),
-    nl(user_output).
+    nl(user_output),
+    current_command(Command),
+    forall(footer(Command, Line), format('~w~n', [Line])).
 
                 /*******************************
                 *           COMMANDS           *
@@ -191,14 +213,15 @@ run(create, [Program0], Options) :-
     ).
 run(agents, [], Options) :-
     required(agents, host(Host), Options),
-    remote(Host, with_output_to(string(Table), typhon:agents)),
-    write(Table).
+    host_now(Host, _),
+    print_agents([Host], full).
 run(hosts, [], Options) :-
     required(hosts, host(Host), Options),
-    remote(Host, with_output_to(string(Table), typhon:hosts)),
-    write(Table).
-run(send, [Agent, Message0], Options) :-
+    host_now(Host, _),
+    print_hosts([Host]).
+run(send, [Agent0, Message0], Options) :-
     read_argument(Message0, Message),
+    agent_argument(Agent0, Options, Agent),
     home_of(Agent, Home),
     option(host(Host), Options, Home),
     remote(Host, call(typhon:agent_send(Agent, Message))).
@@ -216,6 +239,10 @@ run(log, [File], Options) :-
     ;   log_events(File, Events)
     ),
     forall(member(Event, Events), print_event(Event)).
+run(Command, Arguments, Options) :-
+    memberchk(Command, [check, move, dispose, join, remote, stop]),
+    !,
+    order(Command, Arguments, Options).
 run(diagnose, [], _) :-
     diagnose(none).
 run(diagnose, [Address], _) :-
@@ -334,17 +361,6 @@ read_argument(Text, Term) :-
           error(syntax_error(_), _),
           throw(error(typhon_usage(not_a_term(Text)), _))).
 
-%   A file, or a term as agents(census).
-
-program_argument(Text, Text) :-
-    exists_file(Text),
-    !.
-program_argument(Text, Program) :-
-    sub_atom(Text, _, 1, 0, ')'),
-    !,
-    read_argument(Text, Program).
-program_argument(Text, Text).
-
 comma_list(Option, Options, Text, Parts) :-
     option(Option, Options),
     atomic_list_concat(Parts, ',', Text).
@@ -354,8 +370,6 @@ home_of(Agent, Home) :-
     !,
     Start is Before+1,
     sub_atom(Agent, Start, _, 0, Home).
-home_of(Agent, _) :-
-    throw(error(typhon_usage(not_an_id(Agent)), _)).
 
                 /*******************************
                 *            OUTPUT            *
@@ -368,7 +382,13 @@ print_line(Term) :-
 print_event(event(Time, Host, Agent, What)) :-
     format('~t~3f~12|  ~w~t~26+ ~w~t~32+ ~p~n', [Time, Host, Agent, What]).
 
-:- multifile prolog:error_message//1.
+:- multifile
+    prolog:error_message//1,
+    prolog:message//1.
+
+prolog:message(typhon_hint(Error, Hint)) -->
+    '$messages':translate_message(Error),
+    [ ' (~w)'-[Hint] ].
 
 prolog:error_message(typhon_usage(Problem)) -->
     usage(Problem).
@@ -391,4 +411,17 @@ usage(required(Command, Option)) -->
 usage(not_a_term(Text)) -->
     [ 'not a Prolog term: ~w'-[Text] ].
 usage(not_an_id(Agent)) -->
-    [ 'not the id of an agent: ~w'-[Agent] ].
+    [ 'not the id of an agent: ~w (with --host ADDRESS a name is enough)'-
+      [Agent] ].
+usage(no_agent(Name, Host)) -->
+    [ 'no agent ~w in the network of ~w (agents --host ~w lists them)'-
+      [Name, Host, Host] ].
+usage(several_agents(Name, Ids)) -->
+    { atomic_list_concat(Ids, ' or ', Text) },
+    [ 'which ~w is meant: ~w?'-[Name, Text] ].
+usage(not_one_host(Name, [])) -->
+    !,
+    [ 'no host ~w in the network of the agent'-[Name] ].
+usage(not_one_host(Name, Addresses)) -->
+    { atomic_list_concat(Addresses, ' or ', Text) },
+    [ 'which ~w is meant: ~w?'-[Name, Text] ].

@@ -193,13 +193,16 @@ door(File, Layer) :-
 
 %!  offered(+Room, +List, ?PI) is nondet.
 %
-%   Who takes List, or `all`, from Room can take PI.
+%   Who takes List, `all` or except(Others) from Room can take PI.
 
 offered(Room, all, PI) :-
     export(Room, PI).
 offered(Room, all, PI) :-
     reexport(Room, Deeper, List),
     offered(Deeper, List, PI).
+offered(Room, except(Others), PI) :-
+    offered(Room, all, PI),
+    \+ memberchk(PI, Others).
 offered(_, List, PI) :-
     is_list(List),
     member(PI, List).

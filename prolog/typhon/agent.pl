@@ -27,9 +27,10 @@ This is the door of the layer: who is above takes what it needs from here.
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
               image_label/2, image_module/3
             ]).
-:- reexport(agent/in_words).
-:- reexport(agent/fault).
+:- reexport('agent/in_words').
+:- reexport('agent/fault').
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3]).
 :- reexport(agent/mailbox,
-            [mail_all/2, mail_back/2, mail_list/2, mail_take/2]).
+            [ mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2
+            ]).

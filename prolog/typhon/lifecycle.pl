@@ -10,7 +10,8 @@ This is the door of the layer: who is above takes what it needs from here.
 :- use_module(lifecycle/running, []).
 :- use_module(lifecycle/evacuation, []).
 :- reexport('lifecycle/properties').
-:- reexport(lifecycle/giving,
+:- reexport('lifecycle/glance').
+:- reexport('lifecycle/giving',
             [ agent_move/2, agent_clone/2, agent_dispose/1,
               agent_resume/1, agent_change/2,
               payload_attach/2, payload_detach/2

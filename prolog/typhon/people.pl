@@ -6,7 +6,7 @@ Tables, and the texts of errors and reports.
 This is the door of the layer: who is above takes what it needs from here.
 */
 
-:- reexport('people/tables').
+:- reexport(people/tables, [agents/0, hosts/0]).
 :- use_module(people/editors, []).
 :- use_module(people/completion, []).
 :- use_module(people/messages, []).

@@ -14,6 +14,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('wire/messaging').
 :- reexport(wire/lending, [endpoint_afterwards/1]).
 :- reexport('wire/call').
+:- reexport('wire/inquiry').
 :- reexport(wire/peers,
             [endpoint_flush/1, endpoint_flush/2, endpoint_gone/1,
              endpoint_missed/2, endpoint_peer/2]).

@@ -29,11 +29,15 @@ typhon_lines(Args, Lines) :-
 %   An expected error: one line, no stack, status 1.
 
 typhon_error(Args, Text) :-
+    typhon_error(Args, Text, "").
+
+typhon_error(Args, Text, Hint) :-
     typhon(Args, Status, Out, Err),
     assertion(Status-Out == exit(1)-""),
     split_string(Err, "\n", "\n", Lines),
     assertion(Lines = [_]),
-    assertion(sub_string(Err, _, _, _, Text)).
+    assertion(sub_string(Err, _, _, _, Text)),
+    assertion(sub_string(Err, _, _, _, Hint)).
 
 :- meta_predicate with_typhon(+, -, -, 0).
 
@@ -63,7 +67,8 @@ write_file(Dir, Name, Text, File) :-
 
 test(overview) :-
     typhon_lines(['--help'], Lines),
-    forall(member(Command, [host, network, create, agents, hosts, send, log,
+    forall(member(Command, [host, network, check, create, agents, hosts, send,
+                            move, dispose, join, remote, stop, log,
                             diagnose]),
            ( atom_concat(Command, ' *', Pattern0),
              atom_concat('  ', Pattern0, Pattern),
@@ -77,6 +82,8 @@ test(command, forall(member(Command-Pattern,
                               create-'*--join=SECONDS*',
                               agents-'*--host=ADDRESS*',
                               hosts-'*--host=ADDRESS*',
+                              network-'    grid(ROWS,COLUMNS)*a grid*',
+                              move-'*--timeout=SECONDS*',
                               send-'*--host=ADDRESS*', log-'*--serve*',
                               diagnose-'Usage:*'
                             ]))) :-
@@ -103,13 +110,17 @@ test(missing_option) :-
 test(not_a_term) :-
     typhon_error([network, 'grid(2,'], "grid(2,").
 test(not_a_topology) :-
-    typhon_error([network, 'blob(2)'], "blob(2)").
+    typhon_error([network, 'blob(2)'],
+                 "blob(2)", "network --help tells the shapes").
 test(no_such_file) :-
     typhon_error([host, alpha, '--consult', '/no/such.pl'], "/no/such.pl").
 test(nobody_there) :-
     free_port(Port),
     format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
-    typhon_error([hosts, '--host', Address], Address).
+    atom_concat('diagnose ', Address, Advice),
+    typhon_error([hosts, '--host', Address], Advice).
+test(not_an_id) :-
+    typhon_error([dispose, bob], "with --host ADDRESS a name is enough").
 
 :- end_tests(app_errors).
 
@@ -171,6 +182,58 @@ join(Dir) :-
     assertion(Outcome == "done"),
     assertion(Status == exit(1)).
 
+%   By an id, or where it says which network, by a name.
+
+test(orders) :-
+    with_tmp_dir(orders).
+
+orders(Dir) :-
+    write_file(Dir, 'tourist.pl',
+               ':- agent(tourist, []).\non_message(_, stop) :- dispose.\n',
+               Program),
+    with_typhon([network, 'ring(3)', '--processes', 2], Pid, N1,
+                ( orders(N1, Program),
+                  process_kill(Pid, term),
+                  wait_for_end(Pid, 20, Status)
+                )),
+    assertion(Status == exit(0)).
+
+orders(N1, Program) :-
+    typhon_lines([create, Program, '--host', N1, '--name', bob], [Bob]),
+    typhon_lines([create, Program, '--host', N1, '--name', ann], [_]),
+    typhon_lines([move, bob, n3, '--host', N1], []),
+    typhon_lines([agents, '--host', N1], Agents),
+    assertion(has_line(Agents, 'bob.*n3 *tourist *resident *1 *0')),
+    typhon_lines([dispose, Bob], []),
+    typhon([join, Bob, '--timeout', 5], exit(1), "disposed\n", ""),
+    typhon_error([move, ann, n7, '--host', N1], "no host n7"),
+    typhon_error([dispose, bob, '--host', N1], "no agent bob"),
+    typhon_lines([remote, N1, 'neighbours([A,B]), write(hi), nl, _X = 1'],
+                 ["hi", Line1, Line2]),
+    assertion(has_line([Line1], 'A = *n2@*')),
+    assertion(has_line([Line2], 'B = *n3@*')),
+    typhon([remote, N1, fail], exit(1), "", "").
+
+test(stop) :-
+    with_typhon([host, alpha], Pid, Alpha,
+                ( typhon_lines([stop, Alpha], []),
+                  wait_for_end(Pid, 10, Status),
+                  typhon_error([stop, Alpha], Alpha)
+                )),
+    assertion(Status == exit(0)).
+
+test(check) :-
+    with_tmp_dir(check).
+
+check(Dir) :-
+    write_file(Dir, 'good.pl', ':- agent(good, []).\nmain.\n', Good),
+    write_file(Dir, 'bad.pl',
+               ':- agent(bad, []).\nmain :- \\+ move(x).\n', Bad),
+    typhon([check, Good], exit(0), "", _),
+    typhon([check, Good, Bad], exit(1), "", Err),
+    assertion(sub_string(Err, _, _, _, "bad.pl:2")),
+    typhon_error([check, '/no/such/program'], "agents(census)").
+
 test(link) :-
     with_typhon([host, alpha], _, Alpha,
         with_typhon([host, beta, '--link', Alpha], _, _,
@@ -188,7 +251,7 @@ test(runs_until_stopped, Status == exit(0)) :-
                   process_kill(Pid, int),
                   wait_for_end(Pid, 20, Status)
                 )),
-    assertion(length(Hosts, 3)).
+    assertion(length(Hosts, 5)).
 
 :- end_tests(app_network).
 

@@ -64,10 +64,12 @@ mail_list(Id, Messages) :-
 %!  mail_count(+Id, -Count:nonneg) is det.
 
 mail_count(Id, Count) :-
-    (   box(Id, Queue)
-    ->  message_queue_property(Queue, size(Count))
-    ;   Count = 0
-    ).
+    box(Id, Queue),
+    catch(message_queue_property(Queue, size(Count0)),
+          error(existence_error(_, _), _), fail),
+    !,
+    Count = Count0.
+mail_count(_, 0).
 
 %!  mail_back(+Id, +Messages:list) is det.
 %

@@ -22,11 +22,18 @@ and robot interface of the host.  Agents that stand on the host find its
 predicates through the import chain agent, place, vocabulary, system.  The
 tuple space of the host is the predicate '$tuple'/1 of its place.
 
+make/0 loads files anew that have changed since they were consulted into a
+place. Agents that stand there meet the new clauses with their next call.
+
 *Threading*: any thread.  tuple_take/2 is atomic.
 */
 
+:- multifile
+    prolog:make_hook/2.
+
 :- dynamic
-    loaded/2,                   % Place, SourceId: consulted into it
+    loaded/4,                   % Place, SourceId, File, Time: consulted
+                                % into it, as File was at Time
     delivered/3.                % Place, Payload name, PIs
 
 %!  place_create(+Host, +Files, +Services, -Place) is det.
@@ -69,12 +76,42 @@ consult_into(Place, Spec) :-
     absolute_file_name(Spec, File,
                        [ file_type(prolog), access(read) ]),
     atomic_list_concat([Place, ': ', File], Id),
+    load(Place, Id, File).
+
+load(Place, Id, File) :-
+    time_file(File, Time),
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
-        ( assertz(loaded(Place, Id)),
+        ( retractall(loaded(Place, Id, _, _)),
+          assertz(loaded(Place, Id, File, Time)),
           load_files(Place:Id, [stream(In), silent(true)])
         ),
         close(In)).
+
+%   What other files load is a file of its own, and make/0 knows it.
+
+prolog:make_hook(before, _) :-
+    findall(loaded(Place, Id, File),
+            ( loaded(Place, Id, File, Time), changed(Id, File, Time) ),
+            Changed),
+    forall(member(loaded(Place, Id, File), Changed),
+           reload(Place, Id, File)),
+    fail.                               % others have hooks, too
+
+changed(_, File, Time) :-
+    later(File, Time).
+changed(Id, _, _) :-
+    source_file_property(Id, includes(File, Time)),
+    later(File, Time).
+
+later(File, Then) :-
+    catch(time_file(File, Time), error(_, _), fail),
+    Time-Then > 0.001.
+
+reload(Place, Id, File) :-
+    catch(load(Place, Id, File), error(Formal, Context),
+          print_message(error, error(Formal, Context))),
+    print_message(informational, typhon(place_reloaded(Place, File))).
 
 %!  place_destroy(+Place) is det.
 
@@ -84,7 +121,7 @@ place_destroy(Place) :-
     '$destroy_module'(Place).
 
 unload(Place) :-
-    retract(loaded(Place, Id)),
+    retract(loaded(Place, Id, _, _)),
     !,
     unload_file(Id),
     unload(Place).

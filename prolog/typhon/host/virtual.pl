@@ -7,6 +7,7 @@
             virtual_signal/1            % :Goal
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/output', [output_own/0]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module(virtual_loop,
               [ virtual_begin/0, virtual_doing/1, virtual_loop/1,
@@ -53,7 +54,7 @@ comes in any order; with one there is no chance.
 virtual_start :-
     message_queue_create(Queue),
     virtual_begin,
-    thread_create(virtual_loop(Queue), Thread, [alias(typhon_virtual_time)]),
+    thread_create(( output_own, virtual_loop(Queue) ), Thread, [alias(typhon_virtual_time)]),
     assertz(loop(Thread, Queue)).
 
 virtual_stop :-

@@ -1,4 +1,5 @@
 :- module(typhon_running, []).
+:- use_module('../base/output', [output_rest/0]).
 :- use_module('../program', [answer_at/3, code_module/2, machine_run/3]).
 :- use_module('../host', [context_clear/0, context_set/3]).
 :- use_module('../agent',
@@ -60,6 +61,7 @@ go_on(elsewhere(Goals), Id) :-
 %   it cannot go on.
 
 left(Catcher, Id) :-
+    output_rest,
     context_clear,
     (   Catcher = exception(_)
     ->  ignore(agent_end(Id, disposed))

@@ -13,6 +13,7 @@
                 host_stop/1, host_unlink/2, runtime_acquire/2,
                 runtime_release/1 ]).
 :- use_module('../travel', [home_agents/1]).
+:- use_module(voice, [voice_begin/0]).
 
 /** <module> A process that carries hosts of a network
 
@@ -128,6 +129,7 @@ carrier_main :-
     on_signal(term, _, typhon_carrier:on_stop_signal),
     on_signal(int, _, typhon_carrier:on_stop_signal),
     assertz(child),
+    voice_begin,
     runtime_acquire(node, [bind(Interface)]),
     endpoint_address(Endpoint),
     thread_create(watch_input, _, [alias(typhon_input), detached(true)]),

@@ -15,7 +15,9 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_options/2]).
+:- use_module('../base/output', [output_own/0]).
 :- use_module('../wire', [cookie/1]).
+:- use_module(voice, [voice_heard/2]).
 
 /** <module> Processes that carry the hosts of a network
 
@@ -23,7 +25,7 @@ A child runs carrier.pl, on this machine or through ssh on another. It is told
 what it must know in one line on its standard input, the cookie among it,
 which therefore is in no argument list and no environment of ssh. It says
 in one line on its standard output where its endpoint listens. Whatever it
-prints later is printed here.
+prints later is printed here, see room `voice`.
 
 Its standard input stays open as long as it is wanted. The end of it is
 the order to stop, and it comes by itself when this process dies.
@@ -144,6 +146,7 @@ target_host(Target, Host) :-
                 *******************************/
 
 follow(Tag, Pid, Out, OnEvent) :-
+    output_own,
     set_stream(Out, encoding(utf8)),
     catch(( nb_setval(typhon_reading, true),
             lines(Tag, Out, OnEvent),
@@ -167,7 +170,7 @@ line(Line, Tag, OnEvent) :-
     ->  atom_string(Endpoint, Endpoint0),
         number_string(Pid, Pid0),
         call(OnEvent, up(Tag, Endpoint, Pid))
-    ;   format(user_output, '~s~n', [Line])
+    ;   voice_heard(Tag, Line)
     ).
 
                 /*******************************

@@ -13,7 +13,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../wire', [endpoint_missed/2]).
-:- use_module('../host', [address_parts/3]).
+:- use_module('../host', [address_parts/3, host_property/2]).
 :- use_module('../base/names', [names/2, names_proposed/3]).
 
 :- multifile
@@ -180,6 +180,9 @@ prolog:message(typhon(checked(Program, Errors, Doubts, Undefined))) -->
     [ '~p: ~d errors, '-[Program, Errors] ],
     doubts(Doubts),
     [ '~d calls of what others must define'-[Undefined] ].
+prolog:message(typhon(place_reloaded(Place, File))) -->
+    { host_property(Host, place(Place)) -> true ; Host = Place },
+    [ '~w is loaded anew into the place of ~w'-[File, Host] ].
 prolog:message(typhon(stuck_worker(Worker))) -->
     [ 'Worker ~p does not stop: its agent neither ends nor yields'-
       [Worker] ].

@@ -1,6 +1,8 @@
 :- module(typhon_tables,
           [ hosts/0,
-            agents/0
+            agents/0,
+            print_hosts/1,              % +Places
+            print_agents/2              % +Places, +Ids
           ]).
 
 /** <module> Hosts and agents as tables for people
@@ -10,10 +12,13 @@ made is left out.
 */
 
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
-:- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(option), [option/3]).
-:- use_module('../host', [host_property/2]).
-:- use_module('../lifecycle', [agent_property/2]).
+:- use_module(library(lists), [append/2, append/3, member/2, sum_list/2]).
+:- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
+:- use_module(library(settings), [setting/2]).
+:- use_module('../agent', [agent_name/3]).
+:- use_module('../host', [address_parts/3]).
+:- use_module('../network', [network_property/2]).
+:- use_module(survey, [survey/4, survey_order/2]).
 
 %   So many lines are still read by a person.
 
@@ -25,45 +30,76 @@ longest_table(60).
 
 %!  hosts is det.
 %
-%   Print a table of the hosts of this process: their address, what they
-%   do, how many agents they have of how many they admit, how many came in,
-%   and their neighbours.
+%   Print a table of the hosts of this process, of the networks that it has
+%   started, and of all to which one comes from these along links, in other
+%   processes, too: their address, what they do, how many agents they have
+%   of how many they admit, how many came in, and their neighbours.  Of a
+%   process that has not answered within two seconds (the setting
+%   `typhon_survey:seconds`) it says so.
 
 hosts :-
-    findall(Host, host_property(Host, state(_)), Hosts0),
-    sort(Hosts0, Hosts),
-    findall(Row, (member(Host, Hosts), host_row(Host, Row)), Rows),
-    print_table([host-left, state-left, agents-right, 'arrived'-right,
+    print_hosts([]).
+
+%!  print_hosts(+Places) is det.
+%
+%   As hosts/0, the processes of the addresses Places among them.
+
+print_hosts(Places) :-
+    survey(0, Places, Seen, Silent),
+    findall(Host, ( member(seen(Hosts, _, _), Seen), member(Host, Hosts) ),
+            Answered),
+    findall(host(Address, Why, '', '', '', []),
+            unseen(Places, Seen, Silent, Address, Why),
+            Unseen0),
+    sort(Unseen0, Unseen),
+    append(Answered, Unseen, All),
+    in_order(All, Sorted),
+    longest_table(Longest),
+    first_few(Longest, Sorted, Shown, More),
+    maplist(host_row, Shown, Rows),
+    print_table([host-left, state-left, agents-right, arrived-right,
                  neighbours-left],
-                Rows, host).
+                Rows, host),
+    print_more(More),
+    print_silent(Silent).
 
-host_row(Host, [Address, State, Agents, Arrived, Neighbours]) :-
-    findall(Property, host_property(Host, Property), Properties),
-    option(address(Address), Properties, Host),
-    option(state(State0), Properties, ''),
-    plain(State0, State),
-    host_agents(Properties, Agents),
-    host_arrived(Properties, Arrived),
-    host_neighbours(Properties, Neighbours).
+%   unseen(+Places, +Seen, +Silent, -Address, -State): a host that was heard
+%   of in a process that has not answered.
 
-host_agents(Properties, Agents) :-
-    option(load(Load), Properties, 0),
-    option(capacity(Capacity), Properties, inf),
-    (   Capacity == inf
-    ->  Agents = Load
-    ;   format(atom(Agents), '~w of ~w', [Load, Capacity])
-    ).
+unseen(Places, Seen, Silent, Address, State) :-
+    heard_of(Places, Seen, Address),
+    address_parts(Address, _, Endpoint),
+    memberchk(Endpoint-Why, Silent),
+    silence(Why, State).
 
-host_arrived(Properties, Count) :-
-    (   member(hop_time(in, stats(Count0, _, _, _)), Properties)
-    ->  Count = Count0
-    ;   Count = 0
-    ).
+heard_of(Places, _, Address) :-
+    member(Address, Places).
+heard_of(_, _, Address) :-
+    network_property(_, hosts(Addresses)),
+    member(Address, Addresses).
+heard_of(_, Seen, Address) :-
+    member(seen(Hosts, _, _), Seen),
+    member(host(_, _, _, _, _, Neighbours), Hosts),
+    member(Address, Neighbours).
+
+silence(gone, gone).
+silence(lost, silent).
+silence(late, silent).
+
+host_row(host(Address, State, Load, Capacity, Arrived, Neighbours),
+         [Address, State, Agents, Arrived, Text]) :-
+    host_agents(Capacity, Load, Agents),
+    host_neighbours(Neighbours, Text).
+
+host_agents(Capacity, Load, Agents) :-
+    integer(Capacity),
+    !,
+    format(atom(Agents), '~w of ~w', [Load, Capacity]).
+host_agents(_, Load, Load).
 
 %   Enough of them to recognise the network.
 
-host_neighbours(Properties, Text) :-
-    option(neighbours(Neighbours), Properties, []),
+host_neighbours(Neighbours, Text) :-
     maplist(short_name, Neighbours, Names),
     first_few(6, Names, Shown, More),
     atomic_list_concat(Shown, ' ', Text0),
@@ -84,44 +120,101 @@ short_name(Name, Name).
 
 %!  agents is det.
 %
-%   Print a table of the agents known to this process: id, where it is,
-%   what it does and how far it has come.
+%   Print a table of the agents on the hosts that hosts/0 shows: the name of
+%   an agent, or its id where another has the same name; where it is; its
+%   program; what it does or waits for; how often it has moved, and how many
+%   messages wait for it.
 
 agents :-
-    findall(Agent, agent_property(Agent, state(_)), Agents0),
-    sort(Agents0, Agents),
+    print_agents([], short).
+
+%!  print_agents(+Places, +Ids) is det.
+%
+%   As agents/0, the processes of the addresses Places among them.  Ids is
+%   `full`, or `short`: names where they are unique.
+
+print_agents(Places, Ids) :-
     longest_table(Longest),
-    first_few(Longest, Agents, Shown, More),
-    findall(Row, (member(Agent, Shown), agent_row(Agent, Row)), Rows),
+    Most is Longest+1,          % tells whether the last name is unique
+    survey(Most, Places, Seen, Silent),
+    agents_seen(Seen, Agents, Count),
+    first_few(Longest, Agents, Shown, _),
+    maplist(agent_row(Ids, Agents), Shown, Rows),
     print_table([agent-left, host-left, program-left, state-left,
-                 hops-right],
+                 hops-right, mail-right],
                 Rows, agent),
-    (   More =:= 0
-    ->  true
-    ;   format('... and ~D more~n', [More])
-    ).
+    length(Rows, Printed),
+    More is Count-Printed,
+    print_more(More),
+    print_silent(Silent).
 
-agent_row(Agent, [Agent, Host, Program, State, Hops]) :-
-    agent_property(Agent, state(State0)),
-    !,
-    plain(State0, State),
-    findall(Property, agent_property(Agent, Property), Properties),
-    option(host(Host0), Properties, ''),
-    short_name(Host0, Host),
-    option(program(Program), Properties, ''),
-    option(hops(Hops), Properties, '').
+%   agents_seen(+Seen, -Agents, -Count): the first of Count agents, in order.
 
-%   An error as a state would fill the line: faulty says it.
+agents_seen(Seen, Agents, Count) :-
+    findall(Some, member(seen(_, Some, _), Seen), Lists),
+    findall(N, member(seen(_, _, N), Seen), Counts),
+    append(Lists, All),
+    once_each(All, Different),
+    in_order(Different, Agents),
+    sum_list(Counts, Total),
+    length(All, Sent),
+    length(Different, Left),
+    Count is Total-(Sent-Left).
 
-plain(State, Text) :-
-    compound(State),
-    !,
-    functor(State, Text, _).
-plain(State, State).
+%   One under way may have been seen twice: where it has come counts.
+
+once_each(Agents, Set) :-
+    map_list_to_pairs(hops_left, Agents, Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Sorted),
+    sort(1, @<, Sorted, Set).           % the first of each
+
+hops_left(agent(_, glance(_, _, _, Hops, _)), Left) :-
+    Left is -Hops.
+
+agent_row(Ids, All, agent(Id, glance(Address, Program, Doing, Hops, Mail)),
+          [Name, Host, Program, Doing, Hops, Mail]) :-
+    shown_id(Ids, All, Id, Name),
+    short_name(Address, Host).
+
+shown_id(short, All, Id, Name) :-
+    agent_name(Id, Name, _),
+    \+ ( member(agent(Other, _), All),
+         Other \== Id,
+         agent_name(Other, Name, _) ),
+    !.
+shown_id(_, _, Id, Id).
 
                 /*******************************
                 *             TABLE            *
                 *******************************/
+
+in_order(Rows, Sorted) :-
+    map_list_to_pairs(row_key, Rows, Pairs),
+    keysort(Pairs, SortedPairs),
+    pairs_values(SortedPairs, Sorted).
+
+row_key(Row, Key) :-
+    arg(1, Row, Name),
+    survey_order(Name, Key).
+
+print_more(More) :-
+    (   More > 0
+    ->  format('... and ~D more~n', [More])
+    ;   true
+    ).
+
+print_silent(Silent) :-
+    forall(member(Endpoint-Why, Silent), print_silence(Why, Endpoint)).
+
+print_silence(gone, Endpoint) :-
+    format('There is no process at ~w any more~n', [Endpoint]).
+print_silence(lost, Endpoint) :-
+    format('The connection to ~w was lost~n', [Endpoint]).
+print_silence(late, Endpoint) :-
+    setting(typhon_survey:seconds, Seconds),
+    format('The process at ~w has not answered within ~w s~n',
+           [Endpoint, Seconds]).
 
 print_table(_, [], What) :-
     !,
@@ -130,8 +223,8 @@ print_table(Columns, Rows, _) :-
     findall(Title, member(Title-_, Columns), Titles),
     findall(Side, member(_-Side, Columns), Sides),
     All = [Titles|Rows],
-    maplist(maplist(width), All, WidthRows),
-    foldl(maplist(wider), WidthRows, [0,0,0,0,0], Widths),
+    maplist(maplist(width), All, [First|WidthRows]),
+    foldl(maplist(wider), WidthRows, First, Widths),
     maplist(print_row(Sides, Widths), All).
 
 width(Cell, Width) :-

@@ -23,6 +23,7 @@ _Threading_: wire_thread_join/1 is for the keeper, the rest may be called
 from any thread.
 */
 
+:- use_module('../base/output', [output_own/0]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 
 :- meta_predicate
@@ -71,7 +72,9 @@ create(Goal, Alias, Thread, Before) :-
 work(Goal) :-
     setup_call_cleanup(
         true,
-        catch(( thread_get_message(wire_thread_begin), ignore(Goal) ),
+        catch(( output_own,
+                thread_get_message(wire_thread_begin),
+                ignore(Goal) ),
               wire_thread_end(_),
               true),
         ended).

@@ -1,0 +1,204 @@
+:- module(typhon_app_orders,
+          [ order/3,                    % +Command, +Arguments, +Options
+            program_argument/2,         % +Text, -Program
+            host_now/2,                 % +Host, -Address
+            agent_argument/3            % +Text, +Options, -Agent
+          ]).
+
+/** <module> Commands about agents and hosts that run
+
+order/3 has one clause for each command, and fails when the answer is no.
+
+*Threading*: the main thread.
+*/
+
+:- use_module(library(apply), [exclude/3, maplist/2, maplist/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module('../prolog/typhon',
+              [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/2,
+                agent_property/2, host_property/2, remote/2 ]).
+:- use_module('../prolog/typhon/agent/identity', [agent_name/3]).
+:- use_module('../prolog/typhon/host/hosts', [address_parts/3]).
+:- use_module('../prolog/typhon/people/survey', [survey/4]).
+
+%!  order(+Command, +Arguments, +Options) is semidet.
+
+order(check, Texts, _) :-
+    maplist(program_argument, Texts, Programs),
+    statistics(errors, Before),
+    maplist(agent_check, Programs),
+    statistics(errors, Before).         % none was printed
+order(dispose, [Text], Options) :-
+    agent_argument(Text, Options, Agent),
+    agent_dispose(Agent).
+order(move, [Text, HostText], Options) :-
+    agent_argument(Text, Options, Agent),
+    host_argument(HostText, Agent, Host),
+    agent_move(Agent, Host),
+    option(timeout(Seconds), Options, 10),
+    within(Seconds, is_at(Agent, Host)).
+order(join, [Text], Options) :-
+    agent_argument(Text, Options, Agent),
+    option(timeout(Seconds), Options, 1.0e9),
+    agent_join(Agent, Outcome, Seconds),
+    format('~q~n', [Outcome]),
+    Outcome == done.
+order(remote, [Host, Text], _) :-
+    goal_argument(Text, Goal, Bindings),
+    remote(Host, with_output_to(string(Output), Goal)),
+    format('~s', [Output]),
+    forall(member(Name=Value, Bindings),
+           format('~w = ~q~n', [Name, Value])).
+order(stop, [Host], Options) :-
+    host_now(Host, Address),
+    address_parts(Address, Name, _),
+    tell_to_stop(Host, Name),
+    option(timeout(Seconds), Options, 20),
+    within(Seconds, is_gone(Host)).
+
+%   What the command line has started ends in order, as by a signal. The answer
+%   may be lost with the process.
+
+tell_to_stop(Host, Name) :-
+    catch(remote(Host,
+                 catch(typhon_app:told_to_stop(stop),
+                       error(existence_error(procedure, _), _),
+                       thread_create(typhon:host_stop(Name), _,
+                                     [detached(true)]))),
+          error(connection_lost(_), _),
+          true).
+
+                /*******************************
+                *          ARGUMENTS           *
+                *******************************/
+
+%!  program_argument(+Text, -Program) is det.
+%
+%   A file, or a term as agents(census).
+
+program_argument(Text, Text) :-
+    exists_file(Text),
+    !.
+program_argument(Text, Program) :-
+    sub_atom(Text, _, 1, 0, ')'),
+    !,
+    catch(term_to_atom(Program, Text),
+          error(syntax_error(_), _),
+          usage(not_a_term(Text))).
+program_argument(Text, Text).
+
+%!  agent_argument(+Text, +Options, -Agent) is det.
+%
+%   The id of an agent, or with host(Host) in Options the name of the only one
+%   that has it among those in the network of Host.
+
+agent_argument(Id, _, Agent) :-
+    sub_atom(Id, _, _, _, @),
+    !,
+    Agent = Id.
+agent_argument(Name, Options, Agent) :-
+    option(host(Host), Options),
+    !,
+    seen_from(Host, Agents),
+    findall(Id, ( member(Id, Agents), agent_name(Id, Name, _) ), Ids),
+    only(Ids, Name, Host, Agent).
+agent_argument(Name, _, _) :-
+    usage(not_an_id(Name)).
+
+seen_from(Host, Agents) :-
+    survey(1000000, [Host], Seen, _),
+    findall(Id, ( member(seen(_, Here, _), Seen), member(agent(Id, _), Here) ),
+            Ids),
+    sort(Ids, Agents).
+
+only([Agent], _, _, Agent) :-
+    !.
+only([], Name, Host, _) :-
+    usage(no_agent(Name, Host)).
+only(Ids, Name, _, _) :-
+    usage(several_agents(Name, Ids)).
+
+%!  host_now(+Host, -Address) is det.
+%
+%   Host, an address, is there.
+%
+%   @error host_unreachable(Host), existence_error(host, Host)
+
+host_now(Host, Address) :-
+    catch(host_property(Host, address(Address)),
+          error(host_unreachable(_), _),
+          throw(error(host_unreachable(Host), _))),
+    !.
+
+%   An address, or the name of a host in the network of Agent.
+
+host_argument(Address, _, Host) :-
+    sub_atom(Address, _, _, _, @),
+    !,
+    Host = Address.
+host_argument(Name, Agent, Host) :-
+    agent_property(Agent, host(There)),
+    !,
+    survey(0, [There], Seen, _),
+    findall(Address,
+            ( member(seen(Hosts, _, _), Seen),
+              member(Known, Hosts),
+              arg(1, Known, Address),
+              address_parts(Address, Name, _) ),
+            Addresses0),
+    sort(Addresses0, Addresses),
+    (   Addresses = [Host]
+    ->  true
+    ;   usage(not_one_host(Name, Addresses))
+    ).
+host_argument(_, Agent, _) :-
+    throw(error(existence_error(agent, Agent), _)).
+
+goal_argument(Text, Goal, Bindings) :-
+    catch(term_string(Goal, Text, [variable_names(All)]),
+          error(syntax_error(_), _),
+          usage(not_a_term(Text))),
+    exclude(hidden, All, Bindings).
+
+hidden(Name=_) :-
+    sub_atom(Name, 0, _, _, '_').
+
+usage(Problem) :-
+    throw(error(typhon_usage(Problem), _)).
+
+                /*******************************
+                *            WAITING           *
+                *******************************/
+
+%   Orders are taken at the next effect of an agent, and a host takes its time
+%   to stop.
+
+is_at(Agent, Host) :-
+    agent_property(Agent, host(Host)),
+    \+ agent_property(Agent, state(in_transit)).
+
+is_gone(Host) :-
+    catch(\+ host_property(Host, state(_)),
+          error(Formal, _),
+          gone(Formal)).
+
+gone(existence_error(host, _)).
+gone(host_unreachable(_)).
+gone(connection_lost(_)).
+
+:- meta_predicate within(+, 0).
+
+within(Seconds, Goal) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    try(Goal, Deadline).
+
+try(Goal, _) :-
+    call(Goal),
+    !.
+try(Goal, Deadline) :-
+    get_time(Now),
+    Now < Deadline,
+    sleep(0.05),
+    try(Goal, Deadline).

@@ -1,0 +1,95 @@
+:- module(typhon_glance,
+          [ agent_glance/2              % ?Agent, -Glance
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module('../program', [code_program/2]).
+:- use_module('../host', [address_parts/3, host/3, host_time/2]).
+:- use_module('../agent',
+              [agent/5, agent_status/3, life_hops/2, mail_count/2]).
+:- use_module('../travel', [in_doubt/1]).
+
+/** <module> Agents at a glance
+
+The little of each agent of this process that a table shows, without its
+goals and facts, which may be large.
+
+*Threading*: any thread.  Nothing is locked: an agent that leaves meanwhile is
+left out.
+*/
+
+%!  agent_glance(?Agent, -Glance) is nondet.
+%
+%   Glance is glance(Host, Program, Doing, Hops, Mail): the address of the host
+%   on which Agent stands, the name of its program, what it does or waits for
+%   as text, how often it moved and how many messages wait for it.
+
+agent_glance(Agent, glance(Address, Program, Doing, Hops, Mail)) :-
+    agent(Agent, Host, _, Hash, Life),
+    host(Host, Address, _),
+    code_program(Hash, program(Program, _, _, _)),
+    agent_status(Agent, Status, _),
+    once(doing(Status, Host, Doing)),
+    life_hops(Life, Hops),
+    mail_count(Agent, Mail).
+
+doing(ready, _, running).
+doing(obeying, _, running).
+doing(arriving, _, in_transit).
+doing(sleeping(Until), Host, Doing) :-
+    time_left(Until, Host, Left),
+    format(atom(Doing), 'sleeping, ~w', [Left]).
+doing(waiting(Pattern, Until), Host, Doing) :-
+    short_text(Pattern, Text),
+    (   number(Until)
+    ->  time_left(Until, Host, Left),
+        format(atom(Doing), 'waiting for ~w, ~w', [Text, Left])
+    ;   atom_concat('waiting for ', Text, Doing)
+    ).
+doing(leaving(To, _), _, Doing) :-
+    bound_for(in_transit, To, Doing).
+doing(transit(To, Sent), _, Doing) :-
+    under_way(transit(To, Sent), To, Doing).
+doing(cloning(To, Sent), _, Doing) :-
+    under_way(cloning(To, Sent), To, Doing).
+doing(faulty(Error), _, Doing) :-
+    formal(Error, Formal),
+    short_text(Formal, Text),
+    atom_concat('faulty: ', Text, Doing).
+doing(Status, _, Doing) :-
+    functor(Status, Doing, _).
+
+under_way(Status, To, Doing) :-
+    (   in_doubt(Status)
+    ->  bound_for(in_doubt, To, Doing)
+    ;   bound_for(in_transit, To, Doing)
+    ).
+
+bound_for(State, To, Doing) :-
+    (   address_parts(To, Name, _)
+    ->  true
+    ;   Name = To
+    ),
+    format(atom(Doing), '~w to ~w', [State, Name]).
+
+time_left(Until, Host, Text) :-
+    host_time(Host, Now),
+    Left is max(0.0, Until-Now),
+    format(atom(Text), '~1f s left', [Left]).
+
+formal(error(Formal, _), Formal) :-
+    !.
+formal(Ball, Ball).
+
+%   So much is still read by a person.
+
+short_text(Term, Text) :-
+    copy_term(Term, Copy, _),
+    term_variables(Copy, Variables),
+    maplist(=('$VAR'('_')), Variables),
+    format(atom(Whole), '~W',
+           [ Copy, [quoted(true), numbervars(true), max_depth(8)] ]),
+    (   sub_atom(Whole, 0, 45, After, Begin),
+        After > 3
+    ->  atom_concat(Begin, '...', Text)
+    ;   Text = Whole
+    ).

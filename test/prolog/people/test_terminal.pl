@@ -1,0 +1,72 @@
+:- module(test_terminal, []).
+
+% What agents print while somebody types.
+
+:- use_module('../../lib/common').
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/2, append/3]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+:- needs([python3]).
+
+%   screen(+Steps, +Program, -Rows): what stands there after Steps at a top
+%   level that has loaded Program.
+
+screen(Steps, Program, Rows) :-
+    with_tmp_dir(screen(Steps, Program, Rows)).
+
+screen(Steps, Program, Rows, Dir) :-
+    directory_file_path(Dir, 'program.pl', File),
+    project_file('prolog/typhon.pl', Typhon),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- use_module(~q).~n~s', [Typhon, Program]),
+        close(Out)),
+    project_file('test/lib/screen.py', Screen),
+    current_prolog_flag(executable, Swipl),
+    append([[Screen], Steps, [--, Swipl, '-f', none, '-g',
+             'set_prolog_flag(toplevel_prompt, \'?- \')', File]], Args),
+    directory_file_path(Dir, out, OutFile),
+    setup_call_cleanup(
+        open(OutFile, write, OutStream),
+        ( process_create(path(python3), Args,
+                         [ stdin(null), stdout(stream(OutStream)),
+                           cwd(Dir), process(Pid) ]),
+          process_wait(Pid, Status) ),
+        close(OutStream)),
+    read_file_to_string(OutFile, Text, [encoding(utf8)]),
+    split_string(Text, "\n", "", Rows0),
+    exclude(==(""), Rows0, Rows),
+    assertion(Status-Rows = exit(0)-_).
+
+:- begin_tests(terminal).
+
+%   Lines, begun lines, messages and what is too long for the terminal stand
+%   above what is being typed, which is as it was, and works.
+
+test(agents_do_not_disturb_who_types) :-
+    screen(['at:?- ', 'type:go.\\n', 'see:true.', 'at:?- ',
+            'type:format(ab', 'at:?- format(ab',
+            'type:c).', 'see:xxxxx', 'at:?- format(abc).',
+            'type:\\n', 'see:true.', 'at:?- '],
+           "go :-
+    host_start(alpha),
+    agent_create(clauses([(:- agent(chat, [])),
+                          (main :- sleep(1.5),
+                                   format('two~nlines~n'),
+                                   write(a), write(b), nl,
+                                   write(begun), log(told), sleep(0),
+                                   format('~`xt~100|~n'))]), _).
+", Rows),
+    append(_, ["two", "lines", "ab", "begun", Log, X80, X20|Below], Rows),
+    !,
+    assertion(wildcard_match("% chat.*at alpha: told", Log)),
+    assertion(string_length(X80, 80)),
+    assertion(string_length(X20, 20)),
+    assertion(append(["?- format(abc).", "abc", "true."], ["?-"], Below)).
+
+:- end_tests(terminal).
