@@ -137,7 +137,7 @@ trip_bytes(Bytes) :-
     Bytes is Length+3.
 
 image(hop(peer, image('traveller.abcdefgh.1@here@127.0.0.1:12345', Hash,
-                      life(none, 1, inf, [], [], false),
+                      life(none, 1, inf, [], [], false, []),
                       state([], Facts), [true,main], [], 123.456), known)) :-
     length(Codes, 64),
     maplist([C]>>(C = 0'a), Codes),

@@ -9,9 +9,9 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/agents,
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
               agent_mobile/2, agent_move/5, agent_order/2, agent_ordered/1,
-              agent_program/4,
-              agent_put/3, agent_ready/2, agent_remove/3,
-              agent_rest/3, agent_status/3, agent_take/3, with_agent/2
+              agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
+              agent_remove/3, agent_rest/3, agent_resumes/2, agent_status/3,
+              agent_take/3, agent_unorder/2, with_agent/2
             ]).
 :- reexport(agent/agent_module,
             [ agent_changed/4, agent_elsewhere/3, agent_handles/2,
@@ -21,8 +21,10 @@ This is the door of the layer: who is above takes what it needs from here.
             ]).
 :- reexport(agent/life,
             [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
-              life_parent/2, life_payloads/2, life_tokens/2, make_life/2
+              life_parent/2, life_payloads/2, life_tokens/2, life_traces/2,
+              make_life/2, set_traces_of_life/3
             ]).
+:- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
               image_label/2, image_module/3

@@ -195,7 +195,7 @@ posted(log, event('log@127.0.0.1:1', host, Agent, what)) :-
 posted(zork, zork).
 
 requested(hop, hop(victim,
-                   image(Agent, hash, life(none, 1, inf, [], [], false),
+                   image(Agent, hash, life(none, 1, inf, [], [], false, []),
                          state([], [f(1)-true]), [true], [], 0.0),
                    Program)) :-
     agent(Agent),

@@ -11,16 +11,19 @@
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
             agent_departs/3,            % +Id, -Dest, -Goals
+            agent_resumes/2,            % +Id, -Goals
             agent_ready/2,              % +Id, +Goals
             with_agent/2,               % +Id, :Goal
             agent_mail/2,               % +Id, +Messages
             agent_order/2,              % +Id, +Order
+            agent_unorder/2,            % +Id, ?Order
             agent_ordered/1             % +Id
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../host', [schedule/2]).
+:- use_module('../host', [events_forget/1, schedule/2]).
 :- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
+:- use_module(traces, [traces_heard/2]).
 
 /** <module> Agents that stand in this process
 
@@ -29,10 +32,10 @@ The records of agents, each with one owner: this module.  An agent is
   - a module of its name with its state, see typhon_agent_module;
   - a life, see typhon_life;
   - a status, one of `ready`, `running`, sleeping(Until),
-    waiting(Pattern, Until), `resident`, `obeying`, leaving(Host, At),
-    transit(Host, Sent), cloning(Host, Sent) or faulty(Error), with
-    the goals still to run.  While a control predicate is under way the
-    goals are Hole-Goals, see typhon_machine;
+    waiting(Pattern, Until), `resident`, `held`, `resumed`, `obeying`,
+    leaving(Host, At), transit(Host, Sent), cloning(Host, Sent) or
+    faulty(Error), with the goals still to run.  While a control predicate is
+    under way the goals are Hole-Goals, see typhon_machine;
   - a mailbox, see typhon_mailbox, and orders from outside.
 
 Changes of the database are what a hop costs most of.  So an agent that
@@ -101,7 +104,8 @@ make_shards :-
 
 agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     assertz(stands(Id, Host, Module, Hash, Life, 0)),
-    assertz(status(Id, Status, Goals)).
+    assertz(status(Id, Status, Goals)),
+    traces_heard(Id, Life).
 
 agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, _, Module, _, _, _)),
@@ -191,6 +195,14 @@ agent_departs(Id, Dest, Goals) :-
     retract(status(Id, leaving(Dest, _), Goals)),
     !.
 
+%!  agent_resumes(+Id, -Goals) is semidet.
+%
+%   Id, which was held and is to go on, belongs to the caller from now on.
+
+agent_resumes(Id, Goals) :-
+    retract(status(Id, resumed, Goals)),
+    !.
+
 %!  agent_ready(+Id, +Goals) is det.
 %
 %   Id goes on with Goals when its turn comes.
@@ -207,7 +219,9 @@ agent_put_life(Id, Life) :-
     stands(Id, Host, Module, Hash, _, Until),
     !,
     assertz(stands(Id, Host, Module, Hash, Life, Until)),
-    forget_first(Id).
+    forget_first(Id),
+    events_forget(Id),
+    traces_heard(Id, Life).
 
 %!  agent_program(+Id, +Hash, +Module, +Life) is det.
 %
@@ -278,12 +292,18 @@ wakes(waiting(Pattern, _), Message) :-
     \+ Pattern \= Message.
 
 %!  agent_order(+Id, +Order) is det.
+%!  agent_unorder(+Id, ?Order) is semidet.
 %!  agent_ordered(+Id) is semidet.
 %
-%   Note an order from outside; whether there is one.
+%   Note an order from outside; take the oldest that unifies; whether there is
+%   one.
 
 agent_order(Id, Order) :-
     assertz(order(Id, Order)).
+
+agent_unorder(Id, Order) :-
+    retract(order(Id, Order)),
+    !.
 
 agent_ordered(Id) :-
     order(Id, _),

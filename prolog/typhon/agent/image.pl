@@ -10,6 +10,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module('../host', [event_heard/1, host/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_module/5, agent_state/2]).
 :- use_module(identity, [agent_home/2]).
@@ -22,7 +23,8 @@
     image(Id, Hash, Life, State, Goals, Mail, Since)
 
 Hash names its program, Mail is a list of From-Message, the oldest first,
-and Since the host time at which it set out.
+and Since the host time at which it set out, or From-Since where somebody
+wants to know from which host.
 
 *Threading*: any thread; image_enter/4 inside with_agent/2.
 */
@@ -34,17 +36,26 @@ and Since the host time at which it set out.
 %   clone is to be elsewhere.
 
 image_hop(Id, Hops, Goals, Mail, Since,
-          image(Id, Hash, Life, State, Goals, Mail, Since)) :-
-    agent(Id, _, Module, Hash, Life0),
+          image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+    agent(Id, Host, Module, Hash, Life0),
     life_hop(Life0, Life, Hops),
-    agent_state(Module, State).
+    agent_state(Module, State),
+    start(Host, Since, Start).
 
 image_clone(Id, CloneId, Goals, Since,
-            image(CloneId, Hash, Life, State, Goals, [], Since)) :-
-    agent(Id, _, Module, Hash, Life0),
+            image(CloneId, Hash, Life, State, Goals, [], Start)) :-
+    agent(Id, Host, Module, Hash, Life0),
     life_clone(Id, Life0, Life1),
     life_hop(Life1, Life, _),
-    agent_state(Module, State).
+    agent_state(Module, State),
+    start(Host, Since, Start).
+
+start(Host, Since, Start) :-
+    (   event_heard(hops),
+        host(Host, Address, _)
+    ->  Start = Address-Since
+    ;   Start = Since
+    ).
 
 %!  image_hash(+Image, -Hash) is det.
 
@@ -53,21 +64,30 @@ image_hash(image(_, Hash, _, _, _, _, _), Hash).
 %!  image_label(+Image, -Label) is det.
 %
 %   What one has to know of Image before it is installed: Label is
-%   label(Id, Hops, Hash, Tokens, Since).  What is not an agent is refused.
-%   Whether the state can be installed is seen when its module is made.
+%   label(Id, Hops, Hash, Tokens, Since, From), From being `none` or the
+%   host that it left.  What is not an agent is refused.  Whether the state
+%   can be installed is seen when its module is made.
 %
 %   @error type_error(agent_image, Name)
 
-image_label(Image, label(Id, Hops, Hash, Tokens, Since)) :-
+image_label(Image, label(Id, Hops, Hash, Tokens, Since, From)) :-
     (   is_image(Image)
-    ->  Image = image(Id, Hash, Life, _, _, _, Since),
+    ->  Image = image(Id, Hash, Life, _, _, _, Start),
+        started(Start, Since, From),
         life_hops(Life, Hops),
         life_tokens(Life, Tokens)
     ;   image_name(Image, Name),
         type_error(agent_image, Name)
     ).
 
-is_image(image(Id, Hash, Life, State, Goals, Mail, Since)) :-
+started(Start, Since, From) :-
+    (   number(Start)
+    ->  Since = Start,
+        From = none
+    ;   Start = From-Since
+    ).
+
+is_image(image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     atom(Id),
     agent_home(Id, _),
     atom(Hash),
@@ -76,6 +96,15 @@ is_image(image(Id, Hash, Life, State, Goals, Mail, Since)) :-
     State = state(Empty, Clauses),
     maplist(is_list, [Empty, Clauses, Goals, Mail]),
     forall(member(Message, Mail), subsumes_term(_-_, Message)),
+    is_start(Start).
+
+is_start(Start) :-
+    number(Start),
+    !.
+is_start(Start) :-
+    subsumes_term(_-_, Start),
+    Start = From-Since,
+    atom(From),
     number(Since).
 
 %   The whole would be too long for a message.

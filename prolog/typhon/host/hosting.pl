@@ -14,6 +14,7 @@
 :- use_module('../base/options', [check_option/2, check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
+:- use_module(events, [events_forget/1, events_log/1]).
 :- use_module(hosts,
               [ address_parts/3, host/3, host_add/4, host_close/1,
                 host_put/2, host_remove/1, host_resolve/2, host_unlink/2 ]).
@@ -58,7 +59,9 @@ other users of the process its endpoint, see typhon_runtime.
 %     - consult(+Files): clause files consulted into its place
 %     - services(+Modules): modules whose exports its place offers
 %     - place(+Module): a module all of whose predicates it offers
-%     - log(+Address): the log server
+%     - log(+Address), log(+Address, +Kinds): the log server.  It hears of
+%       the beginnings and ends of agents, of what they log themselves, and
+%       of Kinds: a list out of `hops`, `messages` and `facts`
 %     - remote(+Boolean): whether remote/2 is answered, default `true`
 %     - clock(virtual): time is virtual, see typhon_virtual; so it is then
 %       for all hosts of the process, which cannot be reached from others
@@ -95,6 +98,8 @@ host_option_type(consult(X), ground, X).
 host_option_type(services(X), ground, X).
 host_option_type(place(X), atom, X).
 host_option_type(log(X), atom, X).
+host_option_type(log(X, Kinds), atom, X) :-
+    must_be(list(event_kind), Kinds).
 host_option_type(remote(X), boolean, X).
 host_option_type(clock(X), oneof([virtual]), X).
 host_option_type(clock(X, Y), list(number), [X,Y]).
@@ -134,6 +139,7 @@ start_host(Name, Endpoint, Options) :-
     clock_set(Name, Epoch, Rate),
     scheduler_limit(Name, Concurrency),
     host_add(Name, Address, Place, Options),
+    events_log(Name),
     debug(typhon(host), '~w is started', [Address]).
 
 place_parts(Options, Files, Services) :-
@@ -219,6 +225,7 @@ stop(Name0) :-
     forall(evacuate(Name, Deadline), true),
     host_unlink(_, Address),
     host_remove(Name),
+    events_forget(Name),
     clock_clear(Name),
     place_destroy(Place),
     debug(typhon(host), '~w is stopped', [Address]),

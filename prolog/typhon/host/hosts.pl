@@ -16,12 +16,10 @@
             host_address/2,             % +Host, -Address
             address_parts/3,            % ?Address, ?Name, ?Endpoint
             host_hop/3,                 % +Name, +Direction, +Seconds
-            host_hop_stats/3,           % +Name, ?Direction, -Stats
-            host_log/3                  % +Name, +Agent, +What
+            host_hop_stats/3            % +Name, ?Direction, -Stats
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module('../wire', [endpoint_post/3]).
 
 /** <module> Hosts of this process
 
@@ -278,7 +276,7 @@ once_each([A|Rest], [A|Set]) :-
 once_each([], []).
 
                 /*******************************
-                *       HOP TIMES, LOG         *
+                *           HOP TIMES          *
                 *******************************/
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.
@@ -313,17 +311,3 @@ host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
         flag(MaxKey, Max, Max),
         Mean is Sum/Count
     ).
-
-%!  host_log(+Name, +Agent, +What) is det.
-%
-%   Send an event to the log server of Name, if it has one.
-
-host_log(Name, Agent, What) :-
-    option(Name, log(Log)),
-    !,
-    host(Name, Address, _),
-    address_parts(Log, _, Endpoint),
-    catch(endpoint_post(Endpoint, log, event(Log, Address, Agent, What)),
-          error(Formal, Context),
-          print_message(warning, error(Formal, Context))).
-host_log(_, _, _).

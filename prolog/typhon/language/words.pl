@@ -32,8 +32,8 @@
 :- use_module('../program', [payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
-              [ context_agent/1, context_host/1, context_now/2, host/3,
-                host_load/2, host_log/3, host_neighbours/2, host_option/2,
+              [ context/3, context_agent/1, context_host/1, context_now/2,
+                event/4, host/3, host_load/2, host_log/3, host_logs/1, host_neighbours/2,
                 host_time/2, place_deliver/3, place_undeliver/2,
                 tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
@@ -118,11 +118,13 @@ send(at(Agent, _), Message) :-
 send(Agent, Message) :-
     Agent == user,
     !,
-    context_agent(Id),
+    context(Host, Id, _),
+    event(messages, Host, Id, sent(user, Message)),
     print_message(informational, typhon(told(Id, Message))).
 send(Agent, Message) :-
     must_be(atom, Agent),
-    context_agent(Id),
+    context(Host, Id, _),
+    event(messages, Host, Id, sent(Agent, Message)),
     catch(post(Agent, Id, Message),
           error(existence_error(agent, Agent), _),
           print_message(warning,
@@ -137,19 +139,25 @@ send(Agent, Message) :-
 %   Of many that take the same fact one gets it.
 
 leave(Fact) :-
-    place(Place),
+    place(Host, Place),
     mobile_term(Fact),
-    tuple_leave(Place, Fact).
+    tuple_leave(Place, Fact),
+    shared(Host, leave(Fact)).
 
 sense(Fact) :-
-    place(Place),
+    place(_, Place),
     tuple_sense(Place, Fact).
 
 take(Fact) :-
-    place(Place),
-    tuple_take(Place, Fact).
+    place(Host, Place),
+    tuple_take(Place, Fact),
+    shared(Host, take(Fact)).
 
-place(Place) :-
+shared(Host, What) :-
+    context_now(_, Agent),
+    event(facts, Host, Agent, What).
+
+place(Host, Place) :-
     context_host(Host),
     host(Host, _, Place).
 
@@ -182,11 +190,11 @@ detach(Name) :-
 deliver(Name) :-
     context_agent(Id),
     agent_payload(Id, Name, Payload),
-    place(Place),
+    place(_, Place),
     place_deliver(Place, Payload, _).
 
 undeliver(Name) :-
-    place(Place),
+    place(_, Place),
     place_undeliver(Place, Name).
 
 %!  emit(+Problem) is det.
@@ -221,7 +229,7 @@ pheromone(Problem, Source, Strength) :-
 log(What) :-
     context_host(Host),
     context_now(Host, Agent),
-    (   host_option(Host, log(_))
+    (   host_logs(Host)
     ->  mobile_term(What),
         host_log(Host, Agent, What)
     ;   print_message(informational, typhon(log(Host, Agent, What)))

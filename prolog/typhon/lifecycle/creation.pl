@@ -18,8 +18,8 @@
                 code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
-              [ host/3, host_address/2, host_enter/3, host_leave/1,
-                host_log/3, host_resolve/2, host_unknown/1, process_ask/6 ]).
+              [ event/4, host/3, host_address/2, host_enter/3, host_leave/1,
+                host_resolve/2, host_unknown/1, process_ask/6 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_id/3, agent_mail/2,
                 agent_module/5, agent_name/3, agent_ready/2,
@@ -224,7 +224,8 @@ agent_clone_here(Id, Goals, CloneId) :-
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
     start(Host, Name, start(Hash, Life, State, Goals, []), Answer),
-    begun(Answer, Host, CloneId).
+    begun(Answer, Host, CloneId),
+    event(hops, Host, Id, cloned(CloneId)).
 
 %!  clone_id(+Id, -CloneId) is det.
 %
@@ -253,7 +254,7 @@ start(Host, Name, Start, Answer) :-
         catch(with_agent(Id, born(Id, Host, Place, Start)), Ball,
               ( host_leave(Host), throw(Ball) )),
         agent_born(Id, Address),
-        host_log(Host, Id, created),
+        event(life, Host, Id, created),
         debug(typhon(agent), '~w: created on ~w', [Id, Address]),
         with_agent(Id, agent_ready(Id, Goals)),
         Answer = created(Id)

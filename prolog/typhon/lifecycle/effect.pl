@@ -9,8 +9,9 @@
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
-              [ alarm_set/3, host_option/2, host_resolve/2, host_time/2,
-                real_time/3, schedule/2 ]).
+              [ alarm_set/3, event/4, event_heard/1, host_address/2,
+                host_option/2, host_resolve/2, host_time/2, real_time/3,
+                schedule/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_name/3, agent_put/3, agent_ready/2,
                 agent_rest/3, agent_status/3, life_hops/2, life_may_move/2,
@@ -59,6 +60,7 @@ effect(clone(Host, Who), Hole, Goals, Id-Here, Next) :-
     (   Dest == local(Here)
     ->  effect(clone(Who), Hole, Goals, Id-Here, Next)
     ;   clone_id(Id, CloneId),
+        event(hops, Here, Id, cloned(CloneId)),
         hop_clone(Id, Dest, CloneId, Who, Hole, Goals),
         Next = stop
     ).
@@ -107,12 +109,18 @@ infinite(Seconds) :- float(Seconds), Seconds =:= inf.
 receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
     with_agent(Id, take_or_wait(Message, Until, Again, Hole, Goals,
                                 Id-Here, Next)),
-    (   Next == stop,
-        number(Until)
+    (   Next \== stop
+    ->  taken(Hole, Message, Id-Here)
+    ;   number(Until)
     ->  real_time(Here, Until, Stamp),
         alarm_set(Stamp, Id, until(Until))
     ;   true
     ).
+
+taken(true, From-Message, Id-Here) :-
+    !,
+    event(messages, Here, Id, received(From, Message)).
+taken(_, _, _).                         % the time is over
 
 take_or_wait(Message, _, _, true, Goals, Id-_, go(Goals)) :-
     mail_take(Id, Message),
@@ -177,6 +185,7 @@ set_out(end, _, _, _, Id-_, stop) :-
     ignore(agent_end(Id, disposed)).
 set_out(go, Dest, Hole, Goals, Id-Here, Next) :-
     host_time(Here, Now),
+    leaves(Dest, Id, Here),
     (   host_option(Here, hop_time(uniform(Min, Max)))
     ->  hop_delay(Id, Here, Min, Max, Delay),
         At is Now+Delay,
@@ -187,6 +196,17 @@ set_out(go, Dest, Hole, Goals, Id-Here, Next) :-
         Next = stop
     ;   hop(Id, Dest, Hole, Goals, Now, Next)
     ).
+
+leaves(Dest, Id, Here) :-
+    (   event_heard(hops)
+    ->  dest_address(Dest, Address),
+        event(hops, Here, Id, left(Address))
+    ;   true
+    ).
+
+dest_address(local(Name), Address) :-
+    host_address(Name, Address).
+dest_address(remote(Address, _, _), Address).
 
 %   On hosts with a seed it follows from that, from the agent and from the
 %   number of its hops.

@@ -19,7 +19,7 @@
 :- use_module(carriers, [carrier/3]).
 :- use_module(plan,
               [ network_plan/3, plan_dynamics/2, plan_edges/2, plan_hosts/4,
-                plan_option/2, plan_processes/3, plan_time/2 ]).
+                plan_log/3, plan_option/2, plan_processes/3, plan_time/2 ]).
 :- use_module(processes, [carriers_start/4, carriers_stop/1]).
 :- use_module(wiring,
               [ wire_change/2, wire_forget/1, wire_hosts/3, wire_links/3,
@@ -80,8 +80,11 @@ none of its own.
 %       waits, and the same Seed gives the same events: time runs while
 %       somebody waits, in agent_join/3 and network_advance/2, and jumps to
 %       what is due next. One process.
-%     - log(File)
-%       A log server writes the events of all hosts to File, begun anew.
+%     - log(File), log(File, Kinds)
+%       A log server writes the events of all hosts to File, begun anew:
+%       when agents begin and end, what they log, and, of Kinds, a list out
+%       of `hops`, `messages` and `facts`, where they went, who sent to
+%       whom, and what they left and took.
 %     - dynamic(Model)
 %       Links come and go: see dynamics_model/2.
 %     - seed(Seed)
@@ -156,14 +159,20 @@ clock(Plan, clock(Epoch, Rate)) :-
 
 %   start_log(+Network, +Clock, +Plan, -HostOptions)
 
-start_log(Network, clock(Epoch, Rate), Plan, [log(Address)]) :-
-    plan_option(Plan, log(Spec)),
+start_log(Network, clock(Epoch, Rate), Plan, [Option]) :-
+    plan_log(Plan, Spec, Kinds),
     !,
     absolute_file_name(Spec, File),
     atom_concat(Network, '_log', Name),
     log_server_start([file(File), name(Name), clock(Epoch, Rate)], Address),
+    log_option(Kinds, Address, Option),
     assertz(part(Network, log(Address, File))).
 start_log(_, _, _, []).
+
+log_option([], Address, Option) =>
+    Option = log(Address).
+log_option(Kinds, Address, Option) =>
+    Option = log(Address, Kinds).
 
 start_dynamics(Network, Clock, Plan) :-
     (   plan_dynamics(Plan, State)

@@ -2,6 +2,7 @@
           [ network_plan/3,             % +Topology, +Options, -Plan
             plan_option/2,              % +Plan, ?Option
             plan_time/2,                % +Plan, -Kind
+            plan_log/3,                 % +Plan, -File, -Kinds
             plan_processes/3,           % +Plan, -P, -Machines
             plan_hosts/4,               % +Plan, +P, +Common, -Hosts
             plan_edges/2,               % +Plan, -Edges
@@ -59,6 +60,7 @@ option_type(hosts(Options), list, Options).
 option_type(hop_time(Time), nonvar, Time).
 option_type(clock(Rate), nonvar, Rate).
 option_type(log(File), ground, File).
+option_type(log(File, _), ground, File).
 option_type(dynamic(Model), nonvar, Model).
 option_type(seed(Seed), integer, Seed).
 
@@ -66,6 +68,8 @@ option_type(seed(Seed), integer, Seed).
 
 check_option(hosts(Options)) =>
     check_options(host_option, Options).
+check_option(log(_, Kinds)) =>
+    must_be(list(event_kind), Kinds).
 check_option(hop_time(Time)) =>
     check_hop_time(Time).
 check_option(clock(Rate)) =>
@@ -82,6 +86,10 @@ check_hop_time(Time) :-
     ->  true
     ;   domain_error(hop_time, Time)
     ).
+
+check_log(File, Kinds) :-
+    must_be(ground, File),
+    must_be(list(event_kind), Kinds).
 
 check_rate(virtual) :-
     !.
@@ -125,6 +133,17 @@ plan_time(Plan, Kind) :-
     ->  Kind = virtual
     ;   Kind = real
     ).
+
+%!  plan_log(+Plan, -File, -Kinds:list) is semidet.
+%
+%   Where its events are written, and of which kinds beside the lives of
+%   agents.
+
+plan_log(Plan, File, Kinds) :-
+    plan_option(Plan, log(File, Kinds)),
+    !.
+plan_log(Plan, File, []) :-
+    plan_option(Plan, log(File)).
 
 %!  plan_processes(+Plan, -P, -Machines) is det.
 %

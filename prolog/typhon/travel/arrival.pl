@@ -6,8 +6,8 @@
 :- use_module('../wire',
               [endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2]).
 :- use_module('../host',
-              [ host/3, host_enter/3, host_hop/3, host_leave/1, host_time/2,
-                schedule/2, schedule_adopt/2, schedule_here/2,
+              [ event/4, host/3, host_enter/3, host_hop/3, host_leave/1,
+                host_time/2, schedule/2, schedule_adopt/2, schedule_here/2,
                 schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3,
@@ -65,7 +65,7 @@ typhon_endpoint:returned :-
 
 arrive(Name, Image, Program, Peer, Answer) :-
     image_label(Image, Label),
-    Label = label(Id, Hops, Hash, Tokens, _),
+    Label = label(Id, Hops, Hash, Tokens, _, _),
     (   repeated(Id, Hops)
     ->  Answer = accepted
     ;   \+ has_code(Hash, Program)
@@ -104,7 +104,7 @@ admitted(ok, Name, Label, Image, Peer, Answer) :-
 %   one that is here stays.
 
 installed(in(Address, Gone), Name, Label, Peer, installed(Id)) :-
-    Label = label(Id, _, _, _, _),
+    Label = label(Id, _, _, _, _, _),
     call(Gone),
     report_arrival(Name, Address, Label, Peer).
 installed(repeated, Name, _, _, accepted) :-
@@ -118,7 +118,7 @@ installed(need_program, Name, _, _, need_program) :-
 
 install(Name, Label, Image, Installed) :-
     (   host(Name, Address, Place)
-    ->  Label = label(Id, Hops, _, _, _),
+    ->  Label = label(Id, Hops, _, _, _, _),
         with_agent(Id, install(Id, Hops, Image, Name-Address, Place,
                                Installed))
     ;   Installed = unknown_host
@@ -156,12 +156,20 @@ let_go(Id, Mail, Orders, Gone) :-
         Gone = true
     ).
 
-report_arrival(Name, Address, label(Id, Hops, _, _, Since), Peer) :-
+report_arrival(Name, Address, label(Id, Hops, _, _, Since, From), Peer) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
           [Id, Hops, Address, Peer]),
     agent_seen(Id, Address, Hops, Peer),
     (   host_time(Name, Now)
     ->  Seconds is max(0.0, Now-Since),
-        host_hop(Name, in, Seconds)
+        host_hop(Name, in, Seconds),
+        came_from(From, Peer, Where),
+        event(hops, Name, Id, arrived(Where, Seconds))
     ;   true                            % the host is being stopped
     ).
+
+%   Where nobody wanted to know when it left, only the process is known.
+
+came_from(none, Peer, Peer) :-
+    !.
+came_from(From, _, From).

@@ -15,7 +15,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
-              [host_hop/3, host_leave/1, host_time/2, scheduler_call/1]).
+              [ event/4, events_forget/1, host_hop/3, host_leave/1,
+                host_time/2, scheduler_call/1 ]).
 :- use_module('../agent',
               [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
@@ -127,6 +128,7 @@ transfer_let_go(Id, Mail, Orders, Gone) :-
 
 let_go(Id, Since, Mail, Orders, typhon_transfer:gone(Host, Since)) :-
     agent(Id, Host, _, _, _),
+    events_forget(Id),
     agent_remove(Id, Mail, Orders).
 
 gone(Host, Since) :-
@@ -157,6 +159,10 @@ transfer_stays(Transfer, Error) :-
 
 stays(hop(Id, dest(Address, _, _), Hops), Error) :-
     retractall(given_up(Id, Hops)),
+    (   agent(Id, Host, _, _, _)
+    ->  event(hops, Host, Id, stayed(Address))
+    ;   true
+    ),
     ignore(with_agent(Id, back(Id, Hops, Address, Error))).
 stays(clone(Id, dest(Address, _, _), CloneId), Error) :-
     agent_ended(CloneId, failed, 1),

@@ -5,8 +5,9 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
-              [ address_parts/3, host/3, host_enter/3, host_hop/3, host_leave/1,
-                host_time/2, schedule/2, schedule_stays/2 ]).
+              [ address_parts/3, event/4, event_heard/1, host/3, host_enter/3,
+                host_hop/3, host_leave/1, host_time/2, schedule/2,
+                schedule_stays/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/2,
                 agent_module/5, agent_move/5, agent_put/3, agent_state/2,
@@ -45,10 +46,11 @@ hop_within(_, _, _, _, _, stop).        % it was ended
 went(moved(Next), Id, Here-Name, Hops, Since, Next) :-
     sig_atomic(told(arrived(Id, Here, Name, Hops, Since, Next))).
 went(ended, _, _, _, _, stop).
-went(refused(Reason), Id, _-Name, Hops, _, _) :-
+went(refused(Reason), Id, Here-Name, Hops, _, _) :-
     endpoint_address(Own),
     address_parts(Address, Name, Own),
     debug(typhon(hop), '~w hop ~D: stays, ~w', [Id, Hops, Reason]),
+    event(hops, Here, Id, stayed(Address)),
     throw(error(move_refused(Address, Reason), _)).
 
 %   Of the state only what has changed since it was last looked at.
@@ -127,17 +129,25 @@ arrived(Id, Here, Name, Hops, Since, Next) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
           [Id, Hops, Address]),
     agent_seen(Id, Address, Hops, Own),
-    took(Here, out, Since),
-    took(Name, in, Since),
+    took(Here, out, Since, _),
+    took(Name, in, Since, Seconds),
+    came(Id, Here, Name, Seconds),
     (   Next == stop
     ->  schedule(Name, Id)
     ;   true
     ).
 arrived(_, _, _, _, _, _).              % it is being stopped
 
-took(Host, Direction, Since) :-
+took(Host, Direction, Since, Seconds) :-
     (   host_time(Host, Now)
     ->  Seconds is max(0.0, Now-Since),
         host_hop(Host, Direction, Seconds)
-    ;   true                            % the host was stopped meanwhile
+    ;   Seconds = 0.0                   % the host was stopped meanwhile
+    ).
+
+came(Id, Here, Name, Seconds) :-
+    (   event_heard(hops),
+        host(Here, From, _)
+    ->  event(hops, Name, Id, arrived(From, Seconds))
+    ;   true
     ).

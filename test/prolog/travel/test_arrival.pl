@@ -81,7 +81,7 @@ program(Hash, Program) :-
     typhon_programs:program_hash(Program, Hash).
 
 image(Mail, image('x.1.7@far@127.0.0.1:1', Hash,
-                  life(none, 3, inf, [], [], false),
+                  life(none, 3, inf, [], [], false, []),
                   state([], [fact(1)]), [], Mail, Now)) :-
     program(Hash, _),
     get_time(Now).
