@@ -17,5 +17,8 @@ This is the door of the layer: who is above takes what it needs from here.
               payload_attach/2, payload_detach/2
             ]).
 :- reexport('lifecycle/sending').
+:- reexport('lifecycle/listing').
+:- reexport(lifecycle/tracing, [agent_trace/2, agent_notrace/1]).
+:- reexport(lifecycle/stepping, [agent_step/1]).
 :- reexport('lifecycle/join').
 :- reexport('lifecycle/restore').

@@ -20,3 +20,6 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(program/machine, [answer_at/3, machine_run/3]).
 :- reexport(program/faults, [fault/3]).
 :- reexport(program/standing, [fault_where/4, where_handled/5]).
+:- reexport('program/probe').
+:- reexport(program/bodies, [body_goals/4, goals_body/2, plain_goals/2]).
+:- reexport('program/arrows').

@@ -5,10 +5,11 @@
             agent_stays/2               % +Id, +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../host', [host_leave/1, host_log/3]).
+:- use_module('../host', [event/4, events_forget/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
                 fault_outcome/2, is_faulty/3, life_hops/2, with_agent/2 ]).
+:- use_module(held, [held_dropped/1]).
 :- use_module('../travel', [agent_ended/3, transfer_given_up/2]).
 :- use_module(faulty,
               [faulty_gone/1, faulty_keep/3, faulty_oldest/1, faulty_tell/2]).
@@ -46,7 +47,7 @@ remove(Id, last(Host, Hops, Status, Goals)) :-
     once(agent_status(Id, Status, Goals)),
     (   Status = transit(_, _)
     ->  transfer_given_up(Id, Goals)
-    ;   true
+    ;   held_dropped(Goals)
     ),
     faulty_gone(Id),
     agent_remove(Id, _, _).
@@ -55,6 +56,7 @@ remove(Id, last(Host, Hops, Status, Goals)) :-
 
 removed(last(_, Hops, faulty(_), Goals), Id, _) :-
     !,
+    events_forget(Id),
     is_faulty(Goals, Fault, _),
     fault_outcome(Fault, Outcome),
     agent_ended(Id, Outcome, Hops).
@@ -62,7 +64,8 @@ removed(last(Host, Hops, Status, _), Id, Outcome) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
     tell_of_doubt(Status, Id),
     host_leave(Host),
-    host_log(Host, Id, ended(Outcome)),
+    event(life, Host, Id, ended(Outcome)),
+    events_forget(Id),
     agent_ended(Id, Outcome, Hops).
 
 tell_of_doubt(transit(Address, _), Id) :-
@@ -97,9 +100,9 @@ report(Id, Fault) :-
 report(_, _).
 
 log_fault(failed, Host, Id) :-
-    host_log(Host, Id, ended(failed)).
+    event(life, Host, Id, ended(failed)).
 log_fault(raised(Error), Host, Id) :-
-    host_log(Host, Id, faulty(Error)).
+    event(life, Host, Id, faulty(Error)).
 
 print_fault(failed, Id, Fault) :-
     print_message(warning, typhon(agent_failed(Id, Fault))).

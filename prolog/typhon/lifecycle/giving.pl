@@ -6,7 +6,8 @@
             payload_detach/2,           % +Agent, +Name
             agent_resume/1,             % +Agent
             agent_change/2,             % +Agent, +Change
-            order_give/3                % +Agent, +Order, -Result
+            order_give/3,               % +Agent, +Order, -Result
+            agent_answer/3              % +Agent, +Question, -Answer
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
@@ -100,15 +101,27 @@ agent_change(Agent, Change) :-
 %!  order_give(+Agent, +Order, -Result) is det.
 %
 %   @arg Order is move(Host), `dispose`, `clone`, attach(Payload),
-%        detach(Name), `image`, `resume` or change(Change), see typhon_change
+%        detach(Name), `image`, `resume`, change(Change), see typhon_change,
+%        or watched(Change), see typhon_traced
 
 order_give(Agent, Order, Result) :-
+    agent_answer(Agent, order(Order), Result).
+
+%!  agent_answer(+Agent, +Question, -Answer) is det.
+%
+%   As agent_ask/4, for 10 seconds at the most, but Agent may be a name; an
+%   error is raised.
+%
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
+%   @error timeout_error(order, Agent)
+
+agent_answer(Agent, Question, Answer) :-
     agent_named(Agent, Id),
-    (   agent_ask(Id, order(Order), 10, Answer)
-    ->  ordered(Answer, Result)
+    (   agent_ask(Id, Question, 10, Answer0)
+    ->  answered(Answer0, Answer)
     ;   existence_error(agent, Agent)
     ).
 
-ordered(answer(Result), Result).
-ordered(error(Formal), _) :-
+answered(answer(Answer), Answer).
+answered(error(Formal), _) :-
     throw(error(Formal, _)).

@@ -21,6 +21,7 @@
 :- use_module(ending, [agent_end/2, agent_end/3, agent_stays/2]).
 :- use_module(faulty, [faulty_stirs/1]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
+:- use_module(traced, [traced_change/2, traced_held/1]).
 
 /** <module> Orders are taken and obeyed
 
@@ -78,7 +79,7 @@ order_take(Id, Order) :-
     with_agent(Id, note_order(Id, Order)),
     (   Order == dispose
     ->  look_again_later(Id)
-    ;   true
+    ;   traced_held(Id)
     ).
 
 %   Who is under way may be out of touch before long.
@@ -112,6 +113,8 @@ at_rest(ready).
 at_rest(sleeping(_)).
 at_rest(waiting(_, _)).
 at_rest(resident).
+at_rest(held).
+at_rest(resumed).
 at_rest(leaving(_, _)).
 at_rest(faulty(_)).
 at_rest(transit(Host, Sent)) :-
@@ -161,7 +164,11 @@ typhon_transfer:forward_order(Agent, Order) :-
     ).
 
 forward(Agent, Order, Answer) :-
-    (   catch(agent_ask(Agent, order(Order), 10, Answer0), error(Formal, _),
+    (   Order = question(Question)
+    ->  true
+    ;   Question = order(Order)
+    ),
+    (   catch(agent_ask(Agent, Question, 10, Answer0), error(Formal, _),
               Answer0 = error(Formal))
     ->  Answer = Answer0
     ;   Answer = none
@@ -234,6 +241,9 @@ carried_out(attach(Payload), Agent, ok) :-
     agent_attach(Agent, Payload).
 carried_out(detach(Name), Agent, ok) :-
     agent_detach(Agent, Name).
+carried_out(question(_), _, again).
+carried_out(watched(Change), Agent, ok) :-
+    traced_change(Agent, Change).
 carried_out(clone, Agent, CloneId) :-
     agent_status(Agent, _, Goals),
     agent_clone_here(Agent, Goals, CloneId).

@@ -11,6 +11,7 @@
                 fault_error/2, fault_shown/2, in_words/2, is_faulty/3,
                 life_hops/2, life_payloads/2, mail_list/2, with_agent/2 ]).
 :- use_module('../travel', [in_doubt/1, transfer_held/2]).
+:- use_module(held, [held_parts/3]).
 :- use_module(named, [agent_named/2]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
@@ -28,8 +29,8 @@
 %   Property is host(Address), program(Name), state(State), hops(N),
 %   home(Address), goals(List), facts(Clauses), payloads(Names),
 %   mailbox(Messages) or fault(Fault).  State is `running`, `sleeping`,
-%   `waiting`, `resident`, `in_transit`, `in_doubt` or faulty(Error), Error
-%   being `failed` if it has failed.  Then, and only then, there is a fault:
+%   `waiting`, `resident`, `held` (see agent_step/1), `in_transit`, `in_doubt`
+%   or faulty(Error), Error being `failed` if it has failed.  Then, and only then, there is a fault:
 %   fault(Error, Goal, Place, Host), the goal that failed or raised the error,
 %   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
 %   predicate, or `unknown`, and on which host it was.  What cannot travel
@@ -142,6 +143,8 @@ shown(leaving(_, _), in_transit).
 shown(sleeping(_), sleeping).
 shown(waiting(_, _), waiting).
 shown(resident, resident).
+shown(held, held).
+shown(resumed, running).
 shown(faulty(Error), faulty(Error)).
 shown(transit(Host, Sent), State) :-
     if_certain(transit(Host, Sent), in_transit, State).
@@ -158,6 +161,10 @@ goal_list(Frozen, Goals) :-
     transfer_held(Frozen, Held),
     !,
     without_hole(Held, Goals).
+goal_list(Held, Goals) :-
+    held_parts(Held, Goals0, _),
+    !,
+    Goals = Goals0.
 goal_list(hop(Held, _), Goals) :-       % leaving
     !,
     without_hole(Held, Goals).

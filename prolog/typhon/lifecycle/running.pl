@@ -1,14 +1,19 @@
 :- module(typhon_running, []).
 :- use_module('../base/output', [output_rest/0]).
-:- use_module('../program', [answer_at/3, code_module/2, machine_run/3]).
-:- use_module('../host', [context_clear/0, context_set/3]).
+:- use_module('../program',
+              [ answer_at/3, code_module/2, machine_run/3, probe_next/2,
+                probe_start/3 ]).
+:- use_module('../host', [context_clear/0, context_set/3, event/4]).
 :- use_module('../agent',
               [ agent/5, agent_departs/3, agent_handles/2, agent_ordered/1,
-                agent_ready/2, agent_rest/3, agent_take/3, mail_take/2,
-                with_agent/2 ]).
+                agent_ready/2, agent_rest/3, agent_take/3, agent_unorder/2,
+                mail_take/2, with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
-:- use_module(orders, [order_obey/3]).
+:- use_module(held, [held_resumes/2]).
+:- use_module(orders, [order_obey/3, order_take/2]).
+:- use_module(stepping, [is_probed/2, probe_rests/1, probed_goal/6]).
+:- use_module(traced, [traced_held/1]).
 
 /** <module> The life of an agent on a host
 
@@ -28,7 +33,7 @@ typhon_scheduler:run(Id) :-
             perform(Task, Id),
             Catcher,
             left(Catcher, Id))
-    ;   true                            % has ended
+    ;   probe_rests(Id)                 % has ended
     ).
 
 take(Id, Task) :-
@@ -39,7 +44,10 @@ take(Id, Task) :-
     ;   Task = order(Order, Goals)
     ).
 take(Id, leave(Dest, Hole, Goals, Since)) :-
-    agent_departs(Id, Dest, hop(Hole-Goals, Since)).
+    agent_departs(Id, Dest, hop(Hole-Goals, Since)),
+    !.
+take(Id, resume(Probe)) :-
+    held_resumes(Id, Probe).
 
 perform(order(Order, Goals), Id) :-
     order_obey(Order, Id, Goals).
@@ -47,10 +55,20 @@ perform(leave(Dest, Hole, Goals, Since), Id) :-
     effect_depart(Id, Dest, Hole, Goals, Since, Next),
     go_on(Next, Id).
 perform(run(Goals), Id) :-
+    agent(Id, Host, Module, Hash, Life),
+    code_module(Hash, Program),
+    context_set(Host, Id, Module),
+    Context = context(Program, Module),
+    (   is_probed(Life, Hash)
+    ->  probed(Goals, Id, Host, Context, Next)
+    ;   live(Goals, Id, Host, Context, Next)
+    ),
+    go_on(Next, Id).
+perform(resume(Probe), Id) :-
     agent(Id, Host, Module, Hash, _),
     code_module(Hash, Program),
     context_set(Host, Id, Module),
-    live(Goals, Id, Host, context(Program, Module), Next),
+    probed_on(Probe, Id, Host, context(Program, Module), Next),
     go_on(Next, Id).
 
 go_on(stop, _).
@@ -75,6 +93,45 @@ live(Goals0, Id, Host, Context, Next) :-
     ->  live(Goals, Id, Host, Context, Next)
     ;   Next = Next0
     ).
+
+%   probed(+Goals, ...): as live/5, seen by somebody goal by goal.
+
+probed(Goals, Id, Host, Context, Next) :-
+    probe_start(Context, Goals, Probe),
+    probed_on(Probe, Id, Host, Context, Next).
+
+probed_on(Probe, Id, Host, Context, Next) :-
+    probe_next(Probe, Step),
+    probed_to(Step, Probe, Id, Host, Context, Next).
+
+probed_to(goal(Goal, Goals), Probe, Id, Host, Context, Next) :-
+    probed_goal(Id, Host, Probe, Goal, Goals, Next0),
+    (   Next0 == on
+    ->  probed_on(Probe, Id, Host, Context, Next)
+    ;   traced_held(Id),
+        held_obeys(Id),
+        Next = stop
+    ).
+probed_to(outcome(Outcome, Goals0), _, Id, Host, Context, Next) :-
+    conclude(Outcome, Goals0, Id, Host, Context, Next0),
+    (   Next0 = go(Goals)
+    ->  probed(Goals, Id, Host, Context, Next)
+    ;   Next = Next0,
+        probe_rests(Id)
+    ).
+
+%   Orders that came while it ran, and need no effect.
+
+held_obeys(Id) :-
+    at_once(Order),
+    with_agent(Id, agent_unorder(Id, Order)),
+    !,
+    order_take(Id, Order),
+    held_obeys(Id).
+held_obeys(_).
+
+at_once(dispose).
+at_once(evacuate(_)).
 
 %   conclude(+Outcome, +Goals0, +Id, +Host, +Context, -Next): Goals0 were run,
 %   Next as of effect/5.
@@ -103,7 +160,8 @@ conclude(effect(Control, Hole, Goals), _, Id, Host, _, Next) :-
 finish(Id, context(Program, Module), Next) :-
     agent_handles(Program, Module),
     !,
-    with_agent(Id, next_message(Id, Next)).
+    with_agent(Id, next_message(Id, Next)),
+    received(Next, Id).
 finish(Id, _, stop) :-
     ignore(agent_end(Id, done)).
 
@@ -119,3 +177,10 @@ next_message(Id, Next) :-
     ;   agent_rest(Id, resident, []),
         Next = stop
     ).
+
+received(stop, _).
+received(go([(on_message(From, Message) -> _ ; _)]), Id) :-
+    agent(Id, Host, _, _, _),
+    !,
+    event(messages, Host, Id, received(From, Message)).
+received(go(_), _).

@@ -15,6 +15,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 :- use_module('../wire', [endpoint_missed/2]).
 :- use_module('../host', [address_parts/3, host_property/2]).
 :- use_module('../base/names', [names/2, names_proposed/3]).
+:- use_module(happenings, [happening/3, short_name/2]).
 
 :- multifile
     prolog:error_message//1,
@@ -171,6 +172,25 @@ prolog:message(typhon(undeliverable(Formal, Agent, From, Message, Others))) -->
     lost_since(Formal).
 prolog:message(typhon(log(Host, Agent, What))) -->
     [ '~w at ~w: ~p'-[Agent, Host, What] ].
+prolog:message(typhon(traced(Agent, Host, What))) -->
+    happened(Agent, Host),
+    happening(What).
+prolog:message(typhon(stepped(Agent, held(Host, Goal)))) -->
+    !,
+    happened(Agent, Host),
+    [ 'next is ' ],
+    happening(goal(Goal)).
+prolog:message(typhon(spied(Agent, Host, Goal))) -->
+    happened(Agent, Host),
+    [ 'is held before ' ],
+    happening(goal(Goal)).
+prolog:message(typhon(spy(Program, Name, Arity))) -->
+    [ 'Agents of ~p are held before ~p'-[Program, Name/Arity] ].
+prolog:message(typhon(nospy(Program, Name, Arity))) -->
+    [ 'Agents of ~p are not held before ~p any more'-[Program, Name/Arity] ].
+prolog:message(typhon(stepped(Agent, What))) -->
+    [ '% ~w '-[Agent] ],
+    stopped(What).
 prolog:message(typhon(told(Agent, Message))) -->
     [ '~w says ~p'-[Agent, Message] ].
 prolog:message(typhon(checked(Program, 0, 0, 0))) -->
@@ -193,6 +213,15 @@ prolog:message(typhon(run_failed(Agent))) -->
 
 doubts(0) --> !.
 doubts(N) --> [ '~d warnings, '-[N] ].
+
+happened(Agent, Host) -->
+    { short_name(Agent, Who),
+      short_name(Host, Where)
+    },
+    [ '% ~w at ~w: '-[Who, Where] ].
+
+stopped(rests(State)) --> !, [ 'is ~w'-[State] ].
+stopped(ended(Outcome)) --> [ 'has ended, ~p'-[Outcome] ].
 
 lost_since(existence_error(agent, _)) -->
     !,

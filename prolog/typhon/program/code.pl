@@ -40,9 +40,12 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 :- setting(programs, nonneg, 256,
            "Programs kept when no agent uses them").
 
-:- multifile in_use/1.          % Hash: an agent of this process runs it
+:- multifile
+    in_use/1,                   % Hash: an agent of this process runs it
+    installed/2.                % Name, Module: a program of that name now is
 
 :- dynamic
+    installed/2,
     code_module/2,              % Hash, Module
     code_program/2,             % Hash, Program
     stands/2,                   % Hash, Places: where that is known
@@ -154,6 +157,8 @@ install(Hash, Program, Kinds) :-
     ),
     assertz(code_program(Hash, Program)),
     assertz(code_module(Hash, Module)),
+    Program = program(Name, _, _, _),
+    forall(installed(Name, Module), true),
     debug(typhon(program), 'program ~w is in module ~q', [Hash, Module]).
 
 %!  code_clear is det.

@@ -1,7 +1,9 @@
 :- module(typhon_faults,
           [ fails/2,                    % +Goal, +Goals
             fails_inside/2,             % +Frame, +Goals
-            fault/3                     % +Outcome, +Goals0, -Fault
+            fault/3,                    % +Outcome, +Goals0, -Fault
+            fault_noted/1,              % -Note
+            fault_note/1                % +Note
           ]).
 :- use_module(bodies, [goals_body/2, plain_goals/2]).
 
@@ -188,3 +190,17 @@ fault(Outcome, Goals0, fault(Goal, Goals, Clauses)) :-
     nb_setval(typhon_fault, none),
     ( Goals1 == unknown -> Goals2 = Goals0 ; Goals2 = Goals1 ),
     plain_goals([Goal0|Goals2], [Goal|Goals]).
+
+%!  fault_noted(-Note) is det.
+%!  fault_note(+Note) is det.
+%
+%   What this thread, or engine, has noted; note it in another.
+
+fault_noted(Note) :-
+    (   nb_current(typhon_fault, Note0)
+    ->  Note = Note0
+    ;   Note = none
+    ).
+
+fault_note(Note) :-
+    nb_setval(typhon_fault, Note).

@@ -1,0 +1,147 @@
+:- module(typhon_listing,
+          [ agent_listing/1             % +Agent
+          ]).
+:- use_module(library(lists), [append/3, member/2, nth1/3]).
+:- use_module(library(listing), [portray_clause/1]).
+:- use_module('../program',
+              [ body_goals/4, clause_parts/3, code_program/2, goals_body/2,
+                plain_goals/2, stands_in/3 ]).
+:- use_module('../agent', [agent/5]).
+:- use_module(properties, [agent_property/2]).
+:- use_module(giving, [agent_answer/3]).
+:- use_module(questions, [question_answered/2]).
+
+/** <module> What an agent is, as text
+
+*Threading*: any thread.
+*/
+
+:- multifile typhon_questions:here/3.
+
+%!  agent_listing(+Agent) is det.
+%
+%   Print the program of Agent, its facts, and the goals that it has left, as
+%   clauses.  An arrow marks the goal at which it stands; where several
+%   clauses would go on in the same way, each of them.  Of an agent that runs
+%   at this moment the goals are not known, see agent_step/1.
+%
+%   @error existence_error(agent, Agent)
+
+agent_listing(Agent) :-
+    agent_answer(Agent, program, program(Name, State, Libraries, Static)),
+    findall(Property, agent_property(Agent, Property), Properties),
+    memberchk(facts(Facts), Properties),
+    memberchk(goals(Goals), Properties),
+    about(Agent, Properties),
+    declarations(Name, State, Libraries),
+    append(Static, Facts, Clauses),
+    stands_in(Clauses, Goals, Places),
+    list_clauses(Static, 0, Places),
+    length(Static, Count),
+    part(Facts, '% facts', list_clauses(Facts, Count, Places)),
+    part(Goals, '% goals left', list_goals(Goals)).
+
+typhon_questions:here(program, Agent, Asker) :-
+    agent(Agent, _, _, Hash, _),
+    code_program(Hash, Program),
+    !,
+    question_answered(Asker, answer(Program)).
+
+about(Agent, Properties) :-
+    memberchk(host(Host), Properties),
+    memberchk(state(State), Properties),
+    memberchk(hops(Hops), Properties),
+    functor(State, Word, _),
+    format('% ~w~n% on ~w, ~w, ~D hops~n~n', [Agent, Host, Word, Hops]).
+
+declarations(Name, [], Libraries) :-
+    !,
+    portray_clause((:- agent(Name, []))),
+    libraries(Libraries).
+declarations(Name, State, Libraries) :-
+    portray_clause((:- agent(Name, [state(State)]))),
+    libraries(Libraries).
+
+libraries(Libraries) :-
+    forall(member(Library-Imports, Libraries),
+           library(Imports, Library)).
+
+library(all, Library) :-
+    !,
+    portray_clause((:- use_module(Library))).
+library(Imports, Library) :-
+    portray_clause((:- use_module(Library, Imports))).
+
+:- meta_predicate part(+, +, 0).
+
+part([], _, _) :-
+    !.
+part(_, Title, Goal) :-
+    format('~n~w~n', [Title]),
+    call(Goal).
+
+list_goals(Goals) :-
+    goals_body(Goals, Body),
+    portray_clause((:- Body)).
+
+                /*******************************
+                *            CLAUSES           *
+                *******************************/
+
+%   list_clauses(+Clauses, +Before, +Places): an empty line between those of
+%   different predicates.
+
+list_clauses(Clauses, Before, Places) :-
+    forall(nth1(I, Clauses, Clause),
+           ( N is Before+I,
+             space(I, Clauses, Clause),
+             list_clause(Clause, N, Places) )).
+
+space(I, Clauses, Clause) :-
+    I0 is I-1,
+    (   nth1(I0, Clauses, Previous),
+        clause_name(Previous, Name),
+        clause_name(Clause, Name),
+        Clause \= (_:-_)
+    ->  true
+    ;   nl
+    ).
+
+clause_name(Clause, Name/Arity) :-
+    clause_parts(Clause, Head, _),
+    functor(Head, Name, Arity).
+
+list_clause(Clause, N, Places) :-
+    findall(I, member(N-I, Places), [At]),
+    !,
+    marked(Clause, At, Marked),
+    with_output_to(string(Text), portray_clause(Marked)),
+    split_string(Text, "\n", "", Lines),
+    with_arrow(Lines).
+list_clause(Clause, _, _) :-
+    portray_clause(Clause).
+
+%   The mark is a goal of its own, so it stands in a line of its own.
+
+marked(Clause, At, (Head:-Body)) :-
+    clause_parts(Clause, Head, Body0),
+    body_goals(Body0, _, Marked0, []),
+    plain_goals(Marked0, Goals0),
+    nth1(At, Goals, '$typhon_here', Goals0),
+    goals_body(Goals, Body).
+
+with_arrow([Line|Lines]) :-
+    sub_string(Line, _, _, _, "'$typhon_here'"),
+    !,
+    (   Lines = [Next|More],
+        string_concat("    ", Goal, Next)
+    ->  format('=>  ~s~n', [Goal]),
+        with_arrow(More)
+    ;   with_arrow(Lines)
+    ).
+with_arrow([""]) :-
+    !.
+with_arrow([Line|Lines]) :-
+    format('~s~n', [Line]),
+    with_arrow(Lines).
+with_arrow([]).

@@ -1,0 +1,167 @@
+:- module(typhon_spying,
+          [ spied_program/1,            % +Hash
+            spied/3                     % +Hash, +Goal, -Action
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(prolog_trace), [trace/2]).
+:- use_module('../program', [code_module/2, code_program/2]).
+
+/** <module> Spy points on programs, by their own names
+
+spy(census:tour/0), nospy/1 and trace/1,2 serve for predicates of programs as
+they do for those of modules.  census is the name of a program if there is no
+predicate tour/0 in a module of that name, and it holds for programs that are
+yet to come.  What a predicate is decides how it is done:
+
+  - Agents are held at a goal that is spied, as by agent_step/1: nothing reads
+    from the terminal in a thread of its own.
+  - Calls of what the machine unfolds are printed as they are of an agent that
+    is traced; others by Prolog's own trace/2, with all their ports.
+
+*Threading*: any thread; agents look at the table when they begin to run, and
+at each goal then.
+*/
+
+:- multifile
+    prolog:debug_control_hook/1,
+    typhon_code:installed/2.
+
+:- dynamic
+    spied/4,                    % Program, Name, Arity, `hold` or `print`
+    native/4.                   % Program, Name, Arity, Ports: to be traced
+
+%!  spied_program(+Hash) is semidet.
+%!  spied(+Hash, +Goal, -Action) is semidet.
+%
+%   Some predicate of the program is spied; Goal is a call of one, and Action
+%   is `hold` or `print`.
+
+spied_program(Hash) :-
+    spied(_, _, _, _),
+    !,
+    code_program(Hash, program(Program, _, _, _)),
+    spied(Program, _, _, _),
+    !.
+
+spied(Hash, Goal, Action) :-
+    spied(_, _, _, _),
+    callable(Goal),
+    functor(Goal, Name, Arity),
+    code_program(Hash, program(Program, _, _, _)),
+    member(Action, [hold, print]),
+    spied(Program, Name, Arity, Action),
+    (   Action == hold
+    ;   code_module(Hash, Module),
+        unfolded(Module, Goal)
+    ),
+    !.
+
+                /*******************************
+                *           SPY POINTS         *
+                *******************************/
+
+prolog:debug_control_hook(spy(Spec)) :-
+    of_program(Spec, Program, Name, Arity),
+    unspy(Program, Name, Arity, hold),
+    assertz(spied(Program, Name, Arity, hold)),
+    print_message(informational, typhon(spy(Program, Name, Arity))).
+prolog:debug_control_hook(nospy(Spec)) :-
+    program_predicate(Spec, Program, Name, Arity),
+    spied(Program, Name, Arity, hold),
+    !,
+    unspy(Program, Name, Arity, hold),
+    print_message(informational, typhon(nospy(Program, Name, Arity))).
+prolog:debug_control_hook(nospyall) :-
+    retractall(spied(_, _, _, hold)),
+    fail.
+
+prolog:debug_control_hook(debugging) :-
+    spied(Program, Name, Arity, hold),
+    print_message(informational, typhon(spy(Program, Name, Arity))),
+    fail.                               % so much for ours
+
+unspy(Program, Name, Arity, Action) :-
+    retractall(spied(Program, Name, Arity, Action)).
+
+%   of_program(+Spec, -Program, -Name, -Arity): the arity may be left out.
+
+of_program(Spec, Program, Name, Arity) :-
+    program_predicate(Spec, Program, Name, Arity),
+    \+ in_module(Program, Name, Arity).
+
+program_predicate(Spec, Program, Name, Arity) :-
+    strip_module(Spec, Program, Plain),
+    atom(Program),
+    \+ memberchk(Program, [user, system]),
+    predicate(Plain, Name, Arity).
+
+predicate(Name/Arity, Name, Arity) :-
+    atom(Name).
+predicate(Name//N, Name, Arity) :-
+    atom(Name),
+    integer(N),
+    Arity is N+2.
+predicate(Name, Name, _) :-
+    atom(Name).
+
+in_module(Module, Name, Arity) :-
+    current_module(Module),
+    current_predicate(Module:Name/Arity),
+    !.
+in_module(Module, _, _) :-
+    module_property(Module, file(_)),
+    \+ program_module(Module, _).
+
+program_module(Program, Module) :-
+    code_program(Hash, program(Program, _, _, _)),
+    code_module(Hash, Module).
+
+                /*******************************
+                *             TRACE            *
+                *******************************/
+
+%   trace/2 has no hook.
+
+:- initialization(
+       wrap_predicate(prolog_trace:trace(Spec, Ports), typhon, Closure,
+                      ( typhon_spying:trace_program(Spec, Ports)
+                      ->  true
+                      ;   Closure
+                      ))).
+
+:- public trace_program/2.
+
+trace_program(Spec, Ports) :-
+    of_program(Spec, Program, Name, Arity),
+    unspy(Program, Name, Arity, print),
+    retractall(native(Program, Name, Arity, _)),
+    (   asked(Ports)
+    ->  assertz(spied(Program, Name, Arity, print)),
+        assertz(native(Program, Name, Arity, Ports))
+    ;   true
+    ),
+    forall(program_module(Program, Module),
+           trace_native(Module, Name, Arity, Ports)).
+
+asked(Ports) :-
+    \+ is_list(Ports),
+    !,
+    Ports \= -_.
+asked(Ports) :-
+    member(Port, Ports),
+    asked(Port),
+    !.
+
+trace_native(Module, Name, Arity, Ports) :-
+    forall(( current_predicate(Module:Name/Arity),
+             functor(Head, Name, Arity),
+             \+ unfolded(Module, Head) ),
+           trace(Module:Name/Arity, Ports)).
+
+typhon_code:installed(Program, Module) :-
+    native(Program, Name, Arity, Ports),
+    trace_native(Module, Name, Arity, Ports).
+
+unfolded(Module, Goal) :-
+    Module:'$mobile'(Goal, _, _, _, _, _),
+    !.

@@ -1,0 +1,84 @@
+:- module(typhon_happenings,
+          [ happening/3,                % +What, //
+            own_event/1,                % +What
+            short_name/2                % +Name, -Short
+          ]).
+
+/** <module> What happens to agents, in words
+
+*Threading*: pure.
+*/
+
+%!  happening(+What, -Text, ?Rest) is det.
+%
+%   The text of an event, see typhon_events, as a message: what an agent did,
+%   or what happened to it.
+
+happening(What) -->
+    { \+ own_event(What) },
+    !,
+    [ 'logs ~p'-[What] ].
+happening(created) --> [ 'begins' ].
+happening(ended(Outcome)) --> [ 'ends, ~p'-[Outcome] ].
+happening(faulty(Error)) --> [ 'is faulty: ~p'-[Error] ].
+happening(left(To)) --> named('leaves for ~w', To).
+happening(stayed(To)) --> named('could not go to ~w', To).
+happening(arrived(From, Seconds)) -->
+    named('comes from ~w', From),
+    [ ', in ~4g s'-[Seconds] ].
+happening(cloned(Clone)) --> named('has a clone, ~w', Clone).
+happening(sent(To)) --> named('sends to ~w', To).
+happening(sent(To, Message)) -->
+    [ 'sends ~p '-[Message] ],
+    named('to ~w', To).
+happening(received(From)) --> named('takes a message from ~w', From).
+happening(received(From, Message)) -->
+    [ 'takes ~p '-[Message] ],
+    named('from ~w', From).
+happening(leave(Fact)) --> [ 'leaves ~p here'-[Fact] ].
+happening(take(Fact)) --> [ 'takes ~p up here'-[Fact] ].
+happening(goal(Goal)) -->
+    { copy_term(Goal, Shown, _),
+      numbervars(Shown, 0, _, [singletons(true)])
+    },
+    [ '~W'-[ Shown, [ quoted(true), portray(true), numbervars(true),
+                      max_depth(10), spacing(next_argument) ] ] ].
+%!  own_event(+What) is semidet.
+%
+%   What is of the platform.  Agents may log whatever they like; what looks
+%   like this all the same is taken for it.
+
+own_event(created).
+own_event(ended(_)).
+own_event(faulty(_)).
+own_event(left(To)) :- is_name(To).
+own_event(stayed(To)) :- is_name(To).
+own_event(arrived(From, Seconds)) :- atom(From), number(Seconds).
+own_event(cloned(Id)) :- is_name(Id).
+own_event(sent(To)) :- atom(To).
+own_event(sent(To, _)) :- atom(To).
+own_event(received(From)) :- atom(From).
+own_event(received(From, _)) :- atom(From).
+own_event(leave(_)).
+own_event(take(_)).
+own_event(goal(_)).
+
+is_name(Name) :-
+    atom(Name),
+    sub_atom(Name, _, _, _, @),
+    !.
+
+named(Format, Name) -->
+    { short_name(Name, Short) },
+    [ Format-[Short] ].
+
+%!  short_name(+Name, -Short) is det.
+%
+%   What stands before the address in the name of an agent or a host.
+
+short_name(Name, Short) :-
+    atom(Name),
+    sub_atom(Name, Before, _, _, @),
+    !,
+    sub_atom(Name, 0, Before, _, Short).
+short_name(Name, Name).
