@@ -39,6 +39,10 @@ command(stop, 'HOST', 1,
         'stop a host, and wait until it has stopped').
 command(log, 'FILE', 1,
         'print the events of a log file, or with --serve write one').
+command(story, 'LOG AGENT', 2,
+        'tell from a log what happened to an agent').
+command(picture, 'LOG SVG', 2,
+        'draw a log: hosts, time, agents and messages').
 command(diagnose, '[ADDRESS]', 0-2,
         'find out why a host, or with nxt PORT a robot, is not reached').
 
@@ -86,6 +90,8 @@ option(host, consult, file(read), 'FILE',
        'clauses for the place of the host (may be repeated)').
 option(host, log, atom, 'ADDRESS',
        'log server to report to').
+option(host, events, atom, 'A,B',
+       'with --log: also hops, messages, facts').
 option(host, link, atom, 'ADDRESS',
        'host to link to (may be repeated)').
 option(network, processes, natural, 'N',
@@ -96,6 +102,8 @@ option(network, seed, integer, 'N',
        'seed of everything random').
 option(network, log, atom, 'FILE',
        'write the events of all hosts to FILE').
+option(network, events, atom, 'A,B',
+       'with --log: also hops, messages, facts').
 option(network, machines, atom, 'A,B',
        'ssh targets to start the processes on').
 option(network, dynamic, term, 'MODEL',
@@ -137,6 +145,10 @@ option(log, host, atom, 'ADDRESS',
        'read FILE where this host runs').
 option(log, serve, boolean, '',
        'be the log server that writes FILE').
+option(picture, from, number, 'TIME',
+       'draw what happened from then on').
+option(picture, to, number, 'TIME',
+       'draw what happened until then').
 option(log, port, nonneg, 'PORT',
        'port of the log server (default any free one)').
 option(log, bind, atom, 'INTERFACE',

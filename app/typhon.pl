@@ -23,11 +23,14 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
               [print_agents/2, print_hosts/1]).
 :- use_module('../prolog/typhon/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
+:- use_module('../prolog/typhon/people/happenings', [short_name/2]).
 :- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
+:- use_module(picture, [picture/3]).
+:- use_module(story, [story/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).
@@ -239,6 +242,16 @@ run(log, [File], Options) :-
     ;   log_events(File, Events)
     ),
     forall(member(Event, Events), print_event(Event)).
+run(story, [Log, Agent], _) :-
+    (   story(Log, Agent)
+    ->  true
+    ;   throw(error(typhon_usage(not_in_log(Agent, Log)), _))
+    ).
+run(picture, [Log, File], Options) :-
+    (   picture(Log, File, Options)
+    ->  true
+    ;   throw(error(typhon_usage(empty_log(Log)), _))
+    ).
 run(Command, Arguments, Options) :-
     memberchk(Command, [check, move, dispose, join, remote, stop]),
     !,
@@ -256,7 +269,9 @@ run(diagnose, [Kind, Port], _) :-
 host_option(Options, Option) :-
     member(Option, Options),
     functor(Option, Name, 1),
-    memberchk(Name, [port, bind, capacity, log]).
+    memberchk(Name, [port, bind, capacity]).
+host_option(Options, Option) :-
+    log_events_option(Options, Option).
 host_option(Options, tokens(Tokens)) :-
     comma_list(tokens(Text), Options, Text, Tokens).
 host_option(Options, consult(Files)) :-
@@ -267,7 +282,17 @@ network_option(Options, machines(Machines)) :-
     comma_list(machines(Text), Options, Text, Machines).
 network_option(Options, Option) :-
     member(Option, Options),
-    Option \= machines(_).
+    Option =.. [Name|_],
+    \+ memberchk(Name, [machines, log, events]).
+network_option(Options, Option) :-
+    log_events_option(Options, Option).
+
+log_events_option(Options, Option) :-
+    option(log(Log), Options),
+    (   comma_list(events(Text), Options, Text, Kinds)
+    ->  Option = log(Log, Kinds)
+    ;   Option = log(Log)
+    ).
 
 agent_option(Options, Option) :-
     member(Option, Options),
@@ -410,6 +435,18 @@ usage(required(Command, Option)) -->
     [ '~w needs --~w; see ~w --help'-[Command, Option, Command] ].
 usage(not_a_term(Text)) -->
     [ 'not a Prolog term: ~w'-[Text] ].
+usage(not_in_log(Agent, Log)) -->
+    { log_events(Log, Events),
+      findall(Short,
+              ( member(event(_, _, Id, _), Events), short_name(Id, Short) ),
+              Names0),
+      sort(Names0, Names),
+      length(Names, Count)
+    },
+    [ 'nothing of an agent ~w in ~w'-[Agent, Log] ],
+    in_log(Names, Count).
+usage(empty_log(Log)) -->
+    [ 'no events of agents in ~w'-[Log] ].
 usage(not_an_id(Agent)) -->
     [ 'not the id of an agent: ~w (with --host ADDRESS a name is enough)'-
       [Agent] ].
@@ -425,3 +462,13 @@ usage(not_one_host(Name, [])) -->
 usage(not_one_host(Name, Addresses)) -->
     { atomic_list_concat(Addresses, ' or ', Text) },
     [ 'which ~w is meant: ~w?'-[Name, Text] ].
+
+in_log(Names, Count) -->
+    { Count > 0,
+      Count =< 20,
+      !,
+      atomic_list_concat(Names, ', ', Text)
+    },
+    [ '; it knows ~w'-[Text] ].
+in_log(_, Count) -->
+    [ ', which knows ~D others'-[Count] ].

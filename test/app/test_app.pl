@@ -5,7 +5,10 @@
 :- use_module('../lib/common').
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, subset/2]).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(library(sgml), [load_structure/3]).
+
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
@@ -69,7 +72,7 @@ test(overview) :-
     typhon_lines(['--help'], Lines),
     forall(member(Command, [host, network, check, create, agents, hosts, send,
                             move, dispose, join, remote, stop, log,
-                            diagnose]),
+                            story, picture, diagnose]),
            ( atom_concat(Command, ' *', Pattern0),
              atom_concat('  ', Pattern0, Pattern),
              assertion(has_line(Lines, Pattern))
@@ -85,6 +88,7 @@ test(command, forall(member(Command-Pattern,
                               network-'    grid(ROWS,COLUMNS)*a grid*',
                               move-'*--timeout=SECONDS*',
                               send-'*--host=ADDRESS*', log-'*--serve*',
+                              picture-'*--from=TIME*',
                               diagnose-'Usage:*'
                             ]))) :-
     typhon_lines([Command, '--help'], Lines),
@@ -278,6 +282,56 @@ log_something(Dir, Address) :-
                Program),
     typhon_lines([create, Program, '--host', Address, '--join', 10],
                  [_, "done"]).
+
+%   A log of three hosts: one agent hops, logs, and sends its clone a message.
+
+log_of(Dir, File) :-
+    directory_file_path(Dir, 'some.log', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        forall(logged(Event), ( writeq(Out, Event), writeln(Out, '.') )),
+        close(Out)).
+
+logged(event(0.0, 'n1@h:1', 'a.x.1@n1@h:1', created)).
+logged(event(1.0, 'n1@h:1', 'a.x.1@n1@h:1', left('n10@h:1'))).
+logged(event(1.5, 'n10@h:1', 'a.x.1@n1@h:1', arrived('n1@h:1', 0.5))).
+logged(event(2.0, 'n10@h:1', 'a.x.2@n10@h:1', created)).
+logged(event(2.0, 'n10@h:1', 'a.x.1@n1@h:1', cloned('a.x.2@n10@h:1'))).
+logged(event(3.0, 'n10@h:1', 'a.x.1@n1@h:1', arrived(some, where))).
+logged(event(4.0, 'n10@h:1', 'a.x.1@n1@h:1', sent('a.x.2@n10@h:1'))).
+logged(event(4.5, 'n10@h:1', 'a.x.2@n10@h:1', received('a.x.1@n1@h:1'))).
+logged(event(5.0, 'n2@h:1', 'a.x.2@n10@h:1', 'a & b < c')).
+logged(event(6.0, 'n10@h:1', 'a.x.1@n1@h:1', ended(failed))).
+
+test(story) :-
+    with_tmp_dir(story).
+
+story(Dir) :-
+    log_of(Dir, File),
+    typhon_lines([story, File, 'a.x.2'], Lines),
+    assertion(Lines = ["a.x.2@n10@h:1"|_]),
+    assertion(has_line(Lines, '*2.0000  n10 *begins')),
+    assertion(has_line(Lines, '*n10 *is a clone of a.x.1')),
+    assertion(has_line(Lines, '*n10 *takes a message from a.x.1')),
+    typhon_lines([story, File, a], All),
+    assertion(has_line(All, '*n10 *comes from n1, in 0.5 s')),
+    assertion(has_line(All, '*n10 *logs arrived(some,where)')),
+    assertion(has_line(All, '*n10 *ends, failed')),
+    typhon_error([story, File, b], "it knows a.x.1, a.x.2").
+
+test(picture) :-
+    with_tmp_dir(picture).
+
+picture(Dir) :-
+    log_of(Dir, File),
+    directory_file_path(Dir, 'some.svg', Svg),
+    typhon_lines([picture, File, Svg], []),
+    load_structure(Svg, [element(_, _, Parts)], [dialect(xmlns)]),
+    findall(T, ( sub_term(element(_:text, _, [T]), Parts) ), Texts),
+    assertion(subset([n1, n2, n10, 'a.x.1', 'a.x.2', fails, message], Texts)),
+    assertion(append(_, [n1, n2, n10|_], Texts)),
+    typhon_lines([picture, File, Svg, '--from', 2, '--to', 3], []),
+    typhon_error([picture, File, Svg, '--from', 70], "no events").
 
 :- end_tests(app_log).
 

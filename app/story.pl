@@ -1,0 +1,71 @@
+:- module(typhon_story,
+          [ story/2                     % +File, +Agent
+          ]).
+:- use_module(library(apply), [include/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../prolog/typhon', [log_events/2]).
+:- use_module('../prolog/typhon/people/happenings',
+              [happening/3, short_name/2]).
+
+/** <module> The story of an agent, as a log tells it
+
+*Threading*: any thread.
+*/
+
+%!  story(+File, +Agent) is semidet.
+%
+%   Print what happened to Agent, in words, in the order of the log File.
+%   Agent is an id, what stands before the `@` in it, or the name from which it
+%   was made; if several have that, the story of each is told.  Fails if the
+%   log knows none.
+
+story(File, Agent) :-
+    log_events(File, Events),
+    findall(Id, ( member(event(_, _, Id, _), Events), is_called(Id, Agent) ),
+            Ids0),
+    sort(Ids0, Ids),
+    Ids \== [],
+    forall(member(Id, Ids), tell(Id, Events)).
+
+is_called(Id, Agent) :-
+    (   Id == Agent
+    ;   short_name(Id, Short),
+        (   Short == Agent
+        ;   sub_atom(Short, Before, _, _, '.'),
+            sub_atom(Short, 0, Before, _, Agent)
+        )
+    ),
+    !.
+
+tell(Id, Events) :-
+    include(of_agent(Id), Events, Own),
+    Own = [event(Start, _, _, _)|_],
+    (   Start > 100 000 000             % times of day would not be read
+    ->  Zero = Start
+    ;   Zero = 0
+    ),
+    format('~w~n', [Id]),
+    forall(member(Event, Own), tell_event(Event, Id, Zero)),
+    nl.
+
+of_agent(Id, event(_, _, Id, _)).
+of_agent(Id, event(_, _, _, cloned(Id))).
+
+tell_event(event(Time, Host, Who, What), Id, Zero) :-
+    short_name(Host, Where),
+    text(Who, Id, What, Text),
+    Shown is Time-Zero,
+    format('~t~4f~12|  ~w~t~12+ ~w~n', [Shown, Where, Text]).
+
+text(Id, Id, What, Text) :-
+    !,
+    phrase(happening(What), Parts),
+    message_text(Parts, Text).
+text(Parent, _, cloned(_), Text) :-
+    short_name(Parent, Short),
+    format(string(Text), 'is a clone of ~w', [Short]).
+
+message_text(Parts, Text) :-
+    with_output_to(string(Text0),
+                   print_message_lines(current_output, '', Parts)),
+    split_string(Text0, "", "\n ", [Text]).
