@@ -14,7 +14,7 @@ This is the door of the layer: who is above takes what it needs from here.
             ]).
 :- reexport(host/place,
             [ place_deliver/3, place_undeliver/2, tuple_leave/2,
-              tuple_sense/2, tuple_take/2
+              tuple_leave_new/2, tuple_sense/2, tuple_take/2
             ]).
 :- reexport(host/clock, [host_time/2, real_time/3]).
 :- reexport(host/context,

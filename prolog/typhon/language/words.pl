@@ -9,6 +9,7 @@
             host_load/1,                % -Count
             send/2,                     % +Agent, +Message
             leave/1,                    % +Fact
+            leave_new/1,                % +Fact
             sense/1,                    % ?Fact
             take/1,                     % ?Fact
             attach/1,                   % +Payload
@@ -35,7 +36,8 @@
               [ context_agent/1, context_host/1, context_now/2, host/3,
                 host_load/2, host_log/3, host_neighbours/2, host_option/2,
                 host_time/2, place_deliver/3, place_undeliver/2,
-                tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
+                tuple_leave/2, tuple_leave_new/2, tuple_sense/2,
+                tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, life_hops/2,
@@ -130,16 +132,23 @@ send(Agent, Message) :-
                                              Agent, Id, Message)))).
 
 %!  leave(+Fact) is det.
+%!  leave_new(+Fact) is semidet.
 %!  sense(?Fact) is nondet.
 %!  take(?Fact) is semidet.
 %
-%   Put a fact in the tuple space of the host, read one, take one away.
-%   Of many that take the same fact one gets it.
+%   Put a fact in the tuple space of the host, put it if none is there that
+%   unifies, read one, take one away.  Of many that take the same fact, or
+%   leave it as a new one, one succeeds.
 
 leave(Fact) :-
     place(Place),
     mobile_term(Fact),
     tuple_leave(Place, Fact).
+
+leave_new(Fact) :-
+    place(Place),
+    mobile_term(Fact),
+    tuple_leave_new(Place, Fact).
 
 sense(Fact) :-
     place(Place),
