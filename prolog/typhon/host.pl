@@ -8,8 +8,8 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(host/hosts,
             [ address_parts/3, host/3, host_address/2, host_enter/3,
-              host_again/1, host_hop/3, host_leave/1, host_link/2, host_load/2,
-              host_log/3, host_neighbours/2, host_option/2, host_resolve/2,
+              host_again/1, host_hop/3, host_leave/1, host_link/3, host_link_cost/3,
+              host_load/2, host_log/3, host_neighbours/2, host_option/2, host_resolve/2,
               host_unlink/2
             ]).
 :- reexport(host/place,
@@ -34,5 +34,5 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/hosting,
             [host_change/2, host_start/1, host_start/2, host_stop/1]).
 :- reexport(host/host_questions,
-            [host_property/2, host_unknown/1, link/2, unlink/2]).
-:- reexport(host/remote, [remote/2]).
+            [host_property/2, host_unknown/1, link/2, link/3, unlink/2]).
+:- reexport(host/remote, [host_do/2, remote/2]).

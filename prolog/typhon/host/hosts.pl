@@ -10,8 +10,9 @@
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
             host_neighbours/2,          % +Name, -Addresses
-            host_link/2,                % +Name, +Address
+            host_link/3,                % +Name, +Address, +Cost
             host_unlink/2,              % +Name, +Address
+            host_link_cost/3,           % +Name, +Address, -Cost
             host_resolve/2,             % +Host, -Where
             host_address/2,             % +Host, -Address
             address_parts/3,            % ?Address, ?Name, ?Endpoint
@@ -36,6 +37,7 @@ four of a hop whole.
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
     neighbour/2,                % Name, Address
+    cost/3,                     % Name, Address, Cost: of a link, if not 1
     door/4,                     % Name, Tokens, Capacity, Flag: while it is open
     load_key/2,                 % Name, Flag
     hop_keys/3.                 % Name, Direction, Flags
@@ -108,6 +110,7 @@ host_remove(Name) :-
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
     retractall(neighbour(Name, _)),
+    retractall(cost(Name, _, _)),
     retractall(load_key(Name, _)),
     retractall(hop_keys(Name, _, _)).
 
@@ -246,20 +249,51 @@ host_load(Name, Load) :-
                 *             LINKS            *
                 *******************************/
 
-%!  host_link(+Name, +Address) is det.
+%!  host_link(+Name, +Address, +Cost) is det.
 %!  host_unlink(?Name, +Address) is det.
 %
-%   One direction of a link; nothing to do where it is so already.
+%   One direction of a link; nothing to do where it is so already.  Cost is
+%   a number, or `same`: as it is, 1 for a new link.
 
-host_link(Name, Address) :-
+host_link(Name, Address, Cost) :-
     with_mutex(typhon_links,
-               (   neighbour(Name, Address)
-               ->  true
-               ;   assertz(neighbour(Name, Address))
-               )).
+               ( add_link(Name, Address),
+                 set_cost(Cost, Name, Address) )).
+
+add_link(Name, Address) :-
+    (   neighbour(Name, Address)
+    ->  true
+    ;   assertz(neighbour(Name, Address))
+    ).
+
+%   Who asks meanwhile finds the old cost or the new one.
+
+set_cost(same, _, _) :-
+    !.
+set_cost(Cost, Name, Address) :-
+    cost(Name, Address, _),
+    !,
+    assertz(cost(Name, Address, Cost)),
+    once(retract(cost(Name, Address, _))).
+set_cost(Cost, Name, Address) :-
+    assertz(cost(Name, Address, Cost)).
 
 host_unlink(Name, Address) :-
-    retractall(neighbour(Name, Address)).
+    with_mutex(typhon_links,
+               ( retractall(neighbour(Name, Address)),
+                 retractall(cost(Name, Address, _)) )).
+
+%!  host_link_cost(+Name, +Address, -Cost) is semidet.
+%
+%   Fails if there is no such link.
+
+host_link_cost(Name, Address, Cost) :-
+    neighbour(Name, Address),
+    !,
+    (   cost(Name, Address, Cost0)
+    ->  Cost = Cost0
+    ;   Cost = 1
+    ).
 
 %!  host_neighbours(+Name, -Addresses:list(atom)) is det.
 

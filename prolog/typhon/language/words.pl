@@ -6,6 +6,7 @@
             hops/1,                     % -Count
             now/1,                      % -Time
             neighbours/1,               % -Hosts
+            neighbour/2,                % ?Host, -Cost
             host_load/1,                % -Count
             send/2,                     % +Agent, +Message
             leave/1,                    % +Fact
@@ -30,14 +31,15 @@
             dispose/0
           ]).
 :- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../program', [payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context_agent/1, context_host/1, context_now/2, host/3,
-                host_load/2, host_log/3, host_neighbours/2, host_option/2,
-                host_time/2, place_deliver/3, place_undeliver/2,
-                tuple_leave/2, tuple_leave_new/2, tuple_sense/2,
-                tuple_take/2 ]).
+                host_address/2, host_link_cost/3, host_load/2, host_log/3,
+                host_neighbours/2, host_option/2, host_time/2,
+                place_deliver/3, place_undeliver/2, tuple_leave/2,
+                tuple_leave_new/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, life_hops/2,
@@ -96,13 +98,28 @@ life(Life) :-
     agent(Id, _, _, _, Life).
 
 %!  neighbours(-Hosts:list(atom)) is det.
+%!  neighbour(?Host, -Cost:number) is nondet.
 %!  host_load(-Count:integer) is det.
 %
-%   The addresses of linked hosts, and how many agents stand here.
+%   The addresses of linked hosts, what it costs to go to one of them, 1
+%   where nobody has said otherwise, and how many agents stand here.
 
 neighbours(Hosts) :-
     context_host(Host),
     host_neighbours(Host, Hosts).
+
+neighbour(Host, Cost) :-
+    context_host(Here),
+    linked(Host, Here, Address),
+    host_link_cost(Here, Address, Cost).
+
+linked(Host, Here, Host) :-
+    var(Host),
+    !,
+    host_neighbours(Here, Hosts),
+    member(Host, Hosts).
+linked(Host, _, Address) :-
+    host_address(Host, Address).
 
 host_load(Count) :-
     context_host(Host),

@@ -1,6 +1,7 @@
 :- module(typhon_topology,
           [ topology_edges/4,           % +Topology, +Seed, -N, -Edges
-            topology_names/2            % +Topology, -Names
+            topology_names/2,           % +Topology, -Names
+            topology_costs/2            % +Topology, -Costs
           ]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(error), [domain_error/2, must_be/2, type_error/2]).
@@ -19,13 +20,16 @@ A topology is a term. Its hosts are numbered from 1, its edges are pairs
 
   - star_bus(Arms, Len): a chain of Arms hubs, each with Len-1 leaves, the
     hub first in its star: Arms*Len hosts (thesis, Figure 5.4 a)
+  - line(N): a chain
   - ring(N): each host between two others
+  - star(N): the first host linked to each of the others
   - tree(N): binary, the parent of host I is I//2
   - grid(Rows, Cols): row after row, each host linked to the next in its
     row and in its column
   - mesh(N): every host to every other
   - random(N, P): Erdos-Renyi G(N,P), and connected: see below
-  - edges(List): as listed, pairs A-B of positive integers or atoms
+  - edges(List): as listed, pairs A-B of positive integers or atoms, or
+    A-B-cost(C) where the link costs C
 
 In random(N, P) every pair of hosts is linked with probability P. Where
 that leaves the network in pieces, each piece is tied to the one before
@@ -51,7 +55,9 @@ which the list first names them.
 :- multifile typhon_names:known/2.
 
 typhon_names:known(topology, star_bus('Arms', 'Len')).
+typhon_names:known(topology, line('N')).
 typhon_names:known(topology, ring('N')).
+typhon_names:known(topology, star('N')).
 typhon_names:known(topology, tree('N')).
 typhon_names:known(topology, grid('Rows', 'Cols')).
 typhon_names:known(topology, mesh('N')).
@@ -84,7 +90,11 @@ topology_names(Topology, Names) :-
 topology_size(star_bus(Arms, Len), N) :-
     sizes([Arms, Len]),
     N is Arms * Len.
+topology_size(line(N), N) :-
+    sizes([N]).
 topology_size(ring(N), N) :-
+    sizes([N]).
+topology_size(star(N), N) :-
     sizes([N]).
 topology_size(tree(N), N) :-
     sizes([N]).
@@ -114,6 +124,26 @@ numbered_names(N, Names) :-
 number_name(I, Name) :-
     atom_concat(n, I, Name).
 
+%!  topology_costs(+Topology, -Costs) is det.
+%
+%   The costs of links that Topology tells, pairs (I-J)-Cost with I < J,
+%   each edge once.
+%
+%   @error as topology_edges/4
+
+topology_costs(Topology, Costs) :-
+    (   Topology = edges(List)
+    ->  listed_names(List, Names),
+        findall(Edge-Cost,
+                ( member(Listed, List),
+                  edge_cost(Listed, _, Cost),
+                  number(Cost),
+                  listed_edge(Names, Listed, Edge) ),
+                Costs0),
+        sort(1, @<, Costs0, Costs)
+    ;   Costs = []
+    ).
+
                 /*******************************
                 *            SHAPES            *
                 *******************************/
@@ -141,11 +171,15 @@ linked(star_bus(Arms, Len), I, J) :-
         First is I + 1,
         between(First, Last, J)
     ).
-linked(ring(N), I, J) :-
+linked(line(N), I, J) :-
     between(2, N, J),
     I is J - 1.
+linked(ring(N), I, J) :-
+    linked(line(N), I, J).
 linked(ring(N), 1, N) :-
     N > 2.
+linked(star(N), 1, J) :-
+    between(2, N, J).
 linked(tree(N), I, J) :-
     between(2, N, J),
     I is J // 2.
@@ -225,7 +259,7 @@ listed_names(List, Names) :-
 
 edge_names(Edge, [A, B]) :-
     must_be(nonvar, Edge),
-    (   Edge = X-Y
+    (   edge_cost(Edge, X-Y, _)
     ->  maplist(end_name, [X, Y], [A, B])
     ;   type_error(edge, Edge)
     ),
@@ -243,6 +277,22 @@ end_name(End, Name) :-
     ->  Name = End
     ;   type_error(host_name, End)
     ).
+
+%   edge_cost(+Edge, -Pair, -Cost): Cost is `none` if Edge does not say.
+
+edge_cost(Pair-Cost0, Pair1, Cost) :-
+    nonvar(Cost0),
+    Cost0 = cost(Cost1),
+    !,
+    must_be(number, Cost1),
+    (   Cost1 >= 0
+    ->  Cost = Cost1
+    ;   domain_error(cost, Cost1)
+    ),
+    nonvar(Pair),
+    Pair = _-_,
+    Pair1 = Pair.
+edge_cost(A-B, A-B, none).
 
 listed_edge(Names, Edge, I-J) :-
     edge_names(Edge, [A, B]),
