@@ -1,7 +1,7 @@
 :- module(typhon_creation,
           [ agent_create/2,             % +Program, -Agent
             agent_create/3,             % +Program, -Agent, +Options
-            agent_create_here/3,        % +Name, +Start, -Agent
+            agent_begin/4,              % +Options, +Name, +Start, -Agent
             agent_clone_here/3,         % +Id, +Goals, -CloneId
             clone_id/2                  % +Id, -CloneId
           ]).
@@ -204,12 +204,12 @@ must_be_life(Life) :-
     ;   type_error(agent_life, Life)
     ).
 
-%!  agent_create_here(+Name, +Start, -Agent) is det.
+%!  agent_begin(+Options, +Name, +Start, -Agent) is det.
 %
-%   Create an agent on the first host of this process.
+%   Create an agent on the host of Options, as of agent_create/3.
 
-agent_create_here(Name, Start, Agent) :-
-    target([], Where),
+agent_begin(Options, Name, Start, Agent) :-
+    target(Options, Where),
     create(Where, Name, Start, Agent).
 
 %!  agent_clone_here(+Id, +Goals, -CloneId) is det.
