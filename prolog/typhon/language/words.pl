@@ -22,6 +22,7 @@
             withdraw/1,                 % +Problem
             pheromone/3,                % ?Problem, -Source, -Strength
             log/1,                      % +What
+            result/1,                   % +Term
             message_failed/2,           % +From, +Message
             move/1,                     % +Host
             clone/1,                    % -Who
@@ -35,14 +36,14 @@
 :- use_module('../program', [payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
-              [ context_agent/1, context_host/1, context_now/2, host/3,
+              [ context/3, context_agent/1, context_host/1, context_now/2, host/3,
                 host_address/2, host_link_cost/3, host_load/2, host_log/3,
                 host_neighbours/2, host_option/2, host_time/2,
                 place_deliver/3, place_undeliver/2, tuple_leave/2,
                 tuple_leave_new/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
-                agent_handled/3, agent_payload/3, life_hops/2,
+                agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
                 life_parent/2 ]).
 :- use_module('../travel', [post/3]).
 :- use_module(pheromone,
@@ -252,6 +253,19 @@ log(What) :-
         host_log(Host, Agent, What)
     ;   print_message(informational, typhon(log(Host, Agent, What)))
     ).
+
+%!  result(+Term) is det.
+%
+%   The result of this agent is Term; the last one given counts.  Who waits
+%   for it by agent_result/3 has it when the agent has ended.
+%
+%   @error type_error(mobile_term, Culprit)
+%   @error resource_error(result_bytes)
+
+result(Term) :-
+    context(_, _, Module),
+    mobile_term(Term),
+    legacy_result(Module, Term).
 
 %!  message_failed(+From, +Message) is det.
 %

@@ -23,9 +23,9 @@
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_id/3, agent_mail/2,
                 agent_module/5, agent_name/3, agent_ready/2,
-                agent_state/2, is_life/1, life_clone/3, life_tokens/2,
-                make_life/2, with_agent/2 ]).
-:- use_module('../travel', [agent_born/2]).
+                agent_state/2, is_life/1, legacy_none/2, life_clone/3,
+                life_tokens/2, make_life/2, with_agent/2 ]).
+:- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
 
 /** <module> How agents begin
@@ -220,11 +220,13 @@ agent_begin(Options, Name, Start, Agent) :-
 
 agent_clone_here(Id, Goals, CloneId) :-
     agent(Id, Host, Module, Hash, Life0),
-    agent_state(Module, State),
+    agent_state(Module, State0),
+    legacy_none(State0, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
     start(Host, Name, start(Hash, Life, State, Goals, []), Answer),
-    begun(Answer, Host, CloneId).
+    begun(Answer, Host, CloneId),
+    clone_born(Id, CloneId).
 
 %!  clone_id(+Id, -CloneId) is det.
 %

@@ -8,8 +8,9 @@
 :- use_module('../host', [host_leave/1, host_log/3]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
-                fault_outcome/2, is_faulty/3, life_hops/2, with_agent/2 ]).
-:- use_module('../travel', [agent_ended/3, transfer_given_up/2]).
+                fault_outcome/2, is_faulty/3, legacy/2, life_hops/2,
+                with_agent/2 ]).
+:- use_module('../travel', [agent_ended/4, transfer_given_up/2]).
 :- use_module(faulty,
               [faulty_gone/1, faulty_keep/3, faulty_oldest/1, faulty_tell/2]).
 
@@ -40,9 +41,10 @@ agent_end(Id, Test, Outcome) :-
                    )),
     removed(Last, Id, Outcome).
 
-remove(Id, last(Host, Hops, Status, Goals)) :-
-    agent(Id, Host, _, _, Life),
+remove(Id, last(Host, Hops, Status, Goals, Legacy)) :-
+    agent(Id, Host, Module, _, Life),
     life_hops(Life, Hops),
+    legacy(Module, Legacy),
     once(agent_status(Id, Status, Goals)),
     (   Status = transit(_, _)
     ->  transfer_given_up(Id, Goals)
@@ -53,17 +55,17 @@ remove(Id, last(Host, Hops, Status, Goals)) :-
 
 %   That it has ended badly is known.
 
-removed(last(_, Hops, faulty(_), Goals), Id, _) :-
+removed(last(_, Hops, faulty(_), Goals, Legacy), Id, _) :-
     !,
     is_faulty(Goals, Fault, _),
     fault_outcome(Fault, Outcome),
-    agent_ended(Id, Outcome, Hops).
-removed(last(Host, Hops, Status, _), Id, Outcome) :-
+    agent_ended(Id, Outcome, Hops, Legacy).
+removed(last(Host, Hops, Status, _, Legacy), Id, Outcome) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
     tell_of_doubt(Status, Id),
     host_leave(Host),
     host_log(Host, Id, ended(Outcome)),
-    agent_ended(Id, Outcome, Hops).
+    agent_ended(Id, Outcome, Hops, Legacy).
 
 tell_of_doubt(transit(Address, _), Id) :-
     !,

@@ -132,7 +132,8 @@ property(payloads(Names), Agent) :-
 
 visible(Clauses, Clause) :-
     member(Clause, Clauses),
-    Clause \= '$memory'(_).
+    Clause \= '$memory'(_),
+    Clause \= '$legacy'(_).
 
 shown(ready, running).
 shown(running, running).

@@ -152,6 +152,12 @@ prolog:message(typhon(ended_in_doubt(Agent, Address))) -->
     [ 'Agent ~w has ended here while in doubt: if it has arrived at ~w, '-
       [Agent, Address],
       'it ends there as soon as that is known' ].
+prolog:message(typhon(news_too_long(Agent))) -->
+    [ 'What has become of agent ~w is too long to be sent to its home'-
+      [Agent] ].
+prolog:message(typhon(legacy_lost(Agent))) -->
+    [ 'What agent ~w has left, its result among it, is too long to be sent \c
+       to its home'-[Agent] ].
 prolog:message(typhon(message_failed(Agent, From, Message))) -->
     [ 'Agent ~w does not understand a message: ~p from ~w'-
       [Agent, Message, From] ].
