@@ -21,6 +21,7 @@ This is the door of the layer: who is above takes what it needs from here.
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
             ]).
+:- reexport(host/turns, [turn_of/3]).
 :- reexport(host/scheduler,
             [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,
               schedule_stays/2, scheduler_call/1

@@ -168,6 +168,10 @@ prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
 prolog:message(typhon(order_failed(Agent, Formal))) -->
     [ 'Agent ~w could not obey: '-[Agent] ],
     explained(error(Formal, _)).
+prolog:message(typhon(runs_on(Agent, Seconds))) -->
+    [ 'Agent ~w runs on after ~w s: it is disposed of when it stops next.'-
+      [Agent, Seconds], nl,
+      'agent_dispose(Agent, [force(Seconds)]) interrupts it' ].
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
     [ 'A message for ~w is lost: ~p from ~w'-[Agent, Message, From], nl ],
     lost_since(Formal).
