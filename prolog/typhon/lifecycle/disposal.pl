@@ -7,6 +7,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/options', [check_options/2]).
+:- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host', [context_now/2, turn_of/3]).
 :- use_module('../agent', [agent/5, agent_status/3]).
@@ -93,17 +94,20 @@ see_to_it(ended, _, _).
 see_to_it(noted, Agent, _) :-           % it will when this goal has ended
     context_now(_, Agent),
     !.
-see_to_it(noted, _, warn) :-
+see_to_it(noted, Agent, Patience) :-
+    see_to_end(Patience, Agent).
+
+see_to_end(warn, _) :-
     context_now(_, Other),
     Other \== none,
     !.
-see_to_it(noted, Agent, warn) :-
+see_to_end(warn, Agent) :-
     setting(heed_seconds, Seconds),
     (   in_own_thread(ends_within(Agent, Seconds))
     ->  true
     ;   print_message(warning, typhon(runs_on(Agent, Seconds)))
     ).
-see_to_it(noted, Agent, force(Seconds)) :-
+see_to_end(force(Seconds), Agent) :-
     get_time(Now),
     setting(force_seconds, More),
     Deadline is Now+Seconds+More,
@@ -169,12 +173,12 @@ taken(Agent, Said) :-
 :- public interrupt/1.
 
 %   Only inside the goals of Agent: what the platform does with it outside
-%   them must not be split.  abort is the one exception that the agent's own
+%   them must not be split.  This is the one exception that the agent's own
 %   catch/3 cannot stop.
 
 interrupt(Agent) :-
     (   context_now(_, Agent),
         machine_inside
-    ->  abort
+    ->  abort_quietly
     ;   true
     ).

@@ -5,6 +5,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 
@@ -123,6 +124,15 @@ test(no_force_where_it_stops_in_time, Ms == []) :-
                ( create([(main :- sleep(0.01), main)], A),
                  listening(agent_dispose(A, [force(10)]), Ms),
                  gone(A) )).
+test(leaves_no_choice, Det == [true,true]) :-
+    with_settings([typhon_disposal:heed_seconds=0.1],
+                  with_hosts([alpha],
+                             ( start(loops, A),
+                               listening(call_cleanup(agent_dispose(A),
+                                                      D1 = true), _),
+                               call_cleanup(agent_dispose(A, [force(0)]),
+                                            D2 = true) ))),
+    Det = [D1,D2].
 test(one_that_rests) :-
     with_hosts([alpha],
                ( create([(main :- receive(_))], A),
@@ -276,6 +286,26 @@ again(B) :-
     peer_do(a, agent_join(Id, done, 10)).
 
 :- end_tests(disposal_elsewhere).
+
+:- begin_tests(top_level).
+
+%   What was typed before the interrupt is read after it.
+
+test(typed_ahead, [ forall(member(End, ["agent_dispose(A, [force(0)])",
+                                        "host_stop(alpha)"])),
+                    Said == "typed ahead" ]) :-
+    project_file('prolog/typhon.pl', Typhon),
+    with_swipl(['-q', '-f', none, Typhon], _, In, Out,
+               ( format(In, "host_start(alpha), \c
+agent_create(clauses([(:-agent(r)), (main:-lp), (lp:-lp)]), A), \c
+sleep(0.1), ~s.~nwriteln('typed ahead').~n", [End]),
+                 flush_output(In),
+                 set_stream(Out, timeout(30)),
+                 repeat,
+                 read_line_to_string(Out, Said),
+                 memberchk(Said, ["typed ahead", end_of_file]) )).
+
+:- end_tests(top_level).
 
 :- begin_tests(busy).
 
