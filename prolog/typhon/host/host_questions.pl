@@ -13,9 +13,9 @@
 :- use_module('../wire', [endpoint_reply/2]).
 :- use_module(asking, [process_ask/6]).
 :- use_module(hosts,
-              [ host/3, host_address/2, host_hop_stats/3, host_link/3,
-                host_load/2, host_neighbours/2, host_option/2,
-                host_resolve/2, host_unlink/2 ]).
+              [ host/3, host_address/2, host_hop_stats/3, host_load/2,
+                host_option/2, host_resolve/2 ]).
+:- use_module(links, [host_link/3, host_neighbours/2, host_unlink/2]).
 
 /** <module> Hosts anywhere: what they are, and their links
 

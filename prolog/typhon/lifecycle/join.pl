@@ -21,18 +21,18 @@ The home of an agent is asked, see typhon_home, which answers when it knows.
 
 :- multifile typhon_questions:here/3.
 
-%!  agent_join(+Agent, -Outcome, +Timeout) is det.
-%!  agent_join(family(+Agent), -Outcomes, +Timeout) is det.
+%!  agent_join(+Who, -Outcome, +Timeout) is det.
 %
-%   Wait until Agent has ended, wherever it is, for Timeout seconds (a
-%   number or `inf`).  Outcome is `done`, `failed`, raised(Error),
-%   `disposed` or `timeout`.
+%   Wait until an agent has ended, wherever it is, for Timeout seconds (a
+%   number or `inf`).  Outcome is `done`, `failed`, raised(Error), `disposed`
+%   or `timeout`.
 %
-%   Of a family, Agent, all its clones, and theirs, wait until the last has
-%   ended.  Outcomes are pairs Agent-Outcome, each before its clones, and
-%   these in the order in which they were born in a process.  At the timeout
-%   the outcome of those who have not ended is `timeout`; one whose home does
-%   not know it any more has the outcome `unknown`.
+%   Who may be family(Agent): Agent, all its clones, and theirs; that is until
+%   the last has ended.  Then Outcome is a list of pairs Agent-Outcome, each
+%   before its clones, and these in the order in which they were born in a
+%   process.  At the timeout the outcome of those who have not ended is
+%   `timeout`; one whose home does not know it any more has the outcome
+%   `unknown`.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error host_unreachable(Home), connection_lost(Home): for a family, of

@@ -6,6 +6,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(listed, [number_name/2]).
 
 /** <module> What the places of a network are furnished with
 
@@ -49,7 +50,7 @@ listed(Item, [Item]).
 
 host_name(Host, Name) :-
     (   integer(Host)
-    ->  atom_concat(n, Host, Name)
+    ->  number_name(Host, Name)
     ;   must_be(atom, Host),
         Name = Host
     ).
