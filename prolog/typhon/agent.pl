@@ -33,6 +33,9 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('agent/fault').
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3]).
+:- reexport(agent/legacy,
+            [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
+              legacy_result/2 ]).
 :- reexport(agent/mailbox,
             [ mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2
             ]).

@@ -8,21 +8,24 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(host/hosts,
             [ address_parts/3, host/3, host_address/2, host_enter/3,
-              host_again/1, host_hop/3, host_leave/1, host_link/2, host_load/2,
-              host_neighbours/2, host_option/2, host_resolve/2, host_unlink/2
+              host_again/1, host_hop/3, host_leave/1, host_load/2,
+              host_option/2, host_resolve/2
             ]).
+:- reexport(host/links,
+            [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
 :- reexport(host/events,
             [ event/4, event_heard/1, events_forget/1, events_hear/3,
               host_log/3, host_logs/1 ]).
 :- reexport(host/place,
             [ place_deliver/3, place_undeliver/2, tuple_leave/2,
-              tuple_sense/2, tuple_take/2
+              tuple_leave_new/2, tuple_sense/2, tuple_take/2
             ]).
 :- reexport(host/clock, [host_time/2, real_time/3]).
 :- reexport(host/context,
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
             ]).
+:- reexport(host/turns, [turn_of/3]).
 :- reexport(host/scheduler,
             [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,
               schedule_stays/2, scheduler_call/1
@@ -36,5 +39,5 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/hosting,
             [host_change/2, host_start/1, host_start/2, host_stop/1]).
 :- reexport(host/host_questions,
-            [host_property/2, host_unknown/1, link/2, unlink/2]).
-:- reexport(host/remote, [remote/2]).
+            [host_property/2, host_unknown/1, link/2, link/3, unlink/2]).
+:- reexport(host/remote, [host_do/2, remote/2]).

@@ -14,6 +14,7 @@
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_module/5, agent_state/2]).
 :- use_module(identity, [agent_home/2]).
+:- use_module(legacy, [legacy_none/2]).
 :- use_module(life,
               [ is_life/1, life_clone/3, life_hop/3, life_hops/2,
                 life_tokens/2 ]).
@@ -47,7 +48,8 @@ image_clone(Id, CloneId, Goals, Since,
     agent(Id, Host, Module, Hash, Life0),
     life_clone(Id, Life0, Life1),
     life_hop(Life1, Life, _),
-    agent_state(Module, State),
+    agent_state(Module, State0),
+    legacy_none(State0, State),
     start(Host, Since, Start).
 
 start(Host, Since, Start) :-

@@ -1,5 +1,6 @@
 :- module(typhon_stop_thread,
-          [ stop_thread/1               % +Thread
+          [ stop_thread/1,              % +Thread
+            abort_quietly/0
           ]).
 
 /** <module> The end of threads that run what others wrote
@@ -34,6 +35,22 @@ stop_thread(Tries, Thread) :-
 interrupt(Tries, Thread) :-
     (   Tries =< 500,
         Tries mod 50 =:= 0
-    ->  catch(thread_signal(Thread, abort), error(_, _), true)
+    ->  catch(thread_signal(Thread,
+                            typhon_stop_thread:abort_quietly), error(_, _), true)
     ;   true
+    ).
+
+%!  abort_quietly
+%
+%   As abort/0, which nobody can catch for good, but what people have typed
+%   ahead is not thrown away.  Where it is not sure which exception that is,
+%   abort/0 raises it.
+
+abort_quietly :-
+    current_prolog_flag(version, Version),
+    (   Version < 90300
+    ->  throw('$aborted')
+    ;   Version >= 100000
+    ->  throw(unwind(abort))
+    ;   abort
     ).

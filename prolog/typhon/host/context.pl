@@ -8,6 +8,8 @@
             in_context/2                % +Host, :Goal
           ]).
 
+:- use_module(turns, [turn_begins/1]).
+
 /** <module> Who is running, and where
 
 While a worker runs an agent, or a thread runs a goal in the place of a
@@ -26,7 +28,8 @@ host, the vocabulary has to know the host and the agent.
 %   The running agent: its host, id and module.
 
 context_set(Host, Agent, Module) :-
-    nb_setval(typhon_context, context(Host, Agent, Module)).
+    nb_setval(typhon_context, context(Host, Agent, Module)),
+    turn_begins(Agent).
 
 context_clear :-
     nb_setval(typhon_context, none).

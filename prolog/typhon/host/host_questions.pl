@@ -2,18 +2,20 @@
           [ host_property/2,            % ?Name, ?Property
             host_unknown/1,             % +Address
             link/2,                     % +HostA, +HostB
+            link/3,                     % +HostA, +HostB, +Options
             unlink/2                    % +HostA, +HostB
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/options', [check_name/2]).
+:- use_module(library(option), [option/2]).
+:- use_module('../base/options', [check_name/2, check_options/2]).
 :- use_module('../wire', [endpoint_reply/2]).
 :- use_module(asking, [process_ask/6]).
 :- use_module(hosts,
-              [ host/3, host_address/2, host_hop_stats/3, host_link/2,
-                host_load/2, host_neighbours/2, host_option/2,
-                host_resolve/2, host_unlink/2 ]).
+              [ host/3, host_address/2, host_hop_stats/3, host_load/2,
+                host_option/2, host_resolve/2 ]).
+:- use_module(links, [host_link/3, host_neighbours/2, host_unlink/2]).
 
 /** <module> Hosts anywhere: what they are, and their links
 
@@ -25,6 +27,7 @@ connections.
 
 :- multifile
     typhon_names:known/2,
+    typhon_options:declared/4,
     typhon_endpoint:requested/4.
 
 %!  host_property(?Name, ?Property) is nondet.
@@ -84,15 +87,36 @@ local_property(place(Place), Name) :-
                 *******************************/
 
 %!  link(+A, +B) is det.
+%!  link(+A, +B, +Options) is det.
 %!  unlink(+A, +B) is det.
 %
 %   Make or break the overlay link between two hosts, both ways; either may
-%   be in another process.
+%   be in another process.  What it costs to take it agents learn by
+%   neighbour/2: 1, or what the option cost(Number) says, which changes the
+%   cost of a link that is there.  Where a link is broken its cost is
+%   forgotten.
 %
 %   @error existence_error(host, Host)
+%   @error domain_error(link_option, Option)
 
 link(A, B) :-
     both(A, B, link).
+
+link(A, B, Options) :-
+    check_options(link_option, Options),
+    (   option(cost(Cost), Options)
+    ->  must_be_cost(Cost),
+        both(A, B, link(Cost))
+    ;   both(A, B, link)
+    ).
+
+typhon_options:declared(link_option, cost(Cost), number, Cost).
+
+must_be_cost(Cost) :-
+    (   Cost >= 0
+    ->  true
+    ;   domain_error(cost, Cost)
+    ).
 
 unlink(A, B) :-
     both(A, B, unlink).
@@ -124,6 +148,7 @@ change(remote(Host, Name, Endpoint), Change, To, Answer) :-
     ask(Endpoint, Host, Question, Answer).
 
 hosting_question(link, Name, To, link(Name, To)).
+hosting_question(link(Cost), Name, To, link(Name, To, Cost)).
 hosting_question(unlink, Name, To, unlink(Name, To)).
 
                 /*******************************
@@ -163,13 +188,16 @@ hosting_answer(host_properties(Name), Properties) :-
 hosting_answer(hosts, Names) :-
     findall(Name, host(Name, _, _), Names).
 hosting_answer(link(Name, Address), Answer) :-
-    change_link(Name, Address, host_link, Answer).
+    change_link(Name, host_link(Name, Address, same), Answer).
+hosting_answer(link(Name, Address, Cost), Answer) :-
+    must_be(number, Cost),
+    change_link(Name, host_link(Name, Address, Cost), Answer).
 hosting_answer(unlink(Name, Address), Answer) :-
-    change_link(Name, Address, host_unlink, Answer).
+    change_link(Name, host_unlink(Name, Address), Answer).
 
-change_link(Name, Address, Change, Answer) :-
+change_link(Name, Change, Answer) :-
     (   host(Name, _, _)
-    ->  call(Change, Name, Address),
+    ->  call(Change),
         Answer = ok
     ;   Answer = none
     ).

@@ -17,7 +17,8 @@
 :- use_module(events, [events_forget/1, events_log/1]).
 :- use_module(hosts,
               [ address_parts/3, host/3, host_add/4, host_close/1,
-                host_put/2, host_remove/1, host_resolve/2, host_unlink/2 ]).
+                host_put/2, host_remove/1, host_resolve/2 ]).
+:- use_module(links, [host_unlink/2]).
 :- use_module(place, [place_create/4, place_destroy/1, place_offer/2]).
 :- use_module(remote, [remote/2]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).

@@ -9,9 +9,6 @@
             host_again/1,               % +Name
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
-            host_neighbours/2,          % +Name, -Addresses
-            host_link/2,                % +Name, +Address
-            host_unlink/2,              % +Name, +Address
             host_resolve/2,             % +Host, -Where
             host_address/2,             % +Host, -Address
             address_parts/3,            % ?Address, ?Name, ?Endpoint
@@ -20,11 +17,12 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(links, [host_linked/1, host_unlink/2]).
 
 /** <module> Hosts of this process
 
-The records of hosts: name, address, place, options, neighbours, how many
-agents stand on them and how long hops take.
+The records of hosts: name, address, place, options, how many agents stand
+on them and how long hops take.
 
 *Threading*: any thread.  Load and statistics are flags; a mutex makes the
 four of a hop whole.
@@ -33,7 +31,6 @@ four of a hop whole.
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
-    neighbour/2,                % Name, Address
     door/4,                     % Name, Tokens, Capacity, Flag: while it is open
     load_key/2,                 % Name, Flag
     hop_keys/3.                 % Name, Direction, Flags
@@ -49,7 +46,7 @@ four of a hop whole.
 typhon_names:known(host, Name) :-
     host(Name, _, _).
 typhon_names:known(host, Address) :-
-    neighbour(_, Address),
+    host_linked(Address),
     \+ host(_, Address, _).
 
 %!  host_add(+Name, +Address, +Place, +Options) is det.
@@ -105,7 +102,7 @@ host_remove(Name) :-
     retractall(door(Name, _, _, _)),
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
-    retractall(neighbour(Name, _)),
+    host_unlink(Name, _),
     retractall(load_key(Name, _)),
     retractall(hop_keys(Name, _, _)).
 
@@ -239,41 +236,6 @@ host_leave(Name) :-
 host_load(Name, Load) :-
     load_key(Name, Key),
     flag(Key, Load, Load).
-
-                /*******************************
-                *             LINKS            *
-                *******************************/
-
-%!  host_link(+Name, +Address) is det.
-%!  host_unlink(?Name, +Address) is det.
-%
-%   One direction of a link; nothing to do where it is so already.
-
-host_link(Name, Address) :-
-    with_mutex(typhon_links,
-               (   neighbour(Name, Address)
-               ->  true
-               ;   assertz(neighbour(Name, Address))
-               )).
-
-host_unlink(Name, Address) :-
-    retractall(neighbour(Name, Address)).
-
-%!  host_neighbours(+Name, -Addresses:list(atom)) is det.
-
-host_neighbours(Name, Addresses) :-
-    findall(Address, neighbour(Name, Address), Addresses0),
-    once_each(Addresses0, Addresses).
-
-%   While links are made elsewhere 9.0.4 may yield one twice in a row.
-
-once_each([A,B|Rest], Set) :-
-    A == B,
-    !,
-    once_each([B|Rest], Set).
-once_each([A|Rest], [A|Set]) :-
-    once_each(Rest, Set).
-once_each([], []).
 
                 /*******************************
                 *           HOP TIMES          *

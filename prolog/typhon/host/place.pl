@@ -3,6 +3,7 @@
             place_offer/2,              % +Place, +Service
             place_destroy/1,            % +Place
             tuple_leave/2,              % +Place, +Fact
+            tuple_leave_new/2,          % +Place, +Fact
             tuple_sense/2,              % +Place, ?Fact
             tuple_take/2,               % +Place, ?Fact
             place_deliver/3,            % +Place, +Payload, -PIs
@@ -25,7 +26,8 @@ tuple space of the host is the predicate '$tuple'/1 of its place.
 make/0 loads files anew that have changed since they were consulted into a
 place. Agents that stand there meet the new clauses with their next call.
 
-*Threading*: any thread.  tuple_take/2 is atomic.
+*Threading*: any thread.  tuple_take/2 is atomic; a mutex keeps others from
+leaving a fact while tuple_leave_new/2 looks.
 */
 
 :- multifile
@@ -132,15 +134,22 @@ unload(_).
                 *******************************/
 
 %!  tuple_leave(+Place, +Fact) is det.
+%!  tuple_leave_new(+Place, +Fact) is semidet.
 %!  tuple_sense(+Place, ?Fact) is nondet.
 %!  tuple_take(+Place, ?Fact) is semidet.
 %
-%   Put, read and take a fact.  Of many agents that take one fact, one
-%   gets it.
+%   Put, put if there is none that unifies, read and take a fact.  Of many
+%   agents that take one fact, or leave it as a new one, one succeeds.
 
 tuple_leave(Place, Fact) :-
     must_be(callable, Fact),
-    assertz(Place:'$tuple'(Fact)).
+    with_mutex(typhon_tuples, assertz(Place:'$tuple'(Fact))).
+
+tuple_leave_new(Place, Fact) :-
+    must_be(callable, Fact),
+    with_mutex(typhon_tuples,
+               ( \+ Place:'$tuple'(Fact),
+                 assertz(Place:'$tuple'(Fact)) )).
 
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).

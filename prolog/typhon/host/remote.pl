@@ -1,5 +1,6 @@
 :- module(typhon_remote,
-          [ remote/2                    % +Host, +Goal
+          [ remote/2,                   % +Host, +Goal
+            host_do/2                   % +Name, +Goal
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
@@ -55,11 +56,19 @@ conclude(unknown_host, Host, _) :-
     host_unknown(Host).
 
 run_here(Name, Goal) :-
-    host(Name, _, Place),
     (   host_option(Name, remote(false))
     ->  permission_error(remote, host, Name)
-    ;   in_context(Name, Place:Goal)
+    ;   host_do(Name, Goal)
     ).
+
+%!  host_do(+Name, +Goal) is semidet.
+%
+%   As remote/2 on a host of this process, whether it is refused to others
+%   or not.
+
+host_do(Name, Goal) :-
+    host(Name, _, Place),
+    in_context(Name, Place:Goal).
 
 typhon_endpoint:requested(remote, remote(Name, Goal), _Peer, ReplyTo) :-
     (   host(Name, _, _)

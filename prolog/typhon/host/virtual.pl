@@ -10,8 +10,8 @@
 :- use_module('../base/output', [output_own/0]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module(virtual_loop,
-              [ virtual_begin/0, virtual_doing/1, virtual_loop/1,
-                virtual_now/1, virtual_steps/1 ]).
+              [ virtual_begin/0, virtual_doing/1, virtual_end/0,
+                virtual_loop/1, virtual_now/1, virtual_steps/1 ]).
 
 /** <module> Virtual time: nothing waits
 
@@ -60,6 +60,7 @@ virtual_start :-
 virtual_stop :-
     retract(loop(Thread, Queue)),
     !,
+    virtual_end,
     thread_send_message(Queue, ask(stop)),
     stop_thread(Thread),
     message_queue_destroy(Queue).

@@ -1,5 +1,6 @@
 :- module(typhon_virtual_loop,
           [ virtual_begin/0,
+            virtual_end/0,
             virtual_loop/1,             % +Queue
             virtual_now/1,              % -Stamp
             virtual_steps/1,            % -Count
@@ -36,11 +37,18 @@ thread may ask for.
 
 %!  virtual_begin is det.
 %
-%   Time is 0.0.
+%!  virtual_end is det.
+%
+%   Time is 0.0; it is about to end, and does so where what runs is aborted.
+%   At other times it goes on after that.
 
 virtual_begin :-
     flag(typhon_virtual_now, _, 0.0),
-    flag(typhon_virtual_steps, _, 0).
+    flag(typhon_virtual_steps, _, 0),
+    flag(typhon_virtual_ends, _, 0).
+
+virtual_end :-
+    flag(typhon_virtual_ends, _, 1).
 
 %!  virtual_loop(+Queue) is det.
 %
@@ -117,16 +125,39 @@ go(Waiting, Queue, Alarms) :-
 step(do(Work), Waiting0, Queue, Alarms) :-
     flag(typhon_virtual_steps, Steps, Steps+1),
     nb_setval(typhon_virtual_work, doing(Work, Waiting0, Queue)),
-    work_do(Work, again(Queue)),
-    nb_setval(typhon_virtual_work, none),
-    satisfied(Waiting0, Waiting),
-    go(Waiting, Queue, Alarms).
+    catch(( work_do(Work, again(Queue)),
+            Done = true ),
+          Ball,
+          go_on(Ball, Waiting0, Queue, Alarms)),
+    (   Done == true
+    ->  next(Waiting0, Queue, Alarms)
+    ;   true
+    ).
 step(alarm(Stamp, What), Waiting, Queue, alarms(Count0, Heap0)) :-
     add_to_heap(Heap0, at(Stamp, Count0), What, Heap),
     Count is Count0+1,
     go(Waiting, Queue, alarms(Count, Heap)).
 step(ask(Ask), Waiting, Queue, Alarms) :-
     asked(Ask, Waiting, Queue, Alarms).
+
+next(Waiting0, Queue, Alarms) :-
+    nb_setval(typhon_virtual_work, none),
+    satisfied(Waiting0, Waiting),
+    go(Waiting, Queue, Alarms).
+
+%   Who catches an abort is to be aborted when he has recovered.  So this is
+%   where the loop goes on, to the end of time.
+
+go_on(Ball, Waiting, Queue, Alarms) :-
+    aborted(Ball),
+    flag(typhon_virtual_ends, 0, 0),
+    !,
+    next(Waiting, Queue, Alarms).
+go_on(Ball, _, _, _) :-
+    throw(Ball).
+
+aborted('$aborted').
+aborted(unwind(abort)).
 
 again(Queue, Work) :-
     thread_send_message(Queue, do(Work)).

@@ -6,9 +6,11 @@
             hops/1,                     % -Count
             now/1,                      % -Time
             neighbours/1,               % -Hosts
+            neighbour/2,                % ?Host, -Cost
             host_load/1,                % -Count
             send/2,                     % +Agent, +Message
             leave/1,                    % +Fact
+            leave_new/1,                % +Fact
             sense/1,                    % ?Fact
             take/1,                     % ?Fact
             attach/1,                   % +Payload
@@ -20,6 +22,7 @@
             withdraw/1,                 % +Problem
             pheromone/3,                % ?Problem, -Source, -Strength
             log/1,                      % +What
+            result/1,                   % +Term
             message_failed/2,           % +From, +Message
             move/1,                     % +Host
             clone/1,                    % -Who
@@ -29,16 +32,19 @@
             dispose/0
           ]).
 :- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../program', [payload_load/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
-                event/4, host/3, host_load/2, host_log/3, host_logs/1, host_neighbours/2,
-                host_time/2, place_deliver/3, place_undeliver/2,
-                tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
+                event/4, host/3, host_address/2, host_link_cost/3,
+                host_load/2, host_log/3, host_logs/1, host_neighbours/2,
+                host_time/2, place_deliver/3,
+                place_undeliver/2, tuple_leave/2, tuple_leave_new/2,
+                tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
-                agent_handled/3, agent_payload/3, life_hops/2,
+                agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
                 life_parent/2 ]).
 :- use_module('../travel', [post/3]).
 :- use_module(pheromone,
@@ -94,13 +100,28 @@ life(Life) :-
     agent(Id, _, _, _, Life).
 
 %!  neighbours(-Hosts:list(atom)) is det.
+%!  neighbour(?Host, -Cost:number) is nondet.
 %!  host_load(-Count:integer) is det.
 %
-%   The addresses of linked hosts, and how many agents stand here.
+%   The addresses of linked hosts, what it costs to go to one of them, 1
+%   where nobody has said otherwise, and how many agents stand here.
 
 neighbours(Hosts) :-
     context_host(Host),
     host_neighbours(Host, Hosts).
+
+neighbour(Host, Cost) :-
+    context_host(Here),
+    linked(Host, Here, Address),
+    host_link_cost(Here, Address, Cost).
+
+linked(Host, Here, Host) :-
+    var(Host),
+    !,
+    host_neighbours(Here, Hosts),
+    member(Host, Hosts).
+linked(Host, _, Address) :-
+    host_address(Host, Address).
 
 host_load(Count) :-
     context_host(Host),
@@ -132,16 +153,24 @@ send(Agent, Message) :-
                                              Agent, Id, Message)))).
 
 %!  leave(+Fact) is det.
+%!  leave_new(+Fact) is semidet.
 %!  sense(?Fact) is nondet.
 %!  take(?Fact) is semidet.
 %
-%   Put a fact in the tuple space of the host, read one, take one away.
-%   Of many that take the same fact one gets it.
+%   Put a fact in the tuple space of the host, put it if none is there that
+%   unifies, read one, take one away.  Of many that take the same fact, or
+%   leave it as a new one, one succeeds.
 
 leave(Fact) :-
     place(Host, Place),
     mobile_term(Fact),
     tuple_leave(Place, Fact),
+    shared(Host, leave(Fact)).
+
+leave_new(Fact) :-
+    place(Host, Place),
+    mobile_term(Fact),
+    tuple_leave_new(Place, Fact),
     shared(Host, leave(Fact)).
 
 sense(Fact) :-
@@ -234,6 +263,19 @@ log(What) :-
         host_log(Host, Agent, What)
     ;   print_message(informational, typhon(log(Host, Agent, What)))
     ).
+
+%!  result(+Term) is det.
+%
+%   The result of this agent is Term; the last one given counts.  Who waits
+%   for it by agent_result/3 has it when the agent has ended.
+%
+%   @error type_error(mobile_term, Culprit)
+%   @error resource_error(result_bytes)
+
+result(Term) :-
+    context(_, _, Module),
+    mobile_term(Term),
+    legacy_result(Module, Term).
 
 %!  message_failed(+From, +Message) is det.
 %

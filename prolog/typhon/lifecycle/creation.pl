@@ -1,7 +1,7 @@
 :- module(typhon_creation,
           [ agent_create/2,             % +Program, -Agent
             agent_create/3,             % +Program, -Agent, +Options
-            agent_create_here/3,        % +Name, +Start, -Agent
+            agent_begin/4,              % +Options, +Name, +Start, -Agent
             agent_clone_here/3,         % +Id, +Goals, -CloneId
             clone_id/2                  % +Id, -CloneId
           ]).
@@ -23,9 +23,9 @@
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_id/3, agent_mail/2,
                 agent_module/5, agent_name/3, agent_ready/2,
-                agent_state/2, is_life/1, life_clone/3, life_tokens/2,
-                make_life/2, with_agent/2 ]).
-:- use_module('../travel', [agent_born/2]).
+                agent_state/2, is_life/1, legacy_none/2, life_clone/3,
+                life_tokens/2, make_life/2, with_agent/2 ]).
+:- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
 
 /** <module> How agents begin
@@ -204,12 +204,12 @@ must_be_life(Life) :-
     ;   type_error(agent_life, Life)
     ).
 
-%!  agent_create_here(+Name, +Start, -Agent) is det.
+%!  agent_begin(+Options, +Name, +Start, -Agent) is det.
 %
-%   Create an agent on the first host of this process.
+%   Create an agent on the host of Options, as of agent_create/3.
 
-agent_create_here(Name, Start, Agent) :-
-    target([], Where),
+agent_begin(Options, Name, Start, Agent) :-
+    target(Options, Where),
     create(Where, Name, Start, Agent).
 
 %!  agent_clone_here(+Id, +Goals, -CloneId) is det.
@@ -220,11 +220,13 @@ agent_create_here(Name, Start, Agent) :-
 
 agent_clone_here(Id, Goals, CloneId) :-
     agent(Id, Host, Module, Hash, Life0),
-    agent_state(Module, State),
+    agent_state(Module, State0),
+    legacy_none(State0, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
     start(Host, Name, start(Hash, Life, State, Goals, []), Answer),
     begun(Answer, Host, CloneId),
+    clone_born(Id, CloneId),
     event(hops, Host, Id, cloned(CloneId)).
 
 %!  clone_id(+Id, -CloneId) is det.

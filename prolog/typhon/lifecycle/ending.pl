@@ -5,14 +5,17 @@
             agent_stays/2               % +Id, +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../host', [event/4, events_forget/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
-                fault_outcome/2, is_faulty/3, life_hops/2, with_agent/2 ]).
+                fault_outcome/2, is_faulty/3, legacy/2, life_hops/2,
+                with_agent/2 ]).
 :- use_module(held, [held_dropped/1]).
-:- use_module('../travel', [agent_ended/3, transfer_given_up/2]).
+:- use_module('../travel', [agent_ended/4, transfer_given_up/2]).
 :- use_module(faulty,
               [faulty_gone/1, faulty_keep/3, faulty_oldest/1, faulty_tell/2]).
+:- use_module(questions, [question_answered/2]).
 
 /** <module> How agents end
 
@@ -41,32 +44,40 @@ agent_end(Id, Test, Outcome) :-
                    )),
     removed(Last, Id, Outcome).
 
-remove(Id, last(Host, Hops, Status, Goals)) :-
-    agent(Id, Host, _, _, Life),
+remove(Id, last(Host, Hops, Status, Goals, Legacy, Orders)) :-
+    agent(Id, Host, Module, _, Life),
     life_hops(Life, Hops),
+    legacy(Module, Legacy),
     once(agent_status(Id, Status, Goals)),
     (   Status = transit(_, _)
     ->  transfer_given_up(Id, Goals)
     ;   held_dropped(Goals)
     ),
     faulty_gone(Id),
-    agent_remove(Id, _, _).
+    agent_remove(Id, _, Orders).
+
+%   Who waits for an answer to an order hears that nobody will give one.
+
+removed(Last, Id, Outcome) :-
+    told(Last, Id, Outcome),
+    arg(6, Last, Orders),
+    forall(member(asked(_, Asker), Orders), question_answered(Asker, none)).
 
 %   That it has ended badly is known.
 
-removed(last(_, Hops, faulty(_), Goals), Id, _) :-
+told(last(_, Hops, faulty(_), Goals, Legacy, _), Id, _) :-
     !,
     events_forget(Id),
     is_faulty(Goals, Fault, _),
     fault_outcome(Fault, Outcome),
-    agent_ended(Id, Outcome, Hops).
-removed(last(Host, Hops, Status, _), Id, Outcome) :-
+    agent_ended(Id, Outcome, Hops, Legacy).
+told(last(Host, Hops, Status, _, Legacy, _), Id, Outcome) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
     tell_of_doubt(Status, Id),
     host_leave(Host),
     event(life, Host, Id, ended(Outcome)),
     events_forget(Id),
-    agent_ended(Id, Outcome, Hops).
+    agent_ended(Id, Outcome, Hops, Legacy).
 
 tell_of_doubt(transit(Address, _), Id) :-
     !,

@@ -1,5 +1,6 @@
 :- module(typhon_evacuation, []).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../host', [context_now/2, host_load/2, time_signal/1]).
 :- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
 :- use_module(ending, [agent_end/3]).
@@ -43,7 +44,7 @@ stays(Id) :-
     \+ agent_ordered(Id),
     \+ agent_status(Id, transit(_, _), _).
 
-%   abort is the one exception that the agent's own catch/3 cannot stop.
+%   That is the one exception that the agent's own catch/3 cannot stop.
 
 interrupt(Host, Ids) :-
     forall(member(Id, Ids),
@@ -61,6 +62,6 @@ idles_on(Host, Id, Status) :-
 stop_running(Host) :-
     (   context_now(Host, Agent),
         Agent \== none
-    ->  abort
+    ->  abort_quietly
     ;   true
     ).

@@ -1,7 +1,6 @@
 :- module(typhon_giving,
           [ agent_move/2,               % +Agent, +Host
             agent_clone/2,              % +Agent, -Clone
-            agent_dispose/1,            % +Agent
             payload_attach/2,           % +Agent, +Payload
             payload_detach/2,           % +Agent, +Name
             agent_resume/1,             % +Agent
@@ -28,14 +27,13 @@ agent; what becomes of it there see typhon_orders.
 
 %!  agent_move(+Agent, +Host) is det.
 %!  agent_clone(+Agent, -Clone) is det.
-%!  agent_dispose(+Agent) is det.
 %!  payload_attach(+Agent, +Payload) is det.
 %!  payload_detach(+Agent, +Name) is det.
 %
 %   Orders from outside.  An agent that runs takes them at its next effect.
-%   agent_move/2 and agent_dispose/1 do not wait for that, the others do,
-%   for 10 seconds at the most.  An agent that is refused at Host stays
-%   where it is, which is reported there.
+%   agent_move/2 does not wait for that, the others do, for 10 seconds at the
+%   most.  An agent that is refused at Host stays where it is, which is
+%   reported there.
 %
 %   An agent that is faulty obeys as others do, and is faulty still.
 %
@@ -50,9 +48,6 @@ agent_move(Agent, Host) :-
 agent_clone(Agent, Clone) :-
     order_give(Agent, clone, Clone0),
     Clone = Clone0.
-
-agent_dispose(Agent) :-
-    order_give(Agent, dispose, _).
 
 payload_attach(Agent, Spec) :-
     raising_afresh(payload_load(Spec, Payload)),
@@ -100,7 +95,7 @@ agent_change(Agent, Change) :-
 
 %!  order_give(+Agent, +Order, -Result) is det.
 %
-%   @arg Order is move(Host), `dispose`, `clone`, attach(Payload),
+%   @arg Order is move(Host), `clone`, attach(Payload),
 %        detach(Name), `image`, `resume`, change(Change), see typhon_change,
 %        or watched(Change), see typhon_traced
 

@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module('../program', [code_program/2]).
-:- use_module('../host', [address_parts/3, host/3, host_time/2]).
+:- use_module('../host', [address_parts/3, host/3, host_time/2, turn_of/3]).
 :- use_module('../agent',
               [agent/5, agent_status/3, life_hops/2, mail_count/2]).
 :- use_module('../travel', [in_doubt/1]).
@@ -28,9 +28,19 @@ agent_glance(Agent, glance(Address, Program, Doing, Hops, Mail)) :-
     host(Host, Address, _),
     code_program(Hash, program(Program, _, _, _)),
     agent_status(Agent, Status, _),
-    once(doing(Status, Host, Doing)),
+    once(agent_doing(Status, Agent, Host, Doing)),
     life_hops(Life, Hops),
     mail_count(Agent, Mail).
+
+%   One that does not stop burns time; less than a tenth of a second is not
+%   worth telling.
+
+agent_doing(running, Agent, _, Doing) :-
+    turn_of(Agent, _, Seconds),
+    Seconds >= 0.1,
+    format(atom(Doing), 'running, ~1f s', [Seconds]).
+agent_doing(Status, _, Host, Doing) :-
+    doing(Status, Host, Doing).
 
 doing(ready, _, running).
 doing(obeying, _, running).

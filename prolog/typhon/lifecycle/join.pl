@@ -1,51 +1,78 @@
 :- module(typhon_join,
-          [ agent_join/3                % +Agent, -Outcome, +Timeout
+          [ agent_join/3,               % +Who, -Outcome, +Timeout
+            agent_result/3              % +Agent, -Term, +Timeout
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [append/2, append/3, last/2, member/2]).
 :- use_module('../wire', [endpoint_address/1]).
-:- use_module('../host', [process_ask/6, time_wait/3]).
-:- use_module('../agent', [agent_home_endpoint/2]).
-:- use_module('../travel', [agent_outcome/2, outcome_wait/3]).
+:- use_module('../host', [process_ask/6, time_now/1, time_wait/3]).
+:- use_module('../agent', [agent/5, agent_home_endpoint/2, legacy/2]).
+:- use_module('../travel',
+              [agent_outcome/2, clones_ask/3, legacy_ask/4, outcome_wait/3]).
 :- use_module(named, [agent_once_named/2]).
+:- use_module(questions, [agent_ask/4, question_answered/2]).
 
-/** <module> Waiting for the end of an agent
+/** <module> Waiting for the end of agents, and what they leave
 
-Its home is asked, see typhon_home, which answers when it knows.
+The home of an agent is asked, see typhon_home, which answers when it knows.
 
 *Threading*: any thread.
 */
 
-%!  agent_join(+Agent, -Outcome, +Timeout) is det.
+:- multifile typhon_questions:here/3.
+
+%!  agent_join(+Who, -Outcome, +Timeout) is det.
 %
-%   Wait until Agent has ended, wherever it is, for Timeout seconds (a
-%   number or `inf`).  Outcome is `done`, `failed`, raised(Error),
-%   `disposed` or `timeout`.
+%   Wait until an agent has ended, wherever it is, for Timeout seconds (a
+%   number or `inf`).  Outcome is `done`, `failed`, raised(Error), `disposed`
+%   or `timeout`.
+%
+%   Who may be family(Agent): Agent, all its clones, and theirs; that is until
+%   the last has ended.  Then Outcome is a list of pairs Agent-Outcome, each
+%   before its clones, and these in the order in which they were born in a
+%   process.  At the timeout the outcome of those who have not ended is
+%   `timeout`; one whose home does not know it any more has the outcome
+%   `unknown`.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
-%   @error host_unreachable(Home), connection_lost(Home)
+%   @error host_unreachable(Home), connection_lost(Home): for a family, of
+%   any of its members
 
+agent_join(Who, Outcomes, Timeout) :-
+    nonvar(Who),
+    Who = family(Agent),
+    !,
+    agent_once_named(Agent, Id),
+    wait_seconds(Timeout, Seconds),
+    until(Seconds, Until),
+    agent_join(Id, Outcome, Seconds),
+    clones(Id, Outcome, Clones),
+    members(Clones, Until, Others),
+    Outcomes = [Id-Outcome|Others].
 agent_join(Agent, Outcome, Timeout) :-
     agent_once_named(Agent, Id),
-    (   Timeout == infinite
-    ->  Seconds = inf
-    ;   Timeout == inf
-    ->  Seconds = inf
-    ;   must_be(number, Timeout),
-        Seconds is max(0, Timeout)
-    ),
-    (   agent_home_endpoint(Id, Endpoint)
-    ->  join(Endpoint, Id, Seconds, Outcome0)
-    ;   Outcome0 = unknown
-    ),
+    wait_seconds(Timeout, Seconds),
+    outcome_within(Id, Seconds, Outcome0),
     (   Outcome0 == unknown
     ->  existence_error(agent, Agent)
     ;   Outcome = Outcome0
     ).
 
+wait_seconds(Timeout, inf) :-
+    ( Timeout == inf ; Timeout == infinite ),
+    !.
+wait_seconds(Timeout, Seconds) :-
+    must_be(number, Timeout),
+    Seconds is max(0, Timeout).
+
+outcome_within(Agent, Seconds, Outcome) :-
+    (   agent_home_endpoint(Agent, Endpoint)
+    ->  join(Endpoint, Agent, Seconds, Outcome)
+    ;   Outcome = unknown
+    ).
+
 join(Endpoint, Agent, Seconds, Outcome) :-
-    (   endpoint_address(Endpoint)
-    ;   agent_outcome(Agent, _)
-    ),
+    home_here(Agent, Endpoint),
     !,
     setup_call_cleanup(
         message_queue_create(Queue),    % who is interrupted leaves nothing
@@ -60,3 +87,102 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     ),
     process_ask(Endpoint, Endpoint, join, join(Agent, Seconds), Outcome,
                 Limit).
+
+                /*******************************
+                *            FAMILIES          *
+                *******************************/
+
+%   members(+Agents, +Until, -Outcomes): of them, and of those who were
+%   cloned from them.
+
+members([], _, []).
+members([Agent|Agents], Until, [Agent-Outcome|Outcomes]) :-
+    seconds_left(Until, Seconds),
+    outcome_within(Agent, Seconds, Outcome),
+    clones(Agent, Outcome, Clones),
+    append(Clones, Agents, Others),
+    members(Others, Until, Outcomes).
+
+until(inf, inf) :-
+    !.
+until(Seconds, Until) :-
+    time_now(Now),
+    Until is Now+Seconds.
+
+seconds_left(inf, inf) :-
+    !.
+seconds_left(Until, Seconds) :-
+    time_now(Now),
+    Seconds is max(0, Until-Now).
+
+%   clones(+Agent, +Outcome, -Clones)
+
+clones(Agent, Outcome, Clones) :-
+    left(Agent, Outcome, cloned, Items),
+    findall(Some,
+            ( member(cloned(Endpoint), Items),
+              clones_ask(Endpoint, Agent, Some) ),
+            Lists),
+    append(Lists, Clones).
+
+                /*******************************
+                *            RESULTS           *
+                *******************************/
+
+%!  agent_result(+Agent, -Term, +Timeout) is semidet.
+%
+%   Term is the last that Agent has given with result/1, when it has ended,
+%   wherever and however; fails if it has not within Timeout seconds, a
+%   number or `inf`.  Its home keeps the results of the last 20,000 agents
+%   (the setting typhon_legacies:legacies).
+%
+%   @error existence_error(result, Agent) if it has given none
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
+%   @error host_unreachable(Home), connection_lost(Home)
+
+agent_result(Agent, Term, Timeout) :-
+    agent_once_named(Agent, Id),
+    agent_join(Id, Outcome, Timeout),
+    Outcome \== timeout,
+    left(Id, Outcome, result, Results),
+    (   last(Results, result(Result))
+    ->  Term = Result
+    ;   existence_error(result, Agent)
+    ).
+
+%   home_here(+Agent, +Home): its home is this process, or was when it had
+%   another endpoint.
+
+home_here(_, Home) :-
+    endpoint_address(Home),
+    !.
+home_here(Agent, _) :-
+    agent_outcome(Agent, _).
+
+%   left(+Agent, +Outcome, +Kind, -Items): what Agent has left, or is going to
+%   leave: who has not ended, or is kept since it ended badly, is asked.
+
+left(Agent, Outcome, Kind, Items) :-
+    may_stand(Outcome),
+    catch(agent_ask(Agent, legacy(Kind), 2, answer(Items0)), error(_, _),
+          fail),
+    !,
+    Items = Items0.
+left(Agent, _, Kind, Items) :-
+    agent_home_endpoint(Agent, Home),
+    (   home_here(Agent, Home)
+    ->  legacy_ask(here, Agent, Kind, Items)
+    ;   legacy_ask(Home, Agent, Kind, Items)
+    ).
+
+may_stand(timeout).
+may_stand(failed).
+may_stand(raised(_)).
+
+typhon_questions:here(legacy(Kind), Agent, Asker) :-
+    agent(Agent, _, Module, _, _),
+    !,
+    legacy(Module, Items0),
+    functor(Item, Kind, 1),
+    findall(Item, member(Item, Items0), Items),
+    question_answered(Asker, answer(Items)).

@@ -68,6 +68,10 @@ at_once(dispose).
 order_take(Id, dispose) :-
     agent_end(Id, at_rest, disposed),
     !.
+order_take(Id, asked(end, Asker)) :-
+    agent_end(Id, at_rest, disposed),
+    !,
+    question_answered(Asker, answer(ended)).
 order_take(Id, evacuate(Host)) :-
     agent_end(Id, rests_on(Host, Id), disposed),
     !.
@@ -200,6 +204,10 @@ obey(move(Host), Id, Goals) :-
           ( failed(Id, Formal),
             go_on(Id, Goals)
           )).
+obey(asked(end, Asker), Id, _) :-
+    !,
+    ignore(agent_end(Id, disposed)),
+    question_answered(Asker, answer(ended)).
 obey(asked(resume, Asker), Id, Goals) :-
     (   is_faulty(Goals, Fault, Left),
         agent(Id, _, _, _, Life)

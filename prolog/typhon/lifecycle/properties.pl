@@ -5,7 +5,7 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module('../base/options', [check_name/2]).
 :- use_module('../program', [code_program/2]).
-:- use_module('../host', [host/3]).
+:- use_module('../host', [host/3, turn_of/3]).
 :- use_module('../agent',
               [ agent/5, agent_home/2, agent_state/2, agent_status/3,
                 fault_error/2, fault_shown/2, in_words/2, is_faulty/3,
@@ -34,8 +34,9 @@
 %   fault(Error, Goal, Place, Host), the goal that failed or raised the error,
 %   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
 %   predicate, or `unknown`, and on which host it was.  What cannot travel
-%   stands in goals and messages in words.  If Agent is unbound, the agents
-%   of this process are enumerated.
+%   stands in goals and messages in words.  One that runs has busy(Seconds):
+%   for so long, by the time of day, it has not stopped.  If Agent is
+%   unbound, the agents of this process are enumerated.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
 %   is a name; of an id that is no more this fails
@@ -104,6 +105,9 @@ property(state(State), Agent) :-
         State = faulty(Error)
     ;   shown(Status, State)
     ).
+property(busy(Seconds), Agent) :-
+    agent_status(Agent, running, _),
+    turn_of(Agent, _, Seconds).
 property(hops(Hops), Agent) :-
     agent(Agent, _, _, _, Life),
     life_hops(Life, Hops).
@@ -133,7 +137,8 @@ property(payloads(Names), Agent) :-
 
 visible(Clauses, Clause) :-
     member(Clause, Clauses),
-    Clause \= '$memory'(_).
+    Clause \= '$memory'(_),
+    Clause \= '$legacy'(_).
 
 shown(ready, running).
 shown(running, running).

@@ -1,5 +1,6 @@
 :- module(typhon_questions,
           [ agent_ask/4,                % +Agent, +Question, +Seconds, -Answer
+            agent_urge/4,               % +Agent, +Question, +Seconds, -Answer
             question_answered/2         % +Asker, +Answer
           ]).
 :- use_module('../wire',
@@ -27,9 +28,11 @@ reader threads, which never wait.
 %   in this process.  Else Asker is told, then or later.
 
 %!  agent_ask(+Agent, +Question, +Seconds, -Answer) is semidet.
+%!  agent_urge(+Agent, +Question, +Seconds, -Answer) is semidet.
 %
 %   Put Question to Agent.  Answer is answer(Term) or error(Formal).  Fails if
-%   there is no such agent.
+%   there is no such agent.  agent_urge/4 waits by the time of day, even where
+%   time is virtual, and does not let it run.
 %
 %   @error host_unreachable(Endpoint)
 %   @error timeout_error(order, Agent)
@@ -37,6 +40,14 @@ reader threads, which never wait.
 agent_ask(Agent, Question, Seconds, Answer) :-
     time_now(Now),
     Deadline is Now+Seconds,
+    ask(Agent, Question, by(Deadline), Answer).
+
+agent_urge(Agent, Question, Seconds, Answer) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    ask(Agent, Question, by_day(Deadline), Answer).
+
+ask(Agent, Question, Deadline, Answer) :-
     start_endpoint(Agent, Endpoint),
     ask(Endpoint, Agent, Question, Deadline, 16, Answer).
 
@@ -73,8 +84,8 @@ ask(Where, Agent, Question, Deadline, Left, Answer) :-
 %   It runs away from us: wait a little.
 
 pause(Deadline, Agent) :-
-    time_now(Now),
-    (   Now < Deadline
+    seconds_left(Deadline, Seconds),
+    (   Seconds > 0
     ->  thread_self(Me),
         \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)])
     ;   throw(error(timeout_error(order, Agent), _))
@@ -89,16 +100,28 @@ ask_at(here, Agent, Question, Deadline, Answer) :-
         ),
         message_queue_destroy(Queue)).
 ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
-    time_now(Now),
-    Seconds is max(0.01, Deadline-Now),
+    seconds_left(Deadline, Left),
+    Seconds is max(0.01, Left),
     process_ask(Endpoint, Endpoint, agent, question(Agent, Question), Answer,
                 Seconds).
 
 wait_for(Queue, Deadline, Agent, Answer) :-
-    (   time_wait(Queue, Answer0, Deadline)
+    (   answered_by(Deadline, Queue, Answer0)
     ->  Answer = Answer0
     ;   throw(error(timeout_error(order, Agent), _))
     ).
+
+answered_by(by(Stamp), Queue, Answer) :-
+    time_wait(Queue, Answer, Stamp).
+answered_by(by_day(Stamp), Queue, Answer) :-
+    thread_get_message(Queue, Answer, [deadline(Stamp)]).
+
+seconds_left(by(Stamp), Seconds) :-
+    time_now(Now),
+    Seconds is Stamp-Now.
+seconds_left(by_day(Stamp), Seconds) :-
+    get_time(Now),
+    Seconds is Stamp-Now.
 
                 /*******************************
                 *            ANSWERS           *

@@ -1,13 +1,15 @@
 :- module(typhon_restore,
           [ agent_save/2,               % +Agent, +File
-            agent_load/2                % +File, -Agent
+            agent_load/2,               % +File, -Agent
+            agent_load/3                % +File, -Agent, +Options
           ]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../program', [code_receive/2, program_hash/2]).
 :- use_module('../agent', [is_life/1]).
-:- use_module(creation, [agent_create_here/3]).
+:- use_module(creation, [agent_begin/4]).
 :- use_module(giving, [order_give/3]).
 
 /** <module> Restore points: agents as text
@@ -18,27 +20,39 @@ still to run can be read, compared and edited.
 *Threading*: any thread.
 */
 
+:- multifile typhon_options:declared/4.
+
 %!  agent_save(+Agent, +File) is det.
 %!  agent_load(+File, -Agent) is det.
+%!  agent_load(+File, -Agent, +Options) is det.
 %
 %   A restore point: what Agent is at its next effect, as text.  The agent
-%   that is made of it goes on where the first one was, on the first host
-%   of this process, under an id of its own.
+%   that is made of it goes on where the first one was, under an id of its
+%   own, on the first host of this process or where the option host(Host)
+%   says, also in another process.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error domain_error(restore_point, File)
+%   @error domain_error(load_option, Option), existence_error(host, Host)
+%   @error move_refused(Host, Reason), host_unreachable(Host)
 
 agent_save(Agent, File) :-
     order_give(Agent, image, Image),
     raising_afresh(write_image(File, Image)).
 
 agent_load(File, Agent) :-
+    agent_load(File, Agent, []).
+
+agent_load(File, Agent, Options) :-
+    check_options(load_option, Options),
     raising_afresh(read_image(File, Image)),
     Image = image(Name, Sent, Life, State, Goals, Mail),
     program_places(Sent, Program, _),
     program_hash(Program, Hash),
     code_receive(Hash, Sent),
-    agent_create_here(Name, start(Hash, Life, State, Goals, Mail), Agent).
+    agent_begin(Options, Name, start(Hash, Life, State, Goals, Mail), Agent).
+
+typhon_options:declared(load_option, host(Host), atom, Host).
 
                 /*******************************
                 *            THE FILE          *

@@ -9,8 +9,8 @@
 :- use_module('../wire',
               [endpoint_address/1, endpoint_flush/2, endpoint_reply/2]).
 :- use_module('../host',
-              [ host_link/2, host_neighbours/2, host_property/2, host_start/2,
-                host_stop/1, host_unlink/2, runtime_acquire/2,
+              [ host_do/2, host_link/3, host_neighbours/2, host_property/2,
+                host_start/2, host_stop/1, host_unlink/2, runtime_acquire/2,
                 runtime_release/1 ]).
 :- use_module('../travel', [home_agents/1]).
 :- use_module(voice, [voice_begin/0]).
@@ -39,6 +39,7 @@ one for the order to stop: it sees to it that there is an end.
 */
 
 :- multifile
+    prolog:error_message//1,
     typhon_endpoint:requested/4.
 
 :- dynamic
@@ -62,8 +63,11 @@ one for the order to stop: it sees to it that there is an end.
 %     - flush(Seconds, Peers)
 %       `ok` when all that the process has sent to the endpoints Peers has
 %       arrived, else `late`.
-%     - link(Pairs), unlink(Pairs)
-%       One direction of a link for each Name-Address; `ok`.
+%     - link(Halves), unlink(Halves)
+%       One direction of a link for each half(Name, Address, Cost), Cost as
+%       of host_link/3; `ok`.
+%     - places(Pairs)
+%       Calls the goal of each Name-Goal in the place of the host; `ok`.
 %     - neighbours(Names)
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.
@@ -71,7 +75,8 @@ one for the order to stop: it sees to it that there is an end.
 %       Answer is the list of the agents that were born in the process and
 %       have not ended.
 %
-%   @error what host_start/2 throws
+%   @error what host_start/2 throws, and goals of places(Pairs); where such
+%   a goal fails, place_goal_failed(Name, Goal)
 
 order_do(hosts(Specs), Addresses) :-
     start_all(Specs, []),
@@ -88,10 +93,14 @@ order_do(flush(Seconds, Peers), Answer) :-
     ->  Answer = ok
     ;   Answer = late
     ).
-order_do(link(Pairs), ok) :-
-    forall(member(Name-Address, Pairs), host_link(Name, Address)).
-order_do(unlink(Pairs), ok) :-
-    forall(member(Name-Address, Pairs), host_unlink(Name, Address)).
+order_do(link(Halves), ok) :-
+    forall(member(half(Name, Address, Cost), Halves),
+           host_link(Name, Address, Cost)).
+order_do(unlink(Halves), ok) :-
+    forall(member(half(Name, Address, _), Halves),
+           host_unlink(Name, Address)).
+order_do(places(Pairs), ok) :-
+    forall(member(Name-Goal, Pairs), furnish(Name, Goal)).
 order_do(neighbours(Names), Lists) :-
     maplist(host_neighbours, Names, Lists).
 order_do(agents, Agents) :-
@@ -104,6 +113,12 @@ start_all([Name-Options|Specs], Started) :-
     ->  start_all(Specs, [Name|Started])
     ;   forall(member(Host, Started), stop_host(Host)),
         throw(Error)
+    ).
+
+furnish(Name, Goal) :-
+    (   host_do(Name, Goal)
+    ->  true
+    ;   throw(error(place_goal_failed(Name, Goal), _))
     ).
 
 stop_host(Name) :-
@@ -220,3 +235,6 @@ stop :-
     order_do(stop, ok),
     runtime_release(node),
     halt(0).
+
+prolog:error_message(place_goal_failed(Host, Goal)) -->
+    [ 'What was to be called in the place of ~w fails: ~p'-[Host, Goal] ].

@@ -18,11 +18,13 @@
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
 :- use_module(carriers, [carrier/3]).
 :- use_module(plan,
-              [ network_plan/3, plan_dynamics/2, plan_edges/2, plan_hosts/4,
-                plan_log/3, plan_option/2, plan_processes/3, plan_time/2 ]).
+              [ network_plan/3, plan_change/3, plan_dynamics/2,
+                plan_furnishing/2, plan_hosts/4, plan_links/2, plan_log/3,
+                plan_option/2, plan_processes/3, plan_time/2 ]).
 :- use_module(processes, [carriers_start/4, carriers_stop/1]).
 :- use_module(wiring,
-              [ wire_change/2, wire_forget/1, wire_hosts/3, wire_links/3,
+              [ wire_change/2, wire_forget/1, wire_goals/3, wire_hosts/3,
+                wire_links/3,
                 wire_stop_own/1, wired_agents/2, wired_edges/2,
                 wired_hosts/2 ]).
 
@@ -73,6 +75,8 @@ none of its own.
 %       Of the endpoints on this machine; default `localhost`.
 %     - hosts(Options)
 %       Options for host_start/2, for each of the hosts.
+%     - places(Places)
+%       Files for the places of hosts, goals called there; see room `furnishing`.
 %     - hop_time(uniform(Min, Max))
 %       An emulated link delay in host seconds, added to every hop.
 %     - clock(Rate)
@@ -87,6 +91,9 @@ none of its own.
 %       whom, and what they left and took.
 %     - dynamic(Model)
 %       Links come and go: see dynamics_model/2.
+%     - cost(Cost)
+%       What each link costs: a number, or uniform(Min, Max), drawn for each
+%       pair of hosts. What edges(List) says comes first.
 %     - seed(Seed)
 %       An integer, from which all that is random follows; drawn when not
 %       given, and told by network_property/2.
@@ -127,8 +134,10 @@ build(Network, Plan) :-
     start_log(Network, Clock, Plan, Log),
     plan_hosts(Plan, P, [Clock|Log], Hosts),
     wire_hosts(Network, P, Hosts),
-    plan_edges(Plan, Edges),
-    wire_links(Network, P, Edges),
+    plan_links(Plan, Links),
+    wire_links(Network, P, Links),
+    plan_furnishing(Plan, Goals),
+    wire_goals(Network, P, Goals),
     start_dynamics(Network, Clock, Plan),
     debug(typhon(network), '~w is built, ~w processes', [Network, P]),
     assertz(clock_of(Network, Clock)),
@@ -176,10 +185,15 @@ log_option(Kinds, Address, Option) =>
 
 start_dynamics(Network, Clock, Plan) :-
     (   plan_dynamics(Plan, State)
-    ->  dynamics_start(State, Clock, wire_change(Network), Dynamics),
+    ->  dynamics_start(State, Clock, change(Network), Dynamics),
         assertz(part(Network, dynamics(Dynamics)))
     ;   true
     ).
+
+change(Network, Change0) :-
+    network(Network, Plan),
+    plan_change(Plan, Change0, Change),
+    wire_change(Network, Change).
 
                 /*******************************
                 *             STOP             *

@@ -5,17 +5,25 @@
             plan_log/3,                 % +Plan, -File, -Kinds
             plan_processes/3,           % +Plan, -P, -Machines
             plan_hosts/4,               % +Plan, +P, +Common, -Hosts
-            plan_edges/2,               % +Plan, -Edges
+            plan_links/2,               % +Plan, -Links
+            plan_change/3,              % +Plan, +Change0, -Change
+            plan_furnishing/2,          % +Plan, -Goals
             plan_dynamics/2             % +Plan, -State
           ]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
+:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
 :- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
-:- use_module(library(lists), [append/3, member/2, nth1/3]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(lists), [append/3, flatten/2, member/2, nth1/3]).
+:- use_module(library(option), [option/2, option/3, select_option/4]).
 :- use_module(library(random), [random_between/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module(dynamics, [dynamics_model/2, dynamics_state/5]).
-:- use_module(topology, [topology_edges/4, topology_names/2]).
+:- use_module('../base/chance',
+              [chance_hash/2, chance_seed/2, chance_uniform/5]).
+:- use_module(furnishing,
+              [furnishing_check/2, furnishing_files/3, furnishing_goals/3]).
+:- use_module(topology,
+              [topology_costs/2, topology_edges/4, topology_names/2]).
 
 /** <module> What a network is to be
 
@@ -31,24 +39,24 @@ seed.
 %
 %   @error domain_error(network_option, Option), domain_error(topology, T)
 
-network_plan(Topology, Options0, plan(Names, Edges, Options)) :-
+network_plan(Topology, Options0, plan(Names, Edges, Costs, Options)) :-
     check_options(network_option, Options0),
     maplist(check_option, Options0),
     check_virtual(Options0),
     seeded(Options0, Seed, Options),
     topology_edges(Topology, Seed, _, Edges),
-    topology_names(Topology, Names).
+    topology_names(Topology, Names),
+    option(places(Places), Options, []),
+    furnishing_check(Places, Names),
+    topology_costs(Topology, Listed),
+    list_to_assoc(Listed, Costs).
 
 %!  plan_option(+Plan, ?Option) is semidet.
 %
 %   An option that was given, or drawn.
 
-plan_option(plan(_, _, Options), Option) :-
+plan_option(plan(_, _, _, Options), Option) :-
     option(Option, Options).
-
-%!  plan_edges(+Plan, -Edges) is det.
-
-plan_edges(plan(_, Edges, _), Edges).
 
 typhon_options:declared(network_option, Option, Type, Value) :-
     option_type(Option, Type, Value).
@@ -59,8 +67,10 @@ option_type(bind(Interface), atom, Interface).
 option_type(hosts(Options), list, Options).
 option_type(hop_time(Time), nonvar, Time).
 option_type(clock(Rate), nonvar, Rate).
+option_type(cost(Cost), nonvar, Cost).
 option_type(log(File), ground, File).
 option_type(log(File, _), ground, File).
+option_type(places(Places), nonvar, Places).
 option_type(dynamic(Model), nonvar, Model).
 option_type(seed(Seed), integer, Seed).
 
@@ -74,15 +84,15 @@ check_option(hop_time(Time)) =>
     check_hop_time(Time).
 check_option(clock(Rate)) =>
     check_rate(Rate).
+check_option(cost(Cost)) =>
+    check_cost(Cost).
 check_option(dynamic(Model)) =>
     dynamics_model(Model, _).
 check_option(_) =>
     true.
 
 check_hop_time(Time) :-
-    (   Time = uniform(Min, Max),
-        number(Min), number(Max),
-        0 =< Min, Min =< Max
+    (   interval(Time)
     ->  true
     ;   domain_error(hop_time, Time)
     ).
@@ -90,6 +100,21 @@ check_hop_time(Time) :-
 check_log(File, Kinds) :-
     must_be(ground, File),
     must_be(list(event_kind), Kinds).
+
+check_cost(Cost) :-
+    (   number(Cost)
+    ->  Cost >= 0
+    ;   interval(Cost)
+    ),
+    !.
+check_cost(Cost) :-
+    domain_error(cost, Cost).
+
+interval(Interval) :-
+    subsumes_term(uniform(_, _), Interval),
+    Interval = uniform(Min, Max),
+    number(Min), number(Max),
+    0 =< Min, Min =< Max.
 
 check_rate(virtual) :-
     !.
@@ -149,7 +174,7 @@ plan_log(Plan, File, []) :-
 %
 %   P processes carry the network, blocks of them on each of Machines.
 
-plan_processes(plan(Names, _, Options), P, Machines) :-
+plan_processes(plan(Names, _, _, Options), P, Machines) :-
     (   option(machines([Machine|Rest]), Options)
     ->  Machines = [Machine|Rest]
     ;   Machines = [local]
@@ -165,13 +190,40 @@ plan_processes(plan(Names, _, Options), P, Machines) :-
 %   Host I of N is in process At = (I-1)*P//N + 1: blocks of nearly one size.
 
 plan_hosts(Plan, P, Common, Hosts) :-
-    Plan = plan(Names, _, _),
+    Plan = plan(Names, _, _, _),
     length(Names, N),
     findall(host(At, I, Name, HostOptions),
             ( nth1(I, Names, Name),
               At is (I - 1) * P // N + 1,
-              host_options(Plan, I, Common, HostOptions) ),
+              host_options(Plan, I, Common, HostOptions0),
+              with_files(Plan, Name, HostOptions0, HostOptions) ),
             Hosts).
+
+%   The files of places(Places) come after those of hosts(Own).
+
+with_files(Plan, Name, Options0, Options) :-
+    plan_option(Plan, places(Places)),
+    furnishing_files(Places, Name, Files),
+    Files \== [],
+    !,
+    select_option(consult(Own), Options0, Options1, []),
+    flatten([Own, Files], All),
+    Options = [consult(All)|Options1].
+with_files(_, _, Options, Options).
+
+%!  plan_furnishing(+Plan, -Goals) is det.
+%
+%   What is to be called in the places of hosts when they are there: pairs
+%   I-Goal.
+
+plan_furnishing(Plan, Goals) :-
+    Plan = plan(Names, _, _, _),
+    findall(I-Goal,
+            ( plan_option(Plan, places(Places)),
+              nth1(I, Names, Name),
+              furnishing_goals(Places, Name, All),
+              member(Goal, All) ),
+            Goals).
 
 %   What hosts(Own) says comes before what the network says.
 
@@ -193,11 +245,49 @@ overridden(Own, Option) :-
     functor(General, Name, Arity),
     memberchk(General, Own).
 
+%!  plan_links(+Plan, -Links) is det.
+%!  plan_change(+Plan, +Change0, -Change) is det.
+%
+%   Links are terms link(I, J, Cost).  Change0 is link(I, J) or unlink(I, J),
+%   Change has the cost of the link besides.  It belongs to the pair of
+%   hosts: a link that comes again costs what it did.
+
+plan_links(Plan, Links) :-
+    Plan = plan(_, Edges, _, _),
+    findall(link(I, J, Cost),
+            ( member(I-J, Edges), cost(Plan, I-J, Cost) ),
+            Links).
+
+plan_change(Plan, Change0, Change) :-
+    Change0 =.. [Action, A, B],
+    I is min(A, B),
+    J is max(A, B),
+    cost(Plan, I-J, Cost),
+    Change =.. [Action, I, J, Cost].
+
+cost(plan(_, _, Costs, _), Edge, Cost) :-
+    get_assoc(Edge, Costs, Cost0),
+    !,
+    Cost = Cost0.
+cost(Plan, Edge, Cost) :-
+    (   plan_option(Plan, cost(Common))
+    ->  common_cost(Common, Plan, Edge, Cost)
+    ;   Cost = same
+    ).
+
+common_cost(uniform(Min, Max), Plan, Edge, Cost) :-
+    !,
+    plan_option(Plan, seed(Seed)),
+    chance_hash(cost(Seed, Edge), Hash),
+    chance_seed(Hash, Chance),
+    chance_uniform(Min, Max, Cost, Chance, _).
+common_cost(Cost, _, _, Cost).
+
 %!  plan_dynamics(+Plan, -State) is semidet.
 %
 %   The beginning of what changes its links, if something does.
 
-plan_dynamics(plan(Names, Edges, Options), State) :-
+plan_dynamics(plan(Names, Edges, _, Options), State) :-
     option(dynamic(Spec), Options),
     option(seed(Seed), Options),
     dynamics_model(Spec, Model),

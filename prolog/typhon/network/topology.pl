@@ -1,16 +1,18 @@
 :- module(typhon_topology,
           [ topology_edges/4,           % +Topology, +Seed, -N, -Edges
-            topology_names/2            % +Topology, -Names
+            topology_names/2,           % +Topology, -Names
+            topology_costs/2            % +Topology, -Costs
           ]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
-:- use_module(library(error), [domain_error/2, must_be/2, type_error/2]).
-:- use_module(library(lists),
-              [append/2, append/3, list_to_set/2, member/2, nth1/3, numlist/3]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [append/3, member/2, numlist/3]).
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
 :- use_module('../base/options', [blaming/2]).
 :- use_module('../base/chance',
               [chance_member/4, chance_seed/2, chance_true/4]).
+:- use_module(listed,
+              [listed_costs/3, listed_edge/3, listed_names/2, number_name/2]).
 
 /** <module> The shapes of networks
 
@@ -19,13 +21,16 @@ A topology is a term. Its hosts are numbered from 1, its edges are pairs
 
   - star_bus(Arms, Len): a chain of Arms hubs, each with Len-1 leaves, the
     hub first in its star: Arms*Len hosts (thesis, Figure 5.4 a)
+  - line(N): a chain
   - ring(N): each host between two others
+  - star(N): the first host linked to each of the others
   - tree(N): binary, the parent of host I is I//2
   - grid(Rows, Cols): row after row, each host linked to the next in its
     row and in its column
   - mesh(N): every host to every other
   - random(N, P): Erdos-Renyi G(N,P), and connected: see below
-  - edges(List): as listed, pairs A-B of positive integers or atoms
+  - edges(List): as listed, pairs A-B of positive integers or atoms, or
+    A-B-cost(C) where the link costs C
 
 In random(N, P) every pair of hosts is linked with probability P. Where
 that leaves the network in pieces, each piece is tied to the one before
@@ -51,7 +56,9 @@ which the list first names them.
 :- multifile typhon_names:known/2.
 
 typhon_names:known(topology, star_bus('Arms', 'Len')).
+typhon_names:known(topology, line('N')).
 typhon_names:known(topology, ring('N')).
+typhon_names:known(topology, star('N')).
 typhon_names:known(topology, tree('N')).
 typhon_names:known(topology, grid('Rows', 'Cols')).
 typhon_names:known(topology, mesh('N')).
@@ -84,7 +91,11 @@ topology_names(Topology, Names) :-
 topology_size(star_bus(Arms, Len), N) :-
     sizes([Arms, Len]),
     N is Arms * Len.
+topology_size(line(N), N) :-
+    sizes([N]).
 topology_size(ring(N), N) :-
+    sizes([N]).
+topology_size(star(N), N) :-
     sizes([N]).
 topology_size(tree(N), N) :-
     sizes([N]).
@@ -111,8 +122,19 @@ numbered_names(N, Names) :-
     numlist(1, N, Numbers),
     maplist(number_name, Numbers, Names).
 
-number_name(I, Name) :-
-    atom_concat(n, I, Name).
+%!  topology_costs(+Topology, -Costs) is det.
+%
+%   The costs of links that Topology tells, pairs (I-J)-Cost with I < J,
+%   each edge once.
+%
+%   @error as topology_edges/4
+
+topology_costs(Topology, Costs) :-
+    (   Topology = edges(List)
+    ->  listed_names(List, Names),
+        listed_costs(Names, List, Costs)
+    ;   Costs = []
+    ).
 
                 /*******************************
                 *            SHAPES            *
@@ -141,11 +163,15 @@ linked(star_bus(Arms, Len), I, J) :-
         First is I + 1,
         between(First, Last, J)
     ).
-linked(ring(N), I, J) :-
+linked(line(N), I, J) :-
     between(2, N, J),
     I is J - 1.
+linked(ring(N), I, J) :-
+    linked(line(N), I, J).
 linked(ring(N), 1, N) :-
     N > 2.
+linked(star(N), 1, J) :-
+    between(2, N, J).
 linked(tree(N), I, J) :-
     between(2, N, J),
     I is J // 2.
@@ -208,46 +234,3 @@ tie([Piece1, Piece2|Pieces], Chance0, [I-J|Ties]) :-
     J is max(A, B),
     tie([Piece2|Pieces], Chance2, Ties).
 tie(_, _, []).
-
-                /*******************************
-                *            LISTED            *
-                *******************************/
-
-listed_names(List, Names) :-
-    must_be(list, List),
-    maplist(edge_names, List, Nested),
-    append(Nested, All),
-    list_to_set(All, Names),
-    (   Names == []
-    ->  domain_error(topology, edges(List))
-    ;   true
-    ).
-
-edge_names(Edge, [A, B]) :-
-    must_be(nonvar, Edge),
-    (   Edge = X-Y
-    ->  maplist(end_name, [X, Y], [A, B])
-    ;   type_error(edge, Edge)
-    ),
-    (   A == B
-    ->  domain_error(edge, Edge)
-    ;   true
-    ).
-
-end_name(End, Name) :-
-    must_be(nonvar, End),
-    (   integer(End),
-        End > 0
-    ->  number_name(End, Name)
-    ;   atom(End)
-    ->  Name = End
-    ;   type_error(host_name, End)
-    ).
-
-listed_edge(Names, Edge, I-J) :-
-    edge_names(Edge, [A, B]),
-    nth1(AtA, Names, A),
-    nth1(AtB, Names, B),
-    !,
-    I is min(AtA, AtB),
-    J is max(AtA, AtB).

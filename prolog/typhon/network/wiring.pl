@@ -1,6 +1,7 @@
 :- module(typhon_wiring,
           [ wire_hosts/3,               % +Network, +P, +Hosts
-            wire_links/3,               % +Network, +P, +Edges
+            wire_links/3,               % +Network, +P, +Links
+            wire_goals/3,               % +Network, +P, +Goals
             wire_change/2,              % +Network, +Change
             wire_stop_own/1,            % +Network
             wire_forget/1,              % +Network
@@ -51,34 +52,49 @@ start_hosts(Network, P, Hosts) :-
     forall(member((I-Name)-Address, Pairs),
            assertz(host(Network, I, Name, P, Address))).
 
-%!  wire_links(+Network, +P, +Edges) is det.
+%!  wire_links(+Network, +P, +Links) is det.
 %
-%   Makes the links Edges, pairs of numbers. Each of the carriers 1..P hears
-%   in one order of all the ends of links in it.
+%   Makes Links, terms link(I, J, Cost). Each of the carriers 1..P hears in
+%   one order of all the ends of links in it.
 
-wire_links(Network, P, Edges) :-
+wire_links(Network, P, Links) :-
     findall(At-Half,
-            ( member(A-B, Edges), half_link(Network, A, B, At, Half) ),
+            ( member(Link, Links), half_link(Network, Link, At, Half) ),
             Halves),
     forall(between(1, P, At),
            ( findall(Half, member(At-Half, Halves), Mine),
              carrier_order(Network, At, link(Mine), ok) )).
 
-half_link(Network, A, B, P, Name-Address) :-
+%!  wire_goals(+Network, +P, +Goals) is det.
+%
+%   Calls Goals, pairs I-Goal, in the places of hosts I.
+%
+%   @error as carrier_order/4
+
+wire_goals(Network, P, Goals) :-
+    findall(At-(Name-Goal),
+            ( member(I-Goal, Goals), host(Network, I, Name, At, _) ),
+            All),
+    forall(( between(1, P, At), memberchk(At-_, All) ),
+           ( findall(Pair, member(At-Pair, All), Mine),
+             carrier_order(Network, At, places(Mine), ok) )).
+
+half_link(Network, Link, P, half(Name, Address, Cost)) :-
+    Link =.. [_, A, B, Cost],
     ( I-J = A-B ; I-J = B-A ),
     host(Network, I, Name, P, _),
     host(Network, J, _, _, Address).
 
 %!  wire_change(+Network, +Change) is det.
 %
-%   Change is link(I, J) or unlink(I, J). A process that is down was
+%   Change is link(I, J, Cost) or unlink(I, J, _). A process that is down was
 %   reported when it went down, and is left alone.
 
 wire_change(Network, Change) :-
-    Change =.. [Action, I, J],
-    Order =.. [Action, [Half]],
-    forall(half_link(Network, I, J, P, Half),
-           alive_order(Network, P, Order, _)).
+    functor(Change, Action, _),
+    forall(half_link(Network, Change, P, Half),
+           ( Order =.. [Action, [Half]],
+             alive_order(Network, P, Order, _) )).
 
 alive_order(Network, P, Order, Answer) :-
     carrier(Network, P, _),

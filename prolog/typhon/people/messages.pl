@@ -153,6 +153,12 @@ prolog:message(typhon(ended_in_doubt(Agent, Address))) -->
     [ 'Agent ~w has ended here while in doubt: if it has arrived at ~w, '-
       [Agent, Address],
       'it ends there as soon as that is known' ].
+prolog:message(typhon(news_too_long(Agent))) -->
+    [ 'What has become of agent ~w is too long to be sent to its home'-
+      [Agent] ].
+prolog:message(typhon(legacy_lost(Agent))) -->
+    [ 'What agent ~w has left, its result among it, is too long to be sent \c
+       to its home'-[Agent] ].
 prolog:message(typhon(message_failed(Agent, From, Message))) -->
     [ 'Agent ~w does not understand a message: ~p from ~w'-
       [Agent, Message, From] ].
@@ -163,6 +169,10 @@ prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
 prolog:message(typhon(order_failed(Agent, Formal))) -->
     [ 'Agent ~w could not obey: '-[Agent] ],
     explained(error(Formal, _)).
+prolog:message(typhon(runs_on(Agent, Seconds))) -->
+    [ 'Agent ~w runs on after ~w s: it is disposed of when it stops next.'-
+      [Agent, Seconds], nl,
+      'agent_dispose(Agent, [force(Seconds)]) interrupts it' ].
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
     [ 'A message for ~w is lost: ~p from ~w'-[Agent, Message, From], nl ],
     lost_since(Formal).

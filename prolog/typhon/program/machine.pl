@@ -1,6 +1,7 @@
 :- module(typhon_machine,
           [ machine_run/3,              % +Context, +Goals, -Outcome
             answer_at/3,                % +Control, +Answer, -Goal
+            machine_inside/0,
             control/1                   % ?Head
           ]).
 :- use_module(bodies,
@@ -100,6 +101,14 @@ outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
 unwinding(Ball) :- var(Ball), !, fail.
 unwinding('$aborted').
 unwinding(unwind(_)).
+
+%!  machine_inside is semidet.
+%
+%   This thread is inside machine_run/3, as a signal may find it.
+
+machine_inside :-
+    prolog_current_frame(Frame),
+    prolog_frame_attribute(Frame, parent_goal, first_outcome(_, _, _)).
 
                 /*******************************
                 *           THE RUN            *

@@ -1,7 +1,7 @@
 :- module(typhon_home,
           [ agent_born/2,               % +Id, +Address
             home_moved/4,               % +Id, +Address, +Hops, +Process
-            home_ended/3,               % +Id, +Outcome, +Hops
+            home_ended/4,               % +Id, +Outcome, +Hops, +Legacy
             home_faulty/6,              % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops, +Process
             home_resumed/3,             % +Id, +Stamp, +Hops
@@ -17,6 +17,7 @@
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [alarm_in/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
+:- use_module(legacies, [legacy_keep/2]).
 
 /** <module> What a home knows of its agents
 
@@ -83,10 +84,10 @@ agent_outcome(Id, Outcome) :-
     outcome(Id, Outcome).
 
 %!  home_moved(+Id, +Address, +Hops, +Process) is det.
-%!  home_ended(+Id, +Outcome, +Hops) is det.
+%!  home_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
 %
 %   News of Id: it has gone to Address, in Process, or has ended, after Hops
-%   hops.
+%   hops, and leaves Legacy.
 
 home_moved(Id, Address, Hops, Process) :-
     debug(typhon(hop), '~w hop ~D: home hears that it is on ~w',
@@ -116,28 +117,29 @@ forget_first(Id) :-
     retract(born(Id, _, _, _)),
     !.
 
-home_ended(Id, Outcome, Hops) :-
+home_ended(Id, Outcome, Hops, Legacy) :-
     debug(typhon(agent), '~w: home hears that it ended after ~D hops, ~p',
           [Id, Hops, Outcome]),
-    with_mutex(typhon_born, ended(Id, Outcome, Hops, Askers)),
+    with_mutex(typhon_born, ended(Id, Outcome, Hops, Legacy, Askers)),
     forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
 
 %   A copy that was given up in doubt says nothing of an agent that is
 %   known to have gone on.
 
-ended(Id, _, Hops, []) :-
+ended(Id, _, Hops, _, []) :-
     (   outcome(Id, _)
     ;   born(Id, _, Hops0, _),
         Hops0 > Hops
     ),
     !.
-ended(Id, Outcome0, _, Askers) :-
+ended(Id, Outcome0, _, Legacy, Askers) :-
     retractall(born(Id, _, _, _)),
     (   retract(faulty(Id, Told, _)),
         Told \== none
     ->  Outcome = Told
     ;   Outcome = Outcome0
     ),
+    legacy_keep(Id, Legacy),
     assertz(outcome(Id, Outcome)),
     bounded(outcome(_, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).

@@ -12,6 +12,7 @@
 :- use_module('../agent', [agent/5, image_hash/2, with_agent/2]).
 :- use_module(doubt, [doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
+:- use_module(legacies, [clone_born/2]).
 :- use_module(within, [hop_within/6]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_freeze/4, transfer_image/2,
@@ -72,6 +73,7 @@ hop_clone(Id, Where, CloneId, Who, Hole, Goals) :-
     image(Transfer, Hole-Goals-Who, Mail, Since, Image),
     host(Host, Here, _),
     agent_born(CloneId, Here),
+    clone_born(Id, CloneId),
     set_out(Transfer, Hole-Goals-Who, Mail, Since, Image).
 
 %   A host of this process may be stopped while an agent is on its way to

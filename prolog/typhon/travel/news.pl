@@ -1,7 +1,7 @@
 :- module(typhon_news,
           [ news_tell/3                 % +Home, +Id, +News
           ]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_up/3]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
@@ -29,9 +29,12 @@ that waits for the next.
     news/3,                     % Home, Id, News: the newest, not yet sent
     courier/1.                  % Home: somebody sees to its news
 
-%   So many are sent at a time, and the longest pause between attempts.
+%   So many are sent at a time, and the longest pause between attempts.  News
+%   with a legacy may be long.
 
 load(500).
+weight(ended(_, _, _, _), 50) :- !.
+weight(_, 1).
 longest_pause(10).              % seconds
 
 %!  news_tell(+Home, +Id, +News) is det.
@@ -73,6 +76,7 @@ newer(News, Known) :-
 age(located(_, _, Hops), age(Hops, 0, 0, 0)).
 age(faulty(_, _, Stamp, _, Hops), age(Hops, 1, Stamp, 0)).
 age(resumed(_, Stamp, Hops), age(Hops, 1, Stamp, 1)).
+age(ended(_, _, Hops, _), age(Hops, 2, 0, 0)).
 age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % one of fewer hops, of a copy
                                              % that was given up in doubt
 
@@ -87,7 +91,7 @@ typhon_runtime:ending(before) :-
 flush(Home) :-
     with_mutex(typhon_news, take(Home, All)),
     All \== [],
-    endpoint_post_up(Home, whereabouts, All),
+    posted(endpoint_post_up, Home, All),
     !,
     flush(Home).
 flush(_).
@@ -99,11 +103,35 @@ carry(Home, Try) :-
     with_mutex(typhon_news, ( take(Home, All), off_duty(Home, All) )),
     (   All == []
     ->  true
-    ;   catch(( endpoint_post(Home, whereabouts, All), Answer = ok ),
+    ;   catch(( posted(endpoint_post, Home, All), Answer = ok ),
               error(Answer, _),
               true),
         carried(Answer, Home, All, Try)
     ).
+
+%   posted(:Post, +Home, +All): what is too long for one frame goes in two.
+%   Of an end that is too long alone at least that it has come is told.
+
+posted(Post, Home, All) :-
+    catch(call(Post, Home, whereabouts, All),
+          error(resource_error(frame_bytes), _),
+          posted_in_parts(All, Post, Home)).
+
+posted_in_parts([ended(Id, Outcome, Hops, _)], Post, Home) :-
+    !,
+    print_message(warning, typhon(legacy_lost(Id))),
+    posted(Post, Home, [ended(Id, Outcome, Hops)]).
+posted_in_parts([News], _, _) :-
+    !,
+    arg(1, News, Id),
+    print_message(warning, typhon(news_too_long(Id))).
+posted_in_parts(All, Post, Home) :-
+    length(All, Count),
+    Half is Count//2,
+    length(First, Half),
+    append(First, Rest, All),
+    posted(Post, Home, First),
+    posted(Post, Home, Rest).
 
 take(Home, All) :-
     load(Most),
@@ -113,7 +141,8 @@ take(Most, Home, [News|All]) :-
     Most > 0,
     retract(news(Home, _, News)),
     !,
-    Most1 is Most-1,
+    weight(News, Weight),
+    Most1 is Most-Weight,
     take(Most1, Home, All).
 take(_, _, []).
 

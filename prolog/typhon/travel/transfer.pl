@@ -21,8 +21,9 @@
               [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
                 mail_back/2, with_agent/2 ]).
+:- use_module(legacies, [clone_unborn/2]).
 :- use_module(post, [post_on/2]).
-:- use_module(whereabouts, [agent_ended/3, agent_left/4]).
+:- use_module(whereabouts, [agent_ended/4, agent_left/4]).
 
 /** <module> Agents under way
 
@@ -165,7 +166,8 @@ stays(hop(Id, dest(Address, _, _), Hops), Error) :-
     ),
     ignore(with_agent(Id, back(Id, Hops, Address, Error))).
 stays(clone(Id, dest(Address, _, _), CloneId), Error) :-
-    agent_ended(CloneId, failed, 1),
+    clone_unborn(Id, CloneId),
+    agent_ended(CloneId, failed, 1, []),
     ignore(with_agent(Id, clone_back(Id, CloneId, stays(Address, Error)))).
 
 transfer_unreachable(Transfer) :-

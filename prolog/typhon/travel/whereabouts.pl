@@ -1,7 +1,7 @@
 :- module(typhon_whereabouts,
           [ agent_seen/4,               % +Id, +Address, +Hops, +Peer
             agent_left/4,               % +Id, +Address, +Hops, +Peer
-            agent_ended/3,              % +Id, +Outcome, +Hops
+            agent_ended/4,              % +Id, +Outcome, +Hops, +Legacy
             agent_faulty/5,             % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops
             agent_resumed/3,            % +Id, +Stamp, +Hops
@@ -20,9 +20,10 @@
                 endpoint_post/3,
                 endpoint_reply/2, endpoint_request/4 ]).
 :- use_module('../host', [address_parts/3]).
-:- use_module('../agent', [agent/5, agent_home_endpoint/2, life_hops/2]).
+:- use_module('../agent',
+              [agent/5, agent_home_endpoint/2, is_legacy/1, life_hops/2]).
 :- use_module(home,
-              [ agent_outcome/2, home_ended/3, home_faulty/6, home_knows/4,
+              [ agent_outcome/2, home_ended/4, home_faulty/6, home_knows/4,
                 home_moved/4, home_resumed/3 ]).
 :- use_module(news, [news_tell/3]).
 
@@ -47,6 +48,7 @@ see typhon_news, since it may have to connect.
 :- dynamic forward/4.           % Id, Address, Hops, Process
 
 :- multifile
+    error:has_type/2,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
 
@@ -100,15 +102,17 @@ remember_forward(Id, Address, Hops, Process) :-
                )),
     bounded(forward(_, _, _, _), typhon_whereabouts:forwards).
 
-%!  agent_ended(+Id, +Outcome, +Hops) is det.
+%!  agent_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
 %
-%   Let the home of Id know that it ended after Hops hops.
+%   Let the home of Id know that it ended after Hops hops, and what it leaves.
 
-agent_ended(Id, Outcome, Hops) :-
+agent_ended(Id, Outcome, Hops, Legacy) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  home_ended(Id, Outcome, Hops)
-    ;   news_tell(Home, Id, ended(Id, Outcome, Hops))
+    ->  home_ended(Id, Outcome, Hops, Legacy)
+    ;   Legacy == []
+    ->  news_tell(Home, Id, ended(Id, Outcome, Hops))
+    ;   news_tell(Home, Id, ended(Id, Outcome, Hops, Legacy))
     ).
 
 %!  agent_faulty(+Id, +Outcome, +Stamp, +Address, +Hops) is det.
@@ -154,9 +158,12 @@ news(Process, located(Id, Address, Hops)) :-
     must_be(nonneg, Hops),
     address_parts(Address, _, _),
     home_moved(Id, Address, Hops, Process).
-news(_, ended(Id, Outcome, Hops)) :-
+news(Process, ended(Id, Outcome, Hops)) :-
+    news(Process, ended(Id, Outcome, Hops, [])).
+news(_, ended(Id, Outcome, Hops, Legacy)) :-
     must_be(nonneg, Hops),
-    home_ended(Id, Outcome, Hops).
+    must_be(list(typhon_legacy), Legacy),
+    home_ended(Id, Outcome, Hops, Legacy).
 news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
     must_be(nonneg, Hops),
     must_be(number, Stamp),
@@ -166,6 +173,9 @@ news(_, resumed(Id, Stamp, Hops)) :-
     must_be(nonneg, Hops),
     must_be(number, Stamp),
     home_resumed(Id, Stamp, Hops).
+
+error:has_type(typhon_legacy, Item) :-
+    is_legacy(Item).
 
                 /*******************************
                 *           QUESTIONS          *

@@ -1,0 +1,184 @@
+:- module(typhon_disposal,
+          [ agent_dispose/1,            % +Agent
+            agent_dispose/2             % +Agent, +Options
+          ]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(option), [option/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../base/options', [check_options/2]).
+:- use_module('../base/stop_thread', [abort_quietly/0]).
+:- use_module('../program', [machine_inside/0]).
+:- use_module('../host', [context_now/2, turn_of/3]).
+:- use_module('../agent', [agent/5, agent_status/3]).
+:- use_module(named, [agent_named/2]).
+:- use_module(orders, [order_take/2]).
+:- use_module(questions, [agent_ask/4, agent_urge/4, question_answered/2]).
+
+/** <module> Agents are disposed of, by force if need be
+
+An agent that rests ends at once, one that runs at its next effect.  Who
+disposes of it waits for that, for a moment; in a thread of its own, for it
+may be a cleanup handler.  One that comes to no effect, since it loops, or
+waits for something outside, is interrupted if that is wanted: in the thread
+that runs it, so nobody else notices.
+
+*Threading*: agent_dispose/2 in any thread but those of the endpoint.
+Questions are answered in the threads of connections, too.  interrupt/1 is a
+signal.
+*/
+
+:- multifile
+    typhon_options:declared/4,
+    typhon_questions:here/3.
+
+:- setting(heed_seconds, number, 1,
+           "An agent that is disposed of and runs on for so long is told of").
+:- setting(force_seconds, number, 10,
+           "An agent that is interrupted has so long to be gone").
+
+%!  agent_dispose(+Agent) is det.
+%!  agent_dispose(+Agent, +Options) is det.
+%
+%   Agent ends, wherever it is: at once if it rests, else at its next effect.
+%   If it has not come to one within a second (the setting
+%   `typhon_disposal:heed_seconds`) a warning says so; the order stands.
+%   Option:
+%
+%     - force(+Seconds): if it has not ended by then (of the time of day), it
+%       is interrupted in the middle of what it does.  Then it has ended when
+%       agent_dispose/2 returns.
+%
+%   Agents that dispose of another do not wait for its end, but with force.
+%
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
+%   @error timeout_error(order, Agent) if it cannot be interrupted, since it
+%          is in a foreign predicate that does not return
+%   @error domain_error(dispose_option, Option)
+
+agent_dispose(Agent) :-
+    agent_dispose(Agent, []).
+
+agent_dispose(Agent, Options) :-
+    check_options(dispose_option, Options),
+    agent_named(Agent, Id),
+    (   give_order(Id, dispose, Said)
+    ->  patience(Options, Patience),
+        see_to_it(Said, Id, Patience)
+    ;   existence_error(agent, Agent)
+    ).
+
+typhon_options:declared(dispose_option, force(Seconds), number, Seconds).
+
+%   patience(+Options, -Patience): `warn`, or force(Seconds).
+
+patience(Options, Patience) :-
+    (   option(force(Seconds), Options)
+    ->  Patience = force(Seconds)
+    ;   Patience = warn
+    ).
+
+%   give_order(+Agent, +Question, -Said) fails if there is no such agent.
+
+give_order(Agent, Question, Said) :-
+    agent_ask(Agent, Question, 10, Answer),
+    said(Answer, Said).
+
+said(answer(Said), Said).
+said(error(Formal), _) :-
+    throw(error(Formal, _)).
+
+%   see_to_it(+Said, +Agent, +Patience)
+
+see_to_it(ended, _, _).
+see_to_it(noted, Agent, _) :-           % it will when this goal has ended
+    context_now(_, Agent),
+    !.
+see_to_it(noted, Agent, Patience) :-
+    see_to_end(Patience, Agent).
+
+see_to_end(warn, _) :-
+    context_now(_, Other),
+    Other \== none,
+    !.
+see_to_end(warn, Agent) :-
+    setting(heed_seconds, Seconds),
+    (   in_own_thread(ends_within(Agent, Seconds))
+    ->  true
+    ;   print_message(warning, typhon(runs_on(Agent, Seconds)))
+    ).
+see_to_end(force(Seconds), Agent) :-
+    get_time(Now),
+    setting(force_seconds, More),
+    Deadline is Now+Seconds+More,
+    in_own_thread(( ends_within(Agent, Seconds)
+                  ; force(Agent, Deadline)
+                  )).
+
+%   ends_within(+Agent, +Seconds) is semidet.  One that came to rest when
+%   there was nobody to run it, or is faulty, ends now.
+
+ends_within(Agent, Seconds) :-
+    catch(ignore(agent_urge(Agent, order(end), Seconds, _)),
+          error(timeout_error(_, _), _),
+          fail),
+    !.
+ends_within(Agent, _) :-
+    (   give_order(Agent, dispose, Said)
+    ->  Said == ended
+    ;   true
+    ).
+
+%   It may be caught between two goals, or hop to where it is not known yet.
+
+force(Agent, Deadline) :-
+    (   \+ give_order(Agent, force, _)
+    ->  true
+    ;   ends_within(Agent, 0.2)
+    ->  true
+    ;   get_time(Now),
+        Now > Deadline
+    ->  throw(error(timeout_error(order, Agent), _))
+    ;   force(Agent, Deadline)
+    ).
+
+                /*******************************
+                *       WHERE IT STANDS        *
+                *******************************/
+
+typhon_questions:here(dispose, Agent, Asker) :-
+    catch(( order_take(Agent, dispose),
+            taken(Agent, Said),
+            Answer = answer(Said)
+          ),
+          error(Formal, _),
+          Answer = error(Formal)),
+    question_answered(Asker, Answer).
+typhon_questions:here(force, Agent, Asker) :-
+    agent(Agent, _, _, _, _),
+    (   agent_status(Agent, running, _),
+        turn_of(Agent, Thread, _)
+    ->  catch(thread_signal(Thread, typhon_disposal:interrupt(Agent)),
+              error(existence_error(_, _), _), true)
+    ;   true
+    ),
+    question_answered(Asker, answer(ok)).
+
+taken(Agent, Said) :-
+    (   agent(Agent, _, _, _, _)
+    ->  Said = noted
+    ;   Said = ended
+    ).
+
+:- public interrupt/1.
+
+%   Only inside the goals of Agent: what the platform does with it outside
+%   them must not be split.  This is the one exception that the agent's own
+%   catch/3 cannot stop.
+
+interrupt(Agent) :-
+    (   context_now(_, Agent),
+        machine_inside
+    ->  abort_quietly
+    ;   true
+    ).

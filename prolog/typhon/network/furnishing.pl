@@ -1,0 +1,88 @@
+:- module(typhon_furnishing,
+          [ furnishing_check/2,         % +Places, +Names
+            furnishing_files/3,         % +Places, +Name, -Files
+            furnishing_goals/3          % +Places, +Name, -Goals
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(listed, [number_name/2]).
+
+/** <module> What the places of a network are furnished with
+
+Places is an item, or a list of such:
+
+  - a file: text, a path of atoms a/b, or Alias(Name) where there is a search
+    path of that name; it is consulted into the places of all hosts
+  - any other term: a goal, which is called once in the place of each host;
+    one without arguments is written call(Name)
+  - Host-Items: of the host of that name or number alone
+
+*Threading*: pure, but that it looks for search paths.
+*/
+
+%!  furnishing_check(+Places, +Names) is det.
+%
+%   @arg Names are those of the hosts
+%   @error type_error(callable, Item), existence_error(host, Host)
+
+furnishing_check(Places, Names) :-
+    listed(Places, Items),
+    maplist(check_item(Names), Items).
+
+check_item(Names, Item) :-
+    must_be(nonvar, Item),
+    (   Item = Host-Items
+    ->  host_name(Host, Name),
+        (   memberchk(Name, Names)
+        ->  furnishing_check(Items, Names)
+        ;   existence_error(host, Host)
+        )
+    ;   is_file(Item)
+    ->  true
+    ;   must_be(callable, Item)
+    ).
+
+listed(Items, Items) :-
+    is_list(Items),
+    !.
+listed(Item, [Item]).
+
+host_name(Host, Name) :-
+    (   integer(Host)
+    ->  number_name(Host, Name)
+    ;   must_be(atom, Host),
+        Name = Host
+    ).
+
+%!  furnishing_files(+Places, +Name, -Files) is det.
+%!  furnishing_goals(+Places, +Name, -Goals) is det.
+%
+%   What is consulted into the place of host Name, and what is called there,
+%   in order.
+
+furnishing_files(Places, Name, Files) :-
+    findall(Item, ( item(Places, Name, Item), is_file(Item) ), Files).
+
+furnishing_goals(Places, Name, Goals) :-
+    findall(Item, ( item(Places, Name, Item), \+ is_file(Item) ), Goals).
+
+item(Places, Name, Item) :-
+    listed(Places, Items),
+    member(Item0, Items),
+    (   Item0 = Host-Own
+    ->  host_name(Host, Name),
+        item(Own, Name, Item)
+    ;   Item = Item0
+    ).
+
+is_file(Item) :-
+    ( atom(Item) ; string(Item) ),
+    !.
+is_file(_/_) :-
+    !.
+is_file(Item) :-
+    compound(Item),
+    compound_name_arity(Item, Alias, 1),
+    user:file_search_path(Alias, _),
+    !.

@@ -1,0 +1,172 @@
+:- module(test_costs, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/network/topology)).
+
+/** <module> What links cost, and where a network says so
+
+*Threading*: one test at a time.
+*/
+
+:- meta_predicate with_network(+, +, -, 0).
+
+with_network(Topology, Options, Network, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(Topology, Network, Options),
+                 once(Goal),
+                 network_stop(Network))).
+
+%   costs_at(+Host, -Costs): of the links of Host, by the names of the hosts
+%   to which they lead.
+
+costs_at(Host, Costs) :-
+    remote(Host, findall(To-Cost, neighbour(To, Cost), Pairs)),
+    findall(Name-Cost,
+            ( member(To-Cost, Pairs), atomic_list_concat([Name, _], @, To) ),
+            Costs0),
+    sort(Costs0, Costs).
+
+:- begin_tests(link_costs).
+
+test(one_by_default, A-B == [beta-1]-[alpha-1]) :-
+    with_hosts([alpha,beta],
+               ( link(alpha, beta), costs_at(alpha, A), costs_at(beta, B) )).
+test(both_ways, A-B == [beta-2.5]-[alpha-2.5]) :-
+    with_hosts([alpha,beta],
+               ( link(alpha, beta, [cost(2.5)]),
+                 costs_at(alpha, A), costs_at(beta, B) )).
+test(changed_by_linking_again, All == [[beta-2],[beta-2],[beta-7],[beta-0]]) :-
+    with_hosts([alpha,beta],
+               ( link(alpha, beta, [cost(2)]), costs_at(alpha, C1),
+                 link(alpha, beta), costs_at(alpha, C2),
+                 link(beta, alpha, [cost(7)]), costs_at(alpha, C3),
+                 link(beta, alpha, [cost(0)]), costs_at(alpha, C4) )),
+    All = [C1,C2,C3,C4].
+test(forgotten_by_unlink, A == [beta-1]) :-
+    with_hosts([alpha,beta],
+               ( link(alpha, beta, [cost(2)]), unlink(alpha, beta),
+                 \+ remote(alpha, neighbour(_, _)),
+                 link(alpha, beta), costs_at(alpha, A) )).
+test(order_of_neighbours_stays, Names == [gamma,beta]) :-
+    with_hosts([alpha,beta,gamma],
+               ( link(alpha, gamma), link(alpha, beta),
+                 link(alpha, gamma, [cost(9)]),
+                 remote(alpha, neighbours(Hosts)),
+                 findall(Name, ( member(H, Hosts),
+                                 atomic_list_concat([Name,_], @, H) ),
+                         Names) )).
+test(of_one_host, C == 4) :-
+    with_hosts([alpha,beta,gamma],
+               ( link(alpha, beta, [cost(4)]), address(beta, Beta),
+                 remote(alpha, neighbour(beta, C)),
+                 remote(alpha, neighbour(Beta, C)),
+                 \+ remote(alpha, neighbour(gamma, _)) )).
+test(agent_goes_the_cheapest_way, F == [s(gamma)]) :-
+    with_hosts([alpha,beta,gamma],
+               ( link(alpha, beta, [cost(4)]), link(alpha, gamma, [cost(3)]),
+                 create([ on_message(_, _),
+                          (main :- findall(C-H, neighbour(H, C), L),
+                                   keysort(L, [_-Next|_]), move(Next),
+                                   here(Here),
+                                   atomic_list_concat([Name,_], @, Here),
+                                   assertz(s(Name))) ], A),
+                 wait_state(A, resident), facts(A, F) )).
+test(host_started_again_has_no_costs, A == [beta-1]) :-
+    with_hosts([alpha,beta],
+               ( link(alpha, beta, [cost(2)]),
+                 host_stop(beta), host_start(beta),
+                 link(alpha, beta), costs_at(alpha, A) )).
+test(negative, error(domain_error(cost, -1))) :-
+    with_hosts([alpha,beta], link(alpha, beta, [cost(-1)])).
+test(no_number, error(type_error(number, dear))) :-
+    with_hosts([alpha,beta], link(alpha, beta, [cost(dear)])).
+test(unknown_option, error(domain_error(link_option, price(1)))) :-
+    with_hosts([alpha,beta], link(alpha, beta, [price(1)])).
+test(unknown_host, error(existence_error(host, nowhere))) :-
+    with_hosts([alpha], link(alpha, nowhere, [cost(1)])).
+
+:- end_tests(link_costs).
+
+:- begin_tests(network_costs).
+
+test(line, Edges == [1-2,2-3,3-4]) :-
+    topology_edges(line(4), 1, 4, Edges).
+test(star, Edges == [1-2,1-3,1-4]) :-
+    topology_edges(star(4), 1, 4, Edges).
+test(one_host, [forall(member(T, [line(1),star(1)])), N-Edges == 1-[]]) :-
+    topology_edges(T, 1, N, Edges).
+test(names, Names == [n1,n2,n3]) :-
+    topology_names(star(3), Names).
+test(too_small, error(type_error(positive_integer, 0))) :-
+    topology_edges(line(0), 1, _, _).
+test(edges_with_costs, Edges-Costs == [1-2,1-3,2-3]-[(1-2)-4,(2-3)-0.5]) :-
+    Topology = edges([b-a-cost(4), b-c, a-c-cost(0.5)]),
+    topology_edges(Topology, 1, 3, Edges),
+    topology_costs(Topology, Costs).
+test(no_pair_with_a_cost, error(type_error(edge, a-cost(1)))) :-
+    topology_edges(edges([a-cost(1)]), 1, _, _).
+test(a_foolish_cost_of_an_edge, error(type_error(number, x))) :-
+    topology_edges(edges([a-b-cost(x)]), 1, _, _).
+
+test(all_alike, C == [n1-3,n3-3]) :-
+    with_network(line(3), [cost(3), clock(virtual)], _, costs_at(n2, C)).
+test(none_said, C == [n1-1,n3-1]) :-
+    with_network(line(3), [clock(virtual)], _, costs_at(n2, C)).
+test(as_listed, A-B == [b-4]-[a-4,c-2]) :-
+    with_network(edges([a-b-cost(4), b-c]), [cost(2), clock(virtual)], _,
+                 ( costs_at(a, A), costs_at(b, B) )).
+test(drawn_from_the_seed, C1 == C2) :-
+    drawn(5, C1),
+    drawn(5, C2),
+    drawn(6, C3),
+    C1 \== C3,
+    forall(member(_-C, C1), ( C >= 2, C =< 9 )).
+
+drawn(Seed, Costs) :-
+    with_network(mesh(5), [cost(uniform(2, 9)), seed(Seed), clock(virtual)],
+                 _, findall(H-C, ( member(H, [n1,n2,n3,n4,n5]),
+                                   costs_at(H, Cs), member(_-C, Cs) ),
+                            Costs)).
+
+%   However often links come and go: two hosts know one cost, and the same
+%   whenever they are linked.
+
+test(links_that_come_again) :-
+    with_network(ring(6), [ cost(uniform(1, 100)), seed(3), clock(virtual),
+                            dynamic(dynamic_2) ], Network,
+                 ( costs(Early),
+                   findall(Costs, ( between(1, 10, _),
+                                    network_advance(Network, 20),
+                                    costs(Costs) ),
+                           Lists),
+                   last(Lists, Late) )),
+    Early \== Late,
+    findall(Pair-C, ( member(L, [Early|Lists]), member(Pair-C, L) ), All0),
+    sort(All0, All),
+    forall(( member(P-C1, All), member(P-C2, All) ), C1 =:= C2).
+
+costs(Costs) :-
+    findall(Pair-C,
+            ( member(H, [n1,n2,n3,n4,n5,n6]), costs_at(H, Cs),
+              member(To-C, Cs), msort([H,To], Pair) ),
+            Costs).
+
+test(over_processes, [C1,C2,C4] == [[n2-5],[n1-5,n3-8],[n3-5]]) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(edges([n1-n2, n2-n3-cost(8), n3-n4]), Network,
+                               [processes(2), cost(5)]),
+                 ( network_property(Network, hosts([A1,A2,_,A4])),
+                   maplist(costs_at, [A1,A2,A4], [C1,C2,C4]) ),
+                 network_stop(Network))).
+test(no_cost, error(domain_error(cost, dear))) :-
+    network_start(line(2), _, [cost(dear)]).
+test(negative_cost, error(domain_error(cost, -1))) :-
+    network_start(line(2), _, [cost(-1)]).
+test(no_interval, error(domain_error(cost, uniform(2, 1)))) :-
+    network_start(line(2), _, [cost(uniform(2, 1))]).
+
+:- end_tests(network_costs).

@@ -1,0 +1,137 @@
+:- module(test_furnishing, []).
+:- use_module('../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(typhon)).
+
+/** <module> Hosts of a network that offer what they are told to
+
+*Threading*: one test at a time.
+*/
+
+:- meta_predicate with_network(+, +, -, 0).
+
+with_network(Topology, Options, Network, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(Topology, Network, Options),
+                 once(Goal),
+                 network_stop(Network))).
+
+%   with_files(-Shop, -Bank, :Goal): there are these files for places.
+
+:- meta_predicate with_files(-, -, 0).
+
+with_files(Shop, Bank, Goal) :-
+    with_tmp_dir(write_files(Shop, Bank, Goal)).
+
+write_files(Shop, Bank, Goal, Dir) :-
+    file(Dir, 'shop.pl', "sells(bread). sells(milk).", Shop),
+    file(Dir, 'bank.pl', "lends(1000).", Bank),
+    call(Goal).
+
+file(Dir, Name, Text, File) :-
+    directory_file_path(Dir, Name, File),
+    setup_call_cleanup(open(File, write, Out),
+                       writeln(Out, Text),
+                       close(Out)).
+
+%   offers(+Host, +Template, +Goal, -List)
+
+offers(Host, Template, Goal, List) :-
+    remote(Host, findall(Template, catch(Goal, error(_, _), fail), List)).
+
+:- begin_tests(places).
+
+test(a_file_for_all, All == [[bread,milk],[bread,milk]]) :-
+    with_files(Shop, _,
+        with_network(line(2), [places(Shop), clock(virtual)], _,
+                     ( offers(n1, X, sells(X), L1),
+                       offers(n2, X, sells(X), L2) ))),
+    All = [L1,L2].
+test(files_of_one_host, All == [[bread,milk],[],[],[1000]]) :-
+    with_files(Shop, Bank,
+        with_network(line(2),
+                     [places([n1-Shop, 2-[Bank]]), clock(virtual)], _,
+                     ( offers(n1, X, sells(X), L1),
+                       offers(n1, X, lends(X), L2),
+                       offers(n2, X, sells(X), L3),
+                       offers(n2, X, lends(X), L4) ))),
+    All = [L1,L2,L3,L4].
+test(beside_those_of_all_hosts, L1-L2 == [bread,milk]-[1000]) :-
+    with_files(Shop, Bank,
+        with_network(line(2),
+                     [ hosts([consult(Shop)]), places(n2-Bank),
+                       clock(virtual) ], _,
+                     ( offers(n2, X, sells(X), L1),
+                       offers(n2, X, lends(X), L2) ))).
+test(a_goal_in_each, Hs == [n1,n2,n3]) :-
+    with_network(line(3), [places(( here(H), leave(me(H)) )), clock(virtual)],
+                 Network,
+                 ( network_property(Network, hosts(Hosts)),
+                   findall(Name,
+                           ( member(Host, Hosts),
+                             remote(Host, sense(me(Me))), Me == Host,
+                             atomic_list_concat([Name,_], @, Me) ),
+                           Hs) )).
+test(links_are_there, Count == 2) :-
+    with_network(line(3),
+                 [ places(( neighbours(L), length(L, N), leave(n(N)) )),
+                   clock(virtual) ], _,
+                 remote(n2, sense(n(Count)))).
+test(agents_find_what_was_asserted, O == done) :-
+    with_network(line(2), [places(n2-[assertz(price(7))]), clock(virtual)],
+                 _,
+                 ( agent_create(clauses([ (:- agent(buyer)),
+                                          (main :- neighbours([H]), move(H),
+                                                   price(7)) ]), A,
+                                [host(n1)]),
+                   agent_join(A, O, 10) )).
+test(in_order, L == [1,2,3]) :-
+    with_network(line(1),
+                 [ places([leave(p(1)), n1-[leave(p(2))], leave(p(3))]),
+                   clock(virtual) ], _,
+                 offers(n1, X, sense(p(X)), L)).
+test(a_goal_without_arguments, error(permission_error(_, _, _))) :-
+    network_start(line(1), _, [places(call(dispose)), clock(virtual)]).
+test(over_processes, All == [[bread,milk]-[a],[]-[b]]) :-
+    with_files(Shop, _,
+        with_network(edges([a-b]),
+                     [ processes(2),
+                       places([ a-Shop,
+                                ( here(H), atomic_list_concat([N,_], @, H),
+                                  assertz(called(N)) ) ]) ],
+                     Network,
+                     ( network_property(Network, hosts([A,B])),
+                       offers(A, X, sells(X), L1),
+                       offers(A, X, called(X), C1),
+                       offers(B, X, sells(X), L2),
+                       offers(B, X, called(X), C2) ))),
+    All = [L1-C1,L2-C2].
+test(hosts_that_refuse_remote_goals) :-
+    with_network(line(2),
+                 [hosts([remote(false)]), places(leave(p)), clock(virtual)],
+                 _, true).
+
+%   All or nothing.
+
+test(a_goal_that_fails, error(place_goal_failed(n2, take(p)))) :-
+    no_leaks(network_start(line(2), _,
+                           [places([n1-leave(p), take(p)]),
+                            clock(virtual)])).
+test(a_goal_that_raises, error(type_error(evaluable, foo/0))) :-
+    no_leaks(network_start(line(2), _,
+                           [places(n2-(_ is foo+1)), clock(virtual)])).
+test(a_goal_that_raises_in_another_process,
+     error(type_error(evaluable, foo/0))) :-
+    no_leaks(network_start(line(2), _,
+                           [places(2-(_ is foo+1)), processes(2)])).
+test(no_such_host, error(existence_error(host, n3))) :-
+    network_start(line(2), _, [places(n3-leave(p))]).
+test(no_such_file, error(existence_error(source_sink, _))) :-
+    no_leaks(network_start(line(2), _,
+                           [places(n2-nothing), clock(virtual)])).
+test(no_goal, error(type_error(callable, 7))) :-
+    network_start(line(2), _, [places([7])]).
+
+:- end_tests(places).
