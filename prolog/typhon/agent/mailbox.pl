@@ -1,13 +1,12 @@
 :- module(typhon_mailbox,
           [ mail_put/2,                 % +Id, +Messages
-            mail_first/2,               % +Id, ?Message
             mail_take/2,                % +Id, ?Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
             mail_count/2,               % +Id, -Count
             mail_back/2                 % +Id, +Messages
           ]).
-:- use_module('../base/fifo', [fifo_empty/2, fifo_first/2, fifo_take/2]).
+:- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
 
 /** <module> The mailboxes of agents
 
@@ -18,8 +17,7 @@ threads add clauses to it, listing those of one agent yields some twice
 too.
 
 *Threading*: inside with_agent/2 of the agent, see typhon_agents; only
-mail_put/2 may add to a queue, and nobody waits at one.  Who runs the agent
-may take the first message without: nobody else takes any meanwhile.
+mail_put/2 may add to a queue, and nobody waits at one.
 */
 
 :- dynamic box/2.                       % Id, Queue
@@ -42,14 +40,9 @@ put_all([Message|Messages], Queue) :-
     thread_send_message(Queue, Message),
     put_all(Messages, Queue).
 
-%!  mail_first(+Id, ?Message) is semidet.
 %!  mail_take(+Id, ?Message) is semidet.
 %
-%   The oldest message, if it unifies; the oldest one that does.
-
-mail_first(Id, Message) :-
-    box(Id, Queue),
-    fifo_first(Queue, Message).
+%   The oldest message that unifies.
 
 mail_take(Id, Message) :-
     box(Id, Queue),

@@ -19,8 +19,8 @@
 A letter(Mail, Left) may be forwarded Left times more.  Mail is a list of
 mail(Origin, From, Message), the oldest first.
 
-*Threading*: one_letter/2 is pure; way_in/2 and way_out/3 inside with_agent/2; they never wait.
-way_send/3 may wait for a connection.
+*Threading*: one_letter/2 is pure; way_in/2 and way_out/3 inside with_agent/2;
+they never wait.  way_send/3 may wait for a connection.
 */
 
 %   A letter that has been forwarded so often at once chases its agent in
