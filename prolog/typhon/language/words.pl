@@ -33,7 +33,8 @@
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
-                event/4, host/3, host_load/2, host_log/3, host_logs/1, host_neighbours/2,
+                event/4, host/3, host_load/2, host_log/3, host_logs/1,
+                host_neighbours/2,
                 host_time/2, place_deliver/3, place_undeliver/2,
                 tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
