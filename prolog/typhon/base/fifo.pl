@@ -1,6 +1,5 @@
 :- module(typhon_fifo,
-          [ fifo_first/2,               % +Queue, ?Message
-            fifo_take/2,                % +Queue, ?Message
+          [ fifo_take/2,                % +Queue, ?Message
             fifo_empty/2                % +Queue, -Messages
           ]).
 
@@ -17,16 +16,9 @@ the stacks of the thread.
 *Threading*: only for queues from which nobody else takes at the same time.
 */
 
-%!  fifo_first(+Queue, ?Message) is semidet.
 %!  fifo_empty(+Queue, -Messages:list) is det.
 %
-%   Take the first message of Queue, if it unifies; take all of them.  These
-%   never wait.
-
-fifo_first(Queue, Message) :-
-    thread_peek_message(Queue, First),
-    First = Message,
-    thread_get_message(Queue, _).
+%   Take all messages of Queue.  Never waits.
 
 fifo_empty(Queue, Messages) :-
     (   fifo_first(Queue, Message)
@@ -34,6 +26,13 @@ fifo_empty(Queue, Messages) :-
         fifo_empty(Queue, More)
     ;   Messages = []
     ).
+
+%   The first, if it unifies.
+
+fifo_first(Queue, Message) :-
+    thread_peek_message(Queue, First),
+    First = Message,
+    thread_get_message(Queue, _).
 
 %!  fifo_take(+Queue, ?Message) is semidet.
 %

@@ -30,7 +30,8 @@
 %   home(Address), goals(List), facts(Clauses), payloads(Names),
 %   mailbox(Messages) or fault(Fault).  State is `running`, `sleeping`,
 %   `waiting`, `resident`, `held` (see agent_step/1), `in_transit`, `in_doubt`
-%   or faulty(Error), Error being `failed` if it has failed.  Then, and only then, there is a fault:
+%   or faulty(Error), Error being `failed` if it has failed.  Then, and only
+%   then, there is a fault:
 %   fault(Error, Goal, Place, Host), the goal that failed or raised the error,
 %   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
 %   predicate, or `unknown`, and on which host it was.  What cannot travel

@@ -10,7 +10,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../host', [event/4, event_heard/1, host/3]).
 :- use_module('../agent',
-              [ agent/5, agent_order/2, agent_status/3, in_words/2, life_traces/2,
+              [ agent/5, agent_order/2, agent_status/3, in_words/2,
+                life_traces/2,
                 with_agent/2 ]).
 :- use_module(held, [held_on/2, held_parts/3, held_put/4, held_seen/2]).
 :- use_module(join, [agent_join/3]).

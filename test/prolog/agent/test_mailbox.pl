@@ -32,14 +32,8 @@ test(nothing_unifies, true(Rest == [a-1])) :-
     filled(me, [a-1]),
     \+ mail_take(me, b-_),
     mail_all(me, Rest).
-test(the_first_or_none, true(First-Rest == a-[c-2])) :-
-    filled(me, [a-1,c-2]),
-    \+ mail_first(me, c-_),
-    mail_first(me, First-_),
-    mail_all(me, Rest).
 test(no_mailbox, true(All-List == []-[])) :-
     \+ mail_take(nobody, _),
-    \+ mail_first(nobody, _),
     mail_all(nobody, All),
     mail_list(nobody, List).
 test(a_look_takes_nothing, true(Twice == [[1,2],[1,2]])) :-
