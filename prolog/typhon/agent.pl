@@ -32,5 +32,6 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3]).
 :- reexport(agent/mailbox,
-            [ mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2
+            [ mail_all/2, mail_back/2, mail_count/2, mail_first/2, mail_list/2,
+              mail_take/2
             ]).

@@ -18,6 +18,7 @@
             agent_ordered/1             % +Id
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../host', [schedule/2]).
 :- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
@@ -238,23 +239,31 @@ forget_first(Id) :-
 %   is no such agent.
 
 agent_mail(Id, Messages) :-
-    agent(Id, _, _, _, _),
+    stands(Id, _, _, _, _, _),
     !,
-    (   status(Id, faulty(_), _)
-    ->  keep_mail(Messages, Id)
+    (   status(Id, Status, Goals)
+    ->  mail_to(Status, Id, Goals, Messages)
     ;   put_mail(Messages, Id)
     ).
 
-put_mail([], _).
-put_mail([Message|Messages], Id) :-
+put_mail(Messages, Id) :-
+    tell_mail(Messages, Id),
+    mail_put(Id, Messages).
+
+tell_mail([], _).
+tell_mail([Message|Messages], Id) :-
     debug(typhon(mail), '~w: gets ~p', [Id, Message]),
-    mail_put(Id, Message),
-    (   status(Id, Status, Goals),
-        wakes(Status, Message)
+    tell_mail(Messages, Id).
+
+mail_to(faulty(_), Id, _, Messages) :-
+    !,
+    keep_mail(Messages, Id).
+mail_to(Status, Id, Goals, Messages) :-
+    put_mail(Messages, Id),
+    (   wakes(Status, Messages)
     ->  agent_ready(Id, Goals)
     ;   true
-    ),
-    put_mail(Messages, Id).
+    ).
 
 %   Who asks a faulty one again and again is told once.
 
@@ -264,7 +273,7 @@ keep_mail([Message|Messages], Id) :-
     mail_count(Id, Count),
     (   Count < Max
     ->  debug(typhon(mail), '~w: will get ~p', [Id, Message]),
-        mail_put(Id, Message)
+        mail_put(Id, [Message])
     ;   debug(typhon(mail), '~w: has no room for ~p', [Id, Message])
     ),
     (   Count =:= Max-1
@@ -273,9 +282,11 @@ keep_mail([Message|Messages], Id) :-
     ),
     keep_mail(Messages, Id).
 
-wakes(resident, _).
-wakes(waiting(Pattern, _), Message) :-
-    \+ Pattern \= Message.
+wakes(resident, [_|_]).
+wakes(waiting(Pattern, _), Messages) :-
+    member(Message, Messages),
+    \+ Pattern \= Message,
+    !.
 
 %!  agent_order(+Id, +Order) is det.
 %!  agent_ordered(+Id) is semidet.

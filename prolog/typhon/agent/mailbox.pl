@@ -1,13 +1,13 @@
 :- module(typhon_mailbox,
-          [ mail_put/2,                 % +Id, +Message
+          [ mail_put/2,                 % +Id, +Messages
+            mail_first/2,               % +Id, ?Message
             mail_take/2,                % +Id, ?Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
             mail_count/2,               % +Id, -Count
             mail_back/2                 % +Id, +Messages
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
+:- use_module('../base/fifo', [fifo_empty/2, fifo_first/2, fifo_take/2]).
 
 /** <module> The mailboxes of agents
 
@@ -18,25 +18,38 @@ threads add clauses to it, listing those of one agent yields some twice
 too.
 
 *Threading*: inside with_agent/2 of the agent, see typhon_agents; only
-mail_put/2 may add to a queue, and nobody waits at one.
+mail_put/2 may add to a queue, and nobody waits at one.  Who runs the agent
+may take the first message without: nobody else takes any meanwhile.
 */
 
 :- dynamic box/2.                       % Id, Queue
 
-%!  mail_put(+Id, +Message) is det.
+%!  mail_put(+Id, +Messages:list) is det.
 
-mail_put(Id, Message) :-
+mail_put(_, []) :-
+    !.
+mail_put(Id, Messages) :-
     box(Id, Queue),
     !,
-    thread_send_message(Queue, Message).
-mail_put(Id, Message) :-
+    put_all(Messages, Queue).
+mail_put(Id, Messages) :-
     message_queue_create(Queue),
     assertz(box(Id, Queue)),
-    thread_send_message(Queue, Message).
+    put_all(Messages, Queue).
 
+put_all([], _).
+put_all([Message|Messages], Queue) :-
+    thread_send_message(Queue, Message),
+    put_all(Messages, Queue).
+
+%!  mail_first(+Id, ?Message) is semidet.
 %!  mail_take(+Id, ?Message) is semidet.
 %
-%   The oldest message that unifies.
+%   The oldest message, if it unifies; the oldest one that does.
+
+mail_first(Id, Message) :-
+    box(Id, Queue),
+    fifo_first(Queue, Message).
 
 mail_take(Id, Message) :-
     box(Id, Queue),
@@ -57,7 +70,7 @@ mail_all(Id, Messages) :-
 mail_list(Id, Messages) :-
     (   box(Id, Queue)
     ->  fifo_empty(Queue, Messages),
-        maplist(thread_send_message(Queue), Messages)
+        put_all(Messages, Queue)
     ;   Messages = []
     ).
 
@@ -79,5 +92,5 @@ mail_back(_, []) :-
     !.
 mail_back(Id, Older) :-
     mail_all(Id, Newer),
-    maplist(mail_put(Id), Older),
-    maplist(mail_put(Id), Newer).
+    mail_put(Id, Older),
+    mail_put(Id, Newer).

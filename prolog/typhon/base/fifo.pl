@@ -1,5 +1,5 @@
 :- module(typhon_fifo,
-          [ fifo_next/2,                % +Queue, -Message
+          [ fifo_first/2,               % +Queue, ?Message
             fifo_take/2,                % +Queue, ?Message
             fifo_empty/2                % +Queue, -Messages
           ]).
@@ -17,17 +17,19 @@ the stacks of the thread.
 *Threading*: only for queues from which nobody else takes at the same time.
 */
 
-%!  fifo_next(+Queue, -Message) is semidet.
+%!  fifo_first(+Queue, ?Message) is semidet.
 %!  fifo_empty(+Queue, -Messages:list) is det.
 %
-%   Take the first message of Queue, or all of them.  These never wait.
+%   Take the first message of Queue, if it unifies; take all of them.  These
+%   never wait.
 
-fifo_next(Queue, Message) :-
-    thread_peek_message(Queue, _),
-    thread_get_message(Queue, Message).
+fifo_first(Queue, Message) :-
+    thread_peek_message(Queue, First),
+    First = Message,
+    thread_get_message(Queue, _).
 
 fifo_empty(Queue, Messages) :-
-    (   fifo_next(Queue, Message)
+    (   fifo_first(Queue, Message)
     ->  Messages = [Message|More],
         fifo_empty(Queue, More)
     ;   Messages = []
@@ -41,6 +43,9 @@ fifo_empty(Queue, Messages) :-
 %
 %   Such a wait costs as much as taking out, and putting back, a dozen.
 
+fifo_take(Queue, Message) :-
+    fifo_first(Queue, Message),         % nearly always
+    !.
 fifo_take(Queue, Message) :-
     message_queue_property(Queue, size(Size)),
     Size > 0,

@@ -32,8 +32,14 @@ test(nothing_unifies, true(Rest == [a-1])) :-
     filled(me, [a-1]),
     \+ mail_take(me, b-_),
     mail_all(me, Rest).
+test(the_first_or_none, true(First-Rest == a-[c-2])) :-
+    filled(me, [a-1,c-2]),
+    \+ mail_first(me, c-_),
+    mail_first(me, First-_),
+    mail_all(me, Rest).
 test(no_mailbox, true(All-List == []-[])) :-
     \+ mail_take(nobody, _),
+    \+ mail_first(nobody, _),
     mail_all(nobody, All),
     mail_list(nobody, List).
 test(a_look_takes_nothing, true(Twice == [[1,2],[1,2]])) :-
@@ -52,9 +58,9 @@ test(others_that_wait_are_not_disturbed, true(Length-Waiting == 5000-8)) :-
     forall(between(1, 7, I),
            ( N is 60*I*I,
              numlist(1, N, Long),
-             mail_put(me, from-no(I, Long)) )),
+             mail_put(me, [from-no(I, Long)]) )),
     numlist(1, 5000, Longest),
-    mail_put(me, from-yes(Longest)),
+    mail_put(me, [from-yes(Longest)]),
     taken_again(200, [], Length),
     mail_all(me, Mail),
     length(Mail, Waiting).
@@ -65,7 +71,7 @@ test(each_once_while_others_receive, true(Bad == [])) :-
 
 filled(Id, Messages) :-
     mail_all(Id, _),
-    maplist(mail_put(Id), Messages).
+    mail_put(Id, Messages).
 
 %   The last message is taken, and put back, again and again, while more and
 %   more of what was taken is kept: so stacks are collected in between.
@@ -75,7 +81,7 @@ taken_again(0, [Last|_], Length) :-
     length(Last, Length).
 taken_again(N, Kept0, Length) :-
     mail_take(me, from-yes(List)),
-    mail_put(me, from-yes(List)),
+    mail_put(me, [from-yes(List)]),
     (   N mod 7 =:= 0
     ->  Kept = [List]
     ;   Kept = [List|Kept0]
@@ -97,7 +103,7 @@ rounds(Rounds, Messages, Number, Bad) :-
             ( between(1, Rounds, Round),
               Agents is Round mod 40,
               atomic_list_concat([agent, Number, Agents], '.', Id),
-              maplist(mail_put(Id), Messages),
+              mail_put(Id, Messages),
               mail_all(Id, All),
               All \== Messages ),
             Bad).
