@@ -14,17 +14,17 @@
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../program',
-              [ clause_parts/3, code_install/3, code_receive/2, code_sent/2,
-                code_stands/2, payload_load/2, program_load/6 ]).
+              [ clause_parts/3, code_install/3, code_module/2, code_receive/2,
+                code_sent/2, code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
               [ host/3, host_address/2, host_enter/3, host_leave/1,
                 host_log/3, host_resolve/2, host_unknown/1, process_ask/6 ]).
 :- use_module('../agent',
-              [ agent/5, agent_enter/3, agent_id/3, agent_mail/2,
-                agent_module/5, agent_name/3, agent_ready/2,
-                agent_state/2, is_life/1, life_clone/3, life_tokens/2,
-                make_life/2, with_agent/2 ]).
+              [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
+                agent_mail/2, agent_module/5, agent_name/3, agent_ready/2,
+                agent_rest/3, agent_state/2, is_life/1, life_clone/3,
+                life_tokens/2, mail_list/2, make_life/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2]).
 :- use_module(named, [agent_met/1]).
 
@@ -255,10 +255,22 @@ start(Host, Name, Start, Answer) :-
         agent_born(Id, Address),
         host_log(Host, Id, created),
         debug(typhon(agent), '~w: created on ~w', [Id, Address]),
-        with_agent(Id, agent_ready(Id, Goals)),
+        with_agent(Id, begin(Goals, Id)),
         Answer = created(Id)
     ;   Answer = Entered
     ).
+
+%   Who only waits for messages does so from birth.
+
+begin([], Id) :-
+    agent(Id, _, Module, Hash, _),
+    code_module(Hash, Program),
+    agent_handles(Program, Module),
+    mail_list(Id, []),
+    !,
+    agent_rest(Id, resident, []).
+begin(Goals, Id) :-
+    agent_ready(Id, Goals).
 
 born(Id, Host, Place, start(Hash, Life, State, _, Mail)) :-
     agent_module(Id, Place, Hash, State, Module),

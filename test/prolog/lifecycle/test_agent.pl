@@ -61,6 +61,13 @@ test(failed_is_told,
     ends([(main :- fail)], O, M).
 test(nothing_to_do_but_wait, F == []) :-
     lives([], F).
+test(who_only_waits_does_so_from_birth, States == [resident]) :-
+    with_hosts([alpha],
+               ( findall(S, ( between(1, 300, _),
+                              create([on_message(_, _)], A),
+                              agent_property(A, state(S)) ),
+                         All),
+                 sort(All, States) )).
 test(handler_in_the_state_only, S == resident) :-
     with_hosts([alpha],
                ( agent_create(clauses([(:- agent(t, [state([on_message/2])])),
