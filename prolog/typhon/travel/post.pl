@@ -4,13 +4,15 @@
             post_on/2,                  % +Id, +Messages
             post_waiting/2              % +Id, -Messages
           ]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
-:- use_module('../agent', [agent/5, with_agent/2]).
+:- use_module('../agent', [agent/5, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
 :- use_module(retries, [retry_later/3]).
-:- use_module(ways, [way_in/2, way_out/3, way_send/3]).
+:- use_module(ways, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Messages
 
@@ -31,7 +33,9 @@ A letter that cannot be passed on waits, see typhon_retries.
 post_on/2 and the hooks never do.
 */
 
-:- multifile typhon_endpoint:received/3.
+:- multifile
+    typhon_endpoint:received/3,
+    typhon_endpoint:together/3.
 
 %   Who hops without pause is given up in the end.
 
@@ -45,12 +49,15 @@ max_forwards(12800).
 
 post(Id, From, Message) :-
     mobile_term(Message),
-    (   with_agent(Id, way_in(Id, [mail(here, From, Message)]))
-    ->  true
-    ;   new_letter(From, Message, Letter),
-        with_agent(Id, way(Id, Letter, Way)),
-        go(Way, Id)
-    ).
+    with_agent(Id, post_way(Id, From, Message, Way)),
+    go(Way, Id).
+
+post_way(Id, From, Message, done) :-
+    agent_mail(Id, [From-Message]),
+    !.
+post_way(Id, From, Message, Way) :-
+    new_letter(From, Message, Letter),
+    way_on(Id, Letter, Way).
 
 new_letter(From, Message, letter([mail(Origin, From, Message)], Max)) :-
     (   endpoint_address(Origin)
@@ -88,12 +95,14 @@ post_on(Id, Messages) :-
     pass_on(Id, letter(Mail, Max)).
 
 pass_on(Id, Letter) :-
-    with_agent(Id,
-               (   way(Id, Letter, Way),
-                   Way \== done
-               ->  retry_later(Id, Letter, Way)
-               ;   true
-               )).
+    with_agent(Id, on_or_later(Id, Letter)).
+
+on_or_later(Id, Letter) :-
+    way(Id, Letter, Way),
+    (   Way == done
+    ->  true
+    ;   retry_later(Id, Letter, Way)
+    ).
 
 typhon_endpoint:received(message, message(Id, Mail, Left), _) :-
     must_be(atom, Id),
@@ -103,6 +112,22 @@ typhon_endpoint:received(message, message(Id, Mail, Left), _) :-
     ->  true
     ;   pass_on(Id, letter(Mail, Left))
     ).
+
+%   Letters that have come together are one for each agent.
+
+typhon_endpoint:together(message, Letters, Fewer) :-
+    maplist(letter_to, Letters, Pairs),
+    keysort(Pairs, Sorted),
+    group_pairs_by_key(Sorted, Groups),
+    maplist(one_message, Groups, Fewer).
+
+letter_to(message(Id, Mail, Left), Id-letter(Mail, Left)) :-
+    atom(Id),
+    is_list(Mail),
+    integer(Left).
+
+one_message(Id-Letters, message(Id, Mail, Left)) :-
+    one_letter(Letters, letter(Mail, Left)).
 
 %!  post_waiting(+Id, -Messages:list) is det.
 %
@@ -132,11 +157,14 @@ messages_in(Letters, Messages) :-
 way(Id, letter(Mail, _), done) :-
     way_in(Id, Mail),
     !.
-way(Id, Letter, done) :-
+way(Id, Letter, Way) :-
+    way_on(Id, Letter, Way).
+
+way_on(Id, Letter, done) :-
     backlog(Id),
     !,
     backlog_add(Id, Letter).
-way(Id, Letter, Way) :-
+way_on(Id, Letter, Way) :-
     way_out(Id, Letter, Way).
 
 %   go(+Way, +Id): in a thread that may wait, and wants to know.

@@ -1,9 +1,7 @@
 :- module(typhon_retries,
           [ retry_later/3               % +Id, +Letter, +Way
           ]).
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [append/2, member/2]).
 :- use_module('../wire', [endpoint_gone/1]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [with_agent/2]).
@@ -12,7 +10,7 @@
                 backlog_done/1 ]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(lost, [mail_lost/3]).
-:- use_module(ways, [way_in/2, way_out/3, way_send/3]).
+:- use_module(ways, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Letters that are tried again
 
@@ -76,11 +74,6 @@ try(Id) :-
         with_agent(Id, conclude(Way, Id, Letter, Tries))
     ;   true
     ).
-
-one_letter(Letters, letter(Mail, Left)) :-
-    findall(Some, member(letter(Some, _), Letters), Parts),
-    append(Parts, Mail),
-    aggregate_all(max(L), member(letter(_, L), Letters), Left).
 
 tried(Id, Letter, Way) :-
     with_agent(Id, step(Id, Letter, Way0)),

@@ -1,10 +1,12 @@
 :- module(typhon_ways,
-          [ way_in/2,                   % +Id, +Mail
+          [ one_letter/2,               % +Letters, -Letter
+            way_in/2,                   % +Id, +Mail
             way_out/3,                  % +Id, +Letter, -Way
             way_send/3                  % +Endpoint, +Id, +Letter
           ]).
+:- use_module(library(apply), [maplist/4]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/2, append/3, max_list/2]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_post_up/3 ]).
@@ -17,7 +19,7 @@
 A letter(Mail, Left) may be forwarded Left times more.  Mail is a list of
 mail(Origin, From, Message), the oldest first.
 
-*Threading*: way_in/2 and way_out/3 inside with_agent/2; they never wait.
+*Threading*: one_letter/2 is pure; way_in/2 and way_out/3 inside with_agent/2; they never wait.
 way_send/3 may wait for a connection.
 */
 
@@ -26,6 +28,19 @@ way_send/3 may wait for a connection.
 %   a little.
 
 forwards_at_once(64).
+
+%!  one_letter(+Letters, -Letter) is det.
+%
+%   Letter has the mail of all Letters.
+
+one_letter([Letter], Letter) :-
+    !.
+one_letter(Letters, letter(Mail, Left)) :-
+    maplist(letter_parts, Letters, Mails, Lefts),
+    append(Mails, Mail),
+    max_list(Lefts, Left).
+
+letter_parts(letter(Mail, Left), Mail, Left).
 
 %!  way_in(+Id, +Mail) is semidet.
 %
@@ -99,15 +114,17 @@ send_home(Failed, Id, Letter) :-
 %   in two.
 
 sent(Endpoint, Id, letter(Mail, Left), Post) :-
-    catch(( call(Post, Endpoint, message, message(Id, Mail, Left)),
-            debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint])
-          ),
+    catch(call(Post, Endpoint, message, message(Id, Mail, Left)),
           error(resource_error(frame_bytes), Context),
-          (   halves(Mail, Older, Newer)
-          ->  sent(Endpoint, Id, letter(Older, Left), Post),
-              sent(Endpoint, Id, letter(Newer, Left), Post)
-          ;   throw(error(resource_error(frame_bytes), Context))
-          )).
+          sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context)),
+    debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint]).
+
+sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context) :-
+    (   halves(Mail, Older, Newer)
+    ->  sent(Endpoint, Id, letter(Older, Left), Post),
+        sent(Endpoint, Id, letter(Newer, Left), Post)
+    ;   throw(error(resource_error(frame_bytes), Context))
+    ).
 
 halves(Mail, Older, Newer) :-
     length(Mail, Count),

@@ -2,11 +2,10 @@
           [ alone/1,                    % ?Address
             alone_begin/1,              % +Address
             alone_end/0,
-            alone_post/3,               % +Address, +Kind, +Term
             alone_request/4             % +Address, +Kind, +Term, :OnAnswer
           ]).
 :- use_module(frame, [mobile_term/1]).
-:- use_module(request, [request_answer/2, take_post/3, take_request/4]).
+:- use_module(request, [request_answer/2, take_request/4]).
 
 /** <module> An endpoint without a wire
 
@@ -34,18 +33,9 @@ alone_begin(Address) :-
 alone_end :-
     retractall(alone(_)).
 
-%!  alone_post(+Address, +Kind, +Term) is det.
 %!  alone_request(+Address, +Kind, +Term, :OnAnswer) is det.
 %
-%   As endpoint_post/3 and endpoint_request/4.
-
-alone_post(Address, Kind, Term) :-
-    (   alone(Address)
-    ->  mobile_term(Term),
-        copy_term(Term, Copy),
-        take_post(Kind, Copy, Address)
-    ;   throw(error(unreachable(Address), _))
-    ).
+%   As endpoint_request/4.
 
 alone_request(Address, Kind, Term, OnAnswer) :-
     (   alone(Address)

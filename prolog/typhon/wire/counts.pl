@@ -1,5 +1,6 @@
 :- module(typhon_counts,
-          [ counts_open/1,              % +Key
+          [ ack_frames/1,               % -Count
+            counts_open/1,              % +Key
             counts_forget/1,            % +Key
             received/2,                 % +Key, -Count
             note_received/2,            % +Key, +Count
@@ -20,6 +21,12 @@ what is acknowledged is guarded by the mutex of the session.
 :- dynamic
     received/2,                         % Key, Count
     acknowledged/3.                     % Key, Count, Bytes
+
+%!  ack_frames(-Count) is det.
+%
+%   After so many frames the peer is told that they have come.
+
+ack_frames(32).
 
 %!  counts_open(+Key) is det.
 %!  counts_forget(+Key) is det.

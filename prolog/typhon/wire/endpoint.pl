@@ -16,6 +16,8 @@ own, over TCP. It knows nothing of agents. Its address is an atom
 message, in the room that owns the kind:
 
   - received(+Kind, +Term, +Peer)
+  - together(+Kind, +Terms, -Fewer): posts that have come together, made
+    fewer; fails where they are to be taken one by one
   - requested(+Kind, +Term, +Peer, +ReplyTo)
   - connection(+Peer, +State)
   - lent(+Goal, +Thread) and returned, see typhon_lending
@@ -55,12 +57,14 @@ that peer is read. They may post, request and reply.
 
 :- multifile
     received/3,                         % Kind, Term, Peer
+    together/3,                         % Kind, Terms, Fewer
     requested/4,                        % Kind, Term, Peer, ReplyTo
     connection/2,                       % Peer, State
     lent/2,                             % Goal, Thread
     returned/0.
 :- dynamic
     received/3,
+    together/3,
     requested/4,
     connection/2,
     lent/2,

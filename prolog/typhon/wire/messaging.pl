@@ -17,15 +17,15 @@ block it, unless it is in a hook of the endpoint.
 */
 
 :- use_module(library(error), [existence_error/2]).
-:- use_module(alone, [alone/1, alone_post/3, alone_request/4]).
+:- use_module(alone, [alone/1, alone_request/4]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(keeper, [keeper_connect/1]).
-:- use_module(outbox, [session_send/2]).
+:- use_module(outbox, [session_send_with/2]).
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
               [ request_answer/2, request_reply/2, request_reply_later/2,
-                request_send/4 ]).
+                request_send/4, take_post/3 ]).
 :- use_module(session, [route/2]).
 :- use_module(transport, [route_up/2]).
 :- use_module(unsent, [unsent/1, unsent_request/4]).
@@ -36,21 +36,29 @@ block it, unless it is in a hook of the endpoint.
 %!  endpoint_post(+Address, +Kind, +Term) is det.
 %
 %   Send Term, one way. It arrives once, in the order of the posts of this
-%   thread, as long as both processes live. May block while it connects.
+%   thread, as long as both processes live. May block while it connects. What
+%   goes to this process is taken by this thread, at once.
 %
 %   @error unreachable(Address)
 %   @error type_error(mobile_term, Culprit)
 
 endpoint_post(Address, Kind, Term) :-
+    endpoint_address(Own),
+    Own == Address,
+    !,
+    mobile_term(Term),
+    copy_term(Term, Copy),
+    take_post(Kind, Copy, Address).
+endpoint_post(Address, _, _) :-
     alone(_),
     !,
-    alone_post(Address, Kind, Term).
+    throw(error(unreachable(Address), _)).
 endpoint_post(Address, Kind, Term) :-
     (   way(Address, Session)
     ->  true
     ;   connect(Address, Session)
     ),
-    catch(session_send(Session, post(Kind, Term)),
+    catch(session_send_with(Session, post(Kind, Term)),
           error(session_closed, _),
           throw(error(unreachable(Address), _))).
 
@@ -61,10 +69,10 @@ endpoint_post(Address, Kind, Term) :-
 endpoint_post_up(Address, Kind, Term) :-
     alone(Address),
     !,
-    alone_post(Address, Kind, Term).
+    endpoint_post(Address, Kind, Term).
 endpoint_post_up(Address, Kind, Term) :-
     open_way(Address, Session),
-    catch(session_send(Session, post(Kind, Term)),
+    catch(session_send_with(Session, post(Kind, Term)),
           error(session_closed, _),
           fail).
 

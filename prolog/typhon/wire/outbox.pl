@@ -1,5 +1,7 @@
 :- module(typhon_outbox,
           [ session_send/2,             % +Session, +Term
+            session_send_with/2,        % +Session, +Term
+            session_release/1,          % +Session
             session_send_later/2,       % +Session, +Term
             session_later/1,            % -Count
             session_push/1,             % +Session
@@ -18,12 +20,20 @@ written by whoever sends it only if it and all that is under way fit in
 what the buffers of the kernel hold; else it waits, and a thread of the
 session, the pusher, writes. So do those outside the count.
 
+To write a small frame costs more than all else that is done for it. So
+posts may be held: when so much is under way that the peer is sure to
+acknowledge some of it, they wait, and go in one frame when that has come. The
+peer would not read them before, anyway. What is sent after them takes them
+along.
+
 _Threading_: any thread may send. The mutex of the session guards the
-order. While a session is up and nobody is pushing, nothing waits.
+order. While a session is up and nobody is pushing, nothing waits but what
+is held.
 */
 
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2]).
+:- use_module(bundle, [bundle_fits/1]).
 :- use_module(counts, [acknowledged/3]).
 :- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
@@ -33,7 +43,8 @@ order. While a session is up and nobody is pushing, nothing waits.
                 session_must_exist/2 ]).
 :- use_module(transport, [session_up/1, transport/3, transport_broken/2]).
 :- use_module(unacked,
-              [ unacked_await/3, unacked_no_wait/1, unacked_sent/2,
+              [ unacked_await/3, unacked_next/3, unacked_no_wait/1,
+                unacked_owed/2, unacked_sent/2, unacked_waiting/1,
                 unacked_waits/2 ]).
 :- use_module(watch, [watch_frame/4]).
 
@@ -54,20 +65,46 @@ session_send(Session, Term) :-
     answers_first(Session),
     session_locked(Session, put_frame(Session, Bytes)).
 
+%!  session_send_with(+Session, +Term) is det.
+%!  session_release(+Session) is det.
+%
+%   As session_send/2, but Term may be held; the peer has acknowledged
+%   something: what is held goes.
+
+session_send_with(Session, Term) :-
+    answers_left(Session),
+    !,
+    session_send(Session, Term).        % so that they go, too
+session_send_with(Session, Term) :-
+    frame_bytes(Session, Term, Bytes),
+    answers_first(Session),
+    session_locked(Session, put_with(Session, Bytes)).
+
+session_release(Session) :-
+    session_key(Session, Key),
+    (   unacked_waiting(Key)
+    ->  session_locked(Session, see_to(Session, Key))
+    ;   true
+    ).
+
 %   What a reader has left goes along, or before what is said to others: who
 %   hears of an agent from the next process must not be ahead of who waits
 %   for the answer that it has come to this one.
 
 answers_first(Session) :-
-    nb_current(typhon_later, Count),
-    Count > 0,
-    nb_current(typhon_later_in, Own),
+    answers_left(Own),
     !,
     (   Own == Session
     ->  nb_setval(typhon_later, 0)
     ;   session_push(Own)
     ).
 answers_first(_).
+
+answers_left(Session) :-
+    nb_current(typhon_later, Count),
+    Count > 0,
+    nb_current(typhon_later_in, Own),
+    Own = Session.
 
 %!  session_send_later(+Session, +Term) is det.
 %!  session_later(-Count) is det.
@@ -118,18 +155,46 @@ frame_bytes(Session, Term, Bytes) :-
     ;   watch_frame(to, Session, Term, Bytes)
     ).
 
+put_with(Session, Bytes) :-
+    session_must_exist(Session, Key),
+    (   \+ bundle_fits(Bytes)
+    ->  put_frame(Session, Bytes)
+    ;   holds(Key)
+    ->  unacked_waits(Key, loose(Bytes))
+    ;   put(Session, Key, Bytes, loose(Bytes))
+    ).
+
+%   holds(+Key): the peer will acknowledge some of what is under way, and not
+%   too much waits; or there is a pusher.
+
+most_held(256).
+
+holds(Key) :-
+    pusher(Key, _),
+    !.
+holds(Key) :-
+    session_up(Key),
+    unacked_owed(Key, Waiting),
+    most_held(Most),
+    Waiting < Most.
+
 put_frame(Session, Bytes) :-
     session_must_exist(Session, Key),
-    (   writable(Key, Bytes, Thread, Out)
+    put(Session, Key, Bytes, Bytes).
+
+put(Session, Key, Bytes, Frame) :-
+    (   \+ unacked_waiting(Key),
+        writable(Key, Bytes, Thread, Out)
     ->  unacked_sent(Key, Bytes),
         write_now(Key, Thread, Out, Bytes)
-    ;   unacked_waits(Key, Bytes),
+    ;   unacked_waits(Key, Frame),
         see_to(Session, Key)
     ).
 
 put_later(Session, Bytes) :-
     session_must_exist(Session, Key),
-    (   writable(Key, Bytes, Thread, Out)
+    (   \+ unacked_waiting(Key),
+        writable(Key, Bytes, Thread, Out)
     ->  unacked_sent(Key, Bytes),
         catch(frame_write(Out, Bytes),
               error(_, _),
@@ -139,17 +204,23 @@ put_later(Session, Bytes) :-
     ).
 
 %   writable(+Key, +Bytes, -Thread, -Out): Bytes can be written to Out.
-%   Nobody looks at a stream somebody pushes to: that might block, too.
 
 writable(Key, Bytes, Thread, Out) :-
+    room(Key, Thread, Out, Room),
+    string_length(Bytes, Length),
+    Length < Room,
+    !.
+
+%   room(+Key, -Thread, -Out, -Room): so many bytes can be written to Out.
+%   Nobody looks at a stream somebody pushes to: that might block, too.
+
+room(Key, Thread, Out, Room) :-
     transport(Key, Thread, Out),
     \+ pusher(Key, _),
     byte_count(Out, Written),
     acknowledged(Key, _, Acked),
-    string_length(Bytes, Length),
     under_way(Max),
-    Written-Acked+Length < Max,
-    !.
+    Room is Max-(Written-Acked).
 
 %   Something waits: it is written, or a connection made.
 
@@ -157,8 +228,32 @@ see_to(Session, Key) :-
     (   pusher(Key, _)
     ->  true
     ;   transport(Key, Thread, Out)
-    ->  pusher_start(Session, Thread, Out, [])
+    ->  write_waiting(Session, Key, Thread, Out)
     ;   ignore(keeper_tell(wanted(Key)))
+    ).
+
+write_waiting(Session, Key, Thread, Out) :-
+    catch(( write_while_room(Session, Key), flush_output(Out) ),
+          error(_, _),
+          transport_broken(Key, Thread)),
+    (   unacked_waiting(Key)
+    ->  push(Session, Key)
+    ;   true
+    ).
+
+write_while_room(Session, Key) :-
+    (   room(Key, _, Out, Room),
+        unacked_next(Session, Room, Bytes)
+    ->  frame_write(Out, Bytes),
+        write_while_room(Session, Key)
+    ;   true
+    ).
+
+push(Session, Key) :-
+    (   \+ pusher(Key, _),
+        transport(Key, Thread, Out)
+    ->  pusher_start(Session, Thread, Out, [])
+    ;   true
     ).
 
 write_now(Key, Thread, Out, Bytes) :-
@@ -184,7 +279,7 @@ put_control(Session, Kind, Bytes) :-
     ->  write_now(Key, Thread, Out, Bytes)
     ;   session_up(Key)
     ->  pusher_control(Key, Kind, Bytes),
-        see_to(Session, Key)
+        push(Session, Key)
     ;   true
     ).
 
@@ -201,6 +296,7 @@ session_flush(Session, Deadline) :-
           message_queue_destroy(Queue) )).
 
 flush(Session, Queue, Deadline) :-
+    session_release(Session),
     session_locked(Session, unacked_await(Session, Queue, Pending)),
     (   Pending =:= 0
     ->  true

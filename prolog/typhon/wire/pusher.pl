@@ -19,11 +19,11 @@ the session; pusher_stop/1 is for the thread of the connection, without it.
 
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(frame, [frame_write_now/2]).
+:- use_module(frame, [frame_write/2]).
 :- use_module(session, [session_key/2, session_locked/2]).
 :- use_module(threads, [wire_thread_create/3, wire_thread_end/2]).
 :- use_module(transport, [transport_broken/2]).
-:- use_module(unacked, [unacked_next/2]).
+:- use_module(unacked, [unacked_next/3, unacked_waiting/1]).
 
 :- dynamic
     pusher/2,                           % Key, Thread
@@ -52,7 +52,7 @@ pusher_start(Session, Thread, Out, Again) :-
 
 push(Session, Thread, Out, Again) :-
     call_cleanup(
-        catch(( forall(member(Bytes, Again), frame_write_now(Out, Bytes)),
+        catch(( forall(member(Bytes, Again), frame_write(Out, Bytes)),
                 push_waiting(Session, Out) ),
               error(_, _),
               true),
@@ -71,20 +71,31 @@ pushed(Session, Thread) :-
 push_waiting(Session, Out) :-
     session_key(Session, Key),
     repeat,
-    session_locked(Session, next_frame(Key, Next)),
-    (   Next = frame(Bytes)
-    ->  frame_write_now(Out, Bytes),
+    write_waiting(Session, Key, Out),
+    session_locked(Session, nothing_waits(Key)),
+    !.
+
+%   Many small frames go in one write: the buffer is flushed when it is full
+%   and when nothing waits, and that without the mutex.
+
+write_waiting(Session, Key, Out) :-
+    repeat,
+    (   session_locked(Session, next_frame(Session, Key, Bytes))
+    ->  frame_write(Out, Bytes),
         fail
-    ;   !
+    ;   !,
+        flush_output(Out)
     ).
 
-next_frame(Key, frame(Bytes)) :-
+next_frame(_, Key, Bytes) :-
     retract(control(Key, _, Bytes)),
     !.
-next_frame(Key, frame(Bytes)) :-
-    unacked_next(Key, Bytes),
-    !.
-next_frame(Key, none) :-
+next_frame(Session, _, Bytes) :-
+    unacked_next(Session, inf, Bytes).
+
+nothing_waits(Key) :-
+    \+ control(Key, _, _),
+    \+ unacked_waiting(Key),
     retractall(pusher(Key, _)).
 
 %!  pusher_stop(+Key) is det.

@@ -19,17 +19,20 @@ knows of damage. Signals are held back while a frame is being handled and
 counted.
 */
 
+:- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(counts, [note_received/2, received/2]).
+:- use_module(bundle, [bundle_parts/2]).
+:- use_module(counts, [ack_frames/1, note_received/2, received/2]).
 :- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(lending,
               [lend/2, lending_close/0, lending_open/3, lent/0, lent_away/0]).
 :- use_module(outbox,
               [ session_control/2, session_later/1, session_push/1,
-                session_send/2 ]).
-:- use_module(request, [dispatch/2, session_unfinished/1]).
+                session_release/1, session_send/2 ]).
+:- use_module(request, [dispatch/2, dispatch_all/2, session_unfinished/1]).
 :- use_module(session, [session_codec/2, session_key/2, session_peer/3]).
 :- use_module(unacked, [session_acked/3, session_sent/2]).
 :- use_module(watch, [watch_frame/4]).
@@ -40,9 +43,8 @@ counted.
 :- dynamic
     damaged/4.                          % Key, Count, Which, Times
 
-%   After so many frames or bytes the peer is told that they have come.
+%   After so many bytes the peer is told that they have come, or ack_frames/1.
 
-ack_frames(32).
 ack_bytes(32768).
 
 %!  read_frames(+Session, +In, +Out) is det.
@@ -182,6 +184,15 @@ take(unreadable(Formal, Mark), Session) :-
 take(Frame, Session) :-
     dispatch(Session, Frame).
 
+take_all(Parts, Session) :-
+    session_codec(Session, Codec),
+    maplist(frame_term(Codec), Parts, Frames),
+    partition(is_unreadable, Frames, Unreadable, Others),
+    dispatch_all(Session, Others),
+    forall(member(Frame, Unreadable), take(Frame, Session)).
+
+is_unreadable(unreadable(_, _)).
+
 spoil(request(Id), Session) :-
     !,
     catch(session_send(Session, spoilt(Id)),
@@ -253,6 +264,7 @@ handle(ack(Count, Bytes), Session, In, State) :-
     check_ack(Count, Bytes, Session),
     nb_setarg(4, State, 0),
     session_acked(Session, Count, Bytes),
+    session_release(Session),
     acknowledge_now_and_then(Session, In, State).
 handle(ping, Session, In, State) :-
     !,
@@ -261,15 +273,25 @@ handle(bye, Session, _, _) :-
     !,
     session_key(Session, Key),
     ignore(keeper_tell(gone(Key))).
+handle(Bundle, Session, In, State) :-
+    bundle_parts(Bundle, Parts),
+    !,
+    take_all(Parts, Session),
+    counted(State),
+    acknowledge(Session, In, State).
 handle(Frame, Session, In, State) :-
     take(Frame, Session),
+    counted(State),
+    acknowledge_now_and_then(Session, In, State).
+
+counted(State) :-
     arg(1, State, Count0),
     Count is Count0+1,
     nb_setarg(1, State, Count),
-    nb_setarg(4, State, 0),
-    acknowledge_now_and_then(Session, In, State).
+    nb_setarg(4, State, 0).
 
-%   Acks are under way, too: their bytes are told as well.
+%   Acks are under way, too: their bytes are told as well. A bundle is
+%   acknowledged at once: who sent it holds others until then.
 
 acknowledge_now_and_then(Session, In, State) :-
     State = count(Count, Told, ToldBytes, _),

@@ -7,6 +7,7 @@
             requests_lost/2,            % +Session, +Unsent
             session_unfinished/1,       % +Session
             dispatch/2,                 % +Session, +Frame
+            dispatch_all/2,             % +Session, +Frames
             take_post/3,                % +Kind, +Term, +Peer
             take_request/4,             % +Kind, +Term, +Peer, +ReplyTo
             connection_is/2             % +Session, +State
@@ -142,6 +143,35 @@ dispatch(Session, spoilt(Id)) :-
     conclude(lost, Id, Key).
 dispatch(_, Frame) :-                   % of a later version, or damaged
     print_message(warning, typhon(endpoint, unknown_frame(Frame))).
+
+%!  dispatch_all(+Session, +Frames:list) is det.
+%
+%   As dispatch/2 for Frames that have come in one.  Posts of one kind that
+%   follow each other may be made fewer by who takes them.
+
+dispatch_all(_, []) :-
+    !.
+dispatch_all(Session, [post(Kind, Term)|Frames0]) :-
+    posts(Frames0, Kind, Terms, Frames),
+    together(Kind, [Term|Terms], Fewer),
+    !,
+    session_peer(Session, _, Peer),
+    forall(member(One, Fewer), take_post(Kind, One, Peer)),
+    dispatch_all(Session, Frames).
+dispatch_all(Session, [Frame|Frames]) :-
+    dispatch(Session, Frame),
+    dispatch_all(Session, Frames).
+
+posts([post(Kind0, Term)|Frames0], Kind, [Term|Terms], Frames) :-
+    Kind0 == Kind,
+    !,
+    posts(Frames0, Kind, Terms, Frames).
+posts(Frames, _, [], Frames).
+
+together(Kind, Terms, Fewer) :-
+    Terms = [_,_|_],
+    catch(typhon_endpoint:together(Kind, Terms, Fewer), error(_, _), fail),
+    !.
 
 %!  take_post(+Kind, +Term, +Peer) is det.
 %!  take_request(+Kind, +Term, +Peer, +ReplyTo) is semidet.

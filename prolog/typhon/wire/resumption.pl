@@ -123,7 +123,13 @@ session_retire(Session) :-
 session_close(Session, Unsent) :-
     session_locked(Session, forget(Session, Waiting)),
     session_codec(Session, Codec),
-    maplist(bytes_term(Codec), Waiting, Unsent).
+    maplist(frame_term(Codec), Waiting, Unsent).
+
+frame_term(Codec, loose(Bytes), Term) :-
+    !,
+    bytes_term(Codec, Bytes, Term).
+frame_term(Codec, Bytes, Term) :-
+    bytes_term(Codec, Bytes, Term).
 
 forget(Session, Waiting) :-
     session_forget(Session),

@@ -1,9 +1,10 @@
 :- module(typhon_unacked,
           [ unacked_open/1,             % +Key
             unacked_sent/2,             % +Key, +Bytes
-            unacked_waits/2,            % +Key, +Bytes
+            unacked_waits/2,            % +Key, +Frame
             unacked_waiting/1,          % +Key
-            unacked_next/2,             % +Key, -Bytes
+            unacked_owed/2,             % +Key, -Waiting
+            unacked_next/3,             % +Session, +Room, -Bytes
             unacked_again/2,            % +Key, -Frames
             unacked_gone/3,             % +Key, +Count, +Bytes
             unacked_rest/1,             % +Key
@@ -28,12 +29,15 @@ the thread of the connection, session_pending/2 is for any thread.
 */
 
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/fifo', [fifo_empty/2, fifo_next/2]).
-:- use_module(counts, [acknowledged/3, note_acknowledged/3]).
-:- use_module(session, [session_key/2, session_locked/2]).
+:- use_module('../base/fifo', [fifo_empty/2]).
+:- use_module(bundle, [bundle_all/3, bundle_next/5]).
+:- use_module(counts,
+              [ack_frames/1, acknowledged/3, note_acknowledged/3]).
+:- use_module(session, [session_codec/2, session_key/2, session_locked/2]).
 
 :- dynamic
     queues/3,                           % Key, Sent, Waiting
+    bundled/2,                          % Key, Count: the last bundle's
     flusher/3.                          % Key, Count, Queue
 
 		 /*******************************
@@ -56,38 +60,68 @@ queues_of(Key, Sent, Waiting) :-
     assertz(queues(Key, Sent, Waiting)).
 
 %!  unacked_sent(+Key, +Bytes) is det.
-%!  unacked_waits(+Key, +Bytes) is det.
+%!  unacked_waits(+Key, +Frame) is det.
 %
 %   A frame is about to be written, as the session is up; it waits until
-%   others are.
+%   others are, Frame being its bytes, or loose(Bytes) if it may go with
+%   others in one, see typhon_bundle.
 
 unacked_sent(Key, Bytes) :-
     queues(Key, Sent, _),
     !,
     thread_send_message(Sent, Bytes).
 
-unacked_waits(Key, Bytes) :-
+unacked_waits(Key, Frame) :-
     queues_of(Key, _, Waiting),
-    thread_send_message(Waiting, Bytes).
+    thread_send_message(Waiting, Frame).
 
 %!  unacked_waiting(+Key) is semidet.
+%!  unacked_owed(+Key, -Waiting) is semidet.
 %
-%   Some frame waits.
+%   Some frame waits; what was written is so much that the peer is sure to
+%   acknowledge some of it, and so many wait: it tells every bundle, and all
+%   else after ack_frames/1.
 
 unacked_waiting(Key) :-
     queues(Key, _, Waiting),
-    thread_peek_message(Waiting, _),
+    queue_size(Waiting, Size),
+    Size > 0,
     !.
 
-%!  unacked_next(+Key, -Bytes) is semidet.
-%
-%   The frame that has waited longest is about to be written.
-
-unacked_next(Key, Bytes) :-
+unacked_owed(Key, Size) :-
     queues(Key, Sent, Waiting),
-    fifo_next(Waiting, Bytes),
     !,
-    thread_send_message(Sent, Bytes).
+    (   bundled(Key, _)
+    ->  true
+    ;   message_queue_property(Sent, size(Written)),
+        ack_frames(Frames),
+        Written >= Frames
+    ),
+    message_queue_property(Waiting, size(Size)).
+
+%!  unacked_next(+Session, +Room, -Bytes) is semidet.
+%
+%   The frame that has waited longest is about to be written, if it is not
+%   longer than Room.
+
+unacked_next(Session, Room, Bytes) :-
+    session_key(Session, Key),
+    session_codec(Session, Codec),
+    queues(Key, Sent, Waiting),
+    bundle_next(Waiting, Codec, Room, Bytes, Many),
+    !,
+    thread_send_message(Sent, Bytes),
+    (   Many == true
+    ->  note_bundle(Key, Sent)
+    ;   true
+    ).
+
+note_bundle(Key, Sent) :-
+    acked_frames(Key, Acked),
+    message_queue_property(Sent, size(Size)),
+    Count is Acked+Size,
+    retractall(bundled(Key, _)),
+    assertz(bundled(Key, Count)).
 
 %!  unacked_again(+Key, -Frames) is det.
 %
@@ -113,7 +147,7 @@ unacked_rest(Key) :-
 
 %!  unacked_close(+Key, -Waiting) is det.
 %
-%   The session is over; Waiting was never written.
+%   The session is over; the frames Waiting were never written.
 
 unacked_close(Key, List) :-
     (   queues(Key, _, Waiting)
@@ -123,6 +157,7 @@ unacked_close(Key, List) :-
     drop_queues(Key).
 
 drop_queues(Key) :-
+    retractall(bundled(Key, _)),
     (   retract(queues(Key, Sent, Waiting))
     ->  message_queue_destroy(Sent),
         message_queue_destroy(Waiting)
@@ -157,6 +192,11 @@ unacked_gone(Key, Count, Bytes) :-
     forget(Count0, Count, Sent),
     Count1 is max(Count0, Count),
     note_acknowledged(Key, Count1, Bytes),
+    (   bundled(Key, Last),
+        Last =< Count1
+    ->  retractall(bundled(Key, _))
+    ;   true
+    ),
     forall(( flusher(Key, Wanted, Queue), Wanted =< Count1 ),
            flushed(Key, Wanted, Queue)).
 
@@ -213,9 +253,20 @@ queue_size(_, 0).
 
 unacked_await(Session, Queue, Count) :-
     session_key(Session, Key),
+    bundle_waiting(Session, Key),
     session_pending(Session, Count),
     session_sent(Session, Sent),
     assertz(flusher(Key, Sent, Queue)).
+
+%   What waits is counted as what it will be.
+
+bundle_waiting(Session, Key) :-
+    session_codec(Session, Codec),
+    (   queues(Key, _, Waiting)
+    ->  bundle_all(Waiting, Codec, Frames),
+        forall(member(Bytes, Frames), thread_send_message(Waiting, Bytes))
+    ;   true
+    ).
 
 unacked_no_wait(Queue) :-
     retractall(flusher(_, _, Queue)).

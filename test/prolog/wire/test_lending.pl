@@ -13,6 +13,9 @@ own.
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon/wire)).
+:- use_module(library(typhon/wire/keeper), [keeper_connect/1]).
+:- use_module(library(typhon/wire/outbox), [session_send/2]).
+:- use_module(library(typhon/wire/session), [route/2]).
 :- use_module(library(typhon/wire/threads), [wire_thread_signal/2]).
 :- use_module(library(typhon/wire/transport), [transport_thread/2]).
 
@@ -65,7 +68,7 @@ alone(Me, Goal) :-
            retractall(T)),
     setup_call_cleanup(
         endpoint_start(localhost, 0, Me),
-        once(Goal),
+        ( keeper_connect(Me), once(Goal) ),
         endpoint_stop).
 
 with_queue(Queue, Goal) :-
@@ -76,10 +79,16 @@ with_queue(Queue, Goal) :-
         message_queue_destroy(Queue)).
 
 post(Me, Errand) :-
-    endpoint_post(Me, errand, Errand).
+    over_the_wire(Me, post(errand, Errand)).
 
 say(Me, Word) :-
-    endpoint_post(Me, word, Word).
+    over_the_wire(Me, post(word, Word)).
+
+%   What is posted to oneself is taken at once, else.
+
+over_the_wire(Me, Frame) :-
+    once(route(Me, Session)),
+    session_send(Session, Frame).
 
 ran(Errand) :-
     run(Errand, _, _),
