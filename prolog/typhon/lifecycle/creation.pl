@@ -24,7 +24,7 @@
               [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
                 agent_mail/2, agent_module/5, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_state/2, is_life/1, legacy_none/2,
-                life_clone/3, life_tokens/2, mail_list/2, make_life/2,
+                life_clone/3, life_tokens/2, mail_count/2, make_life/2,
                 with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
@@ -270,7 +270,7 @@ begin([], Id) :-
     agent(Id, _, Module, Hash, _),
     code_module(Hash, Program),
     agent_handles(Program, Module),
-    mail_list(Id, []),
+    mail_count(Id, 0),
     !,
     agent_rest(Id, resident, []).
 begin(Goals, Id) :-

@@ -21,10 +21,9 @@ what the buffers of the kernel hold; else it waits, and a thread of the
 session, the pusher, writes. So do those outside the count.
 
 To write a small frame costs more than all else that is done for it. So
-posts may be held: when so much is under way that the peer is sure to
-acknowledge some of it, they wait, and go in one frame when that has come. The
-peer would not read them before, anyway. What is sent after them takes them
-along.
+posts are held while so much is under way that the peer is sure to acknowledge
+some of it; when that has come they go in one frame. The peer would not read
+them before, anyway. What is sent after them takes them along.
 
 _Threading_: any thread may send. The mutex of the session guards the
 order. While a session is up and nobody is pushing, nothing waits but what
@@ -161,7 +160,7 @@ put_with(Session, Bytes) :-
     ->  put_frame(Session, Bytes)
     ;   holds(Key)
     ->  unacked_waits(Key, loose(Bytes))
-    ;   put(Session, Key, Bytes, loose(Bytes))
+    ;   put(Session, Key, Bytes, loose(Bytes), frame_write_now)
     ).
 
 %   holds(+Key): the peer will acknowledge some of what is under way, and not
@@ -180,26 +179,21 @@ holds(Key) :-
 
 put_frame(Session, Bytes) :-
     session_must_exist(Session, Key),
-    put(Session, Key, Bytes, Bytes).
-
-put(Session, Key, Bytes, Frame) :-
-    (   \+ unacked_waiting(Key),
-        writable(Key, Bytes, Thread, Out)
-    ->  unacked_sent(Key, Bytes),
-        write_now(Key, Thread, Out, Bytes)
-    ;   unacked_waits(Key, Frame),
-        see_to(Session, Key)
-    ).
+    put(Session, Key, Bytes, Bytes, frame_write_now).
 
 put_later(Session, Bytes) :-
     session_must_exist(Session, Key),
+    put(Session, Key, Bytes, Bytes, frame_write).
+
+%   put(+Session, +Key, +Bytes, +Frame, :Write): Frame is what waits if it
+%   cannot be written.
+
+put(Session, Key, Bytes, Frame, Write) :-
     (   \+ unacked_waiting(Key),
         writable(Key, Bytes, Thread, Out)
     ->  unacked_sent(Key, Bytes),
-        catch(frame_write(Out, Bytes),
-              error(_, _),
-              transport_broken(Key, Thread))
-    ;   unacked_waits(Key, Bytes),
+        written(Write, Key, Thread, Out, Bytes)
+    ;   unacked_waits(Key, Frame),
         see_to(Session, Key)
     ).
 
@@ -256,8 +250,8 @@ push(Session, Key) :-
     ;   true
     ).
 
-write_now(Key, Thread, Out, Bytes) :-
-    catch(frame_write_now(Out, Bytes),
+written(Write, Key, Thread, Out, Bytes) :-
+    catch(call(Write, Out, Bytes),
           error(_, _),
           transport_broken(Key, Thread)).
 
@@ -276,7 +270,7 @@ session_control(Session, Term) :-
 put_control(Session, Kind, Bytes) :-
     session_key(Session, Key),
     (   writable(Key, Bytes, Thread, Out)
-    ->  write_now(Key, Thread, Out, Bytes)
+    ->  written(frame_write_now, Key, Thread, Out, Bytes)
     ;   session_up(Key)
     ->  pusher_control(Key, Kind, Bytes),
         push(Session, Key)

@@ -19,21 +19,19 @@ knows of damage. Signals are held back while a frame is being handled and
 counted.
 */
 
-:- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(error), [domain_error/2]).
-:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(bundle, [bundle_parts/2]).
 :- use_module(counts, [ack_frames/1, note_received/2, received/2]).
-:- use_module(frame, [bytes_mark/2, bytes_term/3, frame_read/3]).
+:- use_module(frame, [frame_read/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(lending,
               [lend/2, lending_close/0, lending_open/3, lent/0, lent_away/0]).
 :- use_module(outbox,
               [ session_control/2, session_later/1, session_push/1,
-                session_release/1, session_send/2 ]).
-:- use_module(request, [dispatch/2, dispatch_all/2, session_unfinished/1]).
+                session_release/1 ]).
+:- use_module(request, [session_unfinished/1]).
 :- use_module(session, [session_codec/2, session_key/2, session_peer/3]).
+:- use_module(taking, [frame_term/3, take_bundle/2, take_frame/2]).
 :- use_module(unacked, [session_acked/3, session_sent/2]).
 :- use_module(watch, [watch_frame/4]).
 
@@ -161,48 +159,6 @@ push_late(Session, In) :-
     ;   session_push(Session)
     ).
 
-%   A frame that cannot be read has come all the same: asking for it again
-%   would not help. Whoever waits for an answer hears of it at once, here or
-%   there.
-
-frame_term(Codec, Bytes, Term) :-
-    catch(bytes_term(Codec, Bytes, Term),
-          error(Formal, _),
-          unreadable(Formal, Bytes, Term)).
-
-unreadable(Formal, Bytes, unreadable(Formal, Mark)) :-
-    (   bytes_mark(Bytes, Mark0)
-    ->  Mark = Mark0
-    ;   Mark = none
-    ).
-
-take(unreadable(Formal, Mark), Session) :-
-    !,
-    session_peer(Session, _, Address),
-    print_message(warning, typhon(endpoint, unreadable(Address, Formal))),
-    spoil(Mark, Session).
-take(Frame, Session) :-
-    dispatch(Session, Frame).
-
-take_all(Parts, Session) :-
-    session_codec(Session, Codec),
-    maplist(frame_term(Codec), Parts, Frames),
-    partition(is_unreadable, Frames, Unreadable, Others),
-    dispatch_all(Session, Others),
-    forall(member(Frame, Unreadable), take(Frame, Session)).
-
-is_unreadable(unreadable(_, _)).
-
-spoil(request(Id), Session) :-
-    !,
-    catch(session_send(Session, spoilt(Id)),
-          error(session_closed, _),
-          true).
-spoil(answer(Id), Session) :-
-    !,
-    dispatch(Session, spoilt(Id)).
-spoil(_, _).
-
 %   skip(+Session, +Which, +State): throws as long as it may be an accident.
 
 skip(Session, Which, State) :-
@@ -274,13 +230,12 @@ handle(bye, Session, _, _) :-
     session_key(Session, Key),
     ignore(keeper_tell(gone(Key))).
 handle(Bundle, Session, In, State) :-
-    bundle_parts(Bundle, Parts),
+    take_bundle(Bundle, Session),
     !,
-    take_all(Parts, Session),
     counted(State),
     acknowledge(Session, In, State).
 handle(Frame, Session, In, State) :-
-    take(Frame, Session),
+    take_frame(Frame, Session),
     counted(State),
     acknowledge_now_and_then(Session, In, State).
 
@@ -324,8 +279,6 @@ acknowledge(Session, In, State) :-
 
 :- multifile prolog:message//1.
 
-prolog:message(typhon(endpoint, unreadable(Address, Formal))) -->
-    [ 'Endpoint: a frame of ~w cannot be read: ~p'-[Address, Formal] ].
 prolog:message(typhon(endpoint, skipped(Address))) -->
     [ 'Endpoint: skipped a frame of ~w that is damaged where it comes from'
       -[Address] ].
