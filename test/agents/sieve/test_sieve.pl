@@ -290,7 +290,10 @@ attacks(Hosts, File) :-
     bits('11111', B),
     antigen_attack(Hosts, A),
     settled(File, 10),
-    wait_until(count(File, born(host, _), 10), 20),
+    told(File, First),              % who is late is served by what others drew
+    aggregate_all(count, member(generated(_, _, _), First), Drawn),
+    Drawn > 0,
+    wait_until(count(File, born(host, _), Drawn), 20),
     antigen_attack(Hosts, A),
     antigen_attack(Hosts, B),
     settled(File, 30),
