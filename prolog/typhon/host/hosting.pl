@@ -83,6 +83,7 @@ host_start(Name, Options) :-
     ->  domain_error(host_name, Name)
     ;   true
     ),
+    forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
     with_mutex(typhon_hosting, start(Name, Options)).
 
 typhon_options:declared(host_option, Option, Type, Value) :-
@@ -99,8 +100,7 @@ host_option_type(consult(X), ground, X).
 host_option_type(services(X), ground, X).
 host_option_type(place(X), atom, X).
 host_option_type(log(X), atom, X).
-host_option_type(log(X, Kinds), atom, X) :-
-    must_be(list(event_kind), Kinds).
+host_option_type(log(X, _), atom, X).
 host_option_type(remote(X), boolean, X).
 host_option_type(clock(X), oneof([virtual]), X).
 host_option_type(clock(X, Y), list(number), [X,Y]).

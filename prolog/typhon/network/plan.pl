@@ -97,10 +97,6 @@ check_hop_time(Time) :-
     ;   domain_error(hop_time, Time)
     ).
 
-check_log(File, Kinds) :-
-    must_be(ground, File),
-    must_be(list(event_kind), Kinds).
-
 check_cost(Cost) :-
     (   number(Cost)
     ->  Cost >= 0
