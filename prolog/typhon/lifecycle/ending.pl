@@ -11,7 +11,7 @@
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
                 fault_outcome/2, is_faulty/3, legacy/2, life_hops/2,
                 with_agent/2 ]).
-:- use_module(held, [held_dropped/1]).
+:- use_module(on_hold, [held_dropped/1]).
 :- use_module('../travel', [agent_ended/4, transfer_given_up/2]).
 :- use_module(faulty,
               [faulty_gone/1, faulty_keep/3, faulty_oldest/1, faulty_tell/2]).

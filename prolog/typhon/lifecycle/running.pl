@@ -10,7 +10,7 @@
                 mail_take/2, with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
-:- use_module(held, [held_resumes/2]).
+:- use_module(on_hold, [held_resumes/2]).
 :- use_module(orders, [order_obey/3, order_take/2]).
 :- use_module(stepping, [is_probed/2, probe_rests/1, probed_goal/6]).
 :- use_module(traced, [traced_held/1]).

@@ -13,7 +13,7 @@
               [ agent/5, agent_order/2, agent_status/3, in_words/2,
                 life_traces/2,
                 with_agent/2 ]).
-:- use_module(held, [held_on/2, held_parts/3, held_put/4, held_seen/2]).
+:- use_module(on_hold, [held_on/2, held_parts/3, held_put/4, held_seen/2]).
 :- use_module(join, [agent_join/3]).
 :- use_module(properties, [agent_property/2]).
 :- use_module(giving, [agent_answer/3, order_give/3]).

@@ -6,7 +6,7 @@
 :- use_module('../agent',
               [ agent/5, agent_put_life/2, agent_status/3, agent_unorder/2,
                 life_traces/2, set_traces_of_life/3, with_agent/2 ]).
-:- use_module(held, [held_on/2]).
+:- use_module(on_hold, [held_on/2]).
 :- use_module(questions, [question_answered/2]).
 
 /** <module> Who looks on, and who does not any more

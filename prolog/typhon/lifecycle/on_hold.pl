@@ -1,4 +1,4 @@
-:- module(typhon_held_agents,
+:- module(typhon_on_hold,
           [ held_put/4,                 % +Id, +Probe, +Goals, +Seen
             held_parts/3,               % +Held, -Goals, -Seen
             held_seen/2,                % +Id, +Held
