@@ -25,7 +25,7 @@
 
 An agent that is stepped, or whose goals are traced, runs in a probe, see
 typhon_probe.  Who is stepped is held before each goal, see
-typhon_held_agents.
+typhon_on_hold.
 
 *Threading*: any thread asks; the worker that has the agent runs its probe.
 */
