@@ -1,6 +1,7 @@
 :- module(typhon_evacuation, []).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/stop_thread', [abort_quietly/0]).
+:- use_module('../program', [machine_inside/0]).
 :- use_module('../host', [context_now/2, host_load/2, time_signal/1]).
 :- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
 :- use_module(ending, [agent_end/3]).
@@ -61,7 +62,8 @@ idles_on(Host, Id, Status) :-
 
 stop_running(Host) :-
     (   context_now(Host, Agent),
-        Agent \== none
+        Agent \== none,
+        machine_inside
     ->  abort_quietly
     ;   true
     ).

@@ -28,11 +28,11 @@ belongs to one worker.
 
 typhon_scheduler:run(Id) :-
     (   with_agent(Id, take(Id, Task))
-    ->  setup_call_catcher_cleanup(
-            true,
-            perform(Task, Id),
-            Catcher,
-            left(Catcher, Id))
+    ->  (   catch(perform(Task, Id), Ball, broken_off(Ball, Id))
+        ->  left
+        ;   left,
+            fail
+        )
     ;   probe_rests(Id)                 % has ended
     ).
 
@@ -76,15 +76,17 @@ go_on(elsewhere(Goals), Id) :-
     perform(run(Goals), Id).
 
 %   A worker that is interrupted leaves an agent in the middle of a goal:
-%   it cannot go on.
+%   it cannot go on.  Not in a cleanup handler: while an exception is pending
+%   9.0.4 catches no other.
 
-left(Catcher, Id) :-
+broken_off(Ball, Id) :-
+    sig_atomic(( left,
+                 ignore(agent_end(Id, disposed)) )),
+    throw(Ball).
+
+left :-
     output_rest,
-    context_clear,
-    (   Catcher = exception(_)
-    ->  ignore(agent_end(Id, disposed))
-    ;   true
-    ).
+    context_clear.
 
 live(Goals0, Id, Host, Context, Next) :-
     machine_run(Context, Goals0, Outcome),

@@ -188,15 +188,25 @@ test(result_given_before, X == 1) :-
                  agent_dispose(A, [force(0)]),
                  agent_result(A, X, 5) )).
 test(others_who_ask_are_told, true(E = existence_error(agent, _))) :-
-    with_hosts([alpha],
-               ( start(loops, A),
-                 thread_self(Me),
-                 thread_create(( catch(agent_clone(A, _), error(F, _), true),
-                                 thread_send_message(Me, cloned(F)) ), T),
-                 wait_until(typhon_agents:order(A, asked(clone, _)), 5),
-                 agent_dispose(A, [force(0)]),
-                 thread_get_message(cloned(E)),
-                 thread_join(T, true) )).
+    with_hosts([alpha], ( start(loops, A), clone_in_vain(A, E) )).
+
+%   One who has given up waiting is no reason not to tell the next.
+
+test(others_who_ask_later_are_told, true(E = existence_error(agent, _))) :-
+    with_settings([typhon_disposal:heed_seconds=0.01],
+                  with_hosts([alpha],
+                             ( start(loops, A),
+                               listening(agent_dispose(A), _),
+                               clone_in_vain(A, E) ))).
+
+clone_in_vain(A, E) :-
+    thread_self(Me),
+    thread_create(( catch(agent_clone(A, _), error(F, _), true),
+                    thread_send_message(Me, cloned(F)) ), T),
+    wait_until(typhon_agents:order(A, asked(clone, _)), 5),
+    agent_dispose(A, [force(0)]),
+    thread_get_message(cloned(E)),
+    thread_join(T, true).
 
 %   Virtual time goes on for the others.
 
