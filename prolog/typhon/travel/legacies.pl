@@ -68,10 +68,11 @@ legacy_ask(Where, Id, Kind, Items) :-
 clone_born(Parent, Clone) :-
     assertz(clone_of(Parent, Clone)),
     bounded(clone_of(_, _), typhon_legacies:clones),
-    endpoint_address(Endpoint),
-    agent(Parent, _, Module, _, _),
-    !,
-    legacy_cloned(Module, Endpoint).
+    (   endpoint_address(Endpoint),
+        agent(Parent, _, Module, _, _)
+    ->  legacy_cloned(Module, Endpoint)
+    ;   true                            % everything is being stopped
+    ).
 
 clone_unborn(Parent, Clone) :-
     retractall(clone_of(Parent, Clone)).
