@@ -49,6 +49,25 @@ test(a_visitor_is_listed_where_it_went) :-
                  printed(B, ["====Agent list====", Row]),
                  says(A, "list_agent(L), writeln(agents(L))."),
                  printed(A, ["agents([])"]) )).
+test(who_is_back_before_its_move_has_returned_is_not_lost) :-
+    ports(2, [P1,P2]),
+    Walker = [ ":- dynamic walker/3, left/2, next/1.",
+               "walker(guid, (Ip,_), main) :-",
+               "    retract(left(guid, N)),",
+               "    (   N =:= 0",
+               "    ->  writeln(home)",
+               "    ;   N1 is N-1, assertz(left(guid, N1)),",
+               "        next(P), move_agent(guid, (Ip,P))",
+               "    )." ],
+    line("next(~w).", [P2], Next1),
+    line("next(~w).", [P1], Next2),
+    line("create_mobile_agent(w, (localhost,~w), walker, [7]), assertz(left(w, 400)), add_payload(w, [(left,2)]), execute_agent(w, (localhost,~w), walker).",
+         [P1,P1], Send),
+    with_nodes([[Next1|Walker], [Next2|Walker]],
+               [A,B],
+               ( up(A, P1, 7), up(B, P2, 7),
+                 says(A, Send),
+                 printed(A, ["home"]) )).
 test(a_payload_travels_and_its_template_stays) :-
     ports(2, [P1,P2]),
     with_nodes([[ ":- dynamic carry/3, load/2.",
