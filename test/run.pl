@@ -20,6 +20,7 @@ would have the signals blocked that the thread has, SIGINT for one.
 */
 
 :- use_module('lib/common', [project_file/2, wait_until/2, with_tmp_dir/1]).
+:- use_module('lib/quick_swipl', [quick_swipl/2]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, selectchk/3]).
@@ -40,28 +41,32 @@ suite_deadline(300).                    % seconds
 main(Names) :-
     suite_files(Names, Files),
     at_halt(kill_left_behind(_)),
-    with_tmp_dir(run_suites(Files, [], Suites)),
+    with_tmp_dir(run_suites(Files, Suites)),
     foldl(add_suite, Suites, sum(0, 0, 0), Sum),
     print_sum(Sum),
     exit_status(Sum, Status),
     halt(Status).
 
-%   run_suites(+Files, +Jobs, -Suites, +Dir): Jobs are running now.
+run_suites(Files, Suites, Dir) :-
+    quick_swipl(Dir, Swipl),
+    run_suites(Files, [], Suites, by(Swipl, Dir)).
+
+%   run_suites(+Files, +Jobs, -Suites, +By): Jobs are running now.
 
 run_suites([], [], [], _) :-
     !.
-run_suites([File|Files], Jobs, Suites, Dir) :-
+run_suites([File|Files], Jobs, Suites, By) :-
     length(Jobs, Running),
     suites_at_a_time(Most),
     Running < Most,
     !,
-    start_suite(File, Dir, Job),
-    run_suites(Files, [Job|Jobs], Suites, Dir).
-run_suites(Files, Jobs0, [Suite|Suites], Dir) :-
+    start_suite(File, By, Job),
+    run_suites(Files, [Job|Jobs], Suites, By).
+run_suites(Files, Jobs0, [Suite|Suites], By) :-
     wait_until(ended_job(Jobs0, Job, Status), 1 000 000),
     selectchk(Job, Jobs0, Jobs),
     end_suite(Job, Status, Suite),
-    run_suites(Files, Jobs, Suites, Dir).
+    run_suites(Files, Jobs, Suites, By).
 
 suite_files([], Files) :-
     !,
@@ -127,7 +132,7 @@ exit_status(_, 1).
 
 %   job(File, Mark, Log, Results, Pid, Start)
 
-start_suite(File, Dir, job(File, Mark, Log, Results, Pid, Start)) :-
+start_suite(File, by(Swipl, Dir), job(File, Mark, Log, Results, Pid, Start)) :-
     get_time(Start),
     file_base_name(File, Base),
     current_prolog_flag(pid, Me),
@@ -137,13 +142,13 @@ start_suite(File, Dir, job(File, Mark, Log, Results, Pid, Start)) :-
     project_file('test/suite.pl', Runner),
     setup_call_cleanup(
         open(Log, write, Out),
-        suite_process([ '--on-error=print', '--on-warning=print',
+        suite_process(Swipl,
+                      [ '--on-error=print', '--on-warning=print',
                         Runner, '--', File, Results
                       ], Out, Mark, Pid),
         close(Out)).
 
-suite_process(Args, Out, Mark, Pid) :-
-    current_prolog_flag(executable, Swipl),
+suite_process(Swipl, Args, Out, Mark, Pid) :-
     project_file('.', Root),
     process_create(Swipl, Args,
                    [ stdin(null), stdout(stream(Out)), stderr(stream(Out)),

@@ -89,6 +89,9 @@ with_agent(Id, Goal) :-
 :- dynamic shard/2.
 
 make_shards :-
+    shard(_, _),
+    !.
+make_shards :-
     forall(between(0, 63, I),
            ( atom_concat(typhon_agents_, I, Mutex),
              assertz(shard(I, Mutex))
