@@ -11,7 +11,7 @@
 /** <module> What went wrong in the platforms before us does not go wrong here
 
 Peers that are silent, killed or started again; strangers at the port;
-agents that bounce without pause, 20,000 hops of them.  With
+agents that bounce without pause, 10,000 hops of them.  With
 TYPHON_HOPS=100000 in the environment there are as many as that.
 */
 
@@ -262,7 +262,7 @@ test(host_stopped_under_way) :-
 hops(Hops) :-
     (   getenv('TYPHON_HOPS', Atom)
     ->  atom_number(Atom, Hops)
-    ;   Hops = 20000
+    ;   Hops = 10000
     ).
 
 %   Twenty agents share the hops, and note how long they take.
