@@ -48,10 +48,11 @@ longest([ chaos, wire, doc, hop, sync_network, auction_network, cluster,
           network, faults, study_work, pack, robots, boxes_arena, ring,
           learning_network, repeatable, agent, scheduler, letters, app ]).
 
-%   These look at how the library is loaded.
+%   These look at how the library is loaded, or at the options of swipl.
 
 plain(pack).
 plain(site).
+plain(voice).
 
 main(Names) :-
     suite_files(Names, Files0),
