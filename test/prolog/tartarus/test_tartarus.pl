@@ -136,7 +136,8 @@ test(who_shows_no_token_is_refused_and_stays) :-
                              "Agent fly was not allowed to enter the destination.",
                              "--------negative ack processed-----------",
                              "told"]),
-                 says(B, "set_token(1)."),
+                 says(B, "set_token(1), writeln(trusted)."),
+                 printed(B, ["trusted"]),
                  line("move_agent(fly, (localhost,~w)).", [P2], Again),
                  says(A, Again),
                  printed(B, ["here(fly)"]) )).
