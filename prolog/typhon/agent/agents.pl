@@ -88,6 +88,8 @@ with_agent(Id, Goal) :-
 
 :- dynamic shard/2.
 
+%   A saved state has them already where it runs this again.
+
 make_shards :-
     shard(_, _),
     !.
