@@ -10,16 +10,17 @@ layer has a door, and behind it a folder with its rooms.
   | agents                         | typhon/lifecycle  |
   | what agents can say            | typhon/language   |
   | networks, the log server       | typhon/network    |
+  | events, as they happen         | typhon/watching   |
   | tables for people              | typhon/people     |
 */
 
 :- reexport(typhon/program, [agent_check/1]).
-:- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport(typhon/host,
             [ host_start/1, host_start/2, host_change/2, host_stop/1,
               host_property/2, link/2, link/3, unlink/2, remote/2
             ]).
 :- reexport('typhon/lifecycle', except([agent_glance/2, status_shown/2])).
 :- reexport('typhon/network').
+:- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport('typhon/people').
 :- use_module(typhon/language, []).
