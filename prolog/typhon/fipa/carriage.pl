@@ -206,11 +206,11 @@ kept(Url, way(open(Address, In, Out)), In, Out) :-
 
 ended(In) :-
     wait_for_input([In], [_], 0),
-    fill_buffer(In),
-    read_pending_codes(In, Codes, []),
-    (   Codes == []
+    peek_byte(In, Byte),
+    (   Byte == -1
     ->  true
-    ;   ended(In)
+    ;   read_pending_codes(In, _, []),
+        ended(In)
     ).
 
 keep(true, _).

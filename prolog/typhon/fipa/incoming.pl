@@ -17,11 +17,8 @@
 
 typhon_fipa_reception:requested(Host, Request, Code) :-
     platform(Host, _, Url, _),
-    (   catch(message(Request, Url, Message), error(Formal, _), true),
-        var(Formal)
-    ->  true
-    ;   Message = bad(Formal)
-    ),
+    catch(message(Request, Url, Message), error(Formal, _),
+          Message = bad(Formal)),
     taken(Message, Host, Code).
 
 taken(message(Acl, Receivers), Host, Code) =>

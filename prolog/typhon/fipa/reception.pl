@@ -222,13 +222,12 @@ drained(413, In) :-
 drained(_, _).
 
 drain(In, Left) :-
-    (   Left =< 0
-    ->  true
-    ;   fill_buffer(In),
-        read_pending_codes(In, Codes, []),
+    (   Left > 0,
+        peek_byte(In, Byte),
+        Byte \== -1
+    ->  read_pending_codes(In, Codes, []),
         length(Codes, Count),
-        Count > 0
-    ->  Left1 is Left-Count,
+        Left1 is Left-Count,
         drain(In, Left1)
     ;   true
     ).
