@@ -3,6 +3,7 @@
             acl_parameter/2,            % +Acl, ?Parameter
             acl_with/3,                 % +Acl, +Parameters, -Acl
             acl_reply/4,                % +Acl, +Performative, +Content, -Reply
+            must_be_acl/1,              % @Acl
             performative/1              % ?Performative
           ]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
@@ -129,6 +130,10 @@ acl_text(Acl, Text) :-
     maplist(parameter_sexps, Parameters, Lists),
     append(Lists, Sexps),
     sexp_text([Performative|Sexps], Text).
+
+%!  must_be_acl(@Acl) is det.
+%
+%   @error type_error(fipa_message, Acl), domain_error(performative, P)
 
 must_be_acl(Acl) :-
     (   subsumes_term(acl(_, _), Acl)

@@ -59,7 +59,7 @@ dom(Text, Dom) :-
     setup_call_cleanup(
         open_string(Text, In),
         load_xml(stream(In), Dom,
-                 [ space(remove), max_errors(1), syntax_errors(quiet) ]),
+                 [ space(remove), max_errors(0), syntax_errors(quiet) ]),
         close(In)).
 
 %   Later params, of platforms on the way, replace what earlier ones say.

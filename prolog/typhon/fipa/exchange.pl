@@ -13,7 +13,7 @@
 :- use_module('../lifecycle', [agent_named/2]).
 :- use_module(acl,
               [ acl_parameter/2, acl_reply/4, acl_text/2, acl_with/3,
-                performative/1 ]).
+                must_be_acl/1, performative/1 ]).
 :- use_module(aid, [aid_addresses/2, aid_name/2]).
 :- use_module(carriage, [carriage_send/4]).
 :- use_module(letter, [letter_write/5]).
@@ -51,6 +51,7 @@ exchange_receive/3 may wait for a connection to another process of ours.
 %   carriage_send/4 raise
 
 exchange_send(Host, Local, To, Acl0) :-
+    must_be_acl(Acl0),
     platform_aid(Host, Local, Sender),
     acl_with(Acl0, [sender(Sender)], Acl1),
     (   acl_parameter(Acl1, receiver(_))

@@ -2,7 +2,6 @@
           [ letter_write/5,             % +Text, +From, +To, -Type, -Body
             letter_read/4               % +Type, +Body, -Envelope, -Text
           ]).
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(utf8), [utf8_codes//1]).

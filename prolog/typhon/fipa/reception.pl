@@ -3,7 +3,6 @@
             reception_close/1           % +Host
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(socket),
               [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1, tcp_listen/2,

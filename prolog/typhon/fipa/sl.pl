@@ -110,6 +110,10 @@ parameter(Word, Name) :-
     atom_concat(:, Name, Word),
     Name \== ''.
 
+read_word(Word, _) :-
+    parameter(Word, _),
+    !,
+    syntax_error(fipa_content).
 read_word(Word, Term) :-
     atom_concat(?, Name, Word),
     !,
