@@ -11,7 +11,7 @@
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
 :- use_module(library(time), [call_with_time_limit/2]).
-:- use_module(crew, [crew_end/1, crew_start/3]).
+:- use_module(crew, [crew_end/1, crew_start/4]).
 :- use_module(http, [http_post/4, http_response/3, http_url/3]).
 
 /** <module> Where messages go out
@@ -76,7 +76,8 @@ hire(Host, Address, Limits, Queue) :-
     assertz(carrier(Host, Address, Queue)),
     catch(crew_start(carriage(Host), carrier,
                      typhon_fipa_carriage:carry(Host, Address, Queue,
-                                                Limits)),
+                                                Limits),
+                     typhon_fipa_carriage:gone(Host, Address, Queue)),
           error(Formal, Context),
           ( forget(Host, Address, Queue),
             throw(error(Formal, Context)) )).
@@ -112,14 +113,14 @@ carry(Host, Address, Queue, Limits) :-
     setup_call_cleanup(
         true,
         carry_on(Host, Address, Queue, Limits, Way),
-        ( disconnect(Way),
-          with_mutex(typhon_fipa_carriage, gone(Host, Address, Queue)) )).
+        disconnect(Way)).
 
 gone(Host, Address, Queue) :-
-    (   carrier(Host, Address, Queue)
-    ->  forget(Host, Address, Queue)
-    ;   true
-    ).
+    with_mutex(typhon_fipa_carriage,
+               (   carrier(Host, Address, Queue)
+               ->  forget(Host, Address, Queue)
+               ;   true
+               )).
 
 carry_on(Host, Address, Queue, Limits, Way) :-
     idle_seconds(Idle),

@@ -1,5 +1,5 @@
 :- module(typhon_fipa_crew,
-          [ crew_start/3,               % +Owner, +Role, :Goal
+          [ crew_start/4,               % +Owner, +Role, :Goal, :Release
             crew_end/1                  % +Owner
           ]).
 :- use_module(library(lists), [member/2]).
@@ -13,23 +13,25 @@ are ended, and joined, with their owner.
 *Threading*: any thread but those of the crew calls crew_end/1.
 */
 
-:- meta_predicate crew_start(+, +, 0).
+:- meta_predicate crew_start(+, +, 0, 0).
 
 :- dynamic crew/2.                      % Owner, Thread
 
-%!  crew_start(+Owner, +Role:atom, :Goal) is det.
+%!  crew_start(+Owner, +Role:atom, :Goal, :Release) is det.
 %
-%   Run Goal in a new thread.
+%   Run Goal in a new thread, and Release when that ends, even if it has not
+%   come to Goal.
 %
 %   @error resource_error(threads) or the like
 
-crew_start(Owner, Role, Goal) :-
+crew_start(Owner, Role, Goal, Release) :-
     flag(typhon_fipa_crew, Number, Number+1),
     atomic_list_concat([typhon_fipa, Role, Number], '_', Alias),
-    sig_atomic(create(Owner, Goal, Alias)).
+    sig_atomic(create(Owner, Goal, Release, Alias)).
 
-create(Owner, Goal, Alias) :-
-    thread_create(typhon_fipa_crew:work(Goal), Thread, [alias(Alias)]),
+create(Owner, Goal, Release, Alias) :-
+    thread_create(typhon_fipa_crew:work(Goal), Thread,
+                  [ alias(Alias), at_exit(Release) ]),
     assertz(crew(Owner, Thread)),
     thread_send_message(Thread, crew_begin).
 

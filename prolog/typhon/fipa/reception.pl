@@ -8,7 +8,7 @@
               [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
 :- use_module(library(time), [call_with_time_limit/2]).
-:- use_module(crew, [crew_end/1, crew_start/3]).
+:- use_module(crew, [crew_end/1, crew_start/4]).
 :- use_module(http, [http_request/4, http_respond/3]).
 
 /** <module> Where messages come in
@@ -52,7 +52,8 @@ reception_open(Host, Interface:Port0, Limits, Port) :-
             assertz(listens(Host, Socket)),
             crew_start(reception(Host), acceptor,
                        typhon_fipa_reception:accept_all(Host, Socket,
-                                                        Limits))
+                                                        Limits),
+                       true)
           ),
           error(Formal, Context),
           ( retractall(listens(Host, _)),
@@ -86,7 +87,8 @@ admit(Host, Client, Limits) :-
     open_streams(Client, In, Out),
     (   room(Host, Limits)
     ->  catch(crew_start(reception(Host), client,
-                         typhon_fipa_reception:serve(Host, In, Out, Limits)),
+                         typhon_fipa_reception:serve(Host, In, Out, Limits),
+                         typhon_fipa_reception:left(Host, In, Out)),
               error(_, _),
               send_away(In, Out))
     ;   send_away(In, Out)
@@ -141,12 +143,14 @@ evict :-
 
 serve(Host, In, Out, Limits) :-
     thread_self(Me),
-    setup_call_cleanup(
-        note(Host, Me, busy),
-        catch(requests(Host, In, Out, Limits), error(Formal, _),
-              debug(typhon(fipa), '~w: a client goes: ~p', [Host, Formal])),
-        ( retractall(client(Host, Me, _, _)),
-          close_streams(In, Out) )).
+    note(Host, Me, busy),
+    catch(requests(Host, In, Out, Limits), error(Formal, _),
+          debug(typhon(fipa), '~w: a client goes: ~p', [Host, Formal])).
+
+left(Host, In, Out) :-
+    thread_self(Me),
+    retractall(client(Host, Me, _, _)),
+    close_streams(In, Out).
 
 note(Host, Me, State) :-
     get_time(Now),
