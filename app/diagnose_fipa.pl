@@ -10,14 +10,13 @@ Goes from its URL to a message that it takes.
 */
 
 :- use_module(library(socket), [tcp_connect/3]).
-:- use_module(library(time), [call_with_time_limit/2]).
 :- use_module('../prolog/typhon/fipa/acl', [acl_text/2]).
 :- use_module('../prolog/typhon/fipa/http',
               [http_post/4, http_response/3, http_url/3]).
 :- use_module('../prolog/typhon/fipa/letter', [letter_write/5]).
 :- use_module(diagnose, [diagnose_steps/2]).
 
-deadline(5).                            % seconds
+deadline(5).                            % seconds, of silence
 
 %!  diagnose_fipa(+Url) is semidet.
 %
@@ -61,12 +60,10 @@ check(Url, message, Found) :-
 connected(Url, In, Out, Goal) :-
     http_url(Url, Address, _),
     deadline(Seconds),
-    catch(call_with_time_limit(Seconds,
-              setup_call_cleanup(
-                  tcp_connect(Address, Stream, []),
-                  ( stream_pair(Stream, In, Out),
-                    set_stream(Stream, encoding(octet)),
-                    once(Goal) ),
-                  close(Stream, [force(true)]))),
-          time_limit_exceeded,
-          throw(error(timeout_error(connect, Address), _))).
+    setup_call_cleanup(
+        tcp_connect(Address, Stream, []),
+        ( stream_pair(Stream, In, Out),
+          set_stream(In, timeout(Seconds)),
+          set_stream(Stream, encoding(octet)),
+          once(Goal) ),
+        close(Stream, [force(true)])).

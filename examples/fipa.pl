@@ -16,8 +16,6 @@ main :-
     agent_create(Caller, Agent, [host(shop), facts([street(Url)])]),
     agent_join(Agent, done, 20).
 
-% JADE's agents would do it the same way.
-
 mender(Name, Price) :-
     agent_create(clauses(
         [ (:- agent(mender, [])),

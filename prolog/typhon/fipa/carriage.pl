@@ -10,8 +10,8 @@
 :- use_module(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
-:- use_module(library(time), [call_with_time_limit/2]).
 :- use_module(crew, [crew_end/1, crew_start/4]).
+:- use_module(limit, [within/2]).
 :- use_module(http, [http_post/4, http_response/3, http_url/3]).
 
 /** <module> Where messages go out
@@ -140,7 +140,7 @@ idle(Host, Address, Queue) :-
 
 sent([Url|Urls], Host, Letter, Limits, Way) :-
     option(seconds(Seconds), Limits),
-    catch(call_with_time_limit(Seconds, exchange(Url, Letter, Way, Code)),
+    catch(within(Seconds, exchange(Url, Letter, Way, Code)),
           Ball,
           failed(Ball, Way, Code)),
     debug(typhon(fipa), '~w: a message to ~w: ~p', [Host, Url, Code]),

@@ -7,8 +7,8 @@
 :- use_module(library(socket),
               [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
-:- use_module(library(time), [call_with_time_limit/2]).
 :- use_module(crew, [crew_end/1, crew_start/4]).
+:- use_module(limit, [within/2]).
 :- use_module(http, [http_request/4, http_respond/3]).
 
 /** <module> Where messages come in
@@ -172,8 +172,7 @@ requests(Host, In, Out, Limits) :-
     sig_atomic(becomes(Host, busy)),
     option(seconds(Seconds), Limits),
     set_stream(In, timeout(Seconds)),
-    catch(call_with_time_limit(Seconds,
-                               one_request(In, Out, Limits, Request)),
+    catch(within(Seconds, one_request(In, Out, Limits, Request)),
           Ball,
           Request = bad(Ball)),
     answer(Request, Host, In, Out, KeepAlive),
@@ -219,7 +218,7 @@ drained(413, In) :-
     !,
     max_drained(Most),
     set_stream(In, timeout(2)),
-    catch(catch(call_with_time_limit(5, drain(In, Most)),
+    catch(catch(within(5, drain(In, Most)),
                 time_limit_exceeded, true),
           error(_, _), true).
 drained(_, _).

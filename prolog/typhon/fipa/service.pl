@@ -11,7 +11,8 @@
 :- use_module('../base/options', [check_name/2, check_options/2]).
 :- use_module('../program', [payload_load/2]).
 :- use_module('../host',
-              [host/3, host_resolve/2, place_deliver/3, place_undeliver/2]).
+              [ host/3, host_option/2, host_resolve/2, place_deliver/3,
+                place_undeliver/2 ]).
 :- use_module(aid, [aid/1, aid_name/2]).
 :- use_module(carriage, [carriage_close/1, carriage_queued/2]).
 :- use_module(exchange, [exchange_send/4]).
@@ -50,7 +51,8 @@
 %     - max_bytes(+N): of a message with its envelope, default 2,000,000
 %     - seconds(+N): in which a message has to come, or be taken, default 10
 %
-%   @error permission_error(start, fipa, Host) if it is one already
+%   @error permission_error(start, fipa, Host) if it is one already, or its
+%   time is virtual: others do not wait for that
 %   @error existence_error(host, Host)
 %   @error domain_error(http_url, URL), domain_error(fipa_option, Option)
 %   @error socket_error(Code, Message)
@@ -71,7 +73,7 @@ option_type(seconds(X), positive_integer, X).
 
 start(Host, Url, Options) :-
     local_host(Host, Name, Place),
-    (   platform(Name, _, _, _)
+    (   ( platform(Name, _, _, _) ; host_option(Name, clock(virtual)) )
     ->  permission_error(start, fipa, Name)
     ;   true
     ),

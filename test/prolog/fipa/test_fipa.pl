@@ -6,7 +6,8 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
-:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module('../../../app/diagnose_fipa').
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
@@ -325,6 +326,18 @@ test(what_they_do_not_understand) :-
 
 test(starts_once, error(permission_error(start, fipa, alpha))) :-
     with_platform([], _, fipa_start(alpha, 'http://127.0.0.1:0/b', [])).
+
+test(needs_real_time, error(permission_error(start, fipa, alpha))) :-
+    with_hosts([alpha-[clock(virtual)]],
+               fipa_start(alpha, 'http://127.0.0.1:0/b', [])).
+
+test(is_diagnosed) :-
+    with_platform([], Url,
+        ( with_output_to(string(Well), diagnose_fipa(Url)),
+          assertion(sub_string(Well, _, _, _, "it takes messages")),
+          atom_concat(Url, x, Wrong),
+          with_output_to(string(Bad), \+ diagnose_fipa(Wrong)),
+          assertion(sub_string(Bad, _, _, _, "FAIL  message")) )).
 
 test(needs_a_host, error(existence_error(host, nowhere))) :-
     fipa_start(nowhere, 'http://127.0.0.1:0/b', []).
