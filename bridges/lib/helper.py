@@ -295,7 +295,7 @@ class Helper:
                         message=str(problem))
         except BadRequest as problem:
             return {'error': 'bad_request', 'message': str(problem)}
-        except Exception as problem:
+        except BaseException as problem:    # also that of sys.exit()
             return {'error': 'exception', 'class': type(problem).__name__,
                     'message': str(problem)}
 

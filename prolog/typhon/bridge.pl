@@ -34,6 +34,7 @@ them as messages or as facts.  This is the door of the layer.  A bridge
         service_end(echo, Host).
 */
 
+:- reexport(bridge/inbox, [inbox_put/4]).
 :- reexport(bridge/services,
             [ service/2, service_begin/4, service_end/2, service_host/2,
               service_offer/4 ]).

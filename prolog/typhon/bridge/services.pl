@@ -2,7 +2,7 @@
           [ service/2,                  % ?Service, ?Host
             service_host/2,             % +Host, -Name
             service_begin/4,            % +Service, +Host, +PIs, +Module
-            service_offer/4,            % +Service, +Host, +PIs, :Clauses
+            service_offer/4,            % +Name, +Host, +PIs, +Clauses
             service_end/2               % +Service, +Host
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -65,25 +65,25 @@ service_begin(Service, Host, PIs, Module) :-
     findall((Head:-Module:Head),
             ( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
             Clauses),
-    catch(service_offer(Service, Host, PIs, Clauses), Ball,
+    catch(service_offer(service(Service), Host, PIs, Clauses), Ball,
           ( retractall(service(Service, Host)),
             throw(Ball) )),
     debug(typhon(bridge), '~w is on ~w', [Service, Host]).
 
-%!  service_offer(+Service, +Host, +PIs:list, +Clauses:list) is det.
+%!  service_offer(+Name, +Host, +PIs:list, +Clauses:list) is det.
 %
-%   The place offers PIs, defined by Clauses, in place of what Service has
-%   offered before.
+%   The place offers PIs, defined by Clauses, instead of what it offered under
+%   Name, which is service(Service) or that of a payload.
 %
 %   @error permission_error(define, vocabulary, PI) if all agents know such a
 %          predicate
 %   @error permission_error(deliver, procedure, PI) if the place has it
 %          otherwise
 
-service_offer(Service, Host, PIs, Clauses) :-
+service_offer(Name, Host, PIs, Clauses) :-
     forall(member(PI, PIs), unknown(PI)),
     host(Host, _, Place),
-    place_deliver(Place, payload(service(Service), PIs, Clauses), _).
+    place_deliver(Place, payload(Name, PIs, Clauses), _).
 
 unknown(Name/Arity) :-
     functor(Head, Name, Arity),
