@@ -23,6 +23,9 @@ A helper is a subclass with a method for each `do`:
 
     Greeter(threads=4).run()
 
+A method may return LATER and say `self.reply(request, answer)` when there
+is one, or `self.reply(request, Refusal(...))`, in any thread.
+
 Requests are served by so many threads, with one thread in the order in
 which they came.  `deadline` is when the request must be done, by
 time.monotonic(); it counts from when the line was read.  A request that has
@@ -46,6 +49,7 @@ import sys
 import threading
 import time
 
+LATER = object()                        # the answer will come
 LONGEST_TIMEOUT = 3600.0                # seconds
 FAREWELL = 2.0                          # seconds, to end what was under way
 
@@ -123,7 +127,7 @@ class Job:
         self.number, self.request = number, request
         self.deadline = deadline
         self.lock = threading.Lock()
-        self.answered, self.begun = False, False
+        self.answered, self.begun, self.later = False, False, False
 
     def first(self):
         """Whether nobody has answered it before."""
@@ -198,7 +202,7 @@ class Helper:
     def abandoned(self):
         """Prolog is gone."""
 
-    def event(self, kind, **fields):
+    def event(self, kind, /, **fields):
         """Say something unasked."""
         fields['event'] = kind
         self.output.say(fields)
@@ -268,12 +272,14 @@ class Helper:
                 os._exit(0)
             job.begun = True
             if not job.answered:
-                answer = dict(self.answer(job), id=job.number)
+                answer = self.answer(job)
+                if answer is LATER:
+                    continue
                 if not job.first():         # another has taken its place
                     with self.late_lock:
                         self.late_threads -= 1
                     return
-                self.say(answer)
+                self.say(dict(answer, id=job.number))
             if job.request.get('do') == 'quit':
                 sys.stderr.flush()
                 os._exit(0)                 # other threads may be reading
@@ -289,21 +295,37 @@ class Helper:
         try:
             if time.monotonic() >= job.deadline:
                 raise Refusal('timeout', 'not done: others took too long')
-            return {'ok': self.do(job.request, job.deadline)}
+            job.request['job'] = job
+            done = self.do(job.request, job.deadline)
+            if done is LATER:
+                job.later = True
+                return LATER
+            return {'ok': done}
         except Refusal as problem:
-            return dict(problem.more, error=problem.kind,
-                        message=str(problem))
+            return self.refused(problem)
         except BadRequest as problem:
             return {'error': 'bad_request', 'message': str(problem)}
         except BaseException as problem:    # also that of sys.exit()
             return {'error': 'exception', 'class': type(problem).__name__,
                     'message': str(problem)}
 
+    @staticmethod
+    def refused(problem):
+        return dict(problem.more, error=problem.kind, message=str(problem))
+
+    def reply(self, request, answer):
+        """Answer a request whose method has returned LATER."""
+        job = request['job']
+        if job.first():
+            self.say(dict(self.refused(answer)
+                          if isinstance(answer, Refusal)
+                          else {'ok': answer}, id=job.number))
+
     def late(self, job):
         """The deadline has passed; who serves it may never be done."""
         self.output.say({'id': job.number, 'error': 'timeout',
                          'message': 'not done in time'})
-        if job.begun:
+        if job.begun and not job.later:
             with self.late_lock:
                 self.late_threads += 1
                 many = self.late_threads > self.most_late

@@ -35,9 +35,11 @@ them as messages or as facts.  This is the door of the layer.  A bridge
 */
 
 :- reexport(bridge/inbox, [inbox_put/4]).
+:- reexport(bridge/json_values, [json_value/1]).
 :- reexport(bridge/services,
             [ service/2, service_begin/4, service_end/2, service_host/2,
               service_offer/4 ]).
 :- reexport(bridge/subscribers,
-            [ subscribe/5, subscriber/2, subscribers_tell/5, subscription/3,
+            [ subscribe/5, subscriber/2, subscribers_tell/5,
+              subscribers_tell_new/5, subscription/3,
               unsubscribe/4 ]).

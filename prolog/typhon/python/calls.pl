@@ -7,8 +7,7 @@
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../helper', [helper_ask/4, helper_failure/3]).
 :- use_module('../host', [host_option/2]).
-:- use_module('../bridge', [subscriber/2]).
-:- use_module(values, [python_value/1]).
+:- use_module('../bridge', [json_value/1, subscriber/2]).
 
 /** <module> Calls of Python functions
 
@@ -51,7 +50,7 @@ function(Module, Function, Name/Arity, Clause) :-
 
 run(Module, Function, Args, Result) :-
     subscriber(Host, Agent),
-    maplist(python_value, Args),
+    maplist(json_value, Args),
     seconds(Host, Seconds),
     agent_value(Agent, Caller),
     python_ask(Host,
