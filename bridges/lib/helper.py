@@ -9,6 +9,9 @@ to its standard output: one JSON object per line, UTF-8.
     {"id": 8, "error": "bad_request", "message": "name: not a string"}
     {"event": "visitor", "name": "Rob"}
 
+A request without an id is not answered; if it cannot be done there is an
+event `untold`.
+
 A helper is a subclass with a method for each `do`:
 
     from helper import Helper, Refusal, text
@@ -95,7 +98,7 @@ def parse(line):
 
 
 def deadline_of(request):
-    timeout = request.get('timeout', 3.0)
+    timeout = request.get('timeout', LONGEST_TIMEOUT)
     if isinstance(timeout, bool) or not isinstance(timeout, (int, float)) \
             or not 0 < timeout <= LONGEST_TIMEOUT:
         raise BadRequest('timeout: not a number of seconds up to %d'
@@ -227,15 +230,19 @@ class Helper:
         number = None
         try:
             request = parse(line)
-            number = integer(request, 'id', 0, 2 ** 62)
+            if 'id' in request:
+                number = integer(request, 'id', 0, 2 ** 62)
             deadline = deadline_of(request)
             if request.get('do') == 'quit':
                 self.quitting = True
                 self.drop_requests()
             job = Job(number, request, deadline)
-            self.requests.put_nowait(job)
-            if self.watch:
-                self.watch.add(job)
+            if number is None:
+                self.requests.put(job)      # who only tells waits for room
+            else:
+                self.requests.put_nowait(job)
+                if self.watch:
+                    self.watch.add(job)
         except BadRequest as problem:
             self.refuse(number, str(problem))
         except queue.Full:
@@ -271,6 +278,7 @@ class Helper:
                 self.abandoned()
                 os._exit(0)
             job.begun = True
+            last = job.request.get('do') == 'quit'
             if not job.answered:
                 answer = self.answer(job)
                 if answer is LATER:
@@ -279,16 +287,21 @@ class Helper:
                     with self.late_lock:
                         self.late_threads -= 1
                     return
-                self.say(dict(answer, id=job.number))
-            if job.request.get('do') == 'quit':
+                self.say(job, answer)
+            if last:
                 sys.stderr.flush()
                 os._exit(0)                 # other threads may be reading
 
-    def say(self, answer):
+    def say(self, job, answer):
+        job.request = None                  # it may be long
+        if job.number is None:
+            if 'error' in answer:
+                self.event('untold', message=answer['message'])
+            return
         try:
-            self.output.say(answer)
+            self.output.say(dict(answer, id=job.number))
         except (TypeError, ValueError, RecursionError) as problem:
-            self.output.say({'id': answer['id'], 'error': 'no_json',
+            self.output.say({'id': job.number, 'error': 'no_json',
                              'message': str(problem)})
 
     def answer(self, job):
@@ -317,9 +330,8 @@ class Helper:
         """Answer a request whose method has returned LATER."""
         job = request['job']
         if job.first():
-            self.say(dict(self.refused(answer)
-                          if isinstance(answer, Refusal)
-                          else {'ok': answer}, id=job.number))
+            self.say(job, self.refused(answer)
+                     if isinstance(answer, Refusal) else {'ok': answer})
 
     def late(self, job):
         """The deadline has passed; who serves it may never be done."""

@@ -11,5 +11,6 @@ they have subscribed to comes as mqtt-message(Topic, Payload, Options).  See
 doc/bridges.md.
 */
 
-:- reexport('mqtt/service', [mqtt_start/3, mqtt_stop/1]).
+:- reexport(bridge/starting, [mqtt_start/3, mqtt_stop/1]).
+:- use_module('mqtt/service', []).
 :- use_module('mqtt/words', []).

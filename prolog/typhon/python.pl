@@ -10,5 +10,6 @@ The functions that the file defines are predicates that agents on alpha can
 call, with the result as last argument.  See doc/bridges.md.
 */
 
-:- reexport('python/service', [python_start/3, python_stop/1]).
+:- reexport(bridge/starting, [python_start/3, python_stop/1]).
+:- use_module('python/service', []).
 :- use_module('python/delivered', []).

@@ -4,7 +4,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(answers,
               [ answer/2, answer_all/1, answer_awaited/2, answer_died/1,
-                request_line/3, said/3 ]).
+                request_line/2, said/3 ]).
 :- use_module(process,
               [ process_begin/4, process_end/1, process_release/1,
                 process_write/2 ]).
@@ -114,7 +114,7 @@ begin_again(Me, Wait, State) :-
     begin(Me, Wait, State),
     Me = owner(Name, _, _, _, _),
     forall(( State = up(_, _, _), again(Name, Request) ),
-           ( request_line(Request, _, Line),
+           ( request_line(Request, Line),
              write_told(State, Line) )).
 
 %   One that has lived for a while is replaced at once.
@@ -159,7 +159,7 @@ write_told(up(Process, _, _), Line) :-
 write_told(down(_, _, _), _).           % to nobody
 
 stop(up(Process, _, _)) :-
-    request_line(_{do:quit}, _, Line),
+    request_line(_{do:quit}, Line),
     process_write(Process, Line),
     process_end(Process),
     thread_get_message(ended(_)),

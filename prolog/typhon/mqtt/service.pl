@@ -1,8 +1,7 @@
 :- module(typhon_mqtt_service,
-          [ mqtt_start/3,               % +Host, +URL, +Options
-            mqtt_stop/1,                % +Host
-            mqtt_ask/3,                 % +Host, +Request, +Seconds
+          [ mqtt_ask/3,                 % +Host, +Request, +Seconds
             mqtt_note/2,                % +Host, +Request
+            mqtt_publish/4,             % +Host, +Message, +Wait, +Seconds
             mqtt_default/3,             % +Host, +Option, +Default
             mqtt_message/5              % +Topic, +Payload, +Options, +Kind,
                                         % -Message
@@ -12,10 +11,10 @@
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_failure/3, helper_file/2,
-                helper_note/2, helper_open/3, helper_python/2 ]).
+                helper_note/2, helper_open/3, helper_python/2, helper_tell/2 ]).
 :- use_module('../bridge',
-              [ service_begin/4, service_end/2, service_host/2,
-                subscription/3, subscribers_tell/5, subscribers_tell_new/5 ]).
+              [ service_begin/4, service_end/2, subscription/3,
+                subscribers_tell/5, subscribers_tell_new/5 ]).
 :- use_module(topics, [mqtt_payload/3, mqtt_topic/2]).
 :- use_module(url, [mqtt_url/2]).
 
@@ -26,6 +25,7 @@ it.
 */
 
 :- multifile
+    typhon_starting:starts/4,
     typhon_helper_answers:heard/2,
     typhon_helper_owner:again/2,
     typhon_options:declared/4,
@@ -34,54 +34,20 @@ it.
     prolog:message//1.
 
 :- dynamic
-    started/3.                  % Host, Options, Request: to connect
+    started/3,                  % Host, Options, Request: to connect
+    up/1.                       % Host: there is a connection
 
-%!  mqtt_start(+Host, +URL, +Options) is det.
-%
-%   Connect Host to the broker at URL, as mqtt_url/2.  Options:
-%
-%     - user(User), password(Password): if they are not in the URL
-%     - client(Id): the name of this client; default is that the broker
-%       chooses one
-%     - clean(Boolean): whether the broker forgets this client when it goes,
-%       default `true`; `false` needs client(Id)
-%     - will(Topic, Payload), will(Topic, Payload, Options): what the broker
-%       is to publish when the connection is lost; Options as of publish/3
-%     - keepalive(Seconds): default 60
-%     - ca(File), cert(File), key(File), insecure(Boolean): for TLS; the
-%       certificates to trust, default those of the system, those of this
-%       client, and whether any name of the broker will do, default `false`
-%     - payload(Kind): default of subscribe/2 and publish/3, itself `auto`
-%     - queue(N): default of subscribe/2
-%     - pending(N): how many messages are kept while there is no connection,
-%       default 1000
-%     - largest(Bytes): of payloads, default 4 MB
-%     - timeout(Seconds): of each request, default 10
-%     - wait(Boolean): whether to wait for the connection, default `true`.
-%       Without, Host is connected when the broker can be reached.
-%     - python(Program): default see helper_python/2
-%
-%   When the connection is lost, it is made again, and what agents have
-%   subscribed to is asked for again.
-%
-%   @error mqtt_error(unreachable(URL), Host), mqtt_error(refused, Host),
-%   mqtt_error(tls, Host)
-%   @error permission_error(start, mqtt, Host) if it is started
-%   @error existence_error(python_module, paho)
-%   @error domain_error(mqtt_url, URL), domain_error(mqtt_option, Option)
-
-mqtt_start(Host, URL, Options) :-
+typhon_starting:starts(mqtt, Host, URL, Options) :-
     check_options(mqtt_option, Options),
-    service_host(Host, Name),
     mqtt_url(URL, Parts),
     request(Options, Parts, Request),
-    service_begin(mqtt, Name,
+    service_begin(mqtt, Host,
                   [ publish/2, publish/3, subscribe/1, subscribe/2,
                     unsubscribe/1 ],
                   typhon_mqtt_words),
-    assertz(started(Name, Options, Request)),
-    catch(connect(Name, Options, Request), Ball,
-          ( mqtt_stop(Name),
+    assertz(started(Host, Options, Request)),
+    catch(connect(Host, Options, Request), Ball,
+          ( service_end(mqtt, Host),
             throw(Ball) )).
 
 connect(Host, Options, Request) :-
@@ -179,17 +145,11 @@ publish_type(retain(X), boolean, X).
 publish_type(payload(X), oneof([auto,json,text,bytes]), X).
 publish_type(wait(X), boolean, X).
 
-%!  mqtt_stop(+Host) is det.
-%
-%   @error existence_error(mqtt, Host)
-
-mqtt_stop(Host) :-
-    service_end(mqtt, Host).
-
 typhon_services:ends(mqtt, Host) :-
     ignore(catch(helper_close(mqtt(Host)),
                  error(existence_error(_, _), _), true)),
-    retractall(started(Host, _, _)).
+    retractall(started(Host, _, _)),
+    retractall(up(Host)).
 
 %!  mqtt_default(+Host, +Option, +Default) is det.
 %
@@ -238,10 +198,36 @@ formal(denied, _, Request, permission_error(subscribe, mqtt_filter, Filter)) :-
 formal(timeout, Host, Request, timeout_error(mqtt(What), Host)) :-
     get_dict(do, Request, What).
 
+%!  mqtt_publish(+Host, +Message, +Wait:boolean, +Seconds) is det.
+%
+%   What may be lost is not waited for, as long as there is a connection: a
+%   question for each would be half as fast.
+%
+%   @error those of mqtt_ask/3
+
+mqtt_publish(Host, Message, false, _) :-
+    get_dict(qos, Message, 0),
+    up(Host),
+    fits(Host, Message),
+    !,
+    helper_tell(mqtt(Host), Message.put(_{do:publish, wait:false})).
+mqtt_publish(Host, Message, Wait, Seconds) :-
+    mqtt_ask(Host, Message.put(_{do:publish, wait:Wait}), Seconds).
+
+%   Surely not too big.
+
+fits(Host, Message) :-
+    get_dict(payload, Message, Text),
+    string(Text),
+    string_length(Text, Length),
+    mqtt_default(Host, largest(Largest), 4194304),
+    Length*4 =< Largest.
+
 mqtt_note(Host, Request) :-
     helper_note(mqtt(Host), Request).
 
 typhon_helper_owner:again(mqtt(Host), Request) :-
+    retractall(up(Host)),
     started(Host, _, Request0),
     findall(_{filter:Filter, kind:Kind, qos:2},
             subscription(mqtt, Host, mqtt(Filter, Kind)),
@@ -270,8 +256,10 @@ heard("too_big", Host, Dict) :-
            tell(false, Host, Filter, Kind, too_big(Topic, Size),
                 too_big(Topic, _))).
 heard("down", Host, _) :-
+    retractall(up(Host)),
     print_message(warning, typhon(mqtt_down(Host))).
 heard("up", Host, _) :-
+    assertz(up(Host)),
     print_message(informational, typhon(mqtt_up(Host))).
 heard("refused", Host, _) :-
     print_message(warning, typhon(mqtt_refused(Host))).

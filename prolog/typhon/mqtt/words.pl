@@ -12,7 +12,8 @@
               [ subscribe/5 as subscribe_to, subscriber/2,
                 unsubscribe/4 as unsubscribe_from ]).
 :- use_module(service,
-              [mqtt_ask/3, mqtt_default/3, mqtt_message/5, mqtt_note/2]).
+              [ mqtt_ask/3, mqtt_default/3, mqtt_message/5, mqtt_note/2,
+                mqtt_publish/4 ]).
 :- use_module(topics, [mqtt_filter/2]).
 
 /** <module> What agents can say where there is a broker
@@ -51,7 +52,7 @@ publish(Topic, Payload, Options) :-
     mqtt_default(Host, timeout(Seconds), 10),
     mqtt_message(Topic, Payload, Options, Kind, Message),
     option(wait(Wait), Options, false),
-    mqtt_ask(Host, Message.put(_{do:publish, wait:Wait}), Seconds).
+    mqtt_publish(Host, Message, Wait, Seconds).
 
 %!  subscribe(+Filter) is det.
 %!  subscribe(+Filter, +Options) is det.

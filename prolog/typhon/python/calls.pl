@@ -6,7 +6,6 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../helper', [helper_ask/4, helper_failure/3]).
-:- use_module('../host', [host_option/2]).
 :- use_module('../bridge', [json_value/1, subscriber/2]).
 
 /** <module> Calls of Python functions

@@ -1,7 +1,5 @@
 :- module(typhon_python_service,
-          [ python_start/3,             % +Host, +File, +Options
-            python_stop/1,              % +Host
-            python_begin/2,             % +Host, +Options
+          [ python_begin/2,             % +Host, +Options
             python_load/4,              % +Host, +Request, -PIs, -Clauses
             python_forget/2             % +Host, +Name
           ]).
@@ -13,8 +11,7 @@
               [ helper_close/1, helper_file/2, helper_note/2, helper_open/3,
                 helper_python/2 ]).
 :- use_module('../bridge',
-              [ inbox_put/4, service_begin/4, service_end/2, service_host/2,
-                service_offer/4 ]).
+              [ inbox_put/4, service_begin/4, service_end/2, service_offer/4 ]).
 :- use_module(calls, [python_ask/4, python_functions/4]).
 
 /** <module> Python on a host
@@ -24,6 +21,7 @@ that reads it.
 */
 
 :- multifile
+    typhon_starting:starts/4,
     typhon_helper_answers:heard/2,
     typhon_helper_owner:again/2,
     typhon_options:declared/4,
@@ -36,42 +34,16 @@ that reads it.
 
 load_seconds(30).
 
-%!  python_start(+Host, +File, +Options) is det.
-%
-%   From now on the functions that File, or each of a list of files, defines
-%   are predicates of the place of Host: f(A, B) of Python is f(A, B, Result).
-%   One whose arguments have defaults is several predicates.  Left out are
-%   functions whose names begin with `_` or that come from elsewhere; a file
-%   that has `__all__` offers what is in it.  Files share one process.
-%   Options:
-%
-%     - timeout(Seconds): of each call, default 10
-%     - threads(N): so many calls at a time, default 8
-%     - queue(N): messages that may wait for an agent, default 1000
-%     - python(Program): default see helper_python/2
-%
-%   An agent that waits for a call holds up no other, see `workers` in
-%   doc/architecture.md.  When the process ends calls under way raise an
-%   error, and it is started again.
-%
-%   @error existence_error(source_sink, File), existence_error(host, Host)
-%   @error python_error(Class, Message) if File raises it
-%   @error permission_error(define, vocabulary, PI) if agents know such a
-%          predicate, permission_error(deliver, procedure, PI) if the place
-%          has one
-%   @error permission_error(start, python, Host) if it is started
-
-python_start(Host, Files, Options) :-
+typhon_starting:starts(python, Host, Files, Options) :-
     check_options(python_option, Options),
-    service_host(Host, Name),
     (   is_list(Files)
     ->  maplist(python_file, Files, Loads)
     ;   python_file(Files, Load),
         Loads = [Load]
     ),
-    python_begin(Name, Options),
-    catch(load_all(Loads, Name), Ball,
-          ( python_stop(Name),
+    python_begin(Host, Options),
+    catch(load_all(Loads, Host), Ball,
+          ( service_end(python, Host),
             throw(Ball) )).
 
 python_file(Spec, _{do:load, name:Name, file:File}) :-
@@ -136,15 +108,6 @@ typhon_helper_owner:again(python(Host), Request) :-
 typhon_python_calls:seconds(Host, Seconds) :-
     started(Host, Options),
     option(timeout(Seconds), Options, 10).
-
-%!  python_stop(+Host) is det.
-%
-%   Calls under way raise an error.
-%
-%   @error existence_error(python, Host)
-
-python_stop(Host) :-
-    service_end(python, Host).
 
 typhon_services:ends(python, Host) :-
     helper_close(python(Host)),
