@@ -6,7 +6,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
-:- use_module('../host', [host_resolve/2, remote/2]).
+:- use_module('../host', [host_option/2, host_resolve/2, remote/2]).
 
 /** <module> The beginning and the end of bridges
 
@@ -19,7 +19,9 @@ there.
 
 :- multifile
     starts/4,                   % Bridge, Host, What, Options: of this process
-    stops/2.                    % Bridge, Host
+    stops/2,                    % Bridge, Host
+    delivers/3,                 % Host, Name, Source: a payload that is Python
+    typhon_words:python_delivered/3.
 
 %!  python_start(+Host, +File, +Options) is det.
 %
@@ -103,6 +105,13 @@ mqtt_start(Host, URL, Options) :-
 
 mqtt_stop(Host) :-
     stop(mqtt, Host).
+
+%   Where it is allowed.
+
+typhon_words:python_delivered(Host, Name, Source) :-
+    host_option(Host, python(true)),
+    load(python),
+    delivers(Host, Name, Source).
 
                 /*******************************
                 *        HERE OR ELSEWHERE     *
