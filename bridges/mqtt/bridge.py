@@ -18,6 +18,7 @@ else text.  Events are
     message      topic payload kind qos retain keys, the filters it matches
     too_big      topic size keys
     up, down     the connection
+    denied       filter
 
 What is published while there is no connection is kept, so many messages at
 the most, and so is what comes in a session that the broker has kept before
@@ -110,7 +111,10 @@ class Broker(Helper):
         self.filters = {}               # filter: {kind}, and its qos
         self.matcher = MQTTMatcher()
         self.qos = {}
-        self.acks = {}                  # mid: request, of (un)subscribe
+        self.todo = collections.deque() # filters to be subscribed to
+        self.asked = None               # mid, filter: what the broker decides
+        self.unlucky = {}               # filter: so often the broker hung up
+        self.asking = {}                # filter: requests that wait for it
         self.waits = {}                 # mid: request, of publish
         self.kept = collections.deque()     # published with QoS 0, offline
         self.held = collections.deque()     # came in, nobody wants it yet
@@ -132,6 +136,8 @@ class Broker(Helper):
         if request.get('wait'):
             try:
                 client.connect(*address)
+            except ssl.SSLError as problem:
+                raise Refusal('tls', str(problem)) from None
             except (OSError, ValueError) as problem:
                 raise Refusal('unreachable', str(problem)) from None
             self.connecting = request
@@ -212,21 +218,44 @@ class Broker(Helper):
         with self.lock:
             self.want(wanted, kind, integer(request, 'qos', 0, 2))
             held = self.take_held(wanted)
-            mid = self.ask_for(wanted) if self.connected else None
-            if mid is not None:
-                self.acks[mid] = request
+            connected = self.connected
+            if connected:
+                self.asking.setdefault(wanted, []).append(request)
+                self.todo.append(wanted)
+                self.ask_next()
         for topic, payload, qos, retain in held:
             self.tell(topic, payload, qos, retain)
-        return {} if mid is None else LATER
+        return LATER if connected else {}
 
     def want(self, wanted, kind, qos):
         self.filters.setdefault(wanted, set()).add(kind)
         self.qos[wanted] = max(qos, self.qos.get(wanted, 0))
         self.matcher[wanted] = wanted
 
-    def ask_for(self, wanted):
-        code, mid = self.client.subscribe(wanted, self.qos[wanted])
-        return mid if code == mqtt.MQTT_ERR_SUCCESS else None
+    def ask_next(self):
+        """One filter at a time: the broker may hang up because of it."""
+        while self.todo and self.asked is None and self.connected:
+            wanted = self.todo.popleft()
+            if wanted in self.filters:
+                code, mid = self.client.subscribe(wanted, self.qos[wanted])
+                if code == mqtt.MQTT_ERR_SUCCESS:
+                    self.asked = mid, wanted
+                else:                   # it will be asked for again
+                    self.todo.clear()
+            else:
+                self.decided(wanted, {})
+
+    def decided(self, wanted, answer):
+        for request in self.asking.pop(wanted, []):
+            self.reply(request, answer)
+
+    def deny(self, wanted):
+        if self.filters.pop(wanted, None) is not None:
+            del self.matcher[wanted]
+            del self.qos[wanted]
+        self.unlucky.pop(wanted, None)
+        self.event('denied', filter=wanted)
+        self.decided(wanted, Refusal('denied', 'the broker refuses'))
 
     def do_unsubscribe(self, request, _deadline):
         wanted, kind = text(request, 'filter'), kind_of(request)
@@ -269,10 +298,9 @@ class Broker(Helper):
             return
         with self.lock:
             self.connected = True
-            if not (session_present(flags) and self.clean is False
-                    and connecting is None):
-                for wanted in self.filters:
-                    self.ask_for(wanted)
+            self.asked = None
+            self.todo = collections.deque(self.filters)
+            self.ask_next()
             kept, self.kept = self.kept, collections.deque()
             for one in kept:
                 self.publish(*one)
@@ -284,11 +312,18 @@ class Broker(Helper):
     def went(self, _client, _data, *rest):
         with self.lock:
             was, self.connected = self.connected, False
-            acks, self.acks = self.acks, {}
-        for request in acks.values():   # asked for again, when it comes back
-            self.reply(request, {})
+            if self.asked is not None:
+                self.hung_up(self.asked[1])
         if was:
             self.event('down')
+
+    def hung_up(self, wanted):
+        """It may be because of that filter."""
+        self.unlucky[wanted] = self.unlucky.get(wanted, 0) + 1
+        if self.unlucky[wanted] > 1:
+            self.deny(wanted)
+        elif wanted in self.filters:    # the last, next time
+            self.filters[wanted] = self.filters.pop(wanted)
 
     def published(self, _client, _data, mid, *_):
         with self.lock:
@@ -298,14 +333,15 @@ class Broker(Helper):
 
     def subscribed(self, _client, _data, mid, codes, *_):
         with self.lock:
-            request = self.acks.pop(mid, None)
-        if request is None:
-            return
-        if number(codes[0]) >= 128:
-            self.do_unsubscribe(request, None)
-            self.reply(request, Refusal('denied', 'the broker refuses'))
-        else:
-            self.reply(request, {})
+            if self.asked is None or self.asked[0] != mid:
+                return
+            wanted, self.asked = self.asked[1], None
+            if number(codes[0]) >= 128:
+                self.deny(wanted)
+            else:
+                self.unlucky.pop(wanted, None)
+                self.decided(wanted, {})
+            self.ask_next()
 
     def unsubscribed(self, *_):
         pass
