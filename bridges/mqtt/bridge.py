@@ -150,7 +150,7 @@ class Broker(Helper):
     def set_up(self, client, request):
         client.max_queued_messages_set(self.pending)
         client.max_inflight_messages_set(100)
-        client.reconnect_delay_set(1, 30)
+        client.reconnect_delay_set(0.25, 30)
         if request.get('user') is not None:
             client.username_pw_set(request['user'], request.get('password'))
         will = request.get('will')

@@ -10,12 +10,14 @@ that use it.
 :- needs([mqtt]).
 :- use_module('../../lib/brokers').
 :- use_module('../../lib/fixtures').
+:- use_module('../../lib/transcript', [transcript_differences/3]).
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_socket/1 ]).
 :- use_module(library(typhon)).
@@ -471,6 +473,9 @@ no_paho(E, Dir) :-
 
 :- begin_tests(mqtt_brokers).
 
+test(the_document_shows_what_happens, Differences == []) :-
+    with_tmp_dir(document(Differences)).
+
 test(stopped_and_started, Ps == ["1","2","3","4"]) :-
     with_broker([], B, stopped_and_started(B, Ps)).
 test(too_much_is_kept, E == resource_error(mqtt_pending)) :-
@@ -530,6 +535,34 @@ test(tls, [Es,Rs] == [[mqtt_error(tls, alpha)], [ok,ok]]) :-
     with_tmp_dir(tls(Es, Rs)).
 test(denied, E == permission_error(subscribe, mqtt_filter, 'no/thing')) :-
     with_tmp_dir(denied(E)).
+
+%   With another broker than that of this machine.
+
+document(Differences, Dir) :-
+    project_file('doc/bridges.md', Document),
+    read_file_to_string(Document, Text, [encoding(utf8)]),
+    section(Text, "```prolog\n% thermostat.pl\n", Program),
+    section(Text, "```text\n?- host_start(alpha), mqtt_start", Session0),
+    directory_file_path(Dir, 'thermostat.pl', File),
+    setup_call_cleanup(open(File, write, Out),
+                       write(Out, Program),
+                       close(Out)),
+    with_broker([], B,
+                ( broker_url(B, URL),
+                  atomic_list_concat(Parts, 'mqtt://localhost', Session0),
+                  atomic_list_concat(Parts, URL, Session),
+                  string_concat("?- host_start(alpha), mqtt_start", Session,
+                                All),
+                  split_string(All, "\n", "", Lines),
+                  transcript_differences([1-Lines], Dir, Differences) )).
+
+section(Text, Begin, Section) :-
+    sub_string(Text, At, Length, _, Begin),
+    Start is At+Length,
+    sub_string(Text, Start, _, 0, Rest),
+    sub_string(Rest, End, _, _, "\n```"),
+    !,
+    sub_string(Rest, 0, End, _, Section).
 
 killed :-
     typhon_helper_requests:helper_pid(mqtt(alpha), Pid),
@@ -641,10 +674,12 @@ line_in(Dir, Format, Line) :-
 
 certificates(Dir) :-
     forall(member(Args,
-                  [ [req, '-x509', '-newkey', 'rsa:2048', '-nodes',
+                  [ [req, '-x509', '-newkey', ec, '-pkeyopt',
+                     'ec_paramgen_curve:P-256', '-nodes',
                      '-keyout', 'ca.key', '-out', 'ca.pem', '-days', 2,
                      '-subj', '/CN=Test CA'],
-                    [req, '-newkey', 'rsa:2048', '-nodes', '-keyout',
+                    [req, '-newkey', ec, '-pkeyopt',
+                     'ec_paramgen_curve:P-256', '-nodes', '-keyout',
                      'key.pem', '-out', 'req.pem', '-subj', '/CN=localhost'],
                     [x509, '-req', '-in', 'req.pem', '-CA', 'ca.pem',
                      '-CAkey', 'ca.key', '-CAcreateserial', '-days', 2,
