@@ -50,7 +50,7 @@ file(Dir, Name, Lines, File) :-
 :- begin_tests(python_values).
 
 test(there_and_back) :-
-    Values = [ 1, -7, 1267650600228229401496703205376, 0.5, "text", "", "ä\n\"",
+    Values = [ 1, -7, 1267650600228229401496703205376, 0.5, "text", "", "\u00e4\n\"",
                [], [1,["a"]], _{a:1, b:_{c:[]}}, null, true, false ],
     with_python([], forall(member(V, Values),
                            ( remote(alpha, echo(V, R)),
