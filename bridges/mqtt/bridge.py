@@ -203,7 +203,7 @@ class Broker(Helper):
         if len(payload) > self.largest:
             raise Refusal('too_big', '%d bytes' % len(payload))
         with self.lock:
-            if not self.connected and qos == 0:
+            if qos == 0 and (self.kept or not self.connected):
                 self.keep(topic, payload, retain, wait and request)
             else:
                 self.publish(topic, payload, qos, retain, wait and request)
@@ -214,6 +214,11 @@ class Broker(Helper):
         if len(self.kept) >= self.pending:
             raise Refusal('full', 'too much is kept for the broker')
         self.kept.append((topic, payload, 0, retain, waiting))
+
+    def send_kept(self):
+        """What was kept, when all that is wanted here can come."""
+        while self.kept and self.connected and self.asked is None:
+            self.publish(*self.kept.popleft())
 
     def publish(self, topic, payload, qos, retain, waiting):
         try:
@@ -318,9 +323,7 @@ class Broker(Helper):
             self.asked = None
             self.todo = collections.deque(self.filters)
             self.ask_next()
-            kept, self.kept = self.kept, collections.deque()
-            for one in kept:
-                self.publish(*one)
+            self.send_kept()
         if connecting:
             self.reply(connecting,
                        {'session': session_present(flags)})
@@ -359,6 +362,7 @@ class Broker(Helper):
                 self.unlucky.pop(wanted, None)
                 self.decided(wanted, {})
             self.ask_next()
+            self.send_kept()
 
     def unsubscribed(self, *_):
         pass
