@@ -218,7 +218,11 @@ class Broker(Helper):
     def send_kept(self):
         """What was kept, when all that is wanted here can come."""
         while self.kept and self.connected and self.asked is None:
-            self.publish(*self.kept.popleft())
+            try:
+                if not self.publish(*self.kept.popleft()):
+                    return
+            except (BadRequest, Refusal) as problem:
+                self.event('untold', message=str(problem))
 
     def publish(self, topic, payload, qos, retain, waiting):
         try:
@@ -226,14 +230,16 @@ class Broker(Helper):
         except ValueError as problem:
             raise BadRequest(str(problem)) from None
         if info.rc == mqtt.MQTT_ERR_NO_CONN and qos == 0:
-            self.keep(topic, payload, retain, waiting)
-        elif info.rc == mqtt.MQTT_ERR_QUEUE_SIZE:
+            self.kept.appendleft((topic, payload, qos, retain, waiting))
+            return False                # until it comes back
+        if info.rc == mqtt.MQTT_ERR_QUEUE_SIZE:
             raise Refusal('full', 'too much is kept for the broker')
         elif waiting:
             if qos == 0 or info.is_published():
                 self.reply(waiting, {})
             else:
                 self.waits[info.mid] = waiting
+        return True
 
     def do_subscribe(self, request, _deadline):
         wanted, kind = text(request, 'filter'), kind_of(request)

@@ -108,18 +108,13 @@ test(retained) :-
                  message(r, "second", [qos(0),retain(false)]) ],
     assertion(As == Expected),
     assertion(Bs == Expected).
-test(filters, Topics == [a, 'a/b', 'a/b/c', 'x/b', end]) :-
-    at_broker([], ( reader(( subscribe('a/#'), subscribe('+/b'),
-                             subscribe(end) ), 5, A0),
-                    forall(member(T, [a, b, 'x/b', 'a/b/c', 'x/b/c']),
-                           says(T, m)),
-                    remote(alpha, publish('a/b', m)),
-                    says(end, m),
-                    joined_topics(A0, Topics0) )),
-    msort(Topics0, Sorted),
-    msort([a, 'a/b', 'a/b', 'a/b/c', 'x/b'], Some),
-    ( Sorted == Some -> Topics = [a, 'a/b', 'a/b/c', 'x/b', end]
-    ; Topics = Sorted ).
+test(filters, Topics == [a, 'a/b', 'a/b', 'a/b/c', 'x/b']) :-
+    at_broker([], ( reader(( subscribe('a/#'), subscribe('+/b') ), 5, A),
+                    forall(member(T, [a, b, 'x/b', 'a/b/c', 'x/b/c', 'a/b']),
+                           remote(alpha, publish(T, m))),
+                    got(A, Ms) )),
+    findall(T, member(message(T, _, _), Ms), Topics0),
+    msort(Topics0, Topics).
 test(everybody_who_wants_it, Counts == [1,1,1]) :-
     at_broker([], ( maplist(reader_of, ['e/x','e/x','e/+'], As),
                     says('e/x', m),
@@ -223,10 +218,6 @@ test(a_thousand_in_order, Ps == Expected) :-
 mail_or_taken(Agent) :-
     agent_property(Agent, state(waiting)),
     agent_property(Agent, mailbox([])).
-
-joined_topics(Agent, Topics) :-
-    got(Agent, Ms),
-    findall(T, member(message(T, _, _), Ms), Topics).
 
 reader_of(Filter, Agent) :-
     reader(subscribe(Filter), 1, Agent).
