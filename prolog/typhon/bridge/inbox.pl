@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module('../host',
-              [ event/4, events_hear/3, events_unhear/3, host/3,
+              [ event/4, events_hear/3, events_unheard/1, host/3,
                 tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent', [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
 
@@ -96,15 +96,14 @@ gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
 add(gap(Agent, Service, Key, Host, Max), Count) :-
     (   gap(_, _, _, Host, _, _)
     ->  true
-    ;   events_unhear([messages], Host, inbox),
-        events_hear([messages], Host, inbox)
+    ;   events_hear([messages], Host, inbox(Host))
     ),
     assertz(gap(Agent, Service, Key, Host, Max, Count)).
 
 unheard(gap(_, _, _, Host, _)) :-
     (   gap(_, _, _, Host, _, _)
     ->  true
-    ;   events_unhear([messages], Host, inbox)
+    ;   events_unheard(inbox(Host))
     ).
 
 %!  gap_forget(+Service, +Key, +Agent) is det.
@@ -119,7 +118,7 @@ gap_forget(Service, Key, Agent) :-
     ;   with_mutex(typhon_inbox, unheard(Gap))
     ).
 
-typhon_events:told(inbox, Host, Agent, received(_, _)) :-
+typhon_events:told(inbox(_), Host, Agent, received(_, _)) :-
     gap(Agent, Service, Key, Host, Max, _),
     with_agent(Agent, mail_count(Agent, Waiting)),
     Waiting =< Max//2,

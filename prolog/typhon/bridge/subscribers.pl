@@ -20,7 +20,7 @@
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../host',
               [ context_agent/1, context_now/2, events_hear/3,
-                events_unhear/3 ]).
+                events_unheard/1 ]).
 :- use_module('../agent', [agent/5]).
 :- use_module(inbox, [gap_forget/3, inbox_put/4]).
 
@@ -196,17 +196,17 @@ hear(Host) :-
     (   hearing(Host)
     ->  true
     ;   assertz(hearing(Host)),
-        events_hear([life,hops], Host, subscribers)
+        events_hear([life,bad_ends,hops], Host, subscribers(Host))
     ).
 
 deafen(Host) :-
     (   subscribed(_, _, _, Host, _)
     ->  true
     ;   retractall(hearing(Host)),
-        events_unhear([life,hops], Host, subscribers)
+        events_unheard(subscribers(Host))
     ).
 
-typhon_events:told(subscribers, Host, Agent, What) :-
+typhon_events:told(subscribers(_), Host, Agent, What) :-
     happens(What, Host, Agent).
 
 happens(left(_), Host, Agent) =>

@@ -254,7 +254,8 @@ test(stuck) :-
     with_python([timeout(0.2)],
                 listening(( pid(Pid),
                             process_kill(Pid, stop),
-                            error_of(echo(1, _), E),
+                            wait_until(( error_of(echo(1, _), E),
+                                         E \== none ), 10),
                             wait_until(again, 10) ), _)),
     assertion(E == helper_died(stuck, python(alpha))).
 test(stopped_while_one_waits, E == closed) :-
