@@ -333,7 +333,7 @@ class Broker(Helper):
         if connecting:
             self.reply(connecting,
                        {'session': session_present(flags)})
-        self.event('up')
+        self.event('up', again=bool(self.filters))
 
     def went(self, _client, _data, *rest):
         with self.lock:

@@ -1,6 +1,7 @@
 :- module(typhon_inbox,
           [ inbox_put/4,                % +How, +Source, +Whom, +What
-            gap_forget/3                % +Service, +Key, +Agent
+            gap_forget/3,               % +Service, +Key, +Agent
+            inbox_key/2                 % +Key, -Text
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module('../host',
@@ -23,7 +24,7 @@ runs an agent hears that it takes a message, while there are gaps.
 :- multifile typhon_events:told/4.
 
 :- dynamic
-    gap/6.                      % Agent, Service, Key, Host, Max, Count
+    gap/7.                      % Agent, Service, Text, Host, Max, Count, Key
 
 %!  inbox_put(+How, +Source, +Whom, +What) is semidet.
 %
@@ -86,25 +87,38 @@ done(full, Gap, Count0) :-
 %   Who has taken a gap tells of it, or puts it back.
 
 gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
-    (   gap(Agent, Service, Key, _, _, _),
+    (   gap(Agent, Service, _, _, _, _, _),
+        inbox_key(Key, Text),
         with_mutex(typhon_inbox,
-                   retract(gap(Agent, Service, Key, Host, Max, Count0)))
+                   retract(gap(Agent, Service, Text, Host, Max, Count0, _)))
     ->  Count = Count0
     ;   Count = 0
     ).
 
 add(gap(Agent, Service, Key, Host, Max), Count) :-
-    (   gap(_, _, _, Host, _, _)
+    (   gap(_, _, _, Host, _, _, _)
     ->  true
     ;   events_hear([messages], Host, inbox(Host))
     ),
-    assertz(gap(Agent, Service, Key, Host, Max, Count)).
+    inbox_key(Key, Text),
+    assertz(gap(Agent, Service, Text, Host, Max, Count, Key)).
 
 unheard(gap(_, _, _, Host, _)) :-
-    (   gap(_, _, _, Host, _, _)
+    (   gap(_, _, _, Host, _, _, _)
     ->  true
     ;   events_unheard(inbox(Host))
     ).
+
+%!  inbox_key(+Key, -Text:atom) is det.
+%
+%   Tables that threads share are asked by atoms: an index on compound terms
+%   is not safe, see typhon_agents.
+
+inbox_key(Key, Key) :-
+    atom(Key),
+    !.
+inbox_key(Key, Text) :-
+    format(atom(Text), '~q', [Key]).
 
 %!  gap_forget(+Service, +Key, +Agent) is det.
 %
@@ -119,7 +133,7 @@ gap_forget(Service, Key, Agent) :-
     ).
 
 typhon_events:told(inbox(_), Host, Agent, received(_, _)) :-
-    gap(Agent, Service, Key, Host, Max, _),
+    gap(Agent, Service, _, Host, Max, _, Key),
     with_agent(Agent, mail_count(Agent, Waiting)),
     Waiting =< Max//2,
     Gap = gap(Agent, Service, Key, Host, Max),

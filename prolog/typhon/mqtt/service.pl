@@ -35,7 +35,10 @@ it.
 
 :- dynamic
     started/3,                  % Host, Options, Request: to connect
-    up/1.                       % Host: there is a connection
+    up/2.                       % Host, Since: there is a connection; Since
+                                % is 0 if nobody can have missed anything
+
+missed_seconds(5).              % in which what is retained comes again
 
 typhon_starting:starts(mqtt, Host, URL, Options) :-
     check_options(mqtt_option, Options),
@@ -149,7 +152,7 @@ typhon_services:ends(mqtt, Host) :-
     ignore(catch(helper_close(mqtt(Host)),
                  error(existence_error(_, _), _), true)),
     retractall(started(Host, _, _)),
-    retractall(up(Host)).
+    retractall(up(Host, _)).
 
 %!  mqtt_default(+Host, +Option, +Default) is det.
 %
@@ -207,7 +210,7 @@ formal(timeout, Host, Request, timeout_error(mqtt(What), Host)) :-
 
 mqtt_publish(Host, Message, false, _) :-
     get_dict(qos, Message, 0),
-    up(Host),
+    up(Host, _),
     fits(Host, Message),
     !,
     helper_tell(mqtt(Host), Message.put(_{do:publish, wait:false})).
@@ -227,7 +230,7 @@ mqtt_note(Host, Request) :-
     helper_note(mqtt(Host), Request).
 
 typhon_helper_owner:again(mqtt(Host), Request) :-
-    retractall(up(Host)),
+    retractall(up(Host, _)),
     started(Host, _, Request0),
     findall(_{filter:Filter, kind:Kind, qos:2},
             subscription(mqtt, Host, mqtt(Filter, Kind)),
@@ -261,10 +264,15 @@ heard("denied", Host, Dict) :-
     forall(subscription(mqtt, Host, mqtt(Filter, Kind)),
            subscribers_drop(mqtt, Host, mqtt(Filter, Kind), denied(Filter))).
 heard("down", Host, _) :-
-    retractall(up(Host)),
+    retractall(up(Host, _)),
     print_message(warning, typhon(mqtt_down(Host))).
-heard("up", Host, _) :-
-    assertz(up(Host)),
+heard("up", Host, Dict) :-
+    get_time(Now),
+    (   get_dict(again, Dict, true)
+    ->  Since = Now
+    ;   Since = 0
+    ),
+    assertz(up(Host, Since)),
     print_message(informational, typhon(mqtt_up(Host))).
 heard("refused", Host, _) :-
     print_message(warning, typhon(mqtt_refused(Host))).
@@ -272,10 +280,19 @@ heard("refused", Host, _) :-
 tell(Retain, Host, Filter0, Kind0, Message, Same) :-
     atom_string(Filter, Filter0),
     atom_string(Kind, Kind0),
-    (   Retain == true
+    (   Retain == true,
+        \+ came_back(Host)
     ->  subscribers_tell_new(mqtt, Host, mqtt(Filter, Kind), Message, Same)
     ;   subscribers_tell(mqtt, Host, mqtt(Filter, Kind), Message, Same)
     ).
+
+%   What is retained may have changed meanwhile, so all want it.
+
+came_back(Host) :-
+    up(Host, Since),
+    missed_seconds(Seconds),
+    get_time(Now),
+    Now-Since < Seconds.
 
                 /*******************************
                 *           MESSAGES           *

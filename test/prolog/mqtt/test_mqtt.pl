@@ -470,6 +470,8 @@ test(the_document_shows_what_happens, Differences == []) :-
 
 test(stopped_and_started, Ps == ["1","2","3","4"]) :-
     with_broker([], B, stopped_and_started(B, Ps)).
+test(what_is_retained_comes_again, Ps == ["1","2"]) :-
+    with_broker([], B, retained_anew(B, Ps)).
 test(too_much_is_kept, E == resource_error(mqtt_pending)) :-
     with_broker([], B,
                 with_mqtt(B, [pending(3)],
@@ -561,10 +563,10 @@ killed :-
     process_kill(Pid, kill).
 
 down :-
-    \+ typhon_mqtt_service:up(alpha).
+    \+ typhon_mqtt_service:up(alpha, _).
 
 up :-
-    typhon_mqtt_service:up(alpha).
+    typhon_mqtt_service:up(alpha, _).
 
 fill(0, none) :-
     !.
@@ -593,6 +595,21 @@ stopped_and_started(B, Ps) :-
                 remote(alpha, findall(P, sense(mqtt-message(s, P, _)),
                                       Ps0)) )),
     msort(Ps0, Ps).
+
+%   Who has subscribed long before the other wants to know, too.
+
+retained_anew(B, Ps) :-
+    with_mqtt(B, [],
+              ( reader(subscribe(r), 2, A),
+                remote(alpha, publish(r, 1, [retain(true),wait(true)])),
+                sleep(1.1),
+                reader(subscribe(r), 2, _),
+                broker_signal(B, term),
+                wait_until(down, 10),
+                broker_again(B),
+                stranger_says(B, r, ['-m', 2, '-r', '-q', 1]),
+                got(A, Ms) )),
+    findall(P, member(message(_, P, _), Ms), Ps).
 
 came(Payload) :-
     remote(alpha, sense(mqtt-message(s, Payload, _))).
