@@ -325,7 +325,7 @@ class Broker(Helper):
                 self.event('refused', reason=code)
             return
         with self.lock:
-            self.connected = True
+            self.connected, again = True, bool(self.filters)
             self.asked = None
             self.todo = collections.deque(self.filters)
             self.ask_next()
@@ -333,7 +333,7 @@ class Broker(Helper):
         if connecting:
             self.reply(connecting,
                        {'session': session_present(flags)})
-        self.event('up', again=bool(self.filters))
+        self.event('up', again=again)
 
     def went(self, _client, _data, *rest):
         with self.lock:

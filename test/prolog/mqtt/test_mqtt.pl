@@ -563,10 +563,10 @@ killed :-
     process_kill(Pid, kill).
 
 down :-
-    \+ typhon_mqtt_service:up(alpha, _).
+    \+ typhon_mqtt_incoming:up(alpha, _).
 
 up :-
-    typhon_mqtt_service:up(alpha, _).
+    typhon_mqtt_incoming:up(alpha, _).
 
 fill(0, none) :-
     !.
