@@ -6,6 +6,7 @@
             mqtt_message/5              % +Topic, +Payload, +Options, +Kind,
                                         % -Message
           ]).
+:- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
@@ -150,10 +151,14 @@ typhon_services:ends(mqtt, Host) :-
 %!  mqtt_default(+Host, +Option, +Default) is det.
 %
 %   As option/3, of what Host was started with.
+%
+%   @error existence_error(mqtt, Host) if it was stopped meanwhile
 
 mqtt_default(Host, Option, Default) :-
-    started(Host, Options, _),
-    option(Option, Options, Default).
+    (   started(Host, Options, _)
+    ->  option(Option, Options, Default)
+    ;   existence_error(mqtt, Host)
+    ).
 
                 /*******************************
                 *           REQUESTS           *
