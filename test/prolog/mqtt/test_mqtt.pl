@@ -445,6 +445,8 @@ wrong(_, subscribe('', [as(fact)]), domain_error(mqtt_filter, _)).
 wrong(_, subscribe(7), type_error(text, 7)).
 wrong(_, subscribe(a), existence_error(running_agent, here)).
 wrong(_, subscribe(a, [as(song)]), _).
+wrong(_, subscribe(a, song), type_error(list, song)).
+wrong(_, publish(a, b, song), type_error(list, song)).
 wrong(_, subscribe(a, [queue(0)]), type_error(_, 0)).
 wrong(_, subscribe(a, [colour(red)]), domain_error(subscription_option, _)).
 wrong(_, unsubscribe(a), existence_error(mqtt_subscription, a)).
