@@ -186,6 +186,11 @@ class Helper:
 
     # What a helper may do in its own way
 
+    needed = ()                             # what later requests may need
+
+    def coming(self, request):
+        """One of these will be done, and was asked before what follows."""
+
     def do(self, request, deadline):
         """The answer to a request."""
         what = request.get('do')
@@ -237,8 +242,13 @@ class Helper:
                 self.quitting = True
                 self.drop_requests()
             job = Job(number, request, deadline)
-            if number is None:
+            needed = request.get('do') in self.needed
+            if needed:
+                self.coming(request)
+            if number is None or needed:
                 self.requests.put(job)      # who only tells waits for room
+                if self.watch and number is not None:
+                    self.watch.add(job)
             else:
                 self.requests.put_nowait(job)
                 if self.watch:

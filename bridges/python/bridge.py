@@ -23,6 +23,7 @@ A module may `import typhon`:
 """
 
 import argparse
+import collections
 import collections.abc
 import dataclasses
 import importlib.util
@@ -30,6 +31,7 @@ import inspect
 import os
 import sys
 import threading
+import time
 import types
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)),
@@ -94,9 +96,13 @@ def arities(function):
 
 
 class Functions(Helper):
+    needed = ('load',)
+
     def __init__(self, threads):
         super().__init__(threads=threads, longest_queue=10000)
         self.modules = {}
+        self.loads, self.loading = threading.Condition(), \
+            collections.Counter()
         self.callers = threading.local()
         self.offer_module()
 
@@ -120,7 +126,27 @@ class Functions(Helper):
     def leave(self, fact):
         self.event('leave', fact=plain(fact))
 
+    def coming(self, request):
+        with self.loads:
+            self.loading[str(request.get('name'))] += 1
+
     def do_load(self, request, _deadline):
+        try:
+            return self.load(request)
+        finally:
+            with self.loads:
+                self.loading[str(request.get('name'))] -= 1
+                self.loads.notify_all()
+
+    def module(self, name, deadline):
+        """The module, when those that were to be loaded before are."""
+        with self.loads:
+            self.loads.wait_for(lambda: name in self.modules
+                                or self.loading[name] <= 0,
+                                deadline - time.monotonic())
+            return self.modules.get(name)
+
+    def load(self, request):
         name = text(request, 'name')
         try:
             if 'source' in request:
@@ -154,8 +180,8 @@ class Functions(Helper):
         self.modules.pop(text(request, 'name'), None)
         return {}
 
-    def do_call(self, request, _deadline):
-        module = self.modules.get(text(request, 'module'))
+    def do_call(self, request, deadline):
+        module = self.module(text(request, 'module'), deadline)
         function = getattr(module, text(request, 'function'), None)
         arguments = request.get('args')
         if function is None or not isinstance(arguments, list):

@@ -262,6 +262,8 @@ test(crash_again_and_again, R == 5) :-
                                    ( error_of(leave_process(1, _), _),
                                      wait_until(again, 10) )),
                             remote(alpha, echo(5, R)) ), _)).
+test(what_is_asked_while_it_is_started_again_waits_for_its_functions, R == 2) :-
+    with_tmp_dir(slow_to_load(R)).
 test(stuck) :-
     with_python([timeout(0.2)],
                 listening(( pid(Pid),
@@ -291,6 +293,15 @@ test(the_host_stops_while_one_waits, Outcome == disposed) :-
                  wait_until(waits, 10),
                  host_stop(alpha),
                  joined(Agent, Outcome) )).
+
+slow_to_load(R, Dir) :-
+    file(Dir, 'slow.py',
+         ["import os, time", "time.sleep(0.5)",
+          "def give_up(): os._exit(1)", "def twice(n): return 2*n"], File),
+    with_hosts([alpha],
+               ( python_start(alpha, File, []),
+                 listening(( error_of(give_up(_), _),
+                             remote(alpha, twice(1, R)) ), _) )).
 
 again :-
     catch(remote(alpha, echo(2, 2)), error(_, _), fail).
