@@ -15,7 +15,7 @@ This is the door of the layer: who is above takes what it needs from here.
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
 :- reexport(host/events,
             [ event/4, event_heard/1, events_forget/1, events_hear/3,
-              host_log/3, host_logs/1 ]).
+              events_unhear/3, host_log/3, host_logs/1 ]).
 :- reexport(host/place,
             [ place_deliver/3, place_undeliver/2, tuple_leave/2,
               tuple_leave_new/2, tuple_sense/2, tuple_take/2

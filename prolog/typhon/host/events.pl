@@ -2,6 +2,7 @@
           [ event/4,                    % +Kind, +Host, +Agent, +What
             event_heard/1,              % +Kind
             events_hear/3,              % +Kinds, +Key, +Listener
+            events_unhear/3,            % +Kinds, +Key, +Listener
             events_forget/1,            % +Key
             events_log/1,               % +Host
             host_log/3,                 % +Host, +Agent, +What
@@ -85,13 +86,18 @@ tell_one(Listener, Host, Agent, What) :-
           print_message(warning, error(Formal, Context))).
 
 %!  events_hear(+Kinds:list, +Key, +Listener) is det.
+%!  events_unhear(+Kinds:list, +Key, +Listener) is det.
 %!  events_forget(+Key) is det.
 %
 %   Listener, of which told/4 knows, hears of events of Kinds on a host, or
-%   of an agent, Key; nobody listens any more to what happens to Key.
+%   of an agent, Key, or no longer; nobody listens any more to what happens
+%   to Key.
 
 events_hear(Kinds, Key, Listener) :-
     forall(member(Kind, Kinds), assertz(hears(Kind, Key, Listener))).
+
+events_unhear(Kinds, Key, Listener) :-
+    forall(member(Kind, Kinds), retractall(hears(Kind, Key, Listener))).
 
 events_forget(Key) :-
     (   hears(_, _, _)
