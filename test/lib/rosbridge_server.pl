@@ -12,7 +12,7 @@
 :- use_module(library(http/http_stream), []).
 :- use_module(library(http/thread_httpd)).
 :- use_module(library(http/websocket)).
-:- use_module(library(lists), [member/2, memberchk/2, sum_list/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module('../../prolog/typhon/base/json', [atom_json_dict/3]).
 
 /** <module> A stand-in for rosbridge_server
@@ -53,7 +53,7 @@ with_rosbridge(URL, Goal) :-
 
 rosbridge_begin(Port, URL) :-
     rosbridge_forget,
-    http_server(http_dispatch, [port(localhost:Port), workers(1)]),
+    http_server(http_dispatch, [port(localhost:Port), workers(1), silent(true)]),
     format(atom(URL), 'ws://localhost:~d/', [Port]).
 
 rosbridge_end(URL) :-
@@ -265,8 +265,11 @@ respond(Client, Service, Id, Values, Result) :-
 call_service("/add_two_ints", Client, Id, Frame) :-
     !,
     object(Frame, args, Args),
-    (   catch(Sum is Args.a+Args.b, error(_, _), fail)
-    ->  respond(Client, "/add_two_ints", Id, _{sum:Sum}, true)
+    (   _{a:A, b:B} :< Args,
+        integer(A),
+        integer(B)
+    ->  Sum is A+B,
+        respond(Client, "/add_two_ints", Id, _{sum:Sum}, true)
     ;   respond(Client, "/add_two_ints", Id,
                 "Field a or b is not an integer", false)
     ).
@@ -303,8 +306,8 @@ goal(Action, Client, Id, _, _) :-
     say(Client, _{ op:action_result, id:Id, action:Action, status:0,
                    values:"No action server available", result:false }).
 
-fibonacci(_, _, Reversed, _, Id, _, 5, Sequence) :-
-    cancelled(Id),
+fibonacci(_, _, Reversed, Client, Id, _, 5, Sequence) :-
+    ( cancelled(Id) ; \+ client(Client, _) ),
     !,
     reverse(Reversed, Sequence).
 fibonacci(N, Order, Reversed, _, _, _, 4, Sequence) :-

@@ -1,6 +1,5 @@
 :- module(typhon_ros_frames,
           [ op_frame/2,                 % +Op, -Frame
-            op_undone/2,                % +Op, -Op
             frame_event/2               % +Frame, -Event
           ]).
 
@@ -17,15 +16,16 @@ Messages in them are as value_json/2 makes them.
 %!  op_frame(+Op, -Frame:dict) is det.
 
 op_frame(advertise(Topic, Type),
-         _{op:advertise, topic:Topic, type:Type}).
-op_frame(unadvertise(Topic),
-         _{op:unadvertise, topic:Topic}).
+         _{op:advertise, id:Id, topic:Topic, type:Type}) :-
+    atom_concat('advertise:', Topic, Id).
 op_frame(publish(Id, Topic, Message),
          _{op:publish, id:Id, topic:Topic, msg:Message}).
 op_frame(subscribe(Topic, Type),
-         _{op:subscribe, topic:Topic, type:Type}).
+         _{op:subscribe, id:Id, topic:Topic, type:Type}) :-
+    atom_concat('subscribe:', Topic, Id).
 op_frame(unsubscribe(Topic),
-         _{op:unsubscribe, topic:Topic}).
+         _{op:unsubscribe, id:Id, topic:Topic}) :-
+    atom_concat('subscribe:', Topic, Id).
 op_frame(call(Id, Service, Type, Args, Seconds),
          _{ op:call_service, id:Id, service:Service, type:Type, args:Args,
             timeout:Seconds }).
@@ -41,15 +41,6 @@ op_frame(goal(Id, Action, Type, Goal),
             args:Goal, feedback:true }).
 op_frame(cancel(Id, Action),
          _{op:cancel_action_goal, id:Id, action:Action}).
-
-%!  op_undone(+Op, -Undo) is semidet.
-%
-%   Op holds until Undo is said, and has to be said again to a server that
-%   has forgotten us.
-
-op_undone(advertise(Topic, _), unadvertise(Topic)).
-op_undone(subscribe(Topic, _), unsubscribe(Topic)).
-op_undone(offer(Service, _), withdraw(Service)).
 
 %!  frame_event(+Frame:dict, -Event) is det.
 %

@@ -115,7 +115,8 @@ rosbridge_close(Host) :-
 
 close_down(Host, Reader) :-
     thread_self(Me),
-    thread_send_message(Reader, stop(Me)),
+    catch(thread_send_message(Reader, stop(Me)),
+          error(existence_error(_, _), _), true),
     (   farewell(Host),
         bye_seconds(Seconds),
         thread_get_message(Me, stopped(Reader), [timeout(Seconds)])
@@ -141,7 +142,8 @@ connected(Link, Wait) :-
     Link = link(Host, URL, Silence, Asker),
     catch(socket_open(URL, Silence, Socket), error(Formal, Context), true),
     (   nonvar(Socket)
-    ->  served(Link, Socket),
+    ->  catch(served(Link, Socket), error(Kind, Where),
+              print_message(error, error(Kind, Where))),
         first_wait(Pause)
     ;   tell(Asker, error(Formal, Context)),
         debug(typhon(ros), '~w: ~w is not there: ~p', [Host, URL, Formal]),
@@ -176,10 +178,10 @@ served(Link, Socket) :-
     debug(typhon(ros), '~w: the connection has ended: ~p', [Host, Why]),
     ignore(down(Host, Why)).
 
-served_until(link(Host, _, _, Asker), Socket, Writer, Why) :-
+served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
     assertz(writer(Host, Writer)),
     tell(Asker, true),
-    forall(up(Host, Frame), rosbridge_send(Host, Frame, inf)),
+    forall(up(Host, Frame), rosbridge_send(Host, Frame, Silence)),
     catch(read_on(Host, Socket, Why), error(Why, _), true).
 
 read_on(Host, Socket, Why) :-

@@ -3,8 +3,7 @@
             json_value/3                % +Form, +JSON, -Message
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(error),
-              [instantiation_error/1, must_be/2, type_error/2]).
+:- use_module(library(error), [instantiation_error/1, must_be/2, type_error/2]).
 
 /** <module> Messages as terms
 
@@ -24,7 +23,7 @@ asked for, a list of Name=Value in the order of the names.
 %   @error duplicate_key(Field)
 
 value_json(Message, JSON) :-
-    must_be(ground, Message),
+    must_be(nonvar, Message),
     (   message(Message, JSON0)
     ->  JSON = JSON0
     ;   type_error(ros_message, Message)
@@ -45,6 +44,7 @@ message(Fields, JSON) :-
     dict_pairs(JSON, _, Pairs).
 
 field(Field, Name-Value) :-
+    must_be(nonvar, Field),
     name_value(Field, Name, Value0),
     atom(Name),
     value(Value0, Value).
@@ -55,6 +55,10 @@ name_value(Field, Name, Value) :-
     compound(Field),
     compound_name_arguments(Field, Name, [Value]).
 
+value(Value, _) :-
+    var(Value),
+    !,
+    instantiation_error(Value).
 value(Number, Number) :-
     integer(Number),
     !.
