@@ -10,7 +10,7 @@ real one would not.
 :- use_module('../../lib/ros_agents').
 :- use_module('../../lib/rosbridge_server').
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
+:- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/ros)).
