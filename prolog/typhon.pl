@@ -11,6 +11,7 @@ layer has a door, and behind it a folder with its rooms.
   | what agents can say            | typhon/language   |
   | networks, the log server       | typhon/network    |
   | tables for people              | typhon/people     |
+  | Python, MQTT                   | typhon/bridge     |
 */
 
 :- reexport(typhon/program, [agent_check/1]).
@@ -21,4 +22,6 @@ layer has a door, and behind it a folder with its rooms.
 :- reexport('typhon/lifecycle', except([agent_glance/2])).
 :- reexport('typhon/network').
 :- reexport('typhon/people').
+:- reexport(typhon/bridge/starting,
+            [mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1]).
 :- use_module(typhon/language, []).

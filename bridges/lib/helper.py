@@ -9,6 +9,9 @@ to its standard output: one JSON object per line, UTF-8.
     {"id": 8, "error": "bad_request", "message": "name: not a string"}
     {"event": "visitor", "name": "Rob"}
 
+A request without an id is not answered; if it cannot be done there is an
+event `untold`.
+
 A helper is a subclass with a method for each `do`:
 
     from helper import Helper, Refusal, text
@@ -22,6 +25,9 @@ A helper is a subclass with a method for each `do`:
             return 'hello ' + name
 
     Greeter(threads=4).run()
+
+A method may return LATER and say `self.reply(request, answer)` when there
+is one, or `self.reply(request, Refusal(...))`, in any thread.
 
 Requests are served by so many threads, with one thread in the order in
 which they came.  `deadline` is when the request must be done, by
@@ -46,6 +52,7 @@ import sys
 import threading
 import time
 
+LATER = object()                        # the answer will come
 LONGEST_TIMEOUT = 3600.0                # seconds
 FAREWELL = 2.0                          # seconds, to end what was under way
 
@@ -91,7 +98,7 @@ def parse(line):
 
 
 def deadline_of(request):
-    timeout = request.get('timeout', 3.0)
+    timeout = request.get('timeout', LONGEST_TIMEOUT)
     if isinstance(timeout, bool) or not isinstance(timeout, (int, float)) \
             or not 0 < timeout <= LONGEST_TIMEOUT:
         raise BadRequest('timeout: not a number of seconds up to %d'
@@ -123,7 +130,7 @@ class Job:
         self.number, self.request = number, request
         self.deadline = deadline
         self.lock = threading.Lock()
-        self.answered, self.begun = False, False
+        self.answered, self.begun, self.later = False, False, False
 
     def first(self):
         """Whether nobody has answered it before."""
@@ -198,7 +205,7 @@ class Helper:
     def abandoned(self):
         """Prolog is gone."""
 
-    def event(self, kind, **fields):
+    def event(self, kind, /, **fields):
         """Say something unasked."""
         fields['event'] = kind
         self.output.say(fields)
@@ -223,15 +230,19 @@ class Helper:
         number = None
         try:
             request = parse(line)
-            number = integer(request, 'id', 0, 2 ** 62)
+            if 'id' in request:
+                number = integer(request, 'id', 0, 2 ** 62)
             deadline = deadline_of(request)
             if request.get('do') == 'quit':
                 self.quitting = True
                 self.drop_requests()
             job = Job(number, request, deadline)
-            self.requests.put_nowait(job)
-            if self.watch:
-                self.watch.add(job)
+            if number is None:
+                self.requests.put(job)      # who only tells waits for room
+            else:
+                self.requests.put_nowait(job)
+                if self.watch:
+                    self.watch.add(job)
         except BadRequest as problem:
             self.refuse(number, str(problem))
         except queue.Full:
@@ -267,43 +278,66 @@ class Helper:
                 self.abandoned()
                 os._exit(0)
             job.begun = True
+            last = job.request.get('do') == 'quit'
             if not job.answered:
-                answer = dict(self.answer(job), id=job.number)
+                answer = self.answer(job)
+                if answer is LATER:
+                    continue
                 if not job.first():         # another has taken its place
                     with self.late_lock:
                         self.late_threads -= 1
                     return
-                self.say(answer)
-            if job.request.get('do') == 'quit':
+                self.say(job, answer)
+            if last:
                 sys.stderr.flush()
                 os._exit(0)                 # other threads may be reading
 
-    def say(self, answer):
+    def say(self, job, answer):
+        job.request = None                  # it may be long
+        if job.number is None:
+            if 'error' in answer:
+                self.event('untold', message=answer['message'])
+            return
         try:
-            self.output.say(answer)
+            self.output.say(dict(answer, id=job.number))
         except (TypeError, ValueError, RecursionError) as problem:
-            self.output.say({'id': answer['id'], 'error': 'no_json',
+            self.output.say({'id': job.number, 'error': 'no_json',
                              'message': str(problem)})
 
     def answer(self, job):
         try:
             if time.monotonic() >= job.deadline:
                 raise Refusal('timeout', 'not done: others took too long')
-            return {'ok': self.do(job.request, job.deadline)}
+            job.request['job'] = job
+            done = self.do(job.request, job.deadline)
+            if done is LATER:
+                job.later = True
+                return LATER
+            return {'ok': done}
         except Refusal as problem:
-            return dict(problem.more, error=problem.kind,
-                        message=str(problem))
+            return self.refused(problem)
         except BadRequest as problem:
             return {'error': 'bad_request', 'message': str(problem)}
-        except Exception as problem:
+        except BaseException as problem:    # also that of sys.exit()
             return {'error': 'exception', 'class': type(problem).__name__,
                     'message': str(problem)}
+
+    @staticmethod
+    def refused(problem):
+        return dict(problem.more, error=problem.kind, message=str(problem))
+
+    def reply(self, request, answer):
+        """Answer a request whose method has returned LATER."""
+        job = request['job']
+        if job.first():
+            self.say(job, self.refused(answer)
+                     if isinstance(answer, Refusal) else {'ok': answer})
 
     def late(self, job):
         """The deadline has passed; who serves it may never be done."""
         self.output.say({'id': job.number, 'error': 'timeout',
                          'message': 'not done in time'})
-        if job.begun:
+        if job.begun and not job.later:
             with self.late_lock:
                 self.late_threads += 1
                 many = self.late_threads > self.most_late

@@ -7,12 +7,12 @@ place of a host: agents there find predicates, and what comes in reaches
 them as messages or as facts.  This is the door of the layer.  A bridge
 `echo` in outline:
 
-    echo_start(Host0, Options) :-
-        service_host(Host0, Host),
-        service_begin(echo, Host, [shout/1, listen/1], typhon_echo),
+    % echo_start(Host, What, Options), see typhon_starting, comes here
+    typhon_starting:starts(echo, Host, What, Options) :-
+        service_begin(echo, Host, [shout/1, listen/1], typhon_echo_words),
         helper_open(echo(Host), ...).
 
-    % in module typhon_echo, called by an agent on Host
+    % in module typhon_echo_words, called by an agent on Host
     listen(Key) :-
         subscriber(Host, Agent),
         subscribe(echo, Host, Key, Agent, []),  % then ask the helper for Key
@@ -26,17 +26,16 @@ them as messages or as facts.  This is the door of the layer.  A bridge
     typhon_subscribers:wanted(echo, Host, Key, false) :-
         helper_note(echo(Host), _{do:deafen, key:Key}).
 
-    % the host stops, or echo_stop(Host) was called
+    % the host stops, or somebody said echo_stop(Host)
     typhon_services:ends(echo, Host) :-
         helper_close(echo(Host)).
-
-    echo_stop(Host) :-
-        service_end(echo, Host).
 */
 
+:- reexport(bridge/inbox, [inbox_put/4]).
+:- reexport(bridge/json_values, [json_value/1]).
 :- reexport(bridge/services,
-            [ service/2, service_begin/4, service_end/2, service_host/2,
-              service_offer/4 ]).
+            [ service/2, service_begin/4, service_end/2, service_offer/4 ]).
 :- reexport(bridge/subscribers,
-            [ subscribe/5, subscriber/2, subscribers_tell/5, subscription/3,
+            [ subscribe/5, subscriber/2, subscribers_tell/5,
+              subscribers_tell_new/5, subscription/3,
               unsubscribe/4 ]).

@@ -31,9 +31,11 @@ runs an agent hears that it takes a message, while there are gaps.
 %   Message-Same, as of subscribers_tell/5.  Fails if Agent is not on Host.
 
 inbox_put(how(message, Max), Service-Key, Host-Agent, Message-_) =>
-    told_gap(Agent, Service, Key, Before),
-    with_agent(Agent, put(Agent, Host, Max, Service, Before, Message, Done)),
-    done(Done, gap(Agent, Service, Key, Host, Max)).
+    Gap = gap(Agent, Service, Key, Host, Max),
+    gap_taken(Gap, Count),
+    told_first(Count, Service, Key, Messages, [Service-Message]),
+    with_agent(Agent, put(Agent, Host, Max, Messages, Done)),
+    done(Done, Gap, Count).
 inbox_put(how(fact, Max), Service-Key, Host-_, Message-_) =>
     host(Host, _, Place),
     (   facts(Place, Service, Max, Count),
@@ -53,70 +55,78 @@ inbox_put(how(latest, Max), Service-Key, Host-Agent, Message-Same) =>
                 *           MESSAGES           *
                 *******************************/
 
-told_gap(Agent, Service, Key, Before) :-
-    (   gap(Agent, Service, Key, _, _, Count)
-    ->  Before = [Service-dropped(Key, Count)]
-    ;   Before = []
-    ).
+told_first(0, _, _, Messages, Messages) :-
+    !.
+told_first(Count, Service, Key, [Service-dropped(Key, Count)|Messages],
+           Messages).
 
-put(Agent, Host, Max, Service, Before, Message, Done) :-
+put(Agent, Host, Max, Messages, Done) :-
     agent(Agent, Host, _, _, _),
     !,
-    mail_count(Agent, Count),
-    (   Count < Max
-    ->  mail(Before, Agent, Service-Message),
-        Done = put(Before)
+    mail_count(Agent, Waiting),
+    (   Waiting < Max
+    ->  agent_mail(Agent, Messages),
+        Done = put
     ;   Done = full
     ).
 
-mail([], Agent, Message) :-
-    agent_mail(Agent, [Message]).
-mail([Before], Agent, Message) :-
-    agent_mail(Agent, [Before,Message]).
+done(put, Gap, Count) :-
+    (   Count =:= 0
+    ->  true
+    ;   with_mutex(typhon_inbox, unheard(Gap))
+    ).
+done(full, Gap, Count0) :-
+    Count is Count0+1,
+    with_mutex(typhon_inbox, add(Gap, Count)).
 
-done(put([]), _).
-done(put([_]), gap(Agent, Service, Key, _, _)) :-
-    gap_forget(Service, Key, Agent).
-done(full, gap(Agent, Service, Key, Host, Max)) :-
-    with_mutex(typhon_inbox, count(Agent, Service, Key, Host, Max)).
+                /*******************************
+                *             GAPS             *
+                *******************************/
 
-%   Only the thread that reads counts, but others tell.
+%   Who has taken a gap tells of it, or puts it back.
 
-count(Agent, Service, Key, Host, Max) :-
-    (   retract(gap(Agent, Service, Key, Host, Max, Count0))
-    ->  Count is Count0+1
-    ;   Count = 1,
-        (   gap(_, _, _, Host, _, _)
-        ->  true
-        ;   events_hear([messages], Host, inbox)
-        )
+gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
+    (   gap(Agent, Service, Key, _, _, _),
+        with_mutex(typhon_inbox,
+                   retract(gap(Agent, Service, Key, Host, Max, Count0)))
+    ->  Count = Count0
+    ;   Count = 0
+    ).
+
+add(gap(Agent, Service, Key, Host, Max), Count) :-
+    (   gap(_, _, _, Host, _, _)
+    ->  true
+    ;   events_unhear([messages], Host, inbox),
+        events_hear([messages], Host, inbox)
     ),
     assertz(gap(Agent, Service, Key, Host, Max, Count)).
 
+unheard(gap(_, _, _, Host, _)) :-
+    (   gap(_, _, _, Host, _, _)
+    ->  true
+    ;   events_unhear([messages], Host, inbox)
+    ).
+
 %!  gap_forget(+Service, +Key, +Agent) is det.
 %
-%   Nothing is missing, or nobody wants to know.
+%   Nobody wants to know any more.
 
 gap_forget(Service, Key, Agent) :-
-    (   gap(Agent, Service, Key, _, _, _)
-    ->  with_mutex(typhon_inbox, forget(Agent, Service, Key))
-    ;   true
+    Gap = gap(Agent, Service, Key, _, _),
+    gap_taken(Gap, Count),
+    (   Count =:= 0
+    ->  true
+    ;   with_mutex(typhon_inbox, unheard(Gap))
     ).
 
-forget(Agent, Service, Key) :-
-    (   retract(gap(Agent, Service, Key, Host, _, _)),
-        \+ gap(_, _, _, Host, _, _)
-    ->  events_unhear([messages], Host, inbox)
-    ;   true
-    ).
-
-typhon_events:told(inbox, _, Agent, received(_, _)) :-
-    gap(Agent, Service, Key, _, Max, _),
+typhon_events:told(inbox, Host, Agent, received(_, _)) :-
+    gap(Agent, Service, Key, Host, Max, _),
     with_agent(Agent, mail_count(Agent, Waiting)),
     Waiting =< Max//2,
-    with_mutex(typhon_inbox,
-               ( gap(Agent, Service, Key, _, _, Count),
-                 forget(Agent, Service, Key) )),
+    Gap = gap(Agent, Service, Key, Host, Max),
+    gap_taken(Gap, Count),
+    Count > 0,
+    with_mutex(typhon_inbox, unheard(Gap)),
     with_agent(Agent, ignore(agent_mail(Agent,
                                         [Service-dropped(Key, Count)]))).
 

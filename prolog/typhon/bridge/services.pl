@@ -1,17 +1,14 @@
 :- module(typhon_services,
           [ service/2,                  % ?Service, ?Host
-            service_host/2,             % +Host, -Name
             service_begin/4,            % +Service, +Host, +PIs, +Module
-            service_offer/4,            % +Service, +Host, +PIs, :Clauses
+            service_offer/4,            % +Name, +Host, +PIs, +Clauses
             service_end/2               % +Service, +Host
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error),
-              [existence_error/2, must_be/2, permission_error/3]).
+:- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../host',
-              [host/3, host_resolve/2, place_deliver/3, place_undeliver/2]).
+:- use_module('../host', [host/3, place_deliver/3, place_undeliver/2]).
 :- use_module(subscribers, [subscribers_forget/2]).
 
 /** <module> Services of a place
@@ -26,7 +23,8 @@ at a time is ended once.
 
 :- multifile
     ends/2,                     % Service, Host: release what it holds
-    typhon_hosting:evacuate/2.
+    typhon_hosting:evacuate/2,
+    typhon_starting:stops/2.
 
 :- dynamic
     service/2.                  % Service, Host: begun, and not ended
@@ -34,20 +32,6 @@ at a time is ended once.
 %!  service(?Service, ?Host) is nondet.
 %
 %   The services of the hosts of this process.
-
-%!  service_host(+Host, -Name) is det.
-%
-%   Name is that of Host, which is of this process.
-%
-%   @error existence_error(host, Host), also if it is elsewhere
-
-service_host(Host, Name) :-
-    must_be(atom, Host),
-    host_resolve(Host, Where),
-    (   Where = local(Name)
-    ->  true
-    ;   existence_error(host, Host)
-    ).
 
 %!  service_begin(+Service, +Host, +PIs:list, +Module) is det.
 %
@@ -65,25 +49,25 @@ service_begin(Service, Host, PIs, Module) :-
     findall((Head:-Module:Head),
             ( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
             Clauses),
-    catch(service_offer(Service, Host, PIs, Clauses), Ball,
+    catch(service_offer(service(Service), Host, PIs, Clauses), Ball,
           ( retractall(service(Service, Host)),
             throw(Ball) )),
     debug(typhon(bridge), '~w is on ~w', [Service, Host]).
 
-%!  service_offer(+Service, +Host, +PIs:list, +Clauses:list) is det.
+%!  service_offer(+Name, +Host, +PIs:list, +Clauses:list) is det.
 %
-%   The place offers PIs, defined by Clauses, in place of what Service has
-%   offered before.
+%   The place offers PIs, defined by Clauses, instead of what it offered under
+%   Name, which is service(Service) or that of a payload.
 %
 %   @error permission_error(define, vocabulary, PI) if all agents know such a
 %          predicate
 %   @error permission_error(deliver, procedure, PI) if the place has it
 %          otherwise
 
-service_offer(Service, Host, PIs, Clauses) :-
+service_offer(Name, Host, PIs, Clauses) :-
     forall(member(PI, PIs), unknown(PI)),
     host(Host, _, Place),
-    place_deliver(Place, payload(service(Service), PIs, Clauses), _).
+    place_deliver(Place, payload(Name, PIs, Clauses), _).
 
 unknown(Name/Arity) :-
     functor(Head, Name, Arity),
@@ -97,11 +81,14 @@ unknown(Name/Arity) :-
 %   @error existence_error(Service, Host) if it is not there
 
 service_end(Service, Host) :-
-    service_host(Host, Name),
-    (   retract(service(Service, Name))
-    ->  in_own_thread(typhon_services:end(Service, Name))
+    (   retract(service(Service, Host))
+    ->  in_own_thread(typhon_services:end(Service, Host))
     ;   existence_error(Service, Host)
     ).
+
+typhon_starting:stops(Service, Host) :-
+    service(Service, Host),
+    service_end(Service, Host).
 
 %   Nothing is asked of it any more when it ends.
 

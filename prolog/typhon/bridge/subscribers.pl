@@ -6,12 +6,15 @@
             subscription/3,             % ?Service, ?Host, ?Key
             subscribers_tell/5,         % +Service, +Host, +Key, +Message,
                                         % +Same
+            subscribers_tell_new/5,     % +Service, +Host, +Key, +Message,
+                                        % +Same
             subscribers_forget/2        % +Service, +Host
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [max_list/2, member/2]).
 :- use_module(library(option), [option/3]).
+:- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../host',
@@ -79,7 +82,8 @@ subscribe(Service, Host, Key, Agent, Options) :-
                  retractall(subscribed(Key, Agent, Service, Host, _)),
                  assertz(subscribed(Key, Agent, Service, Host, How)) )).
 
-how(Options, Agent, how(As, Max)) :-
+how(Options, Agent, how(As, Max, Since)) :-
+    get_time(Since),
     setting(queue, Default),
     option(queue(Max), Options, Default),
     option(as(As), Options, message),
@@ -122,13 +126,32 @@ subscription(Service, Host, Key) :-
 
 %!  subscribers_tell(+Service, +Host, +Key, +Message, +Same) is det.
 %
+%!  subscribers_tell_new(+Service, +Host, +Key, +Message, +Same) is det.
+%
 %   Message has come for Key.  Same is a pattern: it unifies with messages
-%   that this one replaces where only the latest is wanted.
+%   that this one replaces where only the latest is wanted.  Told as new are
+%   only those who have subscribed last, or within a second before that: what
+%   a service says to who comes is nothing to others.
 
 subscribers_tell(Service, Host, Key, Message, Same) :-
     findall(Agent-How, subscribed(Key, Agent, Service, Host, How), Pairs),
-    forall(member(Agent-How, Pairs),
-           tell(How, Service-Key, Host-Agent, Message-Same)).
+    tell_all(Pairs, Service, Host, Key, Message-Same).
+
+subscribers_tell_new(Service, Host, Key, Message, Same) :-
+    findall(Since-(Agent-how(As, Max, Since)),
+            subscribed(Key, Agent, Service, Host, how(As, Max, Since)),
+            Subscribers),
+    pairs_keys(Subscribers, Times),
+    max_list([0|Times], Last),
+    findall(Pair,
+            ( member(Since-Pair, Subscribers), Since > Last-1 ),
+            Pairs),
+    tell_all(Pairs, Service, Host, Key, Message-Same).
+
+tell_all([], _, _, _, _).
+tell_all([Agent-how(As, Max, _)|Pairs], Service, Host, Key, What) :-
+    tell(how(As, Max), Service-Key, Host-Agent, What),
+    tell_all(Pairs, Service, Host, Key, What).
 
 tell(How, Service-Key, Host-Agent, What) :-
     inbox_put(How, Service-Key, Host-Agent, What),

@@ -1,5 +1,5 @@
 :- module(typhon_helper_answers,
-          [ request_line/3,             % +Request, -Id, -Line
+          [ request_line/2,             % +Request, -Line
             request_line/4,             % +Request, +Seconds, -Id, -Line
             said/3,                     % +Name, +Owner, +Dict
             answer/2,                   % +Queue, +Answer
@@ -27,22 +27,19 @@ answer_all/1 and answer_died/1 are for owners.
     awaited/3,                  % Id, Queue, Owner: written, not yet answered
     complaint/2.                % Owner, Dict: an error, but of no request
 
-%!  request_line(+Request:dict, -Id, -Line:string) is det.
+%!  request_line(+Request:dict, -Line:string) is det.
 %!  request_line(+Request:dict, +Seconds, -Id, -Line:string) is det.
 %
-%   Line says Request, with a new Id, and how long it may take.
+%   Line says Request, that nobody is to answer; or with a new Id, and how
+%   long it may take.
 
-request_line(Request, Id, Line) :-
-    flag(typhon_helper_request, Id, Id+1),
-    line(Request, _{id:Id}, Line).
-
-request_line(Request, Seconds, Id, Line) :-
-    flag(typhon_helper_request, Id, Id+1),
-    line(Request, _{id:Id, timeout:Seconds}, Line).
-
-line(Request0, More, Line) :-
-    put_dict(More, Request0, Request),
+request_line(Request, Line) :-
     atom_json_dict(Line, Request, [as(string), width(0)]).
+
+request_line(Request0, Seconds, Id, Line) :-
+    flag(typhon_helper_request, Id, Id+1),
+    put_dict(_{id:Id, timeout:Seconds}, Request0, Request),
+    request_line(Request, Line).
 
 %!  said(+Name, +Owner, +Dict) is det.
 %

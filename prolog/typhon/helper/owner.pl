@@ -4,7 +4,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(answers,
               [ answer/2, answer_all/1, answer_awaited/2, answer_died/1,
-                request_line/3, said/3 ]).
+                request_line/2, said/3 ]).
 :- use_module(process,
               [ process_begin/4, process_end/1, process_release/1,
                 process_write/2 ]).
@@ -36,7 +36,7 @@ soon(5).                        % seconds, for a process to end
 %   Me is owner(Name, Command, When, Alias, Told).  State is
 %   up(Process, Since, Wait), or down(Time, Wait, Answer): the process is
 %   started at Time, or when it is `asked` for something; until then requests
-%   get Answer.  Wait is for how long it was down before.
+%   get Answer.  Wait is for how long it is down next time, if it ends soon.
 
 own(Name, Command, When, Alias, Told) :-
     Me = owner(Name, Command, When, Alias, Told),
@@ -99,13 +99,14 @@ begin(owner(Name, Command, When, Alias, _), Wait, State) :-
     catch(( process_begin(Command, Alias, said(Name, Owner), Process),
             State = up(Process, Now, Wait) ),
           error(Formal, Context),
-          down(When, Wait, error(Formal, Context), State)).
+          ( First is max(0.1, Wait),
+            down(When, First, error(Formal, Context), State) )).
 
 down(asked, _, Answer, down(asked, 0, Answer)).
 down(always, Wait0, Answer, down(Time, Wait, Answer)) :-
-    Wait is min(10, max(0.1, 2*Wait0)),
     get_time(Now),
-    Time is Now+Wait.
+    Time is Now+Wait0,
+    Wait is min(10, 2*Wait0).
 
 %   Started again it is told first what it has to know.
 
@@ -113,7 +114,7 @@ begin_again(Me, Wait, State) :-
     begin(Me, Wait, State),
     Me = owner(Name, _, _, _, _),
     forall(( State = up(_, _, _), again(Name, Request) ),
-           ( request_line(Request, _, Line),
+           ( request_line(Request, Line),
              write_told(State, Line) )).
 
 %   One that has lived for a while is replaced at once.
@@ -123,12 +124,24 @@ ended(Status, Me, Since, Wait, State) :-
     answer_died(died(Status)),
     debug(typhon(helper), '~p ended: ~p', [Name, Status]),
     tell_ended(When, Name, Status),
+    again_when(When, Since, Wait, Wait1),
+    (   Wait1 == now
+    ->  begin_again(Me, 0.1, State)
+    ;   down(When, Wait1, died(Status), State)
+    ).
+
+%   The first time at once.
+
+again_when(asked, _, _, 0) :-
+    !.
+again_when(always, _, 0, now) :-
+    !.
+again_when(always, Since, Wait, Wait1) :-
     get_time(Now),
     soon(Soon),
-    (   When == always,
-        Now-Since > Soon
-    ->  begin_again(Me, 0, State)
-    ;   down(When, Wait, died(Status), State)
+    (   Now-Since > Soon
+    ->  Wait1 = now
+    ;   Wait1 = Wait
     ).
 
 tell_ended(asked, _, _).
@@ -146,7 +159,7 @@ write_told(up(Process, _, _), Line) :-
 write_told(down(_, _, _), _).           % to nobody
 
 stop(up(Process, _, _)) :-
-    request_line(_{do:quit}, _, Line),
+    request_line(_{do:quit}, Line),
     process_write(Process, Line),
     process_end(Process),
     thread_get_message(ended(_)),

@@ -13,7 +13,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(answers,
-              [answer_unwanted/1, request_line/3, request_line/4]).
+              [answer_unwanted/1, request_line/2, request_line/4]).
 :- use_module(owner, [own/5]).
 :- use_module(process, [process_kill_of/1, process_pid/2]).
 
@@ -161,13 +161,13 @@ pass(Name, Queue, Message) :-
 
 helper_tell(Name, Request) :-
     the_helper(Name, Owner, Told),
-    request_line(Request, _, Line),
+    request_line(Request, Line),
     pass(Name, Told, Line),
     pass(Name, Owner, told).
 
 helper_note(Name, Request) :-
     the_helper(Name, Owner, _),
-    request_line(Request, _, Line),
+    request_line(Request, Line),
     pass(Name, Owner, note(Line)).
 
 the_helper(Name, Owner, Told) :-
