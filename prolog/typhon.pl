@@ -11,7 +11,7 @@ layer has a door, and behind it a folder with its rooms.
   | what agents can say            | typhon/language   |
   | networks, the log server       | typhon/network    |
   | tables for people              | typhon/people     |
-  | Python, MQTT                   | typhon/bridge     |
+  | Python, MQTT, ROS              | typhon/bridge     |
 */
 
 :- reexport(typhon/program, [agent_check/1]).
@@ -23,5 +23,6 @@ layer has a door, and behind it a folder with its rooms.
 :- reexport('typhon/network').
 :- reexport('typhon/people').
 :- reexport(typhon/bridge/starting,
-            [mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1]).
+            [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
+              ros_start/3, ros_stop/1 ]).
 :- use_module(typhon/language, []).

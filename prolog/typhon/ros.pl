@@ -9,7 +9,8 @@ that stand there publish, subscribe, call, offer services and send goals.  It
 is not part of library(typhon).  Nothing is defined here: see the rooms in
 ros/.
 
-  | starting and stopping | typhon/ros/starting   |
+  | starting and stopping | typhon/bridge/starting |
+  | what there is         | typhon/ros/service    |
   | topics                | typhon/ros/topics     |
   | services              | typhon/ros/calls      |
   | actions               | typhon/ros/actions    |
@@ -17,7 +18,8 @@ ros/.
   | messages as terms     | typhon/ros/values     |
 */
 
-:- reexport(ros/starting).
+:- reexport(bridge/starting, [ros_start/3, ros_stop/1]).
+:- reexport(ros/service).
 :- reexport(ros/topics).
 :- reexport(ros/calls, except([call_json/5])).
 :- reexport(ros/actions).

@@ -60,8 +60,8 @@ rosbridge_end(URL) :-
     split_string(URL, ":/", "", Parts),
     member(Text, Parts),
     number_string(Port, Text),
-    rosbridge_cut,
     http_stop_server(Port, []),
+    rosbridge_cut,
     rosbridge_forget.
 
 rosbridge_forget :-

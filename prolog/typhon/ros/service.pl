@@ -1,12 +1,11 @@
-:- module(typhon_ros_starting,
-          [ ros_start/3,                % +Host, +Where, +Options
-            ros_stop/1,                 % +Host
-            ros_property/2              % ?Host, ?Property
+:- module(typhon_ros_service,
+          [ ros_property/2              % ?Host, ?Property
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../bridge',
-              [service/2, service_begin/4, service_end/2, service_host/2]).
+              [service/2, service_begin/4, service_end/2]).
 :- use_module(answers, [answers_fail/2]).
 :- use_module(events, [ros_ignored/2]).
 :- use_module(standing, [standing/3, standing_forget/1]).
@@ -15,51 +14,19 @@
 
 /** <module> A host with ROS
 
+Where it begins is ros_start/3.
+
 *Threading*: any thread.
 */
 
 :- multifile
     typhon_options:declared/4,
-    typhon_services:ends/2.
+    typhon_services:ends/2,
+    typhon_starting:starts/4.
 
-%!  ros_start(+Host, +Where, +Options) is det.
-%
-%   The place of Host, which is of this process, has ROS: agents there find
-%   the predicates of typhon_ros_topics, typhon_ros_calls,
-%   typhon_ros_actions and typhon_ros_parameters.  Where is `ros2`: Host
-%   is a node of ROS 2; or a URL as 'ws://robot:9090/', that of a
-%   rosbridge server, of ROS 1 or 2.  Options:
-%
-%     - messages(Form): what comes in is a `dict`, default, or `terms`, a
-%       list of Name=Value
-%     - deadline(Seconds): for what is asked of ROS, default 5
-%     - connect_deadline(Seconds): for this call, default 20 for `ros2`,
-%       which starts a process, 5 for a server
-%
-%   for `ros2`
-%
-%     - node(Name): default typhon_Host
-%     - domain(N): default is that of the environment variable ROS_DOMAIN_ID
-%     - reach(Reach): who is to be found: `localhost`, default, or `subnet`
-%     - python(File): which has rclpy; default that of `make tools-ros`
-%
-%   and for a server
-%
-%     - silence(Seconds): when it has not even answered a ping for so long
-%       it is gone; default 30
-%
-%   @error existence_error(host, Host), permission_error(start, ros, Host)
-%   @error domain_error(ros_option, Option), domain_error(ros, Where)
-%   @error existence_error(ros_python, File) if `make tools-ros` has not made
-%          it, existence_error(python_module, rclpy)
-%   @error socket_error(Code, Text) and others of http_open/3
-%   @error timeout_error(connect, URL)
-
-ros_start(Host0, Where, Options) :-
-    service_host(Host0, Host),
-    must_be(atom, Where),
-    check_where(Where),
+typhon_starting:starts(ros, Host, Where, Options) :-
     check_options(ros_option, Options),
+    check_where(Where),
     ros_words(PIs),
     service_begin(ros, Host, PIs, typhon_ros_words),
     catch(way_open(Host, Where, Options), Ball,
@@ -86,13 +53,6 @@ option_type(node(X), atom, X).
 option_type(domain(X), between(0, 232), X).
 option_type(reach(X), oneof([localhost,subnet]), X).
 option_type(python(X), atom, X).
-
-%!  ros_stop(+Host) is det.
-%
-%   @error existence_error(ros, Host)
-
-ros_stop(Host) :-
-    service_end(ros, Host).
 
 typhon_services:ends(ros, Host) :-
     way_close(Host),
