@@ -17,7 +17,7 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools tools-peers tools-all demo demo-robots thesis \
+.PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros thesis \
     thesis-real test chaos fuzz check doc bench bench-peers profile \
     test-portability install clean
 
@@ -92,6 +92,9 @@ tools:                  ## install what the core needs and is missing
 tools-peers:            ## install what `make bench-peers` compares with
 	@.ci/install peers
 	@bench/peers/jade --get >/dev/null
+
+tools-ros:              ## install ROS 2 from PyPI for library(typhon/ros)
+	@.ci/ros-tools
 
 tools-all:              ## install all that .ci/packages lists
 	@.ci/install all

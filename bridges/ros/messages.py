@@ -64,6 +64,8 @@ def stamp(message, values, clock):
 
 
 def fill(message, values, path):
+    if values == []:                    # a message without fields
+        return
     if not isinstance(values, dict):
         raise wrong(path.rstrip('.') or 'message', type(message).__name__, values)
     types = message.get_fields_and_field_types()

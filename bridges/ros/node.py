@@ -64,15 +64,10 @@ try:
         SingleThreadedExecutor
     from rclpy.qos import QoSDurabilityPolicy as Durability, QoSProfile, \
         QoSReliabilityPolicy as Reliability
-    from rclpy.task import Future
     import messages
     MISSING = None
 except ImportError as problem:
     MISSING = problem
-
-
-class NotAnswered(Exception):
-    """Nobody answers a call; ROS has no way to say so to who waits."""
 
 
 class Outlet:
@@ -187,7 +182,7 @@ class Node(Helper):
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
         self.outlets, self.subscriptions, self.services = {}, {}, {}
-        self.calls = {}                 # id: the Future of its response
+        self.calls = {}                 # id: how to respond
         self.waiting = {}               # client, future: deadline
         self.goals = {}                 # id: handle, or what is to be done
         self.lock = threading.Lock()
@@ -203,8 +198,6 @@ class Node(Helper):
                 self.executor.spin_once()
             except ExternalShutdownException:
                 return
-            except NotAnswered:
-                pass
             except Exception as problem:        # of one callback
                 print('%s: %s' % (type(problem).__name__, problem),
                       file=sys.stderr)
@@ -341,44 +334,41 @@ class Node(Helper):
     # What we offer
 
     def op_advertise_service(self, frame, _deadline):
-        service = text(frame, 'service')
+        name = text(frame, 'service')
         cls = messages.service_class(text(frame, 'type'))
+        if name not in self.services:
+            # The request is passed on instead of a response, which comes
+            # when there is one: nothing waits for it here.
+            service = self.node.create_service(
+                cls, name, lambda request, _response: request)
+            respond = service.send_response
 
-        async def serve(request, _response):
-            number, future = str(uuid.uuid4()), Future()
-            self.calls[number] = (service, cls, future)
-            try:
-                self.frame('call_service', id=number, service=service,
+            def ask(request, header):
+                number = str(uuid.uuid4())
+                self.calls[number] = (name, cls, respond, header)
+                self.frame('call_service', id=number, service=name,
                            args=messages.said(request))
-                response = await future
-            finally:
-                self.calls.pop(number, None)
-            if response is None:
-                raise NotAnswered
-            return response
-        if service not in self.services:
-            self.services[service] = self.node.create_service(cls, service,
-                                                              serve)
+            service.send_response = ask
+            self.services[name] = service
 
     def op_unadvertise_service(self, frame, _deadline):
         name = text(frame, 'service')
         service = self.services.pop(name, None)
         if service is not None:
-            for called, _, future in list(self.calls.values()):
-                if called == name:
-                    future.set_result(None)
-            self.executor.wake()
+            for number, call in list(self.calls.items()):
+                if call[0] == name:
+                    self.calls.pop(number, None)
             self.node.destroy_service(service)
 
     def op_service_response(self, frame, _deadline):
-        found = self.calls.get(str(frame.get('id')))
-        if found is None:
-            return
-        _, cls, future = found
-        future.set_result(
-            messages.filled(cls.Response, frame.get('values', {}))
-            if frame.get('result') else None)
-        self.executor.wake()
+        """ROS cannot tell who waits that there will be no response."""
+        number = str(frame.get('id'))
+        if number in self.calls:
+            _, cls, respond, header = self.calls[number]
+            if frame.get('result'):
+                respond(messages.filled(cls.Response,
+                                        frame.get('values', {})), header)
+            self.calls.pop(number, None)
 
     # Actions
 

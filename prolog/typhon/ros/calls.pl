@@ -16,7 +16,7 @@
               [ subscribe/5, subscriber/2, subscription/3, unsubscribe/4 ]).
 :- use_module(claims, [claim/3]).
 :- use_module(names, [ros_id/1, ros_name/3, ros_type/3]).
-:- use_module(open_requests, [request_end/3]).
+:- use_module(open_requests, [request_end/3, request_open/3]).
 :- use_module(values, [json_value/3, value_json/2]).
 :- use_module(ways, [way_await/5, way_option/3, way_say/2]).
 
@@ -151,7 +151,8 @@ ros_refuse(Id) :-
 
 respond(Host, Id, JSON, Result) :-
     must_be(nonvar, Id),
-    (   request_end(Host, Id, Service)
-    ->  way_say(Host, respond(Id, Service, JSON, Result))
+    (   request_open(Host, Id, Service)
+    ->  way_say(Host, respond(Id, Service, JSON, Result)),
+        ignore(request_end(Host, Id, Service))
     ;   existence_error(ros_request, Id)
     ).

@@ -1,5 +1,6 @@
 :- module(typhon_ros_names,
           [ ros_name/3,                 % +Kind, +Name, -Atom
+            ros_word/2,                 % +Kind, +Name
             ros_type/3,                 % +Kind, +Type, -Atom
             ros_id/1                    % -Id
           ]).
@@ -28,6 +29,18 @@ ros_name(Kind, Name, Atom) :-
     length(Codes, Length),
     (   Length =< 255,
         phrase(name, Codes)
+    ->  true
+    ;   domain_error(ros_name(Kind), Name)
+    ).
+
+%!  ros_word(+Kind, +Name:atom) is det.
+%
+%   Name is one word of such a name.
+%
+%   @error domain_error(ros_name(Kind), Name)
+
+ros_word(Kind, Name) :-
+    (   word(Name)
     ->  true
     ;   domain_error(ros_name(Kind), Name)
     ).

@@ -12,6 +12,7 @@
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_failure/3,
                 helper_file/2, helper_note/2, helper_open/3, helper_pid/2 ]).
+:- use_module(names, [ros_word/2]).
 
 /** <module> A ROS 2 node of our own
 
@@ -27,6 +28,7 @@ A helper, bridges/ros/node.py, is the node; it runs in the Python that
 %
 %   @error existence_error(ros_python, File)
 %   @error existence_error(python_module, rclpy)
+%   @error domain_error(ros_name(node), Node)
 
 node_open(Host, Options) :-
     node_python(Options, Python),
@@ -45,7 +47,7 @@ node_open(Host, Options) :-
 command(Host, Options, ['-u', File, '--node', Node, '--reach', Reach|Args]) :-
     helper_file('ros/node.py', File),
     (   option(node(Node), Options)
-    ->  true
+    ->  ros_word(node, Node)
     ;   default_node(Host, Node)
     ),
     option(reach(Reach), Options, localhost),

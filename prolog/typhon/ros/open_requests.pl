@@ -3,6 +3,7 @@
             goal_end/4,                 % +Host, ?Id, -Agent, -Action
             goal_action/3,              % +Host, +Id, -Action
             request_begin/3,            % +Host, +Id, +Service
+            request_open/3,             % +Host, +Id, -Service
             request_end/3               % +Host, ?Id, ?Service
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -36,6 +37,7 @@ goal_action(Host, Id, Action) :-
     !.
 
 %!  request_begin(+Host, +Id, +Service) is semidet.
+%!  request_open(+Host, +Id, -Service) is semidet.
 %!  request_end(+Host, ?Id, ?Service) is semidet.
 %
 %   The first fails if too many wait already.
@@ -45,6 +47,10 @@ request_begin(Host, Id, Service) :-
     setting(most, Most),
     Count < Most,
     assertz(request(Id, Host, Service)).
+
+request_open(Host, Id, Service) :-
+    request(Id, Host, Service),
+    !.
 
 request_end(Host, Id, Service) :-
     retract(request(Id, Host, Service)),
