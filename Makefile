@@ -42,6 +42,9 @@ demo: tools             ## sixty hosts, ten agents, six tasks in step
 demo-robots: tools      ## simulated robots carry a pole, and push boxes
 	@$(SWIPL) experiments/study.pl -- pole boxes --runs 1 --out out/robots
 
+demo-ros: tools tools-ros       ## agents drive robots of ROS 2, simulated
+	@$(SWIPL) -q app/demo_ros.pl
+
 thesis: tools           ## every figure of the thesis anew; RUNS=10, JOBS=2
 	@$(SWIPL) experiments/study.pl -- thesis --runs $(RUNS) \
 	    --jobs $(JOBS) --out out/thesis
