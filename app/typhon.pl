@@ -26,6 +26,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module('../prolog/typhon/people/happenings', [short_name/2]).
 :- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
+:- use_module(diagnose_bridges, [diagnose_bridge/2]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
@@ -144,7 +145,7 @@ check_option(Option, Options, Command) :-
 run_connected(Command, Arguments, Options) :-
     (   serves(Command, Options)
     ;   Command == diagnose,
-        Arguments = [_,_]
+        ( Arguments = [_,_] ; bridge_named(Arguments) )
     ),
     !,
     run(Command, Arguments, Options).
@@ -258,6 +259,10 @@ run(Command, Arguments, Options) :-
     order(Command, Arguments, Options).
 run(diagnose, [], _) :-
     diagnose(none).
+run(diagnose, [Bridge|Arguments], _) :-
+    bridge_named([Bridge|Arguments]),
+    !,
+    diagnose_bridge(Bridge, Arguments).
 run(diagnose, [Address], _) :-
     diagnose(Address).
 run(diagnose, [Kind, Port], _) :-
@@ -265,6 +270,12 @@ run(diagnose, [Kind, Port], _) :-
     ->  diagnose_nxt(Port)
     ;   throw(error(typhon_usage(arguments(diagnose)), _))
     ).
+
+bridge_named([python]).
+bridge_named([mqtt]).
+bridge_named([mqtt,_]).
+bridge_named([ros]).
+bridge_named([ros,_]).
 
 host_option(Options, Option) :-
     member(Option, Options),

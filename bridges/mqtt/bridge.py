@@ -18,6 +18,7 @@ else text.  Events are
     message      topic payload kind qos retain keys, the filters it matches
     too_big      topic size keys
     up, down     the connection
+    denied       filter
 
 What is published while there is no connection is kept, so many messages at
 the most, and so is what comes in a session that the broker has kept before
@@ -27,6 +28,7 @@ somebody subscribes to it.
 import collections
 import json
 import os
+import socket
 import ssl
 import sys
 import threading
@@ -110,7 +112,10 @@ class Broker(Helper):
         self.filters = {}               # filter: {kind}, and its qos
         self.matcher = MQTTMatcher()
         self.qos = {}
-        self.acks = {}                  # mid: request, of (un)subscribe
+        self.todo = collections.deque() # filters to be subscribed to
+        self.asked = None               # mid, filter: what the broker decides
+        self.unlucky = {}               # filter: so often the broker hung up
+        self.asking = {}                # filter: requests that wait for it
         self.waits = {}                 # mid: request, of publish
         self.kept = collections.deque()     # published with QoS 0, offline
         self.held = collections.deque()     # came in, nobody wants it yet
@@ -132,6 +137,8 @@ class Broker(Helper):
         if request.get('wait'):
             try:
                 client.connect(*address)
+            except ssl.SSLError as problem:
+                raise Refusal('tls', str(problem)) from None
             except (OSError, ValueError) as problem:
                 raise Refusal('unreachable', str(problem)) from None
             self.connecting = request
@@ -143,7 +150,7 @@ class Broker(Helper):
     def set_up(self, client, request):
         client.max_queued_messages_set(self.pending)
         client.max_inflight_messages_set(100)
-        client.reconnect_delay_set(1, 30)
+        client.reconnect_delay_set(0.25, 30)
         if request.get('user') is not None:
             client.username_pw_set(request['user'], request.get('password'))
         will = request.get('will')
@@ -154,10 +161,26 @@ class Broker(Helper):
         if request.get('tls'):
             self.set_up_tls(client, request)
         client.on_connect, client.on_disconnect = self.came, self.went
+        client.on_socket_open = self.at_once
         client.on_message = self.message
         client.on_publish = self.published
         client.on_subscribe = self.subscribed
         client.on_unsubscribe = self.unsubscribed
+
+    # Small packets wait for nothing: neither ours for more of them, nor those
+    # of the broker, 40 ms each, for our acknowledgement of the one before.
+
+    @staticmethod
+    def at_once(_client, _data, sock):
+        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    def acknowledge(self):
+        sock = self.client.socket()
+        if sock is not None and hasattr(socket, 'TCP_QUICKACK'):
+            try:
+                sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_QUICKACK, 1)
+            except OSError:
+                pass                    # it is being closed
 
     @staticmethod
     def set_up_tls(client, request):
@@ -212,21 +235,44 @@ class Broker(Helper):
         with self.lock:
             self.want(wanted, kind, integer(request, 'qos', 0, 2))
             held = self.take_held(wanted)
-            mid = self.ask_for(wanted) if self.connected else None
-            if mid is not None:
-                self.acks[mid] = request
+            connected = self.connected
+            if connected:
+                self.asking.setdefault(wanted, []).append(request)
+                self.todo.append(wanted)
+                self.ask_next()
         for topic, payload, qos, retain in held:
             self.tell(topic, payload, qos, retain)
-        return {} if mid is None else LATER
+        return LATER if connected else {}
 
     def want(self, wanted, kind, qos):
         self.filters.setdefault(wanted, set()).add(kind)
         self.qos[wanted] = max(qos, self.qos.get(wanted, 0))
         self.matcher[wanted] = wanted
 
-    def ask_for(self, wanted):
-        code, mid = self.client.subscribe(wanted, self.qos[wanted])
-        return mid if code == mqtt.MQTT_ERR_SUCCESS else None
+    def ask_next(self):
+        """One filter at a time: the broker may hang up because of it."""
+        while self.todo and self.asked is None and self.connected:
+            wanted = self.todo.popleft()
+            if wanted in self.filters:
+                code, mid = self.client.subscribe(wanted, self.qos[wanted])
+                if code == mqtt.MQTT_ERR_SUCCESS:
+                    self.asked = mid, wanted
+                else:                   # it will be asked for again
+                    self.todo.clear()
+            else:
+                self.decided(wanted, {})
+
+    def decided(self, wanted, answer):
+        for request in self.asking.pop(wanted, []):
+            self.reply(request, answer)
+
+    def deny(self, wanted):
+        if self.filters.pop(wanted, None) is not None:
+            del self.matcher[wanted]
+            del self.qos[wanted]
+        self.unlucky.pop(wanted, None)
+        self.event('denied', filter=wanted)
+        self.decided(wanted, Refusal('denied', 'the broker refuses'))
 
     def do_unsubscribe(self, request, _deadline):
         wanted, kind = text(request, 'filter'), kind_of(request)
@@ -249,8 +295,8 @@ class Broker(Helper):
 
     def farewell(self):
         with self.lock:
-            self.connected = False
-        if self.client is not None:
+            connected, self.connected = self.connected, False
+        if connected:
             self.client.disconnect()
             self.client.loop_stop()
 
@@ -269,10 +315,9 @@ class Broker(Helper):
             return
         with self.lock:
             self.connected = True
-            if not (session_present(flags) and self.clean is False
-                    and connecting is None):
-                for wanted in self.filters:
-                    self.ask_for(wanted)
+            self.asked = None
+            self.todo = collections.deque(self.filters)
+            self.ask_next()
             kept, self.kept = self.kept, collections.deque()
             for one in kept:
                 self.publish(*one)
@@ -284,11 +329,18 @@ class Broker(Helper):
     def went(self, _client, _data, *rest):
         with self.lock:
             was, self.connected = self.connected, False
-            acks, self.acks = self.acks, {}
-        for request in acks.values():   # asked for again, when it comes back
-            self.reply(request, {})
+            if self.asked is not None:
+                self.hung_up(self.asked[1])
         if was:
             self.event('down')
+
+    def hung_up(self, wanted):
+        """It may be because of that filter."""
+        self.unlucky[wanted] = self.unlucky.get(wanted, 0) + 1
+        if self.unlucky[wanted] > 1:
+            self.deny(wanted)
+        elif wanted in self.filters:    # the last, next time
+            self.filters[wanted] = self.filters.pop(wanted)
 
     def published(self, _client, _data, mid, *_):
         with self.lock:
@@ -298,19 +350,21 @@ class Broker(Helper):
 
     def subscribed(self, _client, _data, mid, codes, *_):
         with self.lock:
-            request = self.acks.pop(mid, None)
-        if request is None:
-            return
-        if number(codes[0]) >= 128:
-            self.do_unsubscribe(request, None)
-            self.reply(request, Refusal('denied', 'the broker refuses'))
-        else:
-            self.reply(request, {})
+            if self.asked is None or self.asked[0] != mid:
+                return
+            wanted, self.asked = self.asked[1], None
+            if number(codes[0]) >= 128:
+                self.deny(wanted)
+            else:
+                self.unlucky.pop(wanted, None)
+                self.decided(wanted, {})
+            self.ask_next()
 
     def unsubscribed(self, *_):
         pass
 
     def message(self, _client, _data, message):
+        self.acknowledge()
         try:
             topic = message.topic
         except UnicodeDecodeError:

@@ -8,7 +8,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
-:- use_module('../host', [host_resolve/2, remote/2]).
+:- use_module('../host', [host_option/2, host_resolve/2, remote/2]).
 
 /** <module> The beginning and the end of bridges
 
@@ -21,7 +21,9 @@ there.
 
 :- multifile
     starts/4,                   % Bridge, Host, What, Options: of this process
-    stops/2.                    % Bridge, Host
+    stops/2,                    % Bridge, Host
+    delivers/3,                 % Host, Name, Source: a payload that is Python
+    typhon_words:python_delivered/3.
 
 %!  python_start(+Host, +File, +Options) is det.
 %
@@ -149,6 +151,13 @@ ros_start(Host, Where, Options) :-
 
 ros_stop(Host) :-
     stop(ros, Host).
+
+%   Where it is allowed.
+
+typhon_words:python_delivered(Host, Name, Source) :-
+    host_option(Host, python(true)),
+    load(python),
+    delivers(Host, Name, Source).
 
                 /*******************************
                 *        HERE OR ELSEWHERE     *

@@ -8,6 +8,7 @@
                                         % +Same
             subscribers_tell_new/5,     % +Service, +Host, +Key, +Message,
                                         % +Same
+            subscribers_drop/4,         % +Service, +Host, +Key, +Message
             subscribers_forget/2        % +Service, +Host
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -158,6 +159,16 @@ tell(How, Service-Key, Host-Agent, What) :-
     !.
 tell(_, Service-Key, Host-Agent, _) :-  % it is not here any more
     ignore(unsubscribe(Service, Host, Key, Agent)).
+
+%!  subscribers_drop(+Service, +Host, +Key, +Message) is det.
+%
+%   Key cannot be had.  Who wanted it is told Message, as the last thing.
+
+subscribers_drop(Service, Host, Key, Message) :-
+    subscribers_tell(Service, Host, Key, Message, Message),
+    findall(Agent, subscribed(Key, Agent, Service, Host, _), Agents),
+    forall(member(Agent, Agents),
+           ignore(unsubscribe(Service, Host, Key, Agent))).
 
 %!  subscribers_forget(+Service, +Host) is det.
 %

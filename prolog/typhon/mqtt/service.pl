@@ -13,7 +13,7 @@
               [ helper_ask/4, helper_close/1, helper_failure/3, helper_file/2,
                 helper_note/2, helper_open/3, helper_python/2, helper_tell/2 ]).
 :- use_module('../bridge',
-              [ service_begin/4, service_end/2, subscription/3,
+              [ service_begin/4, service_end/2, subscribers_drop/4, subscription/3,
                 subscribers_tell/5, subscribers_tell_new/5 ]).
 :- use_module(topics, [mqtt_payload/3, mqtt_topic/2]).
 :- use_module(url, [mqtt_url/2]).
@@ -255,6 +255,11 @@ heard("too_big", Host, Dict) :-
     forall(member(Filter, Filters),
            tell(false, Host, Filter, Kind, too_big(Topic, Size),
                 too_big(Topic, _))).
+heard("denied", Host, Dict) :-
+    _{filter:Text} :< Dict,
+    atom_string(Filter, Text),
+    forall(subscription(mqtt, Host, mqtt(Filter, Kind)),
+           subscribers_drop(mqtt, Host, mqtt(Filter, Kind), denied(Filter))).
 heard("down", Host, _) :-
     retractall(up(Host)),
     print_message(warning, typhon(mqtt_down(Host))).

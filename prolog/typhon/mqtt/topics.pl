@@ -14,6 +14,7 @@
 */
 
 longest(65535).                 % bytes
+deepest(200).                   % levels: many brokers hang up beyond
 
 %!  mqtt_topic(+Term, -Topic:atom) is det.
 %!  mqtt_filter(+Term, -Filter:atom) is det.
@@ -55,12 +56,25 @@ text(Term, Atom) :-
     ;   type_error(text, Term)
     ).
 
+%   Brokers hang up on who sends something else.
+
 fits(Text) :-
     Text \== '',
-    \+ sub_atom(Text, _, _, _, '\000\'),
+    atom_codes(Text, Codes),
+    \+ ( member(Code, Codes), no_character(Code) ),
     longest(Max),
     string_bytes(Text, Length),
-    Length =< Max.
+    Length =< Max,
+    deepest(Most),
+    atomic_list_concat(Levels, /, Text),
+    length(Levels, Count),
+    Count =< Most.
+
+no_character(Code) :- Code < 32.
+no_character(Code) :- Code >= 127, Code < 160.
+no_character(Code) :- Code >= 0xD800, Code =< 0xDFFF.
+no_character(Code) :- Code >= 0xFDD0, Code =< 0xFDEF.
+no_character(Code) :- Code /\ 0xFFFE =:= 0xFFFE.
 
 string_bytes(Text, Length) :-
     atom_length(Text, Chars),

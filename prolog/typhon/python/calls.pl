@@ -81,12 +81,12 @@ failure(said(Dict), _, _) :-
     python_error(Kind, Dict, Class),
     !,
     get_dict(message, Dict, Message),
-    throw(error(python_error(Class, Message), _)).
+    throw(error(python_error(Class, Message), context(_, _))).
 failure(said(Dict), Host, Request) :-
     get_dict(error, Dict, "timeout"),
     !,
     what(Request, What),
-    throw(error(timeout_error(python(What), Host), _)).
+    throw(error(timeout_error(python(What), Host), context(_, _))).
 failure(Answer, Host, Request) :-
     what(Request, What),
     helper_failure(Answer, python(Host), What).

@@ -1,5 +1,4 @@
 :- module(typhon_python_delivered, []).
-:- use_module('../host', [host_option/2]).
 :- use_module('../bridge', [service/2, service_offer/4]).
 :- use_module(service, [python_begin/2, python_forget/2, python_load/4]).
 
@@ -16,11 +15,10 @@ Python code can do whatever the user of this process may do.
 */
 
 :- multifile
-    typhon_words:python_delivered/3,
+    typhon_starting:delivers/3,
     typhon_words:python_undelivered/2.
 
-typhon_words:python_delivered(Host, Name, Source) :-
-    host_option(Host, python(true)),
+typhon_starting:delivers(Host, Name, Source) :-
     with_mutex(typhon_python, begun(Host)),
     module_name(Name, Module),
     python_load(Host, _{do:load, name:Module, source:Source}, PIs, Clauses),

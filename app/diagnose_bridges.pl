@@ -1,0 +1,141 @@
+:- module(typhon_diagnose_bridges,
+          [ diagnose_bridge/2           % +Bridge, +Arguments
+          ]).
+
+/** <module> Why a bridge does not work here
+
+Goes from the Python of the helper to what it speaks with, and stops with
+advice at the step that does not work.
+
+*Threading*: the calling thread.
+*/
+
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module('../prolog/typhon',
+              [ host_start/1, host_stop/1, mqtt_start/3, python_start/3,
+                remote/2, ros_start/3 ]).
+:- use_module('../prolog/typhon/helper', [helper_file/2, helper_python/2]).
+:- use_module('../prolog/typhon/ros/node', [node_python/2]).
+:- use_module(diagnose, [diagnose_steps/2]).
+
+%!  diagnose_bridge(+Bridge, +Arguments:list) is semidet.
+%
+%   Prints what works on the way to `python`, which has no arguments, `mqtt`,
+%   of which the URL of a broker is one, or `ros`, of which that of a rosbridge
+%   server may be one.  Fails at the first step that does not work, and if
+%   there is no such bridge.
+
+diagnose_bridge(Bridge, Arguments) :-
+    findall(Step-Advice, step(Bridge, Step, Advice), Steps),
+    Steps \== [],
+    setup_call_cleanup(
+        host_start(diagnosed),
+        diagnose_steps(Steps, check(Bridge-Arguments)),
+        host_stop(diagnosed)).
+
+%   step(Bridge, Name, Advice)
+
+step(python, python,
+     'Install python3, or set typhon_helper_python:python.').
+step(python, function,
+     'The helper bridges/python/bridge.py does not run: see what it says.').
+step(python, 'round trip', '').
+step(mqtt, python,
+     'Install python3, or set typhon_helper_python:python.').
+step(mqtt, paho,
+     'apt install python3-paho-mqtt, or pip install paho-mqtt.').
+step(mqtt, broker,
+     'Does it run, at that port, and may you use it? Say its URL, as \c
+      mqtt://localhost:1883.').
+step(mqtt, 'round trip',
+     'The broker must let you publish and subscribe to typhon/diagnosed.').
+step(ros, python,
+     'make tools-ros puts it there, from PyPI; for a rosbridge server, \c
+      diagnose ros URL, it is not needed.').
+step(ros, rclpy,
+     'Make it anew: delete that directory, and make tools-ros.').
+step(ros, ros,
+     'For a server: is rosbridge_server running there, at that port? For \c
+      ROS 2: see what the node says above.').
+step(ros, topics,
+     'For a server: start the node rosapi beside it.').
+step(ros, 'round trip', '').
+
+%   check(Bridge-Arguments, Step, Found): Found is what there is to say
+
+check(ros-Arguments, Step, Found) :-
+    !,
+    check_ros(Step, Arguments, Found).
+check(_, python, Found) :-
+    python_says('import sys; print(sys.executable, sys.version.split()[0])',
+                python3, Found).
+check(_, paho, Found) :-
+    python_says('import paho.mqtt as p; print(p.__version__)', paho, Found).
+check(python-_, function, Found) :-
+    helper_file('python/hello.py', File),
+    python_start(diagnosed, File, []),
+    remote(diagnosed, hello(agents, Found)).
+check(python-_, 'round trip', Found) :-
+    ten_times(remote(diagnosed, hello(agents, _)), Found).
+check(mqtt-[], broker, not_asked) :-
+    !.
+check(mqtt-[URL], broker, Found) :-
+    mqtt_start(diagnosed, URL, []),
+    atom_concat(URL, ' answers', Found).
+check(mqtt-[], 'round trip', not_asked) :-
+    !.
+check(mqtt-_, 'round trip', Found) :-
+    Topic = 'typhon/diagnosed',
+    remote(diagnosed, subscribe(Topic, [as(latest)])),
+    ten_times(remote(diagnosed, publish(Topic, x, [qos(1),wait(true)])),
+              Found).
+
+%   A server needs no Python.
+
+check_ros(python, [], Python) :-
+    node_python([], Python).
+check_ros(rclpy, [], Found) :-
+    node_python([], Python),
+    python_says(Python,
+                'import importlib.metadata as m; print(m.version("ros-rclpy"))',
+                rclpy, Found).
+check_ros(ros, [], 'this is a node, /typhon_diagnosed') :-
+    ros_start(diagnosed, ros2, [reach(subnet)]).
+check_ros(ros, [URL], Found) :-
+    ros_start(diagnosed, URL, []),
+    atom_concat(URL, ' answers', Found).
+check_ros(topics, _, Found) :-
+    remote(diagnosed, ros_topics(Topics)),
+    length(Topics, Count),
+    format(atom(Found), '~d are known', [Count]).
+check_ros('round trip', [], Found) :-
+    ten_times(remote(diagnosed, ros_parameters('/typhon_diagnosed', _)),
+              Found).
+check_ros('round trip', [_], Found) :-
+    ten_times(remote(diagnosed, ros_topics(_)), Found).
+check_ros(_, [_], not_asked).
+
+ten_times(Goal, Found) :-
+    get_time(Start),
+    forall(between(1, 10, _), Goal),
+    get_time(End),
+    MilliSeconds is (End-Start)*100,
+    format(atom(Found), '~1f ms', [MilliSeconds]).
+
+python_says(Code, Module, Text) :-
+    helper_python([], Python),
+    python_says(Python, Code, Module, Text).
+
+python_says(Python, Code, Module, Text) :-
+    catch(process_create(Python, ['-c', Code],
+                         [ stdout(pipe(Out)), stderr(null), process(Pid) ]),
+          error(_, _),
+          throw(error(existence_error(python, Python), _))),
+    read_string(Out, _, Said),
+    close(Out),
+    process_wait(Pid, Status),
+    (   Status == exit(0)
+    ->  split_string(Said, "", "\n ", [Line]),
+        atom_string(Text, Line)
+    ;   throw(error(existence_error(python_module, Module), _))
+    ).
