@@ -13,6 +13,7 @@
               [ helper_ask/4, helper_close/1, helper_failure/3,
                 helper_file/2, helper_note/2, helper_open/3, helper_pid/2 ]).
 :- use_module(names, [ros_word/2]).
+:- use_module(texts, []).
 
 /** <module> A ROS 2 node of our own
 
