@@ -16,7 +16,10 @@ is `frame`, with a frame as a server sends it.  Refused are
     wrong_value  field type value
     ros          what else ROS says
 
-What rosapi answers of topics and services is answered here.
+What rosapi answers of topics and services is answered here.  When messages
+come faster than they are taken some are dropped; then there is a frame
+
+    dropped      topic count
 """
 
 import argparse
@@ -37,7 +40,8 @@ FINDING = 3.0                           # seconds until all nodes are known
 MATCHING = 0.5                          # until one that is known hears us
 MOST_HELD = 1000                        # messages until then, for each topic
 MOST_CLIENTS = 100                      # of services and of actions
-DEPTH = 100                             # of the queues of ROS
+MOST_TOLD = 1000                        # messages that wait for Prolog
+DEPTH = 1000                            # of the queues of ROS
 
 arguments = argparse.ArgumentParser()
 arguments.add_argument('--node', default='typhon')
@@ -155,6 +159,47 @@ class Ear:
         self.node.destroy_subscription(old)
 
 
+class Outbox:
+    """Frames for Prolog.  Who hears messages does not wait until it reads."""
+
+    def __init__(self, say):
+        self.say, self.frames, self.messages = say, collections.deque(), 0
+        self.dropped = collections.Counter()
+        self.wake = threading.Condition()
+        threading.Thread(target=self.run, daemon=True).start()
+
+    def put(self, frame):
+        with self.wake:
+            self.append(frame)
+
+    def put_message(self, frame):
+        with self.wake:
+            if self.messages < MOST_TOLD:
+                self.messages += 1
+                self.append(frame)
+            else:
+                self.dropped[frame['topic']] += 1
+
+    def append(self, frame):
+        self.frames.append(frame)
+        self.wake.notify()
+
+    def run(self):
+        while True:
+            with self.wake:
+                self.wake.wait_for(lambda: self.frames)
+                frame = self.frames.popleft()
+                if frame['op'] == 'publish':
+                    self.messages -= 1
+                # What is missing was to come after all that is here.
+                dropped = {} if self.frames else dict(self.dropped)
+                if dropped:
+                    self.dropped.clear()
+            self.say(frame)
+            for topic, count in dropped.items():
+                self.say({'op': 'dropped', 'topic': topic, 'count': count})
+
+
 class Clients:
     """Clients of services or actions, the last so many used."""
 
@@ -179,6 +224,7 @@ class Node(Helper):
         rclpy.init(args=[])
         self.node = rclpy.create_node(name)
         self.born = time.monotonic()
+        self.outbox = Outbox(lambda frame: self.event('frame', frame=frame))
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
         self.outlets, self.subscriptions, self.services = {}, {}, {}
@@ -225,7 +271,7 @@ class Node(Helper):
 
     def frame(self, op, **fields):
         fields['op'] = op
-        self.event('frame', frame=fields)
+        self.outbox.put(fields)
 
     def op_hello(self, _frame, _deadline):
         return {'node': self.node.get_fully_qualified_name(),
@@ -255,8 +301,9 @@ class Node(Helper):
         if topic not in self.subscriptions:
             self.subscriptions[topic] = Ear(
                 self.node, cls, topic,
-                lambda message: self.frame('publish', topic=topic,
-                                           msg=messages.said(message)))
+                lambda message: self.outbox.put_message(
+                    {'op': 'publish', 'topic': topic,
+                     'msg': messages.said(message)}))
 
     def op_unsubscribe(self, frame, _deadline):
         subscription = self.subscriptions.pop(text(frame, 'topic'), None)

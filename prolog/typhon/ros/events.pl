@@ -146,6 +146,9 @@ happens(result(Id, Status, JSON), Host) :-
     goal_end(Host, Id, Agent, _),
     message(Host, JSON, Result),
     goal_over(Host, Id, Agent, Status, Result).
+happens(dropped(Topic, Count), Host) :-
+    subscribers_tell(ros, Host, Topic, dropped(Topic, Count),
+                     dropped(Topic, _)).
 happens(status(Level, Id, Text), Host) :-
     complaint(Level, Id, Text, Host).
 happens(unknown(What), Host) :-

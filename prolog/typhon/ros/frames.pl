@@ -51,6 +51,7 @@ op_frame(cancel(Id, Action),
 %     - request(Id, Service, JSON): a call of what we offer
 %     - feedback(Id, JSON), result(Id, Status, JSON): of a goal; Status is
 %       `succeeded`, `canceled`, `aborted` or `failed`, then JSON is text
+%     - dropped(Topic, Count): messages that came too fast for our own node
 %     - status(Level, Id, Text): a complaint; Id may be `none`
 %     - unknown(What): not for us, or not as it should be
 
@@ -82,6 +83,10 @@ event("action_result", Frame, result(Id, Status, Values)) :-
     name(id, Frame, Id),
     outcome(Frame, Outcome),
     goal_outcome(Outcome, Frame, Status, Values).
+event("dropped", Frame, dropped(Topic, Count)) :-
+    name(topic, Frame, Topic),
+    get_dict(count, Frame, Count),
+    integer(Count).
 event("status", Frame, status(Level, Id, Text)) :-
     name(level, Frame, Level),
     text(msg, Frame, Text),

@@ -15,7 +15,7 @@ The peer, ros_peer.py, is a node in another process, made with rclpy alone.
                                  process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/helper), [helper_pid/2]).
+:- use_module(library(typhon/helper), [helper_file/2, helper_pid/2]).
 :- use_module(library(typhon/ros)).
 :- use_module(library(typhon/ros/node), [node_python/2]).
 
@@ -290,7 +290,40 @@ document(Differences, Dir) :-
     split_string(Session, "\n", "", Lines),
     transcript_differences([1-Lines], Dir, Differences).
 
+%   Who hears faster than it is read, in Python alone.
+
+outbox("
+import sys, threading, time
+sys.argv[1:], folder = [], sys.argv[1]
+sys.path.insert(0, folder)
+import node
+said, go = [], threading.Event()
+outbox = node.Outbox(lambda frame: (go.wait(), said.append(frame)))
+for number in range(5000):
+    outbox.put_message({'op': 'publish', 'topic': '/t'})
+go.set()
+end = time.time() + 10
+while said[-1:] == [] or said[-1]['op'] != 'dropped':
+    assert time.time() < end
+    time.sleep(0.01)
+print(sum(frame['op'] == 'publish' for frame in said) + said[-1]['count'],
+      said[-1]['count'] >= 3999)
+").
+
+python(Code, Said) :-
+    node_python([], Python),
+    helper_file(ros, Folder),
+    process_create(Python, ['-c', Code, Folder],
+                   [ stdout(pipe(Out)), process(Pid) ]),
+    read_line_to_string(Out, Said),
+    close(Out),
+    process_wait(Pid, _).
+
 :- begin_tests(ros2_start).
+
+test(what_comes_too_fast_is_counted, Said == "5000 True") :-
+    outbox(Code),
+    python(Code, Said).
 
 test(the_document_shows_what_happens, Differences == []) :-
     with_tmp_dir(document(Differences)).

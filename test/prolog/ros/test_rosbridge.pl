@@ -11,7 +11,13 @@ real one would not.
 :- use_module('../../lib/rosbridge_server').
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, nth1/3]).
+:- use_module(library(base64), [base64_encoded/3]).
 :- use_module(library(plunit)).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(sha), [sha_hash/3]).
+:- use_module(library(socket),
+              [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
+                tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/ros)).
 
@@ -360,17 +366,76 @@ test(no_server) :-
 
 :- end_tests(rosbridge_actions).
 
+%   Servers that accept connections, and one of them becomes a WebSocket, but
+%   neither reads or says anything then.
+
+:- meta_predicate
+    with_silent_port(-, 0),
+    with_deaf_server(-, 0),
+    with_alpha(0).
+
+with_silent_port(URL, Goal) :-
+    setup_call_cleanup(
+        listening(Socket, URL),
+        once(Goal),
+        tcp_close_socket(Socket)).
+
+listening(Socket, URL) :-
+    tcp_socket(Socket),
+    tcp_setopt(Socket, reuseaddr),
+    tcp_bind(Socket, localhost:Port),
+    tcp_listen(Socket, 5),
+    format(atom(URL), 'ws://localhost:~d/', [Port]).
+
+with_deaf_server(URL, Goal) :-
+    setup_call_cleanup(
+        ( listening(Socket, URL),
+          thread_create(deaf(Socket), Thread) ),
+        once(Goal),
+        ( thread_send_message(Thread, end),
+          thread_join(Thread, _),
+          tcp_close_socket(Socket) )).
+
+deaf(Socket) :-
+    tcp_accept(Socket, Client, _),
+    setup_call_cleanup(
+        tcp_open_socket(Client, In, Out),
+        ( accept_key(In, Accept),
+          format(Out, "HTTP/1.1 101 Switching Protocols\r\n\c
+                       Upgrade: websocket\r\nConnection: Upgrade\r\n\c
+                       Sec-WebSocket-Accept: ~w\r\n\r\n", [Accept]),
+          flush_output(Out),
+          thread_get_message(end) ),
+        ( close(In, [force(true)]),
+          close(Out, [force(true)]) )).
+
+accept_key(In, Accept) :-
+    read_line_to_string(In, Line),
+    (   string_concat("Sec-WebSocket-Key: ", Key, Line)
+    ->  string_concat(Key, "258EAFA5-E914-47DA-95CA-C5AB0DC85B11", Text),
+        sha_hash(Text, Hash, []),
+        string_codes(Bytes, Hash),
+        base64_encoded(Bytes, Accept, [as(string), encoding(octet)]),
+        rest_of_header(In)
+    ;   accept_key(In, Accept)
+    ).
+
+rest_of_header(In) :-
+    read_line_to_string(In, Line),
+    (   Line == ""
+    ->  true
+    ;   rest_of_header(In)
+    ).
+
+with_alpha(Goal) :-
+    setup_call_cleanup(host_start(alpha), once(Goal), host_stop(alpha)).
+
 :- begin_tests(rosbridge_trouble).
 
 test(no_server, error(socket_error(econnrefused, _))) :-
     free_port(Port),
     format(atom(URL), 'ws://localhost:~d/', [Port]),
     no_leaks(with_alpha(ros_start(alpha, URL, []))).
-
-:- meta_predicate with_alpha(0).
-
-with_alpha(Goal) :-
-    setup_call_cleanup(host_start(alpha), Goal, host_stop(alpha)).
 
 test(not_here, error(existence_error(host, gamma))) :-
     with_alpha(ros_start(gamma, 'ws://localhost:1/', [])).
@@ -486,6 +551,23 @@ test(what_is_too_long_is_passed_over) :-
           does(alpha, Agent, ros_call('/add_two_ints', 'a/B', [a=1,b=1], R)),
           assertion(R.sum == 2),
           assertion(ros_property(alpha, ignored(1))) ))).
+
+test(a_server_that_does_not_read) :-
+    no_leaks(with_deaf_server(URL, with_alpha(
+        ( ros_start(alpha, URL, [deadline(0.2)]),
+          length(Codes, 100 000),
+          maplist(=(0'x), Codes),
+          string_codes(Long, Codes),
+          catch(( repeat,
+                  remote(alpha, ros_publish('/t', 'std_msgs/String',
+                                            [data=Long])),
+                  fail ),
+                error(Formal, _), true),
+          assertion(Formal == resource_error(ros_queue)) )))).
+
+test(a_server_that_says_nothing, error(timeout_error(connect, URL))) :-
+    no_leaks(with_silent_port(URL, with_alpha(
+        ros_start(alpha, URL, [connect_deadline(0.3)])))).
 
 test(a_million_characters_come_through) :-
     on_a_host(Agent, [],
