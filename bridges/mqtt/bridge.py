@@ -203,7 +203,7 @@ class Broker(Helper):
         if len(payload) > self.largest:
             raise Refusal('too_big', '%d bytes' % len(payload))
         with self.lock:
-            if not self.connected and qos == 0:
+            if qos == 0 and (self.kept or not self.connected):
                 self.keep(topic, payload, retain, wait and request)
             else:
                 self.publish(topic, payload, qos, retain, wait and request)
@@ -215,20 +215,31 @@ class Broker(Helper):
             raise Refusal('full', 'too much is kept for the broker')
         self.kept.append((topic, payload, 0, retain, waiting))
 
+    def send_kept(self):
+        """What was kept, when all that is wanted here can come."""
+        while self.kept and self.connected and self.asked is None:
+            try:
+                if not self.publish(*self.kept.popleft()):
+                    return
+            except (BadRequest, Refusal) as problem:
+                self.event('untold', message=str(problem))
+
     def publish(self, topic, payload, qos, retain, waiting):
         try:
             info = self.client.publish(topic, payload, qos, retain)
         except ValueError as problem:
             raise BadRequest(str(problem)) from None
         if info.rc == mqtt.MQTT_ERR_NO_CONN and qos == 0:
-            self.keep(topic, payload, retain, waiting)
-        elif info.rc == mqtt.MQTT_ERR_QUEUE_SIZE:
+            self.kept.appendleft((topic, payload, qos, retain, waiting))
+            return False                # until it comes back
+        if info.rc == mqtt.MQTT_ERR_QUEUE_SIZE:
             raise Refusal('full', 'too much is kept for the broker')
         elif waiting:
             if qos == 0 or info.is_published():
                 self.reply(waiting, {})
             else:
                 self.waits[info.mid] = waiting
+        return True
 
     def do_subscribe(self, request, _deadline):
         wanted, kind = text(request, 'filter'), kind_of(request)
@@ -318,9 +329,7 @@ class Broker(Helper):
             self.asked = None
             self.todo = collections.deque(self.filters)
             self.ask_next()
-            kept, self.kept = self.kept, collections.deque()
-            for one in kept:
-                self.publish(*one)
+            self.send_kept()
         if connecting:
             self.reply(connecting,
                        {'session': session_present(flags)})
@@ -359,6 +368,7 @@ class Broker(Helper):
                 self.unlucky.pop(wanted, None)
                 self.decided(wanted, {})
             self.ask_next()
+            self.send_kept()
 
     def unsubscribed(self, *_):
         pass
