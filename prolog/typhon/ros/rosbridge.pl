@@ -88,13 +88,16 @@ rosbridge_up(Host) :-
 %   @error ros_error(not_connected, Host), resource_error(ros_queue)
 
 rosbridge_send(Host, Frame, Seconds) :-
-    atom_json_dict(Text, Frame, [as(string), width(0)]),
+    frame_text(Frame, Text),
     (   writer(Host, Writer),
         catch(pass(Writer, write(Text), Seconds),
               error(existence_error(_, _), _), fail)
     ->  true
     ;   throw(error(ros_error(not_connected, Host), _))
     ).
+
+frame_text(Frame, Text) :-
+    atom_json_dict(Text, Frame, [as(string), width(0)]).
 
 pass(Writer, Message, Seconds) :-
     (   thread_send_message(Writer, Message, [timeout(Seconds)])
@@ -179,10 +182,21 @@ served(Link, Socket) :-
     ignore(down(Host, Why)).
 
 served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
+    findall(Frame, up(Host, Frame), Before),
+    said_to(Before, Writer, Silence),
     assertz(writer(Host, Writer)),
+    findall(Frame, ( up(Host, Frame), \+ memberchk(Frame, Before) ), Since),
+    said_to(Since, Writer, Silence),
     tell(Asker, true),
-    forall(up(Host, Frame), rosbridge_send(Host, Frame, Silence)),
     catch(read_on(Host, Socket, Why), error(Why, _), true).
+
+%   What begins to hold while this is said may be said twice.
+
+said_to([], _, _).
+said_to([Frame|Frames], Writer, Seconds) :-
+    frame_text(Frame, Text),
+    pass(Writer, write(Text), Seconds),
+    said_to(Frames, Writer, Seconds).
 
 read_on(Host, Socket, Why) :-
     socket_read(Socket, Read),
