@@ -83,22 +83,21 @@ typhon_ros_rosbridge:up(Host, Frame) :-
     op_frame(Op, Frame).
 
 typhon_ros_rosbridge:down(Host, Why) :-
+    (   service(ros, Host)
+    ->  assertz(away(Host)),
+        print_message(warning, typhon(ros_lost(Host, Why)))
+    ;   true                            % it was asked to go
+    ),
     lost(Host, Why).
 
 typhon_helper_owner:again(ros(Host), _) :-
     lost(Host, node_ended),
-    retractall(away(Host)),
     fail.
 typhon_helper_owner:again(ros(Host), _{do:frame, frame:Frame}) :-
     standing(Host, _, Op),
     op_frame(Op, Frame).
 
 lost(Host, Why) :-
-    (   service(ros, Host)
-    ->  assertz(away(Host)),
-        print_message(warning, typhon(ros_lost(Host, Why)))
-    ;   true
-    ),
     answers_fail(Host, Why),
     forget_requests(Host),
     lose_goals(Host, Why).

@@ -24,7 +24,7 @@ run by the thread that reads, which reads nothing meanwhile.
 */
 
 :- multifile
-    heard/2,                    % Host, Frame
+    heard/2,                    % Host, Read: as of socket_read/2
     up/2,                       % Host, Frame: to be said first of all
     down/2.                     % Host, Why
 
@@ -37,6 +37,7 @@ longest_queue(1000).
 first_wait(0.1).
 longest_wait(10).
 bye_seconds(1).
+soon(5).                        % seconds, for a connection to end
 
 %!  rosbridge_open(+Host, +URL, +Seconds, +Silence) is det.
 %
@@ -124,7 +125,7 @@ close_down(Host, Reader) :-
         bye_seconds(Seconds),
         thread_get_message(Me, stopped(Reader), [timeout(Seconds)])
     ->  true
-    ;   interrupt(Reader)
+    ;   ignore(interrupt(Reader))
     ),
     thread_join(Reader, _).
 
@@ -135,7 +136,7 @@ farewell(Host) :-
 
 interrupt(Thread) :-
     catch(thread_signal(Thread, throw(typhon_ros_stop)),
-          error(existence_error(_, _), _), true).
+          error(existence_error(_, _), _), fail).
 
                 /*******************************
                 *            READING           *
@@ -145,14 +146,25 @@ connected(Link, Wait) :-
     Link = link(Host, URL, Silence, Asker),
     catch(socket_open(URL, Silence, Socket), error(Formal, Context), true),
     (   nonvar(Socket)
-    ->  catch(served(Link, Socket), error(Kind, Where),
+    ->  get_time(Start),
+        catch(served(Link, Socket), error(Kind, Where),
               print_message(error, error(Kind, Where))),
-        first_wait(Pause)
+        pause_after(Start, Wait, Pause)
     ;   tell(Asker, error(Formal, Context)),
         debug(typhon(ros), '~w: ~w is not there: ~p', [Host, URL, Formal]),
         Pause = Wait
     ),
     pause(Link, Pause).
+
+%   One that ends its connections at once is not asked at once.
+
+pause_after(Start, Wait, Pause) :-
+    get_time(Now),
+    soon(Soon),
+    (   Now-Start > Soon
+    ->  first_wait(Pause)
+    ;   Pause = Wait
+    ).
 
 pause(Link, Pause) :-
     thread_self(Me),
@@ -170,16 +182,23 @@ tell(Asker, Result) :-
           error(existence_error(_, _), _),
           true).
 
+%   Not by a cleanup handler, in which nobody may wait; so who is interrupted
+%   while it tidies up does that again.
+
 served(Link, Socket) :-
     Link = link(Host, _, Silence, _),
-    setup_call_cleanup(
-        writer_begin(Host, Silence, Socket, Writer),
-        served_until(Link, Socket, Writer, Why),
-        ( retractall(writer(Host, _)),
-          writer_end(Writer),
-          socket_close(Socket) )),
+    writer_begin(Host, Silence, Socket, Writer),
+    catch(served_until(Link, Socket, Writer, Why), Ball, true),
+    catch(tidy(Host, Writer, Socket), typhon_ros_stop,
+          tidy(Host, Writer, Socket)),
     debug(typhon(ros), '~w: the connection has ended: ~p', [Host, Why]),
-    ignore(down(Host, Why)).
+    ignore(down(Host, Why)),
+    ( var(Ball) -> true ; throw(Ball) ).
+
+tidy(Host, Writer, Socket) :-
+    retractall(writer(Host, _)),
+    writer_end(Writer),
+    socket_close(Socket).
 
 served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
     findall(Frame, up(Host, Frame), Before),
@@ -215,9 +234,14 @@ writer_begin(Host, Silence, Socket, Writer) :-
     alias(writer, Host, Alias),
     longest_queue(Max),
     Every is Silence/3,
-    thread_create(catch(write_on(Socket, Every),
-                        typhon_ros_stop, true), Writer,
+    thread_self(Me),
+    thread_create(writes(Socket, Every, Me), Writer,
                   [alias(Alias), queue_max_size(Max)]).
+
+writes(Socket, Every, Reader) :-
+    catch(write_on(Socket, Every), typhon_ros_stop, true),
+    thread_self(Me),
+    thread_send_message(Reader, written(Me)).
 
 %   It ends by itself when the server is gone.
 
@@ -240,6 +264,18 @@ say(ping, Socket) :-
 say(bye, Socket) :-
     socket_bye(Socket).
 
+%   One that writes to a server which does not read is stuck, and again when it
+%   is interrupted, because the library writes what is left.
+
 writer_end(Writer) :-
+    thread_self(Me),
+    writer_stop(Writer, Me),
+    catch(thread_join(Writer, _), error(existence_error(_, _), _), true),
+    ignore(thread_get_message(Me, written(Writer), [timeout(0)])).
+
+writer_stop(Writer, Me) :-
     interrupt(Writer),
-    thread_join(Writer, _).
+    \+ thread_get_message(Me, written(Writer), [timeout(0.1)]),
+    !,
+    writer_stop(Writer, Me).
+writer_stop(_, _).
