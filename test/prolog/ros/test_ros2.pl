@@ -261,7 +261,7 @@ test(an_agent_that_leaves_takes_nothing_along) :-
     assertion(ros_property(alpha, heard('/left', _))),
     agent_send(Agent, go(beta)),
     wait_until(\+ ros_property(alpha, heard('/left', _)), 5),
-    assertion(\+ ros_property(alpha, offered('/left/set', _))),
+    wait_until(\+ ros_property(alpha, offered('/left/set', _)), 5),
     wait_until(( remote(alpha, ros_services(Services)),
                  \+ memberchk('/left/set', Services) ), 5).
 
