@@ -10,6 +10,7 @@ layer has a door, and behind it a folder with its rooms.
   | agents                         | typhon/lifecycle  |
   | what agents can say            | typhon/language   |
   | networks, the log server       | typhon/network    |
+  | events, as they happen         | typhon/watching   |
   | tables for people              | typhon/people     |
   | Python, MQTT, ROS              | typhon/bridge     |
 */
@@ -19,8 +20,9 @@ layer has a door, and behind it a folder with its rooms.
             [ host_start/1, host_start/2, host_change/2, host_stop/1,
               host_property/2, link/2, link/3, unlink/2, remote/2
             ]).
-:- reexport('typhon/lifecycle', except([agent_glance/2])).
+:- reexport('typhon/lifecycle', except([agent_glance/2, status_shown/2])).
 :- reexport('typhon/network').
+:- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport('typhon/people').
 :- reexport(typhon/bridge/starting,
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,

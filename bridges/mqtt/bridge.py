@@ -121,6 +121,15 @@ class Broker(Helper):
         self.held = collections.deque()     # came in, nobody wants it yet
         self.pending, self.largest = 1000, 1 << 22
 
+    def run(self):
+        threading.excepthook = self.thread_died
+        super().run()
+
+    def thread_died(self, what):
+        """Without the thread of the connection nothing would come."""
+        sys.__excepthook__(what.exc_type, what.exc_value, what.exc_traceback)
+        os._exit(5)
+
     # Requests
 
     def do_connect(self, request, _deadline):
@@ -325,7 +334,7 @@ class Broker(Helper):
                 self.event('refused', reason=code)
             return
         with self.lock:
-            self.connected = True
+            self.connected, again = True, bool(self.filters)
             self.asked = None
             self.todo = collections.deque(self.filters)
             self.ask_next()
@@ -333,7 +342,7 @@ class Broker(Helper):
         if connecting:
             self.reply(connecting,
                        {'session': session_present(flags)})
-        self.event('up')
+        self.event('up', again=again)
 
     def went(self, _client, _data, *rest):
         with self.lock:

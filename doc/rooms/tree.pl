@@ -172,8 +172,8 @@ reach(Part, Module, Name/Arity) :-
 %
 %   From below: who stands higher imports from who stands lower.
 
-layers([ base, helper, nxt, program, wire, host, agent, travel, lifecycle, language,
-         network, people, bridge, python, mqtt, ros ]).
+layers([ base, helper, nxt, program, wire, host, agent, travel, lifecycle,
+         language, network, watching, people, bridge, python, mqtt, ros ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.
 %!  door(?File, ?Layer) is nondet.

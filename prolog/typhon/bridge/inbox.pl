@@ -1,10 +1,11 @@
 :- module(typhon_inbox,
           [ inbox_put/4,                % +How, +Source, +Whom, +What
-            gap_forget/3                % +Service, +Key, +Agent
+            gap_forget/3,               % +Service, +Key, +Agent
+            inbox_key/2                 % +Key, -Text
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module('../host',
-              [ event/4, events_hear/3, events_unhear/3, host/3,
+              [ event/4, events_hear/3, events_unheard/1, host/3,
                 tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent', [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
 
@@ -23,7 +24,7 @@ runs an agent hears that it takes a message, while there are gaps.
 :- multifile typhon_events:told/4.
 
 :- dynamic
-    gap/6.                      % Agent, Service, Key, Host, Max, Count
+    gap/7.                      % Agent, Service, Text, Host, Max, Count, Key
 
 %!  inbox_put(+How, +Source, +Whom, +What) is semidet.
 %
@@ -86,26 +87,38 @@ done(full, Gap, Count0) :-
 %   Who has taken a gap tells of it, or puts it back.
 
 gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
-    (   gap(Agent, Service, Key, _, _, _),
+    (   gap(Agent, Service, _, _, _, _, _),
+        inbox_key(Key, Text),
         with_mutex(typhon_inbox,
-                   retract(gap(Agent, Service, Key, Host, Max, Count0)))
+                   retract(gap(Agent, Service, Text, Host, Max, Count0, _)))
     ->  Count = Count0
     ;   Count = 0
     ).
 
 add(gap(Agent, Service, Key, Host, Max), Count) :-
-    (   gap(_, _, _, Host, _, _)
+    (   gap(_, _, _, Host, _, _, _)
     ->  true
-    ;   events_unhear([messages], Host, inbox),
-        events_hear([messages], Host, inbox)
+    ;   events_hear([messages], Host, inbox(Host))
     ),
-    assertz(gap(Agent, Service, Key, Host, Max, Count)).
+    inbox_key(Key, Text),
+    assertz(gap(Agent, Service, Text, Host, Max, Count, Key)).
 
 unheard(gap(_, _, _, Host, _)) :-
-    (   gap(_, _, _, Host, _, _)
+    (   gap(_, _, _, Host, _, _, _)
     ->  true
-    ;   events_unhear([messages], Host, inbox)
+    ;   events_unheard(inbox(Host))
     ).
+
+%!  inbox_key(+Key, -Text:atom) is det.
+%
+%   Tables that threads share are asked by atoms: an index on compound terms
+%   is not safe, see typhon_agents.
+
+inbox_key(Key, Key) :-
+    atom(Key),
+    !.
+inbox_key(Key, Text) :-
+    format(atom(Text), '~q', [Key]).
 
 %!  gap_forget(+Service, +Key, +Agent) is det.
 %
@@ -119,8 +132,8 @@ gap_forget(Service, Key, Agent) :-
     ;   with_mutex(typhon_inbox, unheard(Gap))
     ).
 
-typhon_events:told(inbox, Host, Agent, received(_, _)) :-
-    gap(Agent, Service, Key, Host, Max, _),
+typhon_events:told(inbox(_), Host, Agent, received(_, _)) :-
+    gap(Agent, Service, _, Host, Max, _, Key),
     with_agent(Agent, mail_count(Agent, Waiting)),
     Waiting =< Max//2,
     Gap = gap(Agent, Service, Key, Host, Max),

@@ -96,10 +96,18 @@ end(Service, Host) :-
     host(Host, _, Place),
     catch(place_undeliver(Place, service(Service)), error(_, _), true),
     subscribers_forget(Service, Host),
-    forall(ends(Service, Host), true),
+    catch(forall(ends(Service, Host), true), error(Formal, Context),
+          print_message(warning, error(Formal, Context))),
     debug(typhon(bridge), '~w is no longer on ~w', [Service, Host]).
 
 %   After the agents have gone.
 
 typhon_hosting:evacuate(Host, _) :-
-    forall(retract(service(Service, Host)), end(Service, Host)).
+    end_all(Host).
+
+end_all(Host) :-
+    (   retract(service(Service, Host))
+    ->  end(Service, Host),
+        end_all(Host)
+    ;   true
+    ).

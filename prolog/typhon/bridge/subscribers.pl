@@ -20,9 +20,9 @@
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../host',
               [ context_agent/1, context_now/2, events_hear/3,
-                events_unhear/3 ]).
+                events_unheard/1 ]).
 :- use_module('../agent', [agent/5]).
-:- use_module(inbox, [gap_forget/3, inbox_put/4]).
+:- use_module(inbox, [gap_forget/3, inbox_key/2, inbox_put/4]).
 
 /** <module> Who wants what of a service
 
@@ -43,7 +43,8 @@ its calls are in order, and must not wait.
     typhon_options:declared/4.
 
 :- dynamic
-    subscribed/5,               % Key, Agent, Service, Host, How
+    subscribed/6,               % Text, Agent, Service, Host, How, Key: asked
+                                % by Text, see inbox_key/2
     away/2,                     % Agent, subscribed(...): it has set out
     hearing/1.                  % Host
 
@@ -78,10 +79,12 @@ subscriber(Host, Agent) :-
 subscribe(Service, Host, Key, Agent, Options) :-
     check_options(subscription_option, Options),
     how(Options, Agent, How),
+    inbox_key(Key, Text),
     with_mutex(typhon_subscribers,
                ( hear(Host),
-                 retractall(subscribed(Key, Agent, Service, Host, _)),
-                 assertz(subscribed(Key, Agent, Service, Host, How)) )).
+                 retractall(subscribed(Text, Agent, Service, Host, _, _)),
+                 assertz(subscribed(Text, Agent, Service, Host, How,
+                                    Key)) )).
 
 how(Options, Agent, how(As, Max, Since)) :-
     get_time(Since),
@@ -105,13 +108,15 @@ option_type(queue(X), positive_integer, X).
 %   Agent does not want Key any more.  Fails if it did not.
 
 unsubscribe(Service, Host, Key, Agent) :-
+    inbox_key(Key, Text),
     with_mutex(typhon_subscribers,
-               ( once(retract(subscribed(Key, Agent, Service, Host, _))),
+               ( once(retract(subscribed(Text, Agent, Service, Host, _, _))),
                  gone(Service, Host, Key, Agent) )).
 
 gone(Service, Host, Key, Agent) :-
     gap_forget(Service, Key, Agent),
-    (   subscribed(Key, _, Service, Host, _)
+    inbox_key(Key, Text),
+    (   subscribed(Text, _, Service, Host, _, _)
     ->  true
     ;   ignore(catch(wanted(Service, Host, Key, false),
                      error(Formal, _),
@@ -123,7 +128,8 @@ gone(Service, Host, Key, Agent) :-
 %   Somebody wants Key.
 
 subscription(Service, Host, Key) :-
-    subscribed(Key, _, Service, Host, _).
+    subscribed(_, _, Service, Host, _, Key0),
+    Key = Key0.
 
 %!  subscribers_tell(+Service, +Host, +Key, +Message, +Same) is det.
 %
@@ -135,12 +141,15 @@ subscription(Service, Host, Key) :-
 %   a service says to who comes is nothing to others.
 
 subscribers_tell(Service, Host, Key, Message, Same) :-
-    findall(Agent-How, subscribed(Key, Agent, Service, Host, How), Pairs),
+    inbox_key(Key, Text),
+    findall(Agent-How, subscribed(Text, Agent, Service, Host, How, _), Pairs),
     tell_all(Pairs, Service, Host, Key, Message-Same).
 
 subscribers_tell_new(Service, Host, Key, Message, Same) :-
-    findall(Since-(Agent-how(As, Max, Since)),
-            subscribed(Key, Agent, Service, Host, how(As, Max, Since)),
+    inbox_key(Key, Text),
+    findall(Since-(Agent-How),
+            ( subscribed(Text, Agent, Service, Host, How, _),
+              How = how(_, _, Since) ),
             Subscribers),
     pairs_keys(Subscribers, Times),
     max_list([0|Times], Last),
@@ -166,7 +175,8 @@ tell(_, Service-Key, Host-Agent, _) :-  % it is not here any more
 
 subscribers_drop(Service, Host, Key, Message) :-
     subscribers_tell(Service, Host, Key, Message, Message),
-    findall(Agent, subscribed(Key, Agent, Service, Host, _), Agents),
+    inbox_key(Key, Text),
+    findall(Agent, subscribed(Text, Agent, Service, Host, _, _), Agents),
     forall(member(Agent, Agents),
            ignore(unsubscribe(Service, Host, Key, Agent))).
 
@@ -180,7 +190,7 @@ subscribers_forget(Service, Host) :-
                  deafen(Host) )).
 
 forget(Service, Host) :-
-    retract(subscribed(Key, Agent, Service, Host, _)),
+    retract(subscribed(_, Agent, Service, Host, _, Key)),
     !,
     gap_forget(Service, Key, Agent),
     forget(Service, Host).
@@ -196,17 +206,17 @@ hear(Host) :-
     (   hearing(Host)
     ->  true
     ;   assertz(hearing(Host)),
-        events_hear([life,hops], Host, subscribers)
+        events_hear([life,bad_ends,hops], Host, subscribers(Host))
     ).
 
 deafen(Host) :-
-    (   subscribed(_, _, _, Host, _)
+    (   subscribed(_, _, _, Host, _, _)
     ->  true
     ;   retractall(hearing(Host)),
-        events_unhear([life,hops], Host, subscribers)
+        events_unheard(subscribers(Host))
     ).
 
-typhon_events:told(subscribers, Host, Agent, What) :-
+typhon_events:told(subscribers(_), Host, Agent, What) :-
     happens(What, Host, Agent).
 
 happens(left(_), Host, Agent) =>
@@ -222,9 +232,9 @@ happens(_, _, _) =>
     true.
 
 sets_out(Agent, Host) :-
-    retract(subscribed(Key, Agent, Service, Host, How)),
+    retract(subscribed(Text, Agent, Service, Host, How, Key)),
     !,
-    assertz(away(Agent, subscribed(Key, Agent, Service, Host, How))),
+    assertz(away(Agent, subscribed(Text, Agent, Service, Host, How, Key))),
     gone(Service, Host, Key, Agent),
     sets_out(Agent, Host).
 sets_out(_, _).
@@ -232,20 +242,20 @@ sets_out(_, _).
 comes_back(Agent) :-
     retract(away(Agent, Subscribed)),
     !,
-    Subscribed = subscribed(Key, _, Service, Host, _),
+    Subscribed = subscribed(_, _, Service, Host, _, Key),
     assertz(Subscribed),
     ignore(wanted(Service, Host, Key, true)),
     comes_back(Agent).
 comes_back(_).
 
 all_gone(Agent, Host) :-
-    (   subscribed(_, Agent, _, Host, _)
+    (   subscribed(_, Agent, _, Host, _, _)
     ->  with_mutex(typhon_subscribers, unsubscribe_all(Agent, Host))
     ;   true
     ).
 
 unsubscribe_all(Agent, Host) :-
-    retract(subscribed(Key, Agent, Service, Host, _)),
+    retract(subscribed(_, Agent, Service, Host, _, Key)),
     !,
     gone(Service, Host, Key, Agent),
     unsubscribe_all(Agent, Host).
@@ -260,7 +270,7 @@ sweep :-
 
 sweep_one :-
     (   retract(away(Agent, Subscribed))
-    ->  Subscribed = subscribed(_, _, _, Host, _),
+    ->  Subscribed = subscribed(_, _, _, Host, _, _),
         (   agent(Agent, Host, _, _, _)
         ->  assertz(away(Agent, Subscribed))
         ;   true

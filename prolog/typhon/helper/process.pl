@@ -8,7 +8,7 @@
             helper_file/2               % +Relative, -File
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../base/json', [atom_json_dict/3]).
+:- use_module('../base/json', [json_dict/2]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
@@ -139,7 +139,7 @@ lines(Out, Heard) :-
     ).
 
 line(Line, Heard) :-
-    catch(atom_json_dict(Line, Dict, []), error(_, _), fail),
+    catch(json_dict(Line, Dict), error(_, _), fail),
     is_dict(Dict),
     !,
     catch(ignore(call(Heard, Dict)), error(Formal, Context),

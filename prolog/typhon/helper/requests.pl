@@ -31,7 +31,8 @@ own, so what comes too late is for nobody.
 */
 
 :- dynamic
-    helper/3.                   % Name, Owner thread, Queue of what was told
+    helper/4.                   % Text, Owner thread, Queue of what was told,
+                                % Name: asked by Text, see the_helper/3
 
 grace_seconds(2).
 stop_seconds(5).
@@ -52,16 +53,18 @@ helper_open(Name, Command, Options) :-
     with_mutex(typhon_helper, open_helper(Name, Command, When)).
 
 open_helper(Name, _, _) :-
-    helper(Name, _, _),
+    text(Name, Text),
+    helper(Text, _, _, _),
     !,
     permission_error(open, helper, Name).
 open_helper(Name, Command, When) :-
     owner_alias(Name, Alias),
+    text(Name, Text),
     most_told(Max),
     sig_atomic(( message_queue_create(Told, [max_size(Max)]),
                  thread_create(own(Name, Command, When, Alias, Told),
                                Owner, [alias(Alias)]),
-                 assertz(helper(Name, Owner, Told)) )).
+                 assertz(helper(Text, Owner, Told, Name)) )).
 
 %   One that is closed may have its name still.
 
@@ -82,7 +85,8 @@ helper_close(Name) :-
     in_own_thread(close_helper(Name)).
 
 close_helper(Name) :-
-    (   retract(helper(Name, Owner, Told))
+    text(Name, Text),
+    (   retract(helper(Text, Owner, Told, _))
     ->  true
     ;   existence_error(helper, Name)
     ),
@@ -103,10 +107,12 @@ close_helper(Name) :-
 %   The helpers that there are; those of them that have a process now.
 
 helper_running(Name) :-
-    helper(Name, _, _).
+    helper(_, _, _, Name0),
+    Name = Name0.
 
 helper_pid(Name, Pid) :-
-    helper(Name, Owner, _),
+    helper(_, Owner, _, Name0),
+    Name = Name0,
     process_pid(Owner, Pid).
 
 %!  helper_ask(+Name, +Request, +Seconds, -Answer) is det.
@@ -170,12 +176,18 @@ helper_note(Name, Request) :-
     request_line(Request, Line),
     pass(Name, Owner, note(Line)).
 
+%   An index on compound terms is not safe where other threads retract.
+
 the_helper(Name, Owner, Told) :-
-    (   helper(Name, Owner0, Told0)
+    text(Name, Text),
+    (   helper(Text, Owner0, Told0, _)
     ->  Owner = Owner0,
         Told = Told0
     ;   existence_error(helper, Name)
     ).
+
+text(Name, Text) :-
+    format(atom(Text), '~q', [Name]).
 
                 /*******************************
                 *             ERRORS           *
@@ -214,7 +226,7 @@ prolog:error_message(existence_error(python, Python)) -->
 prolog:error_message(existence_error(helper, Name)) -->
     [ 'There is no helper ~p'-[Name] ].
 prolog:error_message(timeout_error(Request, Name)) -->
-    { helper(Name, _, _) },
+    { helper_running(Name) },
     [ 'The helper ~p did not do ~p in time'-[Name, Request] ].
 prolog:error_message(helper_died(Status, Name)) -->
     [ 'The helper ~p ended: ~p'-[Name, Status] ].

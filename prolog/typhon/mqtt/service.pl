@@ -6,6 +6,7 @@
             mqtt_message/5              % +Topic, +Payload, +Options, +Kind,
                                         % -Message
           ]).
+:- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
@@ -13,29 +14,25 @@
               [ helper_ask/4, helper_close/1, helper_failure/3, helper_file/2,
                 helper_note/2, helper_open/3, helper_python/2, helper_tell/2 ]).
 :- use_module('../bridge',
-              [ service_begin/4, service_end/2, subscribers_drop/4, subscription/3,
-                subscribers_tell/5, subscribers_tell_new/5 ]).
+              [ service_begin/4, service_end/2, subscription/3 ]).
+:- use_module(incoming, [connection/1, connection_gone/1]).
 :- use_module(topics, [mqtt_payload/3, mqtt_topic/2]).
 :- use_module(url, [mqtt_url/2]).
 
 /** <module> The connection of a host to a broker
 
-*Threading*: any thread.  What comes in is passed on by the thread that reads
-it.
+*Threading*: any thread.
 */
 
 :- multifile
     typhon_starting:starts/4,
-    typhon_helper_answers:heard/2,
     typhon_helper_owner:again/2,
     typhon_options:declared/4,
     typhon_services:ends/2,
-    prolog:error_message//1,
-    prolog:message//1.
+    prolog:error_message//1.
 
 :- dynamic
-    started/3,                  % Host, Options, Request: to connect
-    up/1.                       % Host: there is a connection
+    started/3.                  % Host, Options, Request: to connect
 
 typhon_starting:starts(mqtt, Host, URL, Options) :-
     check_options(mqtt_option, Options),
@@ -61,12 +58,12 @@ connect(Host, Options, Request) :-
 typhon_options:declared(mqtt_option, Option, Type, Value) :-
     option_type(Option, Type, Value).
 
-option_type(user(X), ground, X).
-option_type(password(X), ground, X).
-option_type(client(X), ground, X).
+option_type(user(X), text, X).
+option_type(password(X), text, X).
+option_type(client(X), text, X).
 option_type(clean(X), boolean, X).
-option_type(will(X, Y), ground, X-Y).
-option_type(will(X, Y, Z), ground, X-Y-Z).
+option_type(will(X, _), text, X).
+option_type(will(X, _, Y), list, [X|Y]).
 option_type(keepalive(X), between(1, 65535), X).
 option_type(ca(X), ground, X).
 option_type(cert(X), ground, X).
@@ -149,15 +146,19 @@ typhon_services:ends(mqtt, Host) :-
     ignore(catch(helper_close(mqtt(Host)),
                  error(existence_error(_, _), _), true)),
     retractall(started(Host, _, _)),
-    retractall(up(Host)).
+    connection_gone(Host).
 
 %!  mqtt_default(+Host, +Option, +Default) is det.
 %
 %   As option/3, of what Host was started with.
+%
+%   @error existence_error(mqtt, Host) if it was stopped meanwhile
 
 mqtt_default(Host, Option, Default) :-
-    started(Host, Options, _),
-    option(Option, Options, Default).
+    (   started(Host, Options, _)
+    ->  option(Option, Options, Default)
+    ;   existence_error(mqtt, Host)
+    ).
 
                 /*******************************
                 *           REQUESTS           *
@@ -207,7 +208,7 @@ formal(timeout, Host, Request, timeout_error(mqtt(What), Host)) :-
 
 mqtt_publish(Host, Message, false, _) :-
     get_dict(qos, Message, 0),
-    up(Host),
+    connection(Host),
     fits(Host, Message),
     !,
     helper_tell(mqtt(Host), Message.put(_{do:publish, wait:false})).
@@ -227,55 +228,12 @@ mqtt_note(Host, Request) :-
     helper_note(mqtt(Host), Request).
 
 typhon_helper_owner:again(mqtt(Host), Request) :-
-    retractall(up(Host)),
+    connection_gone(Host),
     started(Host, _, Request0),
     findall(_{filter:Filter, kind:Kind, qos:2},
             subscription(mqtt, Host, mqtt(Filter, Kind)),
             Filters),
     put_dict(filters, Request0, Filters, Request).
-
-                /*******************************
-                *        WHAT COMES IN         *
-                *******************************/
-
-typhon_helper_answers:heard(mqtt(Host), Dict) :-
-    get_dict(event, Dict, Event),
-    heard(Event, Host, Dict).
-
-heard("message", Host, Dict) :-
-    _{ topic:Text, keys:Filters, kind:Kind, payload:Payload, qos:QoS,
-       retain:Retain } :< Dict,
-    atom_string(Topic, Text),
-    Message = message(Topic, Payload, [qos(QoS),retain(Retain)]),
-    forall(member(Filter, Filters),
-           tell(Retain, Host, Filter, Kind, Message, message(Topic, _, _))).
-heard("too_big", Host, Dict) :-
-    _{topic:Text, keys:Filters, kind:Kind, size:Size} :< Dict,
-    atom_string(Topic, Text),
-    forall(member(Filter, Filters),
-           tell(false, Host, Filter, Kind, too_big(Topic, Size),
-                too_big(Topic, _))).
-heard("denied", Host, Dict) :-
-    _{filter:Text} :< Dict,
-    atom_string(Filter, Text),
-    forall(subscription(mqtt, Host, mqtt(Filter, Kind)),
-           subscribers_drop(mqtt, Host, mqtt(Filter, Kind), denied(Filter))).
-heard("down", Host, _) :-
-    retractall(up(Host)),
-    print_message(warning, typhon(mqtt_down(Host))).
-heard("up", Host, _) :-
-    assertz(up(Host)),
-    print_message(informational, typhon(mqtt_up(Host))).
-heard("refused", Host, _) :-
-    print_message(warning, typhon(mqtt_refused(Host))).
-
-tell(Retain, Host, Filter0, Kind0, Message, Same) :-
-    atom_string(Filter, Filter0),
-    atom_string(Kind, Kind0),
-    (   Retain == true
-    ->  subscribers_tell_new(mqtt, Host, mqtt(Filter, Kind), Message, Same)
-    ;   subscribers_tell(mqtt, Host, mqtt(Filter, Kind), Message, Same)
-    ).
 
                 /*******************************
                 *           MESSAGES           *
@@ -293,10 +251,3 @@ prolog:error_message(timeout_error(mqtt(What), Host)) -->
 problem(unreachable, 'the broker cannot be reached').
 problem(refused, 'the broker refuses the connection').
 problem(tls, 'TLS cannot be used').
-
-prolog:message(typhon(mqtt_down(Host))) -->
-    [ 'MQTT on ~w: the connection to the broker is lost'-[Host] ].
-prolog:message(typhon(mqtt_up(Host))) -->
-    [ 'MQTT on ~w: connected'-[Host] ].
-prolog:message(typhon(mqtt_refused(Host))) -->
-    [ 'MQTT on ~w: the broker refuses the connection'-[Host] ].

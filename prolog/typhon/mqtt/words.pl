@@ -5,7 +5,7 @@
             subscribe/2,                % +Filter, +Options
             unsubscribe/1               % +Filter
           ]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/3, select_option/4]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../bridge',
@@ -77,6 +77,7 @@ subscribe(Filter) :-
     subscribe(Filter, []).
 
 subscribe(Filter0, Options0) :-
+    must_be(list, Options0),
     subscriber(Host, Agent),
     mqtt_filter(Filter0, Filter),
     mqtt_default(Host, payload(Kind0), auto),

@@ -3,6 +3,7 @@
             python_ask/4                % +Host, +Request, +Seconds, -Reply
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../helper', [helper_ask/4, helper_failure/3]).
@@ -50,7 +51,10 @@ function(Module, Function, Name/Arity, Clause) :-
 run(Module, Function, Args, Result) :-
     subscriber(Host, Agent),
     maplist(json_value, Args),
-    seconds(Host, Seconds),
+    (   seconds(Host, Seconds)
+    ->  true
+    ;   existence_error(python, Host)   % it was stopped
+    ),
     agent_value(Agent, Caller),
     python_ask(Host,
                _{ do:call, module:Module, function:Function, args:Args,

@@ -110,7 +110,8 @@ typhon_python_calls:seconds(Host, Seconds) :-
     option(timeout(Seconds), Options, 10).
 
 typhon_services:ends(python, Host) :-
-    helper_close(python(Host)),
+    ignore(catch(helper_close(python(Host)),
+                 error(existence_error(_, _), _), true)),
     retractall(started(Host, _)),
     retractall(loaded(Host, _, _)).
 

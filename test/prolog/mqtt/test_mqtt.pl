@@ -445,6 +445,8 @@ wrong(_, subscribe('', [as(fact)]), domain_error(mqtt_filter, _)).
 wrong(_, subscribe(7), type_error(text, 7)).
 wrong(_, subscribe(a), existence_error(running_agent, here)).
 wrong(_, subscribe(a, [as(song)]), _).
+wrong(_, subscribe(a, song), type_error(list, song)).
+wrong(_, publish(a, b, song), type_error(list, song)).
 wrong(_, subscribe(a, [queue(0)]), type_error(_, 0)).
 wrong(_, subscribe(a, [colour(red)]), domain_error(subscription_option, _)).
 wrong(_, unsubscribe(a), existence_error(mqtt_subscription, a)).
@@ -470,6 +472,8 @@ test(the_document_shows_what_happens, Differences == []) :-
 
 test(stopped_and_started, Ps == ["1","2","3","4"]) :-
     with_broker([], B, stopped_and_started(B, Ps)).
+test(what_is_retained_comes_again, Ps == ["1","2"]) :-
+    with_broker([], B, retained_anew(B, Ps)).
 test(too_much_is_kept, E == resource_error(mqtt_pending)) :-
     with_broker([], B,
                 with_mqtt(B, [pending(3)],
@@ -561,10 +565,10 @@ killed :-
     process_kill(Pid, kill).
 
 down :-
-    \+ typhon_mqtt_service:up(alpha).
+    \+ typhon_mqtt_incoming:up(alpha, _).
 
 up :-
-    typhon_mqtt_service:up(alpha).
+    typhon_mqtt_incoming:up(alpha, _).
 
 fill(0, none) :-
     !.
@@ -593,6 +597,21 @@ stopped_and_started(B, Ps) :-
                 remote(alpha, findall(P, sense(mqtt-message(s, P, _)),
                                       Ps0)) )),
     msort(Ps0, Ps).
+
+%   Who has subscribed long before the other wants to know, too.
+
+retained_anew(B, Ps) :-
+    with_mqtt(B, [],
+              ( reader(subscribe(r), 2, A),
+                remote(alpha, publish(r, 1, [retain(true),wait(true)])),
+                sleep(1.1),
+                reader(subscribe(r), 2, _),
+                broker_signal(B, term),
+                wait_until(down, 10),
+                broker_again(B),
+                stranger_says(B, r, ['-m', 2, '-r', '-q', 1]),
+                got(A, Ms) )),
+    findall(P, member(message(_, P, _), Ms), Ps).
 
 came(Payload) :-
     remote(alpha, sense(mqtt-message(s, Payload, _))).

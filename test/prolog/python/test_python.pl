@@ -47,7 +47,19 @@ file(Dir, Name, Lines, File) :-
         forall(member(Line, Lines), format(Out, '~w~n', [Line])),
         close(Out)).
 
-:- begin_tests(python_values).
+%   Values need no host of their own.
+
+shared_python :-
+    functions(File),
+    host_start(alpha),
+    python_start(alpha, File, []).
+
+:- begin_tests(python_values, [setup(shared_python),
+                               cleanup(host_stop(alpha))]).
+
+with_python([], Goal) :-
+    call(Goal).
+
 
 test(there_and_back) :-
     Values = [ 1, -7, 1267650600228229401496703205376, 0.5, "text", "", "\u00e4\n\"",
@@ -254,7 +266,8 @@ test(stuck) :-
     with_python([timeout(0.2)],
                 listening(( pid(Pid),
                             process_kill(Pid, stop),
-                            error_of(echo(1, _), E),
+                            wait_until(( error_of(echo(1, _), E),
+                                         E \== none ), 10),
                             wait_until(again, 10) ), _)),
     assertion(E == helper_died(stuck, python(alpha))).
 test(stopped_while_one_waits, E == closed) :-
@@ -298,7 +311,7 @@ test(many_at_a_time, Outcomes == [done,done,done,done]) :-
 test(who_waits_holds_up_nobody) :-
     with_python([timeout(20), threads(20)],
                 ( findall(A, ( between(1, 10, _),
-                               create([ (main :- nap(2, _)) ], A) ), As),
+                               create([ (main :- nap(1.5, _)) ], A) ), As),
                   wait_until(waits(10), 10),
                   get_time(T0),
                   create([ (main :- echo(1, 1)) ], Quick),
@@ -396,6 +409,8 @@ test(not_where_it_is_not_allowed, E == permission_error(deliver, python,
     with_tmp_dir(refused(E)).
 test(undelivered, E == existence_error) :-
     with_tmp_dir(undelivered(E)).
+test(stopped, E == existence_error(python, alpha)) :-
+    with_tmp_dir(stopped(E)).
 test(bad_code, Class == 'SyntaxError') :-
     with_tmp_dir(bad_code(Class)).
 test(no_such_file, error(existence_error(source_sink, _), _)) :-
@@ -440,6 +455,14 @@ undelivered(E, Dir) :-
                  joined(A, done),
                  error_of(twice(1, _), Formal),
                  functor(Formal, E, _) )).
+
+stopped(E, Dir) :-
+    twice(Dir, File),
+    with_hosts([alpha-[python(true)]],
+               ( create([ (main :- deliver(twice)) ], A, [payloads([File])]),
+                 joined(A, done),
+                 python_stop(alpha),
+                 error_of(twice(1, _), E) )).
 
 bad_code(Class, Dir) :-
     file(Dir, 'bad.py', ['def ('], File),
