@@ -67,7 +67,8 @@ def fill(message, values, path):
     if values == []:                    # a message without fields
         return
     if not isinstance(values, dict):
-        raise wrong(path.rstrip('.') or 'message', type(message).__name__, values)
+        raise wrong(path.rstrip('.') or 'message', type(message).__name__,
+                    values)
     types = message.get_fields_and_field_types()
     slots = dict(zip(types, message.SLOT_TYPES))
     for name, value in values.items():

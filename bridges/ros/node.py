@@ -91,8 +91,8 @@ class Outlet:
             self.held = None
         self.publisher = node.create_publisher(
             cls, topic, QoSProfile(depth=DEPTH),
-            event_callbacks=PublisherEventCallbacks(matched=self.matched,
-                                                    use_default_callbacks=False))
+            event_callbacks=PublisherEventCallbacks(
+                matched=self.matched, use_default_callbacks=False))
         if patience > 0:
             timer = threading.Timer(patience, self.flush)
             timer.daemon = True

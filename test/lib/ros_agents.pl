@@ -28,6 +28,8 @@ puppet_clause((on_message(_, do(Goal)) :-
                    self(Me),
                    leave(did(Me, Result)))).
 puppet_clause((on_message(_, go(Host)) :- move(Host))).
+puppet_clause((on_message(_, do_move(Host)) :-
+                   catch(move(Host), error(move_refused(_, _), _), true))).
 puppet_clause((on_message(_, end) :- dispose)).
 puppet_clause((on_message(ros, Message) :-
                    self(Me),

@@ -232,8 +232,10 @@ wanted(false, goal(Id), Host) =>
 wanted(false, Topic, Host) =>
     ignore(standing_end(Host, topic(Topic), _)),
     way_note(Host, unsubscribe(Topic)).
-wanted(true, goal(_), _) =>
-    true.
+wanted(true, goal(Id), Host) =>         % it was cancelled meanwhile
+    subscribers_tell(ros, Host, goal(Id),
+                     result(Id, failed, "cancelled: the agent had set out"),
+                     result(Id, _, _)).
 wanted(true, service(Service), Host) =>
     again(Host, service(Service)).
 wanted(true, Topic, Host) =>

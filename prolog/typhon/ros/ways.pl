@@ -13,7 +13,8 @@
 :- use_module(answers, [answer_await/5]).
 :- use_module(frames, [op_frame/2]).
 :- use_module(node, 
-              [ node_close/1, node_note/2, node_open/2, node_say/3, node_up/1 ]).
+              [ node_close/1, node_note/2, node_open/2, node_say/3,
+                node_up/1 ]).
 :- use_module(rosbridge,
               [ rosbridge_close/1, rosbridge_open/4, rosbridge_send/3,
                 rosbridge_up/1 ]).

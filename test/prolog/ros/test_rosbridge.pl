@@ -358,6 +358,17 @@ test(who_leaves_cancels) :-
           says("cancel_action_goal", Frame),
           assertion(atom_string(Id, Frame.id)) )).
 
+test(who_set_out_and_stayed_is_told) :-
+    on_a_host(Agent, [],
+        ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
+          does(alpha, Agent, ros_goal('/fibonacci', 'a/Fibonacci',
+                                      [order=1000], Id)),
+          host_change(beta, capacity(0)),
+          agent_send(Agent, do_move(beta)),
+          gets(alpha, Agent, result(Id, failed, _)),
+          does(alpha, Agent, ros_publish('/t', 'std_msgs/String', [data=x])),
+          gets(alpha, Agent, topic('/t', _)) )).
+
 test(no_server) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_goal('/none', 'a/Fibonacci', [], Id)),
