@@ -203,15 +203,16 @@ class Outbox:
 class Clients:
     """Clients of services or actions, the last so many used."""
 
-    def __init__(self, make):
-        self.make, self.kept = make, collections.OrderedDict()
+    def __init__(self, make, destroy):
+        self.make, self.destroy = make, destroy
+        self.kept = collections.OrderedDict()
 
     def client(self, name, type_name, cls):
         key = (name, type_name)
         if key not in self.kept:
             self.kept[key] = self.make(cls, name)
             if len(self.kept) > MOST_CLIENTS:
-                self.kept.popitem(last=False)[1].destroy()
+                self.destroy(self.kept.popitem(last=False)[1])
         self.kept.move_to_end(key)
         return self.kept[key]
 
@@ -233,9 +234,11 @@ class Node(Helper):
         self.goals = {}                 # id: handle, or what is to be done
         self.lock = threading.Lock()
         self.clients = Clients(
-            lambda cls, service: self.node.create_client(cls, service))
+            lambda cls, service: self.node.create_client(cls, service),
+            self.node.destroy_client)
         self.actors = Clients(
-            lambda cls, action: ActionClient(self.node, cls, action))
+            lambda cls, action: ActionClient(self.node, cls, action),
+            lambda client: client.destroy())
         threading.Thread(target=self.spin, daemon=True).start()
 
     def spin(self):

@@ -4,7 +4,7 @@ Echoes /in on /out; counts on /counted, best effort, and keeps `kept` on
 /kept; has the service /flip, the action /fibonacci, which goes on until it is
 cancelled if its order is 0, and refuses one below it, and the parameter
 `speed`.  What it gets on /ask is the name of a service, std_srvs/SetBool,
-which it calls; the answer is on /asked.
+which it calls, and how many seconds it waits; the answer is on /asked.
 """
 
 import os
@@ -71,12 +71,13 @@ asked = node.create_publisher(String, '/asked', 10)
 
 
 def ask(message):
-    client = node.create_client(SetBool, message.data, callback_group=group)
+    name, seconds = message.data.split()
+    client = node.create_client(SetBool, name, callback_group=group)
     if not client.wait_for_service(timeout_sec=5):
         asked.publish(String(data='no service'))
         return
     future = client.call_async(SetBool.Request(data=True))
-    until = time.time() + 0.7
+    until = time.time() + float(seconds)
     while not future.done() and time.time() < until:
         time.sleep(0.01)
     asked.publish(String(data=future.result().message if future.done()
