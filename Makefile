@@ -108,8 +108,9 @@ tools-peers:            ## install what `make bench-peers` compares with
 tools-ros:              ## install ROS 2 from PyPI for library(typhon/ros)
 	@.ci/ros-tools
 
-tools-all:              ## install all that .ci/packages lists
+tools-all:              ## install all that .ci/packages lists, and JADE
 	@.ci/install all
+	@bench/peers/jade --get >/dev/null
 
 install:
 	@:
