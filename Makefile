@@ -17,7 +17,7 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools tools-peers tools-all demo demo-robots thesis \
+.PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros thesis \
     thesis-real test chaos fuzz check check-all doc bench bench-peers profile \
     test-portability install clean
 
@@ -41,6 +41,9 @@ demo: tools             ## sixty hosts, ten agents, six tasks in step
 
 demo-robots: tools      ## simulated robots carry a pole, and push boxes
 	@$(SWIPL) experiments/study.pl -- pole boxes --runs 1 --out out/robots
+
+demo-ros: tools tools-ros       ## agents drive robots of ROS 2, simulated
+	@$(SWIPL) -q app/demo_ros.pl
 
 thesis: tools           ## every figure of the thesis anew; RUNS=10, JOBS=2
 	@$(SWIPL) experiments/study.pl -- thesis --runs $(RUNS) \
@@ -101,6 +104,9 @@ tools:                  ## install what the core needs and is missing
 tools-peers:            ## install what `make bench-peers` compares with
 	@.ci/install peers
 	@bench/peers/jade --get >/dev/null
+
+tools-ros:              ## install ROS 2 from PyPI for library(typhon/ros)
+	@.ci/ros-tools
 
 tools-all:              ## install all that .ci/packages lists, and JADE
 	@.ci/install all

@@ -45,7 +45,7 @@ command(picture, 'LOG SVG', 2,
         'draw a log: hosts, time, agents and messages').
 command(diagnose, '[ADDRESS]', 0-2,
         'find out why a host, or with nxt PORT a robot, is not reached; or \c
-         why python, mqtt URL or fipa URL does not work').
+         why python, mqtt URL, fipa URL, ros or ros URL does not work').
 
 %!  footer(?Command, ?Line) is nondet.
 %

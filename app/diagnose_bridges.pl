@@ -13,15 +13,17 @@ advice at the step that does not work.
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module('../prolog/typhon',
               [ host_start/1, host_stop/1, mqtt_start/3, python_start/3,
-                remote/2 ]).
+                remote/2, ros_start/3 ]).
 :- use_module('../prolog/typhon/helper', [helper_file/2, helper_python/2]).
+:- use_module('../prolog/typhon/ros/node', [node_python/2]).
 :- use_module(diagnose, [diagnose_steps/2]).
 
 %!  diagnose_bridge(+Bridge, +Arguments:list) is semidet.
 %
-%   Prints what works on the way to `python`, which has no arguments, or
-%   `mqtt`, of which the URL of a broker is one.  Fails at the first step that
-%   does not work, and if there is no such bridge.
+%   Prints what works on the way to `python`, which has no arguments, `mqtt`,
+%   of which the URL of a broker is one, or `ros`, of which that of a rosbridge
+%   server may be one.  Fails at the first step that does not work, and if
+%   there is no such bridge.
 
 diagnose_bridge(Bridge, Arguments) :-
     findall(Step-Advice, step(Bridge, Step, Advice), Steps),
@@ -47,9 +49,23 @@ step(mqtt, broker,
       mqtt://localhost:1883.').
 step(mqtt, 'round trip',
      'The broker must let you publish and subscribe to typhon/diagnosed.').
+step(ros, python,
+     'make tools-ros puts it there, from PyPI; for a rosbridge server, \c
+      diagnose ros URL, it is not needed.').
+step(ros, rclpy,
+     'Make it anew: delete that directory, and make tools-ros.').
+step(ros, ros,
+     'For a server: is rosbridge_server running there, at that port? For \c
+      ROS 2: see what the node says above.').
+step(ros, topics,
+     'For a server: start the node rosapi beside it.').
+step(ros, 'round trip', '').
 
 %   check(Bridge-Arguments, Step, Found): Found is what there is to say
 
+check(ros-Arguments, Step, Found) :-
+    !,
+    check_ros(Step, Arguments, Found).
 check(_, python, Found) :-
     python_says('import sys; print(sys.executable, sys.version.split()[0])',
                 python3, Found).
@@ -74,6 +90,31 @@ check(mqtt-_, 'round trip', Found) :-
     ten_times(remote(diagnosed, publish(Topic, x, [qos(1),wait(true)])),
               Found).
 
+%   A server needs no Python.
+
+check_ros(python, [], Python) :-
+    node_python([], Python).
+check_ros(rclpy, [], Found) :-
+    node_python([], Python),
+    python_says(Python,
+                'import importlib.metadata as m; print(m.version("ros-rclpy"))',
+                rclpy, Found).
+check_ros(ros, [], 'this is a node, /typhon_diagnosed') :-
+    ros_start(diagnosed, ros2, [reach(subnet)]).
+check_ros(ros, [URL], Found) :-
+    ros_start(diagnosed, URL, []),
+    atom_concat(URL, ' answers', Found).
+check_ros(topics, _, Found) :-
+    remote(diagnosed, ros_topics(Topics)),
+    length(Topics, Count),
+    format(atom(Found), '~d are known', [Count]).
+check_ros('round trip', [], Found) :-
+    ten_times(remote(diagnosed, ros_parameters('/typhon_diagnosed', _)),
+              Found).
+check_ros('round trip', [_], Found) :-
+    ten_times(remote(diagnosed, ros_topics(_)), Found).
+check_ros(_, [_], not_asked).
+
 ten_times(Goal, Found) :-
     get_time(Start),
     forall(between(1, 10, _), Goal),
@@ -83,6 +124,9 @@ ten_times(Goal, Found) :-
 
 python_says(Code, Module, Text) :-
     helper_python([], Python),
+    python_says(Python, Code, Module, Text).
+
+python_says(Python, Code, Module, Text) :-
     catch(process_create(Python, ['-c', Code],
                          [ stdout(pipe(Out)), stderr(null), process(Pid) ]),
           error(_, _),

@@ -277,6 +277,8 @@ run(diagnose, [Kind, Port], _) :-
 bridge_named([python]).
 bridge_named([mqtt]).
 bridge_named([mqtt,_]).
+bridge_named([ros]).
+bridge_named([ros,_]).
 
 host_option(Options, Option) :-
     member(Option, Options),

@@ -12,7 +12,7 @@ layer has a door, and behind it a folder with its rooms.
   | networks, the log server       | typhon/network    |
   | events, as they happen         | typhon/watching   |
   | tables for people              | typhon/people     |
-  | Python, MQTT                   | typhon/bridge     |
+  | Python, MQTT, ROS              | typhon/bridge     |
 */
 
 :- reexport(typhon/program, [agent_check/1]).
@@ -26,5 +26,6 @@ layer has a door, and behind it a folder with its rooms.
 :- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport('typhon/people').
 :- reexport(typhon/bridge/starting,
-            [mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1]).
+            [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
+              ros_start/3, ros_stop/1 ]).
 :- use_module(typhon/language, []).

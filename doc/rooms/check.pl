@@ -109,6 +109,7 @@ face(File) :- inside('prolog/typhon.pl', File).
 face(File) :- inside('prolog/typhon/nxt.pl', File).
 face(File) :- inside('prolog/typhon/python.pl', File).
 face(File) :- inside('prolog/typhon/mqtt.pl', File).
+face(File) :- inside('prolog/typhon/ros.pl', File).
 
 may_import(_, Target) :-
     \+ module_of(Target, _),

@@ -173,7 +173,8 @@ reach(Part, Module, Name/Arity) :-
 %   From below: who stands higher imports from who stands lower.
 
 layers([ base, helper, nxt, program, wire, host, agent, travel, lifecycle,
-         language, network, watching, people, bridge, python, mqtt, fipa ]).
+         language, network, watching, people, bridge, python, mqtt, fipa,
+         ros ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.
 %!  door(?File, ?Layer) is nondet.

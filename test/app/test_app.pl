@@ -367,5 +367,10 @@ test(mqtt) :-
     assertion(Status == exit(1)),
     assertion(( has_line(Lines, '*FAIL*broker*')
               ; has_line(Lines, '*FAIL*paho*') )).
+test(ros) :-
+    typhon([diagnose, ros, 'ws://127.0.0.1:1/'], Status, Out, _),
+    split_string(Out, "\n", "\n", Lines),
+    assertion(Status == exit(1)),
+    assertion(has_line(Lines, '*FAIL*ros*')).
 
 :- end_tests(app_diagnose).

@@ -2,7 +2,9 @@
           [ python_start/3,             % +Host, +File, +Options
             python_stop/1,              % +Host
             mqtt_start/3,               % +Host, +URL, +Options
-            mqtt_stop/1                 % +Host
+            mqtt_stop/1,                % +Host
+            ros_start/3,                % +Host, +Where, +Options
+            ros_stop/1                  % +Host
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
@@ -105,6 +107,50 @@ mqtt_start(Host, URL, Options) :-
 
 mqtt_stop(Host) :-
     stop(mqtt, Host).
+
+%!  ros_start(+Host, +Where, +Options) is det.
+%
+%   Agents on Host can use ROS: publish, subscribe, call and offer services,
+%   send goals, see doc/bridges-ros.md.  Where is `ros2`, then Host is a node
+%   of ROS 2, or a URL as 'ws://robot:9090/', that of a rosbridge server, of
+%   ROS 1 or 2.  Options:
+%
+%     - messages(Form): what comes in is a `dict`, default, or `terms`, a
+%       list of Name=Value
+%     - deadline(Seconds): for what is asked of ROS, default 5
+%     - connect_deadline(Seconds): for this call, default 20 for `ros2`,
+%       which starts a process, 5 for a server
+%
+%   for `ros2`
+%
+%     - node(Name): default typhon_Host
+%     - domain(N): default is that of the environment variable ROS_DOMAIN_ID
+%     - reach(Reach): who is to be found: `localhost`, default, or `subnet`
+%     - python(File): which has rclpy; default that of `make tools-ros`
+%
+%   and for a server
+%
+%     - silence(Seconds): when it has not even answered a ping for so long
+%       it is gone; default 30
+%
+%   @error existence_error(host, Host), permission_error(start, ros, Host)
+%   @error domain_error(ros_option, Option), domain_error(ros, Where)
+%   @error existence_error(ros_python, File) if `make tools-ros` has not made
+%          it, existence_error(python_module, rclpy)
+%   @error socket_error(Code, Text) and others of http_open/3
+%   @error timeout_error(connect, URL)
+
+ros_start(Host, Where, Options) :-
+    start(ros, Host, Where, Options).
+
+%!  ros_stop(+Host) is det.
+%
+%   Nothing is published, heard, offered and waited for there any more.
+%
+%   @error existence_error(ros, Host)
+
+ros_stop(Host) :-
+    stop(ros, Host).
 
 %   Where it is allowed.
 

@@ -1,0 +1,80 @@
+:- payload(rover, [provides([cost/3, carry/2])]).
+
+/*  How a robot of ROS with two wheels carries something, and what that costs.
+
+    Needs a host with ROS, and there the tuple rover(Name): the robot takes
+    geometry_msgs/Twist on /Name/cmd_vel and tells its geometry_msgs/Pose on
+    /Name/pose, of which the latest is in the tuple space, too; /Name/load and
+    /Name/unload are std_srvs/Trigger.
+*/
+
+near(0.15).                     % metres
+
+%   The way to where the task begins, at(p(X, Y)).
+
+cost(need(_, _, Details), _, Cost) :-
+    sense(rover(Name)),
+    atomic_list_concat(['/', Name, '/pose'], Topic),
+    sense(ros-topic(Topic, Pose)),
+    member(at(p(X, Y)), Details),
+    !,
+    place_of(Pose, p(X0, Y0), _),
+    Cost is sqrt((X-X0)**2 + (Y-Y0)**2).
+
+%   carry(+From, +To): points, p(X, Y).
+
+carry(From, To) :-
+    sense(rover(Name)),
+    !,
+    atomic_list_concat(['/', Name, '/pose'], Topic),
+    ros_subscribe(Topic, 'geometry_msgs/msg/Pose'),
+    drive(Name, From),
+    do(Name, load),
+    drive(Name, To),
+    do(Name, unload),
+    log(put_down(Name, To)).
+
+drive(Name, Goal) :-
+    receive(ros-topic(_, Pose)),
+    place_of(Pose, Here, Heading),
+    steer(Here, Heading, Goal, Speed, Turn),
+    atomic_list_concat(['/', Name, '/cmd_vel'], Topic),
+    ros_publish(Topic, 'geometry_msgs/msg/Twist',
+                [linear=[x=Speed], angular=[z=Turn]]),
+    (   Speed-Turn == 0-0
+    ->  true
+    ;   drive(Name, Goal)
+    ).
+
+do(Name, What) :-
+    atomic_list_concat(['/', Name, /, What], Service),
+    ros_call(Service, 'std_srvs/srv/Trigger', [], Response),
+    get_dict(success, Response, Success),
+    (   Success == true
+    ->  true
+    ;   get_dict(message, Response, Why),
+        throw(error(rover_error(What, Why), _))
+    ).
+
+place_of(Pose, p(X, Y), Heading) :-
+    get_dict(position, Pose, Position),
+    get_dict(x, Position, X),
+    get_dict(y, Position, Y),
+    get_dict(orientation, Pose, Orientation),
+    get_dict(z, Orientation, Z),
+    get_dict(w, Orientation, W),
+    Heading is 2*atan2(Z, W).
+
+%   Turn to where it is, and go the faster the better that is ahead.
+
+steer(p(X0, Y0), Heading, p(X, Y), Speed, Turn) :-
+    Distance is sqrt((X-X0)**2 + (Y-Y0)**2),
+    near(Near),
+    (   Distance < Near
+    ->  Speed = 0,
+        Turn = 0
+    ;   Off0 is atan2(Y-Y0, X-X0)-Heading,
+        Off is atan2(sin(Off0), cos(Off0)),
+        Turn is 4*Off,
+        Speed is min(2, 2*Distance)*max(0, cos(Off))
+    ).

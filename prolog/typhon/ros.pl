@@ -1,0 +1,28 @@
+:- module(typhon_ros, []).
+
+/** <module> ROS: robots as services of a place
+
+    :- use_module(library(typhon/ros)).
+
+Hosts with ROS 2, as a node of it or through a rosbridge server; agents
+that stand there publish, subscribe, call, offer services and send goals.  It
+is not part of library(typhon).  Nothing is defined here: see the rooms in
+ros/.
+
+  | starting and stopping | typhon/bridge/starting |
+  | what there is         | typhon/ros/service    |
+  | topics                | typhon/ros/topics     |
+  | services              | typhon/ros/calls      |
+  | actions               | typhon/ros/actions    |
+  | parameters            | typhon/ros/parameters |
+  | messages as terms     | typhon/ros/values     |
+*/
+
+:- reexport(bridge/starting, [ros_start/3, ros_stop/1]).
+:- reexport(ros/service).
+:- reexport(ros/topics).
+:- reexport(ros/calls, except([call_json/5])).
+:- reexport(ros/actions).
+:- reexport(ros/parameters).
+:- use_module(ros/events, []).
+:- use_module(ros/texts, []).
