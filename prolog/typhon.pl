@@ -11,6 +11,7 @@ layer has a door, and behind it a folder with its rooms.
   | what agents can say            | typhon/language   |
   | networks, the log server       | typhon/network    |
   | tables for people              | typhon/people     |
+  | a page for a browser           | typhon/page       |
 */
 
 :- reexport(typhon/program, [agent_check/1]).
@@ -20,5 +21,6 @@ layer has a door, and behind it a folder with its rooms.
             ]).
 :- reexport('typhon/lifecycle', except([agent_glance/2])).
 :- reexport('typhon/network').
-:- reexport('typhon/people').
+:- reexport(typhon/people, [agents/0, hosts/0]).
+:- reexport('typhon/page').
 :- use_module(typhon/language, []).

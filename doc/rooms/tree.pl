@@ -101,6 +101,9 @@ note_directive(use_module(Spec), File) :-
 note_directive(use_module(Spec, List), File) :-
     !,
     note_import(import, File, Spec, List).
+note_directive(autoload(Spec, List), File) :-
+    !,
+    note_import(import, File, Spec, List).
 note_directive(reexport(Spec), File) :-
     !,
     note_import(reexport, File, Spec, all).
@@ -173,7 +176,7 @@ reach(Part, Module, Name/Arity) :-
 %   From below: who stands higher imports from who stands lower.
 
 layers([ base, program, wire, host, agent, travel, lifecycle, language,
-         network, people ]).
+         network, people, page ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.
 %!  door(?File, ?Layer) is nondet.

@@ -1,0 +1,57 @@
+:- module(typhon_page,
+          [ page_start/1,               % +Options
+            page_stop/0
+          ]).
+:- autoload('page/server', [server_start/2, server_stop/0]).
+:- use_module('base/options', [check_options/2]).
+
+/** <module> A page to watch and to work a network
+
+What serves it is loaded when it is started: who needs no page does without
+libraries of HTTP.
+This is the door of the layer.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    prolog:message//1,
+    typhon_options:declared/4.
+
+typhon_options:declared(page_option, host(X), atom, X).
+typhon_options:declared(page_option, port(X), between(0, 65535), X).
+typhon_options:declared(page_option, bind(X), atom, X).
+typhon_options:declared(page_option, read_only(X), boolean, X).
+
+%!  page_start(+Options) is det.
+%!  page_stop is det.
+%
+%   Serve a page that shows the hosts of this process, of the networks that it
+%   has started, and all to which one comes from these along links, and the
+%   agents there, live; and by which people can work with them.  The link to
+%   it is printed: who knows it may do all that this process may.  Options:
+%
+%     - port(+Port): default 8080; 0 for any
+%     - host(+Address): show the network of this host, too, of another process
+%     - bind(+Interface): default localhost
+%     - read_only(+Boolean): only to look at; default `false`
+%
+%   page_stop/0 succeeds also where there is no page.
+%
+%   @error permission_error(start, page, Port) if there is one already, on Port
+%   @error domain_error(page_option, Option)
+%   @error existence_error(host, Address), host_unreachable(Address)
+
+page_start(Options) :-
+    check_options(page_option, Options),
+    server_start(Options, Link),
+    print_message(informational, typhon(page(Link))).
+
+page_stop :-
+    (   current_module(typhon_page_server)
+    ->  server_stop
+    ;   true
+    ).
+
+prolog:message(typhon(page(Link))) -->
+    [ 'The page: ~w'-[Link] ].
