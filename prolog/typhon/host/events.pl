@@ -80,9 +80,14 @@ event_public(What, Public) =>
 %   What is told of one agent to people is in the log, too.
 
 tell(Kind, Host, Agent, What) :-
+    hears(Kind, Agent, _),
+    !,
     findall(Listener, listener(Kind, Host, Agent, Listener), Listeners0),
     sort(Listeners0, Listeners),
     forall(member(Listener, Listeners),
+           tell_one(Listener, Host, Agent, What)).
+tell(Kind, Host, Agent, What) :-
+    forall(hears(Kind, Host, Listener),
            tell_one(Listener, Host, Agent, What)).
 
 listener(Kind, Host, _, Listener) :-
@@ -106,7 +111,10 @@ tell_one(Listener, Host, Agent, What) :-
 %   of an agent, Key; nobody listens any more to what happens to Key.
 
 events_hear(Kinds, Key, Listener) :-
-    forall(member(Kind, Kinds), assertz(hears(Kind, Key, Listener))).
+    with_mutex(typhon_events,
+               forall(( member(Kind, Kinds),
+                        \+ hears(Kind, Key, Listener) ),
+                      assertz(hears(Kind, Key, Listener)))).
 
 events_forget(Key) :-
     (   hears(_, _, _)

@@ -8,7 +8,7 @@
 :- use_module('../base/output', [output_own/0]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
-:- use_module('../host', [time_now/1]).
+:- use_module('../host', [address_parts/3, time_now/1]).
 
 /** <module> Listening to what is told
 
@@ -30,7 +30,8 @@ hooks of the endpoint put into its queue what it is to hear.
 :- multifile
     prolog:message//1,
     typhon_endpoint:connection/2,
-    typhon_endpoint:requested/4.
+    typhon_endpoint:requested/4,
+    typhon_telling:taken_here/3.
 
 :- dynamic
     watch/2,                    % Watch, Queue: as long as events are wanted
@@ -59,10 +60,14 @@ listening_end(Watch) :-
                 *******************************/
 
 typhon_endpoint:requested(watched, events(Watch, Events), Peer, ReplyTo) :-
-    (   listening_tell(Watch, events(Peer, Events, ReplyTo))
+    (   listening_tell(Watch, events(Peer, Events, peer(ReplyTo)))
     ->  true
     ;   endpoint_reply(ReplyTo, no)
     ).
+typhon_telling:taken_here(Watch, Events, OnAnswer) :-
+    endpoint_address(Own),
+    !,
+    listening_tell(Watch, events(Own, Events, here(OnAnswer))).
 typhon_endpoint:requested(watched, alive(Watch), _, ReplyTo) :-
     (   watch(Watch, _)
     ->  endpoint_reply(ReplyTo, yes)
@@ -152,7 +157,7 @@ wanted(me(Watch, _, _)) :-
     watch(Watch, _).
 
 heard(events(Peer, Events, ReplyTo), Me) =>
-    endpoint_reply(ReplyTo, more),
+    ask_for_more(ReplyTo),
     forall(( member(Event, Events), wanted(Me) ),
            taken(Event, Peer, Me)).
 heard(connection(Peer, down), Me) =>
@@ -169,6 +174,11 @@ heard(asked(Endpoint, Result), Me) =>
     answered(Result, Endpoint, Me).
 heard(_, _) =>                          % over, ended(_)
     true.
+
+ask_for_more(peer(ReplyTo)) :-
+    endpoint_reply(ReplyTo, more).
+ask_for_more(here(OnAnswer)) :-
+    call(OnAnswer, answer(more)).
 
                 /*******************************
                 *            EVENTS            *
@@ -266,7 +276,32 @@ answered(answer(watching(_, New, Hosts)), Endpoint, Me) :-
 answered(_, Endpoint, Me) :-
     Me = me(Watch, _, _),
     state(Watch, Endpoint, cut(Pause)),
+    !,
+    findall(Host, runs(Watch, Endpoint, Host, _), Hosts),
     all_lost(Endpoint, Me),
+    (   still_wanted(Endpoint, Hosts, Me)
+    ->  again_later(Endpoint, Pause, Me)
+    ;   retractall(place(Watch, Endpoint, _, _)),
+        retractall(state(Watch, Endpoint, _))
+    ).
+answered(_, _, _).
+
+%   Another process may have the port by and by: of a network only hosts that
+%   were there are waited for.
+
+still_wanted(Endpoint, Hosts, me(Watch, _, _)) :-
+    place(Watch, Endpoint, Peer, Wanted),
+    !,
+    (   Wanted == all
+    ->  Hosts = [_|_],
+        findall(Name,
+                ( member(Host, Hosts), address_parts(Host, Name, _) ), Names),
+        retractall(place(Watch, Endpoint, _, _)),
+        assertz(place(Watch, Endpoint, Peer, Names))
+    ;   true
+    ).
+
+again_later(Endpoint, Pause, Me) :-
     get_time(Now),
     Again is Now+Pause,
     longest_pause(Longest),
@@ -281,9 +316,6 @@ started(Host, clock(Epoch, Rate), Me) :-
     time_now(Now),
     Time is (Now-Epoch)*Rate,
     call_on(event(Time, Host, none, started), Me).
-
-%   Another process may have the port by and by: of a network only those that
-%   were there are waited for.
 
 all_lost(Endpoint, Me) :-
     Me = me(Watch, _, _),

@@ -8,8 +8,8 @@
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2,
                 endpoint_request/4, mobile_term/1 ]).
 :- use_module('../host',
-              [ clock/3, event_public/2, events_hear/3, events_unheard/1, host/3,
-                host_time/2, time_kind/1, time_now/1 ]).
+              [ clock/3, event_public/2, events_hear/3, events_unheard/1,
+                host/3, time_kind/1, time_now/1 ]).
 :- use_module(basin,
               [ basin_awaited/1, basin_close/1, basin_open/3, basin_put/3,
                 basin_size/2, basin_take/4 ]).
@@ -46,7 +46,8 @@ joins it.
     typhon_endpoint:requested/4,
     typhon_events:told/4,
     typhon_hosting:begins/1,
-    typhon_runtime:ending/1.
+    typhon_runtime:ending/1,
+    taken_here/3.               % Id, Events, OnAnswer
 
 :- setting(events, positive_integer, 10 000,
            "So many events wait for one who watches and is slow").
@@ -75,7 +76,7 @@ typhon_endpoint:requested(watch, watch(Id, Wanted), Peer, ReplyTo) :-
     endpoint_reply(ReplyTo, watching(Own, New, Hosts)).
 typhon_endpoint:requested(watch, unwatch(Id), Peer, ReplyTo) :-
     (   teller(Peer, Id, _, Bell, telling(_, Basin))
-    ->  events_unheard(watch(Basin)),
+    ->  events_unheard(watch(Basin, _, _)),
         ring(Bell, end(ReplyTo))
     ;   endpoint_reply(ReplyTo, ended)
     ).
@@ -110,7 +111,8 @@ hear_of(New, Wanted, Peer, Id, Hosts) :-
               is_wanted(Wanted, Name),
               clock(Name, Epoch, Rate) ),
             Pairs),
-    forall(( New == true, member(Name-_, Pairs) ), listen(Name, Basin)),
+    forall(( New == true, member(Name-Host, Pairs) ),
+           listen(Name, Host, Basin)),
     findall(Host, member(_-Host, Pairs), Hosts).
 hear_of(_, _, _, _, []).
 
@@ -118,14 +120,16 @@ is_wanted(all, _).
 is_wanted([Name0|Names], Name) :-
     memberchk(Name, [Name0|Names]).
 
-listen(Name, Basin) :-
+listen(Name, Address-Clock, Basin) :-
     kinds(Kinds),
-    events_hear(Kinds, Name, watch(Basin)).
+    events_hear(Kinds, Name, watch(Basin, Address, Clock)).
 
 typhon_hosting:begins(Name) :-
     teller(_, _, _, _, telling(Wanted, Basin)),
     is_wanted(Wanted, Name),
-    listen(Name, Basin).
+    host(Name, Address, _),
+    clock(Name, Epoch, Rate),
+    listen(Name, Address-clock(Epoch, Rate), Basin).
 
 typhon_endpoint:connection(Peer, down) :-
     forall(teller(Peer, _, _, Bell, _), ring(Bell, now(check))).
@@ -148,28 +152,30 @@ typhon_runtime:ending(before) :-
                 *           EVENTS             *
                 *******************************/
 
-typhon_events:told(watch(Basin), Host, Agent, What) :-
-    host(Host, Address, _),
-    host_time(Host, Time),
-    event_public(What, Public0),
-    portable(Public0, Host, Public),
-    catch(basin_put(Basin, Host-Address, event(Time, Address, Agent, Public)),
+typhon_events:told(watch(Basin, Address, Clock), _, Agent, What) :-
+    time_at(Clock, Time),
+    told_as(What, Clock, Public),
+    catch(basin_put(Basin, Address-Clock,
+                    event(Time, Address, Agent, Public)),
           error(existence_error(_, _), _),
           true).                        % it has ended
 
+time_at(clock(Epoch, Rate), Time) :-
+    time_now(Now),
+    Time is (Now-Epoch)*Rate.
+
 %   Who watches has to know of clocks; agents may log what cannot travel.
 
-portable(started, Host, Public) =>
-    clock(Host, Epoch, Rate),
-    Public = started(clock(Epoch, Rate)).
-portable(log(Term), _, Public) =>
+told_as(started, Clock, Public) =>
+    Public = started(Clock).
+told_as(log(Term), _, Public) =>
     (   catch(mobile_term(Term), error(_, _), fail)
     ->  Public = log(Term)
     ;   format(atom(Text), '~q', [Term]),
         Public = log(Text)
     ).
-portable(What, _, Public) =>
-    Public = What.
+told_as(What, _, Public) =>
+    event_public(What, Public).
 
                 /*******************************
                 *         THE TELLER           *
@@ -184,7 +190,7 @@ teller(Peer, Id, Bell, Basin) :-
 
 teller_ends(Peer, Id, Bell, Basin) :-
     debug(typhon(watch), '~w of ~w watches no more', [Id, Peer]),
-    events_unheard(watch(Basin)),
+    events_unheard(watch(Basin, _, _)),
     thread_self(Me),
     (   with_mutex(typhon_telling, retract(teller(Peer, Id, _, Bell, _)))
     ->  thread_detach(Me)
@@ -260,16 +266,26 @@ send(To) :-
     basin_take(Basin, Most, Events0, Skipped),
     findall(Event, ( member(Lost, Skipped), skip_event(Lost, Event) ), More),
     append(Events0, More, Events),
-    endpoint_request(Peer, watched, events(Id, Events),
-                     typhon_telling:answered(Bell)),
+    hand_over(Peer, Id, Events, Bell),
     await(To, answer(more)).
 
-skip_event((Name-Address)-Count,
-           event(Time, Address, none, skipped(Count))) :-
-    (   host_time(Name, Time0)
-    ->  Time = Time0
-    ;   time_now(Time)                  % the host was stopped meanwhile
+%   Within this process nothing has to be sent.
+
+hand_over(Peer, Id, Events, Bell) :-
+    endpoint_address(Peer),
+    !,
+    OnAnswer = typhon_telling:answered(Bell),
+    (   taken_here(Id, Events, OnAnswer)
+    ->  true
+    ;   call(OnAnswer, answer(no))
     ).
+hand_over(Peer, Id, Events, Bell) :-
+    endpoint_request(Peer, watched, events(Id, Events),
+                     typhon_telling:answered(Bell)).
+
+skip_event((Address-Clock)-Count,
+           event(Time, Address, none, skipped(Count))) :-
+    time_at(Clock, Time).
 
 :- public answered/2.
 
