@@ -15,6 +15,7 @@ layer has a door, and behind it a folder with its rooms.
 */
 
 :- reexport(typhon/program, [agent_check/1]).
+:- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport(typhon/host,
             [ host_start/1, host_start/2, host_change/2, host_stop/1,
               host_property/2, link/2, link/3, unlink/2, remote/2

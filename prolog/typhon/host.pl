@@ -14,13 +14,14 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
 :- reexport(host/events,
-            [ event/4, event_heard/1, events_forget/1, events_hear/3,
-              host_log/3, host_logs/1 ]).
+            [ event/4, event_heard/1, event_public/2, events_forget/1,
+              events_hear/3, events_unheard/1 ]).
+:- reexport('host/host_log').
 :- reexport(host/place,
             [ place_deliver/3, place_undeliver/2, tuple_leave/2,
               tuple_leave_new/2, tuple_sense/2, tuple_take/2
             ]).
-:- reexport(host/clock, [host_time/2, real_time/3]).
+:- reexport(host/clock, [clock/3, host_time/2, real_time/3]).
 :- reexport(host/context,
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
@@ -31,7 +32,7 @@ This is the door of the layer: who is above takes what it needs from here.
               schedule_stays/2, scheduler_call/1
             ]).
 :- reexport(host/time,
-            [ alarm_in/3, alarm_set/3, time_now/1, time_seed/1, time_signal/1,
+            [ alarm_in/3, alarm_set/3, time_kind/1, time_now/1, time_seed/1, time_signal/1,
               time_wait/3 ]).
 :- reexport(host/asking, [as_guest/1, process_ask/6]).
 :- reexport(host/runtime,

@@ -34,7 +34,7 @@ traces_heard(Id, Life) :-
     (   Traces == []
     ->  true
     ;   forall(trace_in(Traces, To, Kinds),
-               events_hear([life|Kinds], Id, trace(To)))
+               events_hear([life, bad_ends|Kinds], Id, trace(To)))
     ).
 
 %   They may come from a stranger.

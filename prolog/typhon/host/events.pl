@@ -1,16 +1,13 @@
 :- module(typhon_events,
           [ event/4,                    % +Kind, +Host, +Agent, +What
             event_heard/1,              % +Kind
+            event_public/2,             % +What, -Public
             events_hear/3,              % +Kinds, +Key, +Listener
             events_forget/1,            % +Key
-            events_log/1,               % +Host
-            host_log/3,                 % +Host, +Agent, +What
-            host_logs/1                 % +Host
+            events_unheard/1            % +Listener
           ]).
 :- use_module(library(error), []).
 :- use_module(library(lists), [member/2]).
-:- use_module('../wire', [endpoint_post/3]).
-:- use_module(hosts, [address_parts/3, host/3, host_option/2]).
 
 /** <module> What happens, and who wants to hear of it
 
@@ -19,11 +16,18 @@ listens: the log of a host, somebody who traces an agent, or who watches.
 
   | kind     | what                                                       |
   | -------- | ---------------------------------------------------------- |
-  | life     | `created`, ended(Outcome), faulty(Error)                   |
+  | life     | `created`, ended(Outcome)                                  |
+  | bad_ends | faulty(Error), and ended(failed) of one that is kept       |
+  | faults   | fault(Fault), and ended(Outcome) of one that was kept      |
   | hops     | left(To), arrived(From, Seconds), stayed(To), cloned(Id)   |
   | messages | sent(To, Message), received(From, Message)                 |
   | facts    | leave(Fact), take(Fact)                                    |
+  | said     | log(Term): what agents log                                 |
+  | links    | link(To), unlink(To)                                       |
+  | hosts    | `started`, `stopped`                                       |
   | goals    | goal(Goal): only of agents that are traced                 |
+
+What happens to a host, and not to somebody on it, has the agent `none`.
 
 Listeners are noted by kind, and by the host or the agent whose events they
 want.  As long as nobody has asked for a kind, an event of it costs less than
@@ -42,7 +46,7 @@ listen.
 %   Of goals only those can hear who trace an agent.
 
 error:has_type(event_kind, Kind) :-
-    memberchk(Kind, [hops, messages, facts]).
+    memberchk(Kind, [hops, messages, facts, links, hosts, faults]).
 
 %!  event(+Kind, +Host, +Agent, +What) is det.
 %
@@ -62,12 +66,28 @@ event_heard(Kind) :-
     hears(Kind, _, _),
     !.
 
+%!  event_public(+What, -Public) is det.
+%
+%   Public is as What, but for what messages say.
+
+event_public(sent(To, _), Public) =>
+    Public = sent(To).
+event_public(received(From, _), Public) =>
+    Public = received(From).
+event_public(What, Public) =>
+    Public = What.
+
 %   What is told of one agent to people is in the log, too.
 
 tell(Kind, Host, Agent, What) :-
+    hears(Kind, Agent, _),
+    !,
     findall(Listener, listener(Kind, Host, Agent, Listener), Listeners0),
     sort(Listeners0, Listeners),
     forall(member(Listener, Listeners),
+           tell_one(Listener, Host, Agent, What)).
+tell(Kind, Host, Agent, What) :-
+    forall(hears(Kind, Host, Listener),
            tell_one(Listener, Host, Agent, What)).
 
 listener(Kind, Host, _, Listener) :-
@@ -91,7 +111,10 @@ tell_one(Listener, Host, Agent, What) :-
 %   of an agent, Key; nobody listens any more to what happens to Key.
 
 events_hear(Kinds, Key, Listener) :-
-    forall(member(Kind, Kinds), assertz(hears(Kind, Key, Listener))).
+    with_mutex(typhon_events,
+               forall(( member(Kind, Kinds),
+                        \+ hears(Kind, Key, Listener) ),
+                      assertz(hears(Kind, Key, Listener)))).
 
 events_forget(Key) :-
     (   hears(_, _, _)
@@ -99,51 +122,9 @@ events_forget(Key) :-
     ;   true
     ).
 
-                /*******************************
-                *              LOG             *
-                *******************************/
-
-%!  events_log(+Host) is det.
+%!  events_unheard(+Listener) is det.
 %
-%   The log of Host, if it has one, hears what its options say.
+%   Listener hears nothing any more.
 
-events_log(Host) :-
-    (   log_server(Host, _, Kinds)
-    ->  events_hear([life|Kinds], Host, log)
-    ;   true
-    ).
-
-log_server(Host, Log, []) :-
-    host_option(Host, log(Log)).
-log_server(Host, Log, Kinds) :-
-    host_option(Host, log(Log, Kinds)).
-
-told(log, Host, Agent, What) :-
-    without_contents(What, Public),
-    host_log(Host, Agent, Public).
-
-without_contents(sent(To, _), Public) =>
-    Public = sent(To).
-without_contents(received(From, _), Public) =>
-    Public = received(From).
-without_contents(What, Public) =>
-    Public = What.
-
-%!  host_log(+Host, +Agent, +What) is det.
-%!  host_logs(+Host) is semidet.
-%
-%   Send an event to the log server of Host, if it has one; whether it has.
-
-host_log(Host, Agent, What) :-
-    log_server(Host, Log, _),
-    !,
-    host(Host, Address, _),
-    address_parts(Log, _, Endpoint),
-    catch(endpoint_post(Endpoint, log, event(Log, Address, Agent, What)),
-          error(Formal, Context),
-          print_message(warning, error(Formal, Context))).
-host_log(_, _, _).
-
-host_logs(Host) :-
-    log_server(Host, _, _),
-    !.
+events_unheard(Listener) :-
+    retractall(hears(_, _, Listener)).

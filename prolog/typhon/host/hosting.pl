@@ -14,7 +14,8 @@
 :- use_module('../base/options', [check_option/2, check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
-:- use_module(events, [events_forget/1, events_log/1]).
+:- use_module(events, [event/4, events_forget/1]).
+:- use_module(host_log, []).
 :- use_module(hosts,
               [ address_parts/3, host/3, host_add/4, host_close/1,
                 host_put/2, host_remove/1, host_resolve/2 ]).
@@ -37,6 +38,7 @@ other users of the process its endpoint, see typhon_runtime.
 
 :- multifile
     typhon_options:declared/4,
+    begins/1,                   % Name: is there, who wants may listen
     evacuate/2.                 % Name, Deadline: nobody is left on the host
 
 :- dynamic evacuate/2.
@@ -140,7 +142,8 @@ start_host(Name, Endpoint, Options) :-
     clock_set(Name, Epoch, Rate),
     scheduler_limit(Name, Concurrency),
     host_add(Name, Address, Place, Options),
-    events_log(Name),
+    forall(begins(Name), true),
+    event(hosts, Name, none, started),
     debug(typhon(host), '~w is started', [Address]).
 
 place_parts(Options, Files, Services) :-
@@ -225,6 +228,7 @@ stop(Name0) :-
     Deadline is Now+Seconds,
     forall(evacuate(Name, Deadline), true),
     host_unlink(_, Address),
+    event(hosts, Name, none, stopped),
     host_remove(Name),
     events_forget(Name),
     clock_clear(Name),

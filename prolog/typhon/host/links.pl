@@ -5,6 +5,8 @@
             host_unlink/2,              % ?Name, ?Address
             host_link_cost/3            % +Name, +Address, -Cost
           ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(events, [event/4]).
 
 /** <module> The links of hosts of this process, and what they cost
 
@@ -21,7 +23,8 @@ One direction of each: the other is known to the other host.
 %!  host_unlink(?Name, ?Address) is det.
 %
 %   One direction of a link; nothing to do where it is so already.  Cost is
-%   a number, or `same`: as it is, 1 for a new link.
+%   a number, or `same`: as it is, 1 for a new link.  Who listens hears of
+%   changes in the order in which they were made.
 
 host_link(Name, Address, Cost) :-
     with_mutex(typhon_links,
@@ -31,7 +34,8 @@ host_link(Name, Address, Cost) :-
 add_link(Name, Address) :-
     (   neighbour(Name, Address)
     ->  true
-    ;   assertz(neighbour(Name, Address))
+    ;   assertz(neighbour(Name, Address)),
+        event(links, Name, none, link(Address))
     ).
 
 %   Who asks meanwhile finds the old cost or the new one.
@@ -47,9 +51,13 @@ set_cost(Cost, Name, Address) :-
     assertz(cost(Name, Address, Cost)).
 
 host_unlink(Name, Address) :-
-    with_mutex(typhon_links,
-               ( retractall(neighbour(Name, Address)),
-                 retractall(cost(Name, Address, _)) )).
+    with_mutex(typhon_links, unlink(Name, Address)).
+
+unlink(Name, Address) :-
+    findall(Name-Address, neighbour(Name, Address), Links),
+    retractall(neighbour(Name, Address)),
+    retractall(cost(Name, Address, _)),
+    forall(member(From-To, Links), event(links, From, none, unlink(To))).
 
 %!  host_link_cost(+Name, +Address, -Cost) is semidet.
 %

@@ -258,6 +258,7 @@ pheromone(Problem, Source, Strength) :-
 log(What) :-
     context_host(Host),
     context_now(Host, Agent),
+    event(said, Host, Agent, log(What)),
     (   host_logs(Host)
     ->  mobile_term(What),
         host_log(Host, Agent, What)

@@ -9,7 +9,7 @@
 :- use_module('../host', [event/4, events_forget/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
-                fault_outcome/2, is_faulty/3, legacy/2, life_hops/2,
+                fault_outcome/2, fault_shown/2, is_faulty/3, legacy/2, life_hops/2,
                 with_agent/2 ]).
 :- use_module(on_hold, [held_dropped/1]).
 :- use_module('../travel', [agent_ended/4, transfer_given_up/2]).
@@ -65,11 +65,12 @@ removed(Last, Id, Outcome) :-
 
 %   That it has ended badly is known.
 
-told(last(_, Hops, faulty(_), Goals, Legacy, _), Id, _) :-
+told(last(Host, Hops, faulty(_), Goals, Legacy, _), Id, _) :-
     !,
     events_forget(Id),
     is_faulty(Goals, Fault, _),
     fault_outcome(Fault, Outcome),
+    event(faults, Host, Id, ended(Outcome)),
     agent_ended(Id, Outcome, Hops, Legacy).
 told(last(Host, Hops, Status, _, Legacy, _), Id, Outcome) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
@@ -107,13 +108,15 @@ report(Id, Fault) :-
     debug(typhon(agent), '~w: is faulty, on ~w', [Id, Host]),
     fault_outcome(Fault, Outcome),
     log_fault(Outcome, Host, Id),
+    fault_shown(Fault, Shown),
+    event(faults, Host, Id, fault(Shown)),
     print_fault(Outcome, Id, Fault).
 report(_, _).
 
 log_fault(failed, Host, Id) :-
-    event(life, Host, Id, ended(failed)).
+    event(bad_ends, Host, Id, ended(failed)).
 log_fault(raised(Error), Host, Id) :-
-    event(life, Host, Id, faulty(Error)).
+    event(bad_ends, Host, Id, faulty(Error)).
 
 print_fault(failed, Id, Fault) :-
     print_message(warning, typhon(agent_failed(Id, Fault))).

@@ -1,0 +1,95 @@
+:- use_module(common).
+:- use_module(traveller).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/host), [event/4]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [member/2, nth0/3]).
+
+/*  What it costs to be watched.
+
+    swipl bench/watch.pl -- Pairs
+
+Rounds that are watched and rounds that are not take turns, so that what else
+the machine does meets both; told is the median of the ratios of such pairs. */
+
+:- initialization(main, main).
+
+:- dynamic heard/1.
+
+main([Text]) :-
+    atom_number(Text, Pairs),
+    host_start(here),
+    host_start(there),
+    host_property(there, address(There)),
+    unheard(There),
+    slower(Pairs, 1, 20000, There, 'within a process'),
+    with_peer([env], between_processes(Pairs)),
+    host_stop(there),
+    host_stop(here).
+
+between_processes(Pairs, Peer) :-
+    slower(Pairs, 1, 5000, Peer, 'between processes'),
+    slower(Pairs, 10, 10000, Peer, 'between processes').
+
+                /*******************************
+                *        NOBODY WATCHES        *
+                *******************************/
+
+%   A hop within a process is the cheapest; it asks three times whether
+%   somebody hears.
+
+unheard(There) :-
+    travelled(1, 10000, There, _),      % warm up
+    travelled(1, 40000, There, rates(Rate, _)),
+    seconds(forall(between(1, 1 000 000, _), true), Empty),
+    seconds(forall(between(1, 1 000 000, _),
+                   event(hops, here, nobody, left(there))), Full),
+    Event is (Full-Empty)*1.0e3,
+    figure('an event that nobody hears', Event, ns),
+    Hop is 1.0e9/Rate,
+    Part is 3*Event/Hop*100,
+    format(atom(Note), '3 events of a hop of ~0f ns', [Hop]),
+    figure('of a hop within a process, if nobody watches', Part, '%', Note).
+
+                /*******************************
+                *         SOMEBODY DOES        *
+                *******************************/
+
+slower(Pairs, Agents, Hops, Peer, Where) :-
+    travelled(Agents, Hops, Peer, _),
+    findall(Ratio-Rate,
+            ( between(1, Pairs, _), pair(Agents, Hops, Peer, Ratio, Rate) ),
+            Results),
+    maplist(arg(1), Results, Ratios),
+    maplist(arg(2), Results, Rates),
+    median(Ratios, Ratio),
+    median(Rates, Rate),
+    Slower is (1-Ratio)*100,
+    flag(told, Told, Told),
+    flag(skipped, Skipped, Skipped),
+    format(atom(Note), '~0f hops/s unwatched; ~D events told, ~D skipped',
+           [Rate, Told, Skipped]),
+    format(atom(Name), '~w agents ~w: slower when watched',
+           [Agents, Where]),
+    figure(Name, Slower, '%', Note).
+
+pair(Agents, Hops, Peer, Ratio, Rate0) :-
+    travelled(Agents, Hops, Peer, rates(Rate0, _)),
+    flag(told, _, 0),
+    flag(skipped, _, 0),
+    watch([here, Peer], count, Watch),
+    travelled(Agents, Hops, Peer, rates(Rate, _)),
+    unwatch(Watch),
+    Ratio is Rate/Rate0.
+
+count(event(_, _, _, skipped(Count))) :-
+    !,
+    flag(skipped, N, N+Count).
+count(_) :-
+    flag(told, N, N+1).
+
+median(List, Median) :-
+    msort(List, Sorted),
+    length(Sorted, Count),
+    Middle is Count//2,
+    nth0(Middle, Sorted, Median).

@@ -1,0 +1,61 @@
+:- module(typhon_host_log,
+          [ host_log/3,                 % +Host, +Agent, +What
+            host_logs/1                 % +Host
+          ]).
+:- use_module(library(lists), [subtract/3]).
+:- use_module('../wire', [endpoint_post/3]).
+:- use_module(events, [event_public/2, events_hear/3]).
+:- use_module(hosts, [address_parts/3, host/3, host_option/2]).
+
+/** <module> What a host says to its log server
+
+A log hears when agents begin and end, what they log, and of those kinds of
+events that the option of its host names.  Who wants to know of hops has to
+know where hosts and links are, too.
+
+*Threading*: any thread; that of an endpoint does not wait for a connection.
+*/
+
+:- multifile
+    typhon_events:told/4,
+    typhon_hosting:begins/1.
+
+typhon_hosting:begins(Host) :-
+    log_server(Host, _, Kinds),
+    !,
+    with_the_stage(Kinds, All),
+    events_hear([life, bad_ends|All], Host, log).
+
+with_the_stage(Kinds, [hosts, links|Others]) :-
+    memberchk(hops, Kinds),
+    !,
+    subtract(Kinds, [hosts, links], Others).
+with_the_stage(Kinds, Kinds).
+
+log_server(Host, Log, []) :-
+    host_option(Host, log(Log)).
+log_server(Host, Log, Kinds) :-
+    host_option(Host, log(Log, Kinds)).
+
+typhon_events:told(log, Host, Agent, What) :-
+    event_public(What, Public),
+    host_log(Host, Agent, Public).
+
+%!  host_log(+Host, +Agent, +What) is det.
+%!  host_logs(+Host) is semidet.
+%
+%   Send an event to the log server of Host, if it has one; whether it has.
+
+host_log(Host, Agent, What) :-
+    log_server(Host, Log, _),
+    !,
+    host(Host, Address, _),
+    address_parts(Log, _, Endpoint),
+    catch(endpoint_post(Endpoint, log, event(Log, Address, Agent, What)),
+          error(Formal, Context),
+          print_message(warning, error(Formal, Context))).
+host_log(_, _, _).
+
+host_logs(Host) :-
+    log_server(Host, _, _),
+    !.
