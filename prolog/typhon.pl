@@ -23,5 +23,5 @@ layer has a door, and behind it a folder with its rooms.
 :- reexport('typhon/lifecycle', except([agent_glance/2])).
 :- reexport('typhon/network').
 :- reexport(typhon/people, [agents/0, hosts/0]).
-:- reexport('typhon/page').
+:- reexport(typhon/page, [page_start/1, page_stop/0]).
 :- use_module(typhon/language, []).

@@ -177,7 +177,6 @@ reach(Part, Module, Name/Arity) :-
 
 layers([ base, program, wire, host, agent, travel, lifecycle, language,
          network, watching, people, page ]).
-         network, watching, people ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.
 %!  door(?File, ?Layer) is nondet.

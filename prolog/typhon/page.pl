@@ -1,5 +1,6 @@
 :- module(typhon_page,
           [ page_start/1,               % +Options
+            page_serve/2,               % +Options, -Link
             page_stop/0
           ]).
 :- autoload('page/server', [server_start/2, server_stop/0]).
@@ -24,6 +25,7 @@ typhon_options:declared(page_option, bind(X), atom, X).
 typhon_options:declared(page_option, read_only(X), boolean, X).
 
 %!  page_start(+Options) is det.
+%!  page_serve(+Options, -Link:atom) is det.
 %!  page_stop is det.
 %
 %   Serve a page that shows the hosts of this process, of the networks that it
@@ -36,16 +38,20 @@ typhon_options:declared(page_option, read_only(X), boolean, X).
 %     - bind(+Interface): default localhost
 %     - read_only(+Boolean): only to look at; default `false`
 %
-%   page_stop/0 succeeds also where there is no page.
+%   page_stop/0 succeeds also where there is no page.  page_serve/2 prints
+%   nothing.
 %
 %   @error permission_error(start, page, Port) if there is one already, on Port
 %   @error domain_error(page_option, Option)
 %   @error existence_error(host, Address), host_unreachable(Address)
 
 page_start(Options) :-
-    check_options(page_option, Options),
-    server_start(Options, Link),
+    page_serve(Options, Link),
     print_message(informational, typhon(page(Link))).
+
+page_serve(Options, Link) :-
+    check_options(page_option, Options),
+    server_start(Options, Link).
 
 page_stop :-
     (   current_module(typhon_page_server)

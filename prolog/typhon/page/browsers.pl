@@ -2,6 +2,7 @@
           [ browsers_start/0,
             browsers_stop/0,
             browsers_tell/1,            % +Event
+            browsers_there/0,
             browser_serve/2             % :Scene, +WebSocket
           ]).
 :- use_module(library(apply), [maplist/3]).
@@ -105,6 +106,14 @@ browsers_tell(Event) :-
               error(existence_error(_, _), _), true)
     ;   true
     ).
+
+%!  browsers_there is semidet.
+%
+%   Somebody looks.
+
+browsers_there :-
+    browser(_, _, _),
+    !.
 
 %   tell_all(+Queue, +Next): until it is told to stop; not before Next.
 

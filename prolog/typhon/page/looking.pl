@@ -13,7 +13,8 @@
 :- use_module(mechanisms, [mechanism_dicts/1, program_names/1]).
 :- use_module(protocol, [name_text/2, scene_dict/3, text/2]).
 :- use_module(said, [on_console/1]).
-:- use_module(sources, [scene/2]).
+:- use_module(sources, [sources_look/1]).
+:- use_module(times, [page_time/2]).
 
 /** <module> What browsers may ask, and what they are told
 
@@ -70,9 +71,10 @@ name_in(Key, Message, Name) :-
 %!  first_sight(-Dict) is det.
 
 first_sight(Dict) :-
-    scene(1 000 000, Scene),
+    sources_look(Scene),
     get_time(Now),
-    scene_dict(Now, Scene, Dict).
+    page_time(Now, Time),
+    scene_dict(Time, Scene, Dict).
 
                 /*******************************
                 *           AN AGENT           *
@@ -144,9 +146,16 @@ program_dict(Agent, _{lines:Lines, here:Here}) :-
     ->  true
     ;   Lines0 = All
     ),
-    without_heading(Lines0, Lines1),
+    without_end(Lines0, Lines00),
+    without_heading(Lines00, Lines1),
     findall(N, ( nth1(N, Lines1, Line), arrow(Line, _) ), Here),
     maplist(without_arrow, Lines1, Lines).
+
+without_end(Lines, Rest) :-
+    append(Rest0, [""], Lines),
+    !,
+    without_end(Rest0, Rest).
+without_end(Lines, Lines).
 
 without_heading(["", Line|Lines], Rest) :-
     !,

@@ -56,6 +56,7 @@ The rooms `looking` and `acting` have a clause for each What.
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module('../base/abridged', [abridged/3]).
 :- use_module('../host', [address_parts/3]).
+:- use_module(times, [page_time/3]).
 
 %   No argument of an event is longer, and no other term.
 
@@ -66,7 +67,8 @@ longest(2000).
 %   Event is event(Time, Host, Agent, What), as of watch/3.
 
 event_row(event(Time, Host, Agent, What),
-          [Time, HostText, AgentText, Kind|Arguments]) :-
+          [PageTime, HostText, AgentText, Kind|Arguments]) :-
+    page_time(Host, Time, PageTime),
     name_text(Host, HostText),
     name_text(Agent, AgentText),
     what_row(What, Kind, Arguments).
@@ -137,7 +139,7 @@ message_to_codes_(Error, Text) :-
 
 %!  scene_dict(+Time, +Scene, -Dict) is det.
 %
-%   Scene is scene(Hosts, Agents): terms host/7 and agent(Id, Glance), see
+%   Scene is scene(Hosts, Agents): terms host/8 and agent(Id, Glance), see
 %   survey/4.
 
 scene_dict(Time, scene(Hosts, Agents),
@@ -145,7 +147,8 @@ scene_dict(Time, scene(Hosts, Agents),
     maplist(host_dict, Hosts, HostDicts),
     maplist(agent_dict, Agents, AgentDicts).
 
-host_dict(host(Address, State, Load, Capacity, Arrived, Neighbours, Costs),
+host_dict(host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
+               _),
           Dict) :-
     address_parts(Address, _, Endpoint),
     machine(Endpoint, Machine),

@@ -23,7 +23,8 @@ somebody at a browser, and not at the terminal.
 %!  saying(:Goal, -Messages:list) is semidet.
 %
 %   As once(Goal).  Messages are the errors and warnings that it prints in this
-%   thread, terms said(Kind, Term, Text).  They are not printed.
+%   thread, terms said(Kind, Term, Text).  They are not printed, and what only
+%   informs is neither.
 
 saying(Goal, Messages) :-
     retractall(said(_, _, _)),
@@ -37,6 +38,8 @@ saying(Goal, Messages) :-
 
 :- public keep/3.
 
+keep(informational, _, _) :-
+    !.
 keep(Kind, Term, Lines) :-
     memberchk(Kind, [error, warning]),
     with_output_to(string(Text0),

@@ -24,6 +24,7 @@
 :- use_module(protocol, [error_text/2]).
 :- use_module(said, [on_console/1]).
 :- use_module(sources, [sources_start/1, sources_stop/0]).
+:- use_module(times, [times_start/0, times_stop/0]).
 
 /** <module> The server of the page
 
@@ -67,6 +68,7 @@ start(Options, Link) :-
     option(port(Port0), Options, 8080),
     option(read_only(ReadOnly), Options, false),
     token_new(Token),
+    times_start,
     sources_start(Options),
     editor_start,
     browsers_start,
@@ -94,6 +96,7 @@ stop :-
 
 put_away :-
     sources_stop,
+    times_stop,
     browsers_stop,
     editor_stop.
 

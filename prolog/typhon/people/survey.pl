@@ -14,7 +14,7 @@
               [endpoint_address/1, endpoint_ask_all/6, endpoint_gone/1,
                endpoint_reply/2]).
 :- use_module('../host',
-              [ address_parts/3, host_link_cost/3, host_property/2,
+              [ address_parts/3, clock/3, host_link_cost/3, host_property/2,
                 scheduler_call/1 ]).
 :- use_module('../lifecycle', [agent_glance/2]).
 :- use_module('../network', [network_property/2]).
@@ -39,10 +39,11 @@ for there may be many agents.
 %!  survey(+Most, +Places, -Seen, -Silent) is det.
 %
 %   Seen are terms seen(Hosts, Agents, Count), one for each process: Hosts are
-%   terms host(Address, State, Load, Capacity, Arrived, Neighbours, Costs),
-%   Costs being what the links to Neighbours cost, in their order; Agents the
+%   terms host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
+%   Clock), Costs being what the links to Neighbours cost, in their order, and
+%   Clock clock(Epoch, Rate); Agents the
 %   first Most, in the order of survey_order/2, of Count agents, terms
-%   agent(Id, Glance), see agent_glance/2. Asked are this process, those of
+%   agent(Id, Glance), see agent_glance/2; if Most is 0 they are not counted. Asked are this process, those of
 %   the networks started here, those at the addresses Places, and whoever
 %   else comes to light. Silent are Endpoint-Why of those that gave no
 %   answer, Why being `gone`, `lost` or `late`.
@@ -102,7 +103,7 @@ further(Seen, Endpoints) :-
 
 further_places(seen(Hosts, _, _), Addresses) :-
     findall(Address,
-            ( member(host(_, _, _, _, _, Neighbours, _), Hosts),
+            ( member(host(_, _, _, _, _, Neighbours, _, _), Hosts),
               member(Address, Neighbours) ),
             Addresses).
 
@@ -128,6 +129,9 @@ reply(Most, ReplyTo) :-
     look(Most, Seen),
     endpoint_reply(ReplyTo, Seen).
 
+look(0, seen(Hosts, [], 0)) :-
+    !,
+    findall(Host, host_seen(Host), Hosts).
 look(Most, seen(Hosts, Agents, Count)) :-
     findall(Host, host_seen(Host), Hosts),
     findall(Id-Glance, agent_glance(Id, Glance), All0),
@@ -149,7 +153,7 @@ first(Most, List, First) :-
     ).
 
 host_seen(host(Address, State, Load, Capacity, Arrived, Neighbours,
-               Costs)) :-
+               Costs, clock(Epoch, Rate))) :-
     host_property(Name, address(Address)),
     findall(Property, host_property(Name, Property), Properties),
     option(state(State), Properties, stopped),
@@ -157,6 +161,7 @@ host_seen(host(Address, State, Load, Capacity, Arrived, Neighbours,
     option(capacity(Capacity), Properties, inf),
     option(neighbours(Neighbours), Properties, []),
     maplist(link_cost(Name), Neighbours, Costs),
+    clock(Name, Epoch, Rate),
     (   member(hop_time(in, stats(Arrived0, _, _, _)), Properties)
     ->  Arrived = Arrived0
     ;   Arrived = 0
@@ -182,7 +187,7 @@ link_cost(Name, Neighbour, Cost) :-
 survey_hosts(Places, Seen, Silent, Hosts) :-
     findall(Host, ( member(seen(Some, _, _), Seen), member(Host, Some) ),
             Answered),
-    findall(host(Address, State, '', '', '', [], []),
+    findall(host(Address, State, '', '', '', [], [], none),
             unseen(Places, Seen, Silent, Address, State),
             Unseen0),
     sort(Unseen0, Unseen),

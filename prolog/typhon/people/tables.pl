@@ -56,7 +56,7 @@ print_hosts(Places) :-
     print_more(More),
     print_silent(Silent).
 
-host_row(host(Address, State, Load, Capacity, Arrived, Neighbours, _),
+host_row(host(Address, State, Load, Capacity, Arrived, Neighbours, _, _),
          [Address, State, Agents, Arrived, Text]) :-
     host_agents(Capacity, Load, Agents),
     host_neighbours(Neighbours, Text).

@@ -145,6 +145,8 @@ class Details {
         action.disabled = true;
     } else {
       this.pill(told.state);
+      for (const action of this.buttons.querySelectorAll('.for-faulty'))
+        action.hidden = !told.fault;
       this.define([['Host', this.hostLink(told.host)], ['Program', told.name],
         ['Home', told.home === told.host ? 'here' : this.hostLink(told.home)],
         ['Hops', told.hops.toLocaleString('en')],

@@ -1,7 +1,7 @@
 // Hosts and agents of all processes, as lists.
 
 import { choice, element, fillChoice } from './dom.js';
-import { shortName } from './store.js';
+import { byName, shortName } from './store.js';
 import { Table } from './table.js';
 
 const number = n => n === null || n === undefined ? '' : n.toLocaleString('en');
@@ -41,10 +41,10 @@ export function hostList(parent, store, app) {
       column('process', 'Process', '2 1 8rem', host => host.process),
       column('state', 'State', '1 1 5rem', host => host.state,
         host => `state-${host.state}`),
-      count('agents', 'Agents', host => store.loadOf(host)),
+      count('agents', 'Agents', host => host.agents.size),
       count('links', 'Links', host => host.links.size),
       column('neighbours', 'Neighbours', '4 1 8rem', host =>
-        [...host.links.keys()].map(shortName).sort().join(' ')),
+        [...host.links.keys()].map(shortName).sort(byName).join(' ')),
     ],
     choices: [['process', 'Process', host => host.process],
       ['state', 'State', host => host.state]],

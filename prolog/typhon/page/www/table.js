@@ -28,8 +28,9 @@ export class Table {
   }
 
   heading() {
-    const cells = this.columns.map(({ key, title, width }) => {
-      const cell = element('div', { role: 'columnheader', class: 'cell',
+    const cells = this.columns.map(({ key, title, width, mark }) => {
+      const cell = element('div', { role: 'columnheader',
+        class: mark?.({}) === 'number' ? 'cell number' : 'cell',
         'aria-sort': 'none' }, element('button', { type: 'button',
         tabindex: -1, onclick: () => this.sortBy(key) }, title));
       cell.style.flex = width;

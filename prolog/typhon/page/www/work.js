@@ -120,7 +120,7 @@ export function agentActions(app, agent) {
       if (clone) app.note(`Its clone is ${shortName(clone.done)}`);
     }),
     button('Resume', () => does({ do: 'resume' }, 'It tries again'),
-      { class: 'for-faulty' }),
+      { class: 'for-faulty', hidden: true }),
     button('Save', async () => {
       const saved = await does({ do: 'save' });
       if (saved) saveFile(`${shortName(agent)}.pl`, saved.done);
