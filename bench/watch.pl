@@ -3,7 +3,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/host), [event/4]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(lists), [nth0/3]).
 
 /*  What it costs to be watched.
 
