@@ -2,6 +2,7 @@
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/host), [event/4]).
+:- use_module(library(typhon/watching), [metrics/2, overview/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth0/3]).
 
@@ -25,7 +26,8 @@ main([Text]) :-
     slower(Pairs, 1, 20000, There, 'within a process'),
     with_peer([env], between_processes(Pairs)),
     host_stop(there),
-    host_stop(here).
+    host_stop(here),
+    many_hosts.
 
 between_processes(Pairs, Peer) :-
     slower(Pairs, 1, 5000, Peer, 'between processes'),
@@ -87,6 +89,31 @@ count(event(_, _, _, skipped(Count))) :-
     flag(skipped, N, N+Count).
 count(_) :-
     flag(told, N, N+1).
+
+                /*******************************
+                *          WHAT IS THERE       *
+                *******************************/
+
+many_hosts :-
+    network_start(ring(1000), Network, [processes(4)]),
+    network_property(Network, hosts(Hosts)),
+    forall(( member(Host, Hosts), between(1, 10, _) ),
+           agent_create(clauses([(:- agent(resident, [])),
+                                 on_message(_, _)]),
+                        _, [host(Host)])),
+    median_of(overview(Network, _, []), Overview),
+    figure('overview of 1,000 hosts, 10,000 agents in 4 processes',
+           Overview, ms),
+    median_of(metrics(Network, _), Metrics),
+    figure('their numbers for Prometheus', Metrics, ms),
+    network_stop(Network).
+
+:- meta_predicate median_of(0, -).
+
+median_of(Goal, Ms) :-
+    findall(Seconds, ( between(1, 9, _), seconds(Goal, Seconds) ), All),
+    median(All, Median),
+    Ms is Median*1000.
 
 median(List, Median) :-
     msort(List, Sorted),

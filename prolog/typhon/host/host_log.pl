@@ -2,7 +2,6 @@
           [ host_log/3,                 % +Host, +Agent, +What
             host_logs/1                 % +Host
           ]).
-:- use_module(library(lists), [subtract/3]).
 :- use_module('../wire', [endpoint_post/3]).
 :- use_module(events, [event_public/2, events_hear/3]).
 :- use_module(hosts, [address_parts/3, host/3, host_option/2]).
@@ -10,8 +9,7 @@
 /** <module> What a host says to its log server
 
 A log hears when agents begin and end, what they log, and of those kinds of
-events that the option of its host names.  Who wants to know of hops has to
-know where hosts and links are, too.
+events that the option of its host names.
 
 *Threading*: any thread; that of an endpoint does not wait for a connection.
 */
@@ -23,14 +21,7 @@ know where hosts and links are, too.
 typhon_hosting:begins(Host) :-
     log_server(Host, _, Kinds),
     !,
-    with_the_stage(Kinds, All),
-    events_hear([life, bad_ends|All], Host, log).
-
-with_the_stage(Kinds, [hosts, links|Others]) :-
-    memberchk(hops, Kinds),
-    !,
-    subtract(Kinds, [hosts, links], Others).
-with_the_stage(Kinds, Kinds).
+    events_hear([life, bad_ends|Kinds], Host, log).
 
 log_server(Host, Log, []) :-
     host_option(Host, log(Log)).

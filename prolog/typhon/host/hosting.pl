@@ -64,7 +64,8 @@ other users of the process its endpoint, see typhon_runtime.
 %     - place(+Module): a module all of whose predicates it offers
 %     - log(+Address), log(+Address, +Kinds): the log server.  It hears of
 %       the beginnings and ends of agents, of what they log themselves, and
-%       of Kinds: a list out of `hops`, `messages` and `facts`
+%       of Kinds: a list out of `hops`, `messages`, `facts`, `faults`,
+%       `links` and `hosts`, see watch/3
 %     - remote(+Boolean): whether remote/2 is answered, default `true`
 %     - clock(virtual): time is virtual, see typhon_virtual; so it is then
 %       for all hosts of the process, which cannot be reached from others

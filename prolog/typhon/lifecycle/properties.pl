@@ -1,5 +1,6 @@
 :- module(typhon_properties,
-          [ agent_property/2            % ?Agent, ?Property
+          [ agent_property/2,           % ?Agent, ?Property
+            status_shown/2              % +Status, -State
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
@@ -104,7 +105,7 @@ property(state(State), Agent) :-
         is_faulty(Goals, Fault, _)
     ->  fault_error(Fault, Error),
         State = faulty(Error)
-    ;   shown(Status, State)
+    ;   status_shown(Status, State)
     ).
 property(busy(Seconds), Agent) :-
     agent_status(Agent, running, _),
@@ -141,20 +142,24 @@ visible(Clauses, Clause) :-
     Clause \= '$memory'(_),
     Clause \= '$legacy'(_).
 
-shown(ready, running).
-shown(running, running).
-shown(obeying, running).
-shown(arriving, in_transit).
-shown(leaving(_, _), in_transit).
-shown(sleeping(_), sleeping).
-shown(waiting(_, _), waiting).
-shown(resident, resident).
-shown(held, held).
-shown(resumed, running).
-shown(faulty(Error), faulty(Error)).
-shown(transit(Host, Sent), State) :-
+%!  status_shown(+Status, -State) is det.
+%
+%   State is how people call what an agent of that Status does.
+
+status_shown(ready, running).
+status_shown(running, running).
+status_shown(obeying, running).
+status_shown(arriving, in_transit).
+status_shown(leaving(_, _), in_transit).
+status_shown(sleeping(_), sleeping).
+status_shown(waiting(_, _), waiting).
+status_shown(resident, resident).
+status_shown(held, held).
+status_shown(resumed, running).
+status_shown(faulty(Error), faulty(Error)).
+status_shown(transit(Host, Sent), State) :-
     if_certain(transit(Host, Sent), in_transit, State).
-shown(cloning(Host, Sent), State) :-
+status_shown(cloning(Host, Sent), State) :-
     if_certain(cloning(Host, Sent), waiting, State).
 
 if_certain(Status, State0, State) :-

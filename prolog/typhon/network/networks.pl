@@ -87,8 +87,9 @@ none of its own.
 %     - log(File), log(File, Kinds)
 %       A log server writes the events of all hosts to File, begun anew:
 %       when agents begin and end, what they log, and, of Kinds, a list out
-%       of `hops`, `messages` and `facts`, where they went, who sent to
-%       whom, and what they left and took.
+%       of `hops`, `messages`, `facts`, `faults`, `links` and `hosts`,
+%       where they went, who sent to whom, what they left and took, what
+%       was the matter with them, and which links and hosts came and went.
 %     - dynamic(Model)
 %       Links come and go: see dynamics_model/2.
 %     - cost(Cost)

@@ -259,19 +259,41 @@ pour_out(To) :-
     ).
 
 %   send(+To) is semidet: the next batch is in the hands of who watches.
+%   What is too long for a frame is halved, and a single event skipped.
 
 send(To) :-
-    To = to(Peer, Id, Bell, Basin),
+    To = to(_, _, _, Basin),
     batch(Most),
     basin_take(Basin, Most, Events0, Skipped),
     findall(Event, ( member(Lost, Skipped), skip_event(Lost, Event) ), More),
     append(Events0, More, Events),
-    hand_over(Peer, Id, Events, Bell),
-    await(To, answer(more)).
+    hand_over(Events, To).
+
+hand_over(Events, To) :-
+    To = to(Peer, Id, Bell, _),
+    catch(( give(Peer, Id, Events, Bell),
+            Given = true ),
+          error(resource_error(_), _),
+          Given = false),
+    (   Given == true
+    ->  await(To, answer(more))
+    ;   hand_over_parts(Events, To)
+    ).
+
+hand_over_parts([event(Time, Host, _, _)], To) :-
+    !,
+    hand_over([event(Time, Host, none, skipped(1))], To).
+hand_over_parts(Events, To) :-
+    length(Events, Length),
+    Half is Length//2,
+    length(First, Half),
+    append(First, Second, Events),
+    hand_over(First, To),
+    hand_over(Second, To).
 
 %   Within this process nothing has to be sent.
 
-hand_over(Peer, Id, Events, Bell) :-
+give(Peer, Id, Events, Bell) :-
     endpoint_address(Peer),
     !,
     OnAnswer = typhon_telling:answered(Bell),
@@ -279,7 +301,7 @@ hand_over(Peer, Id, Events, Bell) :-
     ->  true
     ;   call(OnAnswer, answer(no))
     ).
-hand_over(Peer, Id, Events, Bell) :-
+give(Peer, Id, Events, Bell) :-
     endpoint_request(Peer, watched, events(Id, Events),
                      typhon_telling:answered(Bell)).
 

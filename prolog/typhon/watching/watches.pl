@@ -66,7 +66,8 @@ room `telling`.
 %   @error host_unreachable(Host), permission_error(authenticate, host, Host)
 
 watch(Hosts, OnEvent, Watch) :-
-    must_be(callable, OnEvent),
+    strip_module(OnEvent, _, Plain),
+    must_be(callable, Plain),
     flag(typhon_watches, N, N+1),
     atom_concat(watch, N, Id),
     raising_afresh(setup_call_catcher_cleanup(
