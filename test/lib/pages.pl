@@ -13,13 +13,13 @@
 *Threading*: any thread.
 */
 
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(http/http_client), [http_get/3, http_post/4]).
 :- use_module(library(http/http_json), []).
 :- use_module(library(http/http_open), []).
 :- use_module(library(http/websocket),
               [http_open_websocket/3, ws_close/3, ws_receive/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3]).
+:- use_module(library(time), [call_with_time_limit/2]).
 :- use_module('../../prolog/typhon/page', [page_serve/2, page_stop/0]).
 
 :- meta_predicate
@@ -68,20 +68,33 @@ with_feed(Base, Feed, Goal) :-
     atom_concat(http, Rest, Base),
     atomic_list_concat([ws, Rest, feed], Address),
     setup_call_cleanup(
-        http_open_websocket(Address, Feed, []),
+        open_feed(Address, Feed),
         once(Goal),
-        catch(ws_close(Feed, 1000, bye), error(_, _), true)).
+        close_feed(Feed)).
 
-frame(Feed, Frame) :-
-    ws_receive(Feed, Message, [format(json)]),
+%   What is not yet passed over.
+
+open_feed(Address, feed(Socket, [])) :-
+    http_open_websocket(Address, Socket, []).
+
+close_feed(feed(Socket, _)) :-
+    catch(ws_close(Socket, 1000, bye), error(_, _), true).
+
+frame(feed(Socket, _), Frame) :-
+    call_with_time_limit(20, ws_receive(Socket, Message, [format(json)])),
     Frame = Message.data.
 
 told(Feed, Pattern, Event) :-
-    frame(Feed, Frame),
-    (   get_dict(events, Frame, Events),
-        member(Event, Events),
-        Event = [_|Rest],
+    (   arg(2, Feed, Events),
+        append(_, [Event0|Later], Events),
+        Event0 = [_|Rest],
         append(Pattern, _, Rest)
-    ->  true
-    ;   told(Feed, Pattern, Event)
+    ->  Event = Event0,
+        nb_setarg(2, Feed, Later)
+    ;   frame(Feed, Frame),
+        (   get_dict(events, Frame, More)
+        ->  nb_setarg(2, Feed, More)
+        ;   nb_setarg(2, Feed, [])
+        ),
+        told(Feed, Pattern, Event)
     ).

@@ -173,8 +173,8 @@ discard(File) :-
 stop_at(local(Name)) :-
     host_stop(Name).
 stop_at(remote(Address, Name, _)) :-
-    remote(Address, thread_create(typhon:host_stop(Name), _,
-                                  [detached(true)])).
+    remote(Address, \+ \+ thread_create(typhon:host_stop(Name), _,
+                                          [detached(true)])).
 
 :- multifile
     prolog:error_message//1.

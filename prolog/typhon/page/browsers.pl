@@ -20,8 +20,7 @@ queues of all browsers.  A browser that does not take them fast enough loses
 some, and is told how many.
 
 *Threading*: any thread tells; the thread `typhon_page` makes texts; each
-browser has a thread, which sends them.  These end with their connection, or
-at the latest when a heartbeat cannot be sent.
+browser has a thread, which sends them, and one that notices when it goes.
 */
 
 :- meta_predicate browser_serve(1, +).
@@ -215,21 +214,31 @@ put(Browser, Text) :-
 
 %!  browser_serve(:Scene, +WebSocket) is det.
 %
-%   Tell a browser all that happens, until it goes, or all stops.  What comes
-%   first says call(Scene, Dict); events from then on may be in it already.
+%   Tell a browser all that happens, until it goes, or all stops, and close
+%   WebSocket.  What comes first says call(Scene, Dict); events from then on
+%   may be in it already.
 
 browser_serve(Scene, WebSocket) :-
     setup_call_cleanup(
         message_queue_create(Queue),
-        serve(Queue, Scene, WebSocket),
-        forget(Queue)).
+        catch(serve(Queue, Scene, WebSocket), Ball, ended(Ball)),
+        ( forget(Queue),
+          catch(close(WebSocket, [force(true)]), error(_, _), true) )).
+
+%   It has gone, or is sent away.
+
+ended(error(io_error(_, _), _)) :- !.
+ended(error(socket_error(_, _), _)) :- !.
+ended(typhon_page(bye)) :- !.
+ended(Ball) :-
+    print_message(warning, Ball).
 
 serve(Queue, Scene, WebSocket) :-
     (   enter(Queue)
     ->  call(Scene, Dict),
         json_text(Dict, Text),
         ws_send(WebSocket, text(Text)),
-        send_on(Queue, WebSocket)
+        while_it_listens(Queue, WebSocket)
     ;   json_text(_{error:"Too many browsers look at this page"}, Text),
         ws_send(WebSocket, text(Text))
     ).
@@ -249,6 +258,26 @@ enter(Queue, Me) :-
 forget(Queue) :-
     with_mutex(typhon_page, retractall(browser(Queue, _, _))),
     message_queue_destroy(Queue).
+
+%   A browser has nothing to say here but that it goes: whatever it sends is
+%   not read, and is the end.
+
+while_it_listens(Queue, WebSocket) :-
+    setup_call_cleanup(
+        thread_create(wait_for_end(Queue, WebSocket), Listener),
+        send_on(Queue, WebSocket),
+        end_listener(Listener)),
+    catch(ws_send(WebSocket, close(1000, "")), error(_, _), true).
+
+end_listener(Listener) :-
+    catch(thread_signal(Listener, throw(typhon_page(bye))),
+          error(existence_error(_, _), _), true),
+    thread_join(Listener, _).
+
+wait_for_end(Queue, WebSocket) :-
+    stream_pair(WebSocket, In, _),
+    catch(wait_for_input([In], _, infinite), error(_, _), true),
+    catch(thread_send_message(Queue, bye), error(_, _), true).
 
 send_on(Queue, WebSocket) :-
     thread_get_message(Queue, Message),

@@ -139,7 +139,7 @@ route([], Token, _) =>
     atomic_list_concat(['', Token, ''], /, Page),
     throw(http_reply(see_other(Page))).
 route([feed], _, Request) =>
-    http_spawn(http_upgrade_to_websocket(feed, [], Request), []).
+    http_spawn(http_upgrade_to_websocket(feed, [guarded(false)], Request), []).
 route([ask], _, Request) =>
     answer(Request).
 route([metrics], _, Request) =>

@@ -32,6 +32,7 @@ thread sees every few seconds which hosts there are by now.
 :- dynamic
     place/1,                    % Address: where to begin
     finder/2,                   % Thread, Queue
+    own/1,                      % Watch
     watched/2.                  % Address, Watch
 
 %!  sources_start(+Options) is det.
@@ -125,11 +126,18 @@ telling_errors(Goal) :-
 
 renew :-
     look(0, _, Hosts),
-    findall(Endpoint-Address, unwatched(Hosts, Endpoint, Address), Pairs),
-    (   Pairs == []
-    ->  true
-    ;   with_mutex(typhon_page_sources, watch_hosts(Hosts))
-    ).
+    (   unwatched(Hosts, _, _)
+    ->  with_mutex(typhon_page_sources, watch_hosts(Hosts))
+    ;   true
+    ),
+    with_mutex(typhon_page_sources, idle(Watches)),
+    maplist(end_watch, Watches).
+
+%   All their hosts have stopped.
+
+idle(Watches) :-
+    findall(Watch, ( own(Watch), \+ watched(_, Watch) ), Watches),
+    forall(member(Watch, Watches), retract(own(Watch))).
 
 look(Most, Seen, Hosts) :-
     findall(Place, place(Place), Places),
@@ -153,7 +161,8 @@ watch_hosts(Hosts) :-
 watch_some(Addresses) :-
     (   catch(watch(Addresses, typhon_page_sources:heard, Watch),
               error(_, _), fail)
-    ->  forall(member(Address, Addresses),
+    ->  assertz(own(Watch)),
+        forall(member(Address, Addresses),
                assertz(watched(Address, Watch)))
     ;   true
     ).
@@ -178,8 +187,8 @@ rest :-
     maplist(end_watch, Watches).
 
 watches(Watches) :-
-    findall(Watch, retract(watched(_, Watch)), Watches0),
-    sort(Watches0, Watches).
+    retractall(watched(_, _)),
+    findall(Watch, retract(own(Watch)), Watches).
 
 end_watch(Watch) :-
     catch(in_own_thread(unwatch(Watch)), error(existence_error(_, _), _), true).

@@ -92,11 +92,19 @@ status_from_elsewhere(Base, Status) :-
     ).
 
 test(too_large, Status == 413) :-
-    page(Base, ( length(Codes, 1 100 000),
-                 maplist(=(0'a), Codes),
-                 string_codes(Text, Codes),
-                 atom_concat(Base, ask, Ask),
-                 posted(Ask, json(_{do:"check", text:Text}), [], Status) )).
+    page(Base, ( atomic_list_concat([_, _, Authority, Token|_], /, Base),
+                 atomic_list_concat([_, Port], :, Authority),
+                 format(atom(Command),
+                        'printf "POST /~w/ask HTTP/1.0\\r\\nContent-Length: \c
+                         2000000\\r\\nContent-Type: application/json\\r\\n\c
+                         \\r\\n" >&3; head -1 <&3', [Token]),
+                 format(atom(Bash), 'bash -c \'exec 3<>/dev/tcp/localhost/~w; \c
+                                     ~w\'', [Port, Command]),
+                 setup_call_cleanup(open(pipe(Bash), read, Out),
+                                    read_line_to_string(Out, Line),
+                                    close(Out)),
+                 split_string(Line, " ", "", [_, Text|_]),
+                 number_string(Status, Text) )).
 
 test(headers) :-
     page(Base, ( http_open:http_open(Base, In,
@@ -154,10 +162,7 @@ test(port_taken, error(socket_error(_, _))) :-
                  socket:tcp_close_socket(Socket))).
 
 test(nothing_is_left) :-
-    hosts(Hosts),
-    with_hosts(Hosts,
-               no_leaks(with_page([], Base,
-                                  with_feed(Base, Feed, frame(Feed, _))))).
+    no_leaks(page(Base, with_feed(Base, Feed, frame(Feed, _)))).
 
 test(stop_without_page) :-
     page_stop.
@@ -177,7 +182,7 @@ test(survey) :-
     page(Base, ( create([on_message(_, _)], _, [name(bob), host(alpha)]),
                  answer(Base, _{ask:"survey"}, Scene) )),
     Scene.agents = [Agent],
-    assertion(Agent :< _{program:"test", status:"resident", hops:0, mail:0}),
+    assertion(_{program:"test", status:"resident", hops:0, mail:0} :< Agent),
     assertion(( member(Host, Scene.hosts), Host.links = [[_, 1]] )).
 
 test(agent) :-
@@ -186,8 +191,8 @@ test(agent) :-
                  wait_state(A, waiting),
                  agent_send(A, other),
                  answer(Base, _{ask:"agent", agent:A}, Agent) )),
-    assertion(Agent :< _{ state:"waiting", facts:["s('<img src=x>')", "s(1)"],
-                          fact_count:2, hops:0, name:"test" }),
+    assertion(_{ state:"waiting", facts:["s('<img src=x>')", "s(1)"],
+                 fact_count:2, hops:0, name:"test" } :< Agent),
     assertion(Agent.mailbox = [[_, "other"]]),
     Agent.program = _{lines:Lines, here:[N]},
     nth1(N, Lines, Line),
@@ -204,7 +209,8 @@ test(fault) :-
                                     [host(alpha)]),
                              wait_state(A, faulty(_)) ), _),
                  answer(Base, _{ask:"agent", agent:A}, Agent) )),
-    assertion(Agent.fault.goal == "atom_length(_,_)").
+    Fault = Agent.fault,
+    assertion(_{goal:"main", place:"main/0:1"} :< Fault).
 
 test(host) :-
     page(Base, ( remote(alpha, ( leave(parcel(7)), assertz(door(open)) )),
@@ -246,7 +252,7 @@ test(programs) :-
 program(":- agent(p, [state([n/1])]).\n\c
          main :- receive(_-Message), assertz(n(Message)), receive(_-end).\n").
 
-test(create_and_send, Facts == [n(hello(_, 'B', "c"))]) :-
+test(create_and_send, Facts =@= [n(hello(_, 'B', "c"))]) :-
     program(Text),
     page(Base, ( done(Base, _{ do:"create", text:Text, host:"beta", name:"ann",
                                options:"[lifetime(3)]" }, Agent0),
@@ -270,15 +276,15 @@ test(bad_terms) :-
 
 %   What is said of a program stands at its line, and its file has no folder.
 
-test(check, Said == [["error", 3], ["warning", 2]]) :-
+test(check, Said == [["error", 3], ["warning", 2], ["warning", 3]]) :-
     Text = ":- agent(p, []).\nmain :- foo(X), foo.\nmain :- forall(a, move(b)).\n",
     page(Base, ( answer(Base, _{do:"check", text:Text}, Answer),
-                 findall([P.kind, P.line], member(P, Answer.said), Said0),
-                 sort(Said0, Said1) )),
-    include([[_, L]]>>memberchk(L, [2, 3]), Said1, Said2),
-    sort(Said2, Said),
-    forall(member(P, Answer.said),
-           assertion(\+ sub_string(P.text, _, _, _, "/"))).
+                 Problems = Answer.said )),
+    findall([Kind, Line], ( member(P, Problems),
+                            _{kind:Kind, line:Line} :< P ), Said0),
+    sort(Said0, Said),
+    forall(( member(P, Problems), get_dict(text, P, Words) ),
+           assertion(\+ sub_string(Words, _, _, _, "program.pl"))).
 
 test(create_is_refused) :-
     page(Base, says(Base, _{do:"create", text:"main :- .", host:"alpha"},
@@ -319,7 +325,7 @@ test(hosts, Load == 0) :-
                  host_property(gamma, capacity(3)),
                  host_property(gamma, load(Load)),
                  done(Base, _{do:"host_stop", host:"gamma"}, _),
-                 assertion(\+ host_property(gamma, _)) )).
+                 assertion(\+ host_property(_, capacity(3))) )).
 
 test(networks) :-
     page(Base, ( done(Base, _{do:"network_start", topology:"ring(4)",
@@ -463,9 +469,9 @@ test(from_elsewhere, Names == [alpha, beta]) :-
                  address(alpha, Address),
                  project_file('app/typhon.pl', App),
                  with_swipl([App, page, '--host', Address, '--port', '0'],
-                            _, _, Out, elsewhere(Out, Names)) )).
+                            Pid, _, Out, elsewhere(Out, Pid, Names)) )).
 
-elsewhere(Out, Names) :-
+elsewhere(Out, Pid, Names) :-
     read_line_to_string(Out, Link0),
     atom_string(Link, Link0),
     test_pages:link_base(Link, Base),
@@ -478,6 +484,8 @@ elsewhere(Out, Names) :-
               ( frame(Feed, _),
                 create([main], A, [host(alpha)]),
                 atom_string(A, Text),
-                told(Feed, [_, Text, "ended", "done"], _) )).
+                told(Feed, [_, Text, "ended", "done"], _) )),
+    process_kill(Pid, term),
+    wait_for_end(Pid, 10, exit(0)).
 
 :- end_tests(page_feed).
