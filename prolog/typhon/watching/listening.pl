@@ -8,21 +8,19 @@
 :- use_module('../base/output', [output_own/0]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
-:- use_module('../host', [address_parts/3, time_now/1]).
+:- use_module(places,
+              [ place_answered/4, place_at/4, place_begin/3, place_cut/3,
+                place_due/3, place_started/4, place_stopped/2,
+                places_forget/1 ]).
 
 /** <module> Listening to what is told
 
-The places of a watch are the processes that have hosts which are watched.
-State of a place is `up`, `cut` while it is asked whether it is there still,
-or down(Again, Pause): nobody was there, and it is asked again at the time
-Again, when it has not come by itself before.
+The thread of a watch calls what is to be called for each event, and sees to
+it that the places from which they come are asked again when they were cut
+off, see room `places`.
 
-A process that was cut off is asked to watch again.  If it has forgotten the
-watch, as one that was started anew has, events are missing: its hosts are
-lost, and those that are there have started.
-
-*Threading*: one thread for each watch, which alone changes its places.  The
-hooks of the endpoint put into its queue what it is to hear.
+*Threading*: one thread for each watch.  The hooks of the endpoint put into its
+queue what it is to hear.
 */
 
 :- meta_predicate listen_on(+, +, 1, +).
@@ -31,15 +29,9 @@ hooks of the endpoint put into its queue what it is to hear.
     prolog:message//1,
     typhon_endpoint:connection/2,
     typhon_endpoint:requested/4,
-    typhon_telling:taken_here/3.
+    typhon_teller:taken_here/3.
 
-:- dynamic
-    watch/2,                    % Watch, Queue: as long as events are wanted
-    place/4,                    % Watch, Endpoint, Peer, Wanted
-    state/3,                    % Watch, Endpoint, State
-    runs/4.                     % Watch, Endpoint, Host, Clock: is known to
-
-longest_pause(60).
+:- dynamic watch/2.             % Watch, Queue: as long as events are wanted
 
 %!  listening_begin(+Watch, -Queue) is det.
 %!  listening_end(+Watch) is det.
@@ -60,11 +52,12 @@ listening_end(Watch) :-
                 *******************************/
 
 typhon_endpoint:requested(watched, events(Watch, Events), Peer, ReplyTo) :-
-    (   listening_tell(Watch, events(Peer, Events, peer(ReplyTo)))
+    (   is_list(Events),
+        listening_tell(Watch, events(Peer, Events, peer(ReplyTo)))
     ->  true
     ;   endpoint_reply(ReplyTo, no)
     ).
-typhon_telling:taken_here(Watch, Events, OnAnswer) :-
+typhon_teller:taken_here(Watch, Events, OnAnswer) :-
     endpoint_address(Own),
     !,
     listening_tell(Watch, events(Own, Events, here(OnAnswer))).
@@ -107,29 +100,14 @@ listen_on(Watch, Queue, OnEvent, Asked) :-
         ( forget(Watch),
           message_queue_destroy(Queue) )).
 
-begin(asked(Endpoint, Wanted, Answer), Me) :-
+begin(Asked, Me) :-
     Me = me(Watch, _, _),
-    (   Answer = watching(Peer, _, Hosts)
-    ->  assertz(place(Watch, Endpoint, Peer, Wanted)),
-        put_state(Me, Endpoint, up),
-        run(Hosts, Endpoint, Me)
-    ;   Answer = gone(Hosts),
-        forall(member(Host, Hosts), lost(Host, clock(0, 1), Me))
-    ).
+    place_begin(Watch, Asked, Events),
+    call_on_all(Events, Me).
 
 forget(Watch) :-
     retractall(watch(Watch, _)),
-    retractall(place(Watch, _, _, _)),
-    retractall(state(Watch, _, _)),
-    retractall(runs(Watch, _, _, _)).
-
-put_state(me(Watch, _, _), Endpoint, State) :-
-    retractall(state(Watch, Endpoint, _)),
-    assertz(state(Watch, Endpoint, State)).
-
-run(Hosts, Endpoint, me(Watch, _, _)) :-
-    forall(member(Host-Clock, Hosts),
-           assertz(runs(Watch, Endpoint, Host, Clock))).
+    places_forget(Watch).
 
 loop(Me) :-
     next(Me, Message),
@@ -143,7 +121,7 @@ loop(Me) :-
     ).
 
 next(me(Watch, Queue, _), Message) :-
-    findall(Again, state(Watch, _, down(Again, _)), Agains),
+    findall(Again, place_due(Watch, _, Again), Agains),
     (   Agains == []
     ->  thread_get_message(Queue, Message)
     ;   min_list(Agains, Deadline),
@@ -160,20 +138,40 @@ heard(events(Peer, Events, ReplyTo), Me) =>
     ask_for_more(ReplyTo),
     forall(( member(Event, Events), wanted(Me) ),
            taken(Event, Peer, Me)).
+heard(connection(Peer, down), _), endpoint_address(Peer) =>
+    true.                               % nobody is cut off from himself
 heard(connection(Peer, down), Me) =>
-    forall(place_at(Peer, up, Endpoint, Me), ask_again(Endpoint, Me)).
+    ask_again(Peer, up, Me).
 heard(connection(Peer, up), Me) =>
-    forall(place_at(Peer, down(_, _), Endpoint, Me),
-           ask_again(Endpoint, Me)).
+    ask_again(Peer, down(_, _), Me).
 heard(due, Me) =>
-    get_time(Now),
     Me = me(Watch, _, _),
-    forall(( state(Watch, Endpoint, down(Again, _)), Again =< Now ),
-           ask_again(Endpoint, Me)).
+    get_time(Now),
+    forall(( place_due(Watch, Endpoint, Again), Again =< Now ),
+           ask(Endpoint, Me)).
 heard(asked(Endpoint, Result), Me) =>
-    answered(Result, Endpoint, Me).
+    Me = me(Watch, _, _),
+    place_answered(Watch, Endpoint, Result, Events),
+    call_on_all(Events, Me).
 heard(_, _) =>                          % over, ended(_)
     true.
+
+ask_again(Peer, State, Me) :-
+    Me = me(Watch, _, _),
+    forall(place_at(Watch, Peer, State, Endpoint), ask(Endpoint, Me)).
+
+ask(Endpoint, me(Watch, Queue, _)) :-
+    place_cut(Watch, Endpoint, Wanted),
+    endpoint_request(Endpoint, watch, watch(Watch, Wanted),
+                     typhon_listening:told(Queue, asked, Endpoint)).
+
+:- public told/4.
+
+told(Queue, What, Endpoint, Result) :-
+    Message =.. [What, Endpoint, Result],
+    catch(thread_send_message(Queue, Message),
+          error(existence_error(_, _), _),
+          true).                        % nobody listens any more
 
 ask_for_more(peer(ReplyTo)) :-
     endpoint_reply(ReplyTo, more).
@@ -188,18 +186,19 @@ ask_for_more(here(OnAnswer)) :-
 
 taken(event(Time, Host, none, started(Clock)), Peer, Me) =>
     Me = me(Watch, _, _),
-    (   runs(Watch, _, Host, _)
-    ->  true
-    ;   forall(place_at(Peer, _, Endpoint, Me),
-               run([Host-Clock], Endpoint, Me)),
-        call_on(event(Time, Host, none, started), Me)
+    (   place_started(Watch, Peer, Host, Clock)
+    ->  call_on(event(Time, Host, none, started), Me)
+    ;   true
     ).
 taken(event(Time, Host, none, stopped), _, Me) =>
     Me = me(Watch, _, _),
-    retractall(runs(Watch, _, Host, _)),
+    place_stopped(Watch, Host),
     call_on(event(Time, Host, none, stopped), Me).
 taken(Event, _, Me) =>
     call_on(Event, Me).
+
+call_on_all(Events, Me) :-
+    forall(( member(Event, Events), wanted(Me) ), call_on(Event, Me)).
 
 call_on(Event, me(Watch, _, OnEvent)) :-
     (   catch(call(OnEvent, Event), Ball, raised(Ball, Watch))
@@ -223,106 +222,6 @@ raised(Ball, Watch) :-
 is_abort('$aborted').
 is_abort(unwind(_)).
 
-lost(Host, clock(Epoch, Rate), Me) :-
-    time_now(Now),
-    Time is (Now-Epoch)*Rate,
-    call_on(event(Time, Host, none, lost), Me).
-
-                /*******************************
-                *         CUT AND LOST         *
-                *******************************/
-
-%   This process is never cut off from itself.
-
-place_at(Peer, State, Endpoint, me(Watch, _, _)) :-
-    \+ ( State == up, endpoint_address(Peer) ),
-    place(Watch, Endpoint, Peer, _),
-    state(Watch, Endpoint, State).
-
-ask_again(Endpoint, Me) :-
-    Me = me(Watch, Queue, _),
-    place(Watch, Endpoint, _, Wanted),
-    !,
-    pause(Endpoint, Me, Pause),
-    put_state(Me, Endpoint, cut(Pause)),
-    endpoint_request(Endpoint, watch, watch(Watch, Wanted),
-                     typhon_listening:told(Queue, asked, Endpoint)).
-
-pause(Endpoint, me(Watch, _, _), Pause) :-
-    (   state(Watch, Endpoint, down(_, Pause0))
-    ->  Pause = Pause0
-    ;   Pause = 1
-    ).
-
-:- public told/4.
-
-told(Queue, What, Endpoint, Result) :-
-    Message =.. [What, Endpoint, Result],
-    catch(thread_send_message(Queue, Message),
-          error(existence_error(_, _), _),
-          true).                        % nobody listens any more
-
-answered(answer(watching(_, New, Hosts)), Endpoint, Me) :-
-    !,
-    (   New == true
-    ->  all_lost(Endpoint, Me)
-    ;   true
-    ),
-    put_state(Me, Endpoint, up),
-    forall(( member(Host-Clock, Hosts),
-             \+ is_running(Host, Me) ),
-           ( run([Host-Clock], Endpoint, Me),
-             started(Host, Clock, Me) )).
-answered(_, Endpoint, Me) :-
-    Me = me(Watch, _, _),
-    state(Watch, Endpoint, cut(Pause)),
-    !,
-    findall(Host, runs(Watch, Endpoint, Host, _), Hosts),
-    all_lost(Endpoint, Me),
-    (   still_wanted(Endpoint, Hosts, Me)
-    ->  again_later(Endpoint, Pause, Me)
-    ;   retractall(place(Watch, Endpoint, _, _)),
-        retractall(state(Watch, Endpoint, _))
-    ).
-answered(_, _, _).
-
-%   Another process may have the port by and by: of a network only hosts that
-%   were there are waited for.
-
-still_wanted(Endpoint, Hosts, me(Watch, _, _)) :-
-    place(Watch, Endpoint, Peer, Wanted),
-    !,
-    (   Wanted == all
-    ->  Hosts = [_|_],
-        findall(Name,
-                ( member(Host, Hosts), address_parts(Host, Name, _) ), Names),
-        retractall(place(Watch, Endpoint, _, _)),
-        assertz(place(Watch, Endpoint, Peer, Names))
-    ;   true
-    ).
-
-again_later(Endpoint, Pause, Me) :-
-    get_time(Now),
-    Again is Now+Pause,
-    longest_pause(Longest),
-    Next is min(Longest, 2*Pause),
-    put_state(Me, Endpoint, down(Again, Next)).
-
-is_running(Host, me(Watch, _, _)) :-
-    runs(Watch, _, Host, _),
-    !.
-
-started(Host, clock(Epoch, Rate), Me) :-
-    time_now(Now),
-    Time is (Now-Epoch)*Rate,
-    call_on(event(Time, Host, none, started), Me).
-
-all_lost(Endpoint, Me) :-
-    Me = me(Watch, _, _),
-    findall(Host-Clock, runs(Watch, Endpoint, Host, Clock), Lost),
-    retractall(runs(Watch, Endpoint, _, _)),
-    forall(member(Host-Clock, Lost), lost(Host, Clock, Me)).
-
                 /*******************************
                 *              END             *
                 *******************************/
@@ -332,8 +231,12 @@ all_lost(Endpoint, Me) :-
 end(Me) :-
     unwatch_all(Me),
     Me = me(Watch, _, _),
-    findall(Endpoint, state(Watch, Endpoint, up), Endpoints),
+    findall(Endpoint, tells(Watch, Endpoint), Endpoints),
     await_ends(Endpoints, Me).
+
+tells(Watch, Endpoint) :-
+    place_at(Watch, _, State, Endpoint),
+    State \= down(_, _).
 
 await_ends([], _) :-
     !.
@@ -353,7 +256,7 @@ await_ends(Endpoints, Me) :-
 await_ends(_, _).                       % it takes too long
 
 unwatch_all(me(Watch, Queue, _)) :-
-    forall(state(Watch, Endpoint, up),
+    forall(tells(Watch, Endpoint),
            endpoint_request(Endpoint, watch, unwatch(Watch),
                             typhon_listening:told(Queue, ended, Endpoint))).
 

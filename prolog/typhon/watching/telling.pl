@@ -1,26 +1,21 @@
 :- module(typhon_telling, []).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/output', [output_own/0]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
-:- use_module('../wire',
-              [ endpoint_address/1, endpoint_call/5, endpoint_reply/2,
-                endpoint_request/4, mobile_term/1 ]).
+:- use_module('../wire', [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
               [ clock/3, event_public/2, events_hear/3, events_unheard/1,
-                host/3, time_kind/1, time_now/1 ]).
-:- use_module(basin,
-              [ basin_awaited/1, basin_close/1, basin_open/3, basin_put/3,
-                basin_size/2, basin_take/4 ]).
+                host/3, time_kind/1 ]).
+:- use_module(basin, [basin_close/1, basin_open/3, basin_put/3]).
+:- use_module(teller, [teller_ring/2, teller_run/1, time_at/2]).
 
 /** <module> Telling those who watch
 
 For each watch, of this process or another, that wants to hear of hosts of
-this process there is a thread, the teller.  What happens gathers in a basin;
-the teller sends it in batches, and the next when the last one is in the
-hands of who watches.  So a watch is as far behind as it is slow, the basin
-overflows where it is too slow, and hosts never wait.
+this process there is a thread, see room `teller`, and a basin in which gathers
+what it is to tell.
 
 A watch is forgotten when it is over, when its process says that it has none
 of that name, or when that cannot be reached any more.
@@ -36,9 +31,7 @@ It is told with requests of kind `watched`:
   | events(Id, Events) | `more`, or `no` if there is no such watch |
   | alive(Id)          | `yes` or `no`                             |
 
-*Threading*: a teller for each watch.  It hears in its bell of what gathers,
-and, as now(M), of what it has to heed at once.  Who takes its record away
-joins it.
+*Threading*: a teller for each watch.  Who takes its record away joins it.
 */
 
 :- multifile
@@ -46,23 +39,16 @@ joins it.
     typhon_endpoint:requested/4,
     typhon_events:told/4,
     typhon_hosting:begins/1,
-    typhon_runtime:ending/1,
-    taken_here/3.               % Id, Events, OnAnswer
+    typhon_runtime:ending/1.
 
 :- setting(events, positive_integer, 10 000,
            "So many events wait for one who watches and is slow").
 :- setting(virtual_events, positive_integer, 1 000 000,
            "As many of virtual time, which is ahead of everybody").
-:- setting(delay, number, 0.05,
-           "Events gather for so many seconds before they are sent").
-:- setting(patience, number, 30,
-           "A process that watches and is cut off has so long to answer").
 
 :- dynamic teller/5.            % Peer, Id, Thread, Bell, telling(Wanted, Basin)
 
 kinds([life, faults, hops, messages, facts, said, links, hosts]).
-batch(1000).
-plenty(256).                    % is sent without delay
 
                 /*******************************
                 *         WHO WATCHES          *
@@ -77,7 +63,7 @@ typhon_endpoint:requested(watch, watch(Id, Wanted), Peer, ReplyTo) :-
 typhon_endpoint:requested(watch, unwatch(Id), Peer, ReplyTo) :-
     (   teller(Peer, Id, _, Bell, telling(_, Basin))
     ->  events_unheard(watch(Basin, _, _)),
-        ring(Bell, end(ReplyTo))
+        teller_ring(Bell, end(ReplyTo))
     ;   endpoint_reply(ReplyTo, ended)
     ).
 
@@ -132,19 +118,14 @@ typhon_hosting:begins(Name) :-
     listen(Name, Address-clock(Epoch, Rate), Basin).
 
 typhon_endpoint:connection(Peer, down) :-
-    forall(teller(Peer, _, _, Bell, _), ring(Bell, now(check))).
-
-ring(Bell, Message) :-
-    catch(thread_send_message(Bell, Message),
-          error(existence_error(_, _), _),
-          true).                        % it has ended
+    forall(teller(Peer, _, _, Bell, _), teller_ring(Bell, now(check))).
 
 %   The last that happened, that the hosts stop, is told as well.
 
 typhon_runtime:ending(before) :-
     findall(Thread,
             ( retract(teller(_, _, Thread, Bell, _)),
-              ring(Bell, end(nobody)) ),
+              teller_ring(Bell, end(nobody)) ),
             Threads),
     forall(member(Thread, Threads), stop_thread(Thread)).
 
@@ -159,10 +140,6 @@ typhon_events:told(watch(Basin, Address, Clock), _, Agent, What) :-
                     event(Time, Address, Agent, Public)),
           error(existence_error(_, _), _),
           true).                        % it has ended
-
-time_at(clock(Epoch, Rate), Time) :-
-    time_now(Now),
-    Time is (Now-Epoch)*Rate.
 
 %   Who watches has to know of clocks; agents may log what cannot travel.
 
@@ -185,7 +162,7 @@ teller(Peer, Id, Bell, Basin) :-
     setup_call_cleanup(
         true,
         ( output_own,
-          idle(to(Peer, Id, Bell, Basin)) ),
+          teller_run(to(Peer, Id, Bell, Basin)) ),
         teller_ends(Peer, Id, Bell, Basin)).
 
 teller_ends(Peer, Id, Bell, Basin) :-
@@ -198,127 +175,3 @@ teller_ends(Peer, Id, Bell, Basin) :-
     ),
     basin_close(Basin),
     message_queue_destroy(Bell).
-
-idle(To) :-
-    To = to(_, _, Bell, Basin),
-    basin_awaited(Basin),
-    thread_get_message(Bell, Message),
-    heard(Message, To, gather(To)).
-
-gather(To) :-
-    To = to(_, _, Bell, _),
-    setting(delay, Seconds),
-    (   thread_get_message(Bell, Message, [timeout(Seconds)])
-    ->  heard(Message, To, gather(To))
-    ;   pour(To)
-    ).
-
-%   heard(+Message, +To, :Next)
-
-heard(some, _, Next) :-
-    call(Next).
-heard(now(check), To, Next) :-
-    (   is_there(To)
-    ->  call(Next)
-    ;   true
-    ).
-heard(now(answered(_)), _, Next) :-
-    call(Next).
-heard(end(ReplyTo), To, _) :-
-    pour_out(To),
-    (   ReplyTo == nobody
-    ->  true
-    ;   endpoint_reply(ReplyTo, ended)
-    ).
-
-is_there(to(Peer, Id, _, _)) :-
-    setting(patience, Seconds),
-    catch(endpoint_call(Peer, watched, alive(Id), answer(Answer), Seconds),
-          error(_, _), fail),
-    Answer == yes.
-
-pour(To) :-
-    To = to(_, _, _, Basin),
-    (   send(To)
-    ->  (   basin_size(Basin, Size),
-            plenty(Plenty),
-            Size >= Plenty
-        ->  pour(To)
-        ;   idle(To)
-        )
-    ;   true                            % nobody watches any more
-    ).
-
-pour_out(To) :-
-    To = to(_, _, _, Basin),
-    (   basin_size(Basin, 0)
-    ->  true
-    ;   send(To)
-    ->  pour_out(To)
-    ;   true
-    ).
-
-%   send(+To) is semidet: the next batch is in the hands of who watches.
-%   What is too long for a frame is halved, and a single event skipped.
-
-send(To) :-
-    To = to(_, _, _, Basin),
-    batch(Most),
-    basin_take(Basin, Most, Events0, Skipped),
-    findall(Event, ( member(Lost, Skipped), skip_event(Lost, Event) ), More),
-    append(Events0, More, Events),
-    hand_over(Events, To).
-
-hand_over(Events, To) :-
-    To = to(Peer, Id, Bell, _),
-    catch(( give(Peer, Id, Events, Bell),
-            Given = true ),
-          error(resource_error(_), _),
-          Given = false),
-    (   Given == true
-    ->  await(To, answer(more))
-    ;   hand_over_parts(Events, To)
-    ).
-
-hand_over_parts([event(Time, Host, _, _)], To) :-
-    !,
-    hand_over([event(Time, Host, none, skipped(1))], To).
-hand_over_parts(Events, To) :-
-    length(Events, Length),
-    Half is Length//2,
-    length(First, Half),
-    append(First, Second, Events),
-    hand_over(First, To),
-    hand_over(Second, To).
-
-%   Within this process nothing has to be sent.
-
-give(Peer, Id, Events, Bell) :-
-    endpoint_address(Peer),
-    !,
-    OnAnswer = typhon_telling:answered(Bell),
-    (   taken_here(Id, Events, OnAnswer)
-    ->  true
-    ;   call(OnAnswer, answer(no))
-    ).
-give(Peer, Id, Events, Bell) :-
-    endpoint_request(Peer, watched, events(Id, Events),
-                     typhon_telling:answered(Bell)).
-
-skip_event((Address-Clock)-Count,
-           event(Time, Address, none, skipped(Count))) :-
-    time_at(Clock, Time).
-
-:- public answered/2.
-
-answered(Bell, Result) :-
-    ring(Bell, now(answered(Result))).
-
-await(To, Answer) :-
-    To = to(_, _, Bell, _),
-    thread_get_message(Bell, now(Message)),
-    (   Message = answered(Answer0)
-    ->  Answer = Answer0
-    ;   is_there(To),
-        await(To, Answer)
-    ).
