@@ -58,6 +58,7 @@ export class Store {
     this.links = new Map();     // "a b", a before b -> {a, b, cost}
     this.programs = new Map();  // name -> {name, agents}
     this.ended = [];            // ids, the oldest first
+    this.moving = new Set();    // agents whose hops are to be seen
     this.overlays = new Map();  // name -> {name, kind, values}
     this.recent = [];           // lists of events, the oldest first
     this.recentCount = 0;
@@ -317,6 +318,7 @@ export class Store {
     agent.hop = { from, to, start, shown: start, done: 0,
                   arrives: seconds === undefined ? null
                     : this.arrivesAt(start, seconds) };
+    this.moving.add(agent);
     agent.status = 'travelling';
   }
 
@@ -337,11 +339,23 @@ export class Store {
       const start = this.stamped ? time - (took || 0) : now;
       agent.hop = { from, to, start, shown: start, done: 0,
                     arrives: this.arrivesAt(start, took || 0) };
+      this.moving.add(agent);
     }
     if (agent.host !== to) this.put(agent, to);
     agent.hops++;
     this.history.hop(time, took);
     if (took !== null) this.expected += (took - this.expected) / 64;
+  }
+
+  // Agents whose marks are on their way now; the others' hops are over.
+  settle(now = this.clock()) {
+    for (const agent of this.moving) {
+      const hop = agent.hop;
+      if (hop && (hop.arrives === null || now < hop.arrives)) continue;
+      agent.hop = null;
+      this.moving.delete(agent);
+    }
+    return this.moving;
   }
 
   // How far it has come, from 0 to 1.
@@ -369,16 +383,23 @@ export class Store {
 
   // ------------------------------------------------------------ history
 
+  // How many agents there are of each program, without those that are over.
+  populations() {
+    const counts = new Map();
+    for (const { name, agents } of this.programs.values())
+      counts.set(name, agents);
+    for (const id of this.ended) {
+      const { program } = this.agents.get(id);
+      counts.set(program, counts.get(program) - 1);
+    }
+    for (const [name, n] of counts) if (n === 0) counts.delete(name);
+    return counts;
+  }
+
   population() {
     if (this.start === null) return;
     const stretch = this.history.at(this.time);
-    stretch.populations = new Map();
-    for (const { name, agents } of this.programs.values())
-      stretch.populations.set(name, agents);
-    for (const id of this.ended) {
-      const program = this.agents.get(id).program;
-      stretch.populations.set(program, stretch.populations.get(program) - 1);
-    }
+    stretch.populations = this.populations();
     let all = 0, most = 0, count = 0;
     for (const host of this.hosts.values()) {
       if (host.state !== 'running') continue;
