@@ -207,10 +207,10 @@ export class Force {
     const ends = [...links]
       .filter(({ a, b }) => this.byId.has(a) && this.byId.has(b))
       .map(({ a, b }) => ({ source: a, target: b }));
-    const together = centres.size > 1 ? 0.06 : 0.02;
+    const together = centres.size > 1 ? 0.04 : 0.01;
     this.simulation = d3.forceSimulation(this.nodes).stop()
       .force('link', d3.forceLink(ends).id(node => node.id).distance(1))
-      .force('apart', d3.forceManyBody().strength(-0.9).distanceMax(8))
+      .force('apart', d3.forceManyBody().strength(-0.3).distanceMax(8))
       .force('room', d3.forceCollide(0.4))
       .force('x', d3.forceX(node => node.centre.x).strength(together))
       .force('y', d3.forceY(node => node.centre.y).strength(together));

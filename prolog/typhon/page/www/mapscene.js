@@ -142,7 +142,7 @@ export class Scene {
     pen.lineCap = 'round';
     pen.lineWidth = this.k * 0.86;
     let i = 0;
-    const labels = groups.size > 1 && this.k > 22 && groups.size <= 24;
+    const labels = groups.size > 1 && this.k > 50 && groups.size <= 24;
     for (const [name, hosts] of groups) {
       pen.strokeStyle = this.tint(i++, groups.size);
       pen.beginPath();
@@ -164,14 +164,21 @@ export class Scene {
     if (!a) return;
     pen.moveTo(a.x, a.y);
     pen.lineTo(a.x + 0.01, a.y);
+    const near = [];
     for (const id of host.links.keys()) {
-      const other = this.store.hosts.get(id), b = this.at(id);
-      if (!b || other[this.group] !== host[this.group] || id < host.id) continue;
-      if (this.bend(a, b) || Math.hypot(a.x - b.x, a.y - b.y) > 2.2 * this.k)
-        continue;
+      const b = this.at(id);
+      if (b && this.store.hosts.get(id)[this.group] === host[this.group]
+          && Math.hypot(a.x - b.x, a.y - b.y) < 1.9 * this.k) near.push(b);
+    }
+    near.forEach((b, i) => {
       pen.moveTo(a.x, a.y);
       pen.lineTo(b.x, b.y);
-    }
+      for (const c of near.slice(i + 1))        // what is between
+        if (Math.hypot(c.x - b.x, c.y - b.y) < 1.9 * this.k) {
+          pen.moveTo(b.x, b.y);
+          pen.lineTo(c.x, c.y);
+        }
+    });
   }
 
   groupName(pen, name, hosts) {
@@ -324,15 +331,21 @@ export class Scene {
   }
 
   drawNames(pen, shown) {
-    if (this.k < 30) return;
+    if (this.k < 36) return;
     pen.font = `${this.k > 50 ? 12 : 10}px ${FONT}`;
     pen.textAlign = 'center';
     pen.textBaseline = 'top';
     pen.fillStyle = this.palette.text;
+    pen.strokeStyle = this.palette.bg;
+    pen.lineWidth = 3;
+    pen.lineJoin = 'round';
     for (const [host, { x, y }, r] of shown) {
       const more = host.state === 'running' ? '' : `, ${host.state}`;
-      pen.fillText(cut(host.name, 24) + more, x, y + r + 2);
+      const name = cut(host.name, 24) + more;
+      pen.strokeText(name, x, y + r + 2);
+      pen.fillText(name, x, y + r + 2);
     }
+    pen.lineJoin = 'miter';
   }
 
   // ----------------------------------------------------------- overlays

@@ -124,12 +124,15 @@ export class SvgPen extends SvgPath {
   fillRect(...box) { this.put('rect', this.box(...box), this.filled()); }
   strokeRect(...box) { this.put('rect', this.box(...box), this.inked()); }
 
-  fillText(text, x, y) {
+  fillText(text, x, y) { this.text(text, x, y, this.filled()); }
+  strokeText(text, x, y) { this.text(text, x, y, this.inked()); }
+
+  text(text, x, y, paint) {
     const baseline = BASELINES[this.textBaseline];
     this.put('text', `x="${number(x)}" y="${number(y)}" text-anchor="${
       ANCHORS[this.textAlign] || 'start'}"${
       baseline ? ` dominant-baseline="${baseline}"` : ''} style="font:${
-      escaped(this.font)}"`, this.filled(), text);
+      escaped(this.font)}"`, paint, text);
   }
 
   toString() {
