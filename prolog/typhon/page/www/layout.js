@@ -204,12 +204,13 @@ export class Force {
                y: at ? at.y : centre.y + (h >>> 10 & 1023) / 1024 };
     });
     this.byId = new Map(this.nodes.map(node => [node.id, node]));
-    const ends = [...links]
+    this.unit = 1;
+    this.ends = [...links]
       .filter(({ a, b }) => this.byId.has(a) && this.byId.has(b))
       .map(({ a, b }) => ({ source: a, target: b }));
     const together = centres.size > 1 ? 0.04 : 0.01;
     this.simulation = d3.forceSimulation(this.nodes).stop()
-      .force('link', d3.forceLink(ends).id(node => node.id).distance(1))
+      .force('link', d3.forceLink(this.ends).id(node => node.id).distance(1))
       .force('apart', d3.forceManyBody().strength(-0.3).distanceMax(8))
       .force('room', d3.forceCollide(0.4))
       .force('x', d3.forceX(node => node.centre.x).strength(together))
@@ -222,14 +223,24 @@ export class Force {
     if (simulation.alpha() < simulation.alphaMin()) return false;
     do simulation.tick();
     while (performance.now() < end && simulation.alpha() >= simulation.alphaMin());
-    for (const { id, x, y } of this.nodes) places.set(id, { x, y });
+    this.measure();
+    for (const { id, x, y } of this.nodes)
+      places.set(id, { x: x / this.unit, y: y / this.unit });
     return true;
   }
 
+  // The unit is the length that half of the links exceed.
+  measure() {
+    const lengths = this.ends.map(({ source, target }) =>
+      Math.hypot(source.x - target.x, source.y - target.y)).sort((a, b) => a - b);
+    this.unit = lengths[lengths.length >> 1] || 1;
+  }
+
   // A host that was dragged stays where it was put.
-  pin(id, { x, y }) {
+  pin(id, place) {
     const node = this.byId.get(id);
     if (!node) return;
+    const x = place.x * this.unit, y = place.y * this.unit;
     [node.x, node.y, node.fx, node.fy] = [x, y, x, y];
     this.simulation.alpha(Math.max(0.15, this.simulation.alpha()));
   }
