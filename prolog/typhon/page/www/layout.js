@@ -114,7 +114,8 @@ export function recognize(hosts, links, shapes = Object.keys(SHAPES)) {
 export function arrange(layout, hosts, links) {
   if (hosts.length === 0) return new Map();
   if (layout === 'random') return scattered(hosts);
-  if (layout === 'force') return null;
+  if (layout === 'force')
+    return globalThis.d3 ? null : shaped(hosts, { shape: 'ring' });
   if (layout !== 'auto') {
     const columns = recognize(hosts, links, [layout])?.columns
       || Math.ceil(Math.sqrt(hosts.length));
@@ -123,7 +124,8 @@ export function arrange(layout, hosts, links) {
   if (hosts.every(host => host.given))
     return new Map(hosts.map(host => [host.id, { ...host.given }]));
   const whole = hosts.length > 2 && recognize(hosts, links);
-  return whole ? shaped(hosts, whole) : inPieces(hosts, links);
+  return whole ? shaped(hosts, whole)
+    : inPieces(hosts, links) || arrange('force', hosts, links);
 }
 
 function shaped(hosts, { shape, columns }) {

@@ -23,9 +23,9 @@ export async function pngBlob(width, height, draw, scale = 2) {
   return new Promise(resolve => canvas.toBlob(resolve, 'image/png'));
 }
 
-// Two buttons. saved() -> {svg: text, png: Promise of a Blob}
+// Two buttons, for a view with toSVG and toPNG.
 export const saveButtons = (name, view) => [
-  button('SVG', () => download(`${name}.svg`, svgBlob(view.toSVG())),
+  button('SVG', async () => download(`${name}.svg`, svgBlob(await view.toSVG())),
     { title: 'Save this view as SVG', 'aria-label': `Save ${name} as SVG` }),
   button('PNG', async () => download(`${name}.png`, await view.toPNG()),
     { title: 'Save this view as PNG', 'aria-label': `Save ${name} as PNG` }),

@@ -16,7 +16,8 @@ const MINIMUM = 0.3;            // seconds for which the mark of a hop is seen
 
 export const KINDS = ['created', 'left', 'stayed', 'arrived', 'cloned', 'sent',
   'received', 'ended', 'fault', 'log', 'link', 'unlink', 'leave', 'take',
-  'started', 'stopped', 'lost', 'show', 'skipped'];
+  'started', 'stopped', 'lost', 'show', 'add', 'goal',
+  'skipped'];
 
 // What stands before the first @ of a name.
 export const shortName = id => {
@@ -172,7 +173,7 @@ export class Store {
   apply(event) {
     const [time, hostId, agentId, kind] = event;
     this.note(time);
-    this.counts.events++;
+    if (kind !== 'show' && kind !== 'add') this.counts.events++;
     if (!Object.hasOwn(APPLY, kind)) {
       this.counts.unknown++;
       return;
@@ -375,7 +376,7 @@ export class Store {
     let overlay = this.overlays.get(name);
     if (!overlay) {
       overlay = { name, kind: kind || 'label', title: title || name,
-                  values: new Map(), series: [] };
+                  values: new Map() };
       this.overlays.set(name, overlay);
     }
     return overlay;
@@ -500,6 +501,13 @@ const APPLY = {
     const at = key || host;
     if (value === null) overlay.values.delete(at);
     else overlay.values.set(at, value);
+  },
+  add(store, [, , , , name, key, value], host) {
+    const { values } = store.overlay({ name }), at = key || host;
+    values.set(at, (Number(values.get(at)) || 0) + value);
+  },
+  goal(store, [, , , , text], host, id) {
+    if (id) store.agent(id, host).said = text;
   },
   skipped(store, [, , , , count]) {
     store.counts.skipped += (Number(count) || 1) - 1;
