@@ -4,7 +4,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(base64), [base64_encoded/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [xml_quote_cdata/3]).
 :- use_module(library(sha), [sha_hash/3]).
@@ -31,12 +31,6 @@ library('d3-quadtree.min.js').
 library('d3-timer.min.js').
 library('d3-force.min.js').
 library('uPlot.iife.min.js').
-
-%   All that one looks at a log with; their imports are among them.
-
-modules([ exported, camera, charts, dom, history, layout, legend, map, mapscene,
-          palette, player, replay, saving, sequence, spacetime, store, story,
-          svg ]).
 
 %!  page_export(+LogFile, +File, +Options) is det.
 %
@@ -67,7 +61,7 @@ part(_, script('text/javascript', Text)) :-
     library(Name),
     file_text(Name, Text).
 part(_, script(importmap, Text)) :-
-    modules(Modules),
+    modules(['exported.js'], [], Modules),
     maplist(module_pair, Modules, Pairs),
     dict_pairs(Imports, _, Pairs),
     json_text(_{imports:Imports}, Text).
@@ -79,9 +73,26 @@ file_text(Name, Text) :-
     ;   existence_error(page_tool, Name)
     ).
 
-module_pair(Module, Name-Address) :-
-    file_name_extension(Module, js, File),
+%   modules(+Files, +Known0, -Known): File-Text, with what they import.
+
+modules([], Known, Known).
+modules([File|Files], Known, Modules) :-
+    memberchk(File-_, Known),
+    !,
+    modules(Files, Known, Modules).
+modules([File|Files], Known, Modules) :-
     file_text(File, Text),
+    findall(Imported, imported(Text, Imported), New),
+    append(New, Files, More),
+    modules(More, [File-Text|Known], Modules).
+
+imported(Text, File) :-
+    sub_string(Text, _, _, After, "from './"),
+    sub_string(Text, _, After, 0, Rest),
+    once(sub_string(Rest, Length, _, _, "'")),
+    sub_atom(Rest, 0, Length, _, File).
+
+module_pair(File-Text, Name-Address) :-
     replaced(Text, "from './", "from 'typhon/", Rewritten),
     base64_encoded(Rewritten, Encoded, [encoding(utf8), as(string)]),
     atom_concat('typhon/', File, Name),

@@ -9,7 +9,7 @@ import { SvgPath, SvgPen } from './svg.js';
 import { timeText } from './ticks.js';
 
 const CALM = 500;
-const HIGH = 190;
+const HIGH = 230;
 const MANY = 12;                // programs with a line of their own
 const NONE = '–';
 
@@ -39,8 +39,6 @@ const PLOTS = [
                    ['90 %', s => s.percentile(0.9), 2],
                    ['half', s => s.percentile(0.5), 0]] },
 ];
-
-const LINES = [{ program: ' one' }, { program: ' two' }, { program: ' three' }];
 
 export const mount = (parent, store, app) => new Charts(parent, store, app);
 
@@ -124,7 +122,7 @@ class Charts {
 
   colour(palette, given) {
     if (given === 'bad') return palette.bad;
-    return palette.of((typeof given === 'number' ? LINES[given] : given).program);
+    return typeof given === 'number' ? palette.nth(given) : palette.of(given.program);
   }
 
   draw() {

@@ -30,12 +30,16 @@ export function fillChoice(select, options, value) {
   select.value = value;
 }
 
-// Call f with the size of an element now, and whenever it changes.
+// Call f with the size of an element now, and whenever it changes; not while
+// it is not shown.
 export function onSize(watched, f) {
-  const observer = new ResizeObserver(() =>
-    f(watched.clientWidth, watched.clientHeight));
+  const tell = () => {
+    if (watched.clientWidth && watched.clientHeight)
+      f(watched.clientWidth, watched.clientHeight);
+  };
+  const observer = new ResizeObserver(tell);
   observer.observe(watched);
-  f(watched.clientWidth, watched.clientHeight);
+  tell();
   return () => observer.disconnect();
 }
 

@@ -50,6 +50,12 @@ export class History {
     this.stretches = [];
   }
 
+  // When the last stretch is over.
+  get end() {
+    const last = this.stretches[this.stretches.length - 1];
+    return last ? last.start + this.width : Infinity;
+  }
+
   // The stretch in which time lies; what comes late counts to the first.
   at(time) {
     const start = Math.floor(time / this.width) * this.width;

@@ -139,12 +139,13 @@ export class Scene {
       if (!groups.has(key)) groups.set(key, []);
       groups.get(key).push(host);
     }
+    if (groups.size < 2) return;
     pen.lineCap = 'round';
     pen.lineWidth = this.k * 0.86;
     let i = 0;
-    const labels = groups.size > 1 && this.k > 50 && groups.size <= 24;
+    const labels = this.k > 50 && groups.size <= 24;
     for (const [name, hosts] of groups) {
-      pen.strokeStyle = this.tint(i++, groups.size);
+      pen.strokeStyle = this.tint(i++);
       pen.beginPath();
       for (const host of hosts) this.ground(pen, host);
       pen.stroke();
@@ -153,8 +154,7 @@ export class Scene {
     pen.lineCap = 'butt';
   }
 
-  tint(i, n) {
-    if (n === 1) return this.palette.group;
+  tint(i) {
     const hue = Math.round(i * 137.5 + 210) % 360;
     return this.palette.dark ? `hsl(${hue},22%,17%)` : `hsl(${hue},48%,93%)`;
   }

@@ -8,7 +8,7 @@ const DARK = ['#56b4e9', '#f08a3c', '#2fc79a', '#e58fc0', '#f0d24c',
               '#9fd0f5', '#aa9bf0', '#b3bcc5'];
 
 const THEME = ['bg', 'surface', 'text', 'muted', 'line', 'faint', 'accent',
-               'bad', 'group'];
+               'bad'];
 
 export const SHAPES = ['circle', 'square', 'diamond'];
 
@@ -37,9 +37,11 @@ export class Palette {
     this.dark = style.getPropertyValue('--view-dark').trim() === '1';
   }
 
-  of(program) {
+  of(program) { return this.nth(numberOf(this.store, program)); }
+
+  nth(n) {
     const colours = this.dark ? DARK : LIGHT;
-    return colours[numberOf(this.store, program) % colours.length];
+    return colours[n % colours.length];
   }
 
   shape(program) {
@@ -53,7 +55,7 @@ export function paperPalette(store, element) {
   const palette = new Palette(store, element);
   Object.assign(palette, { bg: '#ffffff', surface: '#ffffff', text: '#1c2128',
     muted: '#57606a', line: '#8c959f', faint: '#d0d7de', accent: '#0550ae',
-    bad: '#b3261e', group: '#eaeef2', dark: false });
+    bad: '#b3261e', dark: false });
   return palette;
 }
 

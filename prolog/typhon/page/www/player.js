@@ -149,19 +149,19 @@ export function playerBar(parent, player) {
     value: 0, 'aria-label': 'Time',
     oninput: () => { player.pause(); player.seek(timeAt(Number(slider.value))); } });
   const shown = element('output', { 'aria-label': 'Time' });
-  const play = button('▶ Play', () => toggle(), { 'aria-label': 'Play' });
+  const play = button('Play', () => toggle(), { 'aria-label': 'Play' });
   const toggle = () => { player.playing ? player.pause() : player.play(); update(); };
   const span = Math.max(1e-9, player.last - player.first);
   const timeAt = value => player.first + span * value / 1000;
   const day = player.first > 1e8;
   const bar = element('div', { class: 'replay-bar', role: 'group',
     'aria-label': 'Replay' },
-    button('⏮', () => { player.pause(); player.seek(player.first); },
+    button('«', () => { player.pause(); player.seek(player.first); },
       { 'aria-label': 'To the beginning' }),
-    button('◀', () => player.step(-1), { 'aria-label': 'Step back' }),
+    button('‹', () => player.step(-1), { 'aria-label': 'Step back' }),
     play,
-    button('▶', () => player.step(1), { 'aria-label': 'Step on' }),
-    button('⏭', () => { player.pause(); player.seek(player.last); },
+    button('›', () => player.step(1), { 'aria-label': 'Step on' }),
+    button('»', () => { player.pause(); player.seek(player.last); },
       { 'aria-label': 'To the end' }),
     slider, shown,
     element('label', {}, 'Speed', choice('Speed',
@@ -174,7 +174,7 @@ export function playerBar(parent, player) {
       : `${player.time.toFixed(span < 100 ? 2 : 1)} s`;
     shown.textContent = said;
     slider.setAttribute('aria-valuetext', said);
-    play.textContent = player.playing ? '⏸ Pause' : '▶ Play';
+    play.textContent = player.playing ? 'Pause' : 'Play';
     play.setAttribute('aria-label', player.playing ? 'Pause' : 'Play');
   };
   player.onTime(update);

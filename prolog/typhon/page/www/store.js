@@ -160,7 +160,10 @@ export class Store {
 
   applyEvents(list) {
     if (list.length === 0) return;
-    for (const event of list) this.apply(event);
+    for (const event of list) {
+      if (event[0] >= this.history.end) this.population();
+      this.apply(event);
+    }
     this.recent.push(list);
     this.recentCount += list.length;
     while (this.recentCount > RECENT && this.recent.length > 1)
