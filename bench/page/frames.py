@@ -9,13 +9,13 @@ the machine has a graphics card that headless Chromium can use.
 """
 import argparse
 import os
-import sys
+
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-sys.path.insert(0, os.path.join(ROOT, 'test', 'lib'))
-from browser import Browser, serve  # noqa: E402
+
+from browser import Browser, serve
 
 
 def main():

@@ -1,5 +1,5 @@
 :- module(typhon_page_export,
-          [ page_export/3               % +LogFile, +File, +Options
+          [ replay_export/3             % +LogFile, +File, +Options
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(base64), [base64_encoded/3]).
@@ -32,7 +32,7 @@ library('d3-timer.min.js').
 library('d3-force.min.js').
 library('uPlot.iife.min.js').
 
-%!  page_export(+LogFile, +File, +Options) is det.
+%!  replay_export(+LogFile, +File, +Options) is det.
 %
 %   Write a page that replays LogFile.  Options are those of replay_dict/3.
 %
@@ -41,7 +41,7 @@ library('uPlot.iife.min.js').
 %   @error existence_error(page_tool, Name) where `make page-tools` has to be
 %   called first
 
-page_export(LogFile, File, Options) :-
+replay_export(LogFile, File, Options) :-
     replay_dict(LogFile, Options, Replay),
     findall(Part, part(Replay, Part), Parts),
     setup_call_cleanup(

@@ -1,5 +1,6 @@
 :- module(typhon_page_replay,
-          [ replay_dict/3               % +LogFile, +Options, -Dict
+          [ replay_dict/3,              % +LogFile, +Options, -Dict
+            replay_of_text/3            % +Title, +Text, -Dict
           ]).
 :- use_module(library(apply), [foldl/5, maplist/3]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
@@ -50,6 +51,19 @@ replay_dict(LogFile, Options, Dict) :-
     name_text(Title0, Title),
     Dict = _{ title:Title, names:Names, overlays:Overlays,
               snapshot:_{hosts:Hosts, agents:[]}, events:Short }.
+
+%!  replay_of_text(+Title, +Text, -Dict) is det.
+%
+%   The same of the text of a log, which somebody has at a browser.
+
+replay_of_text(Title, Text, Dict) :-
+    setup_call_cleanup(
+        tmp_file_stream(File, Out, [encoding(utf8)]),
+        ( write(Out, Text),
+          close(Out),
+          replay_dict(File, [title(Title)], Dict) ),
+        ( close(Out, [force(true)]),
+          delete_file(File) )).
 
 %   watched(+Logged, -Event): as watch/3 would tell it.
 
