@@ -75,6 +75,7 @@ told(What, Told), own_event(What) => Told = What.
 told(What, Told), of_network(What) => Told = What.
 told(Term, Told) => Told = log(Term).
 
+of_network(link(Other)) :- is_address(Other).
 of_network(link(Other, Cost)) :- is_address(Other), number(Cost).
 of_network(unlink(Other)) :- is_address(Other).
 of_network(started).
@@ -133,10 +134,12 @@ event_host(event(_, _, _, What), Host) :-
 
 other_host(left(Host), Host).
 other_host(arrived(Host, _), Host).
+other_host(link(Host), Host).
 other_host(link(Host, _), Host).
 
 links(Events, Links) :-
-    (   member(event(_, _, _, link(_, _)), Events)
+    (   member(event(_, _, none, Link), Events),
+        functor(Link, link, _)
     ->  Links = []                      % and told as they come
     ;   findall(From-To,
                 ( member(event(_, Here, _, arrived(There, _)), Events),

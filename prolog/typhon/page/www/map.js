@@ -5,7 +5,7 @@
 // moves, drawn each frame as long as something does. Nothing is drawn while
 // nothing happens or the page is hidden.
 
-import { arrange, Force, LAYOUTS } from './layout.js';
+import { arrange, Force, LAYOUTS, recognize } from './layout.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { cut, Scene } from './mapscene.js';
 import { byName, shortName } from './store.js';
@@ -17,6 +17,9 @@ import { legend } from './legend.js';
 
 const CALM = 160;
 const FOUND = 200;              // of a search, marked
+const PATIENCE = 600;           // ms until new links are looked at
+
+const same = (a, b) => a && b && a.shape === b.shape && a.columns === b.columns;
 
 export function mount(parent, store, app) {
   const view = new MapView(parent, store, app);
@@ -53,6 +56,7 @@ class MapView {
     this.ends.forEach(end => end());
     cancelAnimationFrame(this.waiting);
     clearTimeout(this.calm);
+    clearTimeout(this.looking);
     this.element.remove();
   }
 
@@ -146,15 +150,29 @@ class MapView {
     this.empty.hidden = hosts.length > 0;
     const known = hosts.length === this.known && hosts.every(h => this.places.has(h.id));
     if (!known) this.lay(hosts);
+    else if (this.layout === 'auto' && !this.looking)
+      this.looking = setTimeout(() => { this.looking = 0; this.lookAgain(); }, PATIENCE);
     this.dirty = true;
   }
+
+  // Links come after hosts: then the shape of a network is to be seen.
+  lookAgain() {
+    const hosts = [...this.store.hosts.values()];
+    const shape = recognize(hosts, this.linksToLay());
+    const unlaid = this.force && this.store.links.size > 1.5 * this.laidLinks;
+    if (shape ? !same(shape, this.laid) : unlaid) this.lay(hosts);
+  }
+
+  // A replay knows all that there will be.
+  linksToLay() { return this.store.plan || [...this.store.links.values()]; }
 
   lay(hosts) {
     const grown = this.known > 0;
     this.known = hosts.length;
-    const found = arrange(this.layout, hosts, [...this.store.links.values()]);
-    this.force = found ? null
-      : new Force(hosts, this.store.links.values(), this.places);
+    const links = this.linksToLay(), found = arrange(this.layout, hosts, links);
+    this.laid = found && recognize(hosts, links);
+    this.laidLinks = this.store.links.size;
+    this.force = found ? null : new Force(hosts, links, this.places);
     for (const id of [...this.places.keys()])
       if (!this.store.hosts.has(id)) this.places.delete(id);
     for (const [id, place] of found || []) this.places.set(id, place);

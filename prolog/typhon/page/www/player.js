@@ -26,6 +26,7 @@ export class Player {
     this.store = new Store({ clock: () => this.time, stamped: true,
                              width: fitting(span) });
     this.store.paused = true;
+    this.store.plan = allLinks(log, this.events);
     this.setSpeed(nearest(span / SHOWN));
     this.begin();
   }
@@ -114,23 +115,34 @@ export function decode(log) {
     [time, ...items.map(item)]) };
 }
 
-// Events in the order of time; when somebody sets out it is known how long
-// that takes.
+// Events in the order of time; of who sets out it is known how long that takes
+// and when it sets out again: [..., 'left', to, seconds, room].
 function known(events) {
   const sorted = events.map((event, i) => [event, i])
     .sort(([a, i], [b, j]) => a[0] - b[0] || i - j).map(([event]) => [...event]);
-  const out = new Map();
+  const out = new Map();        // agent -> where it has set out last
   for (const event of sorted) {
-    const [time, host, agent, kind] = event;
-    if (kind === 'left') out.set(agent, event);
-    else if (kind === 'stayed') out.delete(agent);
-    else if (kind === 'arrived') {
-      const left = out.get(agent);
-      if (left && left[4] === host) left.push(Math.max(0, time - left[0]));
+    const [time, host, agent, kind] = event, left = out.get(agent);
+    if (kind === 'left') {
+      if (left && left.length > 5) left.push(time - left[0]);
+      out.set(agent, event);
+    } else if (kind === 'stayed') {
       out.delete(agent);
+    } else if (kind === 'arrived' && left?.length === 5 && left[4] === host) {
+      left.push(Math.max(0, time - left[0]));
     }
   }
   return sorted;
+}
+
+// The links that there are at some time: by them hosts are arranged.
+function allLinks(log, events) {
+  const links = [];
+  for (const { id, links: others } of log.snapshot?.hosts || [])
+    for (const [other] of others || []) links.push({ a: id, b: other });
+  for (const [, host, , kind, other] of events)
+    if (kind === 'link') links.push({ a: host, b: other });
+  return links;
 }
 
 const nearest = wanted => SPEEDS.reduce((a, b) =>

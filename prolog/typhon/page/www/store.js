@@ -317,17 +317,18 @@ export class Store {
 
   // A hop is {from, to, start, arrives}, in seconds of the clock; `arrives`
   // is null as long as nobody knows when it does.
-  setOut(agent, from, to, time, seconds) {
+  setOut(agent, from, to, time, seconds, room) {
     const start = this.stamped ? time : this.clock();
     agent.hop = { from, to, start, shown: start, done: 0,
                   arrives: seconds === undefined ? null
-                    : this.arrivesAt(start, seconds) };
+                    : this.arrivesAt(start, seconds, room) };
     this.moving.add(agent);
     agent.status = 'travelling';
   }
 
-  arrivesAt(start, seconds) {
-    return start + Math.max(seconds, MINIMUM * this.rate);
+  // A hop is to be seen, but it is over when the next begins.
+  arrivesAt(start, seconds, room = Infinity) {
+    return start + Math.max(seconds, Math.min(MINIMUM * this.rate, 0.8 * room));
   }
 
   arrive(agent, from, to, time, seconds) {
@@ -430,10 +431,10 @@ const APPLY = {
     store.here(agent, host);
     if (program) store.setProgram(agent, program);
   },
-  left(store, [time, , , , to, seconds], host, id) {
+  left(store, [time, , , , to, seconds, room], host, id) {
     const agent = store.agent(id, host);
     store.here(agent, host);
-    store.setOut(agent, host, to, time, seconds);
+    store.setOut(agent, host, to, time, seconds, room);
   },
   stayed(store, event, host, id) {
     const agent = store.agent(id, host);
