@@ -24,7 +24,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module('../prolog/typhon/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
 :- use_module('../prolog/typhon/people/happenings', [short_name/2]).
-:- use_module('../prolog/typhon/page', [page_serve/2]).
+:- use_module('../prolog/typhon/page', [page_export/3, page_serve/2]).
 :- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
@@ -229,6 +229,9 @@ run(send, [Agent0, Message0], Options) :-
     home_of(Agent, Home),
     option(host(Host), Options, Home),
     remote(Host, call(typhon:agent_send(Agent, Message))).
+run(page, [Log], Options) :-
+    required(page, export(File), Options),
+    page_export(Log, File, []).
 run(page, [], Options) :-
     required(page, host(Host), Options),
     host_now(Host, _),

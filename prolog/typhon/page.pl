@@ -1,8 +1,10 @@
 :- module(typhon_page,
           [ page_start/1,               % +Options
             page_serve/2,               % +Options, -Link
-            page_stop/0
+            page_stop/0,
+            page_export/3               % +Log, +File, +Options
           ]).
+:- autoload('page/export', [replay_export/3]).
 :- autoload('page/server', [server_start/2, server_stop/0]).
 :- use_module('base/options', [check_options/2]).
 
@@ -58,6 +60,26 @@ page_stop :-
     ->  server_stop
     ;   true
     ).
+
+%!  page_export(+Log, +File, +Options) is det.
+%
+%   Write a page to File that replays the log file Log, in the same views: it
+%   stands for itself, and can be put beside a paper.  Options:
+%
+%     - title(+Text): default the name of the log
+%     - overlays(+Files): of agent programs, or studies, whose overlays are
+%       shown, beside those of the programs in agents/
+%
+%   @error existence_error(source_sink, Log), permission_error(open,
+%   source_sink, File)
+%   @error existence_error(page_tool, Name) before `make page-tools`
+
+page_export(Log, File, Options) :-
+    check_options(export_option, Options),
+    replay_export(Log, File, Options).
+
+typhon_options:declared(export_option, title(X), atomic, X).
+typhon_options:declared(export_option, overlays(X), list, X).
 
 prolog:message(typhon(page(Link))) -->
     [ 'The page: ~w'-[Link] ].

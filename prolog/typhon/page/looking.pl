@@ -12,6 +12,7 @@
 :- use_module('../people', [host_close_up/2]).
 :- use_module(mechanisms, [mechanism_dicts/1, program_names/1]).
 :- use_module(protocol, [name_text/2, scene_dict/3, text/2]).
+:- use_module(replay, [replay_of_text/3]).
 :- use_module(said, [on_console/1]).
 :- use_module(sources, [sources_look/1]).
 :- use_module(times, [page_time/2]).
@@ -26,6 +27,7 @@
   | networks   |         | those that this process has started           |
   | mechanisms |         | the operators of `agents/`, and what they take |
   | programs   |         | names of agent programs that are found        |
+  | replay     | `title`, `text` | the log of that text, see room `replay` |
 
 Nothing here changes anything.
 
@@ -62,10 +64,16 @@ asked(mechanisms, _, Dicts) :-
     mechanism_dicts(Dicts).
 asked(programs, _, Names) :-
     program_names(Names).
+asked(replay, Message, Dict) :-
+    maplist(text_in(Message), [title, text], [Title, Text]),
+    replay_of_text(Title, Text, Dict).
+
+text_in(Message, Key, Text) :-
+    get_dict(Key, Message, Text),
+    must_be(string, Text).
 
 name_in(Key, Message, Name) :-
-    get_dict(Key, Message, Text),
-    must_be(string, Text),
+    text_in(Message, Key, Text),
     atom_string(Name, Text).
 
 %!  first_sight(-Dict) is det.
