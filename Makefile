@@ -18,7 +18,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools tools-peers tools-all demo demo-robots thesis \
-    thesis-real test chaos fuzz check doc bench bench-peers profile \
+    thesis-real test demo-page page-tools chaos fuzz check doc bench bench-peers profile \
     test-portability install clean
 
 # In the environment of pack_install there is where libraries of C go.
@@ -41,6 +41,9 @@ demo: tools             ## sixty hosts, ten agents, six tasks in step
 
 demo-robots: tools      ## simulated robots carry a pole, and push boxes
 	@$(SWIPL) experiments/study.pl -- pole boxes --runs 1 --out out/robots
+
+demo-page: tools        ## sixty hosts in four processes, in a browser
+	@$(SWIPL) app/demo_page.pl
 
 thesis: tools           ## every figure of the thesis anew; RUNS=10, JOBS=2
 	@$(SWIPL) experiments/study.pl -- thesis --runs $(RUNS) \
@@ -88,6 +91,9 @@ clean:                  ## remove what runs have left in out/
 
 tools:                  ## install what the core needs and is missing
 	@.ci/install
+
+page-tools:             ## get what plots and layouts of the page need
+	@.ci/page-tools
 
 tools-peers:            ## install what `make bench-peers` compares with
 	@.ci/install peers
