@@ -21,6 +21,12 @@ happening(What) -->
 happening(created) --> [ 'begins' ].
 happening(ended(Outcome)) --> [ 'ends, ~p'-[Outcome] ].
 happening(faulty(Error)) --> [ 'is faulty: ~p'-[Error] ].
+happening(fault(fault(Error, Goal, Place, _))) -->
+    [ 'is faulty, ~p: ~p, at ~w'-[Error, Goal, Place] ].
+happening(link(To)) --> named('is linked with ~w', To).
+happening(unlink(To)) --> named('is not linked with ~w any more', To).
+happening(started) --> [ 'starts' ].
+happening(stopped) --> [ 'stops' ].
 happening(left(To)) --> named('leaves for ~w', To).
 happening(stayed(To)) --> named('could not go to ~w', To).
 happening(arrived(From, Seconds)) -->
@@ -51,6 +57,11 @@ happening(goal(Goal)) -->
 own_event(created).
 own_event(ended(_)).
 own_event(faulty(_)).
+own_event(fault(fault(_, _, _, _))).
+own_event(link(To)) :- is_name(To).
+own_event(unlink(To)) :- is_name(To).
+own_event(started).
+own_event(stopped).
 own_event(left(To)) :- is_name(To).
 own_event(stayed(To)) :- is_name(To).
 own_event(arrived(From, Seconds)) :- atom(From), number(Seconds).

@@ -3,7 +3,6 @@
             counted/2,                  % ?What, -Count
             counted_hops/2              % -Buckets, -Sum
           ]).
-:- use_module(library(lists), [nth1/3]).
 :- use_module('../host', [events_hear/3, events_unheard/1, host/3]).
 
 /** <module> What has happened, in numbers
@@ -51,8 +50,10 @@ typhon_events:told(count, _, _, What) :-
     count(What).
 
 count(arrived(_, Seconds)) =>
-    bucket(Seconds, Number),
-    bump(hops(Number), 1),
+    bound(Bound, Key),
+    Seconds =< Bound,
+    !,
+    flag(Key, N, N+1),
     bump(seconds, Seconds).
 count(sent(_, _)) =>
     bump(sent, 1).
@@ -71,12 +72,6 @@ bump(What, By) :-
     key(What, Key),
     flag(Key, N, N+By).
 
-key(hops(Number), Key) :-
-    arg(Number, hops('typhon hops 1', 'typhon hops 2', 'typhon hops 3',
-                     'typhon hops 4', 'typhon hops 5', 'typhon hops 6',
-                     'typhon hops 7', 'typhon hops 8', 'typhon hops 9',
-                     'typhon hops 10', 'typhon hops 11', 'typhon hops 12',
-                     'typhon hops 13'), Key).
 key(seconds, 'typhon count seconds').
 key(sent, 'typhon count sent').
 key(received, 'typhon count received').
@@ -84,14 +79,21 @@ key(faults, 'typhon count faults').
 key(created, 'typhon count created').
 key(ended, 'typhon count ended').
 
-bounds([0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.05, 0.1, 0.5,
-        1.0, 10.0, inf]).
+%   bound(?Seconds, ?Key): the flag of hops that took so long at the most
 
-bucket(Seconds, Number) :-
-    bounds(Bounds),
-    nth1(Number, Bounds, Bound),
-    Seconds =< Bound,
-    !.
+bound(0.0001, 'typhon count hops 1').
+bound(0.00025, 'typhon count hops 2').
+bound(0.0005, 'typhon count hops 3').
+bound(0.001, 'typhon count hops 4').
+bound(0.0025, 'typhon count hops 5').
+bound(0.005, 'typhon count hops 6').
+bound(0.01, 'typhon count hops 7').
+bound(0.05, 'typhon count hops 8').
+bound(0.1, 'typhon count hops 9').
+bound(0.5, 'typhon count hops 10').
+bound(1.0, 'typhon count hops 11').
+bound(10.0, 'typhon count hops 12').
+bound(inf, 'typhon count hops 13').
 
 %!  counted(?What, -Count) is nondet.
 %
@@ -99,7 +101,6 @@ bucket(Seconds, Number) :-
 
 counted(What, Count) :-
     key(What, Key),
-    atom(What),
     What \== seconds,
     flag(Key, Count, Count).
 
@@ -109,15 +110,13 @@ counted(What, Count) :-
 %   the clock of the host, a number or `inf`, and Sum is what all have taken.
 
 counted_hops(Buckets, Sum) :-
-    bounds(Bounds),
-    cumulated(Bounds, 1, 0, Buckets),
-    key(seconds, Key),
-    flag(Key, Sum, Sum).
+    findall(Bound-Count,
+            ( bound(Bound, Key), flag(Key, Count, Count) ), Counts),
+    cumulated(Counts, 0, Buckets),
+    key(seconds, SumKey),
+    flag(SumKey, Sum, Sum).
 
-cumulated([], _, _, []).
-cumulated([Bound|Bounds], Number, Count0, [Bound-Count|Buckets]) :-
-    key(hops(Number), Key),
-    flag(Key, Own, Own),
+cumulated([], _, []).
+cumulated([Bound-Own|Counts], Count0, [Bound-Count|Buckets]) :-
     Count is Count0+Own,
-    Next is Number+1,
-    cumulated(Bounds, Next, Count, Buckets).
+    cumulated(Counts, Count, Buckets).

@@ -4,6 +4,7 @@
             listening_tell/2,           % +Watch, +Message
             listen_on/4                 % +Watch, +Queue, :OnEvent, +Asked
           ]).
+:- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
 :- use_module('../base/output', [output_own/0]).
 :- use_module('../wire',
@@ -95,12 +96,21 @@ listen_on(Watch, Queue, OnEvent, Asked) :-
     output_own,
     Me = me(Watch, Queue, OnEvent),
     setup_call_cleanup(
-        forall(member(One, Asked), begin(One, Me)),
+        begin(Asked, Me),
         loop(Me),
         ( forget(Watch),
           message_queue_destroy(Queue) )).
 
+%   Those that are gone come last: their clock is that of others.
+
 begin(Asked, Me) :-
+    partition(has_answered, Asked, There, Gone),
+    forall(member(One, There), begin_one(One, Me)),
+    forall(member(One, Gone), begin_one(One, Me)).
+
+has_answered(asked(_, _, watching(_, _, _))).
+
+begin_one(Asked, Me) :-
     Me = me(Watch, _, _),
     place_begin(Watch, Asked, Events),
     call_on_all(Events, Me).

@@ -54,8 +54,17 @@ place_begin(Watch, asked(Endpoint, Wanted, Answer), Events) :-
     ;   Answer = gone(Hosts),
         findall(Event,
                 ( member(Host, Hosts),
-                  now_is(lost, Host, clock(0, 1), Event) ),
+                  clock_of_others(Watch, Clock),
+                  now_is(lost, Host, Clock, Event) ),
                 Events)
+    ).
+
+%   Hosts of a network have the same.
+
+clock_of_others(Watch, Clock) :-
+    (   runs(Watch, _, _, Clock0)
+    ->  Clock = Clock0
+    ;   Clock = clock(0, 1)
     ).
 
 places_forget(Watch) :-

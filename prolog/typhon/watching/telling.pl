@@ -123,11 +123,15 @@ typhon_endpoint:connection(Peer, down) :-
 %   The last that happened, that the hosts stop, is told as well.
 
 typhon_runtime:ending(before) :-
-    findall(Thread,
-            ( retract(teller(_, _, Thread, Bell, _)),
-              teller_ring(Bell, end(nobody)) ),
-            Threads),
-    forall(member(Thread, Threads), stop_thread(Thread)).
+    stop_tellers.
+
+stop_tellers :-
+    with_mutex(typhon_telling, retract(teller(_, _, Thread, Bell, _))),
+    !,
+    teller_ring(Bell, end(nobody)),
+    stop_thread(Thread),
+    stop_tellers.
+stop_tellers.
 
                 /*******************************
                 *           EVENTS             *
