@@ -1,7 +1,7 @@
 :- module(test_page_replay, []).
 :- use_module('../../lib/common').
 
-:- needs([page]).
+:- needs([chromium, 'chromium-driver']).
 
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
