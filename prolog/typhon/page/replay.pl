@@ -69,6 +69,7 @@ watched(event(Time, Host, Agent, What), event(Time, Host, Agent, Told)) :-
     told(What, Told).
 
 told(faulty(Error), Told) => Told = fault(Error).
+told(fault(Fault), Told) => Told = fault(Fault).
 told(What, Told), own_event(What) => Told = What.
 told(What, Told), of_network(What) => Told = What.
 told(Term, Told) => Told = log(Term).
