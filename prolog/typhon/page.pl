@@ -25,6 +25,7 @@ typhon_options:declared(page_option, host(X), atom, X).
 typhon_options:declared(page_option, port(X), between(0, 65535), X).
 typhon_options:declared(page_option, bind(X), atom, X).
 typhon_options:declared(page_option, read_only(X), boolean, X).
+typhon_options:declared(page_option, overlays(X), list, X).
 
 %!  page_start(+Options) is det.
 %!  page_serve(+Options, -Link:atom) is det.
@@ -39,6 +40,8 @@ typhon_options:declared(page_option, read_only(X), boolean, X).
 %     - host(+Address): show the network of this host, too, of another process
 %     - bind(+Interface): default localhost
 %     - read_only(+Boolean): only to look at; default `false`
+%     - overlays(+Files): of agent programs, or studies, whose overlays are
+%       shown, beside those of the programs in agents/
 %
 %   page_stop/0 succeeds also where there is no page.  page_serve/2 prints
 %   nothing.

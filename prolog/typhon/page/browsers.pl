@@ -5,12 +5,12 @@
             browsers_there/0,
             browser_serve/2             % :Scene, +WebSocket
           ]).
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(http/websocket), [ws_send/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(json, [json_text/2]).
-:- use_module(protocol, [event_row/2, skipped_row/2]).
+:- use_module(overlays, [event_rows/2]).
+:- use_module(protocol, [skipped_row/2]).
 
 /** <module> Who looks on, and hears what happens
 
@@ -163,9 +163,9 @@ tell_frame([], Now) :-
     json_text(_{tick:Now}, Text),
     forall(browser(Browser, _, _), give(Browser, Text, 0)).
 tell_frame(Events, _) :-
-    maplist(event_row, Events, Rows),
+    event_rows(Events, Rows),
     json_text(_{events:Rows}, Text),
-    length(Rows, Count),
+    length(Events, Count),
     forall(browser(Browser, _, _), give(Browser, Text, Count)).
 
 %   Only the teller puts anything into the queue of a browser, so what has

@@ -1,13 +1,16 @@
 :- module(typhon_page_overlays,
-          [ overlays_in/2,              % +File, -Overlays
-            overlays_of_agents/1,       % -Overlays
-            overlay_rows/3,             % +Overlays, +Event, -Rows
+          [ overlays_start/1,           % +Files
+            overlays_stop/0,
+            overlays_shown/1,           % -Dicts
+            overlays_declared/2,        % +Files, -Overlays
+            event_rows/2,               % +Events, -Rows
+            event_rows/3,               % +Events, +Overlays, -Rows
             overlay_dicts/2             % +Overlays, -Dicts
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_member/3]).
-:- use_module(library(lists), [append/2, member/2]).
-:- use_module(protocol, [name_text/2, text/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(protocol, [event_row/2, name_text/2, text/2]).
 
 /** <module> What mechanisms show of themselves on a map
 
@@ -28,15 +31,50 @@ words that stand for kinds, `link` for what belongs to links.  These facts are
 read as data, never called: the file is not loaded for them, and agents that
 have them do nothing with them.
 
-*Threading*: any thread.
+*Threading*: starting and stopping are done by one thread at a time; any
+thread asks.
 */
 
-%!  overlays_in(+File, -Overlays:list) is det.
+:- dynamic shown/1.                     % what a page that is served shows
+
+%!  overlays_start(+Files) is det.
+%!  overlays_stop is det.
+%!  overlays_shown(-Dicts) is det.
 %
-%   The facts overlay/4 of File, not of files that it includes.  Terms that
-%   cannot be read are passed over.
+%   While a page is served, it shows those of agents/ and of Files.
+
+overlays_start(Files) :-
+    overlays_declared(Files, Overlays),
+    assertz(shown(Overlays)).
+
+overlays_stop :-
+    retractall(shown(_)).
+
+overlays_shown(Dicts) :-
+    (   shown(Overlays)
+    ->  overlay_dicts(Overlays, Dicts)
+    ;   Dicts = []
+    ).
+
+%!  overlays_declared(+Files, -Overlays:list) is det.
+%
+%   The facts overlay/4 in Files, and in all files below the folders of the
+%   search path `agents`; of each file for itself, not of what it includes.
+%   Terms that cannot be read are passed over.
 %
 %   @error existence_error(source_sink, File)
+
+overlays_declared(Files, Overlays) :-
+    findall(File, agent_file(File), Found),
+    append(Files, Found, All),
+    maplist(overlays_in, All, Lists),
+    append(Lists, Overlays).
+
+agent_file(File) :-
+    absolute_file_name(agents('.'), Folder,
+                       [ file_type(directory), access(read), solutions(all),
+                         file_errors(fail) ]),
+    directory_member(Folder, File, [extensions([pl]), recursive(true)]).
 
 overlays_in(File, Overlays) :-
     setup_call_cleanup(
@@ -64,21 +102,6 @@ is_overlay(Term) :-
     functor(When, Name, 1),
     memberchk(Name, [log, leave, take]).
 
-%!  overlays_of_agents(-Overlays:list) is det.
-%
-%   Those of all files below the folders of the search path `agents`.
-
-overlays_of_agents(Overlays) :-
-    findall(Own,
-            ( absolute_file_name(agents('.'), Folder,
-                                 [ file_type(directory), access(read),
-                                   solutions(all), file_errors(fail) ]),
-              directory_member(Folder, File,
-                               [extensions([pl]), recursive(true)]),
-              overlays_in(File, Own) ),
-            All),
-    append(All, Overlays).
-
 %!  overlay_dicts(+Overlays, -Dicts:list) is det.
 %
 %   What the page has to know of them: each title once.
@@ -91,20 +114,42 @@ overlay_dicts(Overlays, Dicts) :-
 overlay_dict(Title-Kind, _{name:Name, kind:KindText}) :-
     maplist(name_text, [Title, Kind], [Name, KindText]).
 
-%!  overlay_rows(+Overlays, +Event, -Rows:list) is det.
+%!  event_rows(+Events, -Rows:list) is det.
+%!  event_rows(+Events, +Overlays, -Rows:list) is det.
 %
-%   Rows are those that tell what Event, as of watch/3, changes:
+%   Events, as of watch/3, as the browser is told them; each is followed by
+%   rows of what it changes in Overlays, those of the page that is served:
 %   [Time, Host, Agent, "show" or "add", Title, Where, Value].
 
-overlay_rows(Overlays, event(Time, Host, Agent, What), Rows) :-
-    findall([Time, HostText, AgentText, Kind, Name, Where, Shown],
-            ( member(overlay(Title, _, What, Value), Overlays),
-              shown(Value, Host, Kind, Where, Shown),
-              maplist(name_text, [Host, Agent, Title],
-                      [HostText, AgentText, Name]) ),
-            Rows).
+event_rows(Events, Rows) :-
+    (   shown(Overlays)
+    ->  true
+    ;   Overlays = []
+    ),
+    event_rows(Events, Overlays, Rows).
 
-shown(Value, Host, Kind, Where, Shown) :-
+event_rows([], _, []).
+event_rows([Event|Events], Overlays, [Row|Rows]) :-
+    event_row(Event, Row),
+    arg(4, Event, What),
+    (   may_show(What)
+    ->  findall(Shown, overlay_row(Overlays, Event, Shown), More),
+        append(More, Rest, Rows)
+    ;   Rest = Rows
+    ),
+    event_rows(Events, Overlays, Rest).
+
+may_show(log(_)).
+may_show(leave(_)).
+may_show(take(_)).
+
+overlay_row(Overlays, event(Time, Host, Agent, What),
+            [Time, HostText, AgentText, Kind, Name, Where, Shown]) :-
+    member(overlay(Title, _, What, Value), Overlays),
+    value_at(Value, Host, Kind, Where, Shown),
+    maplist(name_text, [Host, Agent, Title], [HostText, AgentText, Name]).
+
+value_at(Value, Host, Kind, Where, Shown) :-
     (   nonvar(Value),
         Value = Place-Term
     ->  true

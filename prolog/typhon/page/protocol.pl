@@ -13,7 +13,7 @@ Over a WebSocket at `feed` the server tells in JSON what happens, at most
 twenty times a second; the browser says nothing there.  First comes
 
     {"snapshot": {"time": T, "read_only": B, "hosts": [Host, ...],
-                  "agents": [Agent, ...]}}
+                  "agents": [Agent, ...], "overlays": [Overlay, ...]}}
 
     Host:  {"id": Address, "process": Endpoint, "machine": Interface,
             "state": "running", "load": N, "capacity": N or absent,
@@ -42,6 +42,7 @@ then lists of what happens, where arguments are text, but for numbers:
       | take     | Fact                       |
       | started, stopped, lost |              |
       | skipped  | Count                      |
+      | show, add | Overlay, Where, Value     |
 
 and every few seconds, when nothing else is to be told, {"tick": Time}, so
 that a browser notices when nobody is there any more.

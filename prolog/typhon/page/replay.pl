@@ -4,14 +4,13 @@
           ]).
 :- use_module(library(apply), [foldl/5, maplist/3]).
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
-:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../network', [log_events/2]).
 :- use_module('../people', [own_event/1]).
 :- use_module(overlays,
-              [ overlay_dicts/2, overlay_rows/3, overlays_in/2,
-                overlays_of_agents/1 ]).
-:- use_module(protocol, [event_row/2, name_text/2]).
+              [ event_rows/3, overlay_dicts/2, overlays_declared/2 ]).
+:- use_module(protocol, [name_text/2]).
 
 /** <module> Logs as the page replays them
 
@@ -40,11 +39,10 @@ replay_dict(LogFile, Options, Dict) :-
     file_base_name(LogFile, Base),
     option(title(Title0), Options, Base),
     option(overlays(Files), Options, []),
-    overlays_of_agents(Known),
-    maplist(overlays_in, Files, Own0),
-    append([Known|Own0], Overlays0),
+    overlays_declared(Files, Declared),
     maplist(watched, Logged, Events),
-    rows(Events, Overlays0, Rows, Used),
+    event_rows(Events, Declared, Rows),
+    used(Rows, Declared, Used),
     overlay_dicts(Used, Overlays),
     hosts(Events, Hosts),
     intern(Rows, Names, Short),
@@ -71,6 +69,7 @@ watched(event(Time, Host, Agent, What), event(Time, Host, Agent, Told)) :-
     told(What, Told).
 
 told(faulty(Error), Told) => Told = fault(Error).
+told(fault(Fault), Told) => Told = fault(Fault).
 told(What, Told), own_event(What) => Told = What.
 told(What, Told), of_network(What) => Told = What.
 told(Term, Told) => Told = log(Term).
@@ -87,24 +86,16 @@ is_address(Address) :-
     sub_atom(Address, _, _, _, @),
     !.
 
-%   rows(+Events, +Overlays, -Rows, -Used): Used are those overlays that show
-%   something.
+%   used(+Rows, +Declared, -Used): those overlays that show something.
 
-rows(Events, Overlays, Rows, Used) :-
-    findall(Row,
-            ( member(Event, Events),
-              ( event_row(Event, Row)
-              ; overlay_rows(Overlays, Event, Shown),
-                member(Row, Shown)
-              ) ),
-            Rows),
+used(Rows, Declared, Used) :-
     findall(Title,
             ( member([_, _, _, Kind, Title|_], Rows),
               memberchk(Kind, ["show", "add"]) ),
             Titles0),
     sort(Titles0, Titles),
     findall(Overlay,
-            ( member(Overlay, Overlays),
+            ( member(Overlay, Declared),
               arg(1, Overlay, Title),
               name_text(Title, Text),
               memberchk(Text, Titles) ),

@@ -21,6 +21,8 @@
                 token_new/1, token_right/2 ]).
 :- use_module(json, [json_text/2]).
 :- use_module(looking, [first_sight/1, look/2]).
+:- use_module(overlays,
+              [overlays_shown/1, overlays_start/1, overlays_stop/0]).
 :- use_module(protocol, [error_text/2]).
 :- use_module(said, [on_console/1]).
 :- use_module(sources, [sources_start/1, sources_stop/0]).
@@ -71,6 +73,8 @@ start(Options, Link) :-
     times_start,
     sources_start(Options),
     editor_start,
+    option(overlays(Files), Options, []),
+    overlays_start(Files),
     browsers_start,
     catch(listen(Interface, Port0, Port), Ball,
           ( put_away, throw(Ball) )),
@@ -98,6 +102,7 @@ put_away :-
     sources_stop,
     times_stop,
     browsers_stop,
+    overlays_stop,
     editor_stop.
 
                 /*******************************
@@ -160,7 +165,8 @@ feed(WebSocket) :-
 first_frame(_{snapshot:Scene}) :-
     serving(_, _, ReadOnly),
     on_console(first_sight(Seen)),
-    Scene = Seen.put(read_only, ReadOnly).
+    overlays_shown(Overlays),
+    Scene = Seen.put(_{read_only:ReadOnly, overlays:Overlays}).
 
 send_file(File, Type) :-
     setup_call_cleanup(

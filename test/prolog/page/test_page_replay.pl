@@ -1,7 +1,7 @@
 :- module(test_page_replay, []).
 :- use_module('../../lib/common').
 
-:- needs([page]).
+:- needs([chromium, 'chromium-driver']).
 
 :- use_module(library(plunit)).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -67,7 +67,7 @@ run(Program, Log) :-
     setup_call_cleanup(
         network_start(grid(3, 4), Network,
                       [ clock(virtual), seed(1), hop_time(uniform(0.5, 1.5)),
-                        log(Log, [hops, messages]) ]),
+                        log(Log, [hops, messages, links, hosts]) ]),
         talk(Program, Network),
         network_stop(Network)).
 

@@ -136,24 +136,33 @@ function shaped(hosts, { shape, columns }) {
   }));
 }
 
-// Networks that are not linked with each other stand side by side, if each
-// has a shape.
+// Networks that are not linked with each other stand side by side, in rows,
+// if each has a shape.
 function inPieces(hosts, links) {
   const pieces = connected(hosts, links);
   if (pieces.length === 1 && hosts.length > 2) return null;
-  const all = new Map();
-  let left = 0;
+  const all = new Map(), widest = 1.5 * Math.sqrt(hosts.length);
+  let left = 0, top = 0, high = 0;
   for (const piece of pieces.sort((a, b) => b.length - a.length)) {
     const known = piece.length < 3 ? { shape: 'line', columns: 0 }
       : recognize(piece, links);
     if (!known) return null;
-    const places = shaped(piece, known);
-    const xs = [...places.values()].map(place => place.x);
-    const shift = left - Math.min(...xs);
-    for (const [id, { x, y }] of places) all.set(id, { x: x + shift, y });
-    left += Math.max(...xs) - Math.min(...xs) + 1.5;
+    const places = shaped(piece, known), box = boundsOf(places);
+    if (left > 0 && left + box.width > widest)
+      [left, top, high] = [0, top + high + 1.2, 0];
+    for (const [id, { x, y }] of places)
+      all.set(id, { x: x - box.x + left, y: y - box.y + top });
+    left += box.width + 1.2;
+    high = Math.max(high, box.height);
   }
   return all;
+}
+
+function boundsOf(places) {
+  const xs = [...places.values()].map(({ x }) => x);
+  const ys = [...places.values()].map(({ y }) => y);
+  const x = Math.min(...xs), y = Math.min(...ys);
+  return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
 }
 
 function connected(hosts, links) {
