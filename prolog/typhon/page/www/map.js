@@ -384,7 +384,7 @@ class MapView {
       return;
     }
     this.say(`${shortName(agent)} is told to go to ${shortName(host)}`);
-    this.app.act({ do: 'hop', agent, host });
+    this.app.act({ do: 'move', agent, host });
   }
 
   // ------------------------------------------------------------ keyboard
