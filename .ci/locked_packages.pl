@@ -4,8 +4,8 @@
 
     swipl locked_packages.pl DIRECTORY
 
-gets the packages of DIRECTORY/package-lock.json, from where it says or from
-the registry in the environment variable npm_config_registry, sees that each
+gets the packages of DIRECTORY/package-lock.json from npm's registry, or that
+in the environment variable npm_config_registry, sees that each
 is the one that is meant, by its SHA-512, and unpacks it to
 DIRECTORY/node_modules.
 
@@ -39,7 +39,7 @@ main([Dir]) :-
            package(Dir, Place, Package)).
 
 package(Dir, Place, Package) :-
-    address(Package.resolved, Address),
+    address(Place, Package, Address),
     setup_call_cleanup(
         http_open(Address, In, [timeout(60)]),
         ( set_stream(In, encoding(octet)),
@@ -54,13 +54,21 @@ package(Dir, Place, Package) :-
     ;   throw(error(domain_error(checksum(Wanted), Address), _))
     ).
 
-address(Resolved, Address) :-
-    getenv(npm_config_registry, Registry0),
-    atom_concat('https://registry.npmjs.org/', Path, Resolved),
-    !,
-    ( atom_concat(Registry, /, Registry0) -> true ; Registry = Registry0 ),
-    atomic_list_concat([Registry, /, Path], Address).
-address(Resolved, Resolved).
+%   Where the registry has it, whatever mirror the lock was made with.
+
+address(Place, Package, Address) :-
+    atom_concat('node_modules/', Name, Place),
+    registry(Registry),
+    file_base_name(Name, Base),
+    format(atom(Address), '~w/~w/-/~w-~w.tgz',
+           [Registry, Name, Base, Package.version]).
+
+registry(Registry) :-
+    (   getenv(npm_config_registry, Given)
+    ->  true
+    ;   Given = 'https://registry.npmjs.org'
+    ),
+    ( atom_concat(Registry, /, Given) -> true ; Registry = Given ).
 
 unpack(Dir, Place, Bytes) :-
     directory_file_path(Dir, Place, To),

@@ -6,9 +6,12 @@
             browser_wait/2,             % +Browser, +Script
             browser_wait/3,             % +Browser, +Script, +Seconds
             browser_keys/2,             % +Browser, +Keys
+            browser_click/2,            % +Browser, +Selector
+            browser_drag/3,             % +Browser, +From, +To
             browser_size/3,             % +Browser, +Width, +Height
             browser_theme/2,            % +Browser, +Theme
             browser_shot/2,             % +Browser, +File
+            browser_tabs/2,             % +Browser, -Tabs
             browser_tab/2,              % +Browser, -Tab
             browser_goto_tab/2,         % +Browser, +Tab
             browser_complaints/2        % +Browser, -Texts
@@ -186,6 +189,48 @@ key(up, 0xE013).
 key(right, 0xE014).
 key(down, 0xE015).
 
+%!  browser_click(+Browser, +Selector) is det.
+%
+%   Click at the middle of the first element of Selector that is to be seen, as
+%   soon as there is one; or of Selector-Text, the one with that text.
+%
+%!  browser_drag(+Browser, +From, +To) is det.
+%
+%   From one point, X-Y, to another.
+
+browser_click(Browser, What) :-
+    ( What = Selector-Text -> true ; Selector = What, Text = "" ),
+    format(string(Found),
+           "[...document.querySelectorAll(~q)].find(e => e.checkVisibility() && \c
+            !e.disabled && (e.textContent.trim() === ~q || ~q === ''))",
+           [Selector, Text, Text]),
+    format(string(There), "return ~s", [Found]),
+    browser_wait(Browser, There),
+    format(string(Middle),
+           "const e = ~s; e.scrollIntoView({block: 'nearest'}); \c
+            const r = e.getBoundingClientRect(); \c
+            return [r.x + r.width / 2, r.y + r.height / 2]", [Found]),
+    browser_run(Browser, Middle, [X, Y]),
+    pointer(Browser, [at(X, Y), down, up]).
+
+browser_drag(Browser, X0-Y0, X-Y) :-
+    X1 is (X0+X)/2,
+    Y1 is (Y0+Y)/2,
+    pointer(Browser, [at(X0, Y0), down, at(X1, Y1), at(X, Y), up]).
+
+pointer(Browser, Steps) :-
+    findall(Action, ( member(Step, Steps), pointed(Step, Action) ), Actions),
+    command(Browser, actions,
+            _{actions:[_{ type:"pointer", id:"mouse",
+                          parameters:_{pointerType:"mouse"},
+                          actions:Actions }]}, _).
+
+pointed(at(X0, Y0), _{type:"pointerMove", duration:20, x:X, y:Y}) :-
+    X is round(X0),
+    Y is round(Y0).
+pointed(down, _{type:"pointerDown", button:0}).
+pointed(up, _{type:"pointerUp", button:0}).
+
 %!  browser_size(+Browser, +Width, +Height) is det.
 %!  browser_theme(+Browser, +Theme) is det.
 %
@@ -215,10 +260,14 @@ browser_shot(Browser, File) :-
         write(Out, Bytes),
         close(Out)).
 
+%!  browser_tabs(+Browser, -Tabs:list) is det.
 %!  browser_tab(+Browser, -Tab) is det.
 %!  browser_goto_tab(+Browser, +Tab) is det.
 %
-%   A new tab, to which one goes; go to one there is.
+%   Those there are; a new one, to which one goes; go to one there is.
+
+browser_tabs(Browser, Tabs) :-
+    asked(Browser, 'window/handles', Tabs).
 
 browser_tab(Browser, Tab) :-
     command(Browser, 'window/new', _{type:"tab"}, Value),

@@ -28,7 +28,8 @@ class App {
     this.prefs = rememberedPrefs();
     this.chosen = {};
     this.more = new Map();      // agent -> what only surveys tell of it
-    this.mounted = new Map();
+    this.mounted = new Map();   // name -> element
+    this.views = new Map();     // name -> what mount() returned
     this.state = 'connecting';
   }
 
@@ -96,7 +97,7 @@ class App {
     this.mounted.set(name, panel);
     $('views').append(panel);
     try {
-      (await load()).mount(panel, this.store, this);
+      this.views.set(name, (await load()).mount(panel, this.store, this));
     } catch (error) {
       console.error(error);
       panel.append(element('p', { class: 'empty' },
