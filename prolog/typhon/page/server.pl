@@ -10,6 +10,9 @@
 :- use_module(library(http/websocket), [http_upgrade_to_websocket/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(socket),
+              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
+                tcp_open_socket/2, tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(acting, [act/2]).
 :- use_module(browsers,
@@ -81,12 +84,23 @@ start(Options, Link) :-
     assertz(serving(Port, Token, ReadOnly)),
     format(atom(Link), 'http://~w:~d/?token=~w', [Interface, Port, Token]).
 
+%   Processes that are started later, of a network for one, must not have the
+%   socket: it would be in use as long as they are.
+
 listen(Interface, Port0, Port) :-
     setting(workers, Workers),
     ( Port0 == 0 -> true ; Port = Port0 ),
+    tcp_socket(Socket),
+    catch(( tcp_setopt(Socket, reuseaddr),
+            tcp_bind(Socket, Interface:Port),
+            tcp_listen(Socket, 64),
+            tcp_open_socket(Socket, Stream),
+            set_stream(Stream, close_on_exec(true)) ),
+          Ball,
+          ( tcp_close_socket(Socket), throw(Ball) )),
     http_server(typhon_page_server:serve,
-                [ port(Interface:Port), workers(Workers), silent(true),
-                  timeout(20) ]).
+                [ port(Interface:Port), tcp_socket(Socket), workers(Workers),
+                  silent(true), timeout(20) ]).
 
 server_stop :-
     with_mutex(typhon_page_server, stop).
@@ -144,6 +158,8 @@ route([], Token, _) =>
     atomic_list_concat(['', Token, ''], /, Page),
     throw(http_reply(see_other(Page))).
 route([feed], _, Request) =>
+    memberchk(input(In), Request),
+    set_stream(In, close_on_exec(true)),
     http_spawn(http_upgrade_to_websocket(feed, [guarded(false)], Request), []).
 route([ask], _, Request) =>
     answer(Request).

@@ -47,7 +47,7 @@ class Details {
       element('div', { class: 'details-head' }, this.title, this.state,
         button('×', () => this.app.select({}), { 'aria-label': 'Close details',
           class: 'close' })),
-      element('p', { class: 'id' }, this.id), this.facts, this.buttons,
+      element('p', { class: 'id' }, this.id), this.buttons, this.facts,
       this.problem, this.list);
     const make = what === 'agent' ? agentActions : hostActions;
     if (this.app.act) this.buttons.append(...make(this.app, this.id));

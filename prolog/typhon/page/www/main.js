@@ -143,13 +143,15 @@ function stateLine(app) {
     if (now - at < 900 && $('state').dataset.state === app.state) return;
     const rate = (counts.arrived - hops) * 1000 / Math.max(1, now - at);
     [hops, at] = [counts.arrived, now];
-    let there = 0, running = 0;
-    for (const host of hosts.values()) if (host.state === 'running') there++;
+    let there = 0, lost = 0, running = 0;
+    for (const host of hosts.values())
+      if (host.state === 'running') there++;
+      else if (host.state !== 'stopped') lost++;
     for (const agent of agents.values()) if (agent.status !== 'ended') running++;
     $('state').dataset.state = app.state;
     $('state').textContent = [STATES[app.state] + (app.why ? `: ${app.why}` : ''),
       app.readOnly ? 'only to look at' : null, count(there, 'host'),
-      hosts.size > there ? `${hosts.size - there} lost` : null,
+      lost ? `${lost} lost` : null,
       count(running, 'agent'), rate >= 0.5 ? `${Math.round(rate)} hops/s` : null,
       counts.skipped ? `${counts.skipped} events skipped` : null]
       .filter(Boolean).join(' · ');
