@@ -51,6 +51,7 @@ job(strangers, [env], unpinned).
 job(hosts, [env], unpinned).
 job(population, [env], unpinned).
 job(virtual, [env], 20000).
+job(tartarus, [env], 2000).
 job(watch, [env], 9).
 job(phercon, [env], 3).
 job(sync, [env], unpinned).

@@ -6,24 +6,27 @@
 
 runs every test_*.pl in the folders of test/, or those named (`frame` for
 test/prolog/wire/test_frame.pl, `prolog/wire` for all in that folder), each
-in a process of its own, two at a time, and reports.  The last line is
+in a process of its own, three at a time, and reports.  The last line is
 `N passed, N failed`; `, N skipped` follows if any were.  The exit status
 is 0 only if nothing failed.
 
 A suite that does not load cleanly, has no tests, ends with a status other
-than 0, does not end within its deadline or leaves a process behind counts
-as a failure.  Processes started by a suite are known by the environment
-variable TYPHON_SUITE which they inherit, and are killed.
+than 0, does not end within its deadline or leaves a process behind, which is
+killed, counts as a failure.
 
 *Threading*: the main thread only.  A process started by another thread
 would have the signals blocked that the thread has, SIGINT for one.
 */
 
 :- use_module('lib/common', [project_file/2, wait_until/2, with_tmp_dir/1]).
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module('lib/left_behind',
+              [ kill_all_left_behind/0, kill_left_behind/2, suite_mark/2 ]).
+:- use_module('lib/quick_swipl', [quick_swipl/2]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [append/2, append/3, member/2, selectchk/3]).
+:- use_module(library(lists), [append/2, member/2, nth1/3, selectchk/3]).
 :- use_module(library(main), [main/0]).
+:- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(process),
               [ process_create/3, process_kill/2, process_wait/2,
                 process_wait/3
@@ -34,34 +37,55 @@ would have the signals blocked that the thread has, SIGINT for one.
 
 :- public main/1.
 
-suites_at_a_time(2).
+%   Of two processors many suites use less than one: they wait.
+
+suites_at_a_time(3).
 suite_deadline(300).                    % seconds
 
+%   What takes long begins early, that all end at about the same time.
+
+longest([ chaos, wire, doc, hop, sync_network, auction_network, cluster,
+          network, faults, study_work, pack, robots, boxes_arena, ring,
+          learning_network, repeatable, agent, scheduler, letters, app ]).
+
+%   These look at how the library is loaded, or at the options of swipl.
+
+plain(pack).
+plain(site).
+plain(voice).
+
 main(Names) :-
-    suite_files(Names, Files),
-    at_halt(kill_left_behind(_)),
-    with_tmp_dir(run_suites(Files, [], Suites)),
+    suite_files(Names, Files0),
+    map_list_to_pairs(place, Files0, Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Files),
+    at_halt(kill_all_left_behind),
+    with_tmp_dir(run_suites(Files, Suites)),
     foldl(add_suite, Suites, sum(0, 0, 0), Sum),
     print_sum(Sum),
     exit_status(Sum, Status),
     halt(Status).
 
-%   run_suites(+Files, +Jobs, -Suites, +Dir): Jobs are running now.
+run_suites(Files, Suites, Dir) :-
+    quick_swipl(Dir, Quick),
+    run_suites(Files, [], Suites, by(Quick, Dir)).
+
+%   run_suites(+Files, +Jobs, -Suites, +By): Jobs are running now.
 
 run_suites([], [], [], _) :-
     !.
-run_suites([File|Files], Jobs, Suites, Dir) :-
+run_suites([File|Files], Jobs, Suites, By) :-
     length(Jobs, Running),
     suites_at_a_time(Most),
     Running < Most,
     !,
-    start_suite(File, Dir, Job),
-    run_suites(Files, [Job|Jobs], Suites, Dir).
-run_suites(Files, Jobs0, [Suite|Suites], Dir) :-
+    start_suite(File, By, Job),
+    run_suites(Files, [Job|Jobs], Suites, By).
+run_suites(Files, Jobs0, [Suite|Suites], By) :-
     wait_until(ended_job(Jobs0, Job, Status), 1 000 000),
     selectchk(Job, Jobs0, Jobs),
     end_suite(Job, Status, Suite),
-    run_suites(Files, Jobs, Suites, Dir).
+    run_suites(Files, Jobs, Suites, By).
 
 suite_files([], Files) :-
     !,
@@ -85,6 +109,16 @@ suite_name(File, Name) :-
     file_base_name(File, Base),
     atom_concat(test_, Rest, Base),
     file_name_extension(Name, pl, Rest).
+
+%   place(+File, -Place): when it begins.
+
+place(File, Place) :-
+    suite_name(File, Name),
+    longest(Names),
+    (   nth1(Number, Names, Name)
+    ->  Place = Number
+    ;   Place = later                   % which is after all numbers
+    ).
 
 named_suites(All, Name, Files) :-
     findall(File, ( member(File, All), is_named(Name, File) ), Files),
@@ -127,23 +161,30 @@ exit_status(_, 1).
 
 %   job(File, Mark, Log, Results, Pid, Start)
 
-start_suite(File, Dir, job(File, Mark, Log, Results, Pid, Start)) :-
+start_suite(File, by(Quick, Dir), job(File, Mark, Log, Results, Pid, Start)) :-
     get_time(Start),
     file_base_name(File, Base),
-    current_prolog_flag(pid, Me),
-    format(atom(Mark), '~d:~w', [Me, Base]),
+    suite_mark(Base, Mark),
     directory_file_path(Dir, Base, Log),
     file_name_extension(Log, results, Results),
     project_file('test/suite.pl', Runner),
+    runs(File, Quick, Swipl),
     setup_call_cleanup(
         open(Log, write, Out),
-        suite_process([ '--on-error=print', '--on-warning=print',
+        suite_process(Swipl,
+                      [ '--on-error=print', '--on-warning=print',
                         Runner, '--', File, Results
                       ], Out, Mark, Pid),
         close(Out)).
 
-suite_process(Args, Out, Mark, Pid) :-
-    current_prolog_flag(executable, Swipl),
+runs(File, _, Swipl) :-
+    suite_name(File, Name),
+    plain(Name),
+    !,
+    current_prolog_flag(executable, Swipl).
+runs(_, Quick, Quick).
+
+suite_process(Swipl, Args, Out, Mark, Pid) :-
     project_file('.', Root),
     process_create(Swipl, Args,
                    [ stdin(null), stdout(stream(Out)), stderr(stream(Out)),
@@ -196,60 +237,6 @@ late_problem(_, Mark, Problem) :-
     Killed \== [],
     atomic_list_concat(Killed, ', ', Names),
     atom_concat('left processes behind: ', Names, Problem).
-
-                /*******************************
-                *     PROCESSES LEFT BEHIND    *
-                *******************************/
-
-kill_left_behind(Killed) :-
-    current_prolog_flag(pid, Pid),
-    format(atom(Mark), '~d:', [Pid]),
-    marked_processes(Mark, Killed),
-    maplist(kill_process, Killed).
-
-%   What is about to end anyway has five seconds for it.
-
-kill_left_behind(Mark, Names) :-
-    catch(( wait_until(marked_processes(Mark, []), 5),
-            Pids = []
-          ),
-          error(timeout_error(wait_until, _), _),
-          marked_processes(Mark, Pids)),
-    maplist(process_name, Pids, Names),
-    maplist(kill_process, Pids).
-
-marked_processes(Mark, Pids) :-
-    exists_directory('/proc/self'),
-    !,
-    atom_concat('TYPHON_SUITE=', Mark, Setting),
-    directory_files('/proc', Entries),
-    findall(Pid,
-            ( member(Entry, Entries),
-              atom_number(Entry, Pid),
-              process_file(Pid, environ, Text),
-              sub_string(Text, _, _, _, Setting)
-            ),
-            Pids).
-marked_processes(_, []).
-
-process_name(Pid, Name) :-
-    process_file(Pid, cmdline, Text),
-    !,
-    split_string(Text, "\000", "\000", Words),
-    atomic_list_concat(Words, ' ', Line),
-    format(atom(Name), '~d (~w)', [Pid, Line]).
-process_name(Pid, Pid).
-
-process_file(Pid, Name, Text) :-
-    format(atom(File), '/proc/~d/~w', [Pid, Name]),
-    catch(read_file_to_string(File, Text, [encoding(octet)]),
-          error(_, _),                  % not ours, or gone by now
-          fail).
-
-kill_process(Pid) :-
-    catch(process_kill(Pid, kill),
-          error(existence_error(process, _), _),
-          true).
 
                 /*******************************
                 *            REPORTS           *

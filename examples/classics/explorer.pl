@@ -5,7 +5,7 @@
 main :-
     explore,
     findall(Host, seen(Host), Hosts),
-    log(seen(Hosts)).
+    result(Hosts).
 
 explore :-
     here(Here),

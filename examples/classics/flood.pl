@@ -7,12 +7,12 @@ main :-
 
 flood(Hops) :-
     news(News),
-    (   sense(news(News, _))
-    ->  true                            % somebody was here before
-    ;   leave(news(News, Hops)),
+    (   leave_new(news(News))
+    ->  leave(hops(News, Hops)),
         neighbours(Hosts),
         Next is Hops+1,
         spread(Hosts, Next)
+    ;   true                            % somebody was here before
     ).
 
 spread([], _).

@@ -11,7 +11,7 @@ main :-
 search([_-way(Km, [Town|Path])|Open]) :-
     (   goal(Town)
     ->  reverse([Town|Path], Way),
-        log(way(Km, Way))
+        result(way(Km, Way))
     ;   closed(Town)
     ->  search(Open)
     ;   assertz(closed(Town)),

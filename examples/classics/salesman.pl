@@ -6,7 +6,7 @@ main :-
     here(Home),
     sense(at(Place)),
     tour([Home], Place, 0, Tour),
-    log(Tour).
+    result(Tour).
 
 %   tour(+Path, +Place, +Km, -Tour): the best tour that begins with Path,
 %   the last town first, of which we have come Km, and stand at Place.

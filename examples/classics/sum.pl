@@ -5,7 +5,7 @@
 main :-
     neighbours(Hosts),
     sum(Hosts, Sum),
-    log(sum(Sum)).
+    result(Sum).
 
 sum([], 0) :-
     home(Home),

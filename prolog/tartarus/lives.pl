@@ -3,13 +3,13 @@
             life_begin/6,               % +Name, +Location, +Handler, +Tokens,
                                         % +Payload, +Clauses
             life_end/1,                 % +Name
-            life_elsewhere/1            % +Name
+            life_elsewhere/2            % +Name, +Life
           ]).
 :- use_module(bodies, [body_copy/2, body_erase/2, body_install/1]).
 :- use_module(platform, [port_closed/1]).
 :- use_module(records,
-              [ record/3, record_add/4, record_payload/2, record_remove/1,
-                record_static/2, set_payload/2 ]).
+              [ record/3, record_add/4, record_life/2, record_payload/2,
+                record_remove/1, record_static/2, set_payload/2 ]).
 :- use_module(threads, [when_through/2]).
 
 /** <module> How agents begin and end on a platform
@@ -63,18 +63,24 @@ forget(Name, [(Handler,3)|Payload]) :-
     record_remove(Name).
 forget(_, []).
 
-%!  life_elsewhere(+Name) is det.
+%!  life_elsewhere(+Name, +Life) is det.
 %
-%   Name is on another platform now.
+%   Name goes on on another platform; or has come back from there already, and
+%   has another life here.
 
-life_elsewhere(Name) :-
+life_elsewhere(Name, Life) :-
     flag(tartarus_left, Id, Id+1),
-    with_mutex(tartarus_lives,
-               ( forget(Name, Indicators),
-                 assertz(left(Name, Id, Indicators)) )),
-    when_through(Name,
-                 with_mutex(tartarus_lives,
-                            tartarus_lives:sweep(Name, Id))).
+    (   with_mutex(tartarus_lives, leave(Name, Life, Id))
+    ->  when_through(Name,
+                     with_mutex(tartarus_lives,
+                                tartarus_lives:sweep(Name, Id)))
+    ;   true
+    ).
+
+leave(Name, Life, Id) :-
+    record_life(Name, Life),
+    forget(Name, Indicators),
+    assertz(left(Name, Id, Indicators)).
 
 sweep(Name, Id) :-
     retract(left(Name, Id, Indicators)),

@@ -6,10 +6,11 @@
 :- use_module(library(gensym), [gensym/2]).
 :- use_module(library(typhon), [agent_create/3, agent_join/3]).
 :- use_module(bodies, [body/3, renamed/4]).
-:- use_module(lives, [life_begin/6, life_elsewhere/1]).
+:- use_module(lives, [life_begin/6, life_elsewhere/2]).
 :- use_module(platform, [here/1, location_address/2, same_location/2]).
 :- use_module(records,
-              [record/3, record_payload/2, record_static/2, record_tokens/2]).
+              [ record/3, record_life/2, record_payload/2, record_static/2,
+                record_tokens/2 ]).
 :- use_module(threads, [run_handler/4]).
 :- use_module(times, [hop_done/5]).
 :- use_module(told,
@@ -53,13 +54,14 @@ move(_, Location) :-
     told("Agent is already on same platform.~n", []),
     abort.
 move(Name, Location) :-
+    record_life(Name, Life),
     bundle(Name, Bundle),
     sent(Bundle, Location, Outcome),
-    moved(Outcome, Name).
+    moved(Outcome, Name, Life).
 
-moved(landed, Name) :-
-    life_elsewhere(Name).
-moved(stays, _).
+moved(landed, Name, Life) :-
+    life_elsewhere(Name, Life).
+moved(stays, _, _).
 
 %!  clone_agent(+Name, +Location, -Clone) is semidet.
 %

@@ -2,6 +2,7 @@
           [ record/3,                   % ?Name, ?Handler, ?Location
             record_add/4,               % +Name, +Handler, +Location, +Tokens
             record_remove/1,            % +Name
+            record_life/2,              % +Name, ?Life
             record_location/2,          % +Name, -Location
             record_payload/2,           % +Name, -Indicators
             record_tokens/2,            % +Name, -Tokens
@@ -45,6 +46,16 @@ record_remove(Name) :-
     retractall(user:agent_payload(Name, _)),
     retractall(user:agent_token(Name, _)),
     retractall(static(Name, _)).
+
+%!  record_life(+Name, ?Life) is semidet.
+%
+%   Life stands for Name from now until it ends or moves: if it comes again,
+%   that is another life.
+
+record_life(Name, Life) :-
+    clause(user:agent_GUID(Name, _, _), true, Life0),
+    !,
+    Life = Life0.
 
 %!  record_location(+Name, -Location) is semidet.
 

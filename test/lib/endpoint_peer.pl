@@ -97,7 +97,16 @@ cross(Address, Size, N) :-
 %!  big_string(+Size, -String) is det.
 
 big_string(Size, String) :-
-    format(string(String), "~`xt~*|", [Size]).
+    at_least(Size, "x", Long),
+    sub_string(Long, 0, Size, _, String).
+
+at_least(Size, String, String) :-
+    string_length(String, Length),
+    Length >= Size,
+    !.
+at_least(Size, String0, String) :-
+    string_concat(String0, String0, Twice),
+    at_least(Size, Twice, String).
 
 reach(Addresses, Missed) :-
     length(Addresses, Count),

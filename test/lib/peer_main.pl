@@ -185,3 +185,16 @@ programs_seen(Count) :-
 silence_answers :-
     wrap_predicate(typhon_messaging:endpoint_reply_later(_, _), mute, _,
                    true).
+
+%   The answers to what arrives are kept until give_answers/0.
+
+:- dynamic answer_kept/2.               % ReplyTo, Answer
+
+keep_answers :-
+    wrap_predicate(typhon_messaging:endpoint_reply_later(ReplyTo, Answer),
+                   keep, _,
+                   assertz(peer_main:answer_kept(ReplyTo, Answer))).
+
+give_answers :-
+    forall(retract(answer_kept(ReplyTo, Answer)),
+           typhon_messaging:endpoint_reply(ReplyTo, Answer)).

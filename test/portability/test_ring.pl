@@ -224,7 +224,7 @@ test(a_crowd, Outcomes == Done) :-
             ( between(1, 4, _),
               host(From, _),
               route(forth, From, Route),
-              laps(5, Route, Names),
+              laps(3, Route, Names),
               addresses(Names, Hosts),
               agent(carrier, From, route(Hosts), Agent)
             ),

@@ -91,6 +91,9 @@ test(lists_targets, Status == exit(0)) :-
 test(install_does_nothing, Status-Output == exit(0)-"") :-
     run(path(make), [install], [], Status, Output).
 
+test(check_finds_nothing, Status-Output == exit(0)-"") :-
+    run(path(make), [check], [], Status, Output).
+
 :- end_tests(make).
 
 :- begin_tests(installer, [condition(( has_serial, root ))]).

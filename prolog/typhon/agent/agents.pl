@@ -88,6 +88,11 @@ with_agent(Id, Goal) :-
 
 :- dynamic shard/2.
 
+%   A saved state has them already where it runs this again.
+
+make_shards :-
+    shard(_, _),
+    !.
 make_shards :-
     forall(between(0, 63, I),
            ( atom_concat(typhon_agents_, I, Mutex),

@@ -12,7 +12,8 @@
 :- use_module('../wire',
               [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
 :- use_module('../host', [runtime_acquire/3, runtime_release/1, time_now/1]).
-:- use_module(log_writer, [log_writer_start/5, log_writer_stop/2]).
+:- use_module(log_writer,
+              [ log_writer_flush/1, log_writer_start/5, log_writer_stop/2 ]).
 
 /** <module> The log server
 
@@ -31,13 +32,14 @@ per server writes, see room `log_writer`.
 
 :- multifile
     prolog:message//1,
+    typhon_log_file:about_to_read/1,
     typhon_options:declared/4,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
 
 :- dynamic
     server/3,                   % Name, Queue, Clock
-    writer/2,                   % Name, Thread
+    writer/3,                   % Name, Thread, File
     homeless/1.                 % Name of a server that events came for
 
 %!  log_server_start(+Options, -Address) is det.
@@ -100,7 +102,8 @@ start(Name, File, Options, Address) :-
     runtime_acquire(log(Name), EndpointOptions, Endpoint),
     catch(log_writer_start(Name, File, Mode, Queue, Thread), Error,
           ( runtime_release(log(Name)), throw(Error) )),
-    assertz(writer(Name, Thread)),
+    absolute_file_name(File, Absolute),
+    assertz(writer(Name, Thread, Absolute)),
     retractall(homeless(Name)),
     assertz(server(Name, Queue, Clock)),
     atomic_list_concat([Name, @, Endpoint], Address),
@@ -124,12 +127,16 @@ log_server_stop(Address) :-
 stop(Name, Address) :-
     arrived(Name),
     (   with_mutex(typhon_log, retract(server(Name, Queue, _)))
-    ->  retract(writer(Name, Thread)),
+    ->  retract(writer(Name, Thread, _)),
         log_writer_stop(Queue, Thread),
         debug(typhon(network), 'log server ~w has ended', [Address]),
         runtime_release(log(Name))
     ;   existence_error(log_server, Address)
     ).
+
+typhon_log_file:about_to_read(File) :-
+    forall(( writer(Name, _, File), server(Name, Queue, _) ),
+           in_own_thread(log_writer_flush(Queue))).
 
 %   What this process posts to itself comes in order, so a request that is
 %   answered tells that the posts before it have arrived.

@@ -20,7 +20,11 @@ line by line, so a line cut short by a crash costs that line and no other.
 */
 
 :- multifile
+    about_to_read/1,
     prolog:message//1.
+
+%   about_to_read(+File): what this process is about to write to it is there
+%   afterwards.
 
 %!  log_open(+File, +Mode, -Stream) is det.
 %!  log_write(+Stream, +Event) is det.
@@ -80,13 +84,15 @@ log_write(Stream, Event) :-
 %!  log_events(+File, -Events:list) is det.
 %
 %   Events are the event(Time, Host, Agent, What) facts in File, in the
-%   order in which they arrived. A line that is no fact is reported by a
-%   warning, and the others are read.
+%   order in which they arrived. What has arrived in this process is among
+%   them. A line that is no fact is reported by a warning, and the others are
+%   read.
 %
 %   @error existence_error(source_sink, File)
 
 log_events(Spec, Events) :-
     absolute_file_name(Spec, File, [access(read)]),
+    forall(about_to_read(File), true),
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
         read_events(In, File, Events),

@@ -1,6 +1,7 @@
 :- module(typhon_log_writer,
           [ log_writer_start/5,         % +Name, +Spec, +Mode, -Queue, -Thread
-            log_writer_stop/2           % +Queue, +Thread
+            log_writer_stop/2,          % +Queue, +Thread
+            log_writer_flush/1          % +Queue
           ]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(log_file, [log_open/3, log_write/2]).
@@ -49,6 +50,25 @@ log_writer_stop(Queue, Thread) :-
     thread_join(Thread, _),
     message_queue_destroy(Queue).
 
+%!  log_writer_flush(+Queue) is det.
+%
+%   What was put in Queue before is in the file, unless it cannot be written;
+%   or five seconds have passed.
+
+log_writer_flush(Queue) :-
+    setup_call_cleanup(
+        message_queue_create(Answers),
+        catch(( thread_send_message(Queue, flush(Answers)),
+                ignore(thread_get_message(Answers, flushed, [timeout(5)])) ),
+              error(existence_error(_, _), _),
+              true),                    % it has ended, and written all
+        message_queue_destroy(Answers)).
+
+flushed(Answers) :-
+    catch(thread_send_message(Answers, flushed),
+          error(existence_error(_, _), _),
+          true).
+
 %   write_events(+Queue, +File, +State): State is open(Stream, Unsure),
 %   where the last Unsure events may be in memory only; or lost(Count,
 %   Again), where the file could not be written, is tried again at the time
@@ -59,6 +79,10 @@ write_events(Queue, File, State0) :-
     next_event(Queue, File, Event, State0, State1),
     (   Event == stop
     ->  finish(State1, File)
+    ;   Event = flush(Answers)
+    ->  flush(State1, File, State),
+        flushed(Answers),
+        write_events(Queue, File, State)
     ;   write_event(State1, File, Event, State),
         write_events(Queue, File, State)
     ).

@@ -15,16 +15,19 @@ tab key completes it; elsewhere it does what it always does.
 */
 
 %   We must be asked first, whether the system's own clauses are there yet or
-%   not.
+%   not.  A saved state does not keep what is wrapped.
 
-:- wrap_predicate(prolog:complete_input(Before, After, Delete, Completions),
-                  typhon, Wrapped,
-                  (   typhon_completion:completed(Before, After, Delete0,
-                                                  Completions0)
-                  ->  Delete = Delete0,
-                      Completions = Completions0
-                  ;   Wrapped
-                  )).
+ask_us_first :-
+    wrap_predicate(
+        prolog:complete_input(Before, After, Delete, Completions),
+        typhon, Wrapped,
+        (   typhon_completion:completed(Before, After, Delete0, Completions0)
+        ->  Delete = Delete0,
+            Completions = Completions0
+        ;   Wrapped
+        )).
+
+:- initialization(ask_us_first, now).
 
 :- public completed/4.          % by the wrapper
 

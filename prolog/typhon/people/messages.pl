@@ -32,7 +32,7 @@ prolog:error_message(existence_error(host, Host)) -->
     { address_parts(Host, Name, Endpoint) },
     !,
     [ 'There is no host ~w at ~w'-[Name, Endpoint] ],
-    meant(host, Host).
+    meant(host, Name).
 prolog:error_message(existence_error(host, Host)) -->
     [ 'There is no host ~p here'-[Host] ],
     meant(host, Host).

@@ -8,6 +8,7 @@
             home_knows/4,               % +Id, -Address, -Hops, -Process
             home_agents/1,              % -Ids
             agent_outcome/2,            % +Id, -Outcome
+            ended_after/2,              % +Id, -Hops
             outcome_wait/3              % +Id, +Seconds, +Asker
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -38,7 +39,7 @@ its agents what they tell it.
 :- dynamic
     born/4,                     % Id, Address, Hops, Process: its home is
                                 % here, and it has not ended
-    outcome/2,                  % Id, Outcome
+    outcome/3,                  % Id, Outcome, Hops
     faulty/3,                   % Id, Outcome, Age: nobody waits for its end
                                 % any more; Outcome is `none` if it was
                                 % resumed since
@@ -52,7 +53,7 @@ its agents what they tell it.
 
 typhon_identity:ids_anew :-
     retractall(born(_, _, _, _)),
-    retractall(outcome(_, _)),
+    retractall(outcome(_, _, _)),
     retractall(faulty(_, _, _)),
     retractall(waiter(_, _, _)).
 
@@ -79,9 +80,13 @@ home_agents(Ids) :-
     sort(Ids0, Ids).
 
 %!  agent_outcome(+Id, -Outcome) is semidet.
+%!  ended_after(+Id, -Hops) is semidet.
 
 agent_outcome(Id, Outcome) :-
-    outcome(Id, Outcome).
+    outcome(Id, Outcome, _).
+
+ended_after(Id, Hops) :-
+    outcome(Id, _, Hops).
 
 %!  home_moved(+Id, +Address, +Hops, +Process) is det.
 %!  home_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
@@ -106,7 +111,7 @@ moved(Id, Address, Hops, Process) :-
     ;   true
     ).
 moved(Id, Address, Hops, Process) :-
-    \+ outcome(Id, _),
+    \+ outcome(Id, _, _),
     agent_home_endpoint(Id, Home),
     endpoint_address(Home),
     !,
@@ -127,12 +132,12 @@ home_ended(Id, Outcome, Hops, Legacy) :-
 %   known to have gone on.
 
 ended(Id, _, Hops, _, []) :-
-    (   outcome(Id, _)
+    (   outcome(Id, _, _)
     ;   born(Id, _, Hops0, _),
         Hops0 > Hops
     ),
     !.
-ended(Id, Outcome0, _, Legacy, Askers) :-
+ended(Id, Outcome0, Hops, Legacy, Askers) :-
     retractall(born(Id, _, _, _)),
     (   retract(faulty(Id, Told, _)),
         Told \== none
@@ -140,8 +145,8 @@ ended(Id, Outcome0, _, Legacy, Askers) :-
     ;   Outcome = Outcome0
     ),
     legacy_keep(Id, Legacy),
-    assertz(outcome(Id, Outcome)),
-    bounded(outcome(_, _), typhon_whereabouts:outcomes),
+    assertz(outcome(Id, Outcome, Hops)),
+    bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).
 
 %!  home_faulty(+Id, +Outcome, +Stamp, +Address, +Hops, +Process) is det.
@@ -212,7 +217,7 @@ outcome_wait(Id, Seconds, Asker) :-
     ).
 
 wait_or_answer(Id, _, _, Outcome) :-
-    (   outcome(Id, Outcome)
+    (   outcome(Id, Outcome, _)
     ;   faulty(Id, Outcome, _),
         Outcome \== none
     ),

@@ -23,7 +23,7 @@
 :- use_module('../agent',
               [agent/5, agent_home_endpoint/2, is_legacy/1, life_hops/2]).
 :- use_module(home,
-              [ agent_outcome/2, home_ended/4, home_faulty/6, home_knows/4,
+              [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6, home_knows/4,
                 home_moved/4, home_resumed/3 ]).
 :- use_module(news, [news_tell/3]).
 
@@ -80,11 +80,24 @@ agent_left(Id, Address, Hops, Peer) :-
     ->  true
     ;   process_at(Peer, Process),
         agent_home_endpoint(Id, Home),
-        (   endpoint_address(Home),
-            \+ agent_outcome(Id, _)     % else it was given up in doubt
-        ->  home_moved(Id, Address, Hops, Process)
+        (   endpoint_address(Home)
+        ->  left_home(Id, Address, Hops, Process)
         ;   remember_forward(Id, Address, Hops, Process)
         )
+    ).
+
+%   That it ended there may be heard before that it has come: to follow it
+%   would lead back here.  What ended after fewer hops was a copy that was
+%   given up in doubt.
+
+left_home(Id, _, Hops, _) :-
+    ended_after(Id, End),
+    End >= Hops,
+    !.
+left_home(Id, Address, Hops, Process) :-
+    (   agent_outcome(Id, _)
+    ->  remember_forward(Id, Address, Hops, Process)
+    ;   home_moved(Id, Address, Hops, Process)
     ).
 
 process_at(Endpoint, Process) :-

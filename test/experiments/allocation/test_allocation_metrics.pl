@@ -106,8 +106,10 @@ sequence(Where, Timetable) :-
     timetable(Events, [s], 2, Timetable).
 
 measures(Timetable, Names, Values) :-
-    maplist([Name, Value]>>timetable_measure(Name, Timetable, Value),
-            Names, Values).
+    maplist(measure(Timetable), Names, Values).
+
+measure(Timetable, Name, Value) :-
+    timetable_measure(Name, Timetable, Value).
 
 faults([faulty, strangers, overlaps, disorder, both]).
 

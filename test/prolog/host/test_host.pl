@@ -744,10 +744,10 @@ walker([Home|_]) :-
 
 :- begin_tests(stopping).
 
-test(a_thousand_times, true((T1 == T0, Q1 == Q0, M1 =< M0+2))) :-
+test(three_hundred_times, true((T1 == T0, Q1 == Q0, M1 =< M0+2))) :-
     with_hosts([alpha], true),
     footprint(T0, Q0, M0, F0),
-    forall(between(1, 1000, _), ( host_start(alpha), host_stop(alpha) )),
+    forall(between(1, 300, _), ( host_start(alpha), host_stop(alpha) )),
     garbage_collect_clauses,
     garbage_collect_atoms,
     footprint(T1, Q1, M1, F1),

@@ -101,6 +101,15 @@ test(events_are_stamped_in_order_of_arrival, Times == Sorted) :-
 hundred(Address, _) :-
     forall(between(1, 100, N), arrives(Address, h, a, step(N))).
 
+test(what_has_arrived_is_read_at_once) :-
+    with_log([], read_at_once, _).
+
+read_at_once(Address, File) :-
+    forall(between(1, 100, N),
+           ( arrives(Address, h, a, step(N)),
+             log_events(File, Events),
+             assertion(length(Events, N)) )).
+
 test(clock) :-
     get_time(Now),
     Epoch is Now - 10,

@@ -189,12 +189,12 @@ test(goals_are_what_the_programmer_wrote,
     code_install(H, P, Kinds),
     code_module(H, M),
     machine_run(context(M, M), [main], effect(sleep(1), _, Goals)).
-test(a_tail_recursive_agent_does_not_grow, O-N-L == done-1000000-2) :-
+test(a_tail_recursive_agent_does_not_grow, O-N-L == done-100000-2) :-
     program_load(clauses([(:- agent(g, [state([n/1])])),
                           (main :- n(0), !),
                           (main :- retract(n(N)), N1 is N-1, assertz(n(N1)),
                                    move(there), main),
-                          n(1000000)]), P, [Fact], H, Kinds),
+                          n(100000)]), P, [Fact], H, Kinds),
     code_install(H, P, Kinds),
     code_module(H, M),
     fresh(M, [Fact], A),

@@ -11,7 +11,7 @@
 /** <module> What went wrong in the platforms before us does not go wrong here
 
 Peers that are silent, killed or started again; strangers at the port;
-agents that bounce without pause, 20,000 hops of them.  With
+agents that bounce without pause, 10,000 hops of them.  With
 TYPHON_HOPS=100000 in the environment there are as many as that.
 */
 
@@ -27,6 +27,9 @@ test(order_to_end_follows) :-
     with_doubt([a, b], disposed_then_back).
 test(clone_in_doubt) :-
     with_doubt([a, b], clone_then_back).
+test(end_is_heard_before_the_answer,
+     true(Outcome = raised(error(existence_error(agent, _), _)))) :-
+    with_peers([a, b], ended_first(Outcome)).
 
 :- end_tests(silent_peer).
 
@@ -102,6 +105,17 @@ clone_then_back :-
     peer_do(a, agent_property(Clone, host(B))),
     peer_do(a, agent_send(Clone, go)),
     ended(a, Clone, done).
+
+%   Nobody looks for it where it was before.
+
+ended_first(Outcome) :-
+    peer_host(b, B),
+    peer_do(b, keep_answers),
+    set_out(a, [B], 1, Id),
+    ended(a, Id, done),
+    peer_do(b, give_answers),
+    wait_until(\+ peer_do(a, agent_here(Id)), 10),
+    peer_try(a, agent_dispose(Id), Outcome).
 
 steps_at(Peer, Id, Steps) :-
     peer_do(Peer, steps_here(Id, Steps)).
@@ -248,7 +262,7 @@ test(host_stopped_under_way) :-
 hops(Hops) :-
     (   getenv('TYPHON_HOPS', Atom)
     ->  atom_number(Atom, Hops)
-    ;   Hops = 20000
+    ;   Hops = 10000
     ).
 
 %   Twenty agents share the hops, and note how long they take.

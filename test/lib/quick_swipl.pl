@@ -1,0 +1,40 @@
+:- module(test_quick_swipl,
+          [ quick_swipl/2               % +Dir, -Program
+          ]).
+
+/** <module> A Prolog that need not read library(typhon)
+
+To read the library takes 0.3 seconds, and suites start hundreds of processes
+that do.  So test/run.pl makes a program that has read it, see quick_start,
+and runs the suites by that.  What a suite starts as the `executable` of its
+own process is this program, too; in all else it is a `swipl`.
+
+*Threading*: any thread.
+*/
+
+:- use_module(common, [project_file/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+
+%!  quick_swipl(+Dir, -Program) is det.
+%
+%   Program is a file in Dir; or the `swipl` that runs this, if the file does
+%   not run: some find their libraries of C only from where they are.
+
+quick_swipl(Dir, Program) :-
+    current_prolog_flag(executable, Swipl),
+    directory_file_path(Dir, swipl, Quick),
+    project_file('test/lib/quick_start.pl', Start),
+    (   succeeds(Swipl, [ '-f', none, '-o', Quick, '-c', Start,
+                          '--class=development', '--stand-alone=true',
+                          '--autoload=false', '--on-error=print' ]),
+        succeeds(Quick, ['-g', true, '-t', halt])
+    ->  Program = Quick
+    ;   Program = Swipl
+    ).
+
+succeeds(Program, Args) :-
+    process_create(Program, Args,
+                   [ stdin(null), stdout(null), stderr(null),
+                     process(Pid) ]),
+    process_wait(Pid, exit(0)).
