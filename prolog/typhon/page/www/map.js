@@ -217,7 +217,7 @@ class MapView {
 
   frame() {
     this.waiting = 0;
-    if (!this.width || !this.height) return;
+    if (!this.stage.clientWidth) return;        // shown later, it is resized
     const now = this.store.clock(), wall = performance.now();
     if (this.force && this.force.step(7, this.places)) {
       this.dirty = true;

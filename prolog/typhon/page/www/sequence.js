@@ -117,7 +117,7 @@ class Sequence {
   }
 
   draw() {
-    if (!this.width || !this.palette) return;
+    if (!this.stage.clientWidth || !this.palette) return;
     const chart = this.chart(), height = this.heightOf(chart);
     const follow = this.stage.scrollTop + this.stage.clientHeight
       >= this.stage.scrollHeight - 4;

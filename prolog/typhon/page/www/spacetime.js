@@ -132,7 +132,7 @@ class SpaceTime {
   }
 
   draw() {
-    if (!this.width || !this.height || !this.palette) return;
+    if (!this.stage.clientWidth || !this.palette) return;
     const sight = this.sight();
     this.empty.hidden = Boolean(sight);
     this.legend.update();
