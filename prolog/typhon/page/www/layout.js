@@ -220,7 +220,7 @@ export class Force {
       .filter(({ a, b }) => this.byId.has(a) && this.byId.has(b))
       .map(({ a, b }) => ({ source: a, target: b }));
     const together = centres.size > 1 ? 0.04 : 0.01;
-    this.simulation = d3.forceSimulation(this.nodes).stop()
+    this.simulation = d3.forceSimulation(this.nodes).stop().alphaDecay(0.04)
       .force('link', d3.forceLink(this.ends).id(node => node.id).distance(1))
       .force('apart', d3.forceManyBody().strength(-0.3).distanceMax(8))
       .force('room', d3.forceCollide(0.4))

@@ -15,7 +15,7 @@ import { SvgPen } from './svg.js';
 import { pointers } from './camera.js';
 import { legend } from './legend.js';
 
-const CALM = 160;
+const CALM = 160;               // ms; up to a second where drawing is slow
 const FOUND = 200;              // of a search, marked
 const PATIENCE = 600;           // ms until new links are looked at
 
@@ -36,6 +36,7 @@ class MapView {
     this.following = false;
     this.force = null;
     this.fitted = false;
+    this.rest = CALM;           // until what rests is drawn again
     this.ghost = null;          // an agent's mark that is being dragged
     this.build(parent);
     this.palette = new Palette(store, this.element);
@@ -220,13 +221,14 @@ class MapView {
     if (!this.stage.clientWidth) return;        // shown later, it is resized
     const now = this.store.clock(), wall = performance.now();
     if (this.force && this.force.step(7, this.places)) {
-      this.dirty = true;
-      if (!this.touched) this.fitted = false;
+      this.stale = true;
+      if (!this.touched && wall - (this.drawn || 0) >= this.rest) this.fitted = false;
       this.wake();
     }
     if (!this.fitted) this.fitNow();
     if (this.following) this.centre(now);
-    if (this.dirty || (this.stale && wall - (this.drawn || 0) >= CALM)) {
+    this.pace(wall);
+    if (this.dirty || (this.stale && wall - (this.drawn || 0) >= this.rest)) {
       this.scene.drawBase(this.basePen, this.width, this.height);
       this.dirty = this.stale = false;
       this.drawn = wall;
@@ -235,6 +237,15 @@ class MapView {
     this.scene.drawTop(this.topPen, now);
     if (this.ghost) this.drawGhost();
     this.next();
+  }
+
+  // What rests is drawn less often where frames take long.
+  pace(wall) {
+    const took = wall - (this.wallBefore || 0);
+    this.wallBefore = wall;
+    if (took > 300) return;             // it had nothing to do
+    this.rest = took > 30 ? Math.min(1000, this.rest * 1.15)
+      : Math.max(CALM, this.rest * 0.97);
   }
 
   // Another frame while something moves; otherwise when what has changed

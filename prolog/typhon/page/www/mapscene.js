@@ -5,6 +5,8 @@ import { shortName } from './store.js';
 
 const GOLDEN = Math.PI * (3 - Math.sqrt(5));
 const DENSE = 2500;             // moving marks, above which links show flows
+const PLAIN = 400;              // ... above which they are plain squares
+const CROWD = 3000;             // agents, above which hosts show shares
 const FONT = 'system-ui, sans-serif';
 const BADGE = 8;                // seconds for which a fault flashes
 
@@ -90,7 +92,8 @@ export class Scene {
     const room = this.radius(host) - 1.5;
     const spread = Math.min(0.09 * this.k, room / Math.sqrt(n + 0.3));
     const r = Math.min(0.055 * this.k, spread * 0.8, 9);
-    return r < 1.4 || n > 400 ? null : { spread, r };
+    const crowded = this.store.agents.size > CROWD && r < 5;
+    return r < 1.4 || n > 400 || crowded ? null : { spread, r };
   }
 
   dotAt({ x, y }, { spread }, i) {
@@ -270,29 +273,18 @@ export class Scene {
     });
   }
 
-  // Too many to tell apart: how many of each program.
+  // Too many to tell apart: how many of each program, as parts of a bar.
   drawShares(pen, agents, { x, y }, r) {
     const shares = new Map();
     for (const { program } of agents)
       shares.set(program, (shares.get(program) || 0) + 1);
-    if (r < 5 || shares.size === 1) {
-      const [most] = [...shares].reduce((a, b) => (b[1] > a[1] ? b : a));
-      pen.fillStyle = this.palette.of(most);
-      pen.beginPath();
-      pen.arc(x, y, r * 0.8, 0, 2 * Math.PI);
-      pen.fill();
-      return;
-    }
-    let from = -Math.PI / 2;
-    for (const [program, n] of shares) {
-      const to = from + 2 * Math.PI * n / agents.length;
+    const wide = r * 1.3, high = r * 1.1;
+    let left = x - wide / 2;
+    for (const program of [...shares.keys()].sort()) {
+      const part = wide * shares.get(program) / agents.length;
       pen.fillStyle = this.palette.of(program);
-      pen.beginPath();
-      pen.moveTo(x, y);
-      pen.arc(x, y, r * 0.85, from, to);
-      pen.closePath();
-      pen.fill();
-      from = to;
+      pen.fillRect(left, y - high / 2, part, high);
+      left += part;
     }
   }
 
@@ -438,13 +430,14 @@ export class Scene {
     const r = Math.max(1.6, Math.min(8, this.k * 0.085));
     for (const [program, points] of byProgram) {
       pen.fillStyle = this.palette.of(program);
-      this.marks(pen, this.palette.shape(program), points, r);
+      if (moving.size > PLAIN) this.squares(pen, points, Math.min(r, 2.5));
+      else this.marks(pen, this.palette.shape(program), points, r);
     }
   }
 
   marks(pen, shape, points, r) {
     if (r < 2.6) {
-      for (const { x, y } of points) pen.fillRect(x - r, y - r, 2 * r, 2 * r);
+      this.squares(pen, points, r);
       return;
     }
     pen.beginPath();
@@ -453,6 +446,10 @@ export class Scene {
     pen.strokeStyle = this.palette.bg;
     pen.lineWidth = 1;
     pen.stroke();
+  }
+
+  squares(pen, points, r) {
+    for (const { x, y } of points) pen.fillRect(x - r, y - r, 2 * r, 2 * r);
   }
 
   // Too many marks: links as wide as much goes along them.
