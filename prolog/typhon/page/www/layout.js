@@ -31,6 +31,10 @@ const SHAPES = {
     edges: (n, columns) => gridEdges(n, columns, false),
     at: (i, n, columns) => [i % columns, Math.floor(i / columns)],
   },
+  'star bus': {                 // a chain of hubs, each with its leaves
+    edges: starBusEdges,
+    at: starBusAt,
+  },
   torus: {
     edges: (n, columns) => gridEdges(n, columns, true),
     at: (i, n, columns) => [i % columns, Math.floor(i / columns)],
@@ -67,6 +71,22 @@ function gridEdges(n, columns, around) {
   return edges;
 }
 
+function starBusEdges(n, size) {
+  return range(n).slice(1).map(i => (i % size === 0 ? [i - size, i]
+    : [i - i % size, i]));
+}
+
+// Hubs go to and fro in rows.
+function starBusAt(i, n, size) {
+  const radius = Math.max(1, (size - 1) / 6), apart = 2 * radius + 0.9;
+  const hub = Math.floor(i / size), inRow = Math.ceil(1.3 * Math.sqrt(n / size));
+  const row = Math.floor(hub / inRow), column = hub % inRow;
+  const x = apart * (row % 2 ? inRow - 1 - column : column), y = apart * row;
+  if (i % size === 0) return [x, y];
+  const angle = 2 * Math.PI * (i % size - 0.5) / (size - 1);
+  return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
+}
+
 const pair = (i, j, n) => (i < j ? i * n + j : j * n + i);
 
 const sorted = hosts => [...hosts].sort((a, b) =>
@@ -92,7 +112,7 @@ function likeness(found, edges, n) {
 }
 
 const columnsOf = (n, shape) => {
-  if (shape !== 'grid' && shape !== 'torus') return [0];
+  if (!['grid', 'torus', 'star bus'].includes(shape)) return [0];
   const few = range(Math.floor(Math.sqrt(n)) + 1).filter(c => c > 1 && n % c === 0);
   return [...few, ...few.map(c => n / c)];
 };

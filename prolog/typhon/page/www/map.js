@@ -220,11 +220,7 @@ class MapView {
     this.waiting = 0;
     if (!this.stage.clientWidth) return;        // shown later, it is resized
     const now = this.store.clock(), wall = performance.now();
-    if (this.force && this.force.step(7, this.places)) {
-      this.stale = true;
-      if (!this.touched && wall - (this.drawn || 0) >= this.rest) this.fitted = false;
-      this.wake();
-    }
+    if (this.force) this.settle(wall);
     if (!this.fitted) this.fitNow();
     if (this.following) this.centre(now);
     this.pace(wall);
@@ -237,6 +233,18 @@ class MapView {
     this.scene.drawTop(this.topPen, now);
     if (this.ghost) this.drawGhost();
     this.next();
+  }
+
+  // Hosts that force still moves, and when it has ended.
+  settle(wall) {
+    const moved = this.force.step(7, this.places);
+    if (!moved && !this.unsettled) return;
+    if (moved) this.stale = true;
+    else this.dirty = true;
+    if (!this.touched && (!moved || wall - (this.drawn || 0) >= this.rest))
+      this.fitted = false;
+    this.unsettled = moved;
+    this.wake();
   }
 
   // What rests is drawn less often where frames take long.
