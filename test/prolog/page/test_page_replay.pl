@@ -12,6 +12,7 @@
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/page), [page_export/3]).
+:- use_module(library(typhon/page/files), [page_file/3]).
 :- use_module('../../lib/browser').
 
 /*  A log is made, opened as one file in Chromium, and looked at as people do.
@@ -127,6 +128,11 @@ seek(Share, Time) :-
         p.seek(p.first + args[0] * (p.last - p.first)); return p.time",
         [Share], Time).
 
+%   `make page-tools` was called.
+
+tools_there :-
+    page_file(['uPlot.iife.min.js'], _, _).
+
 %   The replay is open from the first test to the last, in a thread of its own.
 
 :- dynamic holder/1.
@@ -178,7 +184,8 @@ saved(View, svg, File) :-
         write(Out, Text),
         close(Out)).
 
-:- begin_tests(page_replay, [ setup(open_replay), cleanup(close_replay) ]).
+:- begin_tests(page_replay, [ condition(tools_there), setup(open_replay),
+                              cleanup(close_replay) ]).
 
 test(counts_at_the_end) :-
     seek(1, Time),
@@ -307,7 +314,7 @@ test(nothing_to_complain_of, Texts == []) :-
 
 :- end_tests(page_replay).
 
-:- begin_tests(page_export).
+:- begin_tests(page_export, [condition(tools_there)]).
 
 export(Log, Dir) :-
     directory_file_path(Dir, 'x.html', Html),

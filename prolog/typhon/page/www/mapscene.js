@@ -510,6 +510,8 @@ export class Scene {
     pen.textAlign = 'left';
     pen.textBaseline = 'bottom';
     pen.lineWidth = 3;
+    pen.strokeStyle = this.palette.bg;
+    pen.strokeText(cut(agent.name, 30), at.x + 12, at.y - 8);
     pen.fillStyle = this.palette.text;
     pen.fillText(cut(agent.name, 30), at.x + 12, at.y - 8);
   }
