@@ -7,7 +7,8 @@
 
 import { byName } from './store.js';
 
-const ALIKE = 0.75;             // share of links that a shape has to explain
+const EXPLAINED = 0.85;         // share of the links that a shape has
+const THERE = 0.4;              // share of the links of a shape that are there
 
 // Pairs of numbers of linked hosts, and where host i of n stands.
 const SHAPES = {
@@ -102,13 +103,15 @@ function numberedLinks(hosts, links) {
   return found;
 }
 
-// How well the links of a shape are those found: of both, the share that
-// is common.
+// How well the links of a shape are those found, of which some may be down at
+// the time; 0 if they are others.
 function likeness(found, edges, n) {
   const wanted = new Set(edges.map(([i, j]) => pair(i, j, n)));
   let common = 0;
   for (const key of wanted) if (found.has(key)) common++;
-  return common / Math.max(1, wanted.size + found.size - common);
+  const explained = common / Math.max(1, found.size);
+  const there = common / Math.max(1, wanted.size);
+  return explained < EXPLAINED || there < THERE ? 0 : explained * Math.sqrt(there);
 }
 
 const columnsOf = (n, shape) => {
@@ -121,7 +124,7 @@ const columnsOf = (n, shape) => {
 export function recognize(hosts, links, shapes = Object.keys(SHAPES)) {
   const inOrder = sorted(hosts), n = inOrder.length;
   const found = numberedLinks(inOrder, links);
-  let best = null, most = ALIKE;
+  let best = null, most = 0;
   for (const shape of shapes)
     for (const columns of columnsOf(n, shape)) {
       const alike = likeness(found, SHAPES[shape].edges(n, columns), n);

@@ -129,7 +129,8 @@ class MapView {
 
   changed() {
     if (this.shape !== this.store.shape) this.reshape();
-    const names = [...this.store.overlays.keys()];
+    const names = [...this.store.overlays.values()]
+      .filter(({ values }) => values.size > 0).map(({ name }) => name);
     if (names.length !== this.overlays.length - 1) this.showOverlays(names);
     this.legend.update();
     this.stale = true;

@@ -8,6 +8,7 @@ const DENSE = 2500;             // moving marks, above which links show flows
 const PLAIN = 400;              // ... above which they are plain squares
 const CROWD = 3000;             // agents, above which hosts show shares
 const FONT = 'system-ui, sans-serif';
+const NEAR = 1.5;
 const BADGE = 8;                // seconds for which a fault flashes
 
 export class Scene {
@@ -134,7 +135,7 @@ export class Scene {
     else pen.lineTo(b.x, b.y);
   }
 
-  // Hosts of one process, and the links between them, on common ground.
+  // Hosts of one process that stand near each other, on common ground.
   drawGroups(pen) {
     const groups = new Map();
     for (const host of this.store.hosts.values()) {
@@ -150,7 +151,7 @@ export class Scene {
     for (const [name, hosts] of groups) {
       pen.strokeStyle = this.tint(i++);
       pen.beginPath();
-      for (const host of hosts) this.ground(pen, host);
+      this.ground(pen, hosts);
       pen.stroke();
       if (labels) this.groupName(pen, name, hosts);
     }
@@ -162,26 +163,26 @@ export class Scene {
     return this.palette.dark ? `hsl(${hue},22%,17%)` : `hsl(${hue},48%,93%)`;
   }
 
-  ground(pen, host) {
-    const a = this.at(host.id);
-    if (!a) return;
-    pen.moveTo(a.x, a.y);
-    pen.lineTo(a.x + 0.01, a.y);
-    const near = [];
-    for (const id of host.links.keys()) {
-      const b = this.at(id);
-      if (b && this.store.hosts.get(id)[this.group] === host[this.group]
-          && Math.hypot(a.x - b.x, a.y - b.y) < 1.9 * this.k) near.push(b);
-    }
-    near.forEach((b, i) => {
+  // A line from each host to those at most one and a half units away.
+  ground(pen, hosts) {
+    const cells = new Map();    // squares of that size -> places of hosts
+    const cell = (x, y) => `${Math.floor(x / NEAR)} ${Math.floor(y / NEAR)}`;
+    for (const { id } of hosts) {
+      const place = this.places.get(id), a = place && this.at(id);
+      if (!place) continue;
       pen.moveTo(a.x, a.y);
-      pen.lineTo(b.x, b.y);
-      for (const c of near.slice(i + 1))        // what is between
-        if (Math.hypot(c.x - b.x, c.y - b.y) < 1.9 * this.k) {
-          pen.moveTo(b.x, b.y);
-          pen.lineTo(c.x, c.y);
-        }
-    });
+      pen.lineTo(a.x + 0.01, a.y);
+      for (const dx of [-NEAR, 0, NEAR])
+        for (const dy of [-NEAR, 0, NEAR])
+          for (const other of cells.get(cell(place.x + dx, place.y + dy)) || []) {
+            if (Math.hypot(other.x - place.x, other.y - place.y) > NEAR) continue;
+            pen.moveTo(a.x, a.y);
+            pen.lineTo(other.at.x, other.at.y);
+          }
+      const key = cell(place.x, place.y);
+      if (!cells.has(key)) cells.set(key, []);
+      cells.get(key).push({ ...place, at: a });
+    }
   }
 
   groupName(pen, name, hosts) {

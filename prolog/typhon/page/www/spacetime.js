@@ -127,8 +127,7 @@ class SpaceTime {
     const hosts = new Set();
     for (const { host } of told.stays) hosts.add(host);
     for (const { a, b } of told.hops) hosts.add(a).add(b);
-    const process = id => this.store.hosts.get(id)?.process || '';
-    return [...hosts].sort((a, b) => byName(process(a), process(b)) || byName(a, b));
+    return [...hosts].sort(byName);
   }
 
   draw() {
