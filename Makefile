@@ -46,9 +46,9 @@ demo-robots: tools      ## simulated robots carry a pole, and push boxes
 demo-page: tools        ## sixty hosts in four processes, in a browser
 	@$(SWIPL) app/demo_page.pl
 
-thesis: tools           ## every figure of the thesis anew; RUNS=10, JOBS=2
+thesis: tools page-tools ## every figure of the thesis anew; RUNS=10, JOBS=2
 	@$(SWIPL) experiments/study.pl -- thesis --runs $(RUNS) \
-	    --jobs $(JOBS) --out out/thesis
+	    --jobs $(JOBS) --replays --out out/thesis
 
 thesis-real: tools      ## one case of each chapter, over sockets as well
 	@$(SWIPL) experiments/study.pl -- thesis --real --runs $(RUNS) \

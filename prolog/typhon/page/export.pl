@@ -22,6 +22,8 @@ Content-Security-Policy scripts run that were written here, and no others.
 *Threading*: any thread.
 */
 
+:- multifile prolog:error_message//1.
+
 style('views.css').
 style('exported.css').
 style('uPlot.min.css').
@@ -143,3 +145,10 @@ write_script(Out, data(Text)) :-
 write_script(Out, script(Type, Text)) :-
     format(Out, '<script type="~w">~s</script>~n', [Type, Text]).
 write_script(_, style(_)).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(existence_error(page_tool, Name)) -->
+    [ '~w is missing; `make page-tools` gets it'-[Name] ].

@@ -12,6 +12,7 @@
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/page), [page_export/3]).
+:- use_module(library(typhon/page/files), [page_file/3]).
 :- use_module('../../lib/browser').
 
 /*  A log is made, opened as one file in Chromium, and looked at as people do.
@@ -127,6 +128,11 @@ seek(Share, Time) :-
         p.seek(p.first + args[0] * (p.last - p.first)); return p.time",
         [Share], Time).
 
+%   `make page-tools` was called.
+
+tools_there :-
+    page_file(['uPlot.iife.min.js'], _, _).
+
 %   The replay is open from the first test to the last, in a thread of its own.
 
 :- dynamic holder/1.
@@ -178,7 +184,8 @@ saved(View, svg, File) :-
         write(Out, Text),
         close(Out)).
 
-:- begin_tests(page_replay, [ setup(open_replay), cleanup(close_replay) ]).
+:- begin_tests(page_replay, [ condition(tools_there), setup(open_replay),
+                              cleanup(close_replay) ]).
 
 test(counts_at_the_end) :-
     seek(1, Time),
@@ -256,6 +263,22 @@ test(sequence_of_messages, true(Rows > 10)) :-
 test(plots_have_points, true(Points > 5)) :-
     look("typhon.show(3); typhon.views[3].view.draw(); \c
           return typhon.views[3].view.plots[0].drawn.data[0].length", Points).
+test(what_is_not_seen_is_not_drawn, [Hidden, Shown] == [0, true]) :-
+    look("const { scene } = typhon.views[0].view, p = typhon.player; \c
+          let drawn = 0; \c
+          const before = scene.drawTop; \c
+          scene.drawTop = (...all) => { drawn++; before.apply(scene, all); }; \c
+          const playing = async view => { \c
+              typhon.show(view); p.seek(p.first); \c
+              p.setSpeed(1); p.play(); \c
+              await new Promise(done => setTimeout(done, 60)); \c
+              drawn = 0; \c
+              await new Promise(done => setTimeout(done, 400)); \c
+              p.pause(); \c
+              return drawn; }; \c
+          const hidden = await playing(3), shown = await playing(0); \c
+          scene.drawTop = before; \c
+          return [hidden, shown > 2]", [Hidden, Shown]).
 test(narrow_and_dark, Wide == 400) :-
     replayed(Browser, _, _),
     browser_size(Browser, 400, 800),
@@ -291,7 +314,7 @@ test(nothing_to_complain_of, Texts == []) :-
 
 :- end_tests(page_replay).
 
-:- begin_tests(page_export).
+:- begin_tests(page_export, [condition(tools_there)]).
 
 export(Log, Dir) :-
     directory_file_path(Dir, 'x.html', Html),

@@ -7,7 +7,8 @@
 
 import { byName } from './store.js';
 
-const ALIKE = 0.75;             // share of links that a shape has to explain
+const EXPLAINED = 0.85;         // share of the links that a shape has
+const THERE = 0.4;              // share of the links of a shape that are there
 
 // Pairs of numbers of linked hosts, and where host i of n stands.
 const SHAPES = {
@@ -30,6 +31,10 @@ const SHAPES = {
   grid: {
     edges: (n, columns) => gridEdges(n, columns, false),
     at: (i, n, columns) => [i % columns, Math.floor(i / columns)],
+  },
+  'star bus': {                 // a chain of hubs, each with its leaves
+    edges: starBusEdges,
+    at: starBusAt,
   },
   torus: {
     edges: (n, columns) => gridEdges(n, columns, true),
@@ -67,6 +72,22 @@ function gridEdges(n, columns, around) {
   return edges;
 }
 
+function starBusEdges(n, size) {
+  return range(n).slice(1).map(i => (i % size === 0 ? [i - size, i]
+    : [i - i % size, i]));
+}
+
+// Hubs go to and fro in rows.
+function starBusAt(i, n, size) {
+  const radius = Math.max(1, (size - 1) / 6), apart = 2 * radius + 0.9;
+  const hub = Math.floor(i / size), inRow = Math.ceil(1.3 * Math.sqrt(n / size));
+  const row = Math.floor(hub / inRow), column = hub % inRow;
+  const x = apart * (row % 2 ? inRow - 1 - column : column), y = apart * row;
+  if (i % size === 0) return [x, y];
+  const angle = 2 * Math.PI * (i % size - 0.5) / (size - 1);
+  return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
+}
+
 const pair = (i, j, n) => (i < j ? i * n + j : j * n + i);
 
 const sorted = hosts => [...hosts].sort((a, b) =>
@@ -82,17 +103,19 @@ function numberedLinks(hosts, links) {
   return found;
 }
 
-// How well the links of a shape are those found: of both, the share that
-// is common.
+// How well the links of a shape are those found, of which some may be down at
+// the time; 0 if they are others.
 function likeness(found, edges, n) {
   const wanted = new Set(edges.map(([i, j]) => pair(i, j, n)));
   let common = 0;
   for (const key of wanted) if (found.has(key)) common++;
-  return common / Math.max(1, wanted.size + found.size - common);
+  const explained = common / Math.max(1, found.size);
+  const there = common / Math.max(1, wanted.size);
+  return explained < EXPLAINED || there < THERE ? 0 : explained * Math.sqrt(there);
 }
 
 const columnsOf = (n, shape) => {
-  if (shape !== 'grid' && shape !== 'torus') return [0];
+  if (!['grid', 'torus', 'star bus'].includes(shape)) return [0];
   const few = range(Math.floor(Math.sqrt(n)) + 1).filter(c => c > 1 && n % c === 0);
   return [...few, ...few.map(c => n / c)];
 };
@@ -101,7 +124,7 @@ const columnsOf = (n, shape) => {
 export function recognize(hosts, links, shapes = Object.keys(SHAPES)) {
   const inOrder = sorted(hosts), n = inOrder.length;
   const found = numberedLinks(inOrder, links);
-  let best = null, most = ALIKE;
+  let best = null, most = 0;
   for (const shape of shapes)
     for (const columns of columnsOf(n, shape)) {
       const alike = likeness(found, SHAPES[shape].edges(n, columns), n);
@@ -220,7 +243,7 @@ export class Force {
       .filter(({ a, b }) => this.byId.has(a) && this.byId.has(b))
       .map(({ a, b }) => ({ source: a, target: b }));
     const together = centres.size > 1 ? 0.04 : 0.01;
-    this.simulation = d3.forceSimulation(this.nodes).stop()
+    this.simulation = d3.forceSimulation(this.nodes).stop().alphaDecay(0.04)
       .force('link', d3.forceLink(this.ends).id(node => node.id).distance(1))
       .force('apart', d3.forceManyBody().strength(-0.3).distanceMax(8))
       .force('room', d3.forceCollide(0.4))

@@ -15,7 +15,7 @@ import { SvgPen } from './svg.js';
 import { pointers } from './camera.js';
 import { legend } from './legend.js';
 
-const CALM = 160;
+const CALM = 160;               // ms; up to a second where drawing is slow
 const FOUND = 200;              // of a search, marked
 const PATIENCE = 600;           // ms until new links are looked at
 
@@ -36,6 +36,7 @@ class MapView {
     this.following = false;
     this.force = null;
     this.fitted = false;
+    this.rest = CALM;           // until what rests is drawn again
     this.ghost = null;          // an agent's mark that is being dragged
     this.build(parent);
     this.palette = new Palette(store, this.element);
@@ -128,7 +129,8 @@ class MapView {
 
   changed() {
     if (this.shape !== this.store.shape) this.reshape();
-    const names = [...this.store.overlays.keys()];
+    const names = [...this.store.overlays.values()]
+      .filter(({ values }) => values.size > 0).map(({ name }) => name);
     if (names.length !== this.overlays.length - 1) this.showOverlays(names);
     this.legend.update();
     this.stale = true;
@@ -217,16 +219,13 @@ class MapView {
 
   frame() {
     this.waiting = 0;
-    if (!this.width || !this.height) return;
+    if (!this.stage.clientWidth) return;        // shown later, it is resized
     const now = this.store.clock(), wall = performance.now();
-    if (this.force && this.force.step(7, this.places)) {
-      this.dirty = true;
-      if (!this.touched) this.fitted = false;
-      this.wake();
-    }
+    if (this.force) this.settle(wall);
     if (!this.fitted) this.fitNow();
     if (this.following) this.centre(now);
-    if (this.dirty || (this.stale && wall - (this.drawn || 0) >= CALM)) {
+    this.pace(wall);
+    if (this.dirty || (this.stale && wall - (this.drawn || 0) >= this.rest)) {
       this.scene.drawBase(this.basePen, this.width, this.height);
       this.dirty = this.stale = false;
       this.drawn = wall;
@@ -235,6 +234,27 @@ class MapView {
     this.scene.drawTop(this.topPen, now);
     if (this.ghost) this.drawGhost();
     this.next();
+  }
+
+  // Hosts that force still moves, and when it has ended.
+  settle(wall) {
+    const moved = this.force.step(7, this.places);
+    if (!moved && !this.unsettled) return;
+    if (moved) this.stale = true;
+    else this.dirty = true;
+    if (!this.touched && (!moved || wall - (this.drawn || 0) >= this.rest))
+      this.fitted = false;
+    this.unsettled = moved;
+    this.wake();
+  }
+
+  // What rests is drawn less often where frames take long.
+  pace(wall) {
+    const took = wall - (this.wallBefore || 0);
+    this.wallBefore = wall;
+    if (took > 300) return;             // it had nothing to do
+    this.rest = took > 30 ? Math.min(1000, this.rest * 1.15)
+      : Math.max(CALM, this.rest * 0.97);
   }
 
   // Another frame while something moves; otherwise when what has changed

@@ -5,7 +5,10 @@ import { shortName } from './store.js';
 
 const GOLDEN = Math.PI * (3 - Math.sqrt(5));
 const DENSE = 2500;             // moving marks, above which links show flows
+const PLAIN = 400;              // ... above which they are plain squares
+const CROWD = 3000;             // agents, above which hosts show shares
 const FONT = 'system-ui, sans-serif';
+const NEAR = 1.5;
 const BADGE = 8;                // seconds for which a fault flashes
 
 export class Scene {
@@ -90,7 +93,8 @@ export class Scene {
     const room = this.radius(host) - 1.5;
     const spread = Math.min(0.09 * this.k, room / Math.sqrt(n + 0.3));
     const r = Math.min(0.055 * this.k, spread * 0.8, 9);
-    return r < 1.4 || n > 400 ? null : { spread, r };
+    const crowded = this.store.agents.size > CROWD && r < 5;
+    return r < 1.4 || n > 400 || crowded ? null : { spread, r };
   }
 
   dotAt({ x, y }, { spread }, i) {
@@ -131,7 +135,7 @@ export class Scene {
     else pen.lineTo(b.x, b.y);
   }
 
-  // Hosts of one process, and the links between them, on common ground.
+  // Hosts of one process that stand near each other, on common ground.
   drawGroups(pen) {
     const groups = new Map();
     for (const host of this.store.hosts.values()) {
@@ -147,7 +151,7 @@ export class Scene {
     for (const [name, hosts] of groups) {
       pen.strokeStyle = this.tint(i++);
       pen.beginPath();
-      for (const host of hosts) this.ground(pen, host);
+      this.ground(pen, hosts);
       pen.stroke();
       if (labels) this.groupName(pen, name, hosts);
     }
@@ -159,26 +163,26 @@ export class Scene {
     return this.palette.dark ? `hsl(${hue},22%,17%)` : `hsl(${hue},48%,93%)`;
   }
 
-  ground(pen, host) {
-    const a = this.at(host.id);
-    if (!a) return;
-    pen.moveTo(a.x, a.y);
-    pen.lineTo(a.x + 0.01, a.y);
-    const near = [];
-    for (const id of host.links.keys()) {
-      const b = this.at(id);
-      if (b && this.store.hosts.get(id)[this.group] === host[this.group]
-          && Math.hypot(a.x - b.x, a.y - b.y) < 1.9 * this.k) near.push(b);
-    }
-    near.forEach((b, i) => {
+  // A line from each host to those at most one and a half units away.
+  ground(pen, hosts) {
+    const cells = new Map();    // squares of that size -> places of hosts
+    const cell = (x, y) => `${Math.floor(x / NEAR)} ${Math.floor(y / NEAR)}`;
+    for (const { id } of hosts) {
+      const place = this.places.get(id), a = place && this.at(id);
+      if (!place) continue;
       pen.moveTo(a.x, a.y);
-      pen.lineTo(b.x, b.y);
-      for (const c of near.slice(i + 1))        // what is between
-        if (Math.hypot(c.x - b.x, c.y - b.y) < 1.9 * this.k) {
-          pen.moveTo(b.x, b.y);
-          pen.lineTo(c.x, c.y);
-        }
-    });
+      pen.lineTo(a.x + 0.01, a.y);
+      for (const dx of [-NEAR, 0, NEAR])
+        for (const dy of [-NEAR, 0, NEAR])
+          for (const other of cells.get(cell(place.x + dx, place.y + dy)) || []) {
+            if (Math.hypot(other.x - place.x, other.y - place.y) > NEAR) continue;
+            pen.moveTo(a.x, a.y);
+            pen.lineTo(other.at.x, other.at.y);
+          }
+      const key = cell(place.x, place.y);
+      if (!cells.has(key)) cells.set(key, []);
+      cells.get(key).push({ ...place, at: a });
+    }
   }
 
   groupName(pen, name, hosts) {
@@ -270,29 +274,18 @@ export class Scene {
     });
   }
 
-  // Too many to tell apart: how many of each program.
+  // Too many to tell apart: how many of each program, as parts of a bar.
   drawShares(pen, agents, { x, y }, r) {
     const shares = new Map();
     for (const { program } of agents)
       shares.set(program, (shares.get(program) || 0) + 1);
-    if (r < 5 || shares.size === 1) {
-      const [most] = [...shares].reduce((a, b) => (b[1] > a[1] ? b : a));
-      pen.fillStyle = this.palette.of(most);
-      pen.beginPath();
-      pen.arc(x, y, r * 0.8, 0, 2 * Math.PI);
-      pen.fill();
-      return;
-    }
-    let from = -Math.PI / 2;
-    for (const [program, n] of shares) {
-      const to = from + 2 * Math.PI * n / agents.length;
+    const wide = r * 1.3, high = r * 1.1;
+    let left = x - wide / 2;
+    for (const program of [...shares.keys()].sort()) {
+      const part = wide * shares.get(program) / agents.length;
       pen.fillStyle = this.palette.of(program);
-      pen.beginPath();
-      pen.moveTo(x, y);
-      pen.arc(x, y, r * 0.85, from, to);
-      pen.closePath();
-      pen.fill();
-      from = to;
+      pen.fillRect(left, y - high / 2, part, high);
+      left += part;
     }
   }
 
@@ -438,13 +431,14 @@ export class Scene {
     const r = Math.max(1.6, Math.min(8, this.k * 0.085));
     for (const [program, points] of byProgram) {
       pen.fillStyle = this.palette.of(program);
-      this.marks(pen, this.palette.shape(program), points, r);
+      if (moving.size > PLAIN) this.squares(pen, points, Math.min(r, 2.5));
+      else this.marks(pen, this.palette.shape(program), points, r);
     }
   }
 
   marks(pen, shape, points, r) {
     if (r < 2.6) {
-      for (const { x, y } of points) pen.fillRect(x - r, y - r, 2 * r, 2 * r);
+      this.squares(pen, points, r);
       return;
     }
     pen.beginPath();
@@ -453,6 +447,10 @@ export class Scene {
     pen.strokeStyle = this.palette.bg;
     pen.lineWidth = 1;
     pen.stroke();
+  }
+
+  squares(pen, points, r) {
+    for (const { x, y } of points) pen.fillRect(x - r, y - r, 2 * r, 2 * r);
   }
 
   // Too many marks: links as wide as much goes along them.
@@ -513,6 +511,8 @@ export class Scene {
     pen.textAlign = 'left';
     pen.textBaseline = 'bottom';
     pen.lineWidth = 3;
+    pen.strokeStyle = this.palette.bg;
+    pen.strokeText(cut(agent.name, 30), at.x + 12, at.y - 8);
     pen.fillStyle = this.palette.text;
     pen.fillText(cut(agent.name, 30), at.x + 12, at.y - 8);
   }

@@ -54,7 +54,8 @@ export function showReplay(parent, log) {
 // On the page: choose a log of this machine; the server, which can read it,
 // makes a replay of it.
 export function mount(parent, store, app) {
-  const said = element('p', { role: 'status' });
+  const said = element('span', { role: 'status' },
+    'A log of a network; log(File, [hops, messages, links, hosts]) tells most.');
   const opened = element('div', { class: 'replay-opened' });
   const open = async file => {
     said.textContent = `Reading ${file.name} …`;

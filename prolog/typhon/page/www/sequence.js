@@ -113,11 +113,11 @@ class Sequence {
       for (const hop of told.hops)
         if (column.has(hop.agent)) rows.push({ time: hop.to, order: 2, hop });
     rows.sort((a, b) => a.time - b.time || a.order - b.order);
-    return { agents, column, rows: joined(rows).slice(-ROWS) };
+    return { agents, column, rows: joined(telling(rows)).slice(-ROWS) };
   }
 
   draw() {
-    if (!this.width || !this.palette) return;
+    if (!this.stage.clientWidth || !this.palette) return;
     const chart = this.chart(), height = this.heightOf(chart);
     const follow = this.stage.scrollTop + this.stage.clientHeight
       >= this.stage.scrollHeight - 4;
@@ -237,6 +237,25 @@ class Sequence {
     const chart = this.chart(), wide = this.wide(chart), height = this.heightOf(chart);
     return pngBlob(wide, height, pen => this.drawAll(pen, chart, wide, height));
   }
+}
+
+// Of moves only those after which an agent sends or takes something: they say
+// where that is.
+function telling(rows) {
+  const kept = [], last = new Map();    // agent -> row of its last move
+  const flush = agent => {
+    if (last.has(agent)) kept.push(last.get(agent));
+    last.delete(agent);
+  };
+  for (const row of rows) {
+    if (row.hop) {
+      last.set(row.hop.agent, row);
+      continue;
+    }
+    flush(row.letter ? row.letter.sender : row.taken.receiver);
+    kept.push(row);
+  }
+  return kept.sort((a, b) => a.time - b.time || a.order - b.order);
 }
 
 // A message that is taken before anything else happens needs one row.

@@ -127,12 +127,11 @@ class SpaceTime {
     const hosts = new Set();
     for (const { host } of told.stays) hosts.add(host);
     for (const { a, b } of told.hops) hosts.add(a).add(b);
-    const process = id => this.store.hosts.get(id)?.process || '';
-    return [...hosts].sort((a, b) => byName(process(a), process(b)) || byName(a, b));
+    return [...hosts].sort(byName);
   }
 
   draw() {
-    if (!this.width || !this.height || !this.palette) return;
+    if (!this.stage.clientWidth || !this.palette) return;
     const sight = this.sight();
     this.empty.hidden = Boolean(sight);
     this.legend.update();
