@@ -23,11 +23,6 @@ layer has a door, and behind it a folder with its rooms.
             ]).
 :- reexport('typhon/lifecycle', except([agent_glance/2, status_shown/2])).
 :- reexport('typhon/network').
-<<<<<<< HEAD
 :- reexport(typhon/people, [agents/0, hosts/0]).
 :- reexport(typhon/page, [page_start/1, page_stop/0]).
-=======
-:- reexport(typhon/watching, [watch/3, unwatch/1]).
-:- reexport('typhon/people').
->>>>>>> feed
 :- use_module(typhon/language, []).

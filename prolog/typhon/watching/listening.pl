@@ -9,11 +9,7 @@
 :- use_module('../base/output', [output_own/0]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
-<<<<<<< HEAD
-:- use_module(places,
-=======
 :- use_module(watch_places,
->>>>>>> feed
               [ place_answered/4, place_at/4, place_begin/3, place_cut/3,
                 place_due/3, place_started/4, place_stopped/2,
                 places_forget/1 ]).
@@ -22,11 +18,7 @@
 
 The thread of a watch calls what is to be called for each event, and sees to
 it that the places from which they come are asked again when they were cut
-<<<<<<< HEAD
-off, see room `places`.
-=======
 off, see room `watch_places`.
->>>>>>> feed
 
 *Threading*: one thread for each watch.  The hooks of the endpoint put into its
 queue what it is to hear.

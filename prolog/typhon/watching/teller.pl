@@ -77,10 +77,7 @@ gather(To) :-
 heard(some, _, Next) :-
     call(Next).
 heard(now(check), To, Next) :-
-<<<<<<< HEAD
-=======
     !,
->>>>>>> feed
     (   is_there(To)
     ->  call(Next)
     ;   true
@@ -122,12 +119,8 @@ pour_out(To) :-
     ).
 
 %   send(+To) is semidet: the next batch is in the hands of who watches.
-<<<<<<< HEAD
-%   What is too long for a frame is halved, and a single event skipped.
-=======
 %   What is too long for a frame, or cannot travel, is halved, and a single
 %   event skipped.
->>>>>>> feed
 
 send(To) :-
     To = to(_, _, _, Basin),
@@ -141,14 +134,6 @@ hand_over(Events, To) :-
     To = to(Peer, Id, Bell, _),
     catch(( give(Peer, Id, Events, Bell),
             Given = true ),
-<<<<<<< HEAD
-          error(resource_error(_), _),
-          Given = false),
-    (   Given == true
-    ->  await(To, answer(more))
-    ;   hand_over_parts(Events, To)
-    ).
-=======
           error(Formal, _),
           Given = Formal),
     handed_over(Given, Events, To).
@@ -161,7 +146,6 @@ handed_over(type_error(_, _), Events, To) =>
     hand_over_parts(Events, To).
 handed_over(_, _, _) =>                 % there is no endpoint any more
     fail.
->>>>>>> feed
 
 hand_over_parts([event(Time, Host, _, _)], To) :-
     !,
