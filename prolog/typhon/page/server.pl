@@ -28,7 +28,7 @@
               [overlays_shown/1, overlays_start/1, overlays_stop/0]).
 :- use_module(protocol, [error_text/2]).
 :- use_module(said, [on_console/1]).
-:- use_module(sources, [sources_start/1, sources_stop/0]).
+:- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
 :- use_module(times, [times_start/0, times_stop/0]).
 
 /** <module> The server of the page
@@ -163,8 +163,9 @@ route([feed], _, Request) =>
     http_spawn(http_upgrade_to_websocket(feed, [guarded(false)], Request), []).
 route([ask], _, Request) =>
     answer(Request).
-route([metrics], _, Request) =>
-    refuse(404, Request).
+route([metrics], _, _) =>
+    on_console(sources_metrics(Text)),
+    text_reply('text/plain; version=0.0.4', Text).
 route(Names, _, Request) =>
     (   memberchk(method(Method), Request),
         memberchk(Method, [get, head]),

@@ -1,7 +1,8 @@
 :- module(typhon_page_sources,
           [ sources_start/1,            % +Options
             sources_stop/0,
-            sources_look/1              % -Scene
+            sources_look/1,             % -Scene
+            sources_metrics/1           % -Text
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
@@ -13,7 +14,7 @@
               [ address_parts/3, host_property/2, runtime_acquire/2,
                 runtime_release/1 ]).
 :- use_module('../people', [survey/4, survey_agents/2, survey_hosts/4]).
-:- use_module('../watching', [unwatch/1, watch/3]).
+:- use_module('../watching', [metrics/2, unwatch/1, watch/3]).
 :- use_module(browsers, [browsers_tell/1, browsers_there/0]).
 :- use_module(times, [times_of/1]).
 
@@ -84,6 +85,16 @@ sources_look(scene(Hosts, Agents)) :-
     renew,
     look(1 000 000, Seen, Hosts),
     survey_agents(Seen, Agents).
+
+%!  sources_metrics(-Text:string) is det.
+%
+%   All that the page shows in numbers, see metrics/2.
+
+sources_metrics(Text) :-
+    look(0, _, Hosts),
+    findall(Address, member(host(Address, running, _, _, _, _, _, _), Hosts),
+            Addresses),
+    metrics(Addresses, Text).
 
                 /*******************************
                 *             FIND             *

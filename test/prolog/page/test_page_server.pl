@@ -8,7 +8,8 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(plunit)).
-:- use_module(library(process), [process_kill/2]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(typhon)).
 
 hosts([alpha-[], beta-[]]).
@@ -244,6 +245,27 @@ test(programs) :-
     page(Base, answer(Base, _{ask:"programs"}, Names)),
     assertion(memberchk("agents(sync/traveller)", Names)),
     assertion(\+ ( member(Name, Names), sub_string(Name, _, _, _, operator) )).
+
+test(metrics, Said == "") :-
+    page(Base, ( create([on_message(_, _)], _, [host(alpha)]),
+                 atom_concat(Base, metrics, Address),
+                 http_client:http_get(Address, Text, [to(string)]) )),
+    assertion(sub_string(Text, _, _, _,
+                         "state=\"resident\"} 1")),
+    (   absolute_file_name(path(promtool), _,
+                           [access(execute), file_errors(fail)])
+    ->  checked_by_promtool(Text, Said)
+    ;   Said = ""
+    ).
+
+checked_by_promtool(Text, Said) :-
+    setup_call_cleanup(
+        process_create(path(promtool), [check, metrics],
+                       [ stdin(pipe(In)), stdout(pipe(Out)),
+                         stderr(std), process(Pid) ]),
+        ( format(In, '~s', [Text]), close(In), read_string(Out, _, Said) ),
+        close(Out)),
+    process_wait(Pid, exit(0)).
 
 :- end_tests(page_questions).
 
