@@ -130,11 +130,18 @@ uncommented(Line0, Line) :-
     ).
 
 heads_and_text(Lines, Heads, About) :-
-    heads(Lines, Text, "", All),
+    heads(Lines, Text0, "", All),
+    maplist(without_margin, Text0, Text),
     atomic_list_concat(Text, '\n', About0),
     split_string(About0, "", " \n", [About]),
     split_string(All, ".", " ", Heads0),
     findall(Head, ( member(Head, Heads0), Head \== "" ), Heads).
+
+without_margin(Line0, Line) :-
+    (   string_concat("   ", Line, Line0)
+    ->  true
+    ;   Line = Line0
+    ).
 
 heads([Line|Lines], Text, All0, All) :-
     split_string(Line, "", " ", [Words]),

@@ -141,16 +141,11 @@ play :-
     forall(clause(scene(Name), Body), played(Name, Body)).
 
 played(Name, Body) :-
-    get_time(T0),
-    played1(Name, Body),
-    get_time(T1), T is T1-T0, format(user_error, '~w ~2f~n', [Name, T]).
-played1(Name, Body) :-
     catch(( Body -> Error = none ; Error = error(failed, _) ),
           error(Formal, Context), Error = error(Formal, Context)),
     (   Error == none
     ->  true
-    ;   shot(failed),
-        Error = error(What, Where),
+    ;   Error = error(What, Where),
         throw(error(scene(Name, What), Where))
     ).
 
@@ -333,7 +328,6 @@ scene(a_network_is_built_and_ended) :-
     fill("Shape", "ring"),
     fill("Hosts", "5"),
     fill("Links come and go", "toggle(uniform(0.2,0.4),0.5,0.5)"),
-    shot(network),
     click("dialog button[type=submit]"),
     see("return !document.querySelector('dialog')"),
     see("return typhon.store.hosts.size >= 65"),
@@ -360,7 +354,6 @@ scene(a_mechanism_is_started) :-
     fill("Sequence", "line"),
     fill("Tasks", "[drill-sleep(1), paint-sleep(1)]"),
     fill("Options", "[agents(4)]"),
-    shot(mechanism),
     click("dialog button[type=submit]"),
     see("return !document.querySelector('dialog')"),
     see("return [...typhon.store.agents.values()].filter(a => \c
@@ -373,9 +366,7 @@ scene(everybody_can_use_it) :-
                                 space-light, sequence-light, replay-dark ]),
            ( browser_theme(Browser, Theme),
              view(View),
-             accessible,
-             atomic_list_concat([View, -, Theme], Name),
-             shot(Name) )),
+             accessible )),
     browser_theme(Browser, dark),
     view(hosts),
     browser_run(Browser, "typhon.app.select({host: args[0]})", [Host], _),
@@ -399,11 +390,9 @@ scene(narrow) :-
              assertion(Width =< 400) )),
     accessible,
     view(map),
-    shot('narrow-map'),
     view(agents),
     click("#table-agent .row[id]"),
     reads("#details dd", "n"),
-    shot(narrow),
     click("button.close"),
     browser_size(Browser, 1600, 1000).
 
@@ -415,9 +404,7 @@ scene(a_process_is_killed) :-
                      h.state === 'lost').length === 15"),
                 view(hosts),
                 reads("#table-host .row.over", "lost"),
-                reads("#state", "15 lost"),
-                view(map),
-                shot(lost) ), _).
+                reads("#state", "15 lost") ), _).
 
 scene(no_complaints) :-
     at(Browser, _, _),

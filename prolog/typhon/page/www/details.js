@@ -176,7 +176,7 @@ class Details {
     this.define([['Process', told.process], ['Agents', told.capacity === 'inf'
       ? told.load : `${told.load} of ${told.capacity}`],
       ...told.hop_times.map(([way, n, min, mean, max]) => [`Hops ${way}`,
-        `${n.toLocaleString('en')}; ${[min, mean, max].map(ms).join(' / ')} ms`])]);
+        `${n.toLocaleString('en')}, in ${ms(mean)} ms (${ms(min)} to ${ms(max)})`])]);
     const links = told.links.map(id => [id, known?.links.get(id) ?? 1]);
     this.section('Neighbours', links, rows => element('ul', { class: 'plain' },
       ...rows.map(([id, cost]) => element('li', {}, this.hostLink(id),

@@ -152,7 +152,7 @@ function stateLine(app) {
     $('state').textContent = [STATES[app.state] + (app.why ? `: ${app.why}` : ''),
       app.readOnly ? 'only to look at' : null, count(there, 'host'),
       lost ? `${lost} lost` : null,
-      count(running, 'agent'), rate >= 0.5 ? `${Math.round(rate)} hops/s` : null,
+      count(running, 'agent'), rate >= 0.5 ? `${count(Math.round(rate), 'hop')}/s` : null,
       counts.skipped ? `${counts.skipped} events skipped` : null]
       .filter(Boolean).join(' · ');
   };
@@ -181,18 +181,35 @@ function connect(app) {
       if (snapshot.read_only !== undefined) setReadOnly(app, snapshot.read_only);
       app.more = new Map(snapshot.agents.map(agent => [agent.id, agent]));
       store.applySnapshot(snapshot);
+      forgetStopped(store, snapshot);
       app.tell('snapshot');
     },
     events(events) {
       store.applyEvents(events);
-      // who has missed something looks anew
       if (events.some(event => event[3] === 'skipped' || event[3] === 'started'))
-        resync ??= setTimeout(() => {
-          resync = null;
-          app.refresh().catch(() => {});
-        }, 1000);
+        lookAnew(1000);
+      else if (events.some(event => event[3] === 'stopped'))
+        lookAnew(10000);
     },
   });
+
+  // who has missed something looks anew
+  function lookAnew(wait) {
+    resync ??= setTimeout(() => {
+      resync = null;
+      app.refresh().catch(() => {});
+    }, wait);
+  }
+}
+
+// What was stopped on purpose is not shown for ever.
+function forgetStopped(store, snapshot) {
+  const there = new Set(snapshot.hosts.map(host => host.id));
+  for (const host of [...store.hosts.values()])
+    if (host.state === 'stopped' && !there.has(host.id)) {
+      store.hosts.delete(host.id);
+      store.shape++;
+    }
 }
 
 function setReadOnly(app, readOnly) {
