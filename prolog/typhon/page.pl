@@ -28,7 +28,6 @@ typhon_options:declared(page_option, read_only(X), boolean, X).
 typhon_options:declared(page_option, overlays(X), list, X).
 
 %!  page_start(+Options) is det.
-%!  page_serve(+Options, -Link:atom) is det.
 %!  page_stop is det.
 %
 %   Serve a page that shows the hosts of this process, of the networks that it
@@ -43,8 +42,7 @@ typhon_options:declared(page_option, overlays(X), list, X).
 %     - overlays(+Files): of agent programs, or studies, whose overlays are
 %       shown, beside those of the programs in agents/
 %
-%   page_stop/0 succeeds also where there is no page.  page_serve/2 prints
-%   nothing.
+%   page_stop/0 succeeds also where there is no page.
 %
 %   @error permission_error(start, page, Port) if there is one already, on Port
 %   @error domain_error(page_option, Option)
@@ -53,6 +51,10 @@ typhon_options:declared(page_option, overlays(X), list, X).
 page_start(Options) :-
     page_serve(Options, Link),
     print_message(informational, typhon(page(Link))).
+
+%!  page_serve(+Options, -Link:atom) is det.
+%
+%   The same; Link is not printed.
 
 page_serve(Options, Link) :-
     check_options(page_option, Options),

@@ -86,6 +86,10 @@ header('Cross-Origin-Opener-Policy', 'same-origin').
 header('Cross-Origin-Resource-Policy', 'same-origin').
 header('Cache-Control', 'no-store').
 
+%   A server that is stopped forgets connections that wait for more.
+
+header('Connection', close).
+
 policy('default-src \'none\'').
 policy('script-src \'self\'').
 policy('style-src \'self\'').

@@ -154,7 +154,8 @@ host_dict(host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
     address_parts(Address, _, Endpoint),
     machine(Endpoint, Machine),
     maplist(link_row, Neighbours, Costs, Links),
-    maplist(name_text, [Address, Endpoint, Machine, State],
+    state_shown(State, Shown),
+    maplist(name_text, [Address, Endpoint, Machine, Shown],
             [Id, Process, On, StateText]),
     Dict0 = _{id:Id, process:Process, machine:On, state:StateText,
               load:Load, arrived:Arrived, links:Links},
@@ -162,6 +163,10 @@ host_dict(host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
     ->  Dict = Dict0.put(capacity, Capacity)
     ;   Dict = Dict0
     ).
+
+state_shown(gone, lost) :- !.
+state_shown(silent, lost) :- !.
+state_shown(State, State).
 
 machine(Endpoint, Machine) :-
     (   sub_atom(Endpoint, Before, _, After, :),
