@@ -51,6 +51,12 @@ of its own.
 :- setting(workers, positive_integer, 8,
            "A page answers so many requests at a time").
 
+%   It bounds what a stranger can make a worker read before the first line of
+%   a request is seen.
+
+:- setting(stack_bytes, positive_integer, 128 000 000,
+           "A worker of a page needs no more stack than this").
+
 :- dynamic
     serving/3.                  % Port, Token, ReadOnly
 
@@ -89,6 +95,7 @@ start(Options, Link) :-
 
 listen(Interface, Port0, Port) :-
     setting(workers, Workers),
+    setting(stack_bytes, StackLimit),
     ( Port0 == 0 -> true ; Port = Port0 ),
     tcp_socket(Socket),
     catch(( tcp_setopt(Socket, reuseaddr),
@@ -100,7 +107,7 @@ listen(Interface, Port0, Port) :-
           ( tcp_close_socket(Socket), throw(Ball) )),
     http_server(typhon_page_server:serve,
                 [ port(Interface:Port), tcp_socket(Socket), workers(Workers),
-                  silent(true), timeout(20) ]).
+                  stack_limit(StackLimit), silent(true), timeout(20) ]).
 
 server_stop :-
     with_mutex(typhon_page_server, stop).

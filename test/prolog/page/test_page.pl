@@ -17,6 +17,7 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/page), [page_serve/2]).
 
 :- dynamic at/3.                        % Browser, Base, Network
 
@@ -421,10 +422,12 @@ scene(connection_lost) :-
     reads("#state", "connection lost"),
     reads("#notes", "connection is lost"),
     see("return typhon.store.hosts.size >= 60"),
-    page_start([port(Port)]),
-    retract(typhon_page_server:serving(Port, _, ReadOnly)),
-    assertz(typhon_page_server:serving(Port, Token, ReadOnly)),
-    reads("#state", "live").
+    page_serve([port(Port), read_only(true)], _),
+    retract(typhon_page_server:serving(Port, _, true)),
+    assertz(typhon_page_server:serving(Port, Token, true)),
+    reads("#state", "live"),
+    reads("#state", "only to look at"),
+    sees("return document.querySelector('#actions').childElementCount", 0).
 
 :- end_tests(page).
 

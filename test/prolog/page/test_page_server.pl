@@ -411,13 +411,15 @@ happenings(Feed) :-
 %   A host that comes is found, and one whose process is killed is told of.
 
 test(come_and_go) :-
-    page(Base, with_feed(Base, Feed,
-                         ( frame(Feed, _),
-                           network_start(ring(4), N, [processes(2)]),
-                           network_property(N, hosts(Hosts)),
-                           network_property(N, processes([Pid|_])),
-                           call_cleanup(come_and_go(Feed, Hosts, Pid),
-                                        listening(network_stop(N), _)) ))).
+    with_settings([typhon_page_sources:renew_seconds-0.3],
+        page(Base, with_feed(Base, Feed,
+                             ( frame(Feed, _),
+                               network_start(ring(4), N, [processes(2)]),
+                               network_property(N, hosts(Hosts)),
+                               network_property(N, processes([Pid|_])),
+                               call_cleanup(come_and_go(Feed, Hosts, Pid),
+                                            listening(network_stop(N), _))
+                             )))).
 
 come_and_go(Feed, [First|Hosts], Pid) :-
     last(Hosts, Last),
@@ -509,5 +511,26 @@ elsewhere(Out, Pid, Names) :-
                 told(Feed, [_, Text, "ended", "done"], _) )),
     process_kill(Pid, term),
     wait_for_end(Pid, 10, exit(0)).
+
+%   make demo-page: sixty hosts at work, until Ctrl-C.
+
+test(demo, Count-Status == 4-exit(0)) :-
+    project_file('app/demo_page.pl', Demo),
+    with_swipl([Demo, '--', '--port=0'], Pid, _, Out,
+               ( read_line_to_string(Out, Link),
+                 test_pages:link_base(Link, Base),
+                 wait_until(demo_at_work(Base, Count), 20),
+                 process_kill(Pid, int),
+                 wait_for_end(Pid, 20, Status) )).
+
+demo_at_work(Base, Count) :-
+    answer(Base, _{ask:"survey"}, Scene),
+    length(Scene.hosts, 60),
+    findall(P, ( member(H, Scene.hosts), get_dict(process, H, P) ), Ps),
+    sort(Ps, Processes),
+    length(Processes, Count),
+    findall(P, ( member(A, Scene.agents), get_dict(program, A, P) ), Programs),
+    memberchk("traveller", Programs),
+    memberchk("guard", Programs).
 
 :- end_tests(page_feed).
