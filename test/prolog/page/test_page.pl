@@ -404,7 +404,11 @@ scene(a_process_is_killed) :-
                 see("return [...typhon.store.hosts.values()].filter(h => \c
                      h.state === 'lost').length === 15"),
                 view(hosts),
+                sees("const field = document.querySelector('#panel-hosts input');
+                      field.value = 'lost';
+                      field.dispatchEvent(new Event('input'))", _),
                 reads("#table-host .row.over", "lost"),
+                reads("#panel-hosts [role=status]", "15 hosts"),
                 reads("#state", "15 lost") ), _).
 
 scene(no_complaints) :-
