@@ -59,10 +59,12 @@ browsers_start :-
     assertz(teller(Thread, Queue)).
 
 browsers_stop :-
-    in_own_thread(stop).
+    (   retract(teller(Thread, Queue))
+    ->  in_own_thread(stop(Thread, Queue))
+    ;   true
+    ).
 
-stop :-
-    retract(teller(Thread, Queue)),
+stop(Thread, Queue) :-
     thread_send_message(Queue, stop),
     thread_join(Thread),
     message_queue_destroy(Queue),

@@ -46,7 +46,7 @@ are served by workers of the HTTP server, each browser's events by a thread
 of its own.
 */
 
-:- setting(request_bytes, positive_integer, 1 000 000,
+:- setting(request_bytes, positive_integer, 4 000 000,
            "A page takes no larger request than this").
 :- setting(workers, positive_integer, 8,
            "A page answers so many requests at a time").
@@ -79,16 +79,18 @@ start(Options, Link) :-
     option(port(Port0), Options, 8080),
     option(read_only(ReadOnly), Options, false),
     token_new(Token),
+    catch(( prepare(Options), listen(Interface, Port0, Port) ), Ball,
+          ( put_away, throw(Ball) )),
+    assertz(serving(Port, Token, ReadOnly)),
+    format(atom(Link), 'http://~w:~d/?token=~w', [Interface, Port, Token]).
+
+prepare(Options) :-
     times_start,
     sources_start(Options),
     editor_start,
     option(overlays(Files), Options, []),
     overlays_start(Files),
-    browsers_start,
-    catch(listen(Interface, Port0, Port), Ball,
-          ( put_away, throw(Ball) )),
-    assertz(serving(Port, Token, ReadOnly)),
-    format(atom(Link), 'http://~w:~d/?token=~w', [Interface, Port, Token]).
+    browsers_start.
 
 %   Processes that are started later, of a network for one, must not have the
 %   socket: it would be in use as long as they are.

@@ -97,7 +97,7 @@ test(too_large, Status == 413) :-
                  atomic_list_concat([_, Port], :, Authority),
                  format(atom(Command),
                         'printf "POST /~w/ask HTTP/1.0\\r\\nContent-Length: \c
-                         2000000\\r\\nContent-Type: application/json\\r\\n\c
+                         5000000\\r\\nContent-Type: application/json\\r\\n\c
                          \\r\\n" >&3; head -1 <&3', [Token]),
                  format(atom(Bash), 'bash -c \'exec 3<>/dev/tcp/localhost/~w; \c
                                      ~w\'', [Port, Command]),
@@ -164,6 +164,9 @@ test(port_taken, error(socket_error(_, _))) :-
 
 test(nothing_is_left) :-
     no_leaks(page(Base, with_feed(Base, Feed, frame(Feed, _)))).
+
+test(no_such_host, error(host_unreachable(_))) :-
+    no_leaks(page_start([host('x@127.0.0.1:1'), port(0)])).
 
 test(stop_without_page) :-
     page_stop.
