@@ -14,6 +14,7 @@
 :- use_module(library(typhon/page), [page_export/3]).
 :- use_module(library(typhon/page/files), [page_file/3]).
 :- use_module('../../lib/browser').
+:- use_module('../../lib/pages').
 
 /*  A log is made, opened as one file in Chromium, and looked at as people do.
     All tests look at the same page, one after the other. */
@@ -313,6 +314,25 @@ test(nothing_to_complain_of, Texts == []) :-
     browser_complaints(Browser, Texts).
 
 :- end_tests(page_replay).
+
+:- begin_tests(page_asked).
+
+%   A browser sends the text of a log that it has.
+
+test(log_of_a_browser) :-
+    Event = event(1.5, 'a@h:1', 'bob.1@a@h:1', created),
+    format(string(Text), '~q.~n', [Event]),
+    with_page([], Base,
+              ask(Base, _{ask:replay, title:"x.log", text:Text}, Told)),
+    Replay = Told.answer,
+    assertion(Replay.title == "x.log"),
+    assertion(Replay.events = [[1.5|_]]),
+    assertion(member("bob.1@a@h:1", Replay.names)).
+test(no_text) :-
+    with_page([], Base, ask(Base, _{ask:replay, title:"x.log"}, Told)),
+    assertion(get_dict(error, Told, _)).
+
+:- end_tests(page_asked).
 
 :- begin_tests(page_export, [condition(tools_there)]).
 
