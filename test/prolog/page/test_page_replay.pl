@@ -240,6 +240,23 @@ test(slider_by_keyboard, Moved == true) :-
     browser_keys(Browser, [end]),
     look("return typhon.player.time", After),
     ( After > Time -> Moved = true ; Moved = false ).
+test(map_by_keyboard, Chosen == Named) :-
+    seek(0, _),
+    replayed(Browser, _, _),
+    look("typhon.show(0); typhon.app.select({}); \c
+          document.querySelector('.view-map canvas[tabindex]').focus()", _),
+    browser_keys(Browser, [right]),
+    look("return typhon.views[0].view.scene.focus", First),
+    assertion(sub_string(First, 0, _, _, "n1@")),
+    browser_keys(Browser, [right]),
+    look("return typhon.views[0].view.scene.focus", Second),
+    assertion(sub_string(Second, 0, _, _, "n2@")),
+    browser_keys(Browser, ["."]),
+    look("return typhon.app.chosen.agent", Chosen),
+    look("return [...typhon.store.agents.values()] \c
+              .find(agent => agent.name.startsWith('bob')).id", Named),
+    look("return document.querySelector('.view-said').textContent", Said),
+    assertion(sub_string(Said, _, _, _, "on n2")).
 test(views_as_svg) :-
     seek(1, _),
     forall(member(View, [0, 1, 2, 3]),
