@@ -18,7 +18,7 @@ An agent program, or the file of a study, declares it with facts
 
     overlay(Title, Kind, When, Value).
 
-When something happens that unifies with When, which is log(Term),
+When something happens that is an instance of When, which is log(Term),
 leave(Fact) or take(Fact), Value is shown on the host where it happened:
 
   - a number or another term: that; `none` ends what is shown
@@ -145,7 +145,9 @@ may_show(take(_)).
 
 overlay_row(Overlays, event(Time, Host, Agent, What),
             [Time, HostText, AgentText, Kind, Name, Where, Shown]) :-
-    member(overlay(Title, _, What, Value), Overlays),
+    member(overlay(Title, _, When, Value), Overlays),
+    subsumes_term(When, What),
+    When = What,
     value_at(Value, Host, Kind, Where, Shown),
     maplist(name_text, [Host, Agent, Title], [HostText, AgentText, Name]).
 
@@ -167,7 +169,8 @@ place_text((A,B), Where) :-
 place_text(Place, Where) :-
     name_text(Place, Where).
 
-value(none, "show", null) :- !.
-value(Number, "show", Number) :- number(Number), !.
-value(add(Number), "add", Number) :- number(Number), !.
-value(Term, "show", Text) :- text(Term, Text).
+value(Term, Kind, Text), var(Term) => Kind = "show", text(Term, Text).
+value(none, Kind, Value) => Kind = "show", Value = null.
+value(Number, Kind, Value), number(Number) => Kind = "show", Value = Number.
+value(add(Number), Kind, Value), number(Number) => Kind = "add", Value = Number.
+value(Term, Kind, Text) => Kind = "show", text(Term, Text).
