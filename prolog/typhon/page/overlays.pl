@@ -58,22 +58,24 @@ overlays_shown(Dicts) :-
 
 %!  overlays_declared(+Files, -Overlays:list) is det.
 %
-%   The facts overlay/4 in Files, and in all files below the folders of the
-%   search path `agents`; of each file for itself, not of what it includes.
-%   Terms that cannot be read are passed over.
+%   The facts overlay/4 in Files, and in all files below agents/; of each file
+%   for itself, not of what it includes.  Terms that cannot be read are passed
+%   over.
 %
 %   @error existence_error(source_sink, File)
 
 overlays_declared(Files, Overlays) :-
-    findall(File, agent_file(File), Found),
-    append(Files, Found, All),
+    findall(File, declaring(Files, File), Found),
+    sort(Found, All),
     maplist(overlays_in, All, Lists),
     append(Lists, Overlays).
 
-agent_file(File) :-
-    absolute_file_name(agents('.'), Folder,
-                       [ file_type(directory), access(read), solutions(all),
-                         file_errors(fail) ]),
+declaring(Files, File) :-
+    member(Given, Files),
+    absolute_file_name(Given, File).
+declaring(_, File) :-
+    module_property(typhon_page_overlays, file(Here)),
+    absolute_file_name('../../../agents', Folder, [relative_to(Here)]),
     directory_member(Folder, File, [extensions([pl]), recursive(true)]).
 
 overlays_in(File, Overlays) :-
