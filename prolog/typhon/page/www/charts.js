@@ -104,14 +104,13 @@ class Charts {
     const { stretches, width } = this.store.history, programs = new Set();
     for (const { populations } of stretches)
       for (const name of populations?.keys() || []) programs.add(name);
-    return { stretches: this.whole(stretches, width), width,
+    return { stretches: this.whole(stretches), width,
              programs: [...programs].sort(byName).slice(0, MANY) };
   }
 
-  // The last stretch of a live network is not over.
+  // The last stretch is not over, and has few of its hops.
   whole(stretches) {
-    return this.store.stamped || stretches.length < 3 ? stretches
-      : stretches.slice(0, -1);
+    return stretches.length < 3 ? stretches : stretches.slice(0, -1);
   }
 
   colour(palette, given) {
