@@ -18,7 +18,7 @@ An agent program, or the file of a study, declares it with facts
 
     overlay(Title, Kind, When, Value).
 
-When something happens that unifies with When, which is log(Term),
+When something happens that is an instance of When, which is log(Term),
 leave(Fact) or take(Fact), Value is shown on the host where it happened:
 
   - a number or another term: that; `none` ends what is shown
@@ -58,22 +58,24 @@ overlays_shown(Dicts) :-
 
 %!  overlays_declared(+Files, -Overlays:list) is det.
 %
-%   The facts overlay/4 in Files, and in all files below the folders of the
-%   search path `agents`; of each file for itself, not of what it includes.
-%   Terms that cannot be read are passed over.
+%   The facts overlay/4 in Files, and in all files below agents/; of each file
+%   for itself, not of what it includes.  Terms that cannot be read are passed
+%   over.
 %
 %   @error existence_error(source_sink, File)
 
 overlays_declared(Files, Overlays) :-
-    findall(File, agent_file(File), Found),
-    append(Files, Found, All),
+    findall(File, declaring(Files, File), Found),
+    sort(Found, All),
     maplist(overlays_in, All, Lists),
     append(Lists, Overlays).
 
-agent_file(File) :-
-    absolute_file_name(agents('.'), Folder,
-                       [ file_type(directory), access(read), solutions(all),
-                         file_errors(fail) ]),
+declaring(Files, File) :-
+    member(Given, Files),
+    absolute_file_name(Given, File).
+declaring(_, File) :-
+    module_property(typhon_page_overlays, file(Here)),
+    absolute_file_name('../../../agents', Folder, [relative_to(Here)]),
     directory_member(Folder, File, [extensions([pl]), recursive(true)]).
 
 overlays_in(File, Overlays) :-
@@ -145,7 +147,9 @@ may_show(take(_)).
 
 overlay_row(Overlays, event(Time, Host, Agent, What),
             [Time, HostText, AgentText, Kind, Name, Where, Shown]) :-
-    member(overlay(Title, _, What, Value), Overlays),
+    member(overlay(Title, _, When, Value), Overlays),
+    subsumes_term(When, What),
+    When = What,
     value_at(Value, Host, Kind, Where, Shown),
     maplist(name_text, [Host, Agent, Title], [HostText, AgentText, Name]).
 
@@ -167,7 +171,8 @@ place_text((A,B), Where) :-
 place_text(Place, Where) :-
     name_text(Place, Where).
 
-value(none, "show", null) :- !.
-value(Number, "show", Number) :- number(Number), !.
-value(add(Number), "add", Number) :- number(Number), !.
-value(Term, "show", Text) :- text(Term, Text).
+value(Term, Kind, Text), var(Term) => Kind = "show", text(Term, Text).
+value(none, Kind, Value) => Kind = "show", Value = null.
+value(Number, Kind, Value), number(Number) => Kind = "show", Value = Number.
+value(add(Number), Kind, Value), number(Number) => Kind = "add", Value = Number.
+value(Term, Kind, Text) => Kind = "show", text(Term, Text).

@@ -14,6 +14,7 @@
 :- use_module(library(typhon/page), [page_export/3]).
 :- use_module(library(typhon/page/files), [page_file/3]).
 :- use_module('../../lib/browser').
+:- use_module('../../lib/pages').
 
 /*  A log is made, opened as one file in Chromium, and looked at as people do.
     All tests look at the same page, one after the other. */
@@ -239,6 +240,23 @@ test(slider_by_keyboard, Moved == true) :-
     browser_keys(Browser, [end]),
     look("return typhon.player.time", After),
     ( After > Time -> Moved = true ; Moved = false ).
+test(map_by_keyboard, Chosen == Named) :-
+    seek(0, _),
+    replayed(Browser, _, _),
+    look("typhon.show(0); typhon.app.select({}); \c
+          document.querySelector('.view-map canvas[tabindex]').focus()", _),
+    browser_keys(Browser, [right]),
+    look("return typhon.views[0].view.scene.focus", First),
+    assertion(sub_string(First, 0, _, _, "n1@")),
+    browser_keys(Browser, [right]),
+    look("return typhon.views[0].view.scene.focus", Second),
+    assertion(sub_string(Second, 0, _, _, "n2@")),
+    browser_keys(Browser, ["."]),
+    look("return typhon.app.chosen.agent", Chosen),
+    look("return [...typhon.store.agents.values()] \c
+              .find(agent => agent.name.startsWith('bob')).id", Named),
+    look("return document.querySelector('.view-said').textContent", Said),
+    assertion(sub_string(Said, _, _, _, "on n2")).
 test(views_as_svg) :-
     seek(1, _),
     forall(member(View, [0, 1, 2, 3]),
@@ -313,6 +331,25 @@ test(nothing_to_complain_of, Texts == []) :-
     browser_complaints(Browser, Texts).
 
 :- end_tests(page_replay).
+
+:- begin_tests(page_asked).
+
+%   A browser sends the text of a log that it has.
+
+test(log_of_a_browser) :-
+    Event = event(1.5, 'a@h:1', 'bob.1@a@h:1', created),
+    format(string(Text), '~q.~n', [Event]),
+    with_page([], Base,
+              ask(Base, _{ask:replay, title:"x.log", text:Text}, Told)),
+    Replay = Told.answer,
+    assertion(Replay.title == "x.log"),
+    assertion(Replay.events = [[1.5|_]]),
+    assertion(member("bob.1@a@h:1", Replay.names)).
+test(no_text) :-
+    with_page([], Base, ask(Base, _{ask:replay, title:"x.log"}, Told)),
+    assertion(get_dict(error, Told, _)).
+
+:- end_tests(page_asked).
 
 :- begin_tests(page_export, [condition(tools_there)]).
 

@@ -1,7 +1,7 @@
 // Time: hops and messages per second, agents by program, load, hop times.
 // uPlot draws; what it draws on is a canvas, or a pen that makes SVG.
 
-import { element } from './dom.js';
+import { calmly, element } from './dom.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { pngBlob, saveButtons } from './saving.js';
 import { byName } from './store.js';
@@ -64,7 +64,8 @@ class Charts {
     this.plots = PLOTS.map(plot => this.add(plot));
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.body);
-    this.ends = [store.on('change', () => this.later()),
+    const later = calmly(store.stamped ? 60 : CALM, () => this.draw());
+    this.ends = [store.on('change', later), later.stop,
       onTheme(() => { this.palette.refresh(); this.rebuild(); }),
       () => this.observer.disconnect()];
     this.draw();
@@ -72,7 +73,6 @@ class Charts {
 
   destroy() {
     this.ends.forEach(end => end());
-    clearTimeout(this.waiting);
     this.element.remove();
   }
 
@@ -81,12 +81,6 @@ class Charts {
       element('h3', {}, plot.title));
     this.body.append(place);
     return { plot, place, drawn: null, names: '' };
-  }
-
-  later() {
-    if (this.waiting) return;
-    this.waiting = setTimeout(() => { this.waiting = 0; this.draw(); },
-      this.store.stamped ? 60 : CALM);
   }
 
   rebuild() {
@@ -110,14 +104,13 @@ class Charts {
     const { stretches, width } = this.store.history, programs = new Set();
     for (const { populations } of stretches)
       for (const name of populations?.keys() || []) programs.add(name);
-    return { stretches: this.whole(stretches, width), width,
+    return { stretches: this.whole(stretches), width,
              programs: [...programs].sort(byName).slice(0, MANY) };
   }
 
-  // The last stretch of a live network is not over.
+  // The last stretch is not over, and has few of its hops.
   whole(stretches) {
-    return this.store.stamped || stretches.length < 3 ? stretches
-      : stretches.slice(0, -1);
+    return stretches.length < 3 ? stretches : stretches.slice(0, -1);
   }
 
   colour(palette, given) {

@@ -52,3 +52,19 @@ export function fitCanvas(canvas, width, height) {
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   return pen;
 }
+
+// f is called some time after it is asked for: the longer it takes, the later.
+export function calmly(rest, f) {
+  let waiting = 0, took = 0;
+  const later = () => {
+    if (waiting) return;
+    waiting = setTimeout(() => {
+      waiting = 0;
+      const start = performance.now();
+      f();
+      took = performance.now() - start;
+    }, Math.max(rest, 4 * took));
+  };
+  later.stop = () => clearTimeout(waiting);
+  return later;
+}

@@ -43,7 +43,7 @@ class MapView {
     this.scene = new Scene(store, this.palette, this.places);
     this.ends = [
       store.on('change', () => this.changed()),
-      onTheme(() => { this.palette.refresh(); this.redraw(); }),
+      onTheme(() => { this.palette.refresh(); this.legend.update(); this.redraw(); }),
       onSize(this.stage, (w, h) => this.resize(w, h)),
     ];
     app.on?.('select', chosen => this.chosen(chosen));
@@ -428,7 +428,7 @@ class MapView {
       const at = this.scene.at(id);
       if (!at || id === this.scene.focus) continue;
       const x = at.x - (from ? from.x : 0), y = at.y - (from ? from.y : 0);
-      const ahead = from ? x * dx + y * dy : 1;
+      const ahead = from ? x * dx + y * dy : Infinity;
       if (ahead <= 1) continue;
       const cost = from ? ahead + 2.5 * Math.abs(x * dy - y * dx) : Math.hypot(x, y);
       if (cost < least) [nearest, least] = [id, cost];

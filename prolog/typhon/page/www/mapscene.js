@@ -8,7 +8,7 @@ const DENSE = 2500;             // moving marks, above which links show flows
 const PLAIN = 400;              // ... above which they are plain squares
 const CROWD = 3000;             // agents, above which hosts show shares
 const FONT = 'system-ui, sans-serif';
-const NEAR = 1.5;
+const NEAR = 1.2;               // units, for hosts on common ground
 const BADGE = 8;                // seconds for which a fault flashes
 
 export class Scene {
@@ -145,7 +145,7 @@ export class Scene {
     }
     if (groups.size < 2) return;
     pen.lineCap = 'round';
-    pen.lineWidth = this.k * 0.86;
+    pen.lineWidth = this.k;
     let i = 0;
     const labels = this.k > 50 && groups.size <= 24;
     for (const [name, hosts] of groups) {
@@ -163,7 +163,7 @@ export class Scene {
     return this.palette.dark ? `hsl(${hue},22%,17%)` : `hsl(${hue},48%,93%)`;
   }
 
-  // A line from each host to those at most one and a half units away.
+  // A line as wide as a unit, from each host to those that are near.
   ground(pen, hosts) {
     const cells = new Map();    // squares of that size -> places of hosts
     const cell = (x, y) => `${Math.floor(x / NEAR)} ${Math.floor(y / NEAR)}`;
@@ -197,7 +197,7 @@ export class Scene {
     pen.textAlign = 'left';
     pen.textBaseline = 'bottom';
     pen.fillStyle = this.palette.muted;
-    pen.fillText(name, top.x - this.k * 0.4, top.y - this.k * 0.45);
+    pen.fillText(name, top.x - this.k * 0.4, top.y - this.k * 0.36);
   }
 
   drawLinks(pen) {

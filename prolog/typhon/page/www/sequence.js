@@ -1,6 +1,6 @@
 // Messages between chosen agents, one below the other in the order of time.
 
-import { button, element, fitCanvas, onSize } from './dom.js';
+import { button, calmly, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { pngBlob, saveButtons } from './saving.js';
@@ -28,8 +28,9 @@ class Sequence {
     this.moves = true;
     this.build(parent);
     this.palette = new Palette(store, this.element);
+    const later = calmly(CALM, () => this.draw());
     this.ends = [
-      store.on('change', () => this.later()),
+      store.on('change', later), later.stop,
       onTheme(() => { this.palette.refresh(); this.draw(); }),
       onSize(this.stage, width => { this.width = width; this.draw(); }),
     ];
@@ -37,7 +38,6 @@ class Sequence {
 
   destroy() {
     this.ends.forEach(end => end());
-    clearTimeout(this.waiting);
     this.element.remove();
   }
 
@@ -89,11 +89,6 @@ class Sequence {
         () => this.choose(this.chosen.filter(other => other !== id)),
         { 'aria-label': `Without ${shortName(id)}` })));
     this.draw();
-  }
-
-  later() {
-    if (this.waiting) return;
-    this.waiting = setTimeout(() => { this.waiting = 0; this.draw(); }, CALM);
   }
 
   // --------------------------------------------------------------- chart

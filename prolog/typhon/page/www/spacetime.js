@@ -1,7 +1,7 @@
 // Space and time: each host a row, each agent a line, level while it stays
 // and steep while it hops; messages as thin arrows.
 
-import { element, button, choice, fitCanvas, onSize } from './dom.js';
+import { button, calmly, choice, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { pngBlob, saveButtons } from './saving.js';
@@ -29,8 +29,10 @@ class SpaceTime {
     this.hidden = new Set();
     this.build(parent);
     this.palette = new Palette(store, this.element);
+    const later = calmly(store.stamped ? 30 : CALM, () => this.draw());
     this.ends = [
-      store.on('change', () => this.later()),
+      store.on('change', () => { if (!this.held) later(); }),
+      later.stop,
       onTheme(() => { this.palette.refresh(); this.draw(); }),
       onSize(this.stage, (w, h) => {
         [this.width, this.height] = [w, h];
@@ -54,7 +56,6 @@ class SpaceTime {
 
   destroy() {
     this.ends.forEach(end => end());
-    clearTimeout(this.waiting);
     this.element.remove();
   }
 
@@ -92,12 +93,6 @@ class SpaceTime {
     this.heldAt = this.store.time;
     this.pauseButton.setAttribute('aria-pressed', String(Boolean(this.held)));
     this.draw();
-  }
-
-  later() {
-    if (this.waiting || this.held) return;
-    this.waiting = setTimeout(() => { this.waiting = 0; this.draw(); },
-      this.store.stamped ? 30 : CALM);
   }
 
   scrollBy(pixels) {

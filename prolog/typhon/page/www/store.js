@@ -10,7 +10,8 @@ import { History } from './history.js';
 
 const TRAIL = 64;               // hosts that are remembered of an agent
 const ENDED = 2000;             // agents that are over and still shown
-const RECENT = 60000;           // events that views can look back at
+const RECENT = 60000;           // events that views can look back at; in a replay
+const LOGGED = 500000;          // more, which are there anyway
 const LINES = 200;              // of the log of a host
 const MINIMUM = 0.3;            // seconds for which the mark of a hop is seen
 
@@ -166,7 +167,8 @@ export class Store {
     }
     this.recent.push(list);
     this.recentCount += list.length;
-    while (this.recentCount > RECENT && this.recent.length > 1)
+    const most = this.stamped ? LOGGED : RECENT;
+    while (this.recentCount > most && this.recent.length > 1)
       this.recentCount -= this.recent.shift().length;
     this.population();
     this.tell('events', list);

@@ -4,7 +4,6 @@
 const number = n => String(Math.round(n * 100) / 100);
 const escaped = text => String(text).replace(/[&<>"']/g,
   c => `&#${c.charCodeAt(0)};`)
-  // eslint-disable-next-line no-control-regex
   .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, '\ufffd');
 
 // The commands of a path, as both the pen and Path2D have them.
@@ -30,7 +29,7 @@ export class SvgPath {
     const at = angle => `${number(x + r * Math.cos(angle))} ${
       number(y + r * Math.sin(angle))}`;
     const large = !whole && to - from > Math.PI ? 1 : 0;
-    this.d.push(`${this.d.length && !this.fresh ? 'L' : 'M'}${at(from)}`);
+    this.d.push(`${this.d.length ? 'L' : 'M'}${at(from)}`);
     this.d.push(`A${number(r)} ${number(r)} 0 ${large} 1 ${at(end)}`);
     if (whole) this.d.push(`A${number(r)} ${number(r)} 0 0 1 ${at(from)}z`);
   }
