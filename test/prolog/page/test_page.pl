@@ -167,7 +167,7 @@ scene(an_agent_is_created_here) :-
     fill("Name", "ann"),
     sees("document.querySelector('.code textarea').select()", _),
     keys([Text]),
-    reads(".advice", "line 2"),
+    reads(".advice", "line 3"),
     reads(".advice .error", "forall"),
     shot('new-agent'),
     corrected(Right),
@@ -183,8 +183,7 @@ scene(it_is_seen_travelling) :-
     see("return [...typhon.store.agents.values()].some(a => \c
          a.name.startsWith('ann') && a.hops >= 3)"),
     see("return [...typhon.store.agents.values()].some(a => \c
-         a.name.startsWith('ann') && a.hop)"),
-    shot(map).
+         a.name.startsWith('ann') && a.hop)").
 
 scene(it_is_opened) :-
     view(agents),
@@ -358,7 +357,11 @@ scene(a_mechanism_is_started) :-
     click("dialog button[type=submit]"),
     see("return !document.querySelector('dialog')"),
     see("return [...typhon.store.agents.values()].filter(a => \c
-         a.name.startsWith('traveller')).length === 4").
+         a.name.startsWith('traveller')).length === 4"),
+    view(map),
+    see("return document.querySelector('#details').hidden && \c
+         typhon.store.counts.arrived > 20"),
+    shot(map).
 
 scene(everybody_can_use_it) :-
     at(Browser, _, _),
@@ -444,8 +447,10 @@ page_address(Port, Token) :-
     typhon_page_server:serving(Port, Token, _).
 
 program(":- agent(ann, [state([seen/1])]).\n\c
-         main :- neighbours(Hosts),\n\c
-         forall(member(Host, Hosts), move(Host)).\n").
+         \n\c
+         main :-\n\c
+         \s   neighbours(Hosts),\n\c
+         \s   forall(member(Host, Hosts), move(Host)).\n").
 
 corrected(":- agent(ann, [state([seen/1])]).\n\c
            main :- ( receive(_-stop, 0.3) -> receive(_-never) ; go, main ).\n\c
