@@ -361,6 +361,7 @@ scene(a_mechanism_is_started) :-
     view(map),
     see("return document.querySelector('#details').hidden && \c
          typhon.store.counts.arrived > 20"),
+    sees("document.querySelector('#notes').replaceChildren()", _),
     shot(map).
 
 scene(everybody_can_use_it) :-

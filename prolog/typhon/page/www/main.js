@@ -61,7 +61,7 @@ class App {
     const notes = $('notes');
     notes.append(note);
     while (notes.children.length > 5) notes.firstChild.remove();
-    if (kind !== 'error') setTimeout(() => note.remove(), 6000);
+    if (kind !== 'error') setTimeout(() => note.remove(), 4000);
   }
 
   // An order; what came of it, or nothing when it failed, which is told.

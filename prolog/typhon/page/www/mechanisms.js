@@ -27,8 +27,8 @@ export async function mechanismDialog(app) {
     const values = inputs.map(input => input.value());
     await order(app, { do: 'mechanism', mechanism, predicate: name,
       arguments: takes.map(([sign]) => sign === '-' ? '' : values.shift()) },
-    results => [`${name} is done`, ...results.map(text => text.length > 200
-      ? `${text.slice(0, 200)}…` : text)].join(': '));
+    results => [`${name} is done`, ...results.map(text => text.length > 90
+      ? `${text.slice(0, 90)}…` : text)].join(': '));
   }, true);
 }
 
