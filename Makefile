@@ -109,8 +109,9 @@ tools-peers:            ## install what `make bench-peers` compares with
 	@.ci/install peers
 	@bench/peers/jade --get >/dev/null
 
-tools-all:              ## install all that .ci/packages lists
+tools-all:              ## install all that .ci/packages lists, and JADE
 	@.ci/install all
+	@bench/peers/jade --get >/dev/null
 
 install:
 	@:

@@ -27,6 +27,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module('../prolog/typhon/page', [page_export/3, page_serve/2]).
 :- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
+:- use_module(diagnose_fipa, [diagnose_fipa/1]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
@@ -275,6 +276,8 @@ run(diagnose, [Address], _) :-
 run(diagnose, [Kind, Port], _) :-
     (   Kind == nxt
     ->  diagnose_nxt(Port)
+    ;   Kind == fipa
+    ->  diagnose_fipa(Port)
     ;   throw(error(typhon_usage(arguments(diagnose)), _))
     ).
 

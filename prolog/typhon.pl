@@ -21,7 +21,8 @@ layer has a door, and behind it a folder with its rooms.
             [ host_start/1, host_start/2, host_change/2, host_stop/1,
               host_property/2, link/2, link/3, unlink/2, remote/2
             ]).
-:- reexport('typhon/lifecycle', except([agent_glance/2, status_shown/2])).
+:- reexport('typhon/lifecycle',
+            except([agent_glance/2, agent_named/2, status_shown/2])).
 :- reexport('typhon/network').
 :- reexport(typhon/people, [agents/0, hosts/0]).
 :- reexport(typhon/page, [page_start/1, page_stop/0]).

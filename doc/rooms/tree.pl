@@ -176,7 +176,7 @@ reach(Part, Module, Name/Arity) :-
 %   From below: who stands higher imports from who stands lower.
 
 layers([ base, program, wire, host, agent, travel, lifecycle, language,
-         network, watching, people, page ]).
+         network, watching, people, fipa, page ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.
 %!  door(?File, ?Layer) is nondet.

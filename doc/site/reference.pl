@@ -28,6 +28,7 @@ so this room is loaded before any other that loads library(typhon).
 :- doc_collect(true).
 :- use_module('../../prolog/typhon', []).
 :- use_module('../../prolog/typhon/nxt', []).
+:- use_module('../../prolog/typhon/fipa', []).
 :- doc_collect(false).
 
                 /*******************************
@@ -40,10 +41,12 @@ part(library, typhon).
 part(inside, typhon_words).
 part(inside, typhon_memory).
 part(robots, typhon_nxt).
+part(fipa, typhon_fipa).
 
 title(library, "At the top level and in programs: library(typhon)").
 title(inside, "Inside an agent").
 title(robots, "Robots: library(typhon/nxt)").
+title(fipa, "Platforms of FIPA: library(typhon/fipa)").
 title(others, "What these refer to").
 
 %   public(?Module, -PI): of the part Module.

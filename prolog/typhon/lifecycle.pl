@@ -18,6 +18,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('lifecycle/disposal').
 :- reexport('lifecycle/sending').
 :- reexport('lifecycle/listing').
+:- reexport(lifecycle/named, [agent_named/2]).
 :- reexport(lifecycle/tracing, [agent_trace/2, agent_notrace/1]).
 :- reexport(lifecycle/stepping, [agent_step/1]).
 :- reexport('lifecycle/join').

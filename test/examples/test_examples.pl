@@ -22,6 +22,8 @@ shows(clone,
       ]).
 shows(payload,
       [ 'The courier knows: 100 C are 212* F', 'On beta 20 C are 68* F' ]).
+shows(fipa,
+      [ 'inform for 7 euro' ]).
 shows(messages,
       [ '5, then 42' ]).
 shows(stigmergy,

@@ -177,7 +177,8 @@ free(Module, Program, Name/Arity) :-
     (   (   '$c_current_predicate'(_, Program:Head),
             \+ predicate_property(Program:Head, imported_from(_))
         ;   '$c_current_predicate'(_, Module:Head),
-            predicate_property(Module:Head, dynamic)
+            predicate_property(Module:Head, dynamic),
+            \+ predicate_property(Module:Head, imported_from(_))
         )
     ->  permission_error(attach, procedure, Name/Arity)
     ;   true

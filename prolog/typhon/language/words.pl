@@ -46,7 +46,7 @@
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
                 life_parent/2 ]).
-:- use_module('../travel', [post/3]).
+:- use_module('../travel', [post/3, post_abroad/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
 
@@ -132,10 +132,20 @@ host_load(Count) :-
 %   As agent_send/2; it is from this agent.  If Agent has ended the
 %   message is lost with a warning, not an error.  Who asks from outside is
 %   `user`, who has no mailbox: answers to him are printed.
+%
+%   A compound term, as fipa(Name, Addresses), is somebody beyond a bridge of
+%   this host, see post_abroad/4.
 
 send(at(Agent, _), Message) :-
+    \+ compound(Agent),
     !,
     send(Agent, Message).
+send(Somebody, Message) :-
+    compound(Somebody),
+    !,
+    context(Host, Id, _),
+    post_abroad(Host, Somebody, Id, Message),
+    event(messages, Host, Id, sent(Somebody, Message)).
 send(Agent, Message) :-
     Agent == user,
     !,

@@ -1,6 +1,7 @@
 :- module(typhon_lost,
           [ mail_lost/3                 % +Formal, +Id, +Mail
           ]).
+:- use_module(library(apply), [partition/4]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_post/3]).
@@ -13,19 +14,49 @@
 */
 
 :- multifile
+    returned/3,                 % From, Id, Message: whoever brought it knows
     error:has_type/2,
     typhon_endpoint:received/3.
+
+:- dynamic returned/3.
 
 %!  mail_lost(+Formal, +Id, +Mail) is det.
 %
 %   Said here and where it was sent.  That an agent has ended is nothing
-%   special.
+%   special.  What a bridge has brought from somebody who is no agent, as
+%   fipa(Name), is given back to that where it was sent.
 
-mail_lost(_, Id, _) :-
-    agent_outcome(Id, _),
-    !.
 mail_lost(Formal, Id, Mail) :-
-    report(Formal, Id, Mail),
+    partition(is_brought, Mail, Brought, Sent),
+    partition(was_sent_here, Brought, Here, Elsewhere),
+    give_back(Formal, Id, Here),
+    tell_origins(Formal, Id, Elsewhere),
+    (   ( Sent == [] ; agent_outcome(Id, _) )
+    ->  true
+    ;   report(Formal, Id, Sent),
+        tell_origins(Formal, Id, Sent)
+    ).
+
+is_brought(mail(_, From, _)) :-
+    compound(From).
+
+was_sent_here(mail(Origin, _, _)) :-
+    endpoint_address(Origin).
+
+%   The bridge may have to wait.
+
+give_back(Formal, Id, Mail) :-
+    forall(member(One, Mail),
+           scheduler_call(typhon_lost:given_back(Formal, Id, One))).
+
+given_back(Formal, Id, Mail) :-
+    Mail = mail(_, From, Message),
+    (   returned(From, Id, Message)
+    ->  true
+    ;   report(Formal, Id, [Mail])
+    ).
+
+tell_origins(Formal, Id, Mail) :-
     findall(Origin, member(mail(Origin, _, _), Mail), Origins0),
     sort(Origins0, Origins),
     forall(( member(Origin, Origins), \+ endpoint_address(Origin) ),
@@ -48,7 +79,12 @@ report(Formal, Id, [mail(_, From, Message)|More]) :-
 
 typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
     must_be(list(typhon_mail), Mail),
-    report(Formal, Id, Mail).
+    partition(is_brought, Mail, Brought, Sent),
+    give_back(Formal, Id, Brought),
+    (   Sent == []
+    ->  true
+    ;   report(Formal, Id, Sent)
+    ).
 
 error:has_type(typhon_mail, Mail) :-
     subsumes_term(mail(_, _, _), Mail),

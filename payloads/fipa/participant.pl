@@ -1,0 +1,113 @@
+:- payload(fipa_participant, [provides([fipa_take_part/1, fipa_contract/4])]).
+
+/*  The other side of FIPA's request protocol (FIPA00026) and contract net
+    (FIPA00029).  An agent with this payload says
+
+        on_message(_, Acl) :- fipa_take_part(Acl).
+
+    and what it can do:
+
+      - perform(Action, Result): do it.  If this fails the request is refused;
+        if it raises, it is a failure.
+      - bid(Task, Offer): what it proposes when there is a call for proposals,
+        if it takes part in contract nets.  If this fails it refuses.
+
+    Of a content [action(Who, Action)], as SL has it, Action is performed, and
+    the answer says result(action(Who, Action), Result), or done(...) where
+    Result is `done`.  Any other content is performed as it is, and Result is
+    the answer.  Needs reply/3, which is in the place of hosts that are
+    platforms, or the payload fipa/reply.
+*/
+
+%   What it has proposed to do: the conversation, with whom, the message, and
+%   when it is forgotten.
+
+fipa_contract(none, none, none, 0).
+
+%   An initiator may never come back to it.
+
+fipa_contract_seconds(600).
+
+%!  fipa_take_part(+Acl) is semidet.
+%
+%   Fails for what belongs to none of these protocols.
+
+fipa_take_part(Acl) :-
+    Acl = acl(Performative, Parameters),
+    (   memberchk(content(Content), Parameters)
+    ->  true
+    ;   Content = ""
+    ),
+    fipa_part(Performative, Content, Acl).
+
+fipa_part(request, Content, Acl) :-
+    fipa_performed(Content, Performative, Answer),
+    reply(Acl, Performative, Answer).
+fipa_part(cfp, Content, Acl) :-
+    fipa_part_action(Content, Task),
+    fipa_part_conversation(Acl, Id, From),
+    (   catch(bid(Task, Offer), error(_, _), fail)
+    ->  now(Now),
+        fipa_contracts_over(Now),
+        fipa_contract_seconds(Seconds),
+        Until is Now+Seconds,
+        assertz(fipa_contract(Id, From, Content, Until)),
+        reply(Acl, propose, Offer)
+    ;   reply(Acl, refuse, Content)
+    ).
+fipa_part('accept-proposal', _, Acl) :-
+    fipa_part_conversation(Acl, Id, From),
+    (   retract(fipa_contract(Id, From, Content, _))
+    ->  fipa_performed(Content, Performative0, Answer),
+        (   Performative0 == refuse     % it is too late for that
+        ->  Performative = failure
+        ;   Performative = Performative0
+        ),
+        reply(Acl, Performative, Answer)
+    ;   reply(Acl, 'not-understood', ['unexpected-act'('accept-proposal')])
+    ).
+fipa_part('reject-proposal', _, Acl) :-
+    fipa_part_conversation(Acl, Id, From),
+    retractall(fipa_contract(Id, From, _, _)).
+
+fipa_part_conversation(acl(_, Parameters), Id, From) :-
+    memberchk(sender(fipa(From, _)), Parameters),
+    (   memberchk(conversation_id(Id), Parameters)
+    ->  true
+    ;   Id = none
+    ).
+
+fipa_contracts_over(Now) :-
+    forall(( fipa_contract(Id, From, _, Until), Id \== none, Until < Now ),
+           retract(fipa_contract(Id, From, _, Until))).
+
+fipa_part_action([action(_, Action)|_], Action) :-
+    !.
+fipa_part_action(Content, Content).
+
+fipa_performed(Content, Performative, Answer) :-
+    fipa_part_action(Content, Action),
+    catch(fipa_performed(Action, Content, Performative, Answer),
+          error(Formal, _),
+          ( format(string(Why), '~p', [Formal]),
+            fipa_part_reason(Content, Why, Answer),
+            Performative = failure )).
+
+fipa_performed(Action, Content, Performative, Answer) :-
+    (   perform(Action, Result)
+    ->  Performative = inform,
+        fipa_part_result(Content, Result, Answer)
+    ;   Performative = refuse,
+        fipa_part_reason(Content, "it cannot be done", Answer)
+    ).
+
+fipa_part_result([action(Who, Action)|_], done, [done(action(Who, Action))]) :-
+    !.
+fipa_part_result([action(Who, Action)|_], Result,
+                 [result(action(Who, Action), Result)]) :-
+    !.
+fipa_part_result(_, Result, Result).
+
+fipa_part_reason([action(Who, Action)|_], Why, [action(Who, Action), Why]) :-
+    !.
+fipa_part_reason(_, Why, Why).

@@ -1,0 +1,38 @@
+:- payload(fipa_request, [provides([fipa_request/4])]).
+
+/*  The initiator of FIPA's request protocol (FIPA00026): asks somebody to do
+    something, and waits for what comes of it.
+*/
+
+%!  fipa_request(+To, +Content, +Seconds, -Outcome) is det.
+%
+%   Outcome is inform-Answer, refuse-Why, failure-Why or
+%   'not-understood'-Why, as To has it, or `timeout`.  That To agrees first is
+%   only passed over.  A failure may also be one of the AMS: To cannot be
+%   reached.  Seconds are those of the host.
+
+fipa_request(To, Content, Seconds, Outcome) :-
+    N is random(1<<60),
+    format(atom(Id), 'c~36r', [N]),
+    now(Now),
+    Until is Now+Seconds,
+    send(To, acl(request, [ content(Content), protocol('fipa-request'),
+                            conversation_id(Id), reply_with(Id) ])),
+    fipa_request_outcome(Id, Until, Outcome).
+
+fipa_request_outcome(Id, Until, Outcome) :-
+    now(Now),
+    Left is max(0, Until-Now),
+    (   receive(_-acl(Performative, [conversation_id(Id)|Parameters]), Left)
+    ->  fipa_request_heard(Performative, Parameters, Id, Until, Outcome)
+    ;   Outcome = timeout
+    ).
+
+fipa_request_heard(agree, _, Id, Until, Outcome) :-
+    !,
+    fipa_request_outcome(Id, Until, Outcome).
+fipa_request_heard(Performative, Parameters, _, _, Performative-Content) :-
+    (   memberchk(content(Content), Parameters)
+    ->  true
+    ;   Content = ""
+    ).

@@ -1,0 +1,21 @@
+:- module(typhon_fipa, []).
+
+/** <module> A bridge to agents of FIPA's platforms, as those of JADE
+
+    :- use_module(library(typhon/fipa)).
+
+The whole interface is fipa_start/3, fipa_stop/1 and fipa_property/2; what
+agents say and hear is told in [bridges-fipa.md].  It is not part of
+library(typhon), and needs nothing but Prolog.  Nothing is defined here: see
+the rooms in fipa/.
+
+  | hosts as platforms                     | service, platform             |
+  | messages in and out, failures          | exchange, incoming            |
+  | HTTP: in, out, and its text            | reception, carriage, http     |
+  | bytes: letters, envelopes, parts       | letter, envelope, multipart   |
+  | messages, agents, contents, text       | acl, aid, sl, sexp            |
+  | AMS and DF                             | managers, directory           |
+  | threads                                | crew                          |
+*/
+
+:- reexport(fipa/service).

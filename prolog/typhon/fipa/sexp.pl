@@ -1,0 +1,262 @@
+:- module(typhon_fipa_sexp,
+          [ sexp_text/2,                % ?Sexp, ?Text
+            sexp_word/1,                % +Text
+            utc_text/2                  % ?Stamp, ?Text
+          ]).
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(dcg/basics), [blanks//0, digits//1, integer//1]).
+:- use_module(library(error),
+              [resource_error/1, syntax_error/1, type_error/2]).
+:- use_module(library(lists), [member/2]).
+
+/** <module> What ACL and SL are written in
+
+Both languages of FIPA are lists in parentheses.  Here they are read and
+written; what a list means is said by typhon_fipa_acl and typhon_fipa_sl.  An
+S-expression is a Prolog list of others, string(String) for what stands in
+quotes, or an atom for any other word, as it was written.
+
+In quotes only a quote is escaped: a backslash before anything else is one,
+as JADE has it, too.  A string that ends with one can only be written with
+its length in front.
+
+*Threading*: pure.
+*/
+
+%   A list in a list in a list.
+
+max_depth(200).
+
+%!  sexp_text(+Sexp, -Text:string) is det.
+%!  sexp_text(-Sexp, +Text:string) is det.
+%
+%   @error syntax_error(fipa_text)
+%   @error resource_error(fipa_depth)
+
+sexp_text(Sexp, Text) :-
+    nonvar(Text),
+    !,
+    string_codes(Text, Codes),
+    max_depth(Depth),
+    (   phrase(document(Depth, Sexp0), Codes)
+    ->  Sexp = Sexp0
+    ;   syntax_error(fipa_text)
+    ).
+sexp_text(Sexp, Text) :-
+    phrase(written(Sexp), Codes),
+    string_codes(Text, Codes).
+
+                /*******************************
+                *            READING           *
+                *******************************/
+
+document(Depth, Sexp) -->
+    blanks,
+    item(Depth, Sexp),
+    blanks.
+
+item(Depth, List) -->
+    "(",
+    !,
+    { deeper(Depth, Inside) },
+    blanks,
+    items(Inside, List).
+item(_, string(String)) -->
+    "\"",
+    !,
+    quoted(Codes),
+    { string_codes(String, Codes) }.
+item(_, string(String)) -->
+    "#",
+    digits([D|Ds]),
+    "\"",
+    !,
+    { number_codes(Bytes, [D|Ds]) },
+    counted(Bytes, Codes),
+    { string_codes(String, Codes) }.
+item(_, Word) -->
+    bare(Code),
+    bares(Codes),
+    { atom_codes(Word, [Code|Codes]) }.
+
+deeper(Depth, Inside) :-
+    (   Depth > 0
+    ->  Inside is Depth-1
+    ;   resource_error(fipa_depth)
+    ).
+
+items(_, []) -->
+    ")",
+    !.
+items(Depth, [Item|Items]) -->
+    item(Depth, Item),
+    !,
+    blanks,
+    items(Depth, Items).
+
+quoted([]) -->
+    "\"",
+    !.
+quoted([0'"|Codes]) -->
+    "\\\"",
+    !,
+    quoted(Codes).
+quoted([Code|Codes]) -->
+    [Code],
+    quoted(Codes).
+
+%   The length counts bytes.
+
+counted(0, []) -->
+    !.
+counted(Bytes, [Code|Codes]) -->
+    { Bytes > 0 },
+    [Code],
+    { code_bytes(Code, Width),
+      Left is Bytes-Width },
+    counted(Left, Codes).
+
+code_bytes(Code, Width) :-
+    (   Code < 0x80 -> Width = 1
+    ;   Code < 0x800 -> Width = 2
+    ;   Code < 0x10000 -> Width = 3
+    ;   Width = 4
+    ).
+
+bare(Code) -->
+    [Code],
+    { Code > 0' ,
+      \+ memberchk(Code, `()"`) }.
+
+bares([Code|Codes]) -->
+    bare(Code),
+    !,
+    bares(Codes).
+bares([]) -->
+    [].
+
+                /*******************************
+                *            WRITING           *
+                *******************************/
+
+written(Sexp) -->
+    { var(Sexp),
+      type_error(fipa_text, Sexp) }.
+written(List) -->
+    { is_list(List) },
+    !,
+    "(",
+    all_written(List),
+    ")".
+written(string(String)) -->
+    !,
+    string_written(String).
+written(Word) -->
+    { atom_codes(Word, Codes) },
+    raw(Codes).
+
+all_written([]) -->
+    [].
+all_written([Sexp|Sexps]) -->
+    written(Sexp),
+    (   { Sexps == [] }
+    ->  []
+    ;   " ",
+        all_written(Sexps)
+    ).
+
+string_written(String) -->
+    { string_codes(String, Codes) },
+    (   { sub_string(String, _, 1, 0, "\\") }
+    ->  { foldl(add_bytes, Codes, 0, Bytes) },
+        "#",
+        integer(Bytes),
+        "\"",
+        raw(Codes)
+    ;   "\"",
+        escaped(Codes)
+    ).
+
+add_bytes(Code, Bytes0, Bytes) :-
+    code_bytes(Code, Width),
+    Bytes is Bytes0+Width.
+
+escaped([]) -->
+    "\"".
+escaped([0'"|Codes]) -->
+    !,
+    "\\\"",
+    escaped(Codes).
+escaped([Code|Codes]) -->
+    [Code],
+    escaped(Codes).
+
+raw([]) -->
+    [].
+raw([Code|Codes]) -->
+    [Code],
+    raw(Codes).
+
+%!  sexp_word(+Text) is semidet.
+%
+%   Text, an atom or a string, can stand without quotes, and is a word for
+%   both languages: not a number, a date, a variable or the name of a
+%   parameter.
+
+sexp_word(Text) :-
+    atom_codes(Text, [First|Codes]),
+    plain(First),
+    \+ memberchk(First, `#-:?+0123456789`),
+    \+ ( member(Code, Codes), \+ plain(Code) ).
+
+plain(Code) :-
+    Code > 0' ,
+    Code < 0x7f,
+    \+ memberchk(Code, `()"`).
+
+                /*******************************
+                *             TIMES            *
+                *******************************/
+
+%!  utc_text(+Stamp, -Text:atom) is det.
+%!  utc_text(-Stamp, +Text) is semidet.
+%
+%   A time as FIPA writes it, to the millisecond: `20261122T081127162Z`.
+
+utc_text(Stamp, Text) :-
+    nonvar(Text),
+    !,
+    atom_codes(Text, Codes),
+    phrase(utc(Stamp), Codes).
+utc_text(Stamp, Text) :-
+    Ms is round(Stamp*1000),
+    Seconds is Ms // 1000,
+    Fraction is Ms mod 1000,
+    format_time(atom(Date), '%Y%m%dT%H%M%S', Seconds),
+    format(atom(Text), '~w~|~`0t~d~3+Z', [Date, Fraction]).
+
+utc(Stamp) -->
+    number_of(4, Y), number_of(2, M), number_of(2, D),
+    t,
+    number_of(2, H), number_of(2, Min), number_of(2, S), number_of(3, Ms),
+    zone,
+    { M >= 1, M =< 12, D >= 1, D =< 31, H < 24, Min < 60, S < 61,
+      date_time_stamp(date(Y,M,D,H,Min,S,0,-,-), Stamp0),
+      Stamp is (round(Stamp0)*1000+Ms)/1000.0 }.
+
+t --> [Code], { memberchk(Code, `TtZz`) }.       % JADE writes Z in envelopes
+
+zone --> [Code], !, { memberchk(Code, `Zz`) }.
+zone --> [].
+
+number_of(Count, Number) -->
+    { length(Codes, Count) },
+    all_digits(Codes),
+    { number_codes(Number, Codes) }.
+
+all_digits([]) -->
+    [].
+all_digits([Digit|Digits]) -->
+    [Digit],
+    { Digit >= 0'0, Digit =< 0'9 },
+    all_digits(Digits).
