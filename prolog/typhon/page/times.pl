@@ -37,7 +37,7 @@ times_stop :-
 times_of(Hosts) :-
     with_mutex(typhon_page_times,
                ( forall(member(Host, Hosts), note(Host)),
-                 choose )).
+                 choose(Hosts) )).
 
 note(host(Address, _, _, _, _, _, _, clock(Epoch, Rate))) =>
     (   clock_of(Address, Epoch, Rate)
@@ -48,31 +48,35 @@ note(host(Address, _, _, _, _, _, _, clock(Epoch, Rate))) =>
 note(_) =>
     true.
 
-%   That of hosts without a network, the time of day, says too much.
+%   That of hosts without a network, the time of day, says too much.  Virtual
+%   time stands for itself.
 
-choose :-
+choose(_) :-
     reference(_, _),
     !.
-choose :-
+choose(Hosts) :-
+    memberchk(host(_, _, _, _, _, _, _, virtual), Hosts),
+    !.
+choose(_) :-
     clock_of(_, Epoch, Rate),
     Epoch > 0,
     !,
     assertz(reference(Epoch, Rate)).
-choose :-
+choose(_) :-
     get_time(Now),
     assertz(reference(Now, 1)).
 
 %!  page_time(+Stamp, -Time) is det.
 %!  page_time(+Host, +HostTime, -Time) is det.
 %
-%   Time of the page at Stamp, in real time, or when the clock of Host, an
-%   address, shows HostTime.
+%   Time of the page at Stamp, in real time, `null` if it has no clock that
+%   goes on; or when the clock of Host, an address, shows HostTime.
 
 page_time(Stamp, Time) :-
     reference(Epoch, Rate),
     !,
     Time is (Stamp-Epoch)*Rate.
-page_time(Stamp, Stamp).
+page_time(_, null).
 
 page_time(Host, HostTime, Time) :-
     reference(Epoch, Rate),

@@ -15,7 +15,7 @@
                endpoint_reply/2]).
 :- use_module('../host',
               [ address_parts/3, clock/3, host_link_cost/3, host_property/2,
-                scheduler_call/1 ]).
+                scheduler_call/1, time_kind/1 ]).
 :- use_module('../lifecycle', [agent_glance/2]).
 :- use_module('../network', [network_property/2]).
 
@@ -41,7 +41,7 @@ for there may be many agents.
 %   Seen are terms seen(Hosts, Agents, Count), one for each process: Hosts are
 %   terms host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
 %   Clock), Costs being what the links to Neighbours cost, in their order, and
-%   Clock clock(Epoch, Rate); Agents the
+%   Clock clock(Epoch, Rate), or `virtual`; Agents the
 %   first Most, in the order of survey_order/2, of Count agents, terms
 %   agent(Id, Glance), see agent_glance/2; if Most is 0 they are not counted. Asked are this process, those of
 %   the networks started here, those at the addresses Places, and whoever
@@ -153,7 +153,7 @@ first(Most, List, First) :-
     ).
 
 host_seen(host(Address, State, Load, Capacity, Arrived, Neighbours,
-               Costs, clock(Epoch, Rate))) :-
+               Costs, Clock)) :-
     host_property(Name, address(Address)),
     findall(Property, host_property(Name, Property), Properties),
     option(state(State), Properties, stopped),
@@ -161,10 +161,17 @@ host_seen(host(Address, State, Load, Capacity, Arrived, Neighbours,
     option(capacity(Capacity), Properties, inf),
     option(neighbours(Neighbours), Properties, []),
     maplist(link_cost(Name), Neighbours, Costs),
-    clock(Name, Epoch, Rate),
+    host_clock(Name, Clock),
     (   member(hop_time(in, stats(Arrived0, _, _, _)), Properties)
     ->  Arrived = Arrived0
     ;   Arrived = 0
+    ).
+
+host_clock(Name, Clock) :-
+    (   time_kind(virtual)
+    ->  Clock = virtual
+    ;   clock(Name, Epoch, Rate),
+        Clock = clock(Epoch, Rate)
     ).
 
 %   The link may be gone by now.

@@ -411,6 +411,19 @@ happenings(Feed) :-
     unlink(alpha, beta),
     told(Feed, [Alpha, "", "unlink", Beta], _).
 
+%   Virtual time is shown as it is.
+
+test(virtual_time, Time == 3.0) :-
+    with_hosts([alpha-[clock(virtual)]],
+               with_page([], Base,
+                         with_feed(Base, Feed, virtual_time(Feed, Time)))).
+
+virtual_time(Feed, Time) :-
+    frame(Feed, _),
+    create([(main :- sleep(3))], A, [host(alpha)]),
+    agent_join(A, done, 10),
+    told(Feed, [_, _, "ended", "done"], [Time|_]).
+
 %   A host that comes is found, and one whose process is killed is told of.
 
 test(come_and_go) :-
