@@ -26,9 +26,9 @@ Driven by chromedriver, in the words of the W3C's WebDriver.
 
 :- use_module(common, [wait_until/2]).
 :- use_module(library(base64), [base64/2]).
-:- use_module(library(http/http_client), [http_delete/3]).
 :- use_module(library(http/http_json), []).
-:- use_module(library(http/http_client), [http_get/3, http_post/4]).
+:- use_module(library(http/http_client),
+              [http_delete/3, http_get/3, http_post/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).

@@ -41,11 +41,11 @@ for there may be many agents.
 %   Seen are terms seen(Hosts, Agents, Count), one for each process: Hosts are
 %   terms host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
 %   Clock), Costs being what the links to Neighbours cost, in their order, and
-%   Clock clock(Epoch, Rate), or `virtual`; Agents the
-%   first Most, in the order of survey_order/2, of Count agents, terms
-%   agent(Id, Glance), see agent_glance/2; if Most is 0 they are not counted. Asked are this process, those of
-%   the networks started here, those at the addresses Places, and whoever
-%   else comes to light. Silent are Endpoint-Why of those that gave no
+%   Clock clock(Epoch, Rate), or `virtual`; Agents the first Most, in the order
+%   of survey_order/2, of Count agents, terms agent(Id, Glance), see
+%   agent_glance/2; if Most is 0 they are not counted. Asked are this process,
+%   those of the networks started here, those at the addresses Places, and
+%   whoever else comes to light. Silent are Endpoint-Why of those that gave no
 %   answer, Why being `gone`, `lost` or `late`.
 
 survey(Most, Places, [Here|Seen], Silent) :-
