@@ -46,8 +46,8 @@ command(picture, 'LOG SVG', 2,
 command(page, '[LOG]', 0-1,
         'show the network of a running host in a browser, or replay a log').
 command(diagnose, '[ADDRESS]', 0-2,
-        'find out why a host, or with nxt PORT a robot, or with fipa URL a \c
-         platform of FIPA, is not reached').
+        'find out why a host, or with nxt PORT a robot, is not reached; or \c
+         why python, mqtt URL or fipa URL does not work').
 
 %!  footer(?Command, ?Line) is nondet.
 %

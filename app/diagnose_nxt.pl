@@ -14,7 +14,7 @@ and stops with advice at the step that does not work.  Nothing moves.
 :- use_module(library(lists), [memberchk/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module('../prolog/typhon/nxt').
-:- use_module('../prolog/typhon/nxt/helper', [helper_python/2]).
+:- use_module('../prolog/typhon/nxt/helper', [nxt_python/2]).
 :- use_module(diagnose, [diagnose_steps/2]).
 
 %!  diagnose_nxt(+Port) is semidet.
@@ -126,7 +126,7 @@ sensor(Port, Text) :-
     format(atom(Text), '~d type ~d raw ~d', [Port, Values.type, Values.raw]).
 
 python_says(Args, Text) :-
-    helper_python([], Python),
+    nxt_python([], Python),
     catch(process_create(Python, Args,
                          [ stdout(pipe(Out)), stderr(null), process(Pid) ]),
           error(_, _),

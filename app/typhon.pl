@@ -28,6 +28,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(diagnose_fipa, [diagnose_fipa/1]).
+:- use_module(diagnose_bridges, [diagnose_bridge/2]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
@@ -146,7 +147,7 @@ check_option(Option, Options, Command) :-
 run_connected(Command, Arguments, Options) :-
     (   serves(Command, Options)
     ;   Command == diagnose,
-        Arguments = [_,_]
+        ( Arguments = [_,_] ; bridge_named(Arguments) )
     ),
     !,
     run(Command, Arguments, Options).
@@ -271,6 +272,10 @@ run(Command, Arguments, Options) :-
     order(Command, Arguments, Options).
 run(diagnose, [], _) :-
     diagnose(none).
+run(diagnose, [Bridge|Arguments], _) :-
+    bridge_named([Bridge|Arguments]),
+    !,
+    diagnose_bridge(Bridge, Arguments).
 run(diagnose, [Address], _) :-
     diagnose(Address).
 run(diagnose, [Kind, Port], _) :-
@@ -285,6 +290,10 @@ page_option(Options, Option) :-
     member(Option, Options),
     functor(Option, Name, 1),
     memberchk(Name, [host, port, bind, read_only]).
+
+bridge_named([python]).
+bridge_named([mqtt]).
+bridge_named([mqtt,_]).
 
 host_option(Options, Option) :-
     member(Option, Options),

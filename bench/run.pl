@@ -48,6 +48,7 @@ job(hops, [taskset, '-c', '0'], same_cpu).
 job(hops, [taskset, '-c', '0'], one_each).
 job(messages, [env], unpinned).
 job(fipa, [env], unpinned).
+job(mqtt, [env], unpinned).
 job(strangers, [env], unpinned).
 job(hosts, [env], unpinned).
 job(population, [env], unpinned).

@@ -13,6 +13,7 @@ layer has a door, and behind it a folder with its rooms.
   | events, as they happen         | typhon/watching   |
   | tables for people              | typhon/people     |
   | a page for a browser           | typhon/page       |
+  | Python, MQTT                   | typhon/bridge     |
 */
 
 :- reexport(typhon/program, [agent_check/1]).
@@ -26,4 +27,6 @@ layer has a door, and behind it a folder with its rooms.
 :- reexport('typhon/network').
 :- reexport(typhon/people, [agents/0, hosts/0]).
 :- reexport(typhon/page, [page_start/1, page_stop/0]).
+:- reexport(typhon/bridge/starting,
+            [mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1]).
 :- use_module(typhon/language, []).

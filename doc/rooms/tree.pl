@@ -175,8 +175,9 @@ reach(Part, Module, Name/Arity) :-
 %
 %   From below: who stands higher imports from who stands lower.
 
-layers([ base, program, wire, host, agent, travel, lifecycle, language,
-         network, watching, people, fipa, page ]).
+layers([ base, helper, nxt, program, wire, host, agent, travel, lifecycle,
+         language, network, watching, people, bridge, python, mqtt, fipa,
+         page ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.
 %!  door(?File, ?Layer) is nondet.

@@ -6,9 +6,7 @@
             create_billboard/5, write2billboard/4, create_dlg/3,
             attach_console/0
           ]).
-:- use_module(library(apply), [exclude/3]).
-:- use_module(library(lists), [append/3, last/2, member/2]).
-:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(typhon), [python_start/3, remote/2]).
 :- reexport(library(typhon/nxt/swi_pro_nxt)).
 :- use_module(told, [told/2]).
 
@@ -46,18 +44,11 @@ tts(Text) :-
     ->  told("~w~n", [Text])
     ;   true
     ),
-    (   speech(on),
-        speaker(Program)
+    (   speech(on)
     ->  format(string(Words), '~w', [Text]),
-        run(Program, [Words], _)
+        in_python(python_say(Words, _))
     ;   true
     ).
-
-speaker(Program) :-
-    member(Name, ['espeak-ng', espeak]),
-    absolute_file_name(path(Name), Program,
-                       [access(execute), file_errors(fail)]),
-    !.
 
 tts_on :- switch(speech(on)).
 tts_off :- switch(speech(off)).
@@ -77,50 +68,45 @@ switch(Fact) :-
 %!  python_call(+File, +Function, +Argument, -Result:atom) is semidet.
 %!  python_call(+File, +Function, -Result:atom) is semidet.
 %
-%   Call a function of the Python module File in a process of its own, with
-%   Argument as text without quotes.  Result is the last line printed.
+%   Call a function of the Python module File with Argument as text without
+%   quotes.  Result is the last line of what it returns.
 %
-%   @error process_error(Program, exit(Status)): what Python said is on the
-%          standard error
+%   @error process_error(Class, exit(1)): what Python has raised
+%   @error existence_error(host, tartarus_gate) without a platform
 
 python_call(File, Function, Argument, Result) :-
     format(string(Quoted), '~q', [Argument]),
     split_string(Quoted, "'", "", Parts),
-    atomics_to_string(Parts, Text),
+    atomic_list_concat(Parts, Text),
     python(File, Function, [Text], Result).
 
 python_call(File, Function, Result) :-
     python(File, Function, [], Result).
 
-atomics_to_string(Parts, Text) :-
-    atomic_list_concat(Parts, Text).
-
-%   The argument is none of the code: whatever is in it stays text.
-
 python(File, Function, Arguments, Result) :-
-    format(string(Code),
-           'import sys; sys.path.insert(0, ""); import ~w as m; \c
-            print(m.~w(*sys.argv[1:]))',
-           [File, Function]),
-    append(["-c",Code], Arguments, Argv),
-    absolute_file_name(path(python3), Program, [access(execute)]),
-    run(Program, Argv, Output),
-    split_string(Output, "\n", "\r", Lines0),
-    exclude(==(""), Lines0, Lines),
-    last(Lines, Last),
-    atom_string(Result, Last).
+    working_directory(Folder, Folder),
+    catch(in_python(python_result(Folder, File, Function, Arguments, Line)),
+          error(python_error(Class, Message), _),
+          throw(error(process_error(Class, exit(1)), context(_, Message)))),
+    atom_string(Result, Line).
 
-run(Program, Arguments, Output) :-
-    setup_call_cleanup(
-        process_create(Program, Arguments,
-                       [stdout(pipe(Out)), process(Pid)]),
-        read_string(Out, _, Output),
-        close(Out)),
-    process_wait(Pid, Status),
-    (   Status == exit(0)
-    ->  true
-    ;   throw(error(process_error(Program, Status), _))
-    ).
+%   The functions of bridges/tartarus/tartarus.py, on the host of the platform
+%   that is none of the user.
+
+in_python(Goal) :-
+    bridge(File),
+    catch(python_start(tartarus_gate, File, [timeout(3600)]),
+          error(permission_error(start, python, _), _),
+          true),                        % it is started
+    remote(tartarus_gate, Goal).
+
+:- dynamic bridge/1.
+
+:- prolog_load_context(directory, Dir),
+   absolute_file_name('../../bridges/tartarus/tartarus.py', File,
+                      [relative_to(Dir)]),
+   retractall(bridge(_)),
+   assertz(bridge(File)).
 
                 /*******************************
                 *        WHAT IS MISSING       *

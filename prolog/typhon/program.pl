@@ -9,6 +9,7 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- use_module(program/paths, []).
 :- reexport(program/source, [clause_parts/3, declaration/4, indicator_in/2]).
+:- reexport(program/python_code, [payload_python/3]).
 :- reexport(program/programs,
             [payload_load/2, program_hash/2]).
 :- reexport(program/check, [agent_check/1]).

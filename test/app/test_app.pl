@@ -358,4 +358,14 @@ test(other_cookie, Status == exit(1)) :-
                   assertion(has_line(Lines, '*FAIL*authentication*'))
                 )).
 
+test(python) :-
+    typhon_lines([diagnose, python], Lines),
+    assertion(has_line(Lines, '*ok*function*hello agents*')).
+test(mqtt) :-
+    typhon([diagnose, mqtt, 'mqtt://127.0.0.1:1'], Status, Out, _),
+    split_string(Out, "\n", "\n", Lines),
+    assertion(Status == exit(1)),
+    assertion(( has_line(Lines, '*FAIL*broker*')
+              ; has_line(Lines, '*FAIL*paho*') )).
+
 :- end_tests(app_diagnose).

@@ -6,7 +6,7 @@
 %     programs and payloads must be without problems. Other ```prolog blocks
 %     must be clauses.
 %   - A block ```text whose first line is `% name.pl` is a file, too, and may
-%     be wrong.
+%     be wrong; so is ```python with `# name.py`.
 %   - A block ```prolog-session is typed at the top level, one for each
 %     document, in a directory that holds its files. Ports, marks of agents,
 %     numbers of variables and long floats are not compared, nor are the
@@ -61,6 +61,9 @@ blocks([_|Lines], N, Blocks) :-
     N1 is N+1,
     blocks(Lines, N1, Blocks).
 
+block_file(block("python", _, [First|_]), Name) :-
+    split_string(First, " ", "", ["#", Name]),
+    string_concat(_, ".py", Name).
 block_file(block(Kind, _, [First|_]), Name) :-
     memberchk(Kind, ["prolog", "text"]),
     split_string(First, " ", ":", ["%", Name|_]),

@@ -67,6 +67,8 @@ other users of the process its endpoint, see typhon_runtime.
 %       of Kinds: a list out of `hops`, `messages`, `facts`, `faults`,
 %       `links` and `hosts`, see watch/3
 %     - remote(+Boolean): whether remote/2 is answered, default `true`
+%     - python(+Boolean): whether agents may deliver Python, see doc/bridges.md,
+%       default `false`
 %     - clock(virtual): time is virtual, see typhon_virtual; so it is then
 %       for all hosts of the process, which cannot be reached from others
 %     - clock(+Epoch, +Rate): see typhon_clock
@@ -109,6 +111,7 @@ host_option_type(clock(X), oneof([virtual]), X).
 host_option_type(clock(X, Y), list(number), [X,Y]).
 host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
 host_option_type(seed(X), integer, X).
+host_option_type(python(X), boolean, X).
 
 start(Name, _) :-
     host(Name, _, _),
@@ -169,7 +172,7 @@ listed(One, [One]).
 %!  host_change(+Host, +Option) is det.
 %
 %   Change an option of a host that runs, here or elsewhere: tokens, capacity,
-%   concurrency, hop_time, log, remote or seed, as of host_start/2, or
+%   concurrency, hop_time, log, python, remote or seed, as of host_start/2, or
 %   services, to which those given are added.  Who stands on the host stays,
 %   also where fewer are let in from now on.
 %
@@ -202,6 +205,7 @@ changes(tokens(_)).
 changes(capacity(_)).
 changes(hop_time(_)).
 changes(log(_)).
+changes(python(_)).
 changes(remote(_)).
 changes(seed(_)).
 

@@ -31,9 +31,9 @@
             receive/2,                  % ?Message, +Timeout
             dispose/0
           ]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../program', [payload_load/2]).
+:- use_module('../program', [payload_load/2, payload_python/3]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
@@ -59,6 +59,10 @@ the machine takes care of them everywhere else.
 
 *Threading*: whatever thread runs the agent; see typhon_context.
 */
+
+:- multifile
+    python_delivered/3,         % Host, Name, Source: a payload, where allowed
+    python_undelivered/2.       % Host, Name
 
 %!  self(-Id) is det.
 %!  here(-Host) is det.
@@ -225,16 +229,28 @@ detach(Name) :-
 %
 %   @error existence_error(payload, Name)
 %   @error permission_error(deliver, procedure, PI)
+%   @error permission_error(deliver, python, Name) if the payload is Python,
+%          and the host was not started with python(true)
 
 deliver(Name) :-
     context_agent(Id),
     agent_payload(Id, Name, Payload),
-    place(_, Place),
-    place_deliver(Place, Payload, _).
+    place(Host, Place),
+    (   payload_python(Payload, Name, Source)
+    ->  deliver_python(Host, Name, Source)
+    ;   place_deliver(Place, Payload, _)
+    ).
+
+deliver_python(Host, Name, Source) :-
+    (   python_delivered(Host, Name, Source)
+    ->  true
+    ;   permission_error(deliver, python, Name)
+    ).
 
 undeliver(Name) :-
-    place(_, Place),
-    place_undeliver(Place, Name).
+    place(Host, Place),
+    place_undeliver(Place, Name),
+    ignore(python_undelivered(Host, Name)).
 
 %!  emit(+Problem) is det.
 %!  emit(+Problem, +Options) is det.

@@ -7,62 +7,41 @@
             link_option/2,              % +Brick, ?Option
             link_brick/2                % ?Brick, ?Port
           ]).
-:- use_module(library(debug), [debug/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
-:- use_module(json, [atom_json_dict/3]).
-:- use_module(library(lists), [member/2, selectchk/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../helper', [helper_ask/4, helper_close/1, helper_open/3]).
 :- use_module(errors, [nxt_failure/4]).
-:- use_module(helper,
-              [ helper_end/1, helper_kill/1, helper_release/1,
-                helper_start/3, helper_write/2
-              ]).
+:- use_module(helper, [nxt_command_line/3]).
 
 /** <module> Requests to bricks, and their answers
 
-Every brick that is connected has a thread that owns its helper.  It starts
-the helper when there is something to be done and none is running, so one
-that died is replaced by the next request.  Requests pass to the helper in
-the order in which they come, and it serves them one after the other;
+Every brick that is connected has a helper.  One that died is replaced by
+the next request.  A helper serves its requests one after the other;
 different bricks have different helpers.
 
-The helper ends what it does at the deadline of the request.  Who asked
-waits two seconds longer, then kills a helper that has not answered, so
-nothing hangs.
-
-*Threading*: any thread may ask.  It waits for its answer at a queue of its
-own, so what comes too late is for nobody.
+*Threading*: any thread may ask; see typhon_helper_requests.
 */
 
 :- dynamic
-    brick/4.                    % Brick, Port, Options, Owner thread
-
-grace_seconds(2).
-stop_seconds(5).
+    brick/3.                    % Brick, Port, Options
 
 %!  link_open(+Brick, +Port, +Options) is det.
 %
 %   @error permission_error(connect, nxt_brick, Brick) if it is connected
 
 link_open(Brick, Port, Options) :-
-    with_mutex(typhon_nxt, open_link(Brick, Port, Options)).
+    nxt_command_line(Port, Options, Command),
+    with_mutex(typhon_nxt, open_link(Brick, Port, Options, Command)).
 
-open_link(Brick, _, _) :-
-    brick(Brick, _, _, _),
+open_link(Brick, _, _, _) :-
+    brick(Brick, _, _),
     !,
     permission_error(connect, nxt_brick, Brick).
-open_link(Brick, Port, Options) :-
-    State = state(Brick, Port, Options, none, [], none),
-    owner_alias(Brick, Alias),
-    sig_atomic(( thread_create(own(State), Owner, [alias(Alias)]),
-                 assertz(brick(Brick, Port, Options, Owner)) )).
-
-%   One that is closed may have its name still.
-
-owner_alias(Brick, Alias) :-
-    flag(typhon_nxt_owner, N, N+1),
-    atomic_list_concat([typhon_nxt, Brick, N], '_', Alias).
+open_link(Brick, Port, Options, Command) :-
+    sig_atomic(( helper_open(nxt(Brick), Command, []),
+                 assertz(brick(Brick, Port, Options)) )).
 
 %!  link_close(+Brick) is det.
 %
@@ -71,37 +50,26 @@ owner_alias(Brick, Alias) :-
 %   @error existence_error(nxt_brick, Brick)
 
 link_close(Brick) :-
-    in_own_thread(close_link(Brick)).
-
-close_link(Brick) :-
-    (   retract(brick(Brick, _, _, Owner))
-    ->  true
+    (   retract(brick(Brick, _, _))
+    ->  helper_close(nxt(Brick))
     ;   existence_error(nxt_brick, Brick)
-    ),
-    thread_self(Me),
-    thread_send_message(Owner, stop(Me)),
-    stop_seconds(Seconds),
-    (   thread_get_message(Me, stopped(Owner), [timeout(Seconds)])
-    ->  true
-    ;   helper_kill(Owner)
-    ),
-    thread_join(Owner, _).
+    ).
 
 %!  link_brick(?Brick, ?Port) is nondet.
 
 link_brick(Brick, Port) :-
-    brick(Brick, Port, _, _).
+    brick(Brick, Port, _).
 
 %!  link_option(+Brick, ?Option) is nondet.
 %
 %   @error existence_error(nxt_brick, Brick)
 
 link_option(Brick, Option) :-
-    the_brick(Brick, _, Options, _),
+    the_brick(Brick, _, Options),
     member(Option, Options).
 
-the_brick(Brick, Port, Options, Owner) :-
-    (   brick(Brick, Port, Options, Owner)
+the_brick(Brick, Port, Options) :-
+    (   brick(Brick, Port, Options)
     ->  true
     ;   existence_error(nxt_brick, Brick)
     ).
@@ -117,121 +85,42 @@ the_brick(Brick, Port, Options, Owner) :-
 %   @error See nxt_failure/4
 
 link_request(Brick, What, Fields, Reply) :-
-    the_brick(Brick, _, Options, _),
+    the_brick(Brick, _, Options),
     option(deadline(Seconds), Options, 3),
     link_request(Brick, What, Fields, Seconds, Reply).
 
 link_request(Brick, What, Fields, Seconds, Reply) :-
-    the_brick(Brick, Port, _, Owner),
-    flag(typhon_nxt_request, Id, Id+1),
-    Request = Fields.put(_{id:Id, timeout:Seconds}),
-    atom_json_dict(Line, Request, [as(string), width(0)]),
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        ask(Brick, Owner, request(Id, Queue, Line), Seconds, Answer),
-        message_queue_destroy(Queue)),
+    the_brick(Brick, Port, _),
+    catch(helper_ask(nxt(Brick), Fields, Seconds, Answer0),
+          error(existence_error(helper, _), _),
+          existence_error(nxt_brick, Brick)),
+    answer_atoms(Answer0, Answer),
     (   Answer = ok(Reply)
     ->  true
     ;   nxt_failure(Answer, Brick, Port, What)
     ).
 
-ask(Brick, Owner, Request, Seconds, Answer) :-
-    Request = request(_, Queue, _),
-    catch(thread_send_message(Owner, Request),
-          error(existence_error(_, _), _),
-          existence_error(nxt_brick, Brick)),
-    grace_seconds(Grace),
-    Longest is Seconds+Grace,
-    (   thread_get_message(Queue, answer(Answer0), [timeout(Longest)])
-    ->  Answer = Answer0
-    ;   helper_kill(Owner),
-        Answer = stuck
-    ).
+%   Texts are names here, and become atoms.
 
-                /*******************************
-                *           THE OWNER          *
-                *******************************/
-
-%   State is state(Brick, Port, Options, Helper, Open, Fatal): Helper may be
-%   `none`, Open are the requests without an answer, Id-Queue, and Fatal is
-%   what the helper said of itself before it ended, or `none`.
-
-own(State0) :-
-    thread_get_message(Message),
-    handle(Message, State0, State),
+answer_atoms(ok(Reply0), ok(Reply)) :-
     !,
-    (   State = stopped(Brick)
-    ->  forget(Brick)
-    ;   own(State)
-    ).
-
-handle(request(Id, Queue, Line), S0, S) :-
-    S0 = state(Brick, Port, Options, none, [], _),
+    atoms(Reply0, Reply).
+answer_atoms(said(Dict0), said(Dict)) :-
     !,
-    catch(( helper_start(Port, Options, Helper),
-            S1 = state(Brick, Port, Options, Helper, [], none),
-            handle(request(Id, Queue, Line), S1, S)
-          ),
-          error(Formal, Context),
-          ( answer(Queue, error(Formal, Context)), S = S0 )).
-handle(request(Id, Queue, Line), S0, S) :-
-    S0 = state(Brick, Port, Options, Helper, Open, Fatal),
-    helper_write(Helper, Line),
-    S = state(Brick, Port, Options, Helper, [Id-Queue|Open], Fatal).
-handle(heard(Dict), S0, S) :-
-    S0 = state(Brick, Port, Options, Helper, Open0, _),
+    atoms(Dict0, Dict).
+answer_atoms(Answer, Answer).
+
+atoms(Dict0, Dict) :-
+    is_dict(Dict0),
     !,
-    (   get_dict(id, Dict, Id),
-        selectchk(Id-Queue, Open0, Open)
-    ->  answer_of(Dict, Answer),
-        answer(Queue, Answer),
-        S1 = state(Brick, Port, Options, Helper, Open, none)
-    ;   get_dict(error, Dict, _)
-    ->  S1 = state(Brick, Port, Options, Helper, Open0, said(Dict))
-    ;   S1 = S0
-    ),
-    S = S1.
-handle(ended(Status), S0, S) :-
-    S0 = state(Brick, Port, Options, Helper, Open, Fatal),
-    helper_release(Helper),
-    debug(typhon(nxt), 'the helper of ~w ended: ~p', [Brick, Status]),
-    (   Fatal = said(_)
-    ->  Answer = Fatal
-    ;   Answer = died(Status)
-    ),
-    forall(member(_-Queue, Open), answer(Queue, Answer)),
-    S = state(Brick, Port, Options, none, [], none).
-handle(stop(Who), state(Brick, _, _, Helper, Open, _), stopped(Brick)) :-
-    forall(member(_-Queue, Open), answer(Queue, closed)),
-    stop(Helper),
-    thread_self(Me),
-    thread_send_message(Who, stopped(Me)).
+    dict_pairs(Dict0, Tag, Pairs0),
+    maplist(atoms_pair, Pairs0, Pairs),
+    dict_pairs(Dict, Tag, Pairs).
+atoms(Text, Atom) :-
+    string(Text),
+    !,
+    atom_string(Atom, Text).
+atoms(Value, Value).
 
-stop(none).
-stop(Helper) :-
-    Helper = helper(_, _),
-    helper_write(Helper, "{\"id\": 0, \"do\": \"quit\"}"),
-    helper_end(Helper),
-    thread_get_message(ended(_)),
-    helper_release(Helper).
-
-%   What was asked after the order to stop.
-
-forget(Brick) :-
-    thread_self(Me),
-    (   thread_peek_message(Me, request(_, _, _))
-    ->  thread_get_message(request(_, Queue, _)),
-        answer(Queue, closed),
-        forget(Brick)
-    ;   true
-    ).
-
-answer_of(Dict, ok(Reply)) :-
-    get_dict(ok, Dict, Reply),
-    !.
-answer_of(Dict, said(Dict)).
-
-answer(Queue, Answer) :-
-    catch(thread_send_message(Queue, answer(Answer)),
-          error(existence_error(_, _), _),
-          true).                        % nobody waits any more
+atoms_pair(Key-Value0, Key-Value) :-
+    atoms(Value0, Value).

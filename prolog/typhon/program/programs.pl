@@ -26,6 +26,7 @@
               [ clause_problem/2, directive_problem/2, entry_problem/3,
                 option_problem/2 ]).
 :- use_module(slips, [apart_problem/3, undeclared_problem/3]).
+:- use_module(python_code, [python_payload/2]).
 :- use_module(source, [source_terms/5]).
 
 /** <module> Agent programs and payloads
@@ -74,12 +75,16 @@ read_warnings(_, Located, Kinds, Once, Warnings) :-
 
 %!  payload_load(+Spec, -Payload) is det.
 %
-%   Read a payload file, or payload(Name, Predicates, Clauses) itself.
+%   Read a payload file, which may be Python, or payload(Name, Predicates,
+%   Clauses) itself.
 
 payload_load(payload(Name, PIs, Clauses), Payload) :-
     !,
     must_be(atom, Name),
     Payload = payload(Name, PIs, Clauses).
+payload_load(Spec, Payload) :-
+    python_payload(Spec, Payload),
+    !.
 payload_load(Spec, Payload) :-
     source_terms(Spec, Located, _, Unread, _),
     no_problems(Unread),

@@ -1,0 +1,442 @@
+#!/usr/bin/env python3
+"""A connection to an MQTT broker.
+
+    python3 bridge.py
+
+See ../lib/helper.py for how it is asked.  `do` is one of
+
+    connect      host port and what else there may be, see connection()
+    publish      topic payload kind qos retain, and wait: answered when the
+                 broker has it
+    subscribe    filter kind qos
+    unsubscribe  filter kind
+
+A payload is text, bytes (a string of characters up to 255) or JSON, as its
+kind says; one that comes in may be `auto`: JSON if it is an object or a list,
+else text.  Events are
+
+    message      topic payload kind qos retain keys, the filters it matches
+    too_big      topic size keys
+    up, down     the connection
+    denied       filter
+
+What is published while there is no connection is kept, so many messages at
+the most, and so is what comes in a session that the broker has kept before
+somebody subscribes to it.
+"""
+
+import collections
+import json
+import os
+import socket
+import ssl
+import sys
+import threading
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                                '..', 'lib'))
+from helper import LATER, BadRequest, Helper, Refusal, integer, text  # noqa: E402
+
+try:
+    import paho.mqtt.client as mqtt
+    from paho.mqtt.matcher import MQTTMatcher
+except ImportError as problem:
+    mqtt, MISSING = None, problem
+
+NO_PAHO = 3                             # exit status
+KINDS = ('auto', 'json', 'text', 'bytes')
+
+
+def kind_of(request):
+    kind = request.get('kind', 'auto')
+    if kind not in KINDS:
+        raise BadRequest('kind: %r is not known' % (kind,))
+    return kind
+
+
+def encoded(payload, kind):
+    """The bytes of a payload."""
+    if kind == 'json' or (kind == 'auto' and isinstance(payload,
+                                                        (dict, list))):
+        return json.dumps(payload, allow_nan=False).encode()
+    if not isinstance(payload, str):
+        payload = json.dumps(payload)
+    return payload.encode('latin-1' if kind == 'bytes' else 'utf-8')
+
+
+def no_constant(name):
+    raise ValueError(name)
+
+
+def decoded(payload, kind):
+    """What the bytes of a payload say; other bytes are themselves."""
+    if kind == 'bytes':
+        return payload.decode('latin-1')
+    if kind == 'json' or (kind == 'auto'
+                          and payload.lstrip()[:1] in (b'{', b'[')):
+        try:
+            return json.loads(payload.decode(), parse_constant=no_constant)
+        except (ValueError, RecursionError):
+            pass
+    try:
+        return payload.decode()
+    except ValueError:
+        return payload.decode('latin-1')
+
+
+def new_client(client_id, clean):
+    """A client of paho 1 or 2."""
+    if hasattr(mqtt, 'CallbackAPIVersion'):
+        return mqtt.Client(mqtt.CallbackAPIVersion.VERSION2, client_id,
+                           clean_session=clean)
+    return mqtt.Client(client_id, clean_session=clean)
+
+
+def number(code):
+    """Of a reason, in paho 1 or 2."""
+    return code if isinstance(code, int) else code.value
+
+
+def session_present(flags):
+    if isinstance(flags, dict):
+        return bool(flags.get('session present'))
+    return bool(flags.session_present)
+
+
+class Broker(Helper):
+    def __init__(self):
+        super().__init__(longest_queue=10000, longest_line=1 << 26)
+        self.client = None
+        self.connected, self.connecting = False, None
+        self.lock = threading.RLock()
+        self.filters = {}               # filter: {kind}, and its qos
+        self.matcher = MQTTMatcher()
+        self.qos = {}
+        self.todo = collections.deque() # filters to be subscribed to
+        self.asked = None               # mid, filter: what the broker decides
+        self.unlucky = {}               # filter: so often the broker hung up
+        self.asking = {}                # filter: requests that wait for it
+        self.waits = {}                 # mid: request, of publish
+        self.kept = collections.deque()     # published with QoS 0, offline
+        self.held = collections.deque()     # came in, nobody wants it yet
+        self.pending, self.largest = 1000, 1 << 22
+
+    def run(self):
+        threading.excepthook = self.thread_died
+        super().run()
+
+    def thread_died(self, what):
+        """Without the thread of the connection nothing would come."""
+        sys.__excepthook__(what.exc_type, what.exc_value, what.exc_traceback)
+        os._exit(5)
+
+    # Requests
+
+    def do_connect(self, request, _deadline):
+        self.pending = integer(request, 'pending', 1, 1000000)
+        self.largest = integer(request, 'largest', 1, 1 << 25)
+        self.clean = bool(request.get('clean', True))
+        client = self.client = new_client(request.get('client', ''),
+                                          self.clean)
+        self.set_up(client, request)
+        for wanted in request.get('filters', []):
+            self.want(wanted['filter'], wanted['kind'], wanted['qos'])
+        address = (text(request, 'host'), integer(request, 'port', 1, 65535),
+                   integer(request, 'keepalive', 1, 65535))
+        if request.get('wait'):
+            try:
+                client.connect(*address)
+            except ssl.SSLError as problem:
+                raise Refusal('tls', str(problem)) from None
+            except (OSError, ValueError) as problem:
+                raise Refusal('unreachable', str(problem)) from None
+            self.connecting = request
+        else:
+            client.connect_async(*address)
+        client.loop_start()
+        return LATER if request.get('wait') else {}
+
+    def set_up(self, client, request):
+        client.max_queued_messages_set(self.pending)
+        client.max_inflight_messages_set(100)
+        client.reconnect_delay_set(0.25, 30)
+        if request.get('user') is not None:
+            client.username_pw_set(request['user'], request.get('password'))
+        will = request.get('will')
+        if will:
+            client.will_set(will['topic'],
+                            encoded(will['payload'], will['kind']),
+                            will['qos'], will['retain'])
+        if request.get('tls'):
+            self.set_up_tls(client, request)
+        client.on_connect, client.on_disconnect = self.came, self.went
+        client.on_socket_open = self.at_once
+        client.on_message = self.message
+        client.on_publish = self.published
+        client.on_subscribe = self.subscribed
+        client.on_unsubscribe = self.unsubscribed
+
+    # Small packets wait for nothing: neither ours for more of them, nor those
+    # of the broker, 40 ms each, for our acknowledgement of the one before.
+
+    @staticmethod
+    def at_once(_client, _data, sock):
+        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    def acknowledge(self):
+        sock = self.client.socket()
+        if sock is not None and hasattr(socket, 'TCP_QUICKACK'):
+            try:
+                sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_QUICKACK, 1)
+            except OSError:
+                pass                    # it is being closed
+
+    @staticmethod
+    def set_up_tls(client, request):
+        try:
+            client.tls_set(ca_certs=request.get('ca'),
+                           certfile=request.get('cert'),
+                           keyfile=request.get('key'))
+        except (OSError, ssl.SSLError, ValueError) as problem:
+            raise Refusal('tls', str(problem)) from None
+        if request.get('insecure'):
+            client.tls_insecure_set(True)
+
+    def do_publish(self, request, _deadline):
+        topic, qos = text(request, 'topic'), integer(request, 'qos', 0, 2)
+        retain, wait = bool(request.get('retain')), request.get('wait')
+        try:
+            payload = encoded(request.get('payload'), kind_of(request))
+        except ValueError as problem:
+            raise BadRequest('payload: %s' % problem) from None
+        if len(payload) > self.largest:
+            raise Refusal('too_big', '%d bytes' % len(payload))
+        with self.lock:
+            if qos == 0 and (self.kept or not self.connected):
+                self.keep(topic, payload, retain, wait and request)
+            else:
+                self.publish(topic, payload, qos, retain, wait and request)
+        return LATER if wait else {}
+
+    def keep(self, topic, payload, retain, waiting):
+        """Until there is a connection."""
+        if len(self.kept) >= self.pending:
+            raise Refusal('full', 'too much is kept for the broker')
+        self.kept.append((topic, payload, 0, retain, waiting))
+
+    def send_kept(self):
+        """What was kept, when all that is wanted here can come."""
+        while self.kept and self.connected and self.asked is None:
+            try:
+                if not self.publish(*self.kept.popleft()):
+                    return
+            except (BadRequest, Refusal) as problem:
+                self.event('untold', message=str(problem))
+
+    def publish(self, topic, payload, qos, retain, waiting):
+        try:
+            info = self.client.publish(topic, payload, qos, retain)
+        except ValueError as problem:
+            raise BadRequest(str(problem)) from None
+        if info.rc == mqtt.MQTT_ERR_NO_CONN and qos == 0:
+            self.kept.appendleft((topic, payload, qos, retain, waiting))
+            return False                # until it comes back
+        if info.rc == mqtt.MQTT_ERR_QUEUE_SIZE:
+            raise Refusal('full', 'too much is kept for the broker')
+        elif waiting:
+            if qos == 0 or info.is_published():
+                self.reply(waiting, {})
+            else:
+                self.waits[info.mid] = waiting
+        return True
+
+    def do_subscribe(self, request, _deadline):
+        wanted, kind = text(request, 'filter'), kind_of(request)
+        with self.lock:
+            self.want(wanted, kind, integer(request, 'qos', 0, 2))
+            held = self.take_held(wanted)
+            connected = self.connected
+            if connected:
+                self.asking.setdefault(wanted, []).append(request)
+                self.todo.append(wanted)
+                self.ask_next()
+        for topic, payload, qos, retain in held:
+            self.tell(topic, payload, qos, retain)
+        return LATER if connected else {}
+
+    def want(self, wanted, kind, qos):
+        self.filters.setdefault(wanted, set()).add(kind)
+        self.qos[wanted] = max(qos, self.qos.get(wanted, 0))
+        self.matcher[wanted] = wanted
+
+    def ask_next(self):
+        """One filter at a time: the broker may hang up because of it."""
+        while self.todo and self.asked is None and self.connected:
+            wanted = self.todo.popleft()
+            if wanted in self.filters:
+                code, mid = self.client.subscribe(wanted, self.qos[wanted])
+                if code == mqtt.MQTT_ERR_SUCCESS:
+                    self.asked = mid, wanted
+                else:                   # it will be asked for again
+                    self.todo.clear()
+            else:
+                self.decided(wanted, {})
+
+    def decided(self, wanted, answer):
+        for request in self.asking.pop(wanted, []):
+            self.reply(request, answer)
+
+    def deny(self, wanted):
+        if self.filters.pop(wanted, None) is not None:
+            del self.matcher[wanted]
+            del self.qos[wanted]
+        self.unlucky.pop(wanted, None)
+        self.event('denied', filter=wanted)
+        self.decided(wanted, Refusal('denied', 'the broker refuses'))
+
+    def do_unsubscribe(self, request, _deadline):
+        wanted, kind = text(request, 'filter'), kind_of(request)
+        with self.lock:
+            kinds = self.filters.get(wanted, set())
+            kinds.discard(kind)
+            if not kinds and self.filters.pop(wanted, None) is not None:
+                del self.matcher[wanted]
+                del self.qos[wanted]
+                if self.client is not None and self.connected:
+                    self.client.unsubscribe(wanted)
+        return {}
+
+    def do_quit(self, _request, _deadline):
+        self.farewell()
+        return {}
+
+    def abandoned(self):
+        self.farewell()
+
+    def farewell(self):
+        with self.lock:
+            connected, self.connected = self.connected, False
+        if connected:
+            self.client.disconnect()
+            self.client.loop_stop()
+
+    # In the thread of the connection
+
+    def came(self, client, _data, flags, code, *_):
+        code = number(code)
+        connecting, self.connecting = self.connecting, None
+        if code:
+            if connecting:
+                self.reply(connecting,
+                           Refusal('refused', mqtt.connack_string(code)
+                                   if code < 128 else str(code)))
+            else:
+                self.event('refused', reason=code)
+            return
+        with self.lock:
+            self.connected, again = True, bool(self.filters)
+            self.asked = None
+            self.todo = collections.deque(self.filters)
+            self.ask_next()
+            self.send_kept()
+        if connecting:
+            self.reply(connecting,
+                       {'session': session_present(flags)})
+        self.event('up', again=again)
+
+    def went(self, _client, _data, *rest):
+        with self.lock:
+            was, self.connected = self.connected, False
+            if self.asked is not None:
+                self.hung_up(self.asked[1])
+        if was:
+            self.event('down')
+
+    def hung_up(self, wanted):
+        """It may be because of that filter."""
+        self.unlucky[wanted] = self.unlucky.get(wanted, 0) + 1
+        if self.unlucky[wanted] > 1:
+            self.deny(wanted)
+        elif wanted in self.filters:    # the last, next time
+            self.filters[wanted] = self.filters.pop(wanted)
+
+    def published(self, _client, _data, mid, *_):
+        with self.lock:
+            waiting = self.waits.pop(mid, None)
+        if waiting:
+            self.reply(waiting, {})
+
+    def subscribed(self, _client, _data, mid, codes, *_):
+        with self.lock:
+            if self.asked is None or self.asked[0] != mid:
+                return
+            wanted, self.asked = self.asked[1], None
+            if number(codes[0]) >= 128:
+                self.deny(wanted)
+            else:
+                self.unlucky.pop(wanted, None)
+                self.decided(wanted, {})
+            self.ask_next()
+            self.send_kept()
+
+    def unsubscribed(self, *_):
+        pass
+
+    def message(self, _client, _data, message):
+        self.acknowledge()
+        try:
+            topic = message.topic
+        except UnicodeDecodeError:
+            return
+        self.tell(topic, message.payload, message.qos, bool(message.retain))
+
+    def tell(self, topic, payload, qos, retain):
+        with self.lock:
+            keys = self.keys(topic)
+            if not keys:
+                self.hold(topic, payload, qos, retain)
+        for kind, filters in keys.items():
+            if len(payload) > self.largest:
+                self.event('too_big', topic=topic, size=len(payload),
+                           kind=kind, keys=filters)
+            else:
+                self.event('message', topic=topic, kind=kind, keys=filters,
+                           payload=decoded(payload, kind), qos=qos,
+                           retain=retain)
+
+    def keys(self, topic):
+        """The filters that match, by the kind of payload they want."""
+        keys = {}
+        for wanted in self.matcher.iter_match(topic):
+            for kind in self.filters[wanted]:
+                keys.setdefault(kind, []).append(wanted)
+        return keys
+
+    def hold(self, topic, payload, qos, retain):
+        """Of a session that was kept; nobody may want it yet."""
+        if not self.clean and len(payload) <= self.largest:
+            self.held.append((topic, payload, qos, retain))
+            if len(self.held) > self.pending:
+                self.held.popleft()
+
+    def take_held(self, wanted):
+        taken = [one for one in self.held
+                 if mqtt.topic_matches_sub(wanted, one[0])]
+        if taken:
+            self.held = collections.deque(
+                one for one in self.held
+                if not mqtt.topic_matches_sub(wanted, one[0]))
+        return taken
+
+
+class NoPaho(Helper):
+    """Says why there is no broker."""
+
+    def run(self):
+        self.connect()
+        self.complain('no_paho', str(MISSING), python=sys.executable)
+        sys.exit(NO_PAHO)
+
+
+if __name__ == '__main__':
+    (Broker if mqtt else NoPaho)().run()

@@ -1,0 +1,5 @@
+"""The smallest file for python_start/3; `diagnose python` calls it."""
+
+
+def hello(name):
+    return 'hello ' + name

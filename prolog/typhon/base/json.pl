@@ -1,0 +1,32 @@
+:- module(typhon_json,
+          [ json_dict/2                 % +Text, -Term
+          ]).
+
+/** <module> JSON, wherever this Prolog has it
+
+library(http/json) until SWI-Prolog 9.3, library(json) since, where the old
+name prints a message.
+
+*Threading*: no state.
+*/
+
+:- if(exists_source(library(json))).
+:- reexport(library(json), [atom_json_dict/3, json_read_dict/2]).
+:- else.
+:- reexport(library(http/json), [atom_json_dict/3, json_read_dict/2]).
+:- endif.
+
+%!  json_dict(+Text, -Term) is det.
+%
+%   What JSON says: dicts, without a tag everywhere, lists, strings, numbers,
+%   `true`, `false` and `null`.
+%
+%   @error syntax_error(json(Problem))
+
+:- if(exists_source(library(json))).
+json_dict(Text, Term) :-
+    atom_json_dict(Text, Term, [default_tag(_)]).
+:- else.
+json_dict(Text, Term) :-
+    atom_json_dict(Text, Term, []).
+:- endif.

@@ -1,0 +1,157 @@
+:- module(typhon_starting,
+          [ python_start/3,             % +Host, +File, +Options
+            python_stop/1,              % +Host
+            mqtt_start/3,               % +Host, +URL, +Options
+            mqtt_stop/1                 % +Host
+          ]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../host', [host_option/2, host_resolve/2, remote/2]).
+
+/** <module> The beginning and the end of bridges
+
+What bridges consist of is loaded when the first of its kind is started.
+Their hosts may be in other processes; files are then those of the machine
+there.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    starts/4,                   % Bridge, Host, What, Options: of this process
+    stops/2,                    % Bridge, Host
+    delivers/3,                 % Host, Name, Source: a payload that is Python
+    typhon_words:python_delivered/3.
+
+%!  python_start(+Host, +File, +Options) is det.
+%
+%   From now on the functions that File, or each of a list of files, defines
+%   are predicates of the place of Host: f(A, B) of Python is f(A, B, Result).
+%   One whose arguments have defaults is several predicates.  Left out are
+%   functions whose names begin with `_` or that come from elsewhere; a file
+%   that has `__all__` offers what is in it.  Files share one process.
+%   Options:
+%
+%     - timeout(Seconds): of each call, default 10
+%     - threads(N): so many calls at a time, default 8
+%     - queue(N): messages that may wait for an agent, default 1000
+%     - python(Program): default see helper_python/2
+%
+%   An agent that waits for a call holds up no other, as with all that takes
+%   its time.  When the process ends calls under way raise an
+%   error, and it is started again.
+%
+%   @error existence_error(source_sink, File), existence_error(host, Host)
+%   @error python_error(Class, Message) if File raises it
+%   @error permission_error(define, vocabulary, PI) if agents know such a
+%          predicate, permission_error(deliver, procedure, PI) if the place
+%          has one
+%   @error permission_error(start, python, Host) if it is started
+
+python_start(Host, File, Options) :-
+    start(python, Host, File, Options).
+
+%!  python_stop(+Host) is det.
+%
+%   The functions are gone.  Calls under way raise an error.
+%
+%   @error existence_error(python, Host)
+
+python_stop(Host) :-
+    stop(python, Host).
+
+%!  mqtt_start(+Host, +URL, +Options) is det.
+%
+%   Connect Host to the broker at URL, as mqtt_url/2.  Options:
+%
+%     - user(User), password(Password): if they are not in the URL
+%     - client(Id): the name of this client; default is that the broker
+%       chooses one
+%     - clean(Boolean): whether the broker forgets this client when it goes,
+%       default `true`; `false` needs client(Id)
+%     - will(Topic, Payload), will(Topic, Payload, Options): what the broker
+%       is to publish when the connection is lost; Options as of publish/3
+%     - keepalive(Seconds): default 60
+%     - ca(File), cert(File), key(File), insecure(Boolean): for TLS; the
+%       certificates to trust, default those of the system, those of this
+%       client, and whether any name of the broker will do, default `false`
+%     - payload(Kind): default of subscribe/2 and publish/3, itself `auto`
+%     - queue(N): default of subscribe/2
+%     - pending(N): how many messages are kept while there is no connection,
+%       default 1000
+%     - largest(Bytes): of payloads, default 4 MB
+%     - timeout(Seconds): of each request, default 10
+%     - wait(Boolean): whether to wait for the connection, default `true`.
+%       Without, Host is connected when the broker can be reached.
+%     - python(Program): default see helper_python/2
+%
+%   When the connection is lost, it is made again, and what agents have
+%   subscribed to is asked for again.
+%
+%   @error mqtt_error(unreachable(URL), Host), mqtt_error(refused, Host),
+%   mqtt_error(tls, Host)
+%   @error permission_error(start, mqtt, Host) if it is started
+%   @error existence_error(python_module, paho)
+%   @error domain_error(mqtt_url, URL), domain_error(mqtt_option, Option)
+
+mqtt_start(Host, URL, Options) :-
+    start(mqtt, Host, URL, Options).
+
+%!  mqtt_stop(+Host) is det.
+%
+%   The connection is closed, and what agents have subscribed to forgotten.
+%
+%   @error existence_error(mqtt, Host)
+
+mqtt_stop(Host) :-
+    stop(mqtt, Host).
+
+%   Where it is allowed.
+
+typhon_words:python_delivered(Host, Name, Source) :-
+    host_option(Host, python(true)),
+    load(python),
+    delivers(Host, Name, Source).
+
+                /*******************************
+                *        HERE OR ELSEWHERE     *
+                *******************************/
+
+start(Bridge, Host, What, Options) :-
+    must_be(atom, Host),
+    must_be(ground, What),
+    must_be(list, Options),
+    host_resolve(Host, Where),
+    raising_afresh(start_at(Where, Bridge, Host, What, Options)).
+
+start_at(local(Name), Bridge, _, What, Options) :-
+    load(Bridge),
+    starts(Bridge, Name, What, Options),
+    !.
+start_at(remote(_, Name, _), Bridge, Host, What, Options) :-
+    remote(Host, typhon_starting:start(Bridge, Name, What, Options)).
+
+stop(Bridge, Host) :-
+    must_be(atom, Host),
+    host_resolve(Host, Where),
+    raising_afresh(stop_at(Where, Bridge, Host)).
+
+stop_at(local(Name), Bridge, _) :-
+    (   stops(Bridge, Name)
+    ->  true
+    ;   existence_error(Bridge, Name)
+    ).
+stop_at(remote(_, Name, _), Bridge, Host) :-
+    remote(Host, typhon_starting:stop(Bridge, Name)).
+
+:- dynamic folder/1.                    % where the bridges are
+
+:- prolog_load_context(directory, Dir),
+   file_directory_name(Dir, Typhon),
+   retractall(folder(_)),
+   assertz(folder(Typhon)).
+
+load(Bridge) :-
+    folder(Typhon),
+    atomic_list_concat([Typhon, Bridge], /, File),
+    use_module(File, []).

@@ -1,0 +1,187 @@
+:- module(typhon_helper_owner,
+          [ own/5                       % +Name, +Command, +When, +Alias, +Told
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(answers,
+              [ answer/2, answer_all/1, answer_awaited/2, answer_died/1,
+                request_line/2, said/3 ]).
+:- use_module(process,
+              [ process_begin/4, process_end/1, process_release/1,
+                process_write/2 ]).
+
+/** <module> Who owns the process of a helper
+
+The owner starts the process, and writes to it in the order in which
+requests come.  One that is to run `always` and has ended is started again
+at once, and if it ends soon, again after 0.1 seconds, then twice as long, up
+to 10; otherwise it is started when there is a request.
+
+*Threading*: own/5 is the thread of the owner.  again/2 is run by it, and
+must not wait for the helper.
+*/
+
+:- multifile
+    again/2,                    % Name, Request: what to tell first, in this
+                                % order, to one that was started again
+    prolog:message//1.
+
+soon(5).                        % seconds, for a process to end
+
+%!  own(+Name, +Command, +When, +Alias, +Told) is det.
+%
+%   Keep the helper until stop(Who) comes, who then gets stopped(Owner). Other
+%   messages are request(Id, Queue, Line), note(Line) and `told`: a line is in
+%   the queue Told.
+%
+%   Me is owner(Name, Command, When, Alias, Told).  State is
+%   up(Process, Since, Wait), or down(Time, Wait, Answer): the process is
+%   started at Time, or when it is `asked` for something; until then requests
+%   get Answer.  Wait is for how long it is down next time, if it ends soon.
+
+own(Name, Command, When, Alias, Told) :-
+    Me = owner(Name, Command, When, Alias, Told),
+    (   When == always
+    ->  begin(Me, 0, State)
+    ;   State = down(asked, 0, closed)
+    ),
+    own(Me, State).
+
+own(Me, State0) :-
+    next_message(State0, Message),
+    handle(Message, Me, State0, State),
+    (   State = stopped(Who)
+    ->  thread_self(Owner),
+        thread_send_message(Who, stopped(Owner))
+    ;   own(Me, State)
+    ).
+
+next_message(down(Time, _, _), Message) :-
+    number(Time),
+    !,
+    thread_self(Me),
+    (   thread_get_message(Me, Message0, [deadline(Time)])
+    ->  Message = Message0
+    ;   Message = start
+    ).
+next_message(_, Message) :-
+    thread_get_message(Message).
+
+handle(request(Id, Queue, Line), Me, State0, State) =>
+    when_asked(State0, Me, State),
+    write_request(State, Id, Queue, Line).
+handle(told, Me, State0, State) =>
+    Me = owner(_, _, _, _, Told),
+    thread_get_message(Told, Line),
+    when_asked(State0, Me, State),
+    write_told(State, Line).
+handle(note(Line), _, State0, State) =>
+    State = State0,
+    write_told(State, Line).
+handle(start, Me, down(_, Wait, _), State) =>
+    begin_again(Me, Wait, State).
+handle(ended(Status), Me, up(Process, Since, Wait), State) =>
+    process_release(Process),
+    ended(Status, Me, Since, Wait, State).
+handle(stop(Who), _, State0, State) =>
+    answer_all(closed),
+    stop(State0),
+    forget,
+    State = stopped(Who).
+
+when_asked(down(asked, _, _), Me, State) =>
+    begin(Me, 0, State).
+when_asked(State0, _, State) =>
+    State = State0.
+
+begin(owner(Name, Command, When, Alias, _), Wait, State) :-
+    get_time(Now),
+    thread_self(Owner),
+    catch(( process_begin(Command, Alias, said(Name, Owner), Process),
+            State = up(Process, Now, Wait) ),
+          error(Formal, Context),
+          ( First is max(0.1, Wait),
+            down(When, First, error(Formal, Context), State) )).
+
+down(asked, _, Answer, down(asked, 0, Answer)).
+down(always, Wait0, Answer, down(Time, Wait, Answer)) :-
+    get_time(Now),
+    Time is Now+Wait0,
+    Wait is min(10, 2*Wait0).
+
+%   Started again it is told first what it has to know.
+
+begin_again(Me, Wait, State) :-
+    begin(Me, Wait, State),
+    Me = owner(Name, _, _, _, _),
+    forall(( State = up(_, _, _), again(Name, Request) ),
+           ( request_line(Request, Line),
+             write_told(State, Line) )).
+
+%   One that has lived for a while is replaced at once.
+
+ended(Status, Me, Since, Wait, State) :-
+    Me = owner(Name, _, When, _, _),
+    answer_died(died(Status)),
+    debug(typhon(helper), '~p ended: ~p', [Name, Status]),
+    tell_ended(When, Name, Status),
+    again_when(When, Since, Wait, Wait1),
+    (   Wait1 == now
+    ->  begin_again(Me, 0.1, State)
+    ;   down(When, Wait1, died(Status), State)
+    ).
+
+%   The first time at once.
+
+again_when(asked, _, _, 0) :-
+    !.
+again_when(always, _, 0, now) :-
+    !.
+again_when(always, Since, Wait, Wait1) :-
+    get_time(Now),
+    soon(Soon),
+    (   Now-Since > Soon
+    ->  Wait1 = now
+    ;   Wait1 = Wait
+    ).
+
+tell_ended(asked, _, _).
+tell_ended(always, Name, Status) :-
+    print_message(warning, typhon(helper_ended(Name, Status))).
+
+write_request(up(Process, _, _), Id, Queue, Line) :-
+    answer_awaited(Id, Queue),
+    process_write(Process, Line).
+write_request(down(_, _, Answer), _, Queue, _) :-
+    answer(Queue, Answer).
+
+write_told(up(Process, _, _), Line) :-
+    process_write(Process, Line).
+write_told(down(_, _, _), _).           % to nobody
+
+stop(up(Process, _, _)) :-
+    request_line(_{do:quit}, Line),
+    process_write(Process, Line),
+    process_end(Process),
+    thread_get_message(ended(_)),
+    process_release(Process).
+stop(down(_, _, _)).
+
+%   What was asked after the order to stop.
+
+forget :-
+    thread_self(Me),
+    (   thread_peek_message(Me, Message)
+    ->  thread_get_message(Message),
+        forgotten(Message),
+        forget
+    ;   true
+    ).
+
+forgotten(Message) :-
+    (   Message = request(_, Queue, _)
+    ->  answer(Queue, closed)
+    ;   true
+    ).
+
+prolog:message(typhon(helper_ended(Name, Status))) -->
+    [ 'The helper ~p ended (~p), and is started again'-[Name, Status] ].

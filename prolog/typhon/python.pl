@@ -1,0 +1,15 @@
+:- module(typhon_python, []).
+
+/** <module> Python functions as predicates of a place
+
+    :- use_module(library(typhon/python)).
+
+    ?- host_start(alpha), python_start(alpha, 'sensors.py', []).
+
+The functions that the file defines are predicates that agents on alpha can
+call, with the result as last argument.  See doc/bridges.md.
+*/
+
+:- reexport(bridge/starting, [python_start/3, python_stop/1]).
+:- use_module('python/service', []).
+:- use_module('python/delivered', []).
