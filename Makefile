@@ -17,8 +17,9 @@ ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
 CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
-.PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros thesis \
-    thesis-real test chaos fuzz check check-all doc bench bench-peers profile \
+.PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
+    demo-page page-tools thesis thesis-real test chaos fuzz check check-all \
+    doc bench bench-peers profile \
     test-portability install clean
 
 # In the environment of pack_install there is where libraries of C go.
@@ -45,9 +46,12 @@ demo-robots: tools      ## simulated robots carry a pole, and push boxes
 demo-ros: tools tools-ros       ## agents drive robots of ROS 2, simulated
 	@$(SWIPL) -q app/demo_ros.pl
 
-thesis: tools           ## every figure of the thesis anew; RUNS=10, JOBS=2
+demo-page: tools        ## sixty hosts in four processes, in a browser
+	@$(SWIPL) app/demo_page.pl
+
+thesis: tools page-tools ## every figure of the thesis anew; RUNS=10, JOBS=2
 	@$(SWIPL) experiments/study.pl -- thesis --runs $(RUNS) \
-	    --jobs $(JOBS) --out out/thesis
+	    --jobs $(JOBS) --replays --out out/thesis
 
 thesis-real: tools      ## one case of each chapter, over sockets as well
 	@$(SWIPL) experiments/study.pl -- thesis --real --runs $(RUNS) \
@@ -100,6 +104,9 @@ clean:                  ## remove what runs have left in out/
 
 tools:                  ## install what the core needs and is missing
 	@.ci/install
+
+page-tools:             ## get what plots and layouts of the page need
+	@.ci/page-tools
 
 tools-peers:            ## install what `make bench-peers` compares with
 	@.ci/install peers

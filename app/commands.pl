@@ -43,6 +43,8 @@ command(story, 'LOG AGENT', 2,
         'tell from a log what happened to an agent').
 command(picture, 'LOG SVG', 2,
         'draw a log: hosts, time, agents and messages').
+command(page, '[LOG]', 0-1,
+        'show the network of a running host in a browser, or replay a log').
 command(diagnose, '[ADDRESS]', 0-2,
         'find out why a host, or with nxt PORT a robot, is not reached; or \c
          why python, mqtt URL, fipa URL, ros or ros URL does not work').
@@ -59,6 +61,8 @@ footer(check, 'Exit status 0: programs without errors (warnings may be).').
 footer(join, 'Exit status 0: the outcome is `done`.').
 footer(remote, 'Exit status 0: the goal was true. Variables that begin with _').
 footer(remote, 'are not printed; what the goal prints, is.').
+footer(page, 'Prints the link to the page; who has it may do what it shows. Runs until').
+footer(page, 'SIGTERM or SIGINT.  With LOG it writes a file that a browser opens.').
 footer(stop, 'A `host` or `network` of the command line ends with its host.').
 footer(Command, 'AGENT is an id, as `agents` prints it, or with --host a name.') :-
     memberchk(Command, [send, move, dispose, join]).
@@ -113,6 +117,16 @@ option(network, hop_time, term, 'uniform(A,B)',
        'delay added to every hop, in host seconds').
 option(network, clock, number, 'RATE',
        'host seconds in a real second').
+option(page, host, atom, 'ADDRESS',
+       'host whose network is shown (required)').
+option(page, port, nonneg, 'PORT',
+       'TCP port of the page (default 8080, 0 for any)').
+option(page, bind, atom, 'INTERFACE',
+       'interface the page is served at (default localhost)').
+option(page, read_only, boolean, boolean,
+       'only to look at: nothing can be done there').
+option(page, export, atom, 'FILE',
+       'write a page that replays LOG to FILE, and serve none').
 option(create, host, atom, 'ADDRESS',
        'host to create it on (required)').
 option(create, name, atom, 'NAME',

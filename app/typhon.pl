@@ -24,6 +24,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module('../prolog/typhon/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
 :- use_module('../prolog/typhon/people/happenings', [short_name/2]).
+:- use_module('../prolog/typhon/page', [page_export/3, page_serve/2]).
 :- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(diagnose_fipa, [diagnose_fipa/1]).
@@ -230,6 +231,17 @@ run(send, [Agent0, Message0], Options) :-
     home_of(Agent, Home),
     option(host(Host), Options, Home),
     remote(Host, call(typhon:agent_send(Agent, Message))).
+run(page, [Log], Options) :-
+    required(page, export(File), Options),
+    page_export(Log, File, []).
+run(page, [], Options) :-
+    required(page, host(Host), Options),
+    host_now(Host, _),
+    findall(Option, page_option(Options, Option), PageOptions),
+    until_told_to_stop(
+        page_serve(PageOptions, Link),
+        print_line(Link),
+        page_stop).
 run(log, [File], Options) :-
     option(serve(true), Options),
     !,
@@ -273,6 +285,11 @@ run(diagnose, [Kind, Port], _) :-
     ->  diagnose_fipa(Port)
     ;   throw(error(typhon_usage(arguments(diagnose)), _))
     ).
+
+page_option(Options, Option) :-
+    member(Option, Options),
+    functor(Option, Name, 1),
+    memberchk(Name, [host, port, bind, read_only]).
 
 bridge_named([python]).
 bridge_named([mqtt]).

@@ -36,6 +36,7 @@ opt_type(jobs,    jobs,    natural).
 opt_type(set,     set,     atom).
 opt_type(case,    case,    atom).
 opt_type(logs,    logs,    boolean).
+opt_type(replays, replays, boolean).
 opt_type(list,    list,    boolean).
 opt_type(collect, collect, boolean).
 opt_type(real,    real,    boolean).
@@ -57,6 +58,8 @@ varied. May be given again; `STUDY --help` lists them").
 opt_help(case,    "Make one run, of this case with the first seed, in this \c
 process: its number, or its name, as delta=0.5,topology=ring").
 opt_help(logs,    "Keep the log of each run, events.pl [false]").
+opt_help(replays, "Make a run of the first study of each folder again, to \c
+be looked at in a browser [false]").
 opt_help(list,    "Print a command for each run, and make none [false]").
 opt_help(collect, "Make no runs; show those that are there [false]").
 opt_help(real,    "Make one case on real sockets, too, and say whether what \c

@@ -12,10 +12,12 @@ layer has a door, and behind it a folder with its rooms.
   | networks, the log server       | typhon/network    |
   | events, as they happen         | typhon/watching   |
   | tables for people              | typhon/people     |
+  | a page for a browser           | typhon/page       |
   | Python, MQTT, ROS              | typhon/bridge     |
 */
 
 :- reexport(typhon/program, [agent_check/1]).
+:- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport(typhon/host,
             [ host_start/1, host_start/2, host_change/2, host_stop/1,
               host_property/2, link/2, link/3, unlink/2, remote/2
@@ -23,8 +25,8 @@ layer has a door, and behind it a folder with its rooms.
 :- reexport('typhon/lifecycle',
             except([agent_glance/2, agent_named/2, status_shown/2])).
 :- reexport('typhon/network').
-:- reexport(typhon/watching, [watch/3, unwatch/1]).
-:- reexport('typhon/people').
+:- reexport(typhon/people, [agents/0, hosts/0]).
+:- reexport(typhon/page, [page_start/1, page_stop/0]).
 :- reexport(typhon/bridge/starting,
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
               ros_start/3, ros_stop/1 ]).

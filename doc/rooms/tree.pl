@@ -101,6 +101,9 @@ note_directive(use_module(Spec), File) :-
 note_directive(use_module(Spec, List), File) :-
     !,
     note_import(import, File, Spec, List).
+note_directive(autoload(Spec, List), File) :-
+    !,
+    note_import(import, File, Spec, List).
 note_directive(reexport(Spec), File) :-
     !,
     note_import(reexport, File, Spec, all).
@@ -174,7 +177,7 @@ reach(Part, Module, Name/Arity) :-
 
 layers([ base, helper, nxt, program, wire, host, agent, travel, lifecycle,
          language, network, watching, people, bridge, python, mqtt, fipa,
-         ros ]).
+         ros, page ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.
 %!  door(?File, ?Layer) is nondet.

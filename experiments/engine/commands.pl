@@ -60,7 +60,8 @@ repeated(Options, Argument) :-
     member(set(Setting), Options),
     member(Argument, ['--set', Setting]).
 repeated(Options, Argument) :-
-    member(Argument-Option, ['--logs'-logs(true), '--real'-real(true)]),
+    member(Argument-Option, [ '--logs'-logs(true), '--real'-real(true),
+                              '--replays'-replays(true) ]),
     option(Option, Options).
 
 from_here(File, Relative) :-

@@ -16,6 +16,7 @@
 :- use_module(plan,
               [ out_directory/2, planned/4, planned_seed/2,
                 runs_directory/2 ]).
+:- use_module(replays, [replays_save/3]).
 :- use_module(report,
               [ claims_sentence/2, outcome_save/4, print_outcome/3,
                 shown_measures/3 ]).
@@ -41,6 +42,7 @@ figures(Plans, Options) :-
     findall(Shown,
             ( member(Plan, Plans), show(Plan, Options, Out, Shown) ),
             All),
+    replays_save(Plans, Options, Out),
     page_save(Out, All),
     findall(Outcome, member(shown(_, Outcome, _, _), All), Outcomes),
     claims_sentence(Outcomes, Sentence),

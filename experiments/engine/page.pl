@@ -79,6 +79,7 @@ studies([shown(Study, Outcome, Command, Run)|Shown], Directory) -->
     checks(Outcome.checks),
     parameters(Study, Outcome.given),
     one_run(Run),
+    replay(Directory, Name),
     html(p(class(small),
            [ 'Data: ', \link(Name, 'runs.csv'), ', ',
              \link(Name, 'claims.csv'), ', ', \link(Name, 'parameters.csv'),
@@ -193,6 +194,17 @@ parameters(Study, Given) -->
               member([Name, Value, Why], Rows), Trs) },
     html(details([ summary(parameters),
                    table([tr([th(parameter), th(value), th(why)])|Trs]) ])).
+
+%   One of the runs to look at, if that was asked for.
+
+replay(Directory, Name) -->
+    { atomic_list_concat([Directory, Name, 'replay.html'], /, File),
+      exists_file(File),
+      path(Name, 'replay.html', Path) },
+    !,
+    html(p(a(href(Path), 'Replay of one of the runs'))).
+replay(_, _) -->
+    [].
 
 %   How one of the runs was made: its first, on some machine.
 

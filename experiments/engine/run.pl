@@ -1,6 +1,7 @@
 :- module(study_run,
           [ run_make/4,                 % +Study, +Case, +Seed, +Directory
-            run_log/5                   % +Study, +Case, +Seed, +File, -Log
+            run_log/5,                  % +Study, +Case, +Seed, +File, -Log
+            run_again/4                 % +Study, +Case, +Seed, +File
           ]).
 :- use_module('../../prolog/typhon',
               [log_events/2, network_property/2, network_start/3,
@@ -108,27 +109,42 @@ environment(load(Load)) :-
 %   are in File too.
 
 run_log(Study, Case0, Seed, File, Log) :-
-    file_directory_name(File, Directory),
-    Case = Case0.put(_{seed:Seed, directory:Directory}),
-    study_at_work(Study),
-    set_random(seed(Seed)),
+    begin(Study, Case0, Seed, File, Case),
     (   study_says(Study, network/3)
-    ->  network_log(Study, Case, File, Log)
+    ->  network_run(Study, Case, log(File), Hosts),
+        log_events(File, Events),
+        Log = log{case:Case, hosts:Hosts, events:Events}
     ;   Log = log{case:Case}
     ).
 
-network_log(Study, Case, File, log{case:Case, hosts:Hosts, events:Events}) :-
+%!  run_again(+Study, +Case, +Seed, +File) is semidet.
+%
+%   Make the run for its log in File alone, in which there is all that can be
+%   logged.  Fails if the study has no network.
+
+run_again(Study, Case0, Seed, File) :-
+    study_says(Study, network/3),
+    begin(Study, Case0, Seed, File, Case),
+    network_run(Study, Case, log(File, [hops, messages, faults, links, hosts]),
+                _).
+
+begin(Study, Case0, Seed, File, Case) :-
+    file_directory_name(File, Directory),
+    Case = Case0.put(_{seed:Seed, directory:Directory}),
+    study_at_work(Study),
+    set_random(seed(Seed)).
+
+network_run(Study, Case, LogOption, Hosts) :-
     must(Study, network(Case, Topology, Options0)),
     append(Options0,
            [ clock(Case.clock), processes(Case.processes), seed(Case.seed),
-             log(File) ],
+             LogOption ],
            Options),
     setup_call_cleanup(
         network_start(Topology, Network, Options),
         ( network_property(Network, hosts(Hosts)),
           on_network(Study, Case, Network) ),
-        network_stop(Network)),
-    log_events(File, Events).
+        network_stop(Network)).
 
 on_network(Study, Case, Network) :-
     (   study_says(Study, run/2)

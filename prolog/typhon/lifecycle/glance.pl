@@ -55,7 +55,9 @@ doing(waiting(Pattern, Until), Host, Doing) :-
         format(atom(Doing), 'waiting for ~w, ~w', [Text, Left])
     ;   atom_concat('waiting for ', Text, Doing)
     ).
-doing(leaving(To, _), _, Doing) :-
+doing(leaving(local(Name), _), _, Doing) :-
+    bound_for(in_transit, Name, Doing).
+doing(leaving(remote(To, _, _), _), _, Doing) :-
     bound_for(in_transit, To, Doing).
 doing(transit(To, Sent), _, Doing) :-
     under_way(transit(To, Sent), To, Doing).

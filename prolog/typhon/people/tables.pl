@@ -12,13 +12,12 @@ made is left out.
 */
 
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
-:- use_module(library(lists), [append/2, append/3, member/2, sum_list/2]).
+:- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2]).
 :- use_module('../agent', [agent_name/3]).
-:- use_module('../host', [address_parts/3]).
-:- use_module('../network', [network_property/2]).
-:- use_module(survey, [survey/4, survey_order/2]).
+:- use_module(survey,
+              [survey/4, survey_agents/2, survey_hosts/4, survey_order/2]).
 
 %   So many lines are still read by a person.
 
@@ -46,13 +45,7 @@ hosts :-
 
 print_hosts(Places) :-
     survey(0, Places, Seen, Silent),
-    findall(Host, ( member(seen(Hosts, _, _), Seen), member(Host, Hosts) ),
-            Answered),
-    findall(host(Address, Why, '', '', '', []),
-            unseen(Places, Seen, Silent, Address, Why),
-            Unseen0),
-    sort(Unseen0, Unseen),
-    append(Answered, Unseen, All),
+    survey_hosts(Places, Seen, Silent, All),
     in_order(All, Sorted),
     longest_table(Longest),
     first_few(Longest, Sorted, Shown, More),
@@ -63,30 +56,7 @@ print_hosts(Places) :-
     print_more(More),
     print_silent(Silent).
 
-%   unseen(+Places, +Seen, +Silent, -Address, -State): a host that was heard
-%   of in a process that has not answered.
-
-unseen(Places, Seen, Silent, Address, State) :-
-    heard_of(Places, Seen, Address),
-    address_parts(Address, _, Endpoint),
-    memberchk(Endpoint-Why, Silent),
-    silence(Why, State).
-
-heard_of(Places, _, Address) :-
-    member(Address, Places).
-heard_of(_, _, Address) :-
-    network_property(_, hosts(Addresses)),
-    member(Address, Addresses).
-heard_of(_, Seen, Address) :-
-    member(seen(Hosts, _, _), Seen),
-    member(host(_, _, _, _, _, Neighbours), Hosts),
-    member(Address, Neighbours).
-
-silence(gone, gone).
-silence(lost, silent).
-silence(late, silent).
-
-host_row(host(Address, State, Load, Capacity, Arrived, Neighbours),
+host_row(host(Address, State, Load, Capacity, Arrived, Neighbours, _, _),
          [Address, State, Agents, Arrived, Text]) :-
     host_agents(Capacity, Load, Agents),
     host_neighbours(Neighbours, Text).
@@ -151,26 +121,14 @@ print_agents(Places, Ids) :-
 %   agents_seen(+Seen, -Agents, -Count): the first of Count agents, in order.
 
 agents_seen(Seen, Agents, Count) :-
-    findall(Some, member(seen(_, Some, _), Seen), Lists),
-    findall(N, member(seen(_, _, N), Seen), Counts),
-    append(Lists, All),
-    once_each(All, Different),
+    survey_agents(Seen, Different),
     in_order(Different, Agents),
+    findall(N, member(seen(_, _, N), Seen), Counts),
+    findall(Id, ( member(seen(_, Some, _), Seen), member(Id, Some) ), All),
     sum_list(Counts, Total),
     length(All, Sent),
     length(Different, Left),
     Count is Total-(Sent-Left).
-
-%   One under way may have been seen twice: where it has come counts.
-
-once_each(Agents, Set) :-
-    map_list_to_pairs(hops_left, Agents, Pairs0),
-    keysort(Pairs0, Pairs),
-    pairs_values(Pairs, Sorted),
-    sort(1, @<, Sorted, Set).           % the first of each
-
-hops_left(agent(_, glance(_, _, _, Hops, _)), Left) :-
-    Left is -Hops.
 
 agent_row(Ids, All, agent(Id, glance(Address, Program, Doing, Hops, Mail)),
           [Name, Host, Program, Doing, Hops, Mail]) :-

@@ -38,6 +38,15 @@ test(nothing, Tables == [["No hosts"], ["No agents"]]) :-
     table(agents, Agents),
     Tables = [Hosts, Agents].
 
+test(under_way_within_the_process) :-
+    with_hosts([ alpha-[clock(virtual), hop_time(uniform(5, 5))],
+                 beta-[clock(virtual)] ],
+               ( create([(main :- move(beta))], A, [name(goes), host(alpha)]),
+                 agent_join(A, timeout, 2),
+                 table(agents, Lines) )),
+    assertion(shows(Lines, ["goes", "alpha", "test", "in_transit", "to",
+                            "beta", "0", "0"])).
+
 test(what_an_agent_does) :-
     with_hosts([alpha-[clock(virtual)], beta-[clock(virtual)]], doings).
 

@@ -1,0 +1,6 @@
+% What the page shows of populations that keep themselves; facts overlay/4,
+% see doc/page.md.
+
+overlay('resource of agents', bar, log(resource(Resource)), Resource).
+overlay('deaths', bar, log(state(death)), add(1)).
+overlay('clones', bar, log(cloned), add(1)).

@@ -1,0 +1,5 @@
+% What the page shows of guards and antibodies; facts overlay/4, see
+% doc/page.md.
+
+overlay('antigens that came', bar, log(attacked(_)), add(1)).
+overlay('time until served', bar, log(served(_, _, Wait, _)), Wait).

@@ -1,0 +1,6 @@
+% What the page shows of agents in step; facts overlay/4, see doc/page.md.
+
+overlay('task executed', colour, log(executing(_, Task)), Task).
+overlay('action potential', bar, log(psi(Psi)), Psi).
+overlay('potential of learners', bar, log(reward(_, Potential, _)), Potential).
+overlay('potential of learners', bar, log(penalty(_, Potential, _)), Potential).

@@ -1,0 +1,127 @@
+:- module(typhon_demo_page, []).
+
+/** <module> A network at work, to be looked at in a browser
+
+    swipl app/demo_page.pl [--port=8080] [--seed=1]
+
+Sixty hosts in four processes, whose links come and go.  Two mechanisms are at
+work there: agents bring sequences of tasks forward in step, hosts being set
+back now and then; and antigens attack hosts, which release antibodies.  Prints
+the link to the page, and runs until Ctrl-C.
+
+*Threading*: the network is started by the main thread; what attacks and what
+sets back happens in another, until it is told to stop.
+*/
+
+:- use_module('../prolog/typhon',
+              [ agent_property/2, network_property/2, network_start/3,
+                network_stop/1 ]).
+:- use_module('../prolog/typhon/page', [page_serve/2, page_stop/0]).
+:- use_module('../agents/sieve/operator', [antigen_attack/2, sieve_start/3]).
+:- use_module('../agents/sync/operator', [sequence_start/5, tasks_fail/4]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(filesex), [make_directory_path/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(random),
+              [random/1, random_between/3, random_member/2]).
+
+:- initialization(main, main).
+
+:- public main/1.
+
+main(Argv) :-
+    argv_options(Argv, _, Options),
+    option(port(Port), Options, 8080),
+    option(seed(Seed), Options, 1),
+    on_signal(int, _, typhon_demo_page:stop),
+    on_signal(term, _, typhon_demo_page:stop),
+    thread_create(demo(Port, Seed), Demo),
+    thread_get_message(stop),
+    thread_send_message(Demo, stop),
+    thread_join(Demo, Status),
+    ( Status == true -> halt(0) ; print_message(error, Status), halt(1) ).
+
+%   In a thread of its own: while the main thread creates threads, signals
+%   reach one of those, and are lost.
+
+:- public stop/1.
+
+stop(_Signal) :-
+    thread_send_message(main, stop).
+
+demo(Port, Seed) :-
+    call_cleanup(network(Port, Seed), thread_send_message(main, stop)).
+
+network(Port, Seed) :-
+    set_random(seed(Seed)),
+    log_file(Log),
+    network_start(grid(6, 10), Network,
+                  [ processes(4), seed(Seed), log(Log, [hops, messages]),
+                    hop_time(uniform(0.3, 1.2)),
+                    dynamic(toggle(uniform(4, 12), 0.2, 0.5)) ]),
+    at_work(Port, Network, Result),
+    page_stop,
+    network_stop(Network),
+    ( Result == true -> true ; throw(Result) ).
+
+%   Which can be replayed, see app/typhon.pl page --export.
+
+log_file(Log) :-
+    make_directory_path('out/demo-page'),
+    absolute_file_name('out/demo-page/log.pl', Log).
+
+at_work(Port, Network, Result) :-
+    catch(( begin(Port, Network, Hosts), go_on(1, [], Hosts), Result = true ),
+          error(Formal, Context), Result = error(Formal, Context)).
+
+begin(Port, Network, Hosts) :-
+    network_property(Network, hosts(Hosts)),
+    page_serve([port(Port)], Link),
+    format('~w~n', [Link]),
+    flush_output,
+    sieve_start(Hosts, payloads(sieve/bits), []).
+
+%   Every second a host is attacked; now and then some are set back.  When all
+%   is done, the next assembly begins.
+
+go_on(N0, Agents0, Hosts) :-
+    thread_self(Me),
+    (   thread_get_message(Me, stop, [timeout(1)])
+    ->  true
+    ;   attack(Hosts),
+        next(N0, Agents0, Hosts, N, Agents),
+        set_back(N, Hosts),
+        go_on(N, Agents, Hosts)
+    ).
+
+attack(Hosts) :-
+    random_member(Host, Hosts),
+    length(Bits, 5),
+    maplist(random_between(0, 1), Bits),
+    antigen_attack([Host], Bits).
+
+next(N, Agents, _, N, Agents) :-
+    member(Agent, Agents),
+    agent_property(Agent, state(_)),
+    !.
+next(N0, _, Hosts, N, Agents) :-
+    N is N0+1,
+    sequence(N, Sequence),
+    maplist(task, [drill, sand, paint, dry], Tasks),
+    sequence_start(Sequence, Hosts, Tasks, [agents(12), seed(N)], Agents).
+
+sequence(N, Sequence) :-
+    atom_concat(assembly, N, Sequence).
+
+task(Name, Name-sleep(2)).
+
+set_back(N, Hosts) :-
+    random(Chance),
+    (   Chance < 0.1
+    ->  findall(Host, ( member(Host, Hosts), random(C), C < 0.5 ), Some),
+        sequence(N, Sequence),
+        tasks_fail(Sequence, sand, Some, _)
+    ;   true
+    ).

@@ -1,0 +1,217 @@
+// What is chosen, seen closely: an agent with its program, or a host. Live.
+
+import { button, element } from './dom.js';
+import { shortName } from './store.js';
+import { agentActions, hostActions } from './work.js';
+
+const CALM = 1000;              // ms between two looks, when something happens
+const PAUSE = 3000;             // ... when nothing does
+
+export function details(parent, store, app) {
+  const panel = new Details(parent, store, app);
+  app.on('select', chosen => panel.choose(chosen));
+  app.on('rights', () => panel.choose(app.chosen));
+  app.on('state', () => panel.look());
+  store.on('events', events => panel.heard(events));
+}
+
+class Details {
+  constructor(parent, store, app) {
+    Object.assign(this, { parent, store, app, sections: new Map(), round: 0 });
+    this.opened = new Set(['Program', 'Facts', 'Mailbox', 'Fault', 'Neighbours',
+      'Tuple space', 'Agents here']);
+    this.back = [];
+    addEventListener('keydown', event => {
+      if (event.key === 'Escape' && !document.querySelector('dialog[open]')
+          && !parent.hidden) app.select({});
+    });
+    setInterval(() => this.look(), PAUSE);
+  }
+
+  choose({ agent, host }) {
+    const what = agent ? 'agent' : host ? 'host' : null;
+    this.what = what;
+    this.id = agent || host;
+    this.sections.clear();
+    this.latest = 0;
+    this.parent.hidden = !what;
+    document.body.classList.toggle('chosen', Boolean(what));
+    if (!what) return;
+    this.title = element('h2', { tabindex: -1 }, shortName(this.id));
+    this.state = element('span', { class: 'pill' });
+    this.facts = element('dl', { class: 'facts' });
+    this.buttons = element('div', { class: 'buttons' });
+    this.list = element('div', { class: 'sections' });
+    this.problem = element('p', { class: 'problem', role: 'status', hidden: true });
+    this.parent.replaceChildren(
+      element('div', { class: 'details-head' }, this.title, this.state,
+        button('×', () => this.app.select({}), { 'aria-label': 'Close details',
+          class: 'close' })),
+      element('p', { class: 'id' }, this.id), this.buttons, this.facts,
+      this.problem, this.list);
+    const make = what === 'agent' ? agentActions : hostActions;
+    if (this.app.act) this.buttons.append(...make(this.app, this.id));
+    this.parent.setAttribute('aria-label', `${what} ${shortName(this.id)}`);
+    this.look(true);
+  }
+
+  heard(events) {
+    if (!this.what || this.soon) return;
+    const index = this.what === 'agent' ? 2 : 1;
+    if (!events.some(event => event[index] === this.id)) return;
+    this.soon = setTimeout(() => { this.soon = null; this.look(true); }, CALM);
+  }
+
+  async look(always = false) {
+    if (!this.what || document.hidden || (this.looking && !always)) return;
+    const round = ++this.round, { what, id } = this;
+    this.looking = true;
+    try {
+      const told = await this.app.ask({ ask: what, [what]: id });
+      if (round !== this.round || id !== this.id) return;
+      this.problem.hidden = true;
+      if (what === 'agent') this.showAgent(told);
+      else this.showHost(told);
+    } catch (error) {
+      if (id !== this.id) return;
+      this.problem.hidden = false;
+      this.problem.textContent = error.message;
+      const known = what === 'agent' ? this.store.agents.get(id)?.status
+        : this.store.hosts.get(id)?.state;
+      this.pill(known || 'unknown');
+    } finally {
+      this.looking = false;
+    }
+  }
+
+  pill(text) {
+    const word = text.split(/[\s(]/)[0];
+    this.state.textContent = word;
+    this.state.className = `pill state-${word}`;
+  }
+
+  // [[term, text or element]]
+  define(rows) {
+    const made = rows.filter(([, value]) => value !== undefined && value !== '')
+      .flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]);
+    this.facts.replaceChildren(...made);
+  }
+
+  hostLink(id) {
+    return button(shortName(id), () => this.app.select({ host: id }),
+      { class: 'link', title: id });
+  }
+
+  agentLink(id) {
+    return button(shortName(id), () => this.app.select({ agent: id }),
+      { class: 'link', title: id });
+  }
+
+  // A part that can be folded; its content is made anew when it has changed.
+  section(title, content, make, note = '') {
+    const key = JSON.stringify(content);
+    let section = this.sections.get(title);
+    if (!section) {
+      const summary = element('summary', {}, title,
+        element('span', { class: 'muted' }));
+      const body = element('div', { class: 'body', tabindex: -1 });
+      const made = element('details', { open: this.opened.has(title),
+        ontoggle: () => this.opened[made.open ? 'add' : 'delete'](title) },
+        summary, body);
+      section = { made, body, note: summary.lastChild, key: null };
+      this.sections.set(title, section);
+      this.list.append(made);
+    }
+    section.note.textContent = note === '' ? '' : ` ${note}`;
+    section.made.hidden = Array.isArray(content) && content.length === 0;
+    if (section.key === key) return;
+    section.key = key;
+    section.body.replaceChildren(make(content));
+  }
+
+  texts(title, list, count = list.length) {
+    this.section(title, list, terms => element('pre', { class: 'terms' },
+      terms.join('\n')), count > list.length ? `${list.length} of ${count}` : count);
+  }
+
+  // ------------------------------------------------------------- an agent
+
+  showAgent(told) {
+    const known = this.store.agents.get(this.id);
+    if (told.outcome !== undefined) {
+      this.pill('ended');
+      this.define([['Outcome', told.outcome], ['Program', known?.program ?? '']]);
+      for (const action of this.buttons.querySelectorAll('button'))
+        action.disabled = true;
+    } else {
+      this.pill(told.state);
+      for (const action of this.buttons.querySelectorAll('.for-faulty'))
+        action.hidden = !told.fault;
+      this.define([['Host', this.hostLink(told.host)], ['Program', told.name],
+        ['Home', told.home === told.host ? 'here' : this.hostLink(told.home)],
+        ['Hops', told.hops.toLocaleString('en')],
+        ['Busy', told.busy && `${told.busy.toFixed(1)} s`]]);
+      this.section('Fault', told.fault ? [told.fault] : [], ([fault]) =>
+        element('div', {}, element('pre', { class: 'problem' }, fault.error),
+          element('p', {}, `in ${fault.goal}, ${fault.place}`)));
+      this.section('Program', told.program, showProgram);
+      this.texts('Goals left', told.goals);
+      this.texts('Facts', told.facts, told.fact_count);
+      this.section('Mailbox', told.mailbox || [], mail => element('ul',
+        { class: 'plain' }, ...mail.map(([from, text]) => element('li', {},
+          element('code', {}, text), element('span', { class: 'muted' },
+            ` from ${shortName(from)}`)))), (told.mailbox || []).length);
+      this.texts('Payloads', told.payloads);
+    }
+    if (known) this.section('Trail', known.trail.slice(-64), trail =>
+      element('ol', { class: 'trail' }, ...trail.map(host =>
+        element('li', {}, this.hostLink(host)))), known.trail.length);
+  }
+
+  // --------------------------------------------------------------- a host
+
+  showHost(told) {
+    const known = this.store.hosts.get(this.id);
+    this.pill(known?.state || 'running');
+    this.define([['Process', told.process], ['Agents', told.capacity === 'inf'
+      ? told.load : `${told.load} of ${told.capacity}`],
+      ...told.hop_times.map(([way, n, min, mean, max]) => [`Hops ${way}`,
+        `${n.toLocaleString('en')}, in ${ms(mean)} ms (${ms(min)} to ${ms(max)})`])]);
+    const links = told.links.map(id => [id, known?.links.get(id) ?? 1]);
+    this.section('Neighbours', links, rows => element('ul', { class: 'plain' },
+      ...rows.map(([id, cost]) => element('li', {}, this.hostLink(id),
+        cost === 1 ? null : element('span', { class: 'muted' }, ` cost ${cost}`),
+        this.app.act ? button('unlink', () => this.unlink(id),
+          { class: 'small', 'aria-label': `Unlink ${shortName(id)}` }) : null))),
+      links.length);
+    const agents = known ? [...known.agents].map(agent =>
+      [agent.id, agent.program]).slice(0, 300) : [];
+    this.section('Agents here', agents, rows => element('ul', { class: 'plain' },
+      ...rows.map(([id, program]) => element('li', {}, this.agentLink(id),
+        element('span', { class: 'muted' }, ` ${program}`)))), known?.agents.size);
+    this.texts('Tuple space', told.tuples);
+    this.texts('Pheromones', told.pheromones);
+    this.texts('Place', told.place);
+    this.texts('Services', told.services);
+    this.texts('Options', told.options);
+    const lines = (known?.lines || []).slice(-100).reverse();
+    this.section('Log', lines, rows => element('ul', { class: 'plain log' },
+      ...rows.map(([time, agent, text]) => element('li', {},
+        element('span', { class: 'muted' }, `${time === null ? '' : time.toFixed(2)} `),
+        agent ? this.agentLink(agent) : null, ` ${text}`))), lines.length);
+  }
+
+  async unlink(other) {
+    await this.app.order({ do: 'unlink', a: this.id, b: other });
+    this.look(true);
+  }
+}
+
+const ms = seconds => (seconds * 1000).toPrecision(3);
+
+function showProgram({ lines, here }) {
+  const marked = new Set(here);
+  return element('pre', { class: 'program' }, ...lines.map((line, n) =>
+    element('span', marked.has(n + 1) ? { class: 'here',
+      title: 'Here it stands' } : {}, `${line}\n`)));
+}

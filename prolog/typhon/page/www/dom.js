@@ -1,0 +1,70 @@
+// Elements, made without HTML: whatever is said goes in as text.
+
+export function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === false || value === null || value === undefined) continue;
+    if (name.startsWith('on')) made.addEventListener(name.slice(2), value);
+    else made.setAttribute(name, value === true ? '' : String(value));
+  }
+  made.append(...children.filter(child => child !== null));
+  return made;
+}
+
+export const button = (label, onclick, attributes = {}) =>
+  element('button', { type: 'button', onclick, ...attributes }, label);
+
+export function choice(label, options, value, onchange) {
+  const select = element('select', { 'aria-label': label, onchange:
+    () => onchange(select.value) });
+  fillChoice(select, options, value);
+  return select;
+}
+
+// Options are values, or [value, text].
+export function fillChoice(select, options, value) {
+  select.replaceChildren(...options.map(option => {
+    const [known, text] = Array.isArray(option) ? option : [option, option];
+    return element('option', { value: known }, text);
+  }));
+  select.value = value;
+}
+
+// Call f with the size of an element now, and whenever it changes; not while
+// it is not shown.
+export function onSize(watched, f) {
+  const tell = () => {
+    if (watched.clientWidth && watched.clientHeight)
+      f(watched.clientWidth, watched.clientHeight);
+  };
+  const observer = new ResizeObserver(tell);
+  observer.observe(watched);
+  tell();
+  return () => observer.disconnect();
+}
+
+// Pixels of the canvas are those of the screen.
+export function fitCanvas(canvas, width, height) {
+  const ratio = globalThis.devicePixelRatio || 1;
+  canvas.width = Math.max(1, Math.round(width * ratio));
+  canvas.height = Math.max(1, Math.round(height * ratio));
+  const pen = canvas.getContext('2d');
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return pen;
+}
+
+// f is called some time after it is asked for: the longer it takes, the later.
+export function calmly(rest, f) {
+  let waiting = 0, took = 0;
+  const later = () => {
+    if (waiting) return;
+    waiting = setTimeout(() => {
+      waiting = 0;
+      const start = performance.now();
+      f();
+      took = performance.now() - start;
+    }, Math.max(rest, 4 * took));
+  };
+  later.stop = () => clearTimeout(waiting);
+  return later;
+}

@@ -1,0 +1,87 @@
+// Dialogs that ask for what an order needs.
+
+import { button, element } from './dom.js';
+
+// Show a dialog; `send` says what is done when it is confirmed: the dialog
+// is closed when that is true, else it stays, with the error.
+export function dialog(title, content, confirm, send, wide = false) {
+  const problem = element('p', { class: 'problem', role: 'alert', hidden: true });
+  const go = element('button', { type: 'submit', class: 'primary' }, confirm);
+  const form = element('form', { onsubmit: async event => {
+    event.preventDefault();
+    go.disabled = true;
+    problem.hidden = true;
+    try {
+      await send();
+      made.close();
+    } catch (error) {
+      problem.textContent = error.message;
+      problem.hidden = false;
+    } finally {
+      go.disabled = false;
+    }
+  } }, element('h2', {}, title), ...content, problem,
+  element('div', { class: 'buttons end' },
+    button('Cancel', () => made.close()), go));
+  const made = element('dialog', { 'aria-label': title,
+    class: wide ? 'wide' : '', onclose: () => made.remove() }, form);
+  document.body.append(made);
+  made.showModal();
+  return made;
+}
+
+// A labelled field; the field itself is its `input`.
+export function field(label, attributes = {}, hint = null) {
+  const { value, list, area, ...rest } = attributes;
+  const input = element(area ? 'textarea' : 'input',
+    { autocomplete: 'off', spellcheck: 'false', ...rest });
+  if (value !== undefined) input.value = value;
+  const made = element('label', { class: 'field' },
+    element('span', {}, label), input,
+    hint ? element('small', { class: 'muted' }, hint) : null);
+  if (list) {
+    const id = `list-${++lists}`;
+    input.setAttribute('list', id);
+    made.append(element('datalist', { id }, ...list.map(value =>
+      element('option', { value }))));
+  }
+  made.input = input;
+  return made;
+}
+
+let lists = 0;
+
+// One of several; options are [value, text].
+export function select(label, options, value = options[0]?.[0]) {
+  const input = element('select', {}, ...options.map(([known, text]) =>
+    element('option', { value: known }, text)));
+  input.value = value;
+  const made = element('label', { class: 'field' },
+    element('span', {}, label), input);
+  made.input = input;
+  return made;
+}
+
+// Ask before something is done that cannot be taken back.
+export function sure(question, confirm, send) {
+  return dialog(question, [], confirm, send);
+}
+
+// A text of the browser's own files.
+export function readFile(accept, told) {
+  const input = element('input', { type: 'file', accept, onchange: async () => {
+    const [file] = input.files;
+    if (file) told(await file.text(), file.name);
+  } });
+  input.click();
+}
+
+export function saveFile(name, text) {
+  const address = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
+  element('a', { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+}
+
+// An atom as Prolog reads it, whatever it is.
+export const quoted = text =>
+  `'${text.replace(/\\/g, '\\\\').replace(/'/g, "\\'")}'`;

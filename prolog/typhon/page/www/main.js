@@ -1,0 +1,247 @@
+// The page: its views, what is chosen, and what the server says.
+
+import { Connection } from './connection.js';
+import { button, element } from './dom.js';
+import { agentList, hostList } from './lists.js';
+import { Store } from './store.js';
+import { details } from './details.js';
+import { workMenu } from './work.js';
+
+// A view is a module with mount(element, store, app), or such a function;
+// it is loaded when it is first looked at.
+const VIEWS = [
+  ['map', 'Map', () => import('./map.js')],
+  ['hosts', 'Hosts', () => ({ mount: hostList })],
+  ['agents', 'Agents', () => ({ mount: agentList })],
+  ['time', 'Time', () => import('./charts.js')],
+  ['space', 'Space–time', () => import('./spacetime.js')],
+  ['sequence', 'Sequence', () => import('./sequence.js')],
+  ['replay', 'Replay', () => import('./replay.js')],
+];
+
+const $ = id => document.getElementById(id);
+
+class App {
+  constructor(store) {
+    this.store = store;
+    this.listeners = new Map();
+    this.prefs = rememberedPrefs();
+    this.chosen = {};
+    this.more = new Map();      // agent -> what only surveys tell of it
+    this.mounted = new Map();   // name -> element
+    this.views = new Map();     // name -> what mount() returned
+    this.state = 'connecting';
+  }
+
+  on(name, listener) {
+    if (!this.listeners.has(name)) this.listeners.set(name, new Set());
+    this.listeners.get(name).add(listener);
+    return () => this.listeners.get(name).delete(listener);
+  }
+
+  tell(name, ...args) {
+    for (const listener of this.listeners.get(name) || []) listener(...args);
+  }
+
+  // Choose an agent or a host, or with {} nothing.
+  select(chosen) {
+    this.chosen = chosen;
+    this.tell('select', chosen);
+  }
+
+  ask(message) { return this.connection.ask(message); }
+
+  refresh() { return this.connection.refresh(); }
+
+  // Say something to who looks on: 'said', or 'error'.
+  note(text, kind = 'said') {
+    const note = element('p', { class: `note ${kind}` },
+      element('span', {}, text),
+      button('×', () => note.remove(), { 'aria-label': 'Dismiss' }));
+    const notes = $('notes');
+    notes.append(note);
+    while (notes.children.length > 5) notes.firstChild.remove();
+    if (kind !== 'error') setTimeout(() => note.remove(), 4000);
+  }
+
+  // An order; what came of it, or nothing when it failed, which is told.
+  async order(message, said) {
+    try {
+      const answer = await this.ask(message);
+      for (const problem of answer.said) this.note(problem.text, 'warning');
+      if (said) this.note(said);
+      return answer;
+    } catch (error) {
+      this.note(error.message, 'error');
+      return undefined;
+    }
+  }
+
+  show(name) {
+    for (const [view, panel] of this.mounted) panel.hidden = view !== name;
+    for (const tab of $('tabs').children) {
+      const mine = tab.dataset.view === name;
+      tab.setAttribute('aria-selected', String(mine));
+      tab.tabIndex = mine ? 0 : -1;
+    }
+    this.prefs.view = name;
+    this.view = name;
+    if (!this.mounted.has(name)) this.mountView(name);
+    this.tell('view', name);
+  }
+
+  async mountView(name) {
+    const [, title, load] = VIEWS.find(([view]) => view === name);
+    const panel = element('div', { class: 'panel', role: 'tabpanel',
+      id: `panel-${name}`, 'aria-labelledby': `tab-${name}` });
+    this.mounted.set(name, panel);
+    $('views').append(panel);
+    try {
+      this.views.set(name, (await load()).mount(panel, this.store, this));
+    } catch (error) {
+      console.error(error);
+      panel.append(element('p', { class: 'empty' },
+        `${title} cannot be shown: ${error.message}`));
+    }
+  }
+}
+
+// What was chosen of views is remembered by the browser, if it may.
+function rememberedPrefs() {
+  let prefs = {};
+  try { prefs = JSON.parse(localStorage.getItem('typhon')) || {}; } catch { /* none */ }
+  return new Proxy(prefs, { set(target, key, value) {
+    target[key] = value;
+    try { localStorage.setItem('typhon', JSON.stringify(target)); } catch { /* not kept */ }
+    return true;
+  } });
+}
+
+function tabs(app) {
+  for (const [name, title] of VIEWS)
+    $('tabs').append(button(title, () => app.show(name), { role: 'tab',
+      id: `tab-${name}`, 'data-view': name, 'aria-controls': `panel-${name}` }));
+  $('tabs').addEventListener('keydown', event => {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!step) return;
+    const all = [...$('tabs').children];
+    const next = all[(all.indexOf(event.target) + step + all.length) % all.length];
+    next.focus();
+    next.click();
+  });
+}
+
+// ---------------------------------------------------------------- the state
+
+const STATES = { connecting: 'connecting', open: 'live',
+  lost: 'connection lost, trying again', refused: 'refused' };
+
+function stateLine(app) {
+  let hops = app.store.counts.arrived, at = performance.now();
+  const line = () => {
+    const { hosts, agents, counts } = app.store, now = performance.now();
+    if (now - at < 900 && $('state').dataset.state === app.state) return;
+    const rate = (counts.arrived - hops) * 1000 / Math.max(1, now - at);
+    [hops, at] = [counts.arrived, now];
+    let there = 0, lost = 0, running = 0;
+    for (const host of hosts.values())
+      if (host.state === 'running') there++;
+      else if (host.state !== 'stopped') lost++;
+    for (const agent of agents.values()) if (agent.status !== 'ended') running++;
+    $('state').dataset.state = app.state;
+    $('state').textContent = [STATES[app.state] + (app.why ? `: ${app.why}` : ''),
+      app.readOnly ? 'only to look at' : null, count(there, 'host'),
+      lost ? `${lost} lost` : null,
+      count(running, 'agent'), rate >= 0.5 ? `${count(Math.round(rate), 'hop')}/s` : null,
+      counts.skipped ? `${counts.skipped} events skipped` : null]
+      .filter(Boolean).join(' · ');
+  };
+  setInterval(() => { if (!document.hidden) line(); }, 1000);
+  app.on('state', line);
+  app.store.on('change', line);
+}
+
+const count = (n, what) => `${n.toLocaleString('en')} ${what}${n === 1 ? '' : 's'}`;
+
+// -------------------------------------------------------------- the server
+
+function connect(app) {
+  const { store } = app;
+  let resync = null;
+  const state = (state, why = '') => {
+    if (app.state === 'open' && state === 'lost')
+      app.note('The connection is lost. What is shown is as it was.', 'warning');
+    [app.state, app.why] = [state, why];
+    document.body.dataset.state = state;
+    app.tell('state', state);
+  };
+  app.connection = new Connection({
+    state,
+    snapshot(snapshot) {
+      if (snapshot.read_only !== undefined) setReadOnly(app, snapshot.read_only);
+      app.more = new Map(snapshot.agents.map(agent => [agent.id, agent]));
+      store.applySnapshot(snapshot);
+      forgetStopped(store, snapshot);
+      app.tell('snapshot');
+    },
+    events(events) {
+      store.applyEvents(events);
+      if (events.some(event => event[3] === 'skipped' || event[3] === 'started'))
+        lookAnew(1000);
+      else if (events.some(event => event[3] === 'stopped'))
+        lookAnew(10000);
+    },
+  });
+
+  // who has missed something looks anew
+  function lookAnew(wait) {
+    resync ??= setTimeout(() => {
+      resync = null;
+      app.refresh().catch(() => {});
+    }, wait);
+  }
+}
+
+// What was stopped on purpose is not shown for ever.
+function forgetStopped(store, snapshot) {
+  const there = new Set(snapshot.hosts.map(host => host.id));
+  for (const host of [...store.hosts.values()])
+    if (host.state === 'stopped' && !there.has(host.id)) {
+      store.hosts.delete(host.id);
+      store.shape++;
+    }
+}
+
+function setReadOnly(app, readOnly) {
+  if (app.readOnly === readOnly) return;
+  app.readOnly = readOnly;
+  document.body.classList.toggle('read-only', readOnly);
+  app.act = readOnly ? undefined : message => app.order(message);
+  $('actions').replaceChildren(...(readOnly ? [] : [workMenu(app)]));
+  app.tell('rights');
+}
+
+// While a list is looked at, what no event tells is asked for now and then.
+function keepFresh(app) {
+  let pause = 3000;
+  const look = async () => {
+    if (!document.hidden && ['hosts', 'agents'].includes(app.view)
+        && app.state === 'open') {
+      const start = performance.now();
+      try { await app.refresh(); } catch { /* told by the state */ }
+      pause = Math.max(3000, 10 * (performance.now() - start));
+    }
+    setTimeout(look, pause);
+  };
+  setTimeout(look, pause);
+}
+
+const store = new Store();
+const app = new App(store);
+tabs(app);
+details($('details'), store, app);
+stateLine(app);
+connect(app);
+keepFresh(app);
+app.show(VIEWS.some(([name]) => name === app.prefs.view) ? app.prefs.view : 'map');
+globalThis.typhon = { store, app };     // for who looks at it from a console

@@ -1,0 +1,533 @@
+// What is known of a network: hosts, links, agents, counts. Both the live
+// feed and a replay are told to it as a snapshot and lists of events
+//
+//     [time, host, agent, kind, argument, ...]
+//
+// and all views look at it. It knows neither pixels nor the document, and
+// decides nothing: what it is told it believes.
+
+import { History } from './history.js';
+
+const TRAIL = 64;               // hosts that are remembered of an agent
+const ENDED = 2000;             // agents that are over and still shown
+const RECENT = 60000;           // events that views can look back at; in a replay
+const LOGGED = 500000;          // more, which are there anyway
+const LINES = 200;              // of the log of a host
+const MINIMUM = 0.3;            // seconds for which the mark of a hop is seen
+
+export const KINDS = ['created', 'left', 'stayed', 'arrived', 'cloned', 'sent',
+  'received', 'ended', 'fault', 'log', 'link', 'unlink', 'leave', 'take',
+  'started', 'stopped', 'lost', 'show', 'add', 'goal',
+  'skipped'];
+
+// What stands before the first @ of a name.
+export const shortName = id => {
+  const at = id.indexOf('@');
+  return at < 0 ? id : id.slice(0, at);
+};
+
+const processOf = id => id.slice(id.indexOf('@') + 1);
+const machineOf = process => {
+  const colon = process.lastIndexOf(':');
+  return colon < 0 ? process : process.slice(0, colon);
+};
+
+// n2 comes before n10.
+const collator = new Intl.Collator('en', { numeric: true });
+export const byName = (a, b) => collator.compare(a, b);
+
+export class Store {
+  // clock: () => seconds, by which marks move; stamped: whether events are
+  // shown at their own times (a replay) or when they are heard of (live).
+  constructor({ clock = () => performance.now() / 1000, stamped = false,
+                width = 1 } = {}) {
+    this.clock = clock;
+    this.stamped = stamped;
+    this.width = width;
+    this.rate = 1;              // seconds of the clock per second of the wall
+    this.listeners = new Map();
+    this.version = 0;           // goes up with every change
+    this.shape = 0;             // ... of hosts or links
+    this.dirty = false;
+    this.reset();
+  }
+
+  reset() {
+    this.time = 0;              // of the latest event or snapshot
+    this.start = null;          // of the first
+    this.hosts = new Map();
+    this.agents = new Map();
+    this.links = new Map();     // "a b", a before b -> {a, b, cost}
+    this.programs = new Map();  // name -> {name, agents}
+    this.ended = [];            // ids, the oldest first
+    this.moving = new Set();    // agents whose hops are to be seen
+    this.overlays = new Map();  // name -> {name, kind, values}
+    this.recent = [];           // lists of events, the oldest first
+    this.recentCount = 0;
+    this.counts = Object.fromEntries(KINDS.map(kind => [kind, 0]));
+    this.counts.events = 0;
+    this.counts.unknown = 0;
+    this.history = new History(this.width);
+    this.expected = 0.3;        // seconds of a hop, lately
+    this.shape++;
+    this.touch();
+  }
+
+  // ---------------------------------------------------------- listeners
+
+  // 'change': something is new; at most once a frame, never while the page
+  // is hidden. 'events': lists of events as they come.
+  on(name, listener) {
+    if (!this.listeners.has(name)) this.listeners.set(name, new Set());
+    this.listeners.get(name).add(listener);
+    return () => this.listeners.get(name).delete(listener);
+  }
+
+  tell(name, ...args) {
+    for (const listener of this.listeners.get(name) || []) listener(...args);
+  }
+
+  touch() {
+    this.version++;
+    if (this.dirty || typeof requestAnimationFrame !== 'function') return;
+    this.dirty = true;
+    requestAnimationFrame(() => {   // browsers hold it while hidden
+      this.dirty = false;
+      this.tell('change', this);
+    });
+  }
+
+  // ---------------------------------------------------------- snapshots
+
+  // What there is now. What was known before and is not in it is over:
+  // a host is lost, an agent gone; counts, trails and history stay.
+  applySnapshot(snapshot) {
+    this.note(snapshot.time);
+    const hosts = new Set(), agents = new Set();
+    for (const told of snapshot.hosts || []) {
+      hosts.add(told.id);
+      this.toldHost(told);
+    }
+    for (const host of this.hosts.values())
+      if (!hosts.has(host.id) && host.state === 'running') host.state = 'lost';
+    this.toldLinks(snapshot.hosts || []);
+    for (const told of snapshot.agents || []) {
+      agents.add(told.id);
+      this.toldAgent(told);
+    }
+    for (const agent of [...this.agents.values()])
+      if (!agents.has(agent.id) && agent.status !== 'ended')
+        this.over(agent, 'not seen any more');
+    for (const overlay of snapshot.overlays || []) this.overlay(overlay);
+    this.shape++;
+    this.population();
+    this.touch();
+  }
+
+  toldHost(told) {
+    const host = this.host(told.id);
+    host.process = told.process || host.process;
+    host.machine = told.machine || host.machine;
+    host.state = told.state || 'running';
+    host.load = typeof told.load === 'number' ? told.load : null;
+    if (typeof told.x === 'number' && typeof told.y === 'number')
+      host.given = { x: told.x, y: told.y };
+  }
+
+  // A link is there if one of its ends says so.
+  toldLinks(hosts) {
+    const now = new Map();
+    for (const { id, links } of hosts)
+      for (const link of links || []) {
+        const [other, cost] = Array.isArray(link) ? link : [link];
+        now.set(Store.key(id, other), [id, other, cost ?? 1]);
+      }
+    for (const [key, { a, b }] of [...this.links])
+      if (!now.has(key)) this.unlink(a, b);
+    for (const [a, b, cost] of now.values()) this.link(a, b, cost);
+  }
+
+  toldAgent(told) {
+    const agent = this.agent(told.id, told.host);
+    this.setProgram(agent, told.program || agent.program);
+    this.revive(agent);
+    agent.status = told.status || 'running';
+    if (told.fault) agent.fault = told.fault;
+    if (agent.host !== told.host) this.put(agent, told.host);
+    if (agent.hop && agent.hop.arrives === null) agent.hop = null;
+  }
+
+  // ------------------------------------------------------------- events
+
+  applyEvents(list) {
+    if (list.length === 0) return;
+    for (const event of list) {
+      if (event[0] >= this.history.end) this.population();
+      this.apply(event);
+    }
+    this.recent.push(list);
+    this.recentCount += list.length;
+    const most = this.stamped ? LOGGED : RECENT;
+    while (this.recentCount > most && this.recent.length > 1)
+      this.recentCount -= this.recent.shift().length;
+    this.population();
+    this.tell('events', list);
+    this.touch();
+  }
+
+  apply(event) {
+    const [time, hostId, agentId, kind] = event;
+    this.note(time);
+    if (kind !== 'show' && kind !== 'add') this.counts.events++;
+    if (!Object.hasOwn(APPLY, kind)) {
+      this.counts.unknown++;
+      return;
+    }
+    this.counts[kind]++;
+    APPLY[kind](this, event, hostId, agentId);
+  }
+
+  note(time) {
+    if (typeof time !== 'number') return;
+    if (this.start === null) this.start = time;
+    if (time > this.time) this.time = time;
+  }
+
+  // The events that are remembered, the oldest first.
+  *remembered() {
+    for (const list of this.recent) yield* list;
+  }
+
+  // -------------------------------------------------------------- hosts
+
+  host(id) {
+    let host = this.hosts.get(id);
+    if (!host) {
+      const process = processOf(id);
+      host = { id, name: shortName(id), process, machine: machineOf(process),
+               state: 'running', load: null, links: new Map(),
+               agents: new Set(), given: null, lines: [], facts: 0,
+               faultAt: -Infinity };
+      this.hosts.set(id, host);
+      this.shape++;
+    }
+    return host;
+  }
+
+  // Agents on it, or what it says of its load, as bridges and robots do.
+  loadOf(host) {
+    return Math.max(host.load ?? 0, host.agents.size);
+  }
+
+  line(hostId, time, agentId, text) {
+    const lines = this.host(hostId).lines;
+    lines.push([time, agentId, text]);
+    if (lines.length > 2 * LINES) lines.splice(0, lines.length - LINES);
+  }
+
+  static key(a, b) { return a < b ? `${a} ${b}` : `${b} ${a}`; }
+
+  link(a, b, cost) {
+    this.host(a).links.set(b, cost);
+    this.host(b).links.set(a, cost);
+    const key = Store.key(a, b), link = this.links.get(key);
+    if (link) {
+      link.cost = cost;
+      return;
+    }
+    this.links.set(key, { a: a < b ? a : b, b: a < b ? b : a, cost,
+                          since: this.clock() });
+    this.shape++;
+  }
+
+  unlink(a, b) {
+    if (!this.links.delete(Store.key(a, b))) return;
+    this.host(a).links.delete(b);
+    this.host(b).links.delete(a);
+    this.shape++;
+  }
+
+  // ------------------------------------------------------------- agents
+
+  agent(id, hostId) {
+    let agent = this.agents.get(id);
+    if (!agent) {
+      agent = { id, name: shortName(id), host: null, program: null,
+                status: 'running', fault: null, outcome: null, parent: null,
+                hops: 0, sent: 0, received: 0, trail: [], hop: null,
+                said: null, since: this.time };
+      this.agents.set(id, agent);
+      this.setProgram(agent, programGuess(agent.name));
+      if (hostId) this.put(agent, hostId);
+    }
+    return agent;
+  }
+
+  setProgram(agent, name) {
+    if (agent.program === name) return;
+    const before = this.programs.get(agent.program);
+    if (before) before.agents--;
+    if (before && before.agents === 0) this.programs.delete(agent.program);
+    agent.program = name;
+    if (!this.programs.has(name)) this.programs.set(name, { name, agents: 0 });
+    this.programs.get(name).agents++;
+  }
+
+  put(agent, hostId) {
+    if (agent.host !== null) this.hosts.get(agent.host)?.agents.delete(agent);
+    agent.host = hostId;
+    this.host(hostId).agents.add(agent);
+    agent.trail.push(hostId);
+    if (agent.trail.length > 2 * TRAIL)
+      agent.trail.splice(0, agent.trail.length - TRAIL);
+  }
+
+  // Something happens to it here: so it is here, whatever was said before.
+  here(agent, hostId) {
+    if (agent.host === hostId || !hostId) return;
+    this.put(agent, hostId);
+    if (agent.hop && agent.hop.to !== hostId) agent.hop = null;
+  }
+
+  over(agent, outcome) {
+    agent.outcome = outcome;
+    if (agent.status === 'ended') return;
+    agent.status = 'ended';
+    agent.hop = null;
+    this.hosts.get(agent.host)?.agents.delete(agent);
+    this.ended.push(agent.id);
+    if (this.ended.length > ENDED) this.forget(this.ended.shift());
+  }
+
+  forget(id) {
+    const agent = this.agents.get(id);
+    if (!agent || agent.status !== 'ended') return;
+    this.agents.delete(id);
+    const program = this.programs.get(agent.program);
+    if (program && --program.agents === 0) this.programs.delete(agent.program);
+  }
+
+  revive(agent) {
+    if (agent.status !== 'ended') return;
+    this.ended = this.ended.filter(id => id !== agent.id);
+    agent.outcome = null;
+    agent.status = 'running';
+    this.host(agent.host).agents.add(agent);
+  }
+
+  // --------------------------------------------------------------- hops
+
+  // A hop is {from, to, start, arrives}, in seconds of the clock; `arrives`
+  // is null as long as nobody knows when it does.
+  setOut(agent, from, to, time, seconds, room) {
+    const start = this.stamped ? time : this.clock();
+    agent.hop = { from, to, start, shown: start, done: 0,
+                  arrives: seconds === undefined ? null
+                    : this.arrivesAt(start, seconds, room) };
+    this.moving.add(agent);
+    agent.status = 'travelling';
+  }
+
+  // A hop is to be seen, but it is over when the next begins.
+  arrivesAt(start, seconds, room = Infinity) {
+    return start + Math.max(seconds, Math.min(MINIMUM * this.rate, 0.8 * room));
+  }
+
+  arrive(agent, from, to, time, seconds) {
+    const took = typeof seconds === 'number' ? seconds : null;
+    const hop = agent.hop, now = this.stamped ? time : this.clock();
+    if (hop && hop.from === from && hop.to === to && hop.arrives !== null) {
+      // a replay knew it when it set out
+    } else if (hop && hop.to === to && hop.arrives === null && !this.stamped) {
+      hop.done = this.progress(hop, now);
+      hop.shown = now;
+      hop.arrives = Math.max(now + 0.1, hop.start + MINIMUM);
+    } else if (from && from !== to) {
+      const start = this.stamped ? time - (took || 0) : now;
+      agent.hop = { from, to, start, shown: start, done: 0,
+                    arrives: this.arrivesAt(start, took || 0) };
+      this.moving.add(agent);
+    }
+    if (agent.host !== to) this.put(agent, to);
+    agent.hops++;
+    this.history.hop(time, took);
+    if (took !== null) this.expected += (took - this.expected) / 64;
+  }
+
+  // Agents whose marks are on their way now; the others' hops are over.
+  settle(now = this.clock()) {
+    for (const agent of this.moving) {
+      const hop = agent.hop;
+      if (hop && (hop.arrives === null || now < hop.arrives)) continue;
+      agent.hop = null;
+      this.moving.delete(agent);
+    }
+    return this.moving;
+  }
+
+  // How far it has come, from 0 to 1.
+  progress(hop, now = this.clock()) {
+    if (hop.arrives === null)
+      return 0.9 * (1 - Math.exp(-(now - hop.start)
+        / Math.max(MINIMUM, this.expected)));
+    const share = (now - hop.shown) / Math.max(1e-9, hop.arrives - hop.shown);
+    return hop.done + (1 - hop.done) * Math.min(1, Math.max(0, share));
+  }
+
+  // ----------------------------------------------------------- overlays
+
+  // What an agent program or a study shows of itself; values by host, or
+  // by "a b" for what belongs to a link.
+  overlay({ name, kind, title }) {
+    let overlay = this.overlays.get(name);
+    if (!overlay) {
+      overlay = { name, kind: kind || 'label', title: title || name,
+                  values: new Map() };
+      this.overlays.set(name, overlay);
+    }
+    return overlay;
+  }
+
+  // ------------------------------------------------------------ history
+
+  // How many agents there are of each program, without those that are over.
+  populations() {
+    const counts = new Map();
+    for (const { name, agents } of this.programs.values())
+      counts.set(name, agents);
+    for (const id of this.ended) {
+      const { program } = this.agents.get(id);
+      counts.set(program, counts.get(program) - 1);
+    }
+    for (const [name, n] of counts) if (n === 0) counts.delete(name);
+    return counts;
+  }
+
+  population() {
+    if (this.start === null) return;
+    const stretch = this.history.at(this.time);
+    stretch.populations = this.populations();
+    let all = 0, most = 0, count = 0;
+    for (const host of this.hosts.values()) {
+      if (host.state !== 'running') continue;
+      const load = this.loadOf(host);
+      all += load;
+      count++;
+      if (load > most) most = load;
+    }
+    stretch.load = { mean: count ? all / count : 0, most };
+  }
+}
+
+// The id of an agent is its name, then a dot, then what makes it unique.
+const programGuess = name => {
+  const dot = name.indexOf('.');
+  return dot < 0 ? name : name.slice(0, dot);
+};
+
+// What each kind of event does to the store.
+const APPLY = {
+  created(store, [, , , , program], host, id) {
+    const agent = store.agent(id, host);
+    store.revive(agent);
+    store.here(agent, host);
+    if (program) store.setProgram(agent, program);
+  },
+  left(store, [time, , , , to, seconds, room], host, id) {
+    const agent = store.agent(id, host);
+    store.here(agent, host);
+    store.setOut(agent, host, to, time, seconds, room);
+  },
+  stayed(store, event, host, id) {
+    const agent = store.agent(id, host);
+    agent.hop = null;
+    agent.status = 'running';
+  },
+  arrived(store, [time, , , , from, seconds], host, id) {
+    const agent = store.agent(id, from || host);
+    store.revive(agent);
+    agent.status = 'running';
+    store.arrive(agent, from, host, time, seconds);
+  },
+  cloned(store, [, , , , cloneId], host, id) {
+    const parent = store.agent(id, host), clone = store.agent(cloneId, host);
+    clone.parent = id;
+    store.setProgram(clone, parent.program);
+  },
+  sent(store, [time], host, id) {
+    if (id) store.agent(id, host).sent++;
+    store.history.at(time).messages++;
+  },
+  received(store, event, host, id) {
+    if (!id) return;
+    const agent = store.agent(id, host);
+    store.here(agent, host);
+    agent.received++;
+  },
+  ended(store, [, , , , outcome], host, id) {
+    const agent = store.agent(id, host);
+    store.here(agent, host);
+    store.over(agent, outcome);
+  },
+  fault(store, [time, , , , text], host, id) {
+    const agent = store.agent(id, host);
+    agent.fault = text;
+    agent.status = 'faulty';
+    store.host(host).faultAt = store.stamped ? time : store.clock();
+    store.history.at(time).faults++;
+    store.line(host, time, id, text);
+  },
+  log(store, [time, , , , text], host, id) {
+    store.line(host, time, id, text);
+    if (id) store.agent(id, host).said = text;
+  },
+  link(store, [, , , , other, cost], host) {
+    store.link(host, other, cost ?? 1);
+  },
+  unlink(store, [, , , , other], host) {
+    store.unlink(host, other);
+  },
+  leave(store, [time, , , , fact], host, id) {
+    store.host(host).facts++;
+    store.line(host, time, id, `+ ${fact}`);
+  },
+  take(store, [time, , , , fact], host, id) {
+    const at = store.host(host);
+    if (at.facts > 0) at.facts--;
+    store.line(host, time, id, `− ${fact}`);
+  },
+  started(store, event, id) {
+    store.host(id).state = 'running';
+    store.shape++;
+  },
+  stopped(store, event, id) { gone(store, id, 'stopped'); },
+  lost(store, event, id) { gone(store, id, 'lost'); },
+  show(store, [time, , , , name, key, value], host) {
+    const overlay = store.overlay({ name });
+    const at = key || host;
+    if (value === null) overlay.values.delete(at);
+    else overlay.values.set(at, value);
+  },
+  add(store, [, , , , name, key, value], host) {
+    const { values } = store.overlay({ name }), at = key || host;
+    values.set(at, (Number(values.get(at)) || 0) + value);
+  },
+  goal(store, [, , , , text], host, id) {
+    if (id) store.agent(id, host).said = text;
+  },
+  skipped(store, [, , , , count]) {
+    store.counts.skipped += (Number(count) || 1) - 1;
+  },
+};
+
+const gone = (store, id, state) => {
+  const host = store.host(id);
+  host.state = state;
+  store.shape++;
+  if (state === 'stopped')
+    for (const other of [...host.links.keys()]) store.unlink(id, other);
+  for (const agent of [...host.agents]) {
+    if (agent.hop && agent.hop.arrives === null) continue;
+    store.over(agent, state === 'lost' ? 'its host is lost' : 'its host stopped');
+  }
+};

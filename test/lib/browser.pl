@@ -1,0 +1,291 @@
+:- module(test_browser,
+          [ with_browser/2,             % -Browser, :Goal
+            browser_open/2,             % +Browser, +Address
+            browser_run/3,              % +Browser, +Script, -Result
+            browser_run/4,              % +Browser, +Script, +Arguments, -Result
+            browser_wait/2,             % +Browser, +Script
+            browser_wait/3,             % +Browser, +Script, +Seconds
+            browser_keys/2,             % +Browser, +Keys
+            browser_click/2,            % +Browser, +Selector
+            browser_drag/3,             % +Browser, +From, +To
+            browser_size/3,             % +Browser, +Width, +Height
+            browser_theme/2,            % +Browser, +Theme
+            browser_shot/2,             % +Browser, +File
+            browser_tabs/2,             % +Browser, -Tabs
+            browser_tab/2,              % +Browser, -Tab
+            browser_goto_tab/2,         % +Browser, +Tab
+            browser_complaints/2        % +Browser, -Texts
+          ]).
+
+/** <module> A Chromium that tests look through
+
+Driven by chromedriver, in the words of the W3C's WebDriver.
+
+*Threading*: one thread at a time uses a browser.
+*/
+
+:- use_module(common, [wait_until/2]).
+:- use_module(library(base64), [base64/2]).
+:- use_module(library(http/http_json), []).
+:- use_module(library(http/http_client),
+              [http_delete/3, http_get/3, http_post/4]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+
+:- meta_predicate with_browser(-, 0).
+
+%!  with_browser(-Browser, :Goal) is semidet.
+%
+%   Call Goal once while Browser is there.
+
+with_browser(Browser, Goal) :-
+    setup_call_cleanup(
+        start(Browser),
+        once(Goal),
+        stop(Browser)).
+
+start(browser(Base, Pid, Out)) :-
+    process_create(path(chromedriver), ['--port=0'],
+                   [ stdin(null), stdout(pipe(Out)), stderr(null),
+                     process(Pid) ]),
+    port(Out, Port),
+    format(atom(Driver), 'http://127.0.0.1:~w/session', [Port]),
+    capabilities(Wanted),
+    call_driver(post, Driver, Wanted, Answer),
+    atomic_list_concat([Driver, /, Answer.sessionId], Base).
+
+port(Out, Port) :-
+    read_line_to_string(Out, Line),
+    string(Line),
+    (   sub_string(Line, _, _, After, "successfully on port "),
+        sub_string(Line, _, After, 0, Text),
+        split_string(Text, "", " .", [Digits]),
+        number_string(Port, Digits)
+    ->  true
+    ;   port(Out, Port)
+    ).
+
+capabilities(_{capabilities:_{alwaysMatch:_{
+    browserName:"chrome",
+    'goog:loggingPrefs':_{browser:"ALL"},
+    'goog:chromeOptions':_{args:[
+        "--headless=new", "--no-sandbox", "--disable-gpu",
+        "--disable-dev-shm-usage", "--disable-extensions", "--no-first-run",
+        "--hide-scrollbars", "--window-size=1600,1000",
+        "--force-device-scale-factor=1"]}}}}).
+
+stop(browser(Base, Pid, Out)) :-
+    catch(http_delete(Base, _, [json_object(dict)]), error(_, _), true),
+    process_kill(Pid),
+    process_wait(Pid, _),
+    close(Out).
+
+call_driver(Method, Address, Body, Value) :-
+    Options = [json_object(dict), status_code(_), tag(''), default_tag('')],
+    (   Method == post
+    ->  http_post(Address, json(Body), Answer, Options)
+    ;   http_get(Address, Answer, Options)
+    ),
+    Value = Answer.value,
+    (   is_dict(Value),
+        get_dict(error, Value, Error)
+    ->  throw(error(browser(Error, Value.message), _))
+    ;   true
+    ).
+
+command(browser(Base, _, _), Path, Body, Value) :-
+    atomic_list_concat([Base, /, Path], Address),
+    call_driver(post, Address, Body, Value).
+
+asked(browser(Base, _, _), Path, Value) :-
+    atomic_list_concat([Base, /, Path], Address),
+    call_driver(get, Address, none, Value).
+
+%!  browser_open(+Browser, +Address) is det.
+
+browser_open(Browser, Address) :-
+    atom_string(Address, Url),
+    command(Browser, url, _{url:Url}, _).
+
+%!  browser_run(+Browser, +Script, -Result) is det.
+%!  browser_run(+Browser, +Script, +Arguments, -Result) is det.
+%
+%   Script is the body of an asynchronous function.
+
+browser_run(Browser, Script, Result) :-
+    browser_run(Browser, Script, [], Result).
+
+browser_run(Browser, Script, Arguments, Result) :-
+    format(string(Whole),
+           "const given = [...arguments], done = given.pop(); \c
+            (async (...args) => { ~w })(...given).then(done, \c
+            error => done({failed: String(error)}));", [Script]),
+    command(Browser, 'execute/async', _{script:Whole, args:Arguments}, Result),
+    (   is_dict(Result),
+        get_dict(failed, Result, Why)
+    ->  throw(error(browser(script, Why), _))
+    ;   true
+    ).
+
+%!  browser_wait(+Browser, +Script) is det.
+%!  browser_wait(+Browser, +Script, +Seconds) is det.
+%
+%   Until Script returns something that is true there.
+
+browser_wait(Browser, Script) :-
+    browser_wait(Browser, Script, 15).
+
+browser_wait(Browser, Script, Seconds) :-
+    format(string(Test), "return Boolean((() => { ~w })());", [Script]),
+    catch(wait_until(browser_run(Browser, Test, true), Seconds),
+          error(timeout_error(_, _), _),
+          throw(error(timeout_error(browser, Script), _))).
+
+%!  browser_keys(+Browser, +Keys:list) is det.
+%
+%   Strings are typed; atoms are keys: tab, enter, escape, left, up, right, down,
+%   home, end, shift_tab.
+
+browser_keys(Browser, Keys) :-
+    findall(Action, ( member(Key, Keys), key_action(Key, Action) ), Actions),
+    command(Browser, actions,
+            _{actions:[_{type:"key", id:"keys", actions:Actions}]}, _).
+
+key_action(Key, Action) :-
+    string(Key),
+    !,
+    string_chars(Key, Chars),
+    member(Char, Chars),
+    atom_string(Char, Text),
+    press(Text, Action).
+key_action(shift_tab, Action) :-
+    !,
+    code(shift, Shift),
+    code(tab, Tab),
+    member(Action, [ _{type:"keyDown", value:Shift},
+                     _{type:"keyDown", value:Tab},
+                     _{type:"keyUp", value:Tab},
+                     _{type:"keyUp", value:Shift} ]).
+key_action(Key, Action) :-
+    code(Key, Text),
+    press(Text, Action).
+
+press(Text, _{type:"keyDown", value:Text}).
+press(Text, _{type:"keyUp", value:Text}).
+
+code(Key, Text) :-
+    key(Key, Code),
+    string_codes(Text, [Code]).
+
+key(tab, 0xE004).
+key(enter, 0xE007).
+key(shift, 0xE008).
+key(escape, 0xE00C).
+key(end, 0xE010).
+key(home, 0xE011).
+key(left, 0xE012).
+key(up, 0xE013).
+key(right, 0xE014).
+key(down, 0xE015).
+
+%!  browser_click(+Browser, +Selector) is det.
+%
+%   Click at the middle of the first element of Selector that is to be seen, as
+%   soon as there is one; or of Selector-Text, the one with that text.
+%
+%!  browser_drag(+Browser, +From, +To) is det.
+%
+%   From one point, X-Y, to another.
+
+browser_click(Browser, What) :-
+    ( What = Selector-Text -> true ; Selector = What, Text = "" ),
+    format(string(Found),
+           "[...document.querySelectorAll(~q)].find(e => e.checkVisibility() && \c
+            !e.disabled && (e.textContent.trim() === ~q || ~q === ''))",
+           [Selector, Text, Text]),
+    format(string(There), "return ~s", [Found]),
+    browser_wait(Browser, There),
+    format(string(Middle),
+           "const e = ~s; e.scrollIntoView({block: 'nearest'}); \c
+            const r = e.getBoundingClientRect(); \c
+            return [r.x + r.width / 2, r.y + r.height / 2]", [Found]),
+    browser_run(Browser, Middle, [X, Y]),
+    pointer(Browser, [at(X, Y), down, up]).
+
+browser_drag(Browser, X0-Y0, X-Y) :-
+    X1 is (X0+X)/2,
+    Y1 is (Y0+Y)/2,
+    pointer(Browser, [at(X0, Y0), down, at(X1, Y1), at(X, Y), up]).
+
+pointer(Browser, Steps) :-
+    findall(Action, ( member(Step, Steps), pointed(Step, Action) ), Actions),
+    command(Browser, actions,
+            _{actions:[_{ type:"pointer", id:"mouse",
+                          parameters:_{pointerType:"mouse"},
+                          actions:Actions }]}, _).
+
+pointed(at(X0, Y0), _{type:"pointerMove", duration:20, x:X, y:Y}) :-
+    X is round(X0),
+    Y is round(Y0).
+pointed(down, _{type:"pointerDown", button:0}).
+pointed(up, _{type:"pointerUp", button:0}).
+
+%!  browser_size(+Browser, +Width, +Height) is det.
+%!  browser_theme(+Browser, +Theme) is det.
+%
+%   What the page sees, in pixels; `light` or `dark`.
+
+browser_size(Browser, Width, Height) :-
+    cdp(Browser, "Emulation.setDeviceMetricsOverride",
+        _{width:Width, height:Height, deviceScaleFactor:1, mobile:false}).
+
+browser_theme(Browser, Theme) :-
+    atom_string(Theme, Value),
+    cdp(Browser, "Emulation.setEmulatedMedia",
+        _{features:[_{name:"prefers-color-scheme", value:Value}]}).
+
+cdp(Browser, Command, Parameters) :-
+    command(Browser, 'goog/cdp/execute', _{cmd:Command, params:Parameters}, _).
+
+%!  browser_shot(+Browser, +File) is det.
+%
+%   What is to be seen, as PNG.
+
+browser_shot(Browser, File) :-
+    asked(Browser, screenshot, Encoded),
+    base64(Bytes, Encoded),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(octet)]),
+        write(Out, Bytes),
+        close(Out)).
+
+%!  browser_tabs(+Browser, -Tabs:list) is det.
+%!  browser_tab(+Browser, -Tab) is det.
+%!  browser_goto_tab(+Browser, +Tab) is det.
+%
+%   Those there are; a new one, to which one goes; go to one there is.
+
+browser_tabs(Browser, Tabs) :-
+    asked(Browser, 'window/handles', Tabs).
+
+browser_tab(Browser, Tab) :-
+    command(Browser, 'window/new', _{type:"tab"}, Value),
+    Tab = Value.handle,
+    browser_goto_tab(Browser, Tab).
+
+browser_goto_tab(Browser, Tab) :-
+    command(Browser, window, _{handle:Tab}, _).
+
+%!  browser_complaints(+Browser, -Texts) is det.
+%
+%   What the console of the page has said since it was asked last: errors,
+%   and what its policy has refused.
+
+browser_complaints(Browser, Texts) :-
+    command(Browser, 'se/log', _{type:"browser"}, Entries),
+    findall(Text,
+            ( member(Entry, Entries),
+              Entry.level == "SEVERE",
+              Text = Entry.message ),
+            Texts).
