@@ -172,7 +172,7 @@ reach(Part, Module, Name/Arity) :-
 %
 %   From below: who stands higher imports from who stands lower.
 
-layers([ base, helper, nxt, program, wire, host, agent, travel, lifecycle,
+layers([ base, helper, nxt, journal, program, wire, host, agent, travel, lifecycle,
          language, network, watching, people, bridge, python, mqtt, fipa ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.

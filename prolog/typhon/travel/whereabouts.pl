@@ -15,6 +15,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
+:- use_module('../journal', [note_drop_all/2, note_put/4]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_peer/2,
                 endpoint_post/3,
@@ -49,6 +50,8 @@ see typhon_news, since it may have to connect.
 
 :- multifile
     error:has_type/2,
+    typhon_bounded:forgotten/1,
+    typhon_recovery:back/4,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
 
@@ -64,7 +67,7 @@ agent_seen(Id, Address, Hops, Peer) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  true                            % it is here, and so are we
-    ;   retractall(forward(Id, _, _, _)),
+    ;   forget_forward(Id),
         (   Home == Peer                % it knows when it has our answer
         ->  true
         ;   news_tell(Home, Id, located(Id, Address, Hops))
@@ -106,7 +109,21 @@ process_at(Endpoint, Process) :-
     ;   Process = unknown
     ).
 
+forget_forward(Id) :-
+    (   forward(Id, _, _, _)
+    ->  note_drop_all(forward, Id),
+        retractall(forward(Id, _, _, _))
+    ;   true
+    ).
+
+typhon_bounded:forgotten(forward(Id, _, _, _)) :-
+    note_drop_all(forward, Id).
+
+typhon_recovery:back(forward, Id, _, forward(Address, Hops, Process)) :-
+    assertz(forward(Id, Address, Hops, Process)).
+
 remember_forward(Id, Address, Hops, Process) :-
+    note_put(forward, Id, 0, forward(Address, Hops, Process)),
     with_mutex(typhon_forward,
                (   forward(Id, _, _, _)
                ->  assertz(forward(Id, Address, Hops, Process)),

@@ -32,6 +32,7 @@ is held.
 
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2]).
+:- use_module('../journal', [journal_barrier/0]).
 :- use_module(bundle, [bundle_fits/1]).
 :- use_module(counts, [acknowledged/3]).
 :- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
@@ -141,9 +142,11 @@ push_out(Key) :-
     ;   true
     ).
 
-%   The peer would refuse a longer one, again and again.
+%   The peer would refuse a longer one, again and again.  Nothing is said that
+%   follows from what may be forgotten.
 
 frame_bytes(Session, Term, Bytes) :-
+    journal_barrier,
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
     string_length(Bytes, Length),
