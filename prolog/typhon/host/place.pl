@@ -203,7 +203,7 @@ leave_due(Place, N) :-
                )).
 
 put_tuple(Place, N, Fact) :-
-    assertz((Place:'$tuple'(Fact) :- integer(N))).
+    assertz(Place:('$tuple'(Fact) :- integer(N))).
 
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).
@@ -213,9 +213,9 @@ tuple_sense(Place, Fact) :-
     due(Place, _, Fact, Me).
 
 tuple_take(Place, Fact) :-
-    retract((Place:'$tuple'(Fact) :- Body)),
+    retract(Place:('$tuple'(Fact) :- Body)),
     !,
-    (   Body = integer(N)
+    (   strip_module(Body, _, integer(N))
     ->  place_host(Place, Host),
         turn_note_drop(tuple, Host, N)
     ;   true

@@ -172,7 +172,7 @@ note_bytes(Term, Bytes) :-
     fast_term_serialized(Term, Bytes).
 
 note_change(Change) :-
-    (   nb_current(typhon_step, true)
+    (   nb_current(typhon_journal_step, true)
     ->  assertz(noted(Change))
     ;   enqueue([Change])
     ).
@@ -186,11 +186,11 @@ note_change(Change) :-
 journal_step(Goal) :-
     (   \+ journal_on
     ->  once(Goal)
-    ;   nb_current(typhon_step, true)
+    ;   nb_current(typhon_journal_step, true)
     ->  once(Goal)
-    ;   setup_call_cleanup(nb_setval(typhon_step, true),
+    ;   setup_call_cleanup(nb_setval(typhon_journal_step, true),
                            ( once(Goal), journal_seal ),
-                           ( nb_setval(typhon_step, false),
+                           ( nb_setval(typhon_journal_step, false),
                              retractall(noted(_)) ))
     ).
 

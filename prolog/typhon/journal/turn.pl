@@ -35,9 +35,9 @@ is from there on, and only then released to others.
 
 turn_run(Goal) :-
     (   journal_on
-    ->  setup_call_cleanup(nb_setval(typhon_turn, true),
+    ->  setup_call_cleanup(nb_setval(typhon_journal_turn, true),
                            once(Goal),
-                           nb_setval(typhon_turn, false))
+                           nb_setval(typhon_journal_turn, false))
     ;   call(Goal)
     ).
 
@@ -47,7 +47,7 @@ turn_run(Goal) :-
 
 turn_defers :-
     journal_on,
-    nb_current(typhon_turn, true).
+    nb_current(typhon_journal_turn, true).
 
 %!  turn_note_put(+Kind, +Key, +N, +Term) is det.
 %!  turn_note_drop(+Kind, +Key, +N) is det.
@@ -68,7 +68,7 @@ turn_note_drop(Kind, Key, N) :-
     ).
 
 note(Change) :-
-    (   nb_current(typhon_turn, true)
+    (   nb_current(typhon_journal_turn, true)
     ->  assertz(change(Change))
     ;   note_change(Change)
     ).

@@ -1,7 +1,7 @@
 :- module(typhon_recovery, []).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../journal', [journal_item/5, note_drop/3, note_drop_all/2]).
+:- use_module('../journal', [journal_item/5, note_drop_all/2]).
 :- use_module('../host',
               [alarm_set/3, host/3, host_again/1, real_time/3, schedule/2]).
 :- use_module('../agent',
@@ -30,6 +30,7 @@ scheduled, alarms are set, what was under way is asked for or sent again.
 
 %   What others look up comes before them.
 
+kind(lasting, any).
 kind(link, any).
 kind(tuple, numbers).
 kind(payload, any).
@@ -47,6 +48,8 @@ kind(out, numbers).
 kind(agent, any).
 kind(mail, numbers).
 kind(wait, numbers).
+kind(letter, numbers).
+kind(code, any).
 
 recover :-
     forall(( kind(Kind, Order),
@@ -73,13 +76,18 @@ back(mail, Id, N, Message) :-
     ;   assertz(superfluous(mail, Id))
     ).
 
+back(code, Hash, _, _) :-
+    (   agent(_, _, _, Hash, _)
+    ->  true
+    ;   assertz(superfluous(code, Hash))
+    ).
+
                 /*******************************
                 *            GO ON             *
                 *******************************/
 
 go_on :-
     forall(retract(superfluous(Kind, Key)), note_drop_all(Kind, Key)),
-    forget_programs,
     findall(Id-Status, agent_status(Id, Status, _), All),
     forall(member(Id-Status, All), goes_on(Status, Id)).
 
@@ -134,7 +142,3 @@ rings(Host, Until, Id, Token) :-
     real_time(Host, Until, Stamp),
     alarm_set(Stamp, Id, Token).
 
-forget_programs :-
-    findall(Hash, journal_item(code, any, Hash, _, _), Hashes),
-    forall(( member(Hash, Hashes), \+ agent(_, _, _, Hash, _) ),
-           note_drop(code, Hash, 0)).

@@ -4,6 +4,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal',
               [ crash_point/1, journal_number/1, journal_seal/0,
                 journal_step/1, note_drop_below/3, note_put/4 ]).
@@ -45,6 +46,10 @@ a time sends to an endpoint.
     seen/2,                     % Key, N: of a channel to here
     told/1.                     % Key: had/2 is about to be said
 
+:- setting(channel_seconds, number, 300,
+           "Posts for a process that has left, and keeps no journal as far as \c
+            is known, are kept so long").
+
 batch(100).
 longest_pause(1).               % seconds between attempts
 ack_seconds(0.02).
@@ -72,18 +77,20 @@ engage(Endpoint, Courier) :-
 
 set_out(there, _).
 set_out(wanted, Endpoint) :-
-    scheduler_call(typhon_channel:carry(Endpoint, 0.05)).
+    scheduler_call(typhon_channel:carry(Endpoint, try(0, 0.05))).
 
-%   carry(+Endpoint, +Pause): in a worker, until all is sent.
+%   carry(+Endpoint, +Try): in a worker, until all is sent.  Try is
+%   try(Since, Pause): it has not worked since then, 0 if it has, and the pause
+%   after this attempt.
 
-carry(Endpoint, Pause) :-
+carry(Endpoint, Try) :-
     with_mutex(typhon_channel, next(Endpoint, Items)),
     (   Items == []
     ->  true
     ;   catch(send_all(Items, Endpoint), error(Formal, _), true),
         (   var(Formal)
-        ->  carry(Endpoint, 0.05)
-        ;   not_sent(Formal, Endpoint, Pause)
+        ->  carry(Endpoint, try(0, 0.05))
+        ;   not_sent(Formal, Endpoint, Try)
         )
     ).
 
@@ -138,21 +145,30 @@ put_sent(Endpoint, Before, N) :-
 not_sent(existence_error(_, _), Endpoint, _) :-
     !,                                  % this process ends
     with_mutex(typhon_channel, retractall(courier(Endpoint))).
-not_sent(unreachable(_), Endpoint, _) :-
+not_sent(unreachable(_), Endpoint, try(Since, _)) :-
     endpoint_gone(Endpoint),
+    Since > 0,
+    get_time(Now),
+    setting(channel_seconds, Most),
+    Now-Since > Most,
     !,
     print_message(silent, typhon(home_unreachable(Endpoint))),
     give_up(Endpoint).
-not_sent(Formal, Endpoint, Pause) :-
+not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     debug(typhon(mail), 'nothing can be posted to ~w: ~p', [Endpoint, Formal]),
     with_mutex(typhon_channel, retractall(sent(Endpoint, _))),
     longest_pause(Longest),
     Pause1 is min(Longest, 2*Pause),
-    alarm_in(Pause, Endpoint, channel(Pause1)).
+    get_time(Now),
+    (   Since0 =:= 0
+    ->  Since = Now
+    ;   Since = Since0
+    ),
+    alarm_in(Pause, Endpoint, channel(try(Since, Pause1))).
 
-typhon_scheduler:fire(Endpoint, channel(Pause)) :-
+typhon_scheduler:fire(Endpoint, channel(Try)) :-
     !,
-    scheduler_call(typhon_channel:carry(Endpoint, Pause)).
+    scheduler_call(typhon_channel:carry(Endpoint, Try)).
 typhon_scheduler:fire(Key, had(To, Peer)) :-
     !,
     scheduler_call(typhon_channel:say_had(Key, To, Peer)).

@@ -9,7 +9,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../journal',
-              [ journal_item/5, journal_number/1, journal_seal/0,
+              [ journal_number/1, journal_seal/0,
                 journal_step/1, note_drop/3, turn_after/1, turn_defers/0,
                 turn_note_put/4 ]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
@@ -38,9 +38,12 @@ post_on/2 and the hooks never do.
 */
 
 :- multifile
+    typhon_recovery:back/4,
     typhon_recovery:go_on/0,
     typhon_endpoint:received/3,
     typhon_endpoint:together/3.
+
+:- dynamic said/4.              % Id, N, From, Message: before a restart
 
 %   Who hops without pause is given up in the end.
 
@@ -77,10 +80,13 @@ post_noted(Id, N, From, Message) :-
                               typhon(undeliverable(Formal, Id, From,
                                                    Message)))) )).
 
+typhon_recovery:back(letter, Id, N, From-Message) :-
+    assertz(said(Id, N, From, Message)).
+
 typhon_recovery:go_on :-
-    findall(letter(Id, N, From, Message),
-            journal_item(letter, numbers, Id, N, From-Message), Letters),
-    forall(member(letter(Id, N, From, Message), Letters),
+    findall(said(Id, N, From, Message),
+            retract(said(Id, N, From, Message)), Letters),
+    forall(member(said(Id, N, From, Message), Letters),
            post_noted(Id, N, From, Message)).
 
 post_way(Id, From, Message, done) :-
