@@ -15,7 +15,8 @@
             journal_seal/0,
             journal_barrier/0
           ]).
-:- use_module(library(lists), [append/2]).
+:- use_module(library(lists), [append/2, reverse/2]).
+:- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module('../base/output', [output_own/0]).
 :- use_module(crash, [crash_point/1]).
@@ -247,7 +248,8 @@ commit_all :-
     append([Olds, New], All),
     (   All == []
     ->  true
-    ;   append(All, Changes),
+    ;   append(All, Changes0),
+        settled(Changes0, Changes),
         crash_point(before_commit),
         catch(store_commit(Changes), error(Formal, Context),
               ( assertz(unsaved(Changes)),
@@ -256,6 +258,26 @@ commit_all :-
         crash_point(after_commit)
     ).
 commit_all.
+
+%   settled(+Changes0, -Changes): without those of items that change once more.
+
+settled(Changes0, Changes) :-
+    reverse(Changes0, Newest),
+    rb_new(Seen),
+    last_of_each(Newest, Seen, [], Changes).
+
+last_of_each([], _, Changes, Changes).
+last_of_each([Change|Older], Seen0, Changes0, Changes) :-
+    (   item_of(Change, Item)
+    ->  (   rb_insert_new(Seen0, Item, true, Seen)
+        ->  last_of_each(Older, Seen, [Change|Changes0], Changes)
+        ;   last_of_each(Older, Seen0, Changes0, Changes)
+        )
+    ;   last_of_each(Older, Seen0, [Change|Changes0], Changes)
+    ).
+
+item_of(put(Kind, Key, N, _), Kind-Key-N).
+item_of(drop(Kind, Key, N), Kind-Key-N).
 
 %   The goal of the thread that sees to what nobody waits for.
 

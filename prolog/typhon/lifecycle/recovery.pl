@@ -21,9 +21,11 @@ scheduled, alarms are set, what was under way is asked for or sent again.
 :- multifile
     back/4,                     % Kind, Key, N, Term: was noted so
     recover/0,
+    restored/0,                 % all of it is
     go_on/0.
 
 :- dynamic
+    restored/0,
     recover/0,
     go_on/0,
     superfluous/2.              % Kind, Key: nobody needs it any more
@@ -39,9 +41,7 @@ kind(outcome, numbers).
 kind(faulty, any).
 kind(left, numbers).
 kind(clone, numbers).
-kind(forward, any).
 kind(given_up, any).
-kind(open, any).
 kind(done, numbers).
 kind(seen, any).
 kind(out, numbers).
@@ -54,7 +54,8 @@ kind(code, any).
 recover :-
     forall(( kind(Kind, Order),
              journal_item(Kind, Order, Key, N, Term) ),
-           is_back(Kind, Key, N, Term)).
+           is_back(Kind, Key, N, Term)),
+    forall(restored, true).
 
 is_back(Kind, Key, N, Term) :-
     catch(back(Kind, Key, N, Term), error(Formal, Context),

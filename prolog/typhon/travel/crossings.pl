@@ -1,5 +1,6 @@
 :- module(typhon_crossings,
-          [ crossing_begin/3,           % +Who, +Hops, +Endpoint
+          [ crossing_begin/4,           % +Who, +Hops, +Endpoint, -Sent
+            crossing_restore/4,         % +Who, +Hops, +Endpoint, +Sent
             crossing_end/2,             % +Who, ?Hops
             crossing_again/1,           % +Who
             crossing_repeated/1,        % +Who
@@ -8,8 +9,7 @@
             crossing_done/1             % +Label
           ]).
 :- use_module('../journal',
-              [ journal_number/1, journal_on/0, note_drop/3,
-                note_drop_below/3, note_put/4 ]).
+              [journal_on/0, note_drop_below/3, note_put/4]).
 :- use_module('../wire', [endpoint_process/1]).
 
 /** <module> Hops that are known by number
@@ -33,30 +33,49 @@ hop, that the first has no open one less than Least to it any more.
 :- dynamic
     under_way/4,                    % Endpoint, N, Who, Hops: under way; the
                                 % oldest first
+    last/1,                     % Sent
     again/1,                    % Who: it was sent before
     done/2.                     % Process, N: was let in here
 
-%!  crossing_begin(+Who, +Hops, +Endpoint) is det.
+%!  crossing_begin(+Who, +Hops, +Endpoint, -Sent) is det.
+%!  crossing_restore(+Who, +Hops, +Endpoint, +Sent) is det.
 %!  crossing_end(+Who, ?Hops) is det.
 %!  crossing_again(+Who) is det.
 %!  crossing_repeated(+Who) is semidet.
 %
-%   Who sets out for Endpoint, with so many Hops; has arrived, or stays; it is not known whether
+%   Who sets out for Endpoint, with so many Hops, at Sent, from which the
+%   number follows; did so before a restart; has arrived, or stays; it is not known whether
 %   it had arrived already when it is sent next; which is so.
 
-crossing_begin(Who, Hops, Endpoint) :-
+crossing_begin(Who, Hops, Endpoint, Sent) :-
     (   journal_on
     ->  with_mutex(typhon_crossings,
-                   ( journal_number(N),
-                     note_put(open, Who, Hops, Endpoint-N),
-                     assertz(under_way(Endpoint, N, Who, Hops)) ))
-    ;   true
+                   ( stamp(Sent),
+                     crossing_add(Who, Hops, Endpoint, Sent) ))
+    ;   get_time(Sent)
     ).
+
+%   No two are the same.
+
+stamp(Sent) :-
+    get_time(Now),
+    (   retract(last(Last))
+    ->  Sent is max(Now, Last+0.000004)
+    ;   Sent = Now
+    ),
+    assertz(last(Sent)).
+
+crossing_add(Who, Hops, Endpoint, Sent) :-
+    N is truncate(Sent*1000000),
+    assertz(under_way(Endpoint, N, Who, Hops)).
+
+crossing_restore(Who, Hops, Endpoint, Sent) :-
+    crossing_add(Who, Hops, Endpoint, Sent),
+    crossing_again(Who).
 
 crossing_end(Who, Hops) :-
     (   retract(under_way(_, _, Who, Hops))
-    ->  retractall(again(Who)),
-        note_drop(open, Who, Hops)
+    ->  retractall(again(Who))
     ;   true
     ).
 
@@ -92,7 +111,8 @@ crossing_done(none).
 crossing_done(crossing(Process, N, Least)) :-
     note_put(done, Process, N, N),
     assertz(done(Process, N)),
-    (   done(Process, Old),
+    (   N mod 64 =:= 0,
+        done(Process, Old),
         Old < Least
     ->  note_drop_below(done, Process, Least),
         forget_below(Process, Least)
@@ -109,9 +129,6 @@ forget_below(Process, Least) :-
     ;   true
     ).
 
-typhon_recovery:back(open, Who, Hops, Endpoint-N) :-
-    assertz(under_way(Endpoint, N, Who, Hops)),
-    assertz(again(Who)).
 typhon_recovery:back(done, Process, _, N) :-
     assertz(done(Process, N)).
 

@@ -1,6 +1,7 @@
 :- module(typhon_home,
           [ agent_born/2,               % +Id, +Address
             home_moved/4,               % +Id, +Address, +Hops, +Process
+            home_left/4,                % +Id, +Address, +Hops, +Process
             home_ended/4,               % +Id, +Outcome, +Hops, +Legacy
             home_faulty/6,              % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops, +Process
@@ -117,6 +118,19 @@ home_moved(Id, Address, Hops, Process) :-
           [Id, Hops, Address]),
     with_mutex(typhon_born, moved(Id, Address, Hops, Process)).
 
+%!  home_left(+Id, +Address, +Hops, +Process) is det.
+%
+%   As home_moved/4, of one that has left this process, which is noted.
+
+home_left(Id, Address, Hops, Process) :-
+    with_mutex(typhon_born,
+               (   born(Id, _, Hops0, _),
+                   Hops0 < Hops
+               ->  assertz(born(Id, Address, Hops, Process)),
+                   forget_first(Id)
+               ;   moved(Id, Address, Hops, Process)
+               )).
+
 %   The new fact comes before the old one goes: others read meanwhile.  Of
 %   whom the home has never heard was born before it was started again.
 
@@ -158,6 +172,7 @@ ended(Id, _, Hops, _, []) :-
 ended(Id, Outcome0, Hops, Legacy, Askers) :-
     retractall(born(Id, _, _, _)),
     note_drop(born, Id, 0),
+    note_drop(agent, Id, 0),
     note_drop(faulty, Id, 0),
     (   retract(faulty(Id, Told, _)),
         Told \== none

@@ -24,10 +24,11 @@
                 mail_back/2, with_agent/2 ]).
 :- use_module('../journal',
               [journal_seal/0, journal_step/1, note_drop/3, note_put/4]).
-:- use_module(crossings, [crossing_begin/3, crossing_end/2]).
+:- use_module(crossings, [crossing_begin/4, crossing_end/2, crossing_restore/4]).
 :- use_module(legacies, [clone_unborn/2]).
 :- use_module(post, [post_on/2]).
-:- use_module(whereabouts, [agent_ended/4, agent_left/4]).
+:- use_module(whereabouts,
+              [agent_ended/4, agent_left/4, agent_left_noted/4]).
 
 /** <module> Agents under way
 
@@ -45,6 +46,7 @@ clone(Held, CloneId, Since).
 
 :- multifile
     typhon_recovery:back/4,
+    typhon_recovery:restored/0,
     forward_order/2.            % Id, Order: the agent has left
 
 :- dynamic given_up/2.          % Id, Hops: disposed of while in doubt
@@ -86,15 +88,13 @@ transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
                 Since) :-
     agent_status(Id, Status, _),
     memberchk(Status, [running, obeying]),
-    get_time(Sent),
-    crossing_begin(Id, Hops, Endpoint),
+    crossing_begin(Id, Hops, Endpoint, Sent),
     mail_all(Id, Mail),
     agent_put(Id, transit(Address, Sent), hop(Held, Hops, Mail, Since)),
     debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address]).
 transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
                 Since) :-
-    get_time(Sent),
-    crossing_begin(CloneId, 1, Endpoint),
+    crossing_begin(CloneId, 1, Endpoint, Sent),
     agent_put(Id, cloning(Address, Sent), clone(Held, CloneId, Since)),
     debug(typhon(hop), '~w hop 1: leaves for ~w', [CloneId, Address]).
 
@@ -116,6 +116,7 @@ arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
     ->  note_drop(given_up, Id, Hops),
         crossing_end(Id, Hops),
         agent_left(Id, Address, Hops, Endpoint),
+        agent_left_noted(Id, Address, Hops, Endpoint),
         follow(Id, dispose)
     ;   true                            % it came back before the answer
     ).
@@ -123,6 +124,7 @@ arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
     debug(typhon(hop), '~w hop 1: has gone', [CloneId]),
     crossing_end(CloneId, 1),
     agent_left(CloneId, Address, 1, Endpoint),
+    agent_left_noted(CloneId, Address, 1, Endpoint),
     ignore(with_agent(Id, clone_back(Id, CloneId, parent(CloneId)))).
 
 %   Where it went is known before it is gone, and mail that came meanwhile
@@ -133,6 +135,7 @@ moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
     crossing_end(Id, Hops),
     agent_left(Id, Address, Hops, Endpoint),
     let_go(Id, Since, Mail, Orders, Gone),
+    agent_left_noted(Id, Address, Hops, Endpoint),
     post_on(Id, Mail),
     journal_seal.
 
@@ -218,6 +221,21 @@ clone_back(Id, CloneId, Answer) :-
 transfer_given_up(Id, hop(_, Hops, _, _)) :-
     note_put(given_up, Id, Hops, Hops),
     assertz(given_up(Id, Hops)).
+
+%   The oldest first, before anybody else sets out.
+
+typhon_recovery:restored :-
+    findall(Sent-Transfer,
+            ( transfer_open(Transfer),
+              arg(1, Transfer, Id),
+              agent_status(Id, Status, _),
+              arg(2, Status, Sent) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    forall(( member(Sent-Transfer, Pairs),
+             transfer_traveller(Transfer, Who, Hops),
+             arg(2, Transfer, dest(_, _, Endpoint)) ),
+           crossing_restore(Who, Hops, Endpoint, Sent)).
 
 typhon_recovery:back(given_up, Id, Hops, _) :-
     assertz(given_up(Id, Hops)).

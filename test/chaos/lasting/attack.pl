@@ -14,7 +14,7 @@ in order.
 
 :- use_module(agents).
 :- use_module('../../../prolog/typhon').
-:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [append/3, member/2, nth0/3, numlist/3, sum_list/2]).
