@@ -156,8 +156,7 @@ sample(Sample) :-
 
 prepare_statements(Connection) :-
     forall(( sql(Name, Sql, Types), \+ memberchk(bytes, Types) ),
-           prepare(Connection, Name, 0, Sql, Types)),
-    odbc:odbc_set_connection(Connection, auto_commit(false)).
+           prepare(Connection, Name, 0, Sql, Types)).
 
 prepare(Connection, Name, Room, Sql, Types0) :-
     maplist(parameter_type, Types0, Types),
@@ -172,10 +171,18 @@ parameter_type(key, varchar(2000)).
 parameter_type(number, bigint).
 parameter_type(bytes, longvarbinary(60000)).
 
-options(parts, [types([string])]) :-
+options(parts, [types([string])|Wide]) :-
+    wide(Wide),
     !.
 options(_, []).
 
+%   What is longer than a kilobyte would come damaged otherwise.
+
+wide([wide_column_threshold(100)]).
+
+sql(begin, 'begin immediate', []).
+sql(commit, commit, []).
+sql(rollback, rollback, []).
 sql(put, 'insert or replace into item values (?, ?, ?, ?, ?, ?)',
     [kind, key, number, number, number, bytes]).
 sql(put_part, 'insert or replace into part values (?, ?, ?, ?, ?)',
@@ -273,19 +280,22 @@ forget(Connection) :-
 %   @error journal_damaged(Dir, Why)
 
 store_commit(Changes) :-
-    connection(Dir, Connection),
-    catch(in_terms_of(Dir, commit(Changes, Connection)),
+    connection(Dir, _),
+    catch(in_terms_of(Dir, commit(Changes)),
           error(Formal, Context),
-          ( catch(odbc:odbc_end_transaction(Connection, rollback),
-                  error(_, _), true),
+          ( catch(execute(rollback, []), error(_, _), true),
             throw(error(Formal, Context)) )).
 
-commit(Changes, Connection) :-
+%   Not the transactions of the driver: a disk that is full ends one without
+%   its knowledge.
+
+commit(Changes) :-
+    execute(begin, []),
     forall(member(Change, Changes), change(Change)),
     crash_point(in_commit),
-    odbc:odbc_end_transaction(Connection, commit).
+    execute(commit, []).
 
-change(put(Kind, Key, N, Bytes)) :-
+change(put(Kind, Key, N, Bytes)) =>
     term_hash(Bytes, Sum),
     string_length(Bytes, Length),
     part_bytes(Most),
@@ -298,13 +308,13 @@ change(put(Kind, Key, N, Bytes)) :-
         Last is (Length-1)//Most,
         forall(between(1, Last, Part), put_part(Kind, Key, N, Part, Bytes))
     ).
-change(drop(Kind, Key, N)) :-
+change(drop(Kind, Key, N)) =>
     drop_parts(Kind, Key, N),
     execute(drop, [Kind, Key, N]).
-change(drop_all(Kind, Key)) :-
+change(drop_all(Kind, Key)) =>
     forall(long(Kind, Key, N), drop_parts(Kind, Key, N)),
     execute(drop_all, [Kind, Key]).
-change(drop_below(Kind, Key, N)) :-
+change(drop_below(Kind, Key, N)) =>
     forall(( long(Kind, Key, N0), N0 < N ), drop_parts(Kind, Key, N0)),
     execute(drop_below, [Kind, Key, N]).
 
@@ -337,10 +347,11 @@ drop_parts(Kind, Key, N) :-
 journal_item(Kind, Order, Key, N, Value) :-
     connection(Dir, Connection),
     order(Order, By),
+    wide(Wide),
     format(atom(Sql), 'select key, n, length, sum, value from item \c
                        where kind=\'~w\'~w', [Kind, By]),
     odbc:odbc_query(Connection, Sql, row(Key, N, Length, Sum, First),
-                    [types([atom, integer, integer, integer, string])]),
+                    [types([atom, integer, integer, integer, string])|Wide]),
     whole(Length, Kind-Key-N, First, Bytes),
     (   term_hash(Bytes, Sum)
     ->  fast_term_serialized(Value, Bytes)
@@ -360,7 +371,10 @@ whole(Length, Kind-Key-N, First0, Bytes) :-
     sub_string(First0, 0, Most, _, First),
     statement(parts, 0, Statement),
     findall(Piece,
-            odbc:odbc_execute(Statement, [Kind, Key, N], row(Piece)),
+            ( odbc:odbc_execute(Statement, [Kind, Key, N], row(Full)),
+              string_length(Full, Room),
+              Count is min(Most, Room),
+              sub_string(Full, 0, Count, _, Piece) ),
             Pieces),
     atomic_list_concat([First|Pieces], Atom),
     atom_string(Atom, All),
