@@ -43,6 +43,8 @@ command(story, 'LOG AGENT', 2,
         'tell from a log what happened to an agent').
 command(picture, 'LOG SVG', 2,
         'draw a log: hosts, time, agents and messages').
+command(journal, 'DIR', 1,
+        'tell what is in the journal of a process that does not run').
 command(diagnose, '[ADDRESS]', 0-2,
         'find out why a host, or with nxt PORT a robot, is not reached; or \c
          why python, mqtt URL or fipa URL does not work').
@@ -95,6 +97,10 @@ option(host, events, atom, 'A,B',
        'with --log: also hops, messages, facts').
 option(host, link, atom, 'ADDRESS',
        'host to link to (may be repeated)').
+option(host, journal, atom, 'DIR',
+       'what happens here outlives the process, in DIR').
+option(host, sync, atom, 'HOW',
+       'with --journal: normal or, to survive a power cut, full').
 option(network, processes, natural, 'N',
        'spread the hosts over N processes').
 option(network, bind, atom, 'INTERFACE',
@@ -113,6 +119,14 @@ option(network, hop_time, term, 'uniform(A,B)',
        'delay added to every hop, in host seconds').
 option(network, clock, number, 'RATE',
        'host seconds in a real second').
+option(journal, agents, boolean, '',
+       'a line for each agent').
+option(journal, check, boolean, '',
+       'read all of it').
+option(journal, extract, atom, 'AGENT',
+       'with --to: write a restore point of AGENT').
+option(journal, to, atom, 'FILE',
+       'the file to write').
 option(create, host, atom, 'ADDRESS',
        'host to create it on (required)').
 option(create, name, atom, 'NAME',

@@ -23,4 +23,5 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(lifecycle/tracing, [agent_trace/2, agent_notrace/1]).
 :- reexport(lifecycle/stepping, [agent_step/1]).
 :- reexport('lifecycle/join').
-:- reexport('lifecycle/restore').
+:- reexport(lifecycle/restore,
+            [agent_load/2, agent_load/3, agent_save/2]).

@@ -266,7 +266,7 @@ forget(Connection) :-
     retractall(long(_, _, _)),
     forall(retract(statement(_, _, Statement)),
            catch(odbc:odbc_free_statement(Statement), error(_, _), true)),
-    catch(odbc:odbc_disconnect(Connection), error(_, _), true).
+    odbc:odbc_disconnect(Connection).
 
                 /*******************************
                 *            CHANGES           *

@@ -51,7 +51,11 @@ kind(wait, numbers).
 kind(letter, numbers).
 kind(code, any).
 
+%   What this process knew before, with another journal or none, is another
+%   story.
+
 recover :-
+    forall(typhon_identity:ids_anew, true),
     forall(( kind(Kind, Order),
              journal_item(Kind, Order, Key, N, Term) ),
            is_back(Kind, Key, N, Term)),

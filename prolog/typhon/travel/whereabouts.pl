@@ -52,6 +52,7 @@ see typhon_news, since it may have to connect.
 :- multifile
     error:has_type/2,
     typhon_bounded:forgotten/1,
+    typhon_identity:ids_anew/0,
     typhon_recovery:back/4,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
@@ -121,6 +122,9 @@ agent_left_noted(Id, Address, Hops, Peer) :-
         note_put(agent, Id, 0, gone(Address, Hops, Process))
     ;   true
     ).
+
+typhon_identity:ids_anew :-
+    retractall(forward(_, _, _, _)).
 
 typhon_bounded:forgotten(forward(Id, _, _, _)) :-
     note_drop(agent, Id, 0).
