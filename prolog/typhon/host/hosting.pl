@@ -18,7 +18,7 @@
                 journal_end/0, journal_item/5, journal_number_after/1,
                 journal_on/0, journal_open/2, journal_opened/1, note_drop/3,
                 note_put/4 ]).
-:- use_module('../wire', [endpoint_open/0]).
+:- use_module('../wire', [endpoint_address/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(host_log, []).
@@ -164,7 +164,7 @@ start_new(Name, Options) :-
 %   start_from(+Dir, +Name, +Options): with all that is in the journal.
 
 start_from(Dir, _, Options) :-
-    (   host(_, _, _)
+    (   endpoint_address(_)
     ;   memberchk(clock(virtual), Options)
     ),
     !,

@@ -132,7 +132,9 @@ typhon_bounded:forgotten(forward(Id, _, _, _)) :-
 typhon_recovery:back(agent, Id, _, gone(Address, Hops, Process)) :-
     !,
     agent_home_endpoint(Id, Home),
-    (   endpoint_address(Home)
+    (   agent_outcome(Id, _)
+    ->  true
+    ;   endpoint_address(Home)
     ->  home_left(Id, Address, Hops, Process)
     ;   assertz(forward(Id, Address, Hops, Process))
     ).
