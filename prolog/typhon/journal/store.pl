@@ -296,7 +296,7 @@ commit(Changes) :-
     execute(commit, []).
 
 change(put(Kind, Key, N, Bytes)) =>
-    term_hash(Bytes, Sum),
+    check_sum(Bytes, Sum),
     string_length(Bytes, Length),
     part_bytes(Most),
     drop_parts(Kind, Key, N),
@@ -317,6 +317,13 @@ change(drop_all(Kind, Key)) =>
 change(drop_below(Kind, Key, N)) =>
     forall(( long(Kind, Key, N0), N0 < N ), drop_parts(Kind, Key, N0)),
     execute(drop_below, [Kind, Key, N]).
+
+%   Of 24 bits: those of Prologs are of 24 or 32, and the driver's integers are
+%   signed.
+
+check_sum(Bytes, Sum) :-
+    term_hash(Bytes, Hash),
+    Sum is Hash /\ 0xffffff.
 
 put_part(Kind, Key, N, Part, Bytes) :-
     part_bytes(Most),
@@ -353,7 +360,7 @@ journal_item(Kind, Order, Key, N, Value) :-
     odbc:odbc_query(Connection, Sql, row(Key, N, Length, Sum, First),
                     [types([atom, integer, integer, integer, string])|Wide]),
     whole(Length, Kind-Key-N, First, Bytes),
-    (   term_hash(Bytes, Sum)
+    (   check_sum(Bytes, Sum)
     ->  fast_term_serialized(Value, Bytes)
     ;   throw(error(journal_damaged(Dir, Kind-Key), _))
     ).
