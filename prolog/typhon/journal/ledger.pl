@@ -52,10 +52,9 @@ inside the mutex that guards what it is about.
 :- thread_local
     noted/1.                            % Change
 
-%   What nobody waits for waits so long, and is no more than so many entries.
+%   What nobody waits for waits so long.
 
 idle_seconds(0.005).
-most_entries(2000).
 
                 /*******************************
                 *        OPEN AND CLOSE        *
@@ -263,18 +262,30 @@ commit_all.
 
 settled(Changes0, Changes) :-
     reverse(Changes0, Newest),
-    rb_new(Seen),
+    length(Newest, Count),
+    (   Count =< 32
+    ->  Seen = []                       % quicker for so few
+    ;   rb_new(Seen)
+    ),
     last_of_each(Newest, Seen, [], Changes).
 
 last_of_each([], _, Changes, Changes).
 last_of_each([Change|Older], Seen0, Changes0, Changes) :-
     (   item_of(Change, Item)
-    ->  (   rb_insert_new(Seen0, Item, true, Seen)
+    ->  (   first_seen(Seen0, Item, Seen)
         ->  last_of_each(Older, Seen, [Change|Changes0], Changes)
         ;   last_of_each(Older, Seen0, Changes0, Changes)
         )
     ;   last_of_each(Older, Seen0, [Change|Changes0], Changes)
     ).
+
+first_seen(Seen0, Item, Seen) :-
+    is_list(Seen0),
+    !,
+    \+ memberchk(Item, Seen0),
+    Seen = [Item|Seen0].
+first_seen(Seen0, Item, Seen) :-
+    rb_insert_new(Seen0, Item, true, Seen).
 
 item_of(put(Kind, Key, N, _), Kind-Key-N).
 item_of(drop(Kind, Key, N), Kind-Key-N).
