@@ -61,7 +61,10 @@ place_create(Host, Files, Services, Place) :-
     set_module(Place:class(temporary)),
     set_module(Place:base(typhon_vocabulary)),
     dynamic(Place:'$tuple'/1),
-    assertz(place_host(Place, Host)),
+    (   atom(Host)                      % else it is not of a host
+    ->  assertz(place_host(Place, Host))
+    ;   true
+    ),
     catch(( forall(member(Service, Services), place_offer(Place, Service)),
             forall(member(File, Files), consult_into(Place, File))
           ),
@@ -140,8 +143,10 @@ place_destroy(Place) :-
     '$destroy_module'(Place).
 
 forget_payload(Place, Name) :-
-    payload_key(Place, Name, _, Key),
-    note_drop(payload, Key, 0).
+    (   payload_key(Place, Name, _, Key)
+    ->  note_drop(payload, Key, 0)
+    ;   true
+    ).
 
 unload(Place) :-
     retract(loaded(Place, Id, _, _)),
@@ -169,7 +174,8 @@ unload(_).
 
 tuple_leave(Place, Fact) :-
     must_be(callable, Fact),
-    (   journal_on
+    (   journal_on,
+        place_host(Place, _)
     ->  leave_noted(Place, Fact)
     ;   with_mutex(typhon_tuples, assertz(Place:'$tuple'(Fact)))
     ).
@@ -179,7 +185,8 @@ tuple_leave_new(Place, Fact) :-
     with_mutex(typhon_tuples,
                ( \+ Place:'$tuple'(Fact),
                  \+ due(Place, _, Fact, _),
-                 (   journal_on
+                 (   journal_on,
+                     place_host(Place, _)
                  ->  leave_noted(Place, Fact)
                  ;   assertz(Place:'$tuple'(Fact))
                  ) )).
@@ -268,11 +275,16 @@ deliver(Place, Name, PIs, Clauses) :-
     forall(member(PI, Gone), abolish(Place:PI)),
     retractall(delivered(Place, Name, _)),
     assertz(delivered(Place, Name, PIs)),
-    payload_key(Place, Name, Host, Key),
-    note_put(payload, Key, 0, payload(Host, payload(Name, PIs, Clauses))),
+    (   payload_key(Place, Name, Host, Key)
+    ->  note_put(payload, Key, 0, payload(Host, payload(Name, PIs, Clauses)))
+    ;   true
+    ),
     debug(typhon(host), '~w has payload ~w', [Place, Name]).
 
+%   Fails for what is no payload of agents: services come with who starts them.
+
 payload_key(Place, Name, Host, Key) :-
+    atom(Name),
     place_host(Place, Host),
     atomic_list_concat([Host, Name], ' ', Key).
 
@@ -328,6 +340,8 @@ place_undeliver(Place, Name) :-
 
 remove(Place, Name) :-
     retract(delivered(Place, Name, PIs)),
-    payload_key(Place, Name, _, Key),
-    turn_note_drop(payload, Key, 0),
+    (   payload_key(Place, Name, _, Key)
+    ->  turn_note_drop(payload, Key, 0)
+    ;   true
+    ),
     forall(member(PI, PIs), abolish(Place:PI)).

@@ -292,8 +292,10 @@ say_had(Key, To, Peer) :-
 %   Who has a new connection may have died meanwhile.
 
 typhon_endpoint:connection(Endpoint, up) :-
-    \+ endpoint_address(Endpoint),
-    heard(again(Endpoint), Endpoint).
+    (   endpoint_address(Endpoint)
+    ->  true
+    ;   heard(again(Endpoint), Endpoint)
+    ).
 
 typhon_recovery:back(out, Endpoint, N, item(Kind, Term)) :-
     assertz(out(Endpoint, N, Kind, Term)).
