@@ -204,14 +204,14 @@ all_end(people(Hoppers, Porters, Talkers, _), Deadline, Ends) :-
 
 ends(Agent, Deadline, End) :-
     get_time(Now),
-    (   Now > Deadline
-    ->  End = late
-    ;   Left is max(0.1, min(2, Deadline-Now)),
-        catch(agent_join(Agent, End0, Left), error(E, _), End0 = error(E)),
-        End0 \== timeout,
+    Left is max(0.1, min(2, Deadline-Now)),
+    catch(agent_join(Agent, End0, Left), error(E, _), End0 = error(E)),
+    (   End0 \== timeout,
         End0 \= error(_),
         End0 \== unknown
     ->  End = End0
+    ;   Now > Deadline
+    ->  End = late
     ;   sleep(0.1),
         ends(Agent, Deadline, End)
     ).
