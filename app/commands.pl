@@ -45,6 +45,8 @@ command(picture, 'LOG SVG', 2,
         'draw a log: hosts, time, agents and messages').
 command(page, '[LOG]', 0-1,
         'show the network of a running host in a browser, or replay a log').
+command(journal, 'DIR', 1,
+        'tell what is in the journal of a process that does not run').
 command(diagnose, '[ADDRESS]', 0-2,
         'find out why a host, or with nxt PORT a robot, is not reached; or \c
          why python, mqtt URL, fipa URL, ros or ros URL does not work').
@@ -99,6 +101,10 @@ option(host, events, atom, 'A,B',
        'with --log: also hops, messages, facts').
 option(host, link, atom, 'ADDRESS',
        'host to link to (may be repeated)').
+option(host, journal, atom, 'DIR',
+       'what happens here outlives the process, in DIR').
+option(host, sync, atom, 'HOW',
+       'with --journal: normal or, to survive a power cut, full').
 option(network, processes, natural, 'N',
        'spread the hosts over N processes').
 option(network, bind, atom, 'INTERFACE',
@@ -127,6 +133,14 @@ option(page, read_only, boolean, boolean,
        'only to look at: nothing can be done there').
 option(page, export, atom, 'FILE',
        'write a page that replays LOG to FILE, and serve none').
+option(journal, agents, boolean, '',
+       'a line for each agent').
+option(journal, check, boolean, '',
+       'read all of it').
+option(journal, extract, atom, 'AGENT',
+       'with --to: write a restore point of AGENT').
+option(journal, to, atom, 'FILE',
+       'the file to write').
 option(create, host, atom, 'ADDRESS',
        'host to create it on (required)').
 option(create, name, atom, 'NAME',

@@ -30,6 +30,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(diagnose_fipa, [diagnose_fipa/1]).
 :- use_module(diagnose_bridges, [diagnose_bridge/2]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
+:- use_module(journal, [journal_shown/2]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
 :- use_module(picture, [picture/3]).
@@ -158,6 +159,7 @@ run_connected(Command, Arguments, Options) :-
 
 serves(host, _).
 serves(network, _).
+serves(journal, _).
 serves(log, Options) :-
     memberchk(serve(true), Options).
 
@@ -256,6 +258,8 @@ run(log, [File], Options) :-
     ;   log_events(File, Events)
     ),
     forall(member(Event, Events), print_event(Event)).
+run(journal, [Dir], Options) :-
+    journal_shown(Dir, Options).
 run(story, [Log, Agent], _) :-
     (   story(Log, Agent)
     ->  true
@@ -300,7 +304,7 @@ bridge_named([ros,_]).
 host_option(Options, Option) :-
     member(Option, Options),
     functor(Option, Name, 1),
-    memberchk(Name, [port, bind, capacity]).
+    memberchk(Name, [port, bind, capacity, journal, sync]).
 host_option(Options, Option) :-
     log_events_option(Options, Option).
 host_option(Options, tokens(Tokens)) :-

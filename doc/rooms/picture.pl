@@ -21,6 +21,7 @@ picture :-
 
 colour(base,      '#f4f4f4').
 colour(program,   '#d6e4f5').
+colour(journal,   '#dce6f0').
 colour(wire,      '#e6dcf0').
 colour(host,      '#dcedc8').
 colour(agent,     '#fdf3c8').

@@ -175,7 +175,8 @@ reach(Part, Module, Name/Arity) :-
 %
 %   From below: who stands higher imports from who stands lower.
 
-layers([ base, helper, nxt, program, wire, host, agent, travel, lifecycle,
+layers([ base, helper, nxt, program, journal, wire, host, agent, travel,
+         lifecycle,
          language, network, watching, people, bridge, python, mqtt, fipa,
          ros, page ]).
 

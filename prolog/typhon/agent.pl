@@ -11,7 +11,7 @@ This is the door of the layer: who is above takes what it needs from here.
               agent_mobile/2, agent_move/5, agent_order/2, agent_ordered/1,
               agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
               agent_remove/3, agent_rest/3, agent_resumes/2, agent_status/3,
-              agent_take/3, agent_unorder/2, with_agent/2
+              agent_take/3, agent_unorder/2, agent_wakes/2, with_agent/2
             ]).
 :- reexport(agent/agent_module,
             [ agent_changed/4, agent_elsewhere/3, agent_handles/2,
@@ -24,6 +24,7 @@ This is the door of the layer: who is above takes what it needs from here.
               life_parent/2, life_payloads/2, life_tokens/2, life_traces/2,
               make_life/2, set_traces_of_life/3
             ]).
+:- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
 :- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
@@ -37,5 +38,6 @@ This is the door of the layer: who is above takes what it needs from here.
             [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
               legacy_result/2 ]).
 :- reexport(agent/mailbox,
-            [ mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2
+            [ mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_restore/3,
+              mail_take/2
             ]).

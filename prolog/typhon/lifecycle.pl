@@ -9,6 +9,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(lifecycle/creation, [agent_create/2, agent_create/3]).
 :- use_module(lifecycle/running, []).
 :- use_module(lifecycle/evacuation, []).
+:- use_module(lifecycle/recovery, []).
 :- reexport('lifecycle/properties').
 :- reexport('lifecycle/glance').
 :- reexport('lifecycle/giving',
@@ -22,4 +23,5 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(lifecycle/tracing, [agent_trace/2, agent_notrace/1]).
 :- reexport(lifecycle/stepping, [agent_step/1]).
 :- reexport('lifecycle/join').
-:- reexport('lifecycle/restore').
+:- reexport(lifecycle/restore,
+            [agent_load/2, agent_load/3, agent_save/2]).

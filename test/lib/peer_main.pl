@@ -169,7 +169,7 @@ messages_seen(Count) :-
 :- dynamic program_seen/0.
 
 count_programs :-
-    wrap_predicate(typhon_arrival:arrive(_, _, Program, _, _), count,
+    wrap_predicate(typhon_arrival:arrive(_, _, Program, _, _, _), count,
                    Wrapped,
                    ( ( Program == known
                      -> true

@@ -13,6 +13,7 @@
             agent_departs/3,            % +Id, -Dest, -Goals
             agent_resumes/2,            % +Id, -Goals
             agent_ready/2,              % +Id, +Goals
+            agent_wakes/2,              % +Id, +Goals
             with_agent/2,               % +Id, :Goal
             agent_mail/2,               % +Id, +Messages
             agent_order/2,              % +Id, +Order
@@ -22,6 +23,8 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../journal',
+              [journal_on/0, journal_seal/0, note_drop/3]).
 :- use_module('../host', [events_forget/1, schedule/2]).
 :- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
 :- use_module(traces, [traces_heard/2]).
@@ -52,7 +55,9 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 
 :- meta_predicate with_agent(+, 0).
 
-:- multifile typhon_code:in_use/1.
+:- multifile
+    typhon_code:in_use/1,
+    put_down/3.                 % Id, Status, Goals: noted in the journal
 
 %   The name under which people know it.
 
@@ -110,12 +115,22 @@ make_shards :-
 
 agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     assertz(stands(Id, Host, Module, Hash, Life, 0)),
+    noted(Id, Status, Goals),
     assertz(status(Id, Status, Goals)),
     traces_heard(Id, Life).
+
+%   Before others can see it.
+
+noted(Id, Status, Goals) :-
+    (   journal_on
+    ->  put_down(Id, Status, Goals)
+    ;   true
+    ).
 
 agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, _, Module, _, _, _)),
     retractall(status(Id, _, _)),
+    note_drop(agent, Id, 0),
     mail_all(Id, Mail),
     orders(Id, Orders),
     '$destroy_module'(Module).
@@ -164,7 +179,15 @@ agent_status(Id, running, []) :-
 
 %!  agent_put(+Id, +Status, +Goals) is det.
 
+%
+%   With a journal this is where what has led to it is sealed.
+
 agent_put(Id, Status, Goals) :-
+    noted(Id, Status, Goals),
+    journal_seal,
+    put_status(Id, Status, Goals).
+
+put_status(Id, Status, Goals) :-
     retractall(status(Id, _, _)),
     assertz(status(Id, Status, Goals)).
 
@@ -210,11 +233,20 @@ agent_resumes(Id, Goals) :-
     !.
 
 %!  agent_ready(+Id, +Goals) is det.
+%!  agent_wakes(+Id, +Goals) is det.
 %
-%   Id goes on with Goals when its turn comes.
+%   Id goes on with Goals when its turn comes.  The second is for one that has
+%   rested with these goals.
 
 agent_ready(Id, Goals) :-
     agent_put(Id, ready, Goals),
+    scheduled(Id).
+
+agent_wakes(Id, Goals) :-
+    put_status(Id, ready, Goals),
+    scheduled(Id).
+
+scheduled(Id) :-
     agent(Id, Host, _, _, _),
     !,
     schedule(Host, Id).
@@ -280,7 +312,7 @@ mail_to(faulty(_), Id, _, Messages) :-
 mail_to(Status, Id, Goals, Messages) :-
     put_mail(Messages, Id),
     (   wakes(Status, Messages)
-    ->  agent_ready(Id, Goals)
+    ->  agent_wakes(Id, Goals)
     ;   true
     ).
 

@@ -11,6 +11,10 @@ a fact too many is forgotten.
 
 :- meta_predicate bounded(0, +).
 
+:- multifile forgotten/1.               % Fact
+
+:- dynamic forgotten/1.
+
 %!  bounded(:Fact, +Setting) is det.
 %
 %   A fact like Fact was added.  Now and then forget the oldest of what
@@ -23,6 +27,15 @@ bounded(Fact, Setting) :-
     ->  setting(Setting, Max),
         predicate_property(Fact, number_of_clauses(Count)),
         Excess is Count-Max,
-        forall(between(1, Excess, _), ignore(retract(Fact)))
+        forall(between(1, Excess, _), forget(Fact))
+    ;   true
+    ).
+
+%   Who has noted it elsewhere hears of it.
+
+forget(Fact) :-
+    (   retract(Fact)
+    ->  strip_module(Fact, _, Plain),
+        forall(forgotten(Plain), true)
     ;   true
     ).

@@ -13,12 +13,18 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_option/2, check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../journal',
+              [ journal_barrier/0, journal_begin/0, journal_close/0,
+                journal_end/0, journal_item/5, journal_number_after/1,
+                journal_on/0, journal_open/2, journal_opened/1, note_drop/3,
+                note_put/4 ]).
+:- use_module('../wire', [endpoint_address/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(host_log, []).
 :- use_module(hosts,
               [ address_parts/3, host/3, host_add/4, host_close/1,
-                host_put/2, host_remove/1, host_resolve/2 ]).
+                host_option/2, host_put/2, host_remove/1, host_resolve/2 ]).
 :- use_module(links, [host_unlink/2]).
 :- use_module(place, [place_create/4, place_destroy/1, place_offer/2]).
 :- use_module(remote, [remote/2]).
@@ -39,9 +45,15 @@ other users of the process its endpoint, see typhon_runtime.
 :- multifile
     typhon_options:declared/4,
     begins/1,                   % Name: is there, who wants may listen
+    typhon_recovery:recover/0,  % what the journal knows stands again
+    typhon_recovery:go_on/0,    % and goes on
     evacuate/2.                 % Name, Deadline: nobody is left on the host
 
-:- dynamic evacuate/2.
+:- dynamic
+    typhon_recovery:recover/0,
+    typhon_recovery:go_on/0,
+    evacuate/2,
+    from_journal/1.             % Name: was started because the journal says so
 
                 /*******************************
                 *             START            *
@@ -74,9 +86,18 @@ other users of the process its endpoint, see typhon_runtime.
 %     - clock(+Epoch, +Rate): see typhon_clock
 %     - hop_time(uniform(Min, Max)): delay added to hops out of it
 %     - seed(+Integer): for the choices of migration strategies
+%     - journal(+Directory): what happens in this process outlives it, see
+%       doc/journal.md; only for the first host.  Whatever the journal knows
+%       is there again, other hosts, too: host_start/2 may then be called for
+%       these once, and changes nothing
+%     - sync(+How): `normal`, the default, if the journal is to survive the
+%       end of the process, `full` if a power cut, too
 %
 %   @error permission_error(start, host, Name) if it runs already
 %   @error domain_error(host_option, Option)
+%   @error permission_error(open, journal, Directory): another process has it,
+%          or this one has hosts already; journal_damaged(Directory, Why),
+%          journal_version(Directory, Version)
 
 host_start(Name) :-
     host_start(Name, []).
@@ -112,17 +133,90 @@ host_option_type(clock(X, Y), list(number), [X,Y]).
 host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
 host_option_type(seed(X), integer, X).
 host_option_type(python(X), boolean, X).
+host_option_type(journal(X), atom, X).
+host_option_type(sync(X), oneof([full, normal]), X).
 
+start(Name, _) :-
+    retract(from_journal(Name)),
+    !.
 start(Name, _) :-
     host(Name, _, _),
     !,
     permission_error(start, host, Name).
 start(Name, Options) :-
+    memberchk(journal(Dir0), Options),
+    absolute_file_name(Dir0, Dir),
+    \+ journal_opened(Dir),
+    !,
+    start_from(Dir, Name, Options).
+start(Name, Options) :-
+    start_new(Name, Options),
+    note_host(Name),
+    journal_barrier.
+
+start_new(Name, Options) :-
     kind_of_time(Options, Kind),
     append(Kind, Options, Options1),
     runtime_acquire(host(Name), Options1, Endpoint),
     catch(start_host(Name, Endpoint, Options), Ball,
           ( runtime_release(host(Name)), throw(Ball) )).
+
+%   start_from(+Dir, +Name, +Options): with all that is in the journal.
+
+start_from(Dir, _, Options) :-
+    (   endpoint_address(_)
+    ;   memberchk(clock(virtual), Options)
+    ),
+    !,
+    permission_error(open, journal, Dir).
+start_from(Dir, Name, Options) :-
+    option(sync(Sync), Options, normal),
+    journal_open(Dir, Sync),
+    catch(begin_from_journal(Name, Options), Ball,
+          ( journal_close, give_up_hosts, journal_end, throw(Ball) )).
+
+begin_from_journal(Name, Options) :-
+    forall(journal_item(number, any, _, _, N), journal_number_after(N)),
+    findall(Other-Known, known_host(Other, Known), Hosts),
+    (   memberchk(Name-Known, Hosts)
+    ->  with_known(Known, Options, AllOptions)
+    ;   AllOptions = Options
+    ),
+    start_new(Name, AllOptions),
+    forall(( member(Other-OtherOptions, Hosts), Other \== Name ),
+           ( start_new(Other, OtherOptions),
+             assertz(from_journal(Other)) )),
+    forall(typhon_recovery:recover, true),
+    journal_begin,
+    forall(host(Host, _, _), note_host(Host)),
+    endpoint_open,
+    forall(typhon_recovery:go_on, true).
+
+known_host(Name, Options) :-
+    journal_item(host, numbers, Name, _, Options).
+
+with_known(Known, Options, All) :-
+    findall(Option,
+            ( member(Option, Known),
+              functor(Option, OptionName, Arity),
+              functor(Given, OptionName, Arity),
+              \+ memberchk(Given, Options) ),
+            More),
+    append(Options, More, All).
+
+give_up_hosts :-
+    retractall(from_journal(_)),
+    forall(host(Name, _, _), ignore(stop(Name))).
+
+note_host(Name) :-
+    (   journal_on
+    ->  findall(Option,
+                ( host_option(Name, Option),
+                  \+ memberchk(Option, [journal(_), sync(_)]) ),
+                Options),
+        note_put(host, Name, 0, Options)
+    ;   true
+    ).
 
 %   A network gives its hosts a clock of whatever kind it has.
 
@@ -185,7 +279,8 @@ host_change(Host, Option) :-
     change_at(Where, Host, Option).
 
 change_at(local(Name), _, Option) :-
-    with_mutex(typhon_hosting, change(Option, Name)).
+    with_mutex(typhon_hosting, ( change(Option, Name), note_host(Name) )),
+    journal_barrier.
 change_at(remote(_, Name, _), Host, Option) :-
     remote(Host, typhon_hosting:host_change(Name, Option)).
 
@@ -215,7 +310,8 @@ changes(seed(_)).
 
 %!  host_stop(+Name) is det.
 %
-%   Dispose of the agents on Name and release all it holds.
+%   Dispose of the agents on Name and release all it holds.  If the process
+%   has a journal, and Name is its last host, they rest there instead.
 %
 %   @error existence_error(host, Name)
 
@@ -226,6 +322,7 @@ host_stop(Name) :-
 stop(Name0) :-
     local_name(Name0, Name),
     host(Name, Address, Place),
+    rest_or_end(Name),
     host_close(Name),
     scheduler_unlimit(Name),
     get_time(Now),
@@ -239,7 +336,22 @@ stop(Name0) :-
     clock_clear(Name),
     place_destroy(Place),
     debug(typhon(host), '~w is stopped', [Address]),
-    runtime_release(host(Name)).
+    runtime_release(host(Name)),
+    (   host(_, _, _)
+    ->  true
+    ;   journal_end
+    ).
+
+%   With the last host the process is at its end: what is in the journal
+%   stays there, to go on when it is started again.
+
+rest_or_end(Name) :-
+    (   host(Other, _, _),
+        Other \== Name
+    ->  note_drop(host, Name, 0)
+    ;   journal_close
+    ),
+    retractall(from_journal(Name)).
 
 local_name(Host, Name) :-
     host_resolve(Host, Where),

@@ -15,6 +15,10 @@ One direction of each: the other is known to the other host.
 *Threading*: any thread; one mutex for changes.
 */
 
+:- use_module('../journal', [note_drop/3, note_put/4]).
+
+:- multifile typhon_recovery:back/4.
+
 :- dynamic
     neighbour/2,                % Name, Address
     cost/3.                     % Name, Address, Cost: of a link, if not 1
@@ -29,7 +33,19 @@ One direction of each: the other is known to the other host.
 host_link(Name, Address, Cost) :-
     with_mutex(typhon_links,
                ( add_link(Name, Address),
-                 set_cost(Cost, Name, Address) )).
+                 set_cost(Cost, Name, Address),
+                 note_link(Name, Address) )).
+
+note_link(Name, Address) :-
+    host_link_cost(Name, Address, Cost),
+    link_key(Name, Address, Key),
+    note_put(link, Key, 0, link(Name, Address, Cost)).
+
+link_key(Name, Address, Key) :-
+    atomic_list_concat([Name, Address], ' ', Key).
+
+typhon_recovery:back(link, _, _, link(Name, Address, Cost)) :-
+    host_link(Name, Address, Cost).
 
 add_link(Name, Address) :-
     (   neighbour(Name, Address)
@@ -55,9 +71,14 @@ host_unlink(Name, Address) :-
 
 unlink(Name, Address) :-
     findall(Name-Address, neighbour(Name, Address), Links),
+    forall(member(From-To, Links), note_no_link(From, To)),
     retractall(neighbour(Name, Address)),
     retractall(cost(Name, Address, _)),
     forall(member(From-To, Links), event(links, From, none, unlink(To))).
+
+note_no_link(Name, Address) :-
+    link_key(Name, Address, Key),
+    note_drop(link, Key, 0).
 
 %!  host_link_cost(+Name, +Address, -Cost) is semidet.
 %

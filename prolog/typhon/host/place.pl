@@ -14,6 +14,11 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
+:- use_module('../journal',
+              [ journal_number/1, journal_on/0, note_drop/3, note_drop_all/2,
+                note_put/4,
+                turn_after/1, turn_defers/0, turn_note_drop/3,
+                turn_note_put/4 ]).
 :- use_module('../program', [clause_parts/3]).
 
 /** <module> Places: what a host offers to the agents on it
@@ -31,9 +36,15 @@ leaving a fact while tuple_leave_new/2 looks.
 */
 
 :- multifile
-    prolog:make_hook/2.
+    prolog:make_hook/2,
+    typhon_recovery:back/4.
+
+:- public leave_due/2.
 
 :- dynamic
+    place_host/2,               % Place, Host
+    due/4,                      % Place, N, Fact, Thread: left when its turn
+                                % is over
     loaded/4,                   % Place, SourceId, File, Time: consulted
                                 % into it, as File was at Time
     delivered/3.                % Place, Payload name, PIs
@@ -50,6 +61,10 @@ place_create(Host, Files, Services, Place) :-
     set_module(Place:class(temporary)),
     set_module(Place:base(typhon_vocabulary)),
     dynamic(Place:'$tuple'/1),
+    (   atom(Host)                      % else it is not of a host
+    ->  assertz(place_host(Place, Host))
+    ;   true
+    ),
     catch(( forall(member(Service, Services), place_offer(Place, Service)),
             forall(member(File, Files), consult_into(Place, File))
           ),
@@ -119,8 +134,19 @@ reload(Place, Id, File) :-
 
 place_destroy(Place) :-
     unload(Place),
+    forall(delivered(Place, Name, _), forget_payload(Place, Name)),
     retractall(delivered(Place, _, _)),
+    (   retract(place_host(Place, Host))
+    ->  note_drop_all(tuple, Host)
+    ;   true
+    ),
     '$destroy_module'(Place).
+
+forget_payload(Place, Name) :-
+    (   payload_key(Place, Name, _, Key)
+    ->  note_drop(payload, Key, 0)
+    ;   true
+    ).
 
 unload(Place) :-
     retract(loaded(Place, Id, _, _)),
@@ -141,22 +167,80 @@ unload(_).
 %   Put, put if there is none that unifies, read and take a fact.  Of many
 %   agents that take one fact, or leave it as a new one, one succeeds.
 
+%
+%   With a journal a fact has a number, under which it is there; it stands in
+%   the body of the clause.  What an agent leaves others find when it stops;
+%   what it takes is gone at once.
+
 tuple_leave(Place, Fact) :-
     must_be(callable, Fact),
-    with_mutex(typhon_tuples, assertz(Place:'$tuple'(Fact))).
+    (   journal_on,
+        place_host(Place, _)
+    ->  leave_noted(Place, Fact)
+    ;   with_mutex(typhon_tuples, assertz(Place:'$tuple'(Fact)))
+    ).
 
 tuple_leave_new(Place, Fact) :-
     must_be(callable, Fact),
     with_mutex(typhon_tuples,
                ( \+ Place:'$tuple'(Fact),
-                 assertz(Place:'$tuple'(Fact)) )).
+                 \+ due(Place, _, Fact, _),
+                 (   journal_on,
+                     place_host(Place, _)
+                 ->  leave_noted(Place, Fact)
+                 ;   assertz(Place:'$tuple'(Fact))
+                 ) )).
+
+leave_noted(Place, Fact) :-
+    journal_number(N),
+    place_host(Place, Host),
+    turn_note_put(tuple, Host, N, Fact),
+    (   turn_defers
+    ->  thread_self(Me),
+        assertz(due(Place, N, Fact, Me)),
+        turn_after(typhon_place:leave_due(Place, N))
+    ;   put_tuple(Place, N, Fact)
+    ).
+
+leave_due(Place, N) :-
+    with_mutex(typhon_tuples,
+               (   retract(due(Place, N, Fact, _))
+               ->  put_tuple(Place, N, Fact)
+               ;   true                 % it took it again
+               )).
+
+put_tuple(Place, N, Fact) :-
+    assertz(Place:('$tuple'(Fact) :- integer(N))).
 
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).
+tuple_sense(Place, Fact) :-
+    turn_defers,
+    thread_self(Me),
+    due(Place, _, Fact, Me).
 
 tuple_take(Place, Fact) :-
-    retract(Place:'$tuple'(Fact)),
-    !.
+    retract(Place:('$tuple'(Fact) :- Body)),
+    !,
+    (   strip_module(Body, _, integer(N))
+    ->  place_host(Place, Host),
+        turn_note_drop(tuple, Host, N)
+    ;   true
+    ).
+tuple_take(Place, Fact) :-
+    turn_defers,
+    thread_self(Me),
+    retract(due(Place, N, Fact, Me)),
+    !,
+    place_host(Place, Host),
+    turn_note_drop(tuple, Host, N).
+
+typhon_recovery:back(tuple, Host, N, Fact) :-
+    place_host(Place, Host),
+    put_tuple(Place, N, Fact).
+typhon_recovery:back(payload, _, _, payload(Host, Payload)) :-
+    place_host(Place, Host),
+    place_deliver(Place, Payload, _).
 
                 /*******************************
                 *            PAYLOADS          *
@@ -191,7 +275,18 @@ deliver(Place, Name, PIs, Clauses) :-
     forall(member(PI, Gone), abolish(Place:PI)),
     retractall(delivered(Place, Name, _)),
     assertz(delivered(Place, Name, PIs)),
+    (   payload_key(Place, Name, Host, Key)
+    ->  note_put(payload, Key, 0, payload(Host, payload(Name, PIs, Clauses)))
+    ;   true
+    ),
     debug(typhon(host), '~w has payload ~w', [Place, Name]).
+
+%   Fails for what is no payload of agents: services come with who starts them.
+
+payload_key(Place, Name, Host, Key) :-
+    atom(Name),
+    place_host(Place, Host),
+    atomic_list_concat([Host, Name], ' ', Key).
 
 withdraw(Place, PIs, Old, Unknown) :-
     include(own(Place), PIs, Own),
@@ -245,4 +340,8 @@ place_undeliver(Place, Name) :-
 
 remove(Place, Name) :-
     retract(delivered(Place, Name, PIs)),
+    (   payload_key(Place, Name, _, Key)
+    ->  turn_note_drop(payload, Key, 0)
+    ;   true
+    ),
     forall(member(PI, PIs), abolish(Place:PI)).

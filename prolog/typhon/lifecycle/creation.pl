@@ -2,7 +2,7 @@
           [ agent_create/2,             % +Program, -Agent
             agent_create/3,             % +Program, -Agent, +Options
             agent_begin/4,              % +Options, +Name, +Start, -Agent
-            agent_clone_here/3,         % +Id, +Goals, -CloneId
+            agent_clone_here/3,         % +Id, +Goals, ?CloneId
             clone_id/2                  % +Id, -CloneId
           ]).
 :- use_module(library(apply), [foldl/4, maplist/2]).
@@ -13,6 +13,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
+:- use_module('../journal', [journal_barrier/0, journal_step/1]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_module/2, code_receive/2,
                 code_sent/2, code_stands/2, payload_load/2, program_load/6 ]).
@@ -213,9 +214,10 @@ agent_begin(Options, Name, Start, Agent) :-
     target(Options, Where),
     create(Where, Name, Start, Agent).
 
-%!  agent_clone_here(+Id, +Goals, -CloneId) is det.
+%!  agent_clone_here(+Id, +Goals, ?CloneId) is det.
 %
-%   Make a clone of Id beside it, with Goals to do.
+%   Make a clone of Id beside it, with Goals to do.  CloneId may be one of
+%   clone_id/2.
 %
 %   @error move_refused(Host, Reason)
 
@@ -225,9 +227,9 @@ agent_clone_here(Id, Goals, CloneId) :-
     legacy_none(State0, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
-    start(Host, Name, start(Hash, Life, State, Goals, []), Answer),
+    start(Host, Name, start(Hash, Life, State, Goals, []), Answer,
+          clone(Id, CloneId)),
     begun(Answer, Host, CloneId),
-    clone_born(Id, CloneId),
     event(hops, Host, Id, cloned(CloneId)).
 
 %!  clone_id(+Id, -CloneId) is det.
@@ -248,21 +250,41 @@ clone_id(Id, CloneId) :-
 %   of this process.  Answer is created(Id) or refused(Reason).
 
 start(Host, Name, Start, Answer) :-
+    journal_step(start(Host, Name, Start, Answer, none)),
+    journal_barrier.
+
+start(Host, Name, Start, Answer, Of) :-
     Start = start(_, Life, _, Goals, _),
     life_tokens(Life, Tokens),
     host_enter(Host, Tokens, Entered),
     (   Entered == ok
     ->  host(Host, Address, Place),
-        agent_id(Name, Address, Id),
+        id_of(Of, Name, Address, Id),
         catch(with_agent(Id, born(Id, Host, Place, Start)), Ball,
               ( host_leave(Host), throw(Ball) )),
         agent_born(Id, Address),
+        descends(Of),
         event(life, Host, Id, created),
         debug(typhon(agent), '~w: created on ~w', [Id, Address]),
         with_agent(Id, begin(Goals, Id)),
         Answer = created(Id)
     ;   Answer = Entered
     ).
+
+id_of(clone(_, Id), _, _, Id) :-
+    nonvar(Id),
+    !.
+id_of(clone(_, Id), Name, Address, Id) :-
+    !,
+    agent_id(Name, Address, Id).
+id_of(none, Name, Address, Id) :-
+    agent_id(Name, Address, Id).
+
+%   Before it runs, and has clones of its own.
+
+descends(none).
+descends(clone(Parent, Id)) :-
+    clone_born(Parent, Id).
 
 %   Who only waits for messages does so from birth.
 

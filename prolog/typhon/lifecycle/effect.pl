@@ -13,8 +13,8 @@
                 host_option/2, host_resolve/2, host_time/2, real_time/3,
                 schedule/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_name/3, agent_put/3, agent_ready/2,
-                agent_rest/3, agent_status/3, life_hops/2, life_may_move/2,
+              [ agent/5, agent_name/3, agent_put/3, agent_put_down/3,
+                agent_ready/2, agent_rest/3, agent_status/3, agent_wakes/2, life_hops/2, life_may_move/2,
                 mail_take/2, with_agent/2 ]).
 :- use_module('../travel', [hop/6, hop_clone/6]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
@@ -53,6 +53,8 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     ).
 effect(clone(Who), Hole, Goals, Id-_, go(Goals)) :-
     copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
+    clone_id(Id, CloneId),
+    noted_with(CloneId, Hole-Goals-Who, Id),
     agent_clone_here(Id, Going, CloneId),
     Hole = (Who=parent(CloneId)).
 effect(clone(Host, Who), Hole, Goals, Id-Here, Next) :-
@@ -98,6 +100,12 @@ effect(dispose, _, _, Id-_, stop) :-
     ignore(agent_end(Id, disposed)).
 effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
     agent_stays(Id, Goals).
+
+%   Its parent knows of a clone as soon as there is one.
+
+noted_with(CloneId, Hole-Goals-Who, Id) :-
+    \+ \+ ( Hole = (Who=parent(CloneId)),
+            agent_put_down(Id, ready, Goals) ).
 
 infinite(Seconds) :- Seconds == inf.
 infinite(Seconds) :- Seconds == infinite.
@@ -153,7 +161,7 @@ typhon_scheduler:fire(Id, leave) :-
 rouse(Id, Until) :-
     rests(Id, Until, Goals),
     !,
-    agent_ready(Id, Goals).
+    agent_wakes(Id, Goals).
 
 rests(Id, Until, Goals) :-
     agent_status(Id, Status, Goals),

@@ -6,6 +6,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../journal', [journal_step/1]).
 :- use_module('../host', [event/4, events_forget/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
@@ -30,19 +31,19 @@ with_agent/2, is the one who reports its end.
 %   Id ends.
 
 agent_end(Id, Outcome) :-
-    with_agent(Id, remove(Id, Last)),
-    removed(Last, Id, Outcome).
+    journal_step(( with_agent(Id, remove(Id, Last)),
+                   removed(Last, Id, Outcome) )).
 
 %!  agent_end(+Id, :Test, +Outcome) is semidet.
 %
 %   Id ends if call(Test, Status) is true of it.
 
 agent_end(Id, Test, Outcome) :-
-    with_agent(Id, ( agent_status(Id, Status, _),
-                     call(Test, Status),
-                     remove(Id, Last)
-                   )),
-    removed(Last, Id, Outcome).
+    journal_step(( with_agent(Id, ( agent_status(Id, Status, _),
+                                    call(Test, Status),
+                                    remove(Id, Last)
+                                  )),
+                   removed(Last, Id, Outcome) )).
 
 remove(Id, last(Host, Hops, Status, Goals, Legacy, Orders)) :-
     agent(Id, Host, Module, _, Life),

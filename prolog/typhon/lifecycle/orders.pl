@@ -11,7 +11,7 @@
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2,
                 agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
-                agent_status/3, fault_stamp/2, is_faulty/3, life_hops/2,
+                agent_status/3, agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
                 mail_list/2, with_agent/2 ]).
 :- use_module('../travel',
               [agent_resumed/3, out_of_touch/1]).
@@ -135,7 +135,7 @@ note_order(Id, Order) :-
     may_obey(Status, Order, Id),
     agent_order(Id, Order),
     (   idle(Status)
-    ->  agent_ready(Id, Goals)
+    ->  agent_wakes(Id, Goals)
     ;   true
     ).
 

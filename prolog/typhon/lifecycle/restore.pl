@@ -1,7 +1,8 @@
 :- module(typhon_restore,
           [ agent_save/2,               % +Agent, +File
             agent_load/2,               % +File, -Agent
-            agent_load/3                % +File, -Agent, +Options
+            agent_load/3,               % +File, -Agent, +Options
+            restore_point/2             % +File, +Image
           ]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
@@ -51,6 +52,14 @@ agent_load(File, Agent, Options) :-
     program_hash(Program, Hash),
     code_receive(Hash, Sent),
     agent_begin(Options, Name, start(Hash, Life, State, Goals, Mail), Agent).
+
+%!  restore_point(+File, +Image) is det.
+%
+%   Write a restore point of what is not an agent of a running host: Image is
+%   image(Name, Program, Life, State, Goals, Mail), Program as of code_sent/2.
+
+restore_point(File, Image) :-
+    write_image(File, Image).
 
 typhon_options:declared(load_option, host(Host), atom, Host).
 

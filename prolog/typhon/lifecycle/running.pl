@@ -1,12 +1,15 @@
 :- module(typhon_running, []).
 :- use_module('../base/output', [output_rest/0]).
+:- use_module('../journal',
+              [ journal_on/0, journal_seal/0, journal_step/1, turn_commit/0,
+                turn_has_effects/0, turn_release/0, turn_run/1 ]).
 :- use_module('../program',
               [ answer_at/3, code_module/2, machine_run/3, probe_next/2,
                 probe_start/3 ]).
 :- use_module('../host', [context_clear/0, context_set/3, event/4]).
 :- use_module('../agent',
               [ agent/5, agent_departs/3, agent_handles/2, agent_ordered/1,
-                agent_ready/2, agent_rest/3, agent_take/3, agent_unorder/2,
+                agent_ready/2, agent_rest/3, agent_put_down/3, agent_take/3, agent_unorder/2,
                 mail_take/2, with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
@@ -81,7 +84,9 @@ go_on(elsewhere(Goals), Id) :-
 
 broken_off(Ball, Id) :-
     sig_atomic(( left,
-                 ignore(agent_end(Id, disposed)) )),
+                 turn_commit,
+                 ignore(agent_end(Id, disposed)),
+                 turn_release )),
     throw(Ball).
 
 left :-
@@ -89,8 +94,8 @@ left :-
     context_clear.
 
 live(Goals0, Id, Host, Context, Next) :-
-    machine_run(Context, Goals0, Outcome),
-    conclude(Outcome, Goals0, Id, Host, Context, Next0),
+    turn_run(machine_run(Context, Goals0, Outcome)),
+    concluded(Outcome, Goals0, Id, Host, Context, Next0),
     (   Next0 = go(Goals)
     ->  live(Goals, Id, Host, Context, Next)
     ;   Next = Next0
@@ -103,19 +108,21 @@ probed(Goals, Id, Host, Context, Next) :-
     probed_on(Probe, Id, Host, Context, Next).
 
 probed_on(Probe, Id, Host, Context, Next) :-
-    probe_next(Probe, Step),
+    turn_run(probe_next(Probe, Step)),
     probed_to(Step, Probe, Id, Host, Context, Next).
 
 probed_to(goal(Goal, Goals), Probe, Id, Host, Context, Next) :-
     probed_goal(Id, Host, Probe, Goal, Goals, Next0),
     (   Next0 == on
     ->  probed_on(Probe, Id, Host, Context, Next)
-    ;   traced_held(Id),
+    ;   turn_commit,
+        turn_release,
+        traced_held(Id),
         held_obeys(Id),
         Next = stop
     ).
 probed_to(outcome(Outcome, Goals0), _, Id, Host, Context, Next) :-
-    conclude(Outcome, Goals0, Id, Host, Context, Next0),
+    concluded(Outcome, Goals0, Id, Host, Context, Next0),
     (   Next0 = go(Goals)
     ->  probed(Goals, Id, Host, Context, Next)
     ;   Next = Next0,
@@ -134,6 +141,39 @@ held_obeys(_).
 
 at_once(dispose).
 at_once(evacuate(_)).
+
+%   concluded(+Outcome, +Goals0, ...): as conclude/6.  If there is a journal
+%   what the agent has done in this turn is noted together with what it is to
+%   do next, and then released: first of all, as somebody else may run it as
+%   soon as it rests.
+
+concluded(Outcome, Goals0, Id, Host, Context, Next) :-
+    (   journal_on
+    ->  journal_step(( turn_ends(Outcome, Id),
+                       conclude(Outcome, Goals0, Id, Host, Context, Next),
+                       noted(Next, Id) )),
+        turn_release
+    ;   conclude(Outcome, Goals0, Id, Host, Context, Next)
+    ).
+
+turn_ends(effect(Control, Hole, Goals), Id) :-
+    !,
+    (   turn_has_effects
+    ->  turn_commit,
+        \+ \+ ( Hole = Control,
+                agent_put_down(Id, ready, Goals) ),
+        journal_seal,
+        turn_release
+    ;   true
+    ).
+turn_ends(_, _) :-
+    turn_commit.
+
+noted(stop, _).
+noted(go(Goals), Id) :-
+    agent_put_down(Id, ready, Goals).
+noted(elsewhere(Goals), Id) :-
+    agent_put_down(Id, ready, Goals).
 
 %   conclude(+Outcome, +Goals0, +Id, +Host, +Context, -Next): Goals0 were run,
 %   Next as of effect/5.

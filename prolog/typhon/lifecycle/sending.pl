@@ -1,6 +1,7 @@
 :- module(typhon_sending,
           [ agent_send/2                % +Agent, +Message
           ]).
+:- use_module('../journal', [journal_barrier/0]).
 :- use_module('../host', [address_parts/3, as_guest/1, context_now/2, host_address/2]).
 :- use_module('../travel', [post/3, post_via/4]).
 :- use_module(named, [agent_named/2]).
@@ -27,11 +28,13 @@ agent_send(at(Agent, Host), Message) :-
     host_address(Host, Address),
     address_parts(Address, _, Endpoint),
     sender(From),
-    as_guest(post_via(Id, Endpoint, From, Message)).
+    as_guest(post_via(Id, Endpoint, From, Message)),
+    journal_barrier.
 agent_send(Agent, Message) :-
     agent_named(Agent, Id),
     sender(From),
-    as_guest(post(Id, From, Message)).
+    as_guest(post(Id, From, Message)),
+    journal_barrier.
 
 sender(From) :-
     (   context_now(_, Agent),

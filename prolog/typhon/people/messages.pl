@@ -173,6 +173,12 @@ prolog:message(typhon(runs_on(Agent, Seconds))) -->
     [ 'Agent ~w runs on after ~w s: it is disposed of when it stops next.'-
       [Agent, Seconds], nl,
       'agent_dispose(Agent, [force(Seconds)]) interrupts it' ].
+prolog:message(typhon(not_back(Kind, Key))) -->
+    [ 'The journal has ~w ~w, which cannot be restored; it stays there'
+      -[Kind, Key] ].
+prolog:message(typhon(journal_in_words(Agent))) -->
+    [ 'What ~w has cannot all be written: in the journal that is in words'
+      -[Agent] ].
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
     [ 'A message for ~w is lost: ~p from ~w'-[Agent, Message, From], nl ],
     lost_since(Formal).

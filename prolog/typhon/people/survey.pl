@@ -11,7 +11,7 @@
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_ask_all/6, endpoint_gone/1,
+              [endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
                endpoint_reply/2]).
 :- use_module('../host',
               [ address_parts/3, clock/3, host_link_cost/3, host_property/2,
@@ -85,8 +85,8 @@ known(Address) :-
 
 ask(Endpoints, Most, Results) :-
     findall(Endpoint-gone,
-            ( member(Endpoint, Endpoints), endpoint_gone(Endpoint) ), Gone),
-    exclude(endpoint_gone, Endpoints, There),
+            ( member(Endpoint, Endpoints), endpoint_left(Endpoint) ), Gone),
+    exclude(endpoint_left, Endpoints, There),
     ask_there(There, Most, Answers),
     append(Gone, Answers, Results).
 

@@ -42,9 +42,11 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 
 :- multifile
     in_use/1,                   % Hash: an agent of this process runs it
-    installed/2.                % Name, Module: a program of that name now is
+    installed/2,                % Name, Module: a program of that name now is
+    retiring/1.                 % Hash: nobody needs it any more
 
 :- dynamic
+    retiring/1,
     installed/2,
     code_module/2,              % Hash, Module
     code_program/2,             % Hash, Program
@@ -194,6 +196,7 @@ retire(Hash) :-
     retractall(code_program(Hash, _)),
     retractall(stands(Hash, _)),
     assertz(retired(Hash, Module)),
+    forall(retiring(Hash), true),
     debug(typhon(program), 'program ~w is retired', [Hash]).
 
                 /*******************************

@@ -2,6 +2,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
+:- use_module('../journal', [crash_point/1, journal_on/0, journal_seal/0, journal_step/1]).
 :- use_module('../program', [code_module/2, code_receive/2]).
 :- use_module('../wire',
               [endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2]).
@@ -13,6 +14,7 @@
               [ agent/5, agent_order/2, agent_status/3,
                 image_enter/4, image_label/2, image_module/3, life_hops/2,
                 with_agent/2 ]).
+:- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(post, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4]).
@@ -33,11 +35,21 @@ anyhow: the agent stands here, has gone on, or has ended.
     typhon_endpoint:returned/0.
 
 typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
-    catch(arrive(Name, Image, Program, Peer, Answer),
+    arrived(Name, Image, Program, none, Peer, ReplyTo).
+typhon_endpoint:requested(hop, hop(Name, Image, Program, Label), Peer,
+                          ReplyTo) :-
+    arrived(Name, Image, Program, Label, Peer, ReplyTo).
+
+arrived(Name, Image, Program, Label, Peer, ReplyTo) :-
+    catch(journal_step(arrive(Name, Image, Program, Label, Peer, Answer)),
           error(Formal, Context),
           ( print_message(error, error(Formal, Context)),
             Answer = refused(error(Formal))
           )),
+    (   journal_on
+    ->  crash_point(before_answer)
+    ;   true
+    ),
     answer(Answer, Name, ReplyTo).
 
 %   The agent must not run before the answer is on its way: what it sends
@@ -63,15 +75,15 @@ typhon_endpoint:lent(_:go_on(_, Id), Thread) :-
 typhon_endpoint:returned :-
     schedule_leave.
 
-arrive(Name, Image, Program, Peer, Answer) :-
+arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     image_label(Image, Label),
     Label = label(Id, Hops, Hash, Tokens, _, _),
-    (   repeated(Id, Hops)
+    (   ( crossing_known(Crossing) ; repeated(Id, Hops) )
     ->  Answer = accepted
     ;   \+ has_code(Hash, Program)
     ->  Answer = need_program
     ;   host_enter(Name, Tokens, Entered),
-        admitted(Entered, Name, Label, Image, Peer, Answer)
+        admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
     ).
 
 repeated(Id, Hops) :-
@@ -94,8 +106,8 @@ has_code(Hash, Program) :-
     ).
 
 admitted(refused(Reason), _, _, _, _, refused(Reason)).
-admitted(ok, Name, Label, Image, Peer, Answer) :-
-    catch(install(Name, Label, Image, Installed), Ball,
+admitted(ok, Name, Label, Image, Crossing-Peer, Answer) :-
+    catch(install(Name, Label, Image, Crossing, Installed), Ball,
           ( host_leave(Name), throw(Ball) )),
     installed(Installed, Name, Label, Peer, Answer).
 
@@ -116,21 +128,25 @@ installed(need_program, Name, _, _, need_program) :-
 
 %   install(+Name, +Label, +Image, -Installed): all or nothing.
 
-install(Name, Label, Image, Installed) :-
+install(Name, Label, Image, Crossing, Installed) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _, _, _),
-        with_agent(Id, install(Id, Hops, Image, Name-Address, Place,
-                               Installed))
+        with_agent(Id, ( install(Id, Hops, Image, Crossing, Name-Address,
+                                 Place, Installed),
+                         journal_seal ))
     ;   Installed = unknown_host
     ).
 
-install(Id, Hops, Image, Name-Address, Place, Installed) :-
+%   All is noted, and sealed, before anybody can find it here.
+
+install(Id, Hops, Image, Crossing, Name-Address, Place, Installed) :-
     (   overtaken(Id, Hops)
     ->  Installed = repeated
     ;   image_module(Image, Place, Module)
     ->  let_go(Id, Later, Orders, Gone),
         post_waiting(Id, Last),
         append(Later, Last, More),
+        crossing_done(Crossing),
         image_enter(Image, Name, Module, More),
         maplist(agent_order(Id), Orders),
         Installed = in(Address, Gone)
@@ -148,7 +164,8 @@ overtaken(Id, _) :-
 
 let_go(Id, Mail, Orders, Gone) :-
     (   transfer_let_go(Id, Mail0, Orders0, Gone0)
-    ->  Mail = Mail0,
+    ->  crossing_end(Id, _),
+        Mail = Mail0,
         Orders = Orders0,
         Gone = Gone0
     ;   Mail = [],

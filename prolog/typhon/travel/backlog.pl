@@ -4,11 +4,13 @@
             backlog_begin/3,            % +Id, -Letters, -Tries
             backlog_again/3,            % +Id, +Letters, +Tries
             backlog_done/1,             % +Id
-            backlog_all/2               % +Id, -Letters
+            backlog_all/2,              % +Id, -Letters
+            backlog_leaves/1            % +Id
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/fifo', [fifo_empty/2]).
+:- use_module('../journal', [journal_number/1, note_drop_all/2, note_put/4]).
 
 /** <module> Mail that waits for a way to its agent
 
@@ -19,7 +21,9 @@ tried they are with whoever tries; there is one at a time.
 *Threading*: inside with_agent/2 of the agent.
 */
 
-:- multifile typhon_runtime:ending/1.
+:- multifile
+    typhon_recovery:back/4,
+    typhon_runtime:ending/1.
 
 :- dynamic waits/4.             % Id, Queue, Tries, State: idle or tried
 
@@ -34,6 +38,14 @@ backlog(Id) :-
 %!  backlog_add(+Id, +Letter) is det.
 
 backlog_add(Id, Letter) :-
+    journal_number(N),
+    note_put(wait, Id, N, Letter),
+    add(Id, Letter).
+
+typhon_recovery:back(wait, Id, _, Letter) :-
+    add(Id, Letter).
+
+add(Id, Letter) :-
     (   waits(Id, Queue, _, _)
     ->  true
     ;   message_queue_create(Queue),
@@ -60,8 +72,14 @@ backlog_again(Id, Letters, Tries) :-
     !,
     fifo_empty(Queue, Newer),
     append(Letters, Newer, All),
+    note_drop_all(wait, Id),
+    maplist(note_letter(Id), All),
     maplist(thread_send_message(Queue), All),
     assertz(waits(Id, Queue, Tries, idle)).
+
+note_letter(Id, Letter) :-
+    journal_number(N),
+    note_put(wait, Id, N, Letter).
 
 backlog_done(Id) :-
     retract(waits(Id, Queue, _, tried)),
@@ -72,6 +90,20 @@ backlog_done(Id) :-
     ;   message_queue_destroy(Queue)
     ).
 
+%!  backlog_leaves(+Id) is det.
+%
+%   The letters that are being tried are about to leave, to be noted elsewhere;
+%   what has come meanwhile stays.
+
+backlog_leaves(Id) :-
+    note_drop_all(wait, Id),
+    (   waits(Id, Queue, _, tried)
+    ->  fifo_empty(Queue, Newer),
+        maplist(note_letter(Id), Newer),
+        maplist(thread_send_message(Queue), Newer)
+    ;   true
+    ).
+
 %!  backlog_all(+Id, -Letters:list) is det.
 %
 %   The letters for Id, which has arrived.  Those that are being tried just
@@ -80,6 +112,7 @@ backlog_done(Id) :-
 backlog_all(Id, Letters) :-
     (   retract(waits(Id, Queue, _, idle))
     ->  fifo_empty(Queue, Letters),
+        note_drop_all(wait, Id),
         message_queue_destroy(Queue)
     ;   Letters = []
     ).

@@ -1,15 +1,19 @@
 :- module(typhon_doubt,
           [ doubt_settle/1,             % +Transfer
+            doubt_open/1,               % +Transfer
             in_doubt/1,                 % +Status
             out_of_touch/1              % +Status
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../wire', [endpoint_gone/1, endpoint_peer/2]).
+:- use_module('../wire',
+              [endpoint_gone/1, endpoint_lasting/1, endpoint_peer/2]).
 :- use_module('../host', [address_parts/3, alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [agent_home_endpoint/2]).
+:- use_module(crossings, [crossing_again/1, crossing_repeated/1]).
 :- use_module(transfer,
-              [ transfer_arrived/1, transfer_image/2, transfer_stays/2,
+              [ transfer_arrived/1, transfer_image/2, transfer_open/1, transfer_stays/2,
                 transfer_traveller/3, transfer_unreachable/1 ]).
 :- use_module(whereabouts, [agent_reached/3, agent_reached_at/4]).
 
@@ -20,6 +24,10 @@ the home knows of this hop or a later one the agent got away in time.  If it
 does not, the news may be under way, or the home was started again, or died
 together with that process: everybody we know is asked.  If nobody has seen
 the agent it has not survived there, and goes on here.
+
+Where the other process keeps a journal nobody else need be asked: it is asked
+again, until it is there again.  It knows whom it has let in.  The same goes
+for one that is there, where we have been started again ourselves.
 
 *Threading*: doubt_settle/1 in reader threads, which never wait; surveys in
 a worker.
@@ -32,16 +40,56 @@ a worker.
 :- setting(settle_seconds, number, 1,
            "Seconds until those who did not answer are asked again").
 
-:- multifile typhon_scheduler:fire/2.
+:- multifile
+    again/1,                    % Transfer: ask once more
+    typhon_recovery:go_on/0,
+    typhon_scheduler:fire/2.
 
 %!  doubt_settle(+Transfer) is det.
 %
 %   Find out whether the agent has arrived, some time.
 
 doubt_settle(Transfer) :-
+    transfer_traveller(Transfer, Who, Hops),
+    lasts(Transfer),
+    !,
+    debug(typhon(hop), '~w hop ~D: in doubt, is asked for again', [Who, Hops]),
+    crossing_again(Who),
+    arg(1, Transfer, Id),
+    setting(settle_seconds, Seconds),
+    alarm_in(Seconds, Id, again(Transfer)).
+doubt_settle(Transfer) :-
     transfer_traveller(Transfer, Id, Hops),
     debug(typhon(hop), '~w hop ~D: in doubt', [Id, Hops]),
     agent_reached(Id, Hops, home_said(Transfer)).
+
+%   Nobody but who was asked can say, and he will.
+
+lasts(Transfer) :-
+    arg(2, Transfer, dest(_, _, Endpoint)),
+    endpoint_lasting(Endpoint),
+    !.
+lasts(Transfer) :-
+    arg(2, Transfer, dest(_, _, Endpoint)),
+    doubt_open(Transfer),
+    \+ endpoint_gone(Endpoint).
+
+typhon_scheduler:fire(_, again(Transfer)) :-
+    !,
+    scheduler_call(again(Transfer)).
+
+%!  doubt_open(+Transfer) is semidet.
+%
+%   The agent may have arrived, though nobody was met this time.
+
+doubt_open(Transfer) :-
+    transfer_traveller(Transfer, Who, _),
+    crossing_repeated(Who).
+
+typhon_recovery:go_on :-
+    findall(Transfer, transfer_open(Transfer), Transfers),
+    forall(member(Transfer, Transfers),
+           scheduler_call(typhon_doubt:again(Transfer))).
 
 home_said(Transfer, answer(true)) :-
     !,

@@ -1,6 +1,7 @@
 :- module(typhon_home,
           [ agent_born/2,               % +Id, +Address
             home_moved/4,               % +Id, +Address, +Hops, +Process
+            home_left/4,                % +Id, +Address, +Hops, +Process
             home_ended/4,               % +Id, +Outcome, +Hops, +Legacy
             home_faulty/6,              % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops, +Process
@@ -15,6 +16,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
+:- use_module('../journal',
+              [journal_number/1, note_drop/3, note_drop_all/2, note_put/4]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [alarm_in/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
@@ -46,7 +49,9 @@ its agents what they tell it.
     waiter/3.                   % Id, Token, Asker
 
 :- multifile
+    typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
+    typhon_recovery:back/4,
     typhon_endpoint:requested/4,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
@@ -60,7 +65,21 @@ typhon_identity:ids_anew :-
 %!  agent_born(+Id, +Address) is det.
 
 agent_born(Id, Address) :-
-    assertz(born(Id, Address, 0, here)).
+    put_born(Id, Address, 0, here).
+
+put_born(Id, Address, Hops, Process) :-
+    note_put(born, Id, 0, born(Address, Hops, Process)),
+    assertz(born(Id, Address, Hops, Process)).
+
+typhon_bounded:forgotten(outcome(Id, _, _)) :-
+    note_drop_all(outcome, Id).
+
+typhon_recovery:back(born, Id, _, born(Address, Hops, Process)) :-
+    assertz(born(Id, Address, Hops, Process)).
+typhon_recovery:back(outcome, Id, _, Outcome-Hops) :-
+    assertz(outcome(Id, Outcome, Hops)).
+typhon_recovery:back(faulty, Id, _, faulty(Outcome, Age)) :-
+    assertz(faulty(Id, Outcome, Age)).
 
 %!  home_knows(+Id, -Address, -Hops, -Process) is semidet.
 %
@@ -99,6 +118,19 @@ home_moved(Id, Address, Hops, Process) :-
           [Id, Hops, Address]),
     with_mutex(typhon_born, moved(Id, Address, Hops, Process)).
 
+%!  home_left(+Id, +Address, +Hops, +Process) is det.
+%
+%   As home_moved/4, of one that has left this process, which is noted.
+
+home_left(Id, Address, Hops, Process) :-
+    with_mutex(typhon_born,
+               (   born(Id, _, Hops0, _),
+                   Hops0 < Hops
+               ->  assertz(born(Id, Address, Hops, Process)),
+                   forget_first(Id)
+               ;   moved(Id, Address, Hops, Process)
+               )).
+
 %   The new fact comes before the old one goes: others read meanwhile.  Of
 %   whom the home has never heard was born before it was started again.
 
@@ -106,7 +138,7 @@ moved(Id, Address, Hops, Process) :-
     born(Id, _, Hops0, _),
     !,
     (   Hops0 < Hops
-    ->  assertz(born(Id, Address, Hops, Process)),
+    ->  put_born(Id, Address, Hops, Process),
         forget_first(Id)
     ;   true
     ).
@@ -115,7 +147,7 @@ moved(Id, Address, Hops, Process) :-
     agent_home_endpoint(Id, Home),
     endpoint_address(Home),
     !,
-    assertz(born(Id, Address, Hops, Process)).
+    put_born(Id, Address, Hops, Process).
 moved(_, _, _, _).
 
 forget_first(Id) :-
@@ -139,12 +171,17 @@ ended(Id, _, Hops, _, []) :-
     !.
 ended(Id, Outcome0, Hops, Legacy, Askers) :-
     retractall(born(Id, _, _, _)),
+    note_drop(born, Id, 0),
+    note_drop(agent, Id, 0),
+    note_drop(faulty, Id, 0),
     (   retract(faulty(Id, Told, _)),
         Told \== none
     ->  Outcome = Told
     ;   Outcome = Outcome0
     ),
     legacy_keep(Id, Legacy),
+    journal_number(N),
+    note_put(outcome, Id, N, Outcome-Hops),
     assertz(outcome(Id, Outcome, Hops)),
     bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).
@@ -187,6 +224,7 @@ resumed(Id, Age) :-
 
 put_fault(Id, Outcome, Age) :-
     retractall(faulty(Id, _, _)),
+    note_put(faulty, Id, 0, faulty(Outcome, Age)),
     assertz(faulty(Id, Outcome, Age)).
 
 %   One by one: see typhon_mailbox.

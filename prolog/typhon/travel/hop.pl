@@ -10,13 +10,16 @@
               [endpoint_address/1, endpoint_request/4, mobile_term/1]).
 :- use_module('../host', [address_parts/3, host/3, host_time/2]).
 :- use_module('../agent', [agent/5, image_hash/2, with_agent/2]).
-:- use_module(doubt, [doubt_settle/1]).
+:- use_module('../journal', [crash_point/1, journal_on/0]).
+:- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
+:- use_module(doubt, [doubt_open/1, doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
 :- use_module(legacies, [clone_born/2]).
 :- use_module(within, [hop_within/6]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_freeze/4, transfer_image/2,
-                transfer_image/5, transfer_stays/2, transfer_unreachable/1 ]).
+                transfer_image/5, transfer_stays/2, transfer_traveller/3,
+                transfer_unreachable/1 ]).
 
 /** <module> A hop is a transaction
 
@@ -38,7 +41,9 @@ comes back before the answer proves that it had arrived.
 endpoint, which never wait.
 */
 
-:- multifile typhon_endpoint:connection/2.
+:- multifile
+    typhon_doubt:again/1,
+    typhon_endpoint:connection/2.
 
 :- dynamic has_program/2.       % Endpoint, Hash: was sent there
 
@@ -109,11 +114,39 @@ send(Transfer, Image) :-
     arg(2, Transfer, dest(_, Name, Endpoint)),
     image_hash(Image, Hash),
     catch(( program(Endpoint, Hash, Program),
-            endpoint_request(Endpoint, hop, hop(Name, Image, Program),
-                             answered(Transfer))
+            transfer_traveller(Transfer, Who, _),
+            crossing_label(Who, Endpoint, Label),
+            hop_request(Label, Name, Image, Program, Request),
+            endpoint_request(Endpoint, hop, Request, answered(Transfer)),
+            sent_noted
           ),
           error(Formal, _),
-          transfer_stays(Transfer, Formal)).
+          not_sent(Formal, Transfer)).
+
+hop_request(none, Name, Image, Program, hop(Name, Image, Program)) :-
+    !.
+hop_request(Label, Name, Image, Program, hop(Name, Image, Program, Label)).
+
+sent_noted :-
+    (   journal_on
+    ->  crash_point(after_send)
+    ;   true
+    ).
+
+not_sent(Formal, Transfer) :-
+    transfer_traveller(Transfer, Who, _),
+    (   crossing_repeated(Who)
+    ->  doubt_settle(Transfer)
+    ;   transfer_stays(Transfer, Formal)
+    ).
+
+%   Once more, whoever was asked before.
+
+typhon_doubt:again(Transfer) :-
+    (   transfer_image(Transfer, Image)
+    ->  send(Transfer, Image)
+    ;   transfer_stays(Transfer, given_up)
+    ).
 
 %   The program is sent to those who lack it as far as we know.
 
@@ -147,11 +180,15 @@ typhon_endpoint:connection(Endpoint, down) :-
 answered(Transfer, answer(Answer)) :-
     taken(Answer, Transfer).
 answered(Transfer, unreachable) :-
-    transfer_unreachable(Transfer).
+    (   doubt_open(Transfer)
+    ->  doubt_settle(Transfer)
+    ;   transfer_unreachable(Transfer)
+    ).
 answered(Transfer, lost) :-
     doubt_settle(Transfer).
 
 taken(accepted, Transfer) :-
+    sent_noted,
     transfer_arrived(Transfer).
 taken(refused(Reason), Transfer) :-
     arg(2, Transfer, dest(Address, _, _)),

@@ -8,6 +8,8 @@
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
+:- use_module('../journal',
+              [journal_number/1, note_drop_all/2, note_put/4]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [process_ask/6]).
 :- use_module('../agent', [agent/5, legacy_cloned/2]).
@@ -25,7 +27,9 @@ oldest entries are forgotten.
 */
 
 :- multifile
+    typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
+    typhon_recovery:back/4,
     typhon_endpoint:requested/4.
 
 :- setting(legacies, positive_integer, 20000,
@@ -47,7 +51,9 @@ typhon_identity:ids_anew :-
 
 legacy_keep(Id, Items) :-
     forall(member(Item, Items),
-           ( assertz(left(Id, Item)),
+           ( journal_number(N),
+             note_put(left, Id, N, Item),
+             assertz(left(Id, Item)),
              bounded(left(_, _), typhon_legacies:legacies) )).
 
 %!  legacy_ask(+Where, +Id, +Kind, -Items:list) is det.
@@ -65,7 +71,19 @@ legacy_ask(Where, Id, Kind, Items) :-
 %
 %   Clone is one of Parent, which stands here; it could not begin elsewhere.
 
+typhon_bounded:forgotten(left(Id, _)) :-
+    note_drop_all(left, Id).
+typhon_bounded:forgotten(clone_of(_, Clone)) :-
+    note_drop_all(clone, Clone).
+
+typhon_recovery:back(left, Id, _, Item) :-
+    assertz(left(Id, Item)).
+typhon_recovery:back(clone, Clone, _, Parent) :-
+    assertz(clone_of(Parent, Clone)).
+
 clone_born(Parent, Clone) :-
+    journal_number(N),
+    note_put(clone, Clone, N, Parent),
     assertz(clone_of(Parent, Clone)),
     bounded(clone_of(_, _), typhon_legacies:clones),
     (   endpoint_address(Endpoint),
@@ -75,6 +93,7 @@ clone_born(Parent, Clone) :-
     ).
 
 clone_unborn(Parent, Clone) :-
+    note_drop_all(clone, Clone),
     retractall(clone_of(Parent, Clone)).
 
 %!  clones_ask(+Endpoint, +Parent, -Clones:list) is det.

@@ -16,6 +16,7 @@
 :- multifile
     returned/3,                 % From, Id, Message: whoever brought it knows
     error:has_type/2,
+    typhon_channel:undelivered/3,
     typhon_endpoint:received/3.
 
 :- dynamic returned/3.
@@ -85,6 +86,9 @@ typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
     ->  true
     ;   report(Formal, Id, Sent)
     ).
+
+typhon_channel:undelivered(message, message(Id, Mail, _), Endpoint) :-
+    mail_lost(host_unreachable(Endpoint), Id, Mail).
 
 error:has_type(typhon_mail, Mail) :-
     subsumes_term(mail(_, _, _), Mail),

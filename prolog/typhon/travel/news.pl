@@ -3,7 +3,9 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../journal', [journal_on/0]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_up/3]).
+:- use_module(channel, [channel_post/3]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
 /** <module> News for the homes of agents
@@ -41,12 +43,22 @@ longest_pause(10).              % seconds
 %
 %   Let Home, an endpoint, have News of Id, some time soon.
 
+news_tell(Home, _, News) :-
+    journal_on,
+    news_lasts(News),
+    !,
+    channel_post(Home, whereabouts, [News]).
 news_tell(Home, Id, News) :-
     with_mutex(typhon_news, note(Home, Id, News, Courier)),
     (   Courier == wanted
     ->  scheduler_call(carry(Home, try(0, 0.5)))
     ;   true
     ).
+
+%   Where an agent is it will tell again.
+
+news_lasts(News) :-
+    \+ News = located(_, _, _).
 
 note(Home, Id, News, Courier) :-
     keep(Home, Id, News),

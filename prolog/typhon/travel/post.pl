@@ -8,6 +8,10 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module('../journal',
+              [ journal_number/1, journal_seal/0,
+                journal_step/1, note_drop/3, turn_after/1, turn_defers/0,
+                turn_note_put/4 ]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../agent', [agent/5, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
@@ -34,8 +38,12 @@ post_on/2 and the hooks never do.
 */
 
 :- multifile
+    typhon_recovery:back/4,
+    typhon_recovery:go_on/0,
     typhon_endpoint:received/3,
     typhon_endpoint:together/3.
+
+:- dynamic said/4.              % Id, N, From, Message: before a restart
 
 %   Who hops without pause is given up in the end.
 
@@ -49,8 +57,37 @@ max_forwards(12800).
 
 post(Id, From, Message) :-
     mobile_term(Message),
-    with_agent(Id, post_way(Id, From, Message, Way)),
+    (   turn_defers
+    ->  journal_number(N),
+        turn_note_put(letter, Id, N, From-Message),
+        turn_after(typhon_post:post_noted(Id, N, From, Message))
+    ;   journal_step(post_now(Id, From, Message))
+    ).
+
+post_now(Id, From, Message) :-
+    with_agent(Id, ( post_way(Id, From, Message, Way), journal_seal )),
     go(Way, Id).
+
+%   What an agent says goes when its turn is over, and noted.
+
+:- public post_noted/4.
+
+post_noted(Id, N, From, Message) :-
+    journal_step(
+        ( note_drop(letter, Id, N),
+          catch(post_now(Id, From, Message), error(Formal, _),
+                print_message(warning,
+                              typhon(undeliverable(Formal, Id, From,
+                                                   Message)))) )).
+
+typhon_recovery:back(letter, Id, N, From-Message) :-
+    assertz(said(Id, N, From, Message)).
+
+typhon_recovery:go_on :-
+    findall(said(Id, N, From, Message),
+            retract(said(Id, N, From, Message)), Letters),
+    forall(member(said(Id, N, From, Message), Letters),
+           post_noted(Id, N, From, Message)).
 
 post_way(Id, From, Message, done) :-
     agent_mail(Id, [From-Message]),
@@ -95,7 +132,7 @@ post_on(Id, Messages) :-
     pass_on(Id, letter(Mail, Max)).
 
 pass_on(Id, Letter) :-
-    with_agent(Id, on_or_later(Id, Letter)).
+    with_agent(Id, ( on_or_later(Id, Letter), journal_seal )).
 
 on_or_later(Id, Letter) :-
     way(Id, Letter, Way),

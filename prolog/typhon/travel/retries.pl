@@ -2,12 +2,13 @@
           [ retry_later/3               % +Id, +Letter, +Way
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module('../journal', [journal_seal/0, journal_step/1]).
 :- use_module('../wire', [endpoint_gone/1]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [with_agent/2]).
 :- use_module(backlog,
               [ backlog/1, backlog_add/2, backlog_again/3, backlog_begin/3,
-                backlog_done/1 ]).
+                backlog_done/1, backlog_leaves/1 ]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(lost, [mail_lost/3]).
 :- use_module(ways, [one_letter/2, way_in/2, way_out/3, way_send/3]).
@@ -22,6 +23,7 @@ since the news that the agent had left it may be under way.
 */
 
 :- multifile
+    typhon_recovery:go_on/0,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
 
@@ -65,18 +67,26 @@ typhon_scheduler:fire(Id, mail) :-
 typhon_scheduler:over(Id, mail) :-
     \+ backlog(Id).
 
+typhon_recovery:go_on :-
+    forall(backlog(Id), try_later(Id, 0)).
+
 %   try(+Id): in a worker.
 
 try(Id) :-
     (   with_agent(Id, backlog_begin(Id, Letters, Tries))
     ->  one_letter(Letters, Letter),
-        catch(tried(Id, Letter, Way), error(Formal, _), Way = failed(Formal)),
-        with_agent(Id, conclude(Way, Id, Letter, Tries))
+        journal_step(
+            ( catch(tried(Id, Letter, Way), error(Formal, _),
+                    Way = failed(Formal)),
+              with_agent(Id, ( conclude(Way, Id, Letter, Tries),
+                               journal_seal )) ))
     ;   true
     ).
 
+%   What has not left after all is noted again.
+
 tried(Id, Letter, Way) :-
-    with_agent(Id, step(Id, Letter, Way0)),
+    with_agent(Id, ( backlog_leaves(Id), step(Id, Letter, Way0) )),
     (   Way0 = to(Endpoint, Letter1)
     ->  way_send(Endpoint, Id, Letter1),
         Way = done

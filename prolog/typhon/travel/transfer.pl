@@ -9,21 +9,26 @@
             transfer_unreachable/1,     % +Transfer
             transfer_let_go/4,          % +Id, -Mail, -Orders, -Gone
             transfer_given_up/2,        % +Id, +Frozen
-            transfer_held/2             % +Frozen, -Held
+            transfer_held/2,            % +Frozen, -Held
+            transfer_open/1             % ?Transfer
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
-              [ event/4, events_forget/1, host_hop/3, host_leave/1,
+              [ address_parts/3, event/4, events_forget/1, host_hop/3, host_leave/1,
                 host_time/2, scheduler_call/1 ]).
 :- use_module('../agent',
               [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
                 mail_back/2, with_agent/2 ]).
+:- use_module('../journal',
+              [journal_seal/0, journal_step/1, note_drop/3, note_put/4]).
+:- use_module(crossings, [crossing_begin/4, crossing_end/2, crossing_restore/4]).
 :- use_module(legacies, [clone_unborn/2]).
 :- use_module(post, [post_on/2]).
-:- use_module(whereabouts, [agent_ended/4, agent_left/4]).
+:- use_module(whereabouts,
+              [agent_ended/4, agent_left/4, agent_left_noted/4]).
 
 /** <module> Agents under way
 
@@ -39,7 +44,10 @@ clone(Held, CloneId, Since).
 *Threading*: any thread; what is said to be inside with_agent/2 is.
 */
 
-:- multifile forward_order/2.   % Id, Order: the agent has left
+:- multifile
+    typhon_recovery:back/4,
+    typhon_recovery:restored/0,
+    forward_order/2.            % Id, Order: the agent has left
 
 :- dynamic given_up/2.          % Id, Hops: disposed of while in doubt
 
@@ -76,15 +84,17 @@ frozen(clone(Id, _, CloneId), Held, [], Since) :-
 %
 %   The transfer begins; inside with_agent/2.  Fails if the agent was ended.
 
-transfer_freeze(hop(Id, dest(Address, _, _), Hops), Held, Mail, Since) :-
+transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
+                Since) :-
     agent_status(Id, Status, _),
     memberchk(Status, [running, obeying]),
-    get_time(Sent),
+    crossing_begin(Id, Hops, Endpoint, Sent),
     mail_all(Id, Mail),
     agent_put(Id, transit(Address, Sent), hop(Held, Hops, Mail, Since)),
     debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address]).
-transfer_freeze(clone(Id, dest(Address, _, _), CloneId), Held, [], Since) :-
-    get_time(Sent),
+transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
+                Since) :-
+    crossing_begin(CloneId, 1, Endpoint, Sent),
     agent_put(Id, cloning(Address, Sent), clone(Held, CloneId, Since)),
     debug(typhon(hop), '~w hop 1: leaves for ~w', [CloneId, Address]).
 
@@ -94,19 +104,27 @@ transfer_freeze(clone(Id, dest(Address, _, _), CloneId), Held, [], Since) :-
 
 %!  transfer_arrived(+Transfer) is det.
 
-transfer_arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
+transfer_arrived(Transfer) :-
+    journal_step(arrived(Transfer)).
+
+arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
     (   with_agent(Id, moved_on(Id, Hops, Address, Endpoint, Orders, Gone))
     ->  debug(typhon(hop), '~w hop ~D: has gone', [Id, Hops]),
         call(Gone),
         forall(member(Order, Orders), follow(Id, Order))
     ;   retract(given_up(Id, Hops))
-    ->  agent_left(Id, Address, Hops, Endpoint),
+    ->  note_drop(given_up, Id, Hops),
+        crossing_end(Id, Hops),
+        agent_left(Id, Address, Hops, Endpoint),
+        agent_left_noted(Id, Address, Hops, Endpoint),
         follow(Id, dispose)
     ;   true                            % it came back before the answer
     ).
-transfer_arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
+arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
     debug(typhon(hop), '~w hop 1: has gone', [CloneId]),
+    crossing_end(CloneId, 1),
     agent_left(CloneId, Address, 1, Endpoint),
+    agent_left_noted(CloneId, Address, 1, Endpoint),
     ignore(with_agent(Id, clone_back(Id, CloneId, parent(CloneId)))).
 
 %   Where it went is known before it is gone, and mail that came meanwhile
@@ -114,9 +132,12 @@ transfer_arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
 
 moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, Hops, _, Since)),
+    crossing_end(Id, Hops),
     agent_left(Id, Address, Hops, Endpoint),
     let_go(Id, Since, Mail, Orders, Gone),
-    post_on(Id, Mail).
+    agent_left_noted(Id, Address, Hops, Endpoint),
+    post_on(Id, Mail),
+    journal_seal.
 
 %!  transfer_let_go(+Id, -Mail, -Orders, :Gone) is semidet.
 %
@@ -156,10 +177,11 @@ follow(Id, Order) :-
 transfer_stays(Transfer, Error) :-
     transfer_traveller(Transfer, Who, Hop),
     debug(typhon(hop), '~w hop ~D: stays, ~p', [Who, Hop, Error]),
-    stays(Transfer, Error).
+    journal_step(( crossing_end(Who, Hop),
+                   stays(Transfer, Error) )).
 
 stays(hop(Id, dest(Address, _, _), Hops), Error) :-
-    retractall(given_up(Id, Hops)),
+    forall(retract(given_up(Id, Hops)), note_drop(given_up, Id, Hops)),
     (   agent(Id, Host, _, _, _)
     ->  event(hops, Host, Id, stayed(Address))
     ;   true
@@ -197,7 +219,41 @@ clone_back(Id, CloneId, Answer) :-
 %   it.
 
 transfer_given_up(Id, hop(_, Hops, _, _)) :-
+    note_put(given_up, Id, Hops, Hops),
     assertz(given_up(Id, Hops)).
+
+%   The oldest first, before anybody else sets out.
+
+typhon_recovery:restored :-
+    findall(Sent-Transfer,
+            ( transfer_open(Transfer),
+              arg(1, Transfer, Id),
+              agent_status(Id, Status, _),
+              arg(2, Status, Sent) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    forall(( member(Sent-Transfer, Pairs),
+             transfer_traveller(Transfer, Who, Hops),
+             arg(2, Transfer, dest(_, _, Endpoint)) ),
+           crossing_restore(Who, Hops, Endpoint, Sent)).
+
+typhon_recovery:back(given_up, Id, Hops, _) :-
+    assertz(given_up(Id, Hops)).
+
+%!  transfer_open(?Transfer) is nondet.
+%
+%   Id, which is under way, has not been heard of.
+
+transfer_open(Transfer) :-
+    agent_status(Id, Status, Frozen),
+    open_transfer(Status, Id, Frozen, Transfer).
+
+open_transfer(transit(Address, _), Id, hop(_, Hops, _, _),
+              hop(Id, dest(Address, Name, Endpoint), Hops)) :-
+    address_parts(Address, Name, Endpoint).
+open_transfer(cloning(Address, _), Id, clone(_, CloneId, _),
+              clone(Id, dest(Address, Name, Endpoint), CloneId)) :-
+    address_parts(Address, Name, Endpoint).
 
 %!  transfer_held(+Frozen, -Held) is semidet.
 %

@@ -7,11 +7,13 @@
 :- use_module(library(apply), [maplist/4]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/2, append/3, max_list/2]).
+:- use_module('../journal', [journal_on/0]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_post_up/3 ]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent', [agent_home_endpoint/2, agent_mail/2]).
+:- use_module(channel, [channel_post/3]).
 :- use_module(whereabouts, [whereabouts/2]).
 
 /** <module> The next step of a letter
@@ -113,6 +115,12 @@ send_home(Failed, Id, Letter) :-
 %   sent(+Endpoint, +Id, +Letter, :Post): what is too long for one frame goes
 %   in two.
 
+%   With a journal it is sent as soon as can be.
+
+sent(Endpoint, Id, letter(Mail, Left), _) :-
+    journal_on,
+    !,
+    channel_post(Endpoint, message, message(Id, Mail, Left)).
 sent(Endpoint, Id, letter(Mail, Left), Post) :-
     catch(call(Post, Endpoint, message, message(Id, Mail, Left)),
           error(resource_error(frame_bytes), Context),

@@ -1,6 +1,7 @@
 :- module(typhon_whereabouts,
           [ agent_seen/4,               % +Id, +Address, +Hops, +Peer
             agent_left/4,               % +Id, +Address, +Hops, +Peer
+            agent_left_noted/4,         % +Id, +Address, +Hops, +Peer
             agent_ended/4,              % +Id, +Outcome, +Hops, +Legacy
             agent_faulty/5,             % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops
@@ -15,6 +16,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
+:- use_module('../journal', [journal_on/0, note_drop/3, note_put/4]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_peer/2,
                 endpoint_post/3,
@@ -23,8 +25,8 @@
 :- use_module('../agent',
               [agent/5, agent_home_endpoint/2, is_legacy/1, life_hops/2]).
 :- use_module(home,
-              [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6, home_knows/4,
-                home_moved/4, home_resumed/3 ]).
+              [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6,
+                home_knows/4, home_left/4, home_moved/4, home_resumed/3 ]).
 :- use_module(news, [news_tell/3]).
 
 /** <module> Where agents went
@@ -49,6 +51,9 @@ see typhon_news, since it may have to connect.
 
 :- multifile
     error:has_type/2,
+    typhon_bounded:forgotten/1,
+    typhon_identity:ids_anew/0,
+    typhon_recovery:back/4,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
 
@@ -97,13 +102,41 @@ left_home(Id, _, Hops, _) :-
 left_home(Id, Address, Hops, Process) :-
     (   agent_outcome(Id, _)
     ->  remember_forward(Id, Address, Hops, Process)
-    ;   home_moved(Id, Address, Hops, Process)
+    ;   home_left(Id, Address, Hops, Process)
     ).
 
 process_at(Endpoint, Process) :-
     (   endpoint_peer(Endpoint, process(Process0))
     ->  Process = Process0
     ;   Process = unknown
+    ).
+
+%!  agent_left_noted(+Id, +Address, +Hops, +Peer) is det.
+%
+%   Note that Id has left; in the journal that stands in its own place.
+
+agent_left_noted(Id, Address, Hops, Peer) :-
+    (   journal_on,
+        \+ endpoint_address(Peer)
+    ->  process_at(Peer, Process),
+        note_put(agent, Id, 0, gone(Address, Hops, Process))
+    ;   true
+    ).
+
+typhon_identity:ids_anew :-
+    retractall(forward(_, _, _, _)).
+
+typhon_bounded:forgotten(forward(Id, _, _, _)) :-
+    note_drop(agent, Id, 0).
+
+typhon_recovery:back(agent, Id, _, gone(Address, Hops, Process)) :-
+    !,
+    agent_home_endpoint(Id, Home),
+    (   agent_outcome(Id, _)
+    ->  true
+    ;   endpoint_address(Home)
+    ->  home_left(Id, Address, Hops, Process)
+    ;   assertz(forward(Id, Address, Hops, Process))
     ).
 
 remember_forward(Id, Address, Hops, Process) :-

@@ -17,10 +17,13 @@ kept, the oldest are forgotten.
 _Threading_: any thread; a mutex makes changes one at a time.
 */
 
+:- use_module('../journal', [note_drop/3, note_put/4]).
 :- use_module(library(settings), [setting/2, setting/4]).
 
 :- setting(contacts, positive_integer, 10000,
            "Addresses of which is known who was met there").
+
+:- multifile typhon_recovery:back/4.
 
 :- dynamic
     contact/3,                          % Address, Process, met or gone
@@ -78,7 +81,22 @@ note(Address, Process, State) :-
     findall(Old, clause(contact(Address, _, _), true, Old), Olds),
     assertz(contact(Address, Process, State)),
     forall(member(Old, Olds), erase(Old)),
+    note_lasting(Process, Address),
     forget_oldest.
+
+%   That somebody will be there again must not be forgotten.
+
+note_lasting(Process, Address) :-
+    sub_atom(Process, 0, _, _, j),
+    !,
+    note_put(lasting, Address, 0, Process).
+note_lasting(none, _) :-
+    !.
+note_lasting(_, Address) :-
+    note_drop(lasting, Address, 0).
+
+typhon_recovery:back(lasting, Address, _, Process) :-
+    assertz(contact(Address, Process, met)).
 
 forget_oldest :-
     predicate_property(contact(_, _, _), number_of_clauses(Count)),

@@ -1,6 +1,7 @@
 :- module(typhon_endpoint,
           [ endpoint_start/3,           % +Interface, +Port, -Address
             endpoint_start_alone/1,     % +Address
+            endpoint_open/0,
             endpoint_stop/0,
             endpoint_listen/2,          % +Port, -Address
             endpoint_listen_end/1,      % +Address
@@ -38,6 +39,9 @@ that peer is read. They may post, request and reply.
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_setopt/2,
                 tcp_socket/1 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../journal',
+              [ journal_barrier/0, journal_item/5, journal_opened/1,
+                note_put/4 ]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
 :- use_module(auth, [cookie/1, random_hex/2]).
@@ -75,6 +79,7 @@ that peer is read. They may post, request and reply.
 
 :- dynamic
     process/1,                          % Id
+    closed/0,                           % nobody is let in yet
     starts/1,                           % Count
     running/4,                          % Address, Socket, Acceptor, Keeper
     further/3.                          % Address, Socket, Acceptor
@@ -96,11 +101,12 @@ start(_, _, _) :-
     endpoint_address(Address),
     !,
     permission_error(start, endpoint, Address).
-start(Interface0, Port, Address) :-
+start(Interface0, Port0, Address) :-
     cookie(_),
-    (   Interface0 == localhost
+    identity(Interface0, Port0, Interface1, Port),
+    (   Interface1 == localhost
     ->  Interface = '127.0.0.1'
-    ;   Interface = Interface0
+    ;   Interface = Interface1
     ),
     listen(Interface, Port, Address, Socket),
     next_start(Start),
@@ -108,10 +114,65 @@ start(Interface0, Port, Address) :-
     keeper_queue_open,
     lending_anew,
     wire_thread_create(keep(Me), keeper, Keeper),
-    wire_thread_create(accept_all(Socket, Me), acceptor, Acceptor),
+    wire_thread_create(accept_open(Socket, Me), acceptor, Acceptor),
     assertz(running(Address, Socket, Acceptor, Keeper)),
     debug(typhon(session), 'endpoint: starts at ~w, start ~w',
           [Address, Start]).
+
+%   identity(+Interface0, +Port0, -Interface, -Port): a process that has a
+%   journal is who it was when that was last open, and listens where it did.
+%   Others know it by the first letter of its id, see endpoint_lasting/1.
+
+identity(Interface0, Port0, Interface, Port) :-
+    journal_opened(_),
+    !,
+    assertz(closed),
+    retractall(process(_)),
+    (   journal_item(endpoint, any, _, _,
+                     endpoint(Process, Start, Interface1, Port1))
+    ->  retractall(starts(_)),
+        assertz(starts(Start)),
+        ( Port0 =:= 0 -> Port = Port1 ; Port = Port0 ),
+        ( Interface0 == localhost -> Interface = Interface1
+        ; Interface = Interface0 )
+    ;   random_hex(8, New),
+        atom_concat(j, New, Process),
+        Port = Port0,
+        Interface = Interface0
+    ),
+    assertz(process(Process)).
+identity(Interface, Port, Interface, Port) :-
+    retractall(closed),
+    (   process(Process),
+        sub_atom(Process, 0, _, _, j)
+    ->  retractall(process(_))
+    ;   true
+    ).
+
+accept_open(Socket, Me) :-
+    (   closed
+    ->  thread_get_message(endpoint_opens)
+    ;   true
+    ),
+    accept_all(Socket, Me).
+
+%!  endpoint_open is det.
+%
+%   What the journal knows was read: peers are let in.
+
+endpoint_open :-
+    running(Address, _, Acceptor, _),
+    !,
+    atomic_list_concat([Interface, PortText], :, Address),
+    atom_number(PortText, Port),
+    endpoint_process(Process),
+    starts(Start),
+    note_put(endpoint, '', 0, endpoint(Process, Start, Interface, Port)),
+    journal_barrier,
+    retractall(closed),
+    thread_send_message(Acceptor, endpoint_opens),
+    forall(further(_, _, Further),
+           thread_send_message(Further, endpoint_opens)).
 
 %!  endpoint_start_alone(+Address) is det.
 %
@@ -189,7 +250,7 @@ listen_too(Port, Address) :-
     starts(Start),
     our_hello(Start, First, Me),
     listen(Interface, Port, Address, Socket),
-    wire_thread_create(accept_all(Socket, Me), acceptor-Port, Acceptor),
+    wire_thread_create(accept_open(Socket, Me), acceptor-Port, Acceptor),
     assertz(further(Address, Socket, Acceptor)),
     debug(typhon(session), 'endpoint: listens at ~w, too', [Address]).
 

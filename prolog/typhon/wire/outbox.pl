@@ -32,6 +32,7 @@ is held.
 
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2]).
+:- use_module('../journal', [journal_barrier/0, journal_seal/0]).
 :- use_module(bundle, [bundle_fits/1]).
 :- use_module(counts, [acknowledged/3]).
 :- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
@@ -82,7 +83,8 @@ session_send_with(Session, Term) :-
 session_release(Session) :-
     session_key(Session, Key),
     (   unacked_waiting(Key)
-    ->  session_locked(Session, see_to(Session, Key))
+    ->  journal_barrier,
+        session_locked(Session, see_to(Session, Key))
     ;   true
     ).
 
@@ -116,7 +118,8 @@ answers_left(Session) :-
 session_send_later(Session, Term) :-
     nb_current(typhon_later, Count),
     !,
-    frame_bytes(Session, Term, Bytes),
+    journal_seal,
+    bytes(Session, Term, Bytes),
     session_locked(Session, put_later(Session, Bytes)),
     Count1 is Count+1,
     nb_setval(typhon_later, Count1).
@@ -127,6 +130,7 @@ session_later(Count) :-
     nb_getval(typhon_later, Count).
 
 session_push(Session) :-
+    journal_barrier,
     session_key(Session, Key),
     session_locked(Session, push_out(Key)),
     nb_setval(typhon_later, 0),
@@ -141,9 +145,14 @@ push_out(Key) :-
     ;   true
     ).
 
-%   The peer would refuse a longer one, again and again.
+%   The peer would refuse a longer one, again and again.  Nothing is said that
+%   follows from what may be forgotten.
 
 frame_bytes(Session, Term, Bytes) :-
+    journal_barrier,
+    bytes(Session, Term, Bytes).
+
+bytes(Session, Term, Bytes) :-
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
     string_length(Bytes, Length),
@@ -261,6 +270,10 @@ written(Write, Key, Thread, Out, Bytes) :-
 %   session is down, and where a newer one of its kind follows.
 
 session_control(Session, Term) :-
+    (   answers_left(Session)
+    ->  journal_barrier
+    ;   true
+    ),
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
     watch_frame(to, Session, Term, Bytes),

@@ -1,6 +1,8 @@
 :- module(typhon_peers,
           [ endpoint_peer/2,            % ?Address, ?Property
             endpoint_gone/1,            % +Address
+            endpoint_left/1,            % +Address
+            endpoint_lasting/1,         % +Address
             endpoint_missed/2,          % +Address, ?Formal
             endpoint_flush/1,           % +Seconds
             endpoint_flush/2,           % +Seconds, +Peers
@@ -43,6 +45,7 @@ peer_property(pending(Count), Session) :-
 peer_property(codec(Codec), Session) :-
     session_codec(Session, Codec).
 
+%!  endpoint_left(+Address) is semidet.
 %!  endpoint_gone(+Address) is semidet.
 %
 %   As far as this process knows there is no process at Address any more to
@@ -50,9 +53,23 @@ peer_property(codec(Codec), Session) :-
 %   connect, or the one that did said goodbye. Not true of a process that
 %   has been stopped, or is behind a network that is cut.
 
-endpoint_gone(Address) :-
+endpoint_left(Address) :-
     contact(Address, _, gone),
     \+ route_up(Address, _).
+
+endpoint_gone(Address) :-
+    endpoint_left(Address),
+    \+ endpoint_lasting(Address).
+
+%!  endpoint_lasting(+Address) is semidet.
+%
+%   The process that was last met at Address keeps a journal: it is not gone
+%   when it ends, for it will be started again.
+
+endpoint_lasting(Address) :-
+    contact(Address, Process, _),
+    Process \== none,
+    sub_atom(Process, 0, _, _, j).
 
 %!  endpoint_missed(+Address, ?Formal) is semidet.
 %

@@ -1,0 +1,114 @@
+:- module(typhon_app_journal,
+          [ journal_shown/2             % +Dir, +Options
+          ]).
+:- use_module('../prolog/typhon/agent/identity', [agent_name/3]).
+:- use_module('../prolog/typhon/agent/life', [life_hops/2]).
+:- use_module('../prolog/typhon/journal/store',
+              [journal_item/5, journal_open/2, store_close/0]).
+:- use_module('../prolog/typhon/lifecycle/restore', [restore_point/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3]).
+:- use_module(library(option), [option/2]).
+
+/** <module> What is in a journal
+
+Of a process that does not run: one that runs has it for itself.
+
+*Threading*: the main thread.
+*/
+
+%!  journal_shown(+Dir, +Options) is det.
+%
+%   Print what is in the journal Dir: an overview; with agents(true) a line for
+%   each agent; with check(true) whether all of it can be read; with
+%   extract(Agent) and to(File) write a restore point of Agent.
+%
+%   @error existence_error(journal, Dir), existence_error(agent, Agent)
+%   @error as journal_open/2
+
+journal_shown(Dir, Options) :-
+    directory_file_path(Dir, 'journal.db', Database),
+    (   exists_file(Database)
+    ->  true
+    ;   existence_error(journal, Dir)
+    ),
+    setup_call_cleanup(journal_open(Dir, normal),
+                       shown(Options),
+                       store_close).
+
+shown(Options) :-
+    option(extract(Agent), Options),
+    option(to(File), Options),
+    !,
+    extracted(Agent, File).
+shown(Options) :-
+    option(check(true), Options),
+    !,
+    forall(kind(Kind, _), forall(journal_item(Kind, any, _, _, _), true)),
+    overview,
+    format('all of it can be read~n').
+shown(Options) :-
+    option(agents(true), Options),
+    !,
+    forall(journal_item(agent, any, Id, _, Record), agent_line(Id, Record)).
+shown(_) :-
+    overview.
+
+kind(host, hosts).
+kind(link, 'ends of links').
+kind(agent, 'agents, and where others went').
+kind(mail, messages).
+kind(tuple, 'facts of tuple spaces').
+kind(payload, 'delivered payloads').
+kind(code, programs).
+kind(born, 'agents born here that have not ended').
+kind(outcome, outcomes).
+kind(left, 'results and other legacies').
+kind(out, 'posts to other processes').
+kind(letter, 'letters about to go').
+kind(wait, 'letters that wait').
+
+overview :-
+    forall(journal_item(endpoint, any, _, _,
+                        endpoint(_, Starts, Interface, Port)),
+           format('process at ~w:~w, started ~D times~n',
+                  [Interface, Port, Starts])),
+    forall(journal_item(host, any, Name, _, _), format('host ~w~n', [Name])),
+    forall(( kind(Kind, Words), Kind \== host,
+             aggregate_all(count, journal_item(Kind, any, _, _, _), Count),
+             Count > 0 ),
+           format('~D ~w~n', [Count, Words])).
+
+agent_line(Id, agent(Host, _, Life, _, Status, _)) :-
+    !,
+    life_hops(Life, Hops),
+    functor(Status, Name, _),
+    format('~w~t~48| on ~w, ~w, after ~D hops~n', [Id, Host, Name, Hops]).
+agent_line(_, _).
+
+extracted(Agent, File) :-
+    (   journal_item(agent, any, Agent, _, agent(_, Hash, Life, State, Status,
+                                                Goals0)),
+        journal_item(code, any, Hash, _, Program)
+    ->  findall(Message, journal_item(mail, numbers, Agent, _, Message), Mail0),
+        at_rest(Status, Goals0, Goals, Mail1),
+        append(Mail1, Mail0, Mail),
+        agent_name(Agent, Name, _),
+        restore_point(File, image(Name, Program, Life, State, Goals, Mail))
+    ;   existence_error(agent, Agent)
+    ).
+
+%   One that is under way is there as it is to arrive.
+
+at_rest(transit(_, _), hop(Hole-Goals, _, Mail, _), Goals, Mail) :-
+    !,
+    ignore(Hole = true).
+at_rest(leaving(_, _), hop(Hole-Goals, _), Goals, []) :-
+    !,
+    ignore(Hole = true).
+at_rest(cloning(_, _), clone(Hole-Goals-_, _, _), Goals, []) :-
+    !,
+    Hole = fail.
+at_rest(_, Goals, Goals, []).

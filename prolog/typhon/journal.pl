@@ -1,0 +1,24 @@
+:- module(typhon_journal, []).
+
+/** <module> The journal: what outlives the process
+
+Rooms above note what changes; it is committed, many changes together, before
+anything that follows from them leaves the process.  Where no journal was
+opened to note something costs the look at a fact that is not there.
+This is the door of the layer: who is above takes what it needs from here.
+*/
+
+:- reexport(journal/ledger,
+            [ journal_begin/0, journal_close/0, journal_end/0, journal_on/0,
+              journal_barrier/0, journal_number/1,
+              journal_number_after/1, journal_seal/0,
+              journal_step/1, note_drop/3, note_drop_all/2,
+              note_drop_below/3, note_put/4
+            ]).
+:- reexport(journal/store,
+            [journal_item/5, journal_open/2, journal_opened/1]).
+:- reexport(journal/turn,
+            [ turn_after/1, turn_commit/0, turn_defers/0,
+              turn_has_effects/0, turn_note_drop/3, turn_note_put/4,
+              turn_release/0, turn_run/1 ]).
+:- reexport(journal/crash, [crash_point/1]).

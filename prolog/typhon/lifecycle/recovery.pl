@@ -1,0 +1,149 @@
+:- module(typhon_recovery, []).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../journal', [journal_item/5, note_drop_all/2]).
+:- use_module('../host',
+              [alarm_set/3, host/3, host_again/1, real_time/3, schedule/2]).
+:- use_module('../agent',
+              [ agent/5, agent_back/3, agent_status/3, agent_wakes/2,
+                mail_count/2, mail_restore/3, with_agent/2 ]).
+
+/** <module> What the journal knows stands again
+
+First everything is put where it was, when nobody is let in yet and nobody
+runs: each room that has noted something takes it back with the hook back/4.
+Then it goes on: agents whose time has come, or that were about to run, are
+scheduled, alarms are set, what was under way is asked for or sent again.
+
+*Threading*: the thread that starts the first host of the process.
+*/
+
+:- multifile
+    back/4,                     % Kind, Key, N, Term: was noted so
+    recover/0,
+    restored/0,                 % all of it is
+    go_on/0.
+
+:- dynamic
+    restored/0,
+    recover/0,
+    go_on/0,
+    superfluous/2.              % Kind, Key: nobody needs it any more
+
+%   What others look up comes before them.
+
+kind(lasting, any).
+kind(link, any).
+kind(tuple, numbers).
+kind(payload, any).
+kind(born, any).
+kind(outcome, numbers).
+kind(faulty, any).
+kind(left, numbers).
+kind(clone, numbers).
+kind(given_up, any).
+kind(done, numbers).
+kind(seen, any).
+kind(out, numbers).
+kind(agent, any).
+kind(mail, numbers).
+kind(wait, numbers).
+kind(letter, numbers).
+kind(code, any).
+
+%   What this process knew before, with another journal or none, is another
+%   story.
+
+recover :-
+    forall(typhon_identity:ids_anew, true),
+    forall(( kind(Kind, Order),
+             journal_item(Kind, Order, Key, N, Term) ),
+           is_back(Kind, Key, N, Term)),
+    forall(restored, true).
+
+is_back(Kind, Key, N, Term) :-
+    catch(back(Kind, Key, N, Term), error(Formal, Context),
+          ( print_message(error, typhon(not_back(Kind, Key))),
+            print_message(error, error(Formal, Context)) )),
+    !.
+is_back(Kind, Key, _, _) :-
+    print_message(error, typhon(not_back(Kind, Key))).
+
+back(agent, Id, _, Record) :-
+    Record = agent(Host, _, _, _, _, _),
+    host(Host, _, Place),
+    agent_back(Id, Record, Place),
+    host_again(Host),
+    debug(typhon(agent), '~w: is there again, on ~w', [Id, Host]).
+back(mail, Id, N, Message) :-
+    (   agent(Id, _, _, _, _)
+    ->  mail_restore(Id, N, Message)
+    ;   assertz(superfluous(mail, Id))
+    ).
+
+back(code, Hash, _, _) :-
+    (   agent(_, _, _, Hash, _)
+    ->  true
+    ;   assertz(superfluous(code, Hash))
+    ).
+
+                /*******************************
+                *            GO ON             *
+                *******************************/
+
+go_on :-
+    forall(retract(superfluous(Kind, Key)), note_drop_all(Kind, Key)),
+    findall(Id-Status, agent_status(Id, Status, _), All),
+    forall(member(Id-Status, All), goes_on(Status, Id)).
+
+goes_on(ready, Id) :-
+    scheduled(Id).
+goes_on(obeying, Id) :-
+    with_agent(Id, ready_again(Id)).
+goes_on(faulty(_), Id) :-
+    with_agent(Id, ready_again(Id)).
+goes_on(resident, Id) :-
+    has_mail(Id).
+goes_on(waiting(_, Until), Id) :-
+    has_mail(Id),
+    (   number(Until)
+    ->  agent(Id, Host, _, _, _),
+        rings(Host, Until, Id, until(Until))
+    ;   true
+    ).
+goes_on(sleeping(Until), Id) :-
+    agent(Id, Host, _, _, _),
+    !,
+    rings(Host, Until, Id, until(Until)).
+goes_on(leaving(_, At), Id) :-
+    agent(Id, Host, _, _, _),
+    !,
+    rings(Host, At, Id, leave).
+goes_on(transit(_, _), _).
+goes_on(cloning(_, _), _).
+goes_on(running, _).
+
+scheduled(Id) :-
+    agent(Id, Host, _, _, _),
+    !,
+    schedule(Host, Id).
+
+%   It runs, and sees for itself.
+
+ready_again(Id) :-
+    agent_status(Id, _, Goals),
+    !,
+    agent_wakes(Id, Goals).
+
+has_mail(Id) :-
+    with_agent(Id,
+               (   mail_count(Id, Count),
+                   Count > 0
+               ->  ready_again(Id)
+               ;   true
+               )).
+
+rings(Host, Until, Id, Token) :-
+    real_time(Host, Until, Stamp),
+    alarm_set(Stamp, Id, Token).
+

@@ -1,0 +1,316 @@
+:- module(typhon_channel,
+          [ channel_post/3              % +Endpoint, +Kind, +Term
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../journal',
+              [ crash_point/1, journal_number/1, journal_seal/0,
+                journal_step/1, note_drop_below/3, note_put/4 ]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
+                endpoint_process/1 ]).
+:- use_module('../host', [alarm_in/3, scheduler_call/1]).
+
+/** <module> Posts that survive those who send and take them
+
+A process that keeps a journal notes what it posts to another before it is
+sent, and keeps it until the other says that it has come for good.  Until then
+it is sent again whenever there is a new connection.  The other takes
+each once, in order:
+
+    channel(Process, To, Before, N, Kind, Term)
+
+is the post of number N of Process to the endpoint To; Before is the number
+of the one before, or first(M) if all up to M are known to have come.  Who
+lacks one says again(To), who has one had(To, N).
+
+*Threading*: any thread posts, and never waits for a connection; one worker at
+a time sends to an endpoint.
+*/
+
+:- multifile
+    typhon_endpoint:connection/2,
+    typhon_endpoint:received/3,
+    typhon_recovery:back/4,
+    typhon_recovery:go_on/0,
+    typhon_runtime:ending/1,
+    typhon_scheduler:fire/2.
+
+:- dynamic
+    out/4,                      % Endpoint, N, Kind, Term: the oldest first
+    had/2,                      % Endpoint, N: all up to N have come
+    sent/2,                     % Endpoint, N: all up to N were sent
+    courier/1,                  % Endpoint: somebody sends
+    seen/2,                     % Key, N: of a channel to here
+    told/1.                     % Key: had/2 is about to be said
+
+:- setting(channel_seconds, number, 300,
+           "Posts for a process that has left, and keeps no journal as far as \c
+            is known, are kept so long").
+
+batch(100).
+longest_pause(1).               % seconds between attempts
+ack_seconds(0.02).
+
+%!  channel_post(+Endpoint, +Kind, +Term) is det.
+%
+%   Post Term to Endpoint, once, whatever dies.  What was noted in this step
+%   is sealed with it.
+
+channel_post(Endpoint, Kind, Term) :-
+    with_mutex(typhon_channel,
+               ( journal_number(N),
+                 note_put(out, Endpoint, N, item(Kind, Term)),
+                 journal_seal,
+                 assertz(out(Endpoint, N, Kind, Term)),
+                 engage(Endpoint, Courier) )),
+    set_out(Courier, Endpoint).
+
+engage(Endpoint, Courier) :-
+    (   courier(Endpoint)
+    ->  Courier = there
+    ;   assertz(courier(Endpoint)),
+        Courier = wanted
+    ).
+
+set_out(there, _).
+set_out(wanted, Endpoint) :-
+    scheduler_call(typhon_channel:carry(Endpoint, try(0, 0.05))).
+
+%   carry(+Endpoint, +Try): in a worker, until all is sent.  Try is
+%   try(Since, Pause): it has not worked since then, 0 if it has, and the pause
+%   after this attempt.
+
+carry(Endpoint, Try) :-
+    with_mutex(typhon_channel, next(Endpoint, Items)),
+    (   Items == []
+    ->  true
+    ;   catch(send_all(Items, Endpoint), error(Formal, _), true),
+        (   var(Formal)
+        ->  carry(Endpoint, try(0, 0.05))
+        ;   not_sent(Formal, Endpoint, Try)
+        )
+    ).
+
+next(Endpoint, Items) :-
+    (   sent(Endpoint, Sent)
+    ->  Before0 = Sent
+    ;   had_until(Endpoint, Had),
+        Sent = Had,
+        Before0 = first(Had)
+    ),
+    batch(Most),
+    findnsols(Most, item(N, Kind, Term),
+              ( out(Endpoint, N, Kind, Term), N > Sent ), Found),
+    !,
+    chained(Found, Before0, Items),
+    (   Items == []
+    ->  retractall(courier(Endpoint))
+    ;   true
+    ).
+
+had_until(Endpoint, N) :-
+    (   had(Endpoint, N0)
+    ->  N = N0
+    ;   N = -1
+    ).
+
+chained([], _, []).
+chained([item(N, Kind, Term)|Found], Before,
+        [item(Before, N, Kind, Term)|Items]) :-
+    chained(Found, N, Items).
+
+%   If it is to be begun anew meanwhile the number is out of date, and the
+%   other will say so.
+
+send_all(Items, Endpoint) :-
+    endpoint_process(Process),
+    forall(member(item(Before, N, Kind, Term), Items),
+           ( crash_point(before_post),
+             endpoint_post(Endpoint, channel,
+                           channel(Process, Endpoint, Before, N, Kind, Term)),
+             with_mutex(typhon_channel, put_sent(Endpoint, Before, N)) )).
+
+put_sent(Endpoint, Before, N) :-
+    (   Before = first(_)
+    ->  retractall(sent(Endpoint, _)),
+        assertz(sent(Endpoint, N))
+    ;   retract(sent(Endpoint, Before))
+    ->  assertz(sent(Endpoint, N))
+    ;   true
+    ).
+
+not_sent(existence_error(_, _), Endpoint, _) :-
+    !,                                  % this process ends
+    with_mutex(typhon_channel, retractall(courier(Endpoint))).
+not_sent(unreachable(_), Endpoint, try(Since, _)) :-
+    endpoint_gone(Endpoint),
+    Since > 0,
+    get_time(Now),
+    setting(channel_seconds, Most),
+    Now-Since > Most,
+    !,
+    print_message(silent, typhon(home_unreachable(Endpoint))),
+    give_up(Endpoint).
+not_sent(Formal, Endpoint, try(Since0, Pause)) :-
+    debug(typhon(mail), 'nothing can be posted to ~w: ~p', [Endpoint, Formal]),
+    with_mutex(typhon_channel, retractall(sent(Endpoint, _))),
+    longest_pause(Longest),
+    Pause1 is min(Longest, 2*Pause),
+    get_time(Now),
+    (   Since0 =:= 0
+    ->  Since = Now
+    ;   Since = Since0
+    ),
+    alarm_in(Pause, Endpoint, channel(try(Since, Pause1))).
+
+typhon_scheduler:fire(Endpoint, channel(Try)) :-
+    !,
+    scheduler_call(typhon_channel:carry(Endpoint, Try)).
+typhon_scheduler:fire(Key, had(To, Peer)) :-
+    !,
+    scheduler_call(typhon_channel:say_had(Key, To, Peer)).
+
+%   Who is there no longer, and keeps no journal, will not take it.
+
+give_up(Endpoint) :-
+    with_mutex(typhon_channel,
+               ( findall(Kind-Term, out(Endpoint, _, Kind, Term), Lost),
+                 forget_all(Endpoint),
+                 retractall(sent(Endpoint, _)),
+                 retractall(had(Endpoint, _)),
+                 retractall(courier(Endpoint)) )),
+    forall(member(Kind-Term, Lost), undelivered(Kind, Term, Endpoint)).
+
+forget_all(Endpoint) :-
+    (   out(Endpoint, N, _, _)
+    ->  N1 is N+1,
+        note_drop_below(out, Endpoint, N1),
+        retractall(out(Endpoint, N, _, _)),
+        forget_all(Endpoint)
+    ;   true
+    ).
+
+:- multifile undelivered/3.             % Kind, Term, Endpoint
+
+                /*******************************
+                *          ITS OTHER END       *
+                *******************************/
+
+typhon_endpoint:received(channel, Said, Peer) :-
+    heard(Said, Peer).
+
+heard(channel(Process, To, Before, N, Kind, Term), Peer) :-
+    must_be(atom, Process),
+    must_be(atom, To),
+    must_be(integer, N),
+    atomic_list_concat([Process, To], ' ', Key),
+    with_mutex(typhon_channel_in,
+               taken(Key, Before, N, Kind, Term, Peer, How)),
+    answer(How, Key, To, Peer).
+heard(again(To), _) :-
+    with_mutex(typhon_channel,
+               ( retractall(sent(To, _)),
+                 (   out(To, _, _, _)
+                 ->  engage(To, Courier)
+                 ;   Courier = there
+                 ) )),
+    set_out(Courier, To).
+heard(had(To, N), _) :-
+    must_be(integer, N),
+    with_mutex(typhon_channel, has_come(To, N)).
+
+has_come(To, N) :-
+    retractall(had(To, _)),
+    assertz(had(To, N)),
+    come(To, N),
+    N1 is N+1,
+    note_drop_below(out, To, N1).
+
+come(To, N) :-
+    (   out(To, N0, _, _),
+        !,
+        N0 =< N
+    ->  retract(out(To, N0, _, _)),
+        !,
+        come(To, N)
+    ;   true
+    ).
+
+taken(Key, _, N, _, _, _, known) :-
+    seen(Key, Seen),
+    N =< Seen,
+    !.
+taken(Key, Before, N, Kind, Term, Peer, new) :-
+    in_order(Before, Key),
+    !,
+    journal_step(( note_put(seen, Key, 0, N),
+                   take(Kind, Term, Peer) )),
+    retractall(seen(Key, _)),
+    assertz(seen(Key, N)),
+    crash_point(after_take).
+taken(_, _, _, _, _, _, gap).
+
+%   A process that has lost what it knew begins where it is told to.
+
+in_order(first(Before), Key) :-
+    (   seen(Key, Seen)
+    ->  Seen >= Before
+    ;   true
+    ).
+in_order(Before, Key) :-
+    seen(Key, Before).
+
+take(Kind, Term, Peer) :-
+    catch(ignore(typhon_endpoint:received(Kind, Term, Peer)),
+          error(Formal, Context),
+          print_message(error, error(Formal, Context))).
+
+answer(gap, _, To, Peer) :-
+    endpoint_post(Peer, channel, again(To)).
+answer(_, Key, To, Peer) :-
+    (   told(Key)
+    ->  true
+    ;   assertz(told(Key)),
+        ack_seconds(Seconds),
+        alarm_in(Seconds, Key, had(To, Peer))
+    ).
+
+say_had(Key, To, Peer) :-
+    retractall(told(Key)),
+    (   seen(Key, N)
+    ->  catch(endpoint_post(Peer, channel, had(To, N)), error(_, _), true)
+    ;   true
+    ).
+
+                /*******************************
+                *        BREAKS AND ENDS       *
+                *******************************/
+
+%   Who has a new connection may have died meanwhile.
+
+typhon_endpoint:connection(Endpoint, up) :-
+    (   endpoint_address(Endpoint)
+    ->  true
+    ;   heard(again(Endpoint), Endpoint)
+    ).
+
+typhon_recovery:back(out, Endpoint, N, item(Kind, Term)) :-
+    assertz(out(Endpoint, N, Kind, Term)).
+typhon_recovery:back(seen, Key, _, N) :-
+    assertz(seen(Key, N)).
+
+typhon_recovery:go_on :-
+    findall(Endpoint, out(Endpoint, _, _, _), All),
+    sort(All, Endpoints),
+    forall(member(Endpoint, Endpoints), heard(again(Endpoint), Endpoint)).
+
+typhon_runtime:ending(after) :-
+    retractall(out(_, _, _, _)),
+    retractall(had(_, _)),
+    retractall(sent(_, _)),
+    retractall(courier(_)),
+    retractall(seen(_, _)),
+    retractall(told(_)).

@@ -1,0 +1,205 @@
+:- use_module('../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(typhon)).
+
+:- needs([journal]).
+
+:- begin_tests(journal).
+
+%   with_journal(:First, :Second): in a process with a journal, and when it
+%   was started again.
+
+:- meta_predicate with_journal(0, 0).
+
+with_journal(First, Second) :-
+    no_leaks(with_tmp_dir(twice(First, Second))).
+
+:- meta_predicate twice(0, 0, +).
+
+twice(First, Second, Dir) :-
+    started(Dir, First),
+    started(Dir, Second).
+
+:- meta_predicate started(+, 0).
+
+started(Dir, Goal) :-
+    setup_call_cleanup(host_start(alpha, [journal(Dir)]),
+                       once(Goal),
+                       stop_all).
+
+%   The last one is not stopped but rests.
+
+stop_all :-
+    host_stop(alpha).
+
+keeper(clauses([ (:- agent(keeper, [state([got/1])])),
+                 (on_message(_, M) :- assertz(got(M))) ])).
+
+test('agents and what they know are there again') :-
+    with_journal(
+        ( keeper(P),
+          agent_create(P, Id, []),
+          nb_setval(journal_test, Id),
+          forall(between(1, 3, I), agent_send(Id, m(I))),
+          got(Id, [m(1), m(2), m(3)]) ),
+        ( nb_getval(journal_test, Id),
+          agent_property(Id, state(resident)),
+          agent_send(Id, m(4)),
+          got(Id, [m(1), m(2), m(3), m(4)]) )).
+
+got(Id, Expected) :-
+    wait_until(( agent_property(Id, facts(Facts)),
+                 findall(M, member(got(M), Facts), Expected) ), 5).
+
+test('one that waits gets what comes later, one that sleeps wakes') :-
+    with_journal(
+        ( agent_create(clauses([ (:- agent(waits, [])),
+                                 (main :- receive(_-X), result(X)) ]), A, []),
+          agent_create(clauses([ (:- agent(sleeps, [])),
+                                 (main :- sleep(0.5), result(awake)) ]), B, []),
+          nb_setval(journal_test, A-B),
+          wait_until(( agent_property(A, state(waiting)),
+                       agent_property(B, state(sleeping)) ), 5) ),
+        ( nb_getval(journal_test, A-B),
+          agent_property(A, state(waiting)),
+          agent_send(A, hello),
+          agent_result(A, hello, 5),
+          agent_result(B, awake, 5) )).
+
+test('outcomes and results are known') :-
+    with_journal(
+        ( agent_create(clauses([ (:- agent(ends, [])),
+                                 (main :- clone(W), result(W)) ]), A, []),
+          agent_join(family(A), [A-done, C-done], 5),
+          nb_setval(journal_test, A-C) ),
+        ( nb_getval(journal_test, A-C),
+          agent_join(A, done, 1),
+          agent_result(A, parent(C), 1),
+          agent_result(C, clone(A), 1),
+          agent_join(family(A), [A-done, C-done], 5) )).
+
+test('facts of the tuple space, and delivered payloads') :-
+    with_tmp_dir(facts).
+
+facts(Dir) :-
+    atom_concat(Dir, '/greeting.pl', File),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, ':- payload(greeting, [provides([hi/1])]).~n\c
+                                    hi(there).~n', []),
+                       close(Out)),
+    atom_concat(Dir, '/journal', Journal),
+    started(Journal,
+        ( remote(alpha, ( leave(a(1)), leave(a(2)), leave(a(2)),
+                          leave(f(X, X)), take(a(1)) )),
+          agent_create(clauses([ (:- agent(brings, [])),
+                                 (main :- deliver(greeting)) ]), A,
+                       [payloads([File])]),
+          agent_join(A, done, 5) )),
+    started(Journal,
+        ( remote(alpha, findall(F, sense(F), Facts)),
+          Facts =@= [a(2), a(2), f(Y, Y)],
+          remote(alpha, hi(there)) )).
+
+test('other hosts of the process are there, and may be asked for once',
+     [error(permission_error(start, host, beta))]) :-
+    with_tmp_dir(other_hosts).
+
+other_hosts(Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    format(atom(Beta), 'beta@127.0.0.1:~d', [Port]),
+    keeper(P),
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Dir,
+            ( remote(Host, typhon:host_start(beta, [capacity(1)])),
+              link(Host, Beta),
+              agent_create(P, Id, [host(Beta)]) ),
+            ( remote(Host, typhon:host_property(alpha, neighbours([Beta]))),
+              remote(Host, typhon:host_property(beta, load(1))),
+              agent_property(Id, host(Beta)),
+              catch(agent_create(P, _, [host(Beta)]), Refused, true),
+              remote(Host, typhon:host_start(beta)),
+              catch(remote(Host, typhon:host_start(beta)), Error, true) )),
+        host_stop(driver)),
+    Refused = error(move_refused(Beta, capacity), _),
+    throw(Error).
+
+test('a journal is for the first host',
+     [error(permission_error(open, journal, _))]) :-
+    setup_call_cleanup(host_start(gamma),
+                       host_start(alpha, [journal('/tmp/none')]),
+                       host_stop(gamma)).
+
+test('virtual time has none', [error(permission_error(open, journal, _))]) :-
+    host_start(alpha, [clock(virtual), journal('/tmp/none')]).
+
+test('faulty agents are kept, and can be resumed',
+     [setup(nb_setval(journal_test, none))]) :-
+    with_journal(
+        ( agent_create(clauses([ (:- agent(fails, [state([ok/0])])),
+                                 (main :- ok, result(fine)) ]), A, []),
+          agent_join(A, failed, 5),
+          nb_setval(journal_test, A) ),
+        ( nb_getval(journal_test, A),
+          wait_until(agent_property(A, state(faulty(_))), 5),
+          agent_change(A, facts([ok])),
+          agent_resume(A),
+          agent_result(A, fine, 5) )).
+
+%   killed(+Dir, :Before, :After): in a process that is killed, and in the
+%   next one.
+
+:- meta_predicate killed(+, 0, 0).
+
+killed(Dir, Before, After) :-
+    node(Dir, Before),
+    node(Dir, After).
+
+:- meta_predicate node(+, 0).
+
+node(Dir, Goal) :-
+    project_file('test/chaos/lasting/node.pl', File),
+    b_getval(journal_port, Port),
+    with_swipl([File, '--', alpha, Port, Dir, normal, 1, 0], Pid, _, Out,
+               ( read_line_to_string(Out, "ready"),
+                 call(Goal),
+                 process_kill(Pid, kill),
+                 process_wait(Pid, _) )).
+
+test('a step that was not over begins again, and happens once') :-
+    with_tmp_dir(half_a_step).
+
+half_a_step(Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    keeper(Keeper),
+    atom_concat(Dir, '/go', Go),
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Dir,
+            ( agent_create(Keeper, K, [host(Host)]),
+              remote(Host, leave(token)),
+              agent_create(clauses([ (:- agent(steps, [state([to/1])])),
+                                     (main :- take(token), to(To),
+                                              send(To, begun), leave(changed),
+                                              ( exists_file(Go) -> true
+                                              ; ( thread_self(T), thread_get_message(T, never) ) ),
+                                              sleep(0),
+                                              result(done)) ]), _,
+                           [host(Host), facts([to(K)])]),
+              sleep(0.5),
+              remote(Host, findall(F, sense(F), [])),
+              open(Go, write, Out),
+              close(Out) ),
+            ( wait_until(remote(Host, sense(changed)), 5),
+              remote(Host, findall(F, sense(F), [changed])),
+              got(K, [begun]) )),
+        host_stop(driver)).
+
+:- end_tests(journal).
