@@ -18,5 +18,6 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(wire/peers,
             [endpoint_flush/1, endpoint_flush/2, endpoint_gone/1,
              endpoint_missed/2, endpoint_peer/2]).
+:- reexport('wire/proofs').
 :- reexport(wire/frame, [mobile_term/1]).
 :- reexport(wire/auth, [cookie/1, random_hex/2]).

@@ -6,6 +6,7 @@
             tuple_leave_new/2,          % +Place, +Fact
             tuple_sense/2,              % +Place, ?Fact
             tuple_take/2,               % +Place, ?Fact
+            tuple_count/2,              % +Place, -Count
             place_deliver/3,            % +Place, +Payload, -PIs
             place_undeliver/2           % +Place, +Name
           ]).
@@ -15,6 +16,7 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module('../program', [clause_parts/3]).
+:- use_module(front, [front_gone/1, service/1]).
 
 /** <module> Places: what a host offers to the agents on it
 
@@ -50,6 +52,7 @@ place_create(Host, Files, Services, Place) :-
     set_module(Place:class(temporary)),
     set_module(Place:base(typhon_vocabulary)),
     dynamic(Place:'$tuple'/1),
+    Place:import(typhon_front:service/1),
     catch(( forall(member(Service, Services), place_offer(Place, Service)),
             forall(member(File, Files), consult_into(Place, File))
           ),
@@ -120,6 +123,7 @@ reload(Place, Id, File) :-
 place_destroy(Place) :-
     unload(Place),
     retractall(delivered(Place, _, _)),
+    front_gone(Place),
     '$destroy_module'(Place).
 
 unload(Place) :-
@@ -153,6 +157,14 @@ tuple_leave_new(Place, Fact) :-
 
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).
+
+%!  tuple_count(+Place, -Count) is det.
+
+tuple_count(Place, Count) :-
+    '$get_predicate_attribute'(Place:'$tuple'(_), number_of_clauses, Count0),
+    !,
+    Count = Count0.
+tuple_count(_, 0).
 
 tuple_take(Place, Fact) :-
     retract(Place:'$tuple'(Fact)),
