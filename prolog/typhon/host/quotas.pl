@@ -29,7 +29,7 @@ A host that guards has those of the setting `guarded`, where it is not said
 otherwise.  A host without quotas does without all of this: looking whether
 there are some is all that it costs.
 
-While there are hosts with the quota `seconds`, a thread looks ten times a
+While there are hosts with the quota `seconds` or `stack`, a thread looks ten times a
 second at who runs.
 
 *Threading*: quota_set/3 and quota_forget/1 as host_start/2, the others in
@@ -166,7 +166,7 @@ forget_some.
                 *******************************/
 
 watch :-
-    quota(_, seconds, _),
+    ( quota(_, seconds, _) ; quota(_, stack, _) ),
     !,
     (   watching(_)
     ->  true

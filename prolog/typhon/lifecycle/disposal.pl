@@ -11,7 +11,6 @@
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host', [context_now/2, turn_of/3]).
 :- use_module('../agent', [agent/5, agent_status/3]).
-:- use_module(metering, [metered_room/0]).
 :- use_module(named, [agent_named/2]).
 :- use_module(orders, [order_take/2]).
 :- use_module(questions, [agent_ask/4, agent_urge/4, question_answered/2]).
@@ -178,7 +177,6 @@ taken(Agent, Said) :-
 %   catch/3 cannot stop.
 
 interrupt(Agent) :-
-    metered_room,
     (   context_now(_, Agent),
         machine_inside
     ->  abort_quietly

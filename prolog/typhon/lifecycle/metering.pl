@@ -1,7 +1,6 @@
 :- module(typhon_metering,
           [ metered_run/4,              % +Where, +Context, +Goals, -Outcome
-            metered_ball/1,             % -Outcome
-            metered_room/0
+            metered_ball/1              % -Outcome
           ]).
 :- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../base/trees', [is_tree/2]).
@@ -33,33 +32,8 @@ metered_run(Id-Host, Context, Goals, Outcome) :-
     Context = context(_, Module),
     context_set(Host, Id, Module),      % its seconds begin
     nb_setval(typhon_over, none),
-    within_stack(Host, Old),
-    catch(within_inferences(Host, Context, Goals, Outcome0), Ball,
-          unwound(Ball, Old)),
-    set_prolog_flag(stack_limit, Old),
+    within_inferences(Host, Context, Goals, Outcome0),
     over(Outcome0, Outcome).
-
-%   First of all there must be room again: what runs before the stacks are
-%   collected would find none, not even for an exception, and then 9.0.4 ends
-%   the process.
-
-unwound(Ball, Old) :-
-    set_prolog_flag(stack_limit, Old),
-    throw(Ball).
-
-%   Who is interrupted leaves the limit to the next agent in this thread.
-
-within_stack(Host, Old) :-
-    current_prolog_flag(stack_limit, Now),
-    (   nb_current(typhon_stack_limit, Old0)
-    ->  Old = Old0
-    ;   Old = Now,
-        nb_setval(typhon_stack_limit, Old)
-    ),
-    (   quota(Host, stack, Most)
-    ->  set_prolog_flag(stack_limit, Most)
-    ;   true
-    ).
 
 within_inferences(Host, Context, Goals, Outcome) :-
     quota(Host, inferences, Most),
@@ -93,51 +67,43 @@ quota_named(What, What).
 
 %!  metered_ball(-Outcome) is semidet.
 %
-%   Who was interrupted in this thread had passed a quota.  The thread, which
-%   is to end, has its stack again.
+%   Who was interrupted in this thread had passed a quota.
 
-metered_ball(Outcome) :-
-    (   nb_current(typhon_stack_limit, Old)
-    ->  set_prolog_flag(stack_limit, Old)
-    ;   true
-    ),
-    passed(Outcome).
-
-passed(raised(error(resource_error(What), _))) :-
+metered_ball(raised(error(resource_error(What), _))) :-
     nb_current(typhon_over, What),
     What \== none,
     nb_setval(typhon_over, none).
-
-%!  metered_room is det.
-%
-%   A signal that is to end the agent in this thread finds room for that, also
-%   where the agent has filled its stack.
-
-metered_room :-
-    (   nb_current(typhon_stack_limit, Old)
-    ->  set_prolog_flag(stack_limit, Old)
-    ;   true
-    ).
 
                 /*******************************
                 *           THE WATCH          *
                 *******************************/
 
+%   A stack is not bounded by its limit: an agent that fills it to the brim
+%   while it catches all that is raised leaves no room for exceptions, and then
+%   9.0.4 ends the process.
+
 typhon_quotas:look :-
     turns_now(Agent, Thread, Seconds),
     agent(Agent, Host, _, _, _),
+    agent_status(Agent, running, _),
+    passes(Host, Thread, Seconds, What),
+    catch(thread_signal(Thread, typhon_metering:interrupt(Agent, What)),
+          error(existence_error(_, _), _), true).
+
+passes(Host, _, Seconds, seconds) :-
     quota(Host, seconds, Most),
     Seconds > Most,
-    agent_status(Agent, running, _),
-    catch(thread_signal(Thread, typhon_metering:interrupt(Agent, seconds)),
-          error(existence_error(_, _), _), true).
+    !.
+passes(Host, Thread, _, stack) :-
+    quota(Host, stack, Most),
+    catch(thread_statistics(Thread, stack, Used), error(_, _), fail),
+    Used > Most.
 
 :- public interrupt/2.
 
 %   Only inside its goals, as in typhon_disposal.
 
 interrupt(Agent, What) :-
-    metered_room,
     (   context_now(_, Agent),
         machine_inside
     ->  nb_setval(typhon_over, What),

@@ -341,7 +341,7 @@ hog(seconds, [ (main :- catch(lp, _, true), main), (lp :- lp) ]).
 hog(seconds, [ (main :- again), (again :- \+ s(x), again) ]).
 hog(inferences, [ (main :- lq(0)), (lq(N) :- M is N+1, lq(M)) ]).
 hog(stack, [ (main :- lr(0)), (lr(N) :- M is N+1, lr(M), true) ]).
-hog(stack, [ (main :- findall(X, between(1, inf, X), _)) ]).
+hog(seconds, [ (main :- findall(X, between(1, inf, X), _)) ]).
 hog(stack, [ (main :- ls("abc")), (ls(S) :- string_concat(S, S, T), ls(T)) ]).
 hog(stack, [ (main :- X is 7^7^7^7, X > 0) ]).
 hog(state, [ (main :- between(1, inf, X), assertz(s(X)), fail) ]).
