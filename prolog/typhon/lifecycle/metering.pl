@@ -90,14 +90,14 @@ typhon_quotas:look :-
     catch(thread_signal(Thread, typhon_metering:interrupt(Agent, What)),
           error(existence_error(_, _), _), true).
 
-passes(Host, _, Seconds, seconds) :-
-    quota(Host, seconds, Most),
-    Seconds > Most,
-    !.
 passes(Host, Thread, _, stack) :-
     quota(Host, stack, Most),
     catch(thread_statistics(Thread, stack, Used), error(_, _), fail),
-    Used > Most.
+    Used > Most,
+    !.
+passes(Host, _, Seconds, seconds) :-
+    quota(Host, seconds, Most),
+    Seconds > Most.
 
 :- public interrupt/2.
 
