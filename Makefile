@@ -18,7 +18,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
-    demo-page page-tools thesis thesis-real test chaos fuzz check check-all \
+    demo-page page-tools thesis thesis-real test chaos fuzz hostile check check-all \
     doc bench bench-peers profile \
     test-portability install clean
 
@@ -81,6 +81,9 @@ check-all:
 
 fuzz:                   ## what nobody should send; COUNT=100000, SEED=1
 	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED)
+
+hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1
+	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED)
 
 doc: tools              ## the documents as a site, in out/doc
 	@.ci/install doc

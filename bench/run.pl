@@ -50,6 +50,7 @@ job(messages, [env], unpinned).
 job(fipa, [env], unpinned).
 job(mqtt, [env], unpinned).
 job(strangers, [env], unpinned).
+job(guard, [env], unpinned).
 job(hosts, [env], unpinned).
 job(population, [env], unpinned).
 job(virtual, [env], 20000).

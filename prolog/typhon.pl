@@ -16,7 +16,7 @@ layer has a door, and behind it a folder with its rooms.
   | Python, MQTT, ROS              | typhon/bridge     |
 */
 
-:- reexport(typhon/program, [agent_check/1]).
+:- reexport(typhon/program, [agent_check/1, agent_check/2]).
 :- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport(typhon/host,
             [ host_start/1, host_start/2, host_change/2, host_stop/1,

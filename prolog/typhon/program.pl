@@ -12,12 +12,18 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(program/python_code, [payload_python/3]).
 :- reexport(program/programs,
             [payload_load/2, program_hash/2]).
-:- reexport(program/check, [agent_check/1]).
+:- reexport(program/check, [agent_check/1, agent_check/2]).
 :- reexport(program/loaded, [program_load/5, program_load/6]).
 :- reexport(program/code,
             [ code_install/2, code_install/3, code_receive/2, code_module/2,
               code_program/2, code_sent/2, code_stands/2, code_clear/0
             ]).
+:- reexport(program/allowed, [policy_read/1]).
+:- reexport(program/guard,
+            [ guard_called/3, guard_clauses/3, guard_closure/4,
+              guard_declares/2, guard_goals/3,
+              guard_state/3 ]).
+:- reexport(program/guarded_code, [code_check/3, code_guarded/3]).
 :- reexport(program/machine, [answer_at/3, machine_inside/0, machine_run/3]).
 :- reexport(program/faults, [fault/3]).
 :- reexport(program/standing, [fault_where/4, where_handled/5]).

@@ -1,5 +1,11 @@
 :- module(typhon_agent_module,
           [ agent_module/5,             % +Id, +Place, +Hash, +State, -Module
+            agent_code/2,               % +Module, -Program
+            agent_standing/5,           % +Id, +Place, +Hash, +Begin, -Agent
+            agent_clauses/3,            % +Module, +Clauses0, -Clauses
+            agent_may_stand/4,          % +Module, +Hash, +Place, +Goals
+            policy_against/4,           % +Place, +Hash, +Sent, -Reason
+            policy_refuses/2,           % +Ball, -Reason
             agent_state/2,              % +Module, -State
             agent_changed/4,            % +Module, +Since, -Clauses, -Until
             agent_elsewhere/3,          % +Module, +Place0, +Place
@@ -10,7 +16,10 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../program', [code_module/2]).
+:- use_module('../program',
+              [ code_check/3, code_guarded/3, code_module/2, guard_clauses/3, guard_declares/2, guard_goals/3,
+                guard_state/3 ]).
+:- use_module('../host', [guarding/0, host/3, module_policy/2, place_front/3, quota/3]).
 :- use_module(agents, [agent/5]).
 
 /** <module> The module of an agent
@@ -31,18 +40,123 @@ worker.
 %   @arg State is state(Empty, Clauses): what is dynamic without having
 %        clauses, and the clauses of all else.
 %   @error what assertz/1 raises
+%   @error permission_error(call, sandboxed, Culprit) where the host guards
 
-agent_module(Id, Place, Hash, state(Empty, Clauses), Module) :-
-    code_module(Hash, Program),
+agent_module(Id, Place, Hash, State0, Module) :-
+    code_module(Hash, Program0),
+    below(Place, Hash, Program0, State0, Program, Above, State),
+    State = state(Empty, Clauses),
     free_module(Id, Module),
     set_module(Module:class(temporary)),
     set_module(Module:base(Program)),
-    add_import_module(Module, Place, end),
+    add_import_module(Module, Above, end),
+    within_space(Place, Module),
     catch(( declare_all(Empty, Module),
             add_clauses(Clauses, Module) ),
           error(Formal, Context),
           ( '$destroy_module'(Module),
             throw(error(Formal, Context)) )).
+
+within_space(Place, Module) :-
+    quota(_, state, _),
+    host(Host, _, Place),
+    quota(Host, state, Most),
+    !,
+    set_module(Module:program_space(Most)).
+within_space(_, _).
+
+%   below(+Place, +Hash, +Program0, +State0, -Program, -Above, -State): on a
+%   host that guards, an agent has a program and a state that were looked
+%   through, and hangs below the front of the place.
+
+below(Place, Hash, _, State0, Program, Front, State) :-
+    place_front(Place, Front, Policy),
+    !,
+    code_guarded(Policy, Hash, Program),
+    guard_state(Policy, State0, State).
+below(Place, _, Program, State, Program, Place, State).
+
+%!  agent_code(+Module, -Program) is det.
+%
+%   The module of the program as the agent has it where it stands.
+
+agent_code(Module, Program) :-
+    import_module(Module, Program),
+    !.
+
+%   agent_goals(+Module, +Goals0, -Goals)
+%
+%   Goals are what the agent is to do where it stands.
+%
+%   @error permission_error(call, sandboxed, Culprit)
+
+agent_goals(Module, Goals0, Goals) :-
+    module_policy(Module, Policy),
+    !,
+    agent_code(Module, Program),
+    guard_goals(own(module(Program), Policy), Goals0, Goals).
+agent_goals(_, Goals, Goals).
+
+%!  agent_standing(+Id, +Place, +Hash, +Begin, -Agent) is semidet.
+%
+%   As agent_module/5, for one that has goals: Begin is State-Goals0, Agent is
+%   Module-Goals.
+
+agent_standing(Id, Place, Hash, State-Goals0, Module-Goals) :-
+    agent_module(Id, Place, Hash, State, Module),
+    catch(agent_goals(Module, Goals0, Goals), error(Formal, Context),
+          ( '$destroy_module'(Module),
+            throw(error(Formal, Context)) )).
+
+%!  agent_clauses(+Module, +Clauses0, -Clauses) is det.
+%
+%   Clauses may be added to the state of the agent.
+%
+%   @error permission_error(call, sandboxed, Culprit)
+
+agent_clauses(Module, Clauses0, Clauses) :-
+    (   module_policy(Module, Policy)
+    ->  guard_clauses(Policy, Clauses0, Clauses)
+    ;   Clauses = Clauses0
+    ).
+
+%!  agent_may_stand(+Module, +Hash, +Place, +Goals) is det.
+%
+%   The agent with this module could be in Place with Goals.
+%
+%   @error permission_error(call, sandboxed, Culprit)
+
+agent_may_stand(Module, Hash, Place, Goals) :-
+    place_front(Place, _, Policy),
+    \+ module_policy(Module, Policy),
+    !,
+    code_guarded(Policy, Hash, Program),
+    agent_state(Module, State),
+    guard_state(Policy, State, _),
+    guard_goals(own(module(Program), Policy), Goals, _).
+agent_may_stand(_, _, _, _).
+
+%!  policy_against(+Place, +Hash, +Sent, -Reason) is semidet.
+%
+%   The host of Place does not want the program Sent, as of code_receive/2,
+%   which is looked at before it is installed.
+
+policy_against(Place, Hash, Sent, Reason) :-
+    place_front(Place, _, Policy),
+    catch(( code_check(Policy, Hash, Sent), fail ),
+          error(Formal, Context),
+          policy_refuses(error(Formal, Context), Reason)).
+
+%!  policy_refuses(+Ball, -Reason) is semidet.
+%
+%   Ball says that a host does not let in what it is not to run: Reason is
+%   policy(Culprit).
+
+policy_refuses(error(Formal, _), policy(Culprit)) :-
+    culprit(Formal, Culprit).
+
+culprit(permission_error(call, sandboxed, Culprit), Culprit).
+culprit(resource_error(clause_cells), clause_cells).
 
 %   A copy that waits for the end of its hop has a module already.
 
@@ -125,10 +239,30 @@ latest([Last-_|Changed], Until0, Until) :-
 %   what is the same everywhere: its program and the vocabulary.
 
 agent_elsewhere(Module, Place0, Place) :-
+    stands_below(Place0, Place, Module, Above0, Above),
     \+ ( '$c_current_predicate'(_, Module:Head),
-         bound_here(Module, Place0, Head) ),
-    delete_import_module(Module, Place0),
-    add_import_module(Module, Place, end).
+         bound_here(Module, Above0, Head) ),
+    delete_import_module(Module, Above0),
+    add_import_module(Module, Above, end).
+
+%   The module hangs below the place itself where nobody guards, which is
+%   nearly always.  Of a module that is given import_module/2 of 9.0.4 looks
+%   only whether it is the first.
+
+stands_below(Place0, Place, _, Place0, Place) :-
+    \+ guarding,
+    !.
+stands_below(Place0, Place, Module, Above0, Above) :-
+    above(Place0, Above0, Policy),
+    above(Place, Above, Policy),
+    once(( import_module(Module, Some), Some == Above0 )).
+
+above(Place, Front, Policy) :-
+    place_front(Place, Front0, Policy0),
+    !,
+    Front = Front0,
+    Policy = Policy0.
+above(Place, Place, trusted).
 
 bound_here(Module, Place0, Head) :-
     '$get_predicate_attribute'(Module:Head, imported, From),
@@ -166,11 +300,19 @@ agent_handles(Program, Module) :-
 %   @error permission_error(attach, procedure, PI) if the agent has a
 %          predicate of that name already
 
-attach_clauses(Module, Hash, payload(_, PIs, Clauses)) :-
+attach_clauses(Module, Hash, payload(_, PIs, Clauses0)) :-
     code_module(Hash, Program),
     maplist(free(Module, Program), PIs),
+    maplist(may_have(Module), PIs),
+    agent_clauses(Module, Clauses0, Clauses),
     declare_all(PIs, Module),
     add_clauses(Clauses, Module).
+
+may_have(Module, PI) :-
+    (   module_policy(Module, Policy)
+    ->  guard_declares(Policy, PI)
+    ;   true
+    ).
 
 free(Module, Program, Name/Arity) :-
     functor(Head, Name, Arity),

@@ -4,15 +4,15 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
-            image_module/3,             % +Image, +Place, -Module
-            image_enter/4               % +Image, +Host, +Module, +More
+            image_module/3,             % +Image, +Place, -Agent
+            image_enter/4               % +Image, +Host, +Agent, +More
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../host', [event_heard/1, host/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
-:- use_module(agent_module, [agent_module/5, agent_state/2]).
+:- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2]).
 :- use_module(legacy, [legacy_none/2]).
 :- use_module(life,
@@ -121,16 +121,16 @@ image_name(Image, Name/Arity) :-
     functor(Image, Name, Arity).
 image_name(Image, Image).
 
-%!  image_module(+Image, +Place, -Module) is semidet.
-%!  image_enter(+Image, +Host, +Module, +More:list) is det.
+%!  image_module(+Image, +Place, -Agent) is semidet.
+%!  image_enter(+Image, +Host, +Agent, +More:list) is det.
 %
-%   Install the agent in two steps: make its module, as agent_module/5, and
+%   Install the agent in two steps: make its module, as agent_standing/5, and
 %   then its record, with its mail and More.  It is ready, but not scheduled.
 
-image_module(image(Id, Hash, _, State, _, _, _), Place, Module) :-
-    agent_module(Id, Place, Hash, State, Module).
+image_module(image(Id, Hash, _, State, Goals, _, _), Place, Agent) :-
+    agent_standing(Id, Place, Hash, State-Goals, Agent).
 
-image_enter(image(Id, Hash, Life, _, Goals, Mail0, _), Host, Module, More) :-
+image_enter(image(Id, Hash, Life, _, _, Mail0, _), Host, Module-Goals, More) :-
     agent_enter(agent(Id, Host, Module, Hash, Life), ready, Goals),
     append(Mail0, More, Mail),
     agent_mail(Id, Mail).

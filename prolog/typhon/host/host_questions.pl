@@ -15,6 +15,7 @@
 :- use_module(hosts,
               [ host/3, host_address/2, host_hop_stats/3, host_load/2,
                 host_option/2, host_resolve/2 ]).
+:- use_module(permits, [peer_may/3]).
 :- use_module(links, [host_link/3, host_neighbours/2, host_unlink/2]).
 
 /** <module> Hosts anywhere: what they are, and their links
@@ -176,9 +177,23 @@ host_unknown(Address) :-
 ask(Endpoint, Host, Question, Answer) :-
     process_ask(Endpoint, Host, hosting, Question, Answer, 10).
 
-typhon_endpoint:requested(hosting, Question, _Peer, ReplyTo) :-
-    hosting_answer(Question, Answer),
+typhon_endpoint:requested(hosting, Question, Peer, ReplyTo) :-
+    (   may_ask(Question, Peer)
+    ->  hosting_answer(Question, Answer)
+    ;   Answer = none
+    ),
     endpoint_reply(ReplyTo, Answer).
+
+may_ask(Question, Peer) :-
+    (   needs(Question, Name, Right)
+    ->  peer_may(Peer, Name, Right)
+    ;   true
+    ).
+
+needs(host_properties(Name), Name, watch).
+needs(link(Name, _), Name, orders).
+needs(link(Name, _, _), Name, orders).
+needs(unlink(Name, _), Name, orders).
 
 hosting_answer(host_properties(Name), Properties) :-
     (   host(Name, _, _)

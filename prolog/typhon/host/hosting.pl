@@ -21,12 +21,15 @@
 :- use_module('../wire', [endpoint_address/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
+:- use_module(front, [front_set/3]).
 :- use_module(host_log, []).
 :- use_module(hosts,
               [ address_parts/3, host/3, host_add/4, host_close/1,
                 host_option/2, host_put/2, host_remove/1, host_resolve/2 ]).
 :- use_module(links, [host_unlink/2]).
+:- use_module(permits, [must_be_peer_rules/1]).
 :- use_module(place, [place_create/4, place_destroy/1, place_offer/2]).
+:- use_module(quotas, [quota_forget/1, quota_set/3]).
 :- use_module(remote, [remote/2]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
@@ -92,6 +95,13 @@ other users of the process its endpoint, see typhon_runtime.
 %       these once, and changes nothing
 %     - sync(+How): `normal`, the default, if the journal is to survive the
 %       end of the process, `full` if a power cut, too
+%     - policy(+Policy): what agents may do here: `trusted`, everything,
+%       which is the default; `guarded`, what cannot harm others, see
+%       typhon_guard and doc/security.md; or a file of rules, see
+%       policy_read/1
+%     - peer(+Rules): which processes may do what, see typhon_permits
+%     - audit(+File): refusals and orders are noted there
+%     - quota(+List): how much each agent may use, see typhon_quotas
 %
 %   @error permission_error(start, host, Name) if it runs already
 %   @error domain_error(host_option, Option)
@@ -109,6 +119,7 @@ host_start(Name, Options) :-
     ->  domain_error(host_name, Name)
     ;   true
     ),
+    forall(member(peer(Rules), Options), must_be_peer_rules(Rules)),
     forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
     with_mutex(typhon_hosting, start(Name, Options)).
 
@@ -135,6 +146,10 @@ host_option_type(seed(X), integer, X).
 host_option_type(python(X), boolean, X).
 host_option_type(journal(X), atom, X).
 host_option_type(sync(X), oneof([full, normal]), X).
+host_option_type(policy(X), atom, X).
+host_option_type(quota(X), list, X).
+host_option_type(peer(X), list, X).
+host_option_type(audit(X), atom, X).
 
 start(Name, _) :-
     retract(from_journal(Name)),
@@ -237,6 +252,11 @@ start_host(Name, Endpoint, Options) :-
     option(concurrency(Concurrency), Options, inf),
     place_parts(Options, Files, Services),
     place_create(Name, Files, Services, Place),
+    option(policy(Policy), Options, trusted),
+    option(quota(Quotas), Options, []),
+    catch(( front_set(Name, Place, Policy), quota_set(Name, Policy, Quotas) ),
+          error(Formal, Context),
+          ( place_destroy(Place), throw(error(Formal, Context)) )),
     clock_set(Name, Epoch, Rate),
     scheduler_limit(Name, Concurrency),
     host_add(Name, Address, Place, Options),
@@ -266,7 +286,7 @@ listed(One, [One]).
 %!  host_change(+Host, +Option) is det.
 %
 %   Change an option of a host that runs, here or elsewhere: tokens, capacity,
-%   concurrency, hop_time, log, python, remote or seed, as of host_start/2, or
+%   concurrency, hop_time, log, audit, peer, policy, python, quota, remote or seed, as of host_start/2, or
 %   services, to which those given are added.  Who stands on the host stays,
 %   also where fewer are let in from now on.
 %
@@ -291,11 +311,28 @@ change(services(Services0), Name) =>
     host(Name, _, Place),
     listed(Services0, Services),
     forall(member(Service, Services), place_offer(Place, Service)).
+change(policy(Policy), Name) =>
+    host(Name, _, Place),
+    front_set(Name, Place, Policy),
+    host_put(Name, policy(Policy)),
+    quota_anew(Name).
+change(peer(Rules), Name) =>
+    must_be_peer_rules(Rules),
+    host_put(Name, peer(Rules)).
+change(quota(Quotas), Name) =>
+    host_put(Name, quota(Quotas)),
+    quota_anew(Name).
 change(Option, Name), changes(Option) =>
     host_put(Name, Option).
 change(Option, _) =>
     permission_error(change, host_option, Option).
 
+quota_anew(Name) :-
+    ( host_option(Name, policy(Policy)) -> true ; Policy = trusted ),
+    ( host_option(Name, quota(Quotas)) -> true ; Quotas = [] ),
+    quota_set(Name, Policy, Quotas).
+
+changes(audit(_)).
 changes(tokens(_)).
 changes(capacity(_)).
 changes(hop_time(_)).
@@ -333,6 +370,7 @@ stop(Name0) :-
     event(hosts, Name, none, stopped),
     host_remove(Name),
     events_forget(Name),
+    quota_forget(Name),
     clock_clear(Name),
     place_destroy(Place),
     debug(typhon(host), '~w is stopped', [Address]),

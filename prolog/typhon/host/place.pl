@@ -6,6 +6,7 @@
             tuple_leave_new/2,          % +Place, +Fact
             tuple_sense/2,              % +Place, ?Fact
             tuple_take/2,               % +Place, ?Fact
+            tuple_count/2,              % +Place, -Count
             place_deliver/3,            % +Place, +Payload, -PIs
             place_undeliver/2           % +Place, +Name
           ]).
@@ -20,6 +21,7 @@
                 turn_after/1, turn_defers/0, turn_note_drop/3,
                 turn_note_put/4 ]).
 :- use_module('../program', [clause_parts/3]).
+:- use_module(front, [front_gone/1, service/1]).
 
 /** <module> Places: what a host offers to the agents on it
 
@@ -65,6 +67,7 @@ place_create(Host, Files, Services, Place) :-
     ->  assertz(place_host(Place, Host))
     ;   true
     ),
+    Place:import(typhon_front:service/1),
     catch(( forall(member(Service, Services), place_offer(Place, Service)),
             forall(member(File, Files), consult_into(Place, File))
           ),
@@ -140,6 +143,7 @@ place_destroy(Place) :-
     ->  note_drop_all(tuple, Host)
     ;   true
     ),
+    front_gone(Place),
     '$destroy_module'(Place).
 
 forget_payload(Place, Name) :-
@@ -218,6 +222,14 @@ tuple_sense(Place, Fact) :-
     turn_defers,
     thread_self(Me),
     due(Place, _, Fact, Me).
+
+%!  tuple_count(+Place, -Count) is det.
+
+tuple_count(Place, Count) :-
+    '$get_predicate_attribute'(Place:'$tuple'(_), number_of_clauses, Count0),
+    !,
+    Count = Count0.
+tuple_count(_, 0).
 
 tuple_take(Place, Fact) :-
     retract(Place:('$tuple'(Fact) :- Body)),

@@ -10,6 +10,7 @@
 :- use_module(context, [in_context/2]).
 :- use_module(host_questions, [host_unknown/1]).
 :- use_module(hosts, [host/3, host_option/2, host_resolve/2]).
+:- use_module(permits, [audit/3, peer_may/3]).
 :- use_module(scheduler, [scheduler_call/1]).
 
 /** <module> Goals in the place of any host
@@ -70,10 +71,18 @@ host_do(Name, Goal) :-
     host(Name, _, Place),
     in_context(Name, Place:Goal).
 
-typhon_endpoint:requested(remote, remote(Name, Goal), _Peer, ReplyTo) :-
+typhon_endpoint:requested(remote, remote(Name, Goal), Peer, ReplyTo) :-
     (   host(Name, _, _)
-    ->  scheduler_call(typhon_remote:serve(Name, Goal, ReplyTo))
+    ->  may_remote(Peer, Name, Goal, ReplyTo)
     ;   endpoint_reply(ReplyTo, unknown_host)
+    ).
+
+may_remote(Peer, Name, Goal, ReplyTo) :-
+    (   peer_may(Peer, Name, remote)
+    ->  audit(Name, Peer, remote(Goal)),
+        scheduler_call(typhon_remote:serve(Name, Goal, ReplyTo))
+    ;   endpoint_reply(ReplyTo,
+                       raised(error(permission_error(remote, host, Name), _)))
     ).
 
 serve(Name, Goal, ReplyTo) :-

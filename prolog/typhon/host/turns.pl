@@ -1,6 +1,7 @@
 :- module(typhon_turns,
           [ turn_begins/1,              % +Agent
-            turn_of/3                   % +Agent, -Thread, -Seconds
+            turn_of/3,                  % +Agent, -Thread, -Seconds
+            turns_now/3                 % -Agent, -Thread, -Seconds
           ]).
 :- use_module(library(lists), [member/2]).
 
@@ -59,6 +60,18 @@ turn_of(Agent, Thread, Seconds) :-
     !,
     get_time(Now),
     Seconds is max(0.0, Now-Since).
+
+%!  turns_now(-Agent, -Thread, -Seconds:float) is nondet.
+%
+%   The last turn of each thread that there is, which may be over.
+
+turns_now(Agent, Thread, Seconds) :-
+    get_time(Now),
+    keys(Number, AgentKey, TimeKey),
+    get_flag(AgentKey, Agent),
+    get_flag(TimeKey, At),
+    Seconds is max(0.0, Now-At),
+    thread_property(Thread, id(Number)).
 
 latest(Turns, Latest) :-
     member(Latest, Turns),

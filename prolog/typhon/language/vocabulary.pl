@@ -23,4 +23,7 @@ libraries without state that agents may use without asking.
 :- use_module(library(solution_sequences)).
 :- use_module(library(yall)).
 :- use_module(memory, [next_host/2]).
+:- use_module(guarded,
+              [ '$guarded'/1, '$guarded'/2, '$guarded'/3, '$guarded'/4,
+                '$guarded'/5, '$guarded'/6, '$guarded'/7, '$guarded'/8 ]).
 :- use_module(words).

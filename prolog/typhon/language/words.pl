@@ -40,12 +40,13 @@
                 event/4, host/3, host_address/2, host_link_cost/3,
                 host_load/2, host_log/3, host_logs/1, host_neighbours/2,
                 host_time/2, place_deliver/3,
-                place_undeliver/2, tuple_leave/2, tuple_leave_new/2,
-                tuple_sense/2, tuple_take/2 ]).
+                module_policy/2, place_undeliver/2, quota/3, quota_cells/2,
+                quota_passed/1, quota_spend/3, tuple_count/2,
+                tuple_leave/2, tuple_leave_new/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
-                life_parent/2 ]).
+                life_parent/2, life_payloads/2 ]).
 :- use_module('../travel', [post/3, post_abroad/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
@@ -147,18 +148,26 @@ send(at(Agent, _), Message) :-
 send(Somebody, Message) :-
     compound(Somebody),
     !,
-    context(Host, Id, _),
+    context(Host, Id, Module),
+    (   module_policy(Module, _)        % no stranger speaks for us outside
+    ->  permission_error(call, sandboxed, send(Somebody, Message))
+    ;   true
+    ),
     post_abroad(Host, Somebody, Id, Message),
     event(messages, Host, Id, sent(Somebody, Message)).
 send(Agent, Message) :-
     Agent == user,
     !,
     context(Host, Id, _),
+    quota_spend(Host, Id, messages),
+    quota_cells(Host, Message),
     event(messages, Host, Id, sent(user, Message)),
     print_message(informational, typhon(told(Id, Message))).
 send(Agent, Message) :-
     must_be(atom, Agent),
     context(Host, Id, _),
+    quota_spend(Host, Id, messages),
+    quota_cells(Host, Message),
     event(messages, Host, Id, sent(Agent, Message)),
     catch(post(Agent, Id, Message),
           error(existence_error(agent, Agent), _),
@@ -177,15 +186,30 @@ send(Agent, Message) :-
 
 leave(Fact) :-
     place(Host, Place),
+    may_leave(Host, Place),
+    quota_cells(Host, Fact),
     mobile_term(Fact),
     tuple_leave(Place, Fact),
     shared(Host, leave(Fact)).
 
 leave_new(Fact) :-
     place(Host, Place),
+    may_leave(Host, Place),
+    quota_cells(Host, Fact),
     mobile_term(Fact),
     tuple_leave_new(Place, Fact),
     shared(Host, leave(Fact)).
+
+%   Of many that leave facts at once each may be one too many.
+
+may_leave(Host, Place) :-
+    quota(Host, tuples, Most),
+    !,
+    context_now(_, Agent),
+    quota_spend(Host, Agent, facts),
+    tuple_count(Place, Count),
+    ( Count < Most -> true ; quota_passed(tuples) ).
+may_leave(_, _).
 
 sense(Fact) :-
     place(_, Place),
@@ -215,7 +239,14 @@ place(Host, Place) :-
 attach(Spec) :-
     payload_load(Spec, Payload),
     context_agent(Id),
-    agent_attach(Id, Payload).
+    agent(Id, Host, _, _, Life),
+    (   quota(Host, payloads, Most),
+        life_payloads(Life, Payloads),
+        length(Payloads, Count),
+        Count >= Most
+    ->  quota_passed(payloads)
+    ;   agent_attach(Id, Payload)
+    ).
 
 detach(Name) :-
     context_agent(Id),
@@ -284,6 +315,8 @@ pheromone(Problem, Source, Strength) :-
 log(What) :-
     context_host(Host),
     context_now(Host, Agent),
+    quota_spend(Host, Agent, log),
+    quota_cells(Host, What),
     event(said, Host, Agent, log(What)),
     (   host_logs(Host)
     ->  mobile_term(What),
@@ -300,7 +333,8 @@ log(What) :-
 %   @error resource_error(result_bytes)
 
 result(Term) :-
-    context(_, _, Module),
+    context(Host, _, Module),
+    quota_cells(Host, Term),
     mobile_term(Term),
     legacy_result(Module, Term).
 

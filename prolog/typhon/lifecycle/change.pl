@@ -11,8 +11,8 @@
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [host/3]).
 :- use_module('../agent',
-              [ agent/5, agent_module/5, agent_program/4, agent_state/2,
-                with_agent/2 ]).
+              [ agent/5, agent_clauses/3, agent_module/5, agent_program/4,
+                agent_state/2, with_agent/2 ]).
 
 /** <module> Agents are changed from outside
 
@@ -58,7 +58,8 @@ change_made(facts(Clauses), Id) :-
     agent(Id, _, Module, Hash, _),
     code_program(Hash, Program),
     maplist(not_static(Program), Clauses),
-    forall(member(Clause, Clauses), assertz(Module:Clause)).
+    agent_clauses(Module, Clauses, Allowed),
+    forall(member(Clause, Allowed), assertz(Module:Clause)).
 change_made(program(Hash, Sent), Id) :-
     code_receive(Hash, Sent),
     code_program(Hash, Program),

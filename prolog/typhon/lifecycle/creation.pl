@@ -19,14 +19,14 @@
                 code_sent/2, code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
-              [ event/4, host/3, host_address/2, host_enter/3, host_leave/1,
-                host_resolve/2, host_unknown/1, process_ask/6 ]).
+              [ audit/3, event/4, host/3, host_address/2, host_enter/3, host_leave/1,
+                host_resolve/2, host_unknown/1, peer_may/3, process_ask/6 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
-                agent_mail/2, agent_module/5, agent_name/3, agent_ready/2,
-                agent_rest/3, agent_state/2, is_life/1, legacy_none/2,
+                agent_mail/2, agent_name/3, agent_ready/2, agent_rest/3,
+                agent_standing/5, agent_state/2, is_life/1, legacy_none/2,
                 life_clone/3, life_tokens/2, mail_count/2, make_life/2,
-                with_agent/2 ]).
+                policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
 
@@ -184,20 +184,37 @@ created(refused(unknown_host), Address, _) :-
 created(refused(Reason), Address, _) :-
     throw(error(move_refused(Address, Reason), _)).
 
-typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), _,
+typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), Peer,
                           ReplyTo) :-
-    catch(create_for(HostName, Name, Start, Program, Answer),
+    catch(create_for(Peer, HostName, Name, Start, Program, Answer),
           error(Formal, _),
           Answer = refused(error(Formal))),
     endpoint_reply(ReplyTo, Answer).
 
-create_for(HostName, Name, Start, Program, Answer) :-
-    Start = start(Hash, Life, _, _, _),
+create_for(Peer, HostName, _, _, _, refused(peer)) :-
+    host(HostName, _, _),
+    \+ peer_may(Peer, HostName, agents),
+    !.
+create_for(Peer, HostName, Name, Start, Program, Answer) :-
+    Start = start(_, Life, _, _, _),
     must_be_life(Life),
-    (   host(HostName, _, _)
-    ->  code_receive(Hash, Program),
-        start(HostName, Name, Start, Answer)
+    (   host(HostName, _, Place)
+    ->  create_at(Place, HostName, Name, Start, Program, Answer),
+        noted(Answer, HostName, Peer, Name)
     ;   Answer = refused(unknown_host)
+    ).
+
+noted(refused(Reason), Host, Peer, Name) :-
+    !,
+    audit(Host, Peer, refused(Name, Reason)).
+noted(_, _, _, _).
+
+create_at(Place, HostName, Name, Start, Program, Answer) :-
+    Start = start(Hash, _, _, _, _),
+    (   policy_against(Place, Hash, Program, Reason)
+    ->  Answer = refused(Reason)
+    ;   code_receive(Hash, Program),
+        start(HostName, Name, Start, Answer)
     ).
 
 must_be_life(Life) :-
@@ -254,20 +271,17 @@ start(Host, Name, Start, Answer) :-
     journal_barrier.
 
 start(Host, Name, Start, Answer, Of) :-
-    Start = start(_, Life, _, Goals, _),
+    Start = start(_, Life, _, _, _),
     life_tokens(Life, Tokens),
     host_enter(Host, Tokens, Entered),
     (   Entered == ok
     ->  host(Host, Address, Place),
         id_of(Of, Name, Address, Id),
-        catch(with_agent(Id, born(Id, Host, Place, Start)), Ball,
-              ( host_leave(Host), throw(Ball) )),
-        agent_born(Id, Address),
-        descends(Of),
-        event(life, Host, Id, created),
-        debug(typhon(agent), '~w: created on ~w', [Id, Address]),
-        with_agent(Id, begin(Goals, Id)),
-        Answer = created(Id)
+        catch(( with_agent(Id, born(Id, Host, Place, Start, Goals)),
+                Answer = created(Id) ),
+              Ball,
+              ( host_leave(Host), not_born(Ball, Answer) )),
+        begun_here(Answer, Host, Address, Goals, Of)
     ;   Answer = Entered
     ).
 
@@ -279,6 +293,20 @@ id_of(clone(_, Id), Name, Address, Id) :-
     agent_id(Name, Address, Id).
 id_of(none, Name, Address, Id) :-
     agent_id(Name, Address, Id).
+
+not_born(Ball, Answer) :-
+    (   policy_refuses(Ball, Reason)
+    ->  Answer = refused(Reason)
+    ;   throw(Ball)
+    ).
+
+begun_here(refused(_), _, _, _, _).
+begun_here(created(Id), Host, Address, Goals, Of) :-
+    agent_born(Id, Address),
+    descends(Of),
+    event(life, Host, Id, created),
+    debug(typhon(agent), '~w: created on ~w', [Id, Address]),
+    with_agent(Id, begin(Goals, Id)).
 
 %   Before it runs, and has clones of its own.
 
@@ -298,7 +326,7 @@ begin([], Id) :-
 begin(Goals, Id) :-
     agent_ready(Id, Goals).
 
-born(Id, Host, Place, start(Hash, Life, State, _, Mail)) :-
-    agent_module(Id, Place, Hash, State, Module),
+born(Id, Host, Place, start(Hash, Life, State, Goals0, Mail), Goals) :-
+    agent_standing(Id, Place, Hash, State-Goals0, Module-Goals),
     agent_enter(agent(Id, Host, Module, Hash, Life), arriving, []),
     agent_mail(Id, Mail).

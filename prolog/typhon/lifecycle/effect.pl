@@ -4,17 +4,19 @@
                                         % -Next
             effect_order/4              % +Id, +Here, +Host, +Goals
           ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module('../base/chance',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [ alarm_set/3, event/4, event_heard/1, host_address/2,
-                host_option/2, host_resolve/2, host_time/2, real_time/3,
+                host_option/2, host_resolve/2, host_time/2, quota/3, quota_passed/1, real_time/3,
                 schedule/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_name/3, agent_put/3, agent_put_down/3,
-                agent_ready/2, agent_rest/3, agent_status/3, agent_wakes/2, life_hops/2, life_may_move/2,
+              [ agent/5, agent_home_endpoint/2, agent_name/3, agent_put/3,
+                agent_put_down/3, agent_ready/2, agent_rest/3, agent_status/3,
+                agent_wakes/2, life_hops/2, life_may_move/2,
                 mail_take/2, with_agent/2 ]).
 :- use_module('../travel', [hop/6, hop_clone/6]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
@@ -51,7 +53,8 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
         life_may_move(Life, May),
         set_out(May, Dest, Hole, Goals, Id-Here, Next)
     ).
-effect(clone(Who), Hole, Goals, Id-_, go(Goals)) :-
+effect(clone(Who), Hole, Goals, Id-Here, go(Goals)) :-
+    may_clone(Id, Here),
     copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
     clone_id(Id, CloneId),
     noted_with(CloneId, Hole-Goals-Who, Id),
@@ -61,7 +64,8 @@ effect(clone(Host, Who), Hole, Goals, Id-Here, Next) :-
     destination(Host, Dest),
     (   Dest == local(Here)
     ->  effect(clone(Who), Hole, Goals, Id-Here, Next)
-    ;   clone_id(Id, CloneId),
+    ;   may_clone(Id, Here),
+        clone_id(Id, CloneId),
         event(hops, Here, Id, cloned(CloneId)),
         hop_clone(Id, Dest, CloneId, Who, Hole, Goals),
         Next = stop
@@ -106,6 +110,20 @@ effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
 noted_with(CloneId, Hole-Goals-Who, Id) :-
     \+ \+ ( Hole = (Who=parent(CloneId)),
             agent_put_down(Id, ready, Goals) ).
+
+%   Of all there are here of one program that have one home.
+
+may_clone(Id, Here) :-
+    quota(Here, clones, Most),
+    !,
+    agent(Id, _, _, Hash, _),
+    agent_home_endpoint(Id, Owner),
+    aggregate_all(count,
+                  ( agent(Other, Here, _, Hash, _),
+                    agent_home_endpoint(Other, Owner) ),
+                  Count),
+    ( Count > Most -> quota_passed(clones) ; true ).
+may_clone(_, _).
 
 infinite(Seconds) :- Seconds == inf.
 infinite(Seconds) :- Seconds == infinite.

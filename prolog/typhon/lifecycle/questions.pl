@@ -6,7 +6,8 @@
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host',
-              [address_parts/3, process_ask/6, time_now/1, time_wait/3]).
+              [ address_parts/3, audit/3, peer_may/3, process_ask/6, time_now/1,
+                time_wait/3 ]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2]).
 :- use_module('../travel', [whereabouts/2]).
 
@@ -127,8 +128,25 @@ seconds_left(by_day(Stamp), Seconds) :-
                 *            ANSWERS           *
                 *******************************/
 
-typhon_endpoint:requested(agent, question(Agent, Question), _, ReplyTo) :-
-    answer(Question, Agent, reply(ReplyTo)).
+typhon_endpoint:requested(agent, question(Agent, Question), Peer, ReplyTo) :-
+    (   agent(Agent, Host, _, _, _),
+        right_for(Question, Right),
+        \+ may_ask(Right, Peer, Host, Agent, Question)
+    ->  endpoint_reply(ReplyTo, error(permission_error(Right, agent, Agent)))
+    ;   answer(Question, Agent, reply(ReplyTo))
+    ).
+
+right_for(order(_), Right) => Right = orders.
+right_for(dispose, Right) => Right = orders.
+right_for(force, Right) => Right = orders.
+right_for(_, Right) => Right = watch.
+
+may_ask(Right, Peer, Host, Agent, Question) :-
+    peer_may(Peer, Host, Right),
+    (   Right == orders
+    ->  audit(Host, Peer, order(Agent, Question))
+    ;   true
+    ).
 
 answer(Question, Agent, Asker) :-
     (   here(Question, Agent, Asker)

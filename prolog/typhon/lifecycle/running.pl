@@ -4,15 +4,16 @@
               [ journal_on/0, journal_seal/0, journal_step/1, turn_commit/0,
                 turn_has_effects/0, turn_release/0, turn_run/1 ]).
 :- use_module('../program',
-              [ answer_at/3, code_module/2, machine_run/3, probe_next/2,
-                probe_start/3 ]).
+[answer_at/3, probe_next/2, probe_start/3]).
 :- use_module('../host', [context_clear/0, context_set/3, event/4]).
 :- use_module('../agent',
-              [ agent/5, agent_departs/3, agent_handles/2, agent_ordered/1,
-                agent_ready/2, agent_rest/3, agent_put_down/3, agent_take/3, agent_unorder/2,
+              [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
+                agent_ordered/1, agent_put_down/3, agent_ready/2, agent_rest/3,
+                agent_take/3, agent_unorder/2,
                 mail_take/2, with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
+:- use_module(metering, [metered_ball/1, metered_run/4]).
 :- use_module(on_hold, [held_resumes/2]).
 :- use_module(orders, [order_obey/3, order_take/2]).
 :- use_module(stepping, [is_probed/2, probe_rests/1, probed_goal/6]).
@@ -59,7 +60,7 @@ perform(leave(Dest, Hole, Goals, Since), Id) :-
     go_on(Next, Id).
 perform(run(Goals), Id) :-
     agent(Id, Host, Module, Hash, Life),
-    code_module(Hash, Program),
+    agent_code(Module, Program),
     context_set(Host, Id, Module),
     Context = context(Program, Module),
     (   is_probed(Life, Hash)
@@ -68,8 +69,8 @@ perform(run(Goals), Id) :-
     ),
     go_on(Next, Id).
 perform(resume(Probe), Id) :-
-    agent(Id, Host, Module, Hash, _),
-    code_module(Hash, Program),
+    agent(Id, Host, Module, _, _),
+    agent_code(Module, Program),
     context_set(Host, Id, Module),
     probed_on(Probe, Id, Host, context(Program, Module), Next),
     go_on(Next, Id).
@@ -84,17 +85,24 @@ go_on(elsewhere(Goals), Id) :-
 
 broken_off(Ball, Id) :-
     sig_atomic(( left,
+                 ( metered_ball(Outcome) -> true ; Outcome = disposed ),
+                 over_quota(Id, Outcome),
                  turn_commit,
-                 ignore(agent_end(Id, disposed)),
+                 ignore(agent_end(Id, Outcome)),
                  turn_release )),
     throw(Ball).
+
+over_quota(Id, raised(error(resource_error(What), _))) :-
+    !,
+    print_message(warning, typhon(over_quota(Id, What))).
+over_quota(_, _).
 
 left :-
     output_rest,
     context_clear.
 
 live(Goals0, Id, Host, Context, Next) :-
-    turn_run(machine_run(Context, Goals0, Outcome)),
+    turn_run(metered_run(Id-Host, Context, Goals0, Outcome)),
     concluded(Outcome, Goals0, Id, Host, Context, Next0),
     (   Next0 = go(Goals)
     ->  live(Goals, Id, Host, Context, Next)
@@ -182,6 +190,10 @@ conclude(done, _, Id, _, Context, Next) :-
     finish(Id, Context, Next).
 conclude(failed, Goals0, Id, _, _, stop) :-
     agent_fails(Id, failed, Goals0).
+conclude(over(What), _, Id, _, _, stop) :-
+    Outcome = raised(error(resource_error(What), _)),
+    over_quota(Id, Outcome),
+    ignore(agent_end(Id, Outcome)).
 conclude(raised(Error), Goals0, Id, _, _, stop) :-
     agent_fails(Id, raised(Error), Goals0).
 conclude(effect(Control, Hole, Goals), _, Id, Host, _, Next) :-

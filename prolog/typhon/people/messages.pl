@@ -169,6 +169,12 @@ prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
 prolog:message(typhon(order_failed(Agent, Formal))) -->
     [ 'Agent ~w could not obey: '-[Agent] ],
     explained(error(Formal, _)).
+prolog:message(typhon(not_let_in(Where, Formal))) -->
+    [ '~w: a host that guards would not let this in: '-[Where] ],
+    explained(error(Formal, _)).
+prolog:message(typhon(over_quota(Agent, What))) -->
+    [ 'Agent ~w is ended: it has used more ~w than its host allows'-
+      [Agent, What] ].
 prolog:message(typhon(runs_on(Agent, Seconds))) -->
     [ 'Agent ~w runs on after ~w s: it is disposed of when it stops next.'-
       [Agent, Seconds], nl,

@@ -1,10 +1,15 @@
 :- module(typhon_check,
-          [ agent_check/1               % +Spec
+          [ agent_check/1,              % +Spec
+            agent_check/2               % +Spec, +Options
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2, memberchk/2]).
+:- use_module(library(option), [option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module(advice, [problem_error/3]).
+:- use_module(allowed, [policy_read/1]).
+:- use_module(guard, [guard_program/3, guard_refuses/4]).
 :- use_module(mobile, [body_calls/2, built_in/1, mobile_predicates/3]).
 :- use_module(parts, [file_parts/4, library_directive/2, part/3]).
 :- use_module(programs,
@@ -18,6 +23,8 @@
 
 *Threading*: any thread.
 */
+
+:- multifile typhon_options:declared/4.
 
 %!  agent_check(+Spec) is det.
 %
@@ -45,6 +52,42 @@ agent_check(Spec) :-
     maplist(length, [Errors, Warnings, Undefined], [E, W0, U]),
     W is W0-U,
     print_message(informational, typhon(checked(Spec, E, W, U))).
+
+%!  agent_check(+Spec, +Options) is semidet.
+%
+%   As agent_check/1. With the option policy(Policy), see host_start/2, it is
+%   also looked at whether a host that guards would let the program or the
+%   payload in: fails if not, and what is refused is told as errors.
+
+agent_check(Spec, Options) :-
+    check_options(check_option, Options),
+    agent_check(Spec),
+    option(policy(Policy), Options, trusted),
+    (   Policy == trusted
+    ->  true
+    ;   policy_read(Policy),
+        raising_afresh(source_terms(Spec, Located, _, [], _)),
+        would_be_let_in(Policy, Spec, Located)
+    ).
+
+typhon_options:declared(check_option, policy(Policy), atom, Policy).
+
+would_be_let_in(Policy, Spec, Located) :-
+    ( is_payload(Located) -> Kind = payload ; Kind = agent ),
+    file_parts(Kind, Located, Parts, _),
+    part(rules, Parts, Rules),
+    findall(Rule, member(Rule-_, Rules), Clauses),
+    findall(Where-Formal,
+            ( member(Rule-Where, Rules),
+              guard_refuses(Policy, Clauses, Rule, Formal) ),
+            Refused),
+    forall(member(Where-Formal, Refused),
+           print_message(error, typhon(not_let_in(Where, Formal)))),
+    findall(Library-all, library_directive(Parts, Library-_), Libraries),
+    catch(guard_program(Policy, program(x, [], Libraries, []), _),
+          error(Formal, _),
+          ( print_message(error, typhon(not_let_in(Spec, Formal))), fail )),
+    Refused == [].
 
 report(Severity, Problem) :-
     problem_error(Problem, [], Error),

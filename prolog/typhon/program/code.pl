@@ -7,6 +7,7 @@
             code_sent/2,                % +Hash, -Sent
             code_stands/2,              % +Hash, +Places
             code_places/2,              % +Hash, -Places
+            code_make/3,                % +Program, +Kinds, -Module
             code_clear/0
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -151,17 +152,24 @@ install(Hash, Program, Kinds) :-
     (   retract(retired(Hash, Module))
     ->  true
     ;   evict,
-        flag(typhon_code_module, N, N+1),
-        atom_concat('program ', N, Module),
-        catch(fill(Module, Program, Kinds), error(Formal, Context),
-              ( '$destroy_module'(Module),
-                throw(error(Formal, Context)) ))
+        code_make(Program, Kinds, Module)
     ),
     assertz(code_program(Hash, Program)),
     assertz(code_module(Hash, Module)),
     Program = program(Name, _, _, _),
     forall(installed(Name, Module), true),
     debug(typhon(program), 'program ~w is in module ~q', [Hash, Module]).
+
+%!  code_make(+Program, +Kinds, -Module) is det.
+%
+%   A module with the clauses of Program, which who calls this has to keep.
+
+code_make(Program, Kinds, Module) :-
+    flag(typhon_code_module, N, N+1),
+    atom_concat('program ', N, Module),
+    catch(fill(Module, Program, Kinds), error(Formal, Context),
+          ( '$destroy_module'(Module),
+            throw(error(Formal, Context)) )).
 
 %!  code_clear is det.
 %
@@ -170,6 +178,7 @@ install(Hash, Program, Kinds) :-
 code_clear :-
     with_mutex(typhon_code,
                ( forall(code_module(Hash, _), retire(Hash)),
+                 forall(retiring(none), true),
                  findall(Module, retired(_, Module), Modules),
                  retractall(retired(_, _)),
                  maplist('$destroy_module', Modules)

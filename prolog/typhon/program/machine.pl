@@ -6,6 +6,8 @@
           ]).
 :- use_module(bodies,
               [body_goals/4, called_goal/2, goals_body/2, plain_goals/2]).
+:- multifile
+    guarded/3.                  % Context, Goal, Called: it may be called
 :- use_module(faults, [fails/2, fails_inside/2]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
@@ -53,9 +55,13 @@ special(sleep_until(_), control).
 special(receive_until(_, _, _), control).
 special(receive_until(_, _), control).  % in old restore points
 special('$fault'(_), control).          % stays as it was: see typhon_faulty
-special(Goal, call) :-                  % with more than one argument
+special(Goal, Kind) :-
     compound(Goal),
-    compound_name_arity(Goal, call, _).
+    compound_name_arity(Goal, Name, _),
+    by_name(Name, Kind).
+
+by_name(call, call).                    % with more than one argument
+by_name('$guarded', guarded).           % see typhon_guard
 
 %!  machine_run(+Context, +Goals, -Outcome) is det.
 %
@@ -178,6 +184,9 @@ special(call, Goal, Goals, X, Base, Out) :-
     ->  step(call(Called), Goals, X, Base, Out)
     ;   called(Goal, Goals, X, Base, Out)       % which raises
     ).
+special(guarded, Goal, Goals, X, Base, Out) :-
+    guarded(X, Goal, Called),
+    step(call(Called), Goals, X, Base, Out).
 
 %   called(+Goal, ...): a goal that is no construct is unfolded by a clause
 %   of the program or of the agent's own rules, or called natively.

@@ -7,13 +7,13 @@
 :- use_module('../wire',
               [endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2]).
 :- use_module('../host',
-              [ event/4, host/3, host_enter/3, host_hop/3, host_leave/1,
-                host_time/2, schedule/2, schedule_adopt/2, schedule_here/2,
+              [ audit/3, event/4, host/3, host_enter/3, host_hop/3, host_leave/1,
+                host_time/2, peer_may/3, schedule/2, schedule_adopt/2, schedule_here/2,
                 schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3,
                 image_enter/4, image_label/2, image_module/3, life_hops/2,
-                with_agent/2 ]).
+                policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(post, [post_waiting/2]).
@@ -80,6 +80,12 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     Label = label(Id, Hops, Hash, Tokens, _, _),
     (   ( crossing_known(Crossing) ; repeated(Id, Hops) )
     ->  Answer = accepted
+    ;   \+ peer_may(Peer, Name, agents)
+    ->  Answer = refused(peer)
+    ;   host(Name, _, Place),
+        policy_against(Place, Hash, Program, Reason)
+    ->  audit(Name, Peer, refused(Id, Reason)),
+        Answer = refused(Reason)
     ;   \+ has_code(Hash, Program)
     ->  Answer = need_program
     ;   host_enter(Name, Tokens, Entered),
@@ -108,7 +114,7 @@ has_code(Hash, Program) :-
 admitted(refused(Reason), _, _, _, _, refused(Reason)).
 admitted(ok, Name, Label, Image, Crossing-Peer, Answer) :-
     catch(install(Name, Label, Image, Crossing, Installed), Ball,
-          ( host_leave(Name), throw(Ball) )),
+          ( host_leave(Name), not_installed(Ball, Installed) )),
     installed(Installed, Name, Label, Peer, Answer).
 
 %   The host was stopped, or the program thrown out, since we looked; or
@@ -119,12 +125,19 @@ installed(in(Address, Gone), Name, Label, Peer, installed(Id)) :-
     Label = label(Id, _, _, _, _, _),
     call(Gone),
     report_arrival(Name, Address, Label, Peer).
+installed(refused(Reason), _, _, _, refused(Reason)).
 installed(repeated, Name, _, _, accepted) :-
     host_leave(Name).
 installed(unknown_host, Name, _, _, refused(unknown_host)) :-
     host_leave(Name).
 installed(need_program, Name, _, _, need_program) :-
     host_leave(Name).
+
+not_installed(Ball, Installed) :-
+    (   policy_refuses(Ball, Reason)
+    ->  Installed = refused(Reason)
+    ;   throw(Ball)
+    ).
 
 %   install(+Name, +Label, +Image, -Installed): all or nothing.
 

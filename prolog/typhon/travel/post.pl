@@ -13,6 +13,7 @@
                 journal_step/1, note_drop/3, turn_after/1, turn_defers/0,
                 turn_note_put/4 ]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
+:- use_module('../host', [peer_may/3]).
 :- use_module('../agent', [agent/5, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
 :- use_module(retries, [retry_later/3]).
@@ -141,12 +142,15 @@ on_or_later(Id, Letter) :-
     ;   retry_later(Id, Letter, Way)
     ).
 
-typhon_endpoint:received(message, message(Id, Mail, Left), _) :-
+typhon_endpoint:received(message, message(Id, Mail, Left), Peer) :-
     must_be(atom, Id),
     must_be(nonneg, Left),
     must_be(list(typhon_mail), Mail),
     (   Mail == []
     ->  true
+    ;   agent(Id, Host, _, _, _),
+        \+ peer_may(Peer, Host, messages)
+    ->  true                            % which is noted
     ;   pass_on(Id, letter(Mail, Left))
     ).
 

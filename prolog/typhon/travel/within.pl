@@ -5,13 +5,14 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
-              [ address_parts/3, event/4, event_heard/1, host/3, host_enter/3,
-                host_hop/3, host_leave/1, host_time/2, schedule/2,
+              [ address_parts/3, event/4, event_heard/1, guarding/0, host/3,
+                host_enter/3, host_hop/3, host_leave/1, host_time/2, schedule/2,
                 schedule_stays/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/2,
-                agent_module/5, agent_move/5, agent_put/3, agent_state/2,
-                agent_status/3, life_hop/3, life_tokens/2, with_agent/2 ]).
+              [ agent/5, agent_changed/4, agent_elsewhere/3, agent_may_stand/4,
+                agent_mobile/2, agent_move/5, agent_put/3, agent_standing/5,
+                agent_state/2, agent_status/3, life_hop/3, life_tokens/2,
+                policy_refuses/2, with_agent/2 ]).
 :- use_module(whereabouts, [agent_seen/4]).
 
 /** <module> Hops between hosts of one process
@@ -35,11 +36,14 @@ not matter here.
 %   @error move_refused(Address, Reason)
 
 hop_within(Id, Name, Hole, Goals, Since, Next) :-
-    agent(Id, Here, Module, _, Life0),
+    agent(Id, Here, Module, Hash, Life0),
     !,
     life_hop(Life0, Life, Hops),
     can_travel(Id, Module, Life-Goals, Until),
-    sig_atomic(enter(Id, Here-Name, going(Life, Until), Hole-Goals, How)),
+    (   kept_out(Name, Module, Hash, Goals, Reason)
+    ->  How = refused(Reason)
+    ;   sig_atomic(enter(Id, Here-Name, going(Life, Until), Hole-Goals, How))
+    ),
     went(How, Id, Here-Name, Hops, Since, Next).
 hop_within(_, _, _, _, _, stop).        % it was ended
 
@@ -52,6 +56,13 @@ went(refused(Reason), Id, Here-Name, Hops, _, _) :-
     debug(typhon(hop), '~w hop ~D: stays, ~w', [Id, Hops, Reason]),
     event(hops, Here, Id, stayed(Address)),
     throw(error(move_refused(Address, Reason), _)).
+
+kept_out(Name, Module, Hash, Goals, Reason) :-
+    guarding,
+    host(Name, _, Place),
+    catch(( agent_may_stand(Module, Hash, Place, Goals), fail ),
+          error(Formal, Context),
+          policy_refuses(error(Formal, Context), Reason)).
 
 %   Of the state only what has changed since it was last looked at.
 
@@ -97,16 +108,17 @@ told(Goal) :-
 
 %   An agent that was told to move has no hole.
 
-move(Id, Here-Name, going(Life, Until), Hole-Goals, Next) :-
+move(Id, Here-Name, going(Life, Until), Hole-Goals0, Next) :-
     host(Name, _, Place),
     agent_status(Id, Status, _),
     next(Status, Here-Name, Goals, Next),
     agent(Id, _, Module0, Hash, _),
     (   host(Here, _, Place0),
         agent_elsewhere(Module0, Place0, Place)
-    ->  Module = Module0
+    ->  Module = Module0,
+        Goals = Goals0
     ;   agent_state(Module0, State),
-        agent_module(Id, Place, Hash, State, Module)
+        agent_standing(Id, Place, Hash, State-Goals0, Module-Goals)
     ),
     ignore(Hole = true),
     agent_move(Id, Name, Module, Life, Until),

@@ -1,0 +1,79 @@
+:- use_module(common).
+:- use_module(traveller).
+:- use_module(library(typhon)).
+:- use_module(library(lists), [member/2, sum_list/2]).
+
+/*  What it costs that hosts guard: hops between two processes where both
+guard, against the same where none does, in turns in one run; and what is left
+of the speed of agents on a host that guards while hogs come there, one after
+the other, each of which is ended when it has passed its quota. */
+
+:- initialization(main, main).
+
+main([Placement]) :-
+    pinned(Placement, _-Prefix),
+    host_start(here),
+    with_peer(Prefix, guarded_hops(Placement)),
+    host_stop(here).
+
+guarded_hops(Placement, Peer) :-
+    travelled(1, 4000, Peer, _),        % warm up
+    findall(Plain-Guarded,
+            ( between(1, 5, _),
+              rate(Peer, trusted, Plain),
+              rate(Peer, guarded, Guarded) ),
+            Pairs),
+    findall(P, member(P-_, Pairs), Ps),
+    findall(G, member(_-G, Pairs), Gs),
+    sum_list(Ps, Plain0),
+    sum_list(Gs, Guarded0),
+    Plain is 5.0e6/Plain0,
+    Guarded is 5.0e6/Guarded0,
+    atomic_list_concat(['a hop between hosts that guard, ', Placement], Name),
+    ratio(Name, Guarded, Plain, us, 'a plain hop'),
+    set_policy(Peer, guarded),
+    host_change(here, quota([seconds(0.3)])),
+    forall(hog(What, Clauses), beside_hog(What, Clauses, Peer, Placement)).
+
+rate(Peer, Policy, Rate) :-
+    set_policy(Peer, Policy),
+    travelled(1, 4000, Peer, rates(Rate, _)).
+
+set_policy(Peer, Policy) :-
+    host_change(here, policy(Policy)),
+    host_change(Peer, policy(Policy)).
+
+beside_hog(What, Clauses, Peer, Placement) :-
+    travelled(10, 8000, Peer, rates(Alone, _)),
+    thread_create(hogs(Clauses), Thread),
+    travelled(10, 8000, Peer, rates(Beside, _)),
+    thread_send_message(Thread, stop),
+    thread_join(Thread, _),
+    atomic_list_concat(['hops of ten agents beside a hog of ', What, ', ',
+                        Placement], Name),
+    ratio(Name, Beside, Alone, '1/s', 'alone').
+
+%   One each half second.
+
+hogs(Clauses) :-
+    agent_create(clauses([(:- agent(hog, [state([s/1])]))|Clauses]), _,
+                 [host(here)]),
+    thread_self(Me),
+    (   thread_get_message(Me, stop, [timeout(0.5)])
+    ->  true
+    ;   hogs(Clauses)
+    ).
+
+hog(time, [ (main :- lp), (lp :- lp) ]).
+hog(stack, [ (main :- lr(0)), (lr(N) :- M is N+1, lr(M), true) ]).
+hog(findall, [ (main :- findall(X, between(1, inf, X), _)) ]).
+hog(strings, [ (main :- ls("abc")), (ls(S) :- string_concat(S, S, T), ls(T)) ]).
+hog(state, [ (main :- between(1, inf, X), assertz(s(X)), fail) ]).
+hog(tuples, [ (main :- between(1, inf, X), leave(s(X)), fail) ]).
+hog(messages, [ (main :- self(M), between(1, inf, X), send(M, X), fail) ]).
+hog(clones, [ (main :- clone(_), main) ]).
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(typhon(over_quota(_, _)), _, _).

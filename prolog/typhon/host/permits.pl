@@ -1,0 +1,115 @@
+:- module(typhon_permits,
+          [ peer_may/3,                 % +Peer, +Host, +Right
+            audit/3,                    % +Host, +Peer, +What
+            must_be_peer_rules/1        % +Rules
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../wire', [endpoint_proof/2]).
+:- use_module(hosts, [host_option/2]).
+
+/** <module> Which process may do what on a host
+
+The option peer(Rules) of a host is a list of Who-Rights.  Who is `cookie`,
+certificate(Name), or a pattern of these; Rights is `all` or a list out of
+
+  - agents: create agents here, and let them come
+  - messages: send messages to agents here
+  - orders: dispose of them, move, change them; link the host
+  - remote: run goals here, see remote/2
+  - watch: look at agents and at the properties of the host
+
+The first rule counts whose Who the peer is; who is in none may nothing.
+Without rules, who has the cookie may everything, who has a certificate
+everything but `remote`.
+
+With the option audit(File) each refusal and each order is a line there,
+
+    audit(Time, Host, Peer, Proof, What).
+
+*Threading*: any thread; a mutex keeps lines whole.
+*/
+
+right(agents).
+right(messages).
+right(orders).
+right(remote).
+right(watch).
+
+%!  must_be_peer_rules(+Rules) is det.
+%
+%   @error domain_error(peer_rule, Rule)
+
+must_be_peer_rules(Rules) :-
+    must_be(list, Rules),
+    maplist(must_be_rule, Rules).
+
+must_be_rule(Rule) :-
+    (   nonvar(Rule),
+        Rule = Who-Rights,
+        \+ \+ member(Who, [cookie, certificate(_)]),
+        rights(Rights)
+    ->  true
+    ;   domain_error(peer_rule, Rule)
+    ).
+
+rights(Rights) :-
+    Rights == all,
+    !.
+rights(Rights) :-
+    is_list(Rights),
+    forall(member(Right, Rights), ( ground(Right), right(Right) )).
+
+%!  peer_may(+Peer, +Host, +Right) is semidet.
+%
+%   The process at the address Peer has Right on Host.  That it has not is
+%   noted.
+
+peer_may(Peer, Host, Right) :-
+    (   host_option(Host, peer(Rules))
+    ->  endpoint_proof(Peer, Proof),
+        by_rules(Rules, Proof, Right)
+    ;   Right \== remote
+    ->  true
+    ;   endpoint_proof(Peer, cookie)
+    ),
+    !.
+peer_may(Peer, Host, Right) :-
+    audit(Host, Peer, refused(Right)),
+    fail.
+
+by_rules(Rules, Proof, Right) :-
+    member(Who-Rights, Rules),
+    subsumes_term(Who, Proof),
+    !,
+    (   Rights == all
+    ->  true
+    ;   memberchk(Right, Rights)
+    ).
+
+%!  audit(+Host, +Peer, +What) is det.
+
+audit(Host, Peer, What) :-
+    debug(typhon(audit), '~w at ~w: ~p', [Peer, Host, What]),
+    (   host_option(Host, audit(File))
+    ->  endpoint_proof(Peer, Proof),
+        get_time(Time),
+        catch(with_mutex(typhon_audit,
+                         note(File, audit(Time, Host, Peer, Proof, What))),
+              error(Formal, Context),
+              print_message(error, error(Formal, Context)))
+    ;   true
+    ).
+
+%   What a stranger has said is written so that it can be read again, and not
+%   at any length.
+
+note(File, Entry) :-
+    setup_call_cleanup(
+        open(File, append, Out, [encoding(utf8)]),
+        write_term(Out, Entry,
+                   [ quoted(true), ignore_ops(true), max_depth(20),
+                     fullstop(true), nl(true) ]),
+        close(Out)).

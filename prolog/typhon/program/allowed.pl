@@ -1,0 +1,275 @@
+:- module(typhon_allowed,
+          [ allowed/3,                  % +Policy, +Goal, -How
+            allowed_library/1,          % +Library
+            own_name/1,                 % +Head
+            policy_read/1               % +Policy
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), [member/2]).
+
+/** <module> What strangers may call
+
+By name alone, so that it does not depend on where an agent is: what
+library(sandbox) takes for safe whatever its arguments are, without what
+would still reach another agent, the process or those who watch it; the
+vocabulary of agents; and the predicates of some libraries without state.
+The libraries are part of the vocabulary, or may be asked for.
+
+*Threading*: the tables are made when the first policy is read.
+*/
+
+:- dynamic
+    seen_own/1,                 % Head: found to be one of own_name/1; bounded
+    rule/3,                     % Head, Policy, allow or refuse
+    free/1,                     % Head
+    runs/2.                     % Head, Spec: as of meta_predicate/1
+
+%!  allowed(+Policy, +Goal, -How) is semidet.
+%
+%   Policy is `guarded`, or a file that policy_read/1 has read.
+%
+%   @arg How is `free`, runs(Spec) if Goal calls some of its arguments, or
+%        look(Kind) if it depends on what these are
+
+allowed(Policy, Goal, _) :-
+    rule(Goal, Policy, refuse),
+    !,
+    fail.
+allowed(_, Goal, How) :-
+    looked_at(Goal, Kind),
+    !,
+    How = look(Kind).
+allowed(_, Goal, How) :-
+    runs(Goal, Spec),
+    !,
+    How = runs(Spec).
+allowed(_, Goal, free) :-
+    free(Goal),
+    !.
+allowed(Policy, Goal, free) :-
+    rule(Goal, Policy, allow).
+
+%   looked_at(?Goal, ?Kind)
+
+looked_at(assert(_), clause).
+looked_at(asserta(_), clause).
+looked_at(assertz(_), clause).
+looked_at(retract(_), pattern).
+looked_at(retractall(_), head).
+looked_at(clause(_, _), head).
+looked_at(throw(_), ball).
+looked_at(format(_, _, _), format).
+looked_at(atom_concat(_, _, _), text).
+looked_at(atomic_list_concat(_, _), text).
+looked_at(atomic_list_concat(_, _, _), text).
+looked_at(atom_codes(_, _), text).
+looked_at(atom_chars(_, _), text).
+looked_at(atom_string(_, _), text).
+looked_at(attach(_), payload).
+looked_at(term_to_atom(_, _), term_text).
+looked_at(term_string(_, _), term_text).
+looked_at(atom_to_term(_, _, _), term_text).
+
+%   What library(sandbox) lets pass, and we do not: it ends a thread or
+%   holds one, writes where people read, calls what messages and formats
+%   name, reads what others keep in the thread, or tells of the machine.
+
+withheld(abort).
+withheld(sleep(_)).
+withheld(writeln(_)).
+withheld(print_message(_, _)).
+withheld(message_to_string(_, _)).
+withheld(format_time(_, _, _)).
+withheld(format_time(_, _, _, _)).
+withheld(normalize_space(_, _)).
+withheld(b_getval(_, _)).
+withheld(nb_getval(_, _)).
+withheld(nb_current(_, _)).
+withheld(abolish_all_tables).
+withheld(thread_self(_)).
+withheld(statistics(_, _)).
+withheld(is_stream(_)).
+withheld(blob(_, _)).
+withheld(current_prolog_flag(_, _)).
+withheld(current_op(_, _, _)).
+withheld(import_module(_, _)).
+withheld(strip_module(_, _, _)).
+withheld(current_type(_, _, _)).
+withheld(variant_sha1(_, _)).           % of shared terms without end
+withheld(variant_hash(_, _)).
+withheld(name(_, _)).
+withheld(atomic_concat(_, _, _)).
+withheld(get_attr(_, _, _)).
+withheld(get_attrs(_, _)).
+withheld(del_attr(_, _)).
+withheld(del_attrs(_)).
+withheld(copy_term(_, _, _)).
+withheld(nb_setarg(_, _, _)).
+withheld(nb_linkarg(_, _, _)).
+withheld(nb_set_dict(_, _, _)).
+withheld(nb_link_dict(_, _, _)).
+withheld(dcg_translate_rule(_, _)).
+withheld(set_random(_)).                % is one for all
+withheld(random_property(_)).
+withheld(meta_options(_, _, _)).        % options that are goals
+withheld(foreach(_, _)).
+withheld(term_string(_, _, _)).         % with options
+withheld(deliver(_)).                   % what all on the host would call
+withheld(undeliver(_)).
+withheld(\(_)).
+withheld(\(_, _)).
+withheld(_^_).
+withheld(Head) :-
+    callable(Head),
+    functor(Head, Name, _),
+    sub_atom(Name, 0, _, _, $).
+
+%   What runs goals and belongs to the system.  `^` in a specification is a
+%   goal below variables.
+
+runs_of_system(findall(?, 0, -)).
+runs_of_system(findall(?, 0, -, ?)).
+runs_of_system(findnsols(+, ?, 0, -)).
+runs_of_system(forall(0, 0)).
+runs_of_system(bagof(?, ^, -)).
+runs_of_system(setof(?, ^, -)).
+runs_of_system(aggregate_all(?, 0, -)).
+runs_of_system(aggregate_all(?, ?, 0, -)).
+
+%!  allowed_library(+Library) is semidet.
+
+allowed_library(library(Name)) :-
+    member(Name, [ aggregate, apply, assoc, error, lists, option, ordsets,
+                  pairs, random, solution_sequences, ugraphs, rbtrees,
+                  heaps, yall ]).
+
+%!  own_name(+Head) is semidet.
+%
+%   An agent may have a predicate of that name that comes and goes: where it
+%   is not, nothing else is that was to be kept from it.
+
+own_name(Head) :-
+    functor(Head, Name, Arity),
+    functor(General, Name, Arity),
+    (   seen_own(General)
+    ->  true
+    ;   is_own(General),
+        remember(General)
+    ).
+
+remember(General) :-
+    (   predicate_property(seen_own(_), number_of_clauses(Count)),
+        Count > 5000
+    ->  retractall(seen_own(_))
+    ;   true
+    ),
+    assertz(seen_own(General)).
+
+is_own(Head) :-
+    functor(Head, Name, _),
+    \+ sub_atom(Name, 0, _, _, $),
+    \+ sub_atom(Name, 0, _, _, 'mobile '),
+    (   \+ predicate_property(typhon_vocabulary:Head, visible)
+    ->  true
+    ;   free(Head)
+    ).
+
+%!  policy_read(+Policy) is det.
+%
+%   Policy is `guarded`, or a file of rules, allow(Name/Arity) and
+%   refuse(Name/Arity): what strangers may call, too, and what they may not.
+%
+%   @error existence_error(source_sink, File), domain_error(policy_rule, Term)
+
+policy_read(Policy) :-
+    with_mutex(typhon_policies, fill),
+    rules_read(Policy).
+
+rules_read(guarded) :-
+    !.
+rules_read(File) :-
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        rules_in(In, Rules),
+        close(In)),
+    maplist(policy_rule, Rules, Heads),
+    with_mutex(typhon_policies,
+               ( retractall(rule(_, File, _)),
+                 forall(member(Head-Kind, Heads),
+                        assertz(rule(Head, File, Kind))) )).
+
+rules_in(In, Rules) :-
+    read_term(In, Term, [module(typhon_allowed_libraries)]),
+    (   Term == end_of_file
+    ->  Rules = []
+    ;   Rules = [Term|More],
+        rules_in(In, More)
+    ).
+
+policy_rule(Rule, Head-Kind) :-
+    (   ground(Rule),
+        Rule =.. [Kind,Name/Arity],
+        memberchk(Kind, [allow,refuse]),
+        atom(Name),
+        integer(Arity)
+    ->  functor(Head, Name, Arity)
+    ;   domain_error(policy_rule, Rule)
+    ).
+
+                /*******************************
+                *          THE TABLES          *
+                *******************************/
+
+%   free_head(-Head) is nondet.
+
+free_head(Head) :-
+    clause(sandbox:safe_primitive(Said), true),
+    head_of(Said, Head),
+    \+ \+ predicate_property(system:Head, defined).
+free_head(Head) :-
+    word(Head),
+    \+ predicate_property(typhon_vocabulary:Head, meta_predicate(_)).
+free_head(Head) :-
+    library_head(_, Head),
+    \+ predicate_property(typhon_vocabulary:Head, meta_predicate(_)).
+
+head_of(Said, _) :- var(Said), !, fail.
+head_of(_:Head, Head) :- !.
+head_of(Head, Head).
+
+word(Head) :-
+    module_property(Module, exports(PIs)),
+    memberchk(Module, [typhon_words, typhon_memory]),
+    member(Name/Arity, PIs),
+    functor(Head, Name, Arity).
+
+library_head(Module, Head) :-
+    allowed_library(Library),
+    use_module(typhon_allowed_libraries:Library),
+    absolute_file_name(Library, File, [file_type(prolog), access(read)]),
+    module_property(Module, file(File)),
+    module_property(Module, exports(PIs)),
+    member(Name/Arity, PIs),
+    functor(Head, Name, Arity).
+
+runs_head(Head, Spec) :-
+    runs_of_system(Spec),
+    functor(Spec, Name, Arity),
+    functor(Head, Name, Arity).
+runs_head(Head, Spec) :-
+    library_head(Module, Head),
+    Module \== yall,
+    predicate_property(Module:Head, meta_predicate(Spec)),
+    \+ ( arg(_, Spec, Mode), memberchk(Mode, [:, //]) ).
+
+fill :-
+    free(_),
+    !.
+fill :-
+    use_module(library(sandbox), []),
+    forall(( runs_head(Head, Spec), \+ withheld(Head), \+ runs(Head, _) ),
+           assertz(runs(Head, Spec))),
+    forall(( free_head(Head), \+ withheld(Head), \+ runs(Head, _),
+             \+ looked_at(Head, _), \+ free(Head) ),
+           assertz(free(Head))).

@@ -1,0 +1,42 @@
+/*  Hostile agents at random, on a host that guards.
+
+    swipl test/chaos/hostile.pl -- [--count N] [--seed N]
+
+Each agent has a seed of its own, from the one given on: `--count 1 --seed I`
+repeats one.  Harm that was done is printed with the seeds between which it was
+seen; the exit status is then 1.  A process that has gone is harm, too: the
+seeds it had come to are the last that were printed. */
+
+:- use_module('../lib/common').
+:- use_module(hostile_run).
+:- use_module(library(main), [argv_options/3, main/0]).
+
+:- initialization(main, main).
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+%   What happens to hostile agents need not be told.
+
+user:message_hook(Term, Kind, _) :-
+    memberchk(Kind, [error, warning, informational]),
+    nonvar(Term),
+    Term = typhon(_).
+
+opt_type(count, count, nonneg).
+opt_type(seed, seed, nonneg).
+opt_help(count, 'agents (default 500)').
+opt_help(seed, 'the first seed (default 1)').
+opt_meta(count, 'N').
+opt_meta(seed, 'N').
+
+main(Argv) :-
+    argv_options(Argv, _, Options),
+    hostile([progress(true)|Options], Faults),
+    forall(member(Fault, Faults), format("~p~n", [Fault])),
+    length(Faults, Count),
+    format("~d faults~n", [Count]),
+    (   Faults == []
+    ->  true
+    ;   halt(1)
+    ).

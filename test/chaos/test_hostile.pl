@@ -1,0 +1,20 @@
+:- module(test_hostile, []).
+:- use_module('../lib/common').
+:- use_module('../lib/fixtures').
+:- use_module(hostile_run).
+:- use_module(library(plunit)).
+
+/** <module> The short form of hostile.pl
+
+The seed is another each time; it is in what a failure shows.
+
+*Threading*: one test at a time.
+*/
+
+:- begin_tests(hostile).
+
+test(no_harm_by_hostile_agents, Faults-Seed == []-Seed) :-
+    Seed is random(1 000 000 000),
+    listening(no_leaks(hostile([count(600), seed(Seed)], Faults)), _).
+
+:- end_tests(hostile).
