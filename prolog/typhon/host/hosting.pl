@@ -68,6 +68,9 @@ other users of the process its endpoint, see typhon_runtime.
 %       host may have a port of its own, for which the process listens, too,
 %       as long as the host runs
 %     - bind(+Interface): default localhost; only for the first host
+%     - tls(+Directory): the keys of this process, see doc/keys.md; all its
+%       connections are TLS 1.3, both sides with certificates; only for the
+%       first host
 %     - capacity(+N): that many agents at the most, or `inf`
 %     - tokens(+List): an agent must carry one of them to be let in
 %     - concurrency(+N): that many agents run at a time, default `inf`
@@ -117,6 +120,7 @@ typhon_options:declared(host_option, Option, Type, Value) :-
 
 host_option_type(port(X), between(0, 65535), X).
 host_option_type(bind(X), atom, X).
+host_option_type(tls(X), atom, X).
 host_option_type(capacity(X), nonneg, X).
 host_option_type(capacity(X), oneof([inf]), X).
 host_option_type(tokens(X), list, X).
