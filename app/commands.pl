@@ -49,6 +49,8 @@ command(journal, 'DIR', 1,
         'tell what is in the journal of a process that does not run').
 command(keys, 'init | host NAME | author NAME | revoke NAME', 1-2,
         'make an authority, keys for hosts and authors, or end them').
+command(sign, 'PROGRAM', 1,
+        'sign an agent program, for hosts that ask for authors').
 command(diagnose, '[ADDRESS]', 0-2,
         'find out why a host, or with nxt PORT a robot, is not reached; or \c
          why python, mqtt URL, fipa URL, ros or ros URL does not work').
@@ -94,6 +96,8 @@ option(host, bind, atom, 'INTERFACE',
        'interface to listen at (default localhost)').
 option(host, capacity, nonneg, 'N',
        'admit that many agents').
+option(host, authors, atom, 'A,B',
+       'admit only programs that one of these has signed').
 option(host, tokens, atom, 'A,B',
        'admit only agents with one of these tokens').
 option(host, consult, file(read), 'FILE',
@@ -111,9 +115,12 @@ option(host, sync, atom, 'HOW',
 option(Command, tls, directory, 'DIR',
        'keys: speak TLS, with those who have some of the same authority') :-
     command(Command, _, _, _),
-    \+ memberchk(Command, [keys, check, story, picture]).
-option(keys, dir, atom, 'DIR',
-       'directory of the authority (default keys)').
+    \+ memberchk(Command, [keys, sign, check, story, picture]).
+option(Command, dir, atom, 'DIR',
+       'directory of the authority (default keys)') :-
+    memberchk(Command, [keys, sign]).
+option(sign, author, atom, 'NAME',
+       'who signs (required)').
 option(keys, days, natural, 'N',
        'host, author: the certificate lasts that long (default 825)').
 option(network, processes, natural, 'N',

@@ -2,7 +2,8 @@
           [ keys/3,                     % +What, +Names, +Options
             keys_init/1,                % +Directory
             keys_issue/4,               % +Kind, +Name, +Days, +Directory
-            keys_revoke/2               % +Name, +Directory
+            keys_revoke/2,              % +Name, +Directory
+            keys_sign_file/3            % +File, +Author, +Directory
           ]).
 
 /** <module> A small authority
@@ -15,8 +16,8 @@ authority is a directory:
     NAME/                       what the host or author NAME needs
 
 A directory NAME holds `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`: it goes
-to the machine of NAME, and nothing else does. All keys are of the curve
-P-256.
+to the machine of NAME, and nothing else does. All keys are RSA, of 3072 bits:
+on SWI-Prolog 9.0.4 library(crypto) crashes on those of curves.
 
 A certificate is for a host or for an author, not for both: with what is
 stolen from a host nobody can sign programs.
@@ -33,6 +34,8 @@ stolen from a host nobody can sign programs.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
+
+:- use_module('../prolog/typhon/program', [program_sign/2]).
 
 :- multifile prolog:error_message//1.
 
@@ -78,9 +81,8 @@ keys_init(Directory) :-
     authority_days(Days),
     openssl(Directory,
             [ req, '-x509', '-config', 'openssl.cnf', '-extensions', authority,
-              '-newkey', ec, '-pkeyopt', 'ec_paramgen_curve:P-256', '-nodes',
-              '-keyout', 'ca.key', '-out', 'ca.pem', '-days', Days,
-              '-subj', '/CN=typhon authority' ]),
+              '-newkey', 'rsa:3072', '-nodes', '-keyout', 'ca.key', '-out', 'ca.pem',
+              '-days', Days, '-subj', '/CN=typhon authority' ]),
     private(Directory, 'ca.key'),
     list_revoked(Directory).
 
@@ -109,6 +111,7 @@ default_crl_days = ~d
 policy = named
 unique_subject = yes
 [named]
+organizationalUnitName = supplied
 commonName = supplied
 [req]
 distinguished_name = name
@@ -120,7 +123,7 @@ keyUsage = critical, keyCertSign, cRLSign
 subjectKeyIdentifier = hash
 [host]
 basicConstraints = critical, CA:FALSE
-keyUsage = critical, digitalSignature, keyAgreement
+keyUsage = critical, digitalSignature, keyEncipherment
 extendedKeyUsage = critical, serverAuth, clientAuth
 subjectKeyIdentifier = hash
 authorityKeyIdentifier = keyid
@@ -159,11 +162,11 @@ issue(Kind, Name, Days, Directory, Own) :-
     own(Name, 'key.pem', Key),
     own(Name, 'request.pem', Request),
     own(Name, 'cert.pem', Certificate),
-    atom_concat('/CN=', Name, Subject),
+    atomic_list_concat(['/OU=', Kind, '/CN=', Name], Subject),
     openssl(Directory,
             [ req, '-new', '-config', 'openssl.cnf',
-              '-newkey', ec, '-pkeyopt', 'ec_paramgen_curve:P-256', '-nodes',
-              '-keyout', Key, '-out', Request, '-subj', Subject ]),
+              '-newkey', 'rsa:3072', '-nodes', '-keyout', Key,
+              '-out', Request, '-subj', Subject ]),
     private(Directory, Key),
     openssl(Directory,
             [ ca, '-batch', '-config', 'openssl.cnf', '-notext',
@@ -220,6 +223,21 @@ keys_revoke(Name, Directory) :-
     ;   existence_error(key, Name)
     ),
     list_revoked(Directory).
+
+%!  keys_sign_file(+File, +Author, +Directory) is det.
+%
+%   Write the signature of an agent program beside it.
+%
+%   @error existence_error(key, Author)
+
+keys_sign_file(File, Author, Directory) :-
+    must_be_name(Author),
+    directory_file_path(Directory, Author, Own),
+    directory_file_path(Own, 'key.pem', Key),
+    (   exists_file(Key)
+    ->  program_sign(File, Own)
+    ;   existence_error(key, Author)
+    ).
 
 list_revoked(Directory) :-
     openssl(Directory,

@@ -32,6 +32,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(journal, [journal_shown/2]).
 :- use_module(keys, [keys/3]).
+:- use_module(keys, [keys/3, keys_sign_file/3]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
 :- use_module(picture, [picture/3]).
@@ -165,6 +166,11 @@ run_connected(Command, Arguments, Options) :-
 run_connected(keys, [What|Names], Options) :-
     !,
     keys(What, Names, Options).
+run_connected(sign, [File], Options) :-
+    !,
+    required(sign, author(Author), Options),
+    option(dir(Directory), Options, keys),
+    keys_sign_file(File, Author, Directory).
 run_connected(Command, Arguments, Options) :-
     runtime_acquire(client, []),
     and_then(run(Command, Arguments, Options),
@@ -322,6 +328,8 @@ host_option(Options, Option) :-
     log_events_option(Options, Option).
 host_option(Options, tokens(Tokens)) :-
     comma_list(tokens(Text), Options, Text, Tokens).
+host_option(Options, authors(Authors)) :-
+    comma_list(authors(Text), Options, Text, Authors).
 host_option(Options, consult(Files)) :-
     findall(File, member(consult(File), Options), Files),
     Files \== [].

@@ -46,7 +46,7 @@ expired_host(Dir, Name) :-
     path(Name, 'key.pem', Key),
     path(Name, 'cert.pem', Certificate),
     path(Name, 'new.pem', Request),
-    atom_concat('/CN=', Name, Subject),
+    atom_concat('/OU=host/CN=', Name, Subject),
     openssl(Dir, [ req, '-new', '-config', 'openssl.cnf', '-key', Key,
                    '-out', Request, '-subj', Subject ]),
     openssl(Dir, [ ca, '-config', 'openssl.cnf', '-revoke', Certificate ]),

@@ -19,7 +19,7 @@
                 code_sent/2, code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
-              [ event/4, host/3, host_address/2, host_enter/3, host_leave/1,
+              [ event/4, host/3, host_address/2, host_enter/4, host_leave/1,
                 host_resolve/2, host_unknown/1, process_ask/6 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
@@ -255,8 +255,9 @@ start(Host, Name, Start, Answer) :-
 
 start(Host, Name, Start, Answer, Of) :-
     Start = start(_, Life, _, Goals, _),
+    Start = start(Hash, Life, _, Goals, _),
     life_tokens(Life, Tokens),
-    host_enter(Host, Tokens, Entered),
+    host_enter(Host, Hash, Tokens, Entered),
     (   Entered == ok
     ->  host(Host, Address, Place),
         id_of(Of, Name, Address, Id),

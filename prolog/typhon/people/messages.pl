@@ -114,6 +114,7 @@ missed(permission_error(use, cookie_file, File), Text) :-
 
 refusal(capacity) --> !, [ 'it is full' ].
 refusal(token) --> !, [ 'none of its tokens is wanted there' ].
+refusal(unsigned) --> !, [ 'none of its authors has signed the program' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
 refusal(Reason) --> [ '~p'-[Reason] ].
 

@@ -7,7 +7,7 @@
 :- use_module('../wire',
               [endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2]).
 :- use_module('../host',
-              [ event/4, host/3, host_enter/3, host_hop/3, host_leave/1,
+              [ event/4, host/3, host_enter/4, host_hop/3, host_leave/1,
                 host_time/2, schedule/2, schedule_adopt/2, schedule_here/2,
                 schedule_leave/0 ]).
 :- use_module('../agent',
@@ -84,6 +84,12 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     ->  Answer = need_program
     ;   host_enter(Name, Tokens, Entered),
         admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
+    ;   host_enter(Name, Hash, Tokens, Entered),
+        (   Entered == refused(unsigned),
+            Program == known            % he may have the signature
+        ->  Answer = need_program
+        ;   admitted(Entered, Name, Label, Image, Peer, Answer)
+        )
     ).
 
 repeated(Id, Hops) :-
@@ -99,10 +105,9 @@ repeated(Id, Hops) :-
 %   @error domain_error(program_of_hash(Hash), Program)
 
 has_code(Hash, Program) :-
-    (   code_module(Hash, _)
-    ->  true
-    ;   Program \== known,
-        code_receive(Hash, Program)
+    (   Program == known
+    ->  code_module(Hash, _)
+    ;   code_receive(Hash, Program)
     ).
 
 admitted(refused(Reason), _, _, _, _, refused(Reason)).

@@ -32,8 +32,9 @@ thread of its connection. What it may last in all is seen to by the keeper.
 
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [existence_error/2, permission_error/3, syntax_error/1]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2]).
+:- use_module('../base/keys', [keys_file/3]).
 :- use_module(hello, [line_read/3, line_write/2]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 
@@ -56,8 +57,8 @@ thread of its connection. What it may last in all is seen to by the keeper.
 
 secure_begin(Directory0) :-
     absolute_file_name(Directory0, Directory),
-    key_files(Directory, Files),
-    forall(arg(_, Files, File), must_be_there(File)),
+    forall(member(Which, [cert, key, ca, crl]),
+           must_be_there(Directory, Which)),
     context(server, Directory, _),
     assertz(directory(Directory)).
 
@@ -67,19 +68,16 @@ secure_end :-
 secure_directory(Directory) :-
     directory(Directory).
 
-key_files(Directory, keys(Certificate, Key, Authority, Revoked)) :-
-    maplist(directory_file_path(Directory),
-            ['cert.pem', 'key.pem', 'ca.pem', 'crl.pem'],
-            [Certificate, Key, Authority, Revoked]).
-
-must_be_there(File) :-
+must_be_there(Directory, Which) :-
+    keys_file(Directory, Which, File),
     (   exists_file(File)
     ->  true
     ;   existence_error(file, File)
     ).
 
 context(Role, Directory, Context) :-
-    key_files(Directory, keys(Certificate, Key, Authority, Revoked)),
+    maplist(keys_file(Directory), [cert, key, ca, crl],
+            [Certificate, Key, Authority, Revoked]),
     ssl_context(Role, Context,
                 [ certificate_file(Certificate),
                   key_file(Key),
