@@ -143,8 +143,6 @@ known_certificate(Directory, Pem, Certificate, Who) :-
 of_authority(Directory, Certificate) :-
     loaded(Directory, ca, load_certificate, Authority),
     certificate_field(Authority, public_key(Key)),
-    certificate_field(Certificate,
-                      signature_algorithm('sha256WithRSAEncryption')),
     certificate_field(Certificate, to_be_signed(Hex)),
     certificate_field(Certificate, signature(Signature)),
     string_lower(Hex, Lower),
