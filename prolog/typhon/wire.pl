@@ -23,5 +23,6 @@ This is the door of the layer: who is above takes what it needs from here.
              endpoint_missed/2, endpoint_peer/2]).
 :- reexport(wire/frame, [mobile_term/1]).
 :- reexport(wire/auth, [cookie/1, random_hex/2]).
+:- reexport(wire/text, [term_text/2, text_term/2]).
 :- reexport(wire/auth, [cookie/1]).
 :- reexport(wire/refusals, [tls_text/2]).

@@ -3,7 +3,7 @@
 /** <module> What is visible to agents
 
 This module is the import parent of all places.  It defines nothing: it
-brings together the vocabulary of agents (typhon_words, typhon_memory) and
+brings together the vocabulary of agents (typhon_words, typhon_memory, typhon_seals) and
 libraries without state that agents may use without asking.
 
 *Threading*: nothing happens here.
@@ -23,4 +23,5 @@ libraries without state that agents may use without asking.
 :- use_module(library(solution_sequences)).
 :- use_module(library(yall)).
 :- use_module(memory, [next_host/2]).
+:- use_module(seals).
 :- use_module(words).

@@ -25,7 +25,7 @@
               [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
                 agent_mail/2, agent_module/5, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_state/2, is_life/1, legacy_none/2,
-                life_clone/3, life_tokens/2, mail_count/2, make_life/2,
+                life_clone/3, life_tokens/2, mail_count/2, make_life/2, trail_none/2,
                 with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
@@ -224,7 +224,8 @@ agent_begin(Options, Name, Start, Agent) :-
 agent_clone_here(Id, Goals, CloneId) :-
     agent(Id, Host, Module, Hash, Life0),
     agent_state(Module, State0),
-    legacy_none(State0, State),
+    legacy_none(State0, State1),
+    trail_none(State1, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
     start(Host, Name, start(Hash, Life, State, Goals, []), Answer,

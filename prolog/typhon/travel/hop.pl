@@ -13,6 +13,8 @@
 :- use_module('../journal', [crash_point/1, journal_on/0]).
 :- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
+:- use_module('../agent', [agent/5, image_hash/2, image_trail/3, with_agent/2]).
+:- use_module(doubt, [doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
 :- use_module(legacies, [clone_born/2]).
 :- use_module(within, [hop_within/6]).
@@ -119,6 +121,13 @@ send(Transfer, Image) :-
             hop_request(Label, Name, Image, Program, Request),
             endpoint_request(Endpoint, hop, Request, answered(Transfer)),
             sent_noted
+send(Transfer, Image0) :-
+    arg(2, Transfer, dest(Address, Name, Endpoint)),
+    image_hash(Image0, Hash),
+    catch(( image_trail(handed(Address), Image0, Image),
+            program(Endpoint, Hash, Program),
+            endpoint_request(Endpoint, hop, hop(Name, Image, Program),
+                             answered(Transfer))
           ),
           error(Formal, _),
           not_sent(Formal, Transfer)).
