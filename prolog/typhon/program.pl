@@ -19,7 +19,7 @@ This is the door of the layer: who is above takes what it needs from here.
               code_program/2, code_sent/2, code_stands/2, code_clear/0
             ]).
 :- reexport(program/signatures,
-            [program_author/3, program_sign/2, program_signature/2]).
+            [program_author/3, program_sign/2]).
 :- reexport(program/machine, [answer_at/3, machine_inside/0, machine_run/3]).
 :- reexport(program/faults, [fault/3]).
 :- reexport(program/standing, [fault_where/4, where_handled/5]).

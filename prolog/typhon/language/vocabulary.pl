@@ -23,5 +23,5 @@ libraries without state that agents may use without asking.
 :- use_module(library(solution_sequences)).
 :- use_module(library(yall)).
 :- use_module(memory, [next_host/2]).
-:- use_module(seals).
+:- use_module(seals, [seal/3, unseal/2]).
 :- use_module(words).
