@@ -16,8 +16,9 @@ authority is a directory:
     NAME/                       what the host or author NAME needs
 
 A directory NAME holds `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`: it goes
-to the machine of NAME, and nothing else does. All keys are RSA, of 3072 bits:
-on SWI-Prolog 9.0.4 library(crypto) crashes on those of curves.
+to the machine of NAME, and nothing else does. All keys are RSA:
+on SWI-Prolog 9.0.4 library(crypto) crashes on those of curves. Those of hosts
+and authors have 2048 bits, since each hop takes two signatures.
 
 A certificate is for a host or for an author, not for both: with what is
 stolen from a host nobody can sign programs.
@@ -165,7 +166,7 @@ issue(Kind, Name, Days, Directory, Own) :-
     atomic_list_concat(['/OU=', Kind, '/CN=', Name], Subject),
     openssl(Directory,
             [ req, '-new', '-config', 'openssl.cnf',
-              '-newkey', 'rsa:3072', '-nodes', '-keyout', Key,
+              '-newkey', 'rsa:2048', '-nodes', '-keyout', Key,
               '-out', Request, '-subj', Subject ]),
     private(Directory, Key),
     openssl(Directory,

@@ -5,7 +5,7 @@
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [max_list/2, member/2]).
 
-/*  Hops between two processes with keys, and without.
+/*  Hops between two processes with keys, with keys and trail, and without.
 
     swipl bench/keys.pl
 
@@ -22,31 +22,37 @@ main :-
 
 compare(Dir) :-
     atom_concat(Dir, '/here', Keys),
-    findall(Plain-Secure,
+    findall(How-Rates,
             ( between(1, 4, _),
-              hops('', Plain),
-              hops(Keys, Secure) ),
-            Pairs),
-    forall(member(Agents, [1, 100]), compared(Agents, Pairs)).
+              member(How-Directory-Trail-Hops,
+                     [ plain-''-false-8000, tls-Keys-false-8000,
+                       trail-Keys-true-400 ]),
+              hops(Directory, Trail, Hops, Rates) ),
+            All),
+    forall(( member(How, [tls, trail]), member(Agents, [1, 100]) ),
+           compared(How, Agents, All)).
 
-compared(Agents, Pairs) :-
-    findall(R, ( member(Rs-_, Pairs), memberchk(Agents-R, Rs) ), Plains),
-    findall(R, ( member(_-Rs, Pairs), memberchk(Agents-R, Rs) ), Secures),
-    max_list(Plains, Plain),
-    max_list(Secures, Secure),
-    PlainHop is 1.0e6/Plain,
-    SecureHop is 1.0e6/Secure,
-    format(atom(Name), '~w agents: a hop over TLS against a plain one',
-           [Agents]),
-    ratio(Name, SecureHop, PlainHop, us, plain).
+compared(How, Agents, All) :-
+    best(plain, Agents, All, Plain),
+    best(How, Agents, All, Other),
+    format(atom(Name), '~w agents: a hop with ~w against a plain one',
+           [Agents, How]),
+    ratio(Name, Other, Plain, us, plain).
 
-hops(Keys, Rates) :-
+best(How, Agents, All, Microseconds) :-
+    findall(Rate, ( member(How-Rates, All), memberchk(Agents-Rate, Rates) ),
+            Some),
+    max_list(Some, Best),
+    Microseconds is 1.0e6/Best.
+
+hops(Keys, Trail, Hops, Rates) :-
     setenv('TYPHON_TLS', Keys),
-    host_start(here),
-    with_peer([env], hops_to(Rates)),
+    host_start(here, [trail(Trail)]),
+    with_peer([env], hops_to(Trail, Hops, Rates)),
     host_stop(here).
 
-hops_to([1-One, 100-Many], Peer) :-
-    travelled(1, 2000, Peer, _),        % warm up
-    travelled(1, 8000, Peer, rates(One, _)),
-    travelled(100, 20000, Peer, rates(Many, _)).
+hops_to(Trail, Hops, [1-One, 100-Many], Peer) :-
+    host_change(Peer, trail(Trail)),
+    travelled(1, 200, Peer, _),         % warm up
+    travelled(1, Hops, Peer, rates(One, _)),
+    travelled(100, Hops, Peer, rates(Many, _)).

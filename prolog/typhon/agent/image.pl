@@ -4,7 +4,7 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
-            image_trail/3,              % +Event, +Image0, -Image
+            image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Module
             image_enter/4               % +Image, +Host, +Module, +More
           ]).
@@ -62,14 +62,15 @@ start(Host, Since, Start) :-
     ;   Start = Since
     ).
 
-%!  image_trail(+Event, +Image0, -Image) is det.
+%!  image_trail(+Event, +Host, +Image0, -Image) is det.
 %
-%   Image has one link more in its trail, see trail_link/5.
+%   Image has one link more in its trail, of Host, a host of this process, see
+%   trail_link/5.
 
-image_trail(Event, image(Id, Hash, Life, State0, Goals, Mail, Start),
+image_trail(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
             image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     life_hops(Life, Hops),
-    trail_link(Event, of(Id, Hash, Hops), State0, Goals, State).
+    trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
 
 %!  image_hash(+Image, -Hash) is det.
 

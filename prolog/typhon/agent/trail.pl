@@ -42,7 +42,7 @@ The oldest links go when there are more than `links`.
               [ keys_certificate/2, keys_holder/3, keys_sign/3,
                 keys_verify/4 ]).
 :- use_module('../wire', [endpoint_address/1, endpoint_keys/1, term_text/2]).
-:- use_module('../host', [address_parts/3]).
+:- use_module('../host', [address_parts/3, host_option/2]).
 :- use_module(identity, [agent_home_endpoint/2]).
 
 :- setting(links, positive_integer, 256,
@@ -51,11 +51,13 @@ The oldest links go when there are more than `links`.
 %!  trail_link(+Event, +Label, +State0, +Goals, -State) is det.
 %
 %   State is State0, as of agent_state/2, with one link more, or State0
-%   itself where there are no keys. Event is handed(To) or received(At),
-%   Label is of(Id, Hash, Hops).
+%   itself where there are no keys, or the host does without. Event is
+%   handed(To) or received(At), Label is of(Host, Id, Hash, Hops).
 
 trail_link(Event, Label, state(Empty, Clauses0), Goals, State) :-
-    (   endpoint_keys(Keys)
+    (   endpoint_keys(Keys),
+        arg(1, Label, Host),
+        \+ host_option(Host, trail(false))
     ->  taken_out(Clauses0, Raw0, Rest),
         event(Event, Label, Rest, Goals, What),
         linked(Keys, What, Raw0, Raw),
@@ -69,7 +71,7 @@ taken_out(Clauses, Raw, Rest) :-
     !.
 taken_out(Clauses, '$trail'([], []), Clauses).
 
-event(Event, of(Id, Hash, Hops), Clauses, Goals, What) :-
+event(Event, of(_, Id, Hash, Hops), Clauses, Goals, What) :-
     Event =.. [Name, Where],
     sum(Clauses, State),
     sum(Goals, Doing),

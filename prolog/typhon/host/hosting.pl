@@ -72,6 +72,8 @@ other users of the process its endpoint, see typhon_runtime.
 %     - tls(+Directory): the keys of this process, see doc/keys.md; all its
 %       connections are TLS 1.3, both sides with certificates; only for the
 %       first host
+%     - trail(+Boolean): whether it signs what it receives and hands on of
+%       agents, see agent_trail/2; default `true` where there are keys
 %     - authors(+Names): admit only agents whose program one of these has
 %       signed, see doc/keys.md; needs tls(Directory)
 %     - capacity(+N): that many agents at the most, or `inf`
@@ -124,6 +126,7 @@ typhon_options:declared(host_option, Option, Type, Value) :-
 host_option_type(port(X), between(0, 65535), X).
 host_option_type(bind(X), atom, X).
 host_option_type(tls(X), atom, X).
+host_option_type(trail(X), boolean, X).
 host_option_type(authors(X), list(atom), X).
 host_option_type(capacity(X), nonneg, X).
 host_option_type(capacity(X), oneof([inf]), X).
@@ -317,6 +320,7 @@ change(Option, _) =>
 
 changes(tokens(_)).
 changes(authors(_)).
+changes(trail(_)).
 changes(capacity(_)).
 changes(hop_time(_)).
 changes(log(_)).

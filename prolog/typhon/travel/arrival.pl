@@ -12,7 +12,7 @@
                 schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3,
-                image_enter/4, image_label/2, image_module/3, image_trail/3, life_hops/2,
+                image_enter/4, image_label/2, image_module/3, image_trail/4, life_hops/2,
                 with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
 :- use_module(home, [agent_outcome/2]).
@@ -142,7 +142,7 @@ install(Name, Label, Image, Crossing, Installed) :-
 install(Name, Label, Image0, Installed) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _, _, _),
-        image_trail(received(Address), Image0, Image),
+        image_trail(received(Address), Name, Image0, Image),
         with_agent(Id, install(Id, Hops, Image, Name-Address, Place,
                                Installed))
     ;   Installed = unknown_host

@@ -14,6 +14,7 @@
 :- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
 :- use_module('../agent', [agent/5, image_hash/2, image_trail/3, with_agent/2]).
+:- use_module('../agent', [agent/5, image_hash/2, image_trail/4, with_agent/2]).
 :- use_module(doubt, [doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
 :- use_module(legacies, [clone_born/2]).
@@ -124,7 +125,7 @@ send(Transfer, Image) :-
 send(Transfer, Image0) :-
     arg(2, Transfer, dest(Address, Name, Endpoint)),
     image_hash(Image0, Hash),
-    catch(( image_trail(handed(Address), Image0, Image),
+    catch(( handed(Transfer, Address, Image0, Image),
             program(Endpoint, Hash, Program),
             endpoint_request(Endpoint, hop, hop(Name, Image, Program),
                              answered(Transfer))
@@ -155,6 +156,13 @@ typhon_doubt:again(Transfer) :-
     (   transfer_image(Transfer, Image)
     ->  send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
+    ).
+
+handed(Transfer, Address, Image0, Image) :-
+    arg(1, Transfer, Id),
+    (   agent(Id, Host, _, _, _)
+    ->  image_trail(handed(Address), Host, Image0, Image)
+    ;   Image = Image0                  % it was ended meanwhile
     ).
 
 %   The program is sent to those who lack it as far as we know.
