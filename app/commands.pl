@@ -113,6 +113,7 @@ option(host, journal, atom, 'DIR',
 option(host, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
 option(Command, tls, directory, 'DIR',
+option(Command, tls, atom, 'DIR',
        'keys: speak TLS, with those who have some of the same authority') :-
     command(Command, _, _, _),
     \+ memberchk(Command, [keys, sign, check, story, picture]).
