@@ -45,7 +45,7 @@ The oldest links go when there are more than `links`.
 :- use_module('../host', [address_parts/3, host_option/2]).
 :- use_module(identity, [agent_home_endpoint/2]).
 
-:- setting(links, positive_integer, 256,
+:- setting(links, positive_integer, 64,
            "So many links of the trail of an agent are kept").
 
 %!  trail_link(+Event, +Label, +State0, +Goals, -State) is det.
@@ -109,7 +109,8 @@ link_text(Before, What, N, Text) :-
 newest(Most, Links0, Links) :-
     length(Links0, Count),
     (   Count > Most
-    ->  append(Links, [_], Links0)
+    ->  length(Links, Most),
+        append(Links, _, Links0)
     ;   Links = Links0
     ).
 
@@ -159,7 +160,8 @@ of_trail('$trail'(_, _)).
 %   the host whose keys have signed it, and What handed(To), received(At) or
 %   entered(Result). Verdict is `whole`, or unaccounted(Name): Name is the
 %   host after which, or in whose hands, state or code have become what nobody
-%   answers for; `nobody` where that is so from the beginning.
+%   answers for; `nobody` where that is so from the beginning. It is since(N)
+%   where all is well from the N-th link on, and those before are gone.
 %
 %   @error existence_error(keys, here)
 
@@ -173,13 +175,29 @@ trail_verified(Id, Raw, trail(Steps, Verdict)) :-
         is_list(Links),
         is_list(Pems)
     ->  reverse(Links, Oldest),
-        steps(Oldest, with(Keys, Id, Pems), none, Steps, Verdict)
+        all_steps(Oldest, with(Keys, Id, Pems), Steps, Verdict)
     ;   Steps = [],
         Verdict = unaccounted(nobody)
     ).
 
-%   steps(+Links, +With, +Before, -Steps, -Verdict): Before is `none` or
-%   before(Link, Name).
+%   Where the oldest are gone, the first one that is left can only be known by
+%   what the second one says of its signature.
+
+all_steps([link(N, What, C, Hex)|Links], With, Steps, Verdict) :-
+    integer(N),
+    N > 0,
+    !,
+    steps(Links, With, since(link(N, What, C, Hex)), Steps, Verdict0),
+    (   Verdict0 == whole
+    ->  Since is N+1,
+        Verdict = since(Since)
+    ;   Verdict = Verdict0
+    ).
+all_steps(Links, With, Steps, Verdict) :-
+    steps(Links, With, none, Steps, Verdict).
+
+%   steps(+Links, +With, +Before, -Steps, -Verdict): Before is `none`,
+%   since(Link) or before(Link, Name).
 
 steps([], _, _, [], whole).
 steps([Link|Links], With, Before, Steps, Verdict) :-
@@ -196,17 +214,20 @@ steps([Link|Links], With, Before, Steps, Verdict) :-
         )
     ).
 
-%   Of the first that is left the one before may be gone.
-
 signed_by(link(N, What, C, Hex), with(Keys, _, Pems), Before, Name) :-
     ground(N-C-Hex),
     nth0(C, Pems, Pem),
-    (   Before = before(Last, _)
-    ->  link_text([Last], What, N, Text)
-    ;   link_text([], What, N, Text)
-    ),
+    before(Before, Last),
+    link_text(Last, What, N, Text),
     keys_verify(Keys, Text, signature(Pem, Hex), host(Name)).
 
+before(none, []).
+before(since(Last), [Last]).
+before(before(Last, _), [Last]).
+
+follows(link(_, What, _, _), with(_, Id, _), since(_), _) :-
+    !,
+    arg(1, What, Id).
 follows(link(_, What, _, _), with(Keys, Id, _), none, Name) :-
     !,
     arg(1, What, Id),

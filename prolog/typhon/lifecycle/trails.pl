@@ -20,7 +20,8 @@
 %   that it was handed(To), received(At), or has entered(Result). Verdict is
 %   `whole`, or unaccounted(Name): after that host, or in its hands, state or
 %   code have become what nobody answers for; of what came later there are no
-%   steps. Without keys on its way an agent has no steps.
+%   steps; or since(N), if all is well from the N-th link on, and those before
+%   are gone. Without keys on its way an agent has no steps.
 %
 %   @error existence_error(agent, Agent)
 %   @error existence_error(keys, here)

@@ -8,6 +8,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(plunit)).
+:- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 
 own(Authority, Name, Dir) :-
@@ -63,7 +64,20 @@ test(who_had_it_is_told_in_order) :-
 test(what_a_host_has_taken_away_is_missed) :-
     with_three(true, test_trails:taken_away).
 
+test(of_a_long_way_the_end_is_known,
+     [ cleanup(set_setting(typhon_trail:links, 64)) ]) :-
+    set_setting(typhon_trail:links, 4),
+    with_three(set_setting(typhon_trail:links, 4), test_trails:long_way).
+
 :- end_tests(trails).
+
+%   gamma keeps more than the others, who keep the newest four.
+
+long_way :-
+    toured(_, Trail),
+    verdict(Trail, Signed, Verdict),
+    assertion(Verdict = since(_)),
+    assertion(append(_, [gamma-handed, alpha-received], Signed)).
 
 honest :-
     toured(_, Trail),
@@ -86,27 +100,27 @@ taken_away :-
     toured(Agent, trail(_, whole)),
     typhon_agents:agent(Agent, _, Module, _, _),
     Module:'$trail'(Links, Pems),
-    findall(Forged-Last, forged(Links, Forged, Last), Cases),
+    findall(Forged-Expected, forged(Links, Forged, Expected), Cases),
     assertion(length(Cases, 5)),
-    forall(member(Forged-Last, Cases),
+    forall(member(Forged-Expected, Cases),
            ( typhon_trail:trail_verified(Agent, '$trail'(Forged, Pems),
                                          trail(_, Verdict)),
-             assertion(Verdict == unaccounted(Last)) )).
+             assertion(Verdict == Expected) )).
 
-%   forged(+Links, -Forged, -Last): newest first.
+%   forged(+Links, -Forged, -Verdict): newest first.
 
-forged(Links, Forged, beta) :-          % a result is changed
+forged(Links, Forged, unaccounted(beta)) :-          % a result is changed
     append(Before, [link(N, entered(Id, was(_)), C, S)|After], Links),
     N =:= 2,
     append(Before, [link(N, entered(Id, was(nothing)), C, S)|After], Forged).
-forged(Links, Forged, beta) :-          % it is taken away
+forged(Links, Forged, unaccounted(beta)) :-          % it is taken away
     append(Before, [link(2, _, _, _)|After], Links),
     append(Before, After, Forged).
-forged(Links, Forged, alpha) :-         % beta has seen another state
+forged(Links, Forged, unaccounted(alpha)) :-         % beta has seen another state
     append(Before, [link(1, received(A, B, C, D, _, F), G, H)|After], Links),
     append(Before, [link(1, received(A, B, C, D, x, F), G, H)|After], Forged).
-forged(Links, Forged, nobody) :-        % what was before beta is gone
+forged(Links, Forged, since(2)) :-      % what was before beta is gone
     append(Forged, [_], Links).
-forged(Links, Forged, nobody) :-
+forged(Links, Forged, unaccounted(nobody)) :-
     append(Before, [link(0, handed(_, B, C, D, E, F), G, H)], Links),
     append(Before, [link(0, handed(another, B, C, D, E, F), G, H)], Forged).
