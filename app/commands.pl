@@ -112,11 +112,10 @@ option(host, journal, atom, 'DIR',
        'what happens here outlives the process, in DIR').
 option(host, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
-option(Command, tls, directory, 'DIR',
 option(Command, tls, atom, 'DIR',
        'keys: speak TLS, with those who have some of the same authority') :-
     command(Command, _, _, _),
-    \+ memberchk(Command, [keys, sign, check, story, picture]).
+    \+ memberchk(Command, [keys, sign, check, story, picture, journal]).
 option(Command, dir, atom, 'DIR',
        'directory of the authority (default keys)') :-
     memberchk(Command, [keys, sign]).

@@ -31,7 +31,6 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(diagnose_bridges, [diagnose_bridge/2]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(journal, [journal_shown/2]).
-:- use_module(keys, [keys/3]).
 :- use_module(keys, [keys/3, keys_sign_file/3]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).

@@ -46,10 +46,8 @@
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
-                life_parent/2 ]).
-:- use_module('../travel', [post/3, post_abroad/4]).
                 life_parent/2, trail_enter/3 ]).
-:- use_module('../travel', [post/3]).
+:- use_module('../travel', [post/3, post_abroad/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
 

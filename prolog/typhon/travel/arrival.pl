@@ -82,13 +82,11 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     ->  Answer = accepted
     ;   \+ has_code(Hash, Program)
     ->  Answer = need_program
-    ;   host_enter(Name, Tokens, Entered),
-        admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
     ;   host_enter(Name, Hash, Tokens, Entered),
         (   Entered == refused(unsigned),
             Program == known            % he may have the signature
         ->  Answer = need_program
-        ;   admitted(Entered, Name, Label, Image, Peer, Answer)
+        ;   admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
         )
     ).
 
@@ -133,18 +131,13 @@ installed(need_program, Name, _, _, need_program) :-
 
 %   install(+Name, +Label, +Image, -Installed): all or nothing.
 
-install(Name, Label, Image, Crossing, Installed) :-
-    (   host(Name, Address, Place)
-    ->  Label = label(Id, Hops, _, _, _, _),
-        with_agent(Id, ( install(Id, Hops, Image, Crossing, Name-Address,
-                                 Place, Installed),
-                         journal_seal ))
-install(Name, Label, Image0, Installed) :-
+install(Name, Label, Image0, Crossing, Installed) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _, _, _),
         image_trail(received(Address), Name, Image0, Image),
-        with_agent(Id, install(Id, Hops, Image, Name-Address, Place,
-                               Installed))
+        with_agent(Id, ( install(Id, Hops, Image, Crossing, Name-Address,
+                                 Place, Installed),
+                         journal_seal ))
     ;   Installed = unknown_host
     ).
 

@@ -112,7 +112,6 @@ start(_, _, _, _) :-
     endpoint_address(Address),
     !,
     permission_error(start, endpoint, Address).
-start(Interface0, Port0, Address) :-
 start(none, Interface, Port, Address) :-
     start(Interface, Port, Address).
 start(keys(Directory), Interface, Port, Address) :-
@@ -120,7 +119,7 @@ start(keys(Directory), Interface, Port, Address) :-
     catch(start(Interface, Port, Address), Ball,
           ( secure_end, throw(Ball) )).
 
-start(Interface0, Port, Address) :-
+start(Interface0, Port0, Address) :-
     cookie(_),
     identity(Interface0, Port0, Interface1, Port),
     (   Interface1 == localhost
