@@ -47,6 +47,10 @@ command(page, '[LOG]', 0-1,
         'show the network of a running host in a browser, or replay a log').
 command(journal, 'DIR', 1,
         'tell what is in the journal of a process that does not run').
+command(keys, 'init | host NAME | author NAME | revoke NAME', 1-2,
+        'make an authority, keys for hosts and authors, or end them').
+command(sign, 'PROGRAM', 1,
+        'sign an agent program, for hosts that ask for authors').
 command(diagnose, '[ADDRESS]', 0-2,
         'find out why a host, or with nxt PORT a robot, is not reached; or \c
          why python, mqtt URL, fipa URL, ros or ros URL does not work').
@@ -65,6 +69,7 @@ footer(remote, 'Exit status 0: the goal was true. Variables that begin with _').
 footer(remote, 'are not printed; what the goal prints, is.').
 footer(page, 'Prints the link to the page; who has it may do what it shows. Runs until').
 footer(page, 'SIGTERM or SIGINT.  With LOG it writes a file that a browser opens.').
+footer(keys, 'DIR/NAME goes to the machine of NAME: host_start(H, [tls(DIR)]).').
 footer(stop, 'A `host` or `network` of the command line ends with its host.').
 footer(Command, 'AGENT is an id, as `agents` prints it, or with --host a name.') :-
     memberchk(Command, [send, move, dispose, join]).
@@ -91,6 +96,8 @@ option(host, bind, atom, 'INTERFACE',
        'interface to listen at (default localhost)').
 option(host, capacity, nonneg, 'N',
        'admit that many agents').
+option(host, authors, atom, 'A,B',
+       'admit only programs that one of these has signed').
 option(host, tokens, atom, 'A,B',
        'admit only agents with one of these tokens').
 option(host, consult, file(read), 'FILE',
@@ -105,6 +112,17 @@ option(host, journal, atom, 'DIR',
        'what happens here outlives the process, in DIR').
 option(host, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
+option(Command, tls, atom, 'DIR',
+       'keys: speak TLS, with those who have some of the same authority') :-
+    command(Command, _, _, _),
+    \+ memberchk(Command, [keys, sign, check, story, picture, journal]).
+option(Command, dir, atom, 'DIR',
+       'directory of the authority (default keys)') :-
+    memberchk(Command, [keys, sign]).
+option(sign, author, atom, 'NAME',
+       'who signs (required)').
+option(keys, days, natural, 'N',
+       'host, author: the certificate lasts that long (default 825)').
 option(network, processes, natural, 'N',
        'spread the hosts over N processes').
 option(network, bind, atom, 'INTERFACE',

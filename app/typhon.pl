@@ -31,6 +31,7 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(diagnose_bridges, [diagnose_bridge/2]).
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(journal, [journal_shown/2]).
+:- use_module(keys, [keys/3, keys_sign_file/3]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
 :- use_module(picture, [picture/3]).
@@ -112,6 +113,7 @@ dispatch([Command|Argv]) :-
     ;   check_options(Argv, Command),
         argv_options(typhon_app:Argv, Arguments, Options, []),
         check_count(Command, Positional, Arguments),
+        with_keys(Options),
         run_connected(Command, Arguments, Options)
     ).
 dispatch(Argv) :-
@@ -143,6 +145,14 @@ check_option(Option, Options, _) :-
 check_option(Option, Options, Command) :-
     throw(error(typhon_usage(unknown_option(Command, Option, Options)), _)).
 
+%   For whatever starts the endpoint.
+
+with_keys(Options) :-
+    (   option(tls(Directory), Options)
+    ->  setenv('TYPHON_TLS', Directory)
+    ;   true
+    ).
+
 %   Who asks needs an endpoint for the answer.
 
 run_connected(Command, Arguments, Options) :-
@@ -152,6 +162,14 @@ run_connected(Command, Arguments, Options) :-
     ),
     !,
     run(Command, Arguments, Options).
+run_connected(keys, [What|Names], Options) :-
+    !,
+    keys(What, Names, Options).
+run_connected(sign, [File], Options) :-
+    !,
+    required(sign, author(Author), Options),
+    option(dir(Directory), Options, keys),
+    keys_sign_file(File, Author, Directory).
 run_connected(Command, Arguments, Options) :-
     runtime_acquire(client, []),
     and_then(run(Command, Arguments, Options),
@@ -309,6 +327,8 @@ host_option(Options, Option) :-
     log_events_option(Options, Option).
 host_option(Options, tokens(Tokens)) :-
     comma_list(tokens(Text), Options, Text, Tokens).
+host_option(Options, authors(Authors)) :-
+    comma_list(authors(Text), Options, Text, Authors).
 host_option(Options, consult(Files)) :-
     findall(File, member(consult(File), Options), Files),
     Files \== [].
@@ -318,7 +338,7 @@ network_option(Options, machines(Machines)) :-
 network_option(Options, Option) :-
     member(Option, Options),
     Option =.. [Name|_],
-    \+ memberchk(Name, [machines, log, events]).
+    \+ memberchk(Name, [machines, log, events, tls]).
 network_option(Options, Option) :-
     log_events_option(Options, Option).
 

@@ -30,8 +30,10 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_label/2, image_module/3
+              image_label/2, image_module/3, image_trail/4
             ]).
+:- reexport(agent/trail,
+            [trail_enter/3, trail_none/2, trail_of/2, trail_verified/3]).
 :- reexport('agent/in_words').
 :- reexport('agent/fault').
 :- reexport(agent/payloads,

@@ -24,6 +24,8 @@ This is the door of the layer: who is above takes what it needs from here.
               guard_declares/2, guard_goals/3,
               guard_state/3 ]).
 :- reexport(program/guarded_code, [code_check/3, code_guarded/3]).
+:- reexport(program/signatures,
+            [program_author/3, program_sign/2]).
 :- reexport(program/machine, [answer_at/3, machine_inside/0, machine_run/3]).
 :- reexport(program/faults, [fault/3]).
 :- reexport(program/standing, [fault_where/4, where_handled/5]).

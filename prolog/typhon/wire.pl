@@ -9,7 +9,9 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(wire/endpoint,
             [ endpoint_address/1, endpoint_listen/2, endpoint_listen_end/1,
-              endpoint_open/0, endpoint_process/1, endpoint_start/3, endpoint_start_alone/1, endpoint_stop/0
+              endpoint_keys/1, endpoint_open/0, endpoint_process/1,
+              endpoint_proof/1, endpoint_start/3, endpoint_start/4,
+              endpoint_start_alone/1, endpoint_stop/0
             ]).
 :- reexport('wire/messaging').
 :- reexport(wire/lending, [endpoint_afterwards/1]).
@@ -22,3 +24,5 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('wire/proofs').
 :- reexport(wire/frame, [mobile_term/1]).
 :- reexport(wire/auth, [cookie/1, random_hex/2]).
+:- reexport(wire/text, [term_text/2, text_term/2]).
+:- reexport(wire/refusals, [tls_text/2]).

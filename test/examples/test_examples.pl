@@ -34,6 +34,8 @@ shows(rewrite,
       [ 'alpha is new to me', 'beta is new to me',
         'I know alpha', 'I know beta'
       ]).
+shows(voting,
+      [ 'agreed(12,3,of(4))' ]).
 shows(pheromone,
       [ 'road@*: 67 % from farm@*', 'wood@*: 100 % from farm@*',
         'farm@*: the fire is out'

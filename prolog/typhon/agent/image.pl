@@ -4,6 +4,7 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
+            image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Agent
             image_enter/4               % +Image, +Host, +Agent, +More
           ]).
@@ -15,6 +16,7 @@
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2]).
 :- use_module(legacy, [legacy_none/2]).
+:- use_module(trail, [trail_link/5, trail_none/2]).
 :- use_module(life,
               [ is_life/1, life_clone/3, life_hop/3, life_hops/2,
                 life_tokens/2 ]).
@@ -49,7 +51,8 @@ image_clone(Id, CloneId, Goals, Since,
     life_clone(Id, Life0, Life1),
     life_hop(Life1, Life, _),
     agent_state(Module, State0),
-    legacy_none(State0, State),
+    legacy_none(State0, State1),
+    trail_none(State1, State),
     start(Host, Since, Start).
 
 start(Host, Since, Start) :-
@@ -58,6 +61,16 @@ start(Host, Since, Start) :-
     ->  Start = Address-Since
     ;   Start = Since
     ).
+
+%!  image_trail(+Event, +Host, +Image0, -Image) is det.
+%
+%   Image has one link more in its trail, of Host, a host of this process, see
+%   trail_link/5.
+
+image_trail(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
+            image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+    life_hops(Life, Hops),
+    trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
 
 %!  image_hash(+Image, -Hash) is det.
 

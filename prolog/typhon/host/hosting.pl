@@ -19,6 +19,7 @@
                 journal_on/0, journal_open/2, journal_opened/1, note_drop/3,
                 note_put/4 ]).
 :- use_module('../wire', [endpoint_address/1, endpoint_open/0]).
+:- use_module('../wire', [endpoint_keys/1]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(front, [front_set/3]).
@@ -71,6 +72,13 @@ other users of the process its endpoint, see typhon_runtime.
 %       host may have a port of its own, for which the process listens, too,
 %       as long as the host runs
 %     - bind(+Interface): default localhost; only for the first host
+%     - tls(+Directory): the keys of this process, see doc/keys.md; all its
+%       connections are TLS 1.3, both sides with certificates; only for the
+%       first host
+%     - trail(+Boolean): whether it signs what it receives and hands on of
+%       agents, see agent_trail/2; default `true` where there are keys
+%     - authors(+Names): admit only agents whose program one of these has
+%       signed, see doc/keys.md; needs tls(Directory)
 %     - capacity(+N): that many agents at the most, or `inf`
 %     - tokens(+List): an agent must carry one of them to be let in
 %     - concurrency(+N): that many agents run at a time, default `inf`
@@ -128,6 +136,9 @@ typhon_options:declared(host_option, Option, Type, Value) :-
 
 host_option_type(port(X), between(0, 65535), X).
 host_option_type(bind(X), atom, X).
+host_option_type(tls(X), atom, X).
+host_option_type(trail(X), boolean, X).
+host_option_type(authors(X), list(atom), X).
 host_option_type(capacity(X), nonneg, X).
 host_option_type(capacity(X), oneof([inf]), X).
 host_option_type(tokens(X), list, X).
@@ -249,6 +260,7 @@ start_host(Name, Endpoint, Options) :-
     ->  true
     ;   Epoch = 0, Rate = 1
     ),
+    must_have_keys(Options),
     option(concurrency(Concurrency), Options, inf),
     place_parts(Options, Files, Services),
     place_create(Name, Files, Services, Place),
@@ -263,6 +275,16 @@ start_host(Name, Endpoint, Options) :-
     forall(begins(Name), true),
     event(hosts, Name, none, started),
     debug(typhon(host), '~w is started', [Address]).
+
+%   Without an authority nobody's signature means anything.
+
+must_have_keys(Options) :-
+    (   \+ memberchk(authors(_), Options)
+    ->  true
+    ;   endpoint_keys(_)
+    ->  true
+    ;   existence_error(host_option, tls)
+    ).
 
 place_parts(Options, Files, Services) :-
     option(consult(Files0), Options, []),
@@ -334,6 +356,8 @@ quota_anew(Name) :-
 
 changes(audit(_)).
 changes(tokens(_)).
+changes(authors(_)).
+changes(trail(_)).
 changes(capacity(_)).
 changes(hop_time(_)).
 changes(log(_)).

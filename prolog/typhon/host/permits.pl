@@ -7,7 +7,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../wire', [endpoint_proof/2]).
+:- use_module('../wire', [endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module(hosts, [host_option/2]).
 
 /** <module> Which process may do what on a host
@@ -22,8 +22,8 @@ certificate(Name), or a pattern of these; Rights is `all` or a list out of
   - watch: look at agents and at the properties of the host
 
 The first rule counts whose Who the peer is; who is in none may nothing.
-Without rules, who has the cookie may everything, who has a certificate
-everything but `remote`.
+Without rules, who has the cookie may everything; where there is TLS, who has
+our own certificate may, and who has another, everything but `remote`.
 
 With the option audit(File) each refusal and each order is a line there,
 
@@ -73,7 +73,8 @@ peer_may(Peer, Host, Right) :-
         by_rules(Rules, Proof, Right)
     ;   Right \== remote
     ->  true
-    ;   endpoint_proof(Peer, cookie)
+    ;   endpoint_proof(Peer, Proof),
+        endpoint_own_proof(Proof)
     ),
     !.
 peer_may(Peer, Host, Right) :-

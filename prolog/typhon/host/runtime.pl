@@ -6,14 +6,14 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/erased', [forget_erased/0]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_listen/2, endpoint_listen_end/1,
-                endpoint_start/3, endpoint_start_alone/1, endpoint_stop/0 ]).
+              [ endpoint_address/1, endpoint_keys/1, endpoint_listen/2, endpoint_listen_end/1,
+                endpoint_start/4, endpoint_start_alone/1, endpoint_stop/0 ]).
 :- use_module(scheduler, [scheduler_forget/0]).
 :- use_module(time, [time_kind/1, time_start/1, time_stop/0]).
 
@@ -41,7 +41,9 @@ hooks beginning/1 and ending/1.
 %
 %   User, any ground term, needs endpoint and time.  Endpoint is the address
 %   at which he is reached.  Options port(P) and bind(Interface) are for the
-%   first user; of later ones the interface may only be what it is, and
+%   first user, as is tls(Directory), by default that of the environment
+%   variable `TYPHON_TLS`; of later ones interface and keys may only be what
+%   they are, and
 %   another port is listened to as long as one of them needs it.  The same
 %   goes for time(Kind), `real` or `virtual`: who does not say is content with
 %   either.  In virtual time the endpoint reaches nobody else, and ports mean
@@ -91,9 +93,20 @@ start(Options) :-
 start_endpoint(real, Options) :-
     option(port(Port), Options, 0),
     option(bind(Interface), Options, localhost),
-    endpoint_start(Interface, Port, _).
+    keys(Options, Keys),
+    endpoint_start(Interface, Port, Keys, _).
 start_endpoint(virtual, _) :-
     endpoint_start_alone('virtual:0').
+
+%   Who starts nothing himself, as a guest, has no other way to say it than
+%   the environment.
+
+keys(Options, Keys) :-
+    (   ( option(tls(Directory), Options)
+        ; getenv('TYPHON_TLS', Directory), Directory \== '' )
+    ->  Keys = keys(Directory)
+    ;   Keys = none
+    ).
 
 must_agree(time(Kind)) :-
     \+ time_kind(Kind),
@@ -105,6 +118,9 @@ must_agree(Option) :-
     ;   true
     ).
 
+disagrees(tls(Directory0)) :-
+    absolute_file_name(Directory0, Directory),
+    \+ endpoint_keys(Directory).
 disagrees(bind(Interface)) :-
     Interface \== localhost,
     endpoint_address(Endpoint),

@@ -3,7 +3,7 @@
 /** <module> What is visible to agents
 
 This module is the import parent of all places.  It defines nothing: it
-brings together the vocabulary of agents (typhon_words, typhon_memory) and
+brings together the vocabulary of agents (typhon_words, typhon_memory, typhon_seals) and
 libraries without state that agents may use without asking.
 
 *Threading*: nothing happens here.
@@ -26,4 +26,5 @@ libraries without state that agents may use without asking.
 :- use_module(guarded,
               [ '$guarded'/1, '$guarded'/2, '$guarded'/3, '$guarded'/4,
                 '$guarded'/5, '$guarded'/6, '$guarded'/7, '$guarded'/8 ]).
+:- use_module(seals, [seal/3, unseal/2]).
 :- use_module(words).

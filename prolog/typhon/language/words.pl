@@ -23,6 +23,7 @@
             pheromone/3,                % ?Problem, -Source, -Strength
             log/1,                      % +What
             result/1,                   % +Term
+            enter/1,                    % +Result
             message_failed/2,           % +From, +Message
             move/1,                     % +Host
             clone/1,                    % -Who
@@ -46,7 +47,7 @@
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
-                life_parent/2, life_payloads/2 ]).
+                life_parent/2, life_payloads/2, trail_enter/3 ]).
 :- use_module('../travel', [post/3, post_abroad/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
@@ -323,6 +324,21 @@ log(What) :-
         host_log(Host, Agent, What)
     ;   print_message(informational, typhon(log(Host, Agent, What)))
     ).
+
+%!  enter(+Result) is det.
+%
+%   Result goes into the trail of this agent, signed by the host on which it
+%   stands: later ones cannot take it away or change it unseen, see
+%   agent_trail/2.  They can read it, unless it is sealed, see seal/3.
+%
+%   @error type_error(mobile_term, Culprit)
+%   @error existence_error(keys, here)
+
+enter(Result) :-
+    mobile_term(Result),
+    context_agent(Id),
+    agent(Id, _, Module, _, _),
+    trail_enter(Module, Id, Result).
 
 %!  result(+Term) is det.
 %

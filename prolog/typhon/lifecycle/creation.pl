@@ -19,14 +19,14 @@
                 code_sent/2, code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
-              [ audit/3, event/4, host/3, host_address/2, host_enter/3, host_leave/1,
+              [ audit/3, event/4, host/3, host_address/2, host_enter/4, host_leave/1,
                 host_resolve/2, host_unknown/1, peer_may/3, process_ask/6 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
                 agent_mail/2, agent_name/3, agent_ready/2, agent_rest/3,
                 agent_standing/5, agent_state/2, is_life/1, legacy_none/2,
                 life_clone/3, life_tokens/2, mail_count/2, make_life/2,
-                policy_against/4, policy_refuses/2, with_agent/2 ]).
+                trail_none/2, policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
 
@@ -241,7 +241,8 @@ agent_begin(Options, Name, Start, Agent) :-
 agent_clone_here(Id, Goals, CloneId) :-
     agent(Id, Host, Module, Hash, Life0),
     agent_state(Module, State0),
-    legacy_none(State0, State),
+    legacy_none(State0, State1),
+    trail_none(State1, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
     start(Host, Name, start(Hash, Life, State, Goals, []), Answer,
@@ -271,9 +272,9 @@ start(Host, Name, Start, Answer) :-
     journal_barrier.
 
 start(Host, Name, Start, Answer, Of) :-
-    Start = start(_, Life, _, _, _),
+    Start = start(Hash, Life, _, _, _),
     life_tokens(Life, Tokens),
-    host_enter(Host, Tokens, Entered),
+    host_enter(Host, Hash, Tokens, Entered),
     (   Entered == ok
     ->  host(Host, Address, Place),
         id_of(Of, Name, Address, Id),

@@ -140,7 +140,8 @@ property(payloads(Names), Agent) :-
 visible(Clauses, Clause) :-
     member(Clause, Clauses),
     Clause \= '$memory'(_),
-    Clause \= '$legacy'(_).
+    Clause \= '$legacy'(_),
+    Clause \= '$trail'(_, _).
 
 %!  status_shown(+Status, -State) is det.
 %

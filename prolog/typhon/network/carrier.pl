@@ -137,8 +137,9 @@ carrier_main :-
     set_stream(user_input, encoding(utf8)),
     set_stream(user_output, encoding(utf8)),
     set_stream(user_output, buffer(line)),
-    read_term(user_input, node(Cookie, Interface, Seconds), []),
+    read_term(user_input, node(Cookie, Interface, Seconds, Keys), []),
     setenv('TYPHON_COOKIE', Cookie),
+    with_keys(Keys),
     thread_create(see_to_end(Seconds), _,
                   [alias(typhon_end), detached(true)]),
     on_signal(term, _, typhon_carrier:on_stop_signal),
@@ -153,6 +154,10 @@ carrier_main :-
     flush_output,
     serve,
     stop.
+
+with_keys(none).
+with_keys(keys(Directory)) :-
+    setenv('TYPHON_TLS', Directory).
 
 %   This room knows only what it needs: agents need the rest.
 

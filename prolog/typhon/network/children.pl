@@ -16,7 +16,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/output', [output_own/0]).
-:- use_module('../wire', [cookie/1]).
+:- use_module('../wire', [cookie/1, endpoint_keys/1]).
 :- use_module(voice, [voice_heard/2]).
 
 /** <module> Processes that carry the hosts of a network
@@ -74,6 +74,7 @@ has ended.
 child_start(Tag, Machine, Interface, OnEvent, child(Pid, In, Thread)) :-
     command(Machine, Interface, Program, Args, Bind),
     cookie(Cookie),
+    keys(Keys),
     setting(stop_seconds, Seconds),
     process_create(Program, Args,
                    [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
@@ -83,8 +84,16 @@ child_start(Tag, Machine, Interface, OnEvent, child(Pid, In, Thread)) :-
     thread_create(follow(Tag, Pid, Out, OnEvent), Thread, [alias(Alias)]),
     debug(typhon(network), 'process ~w of ~w is started: ~w, ~p',
           [Pid, Tag, Program, Args]),
-    catch(tell(In, node(Cookie, Bind, Seconds)), error(io_error(_, _), _),
+    catch(tell(In, node(Cookie, Bind, Seconds, Keys)), error(io_error(_, _), _),
           true).                % it has ended already: down(Tag, _) follows
+
+%   Who has TLS is understood only by who has it, too.
+
+keys(Keys) :-
+    (   endpoint_keys(Directory)
+    ->  Keys = keys(Directory)
+    ;   Keys = none
+    ).
 
 %   Tags need not be unique, and may be any term.
 

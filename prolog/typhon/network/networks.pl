@@ -73,6 +73,9 @@ none of its own.
 %       that they can reach.
 %     - bind(Interface)
 %       Of the endpoints on this machine; default `localhost`.
+%     - tls(Directory)
+%       The keys of this process, as of host_start/2, and of the children; on
+%       other machines they are in a directory of the same name.
 %     - hosts(Options)
 %       Options for host_start/2, for each of the hosts.
 %     - places(Places)
@@ -146,10 +149,11 @@ build(Network, Plan) :-
 
 listen(Network, Plan) :-
     plan_time(Plan, Kind),
-    (   plan_option(Plan, bind(Interface))
-    ->  runtime_acquire(network(Network), [time(Kind), bind(Interface)])
-    ;   runtime_acquire(network(Network), [time(Kind)])
-    ).
+    findall(Option,
+            ( member(Option, [bind(_), tls(_)]),
+              plan_option(Plan, Option) ),
+            Options),
+    runtime_acquire(network(Network), [time(Kind)|Options]).
 
 interface(Plan, Interface) :-
     (   plan_option(Plan, bind(Interface0))

@@ -64,6 +64,7 @@ typhon_options:declared(network_option, Option, Type, Value) :-
 option_type(processes(P), positive_integer, P).
 option_type(machines(Machines), list, Machines).
 option_type(bind(Interface), atom, Interface).
+option_type(tls(Directory), atom, Directory).
 option_type(hosts(Options), list, Options).
 option_type(hop_time(Time), nonvar, Time).
 option_type(clock(Rate), nonvar, Rate).

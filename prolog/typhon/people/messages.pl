@@ -12,7 +12,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../wire', [endpoint_missed/2]).
+:- use_module('../wire', [endpoint_missed/2, tls_text/2]).
 :- use_module('../host', [address_parts/3, host_property/2]).
 :- use_module('../base/names', [names/2, names_proposed/3]).
 :- use_module(happenings, [happening/3, short_name/2]).
@@ -107,11 +107,14 @@ missed(permission_error(authenticate, peer, protocol),
 missed(permission_error(authenticate, peer, version(Version)), Text) :-
     format(atom(Text), 'it speaks another version of the protocol, ~w',
            [Version]).
+missed(permission_error(authenticate, peer, tls(Why)), Text) :-
+    tls_text(Why, Text).
 missed(permission_error(use, cookie_file, File), Text) :-
     format(atom(Text), 'the cookie file ~w may not be used', [File]).
 
 refusal(capacity) --> !, [ 'it is full' ].
 refusal(token) --> !, [ 'none of its tokens is wanted there' ].
+refusal(unsigned) --> !, [ 'none of its authors has signed the program' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
 refusal(Reason) --> [ '~p'-[Reason] ].
 

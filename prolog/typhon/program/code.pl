@@ -20,6 +20,7 @@
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(places, [is_places/1]).
 :- use_module(programs, [program_hash/2]).
+:- use_module(signatures, [program_signature/2, signature_keep/2]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> Programs installed in this process
@@ -84,7 +85,7 @@ rule_at_no_place(Clause, (Head:-Body)-none) :-
 %!  code_receive(+Hash, +Sent) is det.
 %
 %   Sent is what others need to have the program: the program, or
-%   Program-Places.  The second is as code_install/2, for what somebody else
+%   Program-Places, or signed(_, Signature) with one of these.  The second is as code_install/2, for what somebody else
 %   says has this Hash.
 %
 %   @error domain_error(program_of_hash(Hash), Program)
@@ -92,12 +93,20 @@ rule_at_no_place(Clause, (Head:-Body)-none) :-
 code_sent(Hash, Sent) :-
     code_program(Hash, Program),
     (   stands(Hash, Places)
-    ->  Sent = Program-Places
-    ;   Sent = Program
+    ->  Sent0 = Program-Places
+    ;   Sent0 = Program
+    ),
+    (   program_signature(Hash, Signature)
+    ->  Sent = signed(Sent0, Signature)
+    ;   Sent = Sent0
     ).
 
 code_receive(Hash, Sent) :-
-    (   subsumes_term(_-_, Sent),
+    (   subsumes_term(signed(_, _), Sent)
+    ->  Sent = signed(Sent1, Signature),
+        code_receive(Hash, Sent1),
+        signature_keep(Hash, Signature)
+    ;   subsumes_term(_-_, Sent),
         Sent = Program-Places,
         is_places(Places)
     ->  receive(Hash, Program),

@@ -10,6 +10,7 @@
 :- use_module(paths, [program_file/2]).
 :- use_module(advice, [problem_error/3]).
 :- use_module(programs, [program_hash/2, program_read/7]).
+:- use_module(signatures, [signature_read/2]).
 :- use_module(source, [source_same/1, source_settled/1]).
 
 /** <module> Programs that were read lately
@@ -65,12 +66,21 @@ load(Key, _, Loaded) :-
     Loaded = Loaded0.
 load(Key, Spec, Loaded) :-
     read_program(Spec, Loaded, Sources, Warnings),
+    signature(Spec, Loaded),
     debug(typhon(program), 'read ~w', [Key]),
     warn(Spec, Sources, Warnings),
     (   source_settled(Sources)
     ->  with_mutex(typhon_loaded, remember(Key, Sources, Loaded))
     ;   true
     ).
+
+%   What stands beside a file may say who has signed it.
+
+signature(File, loaded(_, _, Hash, _, _)) :-
+    atom(File),
+    !,
+    signature_read(File, Hash).
+signature(_, _).
 
 read_program(Spec, loaded(Program, Initial, Hash, Kinds, Places), Sources,
              Warnings) :-

@@ -7,12 +7,13 @@
 :- use_module('../wire',
               [endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2]).
 :- use_module('../host',
-              [ audit/3, event/4, host/3, host_enter/3, host_hop/3, host_leave/1,
+              [ audit/3, event/4, host/3, host_enter/4, host_hop/3, host_leave/1,
                 host_time/2, peer_may/3, schedule/2, schedule_adopt/2, schedule_here/2,
                 schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3,
-                image_enter/4, image_label/2, image_module/3, life_hops/2,
+                image_enter/4, image_label/2, image_module/3, image_trail/4,
+                life_hops/2,
                 policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
 :- use_module(home, [agent_outcome/2]).
@@ -88,8 +89,12 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
         Answer = refused(Reason)
     ;   \+ has_code(Hash, Program)
     ->  Answer = need_program
-    ;   host_enter(Name, Tokens, Entered),
-        admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
+    ;   host_enter(Name, Hash, Tokens, Entered),
+        (   Entered == refused(unsigned),
+            Program == known            % he may have the signature
+        ->  Answer = need_program
+        ;   admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
+        )
     ).
 
 repeated(Id, Hops) :-
@@ -105,10 +110,9 @@ repeated(Id, Hops) :-
 %   @error domain_error(program_of_hash(Hash), Program)
 
 has_code(Hash, Program) :-
-    (   code_module(Hash, _)
-    ->  true
-    ;   Program \== known,
-        code_receive(Hash, Program)
+    (   Program == known
+    ->  code_module(Hash, _)
+    ;   code_receive(Hash, Program)
     ).
 
 admitted(refused(Reason), _, _, _, _, refused(Reason)).
@@ -141,9 +145,10 @@ not_installed(Ball, Installed) :-
 
 %   install(+Name, +Label, +Image, -Installed): all or nothing.
 
-install(Name, Label, Image, Crossing, Installed) :-
+install(Name, Label, Image0, Crossing, Installed) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _, _, _),
+        image_trail(received(Address), Name, Image0, Image),
         with_agent(Id, ( install(Id, Hops, Image, Crossing, Name-Address,
                                  Place, Installed),
                          journal_seal ))

@@ -9,7 +9,7 @@
 :- use_module('../wire',
               [endpoint_address/1, endpoint_request/4, mobile_term/1]).
 :- use_module('../host', [address_parts/3, host/3, host_time/2]).
-:- use_module('../agent', [agent/5, image_hash/2, with_agent/2]).
+:- use_module('../agent', [agent/5, image_hash/2, image_trail/4, with_agent/2]).
 :- use_module('../journal', [crash_point/1, journal_on/0]).
 :- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
@@ -110,10 +110,11 @@ set_out(Transfer, Held, Mail, Since, Image) :-
 %   send(+Transfer, +Image): what cannot be sent, such as too long a frame,
 %   stays.
 
-send(Transfer, Image) :-
-    arg(2, Transfer, dest(_, Name, Endpoint)),
-    image_hash(Image, Hash),
-    catch(( program(Endpoint, Hash, Program),
+send(Transfer, Image0) :-
+    arg(2, Transfer, dest(Address, Name, Endpoint)),
+    image_hash(Image0, Hash),
+    catch(( handed(Transfer, Address, Image0, Image),
+            program(Endpoint, Hash, Program),
             transfer_traveller(Transfer, Who, _),
             crossing_label(Who, Endpoint, Label),
             hop_request(Label, Name, Image, Program, Request),
@@ -146,6 +147,13 @@ typhon_doubt:again(Transfer) :-
     (   transfer_image(Transfer, Image)
     ->  send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
+    ).
+
+handed(Transfer, Address, Image0, Image) :-
+    arg(1, Transfer, Id),
+    (   agent(Id, Host, _, _, _)
+    ->  image_trail(handed(Address), Host, Image0, Image)
+    ;   Image = Image0                  % it was ended meanwhile
     ).
 
 %   The program is sent to those who lack it as far as we know.

@@ -6,7 +6,7 @@
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
               [ address_parts/3, event/4, event_heard/1, guarding/0, host/3,
-                host_enter/3, host_hop/3, host_leave/1, host_time/2, schedule/2,
+                host_enter/4, host_hop/3, host_leave/1, host_time/2, schedule/2,
                 schedule_stays/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_may_stand/4,
@@ -42,7 +42,8 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     can_travel(Id, Module, Life-Goals, Until),
     (   kept_out(Name, Module, Hash, Goals, Reason)
     ->  How = refused(Reason)
-    ;   sig_atomic(enter(Id, Here-Name, going(Life, Until), Hole-Goals, How))
+    ;   sig_atomic(enter(Id, Here-Name, Hash-going(Life, Until), Hole-Goals,
+                         How))
     ),
     went(How, Id, Here-Name, Hops, Since, Next).
 hop_within(_, _, _, _, _, stop).        % it was ended
@@ -74,14 +75,14 @@ can_travel(Id, Module, Others, Until) :-
     agent_changed(Module, Since, Clauses, Until),
     mobile_term(Clauses-Others).
 
-%   enter(+Id, +Hosts, +Going, +Held, -How): How is moved(Next), `ended`, or
+%   enter(+Id, +Hosts, +HashAndGoing, +Held, -How): How is moved(Next), `ended`, or
 %   refused(Reason).  Nobody keeps the room that was taken for one who does
 %   not come.
 
-enter(Id, Here-Name, Going, Held, How) :-
+enter(Id, Here-Name, Hash-Going, Held, How) :-
     Going = going(Life, _),
     life_tokens(Life, Tokens),
-    host_enter(Name, Tokens, Answer),
+    host_enter(Name, Hash, Tokens, Answer),
     (   Answer == ok
     ->  catch(moved(Id, Here-Name, Going, Held, Left, How), Ball,
               ( host_leave(Name),

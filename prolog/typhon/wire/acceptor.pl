@@ -21,7 +21,7 @@ mutex: the acceptor gives and takes them, the thread of a client says how
 far it has come and gives its own back.
 */
 
-:- use_module(library(error), [permission_error/3, syntax_error/1]).
+:- use_module(library(error), [syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -29,6 +29,7 @@ far it has come and gives its own back.
 :- use_module(connection, [incoming/5, open_streams/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(refusals, [refusals_begin/0, refused/2]).
+:- use_module(secure, [secure_first/2]).
 :- use_module(threads,
               [ wire_thread_create/4, wire_thread_running/1,
                 wire_thread_signal/2 ]).
@@ -97,18 +98,16 @@ admit(In, Out, Ip, Me) :-
 let_in(In, Out, Ip, Me, Evicted) :-
     (   wait_for_input([In], [_], 0)
     ->  peek_byte(In, Byte),
-        check_first(Byte)
+        check_first(Byte, Out)
     ;   true
     ),
     slot(give(In, Out, Ip, Me, Evicted)).
 
-check_first(0't) :-
-    !.
-check_first(-1) :-
+check_first(-1, _) :-
     !,
     syntax_error(end_of_file).
-check_first(_) :-
-    permission_error(authenticate, peer, protocol).
+check_first(Byte, Out) :-
+    secure_first(Byte, Out).
 
 close_streams(In, Out) :-
     close(Out, [force(true)]),

@@ -58,7 +58,7 @@ in one fact; two threads that read it at once store the same.
 %   a nonce.
 %
 %   @error permission_error(authenticate, peer, Why) Why: cookie, protocol,
-%   version(Theirs)
+%   version(Theirs), tls(wanted)
 %   @error timeout_error(read, In)
 %   @error syntax_error(Message) what comes is no hello.
 
@@ -116,7 +116,7 @@ check_protocol(Line) :-
     ;   permission_error(authenticate, peer, What)
     ).
 
-%   speaks(+Line, -What): `ours`, version(Number) or `protocol`.
+%   speaks(+Line, -What): `ours`, version(Number), tls(wanted) or `protocol`.
 
 speaks(Line, What) :-
     protocol(Protocol),
@@ -127,6 +127,8 @@ speaks(Line, What) :-
         number_string(Version, Number),
         integer(Version)
     ->  What = version(Version)
+    ;   Line == "typhon tls"            % see secure.pl
+    ->  What = tls(wanted)
     ;   What = protocol
     ).
 

@@ -13,7 +13,7 @@ _Threading_: incoming/5 and outgoing/2 are the goals of threads of the wire.
 */
 
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(library(error), [domain_error/2, syntax_error/1]).
 :- use_module(library(settings), [setting/2]).
 :- use_module(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
@@ -24,9 +24,10 @@ _Threading_: incoming/5 and outgoing/2 are the goals of threads of the wire.
 :- use_module(lending, [lent_away/0]).
 :- use_module(meeting, [meet/7, own_session/1, prove/5]).
 :- use_module(reader, [read_frames/3]).
-:- use_module(refusals, [refused/2]).
+:- use_module(refusals, [refused/2, tls_text/2]).
 :- use_module(request, [connection_is/2]).
 :- use_module(resumption, [session_left/0, session_lost/2]).
+:- use_module(secure, [secure_close/0, secure_first/2, secure_streams/6]).
 :- use_module(session, [route_add/2, session_adopting/2, session_peer/3]).
 
 :- multifile
@@ -45,21 +46,26 @@ _Threading_: incoming/5 and outgoing/2 are the goals of threads of the wire.
 
 incoming(In, Out, Ip, Stage, Me) :-
     catch(with_streams(call(Stage, silent), In, Out,
-                       ( await_word(In),
+                       ( await_word(In, Out),
                          call(Stage, heard),
-                         prove(server, In, Out, Me, Peer),
+                         secure_streams(server, In, Out, SIn, SOut, Proof),
+                         prove(server, SIn, SOut, Me, Peer),
                          call(Stage, proved),
                          nb_setval(typhon_proved, true),
-                         meet(server, In, Out, Me, Peer, Session,
+                         meet(server, SIn, SOut, Me, Peer-Proof, Session,
                               reachable(Peer, Ip)),
-                         serve(Session, In, Out) )),
+                         serve(Session, SIn, SOut) )),
           error(Formal, _),
           turned_away(Ip, Formal)).
 
-await_word(In) :-
+await_word(In, Out) :-
     setting(typhon_auth:handshake_time, Seconds),
     set_stream(In, timeout(Seconds)),
-    peek_byte(In, _).
+    peek_byte(In, Byte),
+    (   Byte == -1
+    ->  syntax_error(end_of_file)
+    ;   secure_first(Byte, Out)
+    ).
 
 turned_away(Ip, Formal) :-
     debug(typhon(connect), '~w: it came in vain: ~p', [Ip, Formal]),
@@ -106,10 +112,11 @@ outgoing(Address, Me) :-
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
-                         ( prove(Role, In, Out, Me, Peer),
-                           meet(Role, In, Out, Me, Peer, Session,
+                         ( secure_streams(client, In, Out, SIn, SOut, Proof),
+                           prove(Role, SIn, SOut, Me, Peer),
+                           meet(Role, SIn, SOut, Me, Peer-Proof, Session,
                                 found(Address, Interface, Peer)),
-                           serve(Session, In, Out) ))
+                           serve(Session, SIn, SOut) ))
           ),
           error(Formal, _),
           missed(Address, Formal)).
@@ -127,7 +134,8 @@ found(Address, Interface, Peer, Session) :-
 missed(Address, Formal) :-
     (   Formal = socket_error(econnrefused, _)
     ->  contact_gone(Address)
-    ;   Formal = permission_error(authenticate, peer, version(_))
+    ;   Formal = permission_error(authenticate, peer, Why),
+        memberchk(Why, [version(_), tls(_)])
     ->  print_message(warning, typhon(endpoint, foreign(Address, Formal)))
     ;   true
     ),
@@ -154,6 +162,7 @@ with_streams(Open, In, Out, Goal) :-
         Open,
         Goal,
         ( session_left,
+          secure_close,
           close_stream(Out),
           close_stream(In) )).
 
@@ -211,8 +220,12 @@ report_break(Session, Formal) :-
     session_peer(Session, _, Address),
     (   nb_current(typhon_proved, true) % it came to us by another way
     ->  Level = silent
-    ;   memberchk(Formal, [io_error(_, _), socket_error(_, _),
-                           syntax_error(truncated_frame)])
+    ;   memberchk(Formal,
+                  [ io_error(_, _), socket_error(_, _),
+                    syntax_error(truncated_frame),
+                    ssl_error(_, _, _, 'unexpected eof while reading'),
+                    ssl_error(_, _, _, 'tlsv1 alert decode error') % he says
+                  ])                                               % the same
     ->  Level = silent
     ;   Level = warning
     ),
@@ -220,6 +233,12 @@ report_break(Session, Formal) :-
 
 :- multifile prolog:message//1.
 
+prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
+    { arg(3, Formal, tls(Why)),
+      tls_text(Why, Text)
+    },
+    !,
+    [ 'Endpoint: no connection with ~w: ~w'-[Address, Text] ].
 prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
     { arg(3, Formal, version(Theirs)) },
     [ 'Endpoint: ~w speaks another version of the protocol, ~w'

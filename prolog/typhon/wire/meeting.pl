@@ -52,14 +52,14 @@ prove(server, In, Out, Me, Peer) :-
 
 %!  meet(+Role, +In, +Out, +Me, +Peer, -Session, :Known) is semidet.
 %
-%   Give the connection to the session with Peer. call(Known, Session) notes
+%   Peer is Hello-Proof. Give the connection to the session with Peer. call(Known, Session) notes
 %   the addresses that lead to it before that: whoever gives it a connection
 %   does so for all.
 
-meet(Role, In, Out, Me, Peer, Session, Known) :-
+meet(Role, In, Out, Me, Peer-Proof, Session, Known) :-
     hello_codec(Me, Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
-    session_open(Key, Peer, Codec, Session),
+    session_open(Key, Peer-Proof, Codec, Session),
     call(Known, Session),
     hello_peer(Peer, _, _, Address),
     debug(typhon(session), '~w: a connection, with ~w, ~w',

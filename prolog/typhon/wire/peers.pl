@@ -18,14 +18,17 @@ _Threading_: any thread.
 :- use_module(library(lists), [member/2]).
 :- use_module(contacts, [contact/3, missed/2]).
 :- use_module(outbox, [session_flush/2]).
-:- use_module(session, [route/2, session/2, session_codec/2, session_key/2]).
+:- use_module(session,
+              [ route/2, session/2, session_codec/2, session_key/2,
+                session_proof/2 ]).
 :- use_module(transport, [route_up/2, session_up/1]).
 :- use_module(unacked, [session_pending/2]).
 
 %!  endpoint_peer(?Address, ?Property) is nondet.
 %
 %   Property of the peer at Address: process(Id), the one last met there,
-%   state(up or down), pending(Frames), codec(fast or text).
+%   state(up or down), pending(Frames), codec(fast or text), proof(cookie or
+%   certificate(Name)).
 
 endpoint_peer(Address, process(Id)) :-
     contact(Address, Id, _),
@@ -44,6 +47,8 @@ peer_property(pending(Count), Session) :-
     session_pending(Session, Count).
 peer_property(codec(Codec), Session) :-
     session_codec(Session, Codec).
+peer_property(proof(Proof), Session) :-
+    session_proof(Session, Proof).
 
 %!  endpoint_left(+Address) is semidet.
 %!  endpoint_gone(+Address) is semidet.

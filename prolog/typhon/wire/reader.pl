@@ -30,6 +30,7 @@ counted.
               [ session_control/2, session_later/1, session_push/1,
                 session_release/1 ]).
 :- use_module(request, [session_unfinished/1]).
+:- use_module(secure, [secure_input/2]).
 :- use_module(session, [session_codec/2, session_key/2, session_peer/3]).
 :- use_module(taking, [frame_term/3, take_bundle/2, take_frame/2]).
 :- use_module(unacked, [session_acked/3, session_sent/2]).
@@ -136,7 +137,7 @@ afterwards(Session, In, State) :-
 more_first(In) :-
     current_prolog_flag(cpu_count, Processors),
     Processors > 2,
-    sig_atomic(wait_for_input([In], [_], 0)).
+    sig_atomic(secure_input(In, 0)).
 
 %   Answers that were left in the buffer go with the next frame that
 %   somebody sends, or now: when there are many, or nothing comes in for a
@@ -154,7 +155,7 @@ push_late(Session, In) :-
     ;   late_answers(Max),
         Count < Max,
         late_seconds(Seconds),
-        sig_atomic(wait_for_input([In], [_], Seconds))
+        sig_atomic(secure_input(In, Seconds))
     ->  true
     ;   session_push(Session)
     ).

@@ -1,6 +1,7 @@
 :- module(typhon_refusals,
           [ refused/2,                  % +Ip, +Why
-            refusals_begin/0
+            refusals_begin/0,
+            tls_text/2                  % +Why, -Text
           ]).
 
 /** <module> Telling of those who were turned away
@@ -164,7 +165,45 @@ why(crowd) -->
     !, [ 'there are too many' ].
 why(line) -->
     !, [ 'it said too much' ].
+why(tls(Why)) -->
+    { tls_text(Why, Text) },
+    !, [ '~w'-[Text] ].
 why(several) -->
     !, [ 'for several reasons' ].
 why(Why) -->
     [ '~p'-[Why] ].
+
+                 /*******************************
+                 *              TLS             *
+                 *******************************/
+
+%!  tls_text(+Why, -Text:atom) is det.
+%
+%   Why is that of permission_error(authenticate, peer, tls(Why)), see
+%   secure_streams/6.
+
+tls_text(Why, Text) :-
+    (   said(Why, Text0)
+    ->  Text = Text0
+    ;   flaw(Why, Flaw)
+    ->  atom_concat('its certificate ', Flaw, Text)
+    ;   Why = his(His),
+        flaw(His, Flaw)
+    ->  atom_concat('it says that our certificate ', Flaw, Text)
+    ;   format(atom(Text), 'TLS failed: ~p', [Why])
+    ).
+
+said(missing, 'it speaks without TLS').
+said(wanted, 'it wants TLS, and we have no keys').
+said(unknown, 'it speaks TLS, and we have no keys').
+said(plain, 'it does not speak TLS').
+said(other, 'it says that it is another one').
+said('peer did not return a certificate', 'it shows no certificate').
+said('unsupported protocol', 'it does not speak TLS 1.3').
+said('version too low', 'it does not speak TLS 1.3').
+
+flaw(expired, 'has expired').
+flaw(revoked, 'is revoked').
+flaw(wrong_use, 'is not that of a host').
+flaw(self_made, 'is signed by itself').
+flaw(foreign, 'is of another authority').

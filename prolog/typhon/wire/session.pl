@@ -6,6 +6,7 @@
             session_key/2,              % +Session, -Key
             session_codec/2,            % +Session, -Codec
             session_peer/3,             % +Session, -Process, -Address
+            session_proof/2,            % +Session, -Proof
             session_locked/2,           % +Session, :Goal
             session_adopting/2,         % +Session, :Goal
             route/2,                    % ?Address, ?Session
@@ -19,14 +20,15 @@ A session joins this process to another for the life of both, over however
 many connections. What is sent in it is the business of outbox.pl, what
 connections it has that of resumption.pl.
 
-A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address)).
-Key names the peer. Mutex guards the sending side; that of Adoption is held
+A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address,
+Proof)). Key names the peer. Mutex guards the sending side; that of Adoption is held
 by who gives the session a new connection. Nobody else takes it apart.
 
 _Threading_: any thread; a mutex makes sessions and routes one at a time.
 */
 
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module(counts, [counts_forget/1, counts_open/1]).
@@ -63,23 +65,39 @@ session_key(session(Key, _, _, _, _), Key).
 
 session_codec(session(_, Codec, _, _, _), Codec).
 
-session_peer(session(_, _, _, _, peer(Process, Address)), Process, Address).
+session_peer(session(_, _, _, _, peer(Process, Address, _)), Process, Address).
 
-%!  session_open(+Key, +Hello, +Codec, -Session) is det.
+%!  session_proof(+Session, -Proof) is det.
 %
-%   The session with the peer Key, a new one on first contact.
+%   How the peer has proved itself: `cookie`, or certificate(Name).
 
-session_open(Key, Hello, Codec, Session) :-
-    with_mutex(typhon_session, open_session(Key, Hello, Codec, Session)).
+session_proof(session(_, _, _, _, peer(_, _, Proof)), Proof).
 
-open_session(Key, _, _, Session) :-
+%!  session_open(+Key, +Peer, +Codec, -Session) is det.
+%
+%   The session with the peer Key, a new one on first contact. Peer is
+%   Hello-Proof.
+%
+%   @error permission_error(authenticate, peer, tls(other)) the session is
+%   that of another, who knows its key
+
+session_open(Key, Hello-Proof, Codec, Session) :-
+    with_mutex(typhon_session,
+               open_session(Key, Hello, Proof, Codec, Session)),
+    (   session_proof(Session, Proof)
+    ->  true
+    ;   permission_error(authenticate, peer, tls(other))
+    ).
+
+open_session(Key, _, _, _, Session) :-
     session(Key, Session),
     !.
-open_session(Key, Hello, Codec, Session) :-
+open_session(Key, Hello, Proof, Codec, Session) :-
     hello_peer(Hello, Process, _, Address),
     mutex_create(Mutex),
     mutex_create(Adoption),
-    Session = session(Key, Codec, Mutex, Adoption, peer(Process, Address)),
+    Session = session(Key, Codec, Mutex, Adoption,
+                      peer(Process, Address, Proof)),
     counts_open(Key),
     assertz(session(Key, Session)).
 

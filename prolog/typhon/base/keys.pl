@@ -1,0 +1,215 @@
+:- module(typhon_base_keys,
+          [ keys_file/3,                % +Directory, +Which, -File
+            keys_sign/3,                % +Directory, +Text, -Signature
+            keys_verify/4,              % +Directory, +Text, +Signature, -Who
+            keys_seal/4,                % +Directory, +Text, +Certificate,
+                                        % -Sealed
+            keys_unseal/3,              % +Directory, +Sealed, -Text
+            keys_certificate/2,         % +Directory, -Certificate
+            keys_holder/3               % +Directory, +Certificate, -Who
+          ]).
+
+/** <module> What is done with the keys of a directory
+
+A directory of keys is what `app/typhon.pl keys` makes for a host or an
+author: `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`. A signature is
+signature(Certificate, Hex): who signed shows his certificate, as PEM, and it
+counts if the authority has signed that, it has not expired, and is not
+revoked. Who is host(Name) or author(Name).
+
+The keys are RSA: on SWI-Prolog 9.0.4 library(crypto) crashes when it signs
+with those of curves. Signatures are compared with what they should contain,
+byte by byte, since rsa_verify/4 prints what it finds wrong.
+
+*Threading*: any thread; files are read each time.
+*/
+
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+:- autoload(library(crypto),
+            [ crypto_data_decrypt/6, crypto_data_encrypt/6,
+              crypto_data_hash/3, crypto_n_random_bytes/2, hex_bytes/2,
+              rsa_private_decrypt/4, rsa_public_decrypt/4,
+              rsa_public_encrypt/4, rsa_sign/4 ]).
+:- autoload(library(ssl),
+            [ certificate_field/2, load_certificate/2, load_crl/2,
+              load_private_key/3 ]).
+
+%!  keys_file(+Directory, +Which, -File) is det.
+%
+%   Which is `cert`, `key`, `ca` or `crl`.
+
+keys_file(Directory, Which, File) :-
+    file_name_extension(Which, pem, Name),
+    directory_file_path(Directory, Name, File).
+
+%!  keys_certificate(+Directory, -Certificate:string) is det.
+%
+%   Our own, as PEM.
+
+keys_certificate(Directory, Certificate) :-
+    keys_file(Directory, cert, File),
+    read_file_to_string(File, Certificate, []).
+
+private_key(Directory, Key) :-
+    loaded(Directory, key, own_key, Key).
+
+own_key(In, Key) :-
+    load_private_key(In, "", Key).
+
+:- meta_predicate loaded(+, +, 2, -).
+
+loaded(Directory, Which, Load, Loaded) :-
+    keys_file(Directory, Which, File),
+    setup_call_cleanup(
+        open(File, read, In),
+        call(Load, In, Loaded),
+        close(In)).
+
+                 /*******************************
+                 *           SIGNATURES         *
+                 *******************************/
+
+%!  keys_sign(+Directory, +Text, -Signature) is det.
+
+keys_sign(Directory, Text, signature(Certificate, Hex)) :-
+    keys_certificate(Directory, Certificate),
+    private_key(Directory, Key),
+    digest(Text, Digest),
+    rsa_sign(Key, Digest, Hex, [type(sha256), encoding(hex)]).
+
+digest(Text, Digest) :-
+    crypto_data_hash(Text, Digest0, [algorithm(sha256), encoding(utf8)]),
+    string_lower(Digest0, Digest).
+
+%!  keys_verify(+Directory, +Text, +Signature, -Who) is semidet.
+%
+%   Who has signed Text. Signature may be anything.
+
+keys_verify(Directory, Text, Signature, Who) :-
+    subsumes_term(signature(_, _), Signature),
+    Signature = signature(Pem, Hex),
+    string(Pem),
+    string(Hex),
+    known_certificate(Directory, Pem, Certificate, Who),
+    certificate_field(Certificate, public_key(Key)),
+    digest(Text, Digest),
+    signs(Key, Digest, Hex).
+
+%   signs(+PublicKey, +Digest, +Hex): what PKCS #1 puts before a SHA-256.
+
+signs(Key, Digest, Hex) :-
+    string_lower(Hex, Lower),
+    catch(( hex_bytes(Lower, Bytes),
+            string_codes(Text, Bytes),
+            rsa_public_decrypt(Key, Text, Plain,
+                               [encoding(octet), padding(pkcs1)]) ),
+          error(_, _),
+          fail),
+    string_codes(Plain, PlainBytes),
+    hex_bytes(PlainHex, PlainBytes),
+    atom_concat('3031300d060960864801650304020105000420', Digest, Expected),
+    atom_string(Expected, PlainText),
+    string_lower(PlainHex, PlainText).
+
+%!  keys_holder(+Directory, +Certificate, -Who) is semidet.
+%
+%   Certificate is a good one, of Who.
+
+keys_holder(Directory, Pem, Who) :-
+    string(Pem),
+    known_certificate(Directory, Pem, _, Who).
+
+known_certificate(Directory, Pem, Certificate, Who) :-
+    string_length(Pem, Length),
+    Length =< 16384,
+    catch(setup_call_cleanup(
+              open_string(Pem, In),
+              load_certificate(In, Certificate),
+              close(In)),
+          error(_, _),
+          fail),
+    of_authority(Directory, Certificate),
+    in_its_time(Certificate),
+    \+ revoked(Directory, Certificate),
+    certificate_field(Certificate, subject(Subject)),
+    memberchk('CN'=Name, Subject),
+    memberchk('OU'=Kind, Subject),
+    memberchk(Kind, [host, author]),
+    Who =.. [Kind, Name].
+
+of_authority(Directory, Certificate) :-
+    loaded(Directory, ca, load_certificate, Authority),
+    certificate_field(Authority, public_key(Key)),
+    certificate_field(Certificate, to_be_signed(Hex)),
+    certificate_field(Certificate, signature(Signature)),
+    string_lower(Hex, Lower),
+    hex_bytes(Lower, Bytes),
+    string_codes(Signed, Bytes),
+    crypto_data_hash(Signed, Digest, [algorithm(sha256), encoding(octet)]),
+    string_lower(Digest, DigestLower),
+    signs(Key, DigestLower, Signature).
+
+in_its_time(Certificate) :-
+    certificate_field(Certificate, not_before(From)),
+    certificate_field(Certificate, not_after(To)),
+    get_time(Now),
+    From =< Now,
+    Now =< To.
+
+revoked(Directory, Certificate) :-
+    certificate_field(Certificate, serial(Serial)),
+    loaded(Directory, crl, load_crl, List),
+    memberchk(revocations(Revoked), List),
+    memberchk(revoked(Serial, _), Revoked).
+
+                 /*******************************
+                 *            SEALS             *
+                 *******************************/
+
+%!  keys_seal(+Directory, +Text, +Certificate, -Sealed) is det.
+%!  keys_unseal(+Directory, +Sealed, -Text) is det.
+%
+%   Sealed can be read with the key of Certificate only: a new AES-256 key,
+%   for that key, and Text under it, with GCM.
+%
+%   @error permission_error(unseal, term, Sealed) it is not for us, or is
+%   damaged
+
+keys_seal(Directory, Text, Pem, sealed(ForUs, Nonce, Tag, Cipher)) :-
+    known_certificate(Directory, Pem, Certificate, _),
+    certificate_field(Certificate, public_key(Public)),
+    crypto_n_random_bytes(32, Key),
+    crypto_n_random_bytes(12, Nonce),
+    hex_bytes(KeyHex, Key),
+    rsa_public_encrypt(Public, KeyHex, ForUs0, [padding(pkcs1_oaep)]),
+    octets_hex(ForUs0, ForUs),
+    crypto_data_encrypt(Text, 'aes-256-gcm', Key, Nonce, Cipher0, [tag(Tag)]),
+    octets_hex(Cipher0, Cipher).
+
+keys_unseal(Directory, Sealed, Text) :-
+    (   subsumes_term(sealed(_, _, _, _), Sealed),
+        catch(unsealed(Directory, Sealed, Text), error(_, _), fail)
+    ->  true
+    ;   permission_error(unseal, term, Sealed)
+    ).
+
+unsealed(Directory, sealed(ForUs0, Nonce, Tag, Cipher0), Text) :-
+    private_key(Directory, Private),
+    hex_octets(ForUs0, ForUs),
+    rsa_private_decrypt(Private, ForUs, KeyHex, [padding(pkcs1_oaep)]),
+    hex_bytes(KeyHex, Key),
+    hex_octets(Cipher0, Cipher),
+    length(Tag, 16),                    % shorter ones prove less
+    crypto_data_decrypt(Cipher, 'aes-256-gcm', Key, Nonce, Text, [tag(Tag)]).
+
+octets_hex(Octets, Hex) :-
+    string_codes(Octets, Bytes),
+    hex_bytes(Hex0, Bytes),
+    atom_string(Hex0, Hex).
+
+hex_octets(Hex, Octets) :-
+    hex_bytes(Hex, Bytes),
+    string_codes(Octets, Bytes).

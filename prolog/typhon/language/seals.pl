@@ -1,0 +1,82 @@
+:- module(typhon_seals,
+          [ seal/3,                     % +Term, +For, -Sealed
+            unseal/2                    % +Sealed, -Term
+          ]).
+
+/** <module> What only one host can read
+
+An agent seals what it has found for a host, its home as a rule; on its way
+there nobody else can read it, or change it unseen. The key is that of the
+process of the host, see doc/keys.md. Who can read an agent can of course
+read what it seals while it stands there.
+
+*Threading*: whatever thread runs the agent; to seal for a host of another
+process may wait for an answer.
+*/
+
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module('../base/keys',
+              [ keys_certificate/2, keys_holder/3, keys_seal/4,
+                keys_unseal/3 ]).
+:- use_module('../wire',
+              [ endpoint_keys/1, endpoint_reply/2, mobile_term/1,
+                term_text/2, text_term/2 ]).
+:- use_module('../host', [host_resolve/2, process_ask/6]).
+
+:- multifile typhon_endpoint:requested/4.
+
+answer_seconds(10).
+
+%!  seal(+Term, +For, -Sealed) is det.
+%!  unseal(+Sealed, -Term) is det.
+%
+%   Sealed is Term for the host For alone, an address or a name; Term is what
+%   was sealed for the host we stand on.
+%
+%   @error existence_error(keys, Host) there are none here or there
+%   @error type_error(mobile_term, Culprit)
+%   @error host_unreachable(For)
+%   @error permission_error(unseal, term, Sealed) it is for another, or it
+%   has been changed
+
+seal(Term, For, Sealed) :-
+    must_be(atom, For),
+    mobile_term(Term),
+    own_keys(Keys),
+    host_resolve(For, Where),
+    certificate(Where, Keys, Certificate),
+    (   keys_holder(Keys, Certificate, host(_))
+    ->  true
+    ;   existence_error(keys, For)
+    ),
+    term_text(Term, Text),
+    keys_seal(Keys, Text, Certificate, Sealed).
+
+unseal(Sealed, Term) :-
+    own_keys(Keys),
+    keys_unseal(Keys, Sealed, Text),
+    text_term(Text, Term).
+
+own_keys(Keys) :-
+    (   endpoint_keys(Keys0)
+    ->  Keys = Keys0
+    ;   existence_error(keys, here)
+    ).
+
+certificate(local(_), Keys, Certificate) :-
+    keys_certificate(Keys, Certificate).
+certificate(remote(Address, _, Endpoint), _, Certificate) :-
+    answer_seconds(Seconds),
+    process_ask(Endpoint, Address, certificate, of_yours, Answer, Seconds),
+    (   Answer = certificate(Certificate)
+    ->  true
+    ;   existence_error(keys, Address)
+    ).
+
+typhon_endpoint:requested(certificate, of_yours, _, ReplyTo) :-
+    (   endpoint_keys(Keys)
+    ->  keys_certificate(Keys, Certificate),
+        Answer = certificate(Certificate)
+    ;   Answer = none
+    ),
+    endpoint_reply(ReplyTo, Answer).

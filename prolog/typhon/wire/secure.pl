@@ -1,0 +1,322 @@
+:- module(typhon_secure,
+          [ secure_begin/1,             % +Directory
+            secure_end/0,
+            secure_directory/1,         % -Directory
+            secure_own/1,               % -Proof
+            secure_first/2,             % +Byte, +Out
+            secure_streams/6,           % +Role, +In, +Out, -SIn, -SOut, -Proof
+            secure_close/0,
+            secure_proof/1,             % -Proof
+            secure_input/2              % +In, +Seconds
+          ]).
+
+/** <module> TLS between processes
+
+Where the endpoint has keys, a connection is TLS 1.3 before anything else is
+said in it, and both sides show a certificate that the authority of the
+directory has signed, which is good for hosts, has not expired and is not
+revoked. All that follows, the cookie too, is said inside.
+
+A directory holds `cert.pem` and `key.pem`, our own, `ca.pem`, of the
+authority, and `crl.pem`, who is revoked. They are read for each connection:
+who is revoked while we run is refused from then on.
+
+Library(ssl) reads the plain stream through its buffer, so there may be
+something to read of which the TLS stream knows nothing: secure_input/2 looks
+at both. OpenSSL lets one thread read while another writes, once the tickets
+of the handshake are through; these come with the first line of the server,
+which is read before anybody writes frames.
+
+_Threading_: who begins and ends is one at a time; a handshake is in the
+thread of its connection. What it may last in all is seen to by the keeper.
+*/
+
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(error), [existence_error/2, permission_error/3, syntax_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2]).
+:- use_module('../base/keys', [keys_certificate/2, keys_file/3, keys_holder/3]).
+:- use_module(hello, [line_read/3, line_write/2]).
+:- use_module(keeper_queue, [keeper_tell/1]).
+
+:- autoload(library(ssl),
+            [ certificate_field/2, ssl_context/3, ssl_negotiate/5,
+              ssl_peer_certificate/2 ]).
+
+:- dynamic
+    directory/1,                        % of keys, while there is TLS
+    own/1.                              % Proof: what we show
+
+%!  secure_begin(+Directory) is det.
+%!  secure_end is det.
+%!  secure_directory(-Directory) is semidet.
+%
+%   From now on all connections are TLS, with the keys in Directory, an
+%   absolute path; they are not any more; they are.
+%
+%   @error existence_error(file, File)
+%   @error ssl_error(Code, Library, Function, Reason)
+
+secure_begin(Directory0) :-
+    absolute_file_name(Directory0, Directory),
+    forall(member(Which, [cert, key, ca, crl]),
+           must_be_there(Directory, Which)),
+    context(server, Directory, _),
+    keys_certificate(Directory, Certificate),
+    (   keys_holder(Directory, Certificate, host(Name))
+    ->  assertz(own(certificate(Name)))
+    ;   true                            % nobody will let us in
+    ),
+    assertz(directory(Directory)).
+
+secure_end :-
+    retractall(directory(_)),
+    retractall(own(_)).
+
+%!  secure_own(-Proof) is semidet.
+%
+%   How we prove ourselves to others: certificate(Name).
+
+secure_own(Proof) :-
+    own(Proof).
+
+secure_directory(Directory) :-
+    directory(Directory).
+
+must_be_there(Directory, Which) :-
+    keys_file(Directory, Which, File),
+    (   exists_file(File)
+    ->  true
+    ;   existence_error(file, File)
+    ).
+
+context(Role, Directory, Context) :-
+    maplist(keys_file(Directory), [cert, key, ca, crl],
+            [Certificate, Key, Authority, Revoked]),
+    ssl_context(Role, Context,
+                [ certificate_file(Certificate),
+                  key_file(Key),
+                  cacerts([file(Authority)]),
+                  crl([Revoked]),
+                  require_crl(true),
+                  peer_cert(true),
+                  min_protocol_version(tlsv1_3),
+                  close_parent(true),
+                  cert_verify_hook(typhon_secure:verified)
+                ]).
+
+%   verified(+SSL, +Certificate, +Chain, +First, +Verdict): only what was
+%   verified is; why it was not is remembered for who is told.
+
+:- public verified/5.
+
+verified(_, _, _, _, verified) :-
+    !.
+verified(_, _, Chain, _, Verdict) :-
+    verdict(Verdict, Chain, Why),
+    nb_setval(typhon_verdict, Why),
+    fail.
+
+verdict(self_signed_cert, [_], Why) =>
+    Why = self_made.
+verdict(self_signed_cert, _, Why) =>
+    Why = foreign.
+verdict(unknown_issuer, _, Why) =>
+    Why = foreign.
+verdict(issuer_cert_unavailable, _, Why) =>
+    Why = foreign.
+verdict(bad_certificate_use, _, Why) =>
+    Why = wrong_use.
+verdict(Verdict, _, Why) =>
+    Why = Verdict.
+
+                 /*******************************
+                 *          HANDSHAKE           *
+                 *******************************/
+
+%!  secure_first(+Byte, +Out) is det.
+%
+%   A client begins with Byte: it speaks TLS if we do. If not it is told, in
+%   a line that fits in any buffer.
+%
+%   @error permission_error(authenticate, peer, tls(Why)) Why: `missing` or
+%   `unknown`, it speaks plainly, or TLS, and we do not
+%   @error permission_error(authenticate, peer, protocol)
+
+secure_first(Byte, Out) :-
+    first(Byte, What),
+    (   directory(_)
+    ->  Wanted = tls
+    ;   Wanted = plain
+    ),
+    (   What == Wanted
+    ->  true
+    ;   misfit(What, Line, Why)
+    ->  line_write(Out, Line),
+        permission_error(authenticate, peer, Why)
+    ;   permission_error(authenticate, peer, protocol)
+    ).
+
+first(0't, plain) :-
+    !.
+first(0x16, tls) :-
+    !.
+first(_, other).
+
+misfit(plain, "typhon tls", tls(missing)).
+misfit(tls, "typhon plain", tls(unknown)).
+
+%!  secure_streams(+Role, +In, +Out, -SIn, -SOut, -Proof) is det.
+%
+%   What is said to the peer goes through SIn and SOut from now on: In and Out
+%   themselves where there is no TLS. Proof is how the peer has proved itself, or will: `cookie`, or certificate(Name).
+%
+%   @error permission_error(authenticate, peer, tls(Why)) Why is what is wrong
+%   with the certificate of the peer: `expired`, `revoked`, `foreign`, of
+%   another authority, `self_made`, `wrong_use`, not that of a host; his(What),
+%   what the peer says is wrong with ours; `plain`: it does not speak TLS; or
+%   what OpenSSL says
+%   @error syntax_error(end_of_file)
+%   @error timeout_error(read, tls) it took too long
+
+secure_streams(Role, In, Out, SIn, SOut, Proof) :-
+    (   directory(Directory)
+    ->  catch(in_time(handshake(Role, Directory, In, Out, SIn, SOut, Name)),
+              error(ssl_error(_, _, _, Reason), _),
+              refuse(Reason)),
+        Proof = certificate(Name)
+    ;   SIn = In,
+        SOut = Out,
+        Proof = cookie
+    ),
+    nb_setval(typhon_proof, Proof).
+
+handshake(Role, Directory, In, Out, SIn, SOut, Name) :-
+    nb_setval(typhon_verdict, none),
+    context(Role, Directory, Context),
+    ssl_negotiate(Context, In, Out, SIn, SOut),
+    nb_setval(typhon_secure, over(In, SIn, SOut)),
+    maplist(octets, [SIn, SOut]),
+    peer_name(SIn, Name),
+    welcome(Role, SIn, SOut).
+
+%   A client is done before the server has looked at its certificate: it says
+%   nothing before it is welcome, and hears else why it is not.
+
+welcome(server, _, SOut) :-
+    line_write(SOut, "typhon tls").
+welcome(client, SIn, _) :-
+    setting(typhon_auth:handshake_time, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    line_read(SIn, Deadline, Line),
+    (   Line == "typhon tls"
+    ->  true
+    ;   permission_error(authenticate, peer, protocol)
+    ).
+
+octets(Stream) :-
+    set_stream(Stream, encoding(octet)),
+    set_stream(Stream, buffer_size(65536)).
+
+peer_name(SIn, Name) :-
+    ssl_peer_certificate(SIn, Certificate),
+    certificate_field(Certificate, subject(Subject)),
+    memberchk('CN'=Name, Subject).
+
+%   A peer that says a byte now and then would never time out.
+
+:- meta_predicate in_time(0).
+:- public too_late/0.
+
+in_time(Goal) :-
+    setting(typhon_auth:handshake_time, Seconds),
+    thread_self(Me),
+    get_time(Now),
+    Time is Now+Seconds,
+    ignore(keeper_tell(later(Time, typhon_secure:late(Me)))),
+    setup_call_cleanup(
+        nb_setval(typhon_shaking, true),
+        Goal,
+        nb_setval(typhon_shaking, false)).
+
+late(Thread) :-
+    catch(thread_signal(Thread, typhon_secure:too_late),
+          error(existence_error(_, _), _),
+          true).
+
+too_late :-
+    (   nb_current(typhon_shaking, true)
+    ->  nb_setval(typhon_shaking, false),
+        throw(error(timeout_error(read, tls), _))
+    ;   true
+    ).
+
+%   refuse(+Reason): what OpenSSL says becomes what we say.
+
+refuse(_) :-
+    nb_current(typhon_verdict, Verdict),
+    Verdict \== none,
+    !,
+    permission_error(authenticate, peer, tls(Verdict)).
+refuse('unexpected eof while reading') :-
+    !,
+    syntax_error(end_of_file).
+refuse('wrong version number') :-
+    !,
+    permission_error(authenticate, peer, tls(plain)).
+refuse(Reason) :-
+    alert(Reason, Why),
+    !,
+    permission_error(authenticate, peer, tls(his(Why))).
+refuse(Reason) :-
+    permission_error(authenticate, peer, tls(Reason)).
+
+%   alert(+Reason, -Why): the peer does not like our certificate.
+
+alert(Reason, Why) :-
+    said(Part, Why),
+    sub_atom(Reason, _, _, 0, Part),
+    !.
+
+said('alert certificate expired', expired).
+said('alert certificate revoked', revoked).
+said('alert unknown ca', foreign).
+said('alert unsupported certificate', wrong_use).
+said('alert certificate required', no_certificate).
+said('alert bad certificate', bad_certificate).
+said('alert certificate unknown', bad_certificate).
+said('alert protocol version', version).
+
+%!  secure_close is det.
+%
+%   Close what secure_streams/6 has opened in this thread, if anything: an
+%   exception takes the bindings of its arguments away.
+
+secure_close :-
+    nb_current(typhon_secure, over(_, SIn, SOut)),
+    !,
+    maplist(close_stream, [SOut, SIn]).
+secure_close.
+
+close_stream(Stream) :-
+    catch(close(Stream, [force(true)]), error(_, _), true).
+
+%!  secure_proof(-Proof) is semidet.
+%
+%   In the thread of a connection: how the peer has proved itself, `cookie` or
+%   certificate(Name).
+
+secure_proof(Proof) :-
+    nb_current(typhon_proof, Proof).
+
+%!  secure_input(+In, +Seconds) is semidet.
+%
+%   In the thread of a connection: there is something to read from In, or will
+%   be within Seconds.
+
+secure_input(In, Seconds) :-
+    (   nb_current(typhon_secure, over(Plain, _, _))
+    ->  wait_for_input([In, Plain], [_|_], Seconds)
+    ;   wait_for_input([In], [_], Seconds)
+    ).

@@ -1,0 +1,71 @@
+:- module(test_authority,
+          [ with_authority/3,           % +Hosts, +Authors, :Goal
+            expired_host/2,             % +Authority, +Name
+            self_made_host/2            % +Authority, +Name
+          ]).
+
+/** <module> Keys for tests
+
+*Threading*: for the main thread of a test.
+*/
+
+:- use_module(common, [with_tmp_dir/1]).
+:- use_module(library(filesex),
+              [ directory_file_path/3 ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_create/3]).
+
+:- prolog_load_context(directory, Dir),
+   atom_concat(Dir, '/../../app/keys', Keys),
+   use_module(Keys, [keys_init/1, keys_issue/4]).
+
+:- meta_predicate with_authority(+, +, 1).
+
+%!  with_authority(+Hosts, +Authors, :Goal) is semidet.
+%
+%   Call Goal with the directory of an authority that knows these, see
+%   app/keys.pl. It goes afterwards.
+
+with_authority(Hosts, Authors, Goal) :-
+    with_tmp_dir(authority(Hosts, Authors, Goal)).
+
+authority(Hosts, Authors, Goal, Tmp) :-
+    directory_file_path(Tmp, keys, Dir),
+    keys_init(Dir),
+    forall(member(Host, Hosts), keys_issue(host, Host, 30, Dir)),
+    forall(member(Author, Authors), keys_issue(author, Author, 30, Dir)),
+    call(Goal, Dir).
+
+%!  expired_host(+Authority, +Name) is det.
+%!  self_made_host(+Authority, +Name) is det.
+%
+%   Name, which has keys, gets a certificate that expired long ago; one that
+%   it has signed itself.
+
+expired_host(Dir, Name) :-
+    path(Name, 'key.pem', Key),
+    path(Name, 'cert.pem', Certificate),
+    path(Name, 'new.pem', Request),
+    atom_concat('/OU=host/CN=', Name, Subject),
+    openssl(Dir, [ req, '-new', '-config', 'openssl.cnf', '-key', Key,
+                   '-out', Request, '-subj', Subject ]),
+    openssl(Dir, [ ca, '-config', 'openssl.cnf', '-revoke', Certificate ]),
+    openssl(Dir, [ ca, '-batch', '-config', 'openssl.cnf', '-notext',
+                   '-extensions', host, '-startdate', '20200101000000Z',
+                   '-enddate', '20200201000000Z',
+                   '-in', Request, '-out', Certificate ]).
+
+self_made_host(Dir, Name) :-
+    path(Name, 'key.pem', Key),
+    path(Name, 'cert.pem', Certificate),
+    atom_concat('/CN=', Name, Subject),
+    openssl(Dir, [ req, '-x509', '-config', 'openssl.cnf', '-extensions',
+                   host, '-key', Key, '-out', Certificate, '-days', '30',
+                   '-subj', Subject ]).
+
+path(Name, File, Path) :-
+    atomic_list_concat([Name, /, File], Path).
+
+openssl(Dir, Args) :-
+    process_create(path(openssl), Args,
+                   [ cwd(Dir), stdin(null), stdout(null), stderr(null) ]).
