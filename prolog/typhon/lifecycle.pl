@@ -25,5 +25,4 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('lifecycle/join').
 :- reexport(lifecycle/restore,
             [agent_load/2, agent_load/3, agent_save/2]).
-:- reexport('lifecycle/restore').
 :- reexport('lifecycle/trails').

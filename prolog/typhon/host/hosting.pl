@@ -18,8 +18,8 @@
                 journal_end/0, journal_item/5, journal_number_after/1,
                 journal_on/0, journal_open/2, journal_opened/1, note_drop/3,
                 note_put/4 ]).
-:- use_module('../wire', [endpoint_address/1, endpoint_open/0]).
-:- use_module('../wire', [endpoint_keys/1]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(front, [front_set/3]).
