@@ -176,9 +176,8 @@ reach(Part, Module, Name/Arity) :-
 %   From below: who stands higher imports from who stands lower.
 
 layers([ base, helper, nxt, program, journal, wire, host, agent, travel,
-         lifecycle,
-         language, network, watching, people, bridge, python, mqtt, fipa,
-         ros, page ]).
+         lifecycle, language, network, watching, people, bridge, python, mqtt,
+         fipa, ros, page ]).
 
 %!  room(?File, ?Layer, ?Name) is nondet.
 %!  door(?File, ?Layer) is nondet.

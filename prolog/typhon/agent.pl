@@ -42,6 +42,5 @@ This is the door of the layer: who is above takes what it needs from here.
             [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
               legacy_result/2 ]).
 :- reexport(agent/mailbox,
-            [ mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_restore/3,
-              mail_take/2
-            ]).
+              [ mail_all/2, mail_back/2, mail_count/2, mail_list/2,
+                mail_restore/3, mail_take/2 ]).

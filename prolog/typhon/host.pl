@@ -29,15 +29,16 @@ This is the door of the layer: who is above takes what it needs from here.
               context_now/2, context_set/3
             ]).
 :- reexport(host/permits, [audit/3, peer_may/3]).
-:- reexport(host/quotas, [quota/3, quota_cells/2, quota_passed/1, quota_spend/3]).
+:- reexport(host/quotas,
+              [quota/3, quota_cells/2, quota_passed/1, quota_spend/3]).
 :- reexport(host/turns, [turn_of/3, turns_now/3]).
 :- reexport(host/scheduler,
             [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,
               schedule_stays/2, scheduler_call/1
             ]).
 :- reexport(host/time,
-            [ alarm_in/3, alarm_set/3, time_kind/1, time_now/1, time_seed/1, time_signal/1,
-              time_wait/3 ]).
+              [ alarm_in/3, alarm_set/3, time_kind/1, time_now/1, time_seed/1,
+                time_signal/1, time_wait/3 ]).
 :- reexport(host/asking, [as_guest/1, process_ask/6]).
 :- reexport(host/runtime,
             [runtime_acquire/2, runtime_acquire/3, runtime_release/1]).

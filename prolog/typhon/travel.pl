@@ -10,9 +10,11 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(travel/transfer, [transfer_given_up/2, transfer_held/2]).
 :- reexport(travel/doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
-:- reexport(travel/home, [ agent_born/2, agent_outcome/2, home_agents/1, outcome_wait/3 ]).
+:- reexport(travel/home,
+              [agent_born/2, agent_outcome/2, home_agents/1, outcome_wait/3]).
 :- reexport(travel/legacies, [clone_born/2, clones_ask/3, legacy_ask/4]).
-:- reexport(travel/whereabouts, [ agent_ended/4, agent_faulty/5, agent_resumed/3,
-                                  agent_resumed_from/3, whereabouts/2 ]).
+:- reexport(travel/whereabouts,
+              [ agent_ended/4, agent_faulty/5, agent_resumed/3,
+                agent_resumed_from/3, whereabouts/2 ]).
 :- reexport(travel/post, [post/3, post_via/4]).
 :- reexport(travel/abroad, [post_abroad/4]).

@@ -17,9 +17,10 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../program',
-              [ code_check/3, code_guarded/3, code_module/2, guard_clauses/3, guard_declares/2, guard_goals/3,
-                guard_state/3 ]).
-:- use_module('../host', [guarding/0, host/3, module_policy/2, place_front/3, quota/3]).
+              [ code_check/3, code_guarded/3, code_module/2, guard_clauses/3,
+                guard_declares/2, guard_goals/3, guard_state/3 ]).
+:- use_module('../host',
+              [guarding/0, host/3, module_policy/2, place_front/3, quota/3]).
 :- use_module(agents, [agent/5]).
 
 /** <module> The module of an agent

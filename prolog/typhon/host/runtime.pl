@@ -12,8 +12,9 @@
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_keys/1, endpoint_listen/2, endpoint_listen_end/1,
-                endpoint_start/4, endpoint_start_alone/1, endpoint_stop/0 ]).
+              [ endpoint_address/1, endpoint_keys/1, endpoint_listen/2,
+                endpoint_listen_end/1, endpoint_start/4,
+                endpoint_start_alone/1, endpoint_stop/0 ]).
 :- use_module(scheduler, [scheduler_forget/0]).
 :- use_module(time, [time_kind/1, time_start/1, time_stop/0]).
 

@@ -19,8 +19,9 @@
                 code_sent/2, code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
-              [ audit/3, event/4, host/3, host_address/2, host_enter/4, host_leave/1,
-                host_resolve/2, host_unknown/1, peer_may/3, process_ask/6 ]).
+              [ audit/3, event/4, host/3, host_address/2, host_enter/4,
+                host_leave/1, host_resolve/2, host_unknown/1, peer_may/3,
+                process_ask/6 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
                 agent_mail/2, agent_name/3, agent_ready/2, agent_rest/3,

@@ -11,8 +11,8 @@
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [ alarm_set/3, event/4, event_heard/1, host_address/2,
-                host_option/2, host_resolve/2, host_time/2, quota/3, quota_passed/1, real_time/3,
-                schedule/2 ]).
+                host_option/2, host_resolve/2, host_time/2, quota/3,
+                quota_passed/1, real_time/3, schedule/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_home_endpoint/2, agent_name/3, agent_put/3,
                 agent_put_down/3, agent_ready/2, agent_rest/3, agent_status/3,

@@ -10,8 +10,8 @@
 :- use_module('../host', [event/4, events_forget/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
-                fault_outcome/2, fault_shown/2, is_faulty/3, legacy/2, life_hops/2,
-                with_agent/2 ]).
+                fault_outcome/2, fault_shown/2, is_faulty/3, legacy/2,
+                life_hops/2, with_agent/2 ]).
 :- use_module(on_hold, [held_dropped/1]).
 :- use_module('../travel', [agent_ended/4, transfer_given_up/2]).
 :- use_module(faulty,

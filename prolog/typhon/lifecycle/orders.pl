@@ -9,9 +9,9 @@
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent',
-              [ agent/5, agent_attach/2, agent_detach/2,
-                agent_name/3, agent_order/2, agent_ready/2, agent_state/2,
-                agent_status/3, agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
+              [ agent/5, agent_attach/2, agent_detach/2, agent_name/3,
+                agent_order/2, agent_ready/2, agent_state/2, agent_status/3,
+                agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
                 mail_list/2, with_agent/2 ]).
 :- use_module('../travel',
               [agent_resumed/3, out_of_touch/1]).

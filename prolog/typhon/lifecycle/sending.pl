@@ -2,7 +2,8 @@
           [ agent_send/2                % +Agent, +Message
           ]).
 :- use_module('../journal', [journal_barrier/0]).
-:- use_module('../host', [address_parts/3, as_guest/1, context_now/2, host_address/2]).
+:- use_module('../host',
+              [address_parts/3, as_guest/1, context_now/2, host_address/2]).
 :- use_module('../travel', [post/3, post_via/4]).
 :- use_module(named, [agent_named/2]).
 

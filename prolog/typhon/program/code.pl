@@ -85,8 +85,8 @@ rule_at_no_place(Clause, (Head:-Body)-none) :-
 %!  code_receive(+Hash, +Sent) is det.
 %
 %   Sent is what others need to have the program: the program, or
-%   Program-Places, or signed(_, Signature) with one of these.  The second is as code_install/2, for what somebody else
-%   says has this Hash.
+%   Program-Places, or signed(_, Signature) with one of these.  The second is
+%   as code_install/2, for what somebody else says has this Hash.
 %
 %   @error domain_error(program_of_hash(Hash), Program)
 

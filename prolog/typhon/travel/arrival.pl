@@ -2,14 +2,15 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
-:- use_module('../journal', [crash_point/1, journal_on/0, journal_seal/0, journal_step/1]).
+:- use_module('../journal',
+              [crash_point/1, journal_on/0, journal_seal/0, journal_step/1]).
 :- use_module('../program', [code_module/2, code_receive/2]).
 :- use_module('../wire',
-              [endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2]).
+              [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
 :- use_module('../host',
-              [ audit/3, event/4, host/3, host_enter/4, host_hop/3, host_leave/1,
-                host_time/2, peer_may/3, schedule/2, schedule_adopt/2, schedule_here/2,
-                schedule_leave/0 ]).
+              [ audit/3, event/4, host/3, host_enter/4, host_hop/3,
+                host_leave/1, host_time/2, peer_may/3, schedule/2,
+                schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3,
                 image_enter/4, image_label/2, image_module/3, image_trail/4,

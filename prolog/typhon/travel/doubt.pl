@@ -13,8 +13,8 @@
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module(crossings, [crossing_again/1, crossing_repeated/1]).
 :- use_module(transfer,
-              [ transfer_arrived/1, transfer_image/2, transfer_open/1, transfer_stays/2,
-                transfer_traveller/3, transfer_unreachable/1 ]).
+              [ transfer_arrived/1, transfer_image/2, transfer_open/1,
+                transfer_stays/2, transfer_traveller/3, transfer_unreachable/1 ]).
 :- use_module(whereabouts, [agent_reached/3, agent_reached_at/4]).
 
 /** <module> Transfers in doubt

@@ -16,15 +16,16 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
-              [ address_parts/3, event/4, events_forget/1, host_hop/3, host_leave/1,
-                host_time/2, scheduler_call/1 ]).
+              [ address_parts/3, event/4, events_forget/1, host_hop/3,
+                host_leave/1, host_time/2, scheduler_call/1 ]).
 :- use_module('../agent',
               [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
                 mail_back/2, with_agent/2 ]).
 :- use_module('../journal',
               [journal_seal/0, journal_step/1, note_drop/3, note_put/4]).
-:- use_module(crossings, [crossing_begin/4, crossing_end/2, crossing_restore/4]).
+:- use_module(crossings,
+              [crossing_begin/4, crossing_end/2, crossing_restore/4]).
 :- use_module(legacies, [clone_unborn/2]).
 :- use_module(post, [post_on/2]).
 :- use_module(whereabouts,

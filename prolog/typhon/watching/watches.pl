@@ -10,9 +10,11 @@
 :- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module('../wire', [endpoint_request/4]).
 :- use_module('../host',
-              [ address_parts/3, host_unknown/1, process_ask/6, runtime_acquire/2,
-                runtime_release/1 ]).
-:- use_module(listening, [ listen_on/4, listening_begin/2, listening_end/1, listening_tell/2 ]).
+              [ address_parts/3, host_unknown/1, process_ask/6,
+                runtime_acquire/2, runtime_release/1 ]).
+:- use_module(listening,
+              [ listen_on/4, listening_begin/2, listening_end/1,
+                listening_tell/2 ]).
 :- use_module(watched, [watched_places/2]).
 
 /** <module> Watching hosts

@@ -32,7 +32,8 @@ thread of its connection. What it may last in all is seen to by the keeper.
 */
 
 :- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(error), [existence_error/2, permission_error/3, syntax_error/1]).
+:- use_module(library(error),
+              [existence_error/2, permission_error/3, syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2]).
 :- use_module('../base/keys', [keys_certificate/2, keys_file/3, keys_holder/3]).
@@ -169,7 +170,8 @@ misfit(tls, "typhon plain", tls(unknown)).
 %!  secure_streams(+Role, +In, +Out, -SIn, -SOut, -Proof) is det.
 %
 %   What is said to the peer goes through SIn and SOut from now on: In and Out
-%   themselves where there is no TLS. Proof is how the peer has proved itself, or will: `cookie`, or certificate(Name).
+%   themselves where there is no TLS. Proof is how the peer has proved itself,
+%   or will: `cookie`, or certificate(Name).
 %
 %   @error permission_error(authenticate, peer, tls(Why)) Why is what is wrong
 %   with the certificate of the peer: `expired`, `revoked`, `foreign`, of
