@@ -14,7 +14,8 @@
             note_bytes/2,               % +Term, -Bytes
             journal_step/1,             % :Goal
             journal_seal/0,
-            journal_barrier/0
+            journal_barrier/0,
+            journal_commit/0
           ]).
 :- use_module(library(lists), [append/2, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
@@ -232,10 +233,23 @@ enqueue(_).                             % it has been closed
 
 journal_barrier :-
     (   journal_on
-    ->  journal_seal,
-        commit
+    ->  journal_commit
     ;   journal_guards
     ->  throw(error(existence_error(journal, open), _))
+    ;   true
+    ).
+
+%!  journal_commit is det.
+%
+%   All that was noted before is committed, also what was before the journal
+%   was closed; for who lets go what has waited.
+%
+%   @error resource_error(journal_space)
+
+journal_commit :-
+    (   journal_guards
+    ->  journal_seal,
+        commit
     ;   true
     ).
 

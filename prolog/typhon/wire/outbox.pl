@@ -33,7 +33,8 @@ is held.
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2]).
 :- use_module('../journal',
-              [journal_barrier/0, journal_guards/0, journal_seal/0]).
+              [ journal_barrier/0, journal_commit/0, journal_guards/0,
+                journal_on/0, journal_seal/0 ]).
 :- use_module(bundle, [bundle_fits/1]).
 :- use_module(counts, [acknowledged/3]).
 :- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
@@ -84,7 +85,7 @@ session_send_with(Session, Term) :-
 session_release(Session) :-
     session_key(Session, Key),
     (   unacked_waiting(Key)
-    ->  session_locked(Session, ( committed, see_to(Session, Key) ))
+    ->  session_locked(Session, ( journal_commit, see_to(Session, Key) ))
     ;   true
     ).
 
@@ -131,7 +132,7 @@ session_later(Count) :-
 session_push(Session) :-
     session_key(Session, Key),
     (   journal_guards
-    ->  session_locked(Session, ( committed, push_out(Key) ))
+    ->  session_locked(Session, ( journal_commit, push_out(Key) ))
     ;   session_locked(Session, push_out(Key))
     ),
     nb_setval(typhon_later, 0),
@@ -166,7 +167,7 @@ put_with(Session, Bytes) :-
 put_with(Session, Bytes) :-
     session_must_exist(Session, Key),
     (   journal_guards
-    ->  committed
+    ->  journal_barrier
     ;   true
     ),
     (   holds(Key)
@@ -188,10 +189,15 @@ holds(Key) :-
     most_held(Most),
     Waiting < Most.
 
+%   Nothing is said that follows from what may be forgotten.  In the buffer
+%   there may be answers of the reader, who has not waited for that: whoever
+%   writes takes them along.  So it is waited for when nobody else can put any
+%   there, inside session_locked/2.
+
 put_frame(Session, Bytes) :-
     session_must_exist(Session, Key),
     (   journal_guards
-    ->  committed
+    ->  journal_barrier
     ;   true
     ),
     put(Session, Key, Bytes, Bytes, frame_write_now).
@@ -203,24 +209,20 @@ put_later(Session, Bytes) :-
     ;   put(Session, Key, Bytes, Bytes, frame_write)
     ).
 
-%   In the buffer it is with us; what waits may be written by anybody.
+%   In the buffer it is with us; what waits may be written by anybody.  When the
+%   journal has been closed nobody is told what happens.
 
 put_uncommitted(Session, Key, Bytes) :-
+    journal_on,
+    !,
     journal_seal,
     (   \+ unacked_waiting(Key),
         writable(Key, Bytes, _, _)
     ->  true
-    ;   committed
+    ;   journal_commit
     ),
     put(Session, Key, Bytes, Bytes, frame_write).
-
-%   Nothing is said that follows from what may be forgotten.  In the buffer
-%   there may be answers of the reader, who has not waited for that: whoever
-%   writes takes them along.  So it is waited for when nobody else can put any
-%   there, inside session_locked/2.
-
-committed :-
-    journal_barrier.
+put_uncommitted(_, _, _).
 
 %   put(+Session, +Key, +Bytes, +Frame, :Write): Frame is what waits if it
 %   cannot be written.
@@ -308,7 +310,7 @@ put_control(Session, Kind, Bytes) :-
     session_key(Session, Key),
     (   journal_guards,
         \+ nothing_left(Session)
-    ->  committed
+    ->  journal_commit
     ;   true
     ),
     (   writable(Key, Bytes, Thread, Out)

@@ -202,6 +202,25 @@ half_a_step(Dir) :-
               got(K, [begun]) )),
         host_stop(driver)).
 
+test('a host that has peers rests, and is there again') :-
+    with_tmp_dir(rests).
+
+rests(Dir) :-
+    atom_concat(Dir, '/here', Here),
+    atom_concat(Dir, '/there', There),
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    forall(between(1, 2, _),
+           setup_call_cleanup(
+               host_start(beta, [journal(Here)]),
+               node(There, ( keeper(P),
+                             agent_create(P, A, [host(Host)]),
+                             agent_send(A, hello),
+                             got(A, [hello]),
+                             host_stop(beta) )),
+               ignore(catch(host_stop(beta), error(_, _), fail)))).
+
 %   The thread that has let a visitor in leaves its answer in the buffer of the
 %   connection, from which whoever says something to that process next takes it
 %   along.  Here somebody is just about to, and nothing is committed any more.
