@@ -10,7 +10,7 @@ all of them in OUT/bench.csv.
 
     swipl bench/run.pl -- [--out DIR] [NAME ...]
 
-Names are those of the files here; without any, all but `peers` are run.
+Names are those of the files here; without any, all but `peers` and `journal` are run.
 Machines are noisy: compare figures of one run, placement by placement. */
 
 :- initialization(main, main).
@@ -39,7 +39,7 @@ main(Argv) :-
     format('# ~w~n', [File]).
 
 wanted([], Script) :-
-    Script \== peers.
+    \+ memberchk(Script, [peers, journal]).        % they take minutes
 wanted([Name|Names], Script) :-
     memberchk(Script, [Name|Names]).
 
@@ -61,6 +61,7 @@ job(sync, [env], unpinned).
 job(learning, [env], 1).
 job(learning, [env], 2).
 job(peers, [env], 3).
+job(journal, [env], unpinned).
 
 figure_of(Script, Prefix, Argument, row(Name, Value, Unit, Note)) :-
     bench_directory(Dir),

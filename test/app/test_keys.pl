@@ -8,6 +8,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
+:- needs([openssl]).
+
 typhon(Args, Status, Out, Err) :-
     project_file('app/typhon.pl', App),
     run_swipl([App|Args], [timeout(60)], Status, Out, Err).

@@ -130,7 +130,10 @@ noted(Id, Status, Goals) :-
 agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, _, Module, _, _, _)),
     retractall(status(Id, _, _)),
-    note_drop(agent, Id, 0),
+    (   journal_on
+    ->  note_drop(agent, Id, 0)
+    ;   true
+    ),
     mail_all(Id, Mail),
     orders(Id, Orders),
     '$destroy_module'(Module).
@@ -183,9 +186,13 @@ agent_status(Id, running, []) :-
 %   With a journal this is where what has led to it is sealed.
 
 agent_put(Id, Status, Goals) :-
-    noted(Id, Status, Goals),
-    journal_seal,
-    put_status(Id, Status, Goals).
+    (   journal_on
+    ->  put_down(Id, Status, Goals),
+        journal_seal
+    ;   true
+    ),
+    retractall(status(Id, _, _)),
+    assertz(status(Id, Status, Goals)).
 
 put_status(Id, Status, Goals) :-
     retractall(status(Id, _, _)),

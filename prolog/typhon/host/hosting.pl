@@ -49,12 +49,14 @@ other users of the process its endpoint, see typhon_runtime.
 :- multifile
     typhon_options:declared/4,
     begins/1,                   % Name: is there, who wants may listen
+    typhon_recovery:tidy/0,     % nobody is let in yet
     typhon_recovery:recover/0,  % what the journal knows stands again
     typhon_recovery:go_on/0,    % and goes on
     evacuate/2.                 % Name, Deadline: nobody is left on the host
 
 :- dynamic
     typhon_recovery:recover/0,
+    typhon_recovery:tidy/0,
     typhon_recovery:go_on/0,
     evacuate/2,
     from_journal/1.             % Name: was started because the journal says so
@@ -214,6 +216,7 @@ begin_from_journal(Name, Options) :-
              assertz(from_journal(Other)) )),
     forall(typhon_recovery:recover, true),
     journal_begin,
+    forall(typhon_recovery:tidy, true),
     forall(host(Host, _, _), note_host(Host)),
     endpoint_open,
     forall(typhon_recovery:go_on, true).

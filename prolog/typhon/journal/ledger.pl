@@ -3,6 +3,7 @@
             journal_close/0,
             journal_end/0,
             journal_on/0,
+            journal_guards/0,
             journal_number/1,           % -N
             journal_number_after/1,     % +N
             note_put/4,                 % +Kind, +Key, +N, +Term
@@ -13,7 +14,8 @@
             note_bytes/2,               % +Term, -Bytes
             journal_step/1,             % :Goal
             journal_seal/0,
-            journal_barrier/0
+            journal_barrier/0,
+            journal_commit/0
           ]).
 :- use_module(library(lists), [append/2, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
@@ -43,11 +45,11 @@ inside the mutex that guards what it is about.
 
 :- dynamic
     journal_on/0,
+    journal_guards/0,
     queue/2,                            % Entries, Wake
     unsaved/1,                          % Changes that could not be committed
     committer/1,                        % Thread
-    told/1,                             % Error: nothing can be committed
-    over/0.                             % between close and end
+    told/1.                             % Error: nothing can be committed
 
 :- thread_local
     noted/1.                            % Change
@@ -64,11 +66,13 @@ idle_seconds(0.005).
 %!  journal_close is det.
 %!  journal_end is det.
 %!  journal_on is semidet.
+%!  journal_guards is semidet.
 %
 %   The store is open, and what it knows was read: from now on changes are
 %   noted; all is committed, and the store closed: from now on nothing leaves
 %   the process, see journal_barrier/0, and what happens in it is not known
-%   any more; it may again; whether changes are noted.
+%   any more; it may again; whether changes are noted; whether there is a
+%   barrier, from begin to end.
 
 journal_begin :-
     message_queue_create(Entries),
@@ -77,6 +81,7 @@ journal_begin :-
     set_flag(typhon_journal_awake, 0),
     thread_create(commit_at_leisure(Wake), Thread, [alias(typhon_journal)]),
     assertz(committer(Thread)),
+    assertz(journal_guards),
     assertz(journal_on),
     get_flag(typhon_journal_number, N),
     note_number(N).
@@ -85,7 +90,6 @@ journal_close :-
     retract(committer(Thread)),
     !,
     journal_seal,
-    assertz(over),
     retractall(journal_on),
     queue(Entries, Wake),
     thread_send_message(Wake, stop),
@@ -101,7 +105,7 @@ journal_close :-
     store_close.
 
 journal_end :-
-    retractall(over).
+    retractall(journal_guards).
 
 %!  journal_number(-N:integer) is det.
 %!  journal_number_after(+N:integer) is det.
@@ -229,10 +233,23 @@ enqueue(_).                             % it has been closed
 
 journal_barrier :-
     (   journal_on
+    ->  journal_commit
+    ;   journal_guards
+    ->  throw(error(existence_error(journal, open), _))
+    ;   true
+    ).
+
+%!  journal_commit is det.
+%
+%   All that was noted before is committed, also what was before the journal
+%   was closed; for who lets go what has waited.
+%
+%   @error resource_error(journal_space)
+
+journal_commit :-
+    (   journal_guards
     ->  journal_seal,
         commit
-    ;   over
-    ->  throw(error(existence_error(journal, open), _))
     ;   true
     ).
 

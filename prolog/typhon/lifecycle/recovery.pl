@@ -21,12 +21,14 @@ scheduled, alarms are set, what was under way is asked for or sent again.
 :- multifile
     back/4,                     % Kind, Key, N, Term: was noted so
     recover/0,
+    tidy/0,                     % nobody is let in yet
     restored/0,                 % all of it is
     go_on/0.
 
 :- dynamic
     restored/0,
     recover/0,
+    tidy/0,
     go_on/0,
     superfluous/2.              % Kind, Key: nobody needs it any more
 
@@ -87,12 +89,16 @@ back(code, Hash, _, _) :-
     ;   assertz(superfluous(code, Hash))
     ).
 
+%   Before anybody who needs it again can come.
+
+tidy :-
+    forall(retract(superfluous(Kind, Key)), note_drop_all(Kind, Key)).
+
                 /*******************************
                 *            GO ON             *
                 *******************************/
 
 go_on :-
-    forall(retract(superfluous(Kind, Key)), note_drop_all(Kind, Key)),
     findall(Id-Status, agent_status(Id, Status, _), All),
     forall(member(Id-Status, All), goes_on(Status, Id)).
 

@@ -101,8 +101,12 @@ left :-
     context_clear.
 
 live(Goals0, Id, Host, Context, Next) :-
-    turn_run(metered_run(Id-Host, Context, Goals0, Outcome)),
-    concluded(Outcome, Goals0, Id, Host, Context, Next0),
+    (   journal_on
+    ->  turn_run(metered_run(Id-Host, Context, Goals0, Outcome)),
+        concluded(Outcome, Goals0, Id, Host, Context, Next0)
+    ;   metered_run(Id-Host, Context, Goals0, Outcome),
+        conclude(Outcome, Goals0, Id, Host, Context, Next0)
+    ),
     (   Next0 = go(Goals)
     ->  live(Goals, Id, Host, Context, Next)
     ;   Next = Next0

@@ -55,9 +55,9 @@ agent_check(Spec) :-
 
 %!  agent_check(+Spec, +Options) is semidet.
 %
-%   As agent_check/1. With the option policy(Policy), see host_start/2, it is
-%   also looked at whether a host that guards would let the program or the
-%   payload in: fails if not, and what is refused is told as errors.
+%   With the option policy(Policy), see host_start/2, it is also looked at
+%   whether a host that guards would let the program or the payload in: fails
+%   if not, and what is refused is told as errors.
 
 agent_check(Spec, Options) :-
     check_options(check_option, Options),

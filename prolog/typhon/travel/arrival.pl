@@ -43,16 +43,19 @@ typhon_endpoint:requested(hop, hop(Name, Image, Program, Label), Peer,
     arrived(Name, Image, Program, Label, Peer, ReplyTo).
 
 arrived(Name, Image, Program, Label, Peer, ReplyTo) :-
-    catch(journal_step(arrive(Name, Image, Program, Label, Peer, Answer)),
+    catch(arrive_noted(Name, Image, Program, Label, Peer, Answer),
           error(Formal, Context),
           ( print_message(error, error(Formal, Context)),
             Answer = refused(error(Formal))
           )),
-    (   journal_on
-    ->  crash_point(before_answer)
-    ;   true
-    ),
     answer(Answer, Name, ReplyTo).
+
+arrive_noted(Name, Image, Program, Label, Peer, Answer) :-
+    (   journal_on
+    ->  journal_step(arrive(Name, Image, Program, Label, Peer, Answer)),
+        crash_point(before_answer)
+    ;   arrive(Name, Image, Program, Label, Peer, Answer)
+    ).
 
 %   The agent must not run before the answer is on its way: what it sends
 %   comes behind it.
@@ -80,7 +83,9 @@ typhon_endpoint:returned :-
 arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     image_label(Image, Label),
     Label = label(Id, Hops, Hash, Tokens, _, _),
-    (   ( crossing_known(Crossing) ; repeated(Id, Hops) )
+    (   ( Crossing \== none, crossing_known(Crossing)
+        ; repeated(Id, Hops)
+        )
     ->  Answer = accepted
     ;   \+ peer_may(Peer, Name, agents)
     ->  Answer = refused(peer)
@@ -152,7 +157,7 @@ install(Name, Label, Image0, Crossing, Installed) :-
         image_trail(received(Address), Name, Image0, Image),
         with_agent(Id, ( install(Id, Hops, Image, Crossing, Name-Address,
                                  Place, Installed),
-                         journal_seal ))
+                         ( journal_on -> journal_seal ; true ) ))
     ;   Installed = unknown_host
     ).
 
@@ -165,7 +170,10 @@ install(Id, Hops, Image, Crossing, Name-Address, Place, Installed) :-
     ->  let_go(Id, Later, Orders, Gone),
         post_waiting(Id, Last),
         append(Later, Last, More),
-        crossing_done(Crossing),
+        (   Crossing == none
+        ->  true
+        ;   crossing_done(Crossing)
+        ),
         image_enter(Image, Name, Module, More),
         maplist(agent_order(Id), Orders),
         Installed = in(Address, Gone)

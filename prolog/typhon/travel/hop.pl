@@ -115,23 +115,26 @@ send(Transfer, Image0) :-
     image_hash(Image0, Hash),
     catch(( handed(Transfer, Address, Image0, Image),
             program(Endpoint, Hash, Program),
-            transfer_traveller(Transfer, Who, _),
-            crossing_label(Who, Endpoint, Label),
-            hop_request(Label, Name, Image, Program, Request),
-            endpoint_request(Endpoint, hop, Request, answered(Transfer)),
-            sent_noted
+            (   journal_on
+            ->  hop_request(Transfer, Name, Image, Program, Request),
+                endpoint_request(Endpoint, hop, Request, answered(Transfer)),
+                crash_point(after_send)
+            ;   endpoint_request(Endpoint, hop, hop(Name, Image, Program),
+                                 answered(Transfer))
+            )
           ),
           error(Formal, _),
           not_sent(Formal, Transfer)).
 
-hop_request(none, Name, Image, Program, hop(Name, Image, Program)) :-
-    !.
-hop_request(Label, Name, Image, Program, hop(Name, Image, Program, Label)).
+%   Known by number, see typhon_crossings.
 
-sent_noted :-
-    (   journal_on
-    ->  crash_point(after_send)
-    ;   true
+hop_request(Transfer, Name, Image, Program, Request) :-
+    transfer_traveller(Transfer, Who, _),
+    arg(2, Transfer, dest(_, _, Endpoint)),
+    crossing_label(Who, Endpoint, Label),
+    (   Label == none
+    ->  Request = hop(Name, Image, Program)
+    ;   Request = hop(Name, Image, Program, Label)
     ).
 
 not_sent(Formal, Transfer) :-
@@ -196,7 +199,6 @@ answered(Transfer, lost) :-
     doubt_settle(Transfer).
 
 taken(accepted, Transfer) :-
-    sent_noted,
     transfer_arrived(Transfer).
 taken(refused(Reason), Transfer) :-
     arg(2, Transfer, dest(Address, _, _)),

@@ -23,7 +23,8 @@
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
                 mail_back/2, with_agent/2 ]).
 :- use_module('../journal',
-              [journal_seal/0, journal_step/1, note_drop/3, note_put/4]).
+              [ crash_point/1, journal_on/0, journal_seal/0, journal_step/1,
+                note_drop/3, note_put/4 ]).
 :- use_module(crossings,
               [crossing_begin/4, crossing_end/2, crossing_restore/4]).
 :- use_module(legacies, [clone_unborn/2]).
@@ -106,7 +107,11 @@ transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
 %!  transfer_arrived(+Transfer) is det.
 
 transfer_arrived(Transfer) :-
-    journal_step(arrived(Transfer)).
+    (   journal_on
+    ->  crash_point(after_send),
+        journal_step(arrived(Transfer))
+    ;   arrived(Transfer)
+    ).
 
 arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
     (   with_agent(Id, moved_on(Id, Hops, Address, Endpoint, Orders, Gone))
@@ -133,12 +138,15 @@ arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
 
 moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, Hops, _, Since)),
-    crossing_end(Id, Hops),
     agent_left(Id, Address, Hops, Endpoint),
     let_go(Id, Since, Mail, Orders, Gone),
-    agent_left_noted(Id, Address, Hops, Endpoint),
-    post_on(Id, Mail),
-    journal_seal.
+    (   journal_on
+    ->  crossing_end(Id, Hops),
+        agent_left_noted(Id, Address, Hops, Endpoint),
+        post_on(Id, Mail),
+        journal_seal
+    ;   post_on(Id, Mail)
+    ).
 
 %!  transfer_let_go(+Id, -Mail, -Orders, :Gone) is semidet.
 %

@@ -32,7 +32,9 @@ is held.
 
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2]).
-:- use_module('../journal', [journal_barrier/0, journal_seal/0]).
+:- use_module('../journal',
+              [ journal_barrier/0, journal_commit/0, journal_guards/0,
+                journal_on/0, journal_seal/0 ]).
 :- use_module(bundle, [bundle_fits/1]).
 :- use_module(counts, [acknowledged/3]).
 :- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
@@ -83,8 +85,7 @@ session_send_with(Session, Term) :-
 session_release(Session) :-
     session_key(Session, Key),
     (   unacked_waiting(Key)
-    ->  journal_barrier,
-        session_locked(Session, see_to(Session, Key))
+    ->  session_locked(Session, ( journal_commit, see_to(Session, Key) ))
     ;   true
     ).
 
@@ -118,8 +119,7 @@ answers_left(Session) :-
 session_send_later(Session, Term) :-
     nb_current(typhon_later, Count),
     !,
-    journal_seal,
-    bytes(Session, Term, Bytes),
+    frame_bytes(Session, Term, Bytes),
     session_locked(Session, put_later(Session, Bytes)),
     Count1 is Count+1,
     nb_setval(typhon_later, Count1).
@@ -130,9 +130,11 @@ session_later(Count) :-
     nb_getval(typhon_later, Count).
 
 session_push(Session) :-
-    journal_barrier,
     session_key(Session, Key),
-    session_locked(Session, push_out(Key)),
+    (   journal_guards
+    ->  session_locked(Session, ( journal_commit, push_out(Key) ))
+    ;   session_locked(Session, push_out(Key))
+    ),
     nb_setval(typhon_later, 0),
     nb_setval(typhon_later_in, Session).
 
@@ -145,14 +147,9 @@ push_out(Key) :-
     ;   true
     ).
 
-%   The peer would refuse a longer one, again and again.  Nothing is said that
-%   follows from what may be forgotten.
+%   The peer would refuse a longer one, again and again.
 
 frame_bytes(Session, Term, Bytes) :-
-    journal_barrier,
-    bytes(Session, Term, Bytes).
-
-bytes(Session, Term, Bytes) :-
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
     string_length(Bytes, Length),
@@ -164,10 +161,16 @@ bytes(Session, Term, Bytes) :-
     ).
 
 put_with(Session, Bytes) :-
+    \+ bundle_fits(Bytes),
+    !,
+    put_frame(Session, Bytes).
+put_with(Session, Bytes) :-
     session_must_exist(Session, Key),
-    (   \+ bundle_fits(Bytes)
-    ->  put_frame(Session, Bytes)
-    ;   holds(Key)
+    (   journal_guards
+    ->  journal_barrier
+    ;   true
+    ),
+    (   holds(Key)
     ->  unacked_waits(Key, loose(Bytes))
     ;   put(Session, Key, Bytes, loose(Bytes), frame_write_now)
     ).
@@ -186,13 +189,40 @@ holds(Key) :-
     most_held(Most),
     Waiting < Most.
 
+%   Nothing is said that follows from what may be forgotten.  In the buffer
+%   there may be answers of the reader, who has not waited for that: whoever
+%   writes takes them along.  So it is waited for when nobody else can put any
+%   there, inside session_locked/2.
+
 put_frame(Session, Bytes) :-
     session_must_exist(Session, Key),
+    (   journal_guards
+    ->  journal_barrier
+    ;   true
+    ),
     put(Session, Key, Bytes, Bytes, frame_write_now).
 
 put_later(Session, Bytes) :-
     session_must_exist(Session, Key),
+    (   journal_guards
+    ->  put_uncommitted(Session, Key, Bytes)
+    ;   put(Session, Key, Bytes, Bytes, frame_write)
+    ).
+
+%   In the buffer it is with us; what waits may be written by anybody.  When the
+%   journal has been closed nobody is told what happens.
+
+put_uncommitted(Session, Key, Bytes) :-
+    journal_on,
+    !,
+    journal_seal,
+    (   \+ unacked_waiting(Key),
+        writable(Key, Bytes, _, _)
+    ->  true
+    ;   journal_commit
+    ),
     put(Session, Key, Bytes, Bytes, frame_write).
+put_uncommitted(_, _, _).
 
 %   put(+Session, +Key, +Bytes, +Frame, :Write): Frame is what waits if it
 %   cannot be written.
@@ -270,10 +300,6 @@ written(Write, Key, Thread, Out, Bytes) :-
 %   session is down, and where a newer one of its kind follows.
 
 session_control(Session, Term) :-
-    (   answers_left(Session)
-    ->  journal_barrier
-    ;   true
-    ),
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
     watch_frame(to, Session, Term, Bytes),
@@ -282,6 +308,11 @@ session_control(Session, Term) :-
 
 put_control(Session, Kind, Bytes) :-
     session_key(Session, Key),
+    (   journal_guards,
+        \+ nothing_left(Session)
+    ->  journal_commit
+    ;   true
+    ),
     (   writable(Key, Bytes, Thread, Out)
     ->  written(frame_write_now, Key, Thread, Out, Bytes)
     ;   session_up(Key)
@@ -289,6 +320,13 @@ put_control(Session, Kind, Bytes) :-
         push(Session, Key)
     ;   true
     ).
+
+%   This is its reader, and has left nothing.
+
+nothing_left(Session) :-
+    nb_current(typhon_later_in, Own),
+    Own = Session,
+    nb_current(typhon_later, 0).
 
 %!  session_flush(+Session, +Deadline) is semidet.
 %

@@ -253,8 +253,9 @@ wrong(_, _, Hosts, _, _, left(H, Who)) :-
     Who \== [].
 
 result_of(Agent, Result) :-
-    again(( catch(agent_result(Agent, Result0, 5),
-                  error(existence_error(result, _), _), Result0 = none) )),
+    again(catch(( agent_result(Agent, Result0, 5) -> true
+                ; Result0 = late ),
+                error(existence_error(result, _), _), Result0 = none)),
     Result = Result0.
 
 visits(Host, V) :-

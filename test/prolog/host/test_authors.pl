@@ -11,6 +11,8 @@
 :- use_module(library(typhon)).
 :- use_module('../../../app/keys', [keys_revoke/2, keys_sign_file/3]).
 
+:- needs([openssl]).
+
 own(Authority, Name, Dir) :-
     directory_file_path(Authority, Name, Dir).
 

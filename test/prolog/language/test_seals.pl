@@ -9,6 +9,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 
+:- needs([openssl]).
+
 own(Authority, Name, Dir) :-
     directory_file_path(Authority, Name, Dir).
 

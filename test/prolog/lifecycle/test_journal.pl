@@ -202,4 +202,86 @@ half_a_step(Dir) :-
               got(K, [begun]) )),
         host_stop(driver)).
 
+test('a host that has peers rests, and is there again') :-
+    with_tmp_dir(rests).
+
+rests(Dir) :-
+    atom_concat(Dir, '/here', Here),
+    atom_concat(Dir, '/there', There),
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    forall(between(1, 2, _),
+           setup_call_cleanup(
+               host_start(beta, [journal(Here)]),
+               node(There, ( keeper(P),
+                             agent_create(P, A, [host(Host)]),
+                             agent_send(A, hello),
+                             got(A, [hello]),
+                             host_stop(beta) )),
+               ignore(catch(host_stop(beta), error(_, _), fail)))).
+
+%   The thread that has let a visitor in leaves its answer in the buffer of the
+%   connection, from which whoever says something to that process next takes it
+%   along.  Here somebody is just about to, and nothing is committed any more.
+
+test('whoever is let in is answered for when that is committed') :-
+    with_tmp_dir(taken_along).
+
+taken_along(Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    atom_concat(Dir, '/there', There),
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Dir,
+            ( host_property(driver, address(Driver)),
+              atom_concat(Dir, '/hooks.pl', Hooks),
+              setup_call_cleanup(
+                  open(Hooks, write, Out),
+                  forall(about_to_say(Clause), portray_clause(Out, Clause)),
+                  close(Out)),
+              remote(Host, ( load_files(user:Hooks, []),
+                             debug(typhon(frame)),
+                             thread_create(typhon:remote(Driver, true), _,
+                                           [alias(says)]) )),
+              wait_until(remote(Host, user:is_about_to), 5),
+              visitor(Program),
+              agent_create(Program, A, [facts([to(Host), there(There)])]),
+              nb_setval(journal_test, A),
+              wait_until(exists_file(There), 5),
+              ignore(catch(wait_until(\+ agent_property(A, host(driver)), 1),
+                           _, true)) ),
+            ( nb_getval(journal_test, A),
+              agent_result(A, was_there, 10) )),
+        host_stop(driver)).
+
+about_to_say((:- dynamic(nothing_is_committed/0))).
+about_to_say((:- dynamic(is_about_to/0))).
+about_to_say((prolog:debug_print_hook(_, _, _:[from, _, request(_, hop), _]) :-
+                  assertz(user:nothing_is_committed))).
+about_to_say((prolog:debug_print_hook(_, _, _:[to, _, request(_, _), _]) :-
+                  thread_self(says),
+                  assertz(user:is_about_to),
+                  thread_get_message(visitor_is_here))).
+about_to_say(prolog:debug_print_hook(_, _, _)).
+about_to_say((typhon_crash:reached(before_commit) :-
+                  user:nothing_is_committed,
+                  thread_self(Me),
+                  thread_get_message(Me, never))).
+
+visitor(clauses([ (:- agent(visitor, [state([to/1,there/1])])),
+                  (main :- to(Host), move(Host), visit, result(was_there)),
+                  (visit :-
+                      catch(thread_send_message(says, visitor_is_here), _,
+                            fail),
+                      !,
+                      there(File),
+                      open(File, write, Out),
+                      close(Out),
+                      thread_self(Me),
+                      thread_get_message(Me, never)),
+                  visit ])).
+
 :- end_tests(journal).

@@ -11,6 +11,8 @@
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 
+:- needs([openssl]).
+
 own(Authority, Name, Dir) :-
     directory_file_path(Authority, Name, Dir).
 

@@ -18,6 +18,8 @@
 
 :- use_module('../../../app/keys', [keys_revoke/2]).
 
+:- needs([openssl]).
+
 :- dynamic told/1.
 :- multifile user:message_hook/3, typhon_endpoint:requested/4.
 
