@@ -500,7 +500,8 @@ test(calls_and_goals_under_way_fail_when_the_server_goes) :-
 test(without_a_server_what_is_said_is_an_error) :-
     quiet(no_leaks(with_rosbridge(URL,
         on_hosts(Agent, URL, [],
-            ( rosbridge_end(URL),
+            ( wait_until(rosbridge_clients(1), 5),  % it knows us, too
+              rosbridge_end(URL),
               wait_until(ros_property(alpha, connected(false)), 5),
               wrong(alpha, Agent, ros_publish('/t', 'std_msgs/String', []),
                     Formal),
