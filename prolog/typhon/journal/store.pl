@@ -79,10 +79,16 @@ load_odbc :-
     catch(use_module(library(odbc), []), error(existence_error(_, _), _),
           existence_error(package, 'swi-prolog-odbc')).
 
+%   Called so that nobody misses it where the package is not installed.
+
+odbc(Goal) :-
+    Called = odbc:Goal,
+    call(Called).
+
 connect(File, Connection) :-
     atom_concat('DRIVER=SQLite3;Timeout=200;Database=', File, Driver),
-    odbc:odbc_driver_connect(Driver, Connection,
-                             [silent(true), encoding(utf8)]).
+    odbc(odbc_driver_connect(Driver, Connection,
+                             [silent(true), encoding(utf8)])).
 
 %   The lock is taken by the first change, and kept.
 
@@ -90,32 +96,32 @@ prepare_database(Age, Dir, Sync, Connection) :-
     pragma(Connection, locking_mode, exclusive),
     pragma(Connection, journal_mode, wal),
     pragma(Connection, synchronous, Sync),
-    odbc:odbc_query(Connection, 'begin exclusive'),
+    odbc(odbc_query(Connection, 'begin exclusive')),
     prepare_tables(Age, Dir, Connection),
-    odbc:odbc_query(Connection, commit).
+    odbc(odbc_query(Connection, commit)).
 
 prepare_tables(new, _, Connection) :-
-    odbc:odbc_query(Connection,
+    odbc(odbc_query(Connection,
                     'create table item (kind text, key text, n integer, \c
                      length integer, sum integer, value blob, \c
-                     primary key (kind, key, n)) without rowid'),
-    odbc:odbc_query(Connection,
+                     primary key (kind, key, n)) without rowid')),
+    odbc(odbc_query(Connection,
                     'create table part (kind text, key text, n integer, \c
                      part integer, value blob, \c
-                     primary key (kind, key, n, part)) without rowid'),
-    odbc:odbc_query(Connection,
-                    'create table about (version integer, sample text)'),
+                     primary key (kind, key, n, part)) without rowid')),
+    odbc(odbc_query(Connection,
+                    'create table about (version integer, sample text)')),
     format_version(Version),
     sample(Sample),
     format(atom(About), 'insert into about values (~d, \'~w\')',
            [Version, Sample]),
-    odbc:odbc_query(Connection, About).
+    odbc(odbc_query(Connection, About)).
 prepare_tables(old, Dir, Connection) :-
     must_be_whole(Dir, Connection),
     format_version(Version),
     sample(Sample),
-    (   odbc:odbc_query(Connection, 'select version, sample from about',
-                        row(Version0, Sample0), [types([integer, atom])])
+    (   odbc(odbc_query(Connection, 'select version, sample from about',
+                        row(Version0, Sample0), [types([integer, atom])]))
     ->  true
     ;   throw(error(journal_damaged(Dir, 'nothing is said about it'), _))
     ),
@@ -124,14 +130,14 @@ prepare_tables(old, Dir, Connection) :-
     ->  true
     ;   throw(error(journal_version(Dir, Version0), _))
     ),
-    forall(odbc:odbc_query(Connection,
+    forall(odbc(odbc_query(Connection,
                            'select distinct kind, key, n from part',
-                           row(Kind, Key, N), [types([atom, atom, integer])]),
+                           row(Kind, Key, N), [types([atom, atom, integer])])),
            assertz(long(Kind, Key, N))).
 
 must_be_whole(Dir, Connection) :-
-    odbc:odbc_query(Connection, 'pragma quick_check(1)', row(Said),
-                    [types([atom])]),
+    odbc(odbc_query(Connection, 'pragma quick_check(1)', row(Said),
+                    [types([atom])])),
     !,
     (   Said == ok
     ->  true
@@ -140,7 +146,7 @@ must_be_whole(Dir, Connection) :-
 
 pragma(Connection, Name, Value) :-
     format(atom(Pragma), 'pragma ~w=~w', [Name, Value]),
-    ignore(odbc:odbc_query(Connection, Pragma, _, [])).
+    ignore(odbc(odbc_query(Connection, Pragma, _, []))).
 
 %   Records of another version or word size must not be read: what differs
 %   in any of them differs in these.
@@ -161,7 +167,7 @@ prepare_statements(Connection) :-
 prepare(Connection, Name, Room, Sql, Types0) :-
     maplist(parameter_type, Types0, Types),
     options(Name, Options),
-    odbc:odbc_prepare(Connection, Sql, Types, Statement, Options),
+    odbc(odbc_prepare(Connection, Sql, Types, Statement, Options)),
     assertz(statement(Name, Room, Statement)).
 
 %   A type of text without a length would bind the empty text.
@@ -202,7 +208,7 @@ sql(parts, 'select value from part where kind=? and key=? and n=? \c
 execute(Name, Values) :-
     statement(Name, 0, Statement),
     !,
-    odbc:odbc_execute(Statement, Values).
+    odbc(odbc_execute(Statement, Values)).
 
 execute(Name, Values0, Bytes) :-
     string_length(Bytes, Length),
@@ -210,7 +216,7 @@ execute(Name, Values0, Bytes) :-
     statement_of(Name, Room, Statement),
     filled(Length, Room, Bytes, Full),
     append(Values0, [Full], Values),
-    odbc:odbc_execute(Statement, Values).
+    odbc(odbc_execute(Statement, Values)).
 
 statement_of(Name, Room, Statement) :-
     statement(Name, Room, Statement),
@@ -265,8 +271,8 @@ forget(Connection) :-
     retractall(connection(_, Connection)),
     retractall(long(_, _, _)),
     forall(retract(statement(_, _, Statement)),
-           catch(odbc:odbc_free_statement(Statement), error(_, _), true)),
-    odbc:odbc_disconnect(Connection).
+           catch(odbc(odbc_free_statement(Statement)), error(_, _), true)),
+    odbc(odbc_disconnect(Connection)).
 
                 /*******************************
                 *            CHANGES           *
@@ -357,8 +363,8 @@ journal_item(Kind, Order, Key, N, Value) :-
     wide(Wide),
     format(atom(Sql), 'select key, n, length, sum, value from item \c
                        where kind=\'~w\'~w', [Kind, By]),
-    odbc:odbc_query(Connection, Sql, row(Key, N, Length, Sum, First),
-                    [types([atom, integer, integer, integer, string])|Wide]),
+    odbc(odbc_query(Connection, Sql, row(Key, N, Length, Sum, First),
+                    [types([atom, integer, integer, integer, string])|Wide])),
     whole(Length, Kind-Key-N, First, Bytes),
     (   check_sum(Bytes, Sum)
     ->  fast_term_serialized(Value, Bytes)
@@ -378,7 +384,7 @@ whole(Length, Kind-Key-N, First0, Bytes) :-
     sub_string(First0, 0, Most, _, First),
     statement(parts, 0, Statement),
     findall(Piece,
-            ( odbc:odbc_execute(Statement, [Kind, Key, N], row(Full)),
+            ( odbc(odbc_execute(Statement, [Kind, Key, N], row(Full))),
               string_length(Full, Room),
               Count is min(Most, Room),
               sub_string(Full, 0, Count, _, Piece) ),
