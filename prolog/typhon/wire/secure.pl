@@ -239,8 +239,17 @@ in_time(Goal) :-
     ignore(keeper_tell(later(Time, typhon_secure:late(Me)))),
     setup_call_cleanup(
         nb_setval(typhon_shaking, true),
-        Goal,
+        catch(Goal, Ball, in_time_or_not(Ball)),
         nb_setval(typhon_shaking, false)).
+
+%   On 10.1.12 what is raised inside OpenSSL comes out as the end of the file.
+
+in_time_or_not(_) :-
+    nb_current(typhon_shaking, late),
+    !,
+    throw(error(timeout_error(read, tls), _)).
+in_time_or_not(Ball) :-
+    throw(Ball).
 
 late(Thread) :-
     catch(thread_signal(Thread, typhon_secure:too_late),
@@ -249,7 +258,7 @@ late(Thread) :-
 
 too_late :-
     (   nb_current(typhon_shaking, true)
-    ->  nb_setval(typhon_shaking, false),
+    ->  nb_setval(typhon_shaking, late),
         throw(error(timeout_error(read, tls), _))
     ;   true
     ).
