@@ -21,6 +21,8 @@ DIRECTORY/node_modules.
 :- use_module(library(http/json), [json_read_dict/3]).
 :- endif.
 :- use_module(library(http/http_open), [http_open/3]).
+:- use_module(library(http/http_stream), []).   % else it says HTTP/1.0, which
+                                                % registries refuse
 :- use_module(library(main), [main/0]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(sha), [sha_hash/3]).
