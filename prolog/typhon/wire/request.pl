@@ -203,12 +203,18 @@ attempt(Goal, Kind) :-
     (   catch(Goal, Error, true)
     ->  (   var(Error)
         ->  true
+        ;   is_order(Error)
+        ->  throw(Error)
         ;   print_message(error, typhon(endpoint, hook(Kind, Error))),
             fail
         )
     ;   print_message(error, typhon(endpoint, hook(Kind, failed))),
         fail
     ).
+
+%   The thread is to end: that is not the hook's fault, nor to be kept from it.
+
+is_order(wire_thread_end(_)).
 
 :- multifile prolog:message//1.
 
