@@ -148,6 +148,16 @@ test(in_doubt_to_who_died_when_it_was_sending_it_back,
                   more(events, e(t, 4, go('a1@x:1'), 49, b-1)) ],
           Kinds0),
     subtract(Kinds0, [again], Kinds).
+test(born_elsewhere, [forall(member(Hops-Wrong, [1-[], 2-[], 3-[count]])),
+                      true(Kinds == Wrong)]) :-
+    kinds(false, [ more(events, e(s, 3, clone(1, idc), 60, a-1)),
+                   less(standing, agent(_, ids, _, _, _)),
+                   more(standing, agent(a, ids, resident, 0,
+                                        [me(s), tick(3), steps(0)])),
+                   more(events, e('s+1', 1, at('b1@x:1'), 61, b-1)),
+                   more(standing, agent(b, idc, resident, Hops,
+                                        [me('s+1'), tick(1), steps(1)])) ],
+          Kinds).
 test(message_lost, true(Kinds == [message_lost])) :-
     kinds(false, [more(mail, sent(a, s, 2, 60))], Kinds).
 test(message_lost_after_the_death, true(Kinds == [message_lost])) :-

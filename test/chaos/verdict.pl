@@ -230,6 +230,8 @@ dead_among(Events) :-
     \+ alive(Life),
     !.
 
+%   For a clone that was born elsewhere getting there was the first hop.
+
 wrong_count(Key, _, Facts, ticks(Key, Tick, Noted)) :-
     memberchk(tick(Tick), Facts),
     aggregate_all(max(T, L), event(Key, T, _, _, L), max(Noted, Life)),
@@ -239,7 +241,8 @@ wrong_count(Key, Hops, Facts, hops(Key, Steps, Hops)) :-
     created(Key, Kind, _, _, _),
     Kind \== sleeper,
     memberchk(steps(Steps), Facts),
-    Steps =\= Hops.
+    Steps =\= Hops,
+    \+ ( Kind == clone, Hops =:= Steps+1 ).
 
 right_outcome(Key, Outcome) :-
     (   copies(0, Key, died)
