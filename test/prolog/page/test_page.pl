@@ -193,6 +193,14 @@ scene(it_is_opened) :-
     reads("#details .terms", "seen("),
     shot(agent).
 
+%   A row that changes while somebody presses on it is the same row.
+
+scene(its_row_stays_what_it_is) :-
+    sees("globalThis.row = document.querySelector('#table-agent .row[id]');
+          globalThis.before = row.textContent", _),
+    see("return row.textContent !== before"),
+    sees("return row.isConnected", true).
+
 %   A term that cannot be read is told of where it was written.
 
 scene(it_is_sent_a_message) :-

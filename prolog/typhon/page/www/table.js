@@ -13,6 +13,7 @@ export class Table {
     Object.assign(this, { columns, rows, id, open, rowClass });
     this.sorting = { key: sort || columns[0].key, down: false };
     this.shown = [];
+    this.made = new Map();      // id: row in the document
     this.active = null;
     this.chosen = null;
     this.words = [];
@@ -93,30 +94,50 @@ export class Table {
     const first = Math.max(0, Math.floor(this.element.scrollTop / ROW) - SPARE);
     const last = Math.min(this.shown.length,
       first + Math.ceil(height / ROW) + 2 * SPARE);
-    const rows = [];
-    for (let n = first; n < last; n++) rows.push(this.rowAt(n));
-    this.body.replaceChildren(...rows);
-    const active = this.active && this.body.querySelector('.active');
+    const inSight = new Map();
+    for (let n = first; n < last; n++) {
+      const id = this.id(this.shown[n]);
+      inSight.set(id, this.made.get(id) || this.newRow(id));
+      this.fillRow(inSight.get(id), n);
+    }
+    for (const [id, row] of this.made) if (!inSight.has(id)) row.remove();
+    this.made = inSight;
+    [...inSight.values()].forEach((row, i) => {
+      const there = this.body.children[i];
+      if (there !== row) this.body.insertBefore(row, there || null);
+    });
+    const active = inSight.get(this.active);
     if (active) this.element.setAttribute('aria-activedescendant', active.id);
     else this.element.removeAttribute('aria-activedescendant');
   }
 
-  rowAt(n) {
-    const row = this.shown[n], id = this.id(row);
-    const made = element('div', { role: 'row', id: `${this.element.id || 'r'}-${n}`,
-      class: ['row', this.rowClass?.(row), id === this.active && 'active']
-        .filter(Boolean).join(' '), 'aria-rowindex': n + 2,
-      'aria-selected': String(id === this.chosen) },
-      ...this.columns.map(column => {
-        const text = column.text(row);
-        const cell = element('div', { role: 'gridcell', title: text,
-          class: `cell ${column.mark?.(row) || ''}` }, text);
-        cell.style.flex = column.width;
-        return cell;
-      }));
+  // A row stays the same element while it is in sight: else a click would be
+  // lost whenever something changes between pressing and letting go.
+  newRow(id) {
+    const made = element('div', { role: 'row' }, ...this.columns.map(column => {
+      const cell = element('div', { role: 'gridcell' });
+      cell.style.flex = column.width;
+      return cell;
+    }));
     made.dataset.row = id;
-    made.style.transform = `translateY(${n * ROW}px)`;
     return made;
+  }
+
+  fillRow(made, n) {
+    const row = this.shown[n], id = this.id(row);
+    made.id = `${this.element.id || 'r'}-${n}`;
+    made.className = ['row', this.rowClass?.(row), id === this.active && 'active']
+      .filter(Boolean).join(' ');
+    made.setAttribute('aria-rowindex', n + 2);
+    made.setAttribute('aria-selected', String(id === this.chosen));
+    made.style.transform = `translateY(${n * ROW}px)`;
+    this.columns.forEach((column, i) => {
+      const cell = made.children[i], text = column.text(row);
+      cell.className = `cell ${column.mark?.(row) || ''}`;
+      if (cell.textContent === text) return;
+      cell.textContent = text;
+      cell.title = text;
+    });
   }
 
   clicked(event) {
