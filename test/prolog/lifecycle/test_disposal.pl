@@ -41,6 +41,16 @@ start(Kind, Agent, Options) :-
     create(Clauses, Agent, Options),
     wait_until(running_for(Agent, 0.02), 10).
 
+%   Agent, which runs until over/0, is running, and will be over soon.
+
+soon_over(Clauses, Agent) :-
+    create([ (over :- sense(until(T)), get_time(Now), Now > T) |Clauses],
+           Agent),
+    wait_until(running_for(Agent, 0.02), 10),
+    get_time(Now),
+    Until is Now+0.2,
+    remote(alpha, leave(until(Until))).
+
 took(Goal, Seconds) :-
     get_time(T0),
     once(Goal),
@@ -61,32 +71,21 @@ test(says_that_it_runs_on, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
                                agent_dispose(A, [force(0)]) ))).
 test(waits_for_one_that_stops, Ms-O == []-disposed) :-
     with_hosts([alpha],
-               ( create([ (main :- get_time(T), Until is T+0.2, busy(Until),
-                                   sleep(100)),
-                          (busy(Until) :- get_time(Now),
-                                          ( Now > Until -> true
-                                          ; busy(Until) )) ], A),
-                 wait_until(running_for(A, 0.02), 10),
+               ( soon_over([ (main :- busy, sleep(100)),
+                             (busy :- over -> true ; busy) ], A),
                  listening(agent_dispose(A), Ms),
                  gone(A),
                  agent_join(A, O, 5) )).
 test(one_that_ends_by_itself, Ms == []) :-
-    with_hosts([alpha],
-               ( create([ (main :- get_time(T), Until is T+0.2, busy(Until)),
-                          (busy(Until) :- get_time(Now),
-                                          ( Now > Until -> true
-                                          ; busy(Until) )) ], A),
-                 wait_until(running_for(A, 0.02), 10),
-                 took(listening(agent_dispose(A), Ms), Seconds),
-                 Seconds < 0.9,
-                 agent_join(A, done, 5) )).
+    with_settings([typhon_disposal:heed_seconds=20],
+                  with_hosts([alpha],
+                             ( soon_over([ (main :- over -> true ; main) ], A),
+                               took(listening(agent_dispose(A), Ms), Seconds),
+                               Seconds < 15,
+                               agent_join(A, done, 5) ))).
 test(one_that_raises_meanwhile) :-
     with_hosts([alpha],
-               ( create([ (main :- get_time(T), Until is T+0.2, busy(Until)),
-                          (busy(Until) :- get_time(Now),
-                                          ( Now > Until -> throw(oops)
-                                          ; busy(Until) )) ], A),
-                 wait_until(running_for(A, 0.02), 10),
+               ( soon_over([ (main :- over -> throw(oops) ; main) ], A),
                  listening(agent_dispose(A), Ms),
                  \+ memberchk(warning-typhon(runs_on(_, _)), Ms),
                  gone(A) )).
@@ -99,14 +98,16 @@ test(in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-
                                          Ms),
                                agent_dispose(A, [force(0)]) ))).
 test(an_agent_that_disposes_does_not_wait, Ms == []) :-
-    with_hosts([alpha],
-               ( start(loops, A),
-                 listening(( create([ (main :- s(X),
-                                               typhon:agent_dispose(X)) ], B,
-                                    [facts([s(A)])]),
-                             took(joined(B, done), Seconds) ), Ms),
-                 Seconds < 0.9,
-                 agent_dispose(A, [force(0)]) )).
+    with_settings([typhon_disposal:heed_seconds=20],
+                  with_hosts([alpha],
+                             ( start(loops, A),
+                               listening(( create([ (main :- s(X),
+                                                     typhon:agent_dispose(X)) ],
+                                                  B, [facts([s(A)])]),
+                                           took(joined(B, done), Seconds) ),
+                                         Ms),
+                               Seconds < 15,
+                               agent_dispose(A, [force(0)]) ))).
 test(an_agent_that_disposes_of_itself, Ms == []) :-
     with_hosts([alpha],
                listening(( create([ (main :- self(X), typhon:agent_dispose(X),
