@@ -4,6 +4,7 @@
 % hear of them, wherever they are, and what becomes of bad requests.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/fipa_agents').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
 :- use_module('../../../app/diagnose_fipa').
@@ -40,20 +41,6 @@ platform(Host, Name, Options, Url) :-
 
 property(Host, Property) :-
     once(fipa_property(Host, Property)).
-
-%   What the agent that does Goals, and may call Clauses, has as its Result.
-
-does(Goals, Result) :-
-    does(Goals, [], Result).
-
-does(Goals, Clauses, Result) :-
-    agent_create(clauses([ (:- agent(asker, [])),
-                           (main :- attach(payloads(fipa/request)),
-                                    attach(payloads(fipa/contract_net)),
-                                    Goals, result(Result))
-                         | Clauses ]),
-                 Agent, [host(alpha)]),
-    agent_result(Agent, Result, 20).
 
 echo([ (:- agent(echo, [])),
        (on_message(From, acl(request, Parameters)) :-
