@@ -354,6 +354,18 @@ test(stops) :-
           fipa_start(alpha, Url, []),
           assertion(property(alpha, name(alpha))) )).
 
+test(in_another_process, Names-After == [far]-[]) :-
+    with_peers([p],
+        ( peer_host(p, Host),
+          fipa_start(Host, 'http://127.0.0.1:0/acc', [name(far)]),
+          names(Host, Names),
+          fipa_stop(Host),
+          names(Host, After) )).
+
+names(Host, Names) :-
+    remote(Host, findall(Name, typhon_fipa_service:fipa_property(_, name(Name)),
+                         Names)).
+
 test(is_on_loopback) :-
     with_platform([], Url,
         ( port(Url, Port),
