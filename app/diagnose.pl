@@ -1,6 +1,7 @@
 :- module(typhon_diagnose,
           [ diagnose/1,                 % +Address
-            diagnose_steps/2            % +Steps, :Check
+            diagnose_steps/2,           % +Steps, :Check
+            python_says/4               % +Python, +Code, +Module, -Text
           ]).
 
 /** <module> Why a host cannot be reached
@@ -14,6 +15,7 @@ so it is tried in a thread of its own, which a dead network may hold for a
 while after the answer is known.
 */
 
+:- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_host_to_address/2,
                 tcp_socket/1
@@ -57,6 +59,27 @@ diagnose_steps([Step-Advice|Steps], Check) :-
 print_error(Error) :-
     '$messages':translate_message(Error, Lines, []),
     print_message_lines(current_output, '', Lines).
+
+%!  python_says(+Python, +Code, +Module, -Text:atom) is det.
+%
+%   Text is the line that Code prints, run by Python.
+%
+%   @error existence_error(python, Python), existence_error(python_module,
+%   Module) if Code fails, as it does where Module is not there
+
+python_says(Python, Code, Module, Text) :-
+    catch(process_create(Python, ['-c', Code],
+                         [ stdout(pipe(Out)), stderr(null), process(Pid) ]),
+          error(_, _),
+          throw(error(existence_error(python, Python), _))),
+    read_string(Out, _, Said),
+    close(Out),
+    process_wait(Pid, Status),
+    (   Status == exit(0)
+    ->  split_string(Said, "", "\n ", [Line]),
+        atom_string(Text, Line)
+    ;   throw(error(existence_error(python_module, Module), _))
+    ).
 
 %   step(Name, Advice)
 

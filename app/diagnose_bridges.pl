@@ -10,13 +10,12 @@ advice at the step that does not work.
 *Threading*: the calling thread.
 */
 
-:- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module('../prolog/typhon',
               [ host_start/1, host_stop/1, mqtt_start/3, python_start/3,
                 remote/2, ros_start/3 ]).
 :- use_module('../prolog/typhon/helper', [helper_file/2, helper_python/2]).
 :- use_module('../prolog/typhon/ros/node', [node_python/2]).
-:- use_module(diagnose, [diagnose_steps/2]).
+:- use_module(diagnose, [diagnose_steps/2, python_says/4]).
 
 %!  diagnose_bridge(+Bridge, +Arguments:list) is semidet.
 %
@@ -125,17 +124,3 @@ ten_times(Goal, Found) :-
 python_says(Code, Module, Text) :-
     helper_python([], Python),
     python_says(Python, Code, Module, Text).
-
-python_says(Python, Code, Module, Text) :-
-    catch(process_create(Python, ['-c', Code],
-                         [ stdout(pipe(Out)), stderr(null), process(Pid) ]),
-          error(_, _),
-          throw(error(existence_error(python, Python), _))),
-    read_string(Out, _, Said),
-    close(Out),
-    process_wait(Pid, Status),
-    (   Status == exit(0)
-    ->  split_string(Said, "", "\n ", [Line]),
-        atom_string(Text, Line)
-    ;   throw(error(existence_error(python_module, Module), _))
-    ).

@@ -12,10 +12,9 @@ and stops with advice at the step that does not work.  Nothing moves.
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [memberchk/2]).
-:- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module('../prolog/typhon/nxt').
 :- use_module('../prolog/typhon/nxt/helper', [nxt_python/2]).
-:- use_module(diagnose, [diagnose_steps/2]).
+:- use_module(diagnose, [diagnose_steps/2, python_says/4]).
 
 %!  diagnose_nxt(+Port) is semidet.
 %
@@ -59,10 +58,10 @@ step('round trip',
 %   check(Port, Step, Found): Found is what there is to say
 
 check(_, python, Found) :-
-    python_says(['-c', 'import sys; print(sys.executable, \c
-                                           sys.version.split()[0])'], Found).
+    python_says('import sys; print(sys.executable, sys.version.split()[0])',
+                python3, Found).
 check(_, pyserial, Found) :-
-    python_says(['-c', 'import serial; print(serial.__version__)'], Found).
+    python_says('import serial; print(serial.__version__)', serial, Found).
 check(Port, port, Found) :-
     (   sub_atom(Port, _, _, _, '://')
     ->  atom_concat(Port, ' is a URL', Found)
@@ -125,17 +124,6 @@ sensor(Port, Text) :-
     nxt_input(diagnosed, Port, Values),
     format(atom(Text), '~d type ~d raw ~d', [Port, Values.type, Values.raw]).
 
-python_says(Args, Text) :-
+python_says(Code, Module, Text) :-
     nxt_python([], Python),
-    catch(process_create(Python, Args,
-                         [ stdout(pipe(Out)), stderr(null), process(Pid) ]),
-          error(_, _),
-          throw(error(existence_error(python, Python), _))),
-    read_string(Out, _, Said),
-    close(Out),
-    process_wait(Pid, Status),
-    (   Status == exit(0)
-    ->  split_string(Said, "", "\n ", [Line]),
-        atom_string(Text, Line)
-    ;   throw(error(existence_error(python_module, serial), _))
-    ).
+    python_says(Python, Code, Module, Text).

@@ -110,6 +110,7 @@ face(File) :- inside('prolog/typhon/nxt.pl', File).
 face(File) :- inside('prolog/typhon/python.pl', File).
 face(File) :- inside('prolog/typhon/mqtt.pl', File).
 face(File) :- inside('prolog/typhon/ros.pl', File).
+face(File) :- inside('prolog/typhon/fipa.pl', File).
 
 may_import(_, Target) :-
     \+ module_of(Target, _),

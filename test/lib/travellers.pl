@@ -208,16 +208,17 @@ collected(Peer, Id, Count-Sum) :-
 %!  bounced(+Peer, +Id, -Hops, -Pace) is semidet.
 %
 %   An agent that waits for `go` and then hops without pause.  At the end
-%   it leaves how many hops it made, and First-Last, the seconds that the
-%   first and the last tenth of them took.
+%   it leaves how many hops it made, and First-Last, the processor time of
+%   Peer's process in the first and in the last tenth of them; every other hop
+%   leads to Peer.
 
 bouncer(Peer, Route, Hops, Id) :-
-    Tenth is Hops//10,
+    Tenth is Hops//20*2,
     From is Hops-Tenth,
     Clauses =
     [ (:- agent(bouncer, [state([route/1, at/2])])),
       (main :- receive(_-go), route(Route1), bounce(0, Route1)),
-      (bounce(Hops, _) :- !, now(T3), leave_pace(T3)),
+      (bounce(Hops, _) :- !, spent(T3), leave_pace(T3)),
       (bounce(K, [Host|Hosts]) :-
            note(K),
            append(Hosts, [Host], Route2),
@@ -225,8 +226,9 @@ bouncer(Peer, Route, Hops, Id) :-
            K1 is K+1,
            bounce(K1, Route2)),
       (note(K) :- memberchk(K, [0, Tenth, From]), !,
-                  now(T), assertz(at(K, T))),
+                  spent(T), assertz(at(K, T))),
       note(_),
+      (spent(T) :- statistics(process_cputime, T)),
       (leave_pace(T3) :- at(0, T0), at(Tenth, T1), at(From, T2),
                          First is T1-T0, Last is T3-T2,
                          self(Self), hops(N),

@@ -1,5 +1,7 @@
 :- module(typhon_starting,
-          [ python_start/3,             % +Host, +File, +Options
+          [ bridge_start/4,             % +Bridge, +Host, +What, +Options
+            bridge_stop/2,              % +Bridge, +Host
+            python_start/3,             % +Host, +File, +Options
             python_stop/1,              % +Host
             mqtt_start/3,               % +Host, +URL, +Options
             mqtt_stop/1,                % +Host
@@ -51,7 +53,7 @@ there.
 %   @error permission_error(start, python, Host) if it is started
 
 python_start(Host, File, Options) :-
-    start(python, Host, File, Options).
+    bridge_start(python, Host, File, Options).
 
 %!  python_stop(+Host) is det.
 %
@@ -60,7 +62,7 @@ python_start(Host, File, Options) :-
 %   @error existence_error(python, Host)
 
 python_stop(Host) :-
-    stop(python, Host).
+    bridge_stop(python, Host).
 
 %!  mqtt_start(+Host, +URL, +Options) is det.
 %
@@ -97,7 +99,7 @@ python_stop(Host) :-
 %   @error domain_error(mqtt_url, URL), domain_error(mqtt_option, Option)
 
 mqtt_start(Host, URL, Options) :-
-    start(mqtt, Host, URL, Options).
+    bridge_start(mqtt, Host, URL, Options).
 
 %!  mqtt_stop(+Host) is det.
 %
@@ -106,7 +108,7 @@ mqtt_start(Host, URL, Options) :-
 %   @error existence_error(mqtt, Host)
 
 mqtt_stop(Host) :-
-    stop(mqtt, Host).
+    bridge_stop(mqtt, Host).
 
 %!  ros_start(+Host, +Where, +Options) is det.
 %
@@ -141,7 +143,7 @@ mqtt_stop(Host) :-
 %   @error timeout_error(connect, URL)
 
 ros_start(Host, Where, Options) :-
-    start(ros, Host, Where, Options).
+    bridge_start(ros, Host, Where, Options).
 
 %!  ros_stop(+Host) is det.
 %
@@ -150,7 +152,7 @@ ros_start(Host, Where, Options) :-
 %   @error existence_error(ros, Host)
 
 ros_stop(Host) :-
-    stop(ros, Host).
+    bridge_stop(ros, Host).
 
 %   Where it is allowed.
 
@@ -163,7 +165,14 @@ typhon_words:python_delivered(Host, Name, Source) :-
                 *        HERE OR ELSEWHERE     *
                 *******************************/
 
-start(Bridge, Host, What, Options) :-
+%!  bridge_start(+Bridge, +Host, +What, +Options:list) is det.
+%!  bridge_stop(+Bridge, +Host) is det.
+%
+%   For bridges that are started by names of their own.
+%
+%   @error existence_error(Bridge, Host) if it is not there
+
+bridge_start(Bridge, Host, What, Options) :-
     must_be(atom, Host),
     must_be(ground, What),
     must_be(list, Options),
@@ -175,9 +184,10 @@ start_at(local(Name), Bridge, _, What, Options) :-
     starts(Bridge, Name, What, Options),
     !.
 start_at(remote(_, Name, _), Bridge, Host, What, Options) :-
-    remote(Host, typhon_starting:start(Bridge, Name, What, Options)).
+    remote(Host,
+           typhon_starting:bridge_start(Bridge, Name, What, Options)).
 
-stop(Bridge, Host) :-
+bridge_stop(Bridge, Host) :-
     must_be(atom, Host),
     host_resolve(Host, Where),
     raising_afresh(stop_at(Where, Bridge, Host)).
@@ -188,7 +198,7 @@ stop_at(local(Name), Bridge, _) :-
     ;   existence_error(Bridge, Name)
     ).
 stop_at(remote(_, Name, _), Bridge, Host) :-
-    remote(Host, typhon_starting:stop(Bridge, Name)).
+    remote(Host, typhon_starting:bridge_stop(Bridge, Name)).
 
 :- dynamic folder/1.                    % where the bridges are
 

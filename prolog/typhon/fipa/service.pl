@@ -3,16 +3,15 @@
             fipa_stop/1,                % +Host
             fipa_property/2             % ?Host, ?Property
           ]).
-:- use_module(library(error),
-              [domain_error/2, existence_error/2, must_be/2,
-               permission_error/3]).
+:- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../base/options', [check_name/2, check_options/2]).
 :- use_module('../program', [payload_load/2]).
-:- use_module('../host',
-              [ host/3, host_option/2, host_resolve/2, place_deliver/3,
-                place_undeliver/2 ]).
+:- use_module('../host', [host_option/2]).
+:- use_module('../bridge',
+              [ bridge_start/4, bridge_stop/2, service_begin/4,
+                service_end/2, service_offer/4 ]).
 :- use_module(aid, [aid/1, aid_name/2]).
 :- use_module(carriage, [carriage_close/1, carriage_queued/2]).
 :- use_module(exchange, [exchange_send/4]).
@@ -26,22 +25,23 @@
 
 /** <module> A host as a platform of FIPA
 
-*Threading*: starting and stopping exclude each other by a mutex.
+*Threading*: any thread.
 */
 
 :- multifile
     typhon_abroad:carried/4,
-    typhon_hosting:evacuate/2,
     typhon_names:known/2,
-    typhon_options:declared/4.
+    typhon_options:declared/4,
+    typhon_services:ends/2,
+    typhon_starting:starts/4.
 
 %!  fipa_start(+Host, +URL, +Options) is det.
 %
-%   Host, of this process, is a platform of FIPA from now on.  Others reach it
-%   at URL, `http://Host:Port/Path`; where the port is 0 it is any, and
-%   fipa_property/2 tells which.  Agents on Host, and those of this process,
-%   send messages to fipa(Name, Addresses); those for its agents come from
-%   fipa(Name).  The place of Host has reply/3.  Options:
+%   Host is a platform of FIPA from now on.  Others reach it at URL,
+%   `http://Host:Port/Path`; where the port is 0 it is any, and
+%   fipa_property/2 tells which, in the process of Host.  Agents on Host, and
+%   those of its process, send messages to fipa(Name, Addresses); those for
+%   its agents come from fipa(Name).  The place of Host has reply/3.  Options:
 %
 %     - name(+Atom): of the platform, default the name of the host
 %     - bind(+Interface): on which it listens, default 127.0.0.1
@@ -58,8 +58,7 @@
 %   @error socket_error(Code, Message)
 
 fipa_start(Host, Url, Options) :-
-    check_options(fipa_option, Options),
-    with_mutex(typhon_fipa, start(Host, Url, Options)).
+    bridge_start(fipa, Host, Url, Options).
 
 typhon_options:declared(fipa_option, Option, Type, Value) :-
     option_type(Option, Type, Value).
@@ -71,38 +70,37 @@ option_type(connections(X), positive_integer, X).
 option_type(max_bytes(X), positive_integer, X).
 option_type(seconds(X), positive_integer, X).
 
-start(Host, Url, Options) :-
-    local_host(Host, Name, Place),
-    (   ( platform(Name, _, _, _) ; host_option(Name, clock(virtual)) )
-    ->  permission_error(start, fipa, Name)
-    ;   true
-    ),
-    http_url(Url, UrlHost:Port0, Path),
-    option(name(Platform), Options, Name),
+typhon_starting:starts(fipa, Host, Url, Options) :-
+    check_options(fipa_option, Options),
+    real_time(Host),
+    option(name(Platform), Options, Host),
     check_platform(Platform),
+    http_url(Url, _, _),
+    payload_load(payloads(fipa/reply), payload(_, PIs, Clauses)),
+    service_begin(fipa, Host, [], typhon_fipa_service),
+    catch(( service_offer(service(fipa), Host, PIs, Clauses),
+            open_platform(Host, Platform, Url, Options) ),
+          Ball,
+          ( service_end(fipa, Host),
+            throw(Ball) )).
+
+real_time(Host) :-
+    (   host_option(Host, clock(virtual))
+    ->  permission_error(start, fipa, Host)
+    ;   true
+    ).
+
+open_platform(Host, Platform, Url, Options) :-
+    http_url(Url, UrlHost:Port0, Path),
     option(bind(Interface), Options, '127.0.0.1'),
     limits(Options, Limits),
     (   Port0 == 0
     ->  true
     ;   Port = Port0
     ),
-    payload_load(payloads(fipa/reply), Payload),
-    reception_open(Name, Interface:Port, Limits, Port),
+    reception_open(Host, Interface:Port, Limits, Port),
     atomic_list_concat(['http://', UrlHost, ':', Port, Path], Reached),
-    platform_add(Name, Platform, Reached, Limits),
-    catch(place_deliver(Place, Payload, _),
-          error(Formal, Context),
-          ( end(Name),
-            throw(error(Formal, Context)) )).
-
-local_host(Host, Name, Place) :-
-    must_be(atom, Host),
-    (   host_resolve(Host, local(Name0)),
-        host(Name0, _, Place0)
-    ->  Name = Name0,
-        Place = Place0
-    ;   existence_error(host, Host)
-    ).
+    platform_add(Host, Platform, Reached, Limits).
 
 %   What stands after the last @ of a name.
 
@@ -127,26 +125,13 @@ limits(Options, [ queue(Queue), connections(Connections), max_bytes(Max),
 %   @error existence_error(fipa, Host)
 
 fipa_stop(Host) :-
-    must_be(atom, Host),
-    (   with_mutex(typhon_fipa, stop(Host))
-    ->  true
-    ;   existence_error(fipa, Host)
-    ).
+    bridge_stop(fipa, Host).
 
-stop(Host) :-
-    local_host(Host, Name, Place),
-    platform(Name, _, _, _),
-    place_undeliver(Place, fipa_reply),
-    end(Name).
-
-end(Name) :-
-    reception_close(Name),
-    carriage_close(Name),
-    ignore(platform_remove(Name)),
-    manager_end(Name).
-
-typhon_hosting:evacuate(Host, _) :-
-    with_mutex(typhon_fipa, ignore(stop(Host))).
+typhon_services:ends(fipa, Host) :-
+    reception_close(Host),
+    carriage_close(Host),
+    ignore(platform_remove(Host)),
+    manager_end(Host).
 
 %!  fipa_property(?Host, ?Property) is nondet.
 %

@@ -78,9 +78,15 @@ show(Place, Front, PI) :-
 front_gone(Place) :-
     retractall(offered(Place, _)),
     retractall(front(Place, _, _)),
-    forall(retract(made(Place, Front)),
-           ( retractall(guards(Front, _)),
-             '$destroy_module'(Front) )).
+    fronts_gone(Place).
+
+fronts_gone(Place) :-
+    (   retract(made(Place, Front))
+    ->  retractall(guards(Front, _)),
+        '$destroy_module'(Front),
+        fronts_gone(Place)
+    ;   true
+    ).
 
 %!  place_front(+Place, -Front, -Policy) is semidet.
 %

@@ -4,6 +4,7 @@
 % hear of them, wherever they are, and what becomes of bad requests.
 
 :- use_module('../../lib/common').
+:- use_module('../../lib/fipa_agents').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
 :- use_module('../../../app/diagnose_fipa').
@@ -40,20 +41,6 @@ platform(Host, Name, Options, Url) :-
 
 property(Host, Property) :-
     once(fipa_property(Host, Property)).
-
-%   What the agent that does Goals, and may call Clauses, has as its Result.
-
-does(Goals, Result) :-
-    does(Goals, [], Result).
-
-does(Goals, Clauses, Result) :-
-    agent_create(clauses([ (:- agent(asker, [])),
-                           (main :- attach(payloads(fipa/request)),
-                                    attach(payloads(fipa/contract_net)),
-                                    Goals, result(Result))
-                         | Clauses ]),
-                 Agent, [host(alpha)]),
-    agent_result(Agent, Result, 20).
 
 echo([ (:- agent(echo, [])),
        (on_message(From, acl(request, Parameters)) :-
@@ -366,6 +353,18 @@ test(stops) :-
           assertion(\+ fipa_property(alpha, _)),
           fipa_start(alpha, Url, []),
           assertion(property(alpha, name(alpha))) )).
+
+test(in_another_process, Names-After == [far]-[]) :-
+    with_peers([p],
+        ( peer_host(p, Host),
+          fipa_start(Host, 'http://127.0.0.1:0/acc', [name(far)]),
+          names(Host, Names),
+          fipa_stop(Host),
+          names(Host, After) )).
+
+names(Host, Names) :-
+    remote(Host, findall(Name, typhon_fipa_service:fipa_property(_, name(Name)),
+                         Names)).
 
 test(is_on_loopback) :-
     with_platform([], Url,

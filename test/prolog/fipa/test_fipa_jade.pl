@@ -4,6 +4,7 @@
 
 :- use_module('../../lib/common').
 :- needs(['default-jdk-headless', maven]).
+:- use_module('../../lib/fipa_agents').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/jade').
 :- use_module('../../lib/peers').
@@ -41,20 +42,6 @@ worker([ (:- agent(worker, [])),
 worker(Agent, Options) :-
     worker(Clauses),
     agent_create(clauses(Clauses), Agent, [host(alpha)|Options]).
-
-%   Whoever does Goals, and has Result.
-
-does(Goals, Result) :-
-    does(Goals, [], Result).
-
-does(Goals, Clauses, Result) :-
-    agent_create(clauses([ (:- agent(asker, [])),
-                           (main :- attach(payloads(fipa/request)),
-                                    attach(payloads(fipa/contract_net)),
-                                    Goals, result(Result))
-                         | Clauses ]),
-                 Agent, [host(alpha)]),
-    agent_result(Agent, Result, 30).
 
 manager(Name, Url, fipa(Full, [Url])) :-
     atom_concat(Name, '@jadeplat', Full).

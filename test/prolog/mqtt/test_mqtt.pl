@@ -10,6 +10,7 @@ that use it.
 :- needs([mqtt]).
 :- use_module('../../lib/brokers').
 :- use_module('../../lib/fixtures').
+:- use_module('../../lib/shown').
 :- use_module('../../lib/transcript', [transcript_differences/3]).
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -17,7 +18,6 @@ that use it.
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_socket/1 ]).
 :- use_module(library(typhon)).
@@ -535,30 +535,19 @@ test(denied, E == permission_error(subscribe, mqtt_filter, 'no/thing')) :-
 %   With another broker than that of this machine.
 
 document(Differences, Dir) :-
-    project_file('doc/bridges.md', Document),
-    read_file_to_string(Document, Text, [encoding(utf8)]),
-    section(Text, "```prolog\n% thermostat.pl\n", Program),
-    section(Text, "```text\n?- host_start(alpha), mqtt_start", Session0),
+    Document = 'doc/bridges.md',
     directory_file_path(Dir, 'thermostat.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       write(Out, Program),
-                       close(Out)),
+    shown_in_file(Document, "```prolog\n% thermostat.pl\n", File),
+    Begin = "?- host_start(alpha), mqtt_start",
+    string_concat("```text\n", Begin, Text),
+    shown(Document, Text, Session0),
     with_broker([], B,
                 ( broker_url(B, URL),
                   atomic_list_concat(Parts, 'mqtt://localhost', Session0),
                   atomic_list_concat(Parts, URL, Session),
-                  string_concat("?- host_start(alpha), mqtt_start", Session,
-                                All),
+                  string_concat(Begin, Session, All),
                   split_string(All, "\n", "", Lines),
                   transcript_differences([1-Lines], Dir, Differences) )).
-
-section(Text, Begin, Section) :-
-    sub_string(Text, At, Length, _, Begin),
-    Start is At+Length,
-    sub_string(Text, Start, _, 0, Rest),
-    sub_string(Rest, End, _, _, "\n```"),
-    !,
-    sub_string(Rest, 0, End, _, Section).
 
 killed :-
     typhon_helper_requests:helper_pid(mqtt(alpha), Pid),

@@ -8,12 +8,13 @@ The peer, ros_peer.py, is a node in another process, made with rclpy alone.
 :- use_module('../../lib/common').
 :- needs([ros]).
 :- use_module('../../lib/ros_agents').
+:- use_module('../../lib/shown').
 :- use_module('../../lib/transcript', [transcript_differences/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_kill/2,
                                  process_wait/2]).
-:- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/helper), [helper_file/2, helper_pid/2]).
 :- use_module(library(typhon/ros)).
@@ -277,26 +278,10 @@ test(a_node_that_dies_is_started_again_and_told_all) :-
 
 :- end_tests(ros2).
 
-%   What follows a line of the document, up to the end of the block.
-
-section(Text, Begin, Section) :-
-    string_concat(Begin, "\n", Line),
-    sub_string(Text, At, Length, _, Line),
-    Start is At+Length,
-    sub_string(Text, Start, _, 0, Rest),
-    sub_string(Rest, End, _, _, "\n```"),
-    !,
-    sub_string(Rest, 0, End, _, Section).
-
 document(Differences, Dir) :-
-    project_file('doc/bridges-ros.md', Document),
-    read_file_to_string(Document, Text, [encoding(utf8)]),
-    section(Text, "% talker.pl", Program),
-    section(Text, "```text", Session),
     directory_file_path(Dir, 'talker.pl', File),
-    setup_call_cleanup(open(File, write, Out),
-                       write(Out, Program),
-                       close(Out)),
+    shown_in_file('doc/bridges-ros.md', "% talker.pl\n", File),
+    shown('doc/bridges-ros.md', "```text\n", Session),
     split_string(Session, "\n", "", Lines),
     transcript_differences([1-Lines], Dir, Differences).
 
