@@ -13,7 +13,7 @@ layer has a door, and behind it a folder with its rooms.
   | events, as they happen         | typhon/watching   |
   | tables for people              | typhon/people     |
   | a page for a browser           | typhon/page       |
-  | Python, MQTT, ROS              | typhon/bridge     |
+  | Python, MQTT, ROS, FIPA        | typhon/bridge     |
 */
 
 :- reexport(typhon/program, [agent_check/1, agent_check/2]).
@@ -29,5 +29,5 @@ layer has a door, and behind it a folder with its rooms.
 :- reexport(typhon/page, [page_start/1, page_stop/0]).
 :- reexport(typhon/bridge/starting,
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
-              ros_start/3, ros_stop/1 ]).
+              ros_start/3, ros_stop/1, fipa_start/3, fipa_stop/1 ]).
 :- use_module(typhon/language, []).

@@ -49,13 +49,15 @@ title(robots, "Robots: library(typhon/nxt)").
 title(fipa, "Platforms of FIPA: library(typhon/fipa)").
 title(others, "What these refer to").
 
-%   public(?Module, -PI): of the part Module.
+%   public(?Module, -PI): of the part Module; what is part of library(typhon),
+%   too, is told there.
 
 public(Module, Room:PI) :-
     part(_, Module),
     module_property(Module, exports(PIs)),
     member(PI, PIs),
-    defined_in(Module, PI, Room).
+    defined_in(Module, PI, Room),
+    \+ ( Module \== typhon, defined_in(typhon, PI, Room) ).
 public(typhon_words, typhon_words:sleep/1).     % with the name of another
 
 defined_in(Module, Name/Arity, Room) :-

@@ -35,7 +35,6 @@ them as messages or as facts.  This is the door of the layer.  A bridge
 :- reexport(bridge/json_values, [json_value/1]).
 :- reexport(bridge/services,
             [ service/2, service_begin/4, service_end/2, service_offer/4 ]).
-:- reexport(bridge/starting, [bridge_start/4, bridge_stop/2]).
 :- reexport(bridge/subscribers,
             [ subscribe/5, subscriber/2, subscribers_drop/4, subscribers_tell/5,
               subscribers_tell_new/5, subscription/3,

@@ -5,10 +5,11 @@
     :- use_module(library(typhon/fipa)).
 
 The whole interface is fipa_start/3, fipa_stop/1 and fipa_property/2; what
-agents say and hear is told in [bridges-fipa.md].  It is not part of
-library(typhon), and needs nothing but Prolog.  Nothing is defined here: see
+agents say and hear is told in [bridges-fipa.md].  Only the first two are
+part of library(typhon).  It needs nothing but Prolog.  Nothing is defined here: see
 the rooms in fipa/.
 
+  | starting and stopping                  | typhon/bridge/starting        |
   | hosts as platforms                     | service, platform             |
   | messages in and out, failures          | exchange, incoming            |
   | HTTP: in, out, and its text            | reception, carriage, http     |
@@ -18,4 +19,5 @@ the rooms in fipa/.
   | threads                                | crew                          |
 */
 
+:- reexport(bridge/starting, [fipa_start/3, fipa_stop/1]).
 :- reexport(fipa/service).

@@ -1,12 +1,12 @@
 :- module(typhon_starting,
-          [ bridge_start/4,             % +Bridge, +Host, +What, +Options
-            bridge_stop/2,              % +Bridge, +Host
-            python_start/3,             % +Host, +File, +Options
+          [ python_start/3,             % +Host, +File, +Options
             python_stop/1,              % +Host
             mqtt_start/3,               % +Host, +URL, +Options
             mqtt_stop/1,                % +Host
             ros_start/3,                % +Host, +Where, +Options
-            ros_stop/1                  % +Host
+            ros_stop/1,                 % +Host
+            fipa_start/3,               % +Host, +URL, +Options
+            fipa_stop/1                 % +Host
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
@@ -53,7 +53,7 @@ there.
 %   @error permission_error(start, python, Host) if it is started
 
 python_start(Host, File, Options) :-
-    bridge_start(python, Host, File, Options).
+    start(python, Host, File, Options).
 
 %!  python_stop(+Host) is det.
 %
@@ -62,7 +62,7 @@ python_start(Host, File, Options) :-
 %   @error existence_error(python, Host)
 
 python_stop(Host) :-
-    bridge_stop(python, Host).
+    stop(python, Host).
 
 %!  mqtt_start(+Host, +URL, +Options) is det.
 %
@@ -99,7 +99,7 @@ python_stop(Host) :-
 %   @error domain_error(mqtt_url, URL), domain_error(mqtt_option, Option)
 
 mqtt_start(Host, URL, Options) :-
-    bridge_start(mqtt, Host, URL, Options).
+    start(mqtt, Host, URL, Options).
 
 %!  mqtt_stop(+Host) is det.
 %
@@ -108,7 +108,7 @@ mqtt_start(Host, URL, Options) :-
 %   @error existence_error(mqtt, Host)
 
 mqtt_stop(Host) :-
-    bridge_stop(mqtt, Host).
+    stop(mqtt, Host).
 
 %!  ros_start(+Host, +Where, +Options) is det.
 %
@@ -143,7 +143,7 @@ mqtt_stop(Host) :-
 %   @error timeout_error(connect, URL)
 
 ros_start(Host, Where, Options) :-
-    bridge_start(ros, Host, Where, Options).
+    start(ros, Host, Where, Options).
 
 %!  ros_stop(+Host) is det.
 %
@@ -152,7 +152,42 @@ ros_start(Host, Where, Options) :-
 %   @error existence_error(ros, Host)
 
 ros_stop(Host) :-
-    bridge_stop(ros, Host).
+    stop(ros, Host).
+
+%!  fipa_start(+Host, +URL, +Options) is det.
+%
+%   Host is a platform of FIPA from now on.  Others reach it at URL,
+%   `http://Host:Port/Path`; where the port is 0 it is any, and
+%   fipa_property/2 tells which, in the process of Host.  Agents on Host, and
+%   those of its process, send messages to fipa(Name, Addresses); those for
+%   its agents come from fipa(Name).  The place of Host has reply/3.  Options:
+%
+%     - name(+Atom): of the platform, default the name of the host
+%     - bind(+Interface): on which it listens, default 127.0.0.1
+%     - queue(+N): messages that wait for one address, or in one mailbox,
+%       at the most, default 1000; what is too much is not taken
+%     - connections(+N): from others at a time, default 64
+%     - max_bytes(+N): of a message with its envelope, default 2,000,000
+%     - seconds(+N): in which a message has to come, or be taken, default 10
+%
+%   @error permission_error(start, fipa, Host) if it is one already, or its
+%   time is virtual: others do not wait for that
+%   @error existence_error(host, Host)
+%   @error domain_error(http_url, URL), domain_error(fipa_option, Option)
+%   @error socket_error(Code, Message)
+
+fipa_start(Host, Url, Options) :-
+    start(fipa, Host, Url, Options).
+
+%!  fipa_stop(+Host) is det.
+%
+%   Host is no platform any more.  What has not gone out is lost.  So it is
+%   when the host stops.
+%
+%   @error existence_error(fipa, Host)
+
+fipa_stop(Host) :-
+    stop(fipa, Host).
 
 %   Where it is allowed.
 
@@ -165,14 +200,7 @@ typhon_words:python_delivered(Host, Name, Source) :-
                 *        HERE OR ELSEWHERE     *
                 *******************************/
 
-%!  bridge_start(+Bridge, +Host, +What, +Options:list) is det.
-%!  bridge_stop(+Bridge, +Host) is det.
-%
-%   For bridges that are started by names of their own.
-%
-%   @error existence_error(Bridge, Host) if it is not there
-
-bridge_start(Bridge, Host, What, Options) :-
+start(Bridge, Host, What, Options) :-
     must_be(atom, Host),
     must_be(ground, What),
     must_be(list, Options),
@@ -184,10 +212,9 @@ start_at(local(Name), Bridge, _, What, Options) :-
     starts(Bridge, Name, What, Options),
     !.
 start_at(remote(_, Name, _), Bridge, Host, What, Options) :-
-    remote(Host,
-           typhon_starting:bridge_start(Bridge, Name, What, Options)).
+    remote(Host, typhon_starting:start(Bridge, Name, What, Options)).
 
-bridge_stop(Bridge, Host) :-
+stop(Bridge, Host) :-
     must_be(atom, Host),
     host_resolve(Host, Where),
     raising_afresh(stop_at(Where, Bridge, Host)).
@@ -198,7 +225,7 @@ stop_at(local(Name), Bridge, _) :-
     ;   existence_error(Bridge, Name)
     ).
 stop_at(remote(_, Name, _), Bridge, Host) :-
-    remote(Host, typhon_starting:bridge_stop(Bridge, Name)).
+    remote(Host, typhon_starting:stop(Bridge, Name)).
 
 :- dynamic folder/1.                    % where the bridges are
 

@@ -1,7 +1,5 @@
 :- module(typhon_fipa_service,
-          [ fipa_start/3,               % +Host, +URL, +Options
-            fipa_stop/1,                % +Host
-            fipa_property/2             % ?Host, ?Property
+          [ fipa_property/2             % ?Host, ?Property
           ]).
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
@@ -10,8 +8,7 @@
 :- use_module('../program', [payload_load/2]).
 :- use_module('../host', [host_option/2]).
 :- use_module('../bridge',
-              [ bridge_start/4, bridge_stop/2, service_begin/4,
-                service_end/2, service_offer/4 ]).
+              [service_begin/4, service_end/2, service_offer/4]).
 :- use_module(aid, [aid/1, aid_name/2]).
 :- use_module(carriage, [carriage_close/1, carriage_queued/2]).
 :- use_module(exchange, [exchange_send/4]).
@@ -34,31 +31,6 @@
     typhon_options:declared/4,
     typhon_services:ends/2,
     typhon_starting:starts/4.
-
-%!  fipa_start(+Host, +URL, +Options) is det.
-%
-%   Host is a platform of FIPA from now on.  Others reach it at URL,
-%   `http://Host:Port/Path`; where the port is 0 it is any, and
-%   fipa_property/2 tells which, in the process of Host.  Agents on Host, and
-%   those of its process, send messages to fipa(Name, Addresses); those for
-%   its agents come from fipa(Name).  The place of Host has reply/3.  Options:
-%
-%     - name(+Atom): of the platform, default the name of the host
-%     - bind(+Interface): on which it listens, default 127.0.0.1
-%     - queue(+N): messages that wait for one address, or in one mailbox,
-%       at the most, default 1000; what is too much is not taken
-%     - connections(+N): from others at a time, default 64
-%     - max_bytes(+N): of a message with its envelope, default 2,000,000
-%     - seconds(+N): in which a message has to come, or be taken, default 10
-%
-%   @error permission_error(start, fipa, Host) if it is one already, or its
-%   time is virtual: others do not wait for that
-%   @error existence_error(host, Host)
-%   @error domain_error(http_url, URL), domain_error(fipa_option, Option)
-%   @error socket_error(Code, Message)
-
-fipa_start(Host, Url, Options) :-
-    bridge_start(fipa, Host, Url, Options).
 
 typhon_options:declared(fipa_option, Option, Type, Value) :-
     option_type(Option, Type, Value).
@@ -116,16 +88,6 @@ limits(Options, [ queue(Queue), connections(Connections), max_bytes(Max),
     option(connections(Connections), Options, 64),
     option(max_bytes(Max), Options, 2000000),
     option(seconds(Seconds), Options, 10).
-
-%!  fipa_stop(+Host) is det.
-%
-%   Host is no platform any more.  What has not gone out is lost.  So it is
-%   when the host stops.
-%
-%   @error existence_error(fipa, Host)
-
-fipa_stop(Host) :-
-    bridge_stop(fipa, Host).
 
 typhon_services:ends(fipa, Host) :-
     reception_close(Host),
