@@ -1,5 +1,6 @@
 :- module(test_top_level_lib,
-          [ typed/3                     % +Lines, +Dir, -Written
+          [ typed/3,                    % +Lines, +Dir, -Written
+            top_level_goes_on/0
           ]).
 
 /** <module> What a person sees who types at the top level
@@ -7,9 +8,9 @@
 *Threading*: any thread.
 */
 
-:- use_module(common, [project_file/2]).
+:- use_module(common, [project_file/2, with_tmp_dir/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 
 %!  typed(+Lines, +Dir, -Written:list(string)) is det.
@@ -33,3 +34,16 @@ typed(Lines, Dir, Written) :-
         ( close(Out), process_wait(Pid, _) )),
     split_string(Text, "\n", "\r", All),
     findall(Line, ( member(Line, All), Line \== "" ), Written).
+
+%!  top_level_goes_on is semidet.
+%
+%   After two errors that have nothing to do with us. That of 9.2.9 opens the
+%   debugger at the second.
+
+top_level_goes_on :-
+    with_tmp_dir(goes_on).
+
+goes_on(Dir) :-
+    typed(['atom_length(_, _).', 'atom_length(_, _).', 'nl, writeln(on).'],
+          Dir, Written),
+    memberchk("on", Written).

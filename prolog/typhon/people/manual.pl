@@ -107,6 +107,9 @@ asked(Query) :-
 asking(Help, Query, Help:apropos(Query)).
 asking(Help, Query, Help:apropos_no_trace(Query)).
 asking(Help, Query,
+       system:setup_call_cleanup(
+                  _, system:once(Help:apropos_no_trace(Query)), _)).
+asking(Help, Query,
        system:setup_call_catcher_cleanup(
                   _, system:once(Help:apropos_no_trace(Query)), _, _)).
 
