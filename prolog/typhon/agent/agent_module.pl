@@ -71,6 +71,7 @@ within_space(_, _).
 %   through, and hangs below the front of the place.
 
 below(Place, Hash, _, State0, Program, Front, State) :-
+    guarding,
     place_front(Place, Front, Policy),
     !,
     code_guarded(Policy, Hash, Program),
@@ -92,6 +93,7 @@ agent_code(Module, Program) :-
 %   @error permission_error(call, sandboxed, Culprit)
 
 agent_goals(Module, Goals0, Goals) :-
+    guarding,
     module_policy(Module, Policy),
     !,
     agent_code(Module, Program),

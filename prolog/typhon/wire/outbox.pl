@@ -97,7 +97,7 @@ answers_first(Session) :-
     answers_left(Own),
     !,
     (   Own == Session
-    ->  nb_setval(typhon_later, 0)
+    ->  nb_linkval(typhon_later, 0)
     ;   session_push(Own)
     ).
 answers_first(_).
@@ -122,7 +122,7 @@ session_send_later(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
     session_locked(Session, put_later(Session, Bytes)),
     Count1 is Count+1,
-    nb_setval(typhon_later, Count1).
+    nb_linkval(typhon_later, Count1).
 session_send_later(Session, Term) :-
     session_send(Session, Term).
 
@@ -135,8 +135,11 @@ session_push(Session) :-
     ->  session_locked(Session, ( journal_commit, push_out(Key) ))
     ;   session_locked(Session, push_out(Key))
     ),
-    nb_setval(typhon_later, 0),
-    nb_setval(typhon_later_in, Session).
+    nb_linkval(typhon_later, 0),
+    (   nb_current(typhon_later_in, Session)
+    ->  true
+    ;   nb_setval(typhon_later_in, Session)
+    ).
 
 push_out(Key) :-
     (   transport(Key, Thread, Out),
