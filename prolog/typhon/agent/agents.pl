@@ -21,7 +21,7 @@
             agent_unorder/2,            % +Id, ?Order
             agent_ordered/1             % +Id
           ]).
-:- use_module(library(debug), [debug/3]).
+:- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal',
@@ -307,7 +307,10 @@ agent_mail(Id, Messages) :-
     ).
 
 put_mail(Messages, Id) :-
-    tell_mail(Messages, Id),
+    (   debugging(typhon(mail))
+    ->  tell_mail(Messages, Id)
+    ;   true
+    ),
     mail_put(Id, Messages).
 
 tell_mail([], _).
