@@ -44,14 +44,15 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     (   guarding,
         kept_out(Name, Module, Hash, Goals, Reason)
     ->  How = refused(Reason)
-    ;   sig_atomic(( enter(Id, Here-Name, going(Module, Hash, Life, Until),
+    ;   sig_atomic(( enter(Id, Here-Name,
+                           going(Module, Hash, Life, Until, Since),
                            Hole-Goals, How),
-                     settled(How, Id, Here-Name, Hops, Since) ))
+                     told(How, Id, Here-Name, Hops) ))
     ),
     went(How, Id, Here-Name, Hops, Next).
 hop_within(_, _, _, _, _, stop).        % it was ended
 
-went(moved(Next), _, _, _, Next).
+went(moved(Next, _), _, _, _, Next).
 went(ended, _, _, _, stop).
 went(refused(Reason), Id, Here-Name, Hops, _) :-
     endpoint_address(Own),
@@ -66,12 +67,12 @@ kept_out(Name, Module, Hash, Goals, Reason) :-
           error(Formal, Context),
           policy_refuses(error(Formal, Context), Reason)).
 
-%   enter(+Id, +Hosts, +Going, +Held, -How): How is moved(Next), `ended`, or
-%   refused(Reason).  Nobody keeps the room that was taken for one who does
-%   not come.
+%   enter(+Id, +Hosts, +Going, +Held, -How): How is moved(Next, Seconds),
+%   `ended`, or refused(Reason).  Nobody keeps the room that was taken for one
+%   who does not come.
 
 enter(Id, Here-Name, Going, Held, How) :-
-    Going = going(_, Hash, Life, _),
+    Going = going(_, Hash, Life, _, _),
     life_tokens(Life, Tokens),
     host_enter(Name, Hash, Tokens, Answer),
     (   Answer == ok
@@ -81,8 +82,8 @@ enter(Id, Here-Name, Going, Held, How) :-
     ;   How = Answer
     ).
 
-moved(Id, Hosts, Going, Held, moved(Next)) :-
-    with_agent(Id, move(Id, Hosts, Going, Held, Next)),
+moved(Id, Hosts, Going, Held, moved(Next, Seconds)) :-
+    with_agent(Id, move(Id, Hosts, Going, Held, Next, Seconds)),
     !.
 moved(Id, _-Name, _, _, How) :-
     host_leave(Name),
@@ -91,9 +92,11 @@ moved(Id, _-Name, _, _, How) :-
     ;   How = ended
     ).
 
-%   An agent that was told to move has no hole.
+%   An agent that was told to move has no hole.  Who ends it next finds it
+%   counted where it stands.
 
-move(Id, Here-Name, going(Module0, Hash, Life, Until), Hole-Goals0, Next) :-
+move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
+     Next, Seconds) :-
     host(Name, _, Place),
     agent_status(Id, Status, _),
     next(Status, Here-Name, Goals, Next),
@@ -109,7 +112,9 @@ move(Id, Here-Name, going(Module0, Hash, Life, Until), Hole-Goals0, Next) :-
     (   Next == stop
     ->  agent_put(Id, ready, Goals)
     ;   true
-    ).
+    ),
+    seconds(Here, Name, Since, Seconds),
+    host_passed(Here, Name, Seconds).
 
 next(running, Here-Name, Goals, Next) :-
     (   schedule_stays(Here, Name)
@@ -118,17 +123,6 @@ next(running, Here-Name, Goals, Next) :-
     ).
 next(obeying, _, _, stop).
 
-%   The agent is there, whatever comes: nobody must think it is still here.
-
-settled(moved(Next), Id, Here-Name, Hops, Since) :-
-    !,
-    seconds(Here, Name, Since, Seconds),
-    host_passed(Here, Name, Seconds),
-    catch(arrived(Id, Here, Name, Hops, Seconds, Next),
-          error(Formal, Context),
-          print_message(error, error(Formal, Context))).
-settled(_, _, _, _, _).
-
 %   One of them may have been stopped meanwhile.
 
 seconds(Here, Name, Since, Seconds) :-
@@ -136,6 +130,15 @@ seconds(Here, Name, Since, Seconds) :-
     ->  Seconds is max(0.0, Now-Since)
     ;   Seconds = 0.0
     ).
+
+%   The agent is there, whatever comes: nobody must think it is still here.
+
+told(moved(Next, Seconds), Id, Here-Name, Hops) :-
+    !,
+    catch(arrived(Id, Here, Name, Hops, Seconds, Next),
+          error(Formal, Context),
+          print_message(error, error(Formal, Context))).
+told(_, _, _, _).
 
 arrived(Id, Here, Name, Hops, Seconds, Next) :-
     host(Name, Address, _),

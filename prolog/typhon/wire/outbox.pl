@@ -74,12 +74,15 @@ session_send(Session, Term) :-
 %   something: what is held goes.
 
 session_send_with(Session, Term) :-
-    answers_left(Session),
+    answers_left(Own),
     !,
-    session_send(Session, Term).        % so that they go, too
+    (   Own == Session
+    ->  session_send(Session, Term)     % so that they go, too
+    ;   session_push(Own),
+        session_send_with(Session, Term)
+    ).
 session_send_with(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
-    answers_first(Session),
     session_locked(Session, put_with(Session, Bytes)).
 
 session_release(Session) :-
@@ -105,8 +108,7 @@ answers_first(_).
 answers_left(Session) :-
     nb_current(typhon_later, Count),
     Count > 0,
-    nb_current(typhon_later_in, Own),
-    Own = Session.
+    nb_current(typhon_later_in, Session).
 
 %!  session_send_later(+Session, +Term) is det.
 %!  session_later(-Count) is det.
