@@ -6,8 +6,7 @@
               [crash_point/1, journal_on/0, journal_seal/0, journal_step/1]).
 :- use_module('../program', [code_module/2, code_receive/2]).
 :- use_module('../wire',
-              [ endpoint_afterwards/1, endpoint_keys/1, endpoint_reply/2,
-                endpoint_reply_later/2 ]).
+              [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
 :- use_module('../host',
               [ audit/3, event/4, guarding/0, host/3, host_enter/4, host_hop/3,
                 host_leave/1, host_time/2, peer_may/3, schedule/2,
@@ -158,10 +157,7 @@ not_installed(Ball, Installed) :-
 install(Name, Label, Image0, Crossing, Installed) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _, _, _),
-        (   endpoint_keys(_)
-        ->  image_trail(received(Address), Name, Image0, Image)
-        ;   Image = Image0
-        ),
+        image_trail(received(Address), Name, Image0, Image),
         with_agent(Id, ( install(Id, Hops, Image, Crossing, Name-Address,
                                  Place, Installed),
                          ( journal_on -> journal_seal ; true ) ))

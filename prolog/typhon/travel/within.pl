@@ -41,8 +41,7 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     life_hop(Life0, Life, Hops),
     agent_changed(Module, Until0, Changed, Until),
     mobile_term(Changed-Life-Goals),    % of the state only what has changed
-    (   guarding,
-        kept_out(Name, Module, Hash, Goals, Reason)
+    (   kept_out(Name, Module, Hash, Goals, Reason)
     ->  How = refused(Reason)
     ;   sig_atomic(( enter(Id, Here-Name,
                            going(Module, Hash, Life, Until, Since),
@@ -62,6 +61,7 @@ went(refused(Reason), Id, Here-Name, Hops, _) :-
     throw(error(move_refused(Address, Reason), _)).
 
 kept_out(Name, Module, Hash, Goals, Reason) :-
+    guarding,
     host(Name, _, Place),
     catch(( agent_may_stand(Module, Hash, Place, Goals), fail ),
           error(Formal, Context),
