@@ -16,6 +16,11 @@ layer has a door, and behind it a folder with its rooms.
   | Python, MQTT, ROS, FIPA        | typhon/bridge     |
 */
 
+%   Arithmetic is compiled in all rooms; what they tell by debug/3 stays.
+
+:- set_prolog_flag(optimise, true).
+:- set_prolog_flag(optimise_debug, false).
+
 :- reexport(typhon/program, [agent_check/1, agent_check/2]).
 :- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport(typhon/host,
@@ -31,3 +36,5 @@ layer has a door, and behind it a folder with its rooms.
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
               ros_start/3, ros_stop/1, fipa_start/3, fipa_stop/1 ]).
 :- use_module(typhon/language, []).
+
+:- set_prolog_flag(optimise_debug, default).

@@ -71,6 +71,7 @@ within_space(_, _).
 %   through, and hangs below the front of the place.
 
 below(Place, Hash, _, State0, Program, Front, State) :-
+    guarding,
     place_front(Place, Front, Policy),
     !,
     code_guarded(Policy, Hash, Program),
@@ -92,6 +93,7 @@ agent_code(Module, Program) :-
 %   @error permission_error(call, sandboxed, Culprit)
 
 agent_goals(Module, Goals0, Goals) :-
+    guarding,
     module_policy(Module, Policy),
     !,
     agent_code(Module, Program),
@@ -209,17 +211,17 @@ split([Item|Items], Empty, Clauses) :-
         split(Items, Empty, Clauses1)
     ).
 
-%!  agent_changed(+Module, +Since:integer, -Clauses:list, -Until) is det.
+%!  agent_changed(+Module, +Since:integer, -Changed:list, -Until) is det.
 %
-%   Clauses are those of the predicates of the state that have changed since
-%   the state was Until before; begin with 0.
+%   Changed has the clauses of the predicates of the state that have changed
+%   since the state was Until before; begin with 0.
 
-agent_changed(Module, Since, Clauses, Until) :-
-    findall(Last-Head, changed(Module, Since, Head, Last), Changed),
-    latest(Changed, Since, Until),
-    findall(Head-Body,
-            ( member(_-Head, Changed), clause(Module:Head, Body) ),
-            Clauses).
+agent_changed(Module, Since, Changed, Until) :-
+    findall(Last-(Head:-Body),
+            ( changed(Module, Since, Head, Last),
+              clause(Module:Head, Body) ),
+            Changed),
+    latest(Changed, Since, Until).
 
 changed(Module, Since, Head, Last) :-
     '$c_current_predicate'(_, Module:Head),
@@ -240,19 +242,19 @@ latest([Last-_|Changed], Until0, Until) :-
 %   what is the same everywhere: its program and the vocabulary.
 
 agent_elsewhere(Module, Place0, Place) :-
-    stands_below(Place0, Place, Module, Above0, Above),
+    (   guarding
+    ->  stands_below(Place0, Place, Module, Above0, Above)
+    ;   Above0 = Place0,
+        Above = Place
+    ),
     \+ ( '$c_current_predicate'(_, Module:Head),
          bound_here(Module, Above0, Head) ),
     delete_import_module(Module, Above0),
     add_import_module(Module, Above, end).
 
-%   The module hangs below the place itself where nobody guards, which is
-%   nearly always.  Of a module that is given import_module/2 of 9.0.4 looks
-%   only whether it is the first.
+%   Where nobody guards the module hangs below the place itself.  Of a module
+%   that is given import_module/2 of 9.0.4 looks only whether it is the first.
 
-stands_below(Place0, Place, _, Place0, Place) :-
-    \+ guarding,
-    !.
 stands_below(Place0, Place, Module, Above0, Above) :-
     above(Place0, Above0, Policy),
     above(Place, Above, Policy),

@@ -3,7 +3,8 @@
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/3,             % +Id, -Mail, -Orders
-            agent_mobile/2,             % +Id, -Until
+            agent_mobile/6,             % +Id, -Host, -Module, -Hash, -Life,
+                                        % -Until
             agent_move/5,               % +Id, +Host, +Module, +Life, +Until
             agent_put_life/2,           % +Id, +Life
             agent_program/4,            % +Id, +Hash, +Module, +Life
@@ -20,7 +21,7 @@
             agent_unorder/2,            % +Id, ?Order
             agent_ordered/1             % +Id
           ]).
-:- use_module(library(debug), [debug/3]).
+:- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal',
@@ -138,15 +139,16 @@ agent_remove(Id, Mail, Orders) :-
     orders(Id, Orders),
     '$destroy_module'(Module).
 
-%!  agent_mobile(+Id, -Until:integer) is semidet.
+%!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
 %!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
 %
-%   The agent is on Host from now on, with its state in Module; another
+%   As agent/5, for one who is to travel; the agent is on Host from now on,
+%   with its state in Module; another
 %   module that it had is no more.  Until says that its state can travel as
 %   it was then, see agent_changed/4; it is 0 until somebody has looked.
 
-agent_mobile(Id, Until) :-
-    stands(Id, _, _, _, _, Until),
+agent_mobile(Id, Host, Module, Hash, Life, Until) :-
+    stands(Id, Host, Module, Hash, Life, Until),
     !.
 
 agent_move(Id, Host, Module, Life, Until) :-
@@ -305,7 +307,10 @@ agent_mail(Id, Messages) :-
     ).
 
 put_mail(Messages, Id) :-
-    tell_mail(Messages, Id),
+    (   debugging(typhon(mail))
+    ->  tell_mail(Messages, Id)
+    ;   true
+    ),
     mail_put(Id, Messages).
 
 tell_mail([], _).

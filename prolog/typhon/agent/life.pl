@@ -50,6 +50,9 @@ into restore points as it is; nobody else takes it apart.
 %
 %   May is `go`, `static` if it never may, or `end`: it has made all its hops.
 
+life_may_move(life(_, _, inf, _, _, false, _), May) :-
+    !,
+    May = go.                           % nearly always
 life_may_move(Life, May) :-
     (   life_static(Life, true)
     ->  May = static
@@ -65,10 +68,9 @@ life_may_move(Life, May) :-
 %
 %   One hop more, which makes Hops.
 
-life_hop(Life0, Life, Hops) :-
-    life_hops(Life0, Hops0),
-    Hops is Hops0+1,
-    set_hops_of_life(Hops, Life0, Life).
+life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Traces),
+         life(Parent, Hops, Most, Tokens, Payloads, Static, Traces), Hops) :-
+    Hops is Hops0+1.
 
 %!  life_clone(+Id, +Life0, -Life) is det.
 %

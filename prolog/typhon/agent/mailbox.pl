@@ -34,9 +34,13 @@ mail_put/2 may add to a queue, and nobody waits at one.
 mail_put(_, []) :-
     !.
 mail_put(Id, Messages) :-
-    numbered(Messages, Id, Numbered),
     box_of(Id, Queue),
-    put_all(Numbered, Queue).
+    (   journal_on
+    ->  noted(Messages, Id, Numbered),
+        journal_seal,
+        put_all(Numbered, Queue)
+    ;   put_bare(Messages, Queue)
+    ).
 
 box_of(Id, Queue) :-
     box(Id, Queue),
@@ -53,22 +57,16 @@ mail_restore(Id, N, Message) :-
     box_of(Id, Queue),
     thread_send_message(Queue, mail(Message, N)).
 
-numbered(Messages, Id, Numbered) :-
-    (   journal_on
-    ->  noted(Messages, Id, Numbered),
-        journal_seal
-    ;   unnoted(Messages, Numbered)
-    ).
-
 noted([], _, []).
 noted([Message|Messages], Id, [mail(Message, N)|Numbered]) :-
     journal_number(N),
     note_put(mail, Id, N, Message),
     noted(Messages, Id, Numbered).
 
-unnoted([], []).
-unnoted([Message|Messages], [mail(Message, 0)|Numbered]) :-
-    unnoted(Messages, Numbered).
+put_bare([], _).
+put_bare([Message|Messages], Queue) :-
+    thread_send_message(Queue, mail(Message, 0)),
+    put_bare(Messages, Queue).
 
 put_all([], _).
 put_all([Message|Messages], Queue) :-

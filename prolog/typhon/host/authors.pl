@@ -1,5 +1,5 @@
 :- module(typhon_authors,
-          [ host_enter/4                % +Name, +Hash, +Tokens, -Answer
+          [ signed_by/2                 % +Authors, +Hash
           ]).
 
 /** <module> Whose programs are let in
@@ -12,21 +12,13 @@ signed, wherever they come from.
 
 :- use_module('../program', [program_author/3]).
 :- use_module('../wire', [endpoint_keys/1]).
-:- use_module(hosts, [host_enter/3, host_option/2]).
 
-%!  host_enter(+Name, +Hash, +Tokens, -Answer) is det.
+%!  signed_by(+Authors:list, +Hash) is semidet.
 %
-%   As host_enter/3, for an agent whose program has this Hash; Answer may be
-%   refused(unsigned).
+%   One of Authors has signed the program of this Hash.
 
-host_enter(Name, Hash, Tokens, Answer) :-
-    (   unsigned(Name, Hash)
-    ->  Answer = refused(unsigned)
-    ;   host_enter(Name, Tokens, Answer)
-    ).
-
-unsigned(Name, Hash) :-
-    host_option(Name, authors(Authors)),
-    \+ ( endpoint_keys(Keys),
-         program_author(Keys, Hash, Author),
-         memberchk(Author, Authors) ).
+signed_by(Authors, Hash) :-
+    endpoint_keys(Keys),
+    program_author(Keys, Hash, Author),
+    memberchk(Author, Authors),
+    !.

@@ -28,11 +28,11 @@ host, the vocabulary has to know the host and the agent.
 %   The running agent: its host, id and module.
 
 context_set(Host, Agent, Module) :-
-    nb_setval(typhon_context, context(Host, Agent, Module)),
+    nb_linkval(typhon_context, context(Host, Agent, Module)),  % new, ground
     turn_begins(Agent).
 
 context_clear :-
-    nb_setval(typhon_context, none).
+    nb_linkval(typhon_context, none).
 
 %!  context_now(?Host, -Agent) is semidet.
 %

@@ -26,7 +26,8 @@ thread.
     offered/2,                  % Place, PI
     front/3,                    % Place, Front, Policy: that of now first
     made/2,                     % Place, Front
-    guards/2.                   % Front, Policy
+    guards/2,                   % Front, Policy
+    guarding/0.
 
 %!  service(+PIs) is det.
 %
@@ -66,6 +67,7 @@ front_set(Host, Place, Policy) :-
     set_module(Front:base(typhon_vocabulary)),
     forall(offered(Place, PI), show(Place, Front, PI)),
     assertz(made(Place, Front)),
+    ( guarding -> true ; assertz(guarding) ),
     assertz(guards(Front, Policy)),
     asserta(front(Place, Front, Policy)).
 
@@ -78,7 +80,8 @@ show(Place, Front, PI) :-
 front_gone(Place) :-
     retractall(offered(Place, _)),
     retractall(front(Place, _, _)),
-    fronts_gone(Place).
+    fronts_gone(Place),
+    ( guards(_, _) -> true ; retractall(guarding) ).
 
 fronts_gone(Place) :-
     (   retract(made(Place, Front))
@@ -102,17 +105,12 @@ place_front(Place, Front, Policy) :-
 %
 %   A host of this process guards, or has done so: what hops ask first.
 
-guarding :-
-    guards(_, _),
-    !.
-
 %!  module_policy(+Module, -Policy) is semidet.
 %
 %   Module is that of an agent which hangs below a front.
 
 module_policy(Module, Policy) :-
-    guards(_, _),
-    !,
+    guarding,
     import_module(Module, Front),
     guards(Front, Policy),
     !.

@@ -5,7 +5,7 @@
             host_remove/1,              % +Name
             host_option/2,              % ?Name, ?Option
             host_put/2,                 % +Name, +Option
-            host_enter/3,               % +Name, +Tokens, -Answer
+            host_enter/4,               % +Name, +Hash, +Tokens, -Answer
             host_again/1,               % +Name
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
@@ -13,10 +13,12 @@
             host_address/2,             % +Host, -Address
             address_parts/3,            % ?Address, ?Name, ?Endpoint
             host_hop/3,                 % +Name, +Direction, +Seconds
+            host_passed/3,              % +Here, +There, +Seconds
             host_hop_stats/3            % +Name, ?Direction, -Stats
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(authors, [signed_by/2]).
 :- use_module(links, [host_linked/1, host_unlink/2]).
 
 /** <module> Hosts of this process
@@ -24,14 +26,15 @@
 The records of hosts: name, address, place, options, how many agents stand
 on them and how long hops take.
 
-*Threading*: any thread.  Load and statistics are flags; a mutex makes the
-four of a hop whole.
+*Threading*: any thread.  Load and statistics are flags, which change under
+one mutex: flag/3 would lock for each of them.
 */
 
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
-    door/4,                     % Name, Tokens, Capacity, Flag: while it is open
+    door/5,                     % Name, Tokens, Authors, Capacity, Flag: while
+                                % it is open
     load_key/2,                 % Name, Flag
     hop_keys/3.                 % Name, Direction, Flags
 
@@ -59,9 +62,10 @@ host_add(Name, Address, Place, Options) :-
 
 open_door(Name) :-
     asked(Name, tokens(Tokens), []),
+    asked(Name, authors(Authors), any),
     asked(Name, capacity(Capacity), inf),
     load_key(Name, Key),
-    assertz(door(Name, Tokens, Capacity, Key)).
+    assertz(door(Name, Tokens, Authors, Capacity, Key)).
 
 asked(Name, Option, Default) :-
     (   option(Name, Option)
@@ -94,12 +98,12 @@ make_hop_keys(Name, Direction) :-
 %   From now on nobody is admitted.
 
 host_close(Name) :-
-    retractall(door(Name, _, _, _)).
+    retractall(door(Name, _, _, _, _)).
 
 %!  host_remove(+Name) is det.
 
 host_remove(Name) :-
-    retractall(door(Name, _, _, _)),
+    retractall(door(Name, _, _, _, _)),
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
     host_unlink(Name, _),
@@ -124,9 +128,9 @@ host_put(Name, Option) :-
         once(retract(option(Name, Old)))
     ;   assertz(option(Name, Option))
     ),
-    (   door(Name, Tokens, Capacity, Key)
+    (   door(Name, Tokens, Authors, Capacity, Key)
     ->  open_door(Name),
-        once(retract(door(Name, Tokens, Capacity, Key)))
+        once(retract(door(Name, Tokens, Authors, Capacity, Key)))
     ;   true                            % it stops
     ).
 
@@ -186,19 +190,26 @@ where_address(remote(Address, _, _), Address).
                 *          ADMISSION           *
                 *******************************/
 
-%!  host_enter(+Name, +Tokens, -Answer) is det.
+%!  host_enter(+Name, +Hash, +Tokens, -Answer) is det.
 %
-%   An agent with Tokens asks to enter.  Answer is `ok`, and a place is
-%   taken for it, or refused(Reason).
+%   An agent with Tokens, whose program has this Hash, asks to enter.  Answer
+%   is `ok`, and a place is taken for it, or refused(Reason).
 
-host_enter(Name, Tokens, Answer) :-
-    (   door(Name, Wanted, Capacity, Load)
-    ->  (   shown(Wanted, Tokens)
+host_enter(Name, Hash, Tokens, Answer) :-
+    (   door(Name, Wanted, Authors, Capacity, Load)
+    ->  (   \+ signed(Authors, Hash)
+        ->  Answer = refused(unsigned)
+        ;   shown(Wanted, Tokens)
         ->  take_room(Capacity, Load, Answer)
         ;   Answer = refused(token)
         )
     ;   Answer = refused(unknown_host)
     ).
+
+signed(any, _) :-
+    !.
+signed(Authors, Hash) :-
+    signed_by(Authors, Hash).
 
 shown([], _) :-
     !.
@@ -207,12 +218,22 @@ shown(Wanted, Tokens) :-
     memberchk(Token, Tokens),
     !.
 
-take_room(inf, Key, ok) :-
-    !,
-    flag(Key, Load, Load+1).
 take_room(Capacity, Key, Answer) :-
-    flag(Key, Load, Load+max(0, min(1, Capacity-Load))),
-    ( Load < Capacity -> Answer = ok ; Answer = refused(capacity) ).
+    with_mutex(typhon_host_flags, room_taken(Capacity, Key, Answer)).
+
+room_taken(Capacity, Key, Answer) :-
+    get_flag(Key, Load),
+    (   Load < Capacity
+    ->  Load1 is Load+1,
+        set_flag(Key, Load1),
+        Answer = ok
+    ;   Answer = refused(capacity)
+    ).
+
+count_load(Key, Change) :-
+    get_flag(Key, Load0),
+    Load is Load0+Change,
+    set_flag(Key, Load).
 
 %!  host_again(+Name) is det.
 %!  host_leave(+Name) is det.
@@ -221,13 +242,13 @@ take_room(Capacity, Key, Answer) :-
 
 host_again(Name) :-
     (   load_key(Name, Key)
-    ->  flag(Key, Load, Load+1)
+    ->  with_mutex(typhon_host_flags, count_load(Key, 1))
     ;   true                            % stopped meanwhile
     ).
 
 host_leave(Name) :-
     (   load_key(Name, Key)
-    ->  flag(Key, Load, Load-1)
+    ->  with_mutex(typhon_host_flags, count_load(Key, -1))
     ;   true                            % stopped meanwhile
     ).
 
@@ -235,23 +256,37 @@ host_leave(Name) :-
 
 host_load(Name, Load) :-
     load_key(Name, Key),
-    flag(Key, Load, Load).
+    get_flag(Key, Load).
 
                 /*******************************
                 *           HOP TIMES          *
                 *******************************/
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.
+%!  host_passed(+Here, +There, +Seconds) is det.
 %
-%   A hop into (`in`) or out of (`out`) Name took Seconds of host time.
+%   A hop into (`in`) or out of (`out`) Name took Seconds of host time; one who
+%   stood on Here is on There now, both hosts of this process.
 
 host_hop(Name, Direction, Seconds) :-
     hop_keys(Name, Direction, Flags),
     !,
-    with_mutex(typhon_hop_times, add_hop(Flags, Seconds)).
+    with_mutex(typhon_host_flags, add_hop(Flags, Seconds)).
 host_hop(_, _, _).
 
-%   flag/3 would lock for each of them.
+host_passed(Here, There, Seconds) :-
+    load_key(Here, Load),
+    hop_keys(Here, out, Out),
+    hop_keys(There, in, In),
+    !,
+    with_mutex(typhon_host_flags,
+               ( count_load(Load, -1),
+                 add_hop(Out, Seconds),
+                 add_hop(In, Seconds) )).
+host_passed(Here, There, Seconds) :-    % one was stopped meanwhile
+    host_leave(Here),
+    host_hop(Here, out, Seconds),
+    host_hop(There, in, Seconds).
 
 add_hop(flags(Count, Min, Sum, Max), Seconds) :-
     get_flag(Count, N0), N is N0+1, set_flag(Count, N),
@@ -265,11 +300,11 @@ add_hop(flags(Count, Min, Sum, Max), Seconds) :-
 
 host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
     hop_keys(Name, Direction, flags(CountKey, MinKey, SumKey, MaxKey)),
-    flag(CountKey, Count, Count),
+    get_flag(CountKey, Count),
     (   Count =:= 0
     ->  Min = 0.0, Mean = 0.0, Max = 0.0
-    ;   flag(MinKey, Min, Min),
-        flag(SumKey, Sum, Sum),
-        flag(MaxKey, Max, Max),
+    ;   get_flag(MinKey, Min),
+        get_flag(SumKey, Sum),
+        get_flag(MaxKey, Max),
         Mean is Sum/Count
     ).

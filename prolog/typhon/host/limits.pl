@@ -4,6 +4,7 @@
             limit_enter/3,              % +Host, +Agent, -Work
             limit_leave/2,              % +Host, -Agent
             limited/1,                  % +Host
+            limited/2,                  % +Host1, +Host2
             limits_forget/0
           ]).
 
@@ -65,9 +66,17 @@ limit_clear(Host, Agents) :-
                  retractall(parked(Host, _)) )).
 
 %!  limited(+Host) is semidet.
+%!  limited(+Host1, +Host2) is semidet.
+%
+%   There is a limit on Host; on one of them, or both.
 
 limited(Host) :-
     limit(Host, _),
+    !.
+
+limited(Host1, Host2) :-
+    limit(_, _),                        % mostly none at all
+    ( limit(Host1, _) ; limit(Host2, _) ),
     !.
 
 %!  limits_forget is det.

@@ -13,7 +13,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(limits,
               [ limit_clear/2, limit_enter/3, limit_set/3, limited/1,
-                limits_forget/0 ]).
+                limited/2,                 limits_forget/0 ]).
 :- use_module(quick, [quick_not/2]).
 :- use_module(time, [time_alone/0, time_here/1, time_work/1]).
 :- use_module(workers, [worker_adopt/1, worker_leave/0]).
@@ -79,8 +79,7 @@ schedule(Host, Agent) :-
 %   hop.
 
 schedule_stays(Here, There) :-
-    \+ limited(Here),
-    \+ limited(There),
+    \+ limited(Here, There),
     time_alone.
 
 %!  schedule_here(+Host, +Agent) is det.

@@ -64,10 +64,17 @@ virtual_loop(Queue) :-
 %!  virtual_steps(-Count) is det.
 
 virtual_now(Stamp) :-
-    flag(typhon_virtual_now, Stamp, Stamp).
+    get_flag(typhon_virtual_now, Stamp).
 
 virtual_steps(Count) :-
-    flag(typhon_virtual_steps, Count, Count).
+    get_flag(typhon_virtual_steps, Count).
+
+%   Only this thread counts.
+
+one_step_more :-
+    get_flag(typhon_virtual_steps, Steps0),
+    Steps is Steps0+1,
+    set_flag(typhon_virtual_steps, Steps).
 
 %!  virtual_doing(-Work) is semidet.
 %
@@ -85,7 +92,7 @@ virtual_alone :-
     nb_current(typhon_virtual_work, doing(_, Waiting, Queue)),
     \+ there(Queue),
     \+ ( member(Waits, Waiting), has_got(Waits) ),
-    flag(typhon_virtual_steps, Steps, Steps+1).
+    one_step_more.
 
                 /*******************************
                 *           THE LOOP           *
@@ -123,7 +130,7 @@ go(Waiting, Queue, Alarms) :-
     ).
 
 step(do(Work), Waiting0, Queue, Alarms) :-
-    flag(typhon_virtual_steps, Steps, Steps+1),
+    one_step_more,
     nb_setval(typhon_virtual_work, doing(Work, Waiting0, Queue)),
     catch(( work_do(Work, again(Queue)),
             Done = true ),

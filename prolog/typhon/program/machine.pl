@@ -44,6 +44,11 @@ machine.  Two threads must not run the same agent.
 control(Head) :-
     special(Head, control).
 
+term_expansion(special_of(Name, Kind), Specials) :-
+    findall(special(Goal, Kind),
+            ( between(1, 16, Arity), functor(Goal, Name, Arity) ),
+            Specials).
+
 special(move(_), control).
 special(clone(_), control).
 special(clone(_, _), control).
@@ -55,13 +60,8 @@ special(sleep_until(_), control).
 special(receive_until(_, _, _), control).
 special(receive_until(_, _), control).  % in old restore points
 special('$fault'(_), control).          % stays as it was: see typhon_faulty
-special(Goal, Kind) :-
-    compound(Goal),
-    compound_name_arity(Goal, Name, _),
-    by_name(Name, Kind).
-
-by_name(call, call).                    % with more than one argument
-by_name('$guarded', guarded).           % see typhon_guard
+special_of(call, call).                 % with more than one argument
+special_of('$guarded', guarded).        % see typhon_guard
 
 %!  machine_run(+Context, +Goals, -Outcome) is det.
 %
@@ -200,7 +200,8 @@ called(Goal, Goals, X, Base, Out) :-
         *-> run(More, X, Base, Out)
         ;   fails(Goal, Goals)
         )
-    ;   state_rule(Agent, Goal)
+    ;   '$c_current_predicate'(_, Agent:Goal),
+        has_rules(Agent:Goal)
     ->  prolog_current_choice(Barrier),
         (   clause(Agent:Goal, Body)
         *-> body_goals(Body, Barrier, More, Goals),
@@ -304,10 +305,13 @@ has_rule([Head|Heads], Agent) :-
 
 state_rule(Agent, Goal) :-
     '$c_current_predicate'(_, Agent:Goal),
-    '$get_predicate_attribute'(Agent:Goal, number_of_rules, N),
+    has_rules(Agent:Goal).
+
+has_rules(Goal) :-
+    '$get_predicate_attribute'(Goal, number_of_rules, N),
     N > 0,
-    predicate_property(Agent:Goal, dynamic),
-    \+ predicate_property(Agent:Goal, imported_from(_)).
+    predicate_property(Goal, dynamic),
+    \+ predicate_property(Goal, imported_from(_)).
 
 %   A goal that is called natively, such as what is under \+.
 

@@ -8,7 +8,7 @@
 :- use_module('../wire',
               [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
 :- use_module('../host',
-              [ audit/3, event/4, host/3, host_enter/4, host_hop/3,
+              [ audit/3, event/4, guarding/0, host/3, host_enter/4, host_hop/3,
                 host_leave/1, host_time/2, peer_may/3, schedule/2,
                 schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
@@ -17,7 +17,7 @@
                 life_hops/2,
                 policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
-:- use_module(home, [agent_outcome/2]).
+:- use_module(home, [agent_outcome/2, home_knows/4]).
 :- use_module(post, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4]).
 :- use_module(whereabouts, [agent_heard_of/2, agent_seen/4]).
@@ -89,7 +89,8 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     ->  Answer = accepted
     ;   \+ peer_may(Peer, Name, agents)
     ->  Answer = refused(peer)
-    ;   host(Name, _, Place),
+    ;   guarding,
+        host(Name, _, Place),
         policy_against(Place, Hash, Program, Reason)
     ->  audit(Name, Peer, refused(Id, Reason)),
         Answer = refused(Reason)
@@ -107,6 +108,8 @@ repeated(Id, Hops) :-
     (   agent(Id, _, _, _, Life)
     ->  life_hops(Life, Hops0),
         Hops0 >= Hops
+    ;   home_knows(Id, _, Hops0, _)
+    ->  Hops0 >= Hops
     ;   agent_outcome(Id, _)
     ->  true
     ;   agent_heard_of(Id, Hops0),

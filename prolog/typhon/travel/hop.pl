@@ -7,7 +7,8 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_request/4, mobile_term/1]).
+              [ endpoint_address/1, endpoint_keys/1, endpoint_request/4,
+                mobile_term/1 ]).
 :- use_module('../host', [address_parts/3, host/3, host_time/2]).
 :- use_module('../agent', [agent/5, image_hash/2, image_trail/4, with_agent/2]).
 :- use_module('../journal', [crash_point/1, journal_on/0]).
@@ -152,6 +153,9 @@ typhon_doubt:again(Transfer) :-
     ;   transfer_stays(Transfer, given_up)
     ).
 
+handed(_, _, Image, Image) :-
+    \+ endpoint_keys(_),                % nobody signs
+    !.
 handed(Transfer, Address, Image0, Image) :-
     arg(1, Transfer, Id),
     (   agent(Id, Host, _, _, _)

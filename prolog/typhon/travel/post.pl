@@ -9,7 +9,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../journal',
-              [ journal_number/1, journal_seal/0,
+              [ journal_number/1, journal_on/0, journal_seal/0,
                 journal_step/1, note_drop/3, turn_after/1, turn_defers/0,
                 turn_note_put/4 ]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
@@ -58,7 +58,10 @@ max_forwards(12800).
 
 post(Id, From, Message) :-
     mobile_term(Message),
-    (   turn_defers
+    (   \+ journal_on
+    ->  with_agent(Id, post_way(Id, From, Message, Way)),
+        go(Way, Id)
+    ;   turn_defers
     ->  journal_number(N),
         turn_note_put(letter, Id, N, From-Message),
         turn_after(typhon_post:post_noted(Id, N, From, Message))

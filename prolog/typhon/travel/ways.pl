@@ -69,7 +69,7 @@ way_out(Id, letter(Mail, Left), Way) :-
     Letter = letter(Mail, Left1),
     forwards_at_once(Most),
     (   (   Left1 mod Most =:= 0
-        ;   endpoint_address(Endpoint)  % on its way in
+        ;   Endpoint == here            % on its way in
         )
     ->  Way = wait(Letter)
     ;   sent(Endpoint, Id, Letter, endpoint_post_up)
@@ -78,14 +78,18 @@ way_out(Id, letter(Mail, Left), Way) :-
     ).
 way_out(_, _, nowhere).
 
-%   Who is not here has left a trace, or the home knows.
+%   Who is not here has left a trace, or the home knows.  The endpoint is `here`
+%   if it is that of this process.
 
 next_endpoint(Id, Endpoint) :-
     whereabouts(Id, Address),
     address_parts(Address, _, Endpoint0),
     \+ endpoint_gone(Endpoint0),
     !,
-    Endpoint = Endpoint0.
+    (   endpoint_address(Endpoint0)
+    ->  Endpoint = here
+    ;   Endpoint = Endpoint0
+    ).
 next_endpoint(Id, Endpoint) :-
     agent_home_endpoint(Id, Endpoint),
     \+ endpoint_address(Endpoint).

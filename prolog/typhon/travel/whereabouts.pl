@@ -63,12 +63,16 @@ see typhon_news, since it may have to connect.
 
 %!  agent_seen(+Id, +Address, +Hops, +Peer) is det.
 %
-%   Id has arrived at Address, a host of this process, from Peer.
+%   Id has arrived at Address, a host of this process, from Peer, which is
+%   `here` if that was this process.
 
+agent_seen(Id, _, _, _) :-
+    home_knows(Id, _, _, _),            % it is here, and so are we
+    !.
 agent_seen(Id, Address, Hops, Peer) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  true                            % it is here, and so are we
+    ->  true
     ;   retractall(forward(Id, _, _, _)),
         (   Home == Peer                % it knows when it has our answer
         ->  true

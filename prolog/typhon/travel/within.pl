@@ -6,11 +6,11 @@
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
               [ address_parts/3, event/4, event_heard/1, guarding/0, host/3,
-                host_enter/4, host_hop/3, host_leave/1, host_time/2, schedule/2,
-                schedule_stays/2 ]).
+                host_enter/4, host_leave/1, host_passed/3, host_time/2,
+                schedule/2, schedule_stays/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_may_stand/4,
-                agent_mobile/2, agent_move/5, agent_put/3, agent_standing/5,
+                agent_mobile/6, agent_move/5, agent_put/3, agent_standing/5,
                 agent_state/2, agent_status/3, life_hop/3, life_tokens/2,
                 policy_refuses/2, with_agent/2 ]).
 :- use_module(whereabouts, [agent_seen/4]).
@@ -36,22 +36,24 @@ not matter here.
 %   @error move_refused(Address, Reason)
 
 hop_within(Id, Name, Hole, Goals, Since, Next) :-
-    agent(Id, Here, Module, Hash, Life0),
+    agent_mobile(Id, Here, Module, Hash, Life0, Until0),
     !,
     life_hop(Life0, Life, Hops),
-    can_travel(Id, Module, Life-Goals, Until),
+    agent_changed(Module, Until0, Changed, Until),
+    mobile_term(Changed-Life-Goals),    % of the state only what has changed
     (   kept_out(Name, Module, Hash, Goals, Reason)
     ->  How = refused(Reason)
-    ;   sig_atomic(enter(Id, Here-Name, Hash-going(Life, Until), Hole-Goals,
-                         How))
+    ;   sig_atomic(( enter(Id, Here-Name,
+                           going(Module, Hash, Life, Until, Since),
+                           Hole-Goals, How),
+                     told(How, Id, Here-Name, Hops) ))
     ),
-    went(How, Id, Here-Name, Hops, Since, Next).
+    went(How, Id, Here-Name, Hops, Next).
 hop_within(_, _, _, _, _, stop).        % it was ended
 
-went(moved(Next), Id, Here-Name, Hops, Since, Next) :-
-    sig_atomic(told(arrived(Id, Here, Name, Hops, Since, Next))).
-went(ended, _, _, _, _, stop).
-went(refused(Reason), Id, Here-Name, Hops, _, _) :-
+went(moved(Next, _), _, _, _, Next).
+went(ended, _, _, _, stop).
+went(refused(Reason), Id, Here-Name, Hops, _) :-
     endpoint_address(Own),
     address_parts(Address, Name, Own),
     debug(typhon(hop), '~w hop ~D: stays, ~w', [Id, Hops, Reason]),
@@ -65,55 +67,39 @@ kept_out(Name, Module, Hash, Goals, Reason) :-
           error(Formal, Context),
           policy_refuses(error(Formal, Context), Reason)).
 
-%   Of the state only what has changed since it was last looked at.
+%   enter(+Id, +Hosts, +Going, +Held, -How): How is moved(Next, Seconds),
+%   `ended`, or refused(Reason).  Nobody keeps the room that was taken for one
+%   who does not come.
 
-can_travel(Id, Module, Others, Until) :-
-    (   agent_mobile(Id, Since)
-    ->  true
-    ;   Since = 0                       % it was ended
-    ),
-    agent_changed(Module, Since, Clauses, Until),
-    mobile_term(Clauses-Others).
-
-%   enter(+Id, +Hosts, +HashAndGoing, +Held, -How): How is moved(Next), `ended`, or
-%   refused(Reason).  Nobody keeps the room that was taken for one who does
-%   not come.
-
-enter(Id, Here-Name, Hash-Going, Held, How) :-
-    Going = going(Life, _),
+enter(Id, Here-Name, Going, Held, How) :-
+    Going = going(_, Hash, Life, _, _),
     life_tokens(Life, Tokens),
     host_enter(Name, Hash, Tokens, Answer),
     (   Answer == ok
-    ->  catch(moved(Id, Here-Name, Going, Held, Left, How), Ball,
+    ->  catch(moved(Id, Here-Name, Going, Held, How), Ball,
               ( host_leave(Name),
-                throw(Ball) )),
-        host_leave(Left)
+                throw(Ball) ))
     ;   How = Answer
     ).
 
-moved(Id, Here-Name, Going, Held, Here, moved(Next)) :-
-    with_agent(Id, move(Id, Here-Name, Going, Held, Next)),
+moved(Id, Hosts, Going, Held, moved(Next, Seconds)) :-
+    with_agent(Id, move(Id, Hosts, Going, Held, Next, Seconds)),
     !.
-moved(Id, _-Name, _, _, Name, refused(unknown_host)) :-
-    agent(Id, _, _, _, _),              % Name is being stopped
-    !.
-moved(_, _-Name, _, _, Name, ended).
+moved(Id, _-Name, _, _, How) :-
+    host_leave(Name),
+    (   agent(Id, _, _, _, _)
+    ->  How = refused(unknown_host)     % Name is being stopped
+    ;   How = ended
+    ).
 
-%   The agent is there, whatever comes: nobody must think it is still here.
+%   An agent that was told to move has no hole.  Who ends it next finds it
+%   counted where it stands.
 
-:- meta_predicate told(0).
-
-told(Goal) :-
-    catch(Goal, error(Formal, Context),
-          print_message(error, error(Formal, Context))).
-
-%   An agent that was told to move has no hole.
-
-move(Id, Here-Name, going(Life, Until), Hole-Goals0, Next) :-
+move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
+     Next, Seconds) :-
     host(Name, _, Place),
     agent_status(Id, Status, _),
     next(Status, Here-Name, Goals, Next),
-    agent(Id, _, Module0, Hash, _),
     (   host(Here, _, Place0),
         agent_elsewhere(Module0, Place0, Place)
     ->  Module = Module0,
@@ -126,7 +112,9 @@ move(Id, Here-Name, going(Life, Until), Hole-Goals0, Next) :-
     (   Next == stop
     ->  agent_put(Id, ready, Goals)
     ;   true
-    ).
+    ),
+    seconds(Here, Name, Since, Seconds),
+    host_passed(Here, Name, Seconds).
 
 next(running, Here-Name, Goals, Next) :-
     (   schedule_stays(Here, Name)
@@ -135,28 +123,35 @@ next(running, Here-Name, Goals, Next) :-
     ).
 next(obeying, _, _, stop).
 
-arrived(Id, Here, Name, Hops, Since, Next) :-
+%   One of them may have been stopped meanwhile.
+
+seconds(Here, Name, Since, Seconds) :-
+    (   ( host_time(Here, Now) ; host_time(Name, Now) )
+    ->  Seconds is max(0.0, Now-Since)
+    ;   Seconds = 0.0
+    ).
+
+%   The agent is there, whatever comes: nobody must think it is still here.
+
+told(moved(Next, Seconds), Id, Here-Name, Hops) :-
+    !,
+    catch(arrived(Id, Here, Name, Hops, Seconds, Next),
+          error(Formal, Context),
+          print_message(error, error(Formal, Context))).
+told(_, _, _, _).
+
+arrived(Id, Here, Name, Hops, Seconds, Next) :-
     host(Name, Address, _),
-    endpoint_address(Own),
     !,
     debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
           [Id, Hops, Address]),
-    agent_seen(Id, Address, Hops, Own),
-    took(Here, out, Since, _),
-    took(Name, in, Since, Seconds),
+    agent_seen(Id, Address, Hops, here),
     came(Id, Here, Name, Seconds),
     (   Next == stop
     ->  schedule(Name, Id)
     ;   true
     ).
 arrived(_, _, _, _, _, _).              % it is being stopped
-
-took(Host, Direction, Since, Seconds) :-
-    (   host_time(Host, Now)
-    ->  Seconds is max(0.0, Now-Since),
-        host_hop(Host, Direction, Seconds)
-    ;   Seconds = 0.0                   % the host was stopped meanwhile
-    ).
 
 came(Id, Here, Name, Seconds) :-
     (   event_heard(hops),

@@ -56,13 +56,8 @@ frame_write(Out, Bytes) :-
     C2 is Check>>16,
     C1 is (Check>>8) /\ 255,
     C0 is Check /\ 255,
-    put_byte(Out, B3),
-    put_byte(Out, B2),
-    put_byte(Out, B1),
-    put_byte(Out, B0),
-    put_byte(Out, C2),
-    put_byte(Out, C1),
-    put_byte(Out, C0),
+    string_codes(Head, [B3, B2, B1, B0, C2, C1, C0]),
+    write(Out, Head),
     write(Out, Bytes).
 
 %!  frame_read(+In, +MaxBytes, -Bytes) is det.

@@ -142,15 +142,15 @@ lend(Count, More) :-
 give(Goal, Count, Queue) :-
     nb_getval(typhon_token, token(Queue, Turn0)),
     Turn is Turn0+1,
-    nb_setval(typhon_token, token(Queue, Turn)),
-    nb_setval(typhon_lending, lent),
+    nb_linkval(typhon_token, token(Queue, Turn)),
+    nb_linkval(typhon_lending, lent),
     thread_send_message(Queue, token(Turn, Count, Goal)),
     watch.
 
 take_back(Queue, Told) :-
     (   token_taken(Queue, _, _)
     ->  nb_getval(typhon_lending, State),
-        nb_setval(typhon_lending, idle),
+        nb_linkval(typhon_lending, idle),
         told(State, Told)
     ;   thread_get_message(Queue, released),
         nb_setval(typhon_lending, away),
@@ -200,7 +200,7 @@ typhon_threads:not_now(Why) :-
 %   While threads are lent the keeper looks who does not come back.
 
 watch :-
-    (   flag(typhon_lending, 1, 1)
+    (   get_flag(typhon_lending, 1)
     ->  true
     ;   flag(typhon_lending, Looks, 1),
         (   Looks =:= 0

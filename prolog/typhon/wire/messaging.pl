@@ -67,14 +67,14 @@ endpoint_post(Address, Kind, Term) :-
 %   As endpoint_post/3 if there is a connection; fails at once if not.
 
 endpoint_post_up(Address, Kind, Term) :-
-    alone(Address),
-    !,
-    endpoint_post(Address, Kind, Term).
-endpoint_post_up(Address, Kind, Term) :-
     open_way(Address, Session),
+    !,
     catch(session_send_with(Session, post(Kind, Term)),
           error(session_closed, _),
           fail).
+endpoint_post_up(Address, Kind, Term) :-
+    alone(Address),
+    endpoint_post(Address, Kind, Term).
 
 %   way(+Address, -Session): nothing has to be waited for. In a hook there
 %   must be no waiting: what is sent there waits in the session for the next

@@ -74,12 +74,15 @@ session_send(Session, Term) :-
 %   something: what is held goes.
 
 session_send_with(Session, Term) :-
-    answers_left(Session),
+    answers_left(Own),
     !,
-    session_send(Session, Term).        % so that they go, too
+    (   Own == Session
+    ->  session_send(Session, Term)     % so that they go, too
+    ;   session_push(Own),
+        session_send_with(Session, Term)
+    ).
 session_send_with(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
-    answers_first(Session),
     session_locked(Session, put_with(Session, Bytes)).
 
 session_release(Session) :-
@@ -97,7 +100,7 @@ answers_first(Session) :-
     answers_left(Own),
     !,
     (   Own == Session
-    ->  nb_setval(typhon_later, 0)
+    ->  nb_linkval(typhon_later, 0)
     ;   session_push(Own)
     ).
 answers_first(_).
@@ -105,8 +108,7 @@ answers_first(_).
 answers_left(Session) :-
     nb_current(typhon_later, Count),
     Count > 0,
-    nb_current(typhon_later_in, Own),
-    Own = Session.
+    nb_current(typhon_later_in, Session).
 
 %!  session_send_later(+Session, +Term) is det.
 %!  session_later(-Count) is det.
@@ -122,7 +124,7 @@ session_send_later(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
     session_locked(Session, put_later(Session, Bytes)),
     Count1 is Count+1,
-    nb_setval(typhon_later, Count1).
+    nb_linkval(typhon_later, Count1).
 session_send_later(Session, Term) :-
     session_send(Session, Term).
 
@@ -135,8 +137,11 @@ session_push(Session) :-
     ->  session_locked(Session, ( journal_commit, push_out(Key) ))
     ;   session_locked(Session, push_out(Key))
     ),
-    nb_setval(typhon_later, 0),
-    nb_setval(typhon_later_in, Session).
+    nb_linkval(typhon_later, 0),
+    (   nb_current(typhon_later_in, Session)
+    ->  true
+    ;   nb_setval(typhon_later_in, Session)
+    ).
 
 push_out(Key) :-
     (   transport(Key, Thread, Out),
