@@ -352,6 +352,19 @@ test(left_after_arrived, Seen == ["b@h:2", "running", 1, 0, 1]) :-
                 const { host, status, hops, received } = store.agents.get('r.1');
                 return [host, status, hops,
                     store.hosts.get('a@h:1').agents.size, received]", Seen).
+test(left_after_arrived_in_space_and_time,
+     Lines == [["a@h:1", 1, 1.9], ["b@h:2", 2, 3]]) :-
+    with_store("store.applyEvents([[1, 'a@h:1', 'r.1', 'created']]);
+                store.applyEvents(
+                    [[2, 'b@h:2', 'r.1', 'arrived', 'a@h:1', 0.1]]);
+                store.applyEvents([[1.9, 'a@h:1', 'r.1', 'left', 'b@h:2'],
+                    [3, 'a@h:1', '', 'unlink', 'b@h:2']]);
+                const view = typhon.views[1].mount(document.body, store,
+                    { chosen: {} });
+                const { told } = view.sight();
+                view.destroy();
+                return told.stays.map(({ host, from, to }) => [host, from, to])",
+               Lines).
 test(left_after_ended, Status == "ended") :-
     with_store("store.applyEvents(
                     [[2, 'b@h:2', 'r.1', 'arrived', 'a@h:1', 0.1],
