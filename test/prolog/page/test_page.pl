@@ -201,6 +201,36 @@ scene(its_row_stays_what_it_is) :-
     see("return row.textContent !== before"),
     sees("return row.isConnected", true).
 
+%   Nor is what is opened made anew below the finger, or where the focus is.
+
+scene(what_is_opened_stays_what_it_is) :-
+    at(Browser, _, _),
+    sees("[...document.querySelectorAll('#details summary')]
+              .find(s => s.textContent.startsWith('Trail')).parentElement.open = true;
+          document.querySelector('#details .trail button').focus();
+          globalThis.trail = () => document.querySelectorAll('#details .trail li').length;
+          globalThis.before = trail()", _),
+    see("return trail() > before"),
+    sees("return Boolean(document.activeElement.closest('.trail'))", true),
+    sees("return document.activeElement.title", Host),
+    browser_hold(Browser, "#details .trail button",
+                 ( sees("globalThis.before = typhon.store.counts.arrived", _),
+                   see("return typhon.store.counts.arrived > before + 3") )),
+    see("return typhon.app.chosen.host"),
+    sees("return typhon.app.chosen.host", Host).
+
+%   A list waits while somebody presses, and goes on afterwards.
+
+scene(a_list_waits_for_a_press) :-
+    at(Browser, _, _),
+    browser_hold(Browser, "#table-agent .row[id]",
+                 ( sees("globalThis.shown = row.textContent;
+                         globalThis.before = typhon.store.counts.arrived", _),
+                   see("return typhon.store.counts.arrived > before + 2"),
+                   sees("return row.textContent === shown", true) )),
+    reads("#details h2", "ann"),
+    see("return row.textContent !== shown").
+
 %   A term that cannot be read is told of where it was written.
 
 scene(it_is_sent_a_message) :-
