@@ -282,10 +282,11 @@ test(plots_have_points, true(Points > 5)) :-
     look("typhon.show(3); typhon.views[3].view.draw(); \c
           return typhon.views[3].view.plots[0].drawn.data[0].length", Points).
 test(what_is_not_seen_is_not_drawn, [Hidden, Shown] == [0, true]) :-
-    look("const { scene } = typhon.views[0].view, p = typhon.player; \c
+    look("const { scene, legend } = typhon.views[0].view, p = typhon.player; \c
           let drawn = 0; \c
-          const before = scene.drawTop; \c
+          const before = scene.drawTop, update = legend.update; \c
           scene.drawTop = (...all) => { drawn++; before.apply(scene, all); }; \c
+          legend.update = () => { drawn++; update(); }; \c
           const playing = async view => { \c
               typhon.show(view); p.seek(p.first); \c
               p.setSpeed(1); p.play(); \c
@@ -296,6 +297,7 @@ test(what_is_not_seen_is_not_drawn, [Hidden, Shown] == [0, true]) :-
               return drawn; }; \c
           const hidden = await playing(3), shown = await playing(0); \c
           scene.drawTop = before; \c
+          legend.update = update; \c
           return [hidden, shown > 2]", [Hidden, Shown]).
 test(narrow_and_dark, Wide == 400) :-
     replayed(Browser, _, _),
