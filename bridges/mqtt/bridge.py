@@ -64,10 +64,6 @@ def encoded(payload, kind):
     return payload.encode('latin-1' if kind == 'bytes' else 'utf-8')
 
 
-def no_constant(name):
-    raise ValueError(name)
-
-
 def decoded(payload, kind):
     """What the bytes of a payload say; other bytes are themselves."""
     if kind == 'bytes':
@@ -75,7 +71,7 @@ def decoded(payload, kind):
     if kind == 'json' or (kind == 'auto'
                           and payload.lstrip()[:1] in (b'{', b'[')):
         try:
-            return json.loads(payload.decode(), parse_constant=no_constant)
+            return json.loads(payload.decode())
         except (ValueError, RecursionError):
             pass
     try:
@@ -400,9 +396,17 @@ class Broker(Helper):
                 self.event('too_big', topic=topic, size=len(payload),
                            kind=kind, keys=filters)
             else:
-                self.event('message', topic=topic, kind=kind, keys=filters,
-                           payload=decoded(payload, kind), qos=qos,
-                           retain=retain)
+                self.told(payload, kind, topic=topic, keys=filters, qos=qos,
+                          retain=retain)
+
+    def told(self, payload, kind, **fields):
+        """What JSON cannot say again, as infinite numbers, is text."""
+        try:
+            self.event('message', payload=decoded(payload, kind), kind=kind,
+                       **fields)
+        except (ValueError, RecursionError):
+            self.event('message', payload=decoded(payload, 'text'),
+                       kind=kind, **fields)
 
     def keys(self, topic):
         """The filters that match, by the kind of payload they want."""

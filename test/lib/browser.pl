@@ -7,6 +7,7 @@
             browser_wait/3,             % +Browser, +Script, +Seconds
             browser_keys/2,             % +Browser, +Keys
             browser_click/2,            % +Browser, +Selector
+            browser_hold/3,             % +Browser, +Selector, :Goal
             browser_drag/3,             % +Browser, +From, +To
             browser_size/3,             % +Browser, +Width, +Height
             browser_theme/2,            % +Browser, +Theme
@@ -33,7 +34,7 @@ Driven by chromedriver, in the words of the W3C's WebDriver.
 :- use_module(library(process), [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
-:- meta_predicate with_browser(-, 0).
+:- meta_predicate with_browser(-, 0), browser_hold(+, +, 0).
 
 %!  with_browser(-Browser, :Goal) is semidet.
 %
@@ -194,11 +195,24 @@ key(down, 0xE015).
 %   Click at the middle of the first element of Selector that is to be seen, as
 %   soon as there is one; or of Selector-Text, the one with that text.
 %
+%!  browser_hold(+Browser, +Selector, :Goal) is semidet.
+%
+%   The same, and Goal is called between pressing and letting go.
+%
 %!  browser_drag(+Browser, +From, +To) is det.
 %
 %   From one point, X-Y, to another.
 
 browser_click(Browser, What) :-
+    middle(Browser, What, X, Y),
+    pointer(Browser, [at(X, Y), down, up]).
+
+browser_hold(Browser, What, Goal) :-
+    middle(Browser, What, X, Y),
+    pointer(Browser, [at(X, Y), down]),
+    call_cleanup(once(Goal), pointer(Browser, [up])).
+
+middle(Browser, What, X, Y) :-
     ( What = Selector-Text -> true ; Selector = What, Text = "" ),
     format(string(Found),
            "[...document.querySelectorAll(~q)].find(e => e.checkVisibility() && \c
@@ -210,8 +224,7 @@ browser_click(Browser, What) :-
            "const e = ~s; e.scrollIntoView({block: 'nearest'}); \c
             const r = e.getBoundingClientRect(); \c
             return [r.x + r.width / 2, r.y + r.height / 2]", [Found]),
-    browser_run(Browser, Middle, [X, Y]),
-    pointer(Browser, [at(X, Y), down, up]).
+    browser_run(Browser, Middle, [X, Y]).
 
 browser_drag(Browser, X0-Y0, X-Y) :-
     X1 is (X0+X)/2,

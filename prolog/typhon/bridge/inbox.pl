@@ -21,7 +21,10 @@ Service-dropped(Key, Count) has the count of all that were dropped.
 runs an agent hears that it takes a message, while there are gaps.
 */
 
-:- multifile typhon_events:told/4.
+:- multifile
+    dropped/3,                  % Service, Host, Message: for an agent who has
+                                % no room; must not wait
+    typhon_events:told/4.
 
 :- dynamic
     gap/7.                      % Agent, Service, Text, Host, Max, Count, Key
@@ -36,7 +39,11 @@ inbox_put(how(message, Max), Service-Key, Host-Agent, Message-_) =>
     gap_taken(Gap, Count),
     told_first(Count, Service, Key, Messages, [Service-Message]),
     with_agent(Agent, put(Agent, Host, Max, Messages, Done)),
-    done(Done, Gap, Count).
+    done(Done, Gap, Count),
+    (   Done == full
+    ->  ignore(dropped(Service, Host, Message))
+    ;   true
+    ).
 inbox_put(how(fact, Max), Service-Key, Host-_, Message-_) =>
     host(Host, _, Place),
     (   facts(Place, Service, Max, Count),

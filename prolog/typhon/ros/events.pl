@@ -34,6 +34,7 @@ from `ros`, and dropped(Key, Count), see typhon_inbox.
 :- multifile
     typhon_helper_answers:heard/2,
     typhon_helper_owner:again/2,
+    typhon_inbox:dropped/3,
     typhon_ros_rosbridge:heard/2,
     typhon_ros_rosbridge:up/2,
     typhon_ros_rosbridge:down/2,
@@ -159,6 +160,13 @@ happens(unknown(What), Host) :-
 happens(unknown(What), Host) :-
     assertz(ignored(Host, 1)),
     print_message(warning, typhon(ros_ignored(Host, What))).
+
+%   Who calls need not wait for an agent that has no room, nor take it from
+%   others.
+
+typhon_inbox:dropped(ros, Host, request(Id, Service, _)) :-
+    request_end(Host, Id, Service),
+    way_note(Host, respond(Id, Service, _{}, false)).
 
 message(Host, JSON, Message) :-
     way_option(Host, messages(Form), dict),

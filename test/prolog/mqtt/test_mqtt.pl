@@ -373,6 +373,10 @@ test(nan_is_no_json, P == "[NaN]") :-
     at_broker([], ( reader(subscribe(d), 1, A),
                     says(d, '[NaN]'),
                     got(A, [message(d, P, _)]) )).
+test(nor_is_a_number_that_is_too_large, [P,Q] == ["[1e999]", "x"]) :-
+    at_broker([], ( reader(subscribe(d), 2, A),
+                    says(d, '[1e999]'), says(d, x),
+                    got(A, [message(d, P, _), message(d, Q, _)]) )).
 test(urls) :-
     with_hosts([alpha],
                forall(member(URL, [ 'http://x', 'mqtt://', x, 'mqtt://a:0',

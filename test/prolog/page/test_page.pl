@@ -16,6 +16,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/page), [page_serve/2]).
 
@@ -201,6 +202,36 @@ scene(its_row_stays_what_it_is) :-
     see("return row.textContent !== before"),
     sees("return row.isConnected", true).
 
+%   Nor is what is opened made anew below the finger, or where the focus is.
+
+scene(what_is_opened_stays_what_it_is) :-
+    at(Browser, _, _),
+    sees("[...document.querySelectorAll('#details summary')]
+              .find(s => s.textContent.startsWith('Trail')).parentElement.open = true;
+          document.querySelector('#details .trail button').focus();
+          globalThis.trail = () => document.querySelectorAll('#details .trail li').length;
+          globalThis.before = trail()", _),
+    see("return trail() > before"),
+    sees("return Boolean(document.activeElement.closest('.trail'))", true),
+    sees("return document.activeElement.title", Host),
+    browser_hold(Browser, "#details .trail button",
+                 ( sees("globalThis.before = typhon.store.counts.arrived", _),
+                   see("return typhon.store.counts.arrived > before + 3") )),
+    see("return typhon.app.chosen.host"),
+    sees("return typhon.app.chosen.host", Host).
+
+%   A list waits while somebody presses, and goes on afterwards.
+
+scene(a_list_waits_for_a_press) :-
+    at(Browser, _, _),
+    browser_hold(Browser, "#table-agent .row[id]",
+                 ( sees("globalThis.shown = row.textContent;
+                         globalThis.before = typhon.store.counts.arrived", _),
+                   see("return typhon.store.counts.arrived > before + 2"),
+                   sees("return row.textContent === shown", true) )),
+    reads("#details h2", "ann"),
+    see("return row.textContent !== shown").
+
 %   A term that cannot be read is told of where it was written.
 
 scene(it_is_sent_a_message) :-
@@ -290,7 +321,12 @@ scene(two_browsers) :-
     nth_host(7, Host),
     browser_tabs(Browser, [One]),
     browser_tab(Browser, Two),
+    set_setting(typhon_page_browsers:browsers, 1),
     browser_open(Browser, Base),
+    reads("#state", "Too many browsers"),
+    see("return typhon.app.connection.wait > 300"),
+    sees("return typhon.app.state", "refused"),
+    set_setting(typhon_page_browsers:browsers, 32),
     live(Browser),
     agent_create(clauses([(:- agent(both, [])), on_message(_, _)]), _,
                  [host(Host)]),
@@ -372,6 +408,23 @@ scene(a_mechanism_is_started) :-
     sees("document.querySelector('#notes').replaceChildren()", _),
     shot(map).
 
+%   Who opens another log has done with the one before.
+
+scene(one_replay_at_a_time) :-
+    view(replay),
+    sees("const { open } = typhon.app.views.get('replay'),
+              text = [0, 500].map(t => `event(${t}, 'a@h:1', 'b.1@a@h:1', created).`)
+                  .join('\\n'),
+              first = await open(new File([text], 'one.log'));
+          first.player.setSpeed(0.01);
+          first.player.play();
+          const before = first.player.playing,
+              second = await open(new File([text], 'two.log'));
+          return [before, first.player.playing,
+              document.querySelectorAll('.replay').length,
+              second.player !== first.player]",
+         [true, false, 1, true]).
+
 scene(everybody_can_use_it) :-
     at(Browser, _, _),
     nth_host(1, Host),
@@ -437,6 +490,9 @@ scene(connection_lost) :-
     page_stop,
     reads("#state", "connection lost"),
     reads("#notes", "connection is lost"),
+    click("#actions button"),
+    click("[role=menuitem]"-"End a network …"),
+    reads("#notes .error", "does not answer"),
     see("return typhon.store.hosts.size >= 60"),
     page_serve([port(Port), read_only(true)], _),
     retract(typhon_page_server:serving(Port, _, true)),

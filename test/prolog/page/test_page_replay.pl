@@ -282,10 +282,11 @@ test(plots_have_points, true(Points > 5)) :-
     look("typhon.show(3); typhon.views[3].view.draw(); \c
           return typhon.views[3].view.plots[0].drawn.data[0].length", Points).
 test(what_is_not_seen_is_not_drawn, [Hidden, Shown] == [0, true]) :-
-    look("const { scene } = typhon.views[0].view, p = typhon.player; \c
+    look("const { scene, legend } = typhon.views[0].view, p = typhon.player; \c
           let drawn = 0; \c
-          const before = scene.drawTop; \c
+          const before = scene.drawTop, update = legend.update; \c
           scene.drawTop = (...all) => { drawn++; before.apply(scene, all); }; \c
+          legend.update = () => { drawn++; update(); }; \c
           const playing = async view => { \c
               typhon.show(view); p.seek(p.first); \c
               p.setSpeed(1); p.play(); \c
@@ -296,6 +297,7 @@ test(what_is_not_seen_is_not_drawn, [Hidden, Shown] == [0, true]) :-
               return drawn; }; \c
           const hidden = await playing(3), shown = await playing(0); \c
           scene.drawTop = before; \c
+          legend.update = update; \c
           return [hidden, shown > 2]", [Hidden, Shown]).
 test(narrow_and_dark, Wide == 400) :-
     replayed(Browser, _, _),
@@ -331,6 +333,73 @@ test(nothing_to_complain_of, Texts == []) :-
     browser_complaints(Browser, Texts).
 
 :- end_tests(page_replay).
+
+%   Processes tell for themselves: that an agent has left comes after it has
+%   arrived, or ended, as often as before.
+
+with_store(Script, Result) :-
+    format(string(Whole),
+           "const store = new typhon.store.constructor(); ~s", [Script]),
+    look(Whole, Result).
+
+:- begin_tests(page_told_late, [ condition(tools_there), setup(open_replay),
+                                 cleanup(close_replay) ]).
+
+test(left_after_arrived, Seen == ["b@h:2", "running", 1, 0, 1]) :-
+    with_store("store.applyEvents(
+                    [[2, 'b@h:2', 'r.1', 'arrived', 'a@h:1', 0.1]]);
+                store.applyEvents([[1, 'a@h:1', 'r.1', 'created'],
+                    [1.5, 'a@h:1', 'r.1', 'received', 'user'],
+                    [1.9, 'a@h:1', 'r.1', 'left', 'b@h:2']]);
+                const { host, status, hops, received } = store.agents.get('r.1');
+                return [host, status, hops,
+                    store.hosts.get('a@h:1').agents.size, received]", Seen).
+test(left_after_arrived_in_space_and_time,
+     Lines == [["a@h:1", 1, 1.9], ["b@h:2", 2, 3]]) :-
+    with_store("store.applyEvents([[1, 'a@h:1', 'r.1', 'created']]);
+                store.applyEvents(
+                    [[2, 'b@h:2', 'r.1', 'arrived', 'a@h:1', 0.1]]);
+                store.applyEvents([[1.9, 'a@h:1', 'r.1', 'left', 'b@h:2'],
+                    [3, 'a@h:1', '', 'unlink', 'b@h:2']]);
+                const view = typhon.views[1].mount(document.body, store,
+                    { chosen: {} });
+                const { told } = view.sight();
+                view.destroy();
+                return told.stays.map(({ host, from, to }) => [host, from, to])",
+               Lines).
+test(left_after_ended, Status == "ended") :-
+    with_store("store.applyEvents(
+                    [[2, 'b@h:2', 'r.1', 'arrived', 'a@h:1', 0.1],
+                     [3, 'b@h:2', 'r.1', 'ended', 'done']]);
+                store.applyEvents([[1, 'a@h:1', 'r.1', 'created'],
+                    [1.9, 'a@h:1', 'r.1', 'left', 'b@h:2']]);
+                return store.agents.get('r.1').status", Status).
+test(clocks_that_differ, Host == "b@h:2") :-
+    with_store("store.applyEvents([[5, 'a@h:1', 'r.1', 'created'],
+                    [6, 'a@h:1', 'r.1', 'left', 'b@h:2'],
+                    [4, 'b@h:2', 'r.1', 'arrived', 'a@h:1', 0.1]]);
+                return store.agents.get('r.1').host", Host).
+test(comes_again, Seen == ["running", 1]) :-
+    with_store("store.applyEvents([[1, 'a@h:1', 'r.1', 'created'],
+                    [2, 'a@h:1', 'r.1', 'ended', 'done'],
+                    [3, 'a@h:1', 'r.1', 'created']]);
+                return [store.agents.get('r.1').status,
+                    store.hosts.get('a@h:1').agents.size]", Seen).
+
+%   Nothing of those that are over is kept for ever, whoever looks on.
+
+test(many_end, Kept == [2000, 0, 2000]) :-
+    with_store("for (let n = 0; n < 2500; n++)
+                    store.applyEvents([[n, 'a@h:1', `x.${n}`, 'created'],
+                        [n, 'a@h:1', `x.${n}`, 'left', 'b@h:2'],
+                        [n + 0.1, 'b@h:2', `x.${n}`, 'arrived', 'a@h:1', 0.1],
+                        [n + 0.2, 'b@h:2', `x.${n}`, 'ended', 'done'],
+                        [n + 0.3, 'a@h:1', `x.${n}`, 'stayed', 'b@h:2'],
+                        [n + 0.4, 'a@h:1', `x.${n}`, 'ended', 'done']]);
+                return [store.agents.size, store.moving.size, store.ended.size]",
+               Kept).
+
+:- end_tests(page_told_late).
 
 :- begin_tests(page_asked).
 

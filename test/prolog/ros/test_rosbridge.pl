@@ -292,6 +292,26 @@ test(a_service_that_an_agent_offers) :-
           wrong(alpha, Agent, ros_offer('/add', 'std_srvs/Empty', []), Taken),
           assertion(Taken == permission_error(offer, ros_service, '/add')) )).
 
+%   A call for which the agent has no room is refused; it is not one of those
+%   that wait for him.
+
+test(a_call_that_is_dropped) :-
+    on_a_host(_, [],
+        ( agent_create(clauses([ (:- agent(slow, [])),
+                                 (main :- ros_offer('/s', 'std_srvs/Empty',
+                                                    [queue(1)]),
+                                          receive(_-never)) ]),
+                       _, [host(alpha)]),
+          says("advertise_service", _),
+          forall(member(Id, [c1, c2, c3]),
+                 rosbridge_say(_{ op:call_service, id:Id, service:'/s',
+                                  args:_{} })),
+          forall(member(Id, ["c2", "c3"]),
+                 wait_until(( said("service_response", Frame),
+                              Frame.id == Id, Frame.result == false ), 5)),
+          findall(Id, typhon_ros_open_requests:request(Id, _, _), Open),
+          assertion(Open == [c1]) )).
+
 test(a_service_that_fails) :-
     on_a_host(Agent, [],
         ( puppet(alpha, Server),

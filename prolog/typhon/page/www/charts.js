@@ -73,6 +73,7 @@ class Charts {
 
   destroy() {
     this.ends.forEach(end => end());
+    for (const { drawn } of this.plots || []) drawn?.destroy();
     this.element.remove();
   }
 

@@ -24,6 +24,7 @@ export class Connection {
     socket.onmessage = ({ data }) => {
       if (socket === this.socket) this.heard(JSON.parse(data));
     };
+    socket.onopen = () => { this.refused = false; };
     socket.onclose = () => {
       if (socket === this.socket) this.lost();
     };
@@ -50,6 +51,7 @@ export class Connection {
       if (this.held) this.held.push(frame.events);
       else this.told.events(frame.events);
     } else if (frame.error) {
+      this.refused = true;
       this.told.state('refused', frame.error);
     }
   }
@@ -57,7 +59,7 @@ export class Connection {
   lost() {
     clearTimeout(this.silence);
     this.socket = null;
-    this.told.state('lost');
+    if (!this.refused) this.told.state('lost');     // else it was told why
     this.again(this.wait);
     this.wait = Math.min(LONGEST, this.wait * 1.7);
   }

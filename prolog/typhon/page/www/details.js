@@ -1,6 +1,7 @@
 // What is chosen, seen closely: an agent with its program, or a host. Live.
 
-import { button, element } from './dom.js';
+import { button, element, renew } from './dom.js';
+import { unpressed } from './press.js';
 import { shortName } from './store.js';
 import { agentActions, hostActions } from './work.js';
 
@@ -20,7 +21,6 @@ class Details {
     Object.assign(this, { parent, store, app, sections: new Map(), round: 0 });
     this.opened = new Set(['Program', 'Facts', 'Mailbox', 'Fault', 'Neighbours',
       'Tuple space', 'Agents here']);
-    this.back = [];
     addEventListener('keydown', event => {
       if (event.key === 'Escape' && !document.querySelector('dialog[open]')
           && !parent.hidden) app.select({});
@@ -33,7 +33,6 @@ class Details {
     this.what = what;
     this.id = agent || host;
     this.sections.clear();
-    this.latest = 0;
     this.parent.hidden = !what;
     document.body.classList.toggle('chosen', Boolean(what));
     if (!what) return;
@@ -68,12 +67,13 @@ class Details {
     this.looking = true;
     try {
       const told = await this.app.ask({ ask: what, [what]: id });
+      await new Promise(unpressed);
       if (round !== this.round || id !== this.id) return;
       this.problem.hidden = true;
       if (what === 'agent') this.showAgent(told);
       else this.showHost(told);
     } catch (error) {
-      if (id !== this.id) return;
+      if (round !== this.round || id !== this.id) return;
       this.problem.hidden = false;
       this.problem.textContent = error.message;
       const known = what === 'agent' ? this.store.agents.get(id)?.status
@@ -94,7 +94,7 @@ class Details {
   define(rows) {
     const made = rows.filter(([, value]) => value !== undefined && value !== '')
       .flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]);
-    this.facts.replaceChildren(...made);
+    renew(this.facts, made);
   }
 
   hostLink(id) {
@@ -107,18 +107,19 @@ class Details {
       { class: 'link', title: id });
   }
 
-  // A part that can be folded; its content is made anew when it has changed.
-  section(title, content, make, note = '') {
+  // A part that can be folded; what has changed in it is made anew.  `around`
+  // is what its parts are in, and made once.
+  section(title, content, around, parts, note = '') {
     const key = JSON.stringify(content);
     let section = this.sections.get(title);
     if (!section) {
       const summary = element('summary', {}, title,
         element('span', { class: 'muted' }));
-      const body = element('div', { class: 'body', tabindex: -1 });
+      const body = element('div', { class: 'body', tabindex: -1 }, around);
       const made = element('details', { open: this.opened.has(title),
         ontoggle: () => this.opened[made.open ? 'add' : 'delete'](title) },
         summary, body);
-      section = { made, body, note: summary.lastChild, key: null };
+      section = { made, around, note: summary.lastChild, key: null };
       this.sections.set(title, section);
       this.list.append(made);
     }
@@ -126,12 +127,19 @@ class Details {
     section.made.hidden = Array.isArray(content) && content.length === 0;
     if (section.key === key) return;
     section.key = key;
-    section.body.replaceChildren(make(content));
+    renew(section.around, parts(content));
   }
 
   texts(title, list, count = list.length) {
-    this.section(title, list, terms => element('pre', { class: 'terms' },
-      terms.join('\n')), count > list.length ? `${list.length} of ${count}` : count);
+    this.section(title, list, element('pre', { class: 'terms' }),
+      terms => terms.map(term => element('span', {}, `${term}\n`)),
+      count > list.length ? `${list.length} of ${count}` : count);
+  }
+
+  items(title, rows, entry, note = rows.length,
+        around = element('ul', { class: 'plain' })) {
+    this.section(title, rows, around,
+      () => rows.map(row => element('li', {}, ...entry(row))), note);
   }
 
   // ------------------------------------------------------------- an agent
@@ -151,21 +159,22 @@ class Details {
         ['Home', told.home === told.host ? 'here' : this.hostLink(told.home)],
         ['Hops', told.hops.toLocaleString('en')],
         ['Busy', told.busy && `${told.busy.toFixed(1)} s`]]);
-      this.section('Fault', told.fault ? [told.fault] : [], ([fault]) =>
-        element('div', {}, element('pre', { class: 'problem' }, fault.error),
-          element('p', {}, `in ${fault.goal}, ${fault.place}`)));
-      this.section('Program', told.program, showProgram);
+      this.section('Fault', told.fault ? [told.fault] : [], element('div'),
+        faults => faults.flatMap(fault => [
+          element('pre', { class: 'problem' }, fault.error),
+          element('p', {}, `in ${fault.goal}, ${fault.place}`)]));
+      this.section('Program', told.program, element('pre', { class: 'program' }),
+        programLines);
       this.texts('Goals left', told.goals);
       this.texts('Facts', told.facts, told.fact_count);
-      this.section('Mailbox', told.mailbox || [], mail => element('ul',
-        { class: 'plain' }, ...mail.map(([from, text]) => element('li', {},
-          element('code', {}, text), element('span', { class: 'muted' },
-            ` from ${shortName(from)}`)))), (told.mailbox || []).length);
+      this.items('Mailbox', told.mailbox || [], ([from, text]) =>
+        [element('code', {}, text),
+         element('span', { class: 'muted' }, ` from ${shortName(from)}`)]);
       this.texts('Payloads', told.payloads);
     }
-    if (known) this.section('Trail', known.trail.slice(-64), trail =>
-      element('ol', { class: 'trail' }, ...trail.map(host =>
-        element('li', {}, this.hostLink(host)))), known.trail.length);
+    if (known) this.items('Trail', known.trail.slice(-64),
+      host => [this.hostLink(host)], known.trail.length,
+      element('ol', { class: 'trail' }));
   }
 
   // --------------------------------------------------------------- a host
@@ -178,27 +187,24 @@ class Details {
       ...told.hop_times.map(([way, n, min, mean, max]) => [`Hops ${way}`,
         `${n.toLocaleString('en')}, in ${ms(mean)} ms (${ms(min)} to ${ms(max)})`])]);
     const links = told.links.map(id => [id, known?.links.get(id) ?? 1]);
-    this.section('Neighbours', links, rows => element('ul', { class: 'plain' },
-      ...rows.map(([id, cost]) => element('li', {}, this.hostLink(id),
-        cost === 1 ? null : element('span', { class: 'muted' }, ` cost ${cost}`),
-        this.app.act ? button('unlink', () => this.unlink(id),
-          { class: 'small', 'aria-label': `Unlink ${shortName(id)}` }) : null))),
-      links.length);
+    this.items('Neighbours', links, ([id, cost]) => [this.hostLink(id),
+      cost === 1 ? null : element('span', { class: 'muted' }, ` cost ${cost}`),
+      this.app.act ? button('unlink', () => this.unlink(id),
+        { class: 'small', 'aria-label': `Unlink ${shortName(id)}` }) : null]);
     const agents = known ? [...known.agents].map(agent =>
       [agent.id, agent.program]).slice(0, 300) : [];
-    this.section('Agents here', agents, rows => element('ul', { class: 'plain' },
-      ...rows.map(([id, program]) => element('li', {}, this.agentLink(id),
-        element('span', { class: 'muted' }, ` ${program}`)))), known?.agents.size);
+    this.items('Agents here', agents, ([id, program]) => [this.agentLink(id),
+      element('span', { class: 'muted' }, ` ${program}`)], known?.agents.size);
     this.texts('Tuple space', told.tuples);
     this.texts('Pheromones', told.pheromones);
     this.texts('Place', told.place);
     this.texts('Services', told.services);
     this.texts('Options', told.options);
     const lines = (known?.lines || []).slice(-100).reverse();
-    this.section('Log', lines, rows => element('ul', { class: 'plain log' },
-      ...rows.map(([time, agent, text]) => element('li', {},
-        element('span', { class: 'muted' }, `${time === null ? '' : time.toFixed(2)} `),
-        agent ? this.agentLink(agent) : null, ` ${text}`))), lines.length);
+    this.items('Log', lines, ([time, agent, text]) =>
+      [element('span', { class: 'muted' }, `${time === null ? '' : time.toFixed(2)} `),
+       agent ? this.agentLink(agent) : null, ` ${text}`], lines.length,
+      element('ul', { class: 'plain log' }));
   }
 
   async unlink(other) {
@@ -209,9 +215,8 @@ class Details {
 
 const ms = seconds => (seconds * 1000).toPrecision(3);
 
-function showProgram({ lines, here }) {
+function programLines({ lines, here }) {
   const marked = new Set(here);
-  return element('pre', { class: 'program' }, ...lines.map((line, n) =>
-    element('span', marked.has(n + 1) ? { class: 'here',
-      title: 'Here it stands' } : {}, `${line}\n`)));
+  return lines.map((line, n) => element('span', marked.has(n + 1)
+    ? { class: 'here', title: 'Here it stands' } : {}, `${line}\n`));
 }

@@ -30,6 +30,29 @@ export function fillChoice(select, options, value) {
   select.value = value;
 }
 
+// The children of an element are these, in this order.  Those that stay are
+// not taken out meanwhile, as far as their order allows.
+export function inOrder(parent, children) {
+  const wanted = new Set(children);
+  for (const child of [...parent.children]) if (!wanted.has(child)) child.remove();
+  children.forEach((child, i) => {
+    const there = parent.children[i];
+    if (there !== child) parent.insertBefore(child, there || null);
+  });
+}
+
+// The same, but what is as before stays the same element: it may have the
+// focus, or be a part of what somebody selects.
+export function renew(parent, children) {
+  const before = new Map();     // HTML -> elements
+  for (const child of parent.children) {
+    const html = child.outerHTML;
+    before.set(html, [...before.get(html) || [], child]);
+  }
+  inOrder(parent, children.map(child =>
+    before.get(child.outerHTML)?.shift() ?? child));
+}
+
 // Call f with the size of an element now, and whenever it changes; not while
 // it is not shown.
 export function onSize(watched, f) {

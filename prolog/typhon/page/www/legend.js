@@ -1,6 +1,6 @@
 // Which colour is which program. A press hides its agents, and shows them.
 
-import { element, fitCanvas } from './dom.js';
+import { element, fitCanvas, inOrder } from './dom.js';
 import { markPath } from './palette.js';
 import { byName } from './store.js';
 
@@ -48,9 +48,10 @@ export function legend(store, palette, onHidden) {
         || now.some(name => !entries.has(name)) || dark !== palette().dark;
       if (anew) {
         dark = palette().dark;
+        const before = new Map(entries);
         entries.clear();
-        for (const name of now) entries.set(name, entry(name));
-        list.replaceChildren(...[...entries.values()].map(e => e.button));
+        for (const name of now) entries.set(name, before.get(name) || entry(name));
+        inOrder(list, [...entries.values()].map(e => e.button));
         for (const [name, { swatch }] of entries) paint(name, swatch);
       }
       for (const [name, { count }] of entries) {

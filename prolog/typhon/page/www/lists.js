@@ -1,6 +1,7 @@
 // Hosts and agents of all processes, as lists.
 
 import { choice, element, fillChoice } from './dom.js';
+import { unpressed } from './press.js';
 import { byName, shortName } from './store.js';
 import { Table } from './table.js';
 
@@ -103,8 +104,9 @@ function list(parent, store, app, { label, what, rows, columns, choices,
     table.update();
   };
   store.on('change', () => table.changed());
-  app.on('snapshot', () => { if (parent.offsetParent) update(); });
-  app.on('view', () => { if (parent.offsetParent) update(); });
+  const inSight = () => { if (parent.offsetParent) update(); };
+  app.on('snapshot', () => unpressed(inSight));
+  app.on('view', inSight);
   app.on('select', chosen => table.choose(chosenOf(chosen)));
   table.choose(chosenOf(app.chosen));
   update();

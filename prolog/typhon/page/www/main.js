@@ -134,7 +134,7 @@ function tabs(app) {
 // ---------------------------------------------------------------- the state
 
 const STATES = { connecting: 'connecting', open: 'live',
-  lost: 'connection lost, trying again', refused: 'refused' };
+  lost: 'connection lost, trying again', refused: 'refused, trying again' };
 
 function stateLine(app) {
   let hops = app.store.counts.arrived, at = performance.now();
@@ -238,6 +238,11 @@ function keepFresh(app) {
 
 const store = new Store();
 const app = new App(store);
+
+// What fails where nobody waits for it is told as well.
+addEventListener('unhandledrejection', ({ reason }) =>
+  app.note(reason?.message ?? String(reason), 'error'));
+
 tabs(app);
 details($('details'), store, app);
 stateLine(app);

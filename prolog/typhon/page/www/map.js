@@ -122,12 +122,15 @@ class MapView {
     } else {
       this.fitted = false;
     }
-    this.redraw();
+    this.dirty = true;
+    this.changed();
   }
 
   // ------------------------------------------------------------- changes
 
+  // What happens while it is not shown is seen when it has a size again.
   changed() {
+    if (!this.stage.clientWidth) return;
     if (this.shape !== this.store.shape) this.reshape();
     const names = [...this.store.overlays.values()]
       .filter(({ values }) => values.size > 0).map(({ name }) => name);

@@ -86,23 +86,23 @@ export class Player {
     this.playing = true;
     this.store.paused = false;
     this.wall = performance.now();
-    requestAnimationFrame(() => this.tick());
+    this.frame = requestAnimationFrame(() => this.tick());
     this.seek(this.time);
   }
 
   pause() {
     this.playing = false;
     this.store.paused = true;
+    cancelAnimationFrame(this.frame);
   }
 
   tick() {
-    if (!this.playing) return;
     const wall = performance.now();
     const passed = Math.min(0.25, (wall - this.wall) / 1000);
     this.wall = wall;
     if (this.time >= this.last) this.pause();
     this.seek(this.time + passed * this.speed);
-    requestAnimationFrame(() => this.tick());
+    if (this.playing) this.frame = requestAnimationFrame(() => this.tick());
   }
 }
 

@@ -48,7 +48,12 @@ export function showReplay(parent, log) {
   playerBar(whole, player);
   show(0);
   player.seek(player.first);
-  return { player, store: player.store, app, views, show };
+  const end = () => {
+    player.pause();
+    for (const { view } of views) view?.destroy();
+    whole.remove();
+  };
+  return { player, store: player.store, app, views, show, end };
 }
 
 // On the page: choose a log of this machine; the server, which can read it,
@@ -57,17 +62,22 @@ export function mount(parent, store, app) {
   const said = element('span', { role: 'status' },
     'A log of a network; log(File, [hops, messages, links, hosts]) tells most.');
   const opened = element('div', { class: 'replay-opened' });
+  let shown = null, latest = null;
   const open = async file => {
+    latest = file;
     said.textContent = `Reading ${file.name} …`;
     try {
       const log = await app.ask({ ask: 'replay', title: file.name,
                                   text: await file.text() });
+      if (file !== latest) return null;
       said.textContent = '';
-      opened.replaceChildren();
-      showReplay(opened, log);
+      shown?.end();
+      shown = showReplay(opened, log);
     } catch (error) {
-      said.textContent = `${file.name} cannot be replayed: ${error.message}`;
+      if (file === latest)
+        said.textContent = `${file.name} cannot be replayed: ${error.message}`;
     }
+    return shown;
   };
   const input = element('input', { type: 'file', accept: '.pl,.log,.txt',
     onchange: () => { if (input.files[0]) open(input.files[0]); } });

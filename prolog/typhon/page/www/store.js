@@ -59,7 +59,7 @@ export class Store {
     this.agents = new Map();
     this.links = new Map();     // "a b", a before b -> {a, b, cost}
     this.programs = new Map();  // name -> {name, agents}
-    this.ended = [];            // ids, the oldest first
+    this.ended = new Set();     // ids, the oldest first
     this.moving = new Set();    // agents whose hops are to be seen
     this.overlays = new Map();  // name -> {name, kind, values}
     this.recent = [];           // lists of events, the oldest first
@@ -255,7 +255,7 @@ export class Store {
       agent = { id, name: shortName(id), host: null, program: null,
                 status: 'running', fault: null, outcome: null, parent: null,
                 hops: 0, sent: 0, received: 0, trail: [], hop: null,
-                said: null, since: this.time };
+                said: null, heard: -Infinity };
       this.agents.set(id, agent);
       this.setProgram(agent, programGuess(agent.name));
       if (hostId) this.put(agent, hostId);
@@ -283,10 +283,17 @@ export class Store {
   }
 
   // Something happens to it here: so it is here, whatever was said before.
-  here(agent, hostId) {
-    if (agent.host === hostId || !hostId) return;
-    this.put(agent, hostId);
-    if (agent.hop && agent.hop.to !== hostId) agent.hop = null;
+  // But each process tells for itself: what comes late from where the agent
+  // was before says nothing of where it is, and false is returned.
+  here(agent, hostId, time) {
+    if (time < agent.heard) return false;
+    agent.heard = time;
+    this.revive(agent);
+    if (agent.host !== hostId && hostId) {
+      this.put(agent, hostId);
+      if (agent.hop && agent.hop.to !== hostId) agent.hop = null;
+    }
+    return true;
   }
 
   over(agent, outcome) {
@@ -295,24 +302,23 @@ export class Store {
     agent.status = 'ended';
     agent.hop = null;
     this.hosts.get(agent.host)?.agents.delete(agent);
-    this.ended.push(agent.id);
-    if (this.ended.length > ENDED) this.forget(this.ended.shift());
+    this.moving.delete(agent);
+    this.ended.add(agent.id);
+    if (this.ended.size > ENDED) this.forget(this.ended.values().next().value);
   }
 
   forget(id) {
-    const agent = this.agents.get(id);
-    if (!agent || agent.status !== 'ended') return;
+    const { program } = this.agents.get(id), known = this.programs.get(program);
+    this.ended.delete(id);
     this.agents.delete(id);
-    const program = this.programs.get(agent.program);
-    if (program && --program.agents === 0) this.programs.delete(agent.program);
+    if (--known.agents === 0) this.programs.delete(program);
   }
 
   revive(agent) {
-    if (agent.status !== 'ended') return;
-    this.ended = this.ended.filter(id => id !== agent.id);
+    if (!this.ended.delete(agent.id)) return;
     agent.outcome = null;
     agent.status = 'running';
-    this.host(agent.host).agents.add(agent);
+    this.hosts.get(agent.host)?.agents.add(agent);
   }
 
   // --------------------------------------------------------------- hops
@@ -349,6 +355,10 @@ export class Store {
       this.moving.add(agent);
     }
     if (agent.host !== to) this.put(agent, to);
+  }
+
+  hopped(agent, time, seconds) {
+    const took = typeof seconds === 'number' ? seconds : null;
     agent.hops++;
     this.history.hop(time, took);
     if (took !== null) this.expected += (took - this.expected) / 64;
@@ -427,24 +437,28 @@ const programGuess = name => {
 
 // What each kind of event does to the store.
 const APPLY = {
-  created(store, [, , , , program], host, id) {
+  created(store, [time, , , , program], host, id) {
     const agent = store.agent(id, host);
-    store.revive(agent);
-    store.here(agent, host);
+    store.here(agent, host, time);
     if (program) store.setProgram(agent, program);
   },
   left(store, [time, , , , to, seconds, room], host, id) {
     const agent = store.agent(id, host);
-    store.here(agent, host);
-    store.setOut(agent, host, to, time, seconds, room);
+    if (store.here(agent, host, time))
+      store.setOut(agent, host, to, time, seconds, room);
   },
-  stayed(store, event, host, id) {
+  stayed(store, [time], host, id) {
     const agent = store.agent(id, host);
+    if (!store.here(agent, host, time)) return;
     agent.hop = null;
     agent.status = 'running';
   },
   arrived(store, [time, , , , from, seconds], host, id) {
-    const agent = store.agent(id, from || host);
+    const agent = store.agent(id, from || host), { hop } = agent;
+    store.hopped(agent, time, seconds);
+    const awaited = hop && hop.to === host && hop.arrives === null;
+    if (time < agent.heard && !awaited) return;
+    agent.heard = time;
     store.revive(agent);
     agent.status = 'running';
     store.arrive(agent, from, host, time, seconds);
@@ -458,21 +472,21 @@ const APPLY = {
     if (id) store.agent(id, host).sent++;
     store.history.at(time).messages++;
   },
-  received(store, event, host, id) {
+  received(store, [time], host, id) {
     if (!id) return;
     const agent = store.agent(id, host);
-    store.here(agent, host);
+    store.here(agent, host, time);
     agent.received++;
   },
-  ended(store, [, , , , outcome], host, id) {
+  ended(store, [time, , , , outcome], host, id) {
     const agent = store.agent(id, host);
-    store.here(agent, host);
+    store.here(agent, host, time);
     store.over(agent, outcome);
   },
   fault(store, [time, , , , text], host, id) {
     const agent = store.agent(id, host);
     agent.fault = text;
-    agent.status = 'faulty';
+    if (store.here(agent, host, time)) agent.status = 'faulty';
     store.host(host).faultAt = store.stamped ? time : store.clock();
     store.history.at(time).faults++;
     store.line(host, time, id, text);

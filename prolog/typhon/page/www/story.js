@@ -76,9 +76,7 @@ export function story(events, last) {
   const mark = (kind, agent, host, time) =>
     told.marks.push({ kind, agent, host, time });
 
-  for (const [time, host, agent, kind, ...more] of events) {
-    if (!agent || typeof time !== 'number' || kind === 'show' || kind === 'add')
-      continue;
+  for (const [time, host, agent, kind, ...more] of inTime(events)) {
     if (kind === 'arrived') {
       arrive(time, host, agent, ...more);
       continue;
@@ -103,3 +101,8 @@ export function story(events, last) {
 
   return told;
 }
+
+// What happens to agents; processes tell it one before the other.
+const inTime = events => [...events].filter(([time, , agent, kind]) =>
+  agent && typeof time === 'number' && kind !== 'show' && kind !== 'add')
+  .sort(([a], [b]) => a - b);

@@ -1,6 +1,7 @@
 // A table of any length: only the rows in sight are in the document.
 
-import { element, onSize } from './dom.js';
+import { element, inOrder, onSize } from './dom.js';
+import { unpressed } from './press.js';
 
 const ROW = 28;                 // pixels, as in style.css
 const SPARE = 6;                // rows above and below those in sight
@@ -57,10 +58,10 @@ export class Table {
   // Something has changed.
   changed() {
     if (this.waiting || !this.element.isConnected) return;
-    this.waiting = setTimeout(() => {
+    this.waiting = setTimeout(() => unpressed(() => {
       this.waiting = null;
       if (this.element.offsetParent) this.update();
-    }, CALM);
+    }), CALM);
   }
 
   update() {
@@ -100,19 +101,14 @@ export class Table {
       inSight.set(id, this.made.get(id) || this.newRow(id));
       this.fillRow(inSight.get(id), n);
     }
-    for (const [id, row] of this.made) if (!inSight.has(id)) row.remove();
     this.made = inSight;
-    [...inSight.values()].forEach((row, i) => {
-      const there = this.body.children[i];
-      if (there !== row) this.body.insertBefore(row, there || null);
-    });
+    inOrder(this.body, [...inSight.values()]);
     const active = inSight.get(this.active);
     if (active) this.element.setAttribute('aria-activedescendant', active.id);
     else this.element.removeAttribute('aria-activedescendant');
   }
 
-  // A row stays the same element while it is in sight: else a click would be
-  // lost whenever something changes between pressing and letting go.
+  // A row stays the same element while it is in sight.
   newRow(id) {
     const made = element('div', { role: 'row' }, ...this.columns.map(column => {
       const cell = element('div', { role: 'gridcell' });

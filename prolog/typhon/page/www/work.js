@@ -223,7 +223,7 @@ function newNetwork(app) {
 }
 
 async function endNetwork(app) {
-  const networks = await app.ask({ ask: 'networks' }).catch(() => []);
+  const networks = await app.ask({ ask: 'networks' });
   if (networks.length === 0) {
     app.note('No network has been started by the process of this page');
     return;
