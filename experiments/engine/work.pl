@@ -181,7 +181,7 @@ hand_over(Out, Run, desk(_, Root, Logs)) :-
 
 next_answer(Run, Outcome) :-
     findall(Out, busy(Out, _, _), Outs),
-    wait_for_input(Outs, [Out|_], infinite),
+    one_ready(Outs, Out),
     answer(Out, Answer),
     retract(busy(Out, Run, Directory)),
     (   Answer = answer(Outcome)
@@ -193,6 +193,16 @@ next_answer(Run, Outcome) :-
         part_fail(Part, Directory, Why, Outcome)
     ),
     !.
+
+%   On 9.2 an exception in the middle of wait_for_input/3 ruins the stacks: the
+%   signal that brings it is held back for a moment.
+
+one_ready(Outs, Out) :-
+    sig_atomic(wait_for_input(Outs, Ready, 0.1)),
+    (   Ready = [Out|_]
+    ->  true
+    ;   one_ready(Outs, Out)
+    ).
 
 %   A whole line: what is left of it would look like the next answer.
 

@@ -95,18 +95,22 @@ cross(Address, Size, N) :-
              string_length(Back, Size) )).
 
 %!  big_string(+Size, -String) is det.
+%
+%   Made of two halves: nothing longer is made on the way.
 
-big_string(Size, String) :-
-    at_least(Size, "x", Long),
-    sub_string(Long, 0, Size, _, String).
-
-at_least(Size, String, String) :-
-    string_length(String, Length),
-    Length >= Size,
+big_string(0, "") :-
     !.
-at_least(Size, String0, String) :-
-    string_concat(String0, String0, Twice),
-    at_least(Size, Twice, String).
+big_string(Size, String) :-
+    Half is Size//2,
+    big_string(Half, Begin),
+    string_concat(Begin, Begin, Twice),
+    rest(Size, Twice, String).
+
+rest(Size, Twice, Twice) :-
+    Size mod 2 =:= 0,
+    !.
+rest(_, Twice, String) :-
+    string_concat(Twice, "x", String).
 
 reach(Addresses, Missed) :-
     length(Addresses, Count),
