@@ -11,7 +11,6 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../wire', [endpoint_keys/1]).
 :- use_module('../host', [event_heard/1, host/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
@@ -66,11 +65,8 @@ start(Host, Since, Start) :-
 %!  image_trail(+Event, +Host, +Image0, -Image) is det.
 %
 %   Image has one link more in its trail, of Host, a host of this process, see
-%   trail_link/5; none where nobody signs.
+%   trail_link/5.
 
-image_trail(_, _, Image, Image) :-
-    \+ endpoint_keys(_),
-    !.
 image_trail(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
             image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     life_hops(Life, Hops),

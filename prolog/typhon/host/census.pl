@@ -81,7 +81,7 @@ came_back(Worker) :-
 %   This worker begins with Work, and ends it.
 
 turn_begin(Work, Turn) :-
-    flag(typhon_taken, Taken, Taken+1),
+    one_turn_more,
     (   census(_)
     ->  thread_self(Me),
         came_back(Me),
@@ -91,6 +91,14 @@ turn_begin(Work, Turn) :-
     ;   Turn = none
     ).
 
+%   Two that begin at once may count as one: who asks wants to know whether
+%   any did.
+
+one_turn_more :-
+    get_flag(typhon_taken, Taken0),
+    Taken is Taken0+1,
+    set_flag(typhon_taken, Taken).
+
 turn_end(none) :-
     !,
     worker_came.
@@ -99,10 +107,10 @@ turn_end(Turn) :-
 
 %!  turns_begun(-Count) is det.
 %
-%   How often workers have begun with something.
+%   How often workers have begun with something, about.
 
 turns_begun(Count) :-
-    flag(typhon_taken, Count, Count).
+    get_flag(typhon_taken, Count).
 
 %!  work_doer(+Work, -Type, -What) is det.
 %
