@@ -28,6 +28,7 @@ import collections.abc
 import dataclasses
 import importlib.util
 import inspect
+import itertools
 import os
 import sys
 import threading
@@ -38,7 +39,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                 '..', 'lib'))
 from helper import BadRequest, Helper, Refusal, text           # noqa: E402
 
-LONGEST_LIST = 1000000          # elements of what is no list yet
+LONGEST_LIST = 1000000          # elements of what may have no end
 
 
 def plain(value, depth=0):
@@ -57,12 +58,14 @@ def plain(value, depth=0):
         return plain(dataclasses.asdict(value), depth + 1)
     if hasattr(value, 'tolist'):                # of numpy
         return plain(value.tolist(), depth + 1)
+    if isinstance(value, (list, tuple, set, frozenset)):
+        return [plain(part, depth + 1) for part in value]
     if isinstance(value, collections.abc.Iterable):
-        parts = []
-        for part in value:
-            parts.append(plain(part, depth + 1))
-            if len(parts) > LONGEST_LIST:
-                break
+        parts = [plain(part, depth + 1)
+                 for part in itertools.islice(value, LONGEST_LIST + 1)]
+        if len(parts) > LONGEST_LIST:
+            raise Refusal('exception', 'more than %d elements' % LONGEST_LIST,
+                          **{'class': 'OverflowError'})
         return parts
     raise Refusal('exception', 'a result of type %s cannot be told to Prolog'
                   % type(value).__name__, **{'class': 'TypeError'})

@@ -1,5 +1,6 @@
 """Functions for test/prolog/python/test_python.pl."""
 
+import itertools
 import json                             # not offered: of another module
 import os
 import subprocess
@@ -63,7 +64,11 @@ def noise():
 def odd(which):
     return {'tuple': (1, 'a'), 'set': {1}, 'bytes': b'\x00\xff',
             'range': range(3), 'nan': float('nan'), 'object': object(),
-            'key': {1: 'one'}, 'big': 10 ** 30}[which]
+            'key': {1: 'one'}, 'endless': itertools.repeat(1), 'big': 10 ** 30}[which]
+
+
+def long(size):
+    return [0] * size
 
 
 def deep(depth):

@@ -10,7 +10,8 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
-:- use_module(protocol, [event_row/2, name_text/2, text/2]).
+:- use_module(protocol,
+              [event_row/2, name_text/2, number_told/2, text/2]).
 
 /** <module> What mechanisms show of themselves on a map
 
@@ -173,6 +174,10 @@ place_text(Place, Where) :-
 
 value(Term, Kind, Text), var(Term) => Kind = "show", text(Term, Text).
 value(none, Kind, Value) => Kind = "show", Value = null.
-value(Number, Kind, Value), number(Number) => Kind = "show", Value = Number.
-value(add(Number), Kind, Value), number(Number) => Kind = "add", Value = Number.
+value(Number, Kind, Value), number(Number) =>
+    Kind = "show",
+    number_told(Number, Value).
+value(add(Number), Kind, Value), number(Number), number_told(Number, Number) =>
+    Kind = "add",
+    Value = Number.
 value(Term, Kind, Text) => Kind = "show", text(Term, Text).

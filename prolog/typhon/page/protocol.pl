@@ -4,6 +4,7 @@
             scene_dict/3,               % +Time, +Scene, -Dict
             text/2,                     % +Term, -Text
             name_text/2,                % +Atomic, -Text
+            number_told/2,              % +Number, -Told
             error_text/2                % +Error, -Text
           ]).
 
@@ -95,7 +96,7 @@ compound_name_arguments_of(What, Name, Terms) :-
 
 argument_text(Term, Text) :-
     (   number(Term)
-    ->  Text = Term
+    ->  number_told(Term, Text)
     ;   atom(Term)
     ->  name_text(Term, Text)
     ;   text(Term, Text)
@@ -120,6 +121,18 @@ name_text(Term, Text) =>
 text(Term, Text) :-
     longest(Longest),
     abridged(Term, Longest, Text).
+
+%!  number_told(+Number, -Told) is det.
+%
+%   Number, or as text one that JSON has not: infinite, or none.
+
+number_told(Number, Told) :-
+    (   float(Number),
+        float_class(Number, Class),
+        memberchk(Class, [infinite, nan])
+    ->  text(Number, Told)
+    ;   Told = Number
+    ).
 
 %!  error_text(+Error, -Text:string) is det.
 %
@@ -176,8 +189,9 @@ machine(Endpoint, Machine) :-
     ;   Machine = Endpoint
     ).
 
-link_row(Neighbour, Cost, [Text, Cost]) :-
-    name_text(Neighbour, Text).
+link_row(Neighbour, Cost, [Text, Told]) :-
+    name_text(Neighbour, Text),
+    number_told(Cost, Told).
 
 agent_dict(agent(Id, glance(Host, Program, Doing, Hops, Mail)), Dict) :-
     maplist(name_text, [Id, Host, Program, Doing],

@@ -2,6 +2,8 @@
 :- use_module('../../lib/common').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/page/overlays)).
 
@@ -33,6 +35,12 @@ shown_in(What, Rows, Dir) :-
     event_rows([event(2.5, 'a@h:1', 'x.1@a@h:1', What)], Overlays,
                [_|Rows]).
 
+infinite(What, Kind, Value) :-
+    event_rows([event(2.5, 'a@h:1', 'x.1@a@h:1', What)],
+               [ overlay(best, bar, log(N), N),
+                 overlay(sum, bar, leave(of(M)), add(M)) ],
+               [_, [_, _, _, Kind, _, _, Value]]).
+
 :- begin_tests(overlays).
 
 test(sum, Rows == [[2.5, "a@h:1", "x.1@a@h:1", "add", "queue", "a@h:1", 1]]) :-
@@ -50,6 +58,14 @@ test(nothing_of_it, Rows == []) :-
     shown(log(something(else)), Rows).
 test(not_declared, Rows == []) :-
     shown(log(x), Rows).
+test(infinite, [Values, Kinds] == [["1.0Inf", "add(1.0Inf)"],
+                                 ["show", "show"]]) :-
+    Inf is inf,
+    findall(Kind-Value,
+            ( member(What, [log(Inf), leave(of(Inf))]),
+              infinite(What, Kind, Value) ),
+            Pairs),
+    pairs_keys_values(Pairs, Kinds, Values).
 test(hops_are_no_overlays, Rows == []) :-
     shown(left('b@h:2'), Rows).
 test(variables_of_agents, Rows == []) :-

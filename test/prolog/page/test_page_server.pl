@@ -411,6 +411,22 @@ happenings(Feed) :-
     unlink(alpha, beta),
     told(Feed, [Alpha, "", "unlink", Beta], _).
 
+%   JSON has no numbers that are infinite, or none: nothing could be read in
+%   which there is one.
+
+test(no_number, [Cost, Logged] == ["1.0Inf", "1.5NaN"]) :-
+    page(Base, no_number(Base, Cost, Logged)).
+
+no_number(Base, Cost, Logged) :-
+    Inf is inf,
+    link(alpha, beta, [cost(Inf)]),
+    with_feed(Base, Feed,
+              ( frame(Feed, First),
+                member(Host, First.snapshot.hosts),
+                Host.links = [[_, Cost]],
+                create([(main :- X is nan, log(X))], _, [host(alpha)]),
+                told(Feed, [_, _, "log"], [_, _, _, _, Logged]) )).
+
 %   Virtual time is shown as it is.
 
 test(virtual_time, Time == 3.0) :-

@@ -84,6 +84,12 @@ test(what_cannot_be_told) :-
     assertion(NaN = python_error('ValueError', _)),
     assertion(Object = python_error('TypeError', _)),
     assertion(Deep = python_error('RecursionError', _)).
+%   Nothing of a list is left out without a word.
+
+test(long_lists, [Length, Error] = [1000002, python_error('OverflowError', _)]) :-
+    with_python([], ( remote(alpha, ( long(1000002, List),
+                                      length(List, Length) )),
+                      error_of(odd(endless, _), Error) )).
 test(what_cannot_be_asked,
      [ X, Y, Z, V ] == [ type_error(json_value, f(x)),
                          type_error(json_value, 1r3),

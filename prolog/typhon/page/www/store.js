@@ -282,11 +282,17 @@ export class Store {
       agent.trail.splice(0, agent.trail.length - TRAIL);
   }
 
+  // Each process tells for itself, so what happened where an agent was before
+  // may come after what happens where it is.  Where it is to arrive nothing
+  // can be late: clocks of machines differ.
+  late({ heard, hop }, hostId, time) {
+    return time < heard && !(hop && hop.to === hostId && hop.arrives === null);
+  }
+
   // Something happens to it here: so it is here, whatever was said before.
-  // But each process tells for itself: what comes late from where the agent
-  // was before says nothing of where it is, and false is returned.
+  // But what comes late says nothing, and false is returned.
   here(agent, hostId, time) {
-    if (time < agent.heard) return false;
+    if (this.late(agent, hostId, time)) return false;
     agent.heard = time;
     this.revive(agent);
     if (agent.host !== hostId && hostId) {
@@ -454,10 +460,9 @@ const APPLY = {
     agent.status = 'running';
   },
   arrived(store, [time, , , , from, seconds], host, id) {
-    const agent = store.agent(id, from || host), { hop } = agent;
+    const agent = store.agent(id, from || host);
     store.hopped(agent, time, seconds);
-    const awaited = hop && hop.to === host && hop.arrives === null;
-    if (time < agent.heard && !awaited) return;
+    if (store.late(agent, host, time)) return;
     agent.heard = time;
     store.revive(agent);
     agent.status = 'running';
