@@ -2,13 +2,17 @@
           [ host_start/1,               % +Name
             host_start/2,               % +Name, +Options
             host_change/2,              % +Host, +Option
-            host_stop/1                 % +Name
+            host_stop/1,                % +Name
+            hosts_journal/2,            % +Dir, +Options
+            hosts_back/1,               % +Options
+            hosts_go_on/0,
+            hosts_rest/0
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, selectchk/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_option/2, check_options/2]).
@@ -16,7 +20,7 @@
 :- use_module('../journal',
               [ journal_barrier/0, journal_begin/0, journal_close/0,
                 journal_end/0, journal_item/5, journal_number_after/1,
-                journal_on/0, journal_open/2, journal_opened/1, note_drop/3,
+                journal_on/0, journal_open/3, journal_opened/1, note_drop/3,
                 note_put/4 ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
@@ -192,34 +196,91 @@ start_new(Name, Options) :-
 %   start_from(+Dir, +Name, +Options): with all that is in the journal.
 
 start_from(Dir, _, Options) :-
-    (   endpoint_address(_)
-    ;   memberchk(clock(virtual), Options)
-    ),
+    memberchk(clock(virtual), Options),
     !,
     permission_error(open, journal, Dir).
 start_from(Dir, Name, Options) :-
-    option(sync(Sync), Options, normal),
-    journal_open(Dir, Sync),
+    open_journal(Dir, Options),
     catch(begin_from_journal(Name, Options), Ball,
           ( journal_close, give_up_hosts, journal_end, throw(Ball) )).
 
 begin_from_journal(Name, Options) :-
-    forall(journal_item(number, any, _, _, N), journal_number_after(N)),
     findall(Other-Known, known_host(Other, Known), Hosts),
-    (   memberchk(Name-Known, Hosts)
+    (   selectchk(Name-Known, Hosts, Others)
     ->  with_known(Known, Options, AllOptions)
-    ;   AllOptions = Options
+    ;   AllOptions = Options,
+        Others = Hosts
     ),
     start_new(Name, AllOptions),
-    forall(( member(Other-OtherOptions, Hosts), Other \== Name ),
-           ( start_new(Other, OtherOptions),
-             assertz(from_journal(Other)) )),
+    all_back(Others),
+    hosts_go_on.
+
+all_back(Hosts) :-
+    forall(member(Name-Options, Hosts),
+           ( start_new(Name, Options),
+             assertz(from_journal(Name)) )),
     forall(typhon_recovery:recover, true),
     journal_begin,
     forall(typhon_recovery:tidy, true),
     forall(host(Host, _, _), note_host(Host)),
-    endpoint_open,
+    endpoint_open.
+
+                /*******************************
+                *     A PROCESS AS A WHOLE     *
+                *******************************/
+
+%!  hosts_journal(+Dir, +Options) is det.
+%!  hosts_back(+Options) is det.
+%!  hosts_go_on is det.
+%
+%   What a host with the option journal(Dir) does when it starts, in steps,
+%   for who has something to do in between, or has no host yet: the journal
+%   is open, and the process may start its endpoint; all that it knows is
+%   there again, its hosts with Options in place of what they had, and others
+%   are let in; what is there goes on.
+%
+%   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
+%        wait(Seconds): so long for another process that has it, which is
+%        about to end
+%   @error permission_error(open, journal, Dir), and as journal_open/3
+
+hosts_journal(Dir0, Options) :-
+    absolute_file_name(Dir0, Dir),
+    with_mutex(typhon_hosting, open_journal(Dir, Options)).
+
+open_journal(Dir, _) :-
+    endpoint_address(_),
+    !,
+    permission_error(open, journal, Dir).
+open_journal(Dir, Options) :-
+    option(sync(Sync), Options, normal),
+    option(wait(Seconds), Options, 0.2),
+    journal_open(Dir, Sync, Seconds),
+    catch(forall(journal_item(number, any, _, _, N),
+                 journal_number_after(N)), Ball,
+          ( journal_close, throw(Ball) )).
+
+hosts_back(Options) :-
+    findall(Name-All,
+            ( known_host(Name, Known), with_known(Known, Options, All) ),
+            Hosts),
+    with_mutex(typhon_hosting, all_back(Hosts)).
+
+hosts_go_on :-
     forall(typhon_recovery:go_on, true).
+
+%!  hosts_rest is det.
+%
+%   All hosts of the process stop.  What is in its journal rests there.
+
+hosts_rest :-
+    in_own_thread(with_mutex(typhon_hosting, rest)).
+
+rest :-
+    journal_close,
+    findall(Name, host(Name, _, _), Names),
+    forall(member(Name, Names), stop(Name)),
+    journal_end.
 
 known_host(Name, Options) :-
     journal_item(host, numbers, Name, _, Options).

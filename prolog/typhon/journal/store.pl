@@ -1,9 +1,10 @@
 :- module(typhon_store,
-          [ journal_open/2,               % +Dir, +Sync
-            journal_opened/1,             % -Dir
+          [ journal_open/2,             % +Dir, +Sync
+            journal_open/3,             % +Dir, +Sync, +Seconds
+            journal_opened/1,           % -Dir
             store_close/0,
             store_commit/1,             % +Changes
-            journal_item/5                % +Kind, +Order, -Key, -N, -Value
+            journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
@@ -46,9 +47,11 @@ part_bytes(30000).
                 *******************************/
 
 %!  journal_open(+Dir, +Sync) is det.
+%!  journal_open(+Dir, +Sync, +Seconds) is det.
 %
 %   Open the store in the directory Dir, a new one if there is none.
 %
+%   @arg Seconds is how long to wait for another process to give it up
 %   @arg Sync is `full` if what is committed is to survive a power cut, or
 %        `normal` if the end of the process
 %   @error permission_error(open, journal, Dir): another process has it, or
@@ -56,7 +59,10 @@ part_bytes(30000).
 %   @error journal_damaged(Dir, Why), journal_version(Dir, Version)
 %   @error existence_error(package, Name): the machine lacks it
 
-journal_open(Dir0, Sync) :-
+journal_open(Dir, Sync) :-
+    journal_open(Dir, Sync, 0.2).
+
+journal_open(Dir0, Sync, Seconds) :-
     load_odbc,
     absolute_file_name(Dir0, Dir),
     catch(make_directory_path(Dir), error(_, _),
@@ -66,7 +72,7 @@ journal_open(Dir0, Sync) :-
     ->  Age = old
     ;   Age = new
     ),
-    in_terms_of(Dir, connect(File, Connection)),
+    in_terms_of(Dir, connect(File, Seconds, Connection)),
     catch(( in_terms_of(Dir, prepare_database(Age, Dir, Sync, Connection)),
             assertz(connection(Dir, Connection)),
             in_terms_of(Dir, prepare_statements(Connection))
@@ -85,8 +91,10 @@ odbc(Goal) :-
     Called = odbc:Goal,
     call(Called).
 
-connect(File, Connection) :-
-    atom_concat('DRIVER=SQLite3;Timeout=200;Database=', File, Driver),
+connect(File, Seconds, Connection) :-
+    Timeout is truncate(1000*Seconds),
+    format(atom(Driver), 'DRIVER=SQLite3;Timeout=~d;Database=~w',
+           [Timeout, File]),
     odbc(odbc_driver_connect(Driver, Connection,
                              [silent(true), encoding(utf8)])).
 

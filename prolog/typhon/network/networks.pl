@@ -13,18 +13,24 @@
 :- use_module('../base/options', [check_name/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host',
-              [runtime_acquire/2, runtime_release/1, time_now/1, time_seed/1]).
+              [ host/3, hosts_back/1, hosts_journal/2, hosts_rest/0,
+                runtime_acquire/2, runtime_release/1, time_now/1,
+                time_seed/1 ]).
 :- use_module(changes, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
-:- use_module(carriers, [carrier/3]).
+:- use_module(carriers, [carrier/3, carrier_order/4]).
+:- use_module(kept, [kept_end/1, kept_note/3, kept_plan/4]).
 :- use_module(plan,
-              [ network_plan/3, plan_change/3, plan_dynamics/2,
-                plan_furnishing/2, plan_hosts/4, plan_links/2, plan_log/3,
-                plan_option/2, plan_processes/3, plan_time/2 ]).
-:- use_module(processes, [carriers_start/4, carriers_stop/1]).
+              [ plan_change/3, plan_dynamics/3, plan_furnishing/2,
+                plan_hosts/4, plan_journal/4, plan_links/2, plan_links_at/3,
+                plan_log/3, plan_option/2, plan_processes/3, plan_shape/3,
+                plan_time/2 ]).
+:- use_module(processes,
+              [carriers_restart/3, carriers_start/5, carriers_stop/1]).
+:- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
-              [ wire_change/2, wire_forget/1, wire_goals/3, wire_hosts/3,
-                wire_links/3,
+              [ wire_again/5, wire_change/2, wire_forget/1, wire_go_on/2,
+                wire_goals/3, wire_hosts/3, wire_instead/3, wire_links/3,
                 wire_stop_own/1, wired_agents/2, wired_edges/2,
                 wired_hosts/2 ]).
 
@@ -56,7 +62,8 @@ none of its own.
     network/2,                  % Network, Plan
     running/1,                  % Network
     part/2.                     % Network, log(Address, File),
-                                % or dynamics(Dynamics)
+                                % dynamics(Dynamics), or journal: it is that
+                                % of this process
 
 %!  network_start(+Topology, -Network, +Options) is det.
 %
@@ -101,19 +108,31 @@ none of its own.
 %     - seed(Seed)
 %       An integer, from which all that is random follows; drawn when not
 %       given, and told by network_property/2.
+%     - journal(Directory), sync(How)
+%       What happens in the network outlives its processes, each of which has
+%       its journal, as of host_start/2, below Directory. Started again with
+%       the same Directory the network is what it was, agents go on, and what
+%       options leave open is as before. If its hosts are in this process, it
+%       must be started before any other host.
+%     - restart(Boolean)
+%       Child processes that die are started again, with the ports that they
+%       had, up to 10 times in a minute each (settings of room `restarts`).
+%       Without a journal their hosts are then as they were when they began:
+%       their agents, and what was left there, are lost. Default `false`.
 %
 %   @error domain_error(network_option, Option), domain_error(topology, T),
 %   timeout_error(start, Network), system_error(process_ended(Status)),
-%   and what host_start/2 throws
+%   and what host_start/2 throws; journal_of_another(Directory, Was, Is) if
+%   the journal is that of a network that was started otherwise
 
 network_start(Topology, Network, Options) :-
-    network_plan(Topology, Options, Plan),
+    kept_plan(Topology, Options, Plan, Kept),
     flag(typhon_networks, Id, Id + 1),
     atom_concat(network, Id, Network),
     raising_afresh(
         setup_call_catcher_cleanup(
             assertz(network(Network, Plan)),
-            build(Network, Plan),
+            build(Network, Plan, Kept),
             Catcher,
             unless_built(Catcher, Network))),
     forget_erased.
@@ -127,25 +146,113 @@ unless_built(_, Network) :-
                 *            BUILD             *
                 *******************************/
 
-build(Network, Plan) :-
+build(Network, Plan, Kept) :-
+    plan_processes(Plan, P, Machines),
+    own_journal(Network, Plan, P, Machines),
     listen(Network, Plan),
     plan_option(Plan, seed(Seed)),
     time_seed(Seed),
-    plan_processes(Plan, P, Machines),
+    known_log(Kept, Network, Clock, Plan, Log),
     interface(Plan, Interface),
-    carriers_start(Network, P, Machines, Interface),
-    clock(Plan, Clock),
-    start_log(Network, Clock, Plan, Log),
-    plan_hosts(Plan, P, [Clock|Log], Hosts),
+    carriers_start(Network, P, Machines, Interface,
+                   typhon_networks:child_options(Plan, Log)),
+    clock_and_log(Network, Plan, Clock, Log),
+    own_back(Network, Log),
+    furnished(Kept, Network, P, Plan, Clock, [Clock|Log], Time),
+    start_dynamics(Network, Clock, Plan, Time),
+    go_on(Network, P, Plan),
+    debug(typhon(network), '~w is built, ~w processes', [Network, P]),
+    assertz(clock_of(Network, Clock)),
+    restarts(Network, P, Plan, [Clock|Log]),
+    assertz(running(Network)).
+
+%   furnished(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): what a
+%   journal knows need not be done again; links may have changed by themselves
+%   until Time.
+
+furnished(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
+    !,
+    plan_hosts(Plan, P, Common, Hosts),
+    wire_hosts(Network, P, Hosts),
+    shown(Clock, Time),
+    (   plan_links_at(Plan, Time, Links)
+    ->  wire_instead(Network, P, Links)
+    ;   true
+    ).
+furnished(_, Network, P, Plan, Clock, Common, 0) :-
+    kept_note(Plan, Clock, begun),
+    plan_hosts(Plan, P, Common, Hosts),
     wire_hosts(Network, P, Hosts),
     plan_links(Plan, Links),
     wire_links(Network, P, Links),
     plan_furnishing(Plan, Goals),
     wire_goals(Network, P, Goals),
-    start_dynamics(Network, Clock, Plan),
-    debug(typhon(network), '~w is built, ~w processes', [Network, P]),
-    assertz(clock_of(Network, Clock)),
-    assertz(running(Network)).
+    kept_note(Plan, Clock, built).
+
+                /*******************************
+                *            JOURNAL           *
+                *******************************/
+
+%   Its hosts are in this process, which must not have begun to listen.
+
+own_journal(Network, Plan, 1, [local]) :-
+    plan_journal(Plan, 1, Directory, How),
+    !,
+    hosts_journal(Directory, [sync(How)]),
+    assertz(part(Network, journal)).
+own_journal(_, _, _, _).
+
+own_back(Network, Log) :-
+    (   part(Network, journal)
+    ->  hosts_back(Log)
+    ;   true
+    ).
+
+%   What is in the journals is there before anything of it goes on: then all
+%   find each other.
+
+go_on(Network, P, Plan) :-
+    (   plan_option(Plan, journal(_))
+    ->  wire_go_on(Network, P)
+    ;   true
+    ).
+
+%   child_options(+Plan, ?Log, +P, -Options): hosts that a journal knows have
+%   another log from now on.
+
+:- public child_options/4.
+
+child_options(Plan, Log, P, Options) :-
+    (   plan_journal(Plan, P, Directory, How)
+    ->  Options = [journal(Directory, How)|More],
+        ( is_list(Log) -> More = [hosts(Log)] ; More = [] )
+    ;   Options = []
+    ).
+
+restarts(Network, P, Plan, Common) :-
+    (   plan_option(Plan, restart(true))
+    ->  carriers_restart(Network,
+                         typhon_networks:child_options(Plan, none),
+                         typhon_networks:again(Network, P, Common))
+    ;   true
+    ).
+
+:- public again/4.
+
+again(Network, Count, Common, P) :-
+    network(Network, Plan),
+    plan_hosts(Plan, Count, Common, Hosts),
+    (   plan_option(Plan, journal(_))
+    ->  wire_again(Network, P, Hosts, [], []),
+        carrier_order(Network, P, go_on, ok)
+    ;   plan_links(Plan, Links),
+        plan_furnishing(Plan, Goals),
+        wire_again(Network, P, Hosts, Links, Goals)
+    ).
+
+                /*******************************
+                *          COMMON TO ALL       *
+                *******************************/
 
 listen(Network, Plan) :-
     plan_time(Plan, Kind),
@@ -171,25 +278,47 @@ clock(Plan, clock(Epoch, Rate)) :-
     ;   Rate = 1
     ).
 
-%   start_log(+Network, +Clock, +Plan, -HostOptions)
+%   What the clock shows.
 
-start_log(Network, clock(Epoch, Rate), Plan, [Option]) :-
+shown(clock(Epoch, Rate), Time) :-
+    time_now(Now),
+    Time is (Now-Epoch)*Rate.
+
+%   known_log(+Kept, +Network, -Clock, +Plan, -Log), clock_and_log(+Network,
+%   +Plan, ?Clock, ?Log): of a network that is known from a journal the clock
+%   goes on, and the log is there before its hosts are.
+
+known_log(kept(_, Clock), Network, Clock, Plan, Log) :-
+    start_log(Network, Clock, Plan, append, Log).
+known_log(none, _, _, _, _).
+
+clock_and_log(Network, Plan, Clock, Log) :-
+    (   var(Clock)
+    ->  clock(Plan, Clock),
+        start_log(Network, Clock, Plan, write, Log)
+    ;   true
+    ).
+
+%   start_log(+Network, +Clock, +Plan, +Mode, -HostOptions)
+
+start_log(Network, clock(Epoch, Rate), Plan, Mode, [Option]) :-
     plan_log(Plan, Spec, Kinds),
     !,
     absolute_file_name(Spec, File),
     atom_concat(Network, '_log', Name),
-    log_server_start([file(File), name(Name), clock(Epoch, Rate)], Address),
+    log_server_start([ file(File), name(Name), mode(Mode),
+                       clock(Epoch, Rate) ], Address),
     log_option(Kinds, Address, Option),
     assertz(part(Network, log(Address, File))).
-start_log(_, _, _, []).
+start_log(_, _, _, _, []).
 
 log_option([], Address, Option) =>
     Option = log(Address).
 log_option(Kinds, Address, Option) =>
     Option = log(Address, Kinds).
 
-start_dynamics(Network, Clock, Plan) :-
-    (   plan_dynamics(Plan, State)
+start_dynamics(Network, Clock, Plan, Time) :-
+    (   plan_dynamics(Plan, Time, State)
     ->  dynamics_start(State, Clock, change(Network), Dynamics),
         assertz(part(Network, dynamics(Dynamics)))
     ;   true
@@ -224,7 +353,7 @@ end(Network) :-
     ->  step(dynamics_stop(Dynamics))
     ;   true
     ),
-    step(wire_stop_own(Network)),
+    step(stop_own(Network)),
     step(carriers_stop(Network)),
     (   retract(part(Network, log(Address, _)))
     ->  step(log_server_stop(Address))
@@ -237,6 +366,23 @@ end(Network) :-
     retractall(clock_of(Network, _)),
     forall(ended(Network), true),
     retractall(network(Network, _)).
+
+%   What is in the journal of this process rests there, with all its hosts. With
+%   other hosts in it those of the network end for good, as any do.
+
+stop_own(Network) :-
+    retract(part(Network, journal)),
+    !,
+    network(Network, Plan),
+    plan_shape(Plan, Names, _),
+    (   host(Other, _, _),
+        \+ memberchk(Other, Names)
+    ->  wire_stop_own(Network),
+        kept_end(Plan)
+    ;   hosts_rest
+    ).
+stop_own(Network) :-
+    wire_stop_own(Network).
 
 %   What goes wrong in one step must not leave the others undone.
 
@@ -311,6 +457,7 @@ property(edges(Edges), Network) :-
 property(agents(Agents), Network) :-
     wired_agents(Network, Agents).
 property(processes(Pids), Network) :-
+    restarts_back(Network),
     findall(P-Pid, carrier(Network, P, Pid), Pairs),
     keysort(Pairs, Sorted),
     pairs_values(Sorted, Pids).
