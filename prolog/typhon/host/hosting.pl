@@ -271,7 +271,8 @@ hosts_go_on :-
 
 %!  hosts_rest is det.
 %
-%   All hosts of the process stop.  What is in its journal rests there.
+%   All hosts of the process stop.  What is in its journal rests there, and
+%   nothing leaves the process any more, until its endpoint has stopped.
 
 hosts_rest :-
     in_own_thread(with_mutex(typhon_hosting, rest)).
@@ -279,8 +280,7 @@ hosts_rest :-
 rest :-
     journal_close,
     findall(Name, host(Name, _, _), Names),
-    forall(member(Name, Names), stop(Name)),
-    journal_end.
+    forall(member(Name, Names), stop_one(Name)).
 
 known_host(Name, Options) :-
     journal_item(host, numbers, Name, _, Options).
@@ -444,7 +444,14 @@ host_stop(Name) :-
     must_be(atom, Name),
     in_own_thread(with_mutex(typhon_hosting, stop(Name))).
 
-stop(Name0) :-
+stop(Name) :-
+    stop_one(Name),
+    (   host(_, _, _)
+    ->  true
+    ;   journal_end
+    ).
+
+stop_one(Name0) :-
     local_name(Name0, Name),
     host(Name, Address, Place),
     rest_or_end(Name),
@@ -462,11 +469,7 @@ stop(Name0) :-
     clock_clear(Name),
     place_destroy(Place),
     debug(typhon(host), '~w is stopped', [Address]),
-    runtime_release(host(Name)),
-    (   host(_, _, _)
-    ->  true
-    ;   journal_end
-    ).
+    runtime_release(host(Name)).
 
 %   With the last host the process is at its end: what is in the journal
 %   stays there, to go on when it is started again.

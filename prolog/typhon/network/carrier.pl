@@ -8,7 +8,8 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_flush/2, endpoint_reply/2]).
+              [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
+                endpoint_flush/2, endpoint_reply/2 ]).
 :- use_module('../host',
               [ host/3, host_do/2, host_link/3, host_neighbours/2, host_property/2,
                 host_start/2, host_stop/1, host_unlink/2, hosts_back/1,
@@ -77,6 +78,8 @@ one for the order to stop: it sees to it that there is an end.
 %       of host_link/3; `ok`.
 %     - places(Pairs)
 %       Calls the goal of each Name-Goal in the place of the host; `ok`.
+%     - expect(Endpoints), expect_no_more(Endpoints)
+%       Whoever ends at one of Endpoints is started again, or no more; `ok`.
 %     - neighbours(Names)
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.
@@ -115,6 +118,10 @@ order_do(unlink(Halves), ok) :-
            host_unlink(Name, Address)).
 order_do(places(Pairs), ok) :-
     forall(member(Name-Goal, Pairs), furnish(Name, Goal)).
+order_do(expect(Endpoints), ok) :-
+    forall(member(Endpoint, Endpoints), contact_expect(Endpoint)).
+order_do(expect_no_more(Endpoints), ok) :-
+    forall(member(Endpoint, Endpoints), contact_expect_no_more(Endpoint)).
 order_do(neighbours(Names), Lists) :-
     maplist(host_neighbours, Names, Lists).
 order_do(agents, Agents) :-

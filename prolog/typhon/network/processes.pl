@@ -6,12 +6,13 @@
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../wire', [endpoint_address/1]).
+:- use_module('../wire',
+              [contact_expect/1, contact_expect_no_more/1, endpoint_address/1]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
 :- use_module(carriers,
               [ carrier/3, carrier/4, carrier_again/2, carrier_came/4,
-                carrier_gone/2, carrier_went/3, carriers_ask/6,
+                carrier_gone/2, carrier_order/4, carrier_went/3, carriers_ask/6,
                 carriers_forget/1, unwatched/1 ]).
 :- use_module(restarts, [restarts_absent/2, restarts_begin/3, restarts_end/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
@@ -45,8 +46,9 @@ in between the thread of room `restarts`, if there is one.
     queue/2,                    % Network, Queue
     wanted/1,                   % Network: its carriers are to stay
     child/3,                    % Network, P, Child
+    lasting/1,                  % Network: its carriers have journals
     start/4,                    % Network, P, Machine, Interface
-    port/3.                     % Network, P, Port: at which it listens
+    at/3.                       % Network, P, Endpoint: where it listens
 
                 /*******************************
                 *           STARTING           *
@@ -76,6 +78,7 @@ carriers_start(Network, P, Machines, Interface, Options) :-
              nth1(At, Machines, Machine),
              assertz(start(Network, I, Machine, Interface)),
              call(Options, I, ChildOptions),
+             note_lasting(Network, ChildOptions),
              start(Network, I, ChildOptions) )),
     setting(start_seconds, Seconds),
     atom_concat(typhon_starting_, Network, Alias),
@@ -97,6 +100,13 @@ alarm(Seconds, Queue) :-
     ;   thread_send_message(Queue, late)
     ).
 
+note_lasting(Network, Options) :-
+    (   memberchk(journal(_, _), Options),
+        \+ lasting(Network)
+    ->  assertz(lasting(Network))
+    ;   true
+    ).
+
 start(Network, P, Options) :-
     start(Network, P, Machine, Interface),
     child_start(Network-P, Machine, Interface, Options,
@@ -105,7 +115,8 @@ start(Network, P, Options) :-
 
 event(up(Network-P, Endpoint, Pid)) :-
     carrier_came(Network, P, Endpoint, Pid),
-    note_port(Network, P, Endpoint),
+    retractall(at(Network, P, _)),
+    assertz(at(Network, P, Endpoint)),
     tell(Network, up(P)).
 event(failed(Network-P, Formal)) :-
     tell(Network, failed(P, Formal)).
@@ -123,12 +134,6 @@ is_missed(Network, P, Status) :-
     ->  print_message(warning, typhon(carrier_down(Network, Pid, Status)))
     ;   true
     ).
-
-note_port(Network, P, Endpoint) :-
-    atomic_list_concat([_, Text], :, Endpoint),
-    atom_number(Text, Port),
-    retractall(port(Network, P, _)),
-    assertz(port(Network, P, Port)).
 
 tell(Network, Event) :-
     queue(Network, Queue),
@@ -160,10 +165,22 @@ wait_up(P, Network, Queue) :-
 
 carriers_restart(Network, Options, Restore) :-
     (   queue(Network, Queue)
-    ->  restarts_begin(Network, Queue,
+    ->  findall(P, at(Network, P, _), Ps),
+        forall(member(P, Ps), expect(Network, P)),
+        forall(at(Network, _, Endpoint), contact_expect(Endpoint)),
+        restarts_begin(Network, Queue,
                        typhon_processes:restart(Network, Options, Restore))
     ;   true
     ).
+
+%   P hears that the others are started again.
+
+expect(Network, P) :-
+    findall(Endpoint, at(Network, _, Endpoint), Endpoints),
+    carrier_order(Network, P, expect(Endpoints), ok).
+
+expect_no_more(Network, P) :-
+    forall(at(Network, P, Endpoint), contact_expect_no_more(Endpoint)).
 
 :- public restart/4.
 
@@ -173,15 +190,24 @@ restart(Network, Options, _, start(P)) :-
     child_close(Child),
     child_release(Child),
     carrier_again(Network, P),
-    port(Network, P, Port),
+    at(Network, P, Endpoint),
+    atomic_list_concat([_, Text], :, Endpoint),
+    atom_number(Text, Port),
     call(Options, P, More),
     start(Network, P, [port(Port)|More]).
 restart(Network, _, _, kill(P)) :-
     child(Network, P, Child),
     !,
     child_kill(Child).
-restart(_, _, Restore, restore(P)) :-
+restart(Network, _, Restore, restore(P)) :-
+    expect(Network, P),
     call(Restore, P).
+restart(Network, _, _, give_up(P)) :-
+    expect_no_more(Network, P),
+    at(Network, P, Endpoint),
+    forall(carrier(Network, Other, _),
+           catch(carrier_order(Network, Other, expect_no_more([Endpoint]), _),
+                 error(existence_error(carrier, _), _), true)).
 
                 /*******************************
                 *           STOPPING           *
@@ -195,14 +221,19 @@ restart(_, _, Restore, restore(P)) :-
 %   First the hosts of all children stop, and those that hang are killed:
 %   the others need not wait for them. Then what the children have sent
 %   arrives, at the log for one, and only then they end: so none waits for
-%   another that is gone.
+%   another that is gone. Where there are journals what is in them rests there,
+%   and nobody hears of it: a child does that when it ends.
 
 carriers_stop(Network) :-
     retractall(wanted(Network)),
     forall(queue(Network, Queue), restarts_end(Network, Queue)),
-    order_children(Network, stop, kill_hanging(Network)),
-    peers(Network, Peers),
-    order_children(Network, flush(2, Peers), unwatched),
+    (   retract(lasting(Network))
+    ->  children_up(Network, Ps),
+        kill_hanging(Network, Ps)
+    ;   order_children(Network, stop, kill_hanging(Network)),
+        peers(Network, Peers),
+        order_children(Network, flush(2, Peers), unwatched)
+    ),
     forall(child(Network, _, Child), child_close(Child)),
     (   queue(Network, Queue)
     ->  end_children(Network),
@@ -212,7 +243,8 @@ carriers_stop(Network) :-
     ;   true
     ),
     retractall(start(Network, _, _, _)),
-    retractall(port(Network, _, _)),
+    expect_no_more(Network, _),
+    retractall(at(Network, _, _)),
     carriers_forget(Network).
 
 %   One by one: other threads may start children meanwhile, see

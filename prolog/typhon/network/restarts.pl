@@ -47,7 +47,8 @@ absent do so in threads of their own.
 %
 %   From now on Queue is read: up(P), down(P, Status) and failed(P, Formal) are
 %   what happens to processes. Do(start(P)) is to start P again, Do(restore(P))
-%   what is done when it is up, Do(kill(P)) what ends one that cannot begin.
+%   what is done when it is up, Do(kill(P)) what ends one that cannot begin,
+%   Do(give_up(P)) what follows when it is not started again.
 %   From restarts_end/2 on nothing of this is done any more.
 
 restarts_begin(Network, Queue, Do) :-
@@ -117,6 +118,7 @@ handled(down(P, _), State, Deaths0, Deaths, Starting0, Starting) :-
         setting(restarts, Most),
         setting(restart_seconds, Seconds),
         print_message(error, typhon(carrier_given_up(Network, P, Most, Seconds))),
+        ignore(call(Do, give_up(P))),
         present(Network, P)
     ).
 handled(up(P), State, Deaths, Deaths, Starting0, Starting) :-
