@@ -19,7 +19,7 @@
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal',
               [ journal_barrier/0, journal_begin/0, journal_close/0,
-                journal_end/0, journal_item/5, journal_number_after/1,
+                journal_end/0, journal_guards/0, journal_item/5, journal_number_after/1,
                 journal_on/0, journal_open/3, journal_opened/1, note_drop/3,
                 note_put/4 ]).
 :- use_module('../wire',
@@ -258,7 +258,7 @@ open_journal(Dir, Options) :-
     journal_open(Dir, Sync, Seconds),
     catch(forall(journal_item(number, any, _, _, N),
                  journal_number_after(N)), Ball,
-          ( journal_close, throw(Ball) )).
+          ( journal_end, throw(Ball) )).
 
 hosts_back(Options) :-
     findall(Name-All,
@@ -276,6 +276,15 @@ hosts_go_on :-
 
 hosts_rest :-
     in_own_thread(with_mutex(typhon_hosting, rest)).
+
+%   What somebody tries to say then is of no interest.
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(error(existence_error(journal, open), _), _, _) :-
+    journal_guards,
+    \+ journal_on.
 
 rest :-
     journal_close,

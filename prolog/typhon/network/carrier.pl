@@ -7,6 +7,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_kill/2]).
+:- use_module('../journal', [journal_guards/0]).
 :- use_module('../wire',
               [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
                 endpoint_flush/2, endpoint_reply/2 ]).
@@ -16,7 +17,7 @@
                 hosts_go_on/0, hosts_journal/2, hosts_rest/0,
                 runtime_acquire/2, runtime_release/1 ]).
 :- use_module('../travel', [home_agents/1]).
-:- use_module(voice, [voice_begin/0]).
+:- use_module(voice, [voice_begin/0, voice_end/0]).
 
 /** <module> A process that carries hosts of a network
 
@@ -283,8 +284,16 @@ raised(Error, raised(Formal, Text)) :-
     ;   Formal = system_error(Text)
     ).
 
+%   What rests in a journal is safe, whatever goes wrong with what is left in
+%   memory.
+
 stop :-
-    order_do(stop, ok),
+    (   journal_guards
+    ->  voice_end
+    ;   true
+    ),
+    catch(order_do(stop, ok), error(Formal, Context),
+          print_message(warning, error(Formal, Context))),
     runtime_release(node),
     halt(0).
 

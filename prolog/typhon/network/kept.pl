@@ -4,9 +4,10 @@
             kept_end/1                  % +Plan
           ]).
 :- use_module(library(apply), [exclude/3]).
-:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(error), [permission_error/3]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module(plan, [network_plan/3, plan_option/2, plan_options/2, plan_shape/3]).
 
 /** <module> What a network with a journal was when it was first started
@@ -36,7 +37,7 @@ version(1).
 %   Why), journal_version(Directory, Version)
 
 kept_plan(Topology, Options, Plan, Kept) :-
-    must_be(list, Options),
+    check_options(network_option, Options),
     memberchk(journal(Directory), Options),
     atom(Directory),
     read_kept(Directory, How, Plan0, Clock),
@@ -55,9 +56,9 @@ unchanged(Option, _, _) :-
     may_change(Option),
     !.
 unchanged(Option, Directory, Plan0) :-
-    general(Option, Was),
-    (   plan_option(Plan0, Was)
-    ->  true
+    general(Option, General),
+    (   plan_option(Plan0, General)
+    ->  Was = General
     ;   functor(Option, Name, _),
         Was = no(Name)
     ),
