@@ -228,12 +228,12 @@ carriers_stop(Network) :-
     retractall(wanted(Network)),
     forall(queue(Network, Queue), restarts_end(Network, Queue)),
     (   retract(lasting(Network))
-    ->  children_up(Network, Ps),
-        kill_hanging(Network, Ps)
+    ->  Watch = kill_hanging(Network)
     ;   order_children(Network, stop, kill_hanging(Network)),
-        peers(Network, Peers),
-        order_children(Network, flush(2, Peers), unwatched)
+        Watch = unwatched
     ),
+    peers(Network, Peers),
+    order_children(Network, flush(2, Peers), Watch),
     forall(child(Network, _, Child), child_close(Child)),
     (   queue(Network, Queue)
     ->  end_children(Network),
