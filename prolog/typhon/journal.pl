@@ -18,7 +18,7 @@ This is the door of the layer: who is above takes what it needs from here.
             ]).
 :- reexport(journal/store,
             [ journal_item/5, journal_open/2, journal_open/3,
-              journal_opened/1 ]).
+              journal_opened/1, journal_place/2 ]).
 :- reexport(journal/turn,
             [ turn_after/1, turn_commit/0, turn_defers/0,
               turn_has_effects/0, turn_note_drop/3, turn_note_put/4,

@@ -3,7 +3,7 @@
             host_start/2,               % +Name, +Options
             host_change/2,              % +Host, +Option
             host_stop/1,                % +Name
-            hosts_journal/2,            % +Dir, +Options
+            hosts_journal/2,            % +Where, +Options
             hosts_back/1,               % +Options
             hosts_go_on/0,
             hosts_rest/0
@@ -19,9 +19,9 @@
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal',
               [ journal_barrier/0, journal_begin/0, journal_close/0,
-                journal_end/0, journal_guards/0, journal_item/5, journal_number_after/1,
-                journal_on/0, journal_open/3, journal_opened/1, note_drop/3,
-                note_put/4 ]).
+                journal_end/0, journal_guards/0, journal_item/5,
+                journal_number_after/1, journal_on/0, journal_open/3,
+                journal_opened/1, journal_place/2, note_drop/3, note_put/4 ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
@@ -103,8 +103,9 @@ other users of the process its endpoint, see typhon_runtime.
 %     - clock(+Epoch, +Rate): see typhon_clock
 %     - hop_time(uniform(Min, Max)): delay added to hops out of it
 %     - seed(+Integer): for the choices of migration strategies
-%     - journal(+Directory): what happens in this process outlives it, see
-%       doc/journal.md; only for the first host.  Whatever the journal knows
+%     - journal(+Where): what happens in this process outlives it, see
+%       doc/journal.md; only for the first host.  Where is a directory, or
+%       postgresql(Url), or such a URL.  Whatever the journal knows
 %       is there again, other hosts, too: host_start/2 may then be called for
 %       these once, and changes nothing
 %     - sync(+How): `normal`, the default, if the journal is to survive the
@@ -119,9 +120,9 @@ other users of the process its endpoint, see typhon_runtime.
 %
 %   @error permission_error(start, host, Name) if it runs already
 %   @error domain_error(host_option, Option)
-%   @error permission_error(open, journal, Directory): another process has it,
-%          or this one has hosts already; journal_damaged(Directory, Why),
-%          journal_version(Directory, Version)
+%   @error permission_error(open, journal, Where): another process has it,
+%          or this one has hosts already; journal_damaged(Where, Why),
+%          journal_version(Where, Version), journal_unreachable(Where, Why)
 
 host_start(Name) :-
     host_start(Name, []).
@@ -162,6 +163,7 @@ host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
 host_option_type(seed(X), integer, X).
 host_option_type(python(X), boolean, X).
 host_option_type(journal(X), atom, X).
+host_option_type(journal(postgresql(X)), atom, X).
 host_option_type(sync(X), oneof([full, normal]), X).
 host_option_type(policy(X), atom, X).
 host_option_type(quota(X), list, X).
@@ -176,11 +178,11 @@ start(Name, _) :-
     !,
     permission_error(start, host, Name).
 start(Name, Options) :-
-    memberchk(journal(Dir0), Options),
-    absolute_file_name(Dir0, Dir),
-    \+ journal_opened(Dir),
+    memberchk(journal(Where), Options),
+    journal_place(Where, Place),
+    \+ journal_opened(Place),
     !,
-    start_from(Dir, Name, Options).
+    start_from(Where, Name, Options).
 start(Name, Options) :-
     start_new(Name, Options),
     note_host(Name),
@@ -193,14 +195,14 @@ start_new(Name, Options) :-
     catch(start_host(Name, Endpoint, Options), Ball,
           ( runtime_release(host(Name)), throw(Ball) )).
 
-%   start_from(+Dir, +Name, +Options): with all that is in the journal.
+%   start_from(+Where, +Name, +Options): with all that is in the journal.
 
-start_from(Dir, _, Options) :-
+start_from(Where, _, Options) :-
     memberchk(clock(virtual), Options),
     !,
-    permission_error(open, journal, Dir).
-start_from(Dir, Name, Options) :-
-    open_journal(Dir, Options),
+    not_here(Where).
+start_from(Where, Name, Options) :-
+    open_journal(Where, Options),
     catch(begin_from_journal(Name, Options), Ball,
           ( journal_close, give_up_hosts, journal_end, throw(Ball) )).
 
@@ -229,7 +231,7 @@ all_back(Hosts) :-
                 *     A PROCESS AS A WHOLE     *
                 *******************************/
 
-%!  hosts_journal(+Dir, +Options) is det.
+%!  hosts_journal(+Where, +Options) is det.
 %!  hosts_back(+Options) is det.
 %!  hosts_go_on is det.
 %
@@ -242,23 +244,26 @@ all_back(Hosts) :-
 %   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
 %        wait(Seconds): so long for another process that has it, which is
 %        about to end
-%   @error permission_error(open, journal, Dir), and as journal_open/3
+%   @error permission_error(open, journal, Place), and as journal_open/3
 
-hosts_journal(Dir0, Options) :-
-    absolute_file_name(Dir0, Dir),
-    with_mutex(typhon_hosting, open_journal(Dir, Options)).
+hosts_journal(Where, Options) :-
+    with_mutex(typhon_hosting, open_journal(Where, Options)).
 
-open_journal(Dir, _) :-
+open_journal(Where, _) :-
     endpoint_address(_),
     !,
-    permission_error(open, journal, Dir).
-open_journal(Dir, Options) :-
+    not_here(Where).
+open_journal(Where, Options) :-
     option(sync(Sync), Options, normal),
     option(wait(Seconds), Options, 0.2),
-    journal_open(Dir, Sync, Seconds),
+    journal_open(Where, Sync, Seconds),
     catch(forall(journal_item(number, any, _, _, N),
                  journal_number_after(N)), Ball,
           ( journal_end, throw(Ball) )).
+
+not_here(Where) :-
+    journal_place(Where, Place),
+    permission_error(open, journal, Place).
 
 hosts_back(Options) :-
     findall(Name-All,
