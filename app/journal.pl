@@ -3,15 +3,15 @@
           ]).
 :- use_module('../prolog/typhon/agent/identity', [agent_name/3]).
 :- use_module('../prolog/typhon/agent/life', [life_hops/2]).
+:- use_module('../prolog/typhon/journal/database', [journal_part/3]).
 :- use_module('../prolog/typhon/journal/store',
-              [journal_item/5, journal_open/2, store_close/0]).
+              [ journal_found/1, journal_item/5, journal_open/2,
+                journal_place/2, store_close/0 ]).
 :- use_module('../prolog/typhon/lifecycle/restore', [restore_point/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2]).
-:- use_module(library(pairs), [pairs_values/2]).
 
 /** <module> What is in a journal
 
@@ -39,35 +39,32 @@ journal_shown(Dir, Options) :-
                ( header(Journal, Journals), of(Journal, shown(Options)) ))
     ).
 
-%   journals(+Dir, -Journals): a network has one for each of its processes.
+%   journals(+Where, -Journals): a network has one for each of its processes.
 
-journals(Dir, [Dir]) :-
-    is_journal(Dir),
+journals(Where, [Where]) :-
+    journal_found(Where),
     !.
-journals(Dir, Journals) :-
-    exists_directory(Dir),
-    findall(N-Journal,
-            ( directory_member(Dir, Journal, [matches('process*')]),
-              is_journal(Journal),
-              file_base_name(Journal, Name),
-              atom_concat(process, Text, Name),
-              atom_number(Text, N) ),
-            Pairs0),
-    Pairs0 \== [],
-    !,
-    keysort(Pairs0, Pairs),
-    pairs_values(Pairs, Journals).
-journals(Dir, _) :-
-    existence_error(journal, Dir).
+journals(Where, Journals) :-
+    parts(1, Where, Journals),
+    Journals \== [],
+    !.
+journals(Where, _) :-
+    existence_error(journal, Where).
 
-is_journal(Dir) :-
-    directory_file_path(Dir, 'journal.db', Database),
-    exists_file(Database).
+parts(P, Where, Journals) :-
+    journal_part(Where, P, Part),
+    (   journal_found(Part)
+    ->  Journals = [Part|More],
+        Next is P+1,
+        parts(Next, Where, More)
+    ;   Journals = []
+    ).
 
 header(_, [_]) :-
     !.
 header(Journal, _) :-
-    format('~w:~n', [Journal]).
+    journal_place(Journal, Place),
+    format('~w:~n', [Place]).
 
 :- meta_predicate of(+, 0).
 

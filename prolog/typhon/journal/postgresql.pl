@@ -1,12 +1,15 @@
 :- module(typhon_postgresql,
           [ postgresql_url/1,           % +Text
-            postgresql_place/3,         % +Url, -Place, -Server
+            postgresql_place/4,         % +Url, +Part, -Place, -Server
             postgresql_found/1,         % +Server
             postgresql_connect/4,       % +Server, +Seconds, -Connection, -Age
             postgresql_lock/2,          % +Connection, +Sync
             postgresql_tables/1,        % +Connection
             postgresql_stamp/2,         % +Connection, -Stamp
             postgresql_same/3,          % +Connection, +Sync, +Stamp
+            postgresql_record/2,        % +Server, -Text
+            postgresql_record_put/2,    % +Server, +Text
+            postgresql_record_drop/1,   % +Server
             postgresql_blame/2          % +Text, -What
           ]).
 :- use_module(library(apply), [foldl/4]).
@@ -39,14 +42,14 @@ postgresql_url(Text) :-
     sub_atom(Text, 0, _, _, Scheme),
     !.
 
-%!  postgresql_place(+Url, -Place, -Server) is det.
+%!  postgresql_place(+Url, +Part, -Place, -Server) is det.
 %
 %   Place is Url as it may be shown, and names the journal: without password.
-%   Server is how it is reached.
+%   Server is how it is reached.  Part is added to the name of the schema.
 %
 %   @error domain_error(postgresql_url, Url)
 
-postgresql_place(Url0, Place, server(Schema, Driver)) :-
+postgresql_place(Url0, Part, Place, server(Schema, Driver)) :-
     must_be(text, Url0),
     atom_string(Url, Url0),
     (   postgresql_url(Url),
@@ -55,7 +58,8 @@ postgresql_place(Url0, Place, server(Schema, Driver)) :-
     ;   domain_error(postgresql_url, Url)
     ),
     foldl(known(Url), Parts0, [], Parts),
-    option(schema(Schema), Parts, typhon),
+    option(schema(Schema0), Parts, typhon),
+    atom_concat(Schema0, Part, Schema),
     option(dbname(Database), Parts, postgres),
     option(host(Host), Parts, localhost),
     option(port(Port), Parts, '5432'),
@@ -121,7 +125,7 @@ fits(schema, Name) :-
     \+ between(0'0, 0'9, First),
     forall(member(Code, [First|Codes]), plain(Code)),
     atom_length(Name, Length),
-    Length < 64.
+    Length < 48.                        % a part may follow
 fits(_, _).
 
 plain(0'_).
@@ -157,8 +161,13 @@ driver(Parts, Driver) :-
 %   died.
 
 postgresql_found(server(Schema, Driver)) :-
+    connected(Driver, Connection, has_table(Schema, about, Connection)).
+
+:- meta_predicate connected(+, -, 0).
+
+connected(Driver, Connection, Goal) :-
     setup_call_cleanup(sql_connect(Driver, Connection),
-                       has_tables(Schema, Connection),
+                       once(Goal),
                        sql_disconnect(Connection)).
 
 postgresql_connect(server(Schema, Driver), Seconds0, Connection, Age) :-
@@ -174,7 +183,7 @@ begin(Schema, Seconds, Connection, Age) :-
     do(Connection,
        'select pg_advisory_lock(hashtext(\'typhon\'), hashtext(\'~w\'))',
        [Schema]),
-    (   has_tables(Schema, Connection)
+    (   has_table(Schema, about, Connection)
     ->  Age = old
     ;   Age = new,
         do(Connection, 'create schema if not exists ~w', [Schema])
@@ -188,10 +197,11 @@ keepalive(tcp_keepalives_idle, 10).
 keepalive(tcp_keepalives_interval, 5).
 keepalive(tcp_keepalives_count, 3).
 
-has_tables(Schema, Connection) :-
+has_table(Schema, Table, Connection) :-
     format(atom(Sql),
            'select count(*) from information_schema.tables \c
-            where table_schema=\'~w\' and table_name=\'about\'', [Schema]),
+            where table_schema=\'~w\' and table_name=\'~w\'',
+           [Schema, Table]),
     sql_row(Connection, Sql, row(Count), [integer]),
     !,
     Count > 0.
@@ -250,6 +260,43 @@ stamp(Connection, Stamp) :-
     sql_row(Connection, 'select opened from about', row(Stamp0), [integer]),
     !,
     Stamp = Stamp0.
+
+                /*******************************
+                *            RECORD            *
+                *******************************/
+
+%!  postgresql_record(+Server, -Text) is semidet.
+%!  postgresql_record_put(+Server, +Text) is det.
+%!  postgresql_record_drop(+Server) is det.
+%
+%   A text beside the journals, see room `records`.
+
+postgresql_record(server(Schema, Driver), Text) :-
+    connected(Driver, Connection,
+              ( has_table(Schema, network, Connection),
+                format(atom(Sql), 'select record from ~w.network', [Schema]),
+                sql_row(Connection, Sql, row(Text), [string]) )).
+
+postgresql_record_put(server(Schema, Driver), Text) :-
+    split_string(Text, "'", "", Parts),
+    atomic_list_concat(Parts, '\'\'', Quoted),
+    connected(Driver, Connection,
+              ( do(Connection, 'create schema if not exists ~w', [Schema]),
+                do(Connection, 'create table if not exists ~w.network \c
+                                (one boolean primary key, record text)',
+                   [Schema]),
+                do(Connection,
+                   'insert into ~w.network values (true, \'~w\') \c
+                    on conflict (one) do update set record=excluded.record',
+                   [Schema, Quoted]) )).
+
+postgresql_record_drop(server(Schema, Driver)) :-
+    connected(Driver, Connection,
+              do(Connection, 'drop table if exists ~w.network', [Schema])).
+
+                /*******************************
+                *            ERRORS            *
+                *******************************/
 
 %!  postgresql_blame(+Text, -What) is semidet.
 %

@@ -4,11 +4,15 @@
             sqlite_lock/2,              % +Connection, +Sync
             sqlite_tables/1,            % +Connection
             sqlite_wrong/2,             % +Connection, -Why
+            sqlite_record/2,            % +Dir, -Text
+            sqlite_record_put/2,        % +Dir, +Text
+            sqlite_record_drop/1,       % +Dir
             sqlite_blame/2              % +Text, -What
           ]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(sql, [sql_connect/2, sql_do/2, sql_row/4]).
 
 /** <module> A journal in SQLite: a file of a directory
@@ -79,6 +83,39 @@ sqlite_wrong(Connection, Why) :-
     !,
     Said \== ok,
     Why = Said.
+
+%!  sqlite_record(+Dir, -Text) is semidet.
+%!  sqlite_record_put(+Dir, +Text) is det.
+%!  sqlite_record_drop(+Dir) is det.
+%
+%   A text beside the journals, see room `records`: a file, which is there as a
+%   whole or not at all.
+
+sqlite_record(Dir, Text) :-
+    record_file(Dir, File),
+    exists_file(File),
+    read_file_to_string(File, Text, [encoding(utf8)]).
+
+sqlite_record_put(Dir, Text) :-
+    record_file(Dir, File),
+    atom_concat(File, '.new', New),
+    catch(( make_directory_path(Dir),
+            setup_call_cleanup(open(New, write, Out, [encoding(utf8)]),
+                               write(Out, Text),
+                               close(Out)),
+            rename_file(New, File) ),
+          error(_, _),
+          permission_error(open, journal, Dir)).
+
+sqlite_record_drop(Dir) :-
+    record_file(Dir, File),
+    (   exists_file(File)
+    ->  delete_file(File)
+    ;   true
+    ).
+
+record_file(Dir, File) :-
+    directory_file_path(Dir, 'network.pl', File).
 
 %!  sqlite_blame(+Text, -What) is semidet.
 %

@@ -8,19 +8,16 @@
             store_commit/1,             % +Changes
             journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
-:- use_module(library(error), [existence_error/2, permission_error/3]).
+:- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(crash, [crash_point/1]).
-:- use_module(postgresql,
-              [ postgresql_blame/2, postgresql_connect/4, postgresql_found/1,
-                postgresql_lock/2, postgresql_place/3, postgresql_same/3,
-                postgresql_stamp/2, postgresql_tables/1, postgresql_url/1 ]).
+:- use_module(database,
+              [ database/3, database_connect/4, database_found/1,
+                database_lock/3, database_same/4, database_stamp/3,
+                database_tables/2, database_wrong/3, in_terms_of/3 ]).
 :- use_module(sql,
               [ sql_close/0, sql_disconnect/1, sql_do/2, sql_execute/2,
                 sql_execute/3, sql_load/0, sql_open/1, sql_part/3, sql_row/4 ]).
-:- use_module(sqlite,
-              [ sqlite_blame/2, sqlite_connect/4, sqlite_found/1, sqlite_lock/2,
-                sqlite_tables/1, sqlite_wrong/2 ]).
 
 /** <module> The store: items in a database
 
@@ -39,8 +36,6 @@ parts.
 *Threading*: one thread at a time.
 */
 
-:- multifile prolog:error_message//1.
-
 :- dynamic
     connection/2,                       % Place, Connection
     database/3,                         % Base, Sync, Stamp
@@ -49,70 +44,6 @@ parts.
 format_version(1).
 
 part_bytes(30000).
-
-                /*******************************
-                *          DATABASES           *
-                *******************************/
-
-%!  journal_place(+Where, -Place:atom) is det.
-%!  journal_found(+Where) is semidet.
-%
-%   What a journal is called, as in errors; there is one.
-%
-%   @arg Where is a directory, postgresql(Url), or such a Url
-%   @error domain_error(postgresql_url, Url)
-
-journal_place(Where, Place) :-
-    base(Where, Place, _).
-
-journal_found(Where) :-
-    base(Where, Place, Base),
-    sql_load,
-    in_terms_of(Place, Base, found(Base)).
-
-base(postgresql(Url), Place, postgresql(Server)) :-
-    !,
-    postgresql_place(Url, Place, Server).
-base(Url, Place, postgresql(Server)) :-
-    postgresql_url(Url),
-    !,
-    postgresql_place(Url, Place, Server).
-base(Dir0, Dir, sqlite(Dir)) :-
-    absolute_file_name(Dir0, Dir).
-
-found(sqlite(Dir)) :-
-    sqlite_found(Dir).
-found(postgresql(Server)) :-
-    postgresql_found(Server).
-
-connect(sqlite(Dir), Seconds, Connection, Age) :-
-    sqlite_connect(Dir, Seconds, Connection, Age).
-connect(postgresql(Server), Seconds, Connection, Age) :-
-    postgresql_connect(Server, Seconds, Connection, Age).
-
-lock(sqlite(_), Sync, Connection) :-
-    sqlite_lock(Connection, Sync).
-lock(postgresql(_), Sync, Connection) :-
-    postgresql_lock(Connection, Sync).
-
-tables(sqlite(_), Connection) :-
-    sqlite_tables(Connection).
-tables(postgresql(_), Connection) :-
-    postgresql_tables(Connection).
-
-%   A stamp tells who has opened it last.
-
-stamp(sqlite(_), _, none).
-stamp(postgresql(_), Connection, Stamp) :-
-    postgresql_stamp(Connection, Stamp).
-
-wrong(sqlite(_), Connection, Why) :-
-    sqlite_wrong(Connection, Why).
-
-means(sqlite(_), Text, What) :-
-    sqlite_blame(Text, What).
-means(postgresql(_), Text, What) :-
-    postgresql_blame(Text, What).
 
                 /*******************************
                 *        OPEN AND CLOSE        *
@@ -136,9 +67,9 @@ journal_open(Where, Sync) :-
     journal_open(Where, Sync, 0.2).
 
 journal_open(Where, Sync, Seconds) :-
-    base(Where, Place, Base),
+    database(Where, Place, Base),
     sql_load,
-    in_terms_of(Place, Base, connect(Base, Seconds, Connection, Age)),
+    in_terms_of(Place, Base, database_connect(Base, Seconds, Connection, Age)),
     catch(in_terms_of(Place, Base,
                       prepare(Age, Place, Base, Sync, Connection)),
           error(Formal, Context),
@@ -147,22 +78,22 @@ journal_open(Where, Sync, Seconds) :-
     assertz(connection(Place, Connection)).
 
 prepare(Age, Place, Base, Sync, Connection) :-
-    lock(Base, Sync, Connection),
+    database_lock(Base, Sync, Connection),
     prepare_tables(Age, Place, Base, Connection),
-    stamp(Base, Connection, Stamp),
+    database_stamp(Base, Connection, Stamp),
     sql_do(Connection, commit),
     sql_open(Connection),
-    assertz(database(Base, Sync, Stamp)).
+    assertz(opened(Base, Sync, Stamp)).
 
 prepare_tables(new, _, Base, Connection) :-
-    tables(Base, Connection),
+    database_tables(Base, Connection),
     format_version(Version),
     sample(Sample),
     format(atom(About), 'insert into about values (~d, \'~w\')',
            [Version, Sample]),
     sql_do(Connection, About).
 prepare_tables(old, Place, Base, Connection) :-
-    (   wrong(Base, Connection, Why)
+    (   database_wrong(Base, Connection, Why)
     ->  throw(error(journal_damaged(Place, Why), _))
     ;   true
     ),
@@ -197,6 +128,22 @@ sample(Sample) :-
             Texts),
     atomic_list_concat(Texts, Sample).
 
+%!  journal_place(+Where, -Place:atom) is det.
+%!  journal_found(+Where) is semidet.
+%
+%   What a journal is called, as in errors; there is one.
+%
+%   @arg Where is a directory, postgresql(Url), or such a Url
+%   @error domain_error(postgresql_url, Url)
+
+journal_place(Where, Place) :-
+    database(Where, Place, _).
+
+journal_found(Where) :-
+    database(Where, Place, Base),
+    sql_load,
+    in_terms_of(Place, Base, database_found(Base)).
+
 %!  journal_opened(-Place) is semidet.
 %!  store_close is det.
 
@@ -211,7 +158,7 @@ store_close :-
 
 forget(Connection) :-
     retractall(connection(_, _)),
-    retractall(database(_, _, _)),
+    retractall(opened(_, _, _)),
     retractall(long(_, _, _)),
     sql_close,
     sql_disconnect(Connection).
@@ -233,7 +180,7 @@ store_commit(Changes) :-
 
 commit_all(Changes) :-
     connection(Place, _),
-    database(Base, _, _),
+    opened(Base, _, _),
     catch(in_terms_of(Place, Base, commit(Changes)),
           error(Formal, Context),
           ( catch(sql_execute(rollback, []), error(_, _), true),
@@ -244,8 +191,8 @@ commit_all(Changes) :-
 
 connect_again :-
     connection(Place, Old),
-    database(Base, Sync, Stamp),
-    in_terms_of(Place, Base, connect(Base, 0, New, _)),
+    opened(Base, Sync, Stamp),
+    in_terms_of(Place, Base, database_connect(Base, 0, New, _)),
     catch(in_terms_of(Place, Base, same(Base, Sync, Stamp, Place, New)),
           error(Formal, Context),
           ( sql_disconnect(New), throw(error(Formal, Context)) )),
@@ -255,8 +202,8 @@ connect_again :-
     assertz(connection(Place, New)),
     sql_open(New).
 
-same(postgresql(_), Sync, Stamp, Place, Connection) :-
-    (   postgresql_same(Connection, Sync, Stamp)
+same(Base, Sync, Stamp, Place, Connection) :-
+    (   database_same(Base, Sync, Stamp, Connection)
     ->  true
     ;   permission_error(open, journal, Place)
     ).
@@ -359,39 +306,3 @@ whole(Length, Kind-Key-N, First0, Bytes) :-
     atomic_list_concat([First|Pieces], Atom),
     atom_string(Atom, All),
     sub_string(All, 0, Length, _, Bytes).
-
-                /*******************************
-                *            ERRORS            *
-                *******************************/
-
-:- meta_predicate in_terms_of(+, +, 0).
-
-in_terms_of(Place, Base, Goal) :-
-    catch(Goal, error(odbc(_, _, Text), _),
-          (   means(Base, Text, What)
-          ->  blame(What, Text, Place)
-          ;   throw(error(journal_damaged(Place, Text), _))
-          )).
-
-blame(locked, _, Place) :-
-    permission_error(open, journal, Place).
-blame(full, _, _) :-
-    throw(error(resource_error(journal_space), _)).
-blame(missing(Package), Text, _) :-
-    throw(error(existence_error(package, Package), context(_, Text))).
-blame(unreachable, Text, Place) :-
-    throw(error(journal_unreachable(Place, Text), _)).
-
-prolog:error_message(journal_damaged(Dir, Why)) -->
-    [ 'The journal ~w is damaged: ~p.'-[Dir, Why], nl,
-      'Nothing in it was changed' ].
-prolog:error_message(journal_unreachable(Place, Why)) -->
-    [ 'The journal ~w cannot be reached: ~w'-[Place, Why] ].
-prolog:error_message(journal_version(Dir, _)) -->
-    [ 'The journal ~w was written by another version of Prolog or Typhon.'-[Dir],
-      nl, 'Nothing in it was changed' ].
-prolog:error_message(permission_error(open, journal, Dir)) -->
-    [ 'The journal ~w cannot be opened: another process has it, or it \c
-       cannot be written here'-[Dir] ].
-prolog:error_message(resource_error(journal_space)) -->
-    [ 'There is no room left for the journal' ].

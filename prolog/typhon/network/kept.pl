@@ -4,15 +4,17 @@
             kept_end/1                  % +Plan
           ]).
 :- use_module(library(apply), [exclude/3]).
-:- use_module(library(error), [permission_error/3]).
-:- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module(plan, [network_plan/3, plan_option/2, plan_options/2, plan_shape/3]).
+:- use_module('../journal',
+              [ journal_place/2, journal_record/2, journal_record_drop/1,
+                journal_record_put/2 ]).
+:- use_module(plan, [ network_plan/3, plan_option/2, plan_options/2, plan_shape/3,
+                plan_without/3 ]).
 
 /** <module> What a network with a journal was when it was first started
 
-Beside the journals of its processes there is a file of one term,
+Beside the journals of its processes there is a text of one term,
 
     network(Version, How, Plan, Clock)
 
@@ -33,29 +35,29 @@ version(1).
 %   As network_plan/3. Kept is `none`, or kept(How, Clock) if the journal is
 %   that of a network that was started before.
 %
-%   @error journal_of_another(Directory, Was, Is), journal_damaged(Directory,
-%   Why), journal_version(Directory, Version)
+%   @error journal_of_another(Place, Was, Is), journal_damaged(Place, Why),
+%   journal_version(Place, Version)
 
 kept_plan(Topology, Options, Plan, Kept) :-
     check_options(network_option, Options),
-    memberchk(journal(Directory), Options),
-    atom(Directory),
-    read_kept(Directory, How, Plan0, Clock),
+    memberchk(journal(Where), Options),
+    read_kept(Where, How, Plan0, Clock),
     !,
-    forall(member(Option, Options), unchanged(Option, Directory, Plan0)),
+    journal_place(Where, Place),
+    forall(member(Option, Options), unchanged(Option, Place, Plan0)),
     filled(Options, Plan0, All),
     network_plan(Topology, All, Plan),
-    same_shape(Directory, Plan0, Plan),
+    same_shape(Place, Plan0, Plan),
     Kept = kept(How, Clock).
 kept_plan(Topology, Options, Plan, none) :-
     network_plan(Topology, Options, Plan).
 
-%   unchanged(+Option, +Directory, +Plan0): Option is as it was.
+%   unchanged(+Option, +Place, +Plan0): Option is as it was.
 
 unchanged(Option, _, _) :-
     may_change(Option),
     !.
-unchanged(Option, Directory, Plan0) :-
+unchanged(Option, Place, Plan0) :-
     general(Option, General),
     (   plan_option(Plan0, General)
     ->  Was = General
@@ -64,7 +66,7 @@ unchanged(Option, Directory, Plan0) :-
     ),
     (   Was =@= Option
     ->  true
-    ;   throw(error(journal_of_another(Directory, Was, Option), _))
+    ;   throw(error(journal_of_another(Place, Was, Option), _))
     ).
 
 general(Option, General) :-
@@ -97,88 +99,65 @@ same_option(Option, Kept) :-
     functor(Option, log, _),
     functor(Kept, log, _).
 
-same_shape(Directory, Plan0, Plan) :-
+same_shape(Place, Plan0, Plan) :-
     plan_shape(Plan0, Names0, Edges0),
     plan_shape(Plan, Names, Edges),
     (   Names0 == Names,
         Edges0 == Edges
     ->  true
-    ;   throw(error(journal_of_another(Directory,
+    ;   throw(error(journal_of_another(Place,
                                        shape(Names0, Edges0),
                                        shape(Names, Edges)), _))
     ).
 
                 /*******************************
-                *           THE FILE           *
+                *            RECORD            *
                 *******************************/
 
-kept_file(Directory0, Directory, File) :-
-    absolute_file_name(Directory0, Directory),
-    directory_file_path(Directory, 'network.pl', File).
-
-read_kept(Directory0, How, Plan, Clock) :-
-    kept_file(Directory0, Directory, File),
-    exists_file(File),
-    catch(read_one(File, Term), error(Formal, _),
-          throw(error(journal_damaged(Directory, Formal), _))),
+read_kept(Where, How, Plan, Clock) :-
+    journal_place(Where, Place),
+    journal_record(Where, Text),
+    catch(term_string(Term, Text), error(Formal, _),
+          throw(error(journal_damaged(Place, Formal), _))),
     version(Version),
     (   Term = network(Version0, _, _, _),
         Version0 \== Version
-    ->  throw(error(journal_version(Directory, Version0), _))
+    ->  throw(error(journal_version(Place, Version0), _))
     ;   Term = network(_, How, Plan, Clock),
         plan_shape(Plan, _, _),
         Clock = clock(_, _)
     ->  true
-    ;   throw(error(journal_damaged(Directory, Term), _))
+    ;   throw(error(journal_damaged(Place, Term), _))
     ).
-
-read_one(File, Term) :-
-    setup_call_cleanup(
-        open(File, read, In, [encoding(utf8)]),
-        read_term(In, Term, []),
-        close(In)).
 
 %!  kept_note(+Plan, +Clock, +How) is det.
 %!  kept_end(+Plan) is det.
 %
 %   The network of Plan, if it has a journal, is as far as How; it is no more.
-%   The file is there as a whole or not at all.
 %
-%   @error permission_error(open, journal, Directory)
+%   @error permission_error(open, journal, Place)
 
-kept_note(Plan, Clock, How) :-
-    plan_option(Plan, journal(Directory0)),
+kept_note(Plan0, Clock, How) :-
+    plan_option(Plan0, journal(Where)),
     !,
-    kept_file(Directory0, Directory, File),
-    atom_concat(File, '.new', New),
+    plan_without(Plan0, journal(_), Plan),      % there may be a password in it
     version(Version),
-    catch(( make_directory_path(Directory),
-            write_one(New, network(Version, How, Plan, Clock)),
-            rename_file(New, File) ),
-          error(_, _),
-          permission_error(open, journal, Directory)).
+    format(string(Text), '~k.~n', [network(Version, How, Plan, Clock)]),
+    journal_record_put(Where, Text).
 kept_note(_, _, _).
 
-write_one(File, Term) :-
-    setup_call_cleanup(
-        open(File, write, Out, [encoding(utf8)]),
-        format(Out, '~k.~n', [Term]),
-        close(Out)).
-
 kept_end(Plan) :-
-    plan_option(Plan, journal(Directory)),
-    kept_file(Directory, _, File),
-    exists_file(File),
-    !,
-    delete_file(File).
-kept_end(_).
+    (   plan_option(Plan, journal(Where))
+    ->  journal_record_drop(Where)
+    ;   true
+    ).
 
                 /*******************************
                 *           MESSAGES           *
                 *******************************/
 
-prolog:error_message(journal_of_another(Directory, Was, Is)) -->
-    [ 'The journal ~p is that of another network: '-[Directory] ],
+prolog:error_message(journal_of_another(Place, Was, Is)) -->
+    [ 'The journal ~p is that of another network: '-[Place] ],
     differs(Was, Is),
     [ '.', nl, 'Nothing in it was changed' ].
 

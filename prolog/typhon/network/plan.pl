@@ -10,18 +10,19 @@
             plan_change/3,              % +Plan, +Change0, -Change
             plan_furnishing/2,          % +Plan, -Goals
             plan_dynamics/3,            % +Plan, +Time, -State
-            plan_journal/4,             % +Plan, +P, -Directory, -How
+            plan_journal/4,             % +Plan, +P, -Where, -How
             plan_options/2,             % +Plan, -Options
-            plan_shape/3                % +Plan, -Names, -Edges
+            plan_shape/3,               % +Plan, -Names, -Edges
+            plan_without/3              % +Plan0, +Option, -Plan
           ]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
 :- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, flatten/2, member/2, nth1/3]).
 :- use_module(library(option), [option/2, option/3, select_option/4]).
 :- use_module(library(random), [random_between/3]).
 :- use_module('../base/options', [check_options/2]).
+:- use_module('../journal', [journal_part/3, journal_place/2]).
 :- use_module(dynamics,
               [ dynamics_edges/2, dynamics_model/2, dynamics_state/5,
                 dynamics_until/3 ]).
@@ -82,6 +83,7 @@ option_type(places(Places), nonvar, Places).
 option_type(dynamic(Model), nonvar, Model).
 option_type(seed(Seed), integer, Seed).
 option_type(journal(Directory), atom, Directory).
+option_type(journal(postgresql(Url)), atom, Url).
 option_type(sync(How), oneof([full, normal]), How).
 option_type(restart(Restart), boolean, Restart).
 
@@ -136,9 +138,10 @@ check_rate(Rate) :-
 
 check_virtual(Options) :-
     memberchk(clock(virtual), Options),
-    memberchk(journal(Directory), Options),
+    memberchk(journal(Where), Options),
     !,
-    permission_error(open, journal, Directory).
+    journal_place(Where, Place),
+    permission_error(open, journal, Place).
 check_virtual(Options) :-
     (   memberchk(clock(virtual), Options),
         member(Option, Options),
@@ -323,16 +326,14 @@ plan_dynamics(plan(Names, Edges, _, Options), Time, State) :-
     ;   State = State0
     ).
 
-%!  plan_journal(+Plan, +P, -Directory, -How) is semidet.
+%!  plan_journal(+Plan, +P, -Where, -How) is semidet.
 %
-%   The journal of process P, if there is to be one: its directory, and how it
-%   is synced.
+%   The journal of process P, if there is to be one: where it is, and how it is
+%   synced.
 
-plan_journal(Plan, P, Directory, How) :-
-    plan_option(Plan, journal(Directory0)),
-    absolute_file_name(Directory0, Directory1),
-    atom_concat(process, P, Name),
-    directory_file_path(Directory1, Name, Directory),
+plan_journal(Plan, P, Part, How) :-
+    plan_option(Plan, journal(Where)),
+    journal_part(Where, P, Part),
     (   plan_option(Plan, sync(How0))
     ->  How = How0
     ;   How = normal
@@ -347,3 +348,9 @@ plan_journal(Plan, P, Directory, How) :-
 plan_options(plan(_, _, _, Options), Options).
 
 plan_shape(plan(Names, Edges, _, _), Names, Edges).
+
+%!  plan_without(+Plan0, +Option, -Plan) is det.
+
+plan_without(plan(Names, Edges, Costs, Options0), Option,
+             plan(Names, Edges, Costs, Options)) :-
+    exclude(=(Option), Options0, Options).

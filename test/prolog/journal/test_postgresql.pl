@@ -161,11 +161,54 @@ test('an agent is there again when its process was killed') :-
                    agent_result(A, 1+2, 10) )) ),
         host_stop(driver)).
 
+test('a network, and a process of it that is killed',
+     Told = [carrier_back(_, 2)]) :-
+    postgres_url(net, Url),
+    in_network([processes(2), restart(true)], Url, first_time(A)),
+    findall(carrier_back(N, P), retract(heard(carrier_back(N, P))), Told),
+    in_network([], Url, second_time(A)),
+    catch(network_start(ring(3), _, [journal(postgresql(Url))]),
+          error(Formal, _), true),
+    Formal = journal_of_another(_, _, _).
+
+:- meta_predicate in_network(+, +, 1).
+
+in_network(Options, Url, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(2), N, [journal(postgresql(Url))|Options]),
+                 once(call(Goal, N)),
+                 network_stop(N))).
+
+first_time(A, N) :-
+    network_property(N, hosts([_, Host])),
+    network_property(N, processes([_, Pid])),
+    agent_create(clauses([ (:- agent(waits, [])),
+                           (main :- receive(_-X), receive(_-Y),
+                                    result(X+Y)) ]), A, [host(Host)]),
+    agent_send(A, 1),
+    wait_until(agent_property(A, state(waiting)), 5),
+    process_kill(Pid, kill),
+    wait_until(heard(carrier_back(_, _)), 20).
+
+second_time(A, N) :-
+    network_property(N, hosts([_, Host])),
+    agent_property(A, host(Host)),
+    agent_send(A, 2),
+    agent_result(A, 1+2, 10).
+
+:- dynamic heard/1.
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(typhon(Message), _, _) :-
+    memberchk(Message, [carrier_back(_, _), carrier_down(_, _, _)]),
+    assertz(plunit_postgresql:heard(Message)).
+
 %   The server ends all connections that have the journal.
 
 cut(Schema) :-
     postgres_url(other, Url),
-    typhon_store:base(Url, _, postgresql(server(_, Driver))),
+    typhon_database:database(Url, _, postgresql(server(_, Driver))),
     setup_call_cleanup(
         typhon_sql:sql_connect(Driver, C),
         ( format(atom(Sql),
