@@ -294,7 +294,11 @@ user:message_hook(error(existence_error(journal, open), _), _, _) :-
 rest :-
     journal_close,
     findall(Name, host(Name, _, _), Names),
-    forall(member(Name, Names), stop_one(Name)).
+    forall(member(Name, Names), stop_one(Name)),
+    (   endpoint_address(_)
+    ->  true
+    ;   journal_end
+    ).
 
 known_host(Name, Options) :-
     journal_item(host, numbers, Name, _, Options).

@@ -38,7 +38,7 @@ parts.
 
 :- dynamic
     connection/2,                       % Place, Connection
-    database/3,                         % Base, Sync, Stamp
+    opened/3,                           % Base, Sync, Stamp
     long/3.                             % Kind, Key, N: has further parts
 
 format_version(1).

@@ -13,26 +13,24 @@
 :- use_module('../base/options', [check_name/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host',
-              [ host/3, hosts_back/1, hosts_journal/2, hosts_rest/0,
-                runtime_acquire/2, runtime_release/1, time_now/1,
-                time_seed/1 ]).
+              [runtime_acquire/2, runtime_release/1, time_now/1, time_seed/1]).
 :- use_module(changes, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
-:- use_module(carriers, [carrier/3, carrier_order/4]).
-:- use_module(kept, [kept_end/1, kept_note/3, kept_plan/4]).
+:- use_module(carriers, [carrier/3]).
+:- use_module(kept, [kept_note/3, kept_plan/4]).
+:- use_module(lasting,
+              [ lasting_back/2, lasting_child/4, lasting_goes_on/3,
+                lasting_open/3, lasting_over/1, lasting_restarts/4, lasting_rests/1 ]).
 :- use_module(plan,
               [ plan_change/3, plan_dynamics/3, plan_furnishing/2,
-                plan_hosts/4, plan_journal/4, plan_links/2, plan_links_at/3,
-                plan_log/3, plan_option/2, plan_processes/3, plan_shape/3,
-                plan_time/2 ]).
-:- use_module(processes,
-              [carriers_restart/3, carriers_start/5, carriers_stop/1]).
+                plan_hosts/4, plan_links/2, plan_links_at/3, plan_log/3,
+                plan_option/2, plan_processes/3, plan_time/2 ]).
+:- use_module(processes, [carriers_start/5, carriers_stop/1]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
-              [ wire_again/5, wire_change/2, wire_forget/1, wire_go_on/2,
-                wire_goals/3, wire_hosts/3, wire_instead/3, wire_links/3,
-                wire_stop_own/1, wired_agents/2, wired_edges/2,
-                wired_hosts/2 ]).
+              [ wire_change/2, wire_forget/1, wire_goals/3, wire_hosts/3,
+                wire_instead/3, wire_links/3, wire_stop_own/1, wired_agents/2,
+                wired_edges/2, wired_hosts/2 ]).
 
 /** <module> Networks of hosts
 
@@ -62,8 +60,7 @@ none of its own.
     network/2,                  % Network, Plan
     running/1,                  % Network
     part/2.                     % Network, log(Address, File),
-                                % dynamics(Dynamics), or journal: it is that
-                                % of this process
+                                % or dynamics(Dynamics)
 
 %!  network_start(+Topology, -Network, +Options) is det.
 %
@@ -148,22 +145,22 @@ unless_built(_, Network) :-
 
 build(Network, Plan, Kept) :-
     plan_processes(Plan, P, Machines),
-    own_journal(Network, Plan, P, Machines),
+    lasting_open(Plan, P, Machines),
     listen(Network, Plan),
     plan_option(Plan, seed(Seed)),
     time_seed(Seed),
     known_log(Kept, Network, Clock, Plan, Log),
     interface(Plan, Interface),
     carriers_start(Network, P, Machines, Interface,
-                   typhon_networks:child_options(Plan, Log)),
+                   lasting_child(Plan, Log)),
     clock_and_log(Network, Plan, Clock, Log),
-    own_back(Network, Log),
+    lasting_back(Plan, Log),
     furnished(Kept, Network, P, Plan, Clock, [Clock|Log], Time),
     start_dynamics(Network, Clock, Plan, Time),
-    go_on(Network, P, Plan),
+    lasting_goes_on(Network, P, Plan),
     debug(typhon(network), '~w is built, ~w processes', [Network, P]),
     assertz(clock_of(Network, Clock)),
-    restarts(Network, P, Plan, [Clock|Log]),
+    lasting_restarts(Network, P, Plan, [Clock|Log]),
     assertz(running(Network)).
 
 %   furnished(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): what a
@@ -188,71 +185,6 @@ furnished(_, Network, P, Plan, Clock, Common, 0) :-
     plan_furnishing(Plan, Goals),
     wire_goals(Network, P, Goals),
     kept_note(Plan, Clock, built).
-
-                /*******************************
-                *            JOURNAL           *
-                *******************************/
-
-%   Its hosts are in this process, which must not have begun to listen.
-
-own_journal(Network, Plan, 1, [local]) :-
-    plan_journal(Plan, 1, Directory, How),
-    !,
-    hosts_journal(Directory, [sync(How)]),
-    assertz(part(Network, journal)).
-own_journal(_, _, _, _).
-
-own_back(Network, Log) :-
-    (   part(Network, journal)
-    ->  hosts_back(Log)
-    ;   true
-    ).
-
-%   What is in the journals is there before anything of it goes on: then all
-%   find each other.
-
-go_on(Network, P, Plan) :-
-    (   plan_option(Plan, journal(_))
-    ->  wire_go_on(Network, P)
-    ;   true
-    ).
-
-%   child_options(+Plan, ?Log, +P, -Options): hosts that a journal knows have
-%   another log from now on.
-
-:- public child_options/4.
-
-child_options(Plan, Log, P, Options) :-
-    (   plan_journal(Plan, P, Directory, How)
-    ->  Options = [journal(Directory, How)|More],
-        ( is_list(Log) -> More = [hosts(Log)] ; More = [] )
-    ;   Options = []
-    ).
-
-restarts(Network, P, Plan, Common) :-
-    (   plan_option(Plan, restart(true))
-    ->  carriers_restart(Network,
-                         typhon_networks:child_options(Plan, none),
-                         typhon_networks:again(Network, P, Common))
-    ;   true
-    ).
-
-:- public again/4.
-
-again(Network, Count, Common, P) :-
-    network(Network, Plan),
-    plan_hosts(Plan, Count, Common, Hosts),
-    (   plan_option(Plan, journal(_))
-    ->  wire_again(Network, P, Hosts, [], []),
-        carrier_order(Network, P, go_on, ok)
-    ;   plan_links(Plan, Links),
-        plan_furnishing(Plan, Goals),
-        wire_again(Network, P, Hosts, Links, Goals)
-    ).
-
-                /*******************************
-                *          COMMON TO ALL       *
-                *******************************/
 
 listen(Network, Plan) :-
     plan_time(Plan, Kind),
@@ -367,22 +299,15 @@ end(Network) :-
     forall(ended(Network), true),
     retractall(network(Network, _)).
 
-%   What is in the journal of this process rests there, with all its hosts. With
-%   other hosts in it those of the network end for good, as any do.
+%   What rests in a journal is there when it is started again.
 
 stop_own(Network) :-
-    retract(part(Network, journal)),
-    !,
     network(Network, Plan),
-    plan_shape(Plan, Names, _),
-    (   host(Other, _, _),
-        \+ memberchk(Other, Names)
-    ->  wire_stop_own(Network),
-        kept_end(Plan)
-    ;   hosts_rest
+    (   lasting_rests(Plan)
+    ->  true
+    ;   wire_stop_own(Network),
+        lasting_over(Plan)
     ).
-stop_own(Network) :-
-    wire_stop_own(Network).
 
 %   What goes wrong in one step must not leave the others undone.
 

@@ -1,9 +1,9 @@
 :- module(test_network_journal, []).
 :- use_module('../../lib/common').
 :- use_module(library(plunit)).
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [last/2, member/2, nth1/3, numlist/3, sum_list/2]).
+:- use_module(library(lists), [member/2, nth0/3, nth1/3, sum_list/2]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil),
               [read_file_to_codes/3, read_line_to_string/2]).
