@@ -46,7 +46,7 @@ command(picture, 'LOG SVG', 2,
 command(page, '[LOG]', 0-1,
         'show the network of a running host in a browser, or replay a log').
 command(journal, 'DIR', 1,
-        'tell what is in the journal of a process that does not run').
+        'tell what is in the journal of a process or network that does not run').
 command(keys, 'init | host NAME | author NAME | revoke NAME', 1-2,
         'make an authority, keys for hosts and authors, or end them').
 command(sign, 'PROGRAM', 1,
@@ -63,6 +63,7 @@ footer(network, 'Shapes of networks:').
 footer(network, Line) :-
     shape(Shape, Help),
     format(atom(Line), '    ~w~t~28|~w', [Shape, Help]).
+footer(network, 'Started again with the same --journal it goes on where it was.').
 footer(check, 'Exit status 0: programs without errors (warnings may be).').
 footer(join, 'Exit status 0: the outcome is `done`.').
 footer(remote, 'Exit status 0: the goal was true. Variables that begin with _').
@@ -112,6 +113,12 @@ option(host, journal, atom, 'DIR',
        'what happens here outlives the process, in DIR').
 option(host, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
+option(network, journal, atom, 'DIR',
+       'what happens here outlives the processes, below DIR').
+option(network, sync, atom, 'HOW',
+       'with --journal: normal or, to survive a power cut, full').
+option(network, restart, boolean, '',
+       'start processes that die again').
 option(Command, tls, atom, 'DIR',
        'keys: speak TLS, with those who have some of the same authority') :-
     command(Command, _, _, _),

@@ -3,13 +3,14 @@
           ]).
 :- use_module('../prolog/typhon/agent/identity', [agent_name/3]).
 :- use_module('../prolog/typhon/agent/life', [life_hops/2]).
+:- use_module('../prolog/typhon/journal/database', [journal_part/3]).
 :- use_module('../prolog/typhon/journal/store',
-              [journal_item/5, journal_open/2, store_close/0]).
+              [ journal_found/1, journal_item/5, journal_open/2,
+                journal_place/2, store_close/0 ]).
 :- use_module('../prolog/typhon/lifecycle/restore', [restore_point/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2]).
 
 /** <module> What is in a journal
@@ -21,7 +22,8 @@ Of a process that does not run: one that runs has it for itself.
 
 %!  journal_shown(+Dir, +Options) is det.
 %
-%   Print what is in the journal Dir: an overview; with agents(true) a line for
+%   Print what is in the journal Dir, or in those of a network below it: an
+%   overview; with agents(true) a line for
 %   each agent; with check(true) whether all of it can be read; with
 %   extract(Agent) and to(File) write a restore point of Agent.
 %
@@ -29,20 +31,56 @@ Of a process that does not run: one that runs has it for itself.
 %   @error as journal_open/2
 
 journal_shown(Dir, Options) :-
-    directory_file_path(Dir, 'journal.db', Database),
-    (   exists_file(Database)
-    ->  true
-    ;   existence_error(journal, Dir)
-    ),
-    setup_call_cleanup(journal_open(Dir, normal),
-                       shown(Options),
+    journals(Dir, Journals),
+    (   option(extract(Agent), Options),
+        option(to(File), Options)
+    ->  extracted_of(Journals, Agent, File)
+    ;   forall(member(Journal, Journals),
+               ( header(Journal, Journals), of(Journal, shown(Options)) ))
+    ).
+
+%   journals(+Where, -Journals): a network has one for each of its processes.
+
+journals(Where, [Where]) :-
+    journal_found(Where),
+    !.
+journals(Where, Journals) :-
+    parts(1, Where, Journals),
+    Journals \== [],
+    !.
+journals(Where, _) :-
+    existence_error(journal, Where).
+
+parts(P, Where, Journals) :-
+    journal_part(Where, P, Part),
+    (   journal_found(Part)
+    ->  Journals = [Part|More],
+        Next is P+1,
+        parts(Next, Where, More)
+    ;   Journals = []
+    ).
+
+header(_, [_]) :-
+    !.
+header(Journal, _) :-
+    journal_place(Journal, Place),
+    format('~w:~n', [Place]).
+
+:- meta_predicate of(+, 0).
+
+of(Journal, Goal) :-
+    setup_call_cleanup(journal_open(Journal, normal),
+                       once(Goal),
                        store_close).
 
-shown(Options) :-
-    option(extract(Agent), Options),
-    option(to(File), Options),
-    !,
-    extracted(Agent, File).
+extracted_of(Journals, Agent, File) :-
+    (   member(Journal, Journals),
+        of(Journal, ignore(( extracted(Agent, File), Found = true ))),
+        Found == true
+    ->  true
+    ;   existence_error(agent, Agent)
+    ).
+
 shown(Options) :-
     option(check(true), Options),
     !,
@@ -89,16 +127,15 @@ agent_line(Id, agent(Host, _, Life, _, Status, _)) :-
 agent_line(_, _).
 
 extracted(Agent, File) :-
-    (   journal_item(agent, any, Agent, _, agent(_, Hash, Life, State, Status,
-                                                Goals0)),
-        journal_item(code, any, Hash, _, Program)
-    ->  findall(Message, journal_item(mail, numbers, Agent, _, Message), Mail0),
-        at_rest(Status, Goals0, Goals, Mail1),
-        append(Mail1, Mail0, Mail),
-        agent_name(Agent, Name, _),
-        restore_point(File, image(Name, Program, Life, State, Goals, Mail))
-    ;   existence_error(agent, Agent)
-    ).
+    journal_item(agent, any, Agent, _, agent(_, Hash, Life, State, Status,
+                                             Goals0)),
+    journal_item(code, any, Hash, _, Program),
+    !,
+    findall(Message, journal_item(mail, numbers, Agent, _, Message), Mail0),
+    at_rest(Status, Goals0, Goals, Mail1),
+    append(Mail1, Mail0, Mail),
+    agent_name(Agent, Name, _),
+    restore_point(File, image(Name, Program, Life, State, Goals, Mail)).
 
 %   One that is under way is there as it is to arrive.
 

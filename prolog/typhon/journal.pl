@@ -16,8 +16,12 @@ This is the door of the layer: who is above takes what it needs from here.
               journal_step/1, note_drop/3, note_drop_all/2,
               note_drop_below/3, note_put/4
             ]).
+:- reexport(journal/database,
+            [ journal_part/3, journal_record/2, journal_record_drop/1,
+              journal_record_put/2 ]).
 :- reexport(journal/store,
-            [journal_item/5, journal_open/2, journal_opened/1]).
+            [ journal_item/5, journal_open/2, journal_open/3,
+              journal_opened/1, journal_place/2 ]).
 :- reexport(journal/turn,
             [ turn_after/1, turn_commit/0, turn_defers/0,
               turn_has_effects/0, turn_note_drop/3, turn_note_put/4,

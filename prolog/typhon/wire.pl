@@ -21,6 +21,7 @@ This is the door of the layer: who is above takes what it needs from here.
             [endpoint_flush/1, endpoint_flush/2, endpoint_gone/1,
              endpoint_lasting/1, endpoint_left/1,
              endpoint_missed/2, endpoint_peer/2]).
+:- reexport(wire/contacts, [contact_expect/1, contact_expect_no_more/1]).
 :- reexport('wire/proofs').
 :- reexport(wire/frame, [mobile_term/1]).
 :- reexport(wire/auth, [cookie/1, random_hex/2]).

@@ -2,22 +2,26 @@
           [ host_start/1,               % +Name
             host_start/2,               % +Name, +Options
             host_change/2,              % +Host, +Option
-            host_stop/1                 % +Name
+            host_stop/1,                % +Name
+            hosts_journal/2,            % +Where, +Options
+            hosts_back/1,               % +Options
+            hosts_go_on/0,
+            hosts_rest/0
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, selectchk/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_option/2, check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal',
               [ journal_barrier/0, journal_begin/0, journal_close/0,
-                journal_end/0, journal_item/5, journal_number_after/1,
-                journal_on/0, journal_open/2, journal_opened/1, note_drop/3,
-                note_put/4 ]).
+                journal_end/0, journal_guards/0, journal_item/5,
+                journal_number_after/1, journal_on/0, journal_open/3,
+                journal_opened/1, journal_place/2, note_drop/3, note_put/4 ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
@@ -99,8 +103,9 @@ other users of the process its endpoint, see typhon_runtime.
 %     - clock(+Epoch, +Rate): see typhon_clock
 %     - hop_time(uniform(Min, Max)): delay added to hops out of it
 %     - seed(+Integer): for the choices of migration strategies
-%     - journal(+Directory): what happens in this process outlives it, see
-%       doc/journal.md; only for the first host.  Whatever the journal knows
+%     - journal(+Where): what happens in this process outlives it, see
+%       doc/journal.md; only for the first host.  Where is a directory, or
+%       postgresql(Url), or such a URL.  Whatever the journal knows
 %       is there again, other hosts, too: host_start/2 may then be called for
 %       these once, and changes nothing
 %     - sync(+How): `normal`, the default, if the journal is to survive the
@@ -115,9 +120,9 @@ other users of the process its endpoint, see typhon_runtime.
 %
 %   @error permission_error(start, host, Name) if it runs already
 %   @error domain_error(host_option, Option)
-%   @error permission_error(open, journal, Directory): another process has it,
-%          or this one has hosts already; journal_damaged(Directory, Why),
-%          journal_version(Directory, Version)
+%   @error permission_error(open, journal, Where): another process has it,
+%          or this one has hosts already; journal_damaged(Where, Why),
+%          journal_version(Where, Version), journal_unreachable(Where, Why)
 
 host_start(Name) :-
     host_start(Name, []).
@@ -158,6 +163,7 @@ host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
 host_option_type(seed(X), integer, X).
 host_option_type(python(X), boolean, X).
 host_option_type(journal(X), atom, X).
+host_option_type(journal(postgresql(X)), atom, X).
 host_option_type(sync(X), oneof([full, normal]), X).
 host_option_type(policy(X), atom, X).
 host_option_type(quota(X), list, X).
@@ -172,11 +178,11 @@ start(Name, _) :-
     !,
     permission_error(start, host, Name).
 start(Name, Options) :-
-    memberchk(journal(Dir0), Options),
-    absolute_file_name(Dir0, Dir),
-    \+ journal_opened(Dir),
+    memberchk(journal(Where), Options),
+    journal_place(Where, Place),
+    \+ journal_opened(Place),
     !,
-    start_from(Dir, Name, Options).
+    start_from(Where, Name, Options).
 start(Name, Options) :-
     start_new(Name, Options),
     note_host(Name),
@@ -189,37 +195,110 @@ start_new(Name, Options) :-
     catch(start_host(Name, Endpoint, Options), Ball,
           ( runtime_release(host(Name)), throw(Ball) )).
 
-%   start_from(+Dir, +Name, +Options): with all that is in the journal.
+%   start_from(+Where, +Name, +Options): with all that is in the journal.
 
-start_from(Dir, _, Options) :-
-    (   endpoint_address(_)
-    ;   memberchk(clock(virtual), Options)
-    ),
+start_from(Where, _, Options) :-
+    memberchk(clock(virtual), Options),
     !,
-    permission_error(open, journal, Dir).
-start_from(Dir, Name, Options) :-
-    option(sync(Sync), Options, normal),
-    journal_open(Dir, Sync),
+    not_here(Where).
+start_from(Where, Name, Options) :-
+    open_journal(Where, Options),
     catch(begin_from_journal(Name, Options), Ball,
           ( journal_close, give_up_hosts, journal_end, throw(Ball) )).
 
 begin_from_journal(Name, Options) :-
-    forall(journal_item(number, any, _, _, N), journal_number_after(N)),
     findall(Other-Known, known_host(Other, Known), Hosts),
-    (   memberchk(Name-Known, Hosts)
+    (   selectchk(Name-Known, Hosts, Others)
     ->  with_known(Known, Options, AllOptions)
-    ;   AllOptions = Options
+    ;   AllOptions = Options,
+        Others = Hosts
     ),
     start_new(Name, AllOptions),
-    forall(( member(Other-OtherOptions, Hosts), Other \== Name ),
-           ( start_new(Other, OtherOptions),
-             assertz(from_journal(Other)) )),
+    all_back(Others),
+    hosts_go_on.
+
+all_back(Hosts) :-
+    forall(member(Name-Options, Hosts),
+           ( start_new(Name, Options),
+             assertz(from_journal(Name)) )),
     forall(typhon_recovery:recover, true),
     journal_begin,
     forall(typhon_recovery:tidy, true),
     forall(host(Host, _, _), note_host(Host)),
-    endpoint_open,
+    endpoint_open.
+
+                /*******************************
+                *     A PROCESS AS A WHOLE     *
+                *******************************/
+
+%!  hosts_journal(+Where, +Options) is det.
+%!  hosts_back(+Options) is det.
+%!  hosts_go_on is det.
+%
+%   What a host with the option journal(Dir) does when it starts, in steps,
+%   for who has something to do in between, or has no host yet: the journal
+%   is open, and the process may start its endpoint; all that it knows is
+%   there again, its hosts with Options in place of what they had, and others
+%   are let in; what is there goes on.
+%
+%   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
+%        wait(Seconds): so long for another process that has it, which is
+%        about to end
+%   @error permission_error(open, journal, Place), and as journal_open/3
+
+hosts_journal(Where, Options) :-
+    with_mutex(typhon_hosting, open_journal(Where, Options)).
+
+open_journal(Where, _) :-
+    endpoint_address(_),
+    !,
+    not_here(Where).
+open_journal(Where, Options) :-
+    option(sync(Sync), Options, normal),
+    option(wait(Seconds), Options, 0.2),
+    journal_open(Where, Sync, Seconds),
+    catch(forall(journal_item(number, any, _, _, N),
+                 journal_number_after(N)), Ball,
+          ( journal_end, throw(Ball) )).
+
+not_here(Where) :-
+    journal_place(Where, Place),
+    permission_error(open, journal, Place).
+
+hosts_back(Options) :-
+    findall(Name-All,
+            ( known_host(Name, Known), with_known(Known, Options, All) ),
+            Hosts),
+    with_mutex(typhon_hosting, all_back(Hosts)).
+
+hosts_go_on :-
     forall(typhon_recovery:go_on, true).
+
+%!  hosts_rest is det.
+%
+%   All hosts of the process stop.  What is in its journal rests there, and
+%   nothing leaves the process any more, until its endpoint has stopped.
+
+hosts_rest :-
+    in_own_thread(with_mutex(typhon_hosting, rest)).
+
+%   What somebody tries to say then is of no interest.
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(error(existence_error(journal, open), _), _, _) :-
+    journal_guards,
+    \+ journal_on.
+
+rest :-
+    journal_close,
+    findall(Name, host(Name, _, _), Names),
+    forall(member(Name, Names), stop_one(Name)),
+    (   endpoint_address(_)
+    ->  true
+    ;   journal_end
+    ).
 
 known_host(Name, Options) :-
     journal_item(host, numbers, Name, _, Options).
@@ -383,7 +462,14 @@ host_stop(Name) :-
     must_be(atom, Name),
     in_own_thread(with_mutex(typhon_hosting, stop(Name))).
 
-stop(Name0) :-
+stop(Name) :-
+    stop_one(Name),
+    (   host(_, _, _)
+    ->  true
+    ;   journal_end
+    ).
+
+stop_one(Name0) :-
     local_name(Name0, Name),
     host(Name, Address, Place),
     rest_or_end(Name),
@@ -401,11 +487,7 @@ stop(Name0) :-
     clock_clear(Name),
     place_destroy(Place),
     debug(typhon(host), '~w is stopped', [Address]),
-    runtime_release(host(Name)),
-    (   host(_, _, _)
-    ->  true
-    ;   journal_end
-    ).
+    runtime_release(host(Name)).
 
 %   With the last host the process is at its end: what is in the journal
 %   stays there, to go on when it is started again.

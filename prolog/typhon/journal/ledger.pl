@@ -69,10 +69,11 @@ idle_seconds(0.005).
 %!  journal_guards is semidet.
 %
 %   The store is open, and what it knows was read: from now on changes are
-%   noted; all is committed, and the store closed: from now on nothing leaves
-%   the process, see journal_barrier/0, and what happens in it is not known
-%   any more; it may again; whether changes are noted; whether there is a
-%   barrier, from begin to end.
+%   noted; all is committed: from now on nothing leaves the process, see
+%   journal_barrier/0, and what happens in it is not known any more; it may
+%   again, and the store is closed: until then nobody else can open it, and
+%   want the port that this process has; whether changes are noted; whether
+%   there is a barrier, from begin to end.
 
 journal_begin :-
     message_queue_create(Entries),
@@ -99,13 +100,12 @@ journal_close :-
     retractall(queue(_, _)),
     retractall(unsaved(_)),
     message_queue_destroy(Entries),
-    message_queue_destroy(Wake),
-    store_close.
-journal_close :-
-    store_close.
+    message_queue_destroy(Wake).
+journal_close.
 
 journal_end :-
-    retractall(journal_guards).
+    retractall(journal_guards),
+    store_close.
 
 %!  journal_number(-N:integer) is det.
 %!  journal_number_after(+N:integer) is det.

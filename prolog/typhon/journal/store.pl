@@ -1,15 +1,23 @@
 :- module(typhon_store,
-          [ journal_open/2,               % +Dir, +Sync
-            journal_opened/1,             % -Dir
+          [ journal_open/2,             % +Where, +Sync
+            journal_open/3,             % +Where, +Sync, +Seconds
+            journal_found/1,            % +Where
+            journal_place/2,            % +Where, -Place
+            journal_opened/1,           % -Place
             store_close/0,
             store_commit/1,             % +Changes
-            journal_item/5                % +Kind, +Order, -Key, -N, -Value
+            journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
-:- use_module(library(error), [existence_error/2, permission_error/3]).
-:- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(crash, [crash_point/1]).
+:- use_module(database,
+              [ database/3, database_connect/4, database_found/1,
+                database_lock/3, database_same/4, database_stamp/3,
+                database_tables/2, database_wrong/3, in_terms_of/3 ]).
+:- use_module(sql,
+              [ sql_close/0, sql_disconnect/1, sql_do/2, sql_execute/2,
+                sql_execute/3, sql_load/0, sql_open/1, sql_part/3, sql_row/4 ]).
 
 /** <module> The store: items in a database
 
@@ -20,21 +28,17 @@ An item is a term under a kind, a key and a number.  Changes are
   - drop_all(Kind, Key), drop_below(Kind, Key, N): nor are those of this
     key, of numbers less than N
 
-Only this room knows that the database is SQLite, through library(odbc).  A
-process has one store at a time, which nobody else can open meanwhile.  What
-is longer than a parameter of the driver can be is kept in parts.  A parameter
-of the driver has the length that it had when its statement was first
-executed: so there is a statement for each of some lengths, and what is shorter
-is filled up.
+The database is SQLite in a directory, or PostgreSQL at a URL; who is above
+does not know which.  A process has one store at a time, which nobody else can
+open meanwhile.  What is longer than a parameter of the driver can be is kept in
+parts.
 
 *Threading*: one thread at a time.
 */
 
-:- multifile prolog:error_message//1.
-
 :- dynamic
-    connection/2,                       % Dir, Connection
-    statement/3,                        % Name, Room, Statement
+    connection/2,                       % Place, Connection
+    opened/3,                           % Base, Sync, Stamp
     long/3.                             % Kind, Key, N: has further parts
 
 format_version(1).
@@ -45,108 +49,72 @@ part_bytes(30000).
                 *        OPEN AND CLOSE        *
                 *******************************/
 
-%!  journal_open(+Dir, +Sync) is det.
+%!  journal_open(+Where, +Sync) is det.
+%!  journal_open(+Where, +Sync, +Seconds) is det.
 %
-%   Open the store in the directory Dir, a new one if there is none.
+%   Open the store at Where, see journal_place/2, a new one if there is none.
 %
+%   @arg Seconds is how long to wait for another process to give it up
 %   @arg Sync is `full` if what is committed is to survive a power cut, or
 %        `normal` if the end of the process
-%   @error permission_error(open, journal, Dir): another process has it, or
+%   @error permission_error(open, journal, Place): another process has it, or
 %          the directory cannot be written
-%   @error journal_damaged(Dir, Why), journal_version(Dir, Version)
+%   @error journal_damaged(Place, Why), journal_version(Place, Version),
+%          journal_unreachable(Place, Why)
 %   @error existence_error(package, Name): the machine lacks it
 
-journal_open(Dir0, Sync) :-
-    load_odbc,
-    absolute_file_name(Dir0, Dir),
-    catch(make_directory_path(Dir), error(_, _),
-          permission_error(open, journal, Dir)),
-    directory_file_path(Dir, 'journal.db', File),
-    (   exists_file(File)
-    ->  Age = old
-    ;   Age = new
-    ),
-    in_terms_of(Dir, connect(File, Connection)),
-    catch(( in_terms_of(Dir, prepare_database(Age, Dir, Sync, Connection)),
-            assertz(connection(Dir, Connection)),
-            in_terms_of(Dir, prepare_statements(Connection))
-          ),
+journal_open(Where, Sync) :-
+    journal_open(Where, Sync, 0.2).
+
+journal_open(Where, Sync, Seconds) :-
+    database(Where, Place, Base),
+    sql_load,
+    in_terms_of(Place, Base, database_connect(Base, Seconds, Connection, Age)),
+    catch(in_terms_of(Place, Base,
+                      prepare(Age, Place, Base, Sync, Connection)),
           error(Formal, Context),
           ( forget(Connection),
-            throw(error(Formal, Context)) )).
+            throw(error(Formal, Context)) )),
+    assertz(connection(Place, Connection)).
 
-load_odbc :-
-    catch(use_module(library(odbc), []), error(existence_error(_, _), _),
-          existence_error(package, 'swi-prolog-odbc')).
+prepare(Age, Place, Base, Sync, Connection) :-
+    database_lock(Base, Sync, Connection),
+    prepare_tables(Age, Place, Base, Connection),
+    database_stamp(Base, Connection, Stamp),
+    sql_do(Connection, commit),
+    sql_open(Connection),
+    assertz(opened(Base, Sync, Stamp)).
 
-%   Called so that nobody misses it where the package is not installed.
-
-odbc(Goal) :-
-    Called = odbc:Goal,
-    call(Called).
-
-connect(File, Connection) :-
-    atom_concat('DRIVER=SQLite3;Timeout=200;Database=', File, Driver),
-    odbc(odbc_driver_connect(Driver, Connection,
-                             [silent(true), encoding(utf8)])).
-
-%   The lock is taken by the first change, and kept.
-
-prepare_database(Age, Dir, Sync, Connection) :-
-    pragma(Connection, locking_mode, exclusive),
-    pragma(Connection, journal_mode, wal),
-    pragma(Connection, synchronous, Sync),
-    odbc(odbc_query(Connection, 'begin exclusive')),
-    prepare_tables(Age, Dir, Connection),
-    odbc(odbc_query(Connection, commit)).
-
-prepare_tables(new, _, Connection) :-
-    odbc(odbc_query(Connection,
-                    'create table item (kind text, key text, n integer, \c
-                     length integer, sum integer, value blob, \c
-                     primary key (kind, key, n)) without rowid')),
-    odbc(odbc_query(Connection,
-                    'create table part (kind text, key text, n integer, \c
-                     part integer, value blob, \c
-                     primary key (kind, key, n, part)) without rowid')),
-    odbc(odbc_query(Connection,
-                    'create table about (version integer, sample text)')),
+prepare_tables(new, _, Base, Connection) :-
+    database_tables(Base, Connection),
     format_version(Version),
     sample(Sample),
     format(atom(About), 'insert into about values (~d, \'~w\')',
            [Version, Sample]),
-    odbc(odbc_query(Connection, About)).
-prepare_tables(old, Dir, Connection) :-
-    must_be_whole(Dir, Connection),
+    sql_do(Connection, About).
+prepare_tables(old, Place, Base, Connection) :-
+    (   database_wrong(Base, Connection, Why)
+    ->  throw(error(journal_damaged(Place, Why), _))
+    ;   true
+    ),
+    must_be_ours(Place, Connection),
+    forall(sql_row(Connection, 'select distinct kind, key, n from part',
+                   row(Kind, Key, N), [atom, atom, integer]),
+           assertz(long(Kind, Key, N))).
+
+must_be_ours(Place, Connection) :-
     format_version(Version),
     sample(Sample),
-    (   odbc(odbc_query(Connection, 'select version, sample from about',
-                        row(Version0, Sample0), [types([integer, atom])]))
+    (   sql_row(Connection, 'select version, sample from about',
+                row(Version0, Sample0), [integer, atom])
     ->  true
-    ;   throw(error(journal_damaged(Dir, 'nothing is said about it'), _))
+    ;   throw(error(journal_damaged(Place, 'nothing is said about it'), _))
     ),
     (   Version0 == Version,
         Sample0 == Sample
     ->  true
-    ;   throw(error(journal_version(Dir, Version0), _))
-    ),
-    forall(odbc(odbc_query(Connection,
-                           'select distinct kind, key, n from part',
-                           row(Kind, Key, N), [types([atom, atom, integer])])),
-           assertz(long(Kind, Key, N))).
-
-must_be_whole(Dir, Connection) :-
-    odbc(odbc_query(Connection, 'pragma quick_check(1)', row(Said),
-                    [types([atom])])),
-    !,
-    (   Said == ok
-    ->  true
-    ;   throw(error(journal_damaged(Dir, Said), _))
+    ;   throw(error(journal_version(Place, Version0), _))
     ).
-
-pragma(Connection, Name, Value) :-
-    format(atom(Pragma), 'pragma ~w=~w', [Name, Value]),
-    ignore(odbc(odbc_query(Connection, Pragma, _, []))).
 
 %   Records of another version or word size must not be read: what differs
 %   in any of them differs in these.
@@ -160,106 +128,27 @@ sample(Sample) :-
             Texts),
     atomic_list_concat(Texts, Sample).
 
-prepare_statements(Connection) :-
-    forall(( sql(Name, Sql, Types), \+ memberchk(bytes, Types) ),
-           prepare(Connection, Name, 0, Sql, Types)).
+%!  journal_place(+Where, -Place:atom) is det.
+%!  journal_found(+Where) is semidet.
+%
+%   What a journal is called, as in errors; there is one.
+%
+%   @arg Where is a directory, postgresql(Url), or such a Url
+%   @error domain_error(postgresql_url, Url)
 
-prepare(Connection, Name, Room, Sql, Types0) :-
-    maplist(parameter_type, Types0, Types),
-    options(Name, Options),
-    odbc(odbc_prepare(Connection, Sql, Types, Statement, Options)),
-    assertz(statement(Name, Room, Statement)).
+journal_place(Where, Place) :-
+    database(Where, Place, _).
 
-%   A type of text without a length would bind the empty text.
+journal_found(Where) :-
+    database(Where, Place, Base),
+    sql_load,
+    in_terms_of(Place, Base, database_found(Base)).
 
-parameter_type(kind, varchar(64)).
-parameter_type(key, varchar(2000)).
-parameter_type(number, bigint).
-parameter_type(bytes, longvarbinary(60000)).
-
-options(parts, [types([string])|Wide]) :-
-    wide(Wide),
-    !.
-options(_, []).
-
-%   What is longer than a kilobyte would come damaged otherwise.
-
-wide([wide_column_threshold(100)]).
-
-sql(begin, 'begin immediate', []).
-sql(commit, commit, []).
-sql(rollback, rollback, []).
-sql(put, 'insert or replace into item values (?, ?, ?, ?, ?, ?)',
-    [kind, key, number, number, number, bytes]).
-sql(put_part, 'insert or replace into part values (?, ?, ?, ?, ?)',
-    [kind, key, number, number, bytes]).
-sql(drop, 'delete from item where kind=? and key=? and n=?',
-    [kind, key, number]).
-sql(drop_part, 'delete from part where kind=? and key=? and n=?',
-    [kind, key, number]).
-sql(drop_all, 'delete from item where kind=? and key=?', [kind, key]).
-sql(drop_below, 'delete from item where kind=? and key=? and n<?',
-    [kind, key, number]).
-sql(parts, 'select value from part where kind=? and key=? and n=? \c
-            order by part', [kind, key, number]).
-
-%   execute(+Name, +Values), execute(+Name, +Values, +Bytes): bytes come last.
-
-execute(Name, Values) :-
-    statement(Name, 0, Statement),
-    !,
-    odbc(odbc_execute(Statement, Values)).
-
-execute(Name, Values0, Bytes) :-
-    string_length(Bytes, Length),
-    room(Length, Room),
-    statement_of(Name, Room, Statement),
-    filled(Length, Room, Bytes, Full),
-    append(Values0, [Full], Values),
-    odbc(odbc_execute(Statement, Values)).
-
-statement_of(Name, Room, Statement) :-
-    statement(Name, Room, Statement),
-    !.
-statement_of(Name, Room, Statement) :-
-    connection(_, Connection),
-    sql(Name, Sql, Types),
-    prepare(Connection, Name, Room, Sql, Types),
-    statement(Name, Room, Statement).
-
-room(Length, Room) :-
-    (   Length =< 512
-    ->  Step = 32
-    ;   Length =< 4096
-    ->  Step = 256
-    ;   Step = 2048
-    ),
-    Room is (Length+Step-1)//Step*Step.
-
-filled(Length, Room, Bytes, Full) :-
-    (   Length =:= Room
-    ->  Full = Bytes
-    ;   Missing is Room-Length,
-        filler(Filler),
-        sub_string(Filler, 0, Missing, _, Fill),
-        string_concat(Bytes, Fill, Full)
-    ).
-
-:- dynamic filler/1.
-
-make_filler :-
-    length(Codes, 2048),
-    maplist(=(0'.), Codes),
-    string_codes(Filler, Codes),
-    assertz(filler(Filler)).
-
-:- initialization(make_filler, now).
-
-%!  journal_opened(-Dir) is semidet.
+%!  journal_opened(-Place) is semidet.
 %!  store_close is det.
 
-journal_opened(Dir) :-
-    connection(Dir, _).
+journal_opened(Place) :-
+    connection(Place, _).
 
 store_close :-
     (   connection(_, Connection)
@@ -268,11 +157,11 @@ store_close :-
     ).
 
 forget(Connection) :-
-    retractall(connection(_, Connection)),
+    retractall(connection(_, _)),
+    retractall(opened(_, _, _)),
     retractall(long(_, _, _)),
-    forall(retract(statement(_, _, Statement)),
-           catch(odbc(odbc_free_statement(Statement)), error(_, _), true)),
-    odbc(odbc_disconnect(Connection)).
+    sql_close,
+    sql_disconnect(Connection).
 
                 /*******************************
                 *            CHANGES           *
@@ -283,23 +172,50 @@ forget(Connection) :-
 %   All of Changes, in this order, or none.
 %
 %   @error resource_error(journal_space): the disk is full
-%   @error journal_damaged(Dir, Why)
+%   @error journal_damaged(Place, Why), journal_unreachable(Place, Why)
 
 store_commit(Changes) :-
-    connection(Dir, _),
-    catch(in_terms_of(Dir, commit(Changes)),
+    catch(commit_all(Changes), error(journal_unreachable(_, _), _),
+          ( connect_again, commit_all(Changes) )).
+
+commit_all(Changes) :-
+    connection(Place, _),
+    opened(Base, _, _),
+    catch(in_terms_of(Place, Base, commit(Changes)),
           error(Formal, Context),
-          ( catch(execute(rollback, []), error(_, _), true),
+          ( catch(sql_execute(rollback, []), error(_, _), true),
             throw(error(Formal, Context)) )).
+
+%   A server that is there again has lost our lock: who has opened the journal
+%   meanwhile has it.
+
+connect_again :-
+    connection(Place, Old),
+    opened(Base, Sync, Stamp),
+    in_terms_of(Place, Base, database_connect(Base, 0, New, _)),
+    catch(in_terms_of(Place, Base, same(Base, Sync, Stamp, Place, New)),
+          error(Formal, Context),
+          ( sql_disconnect(New), throw(error(Formal, Context)) )),
+    sql_close,
+    sql_disconnect(Old),
+    retractall(connection(_, _)),
+    assertz(connection(Place, New)),
+    sql_open(New).
+
+same(Base, Sync, Stamp, Place, Connection) :-
+    (   database_same(Base, Sync, Stamp, Connection)
+    ->  true
+    ;   permission_error(open, journal, Place)
+    ).
 
 %   Not the transactions of the driver: a disk that is full ends one without
 %   its knowledge.
 
 commit(Changes) :-
-    execute(begin, []),
+    sql_execute(begin, []),
     forall(member(Change, Changes), change(Change)),
     crash_point(in_commit),
-    execute(commit, []).
+    sql_execute(commit, []).
 
 change(put(Kind, Key, N, Bytes)) =>
     check_sum(Bytes, Sum),
@@ -307,22 +223,22 @@ change(put(Kind, Key, N, Bytes)) =>
     part_bytes(Most),
     drop_parts(Kind, Key, N),
     (   Length =< Most
-    ->  execute(put, [Kind, Key, N, Length, Sum], Bytes)
+    ->  sql_execute(put, [Kind, Key, N, Length, Sum], Bytes)
     ;   assertz(long(Kind, Key, N)),
         sub_string(Bytes, 0, Most, _, First),
-        execute(put, [Kind, Key, N, Length, Sum], First),
+        sql_execute(put, [Kind, Key, N, Length, Sum], First),
         Last is (Length-1)//Most,
         forall(between(1, Last, Part), put_part(Kind, Key, N, Part, Bytes))
     ).
 change(drop(Kind, Key, N)) =>
     drop_parts(Kind, Key, N),
-    execute(drop, [Kind, Key, N]).
+    sql_execute(drop, [Kind, Key, N]).
 change(drop_all(Kind, Key)) =>
     forall(long(Kind, Key, N), drop_parts(Kind, Key, N)),
-    execute(drop_all, [Kind, Key]).
+    sql_execute(drop_all, [Kind, Key]).
 change(drop_below(Kind, Key, N)) =>
     forall(( long(Kind, Key, N0), N0 < N ), drop_parts(Kind, Key, N0)),
-    execute(drop_below, [Kind, Key, N]).
+    sql_execute(drop_below, [Kind, Key, N]).
 
 %   Of 24 bits: those of Prologs are of 24 or 32, and the driver's integers are
 %   signed.
@@ -337,11 +253,11 @@ put_part(Kind, Key, N, Part, Bytes) :-
     string_length(Bytes, Length),
     Count is min(Most, Length-Start),
     sub_string(Bytes, Start, Count, _, Piece),
-    execute(put_part, [Kind, Key, N, Part], Piece).
+    sql_execute(put_part, [Kind, Key, N, Part], Piece).
 
 drop_parts(Kind, Key, N) :-
     (   retract(long(Kind, Key, N))
-    ->  execute(drop_part, [Kind, Key, N])
+    ->  sql_execute(drop_part, [Kind, Key, N])
     ;   true
     ).
 
@@ -355,20 +271,19 @@ drop_parts(Kind, Key, N) :-
 %
 %   @arg Order is `numbers` if those of less numbers are to come first, or
 %        `any`
-%   @error journal_damaged(Dir, Kind-Key)
+%   @error journal_damaged(Place, Kind-Key)
 
 journal_item(Kind, Order, Key, N, Value) :-
-    connection(Dir, Connection),
+    connection(Place, Connection),
     order(Order, By),
-    wide(Wide),
     format(atom(Sql), 'select key, n, length, sum, value from item \c
                        where kind=\'~w\'~w', [Kind, By]),
-    odbc(odbc_query(Connection, Sql, row(Key, N, Length, Sum, First),
-                    [types([atom, integer, integer, integer, string])|Wide])),
+    sql_row(Connection, Sql, row(Key, N, Length, Sum, First),
+            [atom, integer, integer, integer, string]),
     whole(Length, Kind-Key-N, First, Bytes),
     (   check_sum(Bytes, Sum)
     ->  fast_term_serialized(Value, Bytes)
-    ;   throw(error(journal_damaged(Dir, Kind-Key), _))
+    ;   throw(error(journal_damaged(Place, Kind-Key), _))
     ).
 
 order(any, '').
@@ -382,9 +297,8 @@ whole(Length, _, First, Bytes) :-
 whole(Length, Kind-Key-N, First0, Bytes) :-
     part_bytes(Most),
     sub_string(First0, 0, Most, _, First),
-    statement(parts, 0, Statement),
     findall(Piece,
-            ( odbc(odbc_execute(Statement, [Kind, Key, N], row(Full))),
+            ( sql_part(parts, [Kind, Key, N], Full),
               string_length(Full, Room),
               Count is min(Most, Room),
               sub_string(Full, 0, Count, _, Piece) ),
@@ -392,44 +306,3 @@ whole(Length, Kind-Key-N, First0, Bytes) :-
     atomic_list_concat([First|Pieces], Atom),
     atom_string(Atom, All),
     sub_string(All, 0, Length, _, Bytes).
-
-                /*******************************
-                *            ERRORS            *
-                *******************************/
-
-:- meta_predicate in_terms_of(+, 0).
-
-in_terms_of(Dir, Goal) :-
-    catch(Goal, error(odbc(_, _, Text), _), blame(Text, Dir)).
-
-blame(Text, Dir) :-
-    says(Text, ['is locked', 'readonly', 'unable to open']),
-    !,
-    permission_error(open, journal, Dir).
-blame(Text, _) :-
-    says(Text, ['is full', 'disk I/O']),
-    !,
-    throw(error(resource_error(journal_space), _)).
-blame(Text, _) :-
-    says(Text, ['driver', 'Driver', 'Data source']),
-    !,
-    throw(error(existence_error(package, libsqliteodbc), context(_, Text))).
-blame(Text, Dir) :-
-    throw(error(journal_damaged(Dir, Text), _)).
-
-says(Text, Parts) :-
-    member(Part, Parts),
-    sub_atom(Text, _, _, _, Part),
-    !.
-
-prolog:error_message(journal_damaged(Dir, Why)) -->
-    [ 'The journal ~w is damaged: ~p.'-[Dir, Why], nl,
-      'Nothing in it was changed' ].
-prolog:error_message(journal_version(Dir, _)) -->
-    [ 'The journal ~w was written by another version of Prolog or Typhon.'-[Dir],
-      nl, 'Nothing in it was changed' ].
-prolog:error_message(permission_error(open, journal, Dir)) -->
-    [ 'The journal ~w cannot be opened: another process has it, or it \c
-       cannot be written here'-[Dir] ].
-prolog:error_message(resource_error(journal_space)) -->
-    [ 'There is no room left for the journal' ].

@@ -5,15 +5,19 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_kill/2]).
+:- use_module('../journal', [journal_guards/0]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_flush/2, endpoint_reply/2]).
+              [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
+                endpoint_flush/2, endpoint_reply/2 ]).
 :- use_module('../host',
-              [ host_do/2, host_link/3, host_neighbours/2, host_property/2,
-                host_start/2, host_stop/1, host_unlink/2, runtime_acquire/2,
-                runtime_release/1 ]).
+              [ host/3, host_do/2, host_link/3, host_neighbours/2, host_property/2,
+                host_start/2, host_stop/1, host_unlink/2, hosts_back/1,
+                hosts_go_on/0, hosts_journal/2, hosts_rest/0,
+                runtime_acquire/2, runtime_release/1 ]).
 :- use_module('../travel', [home_agents/1]).
-:- use_module(voice, [voice_begin/0]).
+:- use_module(voice, [voice_begin/0, voice_end/0]).
 
 /** <module> A process that carries hosts of a network
 
@@ -23,9 +27,13 @@ network of a thousand hosts is a few requests.
 
 A child is started by the room `children` as `swipl -g carrier_main
 carrier.pl`. The first line of its standard input is node(Cookie, Interface,
-StopSeconds). When the endpoint listens, one line is written:
+StopSeconds, Keys, Options). When the endpoint listens, and what is in its
+journal, if it has one, is there again, one line is written:
 
     typhon_carrier <Interface>:<Port> <Pid>
+
+If that cannot be the line is `typhon_carrier_error <Formal>`, the Formal of
+an error term, and the process ends.
 
 From then on orders come over the wire, as requests of kind `node`. The
 process stops in order, hosts first, then what is still to be sent, when
@@ -56,10 +64,13 @@ one for the order to stop: it sees to it that there is an end.
 %     - hosts(Specs)
 %       Starts a host for each Name-Options, or none. Answer is the list
 %       of their addresses.
+%     - go_on
+%       What was in the journal of the process goes on; `ok`.
 %     - stop(Names)
-%       Stops these hosts; `ok`. One that is gone already is no error.
+%       Stops these hosts; `ok`. One that is gone already is no error. If
+%       they are all, what is in the journal rests there.
 %     - stop
-%       Stops all hosts of the process; `ok`.
+%       Stops all hosts of the process, so; `ok`.
 %     - flush(Seconds, Peers)
 %       `ok` when all that the process has sent to the endpoints Peers has
 %       arrived, else `late`.
@@ -68,6 +79,8 @@ one for the order to stop: it sees to it that there is an end.
 %       of host_link/3; `ok`.
 %     - places(Pairs)
 %       Calls the goal of each Name-Goal in the place of the host; `ok`.
+%     - expect(Endpoints), expect_no_more(Endpoints)
+%       Whoever ends at one of Endpoints is started again, or no more; `ok`.
 %     - neighbours(Names)
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.
@@ -83,11 +96,16 @@ order_do(hosts(Specs), Addresses) :-
     findall(Address,
             ( member(Name-_, Specs), host_property(Name, address(Address)) ),
             Addresses).
+order_do(go_on, ok) :-
+    hosts_go_on.
 order_do(stop(Names), ok) :-
-    forall(member(Name, Names), stop_host(Name)).
+    (   host(Other, _, _),
+        \+ memberchk(Other, Names)
+    ->  forall(member(Name, Names), stop_host(Name))
+    ;   hosts_rest
+    ).
 order_do(stop, ok) :-
-    findall(Name, host_property(Name, address(_)), Names),
-    order_do(stop(Names), ok).
+    hosts_rest.
 order_do(flush(Seconds, Peers), Answer) :-
     (   endpoint_flush(Seconds, Peers)
     ->  Answer = ok
@@ -101,17 +119,27 @@ order_do(unlink(Halves), ok) :-
            host_unlink(Name, Address)).
 order_do(places(Pairs), ok) :-
     forall(member(Name-Goal, Pairs), furnish(Name, Goal)).
+order_do(expect(Endpoints), ok) :-
+    forall(member(Endpoint, Endpoints), contact_expect(Endpoint)).
+order_do(expect_no_more(Endpoints), ok) :-
+    forall(member(Endpoint, Endpoints), contact_expect_no_more(Endpoint)).
 order_do(neighbours(Names), Lists) :-
     maplist(host_neighbours, Names, Lists).
 order_do(agents, Agents) :-
     home_agents(Agents).
 
+%   What was there before, of a journal, is not undone.
+
 start_all([], _).
-start_all([Name-Options|Specs], Started) :-
+start_all([Name-Options|Specs], Started0) :-
+    (   host(Name, _, _)
+    ->  Started = Started0
+    ;   Started = [Name|Started0]
+    ),
     catch(host_start(Name, Options), Error, true),
     (   var(Error)
-    ->  start_all(Specs, [Name|Started])
-    ;   forall(member(Host, Started), stop_host(Host)),
+    ->  start_all(Specs, Started)
+    ;   order_do(stop(Started0), ok),
         throw(Error)
     ).
 
@@ -137,7 +165,7 @@ carrier_main :-
     set_stream(user_input, encoding(utf8)),
     set_stream(user_output, encoding(utf8)),
     set_stream(user_output, buffer(line)),
-    read_term(user_input, node(Cookie, Interface, Seconds, Keys), []),
+    read_term(user_input, node(Cookie, Interface, Seconds, Keys, Options), []),
     setenv('TYPHON_COOKIE', Cookie),
     with_keys(Keys),
     thread_create(see_to_end(Seconds), _,
@@ -146,7 +174,7 @@ carrier_main :-
     on_signal(int, _, typhon_carrier:on_stop_signal),
     assertz(child),
     voice_begin,
-    runtime_acquire(node, [bind(Interface)]),
+    catch(begin(Interface, Seconds, Options), error(Formal, _), cannot_begin(Formal)),
     endpoint_address(Endpoint),
     thread_create(watch_input, _, [alias(typhon_input), detached(true)]),
     current_prolog_flag(pid, Pid),
@@ -154,6 +182,26 @@ carrier_main :-
     flush_output,
     serve,
     stop.
+
+%   Who has had the journal may be about to end, as the children of a process
+%   that has died do.
+
+begin(Interface, Seconds, Options) :-
+    option(port(Port), Options, 0),
+    Runtime = [bind(Interface), port(Port)],
+    (   option(journal(Directory, How), Options)
+    ->  Wait is Seconds+1,
+        hosts_journal(Directory, [sync(How), wait(Wait)]),
+        runtime_acquire(node, Runtime),
+        option(hosts(HostOptions), Options, []),
+        hosts_back(HostOptions)
+    ;   runtime_acquire(node, Runtime)
+    ).
+
+cannot_begin(Formal) :-
+    format('typhon_carrier_error ~k~n', [Formal]),
+    flush_output,
+    halt(1).
 
 with_keys(none).
 with_keys(keys(Directory)) :-
@@ -236,8 +284,16 @@ raised(Error, raised(Formal, Text)) :-
     ;   Formal = system_error(Text)
     ).
 
+%   What rests in a journal is safe, whatever goes wrong with what is left in
+%   memory.
+
 stop :-
-    order_do(stop, ok),
+    (   journal_guards
+    ->  voice_end
+    ;   true
+    ),
+    catch(order_do(stop, ok), error(Formal, Context),
+          print_message(warning, error(Formal, Context))),
     runtime_release(node),
     halt(0).
 

@@ -1,6 +1,7 @@
 :- module(typhon_carriers,
           [ carrier_came/4,             % +Network, +P, +Where, +Pid
             carrier_went/3,             % +Network, +P, +Status
+            carrier_again/2,            % +Network, +P
             carriers_forget/1,          % +Network
             carrier/3,                  % ?Network, ?P, ?Pid
             carrier/4,                  % ?Network, ?P, ?Pid, ?Where
@@ -48,10 +49,11 @@ the thread that follows it: as a fact, and to those who wait for an answer.
 
 %!  carrier_came(+Network, +P, +Where, +Pid) is det.
 %!  carrier_went(+Network, +P, +Status) is det.
+%!  carrier_again(+Network, +P) is det.
 %!  carriers_forget(+Network) is det.
 %
 %   Carrier P is up, Where being `local` or the endpoint of a child; it is
-%   down; all are forgotten.
+%   down; it was, and is about to be started again; all are forgotten.
 
 carrier_came(Network, P, Where, Pid) :-
     assertz(up(Network, P, Where, Pid)),
@@ -63,6 +65,10 @@ carrier_went(Network, P, Status) :-
     debug(typhon(network), 'process ~w of ~w is down: ~p',
           [P, Network, Status]),
     forall(waiting(Network, P, Queue), answered(Queue, P, down)).
+
+carrier_again(Network, P) :-
+    retractall(up(Network, P, _, _)),
+    retractall(down(Network, P, _)).
 
 carriers_forget(Network) :-
     retractall(up(Network, _, _, _)),

@@ -1,6 +1,8 @@
 :- module(typhon_children,
           [ child_start/5,              % +Tag, +Machine, +Interface,
                                         % :OnEvent, -Child
+            child_start/6,              % +Tag, +Machine, +Interface,
+                                        % +Options, :OnEvent, -Child
             child_close/1,              % +Child
             child_kill/1,               % +Child
             child_release/1             % +Child
@@ -25,7 +27,8 @@ A child runs carrier.pl, on this machine or through ssh on another. It is told
 what it must know in one line on its standard input, the cookie among it,
 which therefore is in no argument list and no environment of ssh. It says
 in one line on its standard output where its endpoint listens. Whatever it
-prints later is printed here, see room `voice`.
+prints later is printed here, see room `voice`. One that cannot begin says
+why in such a line, and ends.
 
 Its standard input stays open as long as it is wanted. The end of it is
 the order to stop, and it comes by itself when this process dies.
@@ -35,12 +38,14 @@ terminal stops the query of the person who sits there, not the network.
 
 *Threading*: one thread per child reads its output and waits for its end.
 It calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, Pid
-being that of the child on its machine, and with down(Tag, Status) when it
-has ended.
+being that of the child on its machine, with failed(Tag, Formal) if it cannot
+become ready, Formal being that of the error, and with down(Tag, Status) when
+it has ended.
 */
 
 :- meta_predicate
-    child_start(+, +, +, 1, -).
+    child_start(+, +, +, 1, -),
+    child_start(+, +, +, +, 1, -).
 
 :- public
     stop_reading/0.             % goal of a signal
@@ -62,16 +67,24 @@ has ended.
    assertz(node_file(File)).
 
 %!  child_start(+Tag, +Machine, +Interface, :OnEvent, -Child) is det.
+%!  child_start(+Tag, +Machine, +Interface, +Options, :OnEvent, -Child) is det.
 %
 %   Machine is `local`, a target of ssh, or machine(Target, Options) with
 %   the options swipl(Program), default `swipl`, node(File), the place of
 %   carrier.pl there, default the same as here, and bind(Interface), the
 %   interface at which the child listens, default the host of Target.
-%   A local child listens at Interface.
+%   A local child listens at Interface. Options are for the child: port(Port),
+%   at which it listens, journal(Directory, How), see doc/journal.md, which is
+%   of its machine, and hosts(Options), in place of what the journal knows of
+%   them.
 %
 %   @error type_error(machine, Machine), and what process_create/3 throws
 
-child_start(Tag, Machine, Interface, OnEvent, child(Pid, In, Thread)) :-
+child_start(Tag, Machine, Interface, OnEvent, Child) :-
+    child_start(Tag, Machine, Interface, [], OnEvent, Child).
+
+child_start(Tag, Machine, Interface, Options, OnEvent,
+            child(Pid, In, Thread)) :-
     command(Machine, Interface, Program, Args, Bind),
     cookie(Cookie),
     keys(Keys),
@@ -84,7 +97,8 @@ child_start(Tag, Machine, Interface, OnEvent, child(Pid, In, Thread)) :-
     thread_create(follow(Tag, Pid, Out, OnEvent), Thread, [alias(Alias)]),
     debug(typhon(network), 'process ~w of ~w is started: ~w, ~p',
           [Pid, Tag, Program, Args]),
-    catch(tell(In, node(Cookie, Bind, Seconds, Keys)), error(io_error(_, _), _),
+    catch(tell(In, node(Cookie, Bind, Seconds, Keys, Options)),
+          error(io_error(_, _), _),
           true).                % it has ended already: down(Tag, _) follows
 
 %   Who has TLS is understood only by who has it, too.
@@ -179,6 +193,9 @@ line(Line, Tag, OnEvent) :-
     ->  atom_string(Endpoint, Endpoint0),
         number_string(Pid, Pid0),
         call(OnEvent, up(Tag, Endpoint, Pid))
+    ;   string_concat("typhon_carrier_error ", Text, Line)
+    ->  term_string(Formal, Text),
+        call(OnEvent, failed(Tag, Formal))
     ;   voice_heard(Tag, Line)
     ).
 

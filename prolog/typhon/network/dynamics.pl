@@ -1,10 +1,12 @@
 :- module(typhon_dynamics,
           [ dynamics_model/2,           % +Spec, -Model
             dynamics_state/5,           % +Model, +N, +Edges, +Seed, -State
-            dynamics_event/4            % +State0, -Time, -Changes, -State
+            dynamics_event/4,           % +State0, -Time, -Changes, -State
+            dynamics_until/3,           % +State0, +Time, -State
+            dynamics_edges/2            % +State, -Edges
           ]).
 :- use_module(library(apply), [foldl/4]).
-:- use_module(library(assoc), [get_assoc/3, list_to_assoc/2, put_assoc/4]).
+:- use_module(library(assoc), [gen_assoc/3, get_assoc/3, list_to_assoc/2, put_assoc/4]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(heaps), [add_to_heap/4, empty_heap/1, get_from_heap/4]).
 :- use_module(library(lists), [member/2, numlist/3]).
@@ -150,6 +152,24 @@ dynamics_event(state(Model, N, Own, Links0, Due0, Chance0), Time, Changes,
     changes(Model, host(Host, N, Ns, OwnNs), Changes, Chance0, Chance1),
     foldl(change, Changes, Links0, Links),
     schedule(Model, Time, Host, Due1-Chance1, Due-Chance).
+
+%!  dynamics_until(+State0, +Time, -State) is det.
+%!  dynamics_edges(+State, -Edges) is det.
+%
+%   State is what State0 has become before Time; the links that stand then,
+%   pairs I-J, I < J.
+
+dynamics_until(State0, Time, State) :-
+    (   dynamics_event(State0, Next, _, State1),
+        Next < Time
+    ->  dynamics_until(State1, Time, State)
+    ;   State = State0
+    ).
+
+dynamics_edges(state(_, _, _, Links, _, _), Edges) :-
+    findall(I-J,
+            ( gen_assoc(I, Links, Ns), member(J, Ns), I < J ),
+            Edges).
 
 change(link(I, J), Links0, Links) :-
     change_end(ord_add_element, I, J, Links0, Links1),

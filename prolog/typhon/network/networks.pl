@@ -17,16 +17,20 @@
 :- use_module(changes, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
 :- use_module(carriers, [carrier/3]).
+:- use_module(kept, [kept_note/3, kept_plan/4]).
+:- use_module(lasting,
+              [ lasting_back/2, lasting_child/4, lasting_goes_on/3,
+                lasting_open/3, lasting_over/1, lasting_restarts/4, lasting_rests/1 ]).
 :- use_module(plan,
-              [ network_plan/3, plan_change/3, plan_dynamics/2,
-                plan_furnishing/2, plan_hosts/4, plan_links/2, plan_log/3,
+              [ plan_change/3, plan_dynamics/3, plan_furnishing/2,
+                plan_hosts/4, plan_links/2, plan_links_at/3, plan_log/3,
                 plan_option/2, plan_processes/3, plan_time/2 ]).
-:- use_module(processes, [carriers_start/4, carriers_stop/1]).
+:- use_module(processes, [carriers_start/5, carriers_stop/1]).
+:- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
               [ wire_change/2, wire_forget/1, wire_goals/3, wire_hosts/3,
-                wire_links/3,
-                wire_stop_own/1, wired_agents/2, wired_edges/2,
-                wired_hosts/2 ]).
+                wire_instead/3, wire_links/3, wire_stop_own/1, wired_agents/2,
+                wired_edges/2, wired_hosts/2 ]).
 
 /** <module> Networks of hosts
 
@@ -101,19 +105,31 @@ none of its own.
 %     - seed(Seed)
 %       An integer, from which all that is random follows; drawn when not
 %       given, and told by network_property/2.
+%     - journal(Directory), sync(How)
+%       What happens in the network outlives its processes, each of which has
+%       its journal, as of host_start/2, below Directory. Started again with
+%       the same Directory the network is what it was, agents go on, and what
+%       options leave open is as before. If its hosts are in this process, it
+%       must be started before any other host.
+%     - restart(Boolean)
+%       Child processes that die are started again, with the ports that they
+%       had, up to 10 times in a minute each (settings of room `restarts`).
+%       Without a journal their hosts are then as they were when they began:
+%       their agents, and what was left there, are lost. Default `false`.
 %
 %   @error domain_error(network_option, Option), domain_error(topology, T),
 %   timeout_error(start, Network), system_error(process_ended(Status)),
-%   and what host_start/2 throws
+%   and what host_start/2 throws; journal_of_another(Directory, Was, Is) if
+%   the journal is that of a network that was started otherwise
 
 network_start(Topology, Network, Options) :-
-    network_plan(Topology, Options, Plan),
+    kept_plan(Topology, Options, Plan, Kept),
     flag(typhon_networks, Id, Id + 1),
     atom_concat(network, Id, Network),
     raising_afresh(
         setup_call_catcher_cleanup(
             assertz(network(Network, Plan)),
-            build(Network, Plan),
+            build(Network, Plan, Kept),
             Catcher,
             unless_built(Catcher, Network))),
     forget_erased.
@@ -127,25 +143,48 @@ unless_built(_, Network) :-
                 *            BUILD             *
                 *******************************/
 
-build(Network, Plan) :-
+build(Network, Plan, Kept) :-
+    plan_processes(Plan, P, Machines),
+    lasting_open(Plan, P, Machines),
     listen(Network, Plan),
     plan_option(Plan, seed(Seed)),
     time_seed(Seed),
-    plan_processes(Plan, P, Machines),
+    known_log(Kept, Network, Clock, Plan, Log),
     interface(Plan, Interface),
-    carriers_start(Network, P, Machines, Interface),
-    clock(Plan, Clock),
-    start_log(Network, Clock, Plan, Log),
-    plan_hosts(Plan, P, [Clock|Log], Hosts),
+    carriers_start(Network, P, Machines, Interface,
+                   lasting_child(Plan, Log)),
+    clock_and_log(Network, Plan, Clock, Log),
+    lasting_back(Plan, Log),
+    furnished(Kept, Network, P, Plan, Clock, [Clock|Log], Time),
+    start_dynamics(Network, Clock, Plan, Time),
+    lasting_goes_on(Network, P, Plan),
+    debug(typhon(network), '~w is built, ~w processes', [Network, P]),
+    assertz(clock_of(Network, Clock)),
+    lasting_restarts(Network, P, Plan, [Clock|Log]),
+    assertz(running(Network)).
+
+%   furnished(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): what a
+%   journal knows need not be done again; links may have changed by themselves
+%   until Time.
+
+furnished(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
+    !,
+    plan_hosts(Plan, P, Common, Hosts),
+    wire_hosts(Network, P, Hosts),
+    shown(Clock, Time),
+    (   plan_links_at(Plan, Time, Links)
+    ->  wire_instead(Network, P, Links)
+    ;   true
+    ).
+furnished(_, Network, P, Plan, Clock, Common, 0) :-
+    kept_note(Plan, Clock, begun),
+    plan_hosts(Plan, P, Common, Hosts),
     wire_hosts(Network, P, Hosts),
     plan_links(Plan, Links),
     wire_links(Network, P, Links),
     plan_furnishing(Plan, Goals),
     wire_goals(Network, P, Goals),
-    start_dynamics(Network, Clock, Plan),
-    debug(typhon(network), '~w is built, ~w processes', [Network, P]),
-    assertz(clock_of(Network, Clock)),
-    assertz(running(Network)).
+    kept_note(Plan, Clock, built).
 
 listen(Network, Plan) :-
     plan_time(Plan, Kind),
@@ -171,25 +210,47 @@ clock(Plan, clock(Epoch, Rate)) :-
     ;   Rate = 1
     ).
 
-%   start_log(+Network, +Clock, +Plan, -HostOptions)
+%   What the clock shows.
 
-start_log(Network, clock(Epoch, Rate), Plan, [Option]) :-
+shown(clock(Epoch, Rate), Time) :-
+    time_now(Now),
+    Time is (Now-Epoch)*Rate.
+
+%   known_log(+Kept, +Network, -Clock, +Plan, -Log), clock_and_log(+Network,
+%   +Plan, ?Clock, ?Log): of a network that is known from a journal the clock
+%   goes on, and the log is there before its hosts are.
+
+known_log(kept(_, Clock), Network, Clock, Plan, Log) :-
+    start_log(Network, Clock, Plan, append, Log).
+known_log(none, _, _, _, _).
+
+clock_and_log(Network, Plan, Clock, Log) :-
+    (   var(Clock)
+    ->  clock(Plan, Clock),
+        start_log(Network, Clock, Plan, write, Log)
+    ;   true
+    ).
+
+%   start_log(+Network, +Clock, +Plan, +Mode, -HostOptions)
+
+start_log(Network, clock(Epoch, Rate), Plan, Mode, [Option]) :-
     plan_log(Plan, Spec, Kinds),
     !,
     absolute_file_name(Spec, File),
     atom_concat(Network, '_log', Name),
-    log_server_start([file(File), name(Name), clock(Epoch, Rate)], Address),
+    log_server_start([ file(File), name(Name), mode(Mode),
+                       clock(Epoch, Rate) ], Address),
     log_option(Kinds, Address, Option),
     assertz(part(Network, log(Address, File))).
-start_log(_, _, _, []).
+start_log(_, _, _, _, []).
 
 log_option([], Address, Option) =>
     Option = log(Address).
 log_option(Kinds, Address, Option) =>
     Option = log(Address, Kinds).
 
-start_dynamics(Network, Clock, Plan) :-
-    (   plan_dynamics(Plan, State)
+start_dynamics(Network, Clock, Plan, Time) :-
+    (   plan_dynamics(Plan, Time, State)
     ->  dynamics_start(State, Clock, change(Network), Dynamics),
         assertz(part(Network, dynamics(Dynamics)))
     ;   true
@@ -224,7 +285,7 @@ end(Network) :-
     ->  step(dynamics_stop(Dynamics))
     ;   true
     ),
-    step(wire_stop_own(Network)),
+    step(stop_own(Network)),
     step(carriers_stop(Network)),
     (   retract(part(Network, log(Address, _)))
     ->  step(log_server_stop(Address))
@@ -237,6 +298,16 @@ end(Network) :-
     retractall(clock_of(Network, _)),
     forall(ended(Network), true),
     retractall(network(Network, _)).
+
+%   What rests in a journal is there when it is started again.
+
+stop_own(Network) :-
+    network(Network, Plan),
+    (   lasting_rests(Plan)
+    ->  true
+    ;   wire_stop_own(Network),
+        lasting_over(Plan)
+    ).
 
 %   What goes wrong in one step must not leave the others undone.
 
@@ -311,6 +382,7 @@ property(edges(Edges), Network) :-
 property(agents(Agents), Network) :-
     wired_agents(Network, Agents).
 property(processes(Pids), Network) :-
+    restarts_back(Network),
     findall(P-Pid, carrier(Network, P, Pid), Pairs),
     keysort(Pairs, Sorted),
     pairs_values(Sorted, Pids).

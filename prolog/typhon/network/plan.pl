@@ -6,9 +6,14 @@
             plan_processes/3,           % +Plan, -P, -Machines
             plan_hosts/4,               % +Plan, +P, +Common, -Hosts
             plan_links/2,               % +Plan, -Links
+            plan_links_at/3,            % +Plan, +Time, -Links
             plan_change/3,              % +Plan, +Change0, -Change
             plan_furnishing/2,          % +Plan, -Goals
-            plan_dynamics/2             % +Plan, -State
+            plan_dynamics/3,            % +Plan, +Time, -State
+            plan_journal/4,             % +Plan, +P, -Where, -How
+            plan_options/2,             % +Plan, -Options
+            plan_shape/3,               % +Plan, -Names, -Edges
+            plan_without/3              % +Plan0, +Option, -Plan
           ]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
@@ -17,7 +22,10 @@
 :- use_module(library(option), [option/2, option/3, select_option/4]).
 :- use_module(library(random), [random_between/3]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module(dynamics, [dynamics_model/2, dynamics_state/5]).
+:- use_module('../journal', [journal_part/3, journal_place/2]).
+:- use_module(dynamics,
+              [ dynamics_edges/2, dynamics_model/2, dynamics_state/5,
+                dynamics_until/3 ]).
 :- use_module('../base/chance',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module(furnishing,
@@ -74,6 +82,10 @@ option_type(log(File, _), ground, File).
 option_type(places(Places), nonvar, Places).
 option_type(dynamic(Model), nonvar, Model).
 option_type(seed(Seed), integer, Seed).
+option_type(journal(Directory), atom, Directory).
+option_type(journal(postgresql(Url)), atom, Url).
+option_type(sync(How), oneof([full, normal]), How).
+option_type(restart(Restart), boolean, Restart).
 
 %   What the type alone does not say.
 
@@ -122,8 +134,14 @@ check_rate(Rate) :-
     ;   domain_error(clock_rate, Rate)
     ).
 
-%   What is virtual happens in one process.
+%   What is virtual happens in one process, and ends with it.
 
+check_virtual(Options) :-
+    memberchk(clock(virtual), Options),
+    memberchk(journal(Where), Options),
+    !,
+    journal_place(Where, Place),
+    permission_error(open, journal, Place).
 check_virtual(Options) :-
     (   memberchk(clock(virtual), Options),
         member(Option, Options),
@@ -251,6 +269,19 @@ overridden(Own, Option) :-
 
 plan_links(Plan, Links) :-
     Plan = plan(_, Edges, _, _),
+    links_of(Edges, Plan, Links).
+
+%!  plan_links_at(+Plan, +Time, -Links) is semidet.
+%
+%   The links at Time, in host seconds after the beginning. Fails where links
+%   do not come and go.
+
+plan_links_at(Plan, Time, Links) :-
+    plan_dynamics(Plan, Time, State),
+    dynamics_edges(State, Edges),
+    links_of(Edges, Plan, Links).
+
+links_of(Edges, Plan, Links) :-
     findall(link(I, J, Cost),
             ( member(I-J, Edges), cost(Plan, I-J, Cost) ),
             Links).
@@ -280,13 +311,46 @@ common_cost(uniform(Min, Max), Plan, Edge, Cost) :-
     chance_uniform(Min, Max, Cost, Chance, _).
 common_cost(Cost, _, _, Cost).
 
-%!  plan_dynamics(+Plan, -State) is semidet.
+%!  plan_dynamics(+Plan, +Time, -State) is semidet.
 %
-%   The beginning of what changes its links, if something does.
+%   What changes its links, if something does, as it is at Time.
 
-plan_dynamics(plan(Names, Edges, _, Options), State) :-
+plan_dynamics(plan(Names, Edges, _, Options), Time, State) :-
     option(dynamic(Spec), Options),
     option(seed(Seed), Options),
     dynamics_model(Spec, Model),
     length(Names, N),
-    dynamics_state(Model, N, Edges, Seed, State).
+    dynamics_state(Model, N, Edges, Seed, State0),
+    (   Time > 0
+    ->  dynamics_until(State0, Time, State)
+    ;   State = State0
+    ).
+
+%!  plan_journal(+Plan, +P, -Where, -How) is semidet.
+%
+%   The journal of process P, if there is to be one: where it is, and how it is
+%   synced.
+
+plan_journal(Plan, P, Part, How) :-
+    plan_option(Plan, journal(Where)),
+    journal_part(Where, P, Part),
+    (   plan_option(Plan, sync(How0))
+    ->  How = How0
+    ;   How = normal
+    ).
+
+%!  plan_options(+Plan, -Options) is det.
+%!  plan_shape(+Plan, -Names, -Edges) is semidet.
+%
+%   All options that were given, or drawn; the hosts, and the links it begins
+%   with. plan_shape/3 fails if Plan is none.
+
+plan_options(plan(_, _, _, Options), Options).
+
+plan_shape(plan(Names, Edges, _, _), Names, Edges).
+
+%!  plan_without(+Plan0, +Option, -Plan) is det.
+
+plan_without(plan(Names, Edges, Costs, Options0), Option,
+             plan(Names, Edges, Costs, Options)) :-
+    exclude(=(Option), Options0, Options).

@@ -1,16 +1,20 @@
 :- module(typhon_processes,
-          [ carriers_start/4,           % +Network, +P, +Machines, +Interface
+          [ carriers_start/5,           % +Network, +P, +Machines, +Interface,
+                                        % :Options
+            carriers_restart/3,         % +Network, :Options, :Restore
             carriers_stop/1             % +Network
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../wire', [endpoint_address/1]).
+:- use_module('../wire',
+              [contact_expect/1, contact_expect_no_more/1, endpoint_address/1]).
 :- use_module(children,
-              [child_close/1, child_kill/1, child_release/1, child_start/5]).
+              [child_close/1, child_kill/1, child_release/1, child_start/6]).
 :- use_module(carriers,
-              [ carrier/3, carrier/4, carrier_came/4, carrier_gone/2,
-                carrier_went/3, carriers_ask/6, carriers_forget/1,
-                unwatched/1 ]).
+              [ carrier/3, carrier/4, carrier_again/2, carrier_came/4,
+                carrier_gone/2, carrier_order/4, carrier_went/3, carriers_ask/6,
+                carriers_forget/1, unwatched/1 ]).
+:- use_module(restarts, [restarts_absent/2, restarts_begin/3, restarts_end/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
 
 /** <module> The processes that carry a network begin and end
@@ -18,7 +22,8 @@
 See room `children` for what a child is, and `orders` for what it is told.
 
 *Threading*: the threads that follow the children tell what happens to them:
-as facts, and as messages to a queue that starting and stopping wait on.
+as facts, and as messages to a queue that starting and stopping wait on, and
+in between the thread of room `restarts`, if there is one.
 */
 
 :- multifile
@@ -33,38 +38,48 @@ as facts, and as messages to a queue that starting and stopping wait on.
            "A process that was killed has so long to be gone").
 
 :- meta_predicate
+    carriers_start(+, +, +, +, 2),
+    carriers_restart(+, 2, 1),
     order_children(+, +, 1).
 
 :- dynamic
     queue/2,                    % Network, Queue
     wanted/1,                   % Network: its carriers are to stay
-    child/3.                    % Network, P, Child
+    child/3,                    % Network, P, Child
+    lasting/1,                  % Network: its carriers have journals
+    start/4,                    % Network, P, Machine, Interface
+    at/3.                       % Network, P, Endpoint: where it listens
 
                 /*******************************
                 *           STARTING           *
                 *******************************/
 
-%!  carriers_start(+Network, +P, +Machines, +Interface) is det.
+%!  carriers_start(+Network, +P, +Machines, +Interface, :Options) is det.
 %
 %   Starts P carriers, blocks of them on each of Machines. With `[local]`
-%   and P = 1 this process is the carrier. When this throws, what was
-%   started waits for carriers_stop/1.
+%   and P = 1 this process is the carrier. Options(P, List) are those of
+%   child_start/6 for each. When this throws, what was started waits for
+%   carriers_stop/1.
 %
 %   @error timeout_error(start, Network),
-%   system_error(process_ended(Status)), and as child_start/5
+%   system_error(process_ended(Status)), what a child says that cannot
+%   begin, and as child_start/6
 
-carriers_start(Network, 1, [local], _) :-
+carriers_start(Network, 1, [local], _, _) :-
     !,
     current_prolog_flag(pid, Pid),
     carrier_came(Network, 1, local, Pid).
-carriers_start(Network, P, Machines, Interface) :-
+carriers_start(Network, P, Machines, Interface, Options) :-
     message_queue_create(Queue),
     assertz(queue(Network, Queue)),
     length(Machines, M),
     forall(between(1, P, I),
            ( At is (I - 1) * M // P + 1,
              nth1(At, Machines, Machine),
-             start(Network, I, Machine, Interface) )),
+             assertz(start(Network, I, Machine, Interface)),
+             call(Options, I, ChildOptions),
+             note_lasting(Network, ChildOptions),
+             start(Network, I, ChildOptions) )),
     setting(start_seconds, Seconds),
     atom_concat(typhon_starting_, Network, Alias),
     setup_call_cleanup(
@@ -85,21 +100,40 @@ alarm(Seconds, Queue) :-
     ;   thread_send_message(Queue, late)
     ).
 
-start(Network, P, Machine, Interface) :-
-    child_start(Network-P, Machine, Interface, typhon_processes:event, Child),
+note_lasting(Network, Options) :-
+    (   memberchk(journal(_, _), Options),
+        \+ lasting(Network)
+    ->  assertz(lasting(Network))
+    ;   true
+    ).
+
+start(Network, P, Options) :-
+    start(Network, P, Machine, Interface),
+    child_start(Network-P, Machine, Interface, Options,
+                typhon_processes:event, Child),
     assertz(child(Network, P, Child)).
 
 event(up(Network-P, Endpoint, Pid)) :-
     carrier_came(Network, P, Endpoint, Pid),
-    tell(Network, up).
+    retractall(at(Network, P, _)),
+    assertz(at(Network, P, Endpoint)),
+    tell(Network, up(P)).
+event(failed(Network-P, Formal)) :-
+    tell(Network, failed(P, Formal)).
 event(down(Network-P, Status)) :-
-    (   wanted(Network),
-        carrier(Network, P, Pid)
-    ->  print_message(warning, typhon(carrier_down(Network, Pid, Status)))
+    (   wanted(Network)
+    ->  is_missed(Network, P, Status)
     ;   true
     ),
     carrier_went(Network, P, Status),
-    tell(Network, down(Status)).
+    tell(Network, down(P, Status)).
+
+is_missed(Network, P, Status) :-
+    restarts_absent(Network, P),
+    (   carrier(Network, P, Pid)
+    ->  print_message(warning, typhon(carrier_down(Network, Pid, Status)))
+    ;   true
+    ).
 
 tell(Network, Event) :-
     queue(Network, Queue),
@@ -109,13 +143,71 @@ wait_up(0, _, _) :-
     !.
 wait_up(P, Network, Queue) :-
     thread_get_message(Queue, Event),
-    (   Event == up
+    (   Event = up(_)
     ->  P1 is P - 1,
         wait_up(P1, Network, Queue)
-    ;   Event = down(Status)
+    ;   Event = failed(_, Formal)
+    ->  throw(error(Formal, _))
+    ;   Event = down(_, Status)
     ->  throw(error(system_error(process_ended(Status)), _))
     ;   throw(error(timeout_error(start, Network), _))
     ).
+
+                /*******************************
+                *         STARTING AGAIN       *
+                *******************************/
+
+%!  carriers_restart(+Network, :Options, :Restore) is det.
+%
+%   Carriers that die are started again from now on, see room `restarts`, with
+%   the options Options(P, List) and the port that they had; then Restore(P)
+%   is called. Nothing is to be done where this process is the carrier.
+
+carriers_restart(Network, Options, Restore) :-
+    (   queue(Network, Queue)
+    ->  findall(P, at(Network, P, _), Ps),
+        forall(member(P, Ps), expect(Network, P)),
+        forall(at(Network, _, Endpoint), contact_expect(Endpoint)),
+        restarts_begin(Network, Queue,
+                       typhon_processes:restart(Network, Options, Restore))
+    ;   true
+    ).
+
+%   P hears that the others are started again.
+
+expect(Network, P) :-
+    findall(Endpoint, at(Network, _, Endpoint), Endpoints),
+    carrier_order(Network, P, expect(Endpoints), ok).
+
+expect_no_more(Network, P) :-
+    forall(at(Network, P, Endpoint), contact_expect_no_more(Endpoint)).
+
+:- public restart/4.
+
+restart(Network, Options, _, start(P)) :-
+    retract(child(Network, P, Child)),
+    !,
+    child_close(Child),
+    child_release(Child),
+    carrier_again(Network, P),
+    at(Network, P, Endpoint),
+    atomic_list_concat([_, Text], :, Endpoint),
+    atom_number(Text, Port),
+    call(Options, P, More),
+    start(Network, P, [port(Port)|More]).
+restart(Network, _, _, kill(P)) :-
+    child(Network, P, Child),
+    !,
+    child_kill(Child).
+restart(Network, _, Restore, restore(P)) :-
+    expect(Network, P),
+    call(Restore, P).
+restart(Network, _, _, give_up(P)) :-
+    expect_no_more(Network, P),
+    at(Network, P, Endpoint),
+    forall(carrier(Network, Other, _),
+           catch(carrier_order(Network, Other, expect_no_more([Endpoint]), _),
+                 error(existence_error(carrier, _), _), true)).
 
                 /*******************************
                 *           STOPPING           *
@@ -129,13 +221,19 @@ wait_up(P, Network, Queue) :-
 %   First the hosts of all children stop, and those that hang are killed:
 %   the others need not wait for them. Then what the children have sent
 %   arrives, at the log for one, and only then they end: so none waits for
-%   another that is gone.
+%   another that is gone. Where there are journals what is in them rests there,
+%   and nobody hears of it: a child does that when it ends.
 
 carriers_stop(Network) :-
     retractall(wanted(Network)),
-    order_children(Network, stop, kill_hanging(Network)),
+    forall(queue(Network, Queue), restarts_end(Network, Queue)),
+    (   retract(lasting(Network))
+    ->  Watch = kill_hanging(Network)
+    ;   order_children(Network, stop, kill_hanging(Network)),
+        Watch = unwatched
+    ),
     peers(Network, Peers),
-    order_children(Network, flush(2, Peers), unwatched),
+    order_children(Network, flush(2, Peers), Watch),
     forall(child(Network, _, Child), child_close(Child)),
     (   queue(Network, Queue)
     ->  end_children(Network),
@@ -144,6 +242,9 @@ carriers_stop(Network) :-
         message_queue_destroy(Queue)
     ;   true
     ),
+    retractall(start(Network, _, _, _)),
+    expect_no_more(Network, _),
+    retractall(at(Network, _, _)),
     carriers_forget(Network).
 
 %   One by one: other threads may start children meanwhile, see
@@ -227,7 +328,7 @@ wait_down(Network, Ps, Seconds) :-
 await_down(Network, Ps, Queue, Deadline) :-
     (   member(P, Ps),
         left(Network, P)
-    ->  message_before(Queue, down(_), Deadline),
+    ->  message_before(Queue, down(_, _), Deadline),
         await_down(Network, Ps, Queue, Deadline)
     ;   true
     ).

@@ -1,5 +1,6 @@
 :- module(typhon_voice,
           [ voice_begin/0,
+            voice_end/0,
             voice_heard/2               % +Who, +Line
           ]).
 :- use_module('../base/output', [output_forward/1, output_own/0]).
@@ -24,9 +25,17 @@ thread that follows it.
     user:message_hook/3,
     user:message_property/2.
 
+:- dynamic
+    ended/0.
+
 %!  voice_begin is det.
+%!  voice_end is det.
 %
-%   What this process prints from now on is meant for another.
+%   What this process prints from now on is meant for another; its messages
+%   are of no interest any more.
+
+voice_end :-
+    assertz(ended).
 
 voice_begin :-
     output_forward(typhon_voice:said),
@@ -46,6 +55,9 @@ said(Mark, Line) :-
 
 %   message(+Kind, +Lines) is semidet: fails for what is not told.
 
+message(_, _) :-
+    ended,
+    !.
 message(Kind, Lines0) :-
     \+ memberchk(Kind, [silent, banner, query]),
     Lines0 \== [],

@@ -3,6 +3,9 @@
             wire_links/3,               % +Network, +P, +Links
             wire_goals/3,               % +Network, +P, +Goals
             wire_change/2,              % +Network, +Change
+            wire_again/5,               % +Network, +P, +Hosts, +Links, +Goals
+            wire_instead/3,             % +Network, +P, +Links
+            wire_go_on/2,               % +Network, +P
             wire_stop_own/1,            % +Network
             wire_forget/1,              % +Network
             wired_hosts/2,              % +Network, -Addresses
@@ -13,6 +16,7 @@
 :- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
 :- use_module('../agent', [agent_home/2]).
 :- use_module(carriers, [carrier/3, carrier_order/4]).
+:- use_module(restarts, [restarts_back/1]).
 
 /** <module> The hosts of a network and the links between them
 
@@ -20,13 +24,15 @@ Knows which host, by number, name and address, is in which process, and
 gives the carriers their orders about hosts and links.
 
 *Threading*: wire_change/2 runs in the thread of the dynamics, beside
-whoever asks for properties.
+whoever asks for properties; wire_again/5 in that of room `restarts`, and not
+beside a change.
 */
 
 :- multifile typhon_names:known/2.
 
 :- dynamic
-    host/5.                     % Network, I, Name, P, Address
+    host/5,                     % Network, I, Name, P, Address
+    changed/3.                  % Network, I-J, Change: the last of this pair
 
 typhon_names:known(host, Address) :-
     current_prolog_flag(pid, Pid),
@@ -46,24 +52,50 @@ wire_hosts(Network, P, Hosts) :-
 
 start_hosts(Network, P, Hosts) :-
     findall(I-Name, member(host(P, I, Name, _), Hosts), Numbered),
-    findall(Name-Options, member(host(P, _, Name, Options), Hosts), Specs),
-    carrier_order(Network, P, hosts(Specs), Addresses),
+    order_hosts(Network, P, Hosts, Addresses),
     pairs_keys_values(Pairs, Numbered, Addresses),
     forall(member((I-Name)-Address, Pairs),
            assertz(host(Network, I, Name, P, Address))).
 
+order_hosts(Network, P, Hosts, Addresses) :-
+    findall(Name-Options, member(host(P, _, Name, Options), Hosts), Specs),
+    carrier_order(Network, P, hosts(Specs), Addresses).
+
 %!  wire_links(+Network, +P, +Links) is det.
+%!  wire_instead(+Network, +P, +Links) is det.
 %
-%   Makes Links, terms link(I, J, Cost). Each of the carriers 1..P hears in
-%   one order of all the ends of links in it.
+%   Makes Links, terms link(I, J, Cost); instead of what links there are. Each
+%   of the carriers 1..P hears in one order of all the ends of links in it.
 
 wire_links(Network, P, Links) :-
+    order_links(Network, P, link, Links).
+
+wire_instead(Network, P, Links) :-
+    numbered_edges(Network, Edges),
+    findall(unlink(I, J, same),
+            ( member(I-J, Edges), \+ memberchk(link(I, J, _), Links) ),
+            Unlinks),
+    order_links(Network, P, unlink, Unlinks),
+    order_links(Network, P, link, Links).
+
+order_links(Network, P, Action, Links) :-
     findall(At-Half,
             ( member(Link, Links), half_link(Network, Link, At, Half) ),
             Halves),
     forall(between(1, P, At),
            ( findall(Half, member(At-Half, Halves), Mine),
-             carrier_order(Network, At, link(Mine), ok) )).
+             order_halves(Network, At, Action, Mine) )).
+
+order_halves(Network, P, Action, Halves) :-
+    Order =.. [Action, Halves],
+    carrier_order(Network, P, Order, ok).
+
+%!  wire_go_on(+Network, +P) is det.
+%
+%   What was in the journals of the carriers 1..P goes on.
+
+wire_go_on(Network, P) :-
+    forall(between(1, P, At), carrier_order(Network, At, go_on, ok)).
 
 %!  wire_goals(+Network, +P, +Goals) is det.
 %
@@ -72,12 +104,45 @@ wire_links(Network, P, Links) :-
 %   @error as carrier_order/4
 
 wire_goals(Network, P, Goals) :-
-    findall(At-(Name-Goal),
-            ( member(I-Goal, Goals), host(Network, I, Name, At, _) ),
-            All),
-    forall(( between(1, P, At), memberchk(At-_, All) ),
-           ( findall(Pair, member(At-Pair, All), Mine),
-             carrier_order(Network, At, places(Mine), ok) )).
+    forall(between(1, P, At), order_goals(Network, At, Goals)).
+
+order_goals(Network, P, Goals) :-
+    findall(Name-Goal,
+            ( host(Network, I, Name, P, _), member(I-Goal, Goals) ),
+            Mine),
+    (   Mine == []
+    ->  true
+    ;   carrier_order(Network, P, places(Mine), ok)
+    ).
+
+%!  wire_again(+Network, +P, +Hosts, +Links, +Goals) is det.
+%
+%   Carrier P was started again: what of Hosts and Links belongs to it is made
+%   there, with the links that have changed meanwhile as they are now, and
+%   Goals are called.
+%
+%   @error as carrier_order/4
+
+wire_again(Network, P, Hosts, Links, Goals) :-
+    order_hosts(Network, P, Hosts, _),
+    with_mutex(typhon_wiring, links_again(Network, P, Links)),
+    order_goals(Network, P, Goals).
+
+links_again(Network, P, Links) :-
+    findall(Half,
+            ( member(Link, Links),
+              Link = link(I, J, _),
+              \+ changed(Network, I-J, _),
+              half_link(Network, Link, P, Half)
+            ; changed(Network, _, link(I, J, Cost)),
+              half_link(Network, link(I, J, Cost), P, Half) ),
+            Made),
+    findall(Half,
+            ( changed(Network, _, unlink(I, J, Cost)),
+              half_link(Network, unlink(I, J, Cost), P, Half) ),
+            Gone),
+    order_halves(Network, P, link, Made),
+    order_halves(Network, P, unlink, Gone).
 
 half_link(Network, Link, P, half(Name, Address, Cost)) :-
     Link =.. [_, A, B, Cost],
@@ -91,7 +156,12 @@ half_link(Network, Link, P, half(Name, Address, Cost)) :-
 %   reported when it went down, and is left alone.
 
 wire_change(Network, Change) :-
-    functor(Change, Action, _),
+    with_mutex(typhon_wiring, change(Network, Change)).
+
+change(Network, Change) :-
+    Change =.. [Action, I, J, _],
+    retractall(changed(Network, I-J, _)),
+    assertz(changed(Network, I-J, Change)),
     forall(half_link(Network, Change, P, Half),
            ( Order =.. [Action, [Half]],
              alive_order(Network, P, Order, _) )).
@@ -102,6 +172,21 @@ alive_order(Network, P, Order, Answer) :-
           error(existence_error(carrier, _), _), fail),
     !.
 alive_order(_, _, _, none).
+
+%   present_order(+Network, +P, +Order, -Answer) fails for a process that is
+%   down for good. One that dies may be there again in a moment.
+
+present_order(Network, P, Order, Answer) :-
+    between(1, 2, _),
+    restarts_back(Network),
+    alive_order(Network, P, Order, Answer),
+    Answer \== none,
+    !.
+
+one_carrier(Network, P) :-
+    findall(P0, host(Network, _, _, P0, _), Ps0),
+    sort(Ps0, Ps),
+    member(P, Ps).
 
 %!  wire_stop_own(+Network) is det.
 %
@@ -118,7 +203,8 @@ wire_stop_own(Network) :-
 %!  wire_forget(+Network) is det.
 
 wire_forget(Network) :-
-    retractall(host(Network, _, _, _, _)).
+    retractall(host(Network, _, _, _, _)),
+    retractall(changed(Network, _, _)).
 
 %!  wired_hosts(+Network, -Addresses) is det.
 %
@@ -136,20 +222,22 @@ wired_hosts(Network, Addresses) :-
 %   are missing.
 
 wired_edges(Network, Edges) :-
-    findall(Half, half_edge(Network, Half), Numbered0),
-    sort(Numbered0, Numbered),
+    numbered_edges(Network, Numbered),
     findall(A-B,
             ( member(I-J, Numbered),
               host(Network, I, _, _, A),
               host(Network, J, _, _, B) ),
             Edges).
 
+numbered_edges(Network, Numbered) :-
+    findall(Half, half_edge(Network, Half), Numbered0),
+    sort(Numbered0, Numbered).
+
 half_edge(Network, I-J) :-
-    carrier(Network, P, _),
+    one_carrier(Network, P),
     findall(A-Name, host(Network, A, Name, P, _), Pairs),
     pairs_keys_values(Pairs, Numbers, Names),
-    alive_order(Network, P, neighbours(Names), Lists),
-    Lists \== none,
+    present_order(Network, P, neighbours(Names), Lists),
     nth1(At, Numbers, A),
     nth1(At, Lists, Addresses),
     member(Address, Addresses),
@@ -164,9 +252,8 @@ half_edge(Network, I-J) :-
 
 wired_agents(Network, Agents) :-
     findall(Agent,
-            ( carrier(Network, P, _),
-              alive_order(Network, P, agents, Born),
-              Born \== none,
+            ( one_carrier(Network, P),
+              present_order(Network, P, agents, Born),
               member(Agent, Born),
               agent_home(Agent, Home),
               host(Network, _, _, P, Home) ),

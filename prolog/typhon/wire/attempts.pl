@@ -5,7 +5,7 @@
             attempt_greeted/1,          % +Thread
             attempt_pause/3,            % +Address, +Pause, +Since
             attempt_end/1,              % ?Address
-            attempt_expired/1,          % +Since
+            attempt_expired/2,          % +Address, +Since
             attempt_next/2,             % +Me, -Address
             attempt_due/1,              % -Time
             attempts_due/1              % -Due
@@ -22,10 +22,13 @@ _Threading_: the thread of the keeper owns all that is here.
 
 :- use_module(library(lists), [min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(contacts, [contact_expected/1]).
 :- use_module(session, [session/2]).
 
 :- setting(typhon_keeper:connect_time, number, 5,
            "Seconds until it is told that a peer cannot be reached").
+:- setting(typhon_keeper:return_time, number, 30,
+           "The same, of one that is started again whenever it ends").
 
 :- dynamic
     attempt/4.                          % Address, State, Pause, Since
@@ -38,6 +41,7 @@ _Threading_: the thread of the keeper owns all that is here.
 
 first_pause(0.02).
 longest_pause(2).
+longest_pause_of_expected(0.2).
 
 %   Where there are many processes they may all be busy at once, as they are
 %   when they begin: then it takes longer until silence means something.
@@ -108,13 +112,19 @@ attempt_pause(Address, Pause, Since) :-
     Some is float_fractional_part(Now*1000),    % library(random) is slow
     Until0 is Now+Pause*(0.5+Some),             % to begin
     (   number(Since)
-    ->  deadline(Since, Deadline),
+    ->  deadline(Address, Since, Deadline),
         Until is min(Deadline, Until0)
     ;   Until = Until0
     ),
-    longest_pause(Longest),
+    longest_pause(Address, Longest),
     Longer is min(Longest, 2*Pause),
     set(Address, pausing(Until), Longer, Since).
+
+longest_pause(Address, Longest) :-
+    (   contact_expected(Address)
+    ->  longest_pause_of_expected(Longest)
+    ;   longest_pause(Longest)
+    ).
 
 set(Address, State, Pause, Since) :-
     retractall(attempt(Address, _, _, _)),
@@ -168,17 +178,20 @@ young(Until) :-
 		 *           DEADLINES          *
 		 *******************************/
 
-%!  attempt_expired(+Since) is semidet.
+%!  attempt_expired(+Address, +Since) is semidet.
 %
-%   Who has waited Since then need not wait any longer.
+%   Who has waited for Address Since then need not wait any longer.
 
-attempt_expired(Since) :-
-    deadline(Since, Deadline),
+attempt_expired(Address, Since) :-
+    deadline(Address, Since, Deadline),
     get_time(Now),
     Deadline =< Now.
 
-deadline(Since, Deadline) :-
-    patience(Seconds),
+deadline(Address, Since, Deadline) :-
+    (   contact_expected(Address)
+    ->  setting(typhon_keeper:return_time, Seconds)
+    ;   patience(Seconds)
+    ),
     Deadline is Since+Seconds.
 
 %!  attempt_due(-Time) is nondet.
@@ -187,17 +200,18 @@ deadline(Since, Deadline) :-
 %   another one: it may be the connection that is dead.
 
 attempt_due(Time) :-
-    attempt(_, State, _, Since),
-    due(State, Since, Time).
+    attempt(Address, State, _, Since),
+    due(State, Address, Since, Time).
 
-due(pausing(Until), _, Until).
-due(queued, _, Until) :-
+due(pausing(Until), _, _, Until).
+due(queued, _, _, Until) :-
     young(Until).
-due(trying(_, Start), Since, Until) :-
+due(trying(_, Start), Address, Since, Until) :-
     patience(Seconds),
     Until0 is Start+0.6*Seconds,
     (   number(Since)
-    ->  Until is min(Until0, Since+Seconds)
+    ->  deadline(Address, Since, Deadline),
+        Until is min(Until0, Deadline)
     ;   Until = Until0
     ).
 
@@ -210,6 +224,6 @@ attempts_due(Due) :-
     findall(Address-State,
             ( attempt(Address, State, _, Since),
               State \== queued,
-              due(State, Since, Until),
+              due(State, Address, Since, Until),
               Until =< Now ),
             Due).

@@ -17,8 +17,8 @@ its connection. Those who wait hear that it is up, or that there can be
 none. The attempts of a session with something to send or to hear go on.
 
 What may pass, as when a peer breaks off before we have met, is tried again
-while there is time. All else, nobody listening first of all, is told at
-once.
+while there is time. All else is told at once, nobody listening first of all,
+unless it is known that somebody soon will be.
 
 _Threading_: for the thread of the keeper alone.
 */
@@ -26,11 +26,11 @@ _Threading_: for the thread of the keeper alone.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(attempts,
-              [ attempt/4, attempt_begun/2, attempt_end/1, attempt_expired/1,
+              [ attempt/4, attempt_begun/2, attempt_end/1, attempt_expired/2,
                 attempt_next/2, attempt_pause/3, attempt_want/1,
                 attempts_due/1 ]).
 :- use_module(connection, [outgoing/2]).
-:- use_module(contacts, [contact_missed/2]).
+:- use_module(contacts, [contact_expected/1, contact_missed/2]).
 :- use_module(request, [session_unfinished/1]).
 :- use_module(session, [route/2, route_key/2]).
 :- use_module(threads,
@@ -124,18 +124,24 @@ verdict(Address, _) :-
 verdict(Address, Formal) :-
     attempt(Address, _, Pause, Since),
     debug(typhon(connect), '~w: no connection: ~p', [Address, Formal]),
-    (   over(Since, Formal)
+    (   over(Address, Since, Formal)
     ->  missed(Address, Formal),
         go_on(Address, Pause, none)
     ;   go_on(Address, Pause, Since)
     ).
 
-over(Since, Formal) :-
+over(Address, Since, Formal) :-
     number(Since),
-    (   \+ may_pass(Formal)
+    (   \+ may_pass(Formal),
+        \+ soon_there(Formal, Address)
     ->  true
-    ;   attempt_expired(Since)
+    ;   attempt_expired(Address, Since)
     ).
+
+%   It is being started again.
+
+soon_there(socket_error(econnrefused, _), Address) :-
+    contact_expected(Address).
 
 may_pass(late).
 may_pass(ended).                        % replaced by another connection
@@ -182,7 +188,7 @@ late(trying(Thread, _), Address, _) :-
     verdict(Address, late).
 late(pausing(_), Address, Me) :-
     attempt(Address, _, _, Since),
-    (   over(Since, late)
+    (   over(Address, Since, late)
     ->  verdict(Address, late)
     ;   pointless(Address, Since)
     ->  attempt_end(Address)

@@ -3,6 +3,9 @@
             contact_gone/1,             % +Address
             contact_missed/2,           % +Address, +Formal
             missed/2,                   % ?Address, ?Formal
+            contact_expect/1,           % +Address
+            contact_expect_no_more/1,   % +Address
+            contact_expected/1,         % +Address
             contact/3                   % ?Address, ?Process, ?State
           ]).
 
@@ -27,7 +30,8 @@ _Threading_: any thread; a mutex makes changes one at a time.
 
 :- dynamic
     contact/3,                          % Address, Process, met or gone
-    missed/2.                           % Address, Formal
+    missed/2,                           % Address, Formal
+    contact_expected/1.                 % Address
 
 %!  contact(?Address, ?Process, ?State) is nondet.
 %
@@ -67,6 +71,21 @@ forget_missed :-
     ->  once(retract(missed(_, _)))
     ;   true
     ).
+
+%!  contact_expect(+Address) is det.
+%!  contact_expect_no_more(+Address) is det.
+%!  contact_expected(+Address) is semidet.
+%
+%   If nobody is at Address somebody soon will be: who owns the process there
+%   starts it again.
+
+contact_expect(Address) :-
+    with_mutex(typhon_contacts,
+               ( retractall(contact_expected(Address)),
+                 assertz(contact_expected(Address)) )).
+
+contact_expect_no_more(Address) :-
+    with_mutex(typhon_contacts, retractall(contact_expected(Address))).
 
 last_met(Address, Process) :-
     contact(Address, Process0, _),

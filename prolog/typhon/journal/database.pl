@@ -1,0 +1,197 @@
+:- module(typhon_database,
+          [ database/3,                 % +Where, -Place, -Base
+            journal_part/3,             % +Where, +P, -Part
+            database_found/1,           % +Base
+            database_connect/4,         % +Base, +Seconds, -Connection, -Age
+            database_lock/3,            % +Base, +Sync, +Connection
+            database_tables/2,          % +Base, +Connection
+            database_stamp/3,           % +Base, +Connection, -Stamp
+            database_same/4,            % +Base, +Sync, +Stamp, +Connection
+            database_wrong/3,           % +Base, +Connection, -Why
+            journal_record/2,           % +Where, -Text
+            journal_record_put/2,       % +Where, +Text
+            journal_record_drop/1,      % +Where
+            in_terms_of/3               % +Place, +Base, :Goal
+          ]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(postgresql).
+:- use_module(sql, [sql_load/0]).
+:- use_module(sqlite).
+
+/** <module> Databases for a journal
+
+SQLite in a directory, or PostgreSQL at a URL; who is above does not know which.
+
+*Threading*: one thread at a time.
+*/
+
+:- meta_predicate in_terms_of(+, +, 0).
+
+:- multifile prolog:error_message//1.
+
+%!  database(+Where, -Place:atom, -Base) is det.
+%
+%   Place is what the journal is called, as in errors, Base for what is below.
+%
+%   @arg Where is a directory, postgresql(Url), or such a Url
+%   @error domain_error(postgresql_url, Url)
+
+database(postgresql(Url), Place, postgresql(Server)) :-
+    !,
+    postgresql_place(Url, '', Place, Server).
+database(postgresql(Url, Part), Place, postgresql(Server)) :-
+    !,
+    postgresql_place(Url, Part, Place, Server).
+database(Url, Place, postgresql(Server)) :-
+    postgresql_url(Url),
+    !,
+    postgresql_place(Url, '', Place, Server).
+database(Dir0, Dir, sqlite(Dir)) :-
+    absolute_file_name(Dir0, Dir).
+
+%!  journal_part(+Where, +P, -Part) is det.
+%
+%   Part is the P-th of several journals that belong together: a directory
+%   below that of Where, or another schema.
+
+journal_part(postgresql(Url), P, postgresql(Url, Part)) :-
+    !,
+    atom_concat('_process', P, Part).
+journal_part(Url, P, Part) :-
+    postgresql_url(Url),
+    !,
+    journal_part(postgresql(Url), P, Part).
+journal_part(Dir0, P, Part) :-
+    absolute_file_name(Dir0, Dir),
+    atom_concat(process, P, Name),
+    directory_file_path(Dir, Name, Part).
+
+                /*******************************
+                *           JOURNALS           *
+                *******************************/
+
+%!  database_found(+Base) is semidet.
+%!  database_connect(+Base, +Seconds, -Connection, -Age) is det.
+%!  database_lock(+Base, +Sync, +Connection) is det.
+%!  database_tables(+Base, +Connection) is det.
+%!  database_stamp(+Base, +Connection, -Stamp) is det.
+%!  database_same(+Base, +Sync, +Stamp, +Connection) is semidet.
+%!  database_wrong(+Base, +Connection, -Why) is semidet.
+%
+%   There is a journal; open it, or a new one, Age being `old` or `new`, for
+%   which another process is waited for so many seconds; a transaction begins,
+%   and nobody else can have the journal any more; make the tables of a new
+%   one; Stamp tells who has opened it last; it still is so, on another
+%   connection; it is damaged.
+
+database_found(sqlite(Dir)) :-
+    sqlite_found(Dir).
+database_found(postgresql(Server)) :-
+    postgresql_found(Server).
+
+database_connect(sqlite(Dir), Seconds, Connection, Age) :-
+    sqlite_connect(Dir, Seconds, Connection, Age).
+database_connect(postgresql(Server), Seconds, Connection, Age) :-
+    postgresql_connect(Server, Seconds, Connection, Age).
+
+database_lock(sqlite(_), Sync, Connection) :-
+    sqlite_lock(Connection, Sync).
+database_lock(postgresql(_), Sync, Connection) :-
+    postgresql_lock(Connection, Sync).
+
+database_tables(sqlite(_), Connection) :-
+    sqlite_tables(Connection).
+database_tables(postgresql(_), Connection) :-
+    postgresql_tables(Connection).
+
+database_stamp(sqlite(_), _, none).
+database_stamp(postgresql(_), Connection, Stamp) :-
+    postgresql_stamp(Connection, Stamp).
+
+database_same(postgresql(_), Sync, Stamp, Connection) :-
+    postgresql_same(Connection, Sync, Stamp).
+
+database_wrong(sqlite(_), Connection, Why) :-
+    sqlite_wrong(Connection, Why).
+
+                /*******************************
+                *            RECORD            *
+                *******************************/
+
+%!  journal_record(+Where, -Text) is semidet.
+%!  journal_record_put(+Where, +Text) is det.
+%!  journal_record_drop(+Where) is det.
+%
+%   What journals that belong together have in common is a text beside them.
+
+journal_record(Where, Text) :-
+    database(Where, Place, Base),
+    in_terms_of(Place, Base, record(Base, Text)).
+
+record(sqlite(Dir), Text) :-
+    sqlite_record(Dir, Text).
+record(postgresql(Server), Text) :-
+    sql_load,
+    postgresql_record(Server, Text).
+
+journal_record_put(Where, Text) :-
+    database(Where, Place, Base),
+    in_terms_of(Place, Base, record_put(Base, Text)).
+
+record_put(sqlite(Dir), Text) :-
+    sqlite_record_put(Dir, Text).
+record_put(postgresql(Server), Text) :-
+    postgresql_record_put(Server, Text).
+
+journal_record_drop(Where) :-
+    database(Where, Place, Base),
+    in_terms_of(Place, Base, record_drop(Base)).
+
+record_drop(sqlite(Dir)) :-
+    sqlite_record_drop(Dir).
+record_drop(postgresql(Server)) :-
+    postgresql_record_drop(Server).
+
+                /*******************************
+                *            ERRORS            *
+                *******************************/
+
+%!  in_terms_of(+Place, +Base, :Goal) is semidet.
+%
+%   As Goal, but what the driver says of errors is told as what it means.
+
+in_terms_of(Place, Base, Goal) :-
+    catch(Goal, error(odbc(_, _, Text), _),
+          (   means(Base, Text, What)
+          ->  blame(What, Text, Place)
+          ;   throw(error(journal_damaged(Place, Text), _))
+          )).
+
+means(sqlite(_), Text, What) :-
+    sqlite_blame(Text, What).
+means(postgresql(_), Text, What) :-
+    postgresql_blame(Text, What).
+
+blame(locked, _, Place) :-
+    permission_error(open, journal, Place).
+blame(full, _, _) :-
+    throw(error(resource_error(journal_space), _)).
+blame(missing(Package), Text, _) :-
+    throw(error(existence_error(package, Package), context(_, Text))).
+blame(unreachable, Text, Place) :-
+    throw(error(journal_unreachable(Place, Text), _)).
+
+prolog:error_message(journal_damaged(Dir, Why)) -->
+    [ 'The journal ~w is damaged: ~p.'-[Dir, Why], nl,
+      'Nothing in it was changed' ].
+prolog:error_message(journal_unreachable(Place, Why)) -->
+    [ 'The journal ~w cannot be reached: ~w'-[Place, Why] ].
+prolog:error_message(journal_version(Dir, _)) -->
+    [ 'The journal ~w was written by another version of Prolog or Typhon.'-[Dir],
+      nl, 'Nothing in it was changed' ].
+prolog:error_message(permission_error(open, journal, Dir)) -->
+    [ 'The journal ~w cannot be opened: another process has it, or it \c
+       cannot be written here'-[Dir] ].
+prolog:error_message(resource_error(journal_space)) -->
+    [ 'There is no room left for the journal' ].

@@ -1,0 +1,193 @@
+:- module(typhon_sql,
+          [ sql_load/0,
+            sql_connect/2,              % +Driver, -Connection
+            sql_disconnect/1,           % +Connection
+            sql_do/2,                   % +Connection, +Sql
+            sql_row/4,                  % +Connection, +Sql, -Row, +Types
+            sql_open/1,                 % +Connection
+            sql_close/0,
+            sql_execute/2,              % +Name, +Values
+            sql_execute/3,              % +Name, +Values, +Bytes
+            sql_part/3                  % +Name, +Values, -Bytes
+          ]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [append/3]).
+
+/** <module> Statements, by library(odbc)
+
+A parameter of the driver has the length that it had when its statement was
+first executed: so there is a statement for each of some lengths, and what is
+shorter is filled up.
+
+*Threading*: one thread at a time.
+*/
+
+:- dynamic
+    connection/1,                       % Connection
+    statement/3.                        % Name, Room, Statement
+
+%!  sql_load is det.
+%
+%   @error existence_error(package, 'swi-prolog-odbc')
+
+sql_load :-
+    catch(use_module(library(odbc), []), error(existence_error(_, _), _),
+          existence_error(package, 'swi-prolog-odbc')).
+
+%   Called so that nobody misses it where the package is not installed.
+
+odbc(Goal) :-
+    Called = odbc:Goal,
+    call(Called).
+
+%!  sql_connect(+Driver, -Connection) is det.
+%!  sql_disconnect(+Connection) is det.
+%
+%   @arg Driver is what odbc_driver_connect/3 expects
+%   @error odbc(State, Native, Text), as of all that is here
+
+sql_connect(Driver, Connection) :-
+    odbc(odbc_driver_connect(Driver, Connection,
+                             [silent(true), encoding(utf8)])).
+
+sql_disconnect(Connection) :-
+    catch(odbc(odbc_disconnect(Connection)), error(_, _), true).
+
+%!  sql_do(+Connection, +Sql) is det.
+%!  sql_row(+Connection, +Sql, -Row, +Types) is nondet.
+%
+%   Do Sql, whatever it answers; each row that it answers with.
+
+sql_do(Connection, Sql) :-
+    ignore(odbc(odbc_query(Connection, Sql, _, []))).
+
+sql_row(Connection, Sql, Row, Types) :-
+    wide(Wide),
+    odbc(odbc_query(Connection, Sql, Row, [types(Types)|Wide])).
+
+                /*******************************
+                *          STATEMENTS          *
+                *******************************/
+
+%!  sql_open(+Connection) is det.
+%!  sql_close is det.
+%
+%   Statements are those of Connection from now on; there are none.
+
+sql_open(Connection) :-
+    assertz(connection(Connection)),
+    forall(( sql(Name, Sql, Types), \+ memberchk(bytes, Types) ),
+           prepare(Connection, Name, 0, Sql, Types)).
+
+sql_close :-
+    forall(retract(statement(_, _, Statement)),
+           catch(odbc(odbc_free_statement(Statement)), error(_, _), true)),
+    retractall(connection(_)).
+
+prepare(Connection, Name, Room, Sql, Types0) :-
+    maplist(parameter_type, Types0, Types),
+    options(Name, Options),
+    odbc(odbc_prepare(Connection, Sql, Types, Statement, Options)),
+    assertz(statement(Name, Room, Statement)).
+
+%   A type of text without a length would bind the empty text.
+
+parameter_type(kind, varchar(64)).
+parameter_type(key, varchar(2000)).
+parameter_type(number, bigint).
+parameter_type(bytes, longvarbinary(60000)).
+
+options(parts, [types([string])|Wide]) :-
+    wide(Wide),
+    !.
+options(_, []).
+
+%   What is longer than a kilobyte would come damaged otherwise.
+
+wide([wide_column_threshold(100)]).
+
+%   What both databases understand.
+
+sql(begin, begin, []).
+sql(commit, commit, []).
+sql(rollback, rollback, []).
+sql(put, 'insert into item values (?, ?, ?, ?, ?, ?) \c
+          on conflict (kind, key, n) do update set \c
+          length=excluded.length, sum=excluded.sum, value=excluded.value',
+    [kind, key, number, number, number, bytes]).
+sql(put_part, 'insert into part values (?, ?, ?, ?, ?)',
+    [kind, key, number, number, bytes]).
+sql(drop, 'delete from item where kind=? and key=? and n=?',
+    [kind, key, number]).
+sql(drop_part, 'delete from part where kind=? and key=? and n=?',
+    [kind, key, number]).
+sql(drop_all, 'delete from item where kind=? and key=?', [kind, key]).
+sql(drop_below, 'delete from item where kind=? and key=? and n<?',
+    [kind, key, number]).
+sql(parts, 'select value from part where kind=? and key=? and n=? \c
+            order by part', [kind, key, number]).
+
+%!  sql_execute(+Name, +Values) is det.
+%!  sql_execute(+Name, +Values, +Bytes) is det.
+%
+%   Execute a statement of sql/3; Bytes are the last value.
+
+sql_execute(Name, Values) :-
+    statement(Name, 0, Statement),
+    !,
+    odbc(odbc_execute(Statement, Values)).
+
+sql_execute(Name, Values0, Bytes) :-
+    string_length(Bytes, Length),
+    room(Length, Room),
+    statement_of(Name, Room, Statement),
+    filled(Length, Room, Bytes, Full),
+    append(Values0, [Full], Values),
+    odbc(odbc_execute(Statement, Values)).
+
+statement_of(Name, Room, Statement) :-
+    statement(Name, Room, Statement),
+    !.
+statement_of(Name, Room, Statement) :-
+    connection(Connection),
+    sql(Name, Sql, Types),
+    prepare(Connection, Name, Room, Sql, Types),
+    statement(Name, Room, Statement).
+
+room(Length, Room) :-
+    (   Length =< 512
+    ->  Step = 32
+    ;   Length =< 4096
+    ->  Step = 256
+    ;   Step = 2048
+    ),
+    Room is (Length+Step-1)//Step*Step.
+
+filled(Length, Room, Bytes, Full) :-
+    (   Length =:= Room
+    ->  Full = Bytes
+    ;   Missing is Room-Length,
+        filler(Filler),
+        sub_string(Filler, 0, Missing, _, Fill),
+        string_concat(Bytes, Fill, Full)
+    ).
+
+%!  sql_part(+Name, +Values, -Bytes) is nondet.
+%
+%   The rows of a statement that answers with bytes.
+
+sql_part(Name, Values, Bytes) :-
+    statement(Name, 0, Statement),
+    odbc(odbc_execute(Statement, Values, row(Bytes))).
+
+:- dynamic filler/1.
+
+make_filler :-
+    length(Codes, 2048),
+    maplist(=(0'.), Codes),
+    string_codes(Filler, Codes),
+    assertz(filler(Filler)).
+
+:- initialization(make_filler, now).
+

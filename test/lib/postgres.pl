@@ -1,0 +1,101 @@
+:- module(test_postgres,
+          [ postgres_start/0,
+            postgres_stop/0,
+            postgres_url/2              % +Schema, -Url
+          ]).
+
+/** <module> A server of PostgreSQL for the time of a suite
+
+It has its data in a temporary directory, and listens at a socket there.
+
+*Threading*: the main thread.
+*/
+
+:- use_module(library(filesex),
+              [delete_directory_and_contents/1, directory_file_path/3]).
+:- use_module(library(lists), [append/3, last/2]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+
+:- dynamic running/3.                   % Dir, Pid, Err
+
+%!  postgres_start is det.
+%!  postgres_stop is det.
+%!  postgres_url(+Schema, -Url) is det.
+%
+%   A server runs; it does not, and has left nothing; the URL of a schema there.
+
+postgres_start :-
+    tmp_file(typhon_postgres, Dir),
+    make_directory(Dir),
+    owned(Dir),
+    run(initdb, ['-D', Dir, '-U', typhon, '-A', trust, '-N', '-E', 'UTF8',
+                 '--locale=C']),
+    start(Dir, Pid, Err),
+    assertz(running(Dir, Pid, Err)).
+
+postgres_stop :-
+    retract(running(Dir, Pid, Err)),
+    process_kill(Pid, int),
+    process_wait(Pid, _),
+    close(Err),
+    delete_directory_and_contents(Dir).
+
+start(Data, Pid, Err) :-
+    command(postgres, ['-D', Data, '-k', Data, '-h', '', '-F'], File, Args),
+    process_create(File, Args,
+                   [stdin(null), stdout(null), stderr(pipe(Err)), process(Pid)]),
+    repeat,
+    read_line_to_string(Err, Line),
+    (   Line == end_of_file
+    ->  throw(error(system_error(no_postgres), _))
+    ;   sub_string(Line, _, _, _, "ready to accept")
+    ),
+    !.
+
+postgres_url(Schema, Url) :-
+    running(Dir, _, _),
+    format(atom(Url), 'postgresql://typhon@/postgres?host=~w&schema=~w',
+           [Dir, Schema]).
+
+                /*******************************
+                *           PROGRAMS           *
+                *******************************/
+
+%   It refuses to run as root.
+
+command(Name, Args0, File, Args) :-
+    program(Name, Program),
+    (   root
+    ->  File = path(setpriv),
+        append([ '--reuid=nobody', '--regid=nogroup', '--clear-groups',
+                 Program ], Args0, Args)
+    ;   File = Program,
+        Args = Args0
+    ).
+
+run(Name, Args0) :-
+    command(Name, Args0, File, Args),
+    process_create(File, Args,
+                   [stdin(null), stdout(null), stderr(null), process(Pid)]),
+    process_wait(Pid, exit(0)).
+
+program(Name, Program) :-
+    expand_file_name('/usr/lib/postgresql/*/bin', Dirs),
+    last(Dirs, Dir),
+    directory_file_path(Dir, Name, Program).
+
+owned(Dir) :-
+    (   root
+    ->  process_create(path(chown), ['nobody:nogroup', Dir], [process(Pid)]),
+        process_wait(Pid, exit(0))
+    ;   true
+    ).
+
+root :-
+    setup_call_cleanup(
+        process_create(path(id), ['-u'], [stdout(pipe(Out)), process(Pid)]),
+        read_line_to_string(Out, User),
+        ( close(Out), process_wait(Pid, _) )),
+    User == "0".

@@ -1,0 +1,372 @@
+:- module(test_network_journal, []).
+:- use_module('../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
+:- use_module(library(lists), [member/2, nth0/3, nth1/3, sum_list/2]).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(readutil),
+              [read_file_to_codes/3, read_line_to_string/2]).
+:- use_module(library(settings), [set_setting/2, setting/2]).
+:- use_module(library(typhon)).
+
+:- needs([journal]).
+
+/** <module> Tests of networks that outlive their processes
+*/
+
+:- meta_predicate
+    network(+, +, +, 1),
+    quiet(0),
+    with_setting(+, +, 0).
+
+%   network(+Dir, +Topology, +Options, :Goal): with a journal in Dir.
+
+network(Dir, Topology, Options, Goal) :-
+    setup_call_cleanup(
+        network_start(Topology, Network, [journal(Dir)|Options]),
+        once(call(Goal, Network)),
+        network_stop(Network)).
+
+with_setting(Setting, Value, Goal) :-
+    setting(Setting, Old),
+    setup_call_cleanup(
+        set_setting(Setting, Value),
+        once(Goal),
+        set_setting(Setting, Old)).
+
+%   Messages that a test provokes are not printed.
+
+:- dynamic expected/0, printed/1.
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(typhon(Message), _, _) :-
+    expected,
+    assertz(printed(Message)).
+
+quiet(Goal) :-
+    retractall(printed(_)),
+    setup_call_cleanup(assertz(expected), once(Goal), retractall(expected)).
+
+hosts(Network, Hosts) :-
+    network_property(Network, hosts(Hosts)).
+
+pids(Network, Pids) :-
+    network_property(Network, processes(Pids)).
+
+kill(Network, I) :-
+    pids(Network, Pids),
+    nth1(I, Pids, Pid),
+    process_kill(Pid, kill),
+    wait_until(( pids(Network, Now), \+ memberchk(Pid, Now) ), 10).
+
+%   It goes round so many times, and counts at each host, which counts, too.
+
+walker(clauses([ (:- agent(walker, [state([made/1, todo/1])])),
+                 made(0),
+                 (main :- made(N), todo(N), !, result(N)),
+                 (main :- made(N), neighbours(Hosts),
+                          length(Hosts, L), I is N mod L, nth0(I, Hosts, H),
+                          move(H),
+                          retract(made(_)), N1 is N+1, assertz(made(N1)),
+                          ( take(visits(V)) -> true ; V = 0 ),
+                          V1 is V+1, leave(visits(V1)),
+                          sleep(0.01),
+                          main) ])).
+
+walkers(Hosts, Hops, Agents) :-
+    walker(Program),
+    findall(Agent,
+            ( member(Host, Hosts),
+              agent_create(Program, Agent, [host(Host), facts([todo(Hops)])]) ),
+            Agents).
+
+%   Each has ended once, with the right count, and so have the hosts.
+
+all_arrived(Hosts, Hops, Agents) :-
+    forall(member(Agent, Agents), agent_result(Agent, Hops, 60)),
+    findall(V,
+            ( member(Host, Hosts),
+              remote(Host, findall(V0, sense(visits(V0)), Vs)),
+              member(V, Vs) ),
+            Visits),
+    sum_list(Visits, Sum),
+    length(Agents, Count),
+    Sum =:= Count*Hops.
+
+:- begin_tests(network_journal).
+
+test('agents walk while processes are killed: none is lost or doubled') :-
+    quiet(no_leaks(with_tmp_dir(killed))).
+
+killed(Dir) :-
+    network(Dir, ring(4), [processes(2), restart(true)], killed(100)).
+
+killed(Hops, Network) :-
+    hosts(Network, Hosts),
+    network_property(Network, edges(Edges)),
+    walkers(Hosts, Hops, Agents),
+    forall(member(I, [1, 2, 1, 2]), kill(Network, I)),
+    all_arrived(Hosts, Hops, Agents),
+    hosts(Network, Hosts),
+    network_property(Network, edges(Edges)),
+    network_property(Network, agents([])).
+
+test('what was going on when it was stopped goes on when it is started again') :-
+    no_leaks(with_tmp_dir(stopped)).
+
+stopped(Dir) :-
+    Options = [processes(2), seed(7), log(Log, [hops])],
+    directory_file_path(Dir, 'log.pl', Log),
+    network(Dir, ring(4), Options, begun(Hosts, Agents, Keeper, Edges, Time)),
+    network(Dir, ring(4), [], goes_on(Hosts, Agents, Keeper, Edges, Time)),
+    log_events(Log, Events),
+    forall(member(Agent, Agents),
+           ( findall(x, member(event(_, _, Agent, ended(done)), Events), [_]),
+             findall(x, member(event(_, _, Agent, arrived(_, _)), Events),
+                     Arrivals),
+             length(Arrivals, Count),
+             Count > 50 )).
+
+begun(Hosts, Agents, Keeper, Edges, Time, Network) :-
+    hosts(Network, Hosts),
+    Hosts = [A, B, C|_],
+    unlink(A, B),
+    network_property(Network, edges(Edges)),
+    walkers(Hosts, 60, Agents),
+    agent_create(clauses([ (:- agent(keeper, [state([got/1])])),
+                           (on_message(_, M) :- assertz(got(M))) ]),
+                 Keeper, [host(A)]),
+    agent_send(Keeper, one),
+    agent_move(Keeper, C),
+    remote(A, leave(here(f(_)))),
+    remote(A, now(Time)).
+
+goes_on(Hosts, Agents, Keeper, Edges, Time, Network) :-
+    hosts(Network, Hosts),
+    network_property(Network, edges(Edges)),
+    network_property(Network, seed(7)),
+    Hosts = [A, _, C|_],
+    agent_property(Keeper, host(C)),
+    agent_send(Keeper, two),
+    remote(A, findall(F, sense(here(F)), [f(_)])),
+    remote(A, now(Now)),
+    Now > Time, Now < Time+100,
+    all_arrived(Hosts, 60, Agents),
+    wait_until(agent_property(Keeper, facts([got(one), got(two)])), 5).
+
+test('a network in one process, which is killed, and its whole family, too',
+     [forall(member(Processes, [1, 2]))]) :-
+    with_tmp_dir(killed_as_a_whole(Processes)).
+
+killed_as_a_whole(Processes, Dir) :-
+    first_life(Dir, Processes, Hosts, Agents),
+    no_leaks(network(Dir, ring(3), [], after_all(Hosts, Agents))).
+
+first_life(Dir, Processes, Hosts, Agents) :-
+    project_file(prolog, Library),
+    format(atom(Path), 'library=~w', [Library]),
+    walker(Program),
+    format(atom(Goal),
+           'use_module(library(typhon)), ~q=Program, \c
+            network_start(ring(3), N, [journal(~q), processes(~d)]), \c
+            network_property(N, hosts(Hosts)), \c
+            findall(A, ( member(H, Hosts), \c
+                         agent_create(Program, A, [host(H), facts([todo(60)])]) ), \c
+                    Agents), \c
+            format("~~q.~~n", [Hosts-Agents]), flush_output, \c
+            thread_get_message(x)', [Program, Dir, Processes]),
+    with_swipl(['-f', none, '-p', Path, '-g', Goal], Pid, _, Out,
+               ( read_line_to_string(Out, Line),
+                 term_string(Hosts-Agents, Line),
+                 process_kill(Pid, kill) )).
+
+after_all(Hosts, Agents, Network) :-
+    hosts(Network, Hosts),
+    all_arrived(Hosts, 60, Agents).
+
+test('links that come and go are where they would be', Edges == Expected) :-
+    with_tmp_dir(come_and_go(Edges, Expected)).
+
+%   At a hundredth of the speed nothing happens between two questions.
+
+come_and_go(Edges, Expected, Dir) :-
+    Options = [ processes(2), seed(3), clock(20),
+                dynamic(links(uniform(1, 2), 0.5, 0.9)) ],
+    network(Dir, ring(6), Options, some_changes),
+    network(Dir, ring(6), [], now_there(Edges, Expected)).
+
+some_changes(Network) :-
+    hosts(Network, [Host|_]),
+    wait_until(( remote(Host, now(Time)), Time > 6 ), 10).
+
+now_there(Edges, Expected, Network) :-
+    wait_until(as_it_would_be(Network, Edges, Expected), 10).
+
+as_it_would_be(Network, Edges, Expected) :-
+    typhon_networks:network(Network, Plan),
+    hosts(Network, Hosts),
+    Hosts = [Host|_],
+    remote(Host, now(Before)),
+    network_property(Network, edges(Edges)),
+    remote(Host, now(After)),
+    typhon_plan:plan_links_at(Plan, Before, Links),
+    typhon_plan:plan_links_at(Plan, After, Links),
+    findall(A-B,
+            ( member(link(I, J, _), Links),
+              nth1(I, Hosts, A), nth1(J, Hosts, B) ),
+            Expected0),
+    msort(Edges, Sorted),
+    msort(Expected0, Sorted),
+    Expected = Edges.
+
+                /*******************************
+                *            ERRORS            *
+                *******************************/
+
+refused(Dir, Topology, Options, Formal) :-
+    contents(Dir, Before),
+    catch(no_leaks(network(Dir, Topology, Options, true)),
+          error(Formal0, _), true),
+    contents(Dir, Before),
+    Formal = Formal0.
+
+true(_).
+
+contents(Dir, Contents) :-
+    findall(File-Codes,
+            ( directory_member(Dir, File, [recursive(true)]),
+              exists_file(File),
+              read_file_to_codes(File, Codes, [type(binary)]) ),
+            Contents0),
+    msort(Contents0, Contents).
+
+test('the journal of another network is not touched',
+     Formals =@= [ journal_of_another(D, shape(_, _), shape(_, _)),
+                   journal_of_another(D, processes(2), processes(3)),
+                   journal_of_another(D, no(clock), clock(2)),
+                   domain_error(network_option, colour(red)) ]) :-
+    with_tmp_dir(other(D, Formals)).
+
+other(D, Formals, D) :-
+    network(D, ring(3), [processes(2)], true),
+    findall(Formal,
+            ( member(Topology-Options,
+                     [ ring(4)-[], ring(3)-[processes(3)],
+                       ring(3)-[clock(2)], ring(3)-[colour(red)] ]),
+              refused(D, Topology, Options, Formal0),
+              forgotten(Formal0, Formal) ),
+            Formals).
+
+forgotten(journal_of_another(D, shape(_, _), shape(_, _)), Formal) =>
+    Formal = journal_of_another(D, shape(_, _), shape(_, _)).
+forgotten(Formal0, Formal) =>
+    Formal = Formal0.
+
+test('a journal that is damaged, or another process has, is told as that',
+     Formals = [ journal_damaged(_, _), journal_damaged(_, _),
+                 permission_error(open, journal, _) ]) :-
+    with_setting(typhon_children:stop_seconds, 1,
+                 quiet(with_tmp_dir(no_good(Formals)))).
+
+no_good([F1, F2, F3], Dir) :-
+    network(Dir, ring(2), [processes(2)], true),
+    directory_file_path(Dir, 'process2', Second),
+    directory_file_path(Second, 'journal.db', File),
+    directory_file_path(Dir, 'network.pl', Record),
+    maplist(spoilt(Dir), [File, Record], [F1, F2]),
+    project_file('prolog/typhon/journal/store.pl', Store),
+    format(atom(Goal), 'journal_open(~q, normal), writeln(open), \c
+                        flush_output, read(_)', [Second]),
+    with_swipl(['-g', Goal, '-t', halt, Store], _, _, Out,
+               ( read_line_to_string(Out, "open"),
+                 catch(no_leaks(network(Dir, ring(2), [], true)),
+                       error(F3, _), true) )),
+    no_leaks(network(Dir, ring(2), [], true)).
+
+%   As it was, afterwards.
+
+spoilt(Dir, File, Formal) :-
+    atom_concat(File, '.good', Good),
+    rename_file(File, Good),
+    setup_call_cleanup(open(File, write, Out),
+                       forall(between(1, 3000, I), writeln(Out, f(I))),
+                       close(Out)),
+    read_file_to_codes(File, Before, [type(binary)]),
+    catch(no_leaks(network(Dir, ring(2), [], true)),
+          error(Formal, _), true),
+    read_file_to_codes(File, Before, [type(binary)]),
+    rename_file(Good, File).
+
+test('there is none in virtual time, nor where hosts are already',
+     Formals == [ permission_error(open, journal, '/tmp/none'),
+                  permission_error(open, journal, '/tmp/none/process1') ]) :-
+    catch(network_start(ring(2), _, [journal('/tmp/none'), clock(virtual)]),
+          error(F1, _), true),
+    setup_call_cleanup(
+        host_start(other),
+        catch(network_start(ring(2), _, [journal('/tmp/none')]),
+              error(F2, _), true),
+        host_stop(other)),
+    Formals = [F1, F2].
+
+:- end_tests(network_journal).
+
+:- begin_tests(network_restart).
+
+test('without a journal hosts come again empty, where they were') :-
+    quiet(no_leaks(again)).
+
+again :-
+    setup_call_cleanup(
+        network_start(ring(4), Network,
+                      [ processes(2), restart(true), places(leave(food)) ]),
+        again(Network),
+        network_stop(Network)).
+
+again(Network) :-
+    hosts(Network, Hosts),
+    Hosts = [A, _, C|_],
+    network_property(Network, edges(Edges)),
+    forall(member(H, [A, C]), remote(H, leave(mine))),
+    kill(Network, 1),
+    hosts(Network, Hosts),
+    network_property(Network, edges(Edges)),
+    maplist(facts, [A, C], [[food], [food, mine]]),
+    agent_create(clauses([ (:- agent(visits, [])),
+                           (main :- neighbours([H|_]), move(H)) ]), Agent,
+                 [host(A)]),
+    agent_join(Agent, done, 10).
+
+facts(Host, Facts) :-
+    remote(Host, findall(F, sense(F), Facts)).
+
+test('one that dies again and again is left alone at last, and that is told',
+     Told = [carrier_given_up(_, 1, 2, 60)]) :-
+    with_setting(typhon_restarts:restarts, 2, quiet(no_leaks(too_often))),
+    findall(carrier_given_up(N, P, M, S),
+            printed(carrier_given_up(N, P, M, S)), Told).
+
+too_often :-
+    setup_call_cleanup(
+        network_start(ring(2), Network, [processes(2), restart(true)]),
+        ( kill(Network, 1),
+          kill(Network, 1),
+          pids(Network, [Pid, Other]),
+          process_kill(Pid, kill),
+          wait_until(pids(Network, [Other]), 10),
+          hosts(Network, [_, _]) ),
+        network_stop(Network)).
+
+test('a network is stopped while one of its processes begins again') :-
+    quiet(no_leaks(stopped_meanwhile)).
+
+stopped_meanwhile :-
+    network_start(ring(3), Network, [processes(3), restart(true)]),
+    pids(Network, [Pid|_]),
+    process_kill(Pid, kill),
+    wait_until(printed(carrier_down(_, _, _)), 5),
+    network_stop(Network).
+
+:- end_tests(network_restart).
