@@ -14,7 +14,7 @@
 :- use_module('../base/options', [check_option/2, check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal',
-              [ journal_barrier/0, journal_begin/0, journal_close/0,
+              [ journal_barrier/0, journal_begin/1, journal_close/0,
                 journal_end/0, journal_item/5, journal_number_after/1,
                 journal_on/0, journal_open/2, journal_opened/1, note_drop/3,
                 note_put/4 ]).
@@ -200,10 +200,10 @@ start_from(Dir, _, Options) :-
 start_from(Dir, Name, Options) :-
     option(sync(Sync), Options, normal),
     journal_open(Dir, Sync),
-    catch(begin_from_journal(Name, Options), Ball,
+    catch(begin_from_journal(Sync, Name, Options), Ball,
           ( journal_close, give_up_hosts, journal_end, throw(Ball) )).
 
-begin_from_journal(Name, Options) :-
+begin_from_journal(Sync, Name, Options) :-
     forall(journal_item(number, any, _, _, N), journal_number_after(N)),
     findall(Other-Known, known_host(Other, Known), Hosts),
     (   memberchk(Name-Known, Hosts)
@@ -215,7 +215,7 @@ begin_from_journal(Name, Options) :-
            ( start_new(Other, OtherOptions),
              assertz(from_journal(Other)) )),
     forall(typhon_recovery:recover, true),
-    journal_begin,
+    journal_begin(Sync),
     forall(typhon_recovery:tidy, true),
     forall(host(Host, _, _), note_host(Host)),
     endpoint_open,
