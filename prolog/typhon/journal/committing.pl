@@ -42,7 +42,7 @@ may take those of sessions: who holds one of these must not commit.
 
 %   What nobody waits for waits so long; what failed is tried again.
 
-idle_seconds(0.005).
+idle_seconds(0.02).
 again_seconds(1).
 
                 /*******************************
@@ -137,14 +137,42 @@ journal_full(Error) :-
 %   @error resource_error(journal_space)
 
 commit :-
-    sig_atomic(with_mutex(typhon_commit, commit_all)).
+    sig_atomic(( with_mutex(typhon_commit, commit_all),
+                 once_more )).
 
 commit_soon :-
     queue(_, _, full),
     !,
     wake(now).
 commit_soon :-
-    catch(commit, error(_, _), true).   % the thread tries again, and tells
+    sig_atomic(commit_or_leave).
+
+%   Nobody waits for who commits: he finds that more is wanted, and does it.
+
+commit_or_leave :-
+    mutex_trylock(typhon_commit),
+    !,
+    commit_locked.
+commit_or_leave :-
+    set_flag(typhon_journal_wanted, 1),
+    mutex_trylock(typhon_commit),
+    !,                                  % he may not have seen that
+    commit_locked.
+commit_or_leave.
+
+%   If it cannot be done the thread tries again, and tells.
+
+commit_locked :-
+    set_flag(typhon_journal_wanted, 0),
+    call_cleanup(catch(commit_all, error(_, _), true),
+                 mutex_unlock(typhon_commit)),
+    once_more.
+
+once_more :-
+    (   get_flag(typhon_journal_wanted, 1)
+    ->  commit_or_leave
+    ;   true
+    ).
 
 commit_all :-
     queue(Entries, _, _),
