@@ -1,27 +1,68 @@
 :- use_module(common).
 :- use_module(traveller).
 :- use_module(library(typhon)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
+:- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
 /*  What a journal costs: the hops of bench/hops.pl without one, and with one
 in both processes; and how long a process with many agents takes to be there
-again.
+again.  Hops are counted for some seconds, one way after the other, in rounds
+of which the median counts: that of the ratios, too, each of one round.
 
     swipl bench/journal.pl -- unpinned */
 
 :- initialization(main, main).
 
 main([unpinned]) :-
-    rates(none, Plain, _),
-    rates(normal, Normal, Normal100),
-    rates(full, _, Full100),
-    figure('1 agent without a journal: hops per second', Plain, '1/s'),
-    ratio('a hop with sync(normal)', Plain, Normal, '1/s', 'without'),
-    figure('100 agents, sync(normal): hops per second', Normal100, '1/s'),
-    figure('100 agents, sync(full): hops per second', Full100, '1/s'),
+    rounds(Rounds),
+    findall(Round, ( between(1, Rounds, _), round(Round) ), All),
+    forall(told(Name, Unit, Round, Value, Note),
+           ( findall(Value, member(Round, All), Values),
+             median(Values, Median),
+             figure(Name, Median, Unit, Note) )),
     recovery(100000).
+
+rounds(3).
+
+%   Of a round: hops per second of one agent and of a hundred, each way, and
+%   how often the disk alone syncs.
+
+round(round(none(A1, _), normal(B1, B100), full(C1, C100), Syncs)) :-
+    rates(none, A1, _),
+    rates(normal, B1, B100),
+    rates(full, C1, C100),
+    syncs(Syncs).
+
+told('1 agent without a journal: hops per second', '1/s',
+     round(none(V, _), _, _, _), V, '').
+told('1 agent, sync(normal): hops per second', '1/s',
+     round(_, normal(V, _), _, _), V, '').
+told('1 agent, sync(full): hops per second', '1/s',
+     round(_, _, full(V, _), _), V, '').
+told('a hop with sync(normal)', times,
+     round(none(A, _), normal(B, _), _, _), A/B, 'one without').
+told('100 agents, sync(normal): hops per second', '1/s',
+     round(_, normal(_, V), _, _), V, '').
+told('100 agents, sync(full): hops per second', '1/s',
+     round(_, _, full(_, V), _), V, '').
+told('the same for each time that the disk alone syncs', '',
+     round(_, _, full(_, V), Syncs), V/Syncs, '').
+told('the disk alone syncs, times per second', '1/s',
+     round(_, _, _, Syncs), Syncs, '').
+
+median(Values0, Median) :-
+    maplist(number, Values0, Values1),
+    msort(Values1, Values),
+    length(Values, Count),
+    Middle is Count//2,
+    nth0(Middle, Values, Median).
+
+number(Value, Number) :-
+    Number is float(Value).
 
 rates(Sync, One, Hundred) :-
     with_directory(rates(Sync, One, Hundred)).
@@ -34,9 +75,10 @@ with_directory(Goal) :-
 
 rates(Sync, One, Hundred, Dir) :-
     here(Sync, Dir, Options),
-    host_start(here, Options),
-    with_other(Sync, Dir, both(One, Hundred)),
-    host_stop(here).
+    setup_call_cleanup(
+        host_start(here, Options),
+        with_other(Sync, Dir, both(One, Hundred)),
+        host_stop(here)).
 
 here(none, _, []) :-
     !.
@@ -44,9 +86,38 @@ here(Sync, Dir, [journal(Own), sync(Sync)]) :-
     atom_concat(Dir, '/here', Own).
 
 both(One, Hundred, Peer) :-
-    travelled(1, 3000, Peer, _),
-    travelled(1, 10000, Peer, rates(One, _)),
-    travelled(100, 20000, Peer, rates(Hundred, _)).
+    rate(1, 1, Peer, _),                % warm up
+    rate(1, 3, Peer, One),
+    rate(100, 4, Peer, Hundred).
+
+%   rate(+Agents, +Seconds, +Peer, -PerSecond)
+
+rate(Agents, Seconds, Peer, PerSecond) :-
+    walker(Program),
+    get_time(Start),
+    Until is Start+Seconds,
+    findall(Agent,
+            ( between(1, Agents, _),
+              agent_create(Program, Agent,
+                           [facts([left(0), peer(Peer), until(Until)])]) ),
+            All),
+    aggregate_all(sum(Hops),
+                  ( member(Agent, All),
+                    agent_result(Agent, Hops, 300) ),
+                  Sum),
+    get_time(End),
+    PerSecond is Sum/(End-Start).
+
+%   As the other, which ends after so many hops.
+
+walker(clauses([ (:- agent(walker,
+                           [state([left/1,peer/1,fact/2,until/1])])),
+                 (main :- until(Until), get_time(Now), Now > Until, !,
+                          left(N), result(N)),
+                 (main :- retract(left(N0)), N is N0+2, assertz(left(N)),
+                          peer(P), move(P), home(H), move(H), main)
+               | Rest ])) :-
+    traveller(clauses([_, _, _|Rest])).
 
 :- meta_predicate with_other(+, +, 1).
 
@@ -67,6 +138,23 @@ with_other(Sync, Dir, Goal) :-
           atom_string(Address, Line),
           call(Goal, Address) ),
         ( close(In), process_wait(Pid, _), close(Out) )).
+
+%   Writes of the length of a page, each of which is on the disk before the
+%   next, where the journals are.
+
+syncs(PerSecond) :-
+    with_directory(syncs(PerSecond)).
+
+syncs(PerSecond, Dir) :-
+    atom_concat('of=', Dir, Of0),
+    atom_concat(Of0, '/disk', Of),
+    Count = 400,
+    atom_concat('count=', Count, Many),
+    seconds(( process_create(path(dd), ['if=/dev/zero', Of, 'bs=4096', Many,
+                                        'oflag=dsync', 'status=none'],
+                             [process(Pid)]),
+              process_wait(Pid, exit(0)) ), Seconds),
+    PerSecond is Count/Seconds.
 
 recovery(Count) :-
     with_directory(recovery(Count)).

@@ -11,10 +11,12 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(journal/ledger,
             [ journal_begin/0, journal_close/0, journal_end/0,
               journal_guards/0, journal_on/0,
-              journal_barrier/0, journal_commit/0, journal_number/1,
+              journal_barrier/0, journal_commit/0, journal_go/0,
+              journal_let_out/2, journal_number/1,
               journal_number_after/1, journal_seal/0,
               journal_step/1, note_drop/3, note_drop_all/2,
-              note_drop_below/3, note_put/4
+              note_drop_at_once/3, note_drop_below/3, note_put/4,
+              note_put_at_once/4
             ]).
 :- reexport(journal/database,
             [ journal_part/3, journal_record/2, journal_record_drop/1,

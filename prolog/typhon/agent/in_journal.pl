@@ -3,7 +3,8 @@
             agent_back/3                % +Id, +Record, +Place
           ]).
 :- use_module('../journal',
-              [journal_item/5, journal_on/0, note_drop/3, note_put/4]).
+              [ journal_item/5, journal_on/0, note_drop_at_once/3,
+                note_put/4, note_put_at_once/4 ]).
 :- use_module('../program', [code_receive/2, code_sent/2]).
 :- use_module(agent_module, [agent_module/5, agent_state/2]).
 :- use_module(agents, [agent/5, agent_enter/3]).
@@ -60,19 +61,28 @@ passing(held).
 passing(resumed).
 passing(arriving).
 
+%   That it is noted others see at once: so it is, also where the step of who
+%   brings it is not, or is committed after theirs.
+
 note_code(Hash) :-
     code_noted(Hash),
     !.
 note_code(Hash) :-
     code_sent(Hash, Sent),
-    note_put(code, Hash, 0, Sent),
-    assertz(code_noted(Hash)).
+    with_mutex(typhon_code_noted,
+               (   code_noted(Hash)
+               ->  true
+               ;   note_put_at_once(code, Hash, 0, Sent),
+                   assertz(code_noted(Hash))
+               )).
 
 %   A program that has been thrown out is not needed any more.
 
 typhon_code:retiring(Hash) :-
-    retract(code_noted(Hash)),
-    note_drop(code, Hash, 0),
+    code_noted(Hash),
+    with_mutex(typhon_code_noted,
+               ( retract(code_noted(Hash)),
+                 note_drop_at_once(code, Hash, 0) )),
     fail.
 
 %!  agent_back(+Id, +Record, +Place) is semidet.

@@ -10,32 +10,32 @@
             note_drop/3,                % +Kind, +Key, +N
             note_drop_all/2,            % +Kind, +Key
             note_drop_below/3,          % +Kind, +Key, +N
+            note_put_at_once/4,         % +Kind, +Key, +N, +Term
+            note_drop_at_once/3,        % +Kind, +Key, +N
             note_change/1,              % +Change
             note_bytes/2,               % +Term, -Bytes
             journal_step/1,             % :Goal
             journal_seal/0,
             journal_barrier/0,
-            journal_commit/0
+            journal_commit/0,
+            journal_let_out/2,          % +Item, +When
+            journal_go/0
           ]).
-:- use_module(library(lists), [append/2, reverse/2]).
-:- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
-:- use_module('../base/fifo', [fifo_empty/2]).
-:- use_module('../base/output', [output_own/0]).
-:- use_module(crash, [crash_point/1]).
-:- use_module(store, [store_close/0, store_commit/1]).
+:- use_module(committing,
+              [ commit/0, commit_soon/0, committing_begin/0, committing_end/0,
+                entry/1, journal_full/1, let_out/1 ]).
+:- use_module(store, [store_close/0]).
 
 /** <module> What is to be committed
 
 Who changes something that is to outlive the process notes it, before others
 can see the change.  What belongs together is noted inside journal_step/1, and
-sealed: then it is one entry of a queue.  Entries are committed in order, as
-many at a time as there are, so what is in the store is always what was so at
-some moment.
+sealed: then it is one entry, and committed as a whole.  Entries are committed
+in order, so what is in the store is always what was so at some moment.
 
-Who lets something out of the process says journal_barrier/0 before: it
-returns when all that was sealed until then is committed.  Of those who wait
-there the first commits for all.  What nobody waits for is committed by a
-thread within some milliseconds.
+Who lets something out of the process has it go when all is committed that it
+may follow from: journal_let_out/2.  Who has to know that something is
+committed says journal_barrier/0, and waits.
 
 *Threading*: any thread.  Changes of one item are noted one after another,
 inside the mutex that guards what it is about.
@@ -45,18 +45,10 @@ inside the mutex that guards what it is about.
 
 :- dynamic
     journal_on/0,
-    journal_guards/0,
-    queue/2,                            % Entries, Wake
-    unsaved/1,                          % Changes that could not be committed
-    committer/1,                        % Thread
-    told/1.                             % Error: nothing can be committed
+    journal_guards/0.
 
 :- thread_local
     noted/1.                            % Change
-
-%   What nobody waits for waits so long.
-
-idle_seconds(0.005).
 
                 /*******************************
                 *        OPEN AND CLOSE        *
@@ -76,32 +68,16 @@ idle_seconds(0.005).
 %   there is a barrier, from begin to end.
 
 journal_begin :-
-    message_queue_create(Entries),
-    message_queue_create(Wake),
-    assertz(queue(Entries, Wake)),
-    set_flag(typhon_journal_awake, 0),
-    thread_create(commit_at_leisure(Wake), Thread, [alias(typhon_journal)]),
-    assertz(committer(Thread)),
+    committing_begin,
     assertz(journal_guards),
     assertz(journal_on),
     get_flag(typhon_journal_number, N),
     note_number(N).
 
 journal_close :-
-    retract(committer(Thread)),
-    !,
     journal_seal,
     retractall(journal_on),
-    queue(Entries, Wake),
-    thread_send_message(Wake, stop),
-    thread_join(Thread, _),
-    catch(commit, error(Formal, Context),
-          print_message(error, error(Formal, Context))),
-    retractall(queue(_, _)),
-    retractall(unsaved(_)),
-    message_queue_destroy(Entries),
-    message_queue_destroy(Wake).
-journal_close.
+    ignore(committing_end).
 
 journal_end :-
     retractall(journal_guards),
@@ -126,8 +102,7 @@ journal_number(N) :-
 
 note_number(N) :-
     Bound is N+20000,
-    note_bytes(Bound, Bytes),
-    enqueue([put(number, '', 0, Bytes)]).
+    note_put_at_once(number, '', 0, Bound).
 
 journal_number_after(N) :-
     flag(typhon_journal_number, N0, max(N0, N+1)).
@@ -169,6 +144,25 @@ note_drop_below(Kind, Key, N) :-
     ;   true
     ).
 
+%!  note_put_at_once(+Kind, +Key, +N, +Term) is det.
+%!  note_drop_at_once(+Kind, +Key, +N) is det.
+%
+%   As note_put/4 and note_drop/3, whatever becomes of the step in which this is
+%   noted, and before what was noted in it.
+
+note_put_at_once(Kind, Key, N, Term) :-
+    (   journal_on
+    ->  note_bytes(Term, Bytes),
+        entry([put(Kind, Key, N, Bytes)])
+    ;   true
+    ).
+
+note_drop_at_once(Kind, Key, N) :-
+    (   journal_on
+    ->  entry([drop(Kind, Key, N)])
+    ;   true
+    ).
+
 %!  note_bytes(+Term, -Bytes) is det.
 %!  note_change(+Change) is det.
 
@@ -178,7 +172,7 @@ note_bytes(Term, Bytes) :-
 note_change(Change) :-
     (   nb_current(typhon_journal_step, true)
     ->  assertz(noted(Change))
-    ;   enqueue([Change])
+    ;   entry([Change])
     ).
 
 %!  journal_step(:Goal) is semidet.
@@ -205,20 +199,9 @@ journal_step(Goal) :-
 journal_seal :-
     (   noted(_)
     ->  findall(Change, retract(noted(Change)), Changes),
-        enqueue(Changes)
+        entry(Changes)
     ;   true
     ).
-
-enqueue(Changes) :-
-    queue(Entries, Wake),
-    !,
-    thread_send_message(Entries, Changes),
-    (   get_flag(typhon_journal_awake, 0)
-    ->  set_flag(typhon_journal_awake, 1),
-        thread_send_message(Wake, go)
-    ;   true
-    ).
-enqueue(_).                             % it has been closed
 
                 /*******************************
                 *            COMMIT            *
@@ -233,18 +216,19 @@ enqueue(_).                             % it has been closed
 
 journal_barrier :-
     (   journal_on
-    ->  journal_commit
+    ->  journal_seal,
+        commit
     ;   journal_guards
-    ->  throw(error(existence_error(journal, open), _))
+    ->  closed
     ;   true
     ).
 
+closed :-
+    throw(error(existence_error(journal, open), _)).
+
 %!  journal_commit is det.
 %
-%   All that was noted before is committed, also what was before the journal
-%   was closed; for who lets go what has waited.
-%
-%   @error resource_error(journal_space)
+%   As journal_barrier/0, also of what was before the journal was closed.
 
 journal_commit :-
     (   journal_guards
@@ -253,93 +237,39 @@ journal_commit :-
     ;   true
     ).
 
-commit :-
-    with_mutex(typhon_commit, commit_all).
+%!  journal_let_out(+Item, +When) is det.
+%
+%   Where journal_guards/0: give Item to letting_out/1 when all that was noted
+%   before is committed, in the order of these calls.
+%
+%   @arg When is `now` if somebody waits for it, `later` if who lets it out
+%        says journal_go/0 before long, or lets out something else
+%   @error resource_error(journal_space): nothing can be committed; Item will
+%          not be let out
+%   @error existence_error(journal, open): it was closed
 
-commit_all :-
-    queue(Entries, _),
-    !,
-    fifo_empty(Entries, New),
-    findall(Old, retract(unsaved(Old)), Olds),
-    append([Olds, New], All),
-    (   All == []
+journal_let_out(Item, When) :-
+    journal_seal,
+    may_wait(When),
+    (   journal_on,
+        let_out(Item)
     ->  true
-    ;   append(All, Changes0),
-        settled(Changes0, Changes),
-        crash_point(before_commit),
-        catch(store_commit(Changes), error(Formal, Context),
-              ( assertz(unsaved(Changes)),
-                throw(error(Formal, Context)) )),
-        retractall(told(_)),
-        crash_point(after_commit)
-    ).
-commit_all.
-
-%   settled(+Changes0, -Changes): without those of items that change once more.
-
-settled(Changes0, Changes) :-
-    reverse(Changes0, Newest),
-    length(Newest, Count),
-    (   Count =< 32
-    ->  Seen = []                       % quicker for so few
-    ;   rb_new(Seen)
+    ;   closed
     ),
-    last_of_each(Newest, Seen, [], Changes).
-
-last_of_each([], _, Changes, Changes).
-last_of_each([Change|Older], Seen0, Changes0, Changes) :-
-    (   item_of(Change, Item)
-    ->  (   first_seen(Seen0, Item, Seen)
-        ->  last_of_each(Older, Seen, [Change|Changes0], Changes)
-        ;   last_of_each(Older, Seen0, Changes0, Changes)
-        )
-    ;   last_of_each(Older, Seen0, [Change|Changes0], Changes)
-    ).
-
-first_seen(Seen0, Item, Seen) :-
-    is_list(Seen0),
-    !,
-    \+ memberchk(Item, Seen0),
-    Seen = [Item|Seen0].
-first_seen(Seen0, Item, Seen) :-
-    rb_insert_new(Seen0, Item, true, Seen).
-
-item_of(put(Kind, Key, N, _), Kind-Key-N).
-item_of(drop(Kind, Key, N), Kind-Key-N).
-
-%   The goal of the thread that sees to what nobody waits for.
-
-commit_at_leisure(Wake) :-
-    output_own,
-    repeat,
-    thread_get_message(Wake, Message),
-    (   Message == stop
-    ->  !
-    ;   idle_seconds(Seconds),
-        at_leisure(Wake, Seconds),
-        fail
-    ).
-
-at_leisure(Wake, Seconds) :-
-    (   thread_self(Me),
-        thread_get_message(Me, '$typhon_never', [timeout(Seconds)])
-    ->  true
+    (   When == now
+    ->  commit_soon
     ;   true
-    ),
-    set_flag(typhon_journal_awake, 0),
-    catch(commit, error(Formal, Context),
-          not_committed(error(Formal, Context), Wake)).
+    ).
 
-not_committed(Error, Wake) :-
-    (   retract(told(_))
-    ->  true
-    ;   print_message(error, Error)
-    ),
-    assertz(told(Error)),
-    set_flag(typhon_journal_awake, 1),
-    (   thread_self(Me),
-        thread_get_message(Me, '$typhon_never', [timeout(1)])
-    ->  true
-    ;   true
-    ),
-    thread_send_message(Wake, go).
+may_wait(now) :-
+    journal_full(Error),
+    !,
+    throw(Error).
+may_wait(_).
+
+%!  journal_go is det.
+%
+%   What is to be let out goes soon.
+
+journal_go :-
+    commit_soon.

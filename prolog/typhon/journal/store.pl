@@ -5,6 +5,7 @@
             journal_place/2,            % +Where, -Place
             journal_opened/1,           % -Place
             store_close/0,
+            store_sync/1,               % -Sync
             store_commit/1,             % +Changes
             journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
@@ -145,10 +146,14 @@ journal_found(Where) :-
     in_terms_of(Place, Base, database_found(Base)).
 
 %!  journal_opened(-Place) is semidet.
+%!  store_sync(-Sync) is semidet.
 %!  store_close is det.
 
 journal_opened(Place) :-
     connection(Place, _).
+
+store_sync(Sync) :-
+    opened(_, Sync, _).
 
 store_close :-
     (   connection(_, Connection)

@@ -19,6 +19,8 @@ scheduled, alarms are set, what was under way is asked for or sent again.
 */
 
 :- multifile
+    typhon_code:in_use/1,
+    typhon_runtime:ending/1,
     back/4,                     % Kind, Key, N, Term: was noted so
     recover/0,
     tidy/0,                     % nobody is let in yet
@@ -30,7 +32,8 @@ scheduled, alarms are set, what was under way is asked for or sent again.
     recover/0,
     tidy/0,
     go_on/0,
-    superfluous/2.              % Kind, Key: nobody needs it any more
+    superfluous/2,              % Kind, Key: nobody needs it any more
+    left/2.                     % Id, Hash: an agent that is not back
 
 %   What others look up comes before them.
 
@@ -64,12 +67,31 @@ recover :-
     forall(restored, true).
 
 is_back(Kind, Key, N, Term) :-
-    catch(back(Kind, Key, N, Term), error(Formal, Context),
-          ( print_message(error, typhon(not_back(Kind, Key))),
-            print_message(error, error(Formal, Context)) )),
+    catch(back(Kind, Key, N, Term), error(Formal, Context), true),
+    !,
+    (   var(Formal)
+    ->  true
+    ;   print_message(error, typhon(not_back(Kind, Key))),
+        print_message(error, error(Formal, Context)),
+        stays(Kind, Key, Term)
+    ).
+is_back(Kind, Key, _, Term) :-
+    print_message(error, typhon(not_back(Kind, Key))),
+    stays(Kind, Key, Term).
+
+%   What stays in the journal stays there with all that belongs to it.
+
+stays(agent, Id, agent(_, Hash, _, _, _, _)) :-
+    !,
+    assertz(left(Id, Hash)).
+stays(_, _, _).
+
+typhon_code:in_use(Hash) :-
+    left(_, Hash),
     !.
-is_back(Kind, Key, _, _) :-
-    print_message(error, typhon(not_back(Kind, Key))).
+
+typhon_runtime:ending(after) :-
+    retractall(left(_, _)).
 
 back(agent, Id, _, Record) :-
     Record = agent(Host, _, _, _, _, _),
@@ -80,11 +102,13 @@ back(agent, Id, _, Record) :-
 back(mail, Id, N, Message) :-
     (   agent(Id, _, _, _, _)
     ->  mail_restore(Id, N, Message)
+    ;   left(Id, _)
+    ->  true
     ;   assertz(superfluous(mail, Id))
     ).
 
 back(code, Hash, _, _) :-
-    (   agent(_, _, _, Hash, _)
+    (   ( agent(_, _, _, Hash, _) ; left(_, Hash) )
     ->  true
     ;   assertz(superfluous(code, Hash))
     ).

@@ -128,16 +128,21 @@ guard_state(Policy, state(PIs, Clauses0), state(PIs, Clauses)) :-
     maplist(declared_allowed, PIs),
     maplist(guard_fact(own(none, Policy)), Clauses0, Clauses).
 
-declared_allowed('$legacy'/1) :-
+declared_allowed(Name/Arity) :-
+    functor(Fact, Name, Arity),
+    of_platform(Fact),
     !.
 declared_allowed(PI) :-
     state_allowed(PI).
 
-%   What an agent leaves behind is a fact of the platform in its state.
+%   Facts of the platform in its state: what it leaves behind, who had it.
+
+of_platform('$legacy'(_)).
+of_platform('$trail'(_, _)).
 
 guard_fact(_, Fact, Fact) :-
     nonvar(Fact),
-    Fact = '$legacy'(_),
+    of_platform(Fact),
     !,
     must_be_tree(Fact).
 guard_fact(_, Fact, Fact) :-

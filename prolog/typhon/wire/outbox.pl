@@ -32,9 +32,10 @@ is held.
 
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2]).
+:- use_module(library(lists), [member/2, reverse/2]).
 :- use_module('../journal',
-              [ journal_barrier/0, journal_commit/0, journal_guards/0,
-                journal_on/0, journal_seal/0 ]).
+              [ journal_commit/0, journal_go/0, journal_guards/0,
+                journal_let_out/2 ]).
 :- use_module(bundle, [bundle_fits/1]).
 :- use_module(counts, [acknowledged/3]).
 :- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
@@ -49,6 +50,8 @@ is held.
                 unacked_owed/2, unacked_sent/2, unacked_waiting/1,
                 unacked_waits/2 ]).
 :- use_module(watch, [watch_frame/4]).
+
+:- multifile typhon_committing:letting_out/1.
 
 %   Bytes that may be under way without a chance of blocking in write.
 
@@ -65,7 +68,11 @@ under_way(65536).
 session_send(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
     answers_first(Session),
-    session_locked(Session, put_frame(Session, Bytes)).
+    (   journal_guards
+    ->  let_out(Session, Bytes, now)
+    ;   session_locked(Session,
+                       put_frame(Session, Bytes, frame_write_now))
+    ).
 
 %!  session_send_with(+Session, +Term) is det.
 %!  session_release(+Session) is det.
@@ -83,12 +90,16 @@ session_send_with(Session, Term) :-
     ).
 session_send_with(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
-    session_locked(Session, put_with(Session, Bytes)).
+    (   journal_guards
+    ->  let_out(Session, loose(Bytes), now)
+    ;   session_locked(Session,
+                       put_with(Session, Bytes, frame_write_now))
+    ).
 
 session_release(Session) :-
     session_key(Session, Key),
     (   unacked_waiting(Key)
-    ->  session_locked(Session, ( journal_commit, see_to(Session, Key) ))
+    ->  session_locked(Session, see_to(Session, Key))
     ;   true
     ).
 
@@ -122,7 +133,12 @@ session_send_later(Session, Term) :-
     nb_current(typhon_later, Count),
     !,
     frame_bytes(Session, Term, Bytes),
-    session_locked(Session, put_later(Session, Bytes)),
+    (   journal_guards
+    ->  catch(let_out(Session, Bytes, later),
+              error(existence_error(journal, _), _),
+              true)                     % nobody is told what happens now
+    ;   session_locked(Session, put_frame(Session, Bytes, frame_write))
+    ),
     Count1 is Count+1,
     nb_linkval(typhon_later, Count1).
 session_send_later(Session, Term) :-
@@ -132,10 +148,10 @@ session_later(Count) :-
     nb_getval(typhon_later, Count).
 
 session_push(Session) :-
-    session_key(Session, Key),
     (   journal_guards
-    ->  session_locked(Session, ( journal_commit, push_out(Key) ))
-    ;   session_locked(Session, push_out(Key))
+    ->  journal_go
+    ;   session_key(Session, Key),
+        session_locked(Session, push_out(Key))
     ),
     nb_linkval(typhon_later, 0),
     (   nb_current(typhon_later_in, Session)
@@ -165,19 +181,15 @@ frame_bytes(Session, Term, Bytes) :-
     ;   watch_frame(to, Session, Term, Bytes)
     ).
 
-put_with(Session, Bytes) :-
+put_with(Session, Bytes, Write) :-
     \+ bundle_fits(Bytes),
     !,
-    put_frame(Session, Bytes).
-put_with(Session, Bytes) :-
+    put_frame(Session, Bytes, Write).
+put_with(Session, Bytes, Write) :-
     session_must_exist(Session, Key),
-    (   journal_guards
-    ->  journal_barrier
-    ;   true
-    ),
     (   holds(Key)
     ->  unacked_waits(Key, loose(Bytes))
-    ;   put(Session, Key, Bytes, loose(Bytes), frame_write_now)
+    ;   put(Session, Key, Bytes, loose(Bytes), Write)
     ).
 
 %   holds(+Key): the peer will acknowledge some of what is under way, and not
@@ -194,40 +206,9 @@ holds(Key) :-
     most_held(Most),
     Waiting < Most.
 
-%   Nothing is said that follows from what may be forgotten.  In the buffer
-%   there may be answers of the reader, who has not waited for that: whoever
-%   writes takes them along.  So it is waited for when nobody else can put any
-%   there, inside session_locked/2.
-
-put_frame(Session, Bytes) :-
+put_frame(Session, Bytes, Write) :-
     session_must_exist(Session, Key),
-    (   journal_guards
-    ->  journal_barrier
-    ;   true
-    ),
-    put(Session, Key, Bytes, Bytes, frame_write_now).
-
-put_later(Session, Bytes) :-
-    session_must_exist(Session, Key),
-    (   journal_guards
-    ->  put_uncommitted(Session, Key, Bytes)
-    ;   put(Session, Key, Bytes, Bytes, frame_write)
-    ).
-
-%   In the buffer it is with us; what waits may be written by anybody.  When the
-%   journal has been closed nobody is told what happens.
-
-put_uncommitted(Session, Key, Bytes) :-
-    journal_on,
-    !,
-    journal_seal,
-    (   \+ unacked_waiting(Key),
-        writable(Key, Bytes, _, _)
-    ->  true
-    ;   journal_commit
-    ),
-    put(Session, Key, Bytes, Bytes, frame_write).
-put_uncommitted(_, _, _).
+    put(Session, Key, Bytes, Bytes, Write).
 
 %   put(+Session, +Key, +Bytes, +Frame, :Write): Frame is what waits if it
 %   cannot be written.
@@ -313,11 +294,6 @@ session_control(Session, Term) :-
 
 put_control(Session, Kind, Bytes) :-
     session_key(Session, Key),
-    (   journal_guards,
-        \+ nothing_left(Session)
-    ->  journal_commit
-    ;   true
-    ),
     (   writable(Key, Bytes, Thread, Out)
     ->  written(frame_write_now, Key, Thread, Out, Bytes)
     ;   session_up(Key)
@@ -326,12 +302,44 @@ put_control(Session, Kind, Bytes) :-
     ;   true
     ).
 
-%   This is its reader, and has left nothing.
+                /*******************************
+                *       WHAT IS COMMITTED      *
+                *******************************/
 
-nothing_left(Session) :-
-    nb_current(typhon_later_in, Own),
-    Own = Session,
-    nb_current(typhon_later, 0).
+%   let_out(+Session, +Frame, +When): Frame as it may wait, When as of
+%   journal_let_out/2.
+
+let_out(Session, Frame, When) :-
+    session_must_exist(Session, _),
+    journal_let_out(frame(Session, Frame), When).
+
+%   All are written, then all go.
+
+typhon_committing:letting_out(Frames) :-
+    let_out_all(Frames, [], Sessions),
+    forall(member(Session, Sessions), flush_out(Session)).
+
+let_out_all([], Sessions0, Sessions) :-
+    reverse(Sessions0, Sessions).
+let_out_all([frame(Session, Frame)|Frames], Sessions0, Sessions) :-
+    catch(session_locked(Session, put_committed(Frame, Session)),
+          error(session_closed, _),
+          true),                        % who waits for an answer was told
+    (   memberchk(Session, Sessions0)
+    ->  Sessions1 = Sessions0
+    ;   Sessions1 = [Session|Sessions0]
+    ),
+    let_out_all(Frames, Sessions1, Sessions).
+
+put_committed(loose(Bytes), Session) :-
+    !,
+    put_with(Session, Bytes, frame_write).
+put_committed(Bytes, Session) :-
+    put_frame(Session, Bytes, frame_write).
+
+flush_out(Session) :-
+    session_key(Session, Key),
+    session_locked(Session, push_out(Key)).
 
 %!  session_flush(+Session, +Deadline) is semidet.
 %
@@ -346,6 +354,7 @@ session_flush(Session, Deadline) :-
           message_queue_destroy(Queue) )).
 
 flush(Session, Queue, Deadline) :-
+    catch(journal_commit, error(_, _), true), % who commits has told
     session_release(Session),
     session_locked(Session, unacked_await(Session, Queue, Pending)),
     (   Pending =:= 0

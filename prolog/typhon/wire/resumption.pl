@@ -19,7 +19,6 @@ have ended.
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../journal', [journal_commit/0]).
 :- use_module(frame, [bytes_term/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(pusher, [pusher_no_control/1, pusher_start/4, pusher_stop/1]).
@@ -44,7 +43,6 @@ have ended.
 %   @error session_closed
 
 session_install(Session, Thread, Out, PeerCount) :-
-    journal_commit,                     % before what was not flushed goes
     session_locked(Session,
                    install(Session, Key, Thread, Out, PeerCount)),
     debug(typhon(session), '~w: up; it has ~D frames', [Key, PeerCount]).

@@ -151,6 +151,23 @@ test('faulty agents are kept, and can be resumed',
           agent_resume(A),
           agent_result(A, fine, 5) )).
 
+%   One comes with a program that nobody had, and cannot be let in after all:
+%   that must not keep the program from those who come with it later.
+
+test('a program is noted whatever becomes of who has brought it') :-
+    with_journal(
+        ( keeper(P),
+          agent_create(P, First, []),
+          typhon_agents:agent(First, _, _, Hash, _),
+          retractall(typhon_agent_in_journal:code_noted(Hash)),
+          typhon_ledger:note_drop(code, Hash, 0),
+          \+ typhon_ledger:journal_step(
+                 ( typhon_agent_in_journal:note_code(Hash), fail )),
+          agent_create(P, Id, []),
+          nb_setval(journal_test, Id) ),
+        ( nb_getval(journal_test, Id),
+          agent_property(Id, state(resident)) )).
+
 %   killed(+Dir, :Before, :After): in a process that is killed, and in the
 %   next one.
 
