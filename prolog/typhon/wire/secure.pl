@@ -36,7 +36,8 @@ thread of its connection. What it may last in all is seen to by the keeper.
               [existence_error/2, permission_error/3, syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2]).
-:- use_module('../base/keys', [keys_certificate/2, keys_file/3, keys_holder/3]).
+:- use_module('../base/key_files', [keys_file/3]).
+:- use_module('../base/keys', [keys_certificate/2, keys_holder/3]).
 :- use_module(hello, [line_read/3, line_write/2]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 
