@@ -128,16 +128,24 @@ guard_state(Policy, state(PIs, Clauses0), state(PIs, Clauses)) :-
     maplist(declared_allowed, PIs),
     maplist(guard_fact(own(none, Policy)), Clauses0, Clauses).
 
-declared_allowed('$legacy'/1) :-
+declared_allowed(Name/Arity) :-
+    functor(Fact, Name, Arity),
+    of_platform(Fact),
     !.
 declared_allowed(PI) :-
     state_allowed(PI).
 
-%   What an agent leaves behind is a fact of the platform in its state.
+%   What the platform has among its state are facts, which no agent can name.
+
+of_platform('$legacy'(_)).
+of_platform('$memory'(_)).
+of_platform('$trail'(_, _)).
+of_platform('$birth'(_, _, _, _)).
+of_platform('$signed'(_, _)).
 
 guard_fact(_, Fact, Fact) :-
     nonvar(Fact),
-    Fact = '$legacy'(_),
+    of_platform(Fact),
     !,
     must_be_tree(Fact).
 guard_fact(_, Fact, Fact) :-

@@ -13,7 +13,8 @@
                 schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3,
-                image_enter/4, image_label/2, image_module/3, image_trail/4,
+                image_enter/4, image_label/2, image_module/3, image_proved/1,
+                image_trail/4,
                 life_hops/2,
                 policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
@@ -89,6 +90,9 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     ->  Answer = accepted
     ;   \+ peer_may(Peer, Name, agents)
     ->  Answer = refused(peer)
+    ;   \+ image_proved(Image)
+    ->  audit(Name, Peer, refused(Id, identity)),
+        Answer = refused(identity)
     ;   host(Name, _, Place),
         policy_against(Place, Hash, Program, Reason)
     ->  audit(Name, Peer, refused(Id, Reason)),

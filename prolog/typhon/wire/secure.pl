@@ -7,6 +7,7 @@
             secure_streams/6,           % +Role, +In, +Out, -SIn, -SOut, -Proof
             secure_close/0,
             secure_proof/1,             % -Proof
+            secure_forget/0,
             secure_input/2              % +In, +Seconds
           ]).
 
@@ -320,7 +321,15 @@ close_stream(Stream) :-
 %   certificate(Name).
 
 secure_proof(Proof) :-
-    nb_current(typhon_proof, Proof).
+    nb_current(typhon_proof, Proof),
+    Proof \== none.
+
+%!  secure_forget is det.
+%
+%   This thread has no connection any more, and goes on as another.
+
+secure_forget :-
+    nb_setval(typhon_proof, none).
 
 %!  secure_input(+In, +Seconds) is semidet.
 %
