@@ -4,7 +4,7 @@
             trail_enter/3,              % +Module, +Id, +Result
             trail_of/2,                 % +Module, -Raw
             trail_none/2,               % +State0, -State
-            trail_verified/3            % +Id, +Raw, -Trail
+            trail_signed/3              % +Text, +Before, -Signed
           ]).
 
 /** <module> Which hosts have had an agent, and what they did with it
@@ -14,10 +14,12 @@ another process and what it handed on, and what the agent has entered there.
 Each link is signed together with the signature of the one before. They are a
 fact among the state of the agent:
 
-    '$trail'(Links, Certificates)
+    '$trail'(Next, Links, Certificates, Pending)
 
-Links, the newest first, are link(N, Event, C, Hex): the N-th, signed by who
-shows the C-th of the Certificates. An event is
+Links, the newest first, are link(Text, Hex, C): Text is that of N-Events, the
+N-th event and perhaps others, Hex the signature of who shows the certificate
+C. They are strings, so that nobody has to look into them on the way. The next
+event has the number Next. An event is
 
   - handed(Id, Hash, Hops, To, State, Goals)
   - received(Id, Hash, Hops, At, State, Goals)
@@ -28,6 +30,10 @@ for if what the next one received is what it handed on, to that address. What
 an agent did while it stood on a host is the word of that host; and who was
 visited twice can cut out what lies between.
 
+To sign costs more than all else. What was received is Pending, or `none`, and
+is signed with what comes next, on the same host; it is the word of that host
+then as it would have been before.
+
 The oldest links go when there are more than `links`.
 
 *Threading*: the thread that sends, receives or runs the agent.
@@ -35,15 +41,12 @@ The oldest links go when there are more than `links`.
 
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [append/3, nth0/3, reverse/2, selectchk/3]).
+:- use_module(library(lists), [append/3, member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module('../base/keys', 
-              [ keys_certificate/2, keys_holder/3, keys_sign/3,
-                keys_verify/4 ]).
-:- use_module('../wire', [endpoint_address/1, endpoint_keys/1, term_text/2]).
-:- use_module('../host', [address_parts/3, host_option/2]).
-:- use_module(identity, [agent_home_endpoint/2]).
+:- use_module('../base/keys', [keys_sign/3]).
+:- use_module('../wire', [endpoint_keys/1, term_text/2]).
+:- use_module('../host', [host_option/2]).
 
 :- setting(links, positive_integer, 64,
            "So many links of the trail of an agent are kept").
@@ -54,22 +57,29 @@ The oldest links go when there are more than `links`.
 %   itself where there are no keys, or the host does without. Event is
 %   handed(To) or received(At), Label is of(Host, Id, Hash, Hops).
 
-trail_link(Event, Label, state(Empty, Clauses0), Goals, State) :-
-    (   endpoint_keys(Keys),
-        arg(1, Label, Host),
-        \+ host_option(Host, trail(false))
-    ->  taken_out(Clauses0, Raw0, Rest),
-        event(Event, Label, Rest, Goals, What),
-        linked(Keys, What, Raw0, Raw),
-        State = state(Empty, [Raw|Rest])
-    ;   State = state(Empty, Clauses0)
-    ).
+trail_link(Event, Label, State0, Goals, State) :-
+    endpoint_keys(Keys),
+    State0 = state(Empty, Clauses0),
+    taken_out(Clauses0, Raw0, Rest),
+    arg(1, Label, Host),
+    (   host_option(Host, trail(false))
+    ->  settled(Keys, Raw0, Raw)
+    ;   event(Event, Label, Rest, Goals, What),
+        happens(What, Keys, Raw0, Raw)
+    ),
+    Raw \== Raw0,
+    !,
+    State = state(Empty, [Raw|Rest]).
+trail_link(_, _, State, _, State).
 
 taken_out(Clauses, Raw, Rest) :-
-    Raw = '$trail'(_, _),
+    Raw = '$trail'(_, _, _, _),
     selectchk(Raw, Clauses, Rest),
     !.
-taken_out(Clauses, '$trail'([], []), Clauses).
+taken_out(Clauses, Raw, Clauses) :-
+    no_trail(Raw).
+
+no_trail('$trail'(0, [], [], none)).
 
 event(Event, of(_, Id, Hash, Hops), Clauses, Goals, What) :-
     Event =.. [Name, Where],
@@ -83,36 +93,77 @@ sum(Term, Sum) :-
     copy_term(Term, Copy),
     numbervars(Copy, 0, _, [functor_name('$typhon_variable')]),
     term_text(Copy, Text),
+    text_sum(Text, Sum).
+
+text_sum(Text, Sum) :-
     sha_hash(Text, Bytes, [algorithm(sha256), encoding(octet)]),
     hash_atom(Bytes, Sum).
 
-linked(Keys, What, '$trail'(Links0, Pems0), '$trail'(Links, Pems)) :-
-    link_text(Links0, What, N, Text),
-    keys_sign(Keys, Text, signature(Pem, Hex)),
-    (   nth0(C, Pems0, Pem)
-    ->  Pems = Pems0
-    ;   append(Pems0, [Pem], Pems),
-        length(Pems0, C)
-    ),
-    setting(links, Most),
-    newest(Most, [link(N, What, C, Hex)|Links0], Links).
+%   happens(+What, +Keys, +Raw0, -Raw): What waits to be signed, or is signed
+%   with what waits.
 
-link_text(Before, What, N, Text) :-
-    (   Before = [link(N0, _, _, Previous)|_]
-    ->  N is N0+1
-    ;   N = 0,
-        Previous = none
-    ),
-    sum(typhon_trail(N, What, Previous), Sum),
-    atom_concat('typhon trail ', Sum, Text).
+happens(What, Keys, Raw0, Raw) :-
+    What = received(_, _, _, _, _, _),
+    !,
+    settled(Keys, Raw0, '$trail'(Next, Links, Pems, _)),
+    Raw = '$trail'(Next, Links, Pems, What).
+happens(What, Keys, '$trail'(Next, Links, Pems, Pending), Raw) :-
+    ( Pending == none -> Events = [What] ; Events = [Pending, What] ),
+    linked(Events, Keys, '$trail'(Next, Links, Pems, none), Raw).
 
-newest(Most, Links0, Links) :-
+%   settled(+Keys, +Raw0, -Raw): nothing waits.
+
+settled(Keys, '$trail'(Next, Links, Pems, Pending), Raw) :-
+    Pending \== none,
+    !,
+    linked([Pending], Keys, '$trail'(Next, Links, Pems, none), Raw).
+settled(_, Raw, Raw).
+
+linked(Events, Keys, '$trail'(N, Links0, Pems0, _), Raw) :-
+    term_text(N-Events, Text),
+    trail_signed(Text, Links0, Signed),
+    keys_sign(Keys, Signed, signature(Pem, Hex)),
+    (   member(C-Pem0, Pems0),
+        Pem0 == Pem
+    ->  Pems1 = Pems0
+    ;   C = N,
+        Pems1 = [C-Pem|Pems0]
+    ),
+    length(Events, Count),
+    Next is N+Count,
+    newest([link(Text, Hex, C)|Links0], Pems1, Links, Pems),
+    Raw = '$trail'(Next, Links, Pems, none).
+
+%!  trail_signed(+Text:string, +Before:list, -Signed) is det.
+%
+%   What is signed of a link with this Text, Before being those before.
+
+trail_signed(Text, Before, Signed) :-
+    (   Before = [link(_, Hex, _)|_]
+    ->  true
+    ;   Hex = none
+    ),
+    string_concat(Hex, Text, All),
+    text_sum(All, Sum),
+    atom_concat('typhon trail ', Sum, Signed).
+
+%   newest(+Links0, +Pems0, -Links, -Pems): with the last link that a host has
+%   signed its certificate goes.
+
+newest(Links0, Pems0, Links, Pems) :-
     length(Links0, Count),
+    setting(links, Most),
     (   Count > Most
     ->  length(Links, Most),
-        append(Links, _, Links0)
-    ;   Links = Links0
+        append(Links, Gone, Links0),
+        exclude(of_none(Links, Gone), Pems0, Pems)
+    ;   Links = Links0,
+        Pems = Pems0
     ).
+
+of_none(Links, Gone, C-_) :-
+    memberchk(link(_, _, C), Gone),
+    \+ memberchk(link(_, _, C), Links).
 
 %!  trail_enter(+Module, +Id, +Result) is det.
 %
@@ -122,10 +173,10 @@ newest(Most, Links0, Links) :-
 
 trail_enter(Module, Id, Result) :-
     (   endpoint_keys(Keys)
-    ->  trail_of(Module, Raw0),
-        linked(Keys, entered(Id, Result), Raw0, Raw),
-        dynamic(Module:'$trail'/2),
-        retractall(Module:'$trail'(_, _)),
+    ->  raw(Module, Raw0),
+        happens(entered(Id, Result), Keys, Raw0, Raw),
+        dynamic(Module:'$trail'/4),
+        retractall(Module:'$trail'(_, _, _, _)),
         assertz(Module:Raw)
     ;   existence_error(keys, here)
     ).
@@ -135,10 +186,18 @@ trail_enter(Module, Id, Result) :-
 %   What trail_verified/3 looks at, of the agent whose module this is.
 
 trail_of(Module, Raw) :-
-    (   '$c_current_predicate'(_, Module:'$trail'(_, _)),
-        Module:'$trail'(Links, Certificates)
-    ->  Raw = '$trail'(Links, Certificates)
-    ;   Raw = '$trail'([], [])
+    raw(Module, Raw0),
+    (   endpoint_keys(Keys)
+    ->  settled(Keys, Raw0, Raw)
+    ;   Raw = Raw0
+    ).
+
+raw(Module, Raw) :-
+    Raw = '$trail'(_, _, _, _),
+    (   '$c_current_predicate'(_, Module:Raw),
+        call(Module:Raw)
+    ->  true
+    ;   no_trail(Raw)
     ).
 
 %!  trail_none(+State0, -State) is det.
@@ -148,112 +207,5 @@ trail_of(Module, Raw) :-
 trail_none(state(Empty, Clauses0), state(Empty, Clauses)) :-
     exclude(of_trail, Clauses0, Clauses).
 
-of_trail('$trail'(_, _)).
-
-                 /*******************************
-                 *         VERIFICATION         *
-                 *******************************/
-
-%!  trail_verified(+Id, +Raw, -Trail) is det.
-%
-%   Trail is trail(Steps, Verdict). A step is step(N, Name, What), Name being
-%   the host whose keys have signed it, and What handed(To), received(At) or
-%   entered(Result). Verdict is `whole`, or unaccounted(Name): Name is the
-%   host after which, or in whose hands, state or code have become what nobody
-%   answers for; `nobody` where that is so from the beginning. It is since(N)
-%   where all is well from the N-th link on, and those before are gone.
-%
-%   @error existence_error(keys, here)
-
-trail_verified(Id, Raw, trail(Steps, Verdict)) :-
-    (   endpoint_keys(Keys)
-    ->  true
-    ;   existence_error(keys, here)
-    ),
-    (   subsumes_term('$trail'(_, _), Raw),
-        Raw = '$trail'(Links, Pems),
-        is_list(Links),
-        is_list(Pems)
-    ->  reverse(Links, Oldest),
-        all_steps(Oldest, with(Keys, Id, Pems), Steps, Verdict)
-    ;   Steps = [],
-        Verdict = unaccounted(nobody)
-    ).
-
-%   Where the oldest are gone, the first one that is left can only be known by
-%   what the second one says of its signature.
-
-all_steps([link(N, What, C, Hex)|Links], With, Steps, Verdict) :-
-    integer(N),
-    N > 0,
-    !,
-    steps(Links, With, since(link(N, What, C, Hex)), Steps, Verdict0),
-    (   Verdict0 == whole
-    ->  Since is N+1,
-        Verdict = since(Since)
-    ;   Verdict = Verdict0
-    ).
-all_steps(Links, With, Steps, Verdict) :-
-    steps(Links, With, none, Steps, Verdict).
-
-%   steps(+Links, +With, +Before, -Steps, -Verdict): Before is `none`,
-%   since(Link) or before(Link, Name).
-
-steps([], _, _, [], whole).
-steps([Link|Links], With, Before, Steps, Verdict) :-
-    (   signed_by(Link, With, Before, Name),
-        follows(Link, With, Before, Name)
-    ->  Link = link(N, What0, _, _),
-        told(What0, What),
-        Steps = [step(N, Name, What)|Steps1],
-        steps(Links, With, before(Link, Name), Steps1, Verdict)
-    ;   Steps = [],
-        (   Before = before(_, Last)
-        ->  Verdict = unaccounted(Last)
-        ;   Verdict = unaccounted(nobody)
-        )
-    ).
-
-signed_by(link(N, What, C, Hex), with(Keys, _, Pems), Before, Name) :-
-    ground(N-C-Hex),
-    nth0(C, Pems, Pem),
-    before(Before, Last),
-    link_text(Last, What, N, Text),
-    keys_verify(Keys, Text, signature(Pem, Hex), host(Name)).
-
-before(none, []).
-before(since(Last), [Last]).
-before(before(Last, _), [Last]).
-
-follows(link(_, What, _, _), with(_, Id, _), since(_), _) :-
-    !,
-    arg(1, What, Id).
-follows(link(_, What, _, _), with(Keys, Id, _), none, Name) :-
-    !,
-    arg(1, What, Id),
-    \+ What = received(_, _, _, _, _, _),
-    (   agent_home_endpoint(Id, Home),
-        endpoint_address(Home)
-    ->  own_name(Keys, Name)            % it began with us
-    ;   true
-    ).
-follows(link(_, What, _, _), with(_, Id, _), before(Last, Before), Name) :-
-    arg(1, What, Id),
-    Last = link(_, Earlier, _, _),
-    (   Earlier = handed(Id, Hash, Hops, To, State, Goals)
-    ->  What = received(Id, Hash, Hops, At, State, Goals),
-        address_parts(To, Host, _),     % a process may have several
-        address_parts(At, Host, _)      % addresses
-    ;   Name == Before,
-        What \= received(_, _, _, _, _, _)
-    ).
-
-own_name(Keys, Name) :-
-    keys_certificate(Keys, Own),
-    keys_holder(Keys, Own, host(Name)).
-
-told(entered(_, Result), entered(Result)) :-
-    !.
-told(Event, What) :-
-    Event =.. [Name, _, _, _, Where|_],
-    What =.. [Name, Where].
+of_trail(Clause) :-
+    subsumes_term('$trail'(_, _, _, _), Clause).

@@ -139,7 +139,7 @@ declared_allowed(PI) :-
 
 of_platform('$legacy'(_)).
 of_platform('$memory'(_)).
-of_platform('$trail'(_, _)).
+of_platform('$trail'(_, _, _, _)).
 of_platform('$birth'(_, _, _, _)).
 of_platform('$signed'(_, _)).
 
