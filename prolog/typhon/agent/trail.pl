@@ -4,7 +4,7 @@
             trail_enter/3,              % +Module, +Id, +Result
             trail_of/2,                 % +Module, -Raw
             trail_none/2,               % +State0, -State
-            trail_signed/3              % +Text, +Before, -Signed
+            trail_signed/3              % +Text, +Last, -Signed
           ]).
 
 /** <module> Which hosts have had an agent, and what they did with it
@@ -14,12 +14,14 @@ another process and what it handed on, and what the agent has entered there.
 Each link is signed together with the signature of the one before. They are a
 fact among the state of the agent:
 
-    '$trail'(Next, Links, Certificates, Pending)
+    '$trail'(At, Chain, Certificates, Pending)
 
-Links, the newest first, are link(Text, Hex, C): Text is that of N-Events, the
-N-th event and perhaps others, Hex the signature of who shows the certificate
-C. They are strings, so that nobody has to look into them on the way. The next
-event has the number Next. An event is
+Chain is one string, see typhon_chain, so that nobody has to look into it on
+the way: each link is the text of N-Events, the N-th event and perhaps others,
+with its signature, and the number C of the certificate pem(C, Last, Pem) of
+who has signed it; Last is the last link of his. At is at(Next, Made, Kept,
+Hex): the number of the next event, how many links were made, how many are
+left, and the signature of the last one. An event is
 
   - handed(Id, Hash, Hops, To, State, Goals)
   - received(Id, Hash, Hops, At, State, Goals)
@@ -41,12 +43,13 @@ The oldest links go when there are more than `links`.
 
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [append/3, member/2, selectchk/3]).
+:- use_module(library(lists), [select/3, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../base/keys', [keys_sign/3]).
 :- use_module('../wire', [endpoint_keys/1, term_text/2]).
 :- use_module('../host', [host_option/2]).
+:- use_module(chain, [chain_add/4]).
 
 :- setting(links, positive_integer, 64,
            "So many links of the trail of an agent are kept").
@@ -79,13 +82,21 @@ taken_out(Clauses, Raw, Rest) :-
 taken_out(Clauses, Raw, Clauses) :-
     no_trail(Raw).
 
-no_trail('$trail'(0, [], [], none)).
+no_trail('$trail'(at(0, 0, 0, none), "", [], none)).
 
 event(Event, of(_, Id, Hash, Hops), Clauses, Goals, What) :-
     Event =.. [Name, Where],
-    sum(Clauses, State),
+    state_sum(Clauses, State),
     sum(Goals, Doing),
     What =.. [Name, Id, Hash, Hops, Where, State, Doing].
+
+%   Who owns the agent is signed already.
+
+state_sum(Clauses, Sum) :-
+    (   selectchk('$birth'(_, _, _, _), Clauses, Others)
+    ->  sum(Others, Sum)
+    ;   sum(Clauses, Sum)
+    ).
 
 %   The same wherever variables have other names.
 
@@ -105,65 +116,58 @@ text_sum(Text, Sum) :-
 happens(What, Keys, Raw0, Raw) :-
     What = received(_, _, _, _, _, _),
     !,
-    settled(Keys, Raw0, '$trail'(Next, Links, Pems, _)),
-    Raw = '$trail'(Next, Links, Pems, What).
-happens(What, Keys, '$trail'(Next, Links, Pems, Pending), Raw) :-
+    settled(Keys, Raw0, '$trail'(At, Chain, Pems, _)),
+    Raw = '$trail'(At, Chain, Pems, What).
+happens(What, Keys, Raw0, Raw) :-
+    Raw0 = '$trail'(_, _, _, Pending),
     ( Pending == none -> Events = [What] ; Events = [Pending, What] ),
-    linked(Events, Keys, '$trail'(Next, Links, Pems, none), Raw).
+    linked(Events, Keys, Raw0, Raw).
 
 %   settled(+Keys, +Raw0, -Raw): nothing waits.
 
-settled(Keys, '$trail'(Next, Links, Pems, Pending), Raw) :-
-    Pending \== none,
-    !,
-    linked([Pending], Keys, '$trail'(Next, Links, Pems, none), Raw).
-settled(_, Raw, Raw).
-
-linked(Events, Keys, '$trail'(N, Links0, Pems0, _), Raw) :-
-    term_text(N-Events, Text),
-    trail_signed(Text, Links0, Signed),
-    keys_sign(Keys, Signed, signature(Pem, Hex)),
-    (   member(C-Pem0, Pems0),
-        Pem0 == Pem
-    ->  Pems1 = Pems0
-    ;   C = N,
-        Pems1 = [C-Pem|Pems0]
-    ),
-    length(Events, Count),
-    Next is N+Count,
-    newest([link(Text, Hex, C)|Links0], Pems1, Links, Pems),
-    Raw = '$trail'(Next, Links, Pems, none).
-
-%!  trail_signed(+Text:string, +Before:list, -Signed) is det.
-%
-%   What is signed of a link with this Text, Before being those before.
-
-trail_signed(Text, Before, Signed) :-
-    (   Before = [link(_, Hex, _)|_]
-    ->  true
-    ;   Hex = none
-    ),
-    string_concat(Hex, Text, All),
-    text_sum(All, Sum),
-    atom_concat('typhon trail ', Sum, Signed).
-
-%   newest(+Links0, +Pems0, -Links, -Pems): with the last link that a host has
-%   signed its certificate goes.
-
-newest(Links0, Pems0, Links, Pems) :-
-    length(Links0, Count),
-    setting(links, Most),
-    (   Count > Most
-    ->  length(Links, Most),
-        append(Links, Gone, Links0),
-        exclude(of_none(Links, Gone), Pems0, Pems)
-    ;   Links = Links0,
-        Pems = Pems0
+settled(Keys, Raw0, Raw) :-
+    Raw0 = '$trail'(_, _, _, Pending),
+    (   Pending == none
+    ->  Raw = Raw0
+    ;   linked([Pending], Keys, Raw0, Raw)
     ).
 
-of_none(Links, Gone, C-_) :-
-    memberchk(link(_, _, C), Gone),
-    \+ memberchk(link(_, _, C), Links).
+linked(Events, Keys, '$trail'(at(N, Made0, Kept0, Last), Chain0, Pems0, _),
+       '$trail'(at(Next, Made, Kept, Hex), Chain, Pems, none)) :-
+    term_text(N-Events, Text),
+    trail_signed(Text, Last, Signed),
+    keys_sign(Keys, Signed, signature(Pem, Hex)),
+    shown(Pem, Made0, Pems0, C, Pems1),
+    length(Events, Count),
+    Next is N+Count,
+    Made is Made0+1,
+    Kept1 is Kept0+1,
+    setting(links, Most),
+    chain_add(link(Text, Hex, C), Kept1-Chain0, Most, Kept-Chain),
+    First is Made-Kept,
+    exclude(signed_before(First), Pems1, Pems).
+
+shown(Pem, Link, Pems0, C, [pem(C, Link, Pem)|Pems]) :-
+    select(pem(C0, _, Pem0), Pems0, Pems),
+    Pem0 == Pem,
+    !,
+    C = C0.
+shown(Pem, Link, Pems, Link, [pem(Link, Link, Pem)|Pems]).
+
+%   With the last link that a host has signed its certificate goes.
+
+signed_before(First, pem(_, Last, _)) :-
+    Last < First.
+
+%!  trail_signed(+Text:string, +Last, -Signed) is det.
+%
+%   What is signed of a link with this Text, Last being the signature of the
+%   one before, or `none`.
+
+trail_signed(Text, Last, Signed) :-
+    string_concat(Last, Text, All),
+    text_sum(All, Sum),
+    atom_concat('typhon trail ', Sum, Signed).
 
 %!  trail_enter(+Module, +Id, +Result) is det.
 %

@@ -11,12 +11,12 @@ Only who wants to know goes through all of it.
 
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [reverse/2]).
 :- use_module('../base/keys',
               [keys_certificate/2, keys_holder/3, keys_verify/4]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, text_term/2]).
 :- use_module('../host', [address_parts/3]).
+:- use_module(chain, [chain_links/2]).
 :- use_module(identity, [agent_home_endpoint/2]).
 :- use_module(trail, [trail_signed/3]).
 
@@ -37,11 +37,11 @@ trail_verified(Id, Raw, trail(Steps, Verdict)) :-
     ;   existence_error(keys, here)
     ),
     (   subsumes_term('$trail'(_, _, _, _), Raw),
-        Raw = '$trail'(_, Links, Pems, _),
-        is_list(Links),
+        Raw = '$trail'(_, Chain, Pems, _),
+        chain_links(Chain, Links),
+        ground(Pems),
         is_list(Pems)
-    ->  reverse(Links, Oldest),
-        all_steps(Oldest, with(Keys, Id, Pems), Steps, Verdict)
+    ->  all_steps(Links, with(Keys, Id, Pems), Steps, Verdict)
     ;   Steps = [],
         Verdict = unaccounted(nobody)
     ).
@@ -81,7 +81,6 @@ steps([Link|Links], With, Before, Steps, Verdict) :-
     ).
 
 events(link(Text, _, _), N, Events) :-
-    string(Text),
     catch(text_term(Text, Term), error(_, _), fail),
     subsumes_term(_-[_|_], Term),
     Term = N-Events,
@@ -101,15 +100,14 @@ is_event(Event) :-
 
 signed_by(Link, N, with(Keys, _, Pems), Before, Name) :-
     Link = link(Text, Hex, C),
-    ground(C-Hex-Pems),
-    memberchk(C-Pem, Pems),
+    memberchk(pem(C, _, Pem), Pems),
     before(Before, N, Last),
     trail_signed(Text, Last, Signed),
     keys_verify(Keys, Signed, signature(Pem, Hex), host(Name)).
 
-before(none, 0, []).
-before(since(N, Last), N, [Last]).
-before(before(N, Last, _, _), N, [Last]).
+before(none, 0, none).
+before(since(N, link(_, Hex, _)), N, Hex).
+before(before(N, link(_, Hex, _), _, _), N, Hex).
 
 %   follow(+Events, +N, +Link, +With, +Before, +Name, -Steps, -After, ?Rest)
 

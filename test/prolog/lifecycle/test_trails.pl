@@ -5,8 +5,9 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/authority').
 :- use_module('../../lib/peers').
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(plunit)).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
@@ -101,13 +102,21 @@ honest :-
 taken_away :-
     toured(Agent, trail(_, whole)),
     typhon_agents:agent(Agent, _, Module, _, _),
-    Module:'$trail'(Next, Links, Pems, Pending),
+    Module:'$trail'(Next, Chain, Pems, Pending),
+    typhon_chain:chain_links(Chain, Oldest),
+    reverse(Oldest, Links),
     findall(Forged-Expected, forged(Links, Forged, Expected), Cases),
     assertion(length(Cases, 7)),
     forall(member(Forged-Expected, Cases),
-           ( typhon_trail_verified:trail_verified(Agent,
-                 '$trail'(Next, Forged, Pems, Pending), trail(_, Verdict)),
+           ( reverse(Forged, OldestForged),
+             foldl(chained, OldestForged, "", ForgedChain),
+             typhon_trail_verified:trail_verified(Agent,
+                 '$trail'(Next, ForgedChain, Pems, Pending),
+                 trail(_, Verdict)),
              assertion(Verdict == Expected) )).
+
+chained(Link, Chain0, Chain) :-
+    typhon_chain:chain_add(Link, 1-Chain0, 9, _-Chain).
 
 %   forged(+Links, -Forged, -Verdict): newest first. Links are two of gamma, two
 %   of beta, the older with what it received and what was entered, one of alpha.
@@ -128,7 +137,7 @@ forged(Links, Forged, unaccounted(nobody)) :-
 forged(Links, Forged, unaccounted(beta)) :-          % not even a text
     append(Before, [link(_, _, _)|After], Links),
     length(After, 3),
-    append(Before, [link("0-[f(", _, f(_))|After], Forged).
+    append(Before, [link("0-[f(", x, 0)|After], Forged).
 forged(Links, Forged, unaccounted(beta)) :-
     append(Before, [link(_, Hex, C)|After], Links),
     length(After, 3),
