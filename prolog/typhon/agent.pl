@@ -35,7 +35,7 @@ This is the door of the layer: who is above takes what it needs from here.
               image_label/2, image_module/3, image_proved/1, image_trail/4
             ]).
 :- reexport(agent/trail,
-            [trail_enter/3, trail_none/2, trail_of/2]).
+            [trail_enter/3, trail_none/2, trail_of/3]).
 :- reexport(agent/trail_verified, [trail_verified/3]).
 :- reexport('agent/in_words').
 :- reexport('agent/fault').

@@ -2,9 +2,9 @@
           [ trail_link/5,               % +Event, +Label, +State0, +Goals,
                                         % -State
             trail_enter/3,              % +Module, +Id, +Result
-            trail_of/2,                 % +Module, -Raw
+            trail_of/3,                 % +Module, +Id, -Raw
             trail_none/2,               % +State0, -State
-            trail_signed/3              % +Text, +Last, -Signed
+            trail_signed/4              % +Id, +Text, +Last, -Signed
           ]).
 
 /** <module> Which hosts have had an agent, and what they did with it
@@ -20,17 +20,19 @@ Chain is one string, see typhon_chain, so that nobody has to look into it on
 the way: each link is the text of N-Events, the N-th event and perhaps others,
 with its signature, and the number C of the certificate pem(C, Last, Pem) of
 who has signed it; Last is the last link of his. At is at(Next, Made, Kept,
-Hex): the number of the next event, how many links were made, how many are
-left, and the signature of the last one. An event is
+Hex, Handed): the number of the next event, how many links were made, how many
+are left, the signature of the last one, and What it has handed on or `none`.
+An event is
 
-  - handed(Id, Hash, Hops, To, State, Goals)
-  - received(Id, Hash, Hops, At, State, Goals)
-  - entered(Id, Result)
+  - handed(To, What)
+  - received(At, What), or received(At) if What is what was handed on
+  - entered(Result)
 
-Hash is that of the program, State and Goals are hashes. A host is accounted
-for if what the next one received is what it handed on, to that address. What
-an agent did while it stood on a host is the word of that host; and who was
-visited twice can cut out what lies between.
+What is what(Hash, Hops, State, Goals): Hash is that of the program, State and
+Goals are hashes. The id of the agent is signed, too. A host is accounted for if
+what the next one received is what it handed on, to that address. What an agent
+did while it stood on a host is the word of that host; and who was visited
+twice can cut out what lies between.
 
 To sign costs more than all else. What was received is Pending, or `none`, and
 is signed with what comes next, on the same host; it is the word of that host
@@ -43,7 +45,7 @@ The oldest links go when there are more than `links`.
 
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [select/3, selectchk/3]).
+:- use_module(library(lists), [last/2, select/3, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../base/keys', [keys_sign/3]).
@@ -51,7 +53,7 @@ The oldest links go when there are more than `links`.
 :- use_module('../host', [host_option/2]).
 :- use_module(chain, [chain_add/4]).
 
-:- setting(links, positive_integer, 64,
+:- setting(links, positive_integer, 32,
            "So many links of the trail of an agent are kept").
 
 %!  trail_link(+Event, +Label, +State0, +Goals, -State) is det.
@@ -66,9 +68,11 @@ trail_link(Event, Label, State0, Goals, State) :-
     taken_out(Clauses0, Raw0, Rest),
     arg(1, Label, Host),
     (   host_option(Host, trail(false))
-    ->  settled(Keys, Raw0, Raw)
-    ;   event(Event, Label, Rest, Goals, What),
-        happens(What, Keys, Raw0, Raw)
+    ->  arg(2, Label, Id),
+        settled(Keys, Id, Raw0, Raw)
+    ;   event(Event, Label, Rest, Goals, Happened),
+        arg(2, Label, Id),
+        happens(Happened, Keys, Id, Raw0, Raw)
     ),
     Raw \== Raw0,
     !,
@@ -82,13 +86,13 @@ taken_out(Clauses, Raw, Rest) :-
 taken_out(Clauses, Raw, Clauses) :-
     no_trail(Raw).
 
-no_trail('$trail'(at(0, 0, 0, none), "", [], none)).
+no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
 
-event(Event, of(_, Id, Hash, Hops), Clauses, Goals, What) :-
-    Event =.. [Name, Where],
+event(Event0, of(_, _, Hash, Hops), Clauses, Goals, Event) :-
+    Event0 =.. [Name, Where],
     state_sum(Clauses, State),
     sum(Goals, Doing),
-    What =.. [Name, Id, Hash, Hops, Where, State, Doing].
+    Event =.. [Name, Where, what(Hash, Hops, State, Doing)].
 
 %   Who owns the agent is signed already.
 
@@ -110,32 +114,36 @@ text_sum(Text, Sum) :-
     sha_hash(Text, Bytes, [algorithm(sha256), encoding(octet)]),
     hash_atom(Bytes, Sum).
 
-%   happens(+What, +Keys, +Raw0, -Raw): What waits to be signed, or is signed
-%   with what waits.
+%   happens(+Event, +Keys, +Id, +Raw0, -Raw): Event waits to be signed, or is
+%   signed with what waits.
 
-happens(What, Keys, Raw0, Raw) :-
-    What = received(_, _, _, _, _, _),
+happens(received(Where, What), Keys, Id, Raw0, Raw) :-
     !,
-    settled(Keys, Raw0, '$trail'(At, Chain, Pems, _)),
-    Raw = '$trail'(At, Chain, Pems, What).
-happens(What, Keys, Raw0, Raw) :-
+    settled(Keys, Id, Raw0, '$trail'(At, Chain, Pems, _)),
+    (   arg(5, At, What)
+    ->  Pending = received(Where)
+    ;   Pending = received(Where, What)
+    ),
+    Raw = '$trail'(At, Chain, Pems, Pending).
+happens(Event, Keys, Id, Raw0, Raw) :-
     Raw0 = '$trail'(_, _, _, Pending),
-    ( Pending == none -> Events = [What] ; Events = [Pending, What] ),
-    linked(Events, Keys, Raw0, Raw).
+    ( Pending == none -> Events = [Event] ; Events = [Pending, Event] ),
+    linked(Events, Keys, Id, Raw0, Raw).
 
-%   settled(+Keys, +Raw0, -Raw): nothing waits.
+%   settled(+Keys, +Id, +Raw0, -Raw): nothing waits.
 
-settled(Keys, Raw0, Raw) :-
+settled(Keys, Id, Raw0, Raw) :-
     Raw0 = '$trail'(_, _, _, Pending),
     (   Pending == none
     ->  Raw = Raw0
-    ;   linked([Pending], Keys, Raw0, Raw)
+    ;   linked([Pending], Keys, Id, Raw0, Raw)
     ).
 
-linked(Events, Keys, '$trail'(at(N, Made0, Kept0, Last), Chain0, Pems0, _),
-       '$trail'(at(Next, Made, Kept, Hex), Chain, Pems, none)) :-
+linked(Events, Keys, Id, '$trail'(at(N, Made0, Kept0, Last, _), Chain0, Pems0, _),
+       '$trail'(at(Next, Made, Kept, Hex, Handed), Chain, Pems, none)) :-
+    ( last(Events, handed(_, What)) -> Handed = What ; Handed = none ),
     term_text(N-Events, Text),
-    trail_signed(Text, Last, Signed),
+    trail_signed(Id, Text, Last, Signed),
     keys_sign(Keys, Signed, signature(Pem, Hex)),
     shown(Pem, Made0, Pems0, C, Pems1),
     length(Events, Count),
@@ -159,13 +167,13 @@ shown(Pem, Link, Pems, Link, [pem(Link, Link, Pem)|Pems]).
 signed_before(First, pem(_, Last, _)) :-
     Last < First.
 
-%!  trail_signed(+Text:string, +Last, -Signed) is det.
+%!  trail_signed(+Id, +Text:string, +Last, -Signed) is det.
 %
-%   What is signed of a link with this Text, Last being the signature of the
-%   one before, or `none`.
+%   What is signed of a link with this Text of the trail of Id, Last being the
+%   signature of the one before, or `none`.
 
-trail_signed(Text, Last, Signed) :-
-    string_concat(Last, Text, All),
+trail_signed(Id, Text, Last, Signed) :-
+    format(string(All), '~w ~w ~w', [Id, Last, Text]),
     text_sum(All, Sum),
     atom_concat('typhon trail ', Sum, Signed).
 
@@ -178,21 +186,21 @@ trail_signed(Text, Last, Signed) :-
 trail_enter(Module, Id, Result) :-
     (   endpoint_keys(Keys)
     ->  raw(Module, Raw0),
-        happens(entered(Id, Result), Keys, Raw0, Raw),
+        happens(entered(Result), Keys, Id, Raw0, Raw),
         dynamic(Module:'$trail'/4),
         retractall(Module:'$trail'(_, _, _, _)),
         assertz(Module:Raw)
     ;   existence_error(keys, here)
     ).
 
-%!  trail_of(+Module, -Raw) is det.
+%!  trail_of(+Module, +Id, -Raw) is det.
 %
-%   What trail_verified/3 looks at, of the agent whose module this is.
+%   What trail_verified/3 looks at, of the agent Id, whose module this is.
 
-trail_of(Module, Raw) :-
+trail_of(Module, Id, Raw) :-
     raw(Module, Raw0),
     (   endpoint_keys(Keys)
-    ->  settled(Keys, Raw0, Raw)
+    ->  settled(Keys, Id, Raw0, Raw)
     ;   Raw = Raw0
     ).
 

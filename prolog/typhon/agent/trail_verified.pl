@@ -18,7 +18,7 @@ Only who wants to know goes through all of it.
 :- use_module('../host', [address_parts/3]).
 :- use_module(chain, [chain_links/2]).
 :- use_module(identity, [agent_home_endpoint/2]).
-:- use_module(trail, [trail_signed/3]).
+:- use_module(trail, [trail_signed/4]).
 
 %!  trail_verified(+Id, +Raw, -Trail) is det.
 %
@@ -88,21 +88,18 @@ events(link(Text, _, _), N, Events) :-
     is_list(Events),
     maplist(is_event, Events).
 
-is_event(Event) :-
-    subsumes_term(entered(_, _), Event),
-    !,
-    arg(1, Event, Id),
-    atom(Id).
+is_event(entered(_)) :-
+    !.
 is_event(Event) :-
     ground(Event),
-    functor(Event, Name, 6),
-    memberchk(Name, [handed, received]).
+    functor(Event, Name, Arity),
+    memberchk(Name/Arity, [handed/2, received/1, received/2]).
 
-signed_by(Link, N, with(Keys, _, Pems), Before, Name) :-
+signed_by(Link, N, with(Keys, Id, Pems), Before, Name) :-
     Link = link(Text, Hex, C),
     memberchk(pem(C, _, Pem), Pems),
     before(Before, N, Last),
-    trail_signed(Text, Last, Signed),
+    trail_signed(Id, Text, Last, Signed),
     keys_verify(Keys, Signed, signature(Pem, Hex), host(Name)).
 
 before(none, 0, none).
@@ -112,40 +109,41 @@ before(before(N, link(_, Hex, _), _, _), N, Hex).
 %   follow(+Events, +N, +Link, +With, +Before, +Name, -Steps, -After, ?Rest)
 
 follow([], _, _, _, After, _, Steps, After, Steps).
-follow([What|Events], N, Link, With, Before, Name,
+follow([Event|Events], N, Link, With, Before, Name,
        [step(N, Name, Told)|Steps], After, Rest) :-
-    follows(Before, What, With, Name),
-    told(What, Told),
+    follows(Before, Event, With, Name),
+    told(Event, Told),
     N1 is N+1,
-    follow(Events, N1, Link, With, before(N1, Link, What, Name), Name, Steps,
+    follow(Events, N1, Link, With, before(N1, Link, Event, Name), Name, Steps,
            After, Rest).
 
-follows(since(_, _), What, with(_, Id, _), _) :-
-    arg(1, What, Id).
-follows(none, What, with(Keys, Id, _), Name) :-
-    arg(1, What, Id),
-    \+ What = received(_, _, _, _, _, _),
+follows(since(_, _), _, _, _).
+follows(none, Event, with(Keys, Id, _), Name) :-
+    \+ is_received(Event, _),
     (   agent_home_endpoint(Id, Home),
         endpoint_address(Home)
     ->  own_name(Keys, Name)            % it began with us
     ;   true
     ).
-follows(before(_, _, Earlier, Before), What, with(_, Id, _), Name) :-
-    arg(1, What, Id),
-    (   Earlier = handed(Id, Hash, Hops, To, State, Goals)
-    ->  What = received(Id, Hash, Hops, At, State, Goals),
+follows(before(_, _, Earlier, Before), Event, _, Name) :-
+    (   Earlier = handed(To, What)
+    ->  is_received(Event, What),
+        arg(1, Event, At),
         address_parts(To, Host, _),     % a process may have several
         address_parts(At, Host, _)      % addresses
     ;   Name == Before,
-        What \= received(_, _, _, _, _, _)
+        \+ is_received(Event, _)
     ).
+
+is_received(received(_), _).
+is_received(received(_, What), What).
 
 own_name(Keys, Name) :-
     keys_certificate(Keys, Own),
     keys_holder(Keys, Own, host(Name)).
 
-told(entered(_, Result), entered(Result)) :-
+told(received(At, _), received(At)) :-
     !.
-told(Event, What) :-
-    Event =.. [Name, _, _, _, Where|_],
-    What =.. [Name, Where].
+told(handed(To, _), handed(To)) :-
+    !.
+told(Event, Event).
