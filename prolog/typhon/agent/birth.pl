@@ -3,6 +3,8 @@
             birth_left/2,               % +State0, -State
             birth_proved/3,             % +Id, +Hash, +State
             birth_good/1,               % +Birth
+            birth_papers/3,             % +State, +Sent, -Papers
+            birth_papers_kept/2,        % +Papers, -Sent
             birth_shown/2               % +Id, -Birth
           ]).
 
@@ -11,13 +13,15 @@
 Where processes have keys an agent that leaves the process in which it was
 born takes along what that one has signed, a fact among its state:
 
-    '$birth'(Id, Hash, Certificate, Hex)
+    '$birth'(Id, Hash, Key, Hex)
 
 Id is its own, and says who the owner is, see typhon_identity; Hash is that of
-its program, and Certificate that of the owner. Nobody else can make one, so
-an id belongs to the owner, and to one program. And since it is shown to
-nobody but those to whom the agent goes, and to its home, who shows it has had
-the agent.
+its program, and Key that of the certificate of the owner. Nobody else can make
+one, so an id belongs to the owner, and to one program. And since it is shown
+to nobody but those to whom the agent goes, and to its home, who shows it has
+had the agent.
+
+Certificates are long: they go along with programs, to who lacks them.
 
 *Threading*: any thread; a mutex makes those who remember come one by one.
 */
@@ -25,17 +29,29 @@ the agent.
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [memberchk/2]).
 :- use_module(library(settings), [setting/4]).
+:- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../base/bounded', [bounded/2]).
-:- use_module('../base/keys', [keys_holder/3, keys_sign/3, keys_verify/4]).
-:- use_module('../wire', [endpoint_keys/1]).
-:- use_module(identity, [agent_owned/1, agent_owned/2]).
+:- use_module('../base/keys',
+              [keys_certificate/2, keys_holder/3, keys_sign/3, keys_verify/4]).
+:- use_module('../journal', [note_drop/3, note_put/4]).
+:- use_module('../wire', [endpoint_address/1, endpoint_keys/1]).
+:- use_module(identity,
+              [agent_home_endpoint/2, agent_owned/1, agent_owned/2]).
 
-:- multifile typhon_identity:ids_anew/0.
+:- multifile
+    typhon_bounded:forgotten/1,
+    typhon_identity:ids_anew/0,
+    typhon_recovery:back/4.
 
 :- setting(births, positive_integer, 20000,
            "Of so many agents that were here it is remembered who owns them").
 
-:- dynamic known/2.                     % Id, Birth: a good one
+:- setting(owners, positive_integer, 2000,
+           "Certificates of owners that are kept").
+
+:- dynamic
+    known/2,                            % Id, Birth: a good one
+    certificate/2.                      % Key, Certificate: of a host
 
 typhon_identity:ids_anew :-
     retractall(known(_, _)).
@@ -62,12 +78,13 @@ birth(Id, Hash, Birth) :-
     Birth0 = '$birth'(_, Hash, _, _),
     !,
     Birth = Birth0.
-birth(Id, Hash, '$birth'(Id, Hash, Certificate, Hex)) :-
+birth(Id, Hash, '$birth'(Id, Hash, Key, Hex)) :-
     agent_owned(Id),
     endpoint_keys(Keys),
     birth_text(Id, Hash, Text),
     keys_sign(Keys, Text, signature(Certificate, Hex)),
-    remember(Id, '$birth'(Id, Hash, Certificate, Hex)).
+    certificate_keep(Certificate, Key),
+    remember(Id, '$birth'(Id, Hash, Key, Hex)).
 
 birth_text(Id, Hash, Text) :-
     atomic_list_concat(['typhon birth', Id, Hash], ' ', Text).
@@ -95,8 +112,8 @@ of_birth(Clause) :-
 
 birth_proved(Id, Hash, state(_, Clauses)) :-
     (   endpoint_keys(_)
-    ->  memberchk('$birth'(Id, Hash, Certificate, Hex), Clauses),
-        birth_good('$birth'(Id, Hash, Certificate, Hex))
+    ->  memberchk('$birth'(Id, Hash, Key, Hex), Clauses),
+        birth_good('$birth'(Id, Hash, Key, Hex))
     ;   true
     ).
 
@@ -106,8 +123,9 @@ birth_proved(Id, Hash, state(_, Clauses)) :-
 
 birth_good(Birth) :-
     ground(Birth),
-    Birth = '$birth'(Id, Hash, Certificate, Hex),
+    Birth = '$birth'(Id, Hash, Key, Hex),
     endpoint_keys(Keys),
+    certificate_of(Key, Certificate),
     (   known(Id, Known),
         Known == Birth
     ->  keys_holder(Keys, Certificate, _)
@@ -116,7 +134,69 @@ birth_good(Birth) :-
         birth_text(Id, Hash, Text),
         keys_verify(Keys, Text, signature(Certificate, Hex), host(Owner)),
         agent_owned(Id, Owner),
+        at_home(Id),
         remember(Id, Birth)
+    ).
+
+%   Nobody else's was born here.
+
+at_home(Id) :-
+    agent_owned(Id),
+    !.
+at_home(Id) :-
+    agent_home_endpoint(Id, Home),
+    \+ endpoint_address(Home).
+
+%!  birth_papers(+State, +Sent, -Papers) is det.
+%!  birth_papers_kept(+Papers, -Sent) is det.
+%
+%   What is sent instead of Sent, which goes along with an agent of that State
+%   to who may lack the certificate of its owner; he keeps it, if it is one.
+
+birth_papers(state(_, Clauses), Sent, Papers) :-
+    endpoint_keys(_),
+    memberchk('$birth'(_, _, Key, _), Clauses),
+    certificate(Key, Certificate),
+    !,
+    Papers = papers(Certificate, Sent).
+birth_papers(_, Sent, Sent).
+
+birth_papers_kept(Papers, Sent) :-
+    subsumes_term(papers(_, _), Papers),
+    !,
+    Papers = papers(Certificate, Sent),
+    (   endpoint_keys(Keys),
+        keys_holder(Keys, Certificate, host(_))
+    ->  certificate_keep(Certificate, Key),
+        note_put(owner, Key, 0, Certificate)
+    ;   true
+    ).
+birth_papers_kept(Sent, Sent).
+
+typhon_recovery:back(owner, _, _, Certificate) :-
+    certificate_keep(Certificate, _).
+
+typhon_bounded:forgotten(certificate(Key, _)) :-
+    note_drop(owner, Key, 0).
+
+certificate_of(Key, Certificate) :-
+    certificate(Key, Certificate0),
+    !,
+    Certificate = Certificate0.
+certificate_of(Key, Certificate) :-
+    endpoint_keys(Keys),
+    keys_certificate(Keys, Certificate),
+    certificate_keep(Certificate, Key).
+
+certificate_keep(Certificate, Key) :-
+    sha_hash(Certificate, Bytes, [algorithm(sha256), encoding(utf8)]),
+    hash_atom(Bytes, Key0),
+    Key = Key0,
+    (   certificate(Key, _)
+    ->  true
+    ;   with_mutex(typhon_birth,
+                   ( assertz(certificate(Key, Certificate)),
+                     bounded(certificate(_, _), typhon_birth:owners) ))
     ).
 
 %!  birth_shown(+Id, -Birth) is semidet.

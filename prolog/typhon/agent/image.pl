@@ -4,6 +4,7 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
+            image_papers/3,             % +Image, +Sent, -Papers
             image_proved/1,             % +Image
             image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Agent
@@ -16,7 +17,7 @@
 :- use_module('../wire', [endpoint_keys/1]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
-:- use_module(birth, [birth_proved/3, birth_taken/4]).
+:- use_module(birth, [birth_papers/3, birth_proved/3, birth_taken/4]).
 :- use_module(identity, [agent_home/2]).
 :- use_module(legacy, [legacy_none/2]).
 :- use_module(trail, [trail_link/5, trail_none/2]).
@@ -85,6 +86,13 @@ signed(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
     ;   State1 = State0
     ),
     trail_link(Event, of(Host, Id, Hash, Hops), State1, Goals, State).
+
+%!  image_papers(+Image, +Sent, -Papers) is det.
+%
+%   See birth_papers/3.
+
+image_papers(image(_, _, _, State, _, _, _), Sent, Papers) :-
+    birth_papers(State, Sent, Papers).
 
 %!  image_proved(+Image) is semidet.
 %

@@ -12,7 +12,7 @@
                 host_leave/1, host_time/2, peer_may/3, schedule/2,
                 schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
-              [ agent/5, agent_order/2, agent_status/3,
+              [ agent/5, agent_order/2, agent_status/3, birth_papers_kept/2,
                 image_enter/4, image_label/2, image_module/3, image_proved/1,
                 image_trail/4,
                 life_hops/2,
@@ -81,7 +81,8 @@ typhon_endpoint:lent(_:go_on(_, Id), Thread) :-
 typhon_endpoint:returned :-
     schedule_leave.
 
-arrive(Name, Image, Program, Crossing, Peer, Answer) :-
+arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
+    birth_papers_kept(Papers, Program),
     image_label(Image, Label),
     Label = label(Id, Hops, Hash, Tokens, _, _),
     (   ( Crossing \== none, crossing_known(Crossing)
@@ -91,8 +92,7 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     ;   \+ peer_may(Peer, Name, agents)
     ->  Answer = refused(peer)
     ;   \+ image_proved(Image)
-    ->  audit(Name, Peer, refused(Id, identity)),
-        Answer = refused(identity)
+    ->  unproved(Program, Name, Id, Peer, Answer)
     ;   host(Name, _, Place),
         policy_against(Place, Hash, Program, Reason)
     ->  audit(Name, Peer, refused(Id, Reason)),
@@ -106,6 +106,13 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
         ;   admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
         )
     ).
+
+%   He may have the certificate.
+
+unproved(known, _, _, _, need_program) :-
+    !.
+unproved(_, Name, Id, Peer, refused(identity)) :-
+    audit(Name, Peer, refused(Id, identity)).
 
 repeated(Id, Hops) :-
     (   agent(Id, _, _, _, Life)

@@ -75,7 +75,8 @@ brought(Image, Answer) :-
     guest(Program),
     peer_do(mallory,
             ( typhon_loaded:program_load(Program, _, _, Hash, _),
-              typhon_code:code_sent(Hash, Sent),
+              typhon_code:code_sent(Hash, Sent0),
+              typhon_image:image_papers(Image, Sent0, Sent),
               typhon_wire:endpoint_call(Beta, hop, hop(beta, Image, Sent),
                                         Answer, 10) )).
 
@@ -121,10 +122,10 @@ ids_taken :-
     is_at(A, Alpha),
     mallory_image(image(Own, Hash, Life, State, Goals, Mail, Since)),
     State = state(Empty, Clauses0),
-    memberchk('$birth'(Own, Hash, Pem, Hex), Clauses0),
+    memberchk('$birth'(Own, Hash, Key, Hex), Clauses0),
     peer_do(mallory, typhon_birth:known(A, BirthOfA)),
     assertion(BirthOfA = '$birth'(A, _, _, _)),
-    forall(forged(Case, C, A, BirthOfA, birth(Own, Hash, Pem, Hex),
+    forall(forged(Case, C, A, BirthOfA, birth(Own, Hash, Key, Hex),
                   state(Empty, Clauses0), Id, ItsHash, ItsState),
            ( brought(image(Id, ItsHash, Life, ItsState, Goals, Mail, Since),
                      Answer),
@@ -135,19 +136,20 @@ ids_taken :-
 forged(without_birth, C, _, _, birth(_, Hash, _, _), _, C, Hash,
        state([], [])).
 forged(with_her_own, C, _, _, birth(_, Hash, _, _), State, C, Hash, State).
-forged(with_her_own_renamed, C, _, _, birth(_, Hash, Pem, Hex), _, C, Hash,
-       state([], ['$birth'(C, Hash, Pem, Hex)])).
+forged(with_her_own_renamed, C, _, _, birth(_, Hash, Key, Hex), _, C, Hash,
+       state([], ['$birth'(C, Hash, Key, Hex)])).
 forged(signed_by_her, C, _, _, birth(_, Hash, _, _), _, C, Hash,
        state([], [Birth])) :-
     peer_do(mallory,
             ( typhon_secure:directory(Keys),
               typhon_birth:birth_text(C, Hash, Text),
-              typhon_base_keys:keys_sign(Keys, Text, signature(Pem, Hex)) )),
-    Birth = '$birth'(C, Hash, Pem, Hex).
-forged(another_program, _, A, '$birth'(A, _, Pem, Hex), _, _, A,
-       another_hash, state([], ['$birth'(A, another_hash, Pem, Hex)])).
-forged(the_birth_of_another, C, _, '$birth'(_, Hash, Pem, Hex), _, _, C, Hash,
-       state([], ['$birth'(C, Hash, Pem, Hex)])).
+              typhon_base_keys:keys_sign(Keys, Text, signature(Pem, Hex)),
+              typhon_birth:certificate_keep(Pem, Key) )),
+    Birth = '$birth'(C, Hash, Key, Hex).
+forged(another_program, _, A, '$birth'(A, _, Key, Hex), _, _, A,
+       another_hash, state([], ['$birth'(A, another_hash, Key, Hex)])).
+forged(the_birth_of_another, C, _, '$birth'(_, Hash, Key, Hex), _, _, C, Hash,
+       state([], ['$birth'(C, Hash, Key, Hex)])).
 forged(no_text, C, _, _, birth(_, Hash, _, _), _, C, Hash,
        state([], ['$birth'(C, Hash, _, f(x))])).
 
