@@ -23,7 +23,8 @@ This is the door of the layer: who is above takes what it needs from here.
               agent_owned/1, agent_owned/2
             ]).
 :- reexport(agent/birth,
-            [birth_good/1, birth_left/2, birth_papers_kept/2, birth_shown/2]).
+            [ birth_good/1, birth_papers/5, birth_proved/4, birth_sent/2,
+              birth_shown/2, birth_unproved/2 ]).
 :- reexport(agent/life,
             [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
               life_parent/2, life_payloads/2, life_tokens/2, life_traces/2,
@@ -33,8 +34,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_label/2, image_module/3, image_papers/3, image_proved/1,
-              image_trail/4
+              image_label/2, image_module/3, image_trail/4
             ]).
 :- reexport(agent/trail,
             [trail_enter/3, trail_none/2, trail_of/3]).

@@ -4,8 +4,6 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
-            image_papers/3,             % +Image, +Sent, -Papers
-            image_proved/1,             % +Image
             image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Agent
             image_enter/4               % +Image, +Host, +Agent, +More
@@ -17,7 +15,6 @@
 :- use_module('../wire', [endpoint_keys/1]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
-:- use_module(birth, [birth_papers/3, birth_proved/3, birth_taken/4]).
 :- use_module(identity, [agent_home/2]).
 :- use_module(legacy, [legacy_none/2]).
 :- use_module(trail, [trail_link/5, trail_none/2]).
@@ -69,8 +66,7 @@ start(Host, Since, Start) :-
 %!  image_trail(+Event, +Host, +Image0, -Image) is det.
 %
 %   Where there are keys Image has one link more in its trail, of Host, a host
-%   of this process, see trail_link/5; one that is handed on proves who owns
-%   it, see birth_taken/4.
+%   of this process, see trail_link/5.
 
 image_trail(Event, Host, Image0, Image) :-
     (   endpoint_keys(_)
@@ -81,25 +77,7 @@ image_trail(Event, Host, Image0, Image) :-
 signed(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
        image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     life_hops(Life, Hops),
-    (   Event = handed(_)
-    ->  birth_taken(Id, Hash, State0, State1)
-    ;   State1 = State0
-    ),
-    trail_link(Event, of(Host, Id, Hash, Hops), State1, Goals, State).
-
-%!  image_papers(+Image, +Sent, -Papers) is det.
-%
-%   See birth_papers/3.
-
-image_papers(image(_, _, _, State, _, _, _), Sent, Papers) :-
-    birth_papers(State, Sent, Papers).
-
-%!  image_proved(+Image) is semidet.
-%
-%   Image shows that the owner of its id has made it, of this program.
-
-image_proved(image(Id, Hash, _, State, _, _, _)) :-
-    birth_proved(Id, Hash, State).
+    trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
 
 %!  image_hash(+Image, -Hash) is det.
 

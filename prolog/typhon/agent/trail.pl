@@ -90,17 +90,9 @@ no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
 
 event(Event0, of(_, _, Hash, Hops), Clauses, Goals, Event) :-
     Event0 =.. [Name, Where],
-    state_sum(Clauses, State),
+    sum(Clauses, State),
     sum(Goals, Doing),
     Event =.. [Name, Where, what(Hash, Hops, State, Doing)].
-
-%   Who owns the agent is signed already.
-
-state_sum(Clauses, Sum) :-
-    (   selectchk('$birth'(_, _, _, _), Clauses, Others)
-    ->  sum(Others, Sum)
-    ;   sum(Clauses, Sum)
-    ).
 
 %   The same wherever variables have other names.
 

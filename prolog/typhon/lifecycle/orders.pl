@@ -11,8 +11,8 @@
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_name/3,
                 agent_order/2, agent_ready/2, agent_state/2, agent_status/3,
-                agent_wakes/2, birth_left/2, fault_stamp/2, is_faulty/3,
-                life_hops/2, mail_list/2, trail_none/2, with_agent/2 ]).
+                agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
+                mail_list/2, trail_none/2, with_agent/2 ]).
 :- use_module('../travel',
               [agent_resumed/3, out_of_touch/1]).
 :- use_module(change, [change_made/2]).
@@ -264,7 +264,6 @@ carried_out(image, Agent,
     code_sent(Hash, Program),
     agent_name(Agent, Name, _),
     agent_state(Module, State0),
-    birth_left(State0, State1),
-    trail_none(State1, State),
+    trail_none(State0, State),
     mail_list(Agent, Mail),
     mobile_term(State-Goals).

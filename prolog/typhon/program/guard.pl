@@ -140,7 +140,6 @@ declared_allowed(PI) :-
 of_platform('$legacy'(_)).
 of_platform('$memory'(_)).
 of_platform('$trail'(_, _, _, _)).
-of_platform('$birth'(_, _, _, _)).
 of_platform('$signed'(_, _)).
 
 guard_fact(_, Fact, Fact) :-

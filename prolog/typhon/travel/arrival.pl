@@ -12,9 +12,9 @@
                 host_leave/1, host_time/2, peer_may/3, schedule/2,
                 schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
-              [ agent/5, agent_order/2, agent_status/3, birth_papers_kept/2,
-                image_enter/4, image_label/2, image_module/3, image_proved/1,
-                image_trail/4,
+              [ agent/5, agent_order/2, agent_status/3, birth_proved/4,
+                birth_sent/2,
+                image_enter/4, image_label/2, image_module/3, image_trail/4,
                 life_hops/2,
                 policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
@@ -82,7 +82,7 @@ typhon_endpoint:returned :-
     schedule_leave.
 
 arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
-    birth_papers_kept(Papers, Program),
+    birth_sent(Papers, Program),
     image_label(Image, Label),
     Label = label(Id, Hops, Hash, Tokens, _, _),
     (   ( Crossing \== none, crossing_known(Crossing)
@@ -91,8 +91,8 @@ arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
     ->  Answer = accepted
     ;   \+ peer_may(Peer, Name, agents)
     ->  Answer = refused(peer)
-    ;   \+ image_proved(Image)
-    ->  unproved(Program, Name, Id, Peer, Answer)
+    ;   \+ birth_proved(Papers, Peer, Id, Hash)
+    ->  unproved(Papers, Name, Id, Peer, Answer)
     ;   host(Name, _, Place),
         policy_against(Place, Hash, Program, Reason)
     ->  audit(Name, Peer, refused(Id, Reason)),
@@ -107,9 +107,10 @@ arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
         )
     ).
 
-%   He may have the certificate.
+%   He may have what proves it.
 
-unproved(known, _, _, _, need_program) :-
+unproved(Papers, _, _, _, need_program) :-
+    \+ subsumes_term(papers(_, _), Papers),
     !.
 unproved(_, Name, Id, Peer, refused(identity)) :-
     audit(Name, Peer, refused(Id, identity)).

@@ -10,8 +10,8 @@
               [endpoint_address/1, endpoint_request/4, mobile_term/1]).
 :- use_module('../host', [address_parts/3, host/3, host_time/2]).
 :- use_module('../agent',
-              [ agent/5, image_hash/2, image_papers/3, image_trail/4,
-                with_agent/2 ]).
+              [ agent/5, birth_papers/5, birth_unproved/2, image_hash/2,
+                image_trail/4, with_agent/2 ]).
 :- use_module('../journal', [crash_point/1, journal_on/0]).
 :- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
@@ -116,7 +116,9 @@ send(Transfer, Image0) :-
     arg(2, Transfer, dest(Address, Name, Endpoint)),
     image_hash(Image0, Hash),
     catch(( handed(Transfer, Address, Image0, Image),
-            program(Endpoint, Hash, Image, Program),
+            program(Endpoint, Hash, Sent),
+            transfer_traveller(Transfer, Who, _),
+            birth_papers(Who, Hash, Endpoint, Sent, Program),
             (   journal_on
             ->  hop_request(Transfer, Name, Image, Program, Request),
                 endpoint_request(Endpoint, hop, Request, answered(Transfer)),
@@ -163,12 +165,11 @@ handed(Transfer, Address, Image0, Image) :-
 
 %   The program is sent to those who lack it as far as we know.
 
-program(Endpoint, Hash, _, known) :-
+program(Endpoint, Hash, known) :-
     has_program(Endpoint, Hash),
     !.
-program(Endpoint, Hash, Image, Papers) :-
+program(Endpoint, Hash, Sent) :-
     code_sent(Hash, Sent),
-    image_papers(Image, Sent, Papers),
     bound_programs,
     assertz(has_program(Endpoint, Hash)).
 
@@ -212,6 +213,8 @@ taken(need_program, Transfer) :-
         debug(typhon(hop), '~w lacks the program', [Endpoint]),
         image_hash(Image, Hash),
         retractall(has_program(Endpoint, Hash)),
+        transfer_traveller(Transfer, Who, _),
+        birth_unproved(Endpoint, Who),
         send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
     ).

@@ -44,7 +44,7 @@ may_speak(certificate(Name), _, Id) :-
 may_speak(_, Births, Id) :-
     is_list(Births),
     member(Birth, Births),
-    subsumes_term('$birth'(Id, _, _, _), Birth),
+    subsumes_term(birth(Id, _, _, _), Birth),
     birth_good(Birth).
 
 %!  mail_believed(+Peer, +Id, +Births, +Mail, -Believed) is det.

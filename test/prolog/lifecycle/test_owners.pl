@@ -58,25 +58,25 @@ endpoint(Peer, Endpoint) :-
     peer_host(Peer, Host),
     typhon_hosts:address_parts(Host, _, Endpoint).
 
-%   Mallory makes the image of an agent of hers, which has done one hop.
+%   Mallory makes the image of an agent of hers, and its birth.
 
-mallory_image(Image) :-
+mallory_image(Image, Birth) :-
     guest(Program),
     peer_do(mallory,
             ( agent_create(Program, A),
-              typhon_image:image_hop(A, _, [], [], 0, Image0),
-              typhon_image:image_trail(handed(nowhere), mallory, Image0, Image)
-            )).
+              typhon_image:image_hop(A, _, [], [], 0, Image),
+              typhon_image:image_hash(Image, Hash),
+              typhon_birth:birth(A, Hash, Birth) )).
 
 %   What beta answers when mallory brings it.
 
-brought(Image, Answer) :-
+brought(Image, Birth, Answer) :-
     endpoint(beta, Beta),
     guest(Program),
     peer_do(mallory,
             ( typhon_loaded:program_load(Program, _, _, Hash, _),
               typhon_code:code_sent(Hash, Sent0),
-              typhon_image:image_papers(Image, Sent0, Sent),
+              ( Birth == none -> Sent = Sent0 ; Sent = papers(Birth, Sent0) ),
               typhon_wire:endpoint_call(Beta, hop, hop(beta, Image, Sent),
                                         Answer, 10) )).
 
@@ -110,48 +110,52 @@ honest :-
     agent_send(B, say(A, heard(back))),
     wait_until(heard(A, [B-back]), 20).
 
-%   Mallory has A's birth, since it was her guest; of C she knows the id only.
+%   Mallory has A's birth, since it was her guest; of C she knows the id only,
+%   but beta knows C.
 
 ids_taken :-
     guest(Program),
     agent_create(Program, A),
     agent_create(Program, C),
     resides(A, mallory),
+    resides(C, beta),
     host_property(alpha, address(Alpha)),
-    agent_send(A, go(Alpha)),
-    is_at(A, Alpha),
-    mallory_image(image(Own, Hash, Life, State, Goals, Mail, Since)),
-    State = state(Empty, Clauses0),
-    memberchk('$birth'(Own, Hash, Key, Hex), Clauses0),
+    forall(member(Agent, [A, C]),
+           ( agent_send(Agent, go(Alpha)), is_at(Agent, Alpha) )),
+    mallory_image(image(Own, Hash, life(P, _, L, T, Ps, S, Ts), State, Goals,
+                        Mail, Since), HerBirth),
+    Life = life(P, 9, L, T, Ps, S, Ts),
     peer_do(mallory, typhon_birth:known(A, BirthOfA)),
-    assertion(BirthOfA = '$birth'(A, _, _, _)),
-    forall(forged(Case, C, A, BirthOfA, birth(Own, Hash, Key, Hex),
-                  state(Empty, Clauses0), Id, ItsHash, ItsState),
-           ( brought(image(Id, ItsHash, Life, ItsState, Goals, Mail, Since),
-                     Answer),
-             assertion(Case-Answer == Case-answer(refused(identity))) )),
-    brought(image(Own, Hash, Life, State, Goals, Mail, Since), Honest),
+    assertion(BirthOfA = birth(A, Hash, _, _)),
+    forall(forged(Case, C, A, Hash, BirthOfA, HerBirth, Id, ItsHash, Birth),
+           ( brought(image(Id, ItsHash, Life, State, Goals, Mail, Since),
+                     Birth, Answer),
+             assertion(memberchk(Case-Answer,
+                                 [ _-answer(refused(identity)),
+                                   without-answer(need_program) ])) )),
+    brought(image(Own, Hash, Life, State, Goals, Mail, Since), HerBirth,
+            Honest),
     assertion(Honest == answer(accepted)).
 
-forged(without_birth, C, _, _, birth(_, Hash, _, _), _, C, Hash,
-       state([], [])).
-forged(with_her_own, C, _, _, birth(_, Hash, _, _), State, C, Hash, State).
-forged(with_her_own_renamed, C, _, _, birth(_, Hash, Key, Hex), _, C, Hash,
-       state([], ['$birth'(C, Hash, Key, Hex)])).
-forged(signed_by_her, C, _, _, birth(_, Hash, _, _), _, C, Hash,
-       state([], [Birth])) :-
+%   forged(-Case, +C, +A, +Hash, +BirthOfA, +HerBirth, -Id, -ItsHash, -Birth)
+
+forged(without, C, _, Hash, _, _, C, Hash, none).
+forged(with_her_own, C, _, Hash, _, Hers, C, Hash, Hers).
+forged(with_her_own_renamed, C, _, Hash, _, birth(_, _, Pem, Hex), C, Hash,
+       birth(C, Hash, Pem, Hex)).
+forged(signed_by_her, C, _, Hash, _, _, C, Hash, birth(C, Hash, Pem, Hex)) :-
     peer_do(mallory,
             ( typhon_secure:directory(Keys),
               typhon_birth:birth_text(C, Hash, Text),
-              typhon_base_keys:keys_sign(Keys, Text, signature(Pem, Hex)),
-              typhon_birth:certificate_keep(Pem, Key) )),
-    Birth = '$birth'(C, Hash, Key, Hex).
-forged(another_program, _, A, '$birth'(A, _, Key, Hex), _, _, A,
-       another_hash, state([], ['$birth'(A, another_hash, Key, Hex)])).
-forged(the_birth_of_another, C, _, '$birth'(_, Hash, Key, Hex), _, _, C, Hash,
-       state([], ['$birth'(C, Hash, Key, Hex)])).
-forged(no_text, C, _, _, birth(_, Hash, _, _), _, C, Hash,
-       state([], ['$birth'(C, Hash, _, f(x))])).
+              typhon_base_keys:keys_sign(Keys, Text, signature(Pem0, Hex)),
+              atom_string(Pem, Pem0) )).
+forged(another_program, _, A, _, birth(A, _, Pem, Hex), _, A, another,
+       birth(A, another, Pem, Hex)).
+forged(that_of_another, C, _, Hash, Birth, _, C, Hash, Birth).
+forged(that_of_another_renamed, C, _, Hash, birth(_, _, Pem, Hex), _, C, Hash,
+       birth(C, Hash, Pem, Hex)).
+forged(no_text, C, _, Hash, _, _, C, Hash, birth(C, Hash, _, f(x))).
+forged(no_birth, C, _, Hash, _, _, C, Hash, [_|_]).
 
 senders_forged :-
     guest(Program),
