@@ -34,7 +34,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_label/2, image_module/3, image_trail/4
+              image_label/2, image_module/3, image_payloads/2, image_trail/4
             ]).
 :- reexport(agent/trail,
             [trail_enter/3, trail_none/2, trail_of/3]).
@@ -43,6 +43,8 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('agent/fault').
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3]).
+:- reexport(agent/signed_payloads,
+            [payload_mark/2, payloads_admitted/3]).
 :- reexport(agent/legacy,
             [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
               legacy_result/2 ]).

@@ -4,6 +4,7 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
+            image_payloads/2,           % +Image, +Host
             image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Agent
             image_enter/4               % +Image, +Host, +Agent, +More
@@ -17,6 +18,7 @@
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2]).
 :- use_module(legacy, [legacy_none/2]).
+:- use_module(signed_payloads, [payloads_admitted/3]).
 :- use_module(trail, [trail_link/5, trail_none/2]).
 :- use_module(life,
               [ is_life/1, life_clone/3, life_hop/3, life_hops/2,
@@ -62,6 +64,13 @@ start(Host, Since, Start) :-
     ->  Start = Address-Since
     ;   Start = Since
     ).
+
+%!  image_payloads(+Image, +Host) is semidet.
+%
+%   Host lets in the payloads of Image, see payloads_admitted/3.
+
+image_payloads(image(_, _, Life, state(_, Clauses), _, _, _), Host) :-
+    payloads_admitted(Host, Life, Clauses).
 
 %!  image_trail(+Event, +Host, +Image0, -Image) is det.
 %

@@ -14,7 +14,8 @@
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3, birth_proved/4,
                 birth_sent/2,
-                image_enter/4, image_label/2, image_module/3, image_trail/4,
+                image_enter/4, image_label/2, image_module/3, image_payloads/2,
+                image_trail/4,
                 life_hops/2,
                 policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
@@ -99,6 +100,8 @@ arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
         Answer = refused(Reason)
     ;   \+ has_code(Hash, Program)
     ->  Answer = need_program
+    ;   \+ image_payloads(Image, Name)
+    ->  Answer = refused(unsigned)
     ;   host_enter(Name, Hash, Tokens, Entered),
         (   Entered == refused(unsigned),
             Program == known            % he may have the signature
