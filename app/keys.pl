@@ -36,7 +36,7 @@ stolen from a host nobody can sign programs.
 :- use_module(library(option), [option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 
-:- use_module('../prolog/typhon/program', [program_sign/2]).
+:- use_module('../prolog/typhon/program', [file_sign/2]).
 
 :- multifile prolog:error_message//1.
 
@@ -227,7 +227,7 @@ keys_revoke(Name, Directory) :-
 
 %!  keys_sign_file(+File, +Author, +Directory) is det.
 %
-%   Write the signature of an agent program beside it.
+%   Write the signature of an agent program or a payload beside it.
 %
 %   @error existence_error(key, Author)
 
@@ -236,7 +236,7 @@ keys_sign_file(File, Author, Directory) :-
     directory_file_path(Directory, Author, Own),
     directory_file_path(Own, 'key.pem', Key),
     (   exists_file(Key)
-    ->  program_sign(File, Own)
+    ->  file_sign(File, Own)
     ;   existence_error(key, Author)
     ).
 

@@ -9,7 +9,10 @@
 
     swipl bench/keys.pl
 
-By turns; the best of each counts, as what disturbs only makes them slower. */
+By turns; the best of each counts, as what disturbs only makes them slower.
+Beside the time by the clock stands the time that both processors took. The
+one agent takes all the links along that are kept, of a hundred each has up to
+eight. */
 
 :- initialization(main, main).
 
@@ -29,21 +32,26 @@ compare(Dir) :-
                        trail-Keys-true-400 ]),
               hops(Directory, Trail, Hops, Rates) ),
             All),
-    forall(( member(How, [tls, trail]), member(Agents, [1, 100]) ),
-           compared(How, Agents, All)).
+    forall(( member(How, [tls, trail]), member(Agents, [1, 100]),
+             member(Clock, [clock, processor]) ),
+           compared(How, Agents, Clock, All)).
 
-compared(How, Agents, All) :-
-    best(plain, Agents, All, Plain),
-    best(How, Agents, All, Other),
-    format(atom(Name), '~w agents: a hop with ~w against a plain one',
-           [Agents, How]),
+compared(How, Agents, Clock, All) :-
+    best(plain, Agents, Clock, All, Plain),
+    best(How, Agents, Clock, All, Other),
+    format(atom(Name), '~w agents: a hop with ~w against a plain one, ~w',
+           [Agents, How, Clock]),
     ratio(Name, Other, Plain, us, plain).
 
-best(How, Agents, All, Microseconds) :-
-    findall(Rate, ( member(How-Rates, All), memberchk(Agents-Rate, Rates) ),
+best(How, Agents, Clock, All, Microseconds) :-
+    findall(Rate, ( member(How-Rates, All), memberchk(Agents-Both, Rates),
+                    by(Clock, Both, Rate) ),
             Some),
     max_list(Some, Best),
     Microseconds is 1.0e6/Best.
+
+by(clock, rates(Rate, _), Rate).
+by(processor, rates(_, Rate), Rate).
 
 hops(Keys, Trail, Hops, Rates) :-
     setenv('TYPHON_TLS', Keys),
@@ -54,5 +62,5 @@ hops(Keys, Trail, Hops, Rates) :-
 hops_to(Trail, Hops, [1-One, 100-Many], Peer) :-
     host_change(Peer, trail(Trail)),
     travelled(1, 200, Peer, _),         % warm up
-    travelled(1, Hops, Peer, rates(One, _)),
-    travelled(100, Hops, Peer, rates(Many, _)).
+    travelled(1, Hops, Peer, One),
+    travelled(100, Hops, Peer, Many).

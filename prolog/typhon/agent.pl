@@ -19,8 +19,12 @@ This is the door of the layer: who is above takes what it needs from here.
               agent_may_stand/4, agent_module/5, agent_standing/5,
               agent_state/2, policy_against/4, policy_refuses/2 ]).
 :- reexport(agent/identity,
-            [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3
+            [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
+              agent_owned/1, agent_owned/2
             ]).
+:- reexport(agent/birth,
+            [ birth_good/1, birth_papers/5, birth_proved/4, birth_sent/2,
+              birth_shown/2, birth_unproved/2 ]).
 :- reexport(agent/life,
             [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
               life_parent/2, life_payloads/2, life_tokens/2, life_traces/2,
@@ -30,14 +34,17 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_label/2, image_module/3, image_trail/4
+              image_label/2, image_module/3, image_payloads/2, image_trail/4
             ]).
 :- reexport(agent/trail,
-            [trail_enter/3, trail_none/2, trail_of/2, trail_verified/3]).
+            [trail_enter/3, trail_none/2, trail_of/3]).
+:- reexport(agent/trail_verified, [trail_verified/3]).
 :- reexport('agent/in_words').
 :- reexport('agent/fault').
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3]).
+:- reexport(agent/signed_payloads,
+            [payload_mark/2, payloads_admitted/3]).
 :- reexport(agent/legacy,
             [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
               legacy_result/2 ]).

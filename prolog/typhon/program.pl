@@ -10,8 +10,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- use_module(program/paths, []).
 :- reexport(program/source, [clause_parts/3, declaration/4, indicator_in/2]).
 :- reexport(program/python_code, [payload_python/3]).
-:- reexport(program/programs,
-            [payload_load/2, program_hash/2]).
+:- reexport(program/programs, [program_hash/2]).
 :- reexport(program/check, [agent_check/1, agent_check/2]).
 :- reexport(program/loaded, [program_load/5, program_load/6]).
 :- reexport(program/code,
@@ -25,7 +24,10 @@ This is the door of the layer: who is above takes what it needs from here.
               guard_state/3 ]).
 :- reexport(program/guarded_code, [code_check/3, code_guarded/3]).
 :- reexport(program/signatures,
-            [program_author/3, program_sign/2]).
+            [program_author/3, signature_author/4, signature_keep/2]).
+:- reexport(program/signed,
+            [ file_sign/2, payload_hash/2, payload_load/2,
+              payload_signature/2 ]).
 :- reexport(program/machine, [answer_at/3, machine_inside/0, machine_run/3]).
 :- reexport(program/faults, [fault/3]).
 :- reexport(program/standing, [fault_where/4, where_handled/5]).

@@ -4,6 +4,7 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
+            image_payloads/2,           % +Image, +Host
             image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Agent
             image_enter/4               % +Image, +Host, +Agent, +More
@@ -12,10 +13,12 @@
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../host', [event_heard/1, host/3]).
+:- use_module('../wire', [endpoint_keys/1]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2]).
 :- use_module(legacy, [legacy_none/2]).
+:- use_module(signed_payloads, [payloads_admitted/3]).
 :- use_module(trail, [trail_link/5, trail_none/2]).
 :- use_module(life,
               [ is_life/1, life_clone/3, life_hop/3, life_hops/2,
@@ -62,13 +65,26 @@ start(Host, Since, Start) :-
     ;   Start = Since
     ).
 
+%!  image_payloads(+Image, +Host) is semidet.
+%
+%   Host lets in the payloads of Image, see payloads_admitted/3.
+
+image_payloads(image(_, _, Life, state(_, Clauses), _, _, _), Host) :-
+    payloads_admitted(Host, Life, Clauses).
+
 %!  image_trail(+Event, +Host, +Image0, -Image) is det.
 %
-%   Image has one link more in its trail, of Host, a host of this process, see
-%   trail_link/5.
+%   Where there are keys Image has one link more in its trail, of Host, a host
+%   of this process, see trail_link/5.
 
-image_trail(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
-            image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+image_trail(Event, Host, Image0, Image) :-
+    (   endpoint_keys(_)
+    ->  signed(Event, Host, Image0, Image)
+    ;   Image = Image0
+    ).
+
+signed(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
+       image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     life_hops(Life, Hops),
     trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
 

@@ -7,6 +7,10 @@
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(agents, [agent/5, agent_put_life/2, with_agent/2]).
 :- use_module(agent_module, [attach_clauses/3, detach_clauses/2]).
+:- use_module('../host', [host_address/2]).
+:- use_module(signed_payloads,
+              [ payload_admitted/3, payload_mark/2, payload_marked/2,
+                payload_marks/2, payload_unmarked/2 ]).
 :- use_module(life, [life_payloads/2, set_payloads_of_life/3]).
 
 /** <module> The payloads of agents
@@ -20,11 +24,15 @@ agent's state, its name and predicates are noted in its life.
 %!  agent_attach(+Id, +Payload) is det.
 %
 %   @error permission_error(attach, procedure, PI)
+%   @error move_refused(Address, unsigned) its host does not want it
 
 agent_attach(Id, Payload) :-
     Payload = payload(Name, PIs, _),
-    agent(Id, _, Module, Hash, Life),
+    agent(Id, Host, Module, Hash, Life),
+    ( payload_mark(Payload, Mark) -> Marks = [Mark] ; Marks = [] ),
+    must_be_admitted(Host, Payload, Marks),
     attach_clauses(Module, Hash, Payload),
+    payload_marked(Module, Marks),
     life_payloads(Life, Payloads),
     put_payloads(Id, Life, [Name-PIs|Payloads]).
 
@@ -37,6 +45,7 @@ agent_detach(Id, Name) :-
     life_payloads(Life, Payloads0),
     (   selectchk(Name-PIs, Payloads0, Payloads)
     ->  detach_clauses(Module, PIs),
+        payload_unmarked(Module, Name),
         put_payloads(Id, Life, Payloads)
     ;   existence_error(payload, Name)
     ).
@@ -47,16 +56,27 @@ put_payloads(Id, Life0, Payloads) :-
 
 %!  agent_payload(+Id, +Name, -Payload) is det.
 %
-%   As it is now: its clauses may have changed.
+%   As it is now, to be delivered to its host: its clauses may have changed.
 %
 %   @error existence_error(payload, Name)
+%   @error move_refused(Address, unsigned) its host does not want it
 
-agent_payload(Id, Name, payload(Name, PIs, Clauses)) :-
-    agent(Id, _, Module, _, Life),
+agent_payload(Id, Name, Payload) :-
+    agent(Id, Host, Module, _, Life),
     life_payloads(Life, Payloads),
     (   memberchk(Name-PIs, Payloads)
     ->  findall(Clause, payload_clause(Module, PIs, Clause), Clauses)
     ;   existence_error(payload, Name)
+    ),
+    Payload = payload(Name, PIs, Clauses),
+    payload_marks(Module, Marks),
+    must_be_admitted(Host, Payload, Marks).
+
+must_be_admitted(Host, Payload, Marks) :-
+    (   payload_admitted(Host, Payload, Marks)
+    ->  true
+    ;   host_address(Host, Address),
+        throw(error(move_refused(Address, unsigned), _))
     ).
 
 payload_clause(Module, PIs, (Head:-Body)) :-

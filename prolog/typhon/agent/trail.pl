@@ -2,9 +2,9 @@
           [ trail_link/5,               % +Event, +Label, +State0, +Goals,
                                         % -State
             trail_enter/3,              % +Module, +Id, +Result
-            trail_of/2,                 % +Module, -Raw
+            trail_of/3,                 % +Module, +Id, -Raw
             trail_none/2,               % +State0, -State
-            trail_verified/3            % +Id, +Raw, -Trail
+            trail_signed/4              % +Id, +Text, +Last, -Signed
           ]).
 
 /** <module> Which hosts have had an agent, and what they did with it
@@ -14,19 +14,29 @@ another process and what it handed on, and what the agent has entered there.
 Each link is signed together with the signature of the one before. They are a
 fact among the state of the agent:
 
-    '$trail'(Links, Certificates)
+    '$trail'(At, Chain, Certificates, Pending)
 
-Links, the newest first, are link(N, Event, C, Hex): the N-th, signed by who
-shows the C-th of the Certificates. An event is
+Chain is one string, see typhon_chain, so that nobody has to look into it on
+the way: each link is the text of N-Events, the N-th event and perhaps others,
+with its signature, and the number C of the certificate pem(C, Last, Pem) of
+who has signed it; Last is the last link of his. At is at(Next, Made, Kept,
+Hex, Handed): the number of the next event, how many links were made, how many
+are left, the signature of the last one, and What it has handed on or `none`.
+An event is
 
-  - handed(Id, Hash, Hops, To, State, Goals)
-  - received(Id, Hash, Hops, At, State, Goals)
-  - entered(Id, Result)
+  - handed(To, What)
+  - received(At, What), or received(At) if What is what was handed on
+  - entered(Result)
 
-Hash is that of the program, State and Goals are hashes. A host is accounted
-for if what the next one received is what it handed on, to that address. What
-an agent did while it stood on a host is the word of that host; and who was
-visited twice can cut out what lies between.
+What is what(Hash, Hops, State, Goals): Hash is that of the program, State and
+Goals are hashes. The id of the agent is signed, too. A host is accounted for if
+what the next one received is what it handed on, to that address. What an agent
+did while it stood on a host is the word of that host; and who was visited
+twice can cut out what lies between.
+
+To sign costs more than all else. What was received is Pending, or `none`, and
+is signed with what comes next, on the same host; it is the word of that host
+then as it would have been before.
 
 The oldest links go when there are more than `links`.
 
@@ -35,17 +45,15 @@ The oldest links go when there are more than `links`.
 
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [append/3, nth0/3, reverse/2, selectchk/3]).
+:- use_module(library(lists), [last/2, select/3, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module('../base/keys', 
-              [ keys_certificate/2, keys_holder/3, keys_sign/3,
-                keys_verify/4 ]).
-:- use_module('../wire', [endpoint_address/1, endpoint_keys/1, term_text/2]).
-:- use_module('../host', [address_parts/3, host_option/2]).
-:- use_module(identity, [agent_home_endpoint/2]).
+:- use_module('../base/keys', [keys_sign/3]).
+:- use_module('../wire', [endpoint_keys/1, term_text/2]).
+:- use_module('../host', [host_option/2]).
+:- use_module(chain, [chain_add/4]).
 
-:- setting(links, positive_integer, 64,
+:- setting(links, positive_integer, 32,
            "So many links of the trail of an agent are kept").
 
 %!  trail_link(+Event, +Label, +State0, +Goals, -State) is det.
@@ -54,28 +62,37 @@ The oldest links go when there are more than `links`.
 %   itself where there are no keys, or the host does without. Event is
 %   handed(To) or received(At), Label is of(Host, Id, Hash, Hops).
 
-trail_link(Event, Label, state(Empty, Clauses0), Goals, State) :-
-    (   endpoint_keys(Keys),
-        arg(1, Label, Host),
-        \+ host_option(Host, trail(false))
-    ->  taken_out(Clauses0, Raw0, Rest),
-        event(Event, Label, Rest, Goals, What),
-        linked(Keys, What, Raw0, Raw),
-        State = state(Empty, [Raw|Rest])
-    ;   State = state(Empty, Clauses0)
-    ).
+trail_link(Event, Label, State0, Goals, State) :-
+    endpoint_keys(Keys),
+    State0 = state(Empty, Clauses0),
+    taken_out(Clauses0, Raw0, Rest),
+    arg(1, Label, Host),
+    (   host_option(Host, trail(false))
+    ->  arg(2, Label, Id),
+        settled(Keys, Id, Raw0, Raw)
+    ;   event(Event, Label, Rest, Goals, Happened),
+        arg(2, Label, Id),
+        happens(Happened, Keys, Id, Raw0, Raw)
+    ),
+    Raw \== Raw0,
+    !,
+    State = state(Empty, [Raw|Rest]).
+trail_link(_, _, State, _, State).
 
 taken_out(Clauses, Raw, Rest) :-
-    Raw = '$trail'(_, _),
+    Raw = '$trail'(_, _, _, _),
     selectchk(Raw, Clauses, Rest),
     !.
-taken_out(Clauses, '$trail'([], []), Clauses).
+taken_out(Clauses, Raw, Clauses) :-
+    no_trail(Raw).
 
-event(Event, of(_, Id, Hash, Hops), Clauses, Goals, What) :-
-    Event =.. [Name, Where],
+no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
+
+event(Event0, of(_, _, Hash, Hops), Clauses, Goals, Event) :-
+    Event0 =.. [Name, Where],
     sum(Clauses, State),
     sum(Goals, Doing),
-    What =.. [Name, Id, Hash, Hops, Where, State, Doing].
+    Event =.. [Name, Where, what(Hash, Hops, State, Doing)].
 
 %   The same wherever variables have other names.
 
@@ -83,36 +100,74 @@ sum(Term, Sum) :-
     copy_term(Term, Copy),
     numbervars(Copy, 0, _, [functor_name('$typhon_variable')]),
     term_text(Copy, Text),
+    text_sum(Text, Sum).
+
+text_sum(Text, Sum) :-
     sha_hash(Text, Bytes, [algorithm(sha256), encoding(octet)]),
     hash_atom(Bytes, Sum).
 
-linked(Keys, What, '$trail'(Links0, Pems0), '$trail'(Links, Pems)) :-
-    link_text(Links0, What, N, Text),
-    keys_sign(Keys, Text, signature(Pem, Hex)),
-    (   nth0(C, Pems0, Pem)
-    ->  Pems = Pems0
-    ;   append(Pems0, [Pem], Pems),
-        length(Pems0, C)
-    ),
-    setting(links, Most),
-    newest(Most, [link(N, What, C, Hex)|Links0], Links).
+%   happens(+Event, +Keys, +Id, +Raw0, -Raw): Event waits to be signed, or is
+%   signed with what waits.
 
-link_text(Before, What, N, Text) :-
-    (   Before = [link(N0, _, _, Previous)|_]
-    ->  N is N0+1
-    ;   N = 0,
-        Previous = none
+happens(received(Where, What), Keys, Id, Raw0, Raw) :-
+    !,
+    settled(Keys, Id, Raw0, '$trail'(At, Chain, Pems, _)),
+    (   arg(5, At, What)
+    ->  Pending = received(Where)
+    ;   Pending = received(Where, What)
     ),
-    sum(typhon_trail(N, What, Previous), Sum),
-    atom_concat('typhon trail ', Sum, Text).
+    Raw = '$trail'(At, Chain, Pems, Pending).
+happens(Event, Keys, Id, Raw0, Raw) :-
+    Raw0 = '$trail'(_, _, _, Pending),
+    ( Pending == none -> Events = [Event] ; Events = [Pending, Event] ),
+    linked(Events, Keys, Id, Raw0, Raw).
 
-newest(Most, Links0, Links) :-
-    length(Links0, Count),
-    (   Count > Most
-    ->  length(Links, Most),
-        append(Links, _, Links0)
-    ;   Links = Links0
+%   settled(+Keys, +Id, +Raw0, -Raw): nothing waits.
+
+settled(Keys, Id, Raw0, Raw) :-
+    Raw0 = '$trail'(_, _, _, Pending),
+    (   Pending == none
+    ->  Raw = Raw0
+    ;   linked([Pending], Keys, Id, Raw0, Raw)
     ).
+
+linked(Events, Keys, Id, '$trail'(at(N, Made0, Kept0, Last, _), Chain0, Pems0, _),
+       '$trail'(at(Next, Made, Kept, Hex, Handed), Chain, Pems, none)) :-
+    ( last(Events, handed(_, What)) -> Handed = What ; Handed = none ),
+    term_text(N-Events, Text),
+    trail_signed(Id, Text, Last, Signed),
+    keys_sign(Keys, Signed, signature(Pem, Hex)),
+    shown(Pem, Made0, Pems0, C, Pems1),
+    length(Events, Count),
+    Next is N+Count,
+    Made is Made0+1,
+    Kept1 is Kept0+1,
+    setting(links, Most),
+    chain_add(link(Text, Hex, C), Kept1-Chain0, Most, Kept-Chain),
+    First is Made-Kept,
+    exclude(signed_before(First), Pems1, Pems).
+
+shown(Pem, Link, Pems0, C, [pem(C, Link, Pem)|Pems]) :-
+    select(pem(C0, _, Pem0), Pems0, Pems),
+    Pem0 == Pem,
+    !,
+    C = C0.
+shown(Pem, Link, Pems, Link, [pem(Link, Link, Pem)|Pems]).
+
+%   With the last link that a host has signed its certificate goes.
+
+signed_before(First, pem(_, Last, _)) :-
+    Last < First.
+
+%!  trail_signed(+Id, +Text:string, +Last, -Signed) is det.
+%
+%   What is signed of a link with this Text of the trail of Id, Last being the
+%   signature of the one before, or `none`.
+
+trail_signed(Id, Text, Last, Signed) :-
+    format(string(All), '~w ~w ~w', [Id, Last, Text]),
+    text_sum(All, Sum),
+    atom_concat('typhon trail ', Sum, Signed).
 
 %!  trail_enter(+Module, +Id, +Result) is det.
 %
@@ -122,23 +177,31 @@ newest(Most, Links0, Links) :-
 
 trail_enter(Module, Id, Result) :-
     (   endpoint_keys(Keys)
-    ->  trail_of(Module, Raw0),
-        linked(Keys, entered(Id, Result), Raw0, Raw),
-        dynamic(Module:'$trail'/2),
-        retractall(Module:'$trail'(_, _)),
+    ->  raw(Module, Raw0),
+        happens(entered(Result), Keys, Id, Raw0, Raw),
+        dynamic(Module:'$trail'/4),
+        retractall(Module:'$trail'(_, _, _, _)),
         assertz(Module:Raw)
     ;   existence_error(keys, here)
     ).
 
-%!  trail_of(+Module, -Raw) is det.
+%!  trail_of(+Module, +Id, -Raw) is det.
 %
-%   What trail_verified/3 looks at, of the agent whose module this is.
+%   What trail_verified/3 looks at, of the agent Id, whose module this is.
 
-trail_of(Module, Raw) :-
-    (   '$c_current_predicate'(_, Module:'$trail'(_, _)),
-        Module:'$trail'(Links, Certificates)
-    ->  Raw = '$trail'(Links, Certificates)
-    ;   Raw = '$trail'([], [])
+trail_of(Module, Id, Raw) :-
+    raw(Module, Raw0),
+    (   endpoint_keys(Keys)
+    ->  settled(Keys, Id, Raw0, Raw)
+    ;   Raw = Raw0
+    ).
+
+raw(Module, Raw) :-
+    Raw = '$trail'(_, _, _, _),
+    (   '$c_current_predicate'(_, Module:Raw),
+        call(Module:Raw)
+    ->  true
+    ;   no_trail(Raw)
     ).
 
 %!  trail_none(+State0, -State) is det.
@@ -148,112 +211,5 @@ trail_of(Module, Raw) :-
 trail_none(state(Empty, Clauses0), state(Empty, Clauses)) :-
     exclude(of_trail, Clauses0, Clauses).
 
-of_trail('$trail'(_, _)).
-
-                 /*******************************
-                 *         VERIFICATION         *
-                 *******************************/
-
-%!  trail_verified(+Id, +Raw, -Trail) is det.
-%
-%   Trail is trail(Steps, Verdict). A step is step(N, Name, What), Name being
-%   the host whose keys have signed it, and What handed(To), received(At) or
-%   entered(Result). Verdict is `whole`, or unaccounted(Name): Name is the
-%   host after which, or in whose hands, state or code have become what nobody
-%   answers for; `nobody` where that is so from the beginning. It is since(N)
-%   where all is well from the N-th link on, and those before are gone.
-%
-%   @error existence_error(keys, here)
-
-trail_verified(Id, Raw, trail(Steps, Verdict)) :-
-    (   endpoint_keys(Keys)
-    ->  true
-    ;   existence_error(keys, here)
-    ),
-    (   subsumes_term('$trail'(_, _), Raw),
-        Raw = '$trail'(Links, Pems),
-        is_list(Links),
-        is_list(Pems)
-    ->  reverse(Links, Oldest),
-        all_steps(Oldest, with(Keys, Id, Pems), Steps, Verdict)
-    ;   Steps = [],
-        Verdict = unaccounted(nobody)
-    ).
-
-%   Where the oldest are gone, the first one that is left can only be known by
-%   what the second one says of its signature.
-
-all_steps([link(N, What, C, Hex)|Links], With, Steps, Verdict) :-
-    integer(N),
-    N > 0,
-    !,
-    steps(Links, With, since(link(N, What, C, Hex)), Steps, Verdict0),
-    (   Verdict0 == whole
-    ->  Since is N+1,
-        Verdict = since(Since)
-    ;   Verdict = Verdict0
-    ).
-all_steps(Links, With, Steps, Verdict) :-
-    steps(Links, With, none, Steps, Verdict).
-
-%   steps(+Links, +With, +Before, -Steps, -Verdict): Before is `none`,
-%   since(Link) or before(Link, Name).
-
-steps([], _, _, [], whole).
-steps([Link|Links], With, Before, Steps, Verdict) :-
-    (   signed_by(Link, With, Before, Name),
-        follows(Link, With, Before, Name)
-    ->  Link = link(N, What0, _, _),
-        told(What0, What),
-        Steps = [step(N, Name, What)|Steps1],
-        steps(Links, With, before(Link, Name), Steps1, Verdict)
-    ;   Steps = [],
-        (   Before = before(_, Last)
-        ->  Verdict = unaccounted(Last)
-        ;   Verdict = unaccounted(nobody)
-        )
-    ).
-
-signed_by(link(N, What, C, Hex), with(Keys, _, Pems), Before, Name) :-
-    ground(N-C-Hex),
-    nth0(C, Pems, Pem),
-    before(Before, Last),
-    link_text(Last, What, N, Text),
-    keys_verify(Keys, Text, signature(Pem, Hex), host(Name)).
-
-before(none, []).
-before(since(Last), [Last]).
-before(before(Last, _), [Last]).
-
-follows(link(_, What, _, _), with(_, Id, _), since(_), _) :-
-    !,
-    arg(1, What, Id).
-follows(link(_, What, _, _), with(Keys, Id, _), none, Name) :-
-    !,
-    arg(1, What, Id),
-    \+ What = received(_, _, _, _, _, _),
-    (   agent_home_endpoint(Id, Home),
-        endpoint_address(Home)
-    ->  own_name(Keys, Name)            % it began with us
-    ;   true
-    ).
-follows(link(_, What, _, _), with(_, Id, _), before(Last, Before), Name) :-
-    arg(1, What, Id),
-    Last = link(_, Earlier, _, _),
-    (   Earlier = handed(Id, Hash, Hops, To, State, Goals)
-    ->  What = received(Id, Hash, Hops, At, State, Goals),
-        address_parts(To, Host, _),     % a process may have several
-        address_parts(At, Host, _)      % addresses
-    ;   Name == Before,
-        What \= received(_, _, _, _, _, _)
-    ).
-
-own_name(Keys, Name) :-
-    keys_certificate(Keys, Own),
-    keys_holder(Keys, Own, host(Name)).
-
-told(entered(_, Result), entered(Result)) :-
-    !.
-told(Event, What) :-
-    Event =.. [Name, _, _, _, Where|_],
-    What =.. [Name, Where].
+of_trail(Clause) :-
+    subsumes_term('$trail'(_, _, _, _), Clause).

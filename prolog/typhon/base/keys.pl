@@ -1,6 +1,5 @@
 :- module(typhon_base_keys,
-          [ keys_file/3,                % +Directory, +Which, -File
-            keys_sign/3,                % +Directory, +Text, -Signature
+          [ keys_sign/3,                % +Directory, +Text, -Signature
             keys_verify/4,              % +Directory, +Text, +Signature, -Who
             keys_seal/4,                % +Directory, +Text, +Certificate,
                                         % -Sealed
@@ -21,52 +20,26 @@ The keys are RSA: on SWI-Prolog 9.0.4 library(crypto) crashes when it signs
 with those of curves. Signatures are compared with what they should contain,
 byte by byte, since rsa_verify/4 prints what it finds wrong.
 
-*Threading*: any thread; files are read each time.
+*Threading*: any thread; no state.
 */
 
 :- use_module(library(error), [permission_error/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(key_files,
+              [key_found/4, key_loaded/3, key_loaded/4, pem_certificate/2]).
 
 :- autoload(library(crypto),
             [ crypto_data_decrypt/6, crypto_data_encrypt/6,
               crypto_data_hash/3, crypto_n_random_bytes/2, hex_bytes/2,
               rsa_private_decrypt/4, rsa_public_decrypt/4,
               rsa_public_encrypt/4, rsa_sign/4 ]).
-:- autoload(library(ssl),
-            [ certificate_field/2, load_certificate/2, load_crl/2,
-              load_private_key/3 ]).
-
-%!  keys_file(+Directory, +Which, -File) is det.
-%
-%   Which is `cert`, `key`, `ca` or `crl`.
-
-keys_file(Directory, Which, File) :-
-    file_name_extension(Which, pem, Name),
-    directory_file_path(Directory, Name, File).
+:- autoload(library(ssl), [certificate_field/2]).
 
 %!  keys_certificate(+Directory, -Certificate:string) is det.
 %
 %   Our own, as PEM.
 
 keys_certificate(Directory, Certificate) :-
-    keys_file(Directory, cert, File),
-    read_file_to_string(File, Certificate, []).
-
-private_key(Directory, Key) :-
-    loaded(Directory, key, own_key, Key).
-
-own_key(In, Key) :-
-    load_private_key(In, "", Key).
-
-:- meta_predicate loaded(+, +, 2, -).
-
-loaded(Directory, Which, Load, Loaded) :-
-    keys_file(Directory, Which, File),
-    setup_call_cleanup(
-        open(File, read, In),
-        call(Load, In, Loaded),
-        close(In)).
+    key_loaded(Directory, cert, Certificate).
 
                  /*******************************
                  *           SIGNATURES         *
@@ -76,7 +49,7 @@ loaded(Directory, Which, Load, Loaded) :-
 
 keys_sign(Directory, Text, signature(Certificate, Hex)) :-
     keys_certificate(Directory, Certificate),
-    private_key(Directory, Key),
+    key_loaded(Directory, key, Key),
     digest(Text, Digest),
     rsa_sign(Key, Digest, Hex, [type(sha256), encoding(hex)]).
 
@@ -125,23 +98,23 @@ keys_holder(Directory, Pem, Who) :-
 known_certificate(Directory, Pem, Certificate, Who) :-
     string_length(Pem, Length),
     Length =< 16384,
-    catch(setup_call_cleanup(
-              open_string(Pem, In),
-              load_certificate(In, Certificate),
-              close(In)),
-          error(_, _),
-          fail),
-    of_authority(Directory, Certificate),
-    in_its_time(Certificate),
-    \+ revoked(Directory, Certificate),
+    key_loaded(Directory, ca, Authority, Stamp1),
+    key_loaded(Directory, crl, List, Stamp2),
+    key_found(Pem, Stamp1-Stamp2, certified(Pem, Authority, List),
+              Certificate-Who),
+    in_its_time(Certificate).
+
+certified(Pem, Authority, List, Certificate-Who) :-
+    pem_certificate(Pem, Certificate),
+    of_authority(Authority, Certificate),
+    \+ revoked(List, Certificate),
     certificate_field(Certificate, subject(Subject)),
     memberchk('CN'=Name, Subject),
     memberchk('OU'=Kind, Subject),
     memberchk(Kind, [host, author]),
     Who =.. [Kind, Name].
 
-of_authority(Directory, Certificate) :-
-    loaded(Directory, ca, load_certificate, Authority),
+of_authority(Authority, Certificate) :-
     certificate_field(Authority, public_key(Key)),
     certificate_field(Certificate, to_be_signed(Hex)),
     certificate_field(Certificate, signature(Signature)),
@@ -159,9 +132,8 @@ in_its_time(Certificate) :-
     From =< Now,
     Now =< To.
 
-revoked(Directory, Certificate) :-
+revoked(List, Certificate) :-
     certificate_field(Certificate, serial(Serial)),
-    loaded(Directory, crl, load_crl, List),
     memberchk(revocations(Revoked), List),
     memberchk(revoked(Serial, _), Revoked).
 
@@ -197,7 +169,7 @@ keys_unseal(Directory, Sealed, Text) :-
     ).
 
 unsealed(Directory, sealed(ForUs0, Nonce, Tag, Cipher0), Text) :-
-    private_key(Directory, Private),
+    key_loaded(Directory, key, Private),
     hex_octets(ForUs0, ForUs),
     rsa_private_decrypt(Private, ForUs, KeyHex, [padding(pkcs1_oaep)]),
     hex_bytes(KeyHex, Key),

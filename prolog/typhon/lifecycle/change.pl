@@ -8,11 +8,11 @@
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_program/2,
                 code_receive/2, code_sent/2, code_stands/2, program_load/6 ]).
-:- use_module('../wire', [mobile_term/1]).
+:- use_module('../wire', [endpoint_keys/1, mobile_term/1]).
 :- use_module('../host', [host/3]).
 :- use_module('../agent',
-              [ agent/5, agent_clauses/3, agent_module/5, agent_program/4,
-                agent_state/2, with_agent/2 ]).
+              [ agent/5, agent_clauses/3, agent_module/5, agent_owned/1,
+                agent_program/4, agent_state/2, with_agent/2 ]).
 
 /** <module> Agents are changed from outside
 
@@ -53,6 +53,8 @@ must_be_clause(Clause) :-
 %!  change_made(+Order, +Id) is det.
 %
 %   @error permission_error(attach, procedure, PI)
+%   @error permission_error(change, agent_program, Id) there are keys, and we
+%   do not own it: nobody would let it in
 
 change_made(facts(Clauses), Id) :-
     agent(Id, _, Module, Hash, _),
@@ -61,6 +63,7 @@ change_made(facts(Clauses), Id) :-
     agent_clauses(Module, Clauses, Allowed),
     forall(member(Clause, Allowed), assertz(Module:Clause)).
 change_made(program(Hash, Sent), Id) :-
+    may_change(Id),
     code_receive(Hash, Sent),
     code_program(Hash, Program),
     Program = program(_, PIs, _, _),
@@ -71,6 +74,13 @@ change_made(program(Hash, Sent), Id) :-
     append(PIs, Empty, Declared),
     agent_module(Id, Place, Hash, state(Declared, Clauses), Module),
     with_agent(Id, agent_program(Id, Hash, Module, Life)).
+
+may_change(Id) :-
+    (   endpoint_keys(_),
+        \+ agent_owned(Id)
+    ->  permission_error(change, agent_program, Id)
+    ;   true
+    ).
 
 not_static(program(_, _, _, Static), Clause) :-
     clause_parts(Clause, Head, _),

@@ -9,7 +9,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [domain_error/2, must_be/2, permission_error/3, type_error/2]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
@@ -27,7 +27,7 @@
                 agent_mail/2, agent_name/3, agent_ready/2, agent_rest/3,
                 agent_standing/5, agent_state/2, is_life/1, legacy_none/2,
                 life_clone/3, life_tokens/2, mail_count/2, make_life/2,
-                trail_none/2, policy_against/4, policy_refuses/2, with_agent/2 ]).
+                payload_mark/2, payloads_admitted/3, trail_none/2, policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
 
@@ -145,10 +145,12 @@ not_static(Clauses, Name/Arity) :-
 
 add_payload(Clauses, Spec, Payloads-(PIs0-State0),
             [Name-New|Payloads]-(PIs-State)) :-
-    payload_load(Spec, payload(Name, New, More)),
+    payload_load(Spec, Payload),
+    Payload = payload(Name, New, More),
     maplist(not_static(Clauses), New),
     append(PIs0, New, PIs),
-    append(State0, More, State).
+    ( payload_mark(Payload, Mark) -> Marks = [Mark] ; Marks = [] ),
+    append([State0, More, Marks], State).
 
 start_goals(Clauses, Initial, Goals) :-
     (   member(All, [Clauses,Initial]),
@@ -275,7 +277,11 @@ start(Host, Name, Start, Answer) :-
 start(Host, Name, Start, Answer, Of) :-
     Start = start(Hash, Life, _, _, _),
     life_tokens(Life, Tokens),
-    host_enter(Host, Hash, Tokens, Entered),
+    Start = start(_, _, state(_, Clauses), _, _),
+    (   payloads_admitted(Host, Life, Clauses)
+    ->  host_enter(Host, Hash, Tokens, Entered)
+    ;   Entered = refused(unsigned)
+    ),
     (   Entered == ok
     ->  host(Host, Address, Place),
         id_of(Of, Name, Address, Id),

@@ -10,7 +10,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
-:- use_module('../program', [payload_load/2]).
+:- use_module('../program', [payload_load/2, payload_signature/2]).
 :- use_module('../host', [host_address/2]).
 :- use_module('../travel', [agent_resumed_from/3]).
 :- use_module(change, [change_order/2]).
@@ -51,7 +51,11 @@ agent_clone(Agent, Clone) :-
 
 payload_attach(Agent, Spec) :-
     raising_afresh(payload_load(Spec, Payload)),
-    order_give(Agent, attach(Payload), _).
+    (   payload_signature(Payload, Signature)
+    ->  Order = attach(Payload, Signature)
+    ;   Order = attach(Payload)
+    ),
+    order_give(Agent, Order, _).
 
 payload_detach(Agent, Name) :-
     must_be(atom, Name),

@@ -5,14 +5,15 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [domain_error/2, permission_error/3]).
-:- use_module('../program', [code_sent/2]).
+:- use_module('../program',
+              [code_sent/2, payload_hash/2, signature_keep/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_name/3,
                 agent_order/2, agent_ready/2, agent_state/2, agent_status/3,
                 agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
-                mail_list/2, with_agent/2 ]).
+                mail_list/2, trail_none/2, with_agent/2 ]).
 :- use_module('../travel',
               [agent_resumed/3, out_of_touch/1]).
 :- use_module(change, [change_made/2]).
@@ -247,6 +248,10 @@ failed(Id, Formal) :-
 
 carried_out(attach(Payload), Agent, ok) :-
     agent_attach(Agent, Payload).
+carried_out(attach(Payload, Signature), Agent, ok) :-
+    payload_hash(Payload, Hash),
+    signature_keep(Hash, Signature),
+    agent_attach(Agent, Payload).
 carried_out(detach(Name), Agent, ok) :-
     agent_detach(Agent, Name).
 carried_out(question(_), _, again).
@@ -263,6 +268,7 @@ carried_out(image, Agent,
     agent_status(Agent, _, Goals),
     code_sent(Hash, Program),
     agent_name(Agent, Name, _),
-    agent_state(Module, State),
+    agent_state(Module, State0),
+    trail_none(State0, State),
     mail_list(Agent, Mail),
     mobile_term(State-Goals).

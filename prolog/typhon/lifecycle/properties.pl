@@ -139,9 +139,11 @@ property(payloads(Names), Agent) :-
 
 visible(Clauses, Clause) :-
     member(Clause, Clauses),
-    Clause \= '$memory'(_),
-    Clause \= '$legacy'(_),
-    Clause \= '$trail'(_, _).
+    \+ of_platform(Clause).
+
+of_platform(Clause) :-
+    functor(Clause, Name, _),
+    sub_atom(Name, 0, _, _, $).
 
 %!  status_shown(+Status, -State) is det.
 %

@@ -41,6 +41,7 @@ kind(lasting, any).
 kind(link, any).
 kind(tuple, numbers).
 kind(payload, any).
+kind(birth, any).
 kind(born, any).
 kind(outcome, numbers).
 kind(faulty, any).

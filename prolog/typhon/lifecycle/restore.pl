@@ -95,6 +95,7 @@ line(image(_, Sent, _, _, _, _), clause(Clause)) :-
 line(image(_, Sent, _, _, _, _), places(Places)) :-
     program_places(Sent, _, Places),
     Places \== [].
+line(image(_, signed(_, Signature), _, _, _, _), signature(Signature)).
 line(image(_, _, _, state(PIs, _), _, _), dynamic(PIs)).
 line(image(_, _, _, state(_, Clauses), _, _), state(Clause)) :-
     member(Clause, Clauses).
@@ -102,6 +103,9 @@ line(image(_, _, _, _, Goals, _), goals(Goals)).
 line(image(_, _, _, _, _, Mail), mail(Message)) :-
     member(Message, Mail).
 
+program_places(signed(Sent, _), Program, Places) :-
+    !,
+    program_places(Sent, Program, Places).
 program_places(Sent, Program, Places) :-
     (   Sent = Program0-Places0
     ->  Program = Program0,
@@ -110,8 +114,7 @@ program_places(Sent, Program, Places) :-
         Places = []
     ).
 
-read_image(File, image(Name, program(Program, PIs, Libraries, Clauses)-Places,
-                       Life, state(Dynamic, State), Goals, Mail)) :-
+read_image(File, image(Name, Sent, Life, state(Dynamic, State), Goals, Mail)) :-
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
         read_lines(In, Lines),
@@ -125,6 +128,11 @@ read_image(File, image(Name, program(Program, PIs, Libraries, Clauses)-Places,
         memberchk(dynamic(Dynamic), Lines)
     ->  ( memberchk(places(Places), Lines) -> true ; Places = [] ),
         findall(C, member(clause(C), Lines), Clauses),
+        Sent0 = program(Program, PIs, Libraries, Clauses)-Places,
+        (   memberchk(signature(Signature), Lines)
+        ->  Sent = signed(Sent0, Signature)
+        ;   Sent = Sent0
+        ),
         findall(C, member(state(C), Lines), State),
         findall(M, member(mail(M), Lines), Mail)
     ;   domain_error(restore_point, File)

@@ -1,7 +1,7 @@
 :- module(typhon_trails,
           [ agent_trail/2               % +Agent, -Trail
           ]).
-:- use_module('../agent', [agent/5, trail_of/2, trail_verified/3]).
+:- use_module('../agent', [agent/5, trail_of/3, trail_verified/3]).
 :- use_module(giving, [agent_answer/3]).
 :- use_module(questions, [question_answered/2]).
 
@@ -33,5 +33,5 @@ agent_trail(Agent, Trail) :-
 typhon_questions:here(trail, Agent, Asker) :-
     agent(Agent, _, Module, _, _),
     !,
-    trail_of(Module, Raw),
+    trail_of(Module, Agent, Raw),
     question_answered(Asker, answer(Raw)).

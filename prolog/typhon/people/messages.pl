@@ -114,7 +114,8 @@ missed(permission_error(use, cookie_file, File), Text) :-
 
 refusal(capacity) --> !, [ 'it is full' ].
 refusal(token) --> !, [ 'none of its tokens is wanted there' ].
-refusal(unsigned) --> !, [ 'none of its authors has signed the program' ].
+refusal(unsigned) --> !, [ 'none of its authors has signed it' ].
+refusal(identity) --> !, [ 'its owner has not signed that it is his' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
 refusal(Reason) --> [ '~p'-[Reason] ].
 
@@ -188,6 +189,9 @@ prolog:message(typhon(not_back(Kind, Key))) -->
 prolog:message(typhon(journal_in_words(Agent))) -->
     [ 'What ~w has cannot all be written: in the journal that is in words'
       -[Agent] ].
+prolog:message(typhon(not_from(Peer, Agent, From))) -->
+    [ 'A message for ~w from ~w, which ~w has no right to speak for, is not \c
+       delivered'-[Agent, From, Peer] ].
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
     [ 'A message for ~w is lost: ~p from ~w'-[Agent, Message, From], nl ],
     lost_since(Formal).

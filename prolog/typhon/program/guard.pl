@@ -135,10 +135,12 @@ declared_allowed(Name/Arity) :-
 declared_allowed(PI) :-
     state_allowed(PI).
 
-%   Facts of the platform in its state: what it leaves behind, who had it.
+%   What the platform has among its state are facts, which no agent can name.
 
 of_platform('$legacy'(_)).
-of_platform('$trail'(_, _)).
+of_platform('$memory'(_)).
+of_platform('$trail'(_, _, _, _)).
+of_platform('$signed'(_, _)).
 
 guard_fact(_, Fact, Fact) :-
     nonvar(Fact),

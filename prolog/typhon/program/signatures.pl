@@ -2,22 +2,21 @@
           [ program_signature/2,        % ?Hash, -Signature
             signature_keep/2,           % +Hash, +Signature
             signature_read/2,           % +File, +Hash
-            program_sign/2,             % +Spec, +Keys
+            signature_make/3,           % +File, +Hash, +Keys
+            signature_author/4,         % +Keys, +Hash, +Signature, -Author
             program_author/3            % +Keys, +Hash, -Author
           ]).
 
-/** <module> Who has signed a program
+/** <module> Who has signed a program or a payload
 
 What an author signs is the hash by which a program travels. The signature
-stands in a file beside that of the program, `visitor.pl.sig`, and goes along
+stands in a file beside it, `visitor.pl.sig`, and goes along
 with the code. Whether it is good is seen when somebody asks.
 
 *Threading*: any thread; a mutex makes those who keep one come one by one.
 */
 
 :- use_module('../base/keys', [keys_sign/3, keys_verify/4]).
-:- use_module(paths, [program_file/2]).
-:- use_module(programs, [program_hash/2, program_read/7]).
 
 :- dynamic
     signature/2.                        % Hash, Signature: the oldest first
@@ -80,16 +79,12 @@ signature_read(File, Hash) :-
     signature_keep(Hash, Signature).
 signature_read(_, _).
 
-%!  program_sign(+Spec, +Keys) is det.
+%!  signature_make(+File, +Hash, +Keys) is det.
 %
-%   Write the signature of a program file, with the keys in that directory.
-%
-%   @error what program_read/7 throws
+%   Write the signature of what is in File, of that Hash, beside it, with the
+%   keys in that directory.
 
-program_sign(Spec, Keys) :-
-    program_file(Spec, File),
-    program_read(File, Program, _, _, _, _, _),
-    program_hash(Program, Hash),
+signature_make(File, Hash, Keys) :-
     signed_text(Hash, Text),
     keys_sign(Keys, Text, Signature),
     atom_concat(File, '.sig', Beside),
@@ -103,10 +98,15 @@ signed_text(Hash, Text) :-
     atom_concat('typhon program ', Hash, Text).
 
 %!  program_author(+Keys, +Hash, -Author) is semidet.
+%!  signature_author(+Keys, +Hash, +Signature, -Author) is semidet.
 %
-%   Author has signed the program, as far as the keys in that directory tell.
+%   Author has signed the program, as far as the keys in that directory tell;
+%   this Signature is his. Signature may be anything.
 
 program_author(Keys, Hash, Author) :-
     signature(Hash, Signature),
+    signature_author(Keys, Hash, Signature, Author).
+
+signature_author(Keys, Hash, Signature, Author) :-
     signed_text(Hash, Text),
     keys_verify(Keys, Text, Signature, author(Author)).

@@ -3,10 +3,13 @@
           ]).
 :- use_module(library(error), [must_be/2, type_error/2]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_post/3, mobile_term/1]).
+              [ endpoint_address/1, endpoint_keys/1, endpoint_post/3,
+                mobile_term/1 ]).
 :- use_module('../host', [address_parts/3, scheduler_call/1]).
-:- use_module('../agent', [agent_home_endpoint/2]).
+:- use_module('../agent', [agent_home_endpoint/2, agent_owned/1]).
 :- use_module(lost, [mail_lost/3]).
+:- use_module(senders, [shown/5]).
+:- use_module(speakers, [mail_believed/5]).
 
 /** <module> Messages for those who are no agents
 
@@ -41,7 +44,7 @@ post_abroad(Host, To0, From, Message) :-
     ->  true
     ;   elsewhere(Hint, From, Endpoint)
     ->  mobile_term(To),
-        send_on(Endpoint, abroad(To, From, Message))
+        send_on(Endpoint, To0, To, From, Message)
     ;   type_error(receiver, To)
     ).
 
@@ -55,8 +58,9 @@ hint(To0, To, Hint) =>
 
 %   elsewhere(+Hint, +From, -Endpoint): who may have a bridge.
 
-elsewhere(Hint, _, Endpoint) :-
+elsewhere(Hint, From, Endpoint) :-
     Hint \== none,
+    speaks_here(From),
     address_parts(Hint, _, Endpoint),
     \+ endpoint_address(Endpoint),
     !.
@@ -64,20 +68,44 @@ elsewhere(_, From, Endpoint) :-
     agent_home_endpoint(From, Endpoint),
     \+ endpoint_address(Endpoint).
 
-send_on(Endpoint, Message) :-
-    catch(endpoint_post(Endpoint, message, Message),
+%   Where there are keys others take it from us for our own agents only: the
+%   home of others knows the way then.
+
+speaks_here(From) :-
+    (   endpoint_keys(_)
+    ->  agent_owned(From)
+    ;   true
+    ).
+
+send_on(Endpoint, To0, To1, From, Message) :-
+    ( speaks_here(From) -> To = To1 ; To = To0 ),
+    shown(Endpoint, [From], [], abroad(To, From, Message), Sent),
+    catch(endpoint_post(Endpoint, message, Sent),
           error(unreachable(_), _),
           throw(error(host_unreachable(Endpoint), _))).
 
 %   A bridge may have a lot to do with it, and who reads has not.
 
 typhon_endpoint:received(message, abroad(To, From, Message), Peer) :-
+    comes(To, From, Message, [], Peer).
+typhon_endpoint:received(message, shown(Births, abroad(To, From, Message)),
+                         Peer) :-
+    comes(To, From, Message, Births, Peer).
+
+comes(To, From, Message, Births, Peer) :-
     must_be(compound, To),
     must_be(atom, From),
-    scheduler_call(typhon_abroad:carry_on(To, From, Message, Peer)).
+    mail_believed(Peer, To, Births, [mail(Peer, From, Message)], Believed),
+    (   Believed == []
+    ->  true
+    ;   scheduler_call(typhon_abroad:carry_on(To, From, Message, Peer))
+    ).
 
-carry_on(To, From, Message, Peer) :-
-    catch(carried(none, To, From, Message), error(Formal, _), true),
+%   To may say where its bridge is.
+
+carry_on(To0, From, Message, Peer) :-
+    hint(To0, To, Hint),
+    catch(carried_or_on(Hint, To, From, Message), error(Formal, _), true),
     (   nonvar(Formal)
     ->  mail_lost(Formal, To, [mail(Peer, From, Message)])
     ;   true
@@ -85,3 +113,11 @@ carry_on(To, From, Message, Peer) :-
     !.
 carry_on(To, From, Message, Peer) :-
     mail_lost(type_error(receiver, To), To, [mail(Peer, From, Message)]).
+
+carried_or_on(_, To, From, Message) :-
+    carried(none, To, From, Message),
+    !.
+carried_or_on(Hint, To, From, Message) :-
+    Hint \== none,
+    elsewhere(Hint, From, Endpoint),
+    send_on(Endpoint, To, To, From, Message).

@@ -12,8 +12,10 @@
                 host_leave/1, host_time/2, peer_may/3, schedule/2,
                 schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
-              [ agent/5, agent_order/2, agent_status/3,
-                image_enter/4, image_label/2, image_module/3, image_trail/4,
+              [ agent/5, agent_order/2, agent_status/3, birth_proved/4,
+                birth_sent/2,
+                image_enter/4, image_label/2, image_module/3, image_payloads/2,
+                image_trail/4,
                 life_hops/2,
                 policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
@@ -80,7 +82,8 @@ typhon_endpoint:lent(_:go_on(_, Id), Thread) :-
 typhon_endpoint:returned :-
     schedule_leave.
 
-arrive(Name, Image, Program, Crossing, Peer, Answer) :-
+arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
+    birth_sent(Papers, Program),
     image_label(Image, Label),
     Label = label(Id, Hops, Hash, Tokens, _, _),
     (   ( Crossing \== none, crossing_known(Crossing)
@@ -89,6 +92,8 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
     ->  Answer = accepted
     ;   \+ peer_may(Peer, Name, agents)
     ->  Answer = refused(peer)
+    ;   \+ birth_proved(Papers, Peer, Id, Hash)
+    ->  unproved(Papers, Name, Id, Peer, Answer)
     ;   guarding,
         host(Name, _, Place),
         policy_against(Place, Hash, Program, Reason)
@@ -96,6 +101,8 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
         Answer = refused(Reason)
     ;   \+ has_code(Hash, Program)
     ->  Answer = need_program
+    ;   \+ image_payloads(Image, Name)
+    ->  Answer = refused(unsigned)
     ;   host_enter(Name, Hash, Tokens, Entered),
         (   Entered == refused(unsigned),
             Program == known            % he may have the signature
@@ -103,6 +110,14 @@ arrive(Name, Image, Program, Crossing, Peer, Answer) :-
         ;   admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
         )
     ).
+
+%   He may have what proves it.
+
+unproved(Papers, _, _, _, need_program) :-
+    \+ subsumes_term(papers(_, _), Papers),
+    !.
+unproved(_, Name, Id, Peer, refused(identity)) :-
+    audit(Name, Peer, refused(Id, identity)).
 
 repeated(Id, Hops) :-
     (   agent(Id, _, _, _, Life)

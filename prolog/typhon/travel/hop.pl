@@ -10,7 +10,9 @@
               [ endpoint_address/1, endpoint_keys/1, endpoint_request/4,
                 mobile_term/1 ]).
 :- use_module('../host', [address_parts/3, host/3, host_time/2]).
-:- use_module('../agent', [agent/5, image_hash/2, image_trail/4, with_agent/2]).
+:- use_module('../agent',
+              [ agent/5, birth_papers/5, birth_unproved/2, image_hash/2,
+                image_trail/4, with_agent/2 ]).
 :- use_module('../journal', [crash_point/1, journal_on/0]).
 :- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
@@ -115,7 +117,9 @@ send(Transfer, Image0) :-
     arg(2, Transfer, dest(Address, Name, Endpoint)),
     image_hash(Image0, Hash),
     catch(( handed(Transfer, Address, Image0, Image),
-            program(Endpoint, Hash, Program),
+            program(Endpoint, Hash, Sent),
+            transfer_traveller(Transfer, Who, _),
+            birth_papers(Who, Hash, Endpoint, Sent, Program),
             (   journal_on
             ->  hop_request(Transfer, Name, Image, Program, Request),
                 endpoint_request(Endpoint, hop, Request, answered(Transfer)),
@@ -213,6 +217,8 @@ taken(need_program, Transfer) :-
         debug(typhon(hop), '~w lacks the program', [Endpoint]),
         image_hash(Image, Hash),
         retractall(has_program(Endpoint, Hash)),
+        transfer_traveller(Transfer, Who, _),
+        birth_unproved(Endpoint, Who),
         send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
     ).

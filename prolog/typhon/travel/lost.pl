@@ -87,6 +87,8 @@ typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
     ;   report(Formal, Id, Sent)
     ).
 
+typhon_channel:undelivered(message, shown(_, Message), Endpoint) :-
+    typhon_channel:undelivered(message, Message, Endpoint).
 typhon_channel:undelivered(message, message(Id, Mail, _), Endpoint) :-
     mail_lost(host_unreachable(Endpoint), Id, Mail).
 

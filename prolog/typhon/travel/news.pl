@@ -6,6 +6,7 @@
 :- use_module('../journal', [journal_on/0]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_up/3]).
 :- use_module(channel, [channel_post/3]).
+:- use_module(senders, [shown/5]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
 /** <module> News for the homes of agents
@@ -47,7 +48,8 @@ news_tell(Home, _, News) :-
     journal_on,
     news_lasts(News),
     !,
-    channel_post(Home, whereabouts, [News]).
+    shown_news(Home, [News], Shown),
+    channel_post(Home, whereabouts, Shown).
 news_tell(Home, Id, News) :-
     with_mutex(typhon_news, note(Home, Id, News, Courier)),
     (   Courier == wanted
@@ -125,9 +127,14 @@ carry(Home, Try) :-
 %   Of an end that is too long alone at least that it has come is told.
 
 posted(Post, Home, All) :-
-    catch(call(Post, Home, whereabouts, All),
+    shown_news(Home, All, Shown),
+    catch(call(Post, Home, whereabouts, Shown),
           error(resource_error(frame_bytes), _),
           posted_in_parts(All, Post, Home)).
+
+shown_news(Home, All, Shown) :-
+    findall(Id, ( member(News, All), arg(1, News, Id) ), Ids),
+    shown(Home, Ids, [], All, Shown).
 
 posted_in_parts([ended(Id, Outcome, Hops, _)], Post, Home) :-
     !,

@@ -12,11 +12,13 @@
               [ journal_number/1, journal_on/0, journal_seal/0,
                 journal_step/1, note_drop/3, turn_after/1, turn_defers/0,
                 turn_note_put/4 ]).
-:- use_module('../wire', [endpoint_address/1, mobile_term/1]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_keys/1, mobile_term/1]).
 :- use_module('../host', [peer_may/3]).
-:- use_module('../agent', [agent/5, agent_mail/2, with_agent/2]).
+:- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
 :- use_module(retries, [retry_later/3]).
+:- use_module(speakers, [mail_believed/5]).
 :- use_module(ways, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Messages
@@ -116,6 +118,8 @@ post_via(Id, Endpoint, From, Message) :-
     mobile_term(Message),
     (   (   agent(Id, _, _, _, _)
         ;   endpoint_address(Endpoint)
+        ;   endpoint_keys(_),           % it may not pass it on
+            agent_home(From, _)
         )
     ->  post(Id, From, Message)
     ;   new_letter(From, Message, Letter),
@@ -146,9 +150,16 @@ on_or_later(Id, Letter) :-
     ).
 
 typhon_endpoint:received(message, message(Id, Mail, Left), Peer) :-
+    letter_comes(Id, [], Mail, Left, Peer).
+typhon_endpoint:received(message, shown(Births, message(Id, Mail, Left)),
+                         Peer) :-
+    letter_comes(Id, Births, Mail, Left, Peer).
+
+letter_comes(Id, Births, Mail0, Left, Peer) :-
     must_be(atom, Id),
     must_be(nonneg, Left),
-    must_be(list(typhon_mail), Mail),
+    must_be(list(typhon_mail), Mail0),
+    mail_believed(Peer, Id, Births, Mail0, Mail),
     (   Mail == []
     ->  true
     ;   agent(Id, Host, _, _, _),

@@ -6,14 +6,16 @@
           ]).
 :- use_module(library(apply), [maplist/4]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [append/2, append/3, max_list/2]).
+:- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
 :- use_module('../journal', [journal_on/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
-                endpoint_post_up/3 ]).
+              [ endpoint_address/1, endpoint_gone/1, endpoint_keys/1,
+                endpoint_post/3, endpoint_post_up/3 ]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent', [agent_home_endpoint/2, agent_mail/2]).
 :- use_module(channel, [channel_post/3]).
+:- use_module(lost, [mail_lost/3]).
+:- use_module(senders, [mail_parts/4, shown/5]).
 :- use_module(whereabouts, [whereabouts/2]).
 
 /** <module> The next step of a letter
@@ -116,25 +118,51 @@ send_home(Failed, Id, Letter) :-
     ;   throw(error(host_unreachable(Failed), _))
     ).
 
-%   sent(+Endpoint, +Id, +Letter, :Post): what is too long for one frame goes
-%   in two.
+%   sent(+Endpoint, +Id, +Letter, :Post): to Endpoint, but for what has to go
+%   by another way.
 
-%   With a journal it is sent as soon as can be.
-
-sent(Endpoint, Id, letter(Mail, Left), _) :-
-    journal_on,
-    !,
-    channel_post(Endpoint, message, message(Id, Mail, Left)).
 sent(Endpoint, Id, letter(Mail, Left), Post) :-
-    catch(call(Post, Endpoint, message, message(Id, Mail, Left)),
-          error(resource_error(frame_bytes), Context),
-          sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context)),
-    debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint]).
+    mail_parts(Endpoint, Id, Mail, Parts),
+    (   Parts = [To-_]
+    ->  posted(To, Id, letter(Mail, Left), Post)
+    ;   Post == endpoint_post           % else it has to wait for that
+    ->  forall(member(To-Part, Parts), part_sent(To, Id, Part, Left))
+    ).
+
+part_sent(Endpoint, Id, Mail, Left) :-
+    catch(posted(Endpoint, Id, letter(Mail, Left), endpoint_post),
+          error(unreachable(_), _),
+          mail_lost(host_unreachable(Endpoint), Id, Mail)).
+
+%   posted(+Endpoint, +Id, +Letter, :Post): what is too long for one frame goes
+%   in two. With a journal it is sent as soon as can be.
+
+posted(Endpoint, Id, letter(Mail, Left), Post) :-
+    message(Endpoint, Id, Mail, Left, Message),
+    (   journal_on
+    ->  channel_post(Endpoint, message, Message)
+    ;   catch(call(Post, Endpoint, message, Message),
+              error(resource_error(frame_bytes), Context),
+              sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context)),
+        debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint])
+    ).
+
+message(Endpoint, Id, Mail, Left, Message) :-
+    endpoint_keys(_),
+    !,
+    findall(From, member(mail(_, From, _), Mail), Froms),
+    (   whereabouts(Id, Address),
+        address_parts(Address, _, Endpoint)
+    ->  There = [Id]
+    ;   There = []
+    ),
+    shown(Endpoint, [Id|Froms], There, message(Id, Mail, Left), Message).
+message(_, Id, Mail, Left, message(Id, Mail, Left)).
 
 sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context) :-
     (   halves(Mail, Older, Newer)
-    ->  sent(Endpoint, Id, letter(Older, Left), Post),
-        sent(Endpoint, Id, letter(Newer, Left), Post)
+    ->  posted(Endpoint, Id, letter(Older, Left), Post),
+        posted(Endpoint, Id, letter(Newer, Left), Post)
     ;   throw(error(resource_error(frame_bytes), Context))
     ).
 

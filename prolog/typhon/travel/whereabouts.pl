@@ -12,7 +12,7 @@
             agent_heard_of/2,           % +Id, -Hops
             whereabouts/2               % +Id, -Address
           ]).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [include/3, maplist/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
@@ -24,6 +24,7 @@
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent',
               [agent/5, agent_home_endpoint/2, is_legacy/1, life_hops/2]).
+:- use_module(speakers, [speaks_for/3]).
 :- use_module(home,
               [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6,
                 home_knows/4, home_left/4, home_moved/4, home_resumed/3 ]).
@@ -201,8 +202,23 @@ agent_resumed_from(Id, Stamp, Hops) :-
     ).
 
 typhon_endpoint:received(whereabouts, All, Peer) :-
+    is_list(All),
+    !,
+    hear_news(All, [], Peer).
+typhon_endpoint:received(whereabouts, shown(Births, All), Peer) :-
+    must_be(list, All),
+    hear_news(All, Births, Peer).
+
+hear_news(All, Births, Peer) :-
+    include(news_believed(Peer, Births), All, Believed),
     process_at(Peer, Process),
-    maplist(news(Process), All).
+    maplist(news(Process), Believed).
+
+news_believed(Peer, Births, News) :-
+    must_be(compound, News),
+    arg(1, News, Id),
+    must_be(atom, Id),
+    speaks_for(Peer, Births, Id).
 
 news(Process, located(Id, Address, Hops)) :-
     must_be(nonneg, Hops),

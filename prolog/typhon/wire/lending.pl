@@ -32,6 +32,7 @@ The token goes to whoever takes it first.
 :- use_module(counts, [note_received/2]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(resumption, [session_lost/2]).
+:- use_module(secure, [secure_forget/0]).
 :- use_module(session, [session_adopting/2, session_key/2]).
 :- use_module(threads,
               [in_background/2, wire_thread_leaves/1, wire_thread_obey/1]).
@@ -154,6 +155,7 @@ take_back(Queue, Told) :-
         told(State, Told)
     ;   thread_get_message(Queue, released),
         nb_setval(typhon_lending, away),
+        secure_forget,
         forall(typhon_endpoint:returned, true),
         Told = lent
     ).

@@ -7,6 +7,7 @@
             secure_streams/6,           % +Role, +In, +Out, -SIn, -SOut, -Proof
             secure_close/0,
             secure_proof/1,             % -Proof
+            secure_forget/0,
             secure_input/2              % +In, +Seconds
           ]).
 
@@ -36,7 +37,8 @@ thread of its connection. What it may last in all is seen to by the keeper.
               [existence_error/2, permission_error/3, syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2]).
-:- use_module('../base/keys', [keys_certificate/2, keys_file/3, keys_holder/3]).
+:- use_module('../base/key_files', [keys_file/3]).
+:- use_module('../base/keys', [keys_certificate/2, keys_holder/3]).
 :- use_module(hello, [line_read/3, line_write/2]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 
@@ -319,7 +321,15 @@ close_stream(Stream) :-
 %   certificate(Name).
 
 secure_proof(Proof) :-
-    nb_current(typhon_proof, Proof).
+    nb_current(typhon_proof, Proof),
+    Proof \== none.
+
+%!  secure_forget is det.
+%
+%   This thread has no connection any more, and goes on as another.
+
+secure_forget :-
+    nb_setval(typhon_proof, none).
 
 %!  secure_input(+In, +Seconds) is semidet.
 %

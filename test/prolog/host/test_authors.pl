@@ -120,7 +120,104 @@ no_author(Authority, _) :-
     created(Two, alpha, After),
     assertion(subsumes_term(refused(move_refused(_, unsigned)), After)).
 
+test(only_payloads_that_alice_has_signed_come_along) :-
+    with_authority([alpha, beta], [alice], payloads_of).
+
 test(authors_need_keys, error(existence_error(host_option, tls))) :-
     host_start(alpha, [authors([alice])]).
 
 :- end_tests(authors).
+
+                 /*******************************
+                 *            PAYLOADS          *
+                 *******************************/
+
+payload(Authority, Name, File) :-
+    atom_concat(Name, '.pl', Base),
+    directory_file_path(Authority, Base, File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- payload(~w, [provides([~w/1, rule/1])]).~n\c
+                     ~w(1).~nrule(X) :- X > 1.~nrule(X) :- ~w(X).~n',
+               [Name, Name, Name, Name]),
+        close(Out)).
+
+%   The program is signed; what it carries may be.
+
+carrier(Authority, File) :-
+    directory_file_path(Authority, 'carrier.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- agent(carrier, [state([to/1])]).~n\c
+                     on_message(_, go(Host)) :- move(Host).~n\c
+                     on_message(_, do(Goal)) :- call(Goal).~n\c
+                     on_message(_, try(Goal)) :-~n  \c
+                       catch(Goal, error(Formal, _), true), result(Formal).~n',
+               []),
+        close(Out)),
+    keys_sign_file(File, alice, Authority).
+
+payloads_of(Authority) :-
+    own(Authority, beta, Dir),
+    with_peers([beta-[host([tls(Dir)])]],
+               with_choosy_host(Authority, payloads_of(Authority))).
+
+payloads_of(Authority, Alpha) :-
+    carrier(Authority, Carrier),
+    payload(Authority, good, Good),
+    payload(Authority, bad, Bad),
+    keys_sign_file(Good, alice, Authority),
+    keys_sign_file(Bad, beta, Authority),
+    peer_host(beta, Beta),
+    forall(member(Host, [open, Beta]),
+           ( carries(Carrier, Good, Host, Alpha, true, Came),
+             assertion(Came == arrived),
+             carries(Carrier, Bad, Host, Alpha, true, Not),
+             assertion(Not == refused(move_refused(Alpha, unsigned))),
+             carries(Carrier, Good, Host, Alpha, assertz(good(2)), Changed),
+             assertion(Changed == refused(move_refused(Alpha, unsigned))) )),
+    begins_with(Carrier, Good, arrived),
+    begins_with(Carrier, Bad, refused(move_refused(Alpha, unsigned))),
+    on_the_spot(Carrier, Good, Bad, Alpha).
+
+%   What becomes of a carrier that goes to Alpha after it has done something.
+
+carries(Carrier, Payload, Host, Alpha, Do, Came) :-
+    agent_create(Carrier, Agent, [host(Host), payloads([Payload])]),
+    agent_send(Agent, do(Do)),
+    agent_send(Agent, go(Alpha)),
+    wait_until(carried(Agent, Alpha, Came), 20).
+
+carried(Agent, Alpha, arrived) :-
+    agent_property(Agent, host(Alpha)),
+    agent_property(Agent, state(resident)).
+carried(Agent, _, refused(Formal)) :-
+    agent_property(Agent, state(faulty(error(Formal, _)))).
+
+begins_with(Carrier, Payload, Expected) :-
+    catch(( agent_create(Carrier, _, [host(alpha), payloads([Payload])]),
+            Came = arrived ),
+          error(Formal, _),
+          Came = refused(Formal)),
+    assertion(Came = Expected).
+
+%   On alpha itself nothing else is attached, from within or from outside, and
+%   nothing is delivered that has changed.
+
+on_the_spot(Carrier, Good, Bad, Alpha) :-
+    Refused = error(move_refused(Alpha, unsigned), _),
+    agent_create(Carrier, Agent, [host(alpha)]),
+    catch(payload_attach(Agent, Bad), Error, true),
+    assertion(subsumes_term(Refused, Error)),
+    payload_attach(Agent, Good),
+    agent_send(Agent, do(deliver(good))),
+    wait_until(remote(alpha, catch(good(1), error(_, _), fail)), 10),
+    agent_send(Agent, do(undeliver(good))),
+    agent_send(Agent, do(assertz(good(2)))),
+    agent_send(Agent, do(deliver(good))),
+    wait_until(agent_property(Agent, state(faulty(Fault))), 10),
+    assertion(subsumes_term(Refused, Fault)),
+    agent_create(Carrier, Other, [host(alpha)]),
+    agent_send(Other, do(attach(Bad))),
+    wait_until(agent_property(Other, state(faulty(Again))), 10),
+    assertion(subsumes_term(Refused, Again)).

@@ -5,8 +5,9 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/authority').
 :- use_module('../../lib/peers').
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(plunit)).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
@@ -67,7 +68,7 @@ test(what_a_host_has_taken_away_is_missed) :-
     with_three(true, test_trails:taken_away).
 
 test(of_a_long_way_the_end_is_known,
-     [ cleanup(set_setting(typhon_trail:links, 64)) ]) :-
+     [ cleanup(set_setting(typhon_trail:links, 32)) ]) :-
     set_setting(typhon_trail:links, 4),
     with_three(set_setting(typhon_trail:links, 4), test_trails:long_way).
 
@@ -101,28 +102,49 @@ honest :-
 taken_away :-
     toured(Agent, trail(_, whole)),
     typhon_agents:agent(Agent, _, Module, _, _),
-    Module:'$trail'(Links, Pems),
+    Module:'$trail'(Next, Chain, Pems, Pending),
+    typhon_chain:chain_links(Chain, Oldest),
+    reverse(Oldest, Links),
     findall(Forged-Expected, forged(Links, Forged, Expected), Cases),
-    assertion(length(Cases, 5)),
+    assertion(length(Cases, 7)),
     forall(member(Forged-Expected, Cases),
-           ( typhon_trail:trail_verified(Agent, '$trail'(Forged, Pems),
-                                         trail(_, Verdict)),
+           ( reverse(Forged, OldestForged),
+             foldl(chained, OldestForged, "", ForgedChain),
+             typhon_trail_verified:trail_verified(Agent,
+                 '$trail'(Next, ForgedChain, Pems, Pending),
+                 trail(_, Verdict)),
              assertion(Verdict == Expected) )).
 
-%   forged(+Links, -Forged, -Verdict): newest first.
+chained(Link, Chain0, Chain) :-
+    typhon_chain:chain_add(Link, 1-Chain0, 9, _-Chain).
 
-forged(Links, Forged, unaccounted(beta)) :-          % a result is changed
-    append(Before, [link(N, entered(Id, was(_)), C, S)|After], Links),
-    N =:= 2,
-    append(Before, [link(N, entered(Id, was(nothing)), C, S)|After], Forged).
-forged(Links, Forged, unaccounted(beta)) :-          % it is taken away
-    append(Before, [link(2, _, _, _)|After], Links),
-    append(Before, After, Forged).
+%   forged(+Links, -Forged, -Verdict): newest first. Links are two of gamma, two
+%   of beta, the older with what it received and what was entered, one of alpha.
+
+forged(Links, Forged, unaccounted(alpha)) :-         % a result is changed
+    changed(1, entered(was(_)), entered(was(nothing)), Links, Forged).
+forged(Links, Forged, unaccounted(alpha)) :-         % it is taken away
+    append(Before, [_, Link], Links),
+    append(Before, [Link], Forged).
 forged(Links, Forged, unaccounted(alpha)) :-         % beta has seen another state
-    append(Before, [link(1, received(A, B, C, D, _, F), G, H)|After], Links),
-    append(Before, [link(1, received(A, B, C, D, x, F), G, H)|After], Forged).
-forged(Links, Forged, since(2)) :-      % what was before beta is gone
+    changed(1, received(At), received(At, what(h, 1, s, g)), Links, Forged).
+forged(Links, Forged, since(3)) :-      % what was before beta is gone
     append(Forged, [_], Links).
 forged(Links, Forged, unaccounted(nobody)) :-
-    append(Before, [link(0, handed(_, B, C, D, E, F), G, H)], Links),
-    append(Before, [link(0, handed(another, B, C, D, E, F), G, H)], Forged).
+    changed(0, handed(_, What), handed(another, What), Links, Forged).
+forged(Links, Forged, unaccounted(beta)) :-          % not even a text
+    append(Before, [link(_, _, _)|After], Links),
+    length(After, 3),
+    append(Before, [link("0-[f(", x, 0)|After], Forged).
+forged(Links, Forged, unaccounted(beta)) :-
+    append(Before, [link(_, Hex, C)|After], Links),
+    length(After, 3),
+    append(Before, [link("3-[_]. halt. ", Hex, C)|After], Forged).
+
+changed(N, Event, Instead, Links, Forged) :-
+    append(Before, [link(Text, Hex, C)|After], Links),
+    typhon_text:text_term(Text, N-Events),
+    append(Some, [Event|Others], Events),
+    append(Some, [Instead|Others], News),
+    typhon_text:term_text(N-News, New),
+    append(Before, [link(New, Hex, C)|After], Forged).

@@ -1,0 +1,85 @@
+:- module(typhon_signed_payloads,
+          [ payload_mark/2,             % +Payload, -Mark
+            payload_marked/2,           % +Module, +Marks
+            payload_unmarked/2,         % +Module, +Name
+            payload_marks/2,            % +Module, -Marks
+            payloads_admitted/3,        % +Host, +Life, +Clauses
+            payload_admitted/3          % +Host, +Payload, +Clauses
+          ]).
+
+/** <module> Payloads that an author has signed
+
+The signature of a payload is a fact among the state of the agent,
+
+    '$signed'(Name, Signature)
+
+so it goes where the payload goes. A host with `authors(Names)` admits agents
+whose payloads are all as one of these has signed them: what has changed
+since is not.
+
+*Threading*: any thread; the module of an agent belongs to its worker.
+*/
+
+:- use_module(library(lists), [member/2]).
+:- use_module('../program', [payload_hash/2, payload_signature/2]).
+:- use_module('../host', [host_option/2, signature_by/3]).
+:- use_module(life, [life_payloads/2]).
+
+%!  payload_mark(+Payload, -Mark) is semidet.
+%!  payload_marked(+Module, +Marks:list) is det.
+%!  payload_unmarked(+Module, +Name) is det.
+%!  payload_marks(+Module, -Marks:list) is det.
+%
+%   Mark is the fact that goes with Payload, if its signature is known here.
+%   The agent with this module has these; it has none for Name any more; it has
+%   these and no others.
+
+payload_mark(Payload, '$signed'(Name, Signature)) :-
+    payload_signature(Payload, Signature),
+    Payload = payload(Name, _, _).
+
+payload_marked(_, []) :-
+    !.
+payload_marked(Module, Marks) :-
+    dynamic(Module:'$signed'/2),
+    forall(member(Mark, Marks), assertz(Module:Mark)).
+
+payload_unmarked(Module, Name) :-
+    (   '$c_current_predicate'(_, Module:'$signed'(_, _))
+    ->  retractall(Module:'$signed'(Name, _))
+    ;   true
+    ).
+
+payload_marks(Module, Marks) :-
+    Mark = '$signed'(_, _),
+    (   '$c_current_predicate'(_, Module:Mark)
+    ->  findall(Mark, Module:Mark, Marks)
+    ;   Marks = []
+    ).
+
+%!  payloads_admitted(+Host, +Life, +Clauses) is semidet.
+%!  payload_admitted(+Host, +Payload, +Clauses) is semidet.
+%
+%   Host, of this process, lets in an agent of that Life and with Clauses among
+%   its state; this Payload of it.
+
+payloads_admitted(Host, Life, Clauses) :-
+    life_payloads(Life, Payloads),
+    Payloads \== [],
+    host_option(Host, authors(_)),
+    !,
+    forall(member(Name-PIs, Payloads),
+           payload_admitted(Host, payload(Name, PIs, Clauses), Clauses)).
+payloads_admitted(_, _, _).
+
+payload_admitted(Host, Payload, Clauses) :-
+    (   host_option(Host, authors(Authors))
+    ->  Payload = payload(Name, _, _),
+        payload_hash(Payload, Hash),
+        member(Mark, Clauses),
+        subsumes_term('$signed'(Name, _), Mark),
+        arg(2, Mark, Signature),
+        signature_by(Authors, Hash, Signature)
+    ;   true
+    ),
+    !.

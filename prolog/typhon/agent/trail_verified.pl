@@ -1,0 +1,149 @@
+:- module(typhon_trail_verified,
+          [ trail_verified/3            % +Id, +Raw, -Trail
+          ]).
+
+/** <module> What a trail proves
+
+Only who wants to know goes through all of it.
+
+*Threading*: any thread; no state.
+*/
+
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module('../base/keys',
+              [keys_certificate/2, keys_holder/3, keys_verify/4]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_keys/1, text_term/2]).
+:- use_module('../host', [address_parts/3]).
+:- use_module(chain, [chain_links/2]).
+:- use_module(identity, [agent_home_endpoint/2]).
+:- use_module(trail, [trail_signed/4]).
+
+%!  trail_verified(+Id, +Raw, -Trail) is det.
+%
+%   Trail is trail(Steps, Verdict). A step is step(N, Name, What), Name being
+%   the host whose keys have signed it, and What handed(To), received(At) or
+%   entered(Result). Verdict is `whole`, or unaccounted(Name): Name is the
+%   host after which, or in whose hands, state or code have become what nobody
+%   answers for; `nobody` where that is so from the beginning. It is since(N)
+%   where all is well from the N-th link on, and those before are gone.
+%
+%   @error existence_error(keys, here)
+
+trail_verified(Id, Raw, trail(Steps, Verdict)) :-
+    (   endpoint_keys(Keys)
+    ->  true
+    ;   existence_error(keys, here)
+    ),
+    (   subsumes_term('$trail'(_, _, _, _), Raw),
+        Raw = '$trail'(_, Chain, Pems, _),
+        chain_links(Chain, Links),
+        ground(Pems),
+        is_list(Pems)
+    ->  all_steps(Links, with(Keys, Id, Pems), Steps, Verdict)
+    ;   Steps = [],
+        Verdict = unaccounted(nobody)
+    ).
+
+%   Where the oldest are gone, the first one that is left can only be known by
+%   what the second one says of its signature.
+
+all_steps([Link|Links], With, Steps, Verdict) :-
+    events(Link, N, Events),
+    N > 0,
+    !,
+    length(Events, Count),
+    Since is N+Count,
+    steps(Links, With, since(Since, Link), Steps, Verdict0),
+    (   Verdict0 == whole
+    ->  Verdict = since(Since)
+    ;   Verdict = Verdict0
+    ).
+all_steps(Links, With, Steps, Verdict) :-
+    steps(Links, With, none, Steps, Verdict).
+
+%   steps(+Links, +With, +Before, -Steps, -Verdict): Before is `none`,
+%   since(N, Link) or before(N, Link, Event, Name), N being the number of the
+%   next event.
+
+steps([], _, _, [], whole).
+steps([Link|Links], With, Before, Steps, Verdict) :-
+    (   events(Link, N, Events),
+        signed_by(Link, N, With, Before, Name),
+        follow(Events, N, Link, With, Before, Name, Steps, After, Steps1)
+    ->  steps(Links, With, After, Steps1, Verdict)
+    ;   Steps = [],
+        (   Before = before(_, _, _, Last)
+        ->  Verdict = unaccounted(Last)
+        ;   Verdict = unaccounted(nobody)
+        )
+    ).
+
+events(link(Text, _, _), N, Events) :-
+    catch(text_term(Text, Term), error(_, _), fail),
+    subsumes_term(_-[_|_], Term),
+    Term = N-Events,
+    integer(N),
+    is_list(Events),
+    maplist(is_event, Events).
+
+is_event(entered(_)) :-
+    !.
+is_event(Event) :-
+    ground(Event),
+    functor(Event, Name, Arity),
+    memberchk(Name/Arity, [handed/2, received/1, received/2]).
+
+signed_by(Link, N, with(Keys, Id, Pems), Before, Name) :-
+    Link = link(Text, Hex, C),
+    memberchk(pem(C, _, Pem), Pems),
+    before(Before, N, Last),
+    trail_signed(Id, Text, Last, Signed),
+    keys_verify(Keys, Signed, signature(Pem, Hex), host(Name)).
+
+before(none, 0, none).
+before(since(N, link(_, Hex, _)), N, Hex).
+before(before(N, link(_, Hex, _), _, _), N, Hex).
+
+%   follow(+Events, +N, +Link, +With, +Before, +Name, -Steps, -After, ?Rest)
+
+follow([], _, _, _, After, _, Steps, After, Steps).
+follow([Event|Events], N, Link, With, Before, Name,
+       [step(N, Name, Told)|Steps], After, Rest) :-
+    follows(Before, Event, With, Name),
+    told(Event, Told),
+    N1 is N+1,
+    follow(Events, N1, Link, With, before(N1, Link, Event, Name), Name, Steps,
+           After, Rest).
+
+follows(since(_, _), _, _, _).
+follows(none, Event, with(Keys, Id, _), Name) :-
+    \+ is_received(Event, _),
+    (   agent_home_endpoint(Id, Home),
+        endpoint_address(Home)
+    ->  own_name(Keys, Name)            % it began with us
+    ;   true
+    ).
+follows(before(_, _, Earlier, Before), Event, _, Name) :-
+    (   Earlier = handed(To, What)
+    ->  is_received(Event, What),
+        arg(1, Event, At),
+        address_parts(To, Host, _),     % a process may have several
+        address_parts(At, Host, _)      % addresses
+    ;   Name == Before,
+        \+ is_received(Event, _)
+    ).
+
+is_received(received(_), _).
+is_received(received(_, What), What).
+
+own_name(Keys, Name) :-
+    keys_certificate(Keys, Own),
+    keys_holder(Keys, Own, host(Name)).
+
+told(received(At, _), received(At)) :-
+    !.
+told(handed(To, _), handed(To)) :-
+    !.
+told(Event, Event).
