@@ -17,7 +17,7 @@ count, that of their clauses does.
 
 :- use_module(library(lists), [member/2]).
 :- use_module(paths, [program_file/2]).
-:- use_module(programs, 
+:- use_module(programs,
               [ payload_load/2 as payload_read, program_hash/2,
                 program_read/7 ]).
 :- use_module(python_code, [python_payload/2]).
