@@ -9,6 +9,7 @@ JOBS ?= 2
 SECONDS ?= 600
 COUNT ?= 100000
 SEED ?= 1
+TLS ?= false
 MAKEFLAGS += --no-print-directory
 ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
     experiments/study.pl bench/run.pl
@@ -79,8 +80,8 @@ check-all:
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \
 	done
 
-fuzz:                   ## what nobody should send; COUNT=100000, SEED=1
-	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED)
+fuzz:                   ## what nobody should send; COUNT=100000, SEED=1, TLS=true
+	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED) --tls=$(TLS)
 
 hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1
 	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED)

@@ -1,8 +1,8 @@
 /*  A fuzzer: what comes over the wire is not what it should be.
 
-    swipl test/chaos/fuzz.pl -- [--count N] [--seed N]
+    swipl test/chaos/fuzz.pl -- [--count N] [--seed N] [--tls]
 
-sends N inputs to a process with a host. Each has a seed of its own, from the
+sends N inputs to a process with a host, which has keys with --tls. Each has a seed of its own, from the
 one given on: `--count 1 --seed I` repeats one. Faults are printed with the
 seeds between which they were seen; the exit status is then 1. */
 
@@ -14,8 +14,10 @@ seeds between which they were seen; the exit status is then 1. */
 
 opt_type(count, count, nonneg).
 opt_type(seed, seed, nonneg).
+opt_type(tls, tls, boolean).
 opt_help(count, 'inputs (default 2000)').
 opt_help(seed, 'the first seed (default 1)').
+opt_help(tls, 'over TLS, too').
 opt_meta(count, 'N').
 opt_meta(seed, 'N').
 

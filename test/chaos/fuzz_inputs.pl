@@ -182,6 +182,14 @@ agent('fuzz.00000000.1@fuzz@127.0.0.1:1').
 
 posted(message, message(Agent, [Agent-hello], 10)) :-
     agent(Agent).
+posted(message, shown([birth(Agent, hash, pem, "00")],
+                      message(Agent, [mail('127.0.0.1:1', Agent, hello)], 10))) :-
+    agent(Agent).
+posted(message, abroad(fipa(x), Agent, hello)) :-
+    agent(Agent).
+posted(whereabouts, shown([birth(Agent, hash, pem, "00")],
+                          [ended(Agent, done, 4)])) :-
+    agent(Agent).
 posted(whereabouts, located(Agent, 'fuzz@127.0.0.1:1', 3)) :-
     agent(Agent).
 posted(whereabouts, ended(Agent, done, 4)) :-
@@ -199,7 +207,8 @@ requested(hop, hop(victim,
                          state([], [f(1)-true]), [true], [], 0.0),
                    Program)) :-
     agent(Agent),
-    member(Program, [known, zork, program(zork, [], [])]).
+    member(Program, [ known, zork, program(zork, [], []),
+                      papers(birth(Agent, hash, pem, "00"), known) ]).
 requested(whereabouts, reached(Agent, 2)) :-
     agent(Agent).
 requested(agent, question(Agent, properties)) :-

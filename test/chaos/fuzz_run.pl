@@ -6,7 +6,9 @@
 
 Most inputs come from strangers, one in eight from a peer that knows the
 cookie and not its business; while another process asks the victim for a
-service now and then.
+service now and then. Where the victim has keys half of the strangers do not
+speak TLS, some have made their certificate themselves, and the others, as the
+peers, have one of the authority.
 
 At the end the process must be alive and serve; no stranger may have got in;
 and no slot, session, request, agent, thread or queue may be left of all
@@ -18,15 +20,19 @@ Only who knows the cookie can send that.
 _Threading_: the main thread.
 */
 
+:- use_module('../lib/authority').
 :- use_module('../lib/common').
 :- use_module('../lib/peers').
 :- use_module(fuzz_inputs).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(socket)).
+:- autoload(library(ssl),
+            [cert_accept_any/5, ssl_context/3, ssl_negotiate/5]).
 :- use_module(library(typhon/wire/auth), [authenticate/6, cookie/1]).
 :- use_module(library(typhon/wire/frame), [frame_write/2, term_bytes/3]).
 :- use_module(library(typhon/wire/hello),
@@ -34,14 +40,45 @@ _Threading_: the main thread.
 
 %!  fuzz(+Options, -Faults:list) is det.
 %
-%   Options: count(N), seed(N), progress(Bool). Input I has the seed I of its
+%   Options: count(N), seed(N), progress(Bool), tls(Bool). Input I has the seed I of its
 %   own; a fault names the seeds between which it was seen.
 
 fuzz(Options, Faults) :-
     option(count(Count), Options, 2000),
     option(seed(Seed), Options, 1),
     option(progress(Progress), Options, false),
-    with_peers([victim, honest],
+    option(tls(Tls), Options, false),
+    (   Tls == true
+    ->  with_authority([victim, fuzz, alien], [],
+                       fuzz_with_keys(Count, Seed, Progress, Faults))
+    ;   fuzz(plain, victim, honest, Count, Seed, Progress, Faults)
+    ).
+
+fuzz_with_keys(Count, Seed, Progress, Faults, Authority) :-
+    self_made_host(Authority, alien),
+    maplist(keys(Authority), [victim, fuzz, alien],
+            [Victim, Fuzz, Alien]),
+    maplist(context, [Fuzz, Alien], [Known, Unknown]),
+    fuzz(tls(Known, Unknown), victim-[host([tls(Victim)])],
+         honest-[host([tls(Victim)])], Count, Seed, Progress, Faults).
+
+keys(Authority, Name, Dir) :-
+    directory_file_path(Authority, Name, Dir).
+
+context(Dir, Context) :-
+    maplist(file_in(Dir), ['cert.pem', 'key.pem', 'ca.pem'],
+            [Certificate, Key, Authority]),
+    ssl_context(client, Context,
+                [ certificate_file(Certificate), key_file(Key),
+                  cacerts([file(Authority)]),
+                  cert_verify_hook(cert_accept_any), close_parent(true) ]).
+
+file_in(Dir, Name, File) :-
+    directory_file_path(Dir, Name, File).
+
+fuzz(Ways, Victim, Honest, Count, Seed, Progress, Faults) :-
+    nb_setval(fuzz_ways, Ways),
+    with_peers([Victim, Honest],
                ( attack(Count, Seed, Progress, Faults),
                  tell(Faults) )).
 
@@ -124,7 +161,8 @@ input(Seed, Port) :-
 :- dynamic lingering/2.                 % In, Out
 
 stranger(Port, Codes, End) :-
-    connect(Port, In, Out),
+    stranger_way(Way),
+    connect(Way, Port, In, Out),
     catch(say(End, Codes, Out), error(_, _), true),
     (   End == close
     ->  close_streams(In, Out)
@@ -148,6 +186,33 @@ linger_no_more(Most) :-
     close_streams(In, Out),
     linger_no_more(Most).
 linger_no_more(_).
+
+stranger_way(Way) :-
+    nb_getval(fuzz_ways, Ways),
+    random_between(1, 10, N),
+    stranger_way(Ways, N, Way).
+
+stranger_way(tls(_, Unknown), 1, tls(Unknown)) :- !.
+stranger_way(tls(Known, _), N, tls(Known)) :- N =< 5, !.
+stranger_way(_, _, plain).
+
+peer_way(Way) :-
+    nb_getval(fuzz_ways, Ways),
+    ( Ways = tls(Known, _) -> Way = tls(Known) ; Way = plain ).
+
+connect(plain, Port, In, Out) :-
+    connect(Port, In, Out).
+connect(tls(Context), Port, In, Out) :-
+    connect(Port, In0, Out0),
+    catch(ssl_negotiate(Context, In0, Out0, In, Out), error(Formal, _),
+          ( close_streams(In0, Out0), throw(error(Formal, _)) )),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)),
+    set_stream(In, timeout(10)).
+
+welcome(plain, _).
+welcome(tls(_), In) :-
+    hear_line(In).
 
 connect(Port, In, Out) :-
     tcp_socket(Socket),
@@ -194,9 +259,11 @@ try(Times, Goal) :-
 :- meta_predicate with_session(+, +, 2).
 
 with_session(Port, Hello, Goal) :-
+    peer_way(Way),
     setup_call_cleanup(
-        connect(Port, In, Out),
-        ( authenticate(client, In, Out, Hello, cookie, Peer),
+        connect(Way, Port, In, Out),
+        ( welcome(Way, In),
+          authenticate(client, In, Out, Hello, cookie, Peer),
           resume(Hello, Peer, In, Out),
           call(Goal, In, Out) ),
         close_streams(In, Out)).

@@ -9,15 +9,18 @@
 
 Programs and payloads. A payload has no name of its own on the way, since its
 clauses are part of the state of an agent; its hash is that of a program with
-the same clauses that no file could be. The order of its predicates does not
-count, that of their clauses does.
+the same clauses that no file could be. The order of its predicates does not count, that of
+their clauses does; and it is that of its clauses as they are stored, without
+what a host that guards has written into them.
 
 *Threading*: any thread; no state.
 */
 
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(terms), [mapsubterms/3]).
 :- use_module(paths, [program_file/2]).
-:- use_module(programs, 
+:- use_module(programs,
               [ payload_load/2 as payload_read, program_hash/2,
                 program_read/7 ]).
 :- use_module(python_code, [python_payload/2]).
@@ -82,12 +85,30 @@ payload_hash(payload(Name, PIs0, Clauses), Hash) :-
     findall((Head:-Body),
             ( member(PI, PIs), clause_of(PI, Clauses, Head, Body) ),
             Sorted),
-    program_hash(program(Name, PIs, [payload(Name)], Sorted), Hash).
+    flag(typhon_payload_module, N, N+1),
+    atom_concat('payload ', N, Module),
+    set_module(Module:class(temporary)),
+    call_cleanup(maplist(stored(Module), Sorted, Stored),
+                 '$destroy_module'(Module)),
+    program_hash(program(Name, PIs, [payload(Name)], Stored), Hash).
 
 clause_of(Name/Arity, Clauses, Head, Body) :-
     functor(Head, Name, Arity),
     member(Clause, Clauses),
-    clause_parts(Clause, Head, Body).
+    clause_parts(Clause, Head0, Body),
+    Head0 = Head.
+
+%   A goal that is a variable is stored as call/1, and the like.
+
+stored(Module, (Head0:-Body0), (Head:-Body)) :-
+    mapsubterms(unguarded, Body0, Body1),
+    assertz(Module:(Head0:-Body1), Ref),
+    clause(Module:Head, Body, Ref).
+
+unguarded(Goal, Plain) :-
+    compound(Goal),
+    Goal = '$guarded'(Plain0),
+    ( mapsubterms(unguarded, Plain0, Plain) -> true ; Plain = Plain0 ).
 
 payload_signature(Payload, Signature) :-
     program_signature(_, _),            % somebody has signed something

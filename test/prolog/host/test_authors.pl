@@ -8,6 +8,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(typhon)).
 :- use_module('../../../app/keys', [keys_revoke/2, keys_sign_file/3]).
 
@@ -138,7 +139,8 @@ payload(Authority, Name, File) :-
     setup_call_cleanup(
         open(File, write, Out),
         format(Out, ':- payload(~w, [provides([~w/1, rule/1])]).~n\c
-                     ~w(1).~nrule(X) :- X > 1.~nrule(X) :- ~w(X).~n',
+                     ~w(1).~nrule(X) :- X, findall(Y, X, _), \\+ Y.~n\c
+                     rule(X) :- call(X, 1), ~w(X).~n',
                [Name, Name, Name, Name]),
         close(Out)).
 
@@ -176,6 +178,7 @@ payloads_of(Authority, Alpha) :-
              assertion(Not == refused(move_refused(Alpha, unsigned))),
              carries(Carrier, Good, Host, Alpha, assertz(good(2)), Changed),
              assertion(Changed == refused(move_refused(Alpha, unsigned))) )),
+    guards_on_the_way(Carrier, Good, Beta, Alpha),
     begins_with(Carrier, Good, arrived),
     begins_with(Carrier, Bad, refused(move_refused(Alpha, unsigned))),
     on_the_spot(Carrier, Good, Bad, Alpha).
@@ -193,6 +196,21 @@ carried(Agent, Alpha, arrived) :-
     agent_property(Agent, state(resident)).
 carried(Agent, _, refused(Formal)) :-
     agent_property(Agent, state(faulty(error(Formal, _)))).
+
+%   What a host that guards writes into it does not count.
+
+guards_on_the_way(Carrier, Good, Beta, Alpha) :-
+    host_start(guarding, [policy(guarded)]),
+    host_property(guarding, address(Guarding)),
+    carries(Carrier, Good, Beta, Guarding, true, First),
+    assertion(First == arrived),
+    agent_property(Agent, host(Guarding)),
+    agent_property(Agent, facts(Facts)),
+    assertion(( sub_term(Sub, Facts), subsumes_term('$guarded'(_), Sub) )),
+    agent_send(Agent, go(Alpha)),
+    wait_until(carried(Agent, Alpha, Came), 20),
+    assertion(Came == arrived),
+    host_stop(guarding).
 
 begins_with(Carrier, Payload, Expected) :-
     catch(( agent_create(Carrier, _, [host(alpha), payloads([Payload])]),

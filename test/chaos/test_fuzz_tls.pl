@@ -1,0 +1,16 @@
+:- module(test_fuzz_tls, []).
+
+% The short form of `make fuzz TLS=true`.
+
+:- use_module('../lib/common').
+:- use_module(fuzz_run).
+:- use_module(library(plunit)).
+
+:- needs([openssl]).
+
+:- begin_tests(nonsense_over_tls_does_no_harm).
+
+test(some_dozens, Faults == []) :-
+    no_leaks(fuzz([count(120), seed(1), tls(true)], Faults)).
+
+:- end_tests(nonsense_over_tls_does_no_harm).
