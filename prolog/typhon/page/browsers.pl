@@ -180,12 +180,13 @@ give(Browser, Text, Count) :-
     ;   with_mutex(typhon_page, skipped(Browser, Count))
     ).
 
-%   It may have gone.
+%   It may have gone.  Who asks meanwhile whether there are any finds it.
 
 skipped(Browser, Count) :-
-    (   retract(browser(Browser, Thread, Skipped))
+    (   browser(Browser, Thread, Skipped)
     ->  More is Skipped+Count,
-        assertz(browser(Browser, Thread, More))
+        assertz(browser(Browser, Thread, More)),
+        once(retract(browser(Browser, Thread, Skipped)))
     ;   true
     ).
 

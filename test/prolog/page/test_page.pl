@@ -208,12 +208,12 @@ scene(what_is_opened_stays_what_it_is) :-
     at(Browser, _, _),
     sees("[...document.querySelectorAll('#details summary')]
               .find(s => s.textContent.startsWith('Trail')).parentElement.open = true;
-          document.querySelector('#details .trail button').focus();
-          globalThis.trail = () => document.querySelectorAll('#details .trail li').length;
-          globalThis.before = trail()", _),
-    see("return trail() > before"),
+          document.querySelector('#details .trail li:last-child button').focus();
+          globalThis.facts = () => document.querySelector('#details .facts').textContent;
+          globalThis.before = facts()", _),
+    see("return facts() !== before"),
     sees("return Boolean(document.activeElement.closest('.trail'))", true),
-    sees("return document.activeElement.title", Host),
+    sees("return document.querySelector('#details .trail button').title", Host),
     browser_hold(Browser, "#details .trail button",
                  ( sees("globalThis.before = typhon.store.counts.arrived", _),
                    see("return typhon.store.counts.arrived > before + 3") )),
@@ -412,6 +412,7 @@ scene(a_mechanism_is_started) :-
 
 scene(one_replay_at_a_time) :-
     view(replay),
+    see("return typhon.app.views.get('replay')"),
     sees("const { open } = typhon.app.views.get('replay'),
               text = [0, 500].map(t => `event(${t}, 'a@h:1', 'b.1@a@h:1', created).`)
                   .join('\\n'),
@@ -422,8 +423,10 @@ scene(one_replay_at_a_time) :-
               second = await open(new File([text], 'two.log'));
           return [before, first.player.playing,
               document.querySelectorAll('.replay').length,
-              second.player !== first.player]",
-         [true, false, 1, true]).
+              second.player !== first.player,
+              document.querySelector('#panel-replay [role=status]').textContent]",
+         Seen),
+    assertion(Seen == [true, false, 1, true, ""]).
 
 scene(everybody_can_use_it) :-
     at(Browser, _, _),

@@ -92,9 +92,9 @@ class Details {
 
   // [[term, text or element]]
   define(rows) {
-    const made = rows.filter(([, value]) => value !== undefined && value !== '')
-      .flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]);
-    renew(this.facts, made);
+    renew(this.facts, rows.filter(([, value]) => value !== undefined && value !== '')
+      .map(([name, value]) => element('div', {}, element('dt', {}, name),
+        element('dd', {}, value))));
   }
 
   hostLink(id) {

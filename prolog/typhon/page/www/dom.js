@@ -41,16 +41,17 @@ export function inOrder(parent, children) {
   });
 }
 
-// The same, but what is as before stays the same element: it may have the
-// focus, or be a part of what somebody selects.
+// The same, but what is as before, in the same order, stays the same element:
+// it may have the focus, or be a part of what somebody selects.
 export function renew(parent, children) {
-  const before = new Map();     // HTML -> elements
-  for (const child of parent.children) {
-    const html = child.outerHTML;
-    before.set(html, [...before.get(html) || [], child]);
-  }
-  inOrder(parent, children.map(child =>
-    before.get(child.outerHTML)?.shift() ?? child));
+  const before = [...parent.children], html = before.map(child => child.outerHTML);
+  let next = 0;
+  inOrder(parent, children.map(child => {
+    const same = html.indexOf(child.outerHTML, next);
+    if (same < 0) return child;
+    next = same + 1;
+    return before[same];
+  }));
 }
 
 // Call f with the size of an element now, and whenever it changes; not while
