@@ -12,12 +12,13 @@
 :- use_module('../host',
               [ alarm_set/3, event/4, event_heard/1, host_address/2,
                 host_option/2, host_resolve/2, host_time/2, quota/3,
-                quota_passed/1, real_time/3, schedule/2 ]).
+                quota_any/1, quota_passed/1, quota_shared/4, quota_spend/3,
+                real_time/3, schedule/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_home_endpoint/2, agent_name/3, agent_put/3,
+              [ agent/5, agent_name/3, agent_put/3,
                 agent_put_down/3, agent_ready/2, agent_rest/3, agent_status/3,
-                agent_wakes/2, life_hops/2, life_may_move/2,
-                mail_take/2, with_agent/2 ]).
+                agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
+                stay_count/3, stay_owner/3, with_agent/2 ]).
 :- use_module('../travel', [hop/6, hop_clone/6]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
@@ -49,7 +50,8 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     (   Dest == local(Here)
     ->  Hole = true,
         Next = go(Goals)
-    ;   agent(Id, _, _, _, Life),
+    ;   quota_spend(Here, Id, hops),
+        agent(Id, _, _, _, Life),
         life_may_move(Life, May),
         set_out(May, Dest, Hole, Goals, Id-Here, Next)
     ).
@@ -111,19 +113,31 @@ noted_with(CloneId, Hole-Goals-Who, Id) :-
     \+ \+ ( Hole = (Who=parent(CloneId)),
             agent_put_down(Id, ready, Goals) ).
 
-%   Of all there are here of one program that have one home.
+%   may_clone(+Id, +Here): of its program and owner there are not too many here,
+%   of all programs of the owner, and of all.
 
 may_clone(Id, Here) :-
+    (   quota_any(Here),
+        too_many(Id, Here)
+    ->  quota_passed(clones)
+    ;   true
+    ).
+
+too_many(Id, Here) :-
     quota(Here, clones, Most),
-    !,
+    stay_owner(Id, Here, Owner),
     agent(Id, _, _, Hash, _),
-    agent_home_endpoint(Id, Owner),
     aggregate_all(count,
-                  ( agent(Other, Here, _, Hash, _),
-                    agent_home_endpoint(Other, Owner) ),
+                  ( stay_owner(Other, Here, Owner),
+                    agent(Other, Here, _, Hash, _) ),
                   Count),
-    ( Count > Most -> quota_passed(clones) ; true ).
-may_clone(_, _).
+    Count > Most.
+too_many(Id, Here) :-
+    quota_shared(Here, Whose, clones, Most),
+    stay_owner(Id, Here, Owner),
+    ( Whose == host -> true ; Of = Owner ),
+    stay_count(Here, Of, Count),
+    Count > Most.
 
 infinite(Seconds) :- Seconds == inf.
 infinite(Seconds) :- Seconds == infinite.

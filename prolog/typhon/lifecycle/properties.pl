@@ -141,6 +141,7 @@ visible(Clauses, Clause) :-
     member(Clause, Clauses),
     Clause \= '$memory'(_),
     Clause \= '$legacy'(_),
+    Clause \= '$owner'(_),
     Clause \= '$trail'(_, _).
 
 %!  status_shown(+Status, -State) is det.

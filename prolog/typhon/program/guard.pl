@@ -133,11 +133,12 @@ declared_allowed('$legacy'/1) :-
 declared_allowed(PI) :-
     state_allowed(PI).
 
-%   What an agent leaves behind is a fact of the platform in its state.
+%   Facts of the platform in its state: what it leaves behind, who had it, and
+%   whose it is.
 
 guard_fact(_, Fact, Fact) :-
     nonvar(Fact),
-    Fact = '$legacy'(_),
+    of_platform(Fact),
     !,
     must_be_tree(Fact).
 guard_fact(_, Fact, Fact) :-
@@ -149,6 +150,10 @@ guard_fact(_, Fact, Fact) :-
     must_be_tree(Fact).
 guard_fact(Own, Clause0, Clause) :-
     guard_own_clause(Own, Clause0, Clause).
+
+of_platform('$legacy'(_)).
+of_platform('$trail'(_, _)).
+of_platform('$owner'(_)).
 
 guard_declares(_, PI) :-
     state_allowed(PI).

@@ -6,13 +6,14 @@
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
               [ address_parts/3, event/4, event_heard/1, guarding/0, host/3,
-                host_enter/4, host_hop/3, host_leave/1, host_time/2, schedule/2,
-                schedule_stays/2 ]).
+                host_enter/4, host_hop/3, host_leave/1, host_time/2, quota_any/1,
+                schedule/2, schedule_stays/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_may_stand/4,
                 agent_mobile/2, agent_move/5, agent_put/3, agent_standing/5,
                 agent_state/2, agent_status/3, life_hop/3, life_tokens/2,
-                policy_refuses/2, with_agent/2 ]).
+                mail_count/2, policy_refuses/2, quota_against/3,
+                with_agent/2 ]).
 :- use_module(whereabouts, [agent_seen/4]).
 
 /** <module> Hops between hosts of one process
@@ -40,7 +41,7 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     !,
     life_hop(Life0, Life, Hops),
     can_travel(Id, Module, Life-Goals, Until),
-    (   kept_out(Name, Module, Hash, Goals, Reason)
+    (   kept_out(Name, Id, Module, Hash, Goals, Reason)
     ->  How = refused(Reason)
     ;   sig_atomic(enter(Id, Here-Name, Hash-going(Life, Until), Hole-Goals,
                          How))
@@ -58,7 +59,12 @@ went(refused(Reason), Id, Here-Name, Hops, _, _) :-
     event(hops, Here, Id, stayed(Address)),
     throw(error(move_refused(Address, Reason), _)).
 
-kept_out(Name, Module, Hash, Goals, Reason) :-
+kept_out(Name, Id, Module, Hash, _, Reason) :-
+    quota_any(Name),
+    mail_count(Id, Mail),
+    quota_against(Name, newcomer(Id, Hash, module(Module), Mail), Reason),
+    !.
+kept_out(Name, _, Module, Hash, Goals, Reason) :-
     guarding,
     host(Name, _, Place),
     catch(( agent_may_stand(Module, Hash, Place, Goals), fail ),
