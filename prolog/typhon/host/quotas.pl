@@ -17,7 +17,8 @@ Quotas are What(Most), of each agent that stands on the host:
   - inferences(N), seconds(S): between two stops
   - stack(Bytes), state(Bytes)
   - cells(N): parts of what it sends, logs, leaves or gives as its result
-  - clones(N): agents of its program and owner that are here when it clones
+  - clones(N): agents of its program and owner that are here when it clones,
+    and clones made of these in a second
   - payloads(N): that it carries when it attaches one
   - tuples(N): facts that it has left in the tuple space
   - mailbox(N): messages that wait for it

@@ -1,5 +1,6 @@
 :- module(typhon_spending,
           [ quota_spend/3,              % +Host, +Agent, +What
+            quota_spend/4,              % +Host, +Family, +What, +Most
             quota_cells/2,              % +Host, +Term
             quota_passed/1              % +What
           ]).
@@ -94,7 +95,7 @@ spend_shared(_, _, _).
 
 count(Host, What, Owner, Passed) :-
     this_second(Second),
-    retractall_older(Host, What, Second),
+    begin_second(Host, What, Second),
     one_more(Host, What, Owner, Second, Count),
     one_more(Host, What, all, Second, All),
     (   too_much(Host, What, Owner, Count, All)
@@ -102,7 +103,7 @@ count(Host, What, Owner, Passed) :-
     ;   Passed = false
     ).
 
-retractall_older(Host, What, Second) :-
+begin_second(Host, What, Second) :-
     (   shared(Host, What, all, Second, _)
     ->  true
     ;   retractall(shared(Host, What, _, _, _))
@@ -127,6 +128,23 @@ too_much(Host, What, _, Count, All) :-
     \+ ( shared(Host, What, Other, _, More),
          Other \== all,
          More > Count ).
+
+%!  quota_spend(+Host, +Family, +What, +Most) is det.
+%
+%   Agents of Family, an atom, do What once more in this second.
+%
+%   @error resource_error(What) if that has been more often than Most
+
+quota_spend(Host, Family, What, Most) :-
+    this_second(Second),
+    with_mutex(typhon_spending,
+               ( begin_second(Host, What, Second),
+                 one_more(Host, What, Family, Second, Count),
+                 one_more(Host, What, all, Second, _) )),
+    (   Count =< Most
+    ->  true
+    ;   quota_passed(What)
+    ).
 
                 /*******************************
                 *             TERMS            *

@@ -4,24 +4,23 @@
                                         % -Next
             effect_order/4              % +Id, +Here, +Host, +Goals
           ]).
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module('../base/chance',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [ alarm_set/3, event/4, event_heard/1, host_address/2,
-                host_option/2, host_resolve/2, host_time/2, quota/3,
-                quota_any/1, quota_passed/1, quota_shared/4, quota_spend/3,
+                host_option/2, host_resolve/2, host_time/2, quota_spend/3,
                 real_time/3, schedule/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_name/3, agent_put/3,
                 agent_put_down/3, agent_ready/2, agent_rest/3, agent_status/3,
                 agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
-                stay_count/3, stay_owner/3, with_agent/2 ]).
+                with_agent/2 ]).
 :- use_module('../travel', [hop/6, hop_clone/6]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
+:- use_module(families, [may_clone/2]).
 
 /** <module> What each control predicate does
 
@@ -112,32 +111,6 @@ effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
 noted_with(CloneId, Hole-Goals-Who, Id) :-
     \+ \+ ( Hole = (Who=parent(CloneId)),
             agent_put_down(Id, ready, Goals) ).
-
-%   may_clone(+Id, +Here): of its program and owner there are not too many here,
-%   of all programs of the owner, and of all.
-
-may_clone(Id, Here) :-
-    (   quota_any(Here),
-        too_many(Id, Here)
-    ->  quota_passed(clones)
-    ;   true
-    ).
-
-too_many(Id, Here) :-
-    quota(Here, clones, Most),
-    stay_owner(Id, Here, Owner),
-    agent(Id, _, _, Hash, _),
-    aggregate_all(count,
-                  ( stay_owner(Other, Here, Owner),
-                    agent(Other, Here, _, Hash, _) ),
-                  Count),
-    Count > Most.
-too_many(Id, Here) :-
-    quota_shared(Here, Whose, clones, Most),
-    stay_owner(Id, Here, Owner),
-    ( Whose == host -> true ; Of = Owner ),
-    stay_count(Here, Of, Count),
-    Count > Most.
 
 infinite(Seconds) :- Seconds == inf.
 infinite(Seconds) :- Seconds == infinite.

@@ -3,13 +3,15 @@
             guard_refuses/4,            % +Policy, +Program, +Clause, -Formal
             guard_state/3,              % +Policy, +State0, -State
             guard_clauses/3,            % +Policy, +Clauses0, -Clauses
-            guard_declares/2            % +Policy, +PI
+            guard_declares/2,           % +Policy, +PI
+            allowed_fact/2              % +Fact, +Max
           ]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(assoc), [empty_assoc/1, put_assoc/4]).
+:- use_module('../base/trees', [is_tree/2]).
 :- use_module(allowed, [allowed_library/1, own_name/1]).
 :- use_module(guard_bodies, [guard/3]).
-:- use_module(refusing, [must_be_tree/1, refuse/1]).
+:- use_module(refusing, [clause_cells/1, must_be_tree/1, refuse/1]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> Programs of strangers
@@ -112,7 +114,27 @@ guard_clause(Own, Clause0, Clause) :-
 
 guard_state(Policy, state(PIs, Clauses0), state(PIs, Clauses)) :-
     maplist(declared_allowed, PIs),
-    maplist(guard_fact(own(none, Policy)), Clauses0, Clauses).
+    clause_cells(Max),
+    guard_state(Clauses0, Max, own(none, Policy), Clauses).
+
+guard_state([], _, _, []).
+guard_state([Clause0|Clauses0], Max, Own, [Clause|Clauses]) :-
+    (   allowed_fact(Clause0, Max)
+    ->  Clause = Clause0
+    ;   guard_fact(Own, Clause0, Clause)
+    ),
+    guard_state(Clauses0, Max, Own, Clauses).
+
+%!  allowed_fact(+Fact, +Max) is semidet.
+%
+%   Fact, which has Max parts at the most, may be one of a stranger's.
+
+allowed_fact(Fact, Max) :-
+    callable(Fact),
+    Fact \= (_:-_),
+    Fact \= _:_,
+    own_name(Fact),
+    is_tree(Fact, Max).
 
 declared_allowed('$legacy'/1) :-
     !.
@@ -125,13 +147,6 @@ declared_allowed(PI) :-
 guard_fact(_, Fact, Fact) :-
     nonvar(Fact),
     of_platform(Fact),
-    !,
-    must_be_tree(Fact).
-guard_fact(_, Fact, Fact) :-
-    callable(Fact),
-    Fact \= (_:-_),
-    Fact \= _:_,
-    own_name(Fact),
     !,
     must_be_tree(Fact).
 guard_fact(Own, Clause0, Clause) :-

@@ -4,8 +4,8 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/trees', [is_tree/2]).
 :- use_module(allowed, [own_name/1]).
-:- use_module(guard, [guard_clauses/3]).
-:- use_module(refusing, [must_be_tree/1, refuse/1]).
+:- use_module(guard, [allowed_fact/2, guard_clauses/3]).
+:- use_module(refusing, [clause_cells/1, must_be_tree/1, refuse/1]).
 
 /** <module> What strangers call things with
 
@@ -26,6 +26,11 @@ take away, what they throw, and texts.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 
+looked_at(clause, _, Goal, Goal) :-
+    arg(1, Goal, Fact),
+    clause_cells(Max),
+    allowed_fact(Fact, Max),
+    !.
 looked_at(clause, Policy, Goal0, Goal) :-
     Goal0 =.. [Name,Clause0],
     must_be_tree(Clause0),

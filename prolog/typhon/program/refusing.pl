@@ -1,6 +1,7 @@
 :- module(typhon_refusing,
           [ refuse/1,                   % +Culprit
-            must_be_tree/1              % +Term
+            must_be_tree/1,             % +Term
+            clause_cells/1              % -Max
           ]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -22,11 +23,16 @@
 %   @error resource_error(clause_cells)
 
 must_be_tree(Term) :-
-    setting(clause_cells, Max),
+    clause_cells(Max),
     (   is_tree(Term, Max)
     ->  true
     ;   throw(error(resource_error(clause_cells), _))
     ).
+
+%!  clause_cells(-Max:integer) is det.
+
+clause_cells(Max) :-
+    setting(clause_cells, Max).
 
 %!  refuse(+Culprit)
 %
