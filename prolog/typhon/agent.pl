@@ -10,8 +10,9 @@ This is the door of the layer: who is above takes what it needs from here.
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
               agent_mobile/6, agent_move/5, agent_order/2, agent_ordered/1,
               agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
-              agent_remove/3, agent_rest/3, agent_resumes/2, agent_status/3,
-              agent_take/3, agent_unorder/2, agent_wakes/2, with_agent/2
+              agent_remove/3, agent_rest/3, agent_resumes/2, agent_room/2,
+              agent_status/3, agent_take/3, agent_unorder/2, agent_wakes/2,
+              with_agent/2
             ]).
 :- reexport(agent/agent_module,
             [ agent_changed/4, agent_clauses/3, agent_code/2,
@@ -32,9 +33,13 @@ This is the door of the layer: who is above takes what it needs from here.
             ]).
 :- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
 :- reexport(agent/traces, [trace_kind/1]).
+:- reexport(agent/owner, [owner_entered/3, owner_inherited/3]).
+:- reexport(agent/stay, [stay_count/3, stay_owner/3, stay_until/3]).
+:- reexport('agent/admission').
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_label/2, image_module/3, image_payloads/2, image_trail/4
+              image_entered/3, image_label/2, image_module/3, image_newcomer/3,
+              image_payloads/2, image_trail/4
             ]).
 :- reexport(agent/trail,
             [trail_enter/3, trail_none/2, trail_of/3]).

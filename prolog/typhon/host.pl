@@ -19,8 +19,8 @@ This is the door of the layer: who is above takes what it needs from here.
               events_hear/3, events_unheard/1 ]).
 :- reexport('host/host_log').
 :- reexport(host/place,
-            [ place_deliver/3, place_undeliver/2, tuple_count/2, tuple_leave/2,
-              tuple_leave_new/2, tuple_sense/2, tuple_take/2
+            [ place_deliver/3, place_undeliver/2, tuple_leave/2,
+              tuple_leave/3, tuple_leave_new/3, tuple_sense/2, tuple_take/2
             ]).
 :- reexport(host/front, [module_policy/2, guarding/0, place_front/3]).
 :- reexport(host/clock, [clock/3, host_time/2, real_time/3]).
@@ -29,8 +29,9 @@ This is the door of the layer: who is above takes what it needs from here.
               context_now/2, context_set/3
             ]).
 :- reexport(host/permits, [audit/3, peer_may/3]).
-:- reexport(host/quotas,
-              [quota/3, quota_cells/2, quota_passed/1, quota_spend/3]).
+:- reexport(host/quotas, [quota/3, quota_any/1, quota_shared/4]).
+:- reexport('host/spending').
+:- reexport(host/leavings, [leaver/2, may_leave/1]).
 :- reexport(host/turns, [turn_of/3, turns_now/3]).
 :- reexport(host/scheduler,
             [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,

@@ -18,10 +18,8 @@ This is the door of the layer: who is above takes what it needs from here.
               code_program/2, code_sent/2, code_stands/2, code_clear/0
             ]).
 :- reexport(program/allowed, [policy_read/1]).
-:- reexport(program/guard,
-            [ guard_called/3, guard_clauses/3, guard_closure/4,
-              guard_declares/2, guard_goals/3,
-              guard_state/3 ]).
+:- reexport(program/guard, [guard_clauses/3, guard_declares/2, guard_state/3]).
+:- reexport('program/guard_calls').
 :- reexport(program/guarded_code, [code_check/3, code_guarded/3]).
 :- reexport(program/signatures,
             [program_author/3, signature_author/4, signature_keep/2]).

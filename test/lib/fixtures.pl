@@ -3,6 +3,7 @@
             with_settings/2,            % +Values, :Goal
             listening/2,                % :Goal, -Messages
             was_told/2,                 % +Kind, ?Message
+            were_told/2,                % +Kind, ?Message
             create/2,                   % +Clauses, -Agent
             create/3,                   % +Clauses, -Agent, +Options
             joined/2,                   % +Agent, -Outcome
@@ -101,12 +102,17 @@ listening(Goal, Messages) :-
     findall(Kind-Term, heard(Kind, Term), Messages).
 
 %!  was_told(+Kind, ?Message) is semidet.
+%!  were_told(+Kind, ?Message) is nondet.
 %
-%   The Goal of listening/2 can wait until there was this Message.
+%   The Goal of listening/2 can wait until there was this Message; each of
+%   those there were.
 
 was_told(Kind, Message) :-
     heard(Kind, Message),
     !.
+
+were_told(Kind, Message) :-
+    heard(Kind, Message).
 
                 /*******************************
                 *            AGENTS            *

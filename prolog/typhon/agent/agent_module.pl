@@ -153,10 +153,11 @@ policy_against(Place, Hash, Sent, Reason) :-
 %!  policy_refuses(+Ball, -Reason) is semidet.
 %
 %   Ball says that a host does not let in what it is not to run: Reason is
-%   policy(Culprit).
+%   policy(Culprit); or what is too large: quota(state).
 
 policy_refuses(error(Formal, _), policy(Culprit)) :-
     culprit(Formal, Culprit).
+policy_refuses(error(resource_error(program_space), _), quota(state)).
 
 culprit(permission_error(call, sandboxed, Culprit), Culprit).
 culprit(resource_error(clause_cells), clause_cells).

@@ -17,6 +17,7 @@
             agent_wakes/2,              % +Id, +Goals
             with_agent/2,               % +Id, :Goal
             agent_mail/2,               % +Id, +Messages
+            agent_room/2,               % +Id, -Room
             agent_order/2,              % +Id, +Order
             agent_unorder/2,            % +Id, ?Order
             agent_ordered/1             % +Id
@@ -26,8 +27,9 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal',
               [journal_on/0, journal_seal/0, note_drop/3]).
-:- use_module('../host', [events_forget/1, schedule/2]).
+:- use_module('../host', [events_forget/1, quota/3, schedule/2]).
 :- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
+:- use_module(stay, [stay_begins/4, stay_ends/1]).
 :- use_module(traces, [traces_heard/2]).
 
 /** <module> Agents that stand in this process
@@ -58,6 +60,7 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 
 :- multifile
     typhon_code:in_use/1,
+    typhon_quotas:set/1,
     put_down/3.                 % Id, Status, Goals: noted in the journal
 
 %   The name under which people know it.
@@ -81,6 +84,17 @@ agent(Id, Host, Module, Hash, Life) :-
 typhon_code:in_use(Hash) :-
     stands(_, _, _, Hash, _, _),
     !.
+
+%   Other quotas count for who stands there, too.
+
+typhon_quotas:set(Host) :-
+    forall(stands(Id, Host, _, _, _, _),
+           ignore(with_agent(Id, stays_on(Id, Host)))).
+
+stays_on(Id, Host) :-
+    stands(Id, Host, Module, Hash, _, _),
+    !,
+    stay_begins(Id, Host, Module, Hash).
 
 %!  with_agent(+Id, :Goal) is semidet.
 %
@@ -118,6 +132,7 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     assertz(stands(Id, Host, Module, Hash, Life, 0)),
     noted(Id, Status, Goals),
     assertz(status(Id, Status, Goals)),
+    stay_begins(Id, Host, Module, Hash),
     traces_heard(Id, Life).
 
 %   Before others can see it.
@@ -131,6 +146,7 @@ noted(Id, Status, Goals) :-
 agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, _, Module, _, _, _)),
     retractall(status(Id, _, _)),
+    stay_ends(Id),
     (   journal_on
     ->  note_drop(agent, Id, 0)
     ;   true
@@ -156,6 +172,7 @@ agent_move(Id, Host, Module, Life, Until) :-
     !,
     assertz(stands(Id, Host, Module, Hash, Life, Until)),
     forget_first(Id),
+    stay_begins(Id, Host, Module, Hash),
     (   Old == Module
     ->  true
     ;   '$destroy_module'(Old)
@@ -305,6 +322,18 @@ agent_mail(Id, Messages) :-
     ->  mail_to(Status, Id, Goals, Messages)
     ;   put_mail(Messages, Id)
     ).
+
+%!  agent_room(+Id, -Room:nonneg) is semidet.
+%
+%   On the host where Id stands there is a quota for its mailbox, and there is
+%   room for so many messages in it.
+
+agent_room(Id, Room) :-
+    stands(Id, Host, _, _, _, _),
+    quota(Host, mailbox, Most),
+    !,
+    mail_count(Id, Count),
+    Room is max(0, integer(Most)-Count).
 
 put_mail(Messages, Id) :-
     (   debugging(typhon(mail))

@@ -5,6 +5,8 @@
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
             image_payloads/2,           % +Image, +Host
+            image_newcomer/3,           % +Peer, +Image, -Newcomer
+            image_entered/3,            % +Peer, +Image0, -Image
             image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Agent
             image_enter/4               % +Image, +Host, +Agent, +More
@@ -18,6 +20,7 @@
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2]).
 :- use_module(legacy, [legacy_none/2]).
+:- use_module(owner, [owner_entered/3, owner_inherited/3]).
 :- use_module(signed_payloads, [payloads_admitted/3]).
 :- use_module(trail, [trail_link/5, trail_none/2]).
 :- use_module(life,
@@ -55,7 +58,8 @@ image_clone(Id, CloneId, Goals, Since,
     life_hop(Life1, Life, _),
     agent_state(Module, State0),
     legacy_none(State0, State1),
-    trail_none(State1, State),
+    trail_none(State1, State2),
+    owner_inherited(Id, State2, State),
     start(Host, Since, Start).
 
 start(Host, Since, Start) :-
@@ -87,6 +91,21 @@ signed(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
        image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     life_hops(Life, Hops),
     trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
+
+%!  image_entered(+Peer, +Image0, -Image) is det.
+%!  image_newcomer(+Peer, +Image, -Newcomer) is det.
+%
+%   Image is what comes if the process at Peer sends Image0, once the trail says
+%   that it was received; Newcomer is as of quota_against/3.
+
+image_entered(Peer, image(Id, Hash, Life, State0, Goals, Mail, Start),
+              image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+    owner_entered(Peer, State0, State).
+
+image_newcomer(Peer, image(Id, Hash, _, State0, _, Mail, _),
+               newcomer(Id, Hash, State, Count)) :-
+    owner_entered(Peer, State0, State),
+    length(Mail, Count).
 
 %!  image_hash(+Image, -Hash) is det.
 

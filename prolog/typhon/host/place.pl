@@ -3,10 +3,10 @@
             place_offer/2,              % +Place, +Service
             place_destroy/1,            % +Place
             tuple_leave/2,              % +Place, +Fact
-            tuple_leave_new/2,          % +Place, +Fact
+            tuple_leave/3,              % +Place, +Fact, +By
+            tuple_leave_new/3,          % +Place, +Fact, +By
             tuple_sense/2,              % +Place, ?Fact
             tuple_take/2,               % +Place, ?Fact
-            tuple_count/2,              % +Place, -Count
             place_deliver/3,            % +Place, +Payload, -PIs
             place_undeliver/2           % +Place, +Name
           ]).
@@ -22,6 +22,7 @@
                 turn_note_put/4 ]).
 :- use_module('../program', [clause_parts/3]).
 :- use_module(front, [front_gone/1, service/1]).
+:- use_module(leavings, [leaving_begins/1, leaving_ends/1]).
 
 /** <module> Places: what a host offers to the agents on it
 
@@ -34,7 +35,7 @@ make/0 loads files anew that have changed since they were consulted into a
 place. Agents that stand there meet the new clauses with their next call.
 
 *Threading*: any thread.  tuple_take/2 is atomic; a mutex keeps others from
-leaving a fact while tuple_leave_new/2 looks.
+leaving a fact while tuple_leave_new/3 looks.
 */
 
 :- multifile
@@ -45,7 +46,7 @@ leaving a fact while tuple_leave_new/2 looks.
 
 :- dynamic
     place_host/2,               % Place, Host
-    due/4,                      % Place, N, Fact, Thread: left when its turn
+    due/5,                      % Place, N, Fact, By, Thread: left when its turn
                                 % is over
     loaded/4,                   % Place, SourceId, File, Time: consulted
                                 % into it, as File was at Time
@@ -164,92 +165,101 @@ unload(_).
                 *******************************/
 
 %!  tuple_leave(+Place, +Fact) is det.
-%!  tuple_leave_new(+Place, +Fact) is semidet.
+%!  tuple_leave(+Place, +Fact, +By) is det.
+%!  tuple_leave_new(+Place, +Fact, +By) is semidet.
 %!  tuple_sense(+Place, ?Fact) is nondet.
 %!  tuple_take(+Place, ?Fact) is semidet.
 %
 %   Put, put if there is none that unifies, read and take a fact.  Of many
-%   agents that take one fact, or leave it as a new one, one succeeds.
-
+%   agents that take one fact, or leave it as a new one, one succeeds.  By is
+%   whose fact it is, see typhon_leavings, or `none`.
 %
-%   With a journal a fact has a number, under which it is there; it stands in
-%   the body of the clause.  What an agent leaves others find when it stops;
-%   what it takes is gone at once.
+%   With a journal a fact has a number, under which it is there; this, and By,
+%   stand in the body of the clause.  What an agent leaves others find when it
+%   stops; what it takes is gone at once.
 
 tuple_leave(Place, Fact) :-
+    tuple_leave(Place, Fact, none).
+
+tuple_leave(Place, Fact, By) :-
     must_be(callable, Fact),
+    leaving_begins(By),
     (   journal_on,
         place_host(Place, _)
-    ->  leave_noted(Place, Fact)
-    ;   with_mutex(typhon_tuples, assertz(Place:'$tuple'(Fact)))
+    ->  leave_noted(Place, Fact, By)
+    ;   with_mutex(typhon_tuples, put_tuple(Place, none, Fact, By))
     ).
 
-tuple_leave_new(Place, Fact) :-
+tuple_leave_new(Place, Fact, By) :-
     must_be(callable, Fact),
     with_mutex(typhon_tuples,
                ( \+ Place:'$tuple'(Fact),
-                 \+ due(Place, _, Fact, _),
+                 \+ due(Place, _, Fact, _, _),
                  (   journal_on,
                      place_host(Place, _)
-                 ->  leave_noted(Place, Fact)
-                 ;   assertz(Place:'$tuple'(Fact))
-                 ) )).
+                 ->  leave_noted(Place, Fact, By)
+                 ;   put_tuple(Place, none, Fact, By)
+                 ),
+                 leaving_begins(By) )).
 
-leave_noted(Place, Fact) :-
+leave_noted(Place, Fact, By) :-
     journal_number(N),
     place_host(Place, Host),
     turn_note_put(tuple, Host, N, Fact),
     (   turn_defers
     ->  thread_self(Me),
-        assertz(due(Place, N, Fact, Me)),
+        assertz(due(Place, N, Fact, By, Me)),
         turn_after(typhon_place:leave_due(Place, N))
-    ;   put_tuple(Place, N, Fact)
+    ;   put_tuple(Place, N, Fact, By)
     ).
 
 leave_due(Place, N) :-
     with_mutex(typhon_tuples,
-               (   retract(due(Place, N, Fact, _))
-               ->  put_tuple(Place, N, Fact)
+               (   retract(due(Place, N, Fact, By, _))
+               ->  put_tuple(Place, N, Fact, By)
                ;   true                 % it took it again
                )).
 
-put_tuple(Place, N, Fact) :-
-    assertz(Place:('$tuple'(Fact) :- integer(N))).
+put_tuple(Place, N, Fact, By) :-
+    tuple_body(N, By, Body),
+    assertz(Place:('$tuple'(Fact) :- Body)).
+
+%   tuple_body(?N, ?By, ?Body): what is true anyhow.
+
+tuple_body(none, none, true) :- !.
+tuple_body(N, none, integer(N)) :- !.
+tuple_body(N, By, ground(N-By)).
 
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).
 tuple_sense(Place, Fact) :-
     turn_defers,
     thread_self(Me),
-    due(Place, _, Fact, Me).
-
-%!  tuple_count(+Place, -Count) is det.
-
-tuple_count(Place, Count) :-
-    '$get_predicate_attribute'(Place:'$tuple'(_), number_of_clauses, Count0),
-    !,
-    Count = Count0.
-tuple_count(_, 0).
+    due(Place, _, Fact, _, Me).
 
 tuple_take(Place, Fact) :-
-    retract(Place:('$tuple'(Fact) :- Body)),
+    retract(Place:('$tuple'(Fact) :- Body0)),
     !,
-    (   strip_module(Body, _, integer(N))
-    ->  place_host(Place, Host),
+    strip_module(Body0, _, Body),
+    tuple_body(N, By, Body),
+    (   N == none
+    ->  true
+    ;   place_host(Place, Host),
         turn_note_drop(tuple, Host, N)
-    ;   true
-    ).
+    ),
+    leaving_ends(By).
 tuple_take(Place, Fact) :-
     turn_defers,
     thread_self(Me),
-    retract(due(Place, N, Fact, Me)),
+    retract(due(Place, N, Fact, By, Me)),
     !,
     place_host(Place, Host),
-    turn_note_drop(tuple, Host, N).
+    turn_note_drop(tuple, Host, N),
+    leaving_ends(By).
 
 typhon_recovery:back(tuple, Host, N, Fact) :-
     place_host(Place, Host),
-    put_tuple(Place, N, Fact).
+    put_tuple(Place, N, Fact, none).
 typhon_recovery:back(payload, _, _, payload(Host, Payload)) :-
     place_host(Place, Host),
     place_deliver(Place, Payload, _).

@@ -2,46 +2,59 @@
           [ quota_set/3,                % +Host, +Policy, +Quotas
             quota_forget/1,             % +Host
             quota/3,                    % ?Host, ?What, -Most
-            quota_spend/3,              % +Host, +Agent, +What
-            quota_cells/2,              % +Host, +Term
-            quota_passed/1              % +What
+            quota_shared/4,             % ?Host, ?Whose, ?What, -Most
+            quota_any/1                 % +Host
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(error), [domain_error/2, must_be/2, resource_error/1]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/trees', [is_tree/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 
-/** <module> How much an agent may use on a host
+/** <module> How much agents may use on a host
 
 Quotas are What(Most), of each agent that stands on the host:
 
   - inferences(N), seconds(S): between two stops
   - stack(Bytes), state(Bytes)
   - cells(N): parts of what it sends, logs, leaves or gives as its result
-  - clones(N): agents of one program and one owner that are here when it
-    clones
+  - clones(N): agents of its program and owner that are here when it clones,
+    and clones made of these in a second
   - payloads(N): that it carries when it attaches one
-  - tuples(N): facts in the tuple space when it leaves one
-  - messages(N), log(N), facts(N): sent, logged and left in a second
+  - tuples(N): facts that it has left in the tuple space
+  - mailbox(N): messages that wait for it
+  - lifetime(S): by the clock of the host, from when it came here
+  - messages(N), log(N), facts(N), hops(N): sent, logged, left and begun in a
+    second
 
-A host that guards has those of the setting `guarded`, where it is not said
-otherwise.  A host without quotas does without all of this: looking whether
-there are some is all that it costs.
+and owner(What(Most)) of all agents here that have one owner, see
+typhon_owner, together, and host(What(Most)) of all that are here.  There are
+also owner(agents(N)), how many may be here, and host(tuples(N)), the facts in
+the tuple space.  Who has most ends first: of what the host has together, the
+agents of the owner that uses most of it.
 
-While there are hosts with the quota `seconds` or `stack`, a thread looks ten times a
-second at who runs.
+A host that guards has the defaults, where it is not said otherwise.  A host
+without quotas does without all of this: looking whether there are some is all
+that it costs.
+
+While there are hosts with quotas of what is not counted when it is used, a
+thread looks ten times a second at who uses how much.
 
 *Threading*: quota_set/3 and quota_forget/1 as host_start/2, the others in
 any thread.
 */
 
-:- multifile look/0.            % who runs for too long is interrupted
+:- multifile
+    set/1,                      % Host has other quotas now
+    look/0,                     % who uses too much is interrupted
+    forgotten/1.                % Host has no quotas any more
 
 :- dynamic
     quota/3,                    % Host, What, Most
-    spent/4,                    % Agent, What, Second, Count
-    watching/1.                 % Thread
+    quota_shared/4,             % Host, Whose: owner or host, What, Most
+    watching/1,                 % Thread
+    set/1,
+    look/0,
+    forgotten/1.
 
 %   quota_default(?Quota): where strangers are let in.
 
@@ -51,10 +64,32 @@ quota_default(state(16 777 216)).
 quota_default(cells(200 000)).
 quota_default(clones(100)).
 quota_default(payloads(100)).
-quota_default(tuples(100 000)).
+quota_default(tuples(10 000)).
+quota_default(mailbox(10 000)).
 quota_default(messages(10 000)).
 quota_default(facts(10 000)).
+quota_default(hops(10 000)).
 quota_default(log(1000)).
+quota_default(host(tuples(100 000))).
+
+%   kind(?What, -Whose): of whom there are such quotas.  Those that are
+%   `watched` the thread looks after.
+
+kind(inferences, [agent]).
+kind(cells,      [agent]).
+kind(payloads,   [agent]).
+kind(mailbox,    [agent]).
+kind(lifetime,   [agent]).
+kind(agents,     [owner]).
+kind(clones,     [agent, owner, host]).
+kind(tuples,     [agent, owner, host]).
+kind(messages,   [agent, owner, host]).
+kind(log,        [agent, owner, host]).
+kind(facts,      [agent, owner, host]).
+kind(hops,       [agent, owner, host]).
+kind(state,      [agent, owner, host]).
+kind(seconds,    [agent, owner, host]).
+kind(stack,      [agent, owner, host]).
 
 %!  quota_set(+Host, +Policy, +Quotas:list) is det.
 %
@@ -62,111 +97,81 @@ quota_default(log(1000)).
 
 quota_set(Host, Policy, Quotas) :-
     maplist(must_be_quota, Quotas),
-    findall(What-Most, in_force(Policy, Quotas, What, Most), Pairs),
+    findall(quota(Whose, What, Most),
+            in_force(Policy, Quotas, Whose, What, Most), All),
     retractall(quota(Host, _, _)),
-    forall(member(What-Most, Pairs), assertz(quota(Host, What, Most))),
+    retractall(quota_shared(Host, _, _, _)),
+    forall(member(Quota, All), add(Quota, Host)),
+    forall(set(Host), true),
     watch.
 
+add(quota(agent, What, Most), Host) :-
+    !,
+    assertz(quota(Host, What, Most)).
+add(quota(Whose, What, Most), Host) :-
+    assertz(quota_shared(Host, Whose, What, Most)).
+
 must_be_quota(Quota) :-
-    (   compound(Quota),
-        Quota =.. [What,Most],
-        memberchk(What, [ inferences, seconds, stack, state, cells, clones, payloads,
-                          tuples, messages, facts, log ])
+    (   parts(Quota, Whose, What, Most),
+        kind(What, All),
+        memberchk(Whose, All)
     ->  must_be(number, Most),
         ( Most > 0 -> true ; domain_error(quota, Quota) )
     ;   domain_error(quota, Quota)
     ).
 
-in_force(_, Quotas, What, Most) :-
+%   parts(+Quota, -Whose, -What, -Most)
+
+parts(Quota, Whose, What, Most) :-
+    compound(Quota),
+    compound_name_arguments(Quota, Name, [Arg]),
+    (   memberchk(Name, [owner, host]),
+        compound(Arg)
+    ->  Whose = Name,
+        compound_name_arguments(Arg, What, [Most])
+    ;   Whose = agent,
+        What = Name,
+        Most = Arg
+    ).
+
+in_force(_, Quotas, Whose, What, Most) :-
     member(Quota, Quotas),
-    Quota =.. [What,Most].
-in_force(Policy, Quotas, What, Most) :-
+    parts(Quota, Whose, What, Most).
+in_force(Policy, Quotas, Whose, What, Most) :-
     Policy \== trusted,
     quota_default(Default),
-    Default =.. [What,Most],
-    functor(Given, What, 1),
-    \+ memberchk(Given, Quotas).
+    parts(Default, Whose, What, Most),
+    \+ ( member(Given, Quotas), parts(Given, Whose, What, _) ).
 
 %!  quota(?Host, ?What, -Most) is nondet.
+%!  quota_shared(?Host, ?Whose, ?What, -Most) is nondet.
 %
-%   A host of this process has a quota.
+%   A host of this process has a quota, of each agent; of what agents of one
+%   owner, or all agents, have together.
+
+%!  quota_any(+Host) is semidet.
+
+quota_any(Host) :-
+    quota(Host, _, _),
+    !.
+quota_any(Host) :-
+    quota_shared(Host, _, _, _),
+    !.
 
 %!  quota_forget(+Host) is det.
 
 quota_forget(Host) :-
     retractall(quota(Host, _, _)),
+    retractall(quota_shared(Host, _, _, _)),
     watch,
-    (   quota(_, _, _)
-    ->  true
-    ;   retractall(spent(_, _, _, _))
-    ).
-
-%!  quota_spend(+Host, +Agent, +What) is det.
-%
-%   Agent does What once more in this second.
-%
-%   @error resource_error(What)
-
-quota_spend(Host, Agent, What) :-
-    quota(Host, What, Most),
-    !,
-    get_time(Now),
-    Second is integer(Now),
-    spend(Agent, What, Second, Most).
-quota_spend(_, _, _).
-
-spend(Agent, What, Second, Most) :-
-    (   retract(spent(Agent, What, Then, Count0)),
-        Then =:= Second
-    ->  Count is Count0+1
-    ;   Count = 1,
-        forget_some
-    ),
-    assertz(spent(Agent, What, Second, Count)),
-    (   Count =< Most
-    ->  true
-    ;   quota_passed(What)
-    ).
-
-%!  quota_cells(+Host, +Term) is det.
-%
-%   @error resource_error(cells) if Term is too large to be said
-
-quota_cells(Host, Term) :-
-    quota(Host, cells, Most),
-    \+ is_tree(Term, Most),
-    !,
-    quota_passed(cells).
-quota_cells(_, _).
-
-%!  quota_passed(+What)
-%
-%   The running agent ends with its turn, even if it catches this.
-%
-%   @error resource_error(What)
-
-quota_passed(What) :-
-    nb_setval(typhon_over, What),
-    resource_error(What).
-
-%   Who has gone does not come to spend more.
-
-forget_some :-
-    predicate_property(spent(_, _, _, _), number_of_clauses(Count)),
-    Count > 10 000,
-    !,
-    get_time(Now),
-    Old is integer(Now)-2,
-    forall(( clause(spent(_, _, Second, _), true, Ref), Second < Old ),
-           catch(erase(Ref), error(_, _), true)).
-forget_some.
+    forall(forgotten(Host), true).
 
                 /*******************************
                 *           THE WATCH          *
                 *******************************/
 
 watch :-
-    ( quota(_, seconds, _) ; quota(_, stack, _) ),
+    to_be_watched,
     !,
     (   watching(_)
     ->  true
@@ -180,6 +185,14 @@ watch :-
         in_own_thread(thread_join(Thread, _))
     ;   true
     ).
+
+to_be_watched :-
+    quota(_, seconds, _).
+to_be_watched :-
+    quota(_, stack, _).
+to_be_watched :-
+    member(What, [seconds, stack, state]),
+    quota_shared(_, _, What, _).
 
 :- public watch_on/0.
 

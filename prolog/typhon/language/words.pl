@@ -41,8 +41,8 @@
                 event/4, host/3, host_address/2, host_link_cost/3, host_load/2,
                 host_log/3, host_logs/1, host_neighbours/2, host_time/2,
                 place_deliver/3, module_policy/2, place_undeliver/2, quota/3,
-                quota_cells/2, quota_passed/1, quota_spend/3, tuple_count/2,
-                tuple_leave/2, tuple_leave_new/2, tuple_sense/2, tuple_take/2 ]).
+                leaver/2, may_leave/1, quota_cells/2, quota_passed/1, quota_spend/3,
+                tuple_leave/3, tuple_leave_new/3, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
@@ -186,30 +186,21 @@ send(Agent, Message) :-
 
 leave(Fact) :-
     place(Host, Place),
-    may_leave(Host, Place),
+    may_leave(Host),
     quota_cells(Host, Fact),
     mobile_term(Fact),
-    tuple_leave(Place, Fact),
+    leaver(Host, By),
+    tuple_leave(Place, Fact, By),
     shared(Host, leave(Fact)).
 
 leave_new(Fact) :-
     place(Host, Place),
-    may_leave(Host, Place),
+    may_leave(Host),
     quota_cells(Host, Fact),
     mobile_term(Fact),
-    tuple_leave_new(Place, Fact),
+    leaver(Host, By),
+    tuple_leave_new(Place, Fact, By),
     shared(Host, leave(Fact)).
-
-%   Of many that leave facts at once each may be one too many.
-
-may_leave(Host, Place) :-
-    quota(Host, tuples, Most),
-    !,
-    context_now(_, Agent),
-    quota_spend(Host, Agent, facts),
-    tuple_count(Place, Count),
-    ( Count < Most -> true ; quota_passed(tuples) ).
-may_leave(_, _).
 
 sense(Fact) :-
     place(_, Place),

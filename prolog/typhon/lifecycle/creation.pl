@@ -21,13 +21,15 @@
 :- use_module('../host',
               [ audit/3, event/4, host/3, host_address/2, host_enter/4,
                 host_leave/1, host_resolve/2, host_unknown/1, peer_may/3,
-                process_ask/6 ]).
+                process_ask/6, quota_any/1 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
                 agent_mail/2, agent_name/3, agent_ready/2, agent_rest/3,
                 agent_standing/5, agent_state/2, is_life/1, legacy_none/2,
                 life_clone/3, life_tokens/2, mail_count/2, make_life/2,
-                payload_mark/2, payloads_admitted/3, trail_none/2, policy_against/4, policy_refuses/2, with_agent/2 ]).
+                owner_entered/3, owner_inherited/3, payload_mark/2,
+                payloads_admitted/3, policy_against/4, policy_refuses/2,
+                quota_against/3, trail_none/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
 
@@ -198,14 +200,19 @@ create_for(Peer, HostName, _, _, _, refused(peer)) :-
     host(HostName, _, _),
     \+ peer_may(Peer, HostName, agents),
     !.
-create_for(Peer, HostName, Name, Start, Program, Answer) :-
-    Start = start(_, Life, _, _, _),
-    must_be_life(Life),
+create_for(Peer, HostName, Name, Start0, Program, Answer) :-
+    entered(Peer, Start0, Start),
     (   host(HostName, _, Place)
     ->  create_at(Place, HostName, Name, Start, Program, Answer),
         noted(Answer, HostName, Peer, Name)
     ;   Answer = refused(unknown_host)
     ).
+
+entered(Peer, start(Hash, Life, State0, Goals, Mail),
+        start(Hash, Life, State, Goals, Mail)) :-
+    must_be_life(Life),
+    must_be_state(State0),
+    owner_entered(Peer, State0, State).
 
 noted(refused(Reason), Host, Peer, Name) :-
     !,
@@ -224,6 +231,14 @@ must_be_life(Life) :-
     (   is_life(Life)
     ->  true
     ;   type_error(agent_life, Life)
+    ).
+
+must_be_state(State) :-
+    (   subsumes_term(state(_, _), State),
+        arg(2, State, Clauses),
+        is_list(Clauses)
+    ->  true
+    ;   type_error(agent_state, State)
     ).
 
 %!  agent_begin(+Options, +Name, +Start, -Agent) is det.
@@ -245,7 +260,8 @@ agent_clone_here(Id, Goals, CloneId) :-
     agent(Id, Host, Module, Hash, Life0),
     agent_state(Module, State0),
     legacy_none(State0, State1),
-    trail_none(State1, State),
+    trail_none(State1, State2),
+    owner_inherited(Id, State2, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
     start(Host, Name, start(Hash, Life, State, Goals, []), Answer,
@@ -275,13 +291,9 @@ start(Host, Name, Start, Answer) :-
     journal_barrier.
 
 start(Host, Name, Start, Answer, Of) :-
-    Start = start(Hash, Life, _, _, _),
+    Start = start(_, Life, _, _, _),
     life_tokens(Life, Tokens),
-    Start = start(_, _, state(_, Clauses), _, _),
-    (   payloads_admitted(Host, Life, Clauses)
-    ->  host_enter(Host, Hash, Tokens, Entered)
-    ;   Entered = refused(unsigned)
-    ),
+    enters(Host, Start, Tokens, Entered),
     (   Entered == ok
     ->  host(Host, Address, Place),
         id_of(Of, Name, Address, Id),
@@ -292,6 +304,21 @@ start(Host, Name, Start, Answer, Of) :-
         begun_here(Answer, Host, Address, Goals, Of)
     ;   Answer = Entered
     ).
+
+%   Where it is born the id of an agent says no more than this process.
+
+enters(Host, start(Hash, _, State, _, Mail), _, refused(Reason)) :-
+    quota_any(Host),
+    host_address(Host, Address),
+    atom_concat('newborn@', Address, Id),
+    length(Mail, Count),
+    quota_against(Host, newcomer(Id, Hash, State, Count), Reason),
+    !.
+enters(Host, start(_, Life, state(_, Clauses), _, _), _, refused(unsigned)) :-
+    \+ payloads_admitted(Host, Life, Clauses),
+    !.
+enters(Host, start(Hash, _, _, _, _), Tokens, Entered) :-
+    host_enter(Host, Hash, Tokens, Entered).
 
 id_of(clone(_, Id), _, _, Id) :-
     nonvar(Id),

@@ -4,23 +4,23 @@
                                         % -Next
             effect_order/4              % +Id, +Here, +Host, +Goals
           ]).
-:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module('../base/chance',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [ alarm_set/3, event/4, event_heard/1, host_address/2,
-                host_option/2, host_resolve/2, host_time/2, quota/3,
-                quota_passed/1, real_time/3, schedule/2 ]).
+                host_option/2, host_resolve/2, host_time/2, quota_spend/3,
+                real_time/3, schedule/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_home_endpoint/2, agent_name/3, agent_put/3,
+              [ agent/5, agent_name/3, agent_put/3,
                 agent_put_down/3, agent_ready/2, agent_rest/3, agent_status/3,
-                agent_wakes/2, life_hops/2, life_may_move/2,
-                mail_take/2, with_agent/2 ]).
+                agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
+                with_agent/2 ]).
 :- use_module('../travel', [hop/6, hop_clone/6]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
+:- use_module(families, [may_clone/2]).
 
 /** <module> What each control predicate does
 
@@ -49,7 +49,8 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     (   Dest == local(Here)
     ->  Hole = true,
         Next = go(Goals)
-    ;   agent(Id, _, _, _, Life),
+    ;   quota_spend(Here, Id, hops),
+        agent(Id, _, _, _, Life),
         life_may_move(Life, May),
         set_out(May, Dest, Hole, Goals, Id-Here, Next)
     ).
@@ -110,20 +111,6 @@ effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
 noted_with(CloneId, Hole-Goals-Who, Id) :-
     \+ \+ ( Hole = (Who=parent(CloneId)),
             agent_put_down(Id, ready, Goals) ).
-
-%   Of all there are here of one program that have one home.
-
-may_clone(Id, Here) :-
-    quota(Here, clones, Most),
-    !,
-    agent(Id, _, _, Hash, _),
-    agent_home_endpoint(Id, Owner),
-    aggregate_all(count,
-                  ( agent(Other, Here, _, Hash, _),
-                    agent_home_endpoint(Other, Owner) ),
-                  Count),
-    ( Count > Most -> quota_passed(clones) ; true ).
-may_clone(_, _).
 
 infinite(Seconds) :- Seconds == inf.
 infinite(Seconds) :- Seconds == infinite.

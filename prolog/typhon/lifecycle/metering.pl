@@ -2,30 +2,24 @@
           [ metered_run/4,              % +Where, +Context, +Goals, -Outcome
             metered_ball/1              % -Outcome
           ]).
-:- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../base/trees', [is_tree/2]).
-:- use_module('../program', [machine_inside/0, machine_run/3]).
-:- use_module('../host',
-              [context_now/2, context_set/3, quota/3, turns_now/3]).
-:- use_module('../agent', [agent/5, agent_status/3]).
+:- use_module('../program', [machine_run/3]).
+:- use_module('../host', [context_set/3, quota/3, quota_any/1]).
 
 /** <module> Agents run within what they may use
 
 See typhon_quotas.  A quota that is passed is not the agent's to catch: it
 ends, with the outcome raised(error(resource_error(What), _)).
 
-*Threading*: in the worker that has the agent; look/0 in the thread that
-watches.  interrupt/2 is a signal.
+*Threading*: in the worker that has the agent.
 */
-
-:- multifile typhon_quotas:look/0.
 
 %!  metered_run(+Where, +Context, +Goals, -Outcome) is det.
 %
 %   As machine_run/3 for Where, Id-Host; Outcome may be over(What), too.
 
 metered_run(_-Host, Context, Goals, Outcome) :-
-    \+ quota(Host, _, _),
+    \+ quota_any(Host),
     !,
     machine_run(Context, Goals, Outcome).
 metered_run(Id-Host, Context, Goals, Outcome) :-
@@ -73,40 +67,3 @@ metered_ball(raised(error(resource_error(What), _))) :-
     nb_current(typhon_over, What),
     What \== none,
     nb_setval(typhon_over, none).
-
-                /*******************************
-                *           THE WATCH          *
-                *******************************/
-
-%   A stack is not bounded by its limit: an agent that fills it to the brim
-%   while it catches all that is raised leaves no room for exceptions, and then
-%   9.0.4 ends the process.
-
-typhon_quotas:look :-
-    turns_now(Agent, Thread, Seconds),
-    agent(Agent, Host, _, _, _),
-    agent_status(Agent, running, _),
-    passes(Host, Thread, Seconds, What),
-    catch(thread_signal(Thread, typhon_metering:interrupt(Agent, What)),
-          error(existence_error(_, _), _), true).
-
-passes(Host, Thread, _, stack) :-
-    quota(Host, stack, Most),
-    catch(thread_statistics(Thread, stack, Used), error(_, _), fail),
-    Used > Most,
-    !.
-passes(Host, _, Seconds, seconds) :-
-    quota(Host, seconds, Most),
-    Seconds > Most.
-
-:- public interrupt/2.
-
-%   Only inside its goals, as in typhon_disposal.
-
-interrupt(Agent, What) :-
-    (   context_now(_, Agent),
-        machine_inside
-    ->  nb_setval(typhon_over, What),
-        abort_quietly
-    ;   true
-    ).

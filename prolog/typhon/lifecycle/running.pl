@@ -4,7 +4,8 @@
               [ journal_on/0, journal_seal/0, journal_step/1, turn_commit/0,
                 turn_has_effects/0, turn_release/0, turn_run/1 ]).
 :- use_module('../program', [answer_at/3, probe_next/2, probe_start/3]).
-:- use_module('../host', [context_clear/0, context_set/3, event/4]).
+:- use_module('../host',
+              [context_clear/0, context_set/3, event/4, quota_any/1]).
 :- use_module('../agent',
               [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
                 agent_ordered/1, agent_put_down/3, agent_ready/2, agent_rest/3,
@@ -206,10 +207,20 @@ conclude(effect(Control, Hole, Goals), _, Id, Host, _, Next) :-
         Next = stop
     ;   catch(effect(Control, Hole, Goals, Id-Host, Next),
               error(Formal, Where),
-              ( answer_at(Control, throw(error(Formal, Where)), Hole),
-                Next = go(Goals)
-              ))
+              raised_at(Control, error(Formal, Where), Hole-Goals, Id-Host,
+                        Next))
     ).
+
+%   Who has passed a quota ends, whatever it would catch.
+
+raised_at(_, _, _, Id-Host, stop) :-
+    quota_any(Host),
+    metered_ball(Outcome),
+    !,
+    over_quota(Id, Outcome),
+    ignore(agent_end(Id, Outcome)).
+raised_at(Control, Error, Hole-Goals, _, go(Goals)) :-
+    answer_at(Control, throw(Error), Hole).
 
 %   No goals are left: take the next message, or stay resident, or end.  That
 %   on_message/2 does not want a message, or fails, is no reason to end.

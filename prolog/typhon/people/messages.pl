@@ -117,6 +117,7 @@ refusal(token) --> !, [ 'none of its tokens is wanted there' ].
 refusal(unsigned) --> !, [ 'none of its authors has signed it' ].
 refusal(identity) --> !, [ 'its owner has not signed that it is his' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
+refusal(quota(What)) --> !, [ 'its quota of ~w would be passed'-[What] ].
 refusal(Reason) --> [ '~p'-[Reason] ].
 
 %   files_beside(+File, -Files): what might have been written for File.
@@ -255,6 +256,9 @@ stopped(ended(Outcome)) --> [ 'has ended, ~p'-[Outcome] ].
 lost_since(existence_error(agent, _)) -->
     !,
     [ 'There is no such agent, or its process has died' ].
+lost_since(resource_error(mailbox)) -->
+    !,
+    [ 'Its mailbox is full, as its host allows no more' ].
 lost_since(Formal) -->
     explained(error(Formal, _)).
 

@@ -3,7 +3,7 @@
             code_check/3                % +Policy, +Hash, +Sent
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(code, [code_make/3, code_program/2]).
+:- use_module(code, [code_make/3, code_module/2, code_program/2]).
 :- use_module(guard, [guard_program/3]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(source, [clause_parts/3]).
@@ -61,7 +61,7 @@ kinds(program(_, _, _, Clauses), Kinds) :-
 %   @error permission_error(call, sandboxed, Culprit)
 
 code_check(_, Hash, _) :-
-    code_program(Hash, _),
+    code_module(Hash, _),
     !.                                  % somebody here has it
 code_check(Policy, _, Sent) :-
     ( subsumes_term(_-_, Sent) -> Sent = Program-_ ; Program = Sent ),

@@ -9,14 +9,13 @@
               [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
 :- use_module('../host',
               [ audit/3, event/4, guarding/0, host/3, host_enter/4, host_hop/3,
-                host_leave/1, host_time/2, peer_may/3, schedule/2,
+                host_leave/1, host_time/2, peer_may/3, quota_any/1, schedule/2,
                 schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3, birth_proved/4,
-                birth_sent/2,
-                image_enter/4, image_label/2, image_module/3, image_payloads/2,
-                image_trail/4,
-                life_hops/2,
+                birth_sent/2, image_enter/4, image_entered/3, image_label/2,
+                image_module/3, image_newcomer/3, image_payloads/2,
+                image_trail/4, life_hops/2, quota_against/3,
                 policy_against/4, policy_refuses/2, with_agent/2 ]).
 :- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
 :- use_module(home, [agent_outcome/2, home_knows/4]).
@@ -99,6 +98,11 @@ arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
         policy_against(Place, Hash, Program, Reason)
     ->  audit(Name, Peer, refused(Id, Reason)),
         Answer = refused(Reason)
+    ;   quota_any(Name),
+        image_newcomer(Peer, Image, Newcomer),
+        quota_against(Name, Newcomer, Reason)
+    ->  audit(Name, Peer, refused(Id, Reason)),
+        Answer = refused(Reason)
     ;   \+ has_code(Hash, Program)
     ->  Answer = need_program
     ;   \+ image_payloads(Image, Name)
@@ -141,7 +145,7 @@ has_code(Hash, Program) :-
 
 admitted(refused(Reason), _, _, _, _, refused(Reason)).
 admitted(ok, Name, Label, Image, Crossing-Peer, Answer) :-
-    catch(install(Name, Label, Image, Crossing, Installed), Ball,
+    catch(install(Name, Label, Image, Crossing-Peer, Installed), Ball,
           ( host_leave(Name), not_installed(Ball, Installed) )),
     installed(Installed, Name, Label, Peer, Answer).
 
@@ -169,10 +173,11 @@ not_installed(Ball, Installed) :-
 
 %   install(+Name, +Label, +Image, -Installed): all or nothing.
 
-install(Name, Label, Image0, Crossing, Installed) :-
+install(Name, Label, Image0, Crossing-Peer, Installed) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _, _, _),
-        image_trail(received(Address), Name, Image0, Image),
+        image_trail(received(Address), Name, Image0, Image1),
+        image_entered(Peer, Image1, Image),
         with_agent(Id, ( install(Id, Hops, Image, Crossing, Name-Address,
                                  Place, Installed),
                          ( journal_on -> journal_seal ; true ) ))

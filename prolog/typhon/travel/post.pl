@@ -14,7 +14,7 @@
                 turn_note_put/4 ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, mobile_term/1]).
-:- use_module('../host', [peer_may/3]).
+:- use_module('../host', [peer_may/3, quota/3]).
 :- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
 :- use_module(retries, [retry_later/3]).
@@ -96,8 +96,15 @@ typhon_recovery:go_on :-
            post_noted(Id, N, From, Message)).
 
 post_way(Id, From, Message, done) :-
+    \+ quota(_, mailbox, _),
     agent_mail(Id, [From-Message]),
     !.
+post_way(Id, From, Message, Way) :-
+    quota(_, mailbox, _),
+    agent(Id, _, _, _, _),
+    !,
+    new_letter(From, Message, Letter),
+    way(Id, Letter, Way).
 post_way(Id, From, Message, Way) :-
     new_letter(From, Message, Letter),
     way_on(Id, Letter, Way).

@@ -14,6 +14,7 @@
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent', [agent_home_endpoint/2, agent_mail/2]).
 :- use_module(channel, [channel_post/3]).
+:- use_module(full, [mail_fits/3]).
 :- use_module(lost, [mail_lost/3]).
 :- use_module(senders, [mail_parts/4, shown/5]).
 :- use_module(whereabouts, [whereabouts/2]).
@@ -48,10 +49,11 @@ letter_parts(letter(Mail, Left), Mail, Left).
 
 %!  way_in(+Id, +Mail) is semidet.
 %
-%   Put Mail in the mailbox of Id, which stands here.
+%   Put Mail in the mailbox of Id, which stands here, as far as there is room.
 
 way_in(Id, Mail) :-
-    messages(Mail, Messages),
+    mail_fits(Id, Mail, Fitting),
+    messages(Fitting, Messages),
     agent_mail(Id, Messages).
 
 messages([], []).

@@ -7,13 +7,13 @@
 :- use_module('../host',
               [ address_parts/3, event/4, event_heard/1, guarding/0, host/3,
                 host_enter/4, host_leave/1, host_option/2, host_passed/3,
-                host_time/2, schedule/2, schedule_stays/2 ]).
+                host_time/2, quota_any/1, schedule/2, schedule_stays/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_may_stand/4,
                 agent_mobile/6, agent_move/5, agent_put/3, agent_standing/5,
-                agent_state/2, agent_status/3, life_hop/3,
-                life_payloads/2, life_tokens/2, payloads_admitted/3,
-                policy_refuses/2, with_agent/2 ]).
+                agent_state/2, agent_status/3, life_hop/3, life_payloads/2,
+                life_tokens/2, mail_count/2, payloads_admitted/3,
+                policy_refuses/2, quota_against/3, with_agent/2 ]).
 :- use_module(whereabouts, [agent_seen/4]).
 
 /** <module> Hops between hosts of one process
@@ -42,7 +42,7 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     life_hop(Life0, Life, Hops),
     agent_changed(Module, Until0, Changed, Until),
     mobile_term(Changed-Life-Goals),    % of the state only what has changed
-    (   kept_out(Name, Module, Hash, Goals, Life, Reason)
+    (   kept_out(Name, Id, Module, Hash, Goals, Life, Reason)
     ->  How = refused(Reason)
     ;   sig_atomic(( enter(Id, Here-Name,
                            going(Module, Hash, Life, Until, Since),
@@ -61,13 +61,18 @@ went(refused(Reason), Id, Here-Name, Hops, _) :-
     event(hops, Here, Id, stayed(Address)),
     throw(error(move_refused(Address, Reason), _)).
 
-kept_out(Name, Module, _, _, Life, unsigned) :-
+kept_out(Name, _, Module, _, _, Life, unsigned) :-
     life_payloads(Life, [_|_]),
     host_option(Name, authors(_)),
     agent_state(Module, state(_, Clauses)),
     \+ payloads_admitted(Name, Life, Clauses),
     !.
-kept_out(Name, Module, Hash, Goals, _, Reason) :-
+kept_out(Name, Id, Module, Hash, _, _, Reason) :-
+    quota_any(Name),
+    mail_count(Id, Mail),
+    quota_against(Name, newcomer(Id, Hash, module(Module), Mail), Reason),
+    !.
+kept_out(Name, _, Module, Hash, Goals, _, Reason) :-
     guarding,
     host(Name, _, Place),
     catch(( agent_may_stand(Module, Hash, Place, Goals), fail ),

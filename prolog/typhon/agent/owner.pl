@@ -1,0 +1,103 @@
+:- module(typhon_owner,
+          [ owner_of/5,                 % +Host, +Id, +Hash, +State, -Owner
+            owner_key/2,                % +Owner, -Key
+            owner_inherited/3,          % +Id, +State0, -State
+            owner_entered/3             % +Peer, +State0, -State
+          ]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../program', [program_author/3]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1,
+                endpoint_proof/2 ]).
+:- use_module('../host', [host_option/2]).
+:- use_module(identity, [agent_home_endpoint/2]).
+
+/** <module> Whose agent it is
+
+What agents of one owner use together can be bounded, see typhon_quotas.  An
+owner is what no agent can choose:
+
+  - author(Name) on a host with authors(Names): who has signed its program
+  - certificate(Name): who proved himself so, and is not one of us, when he
+    sent it, or the agent of which it is a clone
+  - home(Endpoint) of others: the process in which it was born, or the agent of
+    which it is a clone
+
+What cannot be told from the id is a fact '$owner'(Owner) among the state of
+the agent, so it goes along.  It is put there when a stranger brings an agent,
+whatever it had before, and when an agent is cloned away from home.  An agent
+that is guarded cannot touch it; of a process of ours it is believed.
+
+*Threading*: any thread; no state.
+*/
+
+%!  owner_of(+Host, +Id, +Hash, +State, -Owner) is semidet.
+%
+%   Owner is whose agent Id is on Host, Hash being that of its program, State
+%   as of agent_state/2, or module(Module).
+
+owner_of(Host, _, Hash, _, author(Author)) :-
+    host_option(Host, authors(_)),
+    endpoint_keys(Keys),
+    program_author(Keys, Hash, Author),
+    !.
+owner_of(_, _, _, State, Owner) :-
+    said(State, Owner),
+    is_owner(Owner),
+    !.
+owner_of(_, Id, _, _, home(Endpoint)) :-
+    agent_home_endpoint(Id, Endpoint).
+
+said(module(Module), Owner) :-
+    '$c_current_predicate'(_, Module:'$owner'(_)),
+    Module:'$owner'(Owner).
+said(state(_, Clauses), Owner) :-
+    memberchk('$owner'(Owner), Clauses).
+
+%!  owner_key(+Owner, -Key:atom) is det.
+%
+%   An atom for tables.
+
+owner_key(Owner, Key) :-
+    Owner =.. Parts,
+    atomic_list_concat(Parts, ' ', Key).
+
+%!  owner_inherited(+Id, +State0, -State) is det.
+%
+%   State0 is that of Id, which stands here, State that of a clone of it.  The
+%   id of the clone will say that it was born here.
+
+owner_inherited(Id, State, State) :-
+    State = state(_, Clauses),
+    (   memberchk('$owner'(_), Clauses)
+    ;   agent_home_endpoint(Id, Home),
+        endpoint_address(Home)
+    ),
+    !.
+owner_inherited(Id, state(Empty, Clauses),
+                state(Empty, ['$owner'(home(Home))|Clauses])) :-
+    agent_home_endpoint(Id, Home).
+
+%!  owner_entered(+Peer, +State0, -State) is det.
+%
+%   State0 is that of an agent which the process at Peer sends.
+
+owner_entered(Peer, State0, State) :-
+    (   endpoint_keys(_),
+        endpoint_proof(Peer, Proof),
+        \+ endpoint_own_proof(Proof)
+    ->  State0 = state(Empty, Clauses0),
+        exclude(of_owner, Clauses0, Clauses),
+        State = state(Empty, ['$owner'(Proof)|Clauses])
+    ;   State = State0
+    ).
+
+of_owner(Clause) :-
+    subsumes_term('$owner'(_), Clause).
+
+is_owner(Owner) :-
+    ground(Owner),
+    member(Owner, [certificate(Name), home(Name)]),
+    !,
+    atom(Name).

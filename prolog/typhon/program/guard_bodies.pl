@@ -1,0 +1,244 @@
+:- module(typhon_guard_bodies,
+          [ guard/3,                    % +Body0, +Own, -Body
+            guard_lambda/4,             % +Lambda0, +N, +Own, -Lambda
+            is_lambda/1,                % @Closure
+            is_own/2,                   % +Goal, +Own
+            is_control/1,               % @Goal
+            extended/3                  % +Closure, +Extra, -Goal
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(assoc), [get_assoc/3]).
+:- use_module(library(lists), [append/3]).
+:- use_module(allowed, [allowed/3, own_name/1]).
+:- use_module(machine, [control/1]).
+:- use_module(refusing, [refuse/1]).
+
+/** <module> The goals in clauses of strangers
+
+See typhon_guard.  Own is own(Heads, Policy), where Heads is heads(Assoc) or
+module(Module), where the static predicates of the agent are, or `none`.
+
+*Threading*: pure.
+*/
+
+%!  guard(+Body0, +Own, -Body) is det.
+%
+%   @error permission_error(call, sandboxed, Culprit)
+
+guard(Goal, _, '$guarded'(Goal)) :-
+    var(Goal),
+    !.
+guard(Goal0, Own, Goal) :-
+    construct(Goal0, Parts0, Goal, Parts),
+    !,
+    maplist(guard_part(Own), Parts0, Parts).
+guard(Goal, _, Goal) :-
+    passes(Goal),
+    !.
+guard(Goal, Own, Goal) :-
+    is_own(Goal, Own),
+    !.
+guard(sleep(Seconds), _, '$guarded'(sleep(Seconds))) :-
+    !.
+guard(Goal0, Own, Goal) :-
+    callable(Goal0),
+    Goal0 \= _:_,
+    Own = own(_, Policy),
+    allowed(Policy, Goal0, How),
+    !,
+    guard_allowed(How, Goal0, Own, Goal).
+guard(Goal0, Own, Goal) :-
+    compound(Goal0),
+    compound_name_arguments(Goal0, call, [Closure0|Extra]),
+    Extra \== [],
+    !,
+    length(Extra, N),
+    closure(N, Own, Closure0, Closure),
+    compound_name_arguments(Goal, call, [Closure|Extra]).
+guard(phrase(NT, List), Own, phrase(NT1, List)) :-
+    !,
+    non_terminal(NT, Own, NT1).
+guard(phrase(NT, List, Rest), Own, phrase(NT1, List, Rest)) :-
+    !,
+    non_terminal(NT, Own, NT1).
+guard(Goal, _, Goal) :-
+    callable(Goal),
+    unknown(Goal),
+    !.
+guard(Goal, _, _) :-
+    refuse(Goal).
+
+guard_part(Own, Part0, Part) :-
+    guard(Part0, Own, Part).
+
+construct((A0,B0), [A0,B0], (A,B), [A,B]).
+construct((A0;B0), [A0,B0], (A;B), [A,B]).
+construct((A0->B0), [A0,B0], (A->B), [A,B]).
+construct((A0*->B0), [A0,B0], (A*->B), [A,B]).
+construct(\+A0, [A0], \+A, [A]).
+construct(call(A0), [A0], call(A), [A]).
+construct(once(A0), [A0], once(A), [A]).
+construct(ignore(A0), [A0], ignore(A), [A]).
+construct(catch(A0,C,B0), [A0,B0], catch(A,C,B), [A,B]).
+
+%   What is guarded already, where a suspended agent goes on, and what an
+%   agent says to stop, but for what the system would do in its place.
+
+passes(Goal) :-
+    compound(Goal),
+    compound_name_arity(Goal, '$guarded', _).
+passes('$at'(_, Answer)) :-
+    ( Answer == fail ; subsumes_term(throw(error(_, _)), Answer) ).
+passes(Goal) :-
+    is_control(Goal),
+    Goal \= sleep(_).
+
+%!  is_control(@Goal) is semidet.
+%
+%   What an agent says to stop.
+
+is_control(Goal) :-
+    control(Goal),
+    functor(Goal, Name, _),
+    Name \== call,
+    \+ sub_atom(Name, 0, _, _, $).
+
+%   Nothing but the agent or what its place offers can have it.
+
+unknown(Goal) :-
+    Goal \= _:_,
+    own_name(Goal),
+    \+ allowed(guarded, Goal, _).
+
+%!  is_own(+Goal, +Own) is semidet.
+
+is_own(Goal, own(Heads, _)) :-
+    defined_in(Heads, Goal).
+
+defined_in(heads(Own), Goal) :-
+    callable(Goal),
+    functor(Goal, Name, Arity),
+    get_assoc(Name/Arity, Own, _).
+defined_in(module(Module), Goal) :-
+    callable(Goal),
+    Goal \= _:_,
+    '$c_current_predicate'(_, Module:Goal),
+    '$get_predicate_attribute'(Module:Goal, transparent, 1),
+    \+ '$get_predicate_attribute'(Module:Goal, imported, _).
+
+guard_allowed(free, Goal, _, Goal).
+guard_allowed(look(_), Goal, _, '$guarded'(Goal)).
+guard_allowed(runs(Spec), Goal0, Own, Goal) :-
+    compound_name_arguments(Goal0, Name, Args0),
+    compound_name_arguments(Spec, _, Modes),
+    maplist(argument(Own), Modes, Args0, Args),
+    compound_name_arguments(Goal, Name, Args).
+
+argument(Own, 0, Goal0, Goal) =>
+    guard(Goal0, Own, Goal).
+argument(Own, ^, Goal0, Goal) =>
+    below_variables(Goal0, Own, Goal).
+argument(Own, N, Closure0, Closure), integer(N) =>
+    closure(N, Own, Closure0, Closure).
+argument(_, _, Arg0, Arg) =>
+    Arg = Arg0.
+
+below_variables(Goal0, Own, Goal) :-
+    nonvar(Goal0),
+    Goal0 = V^Below0,
+    !,
+    Goal = V^Below,
+    below_variables(Below0, Own, Below).
+below_variables(Goal0, Own, Goal) :-
+    guard(Goal0, Own, Goal).
+
+%   closure(+N, +Own, +Closure0, -Closure): to be called with N arguments
+%   more.  One whose goals are not as they stand is looked at when it is
+%   called.
+
+closure(_, _, Closure, '$guarded'(Closure)) :-
+    var(Closure),
+    !.
+closure(_, _, Closure, Closure) :-
+    passes(Closure),
+    !.
+closure(N, Own, Closure0, Closure) :-
+    is_lambda(Closure0),
+    !,
+    guard_lambda(Closure0, N, Own, Closure).
+closure(N, Own, Closure0, Closure) :-
+    callable(Closure0),
+    Closure0 \= _:_,
+    !,
+    length(Extra, N),
+    extended(Closure0, Extra, Goal0),
+    guard(Goal0, Own, Goal),
+    (   Goal == Goal0
+    ->  Closure = Closure0
+    ;   Closure = '$guarded'(Closure0)
+    ).
+closure(_, _, Closure, _) :-
+    refuse(Closure).
+
+%!  extended(+Closure, +Extra:list, -Goal) is det.
+%
+%   Goal is Closure called with Extra.
+
+extended(Closure, Extra, Goal) :-
+    (   callable(Closure),
+        Closure \= _:_
+    ->  Closure =.. List0,
+        append(List0, Extra, List),
+        Goal =.. List
+    ;   refuse(Closure)
+    ).
+
+%!  is_lambda(@Closure) is semidet.
+%!  guard_lambda(+Lambda0, +N, +Own, -Lambda) is det.
+%
+%   Lambda, to be called with N arguments, is Lambda0 with a body that is
+%   guarded, for its parameters may be goals.
+
+is_lambda(Closure) :-
+    nonvar(Closure),
+    ( Closure = _>>_ ; Closure = _/_ ),
+    !.
+
+guard_lambda(Free/Lambda0, N, Own, Free/Lambda) :-
+    !,
+    closure(N, Own, Lambda0, Lambda).
+guard_lambda(Parameters>>Body0, N, Own, Parameters>>Body) :-
+    parameters(Parameters, Count),
+    !,
+    Rest is max(0, N-Count),
+    (   Rest =:= 0
+    ->  guard(Body0, Own, Body)
+    ;   closure(Rest, Own, Body0, Body)
+    ).
+guard_lambda(Lambda, _, _, _) :-
+    refuse(Lambda).
+
+parameters(Parameters, Count) :-
+    nonvar(Parameters),
+    ( Parameters = _/List -> true ; List = Parameters ),
+    is_list(List),
+    length(List, Count).
+
+%   A grammar rule by its name, not a body of one.
+
+non_terminal(NT, _, _) :-
+    ( var(NT) ; \+ callable(NT) ; is_list(NT) ; body_of_grammar(NT) ),
+    !,
+    refuse(phrase(NT, _)).
+non_terminal(NT0, Own, NT) :-
+    closure(2, Own, NT0, NT).
+
+body_of_grammar((_,_)).
+body_of_grammar((_;_)).
+body_of_grammar((_|_)).
+body_of_grammar((_->_)).
+body_of_grammar(\+_).
+body_of_grammar({_}).
+body_of_grammar(!).
+body_of_grammar(NT) :- functor(NT, call, _).
+

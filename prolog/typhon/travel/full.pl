@@ -1,0 +1,77 @@
+:- module(typhon_full,
+          [ mail_fits/3                 % +Id, +Mail, -Fitting
+          ]).
+:- use_module(library(lists), [append/3]).
+:- use_module('../host', [alarm_in/3, quota/3, scheduler_call/1]).
+:- use_module('../agent', [agent_room/2]).
+:- use_module(lost, [mail_lost/3]).
+
+/** <module> Messages for whom there is no room
+
+On a host with the quota `mailbox` no more messages wait for an agent.  Those
+for which there is no room are lost, and this is told here and where they were
+sent, see typhon_lost: what has come within a second together, so that who is
+flooded with messages is not flooded with words.
+
+*Threading*: mail_fits/3 inside with_agent/2 of the agent; told by workers.
+*/
+
+:- multifile
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
+
+:- dynamic refused/2.           % Id, Mail
+
+most_untold(1000).
+
+%!  mail_fits(+Id, +Mail:list, -Fitting:list) is det.
+%
+%   Of Mail, as of typhon_ways, there is room for Fitting in the mailbox of Id,
+%   if that stands here; the rest is lost.
+
+mail_fits(Id, Mail, Fitting) :-
+    (   quota(_, mailbox, _),
+        agent_room(Id, Room),
+        length(Mail, Count),
+        Count > Room
+    ->  length(Fitting, Room),
+        append(Fitting, Rest, Mail),
+        refuse(Id, Rest)
+    ;   Fitting = Mail
+    ).
+
+refuse(Id, Mail) :-
+    (   refused(Id, _)
+    ->  true
+    ;   alarm_in(1, Id, refused)
+    ),
+    assertz(refused(Id, Mail)),
+    predicate_property(refused(_, _), number_of_clauses(Count)),
+    most_untold(Most),
+    (   Count mod Most =:= 0
+    ->  scheduler_call(typhon_full:tell(Id))
+    ;   true
+    ).
+
+typhon_scheduler:fire(Id, refused) :-
+    !,
+    scheduler_call(typhon_full:tell(Id)).
+
+typhon_scheduler:over(Id, refused) :-
+    \+ refused(Id, _).
+
+:- public tell/1.
+
+tell(Id) :-
+    taken(Id, Mail),
+    (   Mail == []
+    ->  true
+    ;   mail_lost(resource_error(mailbox), Id, Mail)
+    ).
+
+taken(Id, Mail) :-
+    (   retract(refused(Id, Some))
+    ->  append(Some, More, Mail),
+        taken(Id, More)
+    ;   Mail = []
+    ).
