@@ -80,7 +80,10 @@ put_all([Message|Messages], Queue) :-
 mail_take(Id, Message) :-
     box(Id, Queue),
     fifo_take(Queue, mail(Message, N)),
-    note_drop(mail, Id, N).
+    (   journal_on
+    ->  note_drop(mail, Id, N)
+    ;   true
+    ).
 
 %!  mail_all(+Id, -Messages:list) is det.
 %!  mail_list(+Id, -Messages:list) is det.

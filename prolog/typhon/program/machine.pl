@@ -93,7 +93,8 @@ raised(Ball, Outcome) :-
     ).
 
 first_outcome(Goals, Context, Outcome) :-
-    sub_run(Goals, Context, Out),
+    prolog_current_choice(Base),
+    run(Goals, Context, Base, Out),
     !,
     outcome(Out, Outcome).
 first_outcome(_, _, failed).
@@ -120,21 +121,18 @@ machine_inside :-
                 *           THE RUN            *
                 *******************************/
 
-%   sub_run(+Goals, +Context, -Out) is nondet.
+%   run(+Goals, +Context, +Base, -Out) is nondet.
 %
 %   Out is `exit` for each solution of Goals, or effect(...) where a
-%   control predicate is reached.  `!` in Goals is local.
-
-sub_run(Goals, Context, Out) :-
-    prolog_current_choice(Base),
-    run(Goals, Context, Base, Out).
+%   control predicate is reached.  `!` in Goals cuts to Base, the choice
+%   point at which the run began.
 
 run([], _, _, exit).
 run([Goal|Goals], Context, Base, Out) :-
     step(Goal, Goals, Context, Base, Out).
 
 %   step(+Goal, +Goals, +Context, +Base, -Out) is nondet: one rule for each
-%   construct; `!` cuts to Base, the choice point at which the run began.
+%   construct.
 
 step(true, Goals, X, Base, Out) =>
     run(Goals, X, Base, Out).
@@ -245,7 +243,8 @@ otherwise(Else, If, Goals, X, Base, Out) :-
 %   until it has ended.
 
 inside(Goal, Frame, Goals, X, Out) :-
-    sub_run([Goal], X, Out),
+    prolog_current_choice(Base),
+    step(Goal, [], X, Base, Out),
     stood(Frame, Goals).
 
 stood(_, _).
