@@ -58,14 +58,14 @@ order(stop, [Host], Options) :-
     within(Seconds, is_gone(Host)).
 
 %   What the command line has started ends in order, as by a signal. The answer
-%   may be lost with the process.
+%   may be lost with the process. A thread cannot travel.
 
 tell_to_stop(Host, Name) :-
     catch(remote(Host,
-                 catch(typhon_app:told_to_stop(stop),
+                 catch(typhon_app_serving:told_to_stop(stop),
                        error(existence_error(procedure, _), _),
-                       thread_create(typhon:host_stop(Name), _,
-                                     [detached(true)]))),
+                       \+ \+ thread_create(typhon:host_stop(Name), _,
+                                           [detached(true)]))),
           error(connection_lost(_), _),
           true).
 

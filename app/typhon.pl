@@ -16,14 +16,11 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 */
 
 :- use_module('../prolog/typhon').
-:- use_module('../prolog/typhon/base/names',
-              [names_listed/2, names_proposed/3]).
 :- use_module('../prolog/typhon/network/log', [log_server_stop/1]).
 :- use_module('../prolog/typhon/people/tables',
               [print_agents/2, print_hosts/1]).
 :- use_module('../prolog/typhon/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
-:- use_module('../prolog/typhon/people/happenings', [short_name/2]).
 :- use_module('../prolog/typhon/page', [page_export/3, page_serve/2]).
 :- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
@@ -32,10 +29,13 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(diagnose_nxt, [diagnose_nxt/1]).
 :- use_module(journal, [journal_shown/2]).
 :- use_module(keys, [keys/3, keys_sign_file/3]).
+:- use_module(options, [options_for/3]).
 :- use_module(orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
 :- use_module(picture, [picture/3]).
+:- use_module(serving, [and_then/2, until_told_to_stop/3]).
 :- use_module(story, [story/2]).
+:- use_module(usage, [complain/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).
@@ -78,30 +78,12 @@ opt_meta(Option, Meta) :-
 
 main(Argv) :-
     catch(dispatch(Argv), error(Formal, Context),
-          complain(error(Formal, Context))),
+          ( complain(error(Formal, Context)),
+            fail )),
     !,
     halt(0).
 main(_) :-
     halt(1).
-
-complain(Error) :-
-    (   Error = error(Formal, _),
-        hint(Formal, Hint)
-    ->  print_message(error, typhon_hint(Error, Hint))
-    ;   print_message(error, Error)
-    ),
-    halt(1).
-
-%   What to try next.
-
-hint(host_unreachable(Host), Hint) :-
-    format(atom(Hint), 'diagnose ~w tells why', [Host]).
-hint(connection_lost(Host), Hint) :-
-    format(atom(Hint), 'diagnose ~w tells why', [Host]).
-hint(existence_error(agent, _), 'agents --host ADDRESS tells who is there').
-hint(existence_error(host, _), 'hosts --host ADDRESS tells which there are').
-hint(domain_error(topology, _), 'network --help tells the shapes').
-hint(existence_error(source_sink, _), 'a file, or a term as agents(census)').
 
 dispatch([Command|Argv]) :-
     command(Command, _, Positional, _),
@@ -210,7 +192,7 @@ command_help :-
                 *******************************/
 
 run(host, [Name], Options) :-
-    findall(Option, host_option(Options, Option), HostOptions),
+    options_for(host, Options, HostOptions),
     until_told_to_stop(
         host_start(Name, HostOptions),
         ( host_property(Name, address(Address)),
@@ -220,7 +202,7 @@ run(host, [Name], Options) :-
         host_stop(Name)).
 run(network, [Topology0], Options) :-
     read_argument(Topology0, Topology),
-    findall(Option, network_option(Options, Option), NetworkOptions),
+    options_for(network, Options, NetworkOptions),
     until_told_to_stop(
         network_start(Topology, Network, NetworkOptions),
         ( network_property(Network, hosts(Addresses)),
@@ -230,7 +212,7 @@ run(network, [Topology0], Options) :-
 run(create, [Program0], Options) :-
     required(create, host(Host), Options),
     program_argument(Program0, Program),
-    findall(Option, agent_option(Options, Option), AgentOptions),
+    options_for(agent, Options, AgentOptions),
     agent_create(Program, Agent, [host(Host)|AgentOptions]),
     print_line(Agent),
     (   option(join(Seconds), Options)
@@ -257,7 +239,7 @@ run(page, [Log], Options) :-
 run(page, [], Options) :-
     required(page, host(Host), Options),
     host_now(Host, _),
-    findall(Option, page_option(Options, Option), PageOptions),
+    options_for(page, Options, PageOptions),
     until_told_to_stop(
         page_serve(PageOptions, Link),
         print_line(Link),
@@ -265,7 +247,7 @@ run(page, [], Options) :-
 run(log, [File], Options) :-
     option(serve(true), Options),
     !,
-    findall(Option, log_option(Options, Option), LogOptions),
+    options_for(log, Options, LogOptions),
     until_told_to_stop(
         log_server_start([file(File), mode(append)|LogOptions], Address),
         print_line(Address),
@@ -308,117 +290,11 @@ run(diagnose, [Kind, Port], _) :-
     ;   throw(error(typhon_usage(arguments(diagnose)), _))
     ).
 
-page_option(Options, Option) :-
-    member(Option, Options),
-    functor(Option, Name, 1),
-    memberchk(Name, [host, port, bind, read_only]).
-
 bridge_named([python]).
 bridge_named([mqtt]).
 bridge_named([mqtt,_]).
 bridge_named([ros]).
 bridge_named([ros,_]).
-
-host_option(Options, Option) :-
-    member(Option, Options),
-    functor(Option, Name, 1),
-    memberchk(Name, [port, bind, capacity, journal, sync]).
-host_option(Options, Option) :-
-    log_events_option(Options, Option).
-host_option(Options, tokens(Tokens)) :-
-    comma_list(tokens(Text), Options, Text, Tokens).
-host_option(Options, authors(Authors)) :-
-    comma_list(authors(Text), Options, Text, Authors).
-host_option(Options, consult(Files)) :-
-    findall(File, member(consult(File), Options), Files),
-    Files \== [].
-
-network_option(Options, machines(Machines)) :-
-    comma_list(machines(Text), Options, Text, Machines).
-network_option(Options, Option) :-
-    member(Option, Options),
-    Option =.. [Name|_],
-    \+ memberchk(Name, [machines, log, events, tls]).
-network_option(Options, Option) :-
-    log_events_option(Options, Option).
-
-log_events_option(Options, Option) :-
-    option(log(Log), Options),
-    (   comma_list(events(Text), Options, Text, Kinds)
-    ->  Option = log(Log, Kinds)
-    ;   Option = log(Log)
-    ).
-
-agent_option(Options, Option) :-
-    member(Option, Options),
-    functor(Option, Name, 1),
-    memberchk(Name, [name, lifetime, static]).
-agent_option(Options, tokens(Tokens)) :-
-    comma_list(tokens(Text), Options, Text, Tokens).
-agent_option(Options, payloads(Payloads)) :-
-    findall(Payload,
-            ( member(payload(Text), Options),
-              program_argument(Text, Payload)
-            ),
-            Payloads),
-    Payloads \== [].
-agent_option(Options, facts(Facts)) :-
-    findall(Fact, member(fact(Fact), Options), Facts),
-    Facts \== [].
-
-log_option(Options, Option) :-
-    member(Option, Options),
-    functor(Option, Name, 1),
-    memberchk(Name, [port, bind]).
-
-                /*******************************
-                *        STOP AND WAIT         *
-                *******************************/
-
-:- meta_predicate until_told_to_stop(0, 0, 0).
-
-%   All is done in a thread of its own.  While the main thread creates
-%   threads, signals reach one of those, and are lost.
-
-until_told_to_stop(Start, Report, Stop) :-
-    on_signal(term, _, typhon_app:told_to_stop),
-    on_signal(int, _, typhon_app:told_to_stop),
-    thread_create(serve(Start, Report, Stop), Server),
-    thread_send_message(Server, start),
-    thread_get_message(serving(Event)),
-    (   Event == told_to_stop
-    ->  thread_send_message(Server, stop)
-    ;   true
-    ),
-    thread_join(Server, Status),
-    (   Status = exception(Error)
-    ->  throw(Error)
-    ;   Status == true
-    ).
-
-told_to_stop(_Signal) :-
-    thread_send_message(main, serving(told_to_stop)).
-
-serve(Start, Report, Stop) :-
-    call_cleanup(( thread_get_message(start),
-                   call(Start),
-                   and_then(( once(Report),
-                              thread_get_message(stop)
-                            ), Stop)
-                 ),
-                 thread_send_message(main, serving(ended))).
-
-%   setup_call_cleanup/3 will not do: a wait with a deadline goes on for ever
-%   in its cleanup handler when a signal is pending.
-
-:- meta_predicate and_then(0, 0).
-
-and_then(Goal, Finally) :-
-    catch(( call(Goal) -> Result = true ; Result = fail ),
-          error(Formal, Context),
-          Result = throw(error(Formal, Context))),
-    call(Finally),
-    call(Result).
 
 join(Agent, Seconds) :-
     agent_join(Agent, Outcome, Seconds),
@@ -441,10 +317,6 @@ read_argument(Text, Term) :-
           error(syntax_error(_), _),
           throw(error(typhon_usage(not_a_term(Text)), _))).
 
-comma_list(Option, Options, Text, Parts) :-
-    option(Option, Options),
-    atomic_list_concat(Parts, ',', Text).
-
 home_of(Agent, Home) :-
     sub_atom(Agent, Before, _, _, @),
     !,
@@ -461,69 +333,3 @@ print_line(Term) :-
 
 print_event(event(Time, Host, Agent, What)) :-
     format('~t~3f~12|  ~w~t~26+ ~w~t~32+ ~p~n', [Time, Host, Agent, What]).
-
-:- multifile
-    prolog:error_message//1,
-    prolog:message//1.
-
-prolog:message(typhon_hint(Error, Hint)) -->
-    '$messages':translate_message(Error),
-    [ ' (~w)'-[Hint] ].
-
-prolog:error_message(typhon_usage(Problem)) -->
-    usage(Problem).
-
-usage(unknown_command(Word, Commands)) -->
-    { names_proposed(Word, Commands, Meant),
-      names_listed(Commands, All)
-    },
-    [ 'no command ~w~w~w'-[Word, Meant, All] ].
-usage(unknown_option(Command, Option, Options)) -->
-    { names_proposed(Option, Options, Meant),
-      names_listed(Options, All)
-    },
-    [ '~w has no option --~w~w~w'-[Command, Option, Meant, All] ].
-usage(arguments(Command)) -->
-    { command(Command, Arguments, _, _) },
-    [ '~w takes ~w; see ~w --help'-[Command, Arguments, Command] ].
-usage(required(Command, Option)) -->
-    [ '~w needs --~w; see ~w --help'-[Command, Option, Command] ].
-usage(not_a_term(Text)) -->
-    [ 'not a Prolog term: ~w'-[Text] ].
-usage(not_in_log(Agent, Log)) -->
-    { log_events(Log, Events),
-      findall(Short,
-              ( member(event(_, _, Id, _), Events), short_name(Id, Short) ),
-              Names0),
-      sort(Names0, Names),
-      length(Names, Count)
-    },
-    [ 'nothing of an agent ~w in ~w'-[Agent, Log] ],
-    in_log(Names, Count).
-usage(empty_log(Log)) -->
-    [ 'no events of agents in ~w'-[Log] ].
-usage(not_an_id(Agent)) -->
-    [ 'not the id of an agent: ~w (with --host ADDRESS a name is enough)'-
-      [Agent] ].
-usage(no_agent(Name, Host)) -->
-    [ 'no agent ~w in the network of ~w (agents --host ~w lists them)'-
-      [Name, Host, Host] ].
-usage(several_agents(Name, Ids)) -->
-    { atomic_list_concat(Ids, ' or ', Text) },
-    [ 'which ~w is meant: ~w?'-[Name, Text] ].
-usage(not_one_host(Name, [])) -->
-    !,
-    [ 'no host ~w in the network of the agent'-[Name] ].
-usage(not_one_host(Name, Addresses)) -->
-    { atomic_list_concat(Addresses, ' or ', Text) },
-    [ 'which ~w is meant: ~w?'-[Name, Text] ].
-
-in_log(Names, Count) -->
-    { Count > 0,
-      Count =< 20,
-      !,
-      atomic_list_concat(Names, ', ', Text)
-    },
-    [ '; it knows ~w'-[Text] ].
-in_log(_, Count) -->
-    [ ', which knows ~D others'-[Count] ].

@@ -43,9 +43,10 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/asking, [as_guest/1, process_ask/6]).
 :- reexport(host/runtime,
             [runtime_acquire/2, runtime_acquire/3, runtime_release/1]).
+:- reexport(host/changing, [host_change/2]).
 :- reexport(host/hosting,
-            [ host_change/2, host_start/1, host_start/2, host_stop/1,
-              hosts_back/1, hosts_go_on/0, hosts_journal/2, hosts_rest/0 ]).
+            [ host_start/1, host_start/2, host_stop/1, hosts_back/1,
+              hosts_go_on/0, hosts_journal/2, hosts_rest/0 ]).
 :- reexport(host/host_questions,
             [host_property/2, host_unknown/1, link/2, link/3, unlink/2]).
 :- reexport(host/remote, [host_do/2, remote/2]).

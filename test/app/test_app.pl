@@ -226,6 +226,18 @@ test(stop) :-
                 )),
     assertion(Status == exit(0)).
 
+%   The process of a program goes on, and its host is gone.
+
+test(stop_a_host_of_a_program) :-
+    project_file('prolog/typhon.pl', Typhon),
+    Goal = 'host_start(alpha), host_property(alpha, address(A)), writeln(A), \c
+            flush_output, read(_)',
+    with_swipl(['-g', Goal, '-t', halt, Typhon], _, _, Out,
+               ( read_line_to_string(Out, Line),
+                 atom_string(Alpha, Line),
+                 typhon_lines([stop, Alpha], []),
+                 typhon_error([hosts, '--host', Alpha], Alpha) )).
+
 test(check) :-
     with_tmp_dir(check).
 

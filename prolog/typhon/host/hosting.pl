@@ -1,12 +1,12 @@
 :- module(typhon_hosting,
           [ host_start/1,               % +Name
             host_start/2,               % +Name, +Options
-            host_change/2,              % +Host, +Option
             host_stop/1,                % +Name
             hosts_journal/2,            % +Where, +Options
             hosts_back/1,               % +Options
             hosts_go_on/0,
-            hosts_rest/0
+            hosts_rest/0,
+            note_host/1                 % +Name
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
@@ -15,7 +15,7 @@
 :- use_module(library(lists), [append/3, member/2, selectchk/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/options', [check_option/2, check_options/2]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal',
               [ journal_barrier/0, journal_begin/0, journal_close/0,
@@ -28,14 +28,14 @@
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(front, [front_set/3]).
 :- use_module(host_log, []).
+:- use_module(host_options, [host_listed/2]).
 :- use_module(hosts,
               [ address_parts/3, host/3, host_add/4, host_close/1,
-                host_option/2, host_put/2, host_remove/1, host_resolve/2 ]).
+                host_option/2, host_remove/1, host_resolve/2 ]).
 :- use_module(links, [host_unlink/2]).
 :- use_module(permits, [must_be_peer_rules/1]).
-:- use_module(place, [place_create/4, place_destroy/1, place_offer/2]).
+:- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(quotas, [quota_forget/1, quota_set/3]).
-:- use_module(remote, [remote/2]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
 
@@ -51,7 +51,6 @@ other users of the process its endpoint, see typhon_runtime.
            "Agents have so long to come to an effect when their host stops").
 
 :- multifile
-    typhon_options:declared/4,
     begins/1,                   % Name: is there, who wants may listen
     typhon_recovery:tidy/0,     % nobody is let in yet
     typhon_recovery:recover/0,  % what the journal knows stands again
@@ -137,38 +136,6 @@ host_start(Name, Options) :-
     forall(member(peer(Rules), Options), must_be_peer_rules(Rules)),
     forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
     with_mutex(typhon_hosting, start(Name, Options)).
-
-typhon_options:declared(host_option, Option, Type, Value) :-
-    host_option_type(Option, Type, Value).
-
-host_option_type(port(X), between(0, 65535), X).
-host_option_type(bind(X), atom, X).
-host_option_type(tls(X), atom, X).
-host_option_type(trail(X), boolean, X).
-host_option_type(authors(X), list(atom), X).
-host_option_type(capacity(X), nonneg, X).
-host_option_type(capacity(X), oneof([inf]), X).
-host_option_type(tokens(X), list, X).
-host_option_type(concurrency(X), positive_integer, X).
-host_option_type(concurrency(X), oneof([inf]), X).
-host_option_type(consult(X), ground, X).
-host_option_type(services(X), ground, X).
-host_option_type(place(X), atom, X).
-host_option_type(log(X), atom, X).
-host_option_type(log(X, _), atom, X).
-host_option_type(remote(X), boolean, X).
-host_option_type(clock(X), oneof([virtual]), X).
-host_option_type(clock(X, Y), list(number), [X,Y]).
-host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
-host_option_type(seed(X), integer, X).
-host_option_type(python(X), boolean, X).
-host_option_type(journal(X), atom, X).
-host_option_type(journal(postgresql(X)), atom, X).
-host_option_type(sync(X), oneof([full, normal]), X).
-host_option_type(policy(X), atom, X).
-host_option_type(quota(X), list, X).
-host_option_type(peer(X), list, X).
-host_option_type(audit(X), atom, X).
 
 start(Name, _) :-
     retract(from_journal(Name)),
@@ -316,6 +283,10 @@ give_up_hosts :-
     retractall(from_journal(_)),
     forall(host(Name, _, _), ignore(stop(Name))).
 
+%!  note_host(+Name) is det.
+%
+%   What its options are by now is noted in the journal, if there is one.
+
 note_host(Name) :-
     (   journal_on
     ->  findall(Option,
@@ -371,81 +342,12 @@ must_have_keys(Options) :-
 place_parts(Options, Files, Services) :-
     option(consult(Files0), Options, []),
     option(services(Services0), Options, []),
-    listed(Files0, Files),
-    listed(Services0, Services1),
+    host_listed(Files0, Files),
+    host_listed(Services0, Services1),
     (   option(place(Module), Options)
     ->  Services = [module(Module)|Services1]
     ;   Services = Services1
     ).
-
-listed(List, List) :-
-    is_list(List),
-    !.
-listed(One, [One]).
-
-                /*******************************
-                *            CHANGE            *
-                *******************************/
-
-%!  host_change(+Host, +Option) is det.
-%
-%   Change an option of a host that runs, here or elsewhere: tokens, capacity,
-%   concurrency, hop_time, log, audit, peer, policy, python, quota, remote or
-%   seed, as of host_start/2, or services, to which those given are added.  Who
-%   stands on the host stays, also where fewer are let in from now on.
-%
-%   @error existence_error(host, Host)
-%   @error permission_error(change, host_option, Option)
-
-host_change(Host, Option) :-
-    check_option(host_option, Option),
-    host_resolve(Host, Where),
-    change_at(Where, Host, Option).
-
-change_at(local(Name), _, Option) :-
-    with_mutex(typhon_hosting, ( change(Option, Name), note_host(Name) )),
-    journal_barrier.
-change_at(remote(_, Name, _), Host, Option) :-
-    remote(Host, typhon_hosting:host_change(Name, Option)).
-
-change(concurrency(Concurrency), Name) =>
-    host_put(Name, concurrency(Concurrency)),
-    scheduler_limit(Name, Concurrency).
-change(services(Services0), Name) =>
-    host(Name, _, Place),
-    listed(Services0, Services),
-    forall(member(Service, Services), place_offer(Place, Service)).
-change(policy(Policy), Name) =>
-    host(Name, _, Place),
-    front_set(Name, Place, Policy),
-    host_put(Name, policy(Policy)),
-    quota_anew(Name).
-change(peer(Rules), Name) =>
-    must_be_peer_rules(Rules),
-    host_put(Name, peer(Rules)).
-change(quota(Quotas), Name) =>
-    host_put(Name, quota(Quotas)),
-    quota_anew(Name).
-change(Option, Name), changes(Option) =>
-    host_put(Name, Option).
-change(Option, _) =>
-    permission_error(change, host_option, Option).
-
-quota_anew(Name) :-
-    ( host_option(Name, policy(Policy)) -> true ; Policy = trusted ),
-    ( host_option(Name, quota(Quotas)) -> true ; Quotas = [] ),
-    quota_set(Name, Policy, Quotas).
-
-changes(audit(_)).
-changes(tokens(_)).
-changes(authors(_)).
-changes(trail(_)).
-changes(capacity(_)).
-changes(hop_time(_)).
-changes(log(_)).
-changes(python(_)).
-changes(remote(_)).
-changes(seed(_)).
 
                 /*******************************
                 *             STOP             *

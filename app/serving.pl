@@ -1,0 +1,65 @@
+:- module(typhon_app_serving,
+          [ until_told_to_stop/3,       % :Start, :Report, :Stop
+            and_then/2                  % :Goal, :Finally
+          ]).
+
+/** <module> Commands that run until they are told to stop
+
+*Threading*: the main thread only; it waits for a message, which the handlers
+of SIGINT and SIGTERM send.
+*/
+
+:- meta_predicate
+    until_told_to_stop(0, 0, 0),
+    and_then(0, 0).
+
+:- public told_to_stop/1.
+
+%!  until_told_to_stop(:Start, :Report, :Stop) is semidet.
+%
+%   Call Start and Report, wait for SIGINT or SIGTERM, and call Stop.
+%
+%   All is done in a thread of its own.  While the main thread creates
+%   threads, signals reach one of those, and are lost.
+
+until_told_to_stop(Start, Report, Stop) :-
+    on_signal(term, _, typhon_app_serving:told_to_stop),
+    on_signal(int, _, typhon_app_serving:told_to_stop),
+    thread_create(serve(Start, Report, Stop), Server),
+    thread_send_message(Server, start),
+    thread_get_message(serving(Event)),
+    (   Event == told_to_stop
+    ->  thread_send_message(Server, stop)
+    ;   true
+    ),
+    thread_join(Server, Status),
+    (   Status = exception(Error)
+    ->  throw(Error)
+    ;   Status == true
+    ).
+
+told_to_stop(_Signal) :-
+    thread_send_message(main, serving(told_to_stop)).
+
+serve(Start, Report, Stop) :-
+    call_cleanup(( thread_get_message(start),
+                   call(Start),
+                   and_then(( once(Report),
+                              thread_get_message(stop)
+                            ), Stop)
+                 ),
+                 thread_send_message(main, serving(ended))).
+
+%!  and_then(:Goal, :Finally) is semidet.
+%
+%   Call Goal once and, however that ends, Finally.
+%
+%   setup_call_cleanup/3 will not do: a wait with a deadline goes on for ever
+%   in its cleanup handler when a signal is pending.
+
+and_then(Goal, Finally) :-
+    catch(( call(Goal) -> Result = true ; Result = fail ),
+          error(Formal, Context),
+          Result = throw(error(Formal, Context))),
+    call(Finally),
+    call(Result).

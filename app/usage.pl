@@ -1,0 +1,103 @@
+:- module(typhon_app_usage,
+          [ complain/1                  % +Error
+          ]).
+
+/** <module> What the command line says to mistakes
+
+*Threading*: the main thread only.
+*/
+
+:- use_module('../prolog/typhon', [log_events/2]).
+:- use_module('../prolog/typhon/base/names',
+              [names_listed/2, names_proposed/3]).
+:- use_module('../prolog/typhon/people/happenings', [short_name/2]).
+:- use_module(commands, [command/4]).
+:- use_module(library(lists), [member/2]).
+
+:- multifile
+    prolog:error_message//1,
+    prolog:message//1.
+
+%!  complain(+Error) is det.
+%
+%   Print Error, and what to try next.
+
+complain(Error) :-
+    (   Error = error(Formal, _),
+        hint(Formal, Hint)
+    ->  print_message(error, typhon_hint(Error, Hint))
+    ;   print_message(error, Error)
+    ).
+
+%   What to try next.
+
+hint(host_unreachable(Host), Hint) :-
+    format(atom(Hint), 'diagnose ~w tells why', [Host]).
+hint(connection_lost(Host), Hint) :-
+    format(atom(Hint), 'diagnose ~w tells why', [Host]).
+hint(existence_error(agent, _), 'agents --host ADDRESS tells who is there').
+hint(existence_error(host, _), 'hosts --host ADDRESS tells which there are').
+hint(domain_error(topology, _), 'network --help tells the shapes').
+hint(existence_error(source_sink, _), 'a file, or a term as agents(census)').
+
+prolog:message(typhon_hint(Error, Hint)) -->
+    '$messages':translate_message(Error),
+    [ ' (~w)'-[Hint] ].
+
+prolog:error_message(typhon_usage(Problem)) -->
+    usage(Problem).
+
+usage(unknown_command(Word, Commands)) -->
+    { names_proposed(Word, Commands, Meant),
+      names_listed(Commands, All)
+    },
+    [ 'no command ~w~w~w'-[Word, Meant, All] ].
+usage(unknown_option(Command, Option, Options)) -->
+    { names_proposed(Option, Options, Meant),
+      names_listed(Options, All)
+    },
+    [ '~w has no option --~w~w~w'-[Command, Option, Meant, All] ].
+usage(arguments(Command)) -->
+    { command(Command, Arguments, _, _) },
+    [ '~w takes ~w; see ~w --help'-[Command, Arguments, Command] ].
+usage(required(Command, Option)) -->
+    [ '~w needs --~w; see ~w --help'-[Command, Option, Command] ].
+usage(not_a_term(Text)) -->
+    [ 'not a Prolog term: ~w'-[Text] ].
+usage(not_in_log(Agent, Log)) -->
+    { log_events(Log, Events),
+      findall(Short,
+              ( member(event(_, _, Id, _), Events), short_name(Id, Short) ),
+              Names0),
+      sort(Names0, Names),
+      length(Names, Count)
+    },
+    [ 'nothing of an agent ~w in ~w'-[Agent, Log] ],
+    in_log(Names, Count).
+usage(empty_log(Log)) -->
+    [ 'no events of agents in ~w'-[Log] ].
+usage(not_an_id(Agent)) -->
+    [ 'not the id of an agent: ~w (with --host ADDRESS a name is enough)'-
+      [Agent] ].
+usage(no_agent(Name, Host)) -->
+    [ 'no agent ~w in the network of ~w (agents --host ~w lists them)'-
+      [Name, Host, Host] ].
+usage(several_agents(Name, Ids)) -->
+    { atomic_list_concat(Ids, ' or ', Text) },
+    [ 'which ~w is meant: ~w?'-[Name, Text] ].
+usage(not_one_host(Name, [])) -->
+    !,
+    [ 'no host ~w in the network of the agent'-[Name] ].
+usage(not_one_host(Name, Addresses)) -->
+    { atomic_list_concat(Addresses, ' or ', Text) },
+    [ 'which ~w is meant: ~w?'-[Name, Text] ].
+
+in_log(Names, Count) -->
+    { Count > 0,
+      Count =< 20,
+      !,
+      atomic_list_concat(Names, ', ', Text)
+    },
+    [ '; it knows ~w'-[Text] ].
+in_log(_, Count) -->
+    [ ', which knows ~D others'-[Count] ].
