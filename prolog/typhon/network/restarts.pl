@@ -161,8 +161,8 @@ later(Since, _-Time) :-
 
 restored(P, state(Network, _, Do)) :-
     (   catch(restore(Do, P), Ball, not_restored(Ball))
-    ->  present(Network, P),
-        print_message(informational, typhon(carrier_back(Network, P)))
+    ->  print_message(informational, typhon(carrier_back(Network, P))),
+        present(Network, P)
     ;   ignore(call(Do, kill(P)))
     ).
 

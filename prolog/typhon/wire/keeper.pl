@@ -31,7 +31,7 @@ take a while is done by a thread in the background.
               [route_key/2, session/2, session_adopting/2, session_key/2]).
 :- use_module(threads, [in_background/2, wire_thread_join/1]).
 :- use_module(transport, [session_up/1]).
-:- use_module(unsent, [unsent_fail/1]).
+:- use_module(unsent, [unsent_again/2, unsent_fail/1]).
 :- use_module(waiters, [waiter_tell/2]).
 
 :- setting(resting, positive_integer, 1000,
@@ -184,4 +184,5 @@ part(Session) :-
     sig_atomic(( session_adopting(Session,
                                   ( session_retire(Session),
                                     session_close(Session, Unsent) )),
+                 unsent_again(Session, Unsent),
                  requests_lost(Session, Unsent) )).

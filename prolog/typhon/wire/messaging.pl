@@ -24,11 +24,11 @@ block it, unless it is in a hook of the endpoint.
 :- use_module(outbox, [session_send_with/2]).
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
-              [ request_answer/2, request_reply/2, request_reply_later/2,
+              [ request_reply/2, request_reply_later/2,
                 request_send/4, take_post/3 ]).
 :- use_module(session, [route/2]).
 :- use_module(transport, [route_up/2]).
-:- use_module(unsent, [unsent/1, unsent_request/4]).
+:- use_module(unsent, [unsent/1, unsent_closed/4, unsent_request/4]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).
@@ -124,7 +124,7 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
     !,
     catch(request_send(Session, Kind, Term, OnAnswer),
           error(session_closed, _),
-          request_answer(unreachable, OnAnswer)).
+          unsent_closed(Address, Kind, Term, OnAnswer)).
 endpoint_request(Address, Kind, Term, OnAnswer) :-
     check_running,
     mobile_term(Term),

@@ -5,6 +5,7 @@
             request_answer/2,           % +Result, :OnAnswer
             request_forget/1,           % :OnAnswer
             requests_lost/2,            % +Session, +Unsent
+            request_take/3,             % +Session, +Id, -OnAnswer
             session_unfinished/1,       % +Session
             dispatch/2,                 % +Session, +Frame
             dispatch_all/2,             % +Session, +Frames
@@ -108,6 +109,15 @@ requests_lost(Session, Unsent) :-
     forall(member(request(Id, _, _), Unsent),
            conclude(unreachable, Id, Key)),
     forall(open_request(Id, Key, _), conclude(lost, Id, Key)).
+
+%!  request_take(+Session, +Id, -OnAnswer) is semidet.
+%
+%   No answer to request Id of Session is awaited any more.
+
+request_take(Session, Id, OnAnswer) :-
+    session_key(Session, Key),
+    retract(open_request(Id, Key, OnAnswer)),
+    !.
 
 %   Only who was asked can answer.
 

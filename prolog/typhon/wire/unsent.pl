@@ -2,6 +2,8 @@
           [ unsent_request/4,           % +Address, +Kind, +Term, :OnAnswer
             unsent/1,                   % ?Address
             unsent_send/2,              % +Address, +Session
+            unsent_again/2,             % +Session, +Unsent
+            unsent_closed/4,            % +Address, +Kind, +Term, :OnAnswer
             unsent_fail/1,              % ?Address
             unsent_forget/1             % :OnAnswer
           ]).
@@ -17,11 +19,14 @@ for an address, nothing of the same thread may overtake it. Whoever removes
 a request answers for it.
 */
 
-:- use_module(request, [request_answer/2, request_send/4]).
+:- use_module(contacts, [contact_expected/1]).
+:- use_module(request, [request_answer/2, request_send/4, request_take/3]).
+:- use_module(session, [session_peer/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 
 :- meta_predicate
     unsent_request(+, +, +, 1),
+    unsent_closed(+, +, +, 1),
     unsent_forget(1).
 
 :- dynamic
@@ -55,9 +60,11 @@ unsent(Address) :-
 unsent_send(Address, Session) :-
     oldest(Address, Number, Row),
     !,
-    send(Row, Session),
-    retractall(unsent(Address, Number, _, _, _)),
-    unsent_send(Address, Session).
+    (   send(Row, Session)
+    ->  retractall(unsent(Address, Number, _, _, _)),
+        unsent_send(Address, Session)
+    ;   ignore(keeper_tell(requests(Address)))
+    ).
 unsent_send(_, _).
 
 oldest(Address, Number, Row) :-
@@ -65,16 +72,43 @@ oldest(Address, Number, Row) :-
     call(Row),
     !.
 
-send(unsent(_, _, Kind, Term, OnAnswer), Session) :-
+send(unsent(Address, _, Kind, Term, OnAnswer), Session) :-
     catch(request_send(Session, Kind, Term, OnAnswer),
           error(Formal, Context),
-          ( report(Formal, Context),
-            request_answer(unreachable, OnAnswer) )).
+          not_sent(Formal, Context, Address, OnAnswer)).
 
-report(session_closed, _) :-
-    !.
-report(Formal, Context) :-
-    print_message(error, error(Formal, Context)).
+%   not_sent(+Formal, +Context, +Address, +OnAnswer) fails if it is to be asked
+%   of who comes after.
+
+not_sent(session_closed, _, Address, OnAnswer) :-
+    !,
+    \+ contact_expected(Address),
+    request_answer(unreachable, OnAnswer).
+not_sent(Formal, Context, _, OnAnswer) :-
+    print_message(error, error(Formal, Context)),
+    request_answer(unreachable, OnAnswer).
+
+%!  unsent_closed(+Address, +Kind, +Term, :OnAnswer) is det.
+%!  unsent_again(+Session, +Unsent) is det.
+%
+%   The peer is gone for good, and was not asked this; nor what is among the
+%   frames Unsent.  If it is known that somebody will soon be where it was, that
+%   waits for him.
+
+unsent_closed(Address, Kind, Term, OnAnswer) :-
+    (   contact_expected(Address)
+    ->  unsent_request(Address, Kind, Term, OnAnswer)
+    ;   request_answer(unreachable, OnAnswer)
+    ).
+
+unsent_again(Session, Unsent) :-
+    session_peer(Session, _, Address),
+    contact_expected(Address),
+    !,
+    forall(( member(request(Id, Kind, Term), Unsent),
+             request_take(Session, Id, OnAnswer) ),
+           unsent_request(Address, Kind, Term, OnAnswer)).
+unsent_again(_, _).
 
 %!  unsent_fail(?Address) is det.
 %
