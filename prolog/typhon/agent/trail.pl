@@ -28,8 +28,8 @@ An event is
   - received(At, What), or received(At) if What is what was handed on
   - entered(Result)
 
-What is what(Hash, Hops, State, Goals): Hash is that of the program, State and
-Goals are hashes. The id of the agent is signed, too. A host is accounted for if
+What is the hash of what the agent is: its program, the number of its hops, its
+state and its goals. The id of the agent is signed, too. A host is accounted for if
 what the next one received is what it handed on, to that address. What an agent
 did while it stood on a host is the word of that host; and who was visited
 twice can cut out what lies between.
@@ -90,9 +90,8 @@ no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
 
 event(Event0, of(_, _, Hash, Hops), Clauses, Goals, Event) :-
     Event0 =.. [Name, Where],
-    sum(Clauses, State),
-    sum(Goals, Doing),
-    Event =.. [Name, Where, what(Hash, Hops, State, Doing)].
+    sum(what(Hash, Hops, Clauses, Goals), What),
+    Event =.. [Name, Where, What].
 
 %   The same wherever variables have other names.
 

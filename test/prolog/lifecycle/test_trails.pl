@@ -127,7 +127,7 @@ forged(Links, Forged, unaccounted(alpha)) :-         % it is taken away
     append(Before, [_, Link], Links),
     append(Before, [Link], Forged).
 forged(Links, Forged, unaccounted(alpha)) :-         % beta has seen another state
-    changed(1, received(At), received(At, what(h, 1, s, g)), Links, Forged).
+    changed(1, received(At), received(At, another), Links, Forged).
 forged(Links, Forged, since(3)) :-      % what was before beta is gone
     append(Forged, [_], Links).
 forged(Links, Forged, unaccounted(nobody)) :-
