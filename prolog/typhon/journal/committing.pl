@@ -7,7 +7,7 @@
             commit/0,
             commit_soon/0
           ]).
-:- use_module(library(lists), [append/3, member/2, reverse/2]).
+:- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module('../base/output', [output_own/0]).
@@ -56,12 +56,20 @@ again_seconds(1).
 %   can be.  Fails if it had not begun.
 
 committing_begin(Sync) :-
+    on_signal(xfsz, _, typhon_committing:file_too_long),
     message_queue_create(Entries),
     message_queue_create(Wake),
     assertz(queue(Entries, Wake, Sync)),
     set_flag(typhon_journal_awake, 0),
     thread_create(commit_when_told(Wake), Thread, [alias(typhon_journal)]),
     assertz(committer(Thread)).
+
+%   Where a file may not get longer that is an error, as a disk that is full: no
+%   reason to break off what a thread does.
+
+:- public file_too_long/1.
+
+file_too_long(_).
 
 committing_end :-
     retract(committer(Thread)),

@@ -54,7 +54,12 @@ attacked(Nodes, Options, Wrong) :-
     war(Options),
     all_end(People, Deadline, Ends),
     peace,
-    findall(W, wrong(People, Ends, Hosts, Each, Deadline, W), Wrong).
+    findall(W, wrong(People, Ends, Hosts, Each, Deadline, W), Wrong),
+    (   Wrong == []
+    ->  true
+    ;   nodes_said(Nodes, Lines),
+        forall(member(Line, Lines), format(user_error, '~w~n', [Line]))
+    ).
 
                 /*******************************
                 *             WORK             *

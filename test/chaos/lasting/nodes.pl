@@ -1,6 +1,7 @@
 :- module(lasting_nodes,
           [ with_nodes/4,               % +Options, -Nodes, :Goal, -Told
             node_host/2,                % ?Node, ?Host
+            nodes_said/2,               % +Nodes, -Lines
             war/1,                      % +Options
             peace/0
           ]).
@@ -24,7 +25,7 @@ war; the rest is for one thread.
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(random), [random/3, random_between/3, random_member/2]).
-:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
 :- use_module('../../lib/common', [free_port/1]).
 
 :- meta_predicate with_nodes(+, -, 0, -).
@@ -70,6 +71,21 @@ node(Options, Number, node(Name, Port, Journal, Sync, Swipl)) :-
     free_port(Port),
     directory_file_path(Dir, Name, Journal).
 
+%!  nodes_said(+Nodes, -Lines:list(string)) is det.
+%
+%   What the processes have printed.
+
+nodes_said(Nodes, Lines) :-
+    findall(Line,
+            ( member(node(Name, _, Journal, _, _), Nodes),
+              atom_concat(Journal, '.err', File),
+              exists_file(File),
+              read_file_to_string(File, Text, []),
+              split_string(Text, "\n", "", Texts),
+              member(One, Texts),
+              format(string(Line), '~w: ~w', [Name, One]) ),
+            Lines).
+
 %!  node_host(?Node, ?Host) is det.
 
 node_host(node(Name, Port, _, _, _), Host) :-
@@ -105,17 +121,23 @@ watch_over(Node) :-
 
 keep(Node, Asker) :-
     Node = node(Name, _, Journal, _, _),
-    start(Node, Pid, In, Out),
+    atom_concat(Journal, '.err', Said),
+    start(Node, Pid, In, Out, Err),
     read_line_to_string(Out, Line),
     (   Line == "ready",
         nonvar(Asker)
     ->  thread_send_message(Asker, ready(Node))
     ;   true
     ),
+    setup_call_cleanup(
+        open(Said, append, Copy),
+        copy_stream_data(Err, Copy),    % until it ends
+        close(Copy)),
     process_wait(Pid, Status),
     retractall(child(Name, _, _)),
     close(In, [force(true)]),
     close(Out, [force(true)]),
+    close(Err, [force(true)]),
     (   calm
     ->  true
     ;   died(Status),
@@ -132,13 +154,13 @@ died(Status) :-
 
 %   Who may write no more to a file is told so, and not killed.
 
-start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out) :-
+start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
     node_file(File),
     random_between(1, 1000000, Seed),
     process_create(path(sh),
                    [ '-c', 'trap "" XFSZ; exec "$@"', sh, Swipl, File, '--',
                      Name, Port, Dir, Sync, Seed ],
-                   [ stdin(pipe(In)), stdout(pipe(Out)), stderr(null),
+                   [ stdin(pipe(In)), stdout(pipe(Out)), stderr(pipe(Err)),
                      process(Pid) ]),
     with_mutex(lasting_orders,
                ( orders(Orders),
@@ -157,8 +179,8 @@ told(In, Term) :-
 %!  war(+Options) is det.
 %!  peace is det.
 %
-%   Options: crash(P), power(P), and kill(Seconds) between what happens from
-%   outside.
+%   Options: crash(P), power(P), kill(Seconds) between what happens from
+%   outside, and faults(List): this.
 
 war(Options) :-
     option(crash(P), Options, 0.001),
@@ -167,7 +189,9 @@ war(Options) :-
     tell_all([dies(P), power(W)]),
     (   Seconds == inf
     ->  true
-    ;   thread_create(make_war(Seconds), Warrior),
+    ;   option(faults(Faults), Options,
+               [kill, kill, kill_all, stop, cut, full]),
+        thread_create(make_war(Seconds, Faults), Warrior),
         assertz(warrior(Warrior))
     ).
 
@@ -186,18 +210,17 @@ tell_all(Orders) :-
                  forall(( child(_, _, In), member(Order, Orders) ),
                         told(In, Order)) )).
 
-make_war(Seconds) :-
+make_war(Seconds, Faults) :-
     Longest is 2*Seconds,
     random(0.0, Longest, Pause),
     (   peace_within(Pause)
     ->  true
     ;   findall(Pid-In, child(_, Pid, In), Children),
         ignore(( random_member(Child, Children),
-                 random_member(What,
-                               [kill, kill, kill_all, stop, cut, full]),
+                 random_member(What, Faults),
                  count(What),
                  happens(What, Child) )),
-        make_war(Seconds)
+        make_war(Seconds, Faults)
     ).
 
 peace_within(Seconds) :-

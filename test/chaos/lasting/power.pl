@@ -15,7 +15,6 @@ new also neither.  How long it is then is uncertain, too.
 :- use_module(library(filesex),
               [ copy_file/2, delete_directory_and_contents/1,
                 directory_file_path/3, make_directory_path/1 ]).
-:- use_module(library(lists), [member/2]).
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 

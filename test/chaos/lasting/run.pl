@@ -4,7 +4,8 @@
 
     swipl test/chaos/lasting/run.pl -- [--seed N] [--seconds N]
         [--processes N] [--agents N] [--hops N] [--crash P] [--power P]
-        [--kill SECONDS] [--sync normal|full] [--limit SECONDS]
+        [--kill SECONDS] [--faults '[kill,kill_all,stop,cut,full]']
+        [--sync normal|full] [--limit SECONDS]
 
 Round after round until so many seconds are over, each with the next seed,
 with sync(normal) and sync(full) in turn if none is given.  The exit status is
@@ -33,6 +34,7 @@ opt_type(hops,      hops,      integer).
 opt_type(crash,     crash,     number).
 opt_type(power,     power,     number).
 opt_type(kill,      kill,      number).
+opt_type(faults,    faults,    term).
 opt_type(sync,      sync,      oneof([normal, full])).
 
 main(Argv) :-

@@ -6,7 +6,7 @@
 :- use_module('../../lib/authority').
 :- use_module('../../lib/peers').
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 
