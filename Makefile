@@ -61,8 +61,10 @@ thesis-real: tools      ## one case of each chapter, over sockets as well
 test: tools             ## install what is missing, run every test suite
 	@$(SWIPL) test/run.pl
 
-chaos: tools            ## attack a network of processes; SECONDS=600, SEED=1
+chaos: tools            ## attack networks, and journals; SECONDS=600, SEED=1
 	@$(SWIPL) test/chaos/run.pl -- --seconds $(SECONDS) --seed $(SEED)
+	@$(SWIPL) test/chaos/lasting/run.pl -- --seconds $(SECONDS) \
+	    --seed $(SEED)
 
 # Who installs the pack only wants to know whether it loads.
 check:                  ## a quick look for mistakes, offline

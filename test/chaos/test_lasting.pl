@@ -6,17 +6,21 @@
 
 :- begin_tests(lasting).
 
-%   A few seconds of what `swipl test/chaos/lasting/run.pl` does for long.
+%   A few seconds of what `make chaos` does for long.
 
 test('processes with journals die at their steps: nobody is lost or doubled',
      Wrong == []) :-
-    with_tmp_dir(attacked(Wrong)).
+    with_tmp_dir(attacked([ processes(2), agents(20), hops(200),
+                            crash(0.0002), kill(3) ], Wrong)).
+test('the power fails: what was answered is not lost', Wrong == []) :-
+    with_tmp_dir(attacked([ processes(2), agents(10), hops(40), sync(full),
+                            crash(0), power(0.04) ], Wrong)).
 
-attacked(Wrong, Dir) :-
+attacked(Options, Wrong, Dir) :-
     random_between(1, 1000000, Seed),
     format('% seed ~d~n', [Seed]),
-    lasting([ dir(Dir), processes(2), agents(4), hops(40), crash(0.004),
-              seed(Seed), seconds(90) ], report(Facts, Wrong)),
+    lasting([dir(Dir), seed(Seed), seconds(120)|Options],
+            report(Facts, Wrong)),
     format('% ~p~n', [Facts]).
 
 :- end_tests(lasting).

@@ -1,5 +1,6 @@
 :- module(typhon_host_log,
           [ host_log/3,                 % +Host, +Agent, +What
+            host_log_event/4,           % +Host, +Agent, +What, -Post
             host_logs/1                 % +Host
           ]).
 :- use_module('../wire', [endpoint_post/3]).
@@ -33,19 +34,25 @@ typhon_events:told(log, Host, Agent, What) :-
     host_log(Host, Agent, Public).
 
 %!  host_log(+Host, +Agent, +What) is det.
+%!  host_log_event(+Host, +Agent, +What, -Post) is semidet.
 %!  host_logs(+Host) is semidet.
 %
-%   Send an event to the log server of Host, if it has one; whether it has.
+%   Send an event to the log server of Host, if it has one; what is to be
+%   posted there, Endpoint-Event; whether it has one.
 
 host_log(Host, Agent, What) :-
-    log_server(Host, Log, _),
+    host_log_event(Host, Agent, What, Endpoint-Event),
     !,
-    host(Host, Address, _),
-    address_parts(Log, _, Endpoint),
-    catch(endpoint_post(Endpoint, log, event(Log, Address, Agent, What)),
+    catch(endpoint_post(Endpoint, log, Event),
           error(Formal, Context),
           print_message(warning, error(Formal, Context))).
 host_log(_, _, _).
+
+host_log_event(Host, Agent, What, Endpoint-event(Log, Address, Agent, What)) :-
+    log_server(Host, Log, _),
+    !,
+    host(Host, Address, _),
+    address_parts(Log, _, Endpoint).
 
 host_logs(Host) :-
     log_server(Host, _, _),

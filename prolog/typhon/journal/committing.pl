@@ -52,10 +52,11 @@ again_seconds(1).
 %!  committing_begin is det.
 %!  committing_end is semidet.
 %
-%   The store is open; all is committed, as far as it
-%   can be.  Fails if it had not begun.
+%   The store is open; all is committed, as far as it can be.  Fails if it had
+%   not begun.
 
 committing_begin :-
+    on_signal(xfsz, _, typhon_committing:file_too_long),
     store_sync(Sync),
     message_queue_create(Entries),
     message_queue_create(Wake),
@@ -63,6 +64,13 @@ committing_begin :-
     set_flag(typhon_journal_awake, 0),
     thread_create(commit_when_told(Wake), Thread, [alias(typhon_journal)]),
     assertz(committer(Thread)).
+
+%   Where a file may not get longer that is an error, as a disk that is full: no
+%   reason to break off what a thread does.
+
+:- public file_too_long/1.
+
+file_too_long(_).
 
 committing_end :-
     retract(committer(Thread)),

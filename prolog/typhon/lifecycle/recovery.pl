@@ -55,6 +55,7 @@ kind(agent, any).
 kind(mail, numbers).
 kind(wait, numbers).
 kind(letter, numbers).
+kind(logged, numbers).
 kind(code, any).
 
 %   What this process knew before, with another journal or none, is another

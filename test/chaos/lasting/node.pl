@@ -2,44 +2,125 @@
 
 /** <module> A process with a journal, which dies at its steps
 
-    swipl node.pl -- NAME PORT DIR SYNC SEED PROBABILITY
+    swipl node.pl -- NAME PORT DIR SYNC SEED
 
-Starts the host NAME; prints `ready`; ends with its standard input.  At each
-step of the journal, see typhon_crash, it kills itself with PROBABILITY.
+Starts the host NAME; prints `ready`; ends with its standard input, from
+which it takes terms:
+
+  - dies(P): at each step of the journal, see typhon_crash, it kills itself
+    with probability P from now on
+  - power(P): after each commit it sees to it that the power seems to fail
+    during the next one, with probability P
+  - cut: its connections break
+
+When the power is about to fail the files of the journal, in which all is
+synced now, are copied; then it dies while it commits once more.  It says
+nothing to anybody meanwhile.  See power.pl for what comes then.
 
 *Threading*: the main thread; steps in any.
 */
 
 :- use_module('../../../prolog/typhon').
+:- use_module(power, [power_copy/1]).
+:- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(process), [process_kill/2]).
+:- use_module(library(random), [random_between/3]).
 
 :- initialization(main, main).
 
-:- dynamic probability/1.
+:- dynamic
+    probability/2,                      % Of, P
+    journal/1,                          % Dir
+    fails/0.                            % the power does
 
 :- multifile typhon_crash:reached/1.
 
 typhon_crash:reached(Point) :-
-    probability(P),
-    P > 0,
-    random_float < P,
+    \+ fails,
+    happens(dies),
+    !,
     format(user_error, 'dies at ~w~n', [Point]),
+    die.
+typhon_crash:reached(after_commit) :-
+    fails,
+    !,
+    wait_for_death.
+typhon_crash:reached(after_commit) :-
+    happens(power),
+    !,
+    journal(Dir),
+    power_copy(Dir),
+    assertz(fails).
+typhon_crash:reached(in_commit) :-
+    fails,
+    !,
+    thread_create(die_soon, _, [detached(true)]).
+
+happens(What) :-
+    probability(What, P),
+    P > 0,
+    random_float < P.
+
+die :-
     current_prolog_flag(pid, Pid),
     process_kill(Pid, kill),
-    sleep(1).
+    wait_for_death.
+
+wait_for_death :-
+    thread_self(Me),
+    thread_get_message(Me, '$never').
+
+%   While the next commit writes, syncs, or has just done so.
+
+die_soon :-
+    random_between(0, 30000, Steps),
+    numlist(0, Steps, List),
+    sum_list(List, _),
+    die.
 
 :- public main/1.
 
-main([Name, Port0, Dir, Sync, Seed0, P0]) :-
+main([Name, Port0, Dir, Sync, Seed0]) :-
     atom_number(Port0, Port),
     atom_number(Seed0, Seed),
-    atom_number(P0, P),
     set_random(seed(Seed)),
     set_prolog_flag(verbose, silent),
-    assertz(probability(P)),
+    assertz(journal(Dir)),
+    obey_first,
     host_start(Name, [journal(Dir), sync(Sync), port(Port)]),
     format('ready~n'),
     flush_output,
-    read_term(_, []),
-    halt.
+    repeat,
+    read_term(Order, []),
+    (   Order == end_of_file
+    ->  !,
+        halt
+    ;   obey(Order),
+        fail
+    ).
+
+%   It may die before it is there again.
+
+obey_first :-
+    read_term(orders(Orders), []),
+    forall(member(Order, Orders), obey(Order)).
+
+obey(dies(P)) :-
+    now(dies, P).
+obey(power(P)) :-
+    now(power, P).
+obey(cut) :-
+    forall(( typhon_transport:transport(Key, Thread, _),
+             typhon_session:session(Key, Session) ),
+           typhon_session:session_locked(
+               Session, typhon_transport:transport_broken(Key, Thread))).
+
+now(What, P) :-
+    assertz(probability(What, P)),
+    (   clause(probability(What, _), true, First),
+        clause(probability(What, _), true, Last),
+        First \== Last
+    ->  erase(First)
+    ;   true
+    ).

@@ -182,8 +182,10 @@ killed(Dir, Before, After) :-
 node(Dir, Goal) :-
     project_file('test/chaos/lasting/node.pl', File),
     b_getval(journal_port, Port),
-    with_swipl([File, '--', alpha, Port, Dir, normal, 1, 0], Pid, _, Out,
-               ( read_line_to_string(Out, "ready"),
+    with_swipl([File, '--', alpha, Port, Dir, normal, 1], Pid, In, Out,
+               ( format(In, 'orders([]).~n', []),
+                 flush_output(In),
+                 read_line_to_string(Out, "ready"),
                  call(Goal),
                  process_kill(Pid, kill),
                  process_wait(Pid, _) )).
@@ -218,6 +220,44 @@ half_a_step(Dir) :-
               remote(Host, findall(F, sense(F), [changed])),
               got(K, [begun]) )),
         host_stop(driver)).
+
+%   It is killed in the middle of a step in which it has logged something.
+
+test('what an agent logs is in the log once, with the step in which it did') :-
+    with_tmp_dir(logs).
+
+logs(Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    atom_concat(Dir, '/go', Go),
+    atom_concat(Dir, '/log', Log),
+    atom_concat(Dir, '/alpha', Journal),
+    setup_call_cleanup(
+        log_server_start([file(Log)], Server),
+        killed(Journal,
+               ( remote(Host, typhon:host_change(alpha, log(Server))),
+                 logger(Go, Program),
+                 agent_create(Program, A, [host(Host)]),
+                 wait_until(logged(Log, A, [before]), 5),
+                 setup_call_cleanup(open(Go, write, Out), true, close(Out)) ),
+               ( wait_until(logged(Log, A, [_, _, _, after]), 10),
+                 logged(Log, A, [before, step(1), step(2), after]) )),
+        log_server_stop(Server)).
+
+logger(Go, clauses([ (:- agent(logs, [])),
+                     (main :- log(before), sleep(0), log(step(1)), log(step(2)),
+                              wait, sleep(0), log(after)),
+                     (wait :- exists_file(Go), !),
+                     (wait :- thread_self(T), thread_get_message(T, never)) ])).
+
+logged(File, Agent, Logged) :-
+    exists_file(File),
+    log_events(File, Events),
+    findall(What,
+            ( member(event(_, _, Agent, What), Events),
+              memberchk(What, [before, step(_), after]) ),
+            Logged).
 
 test('a host that has peers rests, and is there again') :-
     with_tmp_dir(rests).

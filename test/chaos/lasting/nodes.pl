@@ -1,0 +1,257 @@
+:- module(lasting_nodes,
+          [ with_nodes/4,               % +Options, -Nodes, :Goal, -Told
+            node_host/2,                % ?Node, ?Host
+            nodes_said/2,               % +Nodes, -Lines
+            war/1,                      % +Options
+            peace/0
+          ]).
+
+/** <module> Processes that keep journals, and what happens to them
+
+Each is started again when it dies.  While there is war they kill themselves
+at the steps of the journal, the power fails, and something happens to one of
+them now and then: it is killed, or all are; it stands still for a while; its
+connections break; its disk is full.
+
+*Threading*: each process is looked after by a thread, and another one makes
+war; the rest is for one thread.
+*/
+
+:- use_module(power, [power_cut/1]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(random), [random/3, random_between/3, random_member/2]).
+:- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
+:- use_module('../../lib/common', [free_port/1]).
+
+:- meta_predicate with_nodes(+, -, 0, -).
+
+:- prolog_load_context(directory, Dir),
+   directory_file_path(Dir, 'node.pl', File),
+   assertz(node_file(File)).
+
+:- dynamic
+    node_file/1,
+    child/3,                            % Name, Pid, In
+    orders/1,                           % what a child is told first
+    calm/0,                             % who ends is not started again
+    guard/1,                            % Thread
+    warrior/1,                          % Thread
+    happened/2.                         % What, Times
+
+%!  with_nodes(+Options, -Nodes, :Goal, -Told) is semidet.
+%
+%   Call Goal while there are processes as in Options; Told are
+%   What-Times for all that has happened to them.
+
+with_nodes(Options, Nodes, Goal, Told) :-
+    option(processes(Count), Options, 3),
+    numlist(1, Count, Numbers),
+    maplist(node(Options), Numbers, Nodes),
+    retractall(calm),
+    retractall(happened(_, _)),
+    retractall(orders(_)),
+    assertz(orders([])),
+    setup_call_cleanup(
+        maplist(watch_over, Nodes),
+        once(Goal),
+        end_all),
+    findall(What-Times, happened(What, Times), Told).
+
+node(Options, Number, node(Name, Port, Journal, Sync, Swipl)) :-
+    option(dir(Dir), Options, _),
+    option(sync(Sync), Options, normal),
+    current_prolog_flag(executable, This),
+    option(swipl(Swipl), Options, This),
+    atom_concat(h, Number, Name),
+    free_port(Port),
+    directory_file_path(Dir, Name, Journal).
+
+%!  nodes_said(+Nodes, -Lines:list(string)) is det.
+%
+%   What the processes have printed.
+
+nodes_said(Nodes, Lines) :-
+    findall(Line,
+            ( member(node(Name, _, Journal, _, _), Nodes),
+              atom_concat(Journal, '.err', File),
+              exists_file(File),
+              read_file_to_string(File, Text, []),
+              split_string(Text, "\n", "", Texts),
+              member(One, Texts),
+              format(string(Line), '~w: ~w', [Name, One]) ),
+            Lines).
+
+%!  node_host(?Node, ?Host) is det.
+
+node_host(node(Name, Port, _, _, _), Host) :-
+    format(atom(Host), '~w@127.0.0.1:~d', [Name, Port]).
+
+end_all :-
+    peace,
+    assertz(calm),
+    forall(child(_, Pid, _), signalled(Pid, kill)),
+    forall(retract(guard(Guard)), thread_join(Guard, _)).
+
+%   It may have died just now.
+
+signalled(Pid, Signal) :-
+    catch(process_kill(Pid, Signal), error(existence_error(process, _), _),
+          true).
+
+count(What) :-
+    with_mutex(lasting,
+               ( ( retract(happened(What, N0)) -> true ; N0 = 0 ),
+                 N is N0+1,
+                 assertz(happened(What, N)) )).
+
+                /*******************************
+                *           PROCESSES          *
+                *******************************/
+
+watch_over(Node) :-
+    thread_self(Me),
+    thread_create(keep(Node, Me), Guard),
+    assertz(guard(Guard)),
+    thread_get_message(ready(Node)).
+
+keep(Node, Asker) :-
+    Node = node(Name, _, Journal, _, _),
+    atom_concat(Journal, '.err', Said),
+    start(Node, Pid, In, Out, Err),
+    read_line_to_string(Out, Line),
+    (   Line == "ready",
+        nonvar(Asker)
+    ->  thread_send_message(Asker, ready(Node))
+    ;   true
+    ),
+    setup_call_cleanup(
+        open(Said, append, Copy),
+        copy_stream_data(Err, Copy),    % until it ends
+        close(Copy)),
+    process_wait(Pid, Status),
+    retractall(child(Name, _, _)),
+    close(In, [force(true)]),
+    close(Out, [force(true)]),
+    close(Err, [force(true)]),
+    (   calm
+    ->  true
+    ;   died(Status),
+        ( power_cut(Journal) -> count(power_cut) ; true ),
+        keep(Node, _)
+    ).
+
+died(killed(9)) :-
+    !,
+    count(death).
+died(Status) :-
+    format(user_error, 'ended by itself: ~p~n', [Status]),
+    count(ended(Status)).
+
+%   Who may write no more to a file is told so, and not killed.
+
+start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
+    node_file(File),
+    random_between(1, 1000000, Seed),
+    process_create(path(sh),
+                   [ '-c', 'trap "" XFSZ; exec "$@"', sh, Swipl, File, '--',
+                     Name, Port, Dir, Sync, Seed ],
+                   [ stdin(pipe(In)), stdout(pipe(Out)), stderr(pipe(Err)),
+                     process(Pid) ]),
+    with_mutex(lasting_orders,
+               ( orders(Orders),
+                 assertz(child(Name, Pid, In)),
+                 told(In, orders(Orders)) )).
+
+told(In, Term) :-
+    catch(( format(In, '~q.~n', [Term]), flush_output(In) ),
+          error(io_error(_, _), _),
+          true).                        % it died just now
+
+                /*******************************
+                *              WAR             *
+                *******************************/
+
+%!  war(+Options) is det.
+%!  peace is det.
+%
+%   Options: crash(P), power(P), kill(Seconds) between what happens from
+%   outside, and faults(List): this.
+
+war(Options) :-
+    option(crash(P), Options, 0.001),
+    option(power(W), Options, 0),
+    option(kill(Seconds), Options, inf),
+    tell_all([dies(P), power(W)]),
+    (   Seconds == inf
+    ->  true
+    ;   option(faults(Faults), Options,
+               [kill, kill, kill_all, stop, cut, full]),
+        thread_create(make_war(Seconds, Faults), Warrior),
+        assertz(warrior(Warrior))
+    ).
+
+peace :-
+    (   retract(warrior(Warrior))
+    ->  thread_send_message(Warrior, peace),
+        thread_join(Warrior, _)
+    ;   true
+    ),
+    tell_all([dies(0), power(0)]).
+
+tell_all(Orders) :-
+    with_mutex(lasting_orders,
+               ( retractall(orders(_)),
+                 assertz(orders(Orders)),
+                 forall(( child(_, _, In), member(Order, Orders) ),
+                        told(In, Order)) )).
+
+make_war(Seconds, Faults) :-
+    Longest is 2*Seconds,
+    random(0.0, Longest, Pause),
+    (   peace_within(Pause)
+    ->  true
+    ;   findall(Pid-In, child(_, Pid, In), Children),
+        ignore(( random_member(Child, Children),
+                 random_member(What, Faults),
+                 count(What),
+                 happens(What, Child) )),
+        make_war(Seconds, Faults)
+    ).
+
+peace_within(Seconds) :-
+    thread_self(Me),
+    thread_get_message(Me, peace, [timeout(Seconds)]).
+
+happens(kill, Pid-_) :-
+    signalled(Pid, kill).
+happens(kill_all, _) :-
+    forall(child(_, Pid, _), signalled(Pid, kill)).
+happens(stop, Pid-_) :-
+    signalled(Pid, stop),
+    for_a_while,
+    signalled(Pid, cont).
+happens(cut, _-In) :-
+    with_mutex(lasting_orders, told(In, cut)).
+happens(full, Pid-_) :-
+    longest_file(Pid, 1),
+    for_a_while,
+    longest_file(Pid, unlimited).
+
+for_a_while :-
+    random(0.1, 2.0, Seconds),
+    (   peace_within(Seconds)
+    ->  thread_self(Me),
+        thread_send_message(Me, peace)
+    ;   true
+    ).
+
+longest_file(Pid, Bytes) :-
+    format(atom(File), '--fsize=~w:unlimited', [Bytes]),
+    process_create(path(prlimit), ['--pid', Pid, File],
+                   [stderr(null), process(P)]),
+    process_wait(P, _).

@@ -1,0 +1,113 @@
+:- module(lasting_power,
+          [ power_copy/1,               % +Dir
+            power_cut/1                 % +Dir
+          ]).
+
+/** <module> The power fails while a journal is written
+
+Of a file that was synced once, and written since, a disk that loses power has
+in each of its sectors what was there or what was written; of those that are
+new also neither.  How long it is then is uncertain, too.
+
+*Threading*: any thread.
+*/
+
+:- use_module(library(filesex),
+              [ copy_file/2, delete_directory_and_contents/1,
+                directory_file_path/3, make_directory_path/1 ]).
+:- use_module(library(random), [random_between/3, random_member/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+sector(512).
+
+file('journal.db').
+file('journal.db-wal').
+
+copies(Dir, Copies) :-
+    atom_concat(Dir, '.synced', Copies).
+
+%!  power_copy(+Dir) is det.
+%
+%   The files of the journal Dir are synced: keep a copy.
+
+power_copy(Dir) :-
+    copies(Dir, Copies),
+    make_directory_path(Copies),
+    forall(( file(Name), directory_file_path(Dir, Name, File),
+             exists_file(File) ),
+           ( directory_file_path(Copies, Name, Copy),
+             copy_file(File, Copy) )),
+    directory_file_path(Copies, whole, Whole),
+    setup_call_cleanup(open(Whole, write, Out), true, close(Out)).
+
+%!  power_cut(+Dir) is semidet.
+%
+%   Make of the files in Dir, whose process is dead, what a power cut would
+%   have left.  Fails if there was none.
+
+power_cut(Dir) :-
+    copies(Dir, Copies),
+    directory_file_path(Copies, whole, Whole),
+    (   exists_file(Whole)
+    ->  forall(( file(Name), directory_file_path(Copies, Name, Copy),
+                 exists_file(Copy) ),
+               ( directory_file_path(Dir, Name, File),
+                 mix(Copy, File) )),
+        delete_directory_and_contents(Copies)
+    ;   exists_directory(Copies),       % it died while it copied
+        delete_directory_and_contents(Copies),
+        fail
+    ).
+
+mix(Copy, File) :-
+    read_file_to_string(Copy, Synced, [encoding(octet)]),
+    read_file_to_string(File, Written, [encoding(octet)]),
+    string_length(Synced, Least),
+    string_length(Written, Length),
+    random_member(Share, [0.0, 0.5, 0.9, 1.0]), % of what was written is there
+    most(Least, Length, Most),
+    sector(Sector),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(octet)]),
+        forall(between_by(0, Most, Sector, Start),
+               ( Size is min(Sector, Most-Start),
+                 put_sector(Start, Size, Synced-Least, Written-Length, Share,
+                            Out) )),
+        close(Out)).
+
+%   A file that was cut short since may be as long as before.
+
+most(Least, Length, Most) :-
+    (   Length > Least
+    ->  random_between(Least, Length, Most)
+    ;   Most = Least
+    ).
+
+between_by(From, To, Step, N) :-
+    Count is (To-From+Step-1)//Step-1,
+    between(0, Count, I),
+    N is From+I*Step.
+
+put_sector(Start, Size, Synced-Least, Written-Length, Share, Out) :-
+    (   Start+Size =< Length,
+        random_float < Share
+    ->  From = Written
+    ;   Start+Size =< Least
+    ->  From = Synced
+    ;   From = none
+    ),
+    put_bytes(From, Start, Size, Out).
+
+put_bytes(none, _, Size, Out) :-
+    !,
+    random_member(Garbage, [true, false]),
+    forall(between(1, Size, _),
+           ( ( Garbage == true -> random_between(0, 255, Byte) ; Byte = 0 ),
+             put_char_code(Out, Byte) )).
+put_bytes(Bytes, Start, Size, Out) :-
+    sub_string(Bytes, Start, Size, _, Part),
+    write(Out, Part).
+
+put_char_code(Out, Code) :-
+    char_code(Char, Code),
+    put_char(Out, Char).
