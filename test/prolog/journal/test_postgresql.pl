@@ -222,8 +222,11 @@ cut(Schema) :-
 :- meta_predicate killed(+, +, 0).
 
 killed(Url, Port, Goal) :-
-    project_file('test/chaos/lasting/node.pl', File),
-    with_swipl([File, '--', alpha, Port, Url, normal, 1, 0], Pid, _, Out,
+    project_file('prolog/typhon.pl', Library),
+    format(atom(Start), 'host_start(alpha, [journal(~q), port(~d)]), \c
+                         writeln(ready), flush_output, thread_get_message(x)',
+           [Url, Port]),
+    with_swipl(['-g', Start, Library], Pid, _, Out,
                ( read_line_to_string(Out, "ready"),
                  call(Goal),
                  process_kill(Pid, kill),
