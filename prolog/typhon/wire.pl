@@ -9,10 +9,11 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(wire/endpoint,
             [ endpoint_address/1, endpoint_listen/2, endpoint_listen_end/1,
-              endpoint_keys/1, endpoint_open/0, endpoint_process/1,
-              endpoint_proof/1, endpoint_start/3, endpoint_start/4,
-              endpoint_start_alone/1, endpoint_stop/0
+              endpoint_keys/1, endpoint_open/0, endpoint_proof/1,
+              endpoint_start/3, endpoint_start/4, endpoint_start_alone/1,
+              endpoint_stop/0
             ]).
+:- reexport(wire/own_id, [endpoint_process/1]).
 :- reexport('wire/messaging').
 :- reexport(wire/lending, [endpoint_afterwards/1]).
 :- reexport('wire/call').

@@ -8,8 +8,7 @@
             endpoint_listen_end/1,      % +Address
             endpoint_address/1,         % ?Address
             endpoint_keys/1,            % -Directory
-            endpoint_proof/1,           % -Proof
-            endpoint_process/1          % -Id
+            endpoint_proof/1            % -Proof
           ]).
 
 /** <module> The endpoint: one per process
@@ -42,18 +41,19 @@ that peer is read. They may post, request and reply.
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_setopt/2,
                 tcp_socket/1 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../journal',
-              [ journal_barrier/0, journal_item/5, journal_opened/1,
-                note_put/4 ]).
+:- use_module('../journal', [journal_barrier/0, journal_opened/1]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
-:- use_module(auth, [cookie/1, random_hex/2]).
+:- use_module(auth, [cookie/1]).
 :- use_module(hello, [hello/4]).
 :- use_module(keeper, [keep/1, keeper_unheard/1]).
 :- use_module(keeper_queue,
               [keeper_queue_close/1, keeper_queue_open/0, keeper_tell/1]).
 :- use_module(lending, [lending_anew/0]).
 :- use_module(outbox, [session_control/2]).
+:- use_module(own_id,
+              [ endpoint_process/1, own_id_note/1, own_place/4, own_start/1,
+                own_start_next/1 ]).
 :- use_module(peers, [peers_flush/2]).
 :- use_module(request, [requests_lost/2]).
 :- use_module(resumption, [session_close/2]).
@@ -84,9 +84,7 @@ that peer is read. They may post, request and reply.
            "Seconds endpoint_stop/0 waits for the last frames to arrive").
 
 :- dynamic
-    process/1,                          % Id
     closed/0,                           % nobody is let in yet
-    starts/1,                           % Count
     running/4,                          % Address, Socket, Acceptor, Keeper
     further/3.                          % Address, Socket, Acceptor
 
@@ -121,13 +119,14 @@ start(keys(Directory), Interface, Port, Address) :-
 
 start(Interface0, Port0, Address) :-
     cookie(_),
-    identity(Interface0, Port0, Interface1, Port),
+    own_place(Interface0, Port0, Interface1, Port),
+    until_opened,
     (   Interface1 == localhost
     ->  Interface = '127.0.0.1'
     ;   Interface = Interface1
     ),
     listen(Interface, Port, Address, Socket),
-    next_start(Start),
+    own_start_next(Start),
     our_hello(Start, Address, Me),
     keeper_queue_open,
     lending_anew,
@@ -137,33 +136,12 @@ start(Interface0, Port0, Address) :-
     debug(typhon(session), 'endpoint: starts at ~w, start ~w',
           [Address, Start]).
 
-%   identity(+Interface0, +Port0, -Interface, -Port): a process that has a
-%   journal is who it was when that was last open, and listens where it did.
-%   Others know it by the first letter of its id, see endpoint_lasting/1.
+%   With a journal nobody is let in before it was read.
 
-identity(Interface0, Port0, Interface, Port) :-
-    journal_opened(_),
-    !,
-    assertz(closed),
-    retractall(process(_)),
-    (   journal_item(endpoint, any, _, _,
-                     endpoint(Process, Start, Interface1, Port1))
-    ->  retractall(starts(_)),
-        assertz(starts(Start)),
-        ( Port0 =:= 0 -> Port = Port1 ; Port = Port0 ),
-        ( Interface0 == localhost -> Interface = Interface1
-        ; Interface = Interface0 )
-    ;   random_hex(8, New),
-        atom_concat(j, New, Process),
-        Port = Port0,
-        Interface = Interface0
-    ),
-    assertz(process(Process)).
-identity(Interface, Port, Interface, Port) :-
+until_opened :-
     retractall(closed),
-    (   process(Process),
-        sub_atom(Process, 0, _, _, j)
-    ->  retractall(process(_))
+    (   journal_opened(_)
+    ->  assertz(closed)
     ;   true
     ).
 
@@ -181,11 +159,7 @@ accept_open(Socket, Me) :-
 endpoint_open :-
     running(Address, _, Acceptor, _),
     !,
-    atomic_list_concat([Interface, PortText], :, Address),
-    atom_number(PortText, Port),
-    endpoint_process(Process),
-    starts(Start),
-    note_put(endpoint, '', 0, endpoint(Process, Start, Interface, Port)),
+    own_id_note(Address),
     journal_barrier,
     retractall(closed),
     thread_send_message(Acceptor, endpoint_opens),
@@ -239,14 +213,6 @@ our_hello(Start, Address, Me) :-
     endpoint_process(Process),
     hello(Process, Start, Address, Me).
 
-next_start(Start) :-
-    (   retract(starts(Start0))
-    ->  true
-    ;   Start0 = 0
-    ),
-    Start is Start0+1,
-    assertz(starts(Start)).
-
 %!  endpoint_listen(+Port, -Address) is det.
 %!  endpoint_listen_end(+Address) is det.
 %
@@ -265,7 +231,7 @@ listen_too(Port, Address) :-
     ;   existence_error(endpoint, running)
     ),
     atomic_list_concat([Interface, _], :, First),
-    starts(Start),
+    own_start(Start),
     our_hello(Start, First, Me),
     listen(Interface, Port, Address, Socket),
     wire_thread_create(accept_open(Socket, Me), acceptor-Port, Acceptor),
@@ -342,20 +308,3 @@ endpoint_keys(Directory) :-
 
 endpoint_proof(Proof) :-
     secure_proof(Proof).
-
-%!  endpoint_process(-Id) is det.
-%
-%   The random id of this process.
-
-endpoint_process(Id) :-
-    process(Id0),
-    !,
-    Id = Id0.
-endpoint_process(Id) :-
-    random_hex(8, New),
-    with_mutex(typhon_runtime,
-               (   process(_)
-               ->  true
-               ;   assertz(process(New))
-               )),
-    endpoint_process(Id).

@@ -4,7 +4,7 @@
 import { calmly, element } from './dom.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { pngBlob, saveButtons } from './saving.js';
-import { byName } from './store.js';
+import { byName } from './names.js';
 import { SvgPath, SvgPen } from './svg.js';
 import { timeText } from './ticks.js';
 

@@ -2,7 +2,7 @@
 
 import { button, element, renew } from './dom.js';
 import { unpressed } from './press.js';
-import { shortName } from './store.js';
+import { shortName } from './names.js';
 import { agentActions, hostActions } from './work.js';
 
 const CALM = 1000;              // ms between two looks, when something happens

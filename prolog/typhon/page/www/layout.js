@@ -5,7 +5,7 @@
 // out by force (d3-force), with the hosts of a process near each other, and
 // the processes of a machine.
 
-import { byName } from './store.js';
+import { byName } from './names.js';
 
 const EXPLAINED = 0.85;         // share of the links that a shape has
 const THERE = 0.4;              // share of the links of a shape that are there

@@ -2,7 +2,7 @@
 
 import { element, fitCanvas, inOrder } from './dom.js';
 import { markPath } from './palette.js';
-import { byName } from './store.js';
+import { byName } from './names.js';
 
 const MANY = 24;
 

@@ -2,7 +2,7 @@
 
 import { choice, element, fillChoice } from './dom.js';
 import { unpressed } from './press.js';
-import { byName, shortName } from './store.js';
+import { byName, shortName } from './names.js';
 import { Table } from './table.js';
 
 const number = n => n === null || n === undefined ? '' : n.toLocaleString('en');

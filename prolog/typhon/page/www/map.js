@@ -8,7 +8,7 @@
 import { arrange, Force, LAYOUTS, recognize } from './layout.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { cut, Scene } from './mapscene.js';
-import { byName, shortName } from './store.js';
+import { byName, shortName } from './names.js';
 import { button, choice, element, fillChoice, fitCanvas, onSize } from './dom.js';
 import { pngBlob, saveButtons } from './saving.js';
 import { SvgPen } from './svg.js';

@@ -1,7 +1,7 @@
 // What the map shows, drawn with any pen: a canvas on the screen, or SVG.
 
 import { markPath } from './palette.js';
-import { shortName } from './store.js';
+import { shortName } from './names.js';
 
 const GOLDEN = Math.PI * (3 - Math.sqrt(5));
 const DENSE = 2500;             // moving marks, above which links show flows

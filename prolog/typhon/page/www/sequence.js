@@ -4,7 +4,7 @@ import { button, calmly, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { pngBlob, saveButtons } from './saving.js';
-import { byName, shortName } from './store.js';
+import { byName, shortName } from './names.js';
 import { arrowHead } from './spacetime.js';
 import { story } from './story.js';
 import { SvgPen } from './svg.js';

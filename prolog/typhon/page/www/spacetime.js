@@ -5,7 +5,7 @@ import { button, calmly, choice, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { pngBlob, saveButtons } from './saving.js';
-import { byName, shortName } from './store.js';
+import { byName, shortName } from './names.js';
 import { story } from './story.js';
 import { SvgPen } from './svg.js';
 import { legend } from './legend.js';

@@ -5,7 +5,7 @@ import { editor } from './editor.js';
 import { dialog, field, quoted, readFile, saveFile, select, sure }
   from './forms.js';
 import { mechanismDialog } from './mechanisms.js';
-import { byName, shortName } from './store.js';
+import { byName, shortName } from './names.js';
 
 export const hostsThere = app => [...app.store.hosts.values()]
   .filter(host => host.state === 'running').map(host => host.id).sort(byName);
