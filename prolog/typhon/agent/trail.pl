@@ -29,10 +29,10 @@ An event is
   - entered(Result)
 
 What is the hash of what the agent is: its program, the number of its hops, its
-state and its goals. The id of the agent is signed, too. A host is accounted for if
-what the next one received is what it handed on, to that address. What an agent
-did while it stood on a host is the word of that host; and who was visited
-twice can cut out what lies between.
+state and its goals. The id of the agent is signed, too. A host is accounted
+for if what the next one received is what it handed on, to that address. What
+an agent did while it stood on a host is the word of that host; and who was
+visited twice can cut out what lies between.
 
 To sign costs more than all else. What was received is Pending, or `none`, and
 is signed with what comes next, on the same host; it is the word of that host
