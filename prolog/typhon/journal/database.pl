@@ -16,6 +16,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(postgresql).
+:- use_module(postgresql_url).
 :- use_module(sql, [sql_load/0]).
 :- use_module(sqlite).
 

@@ -12,9 +12,9 @@
               [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
                 endpoint_flush/2, endpoint_reply/2 ]).
 :- use_module('../host',
-              [ host/3, host_do/2, host_link/3, host_neighbours/2, host_property/2,
-                host_start/2, host_stop/1, host_unlink/2, hosts_back/1,
-                hosts_go_on/0, hosts_journal/2, hosts_rest/0,
+              [ host/3, host_do/2, host_link/3, host_neighbours/2,
+                host_property/2, host_start/2, host_stop/1, host_unlink/2,
+                hosts_back/1, hosts_go_on/0, hosts_journal/2, hosts_rest/0,
                 runtime_acquire/2, runtime_release/1 ]).
 :- use_module('../travel', [home_agents/1]).
 :- use_module(voice, [voice_begin/0, voice_end/0]).
@@ -32,8 +32,8 @@ journal, if it has one, is there again, one line is written:
 
     typhon_carrier <Interface>:<Port> <Pid>
 
-If that cannot be the line is `typhon_carrier_error <Formal>`, the Formal of
-an error term, and the process ends.
+If that cannot be the line is `typhon_carrier_error <Error>`, and the process
+ends.
 
 From then on orders come over the wire, as requests of kind `node`. The
 process stops in order, hosts first, then what is still to be sent, when
@@ -174,7 +174,8 @@ carrier_main :-
     on_signal(int, _, typhon_carrier:on_stop_signal),
     assertz(child),
     voice_begin,
-    catch(begin(Interface, Seconds, Options), error(Formal, _), cannot_begin(Formal)),
+    catch(begin(Interface, Seconds, Options), error(Formal, Context),
+          cannot_begin(Formal, Context)),
     endpoint_address(Endpoint),
     thread_create(watch_input, _, [alias(typhon_input), detached(true)]),
     current_prolog_flag(pid, Pid),
@@ -198,8 +199,14 @@ begin(Interface, Seconds, Options) :-
     ;   runtime_acquire(node, Runtime)
     ).
 
-cannot_begin(Formal) :-
-    format('typhon_carrier_error ~k~n', [Formal]),
+cannot_begin(Formal, Context) :-
+    (   subsumes_term(context(_, _), Context),
+        Context = context(_, Text),
+        atomic(Text)
+    ->  true
+    ;   true
+    ),
+    format('typhon_carrier_error ~k~n', [error(Formal, context(_, Text))]),
     flush_output,
     halt(1).
 

@@ -38,9 +38,8 @@ terminal stops the query of the person who sits there, not the network.
 
 *Threading*: one thread per child reads its output and waits for its end.
 It calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, Pid
-being that of the child on its machine, with failed(Tag, Formal) if it cannot
-become ready, Formal being that of the error, and with down(Tag, Status) when
-it has ended.
+being that of the child on its machine, with failed(Tag, Error) if it cannot
+become ready, and with down(Tag, Status) when it has ended.
 */
 
 :- meta_predicate
@@ -193,9 +192,9 @@ line(Line, Tag, OnEvent) :-
     ->  atom_string(Endpoint, Endpoint0),
         number_string(Pid, Pid0),
         call(OnEvent, up(Tag, Endpoint, Pid))
-    ;   string_concat("typhon_carrier_error ", Text, Line)
-    ->  term_string(Formal, Text),
-        call(OnEvent, failed(Tag, Formal))
+    ;   string_concat("typhon_carrier_error ", Text, Line),
+        catch(term_string(Error, Text), error(_, _), fail)
+    ->  call(OnEvent, failed(Tag, Error))
     ;   voice_heard(Tag, Line)
     ).
 

@@ -6,7 +6,8 @@
             dynamics_edges/2            % +State, -Edges
           ]).
 :- use_module(library(apply), [foldl/4]).
-:- use_module(library(assoc), [gen_assoc/3, get_assoc/3, list_to_assoc/2, put_assoc/4]).
+:- use_module(library(assoc),
+              [gen_assoc/3, get_assoc/3, list_to_assoc/2, put_assoc/4]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(heaps), [add_to_heap/4, empty_heap/1, get_from_heap/4]).
 :- use_module(library(lists), [member/2, numlist/3]).

@@ -9,7 +9,8 @@
 :- use_module('../journal',
               [ journal_place/2, journal_record/2, journal_record_drop/1,
                 journal_record_put/2 ]).
-:- use_module(plan, [ network_plan/3, plan_option/2, plan_options/2, plan_shape/3,
+:- use_module(plan,
+              [ network_plan/3, plan_option/2, plan_options/2, plan_shape/3,
                 plan_without/3 ]).
 
 /** <module> What a network with a journal was when it was first started

@@ -20,7 +20,8 @@
 :- use_module(kept, [kept_note/3, kept_plan/4]).
 :- use_module(lasting,
               [ lasting_back/2, lasting_child/4, lasting_goes_on/3,
-                lasting_open/3, lasting_over/1, lasting_restarts/4, lasting_rests/1 ]).
+                lasting_open/3, lasting_over/1, lasting_restarts/4,
+                lasting_rests/1 ]).
 :- use_module(plan,
               [ plan_change/3, plan_dynamics/3, plan_furnishing/2,
                 plan_hosts/4, plan_links/2, plan_links_at/3, plan_log/3,

@@ -118,8 +118,8 @@ event(up(Network-P, Endpoint, Pid)) :-
     retractall(at(Network, P, _)),
     assertz(at(Network, P, Endpoint)),
     tell(Network, up(P)).
-event(failed(Network-P, Formal)) :-
-    tell(Network, failed(P, Formal)).
+event(failed(Network-P, Error)) :-
+    tell(Network, failed(P, Error)).
 event(down(Network-P, Status)) :-
     (   wanted(Network)
     ->  is_missed(Network, P, Status)
@@ -146,8 +146,8 @@ wait_up(P, Network, Queue) :-
     (   Event = up(_)
     ->  P1 is P - 1,
         wait_up(P1, Network, Queue)
-    ;   Event = failed(_, Formal)
-    ->  throw(error(Formal, _))
+    ;   Event = failed(_, Error)
+    ->  throw(Error)
     ;   Event = down(_, Status)
     ->  throw(error(system_error(process_ended(Status)), _))
     ;   throw(error(timeout_error(start, Network), _))

@@ -45,7 +45,7 @@ absent do so in threads of their own.
 %!  restarts_begin(+Network, +Queue, :Do) is det.
 %!  restarts_end(+Network, +Queue) is det.
 %
-%   From now on Queue is read: up(P), down(P, Status) and failed(P, Formal) are
+%   From now on Queue is read: up(P), down(P, Status) and failed(P, Error) are
 %   what happens to processes. Do(start(P)) is to start P again, Do(restore(P))
 %   what is done when it is up, Do(kill(P)) what ends one that cannot begin,
 %   Do(give_up(P)) what follows when it is not started again.
@@ -117,7 +117,8 @@ handled(down(P, _), State, Deaths0, Deaths, Starting0, Starting) :-
         Starting = Starting1,
         setting(restarts, Most),
         setting(restart_seconds, Seconds),
-        print_message(error, typhon(carrier_given_up(Network, P, Most, Seconds))),
+        print_message(error,
+                      typhon(carrier_given_up(Network, P, Most, Seconds))),
         ignore(call(Do, give_up(P))),
         present(Network, P)
     ).
@@ -128,9 +129,9 @@ handled(up(P), State, Deaths, Deaths, Starting0, Starting) :-
     ->  restored(P, State)
     ;   Starting = Starting0            % it came before this thread did
     ).
-handled(failed(_, Formal), _, Deaths, Deaths, Starting, Starting) :-
+handled(failed(_, Error), _, Deaths, Deaths, Starting, Starting) :-
     !,
-    print_message(error, error(Formal, _)).
+    print_message(error, Error).
 handled(late(P), state(_, _, Do), Deaths, Deaths, Starting0, Starting) :-
     not_starting(P, Starting0, Starting),
     ignore(call(Do, kill(P))).
