@@ -174,8 +174,17 @@ declare_all([PI|PIs], Module) :-
     dynamic(Module:PI),
     declare_all(PIs, Module).
 
+%   The first rule of what is not dynamic yet would be compiled like one that
+%   stays, and clause/2 of 9.0.4 does not give it back as it was: a variable
+%   that is unified first, and used later, would be two.
+
 add_clauses([], _).
 add_clauses([Clause|Clauses], Module) :-
+    (   Clause = (Head :- _)
+    ->  functor(Head, Name, Arity),
+        dynamic(Module:Name/Arity)
+    ;   true
+    ),
     assertz(Module:Clause),
     add_clauses(Clauses, Module).
 
