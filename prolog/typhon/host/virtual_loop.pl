@@ -5,13 +5,16 @@
             virtual_now/1,              % -Stamp
             virtual_steps/1,            % -Count
             virtual_doing/1,            % -Work
-            virtual_alone/0
+            virtual_alone/0,
+            virtual_standing/1          % -Standing
           ]).
 :- use_module(library(apply), [exclude/3, partition/4]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(heaps),
-              [add_to_heap/4, empty_heap/1, get_from_heap/4, min_of_heap/3]).
-:- use_module(library(lists), [member/2]).
+              [ add_to_heap/4, empty_heap/1, get_from_heap/4, heap_to_list/2,
+                list_to_heap/2, min_of_heap/3 ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module(work, [work_do/2]).
 
 /** <module> The thread of virtual time
@@ -23,6 +26,8 @@ It hears in one queue of what is to be done, in order:
   | ask(wait(Reply, Waited, Stamp)) | somebody waits for a message in Waited, until Stamp; Reply will hear `there` or `late` |
   | ask(no_longer(Reply))     | he does not                              |
   | ask(stop)                 |                                          |
+  | ask(hold(Reply))          | Reply will hear `held`: nothing is done until held(let_go); held(standing(Reply)) asks where time stands |
+  | ask(again(Standing, Reply)) | time is as it was; Reply will hear `done` |
 
 While nobody waits it takes but what is asked: time stands still.
 
@@ -33,6 +38,7 @@ thread may ask for.
 
 :- multifile
     typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
+    typhon_scheduler:over/2,            % Agent, Token: nobody waits for it
     prolog:message//1.
 
 %!  virtual_begin is det.
@@ -94,6 +100,44 @@ virtual_alone :-
     \+ ( member(Waits, Waiting), has_got(Waits) ),
     one_step_more.
 
+%!  virtual_standing(-Standing) is semidet.
+%
+%   Where time stands, if this is its thread: Standing is
+%   virtual(Now, Random, Count, Alarms, Messages), Random the state of the
+%   generator, Alarms those that are in the heap, the Count next of their
+%   numbers, and Messages what is still to be heard, without questions.
+
+virtual_standing(Standing) :-
+    nb_current(typhon_virtual_alarms, Queue-Alarms),
+    standing(Queue, Alarms, Standing).
+
+standing(Queue, alarms(Count, Heap),
+         virtual(Now, Random, Count, Alarms, Messages)) :-
+    virtual_now(Now),
+    random_property(state(Random)),
+    heap_to_list(Heap, All0),
+    exclude(is_over, All0, Alarms),
+    fifo_empty(Queue, All),
+    forall(member(Message, All), thread_send_message(Queue, Message)),
+    exclude(is_question, All, Messages).
+
+is_over(_-(Agent-Token)) :-
+    catch(typhon_scheduler:over(Agent, Token), error(_, _), fail).
+
+is_question(ask(_)).
+is_question(held(_)).
+
+%   What nobody has heard of yet, as at the beginning, comes after.
+
+stand_again(virtual(Now, Random, Count, Alarms, Messages), Queue,
+            alarms(Count, Heap)) :-
+    flag(typhon_virtual_now, _, Now),
+    set_random(state(Random)),
+    list_to_heap(Alarms, Heap),
+    fifo_empty(Queue, Newer),
+    append(Messages, Newer, All),
+    forall(member(Message, All), thread_send_message(Queue, Message)).
+
                 /*******************************
                 *           THE LOOP           *
                 *******************************/
@@ -111,9 +155,40 @@ asked(wait(Reply, Waited, Stamp), Waiting0, Queue, Alarms) :-
     !,
     satisfied([waits(Reply, Waited, Stamp)|Waiting0], Waiting),
     go(Waiting, Queue, Alarms).
+asked(hold(Reply), Waiting, Queue, Alarms) :-
+    !,
+    forget_held(Queue),
+    (   told(Reply, held)
+    ->  hold(Queue, Alarms)
+    ;   true                            % he has given up
+    ),
+    go(Waiting, Queue, Alarms).
+asked(again(Standing, Reply), Waiting, Queue, _) :-
+    !,
+    stand_again(Standing, Queue, Alarms),
+    ignore(told(Reply, done)),
+    go(Waiting, Queue, Alarms).
 asked(no_longer(Reply), Waiting0, Queue, Alarms) :-
     exclude(is_of(Reply), Waiting0, Waiting),
     go(Waiting, Queue, Alarms).
+
+%   What was said when this was not held.
+
+forget_held(Queue) :-
+    thread_peek_message(Queue, held(_)),
+    !,
+    thread_get_message(Queue, held(_)),
+    forget_held(Queue).
+forget_held(_).
+
+hold(Queue, Alarms) :-
+    thread_get_message(Queue, held(What)),
+    (   What = standing(Reply)
+    ->  standing(Queue, Alarms, Standing),
+        ignore(told(Reply, Standing)),
+        hold(Queue, Alarms)
+    ;   true
+    ).
 
 is_of(Reply, waits(Reply, _, _)).
 
@@ -132,6 +207,7 @@ go(Waiting, Queue, Alarms) :-
 step(do(Work), Waiting0, Queue, Alarms) :-
     one_step_more,
     nb_setval(typhon_virtual_work, doing(Work, Waiting0, Queue)),
+    nb_linkval(typhon_virtual_alarms, Queue-Alarms),
     catch(( work_do(Work, again(Queue)),
             Done = true ),
           Ball,
@@ -146,6 +222,8 @@ step(alarm(Stamp, What), Waiting, Queue, alarms(Count0, Heap0)) :-
     go(Waiting, Queue, alarms(Count, Heap)).
 step(ask(Ask), Waiting, Queue, Alarms) :-
     asked(Ask, Waiting, Queue, Alarms).
+step(held(_), Waiting, Queue, Alarms) :-
+    go(Waiting, Queue, Alarms).         % it is not any more
 
 next(Waiting0, Queue, Alarms) :-
     nb_setval(typhon_virtual_work, none),
@@ -234,8 +312,11 @@ has_got(waits(_, Queue, _)) :-
     catch(there(Queue), error(existence_error(_, _), _), true).
 
 reply(Reply, Answer) :-
+    ignore(told(Reply, Answer)).        % who waited was interrupted
+
+told(Reply, Answer) :-
     catch(thread_send_message(Reply, Answer), error(existence_error(_, _), _),
-          true).                        % who waited was interrupted
+          fail).
 
                 /*******************************
                 *           MESSAGES           *

@@ -22,6 +22,7 @@ scheduled, alarms are set, what was under way is asked for or sent again.
     typhon_code:in_use/1,
     typhon_runtime:ending/1,
     back/4,                     % Kind, Key, N, Term: was noted so
+    kept/4,                     % Kind, Key, N, Term: is so, see room `cut`
     recover/0,
     tidy/0,                     % nobody is let in yet
     restored/0,                 % all of it is

@@ -4,7 +4,7 @@
               [ journal_on/0, journal_seal/0, journal_step/1, turn_commit/0,
                 turn_has_effects/0, turn_release/0, turn_run/1 ]).
 :- use_module('../program', [answer_at/3, probe_next/2, probe_start/3]).
-:- use_module('../host', [context_clear/0, context_set/3, event/4]).
+:- use_module('../host', [context_clear/0, context_set/3, event/4, still_keeps/1]).
 :- use_module('../agent',
               [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
                 agent_ordered/1, agent_put_down/3, agent_ready/2, agent_rest/3,
@@ -39,6 +39,9 @@ typhon_scheduler:run(Id) :-
     ;   probe_rests(Id)                 % has ended
     ).
 
+take(Id, later) :-
+    still_keeps(Id),
+    !.
 take(Id, Task) :-
     agent_take(Id, Goals, Order),
     !,
@@ -52,6 +55,7 @@ take(Id, leave(Dest, Hole, Goals, Since)) :-
 take(Id, resume(Probe)) :-
     held_resumes(Id, Probe).
 
+perform(later, _).
 perform(order(Order, Goals), Id) :-
     order_obey(Order, Id, Goals).
 perform(leave(Dest, Hole, Goals, Since), Id) :-
