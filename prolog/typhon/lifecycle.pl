@@ -11,7 +11,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- use_module(lifecycle/evacuation, []).
 :- use_module(lifecycle/recovery, []).
 :- reexport('lifecycle/resting').
-:- reexport(lifecycle/cut, [cut_again/2, cut_go_on/2, cut_kept/1]).
+:- reexport(lifecycle/cut, [cut_again/2, cut_go_on/3, cut_kept/2]).
 :- reexport('lifecycle/properties').
 :- reexport('lifecycle/glance').
 :- reexport('lifecycle/giving',

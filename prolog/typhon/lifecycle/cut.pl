@@ -1,7 +1,7 @@
 :- module(typhon_cut,
-          [ cut_kept/1,                 % -Items
+          [ cut_kept/2,                 % +Hosts, -Items
             cut_again/2,                % +Kind, +Items
-            cut_go_on/2                 % +Kind, +Agents
+            cut_go_on/3                 % +Kind, +Agents, +Scheduled
           ]).
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
@@ -10,10 +10,12 @@
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [host/3, host_again/1, schedule/2]).
 :- use_module('../agent',
-              [ agent/5, agent_enter/3, agent_module/5, agent_order/2,
+              [ agent/5, agent_enter/3, agent_home/2, agent_module/5, agent_order/2,
                 agent_orders/2, agent_state/2, agent_status/3, mail_list/2,
                 with_agent/2 ]).
+:- use_module('../travel', [retries_go_on/0]).
 :- use_module(on_hold, [held_parts/3]).
+:- use_module(recovery, [agent_goes_on/1]).
 
 /** <module> All that a process knows, at a moment
 
@@ -52,17 +54,51 @@ kind(stays, virtual).
 kind(turns, virtual).
 kind(counts, virtual).
 
-%!  cut_kept(-Items:list) is det.
+%!  cut_kept(+Hosts:list, -Items:list) is det.
+%
+%   What this process knows, but for what is about other hosts of it than Hosts,
+%   about who stands there, and who has gone from there.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error permission_error(save, agent, Id) if it runs
 
-cut_kept(Items) :-
+cut_kept(Hosts, Items) :-
+    others(Hosts, Others),
     findall(item(Kind, Key, N, Term),
             ( kind(Kind, _),
               typhon_recovery:kept(Kind, Key, N, Term),
+              \+ is_of(Others, Kind, Key, Term),
               can_be_written(Kind, Key, Term) ),
             Items).
+
+%   others(+Hosts, -Others): of this process, mostly none.
+
+others(Hosts, Others) :-
+    findall(Host, ( host(Host, _, _), \+ memberchk(Host, Hosts) ), Others).
+
+%   is_of(+Hosts, +Kind, +Key, +Term): the item is about one of Hosts.
+
+is_of([Host|Hosts], Kind, Key, Term) :-
+    about(Kind, Key, Term, About),
+    on_host(About, Other),
+    memberchk(Other, [Host|Hosts]),
+    !.
+
+about(link, _, link(Host, _, _), host(Host)).
+about(payload, _, payload(Host, _), host(Host)).
+about(Kind, Host, _, host(Host)) :-
+    memberchk(Kind, [place, fact, turns, counts]).
+about(Kind, Id, _, agent(Id)) :-
+    memberchk(Kind, [ born, outcome, faulty, left, clone, gone, given_up,
+                      backlog, stands, mail, order, stays ]).
+
+on_host(host(Host), Host).
+on_host(agent(Id), Host) :-
+    (   agent(Id, Host0, _, _, _)
+    ->  Host = Host0
+    ;   agent_home(Id, Home),
+        host(Host, Home, _)
+    ).
 
 can_be_written(Kind, Key, Term) :-
     catch(mobile_term(Term), error(Formal, _),
@@ -151,16 +187,17 @@ unasked(asked(Order, _), asked(Order, queue(nobody))) :-
     !.
 unasked(Order, Order).
 
-%!  cut_go_on(+Kind, +Agents:list) is det.
+%!  cut_go_on(+Kind, +Agents:list, +Scheduled:list) is det.
 %
-%   All go on.  In virtual time alarms are set, and Agents have their turns.
+%   Agents go on.  In virtual time alarms are set, and some are Scheduled.
 
-cut_go_on(real, _) :-
-    forall(typhon_recovery:go_on, true).
-cut_go_on(virtual, Agents) :-
-    findall(Id, agent_status(Id, ready, _), Ready0),
+cut_go_on(real, Agents, _) :-
+    forall(member(Id, Agents), agent_goes_on(Id)),
+    retries_go_on.
+cut_go_on(virtual, Agents, Scheduled0) :-
+    findall(Id, ( member(Id, Agents), agent_status(Id, ready, _) ), Ready0),
     sort(Ready0, Ready),
-    sort(Agents, Scheduled),
+    sort(Scheduled0, Scheduled),
     ord_subtract(Ready, Scheduled, Others),
     forall(( member(Id, Others), agent(Id, Host, _, _, _) ),
            schedule(Host, Id)).

@@ -19,8 +19,8 @@
                 runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
                 time_stands/1 ]).
 :- use_module('../lifecycle',
-              [ agents_at_rest/2, agents_go_on/1, cut_again/2, cut_go_on/2,
-                cut_kept/1 ]).
+              [ agents_at_rest/2, agents_go_on/1, cut_again/2, cut_go_on/3,
+                cut_kept/2 ]).
 :- use_module('../travel', [home_agents/1]).
 :- use_module(voice, [voice_begin/0, voice_end/0]).
 
@@ -94,18 +94,18 @@ one for the order to stop: it sees to it that there is an end.
 %     - rest(Seconds, Peers)
 %       Nobody runs or is under way any more, nor is anything for the endpoints
 %       Peers in anybody's hands; `ok`, or `late`.
-%     - kept
+%     - kept(Names)
 %       Answer is kept(Time, Specs, Items): what time knows of what comes next,
-%       the options of hosts, Name-Options, and all else that the process
-%       knows.
+%       the options of these hosts, Name-Options, and all else that the process
+%       knows of them.
 %     - let_go
 %       It goes on; `ok`.
 %     - again(Specs)
 %       As hosts(Specs), of hosts that there were before.
 %     - fill(Kind, Items)
 %       They know what they did; `ok`.
-%     - goes_on(Kind, Time)
-%       What comes next does so; `ok`.
+%     - goes_on(Kind, Time, Agents)
+%       What comes next does so, Agents go on; `ok`.
 %     - agents
 %       Answer is the list of the agents that were born in the process and
 %       have not ended.
@@ -125,21 +125,21 @@ order_do(hold(Seconds), Answer) :-
     in_time(time_hold(Seconds), Answer).
 order_do(rest(Seconds, Peers), Answer) :-
     in_time(agents_at_rest(Seconds, Peers), Answer).
-order_do(kept, kept(Time, Specs, Items)) :-
+order_do(kept(Names), kept(Time, Specs, Items)) :-
     time_stands(Time),
     findall(Name-Options,
-            ( host(Name, _, _),
+            ( member(Name, Names),
               findall(Option, host_option(Name, Option), Options) ),
             Specs),
-    cut_kept(Items).
+    cut_kept(Names, Items).
 order_do(let_go, ok) :-
     time_let_go(Agents),
     agents_go_on(Agents).
 order_do(fill(Kind, Items), ok) :-
     cut_again(Kind, Items).
-order_do(goes_on(Kind, Time), ok) :-
-    time_again(Time, Agents),
-    cut_go_on(Kind, Agents).
+order_do(goes_on(Kind, Time, Agents), ok) :-
+    time_again(Time, Scheduled),
+    cut_go_on(Kind, Agents, Scheduled).
 order_do(stop(Names), ok) :-
     (   host(Other, _, _),
         \+ memberchk(Other, Names)

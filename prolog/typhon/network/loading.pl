@@ -216,7 +216,8 @@ due_at(real, Shift, Stamp0, Who, Token) :-
 
 go_on(Network, P, Kind, Terms) :-
     memberchk(time(P, Time), Terms),
-    carrier_order(Network, P, goes_on(Kind, Time), ok).
+    findall(Id, member(P:item(stands, Id, _, _), Terms), Agents),
+    carrier_order(Network, P, goes_on(Kind, Time, Agents), ok).
 
                 /*******************************
                 *           MESSAGES           *

@@ -1,7 +1,7 @@
 :- module(typhon_saving,
           [ network_save/2              % +Network, +File
           ]).
-:- use_module(library(apply), [maplist/4]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, numlist/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -48,8 +48,8 @@ network_at/3.
 %   @error timeout_error(save, Network): something does not come to rest
 %   @error type_error(mobile_term, Culprit): what cannot be written
 %   @error permission_error(save, network, Network): an agent asks for it
-%   @error permission_error(save, host, Host): of this process, and in no part
-%          of Network
+%   @error permission_error(save, host, Host): which is not of Network, but has
+%          the same virtual time
 %   @error existence_error(carrier, Network-P), and what open/3 raises
 
 network_save(Network, File) :-
@@ -80,7 +80,8 @@ save(Network, Standing, File) :-
         let_go(Network, Ps)),
     saved_write(File, Terms).
 
-%   What others do in this process would not stop, and could not be loaded.
+%   In virtual time what others do in this process is not to be told from what
+%   the network does.
 
 nobody_else(Network) :-
     context_now(_, Agent),
@@ -88,7 +89,7 @@ nobody_else(Network) :-
     !,
     permission_error(save, network, Network).
 nobody_else(Network) :-
-    carried_here(Network),
+    time_kind(virtual),
     wired(Network, Hosts),
     host_property(Name, address(Address)),
     \+ memberchk(host(_, _, Name, Address), Hosts),
@@ -105,8 +106,7 @@ cut(Network, Ps, Standing, Terms) :-
     Deadline is Now+Seconds,
     hold(Network, Ps, Deadline),
     about(Network, Standing, Deadline, About),
-    answers(Network, Ps, kept, Deadline, Kept),
-    maplist(part(Network), Ps, Kept, Parts),
+    maplist(part(Network, Deadline), Ps, Parts),
     append([About|Parts], Terms).
 
                 /*******************************
@@ -208,11 +208,14 @@ due(Who, Token, Stamp) :-
     ;   Stamp = 0
     ).
 
-%   part(+Network, +P, +Kept, -Terms)
+%   part(+Network, +Deadline, +P, -Terms)
 
-part(Network, P, kept(Time, Specs, Items), [time(P, Time)|Terms]) :-
-    mobile_term(Time),
+part(Network, Deadline, P, [time(P, Time)|Terms]) :-
     wired(Network, Hosts),
+    findall(Name, member(host(P, _, Name, _), Hosts), Names),
+    answers(Network, [P], kept(Names), Deadline,
+            [kept(Time, Specs, Items)]),
+    mobile_term(Time),
     findall(host(P, I, Name, Address, Options),
             ( member(host(P, I, Name, Address), Hosts),
               memberchk(Name-Options, Specs) ),
@@ -230,5 +233,4 @@ prolog:error_message(permission_error(save, network, Network)) -->
     [ 'An agent cannot save ~w: it would have to stop before it can'-
       [Network] ].
 prolog:error_message(permission_error(save, host, Host)) -->
-    [ '~w is in this process, and not in the network: a network is saved \c
-       where there is nothing beside it'-[Host] ].
+    [ '~w is not in the network, but has the same virtual time'-[Host] ].

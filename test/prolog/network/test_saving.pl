@@ -241,6 +241,8 @@ test(the_clock_goes_on) :-
     with_tmp_dir(clock_goes_on).
 test(appointments_links_and_names, true(Said == [early,late])) :-
     with_tmp_dir(everything(Said)).
+test(beside_hosts_that_stay, true(Left-Ids == [mark]-1)) :-
+    with_tmp_dir(beside(Left, Ids)).
 test(a_port_that_is_taken, error(socket_error(_, _))) :-
     with_tmp_dir(beside_itself).
 test(a_process_that_does_not_answer, true(Result == [timeout_error,alive])) :-
@@ -303,6 +305,31 @@ everything(Said, Dir) :-
 say(Host, What) :-
     agent_create(clauses([(:- agent(speaker)), (main :- log(said(What)))]), _,
                  [host(Host)]).
+
+%   What another host of this process has is not saved, and goes on.
+
+beside(Left, Count, Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_hosts([own],
+               ( agent_create(clauses([ (:- agent(b)),
+                                        (main :- receive(_), leave(mark)) ]),
+                              B, [host(own)]),
+                 setup_call_cleanup(
+                     network_start(ring(2), N1, []),
+                     ( agent_create(clauses([ (:- agent(a)),
+                                              (main :- receive(_),
+                                                       leave(mark)) ]),
+                                    A, [host(n1)]),
+                       remote(own, leave(no)),
+                       network_save(N1, File) ),
+                     stopped(N1)),
+                 setup_call_cleanup(
+                     network_load(File, N2, []),
+                     ( agent_send(B, go), agent_join(B, done, 10),
+                       agent_send(A, go), agent_join(A, done, 10),
+                       findall(X, remote(n1, findall(Y, sense(Y), X)), [Left]),
+                       remote(own, aggregate_all(count, sense(no), Count)) ),
+                     stopped(N2)) )).
 
 beside_itself(Dir) :-
     atom_concat(Dir, '/file', File),
