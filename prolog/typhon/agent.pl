@@ -15,7 +15,7 @@ This is the door of the layer: who is above takes what it needs from here.
               agent_take/3, agent_unorder/2, agent_wakes/2, with_agent/2
             ]).
 :- reexport(agent/agent_module,
-            [ agent_changed/4, agent_clauses/3, agent_code/2,
+            [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
               agent_elsewhere/3, agent_handles/2,
               agent_may_stand/4, agent_module/5, agent_standing/5,
               agent_state/2, policy_against/4, policy_refuses/2 ]).
