@@ -26,7 +26,8 @@
 :- use_module(virtual,
               [ virtual_again/2, virtual_alarm/3, virtual_hold/1,
                 virtual_let_go/0, virtual_signal/1, virtual_stands/1,
-                virtual_start/0, virtual_stop/0, virtual_wait/3, virtual_work/1 ]).
+                virtual_start/0, virtual_stop/0, virtual_wait/3,
+                virtual_work/1 ]).
 :- use_module(virtual_loop, [virtual_alone/0, virtual_now/1]).
 
 /** <module> The kinds of time

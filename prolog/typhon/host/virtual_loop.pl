@@ -11,10 +11,9 @@
 :- use_module(library(apply), [exclude/3, partition/4]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(heaps),
-              [ add_to_heap/4, empty_heap/1, get_from_heap/4, heap_to_list/2,
-                list_to_heap/2, min_of_heap/3 ]).
-:- use_module(library(lists), [append/3, member/2]).
-:- use_module('../base/fifo', [fifo_empty/2]).
+              [add_to_heap/4, empty_heap/1, get_from_heap/4, min_of_heap/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(virtual_standing, [standing/3, standing_again/3]).
 :- use_module(work, [work_do/2]).
 
 /** <module> The thread of virtual time
@@ -26,7 +25,8 @@ It hears in one queue of what is to be done, in order:
   | ask(wait(Reply, Waited, Stamp)) | somebody waits for a message in Waited, until Stamp; Reply will hear `there` or `late` |
   | ask(no_longer(Reply))     | he does not                              |
   | ask(stop)                 |                                          |
-  | ask(hold(Reply))          | Reply will hear `held`: nothing is done until held(let_go); held(standing(Reply)) asks where time stands |
+  | ask(hold(Reply))          | Reply will hear `held`: nothing is done until held(let_go) |
+  | held(standing(Reply))     | meanwhile: Reply will hear where time stands |
   | ask(again(Standing, Reply)) | time is as it was; Reply will hear `done` |
 
 While nobody waits it takes but what is asked: time stands still.
@@ -38,7 +38,6 @@ thread may ask for.
 
 :- multifile
     typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
-    typhon_scheduler:over/2,            % Agent, Token: nobody waits for it
     prolog:message//1.
 
 %!  virtual_begin is det.
@@ -102,41 +101,11 @@ virtual_alone :-
 
 %!  virtual_standing(-Standing) is semidet.
 %
-%   Where time stands, if this is its thread: Standing is
-%   virtual(Now, Random, Count, Alarms, Messages), Random the state of the
-%   generator, Alarms those that are in the heap, the Count next of their
-%   numbers, and Messages what is still to be heard, without questions.
+%   Where time stands, see standing/3, if this is its thread.
 
 virtual_standing(Standing) :-
     nb_current(typhon_virtual_alarms, Queue-Alarms),
     standing(Queue, Alarms, Standing).
-
-standing(Queue, alarms(Count, Heap),
-         virtual(Now, Random, Count, Alarms, Messages)) :-
-    virtual_now(Now),
-    random_property(state(Random)),
-    heap_to_list(Heap, All0),
-    exclude(is_over, All0, Alarms),
-    fifo_empty(Queue, All),
-    forall(member(Message, All), thread_send_message(Queue, Message)),
-    exclude(is_question, All, Messages).
-
-is_over(_-(Agent-Token)) :-
-    catch(typhon_scheduler:over(Agent, Token), error(_, _), fail).
-
-is_question(ask(_)).
-is_question(held(_)).
-
-%   What nobody has heard of yet, as at the beginning, comes after.
-
-stand_again(virtual(Now, Random, Count, Alarms, Messages), Queue,
-            alarms(Count, Heap)) :-
-    flag(typhon_virtual_now, _, Now),
-    set_random(state(Random)),
-    list_to_heap(Alarms, Heap),
-    fifo_empty(Queue, Newer),
-    append(Messages, Newer, All),
-    forall(member(Message, All), thread_send_message(Queue, Message)).
 
                 /*******************************
                 *           THE LOOP           *
@@ -165,7 +134,7 @@ asked(hold(Reply), Waiting, Queue, Alarms) :-
     go(Waiting, Queue, Alarms).
 asked(again(Standing, Reply), Waiting, Queue, _) :-
     !,
-    stand_again(Standing, Queue, Alarms),
+    standing_again(Standing, Queue, Alarms),
     ignore(told(Reply, done)),
     go(Waiting, Queue, Alarms).
 asked(no_longer(Reply), Waiting0, Queue, Alarms) :-

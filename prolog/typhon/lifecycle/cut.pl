@@ -10,9 +10,9 @@
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [host/3, host_again/1, schedule/2]).
 :- use_module('../agent',
-              [ agent/5, agent_enter/3, agent_home/2, agent_module/5, agent_order/2,
-                agent_orders/2, agent_state/2, agent_status/3, mail_list/2,
-                with_agent/2 ]).
+              [ agent/5, agent_enter/3, agent_home/2, agent_module/5,
+                agent_order/2, agent_orders/2, agent_state/2, agent_status/3,
+                mail_list/2, with_agent/2 ]).
 :- use_module('../travel', [retries_go_on/0]).
 :- use_module(on_hold, [held_parts/3]).
 :- use_module(recovery, [agent_goes_on/1]).

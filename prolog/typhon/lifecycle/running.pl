@@ -4,7 +4,8 @@
               [ journal_on/0, journal_seal/0, journal_step/1, turn_commit/0,
                 turn_has_effects/0, turn_release/0, turn_run/1 ]).
 :- use_module('../program', [answer_at/3, probe_next/2, probe_start/3]).
-:- use_module('../host', [context_clear/0, context_set/3, event/4, still_keeps/1]).
+:- use_module('../host',
+              [context_clear/0, context_set/3, event/4, still_keeps/1]).
 :- use_module('../agent',
               [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
                 agent_ordered/1, agent_put_down/3, agent_ready/2, agent_rest/3,

@@ -288,8 +288,8 @@ everything(Said, Dir) :-
                    network_at(N1, 9, say(Host, late)),
                    network_advance(N1, 5),
                    network_property(N1, hosts(Hosts)),
-                   network_save(N1, File),
-                   log_events(Log, Before) )),
+                   log_events(Log, Before),
+                   network_save(N1, File) )),
     no_leaks(setup_call_cleanup(
                  network_load(File, N2, []),
                  ( network_property(N2, hosts(Hosts)),
