@@ -32,21 +32,23 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/quotas, [quota/3, quota_any/1, quota_shared/4]).
 :- reexport('host/spending').
 :- reexport(host/leavings, [leaver/2, may_leave/1]).
+:- reexport(host/still, [still_keeps/1]).
 :- reexport(host/turns, [turn_of/3, turns_now/3]).
 :- reexport(host/scheduler,
             [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,
               schedule_stays/2, scheduler_call/1
             ]).
 :- reexport(host/time,
-              [ alarm_in/3, alarm_set/3, time_kind/1, time_now/1, time_seed/1,
-                time_signal/1, time_wait/3 ]).
+              [ alarm_in/3, alarm_set/3, time_again/2, time_due/3,
+                time_hold/1, time_kind/1, time_let_go/1, time_now/1,
+                time_seed/1, time_signal/1, time_stands/1, time_wait/3 ]).
 :- reexport(host/asking, [as_guest/1, process_ask/6]).
 :- reexport(host/runtime,
             [runtime_acquire/2, runtime_acquire/3, runtime_release/1]).
 :- reexport(host/changing, [host_change/2]).
 :- reexport(host/hosting,
-            [ host_start/1, host_start/2, host_stop/1, hosts_back/1,
-              hosts_go_on/0, hosts_journal/2, hosts_rest/0 ]).
+            [ host_restart/2, host_start/1, host_start/2, host_stop/1,
+              hosts_back/1, hosts_go_on/0, hosts_journal/2, hosts_rest/0 ]).
 :- reexport(host/host_questions,
             [host_property/2, host_unknown/1, link/2, link/3, unlink/2]).
 :- reexport(host/remote, [host_do/2, remote/2]).

@@ -11,6 +11,8 @@ This is the door of the layer: who is above takes what it needs from here.
 :- use_module(lifecycle/evacuation, []).
 :- use_module(lifecycle/overuse, []).
 :- use_module(lifecycle/recovery, []).
+:- reexport('lifecycle/resting').
+:- reexport(lifecycle/cut, [cut_again/2, cut_go_on/3, cut_kept/2]).
 :- reexport('lifecycle/properties').
 :- reexport('lifecycle/glance').
 :- reexport('lifecycle/giving',

@@ -18,4 +18,7 @@ This is the door of the layer: who is above takes what it needs from here.
                 agent_resumed_from/3, whereabouts/2 ]).
 :- reexport(travel/post, [post/3, post_via/4]).
 :- reexport(travel/logged, [agent_logs/3]).
+:- reexport(travel/backlog, [post_tried/0]).
+:- reexport(travel/retries, [retries_go_on/0]).
+:- reexport(travel/news, [news_carried/1]).
 :- reexport(travel/abroad, [post_abroad/4]).

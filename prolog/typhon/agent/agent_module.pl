@@ -3,6 +3,7 @@
             agent_code/2,               % +Module, -Program
             agent_standing/5,           % +Id, +Place, +Hash, +Begin, -Agent
             agent_clauses/3,            % +Module, +Clauses0, -Clauses
+            agent_add/2,                % +Clauses, +Module
             agent_may_stand/4,          % +Module, +Hash, +Place, +Goals
             policy_against/4,           % +Place, +Hash, +Sent, -Reason
             policy_refuses/2,           % +Ball, -Reason
@@ -175,8 +176,24 @@ declare_all([PI|PIs], Module) :-
     dynamic(Module:PI),
     declare_all(PIs, Module).
 
+%!  agent_add(+Clauses, +Module) is det.
+%
+%   Clauses, as of agent_clauses/3, are part of the state of the agent.
+
+agent_add(Clauses, Module) :-
+    add_clauses(Clauses, Module).
+
+%   The first rule of what is not dynamic yet would be compiled like one that
+%   stays, and clause/2 of 9.0.4 does not give it back as it was: a variable
+%   that is unified first, and used later, would be two.
+
 add_clauses([], _).
 add_clauses([Clause|Clauses], Module) :-
+    (   Clause = (Head :- _)
+    ->  functor(Head, Name, Arity),
+        dynamic(Module:Name/Arity)
+    ;   true
+    ),
     assertz(Module:Clause),
     add_clauses(Clauses, Module).
 

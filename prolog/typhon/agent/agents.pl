@@ -16,10 +16,12 @@
             agent_ready/2,              % +Id, +Goals
             agent_wakes/2,              % +Id, +Goals
             with_agent/2,               % +Id, :Goal
+            agents_passed/0,
             agent_mail/2,               % +Id, +Messages
             agent_room/2,               % +Id, -Room
             agent_order/2,              % +Id, +Order
             agent_unorder/2,            % +Id, ?Order
+            agent_orders/2,             % +Id, -Orders
             agent_ordered/1             % +Id
           ]).
 :- use_module(library(debug), [debug/3, debugging/1]).
@@ -106,6 +108,13 @@ with_agent(Id, Goal) :-
     shard(I, Mutex),
     with_mutex(Mutex, Goal).
 
+%!  agents_passed is det.
+%
+%   Who was inside with_agent/2 when this was called has left it.
+
+agents_passed :-
+    forall(shard(_, Mutex), with_mutex(Mutex, true)).
+
 :- dynamic shard/2.
 
 %   A saved state has them already where it runs this again.
@@ -152,7 +161,7 @@ agent_remove(Id, Mail, Orders) :-
     ;   true
     ),
     mail_all(Id, Mail),
-    orders(Id, Orders),
+    take_orders(Id, Orders),
     '$destroy_module'(Module).
 
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
@@ -180,10 +189,10 @@ agent_move(Id, Host, Module, Life, Until) :-
 
 %   One by one: see typhon_mailbox.
 
-orders(Id, Orders) :-
+take_orders(Id, Orders) :-
     (   retract(order(Id, Order))
     ->  Orders = [Order|More],
-        orders(Id, More)
+        take_orders(Id, More)
     ;   Orders = []
     ).
 
@@ -383,9 +392,10 @@ wakes(waiting(Pattern, _), Messages) :-
 %!  agent_order(+Id, +Order) is det.
 %!  agent_unorder(+Id, ?Order) is semidet.
 %!  agent_ordered(+Id) is semidet.
+%!  agent_orders(+Id, -Orders:list) is det.
 %
 %   Note an order from outside; take the oldest that unifies; whether there is
-%   one.
+%   one; all there are.
 
 agent_order(Id, Order) :-
     assertz(order(Id, Order)).
@@ -397,3 +407,6 @@ agent_unorder(Id, Order) :-
 agent_ordered(Id) :-
     order(Id, _),
     !.
+
+agent_orders(Id, Orders) :-
+    findall(Order, order(Id, Order), Orders).

@@ -33,6 +33,8 @@ agent_id(Name, Home, Id) :-
 
 :- multifile
     ids_anew/0,                 % what is known of old ids is forgotten
+    id_anew/1,                  % what is known of Id is
+    typhon_recovery:kept/4,
     typhon_runtime:beginning/1.
 
 :- dynamic
@@ -48,6 +50,9 @@ typhon_runtime:beginning(virtual) :-
     retractall(mark(_)),
     assertz(mark('v.')),
     forall(ids_anew, true).
+
+typhon_recovery:kept(flag, typhon_agent_id, N, '') :-
+    flag(typhon_agent_id, N, N).
 
 process_mark(Mark) :-
     mark(Mark),

@@ -3,6 +3,9 @@
             alarms_end/0,
             alarm_add/3,                % +Stamp, +Agent, +Token
             alarm_new/1,                % -Stamp
+            alarm_anew/1,               % +Stamp
+            alarm_stamp/3,              % ?Stamp, +Agent, ?Token
+            alarms_until/2,             % +Stamp, -Stamps
             alarms_new/1,               % -Count
             alarms_at/2,                % +Stamp, -Alarms
             alarm_take/3,               % +Alarm, -Agent, -Token
@@ -61,6 +64,25 @@ alarm_add(Stamp, Agent, Token) :-
     assertz(alarm(Stamp, Agent, Token)),
     catch(thread_send_message(New, Stamp), error(existence_error(_, _), _),
           true).                        % ending
+
+%!  alarms_until(+Stamp, -Stamps:list) is det.
+%!  alarm_anew(+Stamp) is det.
+%!  alarm_stamp(?Stamp, +Agent, ?Token) is nondet.
+%
+%   Those of alarms that are not later; the timer hears of it once more; there
+%   is this alarm.
+
+alarms_until(Stamp, Stamps) :-
+    findall(Due, ( alarm(Due, _, _), Due =< Stamp ), Stamps).
+
+alarm_anew(Stamp) :-
+    new(New),
+    !,
+    thread_send_message(New, Stamp).
+alarm_anew(_).
+
+alarm_stamp(Stamp, Agent, Token) :-
+    alarm(Stamp, Agent, Token).
 
 %!  alarm_new(-Stamp) is semidet.
 %!  alarms_new(-Count) is det.

@@ -1,6 +1,7 @@
 :- module(typhon_hosting,
           [ host_start/1,               % +Name
             host_start/2,               % +Name, +Options
+            host_restart/2,             % +Name, +Options
             host_stop/1,                % +Name
             hosts_journal/2,            % +Where, +Options
             hosts_back/1,               % +Options
@@ -155,7 +156,26 @@ start(Name, Options) :-
     note_host(Name),
     journal_barrier.
 
+%!  host_restart(+Name, +Options) is det.
+%
+%   As host_start/2, of a host that there was before: nobody hears that it is
+%   started.
+
+host_restart(Name, Options) :-
+    with_mutex(typhon_hosting, restart(Name, Options)).
+
+restart(Name, _) :-
+    host(Name, _, _),
+    !,
+    permission_error(start, host, Name).
+restart(Name, Options) :-
+    stand_new(Name, Options).
+
 start_new(Name, Options) :-
+    stand_new(Name, Options),
+    event(hosts, Name, none, started).
+
+stand_new(Name, Options) :-
     kind_of_time(Options, Kind),
     append(Kind, Options, Options1),
     runtime_acquire(host(Name), Options1, Endpoint),
@@ -326,7 +346,6 @@ start_host(Name, Endpoint, Options) :-
     scheduler_limit(Name, Concurrency),
     host_add(Name, Address, Place, Options),
     forall(begins(Name), true),
-    event(hosts, Name, none, started),
     debug(typhon(host), '~w is started', [Address]).
 
 %   Without an authority nobody's signature means anything.

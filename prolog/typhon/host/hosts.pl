@@ -16,6 +16,7 @@
             host_passed/3,              % +Here, +There, +Seconds
             host_hop_stats/3            % +Name, ?Direction, -Stats
           ]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(authors, [signed_by/2]).
@@ -42,7 +43,10 @@ one mutex: flag/3 would lock for each of them.
 %
 %   The hosts of this process, in the order in which they were started.
 
-:- multifile typhon_names:known/2.
+:- multifile
+    typhon_names:known/2,
+    typhon_recovery:back/4,
+    typhon_recovery:kept/4.
 
 %   Those of other processes by their addresses.
 
@@ -92,6 +96,21 @@ make_hop_keys(Name, Direction) :-
             Keys),
     Flags =.. [flags|Keys],
     assertz(hop_keys(Name, Direction, Flags)).
+
+%   How many stand there, and how long hops took.
+
+typhon_recovery:kept(counts, Name, 0, Values) :-
+    host(Name, _, _),
+    findall(Value, ( count_key(Name, Key), flag(Key, Value, Value) ), Values).
+typhon_recovery:back(counts, Name, _, Values) :-
+    findall(Key, count_key(Name, Key), Keys),
+    maplist(set_flag, Keys, Values).
+
+count_key(Name, Key) :-
+    load_key(Name, Key).
+count_key(Name, Key) :-
+    hop_keys(Name, _, Flags),
+    arg(_, Flags, Key).
 
 %!  host_close(+Name) is det.
 %

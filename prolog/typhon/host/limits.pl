@@ -5,6 +5,7 @@
             limit_leave/2,              % +Host, -Agent
             limited/1,                  % +Host
             limited/2,                  % +Host1, +Host2
+            limit_parked/1,             % ?Agent
             limits_forget/0
           ]).
 
@@ -18,6 +19,10 @@ gives it its own.
 */
 
 :- use_module(library(lists), [member/2]).
+
+:- multifile
+    typhon_recovery:back/4,
+    typhon_recovery:kept/4.
 
 :- dynamic
     limit/2,                    % Host, Concurrency
@@ -55,6 +60,18 @@ unpark(Host, Concurrency, [agent(Host, Agent)|Work]) :-
     unpark(Host, Concurrency, Work).
 unpark(_, _, []).
 
+%   Who waits for a turn, and how many have one.
+
+typhon_recovery:kept(turns, Host, Running, Agents) :-
+    limit(Host, _),
+    running_key(Host, Key),
+    flag(Key, Running, Running),
+    findall(Agent, parked(Host, Agent), Agents).
+typhon_recovery:back(turns, Host, Running, Agents) :-
+    running_key(Host, Key),
+    flag(Key, _, Running),
+    forall(member(Agent, Agents), assertz(parked(Host, Agent))).
+
 %!  limit_clear(+Host, -Agents) is det.
 %
 %   Host has no limit any more; Agents were parked.
@@ -78,6 +95,13 @@ limited(Host1, Host2) :-
     limit(_, _),                        % mostly none at all
     ( limit(Host1, _) ; limit(Host2, _) ),
     !.
+
+%!  limit_parked(?Agent) is nondet.
+%
+%   Agent waits for its turn.
+
+limit_parked(Agent) :-
+    parked(_, Agent).
 
 %!  limits_forget is det.
 

@@ -17,7 +17,9 @@ One direction of each: the other is known to the other host.
 
 :- use_module('../journal', [note_drop/3, note_put/4]).
 
-:- multifile typhon_recovery:back/4.
+:- multifile
+    typhon_recovery:back/4,
+    typhon_recovery:kept/4.
 
 :- dynamic
     neighbour/2,                % Name, Address
@@ -44,8 +46,20 @@ note_link(Name, Address) :-
 link_key(Name, Address, Key) :-
     atomic_list_concat([Name, Address], ' ', Key).
 
+%   Nobody hears of a link that was there before.
+
+typhon_recovery:kept(link, Key, 0, link(Name, Address, Cost)) :-
+    neighbour(Name, Address),
+    host_link_cost(Name, Address, Cost),
+    link_key(Name, Address, Key).
 typhon_recovery:back(link, _, _, link(Name, Address, Cost)) :-
-    host_link(Name, Address, Cost).
+    with_mutex(typhon_links,
+               ( (   neighbour(Name, Address)
+                 ->  true
+                 ;   assertz(neighbour(Name, Address))
+                 ),
+                 set_cost(Cost, Name, Address),
+                 note_link(Name, Address) )).
 
 add_link(Name, Address) :-
     (   neighbour(Name, Address)

@@ -40,7 +40,8 @@ leaving a fact while tuple_leave_new/3 looks.
 
 :- multifile
     prolog:make_hook/2,
-    typhon_recovery:back/4.
+    typhon_recovery:back/4,
+    typhon_recovery:kept/4.
 
 :- public leave_due/2.
 
@@ -263,6 +264,49 @@ typhon_recovery:back(tuple, Host, N, Fact) :-
 typhon_recovery:back(payload, _, _, payload(Host, Payload)) :-
     place_host(Place, Host),
     place_deliver(Place, Payload, _).
+
+%   As they would be left, and delivered, once more.
+
+typhon_recovery:kept(fact, Host, 0, Fact) :-
+    place_host(Place, Host),
+    clause(Place:'$tuple'(Fact), _).
+typhon_recovery:back(fact, Host, _, Fact) :-
+    place_host(Place, Host),
+    tuple_leave(Place, Fact).
+
+typhon_recovery:kept(payload, Key, 0,
+                     payload(Host, payload(Name, PIs, Clauses))) :-
+    delivered(Place, Name, PIs),
+    payload_key(Place, Name, Host, Key),
+    clauses_of(Place, PIs, Clauses).
+
+clauses_of(Place, PIs, Clauses) :-
+    findall((Head:-Body),
+            ( member(Name/Arity, PIs),
+              functor(Head, Name, Arity),
+              clause(Place:Head, Body) ),
+            Clauses).
+
+%   What goals and files have made of the place itself.
+
+typhon_recovery:kept(place, Host, 0, state(PIs, Clauses)) :-
+    place_host(Place, Host),
+    findall(PI, own_state(Place, PI), PIs),
+    PIs \== [],
+    clauses_of(Place, PIs, Clauses).
+typhon_recovery:back(place, Host, _, state(PIs, Clauses)) :-
+    place_host(Place, Host),
+    forall(( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
+           ( dynamic(Place:Name/Arity),
+             retractall(Place:Head) )),
+    forall(member(Clause, Clauses), add(Place, Clause)).
+
+own_state(Place, PI) :-
+    current_predicate(Place:Name/Arity),
+    PI = Name/Arity,
+    PI \== '$tuple'/1,
+    own(Place, PI),
+    \+ ( delivered(Place, _, PIs), memberchk(PI, PIs) ).
 
                 /*******************************
                 *            PAYLOADS          *

@@ -9,16 +9,25 @@
             time_wait/3,                % +Queue, -Message, +Stamp
             time_signal/1,              % :Goal
             time_seed/1,                % +Seed
+            time_hold/1,                % +Seconds
+            time_stands/1,              % -Standing
+            time_let_go/1,              % -Agents
+            time_due/3,                 % +Agent, +Token, -Stamp
+            time_again/2,               % +Standing, -Agents
             alarm_set/3,                % +Stamp, +Agent, +Token
             alarm_in/3                  % +Seconds, +Agent, +Token
           ]).
 :- use_module(pool,
               [pool_here/1, pool_signal/1, pool_start/0, pool_stop/0]).
 :- use_module(queue, [enqueue/1, queue_empty/0]).
-:- use_module(timer, [alarm_set/3 as timer_set]).
+:- use_module(alarms, [alarm_stamp/3]).
+:- use_module(still, [still_begin/0, still_end/1]).
+:- use_module(timer, [alarm_set/3 as timer_set, alarms_overdue/0]).
 :- use_module(virtual,
-              [ virtual_alarm/3, virtual_signal/1, virtual_start/0,
-                virtual_stop/0, virtual_wait/3, virtual_work/1 ]).
+              [ virtual_again/2, virtual_alarm/3, virtual_hold/1,
+                virtual_let_go/0, virtual_signal/1, virtual_stands/1,
+                virtual_start/0, virtual_stop/0, virtual_wait/3,
+                virtual_work/1 ]).
 :- use_module(virtual_loop, [virtual_alone/0, virtual_now/1]).
 
 /** <module> The kinds of time
@@ -88,6 +97,58 @@ time_seed(Seed) :-
 
 seed(real, _).
 seed(virtual, Seed) :- virtual_work(goal(set_random(seed(Seed)))).
+
+%!  time_hold(+Seconds) is semidet.
+%!  time_stands(-Standing) is det.
+%!  time_let_go(-Agents:list) is det.
+%!  time_again(+Standing, -Agents:list) is det.
+%
+%   Nobody gets a turn any more, and no alarm goes off; fails if that cannot be
+%   had in Seconds of the time of day.  In virtual time that is at once so, and
+%   Standing all that time knows of what comes next.  It goes on, which is to be
+%   said in either case: Agents have missed their turn.  What comes next is as
+%   Standing says; Agents have their turns.
+
+time_hold(Seconds) :-
+    time_kind(Kind),
+    hold(Kind, Seconds).
+
+hold(virtual, Seconds) :- virtual_hold(Seconds).
+hold(real, _)          :- still_begin.
+
+time_stands(Standing) :-
+    time_kind(Kind),
+    stands(Kind, Standing).
+
+stands(virtual, Standing) :- virtual_stands(Standing).
+stands(real, real).
+
+time_let_go(Agents) :-
+    (   time_kind(Kind)
+    ->  let_go(Kind, Agents)
+    ;   Agents = []
+    ).
+
+let_go(virtual, []) :-
+    virtual_let_go.
+let_go(real, Agents) :-
+    still_end(Agents),
+    alarms_overdue.
+
+time_again(Standing, Agents) :-
+    (   Standing == real
+    ->  Agents = []
+    ;   virtual_again(Standing, Agents)
+    ).
+
+%!  time_due(+Agent, +Token, -Stamp) is semidet.
+%
+%   In real time, when the alarm goes off.
+
+time_due(Agent, Token, Stamp) :-
+    time_kind(real),
+    alarm_stamp(Stamp, Agent, Token),
+    !.
 
 %!  time_work(+Work) is det.
 %

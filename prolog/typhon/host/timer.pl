@@ -4,15 +4,18 @@
             timer_check/0,
             alarm_set/3,                % +Stamp, +Agent, +Token
             alarm_in/3,                 % +Seconds, +Agent, +Token
+            alarms_overdue/0,
             alarm_count/2               % -Alarms, -Indexed
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../base/output', [output_own/0]).
 :- use_module(alarms,
-              [ alarm_add/3, alarm_new/1, alarm_take/3, alarms_at/2,
-                alarms_begin/0, alarms_end/0, alarms_new/1, alarms_number/1
-              ]).
+              [ alarm_add/3, alarm_anew/1, alarm_new/1, alarm_take/3,
+                alarms_at/2, alarms_begin/0, alarms_end/0, alarms_new/1,
+                alarms_number/1, alarms_until/2 ]).
+:- use_module(still, [still/0]).
 :- use_module(alarm_index,
               [ index_delete/3, index_first/2, index_insert/3, index_make/1,
                 index_size/2 ]).
@@ -159,6 +162,16 @@ alarm_in(Seconds, Agent, Token) :-
     Stamp is Now+Seconds,
     alarm_set(Stamp, Agent, Token).
 
+%!  alarms_overdue is det.
+%
+%   Those that could not go off while the process was still do so.
+
+alarms_overdue :-
+    get_time(Now),
+    alarms_until(Now, Stamps),
+    forall(member(Stamp, Stamps), alarm_anew(Stamp)),
+    tell_timer(look).
+
 %!  alarm_count(-Alarms, -Indexed) is det.
 %
 %   How many alarms, and how many stamps in the index; for tests.
@@ -276,8 +289,11 @@ rung(Stamp, Index0, Index) :-
     get_time(Now),
     Stamp =< Now,
     !,
-    alarms_at(Stamp, Alarms),
-    maplist(go_off, Alarms),
+    (   still
+    ->  true                            % they go off when that is over
+    ;   alarms_at(Stamp, Alarms),
+        maplist(go_off, Alarms)
+    ),
     index_delete(Index0, Stamp, Index).
 rung(_, Index, Index).
 

@@ -4,14 +4,21 @@
             virtual_work/1,             % +Work
             virtual_alarm/3,            % +Stamp, +Agent, +Token
             virtual_wait/3,             % +Queue, -Message, +Stamp
+            virtual_hold/1,             % +Seconds
+            virtual_stands/1,           % -Standing
+            virtual_let_go/0,
+            virtual_again/2,            % +Standing, -Agents
             virtual_signal/1            % :Goal
           ]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/output', [output_own/0]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
+:- use_module(limits, [limit_parked/1]).
 :- use_module(virtual_loop,
               [ virtual_begin/0, virtual_doing/1, virtual_end/0,
-                virtual_loop/1, virtual_now/1, virtual_steps/1 ]).
+                virtual_loop/1, virtual_now/1, virtual_standing/1,
+                virtual_steps/1 ]).
 
 /** <module> Virtual time: nothing waits
 
@@ -92,6 +99,63 @@ virtual_signal(Goal) :-
     forall(loop(Thread, _),
            catch(thread_signal(Thread, Goal),
                  error(existence_error(_, _), _), true)).
+
+                /*******************************
+                *            HOLDING           *
+                *******************************/
+
+%!  virtual_hold(+Seconds) is semidet.
+%!  virtual_stands(-Standing) is det.
+%!  virtual_let_go is det.
+%!  virtual_again(+Standing, -Agents) is det.
+%
+%   Nothing is done any more: fails if that is not so in Seconds of the time of
+%   day.  Time is as Standing says.  It goes on.  It stands as it did
+%   then, until somebody waits; Agents have their turns, or wait for them at
+%   their hosts.  What is called in the thread of virtual time itself holds it
+%   anyway.
+
+virtual_hold(_) :-
+    own_thread,
+    !.
+virtual_hold(Seconds) :-
+    asked(ask(hold(Reply)), Reply, [timeout(Seconds)], held).
+
+virtual_stands(Standing) :-
+    own_thread,
+    !,
+    virtual_standing(Standing).
+virtual_stands(Standing) :-
+    asked(held(standing(Reply)), Reply, [], Standing).
+
+virtual_let_go :-
+    (   own_thread
+    ->  true
+    ;   tell(held(let_go))
+    ).
+
+own_thread :-
+    loop(Thread, _),
+    thread_self(Thread).
+
+virtual_again(Standing, Agents) :-
+    asked(ask(again(Standing, Reply)), Reply, [], done),
+    findall(Agent, has_turn(Standing, Agent), Agents).
+
+has_turn(virtual(_, _, _, _, Messages), Agent) :-
+    member(do(Work), Messages),
+    ( Work = agent(Agent) ; Work = agent(_, Agent) ).
+has_turn(_, Agent) :-
+    limit_parked(Agent).
+
+asked(Question, Reply, Options, Answer) :-
+    loop(_, Loop),
+    setup_call_cleanup(
+        message_queue_create(Reply),
+        ( thread_send_message(Loop, Question),
+          thread_get_message(Reply, Answer, Options)
+        ),
+        message_queue_destroy(Reply)).
 
                 /*******************************
                 *            WAITING           *

@@ -5,13 +5,15 @@
             virtual_now/1,              % -Stamp
             virtual_steps/1,            % -Count
             virtual_doing/1,            % -Work
-            virtual_alone/0
+            virtual_alone/0,
+            virtual_standing/1          % -Standing
           ]).
 :- use_module(library(apply), [exclude/3, partition/4]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(heaps),
               [add_to_heap/4, empty_heap/1, get_from_heap/4, min_of_heap/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(virtual_standing, [standing/3, standing_again/3]).
 :- use_module(work, [work_do/2]).
 
 /** <module> The thread of virtual time
@@ -23,6 +25,9 @@ It hears in one queue of what is to be done, in order:
   | ask(wait(Reply, Waited, Stamp)) | somebody waits for a message in Waited, until Stamp; Reply will hear `there` or `late` |
   | ask(no_longer(Reply))     | he does not                              |
   | ask(stop)                 |                                          |
+  | ask(hold(Reply))          | Reply will hear `held`: nothing is done until held(let_go) |
+  | held(standing(Reply))     | meanwhile: Reply will hear where time stands |
+  | ask(again(Standing, Reply)) | time is as it was; Reply will hear `done` |
 
 While nobody waits it takes but what is asked: time stands still.
 
@@ -94,6 +99,14 @@ virtual_alone :-
     \+ ( member(Waits, Waiting), has_got(Waits) ),
     one_step_more.
 
+%!  virtual_standing(-Standing) is semidet.
+%
+%   Where time stands, see standing/3, if this is its thread.
+
+virtual_standing(Standing) :-
+    nb_current(typhon_virtual_alarms, Queue-Alarms),
+    standing(Queue, Alarms, Standing).
+
                 /*******************************
                 *           THE LOOP           *
                 *******************************/
@@ -111,9 +124,40 @@ asked(wait(Reply, Waited, Stamp), Waiting0, Queue, Alarms) :-
     !,
     satisfied([waits(Reply, Waited, Stamp)|Waiting0], Waiting),
     go(Waiting, Queue, Alarms).
+asked(hold(Reply), Waiting, Queue, Alarms) :-
+    !,
+    forget_held(Queue),
+    (   told(Reply, held)
+    ->  hold(Queue, Alarms)
+    ;   true                            % he has given up
+    ),
+    go(Waiting, Queue, Alarms).
+asked(again(Standing, Reply), Waiting, Queue, _) :-
+    !,
+    standing_again(Standing, Queue, Alarms),
+    ignore(told(Reply, done)),
+    go(Waiting, Queue, Alarms).
 asked(no_longer(Reply), Waiting0, Queue, Alarms) :-
     exclude(is_of(Reply), Waiting0, Waiting),
     go(Waiting, Queue, Alarms).
+
+%   What was said when this was not held.
+
+forget_held(Queue) :-
+    thread_peek_message(Queue, held(_)),
+    !,
+    thread_get_message(Queue, held(_)),
+    forget_held(Queue).
+forget_held(_).
+
+hold(Queue, Alarms) :-
+    thread_get_message(Queue, held(What)),
+    (   What = standing(Reply)
+    ->  standing(Queue, Alarms, Standing),
+        ignore(told(Reply, Standing)),
+        hold(Queue, Alarms)
+    ;   true
+    ).
 
 is_of(Reply, waits(Reply, _, _)).
 
@@ -132,6 +176,7 @@ go(Waiting, Queue, Alarms) :-
 step(do(Work), Waiting0, Queue, Alarms) :-
     one_step_more,
     nb_setval(typhon_virtual_work, doing(Work, Waiting0, Queue)),
+    nb_linkval(typhon_virtual_alarms, Queue-Alarms),
     catch(( work_do(Work, again(Queue)),
             Done = true ),
           Ball,
@@ -146,6 +191,8 @@ step(alarm(Stamp, What), Waiting, Queue, alarms(Count0, Heap0)) :-
     go(Waiting, Queue, alarms(Count, Heap)).
 step(ask(Ask), Waiting, Queue, Alarms) :-
     asked(Ask, Waiting, Queue, Alarms).
+step(held(_), Waiting, Queue, Alarms) :-
+    go(Waiting, Queue, Alarms).         % it is not any more
 
 next(Waiting0, Queue, Alarms) :-
     nb_setval(typhon_virtual_work, none),
@@ -234,8 +281,11 @@ has_got(waits(_, Queue, _)) :-
     catch(there(Queue), error(existence_error(_, _), _), true).
 
 reply(Reply, Answer) :-
+    ignore(told(Reply, Answer)).        % who waited was interrupted
+
+told(Reply, Answer) :-
     catch(thread_send_message(Reply, Answer), error(existence_error(_, _), _),
-          true).                        % who waited was interrupted
+          fail).
 
                 /*******************************
                 *           MESSAGES           *

@@ -11,7 +11,7 @@
 :- use_module('../wire', [endpoint_keys/1, mobile_term/1]).
 :- use_module('../host', [host/3]).
 :- use_module('../agent',
-              [ agent/5, agent_clauses/3, agent_module/5, agent_owned/1,
+              [ agent/5, agent_add/2, agent_clauses/3, agent_module/5, agent_owned/1,
                 agent_program/4, agent_state/2, with_agent/2 ]).
 
 /** <module> Agents are changed from outside
@@ -61,7 +61,7 @@ change_made(facts(Clauses), Id) :-
     code_program(Hash, Program),
     maplist(not_static(Program), Clauses),
     agent_clauses(Module, Clauses, Allowed),
-    forall(member(Clause, Allowed), assertz(Module:Clause)).
+    agent_add(Allowed, Module).
 change_made(program(Hash, Sent), Id) :-
     may_change(Id),
     code_receive(Hash, Sent),

@@ -24,6 +24,10 @@ move, or out of a restore point.  Only agent_resume/1 takes that away.
 *Threading*: what takes an Id inside with_agent/2, but for faulty_tell/2.
 */
 
+:- multifile
+    typhon_recovery:back/4,
+    typhon_recovery:kept/4.
+
 :- dynamic kept/1.                      % Id, the oldest first
 
 %   The name under which people know it.
@@ -63,6 +67,11 @@ faulty_stirs(Id) :-
 
 faulty_gone(Id) :-
     retractall(kept(Id)).
+
+typhon_recovery:kept(stays, Id, 0, '') :-
+    kept(Id).
+typhon_recovery:back(stays, Id, _, _) :-
+    assertz(kept(Id)).
 
 %!  faulty_tell(+Id, +Fault) is det.
 %

@@ -1,4 +1,6 @@
-:- module(typhon_recovery, []).
+:- module(typhon_recovery,
+          [ agent_goes_on/1             % +Id
+          ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../journal', [journal_item/5, note_drop_all/2]).
@@ -22,6 +24,7 @@ scheduled, alarms are set, what was under way is asked for or sent again.
     typhon_code:in_use/1,
     typhon_runtime:ending/1,
     back/4,                     % Kind, Key, N, Term: was noted so
+    kept/4,                     % Kind, Key, N, Term: is so, see room `cut`
     recover/0,
     tidy/0,                     % nobody is let in yet
     restored/0,                 % all of it is
@@ -125,8 +128,19 @@ tidy :-
                 *******************************/
 
 go_on :-
-    findall(Id-Status, agent_status(Id, Status, _), All),
-    forall(member(Id-Status, All), goes_on(Status, Id)).
+    findall(Id, agent_status(Id, _, _), All),
+    forall(member(Id, All), agent_goes_on(Id)).
+
+%!  agent_goes_on(+Id) is det.
+%
+%   Id, which has been put where it was, is scheduled if it was about to run,
+%   and woken when its time has come.
+
+agent_goes_on(Id) :-
+    (   agent_status(Id, Status, _)
+    ->  goes_on(Status, Id)
+    ;   true
+    ).
 
 goes_on(ready, Id) :-
     scheduled(Id).

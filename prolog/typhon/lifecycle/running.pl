@@ -5,7 +5,8 @@
                 turn_has_effects/0, turn_release/0, turn_run/1 ]).
 :- use_module('../program', [answer_at/3, probe_next/2, probe_start/3]).
 :- use_module('../host',
-              [context_clear/0, context_set/3, event/4, quota_any/1]).
+              [ context_clear/0, context_set/3, event/4, quota_any/1,
+                still_keeps/1 ]).
 :- use_module('../agent',
               [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
                 agent_ordered/1, agent_put_down/3, agent_ready/2, agent_rest/3,
@@ -40,6 +41,9 @@ typhon_scheduler:run(Id) :-
     ;   probe_rests(Id)                 % has ended
     ).
 
+take(Id, later) :-
+    still_keeps(Id),
+    !.
 take(Id, Task) :-
     agent_take(Id, Goals, Order),
     !,
@@ -53,6 +57,7 @@ take(Id, leave(Dest, Hole, Goals, Since)) :-
 take(Id, resume(Probe)) :-
     held_resumes(Id, Probe).
 
+perform(later, _).
 perform(order(Order, Goals), Id) :-
     order_obey(Order, Id, Goals).
 perform(leave(Dest, Hole, Goals, Since), Id) :-

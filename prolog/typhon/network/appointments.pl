@@ -1,8 +1,11 @@
 :- module(typhon_appointments,
           [ network_advance/2,          % +Network, +Seconds
-            network_at/3                % +Network, +Time, :Goal
+            network_at/3,               % +Network, +Time, :Goal
+            appointments/2,             % +Network, -Due
+            appointments_again/2        % +Network, +Due
           ]).
 :- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../host',
               [alarm_set/3, scheduler_call/1, time_now/1, time_wait/3]).
 :- use_module(networks, [network_clock/2]).
@@ -56,6 +59,20 @@ network_at(Network, Time, Goal) :-
     assertz(due(Network, N, Goal)),
     Stamp is Epoch+Time/Rate,
     alarm_set(Stamp, Network, at(N)).
+
+%!  appointments(+Network, -Due:list) is det.
+%!  appointments_again(+Network, +Due:list) is det.
+%
+%   What is still to be called: pairs N-Goal; their alarms, at(N), are the
+%   business of who calls this.
+
+appointments(Network, Due) :-
+    findall(N-Goal, due(Network, N, Goal), Due).
+
+appointments_again(Network, Due) :-
+    forall(member(N-Goal, Due),
+           ( assertz(due(Network, N, Goal)),
+             flag(typhon_network_at, N0, max(N0, N+1)) )).
 
 typhon_scheduler:fire(Network, at(N)) :-
     !,

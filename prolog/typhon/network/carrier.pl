@@ -13,9 +13,14 @@
                 endpoint_flush/2, endpoint_reply/2 ]).
 :- use_module('../host',
               [ host/3, host_do/2, host_link/3, host_neighbours/2,
-                host_property/2, host_start/2, host_stop/1, host_unlink/2,
-                hosts_back/1, hosts_go_on/0, hosts_journal/2, hosts_rest/0,
-                runtime_acquire/2, runtime_release/1 ]).
+                host_option/2, host_property/2, host_restart/2, host_start/2,
+                host_stop/1, host_unlink/2, hosts_back/1, hosts_go_on/0,
+                hosts_journal/2, hosts_rest/0, runtime_acquire/2,
+                runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
+                time_stands/1 ]).
+:- use_module('../lifecycle',
+              [ agents_at_rest/2, agents_go_on/1, cut_again/2, cut_go_on/3,
+                cut_kept/2 ]).
 :- use_module('../travel', [home_agents/1]).
 :- use_module(voice, [voice_begin/0, voice_end/0]).
 
@@ -84,6 +89,23 @@ one for the order to stop: it sees to it that there is an end.
 %     - neighbours(Names)
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.
+%     - hold(Seconds)
+%       Nobody gets a turn any more; `ok`, or `late`.
+%     - rest(Seconds, Peers)
+%       Nobody runs or is under way any more, nor is anything for the endpoints
+%       Peers in anybody's hands; `ok`, or `late`.
+%     - kept(Names)
+%       Answer is kept(Time, Specs, Items): what time knows of what comes next,
+%       the options of these hosts, Name-Options, and all else that the process
+%       knows of them.
+%     - let_go
+%       It goes on; `ok`.
+%     - again(Specs)
+%       As hosts(Specs), of hosts that there were before.
+%     - fill(Kind, Items)
+%       They know what they did; `ok`.
+%     - goes_on(Kind, Time, Agents)
+%       What comes next does so, Agents go on; `ok`.
 %     - agents
 %       Answer is the list of the agents that were born in the process and
 %       have not ended.
@@ -92,12 +114,32 @@ one for the order to stop: it sees to it that there is an end.
 %   a goal fails, place_goal_failed(Name, Goal)
 
 order_do(hosts(Specs), Addresses) :-
-    start_all(Specs, []),
-    findall(Address,
-            ( member(Name-_, Specs), host_property(Name, address(Address)) ),
-            Addresses).
+    start_all(Specs, host_start, []),
+    addresses(Specs, Addresses).
 order_do(go_on, ok) :-
     hosts_go_on.
+order_do(again(Specs), Addresses) :-
+    start_all(Specs, host_restart, []),
+    addresses(Specs, Addresses).
+order_do(hold(Seconds), Answer) :-
+    in_time(time_hold(Seconds), Answer).
+order_do(rest(Seconds, Peers), Answer) :-
+    in_time(agents_at_rest(Seconds, Peers), Answer).
+order_do(kept(Names), kept(Time, Specs, Items)) :-
+    time_stands(Time),
+    findall(Name-Options,
+            ( member(Name, Names),
+              findall(Option, host_option(Name, Option), Options) ),
+            Specs),
+    cut_kept(Names, Items).
+order_do(let_go, ok) :-
+    time_let_go(Agents),
+    agents_go_on(Agents).
+order_do(fill(Kind, Items), ok) :-
+    cut_again(Kind, Items).
+order_do(goes_on(Kind, Time, Agents), ok) :-
+    time_again(Time, Scheduled),
+    cut_go_on(Kind, Agents, Scheduled).
 order_do(stop(Names), ok) :-
     (   host(Other, _, _),
         \+ memberchk(Other, Names)
@@ -107,10 +149,7 @@ order_do(stop(Names), ok) :-
 order_do(stop, ok) :-
     hosts_rest.
 order_do(flush(Seconds, Peers), Answer) :-
-    (   endpoint_flush(Seconds, Peers)
-    ->  Answer = ok
-    ;   Answer = late
-    ).
+    in_time(endpoint_flush(Seconds, Peers), Answer).
 order_do(link(Halves), ok) :-
     forall(member(half(Name, Address, Cost), Halves),
            host_link(Name, Address, Cost)).
@@ -128,17 +167,31 @@ order_do(neighbours(Names), Lists) :-
 order_do(agents, Agents) :-
     home_agents(Agents).
 
-%   What was there before, of a journal, is not undone.
+:- meta_predicate in_time(0, -).
 
-start_all([], _).
-start_all([Name-Options|Specs], Started0) :-
+in_time(Goal, Answer) :-
+    (   call(Goal)
+    ->  Answer = ok
+    ;   Answer = late
+    ).
+
+addresses(Specs, Addresses) :-
+    findall(Address,
+            ( member(Name-_, Specs), host_property(Name, address(Address)) ),
+            Addresses).
+
+%   start_all(+Specs, :Start, +Started): what was there before, of a journal, is
+%   not undone.
+
+start_all([], _, _).
+start_all([Name-Options|Specs], Start, Started0) :-
     (   host(Name, _, _)
     ->  Started = Started0
     ;   Started = [Name|Started0]
     ),
-    catch(host_start(Name, Options), Error, true),
+    catch(call(Start, Name, Options), Error, true),
     (   var(Error)
-    ->  start_all(Specs, Started)
+    ->  start_all(Specs, Start, Started)
     ;   order_do(stop(Started0), ok),
         throw(Error)
     ).

@@ -7,15 +7,20 @@
             carrier/4,                  % ?Network, ?P, ?Pid, ?Where
             carrier_gone/2,             % +Network, +P
             carrier_order/4,            % +Network, +P, +Order, -Answer
+            carriers_order/5,           % +Network, +Ps, +Order, +Seconds,
+                                        % -Answers
             carriers_ask/6,             % +Network, +Ps, +Order, +Seconds,
                                         % :Watch, -Results
+            carriers_tell/3,            % +Network, +Ps, +Order
+            carriers_peers/2,           % +Network, -Peers
             unwatched/1                 % +Ps
           ]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../wire', [endpoint_request/4]).
+:- use_module('../wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(carrier, [order_do/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
 
@@ -115,6 +120,23 @@ carrier_order(Network, P, Order, Answer) :-
     carriers_ask(Network, [P], Order, Seconds, unwatched, [_-Result]),
     result(Result, Network-P, Answer).
 
+%!  carriers_order(+Network, +Ps, +Order, +Seconds, -Answers) is det.
+%
+%   As carrier_order/4, of all carriers Ps at the same time, with one answer of
+%   each, in Seconds.
+
+carriers_order(Network, [P], Order, _, [Answer]) :-
+    up(Network, P, local, _),
+    !,
+    order_do(Order, Answer).
+carriers_order(Network, Ps, Order, Seconds, Answers) :-
+    carriers_ask(Network, Ps, Order, Seconds, unwatched, Results),
+    maplist(result_of(Network, Results), Ps, Answers).
+
+result_of(Network, Results, P, Answer) :-
+    memberchk(P-Result, Results),
+    result(Result, Network-P, Answer).
+
 result(answer(done(Answer)), _, Answer).
 result(answer(raised(Formal, Text)), _, _) :-
     throw(error(Formal, context(_, Text))).
@@ -146,6 +168,30 @@ carriers_ask(Network, Ps, Order, Seconds, Watch, Results) :-
         ( retractall(waiting(_, _, Queue)),
           message_queue_destroy(Queue)
         )).
+
+%!  carriers_tell(+Network, +Ps, +Order) is det.
+%
+%   Carriers Ps are to do Order, when they come to it.  Never waits.
+
+carriers_tell(Network, Ps, Order) :-
+    forall(( member(P, Ps), carrier(Network, P, _, Where) ),
+           tell(Where, Order)).
+
+tell(local, Order) :-
+    !,
+    order_do(Order, _).
+tell(Endpoint, Order) :-
+    endpoint_request(Endpoint, node, Order, typhon_carriers:unwatched).
+
+%!  carriers_peers(+Network, -Peers:list) is det.
+%
+%   The endpoints of this process, and of the children that are left.
+
+carriers_peers(Network, Peers) :-
+    findall(Peer,
+            ( endpoint_address(Peer)
+            ; carrier(Network, _, _, Peer) ),
+            Peers).
 
 %!  unwatched(+Ps) is det.
 %

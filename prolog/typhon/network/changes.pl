@@ -1,5 +1,8 @@
 :- module(typhon_changes,
           [ dynamics_start/4,           % +State, +Clock, :OnChange, -Dynamics
+            dynamics_kept/3,            % +Dynamics, +Seconds, -Then
+            dynamics_again/5,           % +Name, +Then, +Clock, :OnChange,
+                                        % -Dynamics
             dynamics_stop/1             % +Dynamics
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -22,7 +25,8 @@ does.
 */
 
 :- meta_predicate
-    dynamics_start(+, +, 1, -).
+    dynamics_start(+, +, 1, -),
+    dynamics_again(+, +, +, 1, -).
 
 :- multifile
     typhon_scheduler:fire/2,
@@ -33,7 +37,7 @@ does.
     dynamics/3,                 % Dynamics, Clock, OnChange
     due/2,                      % Dynamics, Queue: of the next event
     changing/2,                 % Dynamics, Thread: makes changes just now
-    stopping/2.                 % Dynamics, Queue: waits for the end of that
+    stopping/2.                 % Dynamics, Queue: hears of the end of that
 
 %!  dynamics_start(+State, +Clock, :OnChange, -Dynamics) is det.
 %
@@ -43,12 +47,21 @@ does.
 %   next change follows. Dynamics is for dynamics_stop/1.
 
 dynamics_start(State, Clock, OnChange, Dynamics) :-
+    new_name(Dynamics),
+    begin(Dynamics, Clock, OnChange),
+    next(Dynamics, State).
+
+new_name(Dynamics) :-
+    repeat,
     flag(typhon_dynamics, N, N+1),
     atom_concat(typhon_dynamics_, N, Dynamics),
+    \+ dynamics(Dynamics, _, _),
+    !.
+
+begin(Dynamics, Clock, OnChange) :-
     message_queue_create(Queue),
     assertz(due(Dynamics, Queue)),
-    assertz(dynamics(Dynamics, Clock, OnChange)),
-    next(Dynamics, State).
+    assertz(dynamics(Dynamics, Clock, OnChange)).
 
 next(Dynamics, State0) :-
     (   dynamics(Dynamics, clock(Epoch, Rate), _),
@@ -58,6 +71,41 @@ next(Dynamics, State0) :-
         Stamp is Epoch+Time/Rate,
         alarm_set(Stamp, Dynamics, links)
     ;   true
+    ).
+
+%!  dynamics_kept(+Dynamics, +Seconds, -Then) is semidet.
+%!  dynamics_again(+Name, +Then, +Clock, :OnChange, -Dynamics) is det.
+%
+%   What comes next, or `none`: it does so when the alarm goes off, which is the
+%   business of who calls this.  Fails if changes are made just now, for longer
+%   than Seconds.  Dynamics has that Name, if it is free.
+
+dynamics_kept(Dynamics, Seconds, Then) :-
+    setup_call_cleanup(
+        ( message_queue_create(Done),
+          assertz(stopping(Dynamics, Done)) ),
+        (   changing(Dynamics, _)
+        ->  thread_get_message(Done, done, [timeout(Seconds)])
+        ;   true
+        ),
+        ( retractall(stopping(Dynamics, Done)),
+          message_queue_destroy(Done) )),
+    due(Dynamics, Queue),
+    (   thread_peek_message(Queue, Then0)
+    ->  Then = Then0
+    ;   Then = none
+    ).
+
+dynamics_again(Name, Then, Clock, OnChange, Dynamics) :-
+    (   dynamics(Name, _, _)
+    ->  new_name(Dynamics)
+    ;   Dynamics = Name
+    ),
+    begin(Dynamics, Clock, OnChange),
+    due(Dynamics, Queue),
+    (   Then == none
+    ->  true
+    ;   thread_send_message(Queue, Then)
     ).
 
 typhon_scheduler:fire(Dynamics, links) :-

@@ -1,7 +1,9 @@
 :- module(typhon_log_file,
           [ log_open/3,                 % +File, +Mode, -Stream
             log_write/2,                % +Stream, +Event
-            log_events/2                % +Spec, -Events
+            log_events/2,               % +Spec, -Events
+            log_size/2,                 % +File, -Size
+            log_goes_on/2               % +File, +Size
           ]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
@@ -45,6 +47,28 @@ log_open(File, Mode, Stream) :-
     ->  nl(Stream)
     ;   true
     ).
+
+%!  log_size(+File, -Size) is det.
+%!  log_goes_on(+File, +Size) is det.
+%
+%   How long it is, with all that has arrived; it is as it was when it had that
+%   Size, or empty if it never had.
+
+log_size(File, Size) :-
+    forall(about_to_read(File), true),
+    size_file(File, Size).
+
+log_goes_on(File, Size0) :-
+    size_file(File, Now),
+    (   Now >= Size0
+    ->  Size = Size0
+    ;   Size = 0
+    ),
+    setup_call_cleanup(
+        open(File, update, Out, [type(binary)]),
+        ( seek(Out, Size, bof, _),
+          set_end_of_stream(Out) ),
+        close(Out)).
 
 %   The last line has no end: the server that wrote it was killed.
 

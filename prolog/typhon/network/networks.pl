@@ -2,7 +2,14 @@
           [ network_start/3,            % +Topology, -Network, +Options
             network_stop/1,             % +Network
             network_property/2,         % ?Network, ?Property
-            network_clock/2             % +Network, -Clock
+            network_clock/2,            % +Network, -Clock
+            network_begin/4,            % ?Name, +Plan, :Build, -Network
+            network_endpoint/4,         % +Network, +Plan, +Port, -Interface
+            network_log/4,              % +Network, +File, +Options, -Address
+            network_dynamics/2,         % +Network, +Dynamics
+            network_goes_on/2,          % +Network, +Clock
+            network_standing/2,         % +Network, -Standing
+            network_change/2            % +Network, +Change
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
@@ -29,7 +36,7 @@
 :- use_module(processes, [carriers_start/5, carriers_stop/1]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
-              [ wire_change/2, wire_forget/1, wire_goals/3, wire_hosts/3,
+              [ wire_change/2, wire_forget/1, wire_goals/3, wire_hosts/4,
                 wire_instead/3, wire_links/3, wire_stop_own/1, wired_agents/2,
                 wired_edges/2, wired_hosts/2 ]).
 
@@ -48,6 +55,8 @@ or has died.
 started it. It has the threads of rooms `children`, `dynamics` and `log`, and
 none of its own.
 */
+
+:- meta_predicate network_begin(?, +, 1, -).
 
 :- multifile
     prolog:message//1,
@@ -125,15 +134,33 @@ none of its own.
 
 network_start(Topology, Network, Options) :-
     kept_plan(Topology, Options, Plan, Kept),
-    flag(typhon_networks, Id, Id + 1),
-    atom_concat(network, Id, Network),
+    network_begin(_, Plan, build(Plan, Kept), Network).
+
+%!  network_begin(?Name, +Plan, :Build, -Network) is det.
+%
+%   Build a network by call(Build, Network), or leave nothing behind.  It has
+%   that Name, if it is given and free.
+
+network_begin(Name, Plan, Build, Network) :-
+    (   atom(Name),
+        \+ network(Name, _)
+    ->  Network = Name
+    ;   new_name(Network)
+    ),
     raising_afresh(
         setup_call_catcher_cleanup(
             assertz(network(Network, Plan)),
-            build(Network, Plan, Kept),
+            call(Build, Network),
             Catcher,
             unless_built(Catcher, Network))),
     forget_erased.
+
+new_name(Network) :-
+    repeat,
+    flag(typhon_networks, Id, Id + 1),
+    atom_concat(network, Id, Network),
+    \+ network(Network, _),
+    !.
 
 unless_built(exit, _) :-
     !.
@@ -144,14 +171,13 @@ unless_built(_, Network) :-
                 *            BUILD             *
                 *******************************/
 
-build(Network, Plan, Kept) :-
+build(Plan, Kept, Network) :-
     plan_processes(Plan, P, Machines),
     lasting_open(Plan, P, Machines),
-    listen(Network, Plan),
+    network_endpoint(Network, Plan, 0, Interface),
     plan_option(Plan, seed(Seed)),
     time_seed(Seed),
     known_log(Kept, Network, Clock, Plan, Log),
-    interface(Plan, Interface),
     carriers_start(Network, P, Machines, Interface,
                    lasting_child(Plan, Log)),
     clock_and_log(Network, Plan, Clock, Log),
@@ -171,7 +197,7 @@ build(Network, Plan, Kept) :-
 furnished(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
     !,
     plan_hosts(Plan, P, Common, Hosts),
-    wire_hosts(Network, P, Hosts),
+    wire_hosts(Network, P, hosts, Hosts),
     shown(Clock, Time),
     (   plan_links_at(Plan, Time, Links)
     ->  wire_instead(Network, P, Links)
@@ -180,20 +206,37 @@ furnished(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
 furnished(_, Network, P, Plan, Clock, Common, 0) :-
     kept_note(Plan, Clock, begun),
     plan_hosts(Plan, P, Common, Hosts),
-    wire_hosts(Network, P, Hosts),
+    wire_hosts(Network, P, hosts, Hosts),
     plan_links(Plan, Links),
     wire_links(Network, P, Links),
     plan_furnishing(Plan, Goals),
     wire_goals(Network, P, Goals),
     kept_note(Plan, Clock, built).
 
-listen(Network, Plan) :-
+%!  network_endpoint(+Network, +Plan, +Port, -Interface) is det.
+%!  network_log(+Network, +File, +Options, -Address) is det.
+%!  network_dynamics(+Network, +Dynamics) is det.
+%!  network_goes_on(+Network, +Clock) is det.
+%
+%   While it is built: this process is reached at Interface, and at Port if
+%   that is not 0; there is a log server, with options as of log_server_start/2;
+%   it has these dynamics; it is built.
+
+network_dynamics(Network, Dynamics) :-
+    assertz(part(Network, dynamics(Dynamics))).
+
+network_goes_on(Network, Clock) :-
+    assertz(clock_of(Network, Clock)),
+    assertz(running(Network)).
+
+network_endpoint(Network, Plan, Port, Interface) :-
+    interface(Plan, Interface),
     plan_time(Plan, Kind),
     findall(Option,
             ( member(Option, [bind(_), tls(_)]),
               plan_option(Plan, Option) ),
             Options),
-    runtime_acquire(network(Network), [time(Kind)|Options]).
+    runtime_acquire(network(Network), [time(Kind), port(Port)|Options]).
 
 interface(Plan, Interface) :-
     (   plan_option(Plan, bind(Interface0))
@@ -237,13 +280,15 @@ clock_and_log(Network, Plan, Clock, Log) :-
 start_log(Network, clock(Epoch, Rate), Plan, Mode, [Option]) :-
     plan_log(Plan, Spec, Kinds),
     !,
+    network_log(Network, Spec, [mode(Mode), clock(Epoch, Rate)], Address),
+    log_option(Kinds, Address, Option).
+start_log(_, _, _, _, []).
+
+network_log(Network, Spec, Options, Address) :-
     absolute_file_name(Spec, File),
     atom_concat(Network, '_log', Name),
-    log_server_start([ file(File), name(Name), mode(Mode),
-                       clock(Epoch, Rate) ], Address),
-    log_option(Kinds, Address, Option),
+    log_server_start([file(File), name(Name)|Options], Address),
     assertz(part(Network, log(Address, File))).
-start_log(_, _, _, _, []).
 
 log_option([], Address, Option) =>
     Option = log(Address).
@@ -252,12 +297,16 @@ log_option(Kinds, Address, Option) =>
 
 start_dynamics(Network, Clock, Plan, Time) :-
     (   plan_dynamics(Plan, Time, State)
-    ->  dynamics_start(State, Clock, change(Network), Dynamics),
-        assertz(part(Network, dynamics(Dynamics)))
+    ->  dynamics_start(State, Clock, network_change(Network), Dynamics),
+        network_dynamics(Network, Dynamics)
     ;   true
     ).
 
-change(Network, Change0) :-
+%!  network_change(+Network, +Change) is det.
+%
+%   Change is link(I, J) or unlink(I, J).
+
+network_change(Network, Change0) :-
     network(Network, Plan),
     plan_change(Plan, Change0, Change),
     wire_change(Network, Change).
@@ -334,6 +383,25 @@ network_clock(Network, Clock) :-
     (   running(Network)
     ->  clock_of(Network, Clock)
     ;   existence_error(network, Network)
+    ).
+
+%!  network_standing(+Network, -Standing) is det.
+%
+%   Standing is standing(Plan, Clock, Log, Dynamics), with log(Address, File)
+%   or `none`, and `none` where there are no dynamics.
+%
+%   @error existence_error(network, Network)
+
+network_standing(Network, standing(Plan, Clock, Log, Dynamics)) :-
+    network_clock(Network, Clock),
+    network(Network, Plan),
+    (   part(Network, log(Address, File))
+    ->  Log = log(Address, File)
+    ;   Log = none
+    ),
+    (   part(Network, dynamics(Dynamics0))
+    ->  Dynamics = Dynamics0
+    ;   Dynamics = none
     ).
 
 %!  network_property(?Network, ?Property) is nondet.

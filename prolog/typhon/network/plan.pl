@@ -1,6 +1,7 @@
 :- module(typhon_plan,
           [ network_plan/3,             % +Topology, +Options, -Plan
             plan_option/2,              % +Plan, ?Option
+            plan_unkept/2,              % +Plan0, -Plan
             plan_time/2,                % +Plan, -Kind
             plan_log/3,                 % +Plan, -File, -Kinds
             plan_processes/3,           % +Plan, -P, -Machines
@@ -163,6 +164,18 @@ seeded(Options, Seed, [seed(Seed)|Options]) :-
                 /*******************************
                 *             PARTS            *
                 *******************************/
+
+%!  plan_unkept(+Plan0, -Plan) is det.
+%
+%   Without what is said of journals, and of processes that are started again.
+
+plan_unkept(plan(Names, Edges, Costs, Options0),
+            plan(Names, Edges, Costs, Options)) :-
+    exclude(of_journal, Options0, Options).
+
+of_journal(journal(_)).
+of_journal(sync(_)).
+of_journal(restart(_)).
 
 %!  plan_time(+Plan, -Kind) is det.
 %

@@ -6,14 +6,13 @@
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../wire',
-              [contact_expect/1, contact_expect_no_more/1, endpoint_address/1]).
+:- use_module('../wire', [contact_expect/1, contact_expect_no_more/1]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
 :- use_module(carriers,
               [ carrier/3, carrier/4, carrier_again/2, carrier_came/4,
                 carrier_gone/2, carrier_order/4, carrier_went/3, carriers_ask/6,
-                carriers_forget/1, unwatched/1 ]).
+                carriers_forget/1, carriers_peers/2, unwatched/1 ]).
 :- use_module(restarts, [restarts_absent/2, restarts_begin/3, restarts_end/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
 
@@ -232,7 +231,7 @@ carriers_stop(Network) :-
     ;   order_children(Network, stop, kill_hanging(Network)),
         Watch = unwatched
     ),
-    peers(Network, Peers),
+    carriers_peers(Network, Peers),
     order_children(Network, flush(2, Peers), Watch),
     forall(child(Network, _, Child), child_close(Child)),
     (   queue(Network, Queue)
@@ -256,14 +255,6 @@ release_children(Network) :-
     child_release(Child),
     release_children(Network).
 release_children(_).
-
-%   This process, and the children that are left.
-
-peers(Network, Peers) :-
-    findall(Peer,
-            ( endpoint_address(Peer)
-            ; carrier(Network, _, _, Peer) ),
-            Peers).
 
 %   One may begin to hang after it has said that it is alive.
 

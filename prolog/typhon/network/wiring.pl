@@ -1,5 +1,5 @@
 :- module(typhon_wiring,
-          [ wire_hosts/3,               % +Network, +P, +Hosts
+          [ wire_hosts/4,               % +Network, +P, +How, +Hosts
             wire_links/3,               % +Network, +P, +Links
             wire_goals/3,               % +Network, +P, +Goals
             wire_change/2,              % +Network, +Change
@@ -10,7 +10,8 @@
             wire_forget/1,              % +Network
             wired_hosts/2,              % +Network, -Addresses
             wired_edges/2,              % +Network, -Edges
-            wired_agents/2              % +Network, -Agents
+            wired_agents/2,             % +Network, -Agents
+            wired/2                     % +Network, -Hosts
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
@@ -40,26 +41,28 @@ typhon_names:known(host, Address) :-
     Other \== Pid,
     host(Network, _, _, P, Address).
 
-%!  wire_hosts(+Network, +P, +Hosts) is det.
+%!  wire_hosts(+Network, +P, +How, +Hosts) is det.
 %
 %   Starts Hosts, terms host(At, I, Name, Options), At one of the carriers
-%   1..P. Each carrier gets one order.
+%   1..P. Each carrier gets one order, How being its name: `hosts`, or `again`
+%   for those that there were before.
 %
 %   @error as carrier_order/4
 
-wire_hosts(Network, P, Hosts) :-
-    forall(between(1, P, At), start_hosts(Network, At, Hosts)).
+wire_hosts(Network, P, How, Hosts) :-
+    forall(between(1, P, At), start_hosts(Network, At, How, Hosts)).
 
-start_hosts(Network, P, Hosts) :-
+start_hosts(Network, P, How, Hosts) :-
     findall(I-Name, member(host(P, I, Name, _), Hosts), Numbered),
-    order_hosts(Network, P, Hosts, Addresses),
+    order_hosts(Network, P, How, Hosts, Addresses),
     pairs_keys_values(Pairs, Numbered, Addresses),
     forall(member((I-Name)-Address, Pairs),
            assertz(host(Network, I, Name, P, Address))).
 
-order_hosts(Network, P, Hosts, Addresses) :-
+order_hosts(Network, P, How, Hosts, Addresses) :-
     findall(Name-Options, member(host(P, _, Name, Options), Hosts), Specs),
-    carrier_order(Network, P, hosts(Specs), Addresses).
+    Order =.. [How, Specs],
+    carrier_order(Network, P, Order, Addresses).
 
 %!  wire_links(+Network, +P, +Links) is det.
 %!  wire_instead(+Network, +P, +Links) is det.
@@ -124,7 +127,7 @@ order_goals(Network, P, Goals) :-
 %   @error as carrier_order/4
 
 wire_again(Network, P, Hosts, Links, Goals) :-
-    order_hosts(Network, P, Hosts, _),
+    order_hosts(Network, P, hosts, Hosts, _),
     with_mutex(typhon_wiring, links_again(Network, P, Links)),
     order_goals(Network, P, Goals).
 
@@ -205,6 +208,16 @@ wire_stop_own(Network) :-
 wire_forget(Network) :-
     retractall(host(Network, _, _, _, _)),
     retractall(changed(Network, _, _)).
+
+%!  wired(+Network, -Hosts) is det.
+%
+%   Hosts are terms host(P, I, Name, Address), by number.
+
+wired(Network, Hosts) :-
+    findall(I-host(P, I, Name, Address), host(Network, I, Name, P, Address),
+            Pairs),
+    keysort(Pairs, Sorted),
+    pairs_values(Sorted, Hosts).
 
 %!  wired_hosts(+Network, -Addresses) is det.
 %

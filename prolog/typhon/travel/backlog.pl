@@ -5,7 +5,8 @@
             backlog_again/3,            % +Id, +Letters, +Tries
             backlog_done/1,             % +Id
             backlog_all/2,              % +Id, -Letters
-            backlog_leaves/1            % +Id
+            backlog_leaves/1,           % +Id
+            post_tried/0
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3]).
@@ -23,6 +24,7 @@ tried they are with whoever tries; there is one at a time.
 
 :- multifile
     typhon_recovery:back/4,
+    typhon_recovery:kept/4,
     typhon_runtime:ending/1.
 
 :- dynamic waits/4.             % Id, Queue, Tries, State: idle or tried
@@ -44,6 +46,17 @@ backlog_add(Id, Letter) :-
 
 typhon_recovery:back(wait, Id, _, Letter) :-
     add(Id, Letter).
+
+%   They are there, and nobody tries them just now.
+
+typhon_recovery:kept(backlog, Id, Tries, Letters) :-
+    waits(Id, Queue, Tries, _),
+    fifo_empty(Queue, Letters),
+    maplist(thread_send_message(Queue), Letters).
+typhon_recovery:back(backlog, Id, Tries, Letters) :-
+    message_queue_create(Queue),
+    maplist(thread_send_message(Queue), Letters),
+    assertz(waits(Id, Queue, Tries, idle)).
 
 add(Id, Letter) :-
     (   waits(Id, Queue, _, _)
@@ -89,6 +102,14 @@ backlog_done(Id) :-
         fail
     ;   message_queue_destroy(Queue)
     ).
+
+%!  post_tried is semidet.
+%
+%   Somebody has letters in hand.
+
+post_tried :-
+    waits(_, _, _, tried),
+    !.
 
 %!  backlog_leaves(+Id) is det.
 %

@@ -51,7 +51,9 @@ its agents what they tell it.
 :- multifile
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
+    typhon_identity:id_anew/1,
     typhon_recovery:back/4,
+    typhon_recovery:kept/4,
     typhon_endpoint:requested/4,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
@@ -61,6 +63,11 @@ typhon_identity:ids_anew :-
     retractall(outcome(_, _, _)),
     retractall(faulty(_, _, _)),
     retractall(waiter(_, _, _)).
+
+typhon_identity:id_anew(Id) :-
+    retractall(born(Id, _, _, _)),
+    retractall(outcome(Id, _, _)),
+    retractall(faulty(Id, _, _)).
 
 %!  agent_born(+Id, +Address) is det.
 
@@ -73,6 +80,18 @@ put_born(Id, Address, Hops, Process) :-
 
 typhon_bounded:forgotten(outcome(Id, _, _)) :-
     note_drop_all(outcome, Id).
+
+%   At the address of another process there may be another by then.
+
+typhon_recovery:kept(born, Id, 0, born(Address, Hops, Process)) :-
+    born(Id, Address, Hops, Process0),
+    ( Process0 == here -> Process = here ; Process = unknown ).
+typhon_recovery:kept(outcome, Id, 0, Outcome-Hops) :-
+    outcome(Id, Outcome, Hops).
+typhon_recovery:kept(faulty, Id, 0, faulty(Outcome, Age)) :-
+    faulty(Id, Outcome, Age).
+typhon_recovery:kept(flag, outcomes, N, '') :-
+    flag(outcomes, N, N).
 
 typhon_recovery:back(born, Id, _, born(Address, Hops, Process)) :-
     assertz(born(Id, Address, Hops, Process)).

@@ -29,7 +29,9 @@ oldest entries are forgotten.
 :- multifile
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
+    typhon_identity:id_anew/1,
     typhon_recovery:back/4,
+    typhon_recovery:kept/4,
     typhon_endpoint:requested/4.
 
 :- setting(legacies, positive_integer, 20000,
@@ -44,6 +46,9 @@ oldest entries are forgotten.
 typhon_identity:ids_anew :-
     retractall(left(_, _)),
     retractall(clone_of(_, _)).
+typhon_identity:id_anew(Id) :-
+    retractall(left(Id, _)),
+    retractall(clone_of(Id, _)).
 
 %!  legacy_keep(+Id, +Items:list) is det.
 %
@@ -75,6 +80,14 @@ typhon_bounded:forgotten(left(Id, _)) :-
     note_drop_all(left, Id).
 typhon_bounded:forgotten(clone_of(_, Clone)) :-
     note_drop_all(clone, Clone).
+
+typhon_recovery:kept(left, Id, 0, Item) :-
+    left(Id, Item).
+typhon_recovery:kept(clone, Clone, 0, Parent) :-
+    clone_of(Parent, Clone).
+typhon_recovery:kept(flag, Name, N, '') :-
+    member(Name, [legacies, clones]),
+    flag(Name, N, N).
 
 typhon_recovery:back(left, Id, _, Item) :-
     assertz(left(Id, Item)).

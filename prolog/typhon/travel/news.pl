@@ -1,5 +1,6 @@
 :- module(typhon_news,
-          [ news_tell/3                 % +Home, +Id, +News
+          [ news_tell/3,                % +Home, +Id, +News
+            news_carried/1              % +Home
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -56,6 +57,14 @@ news_tell(Home, Id, News) :-
     ->  scheduler_call(carry(Home, try(0, 0.5)))
     ;   true
     ).
+
+%!  news_carried(+Home) is semidet.
+%
+%   Somebody has news for Home in hand, or is about to have.
+
+news_carried(Home) :-
+    courier(Home),
+    !.
 
 %   Where an agent is it will tell again.
 

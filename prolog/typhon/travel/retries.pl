@@ -1,5 +1,6 @@
 :- module(typhon_retries,
-          [ retry_later/3               % +Id, +Letter, +Way
+          [ retry_later/3,              % +Id, +Letter, +Way
+            retries_go_on/0
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../journal', [journal_seal/0, journal_step/1]).
@@ -68,6 +69,13 @@ typhon_scheduler:over(Id, mail) :-
     \+ backlog(Id).
 
 typhon_recovery:go_on :-
+    retries_go_on.
+
+%!  retries_go_on is det.
+%
+%   Letters that wait are tried before long.
+
+retries_go_on :-
     forall(backlog(Id), try_later(Id, 0)).
 
 %   try(+Id): in a worker.

@@ -48,6 +48,7 @@ clone(Held, CloneId, Since).
 
 :- multifile
     typhon_recovery:back/4,
+    typhon_recovery:kept/4,
     typhon_recovery:restored/0,
     forward_order/2.            % Id, Order: the agent has left
 
@@ -246,6 +247,8 @@ typhon_recovery:restored :-
              arg(2, Transfer, dest(_, _, Endpoint)) ),
            crossing_restore(Who, Hops, Endpoint, Sent)).
 
+typhon_recovery:kept(given_up, Id, Hops, '') :-
+    given_up(Id, Hops).
 typhon_recovery:back(given_up, Id, Hops, _) :-
     assertz(given_up(Id, Hops)).
 

@@ -54,7 +54,9 @@ see typhon_news, since it may have to connect.
     error:has_type/2,
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
+    typhon_identity:id_anew/1,
     typhon_recovery:back/4,
+    typhon_recovery:kept/4,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
 
@@ -80,6 +82,9 @@ agent_seen(Id, Address, Hops, Peer) :-
         ;   news_tell(Home, Id, located(Id, Address, Hops))
         )
     ).
+
+typhon_identity:id_anew(Id) :-
+    retractall(forward(Id, _, _, _)).
 
 %!  agent_left(+Id, +Address, +Hops, +Peer) is det.
 %
@@ -133,6 +138,13 @@ typhon_identity:ids_anew :-
 
 typhon_bounded:forgotten(forward(Id, _, _, _)) :-
     note_drop(agent, Id, 0).
+
+%   The process may be another by then.
+
+typhon_recovery:kept(gone, Id, 0, gone(Address, Hops, unknown)) :-
+    forward(Id, Address, Hops, _).
+typhon_recovery:back(gone, Id, _, gone(Address, Hops, Process)) :-
+    assertz(forward(Id, Address, Hops, Process)).
 
 typhon_recovery:back(agent, Id, _, gone(Address, Hops, Process)) :-
     !,

@@ -1,0 +1,203 @@
+:- module(typhon_cut,
+          [ cut_kept/2,                 % +Hosts, -Items
+            cut_again/2,                % +Kind, +Items
+            cut_go_on/3                 % +Kind, +Agents, +Scheduled
+          ]).
+:- use_module(library(error), [domain_error/2, permission_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(ordsets), [ord_subtract/3]).
+:- use_module('../program', [code_receive/2, code_sent/2]).
+:- use_module('../wire', [mobile_term/1]).
+:- use_module('../host', [host/3, host_again/1, schedule/2]).
+:- use_module('../agent',
+              [ agent/5, agent_enter/3, agent_home/2, agent_module/5,
+                agent_order/2, agent_orders/2, agent_state/2, agent_status/3,
+                mail_list/2, with_agent/2 ]).
+:- use_module('../travel', [retries_go_on/0]).
+:- use_module(on_hold, [held_parts/3]).
+:- use_module(recovery, [agent_goes_on/1]).
+
+/** <module> All that a process knows, at a moment
+
+Items are item(Kind, Key, N, Term).  Each room says what it knows with the hook
+kept/4, and takes it back with back/4, as it does what the journal has noted,
+see room `recovery`.  What time knows is not among them.
+
+*Threading*: any thread, while time is held.
+*/
+
+:- multifile
+    typhon_recovery:back/4,
+    typhon_recovery:kept/4.
+
+%   What others look up comes before them.  Of some kinds a process in real
+%   time knows better.
+
+kind(place, any).
+kind(fact, any).
+kind(payload, any).
+kind(link, any).
+kind(flag, virtual).
+kind(born, any).
+kind(outcome, any).
+kind(faulty, any).
+kind(left, any).
+kind(clone, any).
+kind(gone, any).
+kind(given_up, any).
+kind(backlog, any).
+kind(program, any).
+kind(stands, any).
+kind(mail, any).
+kind(order, any).
+kind(stays, virtual).
+kind(turns, virtual).
+kind(counts, virtual).
+
+%!  cut_kept(+Hosts:list, -Items:list) is det.
+%
+%   What this process knows, but for what is about other hosts of it than Hosts,
+%   about who stands there, and who has gone from there.
+%
+%   @error type_error(mobile_term, Culprit)
+%   @error permission_error(save, agent, Id) if it runs
+
+cut_kept(Hosts, Items) :-
+    others(Hosts, Others),
+    findall(item(Kind, Key, N, Term),
+            ( kind(Kind, _),
+              typhon_recovery:kept(Kind, Key, N, Term),
+              \+ is_of(Others, Kind, Key, Term),
+              can_be_written(Kind, Key, Term) ),
+            Items).
+
+%   others(+Hosts, -Others): of this process, mostly none.
+
+others(Hosts, Others) :-
+    findall(Host, ( host(Host, _, _), \+ memberchk(Host, Hosts) ), Others).
+
+%   is_of(+Hosts, +Kind, +Key, +Term): the item is about one of Hosts.
+
+is_of([Host|Hosts], Kind, Key, Term) :-
+    about(Kind, Key, Term, About),
+    on_host(About, Other),
+    memberchk(Other, [Host|Hosts]),
+    !.
+
+about(link, _, link(Host, _, _), host(Host)).
+about(payload, _, payload(Host, _), host(Host)).
+about(Kind, Host, _, host(Host)) :-
+    memberchk(Kind, [place, fact, turns, counts]).
+about(Kind, Id, _, agent(Id)) :-
+    memberchk(Kind, [ born, outcome, faulty, left, clone, gone, given_up,
+                      backlog, stands, mail, order, stays ]).
+
+on_host(host(Host), Host).
+on_host(agent(Id), Host) :-
+    (   agent(Id, Host0, _, _, _)
+    ->  Host = Host0
+    ;   agent_home(Id, Home),
+        host(Host, Home, _)
+    ).
+
+can_be_written(Kind, Key, Term) :-
+    catch(mobile_term(Term), error(Formal, _),
+          ( format(atom(Text), '~w of ~w', [Kind, Key]),
+            throw(error(Formal, context(_, Text))) )).
+
+%!  cut_again(+Kind, +Items:list) is det.
+%
+%   All is as Items say, in a process whose hosts have been started again and
+%   whose time is of that Kind.  What it knew of these agents, from when they
+%   went on here, is forgotten.
+%
+%   @error domain_error(saved_item, Item)
+
+cut_again(Time, Items) :-
+    forall(( member(item(Kind, Id, _, _), Items),
+             memberchk(Kind, [born, outcome, gone]),
+             typhon_identity:id_anew(Id) ),
+           true),
+    forall(( member(item(Kind, Key, N, Term), Items),
+             kind(Kind, For),
+             memberchk(For, [any, Time]) ),
+           is_again(Kind, Key, N, Term)).
+
+is_again(Kind, Key, N, Term) :-
+    typhon_recovery:back(Kind, Key, N, Term),
+    !.
+is_again(Kind, Key, N, Term) :-
+    domain_error(saved_item, item(Kind, Key, N, Term)).
+
+                /*******************************
+                *            AGENTS            *
+                *******************************/
+
+typhon_recovery:back(flag, Name, N, _) :-
+    set_flag(Name, N).
+
+typhon_recovery:kept(program, Hash, 0, Sent) :-
+    findall(Hash, agent(_, _, _, Hash, _), Hashes0),
+    sort(Hashes0, Hashes),
+    member(Hash, Hashes),
+    code_sent(Hash, Sent).
+typhon_recovery:back(program, Hash, _, Sent) :-
+    code_receive(Hash, Sent).
+
+typhon_recovery:kept(stands, Id, 0,
+                     agent(Host, Hash, Life, State, Status, Goals)) :-
+    agent(Id, Host, Module, Hash, Life),
+    agent_status(Id, Status0, Goals0),
+    rests(Status0, Goals0, Id, Status, Goals),
+    agent_state(Module, State).
+typhon_recovery:back(stands, Id, _,
+                     agent(Host, Hash, Life, State, Status, Goals)) :-
+    host(Host, _, Place),
+    agent_module(Id, Place, Hash, State, Module),
+    agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals),
+    host_again(Host).
+
+%   Who is held is held again at its next goal.
+
+rests(running, _, Id, _, _) :-
+    !,
+    permission_error(save, agent, Id).
+rests(_, Held, _, ready, Goals) :-
+    held_parts(Held, Goals, _),
+    !.
+rests(Status, Goals, _, Status, Goals).
+
+typhon_recovery:kept(mail, Id, 0, Message) :-
+    agent(Id, _, _, _, _),
+    with_agent(Id, mail_list(Id, Messages)),
+    member(Message, Messages).
+
+%   Nobody waits for the answer any more.
+
+typhon_recovery:kept(order, Id, 0, Order) :-
+    agent(Id, _, _, _, _),
+    agent_orders(Id, Orders),
+    member(Order0, Orders),
+    Order0 \= asked(question(_), _),
+    unasked(Order0, Order).
+typhon_recovery:back(order, Id, _, Order) :-
+    agent_order(Id, Order).
+
+unasked(asked(Order, _), asked(Order, queue(nobody))) :-
+    !.
+unasked(Order, Order).
+
+%!  cut_go_on(+Kind, +Agents:list, +Scheduled:list) is det.
+%
+%   Agents go on.  In virtual time alarms are set, and some are Scheduled.
+
+cut_go_on(real, Agents, _) :-
+    forall(member(Id, Agents), agent_goes_on(Id)),
+    retries_go_on.
+cut_go_on(virtual, Agents, Scheduled0) :-
+    findall(Id, ( member(Id, Agents), agent_status(Id, ready, _) ), Ready0),
+    sort(Ready0, Ready),
+    sort(Scheduled0, Scheduled),
+    ord_subtract(Ready, Scheduled, Others),
+    forall(( member(Id, Others), agent(Id, Host, _, _, _) ),
+           schedule(Host, Id)).

@@ -1,0 +1,229 @@
+:- module(typhon_loading,
+          [ network_load/3              % +File, -Network, +Options
+          ]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
+:- use_module(library(lists), [append/3, member/2, subtract/3]).
+:- use_module('../base/options', [check_options/2]).
+:- use_module('../host',
+              [address_parts/3, alarm_set/3, time_kind/1, time_now/1]).
+:- use_module(appointments, [appointments_again/2]).
+:- use_module(carriers, [carrier_order/4]).
+:- use_module(changes, [dynamics_again/5]).
+:- use_module(log_file, [log_goes_on/2]).
+:- use_module(networks,
+              [ network_begin/4, network_change/2, network_dynamics/2,
+                network_endpoint/4, network_goes_on/2, network_log/4 ]).
+:- use_module(plan, 
+              [plan_log/3, plan_processes/3, plan_time/2, plan_unkept/2]).
+:- use_module(processes, [carriers_start/5]).
+:- use_module(saved_file, [saved_read/2]).
+:- use_module(wiring, [wire_hosts/4, wired_hosts/2]).
+
+/** <module> Networks out of restore points
+
+Hosts are started as they were at the end, and filled, while time does not run
+yet.  Nobody hears that what was there before has begun.
+
+*Threading*: as network_start/3.
+*/
+
+:- multifile
+    typhon_options:declared/4,
+    prolog:error_message//1.
+
+%!  network_load(+File, -Network, +Options) is det.
+%
+%   Network is what network_save/2 has written to File, and goes on from there:
+%   in virtual time as the first one did, to the last byte of the log. It has
+%   the same name, if that is free, and its agents have the same ids. Options:
+%
+%     - log(File)
+%       Where its events are written, begun anew. By default they go on in the
+%       file of the first one: what was written there since is cut off. If
+%       that file is not there, or shorter, it is begun anew.
+%
+%   @error existence_error(source_sink, File)
+%   @error network_damaged(File, Why), network_version(File, Version)
+%   @error domain_error(network_load_option, Option)
+%   @error permission_error(load, virtual_time, Network): this process has
+%          virtual time already
+%   @error what network_start/3 raises, as where a port is taken
+
+network_load(File, Network, Options) :-
+    must_be(ground, File),
+    check_options(network_load_option, Options),
+    saved_read(File, Terms),
+    (   saved(Terms, Saved)
+    ->  true
+    ;   domain_error(saved_network, File)
+    ),
+    Saved = saved(Name, Plan, _, _, _, _),
+    must_be_alone(Plan, Name),
+    network_begin(Name, Plan, again(Saved, Options), Network).
+
+typhon_options:declared(network_load_option, log(File), ground, File).
+
+%   saved(+Terms, -Saved): Saved is saved(Name, Plan, Clock, Log, Then, Parts).
+
+saved([network(Name, Plan0), Clock, Log, Dynamics|Rest],
+      saved(Name, Plan, Clock, Log, Dynamics-Due, Rest)) :-
+    Clock = clock(_, clock(_, _)),
+    Log = log(_, _, _),
+    Dynamics = dynamics(_, _, _),
+    plan_unkept(Plan0, Plan),
+    findall(due(N, Stamp, Goal), member(due(N, Stamp, Goal), Rest), Due).
+
+must_be_alone(Plan, Name) :-
+    (   plan_time(Plan, virtual),
+        time_kind(virtual)
+    ->  permission_error(load, virtual_time, Name)
+    ;   true
+    ).
+
+                /*******************************
+                *             BUILD            *
+                *******************************/
+
+again(Saved, Options, Network) :-
+    Saved = saved(_, Plan, clock(Then, Clock0), Log, Due, Terms),
+    plan_time(Plan, Kind),
+    plan_processes(Plan, P, Machines),
+    own_port(P-Machines, Terms, Port),
+    network_endpoint(Network, Plan, Port, Interface),
+    carriers_start(Network, P, Machines, Interface, child_port(Terms)),
+    shift(Kind, Then, Shift),
+    shifted(Shift, Clock0, Clock),
+    log_again(Options, Log, Network, Plan, Clock, LogOptions),
+    hosts_again(Network, P, Terms, Clock, Log, LogOptions),
+    log_cut(Options, Log),
+    forall(between(1, P, At), fill(Network, At, Kind, Terms)),
+    due_again(Due, Network, Clock, Kind, Shift),
+    forall(between(1, P, At), go_on(Network, At, Kind, Terms)),
+    network_goes_on(Network, Clock).
+
+%   Where its hosts were, if this process is to have them.
+
+own_port(1-[local], Terms, Port) :-
+    !,
+    port_of(1, Terms, Port).
+own_port(_, _, 0).
+
+child_port(Terms, P, [port(Port)]) :-
+    port_of(P, Terms, Port).
+
+port_of(P, Terms, Port) :-
+    memberchk(host(P, _, _, Address, _), Terms),
+    port(Address, Port).
+
+%   So much later is it now, by the time of day.
+
+shift(virtual, _, 0).
+shift(real, Then, Shift) :-
+    time_now(Now),
+    Shift is Now-Then.
+
+shifted(0, Clock, Clock) :-
+    !.
+shifted(Shift, clock(Epoch0, Rate), clock(Epoch, Rate)) :-
+    Epoch is Epoch0+Shift.
+
+%   log_again(+Options, +Log, +Network, +Plan, +Clock, -HostOptions)
+
+log_again(Options, _, Network, Plan, clock(Epoch, Rate), [Option]) :-
+    memberchk(log(File), Options),
+    !,
+    network_log(Network, File, [clock(Epoch, Rate)], Address),
+    log_option(Plan, Address, Option).
+log_again(_, log(none, _, _), _, _, _, []) :-
+    !.
+log_again(_, log(_, File, _), Network, Plan, clock(Epoch, Rate),
+          [Option]) :-
+    network_log(Network, File, [mode(append), clock(Epoch, Rate)], Address),
+    log_option(Plan, Address, Option).
+
+%   When nothing stands in the way any more, as the first network would if it
+%   were still there; and before something happens.
+
+log_cut(Options, log(Address, File, Size)) :-
+    (   ( memberchk(log(_), Options) ; Address == none )
+    ->  true
+    ;   log_goes_on(File, Size)
+    ).
+
+log_option(Plan, Address, Option) :-
+    (   plan_log(Plan, _, Kinds),
+        Kinds \== []
+    ->  Option = log(Address, Kinds)
+    ;   Option = log(Address)
+    ).
+
+%   Where they were before.
+
+hosts_again(Network, P, Terms, clock(Epoch, Rate), log(Log, _, _),
+            LogOptions) :-
+    findall(host(At, I, Name, Options),
+            ( member(host(At, I, Name, Address, Options0), Terms),
+              exclude(is_anew(Log), Options0, Options1),
+              port(Address, Port),
+              append([clock(Epoch, Rate), port(Port)|LogOptions], Options1,
+                     Options) ),
+            Hosts),
+    wire_hosts(Network, P, again, Hosts),
+    findall(Address, member(host(_, _, _, Address, _), Terms), Wanted),
+    wired_hosts(Network, Addresses),
+    (   Addresses == Wanted
+    ->  true
+    ;   subtract(Wanted, Addresses, [Missing|_]),
+        throw(error(existence_error(host, Missing), _))
+    ).
+
+is_anew(Log, log(Log)).
+is_anew(Log, log(Log, _)).
+is_anew(_, clock(_, _)).
+is_anew(_, port(_)).
+is_anew(_, journal(_)).
+is_anew(_, sync(_)).
+
+port(Address, Port) :-
+    address_parts(Address, _, Endpoint),
+    atomic_list_concat([_,Text], ':', Endpoint),
+    atom_number(Text, Port).
+
+fill(Network, P, Kind, Terms) :-
+    findall(Item, member(P:Item, Terms), Items),
+    carrier_order(Network, P, fill(Kind, Items), ok).
+
+%   In virtual time the alarms are among what time knows.
+
+due_again(Dynamics-Due, Network, Clock, Kind, Shift) :-
+    links_again(Dynamics, Network, Clock, Kind, Shift),
+    findall(N-Goal, member(due(N, _, Goal), Due), Pairs),
+    appointments_again(Network, Pairs),
+    forall(member(due(N, Stamp, _), Due),
+           due_at(Kind, Shift, Stamp, Network, at(N))).
+
+links_again(dynamics(none, _, _), _, _, _, _) :-
+    !.
+links_again(dynamics(Name, Stamp, Then), Network, Clock, Kind, Shift) :-
+    dynamics_again(Name, Then, Clock, network_change(Network), Dynamics),
+    network_dynamics(Network, Dynamics),
+    due_at(Kind, Shift, Stamp, Dynamics, links).
+
+due_at(virtual, _, _, _, _).
+due_at(real, Shift, Stamp0, Who, Token) :-
+    Stamp is Stamp0+Shift,
+    alarm_set(Stamp, Who, Token).
+
+go_on(Network, P, Kind, Terms) :-
+    memberchk(time(P, Time), Terms),
+    findall(Id, member(P:item(stands, Id, _, _), Terms), Agents),
+    carrier_order(Network, P, goes_on(Kind, Time, Agents), ok).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(permission_error(load, virtual_time, Network)) -->
+    [ 'This process has virtual time already: ~w cannot begin in it'-
+      [Network] ].

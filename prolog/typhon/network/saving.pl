@@ -1,0 +1,236 @@
+:- module(typhon_saving,
+          [ network_save/2              % +Network, +File
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(lists), [append/2, append/3, member/2, numlist/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../host',
+              [ context_now/2, host_property/2, time_due/3, time_kind/1,
+                time_now/1 ]).
+:- use_module('../wire', [mobile_term/1]).
+:- use_module(appointments, [appointments/2]).
+:- use_module(carrier, [order_do/2]).
+:- use_module(carriers,
+              [ carrier/4, carriers_order/5, carriers_peers/2,
+                carriers_tell/3 ]).
+:- use_module(changes, [dynamics_kept/3]).
+:- use_module(log_file, [log_size/2]).
+:- use_module(networks, [network_standing/2]).
+:- use_module(plan, [plan_processes/3]).
+:- use_module(saved_file, [saved_write/2]).
+:- use_module(wiring, [wired/2]).
+
+/** <module> Restore points of whole networks
+
+All carriers hold what they do; then each says what it knows, and goes on.
+That is written when they have gone on.  See room `loading` for the way back.
+
+*Threading*: any thread, also that of virtual time, for what is called by
+network_at/3.
+*/
+
+:- multifile
+    prolog:error_message//1.
+
+:- setting(hold_seconds, number, 30,
+           "A network that is saved has so long to come to rest").
+
+%!  network_save(+Network, +File) is det.
+%
+%   Write all of Network to File: hosts, links, agents with their goals, state
+%   and mail, facts, payloads, outcomes, clocks, and what is due.  It goes on
+%   afterwards, and from File a network can be made that goes on alike, see
+%   network_load/3.  What was in File is replaced when all is written.
+%
+%   @error existence_error(network, Network)
+%   @error timeout_error(save, Network): something does not come to rest
+%   @error type_error(mobile_term, Culprit): what cannot be written
+%   @error permission_error(save, network, Network): an agent asks for it
+%   @error permission_error(save, host, Host): which is not of Network, but has
+%          the same virtual time
+%   @error existence_error(carrier, Network-P), and what open/3 raises
+
+network_save(Network, File) :-
+    must_be(atom, Network),
+    must_be(ground, File),
+    network_standing(Network, Standing),
+    raising_afresh(one_at_a_time(save(Network, Standing, File))).
+
+%   In virtual time one waits for the other anyway, and may be asked to do so in
+%   the thread of that.
+
+:- meta_predicate one_at_a_time(0).
+
+one_at_a_time(Goal) :-
+    (   time_kind(virtual)
+    ->  call(Goal)
+    ;   with_mutex(typhon_saving, Goal)
+    ).
+
+save(Network, Standing, File) :-
+    Standing = standing(Plan, _, _, _),
+    plan_processes(Plan, Count, _),
+    numlist(1, Count, Ps),
+    nobody_else(Network),
+    setup_call_cleanup(
+        true,
+        cut(Network, Ps, Standing, Terms),
+        let_go(Network, Ps)),
+    saved_write(File, Terms).
+
+%   In virtual time what others do in this process is not to be told from what
+%   the network does.
+
+nobody_else(Network) :-
+    context_now(_, Agent),
+    Agent \== none,
+    !,
+    permission_error(save, network, Network).
+nobody_else(Network) :-
+    time_kind(virtual),
+    wired(Network, Hosts),
+    host_property(Name, address(Address)),
+    \+ memberchk(host(_, _, Name, Address), Hosts),
+    !,
+    permission_error(save, host, Address).
+nobody_else(_).
+
+carried_here(Network) :-
+    carrier(Network, _, _, local).
+
+cut(Network, Ps, Standing, Terms) :-
+    setting(hold_seconds, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    hold(Network, Ps, Deadline),
+    about(Network, Standing, Deadline, About),
+    maplist(part(Network, Deadline), Ps, Parts),
+    append([About|Parts], Terms).
+
+                /*******************************
+                *            TO HOLD           *
+                *******************************/
+
+%   When nobody gets a turn, and those who had one have ended it, a letter may
+%   be on its way still.  It goes from process to process, each time to where
+%   its agent has been later: through each of them once at the most.
+
+hold(Network, Ps, Deadline) :-
+    hold_here(Network),
+    all_do(Network, Ps, hold, Deadline),
+    all_do(Network, Ps, rest([]), Deadline),
+    (   carried_here(Network)
+    ->  true
+    ;   carriers_peers(Network, Peers),
+        forall(member(_, [here|Ps]),
+               ( all_do(Network, Ps, flush(Peers), Deadline),
+                 all_do(Network, Ps, rest(Peers), Deadline) ))
+    ).
+
+%   Links and appointments are the business of this process, also where hosts
+%   are in others.
+
+hold_here(Network) :-
+    carried_here(Network),
+    !.
+hold_here(_) :-
+    order_do(hold(0), ok).
+
+let_go(Network, Ps) :-
+    carriers_tell(Network, Ps, let_go),
+    (   carried_here(Network)
+    ->  true
+    ;   order_do(let_go, ok)
+    ).
+
+all_do(Network, Ps, What, Deadline) :-
+    seconds_to(Deadline, Seconds),
+    order(What, Seconds, Order),
+    answers(Network, Ps, Order, Deadline, Answers),
+    (   memberchk(late, Answers)
+    ->  throw(error(timeout_error(save, Network), _))
+    ;   true
+    ).
+
+order(hold, Seconds, hold(Seconds)).
+order(rest(Peers), Seconds, rest(Seconds, Peers)).
+order(flush(Peers), Seconds, flush(Seconds, Peers)).
+
+%   They have a little longer to say that it took too long.
+
+answers(Network, Ps, Order, Deadline, Answers) :-
+    seconds_to(Deadline, Seconds0),
+    Seconds is Seconds0+1,
+    carriers_order(Network, Ps, Order, Seconds, Answers).
+
+seconds_to(Deadline, Seconds) :-
+    get_time(Now),
+    Seconds is max(0.1, Deadline-Now).
+
+                /*******************************
+                *         WHAT THERE IS        *
+                *******************************/
+
+%   about(+Network, +Standing, +Deadline, -About): what the carriers do not
+%   know.
+
+about(Network, standing(Plan, Clock, Log0, Dynamics0), Deadline,
+      [network(Network, Plan), clock(Now, Clock), Log, Dynamics|Due]) :-
+    time_now(Now),
+    dynamics(Dynamics0, Deadline, Network, Dynamics),
+    log(Log0, Log),
+    appointments(Network, Pairs),
+    findall(due(N, Stamp, Goal),
+            ( member(N-Goal, Pairs), due(Network, at(N), Stamp) ),
+            Due),
+    mobile_term(Due).
+
+log(none, log(none, '', 0)).
+log(log(Address, File), log(Address, File, Size)) :-
+    log_size(File, Size).
+
+dynamics(none, _, _, dynamics(none, none, none)) :-
+    !.
+dynamics(Dynamics, Deadline, Network, dynamics(Dynamics, Stamp, Then)) :-
+    seconds_to(Deadline, Seconds),
+    (   dynamics_kept(Dynamics, Seconds, Then)
+    ->  due(Dynamics, links, Stamp)
+    ;   throw(error(timeout_error(save, Network), _))
+    ).
+
+%   What has just gone off, and is not done yet, is to go off at once.
+
+due(Who, Token, Stamp) :-
+    (   time_due(Who, Token, Stamp0)
+    ->  Stamp = Stamp0
+    ;   Stamp = 0
+    ).
+
+%   part(+Network, +Deadline, +P, -Terms)
+
+part(Network, Deadline, P, [time(P, Time)|Terms]) :-
+    wired(Network, Hosts),
+    findall(Name, member(host(P, _, Name, _), Hosts), Names),
+    answers(Network, [P], kept(Names), Deadline,
+            [kept(Time, Specs, Items)]),
+    mobile_term(Time),
+    findall(host(P, I, Name, Address, Options),
+            ( member(host(P, I, Name, Address), Hosts),
+              memberchk(Name-Options, Specs) ),
+            HostTerms),
+    findall(P:Item, member(Item, Items), ItemTerms),
+    append(HostTerms, ItemTerms, Terms).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(timeout_error(save, Network)) -->
+    [ '~w has not come to rest in time, and is not saved'-[Network] ].
+prolog:error_message(permission_error(save, network, Network)) -->
+    [ 'An agent cannot save ~w: it would have to stop before it can'-
+      [Network] ].
+prolog:error_message(permission_error(save, host, Host)) -->
+    [ '~w is not in the network, but has the same virtual time'-[Host] ].

@@ -1,0 +1,606 @@
+:- module(test_saving, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(random), [random/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(typhon)).
+:- use_module('../../../agents/allocation/operator',
+              [robot_start/3, task_allocate/4]).
+:- use_module('../../../agents/learning/operator', [learning_start/5]).
+:- use_module('../../../agents/population/operator', [population_start/5]).
+:- use_module('../../../agents/sieve/operator',
+              [antigen_attack/2, sieve_start/3]).
+
+/** <module> Networks that are saved, and go on from there
+
+*Threading*: one test at a time.
+*/
+
+:- meta_predicate
+    with_network(+, +, -, 0).
+
+with_network(Topology, Options, Network, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(Topology, Network, Options),
+                 once(Goal),
+                 stopped(Network))).
+
+%   The test may have done so.
+
+stopped(Network) :-
+    catch(network_stop(Network), error(existence_error(network, _), _), true).
+
+                /*******************************
+                *           SCENARIOS          *
+                *******************************/
+
+%   scenario(?Name, -Topology, -Options, -Seconds): what happens in virtual
+%   time; begun(+Name, +Network, +Hosts) sets it going.
+
+scenario(wanderers, grid(3, 3),
+         [ hop_time(uniform(0.1, 0.9)), hosts([concurrency(1)]),
+           dynamic(links(uniform(1, 3), 0.3, 0.5)), cost(uniform(1, 9)) ],
+         20).
+scenario(learners, mesh(5),
+         [ hop_time(uniform(0.2, 0.4)), dynamic(dynamic_1),
+           hosts([capacity(3)]) ],
+         40).
+scenario(population, ring(5), [hop_time(uniform(0.1, 0.3))], 30).
+scenario(sieve, random(6, 0.4), [hop_time(uniform(0.1, 0.2))], 30).
+scenario(allocation, ring(5), [hop_time(uniform(0.2, 0.4))], 60).
+
+begun(wanderers, _, Hosts) :-
+    forall(member(Host, Hosts), wanderer(Host)).
+begun(learners, _, Hosts) :-
+    learning_start(Hosts, payloads(learning/maze), [payloads(learning/greedy)],
+                   [agents(3), seed(1), settings([size-5])], _).
+begun(population, _, Hosts) :-
+    population_start(house, Hosts, [floor-sleep(0.5), walls-sleep(0.5)],
+                     [seed(1), settings([threshold-5, tick-0.5])], _).
+begun(sieve, Network, Hosts) :-
+    sieve_start(Hosts, payloads(sieve/bits), [settings([seed-1, omega-200])]),
+    forall(member(Time-Antigen, [1-[1,0,1,1,0,1,0,0], 8-[1,1,1,1,0,0,0,0],
+                                 15-[1,0,1,1,0,1,0,0]]),
+           network_at(Network, Time, antigen_attack(Hosts, Antigen))).
+begun(allocation, _, [A,_,B|Rest]) :-
+    forall(member(Host, [A,B|Rest]), robot_start(Host, [push], [])),
+    forall(member(Name-Host, [a-A, b-B]),
+           task_allocate(task(Name, [3-[push]], []), Host,
+                         [settings([seed-1, patience-200, monitor-100])], _)).
+
+%   Clones, messages, random numbers, facts, choices, sleep, waiting, faults.
+
+wanderer(Host) :-
+    agent_create(clauses([ (:- agent(wanderer, [state([left/1])])),
+                           left(8),
+                           (main :- parent(P), !, send(P, hello), stroll),
+                           (main :- stroll),
+                           (stroll :- left(0), !),
+                           (stroll :- retract(left(K)), K1 is K-1,
+                                      assertz(left(K1)),
+                                      random(X), log(drawn(X)),
+                                      leave(was(K, X, "text", _)),
+                                      next_step, part(K), stroll),
+                           (next_step :- next_host(random, H), move(H), !),
+                           (next_step :- sleep(1)),
+                           (part(5) :- !, clone(_)),
+                           (part(3) :- random(X), X < 0.1, !, fail),
+                           (part(_) :- (   receive(From-Text, 0.5)
+                                       ->  log(heard(From, Text))
+                                       ;   true
+                                       )) ]),
+                 _, [host(Host)]).
+
+started(Name, File, Network, Seconds) :-
+    scenario(Name, Topology, Options, Seconds),
+    network_start(Topology, Network,
+                  [ clock(virtual), seed(3),
+                    log(File, [hops, messages, facts, faults, links, hosts])
+                  | Options ]),
+    network_property(Network, hosts(Hosts)),
+    begun(Name, Network, Hosts).
+
+%   whole(+Name, +File, -Text): what is logged if nobody interferes.
+
+whole(Name, File, Text) :-
+    no_leaks(setup_call_cleanup(
+                 started(Name, File, Network, Seconds),
+                 network_advance(Network, Seconds),
+                 network_stop(Network))),
+    read_file_to_string(File, Text, []).
+
+%   interrupted(+Name, +Times, +Log, +File, -Text): saved at each of Times, let
+%   run on for a while, stopped, and loaded.
+
+interrupted(Name, Times, Log, File, Text) :-
+    no_leaks(setup_call_cleanup(
+                 started(Name, Log, First, Seconds),
+                 resumed(Times, 0, Seconds, First, File),
+                 stopped(First))),
+    read_file_to_string(Log, Text, []).
+
+resumed([], Now, End, Network, _) :-
+    Seconds is End-Now,
+    network_advance(Network, Seconds),
+    network_stop(Network).
+resumed([Time|Times], Now, End, Network, File) :-
+    Seconds is Time-Now,
+    network_advance(Network, Seconds),
+    network_save(Network, File),
+    network_advance(Network, 2),
+    network_stop(Network),
+    network_load(File, Next, []),
+    resumed(Times, Time, End, Next, File).
+
+goes_on_alike(Name) :-
+    listening(with_tmp_dir(goes_on_alike(Name)), _).
+
+goes_on_alike(Name, Dir) :-
+    atom_concat(Dir, '/log.pl', Log),
+    atom_concat(Dir, '/file.net', File),
+    whole(Name, Log, Whole),
+    scenario(Name, _, _, Seconds),
+    random(0.0, Seconds, T1),
+    random(0.0, Seconds, T2),
+    msort([T1,T2], Times),
+    interrupted(Name, Times, Log, File, Text),
+    (   Text == Whole
+    ->  true
+    ;   throw(error(other_log(Name, Times), _))
+    ).
+
+                /*******************************
+                *           REAL TIME          *
+                *******************************/
+
+%   Walkers that send a number at each hop, to one that moves, too, and counts
+%   what it gets: at each moment all that was sent is counted, or in its
+%   mailbox, or waits for it.
+
+walker(Host, Box) :-
+    agent_create(clauses([ (:- agent(walker, [state([n/1, box/1])])),
+                           n(0),
+                           (main :- next_host(random, H), move(H),
+                                    retract(n(N)), N1 is N+1, assertz(n(N1)),
+                                    box(B), send(B, m(N1)), rest(N1), main),
+                           (rest(N) :- N mod 5 =:= 0, !, sleep(0.01)),
+                           rest(_) ]),
+                 _, [host(Host), facts([box(Box)])]).
+
+box(Host, Box) :-
+    agent_create(clauses([ (:- agent(box, [state([got/1])])),
+                           got(0),
+                           (main :- (   receive(_-m(_), 0.005)
+                                    ->  retract(got(N)), N1 is N+1,
+                                        assertz(got(N1)),
+                                        (   N1 mod 20 =:= 0
+                                        ->  hop
+                                        ;   true
+                                        )
+                                    ;   hop
+                                    ),
+                                    main),
+                           (hop :- next_host(random, H), move(H)) ]),
+                 Box, [host(Host)]).
+
+traffic(Network) :-
+    network_property(Network, hosts([First|Hosts])),
+    box(First, Box),
+    forall(member(Host, [First|Hosts]), walker(Host, Box)).
+
+%   saved(+Network, +File, -Sent, -Got): so many agents, and messages.
+
+saved(Network, File, Agents, Sent, Got) :-
+    network_save(Network, File),
+    typhon_saved_file:saved_read(File, Terms),
+    findall(Facts,
+            member(_:item(stands, _, _, agent(_, _, _, state(_, Facts), _, _)),
+                   Terms),
+            All),
+    length(All, Agents),
+    aggregate_all(sum(N), ( member(Facts, All), member(n(N), Facts) ), Sent),
+    aggregate_all(sum(N), ( member(Facts, All), member(got(N), Facts) ), Had),
+    aggregate_all(count, member(_:item(mail, _, _, _), Terms), Mail),
+    aggregate_all(count,
+                  ( member(_:item(backlog, _, _, Letters), Terms),
+                    member(letter(Some, _), Letters), member(_, Some) ),
+                  Wait),
+    Got is Had+Mail+Wait.
+
+all_there(Network, File, Count, Sent) :-
+    saved(Network, File, Agents, Sent, Got),
+    assertion(Agents-Got == Count-Sent).
+
+consistent(Options, Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_network(mesh(5), Options, Network,
+                 ( traffic(Network),
+                   forall(between(1, 6, _),
+                          ( pause(0.05), all_there(Network, File, 6, _) )) )),
+    network_load(File, Again, []),
+    call_cleanup(( pause(0.3),
+                   all_there(Again, File, 6, Sent),
+                   pause(0.1),
+                   all_there(Again, File, 6, More) ),
+                 stopped(Again)),
+    assertion(More > Sent).
+
+pause(Seconds) :-
+    thread_self(Me),
+    \+ thread_get_message(Me, '$never', [timeout(Seconds)]).
+
+:- begin_tests(real_networks_are_saved).
+
+test(every_cut_is_consistent, [forall(member(P, [1,3]))]) :-
+    listening(with_tmp_dir(consistent([processes(P)])), _).
+test(the_clock_goes_on) :-
+    with_tmp_dir(clock_goes_on).
+test(appointments_links_and_names, true(Said == [early,late])) :-
+    with_tmp_dir(everything(Said)).
+test(beside_hosts_that_stay, true(Left-Ids == [mark]-1)) :-
+    with_tmp_dir(beside(Left, Ids)).
+test(a_port_that_is_taken, error(socket_error(_, _))) :-
+    with_tmp_dir(beside_itself).
+test(a_process_that_does_not_answer, true(Result == [timeout_error,alive])) :-
+    with_tmp_dir(hanging(Result)).
+test(a_process_that_is_gone,
+     error(existence_error(carrier, _))) :-
+    listening(with_tmp_dir(gone), _).
+test(an_agent_that_does_not_stop, error(timeout_error(save, _))) :-
+    with_tmp_dir(busy).
+
+:- end_tests(real_networks_are_saved).
+
+%   Between saving and loading time stands still, also for who sleeps.
+
+clock_goes_on(Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_network(ring(2), [clock(100)], N1,
+                 ( agent_create(clauses([ (:- agent(a)),
+                                          (main :- sleep(60), now(T),
+                                                   result(T)) ]), A),
+                   network_save(N1, File),
+                   remote(n1, now(T1)) )),
+    pause(1),
+    no_leaks(setup_call_cleanup(
+                 network_load(File, N2, []),
+                 ( remote(n1, now(T2)),
+                   agent_join(A, done, 20),
+                   agent_result(A, T, 5) ),
+                 stopped(N2))),
+    assertion(T2-T1 < 60),
+    assertion((T >= 60, T < T1+100)).
+
+%   An appointment is kept once, links are as they were, there are dynamics, and
+%   the log goes on.
+
+everything(Said, Dir) :-
+    atom_concat(Dir, '/file', File),
+    atom_concat(Dir, '/log', Log),
+    with_network(mesh(4), [ clock(10), processes(2), log(Log, [links]),
+                            dynamic(links(uniform(1, 2), 0.5, 0.5)) ], N1,
+                 ( network_property(N1, hosts([Host|_])),
+                   network_at(N1, 1, say(Host, early)),
+                   network_at(N1, 9, say(Host, late)),
+                   network_advance(N1, 5),
+                   network_property(N1, hosts(Hosts)),
+                   log_events(Log, Before),
+                   network_save(N1, File) )),
+    no_leaks(setup_call_cleanup(
+                 network_load(File, N2, []),
+                 ( network_property(N2, hosts(Hosts)),
+                   network_advance(N2, 30) ),
+                 stopped(N2))),
+    log_events(Log, Events),
+    append(Before, After, Events),
+    assertion(N1 == N2),
+    assertion(( member(event(_, _, _, link(_)), After) )),
+    findall(What, ( member(event(_, _, _, log(said(What))), Events)
+                  ; member(event(_, _, _, said(What)), Events) ), Said).
+
+say(Host, What) :-
+    agent_create(clauses([(:- agent(speaker)), (main :- log(said(What)))]), _,
+                 [host(Host)]).
+
+%   What another host of this process has is not saved, and goes on.
+
+beside(Left, Count, Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_hosts([own],
+               ( agent_create(clauses([ (:- agent(b)),
+                                        (main :- receive(_), leave(mark)) ]),
+                              B, [host(own)]),
+                 setup_call_cleanup(
+                     network_start(ring(2), N1, []),
+                     ( agent_create(clauses([ (:- agent(a)),
+                                              (main :- receive(_),
+                                                       leave(mark)) ]),
+                                    A, [host(n1)]),
+                       remote(own, leave(no)),
+                       network_save(N1, File) ),
+                     stopped(N1)),
+                 setup_call_cleanup(
+                     network_load(File, N2, []),
+                     ( agent_send(B, go), agent_join(B, done, 10),
+                       agent_send(A, go), agent_join(A, done, 10),
+                       findall(X, remote(n1, findall(Y, sense(Y), X)), [Left]),
+                       remote(own, aggregate_all(count, sense(no), Count)) ),
+                     stopped(N2)) )).
+
+beside_itself(Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_network(ring(2), [processes(2)], N,
+                 ( network_save(N, File),
+                   network_load(File, _, []) )).
+
+%   What is stopped says nothing.
+
+hanging([Error,alive], Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_settings([typhon_saving:hold_seconds=0.5],
+                  with_network(ring(2), [processes(2)], N,
+                               ( network_property(N, processes([_,Pid])),
+                                 process_kill(Pid, stop),
+                                 call_cleanup(
+                                     catch(network_save(N, File),
+                                           error(Formal, _), true),
+                                     process_kill(Pid, cont)),
+                                 functor(Formal, Error, _),
+                                 \+ exists_file(File),
+                                 goes_round(N),
+                                 network_save(N, File) ))).
+
+goes_round(Network) :-
+    network_property(Network, hosts([A,B])),
+    agent_create(clauses([ (:- agent(a)),
+                           (main :- move(B), move(A)) ]),
+                 Agent, [host(A)]),
+    agent_join(Agent, done, 20).
+
+gone(Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_network(ring(2), [processes(2)], N,
+                 ( network_property(N, processes([_,Pid])),
+                   process_kill(Pid, kill),
+                   wait_until(network_property(N, processes([_])), 20),
+                   network_save(N, File) )).
+
+%   It holds its worker in one goal.
+
+busy(Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_settings([typhon_saving:hold_seconds=0.3],
+                  with_network(ring(2), [], N,
+                               ( holding_on,
+                                 wait_until(remote(n1, sense(begun)), 20),
+                                 network_save(N, File) ))).
+
+holding_on :-
+    agent_create(clauses([ (:- agent(a)),
+                           (main :- leave(begun), thread_self(Me),
+                                    (   thread_get_message(Me, '$never',
+                                                           [timeout(3)])
+                                    ->  true
+                                    ;   true
+                                    )) ]),
+                 _).
+
+%   In another process, when that one has ended.
+
+interrupted_elsewhere(Name, Dir) :-
+    atom_concat(Dir, '/log.pl', Log),
+    atom_concat(Dir, '/file.net', File),
+    whole(Name, Log, Whole),
+    no_leaks(setup_call_cleanup(
+                 started(Name, Log, Network, Seconds),
+                 ( network_advance(Network, 5),
+                   network_save(Network, File) ),
+                 network_stop(Network))),
+    module_property(test_saving, file(Here)),
+    Rest is Seconds-5,
+    format(atom(Goal), "test_saving:on_from('~w', ~w)", [File, Rest]),
+    run_swipl(['-g', Goal, '-t', halt, Here], [], exit(0), _, _),
+    read_file_to_string(Log, Text, []),
+    Text == Whole.
+
+on_from(File, Seconds) :-
+    network_load(File, Network, []),
+    network_advance(Network, Seconds),
+    network_stop(Network).
+
+:- begin_tests(virtual_networks_are_saved).
+
+test(at_random_instants, [forall(scenario(Name, _, _, _))]) :-
+    goes_on_alike(Name).
+test(in_another_process) :-
+    listening(with_tmp_dir(interrupted_elsewhere(wanderers)), _).
+test(by_appointment, true(Text == Whole)) :-
+    listening(with_tmp_dir(by_appointment(Whole, Text)), _).
+test(with_another_log, true(Whole =@= Text)) :-
+    listening(with_tmp_dir(another_log(Whole, Text)), _).
+test(ids_and_names_go_on, true(Ids == ['a.v.0@n1@virtual:0',
+                                       'a.v.1@n1@virtual:0'])) :-
+    with_tmp_dir(ids(Ids)).
+test(a_rule_in_the_state_of_an_agent, true(X == at(1))) :-
+    with_tmp_dir(twice(X)).
+
+:- end_tests(virtual_networks_are_saved).
+
+by_appointment(Whole, Text, Dir) :-
+    atom_concat(Dir, '/log.pl', Log),
+    atom_concat(Dir, '/file.net', File),
+    no_leaks(setup_call_cleanup(
+                 started(wanderers, Log, N1, Seconds),
+                 ( network_at(N1, 7.5, network_save(N1, File)),
+                   network_advance(N1, Seconds) ),
+                 network_stop(N1))),
+    read_file_to_string(Log, Whole, []),
+    Rest is Seconds-7.5,
+    no_leaks(on_from(File, Rest)),
+    read_file_to_string(Log, Text, []).
+
+%   What is logged after that, alone.
+
+another_log(Rest, Text, Dir) :-
+    atom_concat(Dir, '/log.pl', Log),
+    atom_concat(Dir, '/other.pl', Other),
+    atom_concat(Dir, '/file.net', File),
+    no_leaks(setup_call_cleanup(
+                 started(wanderers, Log, N1, _),
+                 ( network_advance(N1, 3),
+                   log_events(Log, Before),
+                   network_save(N1, File),
+                   network_advance(N1, 3) ),
+                 network_stop(N1))),
+    log_events(Log, All),
+    append(Before, After, All),
+    without_stops(After, Rest),
+    no_leaks(( network_load(File, N2, [log(Other)]),
+               network_advance(N2, 3),
+               network_stop(N2) )),
+    log_events(Other, Events),
+    without_stops(Events, Text),
+    Text \== [].
+
+without_stops(Events0, Events) :-
+    findall(Event,
+            ( member(Event, Events0),
+              Event = event(Time, _, _, _), Time < 6 ),
+            Events).
+
+ids([A,B], Dir) :-
+    atom_concat(Dir, '/file.net', File),
+    with_network(ring(3), [clock(virtual), seed(1)], N1,
+                 ( idler(A), network_advance(N1, 1), network_save(N1, File) )),
+    no_leaks(setup_call_cleanup(
+                 network_load(File, N2, []),
+                 ( N2 == N1,
+                   agent_property(A, state(waiting)),
+                   idler(B) ),
+                 network_stop(N2))).
+
+idler(Agent) :-
+    agent_create(clauses([ (:- agent(a)), (main :- receive(_)) ]), Agent).
+
+%   What is unified first, and used later.
+
+twice(X, Dir) :-
+    atom_concat(Dir, '/file.net', File),
+    with_network(ring(3), [clock(virtual), seed(1)], N1,
+                 ( agent_create(clauses([ (:- agent(a, [state([same/2])])),
+                                          (main :- receive(_-Y), same(Y, Z),
+                                                   leave(got(Z))) ]),
+                                A,
+                                [ facts([ (same(P, Q) :- P = at(_),
+                                           ( P = at(2) -> Q = two
+                                           ; Q = P )) ]) ]),
+                   network_save(N1, File) )),
+    no_leaks(setup_call_cleanup(
+                 network_load(File, N2, []),
+                 ( network_save(N2, File),
+                   network_stop(N2),
+                   network_load(File, N3, []),
+                   agent_send(A, at(1)),
+                   agent_join(A, done, 10),
+                   remote(n1, sense(got(X))) ),
+                 stopped(N3))).
+
+                /*******************************
+                *             ERRORS           *
+                *******************************/
+
+:- begin_tests(networks_that_cannot_be_saved_or_loaded).
+
+test(nowhere_to_write,
+     error(existence_error(source_sink, _))) :-
+    with_network(ring(3), [clock(virtual)], N,
+                 network_save(N, '/no/such/directory/file')).
+test(no_such_network, error(existence_error(network, none))) :-
+    network_save(none, file).
+test(what_cannot_be_written,
+     all(Result == [type_error, "old", goes_on])) :-
+    with_tmp_dir(unwritable(Results)),
+    member(Result, Results).
+test(a_host_beside_it,
+     error(permission_error(save, host, 'beside@virtual:0'))) :-
+    with_network(ring(3), [clock(virtual)], N,
+                 setup_call_cleanup(
+                     host_start(beside, [clock(virtual)]),
+                     network_save(N, file),
+                     host_stop(beside))).
+test(virtual_time_is_one,
+     error(permission_error(load, virtual_time, _))) :-
+    with_tmp_dir(loaded_beside).
+test(no_such_file, error(existence_error(source_sink, _))) :-
+    network_load('/no/such/file', _, []).
+test(an_option_that_nobody_knows,
+     error(domain_error(network_load_option, foo))) :-
+    network_load('/no/such/file', _, [foo]).
+test(damaged, [ forall(member(How-Why, [ another-no_network,
+                                         half-cut_short,
+                                         tail-cut_short,
+                                         bit-changed ])),
+                error(network_damaged(_, Why)) ]) :-
+    with_tmp_dir(load_damaged(How)).
+test(of_another_version, error(network_version(_, 99))) :-
+    with_tmp_dir(load_damaged(version)).
+
+:- end_tests(networks_that_cannot_be_saved_or_loaded).
+
+unwritable([Error,Old,goes_on], Dir) :-
+    atom_concat(Dir, '/file', File),
+    setup_call_cleanup(open(File, write, Out), write(Out, old), close(Out)),
+    with_network(ring(3), [clock(virtual)], N,
+                 ( agent_create(clauses([ (:- agent(a, [state([s/1])])),
+                                          (main :- current_output(S),
+                                                   assertz(s(S)),
+                                                   receive(_)) ]), A),
+                   network_advance(N, 1),
+                   catch(network_save(N, File), error(Formal, _), true),
+                   functor(Formal, Error, _),
+                   agent_send(A, end),
+                   agent_join(A, done, 10) )),
+    directory_files(Dir, Files),
+    msort(Files, ['.', '..', file]),
+    read_file_to_string(File, Old, []).
+
+saved_small(File) :-
+    with_network(ring(3), [clock(virtual), seed(3)], N,
+                 ( idler(_), network_save(N, File) )).
+
+loaded_beside(Dir) :-
+    atom_concat(Dir, '/file', File),
+    with_network(ring(3), [clock(virtual)], N,
+                 ( network_save(N, File),
+                   network_load(File, _, []) )).
+
+load_damaged(How, Dir) :-
+    atom_concat(Dir, '/file', File),
+    saved_small(File),
+    read_file_to_string(File, Text0, [encoding(octet)]),
+    damaged(How, Text0, Text),
+    setup_call_cleanup(open(File, write, Out, [encoding(octet)]),
+                       write(Out, Text),
+                       close(Out)),
+    no_leaks(network_load(File, _, [])).
+
+damaged(another, _, "event(1, a, b, c).\n").
+damaged(half, Text0, Text) :-
+    string_length(Text0, Length),
+    Half is Length//2,
+    sub_string(Text0, 0, Half, _, Text).
+damaged(tail, Text0, Text) :-
+    sub_string(Text0, 0, _, 2, Text).
+damaged(bit, Text0, Text) :-
+    sub_string(Text0, Before, 6, After, "seed(3"),
+    !,
+    sub_string(Text0, 0, Before, _, First),
+    sub_string(Text0, _, After, 0, Last),
+    atomics_to_string([First, "seed(2", Last], Text).
+damaged(version, Text0, Text) :-
+    string_concat("typhon_saved(1,", Rest, Text0),
+    string_concat("typhon_saved(99,", Rest, Text).
