@@ -110,11 +110,13 @@ option(host, events, atom, 'A,B',
 option(host, link, atom, 'ADDRESS',
        'host to link to (may be repeated)').
 option(host, journal, atom, 'DIR',
-       'what happens here outlives the process, in DIR').
+       'what happens here outlives the process, in DIR or at a \c
+        postgresql:// URL').
 option(host, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
 option(network, journal, atom, 'DIR',
-       'what happens here outlives the processes, below DIR').
+       'what happens here outlives the processes, below DIR or at a \c
+        postgresql:// URL').
 option(network, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
 option(network, restart, boolean, '',

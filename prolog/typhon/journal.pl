@@ -9,7 +9,7 @@ This is the door of the layer: who is above takes what it needs from here.
 */
 
 :- reexport(journal/ledger,
-            [ journal_begin/0, journal_close/0, journal_end/0,
+            [ journal_begin/0, journal_close/0, journal_closed/0, journal_end/0,
               journal_guards/0, journal_on/0,
               journal_barrier/0, journal_commit/0, journal_go/0,
               journal_let_out/2, journal_number/1,

@@ -20,7 +20,7 @@
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal',
               [ journal_barrier/0, journal_begin/0, journal_close/0,
-                journal_end/0, journal_guards/0, journal_item/5,
+                journal_closed/0, journal_end/0, journal_item/5,
                 journal_number_after/1, journal_on/0, journal_open/3,
                 journal_opened/1, journal_place/2, note_drop/3, note_put/4 ]).
 :- use_module('../wire',
@@ -275,8 +275,7 @@ hosts_rest :-
 :- dynamic user:message_hook/3.
 
 user:message_hook(error(existence_error(journal, open), _), _, _) :-
-    journal_guards,
-    \+ journal_on.
+    journal_closed.
 
 rest :-
     journal_close,
@@ -394,6 +393,10 @@ stop_one(Name0) :-
     local_name(Name0, Name),
     host(Name, Address, Place),
     rest_or_end(Name),
+    (   journal_closed
+    ->  events_forget(Name)             % who rests does not end
+    ;   true
+    ),
     host_close(Name),
     scheduler_unlimit(Name),
     get_time(Now),

@@ -4,6 +4,7 @@
             journal_end/0,
             journal_on/0,
             journal_guards/0,
+            journal_closed/0,
             journal_number/1,           % -N
             journal_number_after/1,     % +N
             note_put/4,                 % +Kind, +Key, +N, +Term
@@ -59,13 +60,14 @@ inside the mutex that guards what it is about.
 %!  journal_end is det.
 %!  journal_on is semidet.
 %!  journal_guards is semidet.
+%!  journal_closed is semidet.
 %
 %   The store is open, and what it knows was read: from now on changes are
 %   noted; all is committed: from now on nothing leaves the process, see
 %   journal_barrier/0, and what happens in it is not known any more; it may
 %   again, and the store is closed: until then nobody else can open it, and
 %   want the port that this process has; whether changes are noted; whether
-%   there is a barrier, from begin to end.
+%   there is a barrier, from begin to end; it is between close and end.
 
 journal_begin :-
     committing_begin,
@@ -78,6 +80,10 @@ journal_close :-
     journal_seal,
     retractall(journal_on),
     ignore(committing_end).
+
+journal_closed :-
+    journal_guards,
+    \+ journal_on.
 
 journal_end :-
     retractall(journal_guards),

@@ -9,6 +9,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../journal', [journal_closed/0]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
 :- use_module('../host', [runtime_acquire/3, runtime_release/1, time_now/1]).
@@ -139,11 +140,13 @@ typhon_log_file:about_to_read(File) :-
            in_own_thread(log_writer_flush(Queue))).
 
 %   What this process posts to itself comes in order, so a request that is
-%   answered tells that the posts before it have arrived.
+%   answered tells that the posts before it have arrived.  Once its journal is
+%   closed it asks nobody any more.
 
 arrived(Name) :-
     (   server(Name, _, _),
-        endpoint_address(Endpoint)
+        endpoint_address(Endpoint),
+        \+ journal_closed
     ->  catch(endpoint_call(Endpoint, log, arrived, answer(yes), 5),
               error(Formal, Context),
               print_message(warning, error(Formal, Context)))

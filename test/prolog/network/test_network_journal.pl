@@ -188,6 +188,28 @@ after_all(Hosts, Agents, Network) :-
     hosts(Network, Hosts),
     all_arrived(Hosts, 60, Agents).
 
+test('one in this process rests, and of its agents none has ended',
+     Ends == [done]) :-
+    no_leaks(with_tmp_dir(here(Ends))).
+
+here(Ends, Dir) :-
+    directory_file_path(Dir, 'log.pl', Log),
+    network(Dir, ring(2), [log(Log)], one_walks(Agent)),
+    network(Dir, ring(2), [], goes_on_alone(Agent)),
+    log_events(Log, Events),
+    findall(End, member(event(_, _, Agent, ended(End)), Events), Ends).
+
+one_walks(Agent, Network) :-
+    hosts(Network, [Host|_]),
+    walkers([Host], 100, [Agent]),
+    wait_until(( agent_property(Agent, hops(Hops)), Hops > 10 ), 10).
+
+goes_on_alone(Agent, Network) :-
+    agent_property(Agent, hops(Hops)),
+    Hops > 10,
+    hosts(Network, Hosts),
+    all_arrived(Hosts, 100, [Agent]).
+
 test('links that come and go are where they would be', Edges == Expected) :-
     with_tmp_dir(come_and_go(Edges, Expected)).
 
