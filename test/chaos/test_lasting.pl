@@ -10,11 +10,11 @@
 
 test('processes with journals die at their steps: nobody is lost or doubled',
      Wrong == []) :-
-    with_tmp_dir(attacked([ processes(2), agents(20), hops(200),
-                            crash(0.0002), kill(3) ], Wrong)).
+    with_tmp_dir(attacked([ processes(2), agents(40), hops(50),
+                            crash(0.0002), kill(2) ], Wrong)).
 test('the power fails: what was answered is not lost', Wrong == []) :-
-    with_tmp_dir(attacked([ processes(2), agents(10), hops(40), sync(full),
-                            crash(0), power(0.04) ], Wrong)).
+    with_tmp_dir(attacked([ processes(2), agents(10), hops(20), sync(full),
+                            crash(0), power(0.03) ], Wrong)).
 
 attacked(Options, Wrong, Dir) :-
     random_between(1, 1000000, Seed),

@@ -140,16 +140,17 @@ keep(Node, Asker) :-
     close(Err, [force(true)]),
     (   calm
     ->  true
-    ;   died(Status),
+    ;   died(Status, Said),
         ( power_cut(Journal) -> count(power_cut) ; true ),
         keep(Node, _)
     ).
 
-died(killed(9)) :-
+died(killed(9), _) :-
     !,
     count(death).
-died(Status) :-
-    format(user_error, 'ended by itself: ~p~n', [Status]),
+died(Status, Said) :-
+    read_file_to_string(Said, Text, []),
+    format(user_error, 'ended by itself: ~p~n~w~n', [Status, Text]),
     count(ended(Status)).
 
 %   Who may write no more to a file is told so, and not killed.

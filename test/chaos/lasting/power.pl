@@ -9,6 +9,11 @@ Of a file that was synced once, and written since, a disk that loses power has
 in each of its sectors what was there or what was written; of those that are
 new also neither.  How long it is then is uncertain, too.
 
+SQLite syncs twice within a commit: the head of its log, where it begins that
+anew, before anything follows it there, and the log before anything of it goes
+to the database.  What comes later has not happened if what came before such a
+sync is not there.
+
 *Threading*: any thread.
 */
 
@@ -49,19 +54,57 @@ power_cut(Dir) :-
     copies(Dir, Copies),
     directory_file_path(Copies, whole, Whole),
     (   exists_file(Whole)
-    ->  forall(( file(Name), directory_file_path(Copies, Name, Copy),
-                 exists_file(Copy) ),
-               ( directory_file_path(Dir, Name, File),
-                 mix(Copy, File) )),
+    ->  both(Copies, Dir, 'journal.db', Db0, Db),
+        both(Copies, Dir, 'journal.db-wal', Log0, Log),
+        what_is_left(Db0-Db, Log0-Log, Dir),
         delete_directory_and_contents(Copies)
     ;   exists_directory(Copies),       % it died while it copied
         delete_directory_and_contents(Copies),
         fail
     ).
 
-mix(Copy, File) :-
-    read_file_to_string(Copy, Synced, [encoding(octet)]),
-    read_file_to_string(File, Written, [encoding(octet)]),
+%   both(+Copies, +Dir, +Name, -Synced, -Written)
+
+both(Copies, Dir, Name, Synced, Written) :-
+    contents(Copies, Name, Synced),
+    contents(Dir, Name, Written).
+
+contents(Dir, Name, Bytes) :-
+    directory_file_path(Dir, Name, File),
+    (   exists_file(File)
+    ->  read_file_to_string(File, Bytes, [encoding(octet)])
+    ;   Bytes = ""
+    ).
+
+what_is_left(Db-Db, Log0-Log, Dir) :-
+    !,
+    begun(Log0, Log, Log1),
+    directory_file_path(Dir, 'journal.db-wal', File),
+    (   Log1 == Log0,
+        random_member(true, [true, false, false])
+    ->  mix(Log0, Log0, File)
+    ;   mix(Log1, Log, File)
+    ).
+what_is_left(Db0-Db, _, Dir) :-
+    directory_file_path(Dir, 'journal.db', File),
+    mix(Db0, Db, File).
+
+%   begun(+Log0, +Log, -Log1): Log1 is the log with the head of Log, if that is
+%   another one.
+
+head_bytes(32).
+
+begun(Log0, Log, Log1) :-
+    head_bytes(Bytes),
+    (   sub_string(Log, 0, Bytes, _, Head),
+        sub_string(Log0, 0, Bytes, _, Head0),
+        Head \== Head0
+    ->  sub_string(Log0, Bytes, _, 0, Rest),
+        string_concat(Head, Rest, Log1)
+    ;   Log1 = Log0
+    ).
+
+mix(Synced, Written, File) :-
     string_length(Synced, Least),
     string_length(Written, Length),
     random_member(Share, [0.0, 0.5, 0.9, 1.0]), % of what was written is there
@@ -88,15 +131,17 @@ between_by(From, To, Step, N) :-
     between(0, Count, I),
     N is From+I*Step.
 
+%   What is beside what is written in a sector stays as it is.
+
 put_sector(Start, Size, Synced-Least, Written-Length, Share, Out) :-
     (   Start+Size =< Length,
         random_float < Share
-    ->  From = Written
-    ;   Start+Size =< Least
-    ->  From = Synced
-    ;   From = none
-    ),
-    put_bytes(From, Start, Size, Out).
+    ->  put_bytes(Written, Start, Size, Out)
+    ;   Old is max(0, min(Size, Least-Start)),
+        New is Size-Old,
+        put_bytes(Synced, Start, Old, Out),
+        put_bytes(none, Start, New, Out)
+    ).
 
 put_bytes(none, _, Size, Out) :-
     !,
@@ -104,6 +149,8 @@ put_bytes(none, _, Size, Out) :-
     forall(between(1, Size, _),
            ( ( Garbage == true -> random_between(0, 255, Byte) ; Byte = 0 ),
              put_char_code(Out, Byte) )).
+put_bytes(_, _, 0, _) :-
+    !.
 put_bytes(Bytes, Start, Size, Out) :-
     sub_string(Bytes, Start, Size, _, Part),
     write(Out, Part).

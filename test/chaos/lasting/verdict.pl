@@ -43,10 +43,16 @@ wrong(people(Hoppers, _, Talkers, Sinks), _, _, Each, Deadline, Wrong) :-
     wrong_mail(Facts, Hoppers, Talkers, Each, Wrong).
 wrong(_, _, Hosts, _, _, left(H, Who)) :-
     member(H, Hosts),
-    again(remote(H, findall(A-S, ( typhon:agent_property(A, state(S)),
-                                   \+ typhon:agent_property(A, program(sink))
-                                 ), Who))),
+    \+ catch(wait_until(( left(H, Now), Now == [] ), 20), error(_, _), fail),
+    left(H, Who),
     Who \== [].
+
+%   Who has arrived elsewhere may still be asked for here.
+
+left(Host, Who) :-
+    again(remote(Host, findall(A-S, ( typhon:agent_property(A, state(S)),
+                                      \+ typhon:agent_property(A, program(sink))
+                                    ), Who))).
 
 result_of(Agent, Result) :-
     again(catch(( agent_result(Agent, Result0, 5) -> true
