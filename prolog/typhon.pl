@@ -16,8 +16,10 @@ layer has a door, and behind it a folder with its rooms.
   | Python, MQTT, ROS, FIPA        | typhon/bridge     |
 */
 
-%   Arithmetic is compiled in all rooms; what they tell by debug/3 stays.
+%   Arithmetic is compiled in all rooms; what they tell by debug/3 stays. From 9.2
+%   on it is library(debug) that has the flag.
 
+:- use_module(library(debug), []).
 :- set_prolog_flag(optimise, true).
 :- set_prolog_flag(optimise_debug, false).
 
