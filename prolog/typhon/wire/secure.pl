@@ -37,7 +37,7 @@ thread of its connection. What it may last in all is seen to by the keeper.
               [existence_error/2, permission_error/3, syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2]).
-:- use_module('../base/key_files', [keys_file/3]).
+:- use_module('../base/key_files', [key_loaded/3, keys_file/3]).
 :- use_module('../base/keys', [keys_certificate/2, keys_holder/3]).
 :- use_module(hello, [line_read/3, line_write/2]).
 :- use_module(keeper_queue, [keeper_tell/1]).
@@ -94,19 +94,31 @@ must_be_there(Directory, Which) :-
     ).
 
 context(Role, Directory, Context) :-
-    maplist(keys_file(Directory), [cert, key, ca, crl],
-            [Certificate, Key, Authority, Revoked]),
+    maplist(keys_file(Directory), [cert, key, ca],
+            [Certificate, Key, Authority]),
+    revoked(Directory, Revoked),
     ssl_context(Role, Context,
                 [ certificate_file(Certificate),
                   key_file(Key),
                   cacerts([file(Authority)]),
-                  crl([Revoked]),
-                  require_crl(true),
                   peer_cert(true),
                   min_protocol_version(tlsv1_3),
                   close_parent(true),
                   cert_verify_hook(typhon_secure:verified)
+                | Revoked
                 ]).
+
+%   Library(ssl) never frees a list, some 4 kB for each connection: one in
+%   which nobody stands is left out. Contexts cannot be shared by connections,
+%   whose peers it would mix up.
+
+revoked(Directory, Options) :-
+    key_loaded(Directory, crl, List),
+    (   memberchk(revocations([]), List)
+    ->  Options = []
+    ;   keys_file(Directory, crl, File),
+        Options = [crl([File]), require_crl(true)]
+    ).
 
 %   verified(+SSL, +Certificate, +Chain, +First, +Verdict): only what was
 %   verified is; why it was not is remembered for who is told.
