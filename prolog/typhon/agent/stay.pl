@@ -7,8 +7,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module('../host',
-              [ alarm_set/3, host_time/2, quota/3, quota_any/1, quota_shared/4,
-                real_time/3 ]).
+              [ alarm_set/3, host_time/2, quota/3, quota_any/1, real_time/3 ]).
 :- use_module(owner, [owner_key/2, owner_of/5]).
 
 /** <module> Agents on a host with quotas
@@ -30,9 +29,7 @@ While an agent stands there: whose it is, and how long it may.
 
 stay_begins(Id, Host, Module, Hash) :-
     stay_ends(Id),
-    (   quota(_, _, _)
-    ->  begins(Id, Host, Module, Hash)
-    ;   quota_shared(_, _, _, _)
+    (   quota_any(_)
     ->  begins(Id, Host, Module, Hash)
     ;   true
     ).

@@ -3,7 +3,7 @@
             quota_forget/1,             % +Host
             quota/3,                    % ?Host, ?What, -Most
             quota_shared/4,             % ?Host, ?Whose, ?What, -Most
-            quota_any/1                 % +Host
+            quota_any/1                 % ?Host
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
@@ -51,6 +51,7 @@ any thread.
 :- dynamic
     quota/3,                    % Host, What, Most
     quota_shared/4,             % Host, Whose: owner or host, What, Most
+    quota_any/1,                % Host: it has some of them
     watching/1,                 % Thread
     set/1,
     look/0,
@@ -102,6 +103,12 @@ quota_set(Host, Policy, Quotas) :-
     retractall(quota(Host, _, _)),
     retractall(quota_shared(Host, _, _, _)),
     forall(member(Quota, All), add(Quota, Host)),
+    (   All == []
+    ->  retractall(quota_any(Host))
+    ;   quota_any(Host)
+    ->  true
+    ;   assertz(quota_any(Host))
+    ),
     forall(set(Host), true),
     watch.
 
@@ -149,20 +156,17 @@ in_force(Policy, Quotas, Whose, What, Most) :-
 %   A host of this process has a quota, of each agent; of what agents of one
 %   owner, or all agents, have together.
 
-%!  quota_any(+Host) is semidet.
-
-quota_any(Host) :-
-    quota(Host, _, _),
-    !.
-quota_any(Host) :-
-    quota_shared(Host, _, _, _),
-    !.
+%!  quota_any(?Host) is nondet.
+%
+%   A host of this process has quotas: where none has, this is all that is
+%   asked.
 
 %!  quota_forget(+Host) is det.
 
 quota_forget(Host) :-
     retractall(quota(Host, _, _)),
     retractall(quota_shared(Host, _, _, _)),
+    retractall(quota_any(Host)),
     watch,
     forall(forgotten(Host), true).
 

@@ -6,7 +6,7 @@
           ]).
 :- use_module(library(error), [resource_error/1]).
 :- use_module('../base/trees', [is_tree/2]).
-:- use_module(quotas, [quota/3, quota_shared/4]).
+:- use_module(quotas, [quota/3, quota_any/1, quota_shared/4]).
 
 /** <module> What agents use in a second
 
@@ -31,6 +31,9 @@ thread at a time; what it shares with others is counted under a mutex.
 %
 %   @error resource_error(What)
 
+quota_spend(Host, _, _) :-
+    \+ quota_any(Host),
+    !.
 quota_spend(Host, Agent, What) :-
     quota(Host, What, Most),
     !,

@@ -95,16 +95,15 @@ typhon_recovery:go_on :-
     forall(member(said(Id, N, From, Message), Letters),
            post_noted(Id, N, From, Message)).
 
-post_way(Id, From, Message, done) :-
-    \+ quota(_, mailbox, _),
-    agent_mail(Id, [From-Message]),
-    !.
 post_way(Id, From, Message, Way) :-
     quota(_, mailbox, _),
     agent(Id, _, _, _, _),
     !,
     new_letter(From, Message, Letter),
     way(Id, Letter, Way).
+post_way(Id, From, Message, done) :-
+    agent_mail(Id, [From-Message]),
+    !.
 post_way(Id, From, Message, Way) :-
     new_letter(From, Message, Letter),
     way_on(Id, Letter, Way).

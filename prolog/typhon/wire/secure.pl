@@ -47,7 +47,7 @@ thread of its connection. What it may last in all is seen to by the keeper.
               ssl_peer_certificate/2 ]).
 
 :- dynamic
-    directory/1,                        % of keys, while there is TLS
+    secure_directory/1,                 % of keys, while there is TLS
     own/1.                              % Proof: what we show
 
 %!  secure_begin(+Directory) is det.
@@ -70,10 +70,10 @@ secure_begin(Directory0) :-
     ->  assertz(own(certificate(Name)))
     ;   true                            % nobody will let us in
     ),
-    assertz(directory(Directory)).
+    assertz(secure_directory(Directory)).
 
 secure_end :-
-    retractall(directory(_)),
+    retractall(secure_directory(_)),
     retractall(own(_)).
 
 %!  secure_own(-Proof) is semidet.
@@ -82,9 +82,6 @@ secure_end :-
 
 secure_own(Proof) :-
     own(Proof).
-
-secure_directory(Directory) :-
-    directory(Directory).
 
 must_be_there(Directory, Which) :-
     keys_file(Directory, Which, File),
@@ -160,7 +157,7 @@ verdict(Verdict, _, Why) =>
 
 secure_first(Byte, Out) :-
     first(Byte, What),
-    (   directory(_)
+    (   secure_directory(_)
     ->  Wanted = tls
     ;   Wanted = plain
     ),
@@ -196,7 +193,7 @@ misfit(tls, "typhon plain", tls(unknown)).
 %   @error timeout_error(read, tls) it took too long
 
 secure_streams(Role, In, Out, SIn, SOut, Proof) :-
-    (   directory(Directory)
+    (   secure_directory(Directory)
     ->  catch(in_time(handshake(Role, Directory, In, Out, SIn, SOut, Name)),
               error(ssl_error(_, _, _, Reason), _),
               refuse(Reason)),

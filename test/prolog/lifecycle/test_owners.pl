@@ -145,7 +145,7 @@ forged(with_her_own_renamed, C, _, Hash, _, birth(_, _, Pem, Hex), C, Hash,
        birth(C, Hash, Pem, Hex)).
 forged(signed_by_her, C, _, Hash, _, _, C, Hash, birth(C, Hash, Pem, Hex)) :-
     peer_do(mallory,
-            ( typhon_secure:directory(Keys),
+            ( typhon_secure:secure_directory(Keys),
               typhon_birth:birth_text(C, Hash, Text),
               typhon_base_keys:keys_sign(Keys, Text, signature(Pem0, Hex)),
               atom_string(Pem, Pem0) )).
