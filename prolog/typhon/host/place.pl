@@ -267,12 +267,14 @@ typhon_recovery:back(payload, _, _, payload(Host, Payload)) :-
 
 %   As they would be left, and delivered, once more.
 
-typhon_recovery:kept(fact, Host, 0, Fact) :-
+typhon_recovery:kept(fact, Host, By, Fact) :-
     place_host(Place, Host),
-    clause(Place:'$tuple'(Fact), _).
-typhon_recovery:back(fact, Host, _, Fact) :-
+    clause(Place:'$tuple'(Fact), Body0),
+    strip_module(Body0, _, Body),
+    tuple_body(_, By, Body).
+typhon_recovery:back(fact, Host, By, Fact) :-
     place_host(Place, Host),
-    tuple_leave(Place, Fact).
+    tuple_leave(Place, Fact, By).
 
 typhon_recovery:kept(payload, Key, 0,
                      payload(Host, payload(Name, PIs, Clauses))) :-

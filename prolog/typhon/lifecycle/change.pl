@@ -11,8 +11,8 @@
 :- use_module('../wire', [endpoint_keys/1, mobile_term/1]).
 :- use_module('../host', [host/3]).
 :- use_module('../agent',
-              [ agent/5, agent_add/2, agent_clauses/3, agent_module/5, agent_owned/1,
-                agent_program/4, agent_state/2, with_agent/2 ]).
+              [ agent/5, agent_add/2, agent_clauses/3, agent_module/5,
+                agent_owned/1, agent_program/4, agent_state/2, with_agent/2 ]).
 
 /** <module> Agents are changed from outside
 
