@@ -361,6 +361,16 @@ stays([ (main :- p), (p :- catch(lp, _, p)), (lp :- lp) ]).
 stays([ (main :- findall(x, p, _)), (p :- catch(lp, _, p)), (lp :- lp) ]).
 stays([ (main :- G = catch(lp, _, main), findall(x, G, _)), (lp :- lp) ]).
 
+stack_limit(Old, New) :-
+    current_prolog_flag(stack_limit, Old),
+    set_prolog_flag(stack_limit, New).
+
+brim([ (main :- f, main), (f :- catch(f, _, f), f) ]).
+brim([ (main :- f([])), (f(L) :- catch(f([x,y,z|L]), _, f(L)), f(L)) ]).
+brim([ (main :- f(a)), (f(T) :- catch(f(s(T,T,T,T)), E, f(E)), f(T)) ]).
+brim([ (main :- findall(x, ( repeat, catch(g(0), _, true) ), _)),
+       (g(N) :- M is N+1, catch(g(M), _, g(M)), true) ]).
+
 quotas([ stack(16 000 000), state(200 000), tuples(50), clones(20),
          messages(100), log(10) ]).
 
@@ -397,6 +407,15 @@ test(who_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
                          _)),
     get_time(T1),
     Seconds is T1-T0.
+%   Who fills its stack to the brim, again and again, would end the process if
+%   it came to that.
+
+test(nobody_comes_to_the_brim_of_its_stack,
+     [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),
+       cleanup(set_prolog_flag(stack_limit, Old)),
+       Outcome = raised(error(resource_error(stack), _)) ]) :-
+    with_hosts([g-[policy(guarded), quota([seconds(60), stack(16 000 000)])]],
+               listening(outcome(Clauses, Outcome), _)).
 test(ends_with_it, [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
     quota_of(What, Quotas),
     with_hosts([g-[policy(guarded), quota(Quotas)]],
