@@ -40,11 +40,18 @@ thread_yields(Thread) :-
         current_prolog_flag(arch, Arch),
         sub_atom(Arch, _, _, _, linux),
         thread_property(Thread, system_thread_id(Tid))
-    ->  assertz(yields(Thread)),
+    ->  forget_gone,
+        assertz(yields(Thread)),
         renice(Nice, Tid),
         debug(typhon(scheduler), '~w yields to others', [Thread])
     ;   true
     ).
+
+%   One that was no worker ends without saying so.
+
+forget_gone :-
+    forall(( yields(Thread), \+ is_thread(Thread) ),
+           retractall(yields(Thread))).
 
 renice(Nice, Tid) :-
     catch(( process_create(path(renice), ['-n', Nice, '-p', Tid],
