@@ -361,6 +361,14 @@ stays([ (main :- p), (p :- catch(lp, _, p)), (lp :- lp) ]).
 stays([ (main :- findall(x, p, _)), (p :- catch(lp, _, p)), (lp :- lp) ]).
 stays([ (main :- G = catch(lp, _, main), findall(x, G, _)), (lp :- lp) ]).
 
+names(I) :-
+    findall((s(J) :- Name),
+            ( between(1, 200, J),
+              atomic_list_concat([stranger, I, J], '_', Name) ),
+            Clauses),
+    agent_create(clauses([ (:- agent(names, [])), on_message(_, _)
+                         | Clauses ]), _, [host(g)]).
+
 stack_limit(Old, New) :-
     current_prolog_flag(stack_limit, Old),
     set_prolog_flag(stack_limit, New).
@@ -435,6 +443,14 @@ test(trusted_hosts_have_quotas_too,
      Outcome = raised(error(resource_error(seconds), _))) :-
     with_hosts([g-[quota([seconds(0.2)])]],
                listening(outcome([ (main :- lp), (lp :- lp) ], Outcome), _)).
+%   What they call things is not remembered for ever.
+
+test(names_are_forgotten, true(Count < 300)) :-
+    with_settings([typhon_mobile:known=100],
+                  with_hosts([g-[policy(guarded)]],
+                             forall(between(1, 4, I), names(I)))),
+    predicate_property(typhon_mobile:meta_known(_, _),
+                       number_of_clauses(Count)).
 test(no_such_quota, error(domain_error(quota, x(1)))) :-
     host_start(g, [quota([x(1)])]).
 
