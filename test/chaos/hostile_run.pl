@@ -66,8 +66,8 @@ fill_pool :-
 bystander(Canary) :-
     agent_create(clauses([ (:- agent(bystander, [state([secret/1])])),
                            secret(42),
-                           (on_message(_, ask(N)) :-
-                                secret(S), result(N-S)) ]),
+                           (on_message(From, ask(N)) :-
+                                secret(S), send(From, answer(N, S))) ]),
                  Canary, [host(home)]).
 
 %   world(-World): what must not change.
@@ -107,12 +107,8 @@ tell(true, To) :-
     flush_output.
 tell(_, _).
 
-harm(Batch, Canary-_, What) :-
-    (   agent_send(Canary, ask(Batch)),
-        answers(Canary, Batch, 100)
-    ->  fail
-    ;   What = bystander
-    ).
+harm(Batch, Canary-_, bystander) :-
+    \+ answers(Canary, Batch).
 harm(_, _-Before, changed(Before, Now)) :-
     world(Now),
     Now \== Before.
@@ -123,16 +119,15 @@ harm(_, _, stream(S)) :-
     member(S, [user_input, user_output, user_error]),
     \+ is_stream(S).
 
-answers(Canary, Batch, Tries) :-
-    Tries > 0,
-    (   agent_property(Canary, state(resident)),
-        agent_property(Canary, facts(Facts)),
-        memberchk(secret(42), Facts)
-    ->  true
-    ;   sleep(0.05),
-        Less is Tries-1,
-        answers(Canary, Batch, Less)
-    ).
+%   Somebody asks it, and still gets what was right before.
+
+answers(Canary, Batch) :-
+    agent_create(clauses([ (:- agent(asker, [])),
+                           (main :- send(Canary, ask(Batch)),
+                                    receive(_-answer(Batch, Secret), 10),
+                                    result(Secret)) ]),
+                 Asker, [host(home)]),
+    catch(agent_result(Asker, 42, 15), error(_, _), fail).
 
 attack(Seed) :-
     set_random(seed(Seed)),

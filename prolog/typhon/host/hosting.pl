@@ -116,7 +116,8 @@ other users of the process its endpoint, see typhon_runtime.
 %       policy_read/1
 %     - peer(+Rules): which processes may do what, see typhon_permits
 %     - audit(+File): refusals and orders are noted there
-%     - quota(+List): how much each agent may use, see typhon_quotas
+%     - quota(+List): how much agents may use, each, those of one owner, and
+%       all, see typhon_quotas
 %
 %   @error permission_error(start, host, Name) if it runs already
 %   @error domain_error(host_option, Option)

@@ -20,6 +20,7 @@
                 run_queue/1 ]).
 :- use_module(timer, [timer_check/0]).
 :- use_module(work, [work_do/2]).
+:- use_module(yielding, [thread_yielded/0]).
 
 /** <module> Workers: threads that do what is in the run queue
 
@@ -64,9 +65,10 @@ worker_add(Queue) :-
                   [ alias(Alias), at_exit(typhon_workers:replace_worker) ]),
     assertz(worker(Worker)).
 
-%   A worker that was aborted in the middle of a goal.
+%   A worker that was aborted in the middle of a goal, or made to yield.
 
 replace_worker :-
+    ignore(thread_yielded),
     thread_self(Me),
     worker_ended(Me),
     with_mutex(typhon_scheduler, replace_worker(Me)).
@@ -75,7 +77,7 @@ replace_worker(Me) :-
     run_queue(Queue),
     retract(worker(Me)),
     !,
-    debug(typhon(scheduler), '~w was aborted', [Me]),
+    debug(typhon(scheduler), '~w has ended', [Me]),
     thread_detach(Me),
     catch(worker_add(Queue), error(_, _), true).    % watching makes one
 replace_worker(_).
@@ -151,7 +153,10 @@ work(Work, Queue) :-
         work_do(Work, enqueue),
         turn_end(Turn)
     ),
-    next(Queue).
+    (   thread_yielded
+    ->  true                            % another takes its place
+    ;   next(Queue)
+    ).
 
 superfluous :-
     thread_self(Me),

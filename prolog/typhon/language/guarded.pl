@@ -6,7 +6,8 @@
             '$guarded'/5,
             '$guarded'/6,
             '$guarded'/7,
-            '$guarded'/8
+            '$guarded'/8,
+            '$uncaught'/1               % ?Ball
           ]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module('../program', [guard_called/3, guard_closure/4]).
@@ -71,6 +72,26 @@ as they stand.  For agents that nobody guards they are call/N.
     context_module(M),
     typhon_guarded:native(M, G, [A,B,C,D,E,F,H], Goal),
     call(M:Goal).
+
+%!  '$uncaught'(?Ball) is det.
+%
+%   Ball, which was caught, is one that an agent may catch.  What interrupts it,
+%   and that its stack is full, it may not: it is raised again, before the
+%   agent goes on.
+
+'$uncaught'(Ball) :-
+    nonvar(Ball),
+    uncaught(Ball),
+    !,
+    throw(Ball).
+'$uncaught'(_).
+
+uncaught('$aborted').
+uncaught(unwind(_)).
+uncaught(error(Formal, _)) :-
+    nonvar(Formal),
+    Formal = resource_error(What),
+    What == stack.
 
 :- public native/4.
 

@@ -25,6 +25,7 @@ libraries without state that agents may use without asking.
 :- use_module(memory, [next_host/2]).
 :- use_module(guarded,
               [ '$guarded'/1, '$guarded'/2, '$guarded'/3, '$guarded'/4,
-                '$guarded'/5, '$guarded'/6, '$guarded'/7, '$guarded'/8 ]).
+                '$guarded'/5, '$guarded'/6, '$guarded'/7, '$guarded'/8,
+                '$uncaught'/1 ]).
 :- use_module(seals, [seal/3, unseal/2]).
 :- use_module(words).

@@ -26,8 +26,23 @@ metered_run(Id-Host, Context, Goals, Outcome) :-
     Context = context(_, Module),
     context_set(Host, Id, Module),      % its seconds begin
     nb_setval(typhon_over, none),
+    far_limit(Host),
     within_inferences(Host, Context, Goals, Outcome0),
     over(Outcome0, Outcome).
+
+%   Who passes the quota of stack is interrupted long before its stack is full: an
+%   agent that fills it to the brim while it catches all that is raised leaves no
+%   room for exceptions, and then 9.0.4 ends the process.  A limit near the quota
+%   would make it worse: the brim would be there sooner.
+
+far_limit(Host) :-
+    (   quota(Host, stack, Most),
+        Far is 64*integer(Most),
+        current_prolog_flag(stack_limit, Limit),
+        Limit < Far
+    ->  set_prolog_flag(stack_limit, Far)
+    ;   true
+    ).
 
 within_inferences(Host, Context, Goals, Outcome) :-
     quota(Host, inferences, Most),

@@ -5,8 +5,9 @@
 :- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host',
-              [ alarm_in/3, context_now/2, quota/3, quota_shared/4,
-                scheduler_call/1, turn_of/3, turns_now/3 ]).
+              [ alarm_in/3, context_now/2, quota/3, quota_any/1,
+                quota_shared/4, scheduler_call/1, thread_yields/1, turn_of/3,
+                turns_now/3 ]).
 :- use_module('../agent',
               [agent/5, agent_status/3, stay_owner/3, stay_until/3]).
 :- use_module(ending, [agent_end/3]).
@@ -31,9 +32,7 @@ interrupt/2 is a signal.
                 *             EACH             *
                 *******************************/
 
-%   A stack is not bounded by its limit: an agent that fills it to the brim
-%   while it catches all that is raised leaves no room for exceptions, and then
-%   9.0.4 ends the process.
+%   A stack is not bounded by its limit: see typhon_metering.
 
 typhon_quotas:look :-
     turn(Agent, Host, Thread, Seconds),
@@ -44,12 +43,24 @@ typhon_quotas:look :-
     ;   quota(Host, seconds, Most),
         Seconds > Most
     ->  stop_in(Thread, Agent, seconds)
-    ).
+    ;   long(Seconds),
+        quota_any(Host)
+    ->  thread_yields(Thread)
+    ;   true
+    ),
+    fail.
 typhon_quotas:look :-
     quota_shared(Host, Whose, What, Most),
     used(What, Host, Used),
     too_much(Whose, Used, Most, Agent),
-    stop(Agent, What).
+    stop(Agent, What),
+    fail.
+typhon_quotas:look.
+
+%   Who does not stop for so long lets others go first.
+
+long(Seconds) :-
+    Seconds > 0.1.
 
 turn(Agent, Host, Thread, Seconds) :-
     turns_now(Agent, Thread, Seconds),

@@ -22,7 +22,8 @@ will only be known at run time, and what depends on its arguments, becomes
 
     '$guarded'(Goal)            '$guarded'(Closure, A, ...)
 
-which looks then, see typhon_guarded.  A goal M:G is refused always.  What
+which looks then, see typhon_guarded; and what is done when something was caught
+begins with '$uncaught'(Ball).  A goal M:G is refused always.  What
 has been rewritten stays the same when it is rewritten again, and means the
 same on a host that guards nothing.
 

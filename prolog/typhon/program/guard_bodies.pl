@@ -28,6 +28,10 @@ module(Module), where the static predicates of the agent are, or `none`.
 guard(Goal, _, '$guarded'(Goal)) :-
     var(Goal),
     !.
+guard(catch(Goal0, Ball, Recovery0), Own, catch(Goal, Ball, Recovery)) :-
+    !,
+    guard(Goal0, Own, Goal),
+    guard_recovery(Recovery0, Ball, Own, Recovery).
 guard(Goal0, Own, Goal) :-
     construct(Goal0, Parts0, Goal, Parts),
     !,
@@ -68,6 +72,17 @@ guard(Goal, _, Goal) :-
 guard(Goal, _, _) :-
     refuse(Goal).
 
+%   What interrupts an agent is raised again only when the recovery has come to
+%   its end, which it need not.
+
+guard_recovery(Recovery0, Ball, Own, ('$uncaught'(Ball),Recovery)) :-
+    (   nonvar(Recovery0),
+        Recovery0 = ('$uncaught'(Ball0),Recovery1),
+        Ball0 == Ball
+    ->  guard(Recovery1, Own, Recovery)
+    ;   guard(Recovery0, Own, Recovery)
+    ).
+
 guard_part(Own, Part0, Part) :-
     guard(Part0, Own, Part).
 
@@ -79,7 +94,6 @@ construct(\+A0, [A0], \+A, [A]).
 construct(call(A0), [A0], call(A), [A]).
 construct(once(A0), [A0], once(A), [A]).
 construct(ignore(A0), [A0], ignore(A), [A]).
-construct(catch(A0,C,B0), [A0,B0], catch(A,C,B), [A,B]).
 
 %   What is guarded already, where a suspended agent goes on, and what an
 %   agent says to stop, but for what the system would do in its place.
@@ -87,6 +101,7 @@ construct(catch(A0,C,B0), [A0,B0], catch(A,C,B), [A,B]).
 passes(Goal) :-
     compound(Goal),
     compound_name_arity(Goal, '$guarded', _).
+passes('$uncaught'(_)).
 passes('$at'(_, Answer)) :-
     ( Answer == fail ; subsumes_term(throw(error(_, _)), Answer) ).
 passes(Goal) :-

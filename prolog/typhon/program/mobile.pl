@@ -9,6 +9,8 @@
               [assoc_to_keys/2, empty_assoc/1, get_assoc/3, put_assoc/4]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(ordsets), [ord_union/3]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../base/bounded', [bounded/2]).
 :- use_module(machine, [control/1]).
 
 /** <module> Which predicates of a program can reach a control predicate
@@ -264,11 +266,16 @@ meta_argument(Goal, PI, Closure, Extra) :-
 
 :- dynamic meta_known/2.
 
+:- setting(known, positive_integer, 10 000,
+           "Of so many predicates is remembered which of their arguments \c
+            are goals").
+
 meta(PI, Meta) :-
     (   meta_known(PI, Meta0)
     ->  true
     ;   find_meta(PI, Meta0),
-        assertz(meta_known(PI, Meta0))
+        assertz(meta_known(PI, Meta0)),
+        bounded(meta_known(_, _), typhon_mobile:known)
     ),
     Meta0 \== none,
     Meta = Meta0.

@@ -205,7 +205,7 @@ raises_in(Call, G, Goal) :-
     of_policy(Formal).
 
 joined_guarded(A, Outcome) :-
-    agent_join(A, Outcome, 3).
+    agent_join(A, Outcome, 60).
 
 of_policy(move_refused(_, policy(_))).
 of_policy(permission_error(call, sandboxed, _)).
@@ -341,7 +341,6 @@ hog(seconds, [ (main :- catch(lp, _, true), main), (lp :- lp) ]).
 hog(seconds, [ (main :- again), (again :- \+ s(x), again) ]).
 hog(inferences, [ (main :- lq(0)), (lq(N) :- M is N+1, lq(M)) ]).
 hog(stack, [ (main :- lr(0)), (lr(N) :- M is N+1, lr(M), true) ]).
-hog(seconds, [ (main :- findall(X, between(1, inf, X), _)) ]).
 hog(stack, [ (main :- ls("abc")), (ls(S) :- string_concat(S, S, T), ls(T)) ]).
 hog(stack, [ (main :- X is 7^7^7^7, X > 0) ]).
 hog(state, [ (main :- between(1, inf, X), assertz(s(X)), fail) ]).
@@ -358,22 +357,73 @@ hog(clause_cells, [ (main :- dag(40, a, T), assertz(s(T))), dag(0, T, T),
                     (dag(N, T0, T) :- N > 0, M is N-1,
                                       dag(M, f(T0,T0), T)) ]).
 
+stays([ (main :- p), (p :- catch(lp, _, p)), (lp :- lp) ]).
+stays([ (main :- findall(x, p, _)), (p :- catch(lp, _, p)), (lp :- lp) ]).
+stays([ (main :- G = catch(lp, _, main), findall(x, G, _)), (lp :- lp) ]).
+
+names(I) :-
+    findall((s(J) :- Name),
+            ( between(1, 200, J),
+              atomic_list_concat([stranger, I, J], '_', Name) ),
+            Clauses),
+    agent_create(clauses([ (:- agent(names, [])), on_message(_, _)
+                         | Clauses ]), _, [host(g)]).
+
+stack_limit(Old, New) :-
+    current_prolog_flag(stack_limit, Old),
+    set_prolog_flag(stack_limit, New).
+
+brim([ (main :- f, main), (f :- catch(f, _, f), f) ]).
+brim([ (main :- f([])), (f(L) :- catch(f([x,y,z|L]), _, f(L)), f(L)) ]).
+brim([ (main :- f(a)), (f(T) :- catch(f(s(T,T,T,T)), E, f(E)), f(T)) ]).
+brim([ (main :- findall(x, ( repeat, catch(g(0), _, true) ), _)),
+       (g(N) :- M is N+1, catch(g(M), _, g(M)), true) ]).
+
 quotas([ stack(16 000 000), state(200 000), tuples(50), clones(20),
          messages(100), log(10) ]).
 
 %   Who uses too much of something else has time for that on a busy machine.
 
 quota_of(seconds, [seconds(0.3)|Quotas]) :- !, quotas(Quotas).
-quota_of(inferences, [inferences(100 000),seconds(10)|Quotas]) :-
+quota_of(inferences, [inferences(100 000),seconds(60)|Quotas]) :-
     !,
     quotas(Quotas).
-quota_of(_, [seconds(10)|Quotas]) :- quotas(Quotas).
+quota_of(_, [seconds(60)|Quotas]) :- quotas(Quotas).
 
 is_of(What, What).
 is_of(tripwire(max_integer_size, _), stack).    % of 9.2
 
 :- begin_tests(quotas).
 
+%   What is first, the results or the stack that takes them, depends.
+
+test(results_without_end, true(memberchk(What, [seconds, stack]))) :-
+    quota_of(seconds, Quotas),
+    with_hosts([g-[policy(guarded), quota(Quotas)]],
+               listening(outcome([ (main :- findall(X, between(1, inf, X), _)) ],
+                                 Outcome), _)),
+    Outcome = raised(error(resource_error(What), _)).
+%   Nothing that it does when it has caught an interrupt keeps it there.
+
+test(who_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
+                                         true(Seconds < 3) ]) :-
+    quota_of(seconds, Quotas),
+    get_time(T0),
+    with_hosts([g-[policy(guarded), quota(Quotas)]],
+               listening(outcome(Clauses,
+                                 raised(error(resource_error(seconds), _))),
+                         _)),
+    get_time(T1),
+    Seconds is T1-T0.
+%   Who fills its stack to the brim, again and again, would end the process if
+%   it came to that.
+
+test(nobody_comes_to_the_brim_of_its_stack,
+     [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),
+       cleanup(set_prolog_flag(stack_limit, Old)),
+       Outcome = raised(error(resource_error(stack), _)) ]) :-
+    with_hosts([g-[policy(guarded), quota([seconds(60), stack(16 000 000)])]],
+               listening(outcome(Clauses, Outcome), _)).
 test(ends_with_it, [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
     quota_of(What, Quotas),
     with_hosts([g-[policy(guarded), quota(Quotas)]],
@@ -393,6 +443,14 @@ test(trusted_hosts_have_quotas_too,
      Outcome = raised(error(resource_error(seconds), _))) :-
     with_hosts([g-[quota([seconds(0.2)])]],
                listening(outcome([ (main :- lp), (lp :- lp) ], Outcome), _)).
+%   What they call things is not remembered for ever.
+
+test(names_are_forgotten, true(Count < 300)) :-
+    with_settings([typhon_mobile:known=100],
+                  with_hosts([g-[policy(guarded)]],
+                             forall(between(1, 4, I), names(I)))),
+    predicate_property(typhon_mobile:meta_known(_, _),
+                       number_of_clauses(Count)).
 test(no_such_quota, error(domain_error(quota, x(1)))) :-
     host_start(g, [quota([x(1)])]).
 
