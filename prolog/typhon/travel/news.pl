@@ -187,14 +187,18 @@ carried(unreachable(_), Home, All, try(Since0, Pause)) :-
     setting(news_seconds, Max),
     (   Now-Since > Max
     ->  give_up(Home)
-    ;   with_mutex(typhon_news, forall(member(News, All), back(Home, News))),
-        longest_pause(Longest),
-        Pause1 is min(Longest, 2*Pause),
-        alarm_in(Pause, Home, news(try(Since, Pause1)))
+    ;   once_more(Home, All, try(Since, Pause))
     ).
-carried(existence_error(endpoint, _), Home, _, _) :-
+carried(resource_error(_), Home, All, Try) :-
+    once_more(Home, All, Try).          % the journal has no room
+carried(existence_error(_, _), Home, _, _) :-
     give_up(Home).                      % this process ends
 
+once_more(Home, All, try(Since, Pause)) :-
+    with_mutex(typhon_news, forall(member(News, All), back(Home, News))),
+    longest_pause(Longest),
+    Pause1 is min(Longest, 2*Pause),
+    alarm_in(Pause, Home, news(try(Since, Pause1))).
 since(0, Now, Now) :-
     !.
 since(Since, _, Since).
