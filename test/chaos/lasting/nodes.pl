@@ -21,7 +21,7 @@ war; the rest is for one thread.
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(random), [random/3, random_between/3, random_member/2]).
@@ -185,7 +185,10 @@ told(In, Term) :-
 
 war(Options) :-
     option(crash(P), Options, 0.001),
-    option(power(W), Options, 0),
+    (   option(sync(full), Options)     % nothing else survives that
+    ->  option(power(W), Options, 0)
+    ;   W = 0
+    ),
     option(kill(Seconds), Options, inf),
     tell_all([dies(P), power(W)]),
     (   Seconds == inf
