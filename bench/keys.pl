@@ -7,7 +7,7 @@
 
 /*  Hops between two processes with keys, with keys and trail, and without.
 
-    swipl bench/keys.pl
+    swipl bench/run.pl -- keys
 
 By turns; the best of each counts, as what disturbs only makes them slower.
 Beside the time by the clock stands the time that both processors took. The
@@ -16,7 +16,7 @@ eight. */
 
 :- initialization(main, main).
 
-main :-
+main(_) :-
     tmp_file(keys, Dir),
     setup_call_cleanup(
         ( keys_init(Dir), keys_issue(host, here, 1, Dir) ),

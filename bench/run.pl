@@ -1,5 +1,6 @@
+:- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [append/3, memberchk/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -10,7 +11,8 @@ all of them in OUT/bench.csv.
 
     swipl bench/run.pl -- [--out DIR] [NAME ...]
 
-Names are those of the files here; without any, all but `peers` and `journal` are run.
+Names are those of the files here; without any, all but
+`peers`, `keys` and `journal` are run.
 Machines are noisy: compare figures of one run, placement by placement. */
 
 :- initialization(main, main).
@@ -26,6 +28,7 @@ opt_meta(out, 'DIR').
 
 main(Argv) :-
     argv_options(Argv, Names, Options),
+    forall(member(Name, Names), must_be_known(Name)),
     option(out(Out), Options, 'out/bench'),
     make_directory_path(Out),
     current_prolog_flag(version, Version),
@@ -38,8 +41,14 @@ main(Argv) :-
     csv_write_file(File, [row(name,value,unit,ratio_of)|Rows]),
     format('# ~w~n', [File]).
 
+must_be_known(Name) :-
+    (   job(Name, _, _)
+    ->  true
+    ;   existence_error(benchmark, Name)
+    ).
+
 wanted([], Script) :-
-    \+ memberchk(Script, [peers, journal]).        % they take minutes
+    \+ memberchk(Script, [peers, keys, journal]).        % they take minutes
 wanted([Name|Names], Script) :-
     memberchk(Script, [Name|Names]).
 
@@ -51,6 +60,7 @@ job(fipa, [env], unpinned).
 job(mqtt, [env], unpinned).
 job(strangers, [env], unpinned).
 job(guard, [env], unpinned).
+job(keys, [env], unpinned).
 job(hosts, [env], unpinned).
 job(population, [env], unpinned).
 job(virtual, [env], 20000).

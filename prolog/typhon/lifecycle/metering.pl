@@ -37,7 +37,7 @@ metered_run(Id-Host, Context, Goals, Outcome) :-
 
 far_limit(Host) :-
     (   quota(Host, stack, Most),
-        Far is 64*integer(Most),
+        Far is 4*integer(Most),
         current_prolog_flag(stack_limit, Limit),
         Limit < Far
     ->  set_prolog_flag(stack_limit, Far)
