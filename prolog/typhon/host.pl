@@ -18,10 +18,8 @@ This is the door of the layer: who is above takes what it needs from here.
             [ event/4, event_heard/1, event_public/2, events_forget/1,
               events_hear/3, events_unheard/1 ]).
 :- reexport('host/host_log').
-:- reexport(host/place,
-            [ place_deliver/3, place_undeliver/2, tuple_leave/2,
-              tuple_leave/3, tuple_leave_new/3, tuple_sense/2, tuple_take/2
-            ]).
+:- reexport(host/place, [place_deliver/3, place_undeliver/2]).
+:- reexport('host/tuples').
 :- reexport(host/front, [module_policy/2, guarding/0, place_front/3]).
 :- reexport(host/clock, [clock/3, host_time/2, real_time/3]).
 :- reexport(host/context,

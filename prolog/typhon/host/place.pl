@@ -2,11 +2,7 @@
           [ place_create/4,             % +Host, +Files, +Services, -Place
             place_offer/2,              % +Place, +Service
             place_destroy/1,            % +Place
-            tuple_leave/2,              % +Place, +Fact
-            tuple_leave/3,              % +Place, +Fact, +By
-            tuple_leave_new/3,          % +Place, +Fact, +By
-            tuple_sense/2,              % +Place, ?Fact
-            tuple_take/2,               % +Place, ?Fact
+            place_host/2,               % ?Place, ?Host
             place_deliver/3,            % +Place, +Payload, -PIs
             place_undeliver/2           % +Place, +Name
           ]).
@@ -16,26 +12,20 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module('../journal',
-              [ journal_number/1, journal_on/0, note_drop/3, note_drop_all/2,
-                note_put/4,
-                turn_after/1, turn_defers/0, turn_note_drop/3,
-                turn_note_put/4 ]).
+              [note_drop/3, note_drop_all/2, note_put/4, turn_note_drop/3]).
 :- use_module('../program', [clause_parts/3]).
 :- use_module(front, [front_gone/1, service/1]).
-:- use_module(leavings, [leaving_begins/1, leaving_ends/1]).
 
 /** <module> Places: what a host offers to the agents on it
 
 The place of a host is a module: the facts, services, delivered payloads
 and robot interface of the host.  Agents that stand on the host find its
-predicates through the import chain agent, place, vocabulary, system.  The
-tuple space of the host is the predicate '$tuple'/1 of its place.
+predicates through the import chain agent, place, vocabulary, system.
 
 make/0 loads files anew that have changed since they were consulted into a
 place. Agents that stand there meet the new clauses with their next call.
 
-*Threading*: any thread.  tuple_take/2 is atomic; a mutex keeps others from
-leaving a fact while tuple_leave_new/3 looks.
+*Threading*: any thread.
 */
 
 :- multifile
@@ -43,12 +33,8 @@ leaving a fact while tuple_leave_new/3 looks.
     typhon_recovery:back/4,
     typhon_recovery:kept/4.
 
-:- public leave_due/2.
-
 :- dynamic
     place_host/2,               % Place, Host
-    due/5,                      % Place, N, Fact, By, Thread: left when its turn
-                                % is over
     loaded/4,                   % Place, SourceId, File, Time: consulted
                                 % into it, as File was at Time
     delivered/3.                % Place, Payload name, PIs
@@ -162,155 +148,6 @@ unload(Place) :-
 unload(_).
 
                 /*******************************
-                *          TUPLE SPACE         *
-                *******************************/
-
-%!  tuple_leave(+Place, +Fact) is det.
-%!  tuple_leave(+Place, +Fact, +By) is det.
-%!  tuple_leave_new(+Place, +Fact, +By) is semidet.
-%!  tuple_sense(+Place, ?Fact) is nondet.
-%!  tuple_take(+Place, ?Fact) is semidet.
-%
-%   Put, put if there is none that unifies, read and take a fact.  Of many
-%   agents that take one fact, or leave it as a new one, one succeeds.  By is
-%   whose fact it is, see typhon_leavings, or `none`.
-%
-%   With a journal a fact has a number, under which it is there; this, and By,
-%   stand in the body of the clause.  What an agent leaves others find when it
-%   stops; what it takes is gone at once.
-
-tuple_leave(Place, Fact) :-
-    tuple_leave(Place, Fact, none).
-
-tuple_leave(Place, Fact, By) :-
-    must_be(callable, Fact),
-    leaving_begins(By),
-    (   journal_on,
-        place_host(Place, _)
-    ->  leave_noted(Place, Fact, By)
-    ;   with_mutex(typhon_tuples, put_tuple(Place, none, Fact, By))
-    ).
-
-tuple_leave_new(Place, Fact, By) :-
-    must_be(callable, Fact),
-    with_mutex(typhon_tuples,
-               ( \+ Place:'$tuple'(Fact),
-                 \+ due(Place, _, Fact, _, _),
-                 (   journal_on,
-                     place_host(Place, _)
-                 ->  leave_noted(Place, Fact, By)
-                 ;   put_tuple(Place, none, Fact, By)
-                 ),
-                 leaving_begins(By) )).
-
-leave_noted(Place, Fact, By) :-
-    journal_number(N),
-    place_host(Place, Host),
-    turn_note_put(tuple, Host, N, Fact),
-    (   turn_defers
-    ->  thread_self(Me),
-        assertz(due(Place, N, Fact, By, Me)),
-        turn_after(typhon_place:leave_due(Place, N))
-    ;   put_tuple(Place, N, Fact, By)
-    ).
-
-leave_due(Place, N) :-
-    with_mutex(typhon_tuples,
-               (   retract(due(Place, N, Fact, By, _))
-               ->  put_tuple(Place, N, Fact, By)
-               ;   true                 % it took it again
-               )).
-
-put_tuple(Place, N, Fact, By) :-
-    tuple_body(N, By, Body),
-    assertz(Place:('$tuple'(Fact) :- Body)).
-
-%   tuple_body(?N, ?By, ?Body): what is true anyhow.
-
-tuple_body(none, none, true) :- !.
-tuple_body(N, none, integer(N)) :- !.
-tuple_body(N, By, ground(N-By)).
-
-tuple_sense(Place, Fact) :-
-    Place:'$tuple'(Fact).
-tuple_sense(Place, Fact) :-
-    turn_defers,
-    thread_self(Me),
-    due(Place, _, Fact, _, Me).
-
-tuple_take(Place, Fact) :-
-    retract(Place:('$tuple'(Fact) :- Body0)),
-    !,
-    strip_module(Body0, _, Body),
-    tuple_body(N, By, Body),
-    (   N == none
-    ->  true
-    ;   place_host(Place, Host),
-        turn_note_drop(tuple, Host, N)
-    ),
-    leaving_ends(By).
-tuple_take(Place, Fact) :-
-    turn_defers,
-    thread_self(Me),
-    retract(due(Place, N, Fact, By, Me)),
-    !,
-    place_host(Place, Host),
-    turn_note_drop(tuple, Host, N),
-    leaving_ends(By).
-
-typhon_recovery:back(tuple, Host, N, Fact) :-
-    place_host(Place, Host),
-    put_tuple(Place, N, Fact, none).
-typhon_recovery:back(payload, _, _, payload(Host, Payload)) :-
-    place_host(Place, Host),
-    place_deliver(Place, Payload, _).
-
-%   As they would be left, and delivered, once more.
-
-typhon_recovery:kept(fact, Host, By, Fact) :-
-    place_host(Place, Host),
-    clause(Place:'$tuple'(Fact), Body0),
-    strip_module(Body0, _, Body),
-    tuple_body(_, By, Body).
-typhon_recovery:back(fact, Host, By, Fact) :-
-    place_host(Place, Host),
-    tuple_leave(Place, Fact, By).
-
-typhon_recovery:kept(payload, Key, 0,
-                     payload(Host, payload(Name, PIs, Clauses))) :-
-    delivered(Place, Name, PIs),
-    payload_key(Place, Name, Host, Key),
-    clauses_of(Place, PIs, Clauses).
-
-clauses_of(Place, PIs, Clauses) :-
-    findall((Head:-Body),
-            ( member(Name/Arity, PIs),
-              functor(Head, Name, Arity),
-              clause(Place:Head, Body) ),
-            Clauses).
-
-%   What goals and files have made of the place itself.
-
-typhon_recovery:kept(place, Host, 0, state(PIs, Clauses)) :-
-    place_host(Place, Host),
-    findall(PI, own_state(Place, PI), PIs),
-    PIs \== [],
-    clauses_of(Place, PIs, Clauses).
-typhon_recovery:back(place, Host, _, state(PIs, Clauses)) :-
-    place_host(Place, Host),
-    forall(( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
-           ( dynamic(Place:Name/Arity),
-             retractall(Place:Head) )),
-    forall(member(Clause, Clauses), add(Place, Clause)).
-
-own_state(Place, PI) :-
-    current_predicate(Place:Name/Arity),
-    PI = Name/Arity,
-    PI \== '$tuple'/1,
-    own(Place, PI),
-    \+ ( delivered(Place, _, PIs), memberchk(PI, PIs) ).
-
-                /*******************************
                 *            PAYLOADS          *
                 *******************************/
 
@@ -413,3 +250,47 @@ remove(Place, Name) :-
     ;   true
     ),
     forall(member(PI, PIs), abolish(Place:PI)).
+
+                /*******************************
+                *       WHAT OUTLIVES IT       *
+                *******************************/
+
+typhon_recovery:back(payload, _, _, payload(Host, Payload)) :-
+    place_host(Place, Host),
+    place_deliver(Place, Payload, _).
+
+%   As they would be delivered once more.
+
+typhon_recovery:kept(payload, Key, 0,
+                     payload(Host, payload(Name, PIs, Clauses))) :-
+    delivered(Place, Name, PIs),
+    payload_key(Place, Name, Host, Key),
+    clauses_of(Place, PIs, Clauses).
+
+clauses_of(Place, PIs, Clauses) :-
+    findall((Head:-Body),
+            ( member(Name/Arity, PIs),
+              functor(Head, Name, Arity),
+              clause(Place:Head, Body) ),
+            Clauses).
+
+%   What goals and files have made of the place itself.
+
+typhon_recovery:kept(place, Host, 0, state(PIs, Clauses)) :-
+    place_host(Place, Host),
+    findall(PI, own_state(Place, PI), PIs),
+    PIs \== [],
+    clauses_of(Place, PIs, Clauses).
+typhon_recovery:back(place, Host, _, state(PIs, Clauses)) :-
+    place_host(Place, Host),
+    forall(( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
+           ( dynamic(Place:Name/Arity),
+             retractall(Place:Head) )),
+    forall(member(Clause, Clauses), add(Place, Clause)).
+
+own_state(Place, PI) :-
+    current_predicate(Place:Name/Arity),
+    PI = Name/Arity,
+    PI \== '$tuple'/1,
+    own(Place, PI),
+    \+ ( delivered(Place, _, PIs), memberchk(PI, PIs) ).
