@@ -1,6 +1,7 @@
 :- module(test_common,
           [ needs/1,                    % +Names
             missing/1,                  % -Packages
+            missing/2,                  % +Names, -Packages
             project_file/2,             % +Relative, -Absolute
             with_tmp_dir/1,             % :Goal
             no_leaks/1,                 % :Goal
@@ -70,8 +71,9 @@ needs(Names) :-
     assertz(needed(Names)).
 
 %!  missing(-Packages:list(string)) is det.
+%!  missing(+Names, -Packages:list(string)) is det.
 %
-%   What the suite needs, and this machine does not have.
+%   What the suite needs, or is of Names, and this machine does not have.
 
 missing(Packages) :-
     findall(Name, ( needed(Names), member(Name, Names) ), Names),

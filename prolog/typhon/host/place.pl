@@ -121,6 +121,10 @@ reload(Place, Id, File) :-
           print_message(error, error(Formal, Context))),
     print_message(informational, typhon(place_reloaded(Place, File))).
 
+%!  place_host(?Place, ?Host) is nondet.
+%
+%   Place is that of Host.
+
 %!  place_destroy(+Place) is det.
 
 place_destroy(Place) :-
