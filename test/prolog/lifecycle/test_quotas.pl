@@ -51,6 +51,9 @@ test(goals_that_somebody_wants_to_see, O == messages) :-
                            agent_send(A, go),
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
+test(what_people_log_is_not_counted) :-
+    with_hosts([g-[quota([log(2)])]],
+               listening(remote(g, forall(between(1, 5, X), log(X))), _)).
 test(nobody_steps, error(permission_error(step, agent, _))) :-
     with_hosts([g-[quota([messages(20)])]],
                ( create([ (main :- receive(_)) ], A, [host(g)]),
