@@ -34,6 +34,8 @@ thread at a time; what it shares with others is counted under a mutex.
 quota_spend(Host, _, _) :-
     \+ quota_any(Host),
     !.
+quota_spend(_, none, _) :-              % somebody who is no agent
+    !.
 quota_spend(Host, Agent, What) :-
     quota(Host, What, Most),
     !,

@@ -38,6 +38,7 @@ kind(fact, any).
 kind(payload, any).
 kind(link, any).
 kind(flag, virtual).
+kind(birth, any).
 kind(born, any).
 kind(outcome, any).
 kind(faulty, any).
@@ -89,7 +90,7 @@ about(payload, _, payload(Host, _), host(Host)).
 about(Kind, Host, _, host(Host)) :-
     memberchk(Kind, [place, fact, turns, counts]).
 about(Kind, Id, _, agent(Id)) :-
-    memberchk(Kind, [ born, outcome, faulty, left, clone, gone, given_up,
+    memberchk(Kind, [ birth, born, outcome, faulty, left, clone, gone, given_up,
                       backlog, stands, mail, order, stays ]).
 
 on_host(host(Host), Host).

@@ -56,9 +56,10 @@ within_inferences(Host, Context, Goals, Outcome) :-
 within_inferences(_, Context, Goals, Outcome) :-
     machine_run(Context, Goals, Outcome).
 
+%   What it has passed is not said of who runs in this thread after it.
+
 over(_, over(What)) :-
-    nb_current(typhon_over, What),
-    What \== none,
+    metered_ball(raised(error(resource_error(What), _))),
     !.
 over(raised(inference_limit_exceeded), over(inferences)) :-
     !.

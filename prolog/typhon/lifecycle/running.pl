@@ -17,7 +17,7 @@
 :- use_module(metering, [metered_ball/1, metered_run/4]).
 :- use_module(on_hold, [held_resumes/2]).
 :- use_module(orders, [order_obey/3, order_take/2]).
-:- use_module(stepping, [is_probed/2, probe_rests/1, probed_goal/6]).
+:- use_module(stepping, [is_probed/3, probe_rests/1, probed_goal/6]).
 :- use_module(traced, [traced_held/1]).
 
 /** <module> The life of an agent on a host
@@ -68,7 +68,7 @@ perform(run(Goals), Id) :-
     agent_code(Module, Program),
     context_set(Host, Id, Module),
     Context = context(Program, Module),
-    (   is_probed(Life, Hash)
+    (   is_probed(Host, Life, Hash)
     ->  probed(Goals, Id, Host, Context, Next)
     ;   live(Goals, Id, Host, Context, Next)
     ),

@@ -1,14 +1,14 @@
 :- module(typhon_stepping,
           [ agent_step/1,               % +Agent
-            is_probed/2,                % +Life, +Hash
+            is_probed/3,                % +Host, +Life, +Hash
             probed_goal/6,              % +Id, +Host, +Probe, +Goal, +Goals,
                                         % -Next
             probe_rests/1               % +Id
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../host', [event/4, event_heard/1, host/3]).
+:- use_module('../host', [event/4, event_heard/1, host/3, quota_any/1]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3, in_words/2,
                 life_traces/2,
@@ -49,6 +49,7 @@ typhon_on_hold.
 %
 %   @error existence_error(agent, Agent)
 %   @error timeout_error(order, Agent): it came to no goal within 10 seconds
+%   @error permission_error(step, agent, Agent) where there are quotas
 
 agent_step(Agent) :-
     agent_answer(Agent, step, Answer),
@@ -64,6 +65,9 @@ where(again, Agent, What) :-
     !,
     agent_answer(Agent, step, Answer),
     where(Answer, Agent, What).
+where(bounded, Agent, _) :-
+    !,
+    permission_error(step, agent, Agent).
 where(gone, Agent, What) :-
     !,
     (   agent_property(Agent, host(_))
@@ -84,7 +88,9 @@ typhon_questions:here(step, Agent, Asker) :-
 step(Id, Asker, Answer) :-
     agent(Id, Host, _, _, Life),
     once(agent_status(Id, Status, Goals)),
-    (   \+ is_stepped(Life)
+    (   quota_any(Host)
+    ->  Answer = bounded
+    ;   \+ is_stepped(Life)
     ->  Answer = not_held
     ;   step(Status, Goals, Id-Host, Asker, Answer)
     ).
@@ -126,16 +132,22 @@ next_goal(Host, [Goal|_], held(Address, Goal)) :-
                 *             RUN              *
                 *******************************/
 
-%!  is_probed(+Life, +Hash) is semidet.
+%!  is_probed(+Host, +Life, +Hash) is semidet.
 %
-%   Somebody wants to see the goals of an agent with this Life and program.
+%   Somebody wants to see the goals of an agent with this Life and program, and
+%   may on Host: nobody could end in time who uses too much in a probe, and a
+%   Life says what who has sent the agent likes.
 
-is_probed(Life, _) :-
+is_probed(Host, Life, Hash) :-
+    wanted(Life, Hash),
+    \+ quota_any(Host).
+
+wanted(Life, _) :-
     life_traces(Life, Traces),
     Traces \== [],
     wants_goals(Traces),
     !.
-is_probed(_, Hash) :-
+wanted(_, Hash) :-
     spied_program(Hash).
 
 wants_goals(Traces) :-

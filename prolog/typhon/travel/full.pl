@@ -40,12 +40,16 @@ mail_fits(Id, Mail, Fitting) :-
     ;   Fitting = Mail
     ).
 
+%   Added before it looks for others: who tells meanwhile finds it, or has taken
+%   them all.
+
 refuse(Id, Mail) :-
-    (   refused(Id, _)
+    assertz(refused(Id, Mail), Ref),
+    (   clause(refused(Id, _), true, Other),
+        Other \== Ref
     ->  true
     ;   alarm_in(1, Id, refused)
     ),
-    assertz(refused(Id, Mail)),
     predicate_property(refused(_, _), number_of_clauses(Count)),
     most_untold(Most),
     (   Count mod Most =:= 0

@@ -29,8 +29,9 @@ home, unless it goes to one whose way leads from here.
 
 shown(Endpoint, Ids, There, Term, Shown) :-
     endpoint_keys(_),
-    findall(Birth, to_show(Endpoint, Ids, There, Birth), Births),
-    Births \== [],
+    findall(Birth, to_show(Endpoint, Ids, There, Birth), Births0),
+    Births0 \== [],
+    sort(Births0, Births),
     !,
     Shown = shown(Births, Term).
 shown(_, _, _, Term, Term).

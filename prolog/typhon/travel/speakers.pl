@@ -16,8 +16,10 @@ word of the process that says so.
 *Threading*: in hooks of the endpoint; no state.
 */
 
-:- use_module(library(apply), [partition/4]).
+:- use_module(library(apply), [include/3, partition/4]).
+:- use_module(library(assoc), [get_assoc/3, ord_list_to_assoc/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(ordsets), [ord_memberchk/2]).
 :- use_module('../wire',
               [endpoint_keys/1, endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module('../host', [audit/3]).
@@ -42,10 +44,18 @@ may_speak(certificate(Name), _, Id) :-
     atom(Id),
     agent_owned(Id, Name).
 may_speak(_, Births, Id) :-
+    birth_among(Births, Id, Birth),
+    birth_good(Birth).
+
+%   One for each, however many are shown: to look whether one is good takes long.
+
+birth_among(Births, Id, Birth) :-
     is_list(Births),
     member(Birth, Births),
     subsumes_term(birth(Id, _, _, _), Birth),
-    birth_good(Birth).
+    !.
+birth_among(t(Births), Id, Birth) :-
+    get_assoc(Id, Births, Birth).
 
 %!  mail_believed(+Peer, +Id, +Births, +Mail, -Believed) is det.
 %
@@ -55,11 +65,29 @@ may_speak(_, Births, Id) :-
 mail_believed(Peer, Id, Births, Mail, Believed) :-
     (   speaks_for(Peer, Births, Id)
     ->  Believed = Mail
-    ;   partition(believed(Peer, Births), Mail, Believed, Forged),
+    ;   by_id(Births, ById),
+        findall(From, member(mail(_, From, _), Mail), Froms0),
+        sort(Froms0, Froms),
+        include(believed(Peer, t(ById)), Froms, Good),
+        partition(is_from(Good), Mail, Believed, Forged),
         forall(member(mail(_, From, _), Forged), noted(Peer, Id, From))
     ).
 
-believed(Peer, Births, mail(_, From, _)) :-
+by_id(Births, ById) :-
+    findall(Id-Birth,
+            ( is_list(Births),
+              member(Birth, Births),
+              subsumes_term(birth(_, _, _, _), Birth),
+              arg(1, Birth, Id),
+              atom(Id) ),
+            Pairs0),
+    sort(1, @<, Pairs0, Pairs),
+    ord_list_to_assoc(Pairs, ById).
+
+is_from(Good, mail(_, From, _)) :-
+    ord_memberchk(From, Good).
+
+believed(Peer, Births, From) :-
     (   atom(From),
         agent_home(From, _)
     ->  speaks_for(Peer, Births, From)

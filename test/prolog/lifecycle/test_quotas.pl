@@ -38,6 +38,45 @@ test(what_is_passed_cannot_be_caught,
      O = raised(error(resource_error(hops), _))) :-
     ended([hops(20)],
           [ (main :- catch(( move(t), move(g) ), _, true), main) ], O).
+
+%   In a probe nobody could end it in time.
+
+test(goals_that_somebody_wants_to_see, O == messages) :-
+    with_hosts([g-[quota([messages(20)])]],
+               listening(( create([ (main :- receive(_),
+                                             forall(between(1, 50, _), say)),
+                                    (say :- catch(send(user, x), _, true)) ],
+                                  A, [host(g)]),
+                           agent_trace(A, [goals]),
+                           agent_send(A, go),
+                           joined(A, Outcome) ), _)),
+    over(O, Outcome).
+test(what_people_log_is_not_counted) :-
+    with_hosts([g-[quota([log(2)])]],
+               listening(remote(g, forall(between(1, 5, X), log(X))), _)).
+test(nobody_steps, error(permission_error(step, agent, _))) :-
+    with_hosts([g-[quota([messages(20)])]],
+               ( create([ (main :- receive(_)) ], A, [host(g)]),
+                 wait_state(A, waiting),
+                 agent_step(A) )).
+
+%   It runs where another one has ended so, on a host without quotas.
+
+test(what_another_one_passed, Told == []) :-
+    with_hosts([g-[quota([messages(5)])], t],
+               listening(( talker(10, Talker),
+                           created([host(g)], 8, Talker, As),
+                           outcomes(As, _),
+                           created([host(t)], 3, [ (main :- lp), (lp :- lp) ],
+                                   Bs),
+                           forall(member(B, Bs),
+                                  ( wait_state(B, running),
+                                    agent_dispose(B, [force(0)]) )),
+                           outcomes(Bs, [disposed,disposed,disposed]) ),
+                         Messages)),
+    findall(B, ( member(B, Bs),
+                 memberchk(warning-typhon(over_quota(B, _)), Messages) ),
+            Told).
 test(hops_of_a_traveller_that_takes_its_time, Outcome == done) :-
     ended([hops(3)],
           [ (main :- lap(4)), lap(0),
