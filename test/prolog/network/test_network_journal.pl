@@ -364,6 +364,21 @@ again(Network) :-
 facts(Host, Facts) :-
     remote(Host, findall(F, sense(F), Facts)).
 
+test('it is saved just after one of its processes has died') :-
+    quiet(no_leaks(with_tmp_dir(saved))).
+
+saved(Dir) :-
+    directory_file_path(Dir, saved, File),
+    network(Dir, ring(2), [processes(2), restart(true)],
+            saved_without(File)),
+    exists_file(File).
+
+saved_without(File, Network) :-
+    pids(Network, [_, Pid]),
+    process_kill(Pid, kill),
+    wait_until(printed(carrier_down(_, Pid, _)), 10),
+    network_save(Network, File).
+
 test('one that dies again and again is left alone at last, and that is told',
      Told = [carrier_given_up(_, 1, 2, 60)]) :-
     with_setting(typhon_restarts:restarts, 2, quiet(no_leaks(too_often))),
