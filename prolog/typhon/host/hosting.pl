@@ -188,7 +188,7 @@ stand_new(Name, Options) :-
 start_from(Where, _, Options) :-
     memberchk(clock(virtual), Options),
     !,
-    not_here(Where).
+    not_here(Where, 'not in virtual time').
 start_from(Where, Name, Options) :-
     open_journal(Where, Options),
     catch(begin_from_journal(Name, Options), Ball,
@@ -240,7 +240,7 @@ hosts_journal(Where, Options) :-
 open_journal(Where, _) :-
     endpoint_address(_),
     !,
-    not_here(Where).
+    not_here(Where, 'this process has hosts already').
 open_journal(Where, Options) :-
     option(sync(Sync), Options, normal),
     option(wait(Seconds), Options, 0.2),
@@ -249,9 +249,9 @@ open_journal(Where, Options) :-
                  journal_number_after(N)), Ball,
           ( journal_end, throw(Ball) )).
 
-not_here(Where) :-
+not_here(Where, Why) :-
     journal_place(Where, Place),
-    permission_error(open, journal, Place).
+    throw(error(permission_error(open, journal, Place), context(_, Why))).
 
 hosts_back(Options) :-
     findall(Name-All,

@@ -321,17 +321,20 @@ spoilt(Dir, File, Formal) :-
     read_file_to_codes(File, Before, [type(binary)]),
     rename_file(Good, File).
 
-test('there is none in virtual time, nor where hosts are already',
-     Formals == [ permission_error(open, journal, '/tmp/none'),
-                  permission_error(open, journal, '/tmp/none/process1') ]) :-
+test('there is none in virtual time, nor where hosts are already: why is told',
+     Formals-Whys == [ permission_error(open, journal, '/tmp/none'),
+                       permission_error(open, journal, '/tmp/none/process1') ]-
+                     [ 'not in virtual time',
+                       'this process has hosts already' ]) :-
     catch(network_start(ring(2), _, [journal('/tmp/none'), clock(virtual)]),
-          error(F1, _), true),
+          error(F1, context(_, W1)), true),
     setup_call_cleanup(
         host_start(other),
         catch(network_start(ring(2), _, [journal('/tmp/none')]),
-              error(F2, _), true),
+              error(F2, context(_, W2)), true),
         host_stop(other)),
-    Formals = [F1, F2].
+    Formals = [F1, F2],
+    Whys = [W1, W2].
 
 :- end_tests(network_journal).
 
