@@ -7,7 +7,7 @@
 :- use_module('../journal', [journal_barrier/0]).
 :- use_module(front, [front_set/3]).
 :- use_module(host_options, [host_listed/2]).
-:- use_module(hosting, [note_host/1]).
+:- use_module(known_hosts, [note_host/1]).
 :- use_module(hosts, [host/3, host_option/2, host_put/2, host_resolve/2]).
 :- use_module(permits, [must_be_peer_rules/1]).
 :- use_module(place, [place_offer/2]).

@@ -6,8 +6,7 @@
             hosts_journal/2,            % +Where, +Options
             hosts_back/1,               % +Options
             hosts_go_on/0,
-            hosts_rest/0,
-            note_host/1                 % +Name
+            hosts_rest/0
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
@@ -20,9 +19,8 @@
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal',
               [ journal_barrier/0, journal_begin/0, journal_close/0,
-                journal_closed/0, journal_end/0, journal_item/5,
-                journal_number_after/1, journal_on/0, journal_open/3,
-                journal_opened/1, journal_place/2, note_drop/3, note_put/4 ]).
+                journal_closed/0, journal_end/0, journal_opened/1,
+                journal_place/2 ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
@@ -32,7 +30,10 @@
 :- use_module(host_options, [host_listed/2]).
 :- use_module(hosts,
               [ address_parts/3, host/3, host_add/4, host_close/1,
-                host_option/2, host_remove/1, host_resolve/2 ]).
+                host_remove/1, host_resolve/2 ]).
+:- use_module(known_hosts,
+              [ forget_host/1, host_known/2, known_not_here/2, known_open/2,
+                known_with/3, note_host/1 ]).
 :- use_module(links, [host_unlink/2]).
 :- use_module(permits, [must_be_peer_rules/1]).
 :- use_module(place, [place_create/4, place_destroy/1]).
@@ -188,16 +189,16 @@ stand_new(Name, Options) :-
 start_from(Where, _, Options) :-
     memberchk(clock(virtual), Options),
     !,
-    not_here(Where).
+    known_not_here(Where, 'not in virtual time').
 start_from(Where, Name, Options) :-
-    open_journal(Where, Options),
+    known_open(Where, Options),
     catch(begin_from_journal(Name, Options), Ball,
           ( journal_close, give_up_hosts, journal_end, throw(Ball) )).
 
 begin_from_journal(Name, Options) :-
-    findall(Other-Known, known_host(Other, Known), Hosts),
+    findall(Other-Known, host_known(Other, Known), Hosts),
     (   selectchk(Name-Known, Hosts, Others)
-    ->  with_known(Known, Options, AllOptions)
+    ->  known_with(Known, Options, AllOptions)
     ;   AllOptions = Options,
         Others = Hosts
     ),
@@ -235,27 +236,11 @@ all_back(Hosts) :-
 %   @error permission_error(open, journal, Place), and as journal_open/3
 
 hosts_journal(Where, Options) :-
-    with_mutex(typhon_hosting, open_journal(Where, Options)).
-
-open_journal(Where, _) :-
-    endpoint_address(_),
-    !,
-    not_here(Where).
-open_journal(Where, Options) :-
-    option(sync(Sync), Options, normal),
-    option(wait(Seconds), Options, 0.2),
-    journal_open(Where, Sync, Seconds),
-    catch(forall(journal_item(number, any, _, _, N),
-                 journal_number_after(N)), Ball,
-          ( journal_end, throw(Ball) )).
-
-not_here(Where) :-
-    journal_place(Where, Place),
-    permission_error(open, journal, Place).
+    with_mutex(typhon_hosting, known_open(Where, Options)).
 
 hosts_back(Options) :-
     findall(Name-All,
-            ( known_host(Name, Known), with_known(Known, Options, All) ),
+            ( host_known(Name, Known), known_with(Known, Options, All) ),
             Hosts),
     with_mutex(typhon_hosting, all_back(Hosts)).
 
@@ -287,35 +272,9 @@ rest :-
     ;   journal_end
     ).
 
-known_host(Name, Options) :-
-    journal_item(host, numbers, Name, _, Options).
-
-with_known(Known, Options, All) :-
-    findall(Option,
-            ( member(Option, Known),
-              functor(Option, OptionName, Arity),
-              functor(Given, OptionName, Arity),
-              \+ memberchk(Given, Options) ),
-            More),
-    append(Options, More, All).
-
 give_up_hosts :-
     retractall(from_journal(_)),
     forall(host(Name, _, _), ignore(stop(Name))).
-
-%!  note_host(+Name) is det.
-%
-%   What its options are by now is noted in the journal, if there is one.
-
-note_host(Name) :-
-    (   journal_on
-    ->  findall(Option,
-                ( host_option(Name, Option),
-                  \+ memberchk(Option, [journal(_), sync(_)]) ),
-                Options),
-        note_put(host, Name, 0, Options)
-    ;   true
-    ).
 
 %   A network gives its hosts a clock of whatever kind it has.
 
@@ -420,7 +379,7 @@ stop_one(Name0) :-
 rest_or_end(Name) :-
     (   host(Other, _, _),
         Other \== Name
-    ->  note_drop(host, Name, 0)
+    ->  forget_host(Name)
     ;   journal_close
     ),
     retractall(from_journal(Name)).

@@ -13,7 +13,6 @@
             journal_record_drop/1,      % +Where
             in_terms_of/3               % +Place, +Base, :Goal
           ]).
-:- use_module(library(error), [permission_error/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(postgresql).
 :- use_module(postgresql_url).
@@ -175,13 +174,18 @@ means(postgresql(_), Text, What) :-
     postgresql_blame(Text, What).
 
 blame(locked, _, Place) :-
-    permission_error(open, journal, Place).
+    not_opened(Place, 'another process has it').
+blame(unwritable, _, Place) :-
+    not_opened(Place, 'it cannot be written').
 blame(full, _, _) :-
     throw(error(resource_error(journal_space), _)).
 blame(missing(Package), Text, _) :-
     throw(error(existence_error(package, Package), context(_, Text))).
 blame(unreachable, Text, Place) :-
     throw(error(journal_unreachable(Place, Text), _)).
+
+not_opened(Place, Why) :-
+    throw(error(permission_error(open, journal, Place), context(_, Why))).
 
 prolog:error_message(journal_damaged(Dir, Why)) -->
     [ 'The journal ~w is damaged: ~p.'-[Dir, Why], nl,
@@ -192,7 +196,6 @@ prolog:error_message(journal_version(Dir, _)) -->
     [ 'The journal ~w was written by another version of Prolog or Typhon.'-[Dir],
       nl, 'Nothing in it was changed' ].
 prolog:error_message(permission_error(open, journal, Dir)) -->
-    [ 'The journal ~w cannot be opened: another process has it, or it \c
-       cannot be written here'-[Dir] ].
+    [ 'The journal ~w cannot be opened'-[Dir] ].
 prolog:error_message(resource_error(journal_space)) -->
     [ 'There is no room left for the journal' ].

@@ -9,7 +9,6 @@
             sqlite_record_drop/1,       % +Dir
             sqlite_blame/2              % +Text, -What
           ]).
-:- use_module(library(error), [permission_error/3]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -31,8 +30,8 @@ sqlite_found(Dir) :-
     exists_file(File).
 
 sqlite_connect(Dir, Seconds, Connection, Age) :-
-    catch(make_directory_path(Dir), error(_, _),
-          permission_error(open, journal, Dir)),
+    catch(make_directory_path(Dir), error(Formal, _),
+          not_written(Dir, Formal)),
     file(Dir, File),
     (   exists_file(File)
     ->  Age = old
@@ -88,7 +87,7 @@ sqlite_wrong(Connection, Why) :-
 %!  sqlite_record_put(+Dir, +Text) is det.
 %!  sqlite_record_drop(+Dir) is det.
 %
-%   A text beside the journals, see room `records`: a file, which is there as a
+%   A text beside the journals, see room `kept`: a file, which is there as a
 %   whole or not at all.
 
 sqlite_record(Dir, Text) :-
@@ -104,8 +103,12 @@ sqlite_record_put(Dir, Text) :-
                                write(Out, Text),
                                close(Out)),
             rename_file(New, File) ),
-          error(_, _),
-          permission_error(open, journal, Dir)).
+          error(Formal, _),
+          not_written(Dir, Formal)).
+
+not_written(Dir, Formal) :-
+    format(atom(Why), 'it cannot be written: ~p', [Formal]),
+    throw(error(permission_error(open, journal, Dir), context(_, Why))).
 
 sqlite_record_drop(Dir) :-
     record_file(Dir, File),
@@ -119,8 +122,8 @@ record_file(Dir, File) :-
 
 %!  sqlite_blame(+Text, -What) is semidet.
 %
-%   Which kind of error the driver means by Text: `locked`, `full` or
-%   missing(Package).
+%   Which kind of error the driver means by Text: `locked`, `unwritable`, `full`
+%   or missing(Package).
 
 sqlite_blame(Text, What) :-
     says(Words, What),
@@ -128,6 +131,7 @@ sqlite_blame(Text, What) :-
     sub_atom(Text, _, _, _, Word),
     !.
 
-says(['is locked', readonly, 'unable to open'], locked).
+says(['is locked'], locked).
+says([readonly, 'unable to open'], unwritable).
 says(['is full', 'disk I/O'], full).
 says([driver, 'Driver', 'Data source'], missing(libsqliteodbc)).

@@ -9,7 +9,6 @@
             store_commit/1,             % +Changes
             journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
-:- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(crash, [crash_point/1]).
 :- use_module(database,
@@ -210,7 +209,8 @@ connect_again :-
 same(Base, Sync, Stamp, Place, Connection) :-
     (   database_same(Base, Sync, Stamp, Connection)
     ->  true
-    ;   permission_error(open, journal, Place)
+    ;   throw(error(permission_error(open, journal, Place),
+                    context(_, 'another process has opened it meanwhile')))
     ).
 
 %   Not the transactions of the driver: a disk that is full ends one without

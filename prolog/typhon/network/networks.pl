@@ -4,9 +4,6 @@
             network_property/2,         % ?Network, ?Property
             network_clock/2,            % +Network, -Clock
             network_begin/4,            % ?Name, +Plan, :Build, -Network
-            network_endpoint/4,         % +Network, +Plan, +Port, -Interface
-            network_log/4,              % +Network, +File, +Options, -Address
-            network_dynamics/2,         % +Network, +Dynamics
             network_goes_on/2,          % +Network, +Clock
             network_standing/2,         % +Network, -Standing
             network_change/2            % +Network, +Change
@@ -19,26 +16,19 @@
 :- use_module('../base/erased', [forget_erased/0]).
 :- use_module('../base/options', [check_name/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../host',
-              [runtime_acquire/2, runtime_release/1, time_now/1, time_seed/1]).
-:- use_module(changes, [dynamics_start/4, dynamics_stop/1]).
-:- use_module(log, [log_server_start/2, log_server_stop/1]).
+:- use_module(building, [network_build/5]).
 :- use_module(carriers, [carrier/3]).
-:- use_module(kept, [kept_note/3, kept_plan/4]).
-:- use_module(lasting,
-              [ lasting_back/2, lasting_child/4, lasting_goes_on/3,
-                lasting_open/3, lasting_over/1, lasting_restarts/4,
-                lasting_rests/1 ]).
-:- use_module(plan,
-              [ plan_change/3, plan_dynamics/3, plan_furnishing/2,
-                plan_hosts/4, plan_links/2, plan_links_at/3, plan_log/3,
-                plan_option/2, plan_processes/3, plan_time/2 ]).
-:- use_module(processes, [carriers_start/5, carriers_stop/1]).
+:- use_module(kept, [kept_plan/4]).
+:- use_module(lasting, [lasting_over/1, lasting_rests/1]).
+:- use_module(equipment,
+              [ dynamics_end/1, endpoint_end/1, equipment_forget/1,
+                log_end/1, part/2 ]).
+:- use_module(plan, [plan_change/3, plan_option/2]).
+:- use_module(processes, [carriers_stop/1]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
-              [ wire_change/2, wire_forget/1, wire_goals/3, wire_hosts/4,
-                wire_instead/3, wire_links/3, wire_stop_own/1, wired_agents/2,
-                wired_edges/2, wired_hosts/2 ]).
+              [ wire_change/2, wire_forget/1, wire_stop_own/1,
+                wired_agents/2, wired_edges/2, wired_hosts/2 ]).
 
 /** <module> Networks of hosts
 
@@ -68,9 +58,7 @@ none of its own.
     ended/1,
     clock_of/2,                 % Network, clock(Epoch, Rate)
     network/2,                  % Network, Plan
-    running/1,                  % Network
-    part/2.                     % Network, log(Address, File),
-                                % or dynamics(Dynamics)
+    running/1.                  % Network
 
 %!  network_start(+Topology, -Network, +Options) is det.
 %
@@ -134,7 +122,11 @@ none of its own.
 
 network_start(Topology, Network, Options) :-
     kept_plan(Topology, Options, Plan, Kept),
-    network_begin(_, Plan, build(Plan, Kept), Network).
+    network_begin(_, Plan, started(Plan, Kept), Network).
+
+started(Plan, Kept, Network) :-
+    network_build(Network, Plan, Kept, network_change(Network), Clock),
+    network_goes_on(Network, Clock).
 
 %!  network_begin(?Name, +Plan, :Build, -Network) is det.
 %
@@ -167,140 +159,13 @@ unless_built(exit, _) :-
 unless_built(_, Network) :-
     in_own_thread(end(Network)).
 
-                /*******************************
-                *            BUILD             *
-                *******************************/
-
-build(Plan, Kept, Network) :-
-    plan_processes(Plan, P, Machines),
-    lasting_open(Plan, P, Machines),
-    network_endpoint(Network, Plan, 0, Interface),
-    plan_option(Plan, seed(Seed)),
-    time_seed(Seed),
-    known_log(Kept, Network, Clock, Plan, Log),
-    carriers_start(Network, P, Machines, Interface,
-                   lasting_child(Plan, Log)),
-    clock_and_log(Network, Plan, Clock, Log),
-    lasting_back(Plan, Log),
-    furnished(Kept, Network, P, Plan, Clock, [Clock|Log], Time),
-    start_dynamics(Network, Clock, Plan, Time),
-    lasting_goes_on(Network, P, Plan),
-    debug(typhon(network), '~w is built, ~w processes', [Network, P]),
-    assertz(clock_of(Network, Clock)),
-    lasting_restarts(Network, P, Plan, [Clock|Log]),
-    assertz(running(Network)).
-
-%   furnished(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): what a
-%   journal knows need not be done again; links may have changed by themselves
-%   until Time.
-
-furnished(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
-    !,
-    plan_hosts(Plan, P, Common, Hosts),
-    wire_hosts(Network, P, hosts, Hosts),
-    shown(Clock, Time),
-    (   plan_links_at(Plan, Time, Links)
-    ->  wire_instead(Network, P, Links)
-    ;   true
-    ).
-furnished(_, Network, P, Plan, Clock, Common, 0) :-
-    kept_note(Plan, Clock, begun),
-    plan_hosts(Plan, P, Common, Hosts),
-    wire_hosts(Network, P, hosts, Hosts),
-    plan_links(Plan, Links),
-    wire_links(Network, P, Links),
-    plan_furnishing(Plan, Goals),
-    wire_goals(Network, P, Goals),
-    kept_note(Plan, Clock, built).
-
-%!  network_endpoint(+Network, +Plan, +Port, -Interface) is det.
-%!  network_log(+Network, +File, +Options, -Address) is det.
-%!  network_dynamics(+Network, +Dynamics) is det.
 %!  network_goes_on(+Network, +Clock) is det.
 %
-%   While it is built: this process is reached at Interface, and at Port if
-%   that is not 0; there is a log server, with options as of log_server_start/2;
-%   it has these dynamics; it is built.
-
-network_dynamics(Network, Dynamics) :-
-    assertz(part(Network, dynamics(Dynamics))).
+%   It is built.
 
 network_goes_on(Network, Clock) :-
     assertz(clock_of(Network, Clock)),
     assertz(running(Network)).
-
-network_endpoint(Network, Plan, Port, Interface) :-
-    interface(Plan, Interface),
-    plan_time(Plan, Kind),
-    findall(Option,
-            ( member(Option, [bind(_), tls(_)]),
-              plan_option(Plan, Option) ),
-            Options),
-    runtime_acquire(network(Network), [time(Kind), port(Port)|Options]).
-
-interface(Plan, Interface) :-
-    (   plan_option(Plan, bind(Interface0))
-    ->  Interface = Interface0
-    ;   Interface = localhost
-    ).
-
-%   It begins now.
-
-clock(Plan, clock(Epoch, Rate)) :-
-    time_now(Epoch),
-    (   plan_option(Plan, clock(Rate0)),
-        number(Rate0)
-    ->  Rate = Rate0
-    ;   Rate = 1
-    ).
-
-%   What the clock shows.
-
-shown(clock(Epoch, Rate), Time) :-
-    time_now(Now),
-    Time is (Now-Epoch)*Rate.
-
-%   known_log(+Kept, +Network, -Clock, +Plan, -Log), clock_and_log(+Network,
-%   +Plan, ?Clock, ?Log): of a network that is known from a journal the clock
-%   goes on, and the log is there before its hosts are.
-
-known_log(kept(_, Clock), Network, Clock, Plan, Log) :-
-    start_log(Network, Clock, Plan, append, Log).
-known_log(none, _, _, _, _).
-
-clock_and_log(Network, Plan, Clock, Log) :-
-    (   var(Clock)
-    ->  clock(Plan, Clock),
-        start_log(Network, Clock, Plan, write, Log)
-    ;   true
-    ).
-
-%   start_log(+Network, +Clock, +Plan, +Mode, -HostOptions)
-
-start_log(Network, clock(Epoch, Rate), Plan, Mode, [Option]) :-
-    plan_log(Plan, Spec, Kinds),
-    !,
-    network_log(Network, Spec, [mode(Mode), clock(Epoch, Rate)], Address),
-    log_option(Kinds, Address, Option).
-start_log(_, _, _, _, []).
-
-network_log(Network, Spec, Options, Address) :-
-    absolute_file_name(Spec, File),
-    atom_concat(Network, '_log', Name),
-    log_server_start([file(File), name(Name)|Options], Address),
-    assertz(part(Network, log(Address, File))).
-
-log_option([], Address, Option) =>
-    Option = log(Address).
-log_option(Kinds, Address, Option) =>
-    Option = log(Address, Kinds).
-
-start_dynamics(Network, Clock, Plan, Time) :-
-    (   plan_dynamics(Plan, Time, State)
-    ->  dynamics_start(State, Clock, network_change(Network), Dynamics),
-        network_dynamics(Network, Dynamics)
-    ;   true
-    ).
 
 %!  network_change(+Network, +Change) is det.
 %
@@ -331,20 +196,14 @@ network_stop(Network) :-
     ).
 
 end(Network) :-
-    (   retract(part(Network, dynamics(Dynamics)))
-    ->  step(dynamics_stop(Dynamics))
-    ;   true
-    ),
+    step(dynamics_end(Network)),
     step(stop_own(Network)),
     step(carriers_stop(Network)),
-    (   retract(part(Network, log(Address, _)))
-    ->  step(log_server_stop(Address))
-    ;   true
-    ),
-    step(runtime_release(network(Network))),
+    step(log_end(Network)),
+    step(endpoint_end(Network)),
     wire_forget(Network),
     debug(typhon(network), '~w has ended', [Network]),
-    retractall(part(Network, _)),
+    equipment_forget(Network),
     retractall(clock_of(Network, _)),
     forall(ended(Network), true),
     retractall(network(Network, _)).

@@ -142,7 +142,8 @@ check_virtual(Options) :-
     memberchk(journal(Where), Options),
     !,
     journal_place(Where, Place),
-    permission_error(open, journal, Place).
+    throw(error(permission_error(open, journal, Place),
+                context(_, 'not in virtual time'))).
 check_virtual(Options) :-
     (   memberchk(clock(virtual), Options),
         member(Option, Options),

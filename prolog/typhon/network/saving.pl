@@ -19,6 +19,7 @@
 :- use_module(log_file, [log_size/2]).
 :- use_module(networks, [network_standing/2]).
 :- use_module(plan, [plan_processes/3]).
+:- use_module(restarts, [restarts_back/1]).
 :- use_module(saved_file, [saved_write/2]).
 :- use_module(wiring, [wired/2]).
 
@@ -74,6 +75,7 @@ save(Network, Standing, File) :-
     plan_processes(Plan, Count, _),
     numlist(1, Count, Ps),
     nobody_else(Network),
+    restarts_back(Network),
     setup_call_cleanup(
         true,
         cut(Network, Ps, Standing, Terms),

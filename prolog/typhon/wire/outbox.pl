@@ -343,8 +343,8 @@ flush_out(Session) :-
 
 %!  session_flush(+Session, +Deadline) is semidet.
 %
-%   Wait until all that was sent before has been acknowledged; fails at
-%   Deadline, a time stamp.
+%   Wait until all that was sent before has been acknowledged, or the session
+%   is closed, as when its peer has died; fails at Deadline, a time stamp.
 
 session_flush(Session, Deadline) :-
     setup_call_cleanup(

@@ -147,14 +147,16 @@ unacked_rest(Key) :-
 
 %!  unacked_close(+Key, -Waiting) is det.
 %
-%   The session is over; the frames Waiting were never written.
+%   The session is over; the frames Waiting were never written.  Nobody need
+%   wait for it any more.
 
 unacked_close(Key, List) :-
     (   queues(Key, _, Waiting)
     ->  fifo_empty(Waiting, List)
     ;   List = []
     ),
-    drop_queues(Key).
+    drop_queues(Key),
+    forall(flusher(Key, Wanted, Queue), flushed(Key, Wanted, Queue)).
 
 drop_queues(Key) :-
     retractall(bundled(Key, _)),

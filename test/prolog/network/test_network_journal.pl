@@ -321,17 +321,20 @@ spoilt(Dir, File, Formal) :-
     read_file_to_codes(File, Before, [type(binary)]),
     rename_file(Good, File).
 
-test('there is none in virtual time, nor where hosts are already',
-     Formals == [ permission_error(open, journal, '/tmp/none'),
-                  permission_error(open, journal, '/tmp/none/process1') ]) :-
+test('there is none in virtual time, nor where hosts are already: why is told',
+     Formals-Whys == [ permission_error(open, journal, '/tmp/none'),
+                       permission_error(open, journal, '/tmp/none/process1') ]-
+                     [ 'not in virtual time',
+                       'this process has hosts already' ]) :-
     catch(network_start(ring(2), _, [journal('/tmp/none'), clock(virtual)]),
-          error(F1, _), true),
+          error(F1, context(_, W1)), true),
     setup_call_cleanup(
         host_start(other),
         catch(network_start(ring(2), _, [journal('/tmp/none')]),
-              error(F2, _), true),
+              error(F2, context(_, W2)), true),
         host_stop(other)),
-    Formals = [F1, F2].
+    Formals = [F1, F2],
+    Whys = [W1, W2].
 
 :- end_tests(network_journal).
 
@@ -363,6 +366,21 @@ again(Network) :-
 
 facts(Host, Facts) :-
     remote(Host, findall(F, sense(F), Facts)).
+
+test('it is saved just after one of its processes has died') :-
+    quiet(no_leaks(with_tmp_dir(saved))).
+
+saved(Dir) :-
+    directory_file_path(Dir, saved, File),
+    network(Dir, ring(2), [processes(2), restart(true)],
+            saved_without(File)),
+    exists_file(File).
+
+saved_without(File, Network) :-
+    pids(Network, [_, Pid]),
+    process_kill(Pid, kill),
+    wait_until(printed(carrier_down(_, Pid, _)), 10),
+    network_save(Network, File).
 
 test('one that dies again and again is left alone at last, and that is told',
      Told = [carrier_given_up(_, 1, 2, 60)]) :-

@@ -426,6 +426,26 @@ test(its_successor_hears_nothing_old, Notes == [new]) :-
           with_peer(Port, _, A,
                     ( endpoint_post(A, note, new),
                       ask(A, notes, x, Notes) )) ))).
+test(who_waits_for_what_it_had_not_got_goes_on, Result == true) :-
+    with_endpoint(with_peer(0, Pid, A,
+        ( ask(A, echo, x, x),
+          port_of(A, Port),
+          process_kill(Pid, stop),
+          endpoint_post(A, note, old),
+          thread_self(Me),
+          thread_create(( once(endpoint_flush(20, [A])),
+                          thread_send_message(Me, flushed) ),
+                        Thread),
+          wait_until(typhon_unacked:flusher(_, _, _), 5),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          with_peer(Port, _, A,
+                    ( ask(A, echo, x, x),
+                      (   thread_get_message(Me, flushed, [timeout(10)])
+                      ->  Result = true
+                      ;   Result = late
+                      ),
+                      thread_join(Thread, _) )) ))).
 test(it_says_goodbye, Result == lost) :-
     with_endpoint(with_peer_in(In, A,
         ( thread_self(Me),

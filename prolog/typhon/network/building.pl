@@ -1,0 +1,127 @@
+:- module(typhon_building,
+          [ network_build/5             % +Network, +Plan, +Kept, :Change,
+                                        % -Clock
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module('../host', [time_now/1, time_seed/1]).
+:- use_module(changes, [dynamics_start/4]).
+:- use_module(kept, [kept_note/3]).
+:- use_module(lasting,
+              [ lasting_back/2, lasting_child/4, lasting_goes_on/3,
+                lasting_open/3, lasting_restarts/4 ]).
+:- use_module(equipment, [network_dynamics/2, network_endpoint/4, network_log/4]).
+:- use_module(plan,
+              [ plan_dynamics/3, plan_furnishing/2, plan_hosts/4,
+                plan_links/2, plan_links_at/3, plan_log/3, plan_option/2,
+                plan_processes/3 ]).
+:- use_module(processes, [carriers_start/5]).
+:- use_module(wiring,
+              [wire_goals/3, wire_hosts/4, wire_instead/3, wire_links/3]).
+
+/** <module> Networks as they are planned
+
+Processes, the log, hosts, links, what places offer, and what changes links, in
+this order; or, where a journal knows them, as they were.
+
+*Threading*: the thread that starts the network.
+*/
+
+:- meta_predicate network_build(+, +, +, 1, -).
+
+%!  network_build(+Network, +Plan, +Kept, :Change, -Clock) is det.
+%
+%   Network is what Plan says, or what is Kept of it, see kept_plan/4; its links
+%   change by call(Change, link(I, J)) and such.  When this throws, what was
+%   started is there still.
+
+network_build(Network, Plan, Kept, Change, Clock) :-
+    plan_processes(Plan, P, Machines),
+    lasting_open(Plan, P, Machines),
+    network_endpoint(Network, Plan, 0, Interface),
+    plan_option(Plan, seed(Seed)),
+    time_seed(Seed),
+    known_log(Kept, Network, Clock, Plan, Log),
+    carriers_start(Network, P, Machines, Interface,
+                   lasting_child(Plan, Log)),
+    clock_and_log(Network, Plan, Clock, Log),
+    lasting_back(Plan, Log),
+    furnished(Kept, Network, P, Plan, Clock, [Clock|Log], Time),
+    start_dynamics(Network, Clock, Plan, Time, Change),
+    lasting_goes_on(Network, P, Plan),
+    debug(typhon(network), '~w is built, ~w processes', [Network, P]),
+    lasting_restarts(Network, P, Plan, [Clock|Log]).
+
+%   furnished(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): what a
+%   journal knows need not be done again; links may have changed by themselves
+%   until Time.
+
+furnished(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
+    !,
+    plan_hosts(Plan, P, Common, Hosts),
+    wire_hosts(Network, P, hosts, Hosts),
+    shown(Clock, Time),
+    (   plan_links_at(Plan, Time, Links)
+    ->  wire_instead(Network, P, Links)
+    ;   true
+    ).
+furnished(_, Network, P, Plan, Clock, Common, 0) :-
+    kept_note(Plan, Clock, begun),
+    plan_hosts(Plan, P, Common, Hosts),
+    wire_hosts(Network, P, hosts, Hosts),
+    plan_links(Plan, Links),
+    wire_links(Network, P, Links),
+    plan_furnishing(Plan, Goals),
+    wire_goals(Network, P, Goals),
+    kept_note(Plan, Clock, built).
+
+%   It begins now.
+
+clock(Plan, clock(Epoch, Rate)) :-
+    time_now(Epoch),
+    (   plan_option(Plan, clock(Rate0)),
+        number(Rate0)
+    ->  Rate = Rate0
+    ;   Rate = 1
+    ).
+
+%   What the clock shows.
+
+shown(clock(Epoch, Rate), Time) :-
+    time_now(Now),
+    Time is (Now-Epoch)*Rate.
+
+%   known_log(+Kept, +Network, -Clock, +Plan, -Log), clock_and_log(+Network,
+%   +Plan, ?Clock, ?Log): of a network that is known from a journal the clock
+%   goes on, and the log is there before its hosts are.
+
+known_log(kept(_, Clock), Network, Clock, Plan, Log) :-
+    start_log(Network, Clock, Plan, append, Log).
+known_log(none, _, _, _, _).
+
+clock_and_log(Network, Plan, Clock, Log) :-
+    (   var(Clock)
+    ->  clock(Plan, Clock),
+        start_log(Network, Clock, Plan, write, Log)
+    ;   true
+    ).
+
+%   start_log(+Network, +Clock, +Plan, +Mode, -HostOptions)
+
+start_log(Network, clock(Epoch, Rate), Plan, Mode, [Option]) :-
+    plan_log(Plan, Spec, Kinds),
+    !,
+    network_log(Network, Spec, [mode(Mode), clock(Epoch, Rate)], Address),
+    log_option(Kinds, Address, Option).
+start_log(_, _, _, _, []).
+
+log_option([], Address, Option) =>
+    Option = log(Address).
+log_option(Kinds, Address, Option) =>
+    Option = log(Address, Kinds).
+
+start_dynamics(Network, Clock, Plan, Time, Change) :-
+    (   plan_dynamics(Plan, Time, State)
+    ->  dynamics_start(State, Clock, Change, Dynamics),
+        network_dynamics(Network, Dynamics)
+    ;   true
+    ).
