@@ -134,60 +134,46 @@ go_on :-
 %!  agent_goes_on(+Id) is det.
 %
 %   Id, which has been put where it was, is scheduled if it was about to run,
-%   and woken when its time has come.
+%   and woken when its time has come.  Others are let in already, and what they
+%   say may have woken it: who runs by now must not be run by two.
 
 agent_goes_on(Id) :-
-    (   agent_status(Id, Status, _)
-    ->  goes_on(Status, Id)
+    (   with_agent(Id, ( agent_status(Id, Status, Goals),
+                         goes_on(Status, Goals, Id) ))
+    ->  true
+    ;   true
+    ),
+    (   agent_status(Id, Now, _),
+        alarm(Now, Stamp, Token),
+        agent(Id, Host, _, _, _)
+    ->  rings(Host, Stamp, Id, Token)
     ;   true
     ).
 
-goes_on(ready, Id) :-
-    scheduled(Id).
-goes_on(obeying, Id) :-
-    with_agent(Id, ready_again(Id)).
-goes_on(faulty(_), Id) :-
-    with_agent(Id, ready_again(Id)).
-goes_on(resident, Id) :-
-    has_mail(Id).
-goes_on(waiting(_, Until), Id) :-
-    has_mail(Id),
-    (   number(Until)
-    ->  agent(Id, Host, _, _, _),
-        rings(Host, Until, Id, until(Until))
-    ;   true
-    ).
-goes_on(sleeping(Until), Id) :-
-    agent(Id, Host, _, _, _),
-    !,
-    rings(Host, Until, Id, until(Until)).
-goes_on(leaving(_, At), Id) :-
-    agent(Id, Host, _, _, _),
-    !,
-    rings(Host, At, Id, leave).
-goes_on(transit(_, _), _).
-goes_on(cloning(_, _), _).
-goes_on(running, _).
-
-scheduled(Id) :-
+goes_on(ready, _, Id) :-
     agent(Id, Host, _, _, _),
     !,
     schedule(Host, Id).
+goes_on(obeying, Goals, Id) :-
+    agent_wakes(Id, Goals).
+goes_on(faulty(_), Goals, Id) :-
+    agent_wakes(Id, Goals).
+goes_on(resident, Goals, Id) :-
+    has_mail(Id, Goals).
+goes_on(waiting(_, _), Goals, Id) :-
+    has_mail(Id, Goals).
 
 %   It runs, and sees for itself.
 
-ready_again(Id) :-
-    agent_status(Id, _, Goals),
-    !,
+has_mail(Id, Goals) :-
+    mail_count(Id, Count),
+    Count > 0,
     agent_wakes(Id, Goals).
 
-has_mail(Id) :-
-    with_agent(Id,
-               (   mail_count(Id, Count),
-                   Count > 0
-               ->  ready_again(Id)
-               ;   true
-               )).
+alarm(waiting(_, Until), Until, until(Until)) :-
+    number(Until).
+alarm(sleeping(Until), Until, until(Until)).
+alarm(leaving(_, At), At, leave).
 
 rings(Host, Until, Id, Token) :-
     real_time(Host, Until, Stamp),

@@ -162,7 +162,7 @@ at_once(evacuate(_)).
 %   concluded(+Outcome, +Goals0, ...): as conclude/6.  If there is a journal
 %   what the agent has done in this turn is noted together with what it is to
 %   do next, and then released: first of all, as somebody else may run it as
-%   soon as it rests.
+%   soon as it rests, and what it says then must not come before.
 
 concluded(Outcome, Goals0, Id, Host, Context, Next) :-
     (   journal_on
@@ -175,16 +175,22 @@ concluded(Outcome, Goals0, Id, Host, Context, Next) :-
 
 turn_ends(effect(Control, Hole, Goals), Id) :-
     !,
+    \+ \+ ( Hole = Control,
+            before_it_rests(Id, Goals) ).
+turn_ends(done, Id) :-
+    !,
+    before_it_rests(Id, []).
+turn_ends(_, _) :-
+    turn_commit.
+
+before_it_rests(Id, Goals) :-
     (   turn_has_effects
     ->  turn_commit,
-        \+ \+ ( Hole = Control,
-                agent_put_down(Id, ready, Goals) ),
+        agent_put_down(Id, ready, Goals),
         journal_seal,
         turn_release
     ;   true
     ).
-turn_ends(_, _) :-
-    turn_commit.
 
 noted(stop, _).
 noted(go(Goals), Id) :-

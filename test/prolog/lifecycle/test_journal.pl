@@ -2,6 +2,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
 
@@ -150,6 +151,90 @@ test('faulty agents are kept, and can be resumed',
           agent_change(A, facts([ok])),
           agent_resume(A),
           agent_result(A, fine, 5) )).
+
+%   The worker that has it stands still while it releases what was said, as it
+%   is told that one word finds nobody.  If that is when the agent rests another
+%   worker is ahead of it.
+
+test('one that answers messages is heard in order, whoever is quicker') :-
+    with_tmp_dir(in_order).
+
+in_order(Dir) :-
+    started(Dir,
+        ( keeper(P),
+          agent_create(P, K, []),
+          agent_create(clauses([(:- agent(gone, [])), main]), Gone, []),
+          agent_join(Gone, done, 5),
+          counter(C),
+          agent_create(C, A, [facts([to(K), gone(Gone)])]),
+          setup_call_cleanup(
+              asserta((user:message_hook(typhon(undeliverable(_, _, A, _)),
+                                         _, _) :-
+                           plunit_journal:stands_still(A, K)), Hook),
+              ( agent_send(A, go),
+                wait_until(( agent_property(A, facts(Facts)),
+                             memberchk(said(1), Facts),
+                             agent_property(A, state(resident)) ), 5),
+                agent_send(A, go),
+                got(K, [1, 2]) ),
+              erase(Hook)) )).
+
+counter(clauses([ (:- agent(counter, [state([said/1, to/1, gone/1])])),
+                  said(0),
+                  (on_message(_, go) :-
+                       retract(said(N0)), N is N0+1, assertz(said(N)),
+                       ( N =:= 1 -> gone(Gone), send(Gone, hello) ; true ),
+                       to(To), send(To, N)) ])).
+
+:- public stands_still/2.
+
+stands_still(Agent, Keeper) :-
+    (   agent_property(Agent, state(resident))
+    ->  got(Keeper, [2])
+    ;   true
+    ).
+
+%   Peers are let in before agents go on: here two messages come just before
+%   it is looked whether it is to be woken, and it has taken the first.
+
+test('who is spoken to while all goes on again hears one after the other') :-
+    no_leaks(with_tmp_dir(one_after_the_other)).
+
+one_after_the_other(Dir) :-
+    started(Dir,
+        ( agent_create(clauses([ (:- agent(listens, [state([got/1])])),
+                                 (on_message(_, M) :- hears(M), assertz(got(M))),
+                                 (hears(first) :-
+                                      !,
+                                      thread_send_message(journal_gate, in),
+                                      thread_get_message(journal_gate, on)),
+                                 hears(second) ]), A, []),
+          wait_until(agent_property(A, state(resident)), 5) )),
+    message_queue_create(Gate, [alias(journal_gate)]),
+    assertz(speaks_to(A)),
+    wrap_predicate(typhon_agents:with_agent(Id, _), spoken_to, Wrapped,
+                   ( plunit_journal:spoken_to(Id), Wrapped )),
+    host_start(alpha, [journal(Dir)]),
+    call_cleanup(
+        ( catch(wait_until(( agent_property(A, facts(Facts)),
+                             memberchk(got(second), Facts) ), 0.5), _, true),
+          thread_send_message(Gate, on),
+          got(A, [first, second]) ),
+        ( stop_all, message_queue_destroy(Gate) )).
+
+%   It stays wrapped: to unwrap what a thread is in is not safe.
+
+:- dynamic speaks_to/1.
+:- public spoken_to/1.
+
+spoken_to(Id) :-
+    thread_self(main),
+    retract(speaks_to(Id)),
+    !,
+    agent_send(Id, first),
+    thread_get_message(journal_gate, in),
+    agent_send(Id, second).
+spoken_to(_).
 
 %   One comes with a program that nobody had, and cannot be let in after all:
 %   that must not keep the program from those who come with it later.
