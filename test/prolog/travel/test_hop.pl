@@ -150,15 +150,15 @@ cut_before_answer(Rounds) :-
 cut_before_one_answer(A, B) :-
     travel(a, [B, A], 2),               % they are connected, and once
     wait_until(forall(member(Peer, [a, b]),
-                      peer_do(Peer, \+ connecting)), 10),
+                      peer_do(Peer, \+ connecting)), 30),
     answers(proxy_hold),
     set_out(a, [B, sit], 2, Id),
-    wait_until(step_on(b, Id, 1), 10),
+    wait_until(step_on(b, Id, 1), 30),
     peer_do(a, agent_state_here(Id, State)),
     memberchk(State, [in_transit, in_doubt]),
     forall(peer_proxy(_, Proxy), proxy_cut(Proxy)),
     wait_until(( answers(proxy_release),
-                 \+ peer_do(a, agent_here(Id)) ), 10),
+                 \+ peer_do(a, agent_here(Id)) ), 30),
     peer_do(a, agent_property(Id, host(B))),
     peer_do(a, agent_send(Id, go)),
     ended_well(a, Id, 2).
