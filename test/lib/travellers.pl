@@ -95,7 +95,7 @@ walker([ (:- agent(walker, [state([plan/2])])),
 %!  ended_well(+Peer, +Id, +Hops) is semidet.
 
 ended(Peer, Id, Outcome) :-
-    peer_do(Peer, agent_join(Id, Outcome0, 20)),
+    peer_do(Peer, agent_join(Id, Outcome0, 50)),
     told(Outcome0 == Outcome, outcome(Id, Outcome0)).
 
 ended_well(Peer, Id, Hops) :-

@@ -25,7 +25,8 @@ no other: so the helper never waits for itself.
     in_own_thread(0).
 
 :- dynamic
-    helper/2.                   % Thread, Queue
+    helper/2,                   % Thread, Queue
+    asked/1.                    % Queue of a helper that was asked for something
 
 %!  in_own_thread(:Goal) is semidet.
 %
@@ -99,14 +100,22 @@ own_thread_stop :-
 %   One that is busy may be the thread that runs this, or wait for it.
 
 end_helper(Thread, Queue) :-
-    message_queue_property(Queue, waiting(_)),
-    message_queue_property(Queue, size(0)),
+    idle(Queue),
     !,
     thread_send_message(Queue, stop),
     thread_join(Thread, _).
 end_helper(Thread, Queue) :-
     thread_detach(Thread),
     thread_send_message(Queue, stop).
+
+%   One that has just begun does not wait yet.
+
+idle(Queue) :-
+    \+ asked(Queue),
+    !.
+idle(Queue) :-
+    message_queue_property(Queue, waiting(_)),
+    message_queue_property(Queue, size(0)).
 
 %   ask_helper(:Goal, -Status) fails if there is none.
 
@@ -115,6 +124,8 @@ ask_helper(Goal, Status) :-
         message_queue_create(Answers),
         ( with_mutex(typhon_own_thread,
                      ( helper(_, Queue),
+                       retractall(asked(Queue)),
+                       assertz(asked(Queue)),
                        thread_send_message(Queue, do(Goal, Answers)) )),
           thread_get_message(Answers, Status)
         ),
@@ -156,6 +167,7 @@ no_help(Queue) :-
     ;   true
     ),
     forsake(Queue),
+    retractall(asked(Queue)),
     message_queue_destroy(Queue).
 
 forsake(Queue) :-

@@ -207,6 +207,7 @@ secure_streams(Role, In, Out, SIn, SOut, Proof) :-
 handshake(Role, Directory, In, Out, SIn, SOut, Name) :-
     nb_setval(typhon_verdict, none),
     context(Role, Directory, Context),
+    nb_setval(typhon_secure, under(In, Out)),
     ssl_negotiate(Context, In, Out, SIn, SOut),
     nb_setval(typhon_secure, over(In, SIn, SOut)),
     maplist(octets, [SIn, SOut]),
@@ -319,7 +320,24 @@ secure_close :-
     nb_current(typhon_secure, over(_, SIn, SOut)),
     !,
     maplist(close_stream, [SOut, SIn]).
+secure_close :-
+    nb_current(typhon_secure, under(In, Out)),
+    !,
+    findall(Stream, above(In, Out, Stream), Streams),
+    maplist(close_stream, Streams).
 secure_close.
+
+%   above(+In, +Out, -Stream): one of those that ssl_negotiate/5 has just
+%   made.  Who is interrupted then does not know them, and none of all is
+%   closed before they are.
+
+above(In, Out, Stream) :-
+    member(Mode, [append, write, read]),
+    stream_property(In, file_no(Number)),
+    stream_property(Stream, file_no(Number)),
+    stream_property(Stream, mode(Mode)),
+    Stream \== In,
+    Stream \== Out.
 
 close_stream(Stream) :-
     catch(close(Stream, [force(true)]), error(_, _), true).

@@ -25,7 +25,8 @@ in order.
 %   Options: dir(Dir), processes(N), agents(N), hops(N) of each, seed(Seed),
 %   crash(P) at each step, power(P) that the power fails at a commit, for
 %   sync(full) only, kill(Seconds) between what happens from outside,
-%   sync(How), seconds(Limit).  Report is report(Facts, Wrong).
+%   most(N) that happens, sync(How), seconds(Limit).  Report is
+%   report(Facts, Wrong).
 
 lasting(Options, report(Facts, Wrong)) :-
     option(seed(Seed), Options, 1),

@@ -18,6 +18,7 @@ war; the rest is for one thread.
 */
 
 :- use_module(power, [power_cut/1]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
@@ -41,6 +42,7 @@ war; the rest is for one thread.
     calm/0,                             % who ends is not started again
     guard/1,                            % Thread
     warrior/1,                          % Thread
+    most/1,                             % that may happen
     happened/2.                         % What, Times
 
 %!  with_nodes(+Options, -Nodes, :Goal, -Told) is semidet.
@@ -54,6 +56,7 @@ with_nodes(Options, Nodes, Goal, Told) :-
     maplist(node(Options), Numbers, Nodes),
     retractall(calm),
     retractall(happened(_, _)),
+    retractall(most(_)),
     retractall(orders(_)),
     assertz(orders([])),
     setup_call_cleanup(
@@ -107,7 +110,18 @@ count(What) :-
     with_mutex(lasting,
                ( ( retract(happened(What, N0)) -> true ; N0 = 0 ),
                  N is N0+1,
-                 assertz(happened(What, N)) )).
+                 assertz(happened(What, N)) )),
+    (   enough
+    ->  disarm
+    ;   true
+    ).
+
+%   On a slow machine processes would die before anything is done.
+
+enough :-
+    most(Most),
+    with_mutex(lasting, aggregate_all(sum(N), happened(_, N), Sum)),
+    Sum >= Most.
 
                 /*******************************
                 *           PROCESSES          *
@@ -170,7 +184,7 @@ start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
 
 told(In, Term) :-
     catch(( format(In, '~q.~n', [Term]), flush_output(In) ),
-          error(io_error(_, _), _),
+          error(_, _),
           true).                        % it died just now
 
                 /*******************************
@@ -181,7 +195,8 @@ told(In, Term) :-
 %!  peace is det.
 %
 %   Options: crash(P), power(P), kill(Seconds) between what happens from
-%   outside, and faults(List): this.
+%   outside, and faults(List): this; most(N): nothing more when so much has
+%   happened.
 
 war(Options) :-
     option(crash(P), Options, 0.001),
@@ -190,6 +205,8 @@ war(Options) :-
     ;   W = 0
     ),
     option(kill(Seconds), Options, inf),
+    option(most(Most), Options, inf),
+    assertz(most(Most)),
     tell_all([dies(P), power(W)]),
     (   Seconds == inf
     ->  true
@@ -205,6 +222,9 @@ peace :-
         thread_join(Warrior, _)
     ;   true
     ),
+    disarm.
+
+disarm :-
     tell_all([dies(0), power(0)]).
 
 tell_all(Orders) :-
@@ -219,6 +239,9 @@ make_war(Seconds, Faults) :-
     random(0.0, Longest, Pause),
     (   peace_within(Pause)
     ->  true
+    ;   enough
+    ->  thread_self(Me),
+        thread_get_message(Me, peace)
     ;   findall(Pid-In, child(_, Pid, In), Children),
         ignore(( random_member(Child, Children),
                  random_member(What, Faults),

@@ -8,7 +8,8 @@
 :- use_module(library(lists)).
 :- use_module(library(settings)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/base/own_thread), [in_own_thread/1]).
+:- use_module(library(typhon/base/own_thread),
+              [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module(library(typhon/host/place)).
 
 /** <module> Tests of hosts: what they offer, admit, and leave behind
@@ -765,6 +766,12 @@ footprint(Threads, Queues, Modules, Files) :-
     ;   Files = 0
     ).
 
+%   They are told to end before they have begun.
+
+test(who_helps_to_stop_hosts_has_ended_then, true(Threads == Before)) :-
+    footprint(Before, _, _, _),
+    forall(between(1, 300, _), ( own_thread_start, own_thread_stop )),
+    aggregate_all(count, thread_property(_, status(_)), Threads).
 test(with_residents, true(Os == [disposed,disposed,disposed])) :-
     with_hosts([alpha],
                ( findall(A, ( between(1, 3, _), stays([], A) ), As),

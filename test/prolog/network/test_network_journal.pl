@@ -65,17 +65,32 @@ kill(Network, I) :-
 
 %   It goes round so many times, and counts at each host, which counts, too.
 
-walker(clauses([ (:- agent(walker, [state([made/1, todo/1])])),
+walker(Program) :-
+    walks([ (go(H) :- move(H)) ], Program).
+
+%   Who is killed with others may see for a moment that they are gone.
+
+patient(Program) :-
+    walks([ (go(H) :- catch(( move(H), Where = there ),
+                            error(host_unreachable(_), _),
+                            Where = here),
+                      gone(Where, H)),
+            gone(there, _),
+            (gone(here, H) :- sleep(0.05), go(H)) ], Program).
+
+walks(Go,
+      clauses([ (:- agent(walker, [state([made/1, todo/1])])),
                  made(0),
                  (main :- made(N), todo(N), !, result(N)),
                  (main :- made(N), neighbours(Hosts),
                           length(Hosts, L), I is N mod L, nth0(I, Hosts, H),
-                          move(H),
+                          go(H),
                           retract(made(_)), N1 is N+1, assertz(made(N1)),
                           ( take(visits(V)) -> true ; V = 0 ),
                           V1 is V+1, leave(visits(V1)),
                           sleep(0.01),
-                          main) ])).
+                          main)
+                | Go ])).
 
 walkers(Hosts, Hops, Agents) :-
     walker(Program),
@@ -169,7 +184,7 @@ killed_as_a_whole(Processes, Dir) :-
 first_life(Dir, Processes, Hosts, Agents) :-
     project_file(prolog, Library),
     format(atom(Path), 'library=~w', [Library]),
-    walker(Program),
+    patient(Program),
     format(atom(Goal),
            'use_module(library(typhon)), ~q=Program, \c
             network_start(ring(3), N, [journal(~q), processes(~d)]), \c

@@ -38,8 +38,8 @@ noting_on_c(Id) :-
                                       (on_message(_, n(N)) :- leave(noted(N)))
                                     ]),
                             Id, [facts([to(C)])])),
-    wait_until(peer_do(c, agent_here(Id)), 10),
-    wait_until(\+ peer_do(a, agent_here(Id)), 10).
+    wait_until(peer_do(c, agent_here(Id)), 30),
+    wait_until(\+ peer_do(a, agent_here(Id)), 30).
 
 noted(Numbers) :-
     peer_do(c, remote(c, findall(N, sense(noted(N)), Numbers))).
@@ -53,7 +53,7 @@ cut_off :-
     proxy_hold(Proxy, down),
     proxy_cut(Proxy),
     peer_host(c, C),
-    wait_until(\+ peer_do(a, connected_to(C)), 10).
+    wait_until(\+ peer_do(a, connected_to(C)), 30).
 
 reconnected :-
     peer_proxy(c, Proxy),
@@ -66,8 +66,8 @@ waits_for_way :-
     cut_off,
     numlist(1, 20, Numbers),
     peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
-    wait_until(peer_do(a, kept(Id)), 10),
-    wait_until(peer_do(a, tried_in_vain(Id)), 10),
+    wait_until(peer_do(a, kept(Id)), 30),
+    wait_until(peer_do(a, tried_in_vain(Id)), 30),
     reconnected,
     wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
     noted(Numbers),
@@ -79,7 +79,7 @@ waits_in_order :-
     cut_off,
     numlist(1, 40, Numbers),
     peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
-    wait_until(peer_do(a, kept(Id)), 10),
+    wait_until(peer_do(a, kept(Id)), 30),
     reconnected,
     peer_do(b, forall(between(21, 40, N), agent_send(Id, n(N)))),
     wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
@@ -135,15 +135,15 @@ home_learns :-
                                       (on_message(_, n(N)) :- leave(noted(N)))
                                     ]),
                             Id, [facts([to(B)])])),
-    wait_until(peer_do(b, agent_here(Id)), 10),
-    wait_until(\+ peer_do(a, agent_here(Id)), 10),
+    wait_until(peer_do(b, agent_here(Id)), 30),
+    wait_until(\+ peer_do(a, agent_here(Id)), 30),
     peer_kill(a),
     peer_restart(a),
     peer_do(b, agent_send(Id, go(C))),
-    wait_until(peer_do(c, agent_here(Id)), 10),
+    wait_until(peer_do(c, agent_here(Id)), 30),
     wait_until(peer_do(a, agent_property(Id, host(C))), 20),
     peer_do(a, agent_send(Id, n(1))),
-    wait_until(noted([1]), 10).
+    wait_until(noted([1]), 30).
 
 :- begin_tests(news).
 
@@ -165,7 +165,7 @@ dead_home :-
             ( between(1, 4, _),
               peer_do(a, agent_create(Program, Id, [facts([left(300)])])) ),
             Ids),
-    wait_until(forall(member(Id, Ids), peer_do(a, \+ agent_here(Id))), 10),
+    wait_until(forall(member(Id, Ids), peer_do(a, \+ agent_here(Id))), 30),
     peer_kill(a),
     wait_until(( peer_do(c, remote(c, findall(x, sense(stopped(_)), Stopped))),
                  length(Stopped, 4) ), 60),

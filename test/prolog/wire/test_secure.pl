@@ -10,6 +10,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
@@ -20,7 +21,7 @@
 
 :- needs([openssl]).
 
-:- dynamic told/1.
+:- dynamic told/1, broken/0.
 :- multifile user:message_hook/3, typhon_endpoint:requested/4.
 
 user:message_hook(typhon(endpoint, turned_away(_, Why)), _, _) :-
@@ -66,6 +67,16 @@ tries(Keys, Address, Here-There) :-
         once(told(There))
     ).
 
+%   Once: after that nobody is interrupted.
+
+once_broken(Negotiated) :-
+    call(Negotiated),
+    (   broken
+    ->  true
+    ;   assertz(broken),
+        throw(wire_thread_end(test))
+    ).
+
 :- begin_tests(tls).
 
 test(who_has_a_good_certificate_of_ours_gets_in_nobody_else) :-
@@ -101,6 +112,20 @@ came(ours, old, tls(his(expired))-tls(expired)).
 came(ours, alice, tls(his(wrong_use))-tls(wrong_use)).
 came(ours, self, tls(his(foreign))-tls(self_made)).
 came(others, beta, tls(foreign)-tls(his(foreign))).
+
+test(who_is_interrupted_when_he_has_just_met_a_peer_leaves_nothing_open) :-
+    with_authority([alpha, beta], [], interrupted).
+
+interrupted(Ours) :-
+    own(Ours, beta, Dir),
+    no_leaks(with_peers([beta],
+        setup_call_cleanup(
+            wrap_predicate(ssl:ssl_negotiate(_, _, _, _, _), interrupted,
+                           Negotiated, test_secure:once_broken(Negotiated)),
+            with_secure_host(Ours, comes([tls(Dir)], Verdict)),
+            unwrap_predicate(ssl:ssl_negotiate/5, interrupted)))),
+    assertion(Verdict == ok-ok),
+    assertion(broken).
 
 test(tls_is_not_understood_by_a_host_without_keys) :-
     with_authority([beta], [], plain_host).
