@@ -6,8 +6,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal',
-              [ crash_point/1, journal_number/1, journal_seal/0,
-                journal_step/1, note_drop_below/3, note_put/4 ]).
+              [ crash_point/1, journal_guards/0, journal_number/1, journal_on/0,
+                journal_seal/0, journal_step/1, note_drop_below/3, note_put/4 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_process/1 ]).
@@ -143,7 +143,8 @@ put_sent(Endpoint, Before, N) :-
     ).
 
 not_sent(existence_error(_, _), Endpoint, _) :-
-    !,                                  % this process ends
+    all_ends,
+    !,
     with_mutex(typhon_channel, retractall(courier(Endpoint))).
 not_sent(unreachable(_), Endpoint, try(Since, _)) :-
     endpoint_gone(Endpoint),
@@ -172,6 +173,16 @@ typhon_scheduler:fire(Endpoint, channel(Try)) :-
 typhon_scheduler:fire(Key, had(To, Peer)) :-
     !,
     scheduler_call(typhon_channel:say_had(Key, To, Peer)).
+
+%   This process says nothing any more.  What else does not exist, as the queue
+%   of a connection that breaks, is another's next time.
+
+all_ends :-
+    \+ endpoint_address(_),
+    !.
+all_ends :-
+    journal_guards,
+    \+ journal_on.
 
 %   Who is there no longer, and keeps no journal, will not take it.
 
