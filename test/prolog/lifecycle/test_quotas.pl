@@ -303,7 +303,9 @@ test(who_has_most_ends_first, [Hog,Other] == [resource_error(messages),done]) :-
                         joined(B, Other),
                         joined(A, raised(error(Hog, _))) ), _)))).
 test(state_of_one_owner, Ended-Left == 1-2) :-
-    with_hosts([g-[quota([owner(state(300 000))])]],
+    current_prolog_flag(address_bits, Bits),
+    Most is 300 000*Bits//64,
+    with_hosts([g-[quota([owner(state(Most))])]],
                listening(( fat(700, A), fat(800, B), fat(1500, C),
                            outcome_of_one([A,B,C], Big),
                            Big == C,
