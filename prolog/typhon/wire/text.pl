@@ -168,6 +168,7 @@ plain_flag(character_escapes, true).
 plain_flag(rational_syntax, compatibility).
 
 plain_flags(Goal) :-
+    long_integers,
     findall(Flag-Value,
             ( plain_flag(Flag, Plain),
               current_prolog_flag(Flag, Value),
@@ -182,4 +183,12 @@ plain_flags(Goal) :-
             call(Goal),
             forall(member(Flag-Value, Changed),
                    set_prolog_flag(Flag, Value)))
+    ).
+
+%   In threads of 9.2 none longer than 0 bytes can be written.
+
+long_integers :-
+    (   current_prolog_flag(max_integer_size, 0)
+    ->  set_prolog_flag(max_integer_size, 1 000 000 000)
+    ;   true
     ).

@@ -74,6 +74,11 @@ test(text_of_any_character) :-
 test(fraction, [forall(member(Codec, [text, fast]))]) :-
     round_trip(Codec, 1r3),
     round_trip(Codec, f(-22r7, [1r3])).
+test(long_integer_in_a_thread, [forall(member(Codec, [text, fast]))]) :-
+    Long is -(7**7000),
+    thread_create(round_trip(Codec, f(Long)), Thread),
+    thread_join(Thread, Status),
+    assertion(Status == true).
 
 :- end_tests(terms_travel_unchanged).
 
