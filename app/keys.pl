@@ -77,8 +77,7 @@ keys_init(Directory) :-
     chmod(Directory, 0o700),
     write_file(Directory, database, ''),
     write_file(Directory, 'database.attr', 'unique_subject = yes\n'),
-    configuration(Text),
-    write_file(Directory, 'openssl.cnf', Text),
+    configuration(Directory),
     authority_days(Days),
     openssl(Directory,
             [ req, '-x509', '-config', 'openssl.cnf', '-extensions', authority,
@@ -86,6 +85,15 @@ keys_init(Directory) :-
               '-days', Days, '-subj', '/CN=typhon authority' ]),
     private(Directory, 'ca.key'),
     list_revoked(Directory).
+
+%   What openssl is told stands beside this file.
+
+configuration(Directory) :-
+    module_property(typhon_app_keys, file(This)),
+    file_directory_name(This, App),
+    directory_file_path(App, 'authority.cnf', File),
+    directory_file_path(Directory, 'openssl.cnf', Copy),
+    copy_file(File, Copy).
 
 must_be_empty(Directory) :-
     exists_directory(Directory),
@@ -95,46 +103,6 @@ must_be_empty(Directory) :-
     !,
     permission_error(create, directory, Directory).
 must_be_empty(_).
-
-configuration(Text) :-
-    authority_days(Days),
-    format(atom(Text), '\c
-[ca]
-default_ca = typhon
-[typhon]
-database = database
-new_certs_dir = .
-certificate = ca.pem
-private_key = ca.key
-rand_serial = yes
-default_md = sha256
-default_crl_days = ~d
-policy = named
-unique_subject = yes
-[named]
-organizationalUnitName = supplied
-commonName = supplied
-[req]
-distinguished_name = name
-prompt = no
-[name]
-[authority]
-basicConstraints = critical, CA:TRUE, pathlen:0
-keyUsage = critical, keyCertSign, cRLSign
-subjectKeyIdentifier = hash
-[host]
-basicConstraints = critical, CA:FALSE
-keyUsage = critical, digitalSignature, keyEncipherment
-extendedKeyUsage = critical, serverAuth, clientAuth
-subjectKeyIdentifier = hash
-authorityKeyIdentifier = keyid
-[author]
-basicConstraints = critical, CA:FALSE
-keyUsage = critical, digitalSignature
-extendedKeyUsage = critical, codeSigning
-subjectKeyIdentifier = hash
-authorityKeyIdentifier = keyid
-', [Days]).
 
 %!  keys_issue(+Kind, +Name, +Days, +Directory) is det.
 %
@@ -241,8 +209,10 @@ keys_sign_file(File, Author, Directory) :-
     ).
 
 list_revoked(Directory) :-
+    authority_days(Days),
     openssl(Directory,
-            [ ca, '-config', 'openssl.cnf', '-gencrl', '-out', 'crl.pem' ]),
+            [ ca, '-config', 'openssl.cnf', '-gencrl', '-crldays', Days,
+              '-out', 'crl.pem' ]),
     forall(( directory_member_with_keys(Directory, Own) ),
            hand_out(Directory, 'crl.pem', Own)).
 
