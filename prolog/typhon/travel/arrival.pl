@@ -84,36 +84,59 @@ typhon_endpoint:returned :-
 arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
     birth_sent(Papers, Program),
     image_label(Image, Label),
-    Label = label(Id, Hops, Hash, Tokens, _, _),
-    (   ( Crossing \== none, crossing_known(Crossing)
-        ; repeated(Id, Hops)
-        )
+    (   has_come(Crossing, Label)
     ->  Answer = accepted
-    ;   \+ peer_may(Peer, Name, agents)
-    ->  Answer = refused(peer)
-    ;   \+ birth_proved(Papers, Peer, Id, Hash)
-    ->  unproved(Papers, Name, Id, Peer, Answer)
-    ;   guarding,
-        host(Name, _, Place),
-        policy_against(Place, Hash, Program, Reason)
-    ->  audit(Name, Peer, refused(Id, Reason)),
-        Answer = refused(Reason)
-    ;   quota_any(Name),
-        image_newcomer(Peer, Image, Newcomer),
-        quota_against(Name, Newcomer, Reason)
-    ->  audit(Name, Peer, refused(Id, Reason)),
-        Answer = refused(Reason)
-    ;   \+ has_code(Hash, Program)
-    ->  Answer = need_program
-    ;   \+ image_payloads(Image, Name)
-    ->  Answer = refused(unsigned)
-    ;   host_enter(Name, Hash, Tokens, Entered),
-        (   Entered == refused(unsigned),
-            Program == known            % he may have the signature
-        ->  Answer = need_program
-        ;   admitted(Entered, Name, Label, Image, Crossing-Peer, Answer)
-        )
+    ;   turned_away(Name, Label, Image, Papers-Program, Peer, Answer)
+    ->  true
+    ;   Label = label(_, _, Hash, Tokens, _, _),
+        host_enter(Name, Hash, Tokens, Entered),
+        entered(Entered, Program, Name, Label, Image, Crossing-Peer, Answer)
     ).
+
+has_come(Crossing, _) :-
+    Crossing \== none,
+    crossing_known(Crossing),
+    !.
+has_come(_, label(Id, Hops, _, _, _, _)) :-
+    repeated(Id, Hops).
+
+%   turned_away(+Name, +Label, +Image, +Sent, +Peer, -Answer): before any room
+%   is taken on the host; the first reason counts.
+
+turned_away(Name, _, _, _, Peer, refused(peer)) :-
+    \+ peer_may(Peer, Name, agents),
+    !.
+turned_away(Name, label(Id, _, Hash, _, _, _), _, Papers-_, Peer, Answer) :-
+    \+ birth_proved(Papers, Peer, Id, Hash),
+    !,
+    unproved(Papers, Name, Id, Peer, Answer).
+turned_away(Name, label(Id, _, Hash, _, _, _), Image, _-Program, Peer,
+            refused(Reason)) :-
+    unfit(Name, Hash, Image, Program, Peer, Reason),
+    !,
+    audit(Name, Peer, refused(Id, Reason)).
+turned_away(_, label(_, _, Hash, _, _, _), _, _-Program, _, need_program) :-
+    \+ has_code(Hash, Program),
+    !.
+turned_away(Name, _, Image, _, _, refused(unsigned)) :-
+    \+ image_payloads(Image, Name).
+
+unfit(Name, Hash, _, Program, _, Reason) :-
+    guarding,
+    host(Name, _, Place),
+    policy_against(Place, Hash, Program, Reason),
+    !.
+unfit(Name, _, Image, _, Peer, Reason) :-
+    quota_any(Name),
+    image_newcomer(Peer, Image, Newcomer),
+    quota_against(Name, Newcomer, Reason).
+
+%   He may have the signature.
+
+entered(refused(unsigned), known, _, _, _, _, need_program) :-
+    !.
+entered(Entered, _, Name, Label, Image, From, Answer) :-
+    admitted(Entered, Name, Label, Image, From, Answer).
 
 %   He may have what proves it.
 
