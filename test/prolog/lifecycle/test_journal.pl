@@ -284,6 +284,7 @@ half_a_step(Dir) :-
     format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
     keeper(Keeper),
     atom_concat(Dir, '/go', Go),
+    atom_concat(Dir, '/begun', Begun),
     setup_call_cleanup(
         host_start(driver),
         killed(Dir,
@@ -293,11 +294,13 @@ half_a_step(Dir) :-
                                      (main :- take(token), to(To),
                                               send(To, begun), leave(changed),
                                               ( exists_file(Go) -> true
-                                              ; ( thread_self(T), thread_get_message(T, never) ) ),
+                                              ; open(Begun, write, S), close(S),
+                                                thread_self(T), thread_get_message(T, never)
+                                              ),
                                               sleep(0),
                                               result(done)) ]), _,
                            [host(Host), facts([to(K)])]),
-              sleep(0.5),
+              wait_until(exists_file(Begun), 10),
               remote(Host, findall(F, sense(F), [])),
               open(Go, write, Out),
               close(Out) ),

@@ -146,10 +146,11 @@ test(counts_for_who_stands_there_when_it_is_changed, O == lifetime) :-
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
 test(nobody_is_ended_where_it_is_lifted, State == resident) :-
-    with_hosts([g-[quota([lifetime(0.3)])]],
+    with_hosts([g-[clock(virtual), quota([lifetime(5)])]],
                ( create([on_message(_, _)], A, [host(g)]),
                  host_change(g, quota([])),
-                 sleep(0.5),
+                 create([ (main :- sleep(9), result(late)) ], B, [host(g)]),
+                 agent_result(B, late, 1000),
                  state_of(A, State) )).
 
 :- end_tests(lifetime).
@@ -309,7 +310,7 @@ test(state_of_one_owner, Ended-Left == 1-2) :-
                listening(( fat(700, A), fat(800, B), fat(1500, C),
                            outcome_of_one([A,B,C], Big),
                            Big == C,
-                           sleep(0.3),
+                           forall(typhon_quotas:look, true),
                            findall(X, ( member(X, [A,B]),
                                         agent_property(X, state(_)) ), Xs) ),
                          Messages)),
