@@ -30,7 +30,6 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/quotas, [quota/3, quota_any/1, quota_shared/4]).
 :- reexport('host/spending').
 :- reexport(host/leavings, [leaver/2, may_leave/1]).
-:- reexport(host/yielding, [thread_yields/1]).
 :- reexport(host/still, [still_keeps/1]).
 :- reexport(host/turns, [turn_of/3, turns_now/3]).
 :- reexport(host/scheduler,

@@ -20,7 +20,6 @@
                 run_queue/1 ]).
 :- use_module(timer, [timer_check/0]).
 :- use_module(work, [work_do/2]).
-:- use_module(yielding, [thread_yielded/0]).
 
 /** <module> Workers: threads that do what is in the run queue
 
@@ -65,10 +64,9 @@ worker_add(Queue) :-
                   [ alias(Alias), at_exit(typhon_workers:replace_worker) ]),
     assertz(worker(Worker)).
 
-%   A worker that was aborted in the middle of a goal, or made to yield.
+%   A worker that was aborted in the middle of a goal.
 
 replace_worker :-
-    ignore(thread_yielded),
     thread_self(Me),
     worker_ended(Me),
     with_mutex(typhon_scheduler, replace_worker(Me)).
@@ -153,10 +151,7 @@ work(Work, Queue) :-
         work_do(Work, enqueue),
         turn_end(Turn)
     ),
-    (   thread_yielded
-    ->  true                            % another takes its place
-    ;   next(Queue)
-    ).
+    next(Queue).
 
 superfluous :-
     thread_self(Me),

@@ -2,12 +2,12 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host',
               [ alarm_in/3, context_now/2, quota/3, quota_any/1,
-                quota_shared/4, scheduler_call/1, thread_yields/1, turn_of/3,
-                turns_now/3 ]).
+                quota_shared/4, scheduler_call/1, turn_of/3, turns_now/3 ]).
 :- use_module('../agent',
               [agent/5, agent_status/3, stay_owner/3, stay_until/3]).
 :- use_module(ending, [agent_end/3]).
@@ -20,8 +20,12 @@ one owner, or all of a host, have of these and of state together.  And somebody
 must end who has been on a host for as long as he may.
 
 *Threading*: look/0 in the thread that watches, too_long/2 in a worker;
-interrupt/2 is a signal.
+interrupt/2 and pause/2 are signals.
 */
+
+:- setting(pause, between(0.0, 1.0), 0.8,
+           "Agents that run for long where there are quotas pause for this part \c
+            of the time while others run").
 
 :- multifile
     typhon_quotas:look/0,
@@ -44,8 +48,9 @@ typhon_quotas:look :-
         Seconds > Most
     ->  stop_in(Thread, Agent, seconds)
     ;   long(Seconds),
-        quota_any(Host)
-    ->  thread_yields(Thread)
+        quota_any(Host),
+        another_runs(Thread)
+    ->  pause_in(Thread, Agent)
     ;   true
     ),
     fail.
@@ -57,10 +62,24 @@ typhon_quotas:look :-
     fail.
 typhon_quotas:look.
 
-%   Who does not stop for so long lets others go first.
+%   Who does not stop for so long lets others go first, if there are some that
+%   are not like that.  Priorities of threads would do the same if systems kept
+%   to them.
 
 long(Seconds) :-
     Seconds > 0.1.
+
+another_runs(Thread) :-
+    turns_now(_, Other, Seconds),
+    Other \== Thread,
+    \+ long(Seconds),
+    !.
+
+pause_in(Thread, Agent) :-
+    setting(pause, Part),
+    get_time(Now),
+    Until is Now+0.1*Part,
+    signal(Thread, pause(Agent, Until)).
 
 turn(Agent, Host, Thread, Seconds) :-
     turns_now(Agent, Thread, Seconds),
@@ -163,17 +182,39 @@ at_rest(held).
 at_rest(leaving(_, _)).
 
 stop_in(Thread, Agent, What) :-
-    catch(thread_signal(Thread, typhon_overuse:interrupt(Agent, What)),
+    signal(Thread, interrupt(Agent, What)).
+
+signal(Thread, Goal) :-
+    catch(thread_signal(Thread, typhon_overuse:Goal),
           error(existence_error(_, _), _), true).
 
-:- public interrupt/2.
+:- public interrupt/2, pause/2.
 
 %   Only inside its goals, as in typhon_disposal.
 
 interrupt(Agent, What) :-
-    (   context_now(_, Agent),
-        machine_inside
+    (   inside(Agent)
     ->  nb_setval(typhon_over, What),
         abort_quietly
     ;   true
     ).
+
+%   Nor may others wait for what it has; where the signal comes late, as after
+%   a long call of a foreign predicate, there is nothing left of the pause.
+
+pause(Agent, Until) :-
+    (   inside(Agent),
+        \+ has_mutex
+    ->  get_time(Now),
+        Seconds is Until-Now,
+        sleep(Seconds)                  % not at all if it is negative
+    ;   true
+    ).
+
+inside(Agent) :-
+    context_now(_, Agent),
+    machine_inside.
+
+has_mutex :-
+    prolog_current_frame(Frame),
+    prolog_frame_attribute(Frame, parent_goal, system:with_mutex(_, _)).

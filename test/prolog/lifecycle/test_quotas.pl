@@ -321,6 +321,19 @@ test(seconds_of_all, O == resource_error(seconds)) :-
                listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
                            joined(A, raised(error(O, _))) ), _)).
 
+%   One second by the clock; without pauses it would be nearly one of a processor,
+%   too, unless others have it.
+
+test(who_does_not_stop_lets_others_go_first, O == resource_error(seconds)) :-
+    with_hosts([g-[quota([seconds(1)])]],
+               listening(( create([ (main :- sleep(0.02), main) ], B, [host(g)]),
+                           statistics(process_cputime, T0),
+                           create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
+                           joined(A, raised(error(O, _))),
+                           statistics(process_cputime, T1),
+                           agent_dispose(B) ), _)),
+    T1-T0 < 0.7.
+
 :- end_tests(together).
 
 fat(N, A) :-
