@@ -5,7 +5,9 @@
             quota_passed/1              % +What
           ]).
 :- use_module(library(error), [resource_error/1]).
+:- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../base/trees', [is_tree/2]).
+:- use_module('../program', [machine_inside/0]).
 :- use_module(quotas, [quota/3, quota_any/1, quota_shared/4]).
 
 /** <module> What agents use in a second
@@ -168,10 +170,17 @@ quota_cells(_, _).
 
 %!  quota_passed(+What)
 %
-%   The running agent ends with its turn, even if it catches this.
+%   The running agent ends with its turn, even if it catches this; and at once
+%   if it does so again, since a turn may have no end.
 %
 %   @error resource_error(What)
 
+quota_passed(_) :-
+    nb_current(typhon_over, Over),
+    Over \== none,
+    machine_inside,
+    !,
+    abort_quietly.
 quota_passed(What) :-
     nb_setval(typhon_over, What),
     resource_error(What).
