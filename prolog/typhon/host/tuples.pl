@@ -40,8 +40,8 @@ leaving a fact while tuple_leave_new/3 looks.
 %   whose fact it is, see typhon_leavings, or `none`.
 %
 %   With a journal a fact has a number, under which it is there; this, and By,
-%   stand in the body of the clause.  What an agent leaves others find when it
-%   stops; what it takes is gone at once.
+%   stand in the body of the clause, and the journal has By, too.  What an agent
+%   leaves others find when it stops; what it takes is gone at once.
 
 tuple_leave(Place, Fact) :-
     tuple_leave(Place, Fact, none).
@@ -70,7 +70,8 @@ tuple_leave_new(Place, Fact, By) :-
 leave_noted(Place, Fact, By) :-
     journal_number(N),
     place_host(Place, Host),
-    turn_note_put(tuple, Host, N, Fact),
+    noted(By, Fact, Noted),
+    turn_note_put(tuple, Host, N, Noted),
     (   turn_defers
     ->  thread_self(Me),
         assertz(due(Place, N, Fact, By, Me)),
@@ -122,9 +123,19 @@ tuple_take(Place, Fact) :-
     turn_note_drop(tuple, Host, N),
     leaving_ends(By).
 
-typhon_recovery:back(tuple, Host, N, Fact) :-
+typhon_recovery:back(tuple, Host, N, Noted) :-
+    was_noted(Noted, By, Fact),
     place_host(Place, Host),
-    put_tuple(Place, N, Fact, none).
+    leaving_begins(By),
+    put_tuple(Place, N, Fact, By).
+
+was_noted('$by'(By, Fact), By, Fact) :- !.
+was_noted(Fact, none, Fact).
+
+noted(none, Fact, Fact) :-
+    \+ functor(Fact, '$by', 2),
+    !.
+noted(By, Fact, '$by'(By, Fact)).
 
 %   As they would be left once more.
 

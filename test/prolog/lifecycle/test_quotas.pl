@@ -38,6 +38,10 @@ test(what_is_passed_cannot_be_caught,
      O = raised(error(resource_error(hops), _))) :-
     ended([hops(20)],
           [ (main :- catch(( move(t), move(g) ), _, true), main) ], O).
+test(what_is_passed_cannot_be_passed_again_and_again, O == messages) :-
+    ended([messages(20)],
+          [ (main :- repeat, catch(send(user, x), _, true), fail) ], Outcome),
+    over(O, Outcome).
 
 %   In a probe nobody could end it in time.
 
@@ -391,6 +395,22 @@ test(who_fills_the_space_goes, [A,B] == [resource_error(tuples),done]) :-
                                                       leave(f(X)))) ], 1, [C]),
                         joined(C, raised(error(A, _))),
                         leaver(5, D), joined(D, B) ), _)))).
+
+%   Who has left them is known when the process was started again, and what of
+%   theirs is taken then does not count any more.
+
+test(who_left_them_is_known_later,
+     [ condition(missing([journal], [])), O == tuples-done ]) :-
+    no_leaks(with_tmp_dir(left_before(O))).
+
+left_before(O-Taken, Dir) :-
+    Options = [journal(Dir), quota([host(tuples(5))])],
+    with_host_here(Options, ( leaver(5, A), joined(A, done) )),
+    with_host_here(Options,
+                   listening(( leaver(1, B), joined(B, Outcome),
+                               remote(here, take(f(_))),
+                               leaver(1, C), joined(C, Taken) ), _)),
+    over(O, Outcome).
 
 :- end_tests(tuples).
 
