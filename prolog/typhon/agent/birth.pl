@@ -26,6 +26,8 @@ shown it once need not again.
 *Threading*: any thread; a mutex makes those who remember come one by one.
 */
 
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [sum_list/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
 :- use_module('../base/keys', [keys_sign/3, keys_verify/4]).
@@ -168,16 +170,15 @@ proved(Papers, Proof, Id, Hash) :-
 
 %!  birth_good(+Birth) is semidet.
 %
-%   The owner has signed Birth. Birth may be anything.
+%   The owner has signed Birth, which may be anything, and which is not longer
+%   than it should be.
 
 birth_good(Birth) :-
     ground(Birth),
     Birth = birth(Id, Hash, Certificate, Hex),
     (   known(Id, Birth)
     ->  true
-    ;   atom(Id),
-        atom(Hash),
-        atom(Certificate),
+    ;   short([Id, Hash, Certificate]),
         endpoint_keys(Keys),
         birth_text(Id, Hash, Text),
         atom_string(Certificate, Pem),
@@ -186,6 +187,15 @@ birth_good(Birth) :-
         at_home(Id),
         remember(Id, Birth)
     ).
+
+%   What is good is kept, here and in the journal, and anybody with keys of his
+%   own can sign what he likes.
+
+short(Atoms) :-
+    maplist(atom, Atoms),
+    maplist(atom_length, Atoms, Lengths),
+    sum_list(Lengths, Length),
+    Length =< 20 000.
 
 %   Nobody else's was born here.
 

@@ -146,7 +146,17 @@ ids_taken :-
                                    without-answer(need_program) ])) )),
     brought(image(Own, Hash, Life, State, Goals, Mail, Since), HerBirth,
             Honest),
-    assertion(Honest == answer(accepted)).
+    assertion(Honest == answer(accepted)),
+    long_id(Own, Long),
+    peer_do(mallory, typhon_birth:birth(Long, Hash, LongBirth)),
+    brought(image(Long, Hash, Life, State, Goals, Mail, Since), LongBirth,
+            TooLong),
+    assertion(TooLong == answer(refused(identity))).
+
+%   It would be hers, and is one that beta would have to remember.
+
+long_id(Own, Long) :-
+    format(atom(Long), '~`xt~20000|~w', [Own]).
 
 %   forged(-Case, +C, +A, +Hash, +BirthOfA, +HerBirth, -Id, -ItsHash, -Birth)
 
