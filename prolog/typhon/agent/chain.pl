@@ -16,48 +16,65 @@ first.
 *Threading*: pure.
 */
 
-%!  chain_add(+Link, +Chain0, +Most, -Chain) is det.
+%!  chain_add(+Link, +Chain0, +Most, -Chain) is semidet.
 %
 %   Chain is Count-Text: with Link there are Count0 of them; the oldest go
-%   until there are no more than Most.
+%   until there are no more than Most. Fails if there are not so many.
 
 chain_add(link(Text, Hex, C), Count0-Chain0, Most, Count-Chain) :-
     format(string(Link), '~w ~d ~s', [Hex, C, Text]),
     string_length(Link, Length),
     format(string(Framed), '~`0t~d~8|~s', [Length, Link]),
     string_concat(Chain0, Framed, Chain1),
-    shortened(Count0, Most, Chain1, Count, Chain).
+    newest(Count0, Most, Chain1, 0, Start, Count),
+    sub_string(Chain1, Start, _, 0, Chain).
 
-shortened(Count, Most, Chain, Count, Chain) :-
+newest(Count, Most, _, Start, Start, Count) :-
     Count =< Most,
     !.
-shortened(Count0, Most, Chain0, Count, Chain) :-
-    parted(Chain0, _, Chain1),
+newest(Count0, Most, Chain, Start0, Start, Count) :-
+    framed(Chain, Start0, _, Start1),
     Count1 is Count0-1,
-    shortened(Count1, Most, Chain1, Count, Chain).
+    newest(Count1, Most, Chain, Start1, Start, Count).
 
-parted(Chain, Link, Rest) :-
-    sub_string(Chain, 0, 8, _, Digits),
+%   framed(+Chain, +Start, -Link, -End): one that stands there.
+
+framed(Chain, Start, Link, End) :-
+    sub_string(Chain, Start, 8, _, Digits),
     number_string(Length, Digits),
-    sub_string(Chain, 8, Length, After, Link),
-    sub_string(Chain, _, After, 0, Rest).
+    integer(Length),
+    Length >= 0,
+    Begin is Start+8,
+    sub_string(Chain, Begin, Length, _, Link),
+    End is Begin+Length.
 
 %!  chain_links(+Text, -Links:list) is semidet.
 %
-%   The oldest first. Text may be anything.
+%   The oldest first. Text may be anything: what comes where no link begins is
+%   one of no signature, and it fails for what is no string.
 
-chain_links("", []) :-
-    !.
-chain_links(Chain, [link(Text, Hex, C)|Links]) :-
+chain_links(Chain, Links) :-
     string(Chain),
-    catch(parted(Chain, Link, Rest), error(_, _), fail),
-    sub_string(Link, Before1, _, After1, " "),
+    string_length(Chain, Length),
+    links(0, Length, Chain, Links).
+
+links(End, End, _, []) :-
+    !.
+links(Start, End, Chain, [Link|Links]) :-
+    framed(Chain, Start, Framed, Next),
+    link(Framed, Link),
     !,
-    sub_string(Link, 0, Before1, _, Hex),
-    sub_string(Link, _, After1, 0, Numbered),
-    sub_string(Numbered, Before2, _, After2, " "),
+    links(Next, End, Chain, Links).
+links(Start, _, Chain, [link(Rest, "", none)]) :-
+    sub_string(Chain, Start, _, 0, Rest).
+
+link(Framed, link(Text, Hex, C)) :-
+    until_space(Framed, Hex, Numbered),
+    until_space(Numbered, Digits, Text),
+    number_string(C, Digits).
+
+until_space(Text, Before, After) :-
+    sub_string(Text, Length, _, Rest, " "),
     !,
-    sub_string(Numbered, 0, Before2, _, Digits),
-    number_string(C, Digits),
-    sub_string(Numbered, _, After2, 0, Text),
-    chain_links(Rest, Links).
+    sub_string(Text, 0, Length, _, Before),
+    sub_string(Text, _, Rest, 0, After).

@@ -40,10 +40,13 @@ then as it would have been before.
 
 The oldest links go when there are more than `links`.
 
+Who has an agent can make anything of its trail. What does not hang together
+stays as it is, and has no more links.
+
 *Threading*: the thread that sends, receives or runs the agent.
 */
 
-:- use_module(library(apply), [exclude/3]).
+:- use_module(library(apply), [exclude/3, include/3, maplist/2]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [last/2, select/3, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -66,13 +69,12 @@ trail_link(Event, Label, State0, Goals, State) :-
     endpoint_keys(Keys),
     State0 = state(Empty, Clauses0),
     taken_out(Clauses0, Raw0, Rest),
-    arg(1, Label, Host),
+    of_ours(Event, Raw0, Raw1),
+    Label = of(Host, Id, _, _),
     (   host_option(Host, trail(false))
-    ->  arg(2, Label, Id),
-        settled(Keys, Id, Raw0, Raw)
+    ->  settled(Keys, Id, Raw1, Raw)
     ;   event(Event, Label, Rest, Goals, Happened),
-        arg(2, Label, Id),
-        happens(Happened, Keys, Id, Raw0, Raw)
+        happens(Happened, Keys, Id, Raw1, Raw)
     ),
     Raw \== Raw0,
     !,
@@ -87,6 +89,25 @@ taken_out(Clauses, Raw, Clauses) :-
     no_trail(Raw).
 
 no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
+
+%   of_ours(+Event, +Raw0, -Raw): who hands on an agent has signed all that
+%   happened there; what he has not we do not sign for him.
+
+of_ours(received(_), '$trail'(At, Chain, Pems, _),
+        '$trail'(At, Chain, Pems, none)) :-
+    !.
+of_ours(_, Raw, Raw).
+
+%   hangs_together(+Raw): a link can be added.
+
+hangs_together(Raw) :-
+    ground(Raw),
+    Raw = '$trail'(at(Next, Made, Kept, Last, Handed), Chain, Pems, Pending),
+    maplist(integer, [Next, Made, Kept]),
+    maplist(atomic, [Last, Handed]),
+    string(Chain),
+    is_list(Pems),
+    memberchk(Pending, [none, received(_), received(_, _)]).
 
 event(Event0, of(_, _, Hash, Hops), Clauses, Goals, Event) :-
     Event0 =.. [Name, Where],
@@ -108,9 +129,10 @@ text_sum(Text, Sum) :-
 %   happens(+Event, +Keys, +Id, +Raw0, -Raw): Event waits to be signed, or is
 %   signed with what waits.
 
-happens(received(Where, What), Keys, Id, Raw0, Raw) :-
+happens(received(Where, What), _, _, Raw0, Raw) :-
+    hangs_together(Raw0),
     !,
-    settled(Keys, Id, Raw0, '$trail'(At, Chain, Pems, _)),
+    Raw0 = '$trail'(At, Chain, Pems, none),
     (   arg(5, At, What)
     ->  Pending = received(Where)
     ;   Pending = received(Where, What)
@@ -130,33 +152,39 @@ settled(Keys, Id, Raw0, Raw) :-
     ;   linked([Pending], Keys, Id, Raw0, Raw)
     ).
 
-linked(Events, Keys, Id, '$trail'(at(N, Made0, Kept0, Last, _), Chain0, Pems0, _),
-       '$trail'(at(Next, Made, Kept, Hex, Handed), Chain, Pems, none)) :-
-    ( last(Events, handed(_, What)) -> Handed = What ; Handed = none ),
+linked(Events, Keys, Id, Raw0, Raw) :-
+    hangs_together(Raw0),
+    Raw0 = '$trail'(at(N, Made0, Kept0, Last, _), Chain0, Pems0, _),
     term_text(N-Events, Text),
     trail_signed(Id, Text, Last, Signed),
     keys_sign(Keys, Signed, signature(Pem, Hex)),
     shown(Pem, Made0, Pems0, C, Pems1),
-    length(Events, Count),
-    Next is N+Count,
-    Made is Made0+1,
     Kept1 is Kept0+1,
     setting(links, Most),
     chain_add(link(Text, Hex, C), Kept1-Chain0, Most, Kept-Chain),
+    !,
+    length(Events, Count),
+    Next is N+Count,
+    Made is Made0+1,
     First is Made-Kept,
-    exclude(signed_before(First), Pems1, Pems).
+    include(signed_since(First), Pems1, Pems),
+    ( last(Events, handed(_, What)) -> Handed = What ; Handed = none ),
+    Raw = '$trail'(at(Next, Made, Kept, Hex, Handed), Chain, Pems, none).
+linked(_, _, _, Raw, Raw).
 
 shown(Pem, Link, Pems0, C, [pem(C, Link, Pem)|Pems]) :-
     select(pem(C0, _, Pem0), Pems0, Pems),
     Pem0 == Pem,
+    integer(C0),
     !,
     C = C0.
 shown(Pem, Link, Pems, Link, [pem(Link, Link, Pem)|Pems]).
 
 %   With the last link that a host has signed its certificate goes.
 
-signed_before(First, pem(_, Last, _)) :-
-    Last < First.
+signed_since(First, pem(_, Last, _)) :-
+    integer(Last),
+    Last >= First.
 
 %!  trail_signed(+Id, +Text:string, +Last, -Signed) is det.
 %
@@ -198,7 +226,7 @@ trail_of(Module, Id, Raw) :-
 raw(Module, Raw) :-
     Raw = '$trail'(_, _, _, _),
     (   '$c_current_predicate'(_, Module:Raw),
-        call(Module:Raw)
+        clause(Module:Raw, true)
     ->  true
     ;   no_trail(Raw)
     ).

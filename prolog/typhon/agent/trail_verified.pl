@@ -37,11 +37,11 @@ trail_verified(Id, Raw, trail(Steps, Verdict)) :-
     ;   existence_error(keys, here)
     ),
     (   subsumes_term('$trail'(_, _, _, _), Raw),
-        Raw = '$trail'(_, Chain, Pems, _),
+        Raw = '$trail'(At, Chain, Pems, _),
         chain_links(Chain, Links),
         ground(Pems),
         is_list(Pems)
-    ->  all_steps(Links, with(Keys, Id, Pems), Steps, Verdict)
+    ->  all_steps(Links, with(Keys, Id, Pems, At), Steps, Verdict)
     ;   Steps = [],
         Verdict = unaccounted(nobody)
     ).
@@ -67,18 +67,29 @@ all_steps(Links, With, Steps, Verdict) :-
 %   since(N, Link) or before(N, Link, Event, Name), N being the number of the
 %   next event.
 
-steps([], _, _, [], whole).
+steps([], With, Before, [], Verdict) :-
+    (   is_all(With, Before)
+    ->  Verdict = whole
+    ;   unaccounted(Before, Verdict)
+    ).
 steps([Link|Links], With, Before, Steps, Verdict) :-
     (   events(Link, N, Events),
         signed_by(Link, N, With, Before, Name),
         follow(Events, N, Link, With, Before, Name, Steps, After, Steps1)
     ->  steps(Links, With, After, Steps1, Verdict)
     ;   Steps = [],
-        (   Before = before(_, _, _, Last)
-        ->  Verdict = unaccounted(Last)
-        ;   Verdict = unaccounted(nobody)
-        )
+        unaccounted(Before, Verdict)
     ).
+
+unaccounted(before(_, _, _, Last), unaccounted(Last)) :-
+    !.
+unaccounted(_, unaccounted(nobody)).
+
+%   is_all(+With, +Before): no link is missing.
+
+is_all(with(_, _, _, At), Before) :-
+    before(Before, N, Last),
+    subsumes_term(at(N, _, _, Last, _), At).
 
 events(link(Text, _, _), N, Events) :-
     catch(text_term(Text, Term), error(_, _), fail),
@@ -88,14 +99,15 @@ events(link(Text, _, _), N, Events) :-
     is_list(Events),
     maplist(is_event, Events).
 
-is_event(entered(_)) :-
+is_event(Event) :-
+    subsumes_term(entered(_), Event),
     !.
 is_event(Event) :-
     ground(Event),
-    functor(Event, Name, Arity),
-    memberchk(Name/Arity, [handed/2, received/1, received/2]).
+    memberchk(Event, [handed(_, _), received(_), received(_, _)]),
+    forall(arg(_, Event, Arg), atom(Arg)).
 
-signed_by(Link, N, with(Keys, Id, Pems), Before, Name) :-
+signed_by(Link, N, with(Keys, Id, Pems, _), Before, Name) :-
     Link = link(Text, Hex, C),
     memberchk(pem(C, _, Pem), Pems),
     before(Before, N, Last),
@@ -118,7 +130,7 @@ follow([Event|Events], N, Link, With, Before, Name,
            After, Rest).
 
 follows(since(_, _), _, _, _).
-follows(none, Event, with(Keys, Id, _), Name) :-
+follows(none, Event, with(Keys, Id, _, _), Name) :-
     \+ is_received(Event, _),
     (   agent_home_endpoint(Id, Home),
         endpoint_address(Home)

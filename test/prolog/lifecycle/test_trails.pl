@@ -9,6 +9,8 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(plunit)).
+:- use_module(library(random),
+              [maybe/1, random_between/3, random_member/2]).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 
@@ -66,6 +68,8 @@ test(who_had_it_is_told_in_order) :-
     with_three(true, test_trails:honest).
 test(what_a_host_has_taken_away_is_missed) :-
     with_three(true, test_trails:taken_away).
+test(what_a_host_has_made_of_it_stops_nobody) :-
+    with_three(true, test_trails:made_of_it).
 
 test(of_a_long_way_the_end_is_known,
      [ cleanup(set_setting(typhon_trail:links, 32)) ]) :-
@@ -114,6 +118,93 @@ taken_away :-
                  '$trail'(Next, ForgedChain, Pems, Pending),
                  trail(_, Verdict)),
              assertion(Verdict == Expected) )).
+
+%   Where it was made unfit to be continued is found, and hosts go on with
+%   whatever it is; what is told of it has happened.
+
+made_of_it :-
+    toured(Agent, trail(Steps, whole)),
+    typhon_agents:agent(Agent, _, Module, _, _),
+    Raw = '$trail'(At, Chain, Pems, Pending),
+    call(Module:Raw),
+    assertion(told(Agent, Raw, Steps, whole)),
+    string_concat(Chain, "0000000xyz", Longer),
+    forall(( member(Made, [ foo, _, at(7, 5, 5, none, none),
+                            at(_, 5, 5, "", none), at(a, 5, 5, "", none),
+                            at(0, 0, 0, none), at(7, 5, 99, "", none) ]),
+             Broken = '$trail'(Made, Chain, Pems, Pending)
+           ; Broken = '$trail'(At, Longer, Pems, Pending)
+           ),
+           assertion(told(Agent, Broken, _, unaccounted(gamma)))),
+    Seed is random(1<<32),
+    set_random(seed(Seed)),
+    forall(between(1, 300, N),
+           ( mutated(Raw, Mutant),
+             assertion(goes_on(Agent, Mutant, Steps, Seed-N)) )).
+
+goes_on(Agent, Mutant, Steps, _) :-
+    told(Agent, Mutant, Told, Verdict),
+    is_verdict(Verdict),
+    forall(( member(Step, Told), \+ arg(2, Step, alpha) ),
+           memberchk(Step, Steps)),
+    forall(member(Event, [ handed('beta@127.0.0.1:1'),
+                           received('alpha@127.0.0.1:1') ]),
+           typhon_trail:trail_link(Event, of(alpha, Agent, hash, 3),
+                                   state([], [s(1), Mutant]), [],
+                                   state([], [_, _]))),
+    typhon_trail:trail_enter(made, Agent, x).
+
+told(Agent, Raw0, Steps, Verdict) :-
+    dynamic(made:'$trail'/4),
+    retractall(made:'$trail'(_, _, _, _)),
+    assertz(made:Raw0),
+    typhon_trail:trail_of(made, Agent, Raw),
+    typhon_trail_verified:trail_verified(Agent, Raw, trail(Steps, Verdict)).
+
+is_verdict(Verdict) :-
+    ground(Verdict),
+    memberchk(Verdict, [whole, since(_), unaccounted(_)]).
+
+%   mutated(+Raw, -Mutant): somewhere in it is something else.
+
+mutated(Raw, Mutant) :-
+    duplicate_term(Raw, Mutant),
+    random_between(1, 4, I),
+    arg(I, Raw, Arg0),
+    another(Arg0, Arg),
+    setarg(I, Mutant, Arg).
+
+another(Term0, Term) :-
+    compound(Term0),
+    maybe(0.7),
+    !,
+    duplicate_term(Term0, Term),
+    functor(Term0, _, Arity),
+    random_between(1, Arity, I),
+    arg(I, Term0, Arg0),
+    another(Arg0, Arg),
+    setarg(I, Term, Arg).
+another(Text0, Text) :-
+    string(Text0),
+    maybe(0.7),
+    !,
+    string_length(Text0, Length),
+    random_between(0, Length, Start),
+    Most is min(Length-Start, 20),
+    random_between(0, Most, Count),
+    sub_string(Text0, 0, Start, _, Before),
+    sub_string(Text0, Start, Count, _, Some),
+    End is Start+Count,
+    sub_string(Text0, End, _, 0, After),
+    string_concat(Some, Some, Twice),
+    random_member(Instead, ["", "0", " ", "-", "00000003a b", Twice]),
+    atomics_to_string([Before, Instead, After], Text).
+another(_, Term) :-
+    random_member(Term,
+                  [ _, none, foo, "", "00000000", [], [_|_], [pem(a, b, "")],
+                    [pem(_, _, _)], 0, -1, 1.5, 7, 1000000000000000000000,
+                    1+1, f(_), received(x), received(_), handed(x, y),
+                    entered(z), at(0, 0, 0, none, none) ]).
 
 chained(Link, Chain0, Chain) :-
     typhon_chain:chain_add(Link, 1-Chain0, 9, _-Chain).
