@@ -40,6 +40,7 @@
 :- use_module(quotas, [quota_forget/1, quota_set/3]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
+:- use_module(time, [time_let_go/1]).
 
 /** <module> Starting and stopping hosts
 
@@ -249,8 +250,9 @@ hosts_go_on :-
 
 %!  hosts_rest is det.
 %
-%   All hosts of the process stop.  What is in its journal rests there, and
-%   nothing leaves the process any more, until its endpoint has stopped.
+%   All hosts of the process stop, also where time is held.  What is in its
+%   journal rests there, and nothing leaves the process any more, until its
+%   endpoint has stopped.
 
 hosts_rest :-
     in_own_thread(with_mutex(typhon_hosting, rest)).
@@ -263,8 +265,11 @@ hosts_rest :-
 user:message_hook(error(existence_error(journal, open), _), _, _) :-
     journal_closed.
 
+%   From then on it does no harm if somebody runs.
+
 rest :-
     journal_close,
+    time_let_go(_),
     findall(Name, host(Name, _, _), Names),
     forall(member(Name, Names), stop_one(Name)),
     (   endpoint_address(_)

@@ -1,6 +1,7 @@
 :- module(typhon_ending,
           [ agent_end/2,                % +Id, +Outcome
             agent_end/3,                % +Id, :Test, +Outcome
+            agent_forgotten/2,          % +Id, :Test
             agent_fails/3,              % +Id, +Outcome, +Goals0
             agent_stays/2               % +Id, +Goals
           ]).
@@ -24,7 +25,9 @@
 with_agent/2, is the one who reports its end.
 */
 
-:- meta_predicate agent_end(+, 1, +).
+:- meta_predicate
+    agent_end(+, 1, +),
+    agent_forgotten(+, 1).
 
 %!  agent_end(+Id, +Outcome) is semidet.
 %
@@ -57,12 +60,28 @@ remove(Id, last(Host, Hops, Status, Goals, Legacy, Orders)) :-
     faulty_gone(Id),
     agent_remove(Id, _, Orders).
 
-%   Who waits for an answer to an order hears that nobody will give one.
-
 removed(Last, Id, Outcome) :-
     told(Last, Id, Outcome),
     arg(6, Last, Orders),
+    unanswered(Orders).
+
+%   Who waits for an answer to an order hears that nobody will give one.
+
+unanswered(Orders) :-
     forall(member(asked(_, Asker), Orders), question_answered(Asker, none)).
+
+%!  agent_forgotten(+Id, :Test) is semidet.
+%
+%   If call(Test, Status) is true of Id, it is here no more, and has not ended.
+
+agent_forgotten(Id, Test) :-
+    with_agent(Id, ( agent_status(Id, Status, _),
+                     call(Test, Status),
+                     agent(Id, Host, _, _, _),
+                     agent_remove(Id, _, Orders) )),
+    events_forget(Id),
+    host_leave(Host),
+    unanswered(Orders).
 
 %   That it has ended badly is known.
 

@@ -1,17 +1,19 @@
 :- module(typhon_evacuation, []).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/stop_thread', [abort_quietly/0]).
+:- use_module('../journal', [journal_closed/0]).
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host', [context_now/2, host_load/2, time_signal/1]).
 :- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
-:- use_module(ending, [agent_end/3]).
+:- use_module(ending, [agent_end/3, agent_forgotten/2]).
 :- use_module(orders, [order_take/2]).
 
 /** <module> The agents on a host that is being stopped
 
 Agents that rest are disposed of at once, those that run at their next
 effect; those that do not come to one are interrupted.  Those that are about
-to arrive elsewhere may do so.
+to arrive elsewhere may do so; but where the journal has been closed they are under
+way in it, and nobody waits for them.
 
 *Threading*: the thread that stops the host.
 */
@@ -19,7 +21,15 @@ to arrive elsewhere may do so.
 :- multifile typhon_hosting:evacuate/2.
 
 typhon_hosting:evacuate(Host, Deadline) :-
+    (   journal_closed
+    ->  forall(agent(Id, Host, _, _, _),
+               ignore(agent_forgotten(Id, under_way)))
+    ;   true
+    ),
     evacuate(Host, Deadline).
+
+under_way(transit(_, _)).
+under_way(cloning(_, _)).
 
 %   One that is on its way in counts as load before it stands here.
 

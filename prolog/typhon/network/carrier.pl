@@ -7,6 +7,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_kill/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal', [journal_guards/0]).
 :- use_module('../wire',
               [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
@@ -56,7 +57,12 @@ one for the order to stop: it sees to it that there is an end.
     typhon_endpoint:requested/4.
 
 :- dynamic
+    at_rest/0,                  % agents have had their time to come to rest
     child/0.                    % this process is one
+
+:- setting(rest_seconds, number, 1,
+           "Agents of a network with journals have so long to come to rest \c
+            when it stops").
 
                 /*******************************
                 *            ORDERS            *
@@ -124,7 +130,9 @@ order_do(again(Specs), Addresses) :-
 order_do(hold(Seconds), Answer) :-
     in_time(time_hold(Seconds), Answer).
 order_do(rest(Seconds, Peers), Answer) :-
-    in_time(agents_at_rest(Seconds, Peers), Answer).
+    in_time(agents_at_rest(Seconds, Peers), Answer),
+    retractall(at_rest),
+    assertz(at_rest).
 order_do(kept(Names), kept(Time, Specs, Items)) :-
     time_stands(Time),
     findall(Name-Options,
@@ -133,6 +141,7 @@ order_do(kept(Names), kept(Time, Specs, Items)) :-
             Specs),
     cut_kept(Names, Items).
 order_do(let_go, ok) :-
+    retractall(at_rest),
     time_let_go(Agents),
     agents_go_on(Agents).
 order_do(fill(Kind, Items), ok) :-
@@ -292,6 +301,7 @@ watch_input :-
           Char = end_of_file),
     Char == end_of_file,
     !,
+    hold,
     thread_send_message(typhon_end, stop).
 
 see_to_end(Seconds) :-
@@ -344,12 +354,30 @@ raised(Error, raised(Formal, Text)) :-
     ;   Formal = system_error(Text)
     ).
 
+%   Whose parent has died ends at the same time as its siblings: nobody is to
+%   find out that one of them was quicker.
+
+hold :-
+    (   journal_guards
+    ->  ignore(time_hold(0))
+    ;   true
+    ).
+
+come_to_rest :-
+    at_rest,
+    !.
+come_to_rest :-
+    hold,
+    setting(rest_seconds, Seconds),
+    ignore(agents_at_rest(Seconds, [])).
+
 %   What rests in a journal is safe, whatever goes wrong with what is left in
 %   memory.
 
 stop :-
     (   journal_guards
-    ->  voice_end
+    ->  voice_end,
+        come_to_rest
     ;   true
     ),
     catch(order_do(stop, ok), error(Formal, Context),

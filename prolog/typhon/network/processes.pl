@@ -221,13 +221,15 @@ restart(Network, _, _, give_up(P)) :-
 %   the others need not wait for them. Then what the children have sent
 %   arrives, at the log for one, and only then they end: so none waits for
 %   another that is gone. Where there are journals what is in them rests there,
-%   and nobody hears of it: a child does that when it ends.
+%   and nobody hears of it: a child does that when it ends. Before the first of
+%   them does so nobody runs in any of them, who would find that it is gone.
 
 carriers_stop(Network) :-
     retractall(wanted(Network)),
     forall(queue(Network, Queue), restarts_end(Network, Queue)),
     (   retract(lasting(Network))
-    ->  Watch = kill_hanging(Network)
+    ->  rest_children(Network),
+        Watch = kill_hanging(Network)
     ;   order_children(Network, stop, kill_hanging(Network)),
         Watch = unwatched
     ),
@@ -245,6 +247,17 @@ carriers_stop(Network) :-
     expect_no_more(Network, _),
     retractall(at(Network, _, _)),
     carriers_forget(Network).
+
+%   Who is on the way then to one that has died stays so in the journal, as
+%   does who is in a goal that takes longer.
+
+rest_children(Network) :-
+    order_children(Network, hold(0), kill_hanging(Network)),
+    setting(typhon_carrier:rest_seconds, Rest),
+    Seconds is Rest+1,
+    children_up(Network, Ps),
+    carriers_ask(Network, Ps, rest(Rest, []), Seconds, kill_hanging(Network),
+                 _).
 
 %   One by one: other threads may start children meanwhile, see
 %   typhon_mailbox.

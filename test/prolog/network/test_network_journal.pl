@@ -3,7 +3,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [member/2, nth0/3, nth1/3, sum_list/2]).
+:- use_module(library(lists),
+              [append/2, member/2, nth0/3, nth1/3, sum_list/2]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil),
               [read_file_to_codes/3, read_line_to_string/2]).
@@ -44,7 +45,7 @@ with_setting(Setting, Value, Goal) :-
 user:message_hook(typhon(Message), _, _) :-
     expected,
     memberchk(Message, [ carrier_down(_, _, _), carrier_back(_, _),
-                         carrier_given_up(_, _, _, _) ]),
+                         carrier_given_up(_, _, _, _), carrier_killed(_, _) ]),
     assertz(printed(Message)).
 
 quiet(Goal) :-
@@ -79,7 +80,7 @@ patient(Program) :-
             (gone(here, H) :- sleep(0.05), go(H)) ], Program).
 
 walks(Go,
-      clauses([ (:- agent(walker, [state([made/1, todo/1])])),
+      clauses([ (:- agent(walker, [state([made/1, todo/1, nap/1])])),
                  made(0),
                  (main :- made(N), todo(N), !, result(N)),
                  (main :- made(N), neighbours(Hosts),
@@ -88,12 +89,20 @@ walks(Go,
                           retract(made(_)), N1 is N+1, assertz(made(N1)),
                           ( take(visits(V)) -> true ; V = 0 ),
                           V1 is V+1, leave(visits(V1)),
-                          sleep(0.01),
+                          ( nap(S) -> true ; S = 0.01 ),
+                          sleep(S),
                           main)
                 | Go ])).
 
 walkers(Hosts, Hops, Agents) :-
     walker(Program),
+    born(Program, Hosts, Hops, Agents).
+
+patient_walkers(Hosts, Hops, Agents) :-
+    patient(Program),
+    born(Program, Hosts, Hops, Agents).
+
+born(Program, Hosts, Hops, Agents) :-
     findall(Agent,
             ( member(Host, Hosts),
               agent_create(Program, Agent, [host(Host), facts([todo(Hops)])]) ),
@@ -103,14 +112,17 @@ walkers(Hosts, Hops, Agents) :-
 
 all_arrived(Hosts, Hops, Agents) :-
     forall(member(Agent, Agents), agent_result(Agent, Hops, 60)),
+    length(Agents, Count),
+    Sum is Count*Hops,
+    visits(Hosts, Sum).
+
+visits(Hosts, Sum) :-
     findall(V,
             ( member(Host, Hosts),
               remote(Host, findall(V0, sense(visits(V0)), Vs)),
               member(V, Vs) ),
             Visits),
-    sum_list(Visits, Sum),
-    length(Agents, Count),
-    Sum =:= Count*Hops.
+    sum_list(Visits, Sum).
 
 :- begin_tests(network_journal).
 
@@ -172,6 +184,97 @@ goes_on(Hosts, Agents, Keeper, Edges, Time, Network) :-
     Now > Time, Now < Time+100,
     all_arrived(Hosts, 60, Agents),
     wait_until(agent_property(Keeper, facts([got(one), got(two)])), 5).
+
+test('all rest before the first of its processes is gone, and all go on') :-
+    no_leaks(with_tmp_dir(at_rest)).
+
+at_rest(Dir) :-
+    network(Dir, mesh(3), [processes(3)], sets_out(Hosts, Agents)),
+    network(Dir, mesh(3), [], pauses(Hosts, Agents)),
+    network(Dir, mesh(3), [], arrives(Hosts, Agents)).
+
+sets_out(Hosts, Agents, Network) :-
+    hosts(Network, Hosts),
+    born(quick, Hosts, Agents1),
+    born(slow, Hosts, Agents2),
+    append(Agents1, Agents2, Agents),
+    wait_until(on_the_way(50, Agents), 20),
+    ends_last(Network).
+
+%   The slow ones are about to leave one after the other.
+
+born(Which, Hosts, Agents) :-
+    walker(Program),
+    findall(Agent,
+            ( member(Host, Hosts),
+              between(1, 8, I),
+              way(Which, I, Hops, Nap),
+              agent_create(Program, Agent,
+                           [host(Host), facts([todo(Hops), nap(Nap)])]) ),
+            Agents).
+
+way(quick, _, 80, 0.01).
+way(slow, I, 8, Nap) :-
+    Nap is 0.1*I.
+
+pauses(Hosts, Agents, Network) :-
+    hosts(Network, Hosts),
+    network_property(Network, agents(There)),
+    msort(There, Sorted),
+    msort(Agents, Sorted),
+    hops(Agents, Before),
+    More is Before+50,
+    wait_until(on_the_way(More, Agents), 20),
+    ends_last(Network).
+
+arrives(Hosts, Agents, Network) :-
+    hosts(Network, Hosts),
+    findall(N, ( member(A, Agents), agent_join(A, done, 30),
+                 agent_result(A, N, 0) ), Ns),
+    sum_list(Ns, Sum),
+    Sum =:= 3*8*(80+8),
+    visits(Hosts, Sum).
+
+on_the_way(Least, Agents) :-
+    hops(Agents, Hops),
+    Hops > Least.
+
+hops(Agents, Sum) :-
+    findall(Hops, ( member(A, Agents), agent_property(A, hops(Hops)) ), All),
+    sum_list(All, Sum).
+
+%   The second process comes to its end only when the first has gone, and is
+%   quick to find that out.
+
+ends_last(Network) :-
+    hosts(Network, [A, B|_]),
+    atomic_list_concat([_, Endpoint], @, A),
+    remote(B, settings:set_setting(typhon_keeper:connect_time, 0.2)),
+    remote(B, \+ \+ thread_create(
+                        with_mutex(typhon_hosting,
+                                   ( repeat,
+                                     system:sleep(0.02),
+                                     typhon_contacts:contact(Endpoint, _, gone),
+                                     !,
+                                     system:sleep(1) )), _, [detached(true)])).
+
+test('it is soon stopped when one process hangs, and another is dead',
+     true(Seconds < 5)) :-
+    quiet(no_leaks(with_tmp_dir(dead_and_hanging(Seconds)))).
+
+dead_and_hanging(Seconds, Dir) :-
+    network_start(mesh(4), Network, [processes(4), journal(Dir)]),
+    hosts(Network, Hosts),
+    patient_walkers(Hosts, 60, Agents),
+    wait_until(on_the_way(50, Agents), 20),
+    pids(Network, [_, Dead, Hanging|_]),
+    process_kill(Dead, kill),
+    process_kill(Hanging, stop),
+    get_time(T0),
+    network_stop(Network),
+    get_time(T1),
+    Seconds is T1-T0,
+    network(Dir, mesh(4), [], after_all(Hosts, Agents)).
 
 test('a network in one process, which is killed, and its whole family, too',
      [forall(member(Processes, [1, 2]))]) :-
