@@ -46,11 +46,14 @@ seed.
 
 %!  network_plan(+Topology, +Options, -Plan) is det.
 %
-%   @error domain_error(network_option, Option), domain_error(topology, T)
+%   @error domain_error(network_option, Option), domain_error(topology, T),
+%   permission_error(set, network_option, Option): it is about journals, and not
+%   for the whole network, or without one
 
 network_plan(Topology, Options0, plan(Names, Edges, Costs, Options)) :-
     check_options(network_option, Options0),
     maplist(check_option, Options0),
+    check_journal(Options0),
     check_virtual(Options0),
     seeded(Options0, Seed, Options),
     topology_edges(Topology, Seed, _, Edges),
@@ -134,6 +137,26 @@ check_rate(Rate) :-
     ->  true
     ;   domain_error(clock_rate, Rate)
     ).
+
+%   A journal is a process', not a host's.
+
+check_journal(Options) :-
+    memberchk(hosts(Own), Options),
+    member(Option, Own),
+    memberchk(Option, [journal(_), sync(_)]),
+    !,
+    misplaced(hosts(Own),
+              'journal and sync are for the whole network, not for its hosts').
+check_journal(Options) :-
+    memberchk(sync(How), Options),
+    \+ memberchk(journal(_), Options),
+    !,
+    misplaced(sync(How), 'there is no journal(Directory)').
+check_journal(_).
+
+misplaced(Option, Why) :-
+    throw(error(permission_error(set, network_option, Option),
+                context(_, Why))).
 
 %   What is virtual happens in one process, and ends with it.
 

@@ -1,10 +1,10 @@
 :- module(test_network_journal, []).
 :- use_module('../../lib/common').
 :- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists),
-              [append/2, member/2, nth0/3, nth1/3, sum_list/2]).
+:- use_module(library(lists), [member/2, nth0/3, nth1/3, sum_list/2]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil),
               [read_file_to_codes/3, read_line_to_string/2]).
@@ -195,27 +195,22 @@ at_rest(Dir) :-
 
 sets_out(Hosts, Agents, Network) :-
     hosts(Network, Hosts),
-    born(quick, Hosts, Agents1),
-    born(slow, Hosts, Agents2),
-    append(Agents1, Agents2, Agents),
-    wait_until(on_the_way(50, Agents), 20),
-    ends_last(Network).
-
-%   The slow ones are about to leave one after the other.
-
-born(Which, Hosts, Agents) :-
     walker(Program),
     findall(Agent,
             ( member(Host, Hosts),
-              between(1, 8, I),
-              way(Which, I, Hops, Nap),
+              way(Hops, Nap),
               agent_create(Program, Agent,
                            [host(Host), facts([todo(Hops), nap(Nap)])]) ),
-            Agents).
+            Agents),
+    wait_until(on_the_way(20, Agents), 20),
+    ends_last(Network).
 
-way(quick, _, 80, 0.01).
-way(slow, I, 8, Nap) :-
-    Nap is 0.1*I.
+%   Whenever it is stopped some of them are just about to leave.
+
+way(Hops, Nap) :-
+    between(1, 8, I),
+    Hops is 1+8//I,
+    Nap is 0.3*I.
 
 pauses(Hosts, Agents, Network) :-
     hosts(Network, Hosts),
@@ -223,16 +218,14 @@ pauses(Hosts, Agents, Network) :-
     msort(There, Sorted),
     msort(Agents, Sorted),
     hops(Agents, Before),
-    More is Before+50,
+    More is Before+20,
     wait_until(on_the_way(More, Agents), 20),
     ends_last(Network).
 
 arrives(Hosts, Agents, Network) :-
     hosts(Network, Hosts),
-    findall(N, ( member(A, Agents), agent_join(A, done, 30),
-                 agent_result(A, N, 0) ), Ns),
-    sum_list(Ns, Sum),
-    Sum =:= 3*8*(80+8),
+    forall(member(Agent, Agents), agent_join(Agent, done, 30)),
+    aggregate_all(sum(3*Hops), way(Hops, _), Sum),
     visits(Hosts, Sum).
 
 on_the_way(Least, Agents) :-
@@ -453,6 +446,24 @@ test('there is none in virtual time, nor where hosts are already: why is told',
         host_stop(other)),
     Formals = [F1, F2],
     Whys = [W1, W2].
+
+test('what is said of journals otherwise than for the whole network is refused',
+     Refused == [ hosts([journal('/tmp/none')])-Whole,
+                  hosts([capacity(3), sync(full)])-Whole,
+                  sync(full)-'there is no journal(Directory)' ]) :-
+    Whole = 'journal and sync are for the whole network, not for its hosts',
+    findall(Option-Why,
+            ( member(Options,
+                     [ [hosts([journal('/tmp/none')])],
+                       [ journal('/tmp/none'), processes(2),
+                         hosts([capacity(3), sync(full)]) ],
+                       [sync(full)] ]),
+              catch(network_start(ring(2), _, Options),
+                    error(permission_error(set, network_option, Option),
+                          context(_, Why)),
+                    true) ),
+            Refused),
+    \+ exists_directory('/tmp/none').
 
 :- end_tests(network_journal).
 
