@@ -1,6 +1,8 @@
 :- module(test_postgres,
           [ postgres_start/0,
             postgres_stop/0,
+            postgres_crash/0,
+            postgres_again/0,
             postgres_url/2              % +Schema, -Url
           ]).
 
@@ -18,7 +20,9 @@ It has its data in a temporary directory, and listens at a socket there.
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
-:- dynamic running/3.                   % Dir, Pid, Err
+:- dynamic
+    running/3,                          % Dir, Pid, Err
+    crashed/1.                          % Dir
 
 %!  postgres_start is det.
 %!  postgres_stop is det.
@@ -41,6 +45,23 @@ postgres_stop :-
     process_wait(Pid, _),
     close(Err),
     delete_directory_and_contents(Dir).
+
+%!  postgres_crash is det.
+%!  postgres_again is det.
+%
+%   It ends at once, as `pg_ctl stop -m immediate` has it; it runs again.
+
+postgres_crash :-
+    retract(running(Dir, Pid, Err)),
+    process_kill(Pid, quit),
+    process_wait(Pid, _),
+    close(Err),
+    assertz(crashed(Dir)).
+
+postgres_again :-
+    retract(crashed(Dir)),
+    start(Dir, Pid, Err),
+    assertz(running(Dir, Pid, Err)).
 
 start(Data, Pid, Err) :-
     command(postgres, ['-D', Data, '-k', Data, '-h', '', '-F'], File, Args),

@@ -7,6 +7,7 @@
             database_tables/2,          % +Base, +Connection
             database_stamp/3,           % +Base, +Connection, -Stamp
             database_same/4,            % +Base, +Sync, +Stamp, +Connection
+            database_forgets/4,         % +Base, +Sync, +Connection, -Seconds
             database_wrong/3,           % +Base, +Connection, -Why
             journal_record/2,           % +Where, -Text
             journal_record_put/2,       % +Where, +Text
@@ -77,13 +78,15 @@ journal_part(Dir0, P, Part) :-
 %!  database_tables(+Base, +Connection) is det.
 %!  database_stamp(+Base, +Connection, -Stamp) is det.
 %!  database_same(+Base, +Sync, +Stamp, +Connection) is semidet.
+%!  database_forgets(+Base, +Sync, +Connection, -Seconds) is semidet.
 %!  database_wrong(+Base, +Connection, -Why) is semidet.
 %
 %   There is a journal; open it, or a new one, Age being `old` or `new`, for
 %   which another process is waited for so many seconds; a transaction begins,
 %   and nobody else can have the journal any more; make the tables of a new
 %   one; Stamp tells who has opened it last; it still is so, on another
-%   connection; it is damaged.
+%   connection; it may lose what was committed in the last Seconds when it dies
+%   alone; it is damaged.
 
 database_found(sqlite(Dir)) :-
     sqlite_found(Dir).
@@ -111,6 +114,9 @@ database_stamp(postgresql(_), Connection, Stamp) :-
 
 database_same(postgresql(_), Sync, Stamp, Connection) :-
     postgresql_same(Connection, Sync, Stamp).
+
+database_forgets(postgresql(_), normal, Connection, Seconds) :-
+    postgresql_forgets(Connection, Seconds).
 
 database_wrong(sqlite(_), Connection, Why) :-
     sqlite_wrong(Connection, Why).
@@ -162,16 +168,16 @@ record_drop(postgresql(Server)) :-
 %   As Goal, but what the driver says of errors is told as what it means.
 
 in_terms_of(Place, Base, Goal) :-
-    catch(Goal, error(odbc(_, _, Text), _),
-          (   means(Base, Text, What)
+    catch(Goal, error(odbc(State, _, Text), _),
+          (   means(Base, State, Text, What)
           ->  blame(What, Text, Place)
           ;   throw(error(journal_damaged(Place, Text), _))
           )).
 
-means(sqlite(_), Text, What) :-
+means(sqlite(_), _, Text, What) :-
     sqlite_blame(Text, What).
-means(postgresql(_), Text, What) :-
-    postgresql_blame(Text, What).
+means(postgresql(_), State, Text, What) :-
+    postgresql_blame(State, Text, What).
 
 blame(locked, _, Place) :-
     not_opened(Place, 'another process has it').

@@ -5,10 +5,11 @@
             postgresql_tables/1,        % +Connection
             postgresql_stamp/2,         % +Connection, -Stamp
             postgresql_same/3,          % +Connection, +Sync, +Stamp
+            postgresql_forgets/2,       % +Connection, -Seconds
             postgresql_record/2,        % +Server, -Text
             postgresql_record_put/2,    % +Server, +Text
             postgresql_record_drop/1,   % +Server
-            postgresql_blame/2          % +Text, -What
+            postgresql_blame/3          % +State, +Text, -What
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(sql,
@@ -83,11 +84,12 @@ has_table(Schema, Table, Connection) :-
 %
 %   A transaction has begun. What the end of this process may not undo the
 %   server has in any case when it has answered; what a power cut may not it
-%   has then written.
+%   has then written, as what this transaction does.
 
 postgresql_lock(Connection, Sync) :-
     sync(Sync, Connection),
-    sql_do(Connection, begin).
+    sql_do(Connection, begin),
+    sql_do(Connection, 'set local synchronous_commit=on').
 
 sync(Sync, Connection) :-
     (   Sync == full
@@ -134,6 +136,19 @@ stamp(Connection, Stamp) :-
     !,
     Stamp = Stamp0.
 
+%!  postgresql_forgets(+Connection, -Seconds) is det.
+%
+%   What was committed without waiting is written within that time: three times
+%   the setting, as PostgreSQL says, and some more.
+
+postgresql_forgets(Connection, Seconds) :-
+    sql_row(Connection,
+            'select setting::integer from pg_settings \c
+             where name=\'wal_writer_delay\'',
+            row(Milliseconds), [integer]),
+    !,
+    Seconds is 2+0.005*Milliseconds.
+
                 /*******************************
                 *            RECORD            *
                 *******************************/
@@ -171,16 +186,18 @@ postgresql_record_drop(server(Schema, Driver)) :-
                 *            ERRORS            *
                 *******************************/
 
-%!  postgresql_blame(+Text, -What) is semidet.
+%!  postgresql_blame(+State, +Text, -What) is semidet.
 %
-%   Which kind of error the driver means by Text: `locked`, `full`,
-%   `unreachable` or missing(Package).
+%   Which kind of error the driver means by the SQLSTATE State and Text:
+%   `locked`, `full`, `unreachable` or missing(Package).
 
-postgresql_blame(Text, What) :-
+postgresql_blame(_, Text, What) :-
     says(Words, What),
     member(Word, Words),
     sub_atom(Text, _, _, _, Word),
     !.
+postgresql_blame(State, _, unreachable) :-
+    sub_atom(State, 0, _, _, '08').     % the class of connections
 
 says(['lock timeout'], locked).
 says(['No space left', 'disk full'], full).

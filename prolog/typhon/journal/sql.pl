@@ -116,7 +116,9 @@ sql(put, 'insert into item values (?, ?, ?, ?, ?, ?) \c
           on conflict (kind, key, n) do update set \c
           length=excluded.length, sum=excluded.sum, value=excluded.value',
     [kind, key, number, number, number, bytes]).
-sql(put_part, 'insert into part values (?, ?, ?, ?, ?)',
+sql(put_part, 'insert into part values (?, ?, ?, ?, ?) \c
+               on conflict (kind, key, n, part) do update set \c
+               value=excluded.value',
     [kind, key, number, number, bytes]).
 sql(drop, 'delete from item where kind=? and key=? and n=?',
     [kind, key, number]).

@@ -12,9 +12,12 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(crash, [crash_point/1]).
 :- use_module(database,
-              [ database/3, database_connect/4, database_found/1,
+              [ database/3, database_connect/4, database_forgets/4, database_found/1,
                 database_lock/3, database_same/4, database_stamp/3,
                 database_tables/2, database_wrong/3, in_terms_of/3 ]).
+:- use_module(recent,
+              [ recent_before/2, recent_begin/1, recent_committed/1,
+                recent_doubtful/0, recent_end/0 ]).
 :- use_module(sql,
               [ sql_close/0, sql_disconnect/1, sql_do/2, sql_execute/2,
                 sql_execute/3, sql_load/0, sql_open/1, sql_part/3, sql_row/4 ]).
@@ -83,7 +86,11 @@ prepare(Age, Place, Base, Sync, Connection) :-
     database_stamp(Base, Connection, Stamp),
     sql_do(Connection, commit),
     sql_open(Connection),
-    assertz(opened(Base, Sync, Stamp)).
+    assertz(opened(Base, Sync, Stamp)),
+    (   database_forgets(Base, Sync, Connection, Seconds)
+    ->  recent_begin(Seconds)
+    ;   recent_end
+    ).
 
 prepare_tables(new, _, Base, Connection) :-
     database_tables(Base, Connection),
@@ -164,6 +171,7 @@ forget(Connection) :-
     retractall(connection(_, _)),
     retractall(opened(_, _, _)),
     retractall(long(_, _, _)),
+    recent_end,
     sql_close,
     sql_disconnect(Connection).
 
@@ -179,8 +187,13 @@ forget(Connection) :-
 %   @error journal_damaged(Place, Why), journal_unreachable(Place, Why)
 
 store_commit(Changes) :-
-    catch(commit_all(Changes), error(journal_unreachable(_, _), _),
-          ( connect_again, commit_all(Changes) )).
+    catch(commit_new(Changes), error(journal_unreachable(_, _), _),
+          ( connect_again, commit_new(Changes) )).
+
+commit_new(Changes) :-
+    recent_before(Changes, All),
+    commit_all(All),
+    recent_committed(Changes).
 
 commit_all(Changes) :-
     connection(Place, _),
@@ -191,7 +204,7 @@ commit_all(Changes) :-
             throw(error(Formal, Context)) )).
 
 %   A server that is there again has lost our lock: who has opened the journal
-%   meanwhile has it.
+%   meanwhile has it. It may have lost more.
 
 connect_again :-
     connection(Place, Old),
@@ -204,7 +217,8 @@ connect_again :-
     sql_disconnect(Old),
     retractall(connection(_, _)),
     assertz(connection(Place, New)),
-    sql_open(New).
+    sql_open(New),
+    recent_doubtful.
 
 same(Base, Sync, Stamp, Place, Connection) :-
     (   database_same(Base, Sync, Stamp, Connection)

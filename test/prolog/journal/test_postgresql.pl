@@ -131,6 +131,62 @@ test('a connection that breaks is made again') :-
                  cut(breaks),
                  commit([a-k-0-second, a-l-0-third]),
                  items(a, [k-0-second, l-0-third]) )).
+test('what the server has lost when it died is committed once more') :-
+    postgres_url(died, Url),
+    numlist(1, 40000, Long),
+    setup_call_cleanup(
+        journal_open(Url, normal),
+        ( commit([a-k-0-first, a-l-0-Long, a-m-0-x]),
+          commit([a-k-0-second, drop(a, m, 0)]),
+          postgres_crash,
+          forall(between(1, 2, _), unreachable(commit([a-n-1-third]))),
+          postgres_again,
+          commit([a-n-1-third]),
+          items(a, Items) ),
+        store_close),
+    Items = [_-0-_, _-0-_, n-1-third],
+    memberchk(k-0-second, Items),
+    memberchk(l-0-Long, Items).
+
+unreachable(Goal) :-
+    catch(Goal, error(Formal, _), true),
+    Formal = journal_unreachable(_, _).
+
+test('a process goes on by itself when the server is there again') :-
+    postgres_url(returns, Url),
+    free_port(Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Url, Port, server_returns(Host)),
+        host_stop(driver)).
+
+server_returns(Host) :-
+    host_property(driver, address(Other)),
+    agent_create(clauses([ (:- agent(goes, [state([made/1, other/1])])),
+                           made(0),
+                           (main :- made(100), !),
+                           (main :- other(Other), home(Home),
+                                    goes(Other), goes(Home),
+                                    retract(made(N)), N1 is N+1,
+                                    assertz(made(N1)),
+                                    ( take(made(V)) -> true ; V = 0 ),
+                                    V1 is V+1, leave(made(V1)),
+                                    main),
+                           (goes(H) :- catch(( move(H), Gone = yes ),
+                                             error(journal_unreachable(_, _), _),
+                                             Gone = no),
+                                       ( Gone == yes -> true
+                                       ; sleep(0.1), goes(H) )) ]),
+                 Agent, [host(Host), facts([other(Other)])]),
+    wait_until(( agent_property(Agent, hops(Hops)), Hops > 20 ), 10),
+    postgres_crash,
+    agent_send(Agent, hello),
+    sleep(0.5),
+    postgres_again,
+    agent_join(Agent, done, 20),
+    remote(Host, findall(V, sense(made(V)), [100])).
+
 test('who was not there must not go on with what is another\'s') :-
     catch(with_store(passed_on,
                      ( commit([a-k-0-first]),
