@@ -149,4 +149,76 @@ asked_for_ever(Host, Thread) :-
                                  thread_get_message(Me, never) )), Thread),
     wait_until(typhon_request:open_request(_, _, _), 5).
 
+%   What belongs together in the journal is noted as one: a process may be killed
+%   between any two.
+
+:- dynamic entry/1.                     % Changes
+
+noting_entries :-
+    retractall(entry(_)),
+    wrap_predicate(typhon_committing:entry(Changes), noted, Wrapped,
+                   ( assertz(plunit_channel:entry(Changes)), Wrapped )).
+
+%   entry_with(+Change, -Entry): the only one, or the next.
+
+entry_with(Change, Entry) :-
+    entry(Entry),
+    memberchk(Change, Entry).
+
+test('an agent that is sent away and must stay keeps what waits for it') :-
+    with_beta(( waits(Id), sent_nowhere(Id) ), true).
+
+waits(Id) :-
+    agent_create(clauses([ (:- agent(waits, [])), (main :- receive(never)) ]),
+                 Id, [host(driver)]),
+    agent_send(Id, m(1)),
+    agent_send(Id, m(2)),
+    wait_until(in_mailbox(Id, [m(1), m(2)]), 5).
+
+in_mailbox(Id, Messages) :-
+    agent_property(Id, mailbox(Mail)),
+    findall(M, member(_-M, Mail), Messages).
+
+%   To a host that does not exist, of a process that stands still for a while.
+
+sent_nowhere(Id) :-
+    nb_getval(channel_beta, Beta),
+    nb_getval(channel_pid, Pid),
+    remote(Beta, true),
+    atom_concat(beta, Place, Beta),
+    atom_concat(nobody, Place, Nowhere),
+    noting_entries,
+    process_kill(Pid, stop),
+    agent_move(Id, Nowhere),
+    wait_until(typhon_agents:agent_status(Id, transit(_, _), _), 5),
+    agent_send(Id, m(3)),
+    process_kill(Pid, cont),
+    wait_until(in_mailbox(Id, [m(1), m(2), m(3)]), 10),
+    findall(Entry, entry_with(drop_all(mail, Id), Entry), [Leaves, Stays]),
+    memberchk(put(agent, Id, _, _), Leaves),
+    memberchk(put(agent, Id, _, _), Stays),
+    findall(M, member(put(mail, Id, M, _), Stays), [_, _, _]).
+
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(order_failed(_, _)), warning, _).
+
+%   It is said to be on its way to here.
+
+test('what an agent has said waits where it is noted no more that it was said') :-
+    with_beta(
+        ( typhon_endpoint:endpoint_address(Endpoint),
+          atom_concat('driver@', Endpoint, Here),
+          nb_getval(channel_beta, Beta),
+          atom_concat('late.abc.0@', Beta, Late),
+          assertz(typhon_whereabouts:forward(Late, Here, 1, unknown)),
+          noting_entries,
+          agent_create(clauses([ (:- agent(says, [state([to/1])])),
+                                 (main :- to(To), send(To, hello)) ]),
+                       Id, [host(driver), facts([to(Late)])]),
+          agent_join(Id, done, 5),
+          wait_until(entry_with(drop(letter, Late, _), Entry), 5),
+          memberchk(put(wait, Late, _, _), Entry) ),
+        true).
+
 :- end_tests(channel).
