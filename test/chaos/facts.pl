@@ -9,6 +9,7 @@
             outcome/2,                  % ?Id, ?Outcome
             alive/1,                    % +Life
             death_of/2,                 % ?Name, -Time
+            undone/3,                   % ?Key, ?Event, ?Tick
             clone_key/3                 % +Parent, +Number, -Key
           ]).
 
@@ -69,3 +70,23 @@ alive(Name-Number) :-
 death_of(Name, Time) :-
     life(Name, _, _, Time),
     number(Time).
+
+%!  undone(?Key, ?Event, ?Tick) is nondet.
+%
+%   The agent Key has done Event, its step Tick, in a process that has died
+%   since, and has gone on elsewhere as it was before that.
+
+undone(Key, Event, Tick) :-
+    event(Key, Tick, Event, Time, Life),
+    \+ alive(Life),
+    once(goes_on_before(Key, Tick, Time)).
+
+goes_on_before(Key, Tick, Time) :-
+    event(Key, Before, _, Later, _),
+    Before =< Tick,
+    Later > Time.
+goes_on_before(Key, Tick, _) :-
+    created(Key, _, Id, _, _),
+    standing(Id, _, _, _, Facts),
+    memberchk(tick(Before), Facts),
+    Before < Tick.

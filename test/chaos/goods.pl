@@ -65,7 +65,9 @@ message_finding(Said, Got, Finding) :-
 message_finding(_, Got, finding(Kind, Message-Gets)) :-
     member(Message-Gets, Got),
     Gets = [_,_|_],
-    (   findall(Life, ( member(got(_, Life), Gets), alive(Life) ), [_,_|_])
+    (   sent_again(Message, Gets)
+    ->  Kind = again
+    ;   findall(Life, ( member(got(_, Life), Gets), alive(Life) ), [_,_|_])
     ->  Kind = message_twice
     ;   member(got(_, Life), Gets),
         \+ alive(Life)
@@ -84,6 +86,14 @@ message_finding(_, Got, Finding) :-
     append(_, [A,B|_], Numbers),
     A > B,
     Finding = finding(Kind, From-To:[A,B]).
+
+%   What an agent says once more, as it does not know that it has said it, comes
+%   once more.
+
+sent_again(m(From, To, K), Gets) :-
+    aggregate_all(count, undone(From, said(To, K), _), Undone),
+    length(Gets, Count),
+    Count =< Undone+1.
 
 missing([], _, []).
 missing([M-Times|Said], Got0, Missing) :-
@@ -154,8 +164,15 @@ token_finding(Tuples, finding(Kind, Token)) :-
     msort(Tokens0, Tokens),
     wrong_token(Tokens, Token, Kind).
 
-wrong_token(Tokens, Token, token_twice) :-
-    append(_, [Token,Token|_], Tokens).
+wrong_token(Tokens, Token, Kind) :-
+    findall(K-x, member(K, Tokens), Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    member(Token-Copies, Groups),
+    Copies = [_,_|_],
+    (   dropped_again(Token, Copies)
+    ->  Kind = again
+    ;   Kind = token_twice
+    ).
 wrong_token(Tokens, Token, Kind) :-
     first_and_last(First, Last),
     between(First, Last, Token),
@@ -165,6 +182,14 @@ wrong_token(Tokens, Token, Kind) :-
     ->  Kind = token_died
     ;   Kind = token_lost
     ).
+
+%   Who has dropped it goes on with it, as one who has not; who has found it
+%   there has carried it away.
+
+dropped_again(Token, Copies) :-
+    aggregate_all(count, undone(_, drops(Token), _), Undone),
+    length(Copies, Count),
+    Count =< Undone+1.
 
 %   As given out by chaos_work: to the first travellers, and three for each
 %   of the three hosts of a process.

@@ -181,6 +181,27 @@ test(token_lost, true(Kinds == [token_lost])) :-
     kinds(false, [less(tuples, token(7))], Kinds).
 test(token_twice, true(Kinds == [token_twice])) :-
     kinds(true, [more(tuples, token(-1))], Kinds).
+test(token_that_was_dropped_and_carried_away_before_that_was_undone,
+     true(Kinds == [again])) :-
+    kinds(true, [ more(events, e(t, 3, drops(-1), 49, b-1)),
+                  less(events, e(t, 3, said(_, _), _, _)),
+                  more(events, e(t, 3, said(s, 1), 52, a-1)),
+                  more(tuples, token(-1)) ], Kinds).
+test(token_twice_though_one_was_dropped_in_a_process_that_died,
+     true(Kinds == [token_twice])) :-
+    kinds(true, [ more(events, e(t, 4, drops(-1), 49, b-1)),
+                  less(standing, agent(_, idt, _, _, _)),
+                  more(standing, agent(a, idt, resident, 1,
+                                       [me(t), tick(4), steps(1), token(-1)])),
+                  more(tuples, token(-1)) ], Kinds).
+test(message_said_again, true(Kinds == [again])) :-
+    kinds(true, [ less(events, e(s, 1, got(_, _), _, _)),
+                  more(events, e(s, 1, got(t, 1), 49, a-1)),
+                  more(events, e(t, 3, said(s, 1), 52, a-1)),
+                  more(events, e(s, 3, got(t, 1), 53, a-1)),
+                  less(standing, agent(_, ids, _, _, _)),
+                  more(standing, agent(a, ids, resident, 0,
+                                       [me(s), tick(3), steps(0)])) ], Kinds).
 test(undead, true(Kinds == [undead])) :-
     kinds(false, [more(disposed, t-10), less(standing, agent(_, idt, _, _, _)),
                   more(tuples, token(-1))], Kinds).

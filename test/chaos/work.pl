@@ -43,7 +43,7 @@ while the schedule runs.
     disposed/2,                         % Key, Time
     doing/2,                            % Tag, What
     posted/3,                           % Who, Key, Number
-    sent/4,                             % Who, Key, Number, Time: certainly
+    sent/4,                             % Who, Key, Number, Asked: certainly
     failure/3.                          % What, Name, Result
 
 %   population(?Kind, ?Program, -Share, -Facts): so many of a hundred.
@@ -229,7 +229,8 @@ write_to(P, Key, Id) :-
         ),
         K is K0+1,
         assertz(posted(Who, Key, K)),
-        ask(P, agent_send(Id, m(Who, K)), tell(Who, Key, K))
+        get_time(Now),
+        ask(P, agent_send(Id, m(Who, K)), tell(Who, Key, K, Now))
     ;   true
     ).
 
@@ -275,9 +276,8 @@ answered(Result, dispose(Key, Id, Tries), Name) :-
 answered(yes(agent_join(_, disposed, _)), join(_, Key), _) :-
     get_time(Now),
     assertz(disposed(Key, Now)).
-answered(yes(_), tell(Who, Key, K), _) :-
-    get_time(Now),
-    assertz(sent(Who, Key, K, Now)).
+answered(yes(_), tell(Who, Key, K, Asked), _) :-
+    assertz(sent(Who, Key, K, Asked)).
 
 %   An order of which nothing was heard may have been carried out.
 

@@ -7,6 +7,7 @@
             mail_count/2,               % +Id, -Count
             mail_back/2                 % +Id, +Messages
           ]).
+:- use_module(library(lists), [append/3]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
 :- use_module('../journal',
               [ journal_number/1, journal_on/0, journal_seal/0, note_drop/3,
@@ -123,11 +124,18 @@ mail_count(_, 0).
 
 %!  mail_back(+Id, +Messages:list) is det.
 %
-%   Messages were there before those that are there now.
+%   Messages were there before those that are there now.  Nobody can take them
+%   before the caller has put down what becomes of the agent: it is sealed with
+%   that.
 
 mail_back(_, []) :-
     !.
 mail_back(Id, Older) :-
     mail_all(Id, Newer),
-    mail_put(Id, Older),
-    mail_put(Id, Newer).
+    append(Older, Newer, Messages),
+    box_of(Id, Queue),
+    (   journal_on
+    ->  noted(Messages, Id, Numbered),
+        put_all(Numbered, Queue)
+    ;   put_bare(Messages, Queue)
+    ).

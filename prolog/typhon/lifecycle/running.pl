@@ -59,9 +59,9 @@ take(Id, resume(Probe)) :-
 
 perform(later, _).
 perform(order(Order, Goals), Id) :-
-    order_obey(Order, Id, Goals).
+    journal_step(order_obey(Order, Id, Goals)).
 perform(leave(Dest, Hole, Goals, Since), Id) :-
-    effect_depart(Id, Dest, Hole, Goals, Since, Next),
+    journal_step(effect_depart(Id, Dest, Hole, Goals, Since, Next)),
     go_on(Next, Id).
 perform(run(Goals), Id) :-
     agent(Id, Host, Module, Hash, Life),

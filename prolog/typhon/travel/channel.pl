@@ -30,6 +30,8 @@ lacks one says again(To), who has one had(To, N).
 a time sends to an endpoint.
 */
 
+:- meta_predicate engaging(+, 0).
+
 :- multifile
     typhon_endpoint:connection/2,
     typhon_endpoint:received/3,
@@ -41,7 +43,8 @@ a time sends to an endpoint.
 :- dynamic
     out/4,                      % Endpoint, N, Kind, Term: the oldest first
     had/2,                      % Endpoint, N: all up to N have come
-    sent/2,                     % Endpoint, N: all up to N were sent
+    sent/2,                     % Endpoint, N: all up to N were sent; not
+                                % there if it is to be begun anew
     courier/1,                  % Endpoint: somebody sends
     seen/2,                     % Key, N: of a channel to here
     told/1.                     % Key: had/2 is about to be said
@@ -60,16 +63,23 @@ ack_seconds(0.02).
 %   is sealed with it.
 
 channel_post(Endpoint, Kind, Term) :-
-    with_mutex(typhon_channel,
-               ( journal_number(N),
-                 note_put(out, Endpoint, N, item(Kind, Term)),
-                 journal_seal,
-                 assertz(out(Endpoint, N, Kind, Term)),
-                 engage(Endpoint, Courier) )),
-    set_out(Courier, Endpoint).
+    engaging(Endpoint,
+             ( journal_number(N),
+               note_put(out, Endpoint, N, item(Kind, Term)),
+               journal_seal,
+               assertz(out(Endpoint, N, Kind, Term)) )).
+
+%   engaging(+Endpoint, :Goal): Goal changes what is to be sent to Endpoint, for
+%   which there is a courier then.  A thread that is told to end in the middle
+%   must not leave one that was never sent out: all others would rely on him.
+
+engaging(Endpoint, Goal) :-
+    sig_atomic(( with_mutex(typhon_channel,
+                            ( Goal, engage(Endpoint, Courier) )),
+                 set_out(Courier, Endpoint) )).
 
 engage(Endpoint, Courier) :-
-    (   courier(Endpoint)
+    (   ( courier(Endpoint) ; \+ out(Endpoint, _, _, _) )
     ->  Courier = there
     ;   assertz(courier(Endpoint)),
         Courier = wanted
@@ -108,6 +118,8 @@ next(Endpoint, Items) :-
     chained(Found, Before0, Items),
     (   Items == []
     ->  retractall(courier(Endpoint))
+    ;   Before0 = first(_)
+    ->  assertz(sent(Endpoint, Sent))
     ;   true
     ).
 
@@ -122,25 +134,25 @@ chained([item(N, Kind, Term)|Found], Before,
         [item(Before, N, Kind, Term)|Items]) :-
     chained(Found, N, Items).
 
-%   If it is to be begun anew meanwhile the number is out of date, and the
-%   other will say so.
+%   If it is to be begun anew meanwhile, as what was sent over a connection is
+%   lost with that, this counts for nothing, and no more of it is sent.
 
-send_all(Items, Endpoint) :-
+send_all([], _).
+send_all([item(Before, N, Kind, Term)|Items], Endpoint) :-
     endpoint_process(Process),
-    forall(member(item(Before, N, Kind, Term), Items),
-           ( crash_point(before_post),
-             endpoint_post(Endpoint, channel,
-                           channel(Process, Endpoint, Before, N, Kind, Term)),
-             with_mutex(typhon_channel, put_sent(Endpoint, Before, N)) )).
-
-put_sent(Endpoint, Before, N) :-
-    (   Before = first(_)
-    ->  retractall(sent(Endpoint, _)),
-        assertz(sent(Endpoint, N))
-    ;   retract(sent(Endpoint, Before))
-    ->  assertz(sent(Endpoint, N))
+    crash_point(before_post),
+    endpoint_post(Endpoint, channel,
+                  channel(Process, Endpoint, Before, N, Kind, Term)),
+    (   with_mutex(typhon_channel, put_sent(Endpoint, Before, N))
+    ->  send_all(Items, Endpoint)
     ;   true
     ).
+
+put_sent(Endpoint, Before, N) :-
+    ( Before = first(Last) -> true ; Last = Before ),
+    retract(sent(Endpoint, Last)),
+    !,
+    assertz(sent(Endpoint, N)).
 
 not_sent(existence_error(_, _), Endpoint, _) :-
     all_ends,
@@ -222,13 +234,7 @@ heard(channel(Process, To, Before, N, Kind, Term), Peer) :-
                taken(Key, Before, N, Kind, Term, Peer, How)),
     answer(How, Key, To, Peer).
 heard(again(To), _) :-
-    with_mutex(typhon_channel,
-               ( retractall(sent(To, _)),
-                 (   out(To, _, _, _)
-                 ->  engage(To, Courier)
-                 ;   Courier = there
-                 ) )),
-    set_out(Courier, To).
+    engaging(To, retractall(sent(To, _))).
 heard(had(To, N), _) :-
     must_be(integer, N),
     with_mutex(typhon_channel, has_come(To, N)).

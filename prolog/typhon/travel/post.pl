@@ -70,9 +70,18 @@ post(Id, From, Message) :-
     ;   journal_step(post_now(Id, From, Message))
     ).
 
+%   What has left, and where it waits, is one entry.
+
 post_now(Id, From, Message) :-
-    with_agent(Id, ( post_way(Id, From, Message, Way), journal_seal )),
+    with_agent(Id, ( post_way(Id, From, Message, Way0),
+                     waits(Way0, Id, Way),
+                     journal_seal )),
     go(Way, Id).
+
+waits(wait(Letter), Id, done) :-
+    !,
+    retry_later(Id, Letter, wait(Letter)).
+waits(Way, _, Way).
 
 %   What an agent says goes when its turn is over, and noted.
 
@@ -234,6 +243,6 @@ go(done, _).
 go(to(Endpoint, Letter), Id) :-
     way_send(Endpoint, Id, Letter).
 go(wait(Letter), Id) :-
-    with_agent(Id, retry_later(Id, Letter, wait(Letter))).
+    with_agent(Id, waits(wait(Letter), Id, done)).
 go(nowhere, Id) :-
     existence_error(agent, Id).

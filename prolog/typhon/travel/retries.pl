@@ -83,23 +83,35 @@ retries_go_on :-
 try(Id) :-
     (   with_agent(Id, backlog_begin(Id, Letters, Tries))
     ->  one_letter(Letters, Letter),
-        journal_step(
-            ( catch(tried(Id, Letter, Way), error(Formal, _),
-                    Way = failed(Formal)),
-              with_agent(Id, ( conclude(Way, Id, Letter, Tries),
-                               journal_seal )) ))
+        journal_step(tried(Id, Letter, Tries))
     ;   true
     ).
 
-%   What has not left after all is noted again.
+%   That it has left, and where it is now, is one entry, made before others can
+%   add to what waits: what they note must not come before it.
 
-tried(Id, Letter, Way) :-
-    with_agent(Id, ( backlog_leaves(Id), step(Id, Letter, Way0) )),
-    (   Way0 = to(Endpoint, Letter1)
-    ->  way_send(Endpoint, Id, Letter1),
-        Way = done
-    ;   Way = Way0
-    ).
+tried(Id, Letter, Tries) :-
+    with_agent(Id, ( catch(left(Id, Letter, Way), error(Formal, _),
+                           Way = failed(Formal)),
+                     (   Way = to(_, _)
+                     ->  true
+                     ;   conclude(Way, Id, Letter, Tries),
+                         journal_seal
+                     ) )),
+    sent_on(Way, Id, Letter, Tries).
+
+left(Id, Letter, Way) :-
+    backlog_leaves(Id),
+    step(Id, Letter, Way).
+
+%   Where a connection has to be made first nothing is noted.
+
+sent_on(to(Endpoint, Letter1), Id, Letter, Tries) :-
+    !,
+    catch(( way_send(Endpoint, Id, Letter1), Way = done ), error(Formal, _),
+          Way = failed(Formal)),
+    with_agent(Id, conclude(Way, Id, Letter, Tries)).
+sent_on(_, _, _, _).
 
 step(Id, letter(Mail, _), done) :-
     way_in(Id, Mail),

@@ -25,7 +25,6 @@ _Threading_: incoming/5 and outgoing/2 are the goals of threads of the wire.
 :- use_module(meeting, [meet/7, own_session/1, prove/5]).
 :- use_module(reader, [read_frames/3]).
 :- use_module(refusals, [refused/2, tls_text/2]).
-:- use_module(request, [connection_is/2]).
 :- use_module(resumption, [session_left/0, session_lost/2]).
 :- use_module(secure, [secure_close/0, secure_first/2, secure_streams/6]).
 :- use_module(session, [route_add/2, session_adopting/2, session_peer/3]).
@@ -198,11 +197,9 @@ open_streams(Socket, In, Out) :-
 serve(Session, In, Out) :-
     thread_self(Me),
     call_cleanup(
-        ( connection_is(Session, up),
-          catch(read_frames(Session, In, Out),
-                error(Formal, _),
-                report_break(Session, Formal))
-        ),
+        catch(read_frames(Session, In, Out),
+              error(Formal, _),
+              report_break(Session, Formal)),
         lost(Session, Me)).
 
 %   Who was lent may find that somebody else is about to see to that.

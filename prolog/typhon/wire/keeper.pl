@@ -116,9 +116,9 @@ hear(wanted(Key), _) :-
     ->  down(Session)
     ;   true
     ).
-hear(displaced(Key), _) :-              % another process has its address
-    (   route_key(_, Key)
-    ->  true
+hear(displaced(Key), Me) :-             % another process has its address
+    (   route_key(_, Key)               % is it at that, too?
+    ->  hear(wanted(Key), Me)
     ;   gone(Key)
     ).
 hear(gone(Key), _) :-                   % it said goodbye

@@ -26,6 +26,7 @@ adoption gives it the connection.
 :- use_module(counts, [received/2]).
 :- use_module(hello,
               [hello_codec/3, hello_peer/4, line_read/3, line_write/2]).
+:- use_module(request, [connection_is/2]).
 :- use_module(resumption, [session_install/4, session_retire/1]).
 :- use_module(session, [session_adopting/2, session_key/2, session_open/4]).
 :- use_module(transport, [session_up_since/2]).
@@ -115,9 +116,13 @@ make_way(client(Start), Session) :-
 make_way(_, Session) :-
     session_retire(Session).
 
+%   Who wants to know is told in the same step: what was sent to a process that
+%   has died is sent again by who hears of the next.
+
 install(Session, Out, Count) :-
     thread_self(Me),
-    session_install(Session, Me, Out, Count).
+    sig_atomic(( session_install(Session, Me, Out, Count),
+                 connection_is(Session, up) )).
 
 say_count(Key, Out) :-
     received(Key, Count),

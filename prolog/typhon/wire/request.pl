@@ -31,7 +31,7 @@ and so answered once.
 
 :- use_module(library(lists), [member/2]).
 :- use_module(outbox, [session_send/2, session_send_later/2]).
-:- use_module(session, [session_key/2, session_peer/3]).
+:- use_module(session, [route/2, session_key/2, session_peer/3]).
 :- use_module(unacked, [session_pending/2]).
 
 :- meta_predicate
@@ -196,11 +196,16 @@ take_request(Kind, Term, Peer, ReplyTo) :-
 
 %!  connection_is(+Session, +State) is det.
 %
-%   Tell who wants to know that the connection is `up` or `down`.
+%   Tell who wants to know that the connection is `up` or `down`, for each
+%   address that leads to the peer.
 
 connection_is(Session, State) :-
-    session_peer(Session, _, Peer),
-    forall(clause(typhon_endpoint:connection(Peer, State), Body),
+    session_peer(Session, _, Claimed),
+    findall(Address, ( Address = Claimed ; route(Address, Session) ),
+            Addresses0),
+    sort(Addresses0, Addresses),
+    forall(( member(Peer, Addresses),
+             clause(typhon_endpoint:connection(Peer, State), Body) ),
            guarded(typhon_endpoint:Body, connection)).
 
 guarded(Goal, Kind) :-

@@ -102,7 +102,7 @@ session_lost(Session, Thread) :-
 session_left :-
     thread_self(Me),
     forall(( transport_thread(Key, Me), session(Key, Session) ),
-           session_down(Session, Me)).
+           session_lost(Session, Me)).
 
 %!  session_retire(+Session) is det.
 %

@@ -14,7 +14,8 @@ main :-
         main
     ).
 
-% A token is in one hand or on one host.
+% A token is in one hand or on one host. What was dropped is noted: should it
+% not have been, as all that was done since, others may have it already.
 
 trade :-
     random(X),
@@ -28,6 +29,7 @@ trade :-
 drop :-
     retract(token(K)),
     !,
+    note(drops(K)),
     leave(token(K)).
 
 pick_up :-

@@ -116,6 +116,49 @@ obey(cut) :-
            typhon_session:session_locked(
                Session, typhon_transport:transport_broken(Key, Thread))).
 
+obey(look) :-
+    forall(held(What), format(user_error, '~q~n', [What])).
+
+%   What is held here for others, and by whom.
+
+held(out(E, N, K, T)) :- typhon_channel:out(E, N, K, T).
+held(had(E, N)) :- typhon_channel:had(E, N).
+held(sent(E, N)) :- typhon_channel:sent(E, N).
+held(courier(E)) :- typhon_channel:courier(E).
+held(seen(E, N)) :- typhon_channel:seen(E, N).
+held(told(E)) :- typhon_channel:told(E).
+held(waits(Id, Letters, T, S)) :-
+    typhon_backlog:waits(Id, Q, T, S),
+    findall(L, thread_peek(Q, L), Letters).
+held(agent(Id, P)) :-
+    agent_property(Id, P), \+ P = program(_), \+ P = trace(_).
+held(thread(T, S, G)) :-
+    thread_property(T, status(S)),
+    ( thread_property(T, alias(G)) -> true ; G = none ).
+held(queue(Q, N)) :-
+    message_queue_property(Q, size(N)), N > 0.
+held(alarm(A)) :-
+    current_predicate(typhon_alarms:F/N),
+    functor(A, F, N),
+    predicate_property(typhon_alarms:A, dynamic),
+    clause(typhon_alarms:A, true).
+held(fact(M:A)) :-
+    member(M, [typhon_attempts,typhon_waiters,typhon_session,typhon_transport,
+               typhon_contacts,typhon_crossings,typhon_doubt,typhon_transfer,
+               typhon_whereabouts,typhon_home,typhon_news,typhon_unacked,
+               typhon_outbox,typhon_pusher,typhon_committing,typhon_connection,
+               typhon_lending]),
+    current_predicate(M:F/N),
+    functor(A, F, N),
+    predicate_property(M:A, dynamic),
+    clause(M:A, true).
+
+thread_peek(Q, L) :-
+    message_queue_property(Q, size(N)),
+    between(1, N, _),
+    thread_get_message(Q, L, [timeout(0)]),
+    thread_send_message(Q, L).
+
 now(What, P) :-
     assertz(probability(What, P)),
     (   clause(probability(What, _), true, First),

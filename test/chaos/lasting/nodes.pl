@@ -2,6 +2,7 @@
           [ with_nodes/4,               % +Options, -Nodes, :Goal, -Told
             node_host/2,                % ?Node, ?Host
             nodes_said/2,               % +Nodes, -Lines
+            nodes_look/0,
             war/1,                      % +Options
             peace/0
           ]).
@@ -226,6 +227,9 @@ peace :-
 
 disarm :-
     tell_all([dies(0), power(0)]).
+
+nodes_look :-
+    with_mutex(lasting_orders, forall(child(_, _, In), told(In, look))).
 
 tell_all(Orders) :-
     with_mutex(lasting_orders,

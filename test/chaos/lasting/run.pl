@@ -15,6 +15,7 @@ with sync(normal) and sync(full) in turn if none is given.  The exit status is
 */
 
 :- use_module(attack).
+:- use_module(words).
 :- use_module('../../lib/common', [with_tmp_dir/1]).
 :- use_module('../../lib/quick_swipl', [quick_swipl/2]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
@@ -27,6 +28,7 @@ with sync(normal) and sync(full) in turn if none is given.  The exit status is
 
 opt_type(seed,      seed,      integer).
 opt_type(seconds,   seconds,   number).
+opt_type(work,      work,      oneof([lasting, words])).
 opt_type(limit,     limit,     number).
 opt_type(processes, processes, integer).
 opt_type(agents,    agents,    integer).
@@ -71,7 +73,8 @@ round(Seed, Options, sum(Hops0, Deaths0, Wrong0), sum(Hops, Deaths, Wrong),
     findall(Option, default(Seed, Option), Defaults),
     option(limit(Limit), Options, 300),
     append([dir(Dir), seed(Seed), seconds(Limit)|Options], Defaults, All),
-    lasting(All, report(Facts, Faults)),
+    option(work(Work), All, lasting),
+    call(Work, All, report(Facts, Faults)),
     option(sync(Sync), All),
     format('seed ~d, sync(~w): ~p~n', [Seed, Sync, Facts]),
     forall(member(Fault, Faults), format('  wrong: ~p~n', [Fault])),

@@ -95,6 +95,18 @@ port_of(Address, Port) :-
 post_notes(Address, From, To) :-
     forall(between(From, To, I), endpoint_post(Address, note, I)).
 
+%   The thread that calls this is told to end, once.
+
+:- dynamic to_end/0.
+:- public told_to_end/0.
+
+told_to_end :-
+    (   retract(to_end)
+    ->  thread_self(Me),
+        typhon_threads:wire_thread_signal(Me, broken)
+    ;   true
+    ).
+
 		 /*******************************
 		 *            TESTS             *
 		 *******************************/
@@ -247,6 +259,19 @@ test(both_connect_at_once) :-
           forall(member(X, [A, B]),
                  ( wait_until(all_there(X, 100, Notes), 5),
                    assertion(Notes == Expected) )) )))).
+
+%   Somebody else may have a connection with the peer already, or it cannot be
+%   written to: who has installed it is told to end in that moment.
+
+test(told_of_a_connection_whatever_becomes_of_its_thread) :-
+    with_endpoint(with_peer(A,
+        ( wrap_predicate(typhon_resumption:session_install(_, _, _, _),
+                         told_to_end, Wrapped,
+                         ( Wrapped, test_endpoint:told_to_end )),
+          assertz(test_endpoint:to_end),
+          typhon_keeper:keeper_connect(A),
+          wait_until(\+ endpoint_peer(A, state(up)), 5),
+          assertion(seen(A, up)) ))).
 
 all_there(Address, Count, Notes) :-
     ask(Address, notes, x, Notes),

@@ -1,0 +1,224 @@
+:- use_module('../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(typhon)).
+
+/** <module> Messages between processes that keep journals
+
+Whatever breaks while a message is being posted, it comes, also if it is the
+last that anybody says.
+*/
+
+:- needs([journal]).
+
+:- begin_tests(channel).
+
+%   with_beta(:Before, :After): from a host with a journal, to another process
+%   that keeps one, which is killed after Before; After is called when it was
+%   started again.  Its hosts are beta and, at another port, gamma.
+
+:- meta_predicate
+    with_beta(0, 0),
+    beta(+, +, 0).
+
+with_beta(Before, After) :-
+    no_leaks(with_tmp_dir(beta_twice(Before, After))).
+
+:- public beta_twice/3.
+
+beta_twice(Before, After, Dir) :-
+    atom_concat(Dir, '/driver', Mine),
+    atom_concat(Dir, '/beta', Journal),
+    free_port(Port),
+    format(atom(Beta), 'beta@127.0.0.1:~d', [Port]),
+    nb_setval(channel_beta, Beta),
+    setup_call_cleanup(
+        host_start(driver, [journal(Mine)]),
+        ( beta(Journal, Port, Before),
+          beta(Journal, Port, After) ),
+        host_stop(driver)).
+
+beta(Journal, Port, Goal) :-
+    project_file('test/chaos/lasting/node.pl', File),
+    with_swipl([File, '--', beta, Port, Journal, normal, 1], Pid, In, Out,
+               ( format(In, 'orders([]).~n', []),
+                 flush_output(In),
+                 read_line_to_string(Out, "ready"),
+                 nb_setval(channel_pid, Pid),
+                 call(Goal),
+                 process_kill(Pid, kill),
+                 process_wait(Pid, _) )).
+
+%   listens(+Host, -Id): an agent on Host that keeps what it hears.
+
+listens(Host, Id) :-
+    agent_create(clauses([ (:- agent(listens, [state([got/1])])),
+                           (on_message(_, M) :- assertz(got(M))) ]),
+                 Id, [host(Host)]).
+
+got(Id, Expected) :-
+    wait_until(( agent_property(Id, facts(Facts)),
+                 findall(M, member(got(M), Facts), Expected) ), 10).
+
+%   What is wrapped stays so: to unwrap what a thread is in is not safe.
+
+:- dynamic
+    interrupted/0,                      % once, before a courier is sent out
+    held/0.                             % once, when he has posted something
+
+:- public interrupt/0, hold/1.
+
+interrupt :-
+    (   retract(interrupted)
+    ->  thread_self(Me),
+        thread_signal(Me, throw(told_to_end))
+    ;   true
+    ).
+
+hold(Kind) :-
+    (   Kind == channel,
+        retract(held)
+    ->  thread_send_message(channel_gate, posted),
+        thread_get_message(channel_gate, on)
+    ;   true
+    ).
+
+test('who is told to end as he posts does not keep others from it') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          wrap_predicate(typhon_channel:set_out(_, _), told_to_end, Wrapped,
+                         ( plunit_channel:interrupt, Wrapped )),
+          assertz(interrupted),
+          catch(agent_send(Id, first), told_to_end, true),
+          \+ interrupted,
+          agent_send(Id, second),
+          got(Id, [first, second]) ),
+        true).
+
+%   The courier has posted, and not said so yet, as the process dies; he goes on
+%   when there is a connection with the next.
+
+test('what was under way to a process that dies is sent to the next') :-
+    message_queue_create(Gate, [alias(channel_gate)]),
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          nb_setval(channel_id, Id),
+          nb_getval(channel_pid, Pid),
+          process_kill(Pid, stop),
+          wrap_predicate(typhon_messaging:endpoint_post(_, Kind, _), posted,
+                         Wrapped, ( Wrapped, plunit_channel:hold(Kind) )),
+          assertz(held),
+          agent_send(Id, hello),
+          thread_get_message(Gate, posted) ),
+        ( nb_getval(channel_beta, Beta),
+          nb_getval(channel_id, Id),
+          remote(Beta, true),
+          thread_send_message(Gate, on),
+          got(Id, [hello]) )),
+    message_queue_destroy(Gate).
+
+%   It was met at its first port, and is connected again by that.
+
+test('what was under way to the second port of a process that dies, too') :-
+    free_port(Port),
+    format(atom(Gamma), 'gamma@127.0.0.1:~d', [Port]),
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          remote(Beta, typhon:host_start(gamma, [port(Port)])),
+          listens(Gamma, Id),
+          nb_setval(channel_id, Id),
+          nb_getval(channel_pid, Pid),
+          process_kill(Pid, stop),
+          agent_send(Id, hello),
+          asked_for_ever(Gamma, Thread),
+          nb_setval(channel_thread, Thread) ),
+        ( nb_getval(channel_id, Id),
+          nb_getval(channel_thread, Thread),
+          thread_join(Thread, exception(error(connection_lost(Gamma), _))),
+          got(Id, [hello]) )).
+
+%   asked_for_ever(+Host, -Thread): a question to Host is under way.
+
+asked_for_ever(Host, Thread) :-
+    thread_create(remote(Host, ( thread_self(Me),
+                                 thread_get_message(Me, never) )), Thread),
+    wait_until(typhon_request:open_request(_, _, _), 5).
+
+%   What belongs together in the journal is noted as one: a process may be killed
+%   between any two.
+
+:- dynamic entry/1.                     % Changes
+
+noting_entries :-
+    retractall(entry(_)),
+    wrap_predicate(typhon_committing:entry(Changes), noted, Wrapped,
+                   ( assertz(plunit_channel:entry(Changes)), Wrapped )).
+
+%   entry_with(+Change, -Entry): the only one, or the next.
+
+entry_with(Change, Entry) :-
+    entry(Entry),
+    memberchk(Change, Entry).
+
+test('an agent that is sent away and must stay keeps what waits for it') :-
+    with_beta(( waits(Id), sent_nowhere(Id) ), true).
+
+waits(Id) :-
+    agent_create(clauses([ (:- agent(waits, [])), (main :- receive(never)) ]),
+                 Id, [host(driver)]),
+    agent_send(Id, m(1)),
+    agent_send(Id, m(2)),
+    wait_until(in_mailbox(Id, [m(1), m(2)]), 5).
+
+in_mailbox(Id, Messages) :-
+    agent_property(Id, mailbox(Mail)),
+    findall(M, member(_-M, Mail), Messages).
+
+%   To a host that does not exist, of a process that stands still for a while.
+
+sent_nowhere(Id) :-
+    nb_getval(channel_beta, Beta),
+    nb_getval(channel_pid, Pid),
+    remote(Beta, true),
+    atom_concat(beta, Place, Beta),
+    atom_concat(nobody, Place, Nowhere),
+    noting_entries,
+    process_kill(Pid, stop),
+    agent_move(Id, Nowhere),
+    wait_until(typhon_agents:agent_status(Id, transit(_, _), _), 5),
+    agent_send(Id, m(3)),
+    process_kill(Pid, cont),
+    wait_until(in_mailbox(Id, [m(1), m(2), m(3)]), 10),
+    findall(Entry, entry_with(drop_all(mail, Id), Entry), [Leaves, Stays]),
+    memberchk(put(agent, Id, _, _), Leaves),
+    memberchk(put(agent, Id, _, _), Stays),
+    findall(M, member(put(mail, Id, M, _), Stays), [_, _, _]).
+
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(order_failed(_, _)), warning, _).
+
+%   It is said to be on its way to here.
+
+test('what an agent has said waits where it is noted no more that it was said') :-
+    with_beta(
+        ( typhon_endpoint:endpoint_address(Endpoint),
+          atom_concat('driver@', Endpoint, Here),
+          nb_getval(channel_beta, Beta),
+          atom_concat('late.abc.0@', Beta, Late),
+          assertz(typhon_whereabouts:forward(Late, Here, 1, unknown)),
+          noting_entries,
+          agent_create(clauses([ (:- agent(says, [state([to/1])])),
+                                 (main :- to(To), send(To, hello)) ]),
+                       Id, [host(driver), facts([to(Late)])]),
+          agent_join(Id, done, 5),
+          wait_until(entry_with(drop(letter, Late, _), Entry), 5),
+          memberchk(put(wait, Late, _, _), Entry) ),
+        true).
+
+:- end_tests(channel).
