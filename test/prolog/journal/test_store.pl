@@ -1,4 +1,5 @@
 :- use_module('../../lib/common').
+:- use_module('../../lib/stores').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(apply), [maplist/2]).
@@ -6,30 +7,10 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_codes/3, read_line_to_string/2]).
 :- use_module(library(typhon/journal/item_key)).
-:- use_module(library(typhon/journal/store)).
 
 :- needs([journal]).
 
 :- begin_tests(store).
-
-put(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
-    fast_term_serialized(Term, Bytes).
-
-with_store(Dir, Goal) :-
-    setup_call_cleanup(journal_open(Dir, normal), once(Goal), store_close).
-
-commit(Specs) :-
-    findall(Change,
-            ( member(Spec, Specs),
-              (   Spec = Kind-Key-N-Term
-              ->  put(Kind, Key, N, Term, Change)
-              ;   Change = Spec
-              ) ),
-            Changes),
-    store_commit(Changes).
-
-items(Kind, Items) :-
-    findall(Key-N-Value, journal_item(Kind, numbers, Key, N, Value), Items).
 
 test('what is committed is there when it is opened again') :-
     with_tmp_dir(kept).
