@@ -18,6 +18,7 @@ This is the door of the layer: who is above takes what it needs from here.
               note_drop_at_once/3, note_drop_below/3, note_put/4,
               note_put_at_once/4
             ]).
+:- reexport(journal/item_key, [journal_key/1, journal_key/2]).
 :- reexport(journal/database,
             [ journal_part/3, journal_record/2, journal_record_drop/1,
               journal_record_put/2 ]).

@@ -1,5 +1,7 @@
 :- module(test_authority,
           [ with_authority/3,           % +Hosts, +Authors, :Goal
+            keys_of/3,                  % +Name, +Authority, -Dir
+            verdict/3,                  % +Trail, -Signed, -Verdict
             expired_host/2,             % +Authority, +Name
             self_made_host/2            % +Authority, +Name
           ]).
@@ -35,6 +37,22 @@ authority(Hosts, Authors, Goal, Tmp) :-
     forall(member(Host, Hosts), keys_issue(host, Host, 30, Dir)),
     forall(member(Author, Authors), keys_issue(author, Author, 30, Dir)),
     call(Goal, Dir).
+
+%!  keys_of(+Name, +Authority, -Dir) is det.
+%
+%   Where the keys of Name are.
+
+keys_of(Name, Authority, Dir) :-
+    directory_file_path(Authority, Name, Dir).
+
+%!  verdict(+Trail, -Signed, -Verdict) is det.
+%
+%   Who has signed that what happened, as Name-handed; and the verdict, see
+%   agent_trail/2.
+
+verdict(trail(Steps, Verdict), Signed, Verdict) :-
+    findall(Name-What, ( member(step(_, Name, Event), Steps),
+                         functor(Event, What, _) ), Signed).
 
 %!  expired_host(+Authority, +Name) is det.
 %!  self_made_host(+Authority, +Name) is det.

@@ -5,6 +5,7 @@
             project_file/2,             % +Relative, -Absolute
             with_tmp_dir/1,             % :Goal
             no_leaks/1,                 % :Goal
+            with_settings/2,            % +Values, :Goal
             wait_until/2,               % :Goal, +Seconds
             with_swipl/5,               % +Args, -Pid, -In, -Out, :Goal
             run_swipl/5,                % +Args, +Options, -Status, -Out, -Err
@@ -35,6 +36,7 @@ the whole process, so nothing else should be coming and going meanwhile.
               [process_create/3, process_kill/2, process_wait/3]).
 :- use_module(library(random), [random_between/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_setopt/2,
                 tcp_socket/1 ]).
@@ -42,6 +44,7 @@ the whole process, so nothing else should be coming and going meanwhile.
 :- meta_predicate
     with_tmp_dir(1),
     no_leaks(0),
+    with_settings(+, 0),
     wait_until(0, +),
     with_swipl(+, -, -, -, 0).
 
@@ -117,6 +120,20 @@ with_tmp_dir(Goal) :-
 make_tmp_dir(Dir) :-
     tmp_file(typhon_test, Dir),
     make_directory_path(Dir).
+
+%!  with_settings(+Values, :Goal) is semidet.
+%
+%   Calls Goal once with settings changed, Values a list of Setting=Value.
+
+with_settings(Values, Goal) :-
+    maplist(setting_now, Values, Old),
+    setup_call_cleanup(maplist(set, Values), once(Goal), maplist(set, Old)).
+
+setting_now(Setting=_, Setting=Value) :-
+    setting(Setting, Value).
+
+set(Setting=Value) :-
+    set_setting(Setting, Value).
 
 %!  wait_until(:Goal, +Seconds) is det.
 %

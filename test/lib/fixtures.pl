@@ -1,6 +1,5 @@
 :- module(test_fixtures,
           [ with_hosts/2,               % +Specs, :Goal
-            with_settings/2,            % +Values, :Goal
             listening/2,                % :Goal, -Messages
             was_told/2,                 % +Kind, ?Message
             were_told/2,                % +Kind, ?Message
@@ -27,12 +26,10 @@ from a list of clauses, and what was printed meanwhile.
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(pairs),
               [map_list_to_pairs/3, pairs_values/2]).
-:- use_module(library(settings), [setting/2, set_setting/2]).
 :- use_module(library(typhon)).
 
 :- meta_predicate
     with_hosts(+, 0),
-    with_settings(+, 0),
     listening(0, -).
 
 %!  with_hosts(+Specs, :Goal) is semidet.
@@ -59,19 +56,6 @@ stop(Name-_) :-
     stop(Name).
 stop(Name) :-
     catch(host_stop(Name), error(existence_error(host, _), _), true).
-
-%!  with_settings(+Values, :Goal) is semidet.
-%
-%   Calls Goal once with settings changed, Values a list of Setting=Value.
-
-with_settings(Values, Goal) :-
-    findall(Setting=Value,
-            ( member(Setting=_, Values), setting(Setting, Value) ),
-            Old),
-    setup_call_cleanup(set(Values), once(Goal), set(Old)).
-
-set(Values) :-
-    forall(member(Setting=Value, Values), set_setting(Setting, Value)).
 
                 /*******************************
                 *           MESSAGES           *

@@ -7,7 +7,9 @@
             agent_home_endpoint/2       % +Id, -Endpoint
           ]).
 :- use_module(library(apply), [foldl/4]).
+:- use_module(library(error), [representation_error/1]).
 :- use_module(library(lists), [append/3]).
+:- use_module('../journal', [journal_key/1, journal_on/0]).
 :- use_module('../wire', [endpoint_keys/1, endpoint_own_proof/1]).
 :- use_module('../host', [address_parts/3]).
 
@@ -25,11 +27,18 @@ prove that, see typhon_birth.
 %!  agent_id(+Name, +Home, -Id) is det.
 %
 %   A new id: unique among processes and restarts.
+%
+%   @error representation_error(agent_name): no journal could have it
 
 agent_id(Name, Home, Id) :-
     flag(typhon_agent_id, N, N+1),
     process_mark(Mark),
-    atomic_list_concat([Name, '.', Mark, N, '@', Home], Id).
+    atomic_list_concat([Name, '.', Mark, N, '@', Home], Id),
+    (   journal_on,
+        \+ journal_key(Id)
+    ->  representation_error(agent_name)
+    ;   true
+    ).
 
 :- multifile
     ids_anew/0,                 % what is known of old ids is forgotten

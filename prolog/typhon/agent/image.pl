@@ -14,6 +14,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module('../journal', [journal_key/2, journal_on/0]).
 :- use_module('../host', [event_heard/1, host/3]).
 :- use_module('../wire', [endpoint_keys/1]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
@@ -142,11 +143,19 @@ is_image(image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     agent_home(Id, _),
     atom(Hash),
     is_life(Life),
+    may_be_noted(Id, Life),
     subsumes_term(state(_, _), State),
     State = state(Empty, Clauses),
     maplist(is_list, [Empty, Clauses, Goals, Mail]),
     forall(member(Message, Mail), subsumes_term(_-_, Message)),
     is_start(Start).
+
+may_be_noted(Id, Life) :-
+    (   journal_on
+    ->  life_hops(Life, Hops),
+        journal_key(Id, Hops)
+    ;   true
+    ).
 
 is_start(Start) :-
     number(Start),

@@ -14,7 +14,7 @@
             note_put_at_once/4,         % +Kind, +Key, +N, +Term
             note_drop_at_once/3,        % +Kind, +Key, +N
             note_change/1,              % +Change
-            note_bytes/2,               % +Term, -Bytes
+            note_putting/5,             % +Kind, +Key, +N, +Term, -Change
             journal_step/1,             % :Goal
             journal_seal/0,
             journal_barrier/0,
@@ -22,9 +22,11 @@
             journal_let_out/2,          % +Item, +When
             journal_go/0
           ]).
+:- use_module(library(error), [representation_error/1]).
 :- use_module(committing,
               [ commit/0, commit_soon/0, committing_begin/0, committing_end/0,
                 entry/1, journal_full/1, let_out/1 ]).
+:- use_module(item_key, [journal_key/1, journal_key/2]).
 :- use_module(store, [store_close/0]).
 
 /** <module> What is to be committed
@@ -124,28 +126,33 @@ journal_number_after(N) :-
 %
 %   The item is Term from now on; it is no more; nor are all of this key, or
 %   those of it that have numbers less than N.
+%
+%   @error representation_error(journal_key): there can be no such item
 
 note_put(Kind, Key, N, Term) :-
     (   journal_on
-    ->  note_bytes(Term, Bytes),
-        note_change(put(Kind, Key, N, Bytes))
+    ->  note_putting(Kind, Key, N, Term, Change),
+        note_change(Change)
     ;   true
     ).
 
 note_drop(Kind, Key, N) :-
-    (   journal_on
+    (   journal_on,
+        journal_key(Key, N)
     ->  note_change(drop(Kind, Key, N))
     ;   true
     ).
 
 note_drop_all(Kind, Key) :-
-    (   journal_on
+    (   journal_on,
+        journal_key(Key)
     ->  note_change(drop_all(Kind, Key))
     ;   true
     ).
 
 note_drop_below(Kind, Key, N) :-
-    (   journal_on
+    (   journal_on,
+        journal_key(Key, N)
     ->  note_change(drop_below(Kind, Key, N))
     ;   true
     ).
@@ -158,8 +165,8 @@ note_drop_below(Kind, Key, N) :-
 
 note_put_at_once(Kind, Key, N, Term) :-
     (   journal_on
-    ->  note_bytes(Term, Bytes),
-        entry([put(Kind, Key, N, Bytes)])
+    ->  note_putting(Kind, Key, N, Term, Change),
+        entry([Change])
     ;   true
     ).
 
@@ -169,11 +176,18 @@ note_drop_at_once(Kind, Key, N) :-
     ;   true
     ).
 
-%!  note_bytes(+Term, -Bytes) is det.
+%!  note_putting(+Kind, +Key, +N, +Term, -Change) is det.
 %!  note_change(+Change) is det.
+%
+%   Change puts this item; it is noted.
+%
+%   @error representation_error(journal_key)
 
-note_bytes(Term, Bytes) :-
-    fast_term_serialized(Term, Bytes).
+note_putting(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
+    (   journal_key(Key, N)
+    ->  fast_term_serialized(Term, Bytes)
+    ;   representation_error(journal_key)
+    ).
 
 note_change(Change) :-
     (   nb_current(typhon_journal_step, true)

@@ -9,8 +9,9 @@
             turn_release/0
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module(item_key, [journal_key/2]).
 :- use_module(ledger,
-              [journal_on/0, note_bytes/2, note_change/1]).
+              [journal_on/0, note_change/1, note_putting/5]).
 
 /** <module> What an agent does between two stops
 
@@ -56,13 +57,14 @@ turn_defers :-
 
 turn_note_put(Kind, Key, N, Term) :-
     (   journal_on
-    ->  note_bytes(Term, Bytes),
-        note(put(Kind, Key, N, Bytes))
+    ->  note_putting(Kind, Key, N, Term, Change),
+        note(Change)
     ;   true
     ).
 
 turn_note_drop(Kind, Key, N) :-
-    (   journal_on
+    (   journal_on,
+        journal_key(Key, N)
     ->  note(drop(Kind, Key, N))
     ;   true
     ).

@@ -66,6 +66,7 @@ of the endpoint.
 %   @error existence_error(host, Host)
 %   @error move_refused(Host, Reason), host_unreachable(Host)
 %   @error any problem of the program, see typhon_programs
+%   @error representation_error(agent_name): the journal cannot have it
 
 agent_create(Program, Agent) :-
     agent_create(Program, Agent, []).

@@ -17,7 +17,9 @@
                 image_module/3, image_newcomer/3, image_payloads/2,
                 image_trail/4, life_hops/2, quota_against/3,
                 policy_against/4, policy_refuses/2, with_agent/2 ]).
-:- use_module(crossings, [crossing_done/1, crossing_end/2, crossing_known/1]).
+:- use_module(crossings,
+              [ crossing_done/1, crossing_end/2, crossing_known/1,
+                is_crossing/1 ]).
 :- use_module(home, [agent_outcome/2, home_knows/4]).
 :- use_module(post, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4]).
@@ -41,7 +43,10 @@ typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
     arrived(Name, Image, Program, none, Peer, ReplyTo).
 typhon_endpoint:requested(hop, hop(Name, Image, Program, Label), Peer,
                           ReplyTo) :-
-    arrived(Name, Image, Program, Label, Peer, ReplyTo).
+    (   is_crossing(Label)
+    ->  arrived(Name, Image, Program, Label, Peer, ReplyTo)
+    ;   endpoint_reply(ReplyTo, refused(error(type_error(crossing, Name))))
+    ).
 
 arrived(Name, Image, Program, Label, Peer, ReplyTo) :-
     catch(arrive_noted(Name, Image, Program, Label, Peer, Answer),

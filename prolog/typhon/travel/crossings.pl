@@ -5,11 +5,13 @@
             crossing_again/1,           % +Who
             crossing_repeated/1,        % +Who
             crossing_label/3,           % +Who, +Endpoint, -Label
+            is_crossing/1,              % @Label
             crossing_known/1,           % +Label
             crossing_done/1             % +Label
           ]).
 :- use_module('../journal',
-              [journal_on/0, note_drop_below/3, note_put/4]).
+              [ journal_key/2, journal_on/0, note_drop_below/3,
+                note_put/4 ]).
 :- use_module('../wire', [endpoint_process/1]).
 
 /** <module> Hops that are known by number
@@ -97,6 +99,17 @@ crossing_label(Who, Endpoint, crossing(Process, N, Least)) :-
     !,
     endpoint_process(Process).
 crossing_label(_, _, none).
+
+%!  is_crossing(@Label) is semidet.
+
+is_crossing(Label) :-
+    Label == none,
+    !.
+is_crossing(Label) :-
+    subsumes_term(crossing(_, _, _), Label),
+    Label = crossing(Process, N, Least),
+    integer(Least),
+    journal_key(Process, N).
 
 %!  crossing_known(+Label) is semidet.
 %!  crossing_done(+Label) is det.

@@ -43,7 +43,8 @@ worker(Agent, Options) :-
     worker(Clauses),
     agent_create(clauses(Clauses), Agent, [host(alpha)|Options]).
 
-manager(Name, Url, fipa(Full, [Url])) :-
+jade_manager(Name, fipa(Full, [Url])) :-
+    jade_url(Url),
     atom_concat(Name, '@jadeplat', Full).
 
 :- begin_tests(fipa_jade, [ condition(jade_there), setup(jade_start),
@@ -85,8 +86,7 @@ test(hears_what_we_say, [forall(text(Text))]) :-
         ( worker(_, []),
           jade([ask, 'REQUEST', 'worker@here', Url, plain, Text], Answer),
           assertion(Answer = ["ok", "INFORM", _, Text]),
-          jade_url(Jade),
-          manager(echo, Jade, Echo),
+          jade_manager(echo, Echo),
           does(fipa_request(Echo, Text, 20, Outcome), Outcome),
           assertion(Outcome == inform-Text) )).
 
@@ -94,48 +94,47 @@ test(answers_our_terms) :-
     Terms = [ f(1, -2.5, "text", word, [a, b], set([x]), date(1795335087.375)),
               'two words'(k:v, l:[1]), fipa('x@y', ['http://z/acc']) ],
     with_platform(_,
-        ( jade_url(Jade),
-          manager(echo, Jade, Echo),
+        ( jade_manager(echo, Echo),
           does(fipa_request(Echo, Terms, 20, Outcome), Outcome),
           assertion(Outcome == inform-Terms) )).
 
 test(managers_answer_us) :-
-    with_platform(_,
-        ( jade_url(Jade),
-          manager(ams, Jade, Ams),
-          manager(df, Jade, Df),
-          does(( send(Ams, acl(request,
-                               [ content(action(Ams, 'get-description'())),
-                                 language('fipa-sl0'),
-                                 ontology('fipa-agent-management'),
-                                 conversation_id(c) ])),
-                 receive(_-acl(inform, [conversation_id(c)|Parameters]), 20),
-                 memberchk(content(Found), Parameters)
-               ), Found),
-          assertion(( Found = [result(_, [Description])],
-                      compound_name_arguments(Description, Kind, _),
-                      Kind == 'ap-description' )),
-          All = 'search-constraints'('max-results': -1),
-          Template = 'df-agent-description'(
-                         services:set(['service-description'(type:echo)])),
-          does(( send(Df, acl(request,
-                              [ content(action(Df,
-                                                search(Template, All))),
-                                language('fipa-sl0'),
-                                ontology('fipa-agent-management'),
-                                conversation_id(d) ])),
-                 receive(_-acl(inform, [conversation_id(d)|More]), 20),
-                 memberchk(content([result(_, [Echo|_])]), More),
-                 Echo =.. [_|Parts],
-                 memberchk(name:Aid, Parts),
-                 fipa_request(Aid, "found", 20, Said)
-               ), Said),
-          assertion(Said == inform-"found") )).
+    with_platform(_, ( ams_describes_itself, df_finds_who_answers )).
+
+ams_describes_itself :-
+    jade_manager(ams, Ams),
+    manager_says(Ams, 'get-description'(), Found),
+    assertion(( Found = [result(_, [Description])],
+                compound_name_arguments(Description, Kind, _),
+                Kind == 'ap-description' )).
+
+df_finds_who_answers :-
+    jade_manager(df, Df),
+    Template = 'df-agent-description'(
+                   services:set(['service-description'(type:echo)])),
+    manager_says(Df, search(Template, 'search-constraints'('max-results': -1)),
+                 Found),
+    Found = [result(_, [Echo|_])],
+    Echo =.. [_|Parts],
+    memberchk(name:Aid, Parts),
+    does(fipa_request(Aid, "found", 20, Said), Said),
+    assertion(Said == inform-"found").
+
+%   manager_says(+Manager, +Action, -Content): an agent of ours has asked it.
+
+manager_says(Manager, Action, Content) :-
+    does(( send(Manager, acl(request,
+                             [ content(action(Manager, Action)),
+                               language('fipa-sl0'),
+                               ontology('fipa-agent-management'),
+                               conversation_id(c) ])),
+           receive(_-acl(inform, [conversation_id(c)|Parameters]), 20),
+           memberchk(content(Content), Parameters)
+         ), Content).
 
 test(sends_us_failures) :-
     with_platform(_,
-        ( jade_url(Jade),
-          manager(nobody, Jade, Nobody),
+        ( jade_manager(nobody, Nobody),
           does(fipa_request(Nobody, "x", 20, Outcome), Outcome),
           assertion(( Outcome = failure-[_, Error],
                       compound_name_arity(Error, 'MTS-error', 2) )) )).
@@ -157,37 +156,39 @@ test(sees_our_managers) :-
 %   process that knows nothing of FIPA.
 
 test(reaches_who_has_moved) :-
-    no_leaks(with_peers([away],
-        with_platform(Url,
-            ( peer_host(away, Away),
-              worker(Clauses),
-              agent_create(clauses(Clauses), Agent, [host(alpha)]),
-              wait_state(Agent, resident),
-              once(fipa_property(alpha, name(Agent, Name))),
-              Description = 'df-agent-description'(
-                                name:fipa(Name, [Url]),
-                                services:set(['service-description'(
-                                    name:"one that doubles",
-                                    type:doubling)])),
-              does(fipa_request(fipa('df@here'),
-                                [action(fipa('df@here'),
-                                        register(Description))], 20, Said),
-                   Said),
-              assertion(Said = inform-[done(_)]),
-              agent_move(Agent, Away),
-              wait_until(agent_property(Agent, host(Away)), 10),
-              jade([find, here, Url, doubling], Found),
-              assertion(( Found = ["ok", Name1, Url1],
-                          atom_string(Name, Name1),
-                          atom_string(Url, Url1) )),
-              jade([request, Name, Url, '((action x (where)))'], Answer),
-              assertion(( Answer = ["ok", "INFORM", Where],
-                          sub_string(Where, _, _, _, Away) )),
-              agent_dispose(Agent),
-              agent_join(Agent, _, 10),
-              jade([request, Name, Url, '((action x (where)))'], Dead),
-              assertion(Dead = ["ok", "FAILURE", "ams@here", _]),
-              names_receiver(Dead, Name) )))).
+    no_leaks(with_peers([away], with_platform(Url, reached_away(Url)))).
+
+reached_away(Url) :-
+    worker(Agent, []),
+    wait_state(Agent, resident),
+    once(fipa_property(alpha, name(Agent, Name))),
+    registers(fipa(Name, [Url])),
+    peer_host(away, Away),
+    agent_move(Agent, Away),
+    wait_until(agent_property(Agent, host(Away)), 10),
+    jade([find, here, Url, doubling], ["ok", FoundName, FoundUrl]),
+    assertion(atom_string(Name, FoundName)),
+    assertion(atom_string(Url, FoundUrl)),
+    asked_where(Name, Url, ["ok", "INFORM", Where]),
+    assertion(sub_string(Where, _, _, _, Away)),
+    agent_dispose(Agent),
+    agent_join(Agent, _, 10),
+    asked_where(Name, Url, Dead),
+    assertion(Dead = ["ok", "FAILURE", "ams@here", _]),
+    names_receiver(Dead, Name).
+
+registers(Aid) :-
+    Description = 'df-agent-description'(
+                      name:Aid,
+                      services:set(['service-description'(
+                                        name:"one that doubles",
+                                        type:doubling)])),
+    Df = fipa('df@here'),
+    does(fipa_request(Df, [action(Df, register(Description))], 20, Said), Said),
+    assertion(Said = inform-[done(_)]).
+
+asked_where(Name, Url, Answer) :-
+    jade([request, Name, Url, '((action x (where)))'], Answer).
 
 test(has_our_bids) :-
     with_platform(Url,
@@ -206,9 +207,8 @@ test(has_our_bids) :-
 
 test(bids_for_us) :-
     with_platform(_,
-        ( jade_url(Jade),
-          manager(bidder1, Jade, One),
-          manager(bidder2, Jade, Two),
+        ( jade_manager(bidder1, One),
+          jade_manager(bidder2, Two),
           does(( fipa_call([One, Two], [action(One, paint)], 20, Proposals),
                  findall(Price-Proposal,
                          ( member(Proposal, Proposals),
@@ -226,8 +226,7 @@ test(many_conversations_with_us) :-
 
 test(many_conversations_with_it) :-
     with_platform(_,
-        ( jade_url(Jade),
-          manager(echo, Jade, Echo),
+        ( jade_manager(echo, Echo),
           numlist(1, 200, Numbers),
           does(( forall(member(N, Numbers),
                         send(Echo, acl(request, [ content([N]),

@@ -14,9 +14,6 @@
 
 :- needs([openssl]).
 
-own(Authority, Name, Dir) :-
-    directory_file_path(Authority, Name, Dir).
-
 %   The program in a file of its own, so that nobody has it yet.
 
 program(Authority, Name, File) :-
@@ -32,7 +29,7 @@ program(Authority, Name, File) :-
 :- meta_predicate with_choosy_host(+, 1).
 
 with_choosy_host(Authority, Goal) :-
-    own(Authority, alpha, Dir),
+    keys_of(alpha, Authority, Dir),
     setup_call_cleanup(
         ( host_start(alpha, [tls(Dir), authors([alice])]),
           host_start(open, []) ),
@@ -53,16 +50,16 @@ test(only_what_alice_has_signed_begins_or_comes) :-
     with_authority([alpha, beta], [alice, bob], authors_of).
 
 authors_of(Authority) :-
-    own(Authority, beta, Dir),
+    keys_of(beta, Authority, Dir),
     with_peers([beta-[host([tls(Dir)])]],
                with_choosy_host(Authority, authors_of(Authority))).
 
 authors_of(Authority, Alpha) :-
     forall(member(Name, [alices, bobs, nobodys]),
            program(Authority, Name, _)),
-    own(Authority, 'alices.pl', Alices),
-    own(Authority, 'bobs.pl', Bobs),
-    own(Authority, 'nobodys.pl', Nobodys),
+    directory_file_path(Authority, 'alices.pl', Alices),
+    directory_file_path(Authority, 'bobs.pl', Bobs),
+    directory_file_path(Authority, 'nobodys.pl', Nobodys),
     keys_sign_file(Alices, alice, Authority),
     keys_sign_file(Bobs, bob, Authority),
     Refused = raised(error(move_refused(Alpha, unsigned), _)),
@@ -160,7 +157,7 @@ carrier(Authority, File) :-
     keys_sign_file(File, alice, Authority).
 
 payloads_of(Authority) :-
-    own(Authority, beta, Dir),
+    keys_of(beta, Authority, Dir),
     with_peers([beta-[host([tls(Dir)])]],
                with_choosy_host(Authority, payloads_of(Authority))).
 

@@ -1,5 +1,6 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/postgres').
+:- use_module('../../lib/stores').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
@@ -47,43 +48,28 @@ test('nobody is there', error(journal_unreachable(_, _))) :-
 
 :- begin_tests(postgresql, [setup(postgres_start), cleanup(postgres_stop)]).
 
-put(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
-    fast_term_serialized(Term, Bytes).
+:- meta_predicate with_schema(+, 0).
 
-:- meta_predicate with_store(+, 0).
-
-with_store(Schema, Goal) :-
+with_schema(Schema, Goal) :-
     postgres_url(Schema, Url),
-    setup_call_cleanup(journal_open(Url, normal), once(Goal), store_close).
-
-commit(Specs) :-
-    findall(Change,
-            ( member(Spec, Specs),
-              (   Spec = Kind-Key-N-Term
-              ->  put(Kind, Key, N, Term, Change)
-              ;   Change = Spec
-              ) ),
-            Changes),
-    store_commit(Changes).
-
-items(Kind, Items) :-
-    findall(Key-N-Value, journal_item(Kind, numbers, Key, N, Value), Items).
+    with_store(Url, Goal).
 
 sql(Sql) :-
     typhon_store:connection(_, Connection),
     typhon_sql:sql_do(Connection, Sql).
 
 test('what is committed is there when it is opened again') :-
-    with_store(kept, commit([a-'kéy'-1-f(X, Y, X, Y), a-other-2-[],
+    with_schema(kept, commit([a-'kéy'-1-f(X, Y, X, Y), a-other-2-[],
                              b-'kéy'-0-"é"])),
-    with_store(kept, ( items(a, [K-1-F, other-2-[]]), items(b, [_-0-B]) )),
+    with_schema(kept, ( items(a, [K-1-F, other-2-[]]), items(b, [_-0-B]) )),
     K == 'kéy', F =@= f(X, Y, X, Y), B == "é".
 test('what is not committed as a whole is not there at all') :-
-    with_store(whole, commit([a-k-1-one])),
-    catch(with_store(whole, commit([a-k-2-two, no_change])), error(_, _), true),
-    with_store(whole, items(a, [k-1-one])).
+    with_schema(whole, commit([a-k-1-one])),
+    catch(with_schema(whole, commit([a-k-2-two, no_change])), error(_, _),
+          true),
+    with_schema(whole, items(a, [k-1-one])).
 test('changes are made in their order') :-
-    with_store(in_order,
+    with_schema(in_order,
                ( commit([a-k-1-x, a-k-2-y, a-k-3-z, a-l-1-w, drop(a, k, 2)]),
                  commit([drop_below(a, k, 3), a-k-9-v, a-k-9-u]),
                  commit([a-m-7-t, drop_all(a, m)]),
@@ -91,8 +77,8 @@ test('changes are made in their order') :-
 test('long terms, and shorter ones in their place') :-
     forall(member(Length, [10, 20000, 300000, 15000, 5]),
            ( numlist(1, Length, List),
-             with_store(long, commit([a-k-0-List])),
-             with_store(long, items(a, [k-0-List])) )).
+             with_schema(long, commit([a-k-0-List])),
+             with_schema(long, items(a, [k-0-List])) )).
 test('nobody else opens it meanwhile; another schema is another journal') :-
     postgres_url(locked, Url),
     project_file('prolog/typhon/journal/store.pl', Store),
@@ -100,21 +86,21 @@ test('nobody else opens it meanwhile; another schema is another journal') :-
                         flush_output, read(_)', [Url]),
     with_swipl(['-g', Goal, '-t', halt, Store], Pid, _, Out,
                ( read_line_to_string(Out, "open"),
-                 catch(with_store(locked, true), error(Formal, _), true),
-                 with_store(not_locked, true),
+                 catch(with_schema(locked, true), error(Formal, _), true),
+                 with_schema(not_locked, true),
                  process_kill(Pid, kill),
                  process_wait(Pid, _),
-                 with_store(locked, true) )),
+                 with_schema(locked, true) )),
     journal_place(Url, Place),
     Formal == permission_error(open, journal, Place).
 test('a damaged term is not taken for another') :-
-    with_store(damaged, ( commit([a-k-0-hello(world)]),
+    with_schema(damaged, ( commit([a-k-0-hello(world)]),
                           sql('update item set value=\'\\x00\'::bytea') )),
-    catch(with_store(damaged, items(a, _)), error(Formal, _), true),
+    catch(with_schema(damaged, items(a, _)), error(Formal, _), true),
     Formal = journal_damaged(_, a-k).
 test('a journal of another version is left as it is') :-
-    with_store(version, sql('update about set version=99')),
-    catch(with_store(version, true), error(Formal, _), true),
+    with_schema(version, sql('update about set version=99')),
+    catch(with_schema(version, true), error(Formal, _), true),
     Formal = journal_version(_, 99).
 test('a power cut is waited for only if that is wanted') :-
     forall(member(Sync-Setting, [normal-off, full-on]),
@@ -126,7 +112,7 @@ test('a power cut is waited for only if that is wanted') :-
                                            row(Setting), [atom])) ),
                  store_close) )).
 test('a connection that breaks is made again') :-
-    with_store(breaks,
+    with_schema(breaks,
                ( commit([a-k-0-first]),
                  cut(breaks),
                  commit([a-k-0-second, a-l-0-third]),
@@ -188,14 +174,14 @@ server_returns(Host) :-
     remote(Host, findall(V, sense(made(V)), [100])).
 
 test('who was not there must not go on with what is another\'s') :-
-    catch(with_store(passed_on,
+    catch(with_schema(passed_on,
                      ( commit([a-k-0-first]),
                        sql('update about set opened=opened+1'),
                        cut(passed_on),
                        commit([a-k-0-second]) )),
           error(Formal, _), true),
     Formal = permission_error(open, journal, _),
-    with_store(passed_on, items(a, [k-0-first])).
+    with_schema(passed_on, items(a, [k-0-first])).
 test('an agent is there again when its process was killed') :-
     postgres_url(alpha, Url),
     free_port(Port),

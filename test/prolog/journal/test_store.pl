@@ -1,33 +1,16 @@
 :- use_module('../../lib/common').
+:- use_module('../../lib/stores').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_codes/3, read_line_to_string/2]).
-:- use_module(library(typhon/journal/store)).
+:- use_module(library(typhon/journal/item_key)).
 
 :- needs([journal]).
 
 :- begin_tests(store).
-
-put(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
-    fast_term_serialized(Term, Bytes).
-
-with_store(Dir, Goal) :-
-    setup_call_cleanup(journal_open(Dir, normal), once(Goal), store_close).
-
-commit(Specs) :-
-    findall(Change,
-            ( member(Spec, Specs),
-              (   Spec = Kind-Key-N-Term
-              ->  put(Kind, Key, N, Term, Change)
-              ;   Change = Spec
-              ) ),
-            Changes),
-    store_commit(Changes).
-
-items(Kind, Items) :-
-    findall(Key-N-Value, journal_item(Kind, numbers, Key, N, Value), Items).
 
 test('what is committed is there when it is opened again') :-
     with_tmp_dir(kept).
@@ -49,6 +32,35 @@ whole(Dir) :-
     with_store(Dir, items(a, Items)),
     Items == [k-1-one],
     ( var(E) -> true ; throw(error(E, C)) ).
+
+%   The longest, and what is written with more bytes.
+
+test('each key that may be is another one, and found') :-
+    with_tmp_dir(keys).
+
+keys(Dir) :-
+    findall(Key, ( member(Length, [1, 499, 500]),
+                   member(Code, [0'x, 0'', 0x4e00, 0x1f600]),
+                   length(Codes, Length),
+                   maplist(=(Code), Codes),
+                   atom_codes(Key, Codes),
+                   journal_key(Key) ), Keys),
+    assertion(length(Keys, 12)),
+    findall(a-Key-0-Key, member(Key, Keys), Specs),
+    with_store(Dir, commit(Specs)),
+    with_store(Dir, items(a, Items)),
+    forall(member(Key, Keys), memberchk(Key-0-Key, Items)),
+    assertion(length(Items, 12)).
+
+test('what cannot be a key',
+     [ forall(no_key(Key, N)), fail ]) :-
+    journal_key(Key, N).
+
+no_key(Key, N) :-
+    member(Key-N, [ _-0, f(x)-0, "text"-0, key-_, key-1.5,
+                    key-9223372036854775808, 'a\000\b'-0 ]).
+no_key(Half, 0) :-
+    atom_codes(Half, [0xdc00]).
 
 test('changes are made in their order') :-
     with_tmp_dir(in_order).

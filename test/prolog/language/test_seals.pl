@@ -5,20 +5,16 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/authority').
 :- use_module('../../lib/peers').
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 
 :- needs([openssl]).
 
-own(Authority, Name, Dir) :-
-    directory_file_path(Authority, Name, Dir).
-
 :- meta_predicate with_home(0, +).
 
 with_home(Goal, Authority) :-
-    own(Authority, alpha, Alpha),
-    own(Authority, beta, Beta),
+    keys_of(alpha, Authority, Alpha),
+    keys_of(beta, Authority, Beta),
     with_peers([beta-[host([tls(Beta)])]],
                setup_call_cleanup(
                    host_start(alpha, [tls(Alpha)]),

@@ -1,4 +1,5 @@
 :- use_module('../../lib/common').
+:- use_module('../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
@@ -129,6 +130,36 @@ other_hosts(Dir) :-
         host_stop(driver)),
     Refused = error(move_refused(Beta, capacity), _),
     throw(Error).
+
+%   It would be tried again and again, and nothing else be committed.
+
+test('whose id no journal could have is not let in, and others are') :-
+    no_leaks(with_tmp_dir(long_ids)).
+
+long_ids(Dir) :-
+    Visitor = clauses([ (:- agent(visitor, [])),
+                        (main :- receive(_-go(Host)),
+                                 catch(move(Host), error(E, _), true),
+                                 result(E)) ]),
+    keeper(Keeper),
+    with_peers([p], started(Dir,
+        ( host_property(alpha, address(Alpha)),
+          forall(no_name(Name),
+                 ( peer_do(p, agent_create(Visitor, A, [name(Name)])),
+                   agent_send(A, go(Alpha)),
+                   agent_result(A, E, 10),
+                   assertion(E = move_refused(Alpha, error(type_error(_, _)))),
+                   catch(agent_create(Keeper, _, [name(Name)]),
+                         error(Formal, _), true),
+                   assertion(Formal == representation_error(agent_name)) )),
+          agent_create(Keeper, Id),
+          agent_send(Id, one),
+          got(Id, [one]) ))),
+    started(Dir, got(Id, [one])).
+
+no_name('a\000\b').
+no_name(Name) :-
+    format(atom(Name), '~`xt~6000|', []).
 
 test('a journal is for the first host',
      [error(permission_error(open, journal, _))]) :-

@@ -30,7 +30,7 @@ with_three(Goal, Authority) :-
                    host_stop(alpha))).
 
 options(Authority, Name, More, [tls(Keys), journal(Journal)|More]) :-
-    directory_file_path(Authority, Name, Keys),
+    keys_of(Name, Authority, Keys),
     atom_concat(Keys, '-journal', Journal).
 
 %   It goes to the hosts one after the other, enters something and waits at
@@ -75,11 +75,6 @@ stands(Agent, Host, State) :-
                        agent_property(Agent, state(State)) ),
                      error(_, _), fail),
                30).
-
-verdict(Trail, Signed, Verdict) :-
-    Trail = trail(Steps, Verdict),
-    findall(Name-What, ( member(step(_, Name, Event), Steps),
-                         functor(Event, What, _) ), Signed).
 
 :- begin_tests(journal_guarded).
 

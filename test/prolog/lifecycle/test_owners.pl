@@ -6,7 +6,6 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/authority').
 :- use_module('../../lib/peers').
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 
@@ -20,17 +19,14 @@ with_owners(Goal) :-
     with_authority([alpha, beta, mallory], [], with_owners(Goal)).
 
 with_owners(Goal, Authority) :-
-    keys(Authority, alpha, Alpha),
-    keys(Authority, beta, Beta),
-    keys(Authority, mallory, Mallory),
+    keys_of(alpha, Authority, Alpha),
+    keys_of(beta, Authority, Beta),
+    keys_of(mallory, Authority, Mallory),
     with_peers([ beta-[host([tls(Beta)])], mallory-[host([tls(Mallory)])] ],
                setup_call_cleanup(
                    host_start(alpha, [tls(Alpha)]),
                    once(Goal),
                    host_stop(alpha))).
-
-keys(Authority, Name, Dir) :-
-    directory_file_path(Authority, Name, Dir).
 
 %   A guest goes where it is told, says what it is told, and keeps what it
 %   hears.

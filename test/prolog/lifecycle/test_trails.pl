@@ -6,7 +6,6 @@
 :- use_module('../../lib/authority').
 :- use_module('../../lib/peers').
 :- use_module(library(apply), [foldl/4]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 :- use_module(library(plunit)).
 :- use_module(library(random),
@@ -15,9 +14,6 @@
 :- use_module(library(typhon)).
 
 :- needs([openssl]).
-
-own(Authority, Name, Dir) :-
-    directory_file_path(Authority, Name, Dir).
 
 :- meta_predicate with_three(+, 0).
 
@@ -30,9 +26,9 @@ with_three(Setup, Goal) :-
 :- meta_predicate with_three(+, 0, +).
 
 with_three(Setup, Goal, Authority) :-
-    own(Authority, alpha, Alpha),
-    own(Authority, beta, Beta),
-    own(Authority, gamma, Gamma),
+    keys_of(alpha, Authority, Alpha),
+    keys_of(beta, Authority, Beta),
+    keys_of(gamma, Authority, Gamma),
     with_peers([beta-[host([tls(Beta)])], gamma-[host([tls(Gamma)])]],
                ( peer_do(beta, Setup),
                  setup_call_cleanup(
@@ -56,11 +52,6 @@ toured(Agent, Trail) :-
     agent_create(Program, Agent, [facts([to(Beta), to(Gamma)])]),
     wait_until(agent_property(Agent, state(resident)), 20),
     agent_trail(Agent, Trail).
-
-verdict(Trail, Signed, Verdict) :-
-    Trail = trail(Steps, Verdict),
-    findall(Name-What, ( member(step(_, Name, Event), Steps),
-                         functor(Event, What, _) ), Signed).
 
 :- begin_tests(trails).
 
@@ -138,7 +129,7 @@ made_of_it :-
            assertion(told(Agent, Broken, _, unaccounted(gamma)))),
     Seed is random(1<<32),
     set_random(seed(Seed)),
-    forall(between(1, 300, N),
+    forall(between(1, 120, N),
            ( mutated(Raw, Mutant),
              assertion(goes_on(Agent, Mutant, Steps, Seed-N)) )).
 

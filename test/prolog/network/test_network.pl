@@ -9,7 +9,6 @@
 :- use_module(library(process), [process_create/3, process_kill/2]).
 :- use_module(library(readutil),
               [read_file_to_string/3, read_line_to_string/2]).
-:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/network/children)).
@@ -20,7 +19,6 @@
 
 :- meta_predicate
     with_network(+, +, 1),
-    with_setting(+, +, 0),
     quiet(0),
     seconds(0, -),
     nothing_left(0).
@@ -32,13 +30,6 @@ with_network(Topology, Options, Goal) :-
         network_start(Topology, Network, Options),
         once(call(Goal, Network)),
         network_stop(Network)).
-
-with_setting(Setting, Value, Goal) :-
-    setting(Setting, Old),
-    setup_call_cleanup(
-        set_setting(Setting, Value),
-        once(Goal),
-        set_setting(Setting, Old)).
 
 %   Messages that a test provokes are not printed.
 
@@ -287,7 +278,7 @@ test(machines_through_a_program_like_ssh) :-
 machines(Dir) :-
     directory_file_path(Dir, 'rsh', Program),
     script(Program, "echo noise; shift; exec sh -c \"$*\""),
-    with_setting(typhon_children:ssh, Program,
+    with_settings([typhon_children:ssh=Program],
                  with_network(ring(5),
                               [ machines(['user@127.0.0.1',
                                           machine(other,
@@ -446,8 +437,8 @@ bury(Count, Network) :-
     wait_until(printed(carrier_down(Network, Pid, killed(9))), 5).
 
 test(a_process_that_hangs, true(Seconds < 20)) :-
-    quiet(nothing_left(seconds(with_setting(
-                typhon_children:stop_seconds, 1,
+    quiet(nothing_left(seconds(with_settings(
+                [typhon_children:stop_seconds=1],
                 with_network(ring(8), [processes(4)], freeze)), Seconds))),
     once(printed(carrier_killed(_, _))).
 
@@ -548,11 +539,11 @@ own_host(Name) :-
 
 test(a_machine_that_is_not_there,
      error(system_error(process_ended(exit(1))))) :-
-    with_setting(typhon_children:ssh, false,
+    with_settings([typhon_children:ssh=false],
                  network_start(ring(4), _, [machines([nowhere])])).
 test(a_machine_that_says_nothing, error(timeout_error(start, _))) :-
-    with_setting(typhon_processes:start_seconds, 0.5,
-        with_setting(typhon_children:stop_seconds, 0.5,
+    with_settings([typhon_processes:start_seconds=0.5],
+        with_settings([typhon_children:stop_seconds=0.5],
             with_tmp_dir(silent))).
 
 %   As the setup of a cleanup, with a signal pending.
@@ -560,7 +551,7 @@ test(a_machine_that_says_nothing, error(timeout_error(start, _))) :-
 silent(Dir) :-
     directory_file_path(Dir, rsh, Program),
     script(Program, "exec sleep 60"),
-    with_setting(typhon_children:ssh, Program,
+    with_settings([typhon_children:ssh=Program],
                  quiet(setup_call_cleanup(
                            ( fill_atoms,
                              network_start(ring(4), _,
@@ -572,7 +563,7 @@ fill_atoms :-
     forall(between(1, 30000, N), atom_concat(test_network_, N, _)).
 
 test(a_program_that_is_not_there, error(existence_error(_, _))) :-
-    with_setting(typhon_children:ssh, no_such_program,
+    with_settings([typhon_children:ssh=no_such_program],
                  network_start(ring(4), _, [machines([nowhere])])).
 test(options, [ forall(member(Option-Formal,
                               [ colour(red)-

@@ -8,7 +8,6 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil),
               [read_file_to_codes/3, read_line_to_string/2]).
-:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(typhon)).
 
 :- needs([journal]).
@@ -18,8 +17,7 @@
 
 :- meta_predicate
     network(+, +, +, 1),
-    quiet(0),
-    with_setting(+, +, 0).
+    quiet(0).
 
 %   network(+Dir, +Topology, +Options, :Goal): with a journal in Dir.
 
@@ -28,13 +26,6 @@ network(Dir, Topology, Options, Goal) :-
         network_start(Topology, Network, [journal(Dir)|Options]),
         once(call(Goal, Network)),
         network_stop(Network)).
-
-with_setting(Setting, Value, Goal) :-
-    setting(Setting, Old),
-    setup_call_cleanup(
-        set_setting(Setting, Value),
-        once(Goal),
-        set_setting(Setting, Old)).
 
 %   Messages that a test provokes are not printed.
 
@@ -400,7 +391,7 @@ forgotten(Formal0, Formal) =>
 test('a journal that is damaged, or another process has, is told as that',
      Formals = [ journal_damaged(_, _), journal_damaged(_, _),
                  permission_error(open, journal, _) ]) :-
-    with_setting(typhon_children:stop_seconds, 1,
+    with_settings([typhon_children:stop_seconds=1],
                  quiet(with_tmp_dir(no_good(Formals)))).
 
 no_good([F1, F2, F3], Dir) :-
@@ -513,7 +504,7 @@ saved_without(File, Network) :-
 
 test('one that dies again and again is left alone at last, and that is told',
      Told = [carrier_given_up(_, 1, 2, 60)]) :-
-    with_setting(typhon_restarts:restarts, 2, quiet(no_leaks(too_often))),
+    with_settings([typhon_restarts:restarts=2], quiet(no_leaks(too_often))),
     findall(carrier_given_up(N, P, M, S),
             printed(carrier_given_up(N, P, M, S)), Told).
 

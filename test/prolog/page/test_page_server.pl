@@ -443,7 +443,7 @@ virtual_time(Feed, Time) :-
 %   A host that comes is found, and one whose process is killed is told of.
 
 test(come_and_go) :-
-    with_settings([typhon_page_sources:renew_seconds-0.3],
+    with_settings([typhon_page_sources:renew_seconds=0.3],
         page(Base, with_feed(Base, Feed,
                              ( frame(Feed, _),
                                network_start(ring(4), N, [processes(2)]),
@@ -466,7 +466,7 @@ come_and_go(Feed, [First|Hosts], Pid) :-
 %   Who does not read loses some, and is told how many; another does not.
 
 test(slow_browser, Sum-Fast == 3000-3000) :-
-    with_settings([typhon_page_browsers:frame_events-20],
+    with_settings([typhon_page_browsers:frame_events=20],
                   page(Base, with_feed(Base, Slow,
                                        with_feed(Base, Quick,
                                                  slow(Slow, Quick, Sum, Fast))))).
@@ -511,7 +511,7 @@ weight([_, _, _, "skipped", N], N) :-
 weight(_, 1).
 
 test(nobody_is_watched_for_nobody) :-
-    with_settings([typhon_page_sources:renew_seconds-0.2],
+    with_settings([typhon_page_sources:renew_seconds=0.2],
         page(Base,
              ( with_feed(Base, Feed, frame(Feed, _)),
                assertion(typhon_page_sources:watched(_, _)),

@@ -9,7 +9,6 @@
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(random), [random_between/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
-:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/wire)).
@@ -39,7 +38,6 @@ typhon_endpoint:connection(Peer, State) :-
     with_endpoint(0),
     with_peer(-, 0),
     with_peer(+, -, -, 0),
-    with_setting(+, +, 0),
     quiet(0).
 
 with_endpoint(Goal) :-
@@ -60,13 +58,6 @@ with_peer(Port, Pid, Address, Goal) :-
                ( read_line_to_string(Out, Line),
                  atom_string(Address, Line),
                  call(Goal) )).
-
-with_setting(Setting, Value, Goal) :-
-    setting(Setting, Old),
-    setup_call_cleanup(
-        set_setting(Setting, Value),
-        Goal,
-        set_setting(Setting, Old)).
 
 %   Warnings are expected in Goal.
 
@@ -164,7 +155,7 @@ test(too_long_for_a_frame, error(resource_error(frame_bytes))) :-
     numlist(1, 100000, Long),
     with_endpoint(with_peer(A,
         ( ask(A, echo, x, x),
-          with_setting(typhon_session:frame_bytes, 100000,
+          with_settings([typhon_session:frame_bytes=100000],
                        ask(A, echo, Long, _)) ))).
 
 :- end_tests(two_processes_talk).
@@ -183,8 +174,8 @@ test(request, Result == unreachable) :-
 test(not_running, error(existence_error(endpoint, _))) :-
     endpoint_post('127.0.0.1:1', note, x).
 test(listens_and_is_silent, error(unreachable(_))) :-
-    with_endpoint(with_setting(typhon_keeper:connect_time, 1,
-        with_setting(typhon_auth:handshake_time, 0.3,
+    with_endpoint(with_settings([typhon_keeper:connect_time=1],
+        with_settings([typhon_auth:handshake_time=0.3],
                      with_listener(A, endpoint_post(A, note, x))))).
 test(twice, error(permission_error(start, endpoint, _))) :-
     with_endpoint(endpoint_start(localhost, 0, _)).
@@ -224,7 +215,7 @@ test(peer_posts_over_cuts, Got == Expected) :-
           ask(A, back, 800, done),
           findall(N, note(N), Got) )).
 test(half_open, [Notes == [1, 2]]) :-
-    with_setting(typhon_reader:silence, 0.3,
+    with_settings([typhon_reader:silence=0.3],
         with_proxied_peer(Proxy, A,
             ( post_notes(A, 1, 1),
               endpoint_flush(5),
@@ -399,7 +390,7 @@ damaged_now(Bytes) :-
     !.
 
 as_text(Head, Original, Body, A, Goal) :-
-    with_setting(typhon_hello:records, false,
+    with_settings([typhon_hello:records=false],
         with_endpoint(with_peer(A,
             ( ask(A, echo, x, x),
               endpoint_peer(A, codec(Codec)),
@@ -497,7 +488,7 @@ test(is_gone_when_it_said_goodbye) :-
           flush_output(In),
           wait_until(endpoint_gone(A), 10) ))).
 test(is_not_gone_when_stopped, State-Gone == down-false) :-
-    with_endpoint(with_setting(typhon_reader:silence, 0.2,
+    with_endpoint(with_settings([typhon_reader:silence=0.2],
         with_peer(0, Pid, A,
             ( ask(A, echo, x, x),
               process_kill(Pid, stop),
@@ -553,8 +544,8 @@ test(what_they_send,
                             wait_until(warned(turned_away(_, _)), 5) )),
                     ask(A, echo, x, x) )).
 test(silent_ones_are_bounded) :-
-    with_setting(typhon_acceptor:strangers, 4,
-        with_setting(typhon_auth:handshake_time, 1,
+    with_settings([typhon_acceptor:strangers=4],
+        with_settings([typhon_auth:handshake_time=1],
             with_endpoint(quiet(crowd)))).
 test(wrong_cookie) :-
     with_endpoint(( endpoint_address(A),

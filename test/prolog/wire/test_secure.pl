@@ -6,7 +6,6 @@
 :- use_module('../../lib/authority').
 :- use_module('../../lib/peers').
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -31,15 +30,12 @@ typhon_endpoint:requested(who_am_i, _, _, ReplyTo) :-
     endpoint_proof(Proof),
     endpoint_reply(ReplyTo, Proof).
 
-own(Authority, Name, Dir) :-
-    directory_file_path(Authority, Name, Dir).
-
 :- meta_predicate with_secure_host(+, 1).
 
 %   with_secure_host(+Authority, :Goal): call(Goal, Address).
 
 with_secure_host(Authority, Goal) :-
-    own(Authority, alpha, Dir),
+    keys_of(alpha, Authority, Dir),
     retractall(told(_)),
     setup_call_cleanup(
         host_start(alpha, [tls(Dir)]),
@@ -101,8 +97,8 @@ comes(Keys, Verdict, Address) :-
 stranger(Ours, Others, [tls(Dir)], Verdict) :-
     came(Of, Name, Verdict),
     (   Of == ours
-    ->  own(Ours, Name, Dir)
-    ;   own(Others, Name, Dir)
+    ->  keys_of(Name, Ours, Dir)
+    ;   keys_of(Name, Others, Dir)
     ).
 stranger(_, _, [], tls(wanted)-tls(missing)).
 
@@ -117,7 +113,7 @@ test(who_is_interrupted_when_he_has_just_met_a_peer_leaves_nothing_open) :-
     with_authority([alpha, beta], [], interrupted).
 
 interrupted(Ours) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     no_leaks(with_peers([beta],
         setup_call_cleanup(
             wrap_predicate(ssl:ssl_negotiate(_, _, _, _, _), interrupted,
@@ -131,7 +127,7 @@ test(tls_is_not_understood_by_a_host_without_keys) :-
     with_authority([beta], [], plain_host).
 
 plain_host(Ours) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     setup_call_cleanup(
         host_start(alpha),
         ( host_property(alpha, address(Address)),
@@ -146,7 +142,7 @@ revoked_meanwhile(Ours) :-
     with_peers([beta], with_secure_host(Ours, revoked_meanwhile(Ours))).
 
 revoked_meanwhile(Ours, Address) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     tries([tls(Dir)], Address, Before),
     keys_revoke(beta, Ours),
     tries([tls(Dir)], Address, After),
@@ -156,7 +152,7 @@ test(a_hook_knows_who_the_peer_is) :-
     with_authority([alpha, beta], [], peer_is_known).
 
 peer_is_known(Ours) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     with_peers([beta-[host([tls(Dir)])]],
                with_secure_host(Ours, asked_by(beta, Proof))),
     assertion(Proof == certificate(beta)).
@@ -171,7 +167,7 @@ test(goals_of_others_are_not_run_for_a_certificate_unless_the_host_says_so,
     with_authority([alpha, beta], [], goals_of_beta(By, Then)).
 
 goals_of_beta(By, Then, Ours) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     with_peers([beta-[host([tls(Dir)])]],
                with_secure_host(Ours, refused_goal(beta, By, Then))).
 
@@ -189,7 +185,7 @@ test(nothing_but_tls_1_3, Said == no) :-
     with_authority([alpha, beta], [], older_protocol(Said)).
 
 older_protocol(Said, Ours) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     with_secure_host(Ours, s_client(Dir, ['-tls1_2'], Said)).
 
 %   s_client(+Keys, +Args, -Said, +Address): `yes` if openssl gets as far as
@@ -212,7 +208,7 @@ test(tls_1_3_without_typhon_is_welcome_and_no_more, Said == yes) :-
     with_authority([alpha, beta], [], new_protocol(Said)).
 
 new_protocol(Said, Ours) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     with_secure_host(Ours, s_client(Dir, ['-tls1_3'], Said)).
 
 test(who_dribbles_is_turned_away, Why == slow) :-
@@ -259,7 +255,7 @@ test(much_goes_both_ways_at_once) :-
     with_authority([alpha, beta], [], much_both_ways).
 
 much_both_ways(Ours) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     with_peers([beta-[host([tls(Dir)])]],
                with_secure_host(Ours, much_both_ways(15))).
 
@@ -292,7 +288,7 @@ test(who_stays_long_gives_the_connection_back) :-
     with_authority([alpha, beta], [], long_stay).
 
 long_stay(Ours) :-
-    own(Ours, beta, Dir),
+    keys_of(beta, Ours, Dir),
     with_peers([beta-[host([tls(Dir)])]],
                with_secure_host(Ours, long_stay_at)).
 
@@ -314,7 +310,7 @@ test(the_processes_of_a_network_have_the_keys, Proofs == [2]) :-
     with_authority([alpha], [], secure_network(Proofs)).
 
 secure_network(Proofs, Ours) :-
-    own(Ours, alpha, Dir),
+    keys_of(alpha, Ours, Dir),
     setup_call_cleanup(
         network_start(ring(2), Network, [processes(2), tls(Dir)]),
         ( network_property(Network, hosts([First|_])),

@@ -9,7 +9,6 @@
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(plunit)).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
-:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_maplist/3]).
 :- use_module(library(typhon/wire/auth)).
@@ -24,7 +23,6 @@ user:message_hook(typhon(endpoint, Message), _, _) :-
 
 :- meta_predicate
     with_endpoint(0),
-    with_setting(+, +, 0),
     patiently(0),
     with_silent(+, -, 0).
 
@@ -34,16 +32,10 @@ with_endpoint(Goal) :-
                        once(Goal),
                        endpoint_stop).
 
-with_setting(Setting, Value, Goal) :-
-    setting(Setting, Old),
-    setup_call_cleanup(set_setting(Setting, Value),
-                       Goal,
-                       set_setting(Setting, Old)).
-
 %   Nobody is turned away for being slow; `soon` is long before that.
 
 patiently(Goal) :-
-    with_setting(typhon_auth:handshake_time, 120, Goal).
+    with_settings([typhon_auth:handshake_time=120], Goal).
 
 soon(Seconds) :-
     assertion(Seconds < 20).
@@ -111,16 +103,16 @@ slots(Count) :-
 test(newcomers_get_in, [forall(member(Slots-Silent, [32-32, 32-200,
                                                      128-200]))]) :-
     no_leaks(with_endpoint(patiently(
-        with_setting(typhon_acceptor:strangers, Slots, crowded(Silent))))).
+        with_settings([typhon_acceptor:strangers=Slots], crowded(Silent))))).
 test(newcomers_get_in_at_once) :-
-    with_endpoint(patiently(with_setting(typhon_acceptor:strangers, 16,
+    with_endpoint(patiently(with_settings([typhon_acceptor:strangers=16],
         with_silent(16, _,
             ( wait_until(slots(16), 30),
               numlist(1, 6, Newcomers),
               concurrent_maplist(newcomer, Newcomers, Times),
               maplist(soon, Times) ))))).
 test(who_talks_stays) :-
-    with_endpoint(patiently(with_setting(typhon_acceptor:strangers, 4,
+    with_endpoint(patiently(with_settings([typhon_acceptor:strangers=4],
         with_silent(4, [Talker|_],
             ( say("ty", Talker),
               wait_until(stages([heard, silent, silent, silent]), 30),
@@ -193,7 +185,7 @@ test(stopped_at_any_moment) :-
     no_leaks(forall(between(1, 20, _),
                     with_endpoint(forall(between(1, 15, I), dies(I))))).
 test(evicted_at_any_moment) :-
-    no_leaks(with_endpoint(with_setting(typhon_acceptor:strangers, 2,
+    no_leaks(with_endpoint(with_settings([typhon_acceptor:strangers=2],
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30) )))).
 

@@ -13,7 +13,6 @@
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
-:- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/wire)).
@@ -30,7 +29,6 @@
 :- meta_predicate
     with_endpoint(0),
     with_peers(+, -, 0),
-    with_setting(+, +, 0),
     within(+, 0).
 
 with_endpoint(Goal) :-
@@ -66,13 +64,6 @@ with_this(Address, Pid, Streams, Goal) :-
         assertz(peer(Address, Pid, Streams)),
         Goal,
         retractall(peer(_, Pid, _))).
-
-with_setting(Setting, Value, Goal) :-
-    setting(Setting, Old),
-    setup_call_cleanup(
-        set_setting(Setting, Value),
-        Goal,
-        set_setting(Setting, Old)).
 
 ask(Address, Kind, Term, Answer) :-
     endpoint_call(Address, Kind, Term, answer(Answer), 120).
@@ -117,7 +108,7 @@ test(sixteen_connect_to_all, Missed == []) :-
                        Answer \= answer([]),
                        M = Answer ), Missed) ))).
 test(a_place_at_the_door_comes_free, Outcome = outcome(ok, _)) :-
-    with_setting(typhon_acceptor:strangers, 1,
+    with_settings([typhon_acceptor:strangers=1],
         with_endpoint(with_peers(1, [A],
             ( endpoint_address(Me),
               atomic_list_concat([_, PortText], :, Me),
@@ -206,7 +197,7 @@ test(before_the_posts_that_follow, Notes == Expected) :-
           ask(A, notes, x, Notes) ))).
 test(without_a_thread_for_each, true(More < 8)) :-
     numlist(1, 300, Numbers),
-    with_endpoint(with_setting(typhon_keeper:connect_time, 1,
+    with_endpoint(with_settings([typhon_keeper:connect_time=1],
         with_silent_listener(A,
             ( statistics(threads, Before),
               send_all(A, Numbers),
@@ -287,7 +278,7 @@ test(answers_of_8_MB_at_once) :-
 with_codec(fast, Goal) :-
     call(Goal).
 with_codec(text, Goal) :-
-    with_setting(typhon_hello:records, false, Goal).
+    with_settings([typhon_hello:records=false], Goal).
 
 %   N strings of Size in each direction, with answers of the same size,
 %   while small requests go on.
@@ -328,7 +319,7 @@ test(leave_no_queue_behind, Queues == Before) :-
           wait_until(queues(Before), 5),
           queues(Queues) ))).
 test(are_kept_in_a_bounded_number) :-
-    with_setting(typhon_keeper:resting, 2,
+    with_settings([typhon_keeper:resting=2],
         with_endpoint(with_peers(4, Addresses,
             ( forall(member(A, Addresses), ask(A, echo, x, x)),
               assertion(endpoint_flush(5)),
@@ -362,7 +353,7 @@ test(nobody_waits_for_a_late_answer, Open == 0) :-
           aggregate_all(count, typhon_request:open_request(_, _, _),
                         Open) ))).
 test(contacts_are_bounded, true(Count =< 5)) :-
-    with_setting(typhon_contacts:contacts, 5,
+    with_settings([typhon_contacts:contacts=5],
         with_endpoint(
             ( forall(between(1, 20, P),
                      ( atom_concat('127.0.0.1:', P, A), unreachable(A) )),
