@@ -30,10 +30,15 @@ agents_at_rest(Seconds, Peers) :-
     agents_passed,
     rest_before(Deadline, Peers).
 
+%   Looks again every 10 ms: to be told, each turn and each departure of an agent
+%   would have to look whether somebody waits for it.
+
 rest_before(Deadline, Peers) :-
     forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
            ignore(with_agent(Id, stops(Id)))),
-    (   \+ restless(Peers)
+    (   \+ restless(Peers),
+        agents_passed,                  % who is gone has its letters sent on
+        \+ restless(Peers)
     ->  true
     ;   get_time(Now),
         Now < Deadline,
