@@ -181,7 +181,7 @@ test('all rest before the first of its processes is gone, and all go on') :-
 
 at_rest(Dir) :-
     network(Dir, mesh(3), [processes(3)], sets_out(Hosts, Agents)),
-    network(Dir, mesh(3), [], pauses(Hosts, Agents)),
+    network(Dir, mesh(3), [], pauses(Hosts)),
     network(Dir, mesh(3), [], arrives(Hosts, Agents)).
 
 sets_out(Hosts, Agents, Network) :-
@@ -193,7 +193,7 @@ sets_out(Hosts, Agents, Network) :-
               agent_create(Program, Agent,
                            [host(Host), facts([todo(Hops), nap(Nap)])]) ),
             Agents),
-    wait_until(on_the_way(20, Agents), 20),
+    wait_until(( visits(Hosts, Now), Now > 15 ), 20),
     ends_last(Network).
 
 %   Whenever it is stopped some of them are just about to leave.
@@ -203,14 +203,10 @@ way(Hops, Nap) :-
     Hops is 1+8//I,
     Nap is 0.3*I.
 
-pauses(Hosts, Agents, Network) :-
+pauses(Hosts, Network) :-
     hosts(Network, Hosts),
-    network_property(Network, agents(There)),
-    msort(There, Sorted),
-    msort(Agents, Sorted),
-    hops(Agents, Before),
-    More is Before+20,
-    wait_until(on_the_way(More, Agents), 20),
+    visits(Hosts, Before),
+    wait_until(( visits(Hosts, Now), Now > Before+15 ), 20),
     ends_last(Network).
 
 arrives(Hosts, Agents, Network) :-
@@ -218,14 +214,6 @@ arrives(Hosts, Agents, Network) :-
     forall(member(Agent, Agents), agent_join(Agent, done, 30)),
     aggregate_all(sum(3*Hops), way(Hops, _), Sum),
     visits(Hosts, Sum).
-
-on_the_way(Least, Agents) :-
-    hops(Agents, Hops),
-    Hops > Least.
-
-hops(Agents, Sum) :-
-    findall(Hops, ( member(A, Agents), agent_property(A, hops(Hops)) ), All),
-    sum_list(All, Sum).
 
 %   The second process comes to its end only when the first has gone, and is
 %   quick to find that out.
@@ -249,8 +237,8 @@ test('it is soon stopped when one process hangs, and another is dead',
 dead_and_hanging(Seconds, Dir) :-
     network_start(mesh(4), Network, [processes(4), journal(Dir)]),
     hosts(Network, Hosts),
-    patient_walkers(Hosts, 60, Agents),
-    wait_until(on_the_way(50, Agents), 20),
+    patient_walkers(Hosts, 30, Agents),
+    wait_until(( visits(Hosts, Now), Now > 20 ), 20),
     pids(Network, [_, Dead, Hanging|_]),
     process_kill(Dead, kill),
     process_kill(Hanging, stop),
@@ -258,7 +246,7 @@ dead_and_hanging(Seconds, Dir) :-
     network_stop(Network),
     get_time(T1),
     Seconds is T1-T0,
-    network(Dir, mesh(4), [], after_all(Hosts, Agents)).
+    network(Dir, mesh(4), [], all_there(Hosts, 30, Agents)).
 
 test('a network in one process, which is killed, and its whole family, too',
      [forall(member(Processes, [1, 2]))]) :-
@@ -287,8 +275,11 @@ first_life(Dir, Processes, Hosts, Agents) :-
                  process_kill(Pid, kill) )).
 
 after_all(Hosts, Agents, Network) :-
+    all_there(Hosts, 60, Agents, Network).
+
+all_there(Hosts, Hops, Agents, Network) :-
     hosts(Network, Hosts),
-    all_arrived(Hosts, 60, Agents).
+    all_arrived(Hosts, Hops, Agents).
 
 test('one in this process rests, and of its agents none has ended',
      Ends == [done]) :-
