@@ -8,13 +8,14 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(agent/agents,
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
-              agent_mobile/6, agent_move/5, agent_order/2, agent_ordered/1,
-              agent_orders/2, agents_passed/0,
+              agent_mobile/6, agent_move/5,
               agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
               agent_remove/3, agent_rest/3, agent_resumes/2, agent_room/2,
-              agent_status/3, agent_take/3, agent_unorder/2, agent_wakes/2,
-              with_agent/2
+              agent_status/3, agent_take/3, agent_wakes/2
             ]).
+:- reexport(agent/alone_with, [agents_passed/0, with_agent/2]).
+:- reexport(agent/agent_orders,
+            [agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2]).
 :- reexport(agent/agent_module,
             [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
               agent_elsewhere/3, agent_handles/2,

@@ -15,14 +15,8 @@
             agent_resumes/2,            % +Id, -Goals
             agent_ready/2,              % +Id, +Goals
             agent_wakes/2,              % +Id, +Goals
-            with_agent/2,               % +Id, :Goal
-            agents_passed/0,
             agent_mail/2,               % +Id, +Messages
-            agent_room/2,               % +Id, -Room
-            agent_order/2,              % +Id, +Order
-            agent_unorder/2,            % +Id, ?Order
-            agent_orders/2,             % +Id, -Orders
-            agent_ordered/1             % +Id
+            agent_room/2                % +Id, -Room
           ]).
 :- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(lists), [member/2]).
@@ -30,6 +24,9 @@
 :- use_module('../journal',
               [journal_on/0, journal_seal/0, note_drop/3]).
 :- use_module('../host', [events_forget/1, quota/3, schedule/2]).
+:- use_module(agent_orders,
+              [agent_ordered/1, agent_unorder/2, agent_unorder_all/2]).
+:- use_module(alone_with, [with_agent/2]).
 :- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
 :- use_module(stay, [stay_begins/4, stay_ends/1]).
 :- use_module(traces, [traces_heard/2]).
@@ -45,7 +42,7 @@ The records of agents, each with one owner: this module.  An agent is
     leaving(Host, At), transit(Host, Sent), cloning(Host, Sent) or
     faulty(Error), with the goals still to run.  While a control predicate is
     under way the goals are Hole-Goals, see typhon_machine;
-  - a mailbox, see typhon_mailbox, and orders from outside.
+  - a mailbox, see typhon_mailbox, and orders, see typhon_agent_orders.
 
 Changes of the database are what a hop costs most of.  So an agent that
 runs has no status at all: whoever removes `ready` has it.
@@ -54,11 +51,8 @@ The tables must be asked by id, or by atoms: an index on compound terms,
 which Prolog makes by itself, is not safe where other threads retract
 (9.0.4 aborts in deleteActiveClauseFromBucket).
 
-*Threading*: what changes a record runs inside with_agent/2, which holds
-one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
+*Threading*: what changes a record runs inside with_agent/2.
 */
-
-:- meta_predicate with_agent(+, 0).
 
 :- multifile
     typhon_code:in_use/1,
@@ -72,8 +66,7 @@ one of 64 mutexes, chosen by the agent.  Nothing inside it may block.
 
 :- dynamic
     stands/6,                   % Id, Host, Module, Hash, Life, Until
-    status/3,                   % Id, Status, Goals; none: it runs
-    order/2.                    % Id, Order
+    status/3.                   % Id, Status, Goals; none: it runs
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
@@ -97,39 +90,6 @@ stays_on(Id, Host) :-
     stands(Id, Host, Module, Hash, _, _),
     !,
     stay_begins(Id, Host, Module, Hash).
-
-%!  with_agent(+Id, :Goal) is semidet.
-%
-%   Run Goal once while no other thread changes the record of Id.
-
-with_agent(Id, Goal) :-
-    term_hash(Id, Hash),
-    I is Hash /\ 63,
-    shard(I, Mutex),
-    with_mutex(Mutex, Goal).
-
-%!  agents_passed is det.
-%
-%   Who was inside with_agent/2 when this was called has left it.
-
-agents_passed :-
-    forall(shard(_, Mutex), with_mutex(Mutex, true)).
-
-:- dynamic shard/2.
-
-%   A saved state has them already where it runs this again.
-
-make_shards :-
-    shard(_, _),
-    !.
-make_shards :-
-    forall(between(0, 63, I),
-           ( atom_concat(typhon_agents_, I, Mutex),
-             assertz(shard(I, Mutex))
-           )),
-    compile_predicates([shard/2]).
-
-:- initialization(make_shards, now).
 
 %!  agent_enter(+Agent, +Status, +Goals) is det.
 %!  agent_remove(+Id, -Mail:list, -Orders:list) is semidet.
@@ -161,7 +121,7 @@ agent_remove(Id, Mail, Orders) :-
     ;   true
     ),
     mail_all(Id, Mail),
-    take_orders(Id, Orders),
+    agent_unorder_all(Id, Orders),
     '$destroy_module'(Module).
 
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
@@ -185,15 +145,6 @@ agent_move(Id, Host, Module, Life, Until) :-
     (   Old == Module
     ->  true
     ;   '$destroy_module'(Old)
-    ).
-
-%   One by one: see typhon_mailbox.
-
-take_orders(Id, Orders) :-
-    (   retract(order(Id, Order))
-    ->  Orders = [Order|More],
-        take_orders(Id, More)
-    ;   Orders = []
     ).
 
                 /*******************************
@@ -244,7 +195,7 @@ agent_rest(Id, Status, Goals) :-
 agent_take(Id, Goals, Order) :-
     retract(status(Id, ready, Goals)),
     !,
-    (   retract(order(Id, Oldest))
+    (   agent_unorder(Id, Oldest)
     ->  assertz(status(Id, obeying, Goals)),
         Order = Oldest
     ;   Order = none
@@ -315,7 +266,7 @@ forget_first(Id) :-
     !.
 
                 /*******************************
-                *       MAIL AND ORDERS        *
+                *             MAIL             *
                 *******************************/
 
 %!  agent_mail(+Id, +Messages:list) is semidet.
@@ -388,25 +339,3 @@ wakes(waiting(Pattern, _), Messages) :-
     member(Message, Messages),
     \+ Pattern \= Message,
     !.
-
-%!  agent_order(+Id, +Order) is det.
-%!  agent_unorder(+Id, ?Order) is semidet.
-%!  agent_ordered(+Id) is semidet.
-%!  agent_orders(+Id, -Orders:list) is det.
-%
-%   Note an order from outside; take the oldest that unifies; whether there is
-%   one; all there are.
-
-agent_order(Id, Order) :-
-    assertz(order(Id, Order)).
-
-agent_unorder(Id, Order) :-
-    retract(order(Id, Order)),
-    !.
-
-agent_ordered(Id) :-
-    order(Id, _),
-    !.
-
-agent_orders(Id, Orders) :-
-    findall(Order, order(Id, Order), Orders).

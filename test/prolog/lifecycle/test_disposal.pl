@@ -204,7 +204,7 @@ clone_in_vain(A, E) :-
     thread_self(Me),
     thread_create(( catch(agent_clone(A, _), error(F, _), true),
                     thread_send_message(Me, cloned(F)) ), T),
-    wait_until(typhon_agents:order(A, asked(clone, _)), 5),
+    wait_until(typhon_agent_orders:order(A, asked(clone, _)), 5),
     agent_dispose(A, [force(0)]),
     thread_get_message(cloned(E)),
     thread_join(T, true).
