@@ -12,8 +12,8 @@
 
 Agents that rest are disposed of at once, those that run at their next
 effect; those that do not come to one are interrupted.  Those that are about
-to arrive elsewhere may do so; but where the journal has been closed they are under
-way in it, and nobody waits for them.
+to arrive elsewhere may do so; but where the journal has been closed they are
+under way in it, and nobody waits for them.
 
 *Threading*: the thread that stops the host.
 */

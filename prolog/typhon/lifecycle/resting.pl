@@ -30,8 +30,8 @@ agents_at_rest(Seconds, Peers) :-
     agents_passed,
     rest_before(Deadline, Peers).
 
-%   Looks again every 10 ms: to be told, each turn and each departure of an agent
-%   would have to look whether somebody waits for it.
+%   Looks again every 10 ms: to be told, each turn and each departure would have
+%   to look whether somebody waits for it.
 
 rest_before(Deadline, Peers) :-
     forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
