@@ -40,6 +40,7 @@ opt_type(replays, replays, boolean).
 opt_type(list,    list,    boolean).
 opt_type(collect, collect, boolean).
 opt_type(real,    real,    boolean).
+opt_type('real-runs', real_runs, natural).
 opt_type(out,     out,     atom).
 
 opt_help(help(header),
@@ -64,6 +65,8 @@ opt_help(list,    "Print a command for each run, and make none [false]").
 opt_help(collect, "Make no runs; show those that are there [false]").
 opt_help(real,    "Make one case on real sockets, too, and say whether what \c
 it gives lies within what virtual time gives [false]").
+opt_help(real_runs, "Runs of that case, each of which takes as long as the \c
+case does [1]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 
 opt_meta(set,  'NAME=VALUE').

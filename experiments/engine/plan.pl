@@ -77,13 +77,15 @@ planned(Plans, Options, N, run(Study, Case, Seed)) :-
 
 %!  planned_real(+Plans, +Options, -Run) is nondet.
 %
-%   With --real, Run is to be made on real sockets.
+%   With --real, Run is to be made on real sockets: one of a case, if no other
+%   number is asked for, as nobody can make it quicker.
 
 planned_real(Plans, Options, run(Study, Real, Seed)) :-
     option(real(true), Options),
+    option(real_runs(Runs), Options, 1),
     member(plan(Study, _, Cases), Plans),
     real_case(Study, Cases, _, Real),
-    planned_seed(Options, Seed).
+    planned_seed([runs(Runs)|Options], Seed).
 
 %!  planned_seed(+Options, -Seed) is nondet.
 
