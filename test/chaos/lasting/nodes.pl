@@ -130,9 +130,19 @@ enough :-
 
 watch_over(Node) :-
     thread_self(Me),
-    thread_create(keep(Node, Me), Guard),
+    thread_create(guard(Node, Me), Guard),
     assertz(guard(Guard)),
     thread_get_message(ready(Node)).
+
+%   Who looks after a process must not go unheard.
+
+guard(Node, Asker) :-
+    catch(keep(Node, Asker), Ball, true),
+    (   var(Ball)
+    ->  true
+    ;   print_message(error, Ball),
+        count(unguarded)
+    ).
 
 keep(Node, Asker) :-
     Node = node(Name, _, Journal, _, _),

@@ -149,7 +149,14 @@ introduced(Talkers) :-
     Talkers = [First|Others],
     append(Others, [First], Friends),
     forall(( nth0(I, Talkers, A), nth0(I, Friends, B) ),
-           agent_send(A, friend(B))).
+           agent_send(A, friend(B))),
+    wait_until(\+ ( member(A, Talkers), \+ has_friend(A) ), 60).
+
+%   What the driver sends dies with a process, as it keeps no journal.
+
+has_friend(Agent) :-
+    agent_property(Agent, facts(Facts)),
+    memberchk(friend(_), Facts).
 
 ends(Agent, Deadline, End) :-
     get_time(Now),

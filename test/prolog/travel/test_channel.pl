@@ -61,7 +61,7 @@ listens(Host, Id) :-
 
 got(Id, Expected) :-
     wait_until(( agent_property(Id, facts(Facts)),
-                 findall(M, member(got(M), Facts), Expected) ), 10).
+                 findall(M, member(got(M), Facts), Expected) ), 30).
 
 %   What is wrapped stays so: to unwrap what a thread is in is not safe.
 
@@ -147,7 +147,7 @@ test('what was under way to the second port of a process that dies, too') :-
 asked_for_ever(Host, Thread) :-
     thread_create(remote(Host, ( thread_self(Me),
                                  thread_get_message(Me, never) )), Thread),
-    wait_until(typhon_request:open_request(_, _, _), 5).
+    wait_until(typhon_request:open_request(_, _, _), 30).
 
 %   What belongs together in the journal is noted as one: a process may be killed
 %   between any two.
@@ -173,7 +173,7 @@ waits(Id) :-
                  Id, [host(driver)]),
     agent_send(Id, m(1)),
     agent_send(Id, m(2)),
-    wait_until(in_mailbox(Id, [m(1), m(2)]), 5).
+    wait_until(in_mailbox(Id, [m(1), m(2)]), 30).
 
 in_mailbox(Id, Messages) :-
     agent_property(Id, mailbox(Mail)),
@@ -193,7 +193,7 @@ sent_nowhere(Id) :-
     wait_until(typhon_agents:agent_status(Id, transit(_, _), _), 5),
     agent_send(Id, m(3)),
     process_kill(Pid, cont),
-    wait_until(in_mailbox(Id, [m(1), m(2), m(3)]), 10),
+    wait_until(in_mailbox(Id, [m(1), m(2), m(3)]), 30),
     findall(Entry, entry_with(drop_all(mail, Id), Entry), [Leaves, Stays]),
     memberchk(put(agent, Id, _, _), Leaves),
     memberchk(put(agent, Id, _, _), Stays),
@@ -216,8 +216,8 @@ test('what an agent has said waits where it is noted no more that it was said') 
           agent_create(clauses([ (:- agent(says, [state([to/1])])),
                                  (main :- to(To), send(To, hello)) ]),
                        Id, [host(driver), facts([to(Late)])]),
-          agent_join(Id, done, 5),
-          wait_until(entry_with(drop(letter, Late, _), Entry), 5),
+          agent_join(Id, done, 30),
+          wait_until(entry_with(drop(letter, Late, _), Entry), 30),
           memberchk(put(wait, Late, _, _), Entry) ),
         true).
 

@@ -261,7 +261,7 @@ test(told_of_a_connection_whatever_becomes_of_its_thread) :-
                          ( Wrapped, test_endpoint:told_to_end )),
           assertz(test_endpoint:to_end),
           typhon_keeper:keeper_connect(A),
-          wait_until(\+ endpoint_peer(A, state(up)), 5),
+          wait_until(\+ endpoint_peer(A, state(up)), 30),
           assertion(seen(A, up)) ))).
 
 all_there(Address, Count, Notes) :-
