@@ -17,6 +17,24 @@ test('the power fails: what was answered is not lost', Wrong == []) :-
     with_tmp_dir(attacked([ processes(2), agents(10), hops(20), sync(full),
                             crash(0), power(0.1), most(6) ], Wrong)).
 
+%   Up to so many hops, on machines that make them in time.
+
+test('a hundred thousand hops while processes die: nobody is lost or doubled',
+     Wrong == []) :-
+    get_time(Now),
+    Until is Now+40,
+    rounds(100 000, Until, Wrong).
+
+rounds(Hops, Until, Wrong) :-
+    with_tmp_dir(attacked([ processes(3), agents(100), hops(200),
+                            crash(0.00003), kill(3) ], Wrong0)),
+    Left is Hops-20 000,
+    get_time(Now),
+    (   ( Wrong0 \== [] ; Left =:= 0 ; Now > Until )
+    ->  Wrong = Wrong0
+    ;   rounds(Left, Until, Wrong)
+    ).
+
 attacked(Options, Wrong, Dir) :-
     random_between(1, 1000000, Seed),
     format('% seed ~d~n', [Seed]),
