@@ -40,7 +40,7 @@ opt_type(replays, replays, boolean).
 opt_type(list,    list,    boolean).
 opt_type(collect, collect, boolean).
 opt_type(real,    real,    boolean).
-opt_type('real-runs', real_runs, natural).
+opt_type(real_runs, real_runs, natural).
 opt_type(out,     out,     atom).
 
 opt_help(help(header),

@@ -125,7 +125,8 @@ kept(Dir, Out, Start, Text) :-
 on_sockets(Row, Dir, File) :-
     study_command(Dir, [File, '--runs', 2, '--out', out], exit(0), _),
     runs_made(Dir, Virtual),
-    study_command(Dir, [File, '--runs', 2, '--out', out, '--real'], exit(0),
+    study_command(Dir, [ File, '--runs', 2, '--out', out, '--real',
+                         '--real-runs', 1 ], exit(0),
                   Text),
     runs_made(Dir, All),
     assertion(All =:= Virtual+1),
