@@ -6,7 +6,7 @@
 :- use_module('../../prolog/typhon',
               [log_events/2, network_property/2, network_start/3,
                network_stop/1]).
-:- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(lists), [append/2, append/3, member/2, subtract/3]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(sources, [sources_hash/2]).
 :- use_module(store, [log_file/2, result_save/2]).
@@ -28,6 +28,7 @@ exception in the caller ends the run, and the network is stopped.
 %
 %   @error study_goal_failed(Name/Arity) if network/3, run/2 or view/2 fails
 %   @error study_measures(Name, Values) if there is more than one value
+%   @error study_processes_ended(Pids) if the network has lost these
 
 run_make(Study, Case, Seed, Directory) :-
     log_file(Directory, File),
@@ -143,8 +144,20 @@ network_run(Study, Case, LogOption, Hosts) :-
     setup_call_cleanup(
         network_start(Topology, Network, Options),
         ( network_property(Network, hosts(Hosts)),
-          on_network(Study, Case, Network) ),
+          network_property(Network, processes(Pids)),
+          on_network(Study, Case, Network),
+          still_there(Pids, Network) ),
         network_stop(Network)).
+
+%   What a network has measured that has lost a process is of another one.
+
+still_there(Pids, Network) :-
+    network_property(Network, processes(Left)),
+    subtract(Pids, Left, Gone),
+    (   Gone == []
+    ->  true
+    ;   throw(error(study_processes_ended(Gone), _))
+    ).
 
 on_network(Study, Case, Network) :-
     (   study_says(Study, run/2)
@@ -158,5 +171,7 @@ on_network(Study, Case, Network) :-
 
 prolog:error_message(study_goal_failed(PI)) -->
     [ 'The study\'s own ~q failed'-[PI] ].
+prolog:error_message(study_processes_ended(Pids)) -->
+    [ 'The network has lost its processes ~p'-[Pids] ].
 prolog:error_message(study_measures(Name, Values)) -->
     [ 'The measure ~q has several values: ~p'-[Name, Values] ].

@@ -190,6 +190,20 @@ test(run_fails, error(study_goal_failed(run/2))) :-
 test(network_stops_when_the_run_fails) :-
     no_leaks(catch(with_walkers(run_that_fails), error(_, _), true)).
 
+test(a_process_is_lost, error(study_processes_ended([_]))) :-
+    no_leaks(with_lines([ 'fixed(clock, 50, assumed("so")).',
+                          'fixed(processes, 2, assumed("so")).',
+                          'network(_, ring(4), []).',
+                          'run(_, Network) :-',
+                          '    typhon:network_property(Network, processes(Pids)),',
+                          '    last(Pids, Pid),',
+                          '    process_kill(Pid, kill),',
+                          '    repeat,',
+                          '    typhon:network_property(Network, processes(Left)),',
+                          '    Left \\== Pids, !.',
+                          'measure(m, _, 1).' ],
+                        computes(_))).
+
 test(computes, nondet) :-
     with_lines([ 'measure(m, Log, M) :- M is 2*Log.case.seed.',
                  'measure(n, Log, M) :- M = Log.case.directory, fail.',
