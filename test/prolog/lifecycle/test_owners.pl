@@ -108,14 +108,19 @@ honest :-
     wait_until(heard(A, [B-back]), 20).
 
 %   Who stands there could not go on from a network that was saved and loaded.
+%   As a network does, it waits until nobody runs there: A has just been told to
+%   say something.
 
 births_saved(Peer) :-
     peer_do(Peer,
-            ( typhon_cut:cut_kept([Peer], Items),
+            ( forall(member(Order, [hold(5), rest(20, [])]),
+                     typhon_carrier:order_do(Order, ok)),
+              typhon_carrier:order_do(kept([Peer]), kept(_, _, Items)),
               findall(item(birth, Id, N, Birth),
                       member(item(birth, Id, N, Birth), Items), Births),
               forall(typhon_identity:ids_anew, true),
-              typhon_cut:cut_again(real, Births) )).
+              typhon_carrier:order_do(fill(real, Births), ok),
+              typhon_carrier:order_do(let_go, ok) )).
 
 %   Mallory has A's birth, since it was her guest; of C she knows the id only,
 %   but beta knows C.
