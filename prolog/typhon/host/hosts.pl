@@ -2,6 +2,7 @@
           [ host/3,                     % ?Name, ?Address, ?Place
             host_add/4,                 % +Name, +Address, +Place, +Options
             host_close/1,               % +Name
+            host_closed/1,              % +Name
             host_remove/1,              % +Name
             host_option/2,              % ?Name, ?Option
             host_put/2,                 % +Name, +Option
@@ -113,11 +114,15 @@ count_key(Name, Key) :-
     arg(_, Flags, Key).
 
 %!  host_close(+Name) is det.
+%!  host_closed(+Name) is semidet.
 %
-%   From now on nobody is admitted.
+%   From now on nobody is admitted: it is about to stop.
 
 host_close(Name) :-
     retractall(door(Name, _, _, _, _)).
+
+host_closed(Name) :-
+    \+ door(Name, _, _, _, _).
 
 %!  host_remove(+Name) is det.
 

@@ -38,9 +38,9 @@
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
-                event/4, host/3, host_address/2, host_link_cost/3, host_load/2,
-                host_logs/1, host_neighbours/2, host_time/2,
-                place_deliver/3, module_policy/2, place_undeliver/2, quota/3,
+                event/4, host/3, host_address/2, host_closed/1,
+                host_link_cost/3, host_load/2, host_logs/1, host_neighbours/2,
+                host_time/2, place_deliver/3, module_policy/2, place_undeliver/2, quota/3,
                 leaver/2, may_leave/1, quota_cells/2, quota_passed/1, quota_spend/3,
                 tuple_leave/3, tuple_leave_new/3, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
@@ -135,8 +135,9 @@ host_load(Count) :-
 %!  send(+Agent, +Message) is det.
 %
 %   As agent_send/2; it is from this agent.  If Agent has ended the
-%   message is lost with a warning, not an error.  Who asks from outside is
-%   `user`, who has no mailbox: answers to him are printed.
+%   message is lost with a warning, not an error; without one if the host of
+%   this agent is about to stop.  Who asks from outside is `user`, who has no
+%   mailbox: answers to him are printed.
 %
 %   A compound term, as fipa(Name, Addresses), is somebody beyond a bridge of
 %   this host, see post_abroad/4.
@@ -171,9 +172,18 @@ send(Agent, Message) :-
     event(messages, Host, Id, sent(Agent, Message)),
     catch(post(Agent, Id, Message),
           error(existence_error(agent, Agent), _),
-          print_message(warning,
-                        typhon(undeliverable(existence_error(agent, Agent),
-                                             Agent, Id, Message)))).
+          lost(Host, Agent, Id, Message)).
+
+%   Where a host stops who rests there ends first, and who still runs cannot
+%   know: of what he says in vain nobody wants to hear.
+
+lost(Host, _, _, _) :-
+    host_closed(Host),
+    !.
+lost(_, Agent, Id, Message) :-
+    print_message(warning,
+                  typhon(undeliverable(existence_error(agent, Agent), Agent,
+                                       Id, Message))).
 
 %!  leave(+Fact) is det.
 %!  leave_new(+Fact) is semidet.

@@ -242,6 +242,29 @@ test(virtual_host_that_stops, O == done) :-
                                create([(main :- sleep(5))], B, [host(beta)]),
                                agent_join(B, O, 10) ))).
 
+%   B rests, and so ends first; A still runs, and speaks to him.
+
+test(what_is_said_in_vain_while_a_host_stops, Ms == []) :-
+    setup_call_cleanup(
+        message_queue_create(Queue, [alias(disposal_test)]),
+        with_settings([typhon_hosting:stop_seconds=60],
+                      with_hosts([alpha], listening(says_in_vain, Ms))),
+        message_queue_destroy(Queue)).
+
+says_in_vain :-
+    create([(main :- receive(_))], B),
+    wait_state(B, waiting),
+    create([ (main :- say, sleep(60)),
+             (say :- thread_get_message(disposal_test, ended, [timeout(50)]),
+                     send(B, hello),
+                     thread_send_message(disposal_test, said)) ], A),
+    wait_until(running_for(A, 0.02), 20),
+    thread_create(host_stop(alpha), T),
+    joined(B, disposed),
+    thread_send_message(disposal_test, ended),
+    thread_get_message(disposal_test, said, [timeout(20)]),
+    thread_join(T, true).
+
 test(unknown_option, error(domain_error(dispose_option, soon))) :-
     with_hosts([alpha], ( create([(main :- receive(_))], A),
                           agent_dispose(A, [soon]) )).
