@@ -40,8 +40,9 @@
               [ context/3, context_agent/1, context_host/1, context_now/2,
                 event/4, host/3, host_address/2, host_closed/1,
                 host_link_cost/3, host_load/2, host_logs/1, host_neighbours/2,
-                host_time/2, place_deliver/3, module_policy/2, place_undeliver/2, quota/3,
-                leaver/2, may_leave/1, quota_cells/2, quota_passed/1, quota_spend/3,
+                host_time/2, place_deliver/3, module_policy/2,
+                place_undeliver/2, quota/3, leaver/2, may_leave/1,
+                quota_cells/2, quota_passed/1, quota_spend/3,
                 tuple_leave/3, tuple_leave_new/3, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
