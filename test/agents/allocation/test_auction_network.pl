@@ -90,6 +90,12 @@ counted(Mechanism, Hosts, Expected) :-
     wait_until(( auction_counts(Mechanism, Hosts, Counts),
                  Counts == Expected ), 40).
 
+%   Virtual time, which stands still while a test looks or does something.
+
+time_passes(Hosts, Seconds) :-
+    network_property(Network, hosts(Hosts)),
+    network_advance(Network, Seconds).
+
 %   What is counted to the last message is so in virtual time: in real time, a
 %   bid that comes late because others keep the computer busy is passed on by
 %   itself.
@@ -198,7 +204,7 @@ steps_of_anta(Hosts, File) :-
 step_by_step(Mechanism, Hosts, File) :-
     Hosts = [Host|_],
     post(Mechanism, t, 3, [duration(2)], Host),
-    time_passes(Hosts, 100),
+    time_passes(Hosts, 100),            % before contracts are renewed
     happened(File, completed(t)),
     all_free(Hosts),
     all(File, released(_, _, t), [_, _, _]),
@@ -215,12 +221,6 @@ step_by_step(Mechanism, Hosts, File) :-
     msort(Executed, [A, B, C]),
     findall(R, member(released(R, _, t), After), Released),
     msort(Released, [A, B, C]).
-
-%   Less than the contracts last until they are renewed.
-
-time_passes(Hosts, Seconds) :-
-    network_property(Network, hosts(Hosts)),
-    network_advance(Network, Seconds).
 
 %   What the hosts log of their agents.
 
@@ -264,38 +264,43 @@ both_all(Mechanism, Hosts, File) :-
 
 test(the_urgent_one_comes_first) :-
     auctions(murdoch, ring(4),
-             [auction([slack(300), settings([bi_min-2, bi_max-20])])],
+             [ clock(virtual),
+               auction([slack(15), settings([bi_min-2, bi_max-20])]) ],
              [1, 2, 3, 4], urgent(murdoch)).
 
 urgent(Mechanism, Hosts, File) :-
     Hosts = [First, _, Third|_],
     post(Mechanism, slow, 4, [duration(2)], First),
     post(Mechanism, quick, 4, [duration(2), priority(5)], Third),
+    time_passes(Hosts, 500),
     happened(File, completed(slow)),
     all_free(Hosts),
     all(File, completed(_), Completed),
     Completed == [completed(quick), completed(slow)].
 
 test(a_deadline_is_missed) :-
-    auctions(murdoch, ring(4), [auction([slack(15)])], [1, 2, 3, 4],
-             missed(murdoch)).
+    auctions(murdoch, ring(4), [clock(virtual), auction([slack(15)])],
+             [1, 2, 3, 4], missed(murdoch)).
 
 missed(Mechanism, Hosts, File) :-
     Hosts = [First|_],
     post(Mechanism, t, 4, [duration(1000), deadline(60)], First),
+    time_passes(Hosts, 100),
     happened(File, allocated(t, _)),
     happened(File, missed(t, 60)),
     all_free(Hosts).
 
 test(a_failed_robot_is_replaced) :-
-    auctions(anta, ring(5), [auction([slack(15)])], [1, 2, 3, 4],
-             replaced(anta)).
+    auctions(anta, ring(5), [clock(virtual), auction([slack(15)])],
+             [1, 2, 3, 4], replaced(anta)).
 
 replaced(Mechanism, Hosts, File) :-
     Hosts = [First, Second, _, Fourth, _],
     post(Mechanism, t, 3, [duration(60)], First),
-    wait_until(robot_status(Second, executing(_, t)), 40),
+    time_passes(Hosts, 30),
+    robot_status(Second, executing(_, t)),
     robot_fail(Second),
+    time_passes(Hosts, 300),
     happened(File, completed(t)),
     exclude(==(Second), Hosts, Others),
     all_free(Others),
@@ -305,17 +310,19 @@ replaced(Mechanism, Hosts, File) :-
 %   The node of a chain that is cut off from its parent has another way.
 
 test(a_parent_has_vanished) :-
-    auctions(anta, edges([1-2, 2-3, 3-4]), [auction([slack(300)])], [4],
-             orphan).
+    auctions(anta, edges([1-2, 2-3, 3-4]),
+             [clock(virtual), auction([slack(15)])], [4], orphan).
 
 orphan(Hosts, File) :-
     Hosts = [First, _, Third, Fourth],
     post(anta, t, 1, [duration(1)], First),
-    wait_until(( remote(Fourth, sense(node(anta, Node))),
-                 agent_property(Node, facts(Facts)),
-                 memberchk(gathered(_, _, Fourth, _), Facts) ), 20),
+    time_passes(Hosts, 1),
+    remote(Fourth, sense(node(anta, Node))),
+    agent_property(Node, facts(Facts)),
+    memberchk(gathered(_, _, Fourth, _), Facts),
     link(First, Fourth),
     unlink(Third, Fourth),
+    time_passes(Hosts, 100),
     happened(File, completed(t)),
     all_free(Hosts).
 
