@@ -385,18 +385,21 @@ level_of([Level], [Host|_], _) :-
 
 test(the_host_of_an_auctioneer_stops) :-
     quick(Quick),
-    auctions(murdoch, mesh(3), [auction(Quick)], [2, 3],
+    auctions(murdoch, mesh(3), [clock(virtual), auction(Quick)], [2, 3],
              auctioneer_stops(murdoch)).
 
 auctioneer_stops(Mechanism, Hosts, File) :-
     Hosts = [First|Others],
     Others = [Second, _],
     post(Mechanism, t, 2, [duration(1000)], First),
-    wait_until(robot_status(Second, executing(_, t)), 40),
+    time_passes(Hosts, 30),
+    robot_status(Second, executing(_, t)),
     stops(First),
+    time_passes(Hosts, 300),
     all_free(Others),
     all(File, released(_, _, t), [_, _]),
     post(Mechanism, u, 2, [duration(1)], Second),
+    time_passes(Hosts, 100),
     happened(File, completed(u)),
     all_free(Others).
 
