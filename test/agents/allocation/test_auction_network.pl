@@ -229,24 +229,27 @@ of_agents(ended(_)).
 
 test(too_few_robots) :-
     auctions(anta, ring(4),
-             [ auction([slack(15), settings([bi_min-5, bi_max-10])]) ],
+             [ clock(virtual),
+               auction([slack(15), settings([bi_min-5, bi_max-10])]) ],
              [2, 3], too_few(anta)).
 
 too_few(Mechanism, Hosts, File) :-
     Hosts = [Host, _, _, Last],
     post(Mechanism, t, 3, [duration(1)], Host),
+    time_passes(Hosts, 20),
     happened(File, backoff(Interval)),
     Interval >= 5,
     Interval =< 20,                     % 5 or 10, and up to 10
     all(File, reserved(_, _, _), []),
     robot_start(Last, [push, position=p(4,0)], []),
+    time_passes(Hosts, 200),
     happened(File, completed(t)),
     all_free(Hosts).
 
 test(two_that_need_all_robots,
      [forall(member(Mechanism, [murdoch, anta]))]) :-
     auctions(Mechanism, grid(2, 3),
-             [ hop_time(uniform(0.1, 0.3)),
+             [ clock(virtual), hop_time(uniform(0.1, 0.3)),
                auction([slack(15), settings([bi_min-2, bi_max-20])]) ],
              [1, 2, 3, 4, 5, 6], both_all(Mechanism)).
 
@@ -255,6 +258,7 @@ both_all(Mechanism, Hosts, File) :-
     last(Hosts, Last),
     post(Mechanism, a, 6, [duration(2)], First),
     post(Mechanism, b, 6, [duration(2)], Last),
+    time_passes(Hosts, 5000),
     happened(File, completed(a)),
     happened(File, completed(b)),
     all_free(Hosts),
