@@ -10,6 +10,7 @@
             journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/fast_bytes', [fast_bytes_term/2]).
 :- use_module(crash, [crash_point/1]).
 :- use_module(database,
               [ database/3, database_connect/4, database_forgets/4, database_found/1,
@@ -301,7 +302,7 @@ journal_item(Kind, Order, Key, N, Value) :-
             [atom, integer, integer, integer, string]),
     whole(Length, Kind-Key-N, First, Bytes),
     (   check_sum(Bytes, Sum)
-    ->  fast_term_serialized(Value, Bytes)
+    ->  fast_bytes_term(Bytes, Value)
     ;   throw(error(journal_damaged(Place, Kind-Key), _))
     ).
 

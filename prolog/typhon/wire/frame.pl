@@ -35,6 +35,7 @@ owner of a stream sees to it that one thread at a time writes to it.
 :- use_module(library(error),
               [resource_error/1, syntax_error/1, type_error/2]).
 :- use_module(library(sha), [sha_hash/3]).
+:- use_module('../base/fast_bytes', [fast_bytes_term/2]).
 :- use_module(text, [term_text/2, text_term/2]).
 
 %!  frame_write(+Out, +Bytes) is det.
@@ -153,7 +154,7 @@ serialized(Term, Bytes) :-
 bytes_term(fast, Bytes, Term) :-
     (   string_code(1, Bytes, Mark)
     ->  marked_term(Mark, Bytes, Term)
-    ;   fast_term_serialized(Term, Bytes)
+    ;   fast_bytes_term(Bytes, Term)
     ).
 bytes_term(text, Bytes, Term) :-
     marked_term(0'#, Bytes, Term).
@@ -161,13 +162,13 @@ bytes_term(text, Bytes, Term) :-
 marked_term(0'!, Bytes, Term) :-
     !,
     unmarked(Bytes, Body),
-    fast_term_serialized(Term, Body).
+    fast_bytes_term(Body, Term).
 marked_term(0'#, Bytes, Term) :-
     !,
     unmarked(Bytes, Body),
     text_term(Body, Term).
 marked_term(_, Bytes, Term) :-
-    fast_term_serialized(Term, Bytes).
+    fast_bytes_term(Bytes, Term).
 
 		 /*******************************
 		 *             MARKS            *

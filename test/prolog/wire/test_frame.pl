@@ -1,8 +1,10 @@
 :- module(test_frame, []).
 
 :- use_module('../../lib/common').
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [nth1/4, numlist/3]).
 :- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon/wire/frame)).
 
@@ -107,6 +109,27 @@ test(the_rest_can, [forall(special(Term))]) :-
     mobile_term(Term).
 
 :- end_tests(what_cannot_travel_is_named).
+
+%   In a process of its own: where atoms are lost it crashes.
+
+:- begin_tests(atoms_stay_while_others_are_collected).
+
+:- dynamic readers/1.                   % File: a program
+
+:- prolog_load_context(directory, Dir),
+   directory_file_path(Dir, '../../lib/atoms_collected.pl', File),
+   assertz(readers(File)).
+
+test(large_terms_with_atoms_that_nobody_else_has, Said-Status == "well\n"-exit(0)) :-
+    readers(File),
+    current_prolog_flag(executable, Swipl),
+    setup_call_cleanup(
+        process_create(Swipl, [File, '--', 20],
+                       [stdout(pipe(Out)), stderr(null), process(Pid)]),
+        read_string(Out, _, Said),
+        ( close(Out), process_wait(Pid, Status) )).
+
+:- end_tests(atoms_stay_while_others_are_collected).
 
 :- begin_tests(frames_are_counted_bytes).
 

@@ -1,0 +1,70 @@
+:- module(test_atoms_collected, []).
+
+/** <module> Terms are read while atoms are collected
+
+    swipl test/lib/atoms_collected.pl -- TIMES
+
+Three threads read terms with atoms that nobody else has, so many times each,
+while another collects atoms without a pause.  Prints `well`; where an atom is
+lost it says so, or the process crashes.
+
+*Threading*: the main thread waits for the others.
+*/
+
+:- use_module('../../prolog/typhon/base/fast_bytes').
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(main), [main/0]).
+:- use_module(library(random), [random_between/3]).
+
+:- initialization(main, main).
+
+:- public main/1.
+
+main([Text]) :-
+    atom_number(Text, Times),
+    findall(T, ( between(1, 3, _), thread_create(read_often(Times), T) ), Ts),
+    thread_create(collect, _, [detached(true)]),
+    forall(member(T, Ts), thread_join(T, true)),
+    format('well~n').
+
+collect :-
+    repeat,
+    garbage_collect_atoms,
+    fail.
+
+%   What was on the stack before looks as if it were the head of something large.
+
+read_often(Times) :-
+    thread_self(Me),
+    forall(between(1, Times, I),
+           ( fresh(Me, I, Term),
+             fast_term_serialized(Term, Bytes),
+             left_behind,
+             whole(Bytes) )).
+
+fresh(Me, I, t(A, Pairs, A)) :-
+    term_to_atom(c(Me, I), A),
+    findall(Atom-Text,
+            ( between(1, 6000, J), term_to_atom(c(Me, I, J), Atom),
+              xs(60, Text) ),
+            Pairs).
+
+left_behind :-
+    findall(Text, ( between(1, 9000, _), xs(90, Text) ), Texts),
+    ground(Texts).
+
+xs(Most, Text) :-
+    random_between(1, Most, Length),
+    length(Codes, Length),
+    maplist(=(0'x), Codes),
+    string_codes(Text, Codes).
+
+whole(Bytes) :-
+    fast_bytes_term(Bytes, t(A, Pairs, A)),
+    (   forall(member(Atom-_, [A-_|Pairs]),
+               ( atom(Atom), sub_atom(Atom, 0, 1, _, c) ))
+    ->  true
+    ;   format('lost~n'),
+        halt(1)
+    ).
