@@ -10,6 +10,7 @@
             with_swipl/5,               % +Args, -Pid, -In, -Out, :Goal
             run_swipl/5,                % +Args, +Options, -Status, -Out, -Err
             wait_for_end/3,             % +Pid, +Seconds, -Status
+            stop_process/1,             % +Pid
             free_port/1                 % -Port
           ]).
 
@@ -226,17 +227,34 @@ child_process(Pid) :-
 
 parent(Pid, Parent) :-
     format(atom(File), '/proc/~d/stat', [Pid]),
+    stat(File, _, Field),
+    number_string(Parent, Field).
+
+%   stat(+File, -State:string, -Parent:string) is semidet.
+
+stat(File, State, Parent) :-
     catch(read_file_to_string(File, Text, []),
           error(_, _), fail),           % it has ended
     % the name, in parentheses, may hold blanks and parentheses itself
     split_string(Text, ")", "", Parts),
     last(Parts, Rest),
-    split_string(Rest, " ", " ", [_State, Field|_]),
-    number_string(Parent, Field).
+    split_string(Rest, " ", " ", [State, Parent|_]).
 
                 /*******************************
                 *       SEPARATE PROCESSES     *
                 *******************************/
+
+%!  stop_process(+Pid) is det.
+%
+%   Pid stands still when this is true: the signal takes its time, for each
+%   thread.
+
+stop_process(Pid) :-
+    process_kill(Pid, stop),
+    format(atom(Threads), '/proc/~d/task/*/stat', [Pid]),
+    wait_until(( expand_file_name(Threads, Files),
+                 \+ ( member(File, Files), stat(File, State, _),
+                      State \== "T" ) ), 30).
 
 %!  with_swipl(+Args, -Pid, -In, -Out, :Goal) is semidet.
 %

@@ -3,8 +3,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
-:- use_module(library(readutil),
-              [read_file_to_string/3, read_line_to_string/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
 
 /** <module> Messages between processes that keep journals
@@ -52,14 +51,6 @@ beta(Journal, Port, Goal) :-
                  call(Goal),
                  process_kill(Pid, kill),
                  process_wait(Pid, _) )).
-
-%   A signal takes its time.
-
-stopped(Pid) :-
-    process_kill(Pid, stop),
-    format(atom(File), '/proc/~w/stat', [Pid]),
-    wait_until(( read_file_to_string(File, Text, []),
-                 sub_string(Text, _, _, _, ") T ") ), 30).
 
 %   listens(+Host, -Id): an agent on Host that keeps what it hears.
 
@@ -118,7 +109,7 @@ test('what was under way to a process that dies is sent to the next') :-
           listens(Beta, Id),
           nb_setval(channel_id, Id),
           nb_getval(channel_pid, Pid),
-          stopped(Pid),
+          stop_process(Pid),
           wrap_predicate(typhon_messaging:endpoint_post(_, Kind, _), posted,
                          Wrapped, ( Wrapped, plunit_channel:hold(Kind) )),
           assertz(held),
@@ -142,7 +133,7 @@ test('what was under way to the second port of a process that dies, too') :-
           listens(Gamma, Id),
           nb_setval(channel_id, Id),
           nb_getval(channel_pid, Pid),
-          stopped(Pid),
+          stop_process(Pid),
           agent_send(Id, hello),
           asked_for_ever(Gamma, Thread),
           nb_setval(channel_thread, Thread) ),
@@ -197,7 +188,7 @@ sent_nowhere(Id) :-
     atom_concat(beta, Place, Beta),
     atom_concat(nobody, Place, Nowhere),
     noting_entries,
-    stopped(Pid),
+    stop_process(Pid),
     agent_move(Id, Nowhere),
     wait_until(typhon_agents:agent_status(Id, transit(_, _), _), 30),
     agent_send(Id, m(3)),
