@@ -48,7 +48,7 @@ test('agents and what they know are there again') :-
           forall(between(1, 3, I), agent_send(Id, m(I))),
           got(Id, [m(1), m(2), m(3)]) ),
         ( nb_getval(journal_test, Id),
-          agent_property(Id, state(resident)),
+          wait_until(agent_property(Id, state(resident)), 5), % m(3) once more
           agent_send(Id, m(4)),
           got(Id, [m(1), m(2), m(3), m(4)]) )).
 
