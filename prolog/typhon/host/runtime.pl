@@ -8,6 +8,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/erased', [forget_erased/0]).
+:- use_module('../base/functors', [functors_room/0]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../journal', [journal_end/0]).
@@ -83,6 +84,7 @@ reached_at(Port, Endpoint) :-
 
 start(Options) :-
     option(time(Kind), Options, real),
+    functors_room,
     own_thread_start,
     catch(( time_start(Kind),
             start_endpoint(Kind, Options),

@@ -1,0 +1,48 @@
+:- module(test_functors, []).
+:- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [numlist/3]).
+:- use_module(library(typhon/base/functors)).
+
+/** <module> Functors that several threads make are the same for all
+
+*Threading*: each thread makes functors of names of its own.
+*/
+
+:- dynamic made/2.                      % Name, Term: by one of the threads
+
+make(Thread) :-
+    forall(between(1, 3000, I),
+           ( atomic_list_concat([functor_of, Thread, I], '_', Name),
+             functor(Term, Name, 1),
+             assertz(made(Name, Term)) )).
+
+%   One that was lost is there a second time.
+
+lost(Name) :-
+    made(Name, Term),
+    functor(Again, Name, 1),
+    Again \= Term.
+
+:- begin_tests(functors_are_the_same_for_all_threads,
+               [cleanup(retractall(made(_, _)))]).
+
+test(there_is_room_for_many, true(Room >= 12000)) :-
+    functors_room,
+    statistics(functors, Count),
+    next_power(Count, Power),
+    Room is Power-Count.
+test(a_second_time_makes_none, true(Count1-Count0 =< 1)) :-
+    statistics(functors, Count0),
+    functors_room,
+    statistics(functors, Count1).
+test(four_threads_make_some, Lost == []) :-
+    numlist(1, 4, Threads),
+    maplist([I,T]>>thread_create(test_functors:make(I), T), Threads, Ids),
+    maplist([T]>>thread_join(T, true), Ids),
+    findall(Name, lost(Name), Lost).
+
+next_power(Count, Power) :-
+    Power is 1<<(msb(Count)+1).
+
+:- end_tests(functors_are_the_same_for_all_threads).
