@@ -12,7 +12,9 @@
 %   `hopper` goes so many hops, with each fourth counts at the host, and tells
 %   a sink;
 %   `porter` carries tokens; `talker` counts aloud to a sink; `sink` keeps the
-%   accounts.
+%   accounts;
+%   `gossip` says words to a friend, says back those it hears, travels if it
+%   has a route, and notes what comes twice.
 
 program(hopper, clauses([
     (:- agent(hopper, [state([todo/1, route/1, sink/1, made/1])])),
@@ -87,3 +89,65 @@ program(sink, clauses([
         ( retract(heard(Who, N0)) -> true ; N0 = 0 ),
         ( N =:= N0+1 -> true ; assertz(wrong(Who, N0, N)) ),
         assertz(heard(Who, N))) ])).
+program(gossip, clauses([
+    (:- agent(gossip, [state([todo/1, route/1, said/1, back/1, heard/1,
+                              friend/1, early/2, wrong/1])])),
+    said(0),
+    back(0),
+    heard(0),
+    (main :-
+        receive(_-friend(Friend)),
+        assertz(friend(Friend)),
+        talk),
+    (talk :-
+        todo(N), said(N), back(N), heard(N),
+        !,
+        findall(W, wrong(W), Wrong),
+        result(Wrong)),
+    (talk :-
+        say,
+        walk,
+        listen(0.01),
+        talk),
+    (say :- said(N), todo(N), !),
+    (say :-
+        retract(said(N0)), N is N0+1, assertz(said(N)),
+        friend(Friend), self(Me),
+        send(Friend, word(Me, N))),
+    (walk :-
+        said(N), N mod 5 =:= 0,
+        route([Host|Hosts]),
+        !,
+        catch(move(Host), error(_, _), true),
+        retract(route(_)),
+        !,
+        append(Hosts, [Host], Route),
+        assertz(route(Route))),
+    walk,
+    (listen(Seconds) :-
+        (   receive(_-What, Seconds)
+        ->  take_in(What),
+            listen(0)
+        ;   true
+        )),
+    (take_in(word(Who, N)) :- count(heard, N), send(Who, echo(N))),
+    (take_in(echo(N)) :- count(back, N)),
+    (count(What, N) :-
+        Known =.. [What, N0],
+        call(Known),
+        (   ( N =< N0 ; early(What, N) )
+        ->  assertz(wrong(twice(What, N)))
+        ;   assertz(early(What, N)),
+            catch_up(What)
+        )),
+    (catch_up(What) :-
+        Known =.. [What, N0],
+        call(Known),
+        N is N0+1,
+        (   retract(early(What, N))
+        ->  retract(Known),
+            Next =.. [What, N],
+            assertz(Next),
+            catch_up(What)
+        ;   true
+        )) ])).

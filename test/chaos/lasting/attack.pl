@@ -13,6 +13,7 @@ in order.
 */
 
 :- use_module(agents).
+:- use_module(ends).
 :- use_module(nodes).
 :- use_module(verdict).
 :- use_module('../../../prolog/typhon').
@@ -104,29 +105,4 @@ begins(Name, Host, Facts, Agent) :-
 
 all_end(people(Hoppers, Porters, Talkers, _), Deadline, Ends) :-
     append([Hoppers, Porters, Talkers], All),
-    findall(Agent-End, ( member(Agent, All), ends(Agent, Deadline, End) ),
-            Ends).
-
-%   Whoever is asked may be dead just now.
-
-ends(Agent, Deadline, End) :-
-    get_time(Now),
-    Left is Deadline-Now,
-    (   Left =< 0
-    ->  End = late
-    ;   Some is min(2, Left),
-        catch(agent_join(Agent, End0, Some), error(Formal, _),
-              End0 = error(Formal)),
-        settled_end(End0, Agent, Deadline, End)
-    ).
-
-settled_end(End, Agent, Deadline, End1) :-
-    ( End == timeout ; End = error(_) ; End == unknown ),
-    !,
-    thread_self(Me),
-    (   thread_get_message(Me, '$never', [timeout(0.1)])
-    ->  true
-    ;   true
-    ),
-    ends(Agent, Deadline, End1).
-settled_end(End, _, _, End).
+    agents_end(All, Deadline, Ends).

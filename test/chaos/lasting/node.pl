@@ -12,6 +12,7 @@ which it takes terms:
   - power(P): after each commit it sees to it that the power seems to fail
     during the next one, with probability P
   - cut: its connections break
+  - look: it prints what it holds for others, then `looked`
 
 When the power is about to fail the files of the journal, in which all is
 synced now, are copied; then it dies while it commits once more.  It says
@@ -117,7 +118,8 @@ obey(cut) :-
                Session, typhon_transport:transport_broken(Key, Thread))).
 
 obey(look) :-
-    forall(held(What), format(user_error, '~q~n', [What])).
+    forall(held(What), format(user_error, '~q~n', [What])),
+    format(user_error, 'looked~n', []).
 
 %   What is held here for others, and by whom.
 

@@ -2,7 +2,7 @@
           [ with_nodes/4,               % +Options, -Nodes, :Goal, -Told
             node_host/2,                % ?Node, ?Host
             nodes_said/2,               % +Nodes, -Lines
-            nodes_look/0,
+            nodes_look/1,               % +Nodes
             war/1,                      % +Options
             peace/0
           ]).
@@ -28,7 +28,7 @@ war; the rest is for one thread.
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(random), [random/3, random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
-:- use_module('../../lib/common', [free_port/1]).
+:- use_module('../../lib/common', [free_port/1, wait_until/2]).
 
 :- meta_predicate with_nodes(+, -, 0, -).
 
@@ -238,8 +238,20 @@ peace :-
 disarm :-
     tell_all([dies(0), power(0)]).
 
-nodes_look :-
-    with_mutex(lasting_orders, forall(child(_, _, In), told(In, look))).
+%!  nodes_look(+Nodes) is det.
+%
+%   The processes print what they hold; return when they have, if they can.
+
+nodes_look(Nodes) :-
+    with_mutex(lasting_orders, forall(child(_, _, In), told(In, look))),
+    catch(wait_until(\+ ( member(Node, Nodes), \+ looked(Node) ), 10),
+          error(timeout_error(_, _), _), true).
+
+looked(Node) :-
+    nodes_said([Node], Lines),
+    member(Line, Lines),
+    sub_string(Line, _, _, 0, ": looked"),
+    !.
 
 tell_all(Orders) :-
     with_mutex(lasting_orders,
