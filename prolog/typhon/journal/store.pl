@@ -13,9 +13,10 @@
 :- use_module('../base/fast_bytes', [fast_bytes_term/2]).
 :- use_module(crash, [crash_point/1]).
 :- use_module(database,
-              [ database/3, database_connect/4, database_forgets/4, database_found/1,
-                database_lock/3, database_same/4, database_stamp/3,
-                database_tables/2, database_wrong/3, in_terms_of/3 ]).
+              [ database/3, database_connect/4, database_forgets/4,
+                database_found/1, database_lock/3, database_same/4,
+                database_stamp/3, database_tables/2, database_wrong/3,
+                in_terms_of/3 ]).
 :- use_module(recent,
               [ recent_before/2, recent_begin/1, recent_committed/1,
                 recent_doubtful/0, recent_end/0 ]).

@@ -6,7 +6,7 @@
             dynamics_end/1,             % +Network
             log_end/1,                  % +Network
             endpoint_end/1,             % +Network
-            equipment_forget/1              % +Network
+            equipment_forget/1          % +Network
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../host', [runtime_acquire/2, runtime_release/1]).

@@ -144,10 +144,10 @@ test('a process goes on by itself when the server is there again') :-
     format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
     setup_call_cleanup(
         host_start(driver),
-        killed(Url, Port, server_returns(Host)),
+        killed(Url, Port, Out, server_returns(Host, Out)),
         host_stop(driver)).
 
-server_returns(Host) :-
+server_returns(Host, Out) :-
     host_property(driver, address(Other)),
     agent_create(clauses([ (:- agent(goes, [state([made/1, other/1])])),
                            made(0),
@@ -168,7 +168,7 @@ server_returns(Host) :-
     wait_until(( agent_property(Agent, hops(Hops)), Hops > 20 ), 10),
     postgres_crash,
     agent_send(Agent, hello),
-    sleep(0.5),
+    read_line_to_string(Out, "unreachable"),
     postgres_again,
     agent_join(Agent, done, 20),
     remote(Host, findall(V, sense(made(V)), [100])).
@@ -261,14 +261,25 @@ cut(Schema) :-
           typhon_sql:sql_do(C, Sql) ),
         typhon_sql:sql_disconnect(C)).
 
-:- meta_predicate killed(+, +, 0).
+:- meta_predicate
+    killed(+, +, 0),
+    killed(+, +, -, 0).
 
 killed(Url, Port, Goal) :-
+    killed(Url, Port, _, Goal).
+
+%   Out tells when the process finds that it cannot commit.
+
+killed(Url, Port, Out, Goal) :-
     project_file('prolog/typhon.pl', Library),
     format(atom(Start), 'host_start(alpha, [journal(~q), port(~d)]), \c
                          writeln(ready), flush_output, thread_get_message(x)',
            [Url, Port]),
-    with_swipl(['-g', Start, Library], Pid, _, Out,
+    format(atom(Tells), '~q',
+           [ assertz((user:message_hook(error(journal_unreachable(_, _), _),
+                                        error, _) :-
+                          writeln(unreachable), flush_output)) ]),
+    with_swipl(['-g', Tells, '-g', Start, Library], Pid, _, Out,
                ( read_line_to_string(Out, "ready"),
                  call(Goal),
                  process_kill(Pid, kill),
