@@ -11,6 +11,9 @@ of the other: a predicate that is there is not found.  The table grows at each
 power of two, for ever, as no functor goes away.
 
 So it grows before threads begin, beyond what the programs of most hosts need.
+A process that has read library(typhon) has 8,700 functors, one that begins with
+a saved state of it 7,800: there the table grew, at 8,192, just when its first
+agents were read.
 
 *Threading*: while no other thread makes functors.
 */

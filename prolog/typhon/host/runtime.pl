@@ -39,6 +39,11 @@ hooks beginning/1 and ending/1.
     ending/1,
     user/2.                             % Name of a user, Endpoint
 
+%   When this is loaded, or a saved state with it begins: who starts a host may
+%   have threads already.
+
+:- initialization(functors_room).
+
 %!  runtime_acquire(+User, +Options) is det.
 %!  runtime_acquire(+User, +Options, -Endpoint) is det.
 %
@@ -84,7 +89,6 @@ reached_at(Port, Endpoint) :-
 
 start(Options) :-
     option(time(Kind), Options, real),
-    functors_room,
     own_thread_start,
     catch(( time_start(Kind),
             start_endpoint(Kind, Options),

@@ -1,5 +1,6 @@
 :- module(test_functors, []).
 :- use_module(library(plunit)).
+:- use_module('../../lib/common', [project_file/2, run_swipl/5]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [numlist/3]).
 :- use_module(library(typhon/base/functors)).
@@ -36,6 +37,12 @@ test(a_second_time_makes_none, true(Count1-Count0 =< 1)) :-
     statistics(functors, Count0),
     functors_room,
     statistics(functors, Count1).
+test(a_process_has_it_before_it_can_have_threads,
+     Status-Out == exit(0)-"room") :-
+    project_file('prolog/typhon.pl', Typhon),
+    run_swipl([ '-g', 'statistics(functors, N), N > 0x8001, write(room)',
+                '-t', halt, Typhon ],
+              [timeout(60)], Status, Out, _).
 test(four_threads_make_some, Lost == []) :-
     numlist(1, 4, Threads),
     maplist([I,T]>>thread_create(test_functors:make(I), T), Threads, Ids),
