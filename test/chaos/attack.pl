@@ -30,8 +30,9 @@ doc/chaos.md.
 %!  chaos(+Options, -Reports) is det.
 %
 %   Run the scenarios, one after the other, and print what came of them.
-%   Options are those of the command line.  A report is
-%   report(Scenario, Figures, Findings), see chaos_report.
+%   Options are those of the command line, and swipl(Program): what processes
+%   run, by default what runs this.  A report is report(Scenario, Figures,
+%   Findings), see chaos_report.
 
 chaos(Options, Reports) :-
     set_prolog_flag(stack_limit, 8 000 000 000),
@@ -58,7 +59,9 @@ run_one(Options, Total, Scenario-Share, Report) :-
     directory(Options, Scenario, Seed, Dir),
     schedule(Scenario, Seed, Seconds, Names, Events),
     report_begin(Scenario, Seconds, Dir),
-    with_cluster(Names, Dir,
+    current_prolog_flag(executable, This),
+    option(swipl(Swipl), Options, This),
+    with_cluster(Names, Dir, Swipl,
                  attack(Options, Scenario, Events, Seconds, Dir, Evidence)),
     verdict(Scenario, Evidence, Findings),
     report(Scenario, Dir, Events, Evidence.put(seconds, Seconds), Findings,

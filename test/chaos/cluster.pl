@@ -1,5 +1,5 @@
 :- module(chaos_cluster,
-          [ with_cluster/3,             % +Names, +Dir, :Goal
+          [ with_cluster/4,             % +Names, +Dir, +Swipl, :Goal
             cluster_names/1,            % -Names
             cluster_living/1,           % -Names
             cluster_hosts/2,            % +Name, -Addresses
@@ -39,7 +39,7 @@ answers, and puts it in the queue `chaos_answers`.
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
 
-:- meta_predicate with_cluster(+, +, 0).
+:- meta_predicate with_cluster(+, +, +, 0).
 
 :- dynamic
     place/5,                            % Name, Port, Known, Hosts, Dir
@@ -48,18 +48,20 @@ answers, and puts it in the queue `chaos_answers`.
     proxies/3,                          % Pid, In, Out
     busy/1,                             % Pid
     asked/4,                            % Tag, Name, Goal, Deadline
-    answered/3.                         % Tag, asked(Name, Goal), Result
+    answered/3,                         % Tag, asked(Name, Goal), Result
+    program/1.                          % File
 
 hosts_per_process(3).
 
-%!  with_cluster(+Names, +Dir, :Goal)
+%!  with_cluster(+Names, +Dir, +Swipl, :Goal)
 %
 %   Run Goal once with processes of these Names, which leave their ledgers
-%   and messages in Dir.  However it ends, nothing is left running.
+%   and messages in Dir.  However it ends, nothing is left running.  Swipl is the
+%   program they run.
 
-with_cluster(Names, Dir, Goal) :-
+with_cluster(Names, Dir, Swipl, Goal) :-
     setup_call_cleanup(
-        true,
+        assertz(program(Swipl)),
         ( open_all(Names, Dir), once(Goal) ),
         end_all).
 
@@ -88,6 +90,7 @@ end_all :-
     forall(retract(proxies(Pid, In, Out)),
            ( end(Pid), close_pipe(In), close_pipe(Out) )),
     forall(retract(busy(Pid)), end(Pid)),
+    retractall(program(_)),
     retractall(place(_, _, _, _, _)),
     retractall(life(_, _, _, _)),
     retractall(asked(_, _, _, _)),
@@ -166,7 +169,7 @@ life_file(Dir, Name, Number, Extension, File) :-
     directory_file_path(Dir, Base, File).
 
 launch(Args0, Messages, Pid, In, Out) :-
-    current_prolog_flag(executable, Swipl),
+    program(Swipl),
     maplist(argument, Args0, Args),
     setup_call_cleanup(
         open(Messages, append, Err),
