@@ -119,11 +119,18 @@ ask(top(_, In, Queue, _, Dir), Goal, Lines) :-
     Deadline is Now+60,
     lines_until(Mark, Queue, Deadline, Lines0),
     exclude(==(""), Lines0, Lines1),
-    (   Lines1 = ["true."|Lines2]       % of the mark before
-    ->  true
-    ;   Lines2 = Lines1
-    ),
+    without_mark(Lines1, Lines2),
     maplist(at_home(Dir), Lines2, Lines).
+
+%   What the mark before has answered stands first, or behind reports that came
+%   just then.
+
+without_mark(Lines0, Lines) :-
+    append(Reports, ["true."|Others], Lines0),
+    maplist(report, Reports),
+    !,
+    append(Reports, Others, Lines).
+without_mark(Lines, Lines).
 
 lines_until(Mark, Queue, Deadline, Lines) :-
     (   thread_get_message(Queue, line(Line), [deadline(Deadline)])
