@@ -2,9 +2,10 @@
 
     swipl test/chaos/fuzz.pl -- [--count N] [--seed N] [--tls]
 
-sends N inputs to a process with a host, which has keys with --tls. Each has a seed of its own, from the
-one given on: `--count 1 --seed I` repeats one. Faults are printed with the
-seeds between which they were seen; the exit status is then 1. */
+sends N inputs to a process with a host, which has keys with --tls. Each has a
+seed of its own, from the one given on: `--count 1 --seed I` repeats one. Faults
+are printed with the seeds between which they were seen; the exit status is then
+1. */
 
 :- use_module('../lib/common').
 :- use_module(fuzz_run).

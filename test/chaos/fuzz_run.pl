@@ -40,8 +40,8 @@ _Threading_: the main thread.
 
 %!  fuzz(+Options, -Faults:list) is det.
 %
-%   Options: count(N), seed(N), progress(Bool), tls(Bool). Input I has the seed I of its
-%   own; a fault names the seeds between which it was seen.
+%   Options: count(N), seed(N), progress(Bool), tls(Bool). Input I has the seed I
+%   of its own; a fault names the seeds between which it was seen.
 
 fuzz(Options, Faults) :-
     option(count(Count), Options, 2000),

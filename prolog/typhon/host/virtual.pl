@@ -61,7 +61,8 @@ comes in any order; with one there is no chance.
 virtual_start :-
     message_queue_create(Queue),
     virtual_begin,
-    thread_create(( output_own, virtual_loop(Queue) ), Thread, [alias(typhon_virtual_time)]),
+    thread_create(( output_own, virtual_loop(Queue) ), Thread,
+                  [alias(typhon_virtual_time)]),
     assertz(loop(Thread, Queue)).
 
 virtual_stop :-

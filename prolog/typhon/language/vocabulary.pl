@@ -3,8 +3,8 @@
 /** <module> What is visible to agents
 
 This module is the import parent of all places.  It defines nothing: it
-brings together the vocabulary of agents (typhon_words, typhon_memory, typhon_seals) and
-libraries without state that agents may use without asking.
+brings together the vocabulary of agents (typhon_words, typhon_memory,
+typhon_seals) and libraries without state that agents may use without asking.
 
 *Threading*: nothing happens here.
 */

@@ -9,9 +9,9 @@
 
 Programs and payloads. A payload has no name of its own on the way, since its
 clauses are part of the state of an agent; its hash is that of a program with
-the same clauses that no file could be. The order of its predicates does not count, that of
-their clauses does; and it is that of its clauses as they are stored, without
-what a host that guards has written into them.
+the same clauses that no file could be. The order of its predicates does not
+count, that of their clauses does; and it is that of its clauses as they are
+stored, without what a host that guards has written into them.
 
 *Threading*: any thread; no state.
 */

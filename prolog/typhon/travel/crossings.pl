@@ -46,8 +46,8 @@ hop, that the first has no open one less than Least to it any more.
 %!  crossing_repeated(+Who) is semidet.
 %
 %   Who sets out for Endpoint, with so many Hops, at Sent, from which the
-%   number follows; did so before a restart; has arrived, or stays; it is not known whether
-%   it had arrived already when it is sent next; which is so.
+%   number follows; did so before a restart; has arrived, or stays; it is not
+%   known whether it had arrived already when it is sent next; which is so.
 
 crossing_begin(Who, Hops, Endpoint, Sent) :-
     (   journal_on

@@ -53,9 +53,9 @@ prove(server, In, Out, Me, Peer) :-
 
 %!  meet(+Role, +In, +Out, +Me, +Peer, -Session, :Known) is semidet.
 %
-%   Peer is Hello-Proof. Give the connection to the session with Peer. call(Known, Session) notes
-%   the addresses that lead to it before that: whoever gives it a connection
-%   does so for all.
+%   Peer is Hello-Proof. Give the connection to the session with Peer.
+%   call(Known, Session) notes the addresses that lead to it before that: whoever
+%   gives it a connection does so for all.
 
 meet(Role, In, Out, Me, Peer-Proof, Session, Known) :-
     hello_codec(Me, Peer, Codec),
