@@ -150,13 +150,16 @@ guard_allowed(runs(Spec), Goal0, Own, Goal) :-
     compound_name_arguments(Goal, Name, Args).
 
 argument(Own, 0, Goal0, Goal) =>
-    guard(Goal0, Own, Goal).
+    below_variables(Goal0, Own, Goal).
 argument(Own, ^, Goal0, Goal) =>
     below_variables(Goal0, Own, Goal).
 argument(Own, N, Closure0, Closure), integer(N) =>
     closure(N, Own, Closure0, Closure).
 argument(_, _, Arg0, Arg) =>
     Arg = Arg0.
+
+%   Some call the goal below V^Goal, whatever their specification says, and
+%   whatever ^/2 the agent has.
 
 below_variables(Goal0, Own, Goal) :-
     nonvar(Goal0),

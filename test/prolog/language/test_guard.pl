@@ -3,8 +3,9 @@
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
 :- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
@@ -160,6 +161,9 @@ attack(maplist(user:foo, [1])).
 attack(foldl([X,Y,Y]>>(call(user:X)), [true], a, _)).
 attack(aggregate_all(count, shell(_), _)).
 attack(aggregate_all(count, user:true, _)).
+attack(aggregate_all(bag(x), _^shell(x), _)).
+attack(aggregate_all(count, x, _^shell(x), _)).
+attack(group_by(x, x, _^shell(x), _)).
 attack(call(call, halt)).
 attack(call(call(call), shell, x)).
 attack(call(',', true, halt)).
@@ -212,6 +216,36 @@ of_policy(permission_error(call, sandboxed, _)).
 of_policy(permission_error(_, _, _)).
 of_policy(existence_error(procedure, _)).
 
+%   below_variables(-Goal): Goal, which strangers may call, is given one that they
+%   may not, below a variable.  Some libraries call what is there, whatever the
+%   specification says.
+
+below_variables(Goal) :-
+    typhon_allowed:runs(_, Spec),
+    member(Other, [x, _, count, bag(x), [1,2]]),
+    member(Below, [_^Harm, _^_^Harm, x^Harm]),
+    Harm = flag(typhon_guard_escaped, _, 1),
+    Spec =.. [Name|Modes],
+    maplist(given(Other, Below), Modes, Args),
+    Goal =.. [Name|Args].
+
+given(_, Below, Mode, Arg), memberchk(Mode, [0, ^]) =>
+    Arg = Below.
+given(_, _, Mode, Arg), integer(Mode) =>
+    Arg = true.
+given(Other, _, _, Arg) =>
+    Arg = Other.
+
+made_up(Goals, Own) :-
+    findall(goal(G), member(G, Goals), Facts),
+    append([(main :- goal(G), catch(G, _, true), fail), main|Own], Facts,
+           Clauses),
+    outcome(Clauses, done).
+
+as_written(Goal) :-
+    catch(outcome([(main :- catch(Goal, _, true))], _),
+          error(move_refused(_, policy(_)), _), true).
+
 outcome(Clauses, Outcome) :-
     create(Clauses, A, [host(g)]),
     joined_guarded(A, Outcome).
@@ -222,6 +256,16 @@ test(each_attack_is_refused, Through == []) :-
     with_hosts([g-[policy(guarded)]],
                listening(findall(G, ( attack(G), \+ refused(G) ), Through),
                          _)).
+
+test(nothing_is_called_unseen_below_a_variable, Escaped-Count == 0-many) :-
+    flag(typhon_guard_escaped, _, 0),
+    with_hosts([g-[policy(guarded)]],
+               ( findall(Goal, below_variables(Goal), Goals),
+                 made_up(Goals, []),
+                 made_up(Goals, [(_^_ :- true)]),
+                 forall(member(Goal, Goals), as_written(Goal)) )),
+    flag(typhon_guard_escaped, Escaped, 0),
+    ( Goals = [_,_,_|_] -> Count = many ; Count = few ).
 
 %   What a stranger may do, it does.
 
