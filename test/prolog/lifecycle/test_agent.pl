@@ -535,6 +535,11 @@ test(a_handler_that_raises, true(O = raised(oops))) :-
                            wait_state(A, resident),
                            agent_send(A, hello),
                            joined(A, O) ), _)).
+test(sent_to_an_unbound, F == [s(instantiation_error)]) :-
+    lives([(main :- catch(send(_, x), error(E, _), assertz(s(E))))], F).
+test(sent_to_an_unbound_somewhere, F == [s(instantiation_error)]) :-
+    lives([(main :- catch(send(at(_, alpha), x), error(E, _),
+                          assertz(s(E))))], F).
 test(a_handler_is_called_once_for_each, F == [s(1),s(2)]) :-
     with_hosts([alpha],
                mailed([(on_message(_, X) :- member(_, [a,b]),
