@@ -139,6 +139,8 @@ test(refused_for_want_of_a_token, error(move_refused(_, token))) :-
 test(admitted_with_a_token, O == done) :-
     with_hosts([alpha-[tokens([red,green])]],
                ( create([main], A, [tokens([blue,green])]), joined(A, O) )).
+test(no_token_fits_all, error(move_refused(_, token))) :-
+    with_hosts([alpha-[tokens([red])]], create([main], _, [tokens([_])])).
 test(ids_are_unique, N == 400) :-
     with_hosts([alpha,beta], unique_ids(N)).
 
