@@ -121,6 +121,7 @@ none of its own.
 %   the journal is that of a network that was started otherwise
 
 network_start(Topology, Network, Options) :-
+    must_be(var, Network),
     kept_plan(Topology, Options, Plan, Kept),
     network_begin(_, Plan, started(Plan, Kept), Network).
 
