@@ -84,7 +84,7 @@ make_keys(Name) :-
     atom_concat('typhon load ', Name, Load),
     flag(Load, _, 0),
     assertz(load_key(Name, Load)),
-    forall(member(Direction, [in,out]), make_hop_keys(Name, Direction)).
+    forall(direction(Direction), make_hop_keys(Name, Direction)).
 
 make_hop_keys(Name, Direction) :-
     findall(Key,
@@ -319,12 +319,16 @@ add_hop(flags(Count, Min, Sum, Max), Seconds) :-
     get_flag(Min, Min0), ( Seconds < Min0 -> set_flag(Min, Seconds) ; true ),
     get_flag(Max, Max0), ( Seconds > Max0 -> set_flag(Max, Seconds) ; true ).
 
+direction(in).
+direction(out).
+
 %!  host_hop_stats(+Name, ?Direction, -Stats) is nondet.
 %
 %   Stats is stats(Count, Min, Mean, Max), in host seconds.
 
 host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
-    hop_keys(Name, Direction, flags(CountKey, MinKey, SumKey, MaxKey)),
+    direction(Direction),
+    once(hop_keys(Name, Direction, flags(CountKey, MinKey, SumKey, MaxKey))),
     get_flag(CountKey, Count),
     (   Count =:= 0
     ->  Min = 0.0, Mean = 0.0, Max = 0.0
