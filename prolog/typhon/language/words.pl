@@ -245,6 +245,7 @@ attach(Spec) :-
     ).
 
 detach(Name) :-
+    must_be(atom, Name),
     context_agent(Id),
     agent_detach(Id, Name).
 
@@ -260,6 +261,7 @@ detach(Name) :-
 %          and the host was not started with python(true)
 
 deliver(Name) :-
+    must_be(atom, Name),
     context_agent(Id),
     agent_payload(Id, Name, Payload),
     place(Host, Place),
@@ -275,6 +277,7 @@ deliver_python(Host, Name, Source) :-
     ).
 
 undeliver(Name) :-
+    must_be(atom, Name),
     place(Host, Place),
     place_undeliver(Place, Name),
     ignore(python_undelivered(Host, Name)).

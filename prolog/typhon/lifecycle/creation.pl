@@ -105,9 +105,10 @@ option_type(static(X), boolean, X).
 %   What stands before the first `@` of an id is no part of an address.
 
 check_agent_name(Name) :-
-    (   sub_atom(Name, _, _, _, @)
-    ->  domain_error(agent_name, Name)
-    ;   true
+    (   Name \== '',
+        \+ sub_atom(Name, _, _, _, @)
+    ->  true
+    ;   domain_error(agent_name, Name)
     ).
 
 target(Options, Where) :-

@@ -86,6 +86,9 @@ test(name_given, N == scout) :-
     with_hosts([alpha],
                ( create([main], A, [name(scout)]), joined(A, _),
                  atomic_list_concat([N|_], '.', A) )).
+test(name_that_is_none, [ forall(member(Name, ['', 'a@b'])),
+                          error(domain_error(agent_name, Name)) ]) :-
+    with_hosts([alpha], create([main], _, [name(Name)])).
 test(home_can_be_told_from_the_id, true(sub_atom(A, _, _, 0, Home))) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, _),
@@ -995,6 +998,10 @@ test(deliver_what_is_not_attached,
 test(undeliver_what_is_not_there,
      true(F = [s(existence_error(payload, x))])) :-
     lives([(main :- catch(undeliver(x), error(E, _), assertz(s(E))))], F).
+test(which_payload_must_be_said,
+     [ forall(member(Goal, [detach(X), deliver(X), undeliver(X)])),
+       F == [s(instantiation_error)] ]) :-
+    lives([(main :- catch(Goal, error(E, _), assertz(s(E))))], F).
 test(deliver_over_another_payload,
      true(F = [s(permission_error(deliver, procedure, p/1))])) :-
     with_hosts([alpha],
