@@ -840,6 +840,15 @@ test(all, true(Ps =@= [ facts([s(1)]), goals([receive(_-go),foo]), home(A),
                  wait_state(Agent, waiting),
                  findall(P, agent_property(Agent, P), Ps0),
                  sort(Ps0, Ps) )).
+test(host_and_home_by_name, As-Bs == [A]-[A,B]) :-
+    with_hosts([alpha,beta],
+               ( create([on_message(_, _)], A),
+                 create([on_message(_, _)], B),
+                 agent_move(B, beta),
+                 wait_until(agent_property(B, host(beta)), 10),
+                 findall(X, agent_property(X, host(alpha)), As),
+                 findall(X, agent_property(X, home(alpha)), Bs0),
+                 sort(Bs0, Bs) )).
 test(unknown, [fail]) :-
     with_hosts([alpha],
                ( address(alpha, Address),
