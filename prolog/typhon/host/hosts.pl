@@ -32,6 +32,8 @@ on them and how long hops take.
 one mutex: flag/3 would lock for each of them.
 */
 
+:- multifile error:has_type/2.
+
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
@@ -175,6 +177,15 @@ address_parts(Address, Name, Endpoint) :-
 address_parts(Address, Name, Endpoint) :-
     atomic_list_concat([Name,Endpoint], '@', Address).
 
+error:has_type(host_address, Address) :-
+    atom(Address),
+    is_address(Address, _, _).
+
+is_address(Address, Name, Endpoint) :-
+    address_parts(Address, Name, Endpoint),
+    sub_atom(Endpoint, _, _, _, :),
+    !.
+
 %!  host_resolve(+Host, -Where) is det.
 %
 %   Where is local(Name) or remote(Address, Name, Endpoint).
@@ -192,8 +203,7 @@ host_resolve(Host, local(Name)) :-
     host(Name, Host, _),
     !.
 host_resolve(Host, remote(Host, Name, Endpoint)) :-
-    address_parts(Host, Name, Endpoint),
-    sub_atom(Endpoint, _, _, _, :),
+    is_address(Host, Name, Endpoint),
     !.
 host_resolve(Host, _) :-
     existence_error(host, Host).

@@ -132,7 +132,8 @@ test(unknown_option, error(domain_error(host_option, colour(red)))) :-
     host_start(alpha, [colour(red)]).
 test(wrong_types,
      [forall(member(O, [port(x), capacity(-1), capacity(many), tokens(t),
-                        concurrency(0), log(1), remote(maybe), clock(0,x),
+                        concurrency(0), log(1), log('events.pl'),
+                        log('events.pl', [hops]), remote(maybe), clock(0,x),
                         hop_time(uniform(a,b)), seed(x), bind(1)])),
       error(type_error(_, _))]) :-
     host_start(alpha, [O]).
