@@ -20,7 +20,7 @@ while after the answer is known.
               [ tcp_close_socket/1, tcp_connect/2, tcp_host_to_address/2,
                 tcp_socket/1
               ]).
-:- use_module('../prolog/typhon', [remote/2]).
+:- use_module('../prolog/typhon', [host_property/2]).
 :- use_module('../prolog/typhon/wire', [cookie/1, endpoint_peer/2]).
 
 connect_deadline(5).                    % seconds
@@ -95,6 +95,8 @@ step(connection,
      'Is the host running, with --bind to an interface seen from here?').
 step(authentication,
      'Copy ~/.typhon.cookie so that both machines have the same one.').
+step(host,
+     'Start it there, or write the name of one that is.').
 
 %   check(Address, Step, Found): Found is what there is to say
 
@@ -127,12 +129,15 @@ check(Address, connection, 'something listens there') :-
     connect_within_deadline(Interface:Port).
 check(Address, authentication, Found) :-
     get_time(Start),
-    remote(Address, true),
+    catch(host_property(Address, state(_)),
+          error(existence_error(host, _), _), true),  % says the next step
     get_time(End),
     MilliSeconds is (End-Start)*1000,
     codec(Address, Codec),
     format(atom(Found), 'same cookie, codec ~w, answered in ~1f ms',
            [Codec, MilliSeconds]).
+check(Address, host, Found) :-
+    host_property(Address, state(Found)).
 
 %   In 9.2, tcp_host_to_address/2 fails for many names, and there is another.
 

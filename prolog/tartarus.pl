@@ -27,8 +27,9 @@ Local definitions win: programs may have predicates of these names.
 */
 
 :- reexport(tartarus/platform,
-            [ start_tartarus/2, start_tartarus/3, close_tartarus/0,
-              reset_tartarus/0, get_tartarus_details/2, set_token/1,
+            [ start_tartarus/1, start_tartarus/2, start_tartarus/3,
+              close_tartarus/0, reset_tartarus/0, get_tartarus_details/2,
+              set_token/1,
               print_tartarus_status/0, assert_file_to_tartarus/1, verbose/1,
               platform_start/2, nothing/0
             ]).

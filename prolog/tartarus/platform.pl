@@ -1,5 +1,6 @@
 :- module(tartarus_platform,
-          [ start_tartarus/2,           % +A, +B
+          [ start_tartarus/1,           % +Port
+            start_tartarus/2,           % +A, +B
             start_tartarus/3,           % +Ip, +Port, +Token
             platform_start/2,           % +Ip, +Port
             close_tartarus/0,
@@ -45,11 +46,15 @@ born on another, `tartarus_gate`, which asks for no token.
 %!  start_tartarus(+Ip, +Port, +Token) is semidet.
 %!  start_tartarus(+Port, +Token) is semidet.
 %!  start_tartarus(+Ip, +Port) is semidet.
+%!  start_tartarus(+Port) is semidet.
 %!  platform_start(+Ip, +Port) is semidet.
 %
 %   Start the platform of this process, and print its banner.  Without a
 %   token nobody is let in.  Fails when the port is taken.  Ports above 65535
 %   are those modulo 65536.
+
+start_tartarus(Port) :-
+    platform_start(localhost, Port).
 
 start_tartarus(Ip, Port) :-
     atom(Ip),

@@ -361,6 +361,16 @@ test(nobody_there, Status == exit(1)) :-
     split_string(Out, "\n", "\n", Lines),
     assertion(has_line(Lines, '*ok*cookie*')),
     assertion(has_line(Lines, '*FAIL*connection*')).
+test(another_host_there, Status == exit(1)) :-
+    with_typhon([host, alpha], _, Address,
+                ( atom_concat(alpha, Endpoint, Address),
+                  atom_concat(beta, Endpoint, There),
+                  typhon([diagnose, There], Status, Out, _),
+                  split_string(Out, "\n", "\n", Lines),
+                  assertion(has_line(Lines, '*ok*authentication*')),
+                  assertion(has_line(Lines,
+                                     '*FAIL*host*no host beta*alpha*'))
+                )).
 test(other_cookie, Status == exit(1)) :-
     with_typhon([host, alpha], _, Address,
                 ( typhon_args([diagnose, Address], Args),

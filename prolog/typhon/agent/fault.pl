@@ -43,11 +43,20 @@ agent_fault(Id, Outcome0, Goals0,
     host(Host, Address, _),
     !,
     fault(Outcome0, Goals0, Fault),
-    Fault = fault(Goal0, Goals, _),
+    Fault = fault(Goal0, Left, _),
+    can_be_kept(Left, Goals),
     where(Hash, Module, Fault, Where),
     in_words(Outcome0-Goal0, Outcome-Goal),
     life_hops(Life, Hops),
     get_time(Stamp).
+
+%   Prolog has no clauses that hold a cyclic term.
+
+can_be_kept(Goals, Goals) :-
+    acyclic_term(Goals),
+    !.
+can_be_kept(Goals0, Goals) :-
+    in_words(Goals0, Goals).
 
 %!  agent_handled(+Id, +Goal, -Fault) is semidet.
 %

@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/trees', [is_in_itself/1]).
 :- use_module('../wire', [mobile_term/1]).
 
 /** <module> Terms that can be told everywhere
@@ -22,7 +23,7 @@ in_words(Term, Portable) :-
     !,
     Portable = Term.
 in_words(Term, 'a cyclic term') :-
-    cyclic_term(Term),
+    is_in_itself(Term),
     !.
 in_words(Term, Words) :-
     attvar(Term),

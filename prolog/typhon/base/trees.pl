@@ -1,8 +1,10 @@
 :- module(typhon_trees,
-          [ is_tree/2                   % +Term, +Most
+          [ is_tree/2,                  % +Term, +Most
+            is_in_itself/1              % +Term
           ]).
+:- use_module(library(lists), [member/2]).
 
-/** <module> Terms that are no larger than they look
+/** <module> Terms that are larger than they look, or without end
 
 *Threading*: pure.
 */
@@ -44,3 +46,17 @@ arguments(I, Arity, Term, N0, N) :-
         tree(Arg, N0, N)
     ;   N = N0
     ).
+
+%!  is_in_itself(+Term) is semidet.
+%
+%   Term is a part of one of its own arguments, which is more than to have a
+%   part that is: a mark in place of one argument is then found below those
+%   that Term has had.
+
+is_in_itself(Term) :-
+    cyclic_term(Term),
+    \+ \+ ( compound_name_arguments(Term, _, Args),
+            setarg(1, Term, Mark),
+            term_variables(Args, Variables),
+            member(Variable, Variables),
+            Variable == Mark ).

@@ -24,9 +24,10 @@ each other by a mutex.
 %!  host_change(+Host, +Option) is det.
 %
 %   Change an option of a host that runs, here or elsewhere: tokens, capacity,
-%   concurrency, hop_time, log, audit, peer, policy, python, quota, remote or
-%   seed, as of host_start/2, or services, to which those given are added.  Who
-%   stands on the host stays, also where fewer are let in from now on.
+%   authors, concurrency, hop_time, log, audit, peer, policy, python, quota,
+%   remote, seed or trail, as of host_start/2, or services, to which those given
+%   are added.  Who stands on the host stays, also where fewer are let in from
+%   now on.
 %
 %   @error existence_error(host, Host)
 %   @error permission_error(change, host_option, Option)

@@ -28,8 +28,8 @@ host_option_type(concurrency(X), oneof([inf]), X).
 host_option_type(consult(X), ground, X).
 host_option_type(services(X), ground, X).
 host_option_type(place(X), atom, X).
-host_option_type(log(X), atom, X).
-host_option_type(log(X, _), atom, X).
+host_option_type(log(X), host_address, X).
+host_option_type(log(X, _), host_address, X).
 host_option_type(remote(X), boolean, X).
 host_option_type(clock(X), oneof([virtual]), X).
 host_option_type(clock(X, Y), list(number), [X,Y]).

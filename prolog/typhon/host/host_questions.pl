@@ -63,7 +63,8 @@ property(remote(_, Name, Endpoint), Host, Property) :-
     ask(Endpoint, Host, host_properties(Name), Properties),
     (   Properties == none
     ->  host_unknown(Host)
-    ;   member(Property, Properties)
+    ;   findall(Property, member(Property, Properties), Found),
+        member(Property, Found)         % leaves no choice where one is asked
     ).
 
 local_property(address(Address), Name) :-

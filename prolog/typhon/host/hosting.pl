@@ -133,13 +133,19 @@ host_start(Name) :-
 host_start(Name, Options) :-
     must_be(atom, Name),
     check_options(host_option, Options),
-    (   sub_atom(Name, _, _, _, @)
-    ->  domain_error(host_name, Name)
-    ;   true
-    ),
+    must_be_name(Name),
     forall(member(peer(Rules), Options), must_be_peer_rules(Rules)),
     forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
     with_mutex(typhon_hosting, start(Name, Options)).
+
+%   An address has it before its `@`.
+
+must_be_name(Name) :-
+    (   Name \== '',
+        \+ sub_atom(Name, _, _, _, @)
+    ->  true
+    ;   domain_error(host_name, Name)
+    ).
 
 start(Name, _) :-
     retract(from_journal(Name)),

@@ -32,6 +32,8 @@ on them and how long hops take.
 one mutex: flag/3 would lock for each of them.
 */
 
+:- multifile error:has_type/2.
+
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
@@ -84,7 +86,7 @@ make_keys(Name) :-
     atom_concat('typhon load ', Name, Load),
     flag(Load, _, 0),
     assertz(load_key(Name, Load)),
-    forall(member(Direction, [in,out]), make_hop_keys(Name, Direction)).
+    forall(direction(Direction), make_hop_keys(Name, Direction)).
 
 make_hop_keys(Name, Direction) :-
     findall(Key,
@@ -175,6 +177,15 @@ address_parts(Address, Name, Endpoint) :-
 address_parts(Address, Name, Endpoint) :-
     atomic_list_concat([Name,Endpoint], '@', Address).
 
+error:has_type(host_address, Address) :-
+    atom(Address),
+    is_address(Address, _, _).
+
+is_address(Address, Name, Endpoint) :-
+    address_parts(Address, Name, Endpoint),
+    sub_atom(Endpoint, _, _, _, :),
+    !.
+
 %!  host_resolve(+Host, -Where) is det.
 %
 %   Where is local(Name) or remote(Address, Name, Endpoint).
@@ -192,8 +203,7 @@ host_resolve(Host, local(Name)) :-
     host(Name, Host, _),
     !.
 host_resolve(Host, remote(Host, Name, Endpoint)) :-
-    address_parts(Host, Name, Endpoint),
-    sub_atom(Endpoint, _, _, _, :),
+    is_address(Host, Name, Endpoint),
     !.
 host_resolve(Host, _) :-
     existence_error(host, Host).
@@ -239,7 +249,8 @@ shown([], _) :-
     !.
 shown(Wanted, Tokens) :-
     member(Token, Wanted),
-    memberchk(Token, Tokens),
+    member(Shown, Tokens),
+    subsumes_term(Token, Shown),        % no master key, which would fit all
     !.
 
 take_room(Capacity, Key, Answer) :-
@@ -318,12 +329,16 @@ add_hop(flags(Count, Min, Sum, Max), Seconds) :-
     get_flag(Min, Min0), ( Seconds < Min0 -> set_flag(Min, Seconds) ; true ),
     get_flag(Max, Max0), ( Seconds > Max0 -> set_flag(Max, Seconds) ; true ).
 
+direction(in).
+direction(out).
+
 %!  host_hop_stats(+Name, ?Direction, -Stats) is nondet.
 %
 %   Stats is stats(Count, Min, Mean, Max), in host seconds.
 
 host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
-    hop_keys(Name, Direction, flags(CountKey, MinKey, SumKey, MaxKey)),
+    direction(Direction),
+    once(hop_keys(Name, Direction, flags(CountKey, MinKey, SumKey, MaxKey))),
     get_flag(CountKey, Count),
     (   Count =:= 0
     ->  Min = 0.0, Mean = 0.0, Max = 0.0

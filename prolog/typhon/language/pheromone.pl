@@ -12,6 +12,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../base/chance', [chance_member/4]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_post/3, mobile_term/1]).
 :- use_module('../host',
               [ address_parts/3, host/3, host_neighbours/2, host_time/2,
@@ -40,6 +41,7 @@ the stronger one stays, and of two that are equally strong the younger.
 */
 
 :- multifile
+    typhon_options:declared/4,
     typhon_endpoint:received/3,
     typhon_strategy:choose/6,
     typhon_strategy:strategy/1.
@@ -72,20 +74,23 @@ pheromone_until(Emitted, Period, Span, Distance, Until) :-
 %   Emitting again refreshes what is left.
 %
 %   @error type_error(mobile_term, Culprit), instantiation_error
+%   @error domain_error(pheromone_option, Option)
 
 pheromone_emit(Host, Problem, Options) :-
     must_be(ground, Problem),
     mobile_term(Problem),
+    check_options(pheromone_option, Options),
     option(span(Span), Options, 3),
     option(strength(Maximum), Options, 100),
     option(period(Period), Options, 10),
-    must_be(positive_integer, Span),
-    must_be(number, Maximum),
-    must_be(number, Period),
     host(Host, Source, _),
     host_time(Host, Now),
     spread(Host, Source,
            signal(Problem, Source, Maximum, Span, Period, Now, 1)).
+
+typhon_options:declared(pheromone_option, span(Hops), positive_integer, Hops).
+typhon_options:declared(pheromone_option, strength(Number), number, Number).
+typhon_options:declared(pheromone_option, period(Seconds), number, Seconds).
 
 %   A signal is signal(Problem, Source, Maximum, Span, Period, Emitted,
 %   Distance), Distance being that of those who get it.

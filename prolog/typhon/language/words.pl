@@ -143,13 +143,9 @@ host_load(Count) :-
 %   A compound term, as fipa(Name, Addresses), is somebody beyond a bridge of
 %   this host, see post_abroad/4.
 
-send(at(Agent, _), Message) :-
-    \+ compound(Agent),
-    !,
+send(at(Agent, _), Message), \+ compound(Agent) =>
     send(Agent, Message).
-send(Somebody, Message) :-
-    compound(Somebody),
-    !,
+send(Somebody, Message), compound(Somebody) =>
     context(Host, Id, Module),
     (   module_policy(Module, _)        % no stranger speaks for us outside
     ->  permission_error(call, sandboxed, send(Somebody, Message))
@@ -157,15 +153,13 @@ send(Somebody, Message) :-
     ),
     post_abroad(Host, Somebody, Id, Message),
     event(messages, Host, Id, sent(Somebody, Message)).
-send(Agent, Message) :-
-    Agent == user,
-    !,
+send(Agent, Message), Agent == user =>
     context(Host, Id, _),
     quota_spend(Host, Id, messages),
     quota_cells(Host, Message),
     event(messages, Host, Id, sent(user, Message)),
     print_message(informational, typhon(told(Id, Message))).
-send(Agent, Message) :-
+send(Agent, Message) =>
     must_be(atom, Agent),
     context(Host, Id, _),
     quota_spend(Host, Id, messages),
@@ -251,6 +245,7 @@ attach(Spec) :-
     ).
 
 detach(Name) :-
+    must_be(atom, Name),
     context_agent(Id),
     agent_detach(Id, Name).
 
@@ -266,6 +261,7 @@ detach(Name) :-
 %          and the host was not started with python(true)
 
 deliver(Name) :-
+    must_be(atom, Name),
     context_agent(Id),
     agent_payload(Id, Name, Payload),
     place(Host, Place),
@@ -281,6 +277,7 @@ deliver_python(Host, Name, Source) :-
     ).
 
 undeliver(Name) :-
+    must_be(atom, Name),
     place(Host, Place),
     place_undeliver(Place, Name),
     ignore(python_undelivered(Host, Name)).

@@ -63,6 +63,7 @@ of the endpoint.
 %     - lifetime(+Hops): at the next move after so many it is disposed of
 %     - static(+Boolean): whether it may not move
 %
+%   @error uninstantiation_error(Agent): what it is called says name(Atom)
 %   @error existence_error(host, Host)
 %   @error move_refused(Host, Reason), host_unreachable(Host)
 %   @error any problem of the program, see typhon_programs
@@ -72,6 +73,7 @@ agent_create(Program, Agent) :-
     agent_create(Program, Agent, []).
 
 agent_create(Spec, Agent, Options) :-
+    must_be(var, Agent),
     check_options(agent_option, Options),
     raising_afresh(create_by(Options, Spec, Agent)).
 
@@ -103,9 +105,10 @@ option_type(static(X), boolean, X).
 %   What stands before the first `@` of an id is no part of an address.
 
 check_agent_name(Name) :-
-    (   sub_atom(Name, _, _, _, @)
-    ->  domain_error(agent_name, Name)
-    ;   true
+    (   Name \== '',
+        \+ sub_atom(Name, _, _, _, @)
+    ->  true
+    ;   domain_error(agent_name, Name)
     ).
 
 target(Options, Where) :-

@@ -46,6 +46,7 @@ agent_move(Agent, Host) :-
     order_give(Agent, move(Address), _).
 
 agent_clone(Agent, Clone) :-
+    must_be(var, Clone),
     order_give(Agent, clone, Clone0),
     Clone = Clone0.
 

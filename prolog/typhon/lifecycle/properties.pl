@@ -37,15 +37,17 @@
 %   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
 %   predicate, or `unknown`, and on which host it was.  What cannot travel
 %   stands in goals and messages in words.  One that runs has busy(Seconds):
-%   for so long, by the time of day, it has not stopped.  If Agent is
+%   for so long, by the time of day, it has not stopped.  A host of this
+%   process may be asked for by its name, as in host(alpha).  If Agent is
 %   unbound, the agents of this process are enumerated.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
 %   is a name; of an id that is no more this fails
 %   @error domain_error(agent_property, Property) if there is none like it
 
-agent_property(Agent, Property) :-
-    check_name(agent_property, Property),
+agent_property(Agent, Property0) :-
+    check_name(agent_property, Property0),
+    by_address(Property0, Property),
     (   var(Agent)
     ->  agent(Agent, _, _, _, _)
     ;   true
@@ -60,6 +62,19 @@ agent_property(Agent, Property) :-
 typhon_names:known(agent_property, mailbox(_)).
 typhon_names:known(agent_property, Property) :-
     clause(property(Property, _), _).
+
+%   Who says the name of a host means that of this process.
+
+by_address(host(Name), Property), host_known(Name, Address) =>
+    Property = host(Address).
+by_address(home(Name), Property), host_known(Name, Address) =>
+    Property = home(Address).
+by_address(Property0, Property) =>
+    Property = Property0.
+
+host_known(Name, Address) :-
+    nonvar(Name),
+    host(Name, Address, _).
 
 %   A mailbox may be long: it comes only if it is wanted.
 

@@ -4,7 +4,7 @@
             agent_load/3,               % +File, -Agent, +Options
             restore_point/2             % +File, +Image
           ]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
@@ -45,6 +45,7 @@ agent_load(File, Agent) :-
     agent_load(File, Agent, []).
 
 agent_load(File, Agent, Options) :-
+    must_be(var, Agent),
     check_options(load_option, Options),
     raising_afresh(read_image(File, Image)),
     Image = image(Name, Sent, Life, State, Goals, Mail),

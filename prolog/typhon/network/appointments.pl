@@ -50,10 +50,12 @@ network_advance(Network, Seconds) :-
 %   be if that is past; never, if Network is stopped before. What Goal
 %   raises is told.
 %
-%   @error existence_error(network, Network)
+%   @error existence_error(network, Network), type_error(callable, Goal)
 
 network_at(Network, Time, Goal) :-
     must_be(number, Time),
+    strip_module(Goal, _, Plain),
+    must_be(callable, Plain),
     network_clock(Network, clock(Epoch, Rate)),
     flag(typhon_network_at, N, N+1),
     assertz(due(Network, N, Goal)),

@@ -51,6 +51,7 @@ yet.  Nobody hears that what was there before has begun.
 %   @error what network_start/3 raises, as where a port is taken
 
 network_load(File, Network, Options) :-
+    must_be(var, Network),
     must_be(ground, File),
     check_options(network_load_option, Options),
     saved_read(File, Terms),

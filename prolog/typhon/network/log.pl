@@ -68,6 +68,7 @@ per server writes, see room `log_writer`.
 %   File)
 
 log_server_start(Options, Address) :-
+    must_be(var, Address),
     check_options(log_server_option, Options),
     option(name(Name), Options, log),
     (   option(file(File), Options)

@@ -115,12 +115,14 @@ none of its own.
 %       Without a journal their hosts are then as they were when they began:
 %       their agents, and what was left there, are lost. Default `false`.
 %
+%   @error uninstantiation_error(Network): the name is made here
 %   @error domain_error(network_option, Option), domain_error(topology, T),
 %   timeout_error(start, Network), system_error(process_ended(Status)),
 %   and what host_start/2 throws; journal_of_another(Directory, Was, Is) if
 %   the journal is that of a network that was started otherwise
 
 network_start(Topology, Network, Options) :-
+    must_be(var, Network),
     kept_plan(Topology, Options, Plan, Kept),
     network_begin(_, Plan, started(Plan, Kept), Network).
 

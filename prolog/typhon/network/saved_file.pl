@@ -43,7 +43,18 @@ saved_write(Spec, Terms) :-
             rename_file(New, File) ),
           Ball,
           ( catch(delete_file(New), error(_, _), true),
-            throw(Ball) )).
+            about(File, New, Ball, Told),
+            throw(Told) )).
+
+%   Nobody has heard of the file New.
+
+about(File, New, error(Formal0, Context), error(Formal, Context)) :-
+    Formal0 =.. Parts0,
+    append(Kind, [New], Parts0),
+    !,
+    append(Kind, [File], Parts),
+    Formal =.. Parts.
+about(_, _, Ball, Ball).
 
 header(typhon_saved(Version, Prolog, Platform)) :-
     format_version(Version),

@@ -81,7 +81,8 @@ option_type(state(X), oneof([idle, running, ramp_up, ramp_down]), X).
 regulation(Options, _, 2, Ratio) :-
     option(sync(Ratio), Options),
     !.
-regulation(_, true, 1, 0).
+regulation(_, true, 1, 0) :-
+    !.
 regulation(_, false, 0, 0).
 
 %   Bits: 1 motor on, 2 brake, 4 regulated.
@@ -100,7 +101,8 @@ output(Brick, Ports, Output) :-
     forall(member(Port, Ports),
            nxt_command(Brick, 'SETOUTPUTSTATE', Output.put(port, Port), _)).
 
-motor_ports(all, [0xFF]) :-
+motor_ports(Motors, [0xFF]) :-
+    Motors == all,
     !.
 motor_ports(Motors, Ports) :-
     is_list(Motors),

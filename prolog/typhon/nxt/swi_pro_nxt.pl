@@ -163,7 +163,8 @@ beep(4, [220-500]).
 
 beep_tone(Name, Hertz-MilliSeconds) :-
     nxt_tone(Name, Hertz, MilliSeconds),
-    sleep(MilliSeconds/1000+0.05).
+    Seconds is MilliSeconds/1000+0.05,
+    sleep(Seconds).
 
 %!  wait_nxt(+Name, +Time) is det.
 %
@@ -172,7 +173,8 @@ beep_tone(Name, Hertz-MilliSeconds) :-
 wait_nxt(Name, Time) :-
     must_be(atom, Name),
     must_be(nonneg, Time),
-    sleep(Time/1000).
+    Seconds is Time/1000,
+    sleep(Seconds).
 
                 /*******************************
                 *            FILES             *

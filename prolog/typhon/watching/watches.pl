@@ -68,6 +68,7 @@ room `telling`.
 %   @error host_unreachable(Host), permission_error(authenticate, host, Host)
 
 watch(Hosts, OnEvent, Watch) :-
+    must_be(var, Watch),
     strip_module(OnEvent, _, Plain),
     must_be(callable, Plain),
     flag(typhon_watches, N, N+1),

@@ -36,6 +36,7 @@ owner of a stream sees to it that one thread at a time writes to it.
               [resource_error/1, syntax_error/1, type_error/2]).
 :- use_module(library(sha), [sha_hash/3]).
 :- use_module('../base/fast_bytes', [fast_bytes_term/2]).
+:- use_module('../base/trees', [is_in_itself/1]).
 :- use_module(text, [term_text/2, text_term/2]).
 
 %!  frame_write(+Out, +Bytes) is det.
@@ -242,7 +243,7 @@ refuse(Term) :-
     ).
 
 culprit(Term, Term) :-
-    cyclic_term(Term),
+    is_in_itself(Term),
     !.
 culprit(Term, Term) :-
     attvar(Term),

@@ -132,12 +132,14 @@ test(unknown_option, error(domain_error(host_option, colour(red)))) :-
     host_start(alpha, [colour(red)]).
 test(wrong_types,
      [forall(member(O, [port(x), capacity(-1), capacity(many), tokens(t),
-                        concurrency(0), log(1), remote(maybe), clock(0,x),
+                        concurrency(0), log(1), log('events.pl'),
+                        log('events.pl', [hops]), remote(maybe), clock(0,x),
                         hop_time(uniform(a,b)), seed(x), bind(1)])),
       error(type_error(_, _))]) :-
     host_start(alpha, [O]).
-test(name_is_no_address, error(domain_error(host_name, 'a@b'))) :-
-    host_start('a@b').
+test(name_is_no_address, [ forall(member(Name, ['a@b', ''])),
+                           error(domain_error(host_name, Name)) ]) :-
+    host_start(Name).
 test(name_unbound, error(instantiation_error)) :-
     host_start(_).
 test(nothing_is_left_of_a_start_that_failed, error(existence_error(_, _))) :-
@@ -188,6 +190,13 @@ test(place_is_a_module, true(current_module(M))) :-
     with_hosts([alpha],
                ( host_property(alpha, place(M)), assertion(current_module(M)) )),
     set_module(M:class(temporary)).
+test(one_answer_to_one_question,
+     [ forall(member(P, [ address(_), state(_), capacity(_), load(_),
+                          neighbours(_), place(_), hop_time(in, _),
+                          hop_time(out, _) ])) ]) :-
+    with_hosts([alpha],
+               ( call_cleanup(host_property(alpha, P), Det = true),
+                 assertion(Det == true) )).
 test(hop_times, true((C == 3, Min =< Mean, Mean =< Max, Min > 0))) :-
     with_hosts([alpha,beta],
                ( create([(main :- move(beta), move(alpha), move(beta),

@@ -145,6 +145,11 @@ test(in_real_time_too, true(Heard == [a])) :-
 test(no_such_network,
      error(existence_error(network, no_network))) :-
     network_advance(no_network, 1).
+test(what_is_no_goal, [ forall(member(Goal-Formal,
+                                      [ _-instantiation_error,
+                                        3-type_error(callable, 3) ])),
+                        error(Formal) ]) :-
+    with_virtual([], N, network_at(N, 1, Goal)).
 test(no_such_network_at,
      error(existence_error(network, no_network))) :-
     network_at(no_network, 1, true).

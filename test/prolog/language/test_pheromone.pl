@@ -139,6 +139,8 @@ test(not_over_a_link_that_is_gone) :-
            at(c, fire, []) )).
 test(must_be_ground, error(instantiation_error)) :-
     line([a], emit(a, fire(_))).
+test(unknown_option, error(domain_error(pheromone_option, spam(2)))) :-
+    line([a], emit(a, fire, [spam(2)])).
 test(must_travel, error(type_error(mobile_term, _))) :-
     stream_property(S, alias(user_input)),
     line([a], emit(a, fire(S))).

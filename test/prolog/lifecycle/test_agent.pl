@@ -86,6 +86,9 @@ test(name_given, N == scout) :-
     with_hosts([alpha],
                ( create([main], A, [name(scout)]), joined(A, _),
                  atomic_list_concat([N|_], '.', A) )).
+test(name_that_is_none, [ forall(member(Name, ['', 'a@b'])),
+                          error(domain_error(agent_name, Name)) ]) :-
+    with_hosts([alpha], create([main], _, [name(Name)])).
 test(home_can_be_told_from_the_id, true(sub_atom(A, _, _, 0, Home))) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, _),
@@ -139,6 +142,8 @@ test(refused_for_want_of_a_token, error(move_refused(_, token))) :-
 test(admitted_with_a_token, O == done) :-
     with_hosts([alpha-[tokens([red,green])]],
                ( create([main], A, [tokens([blue,green])]), joined(A, O) )).
+test(no_token_fits_all, error(move_refused(_, token))) :-
+    with_hosts([alpha-[tokens([red])]], create([main], _, [tokens([_])])).
 test(ids_are_unique, N == 400) :-
     with_hosts([alpha,beta], unique_ids(N)).
 
@@ -535,6 +540,11 @@ test(a_handler_that_raises, true(O = raised(oops))) :-
                            wait_state(A, resident),
                            agent_send(A, hello),
                            joined(A, O) ), _)).
+test(sent_to_an_unbound, F == [s(instantiation_error)]) :-
+    lives([(main :- catch(send(_, x), error(E, _), assertz(s(E))))], F).
+test(sent_to_an_unbound_somewhere, F == [s(instantiation_error)]) :-
+    lives([(main :- catch(send(at(_, alpha), x), error(E, _),
+                          assertz(s(E))))], F).
 test(a_handler_is_called_once_for_each, F == [s(1),s(2)]) :-
     with_hosts([alpha],
                mailed([(on_message(_, X) :- member(_, [a,b]),
@@ -830,6 +840,15 @@ test(all, true(Ps =@= [ facts([s(1)]), goals([receive(_-go),foo]), home(A),
                  wait_state(Agent, waiting),
                  findall(P, agent_property(Agent, P), Ps0),
                  sort(Ps0, Ps) )).
+test(host_and_home_by_name, As-Bs == [A]-[A,B]) :-
+    with_hosts([alpha,beta],
+               ( create([on_message(_, _)], A),
+                 create([on_message(_, _)], B),
+                 agent_move(B, beta),
+                 wait_until(agent_property(B, host(beta)), 10),
+                 findall(X, agent_property(X, host(alpha)), As),
+                 findall(X, agent_property(X, home(alpha)), Bs0),
+                 sort(Bs0, Bs) )).
 test(unknown, [fail]) :-
     with_hosts([alpha],
                ( address(alpha, Address),
@@ -988,6 +1007,10 @@ test(deliver_what_is_not_attached,
 test(undeliver_what_is_not_there,
      true(F = [s(existence_error(payload, x))])) :-
     lives([(main :- catch(undeliver(x), error(E, _), assertz(s(E))))], F).
+test(which_payload_must_be_said,
+     [ forall(member(Goal, [detach(X), deliver(X), undeliver(X)])),
+       F == [s(instantiation_error)] ]) :-
+    lives([(main :- catch(Goal, error(E, _), assertz(s(E))))], F).
 test(deliver_over_another_payload,
      true(F = [s(permission_error(deliver, procedure, p/1))])) :-
     with_hosts([alpha],

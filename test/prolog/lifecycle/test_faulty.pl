@@ -366,6 +366,24 @@ test(a_stream, true(sub_atom(Words, 0, _, _, 'a stream ('))) :-
        ( faulty([(main :- current_output(S), move(beta), s(S))], A),
          joined(A, raised(error(type_error(mobile_term, Words), _))) )).
 
+test(a_cyclic_term,
+     true(E-Gs == type_error(mobile_term, 'a cyclic term')-
+                  [move(beta), s(1, 'a cyclic term')])) :-
+    on([alpha,beta],
+       ( faulty([(main :- X = f(X, 1), move(beta), s(1, X))], A),
+         joined(A, raised(error(E, _))),
+         agent_property(A, goals(Gs)) )).
+test(a_ball_that_holds_one,
+     true(E-Gs == oops(a, 'a cyclic term', b)-[main])) :-
+    on([alpha],
+       ( faulty([(main :- X = [1|X], throw(oops(a, X, b)))], A),
+         joined(A, raised(E)),
+         agent_property(A, goals(Gs)) )).
+test(an_error_that_holds_one, true(E == type_error(expression, 'a cyclic term'))) :-
+    on([alpha],
+       ( faulty([(main :- X = f(X), _ is X)], A),
+         joined(A, raised(error(E, _))) )).
+
 :- end_tests(outcomes_in_words).
 
                 /*******************************

@@ -162,7 +162,8 @@ four(Network) :-
     Blocks == [15, 15, 15, 15],
     nth1(15, Hosts, Last),
     nth1(16, Hosts, Next),
-    host_property(Last, neighbours(Ns)),
+    call_cleanup(host_property(Last, neighbours(Ns)), Det = true),
+    assertion(Det == true),
     memberchk(Next, Ns),
     host_property(Next, neighbours(Back)),
     memberchk(Last, Back).

@@ -516,7 +516,7 @@ twice(X, Dir) :-
 :- begin_tests(networks_that_cannot_be_saved_or_loaded).
 
 test(nowhere_to_write,
-     error(existence_error(source_sink, _))) :-
+     error(existence_error(source_sink, '/no/such/directory/file'))) :-
     with_network(ring(3), [clock(virtual)], N,
                  network_save(N, '/no/such/directory/file')).
 test(no_such_network, error(existence_error(network, none))) :-

@@ -11,6 +11,7 @@ with a real robot if there is one.
 :- use_module('../../lib/nxt_fixtures').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(typhon/nxt)).
 
 :- begin_tests(nxt_calls).
@@ -43,6 +44,17 @@ test(diagnose_nothing, Status-Found == exit(1)-true) :-
     ->  Found = true
     ;   Found = Out
     ).
+test(which_motor_must_be_said) :-
+    with_brick(_, Port,
+               connected(lizzy, Port, [],
+                         ( catch(nxt_run(lizzy, _, 50), error(E, _), true),
+                           assertion(E == instantiation_error),
+                           call_cleanup(nxt_turn(lizzy, a, 50, 0),
+                                        Stopped = true),
+                           assertion(Stopped == true),
+                           call_cleanup(nxt_turn(lizzy, a, 50, 9),
+                                        Begun = true),
+                           assertion(Begun == true) ))).
 test(real_brick, [condition(getenv('TYPHON_NXT', _))]) :-
     getenv('TYPHON_NXT', Port),
     connected(real, Port, [],
@@ -126,6 +138,7 @@ old_names(Brick, Port) :-
     old_sensors(Brick),
     old_files,
     old_telegrams,
+    old_sounds(Brick),
     catch(move_forward_nxt(lizzy, 1, 50), error(E, _), true),
     assertion(E == type_error(atom, 1)),
     close_nxt(lizzy).
@@ -144,6 +157,15 @@ old_motors :-
     getmode_nxt(lizzy, 'B', 3),
     flt_nxt(lizzy, 'B'),
     getmode_nxt(lizzy, 'B', 4).
+
+old_sounds(Brick) :-
+    beep_nxt(lizzy, 1),
+    get_time(Before),
+    wait_nxt(lizzy, 100),
+    get_time(After),
+    assertion(After-Before >= 0.1),
+    brick_ask(Brick, sounds, Sounds),
+    assertion(sub_term(600, Sounds)).
 
 old_sensors(Brick) :-
     brick_ask(Brick, 'set 1 1', ok),

@@ -5,6 +5,7 @@
 :- use_module(library(apply)).
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
+:- use_module(library(yall)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/nxt)).
 :- use_module('../../../agents/allocation/operator').
@@ -147,6 +148,25 @@ test(strategy) :-
          ["(did you mean conscientious?)"]).
 
 :- end_tests(names).
+
+:- begin_tests(names_that_are_given).
+
+%   Who wants to name something there says a name where one is given back.
+
+given(agent_create(clauses([(:- agent(a)), main]), bob)).
+given(agent_clone(eve, bob)).
+given(agent_load('point.txt', bob)).
+given(network_start(ring(3), net, [])).
+given(network_load('net.txt', net, [])).
+given(log_server_start([file('/dev/null')], log)).
+given(watch(alpha, [_]>>true, watch)).
+
+test(nothing_is_begun, [ forall(given(Goal)),
+                         error(uninstantiation_error(_)) ]) :-
+    with_hosts([alpha],
+               call_cleanup(Goal, assertion(\+ agent_property(_, _)))).
+
+:- end_tests(names_that_are_given).
 
 :- begin_tests(programs).
 
