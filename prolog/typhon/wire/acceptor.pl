@@ -206,8 +206,8 @@ serve(In, Out, Ip, Me) :-
                  leave).
 
 %   stage(+Ip, +Stage): this client has come so far: its streams are its
-%   thread's own, and it is `silent`; it is `heard`; it has `proved` itself.
-%   Fails if its slot is another's now.
+%   thread's own, and it is `silent`; it is `heard`; it has `proved` itself, or
+%   is `refused`.  Fails if its slot is another's now.
 
 stage(Ip, Stage) :-
     sig_atomic(slot(reach(Stage, Ip))).
@@ -216,6 +216,11 @@ reach(proved, Ip) :-
     !,
     leave,
     remember(Ip).
+reach(refused, _) :-
+    !,
+    thread_self(Me),
+    retract(stranger(Me, _, _, _)),
+    !.
 reach(Stage, _) :-
     thread_self(Me),
     retract(stranger(Me, Ip, Since, _)),

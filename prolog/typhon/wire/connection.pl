@@ -40,8 +40,8 @@ _Threading_: incoming/5 and outgoing/2 are the goals of threads of the wire.
 %
 %   Serve the client at Ip, whose streams are In and Out; Me is our hello.
 %   Stage is called with `silent`, from when on we see to the streams, with
-%   `heard` when the client has said something, and with `proved`. If it
-%   fails, that was all.
+%   `heard` when the client has said something, and with `proved` or `refused`.
+%   If it fails, that was all.
 
 incoming(In, Out, Ip, Stage, Me) :-
     catch(with_streams(call(Stage, silent), In, Out,
@@ -55,7 +55,7 @@ incoming(In, Out, Ip, Stage, Me) :-
                               reachable(Peer, Ip)),
                          serve(Session, SIn, SOut) )),
           error(Formal, _),
-          turned_away(Ip, Formal)).
+          turned_away(Ip, Formal, Stage)).
 
 await_word(In, Out) :-
     setting(typhon_auth:handshake_time, Seconds),
@@ -66,11 +66,13 @@ await_word(In, Out) :-
     ;   secure_first(Byte, Out)
     ).
 
-turned_away(Ip, Formal) :-
+turned_away(Ip, Formal, Stage) :-
     debug(typhon(connect), '~w: it came in vain: ~p', [Ip, Formal]),
     (   nb_current(typhon_proved, true) % it came to us by another way
     ->  true
-    ;   refused(Ip, Formal)
+    ;   call(Stage, refused)
+    ->  refused(Ip, Formal)
+    ;   true                            % who took its slot has counted it
     ).
 
 %   The peer at Ip can be reached at the address it says it listens to,
