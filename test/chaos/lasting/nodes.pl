@@ -39,6 +39,7 @@ war; the rest is for one thread.
 :- dynamic
     node_file/1,
     child/3,                            % Name, Pid, In
+    ready/1,                            % Pid: its host has started
     orders/1,                           % what a child is told first
     calm/0,                             % who ends is not started again
     guard/1,                            % Thread
@@ -149,9 +150,9 @@ keep(Node, Asker) :-
     atom_concat(Journal, '.err', Said),
     start(Node, Pid, In, Out, Err),
     read_line_to_string(Out, Line),
-    (   Line == "ready",
-        nonvar(Asker)
-    ->  thread_send_message(Asker, ready(Node))
+    (   Line == "ready"
+    ->  assertz(ready(Pid)),
+        ( nonvar(Asker) -> thread_send_message(Asker, ready(Node)) ; true )
     ;   true
     ),
     setup_call_cleanup(
@@ -160,6 +161,7 @@ keep(Node, Asker) :-
         close(Copy)),
     process_wait(Pid, Status),
     retractall(child(Name, _, _)),
+    retractall(ready(Pid)),
     close(In, [force(true)]),
     close(Out, [force(true)]),
     close(Err, [force(true)]),
@@ -291,9 +293,12 @@ happens(stop, Pid-_) :-
 happens(cut, _-In) :-
     with_mutex(lasting_orders, told(In, cut)).
 happens(full, Pid-_) :-
+    ready(Pid),                         % one that starts would end
+    !,
     longest_file(Pid, 1),
     for_a_while,
     longest_file(Pid, unlimited).
+happens(full, _).
 
 for_a_while :-
     random(0.1, 2.0, Seconds),
