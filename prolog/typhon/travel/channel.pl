@@ -2,15 +2,16 @@
           [ channel_post/3              % +Endpoint, +Kind, +Term
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(library(error), [must_be/2, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal',
               [ crash_point/1, journal_guards/0, journal_number/1, journal_on/0,
-                journal_seal/0, journal_step/1, note_drop_below/3, note_put/4 ]).
+                journal_seal/0, journal_step/1, note_bytes/2, note_change/1,
+                note_drop/3, note_drop_below/3, note_put/4, note_putting/5 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
-                endpoint_process/1 ]).
+                endpoint_process/1, frame_fits/1 ]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
 /** <module> Posts that survive those who send and take them
@@ -56,18 +57,32 @@ a time sends to an endpoint.
 batch(100).
 longest_pause(1).               % seconds between attempts
 ack_seconds(0.02).
+around(1000).                   % what a frame has besides, at most
 
 %!  channel_post(+Endpoint, +Kind, +Term) is det.
 %
 %   Post Term to Endpoint, once, whatever dies.  What was noted in this step
 %   is sealed with it.
+%
+%   @error resource_error(frame_bytes) Term is too long for a frame
 
 channel_post(Endpoint, Kind, Term) :-
     engaging(Endpoint,
              ( journal_number(N),
-               note_put(out, Endpoint, N, item(Kind, Term)),
+               note_putting(out, Endpoint, N, item(Kind, Term), Change),
+               must_fit(Change),
+               note_change(Change),
                journal_seal,
                assertz(out(Endpoint, N, Kind, Term)) )).
+
+must_fit(Change) :-
+    note_bytes(Change, Count),
+    around(More),
+    Most is Count+More,
+    (   frame_fits(Most)
+    ->  true
+    ;   resource_error(frame_bytes)
+    ).
 
 %   engaging(+Endpoint, :Goal): Goal changes what is to be sent to Endpoint, for
 %   which there is a courier then.  A thread that is told to end in the middle
@@ -167,6 +182,11 @@ not_sent(unreachable(_), Endpoint, try(Since, _)) :-
     !,
     print_message(silent, typhon(home_unreachable(Endpoint))),
     give_up(Endpoint).
+not_sent(resource_error(frame_bytes), Endpoint, _) :-
+    !,
+    with_mutex(typhon_channel, next_is_dropped(Endpoint, Dropped)),
+    say_undelivered(Dropped, Endpoint, resource_error(frame_bytes)),
+    carry(Endpoint, try(0, 0.05)).
 not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     debug(typhon(mail), 'nothing can be posted to ~w: ~p', [Endpoint, Formal]),
     with_mutex(typhon_channel, retractall(sent(Endpoint, _))),
@@ -178,6 +198,20 @@ not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     ;   Since = Since0
     ),
     alarm_in(Pause, Endpoint, channel(try(Since, Pause1))).
+
+%   In a codec that takes more room than what was noted, or since less is
+%   allowed, one may be too long that was not when it was posted: it must not
+%   keep others from being sent.
+
+next_is_dropped(Endpoint, [Kind-Term]) :-
+    sent(Endpoint, Sent),
+    out(Endpoint, N, Kind, Term),
+    N > Sent,
+    !,
+    note_drop(out, Endpoint, N),
+    retractall(out(Endpoint, N, _, _)),
+    retractall(sent(Endpoint, _)).
+next_is_dropped(_, []).                 % it is begun anew
 
 typhon_scheduler:fire(Endpoint, channel(Try)) :-
     !,
@@ -205,7 +239,7 @@ give_up(Endpoint) :-
                  retractall(sent(Endpoint, _)),
                  retractall(had(Endpoint, _)),
                  retractall(courier(Endpoint)) )),
-    forall(member(Kind-Term, Lost), undelivered(Kind, Term, Endpoint)).
+    say_undelivered(Lost, Endpoint, host_unreachable(Endpoint)).
 
 forget_all(Endpoint) :-
     (   out(Endpoint, N, _, _)
@@ -216,7 +250,11 @@ forget_all(Endpoint) :-
     ;   true
     ).
 
-:- multifile undelivered/3.             % Kind, Term, Endpoint
+:- multifile undelivered/4.             % Kind, Term, Endpoint, Formal
+
+say_undelivered(Lost, Endpoint, Formal) :-
+    forall(member(Kind-Term, Lost),
+           ignore(undelivered(Kind, Term, Endpoint, Formal))).
 
                 /*******************************
                 *          ITS OTHER END       *
