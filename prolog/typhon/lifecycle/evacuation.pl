@@ -51,9 +51,15 @@ evacuate(Host, Deadline) :-
         evacuate(Host, Deadline)
     ).
 
+%   Who is ready rests, whatever it has been told.
+
 stays(Id) :-
-    \+ agent_ordered(Id),
-    \+ agent_status(Id, transit(_, _), _).
+    agent_status(Id, Status, _),
+    (   Status == ready
+    ->  true
+    ;   \+ agent_ordered(Id),
+        \+ Status = transit(_, _)
+    ).
 
 %   That is the one exception that the agent's own catch/3 cannot stop.
 
