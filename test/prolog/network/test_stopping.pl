@@ -16,10 +16,9 @@ interest to people; what is wrong with an agent is.
 %   stopped in which there are Count agents of Clauses.
 
 stopped(Options, Clauses, Count, Told) :-
-    listening(no_leaks(setup_call_cleanup(
-                           network_start(ring(6), Network, Options),
-                           busy(Network, Clauses, Count),
-                           network_stop(Network))),
+    listening(setup_call_cleanup(network_start(ring(6), Network, Options),
+                                 busy(Network, Clauses, Count),
+                                 network_stop(Network)),
               Told).
 
 busy(Network, Clauses, Count) :-
@@ -52,26 +51,29 @@ test('of those that are stopped on their way nothing is told',
                 member(Options, [[processes(3)], []]) )),
        Told == [] ]) :-
     call(Kind, Clauses),
-    stopped(Options, Clauses, 50, Told).
+    no_leaks(stopped(Options, Clauses, 50, Told)).
 
-%   Longer than agents have to come to rest.
+%   Longer than agents have to come to rest, and so long that it is broken off.
 
 test('nor of those that are in a goal that takes a while',
-     [ forall(member(Options, [[processes(3)], []])), Told == [] ]) :-
+     [ forall(member(Seconds-Options, [1.3-[processes(3)], 1.3-[],
+                                       4-[processes(3)]])),
+       Told == [] ]) :-
     anywhere(Anywhere),
-    stopped(Options,
-            [ (main :- hops(N), N < 3, !, anywhere(Host), move(Host), main),
-              (main :- shell('sleep 1.3'), anywhere(Host), move(Host), main),
-              Anywhere ], 6, Told).
+    format(atom(Sleep), 'sleep ~w', [Seconds]),
+    Clauses = [ (main :- hops(N), N < 3, !, anywhere(Host), move(Host), main),
+                (main :- shell(Sleep), anywhere(Host), move(Host), main),
+                Anywhere ],
+    no_leaks(stopped(Options, Clauses, 6, Told)).
 
 test('what is wrong with one is told',
      [ forall(member(Options, [[processes(3)], []])),
        true(Told = [error-_]) ]) :-
     anywhere(Anywhere),
-    stopped(Options,
-            [ (main :- hops(N), N < 3, !, anywhere(Host), move(Host), main),
-              (main :- shell('sleep 0.3'), atom_length(_, _)),
-              Anywhere ], 1, Told).
+    Clauses = [ (main :- hops(N), N < 3, !, anywhere(Host), move(Host), main),
+                (main :- shell('sleep 0.3'), atom_length(_, _)),
+                Anywhere ],
+    no_leaks(stopped(Options, Clauses, 1, Told)).
 
 %   They miss a turn meanwhile.
 
