@@ -1,7 +1,7 @@
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
 :- use_module(library(plunit)).
-:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(lists), [member/2, min_list/2, nth0/3]).
 :- use_module(library(typhon)).
 
 /** <module> Tests of how networks stop, while agents are busy
@@ -74,6 +74,24 @@ test('what is wrong with one is told',
                 (main :- shell('sleep 0.3'), atom_length(_, _)),
                 Anywhere ],
     no_leaks(stopped(Options, Clauses, 1, Told)).
+
+%   Not even hundredths of a second for each host.
+
+test('where all rest nothing is waited for', true(Seconds < 0.5)) :-
+    findall(S, ( between(1, 3, _), seconds_to_stop(64, S) ), All),
+    min_list(All, Seconds).
+
+seconds_to_stop(Count, Seconds) :-
+    network_start(ring(Count), Network, []),
+    network_property(Network, hosts(Hosts)),
+    findall(Agent, ( member(Host, Hosts),
+                     create([(main :- receive(_-never))], Agent, [host(Host)]) ),
+            Agents),
+    forall(member(Agent, Agents), wait_state(Agent, waiting)),
+    get_time(Then),
+    network_stop(Network),
+    get_time(Now),
+    Seconds is Now-Then.
 
 %   They miss a turn meanwhile.
 
