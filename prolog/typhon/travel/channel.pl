@@ -7,8 +7,8 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal',
               [ crash_point/1, journal_guards/0, journal_number/1, journal_on/0,
-                journal_seal/0, journal_step/1, note_bytes/2, note_change/1,
-                note_drop/3, note_drop_below/3, note_put/4, note_putting/5 ]).
+                journal_seal/0, note_bytes/2, note_change/1, note_drop/3,
+                note_drop_below/3, note_putting/5 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_process/1, frame_fits/1 ]).
@@ -18,8 +18,8 @@
 
 A process that keeps a journal notes what it posts to another before it is
 sent, and keeps it until the other says that it has come for good.  Until then
-it is sent again whenever there is a new connection.  The other takes
-each once, in order:
+it is sent again whenever there is a new connection.  The other, see room
+`channel_end`, takes each once, in order:
 
     channel(Process, To, Before, N, Kind, Term)
 
@@ -46,9 +46,7 @@ a time sends to an endpoint.
     had/2,                      % Endpoint, N: all up to N have come
     sent/2,                     % Endpoint, N: all up to N were sent; not
                                 % there if it is to be begun anew
-    courier/1,                  % Endpoint: somebody sends
-    seen/2,                     % Key, N: of a channel to here
-    told/1.                     % Key: had/2 is about to be said
+    courier/1.                  % Endpoint: somebody sends
 
 :- setting(channel_seconds, number, 300,
            "Posts for a process that has left, and keeps no journal as far as \c
@@ -56,7 +54,6 @@ a time sends to an endpoint.
 
 batch(100).
 longest_pause(1).               % seconds between attempts
-ack_seconds(0.02).
 around(1000).                   % what a frame has besides, at most
 
 %!  channel_post(+Endpoint, +Kind, +Term) is det.
@@ -216,9 +213,6 @@ next_is_dropped(_, []).                 % it is begun anew
 typhon_scheduler:fire(Endpoint, channel(Try)) :-
     !,
     scheduler_call(typhon_channel:carry(Endpoint, Try)).
-typhon_scheduler:fire(Key, had(To, Peer)) :-
-    !,
-    scheduler_call(typhon_channel:say_had(Key, To, Peer)).
 
 %   This process says nothing any more.  What else does not exist, as the queue
 %   of a connection that breaks, is another's next time.
@@ -257,25 +251,17 @@ say_undelivered(Lost, Endpoint, Formal) :-
            ignore(undelivered(Kind, Term, Endpoint, Formal))).
 
                 /*******************************
-                *          ITS OTHER END       *
+                *        WHAT IS ANSWERED      *
                 *******************************/
 
-typhon_endpoint:received(channel, Said, Peer) :-
-    heard(Said, Peer).
-
-heard(channel(Process, To, Before, N, Kind, Term), Peer) :-
-    must_be(atom, Process),
-    must_be(atom, To),
-    must_be(integer, N),
-    atomic_list_concat([Process, To], ' ', Key),
-    with_mutex(typhon_channel_in,
-               taken(Key, Before, N, Kind, Term, Peer, How)),
-    answer(How, Key, To, Peer).
-heard(again(To), _) :-
-    engaging(To, retractall(sent(To, _))).
-heard(had(To, N), _) :-
+typhon_endpoint:received(channel, again(To), _) :-
+    begin_anew(To).
+typhon_endpoint:received(channel, had(To, N), _) :-
     must_be(integer, N),
     with_mutex(typhon_channel, has_come(To, N)).
+
+begin_anew(To) :-
+    engaging(To, retractall(sent(To, _))).
 
 has_come(To, N) :-
     retractall(had(To, _)),
@@ -294,52 +280,6 @@ come(To, N) :-
     ;   true
     ).
 
-taken(Key, _, N, _, _, _, known) :-
-    seen(Key, Seen),
-    N =< Seen,
-    !.
-taken(Key, Before, N, Kind, Term, Peer, new) :-
-    in_order(Before, Key),
-    !,
-    journal_step(( note_put(seen, Key, 0, N),
-                   take(Kind, Term, Peer) )),
-    retractall(seen(Key, _)),
-    assertz(seen(Key, N)),
-    crash_point(after_take).
-taken(_, _, _, _, _, _, gap).
-
-%   A process that has lost what it knew begins where it is told to.
-
-in_order(first(Before), Key) :-
-    (   seen(Key, Seen)
-    ->  Seen >= Before
-    ;   true
-    ).
-in_order(Before, Key) :-
-    seen(Key, Before).
-
-take(Kind, Term, Peer) :-
-    catch(ignore(typhon_endpoint:received(Kind, Term, Peer)),
-          error(Formal, Context),
-          print_message(error, error(Formal, Context))).
-
-answer(gap, _, To, Peer) :-
-    endpoint_post(Peer, channel, again(To)).
-answer(_, Key, To, Peer) :-
-    (   told(Key)
-    ->  true
-    ;   assertz(told(Key)),
-        ack_seconds(Seconds),
-        alarm_in(Seconds, Key, had(To, Peer))
-    ).
-
-say_had(Key, To, Peer) :-
-    retractall(told(Key)),
-    (   seen(Key, N)
-    ->  catch(endpoint_post(Peer, channel, had(To, N)), error(_, _), true)
-    ;   true
-    ).
-
                 /*******************************
                 *        BREAKS AND ENDS       *
                 *******************************/
@@ -349,23 +289,19 @@ say_had(Key, To, Peer) :-
 typhon_endpoint:connection(Endpoint, up) :-
     (   endpoint_address(Endpoint)
     ->  true
-    ;   heard(again(Endpoint), Endpoint)
+    ;   begin_anew(Endpoint)
     ).
 
 typhon_recovery:back(out, Endpoint, N, item(Kind, Term)) :-
     assertz(out(Endpoint, N, Kind, Term)).
-typhon_recovery:back(seen, Key, _, N) :-
-    assertz(seen(Key, N)).
 
 typhon_recovery:go_on :-
     findall(Endpoint, out(Endpoint, _, _, _), All),
     sort(All, Endpoints),
-    forall(member(Endpoint, Endpoints), heard(again(Endpoint), Endpoint)).
+    forall(member(Endpoint, Endpoints), begin_anew(Endpoint)).
 
 typhon_runtime:ending(after) :-
     retractall(out(_, _, _, _)),
     retractall(had(_, _)),
     retractall(sent(_, _)),
-    retractall(courier(_)),
-    retractall(seen(_, _)),
-    retractall(told(_)).
+    retractall(courier(_)).
