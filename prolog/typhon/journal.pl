@@ -27,6 +27,6 @@ This is the door of the layer: who is above takes what it needs from here.
               journal_opened/1, journal_place/2 ]).
 :- reexport(journal/turn,
             [ turn_after/1, turn_commit/0, turn_defers/0,
-              turn_has_effects/0, turn_note_drop/3, turn_note_put/4,
-              turn_release/0, turn_run/1 ]).
+              turn_has_effects/0, turn_note/1, turn_note_drop/3,
+              turn_note_put/4, turn_release/0, turn_run/1 ]).
 :- reexport(journal/crash, [crash_point/1]).

@@ -1,5 +1,6 @@
 :- module(typhon_channel,
-          [ channel_post/3              % +Endpoint, +Kind, +Term
+          [ channel_post/3,             % +Endpoint, +Kind, +Term
+            channel_must_fit/1          % +Change
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2, resource_error/1]).
@@ -67,12 +68,18 @@ channel_post(Endpoint, Kind, Term) :-
     engaging(Endpoint,
              ( journal_number(N),
                note_putting(out, Endpoint, N, item(Kind, Term), Change),
-               must_fit(Change),
+               channel_must_fit(Change),
                note_change(Change),
                journal_seal,
                assertz(out(Endpoint, N, Kind, Term)) )).
 
-must_fit(Change) :-
+%!  channel_must_fit(+Change) is det.
+%
+%   What is noted can be sent in a frame.
+%
+%   @error resource_error(frame_bytes)
+
+channel_must_fit(Change) :-
     note_bytes(Change, Count),
     around(More),
     Most is Count+More,

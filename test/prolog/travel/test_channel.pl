@@ -240,6 +240,27 @@ test('who sends a message that is too long hears of it') :-
           Formal == resource_error(frame_bytes) ),
         true).
 
+test('an agent does, too') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          listens(driver, Near),
+          Clauses = [ (:- agent(says, [state([to/2])])),
+                      (main :- to(Near1, Far),
+                               format(string(Long), "~`xt~90000|", []),
+                               send(Near1, Long),
+                               catch(send(Far, Long), error(Error, _), true),
+                               send(Far, short),
+                               result(Error)) ],
+          small(( agent_create(clauses(Clauses), A,
+                               [host(driver), facts([to(Near, Id)])]),
+                  agent_result(A, Formal, 20),
+                  got(Id, [short]) )),
+          Formal == resource_error(frame_bytes),
+          text(90000, Long0),
+          got(Near, [Long0]) ),
+        true).
+
 %   As when another codec needs more room than was thought.
 
 test('one that has become too long is told as lost') :-
