@@ -14,9 +14,9 @@ This is the door of the layer: who is above takes what it needs from here.
               journal_barrier/0, journal_commit/0, journal_go/0,
               journal_let_out/2, journal_number/1,
               journal_number_after/1, journal_seal/0,
-              journal_step/1, note_drop/3, note_drop_all/2,
+              journal_step/1, note_bytes/2, note_change/1, note_drop/3, note_drop_all/2,
               note_drop_at_once/3, note_drop_below/3, note_put/4,
-              note_put_at_once/4
+              note_put_at_once/4, note_putting/5
             ]).
 :- reexport(journal/item_key, [journal_key/1, journal_key/2]).
 :- reexport(journal/database,
@@ -27,6 +27,6 @@ This is the door of the layer: who is above takes what it needs from here.
               journal_opened/1, journal_place/2 ]).
 :- reexport(journal/turn,
             [ turn_after/1, turn_commit/0, turn_defers/0,
-              turn_has_effects/0, turn_note_drop/3, turn_note_put/4,
-              turn_release/0, turn_run/1 ]).
+              turn_has_effects/0, turn_note/1, turn_note_drop/3,
+              turn_note_put/4, turn_release/0, turn_run/1 ]).
 :- reexport(journal/crash, [crash_point/1]).

@@ -10,6 +10,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(travel/transfer, [transfer_given_up/2, transfer_held/2]).
 :- reexport(travel/doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
+:- use_module(travel/channel_end, []).
 :- reexport(travel/home,
               [agent_born/2, agent_outcome/2, home_agents/1, outcome_wait/3]).
 :- reexport(travel/legacies, [clone_born/2, clones_ask/3, legacy_ask/4]).

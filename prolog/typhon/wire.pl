@@ -15,6 +15,7 @@ This is the door of the layer: who is above takes what it needs from here.
             ]).
 :- reexport(wire/own_id, [endpoint_process/1]).
 :- reexport('wire/messaging').
+:- reexport(wire/outbox, [frame_fits/1]).
 :- reexport(wire/lending, [endpoint_afterwards/1]).
 :- reexport('wire/call').
 :- reexport('wire/inquiry').

@@ -3,7 +3,9 @@
             postgres_stop/0,
             postgres_crash/0,
             postgres_again/0,
-            postgres_url/2              % +Schema, -Url
+            postgres_url/2,             % +Schema, -Url
+            with_postgres_relay/3,      % +Schema, -Url, :Goal
+            postgres_relay/1            % +Order
           ]).
 
 /** <module> A server of PostgreSQL for the time of a suite
@@ -13,6 +15,7 @@ It has its data in a temporary directory, and listens at a socket there.
 *Threading*: the main thread.
 */
 
+:- use_module(common, [project_file/2]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
 :- use_module(library(lists), [append/3, last/2]).
@@ -20,9 +23,12 @@ It has its data in a temporary directory, and listens at a socket there.
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
+:- meta_predicate with_postgres_relay(+, -, 0).
+
 :- dynamic
     running/3,                          % Dir, Pid, Err
-    crashed/1.                          % Dir
+    crashed/1,                          % Dir
+    relay/2.                            % In, Out
 
 %!  postgres_start is det.
 %!  postgres_stop is det.
@@ -79,6 +85,46 @@ postgres_url(Schema, Url) :-
     running(Dir, _, _),
     format(atom(Url), 'postgresql://typhon@/postgres?host=~w&schema=~w',
            [Dir, Schema]).
+
+                /*******************************
+                *            RELAY             *
+                *******************************/
+
+%!  with_postgres_relay(+Schema, -Url, :Goal) is semidet.
+%!  postgres_relay(+Order) is det.
+%
+%   Calls Goal once while the schema is at Url, too, of a machine that can
+%   `vanish` and `return`: these are Orders.
+
+with_postgres_relay(Schema, Url, Goal) :-
+    setup_call_cleanup(relay_start(Pid, In, Out),
+                       ( relay_url(Out, Schema, Url), once(Goal) ),
+                       relay_stop(Pid, In, Out)).
+
+relay_start(Pid, In, Out) :-
+    running(Dir, _, _),
+    directory_file_path(Dir, '.s.PGSQL.5432', Socket),
+    project_file('test/lib/vanishing_relay.py', File),
+    process_create(path(python3), [File, Socket],
+                   [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
+    assertz(relay(In, Out)).
+
+relay_url(Out, Schema, Url) :-
+    read_line_to_string(Out, Port),
+    format(atom(Url), 'postgresql://typhon@127.0.0.1:~s/postgres?schema=~w',
+           [Port, Schema]).
+
+relay_stop(Pid, In, Out) :-
+    retractall(relay(In, Out)),
+    close(In),
+    close(Out),
+    process_wait(Pid, exit(0)).
+
+postgres_relay(Order) :-
+    relay(In, Out),
+    format(In, '~w~n', [Order]),
+    flush_output(In),
+    read_line_to_string(Out, "done").
 
                 /*******************************
                 *           PROGRAMS           *

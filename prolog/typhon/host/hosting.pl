@@ -40,7 +40,7 @@
 :- use_module(quotas, [quota_forget/1, quota_set/3]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
-:- use_module(time, [time_let_go/1]).
+:- use_module(time, [time_kind/1, time_let_go/1]).
 
 /** <module> Starting and stopping hosts
 
@@ -271,13 +271,18 @@ hosts_rest :-
 user:message_hook(error(existence_error(journal, open), _), _, _) :-
     journal_closed.
 
-%   From then on it does no harm if somebody runs.
+%   Virtual time that is held cannot end; in real time who is kept back would
+%   find that others are gone.
 
 rest :-
     journal_close,
-    time_let_go(_),
+    (   time_kind(virtual)
+    ->  time_let_go(_)
+    ;   true
+    ),
     findall(Name, host(Name, _, _), Names),
     forall(member(Name, Names), stop_one(Name)),
+    time_let_go(_),
     (   endpoint_address(_)
     ->  true
     ;   journal_end

@@ -126,7 +126,8 @@ stands(real, real).
 time_let_go(Agents) :-
     (   time_kind(Kind)
     ->  let_go(Kind, Agents)
-    ;   Agents = []
+    ;   Agents = [],
+        still_end(_)                    % it has ended meanwhile
     ).
 
 let_go(virtual, []) :-

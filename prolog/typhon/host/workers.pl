@@ -117,7 +117,7 @@ worker_leave :-
 leave(Me) :-
     (   run_queue(_),
         retract(worker(Me))
-    ->  thread_detach(Me)
+    ->  thread_at_exit(thread_detach(Me))   % of an abort nothing is told then
     ;   true                            % who stops the pool waits for it
     ).
 

@@ -15,6 +15,7 @@
             note_drop_at_once/3,        % +Kind, +Key, +N
             note_change/1,              % +Change
             note_putting/5,             % +Kind, +Key, +N, +Term, -Change
+            note_bytes/2,               % +Change, -Count
             journal_step/1,             % :Goal
             journal_seal/0,
             journal_barrier/0,
@@ -177,9 +178,10 @@ note_drop_at_once(Kind, Key, N) :-
     ).
 
 %!  note_putting(+Kind, +Key, +N, +Term, -Change) is det.
+%!  note_bytes(+Change, -Count) is det.
 %!  note_change(+Change) is det.
 %
-%   Change puts this item; it is noted.
+%   Change puts this item, which has so many bytes; it is noted.
 %
 %   @error representation_error(journal_key)
 
@@ -188,6 +190,9 @@ note_putting(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
     ->  fast_term_serialized(Term, Bytes)
     ;   representation_error(journal_key)
     ).
+
+note_bytes(put(_, _, _, Bytes), Count) :-
+    string_length(Bytes, Count).
 
 note_change(Change) :-
     (   nb_current(typhon_journal_step, true)

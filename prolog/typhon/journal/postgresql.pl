@@ -12,6 +12,7 @@
             postgresql_blame/3          % +State, +Text, -What
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(sql,
               [sql_connect/2, sql_disconnect/1, sql_do/2, sql_row/4]).
 
@@ -21,6 +22,10 @@ A server is told as room `postgresql_url` says.
 
 *Threading*: one thread at a time.
 */
+
+:- setting(silent_seconds, positive_integer, 10,
+           "A server of a journal whose machine says nothing for so long is \c
+            taken to be gone").
 
                 /*******************************
                 *             OPEN             *
@@ -40,20 +45,52 @@ postgresql_found(server(Schema, Driver)) :-
 :- meta_predicate connected(+, -, 0).
 
 connected(Driver, Connection, Goal) :-
-    setup_call_cleanup(sql_connect(Driver, Connection),
+    setup_call_cleanup(server_connect(Driver, Connection),
                        once(Goal),
                        sql_disconnect(Connection)).
 
 postgresql_connect(server(Schema, Driver), Seconds0, Connection, Age) :-
-    sql_connect(Driver, Connection),
+    server_connect(Driver, Connection),
     catch(begin(Schema, Seconds0, Connection, Age), error(Formal, Context),
           ( sql_disconnect(Connection), throw(error(Formal, Context)) )).
+
+%   A machine that has lost its power says no goodbye. For what cannot be
+%   delivered the kernel waits a quarter of an hour, for what may come for ever:
+%   so do we for a server, and a server for us, who have the lock. Both are told
+%   how long to wait, as far as they know of such a setting.
+
+server_connect(Driver, Connection) :-
+    findall(Bound,
+            ( bound(Name, Value), format(atom(Bound), '~w=~d', [Name, Value]) ),
+            Bounds),
+    atomic_list_concat(Bounds, ' ', Options),
+    format(atom(Bounded), '~w;pqopt={~w}', [Driver, Options]),
+    sql_connect(Bounded, Connection).
+
+tell_bounds(Connection) :-
+    forall(bound(Name, Value),
+           do(Connection, 'select set_config(name, \'~d\', false) \c
+                           from pg_settings \c
+                           where name in (\'~w\', \'tcp_~w\')',
+              [Value, Name, Name])).
+
+bound(connect_timeout, Seconds) :-
+    setting(silent_seconds, Seconds).
+bound(tcp_user_timeout, Milliseconds) :-
+    setting(silent_seconds, Seconds),
+    Milliseconds is 1000*Seconds.
+bound(keepalives_idle, Seconds) :-
+    setting(silent_seconds, All),
+    Seconds is max(1, All//2).
+bound(keepalives_interval, Seconds) :-
+    setting(silent_seconds, All),
+    Seconds is max(1, All//6).
+bound(keepalives_count, 3).
 
 begin(Schema, Seconds, Connection, Age) :-
     Wait is max(1000, truncate(1000*Seconds)),
     do(Connection, 'set lock_timeout=~d', [Wait]),
-    forall(keepalive(Name, Value),
-           do(Connection, 'set ~w=~d', [Name, Value])),
+    tell_bounds(Connection),
     do(Connection,
        'select pg_advisory_lock(hashtext(\'typhon\'), hashtext(\'~w\'))',
        [Schema]),
@@ -63,13 +100,6 @@ begin(Schema, Seconds, Connection, Age) :-
         do(Connection, 'create schema if not exists ~w', [Schema])
     ),
     do(Connection, 'set search_path to ~w', [Schema]).
-
-%   A machine that has lost its power says no goodbye, and has the lock until
-%   the server notices.
-
-keepalive(tcp_keepalives_idle, 10).
-keepalive(tcp_keepalives_interval, 5).
-keepalive(tcp_keepalives_count, 3).
 
 has_table(Schema, Table, Connection) :-
     format(atom(Sql),

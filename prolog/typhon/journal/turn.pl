@@ -1,6 +1,7 @@
 :- module(typhon_turn,
           [ turn_run/1,                 % :Goal
             turn_defers/0,
+            turn_note/1,                % +Change
             turn_note_put/4,            % +Kind, +Key, +N, +Term
             turn_note_drop/3,           % +Kind, +Key, +N
             turn_after/1,               % :Goal
@@ -50,26 +51,27 @@ turn_defers :-
     journal_on,
     nb_current(typhon_journal_turn, true).
 
+%!  turn_note(+Change) is det.
 %!  turn_note_put(+Kind, +Key, +N, +Term) is det.
 %!  turn_note_drop(+Kind, +Key, +N) is det.
 %
-%   As note_put/4 and note_drop/3; in a turn, at its end.
+%   As note_change/1, note_put/4 and note_drop/3; in a turn, at its end.
 
 turn_note_put(Kind, Key, N, Term) :-
     (   journal_on
     ->  note_putting(Kind, Key, N, Term, Change),
-        note(Change)
+        turn_note(Change)
     ;   true
     ).
 
 turn_note_drop(Kind, Key, N) :-
     (   journal_on,
         journal_key(Key, N)
-    ->  note(drop(Kind, Key, N))
+    ->  turn_note(drop(Kind, Key, N))
     ;   true
     ).
 
-note(Change) :-
+turn_note(Change) :-
     (   nb_current(typhon_journal_turn, true)
     ->  assertz(change(Change))
     ;   note_change(Change)

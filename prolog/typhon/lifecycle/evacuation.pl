@@ -31,29 +31,52 @@ typhon_hosting:evacuate(Host, Deadline) :-
 under_way(transit(_, _)).
 under_way(cloning(_, _)).
 
-%   One that is on its way in counts as load before it stands here.
+%   Nearly always all rest, and nothing is waited for.  Else it looks again every
+%   10 ms: to be told, each arrival, return and end of a turn would have to look
+%   whether somebody waits for it.
 
 evacuate(Host, Deadline) :-
-    findall(Id, agent(Id, Host, _, _, _), Ids),
-    host_load(Host, Load),
-    get_time(Now),
-    (   Ids == [],
-        ( Load =< 0 ; Now > Deadline )
+    evacuated(Host, Deadline),
+    !.
+evacuate(Host, Deadline) :-
+    end_or_order(Host, Deadline),
+    (   evacuated(Host, Deadline)
     ->  true
-    ;   forall(( member(Id, Ids), stays(Id) ),
-               ignore(order_take(Id, evacuate(Host)))),
-        (   Now > Deadline
-        ->  interrupt(Host, Ids)
-        ;   true
-        ),
-        thread_self(Me),
+    ;   thread_self(Me),
         \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
         evacuate(Host, Deadline)
     ).
 
+%   One that is on its way in counts as load before it stands here.
+
+evacuated(Host, Deadline) :-
+    \+ agent(_, Host, _, _, _),
+    (   host_load(Host, Load),
+        Load =< 0
+    ->  true
+    ;   get_time(Now),
+        Now > Deadline
+    ).
+
+end_or_order(Host, Deadline) :-
+    findall(Id, agent(Id, Host, _, _, _), Ids),
+    forall(( member(Id, Ids), stays(Id) ),
+           ignore(order_take(Id, evacuate(Host)))),
+    get_time(Now),
+    (   Now > Deadline
+    ->  interrupt(Host, Ids)
+    ;   true
+    ).
+
+%   Who is ready rests, whatever it has been told.
+
 stays(Id) :-
-    \+ agent_ordered(Id),
-    \+ agent_status(Id, transit(_, _), _).
+    agent_status(Id, Status, _),
+    (   Status == ready
+    ->  true
+    ;   \+ agent_ordered(Id),
+        \+ Status = transit(_, _)
+    ).
 
 %   That is the one exception that the agent's own catch/3 cannot stop.
 

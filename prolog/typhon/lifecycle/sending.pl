@@ -21,6 +21,7 @@
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error host_unreachable(Host)
+%   @error resource_error(frame_bytes) Message is too long to be sent
 %   @error type_error(mobile_term, Culprit)
 
 agent_send(at(Agent, Host), Message) :-

@@ -61,8 +61,7 @@ one for the order to stop: it sees to it that there is an end.
     child/0.                    % this process is one
 
 :- setting(rest_seconds, number, 1,
-           "Agents of a network with journals have so long to come to rest \c
-            when it stops").
+           "Agents of a network have so long to come to rest when it stops").
 
                 /*******************************
                 *            ORDERS            *

@@ -27,7 +27,8 @@
 :- use_module(processes, [carriers_stop/1]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
-              [ wire_change/2, wire_forget/1, wire_stop_own/1,
+              [ wire_change/2, wire_forget/1, wire_resting_own/2,
+                wire_stop_own/1,
                 wired_agents/2, wired_edges/2, wired_hosts/2 ]).
 
 /** <module> Networks of hosts
@@ -184,9 +185,10 @@ network_change(Network, Change0) :-
 
 %!  network_stop(+Network) is det.
 %
-%   Ends what network_start/3 started, in order: the changes of links, the
-%   hosts, the processes that carry them, the log, when all that was said
-%   to it is written. Takes seconds at the most, also when a process hangs.
+%   Ends what network_start/3 started, in order: the changes of links, what
+%   agents do, the hosts, the processes that carry them, the log, when all that
+%   was said to it is written. Takes seconds at the most, also when a process
+%   hangs. Where hosts are in this process its other agents pause meanwhile.
 %
 %   @error existence_error(network, Network)
 
@@ -199,7 +201,7 @@ network_stop(Network) :-
 
 end(Network) :-
     step(dynamics_end(Network)),
-    step(stop_own(Network)),
+    step(wire_resting_own(Network, stop_own(Network))),
     step(carriers_stop(Network)),
     step(log_end(Network)),
     step(endpoint_end(Network)),

@@ -217,19 +217,19 @@ restart(Network, _, _, give_up(P)) :-
 %   Ends the carriers that carriers_start/4 began to start, in order if
 %   they can, else by force. This process stays, of course.
 %
-%   First the hosts of all children stop, and those that hang are killed:
-%   the others need not wait for them. Then what the children have sent
-%   arrives, at the log for one, and only then they end: so none waits for
-%   another that is gone. Where there are journals what is in them rests there,
-%   and nobody hears of it: a child does that when it ends. Before the first of
-%   them does so nobody runs in any of them, who would find that it is gone.
+%   First nobody runs in any of the children any more, who would find that
+%   others are gone, and those that hang are killed: the others need not wait
+%   for them. Then their hosts stop, and what they have sent arrives, at the
+%   log for one, and only then they end: so none waits for another that is gone.
+%   Where there are journals what is in them rests there, and nobody hears of
+%   it: a child does that when it ends.
 
 carriers_stop(Network) :-
     retractall(wanted(Network)),
     forall(queue(Network, Queue), restarts_end(Network, Queue)),
+    rest_children(Network),
     (   retract(lasting(Network))
-    ->  rest_children(Network),
-        Watch = kill_hanging(Network)
+    ->  Watch = kill_hanging(Network)
     ;   order_children(Network, stop, kill_hanging(Network)),
         Watch = unwatched
     ),
@@ -248,8 +248,8 @@ carriers_stop(Network) :-
     retractall(at(Network, _, _)),
     carriers_forget(Network).
 
-%   Who is on the way then to one that has died stays so in the journal, as
-%   does who is in a goal that takes longer.
+%   Who is on the way then to one that has died is so still, as is who is in a
+%   goal that takes longer: so it stays in a journal.
 
 rest_children(Network) :-
     order_children(Network, hold(0), kill_hanging(Network)),

@@ -7,6 +7,7 @@
             wire_instead/3,             % +Network, +P, +Links
             wire_go_on/2,               % +Network, +P
             wire_stop_own/1,            % +Network
+            wire_resting_own/2,         % +Network, :Goal
             wire_forget/1,              % +Network
             wired_hosts/2,              % +Network, -Addresses
             wired_edges/2,              % +Network, -Edges
@@ -15,6 +16,8 @@
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
+:- use_module(library(settings), [setting/2]).
+:- use_module('../host', [time_kind/1]).
 :- use_module('../agent', [agent_home/2]).
 :- use_module(carriers, [carrier/3, carrier_order/4]).
 :- use_module(restarts, [restarts_back/1]).
@@ -28,6 +31,8 @@ gives the carriers their orders about hosts and links.
 whoever asks for properties; wire_again/5 in that of room `restarts`, and not
 beside a change.
 */
+
+:- meta_predicate wire_resting_own(+, 0).
 
 :- multifile typhon_names:known/2.
 
@@ -202,6 +207,26 @@ wire_stop_own(Network) :-
         carrier_order(Network, P, stop(Names), ok)
     ;   true
     ).
+
+%!  wire_resting_own(+Network, :Goal) is semidet.
+%
+%   As once(Goal), which stops the hosts in this process, if there are any.
+%   Meanwhile nobody runs here, who would find that others are gone. In virtual
+%   time nobody does anyway.
+
+wire_resting_own(Network, Goal) :-
+    current_prolog_flag(pid, Pid),
+    (   carrier(Network, P, Pid),
+        time_kind(real)
+    ->  setup_call_cleanup(carrier_order(Network, P, hold(0), ok),
+                           ( rest(Network, P), once(Goal) ),
+                           carrier_order(Network, P, let_go, ok))
+    ;   once(Goal)
+    ).
+
+rest(Network, P) :-
+    setting(typhon_carrier:rest_seconds, Seconds),
+    carrier_order(Network, P, rest(Seconds, []), _).
 
 %!  wire_forget(+Network) is det.
 

@@ -193,6 +193,10 @@ prolog:message(typhon(journal_in_words(Agent))) -->
 prolog:message(typhon(not_from(Peer, Agent, From))) -->
     [ 'A message for ~w from ~w, which ~w has no right to speak for, is not \c
        delivered'-[Agent, From, Peer] ].
+prolog:message(typhon(undeliverable(resource_error(frame_bytes), Agent, From,
+                                    _))) -->
+    !,
+    [ 'A message for ~w from ~w is too long to be sent'-[Agent, From] ].
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
     [ 'A message for ~w is lost: ~p from ~w'-[Agent, Message, From], nl ],
     lost_since(Formal).

@@ -1,24 +1,26 @@
 :- module(typhon_channel,
-          [ channel_post/3              % +Endpoint, +Kind, +Term
+          [ channel_post/3,             % +Endpoint, +Kind, +Term
+            channel_must_fit/1          % +Change
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(library(error), [must_be/2, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal',
               [ crash_point/1, journal_guards/0, journal_number/1, journal_on/0,
-                journal_seal/0, journal_step/1, note_drop_below/3, note_put/4 ]).
+                journal_seal/0, note_bytes/2, note_change/1, note_drop/3,
+                note_drop_below/3, note_putting/5 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
-                endpoint_process/1 ]).
+                endpoint_process/1, frame_fits/1 ]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
 /** <module> Posts that survive those who send and take them
 
 A process that keeps a journal notes what it posts to another before it is
 sent, and keeps it until the other says that it has come for good.  Until then
-it is sent again whenever there is a new connection.  The other takes
-each once, in order:
+it is sent again whenever there is a new connection.  The other, see room
+`channel_end`, takes each once, in order:
 
     channel(Process, To, Before, N, Kind, Term)
 
@@ -45,9 +47,7 @@ a time sends to an endpoint.
     had/2,                      % Endpoint, N: all up to N have come
     sent/2,                     % Endpoint, N: all up to N were sent; not
                                 % there if it is to be begun anew
-    courier/1,                  % Endpoint: somebody sends
-    seen/2,                     % Key, N: of a channel to here
-    told/1.                     % Key: had/2 is about to be said
+    courier/1.                  % Endpoint: somebody sends
 
 :- setting(channel_seconds, number, 300,
            "Posts for a process that has left, and keeps no journal as far as \c
@@ -55,19 +55,38 @@ a time sends to an endpoint.
 
 batch(100).
 longest_pause(1).               % seconds between attempts
-ack_seconds(0.02).
+around(1000).                   % what a frame has besides, at most
 
 %!  channel_post(+Endpoint, +Kind, +Term) is det.
 %
 %   Post Term to Endpoint, once, whatever dies.  What was noted in this step
 %   is sealed with it.
+%
+%   @error resource_error(frame_bytes) Term is too long for a frame
 
 channel_post(Endpoint, Kind, Term) :-
     engaging(Endpoint,
              ( journal_number(N),
-               note_put(out, Endpoint, N, item(Kind, Term)),
+               note_putting(out, Endpoint, N, item(Kind, Term), Change),
+               channel_must_fit(Change),
+               note_change(Change),
                journal_seal,
                assertz(out(Endpoint, N, Kind, Term)) )).
+
+%!  channel_must_fit(+Change) is det.
+%
+%   What is noted can be sent in a frame.
+%
+%   @error resource_error(frame_bytes)
+
+channel_must_fit(Change) :-
+    note_bytes(Change, Count),
+    around(More),
+    Most is Count+More,
+    (   frame_fits(Most)
+    ->  true
+    ;   resource_error(frame_bytes)
+    ).
 
 %   engaging(+Endpoint, :Goal): Goal changes what is to be sent to Endpoint, for
 %   which there is a courier then.  A thread that is told to end in the middle
@@ -167,6 +186,11 @@ not_sent(unreachable(_), Endpoint, try(Since, _)) :-
     !,
     print_message(silent, typhon(home_unreachable(Endpoint))),
     give_up(Endpoint).
+not_sent(resource_error(frame_bytes), Endpoint, _) :-
+    !,
+    with_mutex(typhon_channel, next_is_dropped(Endpoint, Dropped)),
+    say_undelivered(Dropped, Endpoint, resource_error(frame_bytes)),
+    carry(Endpoint, try(0, 0.05)).
 not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     debug(typhon(mail), 'nothing can be posted to ~w: ~p', [Endpoint, Formal]),
     with_mutex(typhon_channel, retractall(sent(Endpoint, _))),
@@ -179,12 +203,23 @@ not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     ),
     alarm_in(Pause, Endpoint, channel(try(Since, Pause1))).
 
+%   In a codec that takes more room than what was noted, or since less is
+%   allowed, one may be too long that was not when it was posted: it must not
+%   keep others from being sent.
+
+next_is_dropped(Endpoint, [Kind-Term]) :-
+    sent(Endpoint, Sent),
+    out(Endpoint, N, Kind, Term),
+    N > Sent,
+    !,
+    note_drop(out, Endpoint, N),
+    retractall(out(Endpoint, N, _, _)),
+    retractall(sent(Endpoint, _)).
+next_is_dropped(_, []).                 % it is begun anew
+
 typhon_scheduler:fire(Endpoint, channel(Try)) :-
     !,
     scheduler_call(typhon_channel:carry(Endpoint, Try)).
-typhon_scheduler:fire(Key, had(To, Peer)) :-
-    !,
-    scheduler_call(typhon_channel:say_had(Key, To, Peer)).
 
 %   This process says nothing any more.  What else does not exist, as the queue
 %   of a connection that breaks, is another's next time.
@@ -205,7 +240,7 @@ give_up(Endpoint) :-
                  retractall(sent(Endpoint, _)),
                  retractall(had(Endpoint, _)),
                  retractall(courier(Endpoint)) )),
-    forall(member(Kind-Term, Lost), undelivered(Kind, Term, Endpoint)).
+    say_undelivered(Lost, Endpoint, host_unreachable(Endpoint)).
 
 forget_all(Endpoint) :-
     (   out(Endpoint, N, _, _)
@@ -216,28 +251,24 @@ forget_all(Endpoint) :-
     ;   true
     ).
 
-:- multifile undelivered/3.             % Kind, Term, Endpoint
+:- multifile undelivered/4.             % Kind, Term, Endpoint, Formal
+
+say_undelivered(Lost, Endpoint, Formal) :-
+    forall(member(Kind-Term, Lost),
+           ignore(undelivered(Kind, Term, Endpoint, Formal))).
 
                 /*******************************
-                *          ITS OTHER END       *
+                *        WHAT IS ANSWERED      *
                 *******************************/
 
-typhon_endpoint:received(channel, Said, Peer) :-
-    heard(Said, Peer).
-
-heard(channel(Process, To, Before, N, Kind, Term), Peer) :-
-    must_be(atom, Process),
-    must_be(atom, To),
-    must_be(integer, N),
-    atomic_list_concat([Process, To], ' ', Key),
-    with_mutex(typhon_channel_in,
-               taken(Key, Before, N, Kind, Term, Peer, How)),
-    answer(How, Key, To, Peer).
-heard(again(To), _) :-
-    engaging(To, retractall(sent(To, _))).
-heard(had(To, N), _) :-
+typhon_endpoint:received(channel, again(To), _) :-
+    begin_anew(To).
+typhon_endpoint:received(channel, had(To, N), _) :-
     must_be(integer, N),
     with_mutex(typhon_channel, has_come(To, N)).
+
+begin_anew(To) :-
+    engaging(To, retractall(sent(To, _))).
 
 has_come(To, N) :-
     retractall(had(To, _)),
@@ -256,52 +287,6 @@ come(To, N) :-
     ;   true
     ).
 
-taken(Key, _, N, _, _, _, known) :-
-    seen(Key, Seen),
-    N =< Seen,
-    !.
-taken(Key, Before, N, Kind, Term, Peer, new) :-
-    in_order(Before, Key),
-    !,
-    journal_step(( note_put(seen, Key, 0, N),
-                   take(Kind, Term, Peer) )),
-    retractall(seen(Key, _)),
-    assertz(seen(Key, N)),
-    crash_point(after_take).
-taken(_, _, _, _, _, _, gap).
-
-%   A process that has lost what it knew begins where it is told to.
-
-in_order(first(Before), Key) :-
-    (   seen(Key, Seen)
-    ->  Seen >= Before
-    ;   true
-    ).
-in_order(Before, Key) :-
-    seen(Key, Before).
-
-take(Kind, Term, Peer) :-
-    catch(ignore(typhon_endpoint:received(Kind, Term, Peer)),
-          error(Formal, Context),
-          print_message(error, error(Formal, Context))).
-
-answer(gap, _, To, Peer) :-
-    endpoint_post(Peer, channel, again(To)).
-answer(_, Key, To, Peer) :-
-    (   told(Key)
-    ->  true
-    ;   assertz(told(Key)),
-        ack_seconds(Seconds),
-        alarm_in(Seconds, Key, had(To, Peer))
-    ).
-
-say_had(Key, To, Peer) :-
-    retractall(told(Key)),
-    (   seen(Key, N)
-    ->  catch(endpoint_post(Peer, channel, had(To, N)), error(_, _), true)
-    ;   true
-    ).
-
                 /*******************************
                 *        BREAKS AND ENDS       *
                 *******************************/
@@ -311,23 +296,19 @@ say_had(Key, To, Peer) :-
 typhon_endpoint:connection(Endpoint, up) :-
     (   endpoint_address(Endpoint)
     ->  true
-    ;   heard(again(Endpoint), Endpoint)
+    ;   begin_anew(Endpoint)
     ).
 
 typhon_recovery:back(out, Endpoint, N, item(Kind, Term)) :-
     assertz(out(Endpoint, N, Kind, Term)).
-typhon_recovery:back(seen, Key, _, N) :-
-    assertz(seen(Key, N)).
 
 typhon_recovery:go_on :-
     findall(Endpoint, out(Endpoint, _, _, _), All),
     sort(All, Endpoints),
-    forall(member(Endpoint, Endpoints), heard(again(Endpoint), Endpoint)).
+    forall(member(Endpoint, Endpoints), begin_anew(Endpoint)).
 
 typhon_runtime:ending(after) :-
     retractall(out(_, _, _, _)),
     retractall(had(_, _)),
     retractall(sent(_, _)),
-    retractall(courier(_)),
-    retractall(seen(_, _)),
-    retractall(told(_)).
+    retractall(courier(_)).

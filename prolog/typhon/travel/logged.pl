@@ -18,7 +18,7 @@ tells its log server it tells at once, see typhon_host_log.
 */
 
 :- multifile
-    typhon_channel:undelivered/3,
+    typhon_channel:undelivered/4,
     typhon_recovery:back/4,
     typhon_recovery:go_on/0.
 
@@ -45,7 +45,10 @@ go(Host, N, Agent, What) :-
 
 post(Host, Agent, What) :-
     (   host_log_event(Host, Agent, What, Endpoint-Event)
-    ->  channel_post(Endpoint, log, Event)
+    ->  catch(channel_post(Endpoint, log, Event),
+              error(resource_error(frame_bytes), Context),
+              print_message(warning,
+                            error(resource_error(frame_bytes), Context)))
     ;   true                            % it has none any more
     ).
 
@@ -58,7 +61,7 @@ typhon_recovery:go_on :-
     forall(member(said(Host, N, Agent, What), All),
            go(Host, N, Agent, What)).
 
-%   There is no log server there any more.
+%   There is no log server there any more, or it cannot take this.
 
-typhon_channel:undelivered(log, event(_, Host, Agent, What), _) :-
+typhon_channel:undelivered(log, event(_, Host, Agent, What), _, _) :-
     print_message(informational, typhon(log(Host, Agent, What))).

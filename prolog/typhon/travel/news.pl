@@ -26,6 +26,7 @@ that waits for the next.
            "News for a home that cannot be reached are kept so long").
 
 :- multifile
+    typhon_channel:undelivered/4,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
 
@@ -49,8 +50,7 @@ news_tell(Home, _, News) :-
     journal_on,
     news_lasts(News),
     !,
-    shown_news(Home, [News], Shown),
-    channel_post(Home, whereabouts, Shown).
+    posted(channel_post, Home, [News]).
 news_tell(Home, Id, News) :-
     with_mutex(typhon_news, note(Home, Id, News, Courier)),
     (   Courier == wanted
@@ -160,6 +160,12 @@ posted_in_parts(All, Post, Home) :-
     append(First, Rest, All),
     posted(Post, Home, First),
     posted(Post, Home, Rest).
+
+typhon_channel:undelivered(whereabouts, shown(_, All), Home, Formal) :-
+    !,
+    typhon_channel:undelivered(whereabouts, All, Home, Formal).
+typhon_channel:undelivered(whereabouts, All, Home, resource_error(_)) :-
+    posted_in_parts(All, channel_post, Home).
 
 take(Home, All) :-
     load(Most),

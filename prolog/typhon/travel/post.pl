@@ -10,13 +10,14 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../journal',
               [ journal_number/1, journal_on/0, journal_seal/0,
-                journal_step/1, note_drop/3, turn_after/1, turn_defers/0,
-                turn_note_put/4 ]).
+                journal_step/1, note_drop/3, note_putting/5, turn_after/1,
+                turn_defers/0, turn_note/1 ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, mobile_term/1]).
 :- use_module('../host', [peer_may/3, quota/3]).
 :- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
+:- use_module(channel, [channel_must_fit/1]).
 :- use_module(retries, [retry_later/3]).
 :- use_module(speakers, [mail_believed/5]).
 :- use_module(ways, [one_letter/2, way_in/2, way_out/3, way_send/3]).
@@ -57,6 +58,7 @@ max_forwards(12800).
 %   @error existence_error(agent, Id) if it is known that there is none
 %   @error type_error(mobile_term, Culprit)
 %   @error host_unreachable(Host)
+%   @error resource_error(frame_bytes)
 
 post(Id, From, Message) :-
     mobile_term(Message),
@@ -65,7 +67,9 @@ post(Id, From, Message) :-
         go(Way, Id)
     ;   turn_defers
     ->  journal_number(N),
-        turn_note_put(letter, Id, N, From-Message),
+        note_putting(letter, Id, N, From-Message, Change),
+        may_travel(Id, Change),
+        turn_note(Change),
         turn_after(typhon_post:post_noted(Id, N, From, Message))
     ;   journal_step(post_now(Id, From, Message))
     ).
@@ -82,6 +86,14 @@ waits(wait(Letter), Id, done) :-
     !,
     retry_later(Id, Letter, wait(Letter)).
 waits(Way, _, Way).
+
+%   Who stands here needs no frame.
+
+may_travel(Id, _) :-
+    agent(Id, _, _, _, _),
+    !.
+may_travel(_, Change) :-
+    channel_must_fit(Change).
 
 %   What an agent says goes when its turn is over, and noted.
 

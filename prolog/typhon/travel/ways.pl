@@ -142,12 +142,13 @@ part_sent(Endpoint, Id, Mail, Left) :-
 posted(Endpoint, Id, letter(Mail, Left), Post) :-
     message(Endpoint, Id, Mail, Left, Message),
     (   journal_on
-    ->  channel_post(Endpoint, message, Message)
-    ;   catch(call(Post, Endpoint, message, Message),
-              error(resource_error(frame_bytes), Context),
-              sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context)),
-        debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint])
-    ).
+    ->  By = channel_post
+    ;   By = Post
+    ),
+    catch(call(By, Endpoint, message, Message),
+          error(resource_error(frame_bytes), Context),
+          sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context)),
+    debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint]).
 
 message(Endpoint, Id, Mail, Left, Message) :-
     endpoint_keys(_),

@@ -6,6 +6,7 @@
             session_later/1,            % -Count
             session_push/1,             % +Session
             session_control/2,          % +Session, +Term
+            frame_fits/1,               % +Length
             session_flush/2             % +Session, +Deadline
           ]).
 
@@ -168,17 +169,25 @@ push_out(Key) :-
     ;   true
     ).
 
-%   The peer would refuse a longer one, again and again.
+%!  frame_fits(+Length) is semidet.
+%
+%   A frame may have so many bytes: the peer would refuse a longer one, again
+%   and again.
+
+frame_fits(Length) :-
+    Length =< 65536,
+    !.
+frame_fits(Length) :-
+    setting(typhon_session:frame_bytes, Most),
+    Length =< Most.
 
 frame_bytes(Session, Term, Bytes) :-
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
     string_length(Bytes, Length),
-    (   Length > 65536,
-        setting(typhon_session:frame_bytes, Max),
-        Length > Max
-    ->  resource_error(frame_bytes)
-    ;   watch_frame(to, Session, Term, Bytes)
+    (   frame_fits(Length)
+    ->  watch_frame(to, Session, Term, Bytes)
+    ;   resource_error(frame_bytes)
     ).
 
 put_with(Session, Bytes, Write) :-

@@ -140,14 +140,25 @@ unreachable(Goal) :-
 
 test('a process goes on by itself when the server is there again') :-
     postgres_url(returns, Url),
+    goes_on(Url, postgres_crash, postgres_again).
+test('also if its machine has vanished without a word') :-
+    with_postgres_relay(vanishes, Url,
+                        goes_on(Url, postgres_relay(vanish),
+                                postgres_relay(return))).
+
+:- meta_predicate
+    goes_on(+, 0, 0),
+    server_returns(+, +, 0, 0).
+
+goes_on(Url, Goes, Returns) :-
     free_port(Port),
     format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
     setup_call_cleanup(
         host_start(driver),
-        killed(Url, Port, Out, server_returns(Host, Out)),
+        killed(Url, Port, Out, server_returns(Host, Out, Goes, Returns)),
         host_stop(driver)).
 
-server_returns(Host, Out) :-
+server_returns(Host, Out, Goes, Returns) :-
     host_property(driver, address(Other)),
     agent_create(clauses([ (:- agent(goes, [state([made/1, other/1])])),
                            made(0),
@@ -166,10 +177,10 @@ server_returns(Host, Out) :-
                                        ; sleep(0.1), goes(H) )) ]),
                  Agent, [host(Host), facts([other(Other)])]),
     wait_until(( agent_property(Agent, hops(Hops)), Hops > 20 ), 10),
-    postgres_crash,
+    call(Goes),
     agent_send(Agent, hello),
     read_line_to_string(Out, "unreachable"),
-    postgres_again,
+    call(Returns),
     agent_join(Agent, done, 20),
     remote(Host, findall(V, sense(made(V)), [100])).
 
@@ -268,7 +279,8 @@ cut(Schema) :-
 killed(Url, Port, Goal) :-
     killed(Url, Port, _, Goal).
 
-%   Out tells when the process finds that it cannot commit.
+%   Out tells when the process finds that it cannot commit.  A machine that says
+%   nothing is given up soon.
 
 killed(Url, Port, Out, Goal) :-
     project_file('prolog/typhon.pl', Library),
@@ -279,7 +291,8 @@ killed(Url, Port, Out, Goal) :-
            [ assertz((user:message_hook(error(journal_unreachable(_, _), _),
                                         error, _) :-
                           writeln(unreachable), flush_output)) ]),
-    with_swipl(['-g', Tells, '-g', Start, Library], Pid, _, Out,
+    with_swipl(['-g', 'set_setting(typhon_postgresql:silent_seconds, 4)',
+                '-g', Tells, '-g', Start, Library], Pid, _, Out,
                ( read_line_to_string(Out, "ready"),
                  call(Goal),
                  process_kill(Pid, kill),

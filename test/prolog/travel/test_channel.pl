@@ -1,6 +1,6 @@
 :- use_module('../../lib/common').
 :- use_module(library(plunit)).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module(library(readutil), [read_line_to_string/2]).
@@ -14,8 +14,6 @@ last that anybody says.
 
 :- needs([journal]).
 
-:- begin_tests(channel).
-
 %   with_beta(:Before, :After): from a host with a journal, to another process
 %   that keeps one, which is killed after Before; After is called when it was
 %   started again.  Its hosts are beta and, at another port, gamma.
@@ -26,8 +24,6 @@ last that anybody says.
 
 with_beta(Before, After) :-
     no_leaks(with_tmp_dir(beta_twice(Before, After))).
-
-:- public beta_twice/3.
 
 beta_twice(Before, After, Dir) :-
     atom_concat(Dir, '/driver', Mine),
@@ -48,9 +44,7 @@ beta(Journal, Port, Goal) :-
                  flush_output(In),
                  read_line_to_string(Out, "ready"),
                  nb_setval(channel_pid, Pid),
-                 call(Goal),
-                 process_kill(Pid, kill),
-                 process_wait(Pid, _) )).
+                 call(Goal) )).
 
 %   listens(+Host, -Id): an agent on Host that keeps what it hears.
 
@@ -62,6 +56,8 @@ listens(Host, Id) :-
 got(Id, Expected) :-
     wait_until(( agent_property(Id, facts(Facts)),
                  findall(M, member(got(M), Facts), Expected) ), 30).
+
+:- begin_tests(channel).
 
 %   What is wrapped stays so: to unwrap what a thread is in is not safe.
 
@@ -222,3 +218,122 @@ test('what an agent has said waits where it is noted no more that it was said') 
         true).
 
 :- end_tests(channel).
+
+%   What is too long for a frame keeps no other from getting through.
+
+:- begin_tests(channel_frames).
+
+small(Goal) :-
+    with_settings([typhon_session:frame_bytes=70000], Goal).
+
+text(Length, Text) :-
+    format(string(Text), "~`xt~*|", [Length]).
+
+test('who sends a message that is too long hears of it') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          text(90000, Long),
+          small(( catch(agent_send(Id, Long), error(Formal, _), true),
+                  agent_send(Id, short),
+                  got(Id, [short]) )),
+          Formal == resource_error(frame_bytes) ),
+        true).
+
+test('an agent does, too') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          listens(driver, Near),
+          Clauses = [ (:- agent(says, [state([to/2])])),
+                      (main :- to(Near1, Far),
+                               format(string(Long), "~`xt~90000|", []),
+                               send(Near1, Long),
+                               catch(send(Far, Long), error(Error, _), true),
+                               send(Far, short),
+                               result(Error)) ],
+          small(( agent_create(clauses(Clauses), A,
+                               [host(driver), facts([to(Near, Id)])]),
+                  agent_result(A, Formal, 20),
+                  got(Id, [short]) )),
+          Formal == resource_error(frame_bytes),
+          text(90000, Long0),
+          got(Near, [Long0]) ),
+        true).
+
+%   As when another codec needs more room than was thought.
+
+test('one that has become too long is told as lost') :-
+    setting(typhon_session:frame_bytes, Bytes),
+    call_cleanup(
+        with_beta(
+            ( nb_getval(channel_beta, Beta),
+              nb_getval(channel_pid, Pid),
+              listens(Beta, Id),
+              nb_setval(channel_id, Id),
+              process_kill(Pid, kill),
+              process_wait(Pid, _),
+              text(90000, Long),
+              forall(member(Message, [first, Long, second]),
+                     agent_send(Id, Message)),
+              set_setting(typhon_session:frame_bytes, 70000) ),
+            ( nb_getval(channel_id, Id),
+              got(Id, [first, second]),
+              wait_until(told_lost(Id, resource_error(frame_bytes)), 5) )),
+        set_setting(typhon_session:frame_bytes, Bytes)).
+
+%   It is said to be on its way to here.
+
+test('those that have waited together go in as many frames as they need') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          typhon_endpoint:endpoint_address(Endpoint),
+          atom_concat('driver@', Endpoint, Here),
+          assertz(typhon_whereabouts:forward(Id, Here, 1, unknown)),
+          text(30000, Text),
+          numlist(1, 7, Numbers),
+          small(( forall(member(N, Numbers), agent_send(Id, N-Text)),
+                  retractall(typhon_whereabouts:forward(Id, _, _, _)),
+                  findall(N-Text, member(N, Numbers), All),
+                  got(Id, All) )) ),
+        true).
+
+test('that an agent has ended is told, if not what it has left') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          host_property(driver, address(Driver)),
+          Clauses = [ (:- agent(leaves, [state([to/1])])),
+                      (main :- to(To), move(To),
+                               format(string(S), "~`xt~90000|", []),
+                               result(S)) ],
+          small(( agent_create(clauses(Clauses), Id,
+                               [host(Beta), facts([to(Driver)])]),
+                  remote(Beta, typhon:agent_join(Id, done, 20)) )),
+          wait_until(retract(told(legacy_lost(Id))), 5) ),
+        true).
+
+test('what an agent logs, too') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          host_change(driver, log(Beta)),
+          agent_create(clauses([ (:- agent(logs, [state([to/1])])),
+                                 (main :- format(string(S), "~`xt~90000|", []),
+                                          log(S), to(To), send(To, logged)) ]),
+                       A, [host(driver), facts([to(Id)])]),
+          small(( agent_join(A, done, 10), got(Id, [logged]) )) ),
+        true).
+
+:- dynamic told/1.
+
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(Told), warning, _) :-
+    ( Told = undeliverable(_, _, _, _) ; Told = legacy_lost(_) ),
+    assertz(plunit_channel_frames:told(Told)).
+
+told_lost(Id, Formal) :-
+    retract(told(undeliverable(Formal, Id, _, _))).
+
+:- end_tests(channel_frames).

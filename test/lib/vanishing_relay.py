@@ -1,0 +1,96 @@
+"""Stands before a server whose machine can vanish.
+
+    python3 test/lib/vanishing_relay.py SOCKET
+
+Listens at a port of the loopback interface, which it prints, and carries
+bytes between who connects there and the server at the Unix socket SOCKET.
+Each line of its standard input is carried out and answered with `done`:
+
+    vanish   no packet is taken any more, none is acknowledged; what the
+             server has heard ends
+    return   there is somebody again for who connects anew
+
+Ends with its standard input. A stopped process would not do: the kernel
+acknowledges in its place."""
+
+import ctypes
+import selectors
+import socket
+import struct
+import sys
+
+ATTACH_FILTER, DETACH_FILTER = 26, 27       # of SOL_SOCKET, on Linux
+
+
+def deafen(sock):
+    """The kernel drops each packet for sock before TCP sees it."""
+    nothing = ctypes.create_string_buffer(struct.pack('HBBI', 0x06, 0, 0, 0))
+    program = struct.pack('HL', 1, ctypes.addressof(nothing))
+    sock.setsockopt(socket.SOL_SOCKET, ATTACH_FILTER, program)
+
+
+class Relay:
+    def __init__(self, server):
+        self.server = server
+        self.other = {}                     # of each socket, the other end
+        self.deaf = []                      # kept open: a closed one would
+                                            # be answered for
+        self.door = socket.create_server(('127.0.0.1', 0))
+        self.select = selectors.DefaultSelector()
+        self.select.register(self.door, selectors.EVENT_READ, self.enter)
+        self.select.register(sys.stdin, selectors.EVENT_READ, self.order)
+        print(self.door.getsockname()[1], flush=True)
+
+    def run(self):
+        while True:
+            for key, _ in self.select.select():
+                if key.fileobj in self.select.get_map():   # still
+                    key.data(key.fileobj)
+
+    def enter(self, door):
+        client, _ = door.accept()
+        server = socket.socket(socket.AF_UNIX)
+        server.connect(self.server)
+        for one, other in ((client, server), (server, client)):
+            self.other[one] = other
+            self.select.register(one, selectors.EVENT_READ, self.carry)
+
+    def carry(self, source):
+        try:
+            data = source.recv(65536)
+        except OSError:
+            data = b''
+        if data:
+            self.other[source].sendall(data)
+        else:
+            for sock in (source, self.other.pop(source)):
+                self.other.pop(sock, None)
+                self.forget(sock).close()
+
+    def forget(self, sock):
+        self.select.unregister(sock)
+        return sock
+
+    def order(self, stdin):
+        line = stdin.readline()
+        if not line:
+            sys.exit()
+        {'vanish': self.vanish, 'return': self.be_back}[line.strip()]()
+        print('done', flush=True)
+
+    def vanish(self):
+        deafen(self.door)
+        for sock in list(self.other):
+            self.forget(sock)
+            if sock.family == socket.AF_UNIX:
+                sock.close()
+            else:
+                deafen(sock)
+                self.deaf.append(sock)
+        self.other.clear()
+
+    def be_back(self):
+        self.door.setsockopt(socket.SOL_SOCKET, DETACH_FILTER, 0)
+
+
+Relay(sys.argv[1]).run()

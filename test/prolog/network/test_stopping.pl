@@ -1,0 +1,109 @@
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [member/2, min_list/2, nth0/3]).
+:- use_module(library(typhon)).
+
+/** <module> Tests of how networks stop, while agents are busy
+
+Who is busy with what cannot be done any more, as others are gone, is of no
+interest to people; what is wrong with an agent is.
+*/
+
+:- begin_tests(stopping).
+
+%   stopped(+Options, +Clauses, +Count, -Told): what is told when a network is
+%   stopped in which there are Count agents of Clauses.
+
+stopped(Options, Clauses, Count, Told) :-
+    listening(setup_call_cleanup(network_start(ring(6), Network, Options),
+                                 busy(Network, Clauses, Count),
+                                 network_stop(Network)),
+              Told).
+
+busy(Network, Clauses, Count) :-
+    network_property(Network, hosts(Hosts)),
+    forall(( between(1, Count, I), J is I mod 6, nth0(J, Hosts, Host) ),
+           agent_create(clauses([ (:- agent(busy, [state([hosts/1, other/1])]))
+                                | Clauses ]), _,
+                        [host(Host), facts([hosts(Hosts)])])),
+    network_property(Network, agents([Agent|_])),
+    wait_until(( agent_property(Agent, hops(Hops)), Hops > 2 ), 10).
+
+anywhere((anywhere(Host) :- hosts(Hosts), random_member(Host, Hosts))).
+
+walks([ (main :- anywhere(Host), move(Host), main), Anywhere ]) :-
+    anywhere(Anywhere).
+
+dozes([ (main :- anywhere(Host), sleep(0.005), move(Host), main), Anywhere ]) :-
+    anywhere(Anywhere).
+
+talks([ (main :- anywhere(Host), clone(Host, Who), met(Who)),
+        (met(parent(Clone)) :- send(Clone, hello), tour),
+        (met(clone(Parent)) :- send(Parent, hello), tour),
+        (tour :- anywhere(Host), move(Host), receive(Who-hello),
+                 send(Who, hello), tour),
+        Anywhere ]) :-
+    anywhere(Anywhere).
+
+test('of those that are stopped on their way nothing is told',
+     [ forall(( member(Kind, [walks, dozes, talks]),
+                member(Options, [[processes(3)], []]) )),
+       Told == [] ]) :-
+    call(Kind, Clauses),
+    no_leaks(stopped(Options, Clauses, 50, Told)).
+
+%   Longer than agents have to come to rest, and so long that it is broken off.
+
+test('nor of those that are in a goal that takes a while',
+     [ forall(member(Seconds-Options, [1.3-[processes(3)], 1.3-[],
+                                       4-[processes(3)]])),
+       Told == [] ]) :-
+    anywhere(Anywhere),
+    format(atom(Sleep), 'sleep ~w', [Seconds]),
+    Clauses = [ (main :- hops(N), N < 3, !, anywhere(Host), move(Host), main),
+                (main :- shell(Sleep), anywhere(Host), move(Host), main),
+                Anywhere ],
+    no_leaks(stopped(Options, Clauses, 6, Told)).
+
+test('what is wrong with one is told',
+     [ forall(member(Options, [[processes(3)], []])),
+       true(Told = [error-_]) ]) :-
+    anywhere(Anywhere),
+    Clauses = [ (main :- hops(N), N < 3, !, anywhere(Host), move(Host), main),
+                (main :- shell('sleep 0.3'), atom_length(_, _)),
+                Anywhere ],
+    no_leaks(stopped(Options, Clauses, 1, Told)).
+
+%   Not even hundredths of a second for each host.
+
+test('where all rest nothing is waited for', true(Seconds < 0.5)) :-
+    findall(S, ( between(1, 3, _), seconds_to_stop(64, S) ), All),
+    min_list(All, Seconds).
+
+seconds_to_stop(Count, Seconds) :-
+    network_start(ring(Count), Network, []),
+    network_property(Network, hosts(Hosts)),
+    findall(Agent, ( member(Host, Hosts),
+                     create([(main :- receive(_-never))], Agent, [host(Host)]) ),
+            Agents),
+    forall(member(Agent, Agents), wait_state(Agent, waiting)),
+    get_time(Then),
+    network_stop(Network),
+    get_time(Now),
+    Seconds is Now-Then.
+
+%   They miss a turn meanwhile.
+
+test('agents of others in the process go on') :-
+    with_hosts([alpha, beta],
+               ( create([ (main :- s(N), retract(s(N)), N1 is N+1,
+                                   assertz(s(N1)), move(beta), move(alpha),
+                                   sleep(0.001), main) ], Agent,
+                        [facts([s(0)])]),
+                 walks(Clauses),
+                 stopped([], Clauses, 50, []),
+                 fact_of(Agent, s(Then)),
+                 wait_until(( fact_of(Agent, s(Now)), Now > Then+10 ), 10) )).
+
+:- end_tests(stopping).
