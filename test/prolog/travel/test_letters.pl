@@ -34,7 +34,11 @@ with_cut(Goal) :-
 noting_on_c(Id) :-
     peer_host(c, C),
     peer_do(a, agent_create(clauses([ (:- agent(noting, [state([to/1])])),
-                                      (main :- to(To), move(To)),
+                                      (main :- to(To), go(To)),
+                                      (go(To) :-
+                                           catch(move(To),
+                                                 error(host_unreachable(_), _),
+                                                 go(To))),
                                       (on_message(_, n(N)) :- leave(noted(N)))
                                     ]),
                             Id, [facts([to(C)])])),
@@ -130,7 +134,11 @@ home_learns :-
     peer_host(c, C),
     peer_do(a, agent_create(clauses([ (:- agent(back_and_forth,
                                                 [state([to/1])])),
-                                      (main :- to(To), move(To)),
+                                      (main :- to(To), go(To)),
+                                      (go(To) :-
+                                           catch(move(To),
+                                                 error(host_unreachable(_), _),
+                                                 go(To))),
                                       (on_message(_, go(Host)) :- move(Host)),
                                       (on_message(_, n(N)) :- leave(noted(N)))
                                     ]),
