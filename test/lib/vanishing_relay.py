@@ -43,9 +43,8 @@ class Relay:
 
     def run(self):
         while True:
-            for key, _ in self.select.select():
-                if key.fileobj in self.select.get_map():   # still
-                    key.data(key.fileobj)
+            for key, _ in self.select.select()[:1]:     # others may be gone
+                key.data(key.fileobj)                   # when that is done
 
     def enter(self, door):
         client, _ = door.accept()
@@ -58,11 +57,10 @@ class Relay:
     def carry(self, source):
         try:
             data = source.recv(65536)
+            self.other[source].sendall(data)
         except OSError:
             data = b''
-        if data:
-            self.other[source].sendall(data)
-        else:
+        if not data:
             for sock in (source, self.other.pop(source)):
                 self.other.pop(sock, None)
                 self.forget(sock).close()
