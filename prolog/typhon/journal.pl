@@ -14,8 +14,8 @@ This is the door of the layer: who is above takes what it needs from here.
               journal_barrier/0, journal_commit/0, journal_go/0,
               journal_let_out/2, journal_number/1,
               journal_number_after/1, journal_seal/0,
-              journal_step/1, note_bytes/2, note_change/1, note_drop/3, note_drop_all/2,
-              note_drop_at_once/3, note_drop_below/3, note_put/4,
+              journal_step/1, note_bytes/2, note_change/1, note_drop/3,
+              note_drop_all/2, note_drop_at_once/3, note_drop_below/3, note_put/4,
               note_put_at_once/4, note_putting/5
             ]).
 :- reexport(journal/item_key, [journal_key/1, journal_key/2]).
