@@ -4,6 +4,7 @@
             missing/2,                  % +Names, -Packages
             project_file/2,             % +Relative, -Absolute
             with_tmp_dir/1,             % :Goal
+            shell_script/2,             % +File, +Line
             no_leaks/1,                 % :Goal
             with_settings/2,            % +Values, :Goal
             wait_until/2,               % :Goal, +Seconds
@@ -26,7 +27,8 @@ the whole process, so nothing else should be coming and going meanwhile.
 */
 
 :- use_module(library(filesex),
-              [ delete_directory_and_contents/1,
+              [ chmod/2,
+                delete_directory_and_contents/1,
                 directory_file_path/3,
                 make_directory_path/1
               ]).
@@ -121,6 +123,17 @@ with_tmp_dir(Goal) :-
 make_tmp_dir(Dir) :-
     tmp_file(typhon_test, Dir),
     make_directory_path(Dir).
+
+%!  shell_script(+File, +Line) is det.
+%
+%   File is a program: the shell that does Line.
+
+shell_script(File, Line) :-
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, "#!/bin/sh~n~s~n", [Line]),
+        close(Out)),
+    chmod(File, +x).
 
 %!  with_settings(+Values, :Goal) is semidet.
 %

@@ -105,13 +105,6 @@ seconds(Goal, Seconds) :-
 hosts_there(Network) :-
     hosts(Network, [_|_]).
 
-script(File, Line) :-
-    setup_call_cleanup(
-        open(File, write, Out),
-        format(Out, "#!/bin/sh~n~s~n", [Line]),
-        close(Out)),
-    process_create(path(chmod), ['+x', file(File)], []).
-
 :- begin_tests(networks).
 
 test(in_this_process) :-
@@ -278,7 +271,7 @@ test(machines_through_a_program_like_ssh) :-
 
 machines(Dir) :-
     directory_file_path(Dir, 'rsh', Program),
-    script(Program, "echo noise; shift; exec sh -c \"$*\""),
+    shell_script(Program, "echo noise; shift; exec sh -c \"$*\""),
     with_settings([typhon_children:ssh=Program],
                  with_network(ring(5),
                               [ machines(['user@127.0.0.1',
@@ -551,7 +544,7 @@ test(a_machine_that_says_nothing, error(timeout_error(start, _))) :-
 
 silent(Dir) :-
     directory_file_path(Dir, rsh, Program),
-    script(Program, "exec sleep 60"),
+    shell_script(Program, "exec sleep 60"),
     with_settings([typhon_children:ssh=Program],
                  quiet(setup_call_cleanup(
                            ( fill_atoms,

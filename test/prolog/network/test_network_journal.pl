@@ -133,6 +133,29 @@ killed(Hops, Network) :-
     network_property(Network, edges(Edges)),
     network_property(Network, agents([])).
 
+test('also where its processes are on other machines, over ssh') :-
+    quiet(no_leaks(with_tmp_dir(far))).
+
+far(Dir) :-
+    directory_file_path(Dir, rsh, Program),
+    shell_script(Program, "shift; exec sh -c \"$*\""),
+    directory_file_path(Dir, journal, Journal),
+    Machines = machines(['127.0.0.1', '127.0.0.2']),
+    with_settings([typhon_children:ssh=Program],
+                  ( network(Journal, ring(4), [Machines, restart(true)],
+                            begun_far(Hosts, Agents)),
+                    network(Journal, ring(4), [], all_arrived(Hosts, 60, Agents))
+                  )).
+
+begun_far(Hosts, Agents, Network) :-
+    hosts(Network, Hosts),
+    walkers(Hosts, 60, Agents),
+    forall(member(I, [1, 2]), kill(Network, I)).
+
+all_arrived(Hosts, Hops, Agents, Network) :-
+    hosts(Network, Hosts),
+    all_arrived(Hosts, Hops, Agents).
+
 test('what was going on when it was stopped goes on when it is started again') :-
     no_leaks(with_tmp_dir(stopped)).
 
