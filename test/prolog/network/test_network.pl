@@ -6,7 +6,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [last/2, member/2, nth1/3]).
 :- use_module(library(ordsets), [ord_subset/2]).
-:- use_module(library(process), [process_create/3, process_kill/2]).
+:- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil),
               [read_file_to_string/3, read_line_to_string/2]).
 :- use_module(library(yall)).
