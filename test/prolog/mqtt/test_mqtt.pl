@@ -401,11 +401,10 @@ test(nobody_listens, E == mqtt_error(unreachable, alpha)) :-
     format(atom(URL), 'mqtt://127.0.0.1:~d', [Port]),
     with_hosts([alpha], catch(mqtt_start(alpha, URL, []), error(E, _), true)).
 test(who_listens_is_silent, E == timeout_error(mqtt(connect), alpha)) :-
-    free_port(Port),
-    format(atom(URL), 'mqtt://127.0.0.1:~d', [Port]),
     tcp_socket(Socket),
     tcp_bind(Socket, '127.0.0.1':Port),
     tcp_listen(Socket, 5),
+    format(atom(URL), 'mqtt://127.0.0.1:~d', [Port]),
     call_cleanup(with_hosts([alpha],
                             catch(mqtt_start(alpha, URL, [timeout(0.5)]),
                                   error(E, _), true)),
