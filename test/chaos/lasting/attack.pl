@@ -12,10 +12,10 @@ in order.
 *Threading*: the main thread.
 */
 
-:- use_module(agents).
 :- use_module(ends).
 :- use_module(nodes).
 :- use_module(verdict).
+:- use_module('../../lib/common', [project_file/2]).
 :- use_module('../../../prolog/typhon').
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, nth0/3]).
@@ -100,8 +100,9 @@ turned(Host, Hosts, Route) :-
     !.
 
 begins(Name, Host, Facts, Agent) :-
-    program(Name, Program),
-    agent_create(Program, Agent, [host(Host), facts(Facts)]).
+    format(atom(Relative), 'test/chaos/lasting/agents/~w.pl', [Name]),
+    project_file(Relative, File),
+    agent_create(File, Agent, [host(Host), facts(Facts)]).
 
 all_end(people(Hoppers, Porters, Talkers, _), Deadline, Ends) :-
     append([Hoppers, Porters, Talkers], All),

@@ -36,9 +36,6 @@ settled_end(End, Agent, Deadline, End1) :-
     ( End == timeout ; End = error(_) ; End == unknown ),
     !,
     thread_self(Me),
-    (   thread_get_message(Me, '$never', [timeout(0.1)])
-    ->  true
-    ;   true
-    ),
+    \+ thread_get_message(Me, '$never', [timeout(0.1)]),
     ends(Agent, Deadline, End1).
 settled_end(End, _, _, End).

@@ -12,10 +12,9 @@ that does not come the processes say what they have in hand.
 *Threading*: the main thread.
 */
 
-:- use_module(agents).
 :- use_module(ends).
 :- use_module(nodes).
-:- use_module('../../lib/common', [wait_until/2]).
+:- use_module('../../lib/common', [project_file/2, wait_until/2]).
 :- use_module('../../../prolog/typhon').
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, nth0/3]).
@@ -83,9 +82,8 @@ talker(I, Hosts, Each, Agent) :-
     ->  Travels = [route(Route)]
     ;   Travels = []
     ),
-    program(gossip, Program),
-    agent_create(Program, Agent,
-                 [host(Host), facts([todo(Each)|Travels])]).
+    project_file('test/chaos/lasting/agents/gossip.pl', File),
+    agent_create(File, Agent, [host(Host), facts([todo(Each)|Travels])]).
 
 introduced(Talkers) :-
     Talkers = [First|Others],
