@@ -162,6 +162,7 @@ attack(foldl([X,Y,Y]>>(call(user:X)), [true], a, _)).
 attack(aggregate_all(count, shell(_), _)).
 attack(aggregate_all(count, user:true, _)).
 attack(aggregate_all(bag(x), _^shell(x), _)).
+attack(maplist(aggregate_all(bag(x)), [_^shell(x)], _)).
 attack(aggregate_all(count, x, _^shell(x), _)).
 attack(group_by(x, x, _^shell(x), _)).
 attack(call(call, halt)).
