@@ -4,7 +4,7 @@
                                         % -Next
             effect_order/4              % +Id, +Here, +Host, +Goals
           ]).
-:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(error), [must_be/2, permission_error/3, type_error/2]).
 :- use_module('../base/chance',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
@@ -56,6 +56,7 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     ).
 effect(clone(Who), Hole, Goals, Id-Here, go(Goals)) :-
     may_clone(Id, Here),
+    can_be_kept(Goals),
     copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
     clone_id(Id, CloneId),
     noted_with(CloneId, Hole-Goals-Who, Id),
@@ -112,6 +113,14 @@ noted_with(CloneId, Hole-Goals-Who, Id) :-
     \+ \+ ( Hole = (Who=parent(CloneId)),
             agent_put_down(Id, ready, Goals) ).
 
+%   Goals that wait are kept in clauses, where variables have no attributes.
+
+can_be_kept(Goals) :-
+    (   term_attvars(Goals, [Var|_])
+    ->  type_error(mobile_term, Var)
+    ;   true
+    ).
+
 infinite(Seconds) :- Seconds == inf.
 infinite(Seconds) :- Seconds == infinite.
 infinite(Seconds) :- float(Seconds), Seconds =:= inf.
@@ -146,9 +155,11 @@ take_or_wait(Message, Until, Again, Hole, Goals, _-Here, go(Goals)) :-
     Again = receive_until(Message, _, Seconds),
     answer_at(receive(Message, Seconds), fail, Hole).
 take_or_wait(Message, Until, Again, Again, Goals, Id-_, stop) :-
+    can_be_kept(Goals),
     agent_rest(Id, waiting(Message, Until), Goals).
 
 wait(Id, Host, Status, Until, Goals) :-
+    can_be_kept(Goals),
     with_agent(Id, agent_rest(Id, Status, Goals)),
     real_time(Host, Until, Stamp),
     alarm_set(Stamp, Id, until(Until)).

@@ -212,7 +212,8 @@ conclude(over(What), _, Id, _, _, stop) :-
 conclude(raised(Error), Goals0, Id, _, _, stop) :-
     agent_fails(Id, raised(Error), Goals0).
 conclude(effect(Control, Hole, Goals), _, Id, Host, _, Next) :-
-    (   agent_ordered(Id)
+    (   agent_ordered(Id),
+        term_attvars(Goals, [])         % else see effect/5
     ->  Hole = Control,
         with_agent(Id, agent_ready(Id, Goals)),
         Next = stop

@@ -239,6 +239,18 @@ test(state_that_cannot_travel, true(F = [r(mobile_term)|_])) :-
     lives([ (main :- current_output(S), assertz(s(S)),
                      catch(move(beta), error(type_error(E, _), _),
                            assertz(r(E)))) ], F).
+%   It would be the variable alone that waits.
+
+test(an_attributed_variable_cannot_wait,
+     [ forall(member(Stop, [sleep(1), receive(_), receive(_, 1), clone(_)])),
+       true(F == [s(mobile_term)]) ]) :-
+    lives([ (main :- freeze(X, true),
+                     catch(( Stop, E = none ), error(type_error(E, _), _),
+                           true),
+                     assertz(s(E)), X = 1) ], F).
+test(an_attributed_variable_may_be_forgotten, true(F == [s(2)])) :-
+    lives([ (main :- two(X), sleep(0.01), assertz(s(X))),
+            (two(X) :- freeze(X, true), freeze(_, true), X = 2) ], F).
 test(all_kinds_of_terms_travel, true(F == Terms)) :-
     Big is 7**77, Neg is -(3**80), Inf is inf, Nan is nan, Tiny is 2.0** -1074,
     MZero is -0.0,
