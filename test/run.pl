@@ -7,7 +7,7 @@
 runs every test_*.pl in the folders of test/, or those named (`frame` for
 test/prolog/wire/test_frame.pl, `prolog/wire` for all in that folder), each
 in a process of its own, three at a time, and reports.  The last line is
-`N passed, N failed`; `, N skipped` follows if any were.  The exit status
+`N passed, N failed`; `N skipped` stands above it if any were.  The exit status
 is 0 only if nothing failed.
 
 A suite that does not load cleanly, has no tests, ends with a status other
@@ -144,11 +144,12 @@ add_suite(suite(P1, F1, Skipped, _), sum(P0, F0, S0), sum(P, F, S)) :-
     F is F0+F1,
     S is S0+S1.
 
-print_sum(sum(Passed, Failed, 0)) :-
-    !,
-    format('~d passed, ~d failed~n', [Passed, Failed]).
 print_sum(sum(Passed, Failed, Skipped)) :-
-    format('~d passed, ~d failed, ~d skipped~n', [Passed, Failed, Skipped]).
+    (   Skipped > 0
+    ->  format('~d skipped~n', [Skipped])
+    ;   true
+    ),
+    format('~d passed, ~d failed~n', [Passed, Failed]).
 
 exit_status(sum(Passed, 0, _), 0) :-
     Passed > 0,
