@@ -53,6 +53,7 @@ longest([ chaos, wire, doc, hop, sync_network, auction_network, cluster,
 plain(pack).
 plain(site).
 plain(voice).
+plain(locale).
 
 main(Names) :-
     suite_files(Names, Files0),

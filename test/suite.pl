@@ -27,7 +27,10 @@ result was skipped by its condition; if it has none, its setup failed.
 
 :- public main/1.
 
+%   Suites, and what they read, are UTF-8 in any locale, as on newer versions.
+
 main([File, Results]) :-
+    set_prolog_flag(encoding, utf8),
     run_suite(File, Suite),
     setup_call_cleanup(
         open(Results, write, Out),

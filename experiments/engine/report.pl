@@ -12,7 +12,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).
-:- use_module(library(csv), [csv_write_file/2]).
+:- use_module(library(csv), [csv_write_file/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [ append/2, append/3, list_to_set/2, member/2, memberchk/2,
@@ -269,4 +269,4 @@ csv_cell(Ms, Name, Value) :-
 save_csv(Directory, Name, Rows) :-
     directory_file_path(Directory, Name, File),
     findall(Line, ( member(Row, Rows), Line =.. [row|Row] ), Lines),
-    csv_write_file(File, Lines).
+    csv_write_file(File, Lines, [encoding(utf8)]).

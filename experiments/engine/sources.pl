@@ -217,7 +217,8 @@ names(Term, Spec) :-
 source_term(File, Term) :-
     setup_call_cleanup(
         prolog_open_source(File, In),
-        ( repeat,
+        ( set_stream(In, encoding(utf8)),
+          repeat,
           read_term(In, Term0, [syntax_errors(quiet)]),
           ( Term0 == end_of_file -> !, fail ; true ),
           Term = Term0 ),

@@ -93,7 +93,8 @@ study_load(File, Study) :-
     ->  true
     ;   forall(word(PI), ( Study:dynamic(PI), Study:discontiguous(PI) )),
         statistics(errors, Before),
-        load_files(Study:Study, [silent(true), if(true)]),
+        load_files(Study:Study,
+                   [encoding(utf8), silent(true), if(true)]),
         statistics(errors, After),
         findall(Problem, problem(Study, Before-After, Problem), Problems),
         complain(Problems, Study),

@@ -191,7 +191,7 @@ assert_file_to_tartarus(File) :-
     must([check(f1, 'the file exists', exists_source_file(File))]),
     absolute_file_name(File, Path, [file_type(prolog), access(read)]),
     setup_call_cleanup(
-        open(Path, read, In),
+        open(Path, read, In, [encoding(utf8)]),
         assert_all(In),
         close(In)).
 

@@ -99,7 +99,7 @@ greeting(Codes) :-
 random_word(Word) :-
     random_member(Word, [x, 17, -1, 0, '', 'a b', '127.0.0.1:99999',
                          ':', 'x:y', 99999999999999999999999, 1.0Inf,
-                         'é', little, none]).
+                         '\u00e9', little, none]).
 
 		 /*******************************
 		 *             PEERS            *
@@ -268,7 +268,7 @@ junk(8, zork(_, [a|_])).
 junk(9, Long) :-
     numlist(1, 2000, Long).
 junk(10, '').
-junk(11, f(X, X, "\x0\", 'é\u4e00')).
+junk(11, f(X, X, "\x0\", '\u00e9\u4e00')).
 junk(12, Atom) :-
     length(Codes, 5000),
     maplist(=(0'a), Codes),

@@ -97,7 +97,8 @@ mechanism_dicts(Dicts) :-
 predicates(File, Dicts) :-
     setup_call_cleanup(
         prolog_open_source(File, In),
-        read_comments(In, Comments),
+        ( set_stream(In, encoding(utf8)),
+          read_comments(In, Comments) ),
         prolog_close_source(In)),
     findall(Dict, ( member(Comment, Comments),
                     predicate_dict(Comment, Dict) ), Dicts).
