@@ -8,6 +8,7 @@ This is the door of the layer: who is above takes what it needs from here.
 */
 
 :- use_module(program/paths, []).
+:- reexport(program/paths, [files_beside/3]).
 :- reexport(program/source, [clause_parts/3, declaration/4, indicator_in/2]).
 :- reexport(program/python_code, [payload_python/3]).
 :- reexport(program/programs, [program_hash/2]).

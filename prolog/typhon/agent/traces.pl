@@ -16,6 +16,8 @@ goal.
 *Threading*: inside with_agent/2 of the agent.
 */
 
+:- multifile typhon_names:known/2.
+
 %!  trace_kind(?Kind) is nondet.
 %
 %   What people can ask for.
@@ -24,6 +26,9 @@ trace_kind(hops).
 trace_kind(messages).
 trace_kind(facts).
 trace_kind(goals).
+
+typhon_names:known(trace_kind, Kind) :-
+    trace_kind(Kind).
 
 %!  traces_heard(+Id, +Life) is det.
 %

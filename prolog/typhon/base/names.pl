@@ -1,7 +1,9 @@
 :- module(typhon_names,
           [ names/2,                    % +Kind, -Names
+            names_near/3,               % +Name, +Names, -Near
             names_proposed/3,           % +Name, +Names, -Text
-            names_listed/2              % +Names, -Text
+            names_listed/2,             % +Names, -Text
+            names_joined/3              % +Names, +Separator, -Text
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [last/2, member/2]).
@@ -37,12 +39,14 @@ names(Kind, Names) :-
     findall(Name, limit(Most, known(Kind, Name)), Names0),
     sort(Names0, Names).
 
-%   near_names(+Name, +Names, -Near): up to three of Names that a person may
-%   have meant by Name, an atom, as dwim_match/2 has it.  An id or address
-%   also counts by what stands before the first `.` or `@`, a path by its
-%   last part: `census` finds 'census.4f2a1@alpha@...', and 'survey/census'.
+%!  names_near(+Name:atom, +Names:list, -Near:list) is det.
+%
+%   Up to three of Names that a person may have meant by Name, as dwim_match/2
+%   has it.  An id or address also counts by what stands before the first `.`
+%   or `@`, a path by its last part: `census` finds 'census.4f2a1@alpha@...',
+%   and 'survey/census'.
 
-near_names(Name, Names, Near) :-
+names_near(Name, Names, Near) :-
     findall(Known,
             limit(3, ( member(Known, Names),
                        once(is_near(Name, Known)) )),
@@ -55,6 +59,9 @@ is_near(Name, Known) :-
     form(Plain, B),
     ( A == B ; dwim_match(A, B) ).
 
+name_of(Name/Arity, Name) :-
+    integer(Arity),
+    !.
 name_of(Known, Name) :-
     callable(Known),
     functor(Known, Name, _).
@@ -79,10 +86,10 @@ form(Name, Short) :-
 
 names_proposed(Name, Names, Text) :-
     atom(Name),
-    near_names(Name, Names, Near),
+    names_near(Name, Names, Near),
     Near \== [],
     !,
-    listed(Near, ' or ', Listed),
+    names_joined(Near, ' or ', Listed),
     format(atom(Text), ' (did you mean ~w?)', [Listed]).
 names_proposed(_, _, '').
 
@@ -95,11 +102,15 @@ names_listed(Names, Text) :-
     length(Names, Count),
     between(1, Most, Count),
     !,
-    listed(Names, ', ', Listed),
+    names_joined(Names, ', ', Listed),
     format(atom(Text), '; there are ~w', [Listed]).
 names_listed(_, '').
 
-listed(Names, Separator, Text) :-
+%!  names_joined(+Names:list, +Separator, -Text:atom) is det.
+%
+%   Text is Names with Separator in between.
+
+names_joined(Names, Separator, Text) :-
     maplist(name_text, Names, Texts),
     atomic_list_concat(Texts, Separator, Text).
 

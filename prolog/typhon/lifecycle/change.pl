@@ -24,12 +24,17 @@ has.
 has the agent.
 */
 
+:- multifile typhon_names:known/2.
+
 %!  change_order(+Change, -Order) is det.
 %
 %   Order is what is sent to an agent that is to Change: facts(Clauses) or
 %   program(Hash, Sent).
 %
 %   @error domain_error(agent_change, Change)
+
+typhon_names:known(agent_change, facts('Clauses')).
+typhon_names:known(agent_change, program('Spec')).
 
 change_order(facts(Clauses), facts(Clauses)) :-
     !,

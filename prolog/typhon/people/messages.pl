@@ -10,9 +10,8 @@ the wire, of networks and of the log keep the texts of their own messages.
 *Threading*: called by print_message/2 in any thread.
 */
 
-:- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
 :- use_module('../wire', [endpoint_missed/2, tls_text/2]).
+:- use_module('../program', [files_beside/3]).
 :- use_module('../host', [address_parts/3, host_property/2]).
 :- use_module('../base/names', [names/2, names_proposed/3]).
 :- use_module(happenings, [happening/3, short_name/2]).
@@ -36,6 +35,11 @@ prolog:error_message(existence_error(host, Host)) -->
 prolog:error_message(existence_error(host, Host)) -->
     [ 'There is no host ~p here'-[Host] ],
     meant(host, Host).
+prolog:error_message(permission_error(start, host, Host)) -->
+    [ 'There is a host ~p here already'-[Host] ].
+prolog:error_message(permission_error(carry, virtual_time, Option)) -->
+    [ 'Virtual time is that of one process: ~p cannot be had with \c
+       clock(virtual)'-[Option] ].
 prolog:error_message(existence_error(agent, Agent)) -->
     [ 'There is no agent ~p'-[Agent] ],
     meant(agent, Agent).
@@ -46,9 +50,16 @@ prolog:error_message(existence_error(source_sink, Spec)) -->
     { program_alias(Spec, Alias, Name) },
     [ 'There is no file ~p'-[Spec] ],
     meant(Alias, Name).
+prolog:error_message(existence_error(source_sink, Spec)) -->
+    { compound(Spec),
+      compound_name_arity(Spec, Alias, 1),
+      names_proposed(Alias, [agents(_), payloads(_)], Meant),
+      Meant \== ''
+    },
+    [ 'There is no file ~p~w'-[Spec, Meant] ].
 prolog:error_message(existence_error(source_sink, File)) -->
     { atom(File),
-      catch(files_beside(File, Files), error(_, _), fail),
+      files_beside(File, '.', Files),
       names_proposed(File, Files, Meant),
       Meant \== ''
     },
@@ -56,13 +67,16 @@ prolog:error_message(existence_error(source_sink, File)) -->
 prolog:error_message(existence_error(network, Network)) -->
     [ 'There is no network ~p'-[Network] ],
     meant(network, Network).
+prolog:error_message(existence_error(result, Agent)) -->
+    [ 'Agent ~p gave no result'-[Agent] ].
 prolog:error_message(existence_error(endpoint, running)) -->
     [ 'This process has no host: start one with host_start/1'-[] ].
 prolog:error_message(existence_error(payload, Name)) -->
     [ 'There is no payload ~p'-[Name] ].
 prolog:error_message(move_refused(Host, Reason)) -->
     [ '~p refuses to admit the agent: '-[Host] ],
-    refusal(Reason).
+    refusal(Reason),
+    ( { Reason == unknown_host } -> meant(host, Host) ; [] ).
 prolog:error_message(host_unreachable(Host)) -->
     [ 'Host ~p cannot be reached'-[Host] ],
     reason(Host).
@@ -119,18 +133,6 @@ refusal(identity) --> !, [ 'its owner has not signed that it is his' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
 refusal(quota(What)) --> !, [ 'its quota of ~w would be passed'-[What] ].
 refusal(Reason) --> [ '~p'-[Reason] ].
-
-%   files_beside(+File, -Files): what might have been written for File.
-
-files_beside(File, Files) :-
-    file_directory_name(File, Dir),
-    directory_files(Dir, Entries),
-    findall(Name,
-            ( member(Entry, Entries),
-              file_name_extension(Base, pl, Entry),
-              directory_file_path(Dir, Base, Name0),
-              ( atom_concat('./', Name, Name0) -> true ; Name = Name0 ) ),
-            Files).
 
 program_alias(Spec, Alias, Name) :-
     compound(Spec),

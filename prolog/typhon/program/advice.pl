@@ -15,6 +15,8 @@ calls when nobody catches the error.
 *Threading*: pure.
 */
 
+:- use_module('../base/names', [names_joined/3]).
+
 :- multifile
     prolog:error_message//1,
     prolog:message_context//1,
@@ -63,6 +65,8 @@ prolog:message_context(at(_, Advice, Others)) -->
 
 place(File:Line) -->
     [ '~w:~d: '-[File, Line] ].
+place(clause(0)) --> !,
+    [ 'there are no clauses: ' ].
 place(clause(N)) -->
     [ 'clause ~d: '-[N] ].
 place(file(File, Line, LinePos, _)) -->
@@ -94,8 +98,11 @@ advice(singletons) -->
 advice(discontiguous(Name/Arity)) -->
     { term_to_atom(Name/Arity, Atom) },
     ['put them together, or write :- discontiguous ', Atom, '.'].
-advice(include) -->
+advice(include([])) -->
     ['cannot include'].
+advice(include([File|Files])) -->
+    { names_joined([File|Files], ' or ', Meant) },
+    ['cannot include: did you mean ', Meant, '?'].
 advice(include_itself) -->
     ['a file cannot include itself'].
 advice(grammar) -->
@@ -126,14 +133,19 @@ advice(redefined) -->
     ['the name is taken: rename the predicate'].
 advice(entry) -->
     ['define main/0, on_message/2 or both'].
-advice(state) -->
+advice(options(agent)) -->
     ['write agent(Name, [state([Name/Arity, ...])])'].
+advice(options(payload)) -->
+    ['write payload(Name, [provides([Name/Arity, ...])])'].
 advice(undeclared(Name/Arity)) -->
     { term_to_atom(Name/Arity, Atom) },
     ['what an agent changes is its state: write agent(Name, [state([',
      Atom, '])])'].
-advice(offered) -->
+advice(offered([])) -->
     ['a place or a payload must offer it'].
+advice(offered([PI|PIs])) -->
+    { names_joined([PI|PIs], ' or ', Meant) },
+    ['did you mean ', Meant, '? If not, a place or a payload must offer it'].
 advice(commits(Choice)) -->
     ['what stops an agent commits it: '],
     instead(Choice).

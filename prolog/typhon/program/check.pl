@@ -6,11 +6,13 @@
 :- use_module(library(lists), [append/2, member/2, memberchk/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../base/names', [names_near/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module(advice, [problem_error/3]).
 :- use_module(allowed, [policy_read/1]).
 :- use_module(guard, [guard_program/3, guard_refuses/4]).
-:- use_module(mobile, [body_calls/2, built_in/1, mobile_predicates/3]).
+:- use_module(mobile, [ body_calls/2, built_in/1, mobile_predicates/3,
+                near_built_in/2 ]).
 :- use_module(parts, [file_parts/4, library_directive/2, part/3]).
 :- use_module(programs,
               [ in_file_order/3, payload_terms/3, program_doubts/3,
@@ -136,23 +138,38 @@ moves([], Located, Errors, Warnings) :-
 %   should have declared.
 
 undefined(Located, Warnings,
-          problem(unknown_procedure(PI), Location, offered)) :-
+          problem(unknown_procedure(PI), Location, offered(Near))) :-
     file_parts(agent, Located, Parts, _),
     part(rules, Parts, Rules),
-    part(state, Parts, State),
     member((_:-Body)-Location, Rules),
     body_calls(Body, Calls),
     member(call(PI, _), Calls),
-    \+ memberchk(PI, State),
     \+ memberchk(problem(undeclared_state(PI), _, _), Warnings),
-    \+ defined(PI, Parts).
+    \+ defined(PI, Parts),
+    meant(PI, Parts, Near).
+
+%   meant(+PI, +Parts, -Near:list): what there is of that name, or else of one
+%   like it.
+
+meant(Name/Arity, Parts, Near) :-
+    findall(PI, ( own(Parts, PI) ; near_built_in(Name/Arity, PI) ), PIs),
+    findall(Name/N, member(Name/N, PIs), Same),
+    ( Same == [] -> Known = PIs ; Known = Same ),
+    sort(Known, Sorted),
+    names_near(Name, Sorted, Near).
+
+own(Parts, Name/Arity) :-
+    part(rules, Parts, Rules),
+    member((Head:-_)-_, Rules),
+    callable(Head),
+    functor(Head, Name, Arity).
+own(Parts, PI) :-
+    part(state, Parts, State),
+    member(PI, State).
 
 defined(PI, Parts) :-
     (   built_in(PI)
-    ;   part(rules, Parts, Rules),
-        PI = Name/Arity,
-        functor(Head, Name, Arity),
-        member((Head:-_)-_, Rules)
+    ;   own(Parts, PI)
     ;   library_directive(Parts, Library-_),
         offers(Library, PI)
     ),

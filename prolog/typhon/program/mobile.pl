@@ -2,7 +2,8 @@
           [ mobile_predicates/3,                 % +Clauses, -Kinds, -Problems
             body_calls/2,               % +Body, -Calls
             is_mobile/2,                % +PI, +Mobile
-            built_in/1                  % +PI
+            built_in/1,                 % +PI
+            near_built_in/2             % +PI, -Near
           ]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(assoc),
@@ -144,6 +145,17 @@ built_in(Name/Arity) :-
     ->  true
     ;   predicate_property(system:Head, visible)
     ).
+
+%!  near_built_in(+PI, -Near) is nondet.
+%
+%   Near, of another name or arity than PI, is built in, and looks like it.
+
+near_built_in(Name/Arity, Near/NearArity) :-
+    functor(Head, Name, Arity),
+    dwim_predicate(typhon_vocabulary:Head, Module:NearHead),
+    memberchk(Module, [typhon_vocabulary, system]),
+    functor(NearHead, Near, NearArity),
+    \+ sub_atom(Near, 0, _, _, $).
 
 misplaced(Located, Mobile,
           problem(permission_error(call, control_predicate, PI), Location,

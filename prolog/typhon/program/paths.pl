@@ -1,6 +1,7 @@
 :- module(typhon_paths,
           [ program_file/2,             % +Spec, -File
-            included_file/3             % +Spec, +Includer, -File
+            included_file/3,            % +Spec, +Includer, -File
+            files_beside/3              % +File, +Dir, -Files
           ]).
 
 /** <module> Where agent programs and payloads are found
@@ -58,6 +59,26 @@ included_file(Spec, Includer, File) :-
     absolute_file_name(Spec, File,
                        [ extensions(['',pl]), access(read),
                          relative_to(Dir) ]).
+
+%!  files_beside(+File:atom, +Dir, -Files:list) is semidet.
+%
+%   What might have been written for the name File of a clause file that is not
+%   there, relative to Dir.
+
+files_beside(File, Dir, Files) :-
+    file_directory_name(File, Folder),
+    absolute_file_name(Folder, Path, [relative_to(Dir)]),
+    catch(directory_files(Path, Entries), error(_, _), fail),
+    findall(Name,
+            ( member(Entry, Entries),
+              file_name_extension(Base, pl, Entry),
+              in_folder(Folder, Base, Name) ),
+            Files).
+
+in_folder('.', Base, Base) :-
+    !.
+in_folder(Folder, Base, Name) :-
+    directory_file_path(Folder, Base, Name).
 
 %   Names as they would stand in agents(Name), for programs in folders, too,
 %   but not for what these include.

@@ -2,7 +2,7 @@
           [ directive_problem/2,        % +Directives, -Problem
             clause_problem/2,           % +Clauses, -Problem
             entry_problem/3,            % +Located, +Clauses, -Problem
-            option_problem/2            % +Located, -Problem
+            option_problem/3            % +Kind, +Located, -Problem
           ]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(machine, [control/1]).
@@ -19,11 +19,11 @@ stands and what to do about it, see typhon_advice.
 %!  directive_problem(+Directives, -Problem) is nondet.
 %!  clause_problem(+Clauses, -Problem) is nondet.
 %!  entry_problem(+Located, +Clauses, -Problem) is semidet.
-%!  option_problem(+Located, -Problem) is nondet.
+%!  option_problem(+Kind, +Located, -Problem) is nondet.
 %
 %   Problems with the directives, the clauses, the entries and the options
-%   of a program.  Directives, Clauses and Located are pairs Term-Location;
-%   for entries Clauses are rules.
+%   of a program, or of a payload: Kind is `agent` or `payload`.  Directives,
+%   Clauses and Located are pairs Term-Location; for entries Clauses are rules.
 
 directive_problem(Directives, problem(Formal, Location, Advice)) :-
     member((:- Directive)-Location, Directives),
@@ -135,19 +135,22 @@ entry_problem(Located, Clauses,
        ),
     Located = [_-Location|_].
 
-option_problem(Located, problem(Formal, Location, Advice)) :-
+option_problem(Kind, Located, problem(Formal, Location, Advice)) :-
     member(Term-Location, Located),
-    declaration(agent, Term, _, Options),
+    declaration(Kind, Term, _, Options),
     !,
     member(Option, Options),
-    faulty_option(Option, Formal, Advice).
+    faulty_option(Kind, Option, Formal, Advice).
 
-faulty_option(Option, Formal, Advice) :-
-    (   nonvar(Option),
-        Option = state(PIs),
-        is_list(PIs)
-    ->  faulty_indicator(PIs, Formal, Advice0),
-        ( Advice0 == indicator -> Advice = state ; Advice = Advice0 )
-    ;   Formal = domain_error(agent_declaration, Option),
-        Advice = state
-    ).
+faulty_option(Kind, Option, Formal, Advice) :-
+    nonvar(Option),
+    lists(Kind, Option, PIs),
+    is_list(PIs),
+    !,
+    faulty_indicator(PIs, Formal, Advice0),
+    ( Advice0 == indicator -> Advice = options(Kind) ; Advice = Advice0 ).
+faulty_option(Kind, Option, domain_error(Domain, Option), options(Kind)) :-
+    atom_concat(Kind, '_declaration', Domain).
+
+lists(agent, state(PIs), PIs).
+lists(payload, provides(PIs), PIs).

@@ -24,7 +24,7 @@
 :- use_module(places, [places/2]).
 :- use_module(problems,
               [ clause_problem/2, directive_problem/2, entry_problem/3,
-                option_problem/2 ]).
+                option_problem/3 ]).
 :- use_module(slips, [apart_problem/3, undeclared_problem/3]).
 :- use_module(python_code, [python_payload/2]).
 :- use_module(source, [source_terms/5]).
@@ -126,7 +126,7 @@ faulty(Located, Parts, Problem) :-
     (   directive_problem(Directives, Problem)
     ;   clause_problem(Clauses, Problem)
     ;   entry_problem(Located, Rules, Problem)
-    ;   option_problem(Located, Problem)
+    ;   option_problem(agent, Located, Problem)
     ).
 
 %   A program whose clauses are faulty is not looked at any further.
@@ -169,8 +169,9 @@ payload_terms(Located, payload(Name, PIs, Clauses), Errors) :-
     part(clauses, Parts, Clauses0),
     findall(P, directive_problem(Directives, P), Errors1),
     findall(P, clause_problem(Clauses0, P), Errors2),
-    append([Errors0, Errors1, Errors2], Errors3),
-    in_file_order(Errors3, Located, Errors),
+    findall(P, option_problem(payload, Located, P), Errors3),
+    append([Errors0, Errors1, Errors2, Errors3], Errors4),
+    in_file_order(Errors4, Located, Errors),
     ( memberchk(provides(Provided), Options) -> true ; Provided = [] ),
     maplist(located_clause, Clauses0, Clauses),
     findall(PI, clause_indicator(Clauses, PI), Defined),

@@ -11,7 +11,8 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module(paths, [included_file/3, program_file/2]).
+:- use_module('../base/names', [names_near/3]).
+:- use_module(paths, [files_beside/3, included_file/3, program_file/2]).
 
 /** <module> Clause files as terms that know where they stood
 
@@ -183,13 +184,22 @@ include_file(Spec, Location, Reading, Items, Rest) :-
     Reading = reading([File|Files], _),
     catch(included_file(Spec, File, Path), error(Formal, _), true),
     (   nonvar(Formal)
-    ->  Items = [error(problem(Formal, Location, include))|Rest]
+    ->  files_meant(Spec, File, Meant),
+        Items = [error(problem(Formal, Location, include(Meant)))|Rest]
     ;   memberchk(Path, [File|Files])
     ->  Formal = permission_error(include, source_sink, Spec),
         Items = [error(problem(Formal, Location, include_itself))|Rest]
     ;   Items = [source(include(Spec, File, Path))|Items1],
         file_items(Path, Reading, Items1, Rest)
     ).
+
+files_meant(Spec, Includer, Meant) :-
+    atom(Spec),
+    file_directory_name(Includer, Dir),
+    files_beside(Spec, Dir, Files),
+    !,
+    names_near(Spec, Files, Meant).
+files_meant(_, _, []).
 
 grammar_rule(Term0, Location, Item) :-
     nonvar(Term0),

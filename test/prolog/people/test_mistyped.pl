@@ -143,6 +143,25 @@ test(network) :-
         ( atom_concat(N, x, Mistyped),
           says(network_stop(Mistyped), ["(did you mean ", N]) ),
         network_stop(N)).
+test(host_that_is_there) :-
+    with_hosts([alpha],
+               says(host_start(alpha), ["There is a host alpha here already"])).
+test(host_to_which_an_agent_moves) :-
+    with_hosts([alpha],
+               ( create([(main :- move(alhpa))], A, [host(alpha)]),
+                 agent_join(A, raised(Error), 5),
+                 says(throw(Error), ["(did you mean alpha?)"]) )).
+test(what_is_traced_or_changed) :-
+    with_hosts([alpha],
+               ( create([(on_message(_, _))], A, [host(alpha)]),
+                 says(agent_trace(A, [hop]), ["(did you mean hops?)"]),
+                 says(agent_change(A, fact([])),
+                      ["(did you mean facts(Clauses)?)"]) )).
+test(virtual_time_is_that_of_one_process) :-
+    says(network_start(ring(2), _, [clock(virtual), processes(2)]),
+         ["one process", "processes(2)"]).
+test(search_path) :-
+    says(agent_check(agent(census)), ["(did you mean agents(_)?)"]).
 test(strategy) :-
     says(typhon_strategy:next_host(consientious, [], a, memory(1, []), _, _),
          ["(did you mean conscientious?)"]).

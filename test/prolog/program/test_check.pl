@@ -79,6 +79,12 @@ printed_of(Text, File) :-
     findall(T, ( member(_-Error, Messages), text_of(Error, T) ), Ts),
     atomic_list_concat(Ts, Text).
 
+empty_file(Dir) :-
+    directory_file_path(Dir, 'a.pl', File),
+    write_program([], File),
+    printed_of(Text, File),
+    shows(Text, "there are no clauses: declaration").
+
 shows(Text, Words) :-
     assertion(sub_string(Text, _, _, _, Words)).
 
@@ -226,6 +232,22 @@ test(advice_fits, [forall(advice(Goal, Words))]) :-
     ->  true
     ;   assertion(\+ sub_string(Text, _, _, _, "recursive"))
     ).
+
+%   What looks like it is named, else who might define it.
+
+unknown('recieve(_)', "recieve/1 (did you mean receive/1 or receive/2?").
+unknown('clone', "clone/0 (did you mean clone/1 or clone/2?").
+unknown('writln(x)', "writln/1 (did you mean writeln/1 or writeln/2?").
+unknown('p(x)', "p/1 (did you mean p/0?").
+unknown('hepler(_)', "hepler/1 (did you mean helper/1?").
+unknown('temperature(_)', "temperature/1 (a place or a payload must offer").
+
+test(calls_of_what_is_not_there, [forall(unknown(Goal, Words))]) :-
+    atomic_list_concat(['p :- ', Goal, '.'], Line),
+    printed([Line, 'q.', 'helper(_).'], Text),
+    shows(Text, Words).
+test(file_without_clauses) :-
+    with_tmp_dir(test_check:empty_file).
 
 :- end_tests(errors).
 

@@ -278,6 +278,10 @@ test(payload_without_a_name, F-L == existence_error(declaration, payload)-1) :-
     with_file(['p(1).'],
               test_program:error_of(payload, F, L, A)),
     says(A, 'begin the file with :- payload(Name').
+test(option_of_a_payload, F-L == domain_error(payload_declaration, offers([]))-1) :-
+    with_file([':- payload(a, [offers([])]).'],
+              test_program:error_of(payload, F, L, A)),
+    says(A, 'write payload(Name, [provides([Name/Arity, ...])])').
 test(payload_with_a_faulty_clause, F-L == type_error(callable, 5)-3) :-
     with_file([':- payload(a).', 'p(1).', '5.'],
               test_program:error_of(payload, F, L, _)).
@@ -331,6 +335,11 @@ test(error_in_an_included_file, L-E == 2-type_error(callable, 7)) :-
 test(included_file_that_is_not_there, F-L == (existence_error(source_sink, b)-3)) :-
     problem([':- agent(a).', 'main.', ':- include(b).'], F, L, A),
     says(A, 'cannot include').
+test(included_file_that_is_mistyped) :-
+    with_files([ a-[':- agent(a).', ':- include(helprs).', 'main.'],
+                 helpers-['p(1).'] ],
+               test_program:error_of(load, _, 2, A)),
+    says(A, 'did you mean helpers?').
 test(file_that_includes_itself, F-L == permission_error(include, source_sink, a)-2) :-
     problem([':- agent(a).', ':- include(a).', 'main.'], F, L, _).
 test(files_that_include_each_other,
