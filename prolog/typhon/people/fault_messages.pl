@@ -19,7 +19,7 @@ prolog:error_message(permission_error(resume, agent, Agent)) -->
 
 prolog:message(typhon(faulty(Agent, Error, Fault))) -->
     who(Agent, Fault),
-    '$messages':translate_message(Error),
+    error_told(Error, Agent),
     raised_in(Fault).
 prolog:message(typhon(agent_failed(Agent, Fault))) -->
     who(Agent, Fault),
@@ -40,6 +40,14 @@ who(Agent, Fault) -->
       atomic_list_concat([Host|_], @, Address)
     },
     [ 'Agent ~w at ~w (hop ~D): '-[Agent, Host, Hops] ].
+
+%   What it calls and nobody has is not said to be missing in its module.
+
+error_told(error(existence_error(procedure, Agent:PI), _), Agent) -->
+    !,
+    [ 'Unknown procedure: ~p'-[PI] ].
+error_told(Error, _) -->
+    '$messages':translate_message(Error).
 
 failed_last(Fault) -->
     { fault_told(Fault, Goal, Where, _, _) },

@@ -134,6 +134,9 @@ test(nothing_came,
                    receive(user-_, 0.01), in main/0 (trip.pl:2)\n")) :-
     says([ ':- agent(trip, []).',
            'main :- receive(user-_, 0.01), log(x).' ], Text).
+test(what_nobody_has, true(Text == " at alpha (hop 0): Unknown procedure: \c
+                                    nosuch/1, in main/0 (trip.pl:2)\n")) :-
+    says([':- agent(trip, []).', 'main :- log(a), nosuch(1).'], Text).
 test(a_move_that_is_refused,
      true(Text == ", in main/0 (trip.pl:2)\n")) :-
     says([ ':- agent(trip, []).',
