@@ -102,7 +102,7 @@ agent_argument(Name, Options, Agent) :-
     !,
     seen_from(Host, Agents),
     findall(Id, ( member(Id, Agents), agent_name(Id, Name, _) ), Ids),
-    only(Ids, Name, Host, Agent).
+    only(Ids, Name, Host, Agents, Agent).
 agent_argument(Name, _, _) :-
     usage(not_an_id(Name)).
 
@@ -112,11 +112,11 @@ seen_from(Host, Agents) :-
             Ids),
     sort(Ids, Agents).
 
-only([Agent], _, _, Agent) :-
+only([Agent], _, _, _, Agent) :-
     !.
-only([], Name, Host, _) :-
-    usage(no_agent(Name, Host)).
-only(Ids, Name, _, _) :-
+only([], Name, Host, Agents, _) :-
+    usage(no_agent(Name, Host, Agents)).
+only(Ids, Name, _, _, _) :-
     usage(several_agents(Name, Ids)).
 
 %!  host_now(+Host, -Address) is det.

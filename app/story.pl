@@ -12,20 +12,29 @@
 *Threading*: any thread.
 */
 
-%!  story(+File, +Agent) is semidet.
+%!  story(+File, +Agent) is det.
 %
 %   Print what happened to Agent, in words, in the order of the log File.
 %   Agent is an id, what stands before the `@` in it, or the name from which it
-%   was made; if several have that, the story of each is told.  Fails if the
-%   log knows none.
+%   was made; if several have that, the story of each is told.
+%
+%   @error typhon_usage(not_in_log(Agent, File, Names)): those whom it knows
 
 story(File, Agent) :-
     log_events(File, Events),
     findall(Id, ( member(event(_, _, Id, _), Events), is_called(Id, Agent) ),
             Ids0),
     sort(Ids0, Ids),
-    Ids \== [],
-    forall(member(Id, Ids), tell(Id, Events)).
+    (   Ids == []
+    ->  nothing_of(Agent, File, Events)
+    ;   forall(member(Id, Ids), tell(Id, Events))
+    ).
+
+nothing_of(Agent, File, Events) :-
+    findall(Name, ( member(event(_, _, Id, _), Events), short_name(Id, Name) ),
+            Names0),
+    sort(Names0, Names),
+    throw(error(typhon_usage(not_in_log(Agent, File, Names)), _)).
 
 is_called(Id, Agent) :-
     (   Id == Agent

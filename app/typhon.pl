@@ -35,8 +35,8 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(picture, [picture/3]).
 :- use_module(serving, [and_then/2, until_told_to_stop/3]).
 :- use_module(story, [story/2]).
-:- use_module(usage, [complain/1]).
-:- use_module(library(lists), [member/2]).
+:- use_module(usage, [complain/2]).
+:- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).
 
@@ -78,7 +78,8 @@ opt_meta(Option, Meta) :-
 
 main(Argv) :-
     catch(dispatch(Argv), error(Formal, Context),
-          ( complain(error(Formal, Context)),
+          ( nth0(0, Argv, Command),
+            complain(Command, error(Formal, Context)),
             fail )),
     !,
     halt(0).
@@ -261,10 +262,7 @@ run(log, [File], Options) :-
 run(journal, [Dir], Options) :-
     journal_shown(Dir, Options).
 run(story, [Log, Agent], _) :-
-    (   story(Log, Agent)
-    ->  true
-    ;   throw(error(typhon_usage(not_in_log(Agent, Log)), _))
-    ).
+    story(Log, Agent).
 run(picture, [Log, File], Options) :-
     (   picture(Log, File, Options)
     ->  true

@@ -1,5 +1,5 @@
 :- module(typhon_app_usage,
-          [ complain/1                  % +Error
+          [ complain/2                  % +Command, +Error
           ]).
 
 /** <module> What the command line says to mistakes
@@ -7,24 +7,21 @@
 *Threading*: the main thread only.
 */
 
-:- use_module('../prolog/typhon', [log_events/2]).
 :- use_module('../prolog/typhon/base/names',
               [names_listed/2, names_proposed/3]).
-:- use_module('../prolog/typhon/people/happenings', [short_name/2]).
 :- use_module(commands, [command/4]).
-:- use_module(library(lists), [member/2]).
 
 :- multifile
     prolog:error_message//1,
     prolog:message//1.
 
-%!  complain(+Error) is det.
+%!  complain(+Command, +Error) is det.
 %
-%   Print Error, and what to try next.
+%   Print Error, which Command has raised, and what to try next.
 
-complain(Error) :-
-    (   Error = error(Formal, _),
-        hint(Formal, Hint)
+complain(Command, Error) :-
+    (   Error = error(Formal, Context),
+        ( hint(Formal, Hint) ; no_program(Command, Formal, Context, Hint) )
     ->  print_message(error, typhon_hint(Error, Hint))
     ;   print_message(error, Error)
     ).
@@ -38,7 +35,14 @@ hint(connection_lost(Host), Hint) :-
 hint(existence_error(agent, _), 'agents --host ADDRESS tells who is there').
 hint(existence_error(host, _), 'hosts --host ADDRESS tells which there are').
 hint(domain_error(topology, _), 'network --help tells the shapes').
-hint(existence_error(source_sink, _), 'a file, or a term as agents(census)').
+
+%   A file that a program includes is none that was typed.
+
+no_program(Command, existence_error(source_sink, _), Context,
+           'a file, or a term as agents(census)') :-
+    \+ subsumes_term(at(_, _, _), Context),
+    command(Command, Arguments, _, _),
+    sub_atom(Arguments, 0, _, _, 'PROGRAM').
 
 prolog:message(typhon_hint(Error, Hint)) -->
     '$messages':translate_message(Error),
@@ -64,14 +68,8 @@ usage(required(Command, Option)) -->
     [ '~w needs --~w; see ~w --help'-[Command, Option, Command] ].
 usage(not_a_term(Text)) -->
     [ 'not a Prolog term: ~w'-[Text] ].
-usage(not_in_log(Agent, Log)) -->
-    { log_events(Log, Events),
-      findall(Short,
-              ( member(event(_, _, Id, _), Events), short_name(Id, Short) ),
-              Names0),
-      sort(Names0, Names),
-      length(Names, Count)
-    },
+usage(not_in_log(Agent, Log, Names)) -->
+    { length(Names, Count) },
     [ 'nothing of an agent ~w in ~w'-[Agent, Log] ],
     in_log(Names, Count).
 usage(empty_log(Log)) -->
@@ -79,9 +77,10 @@ usage(empty_log(Log)) -->
 usage(not_an_id(Agent)) -->
     [ 'not the id of an agent: ~w (with --host ADDRESS a name is enough)'-
       [Agent] ].
-usage(no_agent(Name, Host)) -->
-    [ 'no agent ~w in the network of ~w (agents --host ~w lists them)'-
-      [Name, Host, Host] ].
+usage(no_agent(Name, Host, Agents)) -->
+    { names_proposed(Name, Agents, Meant) },
+    [ 'no agent ~w in the network of ~w~w (agents --host ~w lists them)'-
+      [Name, Host, Meant, Host] ].
 usage(several_agents(Name, Ids)) -->
     { atomic_list_concat(Ids, ' or ', Text) },
     [ 'which ~w is meant: ~w?'-[Name, Text] ].

@@ -212,6 +212,7 @@ orders(N1, Program) :-
     typhon([join, Bob, '--timeout', 5], exit(1), "disposed\n", ""),
     typhon_error([move, ann, n7, '--host', N1], "no host n7"),
     typhon_error([dispose, bob, '--host', N1], "no agent bob"),
+    typhon_error([dispose, annn, '--host', N1], "(did you mean ann."),
     typhon_lines([remote, N1, 'neighbours([A,B]), write(hi), nl, _X = 1'],
                  ["hi", Line1, Line2]),
     assertion(has_line([Line1], 'A = *n2@*')),
@@ -248,7 +249,9 @@ check(Dir) :-
     typhon([check, Good], exit(0), "", _),
     typhon([check, Good, Bad], exit(1), "", Err),
     assertion(sub_string(Err, _, _, _, "bad.pl:2")),
-    typhon_error([check, '/no/such/program'], "agents(census)").
+    typhon_error([check, '/no/such/program'], "agents(census)"),
+    typhon([log, '/no/such/log'], exit(1), "", LogErr),
+    assertion(\+ sub_string(LogErr, _, _, _, "census")).
 
 test(link) :-
     with_typhon([host, alpha], _, Alpha,

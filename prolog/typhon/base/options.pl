@@ -6,7 +6,8 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, is_of_type/2, must_be/2]).
-:- use_module(names, [names/2, names_listed/2, names_proposed/3]).
+:- use_module(names,
+              [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 
 /** <module> Options that nobody knows are errors
 
@@ -101,10 +102,23 @@ prolog:error_message(domain_error(Domain, Culprit)) -->
     },
     { culprit_name(Culprit, Name),
       names(Domain, Names),
-      names_proposed(Name, Names, Meant),
+      meant(Domain, Name, Names, Meant),
       names_listed(Names, All)
     },
     [ 'There is no ~w ~p~w~w'-[Kind, Culprit, Meant, All] ].
+
+%   Where there is an option of that name, it is written in another way.
+
+meant(Domain, Name, _, Text) :-
+    findall(Option,
+            ( declared(Domain, Option, _, _), functor(Option, Name, _) ),
+            Options),
+    Options \== [],
+    !,
+    names_joined(Options, ' or ', Written),
+    format(atom(Text), ' (write ~w)', [Written]).
+meant(_, Name, Names, Text) :-
+    names_proposed(Name, Names, Text).
 
 %   An option may be written Name=Value, too, but not here.
 

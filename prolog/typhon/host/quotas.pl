@@ -44,6 +44,7 @@ any thread.
 */
 
 :- multifile
+    typhon_names:known/2,       % Kind, Name
     set/1,                      % Host has other quotas now
     look/0,                     % who uses too much is interrupted
     forgotten/1.                % Host has no quotas any more
@@ -91,6 +92,9 @@ kind(hops,       [agent, owner, host]).
 kind(state,      [agent, owner, host]).
 kind(seconds,    [agent, owner, host]).
 kind(stack,      [agent, owner, host]).
+
+typhon_names:known(quota, Name) :-
+    kind(Name, _).
 
 %!  quota_set(+Host, +Policy, +Quotas:list) is det.
 %

@@ -13,6 +13,7 @@
 :- use_module(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_open_socket/2, tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../base/options', [blaming/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(acting, [act/2]).
 :- use_module(browsers,
@@ -101,7 +102,7 @@ listen(Interface, Port0, Port) :-
     ( Port0 == 0 -> true ; Port = Port0 ),
     tcp_socket(Socket),
     catch(( tcp_setopt(Socket, reuseaddr),
-            tcp_bind(Socket, Interface:Port),
+            blaming(port(Port), tcp_bind(Socket, Interface:Port)),
             tcp_listen(Socket, 64),
             tcp_open_socket(Socket, Stream),
             set_stream(Stream, close_on_exec(true)) ),

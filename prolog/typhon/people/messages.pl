@@ -37,6 +37,8 @@ prolog:error_message(existence_error(host, Host)) -->
     meant(host, Host).
 prolog:error_message(permission_error(start, host, Host)) -->
     [ 'There is a host ~p here already'-[Host] ].
+prolog:error_message(permission_error(start, page, Port)) -->
+    [ 'There is a page already, at port ~w'-[Port] ].
 prolog:error_message(permission_error(carry, virtual_time, Option)) -->
     [ 'Virtual time is that of one process: ~p cannot be had with \c
        clock(virtual)'-[Option] ].

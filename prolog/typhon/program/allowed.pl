@@ -189,6 +189,11 @@ policy_read(Policy) :-
 rules_read(guarded) :-
     !.
 rules_read(File) :-
+    \+ exists_file(File),
+    !,
+    throw(error(existence_error(source_sink, File),
+                context(_, 'a policy is trusted, guarded or a file of rules'))).
+rules_read(File) :-
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
         rules_in(In, Rules),

@@ -79,6 +79,13 @@ test(proposes_what_was_meant, [forall(unknown(Goal, _, Meant))]) :-
     says(Goal, [Proposed]).
 test(limit_of_a_motor, error(domain_error(nxt_motor_option, limit(90)))) :-
     nxt_run(b, a, 50, [limit(90)]).
+test(an_option_of_another_form) :-
+    says(host_start(a, [hop_time(3)]), ["(write hop_time(uniform("]).
+test(quota) :-
+    says(host_start(a, [quota([hop(3)])]), ["(did you mean hops?)"]).
+test(policy) :-
+    says(host_start(a, [policy(guardd)]),
+         ["trusted, guarded or a file of rules"]).
 test(all_are_listed) :-
     says(nxt_run(b, a, 50, [limit(90)]),
          ["; there are brake, degrees, regulated, state, sync"]).
