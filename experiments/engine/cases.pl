@@ -8,6 +8,7 @@
 :- use_module('../../prolog/typhon/base/names', [names_proposed/3]).
 :- use_module(library(apply), [exclude/3, foldl/4]).
 :- use_module(library(lists), [last/2, list_to_set/2, member/2, memberchk/2]).
+:- use_module(library(pairs), [pairs_keys/2]).
 
 /** <module> The cases of a study
 
@@ -122,7 +123,6 @@ said(Study, Name, Value, default, included) :-
 default(clock, virtual).
 default(processes, 1).
 
-
 in_file(Study, Name, Values, varied, Source) :-
     clause(Study:vary(Name, Values), Body, Clause),
     Study:Body,
@@ -136,6 +136,7 @@ in_file(Study, Name, _, derived, Source) :-
     atom(Name0),
     Name = Name0,
     source(Study, Clause, Source).
+
 source(Study, Clause, Source) :-
     (   clause_property(Clause, file(Study))
     ->  Source = own
@@ -187,8 +188,17 @@ case_name(Study, Case, Name) :-
 
 prolog:error_message(study_parameter(Study, Name)) -->
     { file_base_name(Study, Base),
-      findall(N, study_parameter(Study, N), Names0),
-      sort(Names0, Names),
+      findall(N, study_parameter(Study, N), Names) },
+    no_parameter(Base, Name, Names).
+prolog:error_message(existence_error(key, Name, Case)) -->
+    { is_dict(Case, Tag),
+      Tag == case,
+      dict_pairs(Case, _, Pairs),
+      pairs_keys(Pairs, Names) },
+    no_parameter('A case', Name, Names).
+
+no_parameter(Who, Name, Names0) -->
+    { sort(Names0, Names),
       names_proposed(Name, Names, Meant),
       atomic_list_concat(Names, ', ', Known) },
-    [ '~w has no parameter ~q~w; it has ~w'-[Base, Name, Meant, Known] ].
+    [ '~w has no parameter ~q~w; it has ~w'-[Who, Name, Meant, Known] ].

@@ -8,6 +8,7 @@
 :- use_module(library(lists), [append/2, list_to_set/2, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../../prolog/typhon/base/names', [names_proposed/3]).
+:- use_module('../../prolog/typhon/program', [files_beside/3]).
 :- use_module(studies, [study_call/2, study_load/2, study_title/3]).
 
 /** <module> The studies that are there
@@ -112,7 +113,9 @@ named(Name, _) :-
 
 prolog:error_message(existence_error(study, Name)) -->
     { catalogue(Rows),
-      findall(Known, member([Known, _], Rows), Names),
+      ( files_beside(Name, '.', Files) -> true ; Files = [] ),
+      findall(Known, ( member([Known, _], Rows) ; member(Known, Files) ),
+              Names),
       names_proposed(Name, Names, Meant)
     },
     [ 'There is no study ~w~w'-[Name, Meant] ].

@@ -45,7 +45,8 @@ given(Options, Given) :-
             Given).
 
 setting(Text, Name, Value) :-
-    (   sub_atom(Text, B, _, A, =)
+    (   sub_atom(Text, B, _, A, =),
+        A > 0
     ->  sub_atom(Text, 0, B, _, Name),
         sub_atom(Text, _, A, 0, ValueText),
         value(ValueText, Value)

@@ -7,6 +7,7 @@
             study_name/3                % +Study, -Where, -Name
           ]).
 :- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module('../../prolog/typhon/base/names', [names_joined/3, names_near/3]).
 :- use_module('../../prolog/typhon/base/options', [check_options/2]).
 :- use_module(cases, [parameters/3, study_parameter/2]).
 :- use_module(claims, [claim_name/2, claim_shape/2, claim_value/2]).
@@ -44,6 +45,7 @@ was chosen after results had been seen.
 
 :- multifile
     prolog:error_message//1,
+    prolog:message//1,
     typhon_options:declared/4,
     user:file_search_path/2.
 
@@ -98,6 +100,8 @@ study_load(File, Study) :-
         statistics(errors, After),
         findall(Problem, problem(Study, Before-After, Problem), Problems),
         complain(Problems, Study),
+        forall(mistyped(Study, PI, Words),
+               print_message(warning, study_mistyped(Study, PI, Words))),
         assertz(loaded(Study))
     ).
 
@@ -220,6 +224,18 @@ is_picture(lines(_)).
 is_picture(script(_, _, _)).
 is_picture(file(_, _)).
 
+%   mistyped(+Study, -PI, -Words) is nondet: it has a predicate that may be
+%   meant as one of Words.  It may as well be its own.
+
+mistyped(Study, Name/Arity, Words) :-
+    current_predicate(Study:Name/Arity),
+    functor(Head, Name, Arity),
+    \+ predicate_property(Study:Head, imported_from(_)),
+    findall(Word/Arity, word(Word/Arity), All),
+    \+ memberchk(Name/Arity, All),
+    names_near(Name, All, Words),
+    Words \== [].
+
 %   Which measures there are is only known if all their clauses say it.
 
 unknown(Study, Name) :-
@@ -227,6 +243,10 @@ unknown(Study, Name) :-
     \+ ( member(Measure, Measures), var(Measure) ),
     \+ ( member(Measure, Measures), Measure == Name ),
     \+ study_parameter(Study, Name).
+
+prolog:message(study_mistyped(File, PI, Words)) -->
+    { names_joined(Words, ' or ', Text) },
+    [ '~w: ~q is no word of studies (did you mean ~w?)'-[File, PI, Text] ].
 
 prolog:error_message(study(File, Problems)) -->
     [ '~w is no study yet'-[File] ],

@@ -5,7 +5,8 @@
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
-              [study_command/4, with_study/2, with_study_file/2]).
+              [ study_command/4, study_messages/2, with_study/2,
+                with_study_file/2 ]).
 :- use_module('../../../experiments/engine/catalogue').
 :- use_module('../../../experiments/engine/studies').
 :- use_module(library(apply), [maplist/3]).
@@ -81,6 +82,10 @@ test(no_picture, Problems == [said(plot(p), no_picture(bars([])))]) :-
 test(own_test_is_missing,
      Problems == [said(claim("own"), no_test(holds(own)))]) :-
     more_problems(['claim("own", [], holds(own)).'], Problems).
+test(a_word_that_is_mistyped) :-
+    study_messages(more_problems(['labl(m, "M").'], Problems), Text),
+    assertion(Problems == []),
+    says(Text, ["labl/2 is no word of studies (did you mean label/2?)"]).
 test(all_is_told) :-
     with_study_file([ 'study(toy, "A toy").', 'vary(b, 1).',
                       'measure(m, _, 1).', 'plot(p, bars([])).',
@@ -95,6 +100,9 @@ test(all_is_told) :-
 
 told(Text, Dir, File) :-
     study_command(Dir, [File], exit(1), Text).
+
+mistyped(Text, Dir, _) :-
+    study_command(Dir, ['stdy.pl'], exit(1), Text).
 
 named(Names, Bases) :-
     studies_named(Names, Files),
@@ -239,6 +247,12 @@ test(again_where_it_was) :-
 test(no_such_study) :-
     with_tmp_dir(no_such_study(Text)),
     says(Text, ["There is no study 99.9"]).
+test(study_that_is_mistyped) :-
+    with_study_file(['study(a, b).'], mistyped(Text)),
+    says(Text, ["There is no study stdy.pl (did you mean study?)"]).
+test(nothing_is_set) :-
+    prints(['--set', 'a='], exit(1), Text),
+    says(Text, ["NAME=VALUE"]).
 test(list) :-
     with_command(listed).
 test(nothing_is_left_to_compare) :-

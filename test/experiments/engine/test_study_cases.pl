@@ -77,11 +77,24 @@ test(same_value_twice_is_one_case, Rows == [[1, x], [1, y]]) :-
     cases([], [a-[1, 1]], [a, b], Rows).
 test(unknown, error(study_parameter(_, d))) :-
     cases([], [d-1], [a], _).
+test(what_a_case_does_not_have, error(existence_error(key, aa, _))) :-
+    cases(['derive(d, Case, D) :- D = Case.aa.'], [], [d], _).
+test(what_a_case_does_not_have_is_told) :-
+    dict_pairs(Case, case, [delta-1, hosts-2]),
+    catch(_ = Case.dleta, Error, true),
+    message_to_codes(Error, Text),
+    assertion(once(sub_string(Text, _, _, _,
+                              "no parameter dleta (did you mean delta?)"))).
 test(unknown_is_told, Status-true == exit(1)-true) :-
     base(Base),
     with_study_file(Base, told(Status, Text)),
     once(sub_string(Text, _, _, _,
                     "study.pl has no parameter d; it has a, b, c")).
+
+message_to_codes(Error, Text) :-
+    phrase('$messages':translate_message(Error), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)).
 
 told(Status, Text, Dir, File) :-
     study_command(Dir, [File, '--set', 'd=1'], Status, Text).
