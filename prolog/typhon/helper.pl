@@ -25,4 +25,4 @@ caller's choice, one for each helper.
 :- reexport(helper/python, [helper_python/2]).
 :- reexport(helper/requests,
             [ helper_ask/4, helper_close/1, helper_failure/3, helper_note/2,
-              helper_open/3, helper_pid/2, helper_running/1, helper_tell/2 ]).
+              helper_open/3, helper_pid/2, helper_tell/2 ]).

@@ -4,7 +4,6 @@
             helper_ask/4,               % +Name, +Request, +Seconds, -Answer
             helper_tell/2,              % +Name, +Request
             helper_note/2,              % +Name, +Request
-            helper_running/1,           % ?Name
             helper_pid/2,               % ?Name, ?Pid
             helper_failure/3            % +Answer, +Name, +Request
           ]).
@@ -101,14 +100,9 @@ close_helper(Name) :-
     thread_join(Owner, _),
     message_queue_destroy(Told).
 
-%!  helper_running(?Name) is nondet.
 %!  helper_pid(?Name, ?Pid) is nondet.
 %
-%   The helpers that there are; those of them that have a process now.
-
-helper_running(Name) :-
-    helper(_, _, _, Name0),
-    Name = Name0.
+%   The helpers that have a process now.
 
 helper_pid(Name, Pid) :-
     helper(_, Owner, _, Name0),
@@ -226,7 +220,7 @@ prolog:error_message(existence_error(python, Python)) -->
 prolog:error_message(existence_error(helper, Name)) -->
     [ 'There is no helper ~p'-[Name] ].
 prolog:error_message(timeout_error(Request, Name)) -->
-    { helper_running(Name) },
+    { helper(_, _, _, Name) },
     [ 'The helper ~p did not do ~p in time'-[Name, Request] ].
 prolog:error_message(helper_died(Status, Name)) -->
     [ 'The helper ~p ended: ~p'-[Name, Status] ].
