@@ -14,6 +14,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 :- use_module('../program', [files_beside/3]).
 :- use_module('../host', [address_parts/3, host_property/2]).
 :- use_module('../base/names', [names/2, names_proposed/3]).
+:- use_module('../travel', [agent_outcome/2]).
 :- use_module(happenings, [happening/3, short_name/2]).
 
 :- multifile
@@ -42,6 +43,12 @@ prolog:error_message(permission_error(start, page, Port)) -->
 prolog:error_message(permission_error(carry, virtual_time, Option)) -->
     [ 'Virtual time is that of one process: ~p cannot be had with \c
        clock(virtual)'-[Option] ].
+prolog:error_message(existence_error(agent, Agent)) -->
+    { agent_outcome(Agent, Outcome),
+      functor(Outcome, How, _)
+    },
+    !,
+    [ 'Agent ~p has ended: ~w'-[Agent, How] ].
 prolog:error_message(existence_error(agent, Agent)) -->
     [ 'There is no agent ~p'-[Agent] ],
     meant(agent, Agent).

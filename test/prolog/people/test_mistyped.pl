@@ -153,10 +153,16 @@ test(network) :-
 test(host_that_is_there) :-
     with_hosts([alpha],
                says(host_start(alpha), ["There is a host alpha here already"])).
+test(agent_that_has_ended) :-
+    with_hosts([alpha],
+               ( create([main], A, [host(alpha)]),
+                 joined(A, done),
+                 says(agent_send(A, x), [" has ended: done"]) )).
 test(host_to_which_an_agent_moves) :-
     with_hosts([alpha],
-               ( create([(main :- move(alhpa))], A, [host(alpha)]),
-                 agent_join(A, raised(Error), 5),
+               ( listening(( create([(main :- move(alhpa))], A,
+                                    [host(alpha)]),
+                             agent_join(A, raised(Error), 5) ), _),
                  says(throw(Error), ["(did you mean alpha?)"]) )).
 test(what_is_traced_or_changed) :-
     with_hosts([alpha],
