@@ -132,6 +132,6 @@ sqlite_blame(Text, What) :-
     !.
 
 says(['is locked'], locked).
-says([readonly, 'unable to open'], unwritable).
+says([readonly, 'unable to open', 'connect failed'], unwritable).
 says(['is full', 'disk I/O'], full).
 says([driver, 'Driver', 'Data source'], missing(libsqliteodbc)).

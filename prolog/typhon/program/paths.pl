@@ -14,7 +14,8 @@ adding clauses to user:file_search_path/2.
 *Threading*: any thread.
 */
 
-:- use_module(library(error), [must_be/2]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [member/2]).
 
@@ -48,17 +49,31 @@ program_directory(Kind, Dir) :-
 %   agents(census), or a file name, relative to the working directory or to
 %   that of the file Includer.  The extension `.pl` may be left out.
 %
-%   @error existence_error(source_sink, Spec)
+%   @error existence_error(source_sink, Spec), or permission_error(open,
+%   source_sink, File) if it is there, and may not be read
 
 program_file(Spec, File) :-
     must_be(callable, Spec),
-    absolute_file_name(Spec, File, [extensions(['',pl]), access(read)]).
+    clause_file(Spec, [], File).
 
 included_file(Spec, Includer, File) :-
     file_directory_name(Includer, Dir),
+    clause_file(Spec, [relative_to(Dir)], File).
+
+clause_file(Spec, Options0, File) :-
+    Options = [extensions(['',pl])|Options0],
+    catch(absolute_file_name(Spec, File, [access(read)|Options]),
+          error(existence_error(_, _), _),
+          not_to_be_read(Spec, Options)).
+
+not_to_be_read(Spec, Options) :-
     absolute_file_name(Spec, File,
-                       [ extensions(['',pl]), access(read),
-                         relative_to(Dir) ]).
+                       [access(exist), file_errors(fail)|Options]),
+    exists_file(File),
+    !,
+    permission_error(open, source_sink, File).
+not_to_be_read(Spec, _) :-
+    existence_error(source_sink, Spec).
 
 %!  files_beside(+File:atom, +Dir, -Files:list) is semidet.
 %

@@ -184,7 +184,7 @@ include_file(Spec, Location, Reading, Items, Rest) :-
     Reading = reading([File|Files], _),
     catch(included_file(Spec, File, Path), error(Formal, _), true),
     (   nonvar(Formal)
-    ->  files_meant(Spec, File, Meant),
+    ->  files_meant(Formal, File, Meant),
         Items = [error(problem(Formal, Location, include(Meant)))|Rest]
     ;   memberchk(Path, [File|Files])
     ->  Formal = permission_error(include, source_sink, Spec),
@@ -193,7 +193,7 @@ include_file(Spec, Location, Reading, Items, Rest) :-
         file_items(Path, Reading, Items1, Rest)
     ).
 
-files_meant(Spec, Includer, Meant) :-
+files_meant(existence_error(_, Spec), Includer, Meant) :-
     atom(Spec),
     file_directory_name(Includer, Dir),
     files_beside(Spec, Dir, Files),

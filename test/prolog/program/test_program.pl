@@ -64,6 +64,19 @@ error_of(What, Formal, Line, Advice, File) :-
     format(string(Place), '~w:~d', [File, Line]),
     assertion(sub_string(Text, _, _, _, Place)).
 
+%   Who is root may read what nobody may.
+
+reads_all :-
+    with_file([], test_program:reads_forbidden).
+
+reads_forbidden(File) :-
+    chmod(File, -u),
+    access_file(File, read).
+
+not_for_us(File) :-
+    chmod(File, -u),
+    load(File).
+
 load(File) :-
     program_load(File, _, _).
 
@@ -319,6 +332,9 @@ test(operators_of_the_reader_do_not_change_the_hash, H1 == H2) :-
     setup_call_cleanup(op(700, xfx, user:likes),
                        program_hash(P, H2),
                        op(0, xfx, user:likes)).
+test(file_that_may_not_be_read,
+     [condition(\+ reads_all), error(permission_error(open, source_sink, _))]) :-
+    with_file([':- agent(a).', 'main.'], test_program:not_for_us).
 test(extension_may_be_left_out, N == a) :-
     with_file([':- agent(a).', 'main.'], test_program:without_extension(N)).
 test(utf8, [C == p('Grüße, 東京')]) :-
