@@ -19,9 +19,14 @@ events that the option of its host names.
     typhon_events:told/4,
     typhon_hosting:begins/1.
 
+:- dynamic
+    unheard/2.                  % Endpoint, Key: of the flag that counts
+
 typhon_hosting:begins(Host) :-
-    log_server(Host, _, Kinds),
+    log_server(Host, Log, Kinds),
     !,
+    address_parts(Log, _, Endpoint),
+    retractall(unheard(Endpoint, _)),
     events_hear([life, bad_ends|Kinds], Host, log).
 
 log_server(Host, Log, []) :-
@@ -43,10 +48,40 @@ typhon_events:told(log, Host, Agent, What) :-
 host_log(Host, Agent, What) :-
     host_log_event(Host, Agent, What, Endpoint-Event),
     !,
-    catch(endpoint_post(Endpoint, log, Event),
+    catch(( endpoint_post(Endpoint, log, Event), heard(Endpoint) ),
           error(Formal, Context),
-          print_message(warning, error(Formal, Context))).
+          lost(Formal, Context, Endpoint)).
 host_log(_, _, _).
+
+%   A log server that is not there is told of once, and again when it is: what
+%   has happened meanwhile is lost.
+
+lost(unreachable(_), _, Endpoint) :-
+    !,
+    with_mutex(typhon_host_log, unheard(Endpoint, Key, First)),
+    flag(Key, Count, Count+1),
+    (   First == true
+    ->  print_message(warning, typhon(log_unheard(Endpoint)))
+    ;   true
+    ).
+lost(Formal, Context, _) :-
+    print_message(warning, error(Formal, Context)).
+
+unheard(Endpoint, Key, false) :-
+    unheard(Endpoint, Key),
+    !.
+unheard(Endpoint, Key, true) :-
+    atom_concat('typhon unheard ', Endpoint, Key),
+    flag(Key, _, 0),
+    assertz(unheard(Endpoint, Key)).
+
+heard(Endpoint) :-
+    unheard(Endpoint, _),
+    with_mutex(typhon_host_log, retract(unheard(Endpoint, Key))),
+    !,
+    flag(Key, Count, 0),
+    print_message(warning, typhon(log_heard(Endpoint, Count))).
+heard(_).
 
 host_log_event(Host, Agent, What, Endpoint-event(Log, Address, Agent, What)) :-
     log_server(Host, Log, _),

@@ -217,6 +217,13 @@ prolog:message(typhon(undeliverable(Formal, Agent, From, Message, Others))) -->
     lost_since(Formal).
 prolog:message(typhon(log(Host, Agent, What))) -->
     [ '~w at ~w: ~p'-[Agent, Host, What] ].
+prolog:message(typhon(log_unheard(Endpoint))) -->
+    [ 'The log server at ~w does not answer'-[Endpoint] ],
+    reason(Endpoint),
+    [ '. What happens until it does is not logged'-[] ].
+prolog:message(typhon(log_heard(Endpoint, Count))) -->
+    [ 'The log server at ~w answers again: ~D events are not in the log'-
+      [Endpoint, Count] ].
 prolog:message(typhon(traced(Agent, Host, What))) -->
     happened(Agent, Host),
     happening(What).
