@@ -4,7 +4,8 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(prolog_trace), [trace/2]).
-:- use_module('../program', [code_module/2, code_program/2]).
+:- use_module('../base/names', [names_proposed/3]).
+:- use_module('../program', [clause_parts/3, code_module/2, code_program/2]).
 
 /** <module> Spy points on programs, by their own names
 
@@ -64,7 +65,10 @@ prolog:debug_control_hook(spy(Spec)) :-
     of_program(Spec, Program, Name, Arity),
     unspy(Program, Name, Arity, hold),
     assertz(spied(Program, Name, Arity, hold)),
-    print_message(informational, typhon(spy(Program, Name, Arity))).
+    print_message(informational, typhon(spy(Program, Name, Arity))),
+    forall(meant(Program, Name/Arity, Text),
+           print_message(warning,
+                         typhon(spied_none(Program, Name/Arity, Text)))).
 prolog:debug_control_hook(nospy(Spec)) :-
     program_predicate(Spec, Program, Name, Arity),
     spied(Program, Name, Arity, hold),
@@ -82,6 +86,26 @@ prolog:debug_control_hook(debugging) :-
 
 unspy(Program, Name, Arity, Action) :-
     retractall(spied(Program, Name, Arity, Action)).
+
+%   meant(+Program, +PI, -Text) is semidet: a program of that name is here,
+%   without PI, but Text proposes what it has.
+
+meant(Program, PI, Text) :-
+    findall(Own, own(Program, Own), PIs0),
+    sort(PIs0, PIs),
+    \+ memberchk(PI, PIs),
+    PI = Name/_,
+    names_proposed(Name, PIs, Text),
+    Text \== ''.
+
+own(Program, PI) :-
+    code_program(_, program(Program, State, _, Clauses)),
+    (   member(PI, State)
+    ;   member(Clause, Clauses),
+        clause_parts(Clause, Head, _),
+        functor(Head, Name, Arity),
+        PI = Name/Arity
+    ).
 
 %   of_program(+Spec, -Program, -Name, -Arity): the arity may be left out.
 

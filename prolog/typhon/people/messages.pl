@@ -238,6 +238,8 @@ prolog:message(typhon(spied(Agent, Host, Goal))) -->
     happening(goal(Goal)).
 prolog:message(typhon(spy(Program, Name, Arity))) -->
     [ 'Agents of ~p are held before ~p'-[Program, Name/Arity] ].
+prolog:message(typhon(spied_none(Program, PI, Meant))) -->
+    [ 'There is no ~p in ~p~w'-[PI, Program, Meant] ].
 prolog:message(typhon(nospy(Program, Name, Arity))) -->
     [ 'Agents of ~p are not held before ~p any more'-[Program, Name/Arity] ].
 prolog:message(typhon(stepped(Agent, What))) -->

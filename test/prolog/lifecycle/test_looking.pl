@@ -61,6 +61,8 @@ note(told(_, Message)) :-
     assertz(said(Message)).
 note(spy(_, _, _)).
 note(nospy(_, _, _)).
+note(spied_none(_, PI, Meant)) :-
+    assertz(said(none(PI, Meant))).
 
 traveller(
     [ (:- agent(traveller, [state([seen/1])])),
@@ -364,6 +366,16 @@ test(clones_are_not_held) :-
 
 spied_in(Set, Goal, Clear) :-
     setup_call_cleanup(Set, two(Goal), Clear).
+
+test(a_predicate_that_is_mistyped) :-
+    heard(spied_in(true,
+                   ( traveller_on(alpha, _),
+                     spy(traveller:tuor/1),
+                     nospy(traveller:tuor/1),
+                     spy(traveller:tour),
+                     nospy(traveller:tour) ),
+                   true), Said),
+    Said == [none(tuor/1, ' (did you mean tour/1?)')].
 
 test(held_at_a_spy_point) :-
     heard(spied_in(spy(traveller:tour/1),
