@@ -24,7 +24,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, subtract/3, union/3]).
 :- use_module(library(random), [random_member/2]).
-:- use_module(library(typhon), [remote/2]).
+:- use_module('../typhon', [remote/2]).
 :- use_module(bodies,
               [body_copy/2, body_erase/2, body_has/2]).
 :- use_module(lives, [life_begin/4, life_end/1]).

@@ -6,8 +6,8 @@
             create_billboard/5, write2billboard/4, create_dlg/3,
             attach_console/0
           ]).
-:- use_module(library(typhon), [python_start/3, remote/2]).
-:- reexport(library(typhon/nxt/swi_pro_nxt)).
+:- use_module('../typhon', [python_start/3, remote/2]).
+:- reexport('../typhon/nxt/swi_pro_nxt').
 :- use_module(told, [told/2]).
 
 /** <module> Speech, Python, robots, pins

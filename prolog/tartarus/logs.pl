@@ -7,7 +7,7 @@
             send_log2/2,                % +Name, +Message
             logged/3                    % +File, +Entry, -Done
           ]).
-:- use_module(library(typhon), [remote/2]).
+:- use_module('../typhon', [remote/2]).
 :- use_module(platform, [here/1, location_address/2]).
 :- use_module(told, [told/2, wrong/2]).
 

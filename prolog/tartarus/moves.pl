@@ -4,7 +4,7 @@
             land/1                      % +Bundle
           ]).
 :- use_module(library(gensym), [gensym/2]).
-:- use_module(library(typhon), [agent_create/3, agent_join/3]).
+:- use_module('../typhon', [agent_create/3, agent_join/3]).
 :- use_module(bodies, [body/3, renamed/4]).
 :- use_module(lives, [life_begin/6, life_elsewhere/2]).
 :- use_module(platform, [here/1, location_address/2, same_location/2]).

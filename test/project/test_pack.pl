@@ -122,4 +122,14 @@ from_archive_url(Home) :-
     install(typhon, [url(URL)], Home, Home),
     works(Home).
 
+test(each_library_by_its_file_alone,
+     [ forall(member(Name, ['typhon.pl', 'tartarus.pl', 'typhon/nxt.pl',
+                            'typhon/fipa.pl'])),
+       true(Status-Err == exit(0)-"") ]) :-
+    atom_concat('prolog/', Name, Relative),
+    project_file(Relative, File),
+    format(atom(Load), 'use_module(~q)', [File]),
+    run_swipl(['-f', none, '-g', Load, '-t', halt],
+              [environment(['PATH'='/usr/bin:/bin'])], Status, _, Err).
+
 :- end_tests(pack).

@@ -77,11 +77,22 @@ agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
 %   Nobody is to lose an agent because it is not known where it stands.
 
 where(Hash, Module, Fault, Where) :-
-    catch(fault_where(Hash, Module, Fault, Where0), error(Formal, _),
+    catch(stands(Hash, Module, Fault, Where0), error(Formal, _),
           debug(typhon(agent), 'nobody knows where: ~p', [Formal])),
     !,
     ( var(Where0) -> Where = [] ; Where = Where0 ).
 where(_, _, _, []).
+
+%   Nobody need call main/0.
+
+stands(Hash, Module, Fault, Where) :-
+    Fault = fault(Goal, _, _),
+    Goal == main,
+    where_handled(Hash, Module, Goal, Fault, Where0),
+    !,
+    Where = Where0.
+stands(Hash, Module, Fault, Where) :-
+    fault_where(Hash, Module, Fault, Where).
 
 %!  fault_outcome(+Fault, -Outcome) is det.
 %!  fault_error(+Fault, -Error) is det.

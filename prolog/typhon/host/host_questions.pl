@@ -102,14 +102,14 @@ local_property(place(Place), Name) :-
 %   @error domain_error(link_option, Option)
 
 link(A, B) :-
-    both(A, B, link).
+    make_link(A, B, link).
 
 link(A, B, Options) :-
     check_options(link_option, Options),
     (   option(cost(Cost), Options)
     ->  must_be_cost(Cost),
-        both(A, B, link(Cost))
-    ;   both(A, B, link)
+        make_link(A, B, link(Cost))
+    ;   make_link(A, B, link)
     ).
 
 typhon_options:declared(link_option, cost(Cost), number, Cost).
@@ -120,19 +120,46 @@ must_be_cost(Cost) :-
     ;   domain_error(cost, Cost)
     ).
 
-unlink(A, B) :-
-    both(A, B, unlink).
+%   First what may fail, so that no half of a link is left.
 
-both(A, B, Change) :-
+make_link(A, B, Change) :-
+    ends(A, B, Near, Far),
+    must_be_there(Near),
+    one_way(Far, Near, Change),
+    one_way(Near, Far, Change).
+
+unlink(A, B) :-
+    ends(A, B, Near, Far),
+    one_way(Near, Far, unlink),
+    one_way(Far, Near, unlink).
+
+%   ends(+A, +B, -Near, -Far): their addresses, that of a host of this process
+%   first.
+
+ends(A, B, Near, Far) :-
     must_be(atom, A),
     must_be(atom, B),
     host_address(A, AddressA),
     host_address(B, AddressB),
     (   AddressA == AddressB
     ->  domain_error(other_host, B)
-    ;   one_way(AddressA, AddressB, Change),
-        one_way(AddressB, AddressA, Change)
+    ;   host(_, AddressB, _)
+    ->  Near-Far = AddressB-AddressA
+    ;   Near-Far = AddressA-AddressB
     ).
+
+must_be_there(Address) :-
+    host_resolve(Address, Where),
+    (   there(Where)
+    ->  true
+    ;   host_unknown(Address)
+    ).
+
+there(local(Name)) :-
+    host(Name, _, _).
+there(remote(Address, Name, Endpoint)) :-
+    ask(Endpoint, Address, hosts, Names),
+    memberchk(Name, Names).
 
 one_way(From, To, Change) :-
     host_resolve(From, Where),

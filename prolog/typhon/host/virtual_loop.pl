@@ -118,8 +118,9 @@ stand(Queue, Alarms) :-
     thread_get_message(Queue, ask(Ask)),
     asked(Ask, [], Queue, Alarms).
 
-asked(stop, _, _, _) :-
-    !.
+asked(stop, Waiting, _, _) :-
+    !,
+    late(Waiting).
 asked(wait(Reply, Waited, Stamp), Waiting0, Queue, Alarms) :-
     !,
     satisfied([waits(Reply, Waited, Stamp)|Waiting0], Waiting),
@@ -207,7 +208,8 @@ go_on(Ball, Waiting, Queue, Alarms) :-
     flag(typhon_virtual_ends, 0, 0),
     !,
     next(Waiting, Queue, Alarms).
-go_on(Ball, _, _, _) :-
+go_on(Ball, Waiting, _, _) :-
+    late(Waiting),
     throw(Ball).
 
 aborted('$aborted').
@@ -230,7 +232,7 @@ jump(Waiting, Queue, alarms(Count, Heap)) :-
     ;   number(End)
     ->  pass_to(End),
         partition(ends_at(End), Waiting, Late, Waiting1),
-        forall(member(waits(Reply, _, _), Late), reply(Reply, late)),
+        late(Late),
         go(Waiting1, Queue, alarms(Count, Heap))
     ;   print_message(warning, typhon(virtual_nothing_due)),
         thread_get_message(Queue, Message),
@@ -279,6 +281,9 @@ satisfied(Waiting0, Waiting) :-
 
 has_got(waits(_, Queue, _)) :-
     catch(there(Queue), error(existence_error(_, _), _), true).
+
+late(Waiting) :-
+    forall(member(waits(Reply, _, _), Waiting), reply(Reply, late)).
 
 reply(Reply, Answer) :-
     ignore(told(Reply, Answer)).        % who waited was interrupted

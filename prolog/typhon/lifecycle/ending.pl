@@ -16,7 +16,7 @@
 :- use_module(on_hold, [held_dropped/1]).
 :- use_module('../travel', [agent_ended/4, transfer_given_up/2]).
 :- use_module(faulty,
-              [faulty_gone/1, faulty_keep/3, faulty_oldest/1, faulty_tell/2]).
+              [faulty_gone/1, faulty_keep/4, faulty_oldest/1, faulty_tell/3]).
 :- use_module(questions, [question_answered/2]).
 
 /** <module> How agents end
@@ -149,8 +149,8 @@ print_fault(raised(Error), Id, Fault) :-
 
 agent_stays(Id, Goals) :-
     is_faulty(Goals, Fault, _),
-    (   with_agent(Id, faulty_keep(Id, Goals, Kept))
-    ->  faulty_tell(Id, Fault),
+    (   with_agent(Id, faulty_keep(Id, Goals, Kept, At))
+    ->  faulty_tell(Id, Fault, At),
         bound_faulty(Kept)
     ;   true                            % it was ended meanwhile
     ).

@@ -1,8 +1,8 @@
 :- module(typhon_faulty,
-          [ faulty_keep/3,              % +Id, +Goals, -Kept
+          [ faulty_keep/4,              % +Id, +Goals, -Kept, -At
             faulty_stirs/1,             % +Id
             faulty_gone/1,              % +Id
-            faulty_tell/2,              % +Id, +Fault
+            faulty_tell/3,              % +Id, +Fault, +At
             faulty_oldest/1             % -Id
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -21,7 +21,7 @@ counts until the order is done.  As its goals begin with its fault, see
 typhon_fault, it is faulty again wherever it comes to run: after an order, a
 move, or out of a restore point.  Only agent_resume/1 takes that away.
 
-*Threading*: what takes an Id inside with_agent/2, but for faulty_tell/2.
+*Threading*: what takes an Id inside with_agent/2, but for faulty_tell/3.
 */
 
 :- multifile
@@ -35,13 +35,15 @@ move, or out of a restore point.  Only agent_resume/1 takes that away.
 :- setting(typhon_creation:faulty, nonneg, 100,
            "Faulty agents kept for inspection").
 
-%!  faulty_keep(+Id, +Goals, -Kept) is semidet.
+%!  faulty_keep(+Id, +Goals, -Kept, -At) is semidet.
 %
 %   Id, which was running or obeyed an order, is faulty, as Goals say.  Kept
-%   is `false` if another order has come meanwhile.
+%   is `false` if another order has come meanwhile.  At says where it is, and
+%   after how many hops: a moment later it may be elsewhere.
 
-faulty_keep(Id, Goals, Kept) :-
-    agent(Id, Host, _, _, _),
+faulty_keep(Id, Goals, Kept, at(Host, Hops)) :-
+    agent(Id, Host, _, _, Life),
+    life_hops(Life, Hops),
     (   agent_ordered(Id)
     ->  agent_ready(Id, Goals),
         Kept = false
@@ -73,19 +75,17 @@ typhon_recovery:kept(stays, Id, 0, '') :-
 typhon_recovery:back(stays, Id, _, _) :-
     assertz(kept(Id)).
 
-%!  faulty_tell(+Id, +Fault) is det.
+%!  faulty_tell(+Id, +Fault, +At) is det.
 %
 %   Let its home know.
 
-faulty_tell(Id, Fault) :-
+faulty_tell(Id, Fault, at(Host, Hops)) :-
+    host(Host, Address, _),
+    !,
     fault_outcome(Fault, Outcome),
     fault_stamp(Fault, Stamp),
-    (   agent(Id, Host, _, _, Life),
-        host(Host, Address, _)
-    ->  life_hops(Life, Hops),
-        agent_faulty(Id, Outcome, Stamp, Address, Hops)
-    ;   true                            % it has gone already
-    ).
+    agent_faulty(Id, Outcome, Stamp, Address, Hops).
+faulty_tell(_, _, _).                   % it has gone, with its host
 
 %!  faulty_oldest(-Id) is semidet.
 %

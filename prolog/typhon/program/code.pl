@@ -13,7 +13,7 @@
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2]).
+:- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(bodies, [body_goals/4]).
@@ -224,6 +224,7 @@ retire(Hash) :-
 fill(Module, program(_, State, Libraries, Clauses), Kinds) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(system)),
+    no_system_sleep(Module),
     maplist(import_library(Module), Libraries),
     findall(PI-state, member(PI, State), StateKinds),
     append(Kinds, StateKinds, OwnKinds),
@@ -233,6 +234,19 @@ fill(Module, program(_, State, Libraries, Clauses), Kinds) :-
     maplist(add_clause(Module, Own), Clauses),
     findall(Module:PI, member(PI-_, Kinds), PIs),
     compile_predicates(PIs).
+
+%   Of the control predicates the system has one, too, which would be found
+%   where an agent cannot stop, and hold the thread.
+
+no_system_sleep(Module) :-
+    redefine_system_predicate(Module:sleep(_)),
+    Module:import(typhon_code:sleep/1).
+
+:- public sleep/1.
+:- redefine_system_predicate(sleep(_)).
+
+sleep(_) :-
+    permission_error(call, control_predicate, sleep/1).
 
 import_library(Module, Library-all) :-
     !,

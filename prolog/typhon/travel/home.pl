@@ -193,9 +193,8 @@ ended(Id, Outcome0, Hops, Legacy, Askers) :-
     note_drop(born, Id, 0),
     note_drop(agent, Id, 0),
     note_drop(faulty, Id, 0),
-    (   retract(faulty(Id, Told, _)),
-        Told \== none
-    ->  Outcome = Told
+    (   retract(faulty(Id, Told, _))
+    ->  last_outcome(Outcome0, Told, Outcome)
     ;   Outcome = Outcome0
     ),
     legacy_keep(Id, Legacy),
@@ -204,6 +203,14 @@ ended(Id, Outcome0, Hops, Legacy, Askers) :-
     assertz(outcome(Id, Outcome, Hops)),
     bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).
+
+%   Who is disposed of while he is faulty has ended as he had before.  Whose
+%   end is another was resumed; that may be heard later.
+
+last_outcome(disposed, Told, Told) :-
+    Told \== none,
+    !.
+last_outcome(Outcome, _, Outcome).
 
 %!  home_faulty(+Id, +Outcome, +Stamp, +Address, +Hops, +Process) is det.
 %!  home_resumed(+Id, +Stamp, +Hops) is det.

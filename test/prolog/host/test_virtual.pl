@@ -5,6 +5,7 @@
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(time), [call_with_time_limit/2]).
 :- use_module(library(typhon)).
 
 /** <module> Virtual time: nothing waits, and each run is like the last
@@ -142,6 +143,22 @@ test(in_real_time_too, true(Heard == [a])) :-
                                 network_advance(N, 200) ),
                               network_stop(N))),
                  heard(Queue, Heard) )).
+test(who_is_called_cannot_wait, true(Heard == [timeout-1.0])) :-
+    with_virtual([], N,
+                 with_queue(Queue,
+                            ( sleeper(N, sleep(5), A),
+                              network_at(N, 1,
+                                         ( agent_join(A, Outcome, 10),
+                                           tell(Queue, N, Outcome) )),
+                              network_advance(N, 10),
+                              heard(Queue, Heard) ))).
+test(the_end_of_the_network_is_one_of_waiting) :-
+    no_leaks(( network_start(ring(4), N, [clock(virtual)]),
+               sleeper(N, days(1000000000), _),
+               thread_create(( wait_until(( shows(N, T), T > 0 ), 10),
+                               network_stop(N) ), Stops),
+               call_with_time_limit(30, network_advance(N, 1.0e15)),
+               thread_join(Stops, true) )).
 test(no_such_network,
      error(existence_error(network, no_network))) :-
     network_advance(no_network, 1).

@@ -1044,6 +1044,12 @@ test(a_place_cannot_move_agents,
                  joined(A, done),
                  lives_([(main :- catch(trip, error(E, _), assertz(s(E))))],
                         [], F) )).
+test(no_goal_sleeps_where_an_agent_cannot_stop,
+     true(F == [s(permission_error(call, control_predicate, sleep/1))])) :-
+    with_hosts([alpha],
+               lives_([(main :- Goal = sleep(0.1),
+                                catch(findall(x, Goal, _), error(E, _), true),
+                                assertz(s(E)))], [], F)).
 test(file_that_is_not_there, error(existence_error(source_sink, nothing))) :-
     with_hosts([alpha], create([main], _, [payloads([nothing])])).
 

@@ -123,6 +123,11 @@ test(no_clause_matches,
            'go(a) :- move(beta).',
            'go(b) :- move(alpha).' ], Text0),
     from_in(Text0, Text).
+test(all_of_main_fails,
+     true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
+                   main, in main/0 (trip.pl:3)\n")) :-
+    says([ ':- agent(trip, []).', '',
+           'main :-', '    X = 1, X > 2.' ], Text).
 test(a_condition_without_else,
      true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
                    ( member(q, [a]) -> ... ) without else, in main/0 \c
@@ -225,6 +230,16 @@ test(resumed_after_a_fact, true(O-S == done-[s(2)])) :-
          facts(A, S),
          agent_resume(A),
          joined(A, O) )).
+test(resumed_before_its_home_has_heard, true(Os == [done])) :-
+    on([alpha,beta],
+       ( findall(O,
+                 ( between(1, 500, _),
+                   faulty([(main :- move(beta), s(2), move(alpha))], A),
+                   agent_change(A, facts([s(2)])),
+                   agent_resume(A),
+                   joined(A, O) ),
+                 Os0),
+         sort(Os0, Os) )).
 test(resumed_with_another_program, true(O == done)) :-
     on([alpha,beta],
        ( faulty([(main :- p, move(beta)), (p :- _ is a+1)], A),

@@ -40,6 +40,14 @@ disposed(Agent) :-
     agent_dispose(Agent),
     joined(Agent, disposed).
 
+%   A host that is not in one of the processes.
+
+nobody(Nobody) :-
+    member(Host, [alpha,beta]),
+    ( Host == alpha -> address(alpha, There) ; there(beta, There) ),
+    atom_concat(Host, Rest, There),
+    atom_concat(nowhere, Rest, Nobody).
+
 :- begin_tests(processes, [setup(world_start), cleanup(world_end)]).
 
 test(create, true(H-Home == B-B)) :-
@@ -122,6 +130,17 @@ test(resumed_elsewhere, true(G-Os =@= [s(1),receive(_-go)]-
     agent_send(A, go),
     joined(A, O3),
     Os = [O1,O2,O3].
+test(resumed_elsewhere_and_done_at_once, true(Os == [done])) :-
+    there(beta, B),
+    findall(O,
+            ( between(1, 20, _),
+              create([r(B), (main :- r(X), move(X), s(1))], A),
+              joined(A, failed),
+              agent_change(A, facts([s(1)])),
+              agent_resume(A),
+              joined(A, O) ),
+            Os0),
+    sort(Os0, Os).
 test(says_in_which_line_wherever_it_is, true(Name:Line == 'far.pl':4)) :-
     there(beta, B),
     with_tmp_dir(test_processes:far(B, A)),
@@ -417,6 +436,25 @@ test(link_two_others, true(X-Y == [C]-[B])) :-
     host_property(C, neighbours(Y)),
     unlink(C, B),
     host_property(B, neighbours([])).
+test(no_half_of_a_link_to_nobody, [ forall(nobody(Nobody)),
+                                    true(Errors-N-L == [E,E,E,E]-[]-[]) ]) :-
+    there(beta, B),
+    address(alpha, H),
+    E = existence_error(host, Nobody),
+    findall(Error,
+            ( member(X-Y, [H-Nobody,Nobody-H,B-Nobody,Nobody-B]),
+              catch(link(X, Y), error(Error, _), true) ),
+            Errors),
+    host_property(H, neighbours(N)),
+    host_property(B, neighbours(L)).
+test(unlinked_also_where_the_other_is_gone, [ forall(member(Way, [to,from])),
+                                              true(L == []) ]) :-
+    address(alpha, H),
+    Gone = 'x@127.0.0.1:1',
+    typhon_links:host_link(alpha, Gone, same),
+    ( Way == to -> A-B = H-Gone ; A-B = Gone-H ),
+    catch(unlink(A, B), error(host_unreachable(Gone), _), true),
+    host_property(H, neighbours(L)).
 
 :- end_tests(hosts_of_other_processes).
 
