@@ -8,7 +8,7 @@
 All of it is drawn from the random generator of the thread, so that a seed
 stands for an input.
 
-_Threading_: no state.
+*Threading*: no state.
 */
 
 :- use_module(library(apply), [maplist/2]).

@@ -17,7 +17,7 @@ that.
 What is left out: a damaged record behind a right check kills the process.
 Only who knows the cookie can send that.
 
-_Threading_: the main thread.
+*Threading*: the main thread.
 */
 
 :- use_module('../lib/authority').

@@ -17,7 +17,7 @@ The proxy listens at an address of its own and forwards to a target, both
 being atoms 'Interface:Port'. Directions are `up`, from the client to the
 target, and `down`.
 
-_Threading_: a thread accepts, and each connection has two that pump, the one
+*Threading*: a thread accepts, and each connection has two that pump, the one
 of direction `up` owning the sockets. The predicates may be called from any
 thread.
 */

@@ -15,7 +15,7 @@ else wants them.
 Most strangers take us for something else. Whose first byte is there, and is
 not that of a greeting, gets neither slot nor thread.
 
-_Threading_: accept_all/2 is the goal of a thread, which is woken by a
+*Threading*: accept_all/2 is the goal of a thread, which is woken by a
 signal: closing the socket would not wake it. The slots are guarded by a
 mutex: the acceptor gives and takes them, the thread of a client says how
 far it has come and gives its own back.

@@ -13,7 +13,7 @@ A process that talks to nobody else needs no sockets and no threads: what is
 sent to its own address is taken at once, as a copy, by the thread that sends
 it.  Other addresses cannot be reached.
 
-_Threading_: any thread.
+*Threading*: any thread.
 */
 
 :- meta_predicate alone_request(+, +, +, 1).

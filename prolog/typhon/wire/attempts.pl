@@ -17,7 +17,7 @@ For each address that is to be reached there is one attempt: it has yet to
 begin, is being made, or pauses until it is made again. What becomes of it
 decides connector.pl.
 
-_Threading_: the thread of the keeper owns all that is here.
+*Threading*: the thread of the keeper owns all that is here.
 */
 
 :- use_module(library(lists), [min_member/2]).

@@ -21,7 +21,7 @@ server proves nothing to a client that has not.
 
 Who speaks another version of the protocol is told ours, as `typhon 2`.
 
-_Threading_: any thread. The cookie is kept with the time stamp of its file
+*Threading*: any thread. The cookie is kept with the time stamp of its file
 in one fact; two threads that read it at once store the same.
 */
 

@@ -12,7 +12,7 @@ acknowledged costs more than what is in a small one.  So posts that wait are
 loose(Bytes), and as many as there are, up to a hundred, become one frame,
 bundle(Parts).
 
-_Threading_: the mutex of the session guards the queue, from which nobody
+*Threading*: the mutex of the session guards the queue, from which nobody
 else takes.
 */
 

@@ -5,7 +5,7 @@
 
 /** <module> To ask, and wait for the answer
 
-_Threading_: any thread but those of the endpoint: it waits.
+*Threading*: any thread but those of the endpoint: it waits.
 */
 
 :- use_module(library(error), [must_be/2]).

@@ -9,7 +9,7 @@
 A connection has one thread, which opens its streams, meets the peer, see
 meeting.pl, reads frames until it breaks, and closes the streams.
 
-_Threading_: incoming/5 and outgoing/2 are the goals of threads of the wire.
+*Threading*: incoming/5 and outgoing/2 are the goals of threads of the wire.
 */
 
 :- use_module(library(debug), [debug/3]).

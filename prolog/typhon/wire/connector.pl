@@ -20,7 +20,7 @@ What may pass, as when a peer breaks off before we have met, is tried again
 while there is time. All else is told at once, nobody listening first of all,
 unless it is known that somebody soon will be.
 
-_Threading_: for the thread of the keeper alone.
+*Threading*: for the thread of the keeper alone.
 */
 
 :- use_module(library(debug), [debug/3]).

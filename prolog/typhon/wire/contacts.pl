@@ -17,7 +17,7 @@ one behind a cut network, has not left. Where nobody could be met, what went
 wrong the last time. A bounded number of addresses is
 kept, the oldest are forgotten.
 
-_Threading_: any thread; a mutex makes changes one at a time.
+*Threading*: any thread; a mutex makes changes one at a time.
 */
 
 :- use_module('../journal', [note_drop/3, note_put/4]).

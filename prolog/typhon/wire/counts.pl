@@ -14,7 +14,7 @@ Frames are numbered by counting on both sides. Two counts are kept of each
 session, by its key: how many frames of the peer's have been handled, and
 how many of ours it has said to have.
 
-_Threading_: what was received is for the thread of the connection alone,
+*Threading*: what was received is for the thread of the connection alone,
 what is acknowledged is guarded by the mutex of the session.
 */
 

@@ -27,7 +27,7 @@ message, in the room that owns the kind:
 
 Peer is the address the sender listens to.
 
-_Threading_: everything may be called from any thread. The hooks run in the
+*Threading*: everything may be called from any thread. The hooks run in the
 thread of a connection and must be quick: while one runs, nothing else of
 that peer is read. They may post, request and reply.
 */

@@ -28,7 +28,7 @@ Before the body of a request or an answer that may turn out to be more than
 the other side can decode, long ones and all text, stands a mark with its
 number, so that nobody waits for an answer to what could not be read.
 
-_Threading_: no state; every predicate may be called from any thread. The
+*Threading*: no state; every predicate may be called from any thread. The
 owner of a stream sees to it that one thread at a time writes to it.
 */
 

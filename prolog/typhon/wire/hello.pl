@@ -18,7 +18,7 @@ A hello is hello(Process, Start, Address, Version, Word, Order): the random
 id of the process, the number of this start of its endpoint, its listening
 address, its Prolog version, word size and byte order.
 
-_Threading_: no state. One thread owns the streams of a connection while
+*Threading*: no state. One thread owns the streams of a connection while
 lines are exchanged.
 */
 

@@ -8,7 +8,7 @@
 A peer that has died without a word costs who asks the time to the deadline,
 however many there are of the kind.
 
-_Threading_: any thread but those of the endpoint: it waits.
+*Threading*: any thread but those of the endpoint: it waits.
 */
 
 :- use_module(library(error), [must_be/2]).

@@ -10,7 +10,7 @@ One thread per endpoint keeps its sessions alive. It sees to it that those
 are reached who are wanted, see connector.pl, that sessions with something to
 send or to hear are connected again, and that others are forgotten.
 
-_Threading_: keep/1 is the goal of the keeper's thread, which owns the table
+*Threading*: keep/1 is the goal of the keeper's thread, which owns the table
 below. Others talk to it through keeper_tell/1. It waits for nobody: what may
 take a while is done by a thread in the background.
 */

@@ -10,7 +10,7 @@
 All threads of the wire tell the keeper what has happened, and what is
 wanted, through one queue. It is there as long as the endpoint runs.
 
-_Threading_: keeper_hear/2 is for the keeper, keeper_tell/1 for any thread.
+*Threading*: keeper_hear/2 is for the keeper, keeper_tell/1 for any thread.
 Who opens and closes is one at a time.
 */
 

@@ -23,7 +23,7 @@ was lent is no longer of the wire.
 Who wants to end a thread that is lent is heard when it is back: what it
 runs must not be interrupted for the sake of a connection.
 
-_Threading_: lending_open/3 to lent_away/0 are for the thread of a connection.
+*Threading*: lending_open/3 to lent_away/0 are for the thread of a connection.
 The token goes to whoever takes it first.
 */
 

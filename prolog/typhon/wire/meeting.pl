@@ -15,7 +15,7 @@ side only. So a new connection always replaces an old one, and of two
 processes the one with the smaller key, the arbiter, decides in which order
 that happens: it speaks first, and about one connection at a time.
 
-_Threading_: in the thread of the connection. Who holds the session's
+*Threading*: in the thread of the connection. Who holds the session's
 adoption gives it the connection.
 */
 

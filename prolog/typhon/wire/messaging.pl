@@ -12,7 +12,7 @@ A post goes one way, a request is answered. Both go over the session to
 which the address leads; where there is none that is up, a connection is
 made first.
 
-_Threading_: everything may be called from any thread; endpoint_post/3 may
+*Threading*: everything may be called from any thread; endpoint_post/3 may
 block it, unless it is in a hook of the endpoint.
 */
 

@@ -26,7 +26,7 @@ posts are held while so much is under way that the peer is sure to acknowledge
 some of it; when that has come they go in one frame. The peer would not read
 them before, anyway. What is sent after them takes them along.
 
-_Threading_: any thread may send. The mutex of the session guards the
+*Threading*: any thread may send. The mutex of the session guards the
 order. While a session is up and nobody is pushing, nothing waits but what
 is held.
 */

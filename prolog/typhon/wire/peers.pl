@@ -11,7 +11,7 @@
 
 /** <module> How it stands with the peers
 
-_Threading_: any thread.
+*Threading*: any thread.
 */
 
 :- use_module(library(error), [must_be/2]).

@@ -13,7 +13,7 @@ thread that writes, the pusher, until nothing waits. It writes first what is
 outside the count, then what the peer lacks of an earlier connection, then
 what waits.
 
-_Threading_: who starts a pusher, or leaves it a control, holds the mutex of
+*Threading*: who starts a pusher, or leaves it a control, holds the mutex of
 the session; pusher_stop/1 is for the thread of the connection, without it.
 */
 

@@ -13,7 +13,7 @@ A frame that was damaged on its way ends the connection: over the next one
 it comes again. What comes damaged in the same way three times was sent so,
 and is skipped.
 
-_Threading_: runs in the thread of the connection, see connection.pl. The
+*Threading*: runs in the thread of the connection, see connection.pl. The
 counts are that thread's own and are stored when it ends, as is what it
 knows of damage. Signals are held back while a frame is being handled and
 counted.

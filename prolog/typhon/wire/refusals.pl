@@ -11,7 +11,7 @@ unnoticed. The first few of a burst are told one by one; of the rest one
 message a second says how many there were, from where, and why. A burst is
 over after a second in which nobody came.
 
-_Threading_: any thread; what there is to tell is guarded by one mutex. The
+*Threading*: any thread; what there is to tell is guarded by one mutex. The
 keeper calls tell/0 when a second is over.
 */
 

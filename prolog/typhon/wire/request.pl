@@ -24,7 +24,7 @@
 Posts and requests go to the hooks of typhon_endpoint, answers to whoever
 asked.
 
-_Threading_: dispatch/2 runs in the thread of a connection, the hooks with
+*Threading*: dispatch/2 runs in the thread of a connection, the hooks with
 it. The table of open requests is shared; a request is taken out by retract/1
 and so answered once.
 */

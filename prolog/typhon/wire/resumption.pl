@@ -11,7 +11,7 @@
 After a break the two processes tell each other how many frames they have
 received, over the next connection, and send the rest again.
 
-_Threading_: session_install/4 and session_left/0 are for the
+*Threading*: session_install/4 and session_left/0 are for the
 thread of the connection. A session is retired and closed by who gives it
 another connection or none, inside session_adopting/2 or when all threads
 have ended.

@@ -28,7 +28,7 @@ at both. OpenSSL lets one thread read while another writes, once the tickets
 of the handshake are through; these come with the first line of the server,
 which is read before anybody writes frames.
 
-_Threading_: who begins and ends is one at a time; a handshake is in the
+*Threading*: who begins and ends is one at a time; a handshake is in the
 thread of its connection. What it may last in all is seen to by the keeper.
 */
 

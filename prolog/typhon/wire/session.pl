@@ -24,7 +24,7 @@ A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address,
 Proof)). Key names the peer. Mutex guards the sending side; that of Adoption is held
 by who gives the session a new connection. Nobody else takes it apart.
 
-_Threading_: any thread; a mutex makes sessions and routes one at a time.
+*Threading*: any thread; a mutex makes sessions and routes one at a time.
 */
 
 :- use_module(library(debug), [debug/3]).

@@ -10,7 +10,7 @@ A frame that cannot be read has come all the same: asking for it again
 would not help. Whoever waits for an answer hears of it at once, here or
 there.
 
-_Threading_: in the thread of a connection.
+*Threading*: in the thread of a connection.
 */
 
 :- use_module(library(apply), [maplist/3, partition/4]).

@@ -12,7 +12,7 @@ special floats spelled out, UTF-8. What is not ASCII stands in quotes, and
 if it is no letter, as an escape sequence: versions do not agree which
 characters need quotes, and 10.1 writes some there that it cannot read.
 
-_Threading_: no shared state. The flags that govern writing and reading are
+*Threading*: no shared state. The flags that govern writing and reading are
 local to a thread and are put back.
 */
 

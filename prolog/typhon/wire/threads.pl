@@ -19,7 +19,7 @@ that none outlives the endpoint. A thread that ends says so to the keeper.
 A thread has an alias that tells what it is and for whom, with a number
 that no other has: what is meant for one never reaches the next.
 
-_Threading_: wire_thread_join/1 is for the keeper, the rest may be called
+*Threading*: wire_thread_join/1 is for the keeper, the rest may be called
 from any thread.
 */
 

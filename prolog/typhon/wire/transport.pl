@@ -15,7 +15,7 @@
 A session has at most one connection at a time. It belongs to a thread, see
 connection.pl, and can be written to until it turns out that it cannot.
 
-_Threading_: the mutex of the session guards changes; any thread may ask.
+*Threading*: the mutex of the session guards changes; any thread may ask.
 */
 
 :- use_module(library(debug), [debug/3]).

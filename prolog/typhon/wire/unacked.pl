@@ -23,7 +23,7 @@ acknowledged are in the queue Sent; those that never were, in the queue
 Waiting. A session without connection from which nothing is pending has no
 queues.
 
-_Threading_: the mutex of the session guards its queues: who calls what
+*Threading*: the mutex of the session guards its queues: who calls what
 begins with unacked_ holds it. session_acked/3 and session_sent/2 are for
 the thread of the connection, session_pending/2 is for any thread.
 */

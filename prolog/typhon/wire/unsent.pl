@@ -13,7 +13,7 @@
 What is asked of a peer that is not connected is held here, in order, until
 there is a session to send it in, or it is known that there can be none.
 
-_Threading_: any thread adds. The keeper, which hears requests(Address),
+*Threading*: any thread adds. The keeper, which hears requests(Address),
 sends, and removes what it has sent only then: as long as something is held
 for an address, nothing of the same thread may overtake it. Whoever removes
 a request answers for it.

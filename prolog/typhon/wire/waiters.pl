@@ -10,7 +10,7 @@ A thread that cannot go on without a connection to an address waits at a
 queue of its own, and hears `met` or `missed`. Requests wait elsewhere, see
 unsent.pl, and hold no thread.
 
-_Threading_: the thread of the keeper owns the table; waiter_tell/2 may be
+*Threading*: the thread of the keeper owns the table; waiter_tell/2 may be
 called from any.
 */
 

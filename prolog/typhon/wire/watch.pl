@@ -8,7 +8,7 @@ With the debug topic typhon(frame) each frame is told where it is sent and
 where it is taken: the key of the session, what it is, the number of the
 request, and its length.
 
-_Threading_: no state.
+*Threading*: no state.
 */
 
 :- use_module(library(debug), [debug/3, debugging/1]).
