@@ -32,6 +32,7 @@ that waits for the next.
 
 :- dynamic
     news/3,                     % Home, Id, News: the newest, not yet sent
+    in_hand/2,                  % Home, All: what its courier has set out with
     courier/1.                  % Home: somebody sees to its news
 
 %   So many are sent at a time, and the longest pause between attempts.  News
@@ -104,7 +105,8 @@ age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % one of fewer hops, of a copy
                                              % that was given up in doubt
 
 %   The process is about to end: what can be sent at once is, the rest is
-%   given up.
+%   given up.  A courier may be too slow to send what it has in hand, which the
+%   home may hear twice.
 
 typhon_runtime:ending(before) :-
     forall(courier(Home),
@@ -112,18 +114,24 @@ typhon_runtime:ending(before) :-
              give_up(Home) )).
 
 flush(Home) :-
-    with_mutex(typhon_news, take(Home, All)),
+    with_mutex(typhon_news, take_all(Home, All)),
     All \== [],
     posted(endpoint_post_up, Home, All),
     !,
     flush(Home).
 flush(_).
 
+take_all(Home, All) :-
+    retract(in_hand(Home, All)),
+    !.
+take_all(Home, All) :-
+    take(Home, All).
+
 %   carry(+Home, +Try): until nothing is left.  Try is try(Since, Pause): it
 %   has not worked since then, 0 if it has, and the pause after this one.
 
 carry(Home, Try) :-
-    with_mutex(typhon_news, ( take(Home, All), off_duty(Home, All) )),
+    with_mutex(typhon_news, set_out(Home, All)),
     (   All == []
     ->  true
     ;   catch(( posted(endpoint_post, Home, All), Answer = ok ),
@@ -180,10 +188,13 @@ take(Most, Home, [News|All]) :-
     take(Most1, Home, All).
 take(_, _, []).
 
-off_duty(Home, []) :-
-    !,
-    retractall(courier(Home)).
-off_duty(_, _).
+set_out(Home, All) :-
+    take(Home, All),
+    retractall(in_hand(Home, _)),
+    (   All == []
+    ->  retractall(courier(Home))
+    ;   assertz(in_hand(Home, All))
+    ).
 
 carried(ok, Home, _, _) :-
     carry(Home, try(0, 0.5)).
@@ -216,6 +227,7 @@ back(Home, News) :-
 give_up(Home) :-
     with_mutex(typhon_news,
                ( retractall(news(Home, _, _)),
+                 retractall(in_hand(Home, _)),
                  retractall(courier(Home)) )),
     print_message(silent, typhon(home_unreachable(Home))).
 

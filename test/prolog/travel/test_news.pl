@@ -1,5 +1,6 @@
 :- module(test_news, []).
 :- use_module('../../lib/common', [wait_until/2]).
+:- use_module('../../lib/peers').
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(settings), [set_setting/2, setting/2]).
@@ -60,6 +61,37 @@ at(Hops, located(x, 'beta@127.0.0.1:1', Hops)).
 
 end(Hops, ended(x, done, Hops)).
 
+%   A courier of b has set out when the process comes to its end, and does no
+%   more until that has come.
+
+last_news :-
+    peer_host(b, B),
+    peer_do(a, agent_create(clauses([ (:- agent(guest, [])),
+                                      (main :- move(B)),
+                                      on_message(_, _) ]), Id, [])),
+    wait_until(peer_do(b, agent_property(Id, state(resident))), 10),
+    wait_until(peer_do(b, \+ typhon_news:courier(_)), 10),
+    slow_courier,
+    peer_do(b, host_stop(b)),
+    peer_do(a, agent_join(Id, disposed, 10)).
+
+slow_courier :-
+    wrapped(b, typhon_runtime:released(_), Ends,
+            ( test_common:wait_until(\+ typhon_news:news(_, _, _), 5),
+              Ends )),
+    wrapped(b, typhon_news:posted(How, _, _), Posted,
+            ( (   How == endpoint_post
+              ->  test_common:wait_until(
+                      \+ typhon_session:session(_, _), 5)
+              ;   true
+              ),
+              Posted )).
+
+%   What is wrapped cannot be written in an answer.
+
+wrapped(Peer, Head, Wrapped, Body) :-
+    peer_do(Peer, \+ \+ wrap_predicate(Head, test_news, Wrapped, Body)).
+
 :- begin_tests(news).
 
 test(the_newest, Kept == [News2]) :-
@@ -83,5 +115,7 @@ test(an_end_the_courier_has_with_it, Kept == [End]) :-
 test(a_copy_given_up_in_doubt, Kept == [News]) :-
     end(1, End), at(2, News),
     told_under_way(End, News, Kept).
+test(in_the_hands_of_one_who_is_slower_than_the_end_of_the_process) :-
+    with_peers([a, b], last_news).
 
 :- end_tests(news).
