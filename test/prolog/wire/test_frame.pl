@@ -2,7 +2,7 @@
 
 :- use_module('../../lib/common').
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [nth1/4, numlist/3]).
+:- use_module(library(lists), [member/2, nth1/4, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(random), [random_between/3, random_member/2]).
@@ -65,11 +65,19 @@ test(flags_of_both_sides,
 test(bytes_are_bytes) :-
     term_bytes(text, 'é\u4e00\U0001F600', Bytes),
     forall(string_code(_, Bytes, Code), assertion(Code =< 255)).
+%   Which letters are written as they are depends on the locale.
+
 test(letters_in_quotes) :-
-    term_bytes(text, f('é', "«é", 'é«'(x)), Bytes),
-    assertion(sub_string(Bytes, _, _, 0,
-                         "f('\xc3\\xa9\',\"\\u00ab\xc3\\xa9\\",\c
-                            '\xc3\\xa9\\\u00ab'(x)). ")).
+    Term = f('é', "«é", 'é«'(x)),
+    term_bytes(text, Term, Bytes),
+    findall(Text,
+            ( member(E, ["\xc3\\xa9\", "\\u00e9"]),
+              format(string(Text), "f('~w',\"\\u00ab~w\",'~w\\u00ab'(x)). ",
+                     [E, E, E]) ),
+            Texts),
+    assertion(( member(Text, Texts),
+                sub_string(Bytes, _, _, 0, Text) )),
+    round_trip(text, Term).
 test(text_of_any_character) :-
     forall(( some_code(Code), char_code(Char, Code) ),
            ( foreign_term(Char, Term), round_trip(text, Term) )).
