@@ -47,6 +47,7 @@ saved(Dir) :-
                  agent_property(Id, payloads([p])),
                  payload_detach(bob, p),
                  agent_dispose(bob),
+                 agent_join(Id, disposed, 5),
                  agent_load(File, Again),
                  agent_property(bob, home(_)),
                  agent_dispose(Again) )).

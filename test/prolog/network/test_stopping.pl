@@ -52,7 +52,8 @@ test('of those that are stopped on their way nothing is told',
                 member(Options, [[processes(3)], []]) )),
        Told == [] ]) :-
     call(Kind, Clauses),
-    no_leaks(stopped(Options, Clauses, 50, Told)).
+    with_settings([typhon_carrier:rest_seconds=10],    % a slow machine
+                  no_leaks(stopped(Options, Clauses, 50, Told))).
 
 %   Longer than agents have to come to rest, and so long that it is broken off.
 
