@@ -362,7 +362,7 @@ allocator_killed([Host|_], Blocks, Left) :-
     forall(member(_-Others, Left), all_free(Others)).
 
 %   Two robots of six are in order, one in each process; when that one dies
-%   where the allocator is not, others are repaired.
+%   where the allocator is not, nor is on its way to, others are repaired.
 
 robots_killed(Blocks, File) :-
     Blocks = [_-[_|Out1], _-[Host|Out2]],
@@ -371,7 +371,8 @@ robots_killed(Blocks, File) :-
     push(u, 2, [duration(20)], Host, [monitor-5], Agent),
     executing(Agent, Robots),
     length(Robots, 2),
-    part(Agent, Blocks, _-Living, [Other]),
+    wait_until(( part(Agent, Blocks, _-Living, [Other]),
+                 agent_property(Agent, state(waiting)) ), 10),
     kill(Other),
     happened(File, lost(_, _)),
     intersection(Out, Living, Idle),
