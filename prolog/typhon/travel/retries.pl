@@ -3,8 +3,9 @@
             retries_go_on/0
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(settings), [setting/2]).
 :- use_module('../journal', [journal_seal/0, journal_step/1]).
-:- use_module('../wire', [endpoint_gone/1]).
+:- use_module('../wire', [endpoint_gone/1, endpoint_peer/2]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [with_agent/2]).
 :- use_module(backlog,
@@ -35,6 +36,15 @@ pause(Tries, Seconds) :-
     Seconds is min(2.0, 0.05*2**min(Tries, 10)).
 
 most_tries(6).
+
+%   Of a process that never was met nobody hears that it is gone: it is waited
+%   for as long as for a home that has news to hear.
+
+unknown_tries(Tries) :-
+    most_tries(Least),
+    pause(Least, Pause),
+    setting(typhon_news:news_seconds, Seconds),
+    Tries is max(Least, ceiling(Seconds/Pause)).
 
 %!  retry_later(+Id, +Letter, +Way) is det.
 %
@@ -151,6 +161,10 @@ hopeless(existence_error(agent, Id), Id, Tries) :-
 hopeless(host_unreachable(Endpoint), _, Tries) :-
     endpoint_gone(Endpoint),
     most_tries(Most),
+    Tries >= Most.
+hopeless(host_unreachable(Endpoint), _, Tries) :-
+    \+ endpoint_peer(Endpoint, process(_)),
+    unknown_tries(Most),
     Tries >= Most.
 hopeless(resource_error(_), _, _).
 hopeless(existence_error(endpoint, _), _, _).   % this process ends

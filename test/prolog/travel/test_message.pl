@@ -6,6 +6,9 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/agent), [with_agent/2]).
+:- use_module(library(typhon/travel/backlog), [backlog/1]).
+:- use_module(library(typhon/travel/retries), [retry_later/3]).
 
 /** <module> Tests of messages: they find their agent, once
 
@@ -32,6 +35,13 @@ numbers(Agent, Ns) :-
 
 has_all(Agent, N) :-
     aggregate_all(count, fact_of(Agent, s(_)), N).
+
+%   A letter on its way to Id that has found nobody who could be asked.
+
+passed_on(Id, Message) :-
+    Mail = [mail('127.0.0.1:1', x, Message)],
+    with_agent(Id, retry_later(Id, letter(Mail, 64),
+                               to('nobody.invalid:1', letter(Mail, 63)))).
 
 :- begin_tests(messages).
 
@@ -97,6 +107,14 @@ test(to_who_is_outside,
                            joined(A, done) ), M)).
 test(to_an_address_where_nobody_is, error(host_unreachable('127.0.0.1:1'))) :-
     with_hosts([alpha], agent_send('x.1.2@gamma@127.0.0.1:1', hello)).
+test(from_elsewhere_to_a_process_never_met_is_not_kept_for_ever,
+     true(M = [warning-typhon(undeliverable(_, Id, x, hello))])) :-
+    Id = 'x.1.2@gamma@nobody.invalid:1',
+    with_hosts([alpha],
+               with_settings([typhon_news:news_seconds=1],
+                             listening(( passed_on(Id, hello),
+                                         wait_until(\+ backlog(Id), 60) ),
+                                       M))).
 test(in_order, true(Ns == Sent)) :-
     numlist(1, 1000, Sent),
     with_hosts([alpha],
