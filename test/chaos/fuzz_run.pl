@@ -98,6 +98,7 @@ attack(Count, Seed, Progress, Faults) :-
     atomic_list_concat([_, PortText], ':', Host),
     atom_number(PortText, Port),
     served(Host),
+    gives_up_soon,
     footprint(Before),
     memory(M0),
     Last is Seed+Count-1,
@@ -106,6 +107,11 @@ attack(Count, Seed, Progress, Faults) :-
     ->  aftermath(Before, Faults)
     ;   Faults = Faults0
     ).
+
+%   Letters to made-up addresses are tried for a while.
+
+gives_up_soon :-
+    peer_do(victim, set_setting(typhon_news:news_seconds, 2)).
 
 %   A hundred inputs, and a look; to the first fault.
 
