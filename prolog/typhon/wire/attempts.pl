@@ -1,7 +1,8 @@
 :- module(typhon_attempts,
           [ attempt/4,                  % ?Address, ?State, -Pause, -Since
             attempt_want/1,             % +Address
-            attempt_begun/2,            % +Address, +Thread
+            attempt_begun/3,            % +Address, +Thread, +Asked
+            attempt_asked/2,            % +State, -Asked
             attempt_greeted/1,          % +Thread
             attempt_pause/3,            % +Address, +Pause, +Since
             attempt_end/1,              % ?Address
@@ -35,8 +36,9 @@ decides connector.pl.
 
 %!  attempt(?Address, ?State, -Pause, -Since) is nondet.
 %
-%   State is `queued`, trying(Thread, Start) or pausing(Until). Pause is the
-%   one that comes next. Somebody has waited Since then, `unset` before it
+%   State is `queued`, trying(Thread, Start, Asked) or pausing(Until, Asked): who
+%   asked before the last try has a number below Asked. Pause is the one that
+%   comes next. Somebody has waited Since then, `unset` before it
 %   first begins, `none` if nobody does.
 
 first_pause(0.02).
@@ -66,25 +68,32 @@ attempt_want(Address) :-
     !.
 attempt_want(Address) :-
     first_pause(Pause),
-    (   attempt(Address, trying(Thread, Start), _, _)
+    (   attempt(Address, Trying, _, _),
+        Trying = trying(_, _, _)
     ->  get_time(Now),
-        set(Address, trying(Thread, Start), Pause, Now)
+        set(Address, Trying, Pause, Now)
     ;   set(Address, queued, Pause, unset)
     ).
 
-%!  attempt_begun(+Address, +Thread) is det.
+%!  attempt_begun(+Address, +Thread, +Asked) is det.
 %
 %   Thread tries to reach Address. The time of those who wait begins with
 %   the first time.
 
-attempt_begun(Address, Thread) :-
+attempt_begun(Address, Thread, Asked) :-
     attempt(Address, _, Pause, Since0),
     get_time(Now),
     (   Since0 == unset
     ->  Since = Now
     ;   Since = Since0
     ),
-    set(Address, trying(Thread, Now), Pause, Since).
+    set(Address, trying(Thread, Now, Asked), Pause, Since).
+
+%!  attempt_asked(+State, -Asked) is det.
+
+attempt_asked(queued, 0).
+attempt_asked(trying(_, _, Asked), Asked).
+attempt_asked(pausing(_, Asked), Asked).
 
 %!  attempt_greeted(+Thread) is det.
 %
@@ -93,12 +102,12 @@ attempt_begun(Address, Thread) :-
 %   gone wrong often.
 
 attempt_greeted(Thread) :-
-    (   attempt(Address, trying(Thread, _), Pause, Since),
+    (   attempt(Address, trying(Thread, _, Asked), Pause, Since),
         number(Since),
         longest_pause(Longest),
         Pause < Longest
     ->  get_time(Now),
-        set(Address, trying(Thread, Now), Pause, Now)
+        set(Address, trying(Thread, Now, Asked), Pause, Now)
     ;   true
     ).
 
@@ -118,7 +127,11 @@ attempt_pause(Address, Pause, Since) :-
     ),
     longest_pause(Address, Longest),
     Longer is min(Longest, 2*Pause),
-    set(Address, pausing(Until), Longer, Since).
+    (   attempt(Address, State, _, _)
+    ->  attempt_asked(State, Asked)
+    ;   Asked = 0
+    ),
+    set(Address, pausing(Until, Asked), Longer, Since).
 
 longest_pause(Address, Longest) :-
     (   contact_expected(Address)
@@ -170,7 +183,7 @@ crowded :-
 young(Until) :-
     crowd_seconds(Seconds),
     get_time(Now),
-    attempt(_, trying(_, Start), _, _),
+    attempt(_, trying(_, Start, _), _, _),
     Until is Start+Seconds,
     Until > Now.
 
@@ -203,10 +216,10 @@ attempt_due(Time) :-
     attempt(Address, State, _, Since),
     due(State, Address, Since, Time).
 
-due(pausing(Until), _, _, Until).
+due(pausing(Until, _), _, _, Until).
 due(queued, _, _, Until) :-
     young(Until).
-due(trying(_, Start), Address, Since, Until) :-
+due(trying(_, Start, _), Address, Since, Until) :-
     patience(Seconds),
     Until0 is Start+0.6*Seconds,
     (   number(Since)

@@ -26,9 +26,9 @@ unless it is known that somebody soon will be.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(attempts,
-              [ attempt/4, attempt_begun/2, attempt_end/1, attempt_expired/2,
-                attempt_next/2, attempt_pause/3, attempt_want/1,
-                attempts_due/1 ]).
+              [ attempt/4, attempt_asked/2, attempt_begun/3, attempt_end/1,
+                attempt_expired/2, attempt_next/2, attempt_pause/3,
+                attempt_want/1, attempts_due/1 ]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(contacts, [contact_expected/1, contact_missed/2]).
 :- use_module(request, [session_unfinished/1]).
@@ -36,8 +36,11 @@ unless it is known that somebody soon will be.
 :- use_module(threads,
               [in_background/2, wire_thread_create/3, wire_thread_end/2]).
 :- use_module(transport, [route_up/2]).
-:- use_module(unsent, [unsent_fail/1, unsent_send/2]).
-:- use_module(waiters, [waiter_add/2, waiter_tell/2, waiters_tell/2]).
+:- use_module(unsent,
+              [unsent/1, unsent_fail/1, unsent_fail/2, unsent_send/2]).
+:- use_module(waiters,
+              [ asked/1, waiter/1, waiter_add/2, waiter_tell/2,
+                waiters_missed/2, waiters_tell/2 ]).
 
 		 /*******************************
 		 *          WHO WANTS           *
@@ -95,10 +98,11 @@ connector_begin(Me) :-
     ).
 
 try(Address, Me) :-
+    asked(Asked),
     catch(wire_thread_create(outgoing(Address, Me), out-Address, Thread),
           error(Formal, _),
           Thread = none),
-    attempt_begun(Address, Thread),
+    attempt_begun(Address, Thread, Asked),
     debug(typhon(connect), '~w: trying, in ~w', [Address, Thread]),
     (   Thread == none
     ->  verdict(Address, Formal)
@@ -110,7 +114,7 @@ try(Address, Me) :-
 %   The attempt of Thread, if it is one, has ended without connection.
 
 connector_ended(Thread, Formal) :-
-    (   attempt(Address, trying(Thread, _), _, _)
+    (   attempt(Address, trying(Thread, _, _), _, _)
     ->  verdict(Address, Formal)
     ;   true
     ).
@@ -122,13 +126,24 @@ verdict(Address, _) :-
     !,
     met(Address).
 verdict(Address, Formal) :-
-    attempt(Address, _, Pause, Since),
+    attempt(Address, State, Pause, Since),
     debug(typhon(connect), '~w: no connection: ~p', [Address, Formal]),
     (   over(Address, Since, Formal)
-    ->  missed(Address, Formal),
-        go_on(Address, Pause, none)
+    ->  attempt_asked(State, Asked),
+        missed(Address, Asked, Formal),
+        others(Address, Pause)
     ;   go_on(Address, Pause, Since)
     ).
+
+%   Who has asked since the attempt began has another one.
+
+others(Address, _) :-
+    ( waiter(Address) ; unsent(Address) ),
+    !,
+    attempt_end(Address),
+    attempt_want(Address).
+others(Address, Pause) :-
+    go_on(Address, Pause, none).
 
 over(Address, Since, Formal) :-
     number(Since),
@@ -183,10 +198,10 @@ overdue(Address, State, Me) :-
     ;   late(State, Address, Me)
     ).
 
-late(trying(Thread, _), Address, _) :-
+late(trying(Thread, _, _), Address, _) :-
     in_background(wire_thread_end(Thread, late), end-Address),
     verdict(Address, late).
-late(pausing(_), Address, Me) :-
+late(pausing(_, _), Address, Me) :-
     attempt(Address, _, _, Since),
     (   over(Address, Since, late)
     ->  verdict(Address, late)
@@ -219,12 +234,12 @@ met(Address) :-
     ),
     waiters_tell(Address, met).
 
-missed(Address, Formal) :-
+missed(Address, Asked, Formal) :-
     print_message(silent,
                   typhon(endpoint, unreachable(Address, Formal))),
     contact_missed(Address, Formal),
-    unsent_fail(Address),
-    waiters_tell(Address, missed).
+    unsent_fail(Address, Asked),
+    waiters_missed(Address, Asked).
 
 %!  connector_give_up is det.
 %

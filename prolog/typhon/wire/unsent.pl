@@ -5,6 +5,7 @@
             unsent_again/2,             % +Session, +Unsent
             unsent_closed/4,            % +Address, +Kind, +Term, :OnAnswer
             unsent_fail/1,              % ?Address
+            unsent_fail/2,              % +Address, +Asked
             unsent_forget/1             % :OnAnswer
           ]).
 
@@ -23,6 +24,7 @@ a request answers for it.
 :- use_module(request, [request_answer/2, request_send/4, request_take/3]).
 :- use_module(session, [session_peer/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(waiters, [asking/1]).
 
 :- meta_predicate
     unsent_request(+, +, +, 1),
@@ -38,7 +40,7 @@ a request answers for it.
 %   As endpoint_request/4, when there is a connection with Address.
 
 unsent_request(Address, Kind, Term, OnAnswer) :-
-    flag(typhon_unsent, Number, Number+1),
+    asking(Number),
     assertz(unsent(Address, Number, Kind, Term, OnAnswer)),
     (   keeper_tell(requests(Address))
     ->  true
@@ -111,12 +113,18 @@ unsent_again(Session, Unsent) :-
 unsent_again(_, _).
 
 %!  unsent_fail(?Address) is det.
+%!  unsent_fail(+Address, +Asked) is det.
 %
-%   There is no way to Address: say so.
+%   There is no way to Address: say so, to those with a number below Asked, see
+%   asking/1.
 
 unsent_fail(Address) :-
+    unsent_fail(Address, inf).
+
+unsent_fail(Address, Asked) :-
     findall(A-Number, unsent(A, Number, _, _, _), All),
-    forall(member(Address-Number, All), fail_one(Address, Number)).
+    forall(( member(Address-Number, All), Number < Asked ),
+           fail_one(Address, Number)).
 
 fail_one(Address, Number) :-
     (   retract(unsent(Address, Number, _, _, OnAnswer))

@@ -2,6 +2,7 @@
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/cutting_proxy').
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [numlist/3]).
 :- use_module(library(plunit)).
@@ -98,6 +99,49 @@ told_to_end :-
     ;   true
     ).
 
+%   posting(+Address, -Thread), posted(+Thread, -Outcome)
+
+posting(Address, Thread) :-
+    thread_create(post_one(Address), Thread).
+
+post_one(Address) :-
+    catch(( endpoint_post(Address, note, x),
+            Outcome = posted ),
+          error(unreachable(_), _),
+          Outcome = unreachable),
+    thread_exit(Outcome).
+
+posted(Thread, Outcome) :-
+    thread_join(Thread, exited(Outcome)).
+
+waiting(Address, Count) :-
+    aggregate_all(count, typhon_waiters:waiter(Address, _, _), Count).
+
+%   with_refusal_held(:First, :Then): Then is called when a connection has been
+%   refused in First; the keeper hears of that on `go` to the gate.
+
+:- meta_predicate with_refusal_held(0, 0).
+:- dynamic to_hold/0.
+:- public hold_refusal/0.
+
+with_refusal_held(First, Then) :-
+    setup_call_cleanup(
+        message_queue_create(Gate, [alias(endpoint_gate)]),
+        ( wrap_predicate(typhon_connection:missed(_, _), held, Wrapped,
+                         ( test_endpoint:hold_refusal, Wrapped )),
+          assertz(to_hold),
+          call(First),
+          thread_get_message(Gate, refused, [timeout(20)]),
+          call(Then) ),
+        message_queue_destroy(Gate)).
+
+hold_refusal :-
+    (   retract(to_hold)
+    ->  thread_send_message(endpoint_gate, refused),
+        thread_get_message(endpoint_gate, go)
+    ;   true
+    ).
+
 		 /*******************************
 		 *            TESTS             *
 		 *******************************/
@@ -179,6 +223,26 @@ test(listens_and_is_silent, error(unreachable(_))) :-
                      with_listener(A, endpoint_post(A, note, x))))).
 test(twice, error(permission_error(start, endpoint, _))) :-
     with_endpoint(endpoint_start(localhost, 0, _)).
+
+%   An attempt has been refused, and the keeper has yet to hear of it, as a peer
+%   begins to listen: who asks from then on is not told of that attempt.
+
+test(who_asks_since_hears_of_a_later_attempt,
+     [First,Then,Answer] == [unreachable,posted,answer(x)]) :-
+    free_port(Port),
+    atomic_list_concat(['127.0.0.1', Port], :, A),
+    thread_self(Me),
+    with_endpoint(
+        with_refusal_held(
+            posting(A, T1),
+            with_peer(Port, _, A,
+                      ( endpoint_request(A, echo, x, thread_send_message(Me)),
+                        posting(A, T2),
+                        wait_until(waiting(A, 2), 10),
+                        thread_send_message(endpoint_gate, go),
+                        posted(T1, First),
+                        posted(T2, Then),
+                        thread_get_message(Me, Answer, [timeout(20)]) )))).
 
 :- meta_predicate with_listener(-, 0).
 
