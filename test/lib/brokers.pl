@@ -89,9 +89,15 @@ broker_stop(broker(Port, Dir)) :-
     forall(retract(running(Port, Pid)), end(Pid, kill)),
     delete_directory_and_contents(Dir).
 
+%   A signal that comes while mosquitto is about to begin is lost.
+
 end(Pid, Signal) :-
     process_kill(Pid, Signal),
-    process_wait(Pid, _).
+    wait_for_end(Pid, 5, Status),
+    (   Status == timeout
+    ->  end(Pid, Signal)
+    ;   true
+    ).
 
 broker_signal(broker(Port, _), term) :-
     !,
