@@ -267,10 +267,11 @@ journal_commit :-
 %   Where journal_guards/0: give Item to letting_out/1 when all that was noted
 %   before is committed, in the order of these calls.
 %
-%   @arg When is `now` if somebody waits for it, `later` if who lets it out
-%        says journal_go/0 before long, or lets out something else
+%   @arg When is `now` if somebody waits for it, `anyhow` if so and he would not
+%        hear of an error, `later` if who lets it out says journal_go/0 before
+%        long, or lets out something else
 %   @error resource_error(journal_space): nothing can be committed; Item will
-%          not be let out
+%          not be let out, When being `now`
 %   @error existence_error(journal, open): it was closed
 
 journal_let_out(Item, When) :-
@@ -281,9 +282,9 @@ journal_let_out(Item, When) :-
     ->  true
     ;   closed
     ),
-    (   When == now
-    ->  commit_soon
-    ;   true
+    (   When == later
+    ->  true
+    ;   commit_soon
     ).
 
 may_wait(now) :-

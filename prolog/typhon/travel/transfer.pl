@@ -65,7 +65,7 @@ transfer_traveller(clone(_, _, CloneId), CloneId, 1).
 %!  transfer_image(+Transfer, -Image) is semidet.
 %
 %   What is sent; binds the hole, and the number of hops.  Once more from the
-%   frozen record: fails if the agent was given up.
+%   frozen record, in any thread: fails if the agent was given up.
 
 transfer_image(hop(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
     ignore(Hole = true),                % else the move was an order
@@ -74,9 +74,12 @@ transfer_image(clone(Id, _, CloneId), Hole-Goals-Who, _, Since, Image) :-
     Hole = (Who=clone(Id)),
     image_clone(Id, CloneId, Goals, Since, Image).
 
+%   An answer that comes meanwhile would take away the module that is read.
+
 transfer_image(Transfer, Image) :-
-    frozen(Transfer, Held, Mail, Since),
-    transfer_image(Transfer, Held, Mail, Since, Image).
+    arg(1, Transfer, Id),
+    with_agent(Id, ( frozen(Transfer, Held, Mail, Since),
+                     transfer_image(Transfer, Held, Mail, Since, Image) )).
 
 frozen(hop(Id, _, Hops), Held, Mail, Since) :-
     agent_status(Id, transit(_, _), hop(Held, Hops, Mail, Since)).

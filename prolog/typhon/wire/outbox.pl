@@ -1,5 +1,6 @@
 :- module(typhon_outbox,
           [ session_send/2,             % +Session, +Term
+            session_answer/2,           % +Session, +Term
             session_send_with/2,        % +Session, +Term
             session_release/1,          % +Session
             session_send_later/2,       % +Session, +Term
@@ -67,10 +68,23 @@ under_way(65536).
 %   @error resource_error(frame_bytes) Term is too long for a frame
 
 session_send(Session, Term) :-
+    send(Session, Term, now).
+
+%!  session_answer(+Session, +Term) is det.
+%
+%   As session_send/2, of what somebody waits for: while the journal has no room
+%   it waits, too. When the journal has been closed it is dropped.
+
+session_answer(Session, Term) :-
+    catch(send(Session, Term, anyhow),
+          error(existence_error(journal, _), _),
+          true).
+
+send(Session, Term, When) :-
     frame_bytes(Session, Term, Bytes),
     answers_first(Session),
     (   journal_guards
-    ->  let_out(Session, Bytes, now)
+    ->  let_out(Session, Bytes, When)
     ;   session_locked(Session,
                        put_frame(Session, Bytes, frame_write_now))
     ).
@@ -137,13 +151,13 @@ session_send_later(Session, Term) :-
     (   journal_guards
     ->  catch(let_out(Session, Bytes, later),
               error(existence_error(journal, _), _),
-              true)                     % nobody is told what happens now
+              true)
     ;   session_locked(Session, put_frame(Session, Bytes, frame_write))
     ),
     Count1 is Count+1,
     nb_linkval(typhon_later, Count1).
 session_send_later(Session, Term) :-
-    session_send(Session, Term).
+    session_answer(Session, Term).
 
 session_later(Count) :-
     nb_getval(typhon_later, Count).

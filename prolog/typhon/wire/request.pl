@@ -30,7 +30,8 @@ and so answered once.
 */
 
 :- use_module(library(lists), [member/2]).
-:- use_module(outbox, [session_send/2, session_send_later/2]).
+:- use_module(outbox,
+              [session_answer/2, session_send/2, session_send_later/2]).
 :- use_module(session, [route/2, session_key/2, session_peer/3]).
 :- use_module(unacked, [session_pending/2]).
 
@@ -72,7 +73,7 @@ request_forget(OnAnswer) :-
 %   ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see typhon_alone.
 
 request_reply(reply_to(Session, Id), Term) :-
-    session_send(Session, answer(Id, Term)).
+    session_answer(Session, answer(Id, Term)).
 request_reply(alone(OnAnswer), Term) :-
     copy_term(Term, Copy),
     request_answer(answer(Copy), OnAnswer).
@@ -141,7 +142,7 @@ dispatch(Session, request(Id, Kind, Term)) :-
     session_peer(Session, _, Peer),
     (   take_request(Kind, Term, Peer, reply_to(Session, Id))
     ->  true
-    ;   guarded(session_send(Session, spoilt(Id)), Kind)
+    ;   guarded(session_answer(Session, spoilt(Id)), Kind)
     ).
 dispatch(Session, answer(Id, Term)) :-
     !,

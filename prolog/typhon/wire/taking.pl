@@ -17,7 +17,7 @@ there.
 :- use_module(library(lists), [member/2]).
 :- use_module(bundle, [bundle_parts/2]).
 :- use_module(frame, [bytes_mark/2, bytes_term/3]).
-:- use_module(outbox, [session_send/2]).
+:- use_module(outbox, [session_answer/2]).
 :- use_module(request, [dispatch/2, dispatch_all/2]).
 :- use_module(session, [session_codec/2, session_peer/3]).
 
@@ -62,7 +62,7 @@ is_unreadable(unreadable(_, _)).
 
 spoil(request(Id), Session) :-
     !,
-    catch(session_send(Session, spoilt(Id)),
+    catch(session_answer(Session, spoilt(Id)),
           error(session_closed, _),
           true).
 spoil(answer(Id), Session) :-

@@ -337,3 +337,53 @@ told_lost(Id, Formal) :-
     retract(told(undeliverable(Formal, Id, _, _))).
 
 :- end_tests(channel_frames).
+
+%   Who asks from elsewhere waits for as long.
+
+:- begin_tests(channel_full).
+
+:- dynamic asked/0.
+
+pages(Most) :-
+    format(atom(Pragma), 'pragma max_page_count=~d', [Most]),
+    typhon_store:connection(_, Connection),
+    with_mutex(typhon_commit,
+               odbc:odbc_query(Connection, Pragma, _, [])).
+
+full :-
+    pages(1),
+    numlist(1, 20000, Long),
+    remote(driver, leave(Long)),
+    wait_until(typhon_committing:journal_full(_), 20).
+
+test('an answer waits while the journal has no room', Line == "answered") :-
+    no_leaks(with_tmp_dir(asked_while_full(Line))).
+
+asked_while_full(Line, Dir) :-
+    retractall(asked),
+    setup_call_cleanup(
+        host_start(driver, [journal(Dir)]),
+        ( host_property(driver, address(Driver)),
+          with_asker(Driver, In, Out,
+                     ( full,
+                       format(In, 'ask.~n', []),
+                       flush_output(In),
+                       wait_until(plunit_channel_full:asked, 20),
+                       pages(1000000),
+                       read_line_to_string(Out, Line) )) ),
+        host_stop(driver)).
+
+%   Says `ready`, and `answered` when it has asked.
+
+with_asker(Driver, In, Out, Goal) :-
+    project_file('prolog/typhon.pl', Typhon),
+    Asks = ( remote(Driver, true), writeln(ready), read(_),
+             remote(Driver, assertz(plunit_channel_full:asked)),
+             writeln(answered) ),
+    format(atom(Text), '~q', [Asks]),
+    with_swipl(['-q', '-g', Text, Typhon], _, In, Out,
+               ( set_stream(Out, timeout(30)),
+                 read_line_to_string(Out, "ready"),
+                 call(Goal) )).
+
+:- end_tests(channel_full).
