@@ -221,6 +221,8 @@ auction_open(Mechanism, Hosts, Tasks) :-
 %   Counts are Kind-Count, in the order of the kinds: how many messages of a
 %   kind the nodes at Hosts have sent, each over one link, since
 %   auction_account/2.  Hosts that are gone are left out.
+%
+%   @error timeout_error(order, Node): one that is there does not answer
 
 auction_counts(Mechanism, Hosts, Counts) :-
     findall(Kind-Count, count_at(Mechanism, Hosts, Kind, Count), All),
@@ -235,8 +237,12 @@ count_at(Mechanism, Hosts, Kind, Count) :-
     member(Host, Hosts),
     catch(( node(Mechanism, Host, Node),
             agent_property(Node, facts(Facts)) ),
-          error(_, _), fail),
+          error(Formal, Context),
+          ( gone(Formal) -> fail ; throw(error(Formal, Context)) )),
     member(sent(Kind, Count), Facts).
+
+gone(host_unreachable(_)).
+gone(existence_error(_, _)).
 
 %!  auction_account(+Mechanism, +Hosts) is det.
 %
