@@ -16,8 +16,8 @@
         onward(+Body, -Onward)                  how a flood is passed on
         undertake(+What, +Now)                  was on the agenda
 
-    All that a node does between two messages is native Prolog: it stops at
-    the one receive/2 of node_loop/0 only.
+    All that a node does between two messages is native Prolog: once it knows
+    its peers it stops at the one receive/2 of node_loop/0 only.
 
     A Job is job(Host, Number), the host of the auctioneer first.  A task is
     auctioned once or more, each time is a Round.
@@ -47,10 +47,18 @@ default(level, 10).             % of a broadcast tree
 default(memory, 1000).          % floods that a node knows again
 default(jobs, 100).             % jobs of others that it remembers
 
+%   What others say may come before its peers do: it waits.
+
 main :-
     first_id,
     assertz(agenda(0, [])),
+    receive(_-peers(Peers)),
+    know(Peers),
     node_loop.
+
+know(Peers) :-
+    retractall(peer(_, _)),
+    forall(member(Host-Node, Peers), assertz(peer(Host, Node))).
 
 heard(link(Due, From, Load), _) :-
     !,
@@ -68,8 +76,7 @@ hear(Message, Robot) :-
 hear(post(Task), _) :-
     post(Task).
 hear(peers(Peers), _) :-
-    retractall(peer(_, _)),
-    forall(member(Host-Node, Peers), assertz(peer(Host, Node))).
+    know(Peers).
 hear(account, _) :-
     log_communications.
 

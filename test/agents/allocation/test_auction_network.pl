@@ -102,11 +102,29 @@ time_passes(Hosts, Seconds) :-
 
 to_the_last([clock(virtual), auction([slack(5)]), hop_time(uniform(0.2, 0.4))]).
 
+%   A flood that comes from the first of three hosts goes on to the third.
+
+passed_on(Network) :-
+    network_property(Network, hosts([H1,H2,H3])),
+    agent_create(clauses([(:- agent(deaf, [])), on_message(_, _)]), Deaf,
+                 [host(H3)]),
+    agent_create(agents(allocation/murdoch), Node, [host(H2), static(true)]),
+    agent_send(Node, link(0, H1, flood(77, start(x)))),
+    agent_send(Node, peers([H1-Deaf, H2-Node, H3-Deaf])),
+    wait_until(( agent_property(Node, facts(Facts)),
+                 memberchk(sent(start, 1), Facts) ), 20).
+
                 /*******************************
                 *             FLOOD            *
                 *******************************/
 
 :- begin_tests(auction_flood_network).
+
+test(what_comes_before_its_peers_are_known_is_passed_on) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(line(3), Network, []),
+                 passed_on(Network),
+                 network_stop(Network))).
 
 %   Nobody bids, so what is sent is one flood: 2E - (N-1) messages.
 
