@@ -5,8 +5,9 @@
           ]).
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_call/5, endpoint_missed/2]).
-:- use_module(runtime, [runtime_acquire/2, runtime_release/1]).
+              [endpoint_call/5, endpoint_missed/2]).
+:- use_module(runtime,
+              [runtime_acquire/2, runtime_release/1, runtime_user/1]).
 
 /** <module> Questions to other processes
 
@@ -47,7 +48,8 @@ unreachable(Endpoint, Who) :-
 %   Run Goal once; if this process has no endpoint it has one meanwhile.
 
 as_guest(Goal) :-
-    (   endpoint_address(_)
+    (   runtime_user(User),
+        User \= guest(_)                % the endpoint of a guest goes with him
     ;   own_thread
     ),
     !,

@@ -1,7 +1,8 @@
 :- module(typhon_runtime,
           [ runtime_acquire/2,          % +User, +Options
             runtime_acquire/3,          % +User, +Options, -Endpoint
-            runtime_release/1           % +User
+            runtime_release/1,          % +User
+            runtime_user/1              % ?User
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [permission_error/3]).
@@ -134,7 +135,13 @@ disagrees(bind(Interface)) :-
     endpoint_address(Endpoint),
     \+ atomic_list_concat([Interface,_], ':', Endpoint).
 
+%!  runtime_user(?User) is nondet.
 %!  runtime_release(+User) is det.
+%
+%   User uses endpoint and time; does so no more.
+
+runtime_user(User) :-
+    user(User, _).
 
 runtime_release(User) :-
     in_own_thread(with_mutex(typhon_runtime, release(User))).

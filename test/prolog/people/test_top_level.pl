@@ -150,6 +150,15 @@ test(guests_come_and_go_in_several_threads) :-
                       ( thread_join(T, Status),
                         assertion(Status == true) )) )).
 
+%   The second begins while the first is a guest, and stays longer.
+
+test(a_guest_does_not_go_with_another, Statuses == [true, true]) :-
+    nb_getval(test_delta, Delta),
+    no_leaks(( thread_create(remote(Delta, sleep(0.5)), First),
+               wait_until(typhon_runtime:user(guest(_), _), 10),
+               thread_create(remote(Delta, sleep(1.5)), Second),
+               maplist(thread_join, [First,Second], Statuses) )).
+
 test(mistyped_host_and_port_that_is_taken) :-
     nb_getval(test_delta, Delta),
     atomic_list_concat([_, Address], @, Delta),
