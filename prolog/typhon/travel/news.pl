@@ -5,7 +5,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal', [journal_on/0]).
-:- use_module('../wire', [endpoint_post/3, endpoint_post_up/3]).
+:- use_module('../wire', [endpoint_post/3, endpoint_post_last/3]).
 :- use_module(channel, [channel_post/3]).
 :- use_module(senders, [shown/5]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
@@ -116,7 +116,7 @@ typhon_runtime:ending(before) :-
 flush(Home) :-
     with_mutex(typhon_news, take_all(Home, All)),
     All \== [],
-    posted(endpoint_post_up, Home, All),
+    posted(endpoint_post_last, Home, All),
     !,
     flush(Home).
 flush(_).

@@ -1,6 +1,7 @@
 :- module(typhon_messaging,
           [ endpoint_post/3,            % +Address, +Kind, +Term
             endpoint_post_up/3,         % +Address, +Kind, +Term
+            endpoint_post_last/3,       % +Address, +Kind, +Term
             endpoint_request/4,         % +Address, +Kind, +Term, :OnAnswer
             endpoint_reply/2,           % +ReplyTo, +Term
             endpoint_reply_later/2      % +ReplyTo, +Term
@@ -26,7 +27,7 @@ block it, unless it is in a hook of the endpoint.
 :- use_module(request,
               [ request_reply/2, request_reply_later/2,
                 request_send/4, take_post/3 ]).
-:- use_module(session, [route/2]).
+:- use_module(session, [route/2, session_adopting/2]).
 :- use_module(transport, [route_up/2]).
 :- use_module(unsent, [unsent/1, unsent_closed/4, unsent_request/4]).
 
@@ -75,6 +76,18 @@ endpoint_post_up(Address, Kind, Term) :-
 endpoint_post_up(Address, Kind, Term) :-
     alone(Address),
     endpoint_post(Address, Kind, Term).
+
+%!  endpoint_post_last(+Address, +Kind, +Term) is semidet.
+%
+%   As endpoint_post_up/3, for who is about to end: where one connection is just
+%   being replaced by another he waits for that.
+
+endpoint_post_last(Address, Kind, Term) :-
+    endpoint_post_up(Address, Kind, Term),
+    !.
+endpoint_post_last(Address, Kind, Term) :-
+    forall(route(Address, Session), session_adopting(Session, true)),
+    endpoint_post_up(Address, Kind, Term).
 
 %   way(+Address, -Session): nothing has to be waited for. In a hook there
 %   must be no waiting: what is sent there waits in the session for the next

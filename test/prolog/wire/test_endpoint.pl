@@ -117,27 +117,27 @@ posted(Thread, Outcome) :-
 waiting(Address, Count) :-
     aggregate_all(count, typhon_waiters:waiter(Address, _, _), Count).
 
-%   with_refusal_held(:First, :Then): Then is called when a connection has been
-%   refused in First; the keeper hears of that on `go` to the gate.
+%   with_held(+Head, :First, :Then): Then is called when Head, of the wire, is
+%   about to be called in First; it is on `go` to the gate.
 
-:- meta_predicate with_refusal_held(0, 0).
+:- meta_predicate with_held(:, 0, 0).
 :- dynamic to_hold/0.
-:- public hold_refusal/0.
+:- public hold_once/0.
 
-with_refusal_held(First, Then) :-
+with_held(Head, First, Then) :-
     setup_call_cleanup(
         message_queue_create(Gate, [alias(endpoint_gate)]),
-        ( wrap_predicate(typhon_connection:missed(_, _), held, Wrapped,
-                         ( test_endpoint:hold_refusal, Wrapped )),
+        ( wrap_predicate(Head, held, Wrapped,
+                         ( test_endpoint:hold_once, Wrapped )),
           assertz(to_hold),
           call(First),
-          thread_get_message(Gate, refused, [timeout(20)]),
+          thread_get_message(Gate, held, [timeout(20)]),
           call(Then) ),
         message_queue_destroy(Gate)).
 
-hold_refusal :-
+hold_once :-
     (   retract(to_hold)
-    ->  thread_send_message(endpoint_gate, refused),
+    ->  thread_send_message(endpoint_gate, held),
         thread_get_message(endpoint_gate, go)
     ;   true
     ).
@@ -233,8 +233,8 @@ test(who_asks_since_hears_of_a_later_attempt,
     atomic_list_concat(['127.0.0.1', Port], :, A),
     thread_self(Me),
     with_endpoint(
-        with_refusal_held(
-            posting(A, T1),
+        with_held(
+            typhon_connection:missed(_, _), posting(A, T1),
             with_peer(Port, _, A,
                       ( endpoint_request(A, echo, x, thread_send_message(Me)),
                         posting(A, T2),
@@ -314,6 +314,29 @@ test(both_connect_at_once) :-
           forall(member(X, [A, B]),
                  ( wait_until(all_there(X, 100, Notes), 5),
                    assertion(Notes == Expected) )) )))).
+
+%   The old connection is no more, the new one has yet to begin.
+
+test(what_is_posted_last_waits_for_the_next_connection,
+     [Up,Last,Notes] == [false,true,[1]]) :-
+    with_endpoint(with_peer(A,
+        ( ask(A, echo, x, x),
+          typhon_session:route(A, Session),
+          typhon_resumption:session_retire(Session),
+          with_held(
+              typhon_meeting:say_count(_, _),
+              thread_create(typhon_keeper:keeper_connect(A), Connects),
+              ( truth(endpoint_post_up(A, note, 1), Up),
+                thread_create(( thread_send_message(endpoint_gate, posts),
+                                endpoint_post_last(A, note, 1) ), Posts),
+                thread_get_message(endpoint_gate, posts, [timeout(20)]),
+                thread_send_message(endpoint_gate, go),
+                thread_join(Connects, _),
+                thread_join(Posts, Last) )),
+          ask(A, notes, x, Notes) ))).
+
+truth(Goal, Truth) :-
+    ( call(Goal) -> Truth = true ; Truth = false ).
 
 %   Somebody else may have a connection with the peer already, or it cannot be
 %   written to: who has installed it is told to end in that moment.
