@@ -68,9 +68,9 @@ send(File, Name, Message) :-
 %!  logged(+File, +Entry, -Done) is det.
 
 logged(File, Entry, true) :-
-    told("~w~n", [Entry]),
     with_mutex(tartarus_log,
                setup_call_cleanup(
                    open(File, append, Out, [encoding(utf8)]),
                    format(Out, "~n~w", [Entry]),
-                   close(Out))).
+                   close(Out))),
+    told("~w~n", [Entry]).
