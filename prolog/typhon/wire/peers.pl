@@ -19,8 +19,8 @@
 :- use_module(contacts, [contact/3, missed/2]).
 :- use_module(outbox, [session_flush/2]).
 :- use_module(session,
-              [ route/2, session/2, session_codec/2, session_key/2,
-                session_proof/2 ]).
+              [ route/2, session/2, session_adopted/1, session_codec/2,
+                session_key/2, session_proof/2 ]).
 :- use_module(transport, [route_up/2, session_up/1]).
 :- use_module(unacked, [session_pending/2]).
 
@@ -106,11 +106,18 @@ endpoint_flush(Seconds, Peers) :-
 
 %!  peers_flush(+Seconds, ?State) is semidet.
 %
-%   As endpoint_flush/1, to those peers that are in State.
+%   As endpoint_flush/1, to those peers that are in State. Where one
+%   connection is just being replaced by another that is `up`.
 
 peers_flush(Seconds, State) :-
     get_time(Now),
     Deadline is Now+Seconds,
     forall(( session(_, Session),
-             peer_property(state(State), Session) ),
+             in_state(State, Session) ),
            session_flush(Session, Deadline)).
+
+in_state(State, Session) :-
+    peer_property(state(State), Session),
+    !.
+in_state(up, Session) :-
+    session_adopted(Session).

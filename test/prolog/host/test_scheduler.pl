@@ -364,8 +364,7 @@ no_room(O, F) :-
                       create_blocked(10),
                       create([main], C),
                       wait_until(was_told(warning, typhon(held_full(
-                                              _, no_memory, _))), 10),
-                      \+ agent_join(C, done, 0.1) )),
+                                              _, no_memory, _))), 10) )),
     joined(C, done).
 
 create_blocked(Count) :-
