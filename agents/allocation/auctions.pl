@@ -242,7 +242,8 @@ count_at(Mechanism, Hosts, Kind, Count) :-
     member(sent(Kind, Count), Facts).
 
 gone(host_unreachable(_)).
-gone(existence_error(_, _)).
+gone(existence_error(host, _)).
+gone(existence_error(node, _)).
 
 %!  auction_account(+Mechanism, +Hosts) is det.
 %

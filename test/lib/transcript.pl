@@ -175,7 +175,8 @@ session(Steps, Line, Top, Line:Difference) :-
 %   which is ours now.
 
 by_others(Report) :-
-    sub_string(Report, _, _, _, "turned away a client at 127.0.0.1").
+    sub_string(Report, _, _, _, "turned away a client at 127.0.0.1: it does \c
+                                 not know our cookie").
 
 step(Top, step(Goal, Expected), Differences0-Reports0, Differences-Reports) :-
     wanted_answer(Goal, Expected, Wanted),

@@ -45,11 +45,12 @@ unreachable(Endpoint, Who) :-
 
 %!  as_guest(:Goal) is semidet.
 %
-%   Run Goal once; if this process has no endpoint it has one meanwhile.
+%   Run Goal once; if this process has no endpoint, or has it for the sake of
+%   other guests only, it has one meanwhile.
 
 as_guest(Goal) :-
     (   runtime_user(User),
-        User \= guest(_)                % the endpoint of a guest goes with him
+        User \= guest(_)
     ;   own_thread
     ),
     !,

@@ -76,9 +76,14 @@ session_send(Session, Term) :-
 %   it waits, too. When the journal has been closed it is dropped.
 
 session_answer(Session, Term) :-
-    catch(send(Session, Term, anyhow),
-          error(existence_error(journal, _), _),
-          true).
+    unless_closed(send(Session, Term, anyhow)).
+
+%   When the journal has been closed nobody is told what happens.
+
+:- meta_predicate unless_closed(0).
+
+unless_closed(Goal) :-
+    catch(Goal, error(existence_error(journal, _), _), true).
 
 send(Session, Term, When) :-
     frame_bytes(Session, Term, Bytes),
@@ -149,9 +154,7 @@ session_send_later(Session, Term) :-
     !,
     frame_bytes(Session, Term, Bytes),
     (   journal_guards
-    ->  catch(let_out(Session, Bytes, later),
-              error(existence_error(journal, _), _),
-              true)
+    ->  unless_closed(let_out(Session, Bytes, later))
     ;   session_locked(Session, put_frame(Session, Bytes, frame_write))
     ),
     Count1 is Count+1,

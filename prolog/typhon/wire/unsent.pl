@@ -5,7 +5,7 @@
             unsent_again/2,             % +Session, +Unsent
             unsent_closed/4,            % +Address, +Kind, +Term, :OnAnswer
             unsent_fail/1,              % ?Address
-            unsent_fail/2,              % +Address, +Asked
+            unsent_fail/2,              % ?Address, +Asked
             unsent_forget/1             % :OnAnswer
           ]).
 
@@ -113,7 +113,7 @@ unsent_again(Session, Unsent) :-
 unsent_again(_, _).
 
 %!  unsent_fail(?Address) is det.
-%!  unsent_fail(+Address, +Asked) is det.
+%!  unsent_fail(?Address, +Asked) is det.
 %
 %   There is no way to Address: say so, to those with a number below Asked, see
 %   asking/1.

@@ -154,10 +154,27 @@ test(guests_come_and_go_in_several_threads) :-
 
 test(a_guest_does_not_go_with_another, Statuses == [true, true]) :-
     nb_getval(test_delta, Delta),
-    no_leaks(( thread_create(remote(Delta, sleep(0.5)), First),
-               wait_until(typhon_runtime:user(guest(_), _), 10),
-               thread_create(remote(Delta, sleep(1.5)), Second),
-               maplist(thread_join, [First,Second], Statuses) )).
+    no_leaks(( there(Delta, message_queue_create(_, [alias(first)])),
+               there(Delta, message_queue_create(_, [alias(second)])),
+               stays(Delta, first, 1, First),
+               stays(Delta, second, 2, Second),
+               maplist(goes(Delta), [first-First,second-Second], Statuses) )).
+
+there(Delta, Goal) :-
+    remote(Delta, \+ \+ Goal).
+
+stays(Delta, Queue, Count, Thread) :-
+    thread_create(there(Delta, thread_get_message(Queue, go)), Thread),
+    wait_until(guests(Count), 10).
+
+guests(Count) :-
+    findall(Guest, typhon_runtime:user(guest(Guest), _), Guests),
+    length(Guests, Count).
+
+goes(Delta, Queue-Thread, Status) :-
+    there(Delta, thread_send_message(Queue, go)),
+    thread_join(Thread, Status),
+    there(Delta, message_queue_destroy(Queue)).
 
 test(mistyped_host_and_port_that_is_taken) :-
     nb_getval(test_delta, Delta),

@@ -690,7 +690,8 @@ test(stop_while_connecting) :-
     no_leaks(with_endpoint(( thread_self(Me),
                              endpoint_request('10.255.255.1:9', echo, x,
                                               thread_send_message(Me)),
-                             sleep(0.1) ))),
+                             wait_until(typhon_attempts:attempt(
+                                            _, trying(_, _, _), _, _), 10) ))),
     thread_self(Me),
     thread_get_message(Me, unreachable, [timeout(10)]).
 
