@@ -364,7 +364,8 @@ no_room(O, F) :-
                       create_blocked(10),
                       create([main], C),
                       wait_until(was_told(warning, typhon(held_full(
-                                              _, no_memory, _))), 10) )),
+                                              _, no_memory, _))), 10),
+                      \+ agent_join(C, done, 0.1) )),
     joined(C, done).
 
 create_blocked(Count) :-
