@@ -25,7 +25,7 @@ Driven by chromedriver, in the words of the W3C's WebDriver.
 *Threading*: one thread at a time uses a browser.
 */
 
-:- use_module(common, [wait_until/2]).
+:- use_module(common, [wait_until/2, with_tmp_dir/1]).
 :- use_module(library(base64), [base64/2]).
 :- use_module(library(http/http_json), []).
 :- use_module(library(http/http_client),
@@ -41,15 +41,20 @@ Driven by chromedriver, in the words of the W3C's WebDriver.
 %   Call Goal once while Browser is there.
 
 with_browser(Browser, Goal) :-
+    with_tmp_dir(browsing(Browser, Goal)).
+
+%   Chromium leaves behind where it has listened.
+
+browsing(Browser, Goal, Dir) :-
     setup_call_cleanup(
-        start(Browser),
+        start(Dir, Browser),
         once(Goal),
         stop(Browser)).
 
-start(browser(Base, Pid, Out)) :-
+start(Dir, browser(Base, Pid, Out)) :-
     process_create(path(chromedriver), ['--port=0'],
                    [ stdin(null), stdout(pipe(Out)), stderr(null),
-                     process(Pid) ]),
+                     environment(['TMPDIR'=Dir]), process(Pid) ]),
     port(Out, Port),
     format(atom(Driver), 'http://127.0.0.1:~w/session', [Port]),
     capabilities(Wanted),

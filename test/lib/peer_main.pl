@@ -17,6 +17,7 @@ input. Options:
 
 :- use_module(common).
 :- use_module(library(typhon)).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(settings), [set_setting/2]).
@@ -95,8 +96,17 @@ connected_to(Host) :-
     typhon_hosts:address_parts(Host, _, Endpoint),
     typhon_wire:endpoint_peer(Endpoint, state(up)).
 
+%   Somebody tries, or some connection has yet to be that of a session or to
+%   be refused.
+
 connecting :-
     typhon_attempts:attempt(_, _, _, _),
+    !.
+connecting :-
+    typhon_threads:wire_thread(Thread),
+    member(Prefix, [typhon_in_, typhon_out_]),
+    sub_atom(Thread, 0, _, _, Prefix),
+    \+ typhon_transport:transport_thread(_, Thread),
     !.
 
 outcome_here(Id, Outcome) :-

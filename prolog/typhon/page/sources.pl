@@ -68,7 +68,7 @@ sources_stop :-
         message_queue_destroy(Queue)
     ;   true
     ),
-    rest,
+    rest(true),
     (   retract(place(_))
     ->  runtime_release(page)
     ;   true
@@ -119,7 +119,7 @@ find_more(Queue) :-
     ;   browsers_there
     ->  telling_errors(renew),
         find_more(Queue)
-    ;   telling_errors(rest),
+    ;   telling_errors(rest(\+ browsers_there)),
         find(Queue)
     ).
 
@@ -137,10 +137,7 @@ telling_errors(Goal) :-
 
 renew :-
     look(0, _, Hosts),
-    (   unwatched(Hosts, _, _)
-    ->  with_mutex(typhon_page_sources, watch_hosts(Hosts))
-    ;   true
-    ),
+    with_mutex(typhon_page_sources, watch_hosts(Hosts)),
     with_mutex(typhon_page_sources, idle(Watches)),
     maplist(end_watch, Watches).
 
@@ -191,10 +188,14 @@ changed(event(_, Host, _, stopped)) =>
 changed(_) =>
     true.
 
-%   Watch nothing any more.
+%   Watch nothing any more, if When: who comes to look meanwhile finds the hosts
+%   watched, or watches them after this.
 
-rest :-
-    with_mutex(typhon_page_sources, watches(Watches)),
+:- meta_predicate rest(0).
+
+rest(When) :-
+    with_mutex(typhon_page_sources,
+               ( When -> watches(Watches) ; Watches = [] )),
     maplist(end_watch, Watches).
 
 watches(Watches) :-

@@ -5,7 +5,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../journal', [journal_on/0]).
-:- use_module('../wire', [endpoint_post/3, endpoint_post_last/3]).
+:- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
 :- use_module(channel, [channel_post/3]).
 :- use_module(senders, [shown/5]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
@@ -104,22 +104,25 @@ age(ended(_, _, Hops, _), age(Hops, 2, 0, 0)).
 age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % one of fewer hops, of a copy
                                              % that was given up in doubt
 
-%   The process is about to end: what can be sent at once is, the rest is
-%   given up.  A courier may be too slow to send what it has in hand, which the
-%   home may hear twice.
+%   The process is about to end: what can be sent soon is, the rest is given up;
+%   all homes together have that time.  A courier may be too slow to send what
+%   it has in hand, which the home may hear twice.
 
 typhon_runtime:ending(before) :-
+    get_time(Now),
+    setting(typhon_endpoint:flush_time, Seconds),
+    Deadline is Now+Seconds,
     forall(courier(Home),
-           ( flush(Home),
+           ( flush(Home, Deadline),
              give_up(Home) )).
 
-flush(Home) :-
+flush(Home, Deadline) :-
     with_mutex(typhon_news, take_all(Home, All)),
     All \== [],
-    posted(endpoint_post_last, Home, All),
+    posted(endpoint_post_by(Deadline), Home, All),
     !,
-    flush(Home).
-flush(_).
+    flush(Home, Deadline).
+flush(_, _).
 
 take_all(Home, All) :-
     retract(in_hand(Home, All)),

@@ -44,14 +44,16 @@ meeting.pl, reads frames until it breaks, and closes the streams.
 %   If it fails, that was all.
 
 incoming(In, Out, Ip, Stage, Me) :-
+    get_time(Start),
+    Role = server(Start),
     catch(with_streams(call(Stage, silent), In, Out,
                        ( await_word(In, Out),
                          call(Stage, heard),
                          secure_streams(server, In, Out, SIn, SOut, Proof),
-                         prove(server, SIn, SOut, Me, Peer),
+                         prove(Role, SIn, SOut, Me, Peer),
                          call(Stage, proved),
                          nb_setval(typhon_proved, true),
-                         meet(server, SIn, SOut, Me, Peer-Proof, Session,
+                         meet(Role, SIn, SOut, Me, Peer-Proof, Session,
                               reachable(Peer, Ip)),
                          serve(Session, SIn, SOut) )),
           error(Formal, _),

@@ -54,7 +54,7 @@ that peer is read. They may post, request and reply.
 :- use_module(own_id,
               [ endpoint_process/1, own_id_note/1, own_place/4, own_start/1,
                 own_start_next/1 ]).
-:- use_module(peers, [peers_flush/2]).
+:- use_module(peers, [peers_flush/1]).
 :- use_module(request, [requests_lost/2]).
 :- use_module(resumption, [session_close/2]).
 :- use_module(secure,
@@ -267,7 +267,7 @@ stop :-
     wire_thread_end(Acceptor, stopped),
     tcp_close_socket(Socket),
     setting(flush_time, Seconds),
-    in_own_thread(ignore(peers_flush(Seconds, up))),
+    in_own_thread(ignore(peers_flush(Seconds))),
     forall(session(_, Session), session_control(Session, bye)),
     keeper_tell(stop),
     wire_thread_join(Keeper),

@@ -1,6 +1,7 @@
 :- module(typhon_keeper,
           [ keep/1,                     % +Me
             keeper_connect/1,           % +Address
+            keeper_connect/2,           % +Address, +Deadline
             keeper_unheard/1            % +Messages
           ]).
 
@@ -42,19 +43,26 @@ take a while is done by a thread in the background.
     errand/2.                           % Time, Goal
 
 %!  keeper_connect(+Address) is semidet.
+%!  keeper_connect(+Address, +Deadline) is semidet.
 %
 %   See to it that there is a connection to Address; fails if there can be
-%   none. The keeper always answers, so there is no deadline here: a wait
-%   with a deadline may never end in a clean-up handler or a hook, where
-%   signals are held back (SWI-Prolog 9.0.4). The keeper itself does not
-%   wait for the keeper.
+%   none, or not before Deadline. The keeper always answers, so the first has
+%   no deadline: a wait with a deadline may never end in a clean-up handler or
+%   a hook, where signals are held back (SWI-Prolog 9.0.4). The keeper itself
+%   does not wait for the keeper.
 
 keeper_connect(Address) :-
+    connected(Address, []).
+
+keeper_connect(Address, Deadline) :-
+    connected(Address, [deadline(Deadline)]).
+
+connected(Address, Options) :-
     \+ nb_current(typhon_keeper, true),
     setup_call_cleanup(
         message_queue_create(Queue),
         ( keeper_tell(connect(Address, Queue)),
-          thread_get_message(Queue, Result),
+          thread_get_message(Queue, Result, Options),
           Result == met ),
         message_queue_destroy(Queue)).
 

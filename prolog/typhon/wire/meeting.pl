@@ -11,9 +11,10 @@ They prove themselves, find the session they have, or begin one, and give it
 the connection.
 
 Both ends may connect at the same time, and a connection may be dead on one
-side only. So a new connection always replaces an old one, and of two
-processes the one with the smaller key, the arbiter, decides in which order
-that happens: it speaks first, and about one connection at a time.
+side only. So a new connection replaces an old one, and of two processes the
+one with the smaller key, the arbiter, decides in which order that happens: it
+speaks first, and about one connection at a time. Of two that were begun
+together it refuses the later; the other process takes what the arbiter offers.
 
 *Threading*: in the thread of the connection. Who holds the session's
 adoption gives it the connection.
@@ -37,14 +38,15 @@ adoption gives it the connection.
 %!  prove(+Role, +In, +Out, +Me, -Peer) is det.
 %
 %   Me is our hello, Peer that of the peer, which has proved itself. Role is
-%   `server`, or client(Start) of who set out to connect at the time Start.
+%   server(Start), of who was called at the time Start, or client(Start), of who
+%   set out to connect then.
 %
 %   A server tells a client in vain at the door that it does not know the
 %   cookie: it need not come back.
 
 prove(client(_), In, Out, Me, Peer) :-
     authenticate(client, In, Out, Me, cookie, Peer).
-prove(server, In, Out, Me, Peer) :-
+prove(server(_), In, Out, Me, Peer) :-
     catch(authenticate(server, In, Out, Me, cookie, Peer),
           error(permission_error(authenticate, peer, cookie), Context),
           ( line_write(Out, refused),
@@ -79,7 +81,7 @@ session_keys(Role, Me, Peer, MyKey, Key) :-
     ).
 
 own_keys(client(_), self_client, self_server).
-own_keys(server, self_server, self_client).
+own_keys(server(_), self_server, self_client).
 
 %!  own_session(+Session) is semidet.
 %
@@ -94,27 +96,27 @@ adopt(MyKey, Key, Role, Session, In, Out) :-
     MyKey @< Key,
     !,
     session_adopting(Session,
-                     ( make_way(Role, Session),
+                     ( needed(Role, Session),
+                       session_retire(Session),
                        say_count(Key, Out),
                        hear_count(In, Count),
                        install(Session, Out, Count) )).
-adopt(_, Key, Role, Session, In, Out) :-
+adopt(_, Key, _, Session, In, Out) :-
     hear_count(In, Count),
     session_adopting(Session,
-                     ( make_way(Role, Session),
+                     ( session_retire(Session),
                        say_count(Key, Out),
                        install(Session, Out, Count) )).
 
-%   Where the peer has come meanwhile there is no need for what we set out
-%   for. It has said its count over that connection and will not give it up
-%   for the same reason; over ours we have not.
+%   We have met by another connection since this one was begun. The peer has
+%   said its count over that; when it hears that this is no more it has it.
 
-make_way(client(Start), Session) :-
+needed(Role, Session) :-
+    arg(1, Role, Start),
     session_up_since(Session, Start),
     !,
     throw(wire_thread_end(met)).
-make_way(_, Session) :-
-    session_retire(Session).
+needed(_, _).
 
 %   Who wants to know is told in the same step: what was sent to a process that
 %   has died is sent again by who hears of the next.

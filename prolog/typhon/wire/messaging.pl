@@ -1,7 +1,7 @@
 :- module(typhon_messaging,
           [ endpoint_post/3,            % +Address, +Kind, +Term
             endpoint_post_up/3,         % +Address, +Kind, +Term
-            endpoint_post_last/3,       % +Address, +Kind, +Term
+            endpoint_post_by/4,         % +Deadline, +Address, +Kind, +Term
             endpoint_request/4,         % +Address, +Kind, +Term, :OnAnswer
             endpoint_reply/2,           % +ReplyTo, +Term
             endpoint_reply_later/2      % +ReplyTo, +Term
@@ -21,13 +21,13 @@ block it, unless it is in a hook of the endpoint.
 :- use_module(alone, [alone/1, alone_request/4]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [mobile_term/1]).
-:- use_module(keeper, [keeper_connect/1]).
+:- use_module(keeper, [keeper_connect/1, keeper_connect/2]).
 :- use_module(outbox, [session_send_with/2]).
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
               [ request_reply/2, request_reply_later/2,
                 request_send/4, take_post/3 ]).
-:- use_module(session, [route/2, session_adopting/2]).
+:- use_module(session, [route/2]).
 :- use_module(transport, [route_up/2]).
 :- use_module(unsent, [unsent/1, unsent_closed/4, unsent_request/4]).
 
@@ -59,9 +59,10 @@ endpoint_post(Address, Kind, Term) :-
     ->  true
     ;   connect(Address, Session)
     ),
-    catch(session_send_with(Session, post(Kind, Term)),
-          error(session_closed, _),
-          throw(error(unreachable(Address), _))).
+    (   post(Session, Kind, Term)
+    ->  true
+    ;   throw(error(unreachable(Address), _))
+    ).
 
 %!  endpoint_post_up(+Address, +Kind, +Term) is semidet.
 %
@@ -70,24 +71,30 @@ endpoint_post(Address, Kind, Term) :-
 endpoint_post_up(Address, Kind, Term) :-
     open_way(Address, Session),
     !,
-    catch(session_send_with(Session, post(Kind, Term)),
-          error(session_closed, _),
-          fail).
+    post(Session, Kind, Term).
 endpoint_post_up(Address, Kind, Term) :-
     alone(Address),
     endpoint_post(Address, Kind, Term).
 
-%!  endpoint_post_last(+Address, +Kind, +Term) is semidet.
+%!  endpoint_post_by(+Deadline, +Address, +Kind, +Term) is semidet.
 %
-%   As endpoint_post_up/3, for who is about to end: where one connection is just
-%   being replaced by another he waits for that.
+%   As endpoint_post_up/3; a connection is waited for until Deadline. If it goes
+%   again Term waits for the next. Not for hooks nor clean-up handlers, see
+%   keeper_connect/2.
 
-endpoint_post_last(Address, Kind, Term) :-
+endpoint_post_by(_, Address, Kind, Term) :-
     endpoint_post_up(Address, Kind, Term),
     !.
-endpoint_post_last(Address, Kind, Term) :-
-    forall(route(Address, Session), session_adopting(Session, true)),
-    endpoint_post_up(Address, Kind, Term).
+endpoint_post_by(Deadline, Address, Kind, Term) :-
+    keeper_connect(Address, Deadline),
+    route(Address, Session),
+    !,
+    post(Session, Kind, Term).
+
+post(Session, Kind, Term) :-
+    catch(session_send_with(Session, post(Kind, Term)),
+          error(session_closed, _),
+          fail).
 
 %   way(+Address, -Session): nothing has to be waited for. In a hook there
 %   must be no waiting: what is sent there waits in the session for the next

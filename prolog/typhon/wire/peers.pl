@@ -6,7 +6,7 @@
             endpoint_missed/2,          % +Address, ?Formal
             endpoint_flush/1,           % +Seconds
             endpoint_flush/2,           % +Seconds, +Peers
-            peers_flush/2               % +Seconds, ?State
+            peers_flush/1               % +Seconds
           ]).
 
 /** <module> How it stands with the peers
@@ -17,10 +17,11 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(contacts, [contact/3, missed/2]).
+:- use_module(keeper, [keeper_connect/2]).
 :- use_module(outbox, [session_flush/2]).
 :- use_module(session,
-              [ route/2, session/2, session_adopted/1, session_codec/2,
-                session_key/2, session_proof/2 ]).
+              [ route/2, session/2, session_codec/2, session_key/2,
+                session_proof/2 ]).
 :- use_module(transport, [route_up/2, session_up/1]).
 :- use_module(unacked, [session_pending/2]).
 
@@ -95,7 +96,9 @@ endpoint_missed(Address, Formal) :-
 
 endpoint_flush(Seconds) :-
     must_be(number, Seconds),
-    peers_flush(Seconds, _).
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(session(_, Session), session_flush(Session, Deadline)).
 
 endpoint_flush(Seconds, Peers) :-
     get_time(Now),
@@ -104,20 +107,28 @@ endpoint_flush(Seconds, Peers) :-
              route(Peer, Session) ),
            session_flush(Session, Deadline)).
 
-%!  peers_flush(+Seconds, ?State) is semidet.
+%!  peers_flush(+Seconds) is semidet.
 %
-%   As endpoint_flush/1, to those peers that are in State. Where one
-%   connection is just being replaced by another that is `up`.
+%   As endpoint_flush/1, for who is about to end: nothing is waited for that
+%   cannot arrive, as nobody listens at the address of the peer any more. Not
+%   for hooks nor clean-up handlers, see keeper_connect/2.
 
-peers_flush(Seconds, State) :-
+peers_flush(Seconds) :-
     get_time(Now),
     Deadline is Now+Seconds,
     forall(( session(_, Session),
-             in_state(State, Session) ),
+             reachable(Session, Deadline) ),
            session_flush(Session, Deadline)).
 
-in_state(State, Session) :-
-    peer_property(state(State), Session),
+%   One connection may just be replaced by another.
+
+reachable(Session, _) :-
+    session_key(Session, Key),
+    session_up(Key),
     !.
-in_state(up, Session) :-
-    session_adopted(Session).
+reachable(Session, Deadline) :-
+    session_pending(Session, Count),
+    Count > 0,
+    route(Address, Session),
+    keeper_connect(Address, Deadline),
+    !.

@@ -9,7 +9,6 @@
             session_proof/2,            % +Session, -Proof
             session_locked/2,           % +Session, :Goal
             session_adopting/2,         % +Session, :Goal
-            session_adopted/1,          % +Session
             route/2,                    % ?Address, ?Session
             route_key/2,                % ?Address, ?Key
             route_add/2                 % +Address, +Session
@@ -137,17 +136,11 @@ session_locked(session(_, _, Mutex, _, _), Goal) :-
     sig_atomic(with_mutex(Mutex, Goal)).
 
 %!  session_adopting(+Session, :Goal) is semidet.
-%!  session_adopted(+Session) is semidet.
 %
-%   Run Goal, which gives Session a new connection, one at a time; somebody is
-%   about to do so.
+%   Run Goal, which gives Session a new connection, one at a time.
 
 session_adopting(session(_, _, _, Adoption, _), Goal) :-
     with_mutex(Adoption, Goal).
-
-session_adopted(session(_, _, _, Adoption, _)) :-
-    \+ sig_atomic(( mutex_trylock(Adoption),
-                    mutex_unlock(Adoption) )).
 
 %!  route_add(+Address, +Session) is det.
 %

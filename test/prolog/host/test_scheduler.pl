@@ -368,9 +368,12 @@ no_room(O, F) :-
                       \+ agent_join(C, done, 0.1) )),
     joined(C, done).
 
+%   No two of a kind: once it is known that one blocks, its kind is held back.
+
 create_blocked(Count) :-
-    forall(between(1, Count, _),
-           create([(main :- thread_get_message(test_never, _))], _)).
+    forall(between(1, Count, I),
+           create([ (main :- thread_get_message(test_never, _)),
+                    of(Count, I) ], _)).
 
 test(a_timer_that_ends_comes_back, true(O == done)) :-
     listening(with_hosts([alpha],

@@ -513,8 +513,9 @@ weight(_, 1).
 test(nobody_is_watched_for_nobody) :-
     with_settings([typhon_page_sources:renew_seconds=0.2],
         page(Base,
-             ( with_feed(Base, Feed, frame(Feed, _)),
-               assertion(typhon_page_sources:watched(_, _)),
+             ( with_feed(Base, Feed,
+                         ( frame(Feed, _),
+                           assertion(typhon_page_sources:watched(_, _)) )),
                wait_until(\+ typhon_page_sources:watched(_, _), 20) ))).
 
 %   A page of a process of its own shows a network by one of its hosts.

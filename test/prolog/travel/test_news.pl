@@ -71,8 +71,6 @@ last_news :-
                                       on_message(_, _) ]), Id, [])),
     wait_until(peer_do(b, agent_property(Id, state(resident))), 10),
     wait_until(peer_do(b, \+ typhon_news:courier(_)), 10),
-    peer_host(a, A),
-    peer_do(b, remote(A, true)),        % they are connected
     slow_courier,
     peer_do(b, host_stop(b)),
     peer_do(a, agent_join(Id, disposed, 10)).

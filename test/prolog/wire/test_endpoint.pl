@@ -317,7 +317,7 @@ test(both_connect_at_once) :-
 
 %   The old connection is no more, the new one has yet to begin.
 
-test(what_is_posted_last_waits_for_the_next_connection,
+test(what_is_posted_by_some_time_waits_for_the_next_connection,
      [Up,Last,Notes] == [false,true,[1]]) :-
     with_endpoint(with_peer(A,
         ( ask(A, echo, x, x),
@@ -328,7 +328,8 @@ test(what_is_posted_last_waits_for_the_next_connection,
               thread_create(typhon_keeper:keeper_connect(A), Connects),
               ( truth(endpoint_post_up(A, note, 1), Up),
                 thread_create(( thread_send_message(endpoint_gate, posts),
-                                endpoint_post_last(A, note, 1) ), Posts),
+                                ( get_time(Now), By is Now+20,
+                                  endpoint_post_by(By, A, note, 1) ) ), Posts),
                 thread_get_message(endpoint_gate, posts, [timeout(20)]),
                 thread_send_message(endpoint_gate, go),
                 thread_join(Connects, _),

@@ -17,6 +17,7 @@
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/wire)).
 :- use_module(library(typhon/wire/session), [session/2]).
+:- use_module(library(typhon/wire/transport), [transport/3]).
 :- use_module('../../lib/endpoint_peer', [sleep_until/1]).
 
 :- dynamic
@@ -89,6 +90,38 @@ unreachable(Address) :-
                 *          CONNECTING          *
                 *******************************/
 
+%   Of two processes the one with the smaller id is the arbiter.
+
+:- meta_predicate as_process(+, 0), with_late_callers(0).
+
+as_process(Id, Goal) :-
+    findall(Own, retract(typhon_own_id:process(Own)), Owns),
+    setup_call_cleanup(
+        assertz(typhon_own_id:process(Id)),
+        Goal,
+        ( retractall(typhon_own_id:process(_)),
+          forall(member(Own, Owns), assertz(typhon_own_id:process(Own))) )).
+
+%   Who calls us has proved himself, says so to us, and waits for `go`.
+
+with_late_callers(Goal) :-
+    thread_self(Me),
+    setup_call_cleanup(
+        wrap_predicate(typhon_meeting:meet(Role, _, _, _, _, _, _), late,
+                       Meet, ( test_wire:wait_if_called(Role, Me), Meet )),
+        Goal,
+        unwrap_predicate(typhon_meeting:meet/7, late)).
+
+:- public wait_if_called/2.
+
+wait_if_called(Role, Who) :-
+    (   functor(Role, server, _)
+    ->  thread_self(Me),
+        thread_send_message(Who, called(Me)),
+        thread_get_message(Me, go, [timeout(20)])
+    ;   true
+    ).
+
 :- begin_tests(all_at_once).
 
 test(two_connect_to_each_other, Late == []) :-
@@ -100,6 +133,18 @@ test(two_connect_to_each_other, Late == []) :-
                     member(Outcome, Outcomes),
                     Outcome \= outcome(ok, _) ),
                   Late) ))).
+test(of_two_connections_begun_together_the_first_stays, Kept == true) :-
+    as_process('0000000000000000',
+        with_endpoint(with_peers(1, [A], with_late_callers(second(A, Kept))))).
+test(who_is_offered_a_connection_takes_it) :-
+    as_process(ffffffffffffffff,
+        with_endpoint(with_peers(1, [A],
+            setup_call_cleanup(
+                wrap_predicate(typhon_transport:session_up_since(_, _),
+                               not_noticed, _, true),
+                ask(A, echo, x, x),
+                unwrap_predicate(typhon_transport:session_up_since/2,
+                                 not_noticed))))).
 test(sixteen_connect_to_all, Missed == []) :-
     with_endpoint(with_peers(16, Addresses,
         ( maplist(reach_others(Addresses), Addresses),
@@ -172,6 +217,24 @@ reach_others(Addresses, Address) :-
 
 tell_reached(Queue, Answer) :-
     thread_send_message(Queue, reached(Answer)).
+
+%   While A calls we call A, and have met.
+
+second(A, Kept) :-
+    peer(A, _, In-Out),
+    endpoint_address(Me),
+    command(In, greet(Me, 0)),
+    thread_self(Self),
+    thread_get_message(Self, called(Caller), [timeout(20)]),
+    ask(A, echo, x, x),
+    transport(Key, Thread, _),
+    thread_send_message(Caller, go),
+    read(Out, outcome(ok, _)),
+    wait_until(\+ is_thread(Caller), 20),
+    (   transport(Key, Thread, _)
+    ->  Kept = true
+    ;   Kept = false
+    ).
 
 :- end_tests(all_at_once).
 
