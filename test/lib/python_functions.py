@@ -12,6 +12,7 @@ import typhon
 
 COUNT = 0
 MET = threading.Barrier(4)
+GO = threading.Event()
 
 
 def echo(value):
@@ -35,6 +36,15 @@ def meet():
     """Returns when four are here."""
     MET.wait(20)
     return True
+
+
+def held():
+    """Returns when let_go is called."""
+    return GO.wait(20)
+
+
+def let_go():
+    GO.set()
 
 
 def count():
