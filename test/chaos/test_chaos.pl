@@ -23,7 +23,7 @@ seed(46).
 attack(Dir) :-
     seconds(Seconds),
     seed(Seed),
-    chaos([ seconds(Seconds), seed(Seed), processes(3), agents(24), settle(12),
+    chaos([ seconds(Seconds), seed(Seed), processes(3), agents(24), settle(60),
             out(Dir) ],
           Reports),
     forall(member(report(Scenario, _, Findings), Reports),
