@@ -297,11 +297,12 @@ timer_signal(Goal) :-
 :- begin_tests(no_threads, [condition(exists_file('/usr/bin/prlimit'))]).
 
 %   without_threads(:Goal): while no thread can be made, since there is no
-%   room for its stack.
+%   room for its stack; those there are have all begun, and have theirs.
 
 :- meta_predicate without_threads(0).
 
 without_threads(Goal) :-
+    wait_until(at_rest, 20),
     setup_call_cleanup(
         ( address_space(Bytes),
           limit_space(Bytes),
@@ -311,6 +312,16 @@ without_threads(Goal) :-
           forall(member(Thread, Threads),
                  ( thread_send_message(Thread, end),
                    thread_join(Thread, _) )) )).
+
+%   Of all threads this one alone runs, or is about to.
+
+at_rest :-
+    expand_file_name('/proc/self/task/*/stat', Files),
+    findall(File, ( member(File, Files), \+ sleeps(File) ), [_]).
+
+sleeps(File) :-
+    catch(read_file_to_string(File, Text, []), error(_, _), fail),
+    sub_string(Text, _, _, _, ") S ").
 
 address_space(Bytes) :-
     read_file_to_string('/proc/self/status', Text, []),
