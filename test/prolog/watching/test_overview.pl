@@ -66,7 +66,9 @@ test(who_is_silent, Silent == [Endpoint]) :-
 %   of later, are where they are in the end.
 
 test(nothing_is_missed_between_the_two) :-
-    with_hosts([alpha, beta], follow).
+    with_settings([ typhon_watches:last_seconds=20,
+                    typhon_telling:events=1 000 000 ],
+                  with_hosts([alpha, beta], follow)).
 
 follow :-
     findall(A, ( between(1, 20, _), wanderer(A) ), As),
