@@ -181,7 +181,7 @@ server_returns(Host, Out, Goes, Returns) :-
     agent_send(Agent, hello),
     read_line_to_string(Out, "unreachable"),
     call(Returns),
-    agent_join(Agent, done, 20),
+    agent_join(Agent, done, 60),
     remote(Host, findall(V, sense(made(V)), [100])).
 
 test('who was not there must not go on with what is another\'s') :-

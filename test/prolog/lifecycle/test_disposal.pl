@@ -41,15 +41,14 @@ start(Kind, Agent, Options) :-
     create(Clauses, Agent, Options),
     wait_until(running_for(Agent, 0.02), 10).
 
-%   Agent, which runs until over/0, is running, and will be over soon.
+%   Agent, which runs until over/0, is running, and will be over when it is
+%   asked for something.
 
 soon_over(Clauses, Agent) :-
-    create([ (over :- sense(until(T)), get_time(Now), Now > T) |Clauses],
-           Agent),
+    create([ (over :- sense(over)) |Clauses], Agent),
     wait_until(running_for(Agent, 0.02), 10),
-    get_time(Now),
-    Until is Now+0.2,
-    remote(alpha, leave(until(Until))).
+    thread_create(( wait_until(typhon_agent_orders:order(Agent, _), 10),
+                    remote(alpha, leave(over)) ), _, [detached(true)]).
 
 took(Goal, Seconds) :-
     get_time(T0),
@@ -70,12 +69,13 @@ test(says_that_it_runs_on, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
                                agent_property(A, state(running)),
                                agent_dispose(A, [force(0)]) ))).
 test(waits_for_one_that_stops, Ms-O == []-disposed) :-
-    with_hosts([alpha],
-               ( soon_over([ (main :- busy, sleep(100)),
-                             (busy :- over -> true ; busy) ], A),
-                 listening(agent_dispose(A), Ms),
-                 gone(A),
-                 agent_join(A, O, 5) )).
+    with_settings([typhon_disposal:heed_seconds=20],
+                  with_hosts([alpha],
+                             ( soon_over([ (main :- busy, sleep(100)),
+                                           (busy :- over -> true ; busy) ], A),
+                               listening(agent_dispose(A), Ms),
+                               gone(A),
+                               agent_join(A, O, 5) ))).
 test(one_that_ends_by_itself, Ms == []) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
@@ -84,11 +84,13 @@ test(one_that_ends_by_itself, Ms == []) :-
                                Seconds < 15,
                                agent_join(A, done, 5) ))).
 test(one_that_raises_meanwhile) :-
-    with_hosts([alpha],
-               ( soon_over([ (main :- over -> throw(oops) ; main) ], A),
-                 listening(agent_dispose(A), Ms),
-                 \+ memberchk(warning-typhon(runs_on(_, _)), Ms),
-                 gone(A) )).
+    with_settings([typhon_disposal:heed_seconds=20],
+                  with_hosts([alpha],
+                             ( soon_over([ (main :- over -> throw(oops)
+                                                  ; main) ], A),
+                               listening(agent_dispose(A), Ms),
+                               \+ memberchk(warning-typhon(runs_on(_, _)), Ms),
+                               gone(A) ))).
 test(in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-
     with_settings([typhon_disposal:heed_seconds=0.3],
                   with_hosts([alpha],
@@ -302,7 +304,8 @@ test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
     with_peers([a, b],
                ( peer_host(b, B),
                  runaway_to(B, Id),
-                 peer_do(b, wait_until(agent_here(Id), 10)),
+                 peer_do(b, wait_until(( agent_property(Id, busy(S)),
+                                         S > 0.05 ), 10)),
                  peer_do(a, set_setting(typhon_disposal:heed_seconds, 0.2)),
                  peer_do(a, agent_dispose(Id)),
                  peer_messages(a, Lines),

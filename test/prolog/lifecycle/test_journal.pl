@@ -61,7 +61,7 @@ test('one that waits gets what comes later, one that sleeps wakes') :-
         ( agent_create(clauses([ (:- agent(waits, [])),
                                  (main :- receive(_-X), result(X)) ]), A, []),
           agent_create(clauses([ (:- agent(sleeps, [])),
-                                 (main :- sleep(0.5), result(awake)) ]), B, []),
+                                 (main :- sleep(3), result(awake)) ]), B, []),
           nb_setval(journal_test, A-B),
           wait_until(( agent_property(A, state(waiting)),
                        agent_property(B, state(sleeping)) ), 5) ),
@@ -69,7 +69,7 @@ test('one that waits gets what comes later, one that sleeps wakes') :-
           agent_property(A, state(waiting)),
           agent_send(A, hello),
           agent_result(A, hello, 5),
-          agent_result(B, awake, 5) )).
+          agent_result(B, awake, 20) )).
 
 test('outcomes and results are known') :-
     with_journal(

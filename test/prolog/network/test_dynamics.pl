@@ -170,8 +170,8 @@ stop(Dynamics) :-
 
 test(changes_come_in_order_at_the_pace_of_the_clock, Got == Expected) :-
     no_leaks(( message_queue_create(Queue),
-               start(random_links, 100, thread_send_message(Queue), Dynamics),
                get_time(T0),
+               start(random_links, 100, thread_send_message(Queue), Dynamics),
                findall(Change,
                        ( between(1, 200, _),    % about 60 host seconds
                          thread_get_message(Queue, Change, [timeout(20)]) ),

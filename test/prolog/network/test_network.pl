@@ -326,24 +326,29 @@ tell_time(Network) :-
             Agents),
     forall(member(Agent, Agents), agent_join(Agent, done, 10)).
 
-test(hop_time, true(( Mean >= 1, Mean < 4 ))) :-
+%   Of ten hops one at least is not held up by anything else.
+
+test(hop_time, true(( Least >= 1, Least < 4 ))) :-
     with_network(ring(2),
                  [processes(2), clock(10), hop_time(uniform(1, 2))],
-                 hop_mean(Mean)).
+                 least_hop(Least)).
 
-hop_mean(Mean, Network) :-
+least_hop(Least, Network) :-
     hosts(Network, [A, B]),
     agent_create(clauses([ (:- agent(hopper, [])),
                            ( main :- home(A), neighbours([B]),
-                                     now(T0), hop(5, B, A), now(T),
-                                     Mean is (T - T0) / 10,
-                                     leave(mean(Mean)) ),
-                           hop(0, _, _),
-                           ( hop(N, B, A) :- N > 0, move(B), move(A),
-                                             N1 is N - 1, hop(N1, B, A) ) ]),
+                                     hops(5, B, A, Times),
+                                     min_list(Times, Least),
+                                     leave(least(Least)) ),
+                           hops(0, _, _, []),
+                           ( hops(N, B, A, [T1,T2|Ts]) :-
+                                 N > 0, hop(B, T1), hop(A, T2),
+                                 N1 is N - 1, hops(N1, B, A, Ts) ),
+                           ( hop(To, T) :- now(T0), move(To), now(T1),
+                                           T is T1 - T0 ) ]),
                  Agent, [host(A)]),
     agent_join(Agent, done, 20),
-    remote(A, take(mean(Mean))),
+    remote(A, take(least(Least))),
     nonvar(B).
 
 :- end_tests(network_time).

@@ -17,10 +17,12 @@ interest to people; what is wrong with an agent is.
 %   stopped in which there are Count agents of Clauses.
 
 stopped(Options, Clauses, Count, Told) :-
-    listening(setup_call_cleanup(network_start(ring(6), Network, Options),
-                                 busy(Network, Clauses, Count),
-                                 network_stop(Network)),
-              Told).
+    with_settings([ typhon_processes:answer_seconds=30,    % a slow machine
+                    typhon_children:stop_seconds=30 ],
+                  listening(setup_call_cleanup(
+                                network_start(ring(6), Network, Options),
+                                busy(Network, Clauses, Count),
+                                network_stop(Network)), Told)).
 
 busy(Network, Clauses, Count) :-
     network_property(Network, hosts(Hosts)),
@@ -52,7 +54,7 @@ test('of those that are stopped on their way nothing is told',
                 member(Options, [[processes(3)], []]) )),
        Told == [] ]) :-
     call(Kind, Clauses),
-    with_settings([typhon_carrier:rest_seconds=10],    % a slow machine
+    with_settings([typhon_carrier:rest_seconds=10],
                   no_leaks(stopped(Options, Clauses, 50, Told))).
 
 %   Longer than agents have to come to rest, and so long that it is broken off.
@@ -107,7 +109,7 @@ test('agents of others in the process go on') :-
                         [facts([s(0)])]),
                  walks(Clauses),
                  stopped([], Clauses, 50, []),
-                 fact_of(Agent, s(Then)),
+                 wait_until(fact_of(Agent, s(Then)), 10),
                  wait_until(( fact_of(Agent, s(Now)), Now > Then+10 ), 10) )).
 
 :- end_tests(stopping).

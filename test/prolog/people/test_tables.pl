@@ -141,7 +141,7 @@ whole(Network) :-
     create([on_message(_, _)], A, [host(H2), name(far)]),
     agent_send(A, hello),
     wait_until(sees(agents, "far *n2 *resident *"), 5),
-    joined_sees(H1),
+    wait_until(joined_sees(H1), 20),
     with_settings([typhon_survey:seconds=1],
                   hangs(P2, P3)).
 
@@ -154,19 +154,18 @@ joined_sees(H1) :-
     split_string(Text, "\n", "", Lines),
     forall(member(Name, ["n1", "n2", "n3"]),
            ( string_concat(Name, "@* running *", Pattern),
-             assertion(matches(Lines, Pattern)) )).
+             matches(Lines, Pattern) )).
 
 hangs(P2, P3) :-
     process_kill(P2, stop),
-    wait_until(sees(hosts, "n2@* silent*"), 10),
-    get_time(T0),
-    table(hosts, Hosts),
-    get_time(T1),
+    wait_until(( get_time(T0),
+                 table(hosts, Hosts),
+                 get_time(T1),
+                 matches(Hosts, "n2@* silent*"),
+                 matches(Hosts, "n3@* running *") ), 30),
     table(agents, Agents),
     process_kill(P2, cont),
-    assertion(T1-T0 < 4),
-    assertion(matches(Hosts, "n2@* silent*")),
-    assertion(matches(Hosts, "n3@* running *")),
+    assertion(T1-T0 < 15),
     assertion(matches(Hosts, "The process at *has not answered within 1 s")),
     assertion(matches(Agents, "*has not answered within 1 s")),
     listening(( process_kill(P3, kill),
