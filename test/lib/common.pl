@@ -189,7 +189,7 @@ poll(Goal, Pause, Deadline) :-
 no_leaks(Goal) :-
     footprint(Before),
     once(Goal),
-    catch(wait_until(leaked(Before, []), 5),
+    catch(wait_until(leaked(Before, []), 30),
           error(timeout_error(wait_until, _), _),
           true),
     leaked(Before, Things),

@@ -29,11 +29,11 @@ suite_mark(Name, Mark) :-
 %!  kill_all_left_behind is det.
 %
 %   Kill those of one suite, or of all that this process has run.  What is
-%   about to end anyway has five seconds for it; kill_all_left_behind/0 does
+%   about to end anyway has half a minute for it; kill_all_left_behind/0 does
 %   not wait.
 
 kill_left_behind(Mark, Names) :-
-    catch(( wait_until(marked_processes(Mark, []), 5),
+    catch(( wait_until(marked_processes(Mark, []), 30),
             Pids = []
           ),
           error(timeout_error(wait_until, _), _),

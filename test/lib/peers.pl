@@ -19,7 +19,8 @@ what they like.
 *Threading*: for the main thread of a test.
 */
 
-:- use_module(common, [free_port/1, project_file/2, wait_until/2]).
+:- use_module(common,
+              [free_port/1, project_file/2, stop_process/1, wait_until/2]).
 :- use_module(cutting_proxy, [proxy_start/3, proxy_stop/1]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -101,7 +102,7 @@ launch(Peer) :-
                        [ stdin(pipe(In)), stdout(pipe(Out)),
                          stderr(stream(Err)), process(Pid) ]),
         close(Err)),
-    set_stream(Out, timeout(60)),
+    set_stream(Out, timeout(150)),
     assertz(peer(Peer, Pid, In, Out)),
     host(Peer, _, Start),
     peer_do(Peer, Start).
@@ -136,19 +137,10 @@ peer_kill(Peer) :-
 
 peer_signal(Peer, Signal) :-
     peer(Peer, Pid, _, _),
-    process_kill(Pid, Signal),
     (   Signal == stop
-    ->  wait_until(stopped(Pid), 10)
-    ;   true
+    ->  stop_process(Pid)
+    ;   process_kill(Pid, Signal)
     ).
-
-stopped(Pid) :-
-    format(atom(Dir), '/proc/~d/task', [Pid]),
-    directory_files(Dir, Tasks),
-    forall(( member(Task, Tasks), atom_number(Task, _) ),
-           ( format(atom(File), '~w/~w/stat', [Dir, Task]),
-             read_file_to_string(File, Text, []),
-             sub_string(Text, _, _, _, ") T ") )).
 
 %!  peer_proxy(+Peer, -Proxy) is det.
 

@@ -21,7 +21,9 @@ a request answers for it.
 */
 
 :- use_module(contacts, [contact_expected/1]).
-:- use_module(request, [request_answer/2, request_send/4, request_take/3]).
+:- use_module(request,
+              [ request_answer/2, request_forget/1, request_send/4,
+                request_take/3 ]).
 :- use_module(session, [session_peer/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(waiters, [asking/1]).
@@ -63,7 +65,7 @@ unsent_send(Address, Session) :-
     oldest(Address, Number, Row),
     !,
     (   send(Row, Session)
-    ->  retractall(unsent(Address, Number, _, _, _)),
+    ->  sent(Row),
         unsent_send(Address, Session)
     ;   ignore(keeper_tell(requests(Address)))
     ).
@@ -78,6 +80,14 @@ send(unsent(Address, _, Kind, Term, OnAnswer), Session) :-
     catch(request_send(Session, Kind, Term, OnAnswer),
           error(Formal, Context),
           not_sent(Formal, Context, Address, OnAnswer)).
+
+%   Who asked may have given up meanwhile.
+
+sent(unsent(Address, Number, _, _, OnAnswer)) :-
+    (   retract(unsent(Address, Number, _, _, _))
+    ->  true
+    ;   request_forget(OnAnswer)
+    ).
 
 %   not_sent(+Formal, +Context, +Address, +OnAnswer) fails if it is to be asked
 %   of who comes after.

@@ -140,7 +140,10 @@ test(in_real_time_too, true(Heard == [a])) :-
                               network_start(ring(2), N, [clock(1000)]),
                               ( network_at(N, 20,
                                            thread_send_message(Queue, a)),
-                                network_advance(N, 200) ),
+                                network_advance(N, 200),
+                                wait_until(message_queue_property(Queue,
+                                                                  size(1)), 20)
+                              ),
                               network_stop(N))),
                  heard(Queue, Heard) )).
 test(who_is_called_cannot_wait, true(Heard == [timeout-1.0])) :-

@@ -129,9 +129,9 @@ test('what was under way to the second port of a process that dies, too') :-
           listens(Gamma, Id),
           nb_setval(channel_id, Id),
           nb_getval(channel_pid, Pid),
+          asked_for_ever(Gamma, Thread),
           stop_process(Pid),
           agent_send(Id, hello),
-          asked_for_ever(Gamma, Thread),
           nb_setval(channel_thread, Thread) ),
         ( nb_getval(channel_id, Id),
           nb_getval(channel_thread, Thread),
@@ -141,9 +141,10 @@ test('what was under way to the second port of a process that dies, too') :-
 %   asked_for_ever(+Host, -Thread): a question to Host is under way.
 
 asked_for_ever(Host, Thread) :-
-    thread_create(remote(Host, ( thread_self(Me),
+    thread_create(remote(Host, ( leave(asked),
+                                 thread_self(Me),
                                  thread_get_message(Me, never) )), Thread),
-    wait_until(typhon_request:open_request(_, _, _), 30).
+    wait_until(remote(Host, sense(asked)), 30).
 
 %   What belongs together in the journal is noted as one: a process may be killed
 %   between any two.

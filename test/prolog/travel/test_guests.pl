@@ -58,8 +58,9 @@ hosts_stop(Ids) :-
     peer_do(b, host_stop(b)),
     peer_do(b, host_stop(b2)),
     forall(member(Id, Ids), ended(a, Id, disposed)),
-    peer_do(b, aggregate_all(count, thread_property(_, alias(_)), Threads)),
-    Threads =< 2.                       % main and gc
+    wait_until(peer_do(b, ( aggregate_all(count, thread_property(_, alias(_)),
+                                          Threads),
+                            Threads =< 2 )), 10).     % main and gc
 
 :- begin_tests(guests).
 

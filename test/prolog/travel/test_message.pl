@@ -41,7 +41,7 @@ has_all(Agent, N) :-
 passed_on(Id, Message) :-
     Mail = [mail('127.0.0.1:1', x, Message)],
     with_agent(Id, retry_later(Id, letter(Mail, 64),
-                               to('nobody.invalid:1', letter(Mail, 63)))).
+                               to('127.0.0.1:none', letter(Mail, 63)))).
 
 :- begin_tests(messages).
 
@@ -109,7 +109,7 @@ test(to_an_address_where_nobody_is, error(host_unreachable('127.0.0.1:1'))) :-
     with_hosts([alpha], agent_send('x.1.2@gamma@127.0.0.1:1', hello)).
 test(from_elsewhere_to_a_process_never_met_is_not_kept_for_ever,
      true(M = [warning-typhon(undeliverable(_, Id, x, hello))])) :-
-    Id = 'x.1.2@gamma@nobody.invalid:1',
+    Id = 'x.1.2@gamma@127.0.0.1:none',
     with_hosts([alpha],
                with_settings([typhon_news:news_seconds=1],
                              listening(( passed_on(Id, hello),
@@ -168,19 +168,21 @@ test(sent_before_it_moved_travel_with_it, true(Ns == [1,2,3])) :-
                  wait_until(has_all(A, 3), 5),
                  numbers(A, Ns) )).
 test(in_flight, true(Ns == [1,2,3])) :-
-    with_hosts([alpha-[hop_time(uniform(0.1, 0.11))],beta],
+    with_hosts([alpha-[hop_time(uniform(1000, 1001))],beta],
                ( create([(main :- move(beta)),
                          (on_message(_, M) :- assertz(s(M)))], A),
                  wait_state(A, in_transit),
                  maplist(agent_send(A), [1,2,3]),
+                 once(typhon_scheduler:fire(A, leave)),
                  wait_until(has_all(A, 3), 5),
                  numbers(A, Ns) )).
 test(in_flight_to_a_host_that_refuses, true(Ns == [1,2,3])) :-
-    with_hosts([alpha-[hop_time(uniform(0.1, 0.11))],beta-[capacity(0)]],
+    with_hosts([alpha-[hop_time(uniform(1000, 1001))],beta-[capacity(0)]],
                ( create([(main :- catch(move(beta), error(_, _), true)),
                          (on_message(_, M) :- assertz(s(M)))], A),
                  wait_state(A, in_transit),
                  maplist(agent_send(A), [1,2,3]),
+                 once(typhon_scheduler:fire(A, leave)),
                  wait_until(has_all(A, 3), 5),
                  numbers(A, Ns) )).
 test(gone_elsewhere, true(Ns == [1,2,3])) :-

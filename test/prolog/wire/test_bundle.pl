@@ -72,17 +72,21 @@ test(stay_in_order_with_long_ones, true(Notes == Sent)) :-
     append(Twice, Twice, Sent),
     with_peer(A, ( forall(member(Note, Sent), endpoint_post(A, note, Note)),
                    notes(A, Notes) )).
+%   Nor is the peer asked for a sign of life.
+
 test(go_though_nothing_follows) :-
-    with_peer(A, ( post_notes(A, 1, 200),
-                   session(A, Session),
-                   session_key(Session, Key),
-                   wait_until(\+ unacked_waiting(Key), 4) )).
+    with_settings([typhon_reader:silence=100],
+        with_peer(A, ( post_notes(A, 1, 200),
+                       session(A, Session),
+                       session_key(Session, Key),
+                       wait_until(\+ unacked_waiting(Key), 20) ))).
 test(arrive_before_the_endpoint_stops, true(Flushed == true)) :-
-    with_peer(A, ( post_notes(A, 1, 500),
-                   (   endpoint_flush(4)
-                   ->  Flushed = true
-                   ;   Flushed = false
-                   ) )).
+    with_settings([typhon_reader:silence=100],
+        with_peer(A, ( post_notes(A, 1, 500),
+                       (   endpoint_flush(20)
+                       ->  Flushed = true
+                       ;   Flushed = false
+                       ) ))).
 test(of_many_threads, true(Sorted == Sent)) :-
     numlist(1, 2000, Sent),
     with_peer(A, ( concurrent_forall(member(From, [1, 501, 1001, 1501]),

@@ -299,7 +299,7 @@ test(half_open, [Notes == [1, 2]]) :-
               endpoint_flush(5),
               proxy_hold(Proxy, up),
               post_notes(A, 2, 2),
-              quiet(( wait_until(seen_down(A), 5),
+              quiet(( wait_until(seen_down(A), 20),
                       proxy_release(Proxy, up),
                       endpoint_flush(10) )),
               ask(A, notes, x, Notes) ))).
@@ -326,7 +326,7 @@ test(both_connect_at_once) :-
                             [threads(2)]),
           numlist(1, 100, Expected),
           forall(member(X, [A, B]),
-                 ( wait_until(all_there(X, 100, Notes), 5),
+                 ( wait_until(all_there(X, 100, Notes), 20),
                    assertion(Notes == Expected) )) )))).
 
 %   The old connection is no more, the new one has yet to begin: that is ours,
@@ -653,8 +653,9 @@ test(silent_ones_are_bounded) :-
             with_endpoint(quiet(crowd)))).
 test(wrong_cookie) :-
     with_endpoint(( endpoint_address(A),
-                    quiet(other_cookie(A)),
-                    assertion(warned(turned_away(_, cookie))) )).
+                    quiet(( other_cookie(A),
+                            wait_until(warned(turned_away(_, cookie)), 10) ))
+                  )).
 
 stranger(Address, Text) :-
     open_stranger(Address, Stream),
@@ -665,7 +666,7 @@ crowd :-
     endpoint_address(A),
     findall(S, ( between(1, 8, _), open_stranger(A, S) ), Streams),
     wait_until(aggregate_all(count, warned(turned_away(_, silent)), 4), 5),
-    assertion(aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), 4)),
+    wait_until(aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), 4), 5),
     maplist(close, Streams),
     ask(A, echo, x, x).
 

@@ -176,10 +176,11 @@ test(a_wrong_cookie_is_told_at_once) :-
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
                            "use_module('~w'),endpoint_start(localhost,0,_),\c
+                            settings:set_setting(typhon_keeper:connect_time,60),\c
                             catch(endpoint_post('~w',note,x),\c
                                   error(unreachable(_),_),\c
                                   halt(3)),halt(0)", [File, A]),
-                    within(4, run_swipl(['-g', Goal],
+                    within(30, run_swipl(['-g', Goal],
                                         [environment(['TYPHON_COOKIE'=no])],
                                         Status, _, _)),
                     assertion(Status == exit(3)) )).
