@@ -19,8 +19,7 @@ what they like.
 *Threading*: for the main thread of a test.
 */
 
-:- use_module(common,
-              [free_port/1, project_file/2, stop_process/1, wait_until/2]).
+:- use_module(common, [free_port/1, project_file/2, stop_process/1]).
 :- use_module(cutting_proxy, [proxy_start/3, proxy_stop/1]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).

@@ -14,7 +14,8 @@
 :- use_module('../travel', [in_doubt/1, transfer_held/2]).
 :- use_module(on_hold, [held_parts/3]).
 :- use_module(named, [agent_named/2]).
-:- use_module(questions, [agent_ask/4, question_answered/2]).
+:- use_module(questions,
+              [agent_ask/4, agent_ask_here/4, question_answered/2]).
 
 /** <module> What can be seen of an agent
 
@@ -48,14 +49,19 @@
 agent_property(Agent, Property0) :-
     check_name(agent_property, Property0),
     by_address(Property0, Property),
-    (   var(Agent)
-    ->  agent(Agent, _, _, _, _)
-    ;   true
-    ),
-    agent_named(Agent, Id),
+    known_as(Agent, Id, Ask),
     question(Property, Question),
-    agent_ask(Id, Question, 10, answer(Properties)),
+    call(Ask, Id, Question, 10, answer(Properties)),
     one_of(Property, Properties).
+
+%   Who is one of all those here may have left meanwhile: he is not followed.
+
+known_as(Agent, Agent, agent_ask_here) :-
+    var(Agent),
+    !,
+    agent(Agent, _, _, _, _).
+known_as(Agent, Id, agent_ask) :-
+    agent_named(Agent, Id).
 
 %   Those there are follow from the clauses.
 

@@ -1,5 +1,6 @@
 :- module(typhon_questions,
           [ agent_ask/4,                % +Agent, +Question, +Seconds, -Answer
+            agent_ask_here/4,           % +Agent, +Question, +Seconds, -Answer
             agent_urge/4,               % +Agent, +Question, +Seconds, -Answer
             question_answered/2         % +Asker, +Answer
           ]).
@@ -21,6 +22,8 @@ by clauses for the hook here/3: properties and orders.
 reader threads, which never wait.
 */
 
+:- meta_predicate answer_of(+, 1, +, -).
+
 :- multifile
     here/3,                     % Question, Agent, Asker
     typhon_endpoint:requested/4.
@@ -29,11 +32,13 @@ reader threads, which never wait.
 %   in this process.  Else Asker is told, then or later.
 
 %!  agent_ask(+Agent, +Question, +Seconds, -Answer) is semidet.
+%!  agent_ask_here(+Agent, +Question, +Seconds, -Answer) is semidet.
 %!  agent_urge(+Agent, +Question, +Seconds, -Answer) is semidet.
 %
 %   Put Question to Agent.  Answer is answer(Term) or error(Formal).  Fails if
-%   there is no such agent.  agent_urge/4 waits by the time of day, even where
-%   time is virtual, and does not let it run.
+%   there is no such agent; agent_ask_here/4 also if it is not in this process.
+%   agent_urge/4 waits by the time of day, even where time is virtual, and does
+%   not let it run.
 %
 %   @error host_unreachable(Endpoint)
 %   @error timeout_error(order, Agent)
@@ -42,6 +47,11 @@ agent_ask(Agent, Question, Seconds, Answer) :-
     time_now(Now),
     Deadline is Now+Seconds,
     ask(Agent, Question, by(Deadline), Answer).
+
+agent_ask_here(Agent, Question, Seconds, Answer) :-
+    time_now(Now),
+    Deadline is Now+Seconds,
+    answer_of(Agent, here(Question, Agent), by(Deadline), Answer).
 
 agent_urge(Agent, Question, Seconds, Answer) :-
     get_time(Now),
@@ -94,17 +104,22 @@ pause(Deadline, Agent) :-
 
 ask_at(here, Agent, Question, Deadline, Answer) :-
     !,
-    setup_call_cleanup(
-        message_queue_create(Queue),    % what comes too late goes with it
-        ( answer(Question, Agent, queue(Queue)),
-          wait_for(Queue, Deadline, Agent, Answer)
-        ),
-        message_queue_destroy(Queue)).
+    answer_of(Agent, answer(Question, Agent), Deadline, Answer).
 ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
     seconds_left(Deadline, Left),
     Seconds is max(0.01, Left),
     process_ask(Endpoint, Endpoint, agent, question(Agent, Question), Answer,
                 Seconds).
+
+%   answer_of(+Agent, :Asks, +Deadline, -Answer): call(Asks, Asker) asks it.
+
+answer_of(Agent, Asks, Deadline, Answer) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),    % what comes too late goes with it
+        ( call(Asks, queue(Queue)),
+          wait_for(Queue, Deadline, Agent, Answer)
+        ),
+        message_queue_destroy(Queue)).
 
 wait_for(Queue, Deadline, Agent, Answer) :-
     (   answered_by(Deadline, Queue, Answer0)

@@ -62,7 +62,7 @@ unsent(Address) :-
 %   Send in Session all that is held for Address. For the keeper only.
 
 unsent_send(Address, Session) :-
-    oldest(Address, Number, Row),
+    oldest(Address, Row),
     !,
     (   send(Row, Session)
     ->  sent(Row),
@@ -71,8 +71,8 @@ unsent_send(Address, Session) :-
     ).
 unsent_send(_, _).
 
-oldest(Address, Number, Row) :-
-    Row = unsent(Address, Number, _, _, _),
+oldest(Address, Row) :-
+    Row = unsent(Address, _, _, _, _),
     call(Row),
     !.
 

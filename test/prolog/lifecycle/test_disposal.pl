@@ -312,6 +312,23 @@ test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
                  atomics_to_string(Lines, All),
                  peer_do(a, agent_dispose(Id, [force(0)])) )).
 
+%   Its home would not answer.
+
+test(who_ends_while_all_are_looked_at_is_not_asked_for_elsewhere, Found == []) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 peer_do(a, agent_create(clauses([ (:- agent(r)),
+                                                   (main :- move(B)),
+                                                   on_message(_, _) ]),
+                                         Id, [])),
+                 peer_do(b, wait_until(agent_property(Id, state(resident)), 10)),
+                 peer_signal(a, stop),
+                 peer_do(b, \+ \+ prolog_wrap:wrap_predicate(
+                                typhon_properties:question(_, _), ends, Asked,
+                                ( typhon:agent_dispose(Id), Asked ))),
+                 peer_do(b, findall(I, agent_property(I, state(_)), Found)),
+                 peer_signal(a, cont) )).
+
 runaway_to(Host, Id) :-
     peer_do(a, agent_create(clauses([ (:- agent(r)),
                                       (main :- move(Host), lp),
