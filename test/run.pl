@@ -40,7 +40,7 @@ would have the signals blocked that the thread has, SIGINT for one.
 %   Of two processors many suites use less than one: they wait.
 
 suites_at_a_time(3).
-suite_deadline(300).                    % seconds
+suite_deadline(600).                    % seconds
 
 %   What takes long begins early, that all end at about the same time.
 

@@ -302,17 +302,21 @@ cluster_wait(Stamp) :-
         fail
     ).
 
-%   pump(+Stamp): take in one answer, if there is one by then.
+%   pump(+Stamp): take in one answer, if there is one by then.  What is not
+%   answered in time hangs; what has been answered and is not taken in does not.
 
 pump(Stamp) :-
     (   thread_get_message(chaos_answers, Message, [deadline(Stamp)])
     ->  take(Message)
     ;   true
     ),
-    get_time(Now),
-    forall(( asked(Tag, Name, Goal, Deadline), Deadline < Now ),
-           ( retractall(asked(Tag, _, _, _)),
-             assertz(answered(Tag, asked(Name, Goal), hung)) )).
+    (   thread_peek_message(chaos_answers, _)
+    ->  true
+    ;   get_time(Now),
+        forall(( asked(Tag, Name, Goal, Deadline), Deadline < Now ),
+               ( retractall(asked(Tag, _, _, _)),
+                 assertz(answered(Tag, asked(Name, Goal), hung)) ))
+    ).
 
 take(answer(Tag, Result)) :-
     (   retract(asked(Tag, Name, Goal, _))

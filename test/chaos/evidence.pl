@@ -15,17 +15,18 @@ Waits until nothing happens any more, and gathers what the verdict needs.
 :- use_module(cluster).
 :- use_module(work).
 
-call_seconds(30).
+call_seconds(60).
 
 %!  settle(+Seconds, +Expected, -Rest) is det.
 %
 %   Wait until no more agents are restless, and no more messages have not
 %   come, than was Expected; or until nothing has changed for a while; but
-%   not longer than Seconds.
+%   not longer than Seconds.  Of processes that have died it is not known how
+%   many messages they had.
 %
 %   @arg Expected, Rest are rest(Agents, Messages)
 
-quiet_seconds(8).
+quiet_seconds(12).                      % longer than the pause of a courier
 
 settle(Seconds, Expected, Rest) :-
     get_time(Now),
@@ -53,8 +54,13 @@ settled(Since, Now, _, _, _) :-
     Now-Since >= Quiet.
 settled(Since, Now, _, picture(rest(A, M), _), rest(A0, M0)) :-
     Now > Since,                        % it was the same before
+    nobody_died,
     A =< A0,
     M =< M0.
+
+nobody_died :-
+    cluster_lives(Lives),
+    forall(member(life(_, _, _, End), Lives), End == inf).
 
 %   picture(rest(Agents, Messages), Ticks)
 

@@ -46,7 +46,8 @@ facts_load(Evidence) :-
     forall(member(e(K, N, E, T, L), Evidence.events),
            assertz(event(K, N, E, T, L))),
     forall(( event(P, _, clone(N, Id), T, L), clone_key(P, N, K) ),
-           assertz(created(K, clone, Id, L, T))),
+           ( begun(P, N, T, Begun),
+             assertz(created(K, clone, Id, L, Begun)) )),
     forall(member(K-T, Evidence.disposed), assertz(disposed(K, T))),
     forall(member(Id-O, Evidence.outcomes), assertz(outcome(Id, O))).
 
@@ -55,6 +56,14 @@ facts_clear :-
                           standing(_, _, _, _, _), event(_, _, _, _, _),
                           disposed(_, _), outcome(_, _) ]),
            retractall(Fact)).
+
+%   A clone may be there, and gone, before its parent hears of it.
+
+begun(Parent, N, Heard, Begun) :-
+    (   event(Parent, _, cloning(N), Time, _)
+    ->  Begun = Time
+    ;   Begun = Heard
+    ).
 
 clone_key(Parent, N, Key) :-
     atomic_list_concat([Parent, +, N], Key).

@@ -27,7 +27,8 @@ test('a hundred thousand hops while processes die: nobody is lost or doubled',
 
 rounds(Hops, Until, Wrong) :-
     with_tmp_dir(attacked([ processes(3), agents(100), hops(200),
-                            crash(0.00003), kill(3) ], Wrong0)),
+                            crash(0.00003), kill(3), most(30) ],
+                          Wrong0)),
     Left is Hops-20 000,
     get_time(Now),
     (   ( Wrong0 \== [] ; Left =:= 0 ; Now > Until )
