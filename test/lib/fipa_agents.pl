@@ -27,4 +27,4 @@ does(Goals, Clauses, Result) :-
                                     Goals, result(Result))
                          | Clauses ]),
                  Agent, [host(alpha)]),
-    agent_result(Agent, Result, 30).
+    agent_result(Agent, Result, 150).

@@ -79,7 +79,7 @@ test(cut_in_the_middle, [forall(kind(Kind)), Bytes == [7,0, 0x02,0x88]]) :-
                 exchange(Line, '0188', Version),
                 send(Line, '0188'),
                 receive_bytes(Line, 9, Bytes),
-                place_is_gone(Kind, Brick),
+                wait_until(place_is_gone(Kind, Brick), 10),
                 ask(Brick, restore, brick('NXT', Pty, Tcp)),
                 member(Place, [Pty, Tcp]),
                 functor(Place, Kind, 1),

@@ -406,7 +406,7 @@ test(who_listens_is_silent, E == timeout_error(mqtt(connect), alpha)) :-
     tcp_listen(Socket, 5),
     format(atom(URL), 'mqtt://127.0.0.1:~d', [Port]),
     call_cleanup(with_hosts([alpha],
-                            catch(mqtt_start(alpha, URL, [timeout(0.5)]),
+                            catch(mqtt_start(alpha, URL, [timeout(3)]),
                                   error(E, _), true)),
                  tcp_close_socket(Socket)).
 test(started_twice, E == permission_error(start, mqtt, alpha)) :-
@@ -496,7 +496,7 @@ test(not_there_yet, Ps == ["1","2"]) :-
 test(a_broker_that_does_not_answer, E == timeout_error(mqtt(publish),
                                                        alpha)) :-
     with_broker([], B,
-                with_mqtt(B, [timeout(0.5)],
+                with_mqtt(B, [timeout(3)],
                           ( broker_signal(B, stop),
                             remote(alpha, publish(a, 1)),
                             error_of(publish(a, 2, [qos(1),wait(true)]), E),

@@ -13,7 +13,6 @@ unasked.
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [last/2, member/2, numlist/3, sum_list/2]).
-:- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
 
 functions(File) :-
@@ -52,7 +51,7 @@ file(Dir, Name, Lines, File) :-
 shared_python :-
     functions(File),
     host_start(alpha),
-    python_start(alpha, File, []).
+    python_start(alpha, File, [timeout(120)]).
 
 :- begin_tests(python_values, [setup(shared_python),
                                cleanup(host_stop(alpha))]).
@@ -241,8 +240,9 @@ test(exit, E-R == python_error('SystemExit', "7")-1) :-
                       remote(alpha, echo(1, R)) )).
 test(timeout, E == timeout_error(python(nap), alpha)) :-
     with_python([timeout(0.2), threads(1)],
-                ( error_of(nap(3, _), E),
-                  wait_until(again, 10) )).
+                listening(( wait_until(( error_of(nap(3, _), E),
+                                         E \= helper_died(stuck, _) ), 30),
+                            wait_until(again, 30) ), _)).
 test(printing_is_no_answer, R == "done") :-
     with_python([], remote(alpha, noise(R))).
 test(crash) :-
@@ -273,10 +273,9 @@ test(what_is_asked_while_it_is_started_again_waits_for_its_functions, R == 2) :-
 test(stuck) :-
     with_python([timeout(0.2)],
                 listening(( pid(Pid),
-                            process_kill(Pid, stop),
-                            wait_until(( error_of(echo(1, _), E),
-                                         E \== none ), 10),
-                            wait_until(again, 10) ), _)),
+                            stop_process(Pid),
+                            error_of(echo(1, _), E),
+                            wait_until(again, 30) ), _)),
     assertion(E == helper_died(stuck, python(alpha))).
 test(stopped_while_one_waits, E == closed) :-
     functions(File),

@@ -48,7 +48,7 @@ begin_host :-
     begin,
     host_start(alpha),
     host_start(beta),
-    ros_start(alpha, ros2, []),
+    ros_start(alpha, ros2, [deadline(20)]),
     puppet(alpha, Agent),
     assertz(agent(Agent)),
     wait_until(( remote(alpha, ros_services(Services)),

@@ -60,7 +60,7 @@ said(Op, Frame) :-
     Frame.op == Op.
 
 says(Op, Frame) :-
-    wait_until(said(Op, Frame), 5).
+    wait_until(said(Op, Frame), 20).
 
 :- begin_tests(rosbridge_topics).
 
@@ -231,13 +231,13 @@ test(many_calls_at_a_time) :-
                    assertion(Sum =:= 2*N) )) )).
 
 test(what_can_go_wrong) :-
-    on_a_host(Agent, [deadline(0.3)],
+    on_a_host(Agent, [],
         forall(member(Goal-Expected,
                       [ ros_call('/nowhere', 'a/B', [], _)
                         - existence_error(ros_service, '/nowhere'),
                         ros_call('/add_two_ints', 'a/B', [a=x,b=1], _)
                         - ros_error(refused, '/add_two_ints'),
-                        ros_call('/slow', 'a/B', [], _)
+                        ros_call('/slow', 'a/B', [], _, [deadline(0.3)])
                         - timeout_error(ros_call, '/slow'),
                         ros_call('/a b', 'a/B', [], _)
                         - domain_error(ros_name(service), '/a b'),
@@ -267,8 +267,9 @@ test(what_can_go_wrong) :-
                  assertion(Formal == Expected) ))).
 
 test(a_late_answer_is_for_nobody) :-
-    on_a_host(Agent, [deadline(0.2)],
-        ( wrong(alpha, Agent, ros_call('/slow', 'a/B', [], _), _),
+    on_a_host(Agent, [],
+        ( wrong(alpha, Agent,
+                ros_call('/slow', 'a/B', [], _, [deadline(0.2)]), _),
           says("call_service", Frame),
           rosbridge_say(_{op:service_response, id:Frame.id, service:"/slow",
                           values:_{late:true}, result:true}),
@@ -496,6 +497,7 @@ test(a_server_that_comes_back_is_told_all_again) :-
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           does(alpha, Agent, ros_publish('/p', 'std_msgs/String', [data=x])),
           does(alpha, Agent, ros_offer('/s', 'std_srvs/Empty', [])),
+          says("advertise_service", _),
           rosbridge_forget,
           rosbridge_cut,
           says("advertise_service", _),

@@ -67,7 +67,7 @@ test(who_is_back_before_its_move_has_returned_is_not_lost) :-
                [A,B],
                ( up(A, P1, 7), up(B, P2, 7),
                  says(A, Send),
-                 printed(A, ["home"]) )).
+                 printed(A, ["home"], 120) )).
 test(a_payload_travels_and_its_template_stays) :-
     ports(2, [P1,P2]),
     with_nodes([[ ":- dynamic carry/3, load/2.",
