@@ -155,10 +155,10 @@ test(deadline_while_executing) :-
 
 too_long(Hosts, File) :-
     Hosts = [Host|_],
-    push(t, 3, [deadline(15), duration(1000)], Host, [], Agent),
+    push(t, 3, [deadline(60), duration(1000)], Host, [], Agent),
     ends(Agent),
     all_free(Hosts),
-    happened(File, missed(t, 15)),
+    happened(File, missed(t, 60)),
     happened(File, allocated(t, _)),
     count(File, executed(_, _, _), 0),
     wait_until(maplist([H]>>remote(H, host_load(1)), Hosts), 20).
@@ -207,7 +207,7 @@ test(robot_fails_while_executing) :-
 
 fails_executing(Hosts, File) :-
     Hosts = [First|_],
-    push(t, 3, [goal(receive(_-go, 30) -> true ; true)], First, [], Agent),
+    push(t, 3, [goal(receive(_-go, 200) -> true ; true)], First, [], Agent),
     executing(Agent, [Robot|_]),
     wait_until(robot_status(Robot, executing(Agent, t)), 20),
     robot_fail(Robot),
@@ -225,7 +225,7 @@ all_of_others(Hosts, Robot) :-
 %   Who disposes of an allocator does not dispose of its reservations.
 
 test(allocator_is_disposed_of) :-
-    allocation(ring(3), [], [watch-5, patience-5], disposed_of).
+    allocation(ring(3), [], [watch-5, patience-50], disposed_of).
 
 disposed_of(Hosts, _) :-
     Hosts = [First|_],
@@ -235,7 +235,7 @@ disposed_of(Hosts, _) :-
     all_free(Hosts).
 
 test(allocator_is_disposed_of_while_executing) :-
-    allocation(ring(3), [], [watch-5, patience-5], disposed_executing).
+    allocation(ring(3), [], [watch-5, patience-50], disposed_executing).
 
 disposed_executing(Hosts, File) :-
     Hosts = [First|_],
@@ -344,7 +344,7 @@ part(Agent, Blocks, Pid-Block, Others) :-
 %   they die one after the other in one.
 
 test(processes_are_killed) :-
-    allocation(random(9, 1.0), [processes(3)], [watch-10, patience-10],
+    allocation(random(9, 1.0), [processes(3)], [watch-10, patience-100],
                killed).
 
 killed(Hosts, File) :-
@@ -368,7 +368,7 @@ robots_killed(Blocks, File) :-
     Blocks = [_-[_|Out1], _-[Host|Out2]],
     append(Out1, Out2, Out),
     maplist(robot_fail, Out),
-    push(u, 2, [duration(20)], Host, [monitor-5], Agent),
+    push(u, 2, [duration(100)], Host, [monitor-40], Agent),
     executing(Agent, Robots),
     length(Robots, 2),
     wait_until(( part(Agent, Blocks, _-Living, [Other]),

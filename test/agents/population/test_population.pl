@@ -324,8 +324,8 @@ crowd(Most, Dir) :-
                               [host(Host), static(true)])),
           Hosts = [Host1|_],
           agent_create(File, _, [host(Host1), name(agent1)]),
-          wait_until(alive(Log, 12), 15),
-          wait_until(serviced(Log, 300), 15)
+          wait_until(alive(Log, 12), 60),
+          wait_until(serviced(Log, 300), 60)
         ),
         network_stop(Network)),
     log_events(Log, Events),
