@@ -17,7 +17,10 @@ typhon(Args, Status, Out, Err) :-
     typhon_args(Args, SwiplArgs),
     run_swipl(SwiplArgs, [timeout(60)], Status, Out, Err).
 
-typhon_args(Args, [App|Args]) :-
+%   All the processes of a busy machine are heard.
+
+typhon_args(Args, ['-g',Heard,App|Args]) :-
+    Heard = 'settings:set_setting(typhon_survey:seconds,30)',
     project_file('app/typhon.pl', App).
 
 %   What a command that works prints, in lines.

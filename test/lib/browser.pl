@@ -74,6 +74,7 @@ port(Out, Port) :-
 
 capabilities(_{capabilities:_{alwaysMatch:_{
     browserName:"chrome",
+    timeouts:_{script:120000},
     'goog:loggingPrefs':_{browser:"ALL"},
     'goog:chromeOptions':_{args:[
         "--headless=new", "--no-sandbox", "--disable-gpu",

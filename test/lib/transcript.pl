@@ -214,7 +214,7 @@ answer(Goal, Wanted, Top, Tries, Answer, Reports) :-
 
 question(Goal) :-
     member(Begin, ["agents.", "hosts.", "agent_property(", "host_property(",
-                   "network_property("]),
+                   "network_property(", "remote(alpha, sense("]),
     string_concat(Begin, _, Goal),
     !.
 

@@ -243,7 +243,8 @@ scene(it_is_sent_a_message) :-
     fill("Message", "stop"),
     click("dialog button[type=submit]"),
     see("return !document.querySelector('dialog')"),
-    wait_until(agent_property(Agent, state(waiting)), 10),
+    wait_until(( agent_property(Agent, facts(Facts)),
+                 memberchk(seen(stop), Facts) ), 10),
     reads("#details .pill", "waiting").
 
 scene(it_is_dragged) :-
@@ -521,7 +522,8 @@ program(":- agent(ann, [state([seen/1])]).\n\c
          \s   forall(member(Host, Hosts), move(Host)).\n").
 
 corrected(":- agent(ann, [state([seen/1])]).\n\c
-           main :- ( receive(_-stop, 0.3) -> receive(_-never) ; go, main ).\n\c
+           main :- ( receive(_-stop, 0.3) -> stay ; go, main ).\n\c
+           stay :- assertz(seen(stop)), receive(_-never).\n\c
            go :- neighbours(Hosts), random_member(Host, Hosts),\n\c
            move(Host), assertz(seen(Host)).\n").
 

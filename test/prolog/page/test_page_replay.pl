@@ -290,9 +290,12 @@ test(what_is_not_seen_is_not_drawn, [Hidden, Shown] == [0, true]) :-
           const playing = async view => { \c
               typhon.show(view); p.seek(p.first); \c
               p.setSpeed(1); p.play(); \c
-              await new Promise(done => setTimeout(done, 60)); \c
+              await new Promise(requestAnimationFrame); \c
+              await new Promise(requestAnimationFrame); \c
               drawn = 0; \c
-              await new Promise(done => setTimeout(done, 400)); \c
+              const start = Date.now(), past = () => Date.now() - start; \c
+              while (past() < 400 || (view == 0 && drawn <= 2 && past() < 15000)) \c
+                  await new Promise(done => setTimeout(done, 50)); \c
               p.pause(); \c
               return drawn; }; \c
           const hidden = await playing(3), shown = await playing(0); \c
