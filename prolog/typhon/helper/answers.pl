@@ -6,7 +6,7 @@
             answer_awaited/2,           % +Id, +Queue
             answer_unwanted/1,          % +Id
             answer_all/1,               % +Answer
-            answer_died/1               % +Answer
+            answer_died/2               % +Answer0, -Answer
           ]).
 :- use_module('../base/json', [atom_json_dict/3]).
 
@@ -17,7 +17,7 @@ an `event` was said unasked.
 
 *Threading*: said/3 and heard/2 are run by the thread that reads what the
 helper writes; heard/2 must not wait for the helper.  answer_awaited/2,
-answer_all/1 and answer_died/1 are for owners.
+answer_all/1 and answer_died/2 are for owners.
 */
 
 :- multifile
@@ -92,10 +92,10 @@ answer_unwanted(Id) :-
     retractall(awaited(Id, _, _)).
 
 %!  answer_all(+Answer) is det.
-%!  answer_died(+Answer) is det.
+%!  answer_died(+Answer0, -Answer) is det.
 %
-%   What the owner has asked gets Answer; or what the process had said of
-%   itself before it ended.
+%   What the owner has asked gets Answer: Answer0, or what the process had said
+%   of itself before it ended.
 
 answer_all(Answer) :-
     thread_self(Owner),
@@ -105,7 +105,7 @@ answer_all(Answer) :-
     ;   true
     ).
 
-answer_died(Answer0) :-
+answer_died(Answer0, Answer) :-
     thread_self(Owner),
     (   retract(complaint(Owner, Dict))
     ->  Answer = said(Dict)

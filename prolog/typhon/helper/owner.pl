@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(answers,
-              [ answer/2, answer_all/1, answer_awaited/2, answer_died/1,
+              [ answer/2, answer_all/1, answer_awaited/2, answer_died/2,
                 request_line/2, said/3 ]).
 :- use_module(process,
               [ process_begin/4, process_end/1, process_release/1,
@@ -121,13 +121,13 @@ begin_again(Me, Wait, State) :-
 
 ended(Status, Me, Since, Wait, State) :-
     Me = owner(Name, _, When, _, _),
-    answer_died(died(Status)),
+    answer_died(died(Status), Answer),
     debug(typhon(helper), '~p ended: ~p', [Name, Status]),
     tell_ended(When, Name, Status),
     again_when(When, Since, Wait, Wait1),
     (   Wait1 == now
     ->  begin_again(Me, 0.1, State)
-    ;   down(When, Wait1, died(Status), State)
+    ;   down(When, Wait1, Answer, State)
     ).
 
 %   The first time at once.
