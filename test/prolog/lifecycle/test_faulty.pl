@@ -295,7 +295,7 @@ test(cloned_and_saved_it_is_faulty_still, true(Os == [failed,failed])) :-
          forall(member(X, [A,B,C]),
                 ( wait_until(state_of(X, faulty(failed)), 10),
                   agent_property(X, goals([receive(_, 0),s(1)])) )),
-         load(alpha, 0),
+         wait_until(load(alpha, 0), 10),
          agent_resume(C),
          joined(C, failed) )).
 test(place_in_a_restore_point, true(Line == 2)) :-
