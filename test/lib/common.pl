@@ -352,18 +352,22 @@ ended(Pid, Status) :-
 
 %!  free_port(-Port:integer) is det.
 %
-%   A port of the loopback interface that is free now, and that the system
-%   gives to nobody who does not ask for it: it draws the ports of outgoing
-%   connections from a higher range. Processes that have drawn the same seed
-%   begin at different ports.
+%   A port of the loopback interface that is free now, was not given out before,
+%   and that the system gives to nobody who does not ask for it: it draws the
+%   ports of outgoing connections from a higher range. Processes that have drawn
+%   the same seed begin at different ports.
+
+:- dynamic given/1.                     % Port: may be in use any time
 
 free_port(Port) :-
     current_prolog_flag(pid, Pid),
     repeat,
     random_between(0, 20000, Drawn),
     Port is 10000 + (Drawn + 7919*Pid) mod 20001,
+    \+ given(Port),
     catch(try_port(Port), error(socket_error(_, _), _), fail),
-    !.
+    !,
+    assertz(given(Port)).
 
 try_port(Port) :-
     tcp_socket(Socket),
