@@ -363,6 +363,10 @@ dies(Host) :-
 
 quick([slack(15), settings([renew-50, contract-160, bi_min-5])]).
 
+%   In real time, on a busy machine.
+
+patient([slack(60), settings([renew-100, contract-400, bi_min-5])]).
+
 %   What is wrong is said at once.
 
 :- begin_tests(auction_operator).
@@ -428,8 +432,8 @@ auctioneer_stops(Mechanism, Hosts, File) :-
 %   A robot's host in a process of its own, which does not say that it goes.
 
 test(a_process_is_killed) :-
-    quick(Quick),
-    auctions(anta, mesh(3), [auction(Quick)], [2, 3],
+    patient(Patient),
+    auctions(anta, mesh(3), [auction(Patient)], [2, 3],
              beside_a_process(anta)).
 
 beside_a_process(Mechanism, Hosts, File) :-
@@ -444,8 +448,8 @@ killed(Mechanism, Hosts, File) :-
     dies(Gone),
     forall(member(Host, Hosts), link(Host, Gone)),
     robot_start(Gone, [push, position=p(0,0)], []),
-    quick(Quick),
-    auction_start(Mechanism, [Gone|Hosts], Quick),
+    patient(Patient),
+    auction_start(Mechanism, [Gone|Hosts], Patient),
     post_from(gone, Mechanism, First),
     wait_until(robot_status(Gone, executing(_, t)), 40),
     peer_kill(gone),
@@ -460,7 +464,7 @@ killed(Mechanism, Hosts, File) :-
 post_from(Peer, Mechanism, Host) :-
     project_file('agents/allocation/auctions', File),
     peer_do(Peer, use_module(File)),
-    Task = task(t, [2-[push]], [at(p(0,0)), duration(60)]),
+    Task = task(t, [2-[push]], [at(p(0,0)), duration(400)]),
     peer_do(Peer, auction_operator:auction_post(Mechanism, Task, Host)).
 
 forget_dead :-

@@ -216,7 +216,7 @@ alone([Host], File) :-
 %   Whoever is chosen: the better one clones.
 
 test(the_better_one_clones_the_same_one_is_redundant) :-
-    sieve(ring(1), [], [gather-2], better).
+    sieve(ring(1), [], [gather-10, patience-400], better).
 
 better([Host], File) :-
     bits('00000', Antigen),
@@ -233,7 +233,8 @@ better([Host], File) :-
     count(File, born(clone, _), 1).
 
 test(one_memory_cell_and_no_more) :-
-    sieve(ring(1), [], [gather-1, memory_cells-1, memory_wins-1], cells).
+    sieve(ring(1), [], [gather-1, patience-400, memory_cells-1, memory_wins-1],
+          cells).
 
 cells([Host], File) :-
     bits('00000', Antigen),
@@ -308,7 +309,8 @@ attacks(Hosts, File) :-
 %   Another application: what is sieved are programs.
 
 test(programs_are_sieved) :-
-    sieve(ring(1), [], [application(payloads(sieve/maze)), gather-2],
+    sieve(ring(1), [],
+          [application(payloads(sieve/maze)), gather-2, patience-400],
           programs).
 
 programs([Host], File) :-
@@ -323,7 +325,8 @@ programs([Host], File) :-
     memberchk(Program, [First, Second]).
 
 test(clones_grow_old) :-
-    sieve(ring(3), [hop_time(uniform(0.2, 0.4))], [omega-3, gather-1], ages).
+    sieve(ring(3), [hop_time(uniform(0.2, 0.4))], [omega-3, gather-1, patience-100],
+          ages).
 
 ages(Hosts, File) :-
     Hosts = [Host|_],
