@@ -202,6 +202,9 @@ test(message_said_again, true(Kinds == [again])) :-
                   less(standing, agent(_, ids, _, _, _)),
                   more(standing, agent(a, ids, resident, 0,
                                        [me(s), tick(3), steps(0)])) ], Kinds).
+test(victim_whose_home_died, true(Kinds == [died])) :-
+    kinds(true, [ more(agents, agent(v, victim, idv, b-1, 1)),
+                  more(events, e(v, 1, at('a1@x:1'), 60, a-1)) ], Kinds).
 test(undead, true(Kinds == [undead])) :-
     kinds(false, [more(disposed, t-10), less(standing, agent(_, idt, _, _, _)),
                   more(tuples, token(-1))], Kinds).

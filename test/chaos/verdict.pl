@@ -164,6 +164,8 @@ excused(Key) :-
         memberchk(Kind, [sleeper,clone,victim]),
         death_of(_, Dead),
         Dead >= Time-1
+    ;   created(Key, victim, _, Home, _),
+        \+ alive(Home)                  % which knew of its end, if anybody did
     ),
     !.
 
