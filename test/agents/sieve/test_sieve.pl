@@ -325,8 +325,8 @@ programs([Host], File) :-
     memberchk(Program, [First, Second]).
 
 test(clones_grow_old) :-
-    sieve(ring(3), [hop_time(uniform(0.2, 0.4))], [omega-3, gather-1, patience-100],
-          ages).
+    sieve(ring(3), [hop_time(uniform(0.2, 0.4))],
+          [omega-3, gather-1, patience-100], ages).
 
 ages(Hosts, File) :-
     Hosts = [Host|_],

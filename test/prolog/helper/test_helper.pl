@@ -35,12 +35,10 @@ asked(Error) :-
 
 test(whoever_asks_hears_why_it_ends, Errors == ["no_thing"]) :-
     no_leaks(with_complaining(
-        ( wait_until(asked("no_thing"), 20),
-          findall(Error, ( between(1, 30, _), asked(Error), pause ), All) ))),
+        findall(Error, ( between(1, 5, _), is_down, asked(Error) ), All))),
     sort(All, Errors).
 
-pause :-
-    thread_self(Me),
-    \+ thread_get_message(Me, never, [timeout(0.02)]).
+is_down :-
+    wait_until(\+ helper_pid(complaining, _), 20).
 
 :- end_tests(helper).

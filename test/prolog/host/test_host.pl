@@ -709,6 +709,7 @@ test(hosts_share_a_clock, true(abs(A-B) < 500)) :-
                ( remote(alpha, now(A)), remote(beta, now(B)) )).
 test(rate_must_go_forward, error(domain_error(clock_rate, 0))) :-
     no_leaks(host_start(alpha, [clock(0, 0)])).
+
 %   Not a hundred times that.
 
 test(hop_time_in_host_seconds, true((Min >= 5.0, Max < 490))) :-

@@ -41,14 +41,20 @@ start(Kind, Agent, Options) :-
     create(Clauses, Agent, Options),
     wait_until(running_for(Agent, 0.02), 10).
 
-%   Agent, which runs until over/0, is running, and will be over when it is
-%   asked for something.
+%   ending_when_asked(+Clauses, -Agent, :Goal): Agent, which runs until over/0, is
+%   running; Goal asks it for something, and then it is over.
 
-soon_over(Clauses, Agent) :-
+:- meta_predicate ending_when_asked(+, -, 0).
+
+ending_when_asked(Clauses, Agent, Goal) :-
     create([ (over :- sense(over)) |Clauses], Agent),
     wait_until(running_for(Agent, 0.02), 10),
-    thread_create(( wait_until(typhon_agent_orders:order(Agent, _), 10),
-                    remote(alpha, leave(over)) ), _, [detached(true)]).
+    setup_call_cleanup(
+        thread_create(( wait_until(typhon_agent_orders:order(Agent, _), 10),
+                        remote(alpha, leave(over)) ), Ends),
+        once(Goal),
+        thread_join(Ends, Ended)),
+    assertion(Ended == true).
 
 took(Goal, Seconds) :-
     get_time(T0),
@@ -71,24 +77,27 @@ test(says_that_it_runs_on, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
 test(waits_for_one_that_stops, Ms-O == []-disposed) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
-                             ( soon_over([ (main :- busy, sleep(100)),
-                                           (busy :- over -> true ; busy) ], A),
-                               listening(agent_dispose(A), Ms),
+                             ( ending_when_asked(
+                                   [ (main :- busy, sleep(100)),
+                                     (busy :- over -> true ; busy) ], A,
+                                   listening(agent_dispose(A), Ms)),
                                gone(A),
                                agent_join(A, O, 5) ))).
 test(one_that_ends_by_itself, Ms == []) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
-                             ( soon_over([ (main :- over -> true ; main) ], A),
-                               took(listening(agent_dispose(A), Ms), Seconds),
+                             ( ending_when_asked(
+                                   [(main :- over -> true ; main)], A,
+                                   took(listening(agent_dispose(A), Ms),
+                                        Seconds)),
                                Seconds < 15,
                                agent_join(A, done, 5) ))).
 test(one_that_raises_meanwhile) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
-                             ( soon_over([ (main :- over -> throw(oops)
-                                                  ; main) ], A),
-                               listening(agent_dispose(A), Ms),
+                             ( ending_when_asked(
+                                   [(main :- over -> throw(oops) ; main)], A,
+                                   listening(agent_dispose(A), Ms)),
                                \+ memberchk(warning-typhon(runs_on(_, _)), Ms),
                                gone(A) ))).
 test(in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-

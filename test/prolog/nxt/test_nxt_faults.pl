@@ -241,6 +241,7 @@ test(stuck, E == nxt_error(helper_died(stuck), b)) :-
                           wait_until(answers(Peer, MilliVolts), 60)
                         ))),
     assertion(MilliVolts == 8000).
+
 %   An answer that came too late is gone.
 
 answers(Peer, MilliVolts) :-

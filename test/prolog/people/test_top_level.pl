@@ -204,7 +204,9 @@ test(another_cookie_is_no_dead_host, [ condition(top_level_goes_on),
 
 another_cookie(Delta, Written) :-
     format(atom(Create), 'agent_create(hi, A, [host(~q)]).', [Delta]),
-    format(atom(Move), 'agent_move(bob, ~q), payload_attach(bob, payload(x,[],[])).', [Delta]),
+    format(atom(Move),
+           'agent_move(bob, ~q), payload_attach(bob, payload(x,[],[])).',
+           [Delta]),       % orders are taken in turn
     format(atom(Remote), 'remote(~q, true).', [Delta]),
     said([ Create, Remote, 'host_start(alpha).',
            'agent_create(hi, _, [name(bob)]).', Move, Remote ],

@@ -72,6 +72,7 @@ test(stay_in_order_with_long_ones, true(Notes == Sent)) :-
     append(Twice, Twice, Sent),
     with_peer(A, ( forall(member(Note, Sent), endpoint_post(A, note, Note)),
                    notes(A, Notes) )).
+
 %   Nor is the peer asked for a sign of life.
 
 test(go_though_nothing_follows) :-

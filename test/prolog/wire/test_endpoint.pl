@@ -355,6 +355,23 @@ test(what_is_posted_by_some_time_waits_for_the_next_connection,
 truth(Goal, Truth) :-
     ( call(Goal) -> Truth = true ; Truth = false ).
 
+%   The keeper has it in hand: it is done with it when it answers.
+
+test(who_gives_up_while_it_is_sent_leaves_nothing_open, Open == 0) :-
+    with_endpoint(with_peer(A,
+        ( with_held(
+              typhon_request:request_send(_, _, _, _),
+              thread_create(gives_up(A), Asks),
+              ( thread_join(Asks, true),
+                thread_send_message(endpoint_gate, go),
+                typhon_keeper:keeper_connect(A) )),
+          aggregate_all(count, typhon_request:open_request(_, _, _), Open) ))).
+
+gives_up(Address) :-
+    catch(endpoint_call(Address, never, x, _, 0.2),
+          error(timeout_error(answer, _), _),
+          true).
+
 %   Somebody else may have a connection with the peer already, or it cannot be
 %   written to: who has installed it is told to end in that moment.
 

@@ -181,8 +181,8 @@ test(a_wrong_cookie_is_told_at_once) :-
                                   error(unreachable(_),_),\c
                                   halt(3)),halt(0)", [File, A]),
                     within(30, run_swipl(['-g', Goal],
-                                        [environment(['TYPHON_COOKIE'=no])],
-                                        Status, _, _)),
+                                         [environment(['TYPHON_COOKIE'=no])],
+                                         Status, _, _)),
                     assertion(Status == exit(3)) )).
 
 meet_at_once(In-Out, [Theirs, Ours]) :-
