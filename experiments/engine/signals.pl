@@ -4,8 +4,8 @@
 
 /** <module> Ending in order on Ctrl-C
 
-*Threading*: signals arrive in the main thread, which is the one that calls
-stopping_on_signals/1.
+*Threading*: signals arrive in any thread.  They are for the main thread, which
+is the one that calls stopping_on_signals/1.
 */
 
 :- meta_predicate
@@ -31,7 +31,11 @@ stop(Signal) :-
     forall(stop_signal(Other, _),
            on_signal(Other, _, study_signals:ignore_signal)),
     print_message(informational, format("Stopping on signal ~w", [Signal])),
-    throw(stopped_by(Signal)).
+    thread_self(Me),
+    (   Me == main
+    ->  throw(stopped_by(Signal))
+    ;   thread_signal(main, throw(stopped_by(Signal)))
+    ).
 
 ignore_signal(_).
 

@@ -43,12 +43,18 @@ marked(Pid) :-
     file(Dir, environ, File),
     catch(read_file_to_string(File, Environment, [encoding(octet)]),
           error(_, _), fail),
-    sub_string(Environment, _, _, _, "TYPHON_TEST_DEMO=1").
+    current_prolog_flag(pid, Me),
+    format(string(Mark), "TYPHON_TEST_DEMO=~d\0\", [Me]),
+    sub_string(Environment, _, _, _, Mark).
+
+mark :-
+    current_prolog_flag(pid, Me),
+    setenv('TYPHON_TEST_DEMO', Me).
 
 nothing_left :-
     wait_until(\+ marked(_), 20).
 
-:- begin_tests(demo, [ setup(setenv('TYPHON_TEST_DEMO', 1)),
+:- begin_tests(demo, [ setup(mark),
                        cleanup(unsetenv('TYPHON_TEST_DEMO')) ]).
 
 test(run) :-

@@ -9,8 +9,8 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../base/json', [json_dict/2]).
-:- use_module(library(process),
-              [process_create/3, process_kill/2, process_wait/3]).
+:- use_module('../base/spawn', [spawn/3]).
+:- use_module(library(process), [process_kill/2, process_wait/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
 /** <module> The process of a helper
@@ -63,11 +63,11 @@ process_begin(command(Program, Args), Alias, Heard, process(In, Reader)) :-
                   [alias(ReaderAlias)]).
 
 start(Program, Args, In, Out, Pid) :-
-    catch(process_create(Program, Args,
-                         [ stdin(pipe(In, [encoding(utf8)])),
-                           stdout(pipe(Out, [encoding(utf8)])),
-                           process(Pid), detached(true)
-                         ]),
+    catch(spawn(Program, Args,
+                [ stdin(pipe(In, [encoding(utf8)])),
+                  stdout(pipe(Out, [encoding(utf8)])),
+                  process(Pid), detached(true)
+                ]),
           error(Formal, _),
           no_program(Formal, Program)).
 

@@ -12,12 +12,12 @@
 :- use_module(library(error), [must_be/2, type_error/2]).
 :- use_module(library(lists), [last/2]).
 :- use_module(library(option), [option/3]).
-:- use_module(library(process),
-              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/output', [output_own/0]).
+:- use_module('../base/spawn', [spawn/3]).
 :- use_module('../wire', [cookie/1, endpoint_keys/1]).
 :- use_module(voice, [voice_heard/2]).
 
@@ -88,10 +88,10 @@ child_start(Tag, Machine, Interface, Options, OnEvent,
     cookie(Cookie),
     keys(Keys),
     setting(stop_seconds, Seconds),
-    process_create(Program, Args,
-                   [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
-                     detached(true)
-                   ]),
+    spawn(Program, Args,
+          [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
+            detached(true)
+          ]),
     follower_alias(Tag, Alias),
     thread_create(follow(Tag, Pid, Out, OnEvent), Thread, [alias(Alias)]),
     debug(typhon(network), 'process ~w of ~w is started: ~w, ~p',

@@ -28,10 +28,10 @@ in one fact; two threads that read it at once store the same.
 :- use_module(library(error), [must_be/2, permission_error/3, syntax_error/1]).
 :- use_module(library(filesex),
               [chmod/2, delete_directory_and_contents/1, link_file/3]).
-:- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
+:- use_module('../base/spawn', [spawn/3]).
 :- use_module(hello, [hello_line/2, line_hello/2, line_read/3, line_write/2]).
 
 :- setting(handshake_time, number, 5,
@@ -238,7 +238,7 @@ check_private(_) :-
     !.
 check_private(File) :-
     setup_call_cleanup(
-        process_create(path(ls), ['-lnd', '--', File], [stdout(pipe(Out))]),
+        spawn(path(ls), ['-lnd', '--', File], [stdout(pipe(Out))]),
         read_line_to_string(Out, Line),
         close(Out)),
     (   string(Line),

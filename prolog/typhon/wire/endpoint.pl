@@ -38,8 +38,8 @@ that peer is read. They may post, request and reply.
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket),
-              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_setopt/2,
-                tcp_socket/1 ]).
+              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_open_socket/3,
+                tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal', [journal_barrier/0, journal_opened/1]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
@@ -183,7 +183,8 @@ start_alone(Address) :-
     alone_begin(Address).
 
 %   listen(+Interface, +Port, -Address, -Socket): a port is free again as soon
-%   as nobody listens there.
+%   as nobody listens there.  Processes that begin here would, too, if the
+%   socket had no stream.
 
 listen(Interface, Port, Address, Socket) :-
     (   Port =:= 0
@@ -193,7 +194,8 @@ listen(Interface, Port, Address, Socket) :-
     tcp_socket(Socket),
     catch(( tcp_setopt(Socket, reuseaddr),
             tcp_bind(Socket, Interface:Bound),
-            tcp_listen(Socket, 1024)
+            tcp_listen(Socket, 1024),
+            tcp_open_socket(Socket, _, _)
           ),
           Error,
           ( tcp_close_socket(Socket),

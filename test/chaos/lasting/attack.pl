@@ -56,11 +56,26 @@ attacked(Nodes, Options, Wrong) :-
     war(Options),
     all_end(People, Deadline, Ends),
     peace,
-    findall(W, wrong(People, Ends, Hosts, Each, Deadline, W), Wrong),
-    (   Wrong == []
+    catch(findall(W, wrong(People, Ends, Hosts, Each, Deadline, W), Wrong),
+          Ball, true),
+    evidence(Ball, Wrong, Ends, Nodes).
+
+%   evidence(?Ball, +Wrong, +Ends, +Nodes): if anything is wrong, or does not
+%   answer, the processes say what they hold.
+
+evidence(Ball, Wrong, _, _) :-
+    var(Ball),
+    Wrong == [],
+    !.
+evidence(Ball, _, Ends, Nodes) :-
+    forall(( member(Agent-End, Ends), End \== done ),
+           format(user_error, '~w: ~p~n', [Agent, End])),
+    nodes_look(Nodes),
+    nodes_said(Nodes, Lines),
+    forall(member(Line, Lines), format(user_error, '~w~n', [Line])),
+    (   var(Ball)
     ->  true
-    ;   nodes_said(Nodes, Lines),
-        forall(member(Line, Lines), format(user_error, '~w~n', [Line]))
+    ;   throw(Ball)
     ).
 
                 /*******************************

@@ -24,10 +24,10 @@ war; the rest is for one thread.
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(library(process),
-              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(random), [random/3, random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
+:- use_module('../../../prolog/typhon/base/spawn', [spawn/3]).
 :- use_module('../../lib/common', [free_port/1, wait_until/2]).
 
 :- meta_predicate with_nodes(+, -, 0, -).
@@ -185,11 +185,11 @@ died(Status, Said) :-
 start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
     node_file(File),
     random_between(1, 1000000, Seed),
-    process_create(path(sh),
-                   [ '-c', 'trap "" XFSZ; exec "$@"', sh, Swipl, File, '--',
-                     Name, Port, Dir, Sync, Seed ],
-                   [ stdin(pipe(In)), stdout(pipe(Out)), stderr(pipe(Err)),
-                     process(Pid) ]),
+    spawn(path(sh),
+          [ '-c', 'trap "" XFSZ; exec "$@"', sh, Swipl, File, '--',
+            Name, Port, Dir, Sync, Seed ],
+          [ stdin(pipe(In)), stdout(pipe(Out)), stderr(pipe(Err)),
+            process(Pid) ]),
     with_mutex(lasting_orders,
                ( orders(Orders),
                  assertz(child(Name, Pid, In)),
@@ -310,6 +310,6 @@ for_a_while :-
 
 longest_file(Pid, Bytes) :-
     format(atom(File), '--fsize=~w:unlimited', [Bytes]),
-    process_create(path(prlimit), ['--pid', Pid, File],
-                   [stderr(null), process(P)]),
+    spawn(path(prlimit), ['--pid', Pid, File],
+          [stderr(null), process(P)]),
     process_wait(P, _).

@@ -12,6 +12,7 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
+:- use_module(library(typhon/base/spawn), [spawn/3]).
 :- use_module(library(typhon/wire)).
 :- use_module(library(typhon/wire/endpoint), [endpoint_process/1]).
 
@@ -709,6 +710,17 @@ test(after_a_hundred_starts) :-
     no_leaks(forall(between(1, 100, _),
                     with_endpoint(( endpoint_address(A),
                                     ask(A, echo, x, x) )))).
+test(processes_do_not_keep_the_port) :-
+    setup_call_cleanup(
+        true,
+        ( with_endpoint(( endpoint_address(Address), begun(Pid, In, Out) )),
+          atomic_list_concat(['127.0.0.1', Port0], :, Address),
+          atom_number(Port0, Port),
+          endpoint_start(localhost, Port, Address) ),
+        ( endpoint_stop,
+          close(In),
+          close(Out),
+          process_wait(Pid, _) )).
 test(stop_with_requests_open, Result == lost) :-
     no_leaks(with_peer(A,
         ( with_endpoint(( thread_self(Me),
@@ -724,6 +736,15 @@ test(stop_while_connecting, Result == unreachable) :-
                         wait_until(typhon_attempts:attempt(
                                        A, trying(_, _, _), _, _), 10) )))),
     thread_get_message(Me, Result, [timeout(10)]).
+
+%   Until it runs a process is a copy of this one.
+
+begun(Pid, In, Out) :-
+    spawn(path(cat), [],
+          [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
+    format(In, 'hello~n', []),
+    flush_output(In),
+    read_line_to_string(Out, "hello").
 
 plunit_cuts :-
     with_endpoint(

@@ -1,0 +1,67 @@
+:- module(test_study_signals, []).
+
+% Ending in order, whichever thread a signal comes to.
+
+:- use_module('../../lib/common',
+              [project_file/2, wait_for_end/3, with_swipl/5, with_tmp_dir/1]).
+:- use_module('../../lib/study_files', [save_lines/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3]).
+
+%   It tells its threads, and waits; when it is left it says so.
+
+program([ ':- initialization(main, main).',
+          'main :- stopping_on_signals(begin).',
+          'begin :- system_id(M), thread_create(other, _),',
+          '    thread_get_message(other(O)),',
+          '    format("threads(~d, ~d).~n", [M, O]), flush_output,',
+          '    call_cleanup(thread_get_message(never),',
+          '                 format("left.~n")).',
+          'other :- system_id(O), thread_send_message(main, other(O)),',
+          '    thread_get_message(never).',
+          'system_id(Id) :- thread_self(Me),',
+          '    thread_property(Me, system_thread_id(Id)).'
+        ]).
+
+%   signalled(+Which, +Signal, -Status, -Said)
+
+signalled(Which, Signal, Status, Said, Dir) :-
+    project_file('experiments/engine/signals.pl', File),
+    program(Lines),
+    format(atom(Use), ':- use_module(\'~w\').', [File]),
+    save_lines(Dir, 'program.pl', [Use|Lines]),
+    directory_file_path(Dir, 'program.pl', Program),
+    with_swipl([Program], Pid, _, Out,
+               ( read(Out, Threads),
+                 thread_of(Which, Threads, Thread),
+                 send(Pid, Thread, Signal),
+                 wait_for_end(Pid, 30, Status),
+                 said(Status, Out, Said) )).
+
+said(timeout, _, Said) =>
+    Said = nothing.
+said(_, Out, Said) =>
+    read(Out, Said).
+
+thread_of(main, threads(Main, _), Main).
+thread_of(other, threads(_, Other), Other).
+
+%   The system itself gives a signal to any thread.
+
+send(Pid, Thread, Signal) :-
+    process_create('/usr/bin/python3',
+                   [ '-c', 'import ctypes, sys; \c
+                      ctypes.CDLL(None).tgkill(*map(int, sys.argv[1:]))',
+                     Pid, Thread, Signal ], []).
+
+:- begin_tests(a_study_is_stopped_by_a_signal).
+
+test('to the main thread', Status-Said == exit(143)-left) :-
+    with_tmp_dir(signalled(main, 15, Status, Said)).
+test('to any other', Status-Said == exit(143)-left) :-
+    with_tmp_dir(signalled(other, 15, Status, Said)).
+test('when the terminal goes', Status-Said == exit(129)-left) :-
+    with_tmp_dir(signalled(other, 1, Status, Said)).
+
+:- end_tests(a_study_is_stopped_by_a_signal).
