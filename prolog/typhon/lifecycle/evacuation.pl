@@ -47,7 +47,10 @@ evacuate(Host, Deadline) :-
         evacuate(Host, Deadline)
     ).
 
-%   One that is on its way in counts as load before it stands here.
+%   Load is also who ends until that is told, and who is on its way in before
+%   it stands here.
+
+last_seconds(1).                        % for who ends at the deadline
 
 evacuated(Host, Deadline) :-
     \+ agent(_, Host, _, _, _),
@@ -55,7 +58,8 @@ evacuated(Host, Deadline) :-
         Load =< 0
     ->  true
     ;   get_time(Now),
-        Now > Deadline
+        last_seconds(More),
+        Now > Deadline+More
     ).
 
 end_or_order(Host, Deadline) :-

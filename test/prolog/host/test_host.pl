@@ -1,5 +1,6 @@
 :- module(test_host, []).
 :- use_module(library(plunit)).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
 :- use_module(library(aggregate)).
@@ -844,6 +845,16 @@ test(stubborn, [ forall(( stubborn(Kind, Clauses), Kind \== reading )),
                            wait_state(A, running),
                            elapsed(host_stop(alpha), S),
                            agent_join(A, O, 10) ))).
+test(has_ended_when_its_host_has_stopped, O == disposed) :-
+    setup_call_cleanup(
+        wrap_predicate(typhon_ending:told(_, _, _), slow, Told,
+                       ( sleep(0.4), Told )),
+        impatient(with_hosts([alpha],
+                             ( create([(main :- between(1, inf, _), fail)], A),
+                               wait_state(A, running),
+                               host_stop(alpha),
+                               agent_join(A, O, 10) ))),
+        unwrap_predicate(typhon_ending:told/3, slow)).
 test(stubborn_reader, [ setup(stubborn(reading, Clauses)),
                         true((O == disposed, S < 20)) ]) :-
     setup_call_cleanup(
