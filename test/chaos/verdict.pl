@@ -111,10 +111,12 @@ agent_finding(_, finding(Kind, Key:Event)) :-
     ->  Kind = late
     ;   Kind = undead
     ).
-agent_finding(_, finding(doubled, unwanted_clone(Key))) :-
-    event(Parent, _, no_clone(N, _), _, _),
+agent_finding(_, finding(doubled, unwanted_clone(Key, Why, Seen))) :-
+    event(Parent, _, no_clone(N, Why), _, _),
     clone_key(Parent, N, Key),
-    once(event(Key, _, _, _, _)).
+    findall(Time-at(Life, Event), event(Key, _, Event, Time, Life), Seen0),
+    msort(Seen0, Seen),
+    Seen \== [].
 agent_finding(Scenario, finding(Kind, Key:stays(Why))) :-
     event(Key, _, stays(Why), _, _),
     (   Scenario == calm

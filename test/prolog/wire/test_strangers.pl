@@ -14,6 +14,7 @@
 :- use_module(library(typhon/wire/auth)).
 :- use_module(library(typhon/wire)).
 :- use_module(library(typhon/wire/hello)).
+:- use_module(library(typhon/wire/refusals), [refusals_begin/0]).
 
 :- dynamic told/1.
 :- multifile user:message_hook/3.
@@ -27,6 +28,7 @@ user:message_hook(typhon(endpoint, Message), _, _) :-
     with_silent(+, -, 0).
 
 with_endpoint(Goal) :-
+    refusals_begin,                     % who came last before is told of
     retractall(told(_)),
     setup_call_cleanup(endpoint_start(localhost, 0, _),
                        once(Goal),
