@@ -123,6 +123,15 @@ not_run(Problem) :-
 may_skip(Unit, TestOptions) :-
     current_test_unit(Unit, UnitOptions),
     member(Options, [TestOptions, UnitOptions]),
-    member(Option, [condition(_), blocked(_), fixme(_), forall(_)]),
-    memberchk(Option, Options),
+    member(Option, Options),
+    skips(Option, Unit),
     !.
+
+%   Where the condition is true it was the setup that failed.
+
+skips(blocked(_), _).
+skips(fixme(_), _).
+skips(forall(_), _).
+skips(condition(Goal), Unit) :-
+    atom_concat(plunit_, Unit, Module),
+    \+ catch(Module:Goal, error(_, _), fail).
