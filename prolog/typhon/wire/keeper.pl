@@ -68,11 +68,12 @@ connected(Address, Options) :-
 
 %!  keeper_unheard(+Messages) is det.
 %
-%   Answer those who asked too late.
+%   Answer those who asked too late, and do what was to be done later.
 
 keeper_unheard(Messages) :-
     forall(member(connect(_, Queue), Messages), waiter_tell(Queue, missed)),
-    unsent_fail(_).
+    unsent_fail(_),
+    forall(member(later(_, Goal), Messages), call(Goal)).
 
 %!  keep(+Me) is det.
 %

@@ -14,7 +14,6 @@
 :- use_module(library(typhon/wire/auth)).
 :- use_module(library(typhon/wire)).
 :- use_module(library(typhon/wire/hello)).
-:- use_module(library(typhon/wire/refusals), [refusals_begin/0]).
 
 :- dynamic told/1.
 :- multifile user:message_hook/3.
@@ -28,7 +27,6 @@ user:message_hook(typhon(endpoint, Message), _, _) :-
     with_silent(+, -, 0).
 
 with_endpoint(Goal) :-
-    refusals_begin,                     % who came last before is told of
     retractall(told(_)),
     setup_call_cleanup(endpoint_start(localhost, 0, _),
                        once(Goal),
@@ -229,6 +227,15 @@ test(once_also_where_a_slot_is_taken, Sum == 50) :-
 test(told_at_the_end, Sum == 20) :-
     with_endpoint(( forall(between(1, 20, _), shouts("\n")),
                     wait_until(noted(20), 30) )),
+    counted(Sum).
+test(told_of_those_at_the_very_end, Sum == 20) :-
+    setup_call_cleanup(
+        wrap_predicate(typhon_threads:wire_threads_end, last, End,
+                       ( End,
+                         forall(between(1, 20, _),
+                                typhon_refusals:refused(x, silent)) )),
+        with_endpoint(true),
+        unwrap_predicate(typhon_threads:wire_threads_end/0, last)),
     counted(Sum).
 test(another_version, Line == "typhon 2") :-
     with_endpoint(setup_call_cleanup(
