@@ -16,7 +16,7 @@ result was skipped by its condition; if it has none, its setup failed.
 
 :- use_module('lib/common', [missing/1]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(plunit),
               [ run_tests/0, current_test/5, current_test_unit/2,
