@@ -25,7 +25,7 @@ Driven by chromedriver, in the words of the W3C's WebDriver.
 *Threading*: one thread at a time uses a browser.
 */
 
-:- use_module(common, [wait_until/2, with_tmp_dir/1]).
+:- use_module(common, [free_port/1, wait_until/2, with_tmp_dir/1]).
 :- use_module(library(base64), [base64/2]).
 :- use_module(library(http/http_json), []).
 :- use_module(library(http/http_client),
@@ -47,29 +47,54 @@ with_browser(Browser, Goal) :-
 
 browsing(Browser, Goal, Dir) :-
     setup_call_cleanup(
-        start(Dir, Browser),
-        once(Goal),
-        stop(Browser)).
+        driver(Dir, Pid, Out, Port),
+        with_session(Port, Browser, Goal),
+        end_driver(Pid, Out)).
 
-start(Dir, browser(Base, Pid, Out)) :-
-    process_create(path(chromedriver), ['--port=0'],
-                   [ stdin(null), stdout(pipe(Out)), stderr(null),
-                     environment(['TMPDIR'=Dir]), process(Pid) ]),
-    port(Out, Port),
+with_session(Port, Browser, Goal) :-
+    setup_call_cleanup(
+        session(Port, Browser),
+        once(Goal),
+        end_session(Browser)).
+
+session(Port, browser(Base)) :-
     format(atom(Driver), 'http://127.0.0.1:~w/session', [Port]),
     capabilities(Wanted),
     call_driver(post, Driver, Wanted, Answer),
     atomic_list_concat([Driver, /, Answer.sessionId], Base).
 
-port(Out, Port) :-
+end_session(browser(Base)) :-
+    catch(http_delete(Base, _, [json_object(dict)]), error(_, _), true).
+
+%   A port of its own choice is free for IPv6, and where somebody has it for
+%   IPv4 the driver ends; also where the one we chose was taken meanwhile.
+
+driver(Dir, Pid, Out, Port) :-
+    between(1, 10, _),
+    free_port(Port),
+    format(atom(Argument), '--port=~d', [Port]),
+    process_create(path(chromedriver), [Argument],
+                   [ stdin(null), stdout(pipe(Out)), stderr(null),
+                     environment(['TMPDIR'=Dir]), process(Pid) ]),
+    (   listens(Out)
+    ->  !
+    ;   end_driver(Pid, Out),
+        fail
+    ).
+driver(_, _, _, _) :-
+    throw(error(browser('not started', 'chromedriver finds no port'), _)).
+
+end_driver(Pid, Out) :-
+    catch(process_kill(Pid), error(existence_error(_, _), _), true),
+    process_wait(Pid, _),
+    close(Out).
+
+listens(Out) :-
     read_line_to_string(Out, Line),
     string(Line),
-    (   sub_string(Line, _, _, After, "successfully on port "),
-        sub_string(Line, _, After, 0, Text),
-        split_string(Text, "", " .", [Digits]),
-        number_string(Port, Digits)
+    (   sub_string(Line, _, _, _, "successfully on port ")
     ->  true
-    ;   port(Out, Port)
+    ;   listens(Out)
     ).
 
 capabilities(_{capabilities:_{alwaysMatch:_{
@@ -81,12 +106,6 @@ capabilities(_{capabilities:_{alwaysMatch:_{
         "--disable-dev-shm-usage", "--disable-extensions", "--no-first-run",
         "--hide-scrollbars", "--window-size=1600,1000",
         "--force-device-scale-factor=1"]}}}}).
-
-stop(browser(Base, Pid, Out)) :-
-    catch(http_delete(Base, _, [json_object(dict)]), error(_, _), true),
-    process_kill(Pid),
-    process_wait(Pid, _),
-    close(Out).
 
 call_driver(Method, Address, Body, Value) :-
     Options = [json_object(dict), status_code(_), tag(''), default_tag('')],
@@ -101,11 +120,11 @@ call_driver(Method, Address, Body, Value) :-
     ;   true
     ).
 
-command(browser(Base, _, _), Path, Body, Value) :-
+command(browser(Base), Path, Body, Value) :-
     atomic_list_concat([Base, /, Path], Address),
     call_driver(post, Address, Body, Value).
 
-asked(browser(Base, _, _), Path, Value) :-
+asked(browser(Base), Path, Value) :-
     atomic_list_concat([Base, /, Path], Address),
     call_driver(get, Address, none, Value).
 

@@ -181,7 +181,7 @@ poll(Goal, Pause, Deadline) :-
 %!  no_leaks(:Goal) is semidet.
 %
 %   Calls Goal once.  It must leave behind no thread, stream, message queue,
-%   temporary module or child process; they have five seconds to go away.
+%   temporary module or child process; they have half a minute to go away.
 %
 %   @error leaked(Things) where Things are thread(Id), stream(S), queue(Q),
 %   module(M) and process(Pid)
