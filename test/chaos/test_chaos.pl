@@ -158,6 +158,23 @@ test(born_elsewhere, [forall(member(Hops-Wrong, [1-[], 2-[], 3-[count]])),
                    more(standing, agent(b, idc, resident, Hops,
                                         [me('s+1'), tick(1), steps(1)])) ],
           Kinds).
+test(clone_that_is_said_not_to_be,
+     [ forall(member(Told/Seen/Kind,
+                     [ 52/[b-1]/died, 49.5/[b-1]/doubled, 60/[b-2]/doubled,
+                       52/[a-1,b-1]/doubled ])),
+       true(Kinds == [Kind]) ]) :-
+    findall(more(events, e('s+1', Tick, at('b1@x:1'), 49, Life)),
+            nth1(Tick, Seen, Life), More),
+    kinds(true, [ more(events, e(s, 3, no_clone(1, refused), Told, a-1)),
+                  less(standing, agent(_, ids, _, _, _)),
+                  more(standing, agent(a, ids, resident, 0,
+                                       [me(s), tick(3), steps(0)]))
+                | More ], Kinds).
+test(end_nobody_heard_of, [ forall(member(Life-Wrong, [(b-1)-[],(a-1)-[outcome]])),
+                            true(Kinds == Wrong) ]) :-
+    kinds(true, [ more(agents, agent(e, sprinter, ide, a-1, 1)),
+                  more(events, e(e, 1, end, 49, Life)),
+                  more(outcomes, ide-timeout) ], Kinds).
 test(message_lost, true(Kinds == [message_lost])) :-
     kinds(false, [more(mail, sent(a, s, 2, 60))], Kinds).
 test(message_lost_after_the_death, true(Kinds == [message_lost])) :-

@@ -111,12 +111,13 @@ agent_finding(_, finding(Kind, Key:Event)) :-
     ->  Kind = late
     ;   Kind = undead
     ).
-agent_finding(_, finding(doubled, unwanted_clone(Key, Why, Seen))) :-
-    event(Parent, _, no_clone(N, Why), _, _),
+agent_finding(_, finding(Kind, unwanted_clone(Key, Why, Seen))) :-
+    event(Parent, _, no_clone(N, Why), Told, _),
     clone_key(Parent, N, Key),
     findall(Time-at(Life, Event), event(Key, _, Event, Time, Life), Seen0),
     msort(Seen0, Seen),
-    Seen \== [].
+    Seen \== [],
+    unwanted(Told, Seen, Kind).
 agent_finding(Scenario, finding(Kind, Key:stays(Why))) :-
     event(Key, _, stays(Why), _, _),
     (   Scenario == calm
@@ -150,6 +151,17 @@ has_ended(Key) :-
 has_ended(Key) :-
     created(Key, victim, Id, _, _),
     outcome(Id, disposed).
+
+%   unwanted(+Told, +Seen, -Kind): its parent heard that there is no clone,
+%   which is true where it died before that.
+
+unwanted(Told, Seen, died) :-
+    forall(member(_-at(Name-Number, _), Seen),
+           ( life(Name, Number, _, Dead),
+             number(Dead),
+             Dead =< Told )),
+    !.
+unwanted(_, _, doubled).
 
 %   Whoever was sent somewhere from outside says nothing of it beforehand,
 %   nor does a clone, or one to be disposed of.
@@ -253,6 +265,9 @@ right_outcome(Key, Outcome) :-
     ->  true                            % nobody can know
     ;   created(Key, _, _, Life, _),
         \+ alive(Life)                  % its home has forgotten
+    ->  true
+    ;   Outcome == timeout,
+        excused(Key)                    % it died with the news of its end
     ->  true
     ;   ended_as(Key, Outcome)
     ).
