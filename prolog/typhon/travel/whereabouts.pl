@@ -36,6 +36,9 @@ Every process keeps forwarding addresses of the agents that left it, and
 tells their homes, see typhon_home.  The oldest forwarding addresses are
 forgotten.
 
+Of those that ended in it, far from their homes, a process keeps that they
+did: whoever does not know whether one got away to it may ask.
+
 An agent is in a process, not at an address: when another process has the
 address now, the agent has died with the one it went to, or has moved on.
 
@@ -47,8 +50,12 @@ see typhon_news, since it may have to connect.
 
 :- setting(forwards, positive_integer, 20000,
            "Forwarding addresses kept by a process").
+:- setting(endings, positive_integer, 20000,
+           "Agents of other homes that ended in a process, as far as it knows").
 
-:- dynamic forward/4.           % Id, Address, Hops, Process
+:- dynamic
+    forward/4,                  % Id, Address, Hops, Process
+    ended_here/2.               % Id, Hops: its home is another process
 
 :- multifile
     error:has_type/2,
@@ -84,7 +91,8 @@ agent_seen(Id, Address, Hops, Peer) :-
     ).
 
 typhon_identity:id_anew(Id) :-
-    retractall(forward(Id, _, _, _)).
+    retractall(forward(Id, _, _, _)),
+    retractall(ended_here(Id, _)).
 
 %!  agent_left(+Id, +Address, +Hops, +Peer) is det.
 %
@@ -134,7 +142,8 @@ agent_left_noted(Id, Address, Hops, Peer) :-
     ).
 
 typhon_identity:ids_anew :-
-    retractall(forward(_, _, _, _)).
+    retractall(forward(_, _, _, _)),
+    retractall(ended_here(_, _)).
 
 typhon_bounded:forgotten(forward(Id, _, _, _)) :-
     note_drop(agent, Id, 0).
@@ -173,10 +182,15 @@ agent_ended(Id, Outcome, Hops, Legacy) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  home_ended(Id, Outcome, Hops, Legacy)
-    ;   Legacy == []
-    ->  news_tell(Home, Id, ended(Id, Outcome, Hops))
-    ;   news_tell(Home, Id, ended(Id, Outcome, Hops, Legacy))
+    ;   assertz(ended_here(Id, Hops)),
+        bounded(ended_here(_, _), typhon_whereabouts:endings),
+        end_news(Legacy, Id, Outcome, Hops, News),
+        news_tell(Home, Id, News)
     ).
+
+end_news([], Id, Outcome, Hops, ended(Id, Outcome, Hops)) :-
+    !.
+end_news(Legacy, Id, Outcome, Hops, ended(Id, Outcome, Hops, Legacy)).
 
 %!  agent_faulty(+Id, +Outcome, +Stamp, +Address, +Hops) is det.
 %!  agent_resumed(+Id, +Stamp, +Hops) is det.
@@ -280,7 +294,7 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
 
 reached(Id, Hops, true) :-
     (   agent_outcome(Id, _)
-    ;   hops_of(Id, Hops0),
+    ;   ( hops_of(Id, Hops0) ; ended_here(Id, Hops0) ),
         Hops0 >= Hops
     ),
     !.
@@ -310,7 +324,7 @@ agent_reached_at(Id, Hops, Endpoint, Reached) :-
 %   Id, which is not in this process, has made Hops hops at least.
 
 agent_heard_of(Id, Hops) :-
-    trace_of(Id, _, Hops, _),
+    ( trace_of(Id, _, Hops, _) ; ended_here(Id, Hops) ),
     !.
 
 %!  whereabouts(+Id, -Address) is semidet.

@@ -17,9 +17,10 @@ under the same id is let in.
 :- begin_tests(arrival).
 
 test(what_is_no_agent_is_refused,
-     [forall(bad(Image, Why)), true(Answer == refused(error(Why)))]) :-
+     [forall(bad(Image, Id, Why)), true(Answer == refused(error(Why)))]) :-
     with_hosts([alpha],
                quietly(( image([], Good0),
+                         arg(1, Good0, Id),
                          bad_image(Image, Good0, Bad),
                          sent(Bad, Answer),
                          alone,
@@ -54,17 +55,18 @@ test(nothing_is_left_of_a_bad_one) :-
 
 :- end_tests(arrival).
 
-%   bad(?Change, ?Error): an image with one part like this gets that answer.
+%   bad(?Change, ?Id, ?Error): the image of Id gets that answer, if one part of
+%   it is like this.
 
-bad(mail(none), type_error(agent_image, 'x.1.7@far@127.0.0.1:1')).
-bad(mail([hello]), type_error(agent_image, 'x.1.7@far@127.0.0.1:1')).
-bad(goals(main), type_error(agent_image, 'x.1.7@far@127.0.0.1:1')).
-bad(since(long_ago), type_error(agent_image, 'x.1.7@far@127.0.0.1:1')).
-bad(life(young), type_error(agent_image, 'x.1.7@far@127.0.0.1:1')).
-bad(id(nobody), type_error(agent_image, nobody)).
-bad(state(none), type_error(agent_image, 'x.1.7@far@127.0.0.1:1')).
-bad(state([], [1]), type_error(callable, 1)).
-bad(state([], [(foo:-1)]), Error) :-
+bad(mail(none), Id, type_error(agent_image, Id)).
+bad(mail([hello]), Id, type_error(agent_image, Id)).
+bad(goals(main), Id, type_error(agent_image, Id)).
+bad(since(long_ago), Id, type_error(agent_image, Id)).
+bad(life(young), Id, type_error(agent_image, Id)).
+bad(id(nobody), _, type_error(agent_image, nobody)).
+bad(state(none), Id, type_error(agent_image, Id)).
+bad(state([], [1]), _, type_error(callable, 1)).
+bad(state([], [(foo:-1)]), _, Error) :-
     catch(assertz((foo:-1)), error(Error, _), true).
 
 bad_image(id(X), image(_, H, L, S, G, M, T), image(X, H, L, S, G, M, T)).
@@ -80,9 +82,13 @@ program(Hash, Program) :-
     Program = program(x, [], [], [(main:-true), (on_message(_,_):-true)]),
     typhon_programs:program_hash(Program, Hash).
 
-image(Mail, image('x.1.7@far@127.0.0.1:1', Hash,
+%   Nobody comes under the id of one that has ended.
+
+image(Mail, image(Id, Hash,
                   life(none, 3, inf, [], [], false, []),
                   state([], [fact(1)]), [], Mail, Now)) :-
+    flag(test_arrival, N, N+1),
+    format(atom(Id), 'x.1.~d@far@127.0.0.1:1', [N]),
     program(Hash, _),
     get_time(Now).
 

@@ -128,6 +128,8 @@ test(agent_that_got_away_is_not_doubled) :-
     with_doubt([a, b, c], got_away).
 test(nor_when_its_home_died_too, forall(home_of_lost(Home))) :-
     with_doubt([a, b, c, d], got_away_from(Home)).
+test(nor_when_it_has_ended_since, forall(home_of_lost(Home))) :-
+    with_doubt([a, b, c, d], got_away_and_ended(Home)).
 test(move_to_a_dead_host_raises) :-
     with_peers([a, b], dead_host).
 
@@ -197,11 +199,21 @@ home_of_lost(d).
 home_of_lost(b).
 
 got_away_from(Home) :-
+    got_away(Home, 20, Id),
+    peer_do(c, agent_here(Id)),
+    maplist(steps_at, [a, b, c], [Id, Id, Id], [[1, 2], [], [4]]).
+
+got_away_and_ended(Home) :-
+    got_away(Home, 4, Id),
+    peer_do(c, \+ agent_here(Id)),
+    maplist(steps_at, [a, b, c], [Id, Id, Id], [[1, 2], [], [4]]).
+
+got_away(Home, Steps, Id) :-
     maplist(peer_host, [a, b, c], [A, B, C]),
     travel(Home, [A, C, A], 3),
     travel(Home, [A, B, C], 3),
     peer_do(b, silence_answers),
-    set_out(Home, [A, sit, B, C, sit, A], 20, Id),
+    set_out(Home, [A, sit, B, C, sit, A], Steps, Id),
     wait_until(step_on(a, Id, 1), 10),
     peer_do(a, agent_send(Id, go)),
     wait_until(step_on(c, Id, 4), 10),
@@ -209,9 +221,7 @@ got_away_from(Home) :-
     sort([b, Home], Dead),
     forall(member(Peer, Dead), peer_kill(Peer)),
     forall(member(Peer, Dead), peer_restart(Peer)),
-    wait_until(\+ peer_do(a, agent_here(Id)), 20),
-    peer_do(c, agent_here(Id)),
-    maplist(steps_at, [a, b, c], [Id, Id, Id], [[1, 2], [], [4]]).
+    wait_until(\+ peer_do(a, agent_here(Id)), 20).
 
 dead_host :-
     peer_host(b, B),
