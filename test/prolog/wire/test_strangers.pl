@@ -107,7 +107,7 @@ test(newcomers_get_in, [forall(member(Slots-Silent, [32-32, 32-200,
 test(newcomers_get_in_at_once) :-
     with_endpoint(patiently(with_settings([typhon_acceptor:strangers=16],
         with_silent(16, _,
-            ( wait_until(slots(16), 30),
+            ( wait_until(silent(16), 30),
               numlist(1, 6, Newcomers),
               concurrent_maplist(newcomer, Newcomers, Times),
               maplist(soon, Times) ))))).
@@ -120,6 +120,13 @@ test(who_talks_stays) :-
                   ( wait_until(turned_away(silent, 3), 30),
                     wait_until(stages([heard, silent, silent, silent]), 30)
                   )) ))))).
+
+%   So many have had a chance to speak: of those the oldest goes first.
+
+silent(Count) :-
+    stages(Stages),
+    length(Stages, Count),
+    forall(member(Stage, Stages), Stage == silent).
 
 stages(Stages) :-
     findall(Stage, typhon_acceptor:stranger(_, _, _, Stage), Stages0),
