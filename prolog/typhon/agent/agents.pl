@@ -218,23 +218,22 @@ agent_resumes(Id, Goals) :-
     retract(status(Id, resumed, Goals)),
     !.
 
-%!  agent_ready(+Id, +Goals) is det.
-%!  agent_wakes(+Id, +Goals) is det.
+%!  agent_ready(+Id, +Goals) is semidet.
+%!  agent_wakes(+Id, +Goals) is semidet.
 %
 %   Id goes on with Goals when its turn comes.  The second is for one that has
-%   rested with these goals.
+%   rested with these goals.  Fails if it was ended meanwhile.
 
 agent_ready(Id, Goals) :-
-    agent_put(Id, ready, Goals),
-    scheduled(Id).
-
-agent_wakes(Id, Goals) :-
-    put_status(Id, ready, Goals),
-    scheduled(Id).
-
-scheduled(Id) :-
     agent(Id, Host, _, _, _),
     !,
+    agent_put(Id, ready, Goals),
+    schedule(Host, Id).
+
+agent_wakes(Id, Goals) :-
+    agent(Id, Host, _, _, _),
+    !,
+    put_status(Id, ready, Goals),
     schedule(Host, Id).
 
 %!  agent_put_life(+Id, +Life) is det.

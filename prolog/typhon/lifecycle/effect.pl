@@ -130,12 +130,11 @@ infinite(Seconds) :- float(Seconds), Seconds =:= inf.
 
 receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
     with_agent(Id, take_or_wait(Message, Until, Again, Hole, Goals,
-                                Id-Here, Next)),
+                                Id-Here, Stamp, Next)),
     (   Next \== stop
     ->  taken(Hole, Message, Id-Here)
-    ;   number(Until)
-    ->  real_time(Here, Until, Stamp),
-        alarm_set(Stamp, Id, until(Until))
+    ;   number(Stamp)
+    ->  alarm_set(Stamp, Id, until(Until))
     ;   true
     ).
 
@@ -144,24 +143,30 @@ taken(true, From-Message, Id-Here) :-
     event(messages, Here, Id, received(From, Message)).
 taken(_, _, _).                         % the time is over
 
-take_or_wait(Message, _, _, true, Goals, Id-_, go(Goals)) :-
+take_or_wait(Message, _, _, true, Goals, Id-_, _, go(Goals)) :-
     mail_take(Id, Message),
     !.
-take_or_wait(Message, Until, Again, Hole, Goals, _-Here, go(Goals)) :-
+take_or_wait(Message, Until, Again, Hole, Goals, _-Here, _, go(Goals)) :-
     number(Until),
     host_time(Here, Now),
     Now >= Until,
     !,
     Again = receive_until(Message, _, Seconds),
     answer_at(receive(Message, Seconds), fail, Hole).
-take_or_wait(Message, Until, Again, Again, Goals, Id-_, stop) :-
+take_or_wait(Message, Until, Again, Again, Goals, Id-Here, Stamp, stop) :-
     can_be_kept(Goals),
+    (   number(Until)
+    ->  real_time(Here, Until, Stamp)
+    ;   true
+    ),
     agent_rest(Id, waiting(Message, Until), Goals).
+
+%   As soon as it rests somebody may end it, and stop the host with its clock.
 
 wait(Id, Host, Status, Until, Goals) :-
     can_be_kept(Goals),
-    with_agent(Id, agent_rest(Id, Status, Goals)),
     real_time(Host, Until, Stamp),
+    with_agent(Id, agent_rest(Id, Status, Goals)),
     alarm_set(Stamp, Id, until(Until)).
 
 typhon_scheduler:fire(Id, until(Until)) :-
@@ -213,9 +218,9 @@ set_out(go, Dest, Hole, Goals, Id-Here, Next) :-
     (   host_option(Here, hop_time(uniform(Min, Max)))
     ->  hop_delay(Id, Here, Min, Max, Delay),
         At is Now+Delay,
+        real_time(Here, At, Stamp),
         with_agent(Id, agent_put(Id, leaving(Dest, At),
                                  hop(Hole-Goals, Now))),
-        real_time(Here, At, Stamp),
         alarm_set(Stamp, Id, leave),
         Next = stop
     ;   hop(Id, Dest, Hole, Goals, Now, Next)

@@ -199,12 +199,14 @@ obey(evacuate(Host), Id, Goals) :-
     ;   go_on(Id, Goals)
     ).
 obey(move(Host), Id, Goals) :-
-    agent(Id, Here, _, _, _),
-    catch(effect_order(Id, Here, Host, Goals),
-          error(Formal, _),
-          ( failed(Id, Formal),
-            go_on(Id, Goals)
-          )).
+    (   agent(Id, Here, _, _, _)
+    ->  catch(effect_order(Id, Here, Host, Goals),
+              error(Formal, _),
+              ( failed(Id, Formal),
+                go_on(Id, Goals)
+              ))
+    ;   true
+    ).
 obey(asked(end, Asker), Id, _) :-
     !,
     ignore(agent_end(Id, disposed)),
@@ -237,10 +239,12 @@ answered(Asker, Answer) :-
           error(Formal, _),
           question_answered(Asker, error(Formal))).
 
+%   When a host has been stopping for long it ends who still obeys.
+
 go_on(Id, Goals) :-
     (   is_faulty(Goals, _, _)
     ->  agent_stays(Id, Goals)
-    ;   with_agent(Id, agent_ready(Id, Goals))
+    ;   ignore(with_agent(Id, agent_ready(Id, Goals)))
     ).
 
 failed(Id, Formal) :-

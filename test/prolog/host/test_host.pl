@@ -756,6 +756,18 @@ walker([Home|_]) :-
                            (go(H) :- catch(move(H), error(_, _), true)) ]), _,
                  [host(Home)]).
 
+%   Who asks until when to wait is so slow that the host could have been stopped.
+
+slowly(Who, Goal) :-
+    thread_send_message(Who, comes_to_rest),
+    catch(wait_until(( host_property(alpha, _), fail ), 0.5),
+          error(_, _), true),           % it is there still, or no more
+    (   call(Goal)
+    ->  thread_send_message(Who, until_when(true))
+    ;   thread_send_message(Who, until_when(false)),
+        fail
+    ).
+
 :- begin_tests(stopping).
 
 test(three_hundred_times, true((T1 == T0, Q1 == Q0, M1 =< M0+2))) :-
@@ -855,6 +867,19 @@ test(has_ended_when_its_host_has_stopped, O == disposed) :-
                                host_stop(alpha),
                                agent_join(A, O, 10) ))),
         unwrap_predicate(typhon_ending:told/3, slow)).
+test(comes_to_rest_as_its_host_stops,
+     [ forall(member(Wait, [sleep(60), receive(_, 60), move(beta)])),
+       Known == true ]) :-
+    thread_self(Me),
+    setup_call_cleanup(
+        wrap_predicate(typhon_clock:real_time(_, _, _), slow, Until,
+                       test_host:slowly(Me, Until)),
+        with_hosts([alpha-[hop_time(uniform(60, 60))], beta],
+                   ( create([(main :- Wait)], _),
+                     thread_get_message(comes_to_rest),
+                     host_stop(alpha),
+                     thread_get_message(until_when(Known)) )),
+        unwrap_predicate(typhon_clock:real_time/3, slow)).
 test(stubborn_reader, [ setup(stubborn(reading, Clauses)),
                         true((O == disposed, S < 20)) ]) :-
     setup_call_cleanup(
