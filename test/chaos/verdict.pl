@@ -260,17 +260,18 @@ wrong_count(Key, Hops, Facts, hops(Key, Steps, Hops)) :-
     Steps =\= Hops,
     \+ ( Kind == clone, Hops =:= Steps+1 ).
 
+right_outcome(Key, _) :-
+    copies(0, Key, died),               % nobody can know
+    !.
+right_outcome(Key, _) :-
+    created(Key, _, _, Life, _),
+    \+ alive(Life),                     % its home has forgotten
+    !.
+right_outcome(Key, timeout) :-
+    excused(Key),                       % it died with the news of its end
+    !.
 right_outcome(Key, Outcome) :-
-    (   copies(0, Key, died)
-    ->  true                            % nobody can know
-    ;   created(Key, _, _, Life, _),
-        \+ alive(Life)                  % its home has forgotten
-    ->  true
-    ;   Outcome == timeout,
-        excused(Key)                    % it died with the news of its end
-    ->  true
-    ;   ended_as(Key, Outcome)
-    ).
+    ended_as(Key, Outcome).
 
 ended_as(Key, Outcome) :-
     disposed(Key, _),
