@@ -15,7 +15,7 @@ This is the door of the layer: who is above takes what it needs from here.
               [agent_born/2, agent_outcome/2, home_agents/1, outcome_wait/3]).
 :- reexport(travel/legacies, [clone_born/2, clones_ask/3, legacy_ask/4]).
 :- reexport(travel/whereabouts,
-              [ agent_ended/4, agent_faulty/5, agent_resumed/3,
+              [ agent_ended/4, agent_ends/2, agent_faulty/5, agent_resumed/3,
                 agent_resumed_from/3, whereabouts/2 ]).
 :- reexport(travel/post, [post/3, post_via/4]).
 :- reexport(travel/logged, [agent_logs/3]).

@@ -14,7 +14,7 @@
                 fault_outcome/2, fault_shown/2, is_faulty/3, legacy/2,
                 life_hops/2, with_agent/2 ]).
 :- use_module(on_hold, [held_dropped/1]).
-:- use_module('../travel', [agent_ended/4, transfer_given_up/2]).
+:- use_module('../travel', [agent_ended/4, agent_ends/2, transfer_given_up/2]).
 :- use_module(faulty,
               [faulty_gone/1, faulty_keep/4, faulty_oldest/1, faulty_tell/3]).
 :- use_module(questions, [question_answered/2]).
@@ -58,6 +58,7 @@ remove(Id, last(Host, Hops, Status, Goals, Legacy, Orders)) :-
     ;   held_dropped(Goals)
     ),
     faulty_gone(Id),
+    agent_ends(Id, Hops),
     agent_remove(Id, _, Orders).
 
 removed(Last, Id, Outcome) :-

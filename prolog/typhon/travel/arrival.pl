@@ -20,7 +20,7 @@
 :- use_module(crossings,
               [ crossing_done/1, crossing_end/2, crossing_known/1,
                 is_crossing/1 ]).
-:- use_module(home, [agent_outcome/2, home_knows/4]).
+:- use_module(home, [agent_outcome/2]).
 :- use_module(post, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4]).
 :- use_module(whereabouts, [agent_heard_of/2, agent_seen/4]).
@@ -155,8 +155,6 @@ repeated(Id, Hops) :-
     (   agent(Id, _, _, _, Life)
     ->  life_hops(Life, Hops0),
         Hops0 >= Hops
-    ;   home_knows(Id, _, Hops0, _)
-    ->  Hops0 >= Hops
     ;   agent_outcome(Id, _)
     ->  true
     ;   agent_heard_of(Id, Hops0),

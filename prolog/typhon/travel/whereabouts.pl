@@ -2,6 +2,7 @@
           [ agent_seen/4,               % +Id, +Address, +Hops, +Peer
             agent_left/4,               % +Id, +Address, +Hops, +Peer
             agent_left_noted/4,         % +Id, +Address, +Hops, +Peer
+            agent_ends/2,               % +Id, +Hops
             agent_ended/4,              % +Id, +Outcome, +Hops, +Legacy
             agent_faulty/5,             % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops
@@ -36,8 +37,8 @@ Every process keeps forwarding addresses of the agents that left it, and
 tells their homes, see typhon_home.  The oldest forwarding addresses are
 forgotten.
 
-Of those that ended in it, far from their homes, a process keeps that they
-did: whoever does not know whether one got away to it may ask.
+Of those that had come to it and ended there, a process keeps that they did:
+whoever does not know whether one got away to it may ask.
 
 An agent is in a process, not at an address: when another process has the
 address now, the agent has died with the one it went to, or has moved on.
@@ -51,11 +52,11 @@ see typhon_news, since it may have to connect.
 :- setting(forwards, positive_integer, 20000,
            "Forwarding addresses kept by a process").
 :- setting(endings, positive_integer, 20000,
-           "Agents of other homes that ended in a process, as far as it knows").
+           "Agents that came to a process and ended there, as far as it knows").
 
 :- dynamic
     forward/4,                  % Id, Address, Hops, Process
-    ended_here/2.               % Id, Hops: its home is another process
+    ended_here/2.               % Id, Hops
 
 :- multifile
     error:has_type/2,
@@ -174,6 +175,17 @@ remember_forward(Id, Address, Hops, Process) :-
                )),
     bounded(forward(_, _, _, _), typhon_whereabouts:forwards).
 
+%!  agent_ends(+Id, +Hops) is det.
+%
+%   Note that Id ends here after Hops hops.  Its record still stands: at no
+%   time may it seem as if it had never come.
+
+agent_ends(_, 0) :-
+    !.                                  % nobody sent it
+agent_ends(Id, Hops) :-
+    assertz(ended_here(Id, Hops)),
+    bounded(ended_here(_, _), typhon_whereabouts:endings).
+
 %!  agent_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
 %
 %   Let the home of Id know that it ended after Hops hops, and what it leaves.
@@ -182,9 +194,7 @@ agent_ended(Id, Outcome, Hops, Legacy) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  home_ended(Id, Outcome, Hops, Legacy)
-    ;   assertz(ended_here(Id, Hops)),
-        bounded(ended_here(_, _), typhon_whereabouts:endings),
-        end_news(Legacy, Id, Outcome, Hops, News),
+    ;   end_news(Legacy, Id, Outcome, Hops, News),
         news_tell(Home, Id, News)
     ).
 
@@ -293,9 +303,9 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
     endpoint_reply(ReplyTo, Reached).
 
 reached(Id, Hops, true) :-
-    (   agent_outcome(Id, _)
-    ;   ( hops_of(Id, Hops0) ; ended_here(Id, Hops0) ),
+    (   hops_of(Id, Hops0),
         Hops0 >= Hops
+    ;   agent_outcome(Id, _)
     ),
     !.
 reached(Id, _, false) :-
@@ -303,11 +313,14 @@ reached(Id, _, false) :-
     !.
 reached(_, _, unknown).
 
-hops_of(Id, Hops) :-
-    trace_of(Id, _, Hops, _).
+%   In this order: who leaves or ends meanwhile has left a trace before it is
+%   gone.
+
 hops_of(Id, Hops) :-
     agent(Id, _, _, _, Life),
     life_hops(Life, Hops).
+hops_of(Id, Hops) :-
+    agent_heard_of(Id, Hops).
 
 %!  agent_reached_at(+Id, +Hops, +Endpoint, -Reached) is det.
 %
@@ -319,13 +332,14 @@ agent_reached_at(Id, Hops, Endpoint, Reached) :-
     endpoint_call(Endpoint, whereabouts, reached(Id, Hops), answer(Reached),
                   5).
 
-%!  agent_heard_of(+Id, -Hops) is semidet.
+%!  agent_heard_of(+Id, -Hops) is nondet.
 %
 %   Id, which is not in this process, has made Hops hops at least.
 
 agent_heard_of(Id, Hops) :-
-    ( trace_of(Id, _, Hops, _) ; ended_here(Id, Hops) ),
-    !.
+    trace_of(Id, _, Hops, _).
+agent_heard_of(Id, Hops) :-
+    ended_here(Id, Hops).
 
 %!  whereabouts(+Id, -Address) is semidet.
 %

@@ -4,7 +4,10 @@
 :- use_module(library(apply), [include/3, maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/travel/whereabouts), [agent_reached/3]).
+:- use_module(library(yall), [(>>)/3]).
 
 /** <module> Agents hop between hosts of one process
 
@@ -61,6 +64,11 @@ test(services_are_those_of_the_new_place, true(F == [s(a),s(b)])) :-
                  include([s(_)]>>true, F0, F) )).
 test(what_a_place_holds_is_not_the_agents, true(At == beta)) :-
     with_tmp_dir(device(At)).
+test(it_never_seems_not_to_have_come, true(Answers == [answer(true)])) :-
+    with_hosts([alpha,beta],
+               ( create([(main :- move(beta)), on_message(_, _)], A),
+                 wait_state(A, resident),
+                 reached_as_it_goes(A, Answers) )).
 test(what_does_not_travel_stays_behind, true(F == [s(gone)])) :-
     with_hosts([alpha,beta],
                ( create([ (main :- assertz(kept(1)),
@@ -97,6 +105,22 @@ device(At, Dir) :-
                  stands(A, At) )).
 
 :- end_tests(hops_within_a_process).
+
+%   What is said, when its record is gone, of whether it had come by a hop.
+
+reached_as_it_goes(A, Answers) :-
+    setup_call_cleanup(
+        wrap_predicate(typhon_agents:agent_remove(Id, _, _), asked, Removed,
+                       ( Removed, test_within:reached_now(Id) )),
+        ( agent_dispose(A), joined_as(disposed, A) ),
+        unwrap_predicate(typhon_agents:agent_remove/3, asked)),
+    findall(Answer, retract(said(Answer)), Answers).
+
+:- dynamic said/1.
+:- public reached_now/1.
+
+reached_now(Id) :-
+    agent_reached(Id, 1, [Answer]>>assertz(said(Answer))).
 
 stands(Agent, Name) :-
     agent_property(Agent, host(Address)),
