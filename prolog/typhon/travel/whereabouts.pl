@@ -302,25 +302,27 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
     reached(Id, Hops, Reached),
     endpoint_reply(ReplyTo, Reached).
 
+%   In this order: who leaves or ends meanwhile is noted before it is gone.
+
 reached(Id, Hops, true) :-
-    (   hops_of(Id, Hops0),
-        Hops0 >= Hops
-    ;   agent_outcome(Id, _)
+    (   hops_of(Id, Hops0)
+    ;   ended_here(Id, Hops0)
     ),
+    Hops0 >= Hops,
+    !.
+reached(Id, _, true) :-
+    agent_outcome(Id, _),
     !.
 reached(Id, _, false) :-
     hops_of(Id, _),
     !.
 reached(_, _, unknown).
 
-%   In this order: who leaves or ends meanwhile has left a trace before it is
-%   gone.
-
 hops_of(Id, Hops) :-
     agent(Id, _, _, _, Life),
     life_hops(Life, Hops).
 hops_of(Id, Hops) :-
-    agent_heard_of(Id, Hops).
+    trace_of(Id, _, Hops, _).
 
 %!  agent_reached_at(+Id, +Hops, +Endpoint, -Reached) is det.
 %
