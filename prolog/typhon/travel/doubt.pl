@@ -8,7 +8,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../wire',
-              [endpoint_gone/1, endpoint_lasting/1, endpoint_peer/2]).
+              [ endpoint_address/1, endpoint_gone/1, endpoint_lasting/1,
+                endpoint_peer/2 ]).
 :- use_module('../host', [address_parts/3, alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module(crossings, [crossing_again/1, crossing_repeated/1]).
@@ -58,6 +59,9 @@ doubt_settle(Transfer) :-
     arg(1, Transfer, Id),
     setting(settle_seconds, Seconds),
     alarm_in(Seconds, Id, again(Transfer)).
+doubt_settle(_) :-
+    \+ endpoint_address(_),             % this process ends: nobody to ask
+    !.
 doubt_settle(Transfer) :-
     transfer_traveller(Transfer, Id, Hops),
     debug(typhon(hop), '~w hop ~D: in doubt', [Id, Hops]),
