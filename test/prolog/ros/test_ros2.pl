@@ -15,6 +15,8 @@ The peer, ros_peer.py, is a node in another process, made with rclpy alone.
 :- use_module(library(process), [process_create/3, process_kill/2,
                                  process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(socket),
+              [tcp_bind/2, tcp_close_socket/1, tcp_socket/1]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/helper), [helper_file/2, helper_pid/2]).
 :- use_module(library(typhon/ros)).
@@ -22,13 +24,12 @@ The peer, ros_peer.py, is a node in another process, made with rclpy alone.
 
 :- dynamic
     peer/2,                     % Pid, its standard input
-    agent/1.                    % on alpha
-
-%   A domain for this run alone.
+    agent/1,                    % on alpha
+    held/1.                     % the socket that stands for the domain
 
 begin :-
-    current_prolog_flag(pid, Pid),
-    Domain is 1 + Pid mod 100,
+    domain_hold(Domain, Socket),
+    assertz(held(Socket)),
     setenv('ROS_DOMAIN_ID', Domain),
     setenv('ROS_LOCALHOST_ONLY', 1),
     node_python([], Python),
@@ -42,7 +43,20 @@ begin :-
 end :-
     retract(peer(Peer, In)),
     close(In),
-    process_wait(Peer, _).
+    process_wait(Peer, _),
+    retract(held(Socket)),
+    tcp_close_socket(Socket).
+
+%   A domain for this run alone: that of who holds the TCP port of the same
+%   number as the UDP port at which the nodes of the domain find each other.
+
+domain_hold(Domain, Socket) :-
+    between(1, 100, Domain),
+    Port is 7400 + 250*Domain,
+    tcp_socket(Socket),
+    catch(tcp_bind(Socket, localhost:Port), error(socket_error(_, _), _),
+          ( tcp_close_socket(Socket), fail )),
+    !.
 
 begin_host :-
     begin,
