@@ -303,6 +303,7 @@ test(answers, true(O == done)) :-
            [facts([s(A)])]),
     joined(C, O),
     disposed(A).
+
 %   Its move is over when its home, this process, has heard of it: what is sent
 %   before goes by way of beta, and may be overtaken.
 

@@ -7,7 +7,6 @@
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/travel/whereabouts), [agent_reached/3]).
-:- use_module(library(yall), [(>>)/3]).
 
 /** <module> Agents hop between hosts of one process
 
@@ -64,11 +63,11 @@ test(services_are_those_of_the_new_place, true(F == [s(a),s(b)])) :-
                  include([s(_)]>>true, F0, F) )).
 test(what_a_place_holds_is_not_the_agents, true(At == beta)) :-
     with_tmp_dir(device(At)).
-test(it_never_seems_not_to_have_come, true(Answers == [answer(true)])) :-
+test(it_never_seems_not_to_have_come, true(Answer == answer(true))) :-
     with_hosts([alpha,beta],
                ( create([(main :- move(beta)), on_message(_, _)], A),
                  wait_state(A, resident),
-                 reached_as_it_goes(A, Answers) )).
+                 reached_as_it_goes(A, Answer) )).
 test(what_does_not_travel_stays_behind, true(F == [s(gone)])) :-
     with_hosts([alpha,beta],
                ( create([ (main :- assertz(kept(1)),
@@ -108,19 +107,22 @@ device(At, Dir) :-
 
 %   What is said, when its record is gone, of whether it had come by a hop.
 
-reached_as_it_goes(A, Answers) :-
+reached_as_it_goes(A, Answer) :-
+    thread_self(Me),
     setup_call_cleanup(
         wrap_predicate(typhon_agents:agent_remove(Id, _, _), asked, Removed,
-                       ( Removed, test_within:reached_now(Id) )),
-        ( agent_dispose(A), joined_as(disposed, A) ),
-        unwrap_predicate(typhon_agents:agent_remove/3, asked)),
-    findall(Answer, retract(said(Answer)), Answers).
+                       ( Removed, test_within:reached_now(Id, Me) )),
+        ( agent_dispose(A),
+          thread_get_message(Me, said(Answer), [timeout(30)]) ),
+        unwrap_predicate(typhon_agents:agent_remove/3, asked)).
 
-:- dynamic said/1.
-:- public reached_now/1.
+:- public reached_now/2.
 
-reached_now(Id) :-
-    agent_reached(Id, 1, [Answer]>>assertz(said(Answer))).
+reached_now(Id, Who) :-
+    agent_reached(Id, 1, said_to(Who)).
+
+said_to(Who, Answer) :-
+    thread_send_message(Who, said(Answer)).
 
 stands(Agent, Name) :-
     agent_property(Agent, host(Address)),
