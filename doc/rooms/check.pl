@@ -5,6 +5,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(seams).
 :- use_module(tree).
 
 /** <module> What is not in order
@@ -47,6 +48,8 @@ problem(past_door(File, Module, PI)) :-
 problem(circle(File)) :-
     room(File, _, _),
     reaches_by_import(File, File).
+problem(Problem) :-
+    seam_problem(Problem).
 
 %   What a file includes is a part of it.
 
@@ -168,6 +171,17 @@ says(against_layers(F, T), '~w: imports ~w, against the layers', [F, T]).
 says(past_door(F, M, PI), '~w: reaches for ~w of ~w past the door',
      [F, PI, M]).
 says(circle(F), '~w: imports itself, in a circle', [F]).
+says(breaks_rule(F, H), '~w: defines ~w of a higher layer', [F, H]) :-
+    H = _:_.
+says(breaks_rule(F, O), '~w: names the option ~w: use a hook', [F, O]) :-
+    atom(O).
+says(exception_not_needed(F, W),
+     '~w: the exception ~w is not needed: run doc/rooms.pl -- exceptions',
+     [F, W]).
+says(hook_not_declared(F, H), '~w: defines ~w, which its module does not \c
+     declare multifile', [F, H]).
+says(hook_without_definition(F, H), '~w: no module defines its hook ~w',
+     [F, H]).
 
 short(File, Short) :-
     atom(File),

@@ -7,6 +7,8 @@
             reexport/3,         % ?File, ?Target, ?List
             mentions/2,         % ?File, ?Name
             reaches/3,          % ?File, ?Module, ?PI
+            declares/2,         % ?File, ?Hook
+            defines/2,          % ?File, ?Hook
             size/4,             % ?File, ?PI, ?First, ?Last
             inside/2,           % ?Relative, ?File
             layers/1,           % -Layers
@@ -14,6 +16,7 @@
             door/2,             % ?File, ?Layer
             offered/3           % +Room, +List, ?PI
           ]).
+:- use_module(library(prolog_code), [comma_list/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [member/2]).
@@ -35,6 +38,8 @@
     reexport/3,                 % as import/3
     mentions/2,                 % File, Name: in clauses and directives
     reaches/3,                  % File, Module, PI: Module:Goal in a clause
+    declares/2,                 % File, Module:PI: multifile
+    defines/2,                  % File, Module:PI: a clause for that module
     size/4.                     % File, PI, first and last line
 
 :- prolog_load_context(directory, Dir),
@@ -80,7 +85,10 @@ note((:- Directive), File, _, _) :-
     note_directive(Directive, File).
 note(Clause, File, First, Last) :-
     note_names(Clause, File),
-    (   clause_head(Clause, Head)
+    (   clause_head(Clause, Module:Head)
+    ->  functor(Head, Name, Arity),
+        assertz(defines(File, Module:Name/Arity))
+    ;   clause_head(Clause, Head)
     ->  functor(Head, Name, Arity),
         assertz(size(File, Name/Arity, First, Last))
     ;   true
@@ -113,6 +121,12 @@ note_directive(reexport(Spec, List), File) :-
 note_directive(include(Spec), File) :-
     !,
     note_import(import, File, Spec, include).
+note_directive(multifile(PIs), File) :-
+    !,
+    note_names(PIs, File),
+    module_of(File, Module),
+    forall(( comma_member(PI, PIs), strip_module(Module:PI, M, Name) ),
+           assertz(declares(File, M:Name))).
 note_directive(Directive, File) :-
     note_names(Directive, File).
 
@@ -120,6 +134,10 @@ note_import(Kind, File, Spec, List) :-
     target(Spec, File, Target),
     Fact =.. [Kind, File, Target, List],
     assertz(Fact).
+
+comma_member(X, Conjunction) :-
+    comma_list(Conjunction, List),
+    member(X, List).
 
 %   target(+Spec, +File, -Target): a file of the tree, else Spec.
 

@@ -1,0 +1,225 @@
+:- module(rooms_seams,
+          [ seam_problem/1,     % -Problem
+            shrink_exceptions/0
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(tree).
+
+/** <module> The kernel names no option
+
+An option is a capability that a process may run without: a journal, keys,
+quotas.  The kernel offers hooks, which options define; it does not name them.
+A file names an option if a word of an atom or functor in its code is one of
+the option's words; comments do not count.
+
+The kernel does not yet keep this rule.  `exceptions.pl` lists the files that
+break it, and the list may only shrink: a file that names another option is a
+problem, and so is an exception that is no longer needed.
+
+Hooks are checked like imports.  Each is declared multifile by the module that
+calls it, and a module may define the hooks of lower layers only.
+
+*Threading*: the main thread.
+*/
+
+%!  option_words(?Option, ?Words) is nondet.
+
+option_words(journal,  [journal, journaled, committing, ledger, durable]).
+option_words(snapshot, [snapshot, snapshots]).
+option_words(tls,      [tls, secure, certificate, certificates]).
+option_words(identity, [owner, owners, signed, signature, signatures,
+                        authors, seal, unseal, seals]).
+option_words(trail,    [trail, trails, chain]).
+option_words(guard,    [guard, guarded, guards, strangers]).
+option_words(quotas,   [quota, quotas, spending, overuse, leavings, stay]).
+option_words(access,   [access, permits, permitted, audit]).
+option_words(virtual,  [virtual]).
+option_words(watch,    [watch, watches, watched, watching]).
+option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
+
+%!  option_file(?Option, ?Relative) is nondet.
+%
+%   The files of an option, until each has a folder below options/.
+
+option_file(journal, 'journal/*').
+option_file(journal, 'agent/in_journal.pl').
+option_file(journal, 'lifecycle/recovery.pl').
+option_file(journal, 'host/known_hosts.pl').
+option_file(journal, 'travel/channel.pl').
+option_file(journal, 'travel/channel_end.pl').
+option_file(journal, 'travel/crossings.pl').
+option_file(snapshot, 'lifecycle/cut.pl').
+option_file(snapshot, 'lifecycle/resting.pl').
+option_file(tls, 'wire/secure.pl').
+option_file(tls, 'base/key_files.pl').
+option_file(identity, 'base/keys.pl').
+option_file(identity, 'program/signatures.pl').
+option_file(identity, 'program/signed.pl').
+option_file(identity, 'agent/owner.pl').
+option_file(identity, 'agent/birth.pl').
+option_file(identity, 'agent/signed_payloads.pl').
+option_file(identity, 'host/authors.pl').
+option_file(identity, 'language/seals.pl').
+option_file(trail, 'agent/trail.pl').
+option_file(trail, 'agent/trail_verified.pl').
+option_file(trail, 'agent/chain.pl').
+option_file(trail, 'lifecycle/trails.pl').
+option_file(guard, 'program/allowed.pl').
+option_file(guard, 'program/guard.pl').
+option_file(guard, 'program/guard_arguments.pl').
+option_file(guard, 'program/guard_bodies.pl').
+option_file(guard, 'program/guard_calls.pl').
+option_file(guard, 'program/guarded_code.pl').
+option_file(guard, 'program/refusing.pl').
+option_file(guard, 'host/front.pl').
+option_file(guard, 'language/guarded.pl').
+option_file(quotas, 'host/quotas.pl').
+option_file(quotas, 'host/spending.pl').
+option_file(quotas, 'host/leavings.pl').
+option_file(quotas, 'agent/stay.pl').
+option_file(quotas, 'agent/admission.pl').
+option_file(quotas, 'lifecycle/metering.pl').
+option_file(quotas, 'lifecycle/overuse.pl').
+option_file(access, 'host/permits.pl').
+option_file(virtual, 'host/virtual.pl').
+option_file(virtual, 'host/virtual_loop.pl').
+option_file(virtual, 'host/virtual_standing.pl').
+option_file(watch, 'watching/*').
+option_file(trace, 'agent/traces.pl').
+option_file(trace, 'lifecycle/tracing.pl').
+option_file(trace, 'lifecycle/traced.pl').
+option_file(trace, 'lifecycle/stepping.pl').
+option_file(trace, 'lifecycle/on_hold.pl').
+option_file(trace, 'lifecycle/spying.pl').
+
+kernel_layer(Layer) :-
+    member(Layer, [base, program, wire, host, agent, travel, lifecycle,
+                   language]).
+
+%!  seam_problem(-Problem) is nondet.
+
+seam_problem(breaks_rule(File, What)) :-
+    breaks_rule(File, What),
+    \+ exception(File, What).
+seam_problem(exception_not_needed(File, What)) :-
+    exception(File, What),
+    \+ breaks_rule(File, What).
+seam_problem(hook_not_declared(File, Hook)) :-
+    defines(File, Hook),
+    Hook = Module:_,
+    module_of(Owner, Module),
+    room(Owner, _, _),
+    \+ declares(Owner, Hook).
+seam_problem(hook_without_definition(File, Hook)) :-
+    declares(File, Hook),
+    Hook = Module:PI,
+    module_of(File, Module),
+    room(File, _, _),
+    \+ defines(_, Hook),
+    \+ defines_own(File, PI),
+    \+ ( mentions(Test, Module), is_test(Test) ).
+
+%!  breaks_rule(?File, ?What) is nondet.
+%
+%   What is the option that File names, or a hook of a higher layer that it
+%   defines.
+
+breaks_rule(File, Option) :-
+    names_option(File, Option).
+breaks_rule(File, Hook) :-
+    defines(File, Hook),
+    Hook = Module:_,
+    module_of(Owner, Module),
+    room(Owner, Layer, _),
+    room(File, Definer, _),
+    \+ not_above(Layer, Definer).
+
+defines_own(File, PI) :-
+    size(File, PI, _, _).
+
+is_test(File) :-
+    inside('test/', Tests),
+    atom_concat(Tests, _, File).
+
+not_above(base, _) :-
+    !.
+not_above(Layer, Definer) :-
+    layers(Layers),
+    once(( member(Lower, Layers), memberchk(Lower, [Layer, Definer]) )),
+    Lower == Layer.
+
+                /*******************************
+                *       OPTIONS IN FILES       *
+                *******************************/
+
+names_option(File, Option) :-
+    room(File, Layer, _),
+    kernel_layer(Layer),
+    own_options(File, Own),
+    option_words(Option, Words),
+    \+ memberchk(Option, Own),
+    once(( mentions(File, Name), has_word(Name, Words) )).
+
+has_word(Name, Words) :-
+    atomic_list_concat(Parts, '_', Name),
+    member(Part, Parts),
+    memberchk(Part, Words),
+    !.
+
+own_options(File, Options) :-
+    findall(Option, own_option(File, Option), Options).
+
+own_option(File, Option) :-
+    inside('prolog/typhon/', House),
+    atom_concat(House, Relative, File),
+    (   option_file(Option, Relative)
+    ;   option_file(Option, Pattern),
+        atom_concat(Folder, '*', Pattern),
+        atom_concat(Folder, _, Relative)
+    ).
+
+                /*******************************
+                *           EXCEPTIONS         *
+                *******************************/
+
+:- dynamic
+    exceptions/1.               % list of exception(Relative, What)
+
+%!  exception(?File, ?What) is nondet.
+
+exception(File, What) :-
+    exceptions_read(Exceptions),
+    member(exception(Relative, What), Exceptions),
+    inside(Relative, File).
+
+exceptions_read(Exceptions) :-
+    exceptions(Exceptions),
+    !.
+exceptions_read(Exceptions) :-
+    exceptions_file(File),
+    read_file_to_terms(File, Exceptions, []),
+    assertz(exceptions(Exceptions)).
+
+exceptions_file(File) :-
+    inside('doc/rooms/exceptions.pl', File).
+
+%!  shrink_exceptions is det.
+%
+%   Write exceptions.pl anew, without the exceptions that are no longer
+%   needed.  None is added.
+
+shrink_exceptions :-
+    exceptions_file(File),
+    inside('', Root),
+    findall(exception(Relative, What),
+            ( exception(Full, What),
+              once(breaks_rule(Full, What)),
+              atom_concat(Root, Relative, Full) ),
+            Exceptions0),
+    sort(Exceptions0, Exceptions),
+    setup_call_cleanup(
+        open(File, write, Out),
+        forall(member(Exception, Exceptions),
+               format(Out, '~q.~n', [Exception])),
+        close(Out)).
