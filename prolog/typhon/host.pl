@@ -7,10 +7,9 @@ This is the door of the layer: who is above takes what it needs from here.
 */
 
 :- reexport(host/hosts,
-            [ address_parts/3, host/3, host_address/2, host_closed/1,
-              host_again/1, host_enter/4, host_hop/3, host_leave/1,
-              host_load/2, host_option/2, host_passed/3, host_resolve/2
-            ]).
+            [ host/3, host_closed/1, host_again/1, host_enter/4, host_hop/3,
+              host_leave/1, host_load/2, host_option/2, host_passed/3 ]).
+:- reexport('host/host_names').
 :- reexport(host/authors, [signature_by/3]).
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).

@@ -93,7 +93,7 @@ agent_state_here(Id, State) :-
     agent_property(Id, state(State)).
 
 connected_to(Host) :-
-    typhon_hosts:address_parts(Host, _, Endpoint),
+    typhon_host_names:address_parts(Host, _, Endpoint),
     typhon_wire:endpoint_peer(Endpoint, state(up)).
 
 %   Somebody tries, or some connection has yet to be that of a session or to

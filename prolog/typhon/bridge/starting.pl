@@ -205,26 +205,26 @@ start(Bridge, Host, What, Options) :-
     must_be(ground, What),
     must_be(list, Options),
     host_resolve(Host, Where),
-    raising_afresh(start_at(Where, Bridge, Host, What, Options)).
+    raising_afresh(start_at(Where, Bridge, What, Options)).
 
-start_at(local(Name), Bridge, _, What, Options) :-
+start_at(local(Name), Bridge, What, Options) :-
     load(Bridge),
     starts(Bridge, Name, What, Options),
     !.
-start_at(remote(_, Name, _), Bridge, Host, What, Options) :-
+start_at(remote(Host, Name, _), Bridge, What, Options) :-
     remote(Host, typhon_starting:start(Bridge, Name, What, Options)).
 
 stop(Bridge, Host) :-
     must_be(atom, Host),
     host_resolve(Host, Where),
-    raising_afresh(stop_at(Where, Bridge, Host)).
+    raising_afresh(stop_at(Where, Bridge)).
 
-stop_at(local(Name), Bridge, _) :-
+stop_at(local(Name), Bridge) :-
     (   stops(Bridge, Name)
     ->  true
     ;   existence_error(Bridge, Name)
     ).
-stop_at(remote(_, Name, _), Bridge, Host) :-
+stop_at(remote(Host, Name, _), Bridge) :-
     remote(Host, typhon_starting:stop(Bridge, Name)).
 
 :- dynamic folder/1.                    % where the bridges are

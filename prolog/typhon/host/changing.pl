@@ -8,7 +8,8 @@
 :- use_module(front, [front_set/3]).
 :- use_module(host_options, [host_listed/2]).
 :- use_module(known_hosts, [note_host/1]).
-:- use_module(hosts, [host/3, host_option/2, host_put/2, host_resolve/2]).
+:- use_module(host_names, [host_resolve/2]).
+:- use_module(hosts, [host/3, host_option/2, host_put/2]).
 :- use_module(permits, [must_be_peer_rules/1]).
 :- use_module(place, [place_offer/2]).
 :- use_module(quotas, [quota_set/3]).
@@ -35,13 +36,13 @@ each other by a mutex.
 host_change(Host, Option) :-
     check_option(host_option, Option),
     host_resolve(Host, Where),
-    change_at(Where, Host, Option).
+    change_at(Where, Option).
 
-change_at(local(Name), _, Option) :-
+change_at(local(Name), Option) :-
     with_mutex(typhon_hosting, ( change(Option, Name), note_host(Name) )),
     journal_barrier.
-change_at(remote(_, Name, _), Host, Option) :-
-    remote(Host, typhon_changing:host_change(Name, Option)).
+change_at(remote(Address, Name, _), Option) :-
+    remote(Address, typhon_changing:host_change(Name, Option)).
 
 change(concurrency(Concurrency), Name) =>
     host_put(Name, concurrency(Concurrency)),

@@ -5,7 +5,8 @@
           ]).
 :- use_module('../wire', [endpoint_post/3]).
 :- use_module(events, [event_public/2, events_hear/3]).
-:- use_module(hosts, [address_parts/3, host/3, host_option/2]).
+:- use_module(host_names, [address_parts/3]).
+:- use_module(hosts, [host/3, host_option/2]).
 
 /** <module> What a host says to its log server
 

@@ -12,9 +12,9 @@
 :- use_module('../base/options', [check_name/2, check_options/2]).
 :- use_module('../wire', [endpoint_reply/2]).
 :- use_module(asking, [process_ask/6]).
+:- use_module(host_names, [host_address/2, host_resolve/2]).
 :- use_module(hosts,
-              [ host/3, host_address/2, host_hop_stats/3, host_load/2,
-                host_option/2, host_resolve/2 ]).
+              [host/3, host_hop_stats/3, host_load/2, host_option/2]).
 :- use_module(permits, [peer_may/3]).
 :- use_module(links, [host_link/3, host_neighbours/2, host_unlink/2]).
 
@@ -35,10 +35,10 @@ connections.
 %
 %   Property is address(A), state(running), capacity(N), load(N),
 %   neighbours(L), hop_time(Direction, stats(Count,Min,Mean,Max)) (host
-%   seconds) or place(M).  Name may be the address of a host of another
-%   process, too.
+%   seconds) or place(M).  Name may be that of a host of another process of a
+%   network that this process started, or any address.
 %
-%   @error existence_error(host, Name)
+%   @error existence_error(host, Name), ambiguous_host(Name, Addresses)
 %   @error domain_error(host_property, Property)
 
 host_property(Name, Property) :-
@@ -55,11 +55,11 @@ property_of(Name, Property) :-
     local_property(Property, Name).
 property_of(Host, Property) :-
     host_resolve(Host, Where),
-    property(Where, Host, Property).
+    property(Where, Property).
 
-property(local(Name), _, Property) :-
+property(local(Name), Property) :-
     local_property(Property, Name).
-property(remote(_, Name, Endpoint), Host, Property) :-
+property(remote(Host, Name, Endpoint), Property) :-
     ask(Endpoint, Host, host_properties(Name), Properties),
     (   Properties == none
     ->  host_unknown(Host)
@@ -98,7 +98,7 @@ local_property(place(Place), Name) :-
 %   cost of a link that is there.  Where a link is broken its cost is
 %   forgotten.
 %
-%   @error existence_error(host, Host)
+%   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
 %   @error domain_error(link_option, Option)
 
 link(A, B) :-

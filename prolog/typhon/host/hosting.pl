@@ -29,8 +29,8 @@
 :- use_module(host_log, []).
 :- use_module(host_options, [host_listed/2]).
 :- use_module(hosts,
-              [ address_parts/3, host/3, host_add/4, host_close/1,
-                host_remove/1, host_resolve/2 ]).
+              [host/3, host_add/4, host_close/1, host_remove/1]).
+:- use_module(host_names, [address_parts/3, host_resolve/2]).
 :- use_module(known_hosts,
               [ forget_host/1, host_known/2, known_not_here/2, known_open/2,
                 known_with/3, note_host/1 ]).

@@ -10,16 +10,12 @@
             host_again/1,               % +Name
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
-            host_resolve/2,             % +Host, -Where
-            host_address/2,             % +Host, -Address
-            address_parts/3,            % ?Address, ?Name, ?Endpoint
             host_hop/3,                 % +Name, +Direction, +Seconds
             host_passed/3,              % +Here, +There, +Seconds
             host_hop_stats/3            % +Name, ?Direction, -Stats
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(authors, [signed_by/2]).
 :- use_module(links, [host_linked/1, host_unlink/2]).
 
@@ -31,8 +27,6 @@ on them and how long hops take.
 *Threading*: any thread.  Load and statistics are flags, which change under
 one mutex: flag/3 would lock for each of them.
 */
-
-:- multifile error:has_type/2.
 
 :- dynamic
     host/3,                     % Name, Address, Place
@@ -159,66 +153,6 @@ host_put(Name, Option) :-
         once(retract(door(Name, Tokens, Authors, Capacity, Key)))
     ;   true                            % it stops
     ).
-
-                /*******************************
-                *           ADDRESSES          *
-                *******************************/
-
-%!  address_parts(?Address, ?Name, ?Endpoint) is semidet.
-%
-%   Address is Name@Endpoint, where Endpoint is 'Interface:Port'.
-
-address_parts(Address, Name, Endpoint) :-
-    atom(Address),
-    !,
-    atomic_list_concat([Name,Endpoint], '@', Address),
-    Name \== '',
-    Endpoint \== ''.
-address_parts(Address, Name, Endpoint) :-
-    atomic_list_concat([Name,Endpoint], '@', Address).
-
-error:has_type(host_address, Address) :-
-    atom(Address),
-    is_address(Address, _, _).
-
-is_address(Address, Name, Endpoint) :-
-    address_parts(Address, Name, Endpoint),
-    sub_atom(Endpoint, _, _, _, :),
-    !.
-
-%!  host_resolve(+Host, -Where) is det.
-%
-%   Where is local(Name) or remote(Address, Name, Endpoint).
-%
-%   @error existence_error(host, Host)
-
-host_resolve(Host, _) :-
-    \+ atom(Host),
-    !,
-    must_be(atom, Host).
-host_resolve(Host, local(Host)) :-
-    host(Host, _, _),
-    !.
-host_resolve(Host, local(Name)) :-
-    host(Name, Host, _),
-    !.
-host_resolve(Host, remote(Host, Name, Endpoint)) :-
-    is_address(Host, Name, Endpoint),
-    !.
-host_resolve(Host, _) :-
-    existence_error(host, Host).
-
-%!  host_address(+Host, -Address) is det.
-%
-%   The address of Host, a name or an address.
-
-host_address(Host, Address) :-
-    host_resolve(Host, Where),
-    where_address(Where, Address).
-
-where_address(local(Name), Address) :-
-    host(Name, Address, _).
-where_address(remote(Address, _, _), Address).
 
                 /*******************************
                 *          ADMISSION           *

@@ -9,7 +9,8 @@
 :- use_module(asking, [process_ask/6]).
 :- use_module(context, [in_context/2]).
 :- use_module(host_questions, [host_unknown/1]).
-:- use_module(hosts, [host/3, host_option/2, host_resolve/2]).
+:- use_module(host_names, [host_resolve/2]).
+:- use_module(hosts, [host/3, host_option/2]).
 :- use_module(permits, [audit/3, peer_may/3]).
 :- use_module(scheduler, [scheduler_call/1]).
 
@@ -38,11 +39,11 @@ other process.
 remote(Host, Goal) :-
     host_resolve(Host, Where),
     must_be(callable, Goal),
-    raising_afresh(run(Where, Host, Goal)).
+    raising_afresh(run(Where, Goal)).
 
-run(local(Name), _, Goal) :-
+run(local(Name), Goal) :-
     run_here(Name, Goal).
-run(remote(_, Name, Endpoint), Host, Goal) :-
+run(remote(Host, Name, Endpoint), Goal) :-
     mobile_term(Goal),
     catch(process_ask(Endpoint, Host, remote, remote(Name, Goal), Answer,
                       1.0e9),

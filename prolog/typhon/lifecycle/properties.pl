@@ -6,7 +6,7 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module('../base/options', [check_name/2]).
 :- use_module('../program', [code_program/2]).
-:- use_module('../host', [host/3, turn_of/3]).
+:- use_module('../host', [host/3, host_address/2, turn_of/3]).
 :- use_module('../agent',
               [ agent/5, agent_home/2, agent_state/2, agent_status/3,
                 fault_error/2, fault_shown/2, in_words/2, is_faulty/3,
@@ -38,9 +38,9 @@
 %   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
 %   predicate, or `unknown`, and on which host it was.  What cannot travel
 %   stands in goals and messages in words.  One that runs has busy(Seconds):
-%   for so long, by the time of day, it has not stopped.  A host of this
-%   process may be asked for by its name, as in host(alpha).  If Agent is
-%   unbound, the agents of this process are enumerated.
+%   for so long, by the time of day, it has not stopped.  A host may be
+%   given by its name, as in host(alpha).  If Agent is unbound, the agents of
+%   this process are enumerated.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
 %   is a name; of an id that is no more this fails
@@ -69,18 +69,20 @@ typhon_names:known(agent_property, mailbox(_)).
 typhon_names:known(agent_property, Property) :-
     clause(property(Property, _), _).
 
-%   Who says the name of a host means that of this process.
+%   A host may be given by its name.
 
-by_address(host(Name), Property), host_known(Name, Address) =>
+by_address(host(Name), Property), named_host(Name, Address) =>
     Property = host(Address).
-by_address(home(Name), Property), host_known(Name, Address) =>
+by_address(home(Name), Property), named_host(Name, Address) =>
     Property = home(Address).
 by_address(Property0, Property) =>
     Property = Property0.
 
-host_known(Name, Address) :-
-    nonvar(Name),
-    host(Name, Address, _).
+named_host(Name, Address) :-
+    atom(Name),
+    catch(host_address(Name, Address),
+          error(existence_error(host, _), _),
+          fail).
 
 %   A mailbox may be long: it comes only if it is wanted.
 

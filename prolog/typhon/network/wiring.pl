@@ -34,11 +34,16 @@ beside a change.
 
 :- meta_predicate wire_resting_own(+, 0).
 
-:- multifile typhon_names:known/2.
+:- multifile
+    typhon_host_names:elsewhere/2,
+    typhon_names:known/2.
 
 :- dynamic
     host/5,                     % Network, I, Name, P, Address
     changed/3.                  % Network, I-J, Change: the last of this pair
+
+typhon_host_names:elsewhere(Name, Address) :-
+    host(_, _, Name, _, Address).
 
 typhon_names:known(host, Address) :-
     current_prolog_flag(pid, Pid),

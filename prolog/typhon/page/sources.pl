@@ -40,15 +40,15 @@ thread sees every few seconds which hosts there are by now.
 %!  sources_stop is det.
 %
 %   A page shows this process, the networks that it has started, and with the
-%   option host(Address) that host, and all to which one comes from these.
+%   option host(Host) that host, and all to which one comes from these.
 %   What happens is told to browsers.
 %
-%   @error existence_error(host, Address), host_unreachable(Address)
+%   @error existence_error(host, Host), host_unreachable(Address)
 
 sources_start(Options) :-
-    (   option(host(Address), Options)
+    (   option(host(Host), Options)
     ->  runtime_acquire(page, []),
-        catch(must_be_there(Address), Ball,
+        catch(must_be_there(Host, Address), Ball,
               ( runtime_release(page), throw(Ball) )),
         assertz(place(Address))
     ;   true
@@ -57,8 +57,8 @@ sources_start(Options) :-
     thread_create(find(Queue), Thread, [alias(typhon_page_finder)]),
     assertz(finder(Thread, Queue)).
 
-must_be_there(Address) :-
-    host_property(Address, address(_)),
+must_be_there(Host, Address) :-
+    host_property(Host, address(Address)),
     !.
 
 sources_stop :-

@@ -13,7 +13,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 :- use_module('../wire', [endpoint_missed/2, tls_text/2]).
 :- use_module('../program', [files_beside/3]).
 :- use_module('../host', [address_parts/3, host_property/2]).
-:- use_module('../base/names', [names/2, names_proposed/3]).
+:- use_module('../base/names', [names/2, names_joined/3, names_proposed/3]).
 :- use_module('../travel', [agent_outcome/2]).
 :- use_module(happenings, [happening/3, short_name/2]).
 
@@ -36,6 +36,9 @@ prolog:error_message(existence_error(host, Host)) -->
 prolog:error_message(existence_error(host, Host)) -->
     [ 'There is no host ~p here'-[Host] ],
     meant(host, Host).
+prolog:error_message(ambiguous_host(Name, Addresses)) -->
+    { names_joined(Addresses, ', ', Text) },
+    [ 'Several hosts are called ~w: ~w'-[Name, Text] ].
 prolog:error_message(permission_error(start, host, Host)) -->
     [ 'There is a host ~p here already'-[Host] ].
 prolog:error_message(permission_error(start, page, Port)) -->

@@ -21,7 +21,7 @@
 %   Whose is carried(Addresses), the hosts of a network, or asked(Hosts), pairs
 %   Name-Host of what was asked for and has to be there.
 %
-%   @error existence_error(host, Host)
+%   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
 
 watched_places(Hosts, Places) :-
     listed(Hosts, List),
@@ -51,8 +51,7 @@ watched(One, Endpoint, What) :-
         ;   What = carried(Address)
         )
     ;   host_resolve(One, Where),
-        at(Where, Name, Endpoint),
-        What = host(Name, One)
+        at(Where, One, Endpoint, What)
     ).
 
 hosts_of_network(Network, Addresses) :-
@@ -60,10 +59,10 @@ hosts_of_network(Network, Addresses) :-
           error(existence_error(network, _), _),
           fail).
 
-at(local(Name), Name, Endpoint) :-
+at(local(Name), One, Endpoint, host(Name, One)) :-
     endpoint_address(Endpoint),
     !.
-at(remote(_, Name, Endpoint), Name, Endpoint).
+at(remote(Address, Name, Endpoint), _, Endpoint, host(Name, Address)).
 
 wanted(Whats, Wanted) :-
     (   memberchk(carried(_), Whats)

@@ -52,7 +52,7 @@ heard(Agent, Heard) :-
 
 endpoint(Peer, Endpoint) :-
     peer_host(Peer, Host),
-    typhon_hosts:address_parts(Host, _, Endpoint).
+    typhon_host_names:address_parts(Host, _, Endpoint).
 
 %   Mallory makes the image of an agent of hers, and its birth.
 
@@ -217,7 +217,7 @@ news_forged :-
     guest(Program),
     agent_create(Program, A),
     host_property(alpha, address(Alpha)),
-    typhon_hosts:address_parts(Alpha, _, Endpoint),
+    typhon_host_names:address_parts(Alpha, _, Endpoint),
     peer_host(mallory, Mallory),
     peer_do(mallory,
             ( typhon_wire:endpoint_post(Endpoint, whereabouts,

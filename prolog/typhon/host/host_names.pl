@@ -1,0 +1,98 @@
+:- module(typhon_host_names,
+          [ host_resolve/2,             % +Host, -Where
+            host_address/2,             % +Host, -Address
+            address_parts/3             % ?Address, ?Name, ?Endpoint
+          ]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module('../wire', [endpoint_address/1]).
+:- use_module(hosts, [host/3]).
+
+/** <module> Names and addresses of hosts
+
+The one relation between what a caller writes for a host and where that host
+is.  A bare name is first looked for in this process, and then in the other
+processes of the networks that this process started.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    elsewhere/2,                % ?Name, -Address: a host of a network that
+                                % this process started
+    error:has_type/2.
+
+%!  address_parts(?Address, ?Name, ?Endpoint) is semidet.
+%
+%   Address is Name@Endpoint, where Endpoint is 'Interface:Port'.
+
+address_parts(Address, Name, Endpoint) :-
+    atom(Address),
+    !,
+    atomic_list_concat([Name,Endpoint], '@', Address),
+    Name \== '',
+    Endpoint \== ''.
+address_parts(Address, Name, Endpoint) :-
+    atomic_list_concat([Name,Endpoint], '@', Address).
+
+error:has_type(host_address, Address) :-
+    atom(Address),
+    is_address(Address, _, _).
+
+is_address(Address, Name, Endpoint) :-
+    address_parts(Address, Name, Endpoint),
+    sub_atom(Endpoint, _, _, _, :),
+    !.
+
+%!  host_resolve(+Host, -Where) is det.
+%
+%   Where is local(Name) or remote(Address, Name, Endpoint).  Host is an
+%   address, the name of a host of this process, or a name that only one host
+%   of the networks that this process started has.
+%
+%   @error existence_error(host, Host)
+%   @error ambiguous_host(Name, Addresses)
+
+host_resolve(Host, _) :-
+    \+ atom(Host),
+    !,
+    must_be(atom, Host).
+host_resolve(Host, local(Host)) :-
+    host(Host, _, _),
+    !.
+host_resolve(Host, local(Name)) :-
+    host(Name, Host, _),
+    !.
+host_resolve(Host, remote(Host, Name, Endpoint)) :-
+    is_address(Host, Name, Endpoint),
+    !.
+host_resolve(Name, remote(Address, Name, Endpoint)) :-
+    findall(Found, in_other_process(Name, Found), Found0),
+    sort(Found0, Addresses),
+    the_only(Addresses, Name, Address),
+    address_parts(Address, _, Endpoint).
+
+%   A host of this process that is being stopped is in no other process.
+
+in_other_process(Name, Address) :-
+    elsewhere(Name, Address),
+    address_parts(Address, _, Endpoint),
+    \+ endpoint_address(Endpoint).
+
+the_only([Address], _, Address) :-
+    !.
+the_only([], Name, _) :-
+    existence_error(host, Name).
+the_only([Address|Addresses], Name, _) :-
+    throw(error(ambiguous_host(Name, [Address|Addresses]), _)).
+
+%!  host_address(+Host, -Address) is det.
+%
+%   The address of Host, as of host_resolve/2.
+
+host_address(Host, Address) :-
+    host_resolve(Host, Where),
+    where_address(Where, Address).
+
+where_address(local(Name), Address) :-
+    host(Name, Address, _).
+where_address(remote(Address, _, _), Address).
