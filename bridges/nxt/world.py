@@ -43,12 +43,16 @@ class World:
         station = Station(self.loop, self.clock, robot.brick,
                           faults.Faults(), self.chosen.seed)
 
-        def before():
+        def look():
             self.step()
             self.arena.look(robot)
+
+        def before():
+            self.clock.advance(self.chosen.telegram)
+            look()
         station.before = before
         self.stations[robot.name] = station
-        self.consoles[robot.name] = Console(station, before)
+        self.consoles[robot.name] = Console(station, look)
         link = self.chosen.pty and os.path.join(self.chosen.pty, robot.name)
         port = self.chosen.tcp
         if port:
@@ -154,6 +158,12 @@ class World:
         self.step()
         return 'ok'
 
+    def do_until(self, seconds):
+        """Telegrams may have taken the clock beyond that already."""
+        self.clock.advance(max(0.0, float(seconds) - self.clock.now()))
+        self.step()
+        return 'ok'
+
     def do_bricks(self):
         return f'bricks({terms(self.places())})'
 
@@ -172,6 +182,8 @@ def options():
         help='port of the first brick, the next has the next; 0: any')
     add('--clock', metavar='RATE', type=float, default=1.0,
         help='seconds per second; 0: only by "advance SECONDS"')
+    add('--telegram', metavar='S', type=float, default=0.0,
+        help='seconds that each telegram takes, beside those of the clock')
     add('--seed', type=int, default=0)
     add('--log', metavar='FILE', help='of states and events')
     add('--every', metavar='S', type=float, default=0.2,

@@ -42,8 +42,10 @@ nxt_file(Name, File) :-
 %   Starts the arena that the JSON file Scene describes.  Bricks are pairs
 %   Robot-Port, Port being the serial line of the robot's brick.  Options:
 %
-%     - clock(Rate): arena seconds in a second, default 1; 0: the time goes
-%       only by the line `advance SECONDS`
+%     - clock(Rate): arena seconds in a second, default 1; 0: time passes
+%       only by the lines `advance SECONDS` and `until TIME`
+%     - telegram(Seconds): each telegram takes so many arena seconds more,
+%       default 0: with clock(0), a sensor that is asked settles
 %     - seed(Integer): of the gains of the motors and the noise of sensors
 %     - log(File), every(Seconds): a log of terms state(Time, Robots, Pole,
 %       Boxes), one every so many arena seconds, and event(Time, What), with
@@ -86,6 +88,7 @@ arguments(Scene, Dir, Options, Arguments) :-
            Arguments).
 
 flag(clock(Rate), '--clock', Rate).
+flag(telegram(Seconds), '--telegram', Seconds).
 flag(seed(Seed), '--seed', Seed).
 flag(log(File), '--log', File).
 flag(every(Seconds), '--every', Seconds).

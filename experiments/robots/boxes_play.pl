@@ -34,8 +34,8 @@ robot and a brick in the arena.  An allocator is released for each box.
 %     - robots: so many are there at first.  The other hosts of Network have
 %       none yet, and no links.
 %     - seed: of the back-offs
-%     - limit, clock: real seconds that something may take, else this fails;
-%       host seconds in one.
+%     - limit, rate: host seconds that something may take, else this fails;
+%       host seconds in one of agent_join/3.
 
 boxes_play(Case, Network, Arena, Bricks) :-
     network_property(Network, hosts(Hosts)),
@@ -68,7 +68,8 @@ stand_apart(Network, First, Later) :-
 
 phase(Stage, phase(Jobs, Joining), Here0-Later0, Here-Later) :-
     Stage = stage(Case, Network, Arena),
-    Limit is Case.limit * Case.clock,
+    Limit = Case.limit,
+    Seconds is Limit / Case.rate,
     maplist(job_task, Jobs, Tasks),
     maplist(release(Stage, Here0), Jobs, Tasks, Allocators),
     forall(member(Allocator, Allocators),
@@ -77,7 +78,7 @@ phase(Stage, phase(Jobs, Joining), Here0-Later0, Here-Later) :-
     append(New, Later, Later0),
     foldl(join(Arena), New, Here0, Here),
     forall(member(Allocator, Allocators),
-           agent_join(Allocator, done, Case.limit)),
+           agent_join(Allocator, done, Seconds)),
     forall(member(Host, Here), until(idle(Host), Network, Limit)),
     forall(member(job(Box, _, _), Jobs), remove(Arena, Box)).
 

@@ -1,12 +1,14 @@
 :- module(robots_crew,
           [ crew_services/1,            % -Services
             crew_join/2,                % +Hosts, +Ports
+            crew_leave/0,
             crew_task/3                 % +Name, +Spec, -Task
           ]).
 :- use_module('../../prolog/typhon', [remote/2]).
+:- use_module('../../prolog/typhon/nxt', [nxt_brick/2, nxt_disconnect/1]).
 :- use_module('../../prolog/typhon/program/paths', []).
 :- use_module('../../prolog/typhon/program/programs', [payload_load/2]).
-:- use_module(library(thread), [concurrent_maplist/3]).
+:- use_module(library(apply), [maplist/3]).
 
 /** <module> Hosts that have robots
 
@@ -28,20 +30,27 @@ crew_services([File]) :-
 %!  crew_join(+Hosts, +Ports) is det.
 %
 %   Each of Hosts connects to the brick at the end of the serial line that
-%   stands at the same place in Ports, and leaves brick(Brick).  A brick has
-%   ten seconds to answer: the computer may be busy.  It does not acknowledge
-%   motor commands: each wheel has one of its own, and while the robot waited
-%   for the first answer it would turn.
+%   stands at the same place in Ports, and leaves brick(Brick); Brick is the
+%   name of the host.  A brick has a minute to answer, as the computer may be
+%   busy.  It acknowledges motor commands: the arena has seen a command before
+%   time goes on.
 %
 %   @error what nxt_connect/3 throws, host_unreachable(Host)
 
 crew_join(Hosts, Ports) :-
-    concurrent_maplist(join, Hosts, Ports).
+    maplist(join, Hosts, Ports).
 
 join(Host, Port) :-
-    remote(Host, ( nxt_connect(robot, Port,
-                               [deadline(10), confirm(false)]),
-                   leave(brick(robot)) )).
+    atomic_list_concat([Brick|_], @, Host),
+    remote(Host, ( nxt_connect(Brick, Port, [deadline(60)]),
+                   leave(brick(Brick)) )).
+
+%!  crew_leave is det.
+%
+%   Disconnect the bricks that hosts of this process have.
+
+crew_leave :-
+    forall(nxt_brick(Brick, _), nxt_disconnect(Brick)).
 
 %!  crew_task(+Name, +Spec, -Task) is det.
 %

@@ -16,7 +16,7 @@ lines to the box, push it, and drive back. While the second box of a pair is \c
 being pushed, robots join.").
 
 fixed(robots, 5, printed("section 7.7")).
-fixed(processes, 7, printed("section 7.7: seven robots in the end")).
+fixed(hosts, 7, printed("section 7.7: seven robots in the end")).
 fixed(script, [ phase([job(box1, 1, 3), job(box2, 2, 3)], 1),
                 phase([job(box3, 1, 3), job(box4, 2, 4)], 1),
                 phase([job(box5, 1, 2), job(box6, 2, 5)], 0) ],
@@ -27,7 +27,7 @@ fixed(every, 0.2, assumed("often enough for a moving picture")).
 %   A ring of hosts that are named as their robots.
 
 network(Case, edges(Ring), Options) :-
-    Count = Case.processes,
+    Count = Case.hosts,
     findall(A-B, ( between(1, Count, I),
                    J is I mod Count + 1,
                    atom_concat(r, I, A),
@@ -36,7 +36,10 @@ network(Case, edges(Ring), Options) :-
     robot_options(Case, Options).
 
 run(Case, Network) :-
-    in_arena(Case, boxes, boxes_play(Case, Network)).
+    host_rate(Case, Rate),
+    in_arena(Case, Network, boxes, boxes_play(Case.put(rate, Rate), Network)).
+
+real([], [clock=5, processes=7]).
 
                 /*******************************
                 *           MEASURES           *

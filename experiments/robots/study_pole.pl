@@ -14,7 +14,7 @@
 :- use_module(crew, [crew_join/2, crew_task/3]).
 :- use_module(pole_metrics).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(lists),
               [append/2, last/2, member/2, memberchk/2, nth1/3]).
 :- use_module(library(pairs), [pairs_values/2]).
@@ -26,7 +26,6 @@ it, carry it, and put it down. Alone, each robot does so without waiting for \c
 anybody.").
 
 vary(way, [in_step, alone]).
-fixed(processes, 4, printed("section 5.7: four separate computers")).
 fixed(agents, 2, printed("section 5.7")).
 fixed(delta, 0.5, assumed("the best for 60 hosts in a grid; none \c
 is printed")).
@@ -45,7 +44,11 @@ network(Case, ring(4), Options) :-
 
 run(Case, Network) :-
     network_property(Network, hosts(Hosts)),
-    in_arena(Case, pole, carry(Case, Hosts)).
+    in_arena(Case, Network, pole, carry(Case, Hosts)).
+
+%   Section 5.7: four separate computers.
+
+real([way=in_step], [clock=5, processes=4]).
 
 carry(Case, Hosts, Arena, Bricks) :-
     pairs_values(Bricks, Ports),
@@ -54,10 +57,9 @@ carry(Case, Hosts, Arena, Bricks) :-
     findall(Task, ( nth1(N, Payloads, Payload),
                     crew_task(N, payloads(robots/Payload), Task) ), Tasks),
     begin(Case.way, Case, Hosts, Tasks, Agents),
-    get_time(Now),
-    Deadline is Now + Case.limit,
     Hosts = [Host|_],
-    maplist(await(Deadline, note_clocks(Arena, Host)), Agents).
+    host_rate(Case, Rate),
+    foldl(await(Rate, note_clocks(Arena, Host)), Agents, Case.limit, _).
 
 begin(in_step, Case, Hosts, Tasks, Agents) :-
     sequence_start(pole, Hosts, Tasks,
@@ -72,14 +74,18 @@ create_alone(Tasks, Host, Agent) :-
     agent_create(agents(robots/alone), Agent,
                  [host(Host), facts([tasks(pole, Tasks)]), static(true)]).
 
-await(Deadline, Note, Agent) :-
+%   Every host second both clocks are noted.
+
+await(Rate, Note, Agent, Left0, Left) :-
     call(Note),
-    get_time(Now),
-    Now < Deadline,
-    agent_join(Agent, Outcome, 0.2),
+    Left0 > 0,
+    Second is 1/Rate,
+    agent_join(Agent, Outcome, Second),
+    Left1 is Left0 - 1,
     (   Outcome == timeout
-    ->  await(Deadline, Note, Agent)
-    ;   Outcome == done
+    ->  await(Rate, Note, Agent, Left1, Left)
+    ;   Outcome == done,
+        Left = Left1
     ).
 
                 /*******************************
@@ -184,7 +190,11 @@ measure(starts, View, Rows) :-
 measure(tilts, View, Rows) :-
     findall([Time, Tilt], tilt(View, Time, Tilt), Rows).
 measure(taus, View, Rows) :-
-    findall([Time, Tau], member(Time-Tau, View.steps), Rows).
+    findall([Time, Tau], member(Time-Tau, View.steps), Rows0),
+    (   Rows0 == []                     % no task is ever required
+    ->  Rows = [[0, 0], [View.end, 0]]
+    ;   Rows = Rows0
+    ).
 measure(tasks, View, Rows) :-
     findall([Task, First, End, Idle],
             member(task(Task, First, _, End, _, Idle), View.rows), Rows).
@@ -210,7 +220,8 @@ claim("the robots take different times to reach the pole", [line(3707)],
 claim("they begin to lift at the 27th second (within 5 s)", [line(3709)],
       at([way=in_step], near(second, 27, 5))).
 claim("they begin to carry around the 54th second (within 5 s)",
-      [line(3709), why("how long lifting took is not printed; here it is 6 s")],
+      [line(3709), why("how long lifting took is not printed; with the 6 s here 46 s \c
+follow")],
       at([way=in_step], near(third, 54, 5))).
 claim("no robot begins a task before all have ended the previous one",
       [line(3700)],

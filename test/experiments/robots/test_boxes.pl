@@ -26,7 +26,7 @@ test(script, Needs-Robots == [3, 3, 3, 4, 2, 5]-7) :-
                  member(job(_, _, N), Jobs) ), Needs),
     findall(N, member(phase(_, N), Case.script), Joining),
     sum_list([Case.robots|Joining], Robots),
-    assertion(Robots =:= Case.processes).
+    assertion(Robots =:= Case.hosts).
 test(one_team_for_each_place, [ forall(between(2, 5, Needs)),
                                 Count == Needs ]) :-
     job_task(job(box, 1, Needs), task(box, Teams, [goal(_)])),

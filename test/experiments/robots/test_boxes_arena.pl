@@ -136,8 +136,8 @@ two_robots_and_one(Dir) :-
     robot_study(boxes, Study),
     Script = [phase([job(box1, 1, 2)], 1)],
     no_leaks(small_run(Study,
-                       [ robots-2, processes-3, script-[Script], clock-4,
-                         hop_time-(0.1-0.2), limit-250 ],
+                       [ robots-2, hosts-3, script-[Script],
+                         hop_time-(0.1-0.2) ],
                        Dir, Case-Ms)),
     assertion(Ms.pushed =:= 1),
     assertion(Ms.completed =:= 1),
@@ -156,7 +156,7 @@ no_robot(Dir) :-
     robot_study(boxes, Study),
     Script = [phase([job(box1, 1, 3)], 0)],
     no_leaks(small_run(Study,
-                       [robots-2, processes-2, script-[Script], limit-1],
+                       [robots-2, hosts-2, script-[Script], limit-20],
                        Dir, _)).
 
 %   Ctrl-C, when boxes are being pushed.
