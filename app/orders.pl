@@ -16,7 +16,7 @@ order/3 has one clause for each command, and fails when the answer is no.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../prolog/typhon',
-              [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/2,
+              [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/3,
                 agent_property/2, host_property/2, remote/2 ]).
 :- use_module('../prolog/typhon/agent/identity', [agent_name/3]).
 :- use_module('../prolog/typhon/host/host_names', [address_parts/3]).
@@ -35,9 +35,10 @@ order(dispose, [Text], Options) :-
 order(move, [Text, HostText], Options) :-
     agent_argument(Text, Options, Agent),
     host_argument(HostText, Agent, Host),
-    agent_move(Agent, Host),
     option(timeout(Seconds), Options, 10),
-    within(Seconds, is_at(Agent, Host)).
+    catch(agent_move(Agent, Host, [wait(Seconds)]),
+          error(timeout_error(order, _), _),
+          fail).
 order(join, [Text], Options) :-
     agent_argument(Text, Options, Agent),
     option(timeout(Seconds), Options, 1.0e9),
@@ -171,12 +172,7 @@ usage(Problem) :-
                 *            WAITING           *
                 *******************************/
 
-%   Orders are taken at the next effect of an agent, and a host takes its time
-%   to stop.
-
-is_at(Agent, Host) :-
-    agent_property(Agent, host(Host)),
-    \+ agent_property(Agent, state(in_transit)).
+%   A host takes its time to stop.
 
 is_gone(Host) :-
     catch(\+ host_property(Host, state(_)),

@@ -16,7 +16,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('lifecycle/properties').
 :- reexport('lifecycle/glance').
 :- reexport('lifecycle/giving',
-            [ agent_move/2, agent_clone/2, agent_resume/1, agent_change/2,
+            [ agent_move/2, agent_move/3, agent_clone/2, agent_resume/1, agent_change/2,
               payload_attach/2, payload_detach/2
             ]).
 :- reexport('lifecycle/disposal').

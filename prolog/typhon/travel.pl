@@ -8,15 +8,17 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(travel/hop, [hop/6, hop_clone/6]).
 :- reexport(travel/transfer, [transfer_given_up/2, transfer_held/2]).
+:- reexport('travel/ordered_moves').
 :- reexport(travel/doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
 :- use_module(travel/channel_end, []).
 :- reexport(travel/home,
-              [agent_born/2, agent_outcome/2, home_agents/1, outcome_wait/3]).
+              [ agent_born/2, agent_outcome/2, home_agents/1, home_agents_at/2,
+                outcome_wait/3 ]).
 :- reexport(travel/legacies, [clone_born/2, clones_ask/3, legacy_ask/4]).
 :- reexport(travel/whereabouts,
               [ agent_ended/4, agent_ends/2, agent_faulty/5, agent_resumed/3,
-                agent_resumed_from/3, whereabouts/2 ]).
+                agent_resumed_from/3, ended_agent/1, whereabouts/2 ]).
 :- reexport(travel/post, [post/3, post_via/4]).
 :- reexport(travel/logged, [agent_logs/3]).
 :- reexport(travel/backlog, [post_tried/0]).

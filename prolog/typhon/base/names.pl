@@ -3,10 +3,11 @@
             names_near/3,               % +Name, +Names, -Near
             names_proposed/3,           % +Name, +Names, -Text
             names_listed/2,             % +Names, -Text
-            names_joined/3              % +Names, +Separator, -Text
+            names_joined/3,             % +Names, +Separator, -Text
+            names_some/3                % +Names, +Most, -Text
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(lists), [append/3, last/2, member/2]).
 :- use_module(library(solution_sequences), [limit/2]).
 
 /** <module> Names that people mistype
@@ -113,6 +114,21 @@ names_listed(_, '').
 names_joined(Names, Separator, Text) :-
     maplist(name_text, Names, Texts),
     atomic_list_concat(Texts, Separator, Text).
+
+%!  names_some(+Names:list, +Most, -Text:atom) is det.
+%
+%   Text is the first Most of Names, and how many more there are.
+
+names_some(Names, Most, Text) :-
+    length(Names, Count),
+    (   Count > Most
+    ->  length(Some, Most),
+        append(Some, _, Names),
+        names_joined(Some, ', ', Listed),
+        More is Count-Most,
+        format(atom(Text), '~w and ~D more', [Listed, More])
+    ;   names_joined(Names, ', ', Text)
+    ).
 
 %   ring('N') as ring(N), state(S) as state(_).
 

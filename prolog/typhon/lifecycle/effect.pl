@@ -17,7 +17,8 @@
                 agent_put_down/3, agent_ready/2, agent_rest/3, agent_status/3,
                 agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
                 with_agent/2 ]).
-:- use_module('../travel', [hop/6, hop_clone/6]).
+:- use_module('../travel',
+              [hop/6, hop_clone/6, move_failed/2, move_over/2]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
 :- use_module(families, [may_clone/2]).
@@ -273,7 +274,7 @@ effect_depart(Id, Dest, Hole, Goals, Since, Next) :-
 
 cannot_depart(ordered, Id, _, error(Formal, _)) :-
     !,
-    print_message(warning, typhon(order_failed(Id, Formal))).
+    move_failed(Id, Formal).
 cannot_depart(Hole, _, Dest, Error) :-
     where_address(Dest, Address),
     answer_at(move(Address), throw(Error), Hole).
@@ -288,7 +289,8 @@ where_address(remote(Address, _, _), Address).
 effect_order(Id, Here, Host, Goals) :-
     host_resolve(Host, Dest),
     (   Dest == local(Here)
-    ->  with_agent(Id, agent_ready(Id, Goals))
+    ->  ignore(move_over(Id, answer(arrived))),
+        with_agent(Id, agent_ready(Id, Goals))
     ;   agent(Id, _, _, _, Life),
         life_may_move(Life, May),
         set_out(May, Dest, ordered, Goals, Id-Here, _)

@@ -14,7 +14,7 @@
                 fault_outcome/2, fault_shown/2, is_faulty/3, legacy/2,
                 life_hops/2, with_agent/2 ]).
 :- use_module(on_hold, [held_dropped/1]).
-:- use_module('../travel', [agent_ended/4, agent_ends/2, transfer_given_up/2]).
+:- use_module('../travel', [agent_ended/4, agent_ends/2, move_over/2, transfer_given_up/2]).
 :- use_module(faulty,
               [faulty_gone/1, faulty_keep/4, faulty_oldest/1, faulty_tell/3]).
 :- use_module(questions, [question_answered/2]).
@@ -64,11 +64,12 @@ remove(Id, last(Host, Hops, Status, Goals, Legacy, Orders)) :-
 removed(Last, Id, Outcome) :-
     told(Last, Id, Outcome),
     arg(6, Last, Orders),
-    unanswered(Orders).
+    unanswered(Id, Orders).
 
-%   Who waits for an answer to an order hears that nobody will give one.
+%   Callers that wait for an answer to an order get `none`.
 
-unanswered(Orders) :-
+unanswered(Id, Orders) :-
+    ignore(move_over(Id, none)),
     forall(member(asked(_, Asker), Orders), question_answered(Asker, none)).
 
 %!  agent_forgotten(+Id, :Test) is semidet.
@@ -82,7 +83,7 @@ agent_forgotten(Id, Test) :-
                      agent_remove(Id, _, Orders) )),
     events_forget(Id),
     host_leave(Host),
-    unanswered(Orders).
+    unanswered(Id, Orders).
 
 %   That it has ended badly is known.
 

@@ -1,5 +1,6 @@
 :- module(typhon_giving,
           [ agent_move/2,               % +Agent, +Host
+            agent_move/3,               % +Agent, +Host, +Options
             agent_clone/2,              % +Agent, -Clone
             payload_attach/2,           % +Agent, +Payload
             payload_detach/2,           % +Agent, +Name
@@ -9,7 +10,9 @@
             agent_answer/3              % +Agent, +Question, -Answer
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(option), [option/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
+:- use_module('../base/options', [check_options/2]).
 :- use_module('../program', [payload_load/2, payload_signature/2]).
 :- use_module('../host', [host_address/2]).
 :- use_module('../travel', [agent_resumed_from/3]).
@@ -25,25 +28,53 @@ agent; what becomes of it there see typhon_orders.
 *Threading*: any thread.
 */
 
+:- multifile typhon_options:declared/4.
+
 %!  agent_move(+Agent, +Host) is det.
-%!  agent_clone(+Agent, -Clone) is det.
-%!  payload_attach(+Agent, +Payload) is det.
-%!  payload_detach(+Agent, +Name) is det.
+%!  agent_move(+Agent, +Host, +Options) is det.
 %
-%   Orders from outside.  An agent that runs takes them at its next effect.
-%   agent_move/2 does not wait for that, the others do, for 10 seconds at the
-%   most.  An agent that is refused at Host stays where it is, which is
-%   reported there.
+%   Order Agent to move to Host.  It takes the order at its next effect.
+%   agent_move/2 returns when the order is given, before the agent has moved:
+%   it succeeds also if Host cannot be reached or refuses the agent, which
+%   then stays, and its process prints a warning.  Option:
 %
-%   An agent that is faulty obeys as others do, and is faulty still.
+%     - wait(+Seconds): return when the agent is on Host, and raise an error
+%       if it stays, if it ends first, or if neither is known within Seconds.
+%       After a timeout the order stands.
 %
 %   @error existence_error(agent, Agent), existence_error(host, Host),
-%   ambiguous_agent(Agent, Ids) if Agent is a name that several have
-%   @error timeout_error(order, Agent)
+%   ambiguous_agent(Name, Ids), ambiguous_host(Name, Addresses)
+%   @error with wait(Seconds): move_refused(Host, Reason),
+%   host_unreachable(Host), permission_error(move, static_agent, Agent),
+%   timeout_error(order, Agent)
+%   @error domain_error(move_option, Option)
 
 agent_move(Agent, Host) :-
     host_address(Host, Address),
     order_give(Agent, move(Address), _).
+
+agent_move(Agent, Host, Options) :-
+    check_options(move_option, Options),
+    (   option(wait(Seconds), Options)
+    ->  host_address(Host, Address),
+        agent_answer(Agent, order(arrive(Address)), Seconds, arrived)
+    ;   agent_move(Agent, Host)
+    ).
+
+typhon_options:declared(move_option, wait(Seconds), number, Seconds).
+
+%!  agent_clone(+Agent, -Clone) is det.
+%!  payload_attach(+Agent, +Payload) is det.
+%!  payload_detach(+Agent, +Name) is det.
+%
+%   Orders from outside.  An agent that runs takes them at its next effect,
+%   for which these predicates wait, for 10 seconds at the most.
+%
+%   An agent that is faulty obeys as others do, and is faulty still.
+%
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
+%   is a name that several have
+%   @error timeout_error(order, Agent)
 
 agent_clone(Agent, Clone) :-
     must_be(var, Clone),
@@ -100,7 +131,7 @@ agent_change(Agent, Change) :-
 
 %!  order_give(+Agent, +Order, -Result) is det.
 %
-%   @arg Order is move(Host), `clone`, attach(Payload),
+%   @arg Order is move(Host), arrive(Host), `clone`, attach(Payload),
 %        detach(Name), `image`, `resume`, change(Change), see typhon_change,
 %        or watched(Change), see typhon_traced
 
@@ -116,8 +147,11 @@ order_give(Agent, Order, Result) :-
 %   @error timeout_error(order, Agent)
 
 agent_answer(Agent, Question, Answer) :-
+    agent_answer(Agent, Question, 10, Answer).
+
+agent_answer(Agent, Question, Seconds, Answer) :-
     agent_named(Agent, Id),
-    (   agent_ask(Id, Question, 10, Answer0)
+    (   agent_ask(Id, Question, Seconds, Answer0)
     ->  answered(Answer0, Answer)
     ;   existence_error(agent, Agent)
     ).

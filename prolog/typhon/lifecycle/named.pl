@@ -9,15 +9,16 @@
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
 :- use_module('../agent', [agent/5, agent_name/3]).
-:- use_module('../travel', [agent_outcome/2, home_agents/1]).
+:- use_module('../travel', [agent_outcome/2, ended_agent/1, home_agents/1]).
 :- use_module(questions, [agent_ask/4]).
 
 /** <module> Agents by the names that people give them
 
-Where only one of the agents known here is called `bob`, `bob` is enough for
-people to say.  Known are those that stand in this process, were born in it,
-or were created from here elsewhere, and what rooms above know, as the
-agents of a network.
+Where only one of the agents known here is called `bob`, `bob` stands for its
+id.  Known are agents that stand in this process, were born in it, or were
+created from here elsewhere, and those that modules above know, as the agents
+of a network.  If no living agent has the name, it stands for the last one
+that has ended, as long as that is remembered.
 
 *Threading*: any thread.
 */
@@ -29,10 +30,12 @@ agents of a network.
 
 :- multifile
     elsewhere/1,                % Id: an agent of another process
+    ended_elsewhere/2,          % +Name, -Id: one that ended
     typhon_names:known/2.
 
 :- dynamic
     elsewhere/1,
+    ended_elsewhere/2,
     met/2.                      % Id of an agent created elsewhere, alive
                                 % or gone
 
@@ -53,7 +56,8 @@ agent_met(Id) :-
 %   Id is Agent itself, or the only agent known here that is called Agent;
 %   in agent_once_named/2, if there is none, the last one that has ended.
 %
-%   @error existence_error(agent, Agent)
+%   @error existence_error(agent, Agent); of agent_named/2 with the id of the
+%   agent if Agent is the name of one that has ended
 %   @error ambiguous_agent(Agent, Ids)
 
 agent_named(Agent, Id) :-
@@ -63,7 +67,18 @@ agent_named(Agent, Id) :-
 agent_named(Name, Id) :-
     must_be(atom, Name),
     living(Name, Ids),
-    the_only(Ids, Name, Id).
+    (   Ids == [],
+        last_called(Name, Ended)
+    ->  has_ended(Ended)
+    ;   the_only(Ids, Name, Id)
+    ).
+
+has_ended(Id) :-
+    agent_outcome(Id, _),               % the message says which
+    !,
+    existence_error(agent, Id).
+has_ended(Id) :-
+    throw(error(existence_error(agent, Id), context(_, 'it has ended'))).
 
 agent_once_named(Agent, Id) :-
     is_id(Agent),
@@ -71,17 +86,21 @@ agent_once_named(Agent, Id) :-
     Id = Agent.
 agent_once_named(Name, Id) :-
     must_be(atom, Name),
-    living(Name, Living),
-    (   Living == []
-    ->  findall(Last, last_called(Name, Last), Ids)
-    ;   Ids = Living
-    ),
-    the_only(Ids, Name, Id).
+    living(Name, Ids),
+    (   Ids == [],
+        last_called(Name, Ended)
+    ->  Id = Ended
+    ;   the_only(Ids, Name, Id)
+    ).
 
 last_called(Name, Id) :-
-    member(Which, [ended, gone]),
+    member(Which, [ended, gone, ended_agent]),
     called(Name, Which, Ids),
-    last(Ids, Id).
+    last(Ids, Id),
+    !.
+last_called(Name, Id) :-
+    ended_elsewhere(Name, Id),
+    !.
 
 is_id(Agent) :-
     atom(Agent),
@@ -95,7 +114,7 @@ the_only([], Name, _) :-
 the_only([Id|Ids], Name, _) :-
     throw(error(ambiguous_agent(Name, [Id|Ids]), _)).
 
-%   Nobody tells us when one that was created elsewhere ends.
+%   The end of an agent that was created elsewhere is not reported here.
 
 living(Name, Ids) :-
     called(Name, living, Ids0),

@@ -15,7 +15,8 @@
                 agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
                 mail_list/2, trail_none/2, with_agent/2 ]).
 :- use_module('../travel',
-              [agent_resumed/3, out_of_touch/1]).
+              [ agent_resumed/3, move_awaited/2, move_failed/2, move_over/2,
+                out_of_touch/1 ]).
 :- use_module(change, [change_made/2]).
 :- use_module(creation, [agent_clone_here/3]).
 :- use_module(effect, [effect_order/4]).
@@ -164,7 +165,7 @@ typhon_transfer:forward_order(Agent, Order) :-
     ->  forward(Agent, Order1, Answer),
         question_answered(Asker, Answer)
     ;   forward(Agent, Order, error(Formal))
-    ->  failed(Agent, Formal)
+    ->  move_failed(Agent, Formal)
     ;   true
     ).
 
@@ -202,11 +203,15 @@ obey(move(Host), Id, Goals) :-
     (   agent(Id, Here, _, _, _)
     ->  catch(effect_order(Id, Here, Host, Goals),
               error(Formal, _),
-              ( failed(Id, Formal),
+              ( move_failed(Id, Formal),
                 go_on(Id, Goals)
               ))
-    ;   true
+    ;   ignore(move_over(Id, none))     % it was ended meanwhile
     ).
+obey(asked(arrive(Host), Asker), Id, Goals) :-
+    !,
+    move_awaited(Id, Asker),
+    obey(move(Host), Id, Goals).
 obey(asked(end, Asker), Id, _) :-
     !,
     ignore(agent_end(Id, disposed)),
@@ -246,9 +251,6 @@ go_on(Id, Goals) :-
     ->  agent_stays(Id, Goals)
     ;   ignore(with_agent(Id, agent_ready(Id, Goals)))
     ).
-
-failed(Id, Formal) :-
-    print_message(warning, typhon(order_failed(Id, Formal))).
 
 carried_out(attach(Payload), Agent, ok) :-
     agent_attach(Agent, Payload).

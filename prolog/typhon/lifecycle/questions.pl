@@ -26,7 +26,8 @@ reader threads, which never wait.
 
 :- multifile
     here/3,                     % Question, Agent, Asker
-    typhon_endpoint:requested/4.
+    typhon_endpoint:requested/4,
+    typhon_ordered_moves:answered/2.
 
 %   here(+Question, +Agent, +Asker) is semidet: fails if Agent does not stand
 %   in this process.  Else Asker is told, then or later.
@@ -188,3 +189,6 @@ question_answered(queue(Queue), Answer) :-
           error(existence_error(_, _), _), true).
 question_answered(reply(ReplyTo), Answer) :-
     endpoint_reply(ReplyTo, Answer).
+
+typhon_ordered_moves:answered(Asker, Answer) :-
+    question_answered(Asker, Answer).

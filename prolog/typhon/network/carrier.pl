@@ -22,7 +22,8 @@
 :- use_module('../lifecycle',
               [ agents_at_rest/2, agents_go_on/1, cut_again/2, cut_go_on/3,
                 cut_kept/2 ]).
-:- use_module('../travel', [home_agents/1]).
+:- use_module('../agent', [agent_name/3]).
+:- use_module('../travel', [agent_outcome/2, home_agents/1]).
 :- use_module(voice, [voice_begin/0, voice_end/0]).
 
 /** <module> A process that carries hosts of a network
@@ -114,6 +115,8 @@ one for the order to stop: it sees to it that there is an end.
 %     - agents
 %       Answer is the list of the agents that were born in the process and
 %       have not ended.
+%     - ended(Name)
+%       Answer is the list of those of that name that have.
 %
 %   @error what host_start/2 throws, and goals of places(Pairs); where such
 %   a goal fails, place_goal_failed(Name, Goal)
@@ -174,6 +177,9 @@ order_do(neighbours(Names), Lists) :-
     maplist(host_neighbours, Names, Lists).
 order_do(agents, Agents) :-
     home_agents(Agents).
+order_do(ended(Name), Agents) :-
+    findall(Agent,
+            ( agent_outcome(Agent, _), agent_name(Agent, Name, _) ), Agents).
 
 :- meta_predicate in_time(0, -).
 

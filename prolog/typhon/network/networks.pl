@@ -10,7 +10,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/erased', [forget_erased/0]).
@@ -29,7 +29,8 @@
 :- use_module(wiring,
               [ wire_change/2, wire_forget/1, wire_resting_own/2,
                 wire_stop_own/1,
-                wired_agents/2, wired_edges/2, wired_hosts/2 ]).
+                wired_agents/2, wired_edges/2, wired_ended/3,
+                wired_hosts/2 ]).
 
 /** <module> Networks of hosts
 
@@ -52,6 +53,7 @@ none of its own.
 :- multifile
     prolog:message//1,
     typhon_named:elsewhere/1,
+    typhon_named:ended_elsewhere/2,
     typhon_names:known/2,
     ended/1.                    % Network
 
@@ -306,6 +308,11 @@ typhon_named:elsewhere(Agent) :-
     running(Network),
     wired_agents(Network, Agents),
     member(Agent, Agents).
+
+typhon_named:ended_elsewhere(Name, Agent) :-
+    running(Network),
+    wired_ended(Network, Name, Agents),
+    last(Agents, Agent).
 
 property(hosts(Addresses), Network) :-
     wired_hosts(Network, Addresses).

@@ -6,7 +6,9 @@
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/names', [names_some/3]).
 :- use_module('../wire', [contact_expect/1, contact_expect_no_more/1]).
+:- use_module('../travel', [home_agents_at/2]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
 :- use_module(carriers,
@@ -15,6 +17,7 @@
                 carriers_forget/1, carriers_peers/2, unwatched/1 ]).
 :- use_module(restarts, [restarts_absent/2, restarts_begin/3, restarts_end/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
+:- use_module(wiring, [wired_host/3]).
 
 /** <module> The processes that carry a network begin and end
 
@@ -48,6 +51,10 @@ in between the thread of room `restarts`, if there is one.
     lasting/1,                  % Network: its carriers have journals
     start/4,                    % Network, P, Machine, Interface
     at/3.                       % Network, P, Endpoint: where it listens
+
+%   A warning names so many hosts, and so many agents.
+
+most_named(10).
 
                 /*******************************
                 *           STARTING           *
@@ -129,8 +136,11 @@ event(down(Network-P, Status)) :-
 
 is_missed(Network, P, Status) :-
     restarts_absent(Network, P),
-    (   carrier(Network, P, Pid)
-    ->  print_message(warning, typhon(carrier_down(Network, Pid, Status)))
+    (   carrier(Network, P, Pid, Endpoint)
+    ->  findall(Name, wired_host(Network, P, Name), Names),
+        home_agents_at(Endpoint, Agents),
+        print_message(warning, typhon(carrier_down(Network, Pid, Status,
+                                                   Names, Agents)))
     ;   true
     ).
 
@@ -341,14 +351,23 @@ await_down(Network, Ps, Queue, Deadline) :-
                 *           MESSAGES           *
                 *******************************/
 
-prolog:message(typhon(carrier_down(Network, Pid, Status))) -->
-    [ 'Process ~w of ~w ended: ~p'-[Pid, Network, Status] ].
+prolog:message(typhon(carrier_down(Network, Pid, Status, Hosts, Agents))) -->
+    [ 'Process ~w of ~w ended: ~p'-[Pid, Network, Status] ],
+    gone_with_it('its hosts', Hosts),
+    gone_with_it('agents of this process that were there', Agents).
 prolog:message(typhon(carrier_order(P, Order, Result))) -->
     [ 'Process ~w of the network did not do ~q: ~p'-[P, Order, Result] ].
 prolog:message(typhon(carrier_killed(Network, P))) -->
     [ 'Process ~w of ~w does not end, and is killed'-[P, Network] ].
 prolog:message(typhon(carrier_stays(Network, P))) -->
     [ 'Process ~w of ~w could not be ended'-[P, Network] ].
+
+gone_with_it(_, []) -->
+    !.
+gone_with_it(What, Names) -->
+    { most_named(Most),
+      names_some(Names, Most, Text) },
+    [ nl, '  ~w: ~w'-[What, Text] ].
 
 prolog:error_message(system_error(process_ended(Status))) -->
     [ 'A process of the network ended before it was ready: ~p'-[Status] ].

@@ -9,9 +9,11 @@
             wire_stop_own/1,            % +Network
             wire_resting_own/2,         % +Network, :Goal
             wire_forget/1,              % +Network
+            wired_host/3,               % +Network, +P, -Name
             wired_hosts/2,              % +Network, -Addresses
             wired_edges/2,              % +Network, -Edges
             wired_agents/2,             % +Network, -Agents
+            wired_ended/3,              % +Network, +Name, -Agents
             wired/2                     % +Network, -Hosts
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
@@ -19,7 +21,7 @@
 :- use_module(library(settings), [setting/2]).
 :- use_module('../host', [time_kind/1]).
 :- use_module('../agent', [agent_home/2]).
-:- use_module(carriers, [carrier/3, carrier_order/4]).
+:- use_module(carriers, [carrier/3, carrier/4, carrier_order/4]).
 :- use_module(restarts, [restarts_back/1]).
 
 /** <module> The hosts of a network and the links between them
@@ -249,6 +251,13 @@ wired(Network, Hosts) :-
     keysort(Pairs, Sorted),
     pairs_values(Sorted, Hosts).
 
+%!  wired_host(+Network, +P, -Name) is nondet.
+%
+%   Carrier P has a host of that name.
+
+wired_host(Network, P, Name) :-
+    host(Network, _, Name, P, _).
+
 %!  wired_hosts(+Network, -Addresses) is det.
 %
 %   In the order of their numbers.
@@ -300,4 +309,18 @@ wired_agents(Network, Agents) :-
               member(Agent, Born),
               agent_home(Agent, Home),
               host(Network, _, _, P, Home) ),
+            Agents).
+
+%!  wired_ended(+Network, +Name, -Agents) is det.
+%
+%   Agents of that Name that were born on hosts of Network in other processes,
+%   and have ended, as far as these remember.
+
+wired_ended(Network, Name, Agents) :-
+    findall(Agent,
+            ( one_carrier(Network, P),
+              carrier(Network, P, _, Where),
+              Where \== local,
+              present_order(Network, P, ended(Name), Ended),
+              member(Agent, Ended) ),
             Agents).

@@ -58,6 +58,8 @@ prolog:error_message(existence_error(agent, Agent)) -->
 prolog:error_message(ambiguous_agent(Name, Ids)) -->
     { atomic_list_concat(Ids, ', ', Text) },
     [ 'Several agents are called ~w: ~w'-[Name, Text] ].
+prolog:error_message(timeout_error(order, Agent)) -->
+    [ 'Agent ~p has not carried out the order in time'-[Agent] ].
 prolog:error_message(existence_error(source_sink, Spec)) -->
     { program_alias(Spec, Alias, Name) },
     [ 'There is no file ~p'-[Spec] ],

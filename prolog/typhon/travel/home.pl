@@ -8,6 +8,7 @@
             home_resumed/3,             % +Id, +Stamp, +Hops
             home_knows/4,               % +Id, -Address, -Hops, -Process
             home_agents/1,              % -Ids
+            home_agents_at/2,           % +Endpoint, -Ids
             agent_outcome/2,            % +Id, -Outcome
             ended_after/2,              % +Id, -Hops
             outcome_wait/3              % +Id, +Seconds, +Asker
@@ -19,7 +20,7 @@
 :- use_module('../journal',
               [journal_number/1, note_drop/3, note_drop_all/2, note_put/4]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
-:- use_module('../host', [alarm_in/3]).
+:- use_module('../host', [address_parts/3, alarm_in/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module(legacies, [legacy_keep/2]).
 
@@ -115,6 +116,18 @@ home_knows(Id, Address, Hops, Process) :-
 
 home_agents(Ids) :-
     findall(Id, born(Id, _, _, _), Ids0),
+    sort(Ids0, Ids).
+
+%!  home_agents_at(+Endpoint, -Ids:list(atom)) is det.
+%
+%   Those of home_agents/1 that were last known to be in the process at
+%   Endpoint.
+
+home_agents_at(Endpoint, Ids) :-
+    findall(Id,
+            ( born(Id, Address, _, _),
+              address_parts(Address, _, Endpoint) ),
+            Ids0),
     sort(Ids0, Ids).
 
 %!  agent_outcome(+Id, -Outcome) is semidet.

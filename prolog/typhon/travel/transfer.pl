@@ -28,6 +28,7 @@
 :- use_module(crossings,
               [crossing_begin/4, crossing_end/2, crossing_restore/4]).
 :- use_module(legacies, [clone_unborn/2]).
+:- use_module(ordered_moves, [move_failed/2, move_over/2]).
 :- use_module(post, [post_on/2]).
 :- use_module(whereabouts,
               [agent_ended/4, agent_left/4, agent_left_noted/4]).
@@ -161,12 +162,13 @@ transfer_let_go(Id, Mail, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, _, _, Since)),
     let_go(Id, Since, Mail, Orders, Gone).
 
-let_go(Id, Since, Mail, Orders, typhon_transfer:gone(Host, Since)) :-
+let_go(Id, Since, Mail, Orders, typhon_transfer:gone(Id, Host, Since)) :-
     agent(Id, Host, _, _, _),
     events_forget(Id),
     agent_remove(Id, Mail, Orders).
 
-gone(Host, Since) :-
+gone(Id, Host, Since) :-
+    ignore(move_over(Id, answer(arrived))),
     host_leave(Host),
     (   host_time(Host, Now)
     ->  Seconds is max(0.0, Now-Since),
@@ -185,7 +187,7 @@ follow(Id, Order) :-
 %!  transfer_unreachable(+Transfer) is det.
 %
 %   The agent stays; Error is raised at its move.  If the move was ordered
-%   from outside there is no hole, and it is reported instead.
+%   from outside there is no hole, see move_failed/2.
 
 transfer_stays(Transfer, Error) :-
     transfer_traveller(Transfer, Who, Hop),
@@ -213,7 +215,7 @@ back(Id, Hops, Address, Error) :-
     agent_status(Id, transit(_, _), hop(Hole-Goals, Hops, Mail, _)),
     mail_back(Id, Mail),
     (   Hole == ordered
-    ->  print_message(warning, typhon(order_failed(Id, Error)))
+    ->  move_failed(Id, Error)
     ;   answer_at(move(Address), throw(error(Error, _)), Hole)
     ),
     agent_ready(Id, Goals).

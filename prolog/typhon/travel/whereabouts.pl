@@ -3,6 +3,7 @@
             agent_left/4,               % +Id, +Address, +Hops, +Peer
             agent_left_noted/4,         % +Id, +Address, +Hops, +Peer
             agent_ends/2,               % +Id, +Hops
+            ended_agent/1,              % ?Id
             agent_ended/4,              % +Id, +Outcome, +Hops, +Legacy
             agent_faulty/5,             % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops
@@ -185,6 +186,13 @@ agent_ends(_, 0) :-
 agent_ends(Id, Hops) :-
     assertz(ended_here(Id, Hops)),
     bounded(ended_here(_, _), typhon_whereabouts:endings).
+
+%!  ended_agent(?Id) is nondet.
+%
+%   Id had come to this process, and ended here.
+
+ended_agent(Id) :-
+    ended_here(Id, _).
 
 %!  agent_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
 %

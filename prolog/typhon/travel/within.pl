@@ -14,6 +14,7 @@
                 agent_state/2, agent_status/3, life_hop/3, life_payloads/2,
                 life_tokens/2, mail_count/2, payloads_admitted/3,
                 policy_refuses/2, quota_against/3, with_agent/2 ]).
+:- use_module(ordered_moves, [move_over/2]).
 :- use_module(whereabouts, [agent_seen/4]).
 
 /** <module> Hops between hosts of one process
@@ -158,6 +159,7 @@ arrived(Id, Here, Name, Hops, Seconds, Next) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
           [Id, Hops, Address]),
     agent_seen(Id, Address, Hops, here),
+    ignore(move_over(Id, answer(arrived))),
     came(Id, Here, Name, Seconds),
     (   Next == stop
     ->  schedule(Name, Id)

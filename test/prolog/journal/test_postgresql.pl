@@ -254,7 +254,7 @@ second_time(A, N) :-
 :- dynamic user:message_hook/3.
 
 user:message_hook(typhon(Message), _, _) :-
-    memberchk(Message, [carrier_back(_, _), carrier_down(_, _, _)]),
+    memberchk(Message, [carrier_back(_, _), carrier_down(_, _, _, _, _)]),
     assertz(plunit_postgresql:heard(Message)).
 
 %   The server ends all connections that have the journal.

@@ -2,6 +2,7 @@
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
+:- use_module('../../lib/peers').
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
@@ -107,7 +108,7 @@ test(in_another_process) :-
 
 elsewhere(Network) :-
     network_property(Network, hosts([First, Second])),
-    bob(_, [host(First), name(carl)]),
+    bob(Carl, [host(First), name(carl)]),
     agent_move(carl, Second),
     wait_until(agent_property(carl, host(Second)), 5),
     agent_send(carl, hello),
@@ -116,6 +117,48 @@ elsewhere(Network) :-
     agent_join(carl, Outcome, 5),
     assertion(Outcome == disposed),
     catch(agent_send(carl, hello), error(Formal, _), true),
-    assertion(Formal == existence_error(agent, carl)).
+    assertion(Formal == existence_error(agent, Carl)).
+
+%   Nothing in this process has created them.
+
+test(name_of_an_agent_that_ended_in_a_network_serves) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(2), Network, [processes(2)]),
+                 born_elsewhere(Network),
+                 network_stop(Network))).
+
+born_elsewhere(Network) :-
+    network_property(Network, hosts([First, _])),
+    remote(First, typhon_creation:agent_create(
+                      clauses([ (:- agent(ede, [])), (main :- receive(_)) ]),
+                      Id, [])),
+    agent_send(ede, go),
+    agent_join(Id, done, 10),
+    agent_join(ede, Outcome, 10),
+    assertion(Outcome == done).
+
+test(name_of_an_agent_from_elsewhere_that_ended_here_serves) :-
+    with_hosts([alpha], with_peers([beta], came_and_ended)).
+
+came_and_ended :-
+    peer_host(beta, Beta),
+    address(alpha, Alpha),
+    remote(Beta, typhon_creation:agent_create(
+                     clauses([ (:- agent(ede, [])),
+                               (main :- receive(_-go(H)), move(H)) ]),
+                     Id, [])),
+    agent_send(Id, go(Alpha)),
+    agent_join(Id, done, 10),
+    agent_join(ede, Outcome, 10),
+    assertion(Outcome == done).
+
+test(order_to_an_agent_that_has_ended_says_so,
+     [ forall(member(Goal, [ agent_send(bob, x), agent_move(bob, alpha),
+                             agent_dispose(bob),
+                             agent_property(bob, hops(_)) ])) ]) :-
+    with_hosts([alpha],
+               ( bob(Id), agent_dispose(Id), agent_join(Id, _, 5),
+                 catch(( call(Goal), Formal = none ), error(Formal, _), true),
+                 assertion(Formal == existence_error(agent, Id)) )).
 
 :- end_tests(names).

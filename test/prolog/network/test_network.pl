@@ -45,7 +45,7 @@ quiet(Goal) :-
     retractall(printed(_)),
     setup_call_cleanup(
         maplist([M]>>assertz(expected(M)),
-                [ carrier_down(_, _, _), carrier_killed(_, _),
+                [ carrier_down(_, _, _, _, _), carrier_killed(_, _),
                   carrier_order(_, _, _) ]),
         once(Goal),
         retractall(expected(_))).
@@ -433,7 +433,40 @@ bury(Count, Network) :-
     pids(Network, [Pid|_]),
     process_kill(Pid, kill),
     wait_until(( pids(Network, Rest), length(Rest, Count), Count < 4 ), 5),
-    wait_until(printed(carrier_down(Network, Pid, killed(9))), 5).
+    wait_until(printed(carrier_down(Network, Pid, killed(9), _, _)), 5).
+
+test(warning_names_hosts_and_agents_of_a_process_that_died) :-
+    setup_call_cleanup(
+        host_start(bystander),
+        quiet(with_network(ring(4), [processes(2)], bury_with_agents)),
+        host_stop(bystander)).
+
+bury_with_agents(Network) :-
+    network_property(Network, hosts([First, _, Third|_])),
+    Program = clauses([(:- agent(still, [])), on_message(_, _)]),
+    agent_create(Program, There, [host(bystander)]),
+    agent_create(Program, Other, [host(bystander)]),
+    agent_create(Program, _, [host(First)]),
+    agent_move(There, First, [wait(10)]),
+    agent_move(Other, Third, [wait(10)]),
+    wait_until(agent_property(There, host(First)), 5),
+    pids(Network, [Pid|_]),
+    process_kill(Pid, kill),
+    wait_until(printed(carrier_down(Network, Pid, killed(9), _, _)), 5),
+    printed(carrier_down(Network, Pid, _, Hosts, Agents)),
+    assertion(Hosts == [n1, n2]),
+    assertion(Agents == [There]).
+
+test(warning_names_ten_hosts_and_how_many_more) :-
+    numlist(1, 12, Hosts),
+    Message = typhon(carrier_down(network0, 7, killed(9), Hosts, [bob])),
+    phrase('$messages':translate_message(Message), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)),
+    split_string(Text, "\n", "", Parts),
+    assertion(Parts = [ "Process 7 of network0 ended: killed(9)",
+                        "  its hosts: 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more",
+                        "  agents of this process that were there: bob"|_ ]).
 
 test(a_process_that_hangs, true(Seconds < 20)) :-
     quiet(nothing_left(seconds(with_settings(
@@ -677,7 +710,7 @@ test(a_dead_process_does_not_stop_the_rest) :-
 limping(Network) :-
     pids(Network, [Pid|_]),
     process_kill(Pid, kill),
-    wait_until(printed(carrier_down(_, Pid, _)), 5),
+    wait_until(printed(carrier_down(_, Pid, _, _, _)), 5),
     network_property(Network, edges(Before)),
     wait_until(( network_property(Network, edges(Now)), Now \== Before ), 10).
 

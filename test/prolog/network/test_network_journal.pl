@@ -35,7 +35,7 @@ network(Dir, Topology, Options, Goal) :-
 
 user:message_hook(typhon(Message), _, _) :-
     expected,
-    memberchk(Message, [ carrier_down(_, _, _), carrier_back(_, _),
+    memberchk(Message, [ carrier_down(_, _, _, _, _), carrier_back(_, _),
                          carrier_given_up(_, _, _, _), carrier_killed(_, _) ]),
     assertz(printed(Message)).
 
@@ -524,7 +524,7 @@ saved(Dir) :-
 saved_without(File, Network) :-
     pids(Network, [_, Pid]),
     process_kill(Pid, kill),
-    wait_until(printed(carrier_down(_, Pid, _)), 10),
+    wait_until(printed(carrier_down(_, Pid, _, _, _)), 10),
     network_save(Network, File).
 
 test('one that dies again and again is left alone at last, and that is told',
@@ -551,7 +551,7 @@ stopped_meanwhile :-
     network_start(ring(3), Network, [processes(3), restart(true)]),
     pids(Network, [Pid|_]),
     process_kill(Pid, kill),
-    wait_until(printed(carrier_down(_, _, _)), 5),
+    wait_until(printed(carrier_down(_, _, _, _, _)), 5),
     network_stop(Network).
 
 :- end_tests(network_restart).
