@@ -25,8 +25,8 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(journal/store,
             [ journal_item/5, journal_open/2, journal_open/3,
               journal_opened/1, journal_place/2 ]).
-:- reexport(journal/turn,
-            [ turn_after/1, turn_commit/0, turn_defers/0,
-              turn_has_effects/0, turn_note/1, turn_note_drop/3,
-              turn_note_put/4, turn_release/0, turn_run/1 ]).
+:- reexport(journal/unit_of_work,
+            [ unit_after/1, unit_commit/0, unit_defers/0,
+              unit_has_effects/0, unit_note/1, unit_note_drop/3,
+              unit_note_put/4, unit_release/0, unit_run/1 ]).
 :- reexport(journal/crash, [crash_point/1]).

@@ -12,7 +12,7 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module('../journal',
-              [note_drop/3, note_drop_all/2, note_put/4, turn_note_drop/3]).
+              [note_drop/3, note_drop_all/2, note_put/4, unit_note_drop/3]).
 :- use_module('../program', [clause_parts/3]).
 :- use_module(front, [front_gone/1, service/1]).
 
@@ -250,7 +250,7 @@ place_undeliver(Place, Name) :-
 remove(Place, Name) :-
     retract(delivered(Place, Name, PIs)),
     (   payload_key(Place, Name, _, Key)
-    ->  turn_note_drop(payload, Key, 0)
+    ->  unit_note_drop(payload, Key, 0)
     ;   true
     ),
     forall(member(PI, PIs), abolish(Place:PI)).

@@ -7,8 +7,8 @@
           ]).
 :- use_module(library(error), [must_be/2]).
 :- use_module('../journal',
-              [ journal_number/1, journal_on/0, turn_after/1, turn_defers/0,
-                turn_note_drop/3, turn_note_put/4 ]).
+              [ journal_number/1, journal_on/0, unit_after/1, unit_defers/0,
+                unit_note_drop/3, unit_note_put/4 ]).
 :- use_module(leavings, [leaving_begins/1, leaving_ends/1]).
 :- use_module(place, [place_host/2]).
 
@@ -71,11 +71,11 @@ leave_noted(Place, Fact, By) :-
     journal_number(N),
     place_host(Place, Host),
     noted(By, Fact, Noted),
-    turn_note_put(tuple, Host, N, Noted),
-    (   turn_defers
+    unit_note_put(tuple, Host, N, Noted),
+    (   unit_defers
     ->  thread_self(Me),
         assertz(due(Place, N, Fact, By, Me)),
-        turn_after(typhon_tuples:leave_due(Place, N))
+        unit_after(typhon_tuples:leave_due(Place, N))
     ;   put_tuple(Place, N, Fact, By)
     ).
 
@@ -99,7 +99,7 @@ tuple_body(N, By, ground(N-By)).
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).
 tuple_sense(Place, Fact) :-
-    turn_defers,
+    unit_defers,
     thread_self(Me),
     due(Place, _, Fact, _, Me).
 
@@ -111,16 +111,16 @@ tuple_take(Place, Fact) :-
     (   N == none
     ->  true
     ;   place_host(Place, Host),
-        turn_note_drop(tuple, Host, N)
+        unit_note_drop(tuple, Host, N)
     ),
     leaving_ends(By).
 tuple_take(Place, Fact) :-
-    turn_defers,
+    unit_defers,
     thread_self(Me),
     retract(due(Place, N, Fact, By, Me)),
     !,
     place_host(Place, Host),
-    turn_note_drop(tuple, Host, N),
+    unit_note_drop(tuple, Host, N),
     leaving_ends(By).
 
 typhon_recovery:back(tuple, Host, N, Noted) :-

@@ -1,8 +1,8 @@
 :- module(typhon_running, []).
 :- use_module('../base/output', [output_rest/0]).
 :- use_module('../journal',
-              [ journal_on/0, journal_seal/0, journal_step/1, turn_commit/0,
-                turn_has_effects/0, turn_release/0, turn_run/1 ]).
+              [ journal_on/0, journal_seal/0, journal_step/1, unit_commit/0,
+                unit_has_effects/0, unit_release/0, unit_run/1 ]).
 :- use_module('../program', [answer_at/3, probe_next/2, probe_start/3]).
 :- use_module('../host',
               [ context_clear/0, context_set/3, event/4, quota_any/1,
@@ -92,9 +92,9 @@ broken_off(Ball, Id) :-
     sig_atomic(( left,
                  ( metered_ball(Outcome) -> true ; Outcome = disposed ),
                  over_quota(Id, Outcome),
-                 turn_commit,
+                 unit_commit,
                  ignore(agent_end(Id, Outcome)),
-                 turn_release )),
+                 unit_release )),
     throw(Ball).
 
 over_quota(Id, raised(error(resource_error(What), _))) :-
@@ -108,7 +108,7 @@ left :-
 
 live(Goals0, Id, Host, Context, Next) :-
     (   journal_on
-    ->  turn_run(metered_run(Id-Host, Context, Goals0, Outcome)),
+    ->  unit_run(metered_run(Id-Host, Context, Goals0, Outcome)),
         concluded(Outcome, Goals0, Id, Host, Context, Next0)
     ;   metered_run(Id-Host, Context, Goals0, Outcome),
         conclude(Outcome, Goals0, Id, Host, Context, Next0)
@@ -125,15 +125,15 @@ probed(Goals, Id, Host, Context, Next) :-
     probed_on(Probe, Id, Host, Context, Next).
 
 probed_on(Probe, Id, Host, Context, Next) :-
-    turn_run(probe_next(Probe, Step)),
+    unit_run(probe_next(Probe, Step)),
     probed_to(Step, Probe, Id, Host, Context, Next).
 
 probed_to(goal(Goal, Goals), Probe, Id, Host, Context, Next) :-
     probed_goal(Id, Host, Probe, Goal, Goals, Next0),
     (   Next0 == on
     ->  probed_on(Probe, Id, Host, Context, Next)
-    ;   turn_commit,
-        turn_release,
+    ;   unit_commit,
+        unit_release,
         traced_held(Id),
         held_obeys(Id),
         Next = stop
@@ -169,7 +169,7 @@ concluded(Outcome, Goals0, Id, Host, Context, Next) :-
     ->  journal_step(( turn_ends(Outcome, Id),
                        conclude(Outcome, Goals0, Id, Host, Context, Next),
                        noted(Next, Id) )),
-        turn_release
+        unit_release
     ;   conclude(Outcome, Goals0, Id, Host, Context, Next)
     ).
 
@@ -181,14 +181,14 @@ turn_ends(done, Id) :-
     !,
     before_it_rests(Id, []).
 turn_ends(_, _) :-
-    turn_commit.
+    unit_commit.
 
 before_it_rests(Id, Goals) :-
-    (   turn_has_effects
-    ->  turn_commit,
+    (   unit_has_effects
+    ->  unit_commit,
         agent_put_down(Id, ready, Goals),
         journal_seal,
-        turn_release
+        unit_release
     ;   true
     ).
 

@@ -3,8 +3,8 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../journal',
-              [ journal_number/1, journal_step/1, note_drop/3, turn_after/1,
-                turn_defers/0, turn_note_put/4 ]).
+              [ journal_number/1, journal_step/1, note_drop/3, unit_after/1,
+                unit_defers/0, unit_note_put/4 ]).
 :- use_module('../host', [host_log/3, host_log_event/4]).
 :- use_module(channel, [channel_post/3]).
 
@@ -30,10 +30,10 @@ tells its log server it tells at once, see typhon_host_log.
 %   server of Host, which it has.
 
 agent_logs(Host, Agent, What) :-
-    (   turn_defers
+    (   unit_defers
     ->  journal_number(N),
-        turn_note_put(logged, Host, N, Agent-What),
-        turn_after(typhon_logged:go(Host, N, Agent, What))
+        unit_note_put(logged, Host, N, Agent-What),
+        unit_after(typhon_logged:go(Host, N, Agent, What))
     ;   host_log(Host, Agent, What)
     ).
 

@@ -10,8 +10,8 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../journal',
               [ journal_number/1, journal_on/0, journal_seal/0,
-                journal_step/1, note_drop/3, note_putting/5, turn_after/1,
-                turn_defers/0, turn_note/1 ]).
+                journal_step/1, note_drop/3, note_putting/5, unit_after/1,
+                unit_defers/0, unit_note/1 ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, mobile_term/1]).
 :- use_module('../host', [peer_may/3, quota/3]).
@@ -65,12 +65,12 @@ post(Id, From, Message) :-
     (   \+ journal_on
     ->  with_agent(Id, post_way(Id, From, Message, Way)),
         go(Way, Id)
-    ;   turn_defers
+    ;   unit_defers
     ->  journal_number(N),
         note_putting(letter, Id, N, From-Message, Change),
         may_travel(Id, Change),
-        turn_note(Change),
-        turn_after(typhon_post:post_noted(Id, N, From, Message))
+        unit_note(Change),
+        unit_after(typhon_post:post_noted(Id, N, From, Message))
     ;   journal_step(post_now(Id, From, Message))
     ).
 
