@@ -1,7 +1,6 @@
 exception('prolog/typhon/agent/admission.pl',identity).
 exception('prolog/typhon/agent/agent_module.pl',guard).
 exception('prolog/typhon/agent/agent_module.pl',quotas).
-exception('prolog/typhon/agent/agents.pl',identity).
 exception('prolog/typhon/agent/agents.pl',journal).
 exception('prolog/typhon/agent/agents.pl',quotas).
 exception('prolog/typhon/agent/agents.pl',trace).
@@ -16,7 +15,6 @@ exception('prolog/typhon/agent/image.pl',identity).
 exception('prolog/typhon/agent/image.pl',journal).
 exception('prolog/typhon/agent/image.pl',trail).
 exception('prolog/typhon/agent/life.pl',trace).
-exception('prolog/typhon/agent/mailbox.pl',identity).
 exception('prolog/typhon/agent/mailbox.pl',journal).
 exception('prolog/typhon/agent/owner.pl',tls).
 exception('prolog/typhon/agent/stay.pl',identity).
@@ -92,10 +90,8 @@ exception('prolog/typhon/lifecycle/overuse.pl',identity).
 exception('prolog/typhon/lifecycle/questions.pl',access).
 exception('prolog/typhon/lifecycle/questions.pl',watch).
 exception('prolog/typhon/lifecycle/restore.pl',identity).
-exception('prolog/typhon/lifecycle/running.pl',identity).
 exception('prolog/typhon/lifecycle/running.pl',journal).
 exception('prolog/typhon/lifecycle/running.pl',quotas).
-exception('prolog/typhon/lifecycle/running.pl',trace).
 exception('prolog/typhon/lifecycle/sending.pl',guard).
 exception('prolog/typhon/lifecycle/sending.pl',journal).
 exception('prolog/typhon/lifecycle/stepping.pl',quotas).
@@ -116,7 +112,6 @@ exception('prolog/typhon/program/paths.pl',access).
 exception('prolog/typhon/program/problems.pl',access).
 exception('prolog/typhon/program/python_code.pl',access).
 exception('prolog/typhon/travel/arrival.pl',access).
-exception('prolog/typhon/travel/arrival.pl',identity).
 exception('prolog/typhon/travel/arrival.pl',journal).
 exception('prolog/typhon/travel/arrival.pl',quotas).
 exception('prolog/typhon/travel/arrival.pl',trail).
@@ -124,7 +119,6 @@ exception('prolog/typhon/travel/backlog.pl',journal).
 exception('prolog/typhon/travel/backlog.pl',typhon_recovery:back/4).
 exception('prolog/typhon/travel/backlog.pl',typhon_recovery:kept/4).
 exception('prolog/typhon/travel/channel.pl',guard).
-exception('prolog/typhon/travel/channel.pl',identity).
 exception('prolog/typhon/travel/channel.pl',typhon_recovery:back/4).
 exception('prolog/typhon/travel/channel.pl',typhon_recovery:go_on/0).
 exception('prolog/typhon/travel/channel_end.pl',typhon_recovery:back/4).
@@ -143,17 +137,14 @@ exception('prolog/typhon/travel/logged.pl',journal).
 exception('prolog/typhon/travel/logged.pl',typhon_recovery:back/4).
 exception('prolog/typhon/travel/logged.pl',typhon_recovery:go_on/0).
 exception('prolog/typhon/travel/news.pl',journal).
-exception('prolog/typhon/travel/post.pl',identity).
 exception('prolog/typhon/travel/post.pl',journal).
 exception('prolog/typhon/travel/post.pl',quotas).
 exception('prolog/typhon/travel/post.pl',typhon_recovery:back/4).
 exception('prolog/typhon/travel/post.pl',typhon_recovery:go_on/0).
-exception('prolog/typhon/travel/retries.pl',identity).
 exception('prolog/typhon/travel/retries.pl',journal).
 exception('prolog/typhon/travel/retries.pl',typhon_recovery:go_on/0).
 exception('prolog/typhon/travel/speakers.pl',access).
 exception('prolog/typhon/travel/speakers.pl',tls).
-exception('prolog/typhon/travel/transfer.pl',identity).
 exception('prolog/typhon/travel/transfer.pl',journal).
 exception('prolog/typhon/travel/transfer.pl',typhon_recovery:back/4).
 exception('prolog/typhon/travel/transfer.pl',typhon_recovery:kept/4).

@@ -29,7 +29,7 @@ option_words(journal,  [journal, journaled, committing, ledger, durable]).
 option_words(snapshot, [snapshot, snapshots]).
 option_words(tls,      [tls, secure, certificate, certificates]).
 option_words(identity, [owner, owners, signed, signature, signatures,
-                        authors, seal, unseal, seals]).
+                        authors, unseal]).
 option_words(trail,    [trail, trails, chain]).
 option_words(guard,    [guard, guarded, guards, strangers]).
 option_words(quotas,   [quota, quotas, spending, overuse, leavings, stay]).
@@ -45,6 +45,7 @@ option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
 option_file(journal, 'journal/*').
 option_file(journal, 'agent/in_journal.pl').
 option_file(journal, 'lifecycle/recovery.pl').
+option_file(journal, 'lifecycle/journaled_turns.pl').
 option_file(journal, 'host/known_hosts.pl').
 option_file(journal, 'travel/channel.pl').
 option_file(journal, 'travel/channel_end.pl').

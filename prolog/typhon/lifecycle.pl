@@ -8,6 +8,8 @@ This is the door of the layer: who is above takes what it needs from here.
 
 :- reexport(lifecycle/creation, [agent_create/2, agent_create/3]).
 :- use_module(lifecycle/running, []).
+:- use_module(lifecycle/journaled_turns, []).
+:- use_module(lifecycle/metering, []).
 :- use_module(lifecycle/evacuation, []).
 :- use_module(lifecycle/overuse, []).
 :- use_module(lifecycle/recovery, []).

@@ -1,28 +1,27 @@
-:- module(typhon_metering,
-          [ metered_run/4,              % +Where, +Context, +Goals, -Outcome
-            metered_ball/1              % -Outcome
-          ]).
+:- module(typhon_metering, []).
 :- use_module('../base/trees', [is_tree/2]).
 :- use_module('../program', [machine_run/3]).
 :- use_module('../host', [context_set/3, quota/3, quota_any/1]).
+:- use_module(turn, []).
 
-/** <module> Agents run within what they may use
+/** <module> Turns of agents on hosts with quotas
 
-See typhon_quotas.  A quota that is passed is not the agent's to catch: it
-ends, with the outcome raised(error(resource_error(What), _)).
+See typhon_quotas.  An agent cannot catch that it passed a quota: it ends, with
+the outcome raised(error(resource_error(What), _)).
 
 *Threading*: in the worker that has the agent.
 */
 
-%!  metered_run(+Where, +Context, +Goals, -Outcome) is det.
-%
-%   As machine_run/3 for Where, Id-Host; Outcome may be over(What), too.
+:- multifile
+    typhon_turn:bound/2,
+    typhon_turn:limit_passed/1.
 
-metered_run(_-Host, Context, Goals, Outcome) :-
-    \+ quota_any(Host),
-    !,
-    machine_run(Context, Goals, Outcome).
-metered_run(Id-Host, Context, Goals, Outcome) :-
+typhon_turn:bound(Host, typhon_metering:metered_run) :-
+    quota_any(Host).
+
+:- public metered_run/3.
+
+metered_run(turn(Id, Host, Context), Goals, Outcome) :-
     Context = context(_, Module),
     context_set(Host, Id, Module),      % its seconds begin
     nb_setval(typhon_over, none),
@@ -56,10 +55,8 @@ within_inferences(Host, Context, Goals, Outcome) :-
 within_inferences(_, Context, Goals, Outcome) :-
     machine_run(Context, Goals, Outcome).
 
-%   What it has passed is not said of who runs in this thread after it.
-
 over(_, over(What)) :-
-    metered_ball(raised(error(resource_error(What), _))),
+    passed(What),
     !.
 over(raised(inference_limit_exceeded), over(inferences)) :-
     !.
@@ -75,11 +72,13 @@ over(Outcome, Outcome).
 quota_named(program_space, state) :- !.
 quota_named(What, What).
 
-%!  metered_ball(-Outcome) is semidet.
-%
-%   Who was interrupted in this thread had passed a quota.
+typhon_turn:limit_passed(raised(error(resource_error(What), _))) :-
+    passed(What).
 
-metered_ball(raised(error(resource_error(What), _))) :-
+%   passed(-What) is semidet: once, so that it does not count against the agent
+%   that runs in this thread next.
+
+passed(What) :-
     nb_current(typhon_over, What),
     What \== none,
     nb_setval(typhon_over, none).

@@ -3,12 +3,12 @@
             held_parts/3,               % +Held, -Goals, -Seen
             held_seen/2,                % +Id, +Held
             held_on/2,                  % +Id, +Held
-            held_resumes/2,             % +Id, -Probe
+            held_probe/2,               % +Held, -Probe
             held_dropped/1              % +Goals
           ]).
 :- use_module('../program', [probe_stop/1]).
 :- use_module('../host', [schedule/2]).
-:- use_module('../agent', [agent/5, agent_put/3, agent_resumes/2]).
+:- use_module('../agent', [agent/5, agent_put/3]).
 
 /** <module> Agents that are held
 
@@ -48,12 +48,9 @@ held_on(Id, Held) :-
     !,
     schedule(Host, Id).
 
-%!  held_resumes(+Id, -Probe) is semidet.
-%
-%   Id, which was told to go on, belongs to the caller from now on.
+%!  held_probe(+Held, -Probe) is det.
 
-held_resumes(Id, Probe) :-
-    agent_resumes(Id, held(Probe, _, _)).
+held_probe(held(Probe, _, _), Probe).
 
 %!  held_dropped(+Goals) is det.
 %

@@ -1,25 +1,24 @@
 :- module(typhon_stepping,
-          [ agent_step/1,               % +Agent
-            is_probed/3,                % +Host, +Life, +Hash
-            probed_goal/6,              % +Id, +Host, +Probe, +Goal, +Goals,
-                                        % -Next
-            probe_rests/1               % +Id
+          [ agent_step/1                % +Agent
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../program', [probe_next/2, probe_start/3]).
 :- use_module('../host', [event/4, event_heard/1, host/3, quota_any/1]).
 :- use_module('../agent',
-              [ agent/5, agent_order/2, agent_status/3, in_words/2,
-                life_traces/2,
-                with_agent/2 ]).
-:- use_module(on_hold, [held_on/2, held_parts/3, held_put/4, held_seen/2]).
+              [ agent/5, agent_order/2, agent_status/3, agent_unorder/2,
+                in_words/2, life_traces/2, with_agent/2 ]).
+:- use_module(on_hold,
+              [ held_on/2, held_parts/3, held_probe/2, held_put/4, held_seen/2 ]).
 :- use_module(join, [agent_join/3]).
 :- use_module(properties, [agent_property/2]).
 :- use_module(giving, [agent_answer/3, order_give/3]).
 :- use_module(questions, [question_answered/2]).
 :- use_module(spying, [spied/3, spied_program/1]).
-:- use_module(traced, [traced_change/2]).
+:- use_module(orders, [order_take/2]).
+:- use_module(traced, [traced_change/2, traced_held/1]).
+:- use_module(turn, [turn_settled/0, turn_unit/1]).
 
 /** <module> Agents that are held before each goal
 
@@ -31,7 +30,9 @@ typhon_on_hold.
 */
 
 :- multifile
-    typhon_questions:here/3.
+    typhon_questions:here/3,
+    typhon_turn:engine/3,
+    typhon_turn:over/1.
 
 :- dynamic asker/2.             % Id, Asker: waits until it is held or stops
 
@@ -132,11 +133,53 @@ next_goal(Host, [Goal|_], held(Address, Goal)) :-
                 *             RUN              *
                 *******************************/
 
-%!  is_probed(+Host, +Life, +Hash) is semidet.
-%
-%   Somebody wants to see the goals of an agent with this Life and program, and
-%   may on Host: nobody could end in time who uses too much in a probe, and a
-%   Life says what who has sent the agent likes.
+typhon_turn:engine(_, resumed(_), typhon_stepping:probe).
+typhon_turn:engine(agent(_, Host, Hash, Life), goals(_),
+                   typhon_stepping:probe) :-
+    is_probed(Host, Life, Hash).
+
+:- public probe/4.
+
+probe(Turn, goals(Goals), Outcome, Goals0) :-
+    Turn = turn(_, _, Context),
+    probe_start(Context, Goals, Probe),
+    probed(Probe, Turn, Outcome, Goals0).
+probe(Turn, resumed(Held), Outcome, Goals0) :-
+    held_probe(Held, Probe),
+    probed(Probe, Turn, Outcome, Goals0).
+
+probed(Probe, Turn, Outcome, Goals0) :-
+    turn_unit(probe_next(Probe, Step)),
+    probed_to(Step, Probe, Turn, Outcome, Goals0).
+
+probed_to(outcome(Outcome, Goals0), _, _, Outcome, Goals0).
+probed_to(goal(Goal, Goals), Probe, Turn, Outcome, Goals0) :-
+    Turn = turn(Id, Host, _),
+    probed_goal(Id, Host, Probe, Goal, Goals, Next),
+    (   Next == on
+    ->  probed(Probe, Turn, Outcome, Goals0)
+    ;   turn_settled,
+        traced_held(Id),
+        held_obeys(Id),
+        Outcome = held
+    ).
+
+%   Orders that came while it ran, and need no effect.
+
+held_obeys(Id) :-
+    at_once(Order),
+    with_agent(Id, agent_unorder(Id, Order)),
+    !,
+    order_take(Id, Order),
+    held_obeys(Id).
+held_obeys(_).
+
+at_once(dispose).
+at_once(evacuate(_)).
+
+%   is_probed(+Host, +Life, +Hash): the goals of an agent with this Life and
+%   program are to be seen, on a Host without quotas.  A limit could not end a
+%   probe in time, and a Life says what the sender of the agent likes.
 
 is_probed(Host, Life, Hash) :-
     wanted(Life, Hash),
@@ -162,9 +205,8 @@ is_stepped(Life) :-
     life_traces(Life, Traces),
     memberchk(step, Traces).
 
-%!  probed_goal(+Id, +Host, +Probe, +Goal, +Goals, -Next) is det.
-%
-%   Probe stops before Goal; Next is `on`, or `stop` if Id is held there.
+%   probed_goal(+Id, +Host, +Probe, +Goal, +Goals, -Next): Probe stops before
+%   Goal; Next is `on`, or `stop` if Id is held there.
 
 probed_goal(Id, Host, Probe, Goal, Goals, Next) :-
     (   event_heard(goals)
@@ -214,17 +256,13 @@ askers(Id, Askers) :-
 answer(Askers, Answer) :-
     forall(member(Asker, Askers), question_answered(Asker, answer(Answer))).
 
-%!  probe_rests(+Id) is det.
-%
-%   Id has come to an effect that its worker does not go on from: those who
-%   wait for its next goal are told so.
+%   Those that wait for the next goal of Id get the answer that it rests.
 
-probe_rests(Id) :-
-    (   asker(Id, _)
-    ->  with_agent(Id, stopped(Id, Askers, Answer)),
-        answer(Askers, Answer)
-    ;   true
-    ).
+typhon_turn:over(Id) :-
+    asker(Id, _),
+    !,
+    with_agent(Id, stopped(Id, Askers, Answer)),
+    answer(Askers, Answer).
 
 stopped(Id, Askers, Answer) :-
     (   agent_status(Id, Status, _)
