@@ -19,29 +19,28 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/agent_module,
             [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
               agent_elsewhere/3, agent_handles/2,
-              agent_may_stand/4, agent_module/5, agent_standing/5,
-              agent_state/2, policy_against/4, policy_refuses/2 ]).
+              agent_module/5, agent_standing/5, agent_state/2 ]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
               agent_owned/1, agent_owned/2
             ]).
 :- reexport(agent/birth,
-            [ birth_good/1, birth_papers/5, birth_proved/4, birth_sent/2,
+            [ birth_good/1, birth_papers/5, birth_sent/2,
               birth_shown/2, birth_unproved/2 ]).
 :- reexport(agent/life,
             [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
-              life_parent/2, life_payloads/2, life_tokens/2, life_traces/2,
+              life_parent/2, life_payloads/2, life_traces/2,
               make_life/2, set_traces_of_life/3
             ]).
 :- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
 :- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/owner, [owner_entered/3, owner_inherited/3]).
 :- reexport(agent/stay, [stay_count/3, stay_owner/3, stay_until/3]).
-:- reexport('agent/admission').
+:- reexport('agent/gate').
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_entered/3, image_label/2, image_module/3, image_newcomer/3,
-              image_payloads/2, image_trail/4
+              image_entered/3, image_entrant/2, image_label/2, image_module/3,
+              image_trail/4
             ]).
 :- reexport(agent/trail,
             [trail_enter/3, trail_none/2, trail_of/3]).
@@ -51,7 +50,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3]).
 :- reexport(agent/signed_payloads,
-            [payload_mark/2, payloads_admitted/3]).
+            [payload_mark/2]).
 :- reexport(agent/legacy,
             [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
               legacy_result/2 ]).

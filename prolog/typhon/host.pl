@@ -25,7 +25,7 @@ This is the door of the layer: who is above takes what it needs from here.
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
             ]).
-:- reexport(host/permits, [audit/3, peer_may/3]).
+:- reexport(host/permits, [audit/3, audit/4, peer_may/3, peer_permitted/3]).
 :- reexport(host/quotas, [quota/3, quota_any/1, quota_shared/4]).
 :- reexport('host/spending').
 :- reexport(host/leavings, [leaver/2, may_leave/1]).

@@ -4,9 +4,6 @@
             agent_standing/5,           % +Id, +Place, +Hash, +Begin, -Agent
             agent_clauses/3,            % +Module, +Clauses0, -Clauses
             agent_add/2,                % +Clauses, +Module
-            agent_may_stand/4,          % +Module, +Hash, +Place, +Goals
-            policy_against/4,           % +Place, +Hash, +Sent, -Reason
-            policy_refuses/2,           % +Ball, -Reason
             agent_state/2,              % +Module, -State
             agent_changed/4,            % +Module, +Since, -Clauses, -Until
             agent_elsewhere/3,          % +Module, +Place0, +Place
@@ -18,7 +15,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../program',
-              [ code_check/3, code_guarded/3, code_module/2, guard_clauses/3,
+              [ code_guarded/3, code_module/2, guard_clauses/3,
                 guard_declares/2, guard_goals/3, guard_state/3 ]).
 :- use_module('../host',
               [guarding/0, host/3, module_policy/2, place_front/3, quota/3]).
@@ -123,45 +120,6 @@ agent_clauses(Module, Clauses0, Clauses) :-
     ->  guard_clauses(Policy, Clauses0, Clauses)
     ;   Clauses = Clauses0
     ).
-
-%!  agent_may_stand(+Module, +Hash, +Place, +Goals) is det.
-%
-%   The agent with this module could be in Place with Goals.
-%
-%   @error permission_error(call, sandboxed, Culprit)
-
-agent_may_stand(Module, Hash, Place, Goals) :-
-    place_front(Place, _, Policy),
-    \+ module_policy(Module, Policy),
-    !,
-    code_guarded(Policy, Hash, Program),
-    agent_state(Module, State),
-    guard_state(Policy, State, _),
-    guard_goals(own(module(Program), Policy), Goals, _).
-agent_may_stand(_, _, _, _).
-
-%!  policy_against(+Place, +Hash, +Sent, -Reason) is semidet.
-%
-%   The host of Place does not want the program Sent, as of code_receive/2,
-%   which is looked at before it is installed.
-
-policy_against(Place, Hash, Sent, Reason) :-
-    place_front(Place, _, Policy),
-    catch(( code_check(Policy, Hash, Sent), fail ),
-          error(Formal, Context),
-          policy_refuses(error(Formal, Context), Reason)).
-
-%!  policy_refuses(+Ball, -Reason) is semidet.
-%
-%   Ball says that a host does not let in what it is not to run: Reason is
-%   policy(Culprit); or what is too large: quota(state).
-
-policy_refuses(error(Formal, _), policy(Culprit)) :-
-    culprit(Formal, Culprit).
-policy_refuses(error(resource_error(program_space), _), quota(state)).
-
-culprit(permission_error(call, sandboxed, Culprit), Culprit).
-culprit(resource_error(clause_cells), clause_cells).
 
 %   A copy that waits for the end of its hop has a module already.
 

@@ -4,8 +4,7 @@
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
-            image_payloads/2,           % +Image, +Host
-            image_newcomer/3,           % +Peer, +Image, -Newcomer
+            image_entrant/2,            % +Image, -Entrant
             image_entered/3,            % +Peer, +Image0, -Image
             image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Agent
@@ -22,11 +21,9 @@
 :- use_module(identity, [agent_home/2]).
 :- use_module(legacy, [legacy_none/2]).
 :- use_module(owner, [owner_entered/3, owner_inherited/3]).
-:- use_module(signed_payloads, [payloads_admitted/3]).
 :- use_module(trail, [trail_link/5, trail_none/2]).
 :- use_module(life,
-              [ is_life/1, life_clone/3, life_hop/3, life_hops/2,
-                life_tokens/2 ]).
+              [is_life/1, life_clone/3, life_hop/3, life_hops/2]).
 
 /** <module> What of an agent goes over the wire
 
@@ -70,12 +67,12 @@ start(Host, Since, Start) :-
     ;   Start = Since
     ).
 
-%!  image_payloads(+Image, +Host) is semidet.
+%!  image_entrant(+Image, -Entrant) is det.
 %
-%   Host lets in the payloads of Image, see payloads_admitted/3.
+%   Entrant is what gate/4 has to know of Image.
 
-image_payloads(image(_, _, Life, state(_, Clauses), _, _, _), Host) :-
-    payloads_admitted(Host, Life, Clauses).
+image_entrant(image(Id, Hash, Life, State, _, Mail, _),
+              entrant(Id, Hash, Life, State, Mail)).
 
 %!  image_trail(+Event, +Host, +Image0, -Image) is det.
 %
@@ -94,19 +91,13 @@ signed(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
     trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
 
 %!  image_entered(+Peer, +Image0, -Image) is det.
-%!  image_newcomer(+Peer, +Image, -Newcomer) is det.
 %
 %   Image is what comes if the process at Peer sends Image0, once the trail says
-%   that it was received; Newcomer is as of quota_against/3.
+%   that it was received.
 
 image_entered(Peer, image(Id, Hash, Life, State0, Goals, Mail, Start),
               image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     owner_entered(Peer, State0, State).
-
-image_newcomer(Peer, image(Id, Hash, _, State0, _, Mail, _),
-               newcomer(Id, Hash, State, Count)) :-
-    owner_entered(Peer, State0, State),
-    length(Mail, Count).
 
 %!  image_hash(+Image, -Hash) is det.
 
@@ -115,18 +106,17 @@ image_hash(image(_, Hash, _, _, _, _, _), Hash).
 %!  image_label(+Image, -Label) is det.
 %
 %   What one has to know of Image before it is installed: Label is
-%   label(Id, Hops, Hash, Tokens, Since, From), From being `none` or the
-%   host that it left.  What is not an agent is refused.  Whether the state
-%   can be installed is seen when its module is made.
+%   label(Id, Hops, Since, From), From being `none` or the host that it left.
+%   What is not an agent is refused.  Whether the state can be installed is seen
+%   when its module is made.
 %
 %   @error type_error(agent_image, Name)
 
-image_label(Image, label(Id, Hops, Hash, Tokens, Since, From)) :-
+image_label(Image, label(Id, Hops, Since, From)) :-
     (   is_image(Image)
-    ->  Image = image(Id, Hash, Life, _, _, _, Start),
+    ->  Image = image(Id, _, Life, _, _, _, Start),
         started(Start, Since, From),
-        life_hops(Life, Hops),
-        life_tokens(Life, Tokens)
+        life_hops(Life, Hops)
     ;   image_name(Image, Name),
         type_error(agent_image, Name)
     ).

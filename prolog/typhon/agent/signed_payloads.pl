@@ -3,7 +3,7 @@
             payload_marked/2,           % +Module, +Marks
             payload_unmarked/2,         % +Module, +Name
             payload_marks/2,            % +Module, -Marks
-            payloads_admitted/3,        % +Host, +Life, +Clauses
+            payloads_admitted/3,        % +Host, +Life, +State
             payload_admitted/3          % +Host, +Payload, +Clauses
           ]).
 
@@ -23,6 +23,7 @@ since is not.
 :- use_module(library(lists), [member/2]).
 :- use_module('../program', [payload_hash/2, payload_signature/2]).
 :- use_module('../host', [host_option/2, signature_by/3]).
+:- use_module(agent_module, [agent_state/2]).
 :- use_module(life, [life_payloads/2]).
 
 %!  payload_mark(+Payload, -Mark) is semidet.
@@ -57,20 +58,26 @@ payload_marks(Module, Marks) :-
     ;   Marks = []
     ).
 
-%!  payloads_admitted(+Host, +Life, +Clauses) is semidet.
+%!  payloads_admitted(+Host, +Life, +State) is semidet.
 %!  payload_admitted(+Host, +Payload, +Clauses) is semidet.
 %
-%   Host, of this process, lets in an agent of that Life and with Clauses among
-%   its state; this Payload of it.
+%   Host, of this process, lets in an agent of that Life and with that State, as
+%   of agent_state/2 or module(Module); this Payload of it, Clauses being among
+%   its state.
 
-payloads_admitted(Host, Life, Clauses) :-
+payloads_admitted(Host, Life, State) :-
     life_payloads(Life, Payloads),
     Payloads \== [],
     host_option(Host, authors(_)),
     !,
+    state_clauses(State, Clauses),
     forall(member(Name-PIs, Payloads),
            payload_admitted(Host, payload(Name, PIs, Clauses), Clauses)).
 payloads_admitted(_, _, _).
+
+state_clauses(state(_, Clauses), Clauses).
+state_clauses(module(Module), Clauses) :-
+    agent_state(Module, state(_, Clauses)).
 
 payload_admitted(Host, Payload, Clauses) :-
     (   host_option(Host, authors(Authors))

@@ -24,7 +24,7 @@ listens: the log of a host, somebody who traces an agent, or who watches.
   | facts    | leave(Fact), take(Fact)                                    |
   | said     | log(Term): what agents log                                 |
   | links    | link(To), unlink(To)                                       |
-  | hosts    | `started`, `stopped`                                       |
+  | hosts    | `started`, `stopped`, refused(Agent, Reason)               |
   | goals    | goal(Goal): only of agents that are traced                 |
 
 What happens to a host, and not to somebody on it, has the agent `none`.

@@ -1,6 +1,8 @@
 :- module(typhon_permits,
           [ peer_may/3,                 % +Peer, +Host, +Right
+            peer_permitted/3,           % +Peer, +Host, +Right
             audit/3,                    % +Host, +Peer, +What
+            audit/4,                    % +Host, +Peer, +Proof, +What
             must_be_peer_rules/1        % +Rules
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -25,9 +27,17 @@ The first rule counts whose Who the peer is; who is in none may nothing.
 Without rules, who has the cookie may everything; where there is TLS, who has
 our own certificate may, and who has another, everything but `remote`.
 
-With the option audit(File) each refusal and each order is a line there,
+With the option audit(File) each refusal, order and remote goal is a line there,
 
     audit(Time, Host, Peer, Proof, What).
+
+  | What                   |                                               |
+  | ---------------------- | --------------------------------------------- |
+  | refused(Agent, Reason) | the host did not admit Agent, see typhon_gate |
+  | refused(Right)         | Peer does not have that Right                 |
+  | refused(Id, from(Other)) | Id got no message of Peer's in Other's name |
+  | order(Agent, Order)    | Peer gave that order to Agent                 |
+  | remote(Goal)           | Peer had Goal run                             |
 
 *Threading*: any thread; a mutex keeps lines whole.
 */
@@ -63,11 +73,19 @@ rights(Rights) :-
     forall(member(Right, Rights), ( ground(Right), right(Right) )).
 
 %!  peer_may(+Peer, +Host, +Right) is semidet.
+%!  peer_permitted(+Peer, +Host, +Right) is semidet.
 %
-%   The process at the address Peer has Right on Host.  That it has not is
-%   noted.
+%   The process at the address Peer has Right on Host.  peer_may/3 audits the
+%   refusal.
 
 peer_may(Peer, Host, Right) :-
+    (   peer_permitted(Peer, Host, Right)
+    ->  true
+    ;   audit(Host, Peer, refused(Right)),
+        fail
+    ).
+
+peer_permitted(Peer, Host, Right) :-
     (   host_option(Host, peer(Rules))
     ->  endpoint_proof(Peer, Proof),
         by_rules(Rules, Proof, Right)
@@ -77,9 +95,6 @@ peer_may(Peer, Host, Right) :-
         endpoint_own_proof(Proof)
     ),
     !.
-peer_may(Peer, Host, Right) :-
-    audit(Host, Peer, refused(Right)),
-    fail.
 
 by_rules(Rules, Proof, Right) :-
     member(Who-Rights, Rules),
@@ -91,12 +106,18 @@ by_rules(Rules, Proof, Right) :-
     ).
 
 %!  audit(+Host, +Peer, +What) is det.
+%!  audit(+Host, +Peer, +Proof, +What) is det.
+%
+%   Proof is how Peer has proved itself, which audit/3 looks up.
 
 audit(Host, Peer, What) :-
+    endpoint_proof(Peer, Proof),
+    audit(Host, Peer, Proof, What).
+
+audit(Host, Peer, Proof, What) :-
     debug(typhon(audit), '~w at ~w: ~p', [Peer, Host, What]),
     (   host_option(Host, audit(File))
-    ->  endpoint_proof(Peer, Proof),
-        get_time(Time),
+    ->  get_time(Time),
         catch(with_mutex(typhon_audit,
                          note(File, audit(Time, Host, Peer, Proof, What))),
               error(Formal, Context),

@@ -15,21 +15,19 @@
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../journal', [journal_barrier/0, journal_step/1]).
 :- use_module('../program',
-              [ clause_parts/3, code_install/3, code_module/2, code_receive/2,
-                code_sent/2, code_stands/2, payload_load/2, program_load/6 ]).
+              [ clause_parts/3, code_install/3, code_module/2, code_sent/2,
+                code_stands/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
-              [ audit/3, event/4, host/3, host_address/2, host_enter/4,
-                host_leave/1, host_resolve/2, host_unknown/1, peer_may/3,
-                process_ask/6, quota_any/1 ]).
+              [ event/4, host/3, host_address/2, host_resolve/2,
+                host_unknown/1, process_ask/6 ]).
 :- use_module('../agent',
-              [ agent/5, agent_enter/3, agent_handles/2, agent_id/3,
-                agent_mail/2, agent_name/3, agent_ready/2, agent_rest/3,
-                agent_standing/5, agent_state/2, is_life/1, legacy_none/2,
-                life_clone/3, life_tokens/2, mail_count/2, make_life/2,
-                owner_entered/3, owner_inherited/3, payload_mark/2,
-                payloads_admitted/3, policy_against/4, policy_refuses/2,
-                quota_against/3, trail_none/2, with_agent/2 ]).
+              [ agent/5, agent_enter/3, agent_handles/2, agent_home/2,
+                agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
+                agent_rest/3, agent_standing/5, agent_state/2, gate/4,
+                gate_refused/4, is_life/1, legacy_none/2, life_clone/3,
+                mail_count/2, make_life/2, owner_entered/3, owner_inherited/3,
+                payload_mark/2, trail_none/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(named, [agent_met/1]).
 
@@ -105,6 +103,7 @@ option_type(static(X), boolean, X).
 %   What stands before the first `@` of an id is no part of an address.
 
 check_agent_name(Name) :-
+    must_be(atom, Name),
     (   Name \== '',
         \+ sub_atom(Name, _, _, _, @)
     ->  true
@@ -171,7 +170,7 @@ start_goals(Clauses, Initial, Goals) :-
                 *******************************/
 
 create(local(Host), Name, Start, Agent) :-
-    start(Host, Name, Start, Answer),
+    start(Host, Name, Start, here, Answer),
     begun(Answer, Host, Agent).
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     Start = start(Hash, _, _, _, _),
@@ -188,6 +187,8 @@ begun(Answer, Host, Id) :-
     created(Answer, Address, Id).
 
 created(created(Id), _, Id).
+created(need_program, Address, _) :-
+    throw(error(move_refused(Address, need_program), _)).
 created(refused(unknown_host), Address, _) :-
     host_unknown(Address).
 created(refused(Reason), Address, _) :-
@@ -195,41 +196,23 @@ created(refused(Reason), Address, _) :-
 
 typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), Peer,
                           ReplyTo) :-
-    catch(create_for(Peer, HostName, Name, Start, Program, Answer),
+    From = from(Peer, Program, newborn),
+    catch(create_for(From, HostName, Name, Start, Answer),
           error(Formal, _),
-          Answer = refused(error(Formal))),
+          ( gate_refused(HostName, From, malformed, error(Formal)),
+            Answer = refused(error(Formal)) )),
     endpoint_reply(ReplyTo, Answer).
 
-create_for(Peer, HostName, _, _, _, refused(peer)) :-
-    host(HostName, _, _),
-    \+ peer_may(Peer, HostName, agents),
-    !.
-create_for(Peer, HostName, Name, Start0, Program, Answer) :-
-    entered(Peer, Start0, Start),
-    (   host(HostName, _, Place)
-    ->  create_at(Place, HostName, Name, Start, Program, Answer),
-        noted(Answer, HostName, Peer, Name)
-    ;   Answer = refused(unknown_host)
-    ).
-
-entered(Peer, start(Hash, Life, State0, Goals, Mail),
-        start(Hash, Life, State, Goals, Mail)) :-
+create_for(From, HostName, Name, start(Hash, Life, State0, Goals, Mail),
+           Answer) :-
+    check_agent_name(Name),
     must_be_life(Life),
     must_be_state(State0),
-    owner_entered(Peer, State0, State).
-
-noted(refused(Reason), Host, Peer, Name) :-
-    !,
-    audit(Host, Peer, refused(Name, Reason)).
-noted(_, _, _, _).
-
-create_at(Place, HostName, Name, Start, Program, Answer) :-
-    Start = start(Hash, _, _, _, _),
-    (   policy_against(Place, Hash, Program, Reason)
-    ->  Answer = refused(Reason)
-    ;   code_receive(Hash, Program),
-        start(HostName, Name, Start, Answer)
-    ).
+    must_be(list, Goals),
+    must_be(list, Mail),
+    arg(1, From, Peer),
+    owner_entered(Peer, State0, State),
+    start(HostName, Name, start(Hash, Life, State, Goals, Mail), From, Answer).
 
 must_be_life(Life) :-
     (   is_life(Life)
@@ -268,8 +251,8 @@ agent_clone_here(Id, Goals, CloneId) :-
     owner_inherited(Id, State2, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
-    start(Host, Name, start(Hash, Life, State, Goals, []), Answer,
-          clone(Id, CloneId)),
+    started(Host, Name, start(Hash, Life, State, Goals, []), here,
+            clone(Id, CloneId), Answer),
     begun(Answer, Host, CloneId),
     event(hops, Host, Id, cloned(CloneId)).
 
@@ -287,42 +270,34 @@ clone_id(Id, CloneId) :-
                 *             START            *
                 *******************************/
 
-%   start(+Host, +Name, +Start, -Answer): let an agent begin on Host, a host
-%   of this process.  Answer is created(Id) or refused(Reason).
+%   start(+Host, +Name, +Start, +From, -Answer): let an agent begin on Host, a
+%   host of this process.  Answer is created(Id) or what else gate/4 says.
 
-start(Host, Name, Start, Answer) :-
-    journal_step(start(Host, Name, Start, Answer, none)),
+start(Host, Name, Start, From, Answer) :-
+    journal_step(started(Host, Name, Start, From, none, Answer)),
     journal_barrier.
 
-start(Host, Name, Start, Answer, Of) :-
-    Start = start(_, Life, _, _, _),
-    life_tokens(Life, Tokens),
-    enters(Host, Start, Tokens, Entered),
-    (   Entered == ok
-    ->  host(Host, Address, Place),
-        id_of(Of, Name, Address, Id),
-        catch(( with_agent(Id, born(Id, Host, Place, Start, Goals)),
-                Answer = created(Id) ),
-              Ball,
-              ( host_leave(Host), not_born(Ball, Answer) )),
-        begun_here(Answer, Host, Address, Goals, Of)
-    ;   Answer = Entered
+%   Of is `none`, or clone(Parent, Id).
+
+started(Host, Name, Start, From, Of, Answer) :-
+    Start = start(Hash, Life, State, _, Mail),
+    gate(Host, From-entrant(Name, Hash, Life, State, Mail),
+         born(Host, Name, Start, Of, Id, Goals), Verdict),
+    (   Verdict == ok
+    ->  Answer = created(Id),
+        begun_here(Host, Id, Goals, Of)
+    ;   Answer = Verdict
     ).
 
-%   Where it is born the id of an agent says no more than this process.
-
-enters(Host, start(Hash, _, State, _, Mail), _, refused(Reason)) :-
-    quota_any(Host),
-    host_address(Host, Address),
-    atom_concat('newborn@', Address, Id),
-    length(Mail, Count),
-    quota_against(Host, newcomer(Id, Hash, State, Count), Reason),
-    !.
-enters(Host, start(_, Life, state(_, Clauses), _, _), _, refused(unsigned)) :-
-    \+ payloads_admitted(Host, Life, Clauses),
-    !.
-enters(Host, start(Hash, _, _, _, _), Tokens, Entered) :-
-    host_enter(Host, Hash, Tokens, Entered).
+born(Host, Name, Start, Of, Id, Goals, Verdict) :-
+    (   host(Host, Address, Place)
+    ->  id_of(Of, Name, Address, Id),
+        (   with_agent(Id, born(Id, Host, Place, Start, Goals))
+        ->  Verdict = ok
+        ;   Verdict = need_program      % it was thrown out meanwhile
+        )
+    ;   Verdict = refused(unknown_host) % it is being stopped
+    ).
 
 id_of(clone(_, Id), _, _, Id) :-
     nonvar(Id),
@@ -333,14 +308,8 @@ id_of(clone(_, Id), Name, Address, Id) :-
 id_of(none, Name, Address, Id) :-
     agent_id(Name, Address, Id).
 
-not_born(Ball, Answer) :-
-    (   policy_refuses(Ball, Reason)
-    ->  Answer = refused(Reason)
-    ;   throw(Ball)
-    ).
-
-begun_here(refused(_), _, _, _, _).
-begun_here(created(Id), Host, Address, Goals, Of) :-
+begun_here(Host, Id, Goals, Of) :-
+    agent_home(Id, Address),
     agent_born(Id, Address),
     descends(Of),
     event(life, Host, Id, created),

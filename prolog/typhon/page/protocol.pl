@@ -42,6 +42,7 @@ then lists of what happens, where arguments are text, but for numbers:
       | leave    | Fact                       |
       | take     | Fact                       |
       | started, stopped, lost |              |
+      | refused  | Agent, Reason              |
       | skipped  | Count                      |
       | show, add | Overlay, Where, Value     |
 

@@ -27,6 +27,9 @@ happening(link(To)) --> named('is linked with ~w', To).
 happening(unlink(To)) --> named('is not linked with ~w any more', To).
 happening(started) --> [ 'starts' ].
 happening(stopped) --> [ 'stops' ].
+happening(refused(Agent, Reason)) -->
+    named('refuses ~w', Agent),
+    [ ': ~p'-[Reason] ].
 happening(left(To)) --> named('leaves for ~w', To).
 happening(stayed(To)) --> named('could not go to ~w', To).
 happening(arrived(From, Seconds)) -->
@@ -62,6 +65,7 @@ own_event(link(To)) :- is_name(To).
 own_event(unlink(To)) :- is_name(To).
 own_event(started).
 own_event(stopped).
+own_event(refused(Agent, _)) :- atom(Agent).
 own_event(left(To)) :- is_name(To).
 own_event(stayed(To)) :- is_name(To).
 own_event(arrived(From, Seconds)) :- atom(From), number(Seconds).

@@ -5,15 +5,12 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
-              [ address_parts/3, event/4, event_heard/1, guarding/0, host/3,
-                host_enter/4, host_leave/1, host_option/2, host_passed/3,
-                host_time/2, quota_any/1, schedule/2, schedule_stays/2 ]).
+              [ address_parts/3, event/4, event_heard/1, host/3, host_passed/3,
+                host_time/2, schedule/2, schedule_stays/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_changed/4, agent_elsewhere/3, agent_may_stand/4,
-                agent_mobile/6, agent_move/5, agent_put/3, agent_standing/5,
-                agent_state/2, agent_status/3, life_hop/3, life_payloads/2,
-                life_tokens/2, mail_count/2, payloads_admitted/3,
-                policy_refuses/2, quota_against/3, with_agent/2 ]).
+              [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/6,
+                agent_move/5, agent_put/3, agent_standing/5, agent_state/2,
+                agent_status/3, gate/4, life_hop/3, with_agent/2 ]).
 :- use_module(ordered_moves, [move_over/2]).
 :- use_module(whereabouts, [agent_seen/4]).
 
@@ -43,17 +40,14 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     life_hop(Life0, Life, Hops),
     agent_changed(Module, Until0, Changed, Until),
     mobile_term(Changed-Life-Goals),    % of the state only what has changed
-    (   kept_out(Name, Id, Module, Hash, Goals, Life, Reason)
-    ->  How = refused(Reason)
-    ;   sig_atomic(( enter(Id, Here-Name,
-                           going(Module, Hash, Life, Until, Since),
-                           Hole-Goals, How),
-                     told(How, Id, Here-Name, Hops) ))
-    ),
-    went(How, Id, Here-Name, Hops, Next).
+    gate(Name, going-entrant(Id, Hash, Life, module(Module), []),
+         moved(Id, Here-Name, going(Module, Hash, Life, Until, Since),
+               Hole-Goals, Hops, Next),
+         Verdict),
+    went(Verdict, Id, Here-Name, Hops, Next).
 hop_within(_, _, _, _, _, stop).        % it was ended
 
-went(moved(Next, _), _, _, _, Next).
+went(ok, _, _, _, _).
 went(ended, _, _, _, stop).
 went(refused(Reason), Id, Here-Name, Hops, _) :-
     endpoint_address(Own),
@@ -62,47 +56,17 @@ went(refused(Reason), Id, Here-Name, Hops, _) :-
     event(hops, Here, Id, stayed(Address)),
     throw(error(move_refused(Address, Reason), _)).
 
-kept_out(Name, _, Module, _, _, Life, unsigned) :-
-    life_payloads(Life, [_|_]),
-    host_option(Name, authors(_)),
-    agent_state(Module, state(_, Clauses)),
-    \+ payloads_admitted(Name, Life, Clauses),
-    !.
-kept_out(Name, Id, Module, Hash, _, _, Reason) :-
-    quota_any(Name),
-    mail_count(Id, Mail),
-    quota_against(Name, newcomer(Id, Hash, module(Module), Mail), Reason),
-    !.
-kept_out(Name, _, Module, Hash, Goals, _, Reason) :-
-    guarding,
-    host(Name, _, Place),
-    catch(( agent_may_stand(Module, Hash, Place, Goals), fail ),
-          error(Formal, Context),
-          policy_refuses(error(Formal, Context), Reason)).
+%   moved(+Id, +Hosts, +Going, +Held, +Hops, -Next, -Verdict): Verdict is `ok`,
+%   `ended`, or refused(unknown_host) of a host that is being stopped.
 
-%   enter(+Id, +Hosts, +Going, +Held, -How): How is moved(Next, Seconds),
-%   `ended`, or refused(Reason).  Nobody keeps the room that was taken for one
-%   who does not come.
-
-enter(Id, Here-Name, Going, Held, How) :-
-    Going = going(_, Hash, Life, _, _),
-    life_tokens(Life, Tokens),
-    host_enter(Name, Hash, Tokens, Answer),
-    (   Answer == ok
-    ->  catch(moved(Id, Here-Name, Going, Held, How), Ball,
-              ( host_leave(Name),
-                throw(Ball) ))
-    ;   How = Answer
-    ).
-
-moved(Id, Hosts, Going, Held, moved(Next, Seconds)) :-
+moved(Id, Hosts, Going, Held, Hops, Next, ok) :-
     with_agent(Id, move(Id, Hosts, Going, Held, Next, Seconds)),
-    !.
-moved(Id, _-Name, _, _, How) :-
-    host_leave(Name),
+    !,
+    told(Id, Hosts, Hops, Seconds, Next).
+moved(Id, _, _, _, _, _, Verdict) :-
     (   agent(Id, _, _, _, _)
-    ->  How = refused(unknown_host)     % Name is being stopped
-    ;   How = ended
+    ->  Verdict = refused(unknown_host)
+    ;   Verdict = ended
     ).
 
 %   An agent that was told to move has no hole.  Who ends it next finds it
@@ -144,14 +108,12 @@ seconds(Here, Name, Since, Seconds) :-
     ;   Seconds = 0.0
     ).
 
-%   The agent is there, whatever comes: nobody must think it is still here.
+%   The agent has moved, whatever goes wrong now.
 
-told(moved(Next, Seconds), Id, Here-Name, Hops) :-
-    !,
+told(Id, Here-Name, Hops, Seconds, Next) :-
     catch(arrived(Id, Here, Name, Hops, Seconds, Next),
           error(Formal, Context),
           print_message(error, error(Formal, Context))).
-told(_, _, _, _).
 
 arrived(Id, Here, Name, Hops, Seconds, Next) :-
     host(Name, Address, _),

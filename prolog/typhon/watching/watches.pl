@@ -51,6 +51,10 @@ room `telling`.
 %       What is put in the tuple space of Host, and taken out.
 %     - link(To), unlink(To), started, stopped
 %       Agent is `none`.
+%     - refused(Agent, Reason)
+%       Host did not admit Agent: the name of one that was to be created there,
+%       or the id of one that was to come.  Reason is as of move_refused/2.
+%       Agent of the event is `none`.
 %     - lost
 %       The process of Host has ended or cannot be reached any more.  When it
 %       is there again, Host has `started`.

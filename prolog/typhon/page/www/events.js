@@ -78,6 +78,9 @@ export const APPLY = {
     store.shape++;
   },
   stopped(store, event, id) { gone(store, id, 'stopped'); },
+  refused(store, [time, , , , agent, reason], host) {
+    store.line(host, time, agent, `refused: ${reason}`);
+  },
   lost(store, event, id) { gone(store, id, 'lost'); },
   show(store, [time, , , , name, key, value], host) {
     const overlay = store.overlay({ name });
