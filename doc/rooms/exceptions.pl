@@ -1,4 +1,3 @@
-exception('prolog/typhon/agent/admission.pl',identity).
 exception('prolog/typhon/agent/agent_module.pl',guard).
 exception('prolog/typhon/agent/agent_module.pl',quotas).
 exception('prolog/typhon/agent/agents.pl',journal).
@@ -6,6 +5,10 @@ exception('prolog/typhon/agent/agents.pl',quotas).
 exception('prolog/typhon/agent/agents.pl',trace).
 exception('prolog/typhon/agent/birth.pl',typhon_recovery:back/4).
 exception('prolog/typhon/agent/birth.pl',typhon_recovery:kept/4).
+exception('prolog/typhon/agent/gate.pl',access).
+exception('prolog/typhon/agent/gate.pl',guard).
+exception('prolog/typhon/agent/gate.pl',identity).
+exception('prolog/typhon/agent/gate.pl',quotas).
 exception('prolog/typhon/agent/identity.pl',identity).
 exception('prolog/typhon/agent/identity.pl',journal).
 exception('prolog/typhon/agent/identity.pl',tls).
@@ -70,10 +73,8 @@ exception('prolog/typhon/host/workers.pl',watch).
 exception('prolog/typhon/language/seals.pl',tls).
 exception('prolog/typhon/language/words.pl',quotas).
 exception('prolog/typhon/language/words.pl',trail).
-exception('prolog/typhon/lifecycle/creation.pl',access).
 exception('prolog/typhon/lifecycle/creation.pl',identity).
 exception('prolog/typhon/lifecycle/creation.pl',journal).
-exception('prolog/typhon/lifecycle/creation.pl',quotas).
 exception('prolog/typhon/lifecycle/creation.pl',trail).
 exception('prolog/typhon/lifecycle/cut.pl',virtual).
 exception('prolog/typhon/lifecycle/effect.pl',quotas).
@@ -111,9 +112,7 @@ exception('prolog/typhon/program/mobile.pl',guard).
 exception('prolog/typhon/program/paths.pl',access).
 exception('prolog/typhon/program/problems.pl',access).
 exception('prolog/typhon/program/python_code.pl',access).
-exception('prolog/typhon/travel/arrival.pl',access).
 exception('prolog/typhon/travel/arrival.pl',journal).
-exception('prolog/typhon/travel/arrival.pl',quotas).
 exception('prolog/typhon/travel/arrival.pl',trail).
 exception('prolog/typhon/travel/backlog.pl',journal).
 exception('prolog/typhon/travel/backlog.pl',typhon_recovery:back/4).
@@ -154,8 +153,6 @@ exception('prolog/typhon/travel/whereabouts.pl',journal).
 exception('prolog/typhon/travel/whereabouts.pl',trace).
 exception('prolog/typhon/travel/whereabouts.pl',typhon_recovery:back/4).
 exception('prolog/typhon/travel/whereabouts.pl',typhon_recovery:kept/4).
-exception('prolog/typhon/travel/within.pl',identity).
-exception('prolog/typhon/travel/within.pl',quotas).
 exception('prolog/typhon/wire/acceptor.pl',guard).
 exception('prolog/typhon/wire/acceptor.pl',tls).
 exception('prolog/typhon/wire/auth.pl',tls).

@@ -210,10 +210,10 @@ expected(Path, Reason, move_refused(Inn, Reason), Peer-certificate(Name)) :-
     ->  Name = alpha, host_property(home, address(Address))
     ;   Name = far, peer_host(Home, Address)
     ),
-    typhon_hosts:address_parts(Address, _, Peer),
+    typhon_host:address_parts(Address, _, Peer),
     host_property(home, address(HomeAddress)),
-    typhon_hosts:address_parts(HomeAddress, _, Own),
-    typhon_hosts:address_parts(Inn, inn, Own).
+    typhon_host:address_parts(HomeAddress, _, Own),
+    typhon_host:address_parts(Inn, inn, Own).
 
 is_guest(Who) :-
     atom(Who),
@@ -246,7 +246,7 @@ requests_made(Dir) :-
 
 asked(Kind, Request, Answer) :-
     host_property(home, address(Home)),
-    typhon_hosts:address_parts(Home, _, Endpoint),
+    typhon_host:address_parts(Home, _, Endpoint),
     peer_do(far, typhon_wire:endpoint_call(Endpoint, Kind, Request, Answer,
                                            10)).
 
