@@ -38,7 +38,7 @@ help:
 	fi
 
 demo: tools             ## sixty hosts, ten agents, six tasks in step
-	@$(SWIPL) experiments/study.pl -- demo --runs 1 --logs \
+	@$(SWIPL) experiments/study.pl -- demo --runs 1 --real --logs \
 	    --out out/demo
 
 demo-robots: tools      ## simulated robots carry a pole, and push boxes

@@ -1,5 +1,7 @@
 :- use_module('../lib/common', [run_swipl/5, wait_until/2, with_tmp_dir/1,
                        project_file/2]).
+:- use_module('../lib/project_studies',
+              [first_run/5, project_study/2, verdicts/3]).
 :- use_module('../lib/event_log', [stopped_executing/4]).
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
@@ -9,7 +11,7 @@
 
 /** <module> The demo, small
 
-The command of `make demo`, on twenty hosts in two processes, with a fast
+The study of `make demo`, on twenty hosts in two processes, with a fast
 clock.
 */
 
@@ -57,6 +59,14 @@ nothing_left :-
 :- begin_tests(demo, [ setup(mark),
                        cleanup(unsetenv('TYPHON_TEST_DEMO')) ]).
 
+test(claims_are_of_virtual_time, Held == Claims) :-
+    project_study('sync/study_demo', Study),
+    with_tmp_dir({Study, Point}/[Dir]>>first_run(Study, [], 1, Dir, Point)),
+    verdicts(Study, [Point], Verdicts),
+    findall(Text, member(Text-_, Verdicts), Claims),
+    findall(Text, member(Text-true, Verdicts), Held),
+    Point = Case-_,
+    assertion(Case.clock == virtual).
 test(run) :-
     with_tmp_dir(whole_run).
 test(interrupted, [Status == exit(130), nondet]) :-
