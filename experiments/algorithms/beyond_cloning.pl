@@ -12,7 +12,7 @@ derive(cloning, Case, Cloning) :-
 fixed(problem, maze, assumed("25 x 25, without obstacles")).
 fixed(algorithms, [greedy], assumed("")).
 fixed(settings, [size-25, q_th-2, alpha_r-5, c_l-1, lifetime-5],
-      chosen("by the defaults agents crowd each other out")).
+      tuned("by the defaults agents crowd each other out")).
 fixed(limit, 4000, assumed("host seconds")).
 
 claim("agents that clone need fewer executions each than as many that do not",

@@ -6,7 +6,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [append/2, list_to_set/2, member/2]).
-:- use_module(library(pairs), [pairs_values/2]).
+:- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module('../../prolog/typhon/base/names', [names_proposed/3]).
 :- use_module('../../prolog/typhon/program', [files_beside/3]).
 :- use_module(studies, [study_call/2, study_load/2, study_title/3]).
@@ -95,16 +95,18 @@ named(Name, [File]) :-
 named(thesis, Files) :-
     !,
     study_files(All),
-    include([File]>>begins(File, [figure_, beyond_]), All, Files).
+    include([File]>>begins(File, [figure_, beyond_]), All, Files0),
+    in_order(Files0, Files).
 named(Name, Files) :-
     study_files(All),
     (   Finder = in_folder
     ;   Finder = by_name
     ;   Finder = goes_by
     ),
-    findall(File, ( member(File, All), call(Finder, Name, File) ), Files),
-    Files = [_|_],
-    !.
+    findall(File, ( member(File, All), call(Finder, Name, File) ), Files0),
+    Files0 = [_|_],
+    !,
+    in_order(Files0, Files).
 named(Name, _) :-
     existence_error(study, Name).
 
@@ -119,6 +121,20 @@ prolog:error_message(existence_error(study, Name)) -->
       names_proposed(Name, Names, Meant)
     },
     [ 'There is no study ~w~w'-[Name, Meant] ].
+
+%   Figures first, 4.7 before 4.13.
+
+in_order(Files0, Files) :-
+    map_list_to_pairs(file_key, Files0, Keyed0),
+    keysort(Keyed0, Keyed),
+    pairs_values(Keyed, Files).
+
+file_key(File, Rank-Key) :-
+    file_base_name(File, Base),
+    file_name_extension(Stem, _, Base),
+    atomic_list_concat([Kind|Parts], '_', Stem),
+    ( Kind == figure -> Rank = 0 ; Rank = 1 ),
+    maplist(number_or_text, Parts, Key).
 
 in_folder(Name, File) :-
     file_directory_name(File, Directory),

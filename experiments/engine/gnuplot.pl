@@ -2,11 +2,12 @@
           [ plot/3,                     % +Directory, +Name, +Size
             colour/2,                   % +Index, -Colour
             lighten/2,                  % +Colour, -Light
+            plain_text/2,               % +Text, -Plain
             save_columns/2,             % +File, +Rows
             save_variables/2            % +File, +Pairs
           ]).
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(process), [process_create/3]).
 
 /** <module> gnuplot
@@ -70,6 +71,21 @@ lighten(Colour, Light) :-
     B is 255 - (255 - (Colour /\ 255)) // 4,
     Light is R << 16 \/ G << 8 \/ B.
 
+%!  plain_text(+Text, -Plain:atom) is det.
+%
+%   Plain is shown as Text is written where gnuplot gives characters a meaning,
+%   as `_` that of a subscript.
+
+plain_text(Text, Plain) :-
+    format(codes(Codes), '~w', [Text]),
+    foldl(plain_code, Codes, Escaped, []),
+    atom_codes(Plain, Escaped).
+
+plain_code(Code, [0'\\, Code|Codes], Codes) :-
+    memberchk(Code, `\\_^{}@&~`),
+    !.
+plain_code(Code, [Code|Codes], Codes).
+
 %!  save_columns(+File, +Rows) is det.
 %
 %   Write rows of numbers and texts as a data file of gnuplot.  An atom
@@ -131,9 +147,14 @@ literal(Value, Value) :-
     number(Value),
     !.
 literal(Value, Literal) :-
-    atomic_list_concat(Parts, '"', Value),
-    atomic_list_concat(Parts, '\\"', Escaped),
-    format(atom(Literal), '"~w"', [Escaped]).
+    format(codes(Codes), '~w', [Value]),
+    foldl(literal_code, Codes, Escaped, []),
+    format(atom(Literal), '"~s"', [Escaped]).
+
+literal_code(Code, [0'\\, Code|Codes], Codes) :-
+    memberchk(Code, `\\"`),
+    !.
+literal_code(Code, [Code|Codes], Codes).
 
                 /*******************************
                 *           MESSAGES           *

@@ -14,7 +14,7 @@ set label 2 "{/*0.9 ".SUBTITLE."}" at screen 0.085,(1-54.0/HEIGHT) tc rgb "#5555
 set xrange [LEFT:RIGHT]
 eval "set xtics (".XTICS.")"
 set border 3 lc rgb "#888888"
-set tics nomirror out scale 0.6 tc rgb "#333333"
+set tics nomirror out scale 0.6 tc rgb "#333333" noenhanced
 set grid ytics lc rgb "#e4e4e4" lt 1 lw 1
 set lmargin at screen 0.085; set rmargin at screen 0.975
 block(p, s) = (p-1)*series + s-1
@@ -22,9 +22,9 @@ do for [p=1:panels] {
     top = 1 - (90 + 330.0*(p-1) + 32)/HEIGHT
     set tmargin at screen top
     set bmargin at screen (1 - (90 + 330.0*p - 45)/HEIGHT)
-    set label 3 Panel[p] at screen 0.085,(top + 20.0/HEIGHT)
+    set label 3 Panel[p] at screen 0.085,(top + 20.0/HEIGHT) noenhanced
     if (p == 1) {
-        set key at screen 0.975,(1-82.0/HEIGHT) right center horizontal samplen 1.5 width 1
+        set key at screen 0.975,(1-82.0/HEIGHT) right center horizontal samplen 1.5 width 1 noenhanced
     } else {
         unset key
     }
@@ -34,7 +34,7 @@ do for [p=1:panels] {
         unset logscale y; set yrange [0:1<*]; set format y "%g"
     }
     if (Log[p]) { unset offsets } else { set offsets 0,0,graph 0.06,0 }
-    if (p == panels) { set xlabel XLABEL tc rgb "#333333" }
+    if (p == panels) { set xlabel XLABEL noenhanced tc rgb "#333333" }
     unset arrow
     do for [r in Rules[p]] {
         set arrow from graph 0,first (r+0) to graph 1,first (r+0) nohead dt 2 lc rgb "#999999"
@@ -48,7 +48,7 @@ do for [p=1:panels] {
          for [s=1:series] NAME."-printed.dat" index block(p,s) using 1:2 \
              with points pt 8 ps 1.6 lw 1.6 lc rgb Colour[s] notitle, \
          (p == 1 && PRINTED ? NaN : 1/0) with points pt 8 ps 1.6 lc rgb "#555555" \
-             title (p == 1 && PRINTED ? "printed in the thesis" : "")
+             title (p == 1 && PRINTED ? "printed" : "")
     unset label
 }
 unset multiplot

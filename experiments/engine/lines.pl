@@ -11,7 +11,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(cases, [varied/3]).
-:- use_module(gnuplot, [colour/2, save_columns/2]).
+:- use_module(gnuplot, [colour/2, plain_text/2, save_columns/2]).
 :- use_module(numbers, [spread/4]).
 :- use_module(studies, [study_call/2]).
 
@@ -149,13 +149,15 @@ printed_row(Study, shown(Runs, X, Positions), Measure, Where, [At, Number]) :-
 %   variable(+Study, +Options, +Shown, +Measures, +Lines, -Variable) is multi.
 
 variable(Study, Options, shown(Runs, X, _), _, _, 'SUBTITLE'-Subtitle) :-
-    subtitle(Study, Options, Runs, X, Subtitle).
+    subtitle(Study, Options, Runs, X, Text),
+    plain_text(Text, Subtitle).
 variable(Study, Options, shown(_, X, _), _, _, 'XLABEL'-Label) :-
     label(Study, X, Label0),
     option(xlabel(Label), Options, Label0).
-variable(_, _, shown(_, _, Positions), _, _, 'XTICS'-Tics) :-
+variable(Study, _, shown(_, _, Positions), _, _, 'XTICS'-Tics) :-
     findall(Tick, ( member(At-Value, Positions),
-                    format(atom(Tick), '"~w" ~w', [Value, At]) ),
+                    label(Study, Value, Label),
+                    tick(Label, At, Tick) ),
             Ticks),
     atomic_list_concat(Ticks, ',', Tics).
 variable(_, _, shown(_, _, Positions), _, _, Variable) :-
@@ -192,6 +194,11 @@ variable(_, _, _, _, Lines, 'Colour'-Colours) :-
     findall(Colour, ( nth0(I, Lines, _), N is I mod 6, colour(N, Colour) ),
             Colours).
 
+tick(Label, At, Tick) :-
+    atomic_list_concat(Parts, '\'', Label),
+    atomic_list_concat(Parts, '\'\'', Quoted),
+    format(atom(Tick), '\'~w\' ~w', [Quoted, At]).
+
 %   It says what is put together, too.
 
 subtitle(Study, Options, Runs, X, Subtitle) :-
@@ -219,7 +226,7 @@ label(Study, Name, Label) :-
     (   study_call(Study, label(Name, Label0))
     ->  Label = Label0
     ;   format(atom(Text), '~w', [Name]),
-        atomic_list_concat(Words, '_', Text),      % gnuplot's for below
+        atomic_list_concat(Words, '_', Text),
         atomic_list_concat(Words, ' ', Label)
     ).
 

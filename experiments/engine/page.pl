@@ -135,7 +135,6 @@ noted(Text, Notes, [Text, ' ', span(class(small), Said)]) :-
 
 note_text(line(Line), Text) :- !, format(atom(Text), 'line ~w', [Line]).
 note_text(formula, 'of the formula, not of a run') :- !.
-note_text(ours, 'ours, not of the thesis') :- !.
 note_text(why(Text), Text) :- !.
 note_text(Note, Text) :- format(atom(Text), '~w', [Note]).
 
@@ -148,7 +147,10 @@ medians(Study, Outcome) -->
       findall(tr(Cells), ( member(Row, Outcome.rows),
                            cells(Study, Row, Outcome.names, Measures, Cells) ),
               Trs) },
-    html(details([summary('medians (least to greatest) [thesis]'),
+    { study_call(Study, printed(_, _, _))
+      -> Summary = 'medians (least to greatest) [printed]'
+      ;  Summary = 'medians (least to greatest)' },
+    html(details([summary(Summary),
                   table([tr(Heads)|Trs])])).
 
 heading(Study, Measure, Text) :-

@@ -4,7 +4,8 @@
 :- use_module(library(filesex), [copy_file/2, directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(option), [option/2]).
-:- use_module(gnuplot, [plot/3, save_columns/2, save_variables/2]).
+:- use_module(gnuplot,
+              [plain_text/2, plot/3, save_columns/2, save_variables/2]).
 :- use_module(lines, [lines_picture/6, matching/3]).
 :- use_module(studies, [study_call/2]).
 
@@ -53,7 +54,7 @@ drawn(lines(Options), Study, Name, Title, Runs, Directory) :-
     lines_picture(Study, Name, Options, Runs, Directory, Height-Variables),
     module_property(study_picture, file(Here)),
     beside(Here, 'lines.gp', Script),
-    draw(Directory, Name, 1000-Height, Script, ['TITLE'-Title|Variables]).
+    draw(Directory, Name, Title, 1000-Height, Script, Variables).
 drawn(script(File, Tables, Options), Study, Name, Title, Runs0, Directory) :-
     of_seed(Options, Runs0, Runs),
     forall(member(Table-Goal, Tables),
@@ -68,7 +69,7 @@ drawn(script(File, Tables, Options), Study, Name, Title, Runs0, Directory) :-
     append(Options, [size(1200, 1000)], Sizes),
     memberchk(size(W, H), Sizes),
     beside(Study, File, Script),
-    draw(Directory, Name, W-H, Script, ['TITLE'-Title, 'HEIGHT'-H|More]).
+    draw(Directory, Name, Title, W-H, Script, ['HEIGHT'-H|More]).
 drawn(file(File, Where), _, Name, _, Runs0, Directory) :-
     matching(Where, Runs0, Runs),
     of_seed([seed(first)], Runs, [run(_, _, Measures)|_]),
@@ -92,13 +93,14 @@ beside(File, Name, Path) :-
 %   The script stays beside the pictures, so that a figure can be changed
 %   without the runs.
 
-draw(Directory, Name, Size, Script, Variables) :-
+draw(Directory, Name, Title0, Size, Script, Variables) :-
+    plain_text(Title0, Title),
     file_base_name(Script, Base),
     directory_file_path(Directory, Base, Copy),
     copy_file(Script, Copy),
     file_name_extension(Name, gnuplot, Own),
     directory_file_path(Directory, Own, Path),
-    append(['NAME'-Name|Variables], [load-Base], All),
+    append(['NAME'-Name, 'TITLE'-Title|Variables], [load-Base], All),
     save_variables(Path, All),
     plot(Directory, Name, Size).
 

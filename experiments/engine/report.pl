@@ -218,10 +218,13 @@ parameter_rows(Study, Given, Rows) :-
 why(default, '') :- !.
 why(derived, 'follows from others') :- !.
 why(given, 'given by --set') :- !.
-why(printed(Where), Text) :- !, format(atom(Text), 'thesis, ~w', [Where]).
-why(assumed(Why), Text) :- !, format(atom(Text), 'assumed: ~w', [Why]).
-why(chosen(Why), Text) :- !,
-    format(atom(Text), 'chosen after results were seen: ~w', [Why]).
+why(tuned(Why), Text) :- !,
+    format(atom(Text), 'tuned after results were seen: ~w', [Why]).
+why(Term, Text) :-                      % assumed(Why), printed(Where)
+    compound(Term),
+    Term =.. [Name, Why],
+    !,
+    format(atom(Text), '~w: ~w', [Name, Why]).
 why(Why, Text) :- format(atom(Text), '~w', [Why]).
 
                 /*******************************

@@ -37,8 +37,8 @@ what is claimed and what is drawn.  Its words are
 Only the first and measure/3 are required.  doc/studies.md explains each.
 A case is a dict: of each parameter its value.
 
-Why is one of printed(Where), assumed(Why), chosen(Why), the last for what
-was chosen after results had been seen.
+Why is one of printed(Where), assumed(Why), tuned(Why), the last for a value
+that was chosen after results had been seen.
 
 *Threading*: studies are loaded by one thread.
 */

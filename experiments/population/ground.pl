@@ -29,12 +29,12 @@ fixed(psi, 100, printed("section 6.5: Ψ(0)")).
 fixed(q_th, 4, printed("section 6.5")).
 fixed(task_time, 1, assumed("an agent does not wait for it")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
-fixed(tick, 1.9, chosen("seconds of a turn in a queue: the scale of time")).
-fixed(threshold, 0.5, chosen("below it Ψ is zero: sets how long agents wait")).
-fixed(rounding, floor, chosen("of the number of clones; round makes more")).
+fixed(tick, 1.9, tuned("seconds of a turn in a queue: the scale of time")).
+fixed(threshold, 0.5, tuned("below it Ψ is zero: sets how long agents wait")).
+fixed(rounding, floor, tuned("of the number of clones; round makes more")).
 fixed(replication, rewarded, assumed("clones only after a reward")).
-fixed(mesh, rings, chosen("links drawn by chance leave some hosts with few")).
-fixed(degree, 20, chosen("with 10 a host is more often found late")).
+fixed(mesh, rings, tuned("links drawn by chance leave some hosts with few")).
+fixed(degree, 20, tuned("with 10 a host is more often found late")).
 fixed(crash_share, 0.2, assumed("task 4 is in progress on so many hosts")).
 fixed(limit, 2000, assumed("host seconds; runs end long before")).
 

@@ -22,16 +22,16 @@ fixed(dynamic, links(uniform(4, 8), 0.5, 0.5),
       assumed("dynamic is printed, not how; the number of links stays")).
 fixed(attacked, 10, assumed("hosts for each antigen in a round: several")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
-fixed(round, 16, chosen("40 hops; see omega")).
+fixed(round, 16, tuned("40 hops; see omega")).
 fixed(omega, 200,
-      chosen("printed: 1000 hops; these are the lives of five rounds")).
+      tuned("printed: 1000 hops; these are the lives of five rounds")).
 fixed(reading, similar,
-      chosen("who is better: by feedback for similar antigens")).
+      tuned("who is better: by feedback for similar antigens")).
 fixed(patience, 1.2,
-      chosen("until a danger signal has died down: 3 hops, as it spreads")).
+      tuned("until a danger signal has died down: 3 hops, as it spreads")).
 fixed(gather, 1.2, assumed("from the first offer to the choice: 3 hops")).
 fixed(crowd, 12,
-      chosen("no clones where so many agents are; not of the thesis")).
+      tuned("no clones where so many agents are; not of the thesis")).
 fixed(capacity, 40, assumed("of a host; never reached")).
 
 network(Case, Case.topology,

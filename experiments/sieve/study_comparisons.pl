@@ -12,8 +12,8 @@ that an agent knows. Each figure's own sentence is looked at.").
 
 vary(reading, [similar, current, common, total]).
 vary(figure, ['3.3', '3.4', '3.5']).
-fixed(round, 8, chosen("20 hops: half the work of the figures")).
-fixed(omega, 100, chosen("the lives of five rounds, as in the figures")).
+fixed(round, 8, tuned("20 hops: half the work of the figures")).
+fixed(omega, 100, tuned("the lives of five rounds, as in the figures")).
 
 plan(Case, Plan) :-
     plan_of(Case.figure, Plan).

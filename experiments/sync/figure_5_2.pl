@@ -19,8 +19,8 @@ fixed(window, 15, printed("section 5.4.1")).
 fixed(rewards, few, assumed("at the visits 1, 2, 3, 5, 8, 13, 21: most at \c
 first, as section 5.4.1 says")).
 
-fixed(early, 6, chosen("the visit at which the curves of θ are farthest apart")).
-fixed(late, 34, chosen("the last visit at which no potential is zero")).
+fixed(early, 6, tuned("the visit at which the curves of θ are farthest apart")).
+fixed(late, 34, tuned("the last visit at which no potential is zero")).
 
 rewarded_at(few, [1, 2, 3, 5, 8, 13, 21]).
 

@@ -23,9 +23,9 @@ fixed(task_time, 3, assumed("read off: T1 is required up to 6 s and executed \c
 up to 9 s (section 5.6.1)")).
 fixed(hop_time, 0.27-0.53,
       assumed("fits three of four idle times of Table 5.1")).
-fixed(starts, of_topology, chosen("drawn by the seed; on the ring at even \c
+fixed(starts, of_topology, tuned("drawn by the seed; on the ring at even \c
 distances, as it is called symmetric")).
-fixed(choices, of_topology, chosen("by chance among hosts never visited; on \c
+fixed(choices, of_topology, tuned("by chance among hosts never visited; on \c
 the ring in order, as no decision is made by chance (section 5.4.1)")).
 fixed(links, none, printed("static unless said otherwise")).
 fixed(failure, none, printed("none unless said otherwise")).

@@ -4,11 +4,11 @@
 
 fixed(topology, grid, printed("section 5.5")).
 fixed(delta, 0.2, printed("section 5.6.5")).
-fixed(interval, 5-10, chosen("each host, so many seconds between its changes; \c
+fixed(interval, 5-10, tuned("each host, so many seconds between its changes; \c
 with 10-20, of section 4.4.7, some hosts are cut off for a whole task")).
-fixed(drop_1, 0.2, chosen("Dynamic I prints no probabilities; with 0.5 hosts \c
+fixed(drop_1, 0.2, tuned("Dynamic I prints no probabilities; with 0.5 hosts \c
 are cut off for long")).
-fixed(make_1, 0.9, chosen("as drop_1")).
+fixed(make_1, 0.9, tuned("as drop_1")).
 fixed(drop_2, 0.5, printed("section 5.5")).
 fixed(make_2, 0.7, printed("section 5.5")).
 

@@ -16,7 +16,7 @@
 
 toy([ 'study(toy, "A toy").',
       'vary(a, [1, 2]).',
-      'fixed(c, 3, chosen("it fits")).',
+      'fixed(c, 3, tuned("it fits")).',
       'measure(m, Log, M) :- M is Log.case.a.',
       'measure(n, Log, M) :- M is Log.case.a.',
       'label(m, "What is measured").',
@@ -156,7 +156,7 @@ test(claims, nondet) :-
     saved('claims.csv', Text),
     sub_string(Text, _, _, _, "rises,2,3,true,m: 12 20,[]").
 test(parameters, Text == "parameter,value,why\r\na,\"[1,2]\",varied\r\n\c
-c,3,chosen after results were seen: it fits\r\n") :-
+c,3,tuned after results were seen: it fits\r\n") :-
     saved('parameters.csv', Text).
 
 :- end_tests(report).

@@ -124,8 +124,14 @@ test(by_number, Bases == ['figure_5_6.pl']) :-
     named(['5.6'], Bases).
 test(by_folder, true(memberchk('figure_5_6.pl', Bases))) :-
     named([sync], Bases).
-test(thesis, true(memberchk('figure_5_6.pl', Bases))) :-
-    named([thesis], Bases).
+test(thesis_is_in_the_order_of_its_figures, Figures == Sorted) :-
+    named([thesis], Bases),
+    assertion(append(_, ['figure_4_7.pl', 'figure_4_9.pl',
+                         'figure_4_13.pl', 'figure_5_2.pl'|_], Bases)),
+    findall(I, ( nth1(I, Bases, Base), sub_atom(Base, 0, _, _, figure_) ),
+            Figures),
+    length(Figures, Count),
+    numlist(1, Count, Sorted).
 test(once, Bases == ['figure_5_6.pl']) :-
     project_file('experiments/sync/figure_5_6', File),
     named(['5.6', File, '5.6'], Bases).

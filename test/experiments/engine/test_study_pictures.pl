@@ -6,6 +6,7 @@
 :- use_module('../../lib/study_files',
               [save_lines/3, study_messages/2, with_study_file/2]).
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
+:- use_module('../../../experiments/engine/gnuplot', [plain_text/2]).
 :- use_module('../../../experiments/engine/outcome', [outcome/4]).
 :- use_module('../../../experiments/engine/page').
 :- use_module('../../../experiments/engine/picture').
@@ -36,7 +37,7 @@ study([ 'study(\'toy 1\', "A <toy>").',
         'claim("never", [ours, formula], w > 3).',
         'plot(one, "One \\"picture\\"",',
         '     lines([ x(n), y([m]), line(kind), log(m), rule(m, 5),',
-        '             subtitle("of toys") ])).',
+        '             subtitle("of_toys") ])).',
         'plot(two, "Two", lines([x(kind), y(m), where([n=in([1, 2])])])).',
         'plot(three, "Three", script(\'own.gp\', [own-rows],',
         '     [seed(first), size(300, 200), variables(given)])).',
@@ -127,10 +128,15 @@ test(variables) :-
           "PRINTED = 1", "Log[1] = [1]", "Rules[1] = [\"5\"]",
           "Panel[1] = [\"What <is> measured\"]",
           "Series[2] = [\"new one\", \"Old ones\"]",
-          "of toys; 3 runs of each: medians, least and greatest\"",
+          "of\\\\_toys; 3 runs of each: medians, least and greatest\"",
           "load \"lines.gp\"" ])).
 test(words_stand_side_by_side, Text == "1 17 11 23\n2 117 111 123\n\n\n") :-
     with_pictures(data('two.dat', Text)).
+test(names_of_values_are_words) :-
+    with_pictures(has('two.gnuplot',
+                      ["XTICS = \"'new one' 1,'Old ones' 2\""])).
+test(texts_are_drawn_as_they_are_written, Plain == 'a\\_b\\^2\\{\\\\') :-
+    plain_text("a_b^2{\\", Plain).
 test(says_what_is_put_together) :-
     with_pictures(has('two.gnuplot', ["least and greatest; over all n\""])).
 test(own_script, Text == "\"a b\" 1.5\nx 6\n\n\"c d\" 3\n") :-
