@@ -42,7 +42,7 @@ lines_picture(Study, Name, Options, Runs0, Directory, Height-Variables) :-
     save_blocks(Directory, Name, '-printed', Measures, Lines,
                 printed_row(Study, Shown)),
     length(Measures, Count),
-    Height is 110 + 330*Count,
+    Height is 130 + 330*Count,         % the label below, in SVG, is large
     findall(Variable,
             variable(Study, Options, Shown, Measures, Lines, Variable),
             Variables0),

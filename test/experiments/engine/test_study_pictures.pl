@@ -16,7 +16,7 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
               [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [max_list/2, member/2, memberchk/2]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [load_html/3]).
@@ -109,6 +109,25 @@ copied(Out, _) :-
     text(Out, 'four.svg', Text),
     assertion(Text == "<svg/>\n").
 
+%   Where texts and marks stand, from the top, beside the height.
+
+inside(Name, Out, Messages) :-
+    is_drawn(two, Out, Messages),
+    text(Out, Name, Text),
+    findall(Y, ( between_texts(Text, "translate(", ")", XY),
+                 split_string(XY, ",", "", [_, Y0]),
+                 number_string(Y, Y0) ), Ys),
+    once(between_texts(Text, "height=\"", "\"", Height0)),
+    number_string(Height, Height0),
+    max_list(Ys, Lowest),
+    assertion(Lowest < Height - 5).     % what hangs below the line
+
+between_texts(Text, Before, After, Between) :-
+    sub_string(Text, _, _, Rest0, Before),
+    sub_string(Text, _, Rest0, 0, Rest),
+    once(sub_string(Rest, Length, _, _, After)),
+    sub_string(Rest, 0, Length, _, Between).
+
 gnuplot :-
     absolute_file_name(path(gnuplot), _, [access(execute), file_errors(fail)]).
 
@@ -154,6 +173,8 @@ test(what_cannot_be_drawn_is_told) :-
            assertion(once(sub_string(Text, _, _, _, Part)))).
 test(drawn, [condition(gnuplot), forall(member(Name, [one, two, three]))]) :-
     with_pictures(is_drawn(Name)).
+test(texts_are_inside_the_picture, [condition(gnuplot)]) :-
+    with_pictures(inside('two.svg')).
 test(without_gnuplot) :-
     with_study_file(['study(toy, "A toy").'], without_gnuplot(Text)),
     assertion(once(sub_string(Text, _, _, _, "apt-get install gnuplot"))).
