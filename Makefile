@@ -20,7 +20,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
     demo-page page-tools thesis thesis-real test chaos fuzz hostile check check-all \
-    doc bench bench-peers profile \
+    doc pictures bench bench-peers profile \
     test-portability install clean
 
 # In the environment of pack_install there is where libraries of C go.
@@ -81,12 +81,17 @@ check-all:
 	    $(SWIPL) -q --on-error=status --on-warning=status \
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \
 	done
+	@echo "check: no mistakes found"
 
 fuzz:                   ## what nobody should send; COUNT=100000, SEED=1, TLS=true
 	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED) --tls=$(TLS)
 
 hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1
 	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED)
+
+pictures: tools page-tools ## make the pictures of the page for README and doc
+	@.ci/install page
+	@$(SWIPL) doc/pictures.pl -- doc/img
 
 doc: tools              ## the documents as a site, in out/doc
 	@.ci/install doc

@@ -24,6 +24,8 @@ sets back happens in another, until it is told to stop.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/3, main/0]).
 :- use_module(library(option), [option/3]).
+:- use_module(library(socket), [gethostname/1]).
+:- use_module(library(uri), [uri_components/2, uri_data/3]).
 :- use_module(library(random),
               [random/1, random_between/3, random_member/2]).
 
@@ -79,9 +81,22 @@ at_work(Port, Network, Result) :-
 begin(Port, Network, Hosts) :-
     network_property(Network, hosts(Hosts)),
     page_serve([port(Port)], Link),
-    format('~w~n', [Link]),
+    print_link(Link),
     flush_output,
     sieve_start(Hosts, payloads(sieve/bits), []).
+
+%   The link first, for programs.
+
+print_link(Link) :-
+    gethostname(Machine),
+    uri_components(Link, Components),
+    uri_data(authority, Components, Authority),
+    atomic_list_concat([_, Port], :, Authority),
+    format('~w~n~n\c
+            Open this link in a browser on this machine. From another one \c
+            call~n~n    ssh -L ~w:localhost:~w ~w~n~n\c
+            there, and open the same link there. Ctrl-C ends the demo.~n',
+           [Link, Port, Port, Machine]).
 
 %   Every second a host is attacked; now and then some are set back.  When all
 %   is done, the next assembly begins.

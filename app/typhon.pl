@@ -177,9 +177,19 @@ check_count(Command, _, _) :-
 overview :-
     format('Usage: swipl app/typhon.pl COMMAND ... [options]~n~n'),
     forall(command(Command, Arguments, _, Help),
-           format('  ~w ~w~t~26|~w~n', [Command, Arguments, Help])),
+           overview_line(Command, Arguments, Help)),
     format('~nCOMMAND --help tells the options of a command. Exit status: \c
             0, it was done;~n1, it was not, or the answer is no.~n').
+
+%   Where the arguments leave no space for it, the help is on the next line.
+
+overview_line(Command, Arguments, Help) :-
+    format(atom(Start), '  ~w ~w', [Command, Arguments]),
+    (   atom_length(Start, Length),
+        Length < 26
+    ->  format('~w~t~26|~w~n', [Start, Help])
+    ;   format('~w~n~t~26|~w~n', [Start, Help])
+    ).
 
 command_help :-
     phrase(prolog:message(opt_usage(typhon_app)), Lines),

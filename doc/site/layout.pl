@@ -36,7 +36,7 @@ page_html(page(File, Title, Dom), Groups, Version, Html) :-
                   element(input, [type=search, id=search,
                                   placeholder='Search ( / )',
                                   'aria-label'='Search'], []),
-                  element(div, [id=found], [])
+                  element(div, [id=found, role=status], [])
                 | Entries
                 ]),
               element(main, [], [element(article, [], Dom), Steps]),

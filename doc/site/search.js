@@ -1,5 +1,19 @@
 // Looks up words in `sections` (sections.js). A section is found when each
-// word is in its title, its text or the title of its page.
+// word, or what it is called here, is in its title, its text or the title of its
+// page.
+
+const synonyms = {
+    actor: "agent", behavior: "behaviour", broadcast: "watch",
+    checkpoint: "restore", color: "colour", container: "host",
+    cookie: "token", daemon: "host", deploy: "deliver", encryption: "tls",
+    exception: "error", failover: "restart", inbox: "mailbox",
+    kill: "dispose", latency: "hop_time", migrate: "move",
+    migration: "move", monitor: "watch", neighbor: "neighbour",
+    neighbors: "neighbours", node: "host", persistence: "journal",
+    sandbox: "guarded",
+    simulation: "virtual", spawn: "create", supervisor: "restart",
+    supervision: "restart", topology: "shape",
+};
 
 function search(query, limit = 20) {
     const words = query.toLowerCase().split(/\s+/).filter(w => w);
@@ -17,27 +31,35 @@ function score(section, words) {
     const page = section.page.toLowerCase();
     const text = section.text.toLowerCase();
     let sum = 0;
+    const points = word =>
+        title === word || title.startsWith(word + "/") ? 100 :
+        title.startsWith(word) ? 40 :
+        title.includes(word) ? 20 :
+        page.includes(word) ? 5 :
+        text.includes(word) ? 1 : 0;
     for (const word of words) {
-        const points =
-            title === word || title.startsWith(word + "/") ? 100 :
-            title.startsWith(word) ? 40 :
-            title.includes(word) ? 20 :
-            page.includes(word) ? 5 :
-            text.includes(word) ? 1 : 0;
-        if (points === 0) return 0;
-        sum += points;
+        const most = Math.max(points(word), points(synonyms[word] ?? word));
+        if (most === 0) return 0;
+        sum += most;
     }
     return sum;
 }
 
 function around(section, words) {
-    const at = Math.max(0, ...words.map(word =>
-        section.text.toLowerCase().indexOf(word)));
+    const at = Math.max(0, ...words.flatMap(word => [word, synonyms[word] ?? word])
+        .map(word => section.text.toLowerCase().indexOf(word)));
     const start = Math.max(0, at - 40);
     return (start > 0 ? "…" : "") + section.text.slice(start, start + 120);
 }
 
-function show(found, hits) {
+function show(found, query) {
+    const hits = search(query);
+    if (hits.length === 0 && query.trim() !== "") {
+        const none = document.createElement("p");
+        none.textContent = "No results for “" + query.trim() + "”";
+        found.replaceChildren(none);
+        return;
+    }
     found.replaceChildren(...hits.map(hit => {
         const link = document.createElement("a");
         const text = document.createElement("small");
@@ -53,10 +75,10 @@ function show(found, hits) {
 if (typeof document !== "undefined") {
     const field = document.getElementById("search");
     const found = document.getElementById("found");
-    field.addEventListener("input", () => show(found, search(field.value)));
+    field.addEventListener("input", () => show(found, field.value));
     field.addEventListener("keydown", event => {
         if (event.key === "Enter") found.querySelector("a")?.click();
-        if (event.key === "Escape") { field.value = ""; show(found, []); }
+        if (event.key === "Escape") { field.value = ""; show(found, ""); }
     });
     document.addEventListener("keydown", event => {
         if (event.key === "/" && event.target === document.body) {

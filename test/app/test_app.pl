@@ -80,6 +80,13 @@ test(overview) :-
              atom_concat('  ', Pattern0, Pattern),
              assertion(has_line(Lines, Pattern))
            )).
+test(help_is_apart_from_the_arguments) :-
+    typhon_lines(['--help'], Lines),
+    forall(member(Line, Lines),
+           assertion(\+ sub_string(Line, _, _, _, "NAMEmake"))),
+    assertion(nextto("  keys init | host NAME | author NAME | revoke NAME",
+                     "                          make an authority, keys for \c
+                      hosts and authors, or end them", Lines)).
 test(without_arguments, Lines1 == Lines2) :-
     typhon_lines([], Lines1),
     typhon_lines(['--help'], Lines2).

@@ -96,6 +96,17 @@ explained(Dom, Name/Arity) :-
 node :-
     absolute_file_name(path(node), _, [access(execute), file_errors(fail)]).
 
+node_prints(Script, Text) :-
+    setup_call_cleanup(
+        process_create(path(node), [-],
+                       [ stdin(pipe(In, [encoding(utf8)])),
+                         stdout(pipe(Out, [encoding(utf8)])), process(Pid) ]),
+        ( write(In, Script),
+          close(In),
+          read_string(Out, _, Text),
+          process_wait(Pid, exit(0)) ),
+        close(Out)).
+
 %   What the script of the page finds, by the places of the hits.
 
 found(Words, Places) :-
@@ -109,19 +120,31 @@ found(Words, Places) :-
            [Words]),
     atomic_list_concat(Texts, '\n', Scripts),
     string_concat(Scripts, Ask, Script),
-    setup_call_cleanup(
-        process_create(path(node), [-],
-                       [ stdin(pipe(In, [encoding(utf8)])),
-                         stdout(pipe(Out)), process(Pid) ]),
-        ( write(In, Script),
-          close(In),
-          read_string(Out, _, Text),
-          process_wait(Pid, exit(0)) ),
-        close(Out)),
+    node_prints(Script, Text),
     split_string(Text, "\n", "", Strings),
     append(Found, [""], Strings),
     !,
     maplist(atom_string, Places, Found).
+
+%   What a reader sees below the field, in a document of a few lines.
+
+shown(Words, Text) :-
+    site(Dir),
+    findall(Script, ( member(Name, ['sections.js', 'search.js']),
+                      directory_file_path(Dir, Name, File),
+                      read_file_to_string(File, Script, [encoding(utf8)]) ),
+            Scripts),
+    format(string(Ask),
+           "~nconst element = () => ({ children: [], append() {},
+                replaceChildren(...all) { this.children = all; } });
+            globalThis.document = { createElement: element };
+            const place = element();
+            show(place, \"~w\");
+            console.log(place.children.map(e => e.textContent).join())~n",
+           [Words]),
+    append(Scripts, [Ask], Parts),
+    atomic_list_concat(Parts, '\n', Script),
+    node_prints(Script, Text).
 
                 /*******************************
                 *         BROKEN SITES         *
@@ -219,6 +242,13 @@ test(finds_what_has_all_words, [condition(node)]) :-
     found("virtual time", Places),
     memberchk('time.html#virtual-time', Places),
     found("virtual zebra", []).
+
+test(finds_the_words_of_others,
+     [condition(node), forall(member(Word, [supervisor, neighbor, node]))]) :-
+    found(Word, [_|_]).
+test(says_that_there_is_nothing, [condition(node), Shown == "No results"]) :-
+    shown("zebra", Text),
+    sub_string(Text, 0, 10, _, Shown).
 
 :- end_tests(site).
 

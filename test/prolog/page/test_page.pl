@@ -4,14 +4,13 @@
 :- needs([page]).
 
 % A page as people see it and work with it, in Chromium.  All tests look at one
-% network of sixty hosts, one after the other.  With the environment variable
-% TYPHON_SHOTS, a directory, pictures are put there: those of doc/img.
+% network of sixty hosts, one after the other.
 
 :- use_module('../../lib/browser').
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/pages').
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
@@ -101,16 +100,6 @@ fill(Label, Text) :-
                  field.dispatchEvent(new Event('change', {bubbles: true}));",
                 [Label, Text], _).
 
-shot(Name) :-
-    (   getenv('TYPHON_SHOTS', Dir)
-    ->  at(Browser, _, _),
-        format(atom(Base), 'page-~w.png', [Name]),
-        directory_file_path(Dir, Base, File),
-        browser_run(Browser, "await new Promise(r => setTimeout(r, 700))", _),
-        browser_shot(Browser, File)
-    ;   true
-    ).
-
 %   Nobody can be kept from using it: what axe-core finds that is serious.
 
 accessible :-
@@ -170,7 +159,6 @@ scene(an_agent_is_created_here) :-
     keys([Text]),
     reads(".advice", "line 3"),
     reads(".advice .error", "forall"),
-    shot('new-agent'),
     corrected(Right),
     sees("document.querySelector('.code textarea').select()", _),
     keys([Right]),
@@ -184,15 +172,44 @@ scene(it_is_seen_travelling) :-
     see("return [...typhon.store.agents.values()].some(a => \c
          a.name.startsWith('ann') && a.hops >= 3)"),
     see("return [...typhon.store.agents.values()].some(a => \c
-         a.name.startsWith('ann') && a.hop)").
+         a.name.startsWith('ann') && a.hop)"),
+    see("return [...typhon.store.agents.values()].some(a => \c
+         a.status === 'in_transit')").
+
+%   Ids of agents name their homes.
+
+scene(search_finds_names) :-
+    nth_host(17, Host),
+    agent_create(clauses([(:- agent(guard, [])), on_message(_, _)]), Agent,
+                 [host(Host)]),
+    view(map),
+    see("return [...typhon.store.agents.values()].some(a => \c
+         a.name.startsWith('guard'))"),
+    searched("n17", "n17"),
+    searched("guard", "guard"),
+    searched("n1", "n1"),
+    agent_dispose(Agent).
+
+%   Of sixty hosts, at first only what moves.
+
+scene(space_and_time_begins_with_little) :-
+    view(space),
+    see("return typhon.app.views.get('space')?.begun"),
+    sees("const { messages, resting } = typhon.app.views.get('space');
+          return [messages, resting]", [false, false]),
+    click("#panel-space input[name=resting]"),
+    see("return typhon.app.views.get('space').resting").
+
+scene(time_says_median) :-
+    view(time),
+    reads("#panel-time .u-legend", "median").
 
 scene(it_is_opened) :-
     view(agents),
     click("#table-agent .row[id]"),
     reads("#details h2", "ann"),
     reads("#details .program .here", "("),
-    reads("#details .terms", "seen("),
-    shot(agent).
+    reads("#details .terms", "seen(").
 
 %   A row that changes while somebody presses on it is the same row.
 
@@ -317,6 +334,26 @@ scene(links_come_and_go) :-
     links_are(Before+1),
     unlink(A, C).
 
+%   From where an agent cannot get away.
+
+scene(an_isolated_host_is_not_proposed) :-
+    maplist(nth_host, [1, 2, 11], [Host, Right, Below]),
+    unlink(Host, Right),
+    unlink(Host, Below),
+    see("return typhon.store.hosts.get([...typhon.store.hosts.keys()]\c
+         .find(id => id.startsWith('n1@'))).links.size === 0"),
+    sees("typhon.app.select({})", _),
+    click("#actions button"),
+    click("[role=menuitem]"-"New agent …"),
+    reads("dialog label", "Host"),
+    sees("return [...document.querySelectorAll('dialog label')].find(l => \c
+          l.firstChild.textContent === 'Host').querySelector('input').value",
+         Proposed),
+    assertion(atom_string(Right, Proposed)),
+    keys([escape]),
+    link(Host, Right),
+    link(Host, Below).
+
 scene(two_browsers) :-
     at(Browser, Base, _),
     nth_host(7, Host),
@@ -406,8 +443,7 @@ scene(a_mechanism_is_started) :-
     view(map),
     see("return document.querySelector('#details').hidden && \c
          typhon.store.counts.arrived > 20"),
-    sees("document.querySelector('#notes').replaceChildren()", _),
-    shot(map).
+    sees("document.querySelector('#notes').replaceChildren()", _).
 
 %   Who opens another log has done with the one before.
 
@@ -442,7 +478,6 @@ scene(everybody_can_use_it) :-
     browser_run(Browser, "typhon.app.select({host: args[0]})", [Host], _),
     reads("#details .plain", "n2"),
     accessible,
-    shot(host),
     browser_theme(Browser, light),
     click("#actions button"),
     click("[role=menuitem]"-"New agent …"),
@@ -506,6 +541,16 @@ scene(connection_lost) :-
     sees("return document.querySelector('#actions').childElementCount", 0).
 
 :- end_tests(page).
+
+%   Enter opens what is called Title.
+
+searched(Text, Title) :-
+    sees("const field = document.querySelector('[type=search]');
+          field.value = ''; field.focus()", _),
+    keys([Text, enter]),
+    format(string(Opened), "return document.querySelector('#details h2')\c
+                            ?.textContent.split('.')[0] === ~q", [Title]),
+    see(Opened).
 
 links_are(Count0) :-
     Count is Count0,

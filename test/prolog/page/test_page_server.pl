@@ -552,6 +552,9 @@ test(demo, Count-Status == 4-exit(0)) :-
     with_swipl([Demo, '--', '--port=0'], Pid, _, Out,
                ( read_line_to_string(Out, Link),
                  test_pages:link_base(Link, Base),
+                 read_line_to_string(Out, _),
+                 read_line_to_string(Out, How),
+                 assertion(sub_string(How, _, _, _, "in a browser")),
                  wait_until(demo_at_work(Base, Count), 20),
                  process_kill(Pid, int),
                  wait_for_end(Pid, 20, Status) )).

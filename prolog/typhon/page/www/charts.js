@@ -37,7 +37,7 @@ const PLOTS = [
   { name: 'hop-times', title: 'Time of a hop', value: duration, log: true,
     series: () => [['99 %', s => s.percentile(0.99), 1],
                    ['90 %', s => s.percentile(0.9), 2],
-                   ['half', s => s.percentile(0.5), 0]] },
+                   ['median', s => s.percentile(0.5), 0]] },
 ];
 
 export const mount = (parent, store, app) => new Charts(parent, store, app);

@@ -8,7 +8,7 @@
 import { arrange, Force, LAYOUTS, recognize } from './layout.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import { cut, Scene } from './mapscene.js';
-import { byName, shortName } from './names.js';
+import { byName, found, shortName } from './names.js';
 import { button, choice, element, fillChoice, fitCanvas, onSize } from './dom.js';
 import { pngBlob, saveButtons } from './saving.js';
 import { SvgPen } from './svg.js';
@@ -467,22 +467,16 @@ class MapView {
   // -------------------------------------------------------------- search
 
   find() {
-    const text = this.search.value.trim().toLowerCase();
-    this.scene.found = new Set();
+    const text = this.search.value;
+    const ids = found(text, [this.store.hosts.values(), this.store.agents.values()]);
+    this.scene.found = new Set(ids.slice(0, FOUND));
     this.foundAt = -1;
-    if (text) {
-      for (const known of [this.store.hosts, this.store.agents])
-        for (const { id, status } of known.values())
-          if (status !== 'ended' && id.toLowerCase().includes(text)
-              && this.scene.found.size < FOUND) this.scene.found.add(id);
-      this.say(this.scene.found.size === FOUND ? `${FOUND} or more`
-        : `${this.scene.found.size} found`);
-    }
+    if (text.trim()) this.say(`${ids.length} found`);
     this.wake();
   }
 
   findNext() {
-    const ids = [...this.scene.found].sort(byName);
+    const ids = [...this.scene.found];
     if (ids.length === 0) return;
     this.foundAt = (this.foundAt + 1) % ids.length;
     const id = ids[this.foundAt], isHost = this.store.hosts.has(id);

@@ -16,6 +16,25 @@ export const machineOf = process => {
 const collator = new Intl.Collator('en', { numeric: true });
 export const byName = (a, b) => collator.compare(a, b);
 
+// Ids of what `known` lists (lists of {id, name, status}) whose name holds the
+// text: those that are called so first, then those whose name begins so; of
+// equals in the order of the lists, then of names. A text with an @ is looked
+// for in the whole id, which of an agent names its home, too.
+export function found(text, known) {
+  const wanted = text.trim().toLowerCase();
+  if (wanted === '') return [];
+  const hits = known.flatMap((list, order) => [...list]
+    .filter(({ status }) => status !== 'ended')
+    .map(({ id, name }) => {
+      const at = (wanted.includes('@') ? id : name).toLowerCase();
+      return { id, order, rank: at === wanted ? 0 : at.startsWith(wanted) ? 1
+        : at.includes(wanted) ? 2 : 3 };
+    })
+    .filter(({ rank }) => rank < 3));
+  return hits.sort((a, b) => a.rank - b.rank || a.order - b.order
+    || byName(a.id, b.id)).map(({ id }) => id);
+}
+
 // The id of an agent is its name, then a dot, then what makes it unique.
 export const programGuess = name => {
   const dot = name.indexOf('.');

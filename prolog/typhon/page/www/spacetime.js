@@ -13,6 +13,7 @@ import { timeText, timeTicks } from './ticks.js';
 
 const CALM = 250;
 const LEAST = 16;               // pixels of a row
+const MANY = 30;                // hosts: only what moves is shown to begin with
 const SPANS = [['2', '2 s'], ['10', '10 s'], ['60', '1 min'], ['600', '10 min'],
   ['all', 'all']];
 const FONT = 'system-ui, sans-serif';
@@ -25,6 +26,7 @@ class SpaceTime {
     this.app = app;
     this.span = store.stamped ? 'all' : '10';
     this.messages = true;
+    this.resting = true;
     this.scroll = 0;
     this.hidden = new Set();
     this.build(parent);
@@ -72,14 +74,18 @@ class SpaceTime {
       title: 'What is seen stays, while the network goes on' });
     const only = element('input', { type: 'checkbox',
       onchange: () => { this.only = only.checked; this.draw(); } });
-    const letters = element('input', { type: 'checkbox', checked: true,
-      onchange: () => { this.messages = letters.checked; this.draw(); } });
+    this.boxes = [['messages', 'messages'], ['resting', 'agents that stay']]
+      .map(([name, title]) => {
+        const box = element('input', { type: 'checkbox', checked: true, name,
+          onchange: () => { this[name] = box.checked; this.draw(); } });
+        return { name, box, label: element('label', {}, box, title) };
+      });
     this.element = element('section', { class: 'view view-space',
       'aria-label': 'Space and time' },
       element('div', { class: 'view-bar' },
         element('label', {}, 'Time', choice('Time', SPANS, this.span,
           span => { this.span = span; this.draw(); })),
-        element('label', {}, letters, 'messages'),
+        ...this.boxes.map(({ label }) => label),
         element('label', {}, only, 'only the chosen agent'),
         this.store.stamped ? null : this.pauseButton,
         element('span', { class: 'view-gap' }),
@@ -125,8 +131,16 @@ class SpaceTime {
     return [...hosts].sort(byName);
   }
 
+  // When hosts are known: of many, messages and agents that stay hide the rest.
+  begin() {
+    this.begun = true;
+    for (const { name, box } of this.boxes)
+      this[name] = box.checked = this.store.hosts.size <= MANY;
+  }
+
   draw() {
     if (!this.stage.clientWidth || !this.palette) return;
+    if (!this.begun && this.store.hosts.size > 0) this.begin();
     const sight = this.sight();
     this.empty.hidden = Boolean(sight);
     this.legend.update();
@@ -147,6 +161,7 @@ class SpaceTime {
     const y = (host, lane) => rowTop(host) + high * 0.12
       + high * 0.76 * ((lane ?? 0) + 0.5) / (told.lanes.get(host) || 1);
 
+    this.movers = new Set(told.hops.map(({ agent }) => agent));
     this.drawRows(pen, palette, rows, rowTop, high, left, right);
     pen.save();
     pen.beginPath();
@@ -201,7 +216,8 @@ class SpaceTime {
 
   shown(agent) {
     const known = this.store.agents.get(agent);
-    return !known || !this.hidden.has(known.program);
+    return (this.resting || this.movers.has(agent))
+      && (!known || !this.hidden.has(known.program));
   }
 
   drawAgents(pen, palette, { stays, hops }, x, y, high) {

@@ -318,7 +318,7 @@ export class Store {
                   arrives: seconds === undefined ? null
                     : this.arrivesAt(start, seconds, room) };
     this.moving.add(agent);
-    agent.status = 'travelling';
+    agent.status = 'in_transit';
   }
 
   // A hop is to be seen, but it is over when the next begins.

@@ -10,10 +10,13 @@ import { byName, shortName } from './names.js';
 export const hostsThere = app => [...app.store.hosts.values()]
   .filter(host => host.state === 'running').map(host => host.id).sort(byName);
 
+// The one proposed is chosen, or linked: from a host without links no agent
+// gets away.
 export function hostField(app, label, value) {
   const hosts = hostsThere(app);
+  const linked = hosts.find(id => app.store.hosts.get(id).links.size > 0);
   return field(label, { list: hosts, required: true, value: value
-    ?? app.chosen.host ?? hosts[0] ?? '' });
+    ?? app.chosen.host ?? linked ?? hosts[0] ?? '' });
 }
 
 // An order whose errors are told where it was asked for.

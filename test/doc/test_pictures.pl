@@ -1,0 +1,67 @@
+:- module(test_pictures, []).
+:- use_module('../lib/common').
+
+:- needs([page]).
+
+% doc/pictures.pl makes all pictures of the page that documents show.
+
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+%   The script itself fails where the page shows what is not of its network.
+
+made(Names, Sizes, Dir) :-
+    project_file('doc/pictures.pl', Script),
+    run_swipl([Script, '--', Dir], [timeout(120)], exit(0), _, _),
+    directory_files(Dir, Entries),
+    findall(Name-Size,
+            ( member(Name, Entries),
+              file_name_extension(_, png, Name),
+              directory_file_path(Dir, Name, File),
+              png_size(File, Size) ),
+            Pairs0),
+    sort(Pairs0, Pairs),
+    findall(Name, member(Name-_, Pairs), Names),
+    findall(Size, member(_-Size, Pairs), Sizes0),
+    sort(Sizes0, Sizes).
+
+png_size(File, Width*Height) :-
+    setup_call_cleanup(
+        open(File, read, In, [type(binary)]),
+        read_string(In, 24, Text),
+        close(In)),
+    string_codes(Text, Codes),
+    append(_, [W1, W0, 0, 0, H1, H0], Codes),
+    !,
+    Width is W1*256 + W0,
+    Height is H1*256 + H0.
+
+%   page-NAME.png as documents name them.
+
+shown(Names) :-
+    project_file('.', Root),
+    findall(File, ( member(Pattern, ['README.md', 'doc/*.md']),
+                    directory_file_path(Root, Pattern, Path),
+                    expand_file_name(Path, Files),
+                    member(File, Files) ),
+            Documents),
+    findall(Name,
+            ( member(Document, Documents),
+              read_file_to_string(Document, Text, [encoding(utf8)]),
+              sub_string(Text, At, _, _, "img/page-"),
+              Start is At + 4,
+              sub_string(Text, Start, _, 0, Rest),
+              once(sub_string(Rest, Length, _, _, ")")),
+              sub_atom(Rest, 0, Length, _, Name) ),
+            Names0),
+    sort(Names0, Names).
+
+:- begin_tests(pictures).
+
+test(the_script_makes_those_that_are_shown, Names-Sizes == Shown-[1600*1000]) :-
+    shown(Shown),
+    with_tmp_dir(made(Names, Sizes)).
+
+:- end_tests(pictures).
