@@ -1,22 +1,22 @@
 :- module(test_doc, []).
 
-% What README.md and doc/*.md show is what happens.
+% The code and the sessions in README.md and doc/*.md are true.
 %
 %   - A block ```prolog whose first line is `% name.pl` is a file. Agent
 %     programs and payloads must be without problems. Other ```prolog blocks
 %     must be clauses.
 %   - A block ```text whose first line is `% name.pl` is a file, too, and may
 %     be wrong; so is ```python with `# name.py`.
-%   - A block ```prolog-session is typed at the top level, one for each
-%     document, in a directory that holds its files. Ports, marks of agents,
-%     numbers of variables and long floats are not compared, nor are the
-%     bindings of `$Var`. A line `...` stands for any lines.
+%   - A block ```prolog-session is typed at the top level in a terminal, one
+%     for each document, in a directory that holds its files. Ports, marks of
+%     agents, numbers of variables and long floats are not compared, nor are
+%     the bindings of `$Var`. A line `...` stands for any lines.
 %
 % Links between documents, and to files of the tree, lead somewhere. And
 % every export of the library has a PlDoc comment with modes.
 
 :- use_module('../lib/common').
-:- use_module('../lib/transcript', [transcript_differences/3]).
+:- use_module('../lib/transcript', [transcript_differences/4]).
 :- use_module('../../doc/site/markdown', [slug/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex),
@@ -125,13 +125,13 @@ read_all(In) :-
     ;   read_all(In)
     ).
 
-run_blocks(Blocks, Differences, Dir) :-
+run_blocks(Blocks, Terminal, Differences, Dir) :-
     maplist(write_block(Dir), Blocks),
     maplist(check_block(Dir), Blocks),
     findall(Line-Lines,
             member(block("prolog-session", Line, Lines), Blocks),
             Sessions),
-    transcript_differences(Sessions, Dir, Differences).
+    transcript_differences(Sessions, Terminal, Dir, Differences).
 
                 /*******************************
                 *             LINKS            *
@@ -262,18 +262,41 @@ broken_links_in(Text, Links, Dir) :-
 about_journals(File) :-
     project_file('doc/journal.md', File).
 
-differences(File, Differences) :-
-    blocks(File, Blocks),
-    with_tmp_dir(run_blocks(Blocks, Differences)).
+%   README.md is typed at all terminals, every other document at one of them.
 
-test(shows_what_happens,
-     [ forall(( document(File), \+ about_journals(File) )),
+document_at(File, Terminal) :-
+    project_file('README.md', File),
+    terminal(Terminal).
+document_at(File, Terminal) :-
+    findall(Document, other_document(Document), Documents),
+    findall(One, terminal(One), Terminals),
+    nth0(N, Documents, File),
+    length(Terminals, Length),
+    M is N mod Length,
+    nth0(M, Terminals, Terminal).
+
+other_document(File) :-
+    document(File),
+    \+ project_file('README.md', File),
+    \+ about_journals(File).
+
+terminal(terminal(Columns, Colour)) :-
+    member(Columns, [60, 80, 132]),
+    member(Colour, [true, false]).
+
+differences(File, Terminal, Differences) :-
+    blocks(File, Blocks),
+    with_tmp_dir(run_blocks(Blocks, Terminal, Differences)).
+
+test(sessions_answer_as_shown,
+     [ condition(missing([python3], [])),
+       forall(document_at(File, Terminal)),
        Differences == [] ]) :-
-    differences(File, Differences).
-test(shows_what_outlives_processes,
-     [ condition(missing([journal], [])), Differences == [], nondet ]) :-
+    differences(File, Terminal, Differences).
+test(sessions_with_a_journal_answer_as_shown,
+     [ condition(missing([python3, journal], [])), Differences == [], nondet ]) :-
     about_journals(File),
-    differences(File, Differences).
+    differences(File, terminal(80, true), Differences).
 
 test(links_lead_somewhere, Broken == []) :-
     findall(Base:Link,

@@ -214,8 +214,7 @@ thing(thread(Thread)) :-
     thread_property(Thread, status(_)),
     \+ system_thread(Thread).
 thing(stream(Stream)) :-
-    stream_property(Stream, mode(_)),
-    \+ stream_property(Stream, alias(typhon_output)).
+    stream_property(Stream, mode(_)).
 thing(queue(Queue)) :-
     message_queue_property(Queue, size(_)).
 thing(module(Module)) :-

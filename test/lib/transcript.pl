@@ -1,20 +1,22 @@
 :- module(test_transcript,
-          [ transcript_differences/3    % +Sessions, +Dir, -Differences
+          [ transcript_differences/3,   % +Sessions, +Dir, -Differences
+            transcript_differences/4    % +Sessions, +Terminal, +Dir,
+                                        % -Differences
           ]).
 
-/** <module> Does the top level say what a transcript says it says?
+/** <module> Compare transcripts in documents with the top level
 
 A session is what stands in a document: queries after `?- `, continued
-after `|`, each followed by what was written. The queries are typed at a top
-level that has loaded library(typhon).
+after `|`, each followed by its output. The queries are typed at a top
+level that has loaded library(typhon) and runs in a terminal.
 
 Ports, marks of agents, numbers of threads and variables, and long floats
 are not compared, nor are the bindings of `$Var`. A line `...` stands for
 any lines. Reports (of errors, and what agents say) may come at any time of
 their session.
 
-*Threading*: a thread reads what the top level writes, for to wait on a
-stream with a deadline may lose the beginning of a line.
+*Threading*: a thread reads the output of the top level, as a wait on a stream
+with a deadline may lose the beginning of a line.
 */
 
 :- use_module(common).
@@ -29,14 +31,22 @@ stream with a deadline may lose the beginning of a line.
 :- use_module(library(readutil), [read_line_to_string/2]).
 
 %!  transcript_differences(+Sessions, +Dir, -Differences:list) is det.
+%!  transcript_differences(+Sessions, +Terminal, +Dir, -Differences:list) is
+%!      det.
 %
 %   Sessions are pairs of a line number and the lines of a session; all are
 %   typed at one top level in Dir. Differences are pairs of a line number and
-%   what is not as it was shown.
+%   what is not as it was shown. Terminal is terminal(Columns, Colour), Colour
+%   a boolean; default is terminal(80, true).
 
 transcript_differences(Sessions, Dir, Differences) :-
+    transcript_differences(Sessions, terminal(80, true), Dir, Differences).
+
+transcript_differences([], _, _, []) :-
+    !.
+transcript_differences(Sessions, Terminal, Dir, Differences) :-
     setup_call_cleanup(
-        start_top_level(Dir, Top),
+        start_top_level(Terminal, Dir, Top),
         findall(Difference,
                 ( member(Line-Lines, Sessions),
                   steps(Lines, Steps),
@@ -72,21 +82,22 @@ goal(Begin, [Line|Lines], Goal, Rest) :-
                 *          TOP LEVEL           *
                 *******************************/
 
-start_top_level(Dir, top(Pid, In, Queue, Reader, Dir)) :-
+start_top_level(terminal(Columns, Colour), Dir,
+                top(Pid, In, Queue, Reader, Dir)) :-
     current_prolog_flag(executable, Swipl),
     project_file(prolog, Library),
     atom_concat('library=', Library, Path),
     directory_file_path(Library, 'typhon.pl', Typhon),
-    process_create(path(sh),
-                   [ '-c', 'exec "$0" "$@" 2>&1', Swipl, '-f', none,
-                     '-p', Path, Typhon ],
-                   [ cwd(Dir), stdin(pipe(In)), stdout(pipe(Out)),
-                     process(Pid) ]),
+    project_file('test/lib/terminal.py', Terminal),
+    project_file('test/lib/typed_queries.pl', Marks),
+    format(atom(SetColour), 'set_prolog_flag(color_term,~w)', [Colour]),
+    process_create(path(python3),
+                   [ Terminal, Columns, Swipl, '-f', Marks, '-p', Path,
+                     '-g', SetColour, Typhon ],
+                   [ cwd(Dir), stdin(pipe(In, [encoding(utf8)])),
+                     stdout(pipe(Out, [encoding(utf8)])), process(Pid) ]),
     message_queue_create(Queue),
-    thread_create(read_lines(Out, Queue), Reader),
-    % or the tracer of 9.2 takes our next line for its answer
-    ask(top(Pid, In, Queue, Reader, Dir),
-        "asserta(user:prolog_trace_interception(_, _, _, continue)).", _).
+    thread_create(read_lines(Out, Queue), Reader).
 
 read_lines(Out, Queue) :-
     read_line_to_string(Out, Line),
@@ -108,42 +119,44 @@ stop_top_level(top(Pid, In, Queue, Reader, _)) :-
     thread_join(Reader, _),
     message_queue_destroy(Queue).
 
-%   ask(+Top, +Goal, -Lines): what is written until the next query.
+%   ask(+Top, +Goal, -Lines): Lines are the output of Goal, and the reports
+%   that came since the goal before.
 
 ask(top(_, In, Queue, _, Dir), Goal, Lines) :-
-    flag(test_doc_mark, N, N+1),
-    format(string(Mark), "@@~d@@", [N]),
-    format(In, '~s~nformat("~~n~s~~n").~n', [Goal, Mark]),
+    format(In, '~s~nnext.~n', [Goal]),
     flush_output(In),
     get_time(Now),
     Deadline is Now+60,
-    lines_until(Mark, Queue, Deadline, Lines0),
-    exclude(==(""), Lines0, Lines1),
-    without_mark(Lines1, Lines2),
-    maplist(at_home(Dir), Lines2, Lines).
+    lines_until("@@begin@@", Queue, Deadline, Goal, Before),
+    lines_until("@@next@@", Queue, Deadline, Goal, Output),
+    include(report, Before, Reports),
+    exclude(empty, Output, Answer),
+    append(Reports, Answer, Lines0),
+    maplist(at_home(Dir), Lines0, Lines).
 
-%   What the mark before has answered stands first, or behind reports that came
-%   just then.
+empty("").
+empty("next.").
 
-without_mark(Lines0, Lines) :-
-    append(Reports, ["true."|Others], Lines0),
-    maplist(report, Reports),
-    !,
-    append(Reports, Others, Lines).
-without_mark(Lines, Lines).
-
-lines_until(Mark, Queue, Deadline, Lines) :-
-    (   thread_get_message(Queue, line(Line), [deadline(Deadline)])
+lines_until(Mark, Queue, Deadline, Goal, Lines) :-
+    (   thread_get_message(Queue, line(Line0), [deadline(Deadline)])
     ->  true
-    ;   throw(error(timeout_error(top_level, Mark), _))
+    ;   throw(error(timeout_error(top_level, Goal), _))
     ),
-    (   Line == Mark
+    (   Line0 == Mark
     ->  Lines = []
-    ;   Line == end_of_file
-    ->  throw(error(existence_error(top_level, Mark), _))
-    ;   Lines = [Line|More],
-        lines_until(Mark, Queue, Deadline, More)
+    ;   Line0 == end_of_file
+    ->  throw(error(existence_error(top_level, Goal), _))
+    ;   without_prompt(Line0, Line),
+        Lines = [Line|More],
+        lines_until(Mark, Queue, Deadline, Goal, More)
     ).
+
+%   A report that comes between two queries stands behind the prompt.
+
+without_prompt(Line0, Line) :-
+    string_concat("?- ", Line, Line0),
+    !.
+without_prompt(Line, Line).
 
 at_home(Dir, Line0, Line) :-
     atomic_list_concat(Parts, Dir, Line0),

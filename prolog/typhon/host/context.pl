@@ -20,8 +20,6 @@ host, the vocabulary has to know the host and the agent.
 
 :- meta_predicate in_context(+, 0).
 
-:- multifile typhon_output:output_mark/1.
-
 %!  context_set(+Host, +Agent, +Module) is det.
 %!  context_clear is det.
 %
@@ -41,11 +39,6 @@ context_clear :-
 
 context_now(Host, Agent) :-
     nb_current(typhon_context, context(Host, Agent, _)).
-
-%   What is printed in another process comes with the name of the host.
-
-typhon_output:output_mark(Host) :-
-    context_now(Host, _).
 
 %!  context(-Host, -Agent, -Module) is det.
 %

@@ -10,7 +10,6 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/output', [output_own/0]).
 :- use_module(alarms,
               [ alarm_add/3, alarm_anew/1, alarm_new/1, alarm_take/3,
                 alarms_at/2, alarms_begin/0, alarms_end/0, alarms_new/1,
@@ -216,7 +215,6 @@ tell(Timer, Message) :-
 %   thrown at the timer has no meaning for it, but `abort`, which ends it.
 
 tick :-
-    output_own,
     repeat,
     catch(ticking, Ball, survive(Ball)),
     !.

@@ -12,7 +12,6 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/output', [output_own/0]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module(limits, [limit_parked/1]).
 :- use_module(virtual_loop,
@@ -61,7 +60,7 @@ comes in any order; with one there is no chance.
 virtual_start :-
     message_queue_create(Queue),
     virtual_begin,
-    thread_create(( output_own, virtual_loop(Queue) ), Thread,
+    thread_create(virtual_loop(Queue), Thread,
                   [alias(typhon_virtual_time)]),
     assertz(loop(Thread, Queue)).
 

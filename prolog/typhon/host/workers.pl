@@ -10,7 +10,6 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/output', [output_own/0]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module(census,
               [turn_begin/2, turn_end/1, worker_came/0, worker_ended/1]).
@@ -126,7 +125,6 @@ leave(Me) :-
                 *******************************/
 
 work_from(Queue) :-
-    output_own,
     worker_came,
     next(Queue).
 

@@ -10,7 +10,6 @@
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../base/fifo', [fifo_empty/2]).
-:- use_module('../base/output', [output_own/0]).
 :- use_module(crash, [crash_point/1]).
 :- use_module(store, [store_commit/1, store_sync/1]).
 
@@ -261,7 +260,6 @@ item_of(drop(Kind, Key, N), Kind-Key-N).
                 *******************************/
 
 commit_when_told(Wake) :-
-    output_own,
     repeat,
     thread_get_message(Wake, How),
     (   How == stop

@@ -1,5 +1,4 @@
 :- module(typhon_running, []).
-:- use_module('../base/output', [output_rest/0]).
 :- use_module('../journal', [journal_step/1]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
@@ -30,8 +29,8 @@ belongs to one worker.
 typhon_scheduler:run(Id) :-
     (   with_agent(Id, take(Id, Task))
     ->  (   catch(perform(Task, Id), Ball, broken_off(Ball, Id))
-        ->  left
-        ;   left,
+        ->  context_clear
+        ;   context_clear,
             fail
         )
     ;   turn_over(Id)                   % has ended
@@ -87,7 +86,7 @@ go_on(elsewhere(Goals), Id) :-
 %   catches no other.
 
 broken_off(Ball, Id) :-
-    sig_atomic(( left,
+    sig_atomic(( context_clear,
                  turn_broken(Outcome),
                  over_quota(Id, Outcome),
                  turn_settled,
@@ -98,10 +97,6 @@ over_quota(Id, raised(error(resource_error(What), _))) :-
     !,
     print_message(warning, typhon(over_quota(Id, What))).
 over_quota(_, _).
-
-left :-
-    output_rest,
-    context_clear.
 
 %   conclude(+Outcome, +Goals0, +Turn, -Next): the run from Goals0 came to
 %   Outcome.  Next is as of effect/5.

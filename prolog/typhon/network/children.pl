@@ -16,7 +16,6 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/output', [output_own/0]).
 :- use_module('../base/spawn', [spawn/3]).
 :- use_module('../wire', [cookie/1, endpoint_keys/1]).
 :- use_module(voice, [voice_heard/2]).
@@ -168,7 +167,6 @@ target_host(Target, Host) :-
                 *******************************/
 
 follow(Tag, Pid, Out, OnEvent) :-
-    output_own,
     set_stream(Out, encoding(utf8)),
     catch(( nb_setval(typhon_reading, true),
             lines(Tag, Out, OnEvent),

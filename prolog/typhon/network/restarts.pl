@@ -8,7 +8,6 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/output', [output_own/0]).
 :- use_module(waiting, [deadline/2, message_before/3]).
 
 /** <module> Processes of a network that die are started again
@@ -78,7 +77,6 @@ interrupt :-
     ).
 
 restarts(Network, Queue, Do) :-
-    output_own,
     loop(state(Network, Queue, Do), [], []).
 
 %   Deaths are terms P-Time, Starting terms Deadline-P.

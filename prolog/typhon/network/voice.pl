@@ -1,16 +1,15 @@
 :- module(typhon_voice,
           [ voice_begin/0,
             voice_end/0,
-            voice_heard/2               % +Who, +Line
+            voice_heard/2               % +Child, +Line
           ]).
-:- use_module('../base/output', [output_forward/1, output_own/0]).
 
-/** <module> What a child process has to say to people
+/** <module> Output of the child processes of a network
 
-A child of a network has no terminal: what it prints is read by the process
-that started it, and printed there. Messages go as terms, so that they are
-messages there, too, shown or not as the person who sits there wishes. Lines
-that agents print come with the name of their host.
+A child of a network has no terminal: the process that started it reads its
+standard output and prints it. Messages are sent as terms, so that the parent
+prints them as messages, or not, according to its own verbosity. Other lines
+are printed with the name of the network and the number of the process.
 
 *Threading*: voice_begin/0 in the main thread of a child, voice_heard/2 in the
 thread that follows it.
@@ -31,29 +30,21 @@ thread that follows it.
 %!  voice_begin is det.
 %!  voice_end is det.
 %
-%   What this process prints from now on is meant for another; its messages
-%   are of no interest any more.
+%   From voice_begin/0 on messages of this process are sent to its parent,
+%   until voice_end/0, after which they are dropped.
 
 voice_end :-
     assertz(ended).
 
 voice_begin :-
-    output_forward(typhon_voice:said),
-    output_own,
     asserta((user:message_hook(_, Kind, Lines) :-
                 typhon_voice:message(Kind, Lines))).
 
 :- public
-    message/2,                  % called by the hook
-    said/2.                     % called with lines of agents
+    message/2.                  % called by the hook
 
-said(none, Line) :-
-    !,
-    format(user_output, '~s~n', [Line]).
-said(Mark, Line) :-
-    format(user_output, '[~w] ~s~n', [Mark, Line]).
-
-%   message(+Kind, +Lines) is semidet: fails for what is not told.
+%   message(+Kind, +Lines) is semidet: fails for messages that are not sent.
+%   An agent may have begun a line: the message begins a new one.
 
 message(_, _) :-
     ended,
@@ -65,7 +56,7 @@ message(Kind, Lines0) :-
     with_output_to(string(Text0),
                    print_message_lines(current_output, '', Lines)),
     split_string(Text0, "", "\n", [Text]),
-    format(user_output, '\u0001~q~n', [message(Kind, Text)]).
+    format(user_output, '~N\u0001~q~n', [message(Kind, Text)]).
 
 placed(Kind, Lines, ['~w:~d: '-[File, Line]|Lines]) :-
     memberchk(Kind, [error, warning]),
@@ -73,11 +64,11 @@ placed(Kind, Lines, ['~w:~d: '-[File, Line]|Lines]) :-
     !.
 placed(_, Lines, Lines).
 
-%!  voice_heard(+Who, +Line) is det.
+%!  voice_heard(+Child, +Line) is det.
 %
-%   The child Who, a term Network-P, has printed Line.
+%   The child Network-P has printed Line.
 
-voice_heard(Who, Line) :-
+voice_heard(Child, Line) :-
     string_concat("\u0001", Said, Line),
     catch(term_string(message(Kind, Text), Said),
           error(_, _), fail),
@@ -85,13 +76,13 @@ voice_heard(Who, Line) :-
     string(Text),
     !,
     setup_call_cleanup(
-        nb_setval(typhon_voice, Who),
+        nb_setval(typhon_voice, Child),
         print_message(Kind, typhon(voice(Text))),
         nb_delete(typhon_voice)).
-voice_heard(_, Line) :-
-    format('~s~n', [Line]).
+voice_heard(Network-P, Line) :-
+    format(user_output, '[~w/~w] ~s~n', [Network, P, Line]).
 
-%   What agents tell says who and where; what rooms complain of does not.
+%   Errors, warnings and debug messages do not name their process.
 
 user:message_property(Kind, prefix(Prefix)) :-
     nb_current(typhon_voice, Network-P),

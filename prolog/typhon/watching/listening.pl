@@ -6,7 +6,6 @@
           ]).
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
-:- use_module('../base/output', [output_own/0]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
 :- use_module(watch_places,
@@ -93,7 +92,6 @@ listening_tell(Watch, Message) :-
 %   teller says, or gone(Hosts) of a process of a network that is no more.
 
 listen_on(Watch, Queue, OnEvent, Asked) :-
-    output_own,
     Me = me(Watch, Queue, OnEvent),
     setup_call_cleanup(
         begin(Asked, Me),

@@ -2,7 +2,6 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/output', [output_own/0]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
@@ -165,8 +164,7 @@ told_as(What, _, Public) =>
 teller(Peer, Id, Bell, Basin) :-
     setup_call_cleanup(
         true,
-        ( output_own,
-          teller_run(to(Peer, Id, Bell, Basin)) ),
+        teller_run(to(Peer, Id, Bell, Basin)),
         teller_ends(Peer, Id, Bell, Basin)).
 
 teller_ends(Peer, Id, Bell, Basin) :-

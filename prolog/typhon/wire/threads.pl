@@ -23,7 +23,6 @@ that no other has: what is meant for one never reaches the next.
 from any thread.
 */
 
-:- use_module('../base/output', [output_own/0]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 
 :- meta_predicate
@@ -72,8 +71,7 @@ create(Goal, Alias, Thread, Before) :-
 work(Goal) :-
     setup_call_cleanup(
         true,
-        catch(( output_own,
-                thread_get_message(wire_thread_begin),
+        catch(( thread_get_message(wire_thread_begin),
                 ignore(Goal) ),
               wire_thread_end(_),
               true),
