@@ -5,7 +5,8 @@
 :- use_module(library(apply), [convlist/3, include/3, maplist/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(filesex), [directory_member/3]).
-:- use_module(library(lists), [append/2, list_to_set/2, member/2]).
+:- use_module(library(lists),
+              [append/2, list_to_set/2, member/2, memberchk/2]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module('../../prolog/typhon/base/names', [names_proposed/3]).
 :- use_module('../../prolog/typhon/program', [files_beside/3]).
@@ -13,7 +14,7 @@
 
 /** <module> The studies that are there
 
-Below `experiments` they are the files figure_*.pl, what the thesis has,
+Below `experiments` they are the files figure_*.pl and table_*.pl, what the thesis has,
 beyond_*.pl, what goes beyond it, and study_*.pl, what stands behind them:
 readings of the thesis, values it does not print, demos.
 
@@ -36,7 +37,7 @@ study_files(Files) :-
     sort(Files0, Files).
 
 is_study(File) :-
-    begins(File, [figure_, beyond_, study_]).
+    begins(File, [figure_, table_, beyond_, study_]).
 
 begins(File, Starts) :-
     file_base_name(File, Base),
@@ -95,7 +96,7 @@ named(Name, [File]) :-
 named(thesis, Files) :-
     !,
     study_files(All),
-    include([File]>>begins(File, [figure_, beyond_]), All, Files0),
+    include([File]>>begins(File, [figure_, table_, beyond_]), All, Files0),
     in_order(Files0, Files).
 named(Name, Files) :-
     study_files(All),
@@ -133,18 +134,20 @@ file_key(File, Rank-Key) :-
     file_base_name(File, Base),
     file_name_extension(Stem, _, Base),
     atomic_list_concat([Kind|Parts], '_', Stem),
-    ( Kind == figure -> Rank = 0 ; Rank = 1 ),
+    ( memberchk(Kind, [figure, table]) -> Rank = 0 ; Rank = 1 ),
     maplist(number_or_text, Parts, Key).
 
 in_folder(Name, File) :-
     file_directory_name(File, Directory),
     file_base_name(Directory, Name).
 
-%   5.6 is in figure_5_6.pl: nothing else needs to be loaded.
+%   5.6 is in figure_5_6.pl, 6.1 in table_6_1.pl: nothing else needs to be
+%   loaded.
 
 by_name(Name, File) :-
     atomic_list_concat(Parts, '.', Name),
-    atomic_list_concat([figure|Parts], '_', Base),
+    member(Kind, [figure, table]),
+    atomic_list_concat([Kind|Parts], '_', Base),
     file_base_name(File, FileBase),
     file_name_extension(Base, pl, FileBase).
 

@@ -1,6 +1,7 @@
 %   Figure 6.3: tasks and populations on 50 and on 100 hosts.
 
 :- include(ground).
+:- include(tasks).
 :- use_module(pictures,
               [bar_rows/2, crash_rows/2, kind_rows/2, other_rows/2,
                panel_variables/2, span_rows/2]).

@@ -1,6 +1,7 @@
 %   Figure 6.4: hosts lose task 2 while task 4 is executed.
 
 :- include(ground).
+:- include(tasks).
 :- use_module('../sync/metrics', [overlaps/2]).
 :- use_module(metrics, [peak/3, peak/4, population_at/3]).
 :- use_module(pictures,
