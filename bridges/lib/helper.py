@@ -29,6 +29,12 @@ A helper is a subclass with a method for each `do`:
 A method may return LATER and say `self.reply(request, answer)` when there
 is one, or `self.reply(request, Refusal(...))`, in any thread.
 
+A library that runs callbacks in a thread of its own often does so under its
+own locks.  So a callback must not take a lock that is held around a call of
+the library: each thread would wait for the other.  It passes on what it has
+to say by `self.soon(function, ...)`, which the serving thread calls before
+the next request.  State that only this thread touches needs no lock.
+
 Requests are served by so many threads, with one thread in the order in
 which they came.  `deadline` is when the request must be done, by
 time.monotonic(); it counts from when the line was read.  A request that has
@@ -42,6 +48,8 @@ more: abandoned() is run, and the process ends.  Whatever is printed goes to
 the standard error: the standard output is for Prolog alone.
 """
 
+import collections
+import functools
 import heapq
 import itertools
 import json
@@ -123,6 +131,29 @@ class Output:
                 pass        # nobody reads; standard input ends, too
 
 
+class Requests(queue.Queue):
+    """Jobs, and before these the calls that put_first() was given.
+
+    Only jobs have a bound: put_first() never waits.
+    """
+
+    def _init(self, maxsize):
+        super()._init(maxsize)
+        self.first = collections.deque()
+
+    def _qsize(self):
+        return len(self.first) + super()._qsize()
+
+    def _get(self):
+        return self.first.popleft() if self.first else super()._get()
+
+    def put_first(self, call):
+        with self.mutex:
+            self.first.append(call)
+            self.unfinished_tasks += 1
+            self.not_empty.notify()
+
+
 class Job:
     """A request that is to be answered once."""
 
@@ -130,13 +161,32 @@ class Job:
         self.number, self.request = number, request
         self.deadline = deadline
         self.lock = threading.Lock()
-        self.answered, self.begun, self.later = False, False, False
+        self.answered, self.begun, self.ended = False, False, False
+        self.replaced = False           # another thread serves instead
 
     def first(self):
-        """Whether nobody has answered it before."""
+        """Whether it has not been answered before."""
         with self.lock:
             first, self.answered = not self.answered, True
             return first
+
+    def begin(self):
+        """Whether it is still to be done."""
+        with self.lock:
+            self.begun = not self.answered
+            return self.begun
+
+    def end(self):
+        """Its method has returned; whether its thread is still needed."""
+        with self.lock:
+            self.ended = True
+            return not self.replaced
+
+    def replace(self):
+        """Whether its thread is busy with it, and needs a replacement."""
+        with self.lock:
+            self.replaced = self.begun and not self.ended
+            return self.replaced
 
 
 class Watch:
@@ -179,7 +229,7 @@ class Helper:
         self.threads, self.watched = threads, watched
         self.longest_line, self.longest_queue = longest_line, longest_queue
         self.most_late = most_late
-        self.requests = queue.Queue(longest_queue)
+        self.requests = Requests(longest_queue)
         self.quitting = False
         self.output = self.watch = None
         self.late_lock, self.late_threads = threading.Lock(), 0
@@ -214,6 +264,14 @@ class Helper:
         """Say something unasked."""
         fields['event'] = kind
         self.output.say(fields)
+
+    def soon(self, function, /, *arguments):
+        """Have the serving thread call it; see above.
+
+        May be called in any thread, and never waits.  Only for helpers with
+        one serving thread.
+        """
+        self.requests.put_first(functools.partial(function, *arguments))
 
     # In a thread of its own: standard input
 
@@ -287,17 +345,18 @@ class Helper:
             if job is None:
                 self.abandoned()
                 os._exit(0)
-            job.begun = True
+            if not isinstance(job, Job):
+                job()                       # of soon()
+                continue
             last = job.request.get('do') == 'quit'
-            if not job.answered:
+            if job.begin():
                 answer = self.answer(job)
-                if answer is LATER:
-                    continue
-                if not job.first():         # another has taken its place
+                if not job.end():
                     with self.late_lock:
                         self.late_threads -= 1
                     return
-                self.say(job, answer)
+                if answer is not LATER and job.first():
+                    self.say(job, answer)
             if last:
                 sys.stderr.flush()
                 os._exit(0)                 # other threads may be reading
@@ -320,10 +379,7 @@ class Helper:
                 raise Refusal('timeout', 'not done: others took too long')
             job.request['job'] = job
             done = self.do(job.request, job.deadline)
-            if done is LATER:
-                job.later = True
-                return LATER
-            return {'ok': done}
+            return done if done is LATER else {'ok': done}
         except Refusal as problem:
             return self.refused(problem)
         except BadRequest as problem:
@@ -344,10 +400,10 @@ class Helper:
                      if isinstance(answer, Refusal) else {'ok': answer})
 
     def late(self, job):
-        """The deadline has passed; who serves it may never be done."""
+        """The deadline has passed; its method may never return."""
         self.output.say({'id': job.number, 'error': 'timeout',
                          'message': 'not done in time'})
-        if job.begun and not job.later:
+        if job.replace():
             with self.late_lock:
                 self.late_threads += 1
                 many = self.late_threads > self.most_late

@@ -22,7 +22,14 @@ else text.  Events are
 
 What is published while there is no connection is kept, so many messages at
 the most, and so is what comes in a session that the broker has kept before
-somebody subscribes to it.
+an agent subscribes to it.
+
+The thread of paho runs its callbacks under locks that `publish` takes, too.
+So these leave what happened to the thread that serves, by soon(), and only
+that thread knows the state of the connection.  A message goes to Prolog in
+the thread of paho, so that a broker that is too fast has to wait; which
+filters it matches is asked of Filters, whose lock is never held around a
+call of the client.
 """
 
 import collections
@@ -99,22 +106,102 @@ def session_present(flags):
     return bool(flags.session_present)
 
 
+class Filters:
+    """What agents have subscribed to, and what came before they did."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.kinds, self.qos = {}, {}   # filter: its kinds; its QoS
+        self.matcher = MQTTMatcher()
+        self.held = collections.deque()     # matches no filter yet
+        self.most_held = self.largest_held = 0
+
+    def names(self):
+        """In the order in which they are to be asked for."""
+        with self.lock:
+            return list(self.qos)
+
+    def first(self):
+        """[filter, its QoS], or [] if there is none."""
+        with self.lock:
+            return list(next(iter(self.qos.items()), ()))
+
+    def qos_of(self, wanted):
+        """None if it is not wanted."""
+        with self.lock:
+            return self.qos.get(wanted)
+
+    def add(self, wanted, kind, qos):
+        with self.lock:
+            self.kinds.setdefault(wanted, set()).add(kind)
+            self.qos[wanted] = max(qos, self.qos.get(wanted, 0))
+            self.matcher[wanted] = wanted
+
+    def discard(self, wanted, kind):
+        """Whether no kind of it is wanted any more."""
+        with self.lock:
+            kinds = self.kinds.get(wanted)
+            if kinds is None:
+                return False
+            kinds.discard(kind)
+            if not kinds:
+                self.forget(wanted)
+            return not kinds
+
+    def drop(self, wanted):
+        with self.lock:
+            if wanted in self.kinds:
+                self.forget(wanted)
+
+    def forget(self, wanted):
+        del self.kinds[wanted], self.qos[wanted], self.matcher[wanted]
+
+    def put_last(self, wanted):
+        with self.lock:
+            if wanted in self.qos:
+                self.qos[wanted] = self.qos.pop(wanted)
+
+    def matching(self, topic, payload, qos, retain):
+        """{kind: filters}; if there are none the message is held."""
+        with self.lock:
+            found = {}
+            for wanted in self.matcher.iter_match(topic):
+                for kind in self.kinds[wanted]:
+                    found.setdefault(kind, []).append(wanted)
+            if not found:
+                self.hold(topic, payload, qos, retain)
+            return found
+
+    def hold(self, topic, payload, qos, retain):
+        if self.most_held and len(payload) <= self.largest_held:
+            self.held.append((topic, payload, qos, retain))
+            if len(self.held) > self.most_held:
+                self.held.popleft()
+
+    def take_held(self, wanted):
+        """The messages that were held and match."""
+        with self.lock:
+            taken = [one for one in self.held
+                     if mqtt.topic_matches_sub(wanted, one[0])]
+            if taken:
+                self.held = collections.deque(
+                    one for one in self.held
+                    if not mqtt.topic_matches_sub(wanted, one[0]))
+            return taken
+
+
 class Broker(Helper):
     def __init__(self):
         super().__init__(longest_queue=10000, longest_line=1 << 26)
         self.client = None
         self.connected, self.connecting = False, None
-        self.lock = threading.RLock()
-        self.filters = {}               # filter: {kind}, and its qos
-        self.matcher = MQTTMatcher()
-        self.qos = {}
+        self.filters = Filters()
         self.todo = collections.deque() # filters to be subscribed to
         self.asked = None               # mid, filter: what the broker decides
         self.unlucky = {}               # filter: so often the broker hung up
         self.asking = {}                # filter: requests that wait for it
         self.waits = {}                 # mid: request, of publish
         self.kept = collections.deque()     # published with QoS 0, offline
-        self.held = collections.deque()     # came in, nobody wants it yet
         self.pending, self.largest = 1000, 1 << 22
 
     def run(self):
@@ -122,7 +209,7 @@ class Broker(Helper):
         super().run()
 
     def thread_died(self, what):
-        """Without the thread of the connection nothing would come."""
+        """Without the thread of the connection nothing would arrive."""
         sys.__excepthook__(what.exc_type, what.exc_value, what.exc_traceback)
         os._exit(5)
 
@@ -131,12 +218,14 @@ class Broker(Helper):
     def do_connect(self, request, _deadline):
         self.pending = integer(request, 'pending', 1, 1000000)
         self.largest = integer(request, 'largest', 1, 1 << 25)
-        self.clean = bool(request.get('clean', True))
-        client = self.client = new_client(request.get('client', ''),
-                                          self.clean)
+        clean = bool(request.get('clean', True))
+        if not clean:
+            self.filters.most_held = self.pending
+            self.filters.largest_held = self.largest
+        client = self.client = new_client(request.get('client', ''), clean)
         self.set_up(client, request)
         for wanted in request.get('filters', []):
-            self.want(wanted['filter'], wanted['kind'], wanted['qos'])
+            self.filters.add(wanted['filter'], wanted['kind'], wanted['qos'])
         address = (text(request, 'host'), integer(request, 'port', 1, 65535),
                    integer(request, 'keepalive', 1, 65535))
         if request.get('wait'):
@@ -165,12 +254,14 @@ class Broker(Helper):
                             will['qos'], will['retain'])
         if request.get('tls'):
             self.set_up_tls(client, request)
-        client.on_connect, client.on_disconnect = self.came, self.went
         client.on_socket_open = self.at_once
         client.on_message = self.message
-        client.on_publish = self.published
-        client.on_subscribe = self.subscribed
-        client.on_unsubscribe = self.unsubscribed
+        client.on_connect = self.connack
+        client.on_disconnect = lambda *_: self.soon(self.went)
+        client.on_publish = lambda _client, _data, mid, *_: \
+            self.soon(self.published, mid)
+        client.on_subscribe = lambda _client, _data, mid, codes, *_: \
+            self.soon(self.subscribed, mid, number(codes[0]))
 
     # Small packets wait for nothing: neither ours for more of them, nor those
     # of the broker, 40 ms each, for our acknowledgement of the one before.
@@ -207,11 +298,10 @@ class Broker(Helper):
             raise BadRequest('payload: %s' % problem) from None
         if len(payload) > self.largest:
             raise Refusal('too_big', '%d bytes' % len(payload))
-        with self.lock:
-            if qos == 0 and (self.kept or not self.connected):
-                self.keep(topic, payload, retain, wait and request)
-            else:
-                self.publish(topic, payload, qos, retain, wait and request)
+        if qos == 0 and (self.kept or not self.connected):
+            self.keep(topic, payload, retain, wait and request)
+        else:
+            self.publish(topic, payload, qos, retain, wait and request)
         return LATER if wait else {}
 
     def keep(self, topic, payload, retain, waiting):
@@ -240,7 +330,7 @@ class Broker(Helper):
         if info.rc == mqtt.MQTT_ERR_QUEUE_SIZE:
             raise Refusal('full', 'too much is kept for the broker')
         elif waiting:
-            if qos == 0 or info.is_published():
+            if qos == 0:
                 self.reply(waiting, {})
             else:
                 self.waits[info.mid] = waiting
@@ -248,29 +338,23 @@ class Broker(Helper):
 
     def do_subscribe(self, request, _deadline):
         wanted, kind = text(request, 'filter'), kind_of(request)
-        with self.lock:
-            self.want(wanted, kind, integer(request, 'qos', 0, 2))
-            held = self.take_held(wanted)
-            connected = self.connected
-            if connected:
-                self.asking.setdefault(wanted, []).append(request)
-                self.todo.append(wanted)
-                self.ask_next()
-        for topic, payload, qos, retain in held:
-            self.tell(topic, payload, qos, retain)
-        return LATER if connected else {}
-
-    def want(self, wanted, kind, qos):
-        self.filters.setdefault(wanted, set()).add(kind)
-        self.qos[wanted] = max(qos, self.qos.get(wanted, 0))
-        self.matcher[wanted] = wanted
+        self.filters.add(wanted, kind, integer(request, 'qos', 0, 2))
+        for held in self.filters.take_held(wanted):
+            self.tell(*held)
+        if not self.connected:
+            return {}
+        self.asking.setdefault(wanted, []).append(request)
+        self.todo.append(wanted)
+        self.ask_next()
+        return LATER
 
     def ask_next(self):
         """One filter at a time: the broker may hang up because of it."""
         while self.todo and self.asked is None and self.connected:
             wanted = self.todo.popleft()
-            if wanted in self.filters:
-                code, mid = self.client.subscribe(wanted, self.qos[wanted])
+            qos = self.filters.qos_of(wanted)
+            if qos is not None:
+                code, mid = self.client.subscribe(wanted, qos)
                 if code == mqtt.MQTT_ERR_SUCCESS:
                     self.asked = mid, wanted
                 else:                   # it will be asked for again
@@ -283,23 +367,15 @@ class Broker(Helper):
             self.reply(request, answer)
 
     def deny(self, wanted):
-        if self.filters.pop(wanted, None) is not None:
-            del self.matcher[wanted]
-            del self.qos[wanted]
+        self.filters.drop(wanted)
         self.unlucky.pop(wanted, None)
         self.event('denied', filter=wanted)
         self.decided(wanted, Refusal('denied', 'the broker refuses'))
 
     def do_unsubscribe(self, request, _deadline):
         wanted, kind = text(request, 'filter'), kind_of(request)
-        with self.lock:
-            kinds = self.filters.get(wanted, set())
-            kinds.discard(kind)
-            if not kinds and self.filters.pop(wanted, None) is not None:
-                del self.matcher[wanted]
-                del self.qos[wanted]
-                if self.client is not None and self.connected:
-                    self.client.unsubscribe(wanted)
+        if self.filters.discard(wanted, kind) and self.connected:
+            self.client.unsubscribe(wanted)
         return {}
 
     def do_quit(self, _request, _deadline):
@@ -310,41 +386,43 @@ class Broker(Helper):
         self.farewell()
 
     def farewell(self):
-        with self.lock:
-            connected, self.connected = self.connected, False
-        if connected:
+        if self.connected:
+            self.connected = False
             self.client.disconnect()
             self.client.loop_stop()
 
-    # In the thread of the connection
+    # What has happened to the connection; in the thread that serves
 
-    def came(self, client, _data, flags, code, *_):
-        code = number(code)
+    def came(self, flags, code, asked):
         connecting, self.connecting = self.connecting, None
         if code:
-            if connecting:
-                self.reply(connecting,
-                           Refusal('refused', mqtt.connack_string(code)
-                                   if code < 128 else str(code)))
-            else:
-                self.event('refused', reason=code)
+            self.turned_away(connecting, code)
             return
-        with self.lock:
-            self.connected, again = True, bool(self.filters)
-            self.asked = None
-            self.todo = collections.deque(self.filters)
-            self.ask_next()
-            self.send_kept()
+        self.connected = True
+        self.event('up', again=bool(self.filters.names()))
+        if connecting:
+            self.reply(connecting, {'session': session_present(flags)})
+        self.asked = asked
+        self.todo = collections.deque(
+            wanted for wanted in self.filters.names()
+            if asked is None or wanted != asked[1])
+        if asked is not None and self.filters.qos_of(asked[1]) is None:
+            self.client.unsubscribe(asked[1])
+        self.ask_next()
+        self.send_kept()
+
+    def turned_away(self, connecting, code):
         if connecting:
             self.reply(connecting,
-                       {'session': session_present(flags)})
-        self.event('up', again=again)
+                       Refusal('refused', mqtt.connack_string(code)
+                               if code < 128 else str(code)))
+        else:
+            self.event('refused', reason=code)
 
-    def went(self, _client, _data, *rest):
-        with self.lock:
-            was, self.connected = self.connected, False
-            if self.asked is not None:
-                self.hung_up(self.asked[1])
+    def went(self):
+        was, self.connected = self.connected, False
+        if self.asked is not None:
+            self.hung_up(self.asked[1])
         if was:
             self.event('down')
 
@@ -353,30 +431,36 @@ class Broker(Helper):
         self.unlucky[wanted] = self.unlucky.get(wanted, 0) + 1
         if self.unlucky[wanted] > 1:
             self.deny(wanted)
-        elif wanted in self.filters:    # the last, next time
-            self.filters[wanted] = self.filters.pop(wanted)
+        else:
+            self.filters.put_last(wanted)
 
-    def published(self, _client, _data, mid, *_):
-        with self.lock:
-            waiting = self.waits.pop(mid, None)
+    def published(self, mid):
+        waiting = self.waits.pop(mid, None)
         if waiting:
             self.reply(waiting, {})
 
-    def subscribed(self, _client, _data, mid, codes, *_):
-        with self.lock:
-            if self.asked is None or self.asked[0] != mid:
-                return
-            wanted, self.asked = self.asked[1], None
-            if number(codes[0]) >= 128:
-                self.deny(wanted)
-            else:
-                self.unlucky.pop(wanted, None)
-                self.decided(wanted, {})
-            self.ask_next()
-            self.send_kept()
+    def subscribed(self, mid, code):
+        if self.asked is None or self.asked[0] != mid:
+            return
+        wanted, self.asked = self.asked[1], None
+        if code >= 128:
+            self.deny(wanted)
+        else:
+            self.unlucky.pop(wanted, None)
+            self.decided(wanted, {})
+        self.ask_next()
+        self.send_kept()
 
-    def unsubscribed(self, *_):
-        pass
+    # In the thread of the connection
+
+    def connack(self, client, _data, flags, code, *_):
+        """Subscribe before paho sends again what has QoS 1 or 2."""
+        asked, first = None, self.filters.first()
+        if number(code) == 0 and first:
+            done, mid = client.subscribe(*first)
+            if done == mqtt.MQTT_ERR_SUCCESS:
+                asked = mid, first[0]
+        self.soon(self.came, flags, number(code), asked)
 
     def message(self, _client, _data, message):
         self.acknowledge()
@@ -387,11 +471,8 @@ class Broker(Helper):
         self.tell(topic, message.payload, message.qos, bool(message.retain))
 
     def tell(self, topic, payload, qos, retain):
-        with self.lock:
-            keys = self.keys(topic)
-            if not keys:
-                self.hold(topic, payload, qos, retain)
-        for kind, filters in keys.items():
+        found = self.filters.matching(topic, payload, qos, retain)
+        for kind, filters in found.items():
             if len(payload) > self.largest:
                 self.event('too_big', topic=topic, size=len(payload),
                            kind=kind, keys=filters)
@@ -407,30 +488,6 @@ class Broker(Helper):
         except (ValueError, RecursionError):
             self.event('message', payload=decoded(payload, 'text'),
                        kind=kind, **fields)
-
-    def keys(self, topic):
-        """The filters that match, by the kind of payload they want."""
-        keys = {}
-        for wanted in self.matcher.iter_match(topic):
-            for kind in self.filters[wanted]:
-                keys.setdefault(kind, []).append(wanted)
-        return keys
-
-    def hold(self, topic, payload, qos, retain):
-        """Of a session that was kept; nobody may want it yet."""
-        if not self.clean and len(payload) <= self.largest:
-            self.held.append((topic, payload, qos, retain))
-            if len(self.held) > self.pending:
-                self.held.popleft()
-
-    def take_held(self, wanted):
-        taken = [one for one in self.held
-                 if mqtt.topic_matches_sub(wanted, one[0])]
-        if taken:
-            self.held = collections.deque(
-                one for one in self.held
-                if not mqtt.topic_matches_sub(wanted, one[0]))
-        return taken
 
 
 class NoPaho(Helper):

@@ -8,6 +8,7 @@
             with_broker/3,              % +Options, -Broker, :Goal
             with_mqtt/3,                % +Broker, +Options, :Goal
             stranger_says/3,            % +Broker, +Topic, +Args
+            stranger_counts/4,          % +Broker, +Topic, +N, -Pid
             stranger_hears/4            % +Broker, +Args, :Goal, -Lines
           ]).
 
@@ -137,16 +138,29 @@ with_mqtt(Broker, Options, Goal) :-
                   host_stop(alpha)), _).
 
 %!  stranger_says(+Broker, +Topic, +Args) is det.
+%!  stranger_counts(+Broker, +Topic, +N, -Pid) is det.
 %!  stranger_hears(+Broker, +Args, :Goal, -Lines) is semidet.
 %
 %   mosquitto_pub and mosquitto_sub; Goal is called when the latter has
-%   subscribed, and Lines are what it prints until it ends.
+%   subscribed, and Lines are what it prints until it ends.  Process Pid
+%   publishes the numbers from 1 to N with QoS 1, as fast as it can.
 
 stranger_says(broker(Port, _), Topic, Args) :-
     process_create(path(mosquitto_pub),
                    ['-p', Port, '-t', Topic|Args],
                    [stderr(null), process(Pid)]),
     process_wait(Pid, exit(0)).
+
+stranger_counts(broker(Port, Dir), Topic, N, Pid) :-
+    directory_file_path(Dir, numbers, File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        forall(between(1, N, I), format(Out, '~d~n', [I])),
+        close(Out)),
+    format(atom(Command), 'exec mosquitto_pub -p ~d -t ~w -q 1 -l < ~w',
+           [Port, Topic, File]),
+    process_create('/bin/sh', ['-c', Command],
+                   [stderr(null), process(Pid)]).
 
 stranger_hears(Broker, Args, Goal, Lines) :-
     Broker = broker(Port, _),

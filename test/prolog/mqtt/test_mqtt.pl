@@ -215,6 +215,65 @@ test(a_thousand_in_order, Ps == Expected) :-
     numlist(1, 1000, Ns),
     findall(S, ( member(N, Ns), number_string(N, S) ), Expected).
 
+%   TYPHON_MESSAGES in the environment makes it longer.
+
+test(both_directions_at_once, Results == [done,exit(0),N-true,N-true]) :-
+    (   getenv('TYPHON_MESSAGES', Atom)
+    ->  atom_number(Atom, N)
+    ;   N = 4000
+    ),
+    at_broker([pending(100000)], both_directions(N, Results)).
+
+%   both_directions(+N, -Results): an agent publishes N messages while N
+%   others arrive.  Results are how the publishers ended, and how many messages
+%   came each way, and whether in order.
+
+both_directions(N, [Published,Status,Out,In]) :-
+    shared(Broker),
+    counter(N, Counter),
+    Seconds is 20+N//100,
+    stranger_hears(Broker, ['-t', 'both/out', '-C', N, '-q', 1,
+                            '-W', Seconds],
+                   ( stranger_counts(Broker, 'both/in', N, Pid),
+                     create([ (main :- count(1)),
+                              (count(I) :- (   I > N
+                                           ->  true
+                                           ;   publish('both/out', I,
+                                                       [qos(1)]),
+                                               I1 is I+1,
+                                               count(I1)
+                                           )) ], Publisher, [host(alpha)]),
+                     agent_join(Publisher, Published, Seconds),
+                     process_wait(Pid, Status) ),
+                   Lines),
+    in_order(Lines, 1, Out),
+    agent_join(Counter, _, Seconds),
+    agent_result(Counter, In, 5).
+
+%   One that counts what comes, as long as it comes in order.
+
+counter(N, Agent) :-
+    create([ (main :- subscribe('both/in', [qos(1),queue(N)]), self(Id),
+              leave(ready(Id)), count(1)),
+             (count(I) :- (   I > N
+                          ->  result(N-true)
+                          ;   receive(mqtt-message(_, P, _), 20),
+                              number_string(I, P)
+                          ->  I1 is I+1,
+                              count(I1)
+                          ;   result(I-false)
+                          )) ], Agent, [host(alpha)]),
+    ready(Agent).
+
+in_order([], Next, N-true) :-
+    N is Next-1.
+in_order([Line|Lines], Next, Result) :-
+    (   number_string(Next, Line)
+    ->  Next1 is Next+1,
+        in_order(Lines, Next1, Result)
+    ;   Result = Next-false
+    ).
+
 mail_or_taken(Agent) :-
     agent_property(Agent, state(waiting)),
     agent_property(Agent, mailbox([])).
