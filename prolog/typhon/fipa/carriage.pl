@@ -10,7 +10,7 @@
 :- use_module(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
-:- use_module(crew, [crew_end/1, crew_start/4]).
+:- use_module('../base/crew', [crew_end/1, crew_start/4]).
 :- use_module(limit, [within/2]).
 :- use_module(http, [http_post/4, http_response/3, http_url/3]).
 
@@ -74,7 +74,7 @@ queue(Host, Address, Limits, _, Message) :-
 hire(Host, Address, Limits, Queue) :-
     message_queue_create(Queue),
     assertz(carrier(Host, Address, Queue)),
-    catch(crew_start(carriage(Host), carrier,
+    catch(crew_start(carriage(Host), fipa_carrier,
                      typhon_fipa_carriage:carry(Host, Address, Queue,
                                                 Limits),
                      typhon_fipa_carriage:gone(Host, Address, Queue)),

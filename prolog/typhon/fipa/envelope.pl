@@ -2,7 +2,8 @@
           [ envelope_xml/2              % ?Envelope, ?Text
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(error), [permission_error/3, syntax_error/1]).
+:- use_module(library(error),
+              [permission_error/3, resource_error/1, syntax_error/1]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(sgml), [load_xml/3]).
@@ -20,21 +21,31 @@ parameters:
 
 An envelope has nothing to declare: one with a document type is refused
 before anybody reads it, so there are no entities that grow, and none that
-stand for files.
+stand for files.  Attributes and digits take the parser longer than in
+proportion, so both are bounded.
 
 *Threading*: pure.
 */
 
+%   Characters of an envelope; digits of a number in one.
+
+max_envelope(65 536).
+max_digits(15).
+
 %!  envelope_xml(+Envelope, -Text:string) is det.
 %!  envelope_xml(-Envelope, +Text:string) is det.
 %
-%   @error syntax_error(fipa_envelope)
+%   @error syntax_error(fipa_envelope), resource_error(fipa_envelope)
 %   @error permission_error(declare, fipa_envelope, document_type)
 
 envelope_xml(Envelope, Text) :-
     nonvar(Text),
     !,
-    (   sub_string(Text, _, _, _, "<!")
+    string_length(Text, Length),
+    max_envelope(Most),
+    (   Length > Most
+    ->  resource_error(fipa_envelope)
+    ;   sub_string(Text, _, _, _, "<!")
     ->  permission_error(declare, fipa_envelope, document_type)
     ;   true
     ),
@@ -76,8 +87,7 @@ envelope_dom(Envelope, Dom) :-
 
 index(Attributes, Index) :-
     memberchk(index=Text, Attributes),
-    atom_number(Text, Index),
-    integer(Index),
+    whole_number(Text, Index),
     !.
 index(_, 1).
 
@@ -123,6 +133,12 @@ read_slot(text, Content, Text) :-
     words(Content, Text).
 read_slot(number, Content, Number) :-
     words(Content, Text),
+    whole_number(Text, Number).
+
+whole_number(Text, Number) :-
+    atom_length(Text, Length),
+    max_digits(Most),
+    Length =< Most,
     atom_number(Text, Number),
     integer(Number).
 

@@ -30,6 +30,8 @@ taken(bad(Why), Host, Code) =>
     platform_count(Host, refused),
     (   integer(Why)
     ->  Code = Why
+    ;   Why = resource_error(fipa_envelope)
+    ->  Code = 413
     ;   Code = 400
     ).
 

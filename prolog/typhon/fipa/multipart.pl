@@ -15,6 +15,10 @@ in it.  Bodies are strings of bytes; a part is Type-Bytes.
 *Threading*: pure, but for the boundary, which is drawn.
 */
 
+%   For each part the rest is copied.
+
+max_parts(16).
+
 %!  multipart_read(+ContentType:text, +Body:string, -Parts:list(pair)) is det.
 %
 %   @error syntax_error(fipa_multipart)
@@ -23,7 +27,8 @@ multipart_read(ContentType, Body, Parts) :-
     (   boundary(ContentType, Boundary),
         string_concat("\n--", Boundary, Mark),
         string_concat("\n", Body, Text),
-        split(Text, Mark, [_|Pieces0]),
+        max_parts(Most),
+        split(Text, Mark, Most, [_|Pieces0]),
         append(Pieces, [End], Pieces0),
         sub_string(End, 0, 2, _, "--"),
         maplist(piece_part, Pieces, Parts0)
@@ -47,13 +52,15 @@ boundary(ContentType, Boundary) :-
 
 %   What stands before the last line break belongs to the boundary.
 
-split(Text, Mark, [Piece|Pieces]) :-
+split(Text, Mark, Most, [Piece|Pieces]) :-
     sub_string(Text, Before, _, After, Mark),
     !,
+    Most > 0,
+    Less is Most-1,
     sub_string(Text, 0, Before, _, Piece),
     sub_string(Text, _, After, 0, Rest),
-    split(Rest, Mark, Pieces).
-split(Text, _, [Text]).
+    split(Rest, Mark, Less, Pieces).
+split(Text, _, _, [Text]).
 
 %   A piece begins with the end of the line of its boundary.
 

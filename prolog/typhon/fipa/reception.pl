@@ -2,21 +2,20 @@
           [ reception_open/4,           % +Host, +Address, +Limits, -Port
             reception_close/1           % +Host
           ]).
-:- use_module(library(debug), [debug/3]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(socket),
-              [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
-                tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
-:- use_module(crew, [crew_end/1, crew_start/4]).
+              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_setopt/2,
+                tcp_socket/1 ]).
+:- use_module('../base/clients',
+              [client_becomes/1, clients_end/1, clients_start/4]).
 :- use_module(limit, [within/2]).
 :- use_module(http, [http_request/4, http_respond/3]).
 
 /** <module> Where messages come in
 
-Each client has a thread, as many at a time as there may be connections.  If
-there are so many, who has been silent for longest between two requests has
-to go; if nobody is, who comes is sent away.  A request has only so many
-seconds to come, from its first byte to its last.
+Each client has a thread, as many at a time as there may be connections, see
+typhon_clients.  A request has only so many seconds to come, from its first byte
+to its last.
 
 *Threading*: an acceptor, and a thread for each client.
 */
@@ -25,8 +24,7 @@ seconds to come, from its first byte to its last.
     requested/3.                % Host, Request, Code: what a request comes to
 
 :- dynamic
-    listens/2,                  % Host, Socket
-    client/4.                   % Host, Thread, Since, State: idle or busy
+    listens/2.                  % Host, Socket
 
 %   Between two requests, at most.
 
@@ -50,10 +48,9 @@ reception_open(Host, Interface:Port0, Limits, Port) :-
             tcp_bind(Socket, Interface:Port),
             tcp_listen(Socket, 64),
             assertz(listens(Host, Socket)),
-            crew_start(reception(Host), acceptor,
-                       typhon_fipa_reception:accept_all(Host, Socket,
-                                                        Limits),
-                       true)
+            option(connections(Most), Limits),
+            clients_start(fipa(Host), Socket, Most,
+                          typhon_fipa_reception:serve(Host, Limits))
           ),
           error(Formal, Context),
           ( retractall(listens(Host, _)),
@@ -64,117 +61,38 @@ reception_open(Host, Interface:Port0, Limits, Port) :-
 
 reception_close(Host) :-
     (   retract(listens(Host, Socket))
-    ->  crew_end(reception(Host)),
+    ->  clients_end(fipa(Host)),
         tcp_close_socket(Socket)
     ;   true
-    ).
-
-accept_all(Host, Socket, Limits) :-
-    repeat,
-    catch(accept(Host, Socket, Limits), error(Formal, _),
-          accept_failed(Host, Formal)),
-    fail.
-
-accept_failed(Host, Formal) :-
-    debug(typhon(fipa), '~w: a client is lost: ~p', [Host, Formal]),
-    sleep(0.1).                         % out of descriptors, most likely
-
-accept(Host, Socket, Limits) :-
-    tcp_accept(Socket, Client, _),
-    sig_atomic(admit(Host, Client, Limits)).
-
-admit(Host, Client, Limits) :-
-    open_streams(Client, In, Out),
-    (   room(Host, Limits)
-    ->  catch(crew_start(reception(Host), client,
-                         typhon_fipa_reception:serve(Host, In, Out, Limits),
-                         typhon_fipa_reception:left(Host, In, Out)),
-              error(_, _),
-              send_away(In, Out))
-    ;   send_away(In, Out)
-    ).
-
-open_streams(Socket, In, Out) :-
-    catch(( tcp_setopt(Socket, nodelay),
-            tcp_open_socket(Socket, In, Out) ),
-          error(Formal, Context),
-          ( tcp_close_socket(Socket),
-            throw(error(Formal, Context)) )),
-    set_stream(In, encoding(octet)),
-    set_stream(Out, encoding(octet)),
-    set_stream(In, newline(posix)),
-    set_stream(Out, newline(posix)).
-
-send_away(In, Out) :-
-    catch(http_respond(Out, 503, false), error(_, _), true),
-    close_streams(In, Out).
-
-close_streams(In, Out) :-
-    close(Out, [force(true)]),
-    close(In, [force(true)]).
-
-%   room(+Host, +Limits): fails if nobody can be sent away for who comes.
-
-room(Host, Limits) :-
-    option(connections(Most), Limits),
-    findall(Since-Thread, client(Host, Thread, Since, idle), Idle),
-    findall(t, client(Host, _, _, _), All),
-    length(All, Count),
-    (   Count < Most
-    ->  true
-    ;   msort(Idle, [_-Thread|_]),
-        retract(client(Host, Thread, _, idle))
-    ->  catch(thread_signal(Thread, typhon_fipa_reception:evict),
-              error(_, _), true)
-    ).
-
-%   Between two requests nothing is lost by it.
-
-evict :-
-    thread_self(Me),
-    (   client(_, Me, _, _)
-    ->  true
-    ;   throw(crew_end)
     ).
 
                 /*******************************
                 *            CLIENTS           *
                 *******************************/
 
-serve(Host, In, Out, Limits) :-
-    thread_self(Me),
-    note(Host, Me, busy),
-    catch(requests(Host, In, Out, Limits), error(Formal, _),
-          debug(typhon(fipa), '~w: a client goes: ~p', [Host, Formal])).
+:- public serve/4.              % called by typhon_clients
 
-left(Host, In, Out) :-
-    thread_self(Me),
-    retractall(client(Host, Me, _, _)),
-    close_streams(In, Out).
-
-note(Host, Me, State) :-
-    get_time(Now),
-    assertz(client(Host, Me, Now, State)).
-
-%   Fails for one that has been evicted.
-
-becomes(Host, State) :-
-    thread_self(Me),
-    retract(client(Host, Me, _, _)),
-    note(Host, Me, State).
+serve(_, _, none, Out) :-
+    !,
+    http_respond(Out, 503, false).
+serve(Host, Limits, In, Out) :-
+    set_stream(In, newline(posix)),
+    set_stream(Out, newline(posix)),
+    requests(Host, In, Out, Limits).
 
 requests(Host, In, Out, Limits) :-
-    sig_atomic(becomes(Host, idle)),
+    client_becomes(idle),
     idle_seconds(Idle),
     set_stream(In, timeout(Idle)),
     peek_byte(In, Byte),
     Byte \== -1,
-    sig_atomic(becomes(Host, busy)),
+    client_becomes(reading),
     option(seconds(Seconds), Limits),
     set_stream(In, timeout(Seconds)),
     catch(within(Seconds, one_request(In, Out, Limits, Request)),
           Ball,
           Request = bad(Ball)),
+    client_becomes(busy),
     answer(Request, Host, In, Out, KeepAlive),
     KeepAlive == true,
     requests(Host, In, Out, Limits).

@@ -71,7 +71,10 @@ item(_, string(String)) -->
     digits([D|Ds]),
     "\"",
     !,
-    { number_codes(Bytes, [D|Ds]) },
+    { length(Ds, Digits),
+      Digits < 9,                       % more take time, and there is no room
+      number_codes(Bytes, [D|Ds])
+    },
     counted(Bytes, Codes),
     { string_codes(String, Codes) }.
 item(_, Word) -->

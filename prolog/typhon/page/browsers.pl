@@ -233,6 +233,7 @@ browser_serve(Scene, WebSocket) :-
 ended(error(io_error(_, _), _)) :- !.
 ended(error(socket_error(_, _), _)) :- !.
 ended(typhon_page(bye)) :- !.
+ended(crew_end) :- !.
 ended(Ball) :-
     print_message(warning, Ball).
 

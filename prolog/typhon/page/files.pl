@@ -18,7 +18,8 @@
 %!  page_file(+Names:list(atom), -File, -Type) is semidet.
 %
 %   File is what the last parts of an address mean, and of Type.  No name
-%   leads out of the folder, and what is hidden stays so.
+%   leads out of the folder, hidden files are not served, and a zero, at which
+%   the system would end the name, is in no name.
 
 page_file([''], File, Type) :-
     !,
@@ -34,7 +35,8 @@ page_file([Name], File, Type) :-
 plain(Name) :-
     \+ sub_atom(Name, 0, _, _, '.'),
     \+ sub_atom(Name, _, _, _, /),
-    \+ sub_atom(Name, _, _, _, \).
+    \+ sub_atom(Name, _, _, _, \),
+    \+ sub_atom(Name, _, _, _, '\x00\').
 
 type(html, 'text/html; charset=UTF-8').
 type(js, 'text/javascript; charset=UTF-8').

@@ -5,16 +5,9 @@
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(http/http_json), [http_read_json_dict/3]).
 :- use_module(library(http/http_stream), []). % else WebSockets are HTTP/1.0
-:- use_module(library(http/thread_httpd),
-              [http_server/2, http_spawn/2, http_stop_server/2]).
 :- use_module(library(http/websocket), [http_upgrade_to_websocket/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(socket),
-              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
-                tcp_open_socket/2, tcp_setopt/2, tcp_socket/1 ]).
-:- use_module('../base/options', [blaming/2]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(acting, [act/2]).
 :- use_module(browsers,
               [browser_serve/2, browsers_start/0, browsers_stop/0]).
@@ -28,6 +21,7 @@
 :- use_module(overlays,
               [overlays_shown/1, overlays_start/1, overlays_stop/0]).
 :- use_module(protocol, [error_text/2]).
+:- use_module(reception, [reception_close/0, reception_open/2, with_body/4]).
 :- use_module(said, [on_console/1]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
 :- use_module(times, [times_start/0, times_stop/0]).
@@ -42,22 +36,12 @@ posted; other names are those of files.  `/?token=TOKEN` leads to the page, and
 It does not use http_dispatch: what else of HTTP this process serves is not
 seen here, nor this there.
 
-*Threading*: starting and stopping exclude each other by a mutex.  Requests
-are served by workers of the HTTP server, each browser's events by a thread
-of its own.
+*Threading*: starting and stopping exclude each other by a mutex.  Each client
+has a thread, see room `reception`.
 */
 
 :- setting(request_bytes, positive_integer, 4 000 000,
            "A page takes no larger request than this").
-:- setting(workers, positive_integer, 8,
-           "A page answers so many requests at a time").
-
-%   It bounds what a stranger can make a worker read before the first line of
-%   a request is seen.
-
-:- setting(stack_bytes, positive_integer, 128 000 000,
-           "A worker of a page needs no more stack than this").
-
 :- dynamic
     serving/3.                  % Port, Token, ReadOnly
 
@@ -80,7 +64,9 @@ start(Options, Link) :-
     option(port(Port0), Options, 8080),
     option(read_only(ReadOnly), Options, false),
     token_new(Token),
-    catch(( prepare(Options), listen(Interface, Port0, Port) ), Ball,
+    ( Port0 == 0 -> true ; Port = Port0 ),
+    catch(( prepare(Options),
+            reception_open(Interface:Port, typhon_page_server:serve) ), Ball,
           ( put_away, throw(Ball) )),
     assertz(serving(Port, Token, ReadOnly)),
     format(atom(Link), 'http://~w:~d/?token=~w', [Interface, Port, Token]).
@@ -93,31 +79,13 @@ prepare(Options) :-
     overlays_start(Files),
     browsers_start.
 
-%   Processes that are started later, of a network for one, must not have the
-%   socket: it would be in use as long as they are.
-
-listen(Interface, Port0, Port) :-
-    setting(workers, Workers),
-    setting(stack_bytes, StackLimit),
-    ( Port0 == 0 -> true ; Port = Port0 ),
-    tcp_socket(Socket),
-    catch(( tcp_setopt(Socket, reuseaddr),
-            blaming(port(Port), tcp_bind(Socket, Interface:Port)),
-            tcp_listen(Socket, 64),
-            tcp_open_socket(Socket, Stream),
-            set_stream(Stream, close_on_exec(true)) ),
-          Ball,
-          ( tcp_close_socket(Socket), throw(Ball) )),
-    http_server(typhon_page_server:serve,
-                [ port(Interface:Port), tcp_socket(Socket), workers(Workers),
-                  stack_limit(StackLimit), silent(true), timeout(20) ]).
-
 server_stop :-
     with_mutex(typhon_page_server, stop).
 
 stop :-
-    (   retract(serving(Port, _, _))
-    ->  in_own_thread(http_stop_server(Port, [])),
+    (   retract(serving(_, _, _))
+    ->  browsers_stop,                  % they are told before they go
+        reception_close,
         put_away
     ;   true
     ).
@@ -133,15 +101,15 @@ put_away :-
                 *           REQUESTS           *
                 *******************************/
 
-:- public serve/1.              % called by the HTTP server
+:- public serve/2.              % called by the reception
 
-serve(Request) :-
+serve(In, Request) :-
     memberchk(path(Path), Request),
     atomic_list_concat([''|Parts], /, Path),
     (   \+ request_own(Request)
     ->  refuse(403, 'Not from this page')
     ;   admitted(Parts, Request, Rest, Token)
-    ->  route(Rest, Token, Request)
+    ->  route(Rest, Token, In, Request)
     ;   refuse(403, 'The link with the token, which was printed when the \c
                      page was started, leads here; this address does not')
     ).
@@ -164,19 +132,17 @@ admitted([Name], Request, Rest, Token) :-
     !,
     ( Name == '' -> Rest = [] ; Rest = [Name] ).
 
-route([], Token, _) =>
+route([], Token, _, _) =>
     atomic_list_concat(['', Token, ''], /, Page),
     throw(http_reply(see_other(Page))).
-route([feed], _, Request) =>
-    memberchk(input(In), Request),
-    set_stream(In, close_on_exec(true)),
-    http_spawn(http_upgrade_to_websocket(feed, [guarded(false)], Request), []).
-route([ask], _, Request) =>
-    answer(Request).
-route([metrics], _, _) =>
+route([feed], _, _, Request) =>
+    http_upgrade_to_websocket(feed, [guarded(false)], Request).
+route([ask], _, In, Request) =>
+    answer(In, Request).
+route([metrics], _, _, _) =>
     on_console(sources_metrics(Text)),
     text_reply('text/plain; version=0.0.4', Text).
-route(Names, _, Request) =>
+route(Names, _, _, Request) =>
     (   memberchk(method(Method), Request),
         memberchk(Method, [get, head]),
         page_file(Names, File, Type)
@@ -220,20 +186,22 @@ refuse(Status, Why) :-
                 *       QUESTIONS, ORDERS      *
                 *******************************/
 
-answer(Request) :-
+answer(In, Request) :-
     setting(request_bytes, Most),
     (   \+ memberchk(method(post), Request)
     ->  refuse(405, 'Only POST')
     ;   request_within(Request, Most)
-    ->  catch(answer_to(Request, Answer), Error, told(Error, Answer)),
+    ->  catch(answer_to(In, Request, Answer), Error, told(Error, Answer)),
         json_text(Answer, Text),
         text_reply('application/json', Text)
     ;   refuse(413, 'Too large, or of no known length')
     ).
 
-answer_to(Request, _{answer:Answer}) :-
-    http_read_json_dict(Request, Message,
-                        [value_string_as_atom(false), tag('')]),
+answer_to(In, Request, _{answer:Answer}) :-
+    memberchk(content_length(Length), Request),
+    with_body(In, Length, Body,
+              http_read_json_dict([input(Body)|Request], Message,
+                                  [value_string_as_atom(false), tag('')])),
     must_be(dict, Message),
     (   get_dict(do, Message, What)
     ->  may_act(What),

@@ -518,6 +518,14 @@ bad(endless_head, Text, 413) :-
     atom_concat('POST /acc HTTP/1.1\r\n', Head, Text).
 bad(broken_parts, Text, 400) :-
     post("multipart/mixed; boundary=x", "--x\r\n\r\nno end", Text).
+bad(many_attributes, Text, 413) :-
+    findall(Attribute,
+            ( between(1, 40000, N), format(atom(Attribute), ' a~d=""', [N]) ),
+            Attributes),
+    atomic_list_concat(Attributes, All),
+    format(string(Body), "--x\r\n\r\n<envelope><params~w></params></envelope>\c
+           \r\n--x\r\n\r\n(inform)\r\n--x--\r\n", [All]),
+    post("multipart/mixed; boundary=x", Body, Text).
 bad(bomb, Text, 400) :-
     post("multipart/mixed; boundary=x",
          "--x\r\n\r\n<!DOCTYPE a [<!ENTITY b \"cccccccc\">]><envelope>&b;\c
@@ -551,7 +559,7 @@ test(bad) :-
                  assertion(Name-After == Name-200) ))),
     findall(x, bad(_, _, _), Bad),
     length(Bad, Count),
-    assertion(Count == 14).
+    assertion(Count == 15).
 
 test(wrong_performative) :-
     with_platforms(_, Url,
@@ -627,21 +635,55 @@ test(silent_clients) :-
           assertion(Status == 200),
           maplist(close, Streams) )).
 
-%   Clients in the middle of a request do not.
+%   So does a client that has not sent the whole of its request.
 
-test(crowd) :-
-    with_platform([connections(3)], Url,
-        ( port(Url, Port),
-          findall(Stream,
-                  ( between(1, 3, _),
-                    tcp_connect('127.0.0.1':Port, Stream, []),
-                    write(Stream, 'POST /acc'),
-                    flush_output(Stream) ),
+test(half_requests_give_way, Statuses == [200, 200, 200]) :-
+    with_platform([connections(8)], Url,
+        ( findall(Stream,
+                  ( between(1, 100, _), half_request(Url, Stream) ),
                   Streams),
           good(Text),
-          wait_until(sends(Url, Text, 503), 8),
-          maplist(shut, Streams),
-          wait_until(sends(Url, Text, 200), 20) )).
+          findall(Status, ( between(1, 3, _), sends(Url, Text, Status) ),
+                  Statuses),
+          maplist(shut, Streams) )).
+
+half_request(Url, Stream) :-
+    port(Url, Port),
+    tcp_connect('127.0.0.1':Port, Stream, []),
+    catch(( write(Stream, 'POST /acc'), flush_output(Stream) ),
+          error(_, _), true).
+
+%   An address with few connections keeps them: there the request is begun
+%   before, and ended after, many others of another address.
+
+test(one_address_does_not_displace_another, Status == 200) :-
+    with_platform([connections(4), seconds(60)], Url,
+        ( port(Url, Port),
+          good(Text),
+          sub_string(Text, 0, 20, _, Begin),
+          sub_string(Text, 20, _, 0, End),
+          setup_call_cleanup(
+              connected_from('127.0.0.2', Port, In, Out),
+              ( write(Out, Begin), flush_output(Out),
+                wait_until(typhon_clients:client(_, _, ip(127,0,0,2), _,
+                                                 reading), 20),
+                findall(Stream,
+                        ( between(1, 30, _), half_request(Url, Stream) ),
+                        Streams),
+                sends(Url, Text, Other),
+                assertion(Other == 200),
+                write(Out, End), flush_output(Out),
+                status(In, Status),
+                maplist(shut, Streams) ),
+              ( shut(Out), shut(In) )) )).
+
+connected_from(Address, Port, In, Out) :-
+    tcp_socket(Socket),
+    tcp_bind(Socket, Address:_),
+    tcp_connect(Socket, '127.0.0.1':Port),
+    tcp_open_socket(Socket, In, Out),
+    maplist([S]>>set_stream(S, encoding(octet)), [In, Out]),
+    maplist([S]>>set_stream(S, newline(posix)), [In, Out]).
 
 shut(Stream) :-
     close(Stream, [force(true)]).

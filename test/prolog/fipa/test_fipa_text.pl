@@ -278,6 +278,20 @@ test(bombs,
        error(permission_error(declare, fipa_envelope, document_type)) ]) :-
     envelope_xml(_, Xml).
 
+test(long_numbers_are_no_numbers, Envelope == [date(x)]) :-
+    format(string(Xml), "<envelope><params><payload-length>~`1t~1000|\c
+           </payload-length><date>x</date></params></envelope>", []),
+    envelope_xml(Envelope, Xml).
+test(long_envelopes, error(resource_error(fipa_envelope))) :-
+    format(string(Xml), "<envelope><params><date>~`1t~70000|</date></params>\c
+           </envelope>", []),
+    envelope_xml(_, Xml).
+test(many_parts, error(syntax_error(fipa_multipart))) :-
+    findall(x-"y", between(1, 20, _), Parts),
+    multipart_write(Parts, Type, Body),
+    multipart_read(Type, Body, _).
+test(length_with_many_digits, error(syntax_error(_))) :-
+    acl_text(_, "(inform :content #00000000000000000001\"x)").
 test(broken_envelopes,
      [ forall(member(Xml, ["", "x", "<other/>", "<envelope>&b;</envelope>"])),
        error(syntax_error(fipa_envelope)) ]) :-

@@ -178,6 +178,100 @@ test(loaded_when_wanted, Status-Err == exit(0)-"") :-
     run_swipl([ '-g', '\\+ current_module(thread_httpd)', '-t', halt, File ],
               [], Status, _, Err).
 
+%   More half requests than a page has connections, and some whose next byte
+%   always comes soon: whoever has the token is answered.
+
+test(half_requests_do_not_stop_the_owner, Statuses == [200, 200, 200]) :-
+    no_leaks(page(Base,
+        setup_call_cleanup(
+            ( findall(Out, ( between(1, 100, _), half_request(Base, Out) ),
+                      Outs),
+              thread_self(Me),
+              thread_create(drip(Base, 16, Me), Drip),
+              thread_get_message(dripping) ),
+            findall(Status, ( between(1, 3, _), got(Base, [], Status) ),
+                    Statuses),
+            ( thread_send_message(Drip, stop),
+              thread_join(Drip),
+              forall(member(Out, Outs), close(Out, [force(true)])) )))).
+
+%   A request has to be there in time as a whole; so has a body.
+
+test(slow_requests_end) :-
+    with_settings([typhon_page_reception:request_seconds=1],
+        page(Base, forall(member(Head, ['GET /', body]),
+                          ends_while_dripping(Base, Head)))).
+
+test(long_heads_end) :-
+    page(Base,
+         setup_call_cleanup(
+             half_request(Base, Pair),
+             ( catch(( format(Pair, '~`xt~20000|', []), flush_output(Pair) ),
+                     error(_, _), true),
+               ends(Pair) ),
+             close(Pair, [force(true)]))).
+
+ends_while_dripping(Base, Head) :-
+    head_text(Head, Base, Text),
+    setup_call_cleanup(
+        connected(Base, Pair),
+        ( write(Pair, Text), flush_output(Pair),
+          thread_create(drip_on([Pair]), Drip),
+          ends(Pair),
+          thread_send_message(Drip, stop),
+          thread_join(Drip) ),
+        close(Pair, [force(true)])).
+
+head_text(body, Base, Text) :-
+    !,
+    atomic_list_concat([_, _, _, Token|_], /, Base),
+    format(atom(Text), 'POST /~w/ask HTTP/1.1\r\nContent-Length: 100000\r\n\c
+                        Content-Type: application/json\r\n\r\n{', [Token]).
+head_text(Text, _, Text).
+
+connected(Base, Pair) :-
+    atomic_list_concat([_, _, Authority|_], /, Base),
+    atomic_list_concat([_, Text], :, Authority),
+    atom_number(Text, Port),
+    socket:tcp_connect('127.0.0.1':Port, Pair, []),
+    set_stream(Pair, timeout(60)).
+
+half_request(Base, Pair) :-
+    connected(Base, Pair),
+    catch(( write(Pair, 'GET / HTTP/1.1\r\nHost:'), flush_output(Pair) ),
+          error(_, _), true).
+
+%   The server closes the connection, whatever it says before.
+
+ends(Pair) :-
+    catch(read_string(Pair, _, _), error(socket_error(_, _), _), true).
+
+drip(Base, Count, Owner) :-
+    findall(Pair, ( between(1, Count, _), half_request(Base, Pair) ), Pairs),
+    thread_send_message(Owner, dripping),
+    drip_on(Pairs),
+    forall(member(Pair, Pairs), close(Pair, [force(true)])).
+
+drip_on(Pairs) :-
+    thread_self(Me),
+    (   thread_get_message(Me, stop, [timeout(0.1)])
+    ->  true
+    ;   forall(member(Pair, Pairs),
+               catch(( write(Pair, x), flush_output(Pair) ), error(_, _),
+                     true)),
+        drip_on(Pairs)
+    ).
+
+%   What a name hides behind a zero is no other name.
+
+test(zero_in_a_name, Statuses == [404, 404, 404]) :-
+    page(Base, findall(Status,
+                       ( member(Path, [ 'index.html%00.js', '%00.css',
+                                        'style.css%00' ]),
+                         atom_concat(Base, Path, Address),
+                         got(Address, [], Status) ),
+                       Statuses)).
+
 :- end_tests(page_guard).
 
 :- begin_tests(page_questions).

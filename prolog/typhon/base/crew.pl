@@ -1,11 +1,11 @@
-:- module(typhon_fipa_crew,
+:- module(typhon_crew,
           [ crew_start/4,               % +Owner, +Role, :Goal, :Release
             crew_end/1                  % +Owner
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module(own_thread, [in_own_thread/1]).
 
-/** <module> The threads of a message transport
+/** <module> Threads that end with their owner
 
 A thread that comes to its end by itself is gone then; those that are left
 are ended, and joined, with their owner.
@@ -25,12 +25,12 @@ are ended, and joined, with their owner.
 %   @error resource_error(threads) or the like
 
 crew_start(Owner, Role, Goal, Release) :-
-    flag(typhon_fipa_crew, Number, Number+1),
-    atomic_list_concat([typhon_fipa, Role, Number], '_', Alias),
+    flag(typhon_crew, Number, Number+1),
+    atomic_list_concat([typhon, Role, Number], '_', Alias),
     sig_atomic(create(Owner, Goal, Release, Alias)).
 
 create(Owner, Goal, Release, Alias) :-
-    thread_create(typhon_fipa_crew:work(Goal), Thread,
+    thread_create(typhon_crew:work(Goal), Thread,
                   [ alias(Alias), at_exit(Release) ]),
     assertz(crew(Owner, Thread)),
     thread_send_message(Thread, crew_begin).
@@ -67,7 +67,7 @@ ended :-
 %   End all threads of Owner, whatever they do.
 
 crew_end(Owner) :-
-    in_own_thread(typhon_fipa_crew:end_all(Owner)).
+    in_own_thread(typhon_crew:end_all(Owner)).
 
 end_all(Owner) :-
     findall(Thread, crew(Owner, Thread), Threads),
@@ -82,7 +82,7 @@ end_all(Owner) :-
 
 end(Thread, Wait) :-
     (   thread_property(Thread, status(running))
-    ->  catch(thread_signal(Thread, typhon_fipa_crew:end_once),
+    ->  catch(thread_signal(Thread, typhon_crew:end_once),
               error(_, _), true),
         sleep(Wait),
         Wait1 is min(0.1, 2*Wait),
@@ -91,8 +91,8 @@ end(Thread, Wait) :-
     ).
 
 end_once :-
-    (   nb_current(typhon_fipa_ending, true)
+    (   nb_current(typhon_crew_ending, true)
     ->  true
-    ;   nb_setval(typhon_fipa_ending, true),
+    ;   nb_setval(typhon_crew_ending, true),
         throw(crew_end)
     ).
