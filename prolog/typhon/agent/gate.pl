@@ -2,13 +2,15 @@
           [ gate/4,                     % +Host, +Entrant, :Install, -Verdict
             gate_refused/4              % +Host, +From, +Agent, +Reason
           ]).
+:- use_module('../base/headroom', [memory_short/1]).
 :- use_module('../program',
               [code_check/3, code_guarded/3, code_module/2, code_receive/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../host',
               [ audit/3, audit/4, event/4, guarding/0, host/3, host_address/2,
-                host_closed/1, host_enter/4, host_leave/1, peer_permitted/3,
-                place_front/3, quota/3, quota_any/1, quota_shared/4 ]).
+                host_closed/1, host_enter/4, host_leave/1, host_load/2,
+                peer_permitted/3, place_front/3, quota/3, quota_any/1,
+                quota_shared/4 ]).
 :- use_module(birth, [birth_proved/4]).
 :- use_module(life, [life_tokens/2]).
 :- use_module(mailbox, [mail_count/2]).
@@ -51,7 +53,8 @@ many for a quota, but not for the capacity of the host.
 %   place is given back unless Verdict is `ok`.  Other verdicts are
 %   refused(Reason), `need_program`, and those of Install.
 %
-%   Signals wait while the agent is between reserved and installed.
+%   Signals wait while the agent is between reserved and installed.  The process
+%   has no capacity for more agents while its memory is short.
 %
 %   @error what Install raises, unless it means that Host refuses the agent
 
@@ -71,8 +74,13 @@ gate(Host, From-Entrant, Install, Verdict) :-
 enter(Host, Hash, Tokens, From, Install, Verdict) :-
     host_enter(Host, Hash, Tokens, Entered),
     (   Entered == ok
-    ->  catch(call(Install, Verdict), Ball,
-              not_installed(Ball, Host, Verdict)),
+    ->  (   From \== going,
+            host_load(Host, Load),
+            memory_short(Load)
+        ->  Verdict = refused(capacity)
+        ;   catch(call(Install, Verdict), Ball,
+                  not_installed(Ball, Host, Verdict))
+        ),
         ( Verdict == ok -> true ; host_leave(Host) )
     ;   not_entered(Entered, From, Verdict)
     ).

@@ -4,6 +4,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/headroom', [memory_short/0]).
 :- use_module(census, [turns_begun/1]).
 :- use_module(held, [held_full/1, held_review/3, held_room/2]).
 :- use_module(queue,
@@ -65,7 +66,7 @@ grow(Queue, Turns) :-
     Some is 1+Count//8,
     forall(between(1, Some, _), grow_by_one(Queue, Max)).
 
-%   Fails when there is no room, or no thread.
+%   Fails when there is no room, no thread, or little memory.
 
 grow_by_one(Queue, Max) :-
     queue_waits(Queue),
@@ -75,6 +76,7 @@ grow_by_one(Queue, Max) :-
     ;   review_later
     ),
     held_room(Count, Max),
+    ( memory_short -> held_full(no_memory), review_later, fail ; true ),
     catch(worker_add(Queue), error(resource_error(What), _),
           ( held_full(What), review_later, fail )),
     debug(typhon(scheduler), 'one more than ~D workers', [Count]).

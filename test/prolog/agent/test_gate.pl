@@ -9,6 +9,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
 
@@ -296,5 +297,17 @@ test(every_refusal_is_told_audited_and_an_event, Deviations == []) :-
                          Deviations))).
 test(requests_that_no_honest_process_makes_are_refused) :-
     with_processes(with_tmp_dir(requests_made)).
+
+%   In a process of its own, which may have little address space.
+
+test(clone_bomb_ends_no_process, Out == "well, capacity\n") :-
+    project_file('test/lib/clone_bomb.pl', File),
+    current_prolog_flag(executable, Swipl),
+    format(atom(Command), 'ulimit -v 2500000; exec "~w" "~w"', [Swipl, File]),
+    setup_call_cleanup(
+        process_create(path(sh), ['-c', Command],
+                       [ stdin(null), stdout(pipe(Pipe)), stderr(null) ]),
+        read_string(Pipe, _, Out),
+        close(Pipe)).
 
 :- end_tests(gate).

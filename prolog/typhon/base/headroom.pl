@@ -1,0 +1,86 @@
+:- module(typhon_headroom,
+          [ memory_short/0,
+            memory_short/1              % +Count
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+/** <module> Whether there is little memory left
+
+A process that may have only so much address space (ulimit -v, prlimit --as)
+ends when an allocation fails, whichever thread it was for.  So the numbers of
+agents and of workers do not grow while less than a quarter is left.
+
+*Threading*: any thread.
+*/
+
+:- dynamic short/0.             % it was so when it was looked at last
+
+%!  memory_short is semidet.
+%!  memory_short(+Count) is semidet.
+%
+%   The address space of this process is bounded, and less than a quarter of it
+%   is left.  With Count, how many there are of what grows, this is looked at
+%   for one in 256, and for each while memory is short.
+
+memory_short(Count) :-
+    (   short
+    ->  true
+    ;   Count /\ 0xff =:= 0
+    ),
+    (   memory_short
+    ->  ( short -> true ; assertz(short) )
+    ;   retractall(short),
+        fail
+    ).
+
+memory_short :-
+    left(Limit, Left),
+    Left < Limit//4.
+
+%   left(-Limit, -Left): fails where there is no limit, or none that is known.
+
+left(Limit, Left) :-
+    limit(Limit),
+    size(Size),
+    reusable(Reusable),
+    Left is Limit-Size+Reusable.
+
+limit(Limit) :-
+    file_text('/proc/self/limits', Text),
+    split_string(Text, "\n", "", Lines),
+    member(Line, Lines),
+    string_concat("Max address space", Rest, Line),
+    !,
+    split_string(Rest, " ", " ", Words),
+    member(Word, Words),
+    Word \== "",
+    !,
+    number_string(Limit, Word).
+
+size(Size) :-
+    file_text('/proc/self/status', Text),
+    split_string(Text, "\n", "", Lines),
+    member(Line, Lines),
+    string_concat("VmSize:", Rest, Line),
+    !,
+    split_string(Rest, "", "\t kB", [Word]),
+    number_string(Kilobytes, Word),
+    Size is Kilobytes*1024.
+
+file_text(File, Text) :-
+    catch(read_file_to_string(File, Text, []), error(_, _), fail).
+
+%   What was freed remains part of the address space.
+
+reusable(Bytes) :-
+    (   predicate_property(malloc_property(_), defined)
+    ->  aggregate_all(sum(Free), free_pages(Free), Bytes)
+    ;   Bytes = 0
+    ).
+
+free_pages(Bytes) :-
+    malloc_property('tcmalloc.pageheap_free_bytes'(Bytes)).
+free_pages(Bytes) :-
+    malloc_property('tcmalloc.pageheap_unmapped_bytes'(Bytes)).
