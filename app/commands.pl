@@ -106,7 +106,7 @@ option(host, consult, file(read), 'FILE',
 option(host, log, atom, 'ADDRESS',
        'log server to report to').
 option(host, events, atom, 'A,B',
-       'with --log: also hops, messages, facts').
+       'with --log: also hops, messages, messages(content), facts').
 option(host, link, atom, 'ADDRESS',
        'host to link to (may be repeated)').
 option(host, journal, atom, 'DIR',
@@ -141,7 +141,7 @@ option(network, seed, integer, 'N',
 option(network, log, atom, 'FILE',
        'write the events of all hosts to FILE').
 option(network, events, atom, 'A,B',
-       'with --log: also hops, messages, facts').
+       'with --log: also hops, messages, messages(content), facts').
 option(network, machines, atom, 'A,B',
        'ssh targets to start the processes on').
 option(network, dynamic, term, 'MODEL',

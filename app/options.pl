@@ -7,6 +7,7 @@
 *Threading*: the main thread only.
 */
 
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(orders, [program_argument/2]).
@@ -70,10 +71,15 @@ option_for(page, Options, Option) :-
 
 log_events_option(Options, Option) :-
     option(log(Log), Options),
-    (   comma_list(events(Text), Options, Text, Kinds)
-    ->  Option = log(Log, Kinds)
+    (   comma_list(events(Text), Options, Text, Texts)
+    ->  maplist(event_kind, Texts, Kinds),
+        Option = log(Log, Kinds)
     ;   Option = log(Log)
     ).
+
+event_kind('messages(content)', messages(content)) :-
+    !.
+event_kind(Kind, Kind).
 
 comma_list(Option, Options, Text, Parts) :-
     option(Option, Options),

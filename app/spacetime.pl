@@ -146,13 +146,21 @@ be_here(_, Time, Host, _, here(Host, Time, Time), Rest, Rest).
                 *******************************/
 
 letters(Events, Letters) :-
-    findall((From-To)-Time, member(event(Time, _, From, sent(To)), Events),
+    findall((From-To)-Time,
+            ( member(event(Time, _, From, What), Events), sent(What, To) ),
             Sent),
-    findall((From-To)-Time, member(event(Time, _, To, received(From)), Events),
+    findall((From-To)-Time,
+            ( member(event(Time, _, To, What), Events), received(What, From) ),
             Received),
     keysort(Sent, Sent1),
     keysort(Received, Received1),
     pair(Sent1, Received1, Letters).
+
+sent(sent(To), To).
+sent(sent(To, _), To).
+
+received(received(From), From).
+received(received(From, _), From).
 
 %   The k-th with the k-th of the same sender and receiver.
 

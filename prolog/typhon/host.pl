@@ -14,8 +14,9 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
 :- reexport(host/events,
-            [ event/4, event_heard/1, event_public/2, events_forget/1,
+            [ event/4, event_heard/1, events_forget/1,
               events_hear/3, events_unheard/1 ]).
+:- reexport('host/event_shown').
 :- reexport('host/host_log').
 :- reexport(host/place, [place_deliver/3, place_undeliver/2]).
 :- reexport('host/tuples').

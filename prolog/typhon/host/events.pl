@@ -1,8 +1,8 @@
 :- module(typhon_events,
           [ event/4,                    % +Kind, +Host, +Agent, +What
             event_heard/1,              % +Kind
-            event_public/2,             % +What, -Public
             events_hear/3,              % +Kinds, +Key, +Listener
+            log_kind/2,                 % ?Wanted, -Kind
             events_forget/1,            % +Key
             events_unheard/1            % +Listener
           ]).
@@ -43,10 +43,19 @@ listen.
 
 :- dynamic hears/3.             % Kind, Host or agent, Listener
 
-%   Of goals only those can hear who trace an agent.
+%   A log can have these.  Goals are only for those who trace an agent.
 
 error:has_type(event_kind, Kind) :-
-    memberchk(Kind, [hops, messages, facts, links, hosts, faults]).
+    nonvar(Kind),
+    log_kind(Kind, _).
+
+%!  log_kind(?Wanted, -Kind) is nondet.
+%
+%   What a log may be asked for, and the kind of events that it is.
+
+log_kind(messages(content), messages).
+log_kind(Kind, Kind) :-
+    member(Kind, [hops, messages, facts, links, hosts, faults]).
 
 %!  event(+Kind, +Host, +Agent, +What) is det.
 %
@@ -65,17 +74,6 @@ event(Kind, Host, Agent, What) :-
 event_heard(Kind) :-
     hears(Kind, _, _),
     !.
-
-%!  event_public(+What, -Public) is det.
-%
-%   Public is as What, but for what messages say.
-
-event_public(sent(To, _), Public) =>
-    Public = sent(To).
-event_public(received(From, _), Public) =>
-    Public = received(From).
-event_public(What, Public) =>
-    Public = What.
 
 %   What is told of one agent to people is in the log, too.
 

@@ -3,8 +3,10 @@
             host_log_event/4,           % +Host, +Agent, +What, -Post
             host_logs/1                 % +Host
           ]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../wire', [endpoint_post/3]).
-:- use_module(events, [event_public/2, events_hear/3]).
+:- use_module(event_shown, [event_shown/3]).
+:- use_module(events, [events_hear/3, log_kind/2]).
 :- use_module(host_names, [address_parts/3]).
 :- use_module(hosts, [host/3, host_option/2]).
 
@@ -28,7 +30,9 @@ typhon_hosting:begins(Host) :-
     !,
     address_parts(Log, _, Endpoint),
     retractall(unheard(Endpoint, _)),
-    events_hear([life, bad_ends|Kinds], Host, log).
+    findall(Kind, ( member(Wanted, Kinds), once(log_kind(Wanted, Kind)) ),
+            Heard),
+    events_hear([life, bad_ends|Heard], Host, log).
 
 log_server(Host, Log, []) :-
     host_option(Host, log(Log)).
@@ -36,8 +40,8 @@ log_server(Host, Log, Kinds) :-
     host_option(Host, log(Log, Kinds)).
 
 typhon_events:told(log, Host, Agent, What) :-
-    event_public(What, Public),
-    host_log(Host, Agent, Public).
+    event_shown(Host, What, Shown),
+    host_log(Host, Agent, Shown).
 
 %!  host_log(+Host, +Agent, +What) is det.
 %!  host_log_event(+Host, +Agent, +What, -Post) is semidet.

@@ -95,8 +95,8 @@ other users of the process its endpoint, see typhon_runtime.
 %     - place(+Module): a module all of whose predicates it offers
 %     - log(+Address), log(+Address, +Kinds): the log server.  It hears of
 %       the beginnings and ends of agents, of what they log themselves, and
-%       of Kinds: a list out of `hops`, `messages`, `facts`, `faults`,
-%       `links` and `hosts`, see watch/3
+%       of Kinds: a list out of `hops`, `messages` or messages(content),
+%       `facts`, `faults`, `links` and `hosts`, see watch/3
 %     - remote(+Boolean): whether remote/2 is answered, default `true`
 %     - python(+Boolean): whether agents may deliver Python, see doc/bridges.md,
 %       default `false`

@@ -98,6 +98,9 @@ none of its own.
 %       of `hops`, `messages`, `facts`, `faults`, `links` and `hosts`,
 %       where they went, who sent to whom, what they left and took, what
 %       was the matter with them, and which links and hosts came and went.
+%       With messages(content) for `messages` it has what the messages say,
+%       too; of more than 200 characters (the setting
+%       `typhon_event_shown:content_characters`) the beginning, as a string.
 %     - dynamic(Model)
 %       Links come and go: see dynamics_model/2.
 %     - cost(Cost)

@@ -5,7 +5,7 @@
 :- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
-              [ clock/3, event_public/2, events_hear/3, events_unheard/1,
+              [ clock/3, event_shown/3, events_hear/3, events_unheard/1,
                 host/3, time_kind/1 ]).
 :- use_module(basin, [basin_close/1, basin_open/3, basin_put/3]).
 :- use_module(teller, [teller_ring/2, teller_run/1, time_at/2]).
@@ -136,9 +136,10 @@ stop_tellers.
                 *           EVENTS             *
                 *******************************/
 
-typhon_events:told(watch(Basin, Address, Clock), _, Agent, What) :-
+typhon_events:told(watch(Basin, Address, Clock), Host, Agent, What) :-
     time_at(Clock, Time),
-    told_as(What, Clock, Public),
+    event_shown(Host, What, Shown),
+    told_as(Shown, Clock, Public),
     catch(basin_put(Basin, Address-Clock,
                     event(Time, Address, Agent, Public)),
           error(existence_error(_, _), _),
@@ -155,7 +156,7 @@ told_as(log(Term), _, Public) =>
         Public = log(Text)
     ).
 told_as(What, _, Public) =>
-    event_public(What, Public).
+    Public = What.
 
                 /*******************************
                 *         THE TELLER           *

@@ -47,6 +47,8 @@ room `telling`.
 %       It sets out for To; is there, after a hop of so many seconds; could
 %       not go there.
 %     - cloned(Id), sent(To), received(From), log(Term)
+%       On hosts whose option log(Address, Kinds) has messages(content),
+%       sent(To, Message) and received(From, Message).
 %     - leave(Fact), take(Fact)
 %       What is put in the tuple space of Host, and taken out.
 %     - link(To), unlink(To), started, stopped

@@ -9,6 +9,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/page), [page_export/3]).
@@ -69,7 +70,7 @@ run(Program, Log) :-
     setup_call_cleanup(
         network_start(grid(3, 4), Network,
                       [ clock(virtual), seed(1), hop_time(uniform(0.5, 1.5)),
-                        log(Log, [hops, messages, links, hosts]) ]),
+                        log(Log, [hops, messages(content), links, hosts]) ]),
         talk(Program, Network),
         network_stop(Network)).
 
@@ -278,6 +279,13 @@ test(sequence_of_messages, true(Rows > 10)) :-
     seek(1, _),
     look("typhon.show(2); return typhon.views[2].view.chart().rows.length",
          Rows).
+test(arrows_of_the_sequence_are_labelled_with_messages) :-
+    seek(1, _),
+    look("typhon.show(2); return typhon.views[2].view.toSVG()", Svg),
+    load_structure(string(Svg), Tree, [dialect(xml)]),
+    findall(Label, ( sub_term(element(_, _, [Label]), Tree), atom(Label),
+                     sub_atom(Label, 0, _, _, 'round(') ), Labels),
+    assertion(memberchk('round(6)', Labels)).
 test(plots_have_points, true(Points > 5)) :-
     look("typhon.show(3); typhon.views[3].view.draw(); \c
           return typhon.views[3].view.plots[0].drawn.data[0].length", Points).
