@@ -26,10 +26,10 @@ voter(clauses(
       (part(clone(_), Host, Me) :-
            move(Host), sense(price(Price)), send(Me, vote(Host, Price)), dispose),
       (collect(0) :- !),
-      (collect(N) :-                    % who says nothing in time has no vote
-           receive(_-vote(Host, Price), 5), !,
-           assertz(vote(Host, Price)), N1 is N-1, collect(N1)),
-      collect(_),
+      (collect(N) :-                    % a silent voter has no vote
+           (  receive(_-vote(Host, Price), 5)
+           -> assertz(vote(Host, Price)), N1 is N-1, collect(N1)
+           ;  true )),
       (verdict(Voters) :-
            aggregate_all(bag(Price), vote(_, Price), Prices),
            aggregate_all(max(N, P), aggregate(count, member(P, Prices), N),

@@ -15,3 +15,4 @@ This is the door of the layer: who is above takes what it needs from here.
 :- use_module(people/messages, []).
 :- use_module(people/manual, []).
 :- use_module(people/fault_messages, []).
+:- use_module(people/agent_words, []).

@@ -13,7 +13,10 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(program/python_code, [payload_python/3]).
 :- reexport(program/programs, [program_hash/2]).
 :- reexport(program/check, [agent_check/1, agent_check/2]).
-:- reexport(program/loaded, [program_load/5, program_load/6]).
+:- reexport(program/advice, [advice_text/2]).
+:- reexport(program/loaded,
+            [program_load/5, program_load/6, program_unknown/3]).
+:- reexport(program/unknown, [unknown_advice/3]).
 :- reexport(program/code,
             [ code_install/2, code_install/3, code_receive/2, code_module/2,
               code_program/2, code_sent/2, code_stands/2, code_clear/0

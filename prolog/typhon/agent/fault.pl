@@ -10,7 +10,10 @@
             is_faulty/3                 % ?Goals, ?Fault, ?Left
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../program', [fault/3, fault_where/4, where_handled/5]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../program',
+              [ advice_text/2, clause_parts/3, code_program/2, fault/3,
+                fault_where/4, unknown_advice/3, where_handled/5 ]).
 :- use_module('../host', [host/3]).
 :- use_module(agents, [agent/5]).
 :- use_module(in_words, [in_words/2]).
@@ -46,9 +49,37 @@ agent_fault(Id, Outcome0, Goals0,
     Fault = fault(Goal0, Left, _),
     can_be_kept(Left, Goals),
     where(Hash, Module, Fault, Where),
-    in_words(Outcome0-Goal0, Outcome-Goal),
+    advised(Outcome0, Module, Hash, Outcome1),
+    in_words(Outcome1-Goal0, Outcome-Goal),
     life_hops(Life, Hops),
     get_time(Stamp).
+
+%   advised(+Outcome0, +Module, +Hash, -Outcome): the context of the error that a
+%   procedure does not exist says what may have been meant.
+
+advised(raised(error(existence_error(procedure, Module:PI), Context0)),
+        Module, Hash,
+        raised(error(existence_error(procedure, Module:PI),
+                     context(In, Text)))) :-
+    ground(PI),
+    PI = _/_,
+    !,
+    ( subsumes_term(context(_, _), Context0) -> Context0 = context(In, _)
+    ; true
+    ),
+    findall(Own, own(Hash, Own), PIs),
+    unknown_advice(PI, PIs, Advice),
+    advice_text(Advice, Text).
+advised(Outcome, _, _, Outcome).
+
+own(Hash, PI) :-
+    code_program(Hash, program(_, State, _, Clauses)),
+    (   member(PI, State)
+    ;   member(Clause, Clauses),
+        clause_parts(Clause, Head, _),
+        functor(Head, Name, Arity),
+        PI = Name/Arity
+    ).
 
 %   Prolog has no clauses that hold a cyclic term.
 

@@ -1,6 +1,7 @@
 :- module(typhon_change,
           [ change_order/2,             % +Change, -Order
-            change_made/2               % +Order, +Id
+            change_made/2,              % +Order, +Id
+            undeclared/2                % +PI, +Declared
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
@@ -58,6 +59,7 @@ must_be_clause(Clause) :-
 %!  change_made(+Order, +Id) is det.
 %
 %   @error permission_error(attach, procedure, PI)
+%   @error existence_error(state, PI, Declared)
 %   @error permission_error(change, agent_program, Id) there are keys, and we
 %   do not own it: nobody would let it in
 
@@ -65,6 +67,7 @@ change_made(facts(Clauses), Id) :-
     agent(Id, _, Module, Hash, _),
     code_program(Hash, Program),
     maplist(not_static(Program), Clauses),
+    maplist(in_state(Program, Module), Clauses),
     agent_clauses(Module, Clauses, Allowed),
     agent_add(Allowed, Module).
 change_made(program(Hash, Sent), Id) :-
@@ -96,3 +99,37 @@ not_static(program(_, _, _, Static), Clause) :-
     ->  permission_error(attach, procedure, Name/Arity)
     ;   true
     ).
+
+%   What the agent has made part of its state itself, or has of a payload, may
+%   be added to as well.
+
+in_state(Program, Module, Clause) :-
+    clause_parts(Clause, Head, _),
+    functor(Head, Name, Arity),
+    Program = program(_, Declared, _, _),
+    (   memberchk(Name/Arity, Declared)
+    ->  true
+    ;   has_state(Module, Head)
+    ->  true
+    ;   findall(PI, state_indicator(Module, PI), Own),
+        append(Declared, Own, PIs0),
+        sort(PIs0, PIs),
+        undeclared(Name/Arity, PIs)
+    ).
+
+has_state(Module, Head) :-
+    '$c_current_predicate'(_, Module:Head),
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _).
+
+state_indicator(Module, Name/Arity) :-
+    has_state(Module, Head),
+    functor(Head, Name, Arity),
+    \+ sub_atom(Name, 0, _, _, $).
+
+%!  undeclared(+PI, +Declared:list)
+%
+%   @error existence_error(state, PI, Declared)
+
+undeclared(PI, Declared) :-
+    throw(error(existence_error(state, PI, Declared), _)).

@@ -10,13 +10,15 @@
 :- use_module(library(error),
               [domain_error/2, must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../journal', [journal_barrier/0, journal_step/1]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_module/2, code_sent/2,
-                code_stands/2, payload_load/2, program_load/6 ]).
+                code_stands/2, payload_load/2, program_load/6,
+                program_unknown/3 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
               [ event/4, host/3, host_address/2, host_resolve/2,
@@ -29,6 +31,7 @@
                 mail_count/2, make_life/2, owner_entered/3, owner_inherited/3,
                 payload_mark/2, trail_none/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
+:- use_module(change, [undeclared/2]).
 :- use_module(named, [agent_met/1]).
 
 /** <module> How agents begin
@@ -57,12 +60,15 @@ of the endpoint.
 %       host of this process
 %     - tokens(+List): that it shows to hosts that ask for one
 %     - payloads(+Specs): attached from the start
-%     - facts(+Clauses): added to its initial state
+%     - facts(+Clauses): added to its initial state, which its program, or
+%       one of the payloads, declares
 %     - lifetime(+Hops): at the next move after so many it is disposed of
 %     - static(+Boolean): whether it may not move
 %
 %   @error uninstantiation_error(Agent): what it is called says name(Atom)
 %   @error existence_error(host, Host)
+%   @error existence_error(state, PI, Declared): facts of a predicate that is
+%   not among the Declared ones
 %   @error move_refused(Host, Reason), host_unreachable(Host)
 %   @error any problem of the program, see typhon_programs
 %   @error representation_error(agent_name): the journal cannot have it
@@ -86,7 +92,29 @@ create_by(Options, Spec, Agent) :-
     start_goals(Clauses, Initial, Goals),
     code_install(Hash, Program, Kinds),
     code_stands(Hash, Places),
+    State = state(PIs, _),
+    program_unknown(Hash, PIs, may_be_offered(Target, Clauses)),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
+
+%   may_be_offered(+Target, +Clauses, +Problem) is semidet: a place of this
+%   process defines what the program with these Clauses calls, or others may,
+%   which are not seen from here: the host elsewhere, or what it attaches.
+%   Where another name is meant they hardly do.
+
+may_be_offered(_, _, problem(unknown_procedure(Name/Arity), _, _)) :-
+    functor(Head, Name, Arity),
+    host(_, _, Place),
+    '$get_predicate_attribute'(Place:Head, defined, 1),
+    !.
+may_be_offered(Target, Clauses, problem(_, _, offered([]))) :-
+    ( Target = remote(_, _, _) ; attaches(Clauses) ),
+    !.
+
+attaches(Clauses) :-
+    member((_:-Body), Clauses),
+    sub_term(Goal, Body),
+    subsumes_term(attach(_), Goal),
+    !.
 
 typhon_options:declared(agent_option, Option, Type, Value) :-
     option_type(Option, Type, Value).
@@ -127,18 +155,22 @@ birth(Options, Declared, Initial, Clauses, Life,
     option(static(Static), Options, false),
     option(facts(Facts), Options, []),
     option(payloads(Specs), Options, []),
-    maplist(clash(Clauses), Facts),
     append(Initial, Facts, StateClauses0),
     foldl(add_payload(Clauses), Specs, []-(Declared-StateClauses0),
           Payloads-(PIs-StateClauses)),
+    maplist(initial_fact(Clauses, PIs), Facts),
     make_life([ tokens(Tokens), lifetime(Lifetime), static(Static),
                 payloads(Payloads) ], Life).
 
-clash(Clauses, Fact) :-
+initial_fact(Clauses, PIs, Fact) :-
     clause_parts(Fact, Head, _),
     must_be(callable, Head),
     functor(Head, Name, Arity),
-    not_static(Clauses, Name/Arity).
+    not_static(Clauses, Name/Arity),
+    (   memberchk(Name/Arity, PIs)
+    ->  true
+    ;   undeclared(Name/Arity, PIs)
+    ).
 
 not_static(Clauses, Name/Arity) :-
     functor(General, Name, Arity),

@@ -112,7 +112,8 @@ agent_resume(Agent) :-
 %
 %   Change Agent, faulty or not, at its next effect:
 %
-%     - facts(+Clauses): are added to its state
+%     - facts(+Clauses): are added to its state, of predicates that its
+%       program or a payload declares, or that it has made itself
 %     - program(+Spec): is its program from now on, see agent_create/2.  Its
 %       state stays as it is, and so do the goals that it has left: what is
 %       left of a clause is left of the old one.
@@ -120,6 +121,7 @@ agent_resume(Agent) :-
 %   @error domain_error(agent_change, Change)
 %   @error permission_error(attach, procedure, PI) for a fact of a predicate
 %          of the program, and a program that has one of the state
+%   @error existence_error(state, PI, Declared) for a fact of any other
 %   @error any problem of the program
 %   @error existence_error(agent, Agent)
 %   @error timeout_error(order, Agent)

@@ -132,11 +132,13 @@ interval(Interval) :-
 check_rate(virtual) :-
     !.
 check_rate(Rate) :-
-    must_be(number, Rate),
-    (   Rate > 0
-    ->  true
-    ;   domain_error(clock_rate, Rate)
-    ).
+    number(Rate),
+    Rate > 0,
+    !.
+check_rate(Rate) :-
+    throw(error(domain_error(clock_rate, Rate),
+                context(_, 'write clock(virtual), or clock(Rate) with the \c
+                            host seconds per second'))).
 
 %   A journal is a process', not a host's.
 

@@ -20,6 +20,7 @@ prolog:error_message(permission_error(resume, agent, Agent)) -->
 prolog:message(typhon(faulty(Agent, Error, Fault))) -->
     who(Agent, Fault),
     error_told(Error, Agent),
+    goal_of(Error, Fault),
     raised_in(Fault).
 prolog:message(typhon(agent_failed(Agent, Fault))) -->
     who(Agent, Fault),
@@ -43,11 +44,22 @@ who(Agent, Fault) -->
 
 %   What it calls and nobody has is not said to be missing in its module.
 
-error_told(error(existence_error(procedure, Agent:PI), _), Agent) -->
+error_told(error(existence_error(procedure, Agent:PI), Context), Agent) -->
     !,
-    [ 'Unknown procedure: ~p'-[PI] ].
+    [ 'Unknown procedure: ~p'-[PI] ],
+    advised(Context).
 error_told(Error, _) -->
     '$messages':translate_message(Error).
+
+advised(Context) -->
+    { subsumes_term(context(_, _), Context),
+      Context = context(_, Text),
+      atom(Text)
+    },
+    !,
+    [ ' (~w)'-[Text] ].
+advised(_) -->
+    [].
 
 failed_last(Fault) -->
     { fault_told(Fault, Goal, Where, _, _) },
@@ -55,15 +67,35 @@ failed_last(Fault) -->
     goal_told(Goal),
     clauses_told(Where).
 
-%   Where nobody knows the clause, the goal says something.
+%   An error that says neither what is wrong nor which predicate raised it needs
+%   the goal; and so does one whose clause is not known.
 
-raised_in(Fault) -->
+goal_of(Error, Fault) -->
     { fault_told(Fault, Goal, Where, _, _) },
-    (   { Where == [] }
+    (   { Where == [] ; needs_goal(Error), \+ stands_inside(Goal, Where) }
     ->  [ ', at ' ],
         goal_told(Goal)
-    ;   clauses_told(Where)
+    ;   []
     ).
+
+needs_goal(error(Formal, Context)) :-
+    nonvar(Formal),
+    functor(Formal, Kind, _),
+    memberchk(Kind, [ instantiation_error, uninstantiation_error, type_error,
+                      domain_error, representation_error ]),
+    \+ ( subsumes_term(context(_, _), Context),
+         Context = context(Caller, _),
+         nonvar(Caller) ).
+
+%   The goal is the call of a predicate in whose clause the error was raised.
+
+stands_inside(Goal, [[at(Name/Arity, _)|_]|_]) :-
+    callable(Goal),
+    functor(Goal, Name, Arity).
+
+raised_in(Fault) -->
+    { fault_told(Fault, _, Where, _, _) },
+    clauses_told(Where).
 
 goal_told((If->true)) -->
     !,

@@ -13,7 +13,8 @@ the wire, of networks and of the log keep the texts of their own messages.
 :- use_module('../wire', [endpoint_missed/2, tls_text/2]).
 :- use_module('../program', [files_beside/3]).
 :- use_module('../host', [address_parts/3, host_property/2]).
-:- use_module('../base/names', [names/2, names_joined/3, names_proposed/3]).
+:- use_module('../base/names',
+              [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 :- use_module('../travel', [agent_outcome/2]).
 :- use_module(happenings, [happening/3, short_name/2]).
 
@@ -78,6 +79,12 @@ prolog:error_message(existence_error(source_sink, File)) -->
       Meant \== ''
     },
     [ 'There is no file ~p~w'-[File, Meant] ].
+prolog:error_message(existence_error(state, Name/Arity, Declared)) -->
+    { names_proposed(Name, Declared, Meant),
+      names_listed(Declared, All)
+    },
+    [ 'The program does not declare ~p as state~w~w'-
+      [Name/Arity, Meant, All] ].
 prolog:error_message(existence_error(network, Network)) -->
     [ 'There is no network ~p'-[Network] ],
     meant(network, Network).

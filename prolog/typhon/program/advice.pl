@@ -1,5 +1,6 @@
 :- module(typhon_advice,
-          [ problem_error/3             % +Problem, +Others, -Error
+          [ problem_error/3,            % +Problem, +Others, -Error
+            advice_text/2               % +Advice, -Text
           ]).
 
 /** <module> Problems of a program as errors, with advice
@@ -28,6 +29,13 @@ calls when nobody catches the error.
 
 problem_error(problem(Formal, Location, Advice), Others,
               error(Formal, at(Location, Text, Others))) :-
+    advice_text(Advice, Text).
+
+%!  advice_text(+Advice, -Text:atom) is det.
+%
+%   Text says what to do; it is empty where the error says enough.
+
+advice_text(Advice, Text) :-
     phrase(advice(Advice), Parts),
     atomic_list_concat(Parts, Text).
 
@@ -146,6 +154,9 @@ advice(offered([])) -->
 advice(offered([PI|PIs])) -->
     { names_joined([PI|PIs], ' or ', Meant) },
     ['did you mean ', Meant, '? If not, a place or a payload must offer it'].
+advice(of_library(Library)) -->
+    ['library(', Library, ') defines it: write :- use_module(library(',
+     Library, ')) in the program'].
 advice(commits(Choice)) -->
     ['what stops an agent commits it: '],
     instead(Choice).

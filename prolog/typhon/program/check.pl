@@ -3,20 +3,19 @@
             agent_check/2               % +Spec, +Options
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/2, member/2, memberchk/2]).
+:- use_module(library(lists), [append/2, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../base/afresh', [raising_afresh/1]).
-:- use_module('../base/names', [names_near/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module(advice, [problem_error/3]).
 :- use_module(allowed, [policy_read/1]).
 :- use_module(guard, [guard_program/3, guard_refuses/4]).
-:- use_module(mobile, [ body_calls/2, built_in/1, mobile_predicates/3,
-                near_built_in/2 ]).
+:- use_module(mobile, [mobile_predicates/3]).
 :- use_module(parts, [file_parts/4, library_directive/2, part/3]).
 :- use_module(programs,
               [ in_file_order/3, payload_terms/3, program_doubts/3,
                 program_terms/6 ]).
+:- use_module(unknown, [unknown_problems/2]).
 :- use_module(slips, [apart_problem/3]).
 :- use_module(choices, [lost_choice/3]).
 :- use_module(source, [declaration/4, source_terms/5]).
@@ -40,9 +39,10 @@
 %     - of an agent, calls to predicates that neither it nor the vocabulary
 %       defines, so that a place or a payload must offer them
 %
-%   While some of it cannot be read, only that is told.  All but the last are
-%   told when an agent is created, too: errors are raised, warnings printed
-%   once, until the file changes.
+%   While some of it cannot be read, only that is told.  agent_create/3 raises
+%   the errors, and prints the warnings once for each program, until its file
+%   changes; those of the last kind unless a payload of the agent or the place
+%   of a host of this process defines the predicate.
 
 agent_check(Spec) :-
     raising_afresh(source_terms(Spec, Located, _, Unread, Once)),
@@ -104,8 +104,7 @@ looked_at([], Located, Errors, Warnings, Undefined) :-
         Undefined = []
     ;   program_terms(Located, _, _, Kinds, _, Errors),
         program_doubts(Located, Kinds, Warnings),
-        findall(P, undefined(Located, Warnings, P), Undefined0),
-        sort(Undefined0, Undefined)
+        unknown_problems(Located, Undefined)
     ).
 
 is_payload(Located) :-
@@ -133,52 +132,3 @@ moves([], Located, Errors, Warnings) :-
     findall(W, ( apart_problem(Rules, Directives-[], W)
                ; lost_choice(Rules, own([], Mobile), W) ),
             Warnings).
-
-%   undefined(+Located, +Warnings, -Problem) is nondet: Warnings say what it
-%   should have declared.
-
-undefined(Located, Warnings,
-          problem(unknown_procedure(PI), Location, offered(Near))) :-
-    file_parts(agent, Located, Parts, _),
-    part(rules, Parts, Rules),
-    member((_:-Body)-Location, Rules),
-    body_calls(Body, Calls),
-    member(call(PI, _), Calls),
-    \+ memberchk(problem(undeclared_state(PI), _, _), Warnings),
-    \+ defined(PI, Parts),
-    meant(PI, Parts, Near).
-
-%   meant(+PI, +Parts, -Near:list): what there is of that name, or else of one
-%   like it.
-
-meant(Name/Arity, Parts, Near) :-
-    findall(PI, ( own(Parts, PI) ; near_built_in(Name/Arity, PI) ), PIs),
-    findall(Name/N, member(Name/N, PIs), Same),
-    ( Same == [] -> Known = PIs ; Known = Same ),
-    sort(Known, Sorted),
-    names_near(Name, Sorted, Near).
-
-own(Parts, Name/Arity) :-
-    part(rules, Parts, Rules),
-    member((Head:-_)-_, Rules),
-    callable(Head),
-    functor(Head, Name, Arity).
-own(Parts, PI) :-
-    part(state, Parts, State),
-    member(PI, State).
-
-defined(PI, Parts) :-
-    (   built_in(PI)
-    ;   own(Parts, PI)
-    ;   library_directive(Parts, Library-_),
-        offers(Library, PI)
-    ),
-    !.
-
-offers(Library, PI) :-
-    absolute_file_name(Library, File,
-                       [ file_type(prolog), access(read),
-                         file_errors(fail) ]),
-    module_property(Module, file(File)),
-    module_property(Module, exports(Exports)),
-    memberchk(PI, Exports).

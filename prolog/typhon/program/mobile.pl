@@ -26,6 +26,9 @@ A static predicate of an agent program is
     payloads, the place): unfolded as long as one of them holds rules;
   - `native` otherwise: called at full speed.
 
+on_message/2 is at least `open`: if it fails, the machine knows which of its
+goals did.
+
 A mobile goal under a construct that must run it to its end, such as
 findall/3, forall/2 or \+, is a problem.
 
@@ -95,6 +98,8 @@ is_mobile(Name/Arity, Mobile) :-
 kind(Calls, Mobile, PI, PI-Kind) :-
     (   memberchk(PI, Mobile)
     ->  Kind = mobile
+    ;   PI == on_message/2
+    ->  Kind = open
     ;   closure([PI], Calls, [], Reached),
         kind_of(Reached, Calls, Kind)
     ).

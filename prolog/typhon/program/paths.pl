@@ -9,7 +9,8 @@
 Defines the file search paths `agents` and `payloads`.  agents(census) is
 agents/census.pl in the working directory, else in the directory this pack
 is installed in.  More directories are declared as for any search path, by
-adding clauses to user:file_search_path/2.
+adding clauses to user:file_search_path/2.  Where library(typhon) is not that
+of an installed pack, `library` leads to the one that is loaded.
 
 *Threading*: any thread.
 */
@@ -35,6 +36,20 @@ user:file_search_path(agents, Dir) :-
     program_directory(agents, Dir).
 user:file_search_path(payloads, Dir) :-
     program_directory(payloads, Dir).
+
+%   In a clone library(typhon) is no library of a pack: agents whose programs
+%   import it must find the one that is loaded.
+
+:- prolog_load_context(directory, Dir),
+   file_directory_name(Dir, Typhon),
+   file_directory_name(Typhon, Prolog),
+   (   absolute_file_name(library(typhon), File,
+                          [ file_type(prolog), access(read),
+                            file_errors(fail) ]),
+       file_directory_name(File, Prolog)
+   ->  true
+   ;   asserta(user:file_search_path(library, Prolog))
+   ).
 
 program_directory(Kind, Dir) :-
     (   working_directory(Parent, Parent)

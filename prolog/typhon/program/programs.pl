@@ -28,6 +28,7 @@
 :- use_module(slips, [apart_problem/3, undeclared_problem/3]).
 :- use_module(python_code, [python_payload/2]).
 :- use_module(source, [source_terms/5]).
+:- use_module(unknown, [unknown_problems/2]).
 
 /** <module> Agent programs and payloads
 
@@ -54,8 +55,7 @@ becomes a plain term:
 %   @arg Places say where its clauses stand, see typhon_places.
 %   @arg Sources is what it was read from, see source_terms/5.
 %   @arg Warnings are problems that do not keep it from running: what was
-%        found in reading, and program_doubts/3.  What makes clauses(Terms)
-%        is a program itself, and gets none.
+%        found in reading, those of program_doubts/3 and unknown_problems/2.
 %   @error The first problem that keeps the program from running, with the
 %        others in its context, see problem_error/3.
 
@@ -64,13 +64,9 @@ program_read(Spec, Program, Initial, Kinds, Places, Sources, Warnings) :-
     no_problems(Unread),
     program_terms(Located, Program, Initial, Kinds, Places, Errors),
     no_problems(Errors),
-    read_warnings(Spec, Located, Kinds, Once, Warnings).
-
-read_warnings(clauses(_), _, _, _, []) :-
-    !.
-read_warnings(_, Located, Kinds, Once, Warnings) :-
     program_doubts(Located, Kinds, Doubts),
-    append(Once, Doubts, Warnings0),
+    unknown_problems(Located, Unknown),
+    append([Once, Doubts, Unknown], Warnings0),
     in_file_order(Warnings0, Located, Warnings).
 
 %!  payload_load(+Spec, -Payload) is det.

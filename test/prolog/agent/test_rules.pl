@@ -40,7 +40,7 @@ test(of_the_beginning, true(Y == at(1))) :-
     with_tmp_dir(travelled([same/2], [facts([Rule])], [], Y)).
 test(added_later, true(Y == at(1))) :-
     rule(Rule),
-    with_tmp_dir(travelled([], [], [Rule], Y)).
+    with_tmp_dir(travelled([same/2], [], [Rule], Y)).
 
 :- end_tests(rules_of_agents).
 

@@ -54,6 +54,7 @@ says(Lines, Text) :-
 told(Messages, Text) :-
     member(Kind-Message, Messages),
     memberchk(Kind, [warning,error]),
+    Message = typhon(_),
     !,
     message_to_lines(Message, Line),
     sub_string(Line, Before, _, _, " at "),
@@ -139,9 +140,28 @@ test(nothing_came,
                    receive(user-_, 0.01), in main/0 (trip.pl:2)\n")) :-
     says([ ':- agent(trip, []).',
            'main :- receive(user-_, 0.01), log(x).' ], Text).
-test(what_nobody_has, true(Text == " at alpha (hop 0): Unknown procedure: \c
-                                    nosuch/1, in main/0 (trip.pl:2)\n")) :-
-    says([':- agent(trip, []).', 'main :- log(a), nosuch(1).'], Text).
+test(unknown_procedure_has_a_hint,
+     true(Text == " at alpha (hop 0): Unknown procedure: move/2 (did you mean \c
+                   move/1? If not, a place or a payload must offer it), in \c
+                   main/0 (trip.pl:2)\n")) :-
+    says([':- agent(trip, []).', 'main :- log(a), move(beta, now).'], Text).
+test(hint_is_in_the_outcome,
+     true(Hint == 'did you mean helper/1? If not, a place or a payload must \c
+                   offer it')) :-
+    on([alpha],
+       ( faulty([(main :- hepler(1)), helper(_)], A),
+         joined(A, raised(error(existence_error(procedure, _),
+                                context(_, Hint)))) )).
+test(library_typhon_is_named, true(sub_atom(Hint, _, _, _, Import))) :-
+    Import = ':- use_module(library(typhon))',
+    on([alpha],
+       ( faulty([(main :- agent_create(x, _, []))], A),
+         joined(A, raised(error(existence_error(procedure, _),
+                                context(_, Hint)))) )).
+test(unbound_argument_of_a_control_predicate,
+     true(Text == " at alpha (hop 0): Arguments are not sufficiently \c
+                   instantiated, at move(_), in main/0 (trip.pl:2)\n")) :-
+    says([':- agent(trip, []).', 'main :- move(_).'], Text).
 test(a_move_that_is_refused,
      true(Text == ", in main/0 (trip.pl:2)\n")) :-
     says([ ':- agent(trip, []).',
@@ -428,9 +448,12 @@ test(a_clause_fails, true(Text == " at alpha (hop 0): did not do with ask(1) \c
     after_mail([ on_message(_, say),
                  (on_message(_, ask(X)) :- s(X), move(beta)) ], ask(1), T),
     once(told(T, Text)).
-test(a_native_clause_fails, true(Text == ", in on_message/2, clause 1\n")) :-
-    after_mail([(on_message(_, ask(X)) :- s(X))], ask(1), T),
-    once(told(T, Text0)),
-    from_in(Text0, Text).
+test(goal_of_a_clause_that_stops_nowhere,
+     true(Text == " at alpha (hop 0): did not do with ask(1) from user what \c
+                   on_message/2 says; it failed: the goal that failed last \c
+                   was s(1), in on_message/2, clause 1\n")) :-
+    after_mail([(on_message(_, ask(X)) :- integer(X), s(X), true)], ask(1),
+               T),
+    once(told(T, Text)).
 
 :- end_tests(what_on_message_fails_with).

@@ -112,6 +112,35 @@ created(File, Count) :-
     findall(x, member(warning-error(singletons(_), _), Messages), Found),
     length(Found, Count).
 
+unknown_in(OptionLists, Found, File) :-
+    with_hosts([alpha],
+               findall(PIs, ( member(Options, OptionLists),
+                              unknown_at_creation(File, Options, PIs) ),
+                       Found)).
+
+unknown_at_creation(File, Options, PIs) :-
+    listening(( agent_create(File, Agent, Options), joined(Agent, _) ),
+              Messages),
+    unknown_of(Messages, PIs).
+
+unknown_of(Messages, PIs) :-
+    findall(PI, ( member(warning-error(unknown_procedure(PI), _), Messages),
+                  \+ memberchk(PI, [p/0, q/0]) ),
+            PIs).
+
+unknown_in_place([Before, After], File) :-
+    with_hosts([alpha], unknown_at_creation(File, [], Before)),
+    atom_concat(File, '.2.pl', Again),
+    copy_file(File, Again),
+    with_hosts([alpha],
+               ( remote(alpha, assertz(temperature(3))),
+                 unknown_at_creation(Again, [], After) )).
+
+clauses_created :-
+    create([(main :- member(H, [alpha]), move(H), true),
+            (p :- member(H, [alpha]), move(H), log(H), fail)], Agent),
+    joined(Agent, done).
+
 :- begin_tests(choices_given_up).
 
 test(failure_driven_loop, L == [lost_choice(member/2, move/1, fail/0)]) :-
@@ -257,14 +286,33 @@ test(file_without_clauses) :-
 
 test(warns_once_for_a_version, Counts == [1,0,1]) :-
     with_program(['p :- s(X).', 'q.'], test_check:warned(Counts)).
-test(clauses_are_not_warned_of, Messages == []) :-
+test(warns_once_of_clauses, Found == [lost_choice(member/2, move/1, fail/0)]) :-
     with_hosts([alpha],
-               listening(clauses_created, Messages)).
+               listening(( clauses_created, clauses_created ), Messages)),
+    findall(Formal, member(warning-error(Formal, _), Messages), Found).
 
-clauses_created :-
-    create([(main :- member(H, [alpha]), move(H), true),
-            (p :- member(H, [alpha]), move(H), fail)], Agent),
-    joined(Agent, done).
+%   What a program calls and does not define.
+
+test(unknown_procedure_is_warned_of_once, Found == [[move/2], []]) :-
+    with_program(['main :- move(beta, now).'],
+                 test_check:unknown_in([[], []], Found)).
+test(place_may_define_it, Found == [[temperature/1], []]) :-
+    with_program(['main :- temperature(_).'],
+                 test_check:unknown_in_place(Found)).
+test(payload_may_define_it, Found == [[]]) :-
+    with_program(['main :- temperature(_).'],
+                 test_check:unknown_in([[payloads([payload(
+                     thermometer, [temperature/1], [temperature(3)])])]],
+                     Found)).
+test(what_it_attaches_may_define_it, Found == [[move/2]]) :-
+    with_program(['main :- attach(x), temperature(_), move(beta, now).'],
+                 test_check:unknown_in([[]], Found)).
+test(library_of_clauses_defines_it, Found == []) :-
+    with_hosts([alpha],
+               listening(( create([(:- use_module(library(heaps))),
+                                   (main :- empty_heap(_))], A),
+                           joined(A, done) ), Messages)),
+    unknown_of(Messages, Found).
 
 :- end_tests(creation).
 
