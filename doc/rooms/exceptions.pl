@@ -101,7 +101,6 @@ exception('prolog/typhon/lifecycle/traced.pl',watch).
 exception('prolog/typhon/lifecycle/tracing.pl',watch).
 exception('prolog/typhon/program/advice.pl',snapshot).
 exception('prolog/typhon/program/allowed.pl',access).
-exception('prolog/typhon/program/check.pl',access).
 exception('prolog/typhon/program/check.pl',guard).
 exception('prolog/typhon/program/choices.pl',guard).
 exception('prolog/typhon/program/code.pl',guard).
@@ -112,6 +111,7 @@ exception('prolog/typhon/program/mobile.pl',guard).
 exception('prolog/typhon/program/paths.pl',access).
 exception('prolog/typhon/program/problems.pl',access).
 exception('prolog/typhon/program/python_code.pl',access).
+exception('prolog/typhon/program/unknown.pl',access).
 exception('prolog/typhon/travel/arrival.pl',journal).
 exception('prolog/typhon/travel/arrival.pl',trail).
 exception('prolog/typhon/travel/backlog.pl',journal).

@@ -138,7 +138,7 @@ unknown_in_place([Before, After], File) :-
 
 clauses_created :-
     create([(main :- member(H, [alpha]), move(H), true),
-            (p :- member(H, [alpha]), move(H), log(H), fail)], Agent),
+            (p :- member(H, [alpha, beta]), move(H), fail)], Agent),
     joined(Agent, done).
 
 :- begin_tests(choices_given_up).
