@@ -48,12 +48,14 @@ longest([ chaos, wire, doc, hop, sync_network, auction_network, cluster,
           network, faults, study_work, pack, robots, boxes_arena, ring,
           learning_network, repeatable, agent, scheduler, letters, app ]).
 
-%   These look at how the library is loaded, or at the options of swipl.
+%   These look at how the library is loaded, or at the options of swipl, or start
+%   attackers that have nothing of it but the wire.
 
 plain(pack).
 plain(site).
 plain(voice).
 plain(locale).
+plain(attackers).
 
 main(Names) :-
     suite_files(Names, Files0),
