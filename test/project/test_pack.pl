@@ -132,4 +132,20 @@ test(each_library_by_its_file_alone,
     run_swipl(['-f', none, '-g', Load, '-t', halt],
               [environment(['PATH'='/usr/bin:/bin'])], Status, _, Err).
 
+%   A program that imports library(typhon) has agents made by agents, from a
+%   clone as from a pack.
+
+test(agents_of_a_clone_import_the_library, Status-Out == exit(0)-"done\n") :-
+    project_file('prolog/typhon.pl', File),
+    format(atom(Load), 'use_module(~q)', [File]),
+    run_swipl(['-f', none, '-g', Load, '-g', 'host_start(a)',
+               '-g', 'agent_create(clauses([(:- agent(parent)), \c
+                          (:- use_module(library(typhon))), \c
+                          (main :- agent_create(clauses([(:- agent(child)), \c
+                                                         main]), C, []), \c
+                                   agent_join(C, O, 10), result(O))]), A), \c
+                      agent_result(A, O, 10), writeln(O)',
+               '-t', halt],
+              [environment(['PATH'='/usr/bin:/bin'])], Status, Out, _).
+
 :- end_tests(pack).

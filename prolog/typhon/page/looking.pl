@@ -11,7 +11,7 @@
 :- use_module('../network', [network_property/2]).
 :- use_module('../people', [host_close_up/2]).
 :- use_module(mechanisms, [mechanism_dicts/1, program_names/1]).
-:- use_module(protocol, [name_text/2, scene_dict/3, text/2]).
+:- use_module(protocol, [name_text/2, place_text/2, scene_dict/3, text/2]).
 :- use_module(replay, [replay_of_text/3]).
 :- use_module(said, [on_console/1]).
 :- use_module(sources, [sources_look/1]).
@@ -118,7 +118,8 @@ shown(facts(Facts), fact_count, Count) :- length(Facts, Count).
 shown(mailbox(Mail), mailbox, Rows) :- first_of(Mail, mail_row, Rows).
 shown(fault(fault(Error, Goal, Place, Host)), fault,
       _{error:ErrorText, goal:GoalText, place:PlaceText, host:HostText}) :-
-    maplist(text, [Error, Goal, Place], [ErrorText, GoalText, PlaceText]),
+    maplist(text, [Error, Goal], [ErrorText, GoalText]),
+    place_text(Place, PlaceText),
     name_text(Host, HostText).
 
 first_texts(Terms, Texts) :-

@@ -4,6 +4,7 @@
             scene_dict/3,               % +Time, +Scene, -Dict
             text/2,                     % +Term, -Text
             name_text/2,                % +Atomic, -Text
+            place_text/2,               % +Place, -Text
             number_told/2,              % +Number, -Told
             error_text/2                % +Error, -Text
           ]).
@@ -80,6 +81,11 @@ what_row(arrived(From, Seconds), Kind, Arguments) =>
     Kind = "arrived",
     name_text(From, Text),
     Arguments = [Text, Seconds].
+what_row(fault(fault(Error, Goal, Place, Host)), Kind, Arguments) =>
+    Kind = "fault",
+    place_short(Place, Short),
+    text(fault(Error, Goal, Short, Host), Text),
+    Arguments = [Text].
 what_row(skipped(Count), Kind, Arguments) =>
     Kind = "skipped",
     Arguments = [Count].
@@ -102,6 +108,26 @@ argument_text(Term, Text) :-
     ->  name_text(Term, Text)
     ;   text(Term, Text)
     ).
+
+%!  place_text(+Place, -Text:string) is det.
+%
+%   Place of a fault, as of agent_property/2, with the name of the file alone:
+%   the file may be one of the editor, or of another machine.
+
+place_text(Place, Text) :-
+    place_short(Place, Short),
+    (   Short = Name:Line,
+        integer(Line),
+        atom(Name)
+    ->  format(string(Text), '~w:~d', [Name, Line])
+    ;   text(Short, Text)
+    ).
+
+place_short(File:Line, Short), atom(File) =>
+    file_base_name(File, Name),
+    Short = Name:Line.
+place_short(Place, Short) =>
+    Short = Place.
 
 %!  skipped_row(+Count, -Row) is det.
 

@@ -9,6 +9,7 @@
 :- use_module('../base/options', [check_options/2]).
 :- use_module(advice, [problem_error/3]).
 :- use_module(allowed, [policy_read/1]).
+:- use_module(goal_lines, [problem_at_goal/2]).
 :- use_module(guard, [guard_program/3, guard_refuses/4]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(parts, [file_parts/4, library_directive/2, part/3]).
@@ -91,7 +92,8 @@ would_be_let_in(Policy, Spec, Located) :-
           ( print_message(error, typhon(not_let_in(Spec, Formal))), fail )),
     Refused == [].
 
-report(Severity, Problem) :-
+report(Severity, Problem0) :-
+    problem_at_goal(Problem0, Problem),
     problem_error(Problem, [], Error),
     print_message(Severity, Error).
 

@@ -11,6 +11,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(paths, [program_file/2]).
 :- use_module(advice, [problem_error/3]).
+:- use_module(goal_lines, [problem_at_goal/2]).
 :- use_module(programs, [program_hash/2, program_read/7]).
 :- use_module(signatures, [signature_read/2]).
 :- use_module(source, [source_same/1, source_settled/1]).
@@ -125,7 +126,8 @@ is_news(Key, Sources, Hash, Unknown) :-
     assertz(unknown(Hash, Unknown)),
     forget_oldest(unknown(_, _)).
 
-print_warning(Warning) :-
+print_warning(Warning0) :-
+    problem_at_goal(Warning0, Warning),
     problem_error(Warning, [], Error),
     print_message(warning, Error).
 

@@ -17,6 +17,7 @@
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module(advice, [problem_error/3]).
 :- use_module(choices, [lost_choice/3]).
+:- use_module(goal_lines, [problem_at_goal/2]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(parts,
               [ clause_indicator/2, file_parts/4, in_state/2,
@@ -87,8 +88,10 @@ payload_load(Spec, Payload) :-
     payload_terms(Located, Payload, Errors),
     no_problems(Errors).
 
-no_problems([]).
-no_problems([Problem|Others]) :-
+no_problems([]) :-
+    !.
+no_problems(Problems) :-
+    maplist(problem_at_goal, Problems, [Problem|Others]),
     problem_error(Problem, Others, Error),
     throw(Error).
 

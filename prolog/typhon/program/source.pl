@@ -1,6 +1,7 @@
 :- module(typhon_source,
           [ source_terms/5,             % +Spec, -Located, -Sources, -Errors,
                                         % -Warnings
+            source_clause/2,            % +Location, -Clause
             source_settled/1,           % +Sources
             source_same/1,              % +Sources
             declaration/4,              % +Kind, +Term, -Name, -Options
@@ -217,6 +218,43 @@ import_operators((:- Directive), Module) :-
     !,
     catch(Module:Directive, error(_, _), true).
 import_operators(_, _).
+
+                /*******************************
+                *           ONE CLAUSE         *
+                *******************************/
+
+%!  source_clause(+Location, -Clause) is semidet.
+%
+%   Clause is clause(Term, Layout, Names) of the term that stands at Location,
+%   File:Line, as read_term/2 has its subterm_positions and variable_names.
+%   Fails if it is not there any more, or cannot be read by itself.
+
+source_clause(File:Line, Clause) :-
+    exists_file(File),
+    setup_call_cleanup(
+        scratch_module(Module),
+        catch(clause_in(File, Line, Module, Clause), error(_, _), fail),
+        '$destroy_module'(Module)).
+
+clause_in(File, Line, Module, Clause) :-
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        clause_at(In, Line, Module, Clause),
+        close(In)).
+
+clause_at(In, Line, Module, Clause) :-
+    read_term(In, Term,
+              [ module(Module), term_position(Position),
+                subterm_positions(Layout), variable_names(Names),
+                syntax_errors(error) ]),
+    stream_position_data(line_count, Position, At),
+    Term \== end_of_file,
+    (   At =:= Line
+    ->  Clause = clause(Term, Layout, Names)
+    ;   At < Line,
+        import_operators(Term, Module),
+        clause_at(In, Line, Module, Clause)
+    ).
 
                 /*******************************
                 *            CHANGES           *

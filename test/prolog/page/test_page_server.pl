@@ -310,6 +310,15 @@ test(fault) :-
     Fault = Agent.fault,
     assertion(_{goal:"main", place:"main/0:1"} :< Fault).
 
+test(place_of_a_fault_has_no_folder, Place == "program.pl:3") :-
+    Text = ":- agent(p, []).\n\nmain :- sleep(0), fail.\n",
+    page(Base, ( listening(( answer(Base, _{do:"create", text:Text,
+                                            host:"alpha"}, Done),
+                             atom_string(A, Done.done),
+                             wait_state(A, faulty(_)) ), _),
+                 answer(Base, _{ask:"agent", agent:A}, Agent) )),
+    Place = Agent.fault.place.
+
 test(host) :-
     page(Base, ( remote(alpha, ( leave(parcel(7)), assertz(door(open)) )),
                  answer(Base, _{ask:"host", host:"alpha"}, Host) )),
@@ -404,6 +413,13 @@ test(check, Said == [["error", 3], ["warning", 2], ["warning", 3]]) :-
     sort(Said0, Said),
     forall(( member(P, Problems), get_dict(text, P, Words) ),
            assertion(\+ sub_string(Words, _, _, _, "program.pl"))).
+
+test(line_of_the_goal, Lines == [6]) :-
+    Text = ":- agent(p, []).\nmain :-\n    here(_),\n    forall(true,\n\c
+                       \u0020          \n        move(b)).\n",
+    page(Base, ( answer(Base, _{do:"check", text:Text}, Answer),
+                 Said = Answer.said )),
+    findall(Line, ( member(P, Said), get_dict(line, P, Line) ), Lines).
 
 test(create_is_refused) :-
     page(Base, says(Base, _{do:"create", text:"main :- .", host:"alpha"},

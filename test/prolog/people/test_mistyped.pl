@@ -115,6 +115,14 @@ test(topology) :-
 test(arguments_of_a_topology) :-
     says(network_start(grid(3), _, []), ["(did you mean grid(Rows,Cols)?)"]),
     says(network_start(ring(a), _, []), ["in ring(a)"]).
+test(clock) :-
+    says(network_start(ring(2), _, [clock(fast)]), ["clock(virtual)"]),
+    says(host_start(a, [clock(fast)]), ["virtual"]).
+test(words_of_agents, [forall(member(Goal-Outside,
+                                     [ move(beta)-"agent_move(Agent, Host)",
+                                       send(a, b)-"agent_send(Agent, Message)",
+                                       leave(x)-"remote(Host, leave(_))" ]))]) :-
+    says(user:Goal, ["Unknown procedure", Outside]).
 test(dynamic_model) :-
     says(network_start(ring(4), _, [dynamic(dynamc_1)]),
          ["(did you mean dynamic_1"]).

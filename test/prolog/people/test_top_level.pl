@@ -76,6 +76,21 @@ mistake_line(Mistakes, Line) :-
     ;   format(atom(Line), 'format("~~nafter ~d~~n").', [N])
     ).
 
+%   Prolog would offer the predicate of a module instead.
+
+test(words_of_agents_are_not_corrected, true(N-Written == 3-[])) :-
+    with_tmp_dir(words_typed(Lines)),
+    findall(x, ( member(L, Lines),
+                 sub_string(L, _, _, _, "agent_move(Agent, Host)") ), Xs),
+    length(Xs, N),
+    findall(L, ( member(L, Lines),
+                 ( sub_string(L, _, _, _, "typhon_")
+                 ; sub_string(L, _, _, _, "Exception") ) ), Written).
+
+words_typed(Lines, Dir) :-
+    typed([ 'move(beta).', 'forall(true, move(beta)).',
+            'atom(a), move(beta).' ], Dir, Lines).
+
 :- end_tests(mistakes).
 
 :- dynamic

@@ -67,6 +67,11 @@ creation_error(Error, File) :-
     with_hosts([alpha],
                catch(agent_create(File, _), Error, true)).
 
+unknown_line(Line, File) :-
+    listening(agent_check(File), Messages),
+    member(_-error(unknown_procedure(_), at(_:Line, _, _)), Messages),
+    !.
+
 creation_text(Lines, Text) :-
     with_program(Lines, test_check:creation_error(Error)),
     text_of(Error, Text).
@@ -279,6 +284,34 @@ test(file_without_clauses) :-
     with_tmp_dir(test_check:empty_file).
 
 :- end_tests(errors).
+
+:- begin_tests(lines_of_goals).
+
+%   Lines are those of the file, in which the first of these is the third.
+
+at_line(['p :- true,', '    forall(member(H, [a]),', '           move(H)).',
+         'q.'], 5).
+at_line(['p :- move(a),', '    forall(true,', '           ( true, move(H) )),',
+         '    log(H).', 'q.'], 5).
+at_line(['p :- q,', '    assertz(', '        q).', 'q.'], 4).
+at_line(['p :- q,', '    assertz(t(1)).', 'q.'], 4).
+at_line(['p :- q,', '    atom(a), [x] = [Slip].', 'q.'], 4).
+at_line(['p :- q, member(X, [a, b]),', '    log(X),', '    move(X),',
+         '    fail.', 'q.'], 5).
+at_line(['p --> [a],', '    { assertz(u(1)) }.', 'p :- q. q.'], 4).
+
+test(problem_is_at_its_goal, [forall(at_line(Lines, Line)),
+                              true(Found = [Line-_])]) :-
+    found(Lines, Found).
+test(unknown_procedure_is_at_its_goal, Line == 5) :-
+    with_program(['p :- q,', '    log(a),', '    findall(X, reprot(X), _).',
+                  'q.'], test_check:unknown_line(Line)).
+test(raised_error_is_at_its_goal, Line == 4) :-
+    with_program(['p :- q,', '    forall(true, move(a)).', 'q.'],
+                 test_check:creation_error(Error)),
+    Error = error(_, at(_:Line, _, _)).
+
+:- end_tests(lines_of_goals).
 
 :- begin_tests(creation).
 

@@ -1,0 +1,129 @@
+:- module(typhon_goal_lines,
+          [ problem_at_goal/2           % +Problem0, -Problem
+          ]).
+:- use_module(library(lists), [append/3, nth1/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(source, [source_clause/2]).
+
+/** <module> The line of the goal that is meant
+
+Problems are found by clauses, and stand where these begin.  Before one is
+printed or raised its clause is read again, with the positions of its parts,
+for the line of the goal, or of the variable, that it is about.
+
+*Threading*: any thread.
+*/
+
+%!  problem_at_goal(+Problem0, -Problem) is det.
+%
+%   Problem is Problem0 at the line of its goal.  It stays where it is if that
+%   goal is not found, as in clauses that were not read from a file.
+
+problem_at_goal(problem(Formal, File:Line0, Advice),
+                problem(Formal, File:Line, Advice)) :-
+    about(Formal, Advice, Target),
+    source_clause(File:Line0, Clause),
+    position(Target, Clause, Offset),
+    line_at(File, Offset, Line),
+    Line >= Line0,
+    !.
+problem_at_goal(Problem, Problem).
+
+%   about(+Formal, +Advice, -Target)
+
+about(unknown_procedure(PI), _, goal(PI)).
+about(lost_choice(_, PI, _), _, goal(PI)).
+about(permission_error(call, control_predicate, PI), inside(Context),
+      within(Context, PI)).
+about(permission_error(modify, static_procedure, PI), undeclared(PI),
+      change(PI)).
+about(undeclared_state(PI), _, change(PI)).
+about(singletons([Name|_]), _, variable(Name)).
+
+%   position(+Target, +Clause, -Offset) is semidet.
+
+position(variable(Name), clause(Term, Layout, Names), Offset) :-
+    !,
+    memberchk(Name=Variable, Names),
+    part(Term, Layout, Part, At),
+    Part == Variable,
+    !,
+    begins(At, Offset).
+position(Target, clause(Term, Layout, _), Offset) :-
+    body(Term, Layout, Body, BodyAt),
+    part(Body, BodyAt, Part, At),
+    is_target(Target, Part, At, Offset),
+    !.
+
+body(Term, parentheses_term_position(_, _, At), Body, BodyAt) :-
+    !,
+    body(Term, At, Body, BodyAt).
+body((_:-Body), term_position(_, _, _, _, [_,At]), Body, At).
+body((_-->Body), term_position(_, _, _, _, [_,At]), Body, At).
+
+is_target(goal(PI), Part, At, Offset) :-
+    calls(Part, PI),
+    begins(At, Offset).
+is_target(within(Context, PI), Part, At, Offset) :-
+    calls(Part, Context),
+    argument(Part, At, Argument, ArgumentAt),
+    part(Argument, ArgumentAt, Goal, GoalAt),
+    calls(Goal, PI),
+    begins(GoalAt, Offset).
+is_target(change(Name/Arity), Part, At, Offset) :-
+    compound(Part),
+    compound_name_arguments(Part, Change, [Clause]),
+    memberchk(Change, [assert, asserta, assertz, retract, retractall]),
+    nonvar(Clause),
+    ( Clause = (Head:-_) -> true ; Head = Clause ),
+    callable(Head),
+    functor(Head, Name, Arity),
+    begins(At, Offset).
+
+%   calls(+Term, +PI) is semidet: it has the name, and so many arguments, or
+%   fewer if some are added to it.
+
+calls(Term, Name/Arity) :-
+    callable(Term),
+    functor(Term, Name, N),
+    N =< Arity.
+
+%   part(+Term, +Layout, -Part, -At) is nondet: Part, of Term, stands At; what
+%   comes first is first.
+
+part(Term, Layout, Part, At) :-
+    nonvar(Layout),
+    (   Layout = parentheses_term_position(_, _, Inner)
+    ->  part(Term, Inner, Part, At)
+    ;   part_of(Term, Layout, Part, At)
+    ).
+
+part_of(Term, Layout, Term, Layout).
+part_of(Term, Layout, Part, At) :-
+    argument(Term, Layout, Argument, ArgumentAt),
+    part(Argument, ArgumentAt, Part, At).
+
+argument(Term, term_position(_, _, _, _, Ats), Argument, At) :-
+    compound(Term),
+    nth1(I, Ats, At),
+    arg(I, Term, Argument).
+argument({Argument}, brace_term_position(_, _, At), Argument, At).
+argument(List, list_position(_, _, Ats, _), Argument, At) :-
+    nth1(I, Ats, At),
+    nth1(I, List, Argument).
+argument(List, list_position(_, _, Ats, At), Tail, At) :-
+    At \== none,
+    length(Ats, Count),
+    length(Begin, Count),
+    append(Begin, Tail, List).
+
+begins(Layout, Offset) :-
+    arg(1, Layout, Offset).
+
+%   Offset is that of a character.
+
+line_at(File, Offset, Line) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    sub_string(Text, 0, Offset, _, Before),
+    split_string(Before, "\n", "", Lines),
+    length(Lines, Line).
