@@ -20,6 +20,11 @@ What rosapi answers of topics and services is answered here.  When messages
 come faster than they are taken some are dropped; then there is a frame
 
     dropped      topic count
+
+Callbacks of rclpy run in the thread of the executor.  They pass messages on
+to the outbox; what else they have to say they leave to the thread that
+serves, by soon(), and only that thread knows what is advertised, subscribed
+to and under way.
 """
 
 import argparse
@@ -74,16 +79,24 @@ except ImportError as problem:
     MISSING = problem
 
 
+def guarded(function, *arguments):
+    """Of a callback that fails only that is said."""
+    try:
+        function(*arguments)
+    except Exception as problem:
+        print('%s: %s' % (type(problem).__name__, problem), file=sys.stderr)
+
+
 class Outlet:
     """A publisher that keeps what it is given until it is heard.
 
-    Who publishes at once would otherwise do so before those who listen are
-    known.
+    What is published at once would otherwise go out before the subscribers
+    are known.
     """
 
-    def __init__(self, node, cls, name, topic, born):
+    def __init__(self, node, cls, name, topic, born, soon):
         self.cls, self.name = cls, name
-        self.lock, self.held = threading.Lock(), []
+        self.held = []
         patience = born + FINDING - time.monotonic()
         if node.count_subscribers(topic) > 0:
             patience = max(patience, MATCHING)
@@ -92,30 +105,26 @@ class Outlet:
         self.publisher = node.create_publisher(
             cls, topic, QoSProfile(depth=DEPTH),
             event_callbacks=PublisherEventCallbacks(
-                matched=self.matched, use_default_callbacks=False))
+                matched=lambda _status: soon(self.flush),
+                use_default_callbacks=False))
         if patience > 0:
-            timer = threading.Timer(patience, self.flush)
+            timer = threading.Timer(patience, soon, (self.flush,))
             timer.daemon = True
             timer.start()
 
-    def matched(self, _status):
-        self.flush()
-
     def flush(self):
-        with self.lock:
-            held, self.held = self.held, None
-            for message in held or ():
-                self.publisher.publish(message)
+        held, self.held = self.held, None
+        for message in held or ():
+            self.publisher.publish(message)
 
     def publish(self, message):
-        with self.lock:
-            if self.held is None:
-                self.publisher.publish(message)
-            elif len(self.held) < MOST_HELD:
-                self.held.append(message)
-            else:
-                raise Refusal('ros', 'more than %d messages wait until '
-                                     'somebody hears them' % MOST_HELD)
+        if self.held is None:
+            self.publisher.publish(message)
+        elif len(self.held) < MOST_HELD:
+            self.held.append(message)
+        else:
+            raise Refusal('ros', 'more than %d messages wait for a '
+                                 'subscriber' % MOST_HELD)
 
 
 class Ear:
@@ -125,8 +134,9 @@ class Ear:
     what was published before if all of them keep that.
     """
 
-    def __init__(self, node, cls, topic, hear):
+    def __init__(self, node, cls, topic, hear, soon):
         self.node, self.cls, self.topic, self.hear = node, cls, topic, hear
+        self.soon = soon
         known = [info.qos_profile
                  for info in node.get_publishers_info_by_topic(topic)]
         self.subscription = None
@@ -145,10 +155,10 @@ class Ear:
                        else Durability.VOLATILE),
             event_callbacks=SubscriptionEventCallbacks(
                 incompatible_qos=None if best_effort and not kept
-                else self.incompatible,
+                else lambda _status: self.soon(self.incompatible),
                 use_default_callbacks=False))
 
-    def incompatible(self, _status):
+    def incompatible(self):
         if self.subscription is not None:
             old = self.subscription
             self.subscribe(True, False)
@@ -232,7 +242,6 @@ class Node(Helper):
         self.calls = {}                 # id: how to respond
         self.waiting = {}               # client, future: deadline
         self.goals = {}                 # id: handle, or what is to be done
-        self.lock = threading.Lock()
         self.clients = Clients(
             lambda cls, service: self.node.create_client(cls, service),
             self.node.destroy_client)
@@ -250,6 +259,9 @@ class Node(Helper):
             except Exception as problem:        # of one callback
                 print('%s: %s' % (type(problem).__name__, problem),
                       file=sys.stderr)
+
+    def soon(self, function, /, *arguments):
+        super().soon(guarded, function, *arguments)
 
     def do_frame(self, request, deadline):
         frame = request.get('frame')
@@ -287,7 +299,7 @@ class Node(Helper):
         cls = messages.message_class(name)
         if topic not in self.outlets:
             self.outlets[topic] = Outlet(self.node, cls, name, topic,
-                                         self.born)
+                                         self.born, self.soon)
 
     def op_publish(self, frame, _deadline):
         topic = text(frame, 'topic')
@@ -306,7 +318,7 @@ class Node(Helper):
                 self.node, cls, topic,
                 lambda message: self.outbox.put_message(
                     {'op': 'publish', 'topic': topic,
-                     'msg': messages.said(message)}))
+                     'msg': messages.said(message)}), self.soon)
 
     def op_unsubscribe(self, frame, _deadline):
         subscription = self.subscriptions.pop(text(frame, 'topic'), None)
@@ -341,31 +353,28 @@ class Node(Helper):
 
         def look():
             left = min(FINDING, 0.9 * (deadline - time.monotonic()))
-            if wait(timeout_sec=max(0.0, left)):
-                then()
-            else:
-                otherwise()
+            found = wait(timeout_sec=max(0.0, left))
+            self.soon(then if found else otherwise)
         threading.Thread(target=look, daemon=True).start()
 
     def call(self, client, request, number, service, deadline):
-        with self.lock:
-            now = time.monotonic()
-            late = [one for one, until in self.waiting.items() if until < now]
-            for old in late:
-                del self.waiting[old]
-                old[0].remove_pending_request(old[1])
-            future = client.call_async(request)
-            self.waiting[client, future] = deadline
+        now = time.monotonic()
+        late = [one for one, until in self.waiting.items() if until < now]
+        for old in late:
+            del self.waiting[old]
+            old[0].remove_pending_request(old[1])
+        future = client.call_async(request)
+        self.waiting[client, future] = deadline
+        future.add_done_callback(
+            lambda _: self.soon(self.answered, client, future, number,
+                                service))
 
-        def done(_):
-            with self.lock:
-                self.waiting.pop((client, future), None)
-            if future.exception() is not None:
-                self.respond(number, service, str(future.exception()), False)
-            elif future.result() is not None:
-                self.respond(number, service,
-                             messages.said(future.result()))
-        future.add_done_callback(done)
+    def answered(self, client, future, number, service):
+        self.waiting.pop((client, future), None)
+        if future.exception() is not None:
+            self.respond(number, service, str(future.exception()), False)
+        elif future.result() is not None:
+            self.respond(number, service, messages.said(future.result()))
 
     def respond(self, number, service, values, result=True):
         self.frame('service_response', id=number, service=service,
@@ -394,20 +403,23 @@ class Node(Helper):
             respond = service.send_response
 
             def ask(request, header):
-                number = str(uuid.uuid4())
-                self.calls[number] = (name, cls, respond, header)
-                self.frame('call_service', id=number, service=name,
-                           args=messages.said(request))
+                self.soon(self.asked, name, cls, respond, header,
+                          messages.said(request))
             service.send_response = ask
             self.services[name] = service
+
+    def asked(self, name, cls, respond, header, request):
+        if name in self.services:
+            number = str(uuid.uuid4())
+            self.calls[number] = (name, cls, respond, header)
+            self.frame('call_service', id=number, service=name, args=request)
 
     def op_unadvertise_service(self, frame, _deadline):
         name = text(frame, 'service')
         service = self.services.pop(name, None)
         if service is not None:
-            for number, call in list(self.calls.items()):
-                if call[0] == name:
-                    self.calls.pop(number, None)
+            self.calls = {number: call for number, call
+                          in self.calls.items() if call[0] != name}
             self.node.destroy_service(service)
 
     def op_service_response(self, frame, _deadline):
@@ -440,25 +452,28 @@ class Node(Helper):
             self.frame('action_feedback', id=number, action=action,
                        values=messages.said(message.feedback))
 
-        def accepted(future):
-            handle = future.result()
-            if handle is None or not handle.accepted:
-                self.no_result(number, action, 'Action goal was rejected')
-                return
-            with self.lock:
-                cancel, self.goals[number] = self.goals.get(number), handle
-            if cancel:
-                handle.cancel_goal_async()
-            handle.get_result_async().add_done_callback(done)
-
-        def done(future):
-            self.goals.pop(number, None)
-            result = future.result()
-            self.frame('action_result', id=number, action=action,
-                       values=messages.said(result.result),
-                       status=result.status, result=True)
         client.send_goal_async(goal, feedback_callback=heard) \
-            .add_done_callback(accepted)
+            .add_done_callback(
+                lambda future: self.soon(self.decided, future, number,
+                                         action))
+
+    def decided(self, future, number, action):
+        handle = future.result()
+        if handle is None or not handle.accepted:
+            self.no_result(number, action, 'Action goal was rejected')
+            return
+        cancel, self.goals[number] = self.goals.get(number), handle
+        if cancel:
+            handle.cancel_goal_async()
+        handle.get_result_async().add_done_callback(
+            lambda future: self.soon(self.ended_goal, future, number, action))
+
+    def ended_goal(self, future, number, action):
+        self.goals.pop(number, None)
+        result = future.result()
+        self.frame('action_result', id=number, action=action,
+                   values=messages.said(result.result),
+                   status=result.status, result=True)
 
     def no_result(self, number, action, why):
         self.goals.pop(number, None)
@@ -467,13 +482,10 @@ class Node(Helper):
 
     def op_cancel_action_goal(self, frame, _deadline):
         number = text(frame, 'id')
-        with self.lock:
-            if number not in self.goals:
-                return
-            handle = self.goals[number]
-            if handle is None:
-                self.goals[number] = True       # when it is accepted
-        if handle not in (None, True):
+        handle = self.goals.get(number, True)
+        if handle is None:
+            self.goals[number] = True           # when it is accepted
+        elif handle is not True:
             handle.cancel_goal_async()
 
 
