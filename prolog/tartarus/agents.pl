@@ -22,7 +22,7 @@
             get_new_name_alpha/1        % -Name
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2, subtract/3, union/3]).
+:- use_module(library(lists), [member/2, reverse/2, subtract/3, union/3]).
 :- use_module(library(random), [random_member/2]).
 :- use_module('../typhon', [remote/2]).
 :- use_module(bodies,
@@ -55,8 +55,8 @@ Creating, running and ending them, and what they own.
 %!  agent_create(?Name, +Handler) is det.
 %
 %   Create an agent, which does not run yet.  Name, if unbound, is made of six
-%   letters; Location, if unbound, is here.  An agent of that name that is
-%   here is replaced.
+%   letters; Location, or what is unbound in it, is that of this platform.  An
+%   agent of that name that is here is replaced.
 
 create_mobile_agent(Name, Handler, Tokens) :-
     atom(Handler),
@@ -101,12 +101,23 @@ integers(Tokens) :-
     maplist(integer, Tokens).
 
 located(Location) :-
-    (   nonvar(Location)
+    (   ground(Location)
     ->  true
-    ;   here(Location)
+    ;   \+ here(_)
+    ->  must([check(ma6, 'a platform has been started', fail)])
+    ;   here(Here),
+        completed(Location, Here)
     ->  true
-    ;   must([check(ma6, 'a platform has been started', fail)])
+    ;   must([check(ma7, 'the location is (IP,Port)', fail)])
     ).
+
+%   The same place may be written in two ways, as localhost and 127.0.0.1.
+
+completed(Location, Location) :-
+    !.
+completed((Ip,Port), (Here,Port)) :-
+    nonvar(Ip),
+    same_location((Ip,Port), (Here,Port)).
 
 %   What another platform has is seen there.
 
@@ -275,7 +286,8 @@ remove_payload(Name, Indicators) :-
 %!  list_agent(-Agents:list) is det.
 %!  agent_list_new(-Names:list) is det.
 %
-%   The agents here, (Name,Handler,Port), the newest first.
+%   The agents here.  list_agent/0 and agent_list_new/1 have the oldest first;
+%   list_agent/1, (Name,Handler,Port), the newest, as in Tartarus.
 
 list_agent :-
     told("================Agent list===============~n", []),
@@ -285,7 +297,8 @@ list_agent :-
     told("=========================================~n", []).
 
 list_agent(Agents) :-
-    findall((Name,Handler,Port), record(Name, Handler, (_,Port)), Agents).
+    findall((Name,Handler,Port), record(Name, Handler, (_,Port)), Oldest),
+    reverse(Oldest, Agents).
 
 agent_list_new(Names) :-
     findall(Name, record(Name, _, _), Names).
@@ -305,7 +318,7 @@ tartarus_platform:status :-
 
 %!  isexist_agent(?Name, ?Location, ?Handler) is semidet.
 %
-%   The first that matches.
+%   The oldest that matches.
 
 isexist_agent(Name, Location, Handler) :-
     record(Name, Handler, Own),

@@ -40,8 +40,8 @@ own_clause(Head, Body) :-
     arg(1, Head, Name),
     functor(Head, Predicate, Arity),
     functor(General, Predicate, Arity),
+    is_own(General),
     predicate_property(user:General, number_of_clauses(_)),
-    \+ predicate_property(user:General, imported_from(_)),
     arg(1, General, First),
     clause(user:General, Body),
     First == Name,
@@ -85,8 +85,8 @@ body_erase(Name, Indicators) :-
 
 erase_of(Name, (Predicate,Arity)) :-
     functor(Head, Predicate, Arity),
-    (   predicate_property(user:Head, dynamic),
-        \+ predicate_property(user:Head, imported_from(_))
+    (   is_own(Head),
+        predicate_property(user:Head, dynamic)
     ->  arg(1, Head, First),
         findall(Ref, ( clause(user:Head, _, Ref), First == Name ), Refs),
         maplist(gone, Refs)
@@ -100,8 +100,8 @@ gone(Ref) :-
 %   the clauses it has.
 
 make_dynamic(Head) :-
-    (   predicate_property(user:Head, dynamic),
-        \+ predicate_property(user:Head, imported_from(_))
+    (   is_own(Head),
+        predicate_property(user:Head, dynamic)
     ->  true
     ;   with_mutex(tartarus_dynamic, static_to_dynamic(Head))
     ).
@@ -109,17 +109,36 @@ make_dynamic(Head) :-
 static_to_dynamic(Head0) :-
     functor(Head0, Predicate, Arity),
     functor(Head, Predicate, Arity),
-    (   own(Head)
+    (   is_static(Head)
     ->  findall((Head:-Body), clause(user:Head, Body), Clauses),
         abolish(user:Predicate/Arity)
-    ;   Clauses = []
+    ;   Clauses = [],
+        override_import(Head)
     ),
     dynamic(user:Predicate/Arity),
     forall(member(Clause, Clauses), assertz(user:Clause)).
 
-own(Head) :-
-    predicate_property(user:Head, defined),
-    \+ predicate_property(user:Head, dynamic),
+is_static(Head) :-
+    is_own(Head),
+    \+ predicate_property(user:Head, dynamic).
+
+%   As a definition in a file does: a library may have the same name.
+
+override_import(Head) :-
+    (   functor(Head, Predicate, Arity),
+        current_predicate(user:Predicate/Arity)
+    ->  redefine_system_predicate(user:Head)
+    ;   true
+    ).
+
+%!  is_own(+Head) is semidet.
+%
+%   Module `user` defines the predicate.  Only current_predicate/1 does not load
+%   a library that has one of that name: predicate_property/2 would import it.
+
+is_own(Head) :-
+    functor(Head, Predicate, Arity),
+    current_predicate(user:Predicate/Arity),
     \+ predicate_property(user:Head, imported_from(_)).
 
 %!  renamed(+Old, +New, +Term0, -Term) is det.

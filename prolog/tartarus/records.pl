@@ -28,7 +28,7 @@ Programs look at these facts, so they are in module `user`.
 
 %!  record(?Name, ?Handler, ?Location) is nondet.
 %
-%   The newest first.
+%   The oldest first.
 
 record(Name, Handler, Location) :-
     user:agent_GUID(Name, Handler, Location).
@@ -39,7 +39,7 @@ record(Name, Handler, Location) :-
 record_add(Name, Handler, Location, Tokens) :-
     set_tokens(Name, Tokens),
     set_payload(Name, []),
-    asserta(user:agent_GUID(Name, Handler, Location)).
+    assertz(user:agent_GUID(Name, Handler, Location)).
 
 record_remove(Name) :-
     retractall(user:agent_GUID(Name, _, _)),

@@ -434,6 +434,45 @@ test(tokens_and_payloads) :-
               "purge_agent(b), \\+ q(b, _), \\+ isexist_agent(b, _, _), \c
                writeln(gone)." ],
             ["t:[1,3]", "x:b", "l:[(q,2)]", "y:1", "gone"]).
+test(an_unbound_port_is_that_of_the_platform) :-
+    answers([":- dynamic h/3.", "h(guid, _, main)."],
+            [ "create_mobile_agent(y, (localhost,P), h, [5]), \c
+               platform_port(P), writeln(bound).",
+              "create_mobile_agent(z, ('127.0.0.1',Q), h, [5]), \c
+               platform_port(Q), writeln('bound, too').",
+              "agent_create(x, (I,_), h), writeln(ip:I).",
+              "create_mobile_agent(w, (elsewhere,_), h, [5])." ],
+            ["bound", "bound, too", "ip:localhost", "Error# ma7"]).
+test(a_payload_may_be_named_like_a_library_predicate) :-
+    ports(2, [P1,P2]),
+    Program = [":- dynamic h/3.",
+               "h(guid, _, main) :- checklist(guid, X), writeln(got:X)."],
+    line("create_mobile_agent(c, (localhost,~w), h, [1]), \c
+          add_payload(c, [(checklist,2),(partition,4)]), \c
+          move_agent(c, (localhost,~w)).", [P1,P2], Go),
+    with_nodes([[":- dynamic checklist/2.", "checklist(guid, 7).",
+                 "partition(guid, 1, 2, 3)."|Program], []],
+               [A,B],
+               ( up(A, P1, 1), up(B, P2, 1),
+                 says(B, "partition(atom, [1], In, Out), \c
+                          writeln(loaded(In, Out))."),
+                 printed(B, ["loaded([],[1])"]),
+                 says(A, Go),
+                 printed(B, ["got:7"]),
+                 says(B, "partition(c, 1, 2, X), writeln(x:X)."),
+                 printed(B, ["x:3"]) )).
+test(the_oldest_agent_comes_first) :-
+    answers([":- dynamic h/3.", "h(guid, _, main)."],
+            [ "create_mobile_agent(a1, _, h, [1]), \c
+               create_mobile_agent(a2, _, h, [1]), \c
+               create_mobile_agent(a3, _, h, [1]).",
+              "isexist_agent(N, _, h), writeln(first:N).",
+              "list_agent.",
+              "agent_list_new(L), writeln(names:L).",
+              "list_agent(L), findall(N, member((N,_,_), L), Ns), \c
+               writeln(newest:Ns)." ],
+            ["first:a1", "Agent Name :a1", "Agent Name :a2", "Agent Name :a3",
+             "names:[a1,a2,a3]", "newest:[a3,a2,a1]"]).
 test(names) :-
     answers([], [ "get_new_name(foo, N), writeln(N), get_new_name_alpha(A), \c
                    atom_length(A, L), writeln(len:L)." ],
