@@ -36,7 +36,7 @@ layer has a door, and behind it a folder with its rooms.
 :- reexport(typhon/page, [page_start/1, page_stop/0]).
 :- reexport(typhon/bridge/starting,
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
-              ros_start/3, ros_stop/1, fipa_start/3, fipa_stop/1 ]).
+              ros_start/3, ros_stop/1, ros_property/2, fipa_start/3, fipa_stop/1 ]).
 :- use_module(typhon/language, []).
 
 :- set_prolog_flag(optimise_debug, default).

@@ -9,17 +9,16 @@ that stand there publish, subscribe, call, offer services and send goals.  It
 is not part of library(typhon).  Nothing is defined here: see the rooms in
 ros/.
 
-  | starting and stopping | typhon/bridge/starting |
-  | what there is         | typhon/ros/service    |
-  | topics                | typhon/ros/topics     |
-  | services              | typhon/ros/calls      |
-  | actions               | typhon/ros/actions    |
-  | parameters            | typhon/ros/parameters |
-  | messages as terms     | typhon/ros/values     |
+  | start, stop, properties | typhon/bridge/starting |
+  | topics                  | typhon/ros/topics      |
+  | services                | typhon/ros/calls       |
+  | actions                 | typhon/ros/actions     |
+  | parameters              | typhon/ros/parameters  |
+  | messages as terms       | typhon/ros/values      |
 */
 
-:- reexport(bridge/starting, [ros_start/3, ros_stop/1]).
-:- reexport(ros/service).
+:- reexport(bridge/starting, [ros_property/2, ros_start/3, ros_stop/1]).
+:- use_module(ros/service, []).
 :- reexport(ros/topics).
 :- reexport(ros/calls, except([call_json/5])).
 :- reexport(ros/actions).

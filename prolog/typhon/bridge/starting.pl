@@ -5,10 +5,12 @@
             mqtt_stop/1,                % +Host
             ros_start/3,                % +Host, +Where, +Options
             ros_stop/1,                 % +Host
+            ros_property/2,             % ?Host, ?Property
             fipa_start/3,               % +Host, +URL, +Options
             fipa_stop/1                 % +Host
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../host', [host_option/2, host_resolve/2, remote/2]).
 
@@ -24,6 +26,7 @@ there.
 :- multifile
     starts/4,                   % Bridge, Host, What, Options: of this process
     stops/2,                    % Bridge, Host
+    has/3,                      % Bridge, Host, Property: hosts of this process
     delivers/3,                 % Host, Name, Source: a payload that is Python
     typhon_words:python_delivered/3.
 
@@ -154,6 +157,29 @@ ros_start(Host, Where, Options) :-
 ros_stop(Host) :-
     stop(ros, Host).
 
+%!  ros_property(?Host, ?Property) is nondet.
+%
+%   Property is one of
+%
+%     - way(Where): as of ros_start/3
+%     - connected(Boolean): whether there is a connection now
+%     - heard(Topic, Type), published(Topic, Type), offered(Service, Type)
+%     - ignored(Count): frames that were passed over
+%
+%   Unbound, Host is each host of this process that has ROS.
+%
+%   @error existence_error(host, Host)
+
+ros_property(Host, Property) :-
+    var(Host),
+    !,
+    has(ros, Host, Property).
+ros_property(Host, Property) :-
+    must_be(atom, Host),
+    host_resolve(Host, Where),
+    properties_at(Where, ros-Property, Host, Properties),
+    member(Property, Properties).
+
 %!  fipa_start(+Host, +URL, +Options) is det.
 %
 %   Host is a platform of FIPA from now on.  Others reach it at URL,
@@ -226,6 +252,14 @@ stop_at(local(Name), Bridge) :-
     ).
 stop_at(remote(Host, Name, _), Bridge) :-
     remote(Host, typhon_starting:stop(Bridge, Name)).
+
+%   properties_at(+Where, +Bridge-Property, +Host, -Properties): those that match
+
+properties_at(local(Name), Bridge-Property, _, Properties) :-
+    findall(Property, has(Bridge, Name, Property), Properties).
+properties_at(remote(_, Name, _), Wanted, Host, Properties) :-
+    remote(Host, typhon_starting:properties_at(local(Name), Wanted, Name,
+                                               Properties)).
 
 :- dynamic folder/1.                    % where the bridges are
 

@@ -1,6 +1,4 @@
-:- module(typhon_ros_service,
-          [ ros_property/2              % ?Host, ?Property
-          ]).
+:- module(typhon_ros_service, []).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [check_options/2]).
@@ -14,7 +12,7 @@
 
 /** <module> A host with ROS
 
-Where it begins is ros_start/3.
+Where it begins is ros_start/3; what ros_property/2 tells comes from here.
 
 *Threading*: any thread.
 */
@@ -22,6 +20,7 @@ Where it begins is ros_start/3.
 :- multifile
     typhon_options:declared/4,
     typhon_services:ends/2,
+    typhon_starting:has/3,
     typhon_starting:starts/4.
 
 typhon_starting:starts(ros, Host, Where, Options) :-
@@ -59,13 +58,7 @@ typhon_services:ends(ros, Host) :-
     answers_fail(Host, stopped),
     standing_forget(Host).
 
-%!  ros_property(?Host, ?Property) is nondet.
-%
-%   Property is way(Where), connected(Boolean), heard(Topic, Type),
-%   published(Topic, Type), offered(Service, Type), or ignored(Count), of what
-%   came and was not for us.
-
-ros_property(Host, Property) :-
+typhon_starting:has(ros, Host, Property) :-
     service(ros, Host),
     property(Property, Host).
 

@@ -29,7 +29,10 @@ room `telling`.
 :- setting(last_seconds, number, 2,
            "unwatch/1 waits so long for what has happened before").
 
-:- meta_predicate watch(+, 1, -).
+%   `:` and not 1: lambda expressions in arguments that are called are compiled
+%   while a file is loaded, and lose there what is not a parameter.
+
+:- meta_predicate watch(+, :, -).
 
 :- dynamic listens/2.           % Watch, Thread
 
@@ -67,6 +70,9 @@ room `telling`.
 %   the other, and not where they happen: whatever OnEvent does, hosts do not
 %   wait for it.  That it fails means nothing; an exception is told once, and
 %   the watch goes on.
+%
+%   OnEvent may be a lambda expression; its variables that are bound when
+%   watch/3 is called are as they are then, as in [E]>>p(Q, E).
 %
 %   Watch holds the endpoint of this process until unwatch/1.
 %

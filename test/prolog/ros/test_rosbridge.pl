@@ -481,6 +481,20 @@ test(twice, error(permission_error(start, ros, alpha))) :-
     with_rosbridge(URL, with_alpha(( ros_start(alpha, URL, []),
                                      ros_start(alpha, URL, []) ))).
 
+test(properties_of_a_host_in_another_process) :-
+    no_leaks(with_rosbridge(URL,
+        setup_call_cleanup(
+            network_start(line(2), N, [processes(2)]),
+            ( network_property(N, hosts([_,Far])),
+              assertion(\+ typhon:ros_property(Far, _)),
+              ros_start(Far, URL, []),
+              findall(P, typhon:ros_property(Far, P), Ps),
+              catch(typhon:ros_property(nowhere, _), error(E, _), true) ),
+            network_stop(N)))),
+    assertion(memberchk(way(URL), Ps)),
+    assertion(memberchk(connected(true), Ps)),
+    assertion(E == existence_error(host, nowhere)).
+
 test(stopped_and_started_again) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),

@@ -106,6 +106,26 @@ test(only_hosts_that_are_watched) :-
     assertion(( member(event(_, _, _, What), Events),
                 What = arrived(_, _) )).
 
+test(a_lambda_keeps_the_variables_around_it, Whats == [log(1)]) :-
+    with_hosts([alpha],
+               ( message_queue_create(Queue),
+                 watch(alpha, [E]>>thread_send_message(Queue, E), Watch),
+                 listening(( create([(main :- log(1))], A),
+                             joined(A, done) ), _),
+                 unwatch(Watch),
+                 queued(Queue, Events),
+                 message_queue_destroy(Queue) )),
+    findall(What, ( member(event(_, _, A, What), Events), What = log(_) ),
+            Whats).
+
+queued(Queue, Events) :-
+    (   thread_peek_message(Queue, _)
+    ->  thread_get_message(Queue, Event),
+        Events = [Event|Rest],
+        queued(Queue, Rest)
+    ;   Events = []
+    ).
+
 test(clones_and_refused_moves) :-
     with_hosts([alpha, beta-[capacity(0)]],
                watching([alpha, beta], clone_and_stay(A, Clone), Events)),
