@@ -148,4 +148,24 @@ test(agents_of_a_clone_import_the_library, Status-Out == exit(0)-"done\n") :-
                '-t', halt],
               [environment(['PATH'='/usr/bin:/bin'])], Status, Out, _).
 
+%   The library is a copy in a folder of another name, beside its agents.
+
+test(folder_may_have_any_name, Status-Out-Err == exit(0)-Agent-"") :-
+    with_tmp_dir(renamed(Status, Out, Err, Agent)).
+
+renamed(Status, Out, Err, Agent, Dir) :-
+    project_file(prolog, Library),
+    directory_file_path(Dir, renamed, Copy),
+    directory_file_path(Copy, 'typhon.pl', File),
+    process_create(path(cp), ['-r', Library, Copy], []),
+    directory_file_path(Dir, agents, Agents),
+    make_program(Dir, agents, mine),
+    directory_file_path(Agents, 'mine.pl', AgentFile),
+    atom_string(AgentFile, Agent),
+    format(atom(Load), 'use_module(~q)', [File]),
+    run_swipl(['-f', none, '-g', Load,
+               '-g', 'typhon_paths:program_file(agents(mine), F), write(F)',
+               '-t', halt],
+              [cwd('/')], Status, Out, Err).
+
 :- end_tests(pack).

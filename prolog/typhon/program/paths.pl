@@ -22,8 +22,11 @@ of an installed pack, `library` leads to the one that is loaded.
 
 :- dynamic root/1.
 
+%   The pack is three folders up, whatever these are called.
+
 :- prolog_load_context(directory, Dir),
-   atom_concat(Root, '/prolog/typhon/program', Dir),
+   absolute_file_name('../../..', Root,
+                      [relative_to(Dir), file_type(directory)]),
    retractall(root(_)),
    assertz(root(Root)).
 
