@@ -36,6 +36,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/owner, [owner_entered/3, owner_inherited/3]).
 :- reexport(agent/stay, [stay_count/3, stay_owner/3, stay_until/3]).
+:- reexport(agent/state_text, [state_text/2, state_text_add/2]).
 :- reexport('agent/gate').
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,

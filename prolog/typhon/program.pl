@@ -31,7 +31,7 @@ This is the door of the layer: who is above takes what it needs from here.
             [ file_sign/2, payload_hash/2, payload_load/2,
               payload_signature/2 ]).
 :- reexport(program/machine, [answer_at/3, machine_inside/0, machine_run/3]).
-:- reexport(program/faults, [fault/3]).
+:- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).
 :- reexport(program/standing, [fault_where/4, where_handled/5]).
 :- reexport('program/probe').
 :- reexport(program/bodies, [body_goals/4, goals_body/2, plain_goals/2]).

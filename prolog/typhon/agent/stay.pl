@@ -8,6 +8,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module('../host',
               [ alarm_set/3, host_time/2, quota/3, quota_any/1, real_time/3 ]).
+:- use_module(state_text, [state_text_forget/1]).
 :- use_module(owner, [owner_key/2, owner_of/5]).
 
 /** <module> Agents on a host with quotas
@@ -70,7 +71,8 @@ ends_at(Until, Host, Id) :-
 
 stay_ends(Id) :-
     (   stays(Id, _, _, _)
-    ->  retractall(stays(Id, _, _, _))
+    ->  retractall(stays(Id, _, _, _)),
+        state_text_forget(Id)
     ;   true
     ).
 

@@ -1,5 +1,6 @@
 :- module(typhon_trees,
           [ is_tree/2,                  % +Term, +Most
+            atoms_length/2,             % +Term, -Length
             is_in_itself/1              % +Term
           ]).
 :- use_module(library(lists), [member/2]).
@@ -12,28 +13,36 @@
 %!  is_tree(+Term, +Most) is semidet.
 %
 %   Term is acyclic, and has Most parts at the most when what is shared in it
-%   is written out: forty cells may be a term of 2^40 parts.
+%   is written out: forty cells may be a term of 2^40 parts.  Each eight
+%   characters of a text, and each eight bytes of an integer, are a part, too.
 
-is_tree(Term, _) :-
-    atomic(Term),
-    !.
 is_tree(Term, Most) :-
     acyclic_term(Term),
-    (   term_size(Term, Cells),
-        Cells =< 48,                    % at most 2^16 parts
-        Most >= 65 536
-    ->  true
-    ;   tree(Term, Most, _)
-    ).
+    tree(Term, Most, _).
 
 tree(Term, N0, N) :-
-    N1 is N0-1,
-    N1 >= 0,
-    (   compound(Term)
-    ->  compound_name_arity(Term, _, Arity),
+    (   atom(Term)
+    ->  atom_length(Term, Length),
+        N is N0-1-Length//8
+    ;   integer(Term),
+        is_small(Term)
+    ->  N is N0-1
+    ;   nonvar(Term),
+        Term = [Head|Tail]
+    ->  N1 is N0-1,
+        N1 >= 0,
+        tree(Head, N1, N2),
+        tree(Tail, N2, N)
+    ;   compound(Term)
+    ->  compound_name_arity(Term, Name, Arity),
+        atom_length(Name, Length),
+        N1 is N0-1-Length//8,
+        N1 >= 0,
         arguments(1, Arity, Term, N1, N)
-    ;   N = N1
-    ).
+    ;   text_parts(Term, Parts),
+        N is N0-Parts
+    ),
+    N >= 0.
 
 arguments(I, Arity, Term, N0, N) :-
     (   I < Arity
@@ -46,6 +55,48 @@ arguments(I, Arity, Term, N0, N) :-
         tree(Arg, N0, N)
     ;   N = N0
     ).
+
+%   What else may be long: strings and integers.
+
+text_parts(Term, Parts) :-
+    (   integer(Term)
+    ->  Parts is 1+msb(abs(Term))//64
+    ;   string(Term)
+    ->  string_length(Term, Length),
+        Parts is 1+Length//8
+    ;   rational(Term, N, D)
+    ->  Parts is 2+msb(abs(N)+1)//64+msb(D)//64
+    ;   Parts = 1
+    ).
+
+is_small(Integer) :-
+    Integer >= -0x7fff_ffff,
+    Integer =< 0x7fff_ffff.
+
+%!  atoms_length(+Term, -Length:integer) is det.
+%
+%   Length is how many characters the atoms in Term have, which is acyclic.
+
+atoms_length(Term, Length) :-
+    atoms_length(Term, 0, Length).
+
+atoms_length(Term, N0, N) :-
+    (   compound(Term)
+    ->  compound_name_arity(Term, _, Arity),
+        atoms_below(Arity, Term, N0, N)
+    ;   atom(Term)
+    ->  atom_length(Term, Length),
+        N is N0+Length
+    ;   N = N0
+    ).
+
+atoms_below(0, _, N, N) :-
+    !.
+atoms_below(I, Term, N0, N) :-
+    arg(I, Term, Arg),
+    atoms_length(Arg, N0, N1),
+    I1 is I-1,
+    atoms_below(I1, Term, N1, N).
 
 %!  is_in_itself(+Term) is semidet.
 %

@@ -2,12 +2,14 @@
           [ quota_spend/3,              % +Host, +Agent, +What
             quota_spend/4,              % +Host, +Family, +What, +Most
             quota_cells/2,              % +Host, +Term
+            quota_begin/0,
             quota_passed/1              % +What
           ]).
 :- use_module(library(error), [resource_error/1]).
 :- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../base/trees', [is_tree/2]).
 :- use_module('../program', [machine_inside/0]).
+:- use_module(context, [context_now/2]).
 :- use_module(quotas, [quota/3, quota_any/1, quota_shared/4]).
 
 /** <module> What agents use in a second
@@ -20,6 +22,7 @@ thread at a time; what it shares with others is counted under a mutex.
 */
 
 :- multifile
+    typhon_guard_texts:made/1,
     typhon_quotas:forgotten/1,
     owner/3.                    % +Host, +Agent, -Owner
 
@@ -167,6 +170,27 @@ quota_cells(Host, Term) :-
     !,
     quota_passed(cells).
 quota_cells(_, _).
+
+%   Text of atoms is not part of the stack: what an agent makes between two
+%   stops counts as if it were.
+
+typhon_guard_texts:made(Length) :-
+    context_now(Host, Agent),
+    Agent \== none,
+    quota(Host, stack, Most),
+    nb_current(typhon_atoms, Length0),
+    Length1 is Length0+Length,
+    nb_setval(typhon_atoms, Length1),
+    Length1 > Most,
+    quota_passed(stack).
+
+%!  quota_begin is det.
+%
+%   The turn of an agent begins.
+
+quota_begin :-
+    nb_setval(typhon_over, none),
+    nb_setval(typhon_atoms, 0).
 
 %!  quota_passed(+What)
 %

@@ -12,6 +12,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module('../program', [guard_called/3, guard_closure/4]).
 :- use_module('../host', [module_policy/2]).
+:- use_module('../agent', [state_text_add/2]).
 
 /** <module> Goals that strangers make up at run time
 
@@ -134,6 +135,7 @@ checked(Extra, Own, Closure, Goal) :-
 own_only(Goal0, Module, Goal) :-
     touches(Goal0, Head),
     !,
+    ( adds(Goal0, Clause) -> state_text_add(Module, Clause) ; true ),
     (   '$c_current_predicate'(_, Module:Head)
     ->  (   '$get_predicate_attribute'(Module:Head, imported, _)
         ->  permission_error(call, sandboxed, Goal0)
@@ -145,12 +147,14 @@ own_only(Goal0, Module, Goal) :-
     ).
 own_only(Goal, _, Goal).
 
-touches(assert(Clause), Head) :- clause_of(Clause, Head).
-touches(asserta(Clause), Head) :- clause_of(Clause, Head).
-touches(assertz(Clause), Head) :- clause_of(Clause, Head).
+touches(Goal, Head) :- adds(Goal, Clause), clause_of(Clause, Head).
 touches(retract(Clause), Head) :- clause_of(Clause, Head).
 touches(retractall(Head), Head).
 touches(clause(Head, _), Head).
+
+adds(assert(Clause), Clause).
+adds(asserta(Clause), Clause).
+adds(assertz(Clause), Clause).
 
 clause_of((Head:-_), Head) :- !.
 clause_of(Head, Head).

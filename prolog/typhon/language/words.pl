@@ -297,6 +297,7 @@ emit(Problem) :-
 
 emit(Problem, Options) :-
     context_host(Host),
+    quota_cells(Host, Problem-Options),
     pheromone_emit(Host, Problem, Options).
 
 withdraw(Problem) :-
@@ -333,6 +334,8 @@ log(What) :-
 %   @error existence_error(keys, here)
 
 enter(Result) :-
+    context_host(Host),
+    quota_cells(Host, Result),
     mobile_term(Result),
     context_agent(Id),
     agent(Id, _, Module, _, _),
@@ -358,7 +361,8 @@ result(Term) :-
 %   for the message.
 
 message_failed(From, Message) :-
-    context_agent(Id),
+    context(Host, Id, _),
+    quota_cells(Host, From-Message),
     (   agent_handled(Id, on_message(From, Message), Fault)
     ->  Told = message_undone(Id, From, Message, Fault)
     ;   Told = message_failed(Id, From, Message)

@@ -1,7 +1,7 @@
 :- module(typhon_metering, []).
 :- use_module('../base/trees', [is_tree/2]).
-:- use_module('../program', [machine_run/3]).
-:- use_module('../host', [context_set/3, quota/3, quota_any/1]).
+:- use_module('../program', [fault_note/1, fault_noted/1, machine_run/3]).
+:- use_module('../host', [context_set/3, quota/3, quota_any/1, quota_begin/0]).
 :- use_module(turn, []).
 
 /** <module> Turns of agents on hosts with quotas
@@ -24,13 +24,14 @@ typhon_turn:bound(Host, typhon_metering:metered_run) :-
 metered_run(turn(Id, Host, Context), Goals, Outcome) :-
     Context = context(_, Module),
     context_set(Host, Id, Module),      % its seconds begin
-    nb_setval(typhon_over, none),
+    quota_begin,
     far_limit(Host),
     within_inferences(Host, Context, Goals, Outcome0),
-    over(Outcome0, Outcome).
+    over(Outcome0, Outcome1),
+    storable(Outcome1, Host, Outcome).
 
-%   Who passes the quota of stack is interrupted long before its stack is full: an
-%   agent that fills it to the brim while it catches all that is raised leaves no
+%   An agent that passes the quota of stack is interrupted long before its stack
+%   is full: one that fills it to the brim while it catches all that is raised leaves no
 %   room for exceptions, and then 9.0.4 ends the process.  A limit near the quota
 %   would make it worse: the brim would be there sooner.
 
@@ -65,9 +66,25 @@ over(raised(error(resource_error(What0), _)), Outcome) :-
     quota_named(What0, What),
     Outcome = over(What).
 over(raised(Ball), over(cells)) :-
-    \+ is_tree(Ball, 10 000),          % nobody could print it
+    \+ is_tree(Ball, 10 000),          % printing it would never end
     !.
 over(Outcome, Outcome).
+
+%   storable(+Outcome0, +Host, -Outcome): what is kept of the agent is stored
+%   as a tree, while others wait for it.
+
+storable(Outcome0, Host, Outcome) :-
+    (   kept(Outcome0, Kept),
+        quota(Host, cells, Most),
+        \+ is_tree(Kept, Most)
+    ->  fault_note(none),
+        Outcome = over(cells)
+    ;   Outcome = Outcome0
+    ).
+
+kept(effect(Control, _, Goals), Control-Goals).
+kept(failed, Fault) :- fault_noted(Fault).
+kept(raised(_), Fault) :- fault_noted(Fault).
 
 quota_named(program_space, state) :- !.
 quota_named(What, What).

@@ -9,7 +9,8 @@
               [ alarm_in/3, context_now/2, quota/3, quota_any/1,
                 quota_shared/4, scheduler_call/1, turn_of/3, turns_now/3 ]).
 :- use_module('../agent',
-              [agent/5, agent_status/3, stay_owner/3, stay_until/3]).
+              [ agent/5, agent_status/3, state_text/2, stay_owner/3,
+                stay_until/3 ]).
 :- use_module(ending, [agent_end/3]).
 
 /** <module> Who uses more than he may, and does not notice
@@ -107,7 +108,8 @@ used(stack, Host, Used) :-
 used(state, Host, Used) :-
     findall(Owner-(Bytes-Agent),
             ( stay_owner(Agent, Host, Owner), agent(Agent, Host, Module, _, _),
-              module_property(Module, program_size(Bytes)) ),
+              module_property(Module, program_size(Size)),
+              state_text(Agent, Text), Bytes is Size+Text ),
             Used).
 
 %   too_much(+Whose, +Used, +Most, -Agent): Agent is the one that uses most, of

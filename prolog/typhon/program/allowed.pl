@@ -60,16 +60,45 @@ looked_at(retractall(_), head).
 looked_at(clause(_, _), head).
 looked_at(throw(_), ball).
 looked_at(format(_, _, _), format).
-looked_at(atom_concat(_, _, _), text).
-looked_at(atomic_list_concat(_, _), text).
-looked_at(atomic_list_concat(_, _, _), text).
-looked_at(atom_codes(_, _), text).
-looked_at(atom_chars(_, _), text).
-looked_at(atom_string(_, _), text).
 looked_at(attach(_), payload).
+looked_at(Goal, text) :-
+    makes_atoms(Goal).
 looked_at(term_to_atom(_, _), term_text).
 looked_at(term_string(_, _), term_text).
 looked_at(atom_to_term(_, _, _), term_text).
+
+%   makes_atoms(?Goal): the longer its arguments, the longer are the atoms
+%   that it makes.
+
+makes_atoms(atom_concat(_, _, _)).
+makes_atoms(atomic_list_concat(_, _)).
+makes_atoms(atomic_list_concat(_, _, _)).
+makes_atoms(atomics_to_string(_, _, _)).
+makes_atoms(atom_codes(_, _)).
+makes_atoms(atom_chars(_, _)).
+makes_atoms(atom_string(_, _)).
+makes_atoms(atom_number(_, _)).
+makes_atoms(upcase_atom(_, _)).
+makes_atoms(downcase_atom(_, _)).
+makes_atoms(sub_atom(_, _, _, _, _)).
+makes_atoms(sub_atom_icasechk(_, _, _)).
+makes_atoms(hash_atom(_, _)).
+makes_atoms(file_base_name(_, _)).
+makes_atoms(file_directory_name(_, _)).
+makes_atoms(file_name_extension(_, _, _)).
+makes_atoms(uri_components(_, _)).
+makes_atoms(uri_authority_components(_, _)).
+makes_atoms(uri_query_components(_, _)).
+makes_atoms(uri_encoded(_, _, _)).
+makes_atoms(uri_is_global(_)).
+makes_atoms(uri_iri(_, _)).
+makes_atoms(uri_normalized(_, _)).
+makes_atoms(uri_normalized(_, _, _)).
+makes_atoms(uri_normalized_iri(_, _)).
+makes_atoms(uri_normalized_iri(_, _, _)).
+makes_atoms(uri_resolve(_, _, _)).
+makes_atoms(iri_normalized(_, _)).
+makes_atoms(iri_normalized(_, _, _)).
 
 %   What library(sandbox) lets pass, and we do not: it ends a thread or
 %   holds one, writes where people read, calls what messages and formats
@@ -105,12 +134,16 @@ withheld(get_attrs(_, _)).
 withheld(del_attr(_, _)).
 withheld(del_attrs(_)).
 withheld(copy_term(_, _, _)).
+withheld(setarg(_, _, _)).              % what was looked at stays as it was
+withheld(b_set_dict(_, _, _)).
 withheld(nb_setarg(_, _, _)).
 withheld(nb_linkarg(_, _, _)).
 withheld(nb_set_dict(_, _, _)).
 withheld(nb_link_dict(_, _, _)).
 withheld(dcg_translate_rule(_, _)).
 withheld(set_random(_)).                % is one for all
+withheld(setrand(_)).
+withheld(getrand(_)).
 withheld(random_property(_)).
 withheld(meta_options(_, _, _)).        % options that are goals
 withheld(foreach(_, _)).

@@ -10,7 +10,7 @@
 :- use_module(library(assoc), [empty_assoc/1, put_assoc/4]).
 :- use_module('../base/trees', [is_tree/2]).
 :- use_module(allowed, [allowed_library/1, own_name/1]).
-:- use_module(guard_bodies, [guard/3]).
+:- use_module(guard_bodies, [guard/3, guard_parts/1]).
 :- use_module(refusing, [clause_cells/1, must_be_tree/1, refuse/1]).
 :- use_module(source, [clause_parts/3]).
 
@@ -102,7 +102,9 @@ guard_clause(Own, Clause0, Clause) :-
     must_be_tree(Clause0),
     (   Body0 == true
     ->  Clause = Clause0
-    ;   guard(Body0, Own, Body),
+    ;   clause_cells(Max),
+        guard_parts(Max),
+        guard(Body0, Own, Body),
         Clause = (Head:-Body)
     ).
 

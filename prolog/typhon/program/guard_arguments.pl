@@ -5,20 +5,20 @@
 :- use_module('../base/trees', [is_tree/2]).
 :- use_module(allowed, [own_name/1]).
 :- use_module(guard, [allowed_fact/2, guard_clauses/3]).
+:- use_module(guard_texts,
+              [harmless_format/1, readable_text/1, short_text/1]).
 :- use_module(refusing, [clause_cells/1, must_be_tree/1, refuse/1]).
 
-/** <module> What strangers call things with
+/** <module> Arguments of what untrusted agents call
 
 Whether some goals are allowed depends on their arguments: what they add and
-take away, what they throw, and texts.
+take away, what they throw, and texts, see typhon_guard_texts.
 
 *Threading*: pure.
 */
 
-:- setting(atom_chars, positive_integer, 1000,
-           "Atoms that strangers make have at most so many characters").
 :- setting(ball_cells, positive_integer, 10 000,
-           "What strangers throw has at most so many parts").
+           "What untrusted agents throw has at most so many parts").
 
 %!  looked_at(+Kind, +Policy, +Goal0, -Goal) is det.
 %
@@ -57,18 +57,18 @@ looked_at(ball, _, throw(Ball), throw(Ball)) :-
     is_tree(Ball, Max),
     !.
 looked_at(format, _, Goal, Goal) :-
-    Goal = format(Sink, Format, _),
+    Goal = format(Sink, Format, Args),
     nonvar(Sink),
     sink(Sink),
-    text_of(Format, Codes),
-    harmless(Codes),
+    must_be_tree(Format-Args),
+    harmless_format(Format),
     !.
 looked_at(text, _, Goal, Goal) :-
     short_text(Goal),
     !.
 looked_at(term_text, _, Goal, Goal) :-
     must_be_tree(Goal),
-    no_quotation(Goal),
+    readable_text(Goal),
     !.
 looked_at(payload, _, attach(Spec), attach(Spec)) :-
     nonvar(Spec),
@@ -95,76 +95,6 @@ ends_thread(time_limit_exceeded(_)).
 sink(string(_)).
 sink(codes(_)).
 sink(chars(_)).
-
-text_of(Text, Codes) :-
-    ( atomic(Text) ; is_list(Text), ground(Text) ),
-    catch(text_to_string(Text, String), error(_, _), fail),
-    string_codes(String, Codes).
-
-%   No directive that calls (`~@`), asks others how to print (`~p`), takes
-%   its width from the arguments (`~*`), or has one of more than 999.
-
-harmless([]).
-harmless([0'~|Codes]) :-
-    !,
-    directive(Codes, 0, Rest),
-    harmless(Rest).
-harmless([_|Codes]) :-
-    harmless(Codes).
-
-directive([Digit|Codes], N, Rest) :-
-    code_type(Digit, digit),
-    !,
-    N < 3,
-    N1 is N+1,
-    directive(Codes, N1, Rest).
-directive([0'`,_|Codes], _, Rest) :-
-    !,
-    directive(Codes, 0, Rest).
-directive([Code|Rest], _, Rest) :-
-    \+ memberchk(Code, [0'@, 0'p, 0'*, 0'i]).
-
-%   Atoms live outside the stacks of the agent, so they are kept short;
-%   long texts are strings.
-
-short_text(Goal) :-
-    setting(atom_chars, Max),
-    Goal =.. [_|Args],
-    text_length(Args, Max).
-
-text_length([], _).
-text_length([Arg|Args], Left) :-
-    argument_length(Arg, Left, Length),
-    Left1 is Left-Length,
-    Left1 >= 0,
-    text_length(Args, Left1).
-
-argument_length(Arg, _, 0) :- var(Arg), !.
-argument_length(Arg, Left, Length) :-
-    is_list(Arg),
-    !,
-    length(Arg, Count),
-    Count =< Left,
-    items_length(Arg, 0, Length).
-argument_length(Arg, _, Length) :-
-    atomic(Arg),
-    !,
-    atom_length(Arg, Length).
-argument_length(_, _, 0).               % which is a type error
-
-items_length([], N, N).
-items_length([Item|Items], N0, N) :-
-    (   atomic(Item)
-    ->  atom_length(Item, Length),
-        N1 is N0+Length
-    ;   N1 = N0
-    ),
-    items_length(Items, N1, N).
-
-no_quotation(Goal) :-
-    \+ ( arg(_, Goal, Text),
-         atomic(Text),
-         sub_string(Text, _, _, _, "{|") ).
 
 inside(Path) :-
     (   atom(Path)

@@ -1,5 +1,6 @@
 :- module(typhon_guard_bodies,
           [ guard/3,                    % +Body0, +Own, -Body
+            guard_parts/1,              % +Most
             guard_lambda/4,             % +Lambda0, +N, +Own, -Lambda
             is_lambda/1,                % @Closure
             is_own/2,                   % +Goal, +Own
@@ -13,45 +14,72 @@
 :- use_module(machine, [control/1]).
 :- use_module(refusing, [refuse/1]).
 
-/** <module> The goals in clauses of strangers
+/** <module> The goals in clauses of untrusted agents
 
 See typhon_guard.  Own is own(Heads, Policy), where Heads is heads(Assoc) or
 module(Module), where the static predicates of the agent are, or `none`.
 
-*Threading*: pure.
+What is looked at here is not what will run, but a copy of it is: each
+construct, closure and lambda expression in Body is a new term, which the
+agent cannot have in hand and change afterwards.  Only data are shared.
+
+*Threading*: pure, but for a global variable of the thread, in which parts are
+counted.
 */
+
+%!  guard_parts(+Most) is det.
+%
+%   What this thread guards next has Most goals at the most, when those that
+%   are shared in it are written out.
+
+guard_parts(Most) :-
+    nb_setval(typhon_guard_parts, Most).
+
+part_counted :-
+    nb_getval(typhon_guard_parts, Left0),
+    Left is Left0-1,
+    nb_setval(typhon_guard_parts, Left),
+    (   Left >= 0
+    ->  true
+    ;   throw(error(resource_error(clause_cells), _))
+    ).
 
 %!  guard(+Body0, +Own, -Body) is det.
 %
 %   @error permission_error(call, sandboxed, Culprit)
+%   @error resource_error(clause_cells), see guard_parts/1
 
-guard(Goal, _, '$guarded'(Goal)) :-
+guard(Body0, Own, Body) :-
+    part_counted,
+    guarded(Body0, Own, Body).
+
+guarded(Goal, _, '$guarded'(Goal)) :-
     var(Goal),
     !.
-guard(catch(Goal0, Ball, Recovery0), Own, catch(Goal, Ball, Recovery)) :-
+guarded(catch(Goal0, Ball, Recovery0), Own, catch(Goal, Ball, Recovery)) :-
     !,
     guard(Goal0, Own, Goal),
     guard_recovery(Recovery0, Ball, Own, Recovery).
-guard(Goal0, Own, Goal) :-
+guarded(Goal0, Own, Goal) :-
     construct(Goal0, Parts0, Goal, Parts),
     !,
     maplist(guard_part(Own), Parts0, Parts).
-guard(Goal, _, Goal) :-
+guarded(Goal, _, Goal) :-
     passes(Goal),
     !.
-guard(Goal, Own, Goal) :-
+guarded(Goal, Own, Goal) :-
     is_own(Goal, Own),
     !.
-guard(sleep(Seconds), _, '$guarded'(sleep(Seconds))) :-
+guarded(sleep(Seconds), _, '$guarded'(sleep(Seconds))) :-
     !.
-guard(Goal0, Own, Goal) :-
+guarded(Goal0, Own, Goal) :-
     callable(Goal0),
     Goal0 \= _:_,
     Own = own(_, Policy),
     allowed(Policy, Goal0, How),
     !,
     guard_allowed(How, Goal0, Own, Goal).
-guard(Goal0, Own, Goal) :-
+guarded(Goal0, Own, Goal) :-
     compound(Goal0),
     compound_name_arguments(Goal0, call, [Closure0|Extra]),
     Extra \== [],
@@ -59,17 +87,17 @@ guard(Goal0, Own, Goal) :-
     length(Extra, N),
     closure(N, Own, Closure0, Closure),
     compound_name_arguments(Goal, call, [Closure|Extra]).
-guard(phrase(NT, List), Own, phrase(NT1, List)) :-
+guarded(phrase(NT, List), Own, phrase(NT1, List)) :-
     !,
     non_terminal(NT, Own, NT1).
-guard(phrase(NT, List, Rest), Own, phrase(NT1, List, Rest)) :-
+guarded(phrase(NT, List, Rest), Own, phrase(NT1, List, Rest)) :-
     !,
     non_terminal(NT, Own, NT1).
-guard(Goal, _, Goal) :-
+guarded(Goal, _, Goal) :-
     callable(Goal),
     unknown(Goal),
     !.
-guard(Goal, _, _) :-
+guarded(Goal, _, _) :-
     refuse(Goal).
 
 %   What interrupts an agent is raised again only when the recovery has come to
@@ -192,16 +220,24 @@ closure(N, Own, Closure0, Closure) :-
     extended(Closure0, Extra, Goal0),
     guard(Goal0, Own, Goal),
     (   Goal == Goal0
-    ->  Closure = Closure0
+    ->  extended(Closure, Extra, Goal)
     ;   Closure = '$guarded'(Closure0)
     ).
 closure(_, _, Closure, _) :-
     refuse(Closure).
 
 %!  extended(+Closure, +Extra:list, -Goal) is det.
+%!  extended(-Closure, +Extra:list, +Goal) is det.
 %
 %   Goal is Closure called with Extra.
 
+extended(Closure, Extra, Goal) :-
+    nonvar(Goal),
+    !,
+    Goal =.. List,
+    append(List0, Extra, List),
+    !,
+    Closure =.. List0.
 extended(Closure, Extra, Goal) :-
     (   callable(Closure),
         Closure \= _:_
@@ -225,8 +261,8 @@ is_lambda(Closure) :-
 guard_lambda(Free/Lambda0, N, Own, Free/Lambda) :-
     !,
     closure(N, Own, Lambda0, Lambda).
-guard_lambda(Parameters>>Body0, N, Own, Parameters>>Body) :-
-    parameters(Parameters, Count),
+guard_lambda(Parameters0>>Body0, N, Own, Parameters>>Body) :-
+    parameters(Parameters0, Parameters, Count),
     !,
     Rest is max(0, N-Count),
     (   Rest =:= 0
@@ -236,11 +272,19 @@ guard_lambda(Parameters>>Body0, N, Own, Parameters>>Body) :-
 guard_lambda(Lambda, _, _, _) :-
     refuse(Lambda).
 
-parameters(Parameters, Count) :-
-    nonvar(Parameters),
-    ( Parameters = _/List -> true ; List = Parameters ),
-    is_list(List),
-    length(List, Count).
+%   parameters(+Parameters0, -Parameters, -Count): how many parameters there
+%   are says with how many arguments the body is called.
+
+parameters(Parameters0, Parameters, Count) :-
+    nonvar(Parameters0),
+    (   Parameters0 = Free/List0
+    ->  Parameters = Free/List
+    ;   List0 = Parameters0,
+        List = Parameters
+    ),
+    is_list(List0),
+    length(List0, Count),
+    append(List0, [], List).
 
 %   A grammar rule by its name, not a body of one.
 

@@ -7,16 +7,16 @@
 :- use_module(allowed, [allowed/3]).
 :- use_module(guard_arguments, [looked_at/4]).
 :- use_module(guard_bodies,
-              [ extended/3, guard/3, guard_lambda/4, is_control/1, is_lambda/1,
-                is_own/2 ]).
-:- use_module(refusing, [must_be_tree/1, refuse/1]).
+              [ extended/3, guard/3, guard_lambda/4, guard_parts/1,
+                is_control/1, is_lambda/1, is_own/2 ]).
+:- use_module(refusing, [clause_cells/1, must_be_tree/1, refuse/1]).
 
-/** <module> Goals that strangers call
+/** <module> Goals that untrusted agents call
 
 What is known only at run time: the goals with which an agent comes, those that
 it makes up, and closures with the arguments with which they are called.
 
-*Threading*: pure.
+*Threading*: pure, see typhon_guard_bodies.
 */
 
 %!  guard_goals(+Own, +Goals0, -Goals) is det.
@@ -26,6 +26,7 @@ it makes up, and closures with the arguments with which they are called.
 
 guard_goals(Own, Goals0, Goals) :-
     must_be_tree(Goals0),
+    count_parts,
     maplist(guard_left(Own), Goals0, Goals).
 
 %   What stands in a suspended list besides goals of the program.
@@ -48,9 +49,16 @@ guard_called(Own, Goal0, Goal) :-
     (   var(Goal0)
     ->  throw(error(instantiation_error, _))
     ;   acyclic_term(Goal0)
-    ->  guard_now(Goal0, Own, Goal)
+    ->  count_parts,
+        guard_now(Goal0, Own, Goal)
     ;   refuse_cyclic(Goal0)
     ).
+
+%   A small term may be a goal without end where it shares much.
+
+count_parts :-
+    clause_cells(Max),
+    guard_parts(Max).
 
 guard_now(Goal, Own, Goal) :-
     is_control(Goal),
@@ -83,6 +91,7 @@ refuse_cyclic(Goal) :-
 guard_closure(Own, Closure, Extra, Goal) :-
     (   is_lambda(Closure)
     ->  length(Extra, N),
+        count_parts,
         guard_lambda(Closure, N, Own, Closure1),
         extended(Closure1, Extra, Goal)
     ;   extended(Closure, Extra, Goal0),

@@ -1,0 +1,190 @@
+:- module(typhon_guard_texts,
+          [ harmless_format/1,          % +Format
+            short_text/1,               % +Goal
+            readable_text/1             % +Goal
+          ]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/trees', [is_tree/2]).
+
+/** <module> Texts that untrusted agents give to predicates
+
+Format strings, texts that become atoms, and texts that are read as terms.
+
+*Threading*: pure, but for the hook made/1.
+*/
+
+:- multifile made/1.                    % +Length: atoms of that length
+
+:- setting(atom_chars, positive_integer, 1000,
+           "Atoms that untrusted agents make have at most so many characters").
+
+%!  harmless_format(+Format) is semidet.
+%
+%   Format has no directives but those of harmless//1.  What is not
+%   understood here is refused: format/3 may take it for a directive that
+%   calls a goal.
+
+harmless_format(Format) :-
+    text_string(Format, String),
+    string_codes(String, Codes),
+    phrase(harmless, Codes).
+
+harmless -->
+    [].
+harmless -->
+    "~",
+    !,
+    directive,
+    harmless.
+harmless -->
+    [_],
+    harmless.
+
+%   A count has three digits at the most.  Neither modifiers (`:`) nor counts
+%   from the arguments (`*`) are allowed, and a character as count (`~`xt`)
+%   only to fill a column.
+
+directive -->
+    "`", !, [_], "t".
+directive -->
+    digits(3),
+    [Letter],
+    { memberchk(Letter, `~wqadDsefgcrRnt|+`) }.
+
+digits(Most) -->
+    { Most > 0 },
+    [Digit],
+    { between(0'0, 0'9, Digit) },
+    !,
+    { Fewer is Most-1 },
+    digits(Fewer).
+digits(_) -->
+    [].
+
+%   text_string(+Text, -String) is semidet.
+
+text_string(Text, String) :-
+    ( atomic(Text) ; is_list(Text), ground(Text) ),
+    !,
+    catch(text_to_string(Text, String), error(_, _), fail).
+
+%!  short_text(+Goal) is semidet.
+%
+%   The atoms that Goal makes are not long.  Atoms live outside the stacks of
+%   the agent, so they are kept short, and made/1 counts them; long texts are
+%   strings.
+
+short_text(Goal) :-
+    most_characters(Max),
+    joined_length(Goal, Length),
+    Length =< Max,
+    all_solutions(Goal, Length, Made),
+    forall(made(Made), true).
+
+%   all_solutions(+Goal, +Length, -Made): there may be a solution for each
+%   part of a text.
+
+all_solutions(sub_atom(_, Before, Count, After, Sub), Length, Made) =>
+    (   ( nonvar(Sub) ; nonvar(Before), nonvar(Count)
+        ; nonvar(Count), nonvar(After) ; nonvar(Before), nonvar(After) )
+    ->  Made = Length
+    ;   Made is Length*Length
+    ).
+all_solutions(atom_concat(A, B, _), Length, Made), var(A), var(B) =>
+    Made is Length*Length.
+all_solutions(_, Length, Made) =>
+    Made = Length.
+
+most_characters(Max) :-
+    setting(atom_chars, Max).
+
+%   joined_length(+Goal, -Length): how long its result may be.
+
+joined_length(atomic_list_concat(List, Separator, _), Length) :-
+    is_list(List),
+    !,
+    length(List, Count),
+    argument_length(List, Length1),
+    argument_length(Separator, Length2),
+    Length is Length1+Count*Length2.
+joined_length(Goal, Length) :-
+    compound_name_arguments(Goal, _, Args),
+    lengths(Args, 0, Length).
+
+lengths([], N, N).
+lengths([Arg|Args], N0, N) :-
+    argument_length(Arg, Length),
+    N1 is N0+Length,
+    lengths(Args, N1, N).
+
+%   What is neither atomic nor a list is a type error.
+
+argument_length(Arg, Length) :-
+    (   is_list(Arg)
+    ->  items_length(Arg, 0, Length)
+    ;   number(Arg)
+    ->  number_length(Arg, Length)
+    ;   atomic(Arg)
+    ->  atom_length(Arg, Length)
+    ;   compound(Arg)
+    ->  parts_length(Arg, Length)
+    ;   Length = 0
+    ).
+
+items_length([], N, N).
+items_length([Item|Items], N0, N) :-
+    (   number(Item)
+    ->  number_length(Item, Length)
+    ;   atomic(Item)
+    ->  atom_length(Item, Length)
+    ;   Length = 0
+    ),
+    N1 is N0+Length,
+    items_length(Items, N1, N).
+
+%   As is_tree/2 counts: a large integer is not written for that.
+
+number_length(Number, Length) :-
+    most_characters(Max),
+    (   is_tree(Number, Max)
+    ->  atom_length(Number, Length)
+    ;   Length is Max+1
+    ).
+
+%   Components of a URI, and partial lists.
+
+parts_length(Term, Length) :-
+    most_characters(Max),
+    is_tree(Term, Max),
+    compound_name_arguments(Term, _, Args),
+    lengths(Args, 0, Length).
+
+%!  readable_text(+Goal) is semidet.
+%
+%   Goal reads a text as a term, or writes a term as an atom.  The text is as
+%   short as an atom, since it may be one, and has no quasi quotation, which
+%   calls a parser by name.
+
+readable_text(term_to_atom(Term, Text)) :-
+    (   var(Text)
+    ->  most_characters(Max),
+        Parts is 1+Max//8,              % as is_tree/2 counts
+        is_tree(Term, Parts),
+        forall(made(Max), true)
+    ;   readable(Text)
+    ).
+readable_text(term_string(_, Text)) :-
+    (   var(Text)
+    ->  true
+    ;   readable(Text)
+    ).
+readable_text(atom_to_term(Text, _, _)) :-
+    readable(Text).
+
+readable(Text) :-
+    text_string(Text, String),
+    \+ sub_string(String, _, _, _, "{|"),
+    string_length(String, Length),
+    most_characters(Max),
+    Length =< Max,
+    forall(made(Length), true).
