@@ -70,6 +70,7 @@ option_file(guard, 'program/allowed.pl').
 option_file(guard, 'program/guard.pl').
 option_file(guard, 'program/guard_arguments.pl').
 option_file(guard, 'program/guard_bodies.pl').
+option_file(guard, 'program/guard_texts.pl').
 option_file(guard, 'program/guard_calls.pl').
 option_file(guard, 'program/guarded_code.pl').
 option_file(guard, 'program/refusing.pl').
@@ -78,6 +79,7 @@ option_file(guard, 'language/guarded.pl').
 option_file(quotas, 'host/quotas.pl').
 option_file(quotas, 'host/spending.pl').
 option_file(quotas, 'host/leavings.pl').
+option_file(quotas, 'agent/state_text.pl').
 option_file(quotas, 'agent/stay.pl').
 option_file(quotas, 'agent/admission.pl').
 option_file(quotas, 'lifecycle/metering.pl').

@@ -2,6 +2,7 @@
           [ quota_spend/3,              % +Host, +Agent, +What
             quota_spend/4,              % +Host, +Family, +What, +Most
             quota_cells/2,              % +Host, +Term
+            atoms_made/1,               % +Length
             quota_begin/0,
             quota_passed/1              % +What
           ]).
@@ -22,7 +23,6 @@ thread at a time; what it shares with others is counted under a mutex.
 */
 
 :- multifile
-    typhon_guard_texts:made/1,
     typhon_quotas:forgotten/1,
     owner/3.                    % +Host, +Agent, -Owner
 
@@ -171,18 +171,24 @@ quota_cells(Host, Term) :-
     quota_passed(cells).
 quota_cells(_, _).
 
-%   Text of atoms is not part of the stack: what an agent makes between two
-%   stops counts as if it were.
+%!  atoms_made(+Length) is det.
+%
+%   The running agent makes atoms of that length together.  Their text is not
+%   part of the stack: what an agent makes between two stops counts as if it
+%   were.
+%
+%   @error resource_error(stack)
 
-typhon_guard_texts:made(Length) :-
-    context_now(Host, Agent),
-    Agent \== none,
-    quota(Host, stack, Most),
-    nb_current(typhon_atoms, Length0),
-    Length1 is Length0+Length,
-    nb_setval(typhon_atoms, Length1),
-    Length1 > Most,
-    quota_passed(stack).
+atoms_made(Length) :-
+    (   context_now(Host, Agent),
+        Agent \== none,
+        quota(Host, stack, Most),
+        nb_current(typhon_atoms, Length0)
+    ->  Length1 is Length0+Length,
+        nb_setval(typhon_atoms, Length1),
+        ( Length1 > Most -> quota_passed(stack) ; true )
+    ;   true
+    ).
 
 %!  quota_begin is det.
 %

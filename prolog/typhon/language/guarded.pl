@@ -11,7 +11,7 @@
           ]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module('../program', [guard_called/3, guard_closure/4]).
-:- use_module('../host', [module_policy/2]).
+:- use_module('../host', [atoms_made/1, module_policy/2]).
 :- use_module('../agent', [state_text_add/2]).
 
 /** <module> Goals that strangers make up at run time
@@ -24,7 +24,9 @@ as they stand.  For agents that nobody guards they are call/N.
 *Threading*: whatever thread runs the agent.
 */
 
-:- multifile typhon_machine:guarded/3.
+:- multifile
+    typhon_guard_texts:made/1,
+    typhon_machine:guarded/3.
 
 :- module_transparent
     '$guarded'/1, '$guarded'/2, '$guarded'/3, '$guarded'/4,
@@ -109,6 +111,9 @@ native(Module, Closure, Extra, Goal) :-
 typhon_machine:guarded(context(_, Module), Guarded, Goal) :-
     compound_name_arguments(Guarded, _, [Closure|Extra]),
     may_call(Module, Closure, Extra, Goal).
+
+typhon_guard_texts:made(Length) :-
+    atoms_made(Length).
 
 may_call(Module, Closure, Extra, Goal) :-
     module_policy(Module, Policy),
