@@ -25,7 +25,7 @@ calls it, and a module may define the hooks of lower layers only.
 
 %!  option_words(?Option, ?Words) is nondet.
 
-option_words(journal,  [journal, journaled, committing, ledger, durable]).
+option_words(journal,  [journal, journaled, committing, ledger]).
 option_words(snapshot, [snapshot, snapshots]).
 option_words(tls,      [tls, secure, certificate, certificates]).
 option_words(identity, [owner, owners, signed, signature, signatures,

@@ -42,8 +42,8 @@ shown it once need not again.
 :- multifile
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4.
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
 
 :- setting(births, positive_integer, 20000,
            "Of so many agents that were here it is remembered who owns them").
@@ -139,9 +139,9 @@ typhon_bounded:forgotten(known(Id, Birth)) :-
     ;   note_drop(birth, Id, 0)
     ).
 
-typhon_recovery:kept(birth, Id, 0, Birth) :-
+typhon_durable:dump(birth, Id, 0, Birth) :-
     known(Id, Birth).
-typhon_recovery:back(birth, Id, _, Birth) :-
+typhon_durable:restore(birth, Id, _, Birth) :-
     retractall(known(Id, _)),
     assertz(known(Id, Birth)).
 

@@ -43,7 +43,7 @@ agent_id(Name, Home, Id) :-
 :- multifile
     ids_anew/0,                 % what is known of old ids is forgotten
     id_anew/1,                  % what is known of Id is
-    typhon_recovery:kept/4,
+    typhon_durable:dump/4,
     typhon_runtime:beginning/1.
 
 :- dynamic
@@ -60,7 +60,7 @@ typhon_runtime:beginning(virtual) :-
     assertz(mark('v.')),
     forall(ids_anew, true).
 
-typhon_recovery:kept(flag, typhon_agent_id, N, '') :-
+typhon_durable:dump(flag, typhon_agent_id, N, '') :-
     flag(typhon_agent_id, N, N).
 
 process_mark(Mark) :-

@@ -55,15 +55,15 @@ other users of the process its endpoint, see typhon_runtime.
 
 :- multifile
     begins/1,                   % Name: is there, who wants may listen
-    typhon_recovery:tidy/0,     % nobody is let in yet
-    typhon_recovery:recover/0,  % what the journal knows stands again
-    typhon_recovery:go_on/0,    % and goes on
+    typhon_durable:tidy/0,     % nobody is let in yet
+    typhon_durable:recover/0,  % what the journal knows stands again
+    typhon_durable:go_on/0,    % and goes on
     evacuate/2.                 % Name, Deadline: nobody is left on the host
 
 :- dynamic
-    typhon_recovery:recover/0,
-    typhon_recovery:tidy/0,
-    typhon_recovery:go_on/0,
+    typhon_durable:recover/0,
+    typhon_durable:tidy/0,
+    typhon_durable:go_on/0,
     evacuate/2,
     from_journal/1.             % Name: was started because the journal says so
 
@@ -217,9 +217,9 @@ all_back(Hosts) :-
     forall(member(Name-Options, Hosts),
            ( start_new(Name, Options),
              assertz(from_journal(Name)) )),
-    forall(typhon_recovery:recover, true),
+    forall(typhon_durable:recover, true),
     journal_begin,
-    forall(typhon_recovery:tidy, true),
+    forall(typhon_durable:tidy, true),
     forall(host(Host, _, _), note_host(Host)),
     endpoint_open.
 
@@ -252,7 +252,7 @@ hosts_back(Options) :-
     with_mutex(typhon_hosting, all_back(Hosts)).
 
 hosts_go_on :-
-    forall(typhon_recovery:go_on, true).
+    forall(typhon_durable:go_on, true).
 
 %!  hosts_rest is det.
 %

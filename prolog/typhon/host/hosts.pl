@@ -42,8 +42,8 @@ one mutex: flag/3 would lock for each of them.
 
 :- multifile
     typhon_names:known/2,
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4.
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
 
 %   Those of other processes by their addresses.
 
@@ -96,10 +96,10 @@ make_hop_keys(Name, Direction) :-
 
 %   How many stand there, and how long hops took.
 
-typhon_recovery:kept(counts, Name, 0, Values) :-
+typhon_durable:dump(counts, Name, 0, Values) :-
     host(Name, _, _),
     findall(Value, ( count_key(Name, Key), flag(Key, Value, Value) ), Values).
-typhon_recovery:back(counts, Name, _, Values) :-
+typhon_durable:restore(counts, Name, _, Values) :-
     findall(Key, count_key(Name, Key), Keys),
     maplist(set_flag, Keys, Values).
 

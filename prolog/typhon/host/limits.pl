@@ -21,8 +21,8 @@ gives it its own.
 :- use_module(library(lists), [member/2]).
 
 :- multifile
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4.
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
 
 :- dynamic
     limit/2,                    % Host, Concurrency
@@ -62,12 +62,12 @@ unpark(_, _, []).
 
 %   Who waits for a turn, and how many have one.
 
-typhon_recovery:kept(turns, Host, Running, Agents) :-
+typhon_durable:dump(turns, Host, Running, Agents) :-
     limit(Host, _),
     running_key(Host, Key),
     flag(Key, Running, Running),
     findall(Agent, parked(Host, Agent), Agents).
-typhon_recovery:back(turns, Host, Running, Agents) :-
+typhon_durable:restore(turns, Host, Running, Agents) :-
     running_key(Host, Key),
     flag(Key, _, Running),
     forall(member(Agent, Agents), assertz(parked(Host, Agent))).

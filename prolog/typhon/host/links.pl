@@ -18,8 +18,8 @@ One direction of each: the other is known to the other host.
 :- use_module('../journal', [note_drop/3, note_put/4]).
 
 :- multifile
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4.
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
 
 :- dynamic
     neighbour/2,                % Name, Address
@@ -48,11 +48,11 @@ link_key(Name, Address, Key) :-
 
 %   Nobody hears of a link that was there before.
 
-typhon_recovery:kept(link, Key, 0, link(Name, Address, Cost)) :-
+typhon_durable:dump(link, Key, 0, link(Name, Address, Cost)) :-
     neighbour(Name, Address),
     host_link_cost(Name, Address, Cost),
     link_key(Name, Address, Key).
-typhon_recovery:back(link, _, _, link(Name, Address, Cost)) :-
+typhon_durable:restore(link, _, _, link(Name, Address, Cost)) :-
     with_mutex(typhon_links,
                ( (   neighbour(Name, Address)
                  ->  true

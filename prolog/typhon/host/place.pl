@@ -30,8 +30,8 @@ place. Agents that stand there meet the new clauses with their next call.
 
 :- multifile
     prolog:make_hook/2,
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4.
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
 
 :- dynamic
     place_host/2,               % Place, Host
@@ -259,13 +259,13 @@ remove(Place, Name) :-
                 *       WHAT OUTLIVES IT       *
                 *******************************/
 
-typhon_recovery:back(payload, _, _, payload(Host, Payload)) :-
+typhon_durable:restore(payload, _, _, payload(Host, Payload)) :-
     place_host(Place, Host),
     place_deliver(Place, Payload, _).
 
 %   As they would be delivered once more.
 
-typhon_recovery:kept(payload, Key, 0,
+typhon_durable:dump(payload, Key, 0,
                      payload(Host, payload(Name, PIs, Clauses))) :-
     delivered(Place, Name, PIs),
     payload_key(Place, Name, Host, Key),
@@ -280,12 +280,12 @@ clauses_of(Place, PIs, Clauses) :-
 
 %   What goals and files have made of the place itself.
 
-typhon_recovery:kept(place, Host, 0, state(PIs, Clauses)) :-
+typhon_durable:dump(place, Host, 0, state(PIs, Clauses)) :-
     place_host(Place, Host),
     findall(PI, own_state(Place, PI), PIs),
     PIs \== [],
     clauses_of(Place, PIs, Clauses).
-typhon_recovery:back(place, Host, _, state(PIs, Clauses)) :-
+typhon_durable:restore(place, Host, _, state(PIs, Clauses)) :-
     place_host(Place, Host),
     forall(( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
            ( dynamic(Place:Name/Arity),

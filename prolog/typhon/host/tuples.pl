@@ -21,8 +21,8 @@ leaving a fact while tuple_leave_new/3 looks.
 */
 
 :- multifile
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4.
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
 
 :- public leave_due/2.
 
@@ -123,7 +123,7 @@ tuple_take(Place, Fact) :-
     unit_note_drop(tuple, Host, N),
     leaving_ends(By).
 
-typhon_recovery:back(tuple, Host, N, Noted) :-
+typhon_durable:restore(tuple, Host, N, Noted) :-
     was_noted(Noted, By, Fact),
     place_host(Place, Host),
     leaving_begins(By),
@@ -139,11 +139,11 @@ noted(By, Fact, '$by'(By, Fact)).
 
 %   As they would be left once more.
 
-typhon_recovery:kept(fact, Host, By, Fact) :-
+typhon_durable:dump(fact, Host, By, Fact) :-
     place_host(Place, Host),
     clause(Place:'$tuple'(Fact), Body0),
     strip_module(Body0, _, Body),
     tuple_body(_, By, Body).
-typhon_recovery:back(fact, Host, By, Fact) :-
+typhon_durable:restore(fact, Host, By, Fact) :-
     place_host(Place, Host),
     tuple_leave(Place, Fact, By).

@@ -6,6 +6,7 @@
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_subtract/3]).
+:- use_module('../base/durable', [durable_dump/4, durable_restore/4]).
 :- use_module('../program', [code_receive/2, code_sent/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [host/3, host_again/1, schedule/2]).
@@ -19,16 +20,15 @@
 
 /** <module> All that a process knows, at a moment
 
-Items are item(Kind, Key, N, Term).  Each room says what it knows with the hook
-kept/4, and takes it back with back/4, as it does what the journal has noted,
-see room `recovery`.  What time knows is not among them.
+The items of all tables that outlive the process, see typhon_durable, and what
+time does not know.
 
 *Threading*: any thread, while time is held.
 */
 
 :- multifile
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4.
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
 
 %   What others look up comes before them.  Of some kinds a process in real
 %   time knows better.
@@ -67,7 +67,7 @@ cut_kept(Hosts, Items) :-
     others(Hosts, Others),
     findall(item(Kind, Key, N, Term),
             ( kind(Kind, _),
-              typhon_recovery:kept(Kind, Key, N, Term),
+              durable_dump(Kind, Key, N, Term),
               \+ is_of(Others, Kind, Key, Term),
               can_be_written(Kind, Key, Term) ),
             Items).
@@ -125,7 +125,7 @@ cut_again(Time, Items) :-
            is_again(Kind, Key, N, Term)).
 
 is_again(Kind, Key, N, Term) :-
-    typhon_recovery:back(Kind, Key, N, Term),
+    durable_restore(Kind, Key, N, Term),
     !.
 is_again(Kind, Key, N, Term) :-
     domain_error(saved_item, item(Kind, Key, N, Term)).
@@ -134,24 +134,24 @@ is_again(Kind, Key, N, Term) :-
                 *            AGENTS            *
                 *******************************/
 
-typhon_recovery:back(flag, Name, N, _) :-
+typhon_durable:restore(flag, Name, N, _) :-
     set_flag(Name, N).
 
-typhon_recovery:kept(program, Hash, 0, Sent) :-
+typhon_durable:dump(program, Hash, 0, Sent) :-
     findall(Hash, agent(_, _, _, Hash, _), Hashes0),
     sort(Hashes0, Hashes),
     member(Hash, Hashes),
     code_sent(Hash, Sent).
-typhon_recovery:back(program, Hash, _, Sent) :-
+typhon_durable:restore(program, Hash, _, Sent) :-
     code_receive(Hash, Sent).
 
-typhon_recovery:kept(stands, Id, 0,
+typhon_durable:dump(stands, Id, 0,
                      agent(Host, Hash, Life, State, Status, Goals)) :-
     agent(Id, Host, Module, Hash, Life),
     agent_status(Id, Status0, Goals0),
     rests(Status0, Goals0, Id, Status, Goals),
     agent_state(Module, State).
-typhon_recovery:back(stands, Id, _,
+typhon_durable:restore(stands, Id, _,
                      agent(Host, Hash, Life, State, Status, Goals)) :-
     host(Host, _, Place),
     agent_module(Id, Place, Hash, State, Module),
@@ -168,20 +168,20 @@ rests(_, Held, _, ready, Goals) :-
     !.
 rests(Status, Goals, _, Status, Goals).
 
-typhon_recovery:kept(mail, Id, 0, Message) :-
+typhon_durable:dump(mail, Id, 0, Message) :-
     agent(Id, _, _, _, _),
     with_agent(Id, mail_list(Id, Messages)),
     member(Message, Messages).
 
 %   Nobody waits for the answer any more.
 
-typhon_recovery:kept(order, Id, 0, Order) :-
+typhon_durable:dump(order, Id, 0, Order) :-
     agent(Id, _, _, _, _),
     agent_orders(Id, Orders),
     member(Order0, Orders),
     Order0 \= asked(question(_), _),
     unasked(Order0, Order).
-typhon_recovery:back(order, Id, _, Order) :-
+typhon_durable:restore(order, Id, _, Order) :-
     agent_order(Id, Order).
 
 unasked(asked(Order, _), asked(Order, queue(nobody))) :-

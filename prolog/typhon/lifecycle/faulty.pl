@@ -24,9 +24,7 @@ move, or out of a restore point.  Only agent_resume/1 takes that away.
 *Threading*: what takes an Id inside with_agent/2, but for faulty_tell/3.
 */
 
-:- multifile
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4.
+:- multifile typhon_durable:fact_table/5.
 
 :- dynamic kept/1.                      % Id, the oldest first
 
@@ -70,10 +68,7 @@ faulty_stirs(Id) :-
 faulty_gone(Id) :-
     retractall(kept(Id)).
 
-typhon_recovery:kept(stays, Id, 0, '') :-
-    kept(Id).
-typhon_recovery:back(stays, Id, _, _) :-
-    assertz(kept(Id)).
+typhon_durable:fact_table(stays, Id, 0, '', typhon_faulty:kept(Id)).
 
 %!  faulty_tell(+Id, +Fault, +At) is det.
 %

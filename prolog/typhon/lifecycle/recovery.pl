@@ -3,6 +3,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/durable', [durable_restore/4]).
 :- use_module('../journal', [journal_item/5, note_drop_all/2]).
 :- use_module('../host',
               [alarm_set/3, host/3, host_again/1, real_time/3, schedule/2]).
@@ -12,30 +13,24 @@
 
 /** <module> What the journal knows stands again
 
-First everything is put where it was, when nobody is let in yet and nobody
-runs: each room that has noted something takes it back with the hook back/4.
-Then it goes on: agents whose time has come, or that were about to run, are
-scheduled, alarms are set, what was under way is asked for or sent again.
+First everything is put where it was, while no peer is let in and no agent
+runs, see typhon_durable.  Then it goes on: agents whose time has come, or that
+were about to run, are scheduled, alarms are set, what was under way is asked
+for or sent again.
 
 *Threading*: the thread that starts the first host of the process.
 */
 
 :- multifile
     typhon_code:in_use/1,
-    typhon_runtime:ending/1,
-    back/4,                     % Kind, Key, N, Term: was noted so
-    kept/4,                     % Kind, Key, N, Term: is so, see room `cut`
-    recover/0,
-    tidy/0,                     % nobody is let in yet
-    restored/0,                 % all of it is
-    go_on/0.
+    typhon_durable:go_on/0,
+    typhon_durable:recover/0,
+    typhon_durable:restore/4,
+    typhon_durable:tidy/0,
+    typhon_runtime:ending/1.
 
 :- dynamic
-    restored/0,
-    recover/0,
-    tidy/0,
-    go_on/0,
-    superfluous/2,              % Kind, Key: nobody needs it any more
+    superfluous/2,              % Kind, Key: no agent needs it
     left/2.                     % Id, Hash: an agent that is not back
 
 %   What others look up comes before them.
@@ -64,15 +59,15 @@ kind(code, any).
 %   What this process knew before, with another journal or none, is another
 %   story.
 
-recover :-
+typhon_durable:recover :-
     forall(typhon_identity:ids_anew, true),
     forall(( kind(Kind, Order),
              journal_item(Kind, Order, Key, N, Term) ),
            is_back(Kind, Key, N, Term)),
-    forall(restored, true).
+    forall(typhon_durable:restored, true).
 
 is_back(Kind, Key, N, Term) :-
-    catch(back(Kind, Key, N, Term), error(Formal, Context), true),
+    catch(durable_restore(Kind, Key, N, Term), error(Formal, Context), true),
     !,
     (   var(Formal)
     ->  true
@@ -98,13 +93,13 @@ typhon_code:in_use(Hash) :-
 typhon_runtime:ending(after) :-
     retractall(left(_, _)).
 
-back(agent, Id, _, Record) :-
+typhon_durable:restore(agent, Id, _, Record) :-
     Record = agent(Host, _, _, _, _, _),
     host(Host, _, Place),
     agent_back(Id, Record, Place),
     host_again(Host),
     debug(typhon(agent), '~w: is there again, on ~w', [Id, Host]).
-back(mail, Id, N, Message) :-
+typhon_durable:restore(mail, Id, N, Message) :-
     (   agent(Id, _, _, _, _)
     ->  mail_restore(Id, N, Message)
     ;   left(Id, _)
@@ -112,7 +107,7 @@ back(mail, Id, N, Message) :-
     ;   assertz(superfluous(mail, Id))
     ).
 
-back(code, Hash, _, _) :-
+typhon_durable:restore(code, Hash, _, _) :-
     (   ( agent(_, _, _, Hash, _) ; left(_, Hash) )
     ->  true
     ;   assertz(superfluous(code, Hash))
@@ -120,14 +115,14 @@ back(code, Hash, _, _) :-
 
 %   Before anybody who needs it again can come.
 
-tidy :-
+typhon_durable:tidy :-
     forall(retract(superfluous(Kind, Key)), note_drop_all(Kind, Key)).
 
                 /*******************************
                 *            GO ON             *
                 *******************************/
 
-go_on :-
+typhon_durable:go_on :-
     findall(Id, agent_status(Id, _, _), All),
     forall(member(Id, All), agent_goes_on(Id)).
 

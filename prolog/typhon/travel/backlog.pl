@@ -23,8 +23,8 @@ tried they are with whoever tries; there is one at a time.
 */
 
 :- multifile
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4,
+    typhon_durable:restore/4,
+    typhon_durable:dump/4,
     typhon_runtime:ending/1.
 
 :- dynamic waits/4.             % Id, Queue, Tries, State: idle or tried
@@ -44,16 +44,16 @@ backlog_add(Id, Letter) :-
     note_put(wait, Id, N, Letter),
     add(Id, Letter).
 
-typhon_recovery:back(wait, Id, _, Letter) :-
+typhon_durable:restore(wait, Id, _, Letter) :-
     add(Id, Letter).
 
 %   They are there, and nobody tries them just now.
 
-typhon_recovery:kept(backlog, Id, Tries, Letters) :-
+typhon_durable:dump(backlog, Id, Tries, Letters) :-
     waits(Id, Queue, Tries, _),
     fifo_empty(Queue, Letters),
     maplist(thread_send_message(Queue), Letters).
-typhon_recovery:back(backlog, Id, Tries, Letters) :-
+typhon_durable:restore(backlog, Id, Tries, Letters) :-
     message_queue_create(Queue),
     maplist(thread_send_message(Queue), Letters),
     assertz(waits(Id, Queue, Tries, idle)).

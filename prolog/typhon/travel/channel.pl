@@ -35,10 +35,10 @@ a time sends to an endpoint.
 :- meta_predicate engaging(+, 0).
 
 :- multifile
+    typhon_durable:fact_table/5,
     typhon_endpoint:connection/2,
     typhon_endpoint:received/3,
-    typhon_recovery:back/4,
-    typhon_recovery:go_on/0,
+    typhon_durable:go_on/0,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
 
@@ -299,10 +299,10 @@ typhon_endpoint:connection(Endpoint, up) :-
     ;   begin_anew(Endpoint)
     ).
 
-typhon_recovery:back(out, Endpoint, N, item(Kind, Term)) :-
-    assertz(out(Endpoint, N, Kind, Term)).
+typhon_durable:fact_table(out, Endpoint, N, item(Kind, Term),
+                          typhon_channel:out(Endpoint, N, Kind, Term)).
 
-typhon_recovery:go_on :-
+typhon_durable:go_on :-
     findall(Endpoint, out(Endpoint, _, _, _), All),
     sort(All, Endpoints),
     forall(member(Endpoint, Endpoints), begin_anew(Endpoint)).

@@ -13,8 +13,8 @@ and that it has come is noted together with what came of it.
 */
 
 :- multifile
+    typhon_durable:fact_table/5,
     typhon_endpoint:received/3,
-    typhon_recovery:back/4,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
 
@@ -84,8 +84,7 @@ typhon_scheduler:fire(Key, had(To, Peer)) :-
     !,
     scheduler_call(typhon_channel_end:say_had(Key, To, Peer)).
 
-typhon_recovery:back(seen, Key, _, N) :-
-    assertz(seen(Key, N)).
+typhon_durable:fact_table(seen, Key, 0, N, typhon_channel_end:seen(Key, N)).
 
 typhon_runtime:ending(after) :-
     retractall(seen(_, _)),

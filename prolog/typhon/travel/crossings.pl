@@ -29,7 +29,7 @@ hop, that the first has no open one less than Least to it any more.
 */
 
 :- multifile
-    typhon_recovery:back/4,
+    typhon_durable:fact_table/5,
     typhon_runtime:ending/1.
 
 :- dynamic
@@ -142,8 +142,8 @@ forget_below(Process, Least) :-
     ;   true
     ).
 
-typhon_recovery:back(done, Process, _, N) :-
-    assertz(done(Process, N)).
+typhon_durable:fact_table(done, Process, N, N,
+                          typhon_crossings:done(Process, N)).
 
 typhon_runtime:ending(after) :-
     retractall(under_way(_, _, _, _)),

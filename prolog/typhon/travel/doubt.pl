@@ -43,7 +43,7 @@ a worker.
 
 :- multifile
     again/1,                    % Transfer: ask once more
-    typhon_recovery:go_on/0,
+    typhon_durable:go_on/0,
     typhon_scheduler:fire/2.
 
 %!  doubt_settle(+Transfer) is det.
@@ -90,7 +90,7 @@ doubt_open(Transfer) :-
     transfer_traveller(Transfer, Who, _),
     crossing_repeated(Who).
 
-typhon_recovery:go_on :-
+typhon_durable:go_on :-
     findall(Transfer, transfer_open(Transfer), Transfers),
     forall(member(Transfer, Transfers),
            scheduler_call(typhon_doubt:again(Transfer))).

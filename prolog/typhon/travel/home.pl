@@ -50,11 +50,11 @@ its agents what they tell it.
     waiter/3.                   % Id, Token, Asker
 
 :- multifile
+    typhon_durable:fact_table/5,
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4,
+    typhon_durable:dump/4,
     typhon_endpoint:requested/4,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
@@ -84,22 +84,18 @@ typhon_bounded:forgotten(outcome(Id, _, _)) :-
 
 %   At the address of another process there may be another by then.
 
-typhon_recovery:kept(born, Id, 0, born(Address, Hops, Process)) :-
+typhon_durable:dump(born, Id, 0, born(Address, Hops, Process)) :-
     born(Id, Address, Hops, Process0),
     ( Process0 == here -> Process = here ; Process = unknown ).
-typhon_recovery:kept(outcome, Id, 0, Outcome-Hops) :-
-    outcome(Id, Outcome, Hops).
-typhon_recovery:kept(faulty, Id, 0, faulty(Outcome, Age)) :-
-    faulty(Id, Outcome, Age).
-typhon_recovery:kept(flag, outcomes, N, '') :-
+typhon_durable:fact_table(outcome, Id, _, Outcome-Hops,
+                          typhon_home:outcome(Id, Outcome, Hops)).
+typhon_durable:fact_table(faulty, Id, 0, faulty(Outcome, Age),
+                          typhon_home:faulty(Id, Outcome, Age)).
+typhon_durable:dump(flag, outcomes, N, '') :-
     flag(outcomes, N, N).
 
-typhon_recovery:back(born, Id, _, born(Address, Hops, Process)) :-
-    assertz(born(Id, Address, Hops, Process)).
-typhon_recovery:back(outcome, Id, _, Outcome-Hops) :-
-    assertz(outcome(Id, Outcome, Hops)).
-typhon_recovery:back(faulty, Id, _, faulty(Outcome, Age)) :-
-    assertz(faulty(Id, Outcome, Age)).
+typhon_durable:fact_table(born, Id, 0, born(Address, Hops, Process),
+                          typhon_home:born(Id, Address, Hops, Process)).
 
 %!  home_knows(+Id, -Address, -Hops, -Process) is semidet.
 %

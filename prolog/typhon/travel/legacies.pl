@@ -27,11 +27,11 @@ oldest entries are forgotten.
 */
 
 :- multifile
+    typhon_durable:fact_table/5,
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4,
+    typhon_durable:dump/4,
     typhon_endpoint:requested/4.
 
 :- setting(legacies, positive_integer, 20000,
@@ -81,18 +81,12 @@ typhon_bounded:forgotten(left(Id, _)) :-
 typhon_bounded:forgotten(clone_of(_, Clone)) :-
     note_drop_all(clone, Clone).
 
-typhon_recovery:kept(left, Id, 0, Item) :-
-    left(Id, Item).
-typhon_recovery:kept(clone, Clone, 0, Parent) :-
-    clone_of(Parent, Clone).
-typhon_recovery:kept(flag, Name, N, '') :-
+typhon_durable:fact_table(left, Id, _, Item, typhon_legacies:left(Id, Item)).
+typhon_durable:fact_table(clone, Clone, _, Parent,
+                          typhon_legacies:clone_of(Parent, Clone)).
+typhon_durable:dump(flag, Name, N, '') :-
     member(Name, [legacies, clones]),
     flag(Name, N, N).
-
-typhon_recovery:back(left, Id, _, Item) :-
-    assertz(left(Id, Item)).
-typhon_recovery:back(clone, Clone, _, Parent) :-
-    assertz(clone_of(Parent, Clone)).
 
 clone_born(Parent, Clone) :-
     journal_number(N),

@@ -18,9 +18,9 @@ tells its log server it tells at once, see typhon_host_log.
 */
 
 :- multifile
+    typhon_durable:fact_table/5,
     typhon_channel:undelivered/4,
-    typhon_recovery:back/4,
-    typhon_recovery:go_on/0.
+    typhon_durable:go_on/0.
 
 :- dynamic said/4.                      % Host, N, Agent, What: before a restart
 
@@ -52,10 +52,10 @@ post(Host, Agent, What) :-
     ;   true                            % it has none any more
     ).
 
-typhon_recovery:back(logged, Host, N, Agent-What) :-
-    assertz(said(Host, N, Agent, What)).
+typhon_durable:fact_table(logged, Host, N, Agent-What,
+                          typhon_logged:said(Host, N, Agent, What)).
 
-typhon_recovery:go_on :-
+typhon_durable:go_on :-
     findall(said(Host, N, Agent, What),
             retract(said(Host, N, Agent, What)), All),
     forall(member(said(Host, N, Agent, What), All),

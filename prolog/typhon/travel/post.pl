@@ -42,8 +42,8 @@ post_on/2 and the hooks never do.
 */
 
 :- multifile
-    typhon_recovery:back/4,
-    typhon_recovery:go_on/0,
+    typhon_durable:fact_table/5,
+    typhon_durable:go_on/0,
     typhon_endpoint:received/3,
     typhon_endpoint:together/3.
 
@@ -107,10 +107,10 @@ post_noted(Id, N, From, Message) :-
                               typhon(undeliverable(Formal, Id, From,
                                                    Message)))) )).
 
-typhon_recovery:back(letter, Id, N, From-Message) :-
-    assertz(said(Id, N, From, Message)).
+typhon_durable:fact_table(letter, Id, N, From-Message,
+                          typhon_post:said(Id, N, From, Message)).
 
-typhon_recovery:go_on :-
+typhon_durable:go_on :-
     findall(said(Id, N, From, Message),
             retract(said(Id, N, From, Message)), Letters),
     forall(member(said(Id, N, From, Message), Letters),

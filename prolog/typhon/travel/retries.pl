@@ -25,7 +25,7 @@ since the news that the agent had left it may be under way.
 */
 
 :- multifile
-    typhon_recovery:go_on/0,
+    typhon_durable:go_on/0,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
 
@@ -78,7 +78,7 @@ typhon_scheduler:fire(Id, mail) :-
 typhon_scheduler:over(Id, mail) :-
     \+ backlog(Id).
 
-typhon_recovery:go_on :-
+typhon_durable:go_on :-
     retries_go_on.
 
 %!  retries_go_on is det.

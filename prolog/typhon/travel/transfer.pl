@@ -48,9 +48,9 @@ clone(Held, CloneId, Since).
 */
 
 :- multifile
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4,
-    typhon_recovery:restored/0,
+    typhon_durable:fact_table/5,
+    typhon_durable:restore/4,
+    typhon_durable:restored/0,
     forward_order/2.            % Id, Order: the agent has left
 
 :- dynamic given_up/2.          % Id, Hops: disposed of while in doubt
@@ -239,7 +239,7 @@ transfer_given_up(Id, hop(_, Hops, _, _)) :-
 
 %   The oldest first, before anybody else sets out.
 
-typhon_recovery:restored :-
+typhon_durable:restored :-
     findall(Sent-Transfer,
             ( transfer_open(Transfer),
               arg(1, Transfer, Id),
@@ -252,9 +252,11 @@ typhon_recovery:restored :-
              arg(2, Transfer, dest(_, _, Endpoint)) ),
            crossing_restore(Who, Hops, Endpoint, Sent)).
 
-typhon_recovery:kept(given_up, Id, Hops, '') :-
-    given_up(Id, Hops).
-typhon_recovery:back(given_up, Id, Hops, _) :-
+%   The term says nothing; older journals have one.
+
+typhon_durable:fact_table(given_up, Id, Hops, '',
+                          typhon_transfer:given_up(Id, Hops)).
+typhon_durable:restore(given_up, Id, Hops, _) :-
     assertz(given_up(Id, Hops)).
 
 %!  transfer_open(?Transfer) is nondet.

@@ -60,12 +60,13 @@ see typhon_news, since it may have to connect.
     ended_here/2.               % Id, Hops
 
 :- multifile
+    typhon_durable:fact_table/5,
     error:has_type/2,
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
-    typhon_recovery:back/4,
-    typhon_recovery:kept/4,
+    typhon_durable:restore/4,
+    typhon_durable:dump/4,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
 
@@ -152,12 +153,13 @@ typhon_bounded:forgotten(forward(Id, _, _, _)) :-
 
 %   The process may be another by then.
 
-typhon_recovery:kept(gone, Id, 0, gone(Address, Hops, unknown)) :-
+typhon_durable:dump(gone, Id, 0, gone(Address, Hops, unknown)) :-
     forward(Id, Address, Hops, _).
-typhon_recovery:back(gone, Id, _, gone(Address, Hops, Process)) :-
-    assertz(forward(Id, Address, Hops, Process)).
+typhon_durable:fact_table(gone, Id, 0, gone(Address, Hops, Process),
+                          typhon_whereabouts:forward(Id, Address, Hops,
+                                                     Process)).
 
-typhon_recovery:back(agent, Id, _, gone(Address, Hops, Process)) :-
+typhon_durable:restore(agent, Id, _, gone(Address, Hops, Process)) :-
     !,
     agent_home_endpoint(Id, Home),
     (   agent_outcome(Id, _)

@@ -26,7 +26,7 @@ kept, the oldest are forgotten.
 :- setting(contacts, positive_integer, 10000,
            "Addresses of which is known who was met there").
 
-:- multifile typhon_recovery:back/4.
+:- multifile typhon_durable:restore/4.
 
 :- dynamic
     contact/3,                          % Address, Process, met or gone
@@ -114,7 +114,7 @@ note_lasting(none, _) :-
 note_lasting(_, Address) :-
     note_drop(lasting, Address, 0).
 
-typhon_recovery:back(lasting, Address, _, Process) :-
+typhon_durable:restore(lasting, Address, _, Process) :-
     assertz(contact(Address, Process, met)).
 
 forget_oldest :-
