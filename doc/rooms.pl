@@ -20,8 +20,9 @@
     (`exceptions` rewrites it without those that are no longer needed);
   - a hook that its module does not declare, or that no module defines.
 
-`picture` draws who imports whom (tred leaves out what follows from other
-arrows), `figures` counts rooms, lines and lines per predicate.
+`picture` draws which module imports which (tred leaves out what follows from
+other arrows), `figures` counts modules, lines and lines per predicate, and
+prints what the kernel and the tests hold beside the most that is wanted.
 
 *Threading*: the main thread.
 */

@@ -1,10 +1,12 @@
 :- module(rooms_figures, [figures/0]).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(seams, [exception/2, kernel_file/1]).
 :- use_module(tree).
 
-/** <module> Rooms, lines and lines per predicate, counted
+/** <module> Modules, lines and lines per predicate, counted beside the budgets
 
 *Threading*: the main thread.
 */
@@ -12,7 +14,52 @@
 figures :-
     forall(member(Top, ['prolog/typhon', agents, payloads, experiments, app,
                         test, bench]),
-           figures(Top)).
+           figures(Top)),
+    forall(budget(Name, Count, Most),
+           format('~w~t~48|~t~D~9+~t~D~12+~n', [Name, Count, Most])).
+
+%   budget(-Name, -Count, -Most): what is counted, and how much is wanted.
+
+budget('lines of the kernel', Count, 20 000) :-
+    aggregate_all(sum(N), ( kernel_file(File), file_lines(File, N) ), Count).
+budget('files of the kernel', Count, 110) :-
+    aggregate_all(count, kernel_file(_), Count).
+budget('term nodes of the kernel', Count, 55 000) :-
+    aggregate_all(sum(N), ( kernel_file(File), nodes(File, N) ), Count).
+budget('exceptions to the rules of seams', Count, 0) :-
+    aggregate_all(count, exception(_, _), Count).
+budget('lines of prolog/, all languages', Count, 56 000) :-
+    aggregate_all(sum(N), ( product_file(File), file_lines(File, N) ), Count).
+budget('files of prolog/, all languages', Count, 310) :-
+    aggregate_all(count, product_file(_), Count).
+budget('files of wire/', Count, 16) :-
+    aggregate_all(count, room(_, wire, _), Count).
+budget('suites that import internal modules', Count, 5) :-
+    aggregate_all(count, imports_internals(_), Count).
+budget('sleep( in tests', Count, 20) :-
+    inside('test/', Tests),
+    aggregate_all(sum(N), ( tree_file(File), atom_concat(Tests, _, File),
+                            occurrences(File, "sleep(", N) ), Count).
+
+%   Written by us: what npm brings is left out.
+
+product_file(File) :-
+    inside(prolog, Dir),
+    directory_member(Dir, File, [ recursive(true),
+                                  extensions([pl, js, css, html]) ]),
+    \+ sub_atom(File, _, _, _, '.min.').
+
+imports_internals(Suite) :-
+    inside('test/', Tests),
+    tree_file(Suite),
+    atom_concat(Tests, _, Suite),
+    file_base_name(Suite, Base),
+    atom_concat(test_, _, Base),
+    once(( import(Suite, File, _), room(File, _, _) )).
+
+occurrences(File, Text, N) :-
+    read_file_to_string(File, String, []),
+    aggregate_all(count, sub_string(String, _, _, _, Text), N).
 
 figures(Top) :-
     inside(Top, Dir),

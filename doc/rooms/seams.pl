@@ -1,5 +1,7 @@
 :- module(rooms_seams,
           [ seam_problem/1,     % -Problem
+            exception/2,        % ?File, ?What
+            kernel_file/1,      % ?File
             shrink_exceptions/0
           ]).
 :- use_module(library(lists), [member/2]).
@@ -99,6 +101,15 @@ option_file(trace, 'lifecycle/spying.pl').
 kernel_layer(Layer) :-
     member(Layer, [base, program, wire, host, agent, travel, lifecycle,
                    language]).
+
+%!  kernel_file(?File) is nondet.
+%
+%   File is of the kernel: in one of its folders, and of no option.
+
+kernel_file(File) :-
+    room(File, Layer, _),
+    kernel_layer(Layer),
+    \+ own_option(File, _).
 
 %!  seam_problem(-Problem) is nondet.
 

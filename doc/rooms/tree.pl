@@ -10,12 +10,14 @@
             declares/2,         % ?File, ?Hook
             defines/2,          % ?File, ?Hook
             size/4,             % ?File, ?PI, ?First, ?Last
+            nodes/2,            % ?File, ?Count
             inside/2,           % ?Relative, ?File
             layers/1,           % -Layers
             room/3,             % ?File, ?Layer, ?Name
             door/2,             % ?File, ?Layer
             offered/3           % +Room, +List, ?PI
           ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(prolog_code), [comma_list/2]).
 :- use_module(library(filesex),
               [directory_file_path/3, directory_member/3]).
@@ -40,7 +42,8 @@
     reaches/3,                  % File, Module, PI: Module:Goal in a clause
     declares/2,                 % File, Module:PI: multifile
     defines/2,                  % File, Module:PI: a clause for that module
-    size/4.                     % File, PI, first and last line
+    size/4,                     % File, PI, first and last line
+    nodes/2.                    % File, Count: nodes of the term of a clause
 
 :- prolog_load_context(directory, Dir),
    file_directory_name(Dir, Doc),
@@ -85,6 +88,8 @@ note((:- Directive), File, _, _) :-
     note_directive(Directive, File).
 note(Clause, File, First, Last) :-
     note_names(Clause, File),
+    term_nodes(Clause, Nodes),
+    assertz(nodes(File, Nodes)),
     (   clause_head(Clause, Module:Head)
     ->  functor(Head, Name, Arity),
         assertz(defines(File, Module:Name/Arity))
@@ -93,6 +98,9 @@ note(Clause, File, First, Last) :-
         assertz(size(File, Name/Arity, First, Last))
     ;   true
     ).
+
+term_nodes(Term, Nodes) :-
+    aggregate_all(count, sub_term(_, Term), Nodes).
 
 clause_head((Head-->_), Head) :- !, callable(Head).
 clause_head((Head:-_), Head) :- !, callable(Head).
