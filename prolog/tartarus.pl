@@ -26,6 +26,7 @@ so that it is neither lost nor doubled.
 Local definitions win: programs may have predicates of these names.
 */
 
+:- use_module(typhon/base/user_errors, [user_errors/1]).
 :- reexport(tartarus/platform,
             [ start_tartarus/1, start_tartarus/2, start_tartarus/3,
               close_tartarus/0, reset_tartarus/0, get_tartarus_details/2,
@@ -74,3 +75,5 @@ platform_file(File) :-
     \+ absolute_file_name(File, _,
                           [ file_type(prolog), access(exist),
                             file_errors(fail) ]).
+
+:- user_errors(tartarus).

@@ -23,6 +23,7 @@ layer has a door, and behind it a folder with its rooms.
 :- set_prolog_flag(optimise, true).
 :- set_prolog_flag(optimise_debug, false).
 
+:- use_module(typhon/base/user_errors, [user_errors/1]).
 :- reexport(typhon/program, [agent_check/1, agent_check/2]).
 :- reexport(typhon/watching, [watch/3, unwatch/1]).
 :- reexport(typhon/host,
@@ -38,5 +39,7 @@ layer has a door, and behind it a folder with its rooms.
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
               ros_start/3, ros_stop/1, ros_property/2, fipa_start/3, fipa_stop/1 ]).
 :- use_module(typhon/language, []).
+
+:- user_errors(typhon).
 
 :- set_prolog_flag(optimise_debug, default).

@@ -19,5 +19,8 @@ the rooms in fipa/.
   | threads                                | crew                          |
 */
 
+:- use_module(base/user_errors, [user_errors/1]).
 :- reexport(bridge/starting, [fipa_start/3, fipa_stop/1]).
 :- reexport(fipa/service).
+
+:- user_errors(typhon_fipa).

@@ -11,6 +11,9 @@ they have subscribed to comes as mqtt-message(Topic, Payload, Options).  See
 doc/bridges.md.
 */
 
+:- use_module(base/user_errors, [user_errors/1]).
 :- reexport(bridge/starting, [mqtt_start/3, mqtt_stop/1]).
 :- use_module('mqtt/service', []).
 :- use_module('mqtt/words', []).
+
+:- user_errors(typhon_mqtt).

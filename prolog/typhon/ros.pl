@@ -17,6 +17,7 @@ ros/.
   | messages as terms       | typhon/ros/values      |
 */
 
+:- use_module(base/user_errors, [user_errors/1]).
 :- reexport(bridge/starting, [ros_property/2, ros_start/3, ros_stop/1]).
 :- use_module(ros/service, []).
 :- reexport(ros/topics).
@@ -25,3 +26,5 @@ ros/.
 :- reexport(ros/parameters).
 :- use_module(ros/events, []).
 :- use_module(ros/texts, []).
+
+:- user_errors(typhon_ros).

@@ -1,7 +1,8 @@
 :- module(test_transcript,
           [ transcript_differences/3,   % +Sessions, +Dir, -Differences
-            transcript_differences/4    % +Sessions, +Terminal, +Dir,
+            transcript_differences/4,   % +Sessions, +Terminal, +Dir,
                                         % -Differences
+            typed_in_terminal/3         % +Queries, +Dir, -Outputs
           ]).
 
 /** <module> Compare transcripts in documents with the top level
@@ -54,6 +55,17 @@ transcript_differences(Sessions, Terminal, Dir, Differences) :-
                 Differences),
         stop_top_level(Top)).
 
+%!  typed_in_terminal(+Queries, +Dir, -Outputs:list) is det.
+%
+%   Outputs are, for each of Queries, texts, the lines that were printed for
+%   it, without empty ones.
+
+typed_in_terminal(Queries, Dir, Outputs) :-
+    setup_call_cleanup(
+        start_top_level(terminal(80, true), Dir, Top),
+        maplist(ask(Top), Queries, Outputs),
+        stop_top_level(Top)).
+
 %   steps(+Lines, -Steps): step(Goal, Expected) for each query.
 
 steps([], []).
@@ -90,10 +102,11 @@ start_top_level(terminal(Columns, Colour), Dir,
     directory_file_path(Library, 'typhon.pl', Typhon),
     project_file('test/lib/terminal.py', Terminal),
     project_file('test/lib/typed_queries.pl', Marks),
-    format(atom(SetColour), 'set_prolog_flag(color_term,~w)', [Colour]),
+    format(atom(Set), 'set_prolog_flag(color_term,~w),\c
+                      set_prolog_flag(toplevel_prompt,\'?- \')', [Colour]),
     process_create(path(python3),
                    [ Terminal, Columns, Swipl, '-f', Marks, '-p', Path,
-                     '-g', SetColour, Typhon ],
+                     '-g', Set, Typhon ],
                    [ cwd(Dir), stdin(pipe(In, [encoding(utf8)])),
                      stdout(pipe(Out, [encoding(utf8)])), process(Pid) ]),
     message_queue_create(Queue),

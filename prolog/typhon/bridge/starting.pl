@@ -11,7 +11,6 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../host', [host_option/2, host_resolve/2, remote/2]).
 
 /** <module> The beginning and the end of bridges
@@ -231,7 +230,7 @@ start(Bridge, Host, What, Options) :-
     must_be(ground, What),
     must_be(list, Options),
     host_resolve(Host, Where),
-    raising_afresh(start_at(Where, Bridge, What, Options)).
+    once(start_at(Where, Bridge, What, Options)).
 
 start_at(local(Name), Bridge, What, Options) :-
     load(Bridge),
@@ -243,7 +242,7 @@ start_at(remote(Host, Name, _), Bridge, What, Options) :-
 stop(Bridge, Host) :-
     must_be(atom, Host),
     host_resolve(Host, Where),
-    raising_afresh(stop_at(Where, Bridge)).
+    once(stop_at(Where, Bridge)).
 
 stop_at(local(Name), Bridge) :-
     (   stops(Bridge, Name)

@@ -3,7 +3,6 @@
                                         % -Answer, +Seconds
             as_guest/1                  % :Goal
           ]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../wire',
               [endpoint_call/5, endpoint_missed/2]).
 :- use_module(runtime,
@@ -58,8 +57,7 @@ as_guest(Goal) :-
 as_guest(Goal) :-
     flag(typhon_guest, N, N+1),
     runtime_acquire(guest(N), []),
-    raising_afresh(setup_call_cleanup(true, once(Goal),
-                                      runtime_release(guest(N)))).
+    setup_call_cleanup(true, once(Goal), runtime_release(guest(N))).
 
 own_thread :-
     thread_self(Me),

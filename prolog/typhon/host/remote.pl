@@ -4,7 +4,6 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module(asking, [process_ask/6]).
 :- use_module(context, [in_context/2]).
@@ -39,7 +38,7 @@ other process.
 remote(Host, Goal) :-
     host_resolve(Host, Where),
     must_be(callable, Goal),
-    raising_afresh(run(Where, Goal)).
+    once(run(Where, Goal)).
 
 run(local(Name), Goal) :-
     run_here(Name, Goal).

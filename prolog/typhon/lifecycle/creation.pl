@@ -12,7 +12,6 @@
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../journal', [journal_barrier/0, journal_step/1]).
 :- use_module('../program',
@@ -79,7 +78,7 @@ agent_create(Program, Agent) :-
 agent_create(Spec, Agent, Options) :-
     must_be(var, Agent),
     check_options(agent_option, Options),
-    raising_afresh(create_by(Options, Spec, Agent)).
+    once(create_by(Options, Spec, Agent)).
 
 create_by(Options, Spec, Agent) :-
     target(Options, Target),

@@ -11,7 +11,6 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/2]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../program', [payload_load/2, payload_signature/2]).
 :- use_module('../host', [host_address/2]).
@@ -82,7 +81,7 @@ agent_clone(Agent, Clone) :-
     Clone = Clone0.
 
 payload_attach(Agent, Spec) :-
-    raising_afresh(payload_load(Spec, Payload)),
+    once(payload_load(Spec, Payload)),
     (   payload_signature(Payload, Signature)
     ->  Order = attach(Payload, Signature)
     ;   Order = attach(Payload)
@@ -128,7 +127,7 @@ agent_resume(Agent) :-
 
 agent_change(Agent, Change) :-
     must_be(nonvar, Change),
-    raising_afresh(change_order(Change, Order)),
+    once(change_order(Change, Order)),
     order_give(Agent, change(Order), _).
 
 %!  order_give(+Agent, +Order, -Result) is det.

@@ -6,7 +6,6 @@
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../program', [code_receive/2, program_hash/2]).
 :- use_module('../agent', [is_life/1]).
@@ -39,7 +38,7 @@ still to run can be read, compared and edited.
 
 agent_save(Agent, File) :-
     order_give(Agent, image, Image),
-    raising_afresh(write_image(File, Image)).
+    once(write_image(File, Image)).
 
 agent_load(File, Agent) :-
     agent_load(File, Agent, []).
@@ -47,7 +46,7 @@ agent_load(File, Agent) :-
 agent_load(File, Agent, Options) :-
     must_be(var, Agent),
     check_options(load_option, Options),
-    raising_afresh(read_image(File, Image)),
+    once(read_image(File, Image)),
     Image = image(Name, Sent, Life, State, Goals, Mail),
     program_places(Sent, Program, _),
     program_hash(Program, Hash),

@@ -12,7 +12,6 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/erased', [forget_erased/0]).
 :- use_module('../base/options', [check_name/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
@@ -147,7 +146,7 @@ network_begin(Name, Plan, Build, Network) :-
     ->  Network = Name
     ;   new_name(Network)
     ),
-    raising_afresh(
+    once(
         setup_call_catcher_cleanup(
             assertz(network(Network, Plan)),
             call(Build, Network),

@@ -5,7 +5,6 @@
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, numlist/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../host',
               [ context_now/2, host_property/2, time_due/3, time_kind/1,
                 time_now/1 ]).
@@ -57,7 +56,7 @@ network_save(Network, File) :-
     must_be(atom, Network),
     must_be(ground, File),
     network_standing(Network, Standing),
-    raising_afresh(one_at_a_time(save(Network, Standing, File))).
+    once(one_at_a_time(save(Network, Standing, File))).
 
 %   In virtual time one waits for the other anyway, and may be asked to do so in
 %   the thread of that.

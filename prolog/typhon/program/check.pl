@@ -5,7 +5,6 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2]).
 :- use_module(library(option), [option/3]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module(advice, [problem_error/3]).
 :- use_module(allowed, [policy_read/1]).
@@ -46,7 +45,7 @@
 %   of a host of this process defines the predicate.
 
 agent_check(Spec) :-
-    raising_afresh(source_terms(Spec, Located, _, Unread, Once)),
+    once(source_terms(Spec, Located, _, Unread, Once)),
     looked_at(Unread, Located, Errors, Slips, Undefined),
     append([Once, Slips, Undefined], Warnings0),
     in_file_order(Warnings0, Located, Warnings),
@@ -69,7 +68,7 @@ agent_check(Spec, Options) :-
     (   Policy == trusted
     ->  true
     ;   policy_read(Policy),
-        raising_afresh(source_terms(Spec, Located, _, [], _)),
+        once(source_terms(Spec, Located, _, [], _)),
         would_be_let_in(Policy, Spec, Located)
     ).
 

@@ -5,7 +5,6 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/afresh', [raising_afresh/1]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
 :- use_module('../wire', [endpoint_request/4]).
@@ -85,11 +84,11 @@ watch(Hosts, OnEvent, Watch) :-
     must_be(callable, Plain),
     flag(typhon_watches, N, N+1),
     atom_concat(watch, N, Id),
-    raising_afresh(setup_call_catcher_cleanup(
-                       runtime_acquire(watch(Id), []),
-                       begin(Id, Hosts, OnEvent),
-                       Catcher,
-                       unless_begun(Catcher, Id))),
+    once(setup_call_catcher_cleanup(
+             runtime_acquire(watch(Id), []),
+             begin(Id, Hosts, OnEvent),
+             Catcher,
+             unless_begun(Catcher, Id))),
     Watch = Id.
 
 begin(Id, Hosts, OnEvent) :-

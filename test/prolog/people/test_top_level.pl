@@ -2,13 +2,15 @@
 :- use_module(library(plunit)).
 :- use_module('../../lib/common').
 :- use_module('../../lib/top_level').
+:- use_module('../../lib/transcript', [typed_in_terminal/3]).
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(process)).
+:- use_module(library(prolog_wrap), [current_predicate_wrapper/4]).
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
 
-/** <module> A person at the top level who makes mistakes
+/** <module> Mistakes at the top level
 
 */
 
@@ -18,9 +20,18 @@ put(Dir, Name, Text) :-
 
 :- begin_tests(mistakes).
 
-%   Each of these raises an error.  The line after it must be taken for a
-%   query, and not for an answer to the debugger.
+%   Each of these raises an error.
 
+mistake('network_start(ring(6), N, [procesess(2)]).').
+mistake('network_start(rnig(6), N, []).').
+mistake('network_start(ring(six), N, []).').
+mistake('network_stop(network77).').
+mistake('host_start(X).').
+mistake('link(alpha, nowhere).').
+mistake('agent_create(no_such_file, A).').
+mistake('agent_create(hi, A, [host(alhpa)]).').
+mistake('agent_dispose(tim).').
+mistake('watch([nowhere], foo, W).').
 mistake('remote(alpha, X is a+1).').
 mistake('remote(alpha, no_such_thing(X)).').
 mistake('remote(alpha, throw(error(oops, _))).').
@@ -31,7 +42,6 @@ mistake('host_start(beta, [consult(no_such_file)]).').
 mistake('agent_create(broken, A).').
 mistake('agent_create(including, A).').
 mistake('agent_create(hi, A, [payloads([broken])]).').
-mistake('agent_check(broken).').
 mistake('agent_load(broken, A).').
 mistake('agent_save(bob, \'/no/such/directory/bob\').').
 mistake('payload_attach(bob, broken).').
@@ -48,33 +58,87 @@ file('broken.pl', ":- agent(broken, []).\nmain :- foo(.\n").
 file('including.pl', ":- agent(including).\n:- include(no_such_file).\nmain.\n").
 file('hi.pl', ":- agent(hi, []).\non_message(_, _).\n").
 
-test(the_debugger_does_not_open, [ condition(top_level_goes_on),
-                                   true(Missing == []) ]) :-
-    with_tmp_dir(mistakes(Missing)).
+%   In a terminal each mistake is answered by one line, without a backtrace, and
+%   the next query is read as a query.
 
-mistakes(Missing, Dir) :-
+test(a_mistake_prints_one_line, [ condition(missing([python3], [])),
+                                  Others == [] ]) :-
+    with_tmp_dir(mistakes(Others)).
+
+mistakes(Others, Dir) :-
     forall(file(Name, Text), put(Dir, Name, Text)),
     findall(Mistake, mistake(Mistake), Mistakes),
-    findall(Line, mistake_line(Mistakes, Line), Lines),
-    typed([ 'host_start(alpha), agent_create(hi, _, [name(bob)]).'|Lines],
-          Dir, Written),
-    findall(Mistake,
-            ( nth1(N, Mistakes, Mistake),
-              format(string(Mark), "after ~d", [N]),
-              \+ memberchk(Mark, Written) ),
-            Missing0),
-    (   member(Line, Written),
-        ( sub_string(Line, _, _, _, "Exception:")
-        ; sub_string(Line, _, _, _, "Call: (") )
-    ->  Missing = [Line|Missing0]
-    ;   Missing = Missing0
-    ).
+    typed_in_terminal(
+        ['host_start(alpha), agent_create(hi, _, [name(bob)]).'|Mistakes],
+        Dir, [_|Outputs]),
+    findall(Mistake-Output,
+            ( nth1(N, Mistakes, Mistake), nth1(N, Outputs, Output),
+              \+ one_error(Output) ),
+            Others).
 
-mistake_line(Mistakes, Line) :-
-    nth1(N, Mistakes, Mistake),
-    (   Line = Mistake
-    ;   format(atom(Line), 'format("~~nafter ~d~~n").', [N])
-    ).
+one_error([Line]) :-
+    sub_string(Line, 0, _, _, "ERROR: ").
+
+test(debugging_errors_prints_a_backtrace,
+     [ condition(missing([python3], [])), nondet ]) :-
+    with_tmp_dir(backtrace(Outputs)),
+    Outputs = [_, [Line|Lines]],
+    assertion(sub_string(Line, 0, _, _, "ERROR: ")),
+    assertion(memberchk("ERROR: In:", Lines)),
+    assertion(( member(Frame, Lines),
+                sub_string(Frame, _, _, _, "create_by(") )).
+
+backtrace(Outputs, Dir) :-
+    typed_in_terminal([ 'host_start(alpha).', 'debug(typhon(errors)).',
+                        'agent_create(no_such_file, A).' ],
+                      Dir, [_|Outputs]).
+
+test(errors_of_other_predicates_keep_their_backtrace,
+     condition(missing([python3], []))) :-
+    with_tmp_dir(other_error(Lines)),
+    assertion(memberchk("ERROR: In:", Lines)).
+
+other_error(Lines, Dir) :-
+    typed_in_terminal(['atom_length(_, _).'], Dir, [Lines]).
+
+%   Goals that are arguments of public predicates run in the module of the
+%   caller.
+
+test(goals_run_in_the_module_of_the_caller,
+     [ setup(host_start(callee)), cleanup(host_stop(callee)) ]) :-
+    @(watch(callee, assertz, Watch), top_level_caller),
+    remote(callee, leave(letter)),
+    unwatch(Watch),
+    assertion(top_level_caller:event(_, _, _, leave(letter))).
+
+%   Libraries that users load.
+
+public_library(typhon).
+public_library(typhon/fipa).
+public_library(typhon/mqtt).
+public_library(typhon/nxt).
+public_library(typhon/python).
+public_library(typhon/ros).
+public_library(tartarus).
+
+test(all_public_predicates_raise_errors_of_their_callers, Missing == []) :-
+    findall(Library:PI, ( public_library(Library), bare(Library, PI) ),
+            Missing).
+
+bare(Library, PI) :-
+    absolute_file_name(library(Library), File,
+                       [file_type(prolog), access(read)]),
+    load_files(test_top_level_public:File, [if(not_loaded), imports([])]),
+    module_property(Module, file(File)),
+    module_property(Module, exports(PIs)),
+    member(PI, PIs),
+    PI = Name/Arity,
+    functor(Head, Name, Arity),
+    (   predicate_property(Module:Head, imported_from(Home))
+    ->  true
+    ;   Home = Module
+    ),
+    \+ current_predicate_wrapper(Home:Head, typhon_user_errors, _, _).
 
 %   Prolog would offer the predicate of a module instead.
 
