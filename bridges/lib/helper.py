@@ -63,6 +63,7 @@ import time
 LATER = object()                        # the answer will come
 LONGEST_TIMEOUT = 3600.0                # seconds
 FAREWELL = 2.0                          # seconds, to end what was under way
+UNFIT = 3                               # exit status
 
 
 class BadRequest(Exception):
@@ -413,7 +414,10 @@ class Helper:
             self.start_serving()
 
     def complain(self, kind, message, **more):
-        """An error that belongs to no request, before the end."""
+        """An error that belongs to no request, before the end.
+
+        With again=False it is not started again until it is asked.
+        """
         self.output.say(dict(more, id=None, error=kind, message=message))
 
     def start_serving(self):
@@ -439,3 +443,17 @@ class Helper:
         for _ in range(self.threads - 1):
             self.start_serving()
         self.serve()
+        threading.Event().wait()            # it was replaced; others serve
+
+
+class Unfit(Helper):
+    """Says that this Python lacks a module, and ends."""
+
+    def __init__(self, kind, problem):
+        super().__init__()
+        self.complaint = kind, str(problem)
+
+    def run(self):
+        self.connect()
+        self.complain(*self.complaint, python=sys.executable, again=False)
+        sys.exit(UNFIT)

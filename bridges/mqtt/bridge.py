@@ -42,7 +42,8 @@ import threading
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                 '..', 'lib'))
-from helper import LATER, BadRequest, Helper, Refusal, integer, text  # noqa: E402
+from helper import LATER, BadRequest, Helper, Refusal, Unfit, \
+    integer, text                                              # noqa: E402
 
 try:
     import paho.mqtt.client as mqtt
@@ -50,7 +51,6 @@ try:
 except ImportError as problem:
     mqtt, MISSING = None, problem
 
-NO_PAHO = 3                             # exit status
 KINDS = ('auto', 'json', 'text', 'bytes')
 
 
@@ -490,14 +490,5 @@ class Broker(Helper):
                        kind=kind, **fields)
 
 
-class NoPaho(Helper):
-    """Says why there is no broker."""
-
-    def run(self):
-        self.connect()
-        self.complain('no_paho', str(MISSING), python=sys.executable)
-        sys.exit(NO_PAHO)
-
-
 if __name__ == '__main__':
-    (Broker if mqtt else NoPaho)().run()
+    (Broker() if mqtt else Unfit('no_paho', MISSING)).run()

@@ -35,7 +35,8 @@ import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                 '..', 'lib'))
-from helper import BadRequest, Helper, Refusal, integer, text  # noqa: E402
+from helper import BadRequest, Helper, Refusal, Unfit, \
+    integer, text                                              # noqa: E402
 
 try:
     import serial
@@ -48,7 +49,6 @@ import telegram                                                # noqa: E402
 
 LONGEST_LINE = 65536                    # bytes
 FAREWELL = 2.0                          # seconds, to let the motors go
-NO_PYSERIAL = 3                         # exit status
 
 
 def hexadecimal(value, field):
@@ -137,22 +137,13 @@ class Bridge(Helper):
         self.line.close()
 
 
-class NoPyserial(Helper):
-    """Says why there is no brick."""
-
-    def run(self):
-        self.connect()
-        self.complain('no_pyserial', str(MISSING), python=sys.executable)
-        sys.exit(NO_PYSERIAL)
-
-
 def main():
     parser = argparse.ArgumentParser(description='Bridge to an NXT.')
     parser.add_argument('port', help='device, or URL of pyserial')
     parser.add_argument('--baudrate', type=int, default=115200)
     options = parser.parse_args()
     if serial is None:
-        NoPyserial().run()
+        Unfit('no_pyserial', MISSING).run()
     Bridge(Line(options.port, options.baudrate)).run()
 
 

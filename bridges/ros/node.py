@@ -38,9 +38,8 @@ import uuid
 sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)),
                 os.path.join(os.path.dirname(os.path.abspath(__file__)),
                              '..', 'lib')]
-from helper import BadRequest, Helper, Refusal, text  # noqa: E402
+from helper import BadRequest, Helper, Refusal, Unfit, text  # noqa: E402
 
-NO_RCLPY = 3                            # exit status
 FINDING = 3.0                           # seconds until all nodes are known
 MATCHING = 0.5                          # until one that is known hears us
 MOST_HELD = 1000                        # messages until then, for each topic
@@ -489,14 +488,5 @@ class Node(Helper):
             handle.cancel_goal_async()
 
 
-class NoRclpy(Helper):
-    """Says why there is no ROS."""
-
-    def run(self):
-        self.connect()
-        self.complain('no_rclpy', str(MISSING), python=sys.executable)
-        sys.exit(NO_RCLPY)
-
-
 if __name__ == '__main__':
-    (NoRclpy() if MISSING else Node(options.node)).run()
+    (Unfit('no_rclpy', MISSING) if MISSING else Node(options.node)).run()

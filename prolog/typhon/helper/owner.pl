@@ -14,7 +14,8 @@
 The owner starts the process, and writes to it in the order in which
 requests come.  One that is to run `always` and has ended is started again
 at once, and if it ends soon, again after 0.1 seconds, then twice as long, up
-to 10; otherwise it is started when there is a request.
+to 10; otherwise, or if it has said that this would not help, it is started
+when there is a request.
 
 *Threading*: own/5 is the thread of the owner.  again/2 is run by it, and
 must not wait for the helper.
@@ -88,6 +89,8 @@ handle(stop(Who), _, State0, State) =>
     forget,
     State = stopped(Who).
 
+when_asked(down(asked, _, _), Me, State), Me = owner(_, _, always, _, _) =>
+    begin_again(Me, 0, State).
 when_asked(down(asked, _, _), Me, State) =>
     begin(Me, 0, State).
 when_asked(State0, _, State) =>
@@ -123,12 +126,23 @@ ended(Status, Me, Since, Wait, State) :-
     Me = owner(Name, _, When, _, _),
     answer_died(died(Status), Answer),
     debug(typhon(helper), '~p ended: ~p', [Name, Status]),
-    tell_ended(When, Name, Status),
-    again_when(When, Since, Wait, Wait1),
-    (   Wait1 == now
-    ->  begin_again(Me, 0.1, State)
-    ;   down(When, Wait1, Answer, State)
+    (   unfit(Answer)
+    ->  State = down(asked, 0, Answer)
+    ;   tell_ended(When, Name, Status),
+        again_when(When, Since, Wait, Wait1),
+        again(Wait1, Me, Answer, State)
     ).
+
+%   It lacks something, and every request is answered so.
+
+unfit(said(Dict)) :-
+    get_dict(again, Dict, false).
+
+again(now, Me, _, State) :-
+    !,
+    begin_again(Me, 0.1, State).
+again(Wait, owner(_, _, When, _, _), Answer, State) :-
+    down(When, Wait, Answer, State).
 
 %   The first time at once.
 

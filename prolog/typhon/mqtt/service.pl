@@ -167,7 +167,8 @@ mqtt_default(Host, Option, Default) :-
 %!  mqtt_ask(+Host, +Request, +Seconds) is det.
 %!  mqtt_note(+Host, +Request) is det.
 %
-%   @error mqtt_error(Problem, Host), timeout_error(mqtt(What), Host),
+%   @error mqtt_error(Problem, Host), Problem being one of unreachable, refused,
+%   tls, failed; timeout_error(mqtt(What), Host),
 %   and what helper_failure/3 says
 
 mqtt_ask(Host, Request, Seconds) :-
@@ -192,6 +193,7 @@ formal(no_paho, _, _, existence_error(python_module, paho)).
 formal(unreachable, Host, _, mqtt_error(unreachable, Host)).
 formal(refused, Host, _, mqtt_error(refused, Host)).
 formal(tls, Host, _, mqtt_error(tls, Host)).
+formal(exception, Host, _, mqtt_error(failed, Host)).
 formal(full, _, _, resource_error(mqtt_pending)).
 formal(too_big, _, _, resource_error(mqtt_payload)).
 formal(denied, _, Request, permission_error(subscribe, mqtt_filter, Filter)) :-
@@ -251,3 +253,4 @@ prolog:error_message(timeout_error(mqtt(What), Host)) -->
 problem(unreachable, 'the broker cannot be reached').
 problem(refused, 'the broker refuses the connection').
 problem(tls, 'TLS cannot be used').
+problem(failed, 'the client library raises an exception').

@@ -84,10 +84,11 @@ typhon_ros_rosbridge:up(Host, Frame) :-
     op_frame(Op, Frame).
 
 typhon_ros_rosbridge:down(Host, Why) :-
-    (   service(ros, Host)
+    (   Why \== stopped,
+        service(ros, Host)
     ->  assertz(away(Host)),
         print_message(warning, typhon(ros_lost(Host, Why)))
-    ;   true                            % it was asked to go
+    ;   true
     ),
     lost(Host, Why).
 

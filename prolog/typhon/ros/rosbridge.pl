@@ -6,6 +6,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [resource_error/1]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/json', [atom_json_dict/3]).
 :- use_module(socket,
@@ -26,7 +27,7 @@ run by the thread that reads, which reads nothing meanwhile.
 :- multifile
     heard/2,                    % Host, Read: as of socket_read/2
     up/2,                       % Host, Frame: to be said first of all
-    down/2.                     % Host, Why
+    down/2.                     % Host, Why: `stopped` if it was closed here
 
 :- dynamic
     heard/2, up/2, down/2,
@@ -129,6 +130,42 @@ close_down(Host, Reader) :-
     ),
     thread_join(Reader, _).
 
+%   When Prolog halts it aborts its threads.  library(http/websocket) swallows
+%   that: the connection would seem closed, and the reader would connect again.
+%   So connections are closed before.  A wait with a deadline might not end in
+%   a hook of halt/0 on 9.0.4; this one polls.
+
+:- at_halt(close_all).
+
+close_all :-
+    findall(Reader, ( retract(reader(Host, Reader)), leave(Host, Reader) ),
+            Readers),
+    get_time(Now),
+    bye_seconds(Seconds),
+    Deadline is Now+Seconds,
+    await_ends(Readers, Deadline).
+
+leave(Host, Reader) :-
+    thread_self(Me),
+    Reader \== Me,
+    catch(thread_send_message(Reader, stop(Me)),
+          error(existence_error(_, _), _), fail),
+    (   farewell(Host)
+    ->  true
+    ;   interrupt(Reader)
+    ).
+
+await_ends(Readers, Deadline) :-
+    (   member(Reader, Readers),
+        catch(thread_property(Reader, status(running)),
+              error(existence_error(_, _), _), fail),
+        get_time(Now),
+        Now < Deadline
+    ->  sleep(0.01),
+        await_ends(Readers, Deadline)
+    ;   true
+    ).
+
 farewell(Host) :-
     writer(Host, Writer),
     catch(thread_send_message(Writer, bye, [timeout(0)]),
@@ -192,8 +229,18 @@ served(Link, Socket) :-
     catch(tidy(Host, Writer, Socket), typhon_ros_stop,
           tidy(Host, Writer, Socket)),
     debug(typhon(ros), '~w: the connection has ended: ~p', [Host, Why]),
-    ignore(down(Host, Why)),
+    ignore(lost(Host, Why)),
     ( var(Ball) -> true ; throw(Ball) ).
+
+%   The reader of a host that is closed, or of a process that halts, is not
+%   known any more.
+
+lost(Host, Why) :-
+    thread_self(Me),
+    (   reader(Host, Me)
+    ->  down(Host, Why)
+    ;   down(Host, stopped)
+    ).
 
 tidy(Host, Writer, Socket) :-
     retractall(writer(Host, _)),

@@ -477,7 +477,17 @@ test(stopped, [A,B] == [gone, existence_error(mqtt, alpha)]) :-
                     catch(mqtt_stop(alpha), error(B, _), true) )),
     ( E = existence_error(procedure, _) -> A = gone ; A = E ).
 test(no_paho, E == existence_error(python_module, paho)) :-
-    with_tmp_dir(no_paho(E)).
+    with_tmp_dir(no_paho(E, [])).
+test(publish_waits_in_vain_without_a_broker,
+     Es == [timeout_error(mqtt(publish), alpha),
+            timeout_error(mqtt(publish), alpha)]) :-
+    free_port(Port),
+    format(atom(URL), 'mqtt://127.0.0.1:~d', [Port]),
+    with_hosts([alpha],
+               ( mqtt_start(alpha, URL, [wait(false),timeout(1)]),
+                 findall(E, ( member(QoS, [0,1]),
+                              error_of(publish(a, b, [qos(QoS),wait(true)]),
+                                       E) ), Es) )).
 
 wrong(_, publish('a/#', x), domain_error(mqtt_topic, 'a/#')).
 wrong(_, publish('a/+', x), domain_error(mqtt_topic, _)).
@@ -513,7 +523,9 @@ wrong(_, subscribe(a, [queue(0)]), type_error(_, 0)).
 wrong(_, subscribe(a, [colour(red)]), domain_error(subscription_option, _)).
 wrong(_, unsubscribe(a), existence_error(mqtt_subscription, a)).
 
-no_paho(E, Dir) :-
+%   Messages are the warnings beside the error.
+
+no_paho(E, Messages, Dir) :-
     directory_file_path(Dir, python, File),
     setup_call_cleanup(
         open(File, write, Out),
@@ -523,7 +535,7 @@ no_paho(E, Dir) :-
     listening(with_hosts([alpha],
                          catch(mqtt_start(alpha, 'mqtt://127.0.0.1:1',
                                           [python(File)]),
-                               error(E, _), true)), _).
+                               error(E, _), true)), Messages).
 
 :- end_tests(mqtt_wrong).
 

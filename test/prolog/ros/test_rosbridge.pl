@@ -12,7 +12,9 @@ real one would not.
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(base64), [base64_encoded/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(sha), [sha_hash/3]).
 :- use_module(library(socket),
@@ -494,6 +496,23 @@ test(properties_of_a_host_in_another_process) :-
     assertion(memberchk(way(URL), Ps)),
     assertion(memberchk(connected(true), Ps)),
     assertion(E == existence_error(host, nowhere)).
+
+test(a_program_that_halts_says_nothing, Said-Status == ""-exit(0)) :-
+    with_rosbridge(URL, with_tmp_dir(halted(URL, Said, Status))).
+
+halted(URL, Said, Status, Dir) :-
+    directory_file_path(Dir, 'program.pl', File),
+    project_file('prolog/typhon.pl', Typhon),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- use_module(~q).~n\c
+                     main :- host_start(alpha), ros_start(alpha, ~q, []).~n',
+               [Typhon, URL]),
+        close(Out)),
+    process_create(path(swipl), ['-g', main, '-t', halt, File],
+                   [stdin(null), stderr(pipe(Err)), process(Pid)]),
+    call_cleanup(read_string(Err, _, Said), close(Err)),
+    process_wait(Pid, Status).
 
 test(stopped_and_started_again) :-
     on_a_host(Agent, [],
