@@ -31,7 +31,8 @@ layer has a door, and behind it a folder with its rooms.
               host_property/2, link/2, link/3, unlink/2, remote/2
             ]).
 :- reexport('typhon/lifecycle',
-            except([agent_glance/2, agent_named/2, status_shown/2])).
+            except([ agent_glance/2, agent_named/2, goals_shown/4,
+                     status_shown/2 ])).
 :- reexport('typhon/network').
 :- reexport(typhon/people, [agents/0, hosts/0]).
 :- reexport(typhon/page, [page_start/1, page_stop/0]).

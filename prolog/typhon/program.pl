@@ -19,7 +19,7 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport(program/unknown, [unknown_advice/3]).
 :- reexport(program/code,
             [ code_install/2, code_install/3, code_receive/2, code_module/2,
-              code_program/2, code_sent/2, code_stands/2, code_clear/0
+              code_names/2, code_program/2, code_sent/2, code_stands/2, code_clear/0
             ]).
 :- reexport(program/allowed, [policy_read/1]).
 :- reexport(program/guard, [guard_clauses/3, guard_declares/2, guard_state/3]).
@@ -36,3 +36,4 @@ This is the door of the layer: who is above takes what it needs from here.
 :- reexport('program/probe').
 :- reexport(program/bodies, [body_goals/4, goals_body/2, plain_goals/2]).
 :- reexport('program/arrows').
+:- reexport('program/variable_names').

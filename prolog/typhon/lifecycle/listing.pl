@@ -1,11 +1,13 @@
 :- module(typhon_listing,
-          [ agent_listing/1             % +Agent
+          [ agent_listing/1,            % +Agent
+            goals_shown/4               % +Agent, +Facts, +Goals, -Shown
           ]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
-:- use_module(library(listing), [portray_clause/1]).
+:- use_module(library(listing), [portray_clause/1, portray_clause/3]).
 :- use_module('../program',
-              [ body_goals/4, clause_parts/3, code_program/2, goals_body/2,
-                plain_goals/2, stands_in/3 ]).
+              [ body_goals/4, clause_bindings/3, clause_parts/3, code_names/2,
+                code_program/2, goals_bindings/4, goals_body/2, plain_goals/2,
+                stands_in/3 ]).
 :- use_module('../agent', [agent/5]).
 :- use_module(properties, [agent_property/2]).
 :- use_module(giving, [agent_answer/3]).
@@ -20,7 +22,8 @@
 
 %!  agent_listing(+Agent) is det.
 %
-%   Print the program of Agent, its facts, and the goals that it has left, as
+%   Print the program of Agent, with the names of variables if it was read from
+%   a file, its facts, and the goals that it has left, as
 %   clauses.  An arrow marks the goal at which it stands; where several
 %   clauses would go on in the same way, each of them.  Of an agent that runs
 %   at this moment the goals are not known, see agent_step/1.
@@ -28,7 +31,8 @@
 %   @error existence_error(agent, Agent)
 
 agent_listing(Agent) :-
-    agent_answer(Agent, program, program(Name, State, Libraries, Static)),
+    agent_answer(Agent, program,
+                 program(Name, State, Libraries, Static)-Names),
     findall(Property, agent_property(Agent, Property), Properties),
     memberchk(facts(Facts), Properties),
     memberchk(goals(Goals), Properties),
@@ -36,16 +40,36 @@ agent_listing(Agent) :-
     declarations(Name, State, Libraries),
     append(Static, Facts, Clauses),
     stands_in(Clauses, Goals, Places),
-    list_clauses(Static, 0, Places),
+    list_clauses(Static, Names, 0, Places),
     length(Static, Count),
-    part(Facts, '% facts', list_clauses(Facts, Count, Places)),
-    part(Goals, '% goals left', list_goals(Goals)).
+    part(Facts, '% facts', list_clauses(Facts, [], Count, Places)),
+    goals_bindings(Clauses, Names, Goals, Bindings),
+    part(Goals, '% goals left', list_goals(Goals, Bindings)).
 
 typhon_questions:here(program, Agent, Asker) :-
     agent(Agent, _, _, Hash, _),
     code_program(Hash, Program),
     !,
-    question_answered(Asker, answer(Program)).
+    code_names(Hash, Names),
+    question_answered(Asker, answer(Program-Names)).
+
+%!  goals_shown(+Agent, +Facts, +Goals, -Shown) is det.
+%
+%   Shown are Goals, which Agent with these Facts has left, with '$VAR'(Name)
+%   for variables whose names in the program are known.
+%
+%   @error existence_error(agent, Agent)
+
+goals_shown(Agent, Facts, Goals, Shown) :-
+    agent_answer(Agent, program, program(_, _, _, Static)-Names),
+    append(Static, Facts, Clauses),
+    goals_bindings(Clauses, Names, Goals, Bindings),
+    copy_term_nat(Goals-Bindings, Shown-Named),
+    bound_to_names(Named).
+
+bound_to_names([]).
+bound_to_names([Name='$VAR'(Name)|Named]) :-
+    bound_to_names(Named).
 
 about(Agent, Properties) :-
     memberchk(host(Host), Properties),
@@ -80,22 +104,28 @@ part(_, Title, Goal) :-
     format('~n~w~n', [Title]),
     call(Goal).
 
-list_goals(Goals) :-
+list_goals(Goals, Bindings) :-
     goals_body(Goals, Body),
-    portray_clause((:- Body)).
+    portray((:- Body), Bindings).
+
+portray(Clause, Bindings) :-
+    current_output(Out),
+    portray_clause(Out, Clause, [variable_names(Bindings)]).
 
                 /*******************************
                 *            CLAUSES           *
                 *******************************/
 
-%   list_clauses(+Clauses, +Before, +Places): an empty line between those of
-%   different predicates.
+%   list_clauses(+Clauses, +Names, +Before, +Places): an empty line between
+%   those of different predicates.
 
-list_clauses(Clauses, Before, Places) :-
+list_clauses(Clauses, Names, Before, Places) :-
     forall(nth1(I, Clauses, Clause),
            ( N is Before+I,
              space(I, Clauses, Clause),
-             list_clause(Clause, N, Places) )).
+             ( nth1(I, Names, Own) -> true ; Own = [] ),
+             clause_bindings(Clause, Own, Bindings),
+             list_clause(Clause, Bindings, N, Places) )).
 
 space(I, Clauses, Clause) :-
     I0 is I-1,
@@ -111,15 +141,15 @@ clause_name(Clause, Name/Arity) :-
     clause_parts(Clause, Head, _),
     functor(Head, Name, Arity).
 
-list_clause(Clause, N, Places) :-
+list_clause(Clause, Bindings, N, Places) :-
     findall(I, member(N-I, Places), [At]),
     !,
     marked(Clause, At, Marked),
-    with_output_to(string(Text), portray_clause(Marked)),
+    with_output_to(string(Text), portray(Marked, Bindings)),
     split_string(Text, "\n", "", Lines),
     with_arrow(Lines).
-list_clause(Clause, _, _) :-
-    portray_clause(Clause).
+list_clause(Clause, Bindings, _, _) :-
+    portray(Clause, Bindings).
 
 %   The mark is a goal of its own, so it stands in a line of its own.
 

@@ -18,6 +18,7 @@
 :- use_module(spying, [spied/3, spied_program/1]).
 :- use_module(orders, [order_take/2]).
 :- use_module(traced, [traced_change/2, traced_held/1]).
+:- use_module(tracing, [goal_shown/3]).
 :- use_module(turn, [turn_settled/0, turn_unit/1]).
 
 /** <module> Agents that are held before each goal
@@ -103,7 +104,7 @@ step(held, Held, Id-Host, Asker, Answer) =>
         held_on(Id, Held),
         Answer = later
     ;   held_seen(Id, Held),
-        next_goal(Host, Goals, Answer)
+        next_goal(Id, Host, Goals, Answer)
     ).
 step(Status, _, Id-_, Asker, Answer), runs(Status) =>
     assertz(asker(Id, Asker)),
@@ -126,8 +127,9 @@ under_way(leaving(_, _)).
 under_way(transit(_, _)).
 under_way(cloning(_, _)).
 
-next_goal(Host, [Goal|_], held(Address, Goal)) :-
-    host(Host, Address, _).
+next_goal(Id, Host, [Goal|_], held(Address, Shown)) :-
+    host(Host, Address, _),
+    goal_shown(Id, Goal, Shown).
 
                 /*******************************
                 *             RUN              *
@@ -228,7 +230,8 @@ spied_goal(Id, Host, Goal) :-
     agent(Id, _, _, Hash, _),
     spied(Hash, Goal, Action),
     !,
-    in_words(Goal, Portable),
+    in_words(Goal, Portable0),
+    goal_shown(Id, Portable0, Portable),
     host(Host, Address, _),
     (   Action == hold
     ->  traced_change(Id, step),
@@ -244,7 +247,7 @@ hold(Id, Host, Probe, Goals, Askers, Answer) :-
     ;   Seen = true
     ),
     held_put(Id, Probe, Goals, Seen),
-    next_goal(Host, Goals, Answer).
+    next_goal(Id, Host, Goals, Answer).
 
 askers(Id, Askers) :-
     (   retract(asker(Id, Asker))

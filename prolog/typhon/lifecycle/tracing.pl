@@ -1,14 +1,16 @@
 :- module(typhon_tracing,
           [ agent_trace/2,              % +Agent, +What
-            agent_notrace/1             % +Agent
+            agent_notrace/1,            % +Agent
+            goal_shown/3                % +Id, +Goal, -Shown
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2]).
+:- use_module('../program', [code_names/2, code_program/2, goal_named/4]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
 :- use_module('../host', [host/3]).
-:- use_module('../agent', [trace_kind/1]).
+:- use_module('../agent', [agent/5, trace_kind/1]).
 :- use_module(giving, [order_give/3]).
 
 /** <module> Agents of which people want to hear
@@ -68,12 +70,28 @@ me(To) :-
                 *             TELL             *
                 *******************************/
 
-typhon_events:told(trace(To), Host, Agent, What) :-
+typhon_events:told(trace(To), Host, Agent, What0) :-
     host(Host, Address, _),
+    ( What0 = goal(Goal) -> goal_shown(Agent, Goal, Shown), What = goal(Shown)
+    ; What = What0
+    ),
     (   endpoint_address(To)
     ->  show(Address, Agent, What)
     ;   endpoint_request(To, trace, traced(Address, Agent, What), heard)
     ).
+
+%!  goal_shown(+Id, +Goal, -Shown) is det.
+%
+%   Shown is Goal with '$VAR'(Name) in place of variables, as far as it is known
+%   from which clause of the program of Id it comes.
+
+goal_shown(Id, Goal, Shown) :-
+    agent(Id, _, _, Hash, _),
+    code_program(Hash, program(_, _, _, Clauses)),
+    !,
+    code_names(Hash, Lists),
+    goal_named(Clauses, Lists, Goal, Shown).
+goal_shown(_, Goal, Goal).
 
 %   Whose people do not listen any more need not be told.
 

@@ -4,10 +4,12 @@
           ]).
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
-:- use_module(library(lists), [append/3, member/2, nth1/3]).
+:- use_module(library(lists),
+              [append/3, member/2, memberchk/2, nth1/3, selectchk/4]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../lifecycle',
-              [agent_join/3, agent_listing/1, agent_property/2]).
+              [ agent_join/3, agent_listing/1, agent_property/2,
+                goals_shown/4 ]).
 :- use_module('../network', [network_property/2]).
 :- use_module('../people', [host_close_up/2]).
 :- use_module(mechanisms, [mechanism_dicts/1, program_names/1]).
@@ -95,11 +97,19 @@ agent_dict(Agent, Dict) :-
     ->  agent_join(Agent, Outcome, 0),
         text(Outcome, Text),
         Dict = _{id:Id, outcome:Text}
-    ;   findall(Key-Value, agent_shown(Properties, Key, Value), Pairs),
+    ;   goals_named(Agent, Properties, Named),
+        findall(Key-Value, agent_shown(Named, Key, Value), Pairs),
         dict_pairs(Dict0, _, [id-Id|Pairs]),
         program_dict(Agent, Program),
         Dict = Dict0.put(program, Program)
     ).
+
+goals_named(Agent, Properties, Named) :-
+    memberchk(facts(Facts), Properties),
+    selectchk(goals(Goals), Properties, goals(Shown), Named),
+    !,
+    goals_shown(Agent, Facts, Goals, Shown).
+goals_named(_, Properties, Properties).
 
 agent_shown(Properties, Key, Value) :-
     member(Property, Properties),

@@ -7,6 +7,7 @@
             code_sent/2,                % +Hash, -Sent
             code_stands/2,              % +Hash, +Places
             code_places/2,              % +Hash, -Places
+            code_names/2,               % +Hash, -Lists
             code_make/3,                % +Program, +Kinds, -Module
             code_clear/0
           ]).
@@ -18,7 +19,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(bodies, [body_goals/4]).
 :- use_module(mobile, [mobile_predicates/3]).
-:- use_module(places, [is_places/1]).
+:- use_module(places, [clauses_names/2, is_places/1]).
 :- use_module(programs, [program_hash/2]).
 :- use_module(signatures, [program_signature/2, signature_keep/2]).
 :- use_module(source, [clause_parts/3]).
@@ -148,6 +149,14 @@ code_places(Hash, Places) :-
     ->  Places = Places0
     ;   Places = []
     ).
+
+%!  code_names(+Hash, -Lists) is det.
+%
+%   The names of the variables of each clause; [] if they are not known.
+
+code_names(Hash, Lists) :-
+    code_places(Hash, Places),
+    clauses_names(Places, Lists).
 
 %!  code_module(?Hash, -Module) is semidet.
 %!  code_program(?Hash, -Program) is semidet.

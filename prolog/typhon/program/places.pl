@@ -1,18 +1,22 @@
 :- module(typhon_places,
           [ places/2,                   % +Locations, -Places
+            places_named/4,             % +Places0, +Clauses, +Sources, -Places
+            clauses_names/2,            % +Places, -Lists
             place/3,                    % +Places, +N, -Place
             is_places/1                 % @Term
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [member/2, nth1/3]).
+:- use_module(library(apply), [maplist/2, maplist/4]).
+:- use_module(library(lists),
+              [append/3, member/2, memberchk/2, nth1/3, same_length/2]).
 
 /** <module> Where the clauses of a program stand
 
 Places say of each clause of a program, in order, in which line of which
 file it stands: a list of File-Lines, one for each run of clauses from one
-file, short enough to travel with the program.  Programs that do not come
-from a file have none: [].  Two programs that differ in nothing else are
-the same.
+file, short enough to travel with the program; and after these, where they are
+known, names(Lists) with the names of the variables of each clause, in the order
+of term_variables/2.  Programs that do not come from a file have none: [].  Two
+programs that differ in nothing else are the same.
 
 *Threading*: pure.
 */
@@ -32,6 +36,38 @@ in_file([File:Line|Locations], File, [Line|Lines], Rest) :-
     in_file(Locations, File, Lines, Rest).
 in_file(Rest, _, [], Rest).
 
+%!  places_named(+Places0, +Clauses, +Sources, -Places) is det.
+%
+%   Places are Places0, of Clauses, with the names of variables that Sources
+%   has, see source_terms/5.
+
+places_named([], _, _, Places) =>
+    Places = [].
+places_named(Places0, Clauses, Sources, Places) =>
+    findall(File:Line, ( member(File-Lines, Places0), member(Line, Lines) ),
+            Locations),
+    maplist(names_of(Sources), Locations, Clauses, Lists),
+    append(Places0, [names(Lists)], Places).
+
+names_of(Sources, Location, Clause, Names) :-
+    (   findall(Found, member(names(Location, Found), Sources), [Names0]),
+        term_variables(Clause, Variables),
+        same_length(Variables, Names0)
+    ->  Names = Names0
+    ;   Names = []
+    ).
+
+%!  clauses_names(+Places, -Lists) is det.
+%
+%   Lists of the names of variables, one for each clause; [] where they are not
+%   known.
+
+clauses_names(Places, Lists) :-
+    (   memberchk(names(Lists0), Places)
+    ->  Lists = Lists0
+    ;   Lists = []
+    ).
+
 %!  place(+Places, +N:positive_integer, -Place) is semidet.
 %
 %   Place is the File:Line of the N-th clause.  Fails if it is not known.
@@ -48,7 +84,28 @@ place([File-Lines|Places], N, Place) :-
 
 is_places(Places) :-
     is_list(Places),
-    maplist(run_of_lines, Places).
+    maplist(is_part, Places).
+
+is_part(Part) :-
+    (   subsumes_term(names(_), Part)
+    ->  Part = names(Lists),
+        is_list(Lists),
+        maplist(is_names, Lists)
+    ;   run_of_lines(Part)
+    ).
+
+%   Names are printed as they are.
+
+is_names(Names) :-
+    is_list(Names),
+    forall(member(Name, Names), is_name(Name)).
+
+is_name(Name) :-
+    atom(Name),
+    atom_codes(Name, [First|Codes]),
+    ( First == 0'_ ; code_type(First, upper) ),
+    !,
+    forall(member(Code, Codes), code_type(Code, csym)).
 
 run_of_lines(Run) :-
     subsumes_term(_-_, Run),

@@ -22,7 +22,7 @@
 :- use_module(parts,
               [ clause_indicator/2, file_parts/4, in_state/2,
                 library_directive/2, located_clause/2, part/3 ]).
-:- use_module(places, [places/2]).
+:- use_module(places, [places/2, places_named/4]).
 :- use_module(problems,
               [ clause_problem/2, directive_problem/2, entry_problem/3,
                 option_problem/3 ]).
@@ -63,8 +63,10 @@ becomes a plain term:
 program_read(Spec, Program, Initial, Kinds, Places, Sources, Warnings) :-
     source_terms(Spec, Located, Sources, Unread, Once),
     no_problems(Unread),
-    program_terms(Located, Program, Initial, Kinds, Places, Errors),
+    program_terms(Located, Program, Initial, Kinds, Places0, Errors),
     no_problems(Errors),
+    Program = program(_, _, _, Clauses),
+    places_named(Places0, Clauses, Sources, Places),
     program_doubts(Located, Kinds, Doubts),
     unknown_problems(Located, Unknown),
     append([Once, Doubts, Unknown], Warnings0),

@@ -9,7 +9,7 @@
             indicator_in/2,             % +PIs, ?PI
             clause_parts/3              % +Clause, -Head, -Body
           ]).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module('../base/names', [names_near/3]).
@@ -40,7 +40,8 @@ is not settled, and must not be relied on.
 %!               -Warnings:list) is det.
 %
 %   Located are the terms of Spec, each as Term-Location, in order; Sources
-%   is what they were read from, for source_same/1.  Errors are terms that
+%   is what they were read from, for source_same/1, with the names of their
+%   variables, for places/4.  Errors are terms that
 %   cannot be read and files that cannot be included, Warnings variables
 %   that occur once; both are problems, in order.
 %
@@ -54,7 +55,8 @@ source_terms(Spec, Located, Sources, Errors, Warnings) :-
     sorted_out(Items, Located, Sources, Errors, Warnings).
 
 %   items(+Spec, -Items): what is found, in order: term(Term, Location),
-%   source(Source), error(Problem) and warning(Problem).
+%   names(names(Location, Names)), source(Source), error(Problem) and
+%   warning(Problem).
 
 items(Spec, _) :-
     var(Spec),
@@ -79,6 +81,7 @@ sorted_out([Item|Items], Located, Sources, Errors, Warnings) :-
 
 sort_out(term(T, Location), [T-Location|L], L, S, S, E, E, W, W).
 sort_out(source(Source), L, L, [Source|S], S, E, E, W, W).
+sort_out(names(Names), L, L, [Names|S], S, E, E, W, W).
 sort_out(error(Problem), L, L, S, S, [Problem|E], E, W, W).
 sort_out(warning(Problem), L, L, S, S, E, E, [Problem|W], W).
 
@@ -120,8 +123,9 @@ read_items(In, Reading, Items, Rest) :-
     read_one(In, Reading, Read),
     continue(Read, In, Reading, Items, Rest).
 
-%   read_one(+In, +Reading, -Read): Read is read(Term, Location, Once), Once
-%   being the names of variables that occur once, or error(Problem).
+%   read_one(+In, +Reading, -Read): Read is error(Problem), or read(Term,
+%   Location, Bindings, Once), Once being the names of variables that occur
+%   once.
 
 read_one(In, reading([File|_], Module), Read) :-
     catch(read_located(In, File, Module, Read),
@@ -135,10 +139,11 @@ not_read(What, Where, File, error(Problem)) :-
     ),
     Problem = problem(syntax_error(What), Location, none).
 
-read_located(In, File, Module, read(Term, File:Line, Once)) :-
+read_located(In, File, Module, read(Term, File:Line, Named, Once)) :-
     read_term(In, Term,
               [ module(Module),
                 term_position(Position),
+                variable_names(Named),
                 singletons(Bindings),
                 syntax_errors(error)
               ]),
@@ -150,22 +155,41 @@ read_located(In, File, Module, read(Term, File:Line, Once)) :-
 may_be_slip(Name) :-
     \+ sub_atom(Name, 0, _, _, '_').
 
-continue(read(Term, _, _), _, _, Rest, Rest) :-
+continue(read(Term, _, _, _), _, _, Rest, Rest) :-
     Term == end_of_file,
     !.
-continue(read(Term, Location, _), In, Reading, Items, Rest) :-
+continue(read(Term, Location, _, _), In, Reading, Items, Rest) :-
     includes(Term, Spec),
     !,
     include_file(Spec, Location, Reading, Items, Items1),
     read_items(In, Reading, Items1, Rest).
-continue(read(Term, Location, Once), In, Reading, [Item|Items], Rest) :-
+continue(read(Term, Location, Named, Once), In, Reading, [Item|Items],
+         Rest) :-
     Reading = reading(_, Module),
     grammar_rule(Term, Location, Item),
     import_operators(Term, Module),
-    once_warning(Once, Location, Items, Items1),
+    variable_names(Item, Named, Items, Items0),
+    once_warning(Once, Location, Items0, Items1),
     read_items(In, Reading, Items1, Rest).
 continue(error(Problem), In, Reading, [error(Problem)|Items], Rest) :-
     read_items(In, Reading, Items, Rest).
+
+%   variable_names(+Item, +Bindings, -Items, ?Rest): the names of the variables
+%   of a term, in the order of term_variables/2; `_` for those without one.
+
+variable_names(term(Term, Location), [Named|More],
+               [names(names(Location, Names))|Rest], Rest) :-
+    !,
+    term_variables(Term, Variables),
+    maplist(variable_name([Named|More]), Variables, Names).
+variable_names(_, _, Rest, Rest).
+
+variable_name(Named, Variable, Name) :-
+    (   member(Name0=Variable0, Named),
+        Variable0 == Variable
+    ->  Name = Name0
+    ;   Name = '_'
+    ).
 
 once_warning([], _, Items, Items) :-
     !.
@@ -277,6 +301,7 @@ source_same(Sources) :-
 
 same(file(File, Stamp, _)) :-
     catch(file_stamp(File, Stamp), error(_, _), fail).
+same(names(_, _)).
 same(include(Spec, File, Path)) :-
     catch(included_file(Spec, File, Now), error(_, _), fail),
     Now == Path.                        % if bound, 10.1 looks for any

@@ -5,7 +5,7 @@
 
 :- use_module('../../lib/common').
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
@@ -81,6 +81,23 @@ traveller_on(Host, Agent) :-
 goals(Said, Goals) :-
     findall(Goal, member(held(_, Goal), Said), Goals).
 
+:- meta_predicate with_named_program(-, 0).
+
+with_named_program(File, Goal) :-
+    with_tmp_dir(test_looking:named_program(File, Goal)).
+
+named_program(File, Goal, Dir) :-
+    directory_file_path(Dir, 'tourist.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ":- agent(tourist, []).~n~n\c
+                     main :- receive(_-go(Hosts)), tour(Hosts),~n\c
+                             home(Home), move(Home).~n~n\c
+                     tour([]).~n\c
+                     tour([Host|Hosts]) :- move(Host), tour(Hosts).~n", []),
+        close(Out)),
+    once(Goal).
+
 :- begin_tests(listing).
 
 listing_of(Agent, Text) :-
@@ -124,6 +141,55 @@ elsewhere(Text, Network) :-
                  A, [host(Host)]),
     wait_until(agent_property(A, state(waiting)), 5),
     listing_of(A, Text).
+
+%   A program that was read from a file has names of variables.
+
+test(names_of_variables) :-
+    two(named_on(alpha, rests, Text)),
+    forall(named_part(Part), assertion(shows(Text, Part))).
+test(names_of_variables_in_another_process) :-
+    in_network([processes(2)], named_elsewhere(Text)),
+    forall(named_part(Part), assertion(shows(Text, Part))).
+
+named_part("=>  receive(_-go(Hosts)),\n    tour(Hosts),\n    home(Home),").
+named_part("tour([Host|Hosts]) :-\n    move(Host),\n    tour(Hosts).").
+named_part("% goals left\n:- receive(_-go(Hosts)),\n   tour(Hosts),\n\c
+           \u0020  home(Home),\n   move(Home).").
+
+named_elsewhere(Text, Network) :-
+    network_property(Network, hosts([_, Host])),
+    named_on(Host, waits, Text).
+
+rests(_) :-
+    later.
+
+waits(Agent) :-
+    wait_until(agent_property(Agent, state(waiting)), 5).
+
+:- meta_predicate named_on(+, 1, -).
+
+named_on(Host, Waits, Text) :-
+    with_named_program(File,
+                       ( agent_create(File, A, [host(Host)]),
+                         call(Waits, A),
+                         listing_of(A, Text) )).
+
+test(names_of_variables_of_a_caller) :-
+    two(with_named_program(File,
+            ( agent_create(File, A, [host(alpha)]),
+              heard(( agent_step(A), agent_send(A, go([beta])),
+                      agent_step(A), agent_step(A), agent_step(A) ), _),
+              later,
+              listing_of(A, Text) ))),
+    assertion(shows(Text, "% goals left\n:- move(beta),\n   tour([]),\n\c
+                           \u0020  home(Home),\n   move(Home).")).
+test(names_of_variables_of_a_goal_that_is_next,
+     Goal = receive(_-go('$VAR'('Hosts')))) :-
+    two(with_named_program(File,
+            ( agent_create(File, A, [host(alpha)]),
+              heard(( agent_step(A), agent_step(A) ), Said),
+              agent_notrace(A) ))),
+    last(Said, held(_, Goal)).
 
 test(nobody, error(existence_error(agent, 'a.v.99@alpha@virtual:0'))) :-
     two(agent_listing('a.v.99@alpha@virtual:0')).

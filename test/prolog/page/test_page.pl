@@ -157,7 +157,7 @@ scene(an_agent_is_created_here) :-
     fill("Name", "ann"),
     sees("document.querySelector('.code textarea').select()", _),
     keys([Text]),
-    reads(".advice", "line 3"),
+    reads(".advice", "line 5"),
     reads(".advice .error", "forall"),
     corrected(Right),
     sees("document.querySelector('.code textarea').select()", _),

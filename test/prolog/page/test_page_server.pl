@@ -310,6 +310,15 @@ test(fault) :-
     Fault = Agent.fault,
     assertion(_{goal:"main", place:"main/0:1"} :< Fault).
 
+test(goals_have_the_names_of_variables, Goals == ["receive(_-go(Host))",
+                                                  "move(Host)"]) :-
+    Text = ":- agent(p, []).\n\nmain :- receive(_-go(Host)), move(Host).\n",
+    page(Base, ( answer(Base, _{do:"create", text:Text, host:"alpha"}, Done),
+                 atom_string(A, Done.done),
+                 wait_state(A, waiting),
+                 answer(Base, _{ask:"agent", agent:A}, Agent) )),
+    Goals = Agent.goals.
+
 test(place_of_a_fault_has_no_folder, Place == "program.pl:3") :-
     Text = ":- agent(p, []).\n\nmain :- sleep(0), fail.\n",
     page(Base, ( listening(( answer(Base, _{do:"create", text:Text,

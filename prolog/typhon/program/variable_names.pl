@@ -1,0 +1,138 @@
+:- module(typhon_variable_names,
+          [ clause_bindings/3,          % +Clause, +Names, -Bindings
+            goals_bindings/4,           % +Clauses, +Lists, +Goals, -Bindings
+            goal_named/4                % +Clauses, +Lists, +Goal, -Named
+          ]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
+:- use_module(arrows, [stands_in/3]).
+:- use_module(bodies, [body_goals/4, plain_goals/2]).
+:- use_module(points, [point/3]).
+:- use_module(source, [clause_parts/3]).
+
+/** <module> The names of variables, as the program has them
+
+Clauses and goals of agents are terms.  Which names the variables of a clause
+had is kept with its place, see typhon_places; those of the goals that are left
+follow from the clauses that these come from.
+
+Bindings are Name=Variable, as of read_term/2.
+
+*Threading*: pure.
+*/
+
+%!  clause_bindings(+Clause, +Names, -Bindings) is det.
+%
+%   Names are those of the variables of Clause, or [].
+
+clause_bindings(Clause, Names, Bindings) :-
+    term_variables(Clause, Variables),
+    findall(Name-I, ( nth1(I, Names, Name), Name \== '_' ), Known),
+    maplist(named_nth(Variables), Known, Bindings).
+
+named_nth(Variables, Name-I, Name=Variable) :-
+    nth1(I, Variables, Variable).
+
+%!  goals_bindings(+Clauses, +Lists, +Goals, -Bindings) is det.
+%
+%   The names of variables of Goals, which an agent with these Clauses has left.
+%   Lists are the names of each of the first of Clauses.  A name that several
+%   clauses give to different variables has a number after it but once.
+
+goals_bindings(Clauses, Lists, Goals, Bindings) :-
+    goals_bindings(Goals, Clauses, Lists, [], Bindings).
+
+goals_bindings([], _, _, Bindings, Bindings) :-
+    !.
+goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings) :-
+    stands_in(Clauses, Goals, [N-I]),
+    sequel(N-I, Clauses, Lists, Names, Variables, Sequel),
+    append(Sequel0, Rest, Goals),
+    length(Sequel, Length),
+    length(Sequel0, Length),
+    !,
+    maplist(instance, Sequel, Sequel0),
+    term_variables(Sequel0, Left),
+    add_names(Names, Variables, Left, Bindings0, Bindings1),
+    goals_bindings(Rest, Clauses, Lists, Bindings1, Bindings).
+goals_bindings([_|Goals], Clauses, Lists, Bindings0, Bindings) :-
+    goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings).
+
+%   sequel(+Place, +Clauses, +Lists, -Names, -Variables, -Sequel): a copy of what
+%   is left of a clause, with the copies of all its variables.
+
+sequel(N-I, Clauses, Lists, Names, Variables, Sequel) :-
+    nth1(N, Clauses, Clause),
+    ( nth1(N, Lists, Names) -> true ; Names = [] ),
+    copy_term_nat(Clause, Copy),
+    term_variables(Copy, Variables),
+    clause_parts(Copy, _, Body),
+    body_goals(Body, _, Marked, []),
+    plain_goals(Marked, Goals),
+    Done is I-1,
+    length(Before, Done),
+    append(Before, Sequel, Goals).
+
+%   What has begun to run already looks different.
+
+instance(General, Goal) :-
+    (   subsumes_term(General, Goal)
+    ->  General = Goal
+    ;   true
+    ).
+
+%   add_names(+Names, +Values, +Left, +Bindings0, -Bindings): of those Values that
+%   are among the variables Left.
+
+add_names([Name|Names], [Value|Values], Left, Bindings0, Bindings) :-
+    !,
+    (   Name \== '_',
+        member(Variable, Left),
+        Variable == Value,
+        \+ ( member(_=Known, Bindings0), Known == Value )
+    ->  free_name(Name, 1, Bindings0, Free),
+        Bindings1 = [Free=Value|Bindings0]
+    ;   Bindings1 = Bindings0
+    ),
+    add_names(Names, Values, Left, Bindings1, Bindings).
+add_names(_, _, _, Bindings, Bindings).
+
+free_name(Name, N, Bindings, Free) :-
+    ( N =:= 1 -> Free0 = Name ; atom_concat(Name, N, Free0) ),
+    (   memberchk(Free0=_, Bindings)
+    ->  N1 is N+1,
+        free_name(Name, N1, Bindings, Free)
+    ;   Free = Free0
+    ).
+
+%!  goal_named(+Clauses, +Lists, +Goal, -Named) is det.
+%
+%   Named is Goal with '$VAR'(Name) for variables, if all the clauses that could
+%   have called it agree on their names.
+
+goal_named(Clauses, Lists, Goal, Named) :-
+    term_variables(Goal, [_|_]),
+    findall(Instance,
+            ( nth1(N, Lists, [Name|Names]),
+              nth1(N, Clauses, Clause),
+              called_in(Clause, [Name|Names], Goal, Instance) ),
+            Found0),
+    sort(Found0, [Named0]),
+    !,
+    Named = Named0.
+goal_named(_, _, Goal, Goal).
+
+called_in(Clause, Names, Goal, Goal) :-
+    copy_term_nat(Clause, Copy),
+    term_variables(Copy, Variables),
+    clause_parts(Copy, _, Body),
+    point(Body, [General|_], _),
+    nonvar(General),
+    subsumes_term(General, Goal),
+    General = Goal,
+    maplist(show_name, Names, Variables).
+
+show_name('_', _) :-
+    !.
+show_name(Name, Variable) :-
+    ( var(Variable) -> Variable = '$VAR'(Name) ; true ).
