@@ -58,8 +58,8 @@ goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings) :-
 goals_bindings([_|Goals], Clauses, Lists, Bindings0, Bindings) :-
     goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings).
 
-%   sequel(+Place, +Clauses, +Lists, -Names, -Variables, -Sequel): a copy of what
-%   is left of a clause, with the copies of all its variables.
+%   sequel(+Place, +Clauses, +Lists, -Names, -Variables, -Sequel): a copy of
+%   what is left of a clause, with the copies of all its variables.
 
 sequel(N-I, Clauses, Lists, Names, Variables, Sequel) :-
     nth1(N, Clauses, Clause),
@@ -81,8 +81,8 @@ instance(General, Goal) :-
     ;   true
     ).
 
-%   add_names(+Names, +Values, +Left, +Bindings0, -Bindings): of those Values that
-%   are among the variables Left.
+%   add_names(+Names, +Values, +Left, +Bindings0, -Bindings): of those Values
+%   that are among the variables Left.
 
 add_names([Name|Names], [Value|Values], Left, Bindings0, Bindings) :-
     !,
