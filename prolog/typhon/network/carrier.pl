@@ -233,6 +233,7 @@ carrier_main :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_output, buffer(line)),
     read_term(user_input, node(Cookie, Interface, Seconds, Keys, Options), []),
+    skip(user_input, 0'\n),     % the column of input is that of output
     setenv('TYPHON_COOKIE', Cookie),
     with_keys(Keys),
     thread_create(see_to_end(Seconds), _,
