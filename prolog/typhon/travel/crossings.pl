@@ -142,7 +142,9 @@ forget_below(Process, Least) :-
     ;   true
     ).
 
-typhon_durable:fact_table(done, Process, N, N,
+%   The number that comes from the database has 32 bits.
+
+typhon_durable:fact_table(done, Process, _, N,
                           typhon_crossings:done(Process, N)).
 
 typhon_runtime:ending(after) :-
