@@ -76,6 +76,7 @@ raise_again(Formal, Context) :-
     throw(error(Formal, Context)).
 raise_again(Formal, Context0) :-
     without_stack(Context0, Context),
+    nb_setval(typhon_raised, Context),
     throw(error(Formal, Context)).
 
 %   Other contexts, as of syntax errors, print a place and get no backtrace.
@@ -92,9 +93,13 @@ raised_by(Caller, raised(_)) :-
     !.
 raised_by(prolog_stack(_), raised(_)) :-
     !.
-raised_by(raised(Caller), raised(Caller)) :-
+raised_by(Caller, raised(Caller)) :-
+    is_indicator(Caller),
     !.
-raised_by(Caller, raised(Caller)).
+raised_by(Caller, Caller).              % it says more than where
+
+is_indicator(_:_).
+is_indicator(_/_).
 
                 /*******************************
                 *             HOOKS            *
@@ -110,7 +115,11 @@ raised_by(Caller, raised(Caller)).
 :- public raised_again/1.
 
 raised_again(error(_, Context)) :-
-    is_raised(Context).
+    is_raised(Context),
+    !.
+raised_again(error(_, Context)) :-
+    nb_current(typhon_raised, Last),
+    Last =@= Context.
 
 prolog:message_location(Context) -->
     { is_raised(Context) }.
