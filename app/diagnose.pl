@@ -21,6 +21,7 @@ while after the answer is known.
                 tcp_socket/1
               ]).
 :- use_module('../prolog/typhon', [host_property/2]).
+:- use_module('../prolog/typhon/base/error_text', [error_text/2]).
 :- use_module('../prolog/typhon/wire', [cookie/1, endpoint_peer/2]).
 
 connect_deadline(5).                    % seconds
@@ -51,14 +52,11 @@ diagnose_steps([Step-Advice|Steps], Check) :-
     ->  format('  ok    ~w~t~24|~w~n', [Step, Found]),
         diagnose_steps(Steps, Check)
     ;   format('  FAIL  ~w~t~24|', [Step]),
-        print_error(error(Formal, Context)),
+        error_text(error(Formal, Context), Text),
+        format('~w~n', [Text]),
         format('~t~24|~w~n', [Advice]),
         fail
     ).
-
-print_error(Error) :-
-    '$messages':translate_message(Error, Lines, []),
-    print_message_lines(current_output, '', Lines).
 
 %!  python_says(+Python, +Code, +Module, -Text:atom) is det.
 %

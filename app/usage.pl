@@ -7,6 +7,8 @@
 *Threading*: the main thread only.
 */
 
+:- use_module('../prolog/typhon/base/error_text',
+              [error_told/3, print_error/2]).
 :- use_module('../prolog/typhon/base/names',
               [names_listed/2, names_proposed/3]).
 :- use_module(commands, [command/4]).
@@ -23,7 +25,7 @@ complain(Command, Error) :-
     (   Error = error(Formal, Context),
         ( hint(Formal, Hint) ; no_program(Command, Formal, Context, Hint) )
     ->  print_message(error, typhon_hint(Error, Hint))
-    ;   print_message(error, Error)
+    ;   print_error(error, Error)
     ).
 
 %   What to try next.
@@ -45,7 +47,7 @@ no_program(Command, existence_error(source_sink, _), Context,
     sub_atom(Arguments, 0, _, _, 'PROGRAM').
 
 prolog:message(typhon_hint(Error, Hint)) -->
-    '$messages':translate_message(Error),
+    error_told(Error),
     [ ' (~w)'-[Hint] ].
 
 prolog:error_message(typhon_usage(Problem)) -->

@@ -17,6 +17,7 @@
             port_open/2,                % +Port, -Key
             port_closed/1               % +Key
           ]).
+:- use_module('../typhon/base/error_text', [print_error/2]).
 :- use_module('../typhon', [host_change/2, host_start/2, host_stop/1]).
 :- use_module(told,
               [ must/1, set_verbosity/1, told/2, wrong/2 ]).
@@ -212,7 +213,7 @@ assert_all(In) :-
 assert_term((:-Directive)) :-
     !,
     ignore(catch(user:Directive, Error,
-                 print_message(warning, Error))).
+                 print_error(warning, Error))).
 assert_term(Clause) :-
     assertz(user:Clause, Ref),
     assertz(asserted(Ref)).

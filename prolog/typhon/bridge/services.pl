@@ -7,6 +7,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host', [host/3, place_deliver/3, place_undeliver/2]).
 :- use_module(subscribers, [subscribers_forget/2]).
@@ -97,7 +98,7 @@ end(Service, Host) :-
     catch(place_undeliver(Place, service(Service)), error(_, _), true),
     subscribers_forget(Service, Host),
     catch(forall(ends(Service, Host), true), error(Formal, Context),
-          print_message(warning, error(Formal, Context))),
+          print_error(warning, error(Formal, Context))),
     debug(typhon(bridge), '~w is no longer on ~w', [Service, Host]).
 
 %   After the agents have gone.

@@ -10,6 +10,7 @@
 :- use_module(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/crew', [crew_end/1, crew_start/4]).
 :- use_module(limit, [within/2]).
 :- use_module(http, [http_post/4, http_response/3, http_url/3]).
@@ -151,7 +152,7 @@ sent([Url|Urls], Host, Letter, Limits, Way) :-
         why(Code, Why),
         catch(ignore(returned(Host, About, Url, Why)),
               error(Formal, Context),
-              print_message(error, error(Formal, Context)))
+              print_error(error, error(Formal, Context)))
     ;   disconnect(Way),
         sent(Urls, Host, Letter, Limits, Way)
     ).

@@ -6,6 +6,7 @@
 :- use_module(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_setopt/2,
                 tcp_socket/1 ]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/clients',
               [client_becomes/1, clients_end/1, clients_start/4]).
 :- use_module(limit, [within/2]).
@@ -111,7 +112,7 @@ answer(bad(Ball), _, In, Out, false) :-
 answer(Request, Host, _, Out, KeepAlive) :-
     Request = request(_, _, _, _, KeepAlive0),
     (   catch(requested(Host, Request, Code0), error(Formal, Context),
-              ( print_message(error, error(Formal, Context)), fail ))
+              ( print_error(error, error(Formal, Context)), fail ))
     ->  Code = Code0,
         KeepAlive = KeepAlive0
     ;   Code = 500,

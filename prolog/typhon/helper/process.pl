@@ -8,6 +8,7 @@
             helper_file/2               % +Relative, -File
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/json', [json_dict/2]).
 :- use_module('../base/spawn', [spawn/3]).
 :- use_module(library(process), [process_kill/2, process_wait/3]).
@@ -143,7 +144,7 @@ line(Line, Heard) :-
     is_dict(Dict),
     !,
     catch(ignore(call(Heard, Dict)), error(Formal, Context),
-          print_message(error, error(Formal, Context))).
+          print_error(error, error(Formal, Context))).
 line(Line, _) :-
     debug(typhon(helper), 'a helper says ~s', [Line]).
 

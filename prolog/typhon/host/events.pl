@@ -8,6 +8,7 @@
           ]).
 :- use_module(library(error), []).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 
 /** <module> What happens, and who wants to hear of it
 
@@ -100,7 +101,7 @@ listener(Kind, _, Agent, log) :-
 tell_one(Listener, Host, Agent, What) :-
     catch(ignore(told(Listener, Host, Agent, What)),
           error(Formal, Context),
-          print_message(warning, error(Formal, Context))).
+          print_error(warning, error(Formal, Context))).
 
 %!  events_hear(+Kinds:list, +Key, +Listener) is det.
 %!  events_forget(+Key) is det.

@@ -4,6 +4,7 @@
             host_logs/1                 % +Host
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../wire', [endpoint_post/3]).
 :- use_module(event_shown, [event_shown/3]).
 :- use_module(events, [events_hear/3, log_kind/2]).
@@ -70,7 +71,7 @@ lost(unreachable(_), _, Endpoint) :-
     ;   true
     ).
 lost(Formal, Context, _) :-
-    print_message(warning, error(Formal, Context)).
+    print_error(warning, error(Formal, Context)).
 
 unheard(Endpoint, Key, false) :-
     unheard(Endpoint, Key),

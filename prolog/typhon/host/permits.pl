@@ -9,6 +9,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../wire', [endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module(hosts, [host_option/2]).
 
@@ -121,7 +122,7 @@ audit(Host, Peer, Proof, What) :-
         catch(with_mutex(typhon_audit,
                          note(File, audit(Time, Host, Peer, Proof, What))),
               error(Formal, Context),
-              print_message(error, error(Formal, Context)))
+              print_error(error, error(Formal, Context)))
     ;   true
     ).
 

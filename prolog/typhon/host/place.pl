@@ -11,6 +11,7 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../journal',
               [note_drop/3, note_drop_all/2, note_put/4, unit_note_drop/3]).
 :- use_module('../program', [clause_parts/3]).
@@ -118,7 +119,7 @@ later(File, Then) :-
 
 reload(Place, Id, File) :-
     catch(load(Place, Id, File), error(Formal, Context),
-          print_message(error, error(Formal, Context))),
+          print_error(error, error(Formal, Context))),
     print_message(informational, typhon(place_reloaded(Place, File))).
 
 %!  place_host(?Place, ?Host) is nondet.

@@ -8,6 +8,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 
 /** <module> How much agents may use on a host
@@ -209,6 +210,6 @@ watch_on :-
     (   thread_get_message(Me, stop, [timeout(0.1)])
     ->  true
     ;   catch(forall(look, true), error(Formal, Context),
-              print_message(error, error(Formal, Context))),
+              print_error(error, error(Formal, Context))),
         watch_on
     ).

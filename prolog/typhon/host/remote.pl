@@ -4,6 +4,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module('../base/harmless_error', [harmless_error/2]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module(asking, [process_ask/6]).
 :- use_module(context, [in_context/2]).
@@ -27,8 +28,9 @@ other process.
 %!  remote(+Host, +Goal) is semidet.
 %
 %   once(Goal) in the place of Host, here or in another process.  Bindings
-%   come back; failure and errors, too.  A goal M:G is run in module M
-%   instead, with the place only as its context.  leave/1, sense/1 and take/1
+%   come back; failure and errors, too: an error of another process that would
+%   do something when it is printed comes as error(raised_elsewhere(Ball), _).
+%   A goal M:G is run in module M instead, with the place only as its context.  leave/1, sense/1 and take/1
 %   work on the tuple space of Host.
 %
 %   @error permission_error(remote, host, Host) if the host refuses
@@ -51,7 +53,8 @@ run(remote(Host, Name, Endpoint), Goal) :-
     conclude(Answer, Host, Goal).
 
 conclude(true(Goal), _, Goal).
-conclude(raised(Ball), _, _) :-
+conclude(raised(Ball0), _, _) :-
+    harmless_error(Ball0, Ball),
     throw(Ball).
 conclude(unknown_host, Host, _) :-
     host_unknown(Host).

@@ -10,6 +10,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [error_told/3]).
 :- use_module(alarms,
               [ alarm_add/3, alarm_anew/1, alarm_new/1, alarm_take/3,
                 alarms_at/2, alarms_begin/0, alarms_end/0, alarms_new/1,
@@ -311,7 +312,7 @@ go_off(Alarm) :-
 
 prolog:message(typhon(timer(Ball))) -->
     [ 'An alarm met with an error; the timer goes on', nl ],
-    '$messages':translate_message(Ball).
+    error_told(Ball).
 prolog:message(typhon(timer_ended)) -->
     [ 'The timer has ended; another goes on with its alarms' ].
 prolog:message(typhon(no_timer(Formal))) -->

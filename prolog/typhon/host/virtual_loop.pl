@@ -13,6 +13,7 @@
 :- use_module(library(heaps),
               [add_to_heap/4, empty_heap/1, get_from_heap/4, min_of_heap/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module(virtual_standing, [standing/3, standing_again/3]).
 :- use_module(work, [work_do/2]).
 
@@ -263,7 +264,7 @@ pass_to(Stamp) :-
 go_off(Agent-Token) :-
     debug(typhon(scheduler), 'alarm ~p of ~p', [Token, Agent]),
     catch(ignore(typhon_scheduler:fire(Agent, Token)), error(Formal, Where),
-          print_message(error, error(Formal, Where))).
+          print_error(error, error(Formal, Where))).
 
 there(Queue) :-
     message_queue_property(Queue, size(Size)),

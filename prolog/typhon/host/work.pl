@@ -1,6 +1,7 @@
 :- module(typhon_work,
           [ work_do/2                   % +Work, :Again
           ]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module(limits, [limit_leave/2]).
 
 /** <module> What there is to do
@@ -50,4 +51,4 @@ survive('$aborted') :-
 survive(unwind(_)) :-                   % SWI-Prolog 9.3 and later
     !.
 survive(Ball) :-
-    print_message(error, Ball).
+    print_error(error, Ball).

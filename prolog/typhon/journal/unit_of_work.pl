@@ -10,6 +10,7 @@
             unit_release/0
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module(item_key, [journal_key/2]).
 :- use_module(ledger,
               [journal_on/0, note_change/1, note_putting/5]).
@@ -110,4 +111,4 @@ unit_release :-
 
 release(Goal) :-
     catch(ignore(Goal), error(Formal, Context),
-          print_message(warning, error(Formal, Context))).
+          print_error(warning, error(Formal, Context))).

@@ -5,6 +5,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/harmless_error', [harmless_error/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/stop_thread', [abort_quietly/0]).
@@ -86,7 +87,8 @@ give_order(Agent, Question, Said) :-
 
 said(answer(Said), Said).
 said(error(Formal), _) :-
-    throw(error(Formal, _)).
+    harmless_error(error(Formal, _), Ball),
+    throw(Ball).
 
 %   see_to_it(+Said, +Agent, +Patience)
 

@@ -11,6 +11,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/2]).
+:- use_module('../base/harmless_error', [harmless_error/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../program', [payload_load/2, payload_signature/2]).
 :- use_module('../host', [host_address/2]).
@@ -159,4 +160,5 @@ agent_answer(Agent, Question, Seconds, Answer) :-
 
 answered(answer(Answer), Answer).
 answered(error(Formal), _) :-
-    throw(error(Formal, _)).
+    harmless_error(error(Formal, _), Ball),
+    throw(Ball).

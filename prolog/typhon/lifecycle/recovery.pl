@@ -4,6 +4,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/durable', [durable_restore/4]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../journal', [journal_item/5, note_drop_all/2]).
 :- use_module('../host',
               [alarm_set/3, host/3, host_again/1, real_time/3, schedule/2]).
@@ -72,7 +73,7 @@ is_back(Kind, Key, N, Term) :-
     (   var(Formal)
     ->  true
     ;   print_message(error, typhon(not_back(Kind, Key))),
-        print_message(error, error(Formal, Context)),
+        print_error(error, error(Formal, Context)),
         stays(Kind, Key, Term)
     ).
 is_back(Kind, Key, _, Term) :-

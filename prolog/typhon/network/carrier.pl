@@ -8,6 +8,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/error_text', [error_text/2, print_error/2]).
 :- use_module('../journal', [journal_guards/0]).
 :- use_module('../wire',
               [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
@@ -352,9 +353,7 @@ answer_(Order, Answer) :-
     ).
 
 raised(Error, raised(Formal, Text)) :-
-    '$messages':translate_message(Error, Lines, []),
-    with_output_to(string(Text),
-                   print_message_lines(current_output, '', Lines)),
+    error_text(Error, Text),
     (   Error = error(Formal, _)
     ->  true
     ;   Formal = system_error(Text)
@@ -387,7 +386,7 @@ stop :-
     ;   true
     ),
     catch(order_do(stop, ok), error(Formal, Context),
-          print_message(warning, error(Formal, Context))),
+          print_error(warning, error(Formal, Context))),
     runtime_release(node),
     halt(0).
 

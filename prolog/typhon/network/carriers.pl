@@ -20,6 +20,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/harmless_error', [harmless_error/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(carrier, [order_do/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
@@ -139,7 +140,8 @@ result_of(Network, Results, P, Answer) :-
 
 result(answer(done(Answer)), _, Answer).
 result(answer(raised(Formal, Text)), _, _) :-
-    throw(error(Formal, context(_, Text))).
+    harmless_error(error(Formal, context(_, Text)), Ball),
+    throw(Ball).
 result(down, Carrier, _) :-
     existence_error(carrier, Carrier).
 result(unreachable, Carrier, _) :-

@@ -7,6 +7,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../host', [alarm_set/3, scheduler_call/1]).
 :- use_module(dynamics, [dynamics_event/4]).
 
@@ -140,7 +141,7 @@ change_links(Dynamics) :-
 make(OnChange, Change) :-
     debug(typhon(network), 'dynamics: ~p', [Change]),
     catch(call(OnChange, Change), error(Formal, Context),
-          print_message(warning, error(Formal, Context))),
+          print_error(warning, error(Formal, Context))),
     !.
 make(_, Change) :-
     print_message(warning, typhon(link_not_changed(Change))).

@@ -7,6 +7,7 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../journal', [journal_closed/0]).
@@ -150,7 +151,7 @@ arrived(Name) :-
         \+ journal_closed
     ->  catch(endpoint_call(Endpoint, log, arrived, answer(yes), 5),
               error(Formal, Context),
-              print_message(warning, error(Formal, Context)))
+              print_error(warning, error(Formal, Context)))
     ;   true
     ).
 

@@ -12,6 +12,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/erased', [forget_erased/0]).
 :- use_module('../base/options', [check_name/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
@@ -230,7 +231,7 @@ stop_own(Network) :-
 
 step(Goal) :-
     catch(Goal, error(Formal, Context),
-          print_message(warning, error(Formal, Context))),
+          print_error(warning, error(Formal, Context))),
     !.
 step(Goal) :-
     print_message(warning, typhon(network_step(Goal))).

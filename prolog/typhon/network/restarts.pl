@@ -8,6 +8,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
 
 /** <module> Processes of a network that die are started again
@@ -107,7 +108,7 @@ handled(down(P, _), State, Deaths0, Deaths, Starting0, Starting) :-
     ->  debug(typhon(network), 'process ~w of ~w is started again',
               [P, Network]),
         catch(ignore(call(Do, start(P))), error(Formal, Context),
-              print_message(error, error(Formal, Context))),
+              print_error(error, error(Formal, Context))),
         setting(typhon_processes:start_seconds, Seconds),
         deadline(Seconds, Deadline),
         Starting = [Deadline-P|Starting1]
@@ -129,7 +130,7 @@ handled(up(P), State, Deaths, Deaths, Starting0, Starting) :-
     ).
 handled(failed(_, Error), _, Deaths, Deaths, Starting, Starting) :-
     !,
-    print_message(error, Error).
+    print_error(error, Error).
 handled(late(P), state(_, _, Do), Deaths, Deaths, Starting0, Starting) :-
     not_starting(P, Starting0, Starting),
     ignore(call(Do, kill(P))).
@@ -177,7 +178,7 @@ not_restored(error(existence_error(carrier, _), _)) :-
     fail.                               % it has died again
 not_restored(Ball) :-
     nb_setval(typhon_restoring, false),
-    print_message(error, Ball),
+    print_error(error, Ball),
     fail.
 
                 /*******************************

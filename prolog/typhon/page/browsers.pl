@@ -7,6 +7,7 @@
           ]).
 :- use_module(library(http/websocket), [ws_send/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(json, [json_text/2]).
 :- use_module(overlays, [event_rows/2]).
@@ -235,7 +236,7 @@ ended(error(socket_error(_, _), _)) :- !.
 ended(typhon_page(bye)) :- !.
 ended(crew_end) :- !.
 ended(Ball) :-
-    print_message(warning, Ball).
+    print_error(warning, Ball).
 
 serve(Queue, Scene, WebSocket) :-
     (   enter(Queue)

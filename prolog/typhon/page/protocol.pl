@@ -5,8 +5,7 @@
             text/2,                     % +Term, -Text
             name_text/2,                % +Atomic, -Text
             place_text/2,               % +Place, -Text
-            number_told/2,              % +Number, -Told
-            error_text/2                % +Error, -Text
+            number_told/2               % +Number, -Told
           ]).
 
 /** <module> What server and browser say to each other
@@ -160,19 +159,6 @@ number_told(Number, Told) :-
     ->  text(Number, Told)
     ;   Told = Number
     ).
-
-%!  error_text(+Error, -Text:string) is det.
-%
-%   Error as it would be printed, in full.
-
-error_text(Error, Text) :-
-    message_to_codes_(Error, Text).
-
-message_to_codes_(Error, Text) :-
-    phrase('$messages':translate_message(Error), Lines),
-    with_output_to(string(Text0),
-                   print_message_lines(current_output, '', Lines)),
-    split_string(Text0, "", " \n", [Text]).
 
                 /*******************************
                 *            SCENES            *

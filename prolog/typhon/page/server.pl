@@ -20,7 +20,7 @@
 :- use_module(looking, [first_sight/1, look/2]).
 :- use_module(overlays,
               [overlays_shown/1, overlays_start/1, overlays_stop/0]).
-:- use_module(protocol, [error_text/2]).
+:- use_module('../base/error_text', [error_text/2]).
 :- use_module(reception, [reception_close/0, reception_open/2, with_body/4]).
 :- use_module(said, [on_console/1]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).

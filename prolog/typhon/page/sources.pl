@@ -9,6 +9,7 @@
 :- use_module(library(option), [option/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../host',
               [ address_parts/3, host_property/2, runtime_acquire/2,
@@ -127,7 +128,7 @@ find_more(Queue) :-
 
 telling_errors(Goal) :-
     catch(Goal, error(Formal, Context),
-          print_message(warning, error(Formal, Context))).
+          print_error(warning, error(Formal, Context))).
 
                 /*******************************
                 *            WATCH             *

@@ -8,6 +8,7 @@ which clause.
 *Threading*: called by print_message/2 in any thread.
 */
 
+:- use_module('../base/error_text', [error_told/3, term_told/3]).
 :- use_module('../agent', [fault_told/5]).
 
 :- multifile
@@ -19,7 +20,7 @@ prolog:error_message(permission_error(resume, agent, Agent)) -->
 
 prolog:message(typhon(faulty(Agent, Error, Fault))) -->
     who(Agent, Fault),
-    error_told(Error, Agent),
+    raised(Error, Agent),
     goal_of(Error, Fault),
     raised_in(Fault).
 prolog:message(typhon(agent_failed(Agent, Fault))) -->
@@ -30,8 +31,9 @@ prolog:message(typhon(mailbox_full(Agent, Max))) -->
        nothing is kept beside ~D messages'-[Agent, Max] ].
 prolog:message(typhon(message_undone(Agent, From, Message, Fault))) -->
     who(Agent, Fault),
-    [ 'did not do with ~p from ~w what on_message/2 says; it '-
-      [Message, From] ],
+    [ 'did not do with ' ],
+    term_told(Message),
+    [ ' from ~w what on_message/2 says; it '-[From] ],
     failed_last(Fault).
 
 %   Who and where, as "Agent x at beta (hop 3): ".
@@ -44,12 +46,13 @@ who(Agent, Fault) -->
 
 %   What it calls and nobody has is not said to be missing in its module.
 
-error_told(error(existence_error(procedure, Agent:PI), Context), Agent) -->
+raised(error(existence_error(procedure, Agent:PI), Context), Agent) -->
     !,
-    [ 'Unknown procedure: ~p'-[PI] ],
+    [ 'Unknown procedure: ' ],
+    term_told(PI),
     advised(Context).
-error_told(Error, _) -->
-    '$messages':translate_message(Error).
+raised(Error, _) -->
+    error_told(Error).
 
 advised(Context) -->
     { subsumes_term(context(_, _), Context),
@@ -110,7 +113,7 @@ goal_told(Goal0) -->
     { copy_term(Goal0, Goal),
       numbervars(Goal, 0, _, [singletons(true)])
     },
-    [ '~W'-[Goal, [ quoted(true), portray(true), max_depth(10),
+    [ '~W'-[Goal, [ quoted(true), portray(false), max_depth(10),
                     spacing(next_argument), numbervars(true) ]] ].
 
 %   In which clause that was.

@@ -9,6 +9,8 @@
 *Threading*: pure.
 */
 
+:- use_module('../base/error_text', [term_told/3]).
+
 %!  happening(+What, -Text, ?Rest) is det.
 %
 %   The text of an event, see typhon_events, as a message: what an agent did,
@@ -17,19 +19,25 @@
 happening(What) -->
     { \+ own_event(What) },
     !,
-    [ 'logs ~p'-[What] ].
+    [ 'logs ' ],
+    term_told(What).
 happening(created) --> [ 'begins' ].
-happening(ended(Outcome)) --> [ 'ends, ~p'-[Outcome] ].
-happening(faulty(Error)) --> [ 'is faulty: ~p'-[Error] ].
+happening(ended(Outcome)) --> [ 'ends, ' ], term_told(Outcome).
+happening(faulty(Error)) --> [ 'is faulty: ' ], term_told(Error).
 happening(fault(fault(Error, Goal, Place, _))) -->
-    [ 'is faulty, ~p: ~p, at ~w'-[Error, Goal, Place] ].
+    [ 'is faulty, ' ],
+    term_told(Error),
+    [ ': ' ],
+    term_told(Goal),
+    [ ', at ~w'-[Place] ].
 happening(link(To)) --> named('is linked with ~w', To).
 happening(unlink(To)) --> named('is not linked with ~w any more', To).
 happening(started) --> [ 'starts' ].
 happening(stopped) --> [ 'stops' ].
 happening(refused(Agent, Reason)) -->
     named('refuses ~w', Agent),
-    [ ': ~p'-[Reason] ].
+    [ ': ' ],
+    term_told(Reason).
 happening(left(To)) --> named('leaves for ~w', To).
 happening(stayed(To)) --> named('could not go to ~w', To).
 happening(arrived(From, Seconds)) -->
@@ -38,19 +46,21 @@ happening(arrived(From, Seconds)) -->
 happening(cloned(Clone)) --> named('has a clone, ~w', Clone).
 happening(sent(To)) --> named('sends to ~w', To).
 happening(sent(To, Message)) -->
-    [ 'sends ~p '-[Message] ],
-    named('to ~w', To).
+    [ 'sends ' ],
+    term_told(Message),
+    named(' to ~w', To).
 happening(received(From)) --> named('takes a message from ~w', From).
 happening(received(From, Message)) -->
-    [ 'takes ~p '-[Message] ],
-    named('from ~w', From).
-happening(leave(Fact)) --> [ 'leaves ~p here'-[Fact] ].
-happening(take(Fact)) --> [ 'takes ~p up here'-[Fact] ].
+    [ 'takes ' ],
+    term_told(Message),
+    named(' from ~w', From).
+happening(leave(Fact)) --> [ 'leaves ' ], term_told(Fact), [ ' here' ].
+happening(take(Fact)) --> [ 'takes ' ], term_told(Fact), [ ' up here' ].
 happening(goal(Goal)) -->
     { copy_term(Goal, Shown, _),
       numbervars(Shown, 0, _, [singletons(true)])
     },
-    [ '~W'-[ Shown, [ quoted(true), portray(true), numbervars(true),
+    [ '~W'-[ Shown, [ quoted(true), portray(false), numbervars(true),
                       max_depth(10), spacing(next_argument) ] ] ].
 %!  own_event(+What) is semidet.
 %

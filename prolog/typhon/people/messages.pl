@@ -10,6 +10,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 *Threading*: called by print_message/2 in any thread.
 */
 
+:- use_module('../base/error_text', [error_told/3, term_told/3]).
 :- use_module('../wire', [endpoint_missed/2, tls_text/2]).
 :- use_module('../program', [files_beside/3]).
 :- use_module('../host', [address_parts/3, host_property/2]).
@@ -153,7 +154,7 @@ refusal(unsigned) --> !, [ 'none of its authors has signed it' ].
 refusal(identity) --> !, [ 'its owner has not signed that it is his' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
 refusal(quota(What)) --> !, [ 'its quota of ~w would be passed'-[What] ].
-refusal(Reason) --> [ '~p'-[Reason] ].
+refusal(Reason) --> term_told(Reason).
 
 program_alias(Spec, Alias, Name) :-
     compound(Spec),
@@ -188,8 +189,8 @@ prolog:message(typhon(legacy_lost(Agent))) -->
     [ 'What agent ~w has left, its result among it, is too long to be sent \c
        to its home'-[Agent] ].
 prolog:message(typhon(message_failed(Agent, From, Message))) -->
-    [ 'Agent ~w does not understand a message: ~p from ~w'-
-      [Agent, Message, From] ].
+    [ 'Agent ~w does not understand a message: '-[Agent] ],
+    message_from(Message, From).
 prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
     !,
     [ 'Agent ~w could not obey: '-[Agent] ],
@@ -221,14 +222,18 @@ prolog:message(typhon(undeliverable(resource_error(frame_bytes), Agent, From,
     !,
     [ 'A message for ~w from ~w is too long to be sent'-[Agent, From] ].
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
-    [ 'A message for ~w is lost: ~p from ~w'-[Agent, Message, From], nl ],
+    [ 'A message for ~w is lost: '-[Agent] ],
+    message_from(Message, From),
+    [ nl ],
     lost_since(Formal).
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message, Others))) -->
-    [ 'Messages for ~w are lost: ~p from ~w, and ~D more'-
-      [Agent, Message, From, Others], nl ],
+    [ 'Messages for ~w are lost: '-[Agent] ],
+    message_from(Message, From),
+    [ ', and ~D more'-[Others], nl ],
     lost_since(Formal).
 prolog:message(typhon(log(Host, Agent, What))) -->
-    [ '~w at ~w: ~p'-[Agent, Host, What] ].
+    [ '~w at ~w: '-[Agent, Host] ],
+    term_told(What).
 prolog:message(typhon(log_unheard(Endpoint))) -->
     [ 'The log server at ~w does not answer'-[Endpoint] ],
     reason(Endpoint),
@@ -258,7 +263,8 @@ prolog:message(typhon(stepped(Agent, What))) -->
     [ '% ~w '-[Agent] ],
     stopped(What).
 prolog:message(typhon(told(Agent, Message))) -->
-    [ '~w says ~p'-[Agent, Message] ].
+    [ '~w says '-[Agent] ],
+    term_told(Message).
 prolog:message(typhon(checked(Program, 0, 0, 0))) -->
     !,
     [ '~p is in order'-[Program] ].
@@ -287,7 +293,7 @@ happened(Agent, Host) -->
     [ '% ~w at ~w: '-[Who, Where] ].
 
 stopped(rests(State)) --> !, [ 'is ~w'-[State] ].
-stopped(ended(Outcome)) --> [ 'has ended, ~p'-[Outcome] ].
+stopped(ended(Outcome)) --> [ 'has ended, ' ], term_told(Outcome).
 
 lost_since(existence_error(agent, _)) -->
     !,
@@ -299,7 +305,11 @@ lost_since(Formal) -->
     explained(error(Formal, _)).
 
 explained(Error) -->
-    '$messages':translate_message(Error).
+    error_told(Error).
+
+message_from(Message, From) -->
+    term_told(Message),
+    [ ' from ~w'-[From] ].
 
                 /*******************************
                 *          NEAR NAMES          *

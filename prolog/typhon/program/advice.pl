@@ -16,6 +16,7 @@ calls when nobody catches the error.
 *Threading*: pure.
 */
 
+:- use_module('../base/error_text', [error_told/3]).
 :- use_module('../base/names', [names_joined/3]).
 
 :- multifile
@@ -90,7 +91,7 @@ others([]) -->
 others([Problem|Others]) -->
     { problem_error(Problem, [], Error) },
     [ nl ],
-    '$messages':translate_message(Error),
+    error_told(Error),
     others(Others).
 
                 /*******************************

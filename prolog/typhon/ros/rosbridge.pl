@@ -7,6 +7,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/json', [atom_json_dict/3]).
 :- use_module(socket,
@@ -185,7 +186,7 @@ connected(Link, Wait) :-
     (   nonvar(Socket)
     ->  get_time(Start),
         catch(served(Link, Socket), error(Kind, Where),
-              print_message(error, error(Kind, Where))),
+              print_error(error, error(Kind, Where))),
         pause_after(Start, Wait, Pause)
     ;   tell(Asker, error(Formal, Context)),
         debug(typhon(ros), '~w: ~w is not there: ~p', [Host, URL, Formal]),
@@ -269,7 +270,7 @@ read_on(Host, Socket, Why) :-
     (   Read = end(Why0)
     ->  Why = Why0
     ;   catch(heard(Host, Read), error(Formal, Context),
-              print_message(error, error(Formal, Context))),
+              print_error(error, error(Formal, Context))),
         read_on(Host, Socket, Why)
     ).
 

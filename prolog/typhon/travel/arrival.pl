@@ -2,6 +2,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../journal',
               [crash_point/1, journal_on/0, journal_seal/0, journal_step/1]).
 :- use_module('../wire',
@@ -48,7 +49,7 @@ typhon_endpoint:requested(hop, hop(Name, Image, Program, Label), Peer,
 arrived(Name, Image, Program, Label, Peer, ReplyTo) :-
     catch(arrive_noted(Name, Image, Program, Label, Peer, Answer),
           error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
+          ( print_error(error, error(Formal, Context)),
             gate_refused(Name, from(Peer, Program, none), malformed,
                          error(Formal)),
             Answer = refused(error(Formal))

@@ -1,5 +1,6 @@
 :- module(typhon_channel_end, []).
 :- use_module(library(error), [must_be/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../journal', [crash_point/1, journal_step/1, note_put/4]).
 :- use_module('../wire', [endpoint_post/3]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
@@ -61,7 +62,7 @@ in_order(Before, Key) :-
 take(Kind, Term, Peer) :-
     catch(ignore(typhon_endpoint:received(Kind, Term, Peer)),
           error(Formal, Context),
-          print_message(error, error(Formal, Context))).
+          print_error(error, error(Formal, Context))).
 
 answer(gap, _, To, Peer) :-
     endpoint_post(Peer, channel, again(To)).

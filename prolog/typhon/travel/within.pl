@@ -3,6 +3,7 @@
                                         % -Next
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
               [ address_parts/3, event/4, event_heard/1, host/3, host_passed/3,
@@ -113,7 +114,7 @@ seconds(Here, Name, Since, Seconds) :-
 told(Id, Here-Name, Hops, Seconds, Next) :-
     catch(arrived(Id, Here, Name, Hops, Seconds, Next),
           error(Formal, Context),
-          print_message(error, error(Formal, Context))).
+          print_error(error, error(Formal, Context))).
 
 arrived(Id, Here, Name, Hops, Seconds, Next) :-
     host(Name, Address, _),

@@ -6,6 +6,7 @@
           ]).
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
+:- use_module('../base/error_text', [error_told/3]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
 :- use_module(watch_places,
@@ -274,4 +275,4 @@ unwatch_all(me(Watch, Queue, _)) :-
 
 prolog:message(typhon(watch_raised(Watch, Ball))) -->
     [ 'What is called for ~w raises an exception; the watch goes on: '-[Watch] ],
-    '$messages':translate_message(Ball).
+    error_told(Ball).

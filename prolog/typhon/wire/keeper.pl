@@ -19,6 +19,7 @@ take a while is done by a thread in the background.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_list/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module(attempts, [attempt_due/1, attempt_greeted/1]).
 :- use_module(connector,
               [ connector_again/1, connector_begin/1, connector_ended/2,
@@ -94,7 +95,7 @@ keep(Me) :-
         run_errands(inf)
     ;   catch(( hear(Message, Me), connector_begin(Me) ),
               error(Formal, Context),
-              print_message(error, error(Formal, Context))),
+              print_error(error, error(Formal, Context))),
         fail
     ).
 

@@ -19,6 +19,7 @@ the session; pusher_stop/1 is for the thread of the connection, without it.
 
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module(frame, [frame_write/2]).
 :- use_module(session, [session_key/2, session_locked/2]).
 :- use_module(threads, [wire_thread_create/3, wire_thread_end/2]).
@@ -47,7 +48,7 @@ pusher_start(Session, Thread, Out, Again) :-
             debug(typhon(session), '~w: ~w writes', [Key, Pusher])
           ),
           error(Formal, Context),
-          ( print_message(error, error(Formal, Context)),
+          ( print_error(error, error(Formal, Context)),
             transport_broken(Key, Thread) )).
 
 push(Session, Thread, Out, Again) :-

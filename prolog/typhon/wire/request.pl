@@ -30,6 +30,7 @@ and so answered once.
 */
 
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [error_told/3]).
 :- use_module(outbox,
               [session_answer/2, session_send/2, session_send_later/2]).
 :- use_module(session, [route/2, session_key/2, session_peer/3]).
@@ -241,4 +242,4 @@ prolog:message(typhon(endpoint, hook(Kind, failed))) -->
     [ 'Endpoint: nobody takes ~q'-[Kind] ].
 prolog:message(typhon(endpoint, hook(Kind, Error))) -->
     [ 'Endpoint: taking ~q: '-[Kind] ],
-    '$messages':translate_message(Error).
+    error_told(Error).

@@ -23,6 +23,7 @@ that no other has: what is meant for one never reaches the next.
 from any thread.
 */
 
+:- use_module('../base/error_text', [error_told/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 
 :- meta_predicate
@@ -191,4 +192,4 @@ wire_threads_end :-
 
 prolog:message(typhon(endpoint, thread_died(Error))) -->
     [ 'Endpoint: a thread died: ' ],
-    '$messages':translate_message(Error).
+    error_told(Error).

@@ -20,6 +20,7 @@ for an address, nothing of the same thread may overtake it. Whoever removes
 a request answers for it.
 */
 
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module(contacts, [contact_expected/1]).
 :- use_module(request,
               [ request_answer/2, request_forget/1, request_send/4,
@@ -97,7 +98,7 @@ not_sent(session_closed, _, Address, OnAnswer) :-
     \+ contact_expected(Address),
     request_answer(unreachable, OnAnswer).
 not_sent(Formal, Context, _, OnAnswer) :-
-    print_message(error, error(Formal, Context)),
+    print_error(error, error(Formal, Context)),
     request_answer(unreachable, OnAnswer).
 
 %!  unsent_closed(+Address, +Kind, +Term, :OnAnswer) is det.

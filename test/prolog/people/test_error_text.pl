@@ -1,0 +1,217 @@
+:- module(test_error_text, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module('../../lib/peers').
+:- use_module('../../../prolog/typhon/base/error_text').
+:- use_module('../../../prolog/typhon/base/harmless_error').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(typhon)).
+
+/** <module> Errors of agents and of other processes are only data
+
+What a hostile error would do when it is printed is to set a flag.
+
+*Threading*: one test at a time.
+*/
+
+harm(flag(typhon_printed, _, 1)).
+
+%   hostile(-Ball): SWI-Prolog calls a goal when it prints this.
+
+hostile(format("~@", [Harm])) :- harm(Harm).
+hostile(error(format("~@", [Harm]), _)) :- harm(Harm).
+hostile(error(format("~:@", [Harm]), context(a/1, b))) :- harm(Harm).
+hostile(unhandled_exception(format("~@", [Harm]))) :- harm(Harm).
+hostile(unhandled_exception(error(format("~@", [Harm]), _))) :- harm(Harm).
+hostile(initialization_exception(format("~@", [Harm]))) :- harm(Harm).
+hostile(error(thread_error(x, exception(format("~@", [Harm]))), _)) :-
+    harm(Harm).
+hostile(error(initialization_error(format("~@", [Harm]), x, f:1), _)) :-
+    harm(Harm).
+hostile(error(existence_error(x, y), initialization_exception(Harm))) :-
+    harm(Harm).
+hostile(debug(Format, [Harm])) :- Format = "~@", harm(Harm).
+hostile(goal_failed(user, Harm)) :- harm(Harm).
+hostile(halt(1)).
+hostile(unwind(halt(1))).
+hostile(unwind(abort)).
+hostile(typhon(log(a, b, format("~@", [Harm])))) :- harm(Harm).
+hostile(error(resource_error(stack), _)).
+
+%   What was raised elsewhere and harms nobody stays what it was.
+
+kept(type_error(integer, a)).
+kept(existence_error(procedure, foo/1)).
+kept(existence_error(host, nowhere)).
+kept(move_refused(h, capacity)).
+kept(resource_error(seconds)).
+kept(timeout_error(read, x)).
+kept(syntax_error(operator_expected)).
+kept(my_error(1, "two")).
+kept(instantiation_error).
+
+                /*******************************
+                *           PRINTING           *
+                *******************************/
+
+:- dynamic
+    printing/0,
+    printed/1.                          % Text
+
+:- multifile
+    user:message_hook/3,
+    user:portray/1.
+:- dynamic
+    user:message_hook/3,
+    user:portray/1.
+
+%   As it would stand on the screen.
+
+user:message_hook(_, Kind, Lines) :-
+    printing,
+    memberchk(Kind, [error, warning, informational]),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)),
+    assertz(test_error_text:printed(Text)).
+
+user:portray(typhon_portrayed(_)) :-
+    test_error_text:printing,
+    flag(typhon_printed, _, 1),
+    write(portrayed).
+
+printing(Goal, Texts) :-
+    flag(typhon_printed, _, 0),
+    retractall(printed(_)),
+    setup_call_cleanup(assertz(printing), once(Goal), retractall(printing)),
+    findall(Text, retract(printed(Text)), Texts).
+
+untouched :-
+    flag(typhon_printed, 0, 0).
+
+%   What the top level does with an error that nobody catches.
+
+at_the_top_level(Ball) :-
+    print_message(error, Ball),
+    print_message(warning, unhandled_exception(Ball)).
+
+:- begin_tests(error_text).
+
+test(hostile_errors_are_written,
+     [forall(hostile(Ball)), true(Text \== "")]) :-
+    printing(( error_text(Ball, Text), print_error(error, Ball) ), [_]),
+    untouched.
+test(errors_that_are_passed_on_are_harmless, [forall(hostile(Ball0))]) :-
+    harmless_error(Ball0, Ball),
+    printing(at_the_top_level(Ball), [_,_]),
+    untouched.
+test(other_errors_stay_what_they_were,
+     [forall(kept(Formal)), true(Ball =@= error(Formal, _))]) :-
+    harmless_error(error(Formal, _), Ball).
+test(other_balls_stay_what_they_were,
+     [forall(member(Ball0, [oops, my(1)])), true(Ball == Ball0)]) :-
+    harmless_error(Ball0, Ball).
+test(context_stays_where_it_is_text,
+     Ball == error(type_error(integer, a), context(foo/1, 'a remark'))) :-
+    harmless_error(error(type_error(integer, a), context(foo/1, 'a remark')),
+                   Ball).
+test(other_context_goes, Ball =@= error(type_error(integer, a), _)) :-
+    harmless_error(error(type_error(integer, a), at(x, y, z)), Ball).
+test(text_of_iso_errors,
+     Text == "foo/1: Type error: `integer' expected, found `a' (an atom) \c
+              (why)") :-
+    error_text(error(type_error(integer, a), context(foo/1, why)), Text).
+test(text_of_own_errors, Text == "h refuses to admit the agent: it is full") :-
+    error_text(error(move_refused(h, capacity), _), Text).
+test(text_of_unknown_errors,
+     Text == "Unknown error term: format(\"~@\",[halt])") :-
+    error_text(error(format("~@", [halt]), _), Text).
+test(large_terms_are_not_written, true(Length < 200)) :-
+    dag(60, a, T),
+    error_text(error(type_error(x, T), _), Text),
+    string_length(Text, Length).
+test(hooks_for_printing_see_nothing, Text == "Unknown message: typhon_portrayed(x)") :-
+    printing(error_text(typhon_portrayed(x), Text), _),
+    untouched.
+
+:- end_tests(error_text).
+
+dag(0, T, T) :- !.
+dag(N0, T0, T) :-
+    N is N0-1,
+    dag(N, f(T0,T0), T).
+
+                /*******************************
+                *            AGENTS            *
+                *******************************/
+
+%   raising(-Body, -Ball): Body lets people see Ball, or a term with it.
+
+raising(throw(Ball), Ball).
+raising((log(Ball), throw(Ball)), Ball).
+raising((send(user, Ball), throw(Ball)), Ball).
+raising((self(Me), send(Me, Ball)), Ball).
+raising((G = foo(Ball), call(G)), Ball).
+raising((s(Ball) -> true ; fail), Ball).
+raising(atom_length(Ball, _), Ball).
+
+:- begin_tests(errors_of_agents).
+
+test(printing_what_an_agent_raises_calls_nothing,
+     [forall(( member(Options, [[], [policy(guarded)]]), hostile(Ball),
+               \+ Ball = unwind(_) ))]) :-
+    with_hosts([g-Options],
+               printing(forall(raising(Body, Ball),
+                               says(Body)), Texts)),
+    Texts = [_|_],
+    untouched.
+test(hooks_for_printing_do_not_see_what_an_agent_raises) :-
+    with_hosts([g],
+               printing(( forall(raising(Body, typhon_portrayed(x)),
+                                 says(Body)),
+                          forall(raising(Body, error(typhon_portrayed(x), _)),
+                                 says(Body)) ), Texts)),
+    Texts = [_|_],
+    untouched.
+
+:- end_tests(errors_of_agents).
+
+says(Body) :-
+    create([ (main :- Body), (on_message(_, _) :- fail) ], A, [host(g)]),
+    wait_until(rests(A), 10),
+    catch(agent_dispose(A), error(existence_error(agent, _), _), true).
+
+rests(A) :-
+    \+ ( catch(agent_property(A, state(State)), error(_, _), fail),
+         \+ memberchk(State, [faulty(_), resident]) ).
+
+                /*******************************
+                *        OTHER PROCESSES       *
+                *******************************/
+
+thrown_there(There, Ball0, Ball) :-
+    catch(remote(There, throw(Ball0)), Ball, true).
+
+:- begin_tests(errors_of_other_processes).
+
+test(errors_of_another_process_are_harmless_and_the_same) :-
+    no_leaks(with_peers([p-[host([])]],
+        ( peer_host(p, There),
+          forall(( hostile(Ball0), \+ Ball0 = unwind(_) ),
+                 printed_harmlessly(There, Ball0)),
+          forall(kept(Formal),
+                 ( thrown_there(There, error(Formal, _), error(Formal1, _)),
+                   assertion(Formal1 == Formal) )),
+          thrown_there(There, oops, Oops),
+          assertion(Oops == oops) ))).
+test(a_process_of_a_network_answers_errors_as_data,
+     [forall(hostile(Ball)), Answer = raised(_, _)]) :-
+    printing(typhon_carrier:raised(Ball, Answer), _),
+    untouched.
+
+:- end_tests(errors_of_other_processes).
+
+printed_harmlessly(There, Ball0) :-
+    thrown_there(There, Ball0, Ball),
+    printing(at_the_top_level(Ball), _),
+    assertion(untouched).
