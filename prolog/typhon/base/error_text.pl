@@ -154,7 +154,7 @@ ours(prolog:Hook, Lines, Rest) :-
     append(List0, [Lines,Rest], List),
     Goal =.. List,
     catch(clause(prolog:Goal, Body, Clause),
-          error(permission_error(access, _, _), _), fail),   % it is protected
+          error(permission_error(_, _, _), _), fail),   % it is protected
     of_library(Clause),
     call(prolog:Body),
     !.

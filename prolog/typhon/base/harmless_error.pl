@@ -78,7 +78,7 @@ translated(message_lines(_)) :-
 translated(Ball) :-
     translating(Ball, Term, Any, Hook),
     catch(takes(Term, Any, Hook),
-          error(permission_error(access, _, _), _), true),   % it is protected
+          error(permission_error(_, _, _), _), true),   % it is protected
     !.
 
 %   takes(+Term, ?Any, :Hook): a clause for Hook, which is about Any, takes Term.
