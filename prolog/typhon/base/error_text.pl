@@ -1,9 +1,9 @@
 :- module(typhon_error_text,
-          [ error_told/3,               % +Error, //
+          [ error_told/3,               % +Error, -Lines, ?Rest
             error_text/2,               % +Error, -Text
             print_error/2,              % +Kind, +Error
-            term_told/3,                % +Term, //
-            formal_told/3,              % +Formal, //
+            term_told/3,                % +Term, -Lines, ?Rest
+            formal_told/3,              % +Formal, -Lines, ?Rest
             context_indicator/1,        % +PI
             is_remark/1                 % @Text
           ]).
@@ -45,7 +45,7 @@ print_error(Kind, Error) :-
 prolog:message(typhon(raised(Error))) -->
     error_told(Error).
 
-%!  error_told(+Error)// is det.
+%!  error_told(+Error, -Lines, ?Rest) is det.
 %
 %   The lines of a message, as of prolog:message//1.
 
@@ -98,7 +98,7 @@ plainly(Message, Text) :-
 
 plain_options([quoted(true), numbervars(true), portray(false)]).
 
-%!  term_told(+Term)// is det.
+%!  term_told(+Term, -Lines, ?Rest) is det.
 %
 %   Term, as data: no hook has a part in how it is printed.
 
@@ -136,7 +136,7 @@ formal(Formal) -->
 formal(Formal) -->
     [ 'Unknown error term: ~p'-[Formal] ].
 
-%!  formal_told(+Formal)// is semidet.
+%!  formal_told(+Formal, -Lines, ?Rest) is semidet.
 %
 %   The lines for errors that this library translates.
 
