@@ -1,0 +1,18 @@
+% Logs the load of its host when it changes; looks once a second, until it is
+% disposed of.
+
+:- agent(watchman, [state([last/1])]).
+
+main :-
+    host_load(Load),
+    note(Load),
+    sleep(1),
+    main.
+
+note(Load) :-
+    last(Load),
+    !.
+note(Load) :-
+    retractall(last(_)),
+    assertz(last(Load)),
+    log(load(Load)).

@@ -1,0 +1,443 @@
+:- module(test_shell, []).
+
+% The shell commands in README.md and doc/*.md run.
+%
+% Commands are the lines of indented blocks that begin with a program, and
+% what stands after `$ ` there. Those of one document run in turn, in one
+% directory that looks like the root of the project, with names of this
+% machine in place of those in the document (here/3). How each is run follows
+% from how/2: some serve until the document ends, make only expands its
+% recipe, and a study lists its runs and makes none. What needs a machine that
+% the suite does not have is in elsewhere/1.
+%
+% It takes minutes, and runs when asked to:
+%
+%     TYPHON_COMMANDS=1 swipl test/run.pl -- shell
+
+:- use_module('../lib/common').
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex),
+              [ copy_file/2, directory_file_path/3, link_file/3,
+                make_directory_path/1 ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(typhon)).
+
+:- needs([python3]).
+
+document(File) :-
+    member(Pattern, ['README.md', 'doc/*.md']),
+    project_file(Pattern, Absolute),
+    expand_file_name(Absolute, Files),
+    member(File, Files).
+
+                /*******************************
+                *           COMMANDS           *
+                *******************************/
+
+%   commands(+File, -Commands): strings, in order.
+
+commands(File, Commands) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    split_string(Text, "\n", "", Lines),
+    findall(Command, command_in(Lines, Command), Commands).
+
+command_in(Lines, Command) :-
+    outside_fences(Lines, Outside),
+    commands_of(Outside, "", Commands),
+    member(Command, Commands).
+
+outside_fences([], []).
+outside_fences([Line|Lines], Outside) :-
+    string_concat("```", _, Line),
+    !,
+    after_fence(Lines, Rest),
+    outside_fences(Rest, Outside).
+outside_fences([Line|Lines], [Line|Outside]) :-
+    outside_fences(Lines, Outside).
+
+after_fence([Line|Lines], Lines) :-
+    string_concat("```", _, Line),
+    !.
+after_fence([_|Lines], Rest) :-
+    after_fence(Lines, Rest).
+
+%   commands_of(+Lines, +Cd, -Commands): Cd is "cd DIR && " after a line
+%   `cd DIR` of the same block.
+
+commands_of([], _, []).
+commands_of([Line|Lines], _, Commands) :-
+    \+ string_concat("    ", _, Line),
+    !,
+    commands_of(Lines, "", Commands).
+commands_of([Line|Lines], _, Commands) :-
+    string_concat("    cd ", Dir, Line),
+    !,
+    format(string(Cd), "cd ~s && ", [Dir]),
+    commands_of(Lines, Cd, Commands).
+commands_of([Line|Lines], Cd, [Command|Commands]) :-
+    begins_command(Line, Begin),
+    !,
+    continued(Begin, Lines, Whole, Rest),
+    plain(Whole, Plain),
+    string_concat(Cd, Plain, Command),
+    commands_of(Rest, Cd, Commands).
+commands_of([_|Lines], Cd, Commands) :-
+    commands_of(Lines, Cd, Commands).
+
+begins_command(Line, Command) :-
+    string_concat("    ", Text, Line),
+    \+ sub_string(Text, 0, _, _, " "),
+    (   string_concat("$ ", Command, Text)
+    ->  true
+    ;   Command = Text
+    ),
+    split_string(Command, " ", "", [Word|_]),
+    (   memberchk(Word, ["swipl", "make", "python3", "ssh", "scp", "git",
+                         "sudo", "apt", "curl"])
+    ->  true
+    ;   sub_string(Word, _, _, _, "=")
+    ->  sub_string(Command, _, _, _, " swipl ")
+    ).
+
+%   Without a comment, and the `&` of a command that goes on.
+
+plain(Line, Plain) :-
+    member(End, [" # ", " & "]),
+    string_concat(Line, " ", Line1),
+    sub_string(Line1, Before, _, _, End),
+    !,
+    sub_string(Line, 0, Before, _, Plain0),
+    normalize_space(string(Plain), Plain0).
+plain(Line, Line).
+
+continued(Begin, [Line|Lines], Command, Rest) :-
+    string_concat(Begin0, "\\", Begin),
+    !,
+    normalize_space(string(More), Line),
+    string_concat(Begin0, More, Next),
+    continued(Next, Lines, Command, Rest).
+continued(Command, Rest, Command, Rest).
+
+                /*******************************
+                *          HOW TO RUN          *
+                *******************************/
+
+%   how(+Command, -How): the first clause that fits.
+%
+%     - elsewhere   not here
+%     - serves      prints a line, and runs until the document ends
+%     - ends(With)  ends with exit status 0, the text With being appended
+%     - answers     ends with exit status 0 or 1, as the answer is
+
+how(Command, elsewhere) :-
+    elsewhere(Part),
+    sub_string(Command, _, _, _, Part),
+    !.
+how(Command, serves) :-
+    serving(Part),
+    sub_string(Command, _, _, _, Part),
+    \+ sub_string(Command, _, _, _, "--export"),
+    !.
+how(Command, answers) :-
+    sub_string(Command, _, _, _, " diagnose "),
+    \+ sub_string(Command, _, _, _, " nxt "),
+    !.
+how(Command, ends(" -n")) :-
+    string_concat("make ", _, Command),
+    !.
+how(Command, ends(" --list")) :-
+    sub_string(Command, _, _, _, "study.pl -- "),
+    \+ sub_string(Command, _, _, _, "--help"),
+    !.
+how(_, ends("")).
+
+serving("typhon.pl host ").
+serving("typhon.pl network ").
+serving("typhon.pl page ").
+serving("nxt/brick.py ").
+serving("nxt/world.py ").
+
+elsewhere("COMMAND ... [options]").     % a synopsis
+elsewhere("perf record").               % needs a build of SWI-Prolog with symbols
+elsewhere("lsp_server").                % a pack that is not part of anything here
+elsewhere("db.example").                % test_postgresql has a server
+elsewhere("pack_install").              % test_pack installs the pack
+
+                /*******************************
+                *     NAMES OF THIS MACHINE    *
+                *******************************/
+
+%   here(?Shown, -Text, +Dir): Text stands for Shown.
+
+here("10.0.0.5", "127.0.0.2", _).
+here("10.0.0.7", "127.0.0.3", _).
+here("9700", "19717", _).
+here("5001", "15017", _).
+here("/var/lib/typhon", Dir, Dir).
+here("/tmp/", Text, Dir) :-
+    format(string(Text), "~w/", [Dir]).
+here("/dev/rfcomm0", Text, Dir) :-
+    format(string(Text), "~w/lizzy", [Dir]).
+here("doc/img/rooms.svg", "rooms.svg", _).
+here("agents/visitor.pl", "visitor.pl", _).
+here("payloads/repair.pl", "repair.pl", _).
+here(" DIR", " journal", _).
+here("AGENT", Agent, Dir) :-
+    directory_file_path(Dir, agent, File),
+    exists_file(File),
+    read_file_to_string(File, Text, []),
+    normalize_space(string(Agent), Text).
+here("FILE", "extracted", _).
+here("swipl -g \"use_module(library(tartarus", "swipl -p library=prolog \c
+                                         -g \"use_module(library(tartarus", _).
+
+%   In place of the address of a host there stands that of the host of this name
+%   which a server has printed.
+
+on_this_machine(Command0, Dir, Command) :-
+    findall(Shown-Text, here(Shown, Text, Dir), Pairs),
+    foldl(replaced, Pairs, Command0, Command1),
+    findall(Address, served_address(Address), Addresses),
+    foldl(addressed, Addresses, Command1, Command).
+
+served_address(Address) :-
+    server(_, File),
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", Lines),
+    member(Address, Lines),
+    sub_string(Address, _, _, _, "@127.0.0.1:").
+
+addressed(Address, Text0, Text) :-
+    split_string(Address, ":", "", [Begin0|_]),
+    string_concat(Begin0, ":", Begin),
+    sub_string(Text0, Before, Length, _, Begin),
+    !,
+    sub_string(Text0, 0, Before, _, Head),
+    Start is Before+Length,
+    sub_string(Text0, Start, _, 0, After0),
+    string_codes(After0, Codes),
+    without_digits(Codes, After),
+    format(string(Text), "~s~s~s", [Head, Address, After]).
+addressed(_, Text, Text).
+
+without_digits([Code|Codes], Rest) :-
+    code_type(Code, digit),
+    !,
+    without_digits(Codes, Rest).
+without_digits(Rest, Rest).
+
+replaced(Shown-Text, String0, String) :-
+    atomic_list_concat(Parts, Shown, String0),
+    atomic_list_concat(Parts, Text, Atom),
+    atom_string(Atom, String).
+
+                /*******************************
+                *           RUNNING            *
+                *******************************/
+
+%   run_document(+File, -Failed, +Dir): Failed are failed(Command, Why).
+
+run_document(File, Failed, Dir) :-
+    commands(File, Commands),
+    prepare(Dir),
+    setup_call_cleanup(
+        true,
+        findall(Failure,
+                ( member(Command, Commands), failure(Command, Dir, Failure) ),
+                Failed),
+        end_servers).
+
+failure(Command0, Dir, failed(Command, Why)) :-
+    how(Command0, How),
+    How \== elsewhere,
+    needed_network(Command0, Dir),
+    on_this_machine(Command0, Dir, Command),
+    run(How, Command, Dir, Why),
+    Why \== none.
+
+run(serves, Command, Dir, Why) :-
+    serve(Command, Dir, Why).
+run(answers, Command, Dir, Why) :-
+    ended(Command, Dir, Status, Text),
+    (   memberchk(Status, [exit(0), exit(1)]),
+        Text \== "",
+        \+ sub_string(Text, _, _, _, "Usage")
+    ->  Why = none
+    ;   Why = Status-Text
+    ).
+run(ends(With), Command0, Dir, Why) :-
+    string_concat(Command0, With, Command),
+    ended(Command, Dir, Status, Text),
+    (   Status == exit(0)
+    ->  Why = none
+    ;   Why = Status-Text
+    ).
+
+%   Output goes to a file: nothing of a pipe keeps a server that is ended.
+
+ended(Command, Dir, Status, Text) :-
+    directory_file_path(Dir, output, File),
+    setup_call_cleanup(
+        shell_process(Command, Dir, File, Pid),
+        wait_for_end(Pid, 100, Status),
+        kill_process(Pid)),
+    read_file_to_string(File, Text, []).
+
+shell_process(Command0, Dir, File, Pid) :-
+    directory_file_path(Dir, bin, Bin),
+    current_prolog_flag(executable, Swipl),
+    file_directory_name(Swipl, SwiplDir),
+    getenv('PATH', Path0),
+    atomic_list_concat([Bin, SwiplDir, Path0], :, Path),
+    format(atom(Command), '~s', [Command0]),
+    setup_call_cleanup(
+        open(File, write, Out),
+        process_create(path(sh), ['-c', Command],
+                       [ stdin(null), stdout(stream(Out)),
+                         stderr(stream(Out)), cwd(Dir), process(Pid),
+                         detached(true),
+                         environment(['PATH'=Path, 'HOME'=Dir]) ]),
+        close(Out)).
+
+kill_process(Pid) :-
+    catch(process_wait(Pid, Status, [timeout(0)]), error(_, _), Status = gone),
+    (   Status == timeout
+    ->  process_kill(Pid, kill),
+        process_wait(Pid, _)
+    ;   true
+    ).
+
+                /*******************************
+                *            SERVERS           *
+                *******************************/
+
+%   serve(+Command, +Dir, -Why): runs until end_servers/0, and has printed as
+%   many lines as it has hosts.
+
+serve(Command, Dir, Why) :-
+    flag(test_shell_server, N, N+1),
+    format(atom(Name), 'server~d', [N]),
+    directory_file_path(Dir, Name, File),
+    string_concat("exec ", Command, Exec),
+    shell_process(Exec, Dir, File, Pid),
+    assertz(server(Pid, File)),
+    expected_lines(Command, Count),
+    (   catch(wait_until(has_lines(File, Count), 60), error(_, _), fail)
+    ->  Why = none,
+        with_journal(Command, Dir, File)
+    ;   read_file_to_string(File, Text, []),
+        Why = no_output(Text)
+    ).
+
+expected_lines(Command, Count) :-
+    member(Shape-Count, ["'ring(3)'"-3, "'grid(2,3)'"-6]),
+    sub_string(Command, _, _, _, Shape),
+    !.
+expected_lines(_, 1).
+
+has_lines(File, Count) :-
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", Lines),
+    length(Lines, Length),
+    Length > Count.
+
+%   There is an agent in each journal.
+
+with_journal(Command, Dir, File) :-
+    sub_string(Command, _, _, _, "--journal"),
+    !,
+    read_file_to_string(File, Text, []),
+    split_string(Text, "\n", "", [Address|_]),
+    format(string(Create),
+           "swipl app/typhon.pl create examples/agents/keeper.pl --host ~s",
+           [Address]),
+    ended(Create, Dir, Status, Id),
+    assertion(Status-Id = exit(0)-_),
+    directory_file_path(Dir, agent, AgentFile),
+    write_file(AgentFile, Id).
+with_journal(_, _, _).
+
+needed_network(Command, Dir) :-
+    sub_string(Command, _, _, _, "n1@127.0.0.1:"),
+    \+ server(_, _),
+    !,
+    serve("swipl app/typhon.pl network 'ring(3)'", Dir, Why),
+    assertion(Why == none).
+needed_network(_, _).
+
+end_servers :-
+    forall(server(Pid, _), process_kill(Pid, term)),
+    forall(retract(server(Pid, _)),
+           ( wait_for_end(Pid, 30, _),
+             kill_process(Pid) )).
+
+:- dynamic server/2.                    % Pid, File
+
+                /*******************************
+                *             FILES            *
+                *******************************/
+
+%   Dir looks like the root of the project. In its bin are scp and ssh of which
+%   every target is the directory `there`, and the Python of the system.
+
+prepare(Dir) :-
+    project_file('.', Root),
+    directory_files(Root, Entries),
+    forall(( member(Entry, Entries), \+ memberchk(Entry, [., .., '.git', out]) ),
+           ( directory_file_path(Root, Entry, Target),
+             directory_file_path(Dir, Entry, Link),
+             link_file(Target, Link, symbolic) )),
+    forall(member(Name, [bin, there]),
+           ( directory_file_path(Dir, Name, New),
+             make_directory_path(New) )),
+    forall(file_of(Name, Text),
+           ( directory_file_path(Dir, Name, File), write_file(File, Text) )),
+    forall(copy_of(Name, From),
+           ( directory_file_path(Dir, Name, File),
+             project_file(From, Original),
+             copy_file(Original, File) )),
+    forall(member(Name, ['bin/ssh', 'bin/scp', 'bin/python3']),
+           ( directory_file_path(Dir, Name, File),
+             process_create(path(chmod), ['+x', File], []) )).
+
+file_of('.typhon.cookie', "a cookie of this test").
+file_of('program.pl', "p.\n").
+file_of('run.log', "event(0.0,'n1@127.0.0.1:9',none,started).\n").
+file_of('bin/python3', "#!/bin/sh\nexec /usr/bin/python3 \"$@\"\n").
+file_of('bin/scp', "#!/bin/sh\ncp \"$1\" \"$HOME/there/${2#*:}\"\n").
+file_of('bin/ssh', "#!/bin/sh\nshift\ncd \"$HOME/there\" && exec \"$@\"\n").
+
+copy_of('census.pl', 'examples/agents/census.pl').
+copy_of('visitor.pl', 'examples/agents/hello.pl').
+copy_of('repair.pl', 'payloads/allocation/nearest.pl').
+copy_of('my.pl', 'examples/studies/coverage.pl').
+
+write_file(File, Text) :-
+    setup_call_cleanup(open(File, write, Out),
+                       write(Out, Text),
+                       close(Out)).
+
+:- begin_tests(shell).
+
+test(commands_run,
+     [ condition(getenv('TYPHON_COMMANDS', _)),
+       forall(document_with_commands(File)), Failed == [] ]) :-
+    with_tmp_dir(run_document(File, Failed)).
+
+document_with_commands(File) :-
+    document(File),
+    commands(File, [_|_]).
+
+test(commands_are_found, Commands == ["make a b", "cd x && swipl y"]) :-
+    findall(Command,
+            command_in([ "    make a \\", "      b   # c", "    $x", "```",
+                         "    make c", "```", "    cd x", "    swipl y",
+                         "text" ], Command),
+            Commands).
+
+:- end_tests(shell).
