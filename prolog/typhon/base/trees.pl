@@ -35,14 +35,23 @@ tree(Term, N0, N) :-
         tree(Tail, N2, N)
     ;   compound(Term)
     ->  compound_name_arity(Term, Name, Arity),
-        atom_length(Name, Length),
-        N1 is N0-1-Length//8,
+        name_parts(Name, Parts),
+        N1 is N0-Parts,
         N1 >= 0,
         arguments(1, Arity, Term, N1, N)
     ;   text_parts(Term, Parts),
         N is N0-Parts
     ),
     N >= 0.
+
+%   The name of a dict is no atom.
+
+name_parts(Name, Parts) :-
+    (   atom(Name)
+    ->  atom_length(Name, Length),
+        Parts is 1+Length//8
+    ;   Parts = 1
+    ).
 
 arguments(I, Arity, Term, N0, N) :-
     (   I < Arity
