@@ -9,7 +9,6 @@
           ]).
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
-:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module(crash, [crash_point/1]).
 :- use_module(store, [store_commit/1, store_sync/1]).
@@ -79,7 +78,7 @@ committing_end :-
     thread_send_message(Wake, stop),
     thread_join(Thread, _),
     catch(commit, error(Formal, Context),
-          print_error(error, error(Formal, Context))),
+          print_message(error, error(Formal, Context))),
     retractall(queue(_, _, _)),
     retractall(unsaved(_, _)),
     retractall(told(_)),
@@ -203,7 +202,7 @@ commit_all.
 
 go(Items) :-
     catch(ignore(letting_out(Items)), error(Formal, Context),
-          print_error(error, error(Formal, Context))).
+          print_message(error, error(Formal, Context))).
 
 parted([], [], []).
 parted([item(Item)|Entries], Changes, [Item|Items]) :-
@@ -283,7 +282,7 @@ unless_urgent(_, _, _).
 not_committed(Error, Wake) :-
     (   told(_)
     ->  true
-    ;   print_error(error, Error),
+    ;   print_message(error, Error),
         assertz(told(Error))
     ),
     again_seconds(Seconds),
