@@ -24,7 +24,7 @@
 :- use_module('../agent', [agent/5]).
 :- use_module(inbox, [gap_forget/3, inbox_key/2, inbox_put/4]).
 
-/** <module> Who wants what of a service
+/** <module> Subscribers of services
 
 Agents subscribe to a Key, as a topic.  They are told what comes until they
 unsubscribe, leave the host, end, or are faulty.  One that set out and stays
@@ -182,7 +182,7 @@ subscribers_drop(Service, Host, Key, Message) :-
 
 %!  subscribers_forget(+Service, +Host) is det.
 %
-%   Nobody is subscribed any more.
+%   Remove all subscriptions.
 
 subscribers_forget(Service, Host) :-
     with_mutex(typhon_subscribers,

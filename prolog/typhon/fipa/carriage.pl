@@ -133,7 +133,7 @@ carry_on(Host, Address, Queue, Limits, Way) :-
     ;   carry_on(Host, Address, Queue, Limits, Way)
     ).
 
-%   Who adds to the queue has the mutex.
+%   Threads that add to the queue hold the mutex.
 
 idle(Host, Address, Queue) :-
     message_queue_property(Queue, size(0)),

@@ -11,7 +11,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(aid, [aid/1, aid_name/2]).
 
-/** <module> Descriptions of agents, and who looks for one
+/** <module> Descriptions of agents, and the search for them
 
 A directory is any ground term.  In it each name has one description, which
 may be there only until some time.

@@ -215,7 +215,7 @@ typhon_lost:returned(fipa(_), Id, Acl) :-
                 *           FAILURES           *
                 *******************************/
 
-%   About a failure nobody is told: it would go on for ever.
+%   No failure is sent about a failure: it would go on for ever.
 
 fail_to(Host, Local, To, Acl, Why) :-
     (   manager(Local)

@@ -25,7 +25,7 @@ How long it may take is for the caller to say.
 
 max_head(16384).
 
-%   What is left of an answer that nobody needs.
+%   The longest unused rest of an answer that is skipped.
 
 max_skipped(65536).
 

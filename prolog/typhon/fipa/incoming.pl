@@ -58,7 +58,7 @@ at(Target, Url) :-
     ;   catch(http_url(Target, _, Path), error(_, _), fail)
     ).
 
-%   Who does not say in the message who he is may do so on the envelope.
+%   The envelope may name the sender if the message does not.
 
 from(Acl0, Envelope, Acl) :-
     (   acl_parameter(Acl0, sender(Sender0))

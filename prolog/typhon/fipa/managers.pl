@@ -71,7 +71,7 @@ about(raised(Ball), _, _) =>
 
 %!  manager_end(+Host) is det.
 %
-%   Nobody is registered any more.
+%   Remove all registrations.
 
 manager_end(Host) :-
     directory_forget(ams(Host)),
@@ -170,7 +170,7 @@ living(Host, Name) :-
     ),
     !.
 
-%   Who lives here is not taken off the list by others.
+%   An agent that lives here is not taken off the list by others.
 
 registered(Manager, Host, Name) :-
     Directory =.. [Manager,Host],

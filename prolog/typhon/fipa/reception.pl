@@ -31,7 +31,7 @@ to its last.
 
 idle_seconds(60).
 
-%   So that who sends too much gets to hear it.
+%   So that a client that sends too much can read the answer.
 
 max_drained(16000000).
 

@@ -53,7 +53,7 @@ said(_, Owner, Dict) :-
     (   retract(awaited(Id, Queue, _))
     ->  answer_of(Dict, Answer),
         answer(Queue, Answer)
-    ;   true                            % nobody waits any more
+    ;   true                            % no caller waits any more
     ).
 said(Name, _, Dict) :-
     get_dict(event, Dict, _),
@@ -76,7 +76,7 @@ answer_of(Dict, said(Dict)).
 answer(Queue, Answer) :-
     catch(thread_send_message(Queue, answer(Answer)),
           error(existence_error(_, _), _),
-          true).                        % nobody waits any more
+          true).                        % no caller waits any more
 
 %!  answer_awaited(+Id, +Queue) is det.
 %!  answer_unwanted(+Id) is det.

@@ -9,7 +9,7 @@
               [ process_begin/4, process_end/1, process_release/1,
                 process_write/2 ]).
 
-/** <module> Who owns the process of a helper
+/** <module> The thread that owns the process of a helper
 
 The owner starts the process, and writes to it in the order in which
 requests come.  One that is to run `always` and has ended is started again

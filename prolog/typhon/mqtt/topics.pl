@@ -56,7 +56,7 @@ text(Term, Atom) :-
     ;   type_error(text, Term)
     ).
 
-%   Brokers hang up on who sends something else.
+%   Brokers disconnect clients that send anything else.
 
 fits(Text) :-
     Text \== '',

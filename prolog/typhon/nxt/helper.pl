@@ -41,7 +41,7 @@ nxt_command_line(Port, Options,
     helper_file('nxt/bridge.py', File),
     option(baudrate(Baud), Options, 115200).
 
-%   running(?Brick, ?Pid): for who looks from the top level.
+%   running(?Brick, ?Pid): for queries from the top level.
 
 :- public running/2.
 

@@ -4,7 +4,7 @@
             answers_fail/2              % +Host, +Why
           ]).
 
-/** <module> Who waits for the answer to a call
+/** <module> Callers that wait for answers
 
 *Threading*: any thread waits, at a queue of its own, so that what comes too
 late is for nobody.
@@ -37,7 +37,7 @@ wait(Queue, Seconds, Answer) :-
 
 %!  answer_come(+Id, +Answer) is semidet.
 %
-%   Fails if nobody waits for it any more.
+%   Fails if no caller waits for it any more.
 
 answer_come(Id, Answer) :-
     retract(awaited(Id, _, Queue)),
@@ -48,7 +48,7 @@ answer_come(Id, Answer) :-
 
 %!  answers_fail(+Host, +Why) is det.
 %
-%   Who waits for an answer on Host gets lost(Why).
+%   Callers on Host that wait for an answer get lost(Why).
 
 answers_fail(Host, Why) :-
     findall(Id, awaited(Id, Host, _), Ids),

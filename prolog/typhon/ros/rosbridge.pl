@@ -213,7 +213,7 @@ pause(Link, Pause) :-
         connected(Link, Longer)
     ).
 
-%   Who asked for the connection waits for the first attempt.
+%   The thread that connects waits for the first attempt.
 
 tell(Asker, Result) :-
     catch(thread_send_message(Asker, attempt(Result)),
