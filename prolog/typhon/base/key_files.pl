@@ -15,8 +15,8 @@ files that it depends on are.
 *Threading*: any thread; a mutex makes those who remember come one by one.
 */
 
-:- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(readutil), [read_file_to_string/3]).
+:- autoload(library(filesex), [directory_file_path/3]).
+:- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/4]).
 :- use_module(bounded, [bounded/2]).
 

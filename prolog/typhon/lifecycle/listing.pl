@@ -3,7 +3,7 @@
             goals_shown/4               % +Agent, +Facts, +Goals, -Shown
           ]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
-:- use_module(library(listing), [portray_clause/1, portray_clause/3]).
+:- autoload(library(listing), [portray_clause/1, portray_clause/3]).
 :- use_module('../program',
               [ body_goals/4, clause_bindings/3, clause_parts/3, code_names/2,
                 code_program/2, goals_bindings/4, goals_body/2, plain_goals/2,

@@ -13,7 +13,7 @@
 :- use_module(library(lists), [last/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
-:- use_module(library(readutil), [read_line_to_string/2]).
+:- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/spawn', [spawn/3]).

@@ -6,7 +6,7 @@
             log_goes_on/2               % +File, +Size
           ]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module(library(readutil), [read_line_to_string/2]).
+:- autoload(library(readutil), [read_line_to_string/2]).
 
 /** <module> The file of a log
 

@@ -7,7 +7,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
 :- use_module(library(ordsets), [ord_subtract/3]).
-:- use_module(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
+:- autoload(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
 :- use_module('../base/options', [blaming/2]).
 :- use_module('../base/chance',
               [chance_member/4, chance_seed/2, chance_true/4]).

@@ -1,7 +1,7 @@
 :- module(typhon_close_up,
           [ host_close_up/2             % +Host, -CloseUp
           ]).
-:- use_module(library(listing), [portray_clause/1]).
+:- autoload(library(listing), [portray_clause/1]).
 :- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../base/abridged', [abridged/3]).
 :- use_module('../wire', [endpoint_reply/2]).

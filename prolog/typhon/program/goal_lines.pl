@@ -2,7 +2,7 @@
           [ problem_at_goal/2           % +Problem0, -Problem
           ]).
 :- use_module(library(lists), [append/3, nth1/3]).
-:- use_module(library(readutil), [read_file_to_string/3]).
+:- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(source, [source_clause/2]).
 
 /** <module> The line of the goal that is meant

@@ -17,7 +17,7 @@ of an installed pack, `library` leads to the one that is loaded.
 
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
-:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
+:- autoload(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [member/2]).
 
 :- dynamic root/1.

@@ -2,7 +2,7 @@
           [ python_payload/2,           % +Spec, -Payload
             payload_python/3            % +Payload, -Name, -Source
           ]).
-:- use_module(library(readutil), [read_file_to_string/3]).
+:- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(paths, []).
 
 /** <module> Payloads that are Python
