@@ -3,7 +3,7 @@
             spied/3                     % +Hash, +Goal, -Action
           ]).
 :- use_module(library(lists), [member/2]).
-:- autoload(library(prolog_trace), [trace/2]).
+:- use_module(library(prolog_trace), [trace/2]).
 :- use_module('../base/names', [names_proposed/3]).
 :- use_module('../program', [clause_parts/3, code_module/2, code_program/2]).
 
