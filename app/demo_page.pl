@@ -16,7 +16,7 @@ sets back happens in another, until it is told to stop.
 :- use_module('../prolog/typhon',
               [ agent_property/2, network_property/2, network_start/3,
                 network_stop/1 ]).
-:- use_module('../prolog/typhon/page', [page_serve/2, page_stop/0]).
+:- use_module('../prolog/typhon/tools/page', [page_serve/2, page_stop/0]).
 :- use_module('../agents/sieve/operator', [antigen_attack/2, sieve_start/3]).
 :- use_module('../agents/sync/operator', [sequence_start/5, tasks_fail/4]).
 :- use_module(library(apply), [maplist/2, maplist/3]).

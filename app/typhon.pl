@@ -17,11 +17,11 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 
 :- use_module('../prolog/typhon').
 :- use_module('../prolog/typhon/network/log', [log_server_stop/1]).
-:- use_module('../prolog/typhon/people/tables',
+:- use_module('../prolog/typhon/tools/tables',
               [print_agents/2, print_hosts/1]).
-:- use_module('../prolog/typhon/host/runtime',
+:- use_module('../prolog/typhon/kernel/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
-:- use_module('../prolog/typhon/page', [page_export/3, page_serve/2]).
+:- use_module('../prolog/typhon/tools/page', [page_export/3, page_serve/2]).
 :- use_module(commands, [command/4, footer/2, option/5]).
 :- use_module(diagnose, [diagnose/1]).
 :- use_module(diagnose_fipa, [diagnose_fipa/1]).

@@ -2,8 +2,8 @@
 :- use_module(traveller).
 :- use_module(trip).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/wire/transport), []).
-:- use_module(library(typhon/wire/session), []).
+:- use_module(library(typhon/kernel/wire/transport), []).
+:- use_module(library(typhon/kernel/wire/session), []).
 :- use_module(library(lists), [member/2, nth0/3]).
 
 /*  Hops between two processes, against a bare ping-pong of the same bytes.

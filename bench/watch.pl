@@ -1,8 +1,8 @@
 :- use_module(common).
 :- use_module(traveller).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/host), [event/4]).
-:- use_module(library(typhon/watching), [metrics/2, overview/3]).
+:- use_module(library(typhon/kernel/host), [event/4]).
+:- use_module(library(typhon/options/watch), [metrics/2, overview/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth0/3]).
 

@@ -14,7 +14,7 @@ network is made for the pictures alone.
 :- use_module('../prolog/typhon',
               [ agent_create/3, network_property/2, network_start/3,
                 network_stop/1 ]).
-:- use_module('../prolog/typhon/page', [page_serve/2, page_stop/0]).
+:- use_module('../prolog/typhon/tools/page', [page_serve/2, page_stop/0]).
 :- use_module('../agents/sync/operator', [sequence_start/5]).
 :- use_module('../test/lib/browser').
 :- use_module(library(apply), [maplist/3]).

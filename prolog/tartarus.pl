@@ -26,7 +26,7 @@ so that it is neither lost nor doubled.
 Local definitions win: programs may have predicates of these names.
 */
 
-:- use_module(typhon/base/user_errors, [user_errors/1]).
+:- use_module(typhon/kernel/base/user_errors, [user_errors/1]).
 :- reexport(tartarus/platform,
             [ start_tartarus/1, start_tartarus/2, start_tartarus/3,
               close_tartarus/0, reset_tartarus/0, get_tartarus_details/2,

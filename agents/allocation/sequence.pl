@@ -9,7 +9,7 @@
 :- use_module('../../prolog/typhon',
               [ agent_dispose/1, agent_join/3, agent_property/2,
                 agent_send/2, remote/2 ]).
-:- use_module('../../prolog/typhon/base/options', [check_options/2]).
+:- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module('../population/operator', [population_start/5]).
 :- use_module(operator, [allocation_stage/3, robot_status/2, task_allocate/4]).
 :- use_module(library(apply), [maplist/2]).

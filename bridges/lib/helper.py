@@ -1,6 +1,6 @@
 """What all helpers of Typhon have in common.
 
-A helper is a process that Prolog starts and keeps (prolog/typhon/helper).
+A helper is a process that Prolog starts and keeps (prolog/typhon/bridges/helper).
 Requests come on its standard input; answers, and what it says unasked, go
 to its standard output: one JSON object per line, UTF-8.
 

@@ -18,7 +18,7 @@ what is not found may be.
 
 problem(unused_import(File, Target, PI)) :-
     import(File, Target, List),
-    \+ inside('prolog/typhon/language/vocabulary.pl', File),   % for agents
+    \+ inside('prolog/typhon/kernel/vocabulary/vocabulary.pl', File),   % for agents
     is_list(List),
     member(Import, List),
     imported_as(Import, PI, Name),
@@ -69,7 +69,7 @@ imported_as(Name//Arity, Name//Arity, Name).
 %   offered on. What only its own tests use is not used.
 
 used(File, _) :-
-    inside('prolog/typhon/language/words.pl', File),
+    inside('prolog/typhon/kernel/vocabulary/words.pl', File),
     !.                                  % agents do
 used(File, Name/_) :-
     import(User, File, List),

@@ -5,7 +5,7 @@
             varied/3,                   % +Study, +Cases, -Names
             case_name/3                 % +Study, +Case, -Name
           ]).
-:- use_module('../../prolog/typhon/base/names', [names_proposed/3]).
+:- use_module('../../prolog/typhon/kernel/base/names', [names_proposed/3]).
 :- use_module(library(apply), [exclude/3, foldl/4]).
 :- use_module(library(lists), [last/2, list_to_set/2, member/2, memberchk/2]).
 :- use_module(library(pairs), [pairs_keys/2]).

@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(option), [option/2]).
-:- use_module('../../prolog/typhon/page', [page_export/3]).
+:- use_module('../../prolog/typhon/tools/page', [page_export/3]).
 :- use_module(plan, [planned_seed/2]).
 :- use_module(run, [run_again/4]).
 :- use_module(studies, [study_title/3]).

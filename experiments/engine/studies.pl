@@ -7,8 +7,8 @@
             study_name/3                % +Study, -Where, -Name
           ]).
 :- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module('../../prolog/typhon/base/names', [names_joined/3, names_near/3]).
-:- use_module('../../prolog/typhon/base/options', [check_options/2]).
+:- use_module('../../prolog/typhon/kernel/base/names', [names_joined/3, names_near/3]).
+:- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module(cases, [parameters/3, study_parameter/2]).
 :- use_module(claims, [claim_name/2, claim_shape/2, claim_value/2]).
 

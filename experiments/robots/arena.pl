@@ -4,7 +4,7 @@
             arena_stop/1,               % +Arena
             scene_file/2                % +Scene, -File
           ]).
-:- use_module('../../prolog/typhon/base/own_thread', [in_own_thread/1]).
+:- use_module('../../prolog/typhon/kernel/base/own_thread', [in_own_thread/1]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [append/2, append/3]).

@@ -11,7 +11,7 @@
 %   network, and what the two worlds have in common.
 
 :- use_module('../../prolog/typhon', [network_at/3, remote/2]).
-:- use_module('../../prolog/typhon/base/own_thread', [in_own_thread/1]).
+:- use_module('../../prolog/typhon/kernel/base/own_thread', [in_own_thread/1]).
 :- use_module(arena,
               [arena_ask/3, arena_start/4, arena_stop/1, scene_file/2]).
 :- use_module(crew, [crew_leave/0, crew_services/1]).

@@ -252,7 +252,7 @@ program_asks(A, Reading) :-
     memberchk(A, Reading).
 
 %   random_antibody(+Chance0, -Program, -Chance): three to five clauses.
-%   Chance is a state of library(typhon/base/chance).
+%   Chance is a state of library(typhon/kernel/base/chance).
 
 random_antibody(Chance0, Program, Chance) :-
     typhon_chance:chance_below(3, More, Chance0, Chance1),

@@ -7,7 +7,7 @@
             attach_console/0
           ]).
 :- use_module('../typhon', [python_start/3, remote/2]).
-:- reexport('../typhon/nxt/swi_pro_nxt').
+:- reexport('../typhon/bridges/nxt/swi_pro_nxt').
 :- use_module(told, [told/2]).
 
 /** <module> Speech, Python, robots, pins

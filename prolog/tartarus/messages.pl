@@ -3,7 +3,7 @@
             post_agent/3,               % +Platform, +Location, ?Message
             accept/3                    % +Location, +Message, -Answer
           ]).
-:- use_module('../typhon/base/error_text', [print_error/2]).
+:- use_module('../typhon/kernel/base/error_text', [print_error/2]).
 :- use_module('../typhon', [agent_property/2, agent_send/2, remote/2]).
 :- use_module(platform, [here/1, location_address/2, same_location/2]).
 :- use_module(records, [record/3]).

@@ -17,7 +17,7 @@
             port_open/2,                % +Port, -Key
             port_closed/1               % +Key
           ]).
-:- use_module('../typhon/base/error_text', [print_error/2]).
+:- use_module('../typhon/kernel/base/error_text', [print_error/2]).
 :- use_module('../typhon', [host_change/2, host_start/2, host_stop/1]).
 :- use_module(told,
               [ must/1, set_verbosity/1, told/2, wrong/2 ]).

@@ -19,8 +19,8 @@ the rooms in fipa/.
   | threads                                | crew                          |
 */
 
-:- use_module(base/user_errors, [user_errors/1]).
-:- reexport(bridge/starting, [fipa_start/3, fipa_stop/1]).
-:- reexport(fipa/service).
+:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- reexport(bridges/common/starting, [fipa_start/3, fipa_stop/1]).
+:- reexport(bridges/fipa/service).
 
 :- user_errors(typhon_fipa).

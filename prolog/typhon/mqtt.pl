@@ -11,9 +11,9 @@ they have subscribed to comes as mqtt-message(Topic, Payload, Options).  See
 doc/bridges.md.
 */
 
-:- use_module(base/user_errors, [user_errors/1]).
-:- reexport(bridge/starting, [mqtt_start/3, mqtt_stop/1]).
-:- use_module('mqtt/service', []).
-:- use_module('mqtt/words', []).
+:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- reexport(bridges/common/starting, [mqtt_start/3, mqtt_stop/1]).
+:- use_module('bridges/mqtt/service', []).
+:- use_module('bridges/mqtt/words', []).
 
 :- user_errors(typhon_mqtt).

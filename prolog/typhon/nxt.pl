@@ -15,11 +15,11 @@ with pyserial.  Nothing is defined here: see the rooms in nxt/.
   | the names of SWI-PRO-NXT    | typhon/nxt/swi_pro_nxt |
 */
 
-:- use_module(base/user_errors, [user_errors/1]).
-:- reexport('nxt/brick').
-:- reexport('nxt/motors').
-:- reexport('nxt/sensors').
-:- reexport('nxt/files').
-:- reexport('nxt/swi_pro_nxt').
+:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- reexport('bridges/nxt/brick').
+:- reexport('bridges/nxt/motors').
+:- reexport('bridges/nxt/sensors').
+:- reexport('bridges/nxt/files').
+:- reexport('bridges/nxt/swi_pro_nxt').
 
 :- user_errors(typhon_nxt).

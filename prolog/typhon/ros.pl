@@ -17,14 +17,14 @@ ros/.
   | messages as terms       | typhon/ros/values      |
 */
 
-:- use_module(base/user_errors, [user_errors/1]).
-:- reexport(bridge/starting, [ros_property/2, ros_start/3, ros_stop/1]).
-:- use_module(ros/service, []).
-:- reexport(ros/topics).
-:- reexport(ros/calls, except([call_json/5])).
-:- reexport(ros/actions).
-:- reexport(ros/parameters).
-:- use_module(ros/events, []).
-:- use_module(ros/texts, []).
+:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- reexport(bridges/common/starting, [ros_property/2, ros_start/3, ros_stop/1]).
+:- use_module(bridges/ros/service, []).
+:- reexport(bridges/ros/topics).
+:- reexport(bridges/ros/calls, except([call_json/5])).
+:- reexport(bridges/ros/actions).
+:- reexport(bridges/ros/parameters).
+:- use_module(bridges/ros/events, []).
+:- use_module(bridges/ros/texts, []).
 
 :- user_errors(typhon_ros).

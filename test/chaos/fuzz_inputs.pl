@@ -16,8 +16,8 @@ stands for an input.
               [append/2, append/3, member/2, nth0/4, nth1/4, numlist/3]).
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(yall), [(>>)/3]).
-:- use_module(library(typhon/wire/frame), [check_bytes/2, term_bytes/3]).
-:- use_module(library(typhon/wire/hello), [hello/4, hello_line/2]).
+:- use_module(library(typhon/kernel/wire/frame), [check_bytes/2, term_bytes/3]).
+:- use_module(library(typhon/kernel/wire/hello), [hello/4, hello_line/2]).
 
 		 /*******************************
 		 *         STRANGERS            *

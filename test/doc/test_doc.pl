@@ -26,7 +26,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/program/programs),
+:- use_module(library(typhon/kernel/program/programs),
               [payload_load/2, program_read/7]).
 
 document(File) :-

@@ -22,7 +22,7 @@ endpoint.
 :- use_module(common).
 :- use_module(library(lists), [nth1/3, nth1/4, select/4]).
 :- use_module(library(main), [main/0]).
-:- use_module(library(typhon/wire)).
+:- use_module(library(typhon/kernel/wire)).
 
 :- initialization(main, main).
 

@@ -32,8 +32,8 @@ Posts of kind `note` are remembered. Requests are
 :- use_module(common).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(typhon/wire)).
-:- use_module(library(typhon/wire/endpoint), [endpoint_process/1]).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/wire/endpoint), [endpoint_process/1]).
 
 :- dynamic note/1.
 

@@ -20,7 +20,7 @@
               [http_open_websocket/3, ws_close/3, ws_receive/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module(library(time), [call_with_time_limit/2]).
-:- use_module('../../prolog/typhon/page', [page_serve/2, page_stop/0]).
+:- use_module('../../prolog/typhon/tools/page', [page_serve/2, page_stop/0]).
 
 :- meta_predicate
     with_page(+, -, 0),

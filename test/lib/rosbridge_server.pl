@@ -13,7 +13,7 @@
 :- use_module(library(http/thread_httpd)).
 :- use_module(library(http/websocket)).
 :- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module('../../prolog/typhon/base/json', [atom_json_dict/3]).
+:- use_module('../../prolog/typhon/kernel/base/json', [atom_json_dict/3]).
 
 /** <module> A stand-in for rosbridge_server
 

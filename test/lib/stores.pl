@@ -10,7 +10,7 @@
 */
 
 :- use_module(library(lists), [member/2]).
-:- use_module(library(typhon/journal/store)).
+:- use_module(library(typhon/options/journal/store)).
 
 :- meta_predicate with_store(+, 0).
 

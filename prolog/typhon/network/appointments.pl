@@ -6,7 +6,7 @@
           ]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../host',
+:- use_module('../kernel/host',
               [alarm_set/3, scheduler_call/1, time_now/1, time_wait/3]).
 :- use_module(networks, [network_clock/2]).
 

@@ -3,7 +3,7 @@
                                         % -Clock
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../host', [time_now/1, time_seed/1]).
+:- use_module('../kernel/host', [time_now/1, time_seed/1]).
 :- use_module(changes, [dynamics_start/4]).
 :- use_module(kept, [kept_note/3]).
 :- use_module(lasting,

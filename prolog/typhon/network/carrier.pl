@@ -8,23 +8,23 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/error_text', [error_text/2, print_error/2]).
-:- use_module('../journal', [journal_guards/0]).
-:- use_module('../wire',
+:- use_module('../kernel/base/error_text', [error_text/2, print_error/2]).
+:- use_module('../options/journal', [journal_guards/0]).
+:- use_module('../kernel/wire',
               [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
                 endpoint_flush/2, endpoint_reply/2 ]).
-:- use_module('../host',
+:- use_module('../kernel/host',
               [ host/3, host_do/2, host_link/3, host_neighbours/2,
                 host_option/2, host_property/2, host_restart/2, host_start/2,
                 host_stop/1, host_unlink/2, hosts_back/1, hosts_go_on/0,
                 hosts_journal/2, hosts_rest/0, runtime_acquire/2,
                 runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
                 time_stands/1 ]).
-:- use_module('../lifecycle',
+:- use_module('../kernel/lifecycle',
               [ agents_at_rest/2, agents_go_on/1, cut_again/2, cut_go_on/3,
                 cut_kept/2 ]).
-:- use_module('../agent', [agent_name/3]).
-:- use_module('../travel', [agent_outcome/2, home_agents/1]).
+:- use_module('../kernel/agent', [agent_name/3]).
+:- use_module('../kernel/travel', [agent_outcome/2, home_agents/1]).
 :- use_module(voice, [voice_begin/0, voice_end/0]).
 
 /** <module> A process that carries hosts of a network

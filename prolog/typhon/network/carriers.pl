@@ -20,8 +20,8 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/harmless_error', [harmless_error/2]).
-:- use_module('../wire', [endpoint_address/1, endpoint_request/4]).
+:- use_module('../kernel/base/harmless_error', [harmless_error/2]).
+:- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(carrier, [order_do/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
 

@@ -7,8 +7,8 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/error_text', [print_error/2]).
-:- use_module('../host', [alarm_set/3, scheduler_call/1]).
+:- use_module('../kernel/base/error_text', [print_error/2]).
+:- use_module('../kernel/host', [alarm_set/3, scheduler_call/1]).
 :- use_module(dynamics, [dynamics_event/4]).
 
 /** <module> Links change when their time has come

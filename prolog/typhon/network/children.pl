@@ -15,9 +15,9 @@
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/options', [check_options/2]).
-:- use_module('../base/spawn', [spawn/3]).
-:- use_module('../wire', [cookie/1, endpoint_keys/1]).
+:- use_module('../kernel/base/options', [check_options/2]).
+:- use_module('../kernel/base/spawn', [spawn/3]).
+:- use_module('../kernel/wire', [cookie/1, endpoint_keys/1]).
 :- use_module(voice, [voice_heard/2]).
 
 /** <module> Processes that carry the hosts of a network

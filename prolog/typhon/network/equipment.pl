@@ -9,7 +9,7 @@
             equipment_forget/1          % +Network
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../host', [runtime_acquire/2, runtime_release/1]).
+:- use_module('../kernel/host', [runtime_acquire/2, runtime_release/1]).
 :- use_module(changes, [dynamics_stop/1]).
 :- use_module(log, [log_server_start/2, log_server_stop/1]).
 :- use_module(plan, [plan_option/2, plan_time/2]).

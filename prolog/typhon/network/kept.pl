@@ -5,8 +5,8 @@
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../base/options', [check_options/2]).
-:- use_module('../journal',
+:- use_module('../kernel/base/options', [check_options/2]).
+:- use_module('../options/journal',
               [ journal_place/2, journal_record/2, journal_record_drop/1,
                 journal_record_put/2 ]).
 :- use_module(plan,

@@ -7,8 +7,8 @@
             lasting_rests/1,            % +Plan
             lasting_over/1              % +Plan
           ]).
-:- use_module('../host', [host/3, hosts_back/1, hosts_journal/2, hosts_rest/0]).
-:- use_module('../journal', [journal_opened/1, journal_place/2]).
+:- use_module('../kernel/host', [host/3, hosts_back/1, hosts_journal/2, hosts_rest/0]).
+:- use_module('../options/journal', [journal_opened/1, journal_place/2]).
 :- use_module(carriers, [carrier_order/4]).
 :- use_module(kept, [kept_end/1]).
 :- use_module(plan,

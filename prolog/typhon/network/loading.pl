@@ -4,8 +4,8 @@
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/3, member/2, subtract/3]).
-:- use_module('../base/options', [check_options/2]).
-:- use_module('../host',
+:- use_module('../kernel/base/options', [check_options/2]).
+:- use_module('../kernel/host',
               [address_parts/3, alarm_set/3, time_kind/1, time_now/1]).
 :- use_module(appointments, [appointments_again/2]).
 :- use_module(carriers, [carrier_order/4]).

@@ -7,13 +7,13 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../base/error_text', [print_error/2]).
-:- use_module('../base/options', [check_options/2]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../journal', [journal_closed/0]).
-:- use_module('../wire',
+:- use_module('../kernel/base/error_text', [print_error/2]).
+:- use_module('../kernel/base/options', [check_options/2]).
+:- use_module('../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../options/journal', [journal_closed/0]).
+:- use_module('../kernel/wire',
               [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
-:- use_module('../host', [runtime_acquire/3, runtime_release/1, time_now/1]).
+:- use_module('../kernel/host', [runtime_acquire/3, runtime_release/1, time_now/1]).
 :- use_module(log_writer,
               [ log_writer_flush/1, log_writer_start/5, log_writer_stop/2 ]).
 

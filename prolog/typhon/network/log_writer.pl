@@ -4,7 +4,7 @@
             log_writer_flush/1          % +Queue
           ]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module('../base/error_text', [error_told/3]).
+:- use_module('../kernel/base/error_text', [error_told/3]).
 :- use_module(log_file, [log_open/3, log_write/2]).
 
 /** <module> The thread that writes a log

@@ -12,10 +12,10 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
-:- use_module('../base/error_text', [print_error/2]).
-:- use_module('../base/erased', [forget_erased/0]).
-:- use_module('../base/options', [check_name/2]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../kernel/base/error_text', [print_error/2]).
+:- use_module('../kernel/base/erased', [forget_erased/0]).
+:- use_module('../kernel/base/options', [check_name/2]).
+:- use_module('../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module(building, [network_build/5]).
 :- use_module(carriers, [carrier/3]).
 :- use_module(kept, [kept_plan/4]).

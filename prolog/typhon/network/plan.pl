@@ -22,12 +22,12 @@
 :- use_module(library(lists), [append/3, flatten/2, member/2, nth1/3]).
 :- use_module(library(option), [option/2, option/3, select_option/4]).
 :- use_module(library(random), [random_between/3]).
-:- use_module('../base/options', [check_options/2]).
-:- use_module('../journal', [journal_part/3, journal_place/2]).
+:- use_module('../kernel/base/options', [check_options/2]).
+:- use_module('../options/journal', [journal_part/3, journal_place/2]).
 :- use_module(dynamics,
               [ dynamics_edges/2, dynamics_model/2, dynamics_state/5,
                 dynamics_until/3 ]).
-:- use_module('../base/chance',
+:- use_module('../kernel/base/chance',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module(furnishing,
               [furnishing_check/2, furnishing_files/3, furnishing_goals/3]).

@@ -6,9 +6,9 @@
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/names', [names_some/3]).
-:- use_module('../wire', [contact_expect/1, contact_expect_no_more/1]).
-:- use_module('../travel', [home_agents_at/2]).
+:- use_module('../kernel/base/names', [names_some/3]).
+:- use_module('../kernel/wire', [contact_expect/1, contact_expect_no_more/1]).
+:- use_module('../kernel/travel', [home_agents_at/2]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
 :- use_module(carriers,

@@ -5,10 +5,10 @@
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, numlist/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../host',
+:- use_module('../kernel/host',
               [ context_now/2, host_property/2, time_due/3, time_kind/1,
                 time_now/1 ]).
-:- use_module('../wire', [mobile_term/1]).
+:- use_module('../kernel/wire', [mobile_term/1]).
 :- use_module(appointments, [appointments/2]).
 :- use_module(carrier, [order_do/2]).
 :- use_module(carriers,

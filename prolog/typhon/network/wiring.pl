@@ -19,8 +19,8 @@
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2]).
-:- use_module('../host', [time_kind/1]).
-:- use_module('../agent', [agent_home/2]).
+:- use_module('../kernel/host', [time_kind/1]).
+:- use_module('../kernel/agent', [agent_home/2]).
 :- use_module(carriers, [carrier/3, carrier/4, carrier_order/4]).
 :- use_module(restarts, [restarts_back/1]).
 

@@ -13,8 +13,8 @@ hand, and what is found by drawing programs at random.
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/base/chance)).
-:- use_module(library(typhon/program/programs), [payload_load/2]).
+:- use_module(library(typhon/kernel/base/chance)).
+:- use_module(library(typhon/kernel/program/programs), [payload_load/2]).
 
 %   The clauses of the payload in a module of their own, as in an agent.
 

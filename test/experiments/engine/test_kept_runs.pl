@@ -108,7 +108,7 @@ test(thesis_counts_its_agents, true(Missing == [])) :-
                                    'agents/lib/settings.pl',
                                    'experiments/sync/ground.pl',
                                    'experiments/sync/metrics.pl',
-                                   'prolog/typhon/host/hosts.pl' ]),
+                                   'prolog/typhon/kernel/host/hosts.pl' ]),
                     project_file(Name, File),
                     exists_file(File),
                     \+ study_sources:( hashed(Study, _, Times),

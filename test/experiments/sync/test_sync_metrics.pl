@@ -5,7 +5,7 @@
 :- use_module('../../../experiments/sync/healing').
 :- use_module('../../../experiments/sync/metrics').
 :- use_module('../../../experiments/sync/orderly', []).
-:- use_module('../../../prolog/typhon/language/strategy',
+:- use_module('../../../prolog/typhon/kernel/vocabulary/strategy',
               [memory_mark/3, next_host/6, strategy_memory/2]).
 
 /** <module> What event logs say of tasks in step, on logs made by hand

@@ -4,8 +4,8 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/travel/backlog)).
-:- use_module(library(typhon/agent/mailbox)).
+:- use_module(library(typhon/kernel/travel/backlog)).
+:- use_module(library(typhon/kernel/agent/mailbox)).
 
 /** <module> Mailboxes: each message once, in order, whatever others get
 

@@ -1,6 +1,6 @@
 :- module(test_durable, []).
 
-:- use_module('../../../prolog/typhon/base/durable').
+:- use_module('../../../prolog/typhon/kernel/base/durable').
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).

@@ -15,7 +15,7 @@
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/fipa)).
-:- use_module(library(typhon/fipa/letter), [letter_write/5]).
+:- use_module(library(typhon/bridges/fipa/letter), [letter_write/5]).
 
 :- meta_predicate
     with_platforms(-, -, 0),

@@ -9,12 +9,12 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(random), [random_between/3, random_member/2]).
-:- use_module(library(typhon/fipa/acl)).
-:- use_module(library(typhon/fipa/directory)).
-:- use_module(library(typhon/fipa/envelope)).
-:- use_module(library(typhon/fipa/letter)).
-:- use_module(library(typhon/fipa/multipart)).
-:- use_module(library(typhon/fipa/sl)).
+:- use_module(library(typhon/bridges/fipa/acl)).
+:- use_module(library(typhon/bridges/fipa/directory)).
+:- use_module(library(typhon/bridges/fipa/envelope)).
+:- use_module(library(typhon/bridges/fipa/letter)).
+:- use_module(library(typhon/bridges/fipa/multipart)).
+:- use_module(library(typhon/bridges/fipa/sl)).
 
                 /*******************************
                 *          RANDOM INPUT        *

@@ -10,7 +10,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(thread), [concurrent/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/helper)).
+:- use_module(library(typhon/bridges/helper)).
 
 %   with_complaining(:Goal): there is a helper that says what it lacks, and ends,
 %   whenever it is started.

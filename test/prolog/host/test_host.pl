@@ -9,9 +9,9 @@
 :- use_module(library(lists)).
 :- use_module(library(settings)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/base/own_thread),
+:- use_module(library(typhon/kernel/base/own_thread),
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
-:- use_module(library(typhon/host/place)).
+:- use_module(library(typhon/kernel/host/place)).
 
 /** <module> Tests of hosts: what they offer, admit, and leave behind
 

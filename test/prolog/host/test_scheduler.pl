@@ -9,11 +9,11 @@
 :- use_module(library(readutil)).
 :- use_module(library(settings)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/base/own_thread)).
-:- use_module(library(typhon/host/scheduler)).
-:- use_module(library(typhon/host/time), [time_start/1, time_stop/0]).
-:- use_module(library(typhon/host/timer)).
-:- use_module(library(typhon/host/workers)).
+:- use_module(library(typhon/kernel/base/own_thread)).
+:- use_module(library(typhon/kernel/host/scheduler)).
+:- use_module(library(typhon/kernel/host/time), [time_start/1, time_stop/0]).
+:- use_module(library(typhon/kernel/host/timer)).
+:- use_module(library(typhon/kernel/host/workers)).
 
 /** <module> Tests of the pool of workers, and of alarms
 

@@ -6,7 +6,7 @@
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/journal/store)).
+:- use_module(library(typhon/options/journal/store)).
 
 :- needs([journal, postgresql]).
 
@@ -81,7 +81,7 @@ test('long terms, and shorter ones in their place') :-
              with_schema(long, items(a, [k-0-List])) )).
 test('nobody else opens it meanwhile; another schema is another journal') :-
     postgres_url(locked, Url),
-    project_file('prolog/typhon/journal/store.pl', Store),
+    project_file('prolog/typhon/options/journal/store.pl', Store),
     format(atom(Goal), 'journal_open(~q, normal), writeln(open), \c
                         flush_output, read(_)', [Url]),
     with_swipl(['-g', Goal, '-t', halt, Store], Pid, _, Out,

@@ -6,7 +6,7 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_codes/3, read_line_to_string/2]).
-:- use_module(library(typhon/journal/item_key)).
+:- use_module(library(typhon/options/journal/item_key)).
 
 :- needs([journal]).
 
@@ -91,7 +91,7 @@ test('nobody else opens it meanwhile',
     with_tmp_dir(locked).
 
 locked(Dir) :-
-    project_file('prolog/typhon/journal/store.pl', Store),
+    project_file('prolog/typhon/options/journal/store.pl', Store),
     format(atom(Goal), 'journal_open(~q, normal), writeln(open), flush_output, \c
             read(_)',
            [Dir]),

@@ -4,8 +4,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/language/pheromone)).
-:- use_module(library(typhon/language/strategy)).
+:- use_module(library(typhon/kernel/vocabulary/pheromone)).
+:- use_module(library(typhon/kernel/vocabulary/strategy)).
 
 /** <module> Pheromones and phercon(Problem)
 

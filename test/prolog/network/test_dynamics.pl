@@ -9,7 +9,7 @@
                 same_length/2, subtract/3, sum_list/2
               ]).
 :- use_module(library(yall)).
-:- use_module(library(typhon/host), [runtime_acquire/2, runtime_release/1]).
+:- use_module(library(typhon/kernel/host), [runtime_acquire/2, runtime_release/1]).
 :- use_module(library(typhon/network/changes)).
 :- use_module(library(typhon/network/dynamics)).
 :- use_module(library(typhon/network/topology)).

@@ -9,7 +9,7 @@
 :- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(uid), [geteuid/1]).
-:- use_module(library(typhon/wire),
+:- use_module(library(typhon/kernel/wire),
               [endpoint_address/1, endpoint_post/3, endpoint_stop/0]).
 :- use_module(library(typhon/network/log)).
 :- use_module(library(typhon/network/log_file)).

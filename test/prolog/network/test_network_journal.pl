@@ -425,7 +425,7 @@ no_good([F1, F2, F3], Dir) :-
     directory_file_path(Second, 'journal.db', File),
     directory_file_path(Dir, 'network.pl', Record),
     maplist(spoilt(Dir), [File, Record], [F1, F2]),
-    project_file('prolog/typhon/journal/store.pl', Store),
+    project_file('prolog/typhon/options/journal/store.pl', Store),
     format(atom(Goal), 'journal_open(~q, normal), writeln(open), \c
                         flush_output, read(_)', [Second]),
     with_swipl(['-g', Goal, '-t', halt, Store], _, _, Out,

@@ -8,7 +8,7 @@
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/travel/home), [home_knows/4]).
+:- use_module(library(typhon/kernel/travel/home), [home_knows/4]).
 
 /** <module> Tests of agents and hosts in separate processes
 

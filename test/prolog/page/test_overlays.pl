@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/page/overlays)).
+:- use_module(library(typhon/tools/page/overlays)).
 
 /*  What mechanisms declare to be seen. */
 

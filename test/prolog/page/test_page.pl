@@ -17,7 +17,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/page), [page_serve/2]).
+:- use_module(library(typhon/tools/page), [page_serve/2]).
 
 :- dynamic at/3.                        % Browser, Base, Network
 

@@ -12,8 +12,8 @@
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/page), [page_export/3]).
-:- use_module(library(typhon/page/files), [page_file/3]).
+:- use_module(library(typhon/tools/page), [page_export/3]).
+:- use_module(library(typhon/tools/page/files), [page_file/3]).
 :- use_module('../../lib/browser').
 :- use_module('../../lib/pages').
 

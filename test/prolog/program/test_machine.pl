@@ -4,10 +4,10 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(random)).
-:- use_module(library(typhon/program/machine)).
-:- use_module(library(typhon/program/loaded)).
-:- use_module(library(typhon/program/code)).
-:- use_module(library(typhon/wire/frame)).
+:- use_module(library(typhon/kernel/program/machine)).
+:- use_module(library(typhon/kernel/program/loaded)).
+:- use_module(library(typhon/kernel/program/code)).
+:- use_module(library(typhon/kernel/wire/frame)).
 
 /** <module> Tests of typhon_machine: stopping and going on anywhere
 

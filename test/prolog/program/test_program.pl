@@ -6,8 +6,8 @@
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/program/loaded), [program_load/5]).
-:- use_module(library(typhon/program/programs)).
+:- use_module(library(typhon/kernel/program/loaded), [program_load/5]).
+:- use_module(library(typhon/kernel/program/programs)).
 
 /** <module> Tests of agent programs: what loads, what does not, and why
 

@@ -18,9 +18,9 @@ The peer, ros_peer.py, is a node in another process, made with rclpy alone.
 :- use_module(library(socket),
               [tcp_bind/2, tcp_close_socket/1, tcp_socket/1]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/helper), [helper_file/2, helper_pid/2]).
+:- use_module(library(typhon/bridges/helper), [helper_file/2, helper_pid/2]).
 :- use_module(library(typhon/ros)).
-:- use_module(library(typhon/ros/node), [node_python/2]).
+:- use_module(library(typhon/bridges/ros/node), [node_python/2]).
 
 :- dynamic
     peer/2,                     % Pid, its standard input

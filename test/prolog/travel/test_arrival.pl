@@ -4,8 +4,8 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/wire), []).
-:- use_module(library(typhon/program/programs), []).
+:- use_module(library(typhon/kernel/wire), []).
+:- use_module(library(typhon/kernel/program/programs), []).
 :- use_module('../../lib/fixtures').
 
 /** <module> An agent arrives whole or not at all

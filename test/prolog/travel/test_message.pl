@@ -6,9 +6,9 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/agent), [with_agent/2]).
-:- use_module(library(typhon/travel/backlog), [backlog/1]).
-:- use_module(library(typhon/travel/retries), [retry_later/3]).
+:- use_module(library(typhon/kernel/agent), [with_agent/2]).
+:- use_module(library(typhon/kernel/travel/backlog), [backlog/1]).
+:- use_module(library(typhon/kernel/travel/retries), [retry_later/3]).
 
 /** <module> Tests of messages: they find their agent, once
 

@@ -8,7 +8,7 @@
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_socket/1 ]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/travel/news), [news_tell/3]).
+:- use_module(library(typhon/kernel/travel/news), [news_tell/3]).
 
 /** <module> News of agents for a home that cannot be reached
 

@@ -6,7 +6,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/travel/whereabouts), [agent_reached/3]).
+:- use_module(library(typhon/kernel/travel/whereabouts), [agent_reached/3]).
 
 /** <module> Agents hop between hosts of one process
 

@@ -9,7 +9,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/watching), [metrics/2]).
+:- use_module(library(typhon/options/watch), [metrics/2]).
 
 :- needs([prometheus]).
 

@@ -10,7 +10,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/watching), [overview/3]).
+:- use_module(library(typhon/options/watch), [overview/3]).
 
 :- dynamic told/1.
 

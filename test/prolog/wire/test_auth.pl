@@ -6,8 +6,8 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent/3]).
-:- use_module(library(typhon/wire/auth)).
-:- use_module(library(typhon/wire/hello)).
+:- use_module(library(typhon/kernel/wire/auth)).
+:- use_module(library(typhon/kernel/wire/hello)).
 
 :- begin_tests(cookie_is_private).
 

@@ -12,13 +12,13 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(thread), [concurrent_forall/3]).
-:- use_module(library(typhon/wire)).
-:- use_module(library(typhon/travel/post), []).
-:- use_module(library(typhon/wire/bundle)).
-:- use_module(library(typhon/wire/frame), [term_bytes/3]).
-:- use_module(library(typhon/wire/outbox), [session_send/2]).
-:- use_module(library(typhon/wire/session), [route/2, session_key/2]).
-:- use_module(library(typhon/wire/unacked),
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/travel/post), []).
+:- use_module(library(typhon/kernel/wire/bundle)).
+:- use_module(library(typhon/kernel/wire/frame), [term_bytes/3]).
+:- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
+:- use_module(library(typhon/kernel/wire/session), [route/2, session_key/2]).
+:- use_module(library(typhon/kernel/wire/unacked),
               [session_sent/2, unacked_waiting/1]).
 
 :- dynamic note/2.                      % Note, Thread

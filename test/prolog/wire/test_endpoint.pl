@@ -12,9 +12,9 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
-:- use_module(library(typhon/base/spawn), [spawn/3]).
-:- use_module(library(typhon/wire)).
-:- use_module(library(typhon/wire/endpoint), [endpoint_process/1]).
+:- use_module(library(typhon/kernel/base/spawn), [spawn/3]).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/wire/endpoint), [endpoint_process/1]).
 
 :- dynamic
     note/1,                             % Note, posted to us
@@ -689,7 +689,7 @@ crowd :-
     ask(A, echo, x, x).
 
 other_cookie(Address) :-
-    project_file('prolog/typhon/wire', File),
+    project_file('prolog/typhon/kernel/wire', File),
     format(atom(Goal), "use_module('~w'),endpoint_start(localhost,0,_),\c
                         catch(endpoint_post('~w',note,x),\c
                               error(unreachable(_),_),\c

@@ -6,7 +6,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(random), [random_between/3, random_member/2]).
-:- use_module(library(typhon/wire/frame)).
+:- use_module(library(typhon/kernel/wire/frame)).
 
 :- begin_tests(terms_travel_unchanged).
 

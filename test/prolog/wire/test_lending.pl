@@ -12,12 +12,12 @@ own.
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
-:- use_module(library(typhon/wire)).
-:- use_module(library(typhon/wire/keeper), [keeper_connect/1]).
-:- use_module(library(typhon/wire/outbox), [session_send/2]).
-:- use_module(library(typhon/wire/session), [route/2]).
-:- use_module(library(typhon/wire/threads), [wire_thread_signal/2]).
-:- use_module(library(typhon/wire/transport), [transport_thread/2]).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/wire/keeper), [keeper_connect/1]).
+:- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
+:- use_module(library(typhon/kernel/wire/session), [route/2]).
+:- use_module(library(typhon/kernel/wire/threads), [wire_thread_signal/2]).
+:- use_module(library(typhon/kernel/wire/transport), [transport_thread/2]).
 
 :- dynamic
     hook/2,                             % Errand, Thread

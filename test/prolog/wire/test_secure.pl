@@ -14,7 +14,7 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/wire), [endpoint_proof/1, endpoint_reply/2]).
+:- use_module(library(typhon/kernel/wire), [endpoint_proof/1, endpoint_reply/2]).
 
 :- use_module('../../../app/keys', [keys_revoke/2]).
 

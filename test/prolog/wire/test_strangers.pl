@@ -11,9 +11,9 @@
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_maplist/3]).
-:- use_module(library(typhon/wire/auth)).
-:- use_module(library(typhon/wire)).
-:- use_module(library(typhon/wire/hello)).
+:- use_module(library(typhon/kernel/wire/auth)).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/wire/hello)).
 
 :- dynamic told/1.
 :- multifile user:message_hook/3.

@@ -15,9 +15,9 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
-:- use_module(library(typhon/wire)).
-:- use_module(library(typhon/wire/session), [session/2]).
-:- use_module(library(typhon/wire/transport), [transport/3]).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/wire/session), [session/2]).
+:- use_module(library(typhon/kernel/wire/transport), [transport/3]).
 :- use_module('../../lib/endpoint_peer', [sleep_until/1]).
 
 :- dynamic
@@ -172,7 +172,7 @@ test(nobody_is_there, Answers == Expected) :-
     with_endpoint(( send_all('127.0.0.1:1', Numbers),
                     maplist(answered, Numbers, Answers) )).
 test(a_wrong_cookie_is_told_at_once) :-
-    project_file('prolog/typhon/wire', File),
+    project_file('prolog/typhon/kernel/wire', File),
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
                            "use_module('~w'),endpoint_start(localhost,0,_),\c

@@ -1,0 +1,41 @@
+:- module(typhon_bridge, []).
+
+/** <module> What bridges have in common
+
+A bridge makes something outside, a broker or a middleware, a service of the
+place of a host: agents there find predicates, and what comes in reaches
+them as messages or as facts.  This is the door of the layer.  A bridge
+`echo` in outline:
+
+    % echo_start(Host, What, Options), see typhon_starting, comes here
+    typhon_starting:starts(echo, Host, What, Options) :-
+        service_begin(echo, Host, [shout/1, listen/1], typhon_echo_words),
+        helper_open(echo(Host), ...).
+
+    % in module typhon_echo_words, called by an agent on Host
+    listen(Key) :-
+        subscriber(Host, Agent),
+        subscribe(echo, Host, Key, Agent, []),  % then ask the helper for Key
+        ...
+
+    % what comes in, in the thread that reads from the helper
+    typhon_helper_answers:heard(echo(Host), Dict) :-
+        subscribers_tell(echo, Host, Dict.key, said(Dict.text), said(_)).
+
+    % nobody is there any more who wants Key
+    typhon_subscribers:wanted(echo, Host, Key, false) :-
+        helper_note(echo(Host), _{do:deafen, key:Key}).
+
+    % the host stops, or somebody said echo_stop(Host)
+    typhon_services:ends(echo, Host) :-
+        helper_close(echo(Host)).
+*/
+
+:- reexport(common/inbox, [inbox_put/4]).
+:- reexport(common/json_values, [json_value/1]).
+:- reexport(common/services,
+            [ service/2, service_begin/4, service_end/2, service_offer/4 ]).
+:- reexport(common/subscribers,
+            [ subscribe/5, subscriber/2, subscribers_drop/4, subscribers_tell/5,
+              subscribers_tell_new/5, subscription/3,
+              unsubscribe/4 ]).

@@ -1,0 +1,175 @@
+:- module(typhon_inbox,
+          [ inbox_put/4,                % +How, +Source, +Whom, +What
+            gap_forget/3,               % +Service, +Key, +Agent
+            inbox_key/2                 % +Key, -Text
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module('../../kernel/host',
+              [ event/4, events_hear/3, events_unheard/1, host/3,
+                tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
+:- use_module('../../kernel/agent', [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
+
+/** <module> Where it arrives, and what there is no room for
+
+What comes for an agent is put in its mailbox, as long as fewer than so many
+messages wait there.  The others are counted, and when half of the room is
+free again, or what comes next has room, the agent first gets
+Service-dropped(Key, Count).  So it is with facts; there the fact
+Service-dropped(Key, Count) has the count of all that were dropped.
+
+*Threading*: inbox_put/4 is for the thread that reads what comes.  Whoever
+runs an agent hears that it takes a message, while there are gaps.
+*/
+
+:- multifile
+    dropped/3,                  % Service, Host, Message: for an agent who has
+                                % no room; must not wait
+    typhon_events:told/4.
+
+:- dynamic
+    gap/7.                      % Agent, Service, Text, Host, Max, Count, Key
+
+%!  inbox_put(+How, +Source, +Whom, +What) is semidet.
+%
+%   How is how(As, Max), Source is Service-Key, Whom Host-Agent and What
+%   Message-Same, as of subscribers_tell/5.  Fails if Agent is not on Host.
+
+inbox_put(how(message, Max), Service-Key, Host-Agent, Message-_) =>
+    Gap = gap(Agent, Service, Key, Host, Max),
+    gap_taken(Gap, Count),
+    told_first(Count, Service, Key, Messages, [Service-Message]),
+    with_agent(Agent, put(Agent, Host, Max, Messages, Done)),
+    done(Done, Gap, Count),
+    (   Done == full
+    ->  ignore(dropped(Service, Host, Message))
+    ;   true
+    ).
+inbox_put(how(fact, Max), Service-Key, Host-_, Message-_) =>
+    host(Host, _, Place),
+    (   facts(Place, Service, Max, Count),
+        Count < Max
+    ->  leave(Host, Place, Service-Message)
+    ;   dropped_fact(Host, Place, Service, Key)
+    ).
+inbox_put(how(latest, Max), Service-Key, Host-Agent, Message-Same) =>
+    host(Host, _, Place),
+    (   tuple_sense(Place, Service-Same)
+    ->  leave(Host, Place, Service-Message),
+        ignore(tuple_take(Place, Service-Same))
+    ;   inbox_put(how(fact, Max), Service-Key, Host-Agent, Message-Same)
+    ).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+told_first(0, _, _, Messages, Messages) :-
+    !.
+told_first(Count, Service, Key, [Service-dropped(Key, Count)|Messages],
+           Messages).
+
+put(Agent, Host, Max, Messages, Done) :-
+    agent(Agent, Host, _, _, _),
+    !,
+    mail_count(Agent, Waiting),
+    (   Waiting < Max
+    ->  agent_mail(Agent, Messages),
+        Done = put
+    ;   Done = full
+    ).
+
+done(put, Gap, Count) :-
+    (   Count =:= 0
+    ->  true
+    ;   with_mutex(typhon_inbox, unheard(Gap))
+    ).
+done(full, Gap, Count0) :-
+    Count is Count0+1,
+    with_mutex(typhon_inbox, add(Gap, Count)).
+
+                /*******************************
+                *             GAPS             *
+                *******************************/
+
+%   Who has taken a gap tells of it, or puts it back.
+
+gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
+    (   gap(Agent, Service, _, _, _, _, _),
+        inbox_key(Key, Text),
+        with_mutex(typhon_inbox,
+                   retract(gap(Agent, Service, Text, Host, Max, Count0, _)))
+    ->  Count = Count0
+    ;   Count = 0
+    ).
+
+add(gap(Agent, Service, Key, Host, Max), Count) :-
+    (   gap(_, _, _, Host, _, _, _)
+    ->  true
+    ;   events_hear([messages], Host, inbox(Host))
+    ),
+    inbox_key(Key, Text),
+    assertz(gap(Agent, Service, Text, Host, Max, Count, Key)).
+
+unheard(gap(_, _, _, Host, _)) :-
+    (   gap(_, _, _, Host, _, _, _)
+    ->  true
+    ;   events_unheard(inbox(Host))
+    ).
+
+%!  inbox_key(+Key, -Text:atom) is det.
+%
+%   Tables that threads share are asked by atoms: an index on compound terms
+%   is not safe, see typhon_agents.
+
+inbox_key(Key, Key) :-
+    atom(Key),
+    !.
+inbox_key(Key, Text) :-
+    format(atom(Text), '~q', [Key]).
+
+%!  gap_forget(+Service, +Key, +Agent) is det.
+%
+%   Nobody wants to know any more.
+
+gap_forget(Service, Key, Agent) :-
+    Gap = gap(Agent, Service, Key, _, _),
+    gap_taken(Gap, Count),
+    (   Count =:= 0
+    ->  true
+    ;   with_mutex(typhon_inbox, unheard(Gap))
+    ).
+
+typhon_events:told(inbox(_), Host, Agent, received(_, _)) :-
+    gap(Agent, Service, _, Host, Max, _, Key),
+    with_agent(Agent, mail_count(Agent, Waiting)),
+    Waiting =< Max//2,
+    Gap = gap(Agent, Service, Key, Host, Max),
+    gap_taken(Gap, Count),
+    Count > 0,
+    with_mutex(typhon_inbox, unheard(Gap)),
+    with_agent(Agent, ignore(agent_mail(Agent,
+                                        [Service-dropped(Key, Count)]))).
+
+                /*******************************
+                *             FACTS            *
+                *******************************/
+
+leave(Host, Place, Fact) :-
+    tuple_leave(Place, Fact),
+    event(facts, Host, none, leave(Fact)).
+
+%   All facts, if these are few, else those of Service.
+
+facts(Place, Service, Max, Count) :-
+    predicate_property(Place:'$tuple'(_), number_of_clauses(All)),
+    (   All < Max
+    ->  Count = All
+    ;   aggregate_all(count, tuple_sense(Place, Service-_), Count)
+    ).
+
+dropped_fact(Host, Place, Service, Key) :-
+    (   tuple_take(Place, Service-dropped(Key, Count0))
+    ->  Count is Count0+1
+    ;   Count = 1
+    ),
+    leave(Host, Place, Service-dropped(Key, Count)).

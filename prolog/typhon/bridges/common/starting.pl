@@ -1,0 +1,273 @@
+:- module(typhon_starting,
+          [ python_start/3,             % +Host, +File, +Options
+            python_stop/1,              % +Host
+            mqtt_start/3,               % +Host, +URL, +Options
+            mqtt_stop/1,                % +Host
+            ros_start/3,                % +Host, +Where, +Options
+            ros_stop/1,                 % +Host
+            ros_property/2,             % ?Host, ?Property
+            fipa_start/3,               % +Host, +URL, +Options
+            fipa_stop/1                 % +Host
+          ]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/host', [host_option/2, host_resolve/2, remote/2]).
+
+/** <module> The beginning and the end of bridges
+
+What bridges consist of is loaded when the first of its kind is started.
+Their hosts may be in other processes; files are then those of the machine
+there.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    starts/4,                   % Bridge, Host, What, Options: of this process
+    stops/2,                    % Bridge, Host
+    has/3,                      % Bridge, Host, Property: hosts of this process
+    delivers/3,                 % Host, Name, Source: a payload that is Python
+    typhon_words:python_delivered/3.
+
+%!  python_start(+Host, +File, +Options) is det.
+%
+%   From now on the functions that File, or each of a list of files, defines
+%   are predicates of the place of Host: f(A, B) of Python is f(A, B, Result).
+%   One whose arguments have defaults is several predicates.  Left out are
+%   functions whose names begin with `_` or that come from elsewhere; a file
+%   that has `__all__` offers what is in it.  Files share one process.
+%   Options:
+%
+%     - timeout(Seconds): of each call, default 10
+%     - threads(N): so many calls at a time, default 8
+%     - queue(N): messages that may wait for an agent, default 1000
+%     - python(Program): default see helper_python/2
+%
+%   An agent that waits for a call holds up no other, as with all that takes
+%   its time.  When the process ends calls under way raise an
+%   error, and it is started again.
+%
+%   @error existence_error(source_sink, File), existence_error(host, Host)
+%   @error python_error(Class, Message) if File raises it
+%   @error permission_error(define, vocabulary, PI) if agents know such a
+%          predicate, permission_error(deliver, procedure, PI) if the place
+%          has one
+%   @error permission_error(start, python, Host) if it is started
+
+python_start(Host, File, Options) :-
+    start(python, Host, File, Options).
+
+%!  python_stop(+Host) is det.
+%
+%   The functions are gone.  Calls under way raise an error.
+%
+%   @error existence_error(python, Host)
+
+python_stop(Host) :-
+    stop(python, Host).
+
+%!  mqtt_start(+Host, +URL, +Options) is det.
+%
+%   Connect Host to the broker at URL, as mqtt_url/2.  Options:
+%
+%     - user(User), password(Password): if they are not in the URL
+%     - client(Id): the name of this client; default is that the broker
+%       chooses one
+%     - clean(Boolean): whether the broker forgets this client when it goes,
+%       default `true`; `false` needs client(Id)
+%     - will(Topic, Payload), will(Topic, Payload, Options): what the broker
+%       is to publish when the connection is lost; Options as of publish/3
+%     - keepalive(Seconds): default 60
+%     - ca(File), cert(File), key(File), insecure(Boolean): for TLS; the
+%       certificates to trust, default those of the system, those of this
+%       client, and whether any name of the broker will do, default `false`
+%     - payload(Kind): default of subscribe/2 and publish/3, itself `auto`
+%     - queue(N): default of subscribe/2
+%     - pending(N): how many messages are kept while there is no connection,
+%       default 1000
+%     - largest(Bytes): of payloads, default 4 MB
+%     - timeout(Seconds): of each request, default 10
+%     - wait(Boolean): whether to wait for the connection, default `true`.
+%       Without, Host is connected when the broker can be reached.
+%     - python(Program): default see helper_python/2
+%
+%   When the connection is lost, it is made again, and what agents have
+%   subscribed to is asked for again.
+%
+%   @error mqtt_error(unreachable(URL), Host), mqtt_error(refused, Host),
+%   mqtt_error(tls, Host)
+%   @error permission_error(start, mqtt, Host) if it is started
+%   @error existence_error(python_module, paho)
+%   @error domain_error(mqtt_url, URL), domain_error(mqtt_option, Option)
+
+mqtt_start(Host, URL, Options) :-
+    start(mqtt, Host, URL, Options).
+
+%!  mqtt_stop(+Host) is det.
+%
+%   The connection is closed, and what agents have subscribed to forgotten.
+%
+%   @error existence_error(mqtt, Host)
+
+mqtt_stop(Host) :-
+    stop(mqtt, Host).
+
+%!  ros_start(+Host, +Where, +Options) is det.
+%
+%   Agents on Host can use ROS: publish, subscribe, call and offer services,
+%   send goals, see doc/bridges-ros.md.  Where is `ros2`, then Host is a node
+%   of ROS 2, or a URL as 'ws://robot:9090/', that of a rosbridge server, of
+%   ROS 1 or 2.  Options:
+%
+%     - messages(Form): what comes in is a `dict`, default, or `terms`, a
+%       list of Name=Value
+%     - deadline(Seconds): for what is asked of ROS, default 5
+%     - connect_deadline(Seconds): for this call, default 20 for `ros2`,
+%       which starts a process, 5 for a server
+%
+%   for `ros2`
+%
+%     - node(Name): default typhon_Host
+%     - domain(N): default is that of the environment variable ROS_DOMAIN_ID
+%     - reach(Reach): who is to be found: `localhost`, default, or `subnet`
+%     - python(File): which has rclpy; default that of `make tools-ros`
+%
+%   and for a server
+%
+%     - silence(Seconds): when it has not even answered a ping for so long
+%       it is gone; default 30
+%
+%   @error existence_error(host, Host), permission_error(start, ros, Host)
+%   @error domain_error(ros_option, Option), domain_error(ros, Where)
+%   @error existence_error(ros_python, File) if `make tools-ros` has not made
+%          it, existence_error(python_module, rclpy)
+%   @error socket_error(Code, Text) and others of http_open/3
+%   @error timeout_error(connect, URL)
+
+ros_start(Host, Where, Options) :-
+    start(ros, Host, Where, Options).
+
+%!  ros_stop(+Host) is det.
+%
+%   Nothing is published, heard, offered and waited for there any more.
+%
+%   @error existence_error(ros, Host)
+
+ros_stop(Host) :-
+    stop(ros, Host).
+
+%!  ros_property(?Host, ?Property) is nondet.
+%
+%   Property is one of
+%
+%     - way(Where): as of ros_start/3
+%     - connected(Boolean): whether there is a connection now
+%     - heard(Topic, Type), published(Topic, Type), offered(Service, Type)
+%     - ignored(Count): frames that were passed over
+%
+%   Unbound, Host is each host of this process that has ROS.
+%
+%   @error existence_error(host, Host)
+
+ros_property(Host, Property) :-
+    var(Host),
+    !,
+    has(ros, Host, Property).
+ros_property(Host, Property) :-
+    must_be(atom, Host),
+    host_resolve(Host, Where),
+    properties_at(Where, ros-Property, Host, Properties),
+    member(Property, Properties).
+
+%!  fipa_start(+Host, +URL, +Options) is det.
+%
+%   Host is a platform of FIPA from now on.  Others reach it at URL,
+%   `http://Host:Port/Path`; where the port is 0 it is any, and
+%   fipa_property/2 tells which, in the process of Host.  Agents on Host, and
+%   those of its process, send messages to fipa(Name, Addresses); those for
+%   its agents come from fipa(Name).  The place of Host has reply/3.  Options:
+%
+%     - name(+Atom): of the platform, default the name of the host
+%     - bind(+Interface): on which it listens, default 127.0.0.1
+%     - queue(+N): messages that wait for one address, or in one mailbox,
+%       at the most, default 1000; what is too much is not taken
+%     - connections(+N): from others at a time, default 64
+%     - max_bytes(+N): of a message with its envelope, default 2,000,000
+%     - seconds(+N): in which a message has to come, or be taken, default 10
+%
+%   @error permission_error(start, fipa, Host) if it is one already, or its
+%   time is virtual: others do not wait for that
+%   @error existence_error(host, Host)
+%   @error domain_error(http_url, URL), domain_error(fipa_option, Option)
+%   @error socket_error(Code, Message)
+
+fipa_start(Host, Url, Options) :-
+    start(fipa, Host, Url, Options).
+
+%!  fipa_stop(+Host) is det.
+%
+%   Host is no platform any more.  What has not gone out is lost.  So it is
+%   when the host stops.
+%
+%   @error existence_error(fipa, Host)
+
+fipa_stop(Host) :-
+    stop(fipa, Host).
+
+%   Where it is allowed.
+
+typhon_words:python_delivered(Host, Name, Source) :-
+    host_option(Host, python(true)),
+    load(python),
+    delivers(Host, Name, Source).
+
+                /*******************************
+                *        HERE OR ELSEWHERE     *
+                *******************************/
+
+start(Bridge, Host, What, Options) :-
+    must_be(atom, Host),
+    must_be(ground, What),
+    must_be(list, Options),
+    host_resolve(Host, Where),
+    once(start_at(Where, Bridge, What, Options)).
+
+start_at(local(Name), Bridge, What, Options) :-
+    load(Bridge),
+    starts(Bridge, Name, What, Options),
+    !.
+start_at(remote(Host, Name, _), Bridge, What, Options) :-
+    remote(Host, typhon_starting:start(Bridge, Name, What, Options)).
+
+stop(Bridge, Host) :-
+    must_be(atom, Host),
+    host_resolve(Host, Where),
+    once(stop_at(Where, Bridge)).
+
+stop_at(local(Name), Bridge) :-
+    (   stops(Bridge, Name)
+    ->  true
+    ;   existence_error(Bridge, Name)
+    ).
+stop_at(remote(Host, Name, _), Bridge) :-
+    remote(Host, typhon_starting:stop(Bridge, Name)).
+
+%   properties_at(+Where, +Bridge-Property, +Host, -Properties): those that match
+
+properties_at(local(Name), Bridge-Property, _, Properties) :-
+    findall(Property, has(Bridge, Name, Property), Properties).
+properties_at(remote(_, Name, _), Wanted, Host, Properties) :-
+    remote(Host, typhon_starting:properties_at(local(Name), Wanted, Name,
+                                               Properties)).
+
+:- dynamic folder/1.                    % where the bridges are
+
+:- prolog_load_context(directory, Dir),
+   file_directory_name(Dir, Typhon),
+   retractall(folder(_)),
+   assertz(folder(Typhon)).
+
+load(Bridge) :-
+    folder(Typhon),
+    atomic_list_concat([Typhon, Bridge], /, File),
+    use_module(File, []).

@@ -1,0 +1,279 @@
+:- module(typhon_subscribers,
+          [ subscriber/2,               % -Host, -Agent
+            subscribe/5,                % +Service, +Host, +Key, +Agent,
+                                        % +Options
+            unsubscribe/4,              % +Service, +Host, +Key, +Agent
+            subscription/3,             % ?Service, ?Host, ?Key
+            subscribers_tell/5,         % +Service, +Host, +Key, +Message,
+                                        % +Same
+            subscribers_tell_new/5,     % +Service, +Host, +Key, +Message,
+                                        % +Same
+            subscribers_drop/4,         % +Service, +Host, +Key, +Message
+            subscribers_forget/2        % +Service, +Host
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [max_list/2, member/2]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(pairs), [pairs_keys/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/host',
+              [ context_agent/1, context_now/2, events_hear/3,
+                events_unheard/1 ]).
+:- use_module('../../kernel/agent', [agent/5]).
+:- use_module(inbox, [gap_forget/3, inbox_key/2, inbox_put/4]).
+
+/** <module> Subscribers of services
+
+Agents subscribe to a Key, as a topic.  They are told what comes until they
+unsubscribe, leave the host, end, or are faulty.  One that set out and stays
+is subscribed as before.  Who subscribes by remote/2 is no agent: facts come
+until the service ends.
+
+*Threading*: any thread; subscribers_tell/5 is for the thread that reads what
+comes, and does not wait.  The hook wanted/4 is run inside a mutex, so that
+its calls are in order, and must not wait.
+*/
+
+:- multifile
+    wanted/4,                   % Service, Host, Key, Boolean: an agent came
+                                % back; or the last one who wanted it is gone
+    typhon_events:told/4,
+    typhon_options:declared/4.
+
+:- dynamic
+    subscribed/6,               % Text, Agent, Service, Host, How, Key: asked
+                                % by Text, see inbox_key/2
+    away/2,                     % Agent, subscribed(...): it has set out
+    hearing/1.                  % Host
+
+:- setting(queue, positive_integer, 1000,
+           "Messages of bridges that may wait for an agent").
+
+%!  subscriber(-Host, -Agent) is det.
+%
+%   Who is running, and where; Agent is `none` in goals of remote/2.
+%
+%   @error existence_error(running_agent, here)
+
+subscriber(Host, Agent) :-
+    (   context_now(Host, Agent)
+    ->  true
+    ;   context_agent(Agent)
+    ).
+
+%!  subscribe(+Service, +Host, +Key, +Agent, +Options) is det.
+%
+%   Agent wants what comes for Key, an atom or another ground term; if it has
+%   wanted it before, then in another way.  Options:
+%
+%     - as(How): `message`, a message Service-Message, default; `fact`, a fact
+%       Service-Message in the tuple space; `latest`, of facts for the same
+%       thing only the latest
+%     - queue(N): when so many messages wait for the agent, or so many facts
+%       are there, what comes is dropped, and counted; default is the setting
+%
+%   @error domain_error(subscription_option, Option)
+
+subscribe(Service, Host, Key, Agent, Options) :-
+    check_options(subscription_option, Options),
+    how(Options, Agent, How),
+    inbox_key(Key, Text),
+    with_mutex(typhon_subscribers,
+               ( hear(Host),
+                 retractall(subscribed(Text, Agent, Service, Host, _, _)),
+                 assertz(subscribed(Text, Agent, Service, Host, How,
+                                    Key)) )).
+
+how(Options, Agent, how(As, Max, Since)) :-
+    get_time(Since),
+    setting(queue, Default),
+    option(queue(Max), Options, Default),
+    option(as(As), Options, message),
+    (   As == message,
+        Agent == none
+    ->  existence_error(running_agent, here)
+    ;   true
+    ).
+
+typhon_options:declared(subscription_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
+
+option_type(as(X), oneof([message,fact,latest]), X).
+option_type(queue(X), positive_integer, X).
+
+%!  unsubscribe(+Service, +Host, +Key, +Agent) is semidet.
+%
+%   Agent does not want Key any more.  Fails if it did not.
+
+unsubscribe(Service, Host, Key, Agent) :-
+    inbox_key(Key, Text),
+    with_mutex(typhon_subscribers,
+               ( once(retract(subscribed(Text, Agent, Service, Host, _, _))),
+                 gone(Service, Host, Key, Agent) )).
+
+gone(Service, Host, Key, Agent) :-
+    gap_forget(Service, Key, Agent),
+    inbox_key(Key, Text),
+    (   subscribed(Text, _, Service, Host, _, _)
+    ->  true
+    ;   ignore(catch(wanted(Service, Host, Key, false),
+                     error(Formal, _),
+                     debug(typhon(bridge), '~p', [Formal])))
+    ).
+
+%!  subscription(?Service, ?Host, ?Key) is nondet.
+%
+%   Somebody wants Key.
+
+subscription(Service, Host, Key) :-
+    subscribed(_, _, Service, Host, _, Key0),
+    Key = Key0.
+
+%!  subscribers_tell(+Service, +Host, +Key, +Message, +Same) is det.
+%
+%!  subscribers_tell_new(+Service, +Host, +Key, +Message, +Same) is det.
+%
+%   Message has come for Key.  Same is a pattern: it unifies with messages
+%   that this one replaces where only the latest is wanted.  Told as new are
+%   only those who have subscribed last, or within a second before that: what
+%   a service says to who comes is nothing to others.
+
+subscribers_tell(Service, Host, Key, Message, Same) :-
+    inbox_key(Key, Text),
+    findall(Agent-How, subscribed(Text, Agent, Service, Host, How, _), Pairs),
+    tell_all(Pairs, Service, Host, Key, Message-Same).
+
+subscribers_tell_new(Service, Host, Key, Message, Same) :-
+    inbox_key(Key, Text),
+    findall(Since-(Agent-How),
+            ( subscribed(Text, Agent, Service, Host, How, _),
+              How = how(_, _, Since) ),
+            Subscribers),
+    pairs_keys(Subscribers, Times),
+    max_list([0|Times], Last),
+    findall(Pair,
+            ( member(Since-Pair, Subscribers), Since > Last-1 ),
+            Pairs),
+    tell_all(Pairs, Service, Host, Key, Message-Same).
+
+tell_all([], _, _, _, _).
+tell_all([Agent-how(As, Max, _)|Pairs], Service, Host, Key, What) :-
+    tell(how(As, Max), Service-Key, Host-Agent, What),
+    tell_all(Pairs, Service, Host, Key, What).
+
+tell(How, Service-Key, Host-Agent, What) :-
+    inbox_put(How, Service-Key, Host-Agent, What),
+    !.
+tell(_, Service-Key, Host-Agent, _) :-  % it is not here any more
+    ignore(unsubscribe(Service, Host, Key, Agent)).
+
+%!  subscribers_drop(+Service, +Host, +Key, +Message) is det.
+%
+%   Key cannot be had.  Who wanted it is told Message, as the last thing.
+
+subscribers_drop(Service, Host, Key, Message) :-
+    subscribers_tell(Service, Host, Key, Message, Message),
+    inbox_key(Key, Text),
+    findall(Agent, subscribed(Text, Agent, Service, Host, _, _), Agents),
+    forall(member(Agent, Agents),
+           ignore(unsubscribe(Service, Host, Key, Agent))).
+
+%!  subscribers_forget(+Service, +Host) is det.
+%
+%   Remove all subscriptions.
+
+subscribers_forget(Service, Host) :-
+    with_mutex(typhon_subscribers,
+               ( forget(Service, Host),
+                 deafen(Host) )).
+
+forget(Service, Host) :-
+    retract(subscribed(_, Agent, Service, Host, _, Key)),
+    !,
+    gap_forget(Service, Key, Agent),
+    forget(Service, Host).
+forget(_, _).
+
+                /*******************************
+                *      WHO LEAVES OR ENDS      *
+                *******************************/
+
+%   As long as somebody is subscribed on a host what happens there is heard.
+
+hear(Host) :-
+    (   hearing(Host)
+    ->  true
+    ;   assertz(hearing(Host)),
+        events_hear([life,bad_ends,hops], Host, subscribers(Host))
+    ).
+
+deafen(Host) :-
+    (   subscribed(_, _, _, Host, _, _)
+    ->  true
+    ;   retractall(hearing(Host)),
+        events_unheard(subscribers(Host))
+    ).
+
+typhon_events:told(subscribers(_), Host, Agent, What) :-
+    happens(What, Host, Agent).
+
+happens(left(_), Host, Agent) =>
+    with_mutex(typhon_subscribers,
+               ( sweep, sets_out(Agent, Host) )).
+happens(stayed(_), _, Agent) =>
+    with_mutex(typhon_subscribers, comes_back(Agent)).
+happens(ended(_), Host, Agent) =>
+    all_gone(Agent, Host).
+happens(faulty(_), Host, Agent) =>
+    all_gone(Agent, Host).
+happens(_, _, _) =>
+    true.
+
+sets_out(Agent, Host) :-
+    retract(subscribed(Text, Agent, Service, Host, How, Key)),
+    !,
+    assertz(away(Agent, subscribed(Text, Agent, Service, Host, How, Key))),
+    gone(Service, Host, Key, Agent),
+    sets_out(Agent, Host).
+sets_out(_, _).
+
+comes_back(Agent) :-
+    retract(away(Agent, Subscribed)),
+    !,
+    Subscribed = subscribed(_, _, Service, Host, _, Key),
+    assertz(Subscribed),
+    ignore(wanted(Service, Host, Key, true)),
+    comes_back(Agent).
+comes_back(_).
+
+all_gone(Agent, Host) :-
+    (   subscribed(_, Agent, _, Host, _, _)
+    ->  with_mutex(typhon_subscribers, unsubscribe_all(Agent, Host))
+    ;   true
+    ).
+
+unsubscribe_all(Agent, Host) :-
+    retract(subscribed(_, Agent, Service, Host, _, Key)),
+    !,
+    gone(Service, Host, Key, Agent),
+    unsubscribe_all(Agent, Host).
+unsubscribe_all(_, _).
+
+%   Those that set out and are elsewhere: with each that sets out two are
+%   looked at.
+
+sweep :-
+    sweep_one,
+    sweep_one.
+
+sweep_one :-
+    (   retract(away(Agent, Subscribed))
+    ->  Subscribed = subscribed(_, _, _, Host, _, _),
+        (   agent(Agent, Host, _, _, _)
+        ->  assertz(away(Agent, Subscribed))
+        ;   true
+        )
+    ;   true
+    ).

@@ -1,0 +1,244 @@
+:- module(typhon_fipa_carriage,
+          [ carriage_send/4,            % +Host, +Urls, +Letter, +Limits
+            carriage_queued/2,          % +Host, -Count
+            carriage_close/1            % +Host
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [resource_error/1]).
+:- use_module(library(option), [option/2]).
+:- use_module(library(socket),
+              [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
+                tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/crew', [crew_end/1, crew_start/4]).
+:- use_module(limit, [within/2]).
+:- use_module(http, [http_post/4, http_response/3, http_url/3]).
+
+/** <module> Where messages go out
+
+Each address to which there is something to send has a queue and a carrier, a
+thread that owns the connection.  So messages for one address stay in order,
+and a peer that is slow keeps up nobody else.  A carrier with nothing to do
+goes home after a while.
+
+A letter is letter(ContentType, Body, About).  What has not been taken by any
+of its addresses is told to returned/4 with About.
+
+*Threading*: carriage_send/4 never waits; who is told is a carrier.
+*/
+
+:- multifile
+    returned/4.                 % Host, About, Url, Why: nobody took it
+
+:- dynamic
+    carrier/3.                  % Host, Address, Queue
+
+idle_seconds(10).
+
+%   Addresses at a time.
+
+max_carriers(64).
+
+%!  carriage_send(+Host, +Urls:list, +Letter, +Limits) is det.
+%
+%   Send Letter to the first of Urls that takes it.  Limits has queue(N) and
+%   seconds(S), for one attempt.
+%
+%   @error domain_error(http_url, Url)
+%   @error resource_error(fipa_queue), resource_error(fipa_destinations)
+
+carriage_send(Host, [Url|Urls], Letter, Limits) :-
+    http_url(Url, Address, _),
+    option(queue(Most), Limits),
+    with_mutex(typhon_fipa_carriage,
+               queue(Host, Address, Limits, Most, send([Url|Urls], Letter))).
+
+queue(Host, Address, _, Most, Message) :-
+    carrier(Host, Address, Queue),
+    !,
+    message_queue_property(Queue, size(Size)),
+    (   Size < Most
+    ->  thread_send_message(Queue, Message)
+    ;   resource_error(fipa_queue)
+    ).
+queue(Host, Address, Limits, _, Message) :-
+    aggregate_all(count, carrier(Host, _, _), Count),
+    max_carriers(Max),
+    (   Count < Max
+    ->  true
+    ;   resource_error(fipa_destinations)
+    ),
+    sig_atomic(hire(Host, Address, Limits, Queue)),
+    thread_send_message(Queue, Message).
+
+hire(Host, Address, Limits, Queue) :-
+    message_queue_create(Queue),
+    assertz(carrier(Host, Address, Queue)),
+    catch(crew_start(carriage(Host), fipa_carrier,
+                     typhon_fipa_carriage:carry(Host, Address, Queue,
+                                                Limits),
+                     typhon_fipa_carriage:gone(Host, Address, Queue)),
+          error(Formal, Context),
+          ( forget(Host, Address, Queue),
+            throw(error(Formal, Context)) )).
+
+forget(Host, Address, Queue) :-
+    retractall(carrier(Host, Address, Queue)),
+    message_queue_destroy(Queue).
+
+%!  carriage_queued(+Host, -Count) is det.
+%
+%   Letters that wait.
+
+carriage_queued(Host, Count) :-
+    aggregate_all(sum(Size),
+                  ( carrier(Host, _, Queue),
+                    catch(message_queue_property(Queue, size(Size)),
+                          error(_, _), fail) ),
+                  Count).
+
+%!  carriage_close(+Host) is det.
+%
+%   Nothing is sent any more, not even what waits.
+
+carriage_close(Host) :-
+    crew_end(carriage(Host)).
+
+                /*******************************
+                *            CARRIERS          *
+                *******************************/
+
+carry(Host, Address, Queue, Limits) :-
+    Way = way(none),
+    setup_call_cleanup(
+        true,
+        carry_on(Host, Address, Queue, Limits, Way),
+        disconnect(Way)).
+
+gone(Host, Address, Queue) :-
+    with_mutex(typhon_fipa_carriage,
+               (   carrier(Host, Address, Queue)
+               ->  forget(Host, Address, Queue)
+               ;   true
+               )).
+
+carry_on(Host, Address, Queue, Limits, Way) :-
+    idle_seconds(Idle),
+    (   thread_get_message(Queue, send(Urls, Letter), [timeout(Idle)])
+    ->  sent(Urls, Host, Letter, Limits, Way),
+        carry_on(Host, Address, Queue, Limits, Way)
+    ;   with_mutex(typhon_fipa_carriage, idle(Host, Address, Queue))
+    ->  true
+    ;   carry_on(Host, Address, Queue, Limits, Way)
+    ).
+
+%   Threads that add to the queue hold the mutex.
+
+idle(Host, Address, Queue) :-
+    message_queue_property(Queue, size(0)),
+    forget(Host, Address, Queue).
+
+sent([Url|Urls], Host, Letter, Limits, Way) :-
+    option(seconds(Seconds), Limits),
+    catch(within(Seconds, exchange(Url, Letter, Way, Code)),
+          Ball,
+          failed(Ball, Way, Code)),
+    debug(typhon(fipa), '~w: a message to ~w: ~p', [Host, Url, Code]),
+    (   Code == 200
+    ->  true
+    ;   Urls == []
+    ->  Letter = letter(_, _, About),
+        why(Code, Why),
+        catch(ignore(returned(Host, About, Url, Why)),
+              error(Formal, Context),
+              print_error(error, error(Formal, Context)))
+    ;   disconnect(Way),
+        sent(Urls, Host, Letter, Limits, Way)
+    ).
+
+failed(Ball, Way, Code) :-
+    disconnect(Way),
+    (   Ball == time_limit_exceeded
+    ->  Code = slow
+    ;   Ball = error(Formal, _)
+    ->  Code = Formal
+    ;   throw(Ball)
+    ).
+
+why(slow, "it took too long").
+why(socket_error(_, Text), Why) :-
+    !,
+    format(string(Why), '~w', [Text]).
+why(Code, Why) :-
+    (   integer(Code)
+    ->  format(string(Why), 'HTTP status ~d', [Code])
+    ;   format(string(Why), '~p', [Code])
+    ).
+
+%   exchange(+Url, +Letter, !Way, -Code): a connection that is kept may have
+%   been closed by the other side just now: then a new one is tried.
+
+exchange(Url, Letter, Way, Code) :-
+    kept(Url, Way, In, Out),
+    catch(post(In, Out, Url, Letter, Code0, KeepAlive), error(_, _), fail),
+    !,
+    keep(KeepAlive, Way),
+    Code = Code0.
+exchange(Url, Letter, Way, Code) :-
+    disconnect(Way),
+    connect(Url, Way, In, Out),
+    (   post(In, Out, Url, Letter, Code0, KeepAlive)
+    ->  keep(KeepAlive, Way),
+        Code = Code0
+    ;   disconnect(Way),
+        Code = connection_closed
+    ).
+
+post(In, Out, Url, letter(Type, Body, _), Code, KeepAlive) :-
+    http_post(Out, Url, Type, Body),
+    http_response(In, Code, KeepAlive).
+
+%   kept(+Url, +Way, -In, -Out): there is a connection, and it is open: what
+%   can be read is the rest of an answer.
+
+kept(Url, way(open(Address, In, Out)), In, Out) :-
+    http_url(Url, Address, _),
+    \+ ended(In).
+
+ended(In) :-
+    wait_for_input([In], [_], 0),
+    peek_byte(In, Byte),
+    (   Byte == -1
+    ->  true
+    ;   read_pending_codes(In, _, []),
+        ended(In)
+    ).
+
+keep(true, _).
+keep(false, Way) :-
+    disconnect(Way).
+
+connect(Url, Way, In, Out) :-
+    http_url(Url, Address, _),
+    tcp_socket(Socket),
+    catch(( tcp_connect(Socket, Address),
+            tcp_setopt(Socket, nodelay),
+            tcp_open_socket(Socket, In, Out) ),
+          Ball,
+          ( tcp_close_socket(Socket),
+            throw(Ball) )),
+    nb_setarg(1, Way, open(Address, In, Out)),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)),
+    set_stream(In, newline(posix)),
+    set_stream(Out, newline(posix)).
+
+disconnect(Way) :-
+    arg(1, Way, Connection),
+    (   Connection = open(_, In, Out)
+    ->  nb_setarg(1, Way, none),
+        close(Out, [force(true)]),
+        close(In, [force(true)])
+    ;   true
+    ).

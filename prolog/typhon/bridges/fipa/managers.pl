@@ -1,0 +1,229 @@
+:- module(typhon_fipa_managers,
+          [ manager_answer/4,           % +Host, +Manager, +Acl, -Reply
+            manager_end/1               % +Host
+          ]).
+:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(solution_sequences), [limit/2]).
+:- use_module('../../kernel/agent', [agent/5]).
+:- use_module('../../kernel/travel', [home_agents/1]).
+:- use_module(acl, [acl_parameter/2]).
+:- use_module(aid, [aid/1, aid_name/2]).
+:- use_module(directory,
+              [ description_matches/2, directory_add/4, directory_entry/2,
+                directory_forget/1, directory_has/2, directory_remove/2 ]).
+:- use_module(platform, [platform/4, platform_aid/3, platform_local/3]).
+
+/** <module> The managers of a platform: AMS and DF
+
+They take requests of FIPA00023, in SL0: register, deregister, modify,
+search, and of the AMS get-description.  The AMS knows the agents of this
+process, and those born here, without being told; others may register with
+it as well.
+
+*Threading*: any thread.
+*/
+
+%   Of a search.
+
+max_results(1000).
+
+%!  manager_answer(+Host, +Manager, +Acl, -Reply) is semidet.
+%
+%   What Manager, `ams` or `df`, says to Acl: Reply is Performative-Content.
+%   Fails where nothing is to be said, as to an answer.
+
+manager_answer(Host, Manager, Acl, Reply) :-
+    Acl = acl(Performative, _),
+    \+ answers(Performative),
+    (   Performative \== request
+    ->  Reply = 'not-understood'-['unexpected-act'(Performative)]
+    ;   acl_parameter(Acl, content([Expression])),
+        subsumes_term(action(_, _), Expression),
+        Expression = action(_, Act)
+    ->  catch(done(Act, Manager, Host, Reply0), Ball, Reply0 = raised(Ball)),
+        about(Reply0, Expression, Reply)
+    ;   Reply = 'not-understood'-['unrecognised-value'(content)]
+    ).
+
+answers(inform).
+answers(failure).
+answers(refuse).
+answers(agree).
+answers('not-understood').
+answers(confirm).
+answers(disconfirm).
+
+about(done, Action, Reply) =>
+    Reply = inform-[done(Action)].
+about(result(Result), Action, Reply) =>
+    Reply = inform-[result(Action, Result)].
+about(refuse(Why), Action, Reply) =>
+    Reply = refuse-[Action, Why].
+about(failure(Why), Action, Reply) =>
+    Reply = failure-[Action, Why].
+about(raised(fipa(Reason)), Action, Reply) =>
+    about(Reason, Action, Reply).
+about(raised(error(Formal, _)), Action, Reply) =>
+    format(string(Why), '~p', [Formal]),
+    Reply = failure-[Action, 'internal-error'(Why)].
+about(raised(Ball), _, _) =>
+    throw(Ball).
+
+%!  manager_end(+Host) is det.
+%
+%   Remove all registrations.
+
+manager_end(Host) :-
+    directory_forget(ams(Host)),
+    directory_forget(df(Host)).
+
+                /*******************************
+                *            ACTIONS           *
+                *******************************/
+
+done(Act, Manager, Host, Reply), arguments(Act, register, [Description]) =>
+    described(Description, Manager, Name),
+    refuse_if(known(Manager, Host, Name), failure('already-registered')),
+    enter(Manager, Host, Name, Description),
+    Reply = done.
+done(Act, Manager, Host, Reply), arguments(Act, modify, [Description]) =>
+    described(Description, Manager, Name),
+    registered(Manager, Host, Name),
+    enter(Manager, Host, Name, Description),
+    Reply = done.
+done(Act, Manager, Host, Reply), arguments(Act, deregister, [Description]) =>
+    described(Description, Manager, Name),
+    registered(Manager, Host, Name),
+    Directory =.. [Manager,Host],
+    ignore(directory_remove(Directory, Name)),
+    Reply = done.
+done(Act, Manager, Host, Reply), arguments(Act, search, [Template|More]) =>
+    kind(Template, Manager),
+    constraint(More, Max),
+    findall(Description,
+            limit(Max, ( description(Manager, Host, Description),
+                         description_matches(Template, Description) )),
+            Found),
+    Reply = result(Found).
+done(Act, ams, Host, Reply), arguments(Act, 'get-description', _) =>
+    platform(Host, Name, Url, _),
+    Reply = result(['ap-description'(
+                        name:Name,
+                        'ap-services':set(['ap-service'(
+                            name:'fipa.mts.mtp.http.std',
+                            type:'fipa.mts.mtp.http.std',
+                            addresses:[Url])]))]).
+done(Act, _, _, _) =>
+    (   compound(Act)
+    ->  compound_name_arity(Act, Name, _)
+    ;   Name = Act
+    ),
+    throw(fipa(refuse('unsupported-function'(Name)))).
+
+arguments(Act, Name, Arguments) :-
+    compound(Act),
+    compound_name_arguments(Act, Name, Arguments).
+arguments(Name, Name, []) :-
+    atom(Name).
+
+refuse_if(Goal, Reason) :-
+    (   call(Goal)
+    ->  throw(fipa(Reason))
+    ;   true
+    ).
+
+%   A description says whose it is.
+
+described(Description, Manager, Name) :-
+    kind(Description, Manager),
+    compound_name_arguments(Description, Kind, Parameters),
+    (   memberchk(name:Aid, Parameters),
+        aid(Aid)
+    ->  aid_name(Aid, Name)
+    ;   throw(fipa(refuse('missing-parameter'(Kind, name))))
+    ).
+
+kind(Description, Manager) :-
+    kind_of(Manager, Kind),
+    (   compound(Description),
+        compound_name_arity(Description, Kind, _)
+    ->  true
+    ;   throw(fipa(refuse('unrecognised-value'(Kind))))
+    ).
+
+kind_of(ams, 'ams-agent-description').
+kind_of(df, 'df-agent-description').
+
+known(Manager, Host, Name) :-
+    Directory =.. [Manager,Host],
+    directory_has(Directory, Name),
+    !.
+known(ams, Host, Name) :-
+    living(Host, Name).
+
+living(Host, Name) :-
+    platform_local(Host, Name, Local),
+    (   memberchk(Local, [ams, df])
+    ;   agent(Local, _, _, _, _)
+    ;   home_agents(Ids),
+        memberchk(Local, Ids)
+    ),
+    !.
+
+%   An agent that lives here is not taken off the list by others.
+
+registered(Manager, Host, Name) :-
+    Directory =.. [Manager,Host],
+    (   directory_has(Directory, Name)
+    ->  true
+    ;   known(Manager, Host, Name)
+    ->  throw(fipa(refuse(unauthorised)))
+    ;   throw(fipa(failure('not-registered')))
+    ).
+
+enter(Manager, Host, Name, Description) :-
+    Directory =.. [Manager,Host],
+    until(Description, Until),
+    catch(directory_add(Directory, Name, Description, Until),
+          error(resource_error(_), _),
+          throw(fipa(failure('internal-error'("the directory is full"))))).
+
+until(Description, Until) :-
+    compound_name_arguments(Description, _, Parameters),
+    (   memberchk('lease-time':date(Stamp), Parameters)
+    ->  Until = Stamp
+    ;   Until = inf
+    ).
+
+                /*******************************
+                *            SEARCHES          *
+                *******************************/
+
+%   What is less than nothing means all.
+
+constraint(More, Max) :-
+    max_results(Most),
+    (   member(Constraints, More),
+        compound(Constraints),
+        compound_name_arguments(Constraints, 'search-constraints',
+                                Parameters),
+        memberchk('max-results':Wanted, Parameters),
+        integer(Wanted),
+        Wanted >= 0
+    ->  Max is min(Wanted, Most)
+    ;   Max = Most
+    ).
+
+description(Manager, Host, Description) :-
+    Directory =.. [Manager,Host],
+    directory_entry(Directory, Description).
+description(ams, Host, Description) :-
+    findall(Id, agent(Id, _, _, _, _), Here),
+    home_agents(Born),
+    append([[ams, df], Here, Born], All0),
+    sort(All0, All),
+    member(Local, All),
+    platform_aid(Host, Local, Aid),
+    aid_name(Aid, Name),
+    \+ directory_has(ams(Host), Name),
+    Description = 'ams-agent-description'(name:Aid, state:active).

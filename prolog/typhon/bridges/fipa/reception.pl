@@ -1,0 +1,154 @@
+:- module(typhon_fipa_reception,
+          [ reception_open/4,           % +Host, +Address, +Limits, -Port
+            reception_close/1           % +Host
+          ]).
+:- use_module(library(option), [option/2]).
+:- use_module(library(socket),
+              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_setopt/2,
+                tcp_socket/1 ]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/clients',
+              [client_becomes/1, clients_end/1, clients_start/4]).
+:- use_module(limit, [within/2]).
+:- use_module(http, [http_request/4, http_respond/3]).
+
+/** <module> Where messages come in
+
+Each client has a thread, as many at a time as there may be connections, see
+typhon_clients.  A request has only so many seconds to come, from its first byte
+to its last.
+
+*Threading*: an acceptor, and a thread for each client.
+*/
+
+:- multifile
+    requested/3.                % Host, Request, Code: what a request comes to
+
+:- dynamic
+    listens/2.                  % Host, Socket
+
+%   Between two requests, at most.
+
+idle_seconds(60).
+
+%   So that a client that sends too much can read the answer.
+
+max_drained(16000000).
+
+%!  reception_open(+Host, +Address, +Limits, -Port) is det.
+%
+%   Listen at Address, Interface:Port0, for Host.  Limits has
+%   connections(N), max_bytes(N) and seconds(S).
+%
+%   @error socket_error(Code, Message)
+
+reception_open(Host, Interface:Port0, Limits, Port) :-
+    tcp_socket(Socket),
+    catch(( tcp_setopt(Socket, reuseaddr),
+            Port = Port0,
+            tcp_bind(Socket, Interface:Port),
+            tcp_listen(Socket, 64),
+            assertz(listens(Host, Socket)),
+            option(connections(Most), Limits),
+            clients_start(fipa(Host), Socket, Most,
+                          typhon_fipa_reception:serve(Host, Limits))
+          ),
+          error(Formal, Context),
+          ( retractall(listens(Host, _)),
+            tcp_close_socket(Socket),
+            throw(error(Formal, Context)) )).
+
+%!  reception_close(+Host) is det.
+
+reception_close(Host) :-
+    (   retract(listens(Host, Socket))
+    ->  clients_end(fipa(Host)),
+        tcp_close_socket(Socket)
+    ;   true
+    ).
+
+                /*******************************
+                *            CLIENTS           *
+                *******************************/
+
+:- public serve/4.              % called by typhon_clients
+
+serve(_, _, none, Out) :-
+    !,
+    http_respond(Out, 503, false).
+serve(Host, Limits, In, Out) :-
+    set_stream(In, newline(posix)),
+    set_stream(Out, newline(posix)),
+    requests(Host, In, Out, Limits).
+
+requests(Host, In, Out, Limits) :-
+    client_becomes(idle),
+    idle_seconds(Idle),
+    set_stream(In, timeout(Idle)),
+    peek_byte(In, Byte),
+    Byte \== -1,
+    client_becomes(reading),
+    option(seconds(Seconds), Limits),
+    set_stream(In, timeout(Seconds)),
+    catch(within(Seconds, one_request(In, Out, Limits, Request)),
+          Ball,
+          Request = bad(Ball)),
+    client_becomes(busy),
+    answer(Request, Host, In, Out, KeepAlive),
+    KeepAlive == true,
+    requests(Host, In, Out, Limits).
+
+one_request(In, Out, Limits, Request) :-
+    option(max_bytes(Max), Limits),
+    http_request(In, Out, Max, Request).
+
+answer(bad(Ball), _, In, Out, false) :-
+    !,
+    (   bad(Ball, Code)
+    ->  http_respond(Out, Code, false),
+        drained(Code, In)
+    ;   throw(Ball)
+    ).
+answer(Request, Host, _, Out, KeepAlive) :-
+    Request = request(_, _, _, _, KeepAlive0),
+    (   catch(requested(Host, Request, Code0), error(Formal, Context),
+              ( print_error(error, error(Formal, Context)), fail ))
+    ->  Code = Code0,
+        KeepAlive = KeepAlive0
+    ;   Code = 500,
+        KeepAlive = false
+    ),
+    http_respond(Out, Code, KeepAlive).
+
+bad(time_limit_exceeded, 408).
+bad(error(Formal, _), Code) :-
+    bad_request(Formal, Code).
+
+bad_request(resource_error(http_body), 413) :- !.
+bad_request(resource_error(http_head), 413) :- !.
+bad_request(syntax_error(http_length), 411) :- !.
+bad_request(timeout_error(_, _), 408) :- !.
+bad_request(_, 400).
+
+%   What is closed while there is something to read is reset, and the answer
+%   is lost.
+
+drained(413, In) :-
+    !,
+    max_drained(Most),
+    set_stream(In, timeout(2)),
+    catch(catch(within(5, drain(In, Most)),
+                time_limit_exceeded, true),
+          error(_, _), true).
+drained(_, _).
+
+drain(In, Left) :-
+    (   Left > 0,
+        peek_byte(In, Byte),
+        Byte \== -1
+    ->  read_pending_codes(In, Codes, []),
+        length(Codes, Count),
+        Left1 is Left-Count,
+        drain(In, Left1)
+    ;   true
+    ).

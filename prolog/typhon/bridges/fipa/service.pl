@@ -1,0 +1,146 @@
+:- module(typhon_fipa_service,
+          [ fipa_property/2             % ?Host, ?Property
+          ]).
+:- use_module(library(error), [domain_error/2, permission_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
+:- use_module('../../kernel/base/options', [check_name/2, check_options/2]).
+:- use_module('../../kernel/program', [payload_load/2]).
+:- use_module('../../kernel/host', [host_option/2]).
+:- use_module('../common',
+              [service_begin/4, service_end/2, service_offer/4]).
+:- use_module(aid, [aid/1, aid_name/2]).
+:- use_module(carriage, [carriage_close/1, carriage_queued/2]).
+:- use_module(exchange, [exchange_send/4]).
+:- use_module(http, [http_url/3]).
+:- use_module(incoming, []).
+:- use_module(managers, [manager_end/1]).
+:- use_module(platform,
+              [ platform/4, platform_add/4, platform_aid/3,
+                platform_counts/2, platform_local/3, platform_remove/1 ]).
+:- use_module(reception, [reception_close/1, reception_open/4]).
+
+/** <module> A host as a platform of FIPA
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    typhon_abroad:carried/4,
+    typhon_names:known/2,
+    typhon_options:declared/4,
+    typhon_services:ends/2,
+    typhon_starting:starts/4.
+
+typhon_options:declared(fipa_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
+
+option_type(name(X), atom, X).
+option_type(bind(X), atom, X).
+option_type(queue(X), positive_integer, X).
+option_type(connections(X), positive_integer, X).
+option_type(max_bytes(X), positive_integer, X).
+option_type(seconds(X), positive_integer, X).
+
+typhon_starting:starts(fipa, Host, Url, Options) :-
+    check_options(fipa_option, Options),
+    real_time(Host),
+    option(name(Platform), Options, Host),
+    check_platform(Platform),
+    http_url(Url, _, _),
+    payload_load(payloads(fipa/reply), payload(_, PIs, Clauses)),
+    service_begin(fipa, Host, [], typhon_fipa_service),
+    catch(( service_offer(service(fipa), Host, PIs, Clauses),
+            open_platform(Host, Platform, Url, Options) ),
+          Ball,
+          ( service_end(fipa, Host),
+            throw(Ball) )).
+
+real_time(Host) :-
+    (   host_option(Host, clock(virtual))
+    ->  permission_error(start, fipa, Host)
+    ;   true
+    ).
+
+open_platform(Host, Platform, Url, Options) :-
+    http_url(Url, UrlHost:Port0, Path),
+    option(bind(Interface), Options, '127.0.0.1'),
+    limits(Options, Limits),
+    (   Port0 == 0
+    ->  true
+    ;   Port = Port0
+    ),
+    reception_open(Host, Interface:Port, Limits, Port),
+    atomic_list_concat(['http://', UrlHost, ':', Port, Path], Reached),
+    platform_add(Host, Platform, Reached, Limits).
+
+%   What stands after the last @ of a name.
+
+check_platform(Platform) :-
+    (   ( Platform == '' ; sub_atom(Platform, _, _, _, @) )
+    ->  domain_error(fipa_platform, Platform)
+    ;   true
+    ).
+
+limits(Options, [ queue(Queue), connections(Connections), max_bytes(Max),
+                  seconds(Seconds) ]) :-
+    option(queue(Queue), Options, 1000),
+    option(connections(Connections), Options, 64),
+    option(max_bytes(Max), Options, 2000000),
+    option(seconds(Seconds), Options, 10).
+
+typhon_services:ends(fipa, Host) :-
+    reception_close(Host),
+    carriage_close(Host),
+    ignore(platform_remove(Host)),
+    manager_end(Host).
+
+%!  fipa_property(?Host, ?Property) is nondet.
+%
+%   Of a host that is a platform: name(Atom), url(URL), what others call one
+%   of its agents, name(Id, Name), queued(N), messages that wait to go out,
+%   and counts since it was started: sent(N), received(N); failed(N), messages
+%   that nobody took; dropped(N), because there were too many; refused(N),
+%   requests that were no message.
+
+fipa_property(Host, Property) :-
+    check_name(fipa_property, Property),
+    platform(Host, Name, Url, _),
+    property(Property, Host, Name, Url).
+
+typhon_names:known(fipa_property, Property) :-
+    member(Property, [ name(_), name(_, _), url(_), queued(_), sent(_),
+                       received(_), failed(_), dropped(_), refused(_) ]).
+
+property(name(Name), _, Name, _).
+property(url(Url), _, _, Url).
+property(name(Id, Name), Host, _, _) :-
+    atom(Id),
+    platform_aid(Host, Id, Aid),
+    aid_name(Aid, Name).
+property(queued(Count), Host, _, _) :-
+    carriage_queued(Host, Count).
+property(Count, Host, _, _) :-
+    platform_counts(Host, Counts),
+    member(Count, Counts).
+
+                /*******************************
+                *             BRIDGE           *
+                *******************************/
+
+%   The host's own platform, that of the receiver, or any.
+
+typhon_abroad:carried(Host, To, From, Message) :-
+    aid(To),
+    way(Host, To, Way),
+    !,
+    exchange_send(Way, From, To, Message).
+
+way(Host, _, Host) :-
+    platform(Host, _, _, _).
+way(_, To, Host) :-
+    aid_name(To, Name),
+    platform(Host, _, _, _),
+    platform_local(Host, Name, _).
+way(_, _, Host) :-
+    platform(Host, _, _, _).

@@ -1,0 +1,170 @@
+:- module(typhon_helper_process,
+          [ process_begin/4,            % +Command, +Alias, :Heard, -Process
+            process_write/2,            % +Process, +Line
+            process_end/1,              % +Process
+            process_release/1,          % +Process
+            process_kill_of/1,          % +Owner
+            process_pid/2,              % ?Owner, ?Pid
+            helper_file/2               % +Relative, -File
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/json', [json_dict/2]).
+:- use_module('../../kernel/base/spawn', [spawn/3]).
+:- use_module(library(process), [process_kill/2, process_wait/3]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+
+/** <module> The process of a helper
+
+It reads lines from its standard input, and writes lines to its standard
+output.  It ends when its standard input does, and so never outlives this
+process.  It leads a session of its own: the interrupt key of a terminal is
+not for it.
+
+*Threading*: a process belongs to the thread that began it.  A thread of its
+own reads what it writes, waits for its end, and sends ended(Status) to the
+owner.  process_kill_of/1 may be called by any thread.
+*/
+
+:- meta_predicate process_begin(+, +, 1, -).
+
+:- dynamic
+    running/2,                  % Owner thread, Pid
+    bridges/1.                  % Directory
+
+:- prolog_load_context(directory, Dir),
+   absolute_file_name('../../../bridges', Bridges, [relative_to(Dir)]),
+   retractall(bridges(_)),
+   assertz(bridges(Bridges)).
+
+end_seconds(2).                 % between the end of its output and its own
+
+%!  helper_file(+Relative, -File) is det.
+%
+%   File is that of the folder `bridges`.
+
+helper_file(Relative, File) :-
+    bridges(Bridges),
+    atomic_list_concat([Bridges, Relative], /, File).
+
+%!  process_begin(+Command, +Alias, :Heard, -Process) is det.
+%
+%   Command is command(Program, Args), for process_create/3.  For each line
+%   that is a JSON object call(Heard, Dict) is run by the thread that reads,
+%   whose alias is made of Alias; while it runs nothing else is read.
+%
+%   @error existence_error(python, Program)
+
+process_begin(command(Program, Args), Alias, Heard, process(In, Reader)) :-
+    thread_self(Owner),
+    start(Program, Args, In, Out, Pid),
+    with_mutex(typhon_helper_pid, assertz(running(Owner, Pid))),
+    atom_concat(Alias, '_reader', ReaderAlias),
+    thread_create(follow(Owner, Pid, Out, Heard), Reader,
+                  [alias(ReaderAlias)]).
+
+start(Program, Args, In, Out, Pid) :-
+    catch(spawn(Program, Args,
+                [ stdin(pipe(In, [encoding(utf8)])),
+                  stdout(pipe(Out, [encoding(utf8)])),
+                  process(Pid), detached(true)
+                ]),
+          error(Formal, _),
+          no_program(Formal, Program)).
+
+no_program(Formal, Program) :-
+    format(atom(Text), '~p', [Formal]),
+    throw(error(existence_error(python, Program), context(_, Text))).
+
+%!  process_write(+Process, +Line) is det.
+%
+%   May wait for one that does not read.  If it has ended, nothing is
+%   written, and ended(Status) is on its way.
+
+process_write(process(In, _), Line) :-
+    catch(( write(In, Line), nl(In), flush_output(In) ),
+          error(Formal, _),
+          debug(typhon(helper), 'writing to a helper: ~p', [Formal])).
+
+%!  process_end(+Process) is det.
+%
+%   The order to end.  ended(Status) will come.
+
+process_end(process(In, _)) :-
+    catch(close(In, [force(true)]), error(_, _), true).
+
+%!  process_release(+Process) is det.
+%
+%   Gives up what belonged to one that has ended.
+
+process_release(process(In, Reader)) :-
+    process_end(process(In, Reader)),
+    thread_join(Reader, _).
+
+%!  process_kill_of(+Owner) is det.
+%!  process_pid(?Owner, ?Pid) is nondet.
+%
+%   End the process of the thread Owner at once, if there is one; the
+%   processes that run.
+
+process_kill_of(Owner) :-
+    with_mutex(typhon_helper_pid,
+               forall(running(Owner, Pid), kill(Pid))).
+
+process_pid(Owner, Pid) :-
+    running(Owner, Pid).
+
+kill(Pid) :-
+    catch(process_kill(Pid, kill), error(_, _), true).
+
+                /*******************************
+                *           FOLLOWING          *
+                *******************************/
+
+follow(Owner, Pid, Out, Heard) :-
+    catch(lines(Out, Heard), error(Formal, _),
+          debug(typhon(helper), 'reading from a helper: ~p', [Formal])),
+    close(Out, [force(true)]),
+    get_time(Now),
+    end_seconds(Seconds),
+    Deadline is Now+Seconds,
+    wait(Owner, Pid, Deadline, Status),
+    thread_send_message(Owner, ended(Status)).
+
+lines(Out, Heard) :-
+    read_line_to_string(Out, Line),
+    (   Line == end_of_file
+    ->  true
+    ;   line(Line, Heard),
+        lines(Out, Heard)
+    ).
+
+line(Line, Heard) :-
+    catch(json_dict(Line, Dict), error(_, _), fail),
+    is_dict(Dict),
+    !,
+    catch(ignore(call(Heard, Dict)), error(Formal, Context),
+          print_error(error, error(Formal, Context))).
+line(Line, _) :-
+    debug(typhon(helper), 'a helper says ~s', [Line]).
+
+%   Nobody may kill a number that belongs to another process by now, so it
+%   is taken off the list when the process is taken off the system's.
+
+wait(Owner, Pid, _, Status) :-
+    with_mutex(typhon_helper_pid, ended(Owner, Pid, Status)),
+    !.
+wait(Owner, Pid, Deadline, Status) :-
+    get_time(Now),
+    (   Now > Deadline
+    ->  kill(Pid)
+    ;   true
+    ),
+    sleep(0.005),
+    wait(Owner, Pid, Deadline, Status).
+
+ended(Owner, Pid, Status) :-
+    catch(process_wait(Pid, Status, [timeout(0)]), error(_, _),
+          Status = unknown),
+    Status \== timeout,
+    retractall(running(Owner, Pid)).

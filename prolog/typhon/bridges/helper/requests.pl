@@ -1,0 +1,229 @@
+:- module(typhon_helper_requests,
+          [ helper_open/3,              % +Name, +Command, +Options
+            helper_close/1,             % +Name
+            helper_ask/4,               % +Name, +Request, +Seconds, -Answer
+            helper_tell/2,              % +Name, +Request
+            helper_note/2,              % +Name, +Request
+            helper_pid/2,               % ?Name, ?Pid
+            helper_failure/3            % +Answer, +Name, +Request
+          ]).
+:- use_module(library(error), [existence_error/2, permission_error/3]).
+:- use_module(library(lists), [append/2]).
+:- use_module(library(option), [option/3]).
+:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module(answers,
+              [answer_unwanted/1, request_line/2, request_line/4]).
+:- use_module(owner, [own/5]).
+:- use_module(process, [process_kill_of/1, process_pid/2]).
+
+/** <module> Requests to helpers, and their answers
+
+Every helper has a thread that owns its process, see typhon_helper_owner.
+Answers, in whatever order, go to who waits for them.
+
+A helper ends what it does at the deadline of the request.  Who asked waits
+two seconds longer, then kills a helper that has not answered, so nothing
+hangs.
+
+*Threading*: any thread may ask.  It waits for its answer at a queue of its
+own, so what comes too late is for nobody.
+*/
+
+:- dynamic
+    helper/4.                   % Text, Owner thread, Queue of what was told,
+                                % Name: asked by Text, see the_helper/3
+
+grace_seconds(2).
+stop_seconds(5).
+most_told(1000).                % that are to be written
+
+%!  helper_open(+Name, +Command, +Options) is det.
+%
+%   From now on there is a helper Name.  Command is command(Program, Args),
+%   for process_create/3.  Options:
+%
+%     - restart(When): `asked`, default: the process is started when there
+%       is a request, also after it has ended; or `always`
+%
+%   @error permission_error(open, helper, Name) if there is one
+
+helper_open(Name, Command, Options) :-
+    option(restart(When), Options, asked),
+    with_mutex(typhon_helper, open_helper(Name, Command, When)).
+
+open_helper(Name, _, _) :-
+    text(Name, Text),
+    helper(Text, _, _, _),
+    !,
+    permission_error(open, helper, Name).
+open_helper(Name, Command, When) :-
+    owner_alias(Name, Alias),
+    text(Name, Text),
+    most_told(Max),
+    sig_atomic(( message_queue_create(Told, [max_size(Max)]),
+                 thread_create(own(Name, Command, When, Alias, Told),
+                               Owner, [alias(Alias)]),
+                 assertz(helper(Text, Owner, Told, Name)) )).
+
+%   One that is closed may have its name still.
+
+owner_alias(Name, Alias) :-
+    flag(typhon_helper_owner, N, N+1),
+    Name =.. Parts,
+    append([[typhon], Parts, [N]], All),
+    atomic_list_concat(All, '_', Alias).
+
+%!  helper_close(+Name) is det.
+%
+%   End the helper, which may do first what it does on `quit`.  Requests that
+%   are still open are answered `closed`.
+%
+%   @error existence_error(helper, Name)
+
+helper_close(Name) :-
+    in_own_thread(close_helper(Name)).
+
+close_helper(Name) :-
+    text(Name, Text),
+    (   retract(helper(Text, Owner, Told, _))
+    ->  true
+    ;   existence_error(helper, Name)
+    ),
+    thread_self(Me),
+    thread_send_message(Owner, stop(Me)),
+    stop_seconds(Seconds),
+    (   thread_get_message(Me, stopped(Owner), [timeout(Seconds)])
+    ->  true
+    ;   process_kill_of(Owner),
+        thread_get_message(Me, stopped(Owner))
+    ),
+    thread_join(Owner, _),
+    message_queue_destroy(Told).
+
+%!  helper_pid(?Name, ?Pid) is nondet.
+%
+%   The helpers that have a process now.
+
+helper_pid(Name, Pid) :-
+    helper(_, Owner, _, Name0),
+    Name = Name0,
+    process_pid(Owner, Pid).
+
+%!  helper_ask(+Name, +Request, +Seconds, -Answer) is det.
+%
+%   Request is a dict; the helper gets it with an `id`, and `timeout`.
+%   Answer is
+%
+%     - ok(Reply)
+%     - said(Dict): an error of the helper, with its `error`, a string that
+%       says which, and its `message`; `bad_request` and `timeout` are among
+%       them
+%     - died(Status): the process ended, Status as of process_wait/2
+%     - stuck: it had to be killed
+%     - closed: the helper was closed meanwhile
+%     - error(Formal, Context): it could not be started
+%
+%   @error existence_error(helper, Name)
+
+helper_ask(Name, Request, Seconds, Answer) :-
+    the_helper(Name, Owner, _),
+    request_line(Request, Seconds, Id, Line),
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ask(Name, Owner, request(Id, Queue, Line), Seconds, Answer),
+        ( answer_unwanted(Id),
+          message_queue_destroy(Queue) )).
+
+ask(Name, Owner, Request, Seconds, Answer) :-
+    Request = request(_, Queue, _),
+    pass(Name, Owner, Request),
+    grace_seconds(Grace),
+    Longest is Seconds+Grace,
+    (   thread_get_message(Queue, answer(Answer0), [timeout(Longest)])
+    ->  Answer = Answer0
+    ;   process_kill_of(Owner),
+        Answer = stuck
+    ).
+
+pass(Name, Queue, Message) :-
+    catch(thread_send_message(Queue, Message),
+          error(existence_error(_, _), _),
+          existence_error(helper, Name)).
+
+%!  helper_tell(+Name, +Request) is det.
+%!  helper_note(+Name, +Request) is det.
+%
+%   As helper_ask/4, without an answer, and if no process is running, to
+%   nobody.  Who tells waits while many are to be written, so that who is
+%   fast cannot fill the memory; who notes never waits.
+%
+%   @error existence_error(helper, Name)
+
+helper_tell(Name, Request) :-
+    the_helper(Name, Owner, Told),
+    request_line(Request, Line),
+    pass(Name, Told, Line),
+    pass(Name, Owner, told).
+
+helper_note(Name, Request) :-
+    the_helper(Name, Owner, _),
+    request_line(Request, Line),
+    pass(Name, Owner, note(Line)).
+
+%   An index on compound terms is not safe where other threads retract.
+
+the_helper(Name, Owner, Told) :-
+    text(Name, Text),
+    (   helper(Text, Owner0, Told0, _)
+    ->  Owner = Owner0,
+        Told = Told0
+    ;   existence_error(helper, Name)
+    ).
+
+text(Name, Text) :-
+    format(atom(Text), '~q', [Name]).
+
+                /*******************************
+                *             ERRORS           *
+                *******************************/
+
+:- multifile prolog:error_message//1.
+
+%!  helper_failure(+Answer, +Name, +Request) is failure.
+%
+%   Raise the error that an Answer other than ok(Reply) means, where there
+%   is nothing better to say.
+%
+%   @error timeout_error(Request, Name), helper_died(Status, Name),
+%   existence_error(helper, Name), helper_error(Kind, Name)
+
+helper_failure(Answer, Name, Request) :-
+    failure(Answer, Name, Request, Formal, Text),
+    throw(error(Formal, context(_, Text))).
+
+failure(said(Dict), Name, Request, Formal, Text) :-
+    get_dict(error, Dict, Kind),
+    get_dict(message, Dict, Text),
+    (   Kind == "timeout"
+    ->  Formal = timeout_error(Request, Name)
+    ;   atom_string(Atom, Kind),
+        Formal = helper_error(Atom, Name)
+    ).
+failure(died(Status), Name, _, helper_died(Status, Name), _).
+failure(stuck, Name, _, helper_died(stuck, Name), _).
+failure(closed, Name, _, existence_error(helper, Name), _).
+failure(error(Formal, context(_, Text)), _, _, Formal, Text).
+
+prolog:error_message(existence_error(python, Python)) -->
+    [ 'There is no Python ~w (install python3, or set \c
+       typhon_helper_python:python)'-[Python] ].
+prolog:error_message(existence_error(helper, Name)) -->
+    [ 'There is no helper ~p'-[Name] ].
+prolog:error_message(timeout_error(Request, Name)) -->
+    { helper(_, _, _, Name) },
+    [ 'The helper ~p did not do ~p in time'-[Name, Request] ].
+prolog:error_message(helper_died(Status, Name)) -->
+    [ 'The helper ~p ended: ~p'-[Name, Status] ].
+prolog:error_message(helper_error(Kind, Name)) -->
+    [ 'The helper ~p says ~w'-[Name, Kind] ].
+

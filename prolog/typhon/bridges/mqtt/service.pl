@@ -1,0 +1,256 @@
+:- module(typhon_mqtt_service,
+          [ mqtt_ask/3,                 % +Host, +Request, +Seconds
+            mqtt_note/2,                % +Host, +Request
+            mqtt_publish/4,             % +Host, +Message, +Wait, +Seconds
+            mqtt_default/3,             % +Host, +Option, +Default
+            mqtt_message/5              % +Topic, +Payload, +Options, +Kind,
+                                        % -Message
+          ]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../helper',
+              [ helper_ask/4, helper_close/1, helper_failure/3, helper_file/2,
+                helper_note/2, helper_open/3, helper_python/2, helper_tell/2 ]).
+:- use_module('../common',
+              [ service_begin/4, service_end/2, subscription/3 ]).
+:- use_module(incoming, [connection/1, connection_gone/1]).
+:- use_module(topics, [mqtt_payload/3, mqtt_topic/2]).
+:- use_module(url, [mqtt_url/2]).
+
+/** <module> The connection of a host to a broker
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    typhon_starting:starts/4,
+    typhon_helper_owner:again/2,
+    typhon_options:declared/4,
+    typhon_services:ends/2,
+    prolog:error_message//1.
+
+:- dynamic
+    started/3.                  % Host, Options, Request: to connect
+
+typhon_starting:starts(mqtt, Host, URL, Options) :-
+    check_options(mqtt_option, Options),
+    mqtt_url(URL, Parts),
+    request(Options, Parts, Request),
+    service_begin(mqtt, Host,
+                  [ publish/2, publish/3, subscribe/1, subscribe/2,
+                    unsubscribe/1 ],
+                  typhon_mqtt_words),
+    assertz(started(Host, Options, Request)),
+    catch(connect(Host, Options, Request), Ball,
+          ( service_end(mqtt, Host),
+            throw(Ball) )).
+
+connect(Host, Options, Request) :-
+    helper_python(Options, Python),
+    helper_file('mqtt/bridge.py', File),
+    helper_open(mqtt(Host), command(Python, ['-u', File]), [restart(always)]),
+    option(timeout(Seconds), Options, 10),
+    option(wait(Wait), Options, true),
+    mqtt_ask(Host, Request.put(wait, Wait), Seconds).
+
+typhon_options:declared(mqtt_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
+
+option_type(user(X), text, X).
+option_type(password(X), text, X).
+option_type(client(X), text, X).
+option_type(clean(X), boolean, X).
+option_type(will(X, _), text, X).
+option_type(will(X, _, Y), list, [X|Y]).
+option_type(keepalive(X), between(1, 65535), X).
+option_type(ca(X), ground, X).
+option_type(cert(X), ground, X).
+option_type(key(X), ground, X).
+option_type(insecure(X), boolean, X).
+option_type(payload(X), oneof([auto,json,text,bytes]), X).
+option_type(queue(X), positive_integer, X).
+option_type(pending(X), between(1, 1000000), X).
+option_type(largest(X), between(1, 33554432), X).
+option_type(timeout(X), between(0.001, 3600), X).
+option_type(wait(X), boolean, X).
+option_type(python(X), atom, X).
+
+%   What the helper has to know, also when it is started again.
+
+request(Options, Parts, Request) :-
+    option(clean(Clean), Options, true),
+    option(client(Client), Options, ''),
+    (   Clean == false,
+        Client == ''
+    ->  throw(error(existence_error(mqtt_option, client),
+                    context(_, 'for clean(false)')))
+    ;   true
+    ),
+    option(keepalive(Keepalive), Options, 60),
+    option(pending(Pending), Options, 1000),
+    option(largest(Largest), Options, 4194304),
+    findall(Key-Value, given(Key, Options, Value), Given),
+    will(Options, Will),
+    dict_pairs(More, _, Given),
+    Request = Parts.put(More).put(_{ do:connect, wait:false, clean:Clean,
+                                     client:Client, keepalive:Keepalive,
+                                     pending:Pending, largest:Largest,
+                                     will:Will }).
+
+given(Key, Options, Value) :-
+    member(Key, [user,password,insecure,ca,cert,key]),
+    Option =.. [Key,Value0],
+    option(Option, Options),
+    (   memberchk(Key, [ca,cert,key])
+    ->  absolute_file_name(Value0, Value, [access(read)])
+    ;   Value = Value0
+    ).
+
+will(Options, Will) :-
+    (   option(will(Topic, Payload), Options)
+    ->  More = []
+    ;   option(will(Topic, Payload, More), Options)
+    ),
+    !,
+    mqtt_message(Topic, Payload, More, auto, Will).
+will(_, false).
+
+%!  mqtt_message(+Topic, +Payload, +Options, +Kind, -Message:dict) is det.
+%
+%   What is to be published.  Options are those of publish/3, Kind is what
+%   the payload is if they do not say.
+%
+%   @error those of mqtt_topic/2 and mqtt_payload/3
+
+mqtt_message(Topic0, Payload0, Options, Kind0, Message) :-
+    check_options(mqtt_publish_option, Options),
+    mqtt_topic(Topic0, Topic),
+    option(payload(Kind), Options, Kind0),
+    mqtt_payload(Payload0, Kind, Payload),
+    option(qos(QoS), Options, 0),
+    option(retain(Retain), Options, false),
+    Message = _{ topic:Topic, payload:Payload, kind:Kind, qos:QoS,
+                 retain:Retain }.
+
+typhon_options:declared(mqtt_publish_option, Option, Type, Value) :-
+    publish_type(Option, Type, Value).
+
+publish_type(qos(X), between(0, 2), X).
+publish_type(retain(X), boolean, X).
+publish_type(payload(X), oneof([auto,json,text,bytes]), X).
+publish_type(wait(X), boolean, X).
+
+typhon_services:ends(mqtt, Host) :-
+    ignore(catch(helper_close(mqtt(Host)),
+                 error(existence_error(_, _), _), true)),
+    retractall(started(Host, _, _)),
+    connection_gone(Host).
+
+%!  mqtt_default(+Host, +Option, +Default) is det.
+%
+%   As option/3, of what Host was started with.
+%
+%   @error existence_error(mqtt, Host) if it was stopped meanwhile
+
+mqtt_default(Host, Option, Default) :-
+    (   started(Host, Options, _)
+    ->  option(Option, Options, Default)
+    ;   existence_error(mqtt, Host)
+    ).
+
+                /*******************************
+                *           REQUESTS           *
+                *******************************/
+
+%!  mqtt_ask(+Host, +Request, +Seconds) is det.
+%!  mqtt_note(+Host, +Request) is det.
+%
+%   @error mqtt_error(Problem, Host), Problem being one of unreachable, refused,
+%   tls, failed; timeout_error(mqtt(What), Host),
+%   and what helper_failure/3 says
+
+mqtt_ask(Host, Request, Seconds) :-
+    helper_ask(mqtt(Host), Request, Seconds, Answer),
+    (   Answer = ok(_)
+    ->  true
+    ;   failure(Answer, Host, Request)
+    ).
+
+failure(said(Dict), Host, Request) :-
+    get_dict(error, Dict, Text),
+    get_dict(message, Dict, Message),
+    atom_string(Kind, Text),
+    formal(Kind, Host, Request, Formal),
+    !,
+    throw(error(Formal, context(_, Message))).
+failure(Answer, Host, Request) :-
+    get_dict(do, Request, What),
+    helper_failure(Answer, mqtt(Host), What).
+
+formal(no_paho, _, _, existence_error(python_module, paho)).
+formal(unreachable, Host, _, mqtt_error(unreachable, Host)).
+formal(refused, Host, _, mqtt_error(refused, Host)).
+formal(tls, Host, _, mqtt_error(tls, Host)).
+formal(exception, Host, _, mqtt_error(failed, Host)).
+formal(full, _, _, resource_error(mqtt_pending)).
+formal(too_big, _, _, resource_error(mqtt_payload)).
+formal(denied, _, Request, permission_error(subscribe, mqtt_filter, Filter)) :-
+    get_dict(filter, Request, Filter).
+formal(timeout, Host, Request, timeout_error(mqtt(What), Host)) :-
+    get_dict(do, Request, What).
+
+%!  mqtt_publish(+Host, +Message, +Wait:boolean, +Seconds) is det.
+%
+%   What may be lost is not waited for, as long as there is a connection: a
+%   question for each would be half as fast.
+%
+%   @error those of mqtt_ask/3
+
+mqtt_publish(Host, Message, false, _) :-
+    get_dict(qos, Message, 0),
+    connection(Host),
+    fits(Host, Message),
+    !,
+    helper_tell(mqtt(Host), Message.put(_{do:publish, wait:false})).
+mqtt_publish(Host, Message, Wait, Seconds) :-
+    mqtt_ask(Host, Message.put(_{do:publish, wait:Wait}), Seconds).
+
+%   Surely not too big.
+
+fits(Host, Message) :-
+    get_dict(payload, Message, Text),
+    string(Text),
+    string_length(Text, Length),
+    mqtt_default(Host, largest(Largest), 4194304),
+    Length*4 =< Largest.
+
+mqtt_note(Host, Request) :-
+    helper_note(mqtt(Host), Request).
+
+typhon_helper_owner:again(mqtt(Host), Request) :-
+    connection_gone(Host),
+    started(Host, _, Request0),
+    findall(_{filter:Filter, kind:Kind, qos:2},
+            subscription(mqtt, Host, mqtt(Filter, Kind)),
+            Filters),
+    put_dict(filters, Request0, Filters, Request).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(mqtt_error(Problem, Host)) -->
+    { problem(Problem, Text) },
+    [ 'MQTT on ~w: ~w'-[Host, Text] ].
+prolog:error_message(existence_error(python_module, paho)) -->
+    [ 'This Python has no paho-mqtt (install it: apt install \c
+       python3-paho-mqtt, or pip install paho-mqtt)' ].
+prolog:error_message(timeout_error(mqtt(What), Host)) -->
+    [ 'MQTT on ~w: the broker has not answered ~w in time'-[Host, What] ].
+
+problem(unreachable, 'the broker cannot be reached').
+problem(refused, 'the broker refuses the connection').
+problem(tls, 'TLS cannot be used').
+problem(failed, 'the client library raises an exception').

@@ -1,0 +1,264 @@
+:- module(typhon_ros_events,
+          [ ros_ignored/2               % +Host, -Count
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module('../../kernel/agent', [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
+:- use_module('../../kernel/base/json', [atom_json_dict/3]).
+:- use_module('../common',
+              [ service/2, subscribers_tell/5, subscription/3,
+                unsubscribe/4 ]).
+:- use_module(answers, [answer_come/2, answers_fail/2]).
+:- use_module(frames, [frame_event/2, op_frame/2]).
+:- use_module(open_requests,
+              [goal_end/4, request_begin/3, request_end/3]).
+:- use_module(standing,
+              [standing/3, standing_again/3, standing_end/3]).
+:- use_module(values, [json_value/3]).
+:- use_module(ways, [way_note/2, way_option/3]).
+
+/** <module> What is heard of ROS
+
+Finds whom it concerns.  Agents get messages
+
+  | topic(Topic, Message)       | for which they have subscribed        |
+  | request(Id, Service, Request) | of a service that they offer        |
+  | feedback(Id, Feedback)      | of their goal Id                      |
+  | result(Id, Status, Result)  | likewise: the last one of it          |
+  | error(Text)                 | what is wrong with what they have said |
+
+from `ros`, and dropped(Key, Count), see typhon_inbox.
+
+*Threading*: the thread that reads from the server or our node.
+*/
+
+:- multifile
+    typhon_helper_answers:heard/2,
+    typhon_helper_owner:again/2,
+    typhon_inbox:dropped/3,
+    typhon_ros_rosbridge:heard/2,
+    typhon_ros_rosbridge:up/2,
+    typhon_ros_rosbridge:down/2,
+    typhon_services:ends/2,
+    typhon_subscribers:wanted/4.
+
+:- dynamic
+    ignored/2,                  % Host, Count
+    away/1.                     % Host: has lost ROS
+
+most_complaints(1000).          % that may wait for an agent
+
+                /*******************************
+                *          FROM WHERE          *
+                *******************************/
+
+typhon_ros_rosbridge:heard(Host, Read) :-
+    (   Read = text(Text),
+        catch(atom_json_dict(Text, Frame, []), error(_, _), fail),
+        is_dict(Frame)
+    ->  frame_event(Frame, Event)
+    ;   functor(Read, What, _),
+        Event = unknown(What)
+    ),
+    hear(Event, Host).
+
+typhon_helper_answers:heard(ros(Host), Dict) :-
+    get_dict(frame, Dict, Frame),
+    frame_event(Frame, Event),
+    hear(Event, Host).
+
+hear(Event, Host) :-
+    service(ros, Host),
+    debug(typhon(ros), '~w hears ~p', [Host, Event]),
+    happens(Event, Host),
+    !.
+hear(_, _).
+
+%   A server that comes back, or a node that is started again, knows nothing.
+
+typhon_ros_rosbridge:up(Host, _) :-
+    retract(away(Host)),
+    print_message(informational, typhon(ros_found(Host))),
+    fail.
+typhon_ros_rosbridge:up(Host, Frame) :-
+    standing(Host, _, Op),
+    op_frame(Op, Frame).
+
+typhon_ros_rosbridge:down(Host, Why) :-
+    (   Why \== stopped,
+        service(ros, Host)
+    ->  assertz(away(Host)),
+        print_message(warning, typhon(ros_lost(Host, Why)))
+    ;   true
+    ),
+    lost(Host, Why).
+
+typhon_helper_owner:again(ros(Host), _) :-
+    lost(Host, node_ended),
+    fail.
+typhon_helper_owner:again(ros(Host), _{do:frame, frame:Frame}) :-
+    standing(Host, _, Op),
+    op_frame(Op, Frame).
+
+lost(Host, Why) :-
+    answers_fail(Host, Why),
+    forget_requests(Host),
+    lose_goals(Host, Why).
+
+forget_requests(Host) :-
+    (   request_end(Host, _, _)
+    ->  forget_requests(Host)
+    ;   true
+    ).
+
+lose_goals(Host, Why) :-
+    (   goal_end(Host, Id, Agent, _)
+    ->  format(string(Text), 'lost: ~p', [Why]),
+        goal_over(Host, Id, Agent, failed, Text),
+        lose_goals(Host, Why)
+    ;   true
+    ).
+
+                /*******************************
+                *            TO WHOM           *
+                *******************************/
+
+happens(message(Topic, JSON), Host) :-
+    (   subscription(ros, Host, Topic)
+    ->  message(Host, JSON, Message),
+        subscribers_tell(ros, Host, Topic, topic(Topic, Message),
+                         topic(Topic, _))
+    ;   way_note(Host, unsubscribe(Topic))
+    ).
+happens(answer(Id, Answer), _) :-
+    ignore(answer_come(Id, Answer)).
+happens(request(Id, Service, JSON), Host) :-
+    (   subscription(ros, Host, service(Service)),
+        request_begin(Host, Id, Service)
+    ->  message(Host, JSON, Request),
+        subscribers_tell(ros, Host, service(Service),
+                         request(Id, Service, Request), request(Id, _, _))
+    ;   way_note(Host, respond(Id, Service, _{}, false))
+    ).
+happens(feedback(Id, JSON), Host) :-
+    message(Host, JSON, Feedback),
+    subscribers_tell(ros, Host, goal(Id), feedback(Id, Feedback),
+                     feedback(Id, _)).
+happens(result(Id, Status, JSON), Host) :-
+    goal_end(Host, Id, Agent, _),
+    message(Host, JSON, Result),
+    goal_over(Host, Id, Agent, Status, Result).
+happens(dropped(Topic, Count), Host) :-
+    subscribers_tell(ros, Host, Topic, dropped(Topic, Count),
+                     dropped(Topic, _)).
+happens(status(Level, Id, Text), Host) :-
+    complaint(Level, Id, Text, Host).
+happens(unknown(What), Host) :-
+    retract(ignored(Host, Count0)),
+    !,
+    Count is Count0+1,
+    assertz(ignored(Host, Count)),
+    debug(typhon(ros), '~w ignores ~p', [Host, What]).
+happens(unknown(What), Host) :-
+    assertz(ignored(Host, 1)),
+    print_message(warning, typhon(ros_ignored(Host, What))).
+
+%   Who calls need not wait for an agent that has no room, nor take it from
+%   others.
+
+typhon_inbox:dropped(ros, Host, request(Id, Service, _)) :-
+    request_end(Host, Id, Service),
+    way_note(Host, respond(Id, Service, _{}, false)).
+
+message(Host, JSON, Message) :-
+    way_option(Host, messages(Form), dict),
+    json_value(Form, JSON, Message).
+
+goal_over(Host, Id, Agent, Status, Result) :-
+    subscribers_tell(ros, Host, goal(Id), result(Id, Status, Result),
+                     result(Id, _, _)),
+    ignore(unsubscribe(ros, Host, goal(Id), Agent)).
+
+%   Of what the complaint is tells its id.
+
+complaint(Level, _, Text, Host) :-
+    \+ memberchk(Level, [error, warning]),
+    !,
+    debug(typhon(ros), '~w is told: ~w', [Host, Text]).
+complaint(error, Id, Text, _) :-
+    answer_come(Id, failed(Text)),
+    !.
+complaint(_, Id, Text, Host) :-
+    atom_concat('publish:', Agent, Id),
+    complain(Agent, Host, Text),
+    !.
+complaint(_, Id, Text, Host) :-
+    atom_concat('subscribe:', Topic, Id),
+    subscription(ros, Host, Topic),
+    !,
+    subscribers_tell(ros, Host, Topic, error(Text), error(_)).
+complaint(_, _, Text, Host) :-
+    print_message(warning, typhon(ros_complaint(Host, Text))).
+
+complain(Agent, Host, Text) :-
+    with_agent(Agent, ( agent(Agent, Host, _, _, _),
+                        mail_count(Agent, Count),
+                        most_complaints(Most),
+                        ( Count < Most
+                        -> agent_mail(Agent, [ros-error(Text)])
+                        ;  true
+                        ) )).
+
+%!  ros_ignored(+Host, -Count) is det.
+%
+%   How much has come that was no frame for us.
+
+ros_ignored(Host, Count) :-
+    (   ignored(Host, Count0)
+    ->  Count = Count0
+    ;   Count = 0
+    ).
+
+typhon_services:ends(ros, Host) :-
+    retractall(ignored(Host, _)),
+    retractall(away(Host)).
+
+                /*******************************
+                *       WHO WANTS IT STILL     *
+                *******************************/
+
+typhon_subscribers:wanted(ros, Host, Key, Wanted) :-
+    wanted(Wanted, Key, Host).
+
+wanted(false, service(Service), Host) =>
+    ignore(standing_end(Host, service(Service), _)),
+    refuse_all(Host, Service),
+    way_note(Host, withdraw(Service)).
+wanted(false, goal(Id), Host) =>
+    (   goal_end(Host, Id, _, Action)
+    ->  way_note(Host, cancel(Id, Action))
+    ;   true
+    ).
+wanted(false, Topic, Host) =>
+    ignore(standing_end(Host, topic(Topic), _)),
+    way_note(Host, unsubscribe(Topic)).
+wanted(true, goal(Id), Host) =>         % it was cancelled meanwhile
+    subscribers_tell(ros, Host, goal(Id),
+                     result(Id, failed, "cancelled: the agent had set out"),
+                     result(Id, _, _)).
+wanted(true, service(Service), Host) =>
+    again(Host, service(Service)).
+wanted(true, Topic, Host) =>
+    again(Host, topic(Topic)).
+
+again(Host, Key) :-
+    (   standing_again(Host, Key, Op)
+    ->  way_note(Host, Op)
+    ;   true
+    ).
+
+refuse_all(Host, Service) :-
+    (   request_end(Host, Id, Service)
+    ->  way_note(Host, respond(Id, Service, _{}, false)),
+        refuse_all(Host, Service)
+    ;   true
+    ).

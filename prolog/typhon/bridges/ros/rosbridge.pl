@@ -1,0 +1,329 @@
+:- module(typhon_ros_rosbridge,
+          [ rosbridge_open/4,           % +Host, +URL, +Seconds, +Silence
+            rosbridge_close/1,          % +Host
+            rosbridge_send/3,           % +Host, +Frame, +Seconds
+            rosbridge_up/1              % ?Host
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [resource_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../kernel/base/json', [atom_json_dict/3]).
+:- use_module(socket,
+              [ socket_bye/1, socket_close/1, socket_open/3, socket_ping/1,
+                socket_read/2, socket_write/2 ]).
+
+/** <module> The way to ROS over a rosbridge server
+
+A thread connects, and reads; when the connection is lost it connects
+again, after a tenth of a second, then twice as long, up to ten.  A second
+thread writes what waits in its queue, which is bounded: who says more than
+the server reads has to wait, and has an error in the end.
+
+*Threading*: rosbridge_send/3 may be called in any thread.  The hooks are
+run by the thread that reads, which reads nothing meanwhile.
+*/
+
+:- multifile
+    heard/2,                    % Host, Read: as of socket_read/2
+    up/2,                       % Host, Frame: to be said first of all
+    down/2.                     % Host, Why: `stopped` if it was closed here
+
+:- dynamic
+    heard/2, up/2, down/2,
+    reader/2,                   % Host, Thread
+    writer/2.                   % Host, Thread: while there is a connection
+
+longest_queue(1000).
+first_wait(0.1).
+longest_wait(10).
+bye_seconds(1).
+soon(5).                        % seconds, for a connection to end
+
+%!  rosbridge_open(+Host, +URL, +Seconds, +Silence) is det.
+%
+%   Connect, within Seconds, and stay connected.  A server that has said
+%   nothing for Silence seconds, pings included, is gone.
+%
+%   @error What socket_open/3 raises, timeout_error(connect, URL)
+
+rosbridge_open(Host, URL, Seconds, Silence) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        first_attempt(link(Host, URL, Silence, Queue), Seconds, Result),
+        message_queue_destroy(Queue)),
+    (   Result == true
+    ->  true
+    ;   rosbridge_close(Host),
+        throw(Result)
+    ).
+
+first_attempt(Link, Seconds, Result) :-
+    Link = link(Host, URL, _, Queue),
+    alias(reader, Host, Alias),
+    first_wait(Wait),
+    thread_create(catch(connected(Link, Wait),
+                        typhon_ros_stop, true),
+                  Reader, [alias(Alias)]),
+    assertz(reader(Host, Reader)),
+    (   thread_get_message(Queue, attempt(Result0), [timeout(Seconds)])
+    ->  Result = Result0
+    ;   Result = error(timeout_error(connect, URL), _)
+    ).
+
+%   Of one that is being closed there may be the name still.
+
+alias(Role, Host, Alias) :-
+    flag(typhon_ros_thread, N, N+1),
+    atomic_list_concat([typhon_ros, Role, Host, N], '_', Alias).
+
+%!  rosbridge_up(?Host) is nondet.
+
+rosbridge_up(Host) :-
+    writer(Host, _).
+
+%!  rosbridge_send(+Host, +Frame:dict, +Seconds) is det.
+%
+%   Frame is on its way when there is room for it in the queue, at most
+%   Seconds from now.
+%
+%   @error ros_error(not_connected, Host), resource_error(ros_queue)
+
+rosbridge_send(Host, Frame, Seconds) :-
+    frame_text(Frame, Text),
+    (   writer(Host, Writer),
+        catch(pass(Writer, write(Text), Seconds),
+              error(existence_error(_, _), _), fail)
+    ->  true
+    ;   throw(error(ros_error(not_connected, Host), _))
+    ).
+
+frame_text(Frame, Text) :-
+    atom_json_dict(Text, Frame, [as(string), width(0)]).
+
+pass(Writer, Message, Seconds) :-
+    (   thread_send_message(Writer, Message, [timeout(Seconds)])
+    ->  true
+    ;   resource_error(ros_queue)
+    ).
+
+%!  rosbridge_close(+Host) is det.
+%
+%   A server that does not answer our farewell within a second is left
+%   without.
+
+rosbridge_close(Host) :-
+    (   retract(reader(Host, Reader))
+    ->  in_own_thread(close_down(Host, Reader))
+    ;   true
+    ).
+
+close_down(Host, Reader) :-
+    thread_self(Me),
+    catch(thread_send_message(Reader, stop(Me)),
+          error(existence_error(_, _), _), true),
+    (   farewell(Host),
+        bye_seconds(Seconds),
+        thread_get_message(Me, stopped(Reader), [timeout(Seconds)])
+    ->  true
+    ;   ignore(interrupt(Reader))
+    ),
+    thread_join(Reader, _).
+
+%   When Prolog halts it aborts its threads.  library(http/websocket) swallows
+%   that: the connection would seem closed, and the reader would connect again.
+%   So connections are closed before.  A wait with a deadline might not end in
+%   a hook of halt/0 on 9.0.4; this one polls.
+
+:- at_halt(close_all).
+
+close_all :-
+    findall(Reader, ( retract(reader(Host, Reader)), leave(Host, Reader) ),
+            Readers),
+    get_time(Now),
+    bye_seconds(Seconds),
+    Deadline is Now+Seconds,
+    await_ends(Readers, Deadline).
+
+leave(Host, Reader) :-
+    thread_self(Me),
+    Reader \== Me,
+    catch(thread_send_message(Reader, stop(Me)),
+          error(existence_error(_, _), _), fail),
+    (   farewell(Host)
+    ->  true
+    ;   interrupt(Reader)
+    ).
+
+await_ends(Readers, Deadline) :-
+    (   member(Reader, Readers),
+        catch(thread_property(Reader, status(running)),
+              error(existence_error(_, _), _), fail),
+        get_time(Now),
+        Now < Deadline
+    ->  sleep(0.01),
+        await_ends(Readers, Deadline)
+    ;   true
+    ).
+
+farewell(Host) :-
+    writer(Host, Writer),
+    catch(thread_send_message(Writer, bye, [timeout(0)]),
+          error(existence_error(_, _), _), fail).
+
+interrupt(Thread) :-
+    catch(thread_signal(Thread, throw(typhon_ros_stop)),
+          error(existence_error(_, _), _), fail).
+
+                /*******************************
+                *            READING           *
+                *******************************/
+
+connected(Link, Wait) :-
+    Link = link(Host, URL, Silence, Asker),
+    catch(socket_open(URL, Silence, Socket), error(Formal, Context), true),
+    (   nonvar(Socket)
+    ->  get_time(Start),
+        catch(served(Link, Socket), error(Kind, Where),
+              print_error(error, error(Kind, Where))),
+        pause_after(Start, Wait, Pause)
+    ;   tell(Asker, error(Formal, Context)),
+        debug(typhon(ros), '~w: ~w is not there: ~p', [Host, URL, Formal]),
+        Pause = Wait
+    ),
+    pause(Link, Pause).
+
+%   One that ends its connections at once is not asked at once.
+
+pause_after(Start, Wait, Pause) :-
+    get_time(Now),
+    soon(Soon),
+    (   Now-Start > Soon
+    ->  first_wait(Pause)
+    ;   Pause = Wait
+    ).
+
+pause(Link, Pause) :-
+    thread_self(Me),
+    (   thread_get_message(Me, stop(Who), [timeout(Pause)])
+    ->  thread_send_message(Who, stopped(Me))
+    ;   longest_wait(Longest),
+        Longer is min(Longest, 2*Pause),
+        connected(Link, Longer)
+    ).
+
+%   The thread that connects waits for the first attempt.
+
+tell(Asker, Result) :-
+    catch(thread_send_message(Asker, attempt(Result)),
+          error(existence_error(_, _), _),
+          true).
+
+%   Not by a cleanup handler, in which nobody may wait; so who is interrupted
+%   while it tidies up does that again.
+
+served(Link, Socket) :-
+    Link = link(Host, _, Silence, _),
+    writer_begin(Host, Silence, Socket, Writer),
+    catch(served_until(Link, Socket, Writer, Why), Ball, true),
+    catch(tidy(Host, Writer, Socket), typhon_ros_stop,
+          tidy(Host, Writer, Socket)),
+    debug(typhon(ros), '~w: the connection has ended: ~p', [Host, Why]),
+    ignore(lost(Host, Why)),
+    ( var(Ball) -> true ; throw(Ball) ).
+
+%   The reader of a host that is closed, or of a process that halts, is not
+%   known any more.
+
+lost(Host, Why) :-
+    thread_self(Me),
+    (   reader(Host, Me)
+    ->  down(Host, Why)
+    ;   down(Host, stopped)
+    ).
+
+tidy(Host, Writer, Socket) :-
+    retractall(writer(Host, _)),
+    writer_end(Writer),
+    socket_close(Socket).
+
+served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
+    findall(Frame, up(Host, Frame), Before),
+    said_to(Before, Writer, Silence),
+    assertz(writer(Host, Writer)),
+    findall(Frame, ( up(Host, Frame), \+ memberchk(Frame, Before) ), Since),
+    said_to(Since, Writer, Silence),
+    tell(Asker, true),
+    catch(read_on(Host, Socket, Why), error(Why, _), true).
+
+%   What begins to hold while this is said may be said twice.
+
+said_to([], _, _).
+said_to([Frame|Frames], Writer, Seconds) :-
+    frame_text(Frame, Text),
+    pass(Writer, write(Text), Seconds),
+    said_to(Frames, Writer, Seconds).
+
+read_on(Host, Socket, Why) :-
+    socket_read(Socket, Read),
+    (   Read = end(Why0)
+    ->  Why = Why0
+    ;   catch(heard(Host, Read), error(Formal, Context),
+              print_error(error, error(Formal, Context))),
+        read_on(Host, Socket, Why)
+    ).
+
+                /*******************************
+                *            WRITING           *
+                *******************************/
+
+writer_begin(Host, Silence, Socket, Writer) :-
+    alias(writer, Host, Alias),
+    longest_queue(Max),
+    Every is Silence/3,
+    thread_self(Me),
+    thread_create(writes(Socket, Every, Me), Writer,
+                  [alias(Alias), queue_max_size(Max)]).
+
+writes(Socket, Every, Reader) :-
+    catch(write_on(Socket, Every), typhon_ros_stop, true),
+    thread_self(Me),
+    thread_send_message(Reader, written(Me)).
+
+%   It ends by itself when the server is gone.
+
+write_on(Socket, Every) :-
+    thread_self(Me),
+    (   thread_get_message(Me, Message, [timeout(Every)])
+    ->  true
+    ;   Message = ping
+    ),
+    (   catch(say(Message, Socket), error(_, _), fail),
+        Message \== bye
+    ->  write_on(Socket, Every)
+    ;   true
+    ).
+
+say(write(Text), Socket) :-
+    socket_write(Socket, Text).
+say(ping, Socket) :-
+    socket_ping(Socket).
+say(bye, Socket) :-
+    socket_bye(Socket).
+
+%   One that writes to a server which does not read is stuck, and again when it
+%   is interrupted, because the library writes what is left.
+
+writer_end(Writer) :-
+    thread_self(Me),
+    writer_stop(Writer, Me),
+    catch(thread_join(Writer, _), error(existence_error(_, _), _), true),
+    ignore(thread_get_message(Me, written(Writer), [timeout(0)])).
+
+writer_stop(Writer, Me) :-
+    interrupt(Writer),
+    \+ thread_get_message(Me, written(Writer), [timeout(0.1)]),
+    !,
+    writer_stop(Writer, Me).
+writer_stop(_, _).

@@ -1,0 +1,340 @@
+:- module(typhon_agents,
+          [ agent/5,                    % ?Id, ?Host, ?Module, ?Hash, ?Life
+            agent_status/3,             % ?Id, ?Status, ?Goals
+            agent_enter/3,              % +Agent, +Status, +Goals
+            agent_remove/3,             % +Id, -Mail, -Orders
+            agent_mobile/6,             % +Id, -Host, -Module, -Hash, -Life,
+                                        % -Until
+            agent_move/5,               % +Id, +Host, +Module, +Life, +Until
+            agent_put_life/2,           % +Id, +Life
+            agent_program/4,            % +Id, +Hash, +Module, +Life
+            agent_put/3,                % +Id, +Status, +Goals
+            agent_rest/3,               % +Id, +Status, +Goals
+            agent_take/3,               % +Id, -Goals, -Order
+            agent_departs/3,            % +Id, -Dest, -Goals
+            agent_resumes/2,            % +Id, -Goals
+            agent_ready/2,              % +Id, +Goals
+            agent_wakes/2,              % +Id, +Goals
+            agent_mail/2,               % +Id, +Messages
+            agent_room/2                % +Id, -Room
+          ]).
+:- use_module(library(debug), [debug/3, debugging/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../options/journal',
+              [journal_on/0, journal_seal/0, note_drop/3]).
+:- use_module('../host', [events_forget/1, quota/3, schedule/2]).
+:- use_module(agent_orders,
+              [agent_ordered/1, agent_unorder/2, agent_unorder_all/2]).
+:- use_module(alone_with, [with_agent/2]).
+:- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
+:- use_module(stay, [stay_begins/4, stay_ends/1]).
+:- use_module(traces, [traces_heard/2]).
+
+/** <module> Agents that stand in this process
+
+The records of agents, each with one owner: this module.  An agent is
+
+  - a module of its name with its state, see typhon_agent_module;
+  - a life, see typhon_life;
+  - a status, one of `ready`, `running`, sleeping(Until),
+    waiting(Pattern, Until), `resident`, `held`, `resumed`, `obeying`,
+    leaving(Host, At), transit(Host, Sent), cloning(Host, Sent) or
+    faulty(Error), with the goals still to run.  While a control predicate is
+    under way the goals are Hole-Goals, see typhon_machine;
+  - a mailbox, see typhon_mailbox, and orders, see typhon_agent_orders.
+
+Changes of the database are what a hop costs most of.  So an agent that
+runs has no status at all: whoever removes `ready` has it.
+
+The tables must be asked by id, or by atoms: an index on compound terms,
+which Prolog makes by itself, is not safe where other threads retract
+(9.0.4 aborts in deleteActiveClauseFromBucket).
+
+*Threading*: what changes a record runs inside with_agent/2.
+*/
+
+:- multifile
+    typhon_code:in_use/1,
+    typhon_quotas:set/1,
+    put_down/3.                 % Id, Status, Goals: noted in the journal
+
+%   The name under which people know it.
+
+:- setting(typhon_creation:faulty_mail, nonneg, 1000,
+           "Messages kept for an agent that is faulty").
+
+:- dynamic
+    stands/6,                   % Id, Host, Module, Hash, Life, Until
+    status/3.                   % Id, Status, Goals; none: it runs
+
+%!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
+%
+%   The agents of this process: where they stand, the module of their
+%   state, the hash of their program, and their life.
+
+agent(Id, Host, Module, Hash, Life) :-
+    stands(Id, Host, Module, Hash, Life, _).
+
+typhon_code:in_use(Hash) :-
+    stands(_, _, _, Hash, _, _),
+    !.
+
+%   Other quotas count for who stands there, too.
+
+typhon_quotas:set(Host) :-
+    forall(stands(Id, Host, _, _, _, _),
+           ignore(with_agent(Id, stays_on(Id, Host)))).
+
+stays_on(Id, Host) :-
+    stands(Id, Host, Module, Hash, _, _),
+    !,
+    stay_begins(Id, Host, Module, Hash).
+
+%!  agent_enter(+Agent, +Status, +Goals) is det.
+%!  agent_remove(+Id, -Mail:list, -Orders:list) is semidet.
+%
+%   Begin the record of an agent, Agent being its agent/5; forget it, with
+%   its module.
+
+agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
+    assertz(stands(Id, Host, Module, Hash, Life, 0)),
+    noted(Id, Status, Goals),
+    assertz(status(Id, Status, Goals)),
+    stay_begins(Id, Host, Module, Hash),
+    traces_heard(Id, Life).
+
+%   Before others can see it.
+
+noted(Id, Status, Goals) :-
+    (   journal_on
+    ->  put_down(Id, Status, Goals)
+    ;   true
+    ).
+
+agent_remove(Id, Mail, Orders) :-
+    retract(stands(Id, _, Module, _, _, _)),
+    retractall(status(Id, _, _)),
+    stay_ends(Id),
+    (   journal_on
+    ->  note_drop(agent, Id, 0)
+    ;   true
+    ),
+    mail_all(Id, Mail),
+    agent_unorder_all(Id, Orders),
+    '$destroy_module'(Module).
+
+%!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
+%!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
+%
+%   As agent/5, for one who is to travel; the agent is on Host from now on,
+%   with its state in Module; another
+%   module that it had is no more.  Until says that its state can travel as
+%   it was then, see agent_changed/4; it is 0 until somebody has looked.
+
+agent_mobile(Id, Host, Module, Hash, Life, Until) :-
+    stands(Id, Host, Module, Hash, Life, Until),
+    !.
+
+agent_move(Id, Host, Module, Life, Until) :-
+    stands(Id, _, Old, Hash, _, _),
+    !,
+    assertz(stands(Id, Host, Module, Hash, Life, Until)),
+    forget_first(Id),
+    stay_begins(Id, Host, Module, Hash),
+    (   Old == Module
+    ->  true
+    ;   '$destroy_module'(Old)
+    ).
+
+                /*******************************
+                *            STATUS            *
+                *******************************/
+
+%!  agent_status(?Id, ?Status, ?Goals) is nondet.
+
+agent_status(Id, Status, Goals) :-
+    status(Id, Status, Goals).
+agent_status(Id, running, []) :-
+    agent(Id, _, _, _, _),
+    \+ status(Id, _, _).
+
+%!  agent_put(+Id, +Status, +Goals) is det.
+
+%
+%   With a journal this is where what has led to it is sealed.
+
+agent_put(Id, Status, Goals) :-
+    (   journal_on
+    ->  put_down(Id, Status, Goals),
+        journal_seal
+    ;   true
+    ),
+    retractall(status(Id, _, _)),
+    assertz(status(Id, Status, Goals)).
+
+put_status(Id, Status, Goals) :-
+    retractall(status(Id, _, _)),
+    assertz(status(Id, Status, Goals)).
+
+%!  agent_rest(+Id, +Status, +Goals) is det.
+%
+%   Id, which was running, rests, unless an order has come meanwhile.
+
+agent_rest(Id, Status, Goals) :-
+    (   agent_ordered(Id)
+    ->  agent_ready(Id, Goals)
+    ;   agent_put(Id, Status, Goals)
+    ).
+
+%!  agent_take(+Id, -Goals, -Order) is semidet.
+%
+%   Id, which is ready, runs from now on, Order being `none`, or obeys the
+%   oldest order.
+
+agent_take(Id, Goals, Order) :-
+    retract(status(Id, ready, Goals)),
+    !,
+    (   agent_unorder(Id, Oldest)
+    ->  assertz(status(Id, obeying, Goals)),
+        Order = Oldest
+    ;   Order = none
+    ).
+
+%!  agent_departs(+Id, -Dest, -Goals) is semidet.
+%
+%   Id, which was leaving for Dest, belongs to the caller from now on: an
+%   order from outside can no longer end it.
+
+agent_departs(Id, Dest, Goals) :-
+    retract(status(Id, leaving(Dest, _), Goals)),
+    !.
+
+%!  agent_resumes(+Id, -Goals) is semidet.
+%
+%   Id, which was held and is to go on, belongs to the caller from now on.
+
+agent_resumes(Id, Goals) :-
+    retract(status(Id, resumed, Goals)),
+    !.
+
+%!  agent_ready(+Id, +Goals) is semidet.
+%!  agent_wakes(+Id, +Goals) is semidet.
+%
+%   Id goes on with Goals when its turn comes.  The second is for one that has
+%   rested with these goals.  Fails if it was ended meanwhile.
+
+agent_ready(Id, Goals) :-
+    agent(Id, Host, _, _, _),
+    !,
+    agent_put(Id, ready, Goals),
+    schedule(Host, Id).
+
+agent_wakes(Id, Goals) :-
+    agent(Id, Host, _, _, _),
+    !,
+    put_status(Id, ready, Goals),
+    schedule(Host, Id).
+
+%!  agent_put_life(+Id, +Life) is det.
+
+agent_put_life(Id, Life) :-
+    stands(Id, Host, Module, Hash, _, Until),
+    !,
+    assertz(stands(Id, Host, Module, Hash, Life, Until)),
+    forget_first(Id),
+    events_forget(Id),
+    traces_heard(Id, Life).
+
+%!  agent_program(+Id, +Hash, +Module, +Life) is det.
+%
+%   The agent has the program Hash from now on, with its state in Module; its
+%   other module is no more.
+
+agent_program(Id, Hash, Module, Life) :-
+    stands(Id, Host, Old, _, _, _),
+    !,
+    assertz(stands(Id, Host, Module, Hash, Life, 0)),
+    forget_first(Id),
+    '$destroy_module'(Old).
+
+%   Others always find one.  Not by clause reference: see typhon_erased.
+
+forget_first(Id) :-
+    retract(stands(Id, _, _, _, _, _)),
+    !.
+
+                /*******************************
+                *             MAIL             *
+                *******************************/
+
+%!  agent_mail(+Id, +Messages:list) is semidet.
+%
+%   Put Messages in the mailbox and wake the agent if it waits for one.  The
+%   mailbox of one that is faulty holds so many, and no more.  Fails if there
+%   is no such agent.
+
+agent_mail(Id, Messages) :-
+    stands(Id, _, _, _, _, _),
+    !,
+    (   status(Id, Status, Goals)
+    ->  mail_to(Status, Id, Goals, Messages)
+    ;   put_mail(Messages, Id)
+    ).
+
+%!  agent_room(+Id, -Room:nonneg) is semidet.
+%
+%   On the host where Id stands there is a quota for its mailbox, and there is
+%   room for so many messages in it.
+
+agent_room(Id, Room) :-
+    stands(Id, Host, _, _, _, _),
+    quota(Host, mailbox, Most),
+    !,
+    mail_count(Id, Count),
+    Room is max(0, integer(Most)-Count).
+
+put_mail(Messages, Id) :-
+    (   debugging(typhon(mail))
+    ->  tell_mail(Messages, Id)
+    ;   true
+    ),
+    mail_put(Id, Messages).
+
+tell_mail([], _).
+tell_mail([Message|Messages], Id) :-
+    debug(typhon(mail), '~w: gets ~p', [Id, Message]),
+    tell_mail(Messages, Id).
+
+mail_to(faulty(_), Id, _, Messages) :-
+    !,
+    keep_mail(Messages, Id).
+mail_to(Status, Id, Goals, Messages) :-
+    put_mail(Messages, Id),
+    (   wakes(Status, Messages)
+    ->  agent_wakes(Id, Goals)
+    ;   true
+    ).
+
+%   Who asks a faulty one again and again is told once.
+
+keep_mail([], _).
+keep_mail([Message|Messages], Id) :-
+    setting(typhon_creation:faulty_mail, Max),
+    mail_count(Id, Count),
+    (   Count < Max
+    ->  debug(typhon(mail), '~w: will get ~p', [Id, Message]),
+        mail_put(Id, [Message])
+    ;   debug(typhon(mail), '~w: has no room for ~p', [Id, Message])
+    ),
+    (   Count =:= Max-1
+    ->  print_message(warning, typhon(mailbox_full(Id, Max)))
+    ;   true
+    ),
+    keep_mail(Messages, Id).
+
+wakes(resident, [_|_]).
+wakes(waiting(Pattern, _), Messages) :-
+    member(Message, Messages),
+    \+ Pattern \= Message,
+    !.

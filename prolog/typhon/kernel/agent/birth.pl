@@ -1,0 +1,214 @@
+:- module(typhon_birth,
+          [ birth_papers/5,             % +Id, +Hash, +Endpoint, +Sent, -Papers
+            birth_sent/2,               % +Papers, -Sent
+            birth_proved/4,             % +Papers, +Peer, +Id, +Hash
+            birth_unproved/2,           % +Endpoint, +Id
+            birth_good/1,               % +Birth
+            birth_shown/2               % +Id, -Birth
+          ]).
+
+/** <module> Who owns an agent
+
+Where processes have keys an agent that leaves the process in which it was
+born has what that one has signed,
+
+    birth(Id, Hash, Certificate, Hex)
+
+Id is its own, and says who the owner is, see typhon_identity; Hash is that of
+its program, and Certificate that of the owner. Nobody else can make one, so
+an id belongs to the owner, and to one program. And since it is shown to
+nobody but those to whom the agent goes, and to its home, who shows it has had
+the agent.
+
+It goes along with the program, to who lacks it as far as we know; and who has
+shown it once need not again.
+
+*Threading*: any thread; a mutex makes those who remember come one by one.
+*/
+
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [sum_list/2]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../base/keys', [keys_sign/3, keys_verify/4]).
+:- use_module('../../options/journal', [note_drop/3, note_put/4]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1,
+                endpoint_peer/2, endpoint_proof/2 ]).
+:- use_module(agents, [agent/5]).
+:- use_module(identity,
+              [agent_home_endpoint/2, agent_owned/1, agent_owned/2]).
+
+:- multifile
+    typhon_bounded:forgotten/1,
+    typhon_identity:ids_anew/0,
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
+
+:- setting(births, positive_integer, 20000,
+           "Of so many agents that were here it is remembered who owns them").
+
+:- dynamic
+    known/2,                            % Id, Birth: a good one
+    has/2.                              % Id, Proof: who can prove that has it
+
+typhon_identity:ids_anew :-
+    retractall(known(_, _)),
+    retractall(has(_, _)).
+
+%!  birth_papers(+Id, +Hash, +Endpoint, +Sent, -Papers) is det.
+%!  birth_sent(+Papers, -Sent) is det.
+%!  birth_unproved(+Endpoint, +Id) is det.
+%
+%   Papers are sent to Endpoint instead of Sent, the program of Id, of that
+%   Hash, or `known`. They lack the birth of Id there, after all.
+
+birth_papers(Id, Hash, Endpoint, Sent, Papers) :-
+    endpoint_keys(_),
+    proof_of(Endpoint, Proof),
+    \+ believed(Proof, Id),
+    birth(Id, Hash, Birth),
+    !,
+    now_has(Id, Proof),
+    Papers = papers(Birth, Sent).
+birth_papers(_, _, _, Sent, Sent).
+
+proof_of(Endpoint, Proof) :-
+    endpoint_peer(Endpoint, proof(Proof)),
+    !.
+proof_of(_, unknown).
+
+believed(Proof, Id) :-
+    has(Id, Proof),
+    !.
+believed(Proof, Id) :-
+    is_ours(Proof, Id).
+
+%   Who has our own keys can sign what we can.
+
+is_ours(Proof, Id) :-
+    endpoint_own_proof(Proof),
+    agent_owned(Id).
+
+now_has(_, unknown) :-
+    !.
+now_has(Id, Proof) :-
+    with_mutex(typhon_birth,
+               ( retractall(has(Id, Proof)),
+                 assertz(has(Id, Proof)),
+                 bounded(has(_, _), typhon_birth:births) )).
+
+birth_sent(Papers, Sent) :-
+    (   subsumes_term(papers(_, _), Papers)
+    ->  Papers = papers(_, Sent)
+    ;   Sent = Papers
+    ).
+
+birth_unproved(Endpoint, Id) :-
+    proof_of(Endpoint, Proof),
+    with_mutex(typhon_birth, retractall(has(Id, Proof))).
+
+birth(Id, Hash, Birth) :-
+    known(Id, Birth0),
+    Birth0 = birth(_, Hash, _, _),
+    !,
+    Birth = Birth0.
+birth(Id, Hash, birth(Id, Hash, Certificate, Hex)) :-
+    agent_owned(Id),
+    endpoint_keys(Keys),
+    birth_text(Id, Hash, Text),
+    keys_sign(Keys, Text, signature(Pem, Hex)),
+    atom_string(Certificate, Pem),      % which many share
+    remember(Id, birth(Id, Hash, Certificate, Hex)).
+
+birth_text(Id, Hash, Text) :-
+    atomic_list_concat(['typhon birth', Id, Hash], ' ', Text).
+
+remember(Id, Birth) :-
+    note_put(birth, Id, 0, Birth),
+    with_mutex(typhon_birth,
+               ( retractall(known(Id, _)),
+                 assertz(known(Id, Birth)),
+                 bounded(known(_, _), typhon_birth:births) )).
+
+%   Of those who are here nobody else may know it.
+
+typhon_bounded:forgotten(known(Id, Birth)) :-
+    (   agent(Id, _, _, _, _)
+    ->  assertz(known(Id, Birth))
+    ;   note_drop(birth, Id, 0)
+    ).
+
+typhon_durable:dump(birth, Id, 0, Birth) :-
+    known(Id, Birth).
+typhon_durable:restore(birth, Id, _, Birth) :-
+    retractall(known(Id, _)),
+    assertz(known(Id, Birth)).
+
+%!  birth_proved(+Papers, +Peer, +Id, +Hash) is semidet.
+%
+%   Papers, which may be anything, show that Peer may bring Id with a program
+%   of that Hash, or it has shown that before; or there are no keys here.
+
+birth_proved(Papers, Peer, Id, Hash) :-
+    (   endpoint_keys(_)
+    ->  endpoint_proof(Peer, Proof),
+        once(proved(Papers, Proof, Id, Hash))
+    ;   true
+    ).
+
+proved(_, Proof, Id, Hash) :-
+    has(Id, Proof),
+    known(Id, birth(_, Hash, _, _)).
+proved(_, Proof, Id, _) :-
+    is_ours(Proof, Id).
+proved(Papers, Proof, Id, Hash) :-
+    subsumes_term(papers(birth(Id, Hash, _, _), _), Papers),
+    arg(1, Papers, Birth),
+    birth_good(Birth),
+    now_has(Id, Proof).
+
+%!  birth_good(+Birth) is semidet.
+%
+%   The owner has signed Birth, which may be anything, and which is not longer
+%   than it should be.
+
+birth_good(Birth) :-
+    ground(Birth),
+    Birth = birth(Id, Hash, Certificate, Hex),
+    (   known(Id, Birth)
+    ->  true
+    ;   short([Id, Hash, Certificate]),
+        endpoint_keys(Keys),
+        birth_text(Id, Hash, Text),
+        atom_string(Certificate, Pem),
+        keys_verify(Keys, Text, signature(Pem, Hex), host(Owner)),
+        agent_owned(Id, Owner),
+        at_home(Id),
+        remember(Id, Birth)
+    ).
+
+%   What is good is kept, here and in the journal, and anybody with keys of his
+%   own can sign what he likes.
+
+short(Atoms) :-
+    maplist(atom, Atoms),
+    maplist(atom_length, Atoms, Lengths),
+    sum_list(Lengths, Length),
+    Length =< 20 000.
+
+%   Nobody else's was born here.
+
+at_home(Id) :-
+    agent_owned(Id),
+    !.
+at_home(Id) :-
+    agent_home_endpoint(Id, Home),
+    \+ endpoint_address(Home).
+
+%!  birth_shown(+Id, -Birth) is semidet.
+%
+%   What shows that we have, or had, the agent Id of another owner.
+
+birth_shown(Id, Birth) :-
+    known(Id, Birth).

@@ -1,0 +1,183 @@
+:- module(typhon_image,
+          [ image_hop/6,                % +Id, -Hops, +Goals, ?Mail, +Since,
+                                        % -Image
+            image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
+            image_hash/2,               % +Image, -Hash
+            image_label/2,              % +Image, -Label
+            image_entrant/2,            % +Image, -Entrant
+            image_entered/3,            % +Peer, +Image0, -Image
+            image_trail/4,              % +Event, +Host, +Image0, -Image
+            image_module/3,             % +Image, +Place, -Agent
+            image_enter/4               % +Image, +Host, +Agent, +More
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [type_error/2]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../../options/journal', [journal_key/2, journal_on/0]).
+:- use_module('../host', [event_heard/1, host/3]).
+:- use_module('../wire', [endpoint_keys/1]).
+:- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
+:- use_module(agent_module, [agent_standing/5, agent_state/2]).
+:- use_module(identity, [agent_home/2]).
+:- use_module(legacy, [legacy_none/2]).
+:- use_module(owner, [owner_entered/3, owner_inherited/3]).
+:- use_module(trail, [trail_link/5, trail_none/2]).
+:- use_module(life,
+              [is_life/1, life_clone/3, life_hop/3, life_hops/2]).
+
+/** <module> What of an agent goes over the wire
+
+    image(Id, Hash, Life, State, Goals, Mail, Since)
+
+Hash names its program, Mail is a list of From-Message, the oldest first,
+and Since the host time at which it set out, or From-Since where somebody
+wants to know from which host.
+
+*Threading*: any thread; image_enter/4 inside with_agent/2.
+*/
+
+%!  image_hop(+Id, -Hops, +Goals, ?Mail, +Since, -Image) is det.
+%!  image_clone(+Id, +CloneId, +Goals, +Since, -Image) is det.
+%
+%   Image is what Id is now, on its way with that many hops; or what its
+%   clone is to be elsewhere.
+
+image_hop(Id, Hops, Goals, Mail, Since,
+          image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+    agent(Id, Host, Module, Hash, Life0),
+    life_hop(Life0, Life, Hops),
+    agent_state(Module, State),
+    start(Host, Since, Start).
+
+image_clone(Id, CloneId, Goals, Since,
+            image(CloneId, Hash, Life, State, Goals, [], Start)) :-
+    agent(Id, Host, Module, Hash, Life0),
+    life_clone(Id, Life0, Life1),
+    life_hop(Life1, Life, _),
+    agent_state(Module, State0),
+    legacy_none(State0, State1),
+    trail_none(State1, State2),
+    owner_inherited(Id, State2, State),
+    start(Host, Since, Start).
+
+start(Host, Since, Start) :-
+    (   event_heard(hops),
+        host(Host, Address, _)
+    ->  Start = Address-Since
+    ;   Start = Since
+    ).
+
+%!  image_entrant(+Image, -Entrant) is det.
+%
+%   Entrant is what gate/4 has to know of Image.
+
+image_entrant(image(Id, Hash, Life, State, _, Mail, _),
+              entrant(Id, Hash, Life, State, Mail)).
+
+%!  image_trail(+Event, +Host, +Image0, -Image) is det.
+%
+%   Where there are keys Image has one link more in its trail, of Host, a host
+%   of this process, see trail_link/5.
+
+image_trail(Event, Host, Image0, Image) :-
+    (   endpoint_keys(_)
+    ->  signed(Event, Host, Image0, Image)
+    ;   Image = Image0
+    ).
+
+signed(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
+       image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+    life_hops(Life, Hops),
+    trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
+
+%!  image_entered(+Peer, +Image0, -Image) is det.
+%
+%   Image is what comes if the process at Peer sends Image0, once the trail says
+%   that it was received.
+
+image_entered(Peer, image(Id, Hash, Life, State0, Goals, Mail, Start),
+              image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+    owner_entered(Peer, State0, State).
+
+%!  image_hash(+Image, -Hash) is det.
+
+image_hash(image(_, Hash, _, _, _, _, _), Hash).
+
+%!  image_label(+Image, -Label) is det.
+%
+%   What one has to know of Image before it is installed: Label is
+%   label(Id, Hops, Since, From), From being `none` or the host that it left.
+%   What is not an agent is refused.  Whether the state can be installed is seen
+%   when its module is made.
+%
+%   @error type_error(agent_image, Name)
+
+image_label(Image, label(Id, Hops, Since, From)) :-
+    (   is_image(Image)
+    ->  Image = image(Id, _, Life, _, _, _, Start),
+        started(Start, Since, From),
+        life_hops(Life, Hops)
+    ;   image_name(Image, Name),
+        type_error(agent_image, Name)
+    ).
+
+started(Start, Since, From) :-
+    (   number(Start)
+    ->  Since = Start,
+        From = none
+    ;   Start = From-Since
+    ).
+
+is_image(image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+    atom(Id),
+    agent_home(Id, _),
+    atom(Hash),
+    is_life(Life),
+    may_be_noted(Id, Life),
+    subsumes_term(state(_, _), State),
+    State = state(Empty, Clauses),
+    maplist(is_list, [Empty, Clauses, Goals, Mail]),
+    forall(member(Message, Mail), subsumes_term(_-_, Message)),
+    is_start(Start).
+
+may_be_noted(Id, Life) :-
+    (   journal_on
+    ->  life_hops(Life, Hops),
+        journal_key(Id, Hops)
+    ;   true
+    ).
+
+is_start(Start) :-
+    number(Start),
+    !.
+is_start(Start) :-
+    subsumes_term(_-_, Start),
+    Start = From-Since,
+    atom(From),
+    number(Since).
+
+%   The whole would be too long for a message.
+
+image_name(image(Id, _, _, _, _, _, _), Name) :-
+    atom(Id),
+    !,
+    Name = Id.
+image_name(Image, Name/Arity) :-
+    callable(Image),
+    !,
+    functor(Image, Name, Arity).
+image_name(Image, Image).
+
+%!  image_module(+Image, +Place, -Agent) is semidet.
+%!  image_enter(+Image, +Host, +Agent, +More:list) is det.
+%
+%   Install the agent in two steps: make its module, as agent_standing/5, and
+%   then its record, with its mail and More.  It is ready, but not scheduled.
+
+image_module(image(Id, Hash, _, State, Goals, _, _), Place, Agent) :-
+    agent_standing(Id, Place, Hash, State-Goals, Agent).
+
+image_enter(image(Id, Hash, Life, _, _, Mail0, _), Host, Module-Goals, More) :-
+    agent_enter(agent(Id, Host, Module, Hash, Life), ready, Goals),
+    append(Mail0, More, Mail),
+    agent_mail(Id, Mail).

@@ -1,0 +1,141 @@
+:- module(typhon_mailbox,
+          [ mail_put/2,                 % +Id, +Messages
+            mail_take/2,                % +Id, ?Message
+            mail_restore/3,             % +Id, +N, +Message
+            mail_all/2,                 % +Id, -Messages
+            mail_list/2,                % +Id, -Messages
+            mail_count/2,               % +Id, -Count
+            mail_back/2                 % +Id, +Messages
+          ]).
+:- use_module(library(lists), [append/3]).
+:- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
+:- use_module('../../options/journal',
+              [ journal_number/1, journal_on/0, journal_seal/0, note_drop/3,
+                note_drop_all/2, note_put/4 ]).
+
+/** <module> The mailboxes of agents
+
+A mailbox is a message queue, made for the first message and gone with the
+agent.  A table of messages that all agents share would not do: while other
+threads add clauses to it, listing those of one agent yields some twice
+(9.0.4, retract/1, clause/2 and the bare call alike).  It would be slower,
+too.
+
+Each message has a number, under which it is in the journal, if there is one.
+What is put in the journal before it can be taken cannot be taken twice.
+
+*Threading*: inside with_agent/2 of the agent, see typhon_agents; only
+mail_put/2 may add to a queue, and nobody waits at one.
+*/
+
+:- dynamic box/2.                       % Id, Queue
+
+%!  mail_put(+Id, +Messages:list) is det.
+
+mail_put(_, []) :-
+    !.
+mail_put(Id, Messages) :-
+    box_of(Id, Queue),
+    (   journal_on
+    ->  noted(Messages, Id, Numbered),
+        journal_seal,
+        put_all(Numbered, Queue)
+    ;   put_bare(Messages, Queue)
+    ).
+
+box_of(Id, Queue) :-
+    box(Id, Queue),
+    !.
+box_of(Id, Queue) :-
+    message_queue_create(Queue),
+    assertz(box(Id, Queue)).
+
+%!  mail_restore(+Id, +N, +Message) is det.
+%
+%   Put back a message that is in the journal under the number N.
+
+mail_restore(Id, N, Message) :-
+    box_of(Id, Queue),
+    thread_send_message(Queue, mail(Message, N)).
+
+noted([], _, []).
+noted([Message|Messages], Id, [mail(Message, N)|Numbered]) :-
+    journal_number(N),
+    note_put(mail, Id, N, Message),
+    noted(Messages, Id, Numbered).
+
+put_bare([], _).
+put_bare([Message|Messages], Queue) :-
+    thread_send_message(Queue, mail(Message, 0)),
+    put_bare(Messages, Queue).
+
+put_all([], _).
+put_all([Message|Messages], Queue) :-
+    thread_send_message(Queue, Message),
+    put_all(Messages, Queue).
+
+%!  mail_take(+Id, ?Message) is semidet.
+%
+%   The oldest message that unifies.
+
+mail_take(Id, Message) :-
+    box(Id, Queue),
+    fifo_take(Queue, mail(Message, N)),
+    (   journal_on
+    ->  note_drop(mail, Id, N)
+    ;   true
+    ).
+
+%!  mail_all(+Id, -Messages:list) is det.
+%!  mail_list(+Id, -Messages:list) is det.
+%
+%   All messages, the oldest first.  mail_all/2 takes the mailbox away.
+
+mail_all(Id, Messages) :-
+    (   retract(box(Id, Queue))
+    ->  fifo_empty(Queue, Numbered),
+        bare(Numbered, Messages),
+        note_drop_all(mail, Id),
+        message_queue_destroy(Queue)
+    ;   Messages = []
+    ).
+
+mail_list(Id, Messages) :-
+    (   box(Id, Queue)
+    ->  fifo_empty(Queue, Numbered),
+        bare(Numbered, Messages),
+        put_all(Numbered, Queue)
+    ;   Messages = []
+    ).
+
+bare([], []).
+bare([mail(Message, _)|Numbered], [Message|Messages]) :-
+    bare(Numbered, Messages).
+
+%!  mail_count(+Id, -Count:nonneg) is det.
+
+mail_count(Id, Count) :-
+    box(Id, Queue),
+    catch(message_queue_property(Queue, size(Count0)),
+          error(existence_error(_, _), _), fail),
+    !,
+    Count = Count0.
+mail_count(_, 0).
+
+%!  mail_back(+Id, +Messages:list) is det.
+%
+%   Messages were there before those that are there now.  Nobody can take them
+%   before the caller has put down what becomes of the agent: it is sealed with
+%   that.
+
+mail_back(_, []) :-
+    !.
+mail_back(Id, Older) :-
+    mail_all(Id, Newer),
+    append(Older, Newer, Messages),
+    box_of(Id, Queue),
+    (   journal_on
+    ->  noted(Messages, Id, Numbered),
+        put_all(Numbered, Queue)
+    ;   put_bare(Messages, Queue)
+    ).

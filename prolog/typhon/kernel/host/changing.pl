@@ -1,0 +1,84 @@
+:- module(typhon_changing,
+          [ host_change/2               % +Host, +Option
+          ]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/options', [check_option/2]).
+:- use_module('../../options/journal', [journal_barrier/0]).
+:- use_module(front, [front_set/3]).
+:- use_module(host_options, [host_listed/2]).
+:- use_module(known_hosts, [note_host/1]).
+:- use_module(host_names, [host_resolve/2]).
+:- use_module(hosts, [host/3, host_option/2, host_put/2]).
+:- use_module(permits, [must_be_peer_rules/1]).
+:- use_module(place, [place_offer/2]).
+:- use_module(quotas, [quota_set/3]).
+:- use_module(remote, [remote/2]).
+:- use_module(scheduler, [scheduler_limit/2]).
+
+/** <module> Changing hosts that run
+
+*Threading*: any thread; a change, and the start and the end of a host, exclude
+each other by a mutex.
+*/
+
+%!  host_change(+Host, +Option) is det.
+%
+%   Change an option of a host that runs, here or elsewhere: tokens, capacity,
+%   authors, concurrency, hop_time, log, audit, peer, policy, python, quota,
+%   remote, seed or trail, as of host_start/2, or services, to which those given
+%   are added.  Who stands on the host stays, also where fewer are let in from
+%   now on.
+%
+%   @error existence_error(host, Host)
+%   @error permission_error(change, host_option, Option)
+
+host_change(Host, Option) :-
+    check_option(host_option, Option),
+    host_resolve(Host, Where),
+    change_at(Where, Option).
+
+change_at(local(Name), Option) :-
+    with_mutex(typhon_hosting, ( change(Option, Name), note_host(Name) )),
+    journal_barrier.
+change_at(remote(Address, Name, _), Option) :-
+    remote(Address, typhon_changing:host_change(Name, Option)).
+
+change(concurrency(Concurrency), Name) =>
+    host_put(Name, concurrency(Concurrency)),
+    scheduler_limit(Name, Concurrency).
+change(services(Services0), Name) =>
+    host(Name, _, Place),
+    host_listed(Services0, Services),
+    forall(member(Service, Services), place_offer(Place, Service)).
+change(policy(Policy), Name) =>
+    host(Name, _, Place),
+    front_set(Name, Place, Policy),
+    host_put(Name, policy(Policy)),
+    quota_anew(Name).
+change(peer(Rules), Name) =>
+    must_be_peer_rules(Rules),
+    host_put(Name, peer(Rules)).
+change(quota(Quotas), Name) =>
+    host_put(Name, quota(Quotas)),
+    quota_anew(Name).
+change(Option, Name), changes(Option) =>
+    host_put(Name, Option).
+change(Option, _) =>
+    permission_error(change, host_option, Option).
+
+quota_anew(Name) :-
+    ( host_option(Name, policy(Policy)) -> true ; Policy = trusted ),
+    ( host_option(Name, quota(Quotas)) -> true ; Quotas = [] ),
+    quota_set(Name, Policy, Quotas).
+
+changes(audit(_)).
+changes(tokens(_)).
+changes(authors(_)).
+changes(trail(_)).
+changes(capacity(_)).
+changes(hop_time(_)).
+changes(log(_)).
+changes(python(_)).
+changes(remote(_)).
+changes(seed(_)).

@@ -1,0 +1,408 @@
+:- module(typhon_hosting,
+          [ host_start/1,               % +Name
+            host_start/2,               % +Name, +Options
+            host_restart/2,             % +Name, +Options
+            host_stop/1,                % +Name
+            hosts_journal/2,            % +Where, +Options
+            hosts_back/1,               % +Options
+            hosts_go_on/0,
+            hosts_rest/0
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error),
+              [ domain_error/2, existence_error/2, must_be/2,
+                permission_error/3 ]).
+:- use_module(library(lists), [append/3, member/2, selectchk/3]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/options', [check_options/2]).
+:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../../options/journal',
+              [ journal_barrier/0, journal_begin/0, journal_close/0,
+                journal_closed/0, journal_end/0, journal_opened/1,
+                journal_place/2 ]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
+:- use_module(clock, [clock_clear/1, clock_set/3]).
+:- use_module(events, [event/4, events_forget/1]).
+:- use_module(front, [front_set/3]).
+:- use_module(host_log, []).
+:- use_module(host_options, [host_listed/2]).
+:- use_module(hosts,
+              [host/3, host_add/4, host_close/1, host_remove/1]).
+:- use_module(host_names, [address_parts/3, host_resolve/2]).
+:- use_module(known_hosts,
+              [ forget_host/1, host_known/2, known_not_here/2, known_open/2,
+                known_with/3, note_host/1 ]).
+:- use_module(links, [host_unlink/2]).
+:- use_module(permits, [must_be_peer_rules/1]).
+:- use_module(place, [place_create/4, place_destroy/1]).
+:- use_module(quotas, [quota_forget/1, quota_set/3]).
+:- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
+:- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
+:- use_module(time, [time_kind/1, time_let_go/1]).
+
+/** <module> Starting and stopping hosts
+
+A host holds a place, a clock, an entry in the scheduler, and with the
+other users of the process its endpoint, see typhon_runtime.
+
+*Threading*: host_start/2 and host_stop/1 exclude each other by a mutex.
+*/
+
+:- setting(stop_seconds, number, 2,
+           "Agents have so long to come to an effect when their host stops").
+
+:- multifile
+    begins/1,                   % Name: is there, who wants may listen
+    typhon_durable:tidy/0,     % nobody is let in yet
+    typhon_durable:recover/0,  % what the journal knows stands again
+    typhon_durable:go_on/0,    % and goes on
+    evacuate/2.                 % Name, Deadline: nobody is left on the host
+
+:- dynamic
+    typhon_durable:recover/0,
+    typhon_durable:tidy/0,
+    typhon_durable:go_on/0,
+    evacuate/2,
+    from_journal/1.             % Name: was started because the journal says so
+
+                /*******************************
+                *             START            *
+                *******************************/
+
+%!  host_start(+Name) is det.
+%!  host_start(+Name, +Options) is det.
+%
+%   Start a host in this process.  Options:
+%
+%     - port(+Port): of the endpoint of the process, 0 for any.  A later
+%       host may have a port of its own, for which the process listens, too,
+%       as long as the host runs
+%     - bind(+Interface): default localhost; only for the first host
+%     - tls(+Directory): the keys of this process, see doc/keys.md; all its
+%       connections are TLS 1.3, both sides with certificates; only for the
+%       first host
+%     - trail(+Boolean): whether it signs what it receives and hands on of
+%       agents, see agent_trail/2; default `true` where there are keys
+%     - authors(+Names): admit only agents whose program one of these has
+%       signed, see doc/keys.md; needs tls(Directory)
+%     - capacity(+N): that many agents at the most, or `inf`
+%     - tokens(+List): an agent must carry one of them to be let in
+%     - concurrency(+N): that many agents run at a time, default `inf`
+%     - consult(+Files): clause files consulted into its place
+%     - services(+Modules): modules whose exports its place offers
+%     - place(+Module): a module all of whose predicates it offers
+%     - log(+Address), log(+Address, +Kinds): the log server.  It hears of
+%       the beginnings and ends of agents, of what they log themselves, and
+%       of Kinds: a list out of `hops`, `messages` or messages(content),
+%       `facts`, `faults`, `links` and `hosts`, see watch/3
+%     - remote(+Boolean): whether remote/2 is answered, default `true`
+%     - python(+Boolean): whether agents may deliver Python, see doc/bridges.md,
+%       default `false`
+%     - clock(virtual): time is virtual, see typhon_virtual; so it is then
+%       for all hosts of the process, which cannot be reached from others
+%     - clock(+Epoch, +Rate): see typhon_clock
+%     - hop_time(uniform(Min, Max)): delay added to hops out of it
+%     - seed(+Integer): for the choices of migration strategies
+%     - journal(+Where): what happens in this process outlives it, see
+%       doc/journal.md; only for the first host.  Where is a directory, or
+%       postgresql(Url), or such a URL.  Whatever the journal knows
+%       is there again, other hosts, too: host_start/2 may then be called for
+%       these once, and changes nothing
+%     - sync(+How): `normal`, the default, if the journal is to survive the
+%       end of the process, `full` if a power cut, too
+%     - policy(+Policy): what agents may do here: `trusted`, everything,
+%       which is the default; `guarded`, what cannot harm others, see
+%       typhon_guard and doc/security.md; or a file of rules, see
+%       policy_read/1
+%     - peer(+Rules): which processes may do what, see typhon_permits
+%     - audit(+File): refusals and orders are noted there
+%     - quota(+List): how much agents may use, each, those of one owner, and
+%       all, see typhon_quotas
+%
+%   @error permission_error(start, host, Name) if it runs already
+%   @error domain_error(host_option, Option)
+%   @error permission_error(open, journal, Where): another process has it,
+%          or this one has hosts already; journal_damaged(Where, Why),
+%          journal_version(Where, Version), journal_unreachable(Where, Why)
+
+host_start(Name) :-
+    host_start(Name, []).
+
+host_start(Name, Options) :-
+    must_be(atom, Name),
+    check_options(host_option, Options),
+    must_be_name(Name),
+    forall(member(peer(Rules), Options), must_be_peer_rules(Rules)),
+    forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
+    with_mutex(typhon_hosting, start(Name, Options)).
+
+%   An address has it before its `@`.
+
+must_be_name(Name) :-
+    (   Name \== '',
+        \+ sub_atom(Name, _, _, _, @)
+    ->  true
+    ;   domain_error(host_name, Name)
+    ).
+
+start(Name, _) :-
+    retract(from_journal(Name)),
+    !.
+start(Name, _) :-
+    host(Name, _, _),
+    !,
+    permission_error(start, host, Name).
+start(Name, Options) :-
+    memberchk(journal(Where), Options),
+    journal_place(Where, Place),
+    \+ journal_opened(Place),
+    !,
+    start_from(Where, Name, Options).
+start(Name, Options) :-
+    start_new(Name, Options),
+    note_host(Name),
+    journal_barrier.
+
+%!  host_restart(+Name, +Options) is det.
+%
+%   As host_start/2, of a host that there was before: nobody hears that it is
+%   started.
+
+host_restart(Name, Options) :-
+    with_mutex(typhon_hosting, restart(Name, Options)).
+
+restart(Name, _) :-
+    host(Name, _, _),
+    !,
+    permission_error(start, host, Name).
+restart(Name, Options) :-
+    stand_new(Name, Options).
+
+start_new(Name, Options) :-
+    stand_new(Name, Options),
+    event(hosts, Name, none, started).
+
+stand_new(Name, Options) :-
+    kind_of_time(Options, Kind),
+    append(Kind, Options, Options1),
+    runtime_acquire(host(Name), Options1, Endpoint),
+    catch(start_host(Name, Endpoint, Options), Ball,
+          ( runtime_release(host(Name)), throw(Ball) )).
+
+%   start_from(+Where, +Name, +Options): with all that is in the journal.
+
+start_from(Where, _, Options) :-
+    memberchk(clock(virtual), Options),
+    !,
+    known_not_here(Where, 'not in virtual time').
+start_from(Where, Name, Options) :-
+    known_open(Where, Options),
+    catch(begin_from_journal(Name, Options), Ball,
+          ( journal_close, give_up_hosts, journal_end, throw(Ball) )).
+
+begin_from_journal(Name, Options) :-
+    findall(Other-Known, host_known(Other, Known), Hosts),
+    (   selectchk(Name-Known, Hosts, Others)
+    ->  known_with(Known, Options, AllOptions)
+    ;   AllOptions = Options,
+        Others = Hosts
+    ),
+    start_new(Name, AllOptions),
+    all_back(Others),
+    hosts_go_on.
+
+all_back(Hosts) :-
+    forall(member(Name-Options, Hosts),
+           ( start_new(Name, Options),
+             assertz(from_journal(Name)) )),
+    forall(typhon_durable:recover, true),
+    journal_begin,
+    forall(typhon_durable:tidy, true),
+    forall(host(Host, _, _), note_host(Host)),
+    endpoint_open.
+
+                /*******************************
+                *     A PROCESS AS A WHOLE     *
+                *******************************/
+
+%!  hosts_journal(+Where, +Options) is det.
+%!  hosts_back(+Options) is det.
+%!  hosts_go_on is det.
+%
+%   What a host with the option journal(Dir) does when it starts, in steps,
+%   for who has something to do in between, or has no host yet: the journal
+%   is open, and the process may start its endpoint; all that it knows is
+%   there again, its hosts with Options in place of what they had, and others
+%   are let in; what is there goes on.
+%
+%   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
+%        wait(Seconds): so long for another process that has it, which is
+%        about to end
+%   @error permission_error(open, journal, Place), and as journal_open/3
+
+hosts_journal(Where, Options) :-
+    with_mutex(typhon_hosting, known_open(Where, Options)).
+
+hosts_back(Options) :-
+    findall(Name-All,
+            ( host_known(Name, Known), known_with(Known, Options, All) ),
+            Hosts),
+    with_mutex(typhon_hosting, all_back(Hosts)).
+
+hosts_go_on :-
+    forall(typhon_durable:go_on, true).
+
+%!  hosts_rest is det.
+%
+%   All hosts of the process stop, also where time is held.  What is in its
+%   journal rests there, and nothing leaves the process any more, until its
+%   endpoint has stopped.
+
+hosts_rest :-
+    in_own_thread(with_mutex(typhon_hosting, rest)).
+
+%   What somebody tries to say then is of no interest.
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(error(existence_error(journal, open), _), _, _) :-
+    journal_closed.
+
+%   Virtual time that is held cannot end; in real time who is kept back would
+%   find that others are gone.
+
+rest :-
+    journal_close,
+    (   time_kind(virtual)
+    ->  time_let_go(_)
+    ;   true
+    ),
+    findall(Name, host(Name, _, _), Names),
+    forall(member(Name, Names), stop_one(Name)),
+    time_let_go(_),
+    (   endpoint_address(_)
+    ->  true
+    ;   journal_end
+    ).
+
+give_up_hosts :-
+    retractall(from_journal(_)),
+    forall(host(Name, _, _), ignore(stop(Name))).
+
+%   A network gives its hosts a clock of whatever kind it has.
+
+kind_of_time(Options, [time(virtual)]) :-
+    memberchk(clock(virtual), Options),
+    !.
+kind_of_time(Options, []) :-
+    memberchk(clock(_, _), Options),
+    !.
+kind_of_time(_, [time(real)]).
+
+start_host(Name, Endpoint, Options) :-
+    address_parts(Address, Name, Endpoint),
+    (   memberchk(clock(Epoch, Rate), Options)
+    ->  true
+    ;   Epoch = 0, Rate = 1
+    ),
+    must_have_keys(Options),
+    option(concurrency(Concurrency), Options, inf),
+    place_parts(Options, Files, Services),
+    place_create(Name, Files, Services, Place),
+    option(policy(Policy), Options, trusted),
+    option(quota(Quotas), Options, []),
+    catch(( front_set(Name, Place, Policy), quota_set(Name, Policy, Quotas) ),
+          error(Formal, Context),
+          ( place_destroy(Place), throw(error(Formal, Context)) )),
+    clock_set(Name, Epoch, Rate),
+    scheduler_limit(Name, Concurrency),
+    host_add(Name, Address, Place, Options),
+    forall(begins(Name), true),
+    debug(typhon(host), '~w is started', [Address]).
+
+%   Without an authority nobody's signature means anything.
+
+must_have_keys(Options) :-
+    (   \+ memberchk(authors(_), Options)
+    ->  true
+    ;   endpoint_keys(_)
+    ->  true
+    ;   existence_error(host_option, tls)
+    ).
+
+place_parts(Options, Files, Services) :-
+    option(consult(Files0), Options, []),
+    option(services(Services0), Options, []),
+    host_listed(Files0, Files),
+    host_listed(Services0, Services1),
+    (   option(place(Module), Options)
+    ->  Services = [module(Module)|Services1]
+    ;   Services = Services1
+    ).
+
+                /*******************************
+                *             STOP             *
+                *******************************/
+
+%!  host_stop(+Name) is det.
+%
+%   Dispose of the agents on Name and release all it holds.  If the process
+%   has a journal, and Name is its last host, they rest there instead.
+%
+%   @error existence_error(host, Name)
+
+host_stop(Name) :-
+    must_be(atom, Name),
+    in_own_thread(with_mutex(typhon_hosting, stop(Name))).
+
+stop(Name) :-
+    stop_one(Name),
+    (   host(_, _, _)
+    ->  true
+    ;   journal_end
+    ).
+
+stop_one(Name0) :-
+    local_name(Name0, Name),
+    host(Name, Address, Place),
+    rest_or_end(Name),
+    (   journal_closed
+    ->  events_forget(Name)             % who rests does not end
+    ;   true
+    ),
+    host_close(Name),
+    scheduler_unlimit(Name),
+    get_time(Now),
+    setting(stop_seconds, Seconds),
+    Deadline is Now+Seconds,
+    forall(evacuate(Name, Deadline), true),
+    host_unlink(_, Address),
+    event(hosts, Name, none, stopped),
+    host_remove(Name),
+    events_forget(Name),
+    quota_forget(Name),
+    clock_clear(Name),
+    place_destroy(Place),
+    debug(typhon(host), '~w is stopped', [Address]),
+    runtime_release(host(Name)).
+
+%   With the last host the process is at its end: what is in the journal
+%   stays there, to go on when it is started again.
+
+rest_or_end(Name) :-
+    (   host(Other, _, _),
+        Other \== Name
+    ->  forget_host(Name)
+    ;   journal_close
+    ),
+    retractall(from_journal(Name)).
+
+local_name(Host, Name) :-
+    host_resolve(Host, Where),
+    (   Where = local(Name)
+    ->  true
+    ;   existence_error(host, Host)
+    ).

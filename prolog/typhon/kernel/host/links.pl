@@ -1,0 +1,130 @@
+:- module(typhon_links,
+          [ host_neighbours/2,          % +Name, -Addresses
+            host_linked/1,              % ?Address
+            host_link/3,                % +Name, +Address, +Cost
+            host_unlink/2,              % ?Name, ?Address
+            host_link_cost/3            % +Name, +Address, -Cost
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(events, [event/4]).
+
+/** <module> The links of hosts of this process, and what they cost
+
+One direction of each: the other is known to the other host.
+
+*Threading*: any thread; one mutex for changes.
+*/
+
+:- use_module('../../options/journal', [note_drop/3, note_put/4]).
+
+:- multifile
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
+
+:- dynamic
+    neighbour/2,                % Name, Address
+    cost/3.                     % Name, Address, Cost: of a link, if not 1
+
+%!  host_link(+Name, +Address, +Cost) is det.
+%!  host_unlink(?Name, ?Address) is det.
+%
+%   One direction of a link; nothing to do where it is so already.  Cost is
+%   a number, or `same`: as it is, 1 for a new link.  Who listens hears of
+%   changes in the order in which they were made.
+
+host_link(Name, Address, Cost) :-
+    with_mutex(typhon_links,
+               ( add_link(Name, Address),
+                 set_cost(Cost, Name, Address),
+                 note_link(Name, Address) )).
+
+note_link(Name, Address) :-
+    host_link_cost(Name, Address, Cost),
+    link_key(Name, Address, Key),
+    note_put(link, Key, 0, link(Name, Address, Cost)).
+
+link_key(Name, Address, Key) :-
+    atomic_list_concat([Name, Address], ' ', Key).
+
+%   Nobody hears of a link that was there before.
+
+typhon_durable:dump(link, Key, 0, link(Name, Address, Cost)) :-
+    neighbour(Name, Address),
+    host_link_cost(Name, Address, Cost),
+    link_key(Name, Address, Key).
+typhon_durable:restore(link, _, _, link(Name, Address, Cost)) :-
+    with_mutex(typhon_links,
+               ( (   neighbour(Name, Address)
+                 ->  true
+                 ;   assertz(neighbour(Name, Address))
+                 ),
+                 set_cost(Cost, Name, Address),
+                 note_link(Name, Address) )).
+
+add_link(Name, Address) :-
+    (   neighbour(Name, Address)
+    ->  true
+    ;   assertz(neighbour(Name, Address)),
+        event(links, Name, none, link(Address))
+    ).
+
+%   Who asks meanwhile finds the old cost or the new one.
+
+set_cost(same, _, _) :-
+    !.
+set_cost(Cost, Name, Address) :-
+    cost(Name, Address, _),
+    !,
+    assertz(cost(Name, Address, Cost)),
+    once(retract(cost(Name, Address, _))).
+set_cost(Cost, Name, Address) :-
+    assertz(cost(Name, Address, Cost)).
+
+host_unlink(Name, Address) :-
+    with_mutex(typhon_links, unlink(Name, Address)).
+
+unlink(Name, Address) :-
+    findall(Name-Address, neighbour(Name, Address), Links),
+    forall(member(From-To, Links), note_no_link(From, To)),
+    retractall(neighbour(Name, Address)),
+    retractall(cost(Name, Address, _)),
+    forall(member(From-To, Links), event(links, From, none, unlink(To))).
+
+note_no_link(Name, Address) :-
+    link_key(Name, Address, Key),
+    note_drop(link, Key, 0).
+
+%!  host_link_cost(+Name, +Address, -Cost) is semidet.
+%
+%   Fails if there is no such link.
+
+host_link_cost(Name, Address, Cost) :-
+    neighbour(Name, Address),
+    !,
+    (   cost(Name, Address, Cost0)
+    ->  Cost = Cost0
+    ;   Cost = 1
+    ).
+
+%!  host_linked(?Address) is nondet.
+%
+%   A host of this process is linked with Address.
+
+host_linked(Address) :-
+    neighbour(_, Address).
+
+%!  host_neighbours(+Name, -Addresses:list(atom)) is det.
+
+host_neighbours(Name, Addresses) :-
+    findall(Address, neighbour(Name, Address), Addresses0),
+    once_each(Addresses0, Addresses).
+
+%   While links are made elsewhere 9.0.4 may yield one twice in a row.
+
+once_each([A,B|Rest], Set) :-
+    A == B,
+    !,
+    once_each([B|Rest], Set).
+once_each([A|Rest], [A|Set]) :-
+    once_each(Rest, Set).
+once_each([], []).

@@ -1,0 +1,301 @@
+:- module(typhon_place,
+          [ place_create/4,             % +Host, +Files, +Services, -Place
+            place_offer/2,              % +Place, +Service
+            place_destroy/1,            % +Place
+            place_host/2,               % ?Place, ?Host
+            place_deliver/3,            % +Place, +Payload, -PIs
+            place_undeliver/2           % +Place, +Name
+          ]).
+:- use_module(library(apply), [exclude/3, include/3]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
+:- use_module(library(lists), [member/2, subtract/3]).
+:- use_module('../base/error_text', [print_error/2]).
+:- use_module('../../options/journal',
+              [note_drop/3, note_drop_all/2, note_put/4, unit_note_drop/3]).
+:- use_module('../program', [clause_parts/3]).
+:- use_module(front, [front_gone/1, service/1]).
+
+/** <module> Places: what a host offers to the agents on it
+
+The place of a host is a module: the facts, services, delivered payloads
+and robot interface of the host.  Agents that stand on the host find its
+predicates through the import chain agent, place, vocabulary, system.
+
+make/0 loads files anew that have changed since they were consulted into a
+place. Agents that stand there meet the new clauses with their next call.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    prolog:make_hook/2,
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
+
+:- dynamic
+    place_host/2,               % Place, Host
+    loaded/4,                   % Place, SourceId, File, Time: consulted
+                                % into it, as File was at Time
+    delivered/3.                % Place, Payload name, PIs
+
+%!  place_create(+Host, +Files, +Services, -Place) is det.
+%
+%   @arg Files are clause files consulted into the place
+%   @arg Services are modules (or files that define one) whose exports the
+%        place offers; module(M) makes all predicates of M visible.
+
+place_create(Host, Files, Services, Place) :-
+    flag(typhon_place, N, N+1),
+    atomic_list_concat(['place ', Host, ' ', N], Place),
+    set_module(Place:class(temporary)),
+    set_module(Place:base(typhon_vocabulary)),
+    dynamic(Place:'$tuple'/1),
+    (   atom(Host)                      % else it is not of a host
+    ->  assertz(place_host(Place, Host))
+    ;   true
+    ),
+    Place:import(typhon_front:service/1),
+    catch(( forall(member(Service, Services), place_offer(Place, Service)),
+            forall(member(File, Files), consult_into(Place, File))
+          ),
+          Ball,
+          ( place_destroy(Place), throw(Ball) )).
+
+%!  place_offer(+Place, +Service) is det.
+%
+%   From now on Place offers a service, as of place_create/4.
+
+place_offer(Place, module(Module)) :-
+    !,
+    must_be(atom, Module),
+    add_import_module(Place, Module, start).
+place_offer(Place, Service) :-
+    atom(Service),
+    module_property(Service, exports(PIs)),
+    !,
+    forall(member(PI, PIs), Place:import(Service:PI)).
+place_offer(Place, Service) :-
+    Place:use_module(Service).
+
+%   A file may be consulted into many places: each time as another source.
+
+consult_into(Place, Spec) :-
+    absolute_file_name(Spec, File,
+                       [ file_type(prolog), access(read) ]),
+    atomic_list_concat([Place, ': ', File], Id),
+    load(Place, Id, File).
+
+load(Place, Id, File) :-
+    time_file(File, Time),
+    setup_call_cleanup(
+        open(File, read, In, [encoding(utf8)]),
+        ( retractall(loaded(Place, Id, _, _)),
+          assertz(loaded(Place, Id, File, Time)),
+          load_files(Place:Id, [stream(In), silent(true)])
+        ),
+        close(In)).
+
+%   What other files load is a file of its own, and make/0 knows it.
+
+prolog:make_hook(before, _) :-
+    findall(loaded(Place, Id, File),
+            ( loaded(Place, Id, File, Time), changed(Id, File, Time) ),
+            Changed),
+    forall(member(loaded(Place, Id, File), Changed),
+           reload(Place, Id, File)),
+    fail.                               % others have hooks, too
+
+changed(_, File, Time) :-
+    later(File, Time).
+changed(Id, _, _) :-
+    source_file_property(Id, includes(File, Time)),
+    later(File, Time).
+
+later(File, Then) :-
+    catch(time_file(File, Time), error(_, _), fail),
+    Time-Then > 0.001.
+
+reload(Place, Id, File) :-
+    catch(load(Place, Id, File), error(Formal, Context),
+          print_error(error, error(Formal, Context))),
+    print_message(informational, typhon(place_reloaded(Place, File))).
+
+%!  place_host(?Place, ?Host) is nondet.
+%
+%   Place is that of Host.
+
+%!  place_destroy(+Place) is det.
+
+place_destroy(Place) :-
+    unload(Place),
+    forall(delivered(Place, Name, _), forget_payload(Place, Name)),
+    retractall(delivered(Place, _, _)),
+    (   retract(place_host(Place, Host))
+    ->  note_drop_all(tuple, Host)
+    ;   true
+    ),
+    front_gone(Place),
+    '$destroy_module'(Place).
+
+forget_payload(Place, Name) :-
+    (   payload_key(Place, Name, _, Key)
+    ->  note_drop(payload, Key, 0)
+    ;   true
+    ).
+
+unload(Place) :-
+    retract(loaded(Place, Id, _, _)),
+    !,
+    unload_file(Id),
+    unload(Place).
+unload(_).
+
+                /*******************************
+                *            PAYLOADS          *
+                *******************************/
+
+%!  place_deliver(+Place, +Payload, -PIs) is det.
+%
+%   Install the clauses of payload(Name, PIs, Clauses).  A payload of the
+%   same name is replaced: the new clauses come before the old ones go, so
+%   whoever calls it meanwhile meets some.  On an error nothing has changed.
+%
+%   @error permission_error(deliver, procedure, PI) if the place defines
+%          PI otherwise
+
+place_deliver(Place, payload(Name, PIs, Clauses), PIs) :-
+    with_mutex(typhon_place, deliver(Place, Name, PIs, Clauses)).
+
+deliver(Place, Name, PIs, Clauses) :-
+    old_payload(Place, Name, OldPIs),
+    subtract(PIs, OldPIs, New),
+    subtract(OldPIs, PIs, Gone),
+    forall(member(PI, New), free(Place, PI)),
+    exclude(own(Place), New, Unknown),
+    refs(Place, OldPIs, Old),
+    catch(( forall(member(PI, Unknown), dynamic(Place:PI)),
+            forall(member(Clause, Clauses), add(Place, Clause))
+          ),
+          error(Formal, Context),
+          ( withdraw(Place, PIs, Old, Unknown),
+            throw(error(Formal, Context)) )),
+    forall(member(Ref, Old), erase(Ref)),
+    forall(member(PI, Gone), abolish(Place:PI)),
+    retractall(delivered(Place, Name, _)),
+    assertz(delivered(Place, Name, PIs)),
+    (   payload_key(Place, Name, Host, Key)
+    ->  note_put(payload, Key, 0, payload(Host, payload(Name, PIs, Clauses)))
+    ;   true
+    ),
+    debug(typhon(host), '~w has payload ~w', [Place, Name]).
+
+%   Fails for what is no payload of agents: services come with who starts them.
+
+payload_key(Place, Name, Host, Key) :-
+    atom(Name),
+    place_host(Place, Host),
+    atomic_list_concat([Host, Name], ' ', Key).
+
+withdraw(Place, PIs, Old, Unknown) :-
+    include(own(Place), PIs, Own),
+    refs(Place, Own, Now),
+    subtract(Now, Old, New),
+    forall(member(Ref, New), erase(Ref)),
+    include(own(Place), Unknown, Declared),
+    forall(member(PI, Declared), abolish(Place:PI)).
+
+refs(Place, PIs, Refs) :-
+    findall(Ref,
+            ( member(Name/Arity, PIs),
+              functor(Head, Name, Arity),
+              clause(Place:Head, _, Ref) ),
+            Refs).
+
+old_payload(Place, Name, PIs) :-
+    (   delivered(Place, Name, PIs0)
+    ->  PIs = PIs0
+    ;   PIs = []
+    ).
+
+own(Place, Name/Arity) :-
+    functor(Head, Name, Arity),
+    predicate_property(Place:Head, dynamic),
+    \+ predicate_property(Place:Head, imported_from(_)).
+
+free(Place, Name/Arity) :-
+    functor(Head, Name, Arity),
+    (   predicate_property(Place:Head, defined),
+        \+ predicate_property(Place:Head, imported_from(_)),
+        predicate_property(Place:Head, number_of_clauses(N)),
+        N > 0
+    ->  permission_error(deliver, procedure, Name/Arity)
+    ;   true
+    ).
+
+add(Place, Clause) :-
+    clause_parts(Clause, Head, Body),
+    assertz(Place:(Head:-Body)).
+
+%!  place_undeliver(+Place, +Name) is det.
+%
+%   @error existence_error(payload, Name)
+
+place_undeliver(Place, Name) :-
+    (   with_mutex(typhon_place, remove(Place, Name))
+    ->  true
+    ;   existence_error(payload, Name)
+    ).
+
+remove(Place, Name) :-
+    retract(delivered(Place, Name, PIs)),
+    (   payload_key(Place, Name, _, Key)
+    ->  unit_note_drop(payload, Key, 0)
+    ;   true
+    ),
+    forall(member(PI, PIs), abolish(Place:PI)).
+
+                /*******************************
+                *       WHAT OUTLIVES IT       *
+                *******************************/
+
+typhon_durable:restore(payload, _, _, payload(Host, Payload)) :-
+    place_host(Place, Host),
+    place_deliver(Place, Payload, _).
+
+%   As they would be delivered once more.
+
+typhon_durable:dump(payload, Key, 0,
+                     payload(Host, payload(Name, PIs, Clauses))) :-
+    delivered(Place, Name, PIs),
+    payload_key(Place, Name, Host, Key),
+    clauses_of(Place, PIs, Clauses).
+
+clauses_of(Place, PIs, Clauses) :-
+    findall((Head:-Body),
+            ( member(Name/Arity, PIs),
+              functor(Head, Name, Arity),
+              clause(Place:Head, Body) ),
+            Clauses).
+
+%   What goals and files have made of the place itself.
+
+typhon_durable:dump(place, Host, 0, state(PIs, Clauses)) :-
+    place_host(Place, Host),
+    findall(PI, own_state(Place, PI), PIs),
+    PIs \== [],
+    clauses_of(Place, PIs, Clauses).
+typhon_durable:restore(place, Host, _, state(PIs, Clauses)) :-
+    place_host(Place, Host),
+    forall(( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
+           ( dynamic(Place:Name/Arity),
+             retractall(Place:Head) )),
+    forall(member(Clause, Clauses), add(Place, Clause)).
+
+own_state(Place, PI) :-
+    current_predicate(Place:Name/Arity),
+    PI = Name/Arity,
+    PI \== '$tuple'/1,
+    own(Place, PI),
+    \+ ( delivered(Place, _, PIs), memberchk(PI, PIs) ).

@@ -1,0 +1,171 @@
+:- module(typhon_runtime,
+          [ runtime_acquire/2,          % +User, +Options
+            runtime_acquire/3,          % +User, +Options, -Endpoint
+            runtime_release/1,          % +User
+            runtime_user/1              % ?User
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module('../base/erased', [forget_erased/0]).
+:- use_module('../base/functors', [functors_room/0]).
+:- use_module('../base/own_thread',
+              [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
+:- use_module('../../options/journal', [journal_end/0]).
+:- use_module('../program', [code_clear/0]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_keys/1, endpoint_listen/2,
+                endpoint_listen_end/1, endpoint_start/4,
+                endpoint_start_alone/1, endpoint_stop/0 ]).
+:- use_module(scheduler, [scheduler_forget/0]).
+:- use_module(time, [time_kind/1, time_start/1, time_stop/0]).
+
+/** <module> What the hosts of a process share
+
+The endpoint and the scheduler run as long as anybody in the process uses
+them: hosts, log servers.  The first user starts them, the last one stops
+them.  The rooms above that have something to see to then say so with the
+hooks beginning/1 and ending/1.
+
+*Threading*: a mutex makes users come and go one at a time.
+*/
+
+:- multifile
+    beginning/1,                        % real or virtual: time has started
+    ending/1.                           % before or after both have stopped
+
+:- dynamic
+    beginning/1,
+    ending/1,
+    user/2.                             % Name of a user, Endpoint
+
+%   When this is loaded, or a saved state with it begins: who starts a host may
+%   have threads already.
+
+:- initialization(functors_room).
+
+%!  runtime_acquire(+User, +Options) is det.
+%!  runtime_acquire(+User, +Options, -Endpoint) is det.
+%
+%   User, any ground term, needs endpoint and time.  Endpoint is the address
+%   at which he is reached.  Options port(P) and bind(Interface) are for the
+%   first user, as is tls(Directory), by default that of the environment
+%   variable `TYPHON_TLS`; of later ones interface and keys may only be what
+%   they are, and
+%   another port is listened to as long as one of them needs it.  The same
+%   goes for time(Kind), `real` or `virtual`: who does not say is content with
+%   either.  In virtual time the endpoint reaches nobody else, and ports mean
+%   nothing.
+%
+%   @error permission_error(change, endpoint, Option)
+%   @error permission_error(change, kind_of_time, Kind)
+
+runtime_acquire(User, Options) :-
+    runtime_acquire(User, Options, _).
+
+runtime_acquire(User, Options, Endpoint) :-
+    with_mutex(typhon_runtime, acquire(User, Options, Endpoint)).
+
+acquire(User, Options, Endpoint) :-
+    (   user(_, _)
+    ->  forall(member(Option, Options), must_agree(Option))
+    ;   start(Options)
+    ),
+    option(port(Port), Options, 0),
+    reached_at(Port, Endpoint),
+    assertz(user(User, Endpoint)),
+    debug(typhon(host), '~p uses the process, at ~w', [User, Endpoint]).
+
+reached_at(Port, Endpoint) :-
+    endpoint_address(First),
+    atomic_list_concat([Interface,_], ':', First),
+    atomic_list_concat([Interface,Port], ':', Wanted),
+    (   ( Port =:= 0 ; time_kind(virtual) )
+    ->  Endpoint = First
+    ;   endpoint_address(Wanted)
+    ->  Endpoint = Wanted
+    ;   endpoint_listen(Port, Endpoint)
+    ).
+
+start(Options) :-
+    option(time(Kind), Options, real),
+    own_thread_start,
+    catch(( time_start(Kind),
+            start_endpoint(Kind, Options),
+            forall(beginning(Kind), true)
+          ),
+          Ball,
+          ( time_stop, own_thread_stop, throw(Ball) )),
+    forget_erased.
+
+start_endpoint(real, Options) :-
+    option(port(Port), Options, 0),
+    option(bind(Interface), Options, localhost),
+    keys(Options, Keys),
+    endpoint_start(Interface, Port, Keys, _).
+start_endpoint(virtual, _) :-
+    endpoint_start_alone('virtual:0').
+
+%   Who starts nothing himself, as a guest, has no other way to say it than
+%   the environment.
+
+keys(Options, Keys) :-
+    (   ( option(tls(Directory), Options)
+        ; getenv('TYPHON_TLS', Directory), Directory \== '' )
+    ->  Keys = keys(Directory)
+    ;   Keys = none
+    ).
+
+must_agree(time(Kind)) :-
+    \+ time_kind(Kind),
+    !,
+    permission_error(change, kind_of_time, Kind).
+must_agree(Option) :-
+    (   disagrees(Option)
+    ->  permission_error(change, endpoint, Option)
+    ;   true
+    ).
+
+disagrees(tls(Directory0)) :-
+    absolute_file_name(Directory0, Directory),
+    \+ endpoint_keys(Directory).
+disagrees(bind(Interface)) :-
+    Interface \== localhost,
+    endpoint_address(Endpoint),
+    \+ atomic_list_concat([Interface,_], ':', Endpoint).
+
+%!  runtime_user(?User) is nondet.
+%!  runtime_release(+User) is det.
+%
+%   User uses endpoint and time; does so no more.
+
+runtime_user(User) :-
+    user(User, _).
+
+runtime_release(User) :-
+    in_own_thread(with_mutex(typhon_runtime, release(User))).
+
+release(User) :-
+    debug(typhon(host), '~p has done with the process', [User]),
+    (   retract(user(User, Endpoint))
+    ->  released(Endpoint)
+    ;   true
+    ).
+
+released(Endpoint) :-
+    user(_, Endpoint),
+    !.
+released(Endpoint) :-
+    user(_, _),
+    !,
+    endpoint_listen_end(Endpoint).
+released(_) :-
+    forall(ending(before), true),
+    endpoint_stop,
+    journal_end,
+    time_stop,
+    scheduler_forget,
+    code_clear,
+    forall(ending(after), true),
+    own_thread_stop.

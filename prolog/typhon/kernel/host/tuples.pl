@@ -1,0 +1,149 @@
+:- module(typhon_tuples,
+          [ tuple_leave/2,              % +Place, +Fact
+            tuple_leave/3,              % +Place, +Fact, +By
+            tuple_leave_new/3,          % +Place, +Fact, +By
+            tuple_sense/2,              % +Place, ?Fact
+            tuple_take/2                % +Place, ?Fact
+          ]).
+:- use_module(library(error), [must_be/2]).
+:- use_module('../../options/journal',
+              [ journal_number/1, journal_on/0, unit_after/1, unit_defers/0,
+                unit_note_drop/3, unit_note_put/4 ]).
+:- use_module(leavings, [leaving_begins/1, leaving_ends/1]).
+:- use_module(place, [place_host/2]).
+
+/** <module> Tuple spaces: facts that all agents on a host see
+
+The tuple space of a host is the predicate '$tuple'/1 of its place.
+
+*Threading*: any thread.  tuple_take/2 is atomic; a mutex keeps others from
+leaving a fact while tuple_leave_new/3 looks.
+*/
+
+:- multifile
+    typhon_durable:restore/4,
+    typhon_durable:dump/4.
+
+:- public leave_due/2.
+
+:- dynamic due/5.               % Place, N, Fact, By, Thread: left when its
+                                % turn is over
+
+%!  tuple_leave(+Place, +Fact) is det.
+%!  tuple_leave(+Place, +Fact, +By) is det.
+%!  tuple_leave_new(+Place, +Fact, +By) is semidet.
+%!  tuple_sense(+Place, ?Fact) is nondet.
+%!  tuple_take(+Place, ?Fact) is semidet.
+%
+%   Put, put if there is none that unifies, read and take a fact.  Of many
+%   agents that take one fact, or leave it as a new one, one succeeds.  By is
+%   whose fact it is, see typhon_leavings, or `none`.
+%
+%   With a journal a fact has a number, under which it is there; this, and By,
+%   stand in the body of the clause, and the journal has By, too.  What an agent
+%   leaves others find when it stops; what it takes is gone at once.
+
+tuple_leave(Place, Fact) :-
+    tuple_leave(Place, Fact, none).
+
+tuple_leave(Place, Fact, By) :-
+    must_be(callable, Fact),
+    leaving_begins(By),
+    (   journal_on,
+        place_host(Place, _)
+    ->  leave_noted(Place, Fact, By)
+    ;   with_mutex(typhon_tuples, put_tuple(Place, none, Fact, By))
+    ).
+
+tuple_leave_new(Place, Fact, By) :-
+    must_be(callable, Fact),
+    with_mutex(typhon_tuples,
+               ( \+ Place:'$tuple'(Fact),
+                 \+ due(Place, _, Fact, _, _),
+                 (   journal_on,
+                     place_host(Place, _)
+                 ->  leave_noted(Place, Fact, By)
+                 ;   put_tuple(Place, none, Fact, By)
+                 ),
+                 leaving_begins(By) )).
+
+leave_noted(Place, Fact, By) :-
+    journal_number(N),
+    place_host(Place, Host),
+    noted(By, Fact, Noted),
+    unit_note_put(tuple, Host, N, Noted),
+    (   unit_defers
+    ->  thread_self(Me),
+        assertz(due(Place, N, Fact, By, Me)),
+        unit_after(typhon_tuples:leave_due(Place, N))
+    ;   put_tuple(Place, N, Fact, By)
+    ).
+
+leave_due(Place, N) :-
+    with_mutex(typhon_tuples,
+               (   retract(due(Place, N, Fact, By, _))
+               ->  put_tuple(Place, N, Fact, By)
+               ;   true                 % it took it again
+               )).
+
+put_tuple(Place, N, Fact, By) :-
+    tuple_body(N, By, Body),
+    assertz(Place:('$tuple'(Fact) :- Body)).
+
+%   tuple_body(?N, ?By, ?Body): what is true anyhow.
+
+tuple_body(none, none, true) :- !.
+tuple_body(N, none, integer(N)) :- !.
+tuple_body(N, By, ground(N-By)).
+
+tuple_sense(Place, Fact) :-
+    Place:'$tuple'(Fact).
+tuple_sense(Place, Fact) :-
+    unit_defers,
+    thread_self(Me),
+    due(Place, _, Fact, _, Me).
+
+tuple_take(Place, Fact) :-
+    retract(Place:('$tuple'(Fact) :- Body0)),
+    !,
+    strip_module(Body0, _, Body),
+    tuple_body(N, By, Body),
+    (   N == none
+    ->  true
+    ;   place_host(Place, Host),
+        unit_note_drop(tuple, Host, N)
+    ),
+    leaving_ends(By).
+tuple_take(Place, Fact) :-
+    unit_defers,
+    thread_self(Me),
+    retract(due(Place, N, Fact, By, Me)),
+    !,
+    place_host(Place, Host),
+    unit_note_drop(tuple, Host, N),
+    leaving_ends(By).
+
+typhon_durable:restore(tuple, Host, N, Noted) :-
+    was_noted(Noted, By, Fact),
+    place_host(Place, Host),
+    leaving_begins(By),
+    put_tuple(Place, N, Fact, By).
+
+was_noted('$by'(By, Fact), By, Fact) :- !.
+was_noted(Fact, none, Fact).
+
+noted(none, Fact, Fact) :-
+    \+ functor(Fact, '$by', 2),
+    !.
+noted(By, Fact, '$by'(By, Fact)).
+
+%   As they would be left once more.
+
+typhon_durable:dump(fact, Host, By, Fact) :-
+    place_host(Place, Host),
+    clause(Place:'$tuple'(Fact), Body0),
+    strip_module(Body0, _, Body),
+    tuple_body(_, By, Body).
+typhon_durable:restore(fact, Host, By, Fact) :-
+    place_host(Place, Host),
+    tuple_leave(Place, Fact, By).

@@ -1,0 +1,371 @@
+:- module(typhon_creation,
+          [ agent_create/2,             % +Program, -Agent
+            agent_create/3,             % +Program, -Agent, +Options
+            agent_begin/4,              % +Options, +Name, +Start, -Agent
+            agent_clone_here/3,         % +Id, +Goals, ?CloneId
+            clone_id/2                  % +Id, -CloneId
+          ]).
+:- use_module(library(apply), [foldl/4, maplist/2]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error),
+              [domain_error/2, must_be/2, permission_error/3, type_error/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module('../base/options', [check_options/2]).
+:- use_module('../../options/journal', [journal_barrier/0, journal_step/1]).
+:- use_module('../program',
+              [ clause_parts/3, code_install/3, code_module/2, code_sent/2,
+                code_stands/2, payload_load/2, program_load/6,
+                program_unknown/3 ]).
+:- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
+:- use_module('../host',
+              [ event/4, host/3, host_address/2, host_resolve/2,
+                host_unknown/1, process_ask/6 ]).
+:- use_module('../agent',
+              [ agent/5, agent_enter/3, agent_handles/2, agent_home/2,
+                agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
+                agent_rest/3, agent_standing/5, agent_state/2, gate/4,
+                gate_refused/4, is_life/1, legacy_none/2, life_clone/3,
+                mail_count/2, make_life/2, owner_entered/3, owner_inherited/3,
+                payload_mark/2, trail_none/2, with_agent/2 ]).
+:- use_module('../travel', [agent_born/2, clone_born/2]).
+:- use_module(change, [undeclared/2]).
+:- use_module(named, [agent_met/1]).
+
+/** <module> How agents begin
+
+From a program, here or in another process, from a restore point, or as the
+clone of another.  What begins is
+
+    start(Hash, Life, State, Goals, Mail)
+
+*Threading*: any thread; agents for others are created in the reader threads
+of the endpoint.
+*/
+
+:- multifile
+    typhon_options:declared/4,
+    typhon_endpoint:requested/4.
+
+%!  agent_create(+Program, -Agent) is det.
+%!  agent_create(+Program, -Agent, +Options) is det.
+%
+%   Create an agent.  Program is a file specification, as agents(census),
+%   or clauses(Terms), the terms as they would stand in a file.  Options:
+%
+%     - name(+Atom): from which the id is made; default that of the program
+%     - host(+Host): where, also in another process; default the first
+%       host of this process
+%     - tokens(+List): that it shows to hosts that ask for one
+%     - payloads(+Specs): attached from the start
+%     - facts(+Clauses): added to its initial state, which its program, or
+%       one of the payloads, declares
+%     - lifetime(+Hops): at the next move after so many it is disposed of
+%     - static(+Boolean): whether it may not move
+%
+%   @error uninstantiation_error(Agent): what it is called says name(Atom)
+%   @error existence_error(host, Host)
+%   @error existence_error(state, PI, Declared): facts of a predicate that is
+%   not among the Declared ones
+%   @error move_refused(Host, Reason), host_unreachable(Host)
+%   @error any problem of the program, see typhon_programs
+%   @error representation_error(agent_name): the journal cannot have it
+
+agent_create(Program, Agent) :-
+    agent_create(Program, Agent, []).
+
+agent_create(Spec, Agent, Options) :-
+    must_be(var, Agent),
+    check_options(agent_option, Options),
+    once(create_by(Options, Spec, Agent)).
+
+create_by(Options, Spec, Agent) :-
+    target(Options, Target),
+    program_load(Spec, Program, Initial, Hash, Kinds, Places),
+    Program = program(Name0, Declared, _, Clauses),
+    option(name(Name), Options, Name0),
+    check_agent_name(Name),
+    birth(Options, Declared, Initial, Clauses, Life, State),
+    mobile_term(State),
+    start_goals(Clauses, Initial, Goals),
+    code_install(Hash, Program, Kinds),
+    code_stands(Hash, Places),
+    State = state(PIs, _),
+    program_unknown(Hash, PIs, may_be_offered(Target, Clauses)),
+    create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
+
+%   may_be_offered(+Target, +Clauses, +Problem) is semidet: a place of this
+%   process defines what the program with these Clauses calls, or others may,
+%   which are not seen from here: the host elsewhere, or what it attaches.
+%   Where another name is meant they hardly do.
+
+may_be_offered(_, _, problem(unknown_procedure(Name/Arity), _, _)) :-
+    functor(Head, Name, Arity),
+    host(_, _, Place),
+    '$get_predicate_attribute'(Place:Head, defined, 1),
+    !.
+may_be_offered(Target, Clauses, problem(_, _, offered([]))) :-
+    ( Target = remote(_, _, _) ; attaches(Clauses) ),
+    !.
+
+attaches(Clauses) :-
+    member((_:-Body), Clauses),
+    sub_term(Goal, Body),
+    subsumes_term(attach(_), Goal),
+    !.
+
+typhon_options:declared(agent_option, Option, Type, Value) :-
+    option_type(Option, Type, Value).
+
+option_type(name(X), atom, X).
+option_type(host(X), atom, X).
+option_type(tokens(X), list, X).
+option_type(payloads(X), list, X).
+option_type(facts(X), list, X).
+option_type(lifetime(X), nonneg, X).
+option_type(lifetime(X), oneof([inf]), X).
+option_type(static(X), boolean, X).
+
+%   What stands before the first `@` of an id is no part of an address.
+
+check_agent_name(Name) :-
+    must_be(atom, Name),
+    (   Name \== '',
+        \+ sub_atom(Name, _, _, _, @)
+    ->  true
+    ;   domain_error(agent_name, Name)
+    ).
+
+target(Options, Where) :-
+    (   option(host(Host), Options)
+    ->  host_resolve(Host, Where)
+    ;   host(Name, _, _)
+    ->  Where = local(Name)
+    ;   throw(error(existence_error(host, here),
+                    context(agent_create/3,
+                            'start one with host_start/1')))
+    ).
+
+birth(Options, Declared, Initial, Clauses, Life,
+      state(PIs, StateClauses)) :-
+    option(tokens(Tokens), Options, []),
+    option(lifetime(Lifetime), Options, inf),
+    option(static(Static), Options, false),
+    option(facts(Facts), Options, []),
+    option(payloads(Specs), Options, []),
+    append(Initial, Facts, StateClauses0),
+    foldl(add_payload(Clauses), Specs, []-(Declared-StateClauses0),
+          Payloads-(PIs-StateClauses)),
+    maplist(initial_fact(Clauses, PIs), Facts),
+    make_life([ tokens(Tokens), lifetime(Lifetime), static(Static),
+                payloads(Payloads) ], Life).
+
+initial_fact(Clauses, PIs, Fact) :-
+    clause_parts(Fact, Head, _),
+    must_be(callable, Head),
+    functor(Head, Name, Arity),
+    not_static(Clauses, Name/Arity),
+    (   memberchk(Name/Arity, PIs)
+    ->  true
+    ;   undeclared(Name/Arity, PIs)
+    ).
+
+not_static(Clauses, Name/Arity) :-
+    functor(General, Name, Arity),
+    (   member(Clause, Clauses),
+        clause_parts(Clause, General, _)
+    ->  permission_error(attach, procedure, Name/Arity)
+    ;   true
+    ).
+
+add_payload(Clauses, Spec, Payloads-(PIs0-State0),
+            [Name-New|Payloads]-(PIs-State)) :-
+    payload_load(Spec, Payload),
+    Payload = payload(Name, New, More),
+    maplist(not_static(Clauses), New),
+    append(PIs0, New, PIs),
+    ( payload_mark(Payload, Mark) -> Marks = [Mark] ; Marks = [] ),
+    append([State0, More, Marks], State).
+
+start_goals(Clauses, Initial, Goals) :-
+    (   member(All, [Clauses,Initial]),
+        member(Clause, [main,(main:-_)]),
+        memberchk(Clause, All)
+    ->  Goals = [main]
+    ;   Goals = []
+    ).
+
+                /*******************************
+                *       HERE OR ELSEWHERE      *
+                *******************************/
+
+create(local(Host), Name, Start, Agent) :-
+    start(Host, Name, Start, here, Answer),
+    begun(Answer, Host, Agent).
+create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
+    Start = start(Hash, _, _, _, _),
+    code_sent(Hash, Program),
+    process_ask(Endpoint, Address, agent,
+                create(HostName, Name, Start, Program), Answer, 10),
+    created(Answer, Address, Agent),
+    agent_met(Agent).
+
+begun(created(Id), _, Id) :-
+    !.
+begun(Answer, Host, Id) :-
+    host_address(Host, Address),
+    created(Answer, Address, Id).
+
+created(created(Id), _, Id).
+created(need_program, Address, _) :-
+    throw(error(move_refused(Address, need_program), _)).
+created(refused(unknown_host), Address, _) :-
+    host_unknown(Address).
+created(refused(Reason), Address, _) :-
+    throw(error(move_refused(Address, Reason), _)).
+
+typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), Peer,
+                          ReplyTo) :-
+    From = from(Peer, Program, newborn),
+    catch(create_for(From, HostName, Name, Start, Answer),
+          error(Formal, _),
+          ( gate_refused(HostName, From, malformed, error(Formal)),
+            Answer = refused(error(Formal)) )),
+    endpoint_reply(ReplyTo, Answer).
+
+create_for(From, HostName, Name, start(Hash, Life, State0, Goals, Mail),
+           Answer) :-
+    check_agent_name(Name),
+    must_be_life(Life),
+    must_be_state(State0),
+    must_be(list, Goals),
+    must_be(list, Mail),
+    arg(1, From, Peer),
+    owner_entered(Peer, State0, State),
+    start(HostName, Name, start(Hash, Life, State, Goals, Mail), From, Answer).
+
+must_be_life(Life) :-
+    (   is_life(Life)
+    ->  true
+    ;   type_error(agent_life, Life)
+    ).
+
+must_be_state(State) :-
+    (   subsumes_term(state(_, _), State),
+        arg(2, State, Clauses),
+        is_list(Clauses)
+    ->  true
+    ;   type_error(agent_state, State)
+    ).
+
+%!  agent_begin(+Options, +Name, +Start, -Agent) is det.
+%
+%   Create an agent on the host of Options, as of agent_create/3.
+
+agent_begin(Options, Name, Start, Agent) :-
+    target(Options, Where),
+    create(Where, Name, Start, Agent).
+
+%!  agent_clone_here(+Id, +Goals, ?CloneId) is det.
+%
+%   Make a clone of Id beside it, with Goals to do.  CloneId may be one of
+%   clone_id/2.
+%
+%   @error move_refused(Host, Reason)
+
+agent_clone_here(Id, Goals, CloneId) :-
+    agent(Id, Host, Module, Hash, Life0),
+    agent_state(Module, State0),
+    legacy_none(State0, State1),
+    trail_none(State1, State2),
+    owner_inherited(Id, State2, State),
+    life_clone(Id, Life0, Life),
+    agent_name(Id, Name, _),
+    started(Host, Name, start(Hash, Life, State, Goals, []), here,
+            clone(Id, CloneId), Answer),
+    begun(Answer, Host, CloneId),
+    event(hops, Host, Id, cloned(CloneId)).
+
+%!  clone_id(+Id, -CloneId) is det.
+%
+%   An id for a clone of Id.
+
+clone_id(Id, CloneId) :-
+    agent(Id, Host, _, _, _),
+    host(Host, Address, _),
+    agent_name(Id, Name, _),
+    agent_id(Name, Address, CloneId).
+
+                /*******************************
+                *             START            *
+                *******************************/
+
+%   start(+Host, +Name, +Start, +From, -Answer): let an agent begin on Host, a
+%   host of this process.  Answer is created(Id) or what else gate/4 says.
+
+start(Host, Name, Start, From, Answer) :-
+    journal_step(started(Host, Name, Start, From, none, Answer)),
+    journal_barrier.
+
+%   Of is `none`, or clone(Parent, Id).
+
+started(Host, Name, Start, From, Of, Answer) :-
+    Start = start(Hash, Life, State, _, Mail),
+    gate(Host, From-entrant(Name, Hash, Life, State, Mail),
+         born(Host, Name, Start, Of, Id, Goals), Verdict),
+    (   Verdict == ok
+    ->  Answer = created(Id),
+        begun_here(Host, Id, Goals, Of)
+    ;   Answer = Verdict
+    ).
+
+born(Host, Name, Start, Of, Id, Goals, Verdict) :-
+    (   host(Host, Address, Place)
+    ->  id_of(Of, Name, Address, Id),
+        (   with_agent(Id, born(Id, Host, Place, Start, Goals))
+        ->  Verdict = ok
+        ;   Verdict = need_program      % it was thrown out meanwhile
+        )
+    ;   Verdict = refused(unknown_host) % it is being stopped
+    ).
+
+id_of(clone(_, Id), _, _, Id) :-
+    nonvar(Id),
+    !.
+id_of(clone(_, Id), Name, Address, Id) :-
+    !,
+    agent_id(Name, Address, Id).
+id_of(none, Name, Address, Id) :-
+    agent_id(Name, Address, Id).
+
+begun_here(Host, Id, Goals, Of) :-
+    agent_home(Id, Address),
+    agent_born(Id, Address),
+    descends(Of),
+    event(life, Host, Id, created),
+    debug(typhon(agent), '~w: created on ~w', [Id, Address]),
+    with_agent(Id, begin(Goals, Id)).
+
+%   Before it runs, and has clones of its own.
+
+descends(none).
+descends(clone(Parent, Id)) :-
+    clone_born(Parent, Id).
+
+%   Who only waits for messages does so from birth.
+
+begin([], Id) :-
+    agent(Id, _, Module, Hash, _),
+    code_module(Hash, Program),
+    agent_handles(Program, Module),
+    mail_count(Id, 0),
+    !,
+    agent_rest(Id, resident, []).
+begin(Goals, Id) :-
+    agent_ready(Id, Goals).
+
+born(Id, Host, Place, start(Hash, Life, State, Goals0, Mail), Goals) :-
+    agent_standing(Id, Place, Hash, State-Goals0, Module-Goals),
+    agent_enter(agent(Id, Host, Module, Hash, Life), arriving, []),
+    agent_mail(Id, Mail).

@@ -1,0 +1,169 @@
+:- module(typhon_ending,
+          [ agent_end/2,                % +Id, +Outcome
+            agent_end/3,                % +Id, :Test, +Outcome
+            agent_forgotten/2,          % +Id, :Test
+            agent_fails/3,              % +Id, +Outcome, +Goals0
+            agent_stays/2               % +Id, +Goals
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../../options/journal', [journal_step/1]).
+:- use_module('../host', [event/4, events_forget/1, host_leave/1]).
+:- use_module('../agent',
+              [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
+                fault_outcome/2, fault_shown/2, is_faulty/3, legacy/2,
+                life_hops/2, with_agent/2 ]).
+:- use_module(on_hold, [held_dropped/1]).
+:- use_module('../travel', [agent_ended/4, agent_ends/2, move_over/2, transfer_given_up/2]).
+:- use_module(faulty,
+              [faulty_gone/1, faulty_keep/4, faulty_oldest/1, faulty_tell/3]).
+:- use_module(questions, [question_answered/2]).
+
+/** <module> How agents end
+
+*Threading*: any thread.  Who removes the record of an agent, inside
+with_agent/2, is the one who reports its end.
+*/
+
+:- meta_predicate
+    agent_end(+, 1, +),
+    agent_forgotten(+, 1).
+
+%!  agent_end(+Id, +Outcome) is semidet.
+%
+%   Id ends.
+
+agent_end(Id, Outcome) :-
+    journal_step(( with_agent(Id, remove(Id, Last)),
+                   removed(Last, Id, Outcome) )).
+
+%!  agent_end(+Id, :Test, +Outcome) is semidet.
+%
+%   Id ends if call(Test, Status) is true of it.
+
+agent_end(Id, Test, Outcome) :-
+    journal_step(( with_agent(Id, ( agent_status(Id, Status, _),
+                                    call(Test, Status),
+                                    remove(Id, Last)
+                                  )),
+                   removed(Last, Id, Outcome) )).
+
+remove(Id, last(Host, Hops, Status, Goals, Legacy, Orders)) :-
+    agent(Id, Host, Module, _, Life),
+    life_hops(Life, Hops),
+    legacy(Module, Legacy),
+    once(agent_status(Id, Status, Goals)),
+    (   Status = transit(_, _)
+    ->  transfer_given_up(Id, Goals)
+    ;   held_dropped(Goals)
+    ),
+    faulty_gone(Id),
+    agent_ends(Id, Hops),
+    agent_remove(Id, _, Orders).
+
+removed(Last, Id, Outcome) :-
+    told(Last, Id, Outcome),
+    arg(6, Last, Orders),
+    unanswered(Id, Orders).
+
+%   Callers that wait for an answer to an order get `none`.
+
+unanswered(Id, Orders) :-
+    ignore(move_over(Id, none)),
+    forall(member(asked(_, Asker), Orders), question_answered(Asker, none)).
+
+%!  agent_forgotten(+Id, :Test) is semidet.
+%
+%   If call(Test, Status) is true of Id, it is here no more, and has not ended.
+
+agent_forgotten(Id, Test) :-
+    with_agent(Id, ( agent_status(Id, Status, _),
+                     call(Test, Status),
+                     agent(Id, Host, _, _, _),
+                     agent_remove(Id, _, Orders) )),
+    events_forget(Id),
+    host_leave(Host),
+    unanswered(Id, Orders).
+
+%   That it has ended badly is known.
+
+told(last(Host, Hops, faulty(_), Goals, Legacy, _), Id, _) :-
+    !,
+    events_forget(Id),
+    is_faulty(Goals, Fault, _),
+    fault_outcome(Fault, Outcome),
+    event(faults, Host, Id, ended(Outcome)),
+    agent_ended(Id, Outcome, Hops, Legacy).
+told(last(Host, Hops, Status, _, Legacy, _), Id, Outcome) :-
+    debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
+    tell_of_doubt(Status, Id),
+    host_leave(Host),
+    event(life, Host, Id, ended(Outcome)),
+    events_forget(Id),
+    agent_ended(Id, Outcome, Hops, Legacy).
+
+tell_of_doubt(transit(Address, _), Id) :-
+    !,
+    print_message(warning, typhon(ended_in_doubt(Id, Address))).
+tell_of_doubt(_, _).
+
+                /*******************************
+                *           BAD ENDS           *
+                *******************************/
+
+%!  agent_fails(+Id, +Outcome, +Goals0) is det.
+%
+%   Id has done Goals0 with that Outcome, `failed` or raised(Error): it is
+%   told, and kept as it was.
+
+agent_fails(Id, Outcome, Goals0) :-
+    (   agent_fault(Id, Outcome, Goals0, Fault, Left)
+    ->  report(Id, Fault),
+        is_faulty(Goals, Fault, Left),
+        agent_stays(Id, Goals)
+    ;   true                            % it was ended meanwhile
+    ).
+
+report(Id, Fault) :-
+    agent(Id, Host, _, _, _),
+    !,
+    debug(typhon(agent), '~w: is faulty, on ~w', [Id, Host]),
+    fault_outcome(Fault, Outcome),
+    log_fault(Outcome, Host, Id),
+    fault_shown(Fault, Shown),
+    event(faults, Host, Id, fault(Shown)),
+    print_fault(Outcome, Id, Fault).
+report(_, _).
+
+log_fault(failed, Host, Id) :-
+    event(bad_ends, Host, Id, ended(failed)).
+log_fault(raised(Error), Host, Id) :-
+    event(bad_ends, Host, Id, faulty(Error)).
+
+print_fault(failed, Id, Fault) :-
+    print_message(warning, typhon(agent_failed(Id, Fault))).
+print_fault(raised(Error), Id, Fault) :-
+    print_message(error, typhon(faulty(Id, Error, Fault))).
+
+%!  agent_stays(+Id, +Goals) is det.
+%
+%   Id is faulty, as its Goals say.  Of too many the oldest go.
+
+agent_stays(Id, Goals) :-
+    is_faulty(Goals, Fault, _),
+    (   with_agent(Id, faulty_keep(Id, Goals, Kept, At))
+    ->  faulty_tell(Id, Fault, At),
+        bound_faulty(Kept)
+    ;   true                            % it was ended meanwhile
+    ).
+
+bound_faulty(Kept) :-
+    (   Kept == true,
+        faulty_oldest(Oldest)
+    ->  faulty_gone(Oldest),
+        ignore(agent_end(Oldest, is_kept, disposed)),
+        bound_faulty(Kept)
+    ;   true
+    ).
+
+is_kept(faulty(_)).

@@ -1,0 +1,106 @@
+:- module(typhon_evacuation, []).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/stop_thread', [abort_quietly/0]).
+:- use_module('../../options/journal', [journal_closed/0]).
+:- use_module('../program', [machine_inside/0]).
+:- use_module('../host', [context_now/2, host_load/2, time_signal/1]).
+:- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
+:- use_module(ending, [agent_end/3, agent_forgotten/2]).
+:- use_module(orders, [order_take/2]).
+
+/** <module> The agents on a host that is being stopped
+
+Agents that rest are disposed of at once, those that run at their next
+effect; those that do not come to one are interrupted.  Those that are about
+to arrive elsewhere may do so; but where the journal has been closed they are
+under way in it, and nobody waits for them.
+
+*Threading*: the thread that stops the host.
+*/
+
+:- multifile typhon_hosting:evacuate/2.
+
+typhon_hosting:evacuate(Host, Deadline) :-
+    (   journal_closed
+    ->  forall(agent(Id, Host, _, _, _),
+               ignore(agent_forgotten(Id, under_way)))
+    ;   true
+    ),
+    evacuate(Host, Deadline).
+
+under_way(transit(_, _)).
+under_way(cloning(_, _)).
+
+%   Nearly always all rest, and nothing is waited for.  Else it looks again every
+%   10 ms: to be told, each arrival, return and end of a turn would have to look
+%   whether somebody waits for it.
+
+evacuate(Host, Deadline) :-
+    evacuated(Host, Deadline),
+    !.
+evacuate(Host, Deadline) :-
+    end_or_order(Host, Deadline),
+    (   evacuated(Host, Deadline)
+    ->  true
+    ;   thread_self(Me),
+        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
+        evacuate(Host, Deadline)
+    ).
+
+%   Load is also who ends until that is told, and who is on its way in before
+%   it stands here.
+
+last_seconds(1).                        % for who ends at the deadline
+
+evacuated(Host, Deadline) :-
+    \+ agent(_, Host, _, _, _),
+    (   host_load(Host, Load),
+        Load =< 0
+    ->  true
+    ;   get_time(Now),
+        last_seconds(More),
+        Now > Deadline+More
+    ).
+
+end_or_order(Host, Deadline) :-
+    findall(Id, agent(Id, Host, _, _, _), Ids),
+    forall(( member(Id, Ids), stays(Id) ),
+           ignore(order_take(Id, evacuate(Host)))),
+    get_time(Now),
+    (   Now > Deadline
+    ->  interrupt(Host, Ids)
+    ;   true
+    ).
+
+%   Who is ready rests, whatever it has been told.
+
+stays(Id) :-
+    agent_status(Id, Status, _),
+    (   Status == ready
+    ->  true
+    ;   \+ agent_ordered(Id),
+        \+ Status = transit(_, _)
+    ).
+
+%   That is the one exception that the agent's own catch/3 cannot stop.
+
+interrupt(Host, Ids) :-
+    forall(member(Id, Ids),
+           ignore(agent_end(Id, idles_on(Host, Id), disposed))),
+    (   member(Id, Ids),
+        agent_status(Id, running, _)
+    ->  time_signal(typhon_evacuation:stop_running(Host))
+    ;   true
+    ).
+
+idles_on(Host, Id, Status) :-
+    Status \== running,
+    agent(Id, Host, _, _, _).
+
+stop_running(Host) :-
+    (   context_now(Host, Agent),
+        Agent \== none,
+        machine_inside
+    ->  abort_quietly
+    ;   true
+    ).

@@ -1,0 +1,63 @@
+:- module(typhon_journaled_turns, []).
+:- use_module('../../options/journal',
+              [ journal_on/0, journal_seal/0, journal_step/1, unit_commit/0,
+                unit_has_effects/0, unit_release/0, unit_run/1 ]).
+:- use_module('../agent', [agent_put_down/3]).
+:- use_module(turn, []).
+
+/** <module> With a journal, a turn is one unit of work
+
+What the agent has done in its turn is noted together with what it is to do
+next, and released after that: as soon as the agent rests another worker may
+run it, and what it says then must not overtake what it said before.
+
+*Threading*: in the worker that has the agent.
+*/
+
+:- multifile
+    typhon_turn:settle/0,
+    typhon_turn:unit/2.
+
+typhon_turn:unit(typhon_journaled_turns:run,
+                 typhon_journaled_turns:conclude) :-
+    journal_on.
+
+typhon_turn:settle :-
+    unit_commit,
+    unit_release.
+
+:- public run/1, conclude/4.
+
+run(Goal) :-
+    unit_run(Goal).
+
+conclude(Id, Outcome, Conclude, Next) :-
+    journal_step(( turn_ends(Outcome, Id),
+                   call(Conclude),
+                   noted(Next, Id) )),
+    unit_release.
+
+turn_ends(effect(Control, Hole, Goals), Id) :-
+    !,
+    \+ \+ ( Hole = Control,
+            before_it_rests(Id, Goals) ).
+turn_ends(done, Id) :-
+    !,
+    before_it_rests(Id, []).
+turn_ends(_, _) :-
+    unit_commit.
+
+before_it_rests(Id, Goals) :-
+    (   unit_has_effects
+    ->  unit_commit,
+        agent_put_down(Id, ready, Goals),
+        journal_seal,
+        unit_release
+    ;   true
+    ).
+
+noted(stop, _).
+noted(go(Goals), Id) :-
+    agent_put_down(Id, ready, Goals).
+noted(elsewhere(Goals), Id) :-
+    agent_put_down(Id, ready, Goals).

@@ -1,0 +1,177 @@
+:- module(typhon_recovery,
+          [ agent_goes_on/1             % +Id
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/durable', [durable_restore/4]).
+:- use_module('../base/error_text', [print_error/2]).
+:- use_module('../../options/journal', [journal_item/5, note_drop_all/2]).
+:- use_module('../host',
+              [alarm_set/3, host/3, host_again/1, real_time/3, schedule/2]).
+:- use_module('../agent',
+              [ agent/5, agent_back/3, agent_status/3, agent_wakes/2,
+                mail_count/2, mail_restore/3, with_agent/2 ]).
+
+/** <module> What the journal knows stands again
+
+First everything is put where it was, while no peer is let in and no agent
+runs, see typhon_durable.  Then it goes on: agents whose time has come, or that
+were about to run, are scheduled, alarms are set, what was under way is asked
+for or sent again.
+
+*Threading*: the thread that starts the first host of the process.
+*/
+
+:- multifile
+    typhon_code:in_use/1,
+    typhon_durable:go_on/0,
+    typhon_durable:recover/0,
+    typhon_durable:restore/4,
+    typhon_durable:tidy/0,
+    typhon_runtime:ending/1.
+
+:- dynamic
+    superfluous/2,              % Kind, Key: no agent needs it
+    left/2.                     % Id, Hash: an agent that is not back
+
+%   What others look up comes before them.
+
+kind(lasting, any).
+kind(link, any).
+kind(tuple, numbers).
+kind(payload, any).
+kind(birth, any).
+kind(born, any).
+kind(outcome, numbers).
+kind(faulty, any).
+kind(left, numbers).
+kind(clone, numbers).
+kind(given_up, any).
+kind(done, numbers).
+kind(seen, any).
+kind(out, numbers).
+kind(agent, any).
+kind(mail, numbers).
+kind(wait, numbers).
+kind(letter, numbers).
+kind(logged, numbers).
+kind(code, any).
+
+%   What this process knew before, with another journal or none, is another
+%   story.
+
+typhon_durable:recover :-
+    forall(typhon_identity:ids_anew, true),
+    forall(( kind(Kind, Order),
+             journal_item(Kind, Order, Key, N, Term) ),
+           is_back(Kind, Key, N, Term)),
+    forall(typhon_durable:restored, true).
+
+is_back(Kind, Key, N, Term) :-
+    catch(durable_restore(Kind, Key, N, Term), error(Formal, Context), true),
+    !,
+    (   var(Formal)
+    ->  true
+    ;   print_message(error, typhon(not_back(Kind, Key))),
+        print_error(error, error(Formal, Context)),
+        stays(Kind, Key, Term)
+    ).
+is_back(Kind, Key, _, Term) :-
+    print_message(error, typhon(not_back(Kind, Key))),
+    stays(Kind, Key, Term).
+
+%   What stays in the journal stays there with all that belongs to it.
+
+stays(agent, Id, agent(_, Hash, _, _, _, _)) :-
+    !,
+    assertz(left(Id, Hash)).
+stays(_, _, _).
+
+typhon_code:in_use(Hash) :-
+    left(_, Hash),
+    !.
+
+typhon_runtime:ending(after) :-
+    retractall(left(_, _)).
+
+typhon_durable:restore(agent, Id, _, Record) :-
+    Record = agent(Host, _, _, _, _, _),
+    host(Host, _, Place),
+    agent_back(Id, Record, Place),
+    host_again(Host),
+    debug(typhon(agent), '~w: is there again, on ~w', [Id, Host]).
+typhon_durable:restore(mail, Id, N, Message) :-
+    (   agent(Id, _, _, _, _)
+    ->  mail_restore(Id, N, Message)
+    ;   left(Id, _)
+    ->  true
+    ;   assertz(superfluous(mail, Id))
+    ).
+
+typhon_durable:restore(code, Hash, _, _) :-
+    (   ( agent(_, _, _, Hash, _) ; left(_, Hash) )
+    ->  true
+    ;   assertz(superfluous(code, Hash))
+    ).
+
+%   Before anybody who needs it again can come.
+
+typhon_durable:tidy :-
+    forall(retract(superfluous(Kind, Key)), note_drop_all(Kind, Key)).
+
+                /*******************************
+                *            GO ON             *
+                *******************************/
+
+typhon_durable:go_on :-
+    findall(Id, agent_status(Id, _, _), All),
+    forall(member(Id, All), agent_goes_on(Id)).
+
+%!  agent_goes_on(+Id) is det.
+%
+%   Id, which has been put where it was, is scheduled if it was about to run,
+%   and woken when its time has come.  Others are let in already, and what they
+%   say may have woken it: who runs by now must not be run by two.
+
+agent_goes_on(Id) :-
+    (   with_agent(Id, ( agent_status(Id, Status, Goals),
+                         goes_on(Status, Goals, Id) ))
+    ->  true
+    ;   true
+    ),
+    (   agent_status(Id, Now, _),
+        alarm(Now, Stamp, Token),
+        agent(Id, Host, _, _, _)
+    ->  rings(Host, Stamp, Id, Token)
+    ;   true
+    ).
+
+goes_on(ready, _, Id) :-
+    agent(Id, Host, _, _, _),
+    !,
+    schedule(Host, Id).
+goes_on(obeying, Goals, Id) :-
+    agent_wakes(Id, Goals).
+goes_on(faulty(_), Goals, Id) :-
+    agent_wakes(Id, Goals).
+goes_on(resident, Goals, Id) :-
+    has_mail(Id, Goals).
+goes_on(waiting(_, _), Goals, Id) :-
+    has_mail(Id, Goals).
+
+%   It runs, and sees for itself.
+
+has_mail(Id, Goals) :-
+    mail_count(Id, Count),
+    Count > 0,
+    agent_wakes(Id, Goals).
+
+alarm(waiting(_, Until), Until, until(Until)) :-
+    number(Until).
+alarm(sleeping(Until), Until, until(Until)).
+alarm(leaving(_, At), At, leave).
+
+rings(Host, Until, Id, Token) :-
+    real_time(Host, Until, Stamp),
+    alarm_set(Stamp, Id, Token).
+

@@ -1,0 +1,167 @@
+:- module(typhon_running, []).
+:- use_module('../../options/journal', [journal_step/1]).
+:- use_module('../program', [answer_at/3]).
+:- use_module('../host',
+              [context_clear/0, context_set/3, event/4, still_keeps/1]).
+:- use_module('../agent',
+              [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
+                agent_ordered/1, agent_ready/2, agent_resumes/2, agent_rest/3,
+                agent_take/3, mail_take/2, with_agent/2 ]).
+:- use_module(effect, [effect/5, effect_depart/6]).
+:- use_module(ending, [agent_end/2, agent_fails/3]).
+:- use_module(orders, [order_obey/3]).
+:- use_module(turn,
+              [ turn_broken/1, turn_concluded/4, turn_engine/3, turn_over/1,
+                turn_overruled/2, turn_run/5, turn_settled/0 ]).
+
+/** <module> The life of an agent on a host
+
+A worker of the scheduler runs an agent from one effect of the machine to
+the next, see typhon_effect.  Orders from outside are obeyed in between.  What
+options make of a run is in typhon_turn.
+
+*Threading*: run/1 in workers.  While its status is `running` an agent
+belongs to one worker.
+*/
+
+:- multifile typhon_scheduler:run/1.
+
+typhon_scheduler:run(Id) :-
+    (   with_agent(Id, take(Id, Task))
+    ->  (   catch(perform(Task, Id), Ball, broken_off(Ball, Id))
+        ->  context_clear
+        ;   context_clear,
+            fail
+        )
+    ;   turn_over(Id)                   % has ended
+    ).
+
+take(Id, later) :-
+    still_keeps(Id),
+    !.
+take(Id, Task) :-
+    agent_take(Id, Goals, Order),
+    !,
+    (   Order == none
+    ->  Task = run(goals(Goals))
+    ;   Task = order(Order, Goals)
+    ).
+take(Id, leave(Dest, Hole, Goals, Since)) :-
+    agent_departs(Id, Dest, hop(Hole-Goals, Since)),
+    !.
+take(Id, run(resumed(Held))) :-
+    agent_resumes(Id, Held).
+
+perform(later, _).
+perform(order(Order, Goals), Id) :-
+    journal_step(order_obey(Order, Id, Goals)).
+perform(leave(Dest, Hole, Goals, Since), Id) :-
+    journal_step(effect_depart(Id, Dest, Hole, Goals, Since, Next)),
+    go_on(Next, Id).
+perform(run(Start), Id) :-
+    agent(Id, Host, Module, Hash, Life),
+    agent_code(Module, Program),
+    context_set(Host, Id, Module),
+    turn_engine(agent(Id, Host, Hash, Life), Start, Engine),
+    turns(Start, Engine, turn(Id, Host, context(Program, Module)), Next),
+    go_on(Next, Id).
+
+%   turns(+Start, +Engine, +Turn, -Next): Next is `stop`, or elsewhere(Goals).
+
+turns(Start, Engine, Turn, Next) :-
+    turn_run(Engine, Turn, Start, Outcome, Goals0),
+    turn_concluded(Turn, Outcome, conclude(Outcome, Goals0, Turn), Next0),
+    (   Next0 = go(Goals)
+    ->  turns(goals(Goals), Engine, Turn, Next)
+    ;   Next = Next0
+    ).
+
+go_on(stop, Id) :-
+    turn_over(Id).
+go_on(elsewhere(Goals), Id) :-
+    perform(run(goals(Goals)), Id).
+
+%   An agent whose worker is interrupted is in the middle of a goal, and cannot
+%   go on.  Not in a cleanup handler: while an exception is pending 9.0.4
+%   catches no other.
+
+broken_off(Ball, Id) :-
+    sig_atomic(( context_clear,
+                 turn_broken(Outcome),
+                 over_quota(Id, Outcome),
+                 turn_settled,
+                 ignore(agent_end(Id, Outcome)) )),
+    throw(Ball).
+
+over_quota(Id, raised(error(resource_error(What), _))) :-
+    !,
+    print_message(warning, typhon(over_quota(Id, What))).
+over_quota(_, _).
+
+%   conclude(+Outcome, +Goals0, +Turn, -Next): the run from Goals0 came to
+%   Outcome.  Next is as of effect/5.
+
+conclude(done, _, Turn, Next) :-
+    finish(Turn, Next).
+conclude(failed, Goals0, turn(Id, _, _), stop) :-
+    agent_fails(Id, failed, Goals0).
+conclude(held, _, _, stop).
+conclude(over(What), _, turn(Id, _, _), stop) :-
+    ends_over(Id, raised(error(resource_error(What), _))).
+conclude(raised(Error), Goals0, turn(Id, _, _), stop) :-
+    agent_fails(Id, raised(Error), Goals0).
+conclude(effect(Control, Hole, Goals), _, turn(Id, Host, _), Next) :-
+    (   agent_ordered(Id),
+        term_attvars(Goals, [])         % else see effect/5
+    ->  Hole = Control,
+        with_agent(Id, agent_ready(Id, Goals)),
+        Next = stop
+    ;   catch(effect(Control, Hole, Goals, Id-Host, Next),
+              error(Formal, Where),
+              raised_at(Control, error(Formal, Where), Hole-Goals, Id-Host,
+                        Next))
+    ).
+
+%   An agent that passed a limit ends, whatever it would catch.
+
+raised_at(_, _, _, Id-Host, stop) :-
+    turn_overruled(Host, Outcome),
+    !,
+    ends_over(Id, Outcome).
+raised_at(Control, Error, Hole-Goals, _, go(Goals)) :-
+    answer_at(Control, throw(Error), Hole).
+
+ends_over(Id, Outcome) :-
+    over_quota(Id, Outcome),
+    ignore(agent_end(Id, Outcome)).
+
+%   No goals are left: take the next message, or stay resident, or end.  That
+%   on_message/2 does not want a message, or fails, is no reason to end.
+
+finish(turn(Id, _, context(Program, Module)), Next) :-
+    agent_handles(Program, Module),
+    !,
+    with_agent(Id, next_message(Id, Next)),
+    received(Next, Id).
+finish(turn(Id, _, _), stop) :-
+    ignore(agent_end(Id, done)).
+
+%   An order comes first.
+
+next_message(Id, Next) :-
+    (   \+ agent_ordered(Id),
+        mail_take(Id, From-Message)
+    ->  Next = go([( on_message(From, Message)
+                   ->  true
+                   ;   message_failed(From, Message)
+                   )])
+    ;   agent_rest(Id, resident, []),
+        Next = stop
+    ).
+
+received(stop, _).
+received(go([(on_message(From, Message) -> _ ; _)]), Id) :-
+    agent(Id, Host, _, _, _),
+    !,
+    event(messages, Host, Id, received(From, Message)).
+received(go(_), _).

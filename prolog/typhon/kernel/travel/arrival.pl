@@ -1,0 +1,196 @@
+:- module(typhon_arrival, []).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [append/3]).
+:- use_module('../base/error_text', [print_error/2]).
+:- use_module('../../options/journal',
+              [crash_point/1, journal_on/0, journal_seal/0, journal_step/1]).
+:- use_module('../wire',
+              [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
+:- use_module('../host',
+              [ event/4, host/3, host_hop/3, host_time/2, schedule/2,
+                schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
+:- use_module('../agent',
+              [ agent/5, agent_order/2, agent_status/3, birth_sent/2, gate/4,
+                gate_refused/4, image_enter/4, image_entered/3,
+                image_entrant/2, image_label/2, image_module/3, image_trail/4,
+                life_hops/2, with_agent/2 ]).
+:- use_module(crossings,
+              [ crossing_done/1, crossing_end/2, crossing_known/1,
+                is_crossing/1 ]).
+:- use_module(home, [agent_outcome/2]).
+:- use_module(post, [post_waiting/2]).
+:- use_module(transfer, [transfer_let_go/4]).
+:- use_module(whereabouts, [agent_heard_of/2, agent_seen/4]).
+
+/** <module> Agents arrive
+
+The other half of a hop, see typhon_hop: install what comes, whole or not at
+all, and answer.  A transfer that comes again is recognised by what is known
+anyhow: the agent stands here, has gone on, or has ended.
+
+*Threading*: the reader threads of the endpoint.
+*/
+
+:- multifile
+    typhon_endpoint:lent/2,
+    typhon_endpoint:requested/4,
+    typhon_endpoint:returned/0.
+
+typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
+    arrived(Name, Image, Program, none, Peer, ReplyTo).
+typhon_endpoint:requested(hop, hop(Name, Image, Program, Label), Peer,
+                          ReplyTo) :-
+    (   is_crossing(Label)
+    ->  arrived(Name, Image, Program, Label, Peer, ReplyTo)
+    ;   endpoint_reply(ReplyTo, refused(error(type_error(crossing, Name))))
+    ).
+
+arrived(Name, Image, Program, Label, Peer, ReplyTo) :-
+    catch(arrive_noted(Name, Image, Program, Label, Peer, Answer),
+          error(Formal, Context),
+          ( print_error(error, error(Formal, Context)),
+            gate_refused(Name, from(Peer, Program, none), malformed,
+                         error(Formal)),
+            Answer = refused(error(Formal))
+          )),
+    answer(Answer, Name, ReplyTo).
+
+arrive_noted(Name, Image, Program, Label, Peer, Answer) :-
+    (   journal_on
+    ->  journal_step(arrive(Name, Image, Program, Label, Peer, Answer)),
+        crash_point(before_answer)
+    ;   arrive(Name, Image, Program, Label, Peer, Answer)
+    ).
+
+%   The agent must not run before the answer is on its way: what it sends
+%   comes behind it.
+
+answer(installed(Id), Name, ReplyTo) :-
+    !,
+    endpoint_reply_later(ReplyTo, accepted),
+    endpoint_afterwards(go_on(Name, Id)).
+answer(Answer, _, ReplyTo) :-
+    endpoint_reply(ReplyTo, Answer).
+
+%   go_on(+Name, +Id, +Where): `here`, in this thread, or `later`.
+
+go_on(Name, Id, here) :-
+    schedule_here(Name, Id).
+go_on(Name, Id, later) :-
+    schedule(Name, Id).
+
+typhon_endpoint:lent(_:go_on(_, Id), Thread) :-
+    schedule_adopt(Thread, Id).
+
+typhon_endpoint:returned :-
+    schedule_leave.
+
+arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
+    birth_sent(Papers, Program),
+    image_label(Image, Label),
+    (   has_come(Crossing, Label)
+    ->  Answer = accepted
+    ;   image_entrant(Image, Entrant),
+        gate(Name, from(Peer, Program, papers(Papers))-Entrant,
+             install(Name, Label, Image, Crossing-Peer, In), Verdict),
+        answer_to(Verdict, In, Name, Label, Peer, Answer)
+    ).
+
+answer_to(ok, in(Address, Gone), Name, Label, Peer, installed(Id)) :-
+    !,
+    Label = label(Id, _, _, _),
+    call(Gone),
+    report_arrival(Name, Address, Label, Peer).
+answer_to(Verdict, _, _, _, _, Verdict).
+
+has_come(Crossing, _) :-
+    Crossing \== none,
+    crossing_known(Crossing),
+    !.
+has_come(_, label(Id, Hops, _, _)) :-
+    repeated(Id, Hops).
+
+repeated(Id, Hops) :-
+    (   agent(Id, _, _, _, Life)
+    ->  life_hops(Life, Hops0),
+        Hops0 >= Hops
+    ;   agent_outcome(Id, _)
+    ->  true
+    ;   agent_heard_of(Id, Hops0),
+        Hops0 >= Hops
+    ).
+
+%   install(+Name, +Label, +Image, +From, -In, -Verdict): all or nothing; In is
+%   in(Address, Gone).  The host was stopped, or the program thrown out, since
+%   the gate looked; or there are two agents of this id, one of which was taken
+%   for dead: the one that is here stays.
+
+install(Name, Label, Image0, Crossing-Peer, In, Verdict) :-
+    (   host(Name, Address, Place)
+    ->  Label = label(Id, Hops, _, _),
+        image_trail(received(Address), Name, Image0, Image1),
+        image_entered(Peer, Image1, Image),
+        In = in(Address, Gone),
+        with_agent(Id, ( install(Id, Hops, Image, Crossing, Name, Place, Gone,
+                                 Verdict),
+                         ( journal_on -> journal_seal ; true ) ))
+    ;   Verdict = refused(unknown_host)
+    ).
+
+%   All is noted, and sealed, before the agent can be found here.
+
+install(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict) :-
+    (   overtaken(Id, Hops)
+    ->  Verdict = accepted
+    ;   image_module(Image, Place, Module)
+    ->  let_go(Id, Later, Orders, Gone),
+        post_waiting(Id, Last),
+        append(Later, Last, More),
+        (   Crossing == none
+        ->  true
+        ;   crossing_done(Crossing)
+        ),
+        image_enter(Image, Name, Module, More),
+        maplist(agent_order(Id), Orders),
+        Verdict = ok
+    ;   Verdict = need_program
+    ).
+
+overtaken(Id, Hops) :-
+    repeated(Id, Hops),
+    !.
+overtaken(Id, _) :-
+    agent_status(Id, Status, _),
+    Status \= transit(_, _).
+
+%   Our own copy, still waiting for the answer, is out of date.
+
+let_go(Id, Mail, Orders, Gone) :-
+    (   transfer_let_go(Id, Mail0, Orders0, Gone0)
+    ->  crossing_end(Id, _),
+        Mail = Mail0,
+        Orders = Orders0,
+        Gone = Gone0
+    ;   Mail = [],
+        Orders = [],
+        Gone = true
+    ).
+
+report_arrival(Name, Address, label(Id, Hops, Since, From), Peer) :-
+    debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
+          [Id, Hops, Address, Peer]),
+    agent_seen(Id, Address, Hops, Peer),
+    (   host_time(Name, Now)
+    ->  Seconds is max(0.0, Now-Since),
+        host_hop(Name, in, Seconds),
+        came_from(From, Peer, Where),
+        event(hops, Name, Id, arrived(Where, Seconds))
+    ;   true                            % the host is being stopped
+    ).
+
+%   Where nobody wanted to know when it left, only the process is known.
+
+came_from(none, Peer, Peer) :-
+    !.
+came_from(From, _, From).

@@ -1,0 +1,314 @@
+:- module(typhon_channel,
+          [ channel_post/3,             % +Endpoint, +Kind, +Term
+            channel_must_fit/1          % +Change
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [must_be/2, resource_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../options/journal',
+              [ crash_point/1, journal_guards/0, journal_number/1, journal_on/0,
+                journal_seal/0, note_bytes/2, note_change/1, note_drop/3,
+                note_drop_below/3, note_putting/5 ]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
+                endpoint_process/1, frame_fits/1 ]).
+:- use_module('../host', [alarm_in/3, scheduler_call/1]).
+
+/** <module> Posts that survive those who send and take them
+
+A process that keeps a journal notes what it posts to another before it is
+sent, and keeps it until the other says that it has come for good.  Until then
+it is sent again whenever there is a new connection.  The other, see room
+`channel_end`, takes each once, in order:
+
+    channel(Process, To, Before, N, Kind, Term)
+
+is the post of number N of Process to the endpoint To; Before is the number
+of the one before, or first(M) if all up to M are known to have come.  Who
+lacks one says again(To), who has one had(To, N).
+
+*Threading*: any thread posts, and never waits for a connection; one worker at
+a time sends to an endpoint.
+*/
+
+:- meta_predicate engaging(+, 0).
+
+:- multifile
+    typhon_durable:fact_table/5,
+    typhon_endpoint:connection/2,
+    typhon_endpoint:received/3,
+    typhon_durable:go_on/0,
+    typhon_runtime:ending/1,
+    typhon_scheduler:fire/2.
+
+:- dynamic
+    out/4,                      % Endpoint, N, Kind, Term: the oldest first
+    had/2,                      % Endpoint, N: all up to N have come
+    sent/2,                     % Endpoint, N: all up to N were sent; not
+                                % there if it is to be begun anew
+    courier/1.                  % Endpoint: somebody sends
+
+:- setting(channel_seconds, number, 300,
+           "Posts for a process that has left, and keeps no journal as far as \c
+            is known, are kept so long").
+
+batch(100).
+longest_pause(1).               % seconds between attempts
+around(1000).                   % what a frame has besides, at most
+
+%!  channel_post(+Endpoint, +Kind, +Term) is det.
+%
+%   Post Term to Endpoint, once, whatever dies.  What was noted in this step
+%   is sealed with it.
+%
+%   @error resource_error(frame_bytes) Term is too long for a frame
+
+channel_post(Endpoint, Kind, Term) :-
+    engaging(Endpoint,
+             ( journal_number(N),
+               note_putting(out, Endpoint, N, item(Kind, Term), Change),
+               channel_must_fit(Change),
+               note_change(Change),
+               journal_seal,
+               assertz(out(Endpoint, N, Kind, Term)) )).
+
+%!  channel_must_fit(+Change) is det.
+%
+%   What is noted can be sent in a frame.
+%
+%   @error resource_error(frame_bytes)
+
+channel_must_fit(Change) :-
+    note_bytes(Change, Count),
+    around(More),
+    Most is Count+More,
+    (   frame_fits(Most)
+    ->  true
+    ;   resource_error(frame_bytes)
+    ).
+
+%   engaging(+Endpoint, :Goal): Goal changes what is to be sent to Endpoint, for
+%   which there is a courier then.  A thread that is told to end in the middle
+%   must not leave one that was never sent out: all others would rely on him.
+
+engaging(Endpoint, Goal) :-
+    sig_atomic(( with_mutex(typhon_channel,
+                            ( Goal, engage(Endpoint, Courier) )),
+                 set_out(Courier, Endpoint) )).
+
+engage(Endpoint, Courier) :-
+    (   ( courier(Endpoint) ; \+ out(Endpoint, _, _, _) )
+    ->  Courier = there
+    ;   assertz(courier(Endpoint)),
+        Courier = wanted
+    ).
+
+set_out(there, _).
+set_out(wanted, Endpoint) :-
+    scheduler_call(typhon_channel:carry(Endpoint, try(0, 0.05))).
+
+%   carry(+Endpoint, +Try): in a worker, until all is sent.  Try is
+%   try(Since, Pause): it has not worked since then, 0 if it has, and the pause
+%   after this attempt.
+
+carry(Endpoint, Try) :-
+    with_mutex(typhon_channel, next(Endpoint, Items)),
+    (   Items == []
+    ->  true
+    ;   catch(send_all(Items, Endpoint), error(Formal, _), true),
+        (   var(Formal)
+        ->  carry(Endpoint, try(0, 0.05))
+        ;   not_sent(Formal, Endpoint, Try)
+        )
+    ).
+
+next(Endpoint, Items) :-
+    (   sent(Endpoint, Sent)
+    ->  Before0 = Sent
+    ;   had_until(Endpoint, Had),
+        Sent = Had,
+        Before0 = first(Had)
+    ),
+    batch(Most),
+    findnsols(Most, item(N, Kind, Term),
+              ( out(Endpoint, N, Kind, Term), N > Sent ), Found),
+    !,
+    chained(Found, Before0, Items),
+    (   Items == []
+    ->  retractall(courier(Endpoint))
+    ;   Before0 = first(_)
+    ->  assertz(sent(Endpoint, Sent))
+    ;   true
+    ).
+
+had_until(Endpoint, N) :-
+    (   had(Endpoint, N0)
+    ->  N = N0
+    ;   N = -1
+    ).
+
+chained([], _, []).
+chained([item(N, Kind, Term)|Found], Before,
+        [item(Before, N, Kind, Term)|Items]) :-
+    chained(Found, N, Items).
+
+%   If it is to be begun anew meanwhile, as what was sent over a connection is
+%   lost with that, this counts for nothing, and no more of it is sent.
+
+send_all([], _).
+send_all([item(Before, N, Kind, Term)|Items], Endpoint) :-
+    endpoint_process(Process),
+    crash_point(before_post),
+    endpoint_post(Endpoint, channel,
+                  channel(Process, Endpoint, Before, N, Kind, Term)),
+    (   with_mutex(typhon_channel, put_sent(Endpoint, Before, N))
+    ->  send_all(Items, Endpoint)
+    ;   true
+    ).
+
+put_sent(Endpoint, Before, N) :-
+    ( Before = first(Last) -> true ; Last = Before ),
+    retract(sent(Endpoint, Last)),
+    !,
+    assertz(sent(Endpoint, N)).
+
+not_sent(existence_error(_, _), Endpoint, _) :-
+    all_ends,
+    !,
+    with_mutex(typhon_channel, retractall(courier(Endpoint))).
+not_sent(unreachable(_), Endpoint, try(Since, _)) :-
+    endpoint_gone(Endpoint),
+    Since > 0,
+    get_time(Now),
+    setting(channel_seconds, Most),
+    Now-Since > Most,
+    !,
+    print_message(silent, typhon(home_unreachable(Endpoint))),
+    give_up(Endpoint).
+not_sent(resource_error(frame_bytes), Endpoint, _) :-
+    !,
+    with_mutex(typhon_channel, next_is_dropped(Endpoint, Dropped)),
+    say_undelivered(Dropped, Endpoint, resource_error(frame_bytes)),
+    carry(Endpoint, try(0, 0.05)).
+not_sent(Formal, Endpoint, try(Since0, Pause)) :-
+    debug(typhon(mail), 'nothing can be posted to ~w: ~p', [Endpoint, Formal]),
+    with_mutex(typhon_channel, retractall(sent(Endpoint, _))),
+    longest_pause(Longest),
+    Pause1 is min(Longest, 2*Pause),
+    get_time(Now),
+    (   Since0 =:= 0
+    ->  Since = Now
+    ;   Since = Since0
+    ),
+    alarm_in(Pause, Endpoint, channel(try(Since, Pause1))).
+
+%   In a codec that takes more room than what was noted, or since less is
+%   allowed, one may be too long that was not when it was posted: it must not
+%   keep others from being sent.
+
+next_is_dropped(Endpoint, [Kind-Term]) :-
+    sent(Endpoint, Sent),
+    out(Endpoint, N, Kind, Term),
+    N > Sent,
+    !,
+    note_drop(out, Endpoint, N),
+    retractall(out(Endpoint, N, _, _)),
+    retractall(sent(Endpoint, _)).
+next_is_dropped(_, []).                 % it is begun anew
+
+typhon_scheduler:fire(Endpoint, channel(Try)) :-
+    !,
+    scheduler_call(typhon_channel:carry(Endpoint, Try)).
+
+%   This process says nothing any more.  What else does not exist, as the queue
+%   of a connection that breaks, is another's next time.
+
+all_ends :-
+    \+ endpoint_address(_),
+    !.
+all_ends :-
+    journal_guards,
+    \+ journal_on.
+
+%   Who is there no longer, and keeps no journal, will not take it.
+
+give_up(Endpoint) :-
+    with_mutex(typhon_channel,
+               ( findall(Kind-Term, out(Endpoint, _, Kind, Term), Lost),
+                 forget_all(Endpoint),
+                 retractall(sent(Endpoint, _)),
+                 retractall(had(Endpoint, _)),
+                 retractall(courier(Endpoint)) )),
+    say_undelivered(Lost, Endpoint, host_unreachable(Endpoint)).
+
+forget_all(Endpoint) :-
+    (   out(Endpoint, N, _, _)
+    ->  N1 is N+1,
+        note_drop_below(out, Endpoint, N1),
+        retractall(out(Endpoint, N, _, _)),
+        forget_all(Endpoint)
+    ;   true
+    ).
+
+:- multifile undelivered/4.             % Kind, Term, Endpoint, Formal
+
+say_undelivered(Lost, Endpoint, Formal) :-
+    forall(member(Kind-Term, Lost),
+           ignore(undelivered(Kind, Term, Endpoint, Formal))).
+
+                /*******************************
+                *        WHAT IS ANSWERED      *
+                *******************************/
+
+typhon_endpoint:received(channel, again(To), _) :-
+    begin_anew(To).
+typhon_endpoint:received(channel, had(To, N), _) :-
+    must_be(integer, N),
+    with_mutex(typhon_channel, has_come(To, N)).
+
+begin_anew(To) :-
+    engaging(To, retractall(sent(To, _))).
+
+has_come(To, N) :-
+    retractall(had(To, _)),
+    assertz(had(To, N)),
+    come(To, N),
+    N1 is N+1,
+    note_drop_below(out, To, N1).
+
+come(To, N) :-
+    (   out(To, N0, _, _),
+        !,
+        N0 =< N
+    ->  retract(out(To, N0, _, _)),
+        !,
+        come(To, N)
+    ;   true
+    ).
+
+                /*******************************
+                *        BREAKS AND ENDS       *
+                *******************************/
+
+%   Who has a new connection may have died meanwhile.
+
+typhon_endpoint:connection(Endpoint, up) :-
+    (   endpoint_address(Endpoint)
+    ->  true
+    ;   begin_anew(Endpoint)
+    ).
+
+typhon_durable:fact_table(out, Endpoint, N, item(Kind, Term),
+                          typhon_channel:out(Endpoint, N, Kind, Term)).
+
+typhon_durable:go_on :-
+    findall(Endpoint, out(Endpoint, _, _, _), All),
+    sort(All, Endpoints),
+    forall(member(Endpoint, Endpoints), begin_anew(Endpoint)).
+
+typhon_runtime:ending(after) :-
+    retractall(out(_, _, _, _)),
+    retractall(had(_, _)),
+    retractall(sent(_, _)),
+    retractall(courier(_)).

@@ -1,0 +1,326 @@
+:- module(typhon_home,
+          [ agent_born/2,               % +Id, +Address
+            home_moved/4,               % +Id, +Address, +Hops, +Process
+            home_left/4,                % +Id, +Address, +Hops, +Process
+            home_ended/4,               % +Id, +Outcome, +Hops, +Legacy
+            home_faulty/6,              % +Id, +Outcome, +Stamp, +Address,
+                                        % +Hops, +Process
+            home_resumed/3,             % +Id, +Stamp, +Hops
+            home_knows/4,               % +Id, -Address, -Hops, -Process
+            home_agents/1,              % -Ids
+            home_agents_at/2,           % +Endpoint, -Ids
+            agent_outcome/2,            % +Id, -Outcome
+            ended_after/2,              % +Id, -Hops
+            outcome_wait/3              % +Id, +Seconds, +Asker
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../../options/journal',
+              [journal_number/1, note_drop/3, note_drop_all/2, note_put/4]).
+:- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
+:- use_module('../host', [address_parts/3, alarm_in/3]).
+:- use_module('../agent', [agent_home_endpoint/2]).
+:- use_module(legacies, [legacy_keep/2]).
+
+/** <module> What a home knows of its agents
+
+The home of an agent, the process in which it was born, always knows where
+it went and how it ended, and tells those who wait for that.  Older news
+never replace newer ones: they are ordered by the number of hops.  Of the
+outcomes the oldest are forgotten.  A home that was started again knows of
+its agents what they tell it.
+
+*Threading*: any thread; one mutex.
+*/
+
+%   The name under which people know it.
+
+:- setting(typhon_whereabouts:outcomes, positive_integer, 20000,
+           "Outcomes of ended agents kept by their home").
+
+:- dynamic
+    born/4,                     % Id, Address, Hops, Process: its home is
+                                % here, and it has not ended
+    outcome/3,                  % Id, Outcome, Hops
+    faulty/3,                   % Id, Outcome, Age: nobody waits for its end
+                                % any more; Outcome is `none` if it was
+                                % resumed since
+    waiter/3.                   % Id, Token, Asker
+
+:- multifile
+    typhon_durable:fact_table/5,
+    typhon_bounded:forgotten/1,
+    typhon_identity:ids_anew/0,
+    typhon_identity:id_anew/1,
+    typhon_durable:dump/4,
+    typhon_endpoint:requested/4,
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
+
+typhon_identity:ids_anew :-
+    retractall(born(_, _, _, _)),
+    retractall(outcome(_, _, _)),
+    retractall(faulty(_, _, _)),
+    retractall(waiter(_, _, _)).
+
+typhon_identity:id_anew(Id) :-
+    retractall(born(Id, _, _, _)),
+    retractall(outcome(Id, _, _)),
+    retractall(faulty(Id, _, _)).
+
+%!  agent_born(+Id, +Address) is det.
+
+agent_born(Id, Address) :-
+    put_born(Id, Address, 0, here).
+
+put_born(Id, Address, Hops, Process) :-
+    note_put(born, Id, 0, born(Address, Hops, Process)),
+    assertz(born(Id, Address, Hops, Process)).
+
+typhon_bounded:forgotten(outcome(Id, _, _)) :-
+    note_drop_all(outcome, Id).
+
+%   At the address of another process there may be another by then.
+
+typhon_durable:dump(born, Id, 0, born(Address, Hops, Process)) :-
+    born(Id, Address, Hops, Process0),
+    ( Process0 == here -> Process = here ; Process = unknown ).
+typhon_durable:fact_table(outcome, Id, _, Outcome-Hops,
+                          typhon_home:outcome(Id, Outcome, Hops)).
+typhon_durable:fact_table(faulty, Id, 0, faulty(Outcome, Age),
+                          typhon_home:faulty(Id, Outcome, Age)).
+typhon_durable:dump(flag, outcomes, N, '') :-
+    flag(outcomes, N, N).
+
+typhon_durable:fact_table(born, Id, 0, born(Address, Hops, Process),
+                          typhon_home:born(Id, Address, Hops, Process)).
+
+%!  home_knows(+Id, -Address, -Hops, -Process) is semidet.
+%
+%   Id, which has not ended, was last told to be at Address, in Process.
+
+home_knows(Id, Address, Hops, Process) :-
+    born(Id, Address0, Hops0, Process0),
+    !,
+    Address = Address0, Hops = Hops0, Process = Process0.
+
+%!  home_agents(-Ids:list(atom)) is det.
+%
+%   Those who were born in this process and have not ended.
+
+home_agents(Ids) :-
+    findall(Id, born(Id, _, _, _), Ids0),
+    sort(Ids0, Ids).
+
+%!  home_agents_at(+Endpoint, -Ids:list(atom)) is det.
+%
+%   Those of home_agents/1 that were last known to be in the process at
+%   Endpoint.
+
+home_agents_at(Endpoint, Ids) :-
+    findall(Id,
+            ( born(Id, Address, _, _),
+              address_parts(Address, _, Endpoint) ),
+            Ids0),
+    sort(Ids0, Ids).
+
+%!  agent_outcome(+Id, -Outcome) is semidet.
+%!  ended_after(+Id, -Hops) is semidet.
+
+agent_outcome(Id, Outcome) :-
+    outcome(Id, Outcome, _).
+
+ended_after(Id, Hops) :-
+    outcome(Id, _, Hops).
+
+%!  home_moved(+Id, +Address, +Hops, +Process) is det.
+%!  home_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
+%
+%   News of Id: it has gone to Address, in Process, or has ended, after Hops
+%   hops, and leaves Legacy.
+
+home_moved(Id, Address, Hops, Process) :-
+    debug(typhon(hop), '~w hop ~D: home hears that it is on ~w',
+          [Id, Hops, Address]),
+    with_mutex(typhon_born, moved(Id, Address, Hops, Process)).
+
+%!  home_left(+Id, +Address, +Hops, +Process) is det.
+%
+%   As home_moved/4, of one that has left this process, which is noted.
+
+home_left(Id, Address, Hops, Process) :-
+    with_mutex(typhon_born,
+               (   born(Id, _, Hops0, _),
+                   Hops0 < Hops
+               ->  assertz(born(Id, Address, Hops, Process)),
+                   forget_first(Id)
+               ;   moved(Id, Address, Hops, Process)
+               )).
+
+%   The new fact comes before the old one goes: others read meanwhile.  Of
+%   whom the home has never heard was born before it was started again.
+
+moved(Id, Address, Hops, Process) :-
+    born(Id, _, Hops0, _),
+    !,
+    (   Hops0 < Hops
+    ->  put_born(Id, Address, Hops, Process),
+        forget_first(Id)
+    ;   true
+    ).
+moved(Id, Address, Hops, Process) :-
+    \+ outcome(Id, _, _),
+    agent_home_endpoint(Id, Home),
+    endpoint_address(Home),
+    !,
+    put_born(Id, Address, Hops, Process).
+moved(_, _, _, _).
+
+forget_first(Id) :-
+    retract(born(Id, _, _, _)),
+    !.
+
+home_ended(Id, Outcome, Hops, Legacy) :-
+    debug(typhon(agent), '~w: home hears that it ended after ~D hops, ~p',
+          [Id, Hops, Outcome]),
+    with_mutex(typhon_born, ended(Id, Outcome, Hops, Legacy, Askers)),
+    forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
+
+%   A copy that was given up in doubt says nothing of an agent that is
+%   known to have gone on.
+
+ended(Id, _, Hops, _, []) :-
+    (   outcome(Id, _, _)
+    ;   born(Id, _, Hops0, _),
+        Hops0 > Hops
+    ),
+    !.
+ended(Id, Outcome0, Hops, Legacy, Askers) :-
+    retractall(born(Id, _, _, _)),
+    note_drop(born, Id, 0),
+    note_drop(agent, Id, 0),
+    note_drop(faulty, Id, 0),
+    (   retract(faulty(Id, Told, _))
+    ->  last_outcome(Outcome0, Told, Outcome)
+    ;   Outcome = Outcome0
+    ),
+    legacy_keep(Id, Legacy),
+    journal_number(N),
+    note_put(outcome, Id, N, Outcome-Hops),
+    assertz(outcome(Id, Outcome, Hops)),
+    bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
+    waiters(Id, Askers).
+
+%   Who is disposed of while he is faulty has ended as he had before.  Whose
+%   end is another was resumed; that may be heard later.
+
+last_outcome(disposed, Told, Told) :-
+    Told \== none,
+    !.
+last_outcome(Outcome, _, Outcome).
+
+%!  home_faulty(+Id, +Outcome, +Stamp, +Address, +Hops, +Process) is det.
+%!  home_resumed(+Id, +Stamp, +Hops) is det.
+%
+%   News of Id: it has come to that Outcome, but is kept at Address, in
+%   Process, after Hops hops; or it goes on after the fault of that Stamp.
+
+home_faulty(Id, Outcome, Stamp, Address, Hops, Process) :-
+    debug(typhon(agent), '~w: home hears that it is faulty, ~p',
+          [Id, Outcome]),
+    with_mutex(typhon_born,
+               ( moved(Id, Address, Hops, Process),
+                 has_fault(Id, Outcome, Stamp, Hops, Askers) )),
+    forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
+
+has_fault(Id, Outcome, Stamp, Hops, Askers) :-
+    born(Id, _, Hops0, _),
+    Hops0 =< Hops,
+    \+ ( faulty(Id, _, Age), Age @>= Hops-Stamp ),
+    !,
+    put_fault(Id, Outcome, Hops-Stamp),
+    waiters(Id, Askers).
+has_fault(_, _, _, _, []).
+
+%   That it was resumed may be heard before that it was faulty: ages tell.
+
+home_resumed(Id, Stamp, Hops) :-
+    debug(typhon(agent), '~w: home hears that it is resumed', [Id]),
+    with_mutex(typhon_born, resumed(Id, Hops-Stamp)).
+
+resumed(Id, Age) :-
+    (   born(Id, _, _, _),
+        \+ ( faulty(Id, _, Age0), Age0 @> Age )
+    ->  put_fault(Id, none, Age)
+    ;   true
+    ).
+
+put_fault(Id, Outcome, Age) :-
+    retractall(faulty(Id, _, _)),
+    note_put(faulty, Id, 0, faulty(Outcome, Age)),
+    assertz(faulty(Id, Outcome, Age)).
+
+%   One by one: see typhon_mailbox.
+
+waiters(Id, Askers) :-
+    (   retract(waiter(Id, _, Asker))
+    ->  Askers = [Asker|More],
+        waiters(Id, More)
+    ;   Askers = []
+    ).
+
+                /*******************************
+                *      WAITING FOR THE END     *
+                *******************************/
+
+%!  outcome_wait(+Id, +Seconds, +Asker) is det.
+%
+%   Tell Asker the outcome of Id, whose home is here, when it is known;
+%   `timeout` after Seconds and `unknown` if there is no such agent.
+%
+%   @arg Asker is queue(Queue, Tag) or reply(ReplyTo)
+
+outcome_wait(Id, Seconds, Asker) :-
+    with_mutex(typhon_born, wait_or_answer(Id, Seconds, Asker, Answer)),
+    (   Answer == wait
+    ->  true
+    ;   tell_asker(Asker, Answer)
+    ).
+
+wait_or_answer(Id, _, _, Outcome) :-
+    (   outcome(Id, Outcome, _)
+    ;   faulty(Id, Outcome, _),
+        Outcome \== none
+    ),
+    !.
+wait_or_answer(Id, Seconds, Asker, wait) :-
+    born(Id, _, _, _),
+    !,
+    flag(typhon_waiter, Token, Token+1),
+    assertz(waiter(Id, Token, Asker)),
+    (   number(Seconds)
+    ->  alarm_in(Seconds, Id, join(Token))
+    ;   true
+    ).
+wait_or_answer(_, _, _, unknown).
+
+typhon_scheduler:fire(Id, join(Token)) :-
+    !,
+    (   retract(waiter(Id, Token, Asker))
+    ->  tell_asker(Asker, timeout)
+    ;   true
+    ).
+
+typhon_scheduler:over(Id, join(Token)) :-
+    \+ waiter(Id, Token, _).
+
+tell_asker(queue(Queue, Tag), Outcome) :-
+    catch(thread_send_message(Queue, outcome(Tag, Outcome)),
+          error(existence_error(_, _), _), true).
+tell_asker(reply(ReplyTo), Outcome) :-
+    endpoint_reply(ReplyTo, Outcome).
+
+typhon_endpoint:requested(join, join(Id, Seconds), _Peer, ReplyTo) :-
+    outcome_wait(Id, Seconds, reply(ReplyTo)).

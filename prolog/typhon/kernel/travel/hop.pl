@@ -1,0 +1,224 @@
+:- module(typhon_hop,
+          [ hop/6,                      % +Id, +Where, +Hole, +Goals, +Since,
+                                        % -Next
+            hop_clone/6                 % +Id, +Where, +CloneId, +Who, +Hole,
+                                        % +Goals
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module('../program', [code_sent/2]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_keys/1, endpoint_request/4,
+                mobile_term/1 ]).
+:- use_module('../host', [address_parts/3, host/3, host_time/2]).
+:- use_module('../agent',
+              [ agent/5, birth_papers/5, birth_unproved/2, image_hash/2,
+                image_trail/4, with_agent/2 ]).
+:- use_module('../../options/journal', [crash_point/1, journal_on/0]).
+:- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
+:- use_module(doubt, [doubt_open/1, doubt_settle/1]).
+:- use_module(home, [agent_born/2]).
+:- use_module(legacies, [clone_born/2]).
+:- use_module(within, [hop_within/6]).
+:- use_module(transfer,
+              [ transfer_arrived/1, transfer_freeze/4, transfer_image/2,
+                transfer_image/5, transfer_stays/2, transfer_traveller/3,
+                transfer_unreachable/1 ]).
+
+/** <module> A hop is a transaction
+
+Between hosts of one process see typhon_within; this is of hops to others.
+The source freezes the agent and sends its image: state, payloads, goals,
+mail.  The receiver installs it and answers, see typhon_arrival, and only
+then does the source let its copy go, see typhon_transfer.  An agent that
+comes back before the answer proves that it had arrived.
+
+  | answer       | the source                                       |
+  | ------------ | ------------------------------------------------ |
+  | accepted     | forgets the agent; mail that came later follows  |
+  | refused(Why) | raises move_refused(Host, Why) at the move       |
+  | need_program | sends again, with the program                    |
+  | unreachable  | raises host_unreachable(Host) at the move        |
+  | lost         | asks whether it got away, see typhon_doubt       |
+
+*Threading*: hop/6 in a worker; answers in the reader threads of the
+endpoint, which never wait.
+*/
+
+:- multifile
+    typhon_doubt:again/1,
+    typhon_endpoint:connection/2.
+
+:- dynamic has_program/2.       % Endpoint, Hash: was sent there
+
+%!  hop(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
+%
+%   Send Id to Where, as of host_resolve/2, where it goes on with Goals,
+%   Hole bound to `true`.  Next is `stop`, or elsewhere(Goals) if this worker
+%   is to go on with it there.
+%
+%   @arg Since is the host time at which it set out
+%   @error type_error(mobile_term, Culprit)
+%   @error move_refused(Address, Reason), of a host of this process
+
+hop(Id, local(Name), Hole, Goals, Since, Next) :-
+    !,
+    hop_within(Id, Name, Hole, Goals, Since, Next).
+hop(Id, Where, Hole, Goals, Since, stop) :-
+    destination(Where, Dest),
+    Transfer = hop(Id, Dest, _),
+    image(Transfer, Hole-Goals, Mail, Since, Image),
+    set_out(Transfer, Hole-Goals, Mail, Since, Image).
+
+%!  hop_clone(+Id, +Where, +CloneId, +Who, +Hole, +Goals) is det.
+%
+%   Send a clone of Id to Where; Id waits for the answer, Goals its goals.
+
+hop_clone(Id, Where, CloneId, Who, Hole, Goals) :-
+    agent(Id, Host, _, _, _),
+    host_time(Host, Since),
+    destination(Where, Dest),
+    Transfer = clone(Id, Dest, CloneId),
+    image(Transfer, Hole-Goals-Who, Mail, Since, Image),
+    host(Host, Here, _),
+    agent_born(CloneId, Here),
+    clone_born(Id, CloneId),
+    set_out(Transfer, Hole-Goals-Who, Mail, Since, Image).
+
+%   A host of this process may be stopped while an agent is on its way to
+%   it: that changes nothing of its address.
+
+destination(local(Name), dest(Address, Name, Endpoint)) :-
+    endpoint_address(Endpoint),
+    address_parts(Address, Name, Endpoint).
+destination(remote(Address, Name, Endpoint), dest(Address, Name, Endpoint)).
+
+%   The mail is taken when the agent is frozen.
+
+image(Transfer, Held, Mail, Since, Image) :-
+    copy_term(Held, Going),
+    transfer_image(Transfer, Going, Mail, Since, Image),
+    mobile_term(Image).
+
+%   An interrupt comes before or after both, or an agent would wait for the
+%   answer to what was never sent.
+
+set_out(Transfer, Held, Mail, Since, Image) :-
+    arg(1, Transfer, Id),
+    sig_atomic(
+        ( with_agent(Id, transfer_freeze(Transfer, Held, Mail, Since))
+        ->  send(Transfer, Image)
+        ;   true                        % it was ended meanwhile
+        )).
+
+%   send(+Transfer, +Image): what cannot be sent, such as too long a frame,
+%   stays.
+
+send(Transfer, Image0) :-
+    arg(2, Transfer, dest(Address, Name, Endpoint)),
+    image_hash(Image0, Hash),
+    catch(( handed(Transfer, Address, Image0, Image),
+            program(Endpoint, Hash, Sent),
+            transfer_traveller(Transfer, Who, _),
+            birth_papers(Who, Hash, Endpoint, Sent, Program),
+            (   journal_on
+            ->  hop_request(Transfer, Name, Image, Program, Request),
+                endpoint_request(Endpoint, hop, Request, answered(Transfer)),
+                crash_point(after_send)
+            ;   endpoint_request(Endpoint, hop, hop(Name, Image, Program),
+                                 answered(Transfer))
+            )
+          ),
+          error(Formal, _),
+          not_sent(Formal, Transfer)).
+
+%   Known by number, see typhon_crossings.
+
+hop_request(Transfer, Name, Image, Program, Request) :-
+    transfer_traveller(Transfer, Who, _),
+    arg(2, Transfer, dest(_, _, Endpoint)),
+    crossing_label(Who, Endpoint, Label),
+    (   Label == none
+    ->  Request = hop(Name, Image, Program)
+    ;   Request = hop(Name, Image, Program, Label)
+    ).
+
+not_sent(Formal, Transfer) :-
+    transfer_traveller(Transfer, Who, _),
+    (   crossing_repeated(Who)
+    ->  doubt_settle(Transfer)
+    ;   transfer_stays(Transfer, Formal)
+    ).
+
+%   Once more, whoever was asked before.
+
+typhon_doubt:again(Transfer) :-
+    (   transfer_image(Transfer, Image)
+    ->  send(Transfer, Image)
+    ;   transfer_stays(Transfer, given_up)
+    ).
+
+handed(_, _, Image, Image) :-
+    \+ endpoint_keys(_),                % nobody signs
+    !.
+handed(Transfer, Address, Image0, Image) :-
+    arg(1, Transfer, Id),
+    (   agent(Id, Host, _, _, _)
+    ->  image_trail(handed(Address), Host, Image0, Image)
+    ;   Image = Image0                  % it was ended meanwhile
+    ).
+
+%   The program is sent to those who lack it as far as we know.
+
+program(Endpoint, Hash, known) :-
+    has_program(Endpoint, Hash),
+    !.
+program(Endpoint, Hash, Sent) :-
+    code_sent(Hash, Sent),
+    bound_programs,
+    assertz(has_program(Endpoint, Hash)).
+
+%   What is forgotten is sent once more.
+
+most_programs(10000).
+
+bound_programs :-
+    predicate_property(has_program(_, _), number_of_clauses(Count)),
+    most_programs(Most),
+    Count > Most,
+    !,
+    retractall(has_program(_, _)).
+bound_programs.
+
+typhon_endpoint:connection(Endpoint, down) :-
+    retractall(has_program(Endpoint, _)).
+
+                /*******************************
+                *            ANSWERS           *
+                *******************************/
+
+answered(Transfer, answer(Answer)) :-
+    taken(Answer, Transfer).
+answered(Transfer, unreachable) :-
+    (   doubt_open(Transfer)
+    ->  doubt_settle(Transfer)
+    ;   transfer_unreachable(Transfer)
+    ).
+answered(Transfer, lost) :-
+    doubt_settle(Transfer).
+
+taken(accepted, Transfer) :-
+    transfer_arrived(Transfer).
+taken(refused(Reason), Transfer) :-
+    arg(2, Transfer, dest(Address, _, _)),
+    transfer_stays(Transfer, move_refused(Address, Reason)).
+taken(need_program, Transfer) :-
+    (   transfer_image(Transfer, Image)
+    ->  arg(2, Transfer, dest(_, _, Endpoint)),
+        debug(typhon(hop), '~w lacks the program', [Endpoint]),
+        image_hash(Image, Hash),
+        retractall(has_program(Endpoint, Hash)),
+        transfer_traveller(Transfer, Who, _),
+        birth_unproved(Endpoint, Who),
+        send(Transfer, Image)
+    ;   transfer_stays(Transfer, given_up)
+    ).

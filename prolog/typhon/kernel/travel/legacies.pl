@@ -1,0 +1,142 @@
+:- module(typhon_legacies,
+          [ legacy_keep/2,              % +Id, +Items
+            legacy_ask/4,               % +Where, +Id, +Kind, -Items
+            clone_born/2,               % +Parent, +Clone
+            clone_unborn/2,             % +Parent, +Clone
+            clones_ask/3                % +Endpoint, +Parent, -Clones
+          ]).
+:- use_module(library(lists), [list_to_set/2, member/2]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../../options/journal',
+              [journal_number/1, note_drop_all/2, note_put/4]).
+:- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
+:- use_module('../host', [process_ask/6]).
+:- use_module('../agent', [agent/5, legacy_cloned/2]).
+
+/** <module> What agents have left, and where they were cloned
+
+The home of an agent keeps what it left with its outcome: its result, and
+the processes in which it was cloned.  The clones themselves are known to
+the process in which they were born, which is their home.  So nobody is told
+anything when a clone is made, and who looks for a family goes from the
+legacy of each of its members to the homes of the next.  Of both tables the
+oldest entries are forgotten.
+
+*Threading*: any thread.  Asking waits.
+*/
+
+:- multifile
+    typhon_durable:fact_table/5,
+    typhon_bounded:forgotten/1,
+    typhon_identity:ids_anew/0,
+    typhon_identity:id_anew/1,
+    typhon_durable:dump/4,
+    typhon_endpoint:requested/4.
+
+:- setting(legacies, positive_integer, 20000,
+           "What ended agents have left, kept by their home").
+:- setting(clones, positive_integer, 20000,
+           "Clones of which their home knows who was cloned").
+
+:- dynamic
+    left/2,                     % Id, Item
+    clone_of/2.                 % Parent, Clone: it was born here
+
+typhon_identity:ids_anew :-
+    retractall(left(_, _)),
+    retractall(clone_of(_, _)).
+typhon_identity:id_anew(Id) :-
+    retractall(left(Id, _)),
+    retractall(clone_of(Id, _)).
+
+%!  legacy_keep(+Id, +Items:list) is det.
+%
+%   Id has left Items, as of legacy/2.
+
+legacy_keep(Id, Items) :-
+    forall(member(Item, Items),
+           ( journal_number(N),
+             note_put(left, Id, N, Item),
+             assertz(left(Id, Item)),
+             bounded(left(_, _), typhon_legacies:legacies) )).
+
+%!  legacy_ask(+Where, +Id, +Kind, -Items:list) is det.
+%
+%   What the home of Id, at the endpoint Where or `here`, knows of its legacy:
+%   items of the name Kind.
+%
+%   @error host_unreachable(Where), connection_lost(Where)
+
+legacy_ask(Where, Id, Kind, Items) :-
+    ask(Where, left(Id, Kind), Items).
+
+%!  clone_born(+Parent, +Clone) is det.
+%!  clone_unborn(+Parent, +Clone) is det.
+%
+%   Clone is one of Parent, which stands here; it could not begin elsewhere.
+
+typhon_bounded:forgotten(left(Id, _)) :-
+    note_drop_all(left, Id).
+typhon_bounded:forgotten(clone_of(_, Clone)) :-
+    note_drop_all(clone, Clone).
+
+typhon_durable:fact_table(left, Id, _, Item, typhon_legacies:left(Id, Item)).
+typhon_durable:fact_table(clone, Clone, _, Parent,
+                          typhon_legacies:clone_of(Parent, Clone)).
+typhon_durable:dump(flag, Name, N, '') :-
+    member(Name, [legacies, clones]),
+    flag(Name, N, N).
+
+clone_born(Parent, Clone) :-
+    journal_number(N),
+    note_put(clone, Clone, N, Parent),
+    assertz(clone_of(Parent, Clone)),
+    bounded(clone_of(_, _), typhon_legacies:clones),
+    (   endpoint_address(Endpoint),
+        agent(Parent, _, Module, _, _)
+    ->  legacy_cloned(Module, Endpoint)
+    ;   true                            % everything is being stopped
+    ).
+
+clone_unborn(Parent, Clone) :-
+    note_drop_all(clone, Clone),
+    retractall(clone_of(Parent, Clone)).
+
+%!  clones_ask(+Endpoint, +Parent, -Clones:list) is det.
+%
+%   The clones of Parent that were born at Endpoint, in this order.
+%
+%   @error as legacy_ask/4
+
+clones_ask(Endpoint, Parent, Clones) :-
+    ask(Endpoint, clones(Parent), Clones).
+
+%   When the last host was stopped nobody else is asked.
+
+ask(Where, Question, Answer) :-
+    (   Where == here
+    ;   endpoint_address(Where)
+    ;   asked_here(Question)
+    ),
+    !,
+    known(Question, Answer).
+ask(Endpoint, Question, Answer) :-
+    process_ask(Endpoint, Endpoint, legacy, Question, Answer, 10).
+
+asked_here(clones(Parent)) :-
+    \+ endpoint_address(_),
+    clone_of(Parent, _).
+
+typhon_endpoint:requested(legacy, Question, _Peer, ReplyTo) :-
+    known(Question, Answer),
+    endpoint_reply(ReplyTo, Answer).
+
+%   While others are added 9.0.4 may list a fact twice.
+
+known(left(Id, Kind), Items) :-
+    functor(Item, Kind, 1),
+    findall(Item, left(Id, Item), Items).
+known(clones(Parent), Clones) :-
+    findall(Clone, clone_of(Parent, Clone), Clones0),
+    list_to_set(Clones0, Clones).

@@ -1,0 +1,67 @@
+:- module(typhon_logged,
+          [ agent_logs/3                % +Host, +Agent, +What
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../../options/journal',
+              [ journal_number/1, journal_step/1, note_drop/3, unit_after/1,
+                unit_defers/0, unit_note_put/4 ]).
+:- use_module('../host', [host_log/3, host_log_event/4]).
+:- use_module(channel, [channel_post/3]).
+
+/** <module> What agents log
+
+With a journal that is part of what an agent does in a turn: it is noted with
+the turn, and goes to the log server once, whoever dies.  What else a host
+tells its log server it tells at once, see typhon_host_log.
+
+*Threading*: the worker that runs the agent.
+*/
+
+:- multifile
+    typhon_durable:fact_table/5,
+    typhon_channel:undelivered/4,
+    typhon_durable:go_on/0.
+
+:- dynamic said/4.                      % Host, N, Agent, What: before a restart
+
+%!  agent_logs(+Host, +Agent, +What) is det.
+%
+%   Agent, which stands on Host, has said What, which can travel, to the log
+%   server of Host, which it has.
+
+agent_logs(Host, Agent, What) :-
+    (   unit_defers
+    ->  journal_number(N),
+        unit_note_put(logged, Host, N, Agent-What),
+        unit_after(typhon_logged:go(Host, N, Agent, What))
+    ;   host_log(Host, Agent, What)
+    ).
+
+:- public go/4.
+
+go(Host, N, Agent, What) :-
+    journal_step(( note_drop(logged, Host, N),
+                   post(Host, Agent, What) )).
+
+post(Host, Agent, What) :-
+    (   host_log_event(Host, Agent, What, Endpoint-Event)
+    ->  catch(channel_post(Endpoint, log, Event),
+              error(resource_error(frame_bytes), Context),
+              print_message(warning,
+                            error(resource_error(frame_bytes), Context)))
+    ;   true                            % it has none any more
+    ).
+
+typhon_durable:fact_table(logged, Host, N, Agent-What,
+                          typhon_logged:said(Host, N, Agent, What)).
+
+typhon_durable:go_on :-
+    findall(said(Host, N, Agent, What),
+            retract(said(Host, N, Agent, What)), All),
+    forall(member(said(Host, N, Agent, What), All),
+           go(Host, N, Agent, What)).
+
+%   There is no log server there any more, or it cannot take this.
+
+typhon_channel:undelivered(log, event(_, Host, Agent, What), _, _) :-
+    print_message(informational, typhon(log(Host, Agent, What))).

@@ -1,0 +1,239 @@
+:- module(typhon_news,
+          [ news_tell/3,                % +Home, +Id, +News
+            news_carried/1              % +Home
+          ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../options/journal', [journal_on/0]).
+:- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
+:- use_module(channel, [channel_post/3]).
+:- use_module(senders, [shown/5]).
+:- use_module('../host', [alarm_in/3, scheduler_call/1]).
+
+/** <module> News for the homes of agents
+
+Where an agent is and how it ended, told to the process in which it was
+born.  Of each agent only the newest news are kept until they are sent, and
+each home has one courier, who takes along all there are: a home that does
+not answer costs one attempt at a time, whatever the number of agents and
+of their hops.
+
+*Threading*: any thread tells; a courier is a call of a worker, or an alarm
+that waits for the next.
+*/
+
+:- setting(news_seconds, number, 300,
+           "News for a home that cannot be reached are kept so long").
+
+:- multifile
+    typhon_channel:undelivered/4,
+    typhon_runtime:ending/1,
+    typhon_scheduler:fire/2.
+
+:- dynamic
+    news/3,                     % Home, Id, News: the newest, not yet sent
+    in_hand/2,                  % Home, All: what its courier has set out with
+    courier/1.                  % Home: somebody sees to its news
+
+%   So many are sent at a time, and the longest pause between attempts.  News
+%   with a legacy may be long.
+
+load(500).
+weight(ended(_, _, _, _), 50) :- !.
+weight(_, 1).
+longest_pause(10).              % seconds
+
+%!  news_tell(+Home, +Id, +News) is det.
+%
+%   Let Home, an endpoint, have News of Id, some time soon.
+
+news_tell(Home, _, News) :-
+    journal_on,
+    news_lasts(News),
+    !,
+    posted(channel_post, Home, [News]).
+news_tell(Home, Id, News) :-
+    with_mutex(typhon_news, note(Home, Id, News, Courier)),
+    (   Courier == wanted
+    ->  scheduler_call(carry(Home, try(0, 0.5)))
+    ;   true
+    ).
+
+%!  news_carried(+Home) is semidet.
+%
+%   Somebody has news for Home in hand, or is about to have.
+
+news_carried(Home) :-
+    courier(Home),
+    !.
+
+%   Where an agent is it will tell again.
+
+news_lasts(News) :-
+    \+ News = located(_, _, _).
+
+note(Home, Id, News, Courier) :-
+    keep(Home, Id, News),
+    (   courier(Home)
+    ->  Courier = there
+    ;   assertz(courier(Home)),
+        Courier = wanted
+    ).
+
+keep(Home, Id, News) :-
+    news(Home, Id, Known),
+    \+ newer(News, Known),
+    !.
+keep(Home, Id, News) :-
+    retractall(news(Home, Id, _)),
+    assertz(news(Home, Id, News)).
+
+%   Neither the order in which they are told nor what came while a courier was
+%   away with them says which are newer: who is ended by somebody else as soon
+%   as it has come may have its end told before its coming.
+
+newer(News, Known) :-
+    age(News, Age),
+    age(Known, Age0),
+    Age @> Age0.
+
+age(located(_, _, Hops), age(Hops, 0, 0, 0)).
+age(faulty(_, _, Stamp, _, Hops), age(Hops, 1, Stamp, 0)).
+age(resumed(_, Stamp, Hops), age(Hops, 1, Stamp, 1)).
+age(ended(_, _, Hops, _), age(Hops, 2, 0, 0)).
+age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % one of fewer hops, of a copy
+                                             % that was given up in doubt
+
+%   The process is about to end: what can be sent soon is, the rest is given up;
+%   all homes together have that time.  A courier may be too slow to send what
+%   it has in hand, which the home may hear twice.
+
+typhon_runtime:ending(before) :-
+    get_time(Now),
+    setting(typhon_endpoint:flush_time, Seconds),
+    Deadline is Now+Seconds,
+    forall(courier(Home),
+           ( flush(Home, Deadline),
+             give_up(Home) )).
+
+flush(Home, Deadline) :-
+    with_mutex(typhon_news, take_all(Home, All)),
+    All \== [],
+    posted(endpoint_post_by(Deadline), Home, All),
+    !,
+    flush(Home, Deadline).
+flush(_, _).
+
+take_all(Home, All) :-
+    retract(in_hand(Home, All)),
+    !.
+take_all(Home, All) :-
+    take(Home, All).
+
+%   carry(+Home, +Try): until nothing is left.  Try is try(Since, Pause): it
+%   has not worked since then, 0 if it has, and the pause after this one.
+
+carry(Home, Try) :-
+    with_mutex(typhon_news, set_out(Home, All)),
+    (   All == []
+    ->  true
+    ;   catch(( posted(endpoint_post, Home, All), Answer = ok ),
+              error(Answer, _),
+              true),
+        carried(Answer, Home, All, Try)
+    ).
+
+%   posted(:Post, +Home, +All): what is too long for one frame goes in two.
+%   Of an end that is too long alone at least that it has come is told.
+
+posted(Post, Home, All) :-
+    shown_news(Home, All, Shown),
+    catch(call(Post, Home, whereabouts, Shown),
+          error(resource_error(frame_bytes), _),
+          posted_in_parts(All, Post, Home)).
+
+shown_news(Home, All, Shown) :-
+    findall(Id, ( member(News, All), arg(1, News, Id) ), Ids),
+    shown(Home, Ids, [], All, Shown).
+
+posted_in_parts([ended(Id, Outcome, Hops, _)], Post, Home) :-
+    !,
+    print_message(warning, typhon(legacy_lost(Id))),
+    posted(Post, Home, [ended(Id, Outcome, Hops)]).
+posted_in_parts([News], _, _) :-
+    !,
+    arg(1, News, Id),
+    print_message(warning, typhon(news_too_long(Id))).
+posted_in_parts(All, Post, Home) :-
+    length(All, Count),
+    Half is Count//2,
+    length(First, Half),
+    append(First, Rest, All),
+    posted(Post, Home, First),
+    posted(Post, Home, Rest).
+
+typhon_channel:undelivered(whereabouts, shown(_, All), Home, Formal) :-
+    !,
+    typhon_channel:undelivered(whereabouts, All, Home, Formal).
+typhon_channel:undelivered(whereabouts, All, Home, resource_error(_)) :-
+    posted_in_parts(All, channel_post, Home).
+
+take(Home, All) :-
+    load(Most),
+    take(Most, Home, All).
+
+take(Most, Home, [News|All]) :-
+    Most > 0,
+    retract(news(Home, _, News)),
+    !,
+    weight(News, Weight),
+    Most1 is Most-Weight,
+    take(Most1, Home, All).
+take(_, _, []).
+
+set_out(Home, All) :-
+    take(Home, All),
+    retractall(in_hand(Home, _)),
+    (   All == []
+    ->  retractall(courier(Home))
+    ;   assertz(in_hand(Home, All))
+    ).
+
+carried(ok, Home, _, _) :-
+    carry(Home, try(0, 0.5)).
+carried(unreachable(_), Home, All, try(Since0, Pause)) :-
+    get_time(Now),
+    since(Since0, Now, Since),
+    setting(news_seconds, Max),
+    (   Now-Since > Max
+    ->  give_up(Home)
+    ;   once_more(Home, All, try(Since, Pause))
+    ).
+carried(resource_error(_), Home, All, Try) :-
+    once_more(Home, All, Try).          % the journal has no room
+carried(existence_error(_, _), Home, _, _) :-
+    give_up(Home).                      % this process ends
+
+once_more(Home, All, try(Since, Pause)) :-
+    with_mutex(typhon_news, forall(member(News, All), back(Home, News))),
+    longest_pause(Longest),
+    Pause1 is min(Longest, 2*Pause),
+    alarm_in(Pause, Home, news(try(Since, Pause1))).
+since(0, Now, Now) :-
+    !.
+since(Since, _, Since).
+
+back(Home, News) :-
+    arg(1, News, Id),
+    keep(Home, Id, News).
+
+give_up(Home) :-
+    with_mutex(typhon_news,
+               ( retractall(news(Home, _, _)),
+                 retractall(in_hand(Home, _)),
+                 retractall(courier(Home)) )),
+    print_message(silent, typhon(home_unreachable(Home))).
+
+typhon_scheduler:fire(Home, news(Try)) :-
+    !,
+    scheduler_call(carry(Home, Try)).

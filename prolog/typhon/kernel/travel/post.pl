@@ -1,0 +1,260 @@
+:- module(typhon_post,
+          [ post/3,                     % +Id, +From, +Message
+            post_via/4,                 % +Id, +Endpoint, +From, +Message
+            post_on/2,                  % +Id, +Messages
+            post_waiting/2              % +Id, -Messages
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module('../../options/journal',
+              [ journal_number/1, journal_on/0, journal_seal/0,
+                journal_step/1, note_drop/3, note_putting/5, unit_after/1,
+                unit_defers/0, unit_note/1 ]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_keys/1, mobile_term/1]).
+:- use_module('../host', [peer_may/3, quota/3]).
+:- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
+:- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
+:- use_module(channel, [channel_must_fit/1]).
+:- use_module(retries, [retry_later/3]).
+:- use_module(speakers, [mail_believed/5]).
+:- use_module(ways, [one_letter/2, way_in/2, way_out/3, way_send/3]).
+
+/** <module> Messages
+
+A message is put in the mailbox of an agent that stands in this process,
+also while it is under way out of it: it then follows.  Otherwise it goes
+where the agent went, or to its home, which knows.
+
+What travels is letter(Mail, Left).  Mail is a list of
+mail(Origin, From, Message), the oldest first; Origin is the endpoint at
+which it was sent, to which it is told if the agent cannot be found.  What
+follows an agent together stays together, so that whatever waited for one
+that hops without pause reaches it at once, and not each message after a
+chase of its own.
+
+A letter that cannot be passed on waits, see typhon_retries.
+
+*Threading*: any thread.  post/3 and post_via/4 may wait for a connection,
+post_on/2 and the hooks never do.
+*/
+
+:- multifile
+    typhon_durable:fact_table/5,
+    typhon_durable:go_on/0,
+    typhon_endpoint:received/3,
+    typhon_endpoint:together/3.
+
+:- dynamic said/4.              % Id, N, From, Message: before a restart
+
+%   Who hops without pause is given up in the end.
+
+max_forwards(12800).
+
+%!  post(+Id, +From, +Message) is det.
+%
+%   @error existence_error(agent, Id) if it is known that there is none
+%   @error type_error(mobile_term, Culprit)
+%   @error host_unreachable(Host)
+%   @error resource_error(frame_bytes)
+
+post(Id, From, Message) :-
+    mobile_term(Message),
+    (   \+ journal_on
+    ->  with_agent(Id, post_way(Id, From, Message, Way)),
+        go(Way, Id)
+    ;   unit_defers
+    ->  journal_number(N),
+        note_putting(letter, Id, N, From-Message, Change),
+        may_travel(Id, Change),
+        unit_note(Change),
+        unit_after(typhon_post:post_noted(Id, N, From, Message))
+    ;   journal_step(post_now(Id, From, Message))
+    ).
+
+%   What has left, and where it waits, is one entry.
+
+post_now(Id, From, Message) :-
+    with_agent(Id, ( post_way(Id, From, Message, Way0),
+                     waits(Way0, Id, Way),
+                     journal_seal )),
+    go(Way, Id).
+
+waits(wait(Letter), Id, done) :-
+    !,
+    retry_later(Id, Letter, wait(Letter)).
+waits(Way, _, Way).
+
+%   Who stands here needs no frame.
+
+may_travel(Id, _) :-
+    agent(Id, _, _, _, _),
+    !.
+may_travel(_, Change) :-
+    channel_must_fit(Change).
+
+%   What an agent says goes when its turn is over, and noted.
+
+:- public post_noted/4.
+
+post_noted(Id, N, From, Message) :-
+    journal_step(
+        ( note_drop(letter, Id, N),
+          catch(post_now(Id, From, Message), error(Formal, _),
+                print_message(warning,
+                              typhon(undeliverable(Formal, Id, From,
+                                                   Message)))) )).
+
+typhon_durable:fact_table(letter, Id, N, From-Message,
+                          typhon_post:said(Id, N, From, Message)).
+
+typhon_durable:go_on :-
+    findall(said(Id, N, From, Message),
+            retract(said(Id, N, From, Message)), Letters),
+    forall(member(said(Id, N, From, Message), Letters),
+           post_noted(Id, N, From, Message)).
+
+post_way(Id, From, Message, Way) :-
+    quota(_, mailbox, _),
+    agent(Id, _, _, _, _),
+    !,
+    new_letter(From, Message, Letter),
+    way(Id, Letter, Way).
+post_way(Id, From, Message, done) :-
+    agent_mail(Id, [From-Message]),
+    !.
+post_way(Id, From, Message, Way) :-
+    new_letter(From, Message, Letter),
+    way_on(Id, Letter, Way).
+
+new_letter(From, Message, letter([mail(Origin, From, Message)], Max)) :-
+    (   endpoint_address(Origin)
+    ->  true
+    ;   Origin = none
+    ),
+    max_forwards(Max).
+
+%!  post_via(+Id, +Endpoint, +From, +Message) is det.
+%
+%   As post/3, where the agent is believed to be in the process at
+%   Endpoint.
+
+post_via(Id, Endpoint, From, Message) :-
+    mobile_term(Message),
+    (   (   agent(Id, _, _, _, _)
+        ;   endpoint_address(Endpoint)
+        ;   endpoint_keys(_),           % it may not pass it on
+            agent_home(From, _)
+        )
+    ->  post(Id, From, Message)
+    ;   new_letter(From, Message, Letter),
+        way_send(Endpoint, Id, Letter)
+    ).
+
+%!  post_on(+Id, +Messages) is det.
+%
+%   As post/3 for each of Messages, From-Message, for a thread that must not
+%   wait for a connection to be made.
+
+post_on(_, []) :-
+    !.
+post_on(Id, Messages) :-
+    endpoint_address(Origin),
+    max_forwards(Max),
+    findall(mail(Origin, From, Text), member(From-Text, Messages), Mail),
+    pass_on(Id, letter(Mail, Max)).
+
+pass_on(Id, Letter) :-
+    with_agent(Id, ( on_or_later(Id, Letter), journal_seal )).
+
+on_or_later(Id, Letter) :-
+    way(Id, Letter, Way),
+    (   Way == done
+    ->  true
+    ;   retry_later(Id, Letter, Way)
+    ).
+
+typhon_endpoint:received(message, message(Id, Mail, Left), Peer) :-
+    letter_comes(Id, [], Mail, Left, Peer).
+typhon_endpoint:received(message, shown(Births, message(Id, Mail, Left)),
+                         Peer) :-
+    letter_comes(Id, Births, Mail, Left, Peer).
+
+letter_comes(Id, Births, Mail0, Left, Peer) :-
+    must_be(atom, Id),
+    must_be(nonneg, Left),
+    must_be(list(typhon_mail), Mail0),
+    mail_believed(Peer, Id, Births, Mail0, Mail),
+    (   Mail == []
+    ->  true
+    ;   agent(Id, Host, _, _, _),
+        \+ peer_may(Peer, Host, messages)
+    ->  true                            % which is noted
+    ;   pass_on(Id, letter(Mail, Left))
+    ).
+
+%   Letters that have come together are one for each agent.
+
+typhon_endpoint:together(message, Letters, Fewer) :-
+    maplist(letter_to, Letters, Pairs),
+    keysort(Pairs, Sorted),
+    group_pairs_by_key(Sorted, Groups),
+    maplist(one_message, Groups, Fewer).
+
+letter_to(message(Id, Mail, Left), Id-letter(Mail, Left)) :-
+    atom(Id),
+    is_list(Mail),
+    integer(Left).
+
+one_message(Id-Letters, message(Id, Mail, Left)) :-
+    one_letter(Letters, letter(Mail, Left)).
+
+%!  post_waiting(+Id, -Messages:list) is det.
+%
+%   The messages that waited here for Id, which has arrived; inside
+%   with_agent/2.
+
+post_waiting(Id, Messages) :-
+    backlog_all(Id, Letters),
+    messages_in(Letters, Messages).
+
+messages_in([], []) :-                  % nearly always
+    !.
+messages_in(Letters, Messages) :-
+    findall(From-Message,
+            ( member(letter(Mail, _), Letters),
+              member(mail(_, From, Message), Mail) ),
+            Messages).
+
+                /*******************************
+                *             WAYS             *
+                *******************************/
+
+%   way(+Id, +Letter, -Way): one step, inside with_agent/2.  Way is `done`,
+%   to(Endpoint, Letter) if a connection has to be made first, wait(Letter)
+%   if it is better to wait, or nowhere.
+
+way(Id, letter(Mail, _), done) :-
+    way_in(Id, Mail),
+    !.
+way(Id, Letter, Way) :-
+    way_on(Id, Letter, Way).
+
+way_on(Id, Letter, done) :-
+    backlog(Id),
+    !,
+    backlog_add(Id, Letter).
+way_on(Id, Letter, Way) :-
+    way_out(Id, Letter, Way).
+
+%   go(+Way, +Id): in a thread that may wait, and wants to know.
+
+go(done, _).
+go(to(Endpoint, Letter), Id) :-
+    way_send(Endpoint, Id, Letter).
+go(wait(Letter), Id) :-
+    with_agent(Id, waits(wait(Letter), Id, done)).
+go(nowhere, Id) :-
+    existence_error(agent, Id).

@@ -1,0 +1,282 @@
+:- module(typhon_transfer,
+          [ transfer_traveller/3,       % +Transfer, -Id, -Hops
+            transfer_image/5,           % +Transfer, +Held, +Mail, +Since,
+                                        % -Image
+            transfer_image/2,           % +Transfer, -Image
+            transfer_freeze/4,          % +Transfer, +Held, -Mail, +Since
+            transfer_arrived/1,         % +Transfer
+            transfer_stays/2,           % +Transfer, +Error
+            transfer_unreachable/1,     % +Transfer
+            transfer_let_go/4,          % +Id, -Mail, -Orders, -Gone
+            transfer_given_up/2,        % +Id, +Frozen
+            transfer_held/2,            % +Frozen, -Held
+            transfer_open/1             % ?Transfer
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../program', [answer_at/3]).
+:- use_module('../host',
+              [ address_parts/3, event/4, events_forget/1, host_hop/3,
+                host_leave/1, host_time/2, scheduler_call/1 ]).
+:- use_module('../agent',
+              [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
+                agent_status/3, image_clone/5, image_hop/6, mail_all/2,
+                mail_back/2, with_agent/2 ]).
+:- use_module('../../options/journal',
+              [ crash_point/1, journal_on/0, journal_seal/0, journal_step/1,
+                note_drop/3, note_put/4 ]).
+:- use_module(crossings,
+              [crossing_begin/4, crossing_end/2, crossing_restore/4]).
+:- use_module(legacies, [clone_unborn/2]).
+:- use_module(ordered_moves, [move_failed/2, move_over/2]).
+:- use_module(post, [post_on/2]).
+:- use_module(whereabouts,
+              [agent_ended/4, agent_left/4, agent_left_noted/4]).
+
+/** <module> Agents under way
+
+A transfer is hop(Id, Dest, Hops), its id the agent with its number of hops,
+or clone(Id, Dest, CloneId).  A destination is
+dest(Address, Name, Endpoint).  While it lasts, the agent is frozen here; it
+ends in that the agent has arrived, or stays.
+
+What is held back is Hole-Goals, for a clone Hole-Goals-Who.  Frozen, the
+goals of an agent are hop(Held, Hops, Mail, Since) or
+clone(Held, CloneId, Since).
+
+*Threading*: any thread; what is said to be inside with_agent/2 is.
+*/
+
+:- multifile
+    typhon_durable:fact_table/5,
+    typhon_durable:restore/4,
+    typhon_durable:restored/0,
+    forward_order/2.            % Id, Order: the agent has left
+
+:- dynamic given_up/2.          % Id, Hops: disposed of while in doubt
+
+%!  transfer_traveller(+Transfer, -Id, -Hops) is det.
+%
+%   Who is under way, on which hop.
+
+transfer_traveller(hop(Id, _, Hops), Id, Hops).
+transfer_traveller(clone(_, _, CloneId), CloneId, 1).
+
+%!  transfer_image(+Transfer, +Held, +Mail, +Since, -Image) is det.
+%!  transfer_image(+Transfer, -Image) is semidet.
+%
+%   What is sent; binds the hole, and the number of hops.  Once more from the
+%   frozen record, in any thread: fails if the agent was given up.
+
+transfer_image(hop(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
+    ignore(Hole = true),                % else the move was an order
+    image_hop(Id, Hops, Goals, Mail, Since, Image).
+transfer_image(clone(Id, _, CloneId), Hole-Goals-Who, _, Since, Image) :-
+    Hole = (Who=clone(Id)),
+    image_clone(Id, CloneId, Goals, Since, Image).
+
+%   An answer that comes meanwhile would take away the module that is read.
+
+transfer_image(Transfer, Image) :-
+    arg(1, Transfer, Id),
+    with_agent(Id, ( frozen(Transfer, Held, Mail, Since),
+                     transfer_image(Transfer, Held, Mail, Since, Image) )).
+
+frozen(hop(Id, _, Hops), Held, Mail, Since) :-
+    agent_status(Id, transit(_, _), hop(Held, Hops, Mail, Since)).
+frozen(clone(Id, _, CloneId), Held, [], Since) :-
+    agent_status(Id, cloning(_, _), clone(Held, CloneId, Since)).
+
+%!  transfer_freeze(+Transfer, +Held, -Mail, +Since) is semidet.
+%
+%   The transfer begins; inside with_agent/2.  Fails if the agent was ended.
+
+transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
+                Since) :-
+    agent_status(Id, Status, _),
+    memberchk(Status, [running, obeying]),
+    crossing_begin(Id, Hops, Endpoint, Sent),
+    mail_all(Id, Mail),
+    agent_put(Id, transit(Address, Sent), hop(Held, Hops, Mail, Since)),
+    debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address]).
+transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
+                Since) :-
+    crossing_begin(CloneId, 1, Endpoint, Sent),
+    agent_put(Id, cloning(Address, Sent), clone(Held, CloneId, Since)),
+    debug(typhon(hop), '~w hop 1: leaves for ~w', [CloneId, Address]).
+
+                /*******************************
+                *           ARRIVED            *
+                *******************************/
+
+%!  transfer_arrived(+Transfer) is det.
+
+transfer_arrived(Transfer) :-
+    (   journal_on
+    ->  crash_point(after_send),
+        journal_step(arrived(Transfer))
+    ;   arrived(Transfer)
+    ).
+
+arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
+    (   with_agent(Id, moved_on(Id, Hops, Address, Endpoint, Orders, Gone))
+    ->  debug(typhon(hop), '~w hop ~D: has gone', [Id, Hops]),
+        call(Gone),
+        forall(member(Order, Orders), follow(Id, Order))
+    ;   retract(given_up(Id, Hops))
+    ->  note_drop(given_up, Id, Hops),
+        crossing_end(Id, Hops),
+        agent_left(Id, Address, Hops, Endpoint),
+        agent_left_noted(Id, Address, Hops, Endpoint),
+        follow(Id, dispose)
+    ;   true                            % it came back before the answer
+    ).
+arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
+    debug(typhon(hop), '~w hop 1: has gone', [CloneId]),
+    crossing_end(CloneId, 1),
+    agent_left(CloneId, Address, 1, Endpoint),
+    agent_left_noted(CloneId, Address, 1, Endpoint),
+    ignore(with_agent(Id, clone_back(Id, CloneId, parent(CloneId)))).
+
+%   Where it went is known before it is gone, and mail that came meanwhile
+%   is on its way before any that comes now.
+
+moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
+    agent_status(Id, transit(_, _), hop(_, Hops, _, Since)),
+    agent_left(Id, Address, Hops, Endpoint),
+    let_go(Id, Since, Mail, Orders, Gone),
+    (   journal_on
+    ->  crossing_end(Id, Hops),
+        agent_left_noted(Id, Address, Hops, Endpoint),
+        post_on(Id, Mail),
+        journal_seal
+    ;   post_on(Id, Mail)
+    ).
+
+%!  transfer_let_go(+Id, -Mail, -Orders, :Gone) is semidet.
+%
+%   Forget Id, which is in transit; inside with_agent/2.  Gone is to be
+%   called outside.
+
+transfer_let_go(Id, Mail, Orders, Gone) :-
+    agent_status(Id, transit(_, _), hop(_, _, _, Since)),
+    let_go(Id, Since, Mail, Orders, Gone).
+
+let_go(Id, Since, Mail, Orders, typhon_transfer:gone(Id, Host, Since)) :-
+    agent(Id, Host, _, _, _),
+    events_forget(Id),
+    agent_remove(Id, Mail, Orders).
+
+gone(Id, Host, Since) :-
+    ignore(move_over(Id, answer(arrived))),
+    host_leave(Host),
+    (   host_time(Host, Now)
+    ->  Seconds is max(0.0, Now-Since),
+        host_hop(Host, out, Seconds)
+    ;   true                            % the host was stopped meanwhile
+    ).
+
+follow(Id, Order) :-
+    scheduler_call(forward_order(Id, Order)).
+
+                /*******************************
+                *            STAYS             *
+                *******************************/
+
+%!  transfer_stays(+Transfer, +Error) is det.
+%!  transfer_unreachable(+Transfer) is det.
+%
+%   The agent stays; Error is raised at its move.  If the move was ordered
+%   from outside there is no hole, see move_failed/2.
+
+transfer_stays(Transfer, Error) :-
+    transfer_traveller(Transfer, Who, Hop),
+    debug(typhon(hop), '~w hop ~D: stays, ~p', [Who, Hop, Error]),
+    journal_step(( crossing_end(Who, Hop),
+                   stays(Transfer, Error) )).
+
+stays(hop(Id, dest(Address, _, _), Hops), Error) :-
+    forall(retract(given_up(Id, Hops)), note_drop(given_up, Id, Hops)),
+    (   agent(Id, Host, _, _, _)
+    ->  event(hops, Host, Id, stayed(Address))
+    ;   true
+    ),
+    ignore(with_agent(Id, back(Id, Hops, Address, Error))).
+stays(clone(Id, dest(Address, _, _), CloneId), Error) :-
+    clone_unborn(Id, CloneId),
+    agent_ended(CloneId, failed, 1, []),
+    ignore(with_agent(Id, clone_back(Id, CloneId, stays(Address, Error)))).
+
+transfer_unreachable(Transfer) :-
+    arg(2, Transfer, dest(Address, _, _)),
+    transfer_stays(Transfer, host_unreachable(Address)).
+
+back(Id, Hops, Address, Error) :-
+    agent_status(Id, transit(_, _), hop(Hole-Goals, Hops, Mail, _)),
+    mail_back(Id, Mail),
+    (   Hole == ordered
+    ->  move_failed(Id, Error)
+    ;   answer_at(move(Address), throw(error(Error, _)), Hole)
+    ),
+    agent_ready(Id, Goals).
+
+clone_back(Id, CloneId, Answer) :-
+    agent_status(Id, cloning(_, _), clone(Hole-Goals-Who, CloneId, _)),
+    (   Answer = stays(Address, Error)
+    ->  answer_at(clone(Address, Who), throw(error(Error, _)), Hole)
+    ;   Hole = (Who=Answer)
+    ),
+    agent_ready(Id, Goals).
+
+%!  transfer_given_up(+Id, +Frozen) is det.
+%
+%   Id was disposed of in doubt: should it have arrived, the order follows
+%   it.
+
+transfer_given_up(Id, hop(_, Hops, _, _)) :-
+    note_put(given_up, Id, Hops, Hops),
+    assertz(given_up(Id, Hops)).
+
+%   The oldest first, before anybody else sets out.
+
+typhon_durable:restored :-
+    findall(Sent-Transfer,
+            ( transfer_open(Transfer),
+              arg(1, Transfer, Id),
+              agent_status(Id, Status, _),
+              arg(2, Status, Sent) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    forall(( member(Sent-Transfer, Pairs),
+             transfer_traveller(Transfer, Who, Hops),
+             arg(2, Transfer, dest(_, _, Endpoint)) ),
+           crossing_restore(Who, Hops, Endpoint, Sent)).
+
+%   The term says nothing; older journals have one.
+
+typhon_durable:fact_table(given_up, Id, Hops, '',
+                          typhon_transfer:given_up(Id, Hops)).
+typhon_durable:restore(given_up, Id, Hops, _) :-
+    assertz(given_up(Id, Hops)).
+
+%!  transfer_open(?Transfer) is nondet.
+%
+%   Id, which is under way, has not been heard of.
+
+transfer_open(Transfer) :-
+    agent_status(Id, Status, Frozen),
+    open_transfer(Status, Id, Frozen, Transfer).
+
+open_transfer(transit(Address, _), Id, hop(_, Hops, _, _),
+              hop(Id, dest(Address, Name, Endpoint), Hops)) :-
+    address_parts(Address, Name, Endpoint).
+open_transfer(cloning(Address, _), Id, clone(_, CloneId, _),
+              clone(Id, dest(Address, Name, Endpoint), CloneId)) :-
+    address_parts(Address, Name, Endpoint).
+
+%!  transfer_held(+Frozen, -Held) is semidet.
+%
+%   Held is Hole-Goals of an agent that is under way.
+
+transfer_held(hop(Held, _, _, _), Held).
+transfer_held(clone(Held-_, _, _), Held).

@@ -1,0 +1,177 @@
+:- module(typhon_ways,
+          [ one_letter/2,               % +Letters, -Letter
+            way_in/2,                   % +Id, +Mail
+            way_out/3,                  % +Id, +Letter, -Way
+            way_send/3                  % +Endpoint, +Id, +Letter
+          ]).
+:- use_module(library(apply), [maplist/4]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
+:- use_module('../../options/journal', [journal_on/0]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_gone/1, endpoint_keys/1,
+                endpoint_post/3, endpoint_post_up/3 ]).
+:- use_module('../host', [address_parts/3]).
+:- use_module('../agent', [agent_home_endpoint/2, agent_mail/2]).
+:- use_module(channel, [channel_post/3]).
+:- use_module(full, [mail_fits/3]).
+:- use_module(lost, [mail_lost/3]).
+:- use_module(senders, [mail_parts/4, shown/5]).
+:- use_module(whereabouts, [whereabouts/2]).
+
+/** <module> The next step of a letter
+
+A letter(Mail, Left) may be forwarded Left times more.  Mail is a list of
+mail(Origin, From, Message), the oldest first.
+
+*Threading*: one_letter/2 is pure; way_in/2 and way_out/3 inside with_agent/2;
+they never wait.  way_send/3 may wait for a connection.
+*/
+
+%   A letter that has been forwarded so often at once chases its agent in
+%   vain for the moment, or those who should know do not know yet: it waits
+%   a little.
+
+forwards_at_once(64).
+
+%!  one_letter(+Letters, -Letter) is det.
+%
+%   Letter has the mail of all Letters.
+
+one_letter([Letter], Letter) :-
+    !.
+one_letter(Letters, letter(Mail, Left)) :-
+    maplist(letter_parts, Letters, Mails, Lefts),
+    append(Mails, Mail),
+    max_list(Lefts, Left).
+
+letter_parts(letter(Mail, Left), Mail, Left).
+
+%!  way_in(+Id, +Mail) is semidet.
+%
+%   Put Mail in the mailbox of Id, which stands here, as far as there is room.
+
+way_in(Id, Mail) :-
+    mail_fits(Id, Mail, Fitting),
+    messages(Fitting, Messages),
+    agent_mail(Id, Messages).
+
+messages([], []).
+messages([mail(_, From, Message)|Mail], [From-Message|Messages]) :-
+    messages(Mail, Messages).
+
+%!  way_out(+Id, +Letter, -Way) is det.
+%
+%   Way is `done`, to(Endpoint, Letter) if a connection has to be made first,
+%   wait(Letter) if it is better to wait, or `nowhere`.
+
+way_out(Id, letter(Mail, Left), Way) :-
+    Left > 0,
+    next_endpoint(Id, Endpoint),
+    !,
+    Left1 is Left-1,
+    Letter = letter(Mail, Left1),
+    forwards_at_once(Most),
+    (   (   Left1 mod Most =:= 0
+        ;   Endpoint == here            % on its way in
+        )
+    ->  Way = wait(Letter)
+    ;   sent(Endpoint, Id, Letter, endpoint_post_up)
+    ->  Way = done
+    ;   Way = to(Endpoint, Letter)
+    ).
+way_out(_, _, nowhere).
+
+%   Who is not here has left a trace, or the home knows.  The endpoint is `here`
+%   if it is that of this process.
+
+next_endpoint(Id, Endpoint) :-
+    whereabouts(Id, Address),
+    address_parts(Address, _, Endpoint0),
+    \+ endpoint_gone(Endpoint0),
+    !,
+    (   endpoint_address(Endpoint0)
+    ->  Endpoint = here
+    ;   Endpoint = Endpoint0
+    ).
+next_endpoint(Id, Endpoint) :-
+    agent_home_endpoint(Id, Endpoint),
+    \+ endpoint_address(Endpoint).
+
+%!  way_send(+Endpoint, +Id, +Letter) is det.
+%
+%   Where a forwarding address leads to a process that is gone, the home
+%   may know better.
+%
+%   @error host_unreachable(Endpoint)
+
+way_send(Endpoint, Id, Letter) :-
+    catch(sent(Endpoint, Id, Letter, endpoint_post),
+          error(unreachable(_), _),
+          send_home(Endpoint, Id, Letter)).
+
+send_home(Failed, Id, Letter) :-
+    (   agent_home_endpoint(Id, Home),
+        Home \== Failed,
+        \+ endpoint_address(Home)
+    ->  catch(sent(Home, Id, Letter, endpoint_post),
+              error(unreachable(_), _),
+              throw(error(host_unreachable(Home), _)))
+    ;   throw(error(host_unreachable(Failed), _))
+    ).
+
+%   sent(+Endpoint, +Id, +Letter, :Post): to Endpoint, but for what has to go
+%   by another way.
+
+sent(Endpoint, Id, letter(Mail, Left), Post) :-
+    mail_parts(Endpoint, Id, Mail, Parts),
+    (   Parts = [To-_]
+    ->  posted(To, Id, letter(Mail, Left), Post)
+    ;   Post == endpoint_post           % else it has to wait for that
+    ->  forall(member(To-Part, Parts), part_sent(To, Id, Part, Left))
+    ).
+
+part_sent(Endpoint, Id, Mail, Left) :-
+    catch(posted(Endpoint, Id, letter(Mail, Left), endpoint_post),
+          error(unreachable(_), _),
+          mail_lost(host_unreachable(Endpoint), Id, Mail)).
+
+%   posted(+Endpoint, +Id, +Letter, :Post): what is too long for one frame goes
+%   in two. With a journal it is sent as soon as can be.
+
+posted(Endpoint, Id, letter(Mail, Left), Post) :-
+    message(Endpoint, Id, Mail, Left, Message),
+    (   journal_on
+    ->  By = channel_post
+    ;   By = Post
+    ),
+    catch(call(By, Endpoint, message, Message),
+          error(resource_error(frame_bytes), Context),
+          sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context)),
+    debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint]).
+
+message(Endpoint, Id, Mail, Left, Message) :-
+    endpoint_keys(_),
+    !,
+    findall(From, member(mail(_, From, _), Mail), Froms),
+    (   whereabouts(Id, Address),
+        address_parts(Address, _, Endpoint)
+    ->  There = [Id]
+    ;   There = []
+    ),
+    shown(Endpoint, [Id|Froms], There, message(Id, Mail, Left), Message).
+message(_, Id, Mail, Left, message(Id, Mail, Left)).
+
+sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context) :-
+    (   halves(Mail, Older, Newer)
+    ->  posted(Endpoint, Id, letter(Older, Left), Post),
+        posted(Endpoint, Id, letter(Newer, Left), Post)
+    ;   throw(error(resource_error(frame_bytes), Context))
+    ).
+
+halves(Mail, Older, Newer) :-
+    length(Mail, Count),
+    Count > 1,
+    Half is Count//2,
+    length(Older, Half),
+    append(Older, Newer, Mail).

@@ -1,0 +1,378 @@
+:- module(typhon_whereabouts,
+          [ agent_seen/4,               % +Id, +Address, +Hops, +Peer
+            agent_left/4,               % +Id, +Address, +Hops, +Peer
+            agent_left_noted/4,         % +Id, +Address, +Hops, +Peer
+            agent_ends/2,               % +Id, +Hops
+            ended_agent/1,              % ?Id
+            agent_ended/4,              % +Id, +Outcome, +Hops, +Legacy
+            agent_faulty/5,             % +Id, +Outcome, +Stamp, +Address,
+                                        % +Hops
+            agent_resumed/3,            % +Id, +Stamp, +Hops
+            agent_resumed_from/3,       % +Id, +Stamp, +Hops
+            agent_reached/3,            % +Id, +Hops, :OnAnswer
+            agent_reached_at/4,         % +Id, +Hops, +Endpoint, -Answer
+            agent_heard_of/2,           % +Id, -Hops
+            whereabouts/2               % +Id, -Address
+          ]).
+:- use_module(library(apply), [include/3, maplist/2]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../../options/journal', [journal_on/0, note_drop/3, note_put/4]).
+:- use_module('../wire',
+              [ endpoint_address/1, endpoint_call/5, endpoint_peer/2,
+                endpoint_post/3,
+                endpoint_reply/2, endpoint_request/4 ]).
+:- use_module('../host', [address_parts/3]).
+:- use_module('../agent',
+              [agent/5, agent_home_endpoint/2, is_legacy/1, life_hops/2]).
+:- use_module(speakers, [speaks_for/3]).
+:- use_module(home,
+              [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6,
+                home_knows/4, home_left/4, home_moved/4, home_resumed/3 ]).
+:- use_module(news, [news_tell/3]).
+
+/** <module> Where agents went
+
+Every process keeps forwarding addresses of the agents that left it, and
+tells their homes, see typhon_home.  The oldest forwarding addresses are
+forgotten.
+
+Of those that had come to it and ended there, a process keeps that they did:
+whoever does not know whether one got away to it may ask.
+
+An agent is in a process, not at an address: when another process has the
+address now, the agent has died with the one it went to, or has moved on.
+
+*Threading*: any thread; one mutex.  Telling the home is left to a courier,
+see typhon_news, since it may have to connect.
+*/
+
+:- meta_predicate agent_reached(+, +, 1).
+
+:- setting(forwards, positive_integer, 20000,
+           "Forwarding addresses kept by a process").
+:- setting(endings, positive_integer, 20000,
+           "Agents that came to a process and ended there, as far as it knows").
+
+:- dynamic
+    forward/4,                  % Id, Address, Hops, Process
+    ended_here/2.               % Id, Hops
+
+:- multifile
+    typhon_durable:fact_table/5,
+    error:has_type/2,
+    typhon_bounded:forgotten/1,
+    typhon_identity:ids_anew/0,
+    typhon_identity:id_anew/1,
+    typhon_durable:restore/4,
+    typhon_durable:dump/4,
+    typhon_endpoint:received/3,
+    typhon_endpoint:requested/4.
+
+                /*******************************
+                *             NEWS             *
+                *******************************/
+
+%!  agent_seen(+Id, +Address, +Hops, +Peer) is det.
+%
+%   Id has arrived at Address, a host of this process, from Peer, which is
+%   `here` if that was this process.
+
+agent_seen(Id, _, _, _) :-
+    home_knows(Id, _, _, _),            % it is here, and so are we
+    !.
+agent_seen(Id, Address, Hops, Peer) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  true
+    ;   retractall(forward(Id, _, _, _)),
+        (   Home == Peer                % it knows when it has our answer
+        ->  true
+        ;   news_tell(Home, Id, located(Id, Address, Hops))
+        )
+    ).
+
+typhon_identity:id_anew(Id) :-
+    retractall(forward(Id, _, _, _)),
+    retractall(ended_here(Id, _)).
+
+%!  agent_left(+Id, +Address, +Hops, +Peer) is det.
+%
+%   Id has left this process for Address, a host at the endpoint Peer.
+
+agent_left(Id, Address, Hops, Peer) :-
+    (   endpoint_address(Peer)
+    ->  true
+    ;   process_at(Peer, Process),
+        agent_home_endpoint(Id, Home),
+        (   endpoint_address(Home)
+        ->  left_home(Id, Address, Hops, Process)
+        ;   remember_forward(Id, Address, Hops, Process)
+        )
+    ).
+
+%   That it ended there may be heard before that it has come: to follow it
+%   would lead back here.  What ended after fewer hops was a copy that was
+%   given up in doubt.
+
+left_home(Id, _, Hops, _) :-
+    ended_after(Id, End),
+    End >= Hops,
+    !.
+left_home(Id, Address, Hops, Process) :-
+    (   agent_outcome(Id, _)
+    ->  remember_forward(Id, Address, Hops, Process)
+    ;   home_left(Id, Address, Hops, Process)
+    ).
+
+process_at(Endpoint, Process) :-
+    (   endpoint_peer(Endpoint, process(Process0))
+    ->  Process = Process0
+    ;   Process = unknown
+    ).
+
+%!  agent_left_noted(+Id, +Address, +Hops, +Peer) is det.
+%
+%   Note that Id has left; in the journal that stands in its own place.
+
+agent_left_noted(Id, Address, Hops, Peer) :-
+    (   journal_on,
+        \+ endpoint_address(Peer)
+    ->  process_at(Peer, Process),
+        note_put(agent, Id, 0, gone(Address, Hops, Process))
+    ;   true
+    ).
+
+typhon_identity:ids_anew :-
+    retractall(forward(_, _, _, _)),
+    retractall(ended_here(_, _)).
+
+typhon_bounded:forgotten(forward(Id, _, _, _)) :-
+    note_drop(agent, Id, 0).
+
+%   The process may be another by then.
+
+typhon_durable:dump(gone, Id, 0, gone(Address, Hops, unknown)) :-
+    forward(Id, Address, Hops, _).
+typhon_durable:fact_table(gone, Id, 0, gone(Address, Hops, Process),
+                          typhon_whereabouts:forward(Id, Address, Hops,
+                                                     Process)).
+
+typhon_durable:restore(agent, Id, _, gone(Address, Hops, Process)) :-
+    !,
+    agent_home_endpoint(Id, Home),
+    (   agent_outcome(Id, _)
+    ->  true
+    ;   endpoint_address(Home)
+    ->  home_left(Id, Address, Hops, Process)
+    ;   assertz(forward(Id, Address, Hops, Process))
+    ).
+
+remember_forward(Id, Address, Hops, Process) :-
+    with_mutex(typhon_forward,
+               (   forward(Id, _, _, _)
+               ->  assertz(forward(Id, Address, Hops, Process)),
+                   once(retract(forward(Id, _, _, _)))
+               ;   assertz(forward(Id, Address, Hops, Process))
+               )),
+    bounded(forward(_, _, _, _), typhon_whereabouts:forwards).
+
+%!  agent_ends(+Id, +Hops) is det.
+%
+%   Note that Id ends here after Hops hops.  Its record still stands: at no
+%   time may it seem as if it had never come.
+
+agent_ends(_, 0) :-
+    !.                                  % nobody sent it
+agent_ends(Id, Hops) :-
+    assertz(ended_here(Id, Hops)),
+    bounded(ended_here(_, _), typhon_whereabouts:endings).
+
+%!  ended_agent(?Id) is nondet.
+%
+%   Id had come to this process, and ended here.
+
+ended_agent(Id) :-
+    ended_here(Id, _).
+
+%!  agent_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
+%
+%   Let the home of Id know that it ended after Hops hops, and what it leaves.
+
+agent_ended(Id, Outcome, Hops, Legacy) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  home_ended(Id, Outcome, Hops, Legacy)
+    ;   end_news(Legacy, Id, Outcome, Hops, News),
+        news_tell(Home, Id, News)
+    ).
+
+end_news([], Id, Outcome, Hops, ended(Id, Outcome, Hops)) :-
+    !.
+end_news(Legacy, Id, Outcome, Hops, ended(Id, Outcome, Hops, Legacy)).
+
+%!  agent_faulty(+Id, +Outcome, +Stamp, +Address, +Hops) is det.
+%!  agent_resumed(+Id, +Stamp, +Hops) is det.
+%
+%   Let the home of Id know that it has come to that Outcome at Address, a
+%   host of this process, but is kept there; or that it goes on after the
+%   fault of that Stamp.
+
+agent_faulty(Id, Outcome, Stamp, Address, Hops) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  home_faulty(Id, Outcome, Stamp, Address, Hops, here)
+    ;   news_tell(Home, Id, faulty(Id, Outcome, Stamp, Address, Hops))
+    ).
+
+agent_resumed(Id, Stamp, Hops) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  home_resumed(Id, Stamp, Hops)
+    ;   news_tell(Home, Id, resumed(Id, Stamp, Hops))
+    ).
+
+%!  agent_resumed_from(+Id, +Stamp, +Hops) is det.
+%
+%   As agent_resumed/3, for who has had it resumed from afar: what he asks the
+%   home next comes after that.  May wait for a connection.
+
+agent_resumed_from(Id, Stamp, Hops) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  home_resumed(Id, Stamp, Hops)
+    ;   catch(endpoint_post(Home, whereabouts, [resumed(Id, Stamp, Hops)]),
+              error(unreachable(_), _),
+              true)                     % and will be told
+    ).
+
+typhon_endpoint:received(whereabouts, All, Peer) :-
+    is_list(All),
+    !,
+    hear_news(All, [], Peer).
+typhon_endpoint:received(whereabouts, shown(Births, All), Peer) :-
+    must_be(list, All),
+    hear_news(All, Births, Peer).
+
+hear_news(All, Births, Peer) :-
+    include(news_believed(Peer, Births), All, Believed),
+    process_at(Peer, Process),
+    maplist(news(Process), Believed).
+
+news_believed(Peer, Births, News) :-
+    must_be(compound, News),
+    arg(1, News, Id),
+    must_be(atom, Id),
+    speaks_for(Peer, Births, Id).
+
+news(Process, located(Id, Address, Hops)) :-
+    must_be(nonneg, Hops),
+    address_parts(Address, _, _),
+    home_moved(Id, Address, Hops, Process).
+news(Process, ended(Id, Outcome, Hops)) :-
+    news(Process, ended(Id, Outcome, Hops, [])).
+news(_, ended(Id, Outcome, Hops, Legacy)) :-
+    must_be(nonneg, Hops),
+    must_be(list(typhon_legacy), Legacy),
+    home_ended(Id, Outcome, Hops, Legacy).
+news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
+    must_be(nonneg, Hops),
+    must_be(number, Stamp),
+    address_parts(Address, _, _),
+    home_faulty(Id, Outcome, Stamp, Address, Hops, Process).
+news(_, resumed(Id, Stamp, Hops)) :-
+    must_be(nonneg, Hops),
+    must_be(number, Stamp),
+    home_resumed(Id, Stamp, Hops).
+
+error:has_type(typhon_legacy, Item) :-
+    is_legacy(Item).
+
+                /*******************************
+                *           QUESTIONS          *
+                *******************************/
+
+%!  agent_reached(+Id, +Hops, :OnAnswer) is det.
+%
+%   Call OnAnswer with answer(Reached): `true` or `false`, whether Id has made
+%   so many hops as far as its home knows, or `unknown`: the home was started
+%   after Id was born there; or with what endpoint_request/4 says if the home
+%   does not answer.
+
+agent_reached(Id, Hops, OnAnswer) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  reached(Id, Hops, Reached),
+        call(OnAnswer, answer(Reached))
+    ;   endpoint_request(Home, whereabouts, reached(Id, Hops), OnAnswer)
+    ).
+
+typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
+    reached(Id, Hops, Reached),
+    endpoint_reply(ReplyTo, Reached).
+
+%   In this order: who leaves or ends meanwhile is noted before it is gone.
+
+reached(Id, Hops, true) :-
+    (   hops_of(Id, Hops0)
+    ;   ended_here(Id, Hops0)
+    ),
+    Hops0 >= Hops,
+    !.
+reached(Id, _, true) :-
+    agent_outcome(Id, _),
+    !.
+reached(Id, _, false) :-
+    hops_of(Id, _),
+    !.
+reached(_, _, unknown).
+
+hops_of(Id, Hops) :-
+    agent(Id, _, _, _, Life),
+    life_hops(Life, Hops).
+hops_of(Id, Hops) :-
+    trace_of(Id, _, Hops, _).
+
+%!  agent_reached_at(+Id, +Hops, +Endpoint, -Reached) is det.
+%
+%   Ask the process at Endpoint instead of the home, and wait.
+%
+%   @error as endpoint_call/5
+
+agent_reached_at(Id, Hops, Endpoint, Reached) :-
+    endpoint_call(Endpoint, whereabouts, reached(Id, Hops), answer(Reached),
+                  5).
+
+%!  agent_heard_of(+Id, -Hops) is nondet.
+%
+%   Id, which is not in this process, has made Hops hops at least.
+
+agent_heard_of(Id, Hops) :-
+    trace_of(Id, _, Hops, _).
+agent_heard_of(Id, Hops) :-
+    ended_here(Id, Hops).
+
+%!  whereabouts(+Id, -Address) is semidet.
+%
+%   The last that this process knows of an agent that is not in it.  Fails if
+%   the process to which it went is no more.
+
+whereabouts(Id, Address) :-
+    trace_of(Id, Address0, _, Process),
+    lives(Address0, Process),
+    !,
+    Address = Address0.
+
+trace_of(Id, Address, Hops, Process) :-
+    forward(Id, Address, Hops, Process).
+trace_of(Id, Address, Hops, Process) :-
+    home_knows(Id, Address, Hops, Process).
+
+lives(_, Process) :-
+    memberchk(Process, [here, unknown]),
+    !.
+lives(Address, Process) :-
+    address_parts(Address, _, Endpoint),
+    \+ ( endpoint_peer(Endpoint, process(Now)),
+         Now \== Process ).

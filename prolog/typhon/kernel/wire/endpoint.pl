@@ -1,0 +1,312 @@
+:- module(typhon_endpoint,
+          [ endpoint_start/3,           % +Interface, +Port, -Address
+            endpoint_start/4,           % +Interface, +Port, +Keys, -Address
+            endpoint_start_alone/1,     % +Address
+            endpoint_open/0,
+            endpoint_stop/0,
+            endpoint_listen/2,          % +Port, -Address
+            endpoint_listen_end/1,      % +Address
+            endpoint_address/1,         % ?Address
+            endpoint_keys/1,            % -Directory
+            endpoint_proof/1            % -Proof
+          ]).
+
+/** <module> The endpoint: one per process
+
+An endpoint sends terms to the endpoints of other processes, and of its
+own, over TCP. It knows nothing of agents. Its address is an atom
+`Interface:Port`. What arrives goes to hooks, one clause per kind of
+message, in the room that owns the kind:
+
+  - received(+Kind, +Term, +Peer)
+  - together(+Kind, +Terms, -Fewer): posts that have come together, made
+    fewer; fails where they are to be taken one by one
+  - requested(+Kind, +Term, +Peer, +ReplyTo)
+  - connection(+Peer, +State)
+  - lent(+Goal, +Thread) and returned, see typhon_lending
+
+Peer is the address the sender listens to.
+
+*Threading*: everything may be called from any thread. The hooks run in the
+thread of a connection and must be quick: while one runs, nothing else of
+that peer is read. They may post, request and reply.
+*/
+
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(socket),
+              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_open_socket/3,
+                tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../../options/journal', [journal_barrier/0, journal_opened/1]).
+:- use_module(acceptor, [accept_all/2, accept_no_more/0]).
+:- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
+:- use_module(auth, [cookie/1]).
+:- use_module(hello, [hello/4]).
+:- use_module(keeper, [keep/1, keeper_unheard/1]).
+:- use_module(keeper_queue,
+              [keeper_queue_close/1, keeper_queue_open/0, keeper_tell/1]).
+:- use_module(lending, [lending_anew/0]).
+:- use_module(outbox, [session_control/2]).
+:- use_module(own_id,
+              [ endpoint_process/1, own_id_note/1, own_place/4, own_start/1,
+                own_start_next/1 ]).
+:- use_module(peers, [peers_flush/1]).
+:- use_module(request, [requests_lost/2]).
+:- use_module(resumption, [session_close/2]).
+:- use_module(secure,
+              [ secure_begin/1, secure_directory/1, secure_end/0,
+                secure_proof/1 ]).
+:- use_module(session, [session/2]).
+:- use_module(threads,
+              [ wire_thread_create/3, wire_thread_end/2, wire_thread_join/1,
+                wire_threads_end/0 ]).
+
+:- multifile
+    received/3,                         % Kind, Term, Peer
+    together/3,                         % Kind, Terms, Fewer
+    requested/4,                        % Kind, Term, Peer, ReplyTo
+    connection/2,                       % Peer, State
+    lent/2,                             % Goal, Thread
+    returned/0.
+:- dynamic
+    received/3,
+    together/3,
+    requested/4,
+    connection/2,
+    lent/2,
+    returned/0.
+
+:- setting(flush_time, number, 2,
+           "Seconds endpoint_stop/0 waits for the last frames to arrive").
+
+:- dynamic
+    closed/0,                           % nobody is let in yet
+    running/4,                          % Address, Socket, Acceptor, Keeper
+    further/3.                          % Address, Socket, Acceptor
+
+%!  endpoint_start(+Interface, +Port, -Address) is det.
+%!  endpoint_start(+Interface, +Port, +Keys, -Address) is det.
+%
+%   Listen at Port of Interface; Port 0 is any free one. Keys is `none`, or
+%   keys(Directory): all connections are TLS, see typhon_secure.
+%
+%   @error permission_error(start, endpoint, Address) one is running.
+%   @error socket_error(Code, Text): the port is taken, the interface unknown;
+%   the context names both
+
+endpoint_start(Interface, Port, Address) :-
+    endpoint_start(Interface, Port, none, Address).
+
+endpoint_start(Interface, Port, Keys, Address) :-
+    must_be(atom, Interface),
+    must_be(nonneg, Port),
+    with_mutex(typhon_endpoint, start(Keys, Interface, Port, Address)).
+
+start(_, _, _, _) :-
+    endpoint_address(Address),
+    !,
+    permission_error(start, endpoint, Address).
+start(none, Interface, Port, Address) :-
+    start(Interface, Port, Address).
+start(keys(Directory), Interface, Port, Address) :-
+    secure_begin(Directory),
+    catch(start(Interface, Port, Address), Ball,
+          ( secure_end, throw(Ball) )).
+
+start(Interface0, Port0, Address) :-
+    cookie(_),
+    own_place(Interface0, Port0, Interface1, Port),
+    until_opened,
+    (   Interface1 == localhost
+    ->  Interface = '127.0.0.1'
+    ;   Interface = Interface1
+    ),
+    listen(Interface, Port, Address, Socket),
+    own_start_next(Start),
+    our_hello(Start, Address, Me),
+    keeper_queue_open,
+    lending_anew,
+    wire_thread_create(keep(Me), keeper, Keeper),
+    wire_thread_create(accept_open(Socket, Me), acceptor, Acceptor),
+    assertz(running(Address, Socket, Acceptor, Keeper)),
+    debug(typhon(session), 'endpoint: starts at ~w, start ~w',
+          [Address, Start]).
+
+%   With a journal nobody is let in before it was read.
+
+until_opened :-
+    retractall(closed),
+    (   journal_opened(_)
+    ->  assertz(closed)
+    ;   true
+    ).
+
+accept_open(Socket, Me) :-
+    (   closed
+    ->  thread_get_message(endpoint_opens)
+    ;   true
+    ),
+    accept_all(Socket, Me).
+
+%!  endpoint_open is det.
+%
+%   What the journal knows was read: peers are let in.
+
+endpoint_open :-
+    running(Address, _, Acceptor, _),
+    !,
+    own_id_note(Address),
+    journal_barrier,
+    retractall(closed),
+    thread_send_message(Acceptor, endpoint_opens),
+    forall(further(_, _, Further),
+           thread_send_message(Further, endpoint_opens)).
+
+%!  endpoint_start_alone(+Address) is det.
+%
+%   Have an endpoint that reaches nobody but itself, see typhon_alone.
+%
+%   @error permission_error(start, endpoint, Address) one is running.
+
+endpoint_start_alone(Address) :-
+    with_mutex(typhon_endpoint, start_alone(Address)).
+
+start_alone(_) :-
+    endpoint_address(Address),
+    !,
+    permission_error(start, endpoint, Address).
+start_alone(Address) :-
+    alone_begin(Address).
+
+%   listen(+Interface, +Port, -Address, -Socket): a port is free again as soon
+%   as nobody listens there.  Processes that begin here would, too, if the
+%   socket had no stream.
+
+listen(Interface, Port, Address, Socket) :-
+    (   Port =:= 0
+    ->  true                            % any free one
+    ;   Bound = Port
+    ),
+    tcp_socket(Socket),
+    catch(( tcp_setopt(Socket, reuseaddr),
+            tcp_bind(Socket, Interface:Bound),
+            tcp_listen(Socket, 1024),
+            tcp_open_socket(Socket, _, _)
+          ),
+          Error,
+          ( tcp_close_socket(Socket),
+            blame(Error, Interface, Port) )),
+    atomic_list_concat([Interface, Bound], :, Address).
+
+%   Which port is taken, or which interface is none of ours.
+
+blame(error(socket_error(Code, Text), _), Interface, Port) :-
+    !,
+    format(atom(Where), 'at ~w:~w', [Interface, Port]),
+    throw(error(socket_error(Code, Text), context(_, Where))).
+blame(Error, _, _) :-
+    throw(Error).
+
+our_hello(Start, Address, Me) :-
+    endpoint_process(Process),
+    hello(Process, Start, Address, Me).
+
+%!  endpoint_listen(+Port, -Address) is det.
+%!  endpoint_listen_end(+Address) is det.
+%
+%   Listen at a further Port, too, until the endpoint stops at the latest.
+%   Whoever connects there meets the endpoint as at its first port.
+%
+%   @error existence_error(endpoint, running)
+
+endpoint_listen(Port, Address) :-
+    must_be(between(1, 65535), Port),
+    with_mutex(typhon_endpoint, listen_too(Port, Address)).
+
+listen_too(Port, Address) :-
+    (   running(First, _, _, _)
+    ->  true
+    ;   existence_error(endpoint, running)
+    ),
+    atomic_list_concat([Interface, _], :, First),
+    own_start(Start),
+    our_hello(Start, First, Me),
+    listen(Interface, Port, Address, Socket),
+    wire_thread_create(accept_open(Socket, Me), acceptor-Port, Acceptor),
+    assertz(further(Address, Socket, Acceptor)),
+    debug(typhon(session), 'endpoint: listens at ~w, too', [Address]).
+
+endpoint_listen_end(Address) :-
+    with_mutex(typhon_endpoint, listen_no_more(Address)).
+
+listen_no_more(Address) :-
+    retract(further(Address, Socket, Acceptor)),
+    !,
+    wire_thread_end(Acceptor, stopped),
+    tcp_close_socket(Socket).
+listen_no_more(_).
+
+%!  endpoint_stop is det.
+%
+%   Take no more connections, let the last frames arrive where there is a
+%   connection, close all. Requests without an answer are lost. May be
+%   called in a clean-up handler: the wait with a deadline is in another
+%   thread, see keeper_connect/1.
+
+endpoint_stop :-
+    with_mutex(typhon_endpoint, stop).
+
+stop :-
+    retract(running(Address, Socket, Acceptor, Keeper)),
+    !,
+    debug(typhon(session), 'endpoint: stops at ~w', [Address]),
+    findall(Further, further(Further, _, _), All),
+    maplist(listen_no_more, All),
+    wire_thread_end(Acceptor, stopped),
+    tcp_close_socket(Socket),
+    setting(flush_time, Seconds),
+    in_own_thread(ignore(peers_flush(Seconds))),
+    forall(session(_, Session), session_control(Session, bye)),
+    keeper_tell(stop),
+    wire_thread_join(Keeper),
+    wire_threads_end,
+    keeper_queue_close(Unheard),
+    accept_no_more,
+    keeper_unheard(Unheard),
+    forall(session(_, Session),
+           ( session_close(Session, Unsent),
+             requests_lost(Session, Unsent) )),
+    secure_end.
+stop :-
+    alone_end.
+
+%!  endpoint_address(?Address) is semidet.
+%
+%   Address is that of this process: the first, if unbound.
+
+endpoint_address(Address) :-
+    running(Address, _, _, _).
+endpoint_address(Address) :-
+    nonvar(Address),
+    further(Address, _, _).
+endpoint_address(Address) :-
+    alone(Address).
+
+%!  endpoint_keys(-Directory) is semidet.
+%
+%   The endpoint has the keys in Directory.
+
+endpoint_keys(Directory) :-
+    secure_directory(Directory).
+
+%!  endpoint_proof(-Proof) is semidet.
+%
+%   In a hook: how the peer whose frame is being handled has proved itself,
+%   `cookie` or certificate(Name). Fails in other threads.
+
+endpoint_proof(Proof) :-
+    secure_proof(Proof).

@@ -1,0 +1,390 @@
+:- module(typhon_outbox,
+          [ session_send/2,             % +Session, +Term
+            session_answer/2,           % +Session, +Term
+            session_send_with/2,        % +Session, +Term
+            session_release/1,          % +Session
+            session_send_later/2,       % +Session, +Term
+            session_later/1,            % -Count
+            session_push/1,             % +Session
+            session_control/2,          % +Session, +Term
+            frame_fits/1,               % +Length
+            session_flush/2             % +Session, +Deadline
+          ]).
+
+/** <module> What is sent in a session: every frame once
+
+A frame is kept until it is acknowledged, see unacked.pl, and goes over
+another connection if one breaks, see resumption.pl.
+
+Writing must never block the thread of a reader, or two readers could wait
+for each other, nor hold a thread that is not ours. A frame is therefore
+written by whoever sends it only if it and all that is under way fit in
+what the buffers of the kernel hold; else it waits, and a thread of the
+session, the pusher, writes. So do those outside the count.
+
+To write a small frame costs more than all else that is done for it. So
+posts are held while so much is under way that the peer is sure to acknowledge
+some of it; when that has come they go in one frame. The peer would not read
+them before, anyway. What is sent after them takes them along.
+
+*Threading*: any thread may send. The mutex of the session guards the
+order. While a session is up and nobody is pushing, nothing waits but what
+is held.
+*/
+
+:- use_module(library(error), [resource_error/1]).
+:- use_module(library(settings), [setting/2]).
+:- use_module(library(lists), [member/2, reverse/2]).
+:- use_module('../../options/journal',
+              [ journal_commit/0, journal_go/0, journal_guards/0,
+                journal_let_out/2 ]).
+:- use_module(bundle, [bundle_fits/1]).
+:- use_module(counts, [acknowledged/3]).
+:- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
+:- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(pusher, [pusher/2, pusher_control/3, pusher_start/4]).
+:- use_module(session,
+              [ session_codec/2, session_key/2, session_locked/2,
+                session_must_exist/2 ]).
+:- use_module(transport, [session_up/1, transport/3, transport_broken/2]).
+:- use_module(unacked,
+              [ unacked_await/3, unacked_next/3, unacked_no_wait/1,
+                unacked_owed/2, unacked_sent/2, unacked_waiting/1,
+                unacked_waits/2 ]).
+:- use_module(watch, [watch_frame/4]).
+
+:- multifile typhon_committing:letting_out/1.
+
+%   Bytes that may be under way without a chance of blocking in write.
+
+under_way(65536).
+
+%!  session_send(+Session, +Term) is det.
+%
+%   Send Term: it arrives once, and in the order of this thread's sends.
+%   Never blocks on the network.
+%
+%   @error session_closed the peer is gone for good
+%   @error resource_error(frame_bytes) Term is too long for a frame
+
+session_send(Session, Term) :-
+    send(Session, Term, now).
+
+%!  session_answer(+Session, +Term) is det.
+%
+%   As session_send/2, of what somebody waits for: while the journal has no room
+%   it waits, too. When the journal has been closed it is dropped.
+
+session_answer(Session, Term) :-
+    unless_closed(send(Session, Term, anyhow)).
+
+%   When the journal has been closed nobody is told what happens.
+
+:- meta_predicate unless_closed(0).
+
+unless_closed(Goal) :-
+    catch(Goal, error(existence_error(journal, _), _), true).
+
+send(Session, Term, When) :-
+    frame_bytes(Session, Term, Bytes),
+    answers_first(Session),
+    (   journal_guards
+    ->  let_out(Session, Bytes, When)
+    ;   session_locked(Session,
+                       put_frame(Session, Bytes, frame_write_now))
+    ).
+
+%!  session_send_with(+Session, +Term) is det.
+%!  session_release(+Session) is det.
+%
+%   As session_send/2, but Term may be held; the peer has acknowledged
+%   something: what is held goes.
+
+session_send_with(Session, Term) :-
+    answers_left(Own),
+    !,
+    (   Own == Session
+    ->  session_send(Session, Term)     % so that they go, too
+    ;   session_push(Own),
+        session_send_with(Session, Term)
+    ).
+session_send_with(Session, Term) :-
+    frame_bytes(Session, Term, Bytes),
+    (   journal_guards
+    ->  let_out(Session, loose(Bytes), now)
+    ;   session_locked(Session,
+                       put_with(Session, Bytes, frame_write_now))
+    ).
+
+session_release(Session) :-
+    session_key(Session, Key),
+    (   unacked_waiting(Key)
+    ->  session_locked(Session, see_to(Session, Key))
+    ;   true
+    ).
+
+%   What a reader has left goes along, or before what is said to others: who
+%   hears of an agent from the next process must not be ahead of who waits
+%   for the answer that it has come to this one.
+
+answers_first(Session) :-
+    answers_left(Own),
+    !,
+    (   Own == Session
+    ->  nb_linkval(typhon_later, 0)
+    ;   session_push(Own)
+    ).
+answers_first(_).
+
+answers_left(Session) :-
+    nb_current(typhon_later, Count),
+    Count > 0,
+    nb_current(typhon_later_in, Session).
+
+%!  session_send_later(+Session, +Term) is det.
+%!  session_later(-Count) is det.
+%!  session_push(+Session) is det.
+%
+%   Send Term with whatever is sent next.  Only the thread of the connection
+%   may leave something: it says session_push/1 when it begins, and again
+%   before long when Count frames have been left.  Others send at once.
+
+session_send_later(Session, Term) :-
+    nb_current(typhon_later, Count),
+    !,
+    frame_bytes(Session, Term, Bytes),
+    (   journal_guards
+    ->  unless_closed(let_out(Session, Bytes, later))
+    ;   session_locked(Session, put_frame(Session, Bytes, frame_write))
+    ),
+    Count1 is Count+1,
+    nb_linkval(typhon_later, Count1).
+session_send_later(Session, Term) :-
+    session_answer(Session, Term).
+
+session_later(Count) :-
+    nb_getval(typhon_later, Count).
+
+session_push(Session) :-
+    (   journal_guards
+    ->  journal_go
+    ;   session_key(Session, Key),
+        session_locked(Session, push_out(Key))
+    ),
+    nb_linkval(typhon_later, 0),
+    (   nb_current(typhon_later_in, Session)
+    ->  true
+    ;   nb_setval(typhon_later_in, Session)
+    ).
+
+push_out(Key) :-
+    (   transport(Key, Thread, Out),
+        \+ pusher(Key, _)
+    ->  catch(flush_output(Out),
+              error(_, _),
+              transport_broken(Key, Thread))
+    ;   true
+    ).
+
+%!  frame_fits(+Length) is semidet.
+%
+%   A frame may have so many bytes: the peer would refuse a longer one, again
+%   and again.
+
+frame_fits(Length) :-
+    Length =< 65536,
+    !.
+frame_fits(Length) :-
+    setting(typhon_session:frame_bytes, Most),
+    Length =< Most.
+
+frame_bytes(Session, Term, Bytes) :-
+    session_codec(Session, Codec),
+    term_bytes(Codec, Term, Bytes),
+    string_length(Bytes, Length),
+    (   frame_fits(Length)
+    ->  watch_frame(to, Session, Term, Bytes)
+    ;   resource_error(frame_bytes)
+    ).
+
+put_with(Session, Bytes, Write) :-
+    \+ bundle_fits(Bytes),
+    !,
+    put_frame(Session, Bytes, Write).
+put_with(Session, Bytes, Write) :-
+    session_must_exist(Session, Key),
+    (   holds(Key)
+    ->  unacked_waits(Key, loose(Bytes))
+    ;   put(Session, Key, Bytes, loose(Bytes), Write)
+    ).
+
+%   holds(+Key): the peer will acknowledge some of what is under way, and not
+%   too much waits; or there is a pusher.
+
+most_held(256).
+
+holds(Key) :-
+    pusher(Key, _),
+    !.
+holds(Key) :-
+    session_up(Key),
+    unacked_owed(Key, Waiting),
+    most_held(Most),
+    Waiting < Most.
+
+put_frame(Session, Bytes, Write) :-
+    session_must_exist(Session, Key),
+    put(Session, Key, Bytes, Bytes, Write).
+
+%   put(+Session, +Key, +Bytes, +Frame, :Write): Frame is what waits if it
+%   cannot be written.
+
+put(Session, Key, Bytes, Frame, Write) :-
+    (   \+ unacked_waiting(Key),
+        writable(Key, Bytes, Thread, Out)
+    ->  unacked_sent(Key, Bytes),
+        written(Write, Key, Thread, Out, Bytes)
+    ;   unacked_waits(Key, Frame),
+        see_to(Session, Key)
+    ).
+
+%   writable(+Key, +Bytes, -Thread, -Out): Bytes can be written to Out.
+
+writable(Key, Bytes, Thread, Out) :-
+    room(Key, Thread, Out, Room),
+    string_length(Bytes, Length),
+    Length < Room,
+    !.
+
+%   room(+Key, -Thread, -Out, -Room): so many bytes can be written to Out.
+%   Nobody looks at a stream somebody pushes to: that might block, too.
+
+room(Key, Thread, Out, Room) :-
+    transport(Key, Thread, Out),
+    \+ pusher(Key, _),
+    byte_count(Out, Written),
+    acknowledged(Key, _, Acked),
+    under_way(Max),
+    Room is Max-(Written-Acked).
+
+%   Something waits: it is written, or a connection made.
+
+see_to(Session, Key) :-
+    (   pusher(Key, _)
+    ->  true
+    ;   transport(Key, Thread, Out)
+    ->  write_waiting(Session, Key, Thread, Out)
+    ;   ignore(keeper_tell(wanted(Key)))
+    ).
+
+write_waiting(Session, Key, Thread, Out) :-
+    catch(( write_while_room(Session, Key), flush_output(Out) ),
+          error(_, _),
+          transport_broken(Key, Thread)),
+    (   unacked_waiting(Key)
+    ->  push(Session, Key)
+    ;   true
+    ).
+
+write_while_room(Session, Key) :-
+    (   room(Key, _, Out, Room),
+        unacked_next(Session, Room, Bytes)
+    ->  frame_write(Out, Bytes),
+        write_while_room(Session, Key)
+    ;   true
+    ).
+
+push(Session, Key) :-
+    (   \+ pusher(Key, _),
+        transport(Key, Thread, Out)
+    ->  pusher_start(Session, Thread, Out, [])
+    ;   true
+    ).
+
+written(Write, Key, Thread, Out, Bytes) :-
+    catch(call(Write, Out, Bytes),
+          error(_, _),
+          transport_broken(Key, Thread)).
+
+%!  session_control(+Session, +Term) is det.
+%
+%   Send Term outside the count, before all that waits: dropped when the
+%   session is down, and where a newer one of its kind follows.
+
+session_control(Session, Term) :-
+    session_codec(Session, Codec),
+    term_bytes(Codec, Term, Bytes),
+    watch_frame(to, Session, Term, Bytes),
+    functor(Term, Kind, _),
+    session_locked(Session, put_control(Session, Kind, Bytes)).
+
+put_control(Session, Kind, Bytes) :-
+    session_key(Session, Key),
+    (   writable(Key, Bytes, Thread, Out)
+    ->  written(frame_write_now, Key, Thread, Out, Bytes)
+    ;   session_up(Key)
+    ->  pusher_control(Key, Kind, Bytes),
+        push(Session, Key)
+    ;   true
+    ).
+
+                /*******************************
+                *       WHAT IS COMMITTED      *
+                *******************************/
+
+%   let_out(+Session, +Frame, +When): Frame as it may wait, When as of
+%   journal_let_out/2.
+
+let_out(Session, Frame, When) :-
+    session_must_exist(Session, _),
+    journal_let_out(frame(Session, Frame), When).
+
+%   All are written, then all go.
+
+typhon_committing:letting_out(Frames) :-
+    let_out_all(Frames, [], Sessions),
+    forall(member(Session, Sessions), flush_out(Session)).
+
+let_out_all([], Sessions0, Sessions) :-
+    reverse(Sessions0, Sessions).
+let_out_all([frame(Session, Frame)|Frames], Sessions0, Sessions) :-
+    catch(session_locked(Session, put_committed(Frame, Session)),
+          error(session_closed, _),
+          true),                        % who waits for an answer was told
+    (   memberchk(Session, Sessions0)
+    ->  Sessions1 = Sessions0
+    ;   Sessions1 = [Session|Sessions0]
+    ),
+    let_out_all(Frames, Sessions1, Sessions).
+
+put_committed(loose(Bytes), Session) :-
+    !,
+    put_with(Session, Bytes, frame_write).
+put_committed(Bytes, Session) :-
+    put_frame(Session, Bytes, frame_write).
+
+flush_out(Session) :-
+    session_key(Session, Key),
+    session_locked(Session, push_out(Key)).
+
+%!  session_flush(+Session, +Deadline) is semidet.
+%
+%   Wait until all that was sent before has been acknowledged, or the session
+%   is closed, as when its peer has died; fails at Deadline, a time stamp.
+
+session_flush(Session, Deadline) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        flush(Session, Queue, Deadline),
+        ( unacked_no_wait(Queue),
+          message_queue_destroy(Queue) )).
+
+flush(Session, Queue, Deadline) :-
+    catch(journal_commit, error(_, _), true), % who commits has told
+    session_release(Session),
+    session_locked(Session, unacked_await(Session, Queue, Pending)),
+    (   Pending =:= 0
+    ->  true
+    ;   session_control(Session, ping),
+        thread_get_message(Queue, flushed, [deadline(Deadline)])
+    ).

@@ -1,8 +1,0 @@
-:- module(typhon_nxt_json, []).
-
-/** <module> JSON for robots, and for who reads what they say
-
-*Threading*: no state.
-*/
-
-:- reexport('../base/json').

@@ -1,0 +1,291 @@
+:- module(typhon_committing,
+          [ committing_begin/0,
+            committing_end/0,
+            entry/1,                    % +Changes
+            let_out/1,                  % +Item
+            journal_full/1,             % -Error
+            commit/0,
+            commit_soon/0
+          ]).
+:- use_module(library(lists), [append/3, reverse/2]).
+:- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
+:- use_module('../../kernel/base/fifo', [fifo_empty/2]).
+:- use_module(crash, [crash_point/1]).
+:- use_module(store, [store_commit/1, store_sync/1]).
+
+/** <module> Entries are committed in order, many at a time
+
+In a queue there are entries of changes, and between them what is to be let
+out of the process when those before it are committed.  Whoever commits takes
+all there is: the changes become one transaction, then the items go, in their
+order.  So nobody has to wait for the disk who only sends something.
+
+Where a commit takes as long as the disk takes to sync, a thread commits, and
+what gathers meanwhile is the next transaction.  Where it does not, who wants
+something to go commits himself.  What nobody waits for the thread commits
+after some milliseconds.  What could not be committed is kept, with what was
+to be let out, and tried again each second.
+
+*Threading*: any thread.  One at a time commits, holding a mutex in which it
+may take those of sessions: who holds one of these must not commit.
+*/
+
+:- multifile letting_out/1.             % Items: they are committed, in order
+
+:- dynamic
+    letting_out/1,
+    queue/3,                            % Entries, Wake, Sync
+    unsaved/2,                          % Changes and items that wait for them
+    committer/1,                        % Thread
+    told/1.                             % Error: nothing can be committed
+
+%   What nobody waits for waits so long; what failed is tried again.
+
+idle_seconds(0.02).
+again_seconds(1).
+
+                /*******************************
+                *         BEGIN AND END        *
+                *******************************/
+
+%!  committing_begin is det.
+%!  committing_end is semidet.
+%
+%   The store is open; all is committed, as far as it can be.  Fails if it had
+%   not begun.
+
+committing_begin :-
+    on_signal(xfsz, _, typhon_committing:file_too_long),
+    store_sync(Sync),
+    message_queue_create(Entries),
+    message_queue_create(Wake),
+    assertz(queue(Entries, Wake, Sync)),
+    set_flag(typhon_journal_awake, 0),
+    thread_create(commit_when_told(Wake), Thread, [alias(typhon_journal)]),
+    assertz(committer(Thread)).
+
+%   Where a file may not get longer that is an error, as a disk that is full: no
+%   reason to break off what a thread does.
+
+:- public file_too_long/1.
+
+file_too_long(_).
+
+committing_end :-
+    retract(committer(Thread)),
+    !,
+    queue(Entries, Wake, _),
+    thread_send_message(Wake, stop),
+    thread_join(Thread, _),
+    catch(commit, error(Formal, Context),
+          print_message(error, error(Formal, Context))),
+    retractall(queue(_, _, _)),
+    retractall(unsaved(_, _)),
+    retractall(told(_)),
+    message_queue_destroy(Entries),
+    message_queue_destroy(Wake).
+
+                /*******************************
+                *            ENTRIES           *
+                *******************************/
+
+%!  entry(+Changes:list) is det.
+%!  let_out(+Item) is semidet.
+%
+%   Changes are to be committed together; Item is to be let out, see
+%   letting_out/1, when all that came before is committed, which somebody has
+%   to see to.  Fails where nothing is committed any more.
+
+entry(Changes) :-
+    queue(Entries, _, _),
+    !,
+    thread_send_message(Entries, Changes),
+    wake(idle).
+entry(_).                               % it has been closed
+
+let_out(Item) :-
+    queue(Entries, _, _),
+    !,
+    thread_send_message(Entries, item(Item)),
+    wake(idle).
+
+%   wake(+How): the thread is to commit, once it was `idle`, or `now`.
+
+wake(How) :-
+    urgency(How, Urgency),
+    (   get_flag(typhon_journal_awake, Awake),
+        Awake >= Urgency
+    ->  true
+    ;   set_flag(typhon_journal_awake, Urgency),
+        queue(_, Wake, _),
+        thread_send_message(Wake, How)
+    ).
+
+urgency(idle, 1).
+urgency(now, 2).
+
+%!  journal_full(-Error) is semidet.
+%
+%   What came of the last commit, if it could not be made.
+
+journal_full(Error) :-
+    told(Error),
+    !.
+
+                /*******************************
+                *            COMMIT            *
+                *******************************/
+
+%!  commit is det.
+%!  commit_soon is det.
+%
+%   Return when all that has been entered is committed, and let out; see to
+%   it that it will be.
+%
+%   @error resource_error(journal_space)
+
+commit :-
+    sig_atomic(( with_mutex(typhon_commit, commit_all),
+                 once_more )).
+
+commit_soon :-
+    queue(_, _, full),
+    !,
+    wake(now).
+commit_soon :-
+    sig_atomic(commit_or_leave).
+
+%   Nobody waits for who commits: he finds that more is wanted, and does it.
+
+commit_or_leave :-
+    mutex_trylock(typhon_commit),
+    !,
+    commit_locked.
+commit_or_leave :-
+    set_flag(typhon_journal_wanted, 1),
+    mutex_trylock(typhon_commit),
+    !,                                  % he may not have seen that
+    commit_locked.
+commit_or_leave.
+
+%   If it cannot be done the thread tries again, and tells.
+
+commit_locked :-
+    set_flag(typhon_journal_wanted, 0),
+    call_cleanup(catch(commit_all, error(_, _), true),
+                 mutex_unlock(typhon_commit)),
+    once_more.
+
+once_more :-
+    (   get_flag(typhon_journal_wanted, 1)
+    ->  commit_or_leave
+    ;   true
+    ).
+
+commit_all :-
+    queue(Entries, _, _),
+    !,
+    fifo_empty(Entries, New),
+    parted(New, Changes0, Items0),
+    (   retract(unsaved(Changes1, Items1))
+    ->  append(Changes1, Changes0, Changes2),
+        append(Items1, Items0, Items)
+    ;   Changes2 = Changes0,
+        Items = Items0
+    ),
+    save(Changes2, Items),
+    (   Items == []
+    ->  true
+    ;   go(Items)
+    ).
+commit_all.
+
+go(Items) :-
+    catch(ignore(letting_out(Items)), error(Formal, Context),
+          print_message(error, error(Formal, Context))).
+
+parted([], [], []).
+parted([item(Item)|Entries], Changes, [Item|Items]) :-
+    !,
+    parted(Entries, Changes, Items).
+parted([Entry|Entries], Changes, Items) :-
+    append(Entry, Others, Changes),
+    parted(Entries, Others, Items).
+
+save([], _) :-
+    !.
+save(Changes0, Items) :-
+    settled(Changes0, Changes),
+    crash_point(before_commit),
+    catch(store_commit(Changes), error(Formal, Context),
+          ( assertz(unsaved(Changes, Items)),
+            throw(error(Formal, Context)) )),
+    retractall(told(_)),
+    crash_point(after_commit).
+
+%   settled(+Changes0, -Changes): without those of items that change once more.
+
+settled(Changes0, Changes) :-
+    reverse(Changes0, Newest),
+    length(Newest, Count),
+    (   Count =< 32
+    ->  Seen = []                       % quicker for so few
+    ;   rb_new(Seen)
+    ),
+    last_of_each(Newest, Seen, [], Changes).
+
+last_of_each([], _, Changes, Changes).
+last_of_each([Change|Older], Seen0, Changes0, Changes) :-
+    (   item_of(Change, Item)
+    ->  (   first_seen(Seen0, Item, Seen)
+        ->  last_of_each(Older, Seen, [Change|Changes0], Changes)
+        ;   last_of_each(Older, Seen0, Changes0, Changes)
+        )
+    ;   last_of_each(Older, Seen0, [Change|Changes0], Changes)
+    ).
+
+first_seen(Seen0, Item, Seen) :-
+    is_list(Seen0),
+    !,
+    \+ memberchk(Item, Seen0),
+    Seen = [Item|Seen0].
+first_seen(Seen0, Item, Seen) :-
+    rb_insert_new(Seen0, Item, true, Seen).
+
+item_of(put(Kind, Key, N, _), Kind-Key-N).
+item_of(drop(Kind, Key, N), Kind-Key-N).
+
+                /*******************************
+                *           THE THREAD         *
+                *******************************/
+
+commit_when_told(Wake) :-
+    repeat,
+    thread_get_message(Wake, How),
+    (   How == stop
+    ->  !
+    ;   idle_seconds(Seconds),
+        unless_urgent(How, Wake, Seconds),
+        set_flag(typhon_journal_awake, 0),
+        catch(commit, error(Formal, Context),
+              not_committed(error(Formal, Context), Wake)),
+        fail
+    ).
+
+unless_urgent(idle, Wake, Seconds) :-
+    thread_get_message(Wake, How, [timeout(Seconds)]),
+    How == stop,
+    !,
+    thread_send_message(Wake, stop).
+unless_urgent(_, _, _).
+
+not_committed(Error, Wake) :-
+    (   told(_)
+    ->  true
+    ;   print_message(error, Error),
+        assertz(told(Error))
+    ),
+    again_seconds(Seconds),
+    set_flag(typhon_journal_awake, 2),
+    unless_urgent(idle, Wake, Seconds),
+    thread_send_message(Wake, now).

@@ -1,0 +1,278 @@
+:- module(typhon_listening,
+          [ listening_begin/2,          % +Watch, -Queue
+            listening_end/1,            % +Watch
+            listening_tell/2,           % +Watch, +Message
+            listen_on/4                 % +Watch, +Queue, :OnEvent, +Asked
+          ]).
+:- use_module(library(apply), [partition/4]).
+:- use_module(library(lists), [delete/3, member/2, min_list/2]).
+:- use_module('../../kernel/base/error_text', [error_told/3]).
+:- use_module('../../kernel/wire',
+              [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
+:- use_module(watch_places,
+              [ place_answered/4, place_at/4, place_begin/3, place_cut/3,
+                place_due/3, place_started/4, place_stopped/2,
+                places_forget/1 ]).
+
+/** <module> Listening to what is told
+
+The thread of a watch calls what is to be called for each event, and sees to
+it that the places from which they come are asked again when they were cut
+off, see room `watch_places`.
+
+*Threading*: one thread for each watch.  The hooks of the endpoint put into its
+queue what it is to hear.
+*/
+
+:- meta_predicate listen_on(+, +, 1, +).
+
+:- multifile
+    prolog:message//1,
+    typhon_endpoint:connection/2,
+    typhon_endpoint:requested/4,
+    typhon_teller:taken_here/3.
+
+:- dynamic watch/2.             % Watch, Queue: as long as events are wanted
+
+%!  listening_begin(+Watch, -Queue) is det.
+%!  listening_end(+Watch) is det.
+%
+%   From now on events of Watch are wanted, which come into Queue; or none
+%   are any more, and its thread ends.
+
+listening_begin(Watch, Queue) :-
+    message_queue_create(Queue),
+    assertz(watch(Watch, Queue)).
+
+listening_end(Watch) :-
+    ignore(listening_tell(Watch, over)),
+    retractall(watch(Watch, _)).
+
+                /*******************************
+                *           THE WIRE           *
+                *******************************/
+
+typhon_endpoint:requested(watched, events(Watch, Events), Peer, ReplyTo) :-
+    (   is_list(Events),
+        listening_tell(Watch, events(Peer, Events, peer(ReplyTo)))
+    ->  true
+    ;   endpoint_reply(ReplyTo, no)
+    ).
+typhon_teller:taken_here(Watch, Events, OnAnswer) :-
+    endpoint_address(Own),
+    !,
+    listening_tell(Watch, events(Own, Events, here(OnAnswer))).
+typhon_endpoint:requested(watched, alive(Watch), _, ReplyTo) :-
+    (   watch(Watch, _)
+    ->  endpoint_reply(ReplyTo, yes)
+    ;   endpoint_reply(ReplyTo, no)
+    ).
+
+typhon_endpoint:connection(Peer, State) :-
+    forall(watch(Watch, _), ignore(listening_tell(Watch, connection(Peer, State)))).
+
+%!  listening_tell(+Watch, +Message) is semidet.
+%
+%   Fails if nobody listens.
+
+listening_tell(Watch, Message) :-
+    watch(Watch, Queue),
+    catch(thread_send_message(Queue, Message),
+          error(existence_error(_, _), _),
+          fail).
+
+                /*******************************
+                *           THE LOOP           *
+                *******************************/
+
+%!  listen_on(+Watch, +Queue, :OnEvent, +Asked) is det.
+%
+%   The thread of Watch, until listening_end/1, or the message end(Done): then
+%   what has happened until then is taken, too, and the queue Done hears
+%   `done`.  Asked are asked(Endpoint, Wanted, Answer), Answer being what a
+%   teller says, or gone(Hosts) of a process of a network that is no more.
+
+listen_on(Watch, Queue, OnEvent, Asked) :-
+    Me = me(Watch, Queue, OnEvent),
+    setup_call_cleanup(
+        begin(Asked, Me),
+        loop(Me),
+        ( forget(Watch),
+          message_queue_destroy(Queue) )).
+
+%   Those that are gone come last: their clock is that of others.
+
+begin(Asked, Me) :-
+    partition(has_answered, Asked, There, Gone),
+    forall(member(One, There), begin_one(One, Me)),
+    forall(member(One, Gone), begin_one(One, Me)).
+
+has_answered(asked(_, _, watching(_, _, _))).
+
+begin_one(Asked, Me) :-
+    Me = me(Watch, _, _),
+    place_begin(Watch, Asked, Events),
+    call_on_all(Events, Me).
+
+forget(Watch) :-
+    retractall(watch(Watch, _)),
+    places_forget(Watch).
+
+loop(Me) :-
+    next(Me, Message),
+    (   Message = end(Done)
+    ->  end(Me),
+        thread_send_message(Done, done)
+    ;   heard(Message, Me),
+        wanted(Me)
+    ->  loop(Me)
+    ;   unwatch_all(Me)
+    ).
+
+next(me(Watch, Queue, _), Message) :-
+    findall(Again, place_due(Watch, _, Again), Agains),
+    (   Agains == []
+    ->  thread_get_message(Queue, Message)
+    ;   min_list(Agains, Deadline),
+        (   thread_get_message(Queue, Message0, [deadline(Deadline)])
+        ->  Message = Message0
+        ;   Message = due
+        )
+    ).
+
+wanted(me(Watch, _, _)) :-
+    watch(Watch, _).
+
+heard(events(Peer, Events, ReplyTo), Me) =>
+    ask_for_more(ReplyTo),
+    forall(( member(Event, Events), wanted(Me) ),
+           taken(Event, Peer, Me)).
+heard(connection(Peer, down), _), endpoint_address(Peer) =>
+    true.                               % nobody is cut off from himself
+heard(connection(Peer, down), Me) =>
+    ask_again(Peer, up, Me).
+heard(connection(Peer, up), Me) =>
+    ask_again(Peer, down(_, _), Me).
+heard(due, Me) =>
+    Me = me(Watch, _, _),
+    get_time(Now),
+    forall(( place_due(Watch, Endpoint, Again), Again =< Now ),
+           ask(Endpoint, Me)).
+heard(asked(Endpoint, Result), Me) =>
+    Me = me(Watch, _, _),
+    place_answered(Watch, Endpoint, Result, Events),
+    call_on_all(Events, Me).
+heard(_, _) =>                          % over, ended(_)
+    true.
+
+ask_again(Peer, State, Me) :-
+    Me = me(Watch, _, _),
+    forall(place_at(Watch, Peer, State, Endpoint), ask(Endpoint, Me)).
+
+ask(Endpoint, me(Watch, Queue, _)) :-
+    place_cut(Watch, Endpoint, Wanted),
+    endpoint_request(Endpoint, watch, watch(Watch, Wanted),
+                     typhon_listening:told(Queue, asked, Endpoint)).
+
+:- public told/4.
+
+told(Queue, What, Endpoint, Result) :-
+    Message =.. [What, Endpoint, Result],
+    catch(thread_send_message(Queue, Message),
+          error(existence_error(_, _), _),
+          true).                        % nobody listens any more
+
+ask_for_more(peer(ReplyTo)) :-
+    endpoint_reply(ReplyTo, more).
+ask_for_more(here(OnAnswer)) :-
+    call(OnAnswer, answer(more)).
+
+                /*******************************
+                *            EVENTS            *
+                *******************************/
+
+%   What has been concluded already is not told again.
+
+taken(event(Time, Host, none, started(Clock)), Peer, Me) =>
+    Me = me(Watch, _, _),
+    (   place_started(Watch, Peer, Host, Clock)
+    ->  call_on(event(Time, Host, none, started), Me)
+    ;   true
+    ).
+taken(event(Time, Host, none, stopped), _, Me) =>
+    Me = me(Watch, _, _),
+    place_stopped(Watch, Host),
+    call_on(event(Time, Host, none, stopped), Me).
+taken(Event, _, Me) =>
+    call_on(Event, Me).
+
+call_on_all(Events, Me) :-
+    forall(( member(Event, Events), wanted(Me) ), call_on(Event, Me)).
+
+call_on(Event, me(Watch, _, OnEvent)) :-
+    (   catch(call(OnEvent, Event), Ball, raised(Ball, Watch))
+    ->  true
+    ;   true
+    ).
+
+%   Who is told to end must.
+
+raised(Ball, _) :-
+    is_abort(Ball),
+    !,
+    throw(Ball).
+raised(Ball, Watch) :-
+    (   nb_current(typhon_watch_warned, true)
+    ->  true
+    ;   nb_setval(typhon_watch_warned, true),
+        print_message(warning, typhon(watch_raised(Watch, Ball)))
+    ).
+
+is_abort('$aborted').
+is_abort(unwind(_)).
+
+                /*******************************
+                *              END             *
+                *******************************/
+
+%   All that has happened is told before the last place has ended.
+
+end(Me) :-
+    unwatch_all(Me),
+    Me = me(Watch, _, _),
+    findall(Endpoint, tells(Watch, Endpoint), Endpoints),
+    await_ends(Endpoints, Me).
+
+tells(Watch, Endpoint) :-
+    place_at(Watch, _, State, Endpoint),
+    State \= down(_, _).
+
+await_ends([], _) :-
+    !.
+await_ends(Endpoints, Me) :-
+    wanted(Me),
+    !,
+    Me = me(_, Queue, _),
+    thread_get_message(Queue, Message),
+    (   Message = ended(Endpoint, _)
+    ->  delete(Endpoints, Endpoint, Others),
+        await_ends(Others, Me)
+    ;   Message = events(_, _, _)
+    ->  heard(Message, Me),
+        await_ends(Endpoints, Me)
+    ;   await_ends(Endpoints, Me)
+    ).
+await_ends(_, _).                       % it takes too long
+
+unwatch_all(me(Watch, Queue, _)) :-
+    forall(tells(Watch, Endpoint),
+           endpoint_request(Endpoint, watch, unwatch(Watch),
+                            typhon_listening:told(Queue, ended, Endpoint))).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(watch_raised(Watch, Ball))) -->
+    [ 'What is called for ~w raises an exception; the watch goes on: '-[Watch] ],
+    error_told(Ball).

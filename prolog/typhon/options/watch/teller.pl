@@ -1,0 +1,191 @@
+:- module(typhon_teller,
+          [ teller_run/1,               % +To
+            teller_ring/2,              % +Bell, +Message
+            time_at/2                   % +Clock, -Time
+          ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/wire',
+              [ endpoint_address/1, endpoint_call/5, endpoint_reply/2,
+                endpoint_request/4 ]).
+:- use_module('../../kernel/host', [time_now/1]).
+:- use_module(basin, [basin_awaited/1, basin_size/2, basin_take/4]).
+
+/** <module> The thread that tells
+
+The teller sends what has gathered in batches, and the next when the last is in
+the hands of who watches.  So a watch is as far behind as it is slow, the basin
+overflows where it is too slow, and hosts never wait.
+
+It hears in its bell `some`, of its basin; end(ReplyTo), when it is to tell all
+that is left; and as now(Message) what it has to heed while it waits for an
+answer, too: `check`, whether who watches is there still, and the answer.
+
+*Threading*: a thread for each watch.
+*/
+
+:- multifile
+    taken_here/3.               % Id, Events, OnAnswer
+
+:- setting(typhon_telling:delay, number, 0.05,
+           "Events gather for so many seconds before they are sent").
+:- setting(typhon_telling:patience, number, 30,
+           "A process that watches and is cut off has so long to answer").
+
+batch(1000).
+plenty(256).                    % is sent without delay
+
+%!  teller_run(+To) is det.
+%
+%   To is to(Peer, Id, Bell, Basin): returns when nobody watches any more, or
+%   all has been told.
+
+teller_run(To) :-
+    idle(To).
+
+%!  teller_ring(+Bell, +Message) is det.
+
+teller_ring(Bell, Message) :-
+    catch(thread_send_message(Bell, Message),
+          error(existence_error(_, _), _),
+          true).                        % it has ended
+
+%!  time_at(+Clock, -Time) is det.
+%
+%   Time is what a clock(Epoch, Rate) shows now.
+
+time_at(clock(Epoch, Rate), Time) :-
+    time_now(Now),
+    Time is (Now-Epoch)*Rate.
+
+idle(To) :-
+    To = to(_, _, Bell, Basin),
+    basin_awaited(Basin),
+    thread_get_message(Bell, Message),
+    heard(Message, To, gather(To)).
+
+gather(To) :-
+    To = to(_, _, Bell, _),
+    setting(typhon_telling:delay, Seconds),
+    (   thread_get_message(Bell, Message, [timeout(Seconds)])
+    ->  heard(Message, To, gather(To))
+    ;   pour(To)
+    ).
+
+%   heard(+Message, +To, :Next)
+
+heard(some, _, Next) :-
+    call(Next).
+heard(now(check), To, Next) :-
+    !,
+    (   is_there(To)
+    ->  call(Next)
+    ;   true
+    ).
+heard(now(answered(_)), _, Next) :-
+    call(Next).
+heard(end(ReplyTo), To, _) :-
+    pour_out(To),
+    (   ReplyTo == nobody
+    ->  true
+    ;   endpoint_reply(ReplyTo, ended)
+    ).
+
+is_there(to(Peer, Id, _, _)) :-
+    setting(typhon_telling:patience, Seconds),
+    catch(endpoint_call(Peer, watched, alive(Id), answer(Answer), Seconds),
+          error(_, _), fail),
+    Answer == yes.
+
+pour(To) :-
+    To = to(_, _, _, Basin),
+    (   send(To)
+    ->  (   basin_size(Basin, Size),
+            plenty(Plenty),
+            Size >= Plenty
+        ->  pour(To)
+        ;   idle(To)
+        )
+    ;   true                            % nobody watches any more
+    ).
+
+pour_out(To) :-
+    To = to(_, _, _, Basin),
+    (   basin_size(Basin, 0)
+    ->  true
+    ;   send(To)
+    ->  pour_out(To)
+    ;   true
+    ).
+
+%   send(+To) is semidet: the next batch is in the hands of who watches.
+%   What is too long for a frame, or cannot travel, is halved, and a single
+%   event skipped.
+
+send(To) :-
+    To = to(_, _, _, Basin),
+    batch(Most),
+    basin_take(Basin, Most, Events0, Skipped),
+    findall(Event, ( member(Lost, Skipped), skip_event(Lost, Event) ), More),
+    append(Events0, More, Events),
+    hand_over(Events, To).
+
+hand_over(Events, To) :-
+    To = to(Peer, Id, Bell, _),
+    catch(( give(Peer, Id, Events, Bell),
+            Given = true ),
+          error(Formal, _),
+          Given = Formal),
+    handed_over(Given, Events, To).
+
+handed_over(true, _, To) =>
+    await(To, answer(more)).
+handed_over(resource_error(_), Events, To) =>
+    hand_over_parts(Events, To).
+handed_over(type_error(_, _), Events, To) =>
+    hand_over_parts(Events, To).
+handed_over(_, _, _) =>                 % there is no endpoint any more
+    fail.
+
+hand_over_parts([event(Time, Host, _, _)], To) :-
+    !,
+    hand_over([event(Time, Host, none, skipped(1))], To).
+hand_over_parts(Events, To) :-
+    length(Events, Length),
+    Half is Length//2,
+    length(First, Half),
+    append(First, Second, Events),
+    hand_over(First, To),
+    hand_over(Second, To).
+
+%   Within this process nothing has to be sent.
+
+give(Peer, Id, Events, Bell) :-
+    endpoint_address(Peer),
+    !,
+    OnAnswer = typhon_teller:answered(Bell),
+    (   taken_here(Id, Events, OnAnswer)
+    ->  true
+    ;   call(OnAnswer, answer(no))
+    ).
+give(Peer, Id, Events, Bell) :-
+    endpoint_request(Peer, watched, events(Id, Events),
+                     typhon_teller:answered(Bell)).
+
+skip_event((Address-Clock)-Count,
+           event(Time, Address, none, skipped(Count))) :-
+    time_at(Clock, Time).
+
+:- public answered/2.
+
+answered(Bell, Result) :-
+    teller_ring(Bell, now(answered(Result))).
+
+await(To, Answer) :-
+    To = to(_, _, Bell, _),
+    thread_get_message(Bell, now(Message)),
+    (   Message = answered(Answer0)
+    ->  Answer = Answer0
+    ;   is_there(To),
+        await(To, Answer)
+    ).

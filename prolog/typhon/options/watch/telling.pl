@@ -1,0 +1,180 @@
+:- module(typhon_telling, []).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/stop_thread', [stop_thread/1]).
+:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
+:- use_module('../../kernel/host',
+              [ clock/3, event_shown/3, events_hear/3, events_unheard/1,
+                host/3, time_kind/1 ]).
+:- use_module(basin, [basin_close/1, basin_open/3, basin_put/3]).
+:- use_module(teller, [teller_ring/2, teller_run/1, time_at/2]).
+
+/** <module> Telling those who watch
+
+For each watch, of this process or another, that wants to hear of hosts of
+this process there is a thread, see room `teller`, and a basin in which gathers
+what it is to tell.
+
+A watch is forgotten when it is over, when its process says that it has none
+of that name, or when that cannot be reached any more.
+
+A process that watches asks with requests of kind `watch`, Wanted being names
+of hosts, or `all`:
+
+  | watch(Id, Wanted) | watching(Endpoint, New, Hosts), see room `watches` |
+  | unwatch(Id)       | `ended`, when all that has happened has been told  |
+
+It is told with requests of kind `watched`:
+
+  | events(Id, Events) | `more`, or `no` if there is no such watch |
+  | alive(Id)          | `yes` or `no`                             |
+
+*Threading*: a teller for each watch.  Who takes its record away joins it.
+*/
+
+:- multifile
+    typhon_endpoint:connection/2,
+    typhon_endpoint:requested/4,
+    typhon_events:told/4,
+    typhon_hosting:begins/1,
+    typhon_runtime:ending/1.
+
+:- setting(events, positive_integer, 10 000,
+           "So many events wait for one who watches and is slow").
+:- setting(virtual_events, positive_integer, 1 000 000,
+           "As many of virtual time, which is ahead of everybody").
+
+:- dynamic teller/5.            % Peer, Id, Thread, Bell, telling(Wanted, Basin)
+
+kinds([life, faults, hops, messages, facts, said, links, hosts]).
+
+                /*******************************
+                *         WHO WATCHES          *
+                *******************************/
+
+typhon_endpoint:requested(watch, watch(Id, Wanted), Peer, ReplyTo) :-
+    with_mutex(typhon_telling, tell_to(Peer, Id, Wanted, New)),
+    hear_of(New, Wanted, Peer, Id, Hosts),
+    endpoint_address(Own),
+    !,
+    endpoint_reply(ReplyTo, watching(Own, New, Hosts)).
+typhon_endpoint:requested(watch, unwatch(Id), Peer, ReplyTo) :-
+    (   teller(Peer, Id, _, Bell, telling(_, Basin))
+    ->  events_unheard(watch(Basin, _, _)),
+        teller_ring(Bell, end(ReplyTo))
+    ;   endpoint_reply(ReplyTo, ended)
+    ).
+
+tell_to(Peer, Id, Wanted, New) :-
+    retract(teller(Peer, Id, Thread, Bell, telling(_, Basin))),
+    !,
+    assertz(teller(Peer, Id, Thread, Bell, telling(Wanted, Basin))),
+    New = false.
+tell_to(Peer, Id, Wanted, true) :-
+    message_queue_create(Bell),
+    most(Most),
+    basin_open(Most, Bell, Basin),
+    flag(typhon_teller, N, N+1),
+    atom_concat(typhon_teller_, N, Alias),
+    thread_create(teller(Peer, Id, Bell, Basin), Thread, [alias(Alias)]),
+    assertz(teller(Peer, Id, Thread, Bell, telling(Wanted, Basin))),
+    debug(typhon(watch), '~w of ~w watches', [Id, Peer]).
+
+most(Most) :-
+    time_kind(virtual),
+    !,
+    setting(virtual_events, Most).
+most(Most) :-
+    setting(events, Most).
+
+hear_of(New, Wanted, Peer, Id, Hosts) :-
+    teller(Peer, Id, _, _, telling(_, Basin)),
+    !,
+    findall(Name-(Address-clock(Epoch, Rate)),
+            ( host(Name, Address, _),
+              is_wanted(Wanted, Name),
+              clock(Name, Epoch, Rate) ),
+            Pairs),
+    forall(( New == true, member(Name-Host, Pairs) ),
+           listen(Name, Host, Basin)),
+    findall(Host, member(_-Host, Pairs), Hosts).
+hear_of(_, _, _, _, []).
+
+is_wanted(all, _).
+is_wanted([Name0|Names], Name) :-
+    memberchk(Name, [Name0|Names]).
+
+listen(Name, Address-Clock, Basin) :-
+    kinds(Kinds),
+    events_hear(Kinds, Name, watch(Basin, Address, Clock)).
+
+typhon_hosting:begins(Name) :-
+    teller(_, _, _, _, telling(Wanted, Basin)),
+    is_wanted(Wanted, Name),
+    host(Name, Address, _),
+    clock(Name, Epoch, Rate),
+    listen(Name, Address-clock(Epoch, Rate), Basin).
+
+typhon_endpoint:connection(Peer, down) :-
+    forall(teller(Peer, _, _, Bell, _), teller_ring(Bell, now(check))).
+
+%   The last that happened, that the hosts stop, is told as well.
+
+typhon_runtime:ending(before) :-
+    stop_tellers.
+
+stop_tellers :-
+    with_mutex(typhon_telling, retract(teller(_, _, Thread, Bell, _))),
+    !,
+    teller_ring(Bell, end(nobody)),
+    stop_thread(Thread),
+    stop_tellers.
+stop_tellers.
+
+                /*******************************
+                *           EVENTS             *
+                *******************************/
+
+typhon_events:told(watch(Basin, Address, Clock), Host, Agent, What) :-
+    time_at(Clock, Time),
+    event_shown(Host, What, Shown),
+    told_as(Shown, Clock, Public),
+    catch(basin_put(Basin, Address-Clock,
+                    event(Time, Address, Agent, Public)),
+          error(existence_error(_, _), _),
+          true).                        % it has ended
+
+%   Who watches has to know of clocks; agents may log what cannot travel.
+
+told_as(started, Clock, Public) =>
+    Public = started(Clock).
+told_as(log(Term), _, Public) =>
+    (   catch(mobile_term(Term), error(_, _), fail)
+    ->  Public = log(Term)
+    ;   format(atom(Text), '~q', [Term]),
+        Public = log(Text)
+    ).
+told_as(What, _, Public) =>
+    Public = What.
+
+                /*******************************
+                *         THE TELLER           *
+                *******************************/
+
+teller(Peer, Id, Bell, Basin) :-
+    setup_call_cleanup(
+        true,
+        teller_run(to(Peer, Id, Bell, Basin)),
+        teller_ends(Peer, Id, Bell, Basin)).
+
+teller_ends(Peer, Id, Bell, Basin) :-
+    debug(typhon(watch), '~w of ~w watches no more', [Id, Peer]),
+    events_unheard(watch(Basin, _, _)),
+    thread_self(Me),
+    (   with_mutex(typhon_telling, retract(teller(Peer, Id, _, Bell, _)))
+    ->  thread_detach(Me)
+    ;   true
+    ),
+    basin_close(Basin),
+    message_queue_destroy(Bell).

@@ -1,0 +1,188 @@
+:- module(typhon_watch_places,
+          [ place_begin/3,              % +Watch, +Asked, -Events
+            places_forget/1,            % +Watch
+            place_at/4,                 % +Watch, ?Peer, ?State, -Endpoint
+            place_cut/3,                % +Watch, +Endpoint, -Wanted
+            place_answered/4,           % +Watch, +Endpoint, +Result, -Events
+            place_due/3,                % +Watch, -Endpoint, -Again
+            place_started/4,            % +Watch, +Peer, +Host, +Clock
+            place_stopped/2             % +Watch, +Host
+          ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../../kernel/host', [address_parts/3]).
+:- use_module(teller, [time_at/2]).
+
+/** <module> Where there is something to watch
+
+The places of a watch are the processes that have hosts which are watched, by
+the endpoint at which they are asked.  Peer is what they call themselves.
+State is
+
+  | up                 |                                                      |
+  | cut(Pause)         | it is asked whether it is there still                |
+  | down(Again, Pause) | nobody was there; it is to be asked again at the time Again |
+
+A process that was cut off is asked to watch again.  If it has forgotten the
+watch, as one that was started anew has, events are missing: its hosts are
+lost, and those that are there have started.
+
+*Threading*: the thread of the watch.
+*/
+
+:- dynamic
+    place/4,                    % Watch, Endpoint, Peer, Wanted
+    state/3,                    % Watch, Endpoint, State
+    runs/4.                     % Watch, Endpoint, Host, Clock: is known to
+
+first_pause(1).
+longest_pause(60).
+
+%!  place_begin(+Watch, +Asked, -Events:list) is det.
+%!  places_forget(+Watch) is det.
+%
+%   Asked is asked(Endpoint, Wanted, Answer), Answer being what a teller says,
+%   or gone(Hosts) of a process of a network that is no more.  Events are to
+%   be told.
+
+place_begin(Watch, asked(Endpoint, Wanted, Answer), Events) :-
+    (   Answer = watching(Peer, _, Hosts)
+    ->  assertz(place(Watch, Endpoint, Peer, Wanted)),
+        put_state(Watch, Endpoint, up),
+        forall(member(Host-Clock, Hosts),
+               assertz(runs(Watch, Endpoint, Host, Clock))),
+        Events = []
+    ;   Answer = gone(Hosts),
+        findall(Event,
+                ( member(Host, Hosts),
+                  clock_of_others(Watch, Clock),
+                  now_is(lost, Host, Clock, Event) ),
+                Events)
+    ).
+
+%   Hosts of a network have the same.
+
+clock_of_others(Watch, Clock) :-
+    (   runs(Watch, _, _, Clock0)
+    ->  Clock = Clock0
+    ;   Clock = clock(0, 1)
+    ).
+
+places_forget(Watch) :-
+    retractall(place(Watch, _, _, _)),
+    retractall(state(Watch, _, _)),
+    retractall(runs(Watch, _, _, _)).
+
+put_state(Watch, Endpoint, State) :-
+    retractall(state(Watch, Endpoint, _)),
+    assertz(state(Watch, Endpoint, State)).
+
+now_is(What, Host, Clock, event(Time, Host, none, What)) :-
+    time_at(Clock, Time).
+
+%!  place_at(+Watch, ?Peer, ?State, -Endpoint) is nondet.
+%!  place_due(+Watch, -Endpoint, -Again) is nondet.
+%
+%   The place is to be asked again at the time Again.
+
+place_at(Watch, Peer, State, Endpoint) :-
+    place(Watch, Endpoint, Peer, _),
+    state(Watch, Endpoint, State).
+
+place_due(Watch, Endpoint, Again) :-
+    state(Watch, Endpoint, down(Again, _)).
+
+                /*******************************
+                *         CUT AND LOST         *
+                *******************************/
+
+%!  place_cut(+Watch, +Endpoint, -Wanted) is det.
+%!  place_answered(+Watch, +Endpoint, +Result, -Events:list) is det.
+%
+%   The place is asked again for Wanted; and has answered or not, Result being
+%   as of endpoint_request/4.
+
+place_cut(Watch, Endpoint, Wanted) :-
+    place(Watch, Endpoint, _, Wanted),
+    !,
+    (   state(Watch, Endpoint, down(_, Pause))
+    ->  true
+    ;   first_pause(Pause)
+    ),
+    put_state(Watch, Endpoint, cut(Pause)).
+
+place_answered(Watch, Endpoint, answer(watching(_, New, Hosts)), Events) :-
+    !,
+    (   New == true
+    ->  all_lost(Watch, Endpoint, Lost)
+    ;   Lost = []
+    ),
+    put_state(Watch, Endpoint, up),
+    findall(Event,
+            ( member(Host-Clock, Hosts),
+              newly_runs(Watch, Endpoint, Host, Clock),
+              now_is(started, Host, Clock, Event) ),
+            Started),
+    append(Lost, Started, Events).
+place_answered(Watch, Endpoint, _, Events) :-
+    state(Watch, Endpoint, cut(Pause)),
+    !,
+    all_lost(Watch, Endpoint, Events),
+    (   still_wanted(Watch, Endpoint, Events)
+    ->  again_later(Watch, Endpoint, Pause)
+    ;   retractall(place(Watch, Endpoint, _, _)),
+        retractall(state(Watch, Endpoint, _))
+    ).
+place_answered(_, _, _, []).
+
+newly_runs(Watch, Endpoint, Host, Clock) :-
+    \+ runs(Watch, _, Host, _),
+    assertz(runs(Watch, Endpoint, Host, Clock)).
+
+all_lost(Watch, Endpoint, Events) :-
+    findall(Event,
+            ( runs(Watch, Endpoint, Host, Clock),
+              now_is(lost, Host, Clock, Event) ),
+            Events),
+    retractall(runs(Watch, Endpoint, _, _)).
+
+%   Another process may have the port by and by: of a network only hosts that
+%   were lost there are waited for.
+
+still_wanted(Watch, Endpoint, Lost) :-
+    place(Watch, Endpoint, Peer, Wanted),
+    !,
+    (   Wanted == all
+    ->  Lost = [_|_],
+        findall(Name,
+                ( member(event(_, Host, _, _), Lost),
+                  address_parts(Host, Name, _) ),
+                Names),
+        retractall(place(Watch, Endpoint, _, _)),
+        assertz(place(Watch, Endpoint, Peer, Names))
+    ;   true
+    ).
+
+again_later(Watch, Endpoint, Pause) :-
+    get_time(Now),
+    Again is Now+Pause,
+    longest_pause(Longest),
+    Next is min(Longest, 2*Pause),
+    put_state(Watch, Endpoint, down(Again, Next)).
+
+                /*******************************
+                *             HOSTS            *
+                *******************************/
+
+%!  place_started(+Watch, +Peer, +Host, +Clock) is semidet.
+%!  place_stopped(+Watch, +Host) is det.
+%
+%   It says that Host has started, which fails if that was known already; or
+%   has stopped.
+
+place_started(Watch, Peer, Host, Clock) :-
+    place(Watch, Endpoint, Peer, _),
+    !,
+    newly_runs(Watch, Endpoint, Host, Clock).
+
+place_stopped(Watch, Host) :-
+    retractall(runs(Watch, _, Host, _)).

@@ -1,0 +1,95 @@
+:- module(typhon_agent_words, []).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../kernel/vocabulary', []).
+
+/** <module> Words of agents that are typed at the top level
+
+`move(beta)` is for the programs of agents.  Typed at the top level, or called
+in a module, it is an error that names what is called there instead; Prolog's
+own correction would offer the predicate of the module that implements it.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    prolog:error_message//1,
+    user:expand_query/4.
+:- dynamic
+    user:expand_query/4.
+
+user:expand_query(Query, _, _, _) :-
+    '$current_typein_module'(Module),
+    typhon_agent_words:words_only(Query, Module, PI),
+    throw(error(existence_error(procedure, PI), context(_, _))).
+
+:- public words_only/3.                 % of the hook
+
+%   words_only(+Query, +Module, -PI) is semidet: a goal of Query calls PI, which
+%   is a word of agents and nothing else in Module.
+
+words_only(Query, Module, PI) :-
+    goal(Query, Module, Goal),
+    functor(Goal, Name, Arity),
+    PI = Name/Arity,
+    word(PI),
+    \+ predicate_property(Module:Goal, visible),
+    !.
+
+%   goal(+Query, +Module, -Goal) is nondet: Query, or a goal that it calls.
+
+goal(Query, _, Query) :-
+    callable(Query).
+goal(Query, Module, Goal) :-
+    callable(Query),
+    Query \= _:_,
+    predicate_property(Module:Query, meta_predicate(Spec)),
+    arg(I, Spec, 0),
+    arg(I, Query, Argument),
+    goal(Argument, Module, Goal).
+
+word(PI) :-
+    member(Module, [typhon_words, typhon_memory, typhon_seals]),
+    module_property(Module, exports(PIs)),
+    memberchk(PI, PIs).
+
+prolog:error_message(existence_error(procedure, Spec)) -->
+    { own_module(Spec, PI),
+      word(PI)
+    },
+    [ 'Unknown procedure: ~p: the program of an agent can call it'-[PI] ],
+    instead(PI).
+
+own_module(Name/Arity, Name/Arity).
+own_module(user:PI, PI).
+
+instead(PI) -->
+    { outside(PI, Text) },
+    !,
+    [ '; from outside it is ~w'-[Text] ].
+instead(_) -->
+    [].
+
+%   outside(+PI, -Text): what does the same from outside.
+
+outside(move/1, 'agent_move(Agent, Host)').
+outside(clone/1, 'agent_clone(Agent, Clone)').
+outside(clone/2, 'agent_clone(Agent, Clone)').
+outside(send/2, 'agent_send(Agent, Message)').
+outside(dispose/0, 'agent_dispose(Agent)').
+outside(attach/1, 'payload_attach(Agent, Payload)').
+outside(detach/1, 'payload_detach(Agent, Name)').
+outside(result/1, 'agent_result(Agent, Term, Timeout)').
+outside(home/1, 'agent_property(Agent, home(Host))').
+outside(here/1, 'agent_property(Agent, host(Host))').
+outside(hops/1, 'agent_property(Agent, hops(Count))').
+outside(neighbours/1, 'host_property(Host, neighbours(Hosts))').
+outside(host_load/1, 'host_property(Host, load(Count))').
+outside(PI, Text) :-
+    member(PI, [leave/1, leave_new/1, sense/1, take/1, now/1, emit/1, emit/2,
+                withdraw/1, pheromone/3]),
+    PI = Name/Arity,
+    length(Arguments, Arity),
+    maplist(=('_'), Arguments),
+    Goal =.. [Name|Arguments],
+    format(atom(Text), 'remote(Host, ~w)', [Goal]).

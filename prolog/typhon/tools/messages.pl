@@ -1,0 +1,322 @@
+:- module(typhon_messages, []).
+
+/** <module> What people are told about errors
+
+The texts of the errors that the predicates of library(typhon) raise, and
+of what is reported about agents.  Who mistypes the name of a host, an agent
+or an agent program is told which names there are like it.  The rooms of
+the wire, of networks and of the log keep the texts of their own messages.
+
+*Threading*: called by print_message/2 in any thread.
+*/
+
+:- use_module('../kernel/base/error_text', [error_told/3, term_told/3]).
+:- use_module('../kernel/wire', [endpoint_missed/2, tls_text/2]).
+:- use_module('../kernel/program', [files_beside/3]).
+:- use_module('../kernel/host', [address_parts/3, host_property/2]).
+:- use_module('../kernel/base/names',
+              [names/2, names_joined/3, names_listed/2, names_proposed/3]).
+:- use_module('../kernel/travel', [agent_outcome/2]).
+:- use_module(happenings, [happening/3, short_name/2]).
+
+:- multifile
+    prolog:error_message//1,
+    prolog:message//1.
+
+                /*******************************
+                *             ERRORS           *
+                *******************************/
+
+prolog:error_message(existence_error(host, here)) -->
+    !,
+    [ 'This process has no host' ].
+prolog:error_message(existence_error(host, Host)) -->
+    { address_parts(Host, Name, Endpoint) },
+    !,
+    [ 'There is no host ~w at ~w'-[Name, Endpoint] ],
+    meant(host, Name).
+prolog:error_message(existence_error(host, Host)) -->
+    [ 'There is no host ~p here'-[Host] ],
+    meant(host, Host).
+prolog:error_message(ambiguous_host(Name, Addresses)) -->
+    { names_joined(Addresses, ', ', Text) },
+    [ 'Several hosts are called ~w: ~w'-[Name, Text] ].
+prolog:error_message(permission_error(start, host, Host)) -->
+    [ 'There is a host ~p here already'-[Host] ].
+prolog:error_message(permission_error(start, page, Port)) -->
+    [ 'There is a page already, at port ~w'-[Port] ].
+prolog:error_message(permission_error(carry, virtual_time, Option)) -->
+    [ 'Virtual time is that of one process: ~p cannot be had with \c
+       clock(virtual)'-[Option] ].
+prolog:error_message(existence_error(agent, Agent)) -->
+    { agent_outcome(Agent, Outcome),
+      functor(Outcome, How, _)
+    },
+    !,
+    [ 'Agent ~p has ended: ~w'-[Agent, How] ].
+prolog:error_message(existence_error(agent, Agent)) -->
+    [ 'There is no agent ~p'-[Agent] ],
+    meant(agent, Agent).
+prolog:error_message(ambiguous_agent(Name, Ids)) -->
+    { atomic_list_concat(Ids, ', ', Text) },
+    [ 'Several agents are called ~w: ~w'-[Name, Text] ].
+prolog:error_message(timeout_error(order, Agent)) -->
+    [ 'Agent ~p has not carried out the order in time'-[Agent] ].
+prolog:error_message(existence_error(source_sink, Spec)) -->
+    { program_alias(Spec, Alias, Name) },
+    [ 'There is no file ~p'-[Spec] ],
+    meant(Alias, Name).
+prolog:error_message(existence_error(source_sink, Spec)) -->
+    { compound(Spec),
+      compound_name_arity(Spec, Alias, 1),
+      names_proposed(Alias, [agents(_), payloads(_)], Meant),
+      Meant \== ''
+    },
+    [ 'There is no file ~p~w'-[Spec, Meant] ].
+prolog:error_message(existence_error(source_sink, File)) -->
+    { atom(File),
+      files_beside(File, '.', Files),
+      names_proposed(File, Files, Meant),
+      Meant \== ''
+    },
+    [ 'There is no file ~p~w'-[File, Meant] ].
+prolog:error_message(existence_error(state, Name/Arity, Declared)) -->
+    { names_proposed(Name, Declared, Meant),
+      names_listed(Declared, All)
+    },
+    [ 'The program does not declare ~p as state~w~w'-
+      [Name/Arity, Meant, All] ].
+prolog:error_message(existence_error(network, Network)) -->
+    [ 'There is no network ~p'-[Network] ],
+    meant(network, Network).
+prolog:error_message(existence_error(result, Agent)) -->
+    [ 'Agent ~p gave no result'-[Agent] ].
+prolog:error_message(existence_error(endpoint, running)) -->
+    [ 'This process has no host: start one with host_start/1'-[] ].
+prolog:error_message(existence_error(payload, Name)) -->
+    [ 'There is no payload ~p'-[Name] ].
+prolog:error_message(move_refused(Host, Reason)) -->
+    [ '~p refuses to admit the agent: '-[Host] ],
+    refusal(Reason),
+    ( { Reason == unknown_host } -> meant(host, Host) ; [] ).
+prolog:error_message(host_unreachable(Host)) -->
+    [ 'Host ~p cannot be reached'-[Host] ],
+    reason(Host).
+prolog:error_message(permission_error(authenticate, host, Host)) -->
+    [ 'The process of ~p has another cookie than this one (see \c
+       TYPHON_COOKIE_FILE)'-[Host] ].
+prolog:error_message(unreachable(Address)) -->
+    [ 'Nothing answers at ~p'-[Address] ],
+    reason(Address).
+prolog:error_message(connection_lost(Address)) -->
+    [ 'The connection to ~p was lost before the answer came'-[Address] ].
+prolog:error_message(type_error(mobile_term, Culprit)) -->
+    [ 'This term cannot travel: ~p'-[Culprit] ].
+
+%   Host is an address, or that of a process; this process has tried, or
+%   another one.
+
+reason(Host) -->
+    { endpoint_of(Host, Endpoint),
+      endpoint_missed(Endpoint, Formal),
+      missed(Formal, Text)
+    },
+    !,
+    [ ': ~w'-[Text] ].
+reason(_) -->
+    [].
+
+endpoint_of(Host, Endpoint) :-
+    (   address_parts(Host, _, Endpoint)
+    ->  true
+    ;   Endpoint = Host
+    ).
+
+missed(late, 'it does not answer').
+missed(timeout_error(_, _), 'it does not answer').
+missed(socket_error(_, Text0), Text) :-
+    downcase_atom(Text0, Text).
+missed(permission_error(authenticate, peer, cookie),
+       'it has another cookie').
+missed(permission_error(authenticate, peer, protocol),
+       'something else answers there').
+missed(permission_error(authenticate, peer, version(Version)), Text) :-
+    format(atom(Text), 'it speaks another version of the protocol, ~w',
+           [Version]).
+missed(permission_error(authenticate, peer, tls(Why)), Text) :-
+    tls_text(Why, Text).
+missed(permission_error(use, cookie_file, File), Text) :-
+    format(atom(Text), 'the cookie file ~w may not be used', [File]).
+
+refusal(capacity) --> !, [ 'it is full' ].
+refusal(token) --> !, [ 'none of its tokens is wanted there' ].
+refusal(unsigned) --> !, [ 'none of its authors has signed it' ].
+refusal(identity) --> !, [ 'its owner has not signed that it is his' ].
+refusal(unknown_host) --> !, [ 'there is no host of that name' ].
+refusal(quota(What)) --> !, [ 'its quota of ~w would be passed'-[What] ].
+refusal(Reason) --> term_told(Reason).
+
+program_alias(Spec, Alias, Name) :-
+    compound(Spec),
+    compound_name_arguments(Spec, Alias, [Name0]),
+    memberchk(Alias, [agents, payloads]),
+    program_path(Name0, Name).
+
+%   As in agents(census), and agents(survey/census).
+
+program_path(Name, Name) :-
+    atom(Name),
+    !.
+program_path(Path, Name) :-
+    compound(Path),
+    Path = Folder/File,
+    program_path(Folder, Begin),
+    atom(File),
+    atomic_list_concat([Begin, File], /, Name).
+
+                /*******************************
+                *            REPORTS           *
+                *******************************/
+
+prolog:message(typhon(ended_in_doubt(Agent, Address))) -->
+    [ 'Agent ~w has ended here while in doubt: if it has arrived at ~w, '-
+      [Agent, Address],
+      'it ends there as soon as that is known' ].
+prolog:message(typhon(news_too_long(Agent))) -->
+    [ 'What has become of agent ~w is too long to be sent to its home'-
+      [Agent] ].
+prolog:message(typhon(legacy_lost(Agent))) -->
+    [ 'What agent ~w has left, its result among it, is too long to be sent \c
+       to its home'-[Agent] ].
+prolog:message(typhon(message_failed(Agent, From, Message))) -->
+    [ 'Agent ~w does not understand a message: '-[Agent] ],
+    message_from(Message, From).
+prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
+    !,
+    [ 'Agent ~w could not obey: '-[Agent] ],
+    refusal(Reason).
+prolog:message(typhon(order_failed(Agent, Formal))) -->
+    [ 'Agent ~w could not obey: '-[Agent] ],
+    explained(error(Formal, _)).
+prolog:message(typhon(not_let_in(Where, Formal))) -->
+    [ '~w: a host that guards would not let this in: '-[Where] ],
+    explained(error(Formal, _)).
+prolog:message(typhon(over_quota(Agent, What))) -->
+    [ 'Agent ~w is ended: it has used more ~w than its host allows'-
+      [Agent, What] ].
+prolog:message(typhon(runs_on(Agent, Seconds))) -->
+    [ 'Agent ~w runs on after ~w s: it is disposed of when it stops next.'-
+      [Agent, Seconds], nl,
+      'agent_dispose(Agent, [force(Seconds)]) interrupts it' ].
+prolog:message(typhon(not_back(Kind, Key))) -->
+    [ 'The journal has ~w ~w, which cannot be restored; it stays there'
+      -[Kind, Key] ].
+prolog:message(typhon(journal_in_words(Agent))) -->
+    [ 'What ~w has cannot all be written: in the journal that is in words'
+      -[Agent] ].
+prolog:message(typhon(not_from(Peer, Agent, From))) -->
+    [ 'A message for ~w from ~w, which ~w has no right to speak for, is not \c
+       delivered'-[Agent, From, Peer] ].
+prolog:message(typhon(undeliverable(resource_error(frame_bytes), Agent, From,
+                                    _))) -->
+    !,
+    [ 'A message for ~w from ~w is too long to be sent'-[Agent, From] ].
+prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
+    [ 'A message for ~w is lost: '-[Agent] ],
+    message_from(Message, From),
+    [ nl ],
+    lost_since(Formal).
+prolog:message(typhon(undeliverable(Formal, Agent, From, Message, Others))) -->
+    [ 'Messages for ~w are lost: '-[Agent] ],
+    message_from(Message, From),
+    [ ', and ~D more'-[Others], nl ],
+    lost_since(Formal).
+prolog:message(typhon(log(Host, Agent, What))) -->
+    [ '~w at ~w: '-[Agent, Host] ],
+    term_told(What).
+prolog:message(typhon(log_unheard(Endpoint))) -->
+    [ 'The log server at ~w does not answer'-[Endpoint] ],
+    reason(Endpoint),
+    [ '. What happens until it does is not logged'-[] ].
+prolog:message(typhon(log_heard(Endpoint, Count))) -->
+    [ 'The log server at ~w answers again: ~D events are not in the log'-
+      [Endpoint, Count] ].
+prolog:message(typhon(traced(Agent, Host, What))) -->
+    happened(Agent, Host),
+    happening(What).
+prolog:message(typhon(stepped(Agent, held(Host, Goal)))) -->
+    !,
+    happened(Agent, Host),
+    [ 'next is ' ],
+    happening(goal(Goal)).
+prolog:message(typhon(spied(Agent, Host, Goal))) -->
+    happened(Agent, Host),
+    [ 'is held before ' ],
+    happening(goal(Goal)).
+prolog:message(typhon(spy(Program, Name, Arity))) -->
+    [ 'Agents of ~p are held before ~p'-[Program, Name/Arity] ].
+prolog:message(typhon(spied_none(Program, PI, Meant))) -->
+    [ 'There is no ~p in ~p~w'-[PI, Program, Meant] ].
+prolog:message(typhon(nospy(Program, Name, Arity))) -->
+    [ 'Agents of ~p are not held before ~p any more'-[Program, Name/Arity] ].
+prolog:message(typhon(stepped(Agent, What))) -->
+    [ '% ~w '-[Agent] ],
+    stopped(What).
+prolog:message(typhon(told(Agent, Message))) -->
+    [ '~w says '-[Agent] ],
+    term_told(Message).
+prolog:message(typhon(checked(Program, 0, 0, 0))) -->
+    !,
+    [ '~p is in order'-[Program] ].
+prolog:message(typhon(checked(Program, Errors, Doubts, Undefined))) -->
+    [ '~p: ~d errors, '-[Program, Errors] ],
+    doubts(Doubts),
+    [ '~d calls of what others must define'-[Undefined] ].
+prolog:message(typhon(place_reloaded(Place, File))) -->
+    { host_property(Host, place(Place)) -> true ; Host = Place },
+    [ '~w is loaded anew into the place of ~w'-[File, Host] ].
+prolog:message(typhon(stuck_worker(Worker))) -->
+    [ 'Worker ~p does not stop: its agent neither ends nor yields'-
+      [Worker] ].
+prolog:message(typhon(goal_failed(Goal))) -->
+    [ 'This should not have failed: ~p'-[Goal] ].
+prolog:message(typhon(run_failed(Agent))) -->
+    [ 'The step of agent ~w was not completed'-[Agent] ].
+
+doubts(0) --> !.
+doubts(N) --> [ '~d warnings, '-[N] ].
+
+happened(Agent, Host) -->
+    { short_name(Agent, Who),
+      short_name(Host, Where)
+    },
+    [ '% ~w at ~w: '-[Who, Where] ].
+
+stopped(rests(State)) --> !, [ 'is ~w'-[State] ].
+stopped(ended(Outcome)) --> [ 'has ended, ' ], term_told(Outcome).
+
+lost_since(existence_error(agent, _)) -->
+    !,
+    [ 'There is no such agent, or its process has died' ].
+lost_since(resource_error(mailbox)) -->
+    !,
+    [ 'Its mailbox is full, as its host allows no more' ].
+lost_since(Formal) -->
+    explained(error(Formal, _)).
+
+explained(Error) -->
+    error_told(Error).
+
+message_from(Message, From) -->
+    term_told(Message),
+    [ ' from ~w'-[From] ].
+
+                /*******************************
+                *          NEAR NAMES          *
+                *******************************/
+
+meant(Kind, Name) -->
+    { names(Kind, Names),
+      names_proposed(Name, Names, Text)
+    },
+    [ '~w'-[Text] ].

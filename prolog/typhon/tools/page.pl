@@ -1,0 +1,90 @@
+:- module(typhon_page,
+          [ page_start/1,               % +Options
+            page_serve/2,               % +Options, -Link
+            page_stop/0,
+            page_export/3               % +Log, +File, +Options
+          ]).
+:- autoload('page/export', [replay_export/3]).
+:- autoload('page/server', [server_start/2, server_stop/0]).
+:- use_module('../kernel/base/options', [check_options/2]).
+
+/** <module> A page to watch and to work a network
+
+What serves it is loaded when it is started: who needs no page does without
+libraries of HTTP.
+This is the door of the layer.
+
+*Threading*: any thread.
+*/
+
+:- multifile
+    prolog:message//1,
+    typhon_options:declared/4.
+
+typhon_options:declared(page_option, host(X), atom, X).
+typhon_options:declared(page_option, port(X), between(0, 65535), X).
+typhon_options:declared(page_option, bind(X), atom, X).
+typhon_options:declared(page_option, read_only(X), boolean, X).
+typhon_options:declared(page_option, overlays(X), list, X).
+
+%!  page_start(+Options) is det.
+%!  page_stop is det.
+%
+%   Serve a page that shows the hosts of this process, of the networks that it
+%   has started, and all to which one comes from these along links, and the
+%   agents there, live; and by which people can work with them.  The link to
+%   it is printed: who knows it may do all that this process may.  Options:
+%
+%     - port(+Port): default 8080; 0 for any
+%     - host(+Address): show the network of this host, too, of another process
+%     - bind(+Interface): default localhost
+%     - read_only(+Boolean): only to look at; default `false`
+%     - overlays(+Files): of agent programs, or studies, whose overlays are
+%       shown, beside those of the programs in agents/
+%
+%   page_stop/0 succeeds also where there is no page.
+%
+%   @error permission_error(start, page, Port) if there is one already, on Port
+%   @error domain_error(page_option, Option)
+%   @error existence_error(host, Address), host_unreachable(Address)
+
+page_start(Options) :-
+    page_serve(Options, Link),
+    print_message(informational, typhon(page(Link))).
+
+%!  page_serve(+Options, -Link:atom) is det.
+%
+%   The same; Link is not printed.
+
+page_serve(Options, Link) :-
+    check_options(page_option, Options),
+    server_start(Options, Link).
+
+page_stop :-
+    (   current_module(typhon_page_server)
+    ->  server_stop
+    ;   true
+    ).
+
+%!  page_export(+Log, +File, +Options) is det.
+%
+%   Write a page to File that replays the log file Log, in the same views: it
+%   stands for itself, and can be put beside a paper.  Options:
+%
+%     - title(+Text): default the name of the log
+%     - overlays(+Files): of agent programs, or studies, whose overlays are
+%       shown, beside those of the programs in agents/
+%
+%   @error existence_error(source_sink, Log), permission_error(open,
+%   source_sink, File)
+%   @error existence_error(page_tool, Name) before `make page-tools`
+
+page_export(Log, File, Options) :-
+    check_options(export_option, Options),
+    replay_export(Log, File, Options).
+
+typhon_options:declared(export_option, title(X), atomic, X).
+typhon_options:declared(export_option, overlays(X), list, X).
+
+prolog:message(typhon(page(Link))) -->
+    [ 'The page: ~w'-[Link] ].

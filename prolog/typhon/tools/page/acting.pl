@@ -1,0 +1,183 @@
+:- module(typhon_page_acting,
+          [ act/2                       % +Message, -Answer
+          ]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), [append/3]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module('../../kernel/program', [agent_check/1]).
+:- use_module('../../kernel/host',
+              [ host/3, host_property/2, host_resolve/2, host_start/2,
+                host_stop/1, link/2, link/3, remote/2, unlink/2 ]).
+:- use_module('../../kernel/lifecycle',
+              [ agent_clone/2, agent_create/3, agent_dispose/1,
+                agent_dispose/2, agent_load/3, agent_move/2, agent_resume/1,
+                agent_save/2, agent_send/2 ]).
+:- use_module('../../network', [network_start/3, network_stop/1]).
+:- use_module(editor,
+              [ problem_dicts/2, program_at/2, text_file/3 ]).
+:- use_module(operators, [mechanism_run/4]).
+:- use_module(protocol, [name_text/2]).
+:- use_module(said, [on_console/1, saying/2]).
+:- use_module(terms, [name_in/3, term_in/4, text_in/3]).
+
+/** <module> What browsers may do, where a page is not for looking only
+
+Each is what a program would do with library(typhon).  Terms come as text.
+
+  | do            | with                                                    |
+  | ------------- | ------------------------------------------------------- |
+  | check         | `text` or `program`                                     |
+  | create        | `text` or `program`, `host`, `name`, `options`          |
+  | send          | `agent`, `message`                                      |
+  | move          | `agent`, `host`                                         |
+  | clone         | `agent`                                                 |
+  | resume        | `agent`                                                 |
+  | dispose       | `agent`, `force` (seconds)                              |
+  | save          | `agent`; the answer is text                             |
+  | load          | `text`, `host`                                          |
+  | link          | `a`, `b`, `cost`                                        |
+  | unlink        | `a`, `b`                                                |
+  | host_start    | `name`, `options`, `at`: a host of the process          |
+  | host_stop     | `host`                                                  |
+  | network_start | `topology`, `options`                                   |
+  | network_stop  | `network`                                               |
+  | mechanism     | `mechanism`, `predicate`, `arguments`: `hosts` or texts |
+
+An answer is _{done, said}: what came of it, and what was printed.
+
+*Threading*: any thread that may wait.
+*/
+
+%!  act(+Message:dict, -Answer:dict) is det.
+%
+%   @error domain_error(page_order, What), existence_error(page_field, Key), and
+%   those of what is done
+
+act(Message, _{done:Done, said:Said}) :-
+    name_in(do, Message, What),
+    saying(on_console(does(What, Message, Done)), Messages),
+    !,
+    problem_dicts(Messages, Said).
+act(Message, _) :-
+    name_in(do, Message, What),
+    (   clause(does(What, _, _), _)
+    ->  throw(error(page_failed(What), _))
+    ;   domain_error(page_order, What)
+    ).
+
+does(check, Message, checked) :-
+    program_at(Message, Spec),
+    agent_check(Spec).
+does(create, Message, Text) :-
+    program_at(Message, Spec),
+    findall(Option, option_in(Message, Option), Options0),
+    term_in(options, Message, [], More),
+    append(Options0, More, Options),
+    agent_create(Spec, Agent, Options),
+    name_text(Agent, Text).
+does(send, Message, "sent") :-
+    name_in(agent, Message, Agent),
+    term_in(message, Message, _, Term),
+    agent_send(Agent, Term).
+does(move, Message, "ordered") :-
+    name_in(agent, Message, Agent),
+    name_in(host, Message, Host),
+    agent_move(Agent, Host).
+does(clone, Message, Text) :-
+    name_in(agent, Message, Agent),
+    agent_clone(Agent, Clone),
+    name_text(Clone, Text).
+does(resume, Message, "resumed") :-
+    name_in(agent, Message, Agent),
+    agent_resume(Agent).
+does(dispose, Message, "disposed") :-
+    name_in(agent, Message, Agent),
+    (   get_dict(force, Message, Seconds),
+        number(Seconds)
+    ->  agent_dispose(Agent, [force(Seconds)])
+    ;   agent_dispose(Agent)
+    ).
+does(save, Message, Text) :-
+    name_in(agent, Message, Agent),
+    tmp_file(typhon_saved, File),
+    call_cleanup(( agent_save(Agent, File),
+                   read_file_to_string(File, Text, [encoding(utf8)]) ),
+                 discard(File)).
+does(load, Message, Text) :-
+    text_in(text, Message, Saved),
+    text_file(Saved, 'saved.pl', File),
+    findall(Option, host_in(Message, Option), Options),
+    agent_load(File, Agent, Options),
+    name_text(Agent, Text).
+does(link, Message, "linked") :-
+    two_hosts(Message, A, B),
+    (   term_in(cost, Message, none, Cost),
+        Cost \== none
+    ->  link(A, B, [cost(Cost)])
+    ;   link(A, B)
+    ).
+does(unlink, Message, "unlinked") :-
+    two_hosts(Message, A, B),
+    unlink(A, B).
+does(host_start, Message, Text) :-
+    name_in(name, Message, Name),
+    term_in(options, Message, [], Options),
+    (   get_dict(at, Message, At0),
+        At0 \== ""
+    ->  atom_string(At, At0),
+        remote(At, ( call(typhon:host_start(Name, Options)),
+                     call(typhon:host_property(Name, address(Address))) ))
+    ;   host_start(Name, Options),
+        host_property(Name, address(Address))
+    ),
+    name_text(Address, Text).
+does(host_stop, Message, "stopped") :-
+    name_in(host, Message, Host),
+    host_resolve(Host, Where),
+    stop_at(Where).
+does(network_start, Message, Text) :-
+    term_in(topology, Message, _, Topology),
+    term_in(options, Message, [], Options),
+    network_start(Topology, Network, Options),
+    name_text(Network, Text).
+does(network_stop, Message, "stopped") :-
+    name_in(network, Message, Network),
+    network_stop(Network).
+does(mechanism, Message, Results) :-
+    name_in(mechanism, Message, Mechanism),
+    name_in(predicate, Message, Name),
+    get_dict(arguments, Message, Arguments),
+    mechanism_run(Mechanism, Name, Arguments, Results).
+
+option_in(Message, Option) :-
+    host_in(Message, Option).
+option_in(Message, name(Name)) :-
+    get_dict(name, Message, Text),
+    Text \== "",
+    name_in(name, Message, Name).
+
+host_in(Message, host(Host)) :-
+    get_dict(host, Message, Text),
+    Text \== "",
+    name_in(host, Message, Host).
+
+two_hosts(Message, A, B) :-
+    name_in(a, Message, A),
+    name_in(b, Message, B).
+
+discard(File) :-
+    ( exists_file(File) -> delete_file(File) ; true ).
+
+%   The answer of another process may be lost with it.
+
+stop_at(local(Name)) :-
+    host_stop(Name).
+stop_at(remote(Address, Name, _)) :-
+    remote(Address, \+ \+ thread_create(typhon:host_stop(Name), _,
+                                          [detached(true)])).
+
+:- multifile
+    prolog:error_message//1.
+
+prolog:error_message(page_failed(What)) -->
+    [ '~w: this was not possible'-[What] ].

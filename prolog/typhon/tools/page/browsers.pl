@@ -1,0 +1,293 @@
+:- module(typhon_page_browsers,
+          [ browsers_start/0,
+            browsers_stop/0,
+            browsers_tell/1,            % +Event
+            browsers_there/0,
+            browser_serve/2             % :Scene, +WebSocket
+          ]).
+:- use_module(library(http/websocket), [ws_send/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module(json, [json_text/2]).
+:- use_module(overlays, [event_rows/2]).
+:- use_module(protocol, [skipped_row/2]).
+
+/** <module> Who looks on, and hears what happens
+
+Events go into one queue.  A thread takes what has come together there, makes
+one text of it, twenty times a second at the most, and puts that into the
+queues of all browsers.  A browser that does not take them fast enough loses
+some, and is told how many.
+
+*Threading*: any thread tells; the thread `typhon_page` makes texts; each
+browser has a thread, which sends them, and one that notices when it goes.
+*/
+
+:- meta_predicate browser_serve(1, +).
+
+:- setting(browsers, positive_integer, 32,
+           "So many browsers may look at a page at a time").
+:- setting(frame_seconds, number, 0.05,
+           "A page tells its browsers of events once in so many seconds").
+:- setting(frame_events, positive_integer, 2000,
+           "A page tells its browsers of so many events at a time").
+:- setting(heartbeat_seconds, number, 5,
+           "A page says so often that it is there, when nothing happens").
+
+:- dynamic
+    browser/3,                  % Queue, Thread, Skipped: events
+    teller/2.                   % Thread, Queue
+
+%   Of events, and of texts for one browser.
+
+queue_size(20 000).
+frames_waiting(40).
+
+                /*******************************
+                *         START, STOP          *
+                *******************************/
+
+%!  browsers_start is det.
+%!  browsers_stop is det.
+%
+%   Who is there when it stops is told, and goes, within some seconds.
+
+browsers_start :-
+    queue_size(Size),
+    message_queue_create(Queue, [max_size(Size)]),
+    thread_create(tell_all(Queue, 0), Thread, [alias(typhon_page)]),
+    assertz(teller(Thread, Queue)).
+
+browsers_stop :-
+    (   retract(teller(Thread, Queue))
+    ->  in_own_thread(stop(Thread, Queue))
+    ;   true
+    ).
+
+stop(Thread, Queue) :-
+    thread_send_message(Queue, stop),
+    thread_join(Thread),
+    message_queue_destroy(Queue),
+    forall(browser(Browser, _, _), send_away(Browser)),
+    get_time(Now),
+    Deadline is Now+5,
+    wait_until_gone(Deadline).
+
+%   One whose queue is full hangs: its connection is broken off.
+
+send_away(Browser) :-
+    browser(Browser, Thread, _),
+    catch(( has_room(Browser)
+          ->  thread_send_message(Browser, bye)
+          ;   thread_signal(Thread, throw(typhon_page(bye)))
+          ),
+          error(existence_error(_, _), _), true).
+
+wait_until_gone(Deadline) :-
+    thread_wait(\+ browser(_, _, _),
+                [ deadline(Deadline), wait_preds([browser/3]) ]),
+    !.
+wait_until_gone(_) :-
+    forall(browser(_, Thread, _),
+           catch(thread_signal(Thread, throw(typhon_page(bye))),
+                 error(existence_error(_, _), _), true)).
+
+                /*******************************
+                *            EVENTS            *
+                *******************************/
+
+%!  browsers_tell(+Event) is det.
+%
+%   Event, as of watch/3, is told to all browsers.  Waits while too many
+%   others are still to be told.
+
+browsers_tell(Event) :-
+    (   teller(_, Queue)
+    ->  catch(thread_send_message(Queue, Event),
+              error(existence_error(_, _), _), true)
+    ;   true
+    ).
+
+%!  browsers_there is semidet.
+%
+%   Somebody looks.
+
+browsers_there :-
+    browser(_, _, _),
+    !.
+
+%   tell_all(+Queue, +Next): until it is told to stop; not before Next.
+
+tell_all(Queue, Next) :-
+    setting(heartbeat_seconds, Pause),
+    (   thread_get_message(Queue, First, [timeout(Pause)])
+    ->  true
+    ;   First = tick
+    ),
+    tell_all(First, Queue, Next).
+
+tell_all(stop, _, _) :-
+    !.
+tell_all(First, Queue, Next) :-
+    setting(frame_events, Most),
+    gather(First, Most, Next, Queue, Events, Ending),
+    get_time(Now),
+    tell_frame(Events, Now),
+    (   Ending == stop
+    ->  true
+    ;   setting(frame_seconds, Seconds),
+        Later is Now+Seconds,
+        tell_all(Queue, Later)
+    ).
+
+%   gather(+First, +Most, +Until, +Queue, -Events, -Ending): what there is,
+%   and what comes until then.
+
+gather(stop, _, _, _, [], stop) :-
+    !.
+gather(tick, _, _, _, [], go_on) :-
+    !.
+gather(First, 1, _, _, [First], go_on) :-
+    !.
+gather(First, Most, Until, Queue, [First|Events], Ending) :-
+    (   thread_get_message(Queue, Event, [deadline(Until)])
+    ->  Most1 is Most-1,
+        gather(Event, Most1, Until, Queue, Events, Ending)
+    ;   Events = [],
+        Ending = go_on
+    ).
+
+tell_frame(_, _) :-
+    \+ browser(_, _, _),
+    !.
+tell_frame([], Now) :-
+    !,
+    json_text(_{tick:Now}, Text),
+    forall(browser(Browser, _, _), give(Browser, Text, 0)).
+tell_frame(Events, _) :-
+    event_rows(Events, Rows),
+    json_text(_{events:Rows}, Text),
+    length(Events, Count),
+    forall(browser(Browser, _, _), give(Browser, Text, Count)).
+
+%   Only the teller puts anything into the queue of a browser, so what has
+%   room now has room then.
+
+give(Browser, Text, Count) :-
+    (   has_room(Browser)
+    ->  own_up(Browser),
+        put(Browser, Text)
+    ;   with_mutex(typhon_page, skipped(Browser, Count))
+    ).
+
+%   It may have gone.  Who asks meanwhile whether there are any finds it.
+
+skipped(Browser, Count) :-
+    (   browser(Browser, Thread, Skipped)
+    ->  More is Skipped+Count,
+        assertz(browser(Browser, Thread, More)),
+        once(retract(browser(Browser, Thread, Skipped)))
+    ;   true
+    ).
+
+has_room(Browser) :-
+    frames_waiting(Most),
+    catch(message_queue_property(Browser, size(Size)),
+          error(existence_error(_, _), _), fail),
+    Size < Most.
+
+own_up(Browser) :-
+    browser(Browser, _, Skipped),
+    Skipped > 0,
+    !,
+    Less is -Skipped,
+    with_mutex(typhon_page, skipped(Browser, Less)),
+    skipped_row(Skipped, Row),
+    json_text(_{events:[Row]}, Text),
+    put(Browser, Text).
+own_up(_).
+
+put(Browser, Text) :-
+    catch(thread_send_message(Browser, frame(Text)),
+          error(existence_error(_, _), _), true).
+
+                /*******************************
+                *          ONE BROWSER         *
+                *******************************/
+
+%!  browser_serve(:Scene, +WebSocket) is det.
+%
+%   Tell a browser all that happens, until it goes, or all stops, and close
+%   WebSocket.  What comes first says call(Scene, Dict); events from then on
+%   may be in it already.
+
+browser_serve(Scene, WebSocket) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        catch(serve(Queue, Scene, WebSocket), Ball, ended(Ball)),
+        ( forget(Queue),
+          catch(close(WebSocket, [force(true)]), error(_, _), true) )).
+
+%   It has gone, or is sent away.
+
+ended(error(io_error(_, _), _)) :- !.
+ended(error(socket_error(_, _), _)) :- !.
+ended(typhon_page(bye)) :- !.
+ended(crew_end) :- !.
+ended(Ball) :-
+    print_error(warning, Ball).
+
+serve(Queue, Scene, WebSocket) :-
+    (   enter(Queue)
+    ->  call(Scene, Dict),
+        json_text(Dict, Text),
+        ws_send(WebSocket, text(Text)),
+        while_it_listens(Queue, WebSocket)
+    ;   json_text(_{error:"Too many browsers look at this page"}, Text),
+        ws_send(WebSocket, text(Text))
+    ).
+
+enter(Queue) :-
+    thread_self(Me),
+    with_mutex(typhon_page, enter(Queue, Me)).
+
+enter(Queue, Me) :-
+    teller(_, _),
+    setting(browsers, Most),
+    findall(B, browser(B, _, _), Browsers),
+    length(Browsers, Count),
+    Count < Most,
+    assertz(browser(Queue, Me, 0)).
+
+forget(Queue) :-
+    with_mutex(typhon_page, retractall(browser(Queue, _, _))),
+    message_queue_destroy(Queue).
+
+%   A browser has nothing to say here but that it goes: whatever it sends is
+%   not read, and is the end.
+
+while_it_listens(Queue, WebSocket) :-
+    setup_call_cleanup(
+        thread_create(wait_for_end(Queue, WebSocket), Listener),
+        send_on(Queue, WebSocket),
+        end_listener(Listener)),
+    catch(ws_send(WebSocket, close(1000, "")), error(_, _), true).
+
+end_listener(Listener) :-
+    catch(thread_signal(Listener, throw(typhon_page(bye))),
+          error(existence_error(_, _), _), true),
+    thread_join(Listener, _).
+
+wait_for_end(Queue, WebSocket) :-
+    stream_pair(WebSocket, In, _),
+    catch(wait_for_input([In], _, infinite), error(_, _), true),
+    catch(thread_send_message(Queue, bye), error(_, _), true).
+
+send_on(Queue, WebSocket) :-
+    thread_get_message(Queue, Message),
+    (   Message = frame(Text)
+    ->  ws_send(WebSocket, text(Text)),
+        send_on(Queue, WebSocket)
+    ;   true
+    ).

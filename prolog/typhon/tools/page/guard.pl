@@ -1,0 +1,102 @@
+:- module(typhon_page_guard,
+          [ token_new/1,                % -Token
+            token_right/2,              % +Given, +Token
+            request_own/1,              % +Request
+            request_within/2,           % +Request, +Bytes
+            guarding_headers/0
+          ]).
+:- use_module(library(lists), [memberchk/2, same_length/2]).
+:- use_module(library(option), [option/2]).
+:- use_module('../../kernel/wire', [random_hex/2]).
+
+/** <module> Who may look at a page, and what a browser may do with it
+
+Whoever has the token may.  It is a part of the address, before all else, so
+that scripts and styles of the page, whose addresses are relative, are
+guarded as well, and no cookie goes to other servers of the machine.  What
+another site makes a browser send is turned away by its origin.
+
+*Threading*: pure.
+*/
+
+%!  token_new(-Token:atom) is det.
+
+token_new(Token) :-
+    random_hex(16, Token).
+
+%!  token_right(+Given, +Token) is semidet.
+%
+%   In a time that does not tell how much of Given is right.
+
+token_right(Given, Token) :-
+    atom_codes(Given, A),
+    atom_codes(Token, B),
+    same_length(A, B),
+    differences(A, B, 0, 0).
+
+differences([], [], Sum, Sum).
+differences([A|As], [B|Bs], Sum0, Sum) :-
+    Sum1 is Sum0 \/ (A xor B),
+    differences(As, Bs, Sum1, Sum).
+
+%!  request_own(+Request) is semidet.
+%
+%   No other site has made a browser send Request: where there is an origin,
+%   it is the server itself.
+
+request_own(Request) :-
+    (   option(origin(Origin), Request)
+    ->  memberchk(host(Host), Request),
+        authority(Host, Request, Authority),
+        atom_concat('http://', Authority, Origin)
+    ;   true
+    ).
+
+authority(Host, Request, Authority) :-
+    (   option(port(Port), Request),
+        Port \== 80
+    ->  format(atom(Authority), '~w:~w', [Host, Port])
+    ;   Authority = Host
+    ).
+
+%!  request_within(+Request, +Bytes) is semidet.
+%
+%   The body of Request has a length, and is no longer.
+
+request_within(Request, Bytes) :-
+    memberchk(content_length(Length), Request),
+    integer(Length),
+    Length =< Bytes.
+
+%!  guarding_headers is det.
+%
+%   Print headers: nothing from elsewhere, no script but our files, no frame
+%   around it, and the address, with the token, goes nowhere.
+
+guarding_headers :-
+    forall(header(Name, Value), format('~w: ~w\r\n', [Name, Value])).
+
+header('Content-Security-Policy', Policy) :-
+    findall(Part, policy(Part), Parts),
+    atomic_list_concat(Parts, '; ', Policy).
+header('X-Content-Type-Options', nosniff).
+header('X-Frame-Options', 'DENY').
+header('Referrer-Policy', 'no-referrer').
+header('Cross-Origin-Opener-Policy', 'same-origin').
+header('Cross-Origin-Resource-Policy', 'same-origin').
+header('Cache-Control', 'no-store').
+
+%   A server that is stopped forgets connections that wait for more.
+
+header('Connection', close).
+
+policy('default-src \'none\'').
+policy('script-src \'self\'').
+policy('style-src \'self\'').
+policy('img-src \'self\' data: blob:').
+policy('connect-src \'self\'').
+policy('base-uri \'none\'').
+policy('form-action \'none\'').
+policy('frame-ancestors \'none\'').
+policy('require-trusted-types-for \'script\'').
+policy('trusted-types \'none\'').

@@ -1,0 +1,238 @@
+:- module(typhon_page_looking,
+          [ look/2,                     % +Message, -Answer
+            first_sight/1               % -Dict
+          ]).
+:- use_module(library(apply), [maplist/3, partition/4]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists),
+              [append/3, member/2, memberchk/2, nth1/3, selectchk/4]).
+:- use_module('../../kernel/host', [address_parts/3]).
+:- use_module('../../kernel/lifecycle',
+              [ agent_join/3, agent_listing/1, agent_property/2,
+                goals_shown/4 ]).
+:- use_module('../../network', [network_property/2]).
+:- use_module('../../tools', [host_close_up/2]).
+:- use_module(mechanisms, [mechanism_dicts/1, program_names/1]).
+:- use_module(protocol, [name_text/2, place_text/2, scene_dict/3, text/2]).
+:- use_module(replay, [replay_of_text/3]).
+:- use_module(said, [on_console/1]).
+:- use_module(sources, [sources_look/1]).
+:- use_module(times, [page_time/2]).
+
+/** <module> What browsers may ask, and what they are told
+
+  | ask        | with    | answer                                        |
+  | ---------- | ------- | --------------------------------------------- |
+  | survey     |         | all that there is, as in the first message    |
+  | agent      | `agent` | all that can be seen of it, or its outcome    |
+  | host       | `host`  | all that can be seen of it                    |
+  | networks   |         | those that this process has started           |
+  | mechanisms |         | the operators of `agents/`, and what they take |
+  | programs   |         | names of agent programs that are found        |
+  | replay     | `title`, `text` | the log of that text, see room `replay` |
+
+Nothing here changes anything.
+
+*Threading*: any thread that may wait.
+*/
+
+%!  look(+Message:dict, -Answer) is det.
+%
+%   @error domain_error(question, What)
+
+look(Message, Answer) :-
+    get_dict(ask, Message, Text),
+    atom_string(What, Text),
+    on_console(asked(What, Message, Answer)),
+    !.
+look(Message, _) :-
+    domain_error(question, Message).
+
+%   So many facts, and messages, are still read.
+
+most(300).
+
+asked(survey, _, Dict) :-
+    first_sight(Dict).
+asked(agent, Message, Dict) :-
+    name_in(agent, Message, Agent),
+    agent_dict(Agent, Dict).
+asked(host, Message, Dict) :-
+    name_in(host, Message, Host),
+    host_dict(Host, Dict).
+asked(networks, _, Dicts) :-
+    findall(Dict, network_dict(Dict), Dicts).
+asked(mechanisms, _, Dicts) :-
+    mechanism_dicts(Dicts).
+asked(programs, _, Names) :-
+    program_names(Names).
+asked(replay, Message, Dict) :-
+    maplist(text_in(Message), [title, text], [Title, Text]),
+    replay_of_text(Title, Text, Dict).
+
+text_in(Message, Key, Text) :-
+    get_dict(Key, Message, Text),
+    must_be(string, Text).
+
+name_in(Key, Message, Name) :-
+    text_in(Message, Key, Text),
+    atom_string(Name, Text).
+
+%!  first_sight(-Dict) is det.
+
+first_sight(Dict) :-
+    sources_look(Scene),
+    get_time(Now),
+    page_time(Now, Time),
+    scene_dict(Time, Scene, Dict).
+
+                /*******************************
+                *           AN AGENT           *
+                *******************************/
+
+agent_dict(Agent, Dict) :-
+    findall(P, agent_property(Agent, P), Properties),
+    name_text(Agent, Id),
+    (   Properties == []
+    ->  agent_join(Agent, Outcome, 0),
+        text(Outcome, Text),
+        Dict = _{id:Id, outcome:Text}
+    ;   goals_named(Agent, Properties, Named),
+        findall(Key-Value, agent_shown(Named, Key, Value), Pairs),
+        dict_pairs(Dict0, _, [id-Id|Pairs]),
+        program_dict(Agent, Program),
+        Dict = Dict0.put(program, Program)
+    ).
+
+goals_named(Agent, Properties, Named) :-
+    memberchk(facts(Facts), Properties),
+    selectchk(goals(Goals), Properties, goals(Shown), Named),
+    !,
+    goals_shown(Agent, Facts, Goals, Shown).
+goals_named(_, Properties, Properties).
+
+agent_shown(Properties, Key, Value) :-
+    member(Property, Properties),
+    shown(Property, Key, Value).
+
+shown(host(Host), host, Text) :- name_text(Host, Text).
+shown(program(Name), name, Text) :- name_text(Name, Text).
+shown(home(Home), home, Text) :- name_text(Home, Text).
+shown(state(State), state, Text) :- text(State, Text).
+shown(busy(Seconds), busy, Seconds).
+shown(hops(Hops), hops, Hops).
+shown(payloads(Names), payloads, Texts) :- maplist(name_text, Names, Texts).
+shown(goals(Goals), goals, Texts) :- first_texts(Goals, Texts).
+shown(facts(Facts), facts, Texts) :- first_texts(Facts, Texts).
+shown(facts(Facts), fact_count, Count) :- length(Facts, Count).
+shown(mailbox(Mail), mailbox, Rows) :- first_of(Mail, mail_row, Rows).
+shown(fault(fault(Error, Goal, Place, Host)), fault,
+      _{error:ErrorText, goal:GoalText, place:PlaceText, host:HostText}) :-
+    maplist(text, [Error, Goal], [ErrorText, GoalText]),
+    place_text(Place, PlaceText),
+    name_text(Host, HostText).
+
+first_texts(Terms, Texts) :-
+    first_of(Terms, text, Texts).
+
+:- meta_predicate first_of(+, 2, -).
+
+first_of(List, Goal, Texts) :-
+    most(Most),
+    (   length(First, Most),
+        append(First, _, List)
+    ->  true
+    ;   First = List
+    ),
+    maplist(Goal, First, Texts).
+
+mail_row(Message, [FromText, Text]) :-
+    (   Message = From-Term
+    ->  name_text(From, FromText),
+        text(Term, Text)
+    ;   FromText = "",
+        text(Message, Text)
+    ).
+
+%   Its listing has comments where facts and goals begin, which are shown
+%   apart; and an arrow where it stands.
+
+program_dict(Agent, _{lines:Lines, here:Here}) :-
+    with_output_to(string(Text), agent_listing(Agent)),
+    split_string(Text, "\n", "", All),
+    (   append(Lines0, [Rest|_], All),
+        memberchk(Rest, ["% facts", "% goals left"])
+    ->  true
+    ;   Lines0 = All
+    ),
+    without_end(Lines0, Lines00),
+    without_heading(Lines00, Lines1),
+    findall(N, ( nth1(N, Lines1, Line), arrow(Line, _) ), Here),
+    maplist(without_arrow, Lines1, Lines).
+
+without_end(Lines, Rest) :-
+    append(Rest0, [""], Lines),
+    !,
+    without_end(Rest0, Rest).
+without_end(Lines, Lines).
+
+without_heading(["", Line|Lines], Rest) :-
+    !,
+    without_heading([Line|Lines], Rest).
+without_heading([Line|Lines], Rest) :-
+    ( Line == "" ; string_concat("% ", _, Line) ),
+    !,
+    without_heading(Lines, Rest).
+without_heading(Lines, Lines).
+
+arrow(Line, Rest) :-
+    string_concat("=>", Rest, Line).
+
+without_arrow(Line, Plain) :-
+    (   arrow(Line, Rest)
+    ->  string_concat("  ", Rest, Plain)
+    ;   Plain = Line
+    ).
+
+                /*******************************
+                *            A HOST            *
+                *******************************/
+
+host_dict(Host, Dict) :-
+    host_close_up(Host, close_up(Properties, Options, Tuples, Clauses,
+                                 Services)),
+    memberchk(address(Address), Properties),
+    name_text(Address, Id),
+    address_parts(Address, _, Endpoint),
+    name_text(Endpoint, Process),
+    memberchk(load(Load), Properties),
+    memberchk(capacity(Capacity), Properties),
+    text(Capacity, CapacityText),
+    memberchk(neighbours(Neighbours), Properties),
+    maplist(name_text, Neighbours, Links),
+    findall(Row, ( member(hop_time(Way, Stats), Properties),
+                   hop_row(Way, Stats, Row) ), HopTimes),
+    partition(pheromone, Tuples, Pheromones, Facts),
+    Dict = _{id:Id, process:Process, load:Load, capacity:CapacityText,
+             links:Links, options:Options, tuples:Facts,
+             pheromones:Pheromones, place:Clauses, services:Services,
+             hop_times:HopTimes}.
+
+pheromone(Text) :-
+    string_concat("pheromone(", _, Text).
+
+hop_row(Way, stats(Count, Min, Mean, Max), [Text, Count|Times]) :-
+    Count > 0,
+    name_text(Way, Text),
+    Times = [Min, Mean, Max].
+
+                /*******************************
+                *           NETWORKS           *
+                *******************************/
+
+network_dict(_{name:Name, hosts:HostTexts, seed:Seed, processes:Pids}) :-
+    network_property(Network, hosts(Hosts)),
+    name_text(Network, Name),
+    maplist(name_text, Hosts, HostTexts),
+    network_property(Network, seed(Seed)),
+    network_property(Network, processes(Pids)).

@@ -1,0 +1,219 @@
+:- module(typhon_page_protocol,
+          [ event_row/2,                % +Event, -Row
+            skipped_row/2,              % +Count, -Row
+            scene_dict/3,               % +Time, +Scene, -Dict
+            text/2,                     % +Term, -Text
+            name_text/2,                % +Atomic, -Text
+            place_text/2,               % +Place, -Text
+            number_told/2               % +Number, -Told
+          ]).
+
+/** <module> What server and browser say to each other
+
+Over a WebSocket at `feed` the server tells in JSON what happens, at most
+twenty times a second; the browser says nothing there.  First comes
+
+    {"snapshot": {"time": T, "read_only": B, "hosts": [Host, ...],
+                  "agents": [Agent, ...], "overlays": [Overlay, ...]}}
+
+    Host:  {"id": Address, "process": Endpoint, "machine": Interface,
+            "state": "running", "load": N, "capacity": N or absent,
+            "arrived": N, "links": [[Address, Cost], ...]}
+    Agent: {"id": Id, "host": Address, "program": Name, "status": Word,
+            "doing": Text, "hops": N, "mail": N}
+
+where the state of a host whose process is not heard any more is `lost`;
+then lists of what happens, where arguments are text, but for numbers:
+
+    {"events": [[Time, Host, Agent, Kind, Argument ...], ...]}
+
+      | created  | Program, where it is known |
+      | left     | To                         |
+      | stayed   | To                         |
+      | arrived  | From, Seconds              |
+      | cloned   | Id                         |
+      | sent     | To                         |
+      | received | From                       |
+      | ended    | Outcome                    |
+      | fault    | Text                       |
+      | log      | Text                       |
+      | link     | Host, Cost                 |
+      | unlink   | Host                       |
+      | leave    | Fact                       |
+      | take     | Fact                       |
+      | started, stopped, lost |              |
+      | refused  | Agent, Reason              |
+      | skipped  | Count                      |
+      | show, add | Overlay, Where, Value     |
+
+and every few seconds, when nothing else is to be told, {"tick": Time}, so
+that a browser notices when nobody is there any more.
+
+What the browser wants it posts to `ask`, as {"ask": What, ...} to look and
+as {"do": What, ...} to act; the answer is {"answer": ...} or {"error": Text}.
+The rooms `looking` and `acting` have a clause for each What.
+
+*Threading*: pure.
+*/
+
+:- use_module(library(apply), [maplist/3, maplist/4]).
+:- use_module('../../kernel/base/abridged', [abridged/3]).
+:- use_module('../../kernel/host', [address_parts/3]).
+:- use_module(times, [page_time/3]).
+
+%   No argument of an event is longer, and no other term.
+
+longest(2000).
+
+%!  event_row(+Event, -Row:list) is det.
+%
+%   Event is event(Time, Host, Agent, What), as of watch/3.
+
+event_row(event(Time, Host, Agent, What),
+          [PageTime, HostText, AgentText, Kind|Arguments]) :-
+    page_time(Host, Time, PageTime),
+    name_text(Host, HostText),
+    name_text(Agent, AgentText),
+    what_row(What, Kind, Arguments).
+
+what_row(arrived(From, Seconds), Kind, Arguments) =>
+    Kind = "arrived",
+    name_text(From, Text),
+    Arguments = [Text, Seconds].
+what_row(fault(fault(Error, Goal, Place, Host)), Kind, Arguments) =>
+    Kind = "fault",
+    place_short(Place, Short),
+    text(fault(Error, Goal, Short, Host), Text),
+    Arguments = [Text].
+what_row(skipped(Count), Kind, Arguments) =>
+    Kind = "skipped",
+    Arguments = [Count].
+what_row(What, Kind, Arguments) =>
+    compound_name_arguments_of(What, Name, Terms),
+    atom_string(Name, Kind),
+    maplist(argument_text, Terms, Arguments).
+
+compound_name_arguments_of(What, Name, Terms) :-
+    (   compound(What)
+    ->  compound_name_arguments(What, Name, Terms)
+    ;   Name = What,
+        Terms = []
+    ).
+
+argument_text(Term, Text) :-
+    (   number(Term)
+    ->  number_told(Term, Text)
+    ;   atom(Term)
+    ->  name_text(Term, Text)
+    ;   text(Term, Text)
+    ).
+
+%!  place_text(+Place, -Text:string) is det.
+%
+%   Place of a fault, as of agent_property/2, with the name of the file alone:
+%   the file may be one of the editor, or of another machine.
+
+place_text(Place, Text) :-
+    place_short(Place, Short),
+    (   Short = Name:Line,
+        integer(Line),
+        atom(Name)
+    ->  format(string(Text), '~w:~d', [Name, Line])
+    ;   text(Short, Text)
+    ).
+
+place_short(File:Line, Short), atom(File) =>
+    file_base_name(File, Name),
+    Short = Name:Line.
+place_short(Place, Short) =>
+    Short = Place.
+
+%!  skipped_row(+Count, -Row) is det.
+
+skipped_row(Count, [null, "", "", "skipped", Count]).
+
+%!  name_text(+Atomic, -Text:string) is det.
+%!  text(+Term, -Text:string) is det.
+%
+%   An id or an address as it is; a term as one would write it.
+
+name_text(none, Text) =>
+    Text = "".
+name_text(Name, Text), atomic(Name) =>
+    atom_string(Name, Text).
+name_text(Term, Text) =>
+    text(Term, Text).
+
+text(Term, Text) :-
+    longest(Longest),
+    abridged(Term, Longest, Text).
+
+%!  number_told(+Number, -Told) is det.
+%
+%   Number, or as text one that JSON has not: infinite, or none.
+
+number_told(Number, Told) :-
+    (   float(Number),
+        float_class(Number, Class),
+        memberchk(Class, [infinite, nan])
+    ->  text(Number, Told)
+    ;   Told = Number
+    ).
+
+                /*******************************
+                *            SCENES            *
+                *******************************/
+
+%!  scene_dict(+Time, +Scene, -Dict) is det.
+%
+%   Scene is scene(Hosts, Agents): terms host/8 and agent(Id, Glance), see
+%   survey/4.
+
+scene_dict(Time, scene(Hosts, Agents),
+           _{time:Time, hosts:HostDicts, agents:AgentDicts}) :-
+    maplist(host_dict, Hosts, HostDicts),
+    maplist(agent_dict, Agents, AgentDicts).
+
+host_dict(host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
+               _),
+          Dict) :-
+    address_parts(Address, _, Endpoint),
+    machine(Endpoint, Machine),
+    maplist(link_row, Neighbours, Costs, Links),
+    state_shown(State, Shown),
+    maplist(name_text, [Address, Endpoint, Machine, Shown],
+            [Id, Process, On, StateText]),
+    Dict0 = _{id:Id, process:Process, machine:On, state:StateText,
+              load:Load, arrived:Arrived, links:Links},
+    (   integer(Capacity)
+    ->  Dict = Dict0.put(capacity, Capacity)
+    ;   Dict = Dict0
+    ).
+
+state_shown(gone, lost) :- !.
+state_shown(silent, lost) :- !.
+state_shown(State, State).
+
+machine(Endpoint, Machine) :-
+    (   sub_atom(Endpoint, Before, _, After, :),
+        \+ ( sub_atom(Endpoint, _, After, 0, Port),
+             sub_atom(Port, _, _, _, :) )
+    ->  sub_atom(Endpoint, 0, Before, _, Machine)
+    ;   Machine = Endpoint
+    ).
+
+link_row(Neighbour, Cost, [Text, Told]) :-
+    name_text(Neighbour, Text),
+    number_told(Cost, Told).
+
+agent_dict(agent(Id, glance(Host, Program, Doing, Hops, Mail)), Dict) :-
+    maplist(name_text, [Id, Host, Program, Doing],
+            [IdText, HostText, ProgramText, DoingText]),
+    status_word(DoingText, Status),
+    Dict = _{id:IdText, host:HostText, program:ProgramText, status:Status,
+             doing:DoingText, hops:Hops, mail:Mail}.
+
+%   The first word of what it does.
+
+status_word(Doing, Word) :-
+    split_string(Doing, " ,:", "", [Word|_]).

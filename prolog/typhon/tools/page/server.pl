@@ -1,0 +1,222 @@
+:- module(typhon_page_server,
+          [ server_start/2,             % +Options, -Link
+            server_stop/0
+          ]).
+:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(http/http_json), [http_read_json_dict/3]).
+:- use_module(library(http/http_stream), []). % else WebSockets are HTTP/1.0
+:- use_module(library(http/websocket), [http_upgrade_to_websocket/3]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(acting, [act/2]).
+:- use_module(browsers,
+              [browser_serve/2, browsers_start/0, browsers_stop/0]).
+:- use_module(editor, [editor_start/0, editor_stop/0, without_folder/2]).
+:- use_module(files, [page_file/3]).
+:- use_module(guard,
+              [ guarding_headers/0, request_own/1, request_within/2,
+                token_new/1, token_right/2 ]).
+:- use_module(json, [json_text/2]).
+:- use_module(looking, [first_sight/1, look/2]).
+:- use_module(overlays,
+              [overlays_shown/1, overlays_start/1, overlays_stop/0]).
+:- use_module('../../kernel/base/error_text', [error_text/2]).
+:- use_module(reception, [reception_close/0, reception_open/2, with_body/4]).
+:- use_module(said, [on_console/1]).
+:- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
+:- use_module(times, [times_start/0, times_stop/0]).
+
+/** <module> The server of the page
+
+One for a process.  Every address begins with the token: `/TOKEN/` is the
+page, `/TOKEN/feed` the WebSocket, `/TOKEN/ask` where questions and orders are
+posted; other names are those of files.  `/?token=TOKEN` leads to the page, and
+`feed?token=TOKEN`, as `metrics?token=TOKEN`, will do, too.
+
+It does not use http_dispatch: what else of HTTP this process serves is not
+seen here, nor this there.
+
+*Threading*: starting and stopping exclude each other by a mutex.  Each client
+has a thread, see room `reception`.
+*/
+
+:- setting(request_bytes, positive_integer, 4 000 000,
+           "A page takes no larger request than this").
+:- dynamic
+    serving/3.                  % Port, Token, ReadOnly
+
+%!  server_start(+Options, -Link) is det.
+%!  server_stop is det.
+%
+%   Options are those of page_start/1; Link is the address of the page.
+%
+%   @error permission_error(start, page, Link) if there is one already
+
+server_start(Options, Link) :-
+    with_mutex(typhon_page_server, start(Options, Link)).
+
+start(_, _) :-
+    serving(Port, _, _),
+    !,
+    permission_error(start, page, Port).
+start(Options, Link) :-
+    option(bind(Interface), Options, localhost),
+    option(port(Port0), Options, 8080),
+    option(read_only(ReadOnly), Options, false),
+    token_new(Token),
+    ( Port0 == 0 -> true ; Port = Port0 ),
+    catch(( prepare(Options),
+            reception_open(Interface:Port, typhon_page_server:serve) ), Ball,
+          ( put_away, throw(Ball) )),
+    assertz(serving(Port, Token, ReadOnly)),
+    format(atom(Link), 'http://~w:~d/?token=~w', [Interface, Port, Token]).
+
+prepare(Options) :-
+    times_start,
+    sources_start(Options),
+    editor_start,
+    option(overlays(Files), Options, []),
+    overlays_start(Files),
+    browsers_start.
+
+server_stop :-
+    with_mutex(typhon_page_server, stop).
+
+stop :-
+    (   retract(serving(_, _, _))
+    ->  browsers_stop,                  % they are told before they go
+        reception_close,
+        put_away
+    ;   true
+    ).
+
+put_away :-
+    sources_stop,
+    times_stop,
+    browsers_stop,
+    overlays_stop,
+    editor_stop.
+
+                /*******************************
+                *           REQUESTS           *
+                *******************************/
+
+:- public serve/2.              % called by the reception
+
+serve(In, Request) :-
+    memberchk(path(Path), Request),
+    atomic_list_concat([''|Parts], /, Path),
+    (   \+ request_own(Request)
+    ->  refuse(403, 'Not from this page')
+    ;   admitted(Parts, Request, Rest, Token)
+    ->  route(Rest, Token, In, Request)
+    ;   refuse(403, 'The link with the token, which was printed when the \c
+                     page was started, leads here; this address does not')
+    ).
+
+%   admitted(+Parts, +Request, -Rest, -Token): with the token.
+
+admitted([Given|Rest], _, Rest, Token) :-
+    Rest = [_|_],
+    serving(_, Token, _),
+    token_right(Given, Token),
+    !.
+admitted([Name], Request, Rest, Token) :-
+    (   option(search(Search), Request),
+        memberchk(token=Given, Search)
+    ;   option(authorization(Text), Request),
+        atom_concat('Bearer ', Given, Text)
+    ),
+    serving(_, Token, _),
+    token_right(Given, Token),
+    !,
+    ( Name == '' -> Rest = [] ; Rest = [Name] ).
+
+route([], Token, _, _) =>
+    atomic_list_concat(['', Token, ''], /, Page),
+    throw(http_reply(see_other(Page))).
+route([feed], _, _, Request) =>
+    http_upgrade_to_websocket(feed, [guarded(false)], Request).
+route([ask], _, In, Request) =>
+    answer(In, Request).
+route([metrics], _, _, _) =>
+    on_console(sources_metrics(Text)),
+    text_reply('text/plain; version=0.0.4', Text).
+route(Names, _, _, Request) =>
+    (   memberchk(method(Method), Request),
+        memberchk(Method, [get, head]),
+        page_file(Names, File, Type)
+    ->  send_file(File, Type)
+    ;   refuse(404, 'There is nothing of this name')
+    ).
+
+:- public feed/1.               % called by the library
+
+feed(WebSocket) :-
+    browser_serve(first_frame, WebSocket).
+
+first_frame(_{snapshot:Scene}) :-
+    serving(_, _, ReadOnly),
+    on_console(first_sight(Seen)),
+    overlays_shown(Overlays),
+    Scene = Seen.put(_{read_only:ReadOnly, overlays:Overlays}).
+
+send_file(File, Type) :-
+    setup_call_cleanup(
+        open(File, read, In, [type(binary)]),
+        read_string(In, _, Bytes),
+        close(In)),
+    format('Content-Type: ~w\r\n', [Type]),
+    guarding_headers,
+    format('\r\n'),
+    current_output(Out),
+    set_stream(Out, encoding(octet)),
+    write(Bytes).
+
+text_reply(Type, Text) :-
+    format('Content-Type: ~w; charset=UTF-8\r\n', [Type]),
+    guarding_headers,
+    format('\r\n~w', [Text]).
+
+refuse(Status, Why) :-
+    format('Status: ~d Refused\r\n', [Status]),
+    text_reply('text/plain', Why).
+
+                /*******************************
+                *       QUESTIONS, ORDERS      *
+                *******************************/
+
+answer(In, Request) :-
+    setting(request_bytes, Most),
+    (   \+ memberchk(method(post), Request)
+    ->  refuse(405, 'Only POST')
+    ;   request_within(Request, Most)
+    ->  catch(answer_to(In, Request, Answer), Error, told(Error, Answer)),
+        json_text(Answer, Text),
+        text_reply('application/json', Text)
+    ;   refuse(413, 'Too large, or of no known length')
+    ).
+
+answer_to(In, Request, _{answer:Answer}) :-
+    memberchk(content_length(Length), Request),
+    with_body(In, Length, Body,
+              http_read_json_dict([input(Body)|Request], Message,
+                                  [value_string_as_atom(false), tag('')])),
+    must_be(dict, Message),
+    (   get_dict(do, Message, What)
+    ->  may_act(What),
+        act(Message, Answer)
+    ;   look(Message, Answer)
+    ).
+
+%   This is the only way to act.
+
+may_act(What) :-
+    (   serving(_, _, false)
+    ->  true
+    ;   permission_error(What, page, read_only)
+    ).
+
+told(Error, _{error:Text}) :-
+    error_text(Error, Text0),
+    without_folder(Text0, Text).

@@ -1,0 +1,207 @@
+:- module(typhon_page_sources,
+          [ sources_start/1,            % +Options
+            sources_stop/0,
+            sources_look/1,             % -Scene
+            sources_metrics/1           % -Text
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../kernel/host',
+              [ address_parts/3, host_property/2, runtime_acquire/2,
+                runtime_release/1 ]).
+:- use_module('../../tools', [survey/4, survey_agents/2, survey_hosts/4]).
+:- use_module('../../options/watch', [metrics/2, unwatch/1, watch/3]).
+:- use_module(browsers, [browsers_tell/1, browsers_there/0]).
+:- use_module(times, [times_of/1]).
+
+/** <module> What a page shows: which hosts, and what happens on them
+
+There is a watch for each process, and another where more hosts have come to
+light there.  As long as nobody looks, nothing is watched.
+
+*Threading*: any thread looks; one mutex for watches.  While somebody looks a
+thread sees every few seconds which hosts there are by now.
+*/
+
+:- setting(renew_seconds, number, 3,
+           "A page that is looked at finds new hosts within so many seconds").
+
+:- dynamic
+    place/1,                    % Address: where to begin
+    finder/2,                   % Thread, Queue
+    own/1,                      % Watch
+    watched/2.                  % Address, Watch
+
+%!  sources_start(+Options) is det.
+%!  sources_stop is det.
+%
+%   A page shows this process, the networks that it has started, and with the
+%   option host(Host) that host, and all to which one comes from these.
+%   What happens is told to browsers.
+%
+%   @error existence_error(host, Host), host_unreachable(Address)
+
+sources_start(Options) :-
+    (   option(host(Host), Options)
+    ->  runtime_acquire(page, []),
+        catch(must_be_there(Host, Address), Ball,
+              ( runtime_release(page), throw(Ball) )),
+        assertz(place(Address))
+    ;   true
+    ),
+    message_queue_create(Queue),
+    thread_create(find(Queue), Thread, [alias(typhon_page_finder)]),
+    assertz(finder(Thread, Queue)).
+
+must_be_there(Host, Address) :-
+    host_property(Host, address(Address)),
+    !.
+
+sources_stop :-
+    (   retract(finder(Thread, Queue))
+    ->  thread_send_message(Queue, stop),
+        thread_join(Thread),
+        message_queue_destroy(Queue)
+    ;   true
+    ),
+    rest(true),
+    (   retract(place(_))
+    ->  runtime_release(page)
+    ;   true
+    ).
+
+%!  sources_look(-Scene) is det.
+%
+%   Scene is scene(Hosts, Agents), as of survey_hosts/4 and survey_agents/2; all
+%   these Hosts are watched before one looks who is there.
+
+sources_look(scene(Hosts, Agents)) :-
+    finder(_, Queue),
+    thread_send_message(Queue, somebody),
+    renew,
+    look(1 000 000, Seen, Hosts),
+    survey_agents(Seen, Agents).
+
+%!  sources_metrics(-Text:string) is det.
+%
+%   All that the page shows in numbers, see metrics/2.
+
+sources_metrics(Text) :-
+    look(0, _, Hosts),
+    findall(Address, member(host(Address, running, _, _, _, _, _, _), Hosts),
+            Addresses),
+    metrics(Addresses, Text).
+
+                /*******************************
+                *             FIND             *
+                *******************************/
+
+%   Nobody looks: it rests until it is told that somebody does.
+
+find(Queue) :-
+    thread_get_message(Queue, Message),
+    (   Message == stop
+    ->  true
+    ;   find_more(Queue)
+    ).
+
+find_more(Queue) :-
+    setting(renew_seconds, Seconds),
+    (   thread_get_message(Queue, Message, [timeout(Seconds)])
+    ->  (   Message == stop
+        ->  true
+        ;   find_more(Queue)
+        )
+    ;   browsers_there
+    ->  telling_errors(renew),
+        find_more(Queue)
+    ;   telling_errors(rest(\+ browsers_there)),
+        find(Queue)
+    ).
+
+:- meta_predicate telling_errors(0).
+
+telling_errors(Goal) :-
+    catch(Goal, error(Formal, Context),
+          print_error(warning, error(Formal, Context))).
+
+                /*******************************
+                *            WATCH             *
+                *******************************/
+
+%   Watch what hosts there are by now.
+
+renew :-
+    look(0, _, Hosts),
+    with_mutex(typhon_page_sources, watch_hosts(Hosts)),
+    with_mutex(typhon_page_sources, idle(Watches)),
+    maplist(end_watch, Watches).
+
+%   All their hosts have stopped.
+
+idle(Watches) :-
+    findall(Watch, ( own(Watch), \+ watched(_, Watch) ), Watches),
+    forall(member(Watch, Watches), retract(own(Watch))).
+
+look(Most, Seen, Hosts) :-
+    findall(Place, place(Place), Places),
+    survey(Most, Places, Seen, Silent),
+    survey_hosts(Places, Seen, Silent, Hosts),
+    times_of(Hosts).
+
+unwatched(Hosts, Endpoint, Address) :-
+    member(host(Address, running, _, _, _, _, _, _), Hosts),
+    \+ watched(Address, _),
+    address_parts(Address, _, Endpoint).
+
+watch_hosts(Hosts) :-
+    findall(Endpoint-Address, unwatched(Hosts, Endpoint, Address), Pairs0),
+    sort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    forall(member(_-Addresses, Groups), watch_some(Addresses)).
+
+%   A process that has gone meanwhile is seen as lost the next time.
+
+watch_some(Addresses) :-
+    (   catch(watch(Addresses, typhon_page_sources:heard, Watch),
+              error(_, _), fail)
+    ->  assertz(own(Watch)),
+        forall(member(Address, Addresses),
+               assertz(watched(Address, Watch)))
+    ;   true
+    ).
+
+:- public heard/1.
+
+heard(Event) :-
+    browsers_tell(Event),
+    changed(Event).
+
+%   A host that has stopped may be started again, as another.
+
+changed(event(_, Host, _, stopped)) =>
+    retractall(watched(Host, _)).
+changed(_) =>
+    true.
+
+%   Watch nothing any more, if When: who comes to look meanwhile finds the hosts
+%   watched, or watches them after this.
+
+:- meta_predicate rest(0).
+
+rest(When) :-
+    with_mutex(typhon_page_sources,
+               ( When -> watches(Watches) ; Watches = [] )),
+    maplist(end_watch, Watches).
+
+watches(Watches) :-
+    retractall(watched(_, _)),
+    findall(Watch, retract(own(Watch)), Watches).
+
+end_watch(Watch) :-
+    catch(in_own_thread(unwatch(Watch)), error(existence_error(_, _), _), true).

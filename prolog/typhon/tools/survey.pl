@@ -1,0 +1,255 @@
+:- module(typhon_survey,
+          [ survey/4,                   % +Most, +Places, -Seen, -Silent
+            survey_hosts/4,             % +Places, +Seen, +Silent, -Hosts
+            survey_agents/2,            % +Seen, -Agents
+            survey_order/2              % +Text, -Key
+          ]).
+:- use_module(library(apply), [exclude/3, maplist/3]).
+:- use_module(library(dcg/basics), [digits//1, string_without//2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../kernel/wire',
+              [endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
+               endpoint_reply/2]).
+:- use_module('../kernel/host',
+              [ address_parts/3, clock/3, host_link_cost/3, host_property/2,
+                scheduler_call/1, time_kind/1 ]).
+:- use_module('../kernel/lifecycle', [agent_glance/2]).
+:- use_module('../network', [network_property/2]).
+
+/** <module> What stands in all processes of a network
+
+Each process says in one answer what hosts it has and who is on them. Asked
+are those that carry networks started here, and those of hosts to which one
+comes along links. All are asked at once; who has not answered by the
+deadline is said to be silent.
+
+*Threading*: any thread may ask, but those of the endpoint. A worker answers,
+for there may be many agents.
+*/
+
+:- setting(seconds, number, 2,
+           "A table waits so long for the other processes of a network").
+
+:- multifile
+    typhon_endpoint:requested/4.
+
+%!  survey(+Most, +Places, -Seen, -Silent) is det.
+%
+%   Seen are terms seen(Hosts, Agents, Count), one for each process: Hosts are
+%   terms host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
+%   Clock), Costs being what the links to Neighbours cost, in their order, and
+%   Clock clock(Epoch, Rate), or `virtual`; Agents the first Most, in the order
+%   of survey_order/2, of Count agents, terms agent(Id, Glance), see
+%   agent_glance/2; if Most is 0 they are not counted. Asked are this process,
+%   those of the networks started here, those at the addresses Places, and
+%   whoever else comes to light. Silent are Endpoint-Why of those that gave no
+%   answer, Why being `gone`, `lost` or `late`.
+
+survey(Most, Places, [Here|Seen], Silent) :-
+    look(Most, Here),
+    findall(Address, ( member(Address, Places) ; known(Address) ), Known),
+    further_places(Here, Linked),
+    append(Known, Linked, Addresses),
+    other_processes(Addresses, Others),
+    ask(Others, Most, Results),
+    answers(Results, Seen),
+    findall(Endpoint-Why,
+            ( member(Endpoint-Result, Results), silence(Result, Why) ),
+            Silent0),
+    sort(Silent0, Silent).
+
+%   A process that listens at several ports answers at each.
+
+answers(Results, Seen) :-
+    findall(Names-Answer,
+            ( member(_-answer(Answer), Results),
+              Answer = seen(Hosts, _, _),
+              maplist(arg(1), Hosts, Names) ),
+            Pairs0),
+    sort(1, @<, Pairs0, Pairs),
+    pairs_values(Pairs, Seen).
+
+silence(gone, gone).
+silence(unreachable, gone).
+silence(lost, lost).
+silence(late, late).
+
+known(Address) :-
+    network_property(_, hosts(Addresses)),
+    member(Address, Addresses).
+
+%   A process of which it is known that it is no more is not waited for.
+
+ask(Endpoints, Most, Results) :-
+    findall(Endpoint-gone,
+            ( member(Endpoint, Endpoints), endpoint_left(Endpoint) ), Gone),
+    exclude(endpoint_left, Endpoints, There),
+    ask_there(There, Most, Answers),
+    append(Gone, Answers, Results).
+
+ask_there([], _, []) :-
+    !.
+ask_there(Endpoints, Most, Results) :-
+    setting(seconds, Seconds),
+    endpoint_ask_all(Endpoints, survey, look(Most),
+                     typhon_survey:further, Seconds, Results).
+
+further(Seen, Endpoints) :-
+    further_places(Seen, Addresses),
+    other_processes(Addresses, Endpoints).
+
+further_places(seen(Hosts, _, _), Addresses) :-
+    findall(Address,
+            ( member(host(_, _, _, _, _, Neighbours, _, _), Hosts),
+              member(Address, Neighbours) ),
+            Addresses).
+
+other_processes(Addresses, Endpoints) :-
+    findall(Endpoint,
+            ( member(Address, Addresses),
+              address_parts(Address, _, Endpoint),
+              \+ endpoint_address(Endpoint) ),
+            Endpoints0),
+    sort(Endpoints0, Endpoints).
+
+                /*******************************
+                *         ONE PROCESS          *
+                *******************************/
+
+typhon_endpoint:requested(survey, look(Most), _, ReplyTo) :-
+    scheduler_call(typhon_survey:reply(Most, ReplyTo)).
+
+:- public
+    reply/2.                    % goal of a worker
+
+reply(Most, ReplyTo) :-
+    look(Most, Seen),
+    endpoint_reply(ReplyTo, Seen).
+
+look(0, seen(Hosts, [], 0)) :-
+    !,
+    findall(Host, host_seen(Host), Hosts).
+look(Most, seen(Hosts, Agents, Count)) :-
+    findall(Host, host_seen(Host), Hosts),
+    findall(Id-Glance, agent_glance(Id, Glance), All0),
+    sort(1, @<, All0, All),
+    length(All, Count),
+    maplist(agent_key, All, Keyed0),
+    keysort(Keyed0, Keyed),
+    pairs_values(Keyed, Sorted),
+    first(Most, Sorted, Agents).
+
+agent_key(Id-Glance, Key-agent(Id, Glance)) :-
+    survey_order(Id, Key).
+
+first(Most, List, First) :-
+    (   length(First, Most),
+        append(First, _, List)
+    ->  true
+    ;   First = List
+    ).
+
+host_seen(host(Address, State, Load, Capacity, Arrived, Neighbours,
+               Costs, Clock)) :-
+    host_property(Name, address(Address)),
+    findall(Property, host_property(Name, Property), Properties),
+    option(state(State), Properties, stopped),
+    option(load(Load), Properties, 0),
+    option(capacity(Capacity), Properties, inf),
+    option(neighbours(Neighbours), Properties, []),
+    maplist(link_cost(Name), Neighbours, Costs),
+    host_clock(Name, Clock),
+    (   member(hop_time(in, stats(Arrived0, _, _, _)), Properties)
+    ->  Arrived = Arrived0
+    ;   Arrived = 0
+    ).
+
+host_clock(Name, Clock) :-
+    (   time_kind(virtual)
+    ->  Clock = virtual
+    ;   clock(Name, Epoch, Rate),
+        Clock = clock(Epoch, Rate)
+    ).
+
+%   The link may be gone by now.
+
+link_cost(Name, Neighbour, Cost) :-
+    (   host_link_cost(Name, Neighbour, Cost0)
+    ->  Cost = Cost0
+    ;   Cost = 1
+    ).
+
+                /*******************************
+                *       PUT TOGETHER           *
+                *******************************/
+
+%!  survey_hosts(+Places, +Seen, +Silent, -Hosts) is det.
+%
+%   All Hosts of a survey, those among them that were heard of in processes
+%   that are silent: their state is `gone`, or `silent`.
+
+survey_hosts(Places, Seen, Silent, Hosts) :-
+    findall(Host, ( member(seen(Some, _, _), Seen), member(Host, Some) ),
+            Answered),
+    findall(host(Address, State, '', '', '', [], [], none),
+            unseen(Places, Seen, Silent, Address, State),
+            Unseen0),
+    sort(Unseen0, Unseen),
+    append(Answered, Unseen, Hosts).
+
+unseen(Places, Seen, Silent, Address, State) :-
+    heard_of(Places, Seen, Address),
+    address_parts(Address, _, Endpoint),
+    memberchk(Endpoint-Why, Silent),
+    state_unseen(Why, State).
+
+heard_of(Places, _, Address) :-
+    member(Address, Places).
+heard_of(_, _, Address) :-
+    known(Address).
+heard_of(_, Seen, Address) :-
+    member(Process, Seen),
+    further_places(Process, Addresses),
+    member(Address, Addresses).
+
+state_unseen(gone, gone).
+state_unseen(lost, silent).
+state_unseen(late, silent).
+
+%!  survey_agents(+Seen, -Agents) is det.
+%
+%   Each agent of a survey once.  One under way may have been seen twice:
+%   where it has come counts.
+
+survey_agents(Seen, Agents) :-
+    findall(Some, member(seen(_, Some, _), Seen), Lists),
+    append(Lists, All),
+    map_list_to_pairs(hops_left, All, Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Sorted),
+    sort(1, @<, Sorted, Agents).        % the first of each
+
+hops_left(agent(_, glance(_, _, _, Hops, _)), Left) :-
+    Left is -Hops.
+
+%!  survey_order(+Text, -Key) is det.
+%
+%   The order of Key is that in which people expect names: n2 before n10.
+
+survey_order(Text, Key) :-
+    atom_codes(Text, Codes),
+    phrase(parts(Key), Codes).
+
+parts([Text, Number|Parts]) -->
+    string_without(`0123456789`, Codes),
+    digits([Digit|Digits]),
+    !,
+    { atom_codes(Text, Codes),
+      number_codes(Number, [Digit|Digits]) },
+    parts(Parts).
+parts([Text]) -->
+    string_without(`0123456789`, Codes),
+    { atom_codes(Text, Codes) }.

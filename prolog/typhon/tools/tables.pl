@@ -1,0 +1,217 @@
+:- module(typhon_tables,
+          [ hosts/0,
+            agents/0,
+            print_hosts/1,              % +Places
+            print_agents/2              % +Places, +Ids
+          ]).
+
+/** <module> Hosts and agents as tables for people
+
+*Threading*: any thread.  A table is a snapshot: what goes away while it is
+made is left out.
+*/
+
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
+:- use_module(library(lists), [append/3, member/2, sum_list/2]).
+:- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
+:- use_module(library(settings), [setting/2]).
+:- use_module('../kernel/agent', [agent_name/3]).
+:- use_module(survey,
+              [survey/4, survey_agents/2, survey_hosts/4, survey_order/2]).
+
+%   So many lines are still read by a person.
+
+longest_table(60).
+
+                /*******************************
+                *             HOSTS            *
+                *******************************/
+
+%!  hosts is det.
+%
+%   Print a table of the hosts of this process, of the networks that it has
+%   started, and of all to which one comes from these along links, in other
+%   processes, too: their address, what they do, how many agents they have
+%   of how many they admit, how many came in, and their neighbours.  Of a
+%   process that has not answered within two seconds (the setting
+%   `typhon_survey:seconds`) it says so.
+
+hosts :-
+    print_hosts([]).
+
+%!  print_hosts(+Places) is det.
+%
+%   As hosts/0, the processes of the addresses Places among them.
+
+print_hosts(Places) :-
+    survey(0, Places, Seen, Silent),
+    survey_hosts(Places, Seen, Silent, All),
+    in_order(All, Sorted),
+    longest_table(Longest),
+    first_few(Longest, Sorted, Shown, More),
+    maplist(host_row, Shown, Rows),
+    print_table([host-left, state-left, agents-right, arrived-right,
+                 neighbours-left],
+                Rows, host),
+    print_more(More),
+    print_silent(Silent).
+
+host_row(host(Address, State, Load, Capacity, Arrived, Neighbours, _, _),
+         [Address, State, Agents, Arrived, Text]) :-
+    host_agents(Capacity, Load, Agents),
+    host_neighbours(Neighbours, Text).
+
+host_agents(Capacity, Load, Agents) :-
+    integer(Capacity),
+    !,
+    format(atom(Agents), '~w of ~w', [Load, Capacity]).
+host_agents(_, Load, Load).
+
+%   Enough of them to recognise the network.
+
+host_neighbours(Neighbours, Text) :-
+    maplist(short_name, Neighbours, Names),
+    first_few(6, Names, Shown, More),
+    atomic_list_concat(Shown, ' ', Text0),
+    (   More =:= 0
+    ->  Text = Text0
+    ;   format(atom(Text), '~w and ~d more', [Text0, More])
+    ).
+
+short_name(Address, Name) :-
+    sub_atom(Address, Before, _, _, @),
+    !,
+    sub_atom(Address, 0, Before, _, Name).
+short_name(Name, Name).
+
+                /*******************************
+                *            AGENTS            *
+                *******************************/
+
+%!  agents is det.
+%
+%   Print a table of the agents on the hosts that hosts/0 shows: the name of
+%   an agent, or its id where another has the same name; where it is; its
+%   program; what it does or waits for; how often it has moved, and how many
+%   messages wait for it.
+
+agents :-
+    print_agents([], short).
+
+%!  print_agents(+Places, +Ids) is det.
+%
+%   As agents/0, the processes of the addresses Places among them.  Ids is
+%   `full`, or `short`: names where they are unique.
+
+print_agents(Places, Ids) :-
+    longest_table(Longest),
+    Most is Longest+1,          % tells whether the last name is unique
+    survey(Most, Places, Seen, Silent),
+    agents_seen(Seen, Agents, Count),
+    first_few(Longest, Agents, Shown, _),
+    maplist(agent_row(Ids, Agents), Shown, Rows),
+    print_table([agent-left, host-left, program-left, state-left,
+                 hops-right, mail-right],
+                Rows, agent),
+    length(Rows, Printed),
+    More is Count-Printed,
+    print_more(More),
+    print_silent(Silent).
+
+%   agents_seen(+Seen, -Agents, -Count): the first of Count agents, in order.
+
+agents_seen(Seen, Agents, Count) :-
+    survey_agents(Seen, Different),
+    in_order(Different, Agents),
+    findall(N, member(seen(_, _, N), Seen), Counts),
+    findall(Id, ( member(seen(_, Some, _), Seen), member(Id, Some) ), All),
+    sum_list(Counts, Total),
+    length(All, Sent),
+    length(Different, Left),
+    Count is Total-(Sent-Left).
+
+agent_row(Ids, All, agent(Id, glance(Address, Program, Doing, Hops, Mail)),
+          [Name, Host, Program, Doing, Hops, Mail]) :-
+    shown_id(Ids, All, Id, Name),
+    short_name(Address, Host).
+
+shown_id(short, All, Id, Name) :-
+    agent_name(Id, Name, _),
+    \+ ( member(agent(Other, _), All),
+         Other \== Id,
+         agent_name(Other, Name, _) ),
+    !.
+shown_id(_, _, Id, Id).
+
+                /*******************************
+                *             TABLE            *
+                *******************************/
+
+in_order(Rows, Sorted) :-
+    map_list_to_pairs(row_key, Rows, Pairs),
+    keysort(Pairs, SortedPairs),
+    pairs_values(SortedPairs, Sorted).
+
+row_key(Row, Key) :-
+    arg(1, Row, Name),
+    survey_order(Name, Key).
+
+print_more(More) :-
+    (   More > 0
+    ->  format('... and ~D more~n', [More])
+    ;   true
+    ).
+
+print_silent(Silent) :-
+    forall(member(Endpoint-Why, Silent), print_silence(Why, Endpoint)).
+
+print_silence(gone, Endpoint) :-
+    format('There is no process at ~w any more~n', [Endpoint]).
+print_silence(lost, Endpoint) :-
+    format('The connection to ~w was lost~n', [Endpoint]).
+print_silence(late, Endpoint) :-
+    setting(typhon_survey:seconds, Seconds),
+    format('The process at ~w has not answered within ~w s~n',
+           [Endpoint, Seconds]).
+
+print_table(_, [], What) :-
+    !,
+    format('No ~ws~n', [What]).
+print_table(Columns, Rows, _) :-
+    findall(Title, member(Title-_, Columns), Titles),
+    findall(Side, member(_-Side, Columns), Sides),
+    All = [Titles|Rows],
+    maplist(maplist(width), All, [First|WidthRows]),
+    foldl(maplist(wider), WidthRows, First, Widths),
+    maplist(print_row(Sides, Widths), All).
+
+width(Cell, Width) :-
+    format(string(Text), '~w', [Cell]),
+    string_length(Text, Width).
+
+wider(Width, Widest0, Widest) :-
+    Widest is max(Width, Widest0).
+
+print_row(Sides, Widths, Cells) :-
+    maplist(padded, Sides, Widths, Cells, Padded),
+    atomic_list_concat(Padded, '  ', Line0),
+    split_string(Line0, "", " ", [Line]),
+    format('~s~n', [Line]).
+
+padded(Side, Width, Cell, Padded) :-
+    width(Cell, Used),
+    Fill is Width-Used,
+    (   Side == left
+    ->  format(atom(Padded), '~w~*c', [Cell, Fill, 0'\s])
+    ;   format(atom(Padded), '~*c~w', [Fill, 0'\s, Cell])
+    ).
+
+first_few(N, List, First, More) :-
+    length(List, Length),
+    (   Length =< N
+    ->  First = List,
+        More = 0
+    ;   length(First, N),
+        append(First, _, List),
+        More is Length-N
+    ).
