@@ -1,23 +1,23 @@
 :- module(typhon, []).
 
-/** <module> Typhon: agents that travel
+/** <module> Typhon: mobile agents
 
-The whole public interface of the platform.  Nothing is defined here: each
-layer has a door, and behind it a folder with its rooms.
+The public interface of the platform; nothing is defined here.  Each layer is
+a folder, with an interface of the same name beside it:
 
-  | checking programs              | typhon/program    |
-  | hosts, links, goals on a host  | typhon/host       |
-  | agents                         | typhon/lifecycle  |
-  | what agents can say            | typhon/language   |
-  | networks, the log server       | typhon/network    |
-  | events, as they happen         | typhon/watching   |
-  | tables for people              | typhon/people     |
-  | a page for a browser           | typhon/page       |
-  | Python, MQTT, ROS, FIPA        | typhon/bridge     |
+  | checking programs               | typhon/kernel/program    |
+  | hosts, links, goals on a host   | typhon/kernel/host       |
+  | agents                          | typhon/kernel/lifecycle  |
+  | predicates that agents can call | typhon/kernel/vocabulary |
+  | networks, the log server        | typhon/network           |
+  | events, as they happen          | typhon/options/watch     |
+  | tables at the top level         | typhon/tools             |
+  | a page for a browser            | typhon/tools/page        |
+  | Python, MQTT, ROS, FIPA         | typhon/bridges           |
 */
 
-%   Arithmetic is compiled in all rooms; what they tell by debug/3 stays. From 9.2
-%   on it is library(debug) that has the flag.
+%   Arithmetic is compiled in all modules; debug/3 is kept. From 9.2 on
+%   library(debug) defines the flag.
 
 :- use_module(library(debug), []).
 :- set_prolog_flag(optimise, true).

@@ -5,11 +5,11 @@
     :- use_module(library(typhon/fipa)).
 
 The whole interface is fipa_start/3, fipa_stop/1 and fipa_property/2; what
-agents say and hear is told in [bridges-fipa.md].  Only the first two are
+agents send and receive is described in [bridges-fipa.md].  Only the first two are
 part of library(typhon).  It needs nothing but Prolog.  Nothing is defined here: see
-the rooms in fipa/.
+the modules in bridges/fipa/.
 
-  | starting and stopping                  | typhon/bridge/starting        |
+  | starting and stopping                  | common/starting               |
   | hosts as platforms                     | service, platform             |
   | messages in and out, failures          | exchange, incoming            |
   | HTTP: in, out, and its text            | reception, carriage, http     |

@@ -6,13 +6,13 @@
 
 The whole interface to NXT bricks with LEGO's firmware, on a serial line
 (Bluetooth) or TCP.  It is not part of library(typhon), and needs Python 3
-with pyserial.  Nothing is defined here: see the rooms in nxt/.
+with pyserial.  Nothing is defined here: see the modules in bridges/nxt/.
 
-  | connection, sounds, display | typhon/nxt/brick       |
-  | motors                      | typhon/nxt/motors      |
-  | sensors                     | typhon/nxt/sensors     |
-  | files and programs          | typhon/nxt/files       |
-  | the names of SWI-PRO-NXT    | typhon/nxt/swi_pro_nxt |
+  | connection, sounds, display | typhon/bridges/nxt/brick       |
+  | motors                      | typhon/bridges/nxt/motors      |
+  | sensors                     | typhon/bridges/nxt/sensors     |
+  | files and programs          | typhon/bridges/nxt/files       |
+  | the names of SWI-PRO-NXT    | typhon/bridges/nxt/swi_pro_nxt |
 */
 
 :- use_module(kernel/base/user_errors, [user_errors/1]).

@@ -6,15 +6,15 @@
 
 Hosts with ROS 2, as a node of it or through a rosbridge server; agents
 that stand there publish, subscribe, call, offer services and send goals.  It
-is not part of library(typhon).  Nothing is defined here: see the rooms in
-ros/.
+is not part of library(typhon).  Nothing is defined here: see the modules in
+bridges/ros/.
 
-  | start, stop, properties | typhon/bridge/starting |
-  | topics                  | typhon/ros/topics      |
-  | services                | typhon/ros/calls       |
-  | actions                 | typhon/ros/actions     |
-  | parameters              | typhon/ros/parameters  |
-  | messages as terms       | typhon/ros/values      |
+  | start, stop, properties | typhon/bridges/common/starting |
+  | topics                  | typhon/bridges/ros/topics      |
+  | services                | typhon/bridges/ros/calls       |
+  | actions                 | typhon/bridges/ros/actions     |
+  | parameters              | typhon/bridges/ros/parameters  |
+  | messages as terms       | typhon/bridges/ros/values      |
 */
 
 :- use_module(kernel/base/user_errors, [user_errors/1]).

@@ -183,7 +183,7 @@ here("/tmp/", Text, Dir) :-
     format(string(Text), "~w/", [Dir]).
 here("/dev/rfcomm0", Text, Dir) :-
     format(string(Text), "~w/lizzy", [Dir]).
-here("doc/img/rooms.svg", "rooms.svg", _).
+here("doc/img/layers.svg", "layers.svg", _).
 here("agents/visitor.pl", "visitor.pl", _).
 here("payloads/repair.pl", "repair.pl", _).
 here(" DIR", " journal", _).

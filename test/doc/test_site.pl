@@ -218,7 +218,7 @@ test(words_of_programs_lead_to_the_reference) :-
 test(pictures_and_programs_come_along, Missing == []) :-
     site(Dir),
     findall(Name,
-            ( member(Name, [ 'img/rooms.svg', 'img/synchronisation.png',
+            ( member(Name, [ 'img/layers.svg', 'img/synchronisation.png',
                              'source-bench-traveller.pl.html' ]),
               directory_file_path(Dir, Name, File),
               \+ exists_file(File) ),

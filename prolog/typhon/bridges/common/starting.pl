@@ -260,10 +260,11 @@ properties_at(remote(_, Name, _), Wanted, Host, Properties) :-
     remote(Host, typhon_starting:properties_at(local(Name), Wanted, Name,
                                                Properties)).
 
-:- dynamic folder/1.                    % where the bridges are
+:- dynamic folder/1.                    % of the bridges' interfaces
 
 :- prolog_load_context(directory, Dir),
-   file_directory_name(Dir, Typhon),
+   file_directory_name(Dir, Bridges),
+   file_directory_name(Bridges, Typhon),
    retractall(folder(_)),
    assertz(folder(Typhon)).
 

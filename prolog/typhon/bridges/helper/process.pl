@@ -33,7 +33,7 @@ owner.  process_kill_of/1 may be called by any thread.
     bridges/1.                  % Directory
 
 :- prolog_load_context(directory, Dir),
-   absolute_file_name('../../../bridges', Bridges, [relative_to(Dir)]),
+   absolute_file_name('../../../../bridges', Bridges, [relative_to(Dir)]),
    retractall(bridges(_)),
    assertz(bridges(Bridges)).
 

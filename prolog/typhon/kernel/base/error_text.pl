@@ -30,7 +30,7 @@ an error, and a large term is not written.
 :- dynamic library/1.
 
 :- prolog_load_context(directory, Dir),
-   absolute_file_name('../../..', Root,
+   absolute_file_name('../../../..', Root,
                       [relative_to(Dir), file_type(directory)]),
    retractall(library(_)),
    assertz(library(Root)).

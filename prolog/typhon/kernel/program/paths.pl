@@ -22,10 +22,10 @@ of an installed pack, `library` leads to the one that is loaded.
 
 :- dynamic root/1.
 
-%   The pack is three folders up, whatever these are called.
+%   The pack is four folders up, whatever these are called.
 
 :- prolog_load_context(directory, Dir),
-   absolute_file_name('../../..', Root,
+   absolute_file_name('../../../..', Root,
                       [relative_to(Dir), file_type(directory)]),
    retractall(root(_)),
    assertz(root(Root)).
@@ -44,8 +44,8 @@ user:file_search_path(payloads, Dir) :-
 %   import it must find the one that is loaded.
 
 :- prolog_load_context(directory, Dir),
-   file_directory_name(Dir, Typhon),
-   file_directory_name(Typhon, Prolog),
+   absolute_file_name('../../..', Prolog,
+                      [relative_to(Dir), file_type(directory)]),
    (   absolute_file_name(library(typhon), File,
                           [ file_type(prolog), access(read),
                             file_errors(fail) ]),

@@ -76,7 +76,7 @@ declaring(Files, File) :-
     absolute_file_name(Given, File).
 declaring(_, File) :-
     module_property(typhon_page_overlays, file(Here)),
-    absolute_file_name('../../../agents', Folder, [relative_to(Here)]),
+    absolute_file_name('../../../../agents', Folder, [relative_to(Here)]),
     directory_member(Folder, File, [extensions([pl]), recursive(true)]).
 
 overlays_in(File, Overlays) :-

@@ -1,4 +1,4 @@
-:- module(rooms_check,
+:- module(layers_check,
           [ problem/1,          % -Problem
             report/1            % +Problem
           ]).
@@ -24,29 +24,29 @@ problem(unused_import(File, Target, PI)) :-
     imported_as(Import, PI, Name),
     \+ mentions_too(File, Name).
 problem(unused_export(File, PI)) :-
-    room(File, _, _),
+    layer_module(File, _, _),
     export(File, PI),
     \+ used(File, PI).
-problem(unused_at_door(Door, PI)) :-
-    door(Door, _),
-    \+ face(Door),
-    reexport(Door, Room, List),
-    offered(Room, List, PI),
-    \+ used(Door, PI).
+problem(unused_at_interface(Interface, PI)) :-
+    interface(Interface, _),
+    \+ face(Interface),
+    reexport(Interface, Module, List),
+    offered(Module, List, PI),
+    \+ used(Interface, PI).
 problem(against_layers(File, Target)) :-
-    room(File, Layer, _),
+    layer_module(File, Layer, _),
     ( import(File, Target, _) ; reexport(File, Target, _) ),
     \+ may_import(Layer, Target).
-problem(past_door(File, Module, PI)) :-
+problem(past_interface(File, Module, PI)) :-
     reaches(File, Module, PI),
     PI \= _/0,                          % settings are named like this
-    room(File, _, _),
+    layer_module(File, _, _),
     \+ module_of(File, Module),
-    module_of(Room, Module),
-    room(Room, _, _),
-    \+ hook(Room, PI).
+    module_of(Module, Module),
+    layer_module(Module, _, _),
+    \+ hook(Module, PI).
 problem(circle(File)) :-
-    room(File, _, _),
+    layer_module(File, _, _),
     reaches_by_import(File, File).
 problem(Problem) :-
     seam_problem(Problem).
@@ -65,7 +65,7 @@ imported_as((PI as New), PI, New) :- !.
 imported_as(Name/Arity, Name/Arity, Name).
 imported_as(Name//Arity, Name//Arity, Name).
 
-%   used(+File, +PI): somebody who imports File mentions it, or it is
+%   used(+File, +PI): a module that imports File mentions it, or it is
 %   offered on. What only its own tests use is not used.
 
 used(File, _) :-
@@ -101,8 +101,8 @@ used(File, Name/_) :-                   % started from a shell
 used_at(Face, _) :-
     face(Face),
     !.
-used_at(Door, PI) :-
-    used(Door, PI).
+used_at(Interface, PI) :-
+    used(Interface, PI).
 
 is_test(File) :-
     inside('test/', Tests),
@@ -119,22 +119,22 @@ may_import(_, Target) :-
     \+ module_of(Target, _),
     !.
 may_import(Layer, Target) :-
-    room(Target, Layer, _),
+    layer_module(Target, Layer, _),
     !.
 may_import(_, Target) :-
-    room(Target, base, _),
+    layer_module(Target, 'kernel/base', _),
     !.
 may_import(Layer, Target) :-
-    door(Target, Lower),
+    interface(Target, Lower),
     layers(Layers),
     nth1(L, Layers, Lower),
     nth1(H, Layers, Layer),
     L < H.
 
-%   A hook is declared multifile by the room that calls it.
+%   A hook is declared multifile by the module that calls it.
 
-hook(Room, Name/Arity) :-
-    read_file_to_string(Room, Text, []),
+hook(Module, Name/Arity) :-
+    read_file_to_string(Module, Text, []),
     format(string(Declared), "~w/~w", [Name, Arity]),
     once(sub_string(Text, M, _, _, "multifile")),
     sub_string(Text, B, _, _, Declared),
@@ -145,17 +145,17 @@ reaches_by_import(From, To) :-
     reaches_by_import(From, To, [From]).
 
 reaches_by_import(From, To, _) :-
-    next_room(From, To).
+    next_module(From, To).
 reaches_by_import(From, To, Seen) :-
-    next_room(From, Next),
+    next_module(From, Next),
     Next \== To,
     \+ memberchk(Next, Seen),
     reaches_by_import(Next, To, [Next|Seen]).
 
-next_room(From, To) :-
-    room(From, Layer, _),
+next_module(From, To) :-
+    layer_module(From, Layer, _),
     import(From, To, _),
-    room(To, Layer, _).
+    layer_module(To, Layer, _).
 
 report(Problem) :-
     says(Problem, Format, Args0),
@@ -165,10 +165,10 @@ report(Problem) :-
 
 says(unused_import(F, T, PI), '~w: ~w of ~w is imported, and not used',
      [F, PI, T]).
-says(unused_export(F, PI), '~w: nobody uses its export ~w', [F, PI]).
-says(unused_at_door(F, PI), '~w: nobody takes ~w from this door', [F, PI]).
+says(unused_export(F, PI), '~w: no module uses its export ~w', [F, PI]).
+says(unused_at_interface(F, PI), '~w: no module imports ~w from this interface', [F, PI]).
 says(against_layers(F, T), '~w: imports ~w, against the layers', [F, T]).
-says(past_door(F, M, PI), '~w: reaches for ~w of ~w past the door',
+says(past_interface(F, M, PI), '~w: calls ~w of ~w, which is internal',
      [F, PI, M]).
 says(circle(F), '~w: imports itself, in a circle', [F]).
 says(breaks_rule(F, H), '~w: defines ~w of a higher layer', [F, H]) :-
@@ -176,7 +176,7 @@ says(breaks_rule(F, H), '~w: defines ~w of a higher layer', [F, H]) :-
 says(breaks_rule(F, O), '~w: names the option ~w: use a hook', [F, O]) :-
     atom(O).
 says(exception_not_needed(F, W),
-     '~w: the exception ~w is not needed: run doc/rooms.pl -- exceptions',
+     '~w: the exception ~w is not needed: run doc/layers.pl -- exceptions',
      [F, W]).
 says(hook_not_declared(F, H), '~w: defines ~w, which its module does not \c
      declare multifile', [F, H]).

@@ -1,4 +1,4 @@
-:- module(rooms_figures, [figures/0]).
+:- module(layers_figures, [figures/0]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
@@ -33,7 +33,7 @@ budget('lines of prolog/, all languages', Count, 56 000) :-
 budget('files of prolog/, all languages', Count, 310) :-
     aggregate_all(count, product_file(_), Count).
 budget('files of wire/', Count, 16) :-
-    aggregate_all(count, room(_, wire, _), Count).
+    aggregate_all(count, layer_module(_, 'kernel/wire', _), Count).
 budget('suites that import internal modules', Count, 5) :-
     aggregate_all(count, imports_internals(_), Count).
 budget('sleep( in tests', Count, 20) :-
@@ -55,7 +55,7 @@ imports_internals(Suite) :-
     atom_concat(Tests, _, Suite),
     file_base_name(Suite, Base),
     atom_concat(test_, _, Base),
-    once(( import(Suite, File, _), room(File, _, _) )).
+    once(( import(Suite, File, _), layer_module(File, _, _) )).
 
 occurrences(File, Text, N) :-
     read_file_to_string(File, String, []),
@@ -69,14 +69,14 @@ figures(Top) :-
     length(All, Count),
     findall(N, ( tree_file(File), atom_concat(Start, _, File),
                  file_lines(File, N) ), Files),
-    length(Files, Rooms),
+    length(Files, Modules),
     sum(Files, Total),
     quantile(0.5, All, Count, Median),
     quantile(0.9, All, Count, Most),
     quantile(1, All, Count, Longest),
     format('~w~t~16|~d files ~D lines ~D predicates; lines of each: \c
             median ~d, 90 % ~d, longest ~d~n',
-           [Top, Rooms, Total, Count, Median, Most, Longest]).
+           [Top, Modules, Total, Count, Median, Most, Longest]).
 
 predicate_lines(Start, Lines) :-
     aggregate_all(bag(File-PI), ( size(File, PI, _, _),

@@ -1,22 +1,22 @@
-:- module(rooms, []).
+:- module(layers, []).
 
-/** <module> The house, looked at as a whole
+/** <module> Checks, picture and figures of the layers
 
-    swipl doc/rooms.pl -- check
-    swipl doc/rooms.pl -- picture | tred | dot -Tsvg > doc/img/rooms.svg
-    swipl doc/rooms.pl -- figures
-    swipl doc/rooms.pl -- exceptions
+    swipl doc/layers.pl -- check
+    swipl doc/layers.pl -- picture | tred | dot -Tsvg > doc/img/layers.svg
+    swipl doc/layers.pl -- figures
+    swipl doc/layers.pl -- exceptions
 
 `check` says what is not in order, and fails if anything is:
 
   - an import that is not used, in any file of the tree;
-  - an export of a room, or of a door, that nobody uses;
-  - an import against the layers: a room takes from its own folder, from
-    base, and from the doors of lower layers;
-  - a call past a door: Module:Goal into another room;
-  - rooms that import each other in a circle;
+  - an export of a module or of an interface that no module uses;
+  - an import against the layers: a module imports from its own folder,
+    from kernel/base, and from the interfaces of lower layers;
+  - a call Module:Goal of a predicate that Module does not export;
+  - modules that import each other in a circle;
   - a file of the kernel that names an option, and is not in the list of
-    exceptions, doc/rooms/exceptions.pl, which may only shrink
+    exceptions, doc/layers/exceptions.pl, which may only shrink
     (`exceptions` rewrites it without those that are no longer needed);
   - a hook that its module does not declare, or that no module defines.
 
@@ -29,11 +29,11 @@ prints what the kernel and the tests hold beside the most that is wanted.
 
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).
-:- use_module(rooms/check).
-:- use_module(rooms/figures).
-:- use_module(rooms/picture).
-:- use_module(rooms/seams, [shrink_exceptions/0]).
-:- use_module(rooms/tree, [read_tree/0]).
+:- use_module(layers/check).
+:- use_module(layers/figures).
+:- use_module(layers/picture).
+:- use_module(layers/seams, [shrink_exceptions/0]).
+:- use_module(layers/tree, [read_tree/0]).
 
 :- initialization(main, main).
 

@@ -1,4 +1,4 @@
-:- module(rooms_tree,
+:- module(layers_tree,
           [ read_tree/0,
             tree_file/1,        % -File
             module_of/2,        % ?File, ?Module
@@ -13,9 +13,9 @@
             nodes/2,            % ?File, ?Count
             inside/2,           % ?Relative, ?File
             layers/1,           % -Layers
-            room/3,             % ?File, ?Layer, ?Name
-            door/2,             % ?File, ?Layer
-            offered/3           % +Room, +List, ?PI
+            layer_module/3,             % ?File, ?Layer, ?Name
+            interface/2,             % ?File, ?Layer
+            offered/3           % +Module, +List, ?PI
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(prolog_code), [comma_list/2]).
@@ -194,44 +194,62 @@ reach(Part, Module, Name/Arity) :-
     functor(Goal, Name, Arity).
 
                 /*******************************
-                *       ROOMS AND DOORS        *
+                *     LAYERS AND INTERFACES     *
                 *******************************/
 
 %!  layers(-Layers)
 %
-%   From below: who stands higher imports from who stands lower.
+%   The folders below prolog/typhon that are layers, the lowest first: a layer
+%   imports from layers before it.
 
-layers([ base, helper, nxt, program, journal, wire, host, agent, travel,
-         lifecycle, language, network, watching, people, bridge, python, mqtt,
-         fipa, ros, page ]).
+layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
+         'options/journal', 'kernel/wire', 'kernel/host', 'kernel/agent',
+         'kernel/travel', 'kernel/lifecycle', 'kernel/vocabulary', network,
+         'options/watch', tools, 'bridges/common', 'bridges/python',
+         'bridges/mqtt', 'bridges/fipa', 'bridges/ros', 'tools/page' ]).
 
-%!  room(?File, ?Layer, ?Name) is nondet.
-%!  door(?File, ?Layer) is nondet.
+%!  layer_module(?File, ?Layer, ?Name) is nondet.
+%!  interface(?File, ?Layer) is nondet.
+%
+%   File is a module inside the folder of Layer; is the interface of Layer,
+%   which stands beside the folder, or in prolog/typhon if programs of users
+%   import it.
 
-room(File, Layer, Name) :-
+layer_module(File, Layer, Name) :-
     module_of(File, _),
-    inside('prolog/typhon/', House),
-    atom_concat(House, Relative, File),
-    atomic_list_concat([Layer, Base], /, Relative),
-    file_name_extension(Name, pl, Base).
+    inside('prolog/typhon/', Prefix),
+    atom_concat(Prefix, Relative, File),
+    file_directory_name(Relative, Layer),
+    Layer \== '.',
+    is_layer(Layer),
+    file_base_name(Relative, Base),
+    file_name_extension(Name, pl, Base),
+    \+ interface(File, _).
 
-door(File, Layer) :-
-    layers(Layers),
-    member(Layer, Layers),
-    format(atom(Relative), 'prolog/typhon/~w.pl', [Layer]),
+interface(File, Layer) :-
+    is_layer(Layer),
+    (   Path = Layer
+    ;   file_base_name(Layer, Path),
+        Path \== Layer
+    ),
+    format(atom(Relative), 'prolog/typhon/~w.pl', [Path]),
     inside(Relative, File).
 
-%!  offered(+Room, +List, ?PI) is nondet.
-%
-%   Who takes List, `all` or except(Others) from Room can take PI.
+is_layer(Layer) :-
+    layers(Layers),
+    member(Layer, Layers).
 
-offered(Room, all, PI) :-
-    export(Room, PI).
-offered(Room, all, PI) :-
-    reexport(Room, Deeper, List),
+%!  offered(+Module, +List, ?PI) is nondet.
+%
+%   PI is imported from Module by an import of List, `all` or except(Others).
+
+offered(Module, all, PI) :-
+    export(Module, PI).
+offered(Module, all, PI) :-
+    reexport(Module, Deeper, List),
     offered(Deeper, List, PI).
-offered(Room, except(Others), PI) :-
-    offered(Room, all, PI),
+offered(Module, except(Others), PI) :-
+    offered(Module, all, PI),
     \+ memberchk(PI, Others).
 offered(_, List, PI) :-
     is_list(List),

@@ -1,4 +1,4 @@
-:- module(rooms_seams,
+:- module(layers_seams,
           [ seam_problem/1,     % -Problem
             exception/2,        % ?File, ?What
             kernel_file/1,      % ?File
@@ -42,9 +42,8 @@ option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
 
 %!  option_file(?Option, ?Relative) is nondet.
 %
-%   The files of an option, until each has a folder below options/.
+%   The files of an option that is not yet a folder of its own below options/.
 
-option_file(journal, 'journal/*').
 option_file(journal, 'agent/in_journal.pl').
 option_file(journal, 'lifecycle/recovery.pl').
 option_file(journal, 'lifecycle/journaled_turns.pl').
@@ -63,7 +62,7 @@ option_file(identity, 'agent/owner.pl').
 option_file(identity, 'agent/birth.pl').
 option_file(identity, 'agent/signed_payloads.pl').
 option_file(identity, 'host/authors.pl').
-option_file(identity, 'language/seals.pl').
+option_file(identity, 'vocabulary/seals.pl').
 option_file(trail, 'agent/trail.pl').
 option_file(trail, 'agent/trail_verified.pl').
 option_file(trail, 'agent/chain.pl').
@@ -77,7 +76,7 @@ option_file(guard, 'program/guard_calls.pl').
 option_file(guard, 'program/guarded_code.pl').
 option_file(guard, 'program/refusing.pl').
 option_file(guard, 'host/front.pl').
-option_file(guard, 'language/guarded.pl').
+option_file(guard, 'vocabulary/guarded.pl').
 option_file(quotas, 'host/quotas.pl').
 option_file(quotas, 'host/spending.pl').
 option_file(quotas, 'host/leavings.pl').
@@ -90,7 +89,6 @@ option_file(access, 'host/permits.pl').
 option_file(virtual, 'host/virtual.pl').
 option_file(virtual, 'host/virtual_loop.pl').
 option_file(virtual, 'host/virtual_standing.pl').
-option_file(watch, 'watching/*').
 option_file(trace, 'agent/traces.pl').
 option_file(trace, 'lifecycle/tracing.pl').
 option_file(trace, 'lifecycle/traced.pl').
@@ -98,18 +96,17 @@ option_file(trace, 'lifecycle/stepping.pl').
 option_file(trace, 'lifecycle/on_hold.pl').
 option_file(trace, 'lifecycle/spying.pl').
 
-kernel_layer(Layer) :-
-    member(Layer, [base, program, wire, host, agent, travel, lifecycle,
-                   language]).
-
 %!  kernel_file(?File) is nondet.
 %
-%   File is of the kernel: in one of its folders, and of no option.
+%   File is of the kernel, and of no option.
 
 kernel_file(File) :-
-    room(File, Layer, _),
-    kernel_layer(Layer),
+    in_kernel(File),
     \+ own_option(File, _).
+
+in_kernel(File) :-
+    layer_module(File, Layer, _),
+    sub_atom(Layer, 0, _, _, 'kernel/').
 
 %!  seam_problem(-Problem) is nondet.
 
@@ -123,13 +120,13 @@ seam_problem(hook_not_declared(File, Hook)) :-
     defines(File, Hook),
     Hook = Module:_,
     module_of(Owner, Module),
-    room(Owner, _, _),
+    layer_module(Owner, _, _),
     \+ declares(Owner, Hook).
 seam_problem(hook_without_definition(File, Hook)) :-
     declares(File, Hook),
     Hook = Module:PI,
     module_of(File, Module),
-    room(File, _, _),
+    layer_module(File, _, _),
     \+ defines(_, Hook),
     \+ defines_own(File, PI),
     \+ ( mentions(Test, Module), is_test(Test) ).
@@ -145,8 +142,8 @@ breaks_rule(File, Hook) :-
     defines(File, Hook),
     Hook = Module:_,
     module_of(Owner, Module),
-    room(Owner, Layer, _),
-    room(File, Definer, _),
+    layer_module(Owner, Layer, _),
+    layer_module(File, Definer, _),
     \+ not_above(Layer, Definer).
 
 defines_own(File, PI) :-
@@ -156,7 +153,7 @@ is_test(File) :-
     inside('test/', Tests),
     atom_concat(Tests, _, File).
 
-not_above(base, _) :-
+not_above('kernel/base', _) :-
     !.
 not_above(Layer, Definer) :-
     layers(Layers),
@@ -168,8 +165,7 @@ not_above(Layer, Definer) :-
                 *******************************/
 
 names_option(File, Option) :-
-    room(File, Layer, _),
-    kernel_layer(Layer),
+    in_kernel(File),
     own_options(File, Own),
     option_words(Option, Words),
     \+ memberchk(Option, Own),
@@ -185,13 +181,9 @@ own_options(File, Options) :-
     findall(Option, own_option(File, Option), Options).
 
 own_option(File, Option) :-
-    inside('prolog/typhon/', House),
-    atom_concat(House, Relative, File),
-    (   option_file(Option, Relative)
-    ;   option_file(Option, Pattern),
-        atom_concat(Folder, '*', Pattern),
-        atom_concat(Folder, _, Relative)
-    ).
+    inside('prolog/typhon/kernel/', Prefix),
+    atom_concat(Prefix, Relative, File),
+    option_file(Option, Relative).
 
                 /*******************************
                 *           EXCEPTIONS         *
@@ -216,7 +208,7 @@ exceptions_read(Exceptions) :-
     assertz(exceptions(Exceptions)).
 
 exceptions_file(File) :-
-    inside('doc/rooms/exceptions.pl', File).
+    inside('doc/layers/exceptions.pl', File).
 
 %!  shrink_exceptions is det.
 %
