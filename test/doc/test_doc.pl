@@ -317,4 +317,43 @@ test(every_export_has_a_comment_with_modes, Missing == []) :-
             ( undocumented(File, PI), file_base_name(File, Base) ),
             Missing).
 
+% In architecture.md a code span `file.pl` or `file.pl:name/arity` that begins
+% with the name of a folder is a file below prolog/typhon, and a predicate that
+% is defined there.
+
+test(architecture_refers_to_files_and_predicates_that_exist,
+     Missing == []) :-
+    project_file('doc/architecture.md', Document),
+    read_file_to_string(Document, Text, [encoding(utf8)]),
+    split_string(Text, "`", "", Spans),
+    findall(Span, ( member(Span, Spans), source_reference(Span, _, _) ), Found),
+    Found = [_,_,_,_,_|_],
+    findall(Span, ( member(Span, Found), \+ reference_holds(Span) ), Missing).
+
+source_reference(Span, Path, PI) :-
+    split_string(Span, ":", "", [Path|PIs]),
+    file_name_extension(_, pl, Path),
+    string_concat("kernel/", _, Path),
+    (   PIs = [Text]
+    ->  split_string(Text, "/", "", [Name0,Arity0]),
+        atom_string(Name, Name0),
+        number_string(Arity, Arity0),
+        PI = Name/Arity
+    ;   PIs == [],
+        PI = none
+    ).
+
+reference_holds(Span) :-
+    source_reference(Span, Path, PI),
+    format(atom(Relative), 'prolog/typhon/~w', [Path]),
+    project_file(Relative, File),
+    exists_file(File),
+    (   PI = Name/Arity
+    ->  module_property(Module, file(File)),
+        functor(Head, Name, Arity),
+        predicate_property(Module:Head, defined),
+        \+ predicate_property(Module:Head, imported_from(_))
+    ;   true
+    ).
+
 :- end_tests(documentation).
