@@ -52,6 +52,7 @@ longest([ chaos, wire, doc, hop, sync_network, auction_network, cluster,
 %   attackers that have nothing of it but the wire.
 
 plain(pack).
+plain(shell).
 plain(site).
 plain(voice).
 plain(locale).

@@ -4,30 +4,24 @@
 %
 % Commands are the lines of indented blocks that begin with a program, and
 % what stands after `$ ` there. Those of one document run in turn, in one
-% directory that looks like the root of the project, with names of this
-% machine in place of those in the document (here/3). How each is run follows
-% from how/2: some serve until the document ends, make only expands its
-% recipe, and a study lists its runs and makes none. What needs a machine that
-% the suite does not have is in elsewhere/1.
-%
-% It takes minutes, and runs when asked to:
-%
-%     TYPHON_COMMANDS=1 swipl test/run.pl -- shell
+% copy of the tree, with names of this machine in place of those in the document
+% (names/2). How each is run follows from how/2: some serve until the document
+% ends, and what takes long is asked what it would do (long/2). What needs a
+% machine that the suite does not have is in elsewhere/1.
 
 :- use_module('../lib/common').
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex),
-              [ copy_file/2, directory_file_path/3, link_file/3,
-                make_directory_path/1 ]).
-:- use_module(library(lists), [member/2]).
+              [ copy_file/2, directory_file_path/3, make_directory_path/1 ]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(process),
               [process_create/3, process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 
-:- needs([python3]).
+:- needs([core, journal, openssl, 'page-tools']).
 
 document(File) :-
     member(Pattern, ['README.md', 'doc/*.md']),
@@ -147,14 +141,19 @@ how(Command, answers) :-
     sub_string(Command, _, _, _, " diagnose "),
     \+ sub_string(Command, _, _, _, " nxt "),
     !.
-how(Command, ends(" -n")) :-
-    string_concat("make ", _, Command),
-    !.
-how(Command, ends(" --list")) :-
-    sub_string(Command, _, _, _, "study.pl -- "),
+how(Command, ends(With)) :-
+    long(Part, With),
+    sub_string(Command, _, _, _, Part),
     \+ sub_string(Command, _, _, _, "--help"),
     !.
 how(_, ends("")).
+
+%   long(?Part, ?With): commands with Part may take minutes or hours (make thesis,
+%   demo, bench, chaos; all studies), and are not run: with the option With, make
+%   only prints its recipe, and a study its runs.
+
+long("make ", " -n").
+long("study.pl -- ", " --list").
 
 serving("typhon.pl host ").
 serving("typhon.pl network ").
@@ -172,38 +171,57 @@ elsewhere("pack_install").              % test_pack installs the pack
                 *     NAMES OF THIS MACHINE    *
                 *******************************/
 
-%   here(?Shown, -Text, +Dir): Text stands for Shown.
+%   names(+Dir, -Names): of pairs Shown-Text.
 
-here("10.0.0.5", "127.0.0.2", _).
-here("10.0.0.7", "127.0.0.3", _).
-here("9700", "19717", _).
-here("5001", "15017", _).
-here("/var/lib/typhon", Dir, Dir).
-here("/tmp/", Text, Dir) :-
-    format(string(Text), "~w/", [Dir]).
-here("/dev/rfcomm0", Text, Dir) :-
-    format(string(Text), "~w/lizzy", [Dir]).
-here("doc/img/layers.svg", "layers.svg", _).
-here("agents/visitor.pl", "visitor.pl", _).
-here("payloads/repair.pl", "repair.pl", _).
-here(" DIR", " journal", _).
-here("AGENT", Agent, Dir) :-
+names(Dir, [ "9700"-Port1, "5001"-Port2,
+             "/var/lib/typhon"-Dir, "/tmp"-Dir, "/dev/rfcomm0"-Lizzy
+           | Names ]) :-
+    free_port(Port1),
+    free_port(Port2),
+    directory_file_path(Dir, lizzy, Lizzy),
+    findall(Shown-Text, here(Shown, Text), Names).
+
+here("10.0.0.5", "127.0.0.2").
+here("10.0.0.7", "127.0.0.3").
+here("agents/visitor.pl", "visitor.pl").
+here("payloads/repair.pl", "repair.pl").
+here(" DIR", " journal").
+here("FILE", "extracted").
+here("swipl -g \"use_module(library(tartarus", "swipl -p library=prolog \c
+                                         -g \"use_module(library(tartarus").
+
+%   In place of the address of a host there stands that of the host of this name
+%   which a server has printed, and in place of AGENT an agent that it had.
+
+on_this_machine(Command0, Dir, Names, Command) :-
+    findall("AGENT"-Agent, agent_kept(Dir, Agent), Agents),
+    append(Agents, Names, All),
+    named_here(Command0, All, Command1),
+    findall(Address, served_address(Address), Addresses),
+    foldl(addressed, Addresses, Command1, Command).
+
+agent_kept(Dir, Agent) :-
     directory_file_path(Dir, agent, File),
     exists_file(File),
     read_file_to_string(File, Text, []),
     normalize_space(string(Agent), Text).
-here("FILE", "extracted", _).
-here("swipl -g \"use_module(library(tartarus", "swipl -p library=prolog \c
-                                         -g \"use_module(library(tartarus", _).
 
-%   In place of the address of a host there stands that of the host of this name
-%   which a server has printed.
+%   named_here(+Shown, +Names, -Text): in one pass, as one text may have the name
+%   of another in it.
 
-on_this_machine(Command0, Dir, Command) :-
-    findall(Shown-Text, here(Shown, Text, Dir), Pairs),
-    foldl(replaced, Pairs, Command0, Command1),
-    findall(Address, served_address(Address), Addresses),
-    foldl(addressed, Addresses, Command1, Command).
+named_here(Shown, Names, Text) :-
+    findall(Before-(Name-Here),
+            ( member(Name-Here, Names),
+              sub_string(Shown, Before, _, _, Name) ),
+            Found),
+    keysort(Found, [Before-(Name-Here)|_]),
+    !,
+    sub_string(Shown, 0, Before, _, Head),
+    string_concat(Head, Name, Begin),
+    string_concat(Begin, Rest, Shown),
+    named_here(Rest, Names, Tail),
+    format(string(Text), "~s~w~s", [Head, Here, Tail]).
+named_here(Text, _, Text).
 
 served_address(Address) :-
     server(_, File),
@@ -231,11 +249,6 @@ without_digits([Code|Codes], Rest) :-
     without_digits(Codes, Rest).
 without_digits(Rest, Rest).
 
-replaced(Shown-Text, String0, String) :-
-    atomic_list_concat(Parts, Shown, String0),
-    atomic_list_concat(Parts, Text, Atom),
-    atom_string(Atom, String).
-
                 /*******************************
                 *           RUNNING            *
                 *******************************/
@@ -245,18 +258,20 @@ replaced(Shown-Text, String0, String) :-
 run_document(File, Failed, Dir) :-
     commands(File, Commands),
     prepare(Dir),
-    setup_call_cleanup(
-        true,
+    names(Dir, Names),
+    call_cleanup(
         findall(Failure,
-                ( member(Command, Commands), failure(Command, Dir, Failure) ),
+                ( member(Command, Commands),
+                  failure(Command, Dir, Names, Failure) ),
                 Failed),
         end_servers).
 
-failure(Command0, Dir, failed(Command, Why)) :-
+failure(Command0, Dir, Names, failed(Command, Why)) :-
     how(Command0, How),
     How \== elsewhere,
+    journals_closed(Command0),
     needed_network(Command0, Dir),
-    on_this_machine(Command0, Dir, Command),
+    on_this_machine(Command0, Dir, Names, Command),
     run(How, Command, Dir, Why),
     Why \== none.
 
@@ -362,6 +377,14 @@ with_journal(Command, Dir, File) :-
     write_file(AgentFile, Id).
 with_journal(_, _, _).
 
+%   A process that runs has its journal for itself.
+
+journals_closed(Command) :-
+    sub_string(Command, _, _, _, "typhon.pl journal "),
+    !,
+    end_servers.
+journals_closed(_).
+
 needed_network(Command, Dir) :-
     sub_string(Command, _, _, _, "n1@127.0.0.1:"),
     \+ server(_, _),
@@ -382,16 +405,18 @@ end_servers :-
                 *             FILES            *
                 *******************************/
 
-%   Dir looks like the root of the project. In its bin are scp and ssh of which
-%   every target is the directory `there`, and the Python of the system.
+%   Dir is a copy of the tree: commands write into it. In its bin are scp and ssh
+%   of which every target is the directory `there`, and the Python of the system.
 
 prepare(Dir) :-
     project_file('.', Root),
     directory_files(Root, Entries),
-    forall(( member(Entry, Entries), \+ memberchk(Entry, [., .., '.git', out]) ),
-           ( directory_file_path(Root, Entry, Target),
-             directory_file_path(Dir, Entry, Link),
-             link_file(Target, Link, symbolic) )),
+    findall(Entry,
+            ( member(Entry, Entries),
+              \+ memberchk(Entry, [., .., '.git', out]) ),
+            Copied),
+    append([['-R'], Copied, [Dir]], Args),
+    process_create(path(cp), Args, [cwd(Root)]),
     forall(member(Name, [bin, there]),
            ( directory_file_path(Dir, Name, New),
              make_directory_path(New) )),
@@ -425,13 +450,17 @@ write_file(File, Text) :-
 :- begin_tests(shell).
 
 test(commands_run,
-     [ condition(getenv('TYPHON_COMMANDS', _)),
-       forall(document_with_commands(File)), Failed == [] ]) :-
+     [ forall(document_with_commands(File)), Failed == [] ]) :-
     with_tmp_dir(run_document(File, Failed)).
 
 document_with_commands(File) :-
     document(File),
     commands(File, [_|_]).
+
+test(names_in_one_pass, Text == "host --journal /tmp/9700/alpha --port 17") :-
+    named_here("host --journal /var/lib/typhon/alpha --port 9700",
+               ["9700"-17, "/var/lib/typhon"-"/tmp/9700", "/tmp"-"/tmp/9700"],
+               Text).
 
 test(commands_are_found, Commands == ["make a b", "cd x && swipl y"]) :-
     findall(Command,
