@@ -3,7 +3,7 @@
 /** <module> Networks
 
 Many hosts in one or more processes, their links, and their log.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(network/networks,

@@ -3,7 +3,7 @@
 /** <module> For people
 
 Tables, and the texts of errors and reports.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(tools/tables, [agents/0, hosts/0]).

@@ -4,7 +4,7 @@
 
 A bridge makes something outside, a broker or a middleware, a service of the
 place of a host: agents there find predicates, and what comes in reaches
-them as messages or as facts.  This is the door of the layer.  A bridge
+them as messages or as facts.  This is the interface of the layer.  A bridge
 `echo` in outline:
 
     % echo_start(Host, What, Options), see typhon_starting, comes here

@@ -3,7 +3,7 @@
 /** <module> What an agent is
 
 The records of the agents that stand in this process.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(agent/agents,

@@ -3,7 +3,7 @@
 /** <module> Hosts
 
 Places, clocks, threads for agents, and goals in the place of any host.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(host/hosts,

@@ -3,7 +3,7 @@
 /** <module> How agents live
 
 They are created, run from one effect to the next, take orders, and end.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(lifecycle/creation, [agent_create/2, agent_create/3]).

@@ -4,7 +4,7 @@
 
 Clause files are read, checked and installed here, and the machine runs
 what they say.  Nothing here knows of hosts or sockets.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- use_module(program/paths, []).

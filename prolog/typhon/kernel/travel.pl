@@ -3,7 +3,7 @@
 /** <module> How agents and their mail get about
 
 Transfers, which are transactions, and what is known of where agents went.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(travel/hop, [hop/6, hop_clone/6]).

@@ -4,7 +4,7 @@
 
 Processes that know the same cookie, and what they say to each other, once
 and in order.  Nothing here knows of agents.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(wire/endpoint,

@@ -48,7 +48,7 @@ network_advance(Network, Seconds) :-
 %
 %   Run Goal once when the clock of the hosts shows Time, or as soon as may
 %   be if that is past; never, if Network is stopped before. What Goal
-%   raises is told.
+%   raises is reported.
 %
 %   @error existence_error(network, Network), type_error(callable, Goal)
 
@@ -65,8 +65,8 @@ network_at(Network, Time, Goal) :-
 %!  appointments(+Network, -Due:list) is det.
 %!  appointments_again(+Network, +Due:list) is det.
 %
-%   What is still to be called: pairs N-Goal; their alarms, at(N), are the
-%   business of who calls this.
+%   What is still to be called: pairs N-Goal; their alarms, at(N), are set
+%   by the caller.
 
 appointments(Network, Due) :-
     findall(N-Goal, due(Network, N, Goal), Due).

@@ -33,7 +33,7 @@ What a network asks of whoever carries its hosts is done by direct call in
 its own process, and by request in a child. Whole lists go in one order: a
 network of a thousand hosts is a few requests.
 
-A child is started by the room `children` as `swipl -g carrier_main
+A child is started by the module `children` as `swipl -g carrier_main
 carrier.pl`. The first line of its standard input is node(Cookie, Interface,
 StopSeconds, Keys, Options). When the endpoint listens, and what is in its
 journal, if it has one, is there again, one line is written:
@@ -97,10 +97,10 @@ one for the order to stop: it sees to it that there is an end.
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.
 %     - hold(Seconds)
-%       Nobody gets a turn any more; `ok`, or `late`.
+%       No agent gets a turn any more; `ok`, or `late`.
 %     - rest(Seconds, Peers)
-%       Nobody runs or is under way any more, nor is anything for the endpoints
-%       Peers in anybody's hands; `ok`, or `late`.
+%       No agent runs or is under way any more, and nothing is queued for the
+%       endpoints Peers; `ok`, or `late`.
 %     - kept(Names)
 %       Answer is kept(Time, Specs, Items): what time knows of what comes next,
 %       the options of these hosts, Name-Options, and all else that the process
@@ -253,8 +253,8 @@ carrier_main :-
     serve,
     stop.
 
-%   Who has had the journal may be about to end, as the children of a process
-%   that has died do.
+%   The process that had the journal may be about to end, as the children of a
+%   process that has died do.
 
 begin(Interface, Seconds, Options) :-
     option(port(Port), Options, 0),
@@ -283,7 +283,7 @@ with_keys(none).
 with_keys(keys(Directory)) :-
     setenv('TYPHON_TLS', Directory).
 
-%   This room knows only what it needs: agents need the rest.
+%   This module loads only what it needs: agents need the rest.
 
 load_platform :-
     (   exists_source(library(typhon))
@@ -359,8 +359,8 @@ raised(Error, raised(Formal, Text)) :-
     ;   Formal = system_error(Text)
     ).
 
-%   Whose parent has died ends at the same time as its siblings: nobody is to
-%   find out that one of them was quicker.
+%   Children whose parent has died end at the same time: no agent is to find
+%   that one of them was quicker.
 
 hold :-
     (   journal_guards

@@ -25,14 +25,14 @@
 :- use_module(carrier, [order_do/2]).
 :- use_module(waiting, [deadline/2, message_before/3]).
 
-/** <module> Who carries a network, and orders to them
+/** <module> The processes of a network, and orders to them
 
 The carriers of a network are numbered from 1. Either there is one, this
-process, or each is a child. Orders (see room `carrier`) are done here in the
+process, or each is a child. Orders (see module `carrier`) are done here in the
 first case and go over the wire in the second.
 
-*Threading*: any thread may give orders. That a carrier is down is told by
-the thread that follows it: as a fact, and to those who wait for an answer.
+*Threading*: any thread may give orders. The thread that follows a
+carrier reports that it is down: as a fact, and to callers that wait for an answer.
 */
 
 :- multifile
@@ -197,7 +197,7 @@ carriers_peers(Network, Peers) :-
 
 %!  unwatched(+Ps) is det.
 %
-%   For those who do not watch.
+%   Without a watch.
 
 unwatched(_).
 
@@ -212,7 +212,7 @@ send(Network, P, Order, Queue) :-
 answered(Queue, P, Result) :-
     catch(thread_send_message(Queue, P-Result),
           error(existence_error(_, _), _),
-          true).                % nobody waits any more
+          true).                % no caller waits any more
 
 answers([], _, _, _, []) :-
     !.

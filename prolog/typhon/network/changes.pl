@@ -13,7 +13,7 @@
 
 /** <module> Links change when their time has come
 
-The decisions of room `dynamics` are pure: the times of a run differ, in
+The decisions of module `dynamics` are pure: the times of a run differ, in
 real time, only by how late the thread is that applies them.
 
 The next event, and the state after it, is the one message of a queue: a term
@@ -77,8 +77,8 @@ next(Dynamics, State0) :-
 %!  dynamics_kept(+Dynamics, +Seconds, -Then) is semidet.
 %!  dynamics_again(+Name, +Then, +Clock, :OnChange, -Dynamics) is det.
 %
-%   What comes next, or `none`: it does so when the alarm goes off, which is the
-%   business of who calls this.  Fails if changes are made just now, for longer
+%   What comes next, or `none`: it does so when the alarm goes off, which the
+%   caller sets.  Fails if changes are made just now, for longer
 %   than Seconds.  Dynamics has that Name, if it is free.
 
 dynamics_kept(Dynamics, Seconds, Then) :-

@@ -22,18 +22,18 @@
 
 /** <module> Processes that carry the hosts of a network
 
-A child runs carrier.pl, on this machine or through ssh on another. It is told
+A child runs carrier.pl, on this machine or through ssh on another. It gets
 what it must know in one line on its standard input, the cookie among it,
 which therefore is in no argument list and no environment of ssh. It says
 in one line on its standard output where its endpoint listens. Whatever it
-prints later is printed here, see room `voice`. One that cannot begin says
+prints later is printed here, see module `voice`. One that cannot begin says
 why in such a line, and ends.
 
 Its standard input stays open as long as it is wanted. The end of it is
 the order to stop, and it comes by itself when this process dies.
 
 Children are leaders of sessions of their own: the interrupt key of a
-terminal stops the query of the person who sits there, not the network.
+terminal stops the query there, not the network.
 
 *Threading*: one thread per child reads its output and waits for its end.
 It calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, Pid
@@ -99,7 +99,7 @@ child_start(Tag, Machine, Interface, Options, OnEvent,
           error(io_error(_, _), _),
           true).                % it has ended already: down(Tag, _) follows
 
-%   Who has TLS is understood only by who has it, too.
+%   A process with TLS can talk only to others with TLS.
 
 keys(Keys) :-
     (   endpoint_keys(Directory)

@@ -51,7 +51,7 @@ The decisions are pure: a state is a term, and the sequence of events
 follows from the seed. The times of a run differ only by how late the
 thread that applies the events is.
 
-*Threading*: pure; who carries events out is room `changes`.
+*Threading*: pure; module `changes` carries events out.
 */
 
                 /*******************************

@@ -16,7 +16,7 @@
 
 /** <module> What a network has beside hosts and links
 
-The endpoint of this process, as one of those who need it; a log server; what
+The endpoint of this process, as one of its users; a log server; what
 changes its links.
 
 *Threading*: the thread that starts or stops the network.

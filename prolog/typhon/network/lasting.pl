@@ -23,7 +23,7 @@ Each process of a network with a journal has one of its own: this process, if
 it carries the hosts, or its children.  What is there is there again before
 anything of it goes on: then all find each other.
 
-*Threading*: the thread that starts or stops the network, and that of room
+*Threading*: the thread that starts or stops the network, and that of module
 `restarts`.
 */
 

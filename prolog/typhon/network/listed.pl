@@ -94,7 +94,7 @@ listed_costs(Names, List, Costs) :-
 
 %!  number_name(+Number, -Name) is det.
 %
-%   The name of the host of that Number, where nobody has named it.
+%   The name of the host of that Number, if it was not named.
 
 number_name(I, Name) :-
     atom_concat(n, I, Name).

@@ -23,7 +23,7 @@
 /** <module> Networks out of restore points
 
 Hosts are started as they were at the end, and filled, while time does not run
-yet.  Nobody hears that what was there before has begun.
+yet.  No event reports that what was there before has begun.
 
 *Threading*: as network_start/3.
 */

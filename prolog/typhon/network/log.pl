@@ -22,14 +22,14 @@
 A log server is a host that takes no part: it has an address, and hosts
 post events there without waiting. It stamps each with the time of its
 arrival, in host seconds of the clock that it was given, and writes it to a
-file, see room `log_file`.
+file, see module `log_file`.
 
 What hosts post is event(Log, Host, Agent, What) of kind `log`. Log is the
 address of the server; its name tells servers of one process apart.
 
 *Threading*: events arrive in the threads of the endpoint, which stamp them
 and pass them on in one step, so the stamps ascend in the file. One thread
-per server writes, see room `log_writer`.
+per server writes, see module `log_writer`.
 */
 
 :- multifile
@@ -142,8 +142,8 @@ typhon_log_file:about_to_read(File) :-
            in_own_thread(log_writer_flush(Queue))).
 
 %   What this process posts to itself comes in order, so a request that is
-%   answered tells that the posts before it have arrived.  Once its journal is
-%   closed it asks nobody any more.
+%   answered shows that the posts before it have arrived.  Once its journal is
+%   closed it does not ask any more.
 
 arrived(Name) :-
     (   server(Name, _, _),

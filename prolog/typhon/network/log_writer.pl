@@ -73,8 +73,8 @@ flushed(Answers) :-
 %   write_events(+Queue, +File, +State): State is open(Stream, Unsure),
 %   where the last Unsure events may be in memory only; or lost(Count,
 %   Again), where the file could not be written, is tried again at the time
-%   Again, and Count events are lost.  People are told when it begins and
-%   when it ends, not of each event.
+%   Again, and Count events are lost.  The beginning and the end are
+%   reported, not each event.
 
 write_events(Queue, File, State0) :-
     next_event(Queue, File, Event, State0, State1),

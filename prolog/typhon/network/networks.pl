@@ -44,7 +44,7 @@ something fails. Stopping ends what starting began, also when a child hangs
 or has died.
 
 *Threading*: any thread may call. A network belongs to the process that
-started it. It has the threads of rooms `children`, `dynamics` and `log`, and
+started it. It has the threads of modules `children`, `dynamics` and `log`, and
 none of its own.
 */
 
@@ -84,20 +84,20 @@ none of its own.
 %     - hosts(Options)
 %       Options for host_start/2, for each of the hosts.
 %     - places(Places)
-%       Files for the places of hosts, goals called there; see room `furnishing`.
+%       Files for the places of hosts, goals called there; see module `furnishing`.
 %     - hop_time(uniform(Min, Max))
 %       An emulated link delay in host seconds, added to every hop.
 %     - clock(Rate)
 %       Host seconds per second; default 1. With clock(virtual) nothing
 %       waits, and the same Seed gives the same events: time runs while
-%       somebody waits, in agent_join/3 and network_advance/2, and jumps to
+%       a caller waits, in agent_join/3 and network_advance/2, and jumps to
 %       what is due next. One process.
 %     - log(File), log(File, Kinds)
 %       A log server writes the events of all hosts to File, begun anew:
 %       when agents begin and end, what they log, and, of Kinds, a list out
 %       of `hops`, `messages`, `facts`, `faults`, `links` and `hosts`,
-%       where they went, who sent to whom, what they left and took, what
-%       was the matter with them, and which links and hosts came and went.
+%       where they went, senders and receivers, what they left and took,
+%       their errors, and which links and hosts came and went.
 %       With messages(content) for `messages` it has what the messages say,
 %       too; of more than 200 characters (the setting
 %       `typhon_event_shown:content_characters`) the beginning, as a string.
@@ -117,7 +117,7 @@ none of its own.
 %       must be started before any other host.
 %     - restart(Boolean)
 %       Child processes that die are started again, with the ports that they
-%       had, up to 10 times in a minute each (settings of room `restarts`).
+%       had, up to 10 times in a minute each (settings of module `restarts`).
 %       Without a journal their hosts are then as they were when they began:
 %       their agents, and what was left there, are lost. Default `false`.
 %

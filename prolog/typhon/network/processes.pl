@@ -21,11 +21,11 @@
 
 /** <module> The processes that carry a network begin and end
 
-See room `children` for what a child is, and `orders` for what it is told.
+See module `children` for what a child is, and `orders` for its orders.
 
 *Threading*: the threads that follow the children tell what happens to them:
 as facts, and as messages to a queue that starting and stopping wait on, and
-in between the thread of room `restarts`, if there is one.
+in between the thread of module `restarts`, if there is one.
 */
 
 :- multifile
@@ -168,7 +168,7 @@ wait_up(P, Network, Queue) :-
 
 %!  carriers_restart(+Network, :Options, :Restore) is det.
 %
-%   Carriers that die are started again from now on, see room `restarts`, with
+%   Carriers that die are started again from now on, see module `restarts`, with
 %   the options Options(P, List) and the port that they had; then Restore(P)
 %   is called. Nothing is to be done where this process is the carrier.
 
@@ -227,11 +227,11 @@ restart(Network, _, _, give_up(P)) :-
 %   Ends the carriers that carriers_start/4 began to start, in order if
 %   they can, else by force. This process stays, of course.
 %
-%   First nobody runs in any of the children any more, who would find that
+%   First no agent runs in any of the children any more that would find that
 %   others are gone, and those that hang are killed: the others need not wait
 %   for them. Then their hosts stop, and what they have sent arrives, at the
 %   log for one, and only then they end: so none waits for another that is gone.
-%   Where there are journals what is in them rests there, and nobody hears of
+%   Where there are journals their contents stay, and no event reports
 %   it: a child does that when it ends.
 
 carriers_stop(Network) :-
@@ -258,7 +258,7 @@ carriers_stop(Network) :-
     retractall(at(Network, _, _)),
     carriers_forget(Network).
 
-%   Who is on the way then to one that has died is so still, as is who is in a
+%   An agent on its way to a process that has died stays so, as does one in a
 %   goal that takes longer: so it stays in a journal.
 
 rest_children(Network) :-

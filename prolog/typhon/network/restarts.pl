@@ -15,12 +15,12 @@
 
 At once, but not more than so many times within so many seconds: what dies
 whenever it is started would not be better for it. From when one dies until its
-hosts are there again it is absent: who asks something of the whole network
-waits meanwhile.
+hosts are there again it is absent: requests to the whole network
+wait meanwhile.
 
 *Threading*: one thread for each such network. Nothing in it waits for a child
-to come up: that is a message, as is its end. Those who wait for one that is
-absent do so in threads of their own.
+to come up: that is a message, as is its end. Callers that wait for an
+absent one do so in threads of their own.
 */
 
 :- multifile

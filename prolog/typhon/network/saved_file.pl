@@ -46,7 +46,7 @@ saved_write(Spec, Terms) :-
             about(File, New, Ball, Told),
             throw(Told) )).
 
-%   Nobody has heard of the file New.
+%   The file New is not in use yet.
 
 about(File, New, error(Formal0, Context), error(Formal, Context)) :-
     Formal0 =.. Parts0,

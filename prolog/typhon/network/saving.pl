@@ -25,7 +25,7 @@
 /** <module> Restore points of whole networks
 
 All carriers hold what they do; then each says what it knows, and goes on.
-That is written when they have gone on.  See room `loading` for the way back.
+That is written when they have gone on.  See module `loading` for the way back.
 
 *Threading*: any thread, also that of virtual time, for what is called by
 network_at/3.
@@ -114,7 +114,7 @@ cut(Network, Ps, Standing, Terms) :-
                 *            TO HOLD           *
                 *******************************/
 
-%   When nobody gets a turn, and those who had one have ended it, a letter may
+%   When no agent gets a turn, and running turns have ended, a message may
 %   be on its way still.  It goes from process to process, each time to where
 %   its agent has been later: through each of them once at the most.
 

@@ -30,7 +30,7 @@ Knows which host, by number, name and address, is in which process, and
 gives the carriers their orders about hosts and links.
 
 *Threading*: wire_change/2 runs in the thread of the dynamics, beside
-whoever asks for properties; wire_again/5 in that of room `restarts`, and not
+callers that ask for properties; wire_again/5 in that of module `restarts`, and not
 beside a change.
 */
 
@@ -218,8 +218,8 @@ wire_stop_own(Network) :-
 %!  wire_resting_own(+Network, :Goal) is semidet.
 %
 %   As once(Goal), which stops the hosts in this process, if there are any.
-%   Meanwhile nobody runs here, who would find that others are gone. In virtual
-%   time nobody does anyway.
+%   Meanwhile no agent runs here that would find that others are gone. In virtual
+%   time none does anyway.
 
 wire_resting_own(Network, Goal) :-
     current_prolog_flag(pid, Pid),

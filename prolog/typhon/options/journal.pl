@@ -5,7 +5,7 @@
 Rooms above note what changes; it is committed, many changes together, before
 anything that follows from them leaves the process.  Where no journal was
 opened to note something costs the look at a fact that is not there.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(journal/ledger,

@@ -3,7 +3,7 @@
 /** <module> Watching
 
 What happens on hosts anywhere, as it happens.
-This is the door of the layer: who is above takes what it needs from here.
+This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(watch/watches, [watch/3, unwatch/1]).

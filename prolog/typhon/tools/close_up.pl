@@ -13,7 +13,7 @@
 /** <module> All that there is to see of one host
 
 What lies in its tuple space, what its place defines and with what options it
-runs, as text, for people.  Of much only the beginning is told.
+runs, as text.  Long values are shortened.
 
 *Threading*: any thread may ask that may wait.  A worker answers.
 */

@@ -22,8 +22,7 @@ provides.  What is loaded is not concerned.
 :- dynamic
     user:term_expansion/2.
 
-%   To the cross-referencer, and to nobody else, a declaration is what it
-%   stands for.
+%   To the cross-referencer alone a declaration is what it stands for.
 
 user:term_expansion((:- Directive), Directives) :-
     current_prolog_flag(xref, true),
@@ -44,7 +43,7 @@ meant(Kind, Options, Meant) :-
     findall(PI, indicator_in(PIs, PI), List),
     (   Meant = dynamic(List)
     ;   Kind == payload,
-        Meant = public(List)            % who has it may call them
+        Meant = public(List)            % agents that have it may call them
     ).
 
 predicates_option(agent, PIs, state(PIs)).

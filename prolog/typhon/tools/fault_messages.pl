@@ -1,9 +1,9 @@
 :- module(typhon_fault_messages, []).
 
-/** <module> What people are told of agents that fail
+/** <module> Texts of reports of agents that fail
 
-One sentence: who, where, after how many hops, what was the matter, and in
-which clause.
+One sentence: the agent, its host, the number of hops, the error, and the
+clause.
 
 *Threading*: called by print_message/2 in any thread.
 */
@@ -19,32 +19,32 @@ prolog:error_message(permission_error(resume, agent, Agent)) -->
     [ 'Agent ~w is not faulty: there is nothing to resume'-[Agent] ].
 
 prolog:message(typhon(faulty(Agent, Error, Fault))) -->
-    who(Agent, Fault),
+    agent_at(Agent, Fault),
     raised(Error, Agent),
     goal_of(Error, Fault),
     raised_in(Fault).
 prolog:message(typhon(agent_failed(Agent, Fault))) -->
-    who(Agent, Fault),
+    agent_at(Agent, Fault),
     failed_last(Fault).
 prolog:message(typhon(mailbox_full(Agent, Max))) -->
     [ 'Agent ~w is faulty, and its mailbox is full: of what comes now \c
        nothing is kept beside ~D messages'-[Agent, Max] ].
 prolog:message(typhon(message_undone(Agent, From, Message, Fault))) -->
-    who(Agent, Fault),
+    agent_at(Agent, Fault),
     [ 'did not do with ' ],
     term_told(Message),
     [ ' from ~w what on_message/2 says; it '-[From] ],
     failed_last(Fault).
 
-%   Who and where, as "Agent x at beta (hop 3): ".
+%   Agent and place, as "Agent x at beta (hop 3): ".
 
-who(Agent, Fault) -->
+agent_at(Agent, Fault) -->
     { fault_told(Fault, _, _, Address, Hops),
       atomic_list_concat([Host|_], @, Address)
     },
     [ 'Agent ~w at ~w (hop ~D): '-[Agent, Host, Hops] ].
 
-%   What it calls and nobody has is not said to be missing in its module.
+%   An undefined predicate is not reported as missing in the agent's module.
 
 raised(error(existence_error(procedure, Agent:PI), Context), Agent) -->
     !,

@@ -12,7 +12,7 @@ completed by what library(typhon) exports, and what agents can say.  Its
 help/1 prints a comment once for each predicate that the comment is about: of
 several that are the same, one is left.
 
-The modules that do it are loaded when somebody asks, and not with this one.
+The modules that do it are loaded at the first request, and not with this one.
 
 *Threading*: called by library(help), in the thread that asks.
 */
@@ -151,13 +151,13 @@ part_of_one(Texts, Word) :-
 %   ours(?Module, -PI): PI is public, and defined in Module.
 
 ours(Module, Name/Arity) :-
-    member(Door, [typhon, typhon_words, typhon_memory]),
-    module_property(Door, exports(PIs)),
+    member(Interface, [typhon, typhon_words, typhon_memory]),
+    module_property(Interface, exports(PIs)),
     member(Name/Arity, PIs),
     functor(Head, Name, Arity),
-    (   predicate_property(Door:Head, imported_from(Module))
+    (   predicate_property(Interface:Head, imported_from(Module))
     ->  true
-    ;   Module = Door
+    ;   Module = Interface
     ).
 
 summary(Module, PI, Summary) :-

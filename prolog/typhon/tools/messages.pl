@@ -1,10 +1,10 @@
 :- module(typhon_messages, []).
 
-/** <module> What people are told about errors
+/** <module> Texts of errors
 
 The texts of the errors that the predicates of library(typhon) raise, and
-of what is reported about agents.  Who mistypes the name of a host, an agent
-or an agent program is told which names there are like it.  The rooms of
+of what is reported about agents.  For a mistyped name of a host, an agent
+or an agent program they suggest similar names.  The modules of
 the wire, of networks and of the log keep the texts of their own messages.
 
 *Threading*: called by print_message/2 in any thread.

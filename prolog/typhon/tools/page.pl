@@ -10,9 +10,9 @@
 
 /** <module> A page to watch and to work a network
 
-What serves it is loaded when it is started: who needs no page does without
-libraries of HTTP.
-This is the door of the layer.
+What serves it is loaded when it is started: a process without a page does
+not load libraries of HTTP.
+This is the interface of the layer.
 
 *Threading*: any thread.
 */
@@ -33,7 +33,7 @@ typhon_options:declared(page_option, overlays(X), list, X).
 %   Serve a page that shows the hosts of this process, of the networks that it
 %   has started, and all to which one comes from these along links, and the
 %   agents there, live; and by which people can work with them.  The link to
-%   it is printed: who knows it may do all that this process may.  Options:
+%   it is printed: it gives all rights of this process.  Options:
 %
 %     - port(+Port): default 8080; 0 for any
 %     - host(+Address): show the network of this host, too, of another process

@@ -21,10 +21,10 @@
 
 /** <module> What stands in all processes of a network
 
-Each process says in one answer what hosts it has and who is on them. Asked
+Each process reports in one answer its hosts and the agents on them. Asked
 are those that carry networks started here, and those of hosts to which one
-comes along links. All are asked at once; who has not answered by the
-deadline is said to be silent.
+comes along links. All are asked at once; a process that has not answered
+by the deadline is reported as silent.
 
 *Threading*: any thread may ask, but those of the endpoint. A worker answers,
 for there may be many agents.

@@ -10,11 +10,11 @@
 
 /** <module> Where events gather until they are sent
 
-Who puts something into a basin never waits: of more than it holds, the
-number of what did not fit is noted by host.
+Adding an event never waits: of events that do not fit, the number is kept
+by host.
 
 To wake a thread costs as much as the rest of an event.  So the bell rings
-only for one who has said that he waits, and once.
+only for a teller that waits, and once.
 
 *Threading*: any thread puts, one takes.
 */

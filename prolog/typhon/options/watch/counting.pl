@@ -7,7 +7,7 @@
 
 /** <module> What has happened, in numbers
 
-Nothing is counted until somebody has asked for numbers for the first time.
+Nothing is counted until the first request for numbers.
 From then on this process counts, as long as it has an endpoint.
 
 *Threading*: any thread.  Numbers are flags.

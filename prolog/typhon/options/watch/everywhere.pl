@@ -22,7 +22,7 @@ there may be much to tell.
 %
 %   Answers are Place-Answer, for those of the Places, see watched_places/2,
 %   that have answered within Seconds, Silent the endpoints of the others.
-%   What the answer is a room says by the hook answer(Question, Answer).
+%   The hook answer(Question, Answer) gives the answer.
 
 everywhere(Places, Question, Seconds, Answers, Silent) :-
     partition(is_here, Places, Here, There),

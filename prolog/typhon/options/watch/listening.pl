@@ -14,11 +14,11 @@
                 place_due/3, place_started/4, place_stopped/2,
                 places_forget/1 ]).
 
-/** <module> Listening to what is told
+/** <module> The events that a watch receives
 
 The thread of a watch calls what is to be called for each event, and sees to
 it that the places from which they come are asked again when they were cut
-off, see room `watch_places`.
+off, see module `watch_places`.
 
 *Threading*: one thread for each watch.  The hooks of the endpoint put into its
 queue what it is to hear.
@@ -73,7 +73,7 @@ typhon_endpoint:connection(Peer, State) :-
 
 %!  listening_tell(+Watch, +Message) is semidet.
 %
-%   Fails if nobody listens.
+%   Fails if there is no listener.
 
 listening_tell(Watch, Message) :-
     watch(Watch, Queue),
@@ -148,7 +148,7 @@ heard(events(Peer, Events, ReplyTo), Me) =>
     forall(( member(Event, Events), wanted(Me) ),
            taken(Event, Peer, Me)).
 heard(connection(Peer, down), _), endpoint_address(Peer) =>
-    true.                               % nobody is cut off from himself
+    true.                               % a process is not cut off from itself
 heard(connection(Peer, down), Me) =>
     ask_again(Peer, up, Me).
 heard(connection(Peer, up), Me) =>
@@ -180,7 +180,7 @@ told(Queue, What, Endpoint, Result) :-
     Message =.. [What, Endpoint, Result],
     catch(thread_send_message(Queue, Message),
           error(existence_error(_, _), _),
-          true).                        % nobody listens any more
+          true).                        % no listener any more
 
 ask_for_more(peer(ReplyTo)) :-
     endpoint_reply(ReplyTo, more).
@@ -215,7 +215,7 @@ call_on(Event, me(Watch, _, OnEvent)) :-
     ;   true
     ).
 
-%   Who is told to end must.
+%   An order to end is obeyed.
 
 raised(Ball, _) :-
     is_abort(Ball),
@@ -235,7 +235,7 @@ is_abort(unwind(_)).
                 *              END             *
                 *******************************/
 
-%   All that has happened is told before the last place has ended.
+%   All events are delivered before the last place has ended.
 
 end(Me) :-
     unwatch_all(Me),

@@ -12,10 +12,10 @@
 :- use_module(everywhere, [everywhere/5]).
 :- use_module(watched, [watched_places/2]).
 
-/** <module> What is there before events are told
+/** <module> The state before the first event
 
-Who watches, and wants to know what has been there before, begins to watch,
-asks, and then takes the events.  An event whose Time is not after that which
+To know the state before, begin to watch, ask, and then take the
+events.  An event whose Time is not after that which
 its host showed is contained in what he was told; others may be.  So he says
 of an agent where it is, and not that it is one more.
 

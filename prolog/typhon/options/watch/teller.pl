@@ -14,12 +14,12 @@
 /** <module> The thread that tells
 
 The teller sends what has gathered in batches, and the next when the last is in
-the hands of who watches.  So a watch is as far behind as it is slow, the basin
+the hands of the watch.  So a watch is as far behind as it is slow, the basin
 overflows where it is too slow, and hosts never wait.
 
 It hears in its bell `some`, of its basin; end(ReplyTo), when it is to tell all
 that is left; and as now(Message) what it has to heed while it waits for an
-answer, too: `check`, whether who watches is there still, and the answer.
+answer, too: `check`, whether the watch is still there, and the answer.
 
 *Threading*: a thread for each watch.
 */
@@ -37,8 +37,8 @@ plenty(256).                    % is sent without delay
 
 %!  teller_run(+To) is det.
 %
-%   To is to(Peer, Id, Bell, Basin): returns when nobody watches any more, or
-%   all has been told.
+%   To is to(Peer, Id, Bell, Basin): returns when the watch has ended, or
+%   all has been sent.
 
 teller_run(To) :-
     idle(To).
@@ -86,7 +86,7 @@ heard(now(answered(_)), _, Next) :-
     call(Next).
 heard(end(ReplyTo), To, _) :-
     pour_out(To),
-    (   ReplyTo == nobody
+    (   ReplyTo == none
     ->  true
     ;   endpoint_reply(ReplyTo, ended)
     ).
@@ -106,7 +106,7 @@ pour(To) :-
         ->  pour(To)
         ;   idle(To)
         )
-    ;   true                            % nobody watches any more
+    ;   true                            % the watch has ended
     ).
 
 pour_out(To) :-
@@ -118,7 +118,7 @@ pour_out(To) :-
     ;   true
     ).
 
-%   send(+To) is semidet: the next batch is in the hands of who watches.
+%   send(+To) is semidet: the next batch has reached the watch.
 %   What is too long for a frame, or cannot travel, is halved, and a single
 %   event skipped.
 

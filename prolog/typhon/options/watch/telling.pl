@@ -10,10 +10,10 @@
 :- use_module(basin, [basin_close/1, basin_open/3, basin_put/3]).
 :- use_module(teller, [teller_ring/2, teller_run/1, time_at/2]).
 
-/** <module> Telling those who watch
+/** <module> Sending events to watches
 
 For each watch, of this process or another, that wants to hear of hosts of
-this process there is a thread, see room `teller`, and a basin in which gathers
+this process there is a thread, see module `teller`, and a basin in which gathers
 what it is to tell.
 
 A watch is forgotten when it is over, when its process says that it has none
@@ -22,15 +22,16 @@ of that name, or when that cannot be reached any more.
 A process that watches asks with requests of kind `watch`, Wanted being names
 of hosts, or `all`:
 
-  | watch(Id, Wanted) | watching(Endpoint, New, Hosts), see room `watches` |
-  | unwatch(Id)       | `ended`, when all that has happened has been told  |
+  | watch(Id, Wanted) | watching(Endpoint, New, Hosts), see module `watches` |
+  | unwatch(Id)       | `ended`, when all events have been sent            |
 
-It is told with requests of kind `watched`:
+Events are sent with requests of kind `watched`:
 
   | events(Id, Events) | `more`, or `no` if there is no such watch |
   | alive(Id)          | `yes` or `no`                             |
 
-*Threading*: a teller for each watch.  Who takes its record away joins it.
+*Threading*: a teller for each watch, joined by the thread that removes its
+record.
 */
 
 :- multifile
@@ -41,7 +42,7 @@ It is told with requests of kind `watched`:
     typhon_runtime:ending/1.
 
 :- setting(events, positive_integer, 10 000,
-           "So many events wait for one who watches and is slow").
+           "So many events wait for a watch that is slow").
 :- setting(virtual_events, positive_integer, 1 000 000,
            "As many of virtual time, which is ahead of everybody").
 
@@ -119,7 +120,7 @@ typhon_hosting:begins(Name) :-
 typhon_endpoint:connection(Peer, down) :-
     forall(teller(Peer, _, _, Bell, _), teller_ring(Bell, now(check))).
 
-%   The last that happened, that the hosts stop, is told as well.
+%   The last event, that the hosts stop, is sent as well.
 
 typhon_runtime:ending(before) :-
     stop_tellers.
@@ -127,7 +128,7 @@ typhon_runtime:ending(before) :-
 stop_tellers :-
     with_mutex(typhon_telling, retract(teller(_, _, Thread, Bell, _))),
     !,
-    teller_ring(Bell, end(nobody)),
+    teller_ring(Bell, end(none)),
     stop_thread(Thread),
     stop_tellers.
 stop_tellers.
@@ -145,7 +146,7 @@ typhon_events:told(watch(Basin, Address, Clock), Host, Agent, What) :-
           error(existence_error(_, _), _),
           true).                        % it has ended
 
-%   Who watches has to know of clocks; agents may log what cannot travel.
+%   Watches have to know of clocks; agents may log what cannot travel.
 
 told_as(started, Clock, Public) =>
     Public = started(Clock).

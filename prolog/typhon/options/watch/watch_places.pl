@@ -20,7 +20,7 @@ State is
 
   | up                 |                                                      |
   | cut(Pause)         | it is asked whether it is there still                |
-  | down(Again, Pause) | nobody was there; it is to be asked again at the time Again |
+  | down(Again, Pause) | no process was there; it is to be asked again at the time Again |
 
 A process that was cut off is asked to watch again.  If it has forgotten the
 watch, as one that was started anew has, events are missing: its hosts are

@@ -18,9 +18,9 @@
 
 /** <module> Watching hosts
 
-A watch has a thread, which calls what is to be called, see room `listening`.
+A watch has a thread, which calls OnEvent, see module `listening`.
 What it hears comes from the tellers of the processes that have the hosts, see
-room `telling`.
+module `telling`.
 
 *Threading*: any thread may call; a watch may be ended in its own thread.
 */
@@ -67,7 +67,7 @@ room `telling`.
 %
 %   Those of one host come in order.  All are called in one thread, one after
 %   the other, and not where they happen: whatever OnEvent does, hosts do not
-%   wait for it.  That it fails means nothing; an exception is told once, and
+%   wait for it.  That it fails means nothing; an exception is reported once, and
 %   the watch goes on.
 %
 %   OnEvent may be a lambda expression; its variables that are bound when
@@ -151,7 +151,7 @@ must_have(carried(_), _) =>
 
 %!  unwatch(+Watch) is det.
 %
-%   What has happened before is told, if that can be done in two seconds, and
+%   Earlier events are still delivered, if that can be done in two seconds, and
 %   then no event any more.
 %
 %   @error existence_error(watch, Watch)
@@ -163,7 +163,7 @@ unwatch(Watch) :-
     ;   existence_error(watch, Watch)
     ).
 
-%   Who ends it in its own thread wants nothing more.
+%   Ended in its own thread, it delivers nothing more.
 
 end(Watch, Thread) :-
     thread_self(Me),

@@ -13,12 +13,12 @@
 :- use_module(overlays, [event_rows/2]).
 :- use_module(protocol, [skipped_row/2]).
 
-/** <module> Who looks on, and hears what happens
+/** <module> The connected browsers, and the events that they get
 
 Events go into one queue.  A thread takes what has come together there, makes
 one text of it, twenty times a second at the most, and puts that into the
 queues of all browsers.  A browser that does not take them fast enough loses
-some, and is told how many.
+some, and gets their number.
 
 *Threading*: any thread tells; the thread `typhon_page` makes texts; each
 browser has a thread, which sends them, and one that notices when it goes.
@@ -51,7 +51,7 @@ frames_waiting(40).
 %!  browsers_start is det.
 %!  browsers_stop is det.
 %
-%   Who is there when it stops is told, and goes, within some seconds.
+%   Browsers that are connected when it stops are notified, and go within seconds.
 
 browsers_start :-
     queue_size(Size),
@@ -99,8 +99,8 @@ wait_until_gone(_) :-
 
 %!  browsers_tell(+Event) is det.
 %
-%   Event, as of watch/3, is told to all browsers.  Waits while too many
-%   others are still to be told.
+%   Event, as of watch/3, is sent to all browsers.  Waits while too many
+%   others are still to be sent.
 
 browsers_tell(Event) :-
     (   teller(_, Queue)
@@ -111,13 +111,13 @@ browsers_tell(Event) :-
 
 %!  browsers_there is semidet.
 %
-%   Somebody looks.
+%   A browser is connected.
 
 browsers_there :-
     browser(_, _, _),
     !.
 
-%   tell_all(+Queue, +Next): until it is told to stop; not before Next.
+%   tell_all(+Queue, +Next): until the message to stop; not before Next.
 
 tell_all(Queue, Next) :-
     setting(heartbeat_seconds, Pause),
@@ -171,8 +171,8 @@ tell_frame(Events, _) :-
     length(Events, Count),
     forall(browser(Browser, _, _), give(Browser, Text, Count)).
 
-%   Only the teller puts anything into the queue of a browser, so what has
-%   room now has room then.
+%   Only the teller puts anything into the queue of a browser, so what
+%   fits now fits then.
 
 give(Browser, Text, Count) :-
     (   has_room(Browser)
@@ -181,7 +181,7 @@ give(Browser, Text, Count) :-
     ;   with_mutex(typhon_page, skipped(Browser, Count))
     ).
 
-%   It may have gone.  Who asks meanwhile whether there are any finds it.
+%   It may have gone.  A check meanwhile whether there are any finds it.
 
 skipped(Browser, Count) :-
     (   browser(Browser, Thread, Skipped)

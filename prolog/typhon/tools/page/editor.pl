@@ -13,7 +13,7 @@
                 make_directory_path/1 ]).
 :- use_module(terms, [read_text/3]).
 
-/** <module> What somebody writes at a browser
+/** <module> Programs written at a browser
 
 Text that comes from a browser becomes a file, in a folder that is there as
 long as the page, so that it is read, checked and told of as other programs
@@ -100,7 +100,7 @@ line_in(_:Line, Line) :-
     integer(Line).
 line_in(file(_, Line, _, _), Line).
 
-%   The line is told apart.
+%   The line is reported separately.
 
 without_place(Text0, Text) :-
     string_concat("program.pl:", Rest, Text0),

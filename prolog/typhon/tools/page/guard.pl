@@ -9,7 +9,7 @@
 :- use_module(library(option), [option/2]).
 :- use_module('../../kernel/wire', [random_hex/2]).
 
-/** <module> Who may look at a page, and what a browser may do with it
+/** <module> Access to a page, and what a browser may do with it
 
 Whoever has the token may.  It is a part of the address, before all else, so
 that scripts and styles of the page, whose addresses are relative, are

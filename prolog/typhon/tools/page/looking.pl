@@ -19,7 +19,7 @@
 :- use_module(sources, [sources_look/1]).
 :- use_module(times, [page_time/2]).
 
-/** <module> What browsers may ask, and what they are told
+/** <module> Questions of browsers, and the answers
 
   | ask        | with    | answer                                        |
   | ---------- | ------- | --------------------------------------------- |
@@ -29,7 +29,7 @@
   | networks   |         | those that this process has started           |
   | mechanisms |         | the operators of `agents/`, and what they take |
   | programs   |         | names of agent programs that are found        |
-  | replay     | `title`, `text` | the log of that text, see room `replay` |
+  | replay     | `title`, `text` | the log of that text, see module `replay` |
 
 Nothing here changes anything.
 

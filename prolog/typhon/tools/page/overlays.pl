@@ -120,7 +120,7 @@ overlay_dict(Title-Kind, _{name:Name, kind:KindText}) :-
 %!  event_rows(+Events, -Rows:list) is det.
 %!  event_rows(+Events, +Overlays, -Rows:list) is det.
 %
-%   Events, as of watch/3, as the browser is told them; each is followed by
+%   Events, as of watch/3, as they are sent to the browser; each is followed by
 %   rows of what it changes in Overlays, those of the page that is served:
 %   [Time, Host, Agent, "show" or "add", Title, Where, Value].
 

@@ -46,12 +46,12 @@ then lists of what happens, where arguments are text, but for numbers:
       | skipped  | Count                      |
       | show, add | Overlay, Where, Value     |
 
-and every few seconds, when nothing else is to be told, {"tick": Time}, so
-that a browser notices when nobody is there any more.
+and every few seconds, when there is nothing else to send, {"tick": Time}, so
+that a browser notices when the server is gone.
 
 What the browser wants it posts to `ask`, as {"ask": What, ...} to look and
 as {"do": What, ...} to act; the answer is {"answer": ...} or {"error": Text}.
-The rooms `looking` and `acting` have a clause for each What.
+The modules `looking` and `acting` have a clause for each What.
 
 *Threading*: pure.
 */

@@ -21,8 +21,8 @@
 
 where texts in events are numbers of `names`, and numbers stand in lists of
 one: ids come again and again.  Which hosts are linked is in a log only if
-links came or went; else those are taken for linked between which somebody
-hopped.
+links came or went; else hosts between which an agent hopped are taken for
+linked.
 
 *Threading*: any thread.
 */
@@ -52,7 +52,7 @@ replay_dict(LogFile, Options, Dict) :-
 
 %!  replay_of_text(+Title, +Text, -Dict) is det.
 %
-%   The same of the text of a log, which somebody has at a browser.
+%   The same of the text of a log, which a browser sends.
 
 replay_of_text(Title, Text, Dict) :-
     setup_call_cleanup(
@@ -145,7 +145,7 @@ links(Events, Links) :-
                 *             NAMES            *
                 *******************************/
 
-%   intern(+Rows, -Names, -Short): texts are told once.
+%   intern(+Rows, -Names, -Short): texts are sent once.
 
 intern(Rows, Names, Short) :-
     empty_assoc(Known),

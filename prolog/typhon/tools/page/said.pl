@@ -5,8 +5,8 @@
 
 /** <module> What is printed while something is done
 
-Messages of a thread are kept for who has asked for what it does; that is
-somebody at a browser, and not at the terminal.
+Messages of a thread that serves a browser are kept for that browser, and not
+printed at the terminal.
 
 *Threading*: any thread, for itself.
 */

@@ -37,7 +37,7 @@ It does not use http_dispatch: what else of HTTP this process serves is not
 seen here, nor this there.
 
 *Threading*: starting and stopping exclude each other by a mutex.  Each client
-has a thread, see room `reception`.
+has a thread, see module `reception`.
 */
 
 :- setting(request_bytes, positive_integer, 4 000 000,
@@ -84,7 +84,7 @@ server_stop :-
 
 stop :-
     (   retract(serving(_, _, _))
-    ->  browsers_stop,                  % they are told before they go
+    ->  browsers_stop,                  % they are notified before they go
         reception_close,
         put_away
     ;   true

@@ -22,10 +22,10 @@
 /** <module> What a page shows: which hosts, and what happens on them
 
 There is a watch for each process, and another where more hosts have come to
-light there.  As long as nobody looks, nothing is watched.
+light there.  Events are collected only while a browser is connected.
 
-*Threading*: any thread looks; one mutex for watches.  While somebody looks a
-thread sees every few seconds which hosts there are by now.
+*Threading*: any thread looks; one mutex for watches.  While a browser is
+connected a thread looks for new hosts every few seconds.
 */
 
 :- setting(renew_seconds, number, 3,
@@ -42,7 +42,7 @@ thread sees every few seconds which hosts there are by now.
 %
 %   A page shows this process, the networks that it has started, and with the
 %   option host(Host) that host, and all to which one comes from these.
-%   What happens is told to browsers.
+%   Events are sent to browsers.
 %
 %   @error existence_error(host, Host), host_unreachable(Address)
 
@@ -78,7 +78,7 @@ sources_stop :-
 %!  sources_look(-Scene) is det.
 %
 %   Scene is scene(Hosts, Agents), as of survey_hosts/4 and survey_agents/2; all
-%   these Hosts are watched before one looks who is there.
+%   these Hosts are watched before their agents are listed.
 
 sources_look(scene(Hosts, Agents)) :-
     finder(_, Queue),
@@ -101,7 +101,7 @@ sources_metrics(Text) :-
                 *             FIND             *
                 *******************************/
 
-%   Nobody looks: it rests until it is told that somebody does.
+%   No browser: it waits until one connects.
 
 find(Queue) :-
     thread_get_message(Queue, Message),
@@ -189,8 +189,8 @@ changed(event(_, Host, _, stopped)) =>
 changed(_) =>
     true.
 
-%   Watch nothing any more, if When: who comes to look meanwhile finds the hosts
-%   watched, or watches them after this.
+%   Watch nothing any more, if When: a browser that connects meanwhile finds the
+%   hosts watched, or watches them after this.
 
 :- meta_predicate rest(0).
 
