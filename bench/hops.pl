@@ -2,7 +2,6 @@
 :- use_module(traveller).
 :- use_module(trip).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/wire/transport), []).
 :- use_module(library(typhon/kernel/wire/session), []).
 :- use_module(library(lists), [member/2, nth0/3]).
 
@@ -106,7 +105,7 @@ sent(Peer, Bytes) :-
     atomic_list_concat([_, Endpoint], '@', Peer),
     (   typhon_session:route(Endpoint, Session),
         typhon_session:session_key(Session, Key),
-        typhon_transport:transport(Key, _, Out)
+        typhon_session:transport(Key, _, Out)
     ->  byte_count(Out, Bytes)
     ;   Bytes = 0
     ).

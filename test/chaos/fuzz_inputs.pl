@@ -17,7 +17,7 @@ stands for an input.
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(yall), [(>>)/3]).
 :- use_module(library(typhon/kernel/wire/frame), [check_bytes/2, term_bytes/3]).
-:- use_module(library(typhon/kernel/wire/hello), [hello/4, hello_line/2]).
+:- use_module(library(typhon/kernel/wire/handshake), [hello/4, hello_line/2]).
 
 		 /*******************************
 		 *         STRANGERS            *

@@ -33,10 +33,9 @@ Only who knows the cookie can send that.
 :- use_module(library(socket)).
 :- autoload(library(ssl),
             [cert_accept_any/5, ssl_context/3, ssl_negotiate/5]).
-:- use_module(library(typhon/kernel/wire/auth), [authenticate/6, cookie/1]).
+:- use_module(library(typhon/kernel/wire/handshake),
+              [authenticate/6, cookie/1, hello/4, line_read/3, line_write/2]).
 :- use_module(library(typhon/kernel/wire/frame), [frame_write/2, term_bytes/3]).
-:- use_module(library(typhon/kernel/wire/hello),
-              [hello/4, line_read/3, line_write/2]).
 
 %!  fuzz(+Options, -Faults:list) is det.
 %

@@ -41,7 +41,7 @@ set_up(Options) :-
     ;   true
     ),
     (   option(codec(text), Options)
-    ->  set_setting(typhon_hello:records, false)
+    ->  set_setting(typhon_handshake:records, false)
     ;   true
     ).
 
@@ -106,7 +106,7 @@ connecting :-
     typhon_threads:wire_thread(Thread),
     member(Prefix, [typhon_in_, typhon_out_]),
     sub_atom(Thread, 0, _, _, Prefix),
-    \+ typhon_transport:transport_thread(_, Thread),
+    \+ typhon_session:transport_thread(_, Thread),
     !.
 
 outcome_here(Id, Outcome) :-

@@ -17,7 +17,7 @@
 
 station :-
     current_prolog_flag(argv, [Name|Modes]),
-    forall(member(text, Modes), set_setting(typhon_hello:records, false)),
+    forall(member(text, Modes), set_setting(typhon_handshake:records, false)),
     station(Name),
     halt.
 

@@ -8,12 +8,10 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(wire/endpoint,
-            [ endpoint_address/1, endpoint_listen/2, endpoint_listen_end/1,
-              endpoint_keys/1, endpoint_open/0, endpoint_proof/1,
-              endpoint_start/3, endpoint_start/4, endpoint_start_alone/1,
-              endpoint_stop/0
-            ]).
-:- reexport(wire/own_id, [endpoint_process/1]).
+            [ endpoint_address/1, endpoint_keys/1, endpoint_listen/2,
+              endpoint_listen_end/1, endpoint_open/0, endpoint_process/1,
+              endpoint_proof/1, endpoint_start/3, endpoint_start/4,
+              endpoint_start_alone/1, endpoint_stop/0 ]).
 :- reexport('wire/messaging').
 :- reexport(wire/outbox, [frame_fits/1]).
 :- reexport(wire/lending, [endpoint_afterwards/1]).
@@ -26,6 +24,6 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(wire/contacts, [contact_expect/1, contact_expect_no_more/1]).
 :- reexport('wire/proofs').
 :- reexport(wire/frame, [mobile_term/1]).
-:- reexport(wire/auth, [cookie/1, random_hex/2]).
+:- reexport(wire/handshake, [cookie/1, random_hex/2]).
 :- reexport(wire/text, [term_text/2, text_term/2]).
 :- reexport(wire/refusals, [tls_text/2]).

@@ -6,8 +6,7 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent/3]).
-:- use_module(library(typhon/kernel/wire/auth)).
-:- use_module(library(typhon/kernel/wire/hello)).
+:- use_module(library(typhon/kernel/wire/handshake)).
 
 :- begin_tests(cookie_is_private).
 
@@ -119,8 +118,8 @@ test(bad_hello) :-
             error(Server, _), _),
     assertion(Server = syntax_error(hello)).
 
-quick :- set_setting(typhon_auth:handshake_time, 0.5).
-usual :- set_setting(typhon_auth:handshake_time, 5).
+quick :- set_setting(typhon_handshake:handshake_time, 0.5).
+usual :- set_setting(typhon_handshake:handshake_time, 5).
 
 in_time(Goal) :-
     get_time(T0),
@@ -199,11 +198,11 @@ test(untried_version, Codec == text) :-
     hello_codec(Hello, hello(P, S, A, 990000, W, O), Codec).
 test(without_records, Codecs == [text, text, text]) :-
     hello(p, 1, a, With),
-    setting(typhon_hello:records, Old),
+    setting(typhon_handshake:records, Old),
     setup_call_cleanup(
-        set_setting(typhon_hello:records, false),
+        set_setting(typhon_handshake:records, false),
         hello(p, 1, a, Without),
-        set_setting(typhon_hello:records, Old)),
+        set_setting(typhon_handshake:records, Old)),
     findall(Codec,
             ( member(Mine-Theirs,
                      [With-Without, Without-With, Without-Without]),

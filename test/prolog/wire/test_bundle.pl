@@ -14,8 +14,7 @@
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/kernel/wire)).
 :- use_module(library(typhon/kernel/travel/post), []).
-:- use_module(library(typhon/kernel/wire/bundle)).
-:- use_module(library(typhon/kernel/wire/frame), [term_bytes/3]).
+:- use_module(library(typhon/kernel/wire/frame)).
 :- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
 :- use_module(library(typhon/kernel/wire/session), [route/2, session_key/2]).
 :- use_module(library(typhon/kernel/wire/unacked),
@@ -59,9 +58,9 @@ test(take_few_frames, true(Frames < 1500)) :-
                    assertion(Notes == Sent),
                    session(A, Session),
                    session_sent(Session, Frames) )).
-test(as_text, [ setup(( setting(typhon_hello:records, Old),
-                        set_setting(typhon_hello:records, false) )),
-                cleanup(set_setting(typhon_hello:records, Old)),
+test(as_text, [ setup(( setting(typhon_handshake:records, Old),
+                        set_setting(typhon_handshake:records, false) )),
+                cleanup(set_setting(typhon_handshake:records, Old)),
                 true(Notes == Sent) ]) :-
     numlist(1, 500, Sent),
     with_peer(A, ( post_notes(A, 1, 500), notes(A, Notes) )).

@@ -245,7 +245,7 @@ test(not_running, error(existence_error(endpoint, _))) :-
     endpoint_post('127.0.0.1:1', note, x).
 test(listens_and_is_silent, error(unreachable(_))) :-
     with_endpoint(with_settings([typhon_keeper:connect_time=1],
-        with_settings([typhon_auth:handshake_time=0.3],
+        with_settings([typhon_handshake:handshake_time=0.3],
                      with_listener(5, A, endpoint_post(A, note, x))))).
 test(twice, error(permission_error(start, endpoint, _))) :-
     with_endpoint(endpoint_start(localhost, 0, _)).
@@ -512,7 +512,7 @@ damaged_now(Bytes) :-
     !.
 
 as_text(Head, Original, Body, A, Goal) :-
-    with_settings([typhon_hello:records=false],
+    with_settings([typhon_handshake:records=false],
         with_endpoint(with_peer(A,
             ( ask(A, echo, x, x),
               endpoint_peer(A, codec(Codec)),
@@ -667,7 +667,7 @@ test(what_they_send,
                     ask(A, echo, x, x) )).
 test(silent_ones_are_bounded) :-
     with_settings([typhon_acceptor:strangers=4],
-        with_settings([typhon_auth:handshake_time=20],
+        with_settings([typhon_handshake:handshake_time=20],
             with_endpoint(quiet(crowd)))).
 test(wrong_cookie) :-
     with_endpoint(( endpoint_address(A),

@@ -15,9 +15,9 @@ own.
 :- use_module(library(typhon/kernel/wire)).
 :- use_module(library(typhon/kernel/wire/keeper), [keeper_connect/1]).
 :- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
-:- use_module(library(typhon/kernel/wire/session), [route/2]).
+:- use_module(library(typhon/kernel/wire/session),
+              [route/2, transport_thread/2]).
 :- use_module(library(typhon/kernel/wire/threads), [wire_thread_signal/2]).
-:- use_module(library(typhon/kernel/wire/transport), [transport_thread/2]).
 
 :- dynamic
     hook/2,                             % Errand, Thread

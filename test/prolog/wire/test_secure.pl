@@ -212,12 +212,12 @@ new_protocol(Said, Ours) :-
     with_secure_host(Ours, s_client(Dir, ['-tls1_3'], Said)).
 
 test(who_dribbles_is_turned_away, Why == slow) :-
-    setting(typhon_auth:handshake_time, Old),
+    setting(typhon_handshake:handshake_time, Old),
     setup_call_cleanup(
-        set_setting(typhon_auth:handshake_time, 1),
+        set_setting(typhon_handshake:handshake_time, 1),
         with_authority([alpha], [],
                        secure_host_and(dribbles(Why))),
-        set_setting(typhon_auth:handshake_time, Old)).
+        set_setting(typhon_handshake:handshake_time, Old)).
 
 :- meta_predicate secure_host_and(1, +).
 

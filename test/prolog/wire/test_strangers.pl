@@ -11,9 +11,8 @@
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_maplist/3]).
-:- use_module(library(typhon/kernel/wire/auth)).
+:- use_module(library(typhon/kernel/wire/handshake)).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/wire/hello)).
 
 :- dynamic told/1.
 :- multifile user:message_hook/3.
@@ -35,7 +34,7 @@ with_endpoint(Goal) :-
 %   Nobody is turned away for being slow; `soon` is long before that.
 
 patiently(Goal) :-
-    with_settings([typhon_auth:handshake_time=120], Goal).
+    with_settings([typhon_handshake:handshake_time=120], Goal).
 
 soon(Seconds) :-
     assertion(Seconds < 20).
@@ -256,7 +255,7 @@ test(another_version, Line == "typhon 2") :-
         closed(Client))).
 test(another_version_of_a_server,
      [error(permission_error(authenticate, peer, version(3)))]) :-
-    typhon_auth:check_protocol("typhon 3").
+    typhon_handshake:check_protocol("typhon 3").
 
 counted(Sum) :-
     turned_away(_, Sum).

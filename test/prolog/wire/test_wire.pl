@@ -16,8 +16,7 @@
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/wire/session), [session/2]).
-:- use_module(library(typhon/kernel/wire/transport), [transport/3]).
+:- use_module(library(typhon/kernel/wire/session), [session/2, transport/3]).
 :- use_module('../../lib/endpoint_peer', [sleep_until/1]).
 
 :- dynamic
@@ -95,12 +94,12 @@ unreachable(Address) :-
 :- meta_predicate as_process(+, 0), with_late_callers(0).
 
 as_process(Id, Goal) :-
-    findall(Own, retract(typhon_own_id:process(Own)), Owns),
+    findall(Own, retract(typhon_endpoint:process(Own)), Owns),
     setup_call_cleanup(
-        assertz(typhon_own_id:process(Id)),
+        assertz(typhon_endpoint:process(Id)),
         Goal,
-        ( retractall(typhon_own_id:process(_)),
-          forall(member(Own, Owns), assertz(typhon_own_id:process(Own))) )).
+        ( retractall(typhon_endpoint:process(_)),
+          forall(member(Own, Owns), assertz(typhon_endpoint:process(Own))) )).
 
 %   Who calls us has proved himself, says so to us, and waits for `go`.
 
@@ -140,10 +139,10 @@ test(who_is_offered_a_connection_takes_it) :-
     as_process(ffffffffffffffff,
         with_endpoint(with_peers(1, [A],
             setup_call_cleanup(
-                wrap_predicate(typhon_transport:session_up_since(_, _),
+                wrap_predicate(typhon_session:session_up_since(_, _),
                                not_noticed, _, true),
                 ask(A, echo, x, x),
-                unwrap_predicate(typhon_transport:session_up_since/2,
+                unwrap_predicate(typhon_session:session_up_since/2,
                                  not_noticed))))).
 test(sixteen_connect_to_all, Missed == []) :-
     with_endpoint(with_peers(16, Addresses,
@@ -342,7 +341,7 @@ test(answers_of_8_MB_at_once) :-
 with_codec(fast, Goal) :-
     call(Goal).
 with_codec(text, Goal) :-
-    with_settings([typhon_hello:records=false], Goal).
+    with_settings([typhon_handshake:records=false], Goal).
 
 %   N strings of Size in each direction, with answers of the same size,
 %   while small requests go on.

@@ -19,7 +19,7 @@ meeting.pl, reads frames until it breaks, and closes the streams.
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
 :- use_module(contacts, [contact_gone/1, contact_met/2]).
-:- use_module(hello, [hello_peer/4]).
+:- use_module(handshake, [hello_peer/4]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(lending, [lent_away/0]).
 :- use_module(meeting, [meet/7, own_session/1, prove/5]).
@@ -30,7 +30,7 @@ meeting.pl, reads frames until it breaks, and closes the streams.
 :- use_module(session, [route_add/2, session_adopting/2, session_peer/3]).
 
 :- multifile
-    typhon_auth:greeted/0.
+    typhon_handshake:greeted/0.
 
 :- meta_predicate
     incoming(+, +, +, 1, +),
@@ -60,7 +60,7 @@ incoming(In, Out, Ip, Stage, Me) :-
           turned_away(Ip, Formal, Stage)).
 
 await_word(In, Out) :-
-    setting(typhon_auth:handshake_time, Seconds),
+    setting(typhon_handshake:handshake_time, Seconds),
     set_stream(In, timeout(Seconds)),
     peek_byte(In, Byte),
     (   Byte == -1
@@ -124,7 +124,7 @@ outgoing(Address, Me) :-
           error(Formal, _),
           missed(Address, Formal)).
 
-typhon_auth:greeted :-
+typhon_handshake:greeted :-
     nb_current(typhon_set_out, true),
     thread_self(Me),
     keeper_tell(greeted(Me)).

@@ -32,10 +32,9 @@ unless it is known that somebody soon will be.
 :- use_module(connection, [outgoing/2]).
 :- use_module(contacts, [contact_expected/1, contact_missed/2]).
 :- use_module(request, [session_unfinished/1]).
-:- use_module(session, [route/2, route_key/2]).
+:- use_module(session, [route/2, route_key/2, route_up/2]).
 :- use_module(threads,
               [in_background/2, wire_thread_create/3, wire_thread_end/2]).
-:- use_module(transport, [route_up/2]).
 :- use_module(unsent,
               [unsent/1, unsent_fail/1, unsent_fail/2, unsent_send/2]).
 :- use_module(waiters,

@@ -8,15 +8,17 @@
             endpoint_listen_end/1,      % +Address
             endpoint_address/1,         % ?Address
             endpoint_keys/1,            % -Directory
-            endpoint_proof/1            % -Proof
+            endpoint_proof/1,           % -Proof
+            endpoint_process/1          % -Id
           ]).
 
 /** <module> The endpoint: one per process
 
 An endpoint sends terms to the endpoints of other processes, and of its
 own, over TCP. It knows nothing of agents. Its address is an atom
-`Interface:Port`. What arrives goes to hooks, one clause per kind of
-message, in the room that owns the kind:
+`Interface:Port`. Its process has a random id; with the number of this start
+it shows peers whether they meet the same process again. What arrives goes to
+hooks, one clause per kind of message, in the module that owns the kind:
 
   - received(+Kind, +Term, +Peer)
   - together(+Kind, +Terms, -Fewer): posts that have come together, made
@@ -29,7 +31,8 @@ Peer is the address the sender listens to.
 
 *Threading*: everything may be called from any thread. The hooks run in the
 thread of a connection and must be quick: while one runs, nothing else of
-that peer is read. They may post, request and reply.
+that peer is read. They may post, request and reply. own_place/4 and
+own_start_next/1 run under the mutex of the endpoint.
 */
 
 :- use_module(library(apply), [maplist/2]).
@@ -38,22 +41,20 @@ that peer is read. They may post, request and reply.
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket),
-              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_open_socket/3,
-                tcp_setopt/2, tcp_socket/1 ]).
+              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
+                tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../../options/journal',
+              [ journal_barrier/0, journal_item/5, journal_opened/1,
+                note_put/4 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../../options/journal', [journal_barrier/0, journal_opened/1]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
-:- use_module(auth, [cookie/1]).
-:- use_module(hello, [hello/4]).
+:- use_module(handshake, [cookie/1, hello/4, random_hex/2]).
 :- use_module(keeper, [keep/1, keeper_unheard/1]).
 :- use_module(keeper_queue,
               [keeper_queue_close/1, keeper_queue_open/0, keeper_tell/1]).
 :- use_module(lending, [lending_anew/0]).
 :- use_module(outbox, [session_control/2]).
-:- use_module(own_id,
-              [ endpoint_process/1, own_id_note/1, own_place/4, own_start/1,
-                own_start_next/1 ]).
 :- use_module(peers, [peers_flush/1]).
 :- use_module(request, [requests_lost/2]).
 :- use_module(resumption, [session_close/2]).
@@ -84,7 +85,7 @@ that peer is read. They may post, request and reply.
            "Seconds endpoint_stop/0 waits for the last frames to arrive").
 
 :- dynamic
-    closed/0,                           % nobody is let in yet
+    closed/0,                           % no peer is let in yet
     running/4,                          % Address, Socket, Acceptor, Keeper
     further/3.                          % Address, Socket, Acceptor
 
@@ -136,7 +137,7 @@ start(Interface0, Port0, Address) :-
     debug(typhon(session), 'endpoint: starts at ~w, start ~w',
           [Address, Start]).
 
-%   With a journal nobody is let in before it was read.
+%   With a journal no peer is let in before it was read.
 
 until_opened :-
     retractall(closed),
@@ -168,7 +169,7 @@ endpoint_open :-
 
 %!  endpoint_start_alone(+Address) is det.
 %
-%   Have an endpoint that reaches nobody but itself, see typhon_alone.
+%   Have an endpoint that reaches only itself, see messaging.pl.
 %
 %   @error permission_error(start, endpoint, Address) one is running.
 
@@ -183,7 +184,7 @@ start_alone(Address) :-
     alone_begin(Address).
 
 %   listen(+Interface, +Port, -Address, -Socket): a port is free again as soon
-%   as nobody listens there.  Processes that begin here would, too, if the
+%   as no process listens there.  Processes that begin here would, too, if the
 %   socket had no stream.
 
 listen(Interface, Port, Address, Socket) :-
@@ -219,7 +220,7 @@ our_hello(Start, Address, Me) :-
 %!  endpoint_listen_end(+Address) is det.
 %
 %   Listen at a further Port, too, until the endpoint stops at the latest.
-%   Whoever connects there meets the endpoint as at its first port.
+%   A peer that connects there reaches the endpoint as at its first port.
 %
 %   @error existence_error(endpoint, running)
 
@@ -310,3 +311,86 @@ endpoint_keys(Directory) :-
 
 endpoint_proof(Proof) :-
     secure_proof(Proof).
+
+		 /*******************************
+		 *          PROCESS ID          *
+		 *******************************/
+
+:- dynamic
+    process/1,                          % Id
+    starts/1.                           % Count
+
+%!  own_place(+Interface0, +Port0, -Interface, -Port) is det.
+%
+%   Where to listen. A process that has a journal keeps the id that it had when
+%   that was last open, and listens where it did.  Peers see it in the first
+%   letter of the id, see endpoint_lasting/1.
+
+own_place(Interface0, Port0, Interface, Port) :-
+    journal_opened(_),
+    !,
+    retractall(process(_)),
+    (   journal_item(endpoint, any, _, _,
+                     endpoint(Process, Start, Interface1, Port1))
+    ->  retractall(starts(_)),
+        assertz(starts(Start)),
+        ( Port0 =:= 0 -> Port = Port1 ; Port = Port0 ),
+        ( Interface0 == localhost -> Interface = Interface1
+        ; Interface = Interface0 )
+    ;   random_hex(8, New),
+        atom_concat(j, New, Process),
+        Port = Port0,
+        Interface = Interface0
+    ),
+    assertz(process(Process)).
+own_place(Interface, Port, Interface, Port) :-
+    (   process(Process),
+        sub_atom(Process, 0, _, _, j)
+    ->  retractall(process(_))
+    ;   true
+    ).
+
+%!  own_start(-Start) is semidet.
+%!  own_start_next(-Start) is det.
+%
+%   How often this process has begun to listen.
+
+own_start(Start) :-
+    starts(Start),
+    !.
+
+own_start_next(Start) :-
+    (   retract(starts(Start0))
+    ->  true
+    ;   Start0 = 0
+    ),
+    Start is Start0+1,
+    assertz(starts(Start)).
+
+%!  own_id_note(+Address) is det.
+%
+%   Write the id and the address to the journal.
+
+own_id_note(Address) :-
+    atomic_list_concat([Interface, PortText], :, Address),
+    atom_number(PortText, Port),
+    endpoint_process(Process),
+    starts(Start),
+    note_put(endpoint, '', 0, endpoint(Process, Start, Interface, Port)).
+
+%!  endpoint_process(-Id) is det.
+%
+%   The random id of this process.
+
+endpoint_process(Id) :-
+    process(Id0),
+    !,
+    Id = Id0.
+endpoint_process(Id) :-
+    random_hex(8, New),
+    with_mutex(typhon_runtime,
+               (   process(_)
+               ->  true
+               ;   assertz(process(New))
+               )),
+    endpoint_process(Id).

@@ -6,7 +6,11 @@
             bytes_term/3,               % +Codec, +Bytes, -Term
             bytes_mark/2,               % +Bytes, -Mark
             check_bytes/2,              % +Bytes, -Check
-            mobile_term/1               % +Term
+            mobile_term/1,              % +Term
+            bundle_fits/1,              % +Bytes
+            bundle_next/5,              % +Queue, +Codec, +Room, -Bytes, -Many
+            bundle_all/3,               % +Queue, +Codec, -Frames
+            bundle_parts/2              % +Bundle, -Parts
           ]).
 
 /** <module> Frames: terms as counted bytes
@@ -21,19 +25,25 @@ of one term in one of two codecs:
   - `text` is canonical text in UTF-8, independent of the operators and
     flags of both sides.
 
-The check tells what was damaged on its way before it is decoded: a damaged
+The check detects damage in transit before the bytes are decoded: a damaged
 record aborts the process, too. It is no proof of anything.
 
 Before the body of a request or an answer that may turn out to be more than
 the other side can decode, long ones and all text, stands a mark with its
-number, so that nobody waits for an answer to what could not be read.
+number, so that no caller waits for an answer that could not be read.
+
+Writing, reading, checking and keeping a small frame costs more than its
+content. So posts that wait are loose(Bytes), and up to a hundred of them
+become one frame, bundle(Parts).
 
 *Threading*: no state; every predicate may be called from any thread. The
-owner of a stream sees to it that one thread at a time writes to it.
+owner of a stream ensures that one thread at a time writes to it; the mutex
+of the session guards a queue of bundles.
 */
 
 :- use_module(library(error),
               [resource_error/1, syntax_error/1, type_error/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(sha), [sha_hash/3]).
 :- use_module('../base/fast_bytes', [fast_bytes_term/2]).
 :- use_module('../base/trees', [is_in_itself/1]).
@@ -102,8 +112,8 @@ frame_body(In, Length, _, Bytes) :-
 %!  check_bytes(+Bytes, -Check) is det.
 %
 %   Check is an integer of 24 bits. That of a record is what costs least
-%   and the same for all who may exchange records, see byte_order/1 in
-%   hello.pl; that of a text is the same everywhere.
+%   and the same for all peers that may exchange records, see byte_order/1 in
+%   handshake.pl; that of a text is the same everywhere.
 
 check_bytes(Bytes, Check) :-
     is_text(Bytes),
@@ -147,8 +157,8 @@ serialized(Term, Bytes) :-
 
 %!  bytes_term(+Codec, +Bytes, -Term) is det.
 %
-%   The inverse of term_bytes/3. Never call this on the bytes of somebody
-%   who has not proved himself.
+%   The inverse of term_bytes/3. Never call this on the bytes of a peer
+%   that has not proved itself.
 %
 %   @error syntax_error(Message) the text is damaged.
 
@@ -263,3 +273,93 @@ member_culprit([Arg|Args], Culprit) :-
     ->  Culprit = Culprit0
     ;   member_culprit(Args, Culprit)
     ).
+
+		 /*******************************
+		 *            BUNDLES           *
+		 *******************************/
+
+%   A bundle is no more than can be under way, see outbox.pl.
+
+longest_part(512).
+most_parts(100).
+part_overhead(16).
+
+%!  bundle_fits(+Bytes) is semidet.
+%
+%   Bytes may be part of a bundle.
+
+bundle_fits(Bytes) :-
+    string_length(Bytes, Length),
+    longest_part(Most),
+    Length =< Most.
+
+%!  bundle_next(+Queue, +Codec, +Room, -Bytes, -Many) is semidet.
+%
+%   Take the next frame of Queue: fails where there is none, or not one of
+%   Room bytes, a number or `inf`.  Many is `true` if it is a bundle.
+
+bundle_next(Queue, Codec, Room, Bytes, Many) :-
+    thread_peek_message(Queue, Next),
+    first_length(Next, Length),
+    Length =< Room,
+    !,
+    next(Next, Queue, Codec, Room, Bytes, Many).
+
+first_length(loose(Bytes), Length) :-
+    !,
+    string_length(Bytes, Length).
+first_length(Bytes, Length) :-
+    string_length(Bytes, Length).
+
+next(loose(_), Queue, Codec, Room, Bytes, Many) :-
+    !,
+    most_parts(Most),
+    parts(Most, Room, Queue, Parts),
+    bundled(Parts, Codec, Bytes, Many).
+next(Bytes, Queue, _, _, Bytes, false) :-
+    thread_get_message(Queue, _).
+
+bundled([Bytes], _, Bytes, false) :-
+    !.
+bundled(Parts, Codec, Bytes, true) :-
+    term_bytes(Codec, bundle(Parts), Bytes).
+
+parts(Most, Room0, Queue, Parts) :-
+    (   Most > 0,
+        thread_peek_message(Queue, Next),
+        Next = loose(Part),
+        string_length(Part, Length),
+        Length =< Room0
+    ->  thread_get_message(Queue, _),
+        Parts = [Part|More],
+        room_left(Room0, Length, Room),
+        Most1 is Most-1,
+        parts(Most1, Room, Queue, More)
+    ;   Parts = []
+    ).
+
+room_left(inf, _, inf) :-
+    !.
+room_left(Room0, Length, Room) :-
+    part_overhead(Overhead),
+    Room is Room0-Length-Overhead.
+
+%!  bundle_all(+Queue, +Codec, -Frames:list) is det.
+%
+%   Take all that waits.
+
+bundle_all(Queue, Codec, Frames) :-
+    (   bundle_next(Queue, Codec, inf, Bytes, _)
+    ->  Frames = [Bytes|More],
+        bundle_all(Queue, Codec, More)
+    ;   Frames = []
+    ).
+
+%!  bundle_parts(+Bundle, -Parts:list) is semidet.
+%
+%   Fails for what is not a bundle, be it that a peer calls it so.
+
+bundle_parts(bundle(Parts), Parts) :-
+    is_list(Parts),
+    \+ ( member(Part, Parts),
+         \+ string(Part) ).

@@ -30,9 +30,9 @@ take a while is done by a thread in the background.
 :- use_module(request, [requests_lost/2, session_unfinished/1]).
 :- use_module(resumption, [session_close/2, session_retire/1]).
 :- use_module(session,
-              [route_key/2, session/2, session_adopting/2, session_key/2]).
+              [ route_key/2, session/2, session_adopting/2, session_key/2,
+                session_up/1 ]).
 :- use_module(threads, [in_background/2, wire_thread_join/1]).
-:- use_module(transport, [session_up/1]).
 :- use_module(unsent, [unsent_again/2, unsent_fail/1]).
 :- use_module(waiters, [waiter_tell/2]).
 

@@ -29,11 +29,10 @@ The token goes to whoever takes it first.
 
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(counts, [note_received/2]).
+:- use_module(session, [note_received/2, session_adopting/2, session_key/2]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(resumption, [session_lost/2]).
 :- use_module(secure, [secure_forget/0]).
-:- use_module(session, [session_adopting/2, session_key/2]).
 :- use_module(threads,
               [in_background/2, wire_thread_leaves/1, wire_thread_obey/1]).
 

@@ -23,14 +23,14 @@ adoption gives it the connection.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(settings), [setting/2]).
-:- use_module(auth, [authenticate/6, cookie/1]).
-:- use_module(counts, [received/2]).
-:- use_module(hello,
-              [hello_codec/3, hello_peer/4, line_read/3, line_write/2]).
+:- use_module(handshake,
+              [ authenticate/6, cookie/1, hello_codec/3, hello_peer/4,
+                line_read/3, line_write/2 ]).
+:- use_module(session,
+              [ received/2, session_adopting/2, session_key/2, session_open/4,
+                session_up_since/2 ]).
 :- use_module(request, [connection_is/2]).
 :- use_module(resumption, [session_install/4, session_retire/1]).
-:- use_module(session, [session_adopting/2, session_key/2, session_open/4]).
-:- use_module(transport, [session_up_since/2]).
 
 :- meta_predicate
     meet(+, +, +, +, +, -, 1).
@@ -132,7 +132,7 @@ say_count(Key, Out) :-
     line_write(Out, Line).
 
 hear_count(In, Count) :-
-    setting(typhon_auth:handshake_time, Seconds),
+    setting(typhon_handshake:handshake_time, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
     line_read(In, Deadline, Line),

@@ -27,8 +27,7 @@ block it, unless it is in a hook of the endpoint.
 :- use_module(request,
               [ request_reply/2, request_reply_later/2,
                 request_send/4, take_post/3 ]).
-:- use_module(session, [route/2]).
-:- use_module(transport, [route_up/2]).
+:- use_module(session, [route/2, route_up/2]).
 :- use_module(unsent, [unsent/1, unsent_closed/4, unsent_request/4]).
 
 :- meta_predicate

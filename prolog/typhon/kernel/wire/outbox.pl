@@ -38,20 +38,18 @@ is held.
 :- use_module('../../options/journal',
               [ journal_commit/0, journal_go/0, journal_guards/0,
                 journal_let_out/2 ]).
-:- use_module(bundle, [bundle_fits/1]).
-:- use_module(counts, [acknowledged/3]).
-:- use_module(frame, [frame_write/2, frame_write_now/2, term_bytes/3]).
+:- use_module(frame,
+              [bundle_fits/1, frame_write/2, frame_write_now/2, term_bytes/3]).
+:- use_module(session,
+              [ acknowledged/3, session_codec/2, session_key/2,
+                session_locked/2, session_must_exist/2, session_up/1,
+                transport/3, transport_broken/2, debug_frame/4 ]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(pusher, [pusher/2, pusher_control/3, pusher_start/4]).
-:- use_module(session,
-              [ session_codec/2, session_key/2, session_locked/2,
-                session_must_exist/2 ]).
-:- use_module(transport, [session_up/1, transport/3, transport_broken/2]).
 :- use_module(unacked,
               [ unacked_await/3, unacked_next/3, unacked_no_wait/1,
                 unacked_owed/2, unacked_sent/2, unacked_waiting/1,
                 unacked_waits/2 ]).
-:- use_module(watch, [watch_frame/4]).
 
 :- multifile typhon_committing:letting_out/1.
 
@@ -203,7 +201,7 @@ frame_bytes(Session, Term, Bytes) :-
     term_bytes(Codec, Term, Bytes),
     string_length(Bytes, Length),
     (   frame_fits(Length)
-    ->  watch_frame(to, Session, Term, Bytes)
+    ->  debug_frame(to, Session, Term, Bytes)
     ;   resource_error(frame_bytes)
     ).
 
@@ -314,7 +312,7 @@ written(Write, Key, Thread, Out, Bytes) :-
 session_control(Session, Term) :-
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
-    watch_frame(to, Session, Term, Bytes),
+    debug_frame(to, Session, Term, Bytes),
     functor(Term, Kind, _),
     session_locked(Session, put_control(Session, Kind, Bytes)).
 

@@ -20,9 +20,8 @@
 :- use_module(keeper, [keeper_connect/2]).
 :- use_module(outbox, [session_flush/2]).
 :- use_module(session,
-              [ route/2, session/2, session_codec/2, session_key/2,
-                session_proof/2 ]).
-:- use_module(transport, [route_up/2, session_up/1]).
+              [ route/2, route_up/2, session/2, session_codec/2, session_key/2,
+                session_proof/2, session_up/1 ]).
 :- use_module(unacked, [session_pending/2]).
 
 %!  endpoint_peer(?Address, ?Property) is nondet.

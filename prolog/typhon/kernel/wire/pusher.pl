@@ -21,9 +21,8 @@ the session; pusher_stop/1 is for the thread of the connection, without it.
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(frame, [frame_write/2]).
-:- use_module(session, [session_key/2, session_locked/2]).
+:- use_module(session, [session_key/2, session_locked/2, transport_broken/2]).
 :- use_module(threads, [wire_thread_create/3, wire_thread_end/2]).
-:- use_module(transport, [transport_broken/2]).
 :- use_module(unacked, [unacked_next/3, unacked_waiting/1]).
 
 :- dynamic

@@ -21,7 +21,9 @@ counted.
 
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(counts, [ack_frames/1, note_received/2, received/2]).
+:- use_module(session,
+              [ ack_frames/1, note_received/2, received/2, session_codec/2,
+                session_key/2, session_peer/3, debug_frame/4 ]).
 :- use_module(frame, [frame_read/3]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 :- use_module(lending,
@@ -31,10 +33,8 @@ counted.
                 session_release/1 ]).
 :- use_module(request, [session_unfinished/1]).
 :- use_module(secure, [secure_input/2]).
-:- use_module(session, [session_codec/2, session_key/2, session_peer/3]).
 :- use_module(taking, [frame_term/3, take_bundle/2, take_frame/2]).
 :- use_module(unacked, [session_acked/3, session_sent/2]).
-:- use_module(watch, [watch_frame/4]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is asked for a sign of life").
@@ -112,7 +112,7 @@ read_all(Session, In, Max, State) :-
     ->  (   Bytes == end_of_file
         ->  !
         ;   frame_term(Codec, Bytes, Term),
-            watch_frame(from, Session, Term, Bytes),
+            debug_frame(from, Session, Term, Bytes),
             sig_atomic(handle(Term, Session, In, State)),
             fail
         )

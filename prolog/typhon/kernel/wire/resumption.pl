@@ -25,11 +25,9 @@ have ended.
 :- use_module(request, [connection_is/2]).
 :- use_module(session,
               [ session/2, session_codec/2, session_forget/1, session_key/2,
-                session_locked/2, session_must_exist/2 ]).
+                session_locked/2, session_must_exist/2, transport_attach/3,
+                transport_detach/2, transport_stop/2, transport_thread/2 ]).
 :- use_module(threads, [wire_thread_end/2]).
-:- use_module(transport,
-              [ transport_attach/3, transport_detach/2, transport_stop/2,
-                transport_thread/2 ]).
 :- use_module(unacked,
               [ unacked_again/2, unacked_close/2, unacked_gone/3,
                 unacked_open/1, unacked_rest/1, unacked_waiting/1 ]).

@@ -39,7 +39,7 @@ thread of its connection. What it may last in all is seen to by the keeper.
 :- use_module(library(settings), [setting/2]).
 :- use_module('../base/key_files', [key_loaded/3, keys_file/3]).
 :- use_module('../base/keys', [keys_certificate/2, keys_holder/3]).
-:- use_module(hello, [line_read/3, line_write/2]).
+:- use_module(handshake, [line_read/3, line_write/2]).
 :- use_module(keeper_queue, [keeper_tell/1]).
 
 :- autoload(library(ssl),
@@ -220,7 +220,7 @@ handshake(Role, Directory, In, Out, SIn, SOut, Name) :-
 welcome(server, _, SOut) :-
     line_write(SOut, "typhon tls").
 welcome(client, SIn, _) :-
-    setting(typhon_auth:handshake_time, Seconds),
+    setting(typhon_handshake:handshake_time, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
     line_read(SIn, Deadline, Line),
@@ -244,7 +244,7 @@ peer_name(SIn, Name) :-
 :- public too_late/0.
 
 in_time(Goal) :-
-    setting(typhon_auth:handshake_time, Seconds),
+    setting(typhon_handshake:handshake_time, Seconds),
     thread_self(Me),
     get_time(Now),
     Time is Now+Seconds,

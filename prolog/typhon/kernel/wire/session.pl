@@ -11,29 +11,51 @@
             session_adopting/2,         % +Session, :Goal
             route/2,                    % ?Address, ?Session
             route_key/2,                % ?Address, ?Key
-            route_add/2                 % +Address, +Session
+            route_add/2,                % +Address, +Session
+            ack_frames/1,               % -Count
+            received/2,                 % +Key, -Count
+            note_received/2,            % +Key, +Count
+            acknowledged/3,             % +Key, -Count, -Bytes
+            note_acknowledged/3,        % +Key, +Count, +Bytes
+            transport/3,                % ?Key, ?Thread, -Out
+            transport_thread/2,         % ?Key, ?Thread
+            transport_attach/3,         % +Key, +Thread, +Out
+            transport_stop/2,           % +Key, +Thread
+            transport_broken/2,         % +Key, +Thread
+            transport_detach/2,         % +Key, +Thread
+            session_up/1,               % +Key
+            session_up_since/2,         % +Session, +Time
+            route_up/2,                 % ?Address, -Session
+            debug_frame/4               % +Way, +Session, +Term, +Bytes
           ]).
 
-/** <module> Sessions: who we are joined to
+/** <module> Sessions: what joins two processes, and over which connection
 
 A session joins this process to another for the life of both, over however
-many connections. What is sent in it is the business of outbox.pl, what
-connections it has that of resumption.pl.
+many connections, one at a time. outbox.pl sends in it; resumption.pl gives
+it its connections.
 
 A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address,
-Proof)). Key names the peer. Mutex guards the sending side; that of Adoption is held
-by who gives the session a new connection. Nobody else takes it apart.
+Proof)). Key names the peer. Mutex guards the sending side; a thread that
+gives the session a new connection holds Adoption. No other module takes the
+term apart.
 
-*Threading*: any thread; a mutex makes sessions and routes one at a time.
+Frames are numbered by counting on both sides. Two counts are kept of each
+session, by its key: how many frames of the peer have been handled, and
+how many of ours it has acknowledged.
+
+*Threading*: any thread; a mutex serializes sessions and routes, the mutex of
+a session its connection and what is acknowledged. Only the thread of the
+connection changes the count of what was received.
 */
 
-:- use_module(library(debug), [debug/3]).
+:- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module(counts, [counts_forget/1, counts_open/1]).
-:- use_module(hello, [hello_peer/4]).
+:- use_module(handshake, [hello_peer/4]).
 :- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(threads, [wire_thread_signal/2]).
 
 :- setting(frame_bytes, positive_integer, 67108864,
            "The longest frame sent or taken, in bytes").
@@ -79,7 +101,7 @@ session_proof(session(_, _, _, _, peer(_, _, Proof)), Proof).
 %   Hello-Proof.
 %
 %   @error permission_error(authenticate, peer, tls(other)) the session is
-%   that of another, who knows its key
+%   that of another peer, which knows its key
 
 session_open(Key, Hello-Proof, Codec, Session) :-
     with_mutex(typhon_session,
@@ -104,8 +126,8 @@ open_session(Key, Hello, Proof, Codec, Session) :-
 %!  session_forget(+Session) is semidet.
 %
 %   There is no such session any more; fails when there is none already.
-%   The mutexes are left to the garbage collector: somebody may wait for
-%   them.
+%   The mutexes are left to the garbage collector: another thread may wait
+%   for them.
 
 session_forget(Session) :-
     session_key(Session, Key),
@@ -168,3 +190,158 @@ reroute(Address, Session) :-
     assertz(route(Address, Session)),
     forall(member(Old-_, Displaced), erase(Old)),
     forall(member(_-Key, Displaced), ignore(keeper_tell(displaced(Key)))).
+
+		 /*******************************
+		 *            COUNTS            *
+		 *******************************/
+
+:- dynamic
+    received/2,                         % Key, Count
+    acknowledged/3.                     % Key, Count, Bytes
+
+%!  ack_frames(-Count) is det.
+%
+%   After so many frames the reader acknowledges them.
+
+ack_frames(32).
+
+%!  counts_open(+Key) is det.
+%!  counts_forget(+Key) is det.
+%
+%   There is a session Key; there is none any more.
+
+counts_open(Key) :-
+    assertz(received(Key, 0)).
+
+counts_forget(Key) :-
+    retractall(received(Key, _)),
+    retractall(acknowledged(Key, _, _)).
+
+%!  received(+Key, -Count) is semidet.
+%!  note_received(+Key, +Count) is det.
+%
+%   How many frames had been received when the last connection ended.
+
+note_received(Key, Count) :-
+    retractall(received(Key, _)),
+    assertz(received(Key, Count)).
+
+%!  acknowledged(+Key, -Count, -Bytes) is semidet.
+%!  note_acknowledged(+Key, +Count, +Bytes) is det.
+%
+%   The peer has Count frames of the session, and Bytes bytes of its
+%   connection. Fails if it never had a connection.
+
+note_acknowledged(Key, Count, Bytes) :-
+    retractall(acknowledged(Key, _, _)),
+    assertz(acknowledged(Key, Count, Bytes)).
+
+		 /*******************************
+		 *          CONNECTION          *
+		 *******************************/
+
+:- dynamic
+    transport/3,                        % Key, Thread, Out
+    serving/3.                          % Key, Thread, Since
+
+%!  transport(?Key, ?Thread, -Out) is nondet.
+%
+%   What is sent in the session is written to Out, of Thread.
+
+%!  transport_thread(?Key, ?Thread) is nondet.
+%
+%   Thread has the connection, be it that nothing can be written to it.
+
+transport_thread(Key, Thread) :-
+    serving(Key, Thread, _).
+
+%!  transport_attach(+Key, +Thread, +Out) is det.
+%!  transport_stop(+Key, +Thread) is det.
+%!  transport_detach(+Key, +Thread) is det.
+%
+%   Thread has a connection for the session; nothing is written to it any
+%   more; the session has lost it.
+
+transport_attach(Key, Thread, Out) :-
+    get_time(Now),
+    assertz(serving(Key, Thread, Now)),
+    assertz(transport(Key, Thread, Out)).
+
+transport_stop(Key, Thread) :-
+    retractall(transport(Key, Thread, _)).
+
+transport_detach(Key, Thread) :-
+    retractall(serving(Key, Thread, _)).
+
+%!  transport_broken(+Key, +Thread) is det.
+%
+%   A connection that cannot be written to is none; its thread notices, or
+%   ends on the signal.
+
+transport_broken(Key, Thread) :-
+    debug(typhon(session), '~w: cannot be written to', [Key]),
+    transport_stop(Key, Thread),
+    wire_thread_signal(Thread, broken).
+
+%!  session_up(+Key) is semidet.
+%
+%   The session has a connection that can be written to.
+
+session_up(Key) :-
+    transport(Key, _, _),
+    !.
+
+%!  session_up_since(+Session, +Time) is semidet.
+%
+%   The session is up, and got its connection after Time.
+
+session_up_since(Session, Time) :-
+    session_key(Session, Key),
+    serving(Key, Thread, Since),
+    Since > Time,
+    transport(Key, Thread, _),
+    !.
+
+%!  route_up(?Address, -Session) is nondet.
+%
+%   Address leads to Session, which is up.
+
+route_up(Address, Session) :-
+    route(Address, Session),
+    session_key(Session, Key),
+    session_up(Key).
+
+		 /*******************************
+		 *           DEBUGGING          *
+		 *******************************/
+
+%!  debug_frame(+Way, +Session, +Term, +Bytes) is det.
+%
+%   With the debug topic typhon(frame) print a frame where it is sent and where
+%   it is taken. Way is `to` or `from` the peer. Costs next to nothing if the
+%   topic is off.
+
+debug_frame(Way, Session, Term, Bytes) :-
+    (   debugging(typhon(frame))
+    ->  session_key(Session, Key),
+        frame_words(Term, Words),
+        string_length(Bytes, Length),
+        debug(typhon(frame), '~w ~w: ~w, ~D bytes',
+              [Way, Key, Words, Length])
+    ;   true
+    ).
+
+frame_words(post(Kind, _), post(Kind)) :-
+    !.
+frame_words(request(Id, Kind, _), request(Id, Kind)) :-
+    !.
+frame_words(answer(Id, _), answer(Id)) :-
+    !.
+frame_words(ack(Count, Bytes), ack(Count, Bytes)) :-
+    !.
+frame_words(spoilt(Id), spoilt(Id)) :-
+    !.
+frame_words(unreadable(_, Mark), unreadable(Mark)) :-
+    !.
+frame_words(Term, Kind) :-
+    functor(Term, Kind, _).

@@ -15,8 +15,7 @@ there.
 
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(lists), [member/2]).
-:- use_module(bundle, [bundle_parts/2]).
-:- use_module(frame, [bytes_mark/2, bytes_term/3]).
+:- use_module(frame, [bundle_parts/2, bytes_mark/2, bytes_term/3]).
 :- use_module(outbox, [session_answer/2]).
 :- use_module(request, [dispatch/2, dispatch_all/2]).
 :- use_module(session, [session_codec/2, session_peer/3]).

@@ -30,10 +30,10 @@ the thread of the connection, session_pending/2 is for any thread.
 
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/fifo', [fifo_empty/2]).
-:- use_module(bundle, [bundle_all/3, bundle_next/5]).
-:- use_module(counts,
-              [ack_frames/1, acknowledged/3, note_acknowledged/3]).
-:- use_module(session, [session_codec/2, session_key/2, session_locked/2]).
+:- use_module(frame, [bundle_all/3, bundle_next/5]).
+:- use_module(session,
+              [ ack_frames/1, acknowledged/3, note_acknowledged/3,
+                session_codec/2, session_key/2, session_locked/2 ]).
 
 :- dynamic
     queues/3,                           % Key, Sent, Waiting

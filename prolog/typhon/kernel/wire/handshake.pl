@@ -1,11 +1,17 @@
-:- module(typhon_auth,
-          [ cookie/1,                   % -Cookie
+:- module(typhon_handshake,
+          [ hello/4,                    % +Process, +Start, +Address, -Hello
+            hello_peer/4,               % +Hello, -Process, -Start, -Address
+            hello_line/2,               % +Hello, -Line
+            hello_codec/3,              % +Hello, +PeerHello, -Codec
+            line_read/3,                % +In, +Deadline, -Line
+            line_write/2,               % +Out, +Line
+            cookie/1,                   % -Cookie
             authenticate/6,             % +Role, +In, +Out, +Hello, :Cookie,
                                         % -PeerHello
             random_hex/2                % +Count, -Hex
           ]).
 
-/** <module> Who may talk to us: those who know the cookie
+/** <module> The handshake: peers prove that they know the cookie
 
 Both ends of a connection prove that they know a shared secret, the cookie,
 before either decodes a term of the other. Four short lines pass:
@@ -15,29 +21,157 @@ before either decodes a term of the other. Four short lines pass:
     client: <proof>
     server: <proof>
 
+The lines have a fixed format and are read byte by byte under one deadline,
+never with read/1. A hello is hello(Process, Start, Address, Version, Word,
+Order): the random id of the process, the number of this start of its
+endpoint, its listening address, its Prolog version, word size and byte order.
+
 A proof is the HMAC-SHA256 under the cookie of the prover's role and both
 first lines: it cannot be replayed, reflected, or moved to other hellos. The
-server proves nothing to a client that has not.
+server proves nothing to a client that has not. A client of another version
+of the protocol receives ours, as `typhon 2`.
 
-Who speaks another version of the protocol is told ours, as `typhon 2`.
-
-*Threading*: any thread. The cookie is kept with the time stamp of its file
+*Threading*: any thread. One thread owns the streams of a connection while
+lines are exchanged. The cookie is kept with the time stamp of its file
 in one fact; two threads that read it at once store the same.
 */
 
 :- use_module(library(error), [must_be/2, permission_error/3, syntax_error/1]).
 :- autoload(library(filesex),
-              [chmod/2, delete_directory_and_contents/1, link_file/3]).
+            [chmod/2, delete_directory_and_contents/1, link_file/3]).
 :- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
 :- use_module('../base/spawn', [spawn/3]).
-:- use_module(hello, [hello_line/2, line_hello/2, line_read/3, line_write/2]).
+:- use_module(frame, [check_bytes/2]).
+
+:- setting(records, boolean, true,
+           "Whether terms may travel as records; else always as text").
+
+%!  hello(+Process, +Start, +Address, -Hello) is det.
+%
+%   Hello is what this process says of itself. Without records it claims
+%   no byte order, which agrees with that of no peer.
+
+hello(Process, Start, Address,
+      hello(Process, Start, Address, Version, Word, Order)) :-
+    current_prolog_flag(version, Version),
+    current_prolog_flag(address_bits, Word),
+    byte_order(Order).
+
+%   1.5 is 0x3ff8 and zeros: a record shows which end comes first. Beside
+%   the order stands the check of these bytes, which must agree as well.
+
+byte_order(none) :-
+    setting(records, false),
+    !.
+byte_order(Order) :-
+    fast_term_serialized(1.5, Bytes),
+    check_bytes(Bytes, Check),
+    (   sub_string(Bytes, _, _, _, "\xf8\\x3f\")
+    ->  End = little
+    ;   End = big
+    ),
+    atomic_list_concat([End, Check], '.', Order).
+
+%!  hello_peer(+Hello, -Process, -Start, -Address) is det.
+%
+%   Hello is that of Process, in its start number Start, at Address.
+
+hello_peer(hello(Process, Start, Address, _, _, _), Process, Start, Address).
+
+%!  hello_line(+Hello, -Line:string) is det.
+
+hello_line(hello(Process, Start, Address, Version, Word, Order), Line) :-
+    format(string(Line), "~w ~d ~w ~d ~d ~w",
+           [Process, Start, Address, Version, Word, Order]).
+
+%!  line_hello(+Line, -Hello) is det.
+%
+%   @error syntax_error(hello)
+
+line_hello(Line, Hello) :-
+    (   split_string(Line, " ", "", [P, S, A, V, W, O]),
+        number_string(Start, S),
+        number_string(Version, V),
+        number_string(Word, W)
+    ->  atom_string(Process, P),
+        atom_string(Address, A),
+        atom_string(Order, O),
+        Hello = hello(Process, Start, Address, Version, Word, Order)
+    ;   syntax_error(hello)
+    ).
+
+%!  hello_codec(+Hello, +PeerHello, -Codec) is det.
+%
+%   Codec is `fast` only where it is known to be safe, else `text`. It is
+%   the same whichever of the two hellos is one's own.
+
+hello_codec(hello(_, _, _, Version1, Word1, Order1),
+            hello(_, _, _, Version2, Word2, Order2), Codec) :-
+    (   Word1 == Word2,
+        Order1 == Order2,
+        Order1 \== none,
+        one_record_format(Version1, Version2)
+    ->  Codec = fast
+    ;   Codec = text
+    ).
+
+one_record_format(Version, Version) :-
+    !.
+one_record_format(V1, V2) :-
+    record_format(Low, High),
+    between(Low, High, V1),
+    between(Low, High, V2),
+    !.
+
+%   Versions First..Last read each other's records (tried both ways). 9.0.4
+%   and 10.1.12 do not: of integers of 63 bits and more.
+
+record_format(90000, 90299).
+
+%!  line_read(+In, +Deadline, -Line:string) is det.
+%
+%   Read a line of at most 512 bytes before Deadline, a time stamp.
+%
+%   @error timeout_error(read, In)
+%   @error syntax_error(line) it is too long
+%   @error syntax_error(end_of_file)
+
+line_read(In, Deadline, Line) :-
+    line_codes(In, Deadline, 512, Codes),
+    string_codes(Line, Codes).
+
+line_codes(In, Deadline, Room, Codes) :-
+    get_time(Now),
+    Left is max(0.001, Deadline-Now),
+    set_stream(In, timeout(Left)),
+    get_byte(In, Byte),
+    (   Byte == 0'\n
+    ->  Codes = []
+    ;   Byte == -1
+    ->  syntax_error(end_of_file)
+    ;   Room > 0
+    ->  Codes = [Byte|More],
+        Room1 is Room-1,
+        line_codes(In, Deadline, Room1, More)
+    ;   syntax_error(line)
+    ).
+
+%!  line_write(+Out, +Line) is det.
+
+line_write(Out, Line) :-
+    format(Out, "~w\n", [Line]),
+    flush_output(Out).
+
+		 /*******************************
+		 *        AUTHENTICATION        *
+		 *******************************/
 
 :- setting(handshake_time, number, 5,
            "Seconds a peer has to prove itself").
 
-%   greeted: the server has said who it is, which is still to be proved.
+%   greeted: the server has sent its hello, which is still to be proved.
 
 :- meta_predicate
     authenticate(+, +, +, +, 1, -).
@@ -54,7 +188,7 @@ in one fact; two threads that read it at once store the same.
 %   Prove ourselves to the peer at the other end of In and Out and see its
 %   proof, Role being `client` or `server`. Stops listening after
 %   `handshake_time` seconds in all. call(Cookie, Secret) gives what both
-%   must know: a stranger that does not even greet costs us neither that nor
+%   must know: a client that does not even greet costs us neither that nor
 %   a nonce.
 %
 %   @error permission_error(authenticate, peer, Why) Why: cookie, protocol,
@@ -91,8 +225,8 @@ greeting_hello(Line, Hello) :-
     ;   syntax_error(hello)
     ).
 
-%   The server does not answer somebody who speaks something else, but it
-%   tells another version which one it is.
+%   The server does not answer another protocol, but tells another version of
+%   this one which version it has.
 
 exchange_greetings(client, In, Out, Deadline, Hello, Ours, Theirs) :-
     greet(Out, Hello, Ours),
@@ -250,7 +384,7 @@ check_private(File) :-
 
 %   The file appears complete and private, or not at all: it is written in
 %   a closed directory and linked to its name, which fails for all but the
-%   first of those who try at once.
+%   first of the processes that try at once.
 
 make_cookie(File) :-
     random_hex(8, Suffix),
@@ -274,4 +408,3 @@ make_cookie_in(Directory, File) :-
     ->  true
     ;   throw(error(Formal, Context))
     ).
-
