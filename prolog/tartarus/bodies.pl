@@ -34,7 +34,7 @@ clauses_of(Name, Indicator, Clauses) :-
     head(Indicator, Name, Head),
     findall((Head:-Body), own_clause(Head, Body), Clauses).
 
-%   A clause whose first argument is a variable is nobody's.
+%   A clause whose first argument is a variable belongs to no agent.
 
 own_clause(Head, Body) :-
     arg(1, Head, Name),

@@ -14,7 +14,7 @@
 
 /** <module> How agents begin and end on a platform
 
-The record and the clauses of an agent come and go together.  Who has moved
+The record and the clauses of an agent come and go together.  An agent that moved
 leaves its clauses behind until its last thread here is through: that may
 need them.  They are not those of the agent any more: if it comes back
 meanwhile, it brings its own.

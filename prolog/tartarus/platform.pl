@@ -51,7 +51,7 @@ born on another, `tartarus_gate`, which asks for no token.
 %!  platform_start(+Ip, +Port) is semidet.
 %
 %   Start the platform of this process, and print its banner.  Without a
-%   token nobody is let in.  Fails when the port is taken.  Ports above 65535
+%   token no agent is admitted.  Fails when the port is taken.  Ports above 65535
 %   are those modulo 65536.
 
 start_tartarus(Port) :-
@@ -163,7 +163,7 @@ set_token(Token) :-
 
 %!  verbose(+Bit) is det.
 %
-%   Whether arrivals, creations and hop times are told: 0 or 1.
+%   Whether arrivals, creations and hop times are printed: 0 or 1.
 
 verbose(Bit) :-
     must([check(v1, 'the argument is 0 or 1', memberchk(Bit, [0,1]))]),

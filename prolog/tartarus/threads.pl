@@ -9,8 +9,8 @@
 /** <module> Threads of handlers
 
 Each call of a handler has a thread, which reads, sleeps and loops as it
-likes; nobody ends it.  What has to wait until an agent's last thread is
-through is a thread of its own, which is told.
+likes; it is never ended.  What has to wait until an agent's last thread is
+through is a thread of its own, which is notified.
 
 *Threading*: any thread; one mutex.
 */
@@ -61,7 +61,7 @@ through(Name) :-
 
 %!  run_apart(:Goal) is det.
 %
-%   Run Goal in a thread that nobody waits for.
+%   Run Goal in a thread that is not joined.
 
 run_apart(Goal) :-
     thread_create(ignore(Goal), _, [detached(true)]).

@@ -31,7 +31,7 @@ bounded(Fact, Setting) :-
     ;   true
     ).
 
-%   Who has noted it elsewhere hears of it.
+%   Modules that hold it elsewhere are notified.
 
 forget(Fact) :-
     (   retract(Fact)

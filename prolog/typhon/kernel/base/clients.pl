@@ -62,7 +62,7 @@ accept(Server, Socket, Most, Serve) :-
 
 admit(Server, Client, Ip, Most, Serve) :-
     open_streams(Client, In, Out),
-    (   room(Server, Most)
+    (   has_slot(Server, Most)
     ->  functor(Server, Name, _),
         catch(crew_start(Server, Name,
                          typhon_clients:serve(Server, Ip, Serve, In, Out),
@@ -117,9 +117,9 @@ becomes(State) :-
     get_time(Now),
     assertz(client(Server, Me, Ip, Now, State)).
 
-%   room(+Server, +Most): fails if no client can give way.
+%   has_slot(+Server, +Most): fails if no client can give way.
 
-room(Server, Most) :-
+has_slot(Server, Most) :-
     aggregate_all(count, ( client(Server, _, _, _, State0),
                            State0 \== apart ), Count),
     (   Count < Most

@@ -15,7 +15,7 @@ clause references.
 
 %!  forget_erased is det.
 %
-%   Forget those that nobody has any more.
+%   Forget those that no table holds any more.
 
 forget_erased :-
     garbage_collect,

@@ -19,7 +19,7 @@ Where there is nothing but unbound variables it walks on.
 %!  fast_bytes_term(+Bytes, -Term) is det.
 %
 %   The inverse of fast_term_serialized/2.  Never call this on the bytes of
-%   somebody who has not proved himself.
+%   a peer that is not authenticated.
 
 fast_bytes_term(Bytes, Term) :-
     words(Bytes, Words),

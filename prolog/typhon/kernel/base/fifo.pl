@@ -13,7 +13,7 @@ thread_peek_message/2 that has passed over a message leaves a reference to
 what is no more, and a garbage collection while it reads the next one damages
 the stacks of the thread.
 
-*Threading*: only for queues from which nobody else takes at the same time.
+*Threading*: only for queues with one reader at a time.
 */
 
 %!  fifo_empty(+Queue, -Messages:list) is det.
@@ -36,7 +36,7 @@ fifo_first(Queue, Message) :-
 
 %!  fifo_take(+Queue, ?Message) is semidet.
 %
-%   Take the first message of Queue that unifies; nobody may add to it
+%   Take the first message of Queue that unifies; no thread may add to it
 %   meanwhile.  Not in sig_atomic/1: if there is none among many this is a
 %   wait that expires, see typhon_own_thread.
 %

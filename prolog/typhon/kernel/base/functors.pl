@@ -2,10 +2,10 @@
           [ functors_room/0
           ]).
 
-/** <module> Room in the table of functors
+/** <module> Space in the table of functors
 
 A functor that one thread makes while another makes the table of all functors
-larger may be missing in the new table, on 9.0.4 and on 10.1.  Who names it
+larger may be missing in the new table, on 9.0.4 and on 10.1.  A thread that names it
 later gets a second one, and a term of the one never unifies with the same term
 of the other: a predicate that is there is not found.  The table grows at each
 power of two, for ever, as no functor goes away.

@@ -12,7 +12,7 @@ To read and parse them costs as much as to sign: what was read stays until
 the file is another. So does what was found out about a certificate, until the
 files that it depends on are.
 
-*Threading*: any thread; a mutex makes those who remember come one by one.
+*Threading*: any thread; a mutex serialises writers.
 */
 
 :- autoload(library(filesex), [directory_file_path/3]).

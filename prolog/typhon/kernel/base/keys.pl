@@ -1,20 +1,20 @@
 :- module(typhon_base_keys,
           [ keys_sign/3,                % +Directory, +Text, -Signature
-            keys_verify/4,              % +Directory, +Text, +Signature, -Who
+            keys_verify/4,              % +Directory, +Text, +Signature, -Holder
             keys_seal/4,                % +Directory, +Text, +Certificate,
                                         % -Sealed
             keys_unseal/3,              % +Directory, +Sealed, -Text
             keys_certificate/2,         % +Directory, -Certificate
-            keys_holder/3               % +Directory, +Certificate, -Who
+            keys_holder/3               % +Directory, +Certificate, -Holder
           ]).
 
 /** <module> What is done with the keys of a directory
 
 A directory of keys is what `app/typhon.pl keys` makes for a host or an
 author: `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`. A signature is
-signature(Certificate, Hex): who signed shows his certificate, as PEM, and it
+signature(Certificate, Hex): the certificate of the signer, as PEM; it
 counts if the authority has signed that, it has not expired, and is not
-revoked. Who is host(Name) or author(Name).
+revoked. Holder is host(Name) or author(Name).
 
 The keys are RSA: on SWI-Prolog 9.0.4 library(crypto) crashes when it signs
 with those of curves. Signatures are compared with what they should contain,
@@ -57,16 +57,16 @@ digest(Text, Digest) :-
     crypto_data_hash(Text, Digest0, [algorithm(sha256), encoding(utf8)]),
     string_lower(Digest0, Digest).
 
-%!  keys_verify(+Directory, +Text, +Signature, -Who) is semidet.
+%!  keys_verify(+Directory, +Text, +Signature, -Holder) is semidet.
 %
-%   Who has signed Text. Signature may be anything.
+%   Holder has signed Text. Signature may be any term.
 
-keys_verify(Directory, Text, Signature, Who) :-
+keys_verify(Directory, Text, Signature, Holder) :-
     subsumes_term(signature(_, _), Signature),
     Signature = signature(Pem, Hex),
     string(Pem),
     string(Hex),
-    known_certificate(Directory, Pem, Certificate, Who),
+    known_certificate(Directory, Pem, Certificate, Holder),
     certificate_field(Certificate, public_key(Key)),
     digest(Text, Digest),
     signs(Key, Digest, Hex).
@@ -87,24 +87,24 @@ signs(Key, Digest, Hex) :-
     atom_string(Expected, PlainText),
     string_lower(PlainHex, PlainText).
 
-%!  keys_holder(+Directory, +Certificate, -Who) is semidet.
+%!  keys_holder(+Directory, +Certificate, -Holder) is semidet.
 %
-%   Certificate is a good one, of Who.
+%   Certificate is a valid one, of Holder.
 
-keys_holder(Directory, Pem, Who) :-
+keys_holder(Directory, Pem, Holder) :-
     string(Pem),
-    known_certificate(Directory, Pem, _, Who).
+    known_certificate(Directory, Pem, _, Holder).
 
-known_certificate(Directory, Pem, Certificate, Who) :-
+known_certificate(Directory, Pem, Certificate, Holder) :-
     string_length(Pem, Length),
     Length =< 16384,
     key_loaded(Directory, ca, Authority, Stamp1),
     key_loaded(Directory, crl, List, Stamp2),
     key_found(Pem, Stamp1-Stamp2, certified(Pem, Authority, List),
-              Certificate-Who),
+              Certificate-Holder),
     in_its_time(Certificate).
 
-certified(Pem, Authority, List, Certificate-Who) :-
+certified(Pem, Authority, List, Certificate-Holder) :-
     pem_certificate(Pem, Certificate),
     of_authority(Authority, Certificate),
     \+ revoked(List, Certificate),
@@ -112,7 +112,7 @@ certified(Pem, Authority, List, Certificate-Who) :-
     memberchk('CN'=Name, Subject),
     memberchk('OU'=Kind, Subject),
     memberchk(Kind, [host, author]),
-    Who =.. [Kind, Name].
+    Holder =.. [Kind, Name].
 
 of_authority(Authority, Certificate) :-
     certificate_field(Authority, public_key(Key)),

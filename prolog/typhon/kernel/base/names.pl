@@ -12,8 +12,8 @@
 
 /** <module> Names that people mistype
 
-What names there are of a kind, hosts, programs, options, topologies, is
-said by the rooms that know them, with clauses for known/2.  From that
+The names of a kind (hosts, programs, options, topologies) are
+given by the modules that own them, with clauses for known/2.  From that
 follow what a message proposes, what it lists, and what the top level
 completes.
 

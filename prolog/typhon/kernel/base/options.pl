@@ -9,10 +9,10 @@
 :- use_module(names,
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 
-/** <module> Options that nobody knows are errors
+/** <module> Unknown options are errors
 
 Each list of options belongs to a domain, as `host_option`.  What options it
-may have is declared by the room that takes them, with clauses for
+may have is declared by the module that takes them, with clauses for
 
     declared(Domain, Option, Type, Value)
 

@@ -30,8 +30,8 @@ no other: so the helper never waits for itself.
 
 %!  in_own_thread(:Goal) is semidet.
 %
-%   As once(Goal), in a thread of its own. No bindings come back. Who is
-%   interrupted while waiting leaves Goal to itself.
+%   As once(Goal), in a thread of its own. No bindings come back. If the
+%   caller is interrupted while waiting, Goal runs on.
 
 in_own_thread(Goal) :-
     nb_current(typhon_own_thread, true),
@@ -54,7 +54,7 @@ in_own_thread(Goal) :-
 in_own_thread(Goal) :-
     once(Goal).
 
-%   There may be several of a role, and who is about to end has its name still.
+%   There may be several of a role, and one that is about to end still has its name.
 
 alias(Role, Alias) :-
     flag(typhon_own_thread, N, N+1),
@@ -153,9 +153,9 @@ outcome(Goal, Status) :-
 answer(Answers, Status) :-
     catch(thread_send_message(Answers, Status),
           error(existence_error(_, _), _),
-          true).                % nobody waits any more
+          true).                % no caller waits any more
 
-%   Nobody who asks a helper that has ended waits for ever.
+%   A request to a helper that has ended does not wait for ever.
 
 no_help(Queue) :-
     (   with_mutex(typhon_own_thread, retract(helper(Me, Queue)))

@@ -6,7 +6,7 @@
 
 Of the pipes to a process that begins, any other that begins in that moment
 gets the ends, too (SWI-Prolog 9.0.4 to 10.1): it holds them open for as long
-as it lives, and who waits until a pipe ends waits for both.
+as it lives, and a reader that waits until a pipe ends waits for both.
 
 *Threading*: any thread may call; one does it at a time.
 */

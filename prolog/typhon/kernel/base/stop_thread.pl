@@ -12,7 +12,7 @@
 %
 %   Join Thread, which has been told to end.  After a second it is aborted,
 %   in the middle of whatever it does, again and again; after another one it
-%   is left to itself, and that is told.
+%   is left to itself, and a message says so.
 
 stop_thread(Thread) :-
     stop_thread(1000, Thread).
@@ -42,8 +42,8 @@ interrupt(Tries, Thread) :-
 
 %!  abort_quietly
 %
-%   As abort/0, which nobody can catch for good, but what people have typed
-%   ahead is not thrown away.  Where it is not sure which exception that is,
+%   As abort/0, which cannot be caught for good, but input that was typed
+%   ahead is not discarded.  Where it is not sure which exception that is,
 %   abort/0 raises it.
 
 abort_quietly :-

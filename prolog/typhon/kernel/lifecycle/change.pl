@@ -61,7 +61,7 @@ must_be_clause(Clause) :-
 %   @error permission_error(attach, procedure, PI)
 %   @error existence_error(state, PI, Declared)
 %   @error permission_error(change, agent_program, Id) there are keys, and we
-%   do not own it: nobody would let it in
+%   do not own it: no host would admit it
 
 change_made(facts(Clauses), Id) :-
     agent(Id, _, Module, Hash, _),

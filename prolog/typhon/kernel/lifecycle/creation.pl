@@ -353,7 +353,7 @@ descends(none).
 descends(clone(Parent, Id)) :-
     clone_born(Parent, Id).
 
-%   Who only waits for messages does so from birth.
+%   An agent that only waits for messages does so from birth.
 
 begin([], Id) :-
     agent(Id, _, Module, Hash, _),

@@ -58,7 +58,7 @@ kind(counts, virtual).
 %!  cut_kept(+Hosts:list, -Items:list) is det.
 %
 %   What this process knows, but for what is about other hosts of it than Hosts,
-%   about who stands there, and who has gone from there.
+%   about agents that stand there, and those that left.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error permission_error(save, agent, Id) if it runs
@@ -158,7 +158,7 @@ typhon_durable:restore(stands, Id, _,
     agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals),
     host_again(Host).
 
-%   Who is held is held again at its next goal.
+%   A held agent is held again at its next goal.
 
 rests(running, _, Id, _, _) :-
     !,
@@ -173,7 +173,7 @@ typhon_durable:dump(mail, Id, 0, Message) :-
     with_agent(Id, mail_list(Id, Messages)),
     member(Message, Messages).
 
-%   Nobody waits for the answer any more.
+%   No caller waits for the answer any more.
 
 typhon_durable:dump(order, Id, 0, Order) :-
     agent(Id, _, _, _, _),
@@ -184,7 +184,7 @@ typhon_durable:dump(order, Id, 0, Order) :-
 typhon_durable:restore(order, Id, _, Order) :-
     agent_order(Id, Order).
 
-unasked(asked(Order, _), asked(Order, queue(nobody))) :-
+unasked(asked(Order, _), asked(Order, queue(none))) :-
     !.
 unasked(Order, Order).
 

@@ -18,11 +18,11 @@
 
 /** <module> Agents are disposed of, by force if need be
 
-An agent that rests ends at once, one that runs at its next effect.  Who
-disposes of it waits for that, for a moment; in a thread of its own, for it
+An agent that rests ends at once, one that runs at its next effect.  The
+caller waits for that, for a moment; in a thread of its own, for it
 may be a cleanup handler.  One that comes to no effect, since it loops, or
 waits for something outside, is interrupted if that is wanted: in the thread
-that runs it, so nobody else notices.
+that runs it, so no other agent notices.
 
 *Threading*: agent_dispose/2 in any thread but those of the endpoint.
 Questions are answered in the threads of connections, too.  interrupt/1 is a
@@ -34,7 +34,7 @@ signal.
     typhon_questions:here/3.
 
 :- setting(heed_seconds, number, 1,
-           "An agent that is disposed of and runs on for so long is told of").
+           "An agent that is disposed of and runs on for so long is reported").
 :- setting(force_seconds, number, 10,
            "An agent that is interrupted has so long to be gone").
 
@@ -118,7 +118,7 @@ see_to_end(force(Seconds), Agent) :-
                   )).
 
 %   ends_within(+Agent, +Seconds) is semidet.  One that came to rest when
-%   there was nobody to run it, or is faulty, ends now.
+%   there was no worker to run it, or is faulty, ends now.
 
 ends_within(Agent, Seconds) :-
     catch(ignore(agent_urge(Agent, order(end), Seconds, _)),

@@ -21,8 +21,8 @@
 
 /** <module> How agents end
 
-*Threading*: any thread.  Who removes the record of an agent, inside
-with_agent/2, is the one who reports its end.
+*Threading*: any thread.  The thread that removes the record of an agent,
+inside with_agent/2, reports its end.
 */
 
 :- meta_predicate

@@ -13,7 +13,7 @@
 Agents that rest are disposed of at once, those that run at their next
 effect; those that do not come to one are interrupted.  Those that are about
 to arrive elsewhere may do so; but where the journal has been closed they are
-under way in it, and nobody waits for them.
+under way in it, and are not waited for.
 
 *Threading*: the thread that stops the host.
 */
@@ -32,8 +32,8 @@ under_way(transit(_, _)).
 under_way(cloning(_, _)).
 
 %   Nearly always all rest, and nothing is waited for.  Else it looks again every
-%   10 ms: to be told, each arrival, return and end of a turn would have to look
-%   whether somebody waits for it.
+%   10 ms: a notification would make each arrival, return and end of a turn check
+%   for a waiting caller.
 
 evacuate(Host, Deadline) :-
     evacuated(Host, Deadline),
@@ -47,10 +47,10 @@ evacuate(Host, Deadline) :-
         evacuate(Host, Deadline)
     ).
 
-%   Load is also who ends until that is told, and who is on its way in before
-%   it stands here.
+%   Load counts an agent that ends until that is reported, and one that arrives
+%   before it is installed.
 
-last_seconds(1).                        % for who ends at the deadline
+last_seconds(1).                        % for an agent that ends at the deadline
 
 evacuated(Host, Deadline) :-
     \+ agent(_, Host, _, _, _),
@@ -72,7 +72,7 @@ end_or_order(Host, Deadline) :-
     ;   true
     ).
 
-%   Who is ready rests, whatever it has been told.
+%   A ready agent rests, whatever its orders.
 
 stays(Id) :-
     agent_status(Id, Status, _),

@@ -30,7 +30,7 @@ The home of an agent is asked, see typhon_home, which answers when it knows.
 %   Who may be family(Agent): Agent, all its clones, and theirs; that is until
 %   the last has ended.  Then Outcome is a list of pairs Agent-Outcome, each
 %   before its clones, and these in the order in which they were born in a
-%   process.  At the timeout the outcome of those who have not ended is
+%   process.  At the timeout the outcome of those that have not ended is
 %   `timeout`; one whose home does not know it any more has the outcome
 %   `unknown`.
 %
@@ -75,7 +75,7 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     home_here(Agent, Endpoint),
     !,
     setup_call_cleanup(
-        message_queue_create(Queue),    % who is interrupted leaves nothing
+        message_queue_create(Queue),    % an interrupt leaves nothing
         ( outcome_wait(Agent, Seconds, queue(Queue, join)),
           outcome_heard(Queue, Outcome)
         ),
@@ -88,7 +88,7 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     process_ask(Endpoint, Endpoint, join, join(Agent, Seconds), Outcome,
                 Limit).
 
-%   Where virtual time calls who asks, none passes meanwhile.
+%   A caller in the thread of virtual time must not wait: no time would pass.
 
 outcome_heard(Queue, Outcome) :-
     time_wait(Queue, outcome(join, Outcome0), inf),
@@ -100,7 +100,7 @@ outcome_heard(_, timeout).
                 *            FAMILIES          *
                 *******************************/
 
-%   members(+Agents, +Until, -Outcomes): of them, and of those who were
+%   members(+Agents, +Until, -Outcomes): of them, and of those that were
 %   cloned from them.
 
 members([], _, []).
@@ -168,7 +168,7 @@ home_here(Agent, _) :-
     agent_outcome(Agent, _).
 
 %   left(+Agent, +Outcome, +Kind, -Items): what Agent has left, or is going to
-%   leave: who has not ended, or is kept since it ended badly, is asked.
+%   leave: an agent that has not ended, or is kept since it is faulty, is asked.
 
 left(Agent, Outcome, Kind, Items) :-
     may_stand(Outcome),

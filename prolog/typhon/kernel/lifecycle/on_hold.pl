@@ -17,7 +17,7 @@ is to go on `resumed`, until a worker has it.  In place of its goals there is
 
     held(Probe, Goals, Seen)
 
-Goals being what comes next and Seen whether somebody was told.  It holds no
+Goals being what comes next and Seen whether a caller was notified.  It holds no
 thread, and is ended as others that rest are.  Orders wait for its next
 effect.
 
@@ -29,7 +29,7 @@ effect.
 %!  held_seen(+Id, +Held) is det.
 %!  held_on(+Id, +Held) is det.
 %
-%   Id, which was running, is held; what Held is; somebody was told where it
+%   Id, which was running, is held; what Held is; a caller was notified where it
 %   is; it is to go on.
 
 held_put(Id, Probe, Goals, Seen) :-

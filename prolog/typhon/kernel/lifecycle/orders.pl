@@ -28,7 +28,7 @@
 /** <module> Orders are taken and obeyed
 
 An order that has found its agent, see typhon_giving, is noted in its record.
-The agent takes it at its next effect.  Who waits for what comes of it is
+The agent takes it at its next effect.  The caller that waits for its result is
 noted with it: asked(Order, Asker).
 
 *Threading*: orders are taken in any thread, in the reader threads if they
@@ -64,8 +64,8 @@ at_once(dispose).
 %!  order_take(+Id, +Order) is semidet.
 %
 %   Order comes to Id.  Fails if there is no such agent in this process.
-%   Besides those of typhon_giving there is evacuate(Host): it ends who stands
-%   on Host, of this process, and nobody who has left it meanwhile.
+%   Besides those of typhon_giving there is evacuate(Host): it ends an agent
+%   on Host, of this process, unless it has left it meanwhile.
 
 order_take(Id, dispose) :-
     agent_end(Id, at_rest, disposed),
@@ -88,7 +88,7 @@ order_take(Id, Order) :-
     ;   traced_held(Id)
     ).
 
-%   Who is under way may be out of touch before long.
+%   An agent under way may be out of reach soon.
 
 look_again_later(Id) :-
     (   under_way(Id)
@@ -156,7 +156,7 @@ idle(waiting(_, _)).
 idle(resident).
 
 %   Orders to an agent that left in the meantime follow it, but for what was
-%   meant for those who stay.
+%   meant for agents that stay.
 
 typhon_transfer:forward_order(_, evacuate(_)) :-
     !.
@@ -244,7 +244,7 @@ answered(Asker, Answer) :-
           error(Formal, _),
           question_answered(Asker, error(Formal))).
 
-%   When a host has been stopping for long it ends who still obeys.
+%   When a host has been stopping for long it ends agents that still obey.
 
 go_on(Id, Goals) :-
     (   is_faulty(Goals, _, _)

@@ -13,12 +13,12 @@
                 stay_until/3 ]).
 :- use_module(ending, [agent_end/3]).
 
-/** <module> Who uses more than he may, and does not notice
+/** <module> Agents that exceed quotas without an effect
 
 What is not counted when it is used a thread looks after, see typhon_quotas:
 how long an agent has not stopped, how large its stack is, and what agents of
-one owner, or all of a host, have of these and of state together.  And somebody
-must end who has been on a host for as long as he may.
+one owner, or all of a host, have of these and of state together.  And an agent
+ends that has been on a host for as long as it may.
 
 *Threading*: look/0 in the thread that watches, too_long/2 in a worker;
 interrupt/2 and pause/2 are signals.
@@ -63,7 +63,7 @@ typhon_quotas:look :-
     fail.
 typhon_quotas:look.
 
-%   Who does not stop for so long lets others go first, if there are some that
+%   An agent that does not stop for so long lets others go first, if there are some that
 %   are not like that.  Priorities of threads would do the same if systems kept
 %   to them.
 
@@ -149,7 +149,7 @@ typhon_scheduler:over(Id, stays(Until)) :-
 
 :- public too_long/2.
 
-%   Who is under way may come back to where it was.
+%   An agent under way may come back to where it was.
 
 too_long(Id, Until) :-
     (   stay_until(Id, _, Until)

@@ -54,7 +54,7 @@ agent_property(Agent, Property0) :-
     call(Ask, Id, Question, 10, answer(Properties)),
     one_of(Property, Properties).
 
-%   Who is one of all those here may have left meanwhile: he is not followed.
+%   One of all agents here may have left meanwhile: it is not followed.
 
 known_as(Agent, Agent, agent_ask_here) :-
     var(Agent),

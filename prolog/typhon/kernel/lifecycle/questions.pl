@@ -30,7 +30,7 @@ reader threads, which never wait.
     typhon_ordered_moves:answered/2.
 
 %   here(+Question, +Agent, +Asker) is semidet: fails if Agent does not stand
-%   in this process.  Else Asker is told, then or later.
+%   in this process.  Else Asker gets the answer, then or later.
 
 %!  agent_ask(+Agent, +Question, +Seconds, -Answer) is semidet.
 %!  agent_ask_here(+Agent, +Question, +Seconds, -Answer) is semidet.

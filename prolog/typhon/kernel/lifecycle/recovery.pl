@@ -114,7 +114,7 @@ typhon_durable:restore(code, Hash, _, _) :-
     ;   assertz(superfluous(code, Hash))
     ).
 
-%   Before anybody who needs it again can come.
+%   Before any request can need it.
 
 typhon_durable:tidy :-
     forall(retract(superfluous(Kind, Key)), note_drop_all(Kind, Key)).
@@ -131,7 +131,7 @@ typhon_durable:go_on :-
 %
 %   Id, which has been put where it was, is scheduled if it was about to run,
 %   and woken when its time has come.  Others are let in already, and what they
-%   say may have woken it: who runs by now must not be run by two.
+%   send may have woken it: an agent that runs by now must not be run by two.
 
 agent_goes_on(Id) :-
     (   with_agent(Id, ( agent_status(Id, Status, Goals),

@@ -11,17 +11,17 @@
 
 /** <module> All agents of a process come to rest
 
-When nobody gets a turn any more those that run stop at their next effect, as
-they do for an order.  Who is under way arrives, or stays; letters and news
-that somebody has in hand find their way, or wait.
+When no agent gets a turn any more those that run stop at their next effect, as
+they do for an order.  Agents under way arrive, or stay; messages and news
+that are being handled find their way, or wait.
 
 *Threading*: the thread that holds the process.
 */
 
 %!  agents_at_rest(+Seconds, +Peers) is semidet.
 %
-%   No agent of this process runs or is under way any more, and nobody has
-%   something in hand for the endpoints Peers; fails if that is not so in
+%   No agent of this process runs or is under way any more, and nothing is
+%   queued for the endpoints Peers; fails if that is not so in
 %   Seconds.
 
 agents_at_rest(Seconds, Peers) :-
@@ -30,14 +30,14 @@ agents_at_rest(Seconds, Peers) :-
     agents_passed,
     rest_before(Deadline, Peers).
 
-%   Looks again every 10 ms: to be told, each turn and each departure would have
-%   to look whether somebody waits for it.
+%   Looks again every 10 ms: a notification would make each turn and each
+%   departure check for a waiting caller.
 
 rest_before(Deadline, Peers) :-
     forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
            ignore(with_agent(Id, stops(Id)))),
     (   \+ restless(Peers),
-        agents_passed,                  % who is gone has its letters sent on
+        agents_passed,                  % messages follow agents that left
         \+ restless(Peers)
     ->  true
     ;   get_time(Now),
@@ -51,7 +51,7 @@ rest_before(Deadline, Peers) :-
 
 stops(Id) :-
     agent_status(Id, running, _),
-    agent_order(Id, asked(question(rest), queue(nobody))).
+    agent_order(Id, asked(question(rest), queue(none))).
 
 restless(_) :-
     agent_status(_, Status, _),

@@ -24,7 +24,7 @@
 /** <module> Agents that are held before each goal
 
 An agent that is stepped, or whose goals are traced, runs in a probe, see
-typhon_probe.  Who is stepped is held before each goal, see
+typhon_probe.  A stepped agent is held before each goal, see
 typhon_on_hold.
 
 *Threading*: any thread asks; the worker that has the agent runs its probe.

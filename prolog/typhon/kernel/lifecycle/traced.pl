@@ -9,7 +9,7 @@
 :- use_module(on_hold, [held_on/2]).
 :- use_module(questions, [question_answered/2]).
 
-/** <module> Who looks on, and who does not any more
+/** <module> Tracers of an agent, and their end
 
 The traces of an agent, see typhon_traces, are changed by the order
 watched(Change), where Change is trace(To, Kinds), `step` or none(To).
@@ -43,7 +43,7 @@ changed(none(To), Traces0, Traces) :-
 
 is_of(To, trace(To, _)).
 
-%   Who is held, and need not be any more, goes on.
+%   An agent that is held, and need not be any more, goes on.
 
 release(Traces, Id) :-
     (   \+ memberchk(step, Traces),

@@ -15,8 +15,8 @@
 
 /** <module> Agents of which people want to hear
 
-Who traces an agent is a part of its life, see typhon_traces, so it is told
-wherever the agent goes.  What happens is sent to the process of who asked,
+The tracers of an agent are a part of its life, see typhon_traces, so they
+follow it wherever it goes.  Events are sent to the process that asked,
 and printed there.
 
 *Threading*: any thread asks; events are printed in the thread that they come

@@ -19,7 +19,7 @@
 %   step(N, Name, What): the host with the certificate of that Name has signed
 %   that it was handed(To), received(At), or has entered(Result). Verdict is
 %   `whole`, or unaccounted(Name): after that host, or in its hands, state or
-%   code have become what nobody answers for; of what came later there are no
+%   code have changed without a signature; of what came later there are no
 %   steps; or since(N), if all is well from the N-th link on, and those before
 %   are gone. Without keys on its way an agent has no steps.
 %

@@ -11,7 +11,7 @@ A problem, see typhon_problems, is raised and printed as
 
 where Text says what to do about it, and Others are problems found with it.
 A context/2 of Prolog's own would be replaced by a trace of the reader's
-calls when nobody catches the error.
+calls when the error is not caught.
 
 *Threading*: pure.
 */

@@ -12,7 +12,7 @@
 
 By name alone, so that it does not depend on where an agent is: what
 library(sandbox) takes for safe whatever its arguments are, without what
-would still reach another agent, the process or those who watch it; the
+would still reach another agent, the process or its watches; the
 vocabulary of agents; and the predicates of some libraries without state.
 The libraries are part of the vocabulary, or may be asked for.
 

@@ -39,7 +39,7 @@
 %     - of an agent, calls to predicates that neither it nor the vocabulary
 %       defines, so that a place or a payload must offer them
 %
-%   While some of it cannot be read, only that is told.  agent_create/3 raises
+%   While some of it cannot be read, only syntax errors are reported.  agent_create/3 raises
 %   the errors, and prints the warnings once for each program, until its file
 %   changes; those of the last kind unless a payload of the agent or the place
 %   of a host of this process defines the predicate.
@@ -59,7 +59,7 @@ agent_check(Spec) :-
 %
 %   With the option policy(Policy), see host_start/2, it is also looked at
 %   whether a host that guards would let the program or the payload in: fails
-%   if not, and what is refused is told as errors.
+%   if not, and reports what is refused as errors.
 
 agent_check(Spec, Options) :-
     check_options(check_option, Options),

@@ -143,7 +143,7 @@ condition(If, Program, Path0, Path) -->
     walk(If, Program, path(Seen, [], []), _),
     { stopped(If, Program, Path0, Path) }.
 
-%   fails(+Goal, +Path)//: Goal may fail, and nobody comes back.
+%   fails(+Goal, +Path)//: Goal may fail, without a choice point before it.
 
 fails(Goal, path(_, Left, Lost)) -->
     { failing(Goal, Left, Kinds),

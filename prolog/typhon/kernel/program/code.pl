@@ -46,7 +46,7 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 :- multifile
     in_use/1,                   % Hash: an agent of this process runs it
     installed/2,                % Name, Module: a program of that name now is
-    retiring/1.                 % Hash: nobody needs it any more
+    retiring/1.                 % Hash: not needed any more
 
 :- dynamic
     retiring/1,
@@ -87,7 +87,7 @@ rule_at_no_place(Clause, (Head:-Body)-none) :-
 %
 %   Sent is what others need to have the program: the program, or
 %   Program-Places, or signed(_, Signature) with one of these.  The second is
-%   as code_install/2, for what somebody else says has this Hash.
+%   as code_install/2, for a program that a peer sent under this Hash.
 %
 %   @error domain_error(program_of_hash(Hash), Program)
 
@@ -180,7 +180,7 @@ install(Hash, Program, Kinds) :-
 
 %!  code_make(+Program, +Kinds, -Module) is det.
 %
-%   A module with the clauses of Program, which who calls this has to keep.
+%   A module with the clauses of Program, which the caller has to keep.
 
 code_make(Program, Kinds, Module) :-
     flag(typhon_code_module, N, N+1),

@@ -10,7 +10,7 @@
 
 /** <module> What a goal of a program may be there for
 
-As far as can be told without running it; who is in doubt says nothing.
+As far as can be known without running it; doubtful goals are not reported.
 
 *Threading*: pure.
 */

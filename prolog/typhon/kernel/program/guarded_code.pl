@@ -56,13 +56,13 @@ kinds(program(_, _, _, Clauses), Kinds) :-
 %!  code_check(+Policy, +Hash, +Sent) is det.
 %
 %   Look at a program that is not installed yet: already its libraries could
-%   be what nobody wants here.  Sent is as of code_receive/2.
+%   be unwanted here.  Sent is as of code_receive/2.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 
 code_check(_, Hash, _) :-
     code_module(Hash, _),
-    !.                                  % somebody here has it
+    !.                                  % it was checked here
 code_check(Policy, _, Sent) :-
     ( subsumes_term(_-_, Sent) -> Sent = Program-_ ; Program = Sent ),
     (   subsumes_term(program(_, _, _, _), Program),

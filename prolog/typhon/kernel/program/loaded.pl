@@ -82,7 +82,7 @@ load(Key, Spec, Loaded) :-
     ;   true
     ).
 
-%   What stands beside a file may say who has signed it.
+%   A file beside it may hold its signature.
 
 signature(File, loaded(_, _, Hash, _, _)) :-
     atom(File),

@@ -30,7 +30,7 @@ make this possible:
     of a catch/3 inside that catch/3.  The else branch and the recovery
     survive the suspension.
   - The control predicate itself is replaced by a _hole_, a variable:
-    who resumes the agent binds it to `true`, `fail`, `throw(Error)` or
+    the caller that resumes the agent binds it to `true`, `fail`, `throw(Error)` or
     any other goal.
 
 *Threading*: pure with respect to the agent; any thread may run any
@@ -249,8 +249,8 @@ inside(Goal, Frame, Goals, X, Out) :-
 
 stood(_, _).
 
-%   What is not caught here is not touched: else nobody would see where it
-%   was raised.
+%   What is not caught here is not touched: else the place where it was
+%   raised would be lost.
 
 guarded(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
     Frame = Sub-catch(Sub,Catcher,Recovery),

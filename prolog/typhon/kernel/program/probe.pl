@@ -9,7 +9,7 @@
 
 /** <module> The machine, goal by goal
 
-Who wants to see what an agent does goal by goal runs it in a probe: an engine
+To see what an agent does goal by goal, run it in a probe: an engine
 in which the machine stops before each goal that it looks up.  Between two
 goals it is a term that holds no thread, with all choice points.
 
@@ -32,16 +32,16 @@ be found.  What Prolog runs to its end by itself is one goal.
 %   stopped; what was the matter is noted in the thread that took the outcome.
 
 probe_start(context(Program, Agent), Goals, Probe) :-
-    (   nb_current(typhon_context, Who)
+    (   nb_current(typhon_context, Context)
     ->  true
-    ;   Who = none
+    ;   Context = none
     ),
-    engine_create(Step, run(Who, Program, Agent, Goals, Step), Probe).
+    engine_create(Step, run(Context, Program, Agent, Goals, Step), Probe).
 
 %   Global variables are the engine's own.
 
-run(Who, Program, Agent, Goals, outcome(Outcome, Goals)-Note) :-
-    nb_setval(typhon_context, Who),
+run(Context, Program, Agent, Goals, outcome(Outcome, Goals)-Note) :-
+    nb_setval(typhon_context, Context),
     nb_setval(typhon_probed, Program),
     machine_run(context(typhon_probe, Agent), Goals, Outcome),
     fault_noted(Note),

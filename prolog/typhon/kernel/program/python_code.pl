@@ -9,7 +9,7 @@
 
 A payload that was read from a file vision.py is called `vision`; its one
 clause is a fact 'vision.py'(Source).  So it travels as any other payload,
-and is nothing but text to who does not want Python.
+and is text for a host without Python.
 
 *Threading*: no state.
 */

@@ -7,7 +7,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/trees', [is_tree/2]).
 
-/** <module> What strangers are told
+/** <module> Reasons of refusals
 
 *Threading*: pure.
 */
@@ -36,7 +36,7 @@ clause_cells(Max) :-
 
 %!  refuse(+Culprit)
 %
-%   What is large is told by its name.
+%   A large term is reported by its name.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 

@@ -7,13 +7,13 @@
             program_author/3            % +Keys, +Hash, -Author
           ]).
 
-/** <module> Who has signed a program or a payload
+/** <module> Signatures of programs and payloads
 
 What an author signs is the hash by which a program travels. The signature
 stands in a file beside it, `visitor.pl.sig`, and goes along
-with the code. Whether it is good is seen when somebody asks.
+with the code. It is verified on the first request.
 
-*Threading*: any thread; a mutex makes those who keep one come one by one.
+*Threading*: any thread; a mutex serialises writers.
 */
 
 :- use_module('../base/keys', [keys_sign/3, keys_verify/4]).
@@ -26,7 +26,7 @@ most_signatures(1024).
 %!  program_signature(?Hash, -Signature) is semidet.
 %!  signature_keep(+Hash, +Signature) is det.
 %
-%   Signature is said to be one of the program of that Hash. Who comes later
+%   Signature is said to be one of the program of that Hash. The last one
 %   counts: a bad one cannot stand in the way of a good one for long.
 
 program_signature(Hash, Signature) :-

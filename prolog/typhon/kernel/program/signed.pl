@@ -111,7 +111,7 @@ unguarded(Goal, Plain) :-
     ( mapsubterms(unguarded, Plain0, Plain) -> true ; Plain = Plain0 ).
 
 payload_signature(Payload, Signature) :-
-    program_signature(_, _),            % somebody has signed something
+    program_signature(_, _),            % there are signatures
     payload_hash(Payload, Hash),
     program_signature(Hash, Signature),
     !.

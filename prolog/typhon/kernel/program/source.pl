@@ -28,8 +28,8 @@ What cannot be read, or looks like a slip of the pen, is a problem as in
 typhon_problems, and reading goes on behind it.  A syntax error stands at
 file(File, Line, LinePos, CharNo).
 
-What was read can be compared with what would be read now, for who keeps
-it.  A file has changed when its size or its time has.  One that was changed
+What was read can be compared with what would be read now, by its
+owner.  A file has changed when its size or its time has.  One that was changed
 within two seconds before it was read may change again without either: it
 is not settled, and must not be relied on.
 

@@ -44,7 +44,7 @@ fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
 
 %!  where_handled(+Hash, +Agent, +Goal, +Fault, -Where) is semidet.
 %
-%   As fault_where/4, where Goal, which nobody in the program called, has
+%   As fault_where/4, where Goal, which no clause of the program called, has
 %   failed with Fault.  Fails if no clause is for it.
 
 where_handled(Hash, Agent, Goal, Fault, Where) :-
@@ -250,9 +250,9 @@ returns(Goals, All, Call, c(N, Name/Arity)) :-
     after(Sequel, Goals, End, _),
     functor(Head, Name, Arity).
 
-%   callers(+Left, +All, +Clause, -Callers): who called Clause, Left being
+%   callers(+Left, +All, +Clause, -Callers): the callers of Clause, Left being
 %   what comes after it.  After a last call nothing does: then it is known
-%   only if nobody else calls that predicate.
+%   only if no other clause calls that predicate.
 
 callers(Left, All, c(_, Name/Arity), Callers) :-
     functor(Head, Name, Arity),

@@ -19,7 +19,7 @@
 What typhon_guard leaves for then: '$guarded'(Goal) and '$guarded'(Closure,
 A, ...) call the goal if it is allowed.  The machine unfolds them, so that an
 agent can stop in there; inside what Prolog runs to its end they are called
-as they stand.  For agents that nobody guards they are call/N.
+as they stand.  For agents that are not guarded they are call/N.
 
 *Threading*: whatever thread runs the agent.
 */

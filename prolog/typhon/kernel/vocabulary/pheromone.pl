@@ -93,7 +93,7 @@ typhon_options:declared(pheromone_option, strength(Number), number, Number).
 typhon_options:declared(pheromone_option, period(Seconds), number, Seconds).
 
 %   A signal is signal(Problem, Source, Maximum, Span, Period, Emitted,
-%   Distance), Distance being that of those who get it.
+%   Distance), Distance being that of the hosts that get it.
 
 spread(Host, From, Signal) :-
     arg(2, Signal, Source),

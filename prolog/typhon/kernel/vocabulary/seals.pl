@@ -6,8 +6,8 @@
 /** <module> What only one host can read
 
 An agent seals what it has found for a host, its home as a rule; on its way
-there nobody else can read it, or change it unseen. The key is that of the
-process of the host, see doc/keys.md. Who can read an agent can of course
+there no other process can read it, or change it unseen. The key is that of the
+process of the host, see doc/keys.md. A process that can read an agent can
 read what it seals while it stands there.
 
 *Threading*: whatever thread runs the agent; to seal for a host of another

@@ -110,7 +110,7 @@ life(Life) :-
 %!  host_load(-Count:integer) is det.
 %
 %   The addresses of linked hosts, what it costs to go to one of them, 1
-%   where nobody has said otherwise, and how many agents stand here.
+%   unless it was set, and how many agents stand here.
 
 neighbours(Hosts) :-
     context_host(Host),
@@ -137,22 +137,22 @@ host_load(Count) :-
 %
 %   As agent_send/2; it is from this agent.  If Agent has ended the
 %   message is lost with a warning, not an error; without one if the host of
-%   this agent is about to stop.  Who asks from outside is `user`, who has no
-%   mailbox: answers to him are printed.
+%   this agent is about to stop.  The sender from outside is `user`, which has no
+%   mailbox: answers to it are printed.
 %
-%   A compound term, as fipa(Name, Addresses), is somebody beyond a bridge of
+%   A compound term, as fipa(Name, Addresses), is a recipient beyond a bridge of
 %   this host, see post_abroad/4.
 
 send(at(Agent, _), Message), \+ compound(Agent) =>
     send(Agent, Message).
-send(Somebody, Message), compound(Somebody) =>
+send(External, Message), compound(External) =>
     context(Host, Id, Module),
-    (   module_policy(Module, _)        % no stranger speaks for us outside
-    ->  permission_error(call, sandboxed, send(Somebody, Message))
+    (   module_policy(Module, _)        % not in the name of this host
+    ->  permission_error(call, sandboxed, send(External, Message))
     ;   true
     ),
-    post_abroad(Host, Somebody, Id, Message),
-    event(messages, Host, Id, sent(Somebody, Message)).
+    post_abroad(Host, External, Id, Message),
+    event(messages, Host, Id, sent(External, Message)).
 send(Agent, Message), Agent == user =>
     context(Host, Id, _),
     quota_spend(Host, Id, messages),
@@ -169,8 +169,8 @@ send(Agent, Message) =>
           error(existence_error(agent, Agent), _),
           lost(Host, Agent, Id, Message)).
 
-%   Where a host stops who rests there ends first, and who still runs cannot
-%   know: of what he says in vain nobody wants to hear.
+%   On a host that stops, resting agents end first, and running ones cannot
+%   know: messages to those are dropped without a warning.
 
 lost(Host, _, _, _) :-
     host_closed(Host),
@@ -287,7 +287,7 @@ undeliver(Name) :-
 %!  withdraw(+Problem) is det.
 %!  pheromone(?Problem, -Source, -Strength) is nondet.
 %
-%   The host calls for someone who can solve Problem, and takes this back;
+%   The host calls for an agent that can solve Problem, and takes this back;
 %   and what pheromones from other hosts are here. For the options see
 %   pheromone_emit/3, for how it fades pheromone_strength/4. Agents follow
 %   pheromones by the migration strategy phercon(Problem).
@@ -343,8 +343,8 @@ enter(Result) :-
 
 %!  result(+Term) is det.
 %
-%   The result of this agent is Term; the last one given counts.  Who waits
-%   for it by agent_result/3 has it when the agent has ended.
+%   The result of this agent is Term; the last one given counts.
+%   agent_result/3 returns it when the agent has ended.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error resource_error(result_bytes)
