@@ -64,11 +64,19 @@ main(Names) :-
     keysort(Pairs0, Pairs),
     pairs_values(Pairs, Files),
     at_halt(kill_all_left_behind),
+    on_signal(term, _, terminated),
     with_tmp_dir(run_suites(Files, Suites)),
     foldl(add_suite, Suites, sum(0, 0, 0), Sum),
     print_sum(Sum),
     exit_status(Sum, Status),
     halt(Status).
+
+%   By default SIGTERM, which `timeout` sends, ends Prolog without at_halt/1.
+
+:- public terminated/1.
+
+terminated(_) :-
+    halt(143).
 
 run_suites(Files, Suites, Dir) :-
     quick_swipl(Dir, Quick),

@@ -44,7 +44,11 @@ kill_left_behind(Mark, Names) :-
 kill_all_left_behind :-
     suite_mark('', Mark),
     marked_processes(Mark, Pids),
-    maplist(kill_process, Pids).
+    (   Pids == []
+    ->  true
+    ;   maplist(kill_process, Pids),
+        kill_all_left_behind            % those that were just being started
+    ).
 
 marked_processes(Mark, Pids) :-
     exists_directory('/proc/self'),
