@@ -129,7 +129,7 @@ exception('prolog/typhon/kernel/wire/lending.pl',tls).
 exception('prolog/typhon/kernel/wire/lending.pl',watch).
 exception('prolog/typhon/kernel/wire/outbox.pl',guard).
 exception('prolog/typhon/kernel/wire/outbox.pl',journal).
-exception('prolog/typhon/kernel/wire/proofs.pl',tls).
+exception('prolog/typhon/kernel/wire/peer_cache.pl',tls).
 exception('prolog/typhon/kernel/wire/reader.pl',tls).
 exception('prolog/typhon/kernel/wire/refusals.pl',tls).
 exception('prolog/typhon/kernel/wire/request.pl',guard).

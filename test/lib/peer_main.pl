@@ -143,7 +143,7 @@ send_in_background(Id, Count) :-
 %   Attempts to connect that come to nothing do so soon.
 
 hurried :-
-    set_setting(typhon_keeper:connect_time, 0.3).
+    set_setting(typhon_connection_manager:connect_time, 0.3).
 
 %   This process makes no connections: others do.
 

@@ -2,8 +2,8 @@
 
 /** <module> The wire
 
-Processes that know the same cookie, and what they say to each other, once
-and in order.  Nothing here knows of agents.
+Processes that know the same cookie exchange terms, each once and in order.
+Nothing here knows of agents.
 This is the interface of the layer: higher layers import from here.
 */
 
@@ -12,17 +12,19 @@ This is the interface of the layer: higher layers import from here.
               endpoint_listen_end/1, endpoint_open/0, endpoint_process/1,
               endpoint_proof/1, endpoint_start/3, endpoint_start/4,
               endpoint_start_alone/1, endpoint_stop/0 ]).
-:- reexport('wire/messaging').
+:- reexport(wire/messaging,
+            [ endpoint_ask_all/6, endpoint_call/5, endpoint_post/3,
+              endpoint_post_by/4, endpoint_post_up/3, endpoint_reply/2,
+              endpoint_reply_later/2, endpoint_request/4 ]).
 :- reexport(wire/outbox, [frame_fits/1]).
 :- reexport(wire/lending, [endpoint_afterwards/1]).
-:- reexport('wire/call').
-:- reexport('wire/inquiry').
 :- reexport(wire/peers,
             [endpoint_flush/1, endpoint_flush/2, endpoint_gone/1,
              endpoint_lasting/1, endpoint_left/1,
              endpoint_missed/2, endpoint_peer/2]).
-:- reexport(wire/contacts, [contact_expect/1, contact_expect_no_more/1]).
-:- reexport('wire/proofs').
+:- reexport(wire/peer_cache,
+            [ contact_expect/1, contact_expect_no_more/1,
+              endpoint_own_proof/1, endpoint_proof/2 ]).
 :- reexport(wire/frame, [mobile_term/1]).
 :- reexport(wire/handshake, [cookie/1, random_hex/2]).
 :- reexport(wire/text, [term_text/2, text_term/2]).

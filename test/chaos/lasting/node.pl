@@ -145,10 +145,10 @@ held(alarm(A)) :-
     predicate_property(typhon_alarms:A, dynamic),
     clause(typhon_alarms:A, true).
 held(fact(M:A)) :-
-    member(M, [typhon_attempts,typhon_waiters,typhon_session,typhon_transport,
-               typhon_contacts,typhon_crossings,typhon_doubt,typhon_transfer,
+    member(M, [typhon_attempts,typhon_session,typhon_connection_manager,
+               typhon_peer_cache,typhon_crossings,typhon_doubt,typhon_transfer,
                typhon_whereabouts,typhon_home,typhon_news,typhon_unacked,
-               typhon_outbox,typhon_pusher,typhon_committing,typhon_connection,
+               typhon_outbox,typhon_committing,typhon_connection,
                typhon_lending]),
     current_predicate(M:F/N),
     functor(A, F, N),

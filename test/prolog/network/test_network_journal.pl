@@ -248,12 +248,12 @@ all_visits(All) :-
 ends_last(Network) :-
     hosts(Network, [A, B|_]),
     atomic_list_concat([_, Endpoint], @, A),
-    remote(B, settings:set_setting(typhon_keeper:connect_time, 0.2)),
+    remote(B, settings:set_setting(typhon_connection_manager:connect_time, 0.2)),
     remote(B, \+ \+ thread_create(
                         with_mutex(typhon_hosting,
                                    ( repeat,
                                      system:sleep(0.02),
-                                     typhon_contacts:contact(Endpoint, _, gone),
+                                     typhon_peer_cache:contact(Endpoint, _, gone),
                                      !,
                                      system:sleep(1) )), _, [detached(true)])).
 

@@ -39,16 +39,16 @@ told_under_way(First, Then, Kept) :-
 :- meta_predicate with_silent_home(-, 0).
 
 with_silent_home(Home, Goal) :-
-    setting(typhon_keeper:connect_time, Time),
+    setting(typhon_connection_manager:connect_time, Time),
     setup_call_cleanup(
-        ( set_setting(typhon_keeper:connect_time, 0.2),
+        ( set_setting(typhon_connection_manager:connect_time, 0.2),
           tcp_socket(Socket) ),
         ( tcp_bind(Socket, '127.0.0.1':Port),
           tcp_listen(Socket, 5),
           format(atom(Home), '127.0.0.1:~d', [Port]),
           setup_call_cleanup(host_start(alpha), Goal, host_stop(alpha)) ),
         ( tcp_close_socket(Socket),
-          set_setting(typhon_keeper:connect_time, Time) )).
+          set_setting(typhon_connection_manager:connect_time, Time) )).
 
 %   A courier that is back waits for an alarm.
 

@@ -13,7 +13,8 @@ own.
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/wire/keeper), [keeper_connect/1]).
+:- use_module(library(typhon/kernel/wire/connection_manager),
+              [manager_connect/1]).
 :- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
 :- use_module(library(typhon/kernel/wire/session),
               [route/2, transport_thread/2]).
@@ -68,7 +69,7 @@ alone(Me, Goal) :-
            retractall(T)),
     setup_call_cleanup(
         endpoint_start(localhost, 0, Me),
-        ( keeper_connect(Me), once(Goal) ),
+        ( manager_connect(Me), once(Goal) ),
         endpoint_stop).
 
 with_queue(Queue, Goal) :-

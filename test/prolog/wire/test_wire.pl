@@ -106,10 +106,10 @@ as_process(Id, Goal) :-
 with_late_callers(Goal) :-
     thread_self(Me),
     setup_call_cleanup(
-        wrap_predicate(typhon_meeting:meet(Role, _, _, _, _, _, _), late,
+        wrap_predicate(typhon_resumption:meet(Role, _, _, _, _, _, _), late,
                        Meet, ( test_wire:wait_if_called(Role, Me), Meet )),
         Goal,
-        unwrap_predicate(typhon_meeting:meet/7, late)).
+        unwrap_predicate(typhon_resumption:meet/7, late)).
 
 :- public wait_if_called/2.
 
@@ -175,7 +175,7 @@ test(a_wrong_cookie_is_told_at_once) :-
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
                            "use_module('~w'),endpoint_start(localhost,0,_),\c
-                            settings:set_setting(typhon_keeper:connect_time,60),\c
+                            settings:set_setting(typhon_connection_manager:connect_time,60),\c
                             catch(endpoint_post('~w',note,x),\c
                                   error(unreachable(_),_),\c
                                   halt(3)),halt(0)", [File, A]),
@@ -260,7 +260,7 @@ test(before_the_posts_that_follow, Notes == Expected) :-
           ask(A, notes, x, Notes) ))).
 test(without_a_thread_for_each, true(More < 8)) :-
     numlist(1, 300, Numbers),
-    with_endpoint(with_settings([typhon_keeper:connect_time=1],
+    with_endpoint(with_settings([typhon_connection_manager:connect_time=1],
         with_silent_listener(A,
             ( statistics(threads, Before),
               send_all(A, Numbers),
@@ -382,7 +382,7 @@ test(leave_no_queue_behind, Queues == Before) :-
           wait_until(queues(Before), 5),
           queues(Queues) ))).
 test(are_kept_in_a_bounded_number) :-
-    with_settings([typhon_keeper:resting=2],
+    with_settings([typhon_connection_manager:resting=2],
         with_endpoint(with_peers(4, Addresses,
             ( forall(member(A, Addresses), ask(A, echo, x, x)),
               assertion(endpoint_flush(5)),
@@ -416,11 +416,11 @@ test(nobody_waits_for_a_late_answer, Open == 0) :-
           aggregate_all(count, typhon_request:open_request(_, _, _),
                         Open) ))).
 test(contacts_are_bounded, true(Count =< 5)) :-
-    with_settings([typhon_contacts:contacts=5],
+    with_settings([typhon_peer_cache:contacts=5],
         with_endpoint(
             ( forall(between(1, 20, P),
                      ( atom_concat('127.0.0.1:', P, A), unreachable(A) )),
-              aggregate_all(count, typhon_contacts:contact(_, _, _),
+              aggregate_all(count, typhon_peer_cache:contact(_, _, _),
                             Count) ))).
 
 queues(Count) :-

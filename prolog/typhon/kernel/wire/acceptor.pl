@@ -3,22 +3,22 @@
             accept_no_more/0
           ]).
 
-/** <module> Taking connections
+/** <module> Accepting connections
 
 Every client has a thread of its own and, until it has proved itself, one of
 a bounded number of slots. When all are taken a newcomer gets that of
-another: of an address nobody has proved himself from, before others; of the
-address that holds most slots; of one that has said nothing yet; of the one
-that came first. So who only wants to hold slots holds them as long as nobody
-else wants them.
+another: of an address from which no peer has proved itself, before others; of
+the address that holds most slots; of one that has sent nothing yet; of the one
+that came first. So a client that only wants to hold slots holds them as long
+as no other wants them.
 
-Most strangers take us for something else. Whose first byte is there, and is
-not that of a greeting, gets neither slot nor thread.
+Most unknown clients speak another protocol. One whose first byte is there, and
+is not that of a greeting, gets neither slot nor thread.
 
 *Threading*: accept_all/2 is the goal of a thread, which is woken by a
 signal: closing the socket would not wake it. The slots are guarded by a
-mutex: the acceptor gives and takes them, the thread of a client says how
-far it has come and gives its own back.
+mutex: the acceptor gives and takes them, the thread of a client reports how
+far it has come and returns its own.
 */
 
 :- use_module(library(error), [syntax_error/1]).
@@ -27,12 +27,11 @@ far it has come and gives its own back.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(socket), [tcp_accept/3]).
 :- use_module(connection, [incoming/5, open_streams/3]).
-:- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(threads,
+              [ manager_notify/1, wire_thread_create/4, wire_thread_running/1,
+                wire_thread_signal/2 ]).
 :- use_module(refusals, [refusals_begin/0, refused/2]).
 :- use_module(secure, [secure_first/2]).
-:- use_module(threads,
-              [ wire_thread_create/4, wire_thread_running/1,
-                wire_thread_signal/2 ]).
 
 :- setting(strangers, positive_integer, 128,
            "Connections at a time that have not proved themselves").
@@ -47,7 +46,7 @@ proved_addresses(256).
 
 %!  accept_all(+Socket, +Me)
 %
-%   Serve all who connect to Socket, Me being our hello, until stopped by
+%   Serve all that connect to Socket, Me being our hello, until stopped by
 %   a signal.
 
 accept_all(Socket, Me) :-
@@ -69,7 +68,7 @@ accept(Socket, Me) :-
     atomic_list_concat([A, B, C, D], '.', Ip),
     sig_atomic(admit(Client, Ip, Me)).
 
-%   Out of descriptors, most likely, which strangers may hold.
+%   Out of descriptors, most likely, which unproved clients may hold.
 
 accept_failed(Formal) :-
     refused(anywhere, Formal),
@@ -151,7 +150,7 @@ free_slot :-
 
 bury(Thread) :-
     take_slot(Thread),
-    ignore(keeper_tell(ended(Thread))).
+    ignore(manager_notify(ended(Thread))).
 
 evict(Ip) :-
     victim(Thread, Ip),
@@ -190,7 +189,7 @@ address_rank(Ip, Slots, Known, Free) :-
     length(Slots, Count),
     Free is -Count.
 
-%   Who is new has not had a chance to say anything.
+%   A new client has not had a chance to send anything.
 
 stage_rank(silent, Spoke) =>
     Spoke = 0.

@@ -9,7 +9,7 @@
 
 /** <module> An endpoint without a wire
 
-A process that talks to nobody else needs no sockets and no threads: what is
+A process without peers needs no sockets and no threads: what is
 sent to its own address is taken at once, as a copy, by the thread that sends
 it.  Other addresses cannot be reached.
 

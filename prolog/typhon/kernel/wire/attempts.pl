@@ -9,26 +9,39 @@
             attempt_expired/2,          % +Address, +Since
             attempt_next/2,             % +Me, -Address
             attempt_due/1,              % -Time
-            attempts_due/1              % -Due
+            attempts_due/1,             % -Due
+            waiter_add/2,               % +Address, +Queue
+            waiter/1,                   % ?Address
+            waiters_tell/2,             % ?Address, +Result
+            waiters_missed/2,           % +Address, +Asked
+            waiter_tell/2,              % +Queue, +Result
+            asking/1,                   % -Number
+            asked/1                     % -Number
           ]).
 
-/** <module> Attempts to connect, and their times
+/** <module> Attempts to connect, their times, and the threads that wait
 
 For each address that is to be reached there is one attempt: it has yet to
-begin, is being made, or pauses until it is made again. What becomes of it
-decides connector.pl.
+begin, is being made, or pauses until it is made again. connection_manager.pl
+decides about its result.
 
-*Threading*: the thread of the keeper owns all that is here.
+A thread that cannot go on without a connection to an address waits at a
+queue of its own, and receives `met` or `missed`. Requests are held in
+request.pl and hold no thread. All of them are numbered: the result of an
+attempt to connect does not concern those that came after it began.
+
+*Threading*: the thread of the connection manager owns the tables;
+waiter_tell/2, asking/1 and asked/1 may be called from any.
 */
 
-:- use_module(library(lists), [min_member/2]).
+:- use_module(library(lists), [member/2, min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(contacts, [contact_expected/1]).
+:- use_module(peer_cache, [contact_expected/1]).
 :- use_module(session, [session/2]).
 
-:- setting(typhon_keeper:connect_time, number, 5,
-           "Seconds until it is told that a peer cannot be reached").
-:- setting(typhon_keeper:return_time, number, 30,
+:- setting(typhon_connection_manager:connect_time, number, 5,
+           "Seconds until a peer is reported as unreachable").
+:- setting(typhon_connection_manager:return_time, number, 30,
            "The same, of one that is started again whenever it ends").
 
 :- dynamic
@@ -36,10 +49,10 @@ decides connector.pl.
 
 %!  attempt(?Address, ?State, -Pause, -Since) is nondet.
 %
-%   State is `queued`, trying(Thread, Start, Asked) or pausing(Until, Asked): who
-%   asked before the last try has a number below Asked. Pause is the one that
-%   comes next. Somebody has waited Since then, `unset` before it
-%   first begins, `none` if nobody does.
+%   State is `queued`, trying(Thread, Start, Asked) or pausing(Until, Asked):
+%   requests from before the last try have a number below Asked. Pause is the
+%   one that comes next. Callers have waited Since then, `unset` before the
+%   first try begins, `none` if no caller waits.
 
 first_pause(0.02).
 longest_pause(2).
@@ -49,7 +62,7 @@ longest_pause_of_expected(0.2).
 %   when they begin: then it takes longer until silence means something.
 
 patience(Seconds) :-
-    setting(typhon_keeper:connect_time, Seconds0),
+    setting(typhon_connection_manager:connect_time, Seconds0),
     predicate_property(attempt(_, _, _, _), number_of_clauses(Attempts)),
     predicate_property(session(_, _), number_of_clauses(Sessions)),
     Seconds is Seconds0*min(4, 1+(Attempts+Sessions)//16).
@@ -60,7 +73,7 @@ patience(Seconds) :-
 
 %!  attempt_want(+Address) is det.
 %
-%   Somebody waits for Address. Who comes later waits with the first.
+%   A caller waits for Address. Later callers share its attempt.
 
 attempt_want(Address) :-
     attempt(Address, _, _, Since),
@@ -77,7 +90,7 @@ attempt_want(Address) :-
 
 %!  attempt_begun(+Address, +Thread, +Asked) is det.
 %
-%   Thread tries to reach Address. The time of those who wait begins with
+%   Thread tries to reach Address. The time of those that wait begins with
 %   the first time.
 
 attempt_begun(Address, Thread, Asked) :-
@@ -97,7 +110,7 @@ attempt_asked(pausing(_, Asked), Asked).
 
 %!  attempt_greeted(+Thread) is det.
 %
-%   The attempt of Thread has been answered: somebody is there, and slow, as
+%   The attempt of Thread has been answered: a peer is there, and slow, as
 %   all are where many begin at once. The time begins again, unless it has
 %   gone wrong often.
 
@@ -114,7 +127,7 @@ attempt_greeted(Thread) :-
 %!  attempt_pause(+Address, +Pause, +Since) is det.
 %
 %   Try again after about Pause seconds, the next time after twice as many,
-%   but not later than there is time for who waits Since then.
+%   but not later than there is time for a caller that waits Since then.
 
 attempt_pause(Address, Pause, Since) :-
     get_time(Now),
@@ -193,7 +206,7 @@ young(Until) :-
 
 %!  attempt_expired(+Address, +Since) is semidet.
 %
-%   Who has waited for Address Since then need not wait any longer.
+%   The time of a caller that has waited for Address Since then is over.
 
 attempt_expired(Address, Since) :-
     deadline(Address, Since, Deadline),
@@ -202,7 +215,7 @@ attempt_expired(Address, Since) :-
 
 deadline(Address, Since, Deadline) :-
     (   contact_expected(Address)
-    ->  setting(typhon_keeper:return_time, Seconds)
+    ->  setting(typhon_connection_manager:return_time, Seconds)
     ;   patience(Seconds)
     ),
     Deadline is Since+Seconds.
@@ -240,3 +253,64 @@ attempts_due(Due) :-
               due(State, Address, Since, Until),
               Until =< Now ),
             Due).
+
+		 /*******************************
+		 *       WAITING THREADS        *
+		 *******************************/
+
+:- dynamic
+    waiter/3.                           % Address, Number, Queue
+
+%!  waiter_add(+Address, +Queue) is det.
+
+waiter_add(Address, Queue) :-
+    asking(Number),
+    assertz(waiter(Address, Number, Queue)).
+
+%!  waiter(?Address) is semidet.
+%
+%   A thread waits for Address.
+
+waiter(Address) :-
+    waiter(Address, _, _),
+    !.
+
+%!  waiters_tell(?Address, +Result) is det.
+%!  waiters_missed(+Address, +Asked) is det.
+%
+%   Notify all that wait for Address; send `missed` to those with a number below
+%   Asked.
+
+waiters_tell(Address, Result) :-
+    waiters_tell(Address, inf, Result).
+
+waiters_missed(Address, Asked) :-
+    waiters_tell(Address, Asked, missed).
+
+waiters_tell(Address, Before, Result) :-
+    findall(Number-Queue,
+            ( waiter(Address, Number, Queue), Number < Before ),
+            Told),
+    forall(member(Number-Queue, Told),
+           ( retractall(waiter(_, Number, _)),
+             waiter_tell(Queue, Result) )).
+
+%!  waiter_tell(+Queue, +Result) is det.
+%
+%   The waiting thread may have been interrupted, and its queue destroyed.
+
+waiter_tell(Queue, Result) :-
+    catch(thread_send_message(Queue, Result),
+          error(existence_error(_, _), _),
+          true).
+
+%!  asking(-Number) is det.
+%!  asked(-Number) is det.
+%
+%   A request made now has Number; earlier ones have a lower one.
+
+asking(Number) :-
+    flag(typhon_asking, Number, Number+1).
+
+asked(Number) :-
+    flag(typhon_asking, Number, Number).

@@ -6,8 +6,8 @@
 
 /** <module> The thread of one connection
 
-A connection has one thread, which opens its streams, meets the peer, see
-meeting.pl, reads frames until it breaks, and closes the streams.
+A connection has one thread, which opens its streams, gives the connection to
+the session of the peer, see resumption.pl, reads frames until it breaks, and closes the streams.
 
 *Threading*: incoming/5 and outgoing/2 are the goals of threads of the wire.
 */
@@ -18,14 +18,15 @@ meeting.pl, reads frames until it breaks, and closes the streams.
 :- use_module(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
-:- use_module(contacts, [contact_gone/1, contact_met/2]).
+:- use_module(peer_cache, [contact_gone/1, contact_met/2]).
 :- use_module(handshake, [hello_peer/4]).
-:- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(threads, [manager_notify/1]).
 :- use_module(lending, [lent_away/0]).
-:- use_module(meeting, [meet/7, own_session/1, prove/5]).
+:- use_module(resumption,
+              [ meet/7, own_session/1, prove/5, session_left/0,
+                session_lost/2 ]).
 :- use_module(reader, [read_frames/3]).
 :- use_module(refusals, [refused/2, tls_text/2]).
-:- use_module(resumption, [session_left/0, session_lost/2]).
 :- use_module(secure, [secure_close/0, secure_first/2, secure_streams/6]).
 :- use_module(session, [route_add/2, session_adopting/2, session_peer/3]).
 
@@ -74,7 +75,7 @@ turned_away(Ip, Formal, Stage) :-
     ->  true
     ;   call(Stage, refused)
     ->  refused(Ip, Formal)
-    ;   true                            % who took its slot has counted it
+    ;   true                            % the thread that took its slot has counted it
     ).
 
 %   The peer at Ip can be reached at the address it says it listens to,
@@ -105,7 +106,7 @@ loopback(Ip) :-
 
 %!  outgoing(+Address, +Me) is det.
 %
-%   Connect to Address. If there comes no connection of it the keeper hears
+%   Connect to Address. If that fails the connection manager receives
 %   missed(Thread, Formal).
 
 outgoing(Address, Me) :-
@@ -127,7 +128,7 @@ outgoing(Address, Me) :-
 typhon_handshake:greeted :-
     nb_current(typhon_set_out, true),
     thread_self(Me),
-    keeper_tell(greeted(Me)).
+    manager_notify(greeted(Me)).
 
 found(Address, Interface, Peer, Session) :-
     hello_peer(Peer, Process, _, _),
@@ -143,7 +144,7 @@ missed(Address, Formal) :-
     ;   true
     ),
     thread_self(Me),
-    ignore(keeper_tell(missed(Me, Formal))).
+    ignore(manager_notify(missed(Me, Formal))).
 
 connect(Interface, Port, Socket) :-
     tcp_socket(Socket),
@@ -169,7 +170,7 @@ with_streams(Open, In, Out, Goal) :-
           close_stream(Out),
           close_stream(In) )).
 
-%   Who was lent finds them closed.
+%   A thread that was lent finds them closed.
 
 close_stream(Stream) :-
     catch(close(Stream, [force(true)]),
@@ -206,7 +207,7 @@ serve(Session, In, Out) :-
               report_break(Session, Formal)),
         lost(Session, Me)).
 
-%   Who was lent may find that somebody else is about to see to that.
+%   For a thread that was lent another one may be about to do that.
 
 lost(Session, Me) :-
     lent_away,

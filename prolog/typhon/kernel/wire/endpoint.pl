@@ -50,9 +50,11 @@ own_start_next/1 run under the mutex of the endpoint.
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
 :- use_module(handshake, [cookie/1, hello/4, random_hex/2]).
-:- use_module(keeper, [keep/1, keeper_unheard/1]).
-:- use_module(keeper_queue,
-              [keeper_queue_close/1, keeper_queue_open/0, keeper_tell/1]).
+:- use_module(connection_manager, [keep/1, manager_unhandled/1]).
+:- use_module(threads,
+              [ manager_queue_close/1, manager_queue_open/0, manager_notify/1,
+                wire_thread_create/3, wire_thread_end/2, wire_thread_join/1,
+                wire_threads_end/0 ]).
 :- use_module(lending, [lending_anew/0]).
 :- use_module(outbox, [session_control/2]).
 :- use_module(peers, [peers_flush/1]).
@@ -62,9 +64,6 @@ own_start_next/1 run under the mutex of the endpoint.
               [ secure_begin/1, secure_directory/1, secure_end/0,
                 secure_proof/1 ]).
 :- use_module(session, [session/2]).
-:- use_module(threads,
-              [ wire_thread_create/3, wire_thread_end/2, wire_thread_join/1,
-                wire_threads_end/0 ]).
 
 :- multifile
     received/3,                         % Kind, Term, Peer
@@ -86,7 +85,7 @@ own_start_next/1 run under the mutex of the endpoint.
 
 :- dynamic
     closed/0,                           % no peer is let in yet
-    running/4,                          % Address, Socket, Acceptor, Keeper
+    running/4,                          % Address, Socket, Acceptor, Manager
     further/3.                          % Address, Socket, Acceptor
 
 %!  endpoint_start(+Interface, +Port, -Address) is det.
@@ -129,11 +128,11 @@ start(Interface0, Port0, Address) :-
     listen(Interface, Port, Address, Socket),
     own_start_next(Start),
     our_hello(Start, Address, Me),
-    keeper_queue_open,
+    manager_queue_open,
     lending_anew,
-    wire_thread_create(keep(Me), keeper, Keeper),
+    wire_thread_create(keep(Me), connection_manager, Manager),
     wire_thread_create(accept_open(Socket, Me), acceptor, Acceptor),
-    assertz(running(Address, Socket, Acceptor, Keeper)),
+    assertz(running(Address, Socket, Acceptor, Manager)),
     debug(typhon(session), 'endpoint: starts at ~w, start ~w',
           [Address, Start]).
 
@@ -256,13 +255,13 @@ listen_no_more(_).
 %   Take no more connections, let the last frames arrive where there is a
 %   connection, close all. Requests without an answer are lost. May be
 %   called in a clean-up handler: the wait with a deadline is in another
-%   thread, see keeper_connect/1.
+%   thread, see manager_connect/1.
 
 endpoint_stop :-
     with_mutex(typhon_endpoint, stop).
 
 stop :-
-    retract(running(Address, Socket, Acceptor, Keeper)),
+    retract(running(Address, Socket, Acceptor, Manager)),
     !,
     debug(typhon(session), 'endpoint: stops at ~w', [Address]),
     findall(Further, further(Further, _, _), All),
@@ -272,12 +271,12 @@ stop :-
     setting(flush_time, Seconds),
     in_own_thread(ignore(peers_flush(Seconds))),
     forall(session(_, Session), session_control(Session, bye)),
-    keeper_tell(stop),
-    wire_thread_join(Keeper),
+    manager_notify(stop),
+    wire_thread_join(Manager),
     wire_threads_end,
-    keeper_queue_close(Unheard),
+    manager_queue_close(Unheard),
     accept_no_more,
-    keeper_unheard(Unheard),
+    manager_unhandled(Unheard),
     forall(session(_, Session),
            ( session_close(Session, Unsent),
              requests_lost(Session, Unsent) )),

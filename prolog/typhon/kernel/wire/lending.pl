@@ -8,33 +8,33 @@
             lent_away/0
           ]).
 
-/** <module> A reader's thread is lent to what it has brought in
+/** <module> The reader's thread is lent to work that a frame has brought
 
-To wake another thread costs as much as the rest of a hop.  So who was
-brought in by a frame may be run by the thread that has read it, once it is
-counted, though nobody knows for how long: a goal of endpoint_afterwards/1.
+To wake another thread costs as much as the rest of a hop.  So the thread that
+has read and counted a frame may run the agent that it brought, for an unknown
+time: a goal of endpoint_afterwards/1.
 
 Meanwhile the connection belongs to a token, a message in a queue.  When the
 goal ends the thread takes it back, and reads on.  A goal that lasts is found
-by the keeper, which takes the token instead: then the session loses this
+by the connection manager, which takes the token instead: then the session loses this
 connection and gets another one, with a thread of its own, and the one that
 was lent is no longer of the wire.
 
-Who wants to end a thread that is lent is heard when it is back: what it
+A request to end a thread that is lent takes effect when it is back: what it
 runs must not be interrupted for the sake of a connection.
 
 *Threading*: lending_open/3 to lent_away/0 are for the thread of a connection.
-The token goes to whoever takes it first.
+The token goes to the thread that takes it first.
 */
 
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(session, [note_received/2, session_adopting/2, session_key/2]).
-:- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(threads,
+              [ in_background/2, manager_notify/1, wire_thread_leaves/1,
+                wire_thread_obey/1 ]).
 :- use_module(resumption, [session_lost/2]).
 :- use_module(secure, [secure_forget/0]).
-:- use_module(threads,
-              [in_background/2, wire_thread_leaves/1, wire_thread_obey/1]).
 
 :- meta_predicate
     endpoint_afterwards(1),
@@ -50,7 +50,7 @@ The token goes to whoever takes it first.
     lendable/3,                         % Thread, Queue, connection(...)
     seen/4.                             % Thread, Turn, Since, Processor time
 
-%   While threads are lent the keeper looks so often.  One is missed that has
+%   While threads are lent the manager checks so often.  One is missed that has
 %   worked for so long in one turn, or has been away for so long: it may wait
 %   for something, or for a processor.
 
@@ -75,7 +75,7 @@ endpoint_afterwards(Goal) :-
 
 %!  lending_anew is det.
 %
-%   Nobody is lent as yet.
+%   No thread is lent as yet.
 
 lending_anew :-
     flag(typhon_lending, _, 0),
@@ -102,7 +102,7 @@ lending_close :-
     ;   true
     ).
 
-%   left(+State): what is left to do for who stops reading in this State.
+%   left(+State): what is left to do for a thread that stops reading in this State.
 
 left(idle).
 left(away).
@@ -198,7 +198,7 @@ typhon_threads:not_now(Why) :-
                  *            WATCH             *
                  *******************************/
 
-%   While threads are lent the keeper looks who does not come back.
+%   While threads are lent the manager checks which do not come back.
 
 watch :-
     (   get_flag(typhon_lending, 1)
@@ -214,7 +214,7 @@ look_later :-
     get_time(Now),
     look_seconds(Seconds),
     Time is Now+Seconds,
-    ignore(keeper_tell(later(Time, typhon_lending:look))).
+    ignore(manager_notify(later(Time, typhon_lending:look))).
 
 :- public look/0.
 
@@ -262,7 +262,7 @@ away(Thread, Turn) :-
                  *******************************/
 
 %   release(+Thread) is semidet: it is on its own, and the session without
-%   connection.  Who waits for the end of Thread need not wait any longer,
+%   connection.  A thread that waits for the end of Thread goes on,
 %   and finds the right count.  Should Thread come back before the connection
 %   is gone, it sees to that itself.
 
@@ -287,7 +287,7 @@ released(Thread, Connection) :-
         ( wire_thread_leaves(Thread),
           thread_send_message(Queue, released) )).
 
-%   Somebody else may have given the session another connection by now.
+%   Another thread may have given the session another connection by now.
 
 part(Thread, connection(Session, In, Out)) :-
     session_adopting(Session, session_lost(Session, Thread)),

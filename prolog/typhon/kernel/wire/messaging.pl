@@ -4,31 +4,40 @@
             endpoint_post_by/4,         % +Deadline, +Address, +Kind, +Term
             endpoint_request/4,         % +Address, +Kind, +Term, :OnAnswer
             endpoint_reply/2,           % +ReplyTo, +Term
-            endpoint_reply_later/2      % +ReplyTo, +Term
+            endpoint_reply_later/2,     % +ReplyTo, +Term
+            endpoint_call/5,            % +Address, +Kind, +Term, -Answer,
+                                        % +Timeout
+            endpoint_ask_all/6          % +Addresses, +Kind, +Term, :Further,
+                                        % +Seconds, -Results
           ]).
 
-/** <module> What is said to the endpoints of other processes
+/** <module> Messages to the endpoints of other processes
 
 A post goes one way, a request is answered. Both go over the session to
 which the address leads; where there is none that is up, a connection is
-made first.
+made first. A caller may wait for one answer, or for those of many peers
+under one deadline.
 
-*Threading*: everything may be called from any thread; endpoint_post/3 may
-block it, unless it is in a hook of the endpoint.
+*Threading*: everything may be called from any thread. endpoint_post/3 may
+block it, unless it is in a hook of the endpoint; endpoint_call/5 and
+endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
 */
 
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [append/3, member/2, selectchk/3, subtract/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(alone, [alone/1, alone_request/4]).
+:- use_module(connection_manager, [manager_connect/1, manager_connect/2]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [mobile_term/1]).
-:- use_module(keeper, [keeper_connect/1, keeper_connect/2]).
 :- use_module(outbox, [session_send_with/2]).
+:- use_module(peers, [endpoint_peer/2]).
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
-              [ request_reply/2, request_reply_later/2,
-                request_send/4, take_post/3 ]).
+              [ request_forget/1, request_reply/2, request_reply_later/2,
+                request_send/4, take_post/3, unsent/1, unsent_closed/4,
+                unsent_forget/1, unsent_request/4 ]).
 :- use_module(session, [route/2, route_up/2]).
-:- use_module(unsent, [unsent/1, unsent_closed/4, unsent_request/4]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).
@@ -79,13 +88,13 @@ endpoint_post_up(Address, Kind, Term) :-
 %
 %   As endpoint_post_up/3; a connection is waited for until Deadline. If it goes
 %   again Term waits for the next. Not for hooks nor clean-up handlers, see
-%   keeper_connect/2.
+%   manager_connect/2.
 
 endpoint_post_by(_, Address, Kind, Term) :-
     endpoint_post_up(Address, Kind, Term),
     !.
 endpoint_post_by(Deadline, Address, Kind, Term) :-
-    keeper_connect(Address, Deadline),
+    manager_connect(Address, Deadline),
     route(Address, Session),
     !,
     post(Session, Kind, Term).
@@ -116,7 +125,7 @@ open_way(Address, Session) :-
 
 connect(Address, Session) :-
     check_running,
-    (   keeper_connect(Address),
+    (   manager_connect(Address),
         route(Address, Session0)
     ->  Session = Session0
     ;   throw(error(unreachable(Address), _))
@@ -157,15 +166,157 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
 endpoint_reply(ReplyTo, Term) :-
     catch(request_reply(ReplyTo, Term),
           error(session_closed, _),
-          true).                        % whoever asked is no more
+          true).                        % the caller is gone
 
 %!  endpoint_reply_later(+ReplyTo, +Term) is det.
 %
 %   As endpoint_reply/2, with the next frame to that peer or a millisecond
-%   later; for answers that nobody waits for in earnest. Only worth while
+%   later; for answers that no caller waits for in earnest. Only worth while
 %   in a hook.
 
 endpoint_reply_later(ReplyTo, Term) :-
     catch(request_reply_later(ReplyTo, Term),
           error(session_closed, _),
           true).
+
+		 /*******************************
+		 *             CALL             *
+		 *******************************/
+
+:- setting(typhon_endpoint:lost_time, number, 5,
+           "Seconds without connection before endpoint_call/5 gives up").
+
+%!  endpoint_call(+Address, +Kind, +Term, -Answer, +Timeout) is det.
+%
+%   Ask and wait, at most Timeout seconds. Answer is answer(Term). The
+%   connection counts as lost when it has been down for some seconds: the
+%   caller prefers an error to waiting for the peer to come back.
+%
+%   @error unreachable(Address), connection_lost(Address)
+%   @error timeout_error(answer, Address)
+
+endpoint_call(Address, Kind, Term, Answer, Timeout) :-
+    must_be(number, Timeout),
+    get_time(Now),
+    Deadline is Now+Timeout,
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( endpoint_request(Address, Kind, Term, tell(Queue)),
+          await(Queue, Address, Deadline, Now, Result),
+          no_longer(Result, tell(Queue))
+        ),
+        message_queue_destroy(Queue)),
+    call_result(Result, Address, Answer).
+
+%   await(+Queue, +Address, +Deadline, +Up, -Result): at the time Up the
+%   connection was not down.
+
+await(Queue, Address, Deadline, Up0, Result) :-
+    get_time(Now),
+    Slice is max(0, min(1, Deadline-Now)),
+    (   thread_get_message(Queue, Result0, [timeout(Slice)])
+    ->  Result = Result0
+    ;   Now >= Deadline
+    ->  Result = late
+    ;   endpoint_peer(Address, state(down))
+    ->  setting(typhon_endpoint:lost_time, Seconds),
+        (   Now-Up0 > Seconds
+        ->  Result = lost
+        ;   await(Queue, Address, Deadline, Up0, Result)
+        )
+    ;   await(Queue, Address, Deadline, Now, Result)
+    ).
+
+%   A request without a waiting caller must not keep a session busy.
+
+no_longer(late, OnAnswer) :-
+    !,
+    unsent_forget(OnAnswer),
+    request_forget(OnAnswer).
+no_longer(_, _).
+
+tell(Queue, Result) :-
+    catch(thread_send_message(Queue, Result),
+          error(existence_error(_, _), _),
+          true).
+
+call_result(answer(Term), _, answer(Term)).
+call_result(unreachable, Address, _) :-
+    throw(error(unreachable(Address), _)).
+call_result(lost, Address, _) :-
+    throw(error(connection_lost(Address), _)).
+call_result(late, Address, _) :-
+    throw(error(timeout_error(answer, Address), _)).
+
+		 /*******************************
+		 *           INQUIRY            *
+		 *******************************/
+
+:- meta_predicate
+    endpoint_ask_all(+, +, +, 2, +, -).
+
+%!  endpoint_ask_all(+Addresses, +Kind, +Term, :Further, +Seconds, -Results)
+%!      is det.
+%
+%   Ask the endpoints at Addresses, and those that turn up meanwhile: of an
+%   answer call(Further, Answer, More) gives More addresses. Each is asked
+%   once. Results are Address-Result in no order, Result being one of
+%   endpoint_request/4, or `late` where there was none after Seconds.
+
+endpoint_ask_all(Addresses, Kind, Term, Further, Seconds, Results) :-
+    must_be(number, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( ask(Addresses, Kind-Term, Queue),
+          gather(Addresses, Addresses, asking(Kind-Term, Queue, Further),
+                 Deadline, Results)
+        ),
+        message_queue_destroy(Queue)).
+
+ask(Addresses, Kind-Term, Queue) :-
+    forall(member(Address, Addresses),
+           endpoint_request(Address, Kind, Term,
+                            typhon_messaging:told(Queue, Address))).
+
+told(Queue, Address, Result) :-
+    catch(thread_send_message(Queue, Address-Result),
+          error(existence_error(_, _), _),
+          true).                        % the caller waits no more
+
+%   gather(+Open, +Asked, +Asking, +Deadline, -Results)
+
+gather([], _, _, _, []) :-
+    !.
+gather(Open, Asked, Asking, Deadline, [Address-Result|Results]) :-
+    Asking = asking(Question, Queue, Further),
+    before(Deadline, Queue, Address-Result),
+    !,
+    selectchk(Address, Open, Open1),
+    more(Result, Further, Asked, New),
+    ask(New, Question, Queue),
+    append(New, Open1, Open2),
+    append(New, Asked, Asked2),
+    gather(Open2, Asked2, Asking, Deadline, Results).
+gather(Open, _, asking(_, Queue, _), _, Results) :-
+    forall(member(Address, Open), forget(told(Queue, Address))),
+    findall(Address-late, member(Address, Open), Results).
+
+before(Deadline, Queue, Message) :-
+    get_time(Now),
+    Wait is max(0, Deadline-Now),
+    thread_get_message(Queue, Message, [timeout(Wait)]).
+
+more(answer(Answer), Further, Asked, New) :-
+    call(Further, Answer, More),
+    !,
+    sort(More, Set),
+    subtract(Set, Asked, New).
+more(_, _, _, []).
+
+%   As no_longer/2.
+
+forget(OnAnswer) :-
+    unsent_forget(OnAnswer),
+    request_forget(OnAnswer).

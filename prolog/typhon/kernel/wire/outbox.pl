@@ -18,7 +18,7 @@ another connection if one breaks, see resumption.pl.
 
 Writing must never block the thread of a reader, or two readers could wait
 for each other, nor hold a thread that is not ours. A frame is therefore
-written by whoever sends it only if it and all that is under way fit in
+written by its sender only if it and all that is under way fit in
 what the buffers of the kernel hold; else it waits, and a thread of the
 session, the pusher, writes. So do those outside the count.
 
@@ -28,7 +28,7 @@ some of it; when that has come they go in one frame. The peer would not read
 them before, anyway. What is sent after them takes them along.
 
 *Threading*: any thread may send. The mutex of the session guards the
-order. While a session is up and nobody is pushing, nothing waits but what
+order. While a session is up and has no pusher, nothing waits but what
 is held.
 */
 
@@ -44,12 +44,11 @@ is held.
               [ acknowledged/3, session_codec/2, session_key/2,
                 session_locked/2, session_must_exist/2, session_up/1,
                 transport/3, transport_broken/2, debug_frame/4 ]).
-:- use_module(keeper_queue, [keeper_tell/1]).
-:- use_module(pusher, [pusher/2, pusher_control/3, pusher_start/4]).
+:- use_module(threads, [manager_notify/1]).
 :- use_module(unacked,
-              [ unacked_await/3, unacked_next/3, unacked_no_wait/1,
-                unacked_owed/2, unacked_sent/2, unacked_waiting/1,
-                unacked_waits/2 ]).
+              [ pusher/2, pusher_control/3, pusher_start/4, unacked_await/3,
+                unacked_next/3, unacked_no_wait/1, unacked_owed/2,
+                unacked_sent/2, unacked_waiting/1, unacked_waits/2 ]).
 
 :- multifile typhon_committing:letting_out/1.
 
@@ -70,13 +69,13 @@ session_send(Session, Term) :-
 
 %!  session_answer(+Session, +Term) is det.
 %
-%   As session_send/2, of what somebody waits for: while the journal has no room
+%   As session_send/2, of what a caller waits for: while the journal has no room
 %   it waits, too. When the journal has been closed it is dropped.
 
 session_answer(Session, Term) :-
     unless_closed(send(Session, Term, anyhow)).
 
-%   When the journal has been closed nobody is told what happens.
+%   When the journal has been closed no peer may learn what happens.
 
 :- meta_predicate unless_closed(0).
 
@@ -121,9 +120,9 @@ session_release(Session) :-
     ;   true
     ).
 
-%   What a reader has left goes along, or before what is said to others: who
-%   hears of an agent from the next process must not be ahead of who waits
-%   for the answer that it has come to this one.
+%   What a reader has left goes along, or before what is sent to other peers: the
+%   next process must not report an agent before the answer that it has come
+%   to this one has left.
 
 answers_first(Session) :-
     answers_left(Own),
@@ -255,7 +254,7 @@ writable(Key, Bytes, Thread, Out) :-
     !.
 
 %   room(+Key, -Thread, -Out, -Room): so many bytes can be written to Out.
-%   Nobody looks at a stream somebody pushes to: that might block, too.
+%   The stream of a pusher is left alone: even to look at it might block.
 
 room(Key, Thread, Out, Room) :-
     transport(Key, Thread, Out),
@@ -272,7 +271,7 @@ see_to(Session, Key) :-
     ->  true
     ;   transport(Key, Thread, Out)
     ->  write_waiting(Session, Key, Thread, Out)
-    ;   ignore(keeper_tell(wanted(Key)))
+    ;   ignore(manager_notify(wanted(Key)))
     ).
 
 write_waiting(Session, Key, Thread, Out) :-
@@ -348,7 +347,7 @@ let_out_all([], Sessions0, Sessions) :-
 let_out_all([frame(Session, Frame)|Frames], Sessions0, Sessions) :-
     catch(session_locked(Session, put_committed(Frame, Session)),
           error(session_closed, _),
-          true),                        % who waits for an answer was told
+          true),                        % callers have got a result
     (   memberchk(Session, Sessions0)
     ->  Sessions1 = Sessions0
     ;   Sessions1 = [Session|Sessions0]
@@ -378,7 +377,7 @@ session_flush(Session, Deadline) :-
           message_queue_destroy(Queue) )).
 
 flush(Session, Queue, Deadline) :-
-    catch(journal_commit, error(_, _), true), % who commits has told
+    catch(journal_commit, error(_, _), true), % the committer has reported it
     session_release(Session),
     session_locked(Session, unacked_await(Session, Queue, Pending)),
     (   Pending =:= 0

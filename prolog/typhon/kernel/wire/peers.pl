@@ -9,15 +9,15 @@
             peers_flush/1               % +Seconds
           ]).
 
-/** <module> How it stands with the peers
+/** <module> The state of the peers
 
 *Threading*: any thread.
 */
 
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(contacts, [contact/3, missed/2]).
-:- use_module(keeper, [keeper_connect/2]).
+:- use_module(peer_cache, [contact/3, missed/2]).
+:- use_module(connection_manager, [manager_connect/2]).
 :- use_module(outbox, [session_flush/2]).
 :- use_module(session,
               [ route/2, route_up/2, session/2, session_codec/2, session_key/2,
@@ -54,7 +54,7 @@ peer_property(proof(Proof), Session) :-
 %!  endpoint_gone(+Address) is semidet.
 %
 %   As far as this process knows there is no process at Address any more to
-%   which it can have talked: nobody listened there when it last tried to
+%   which it can have talked: none listened there when it last tried to
 %   connect, or the one that did said goodbye. Not true of a process that
 %   has been stopped, or is behind a network that is cut.
 
@@ -78,7 +78,7 @@ endpoint_lasting(Address) :-
 
 %!  endpoint_missed(+Address, ?Formal) is semidet.
 %
-%   Why nobody could be met at Address when that was last tried: `late`, or
+%   Why no process could be reached at Address when that was last tried: `late`, or
 %   the formal term of an error, as permission_error(authenticate, peer, Why)
 %   or socket_error(Code, Text).
 
@@ -108,9 +108,9 @@ endpoint_flush(Seconds, Peers) :-
 
 %!  peers_flush(+Seconds) is semidet.
 %
-%   As endpoint_flush/1, for who is about to end: nothing is waited for that
-%   cannot arrive, as nobody listens at the address of the peer any more. Not
-%   for hooks nor clean-up handlers, see keeper_connect/2.
+%   As endpoint_flush/1, for a process about to end: nothing is waited for that
+%   cannot arrive, as no process listens at the address of the peer any more. Not
+%   for hooks nor clean-up handlers, see manager_connect/2.
 
 peers_flush(Seconds) :-
     get_time(Now),
@@ -129,5 +129,5 @@ reachable(Session, Deadline) :-
     session_pending(Session, Count),
     Count > 0,
     route(Address, Session),
-    keeper_connect(Address, Deadline),
+    manager_connect(Address, Deadline),
     !.

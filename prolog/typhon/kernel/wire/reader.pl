@@ -5,13 +5,15 @@
 
 /** <module> Reading the frames of a session
 
-The reader counts what it has handled, tells the peer now and then, and is
-also the watchdog of the connection: a peer that owes us something and is
-silent is asked for a sign of life, and given up when it gives none.
+The reader counts the frames that it has handled, acknowledges them now and
+then, and is also the watchdog of the connection: it pings a peer that owes
+us something and is silent, and gives it up when no answer comes.
 
 A frame that was damaged on its way ends the connection: over the next one
-it comes again. What comes damaged in the same way three times was sent so,
-and is skipped.
+it comes again. A frame that comes damaged in the same way three times was
+sent so, and is skipped. A frame that cannot be decoded counts as received:
+asking for it again would not help. A caller that waits for an answer learns
+it at once, here or there.
 
 *Threading*: runs in the thread of the connection, see connection.pl. The
 counts are that thread's own and are stored when it ends, as is what it
@@ -19,21 +21,23 @@ knows of damage. Signals are held back while a frame is being handled and
 counted.
 */
 
+:- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(session,
-              [ ack_frames/1, note_received/2, received/2, session_codec/2,
-                session_key/2, session_peer/3, debug_frame/4 ]).
-:- use_module(frame, [frame_read/3]).
-:- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(frame,
+              [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/3]).
 :- use_module(lending,
               [lend/2, lending_close/0, lending_open/3, lent/0, lent_away/0]).
 :- use_module(outbox,
-              [ session_control/2, session_later/1, session_push/1,
-                session_release/1 ]).
-:- use_module(request, [session_unfinished/1]).
+              [ session_answer/2, session_control/2, session_later/1,
+                session_push/1, session_release/1 ]).
+:- use_module(request, [dispatch/2, dispatch_all/2, session_unfinished/1]).
 :- use_module(secure, [secure_input/2]).
-:- use_module(taking, [frame_term/3, take_bundle/2, take_frame/2]).
+:- use_module(session,
+              [ ack_frames/1, debug_frame/4, note_received/2, received/2,
+                session_codec/2, session_key/2, session_peer/3 ]).
+:- use_module(threads, [manager_notify/1]).
 :- use_module(unacked, [session_acked/3, session_sent/2]).
 
 :- setting(silence, number, 5,
@@ -42,7 +46,7 @@ counted.
 :- dynamic
     damaged/4.                          % Key, Count, Which, Times
 
-%   After so many bytes the peer is told that they have come, or ack_frames/1.
+%   After so many bytes the reader acknowledges them, or after ack_frames/1.
 
 ack_bytes(32768).
 
@@ -132,7 +136,7 @@ afterwards(Session, In, State) :-
     ;   true
     ).
 
-%   More is read first where there are processors for those who do the work.
+%   More is read first where there are processors for the threads that work.
 
 more_first(In) :-
     current_prolog_flag(cpu_count, Processors),
@@ -140,7 +144,7 @@ more_first(In) :-
     sig_atomic(secure_input(In, 0)).
 
 %   Answers that were left in the buffer go with the next frame that
-%   somebody sends, or now: when there are many, or nothing comes in for a
+%   is sent, or now: when there are many, or nothing comes in for a
 %   moment in which the agent that was answered for may well move on. On
 %   9.2 an exception in the middle of wait_for_input/3 ruins the stacks: the
 %   signal that brings it is held back.
@@ -229,7 +233,7 @@ handle(ping, Session, In, State) :-
 handle(bye, Session, _, _) :-
     !,
     session_key(Session, Key),
-    ignore(keeper_tell(gone(Key))).
+    ignore(manager_notify(gone(Key))).
 handle(Bundle, Session, In, State) :-
     take_bundle(Bundle, Session),
     !,
@@ -246,8 +250,8 @@ counted(State) :-
     nb_setarg(1, State, Count),
     nb_setarg(4, State, 0).
 
-%   Acks are under way, too: their bytes are told as well. A bundle is
-%   acknowledged at once: who sent it holds others until then.
+%   Acks are under way, too: their bytes count as well. A bundle is
+%   acknowledged at once: its sender holds others until then.
 
 acknowledge_now_and_then(Session, In, State) :-
     State = count(Count, Told, ToldBytes, _),
@@ -260,7 +264,7 @@ acknowledge_now_and_then(Session, In, State) :-
     ;   acknowledge(Session, In, State)
     ).
 
-%   Who acknowledges what was never sent would make us forget it.
+%   A peer that acknowledges what was never sent would make us discard it.
 
 check_ack(Count, Bytes, Session) :-
     integer(Count),
@@ -278,8 +282,62 @@ acknowledge(Session, In, State) :-
     nb_setarg(3, State, Bytes),
     session_control(Session, ack(Count, Bytes)).
 
+		 /*******************************
+		 *         FRAME INTAKE         *
+		 *******************************/
+
+%!  frame_term(+Codec, +Bytes, -Frame) is det.
+%
+%   Frame is what Bytes say, or unreadable(Formal, Mark).
+
+frame_term(Codec, Bytes, Term) :-
+    catch(bytes_term(Codec, Bytes, Term),
+          error(Formal, _),
+          unreadable(Formal, Bytes, Term)).
+
+unreadable(Formal, Bytes, unreadable(Formal, Mark)) :-
+    (   bytes_mark(Bytes, Mark0)
+    ->  Mark = Mark0
+    ;   Mark = none
+    ).
+
+%!  take_frame(+Frame, +Session) is det.
+%!  take_bundle(+Frame, +Session) is semidet.
+%
+%   Dispatch Frame; if it is a bundle, dispatch the frames in it.
+
+take_frame(unreadable(Formal, Mark), Session) :-
+    !,
+    session_peer(Session, _, Address),
+    print_message(warning, typhon(endpoint, unreadable(Address, Formal))),
+    spoil(Mark, Session).
+take_frame(Frame, Session) :-
+    dispatch(Session, Frame).
+
+take_bundle(Frame, Session) :-
+    bundle_parts(Frame, Parts),
+    session_codec(Session, Codec),
+    maplist(frame_term(Codec), Parts, Frames),
+    partition(is_unreadable, Frames, Unreadable, Others),
+    dispatch_all(Session, Others),
+    forall(member(One, Unreadable), take_frame(One, Session)).
+
+is_unreadable(unreadable(_, _)).
+
+spoil(request(Id), Session) :-
+    !,
+    catch(session_answer(Session, spoilt(Id)),
+          error(session_closed, _),
+          true).
+spoil(answer(Id), Session) :-
+    !,
+    dispatch(Session, spoilt(Id)).
+spoil(_, _).
+
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, skipped(Address))) -->
     [ 'Endpoint: skipped a frame of ~w that is damaged where it comes from'
       -[Address] ].
+prolog:message(typhon(endpoint, unreadable(Address, Formal))) -->
+    [ 'Endpoint: a frame of ~w cannot be read: ~p'-[Address, Formal] ].

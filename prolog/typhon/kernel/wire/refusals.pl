@@ -4,24 +4,24 @@
             tls_text/2                  % +Why, -Text
           ]).
 
-/** <module> Telling of those who were turned away
+/** <module> Reporting refused connections
 
-Who scans a port, or floods it, must not fill the log, and must not go
-unnoticed. The first few of a burst are told one by one; of the rest one
-message a second says how many there were, from where, and why. A burst is
-over after a second in which nobody came.
+A port scan or a flood must not fill the log, and must not go unnoticed. The
+first few of a burst are reported one by one; of the rest one message a second
+reports how many there were, from where, and why. A burst is over after a
+second without refusals.
 
-*Threading*: any thread; what there is to tell is guarded by one mutex. The
-keeper calls tell/0 when a second is over.
+*Threading*: any thread; one mutex guards what is to be reported. The
+connection manager calls report/0 when a second is over.
 */
 
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists), [member/2]).
-:- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(threads, [manager_notify/1]).
 
 :- dynamic
     burst/1,                            % Told: so many one by one
-    tally/3.                            % Ip, Why, Count: not yet told
+    tally/3.                            % Ip, Why, Count: not yet reported
 
 %   So many one by one, and so many pairs of where and why.
 
@@ -76,19 +76,19 @@ add(Ip, Why) :-
 plan :-
     get_time(Now),
     Time is Now+1,
-    ignore(keeper_tell(later(Time, typhon_refusals:tell))).
+    ignore(manager_notify(later(Time, typhon_refusals:report))).
 
 %!  refusals_begin is det.
 %
 %   An endpoint begins, with a burst of its own.
 
 refusals_begin :-
-    tell,
+    report,
     retractall(burst(_)).
 
-%   Tell of those that were not told of one by one.
+%   Report those that were not reported one by one.
 
-tell :-
+report :-
     sig_atomic(with_mutex(typhon_refusals, take(Groups))),
     (   Groups == []
     ->  true

@@ -5,35 +5,49 @@
             request_answer/2,           % +Result, :OnAnswer
             request_forget/1,           % :OnAnswer
             requests_lost/2,            % +Session, +Unsent
-            request_take/3,             % +Session, +Id, -OnAnswer
             session_unfinished/1,       % +Session
             dispatch/2,                 % +Session, +Frame
             dispatch_all/2,             % +Session, +Frames
             take_post/3,                % +Kind, +Term, +Peer
             take_request/4,             % +Kind, +Term, +Peer, +ReplyTo
-            connection_is/2             % +Session, +State
+            connection_is/2,            % +Session, +State
+            unsent_request/4,           % +Address, +Kind, +Term, :OnAnswer
+            unsent/1,                   % ?Address
+            unsent_send/2,              % +Address, +Session
+            unsent_again/2,             % +Session, +Unsent
+            unsent_closed/4,            % +Address, +Kind, +Term, :OnAnswer
+            unsent_fail/1,              % ?Address
+            unsent_fail/2,              % ?Address, +Asked
+            unsent_forget/1             % :OnAnswer
           ]).
 
-/** <module> What the frames of a session say
+/** <module> Requests and posts, and the frames that carry them
 
     post(Kind, Term)          one way
     request(Id, Kind, Term)   wants an answer
     answer(Id, Term)          here it is
     spoilt(Id)                the request was taken, and went wrong
 
-Posts and requests go to the hooks of typhon_endpoint, answers to whoever
-asked.
+Posts and requests go to the hooks of typhon_endpoint, answers to the caller.
+A request to a peer that is not connected is held here, in order, until
+there is a session to send it in, or it is known that there can be none.
 
 *Threading*: dispatch/2 runs in the thread of a connection, the hooks with
-it. The table of open requests is shared; a request is taken out by retract/1
-and so answered once.
+it. The table of open requests is shared; retract/1 takes a request out, so
+it is answered once. Any thread adds to the held requests. The connection
+manager, which receives requests(Address), sends them, and removes what it has
+sent only then: as long as something is held for an address, nothing of the
+same thread may overtake it. The thread that removes a request answers it.
 */
 
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/error_text', [error_told/3]).
+:- use_module('../base/error_text', [error_told/3, print_error/2]).
+:- use_module(attempts, [asking/1]).
 :- use_module(outbox,
               [session_answer/2, session_send/2, session_send_later/2]).
+:- use_module(peer_cache, [contact_expected/1]).
 :- use_module(session, [route/2, session_key/2, session_peer/3]).
+:- use_module(threads, [manager_notify/1]).
 :- use_module(unacked, [session_pending/2]).
 
 :- meta_predicate
@@ -57,21 +71,21 @@ request_send(Session, Kind, Term, OnAnswer) :-
 
 %!  request_answer(+Result, :OnAnswer) is det.
 %
-%   Tell who asked. Never raises: what goes wrong is reported.
+%   Give Result to the caller. Never raises: what goes wrong is reported.
 
 request_answer(Result, OnAnswer) :-
     guarded(call(OnAnswer, Result), answer).
 
 %!  request_forget(:OnAnswer) is det.
 %
-%   Nobody waits for this answer any more.
+%   No caller waits for this answer any more.
 
 request_forget(OnAnswer) :-
     retractall(open_request(_, _, OnAnswer)).
 
 %!  request_reply(+ReplyTo, +Term) is det.
 %
-%   ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see typhon_alone.
+%   ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see alone.pl.
 
 request_reply(reply_to(Session, Id), Term) :-
     session_answer(Session, answer(Id, Term)).
@@ -103,8 +117,8 @@ session_unfinished(Session) :-
 
 %!  requests_lost(+Session, +Unsent) is det.
 %
-%   The peer is gone for good and the frames Unsent never left: tell all
-%   who wait for its answers.
+%   The peer is gone for good and the frames Unsent never left: conclude all
+%   requests to it.
 
 requests_lost(Session, Unsent) :-
     session_key(Session, Key),
@@ -121,7 +135,7 @@ request_take(Session, Id, OnAnswer) :-
     retract(open_request(Id, Key, OnAnswer)),
     !.
 
-%   Only who was asked can answer.
+%   Only the peer that was asked can answer.
 
 conclude(Result, Id, Key) :-
     (   integer(Id),
@@ -159,7 +173,7 @@ dispatch(_, Frame) :-                   % of a later version, or damaged
 %!  dispatch_all(+Session, +Frames:list) is det.
 %
 %   As dispatch/2 for Frames that have come in one.  Posts of one kind that
-%   follow each other may be made fewer by who takes them.
+%   follow each other may be made fewer by the hook together/3.
 
 dispatch_all(_, []) :-
     !.
@@ -188,7 +202,7 @@ together(Kind, Terms, Fewer) :-
 %!  take_post(+Kind, +Term, +Peer) is det.
 %!  take_request(+Kind, +Term, +Peer, +ReplyTo) is semidet.
 %
-%   Hand over what Peer sent.  The latter fails if nobody takes it.
+%   Call the hook for what Peer sent.  The latter fails if none takes it.
 
 take_post(Kind, Term, Peer) :-
     guarded(typhon_endpoint:received(Kind, Term, Peer), Kind).
@@ -198,7 +212,7 @@ take_request(Kind, Term, Peer, ReplyTo) :-
 
 %!  connection_is(+Session, +State) is det.
 %
-%   Tell who wants to know that the connection is `up` or `down`, for each
+%   Call the hooks connection/2: the connection is `up` or `down`, for each
 %   address that leads to the peer.
 
 connection_is(Session, State) :-
@@ -233,13 +247,137 @@ attempt(Goal, Kind) :-
 
 is_order(wire_thread_end(_)).
 
+		 /*******************************
+		 *   REQUESTS WITHOUT SESSION   *
+		 *******************************/
+
+:- meta_predicate
+    unsent_request(+, +, +, 1),
+    unsent_closed(+, +, +, 1),
+    unsent_forget(1).
+
+:- dynamic
+    unsent/5.                           % Address, Number, Kind, Term,
+                                        % OnAnswer
+
+%!  unsent_request(+Address, +Kind, +Term, :OnAnswer) is det.
+%
+%   As endpoint_request/4, when there is a connection with Address.
+
+unsent_request(Address, Kind, Term, OnAnswer) :-
+    asking(Number),
+    assertz(unsent(Address, Number, Kind, Term, OnAnswer)),
+    (   manager_notify(requests(Address))
+    ->  true
+    ;   fail_one(Address, Number)
+    ).
+
+%!  unsent(?Address) is semidet.
+%
+%   Something is held for Address.
+
+unsent(Address) :-
+    unsent(Address, _, _, _, _),
+    !.
+
+%!  unsent_send(+Address, +Session) is det.
+%
+%   Send in Session all that is held for Address. For the connection manager only.
+
+unsent_send(Address, Session) :-
+    oldest(Address, Row),
+    !,
+    (   send(Row, Session)
+    ->  sent(Row),
+        unsent_send(Address, Session)
+    ;   ignore(manager_notify(requests(Address)))
+    ).
+unsent_send(_, _).
+
+oldest(Address, Row) :-
+    Row = unsent(Address, _, _, _, _),
+    call(Row),
+    !.
+
+send(unsent(Address, _, Kind, Term, OnAnswer), Session) :-
+    catch(request_send(Session, Kind, Term, OnAnswer),
+          error(Formal, Context),
+          not_sent(Formal, Context, Address, OnAnswer)).
+
+%   The caller may have given up meanwhile.
+
+sent(unsent(Address, Number, _, _, OnAnswer)) :-
+    (   retract(unsent(Address, Number, _, _, _))
+    ->  true
+    ;   request_forget(OnAnswer)
+    ).
+
+%   not_sent(+Formal, +Context, +Address, +OnAnswer) fails if the next process
+%   at Address is to be asked.
+
+not_sent(session_closed, _, Address, OnAnswer) :-
+    !,
+    \+ contact_expected(Address),
+    request_answer(unreachable, OnAnswer).
+not_sent(Formal, Context, _, OnAnswer) :-
+    print_error(error, error(Formal, Context)),
+    request_answer(unreachable, OnAnswer).
+
+%!  unsent_closed(+Address, +Kind, +Term, :OnAnswer) is det.
+%!  unsent_again(+Session, +Unsent) is det.
+%
+%   The peer is gone for good, and was not asked this; nor what is among the
+%   frames Unsent.  If a process is expected there soon, that waits for it.
+
+unsent_closed(Address, Kind, Term, OnAnswer) :-
+    (   contact_expected(Address)
+    ->  unsent_request(Address, Kind, Term, OnAnswer)
+    ;   request_answer(unreachable, OnAnswer)
+    ).
+
+unsent_again(Session, Unsent) :-
+    session_peer(Session, _, Address),
+    contact_expected(Address),
+    !,
+    forall(( member(request(Id, Kind, Term), Unsent),
+             request_take(Session, Id, OnAnswer) ),
+           unsent_request(Address, Kind, Term, OnAnswer)).
+unsent_again(_, _).
+
+%!  unsent_fail(?Address) is det.
+%!  unsent_fail(?Address, +Asked) is det.
+%
+%   There is no way to Address: say so, to those with a number below Asked, see
+%   asking/1.
+
+unsent_fail(Address) :-
+    unsent_fail(Address, inf).
+
+unsent_fail(Address, Asked) :-
+    findall(A-Number, unsent(A, Number, _, _, _), All),
+    forall(( member(Address-Number, All), Number < Asked ),
+           fail_one(Address, Number)).
+
+fail_one(Address, Number) :-
+    (   retract(unsent(Address, Number, _, _, OnAnswer))
+    ->  request_answer(unreachable, OnAnswer)
+    ;   true
+    ).
+
+%!  unsent_forget(:OnAnswer) is det.
+%
+%   No caller waits for this answer any more.
+
+unsent_forget(OnAnswer) :-
+    retractall(unsent(_, _, _, _, OnAnswer)).
+
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, unknown_frame(Frame))) -->
-    [ 'Endpoint: a frame nobody understands: ~W'
+    [ 'Endpoint: unknown frame: ~W'
       -[Frame, [quoted(true), max_depth(8)]] ].
 prolog:message(typhon(endpoint, hook(Kind, failed))) -->
-    [ 'Endpoint: nobody takes ~q'-[Kind] ].
+    [ 'Endpoint: no hook takes ~q'-[Kind] ].
 prolog:message(typhon(endpoint, hook(Kind, Error))) -->
     [ 'Endpoint: taking ~q: '-[Kind] ],
     error_told(Error).

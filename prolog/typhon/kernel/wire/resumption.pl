@@ -1,42 +1,59 @@
 :- module(typhon_resumption,
-          [ session_install/4,          % +Session, +Thread, +Out, +PeerCount
-            session_lost/2,             % +Session, +Thread
+          [ session_lost/2,             % +Session, +Thread
             session_left/0,
             session_retire/1,           % +Session
-            session_close/2             % +Session, -Unsent
+            session_close/2,            % +Session, -Unsent
+            prove/5,                    % +Role, +In, +Out, +Me, -Peer
+            meet/7,                     % +Role, +In, +Out, +Me, +Peer,
+                                        % -Session, :Known
+            own_session/1               % +Session
           ]).
 
-/** <module> A session goes from connection to connection
+/** <module> Resumption: a session goes from connection to connection
 
-After a break the two processes tell each other how many frames they have
-received, over the next connection, and send the rest again.
+Two endpoints that have completed the handshake find their session, or open
+one, and give it the new connection. Over it each reports how many frames it
+has received, and sends the rest again.
 
-*Threading*: session_install/4 and session_left/0 are for the
-thread of the connection. A session is retired and closed by who gives it
-another connection or none, inside session_adopting/2 or when all threads
-have ended.
+Both ends may connect at the same time, and a connection may be dead on one
+side only. So a new connection replaces an old one, and of two processes the
+one with the smaller key, the arbiter, decides in which order that happens: it
+speaks first, and about one connection at a time. Of two that were begun
+together it refuses the later; the other process takes what the arbiter offers.
+
+*Threading*: meet/7, session_install/4 and session_left/0 run in the thread of
+the connection. The thread that gives a session another connection or none
+retires and closes it, inside session_adopting/2 or after all threads have
+ended.
 */
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [syntax_error/1]).
+:- use_module(library(settings), [setting/2]).
 :- use_module(frame, [bytes_term/3]).
-:- use_module(keeper_queue, [keeper_tell/1]).
-:- use_module(pusher, [pusher_no_control/1, pusher_start/4, pusher_stop/1]).
+:- use_module(handshake,
+              [ authenticate/6, cookie/1, hello_codec/3, hello_peer/4,
+                line_read/3, line_write/2 ]).
 :- use_module(request, [connection_is/2]).
 :- use_module(session,
-              [ session/2, session_codec/2, session_forget/1, session_key/2,
-                session_locked/2, session_must_exist/2, transport_attach/3,
-                transport_detach/2, transport_stop/2, transport_thread/2 ]).
-:- use_module(threads, [wire_thread_end/2]).
+              [ received/2, session/2, session_adopting/2, session_codec/2,
+                session_forget/1, session_key/2, session_locked/2,
+                session_must_exist/2, session_open/4, session_up_since/2,
+                transport_attach/3, transport_detach/2, transport_stop/2,
+                transport_thread/2 ]).
+:- use_module(threads, [manager_notify/1, wire_thread_end/2]).
 :- use_module(unacked,
-              [ unacked_again/2, unacked_close/2, unacked_gone/3,
+              [ pusher_no_control/1, pusher_start/4, pusher_stop/1,
+                unacked_again/2, unacked_close/2, unacked_gone/3,
                 unacked_open/1, unacked_rest/1, unacked_waiting/1 ]).
 
 %!  session_install(+Session, +Thread, +Out, +PeerCount) is det.
 %
 %   Thread has a new connection for Session, Out; the peer has received
-%   PeerCount frames. What it lacks is sent again. The keeper hears up(Key)
-%   in the same step: whatever becomes of Thread, who waits is told.
+%   PeerCount frames. What it lacks is sent again. The connection manager
+%   receives up(Key) in the same step: whatever becomes of Thread, waiting
+%   threads are notified.
 %
 %   @error session_closed
 
@@ -58,7 +75,7 @@ install(Session, Key, Thread, Out, PeerCount) :-
     ->  true
     ;   pusher_start(Session, Thread, Out, Again)
     ),
-    ignore(keeper_tell(up(Key))).
+    ignore(manager_notify(up(Key))).
 
 %   session_down(+Session, +Thread)
 %
@@ -70,7 +87,7 @@ session_down(Session, Thread) :-
     session_locked(Session, transport_stop(Key, Thread)),
     pusher_stop(Key),
     session_locked(Session, at_rest(Key, Thread)),
-    ignore(keeper_tell(wanted(Key))),
+    ignore(manager_notify(wanted(Key))),
     debug(typhon(session), '~w: down', [Key]).
 
 at_rest(Key, Thread) :-
@@ -81,7 +98,7 @@ at_rest(Key, Thread) :-
 %!  session_lost(+Session, +Thread) is det.
 %
 %   If the session still has the connection of Thread, that is no more, and
-%   who wants to know is told.
+%   the hooks connection/2 are called.
 
 session_lost(Session, Thread) :-
     session_key(Session, Key),
@@ -93,8 +110,8 @@ session_lost(Session, Thread) :-
 
 %!  session_left is det.
 %
-%   This thread is about to close its connection.  It may have been told to
-%   end after session_install/4 and before it began to serve: then the
+%   This thread is about to close its connection.  It may have been signalled
+%   to end after session_install/4 and before it began to serve: then the
 %   session must not go on writing to what is closed.
 
 session_left :-
@@ -110,12 +127,12 @@ session_retire(Session) :-
     session_key(Session, Key),
     forall(transport_thread(Key, Thread),
            ( wire_thread_end(Thread, replaced),
-             session_lost(Session, Thread) )).  % who was lent is elsewhere
+             session_lost(Session, Thread) )).  % a lent thread is elsewhere
 
 %!  session_close(+Session, -Unsent) is semidet.
 %
 %   Forget a session that has no connection; inside session_adopting/2, so
-%   that nobody gives it one. Fails when it is forgotten already. Unsent are
+%   that it gets none. Fails when it is forgotten already. Unsent are
 %   the terms that were never written to any.
 
 session_close(Session, Unsent) :-
@@ -133,3 +150,119 @@ forget(Session, Waiting) :-
     session_forget(Session),
     session_key(Session, Key),
     unacked_close(Key, Waiting).
+
+		 /*******************************
+		 *     AFTER THE HANDSHAKE      *
+		 *******************************/
+
+:- meta_predicate
+    meet(+, +, +, +, +, -, 1).
+
+%!  prove(+Role, +In, +Out, +Me, -Peer) is det.
+%
+%   Me is our hello, Peer that of the peer, which has proved itself. Role is
+%   server(Start), for a connection accepted at the time Start, or client(Start),
+%   for one begun then.
+%
+%   A server tells a client that its proof is wrong, so that it need not try
+%   again.
+
+prove(client(_), In, Out, Me, Peer) :-
+    authenticate(client, In, Out, Me, cookie, Peer).
+prove(server(_), In, Out, Me, Peer) :-
+    catch(authenticate(server, In, Out, Me, cookie, Peer),
+          error(permission_error(authenticate, peer, cookie), Context),
+          ( line_write(Out, refused),
+            throw(error(permission_error(authenticate, peer, cookie),
+                        Context)) )).
+
+%!  meet(+Role, +In, +Out, +Me, +Peer, -Session, :Known) is semidet.
+%
+%   Peer is Hello-Proof. Give the connection to the session with Peer.
+%   call(Known, Session) notes the addresses that lead to it before that: a
+%   connection is one for all of them.
+
+meet(Role, In, Out, Me, Peer-Proof, Session, Known) :-
+    hello_codec(Me, Peer, Codec),
+    session_keys(Role, Me, Peer, MyKey, Key),
+    session_open(Key, Peer-Proof, Codec, Session),
+    call(Known, Session),
+    hello_peer(Peer, _, _, Address),
+    debug(typhon(session), '~w: a connection, with ~w, ~w',
+          [Key, Address, Codec]),
+    adopt(MyKey, Key, Role, Session, In, Out).
+
+%   A process that connects to itself has a session for either end.
+
+session_keys(Role, Me, Peer, MyKey, Key) :-
+    hello_peer(Me, P1, S1, _),
+    hello_peer(Peer, P2, S2, _),
+    (   P1-S1 == P2-S2
+    ->  own_keys(Role, MyKey, Key)
+    ;   atomic_list_concat([P1, S1], '.', MyKey),
+        atomic_list_concat([P2, S2], '.', Key)
+    ).
+
+own_keys(client(_), self_client, self_server).
+own_keys(server(_), self_server, self_client).
+
+%!  own_session(+Session) is semidet.
+%
+%   Session joins this process to itself.
+
+own_session(Session) :-
+    session_key(Session, Key),
+    own_keys(_, Key, _),
+    !.
+
+adopt(MyKey, Key, Role, Session, In, Out) :-
+    MyKey @< Key,
+    !,
+    session_adopting(Session,
+                     ( needed(Role, Session),
+                       session_retire(Session),
+                       say_count(Key, Out),
+                       hear_count(In, Count),
+                       install(Session, Out, Count) )).
+adopt(_, Key, _, Session, In, Out) :-
+    hear_count(In, Count),
+    session_adopting(Session,
+                     ( session_retire(Session),
+                       say_count(Key, Out),
+                       install(Session, Out, Count) )).
+
+%   We have met by another connection since this one was begun. The peer has
+%   said its count over that; when it learns that this is closed it has it.
+
+needed(Role, Session) :-
+    arg(1, Role, Start),
+    session_up_since(Session, Start),
+    !,
+    throw(wire_thread_end(met)).
+needed(_, _).
+
+%   The hooks run in the same step: the layer that sent to a process that has
+%   died sends again when it learns of the next.
+
+install(Session, Out, Count) :-
+    thread_self(Me),
+    sig_atomic(( session_install(Session, Me, Out, Count),
+                 connection_is(Session, up) )).
+
+say_count(Key, Out) :-
+    received(Key, Count),
+    format(string(Line), "resume ~d", [Count]),
+    line_write(Out, Line).
+
+hear_count(In, Count) :-
+    setting(typhon_handshake:handshake_time, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    line_read(In, Deadline, Line),
+    (   string_concat("resume ", Digits, Line),
+        number_string(Count, Digits),
+        integer(Count),
+        Count >= 0
+    ->  true
+    ;   syntax_error(resume)
+    ).

@@ -19,17 +19,17 @@ directory has signed, which is good for hosts, has not expired and is not
 revoked. All that follows, the cookie too, is said inside.
 
 A directory holds `cert.pem` and `key.pem`, our own, `ca.pem`, of the
-authority, and `crl.pem`, who is revoked. They are read for each connection:
-who is revoked while we run is refused from then on.
+authority, and `crl.pem`, its revocations. They are read for each connection:
+a host that is revoked while we run is refused from then on.
 
 Library(ssl) reads the plain stream through its buffer, so there may be
 something to read of which the TLS stream knows nothing: secure_input/2 looks
 at both. OpenSSL lets one thread read while another writes, once the tickets
 of the handshake are through; these come with the first line of the server,
-which is read before anybody writes frames.
+which is read before any thread writes frames.
 
-*Threading*: who begins and ends is one at a time; a handshake is in the
-thread of its connection. What it may last in all is seen to by the keeper.
+*Threading*: the caller serializes begin and end; a handshake is in the
+thread of its connection. The connection manager limits its duration.
 */
 
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -40,7 +40,7 @@ thread of its connection. What it may last in all is seen to by the keeper.
 :- use_module('../base/key_files', [key_loaded/3, keys_file/3]).
 :- use_module('../base/keys', [keys_certificate/2, keys_holder/3]).
 :- use_module(handshake, [line_read/3, line_write/2]).
-:- use_module(keeper_queue, [keeper_tell/1]).
+:- use_module(threads, [manager_notify/1]).
 
 :- autoload(library(ssl),
             [ certificate_field/2, ssl_context/3, ssl_negotiate/5,
@@ -68,7 +68,7 @@ secure_begin(Directory0) :-
     keys_certificate(Directory, Certificate),
     (   keys_holder(Directory, Certificate, host(Name))
     ->  assertz(own(certificate(Name)))
-    ;   true                            % nobody will let us in
+    ;   true                            % peers will reject this certificate
     ),
     assertz(secure_directory(Directory)).
 
@@ -105,8 +105,8 @@ context(Role, Directory, Context) :-
                 | Revoked
                 ]).
 
-%   Library(ssl) never frees a list, some 4 kB for each connection: one in
-%   which nobody stands is left out. Contexts cannot be shared by connections,
+%   Library(ssl) never frees a list, some 4 kB for each connection: an
+%   empty one is left out. Contexts cannot be shared by connections,
 %   whose peers it would mix up.
 
 revoked(Directory, Options) :-
@@ -118,7 +118,7 @@ revoked(Directory, Options) :-
     ).
 
 %   verified(+SSL, +Certificate, +Chain, +First, +Verdict): only what was
-%   verified is; why it was not is remembered for who is told.
+%   verified is; why it was not is remembered for the report.
 
 :- public verified/5.
 
@@ -148,7 +148,7 @@ verdict(Verdict, _, Why) =>
 
 %!  secure_first(+Byte, +Out) is det.
 %
-%   A client begins with Byte: it speaks TLS if we do. If not it is told, in
+%   A client begins with Byte: it speaks TLS if we do. If not we report that, in
 %   a line that fits in any buffer.
 %
 %   @error permission_error(authenticate, peer, tls(Why)) Why: `missing` or
@@ -215,7 +215,7 @@ handshake(Role, Directory, In, Out, SIn, SOut, Name) :-
     welcome(Role, SIn, SOut).
 
 %   A client is done before the server has looked at its certificate: it says
-%   nothing before it is welcome, and hears else why it is not.
+%   nothing before the server accepts it or reports why it does not.
 
 welcome(server, _, SOut) :-
     line_write(SOut, "typhon tls").
@@ -248,7 +248,7 @@ in_time(Goal) :-
     thread_self(Me),
     get_time(Now),
     Time is Now+Seconds,
-    ignore(keeper_tell(later(Time, typhon_secure:late(Me)))),
+    ignore(manager_notify(later(Time, typhon_secure:late(Me)))),
     setup_call_cleanup(
         nb_setval(typhon_shaking, true),
         catch(Goal, Ball, in_time_or_not(Ball)),
@@ -328,8 +328,8 @@ secure_close :-
 secure_close.
 
 %   above(+In, +Out, -Stream): one of those that ssl_negotiate/5 has just
-%   made.  Who is interrupted then does not know them, and none of all is
-%   closed before they are.
+%   made.  A thread that is interrupted then does not know them, and none of
+%   all is closed before they are.
 
 above(In, Out, Stream) :-
     member(Mode, [append, write, read]),

@@ -54,8 +54,7 @@ connection changes the count of what was received.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module(handshake, [hello_peer/4]).
-:- use_module(keeper_queue, [keeper_tell/1]).
-:- use_module(threads, [wire_thread_signal/2]).
+:- use_module(threads, [manager_notify/1, wire_thread_signal/2]).
 
 :- setting(frame_bytes, positive_integer, 67108864,
            "The longest frame sent or taken, in bytes").
@@ -167,7 +166,8 @@ session_adopting(session(_, _, _, Adoption, _), Goal) :-
 %!  route_add(+Address, +Session) is det.
 %
 %   Address leads to Session from now on, if that has not been forgotten.
-%   The keeper hears displaced(Key) of the session it led to before.
+%   The connection manager receives displaced(Key) of the session it led to
+%   before.
 
 route_add(Address, Session) :-
     route(Address, Session),
@@ -180,7 +180,7 @@ route_add(Address, Session) :-
                ;   true
                )).
 
-%   The keeper looks whether another address leads to the displaced one.
+%   The manager checks whether another address leads to the displaced one.
 
 reroute(Address, Session) :-
     findall(Old-Key,
@@ -189,7 +189,7 @@ reroute(Address, Session) :-
             Displaced),
     assertz(route(Address, Session)),
     forall(member(Old-_, Displaced), erase(Old)),
-    forall(member(_-Key, Displaced), ignore(keeper_tell(displaced(Key)))).
+    forall(member(_-Key, Displaced), ignore(manager_notify(displaced(Key)))).
 
 		 /*******************************
 		 *            COUNTS            *

@@ -21,7 +21,7 @@ local to a thread and are put back.
                                  open_memory_file/4, size_memory_file/3]).
 
 % Terms are read in a module of their own: it inherits from system, so
-% that nobody's operators in user reach it, and has system's switched off.
+% that operators in user do not reach it, and has system's switched off.
 
 bare_syntax :-
     Module = typhon_text_syntax,

@@ -8,23 +8,28 @@
             wire_thread_leaves/1,       % +Thread
             wire_thread_join/1,         % +Thread
             wire_threads_end/0,
-            in_background/2             % :Goal, +Name
+            in_background/2,            % :Goal, +Name
+            manager_queue_open/0,
+            manager_queue_close/1,       % -Unheard
+            manager_notify/1,              % +Message
+            manager_receive/2               % -Message, +Deadline
           ]).
 
-/** <module> The threads of an endpoint
+/** <module> The threads of an endpoint, and their messages to the manager
 
 Every thread of an endpoint is made here and is joined when it ends, so
-that none outlives the endpoint. A thread that ends says so to the keeper.
+that none outlives the endpoint. A thread has an alias that tells what it is
+and for which peer, with a unique number: what is meant for one never reaches
+the next. All threads report events and requests to the connection manager
+through one queue, among them that they end. It exists while the endpoint
+runs.
 
-A thread has an alias that tells what it is and for whom, with a number
-that no other has: what is meant for one never reaches the next.
-
-*Threading*: wire_thread_join/1 is for the keeper, the rest may be called
-from any thread.
+*Threading*: wire_thread_join/1 and manager_receive/2 are for the connection
+manager, the rest may be called from any thread. Opening and closing the queue
+is serialized by the caller.
 */
 
 :- use_module('../base/error_text', [error_told/3]).
-:- use_module(keeper_queue, [keeper_tell/1]).
 
 :- meta_predicate
     wire_thread_create(0, +, -),
@@ -32,7 +37,7 @@ from any thread.
     in_background(0, +).
 
 :- multifile
-    not_now/1,                          % Why: this thread will hear of it
+    not_now/1,                          % Why: this thread will obey it later
     overdue/1.                          % Thread: do without it, if you can
 
 :- dynamic
@@ -80,7 +85,7 @@ work(Goal) :-
 
 ended :-
     thread_self(Me),
-    ignore(keeper_tell(ended(Me))).
+    ignore(manager_notify(ended(Me))).
 
 %!  in_background(:Goal, +Name) is det.
 %
@@ -131,7 +136,7 @@ wire_thread_leaves(Thread) :-
 
 %!  wire_thread_signal(+Thread, +Why) is det.
 %
-%   Throw wire_thread_end(Why) in Thread, unless it has ended or was told
+%   Throw wire_thread_end(Why) in Thread, unless it has ended or was signalled
 %   before: a second exception would break off the clean-up after the first.
 
 wire_thread_signal(Thread, Why) :-
@@ -186,6 +191,60 @@ wire_threads_end :-
     (   wire_thread(_)
     ->  wire_threads_end
     ;   true
+    ).
+
+		 /*******************************
+		 *    MESSAGES TO THE MANAGER   *
+		 *******************************/
+
+:- dynamic
+    manager_queue/1.                    % Queue
+
+%!  manager_queue_open is det.
+%!  manager_queue_close(-Unheard) is det.
+%
+%   Create the queue; destroy it. Unheard are the messages that were left in it.
+
+manager_queue_open :-
+    message_queue_create(Queue),
+    assertz(manager_queue(Queue)).
+
+manager_queue_close(Unheard) :-
+    with_mutex(typhon_manager_queue, close_queue(Unheard)).
+
+close_queue(Unheard) :-
+    retract(manager_queue(Queue)),
+    findall(Message, unheard(Queue, Message), Unheard),
+    message_queue_destroy(Queue).
+
+unheard(Queue, Message) :-
+    repeat,
+    (   thread_peek_message(Queue, _)
+    ->  thread_get_message(Queue, Message)
+    ;   !,
+        fail
+    ).
+
+%!  manager_notify(+Message) is semidet.
+%
+%   Send Message to the connection manager; fails when there is none.
+
+manager_notify(Message) :-
+    with_mutex(typhon_manager_queue,
+               ( manager_queue(Queue),
+                 thread_send_message(Queue, Message) )).
+
+%!  manager_receive(-Message, +Deadline) is semidet.
+%
+%   The next message; fails at Deadline, a time stamp or `infinite`, if
+%   there is none.
+
+manager_receive(Message, Deadline) :-
+    manager_queue(Queue),
+    (   ( Deadline == infinite
+        ; thread_peek_message(Queue, _) )
+    ->  thread_get_message(Queue, Message)
+    ;   thread_get_message(Queue, Message, [deadline(Deadline)])
     ).
 
 :- multifile prolog:message//1.

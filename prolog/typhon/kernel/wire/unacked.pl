@@ -13,27 +13,42 @@
             unacked_no_wait/1,          % +Queue
             session_acked/3,            % +Session, +Count, +Bytes
             session_sent/2,             % +Session, -Count
-            session_pending/2           % +Session, -Count
+            session_pending/2,          % +Session, -Count
+            pusher/2,                   % ?Key, ?Thread
+            pusher_start/4,             % +Session, +Thread, +Out, +Again
+            pusher_stop/1,              % +Key
+            pusher_control/3,           % +Key, +Kind, +Bytes
+            pusher_no_control/1         % +Key
           ]).
 
-/** <module> What the peer has not acknowledged
+/** <module> Frames that wait, and the thread that writes them
 
 Frames of a session that were written to some connection and are not
 acknowledged are in the queue Sent; those that never were, in the queue
 Waiting. A session without connection from which nothing is pending has no
 queues.
 
-*Threading*: the mutex of the session guards its queues: who calls what
-begins with unacked_ holds it. session_acked/3 and session_sent/2 are for
+A session of which more is sent than the buffers of the operating system hold
+has a thread that writes, the pusher, until nothing waits. It writes first
+what is outside the count, then what the peer lacks of an earlier connection,
+then what waits.
+
+*Threading*: the mutex of the session guards its queues: a caller of unacked_*
+holds it, as does one that starts a pusher or leaves it a control.
+session_acked/3, session_sent/2 and, without the mutex, pusher_stop/1 are for
 the thread of the connection, session_pending/2 is for any thread.
 */
 
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/fifo', [fifo_empty/2]).
-:- use_module(frame, [bundle_all/3, bundle_next/5]).
+:- use_module(frame, [bundle_all/3, bundle_next/5, frame_write/2]).
 :- use_module(session,
               [ ack_frames/1, acknowledged/3, note_acknowledged/3,
-                session_codec/2, session_key/2, session_locked/2 ]).
+                session_codec/2, session_key/2, session_locked/2,
+                transport_broken/2 ]).
+:- use_module(threads, [wire_thread_create/3, wire_thread_end/2]).
 
 :- dynamic
     queues/3,                           % Key, Sent, Waiting
@@ -147,8 +162,8 @@ unacked_rest(Key) :-
 
 %!  unacked_close(+Key, -Waiting) is det.
 %
-%   The session is over; the frames Waiting were never written.  Nobody need
-%   wait for it any more.
+%   The session is over; the frames Waiting were never written.  Threads that
+%   wait for it go on.
 
 unacked_close(Key, List) :-
     (   queues(Key, _, Waiting)
@@ -185,7 +200,7 @@ session_acked(Session, Count, Bytes) :-
 
 %!  unacked_gone(+Key, +Count, +Bytes) is det.
 %
-%   As session_acked/3.  Who counts what is pending, or what is under way,
+%   As session_acked/3.  A thread that counts what is pending, or under way,
 %   sees all of this or nothing.
 
 unacked_gone(Key, Count, Bytes) :-
@@ -250,8 +265,8 @@ queue_size(_, 0).
 %!  unacked_await(+Session, +Queue, -Count) is det.
 %!  unacked_no_wait(+Queue) is det.
 %
-%   Count frames are pending; Queue hears `flushed` when all these have been
-%   acknowledged.  Nobody listens to Queue any more.
+%   Count frames are pending; Queue receives `flushed` when all these have been
+%   acknowledged; it receives nothing any more.
 
 unacked_await(Session, Queue, Count) :-
     session_key(Session, Key),
@@ -273,10 +288,110 @@ bundle_waiting(Session, Key) :-
 unacked_no_wait(Queue) :-
     retractall(flusher(_, _, Queue)).
 
-%   Who waited may have given up just now.
+%   The waiting thread may have given up just now.
 
 flushed(Key, Wanted, Queue) :-
     retractall(flusher(Key, Wanted, Queue)),
     catch(thread_send_message(Queue, flushed),
           error(existence_error(_, _), _),
           true).
+
+		 /*******************************
+		 *            PUSHER            *
+		 *******************************/
+
+:- dynamic
+    pusher/2,                           % Key, Thread
+    control/3.                          % Key, Kind, Bytes: before what waits
+
+%!  pusher(?Key, ?Thread) is nondet.
+%
+%   Thread alone may write what is sent in the session.
+
+%!  pusher_start(+Session, +Thread, +Out, +Again) is det.
+%
+%   Write the frames Again, and what waits, to Out, of Thread.  Where no
+%   thread can be made the connection is given up: what waits must not be
+%   overtaken, and is sent over the next.
+
+pusher_start(Session, Thread, Out, Again) :-
+    session_key(Session, Key),
+    catch(( wire_thread_create(push(Session, Thread, Out, Again),
+                               pusher-Key, Pusher),
+            assertz(pusher(Key, Pusher)),
+            debug(typhon(session), '~w: ~w writes', [Key, Pusher])
+          ),
+          error(Formal, Context),
+          ( print_error(error, error(Formal, Context)),
+            transport_broken(Key, Thread) )).
+
+push(Session, Thread, Out, Again) :-
+    call_cleanup(
+        catch(( forall(member(Bytes, Again), frame_write(Out, Bytes)),
+                push_waiting(Session, Out) ),
+              error(_, _),
+              true),
+        session_locked(Session, pushed(Session, Thread))).
+
+%   A pusher that has written all has ended already.
+
+pushed(Session, Thread) :-
+    session_key(Session, Key),
+    thread_self(Me),
+    (   retract(pusher(Key, Me))
+    ->  transport_broken(Key, Thread)
+    ;   true
+    ).
+
+push_waiting(Session, Out) :-
+    session_key(Session, Key),
+    repeat,
+    write_waiting(Session, Key, Out),
+    session_locked(Session, nothing_waits(Key)),
+    !.
+
+%   Many small frames go in one write: the buffer is flushed when it is full
+%   and when nothing waits, and that without the mutex.
+
+write_waiting(Session, Key, Out) :-
+    repeat,
+    (   session_locked(Session, next_frame(Session, Key, Bytes))
+    ->  frame_write(Out, Bytes),
+        fail
+    ;   !,
+        flush_output(Out)
+    ).
+
+next_frame(_, Key, Bytes) :-
+    retract(control(Key, _, Bytes)),
+    !.
+next_frame(Session, _, Bytes) :-
+    unacked_next(Session, inf, Bytes).
+
+nothing_waits(Key) :-
+    \+ control(Key, _, _),
+    \+ unacked_waiting(Key),
+    retractall(pusher(Key, _)).
+
+%!  pusher_stop(+Key) is det.
+%
+%   End the pusher of the session, if any, and wait for that.
+
+pusher_stop(Key) :-
+    (   retract(pusher(Key, Pusher))
+    ->  wire_thread_end(Pusher, broken)
+    ;   true
+    ).
+
+%!  pusher_control(+Key, +Kind, +Bytes) is det.
+%!  pusher_no_control(+Key) is det.
+%
+%   Bytes goes before all that waits, in place of an older one of its Kind.
+%   What is left was for another connection.
+
+pusher_control(Key, Kind, Bytes) :-
+    retractall(control(Key, Kind, _)),
+    assertz(control(Key, Kind, Bytes)).
+
+pusher_no_control(Key) :-
+    retractall(control(Key, _, _)).

@@ -1,4 +1,4 @@
-:- module(typhon_contacts,
+:- module(typhon_peer_cache,
           [ contact_met/2,              % +Address, +Process
             contact_gone/1,             % +Address
             contact_missed/2,           % +Address, +Formal
@@ -6,25 +6,28 @@
             contact_expect/1,           % +Address
             contact_expect_no_more/1,   % +Address
             contact_expected/1,         % +Address
-            contact/3                   % ?Address, ?Process, ?State
+            contact/3,                  % ?Address, ?Process, ?State
+            endpoint_proof/2,           % +Peer, -Proof
+            endpoint_own_proof/1        % ?Proof
           ]).
 
-/** <module> What is known of addresses
+/** <module> What is known of peers: addresses and proofs
 
-Which process was last met at an address, and whether it has left: nobody
+Which process was last met at an address, and whether it has left: nothing
 listens there any more, or it said goodbye. A process that is silent, and
-one behind a cut network, has not left. Where nobody could be met, what went
-wrong the last time. A bounded number of addresses is
-kept, the oldest are forgotten.
+one behind a cut network, has not left. Where no peer could be reached, the
+last error. A bounded number of addresses is kept, the oldest are discarded.
 
-*Threading*: any thread; a mutex makes changes one at a time.
+*Threading*: any thread; a mutex serializes changes.
 */
 
-:- use_module('../../options/journal', [note_drop/3, note_put/4]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../options/journal', [note_drop/3, note_put/4]).
+:- use_module(secure, [secure_directory/1, secure_own/1, secure_proof/1]).
+:- use_module(session, [route/2, session_proof/2]).
 
 :- setting(contacts, positive_integer, 10000,
-           "Addresses of which is known who was met there").
+           "Addresses of which the last process met is remembered").
 
 :- multifile typhon_durable:restore/4.
 
@@ -41,7 +44,7 @@ kept, the oldest are forgotten.
 %!  contact_met(+Address, +Process) is det.
 %!  contact_gone(+Address) is det.
 %
-%   Process is at Address; nobody is there any more.
+%   Process is at Address; none is there any more.
 
 contact_met(Address, Process) :-
     with_mutex(typhon_contacts,
@@ -56,7 +59,7 @@ contact_gone(Address) :-
 %!  contact_missed(+Address, +Formal) is det.
 %!  missed(?Address, ?Formal) is nondet.
 %
-%   Nobody could be met at Address, because of the error Formal.
+%   No process could be reached at Address, because of the error Formal.
 
 contact_missed(Address, Formal) :-
     with_mutex(typhon_contacts,
@@ -76,8 +79,7 @@ forget_missed :-
 %!  contact_expect_no_more(+Address) is det.
 %!  contact_expected(+Address) is semidet.
 %
-%   If nobody is at Address somebody soon will be: who owns the process there
-%   starts it again.
+%   If no process is at Address one soon will be: its owner starts it again.
 
 contact_expect(Address) :-
     with_mutex(typhon_contacts,
@@ -103,7 +105,7 @@ note(Address, Process, State) :-
     note_lasting(Process, Address),
     forget_oldest.
 
-%   That somebody will be there again must not be forgotten.
+%   That a process will be there again must survive a restart.
 
 note_lasting(Process, Address) :-
     sub_atom(Process, 0, _, _, j),
@@ -123,3 +125,39 @@ forget_oldest :-
     Excess is Count-Max,
     forall(between(1, Excess, _),
            ignore(retract(contact(_, _, _)))).
+
+		 /*******************************
+		 *            PROOFS            *
+		 *******************************/
+
+%!  endpoint_proof(+Peer, -Proof) is det.
+%
+%   Proof is `cookie`, or certificate(Name): by what the process at the
+%   address Peer is known.  In the thread of a connection that is what was
+%   proved in it, whatever address the peer claims.  Where there is TLS
+%   no peer counts as one with the cookie only: an unknown one has
+%   certificate(unknown).
+
+endpoint_proof(_, Proof) :-
+    secure_proof(Proof0),
+    !,
+    Proof = Proof0.
+endpoint_proof(_, Proof) :-
+    \+ secure_directory(_),
+    !,
+    Proof = cookie.
+endpoint_proof(Peer, Proof) :-
+    route(Peer, Session),
+    !,
+    session_proof(Session, Proof).
+endpoint_proof(_, certificate(unknown)).
+
+%!  endpoint_own_proof(?Proof) is semidet.
+%
+%   A process with this proof has our keys, or, without TLS, our cookie.
+
+endpoint_own_proof(Proof) :-
+    (   secure_own(Own)
+    ->  Proof = Own
+    ;   Proof = cookie
+    ).

@@ -1,0 +1,422 @@
+:- module(typhon_connection_manager,
+          [ keep/1,                     % +Me
+            manager_connect/1,           % +Address
+            manager_connect/2,           % +Address, +Deadline
+            manager_unhandled/1            % +Messages
+          ]).
+
+/** <module> The connection manager: connects, and connects again
+
+One thread per endpoint keeps its sessions alive. It connects to the addresses
+that are wanted, connects sessions with something to send or to receive again,
+and forgets others.
+
+For each wanted address attempts to connect are made, with growing pauses,
+until a session is up, whichever side made its connection. Waiting threads
+learn that it is up, or that there can be none. Failures that may pass, as when
+a peer breaks off during the handshake, are retried while there is time. All
+others are reported at once, a refused connection first of all, unless a
+process is expected there soon.
+
+*Threading*: keep/1 is the goal of the manager's thread, which owns the tables
+below. Others talk to it through manager_notify/1. It never waits: what may
+take a while is done by a thread in the background.
+*/
+
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2, min_list/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/error_text', [print_error/2]).
+:- use_module(attempts,
+              [ asked/1, attempt/4, attempt_asked/2, attempt_begun/3,
+                attempt_due/1, attempt_end/1, attempt_expired/2,
+                attempt_greeted/1, attempt_next/2, attempt_pause/3,
+                attempt_want/1, attempts_due/1, waiter/1, waiter_add/2,
+                waiter_tell/2, waiters_missed/2, waiters_tell/2 ]).
+:- use_module(connection, [outgoing/2]).
+:- use_module(peer_cache,
+              [contact_expected/1, contact_gone/1, contact_missed/2]).
+:- use_module(request,
+              [ requests_lost/2, session_unfinished/1, unsent/1,
+                unsent_again/2, unsent_fail/1, unsent_fail/2, unsent_send/2 ]).
+:- use_module(resumption, [session_close/2, session_retire/1]).
+:- use_module(session,
+              [ route/2, route_key/2, route_up/2, session/2,
+                session_adopting/2, session_key/2, session_up/1 ]).
+:- use_module(threads,
+              [ in_background/2, manager_receive/2, manager_notify/1,
+                wire_thread_create/3, wire_thread_end/2, wire_thread_join/1 ]).
+
+:- setting(resting, positive_integer, 1000,
+           "Sessions without connection kept though nothing is pending").
+
+:- dynamic
+    resting/1,                          % Key
+    errand/2.                           % Time, Goal
+
+%!  manager_connect(+Address) is semidet.
+%!  manager_connect(+Address, +Deadline) is semidet.
+%
+%   Ensure a connection to Address; fails if there can be none, or not before
+%   Deadline. The manager always answers, so the first has no deadline: a wait
+%   with a deadline may never end in a clean-up handler or a hook, where
+%   signals are held back (SWI-Prolog 9.0.4). In the thread of the manager,
+%   which cannot wait for itself, both fail.
+
+manager_connect(Address) :-
+    connected(Address, []).
+
+manager_connect(Address, Deadline) :-
+    connected(Address, [deadline(Deadline)]).
+
+connected(Address, Options) :-
+    \+ nb_current(typhon_keeper, true),
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( manager_notify(connect(Address, Queue)),
+          thread_get_message(Queue, Result, Options),
+          Result == met ),
+        message_queue_destroy(Queue)).
+
+%!  manager_unhandled(+Messages) is det.
+%
+%   Answer those that asked too late, and run what was to be done later.
+
+manager_unhandled(Messages) :-
+    forall(member(connect(_, Queue), Messages), waiter_tell(Queue, missed)),
+    unsent_fail(_),
+    forall(member(later(_, Goal), Messages), call(Goal)).
+
+%!  keep(+Me) is det.
+%
+%   The goal of the thread, Me being our hello. Ends on the message `stop`.
+
+keep(Me) :-
+    nb_setval(typhon_keeper, true),
+    repeat,
+    next_deadline(Deadline),
+    (   manager_receive(Message, Deadline)
+    ->  true
+    ;   Message = overdue
+    ),
+    (   Message == stop
+    ->  !,
+        give_up,
+        retractall(resting(_)),
+        run_errands(inf)
+    ;   catch(( hear(Message, Me), begin_attempts(Me) ),
+              error(Formal, Context),
+              print_error(error, error(Formal, Context))),
+        fail
+    ).
+
+next_deadline(Deadline) :-
+    findall(Time, ( attempt_due(Time) ; errand(Time, _) ), Times),
+    (   Times == []
+    ->  Deadline = infinite
+    ;   min_list(Times, Deadline)
+    ).
+
+hear(connect(Address, Queue), _) :-
+    wait_for_connection(Address, Queue).
+hear(requests(Address), _) :-
+    send_held(Address).
+hear(greeted(Thread), _) :-
+    attempt_greeted(Thread).
+hear(missed(Thread, Formal), _) :-
+    attempt_ended(Thread, Formal).
+hear(ended(Thread), _) :-
+    wire_thread_join(Thread),
+    attempt_ended(Thread, ended).
+hear(up(Key), _) :-
+    retractall(resting(Key)),
+    session_is_up(Key).
+hear(wanted(Key), _) :-
+    (   session(Key, Session),
+        \+ session_up(Key)
+    ->  down(Session)
+    ;   true
+    ).
+hear(displaced(Key), Me) :-             % another process has its address
+    (   route_key(_, Key)               % is it at that, too?
+    ->  hear(wanted(Key), Me)
+    ;   gone(Key)
+    ).
+hear(gone(Key), _) :-                   % it said goodbye
+    forall(route_key(Address, Key), contact_gone(Address)),
+    gone(Key).
+hear(later(Time, Goal), _) :-           % Goal is quick
+    assertz(errand(Time, Goal)).
+hear(overdue, Me) :-
+    get_time(Now),
+    run_errands(Now),
+    handle_overdue(Me).
+
+%   What others have asked to be done at some time.
+
+run_errands(Now) :-
+    findall(Time-Goal, ( errand(Time, Goal), Time =< Now ), Due),
+    forall(member(Time-Goal, Due),
+           ( retractall(errand(Time, Goal)),
+             call(Goal) )).
+
+%   A session with nothing pending is kept for the sake of its counts: the
+%   peer may be cut off only, and come back with frames that have arrived
+%   before.
+
+down(Session) :-
+    session_unfinished(Session),
+    !,
+    reconnect(Session).
+down(Session) :-
+    session_key(Session, Key),
+    retractall(resting(Key)),
+    assertz(resting(Key)),
+    predicate_property(resting(_), number_of_clauses(Count)),
+    setting(resting, Max),
+    (   Count > Max,
+        retract(resting(Oldest)),
+        session(Oldest, OldSession)
+    ->  in_background(forget(OldSession), forget-Oldest)
+    ;   true
+    ).
+
+forget(Session) :-
+    session_adopting(Session, forget_at_rest(Session)).
+
+forget_at_rest(Session) :-
+    session_key(Session, Key),
+    (   ( session_up(Key) ; session_unfinished(Session) )
+    ->  true
+    ;   ignore(session_close(Session, _))
+    ).
+
+gone(Key) :-
+    retractall(resting(Key)),
+    (   session(Key, Session)
+    ->  debug(typhon(session), '~w: gone for good', [Key]),
+        in_background(part(Session), part-Key)
+    ;   true
+    ).
+
+%   Every caller that waits for an answer gets a result, whatever happens.
+
+part(Session) :-
+    sig_atomic(( session_adopting(Session,
+                                  ( session_retire(Session),
+                                    session_close(Session, Unsent) )),
+                 unsent_again(Session, Unsent),
+                 requests_lost(Session, Unsent) )).
+
+		 /*******************************
+		 *       WANTED ADDRESSES       *
+		 *******************************/
+
+%!  wait_for_connection(+Address, +Queue) is det.
+%
+%   Queue receives `met` or `missed`.
+
+wait_for_connection(Address, Queue) :-
+    (   up(Address, _)
+    ->  waiter_tell(Queue, met)
+    ;   waiter_add(Address, Queue),
+        attempt_want(Address)
+    ).
+
+%!  send_held(+Address) is det.
+%
+%   Send what is held for Address when there is a session, see request.pl.
+
+send_held(Address) :-
+    (   up(Address, Session)
+    ->  unsent_send(Address, Session)
+    ;   attempt_want(Address)
+    ).
+
+%!  reconnect(+Session) is det.
+%
+%   Session is unfinished: connect again.
+
+reconnect(Session) :-
+    (   route(Address, Session),
+        \+ attempt(Address, _, _, _)
+    ->  attempt_pause(Address, 0.05, none)
+    ;   true
+    ).
+
+up(Address, Session) :-
+    route_up(Address, Session),
+    !.
+
+		 /*******************************
+		 *           ATTEMPTS           *
+		 *******************************/
+
+%!  begin_attempts(+Me) is det.
+%
+%   Begin the attempts whose turn has come, Me being our hello.
+
+begin_attempts(Me) :-
+    (   attempt_next(Me, Address)
+    ->  try(Address, Me),
+        begin_attempts(Me)
+    ;   true
+    ).
+
+try(Address, Me) :-
+    asked(Asked),
+    catch(wire_thread_create(outgoing(Address, Me), out-Address, Thread),
+          error(Formal, _),
+          Thread = none),
+    attempt_begun(Address, Thread, Asked),
+    debug(typhon(connect), '~w: trying, in ~w', [Address, Thread]),
+    (   Thread == none
+    ->  verdict(Address, Formal)
+    ;   true
+    ).
+
+%!  attempt_ended(+Thread, +Formal) is det.
+%
+%   The attempt of Thread, if it is one, has ended without connection.
+
+attempt_ended(Thread, Formal) :-
+    (   attempt(Address, trying(Thread, _, _), _, _)
+    ->  verdict(Address, Formal)
+    ;   true
+    ).
+
+%   The session may be up all the same, by a connection of the peer's.
+
+verdict(Address, _) :-
+    up(Address, _),
+    !,
+    met(Address).
+verdict(Address, Formal) :-
+    attempt(Address, State, Pause, Since),
+    debug(typhon(connect), '~w: no connection: ~p', [Address, Formal]),
+    (   over(Address, Since, Formal)
+    ->  attempt_asked(State, Asked),
+        missed(Address, Asked, Formal),
+        others(Address, Pause)
+    ;   go_on(Address, Pause, Since)
+    ).
+
+%   Requests made since the attempt began get another one.
+
+others(Address, _) :-
+    ( waiter(Address) ; unsent(Address) ),
+    !,
+    attempt_end(Address),
+    attempt_want(Address).
+others(Address, Pause) :-
+    go_on(Address, Pause, none).
+
+over(Address, Since, Formal) :-
+    number(Since),
+    (   \+ may_pass(Formal),
+        \+ soon_there(Formal, Address)
+    ->  true
+    ;   attempt_expired(Address, Since)
+    ).
+
+%   It is being started again.
+
+soon_there(socket_error(econnrefused, _), Address) :-
+    contact_expected(Address).
+
+may_pass(late).
+may_pass(ended).                        % replaced by another connection
+may_pass(session_closed).
+may_pass(timeout_error(_, _)).
+may_pass(resource_error(_)).
+may_pass(io_error(_, _)).
+may_pass(syntax_error(end_of_file)).
+may_pass(socket_error(Code, _)) :-
+    memberchk(Code, [ econnreset, econnaborted, epipe, etimedout, eagain,
+                      eai_again, eintr, emfile, enfile, enobufs, enomem,
+                      eaddrnotavail ]).
+
+go_on(Address, Pause, Since) :-
+    (   pointless(Address, Since)
+    ->  attempt_end(Address)
+    ;   attempt_pause(Address, Pause, Since)
+    ).
+
+%   No caller waits, and no session needs it.
+
+pointless(Address, none) :-
+    \+ ( route(Address, Session),
+         session_unfinished(Session) ).
+
+%!  handle_overdue(+Me) is det.
+%
+%   Do what is due.
+
+handle_overdue(Me) :-
+    attempts_due(Due),
+    forall(member(Address-State, Due), overdue(Address, State, Me)).
+
+overdue(Address, State, Me) :-
+    (   \+ attempt(Address, State, _, _)
+    ->  true
+    ;   up(Address, _)
+    ->  met(Address)
+    ;   late(State, Address, Me)
+    ).
+
+late(trying(Thread, _, _), Address, _) :-
+    in_background(wire_thread_end(Thread, late), end-Address),
+    verdict(Address, late).
+late(pausing(_, _), Address, Me) :-
+    attempt(Address, _, _, Since),
+    (   over(Address, Since, late)
+    ->  verdict(Address, late)
+    ;   pointless(Address, Since)
+    ->  attempt_end(Address)
+    ;   try(Address, Me)
+    ).
+
+		 /*******************************
+		 *           OUTCOMES           *
+		 *******************************/
+
+%!  session_is_up(+Key) is det.
+%
+%   The session Key has a connection: so have all addresses that lead to it.
+
+session_is_up(Key) :-
+    findall(Address, route_key(Address, Key), Addresses),
+    forall(member(Address, Addresses), met(Address)).
+
+%   It may be down again: what is sent in it comes through when it is up the
+%   next time.
+
+met(Address) :-
+    debug(typhon(connect), '~w: met', [Address]),
+    attempt_end(Address),
+    (   route(Address, Session)
+    ->  unsent_send(Address, Session)
+    ;   true
+    ),
+    waiters_tell(Address, met).
+
+missed(Address, Asked, Formal) :-
+    print_message(silent,
+                  typhon(endpoint, unreachable(Address, Formal))),
+    contact_missed(Address, Formal),
+    unsent_fail(Address, Asked),
+    waiters_missed(Address, Asked).
+
+%!  give_up is det.
+%
+%   The endpoint stops: no peer can be reached any more.
+
+give_up :-
+    waiters_tell(_, missed),
+    unsent_fail(_),
+    attempt_end(_).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, unreachable(Address, Formal))) -->
+    [ 'Endpoint: cannot reach ~w: ~p'-[Address, Formal] ].
