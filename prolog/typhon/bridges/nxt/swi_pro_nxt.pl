@@ -28,8 +28,7 @@
 :- use_module(files).
 :- use_module(old_state, [old_clear/2, old_set/3, old_value/4]).
 
-:- reexport(old_motors).
-:- reexport(old_sensors).
+:- reexport(old_devices).
 
 /** <module> The names of SWI-PRO-NXT
 
