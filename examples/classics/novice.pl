@@ -1,4 +1,4 @@
-% novice.pl: who lives here takes the first free square
+% novice.pl: the agent here takes the first free square
 
 :- use_module(library(lists)).
 :- include(rules).

@@ -1,4 +1,4 @@
-% thinker.pl: who lives here sees the game to its end
+% thinker.pl: the agent here searches the game to its end
 
 :- use_module(library(lists)).
 :- include(rules).

@@ -3,10 +3,14 @@
 % Every example runs by itself and prints what its newcomer wants to see.
 
 :- use_module('../lib/common').
+:- use_module('../lib/fixtures').
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(lists), [append/3, member/2, select/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists),
+              [append/3, last/2, member/2, numlist/3, select/3]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(typhon)).
 
 %   shows(Example, Lines): patterns of lines in the output, in any order
 
@@ -42,7 +46,10 @@ shows(pheromone,
       ]).
 
 example(Example) :-
-    project_file('examples/*.pl', Pattern),
+    program_in('examples/*.pl', Example).
+
+program_in(Relative, Example) :-
+    project_file(Relative, Pattern),
     expand_file_name(Pattern, Files),
     member(File, Files),
     file_base_name(File, Base),
@@ -92,3 +99,105 @@ test(short, Long == []) :-
             Long).
 
 :- end_tests(examples).
+
+% Every program of examples/agents does what its first comment says, on three
+% hosts that are linked to each other. Logged is what it logs, as Host-What with
+% the host on which it was then; A, B and C are the addresses.
+
+:- meta_predicate agent_logs(+, 2, -, -).
+
+%   agent_logs(+Program, :Drive, -Addresses, -Logged): Drive(Agent, File) while
+%   it is alive, File being the log.
+
+agent_logs(Program, Drive, Addresses, Logged) :-
+    with_tmp_dir(agent_logs_in(Program, Drive, Addresses, Logged)).
+
+agent_logs_in(Program, Drive, Addresses, Logged, Dir) :-
+    directory_file_path(Dir, 'events.pl', File),
+    log_server_start([file(File)], Log),
+    call_cleanup(
+        with_hosts([a-[log(Log)], b-[log(Log)], c-[log(Log)]],
+                   driven(Program, Drive, File, Addresses, Agent)),
+        log_server_stop(Log)),
+    logged(File, Agent, Logged).
+
+driven(Program, Drive, File, [A,B,C], Agent) :-
+    address(a, A),
+    address(b, B),
+    address(c, C),
+    forall(member(X-Y, [a-b, a-c, b-c]), link(X, Y)),
+    created(Program, Agent),
+    call(Drive, Agent, File).
+
+created(Program, Agent) :-
+    format(atom(Relative), 'examples/agents/~w.pl', [Program]),
+    project_file(Relative, File),
+    agent_create(File, Agent, [host(a)]).
+
+logged(File, Agent, Logged) :-
+    log_events(File, Events),
+    findall(Host-What,
+            ( member(event(_, Host, Agent, What), Events),
+              What \== created ),
+            Logged).
+
+until_done(Agent, _) :-
+    joined(Agent, done).
+
+keeps_notes(Agent, _) :-
+    forall(member(Message, [ remember(milk), recall, go(b), remember(tea),
+                             recall, stop ]),
+           agent_send(Agent, Message)),
+    agent_join(Agent, Outcome, 20),
+    assertion(Outcome == disposed).
+
+%   The other agent is the load.
+
+watches(Agent, File) :-
+    wait_until(loads(File, Agent, [1]), 20),
+    created(keeper, Other),
+    wait_until(loads(File, Agent, [1,2]), 20),
+    agent_dispose(Other),
+    wait_until(loads(File, Agent, [1,2,1]), 20),
+    agent_dispose(Agent).
+
+loads(File, Agent, Loads) :-
+    logged(File, Agent, Logged),
+    findall(Load, member(_-load(Load), Logged), Loads).
+
+:- begin_tests(example_agents).
+
+test(hello, Logged == [ A-hello_from(A), B-hello_from(B), C-hello_from(C),
+                        A-ended(done) ]) :-
+    agent_logs(hello, until_done, [A,B,C], Logged).
+
+test(census, Logged == [A-seen(B, 1), A-seen(C, 1), A-ended(done)]) :-
+    agent_logs(census, until_done, [A,B,C], Logged).
+
+test(rounds, [Numbers, Last] == [OneToTen, ended(done)]) :-
+    agent_logs(rounds, until_done, [A|_], Logged),
+    findall(N, member(Host-hop(N, Host), Logged), Numbers),
+    findall(Host, member(Host-hop(_, _), Logged), Hosts),
+    assertion(moved(A, Hosts)),
+    numlist(1, 10, OneToTen),
+    last(Logged, _-Last).
+
+test(keeper, Logged == [ A-note(milk), B-note(milk), B-note(tea),
+                         B-ended(disposed) ]) :-
+    agent_logs(keeper, keeps_notes, [A,B,_], Logged).
+
+test(watchman, Logged == [ A-load(1), A-load(2), A-load(1),
+                           A-ended(disposed) ]) :-
+    agent_logs(watchman, watches, [A|_], Logged).
+
+test(tested, Programs == [census, hello, keeper, rounds, watchman]) :-
+    setof(Program, program_in('examples/agents/*.pl', Program), Programs).
+
+%   Each hop is to another host.
+
+moved(_, []).
+moved(Here, [Host|Hosts]) :-
+    Host \== Here,
+    moved(Host, Hosts).
+
+:- end_tests(example_agents).
