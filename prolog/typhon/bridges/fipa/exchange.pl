@@ -1,6 +1,5 @@
 :- module(typhon_fipa_exchange,
-          [ exchange_send/4,            % +Host, +Local, +To, +Acl
-            exchange_receive/3          % +Host, +Aid, +Acl
+          [ exchange_send/4             % +Host, +Local, +To, +Acl
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, resource_error/1]).
@@ -16,7 +15,8 @@
                 must_be_acl/1, performative/1 ]).
 :- use_module(aid, [aid_addresses/2, aid_name/2]).
 :- use_module(carriage, [carriage_send/4]).
-:- use_module(letter, [letter_write/5]).
+:- use_module(http, [http_url/3]).
+:- use_module(letter, [letter_read/4, letter_write/5]).
 :- use_module(managers, [manager_answer/4]).
 :- use_module(platform,
               [ platform/4, platform_aid/3, platform_count/2,
@@ -24,16 +24,19 @@
 
 /** <module> Messages between our agents and those of other platforms
 
-What comes in goes to an agent by the way of all messages, wherever it is,
-or to a manager.  What goes out goes to the addresses of its receiver.  For
-what nobody takes the AMS sends a failure to the sender.
+Messages of other platforms are posted to their agent as all messages are,
+wherever it is, or handled by a manager.  Messages to other platforms go to
+the addresses of their receiver.  If a message cannot be delivered the AMS
+sends a failure to its sender.
 
-*Threading*: any thread.  exchange_send/4 does not wait for other platforms;
-exchange_receive/3 may wait for a connection to another process of ours.
+*Threading*: any thread.  exchange_send/4 does not wait for other platforms.
+Requests are handled in the thread of the client, which may wait for a
+connection to another of our processes.
 */
 
 :- multifile
     typhon_fipa_carriage:returned/4,
+    typhon_fipa_reception:requested/3,
     typhon_lost:returned/3.
 
                 /*******************************
@@ -43,10 +46,10 @@ exchange_receive/3 may wait for a connection to another process of ours.
 %!  exchange_send(+Host, +Local, +To, +Acl) is det.
 %
 %   Send Acl to the agent identifier To, from Local, an agent's id or a
-%   manager, by way of Host.  The sender is who it is, whatever Acl says; the
-%   receiver is To where Acl says nothing.
+%   manager, through Host.  The sender is always Local, whatever Acl says; the
+%   receiver is To unless Acl has one.
 %
-%   @error existence_error(fipa_address, Name) if nobody has said where To is
+%   @error existence_error(fipa_address, Name) if no address of To is known
 %   @error resource_error(fipa_message_bytes), and what acl_text/2,
 %   carriage_send/4 raise
 
@@ -63,7 +66,7 @@ exchange_send(Host, Local, To, Acl0) :-
     (   platform_local(Host, Name, _)
     ->  acl_text(Read, Text),
         platform_count(Host, sent),
-        exchange_receive(Host, To, Read)
+        accept(Host, To, Read)
     ;   send_abroad(Host, Local, To, Acl, Text),
         platform_count(Host, sent)
     ).
@@ -101,16 +104,79 @@ typhon_fipa_carriage:returned(Host, about(Local, To, Acl), Url, Why) :-
                 *              IN              *
                 *******************************/
 
-%!  exchange_receive(+Host, +Aid, +Acl) is det.
-%
-%   Acl has come for Aid, on the platform of Host.
+typhon_fipa_reception:requested(Host, Request, Code) :-
+    platform(Host, _, Url, _),
+    catch(message(Request, Url, Message), error(Formal, _),
+          Message = bad(Formal)),
+    taken(Message, Host, Code).
 
-exchange_receive(Host, Aid, Acl) :-
-    aid_name(Aid, Name),
-    (   platform_local(Host, Name, Local)
+taken(message(Acl, Receivers), Host, Code) =>
+    forall(member(Receiver, Receivers),
+           accept(Host, Receiver, Acl)),
+    Code = 200.
+taken(bad(Why), Host, Code) =>
+    debug(typhon(fipa), '~w: a request is no message: ~p', [Host, Why]),
+    platform_count(Host, refused),
+    (   integer(Why)
+    ->  Code = Why
+    ;   Why = resource_error(fipa_envelope)
+    ->  Code = 413
+    ;   Code = 400
+    ).
+
+%   message(+Request, +Url, -Message): Message is message(Acl, Receivers), or
+%   bad(Code).
+
+message(request(Method, _, _, _, _), _, Message), Method \== 'POST' =>
+    Message = bad(405).
+message(request(_, Target, _, _, _), Url, Message), \+ at(Target, Url) =>
+    Message = bad(404).
+message(request(_, _, Type, Body, _), _, Message) =>
+    letter_read(Type, Body, Envelope, Text),
+    acl_text(Acl0, Text),
+    from(Acl0, Envelope, Acl),
+    receivers(Acl, Envelope, Receivers),
+    Message = message(Acl, Receivers).
+
+%   JADE's requests have the whole URL.
+
+at(Target, Url) :-
+    http_url(Url, _, Path),
+    (   Target == Path
     ->  true
-    ;   Local = Name
+    ;   catch(http_url(Target, _, Path), error(_, _), fail)
+    ).
+
+%   The envelope may name the sender if the message does not.
+
+from(Acl0, Envelope, Acl) :-
+    (   acl_parameter(Acl0, sender(Sender0))
+    ->  with_addresses(Sender0, Envelope, Sender)
+    ;   memberchk(from(Sender), Envelope)
     ),
+    acl_with(Acl0, [sender(Sender)], Acl).
+
+with_addresses(Sender, Envelope, WithAddresses) :-
+    aid_addresses(Sender, []),
+    memberchk(from(From), Envelope),
+    aid_name(Sender, Name),
+    aid_name(From, Name),
+    !,
+    WithAddresses = From.
+with_addresses(Sender, _, Sender).
+
+receivers(Acl, Envelope, Receivers) :-
+    (   memberchk(intended_receiver(Receivers0), Envelope)
+    ;   memberchk(to(Receivers0), Envelope)
+    ;   acl_parameter(Acl, receiver(Receivers0))
+    ),
+    !,
+    Receivers = Receivers0.
+
+%   accept(+Host, +Aid, +Acl): deliver Acl to Aid, on the platform of Host.
+
+accept(Host, Aid, Acl) :-
+    local_name(Host, Aid, Local),
     acl_parameter(Acl, sender(Sender)),
     aid_name(Sender, From),
     aid_addresses(Sender, Addresses),
@@ -118,6 +184,13 @@ exchange_receive(Host, Aid, Acl) :-
     platform_count(Host, received),
     debug(typhon(fipa), '~w: ~w gets ~p', [Host, Local, Acl]),
     receive(Local, Host, Aid, Acl).
+
+local_name(Host, Aid, Local) :-
+    aid_name(Aid, Name),
+    (   platform_local(Host, Name, Local0)
+    ->  Local = Local0
+    ;   Local = Name
+    ).
 
 receive(Manager, Host, _, Acl), manager(Manager) =>
     (   manager_answer(Host, Manager, Acl, Performative-Content)
@@ -129,8 +202,7 @@ receive(_, Host, Aid, Acl), Acl = acl(Performative, _),
                             \+ performative(Performative) =>
     acl_reply(Acl, 'not-understood', ['unrecognised-value'(Performative)],
               Reply),
-    aid_name(Aid, Name),
-    local_name(Host, Name, Local),
+    local_name(Host, Aid, Local),
     answer(Host, Local, Acl, Reply).
 receive(Local, Host, Aid, Acl) =>
     catch(to_agent(Local, Host, Acl), error(Formal, _),
@@ -138,12 +210,6 @@ receive(Local, Host, Aid, Acl) =>
 
 manager(ams).
 manager(df).
-
-local_name(Host, Name, Local) :-
-    (   platform_local(Host, Name, Local0)
-    ->  Local = Local0
-    ;   Local = Name
-    ).
 
 answer(Host, Local, Acl, Reply) :-
     reply_to(Acl, To),
@@ -173,8 +239,8 @@ to_agent(Local, Host, Acl) :-
     aid_name(Sender, From),
     post(Id, fipa(From), Mail).
 
-%   An id says to which process one has to turn: only to such as have been met
-%   before.
+%   An id names the process of its agent.  Messages from outside must not open
+%   connections to processes that were never met.
 
 known_agent(Local, Id) :-
     agent_named(Local, Id),
@@ -200,7 +266,7 @@ why(resource_error(fipa_queue), "its mailbox is full") :- !.
 why(Formal, Why) :-
     format(string(Why), '~p', [Formal]).
 
-%   What post/3 took, and found nobody for later on.
+%   Messages that post/3 accepted and could not deliver later.
 
 typhon_lost:returned(fipa(_), Id, Acl) :-
     acl_parameter(Acl, via(Address)),
@@ -215,7 +281,7 @@ typhon_lost:returned(fipa(_), Id, Acl) :-
                 *           FAILURES           *
                 *******************************/
 
-%   No failure is sent about a failure: it would go on for ever.
+%   A failure is never answered with a failure: two platforms would loop.
 
 fail_to(Host, Local, To, Acl, Why) :-
     (   manager(Local)
@@ -234,7 +300,7 @@ fail_to_sender(Host, Sender, To, Acl, Why) :-
         answer(Host, ams, Acl, Failure)
     ).
 
-%   As JADE says it, whose agents look for that.
+%   The form of JADE, whose agents match it.
 
 failure(Sender, To, Acl0, Why, Failure) :-
     acl_with(Acl0, [ language('fipa-sl'),

@@ -13,7 +13,6 @@
 :- use_module(carriage, [carriage_close/1, carriage_queued/2]).
 :- use_module(exchange, [exchange_send/4]).
 :- use_module(http, [http_url/3]).
-:- use_module(incoming, []).
 :- use_module(managers, [manager_end/1]).
 :- use_module(platform,
               [ platform/4, platform_add/4, platform_aid/3,
