@@ -40,7 +40,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('agent/gate').
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_entered/3, image_entrant/2, image_label/2, image_module/3,
+              image_entrant/2, image_label/2, image_module/3, image_received/4,
               image_trail/4
             ]).
 :- reexport(agent/trail,

@@ -13,7 +13,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [permission_error/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module('../program',
               [ code_guarded/3, code_module/2, guard_clauses/3,
                 guard_declares/2, guard_goals/3, guard_state/3 ]).
@@ -159,7 +159,11 @@ add_clauses([Clause|Clauses], Module) :-
 
 agent_state(Module, state(Empty, Clauses)) :-
     findall(Item, state_item(Module, Item), Items),
-    split(Items, Empty, Clauses).
+    (   memberchk((:- dynamic(_)), Items)
+    ->  split(Items, Empty, Clauses)
+    ;   Empty = [],                     % mostly
+        Clauses = Items
+    ).
 
 %   The internal forms of predicate_property/2, which is ten times slower.
 
@@ -199,12 +203,14 @@ agent_changed(Module, Since, Changed, Until) :-
             Changed),
     latest(Changed, Since, Until).
 
+%   The number first: few have changed.
+
 changed(Module, Since, Head, Last) :-
     '$c_current_predicate'(_, Module:Head),
-    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
-    \+ '$get_predicate_attribute'(Module:Head, imported, _),
     '$get_predicate_attribute'(Module:Head, last_modified_generation, Last),
-    Last > Since.
+    Last > Since,
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _).
 
 latest([], Until, Until).
 latest([Last-_|Changed], Until0, Until) :-

@@ -156,7 +156,7 @@ agent_move(Id, Host, Module, Life, Until) :-
 agent_status(Id, Status, Goals) :-
     status(Id, Status, Goals).
 agent_status(Id, running, []) :-
-    agent(Id, _, _, _, _),
+    stands(Id, _, _, _, _, _),
     \+ status(Id, _, _).
 
 %!  agent_put(+Id, +Status, +Goals) is det.

@@ -5,12 +5,11 @@
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
             image_entrant/2,            % +Image, -Entrant
-            image_entered/3,            % +Peer, +Image0, -Image
+            image_received/4,           % +From, +Host, +Image0, -Image
             image_trail/4,              % +Event, +Host, +Image0, -Image
             image_module/3,             % +Image, +Place, -Agent
             image_enter/4               % +Image, +Host, +Agent, +More
           ]).
-:- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../../options/journal', [journal_key/2, journal_on/0]).
@@ -90,12 +89,20 @@ signed(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
     life_hops(Life, Hops),
     trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
 
-%!  image_entered(+Peer, +Image0, -Image) is det.
+%!  image_received(+From, +Host, +Image0, -Image) is det.
 %
-%   Image is what comes if the process at Peer sends Image0, once the trail says
-%   that it was received.
+%   Image is what comes to Host, at Address, if the process at Peer sends
+%   Image0, From being Peer-Address.  Where there are keys its trail says that
+%   it was received, and its state whose it is.
 
-image_entered(Peer, image(Id, Hash, Life, State0, Goals, Mail, Start),
+image_received(Peer-Address, Host, Image0, Image) :-
+    (   endpoint_keys(_)
+    ->  signed(received(Address), Host, Image0, Image1),
+        entered(Peer, Image1, Image)
+    ;   Image = Image0
+    ).
+
+entered(Peer, image(Id, Hash, Life, State0, Goals, Mail, Start),
               image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     owner_entered(Peer, State0, State).
 
@@ -136,7 +143,10 @@ is_image(image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     may_be_noted(Id, Life),
     subsumes_term(state(_, _), State),
     State = state(Empty, Clauses),
-    maplist(is_list, [Empty, Clauses, Goals, Mail]),
+    is_list(Empty),
+    is_list(Clauses),
+    is_list(Goals),
+    is_list(Mail),
     forall(member(Message, Mail), subsumes_term(_-_, Message)),
     is_start(Start).
 
@@ -180,4 +190,7 @@ image_module(image(Id, Hash, _, State, Goals, _, _), Place, Agent) :-
 image_enter(image(Id, Hash, Life, _, _, Mail0, _), Host, Module-Goals, More) :-
     agent_enter(agent(Id, Host, Module, Hash, Life), ready, Goals),
     append(Mail0, More, Mail),
-    agent_mail(Id, Mail).
+    (   Mail == []
+    ->  true
+    ;   agent_mail(Id, Mail)
+    ).

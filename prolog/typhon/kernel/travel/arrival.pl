@@ -1,5 +1,4 @@
 :- module(typhon_arrival, []).
-:- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/error_text', [print_error/2]).
@@ -12,9 +11,9 @@
                 schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3, birth_sent/2, gate/4,
-                gate_refused/4, image_enter/4, image_entered/3,
-                image_entrant/2, image_label/2, image_module/3, image_trail/4,
-                life_hops/2, with_agent/2 ]).
+                gate_refused/4, image_enter/4, image_entrant/2,
+                image_label/2, image_module/3, image_received/4, life_hops/2,
+                with_agent/2 ]).
 :- use_module(crossings,
               [ crossing_done/1, crossing_end/2, crossing_known/1,
                 is_crossing/1 ]).
@@ -115,7 +114,11 @@ repeated(Id, Hops) :-
     (   agent(Id, _, _, _, Life)
     ->  life_hops(Life, Hops0),
         Hops0 >= Hops
-    ;   agent_outcome(Id, _)
+    ;   gone_on(Id, Hops)
+    ).
+
+gone_on(Id, Hops) :-
+    (   agent_outcome(Id, _)
     ->  true
     ;   agent_heard_of(Id, Hops0),
         Hops0 >= Hops
@@ -129,8 +132,7 @@ repeated(Id, Hops) :-
 install(Name, Label, Image0, Crossing-Peer, In, Verdict) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _),
-        image_trail(received(Address), Name, Image0, Image1),
-        image_entered(Peer, Image1, Image),
+        image_received(Peer-Address, Name, Image0, Image),
         In = in(Address, Gone),
         with_agent(Id, ( install(Id, Hops, Image, Crossing, Name, Place, Gone,
                                  Verdict),
@@ -152,17 +154,26 @@ install(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict) :-
         ;   crossing_done(Crossing)
         ),
         image_enter(Image, Name, Module, More),
-        maplist(agent_order(Id), Orders),
+        ordered(Orders, Id),
         Verdict = ok
     ;   Verdict = need_program
     ).
 
 overtaken(Id, Hops) :-
-    repeated(Id, Hops),
-    !.
-overtaken(Id, _) :-
-    agent_status(Id, Status, _),
-    Status \= transit(_, _).
+    (   agent(Id, _, _, _, Life)
+    ->  (   life_hops(Life, Hops0),
+            Hops0 >= Hops
+        ->  true
+        ;   agent_status(Id, Status, _),
+            Status \= transit(_, _)
+        )
+    ;   gone_on(Id, Hops)
+    ).
+
+ordered([], _).
+ordered([Order|Orders], Id) :-
+    agent_order(Id, Order),
+    ordered(Orders, Id).
 
 %   Our own copy, still waiting for the answer, is out of date.
 

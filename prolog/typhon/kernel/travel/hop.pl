@@ -116,10 +116,14 @@ set_out(Transfer, Held, Mail, Since, Image) :-
 send(Transfer, Image0) :-
     arg(2, Transfer, dest(Address, Name, Endpoint)),
     image_hash(Image0, Hash),
-    catch(( handed(Transfer, Address, Image0, Image),
-            program(Endpoint, Hash, Sent),
-            transfer_traveller(Transfer, Who, _),
-            birth_papers(Who, Hash, Endpoint, Sent, Program),
+    catch(( (   endpoint_keys(_)
+            ->  handed(Transfer, Address, Image0, Image),
+                program(Endpoint, Hash, Sent),
+                transfer_traveller(Transfer, Who, _),
+                birth_papers(Who, Hash, Endpoint, Sent, Program)
+            ;   Image = Image0,
+                program(Endpoint, Hash, Program)
+            ),
             (   journal_on
             ->  hop_request(Transfer, Name, Image, Program, Request),
                 endpoint_request(Endpoint, hop, Request, answered(Transfer)),
@@ -157,9 +161,8 @@ typhon_doubt:again(Transfer) :-
     ;   transfer_stays(Transfer, given_up)
     ).
 
-handed(_, _, Image, Image) :-
-    \+ endpoint_keys(_),                % nobody signs
-    !.
+%   Where there are keys.
+
 handed(Transfer, Address, Image0, Image) :-
     arg(1, Transfer, Id),
     (   agent(Id, Host, _, _, _)

@@ -94,7 +94,7 @@ frozen(clone(Id, _, CloneId), Held, [], Since) :-
 transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
                 Since) :-
     agent_status(Id, Status, _),
-    memberchk(Status, [running, obeying]),
+    ( Status == running -> true ; Status == obeying ),
     crossing_begin(Id, Hops, Endpoint, Sent),
     mail_all(Id, Mail),
     agent_put(Id, transit(Address, Sent), hop(Held, Hops, Mail, Since)),

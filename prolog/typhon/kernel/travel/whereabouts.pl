@@ -116,13 +116,12 @@ agent_left(Id, Address, Hops, Peer) :-
 %   would lead back here.  What ended after fewer hops was a copy that was
 %   given up in doubt.
 
-left_home(Id, _, Hops, _) :-
-    ended_after(Id, End),
-    End >= Hops,
-    !.
 left_home(Id, Address, Hops, Process) :-
-    (   agent_outcome(Id, _)
-    ->  remember_forward(Id, Address, Hops, Process)
+    (   ended_after(Id, End)
+    ->  (   End >= Hops
+        ->  true
+        ;   remember_forward(Id, Address, Hops, Process)
+        )
     ;   home_left(Id, Address, Hops, Process)
     ).
 
@@ -349,7 +348,9 @@ agent_reached_at(Id, Hops, Endpoint, Reached) :-
 %   Id, which is not in this process, has made Hops hops at least.
 
 agent_heard_of(Id, Hops) :-
-    trace_of(Id, _, Hops, _).
+    forward(Id, _, Hops, _).
+agent_heard_of(Id, Hops) :-
+    home_knows(Id, _, Hops, _).
 agent_heard_of(Id, Hops) :-
     ended_here(Id, Hops).
 
