@@ -97,7 +97,6 @@ exception('prolog/typhon/kernel/program/problems.pl',access).
 exception('prolog/typhon/kernel/program/python_code.pl',access).
 exception('prolog/typhon/kernel/program/unknown.pl',access).
 exception('prolog/typhon/kernel/travel/arrival.pl',journal).
-exception('prolog/typhon/kernel/travel/arrival.pl',trail).
 exception('prolog/typhon/kernel/travel/backlog.pl',journal).
 exception('prolog/typhon/kernel/travel/channel.pl',guard).
 exception('prolog/typhon/kernel/travel/full.pl',quotas).
