@@ -31,8 +31,8 @@ protocol('fipa-request')]).  Its string representation is that of FIPA00070.
   | conversation_id, reply_with, in_reply_to   |                           |
   | others, as 'x-colour'                      | an atom                   |
 
-In messages that are read the conversation comes first, so that who waits
-for its messages can say so: `receive(_-acl(P, [conversation_id(Id)|_]))`.
+In messages that are read the conversation comes first, so that an agent can
+wait for messages of one: `receive(_-acl(P, [conversation_id(Id)|_]))`.
 
 Where a message is written, `reply-with` and the like may be written so as
 well; a content that is a list or a compound term is taken for SL, and the
@@ -104,8 +104,7 @@ acl_reply(Acl, Performative, Content, Reply) :-
 %!  acl_text(+Acl, -Text:string) is det.
 %!  acl_text(-Acl, +Text) is det.
 %
-%   @error domain_error(performative, P): where it is written; what is read
-%   may have any
+%   @error domain_error(performative, P): only of a message that is written
 %   @error type_error(fipa_parameter, Parameter)
 %   @error syntax_error(fipa_text), syntax_error(fipa_message)
 
@@ -157,7 +156,7 @@ read_parameter(Key-Sexp, Parameter) :-
     read_value(Kind, Sexp, Value),
     Parameter =.. [Name,Value].
 
-%   What belongs to the standard is written as Prolog writes names.
+%   Names of the standard are spelt as in Prolog, with underscores.
 
 key_name(Key, Name) :-
     known(Key, Name0, _),

@@ -89,8 +89,8 @@ aid_sexp(Aid, _) :-
 %!  text_sexp(+Text, -Sexp) is det.
 %!  sexp_atom(+Sexp, -Atom) is det.
 %
-%   Text as a word, if it is one, or else in quotes; what a word, or a text in
-%   quotes says.  Of a list it is how that is written.
+%   Sexp is Text as a word if it can be one, else quoted.  Atom is the text of
+%   a word or quoted text; of a list, its written form.
 
 text_sexp(Text, Sexp) :-
     (   sexp_word(Text)

@@ -15,21 +15,20 @@
 :- use_module(limit, [within/2]).
 :- use_module(http, [http_post/4, http_response/3, http_url/3]).
 
-/** <module> Where messages go out
+/** <module> Outgoing messages
 
-Each address to which there is something to send has a queue and a carrier, a
-thread that owns the connection.  So messages for one address stay in order,
-and a peer that is slow keeps up nobody else.  A carrier with nothing to do
-goes home after a while.
+Each address to which messages are sent has a queue and a carrier, a thread
+that owns the connection.  So messages for one address stay in order, and a
+slow peer delays no other.  An idle carrier ends after a while.
 
-A letter is letter(ContentType, Body, About).  What has not been taken by any
-of its addresses is told to returned/4 with About.
+A letter is letter(ContentType, Body, About).  If none of its addresses
+accepts it, returned/4 is called with About.
 
-*Threading*: carriage_send/4 never waits; who is told is a carrier.
+*Threading*: carriage_send/4 never waits; a carrier calls returned/4.
 */
 
 :- multifile
-    returned/4.                 % Host, About, Url, Why: nobody took it
+    returned/4.                 % Host, About, Url, Why: not delivered
 
 :- dynamic
     carrier/3.                  % Host, Address, Queue
@@ -42,7 +41,7 @@ max_carriers(64).
 
 %!  carriage_send(+Host, +Urls:list, +Letter, +Limits) is det.
 %
-%   Send Letter to the first of Urls that takes it.  Limits has queue(N) and
+%   Send Letter to the first of Urls that accepts it.  Limits has queue(N) and
 %   seconds(S), for one attempt.
 %
 %   @error domain_error(http_url, Url)
@@ -89,7 +88,7 @@ forget(Host, Address, Queue) :-
 
 %!  carriage_queued(+Host, -Count) is det.
 %
-%   Letters that wait.
+%   Count letters wait.
 
 carriage_queued(Host, Count) :-
     aggregate_all(sum(Size),
@@ -100,7 +99,7 @@ carriage_queued(Host, Count) :-
 
 %!  carriage_close(+Host) is det.
 %
-%   Nothing is sent any more, not even what waits.
+%   Stop sending.  Waiting letters are discarded.
 
 carriage_close(Host) :-
     crew_end(carriage(Host)).
@@ -199,8 +198,8 @@ post(In, Out, Url, letter(Type, Body, _), Code, KeepAlive) :-
     http_post(Out, Url, Type, Body),
     http_response(In, Code, KeepAlive).
 
-%   kept(+Url, +Way, -In, -Out): there is a connection, and it is open: what
-%   can be read is the rest of an answer.
+%   kept(+Url, +Way, -In, -Out): Way has an open connection.  Pending input is
+%   the rest of an earlier answer.
 
 kept(Url, way(open(Address, In, Out)), In, Out) :-
     http_url(Url, Address, _),

@@ -16,7 +16,7 @@
 A directory is any ground term.  In it each name has one description, which
 may be there only until some time.
 
-*Threading*: any thread; what changes a directory has its mutex.
+*Threading*: any thread; a mutex serializes changes.
 */
 
 :- setting(entries, positive_integer, 10000,
@@ -26,7 +26,7 @@ may be there only until some time.
 
 %!  directory_add(+Directory, +Name, +Description, +Until) is det.
 %
-%   Replaces what was there.  Until is a time stamp, or `inf`.
+%   Replaces the description of Name.  Until is a time stamp, or `inf`.
 %
 %   @error resource_error(fipa_directory)
 
@@ -92,8 +92,8 @@ directory_forget(Directory) :-
 
 %!  description_matches(+Template, +Description) is semidet.
 %
-%   As FIPA00023 has it: what Template says has to be in Description; of a
-%   set each element, in any order, of a sequence in this order.
+%   By the rules of FIPA00023: Description has every parameter of Template; of
+%   a set each element, in any order, of a sequence in this order.
 
 description_matches(Template, Description), aid(Template) =>
     aid(Description),

@@ -12,17 +12,16 @@
 
 /** <module> Envelopes of messages, in XML
 
-What the transport reads of a message, of FIPA00084 and 00071, is a list of
-parameters:
+The part of a message that the transport reads (FIPA00084, FIPA00071) is a
+list of parameters:
 
   - to(Aids), intended_receiver(Aids), from(Aid)
   - acl_representation(Atom), payload_length(Bytes), payload_encoding(Atom),
     date(Text)
 
-An envelope has nothing to declare: one with a document type is refused
-before anybody reads it, so there are no entities that grow, and none that
-stand for files.  Attributes and digits take the parser longer than in
-proportion, so both are bounded.
+An envelope with a document type is refused before it is parsed, so there are
+no entities that grow, and none that stand for files.  The parser's time for
+attributes and digits grows faster than their length, so both are bounded.
 
 *Threading*: pure.
 */

@@ -15,10 +15,10 @@
 /** <module> HTTP, as far as a message transport needs it
 
 Requests and responses on byte streams, each of bounded size: a head of at
-most 16 kB, a body of known length.  Library servers read the head of a
-request for as long as somebody sends one.
+most 16 kB, a body of known length.  Servers of the libraries do not bound
+the head of a request.
 
-How long it may take is for the caller to say.
+The caller limits the time.
 
 *Threading*: any thread, one for each stream.
 */
@@ -61,8 +61,8 @@ http_url(Url, Host:Port, Path) :-
 %
 %   Read the next request from In, Request being request(Method, Path,
 %   ContentType, Body, KeepAlive): an atom, two more, a string of bytes and a
-%   boolean.  Fails at the end of In.  The length of the body must be told; a
-%   client that waits to be asked for it is asked on Out.
+%   boolean.  Fails at the end of In.  A body must have a length; a client
+%   that expects `100 Continue` gets it on Out.
 %
 %   @error syntax_error(http_request), syntax_error(http_length)
 %   @error resource_error(http_head), resource_error(http_body)
@@ -175,8 +175,8 @@ http_post(Out, Url, ContentType, Body) :-
 
 %!  http_response(+In, -Code, -KeepAlive:boolean) is semidet.
 %
-%   Fails at the end of In.  JADE does not say how long its answers are: what
-%   is left of the last one is passed over.
+%   Fails at the end of In.  JADE's answers have no length: the rest of the
+%   last one is skipped.
 %
 %   @error resource_error(http_head), syntax_error(http_response)
 

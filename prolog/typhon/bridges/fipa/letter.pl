@@ -11,7 +11,7 @@
 
 /** <module> A message and its envelope, as bytes
 
-What is not ASCII is UTF-8, and the envelope says so.
+Text that is not ASCII is UTF-8, which the envelope declares.
 
 *Threading*: pure, but for the date and the boundary.
 */

@@ -3,10 +3,10 @@
           ]).
 :- use_module('../../kernel/host', [alarm_in/3]).
 
-/** <module> What may take only so long
+/** <module> Time limits
 
-As call_with_time_limit/2, whose library, loaded on 9.0.4, may keep Prolog from
-halting.  Hosts have alarms anyway.
+Like call_with_time_limit/2, whose library may keep 9.0.4 from halting once it
+is loaded.  This uses the alarms of hosts.
 
 *Threading*: any thread, while a host runs.  The timer signals it.
 */

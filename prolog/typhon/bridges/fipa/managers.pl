@@ -17,7 +17,7 @@
 
 They take requests of FIPA00023, in SL0: register, deregister, modify,
 search, and of the AMS get-description.  The AMS knows the agents of this
-process, and those born here, without being told; others may register with
+process, and those born here, without registration; others may register with
 it as well.
 
 *Threading*: any thread.
@@ -29,8 +29,8 @@ max_results(1000).
 
 %!  manager_answer(+Host, +Manager, +Acl, -Reply) is semidet.
 %
-%   What Manager, `ams` or `df`, says to Acl: Reply is Performative-Content.
-%   Fails where nothing is to be said, as to an answer.
+%   Reply, Performative-Content, is the answer of Manager, `ams` or `df`, to
+%   Acl.  Fails if Acl needs no answer, being one itself.
 
 manager_answer(Host, Manager, Acl, Reply) :-
     Acl = acl(Performative, _),
@@ -199,7 +199,7 @@ until(Description, Until) :-
                 *            SEARCHES          *
                 *******************************/
 
-%   What is less than nothing means all.
+%   A negative number means all.
 
 constraint(More, Max) :-
     max_results(Most),

@@ -9,8 +9,8 @@
 
 /** <module> The two parts of a message
 
-A message travels as multipart/mixed, of RFC 2046: its envelope, and what is
-in it.  Bodies are strings of bytes; a part is Type-Bytes.
+A message travels as multipart/mixed (RFC 2046): its envelope and its text.
+Bodies are strings of bytes; a part is Type-Bytes.
 
 *Threading*: pure, but for the boundary, which is drawn.
 */
@@ -50,7 +50,7 @@ boundary(ContentType, Boundary) :-
     Length > 0,
     Length =< 70.
 
-%   What stands before the last line break belongs to the boundary.
+%   The line break before a boundary belongs to it.
 
 split(Text, Mark, Most, [Piece|Pieces]) :-
     sub_string(Text, Before, _, After, Mark),

@@ -47,7 +47,7 @@ platform_remove(Host) :-
 %!  platform_local(+Host, +Name, -Local) is semidet.
 %
 %   Aid is that of Local on the platform of Host, Local being an agent's id,
-%   `ams` or `df`; Name is that of somebody on it.
+%   `ams` or `df`; Name is the name of Local there.
 
 platform_aid(Host, Local, fipa(Name, [Url])) :-
     platform(Host, Platform, Url, _),
@@ -76,9 +76,9 @@ key(Host, What, Key) :-
 %!  platform_count(+Host, +What) is det.
 %!  platform_counts(+Host, -Counts:list) is det.
 %
-%   What is `sent` or `received`, of messages; `failed`, of those that nobody
-%   took; `dropped`, since there were too many; `refused`, of requests that
-%   were no message.
+%   What is `sent` or `received`, of messages; `failed`, of those not
+%   delivered; `dropped`, since there were too many; `refused`, of requests
+%   that were no message.
 
 platform_count(Host, What) :-
     key(Host, What, Key),
@@ -99,8 +99,8 @@ platform_counts(Host, Counts) :-
 %!  platform_met(+Name, +Addresses:list) is det.
 %!  platform_way(+Aid, -Addresses:list) is det.
 %
-%   An agent of another platform was heard of, which can be reached at
-%   Addresses; where Aid can be reached.
+%   Remember the Addresses of an agent of another platform; find those of
+%   Aid: given in it, or else remembered.
 %
 %   @error existence_error(fipa_address, Name)
 

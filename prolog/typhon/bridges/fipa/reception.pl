@@ -12,17 +12,17 @@
 :- use_module(limit, [within/2]).
 :- use_module(http, [http_request/4, http_respond/3]).
 
-/** <module> Where messages come in
+/** <module> Incoming requests
 
 Each client has a thread, as many at a time as there may be connections, see
-typhon_clients.  A request has only so many seconds to come, from its first byte
-to its last.
+typhon_clients.  The time between the first byte and the last of
+a request is limited.
 
 *Threading*: an acceptor, and a thread for each client.
 */
 
 :- multifile
-    requested/3.                % Host, Request, Code: what a request comes to
+    requested/3.                % Host, Request, Code: handle a request
 
 :- dynamic
     listens/2.                  % Host, Socket
@@ -130,8 +130,8 @@ bad_request(syntax_error(http_length), 411) :- !.
 bad_request(timeout_error(_, _), 408) :- !.
 bad_request(_, 400).
 
-%   What is closed while there is something to read is reset, and the answer
-%   is lost.
+%   A connection that is closed with unread input is reset, and the client
+%   loses the answer.
 
 drained(413, In) :-
     !,

@@ -73,7 +73,7 @@ open_platform(Host, Platform, Url, Options) :-
     atomic_list_concat(['http://', UrlHost, ':', Port, Path], Reached),
     platform_add(Host, Platform, Reached, Limits).
 
-%   What stands after the last @ of a name.
+%   Platform follows the last @ of a name.
 
 check_platform(Platform) :-
     (   ( Platform == '' ; sub_atom(Platform, _, _, _, @) )
@@ -96,11 +96,11 @@ typhon_services:ends(fipa, Host) :-
 
 %!  fipa_property(?Host, ?Property) is nondet.
 %
-%   Of a host that is a platform: name(Atom), url(URL), what others call one
-%   of its agents, name(Id, Name), queued(N), messages that wait to go out,
-%   and counts since it was started: sent(N), received(N); failed(N), messages
-%   that nobody took; dropped(N), because there were too many; refused(N),
-%   requests that were no message.
+%   Of a host that is a platform: name(Atom), url(URL), the full name of
+%   one of its agents, name(Id, Name), queued(N), messages that wait to go
+%   out, and counts since it was started: sent(N), received(N); failed(N),
+%   messages that were not delivered; dropped(N), because there were too
+%   many; refused(N), requests that were no message.
 
 fipa_property(Host, Property) :-
     check_name(fipa_property, Property),

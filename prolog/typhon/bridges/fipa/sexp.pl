@@ -9,12 +9,12 @@
               [resource_error/1, syntax_error/1, type_error/2]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> What ACL and SL are written in
+/** <module> S-expressions, the syntax of ACL and SL
 
 Both languages of FIPA are lists in parentheses.  Here they are read and
-written; what a list means is said by typhon_fipa_acl and typhon_fipa_sl.  An
-S-expression is a Prolog list of others, string(String) for what stands in
-quotes, or an atom for any other word, as it was written.
+written; typhon_fipa_acl and typhon_fipa_sl define their meaning.  An
+S-expression is a Prolog list of others, string(String) for quoted
+text, or an atom for any other word, as it was written.
 
 In quotes only a quote is escaped: a backslash before anything else is one,
 as JADE has it, too.  A string that ends with one can only be written with

@@ -129,7 +129,7 @@ read_word(Word, Term) :-
     Term = Number.
 read_word(Word, Word).
 
-%   What may be a number, and is not so long that it takes time.
+%   Word may be a number, and is short enough to be read quickly.
 
 numeral(Word) :-
     atom_length(Word, Length),
