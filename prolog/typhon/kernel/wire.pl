@@ -27,5 +27,4 @@ This is the interface of the layer: higher layers import from here.
               endpoint_own_proof/1, endpoint_proof/2 ]).
 :- reexport(wire/frame, [mobile_term/1]).
 :- reexport(wire/handshake, [cookie/1, random_hex/2]).
-:- reexport(wire/text, [term_text/2, text_term/2]).
 :- reexport(wire/refusals, [tls_text/2]).

@@ -7,7 +7,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module('../kernel/wire', [term_text/2, text_term/2]).
+:- use_module('../kernel/base/text', [term_text/2, text_term/2]).
 
 /** <module> Terms in a file that is whole, or is not read
 

@@ -52,7 +52,8 @@ stays as it is, and has no more links.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../base/keys', [keys_sign/3]).
-:- use_module('../wire', [endpoint_keys/1, term_text/2]).
+:- use_module('../base/text', [term_text/2]).
+:- use_module('../wire', [endpoint_keys/1]).
 :- use_module('../host', [host_option/2]).
 :- use_module(chain, [chain_add/4]).
 

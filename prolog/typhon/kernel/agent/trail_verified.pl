@@ -13,8 +13,8 @@ Only who wants to know goes through all of it.
 :- use_module(library(error), [existence_error/2]).
 :- use_module('../base/keys',
               [keys_certificate/2, keys_holder/3, keys_verify/4]).
-:- use_module('../wire',
-              [endpoint_address/1, endpoint_keys/1, text_term/2]).
+:- use_module('../base/text', [text_term/2]).
+:- use_module('../wire', [endpoint_address/1, endpoint_keys/1]).
 :- use_module('../host', [address_parts/3]).
 :- use_module(chain, [chain_links/2]).
 :- use_module(identity, [agent_home_endpoint/2]).

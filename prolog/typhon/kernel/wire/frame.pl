@@ -46,8 +46,8 @@ of the session guards a queue of bundles.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(sha), [sha_hash/3]).
 :- use_module('../base/fast_bytes', [fast_bytes_term/2]).
+:- use_module('../base/text', [term_text/2, text_term/2]).
 :- use_module('../base/trees', [is_in_itself/1]).
-:- use_module(text, [term_text/2, text_term/2]).
 
 %!  frame_write(+Out, +Bytes) is det.
 %!  frame_write_now(+Out, +Bytes) is det.
