@@ -173,10 +173,6 @@ agent_put(Id, Status, Goals) :-
     retractall(status(Id, _, _)),
     assertz(status(Id, Status, Goals)).
 
-put_status(Id, Status, Goals) :-
-    retractall(status(Id, _, _)),
-    assertz(status(Id, Status, Goals)).
-
 %!  agent_rest(+Id, +Status, +Goals) is det.
 %
 %   Id, which was running, rests, unless an order has come meanwhile.
@@ -225,15 +221,19 @@ agent_resumes(Id, Goals) :-
 %   rested with these goals.  Fails if it was ended meanwhile.
 
 agent_ready(Id, Goals) :-
-    agent(Id, Host, _, _, _),
+    stands(Id, Host, _, _, _, _),
     !,
     agent_put(Id, ready, Goals),
     schedule(Host, Id).
 
 agent_wakes(Id, Goals) :-
-    agent(Id, Host, _, _, _),
+    stands(Id, Host, _, _, _, _),
     !,
-    put_status(Id, ready, Goals),
+    wakes_on(Host, Id, Goals).
+
+wakes_on(Host, Id, Goals) :-
+    retractall(status(Id, _, _)),
+    assertz(status(Id, ready, Goals)),
     schedule(Host, Id).
 
 %!  agent_put_life(+Id, +Life) is det.
@@ -275,10 +275,10 @@ forget_first(Id) :-
 %   is no such agent.
 
 agent_mail(Id, Messages) :-
-    stands(Id, _, _, _, _, _),
+    stands(Id, Host, _, _, _, _),
     !,
     (   status(Id, Status, Goals)
-    ->  mail_to(Status, Id, Goals, Messages)
+    ->  mail_to(Status, Id, Host, Goals, Messages)
     ;   put_mail(Messages, Id)
     ).
 
@@ -306,13 +306,13 @@ tell_mail([Message|Messages], Id) :-
     debug(typhon(mail), '~w: gets ~p', [Id, Message]),
     tell_mail(Messages, Id).
 
-mail_to(faulty(_), Id, _, Messages) :-
+mail_to(faulty(_), Id, _, _, Messages) :-
     !,
     keep_mail(Messages, Id).
-mail_to(Status, Id, Goals, Messages) :-
+mail_to(Status, Id, Host, Goals, Messages) :-
     put_mail(Messages, Id),
     (   wakes(Status, Messages)
-    ->  agent_wakes(Id, Goals)
+    ->  wakes_on(Host, Id, Goals)
     ;   true
     ).
 

@@ -165,30 +165,22 @@ host_put(Name, Option) :-
 
 host_enter(Name, Hash, Tokens, Answer) :-
     (   door(Name, Wanted, Authors, Capacity, Load)
-    ->  (   \+ signed(Authors, Hash)
+    ->  (   Authors \== any,
+            \+ signed_by(Authors, Hash)
         ->  Answer = refused(unsigned)
-        ;   shown(Wanted, Tokens)
-        ->  take_room(Capacity, Load, Answer)
-        ;   Answer = refused(token)
+        ;   Wanted \== [],
+            \+ shown(Wanted, Tokens)
+        ->  Answer = refused(token)
+        ;   with_mutex(typhon_host_flags, room_taken(Capacity, Load, Answer))
         )
     ;   Answer = refused(unknown_host)
     ).
 
-signed(any, _) :-
-    !.
-signed(Authors, Hash) :-
-    signed_by(Authors, Hash).
-
-shown([], _) :-
-    !.
 shown(Wanted, Tokens) :-
     member(Token, Wanted),
     member(Shown, Tokens),
     subsumes_term(Token, Shown),        % no master key, which would fit all
     !.
-
-take_room(Capacity, Key, Answer) :-
-    with_mutex(typhon_host_flags, room_taken(Capacity, Key, Answer)).
 
 room_taken(Capacity, Key, Answer) :-
     get_flag(Key, Load),
@@ -248,14 +240,16 @@ host_passed(Here, There, Seconds) :-
     hop_keys(Here, out, Out),
     hop_keys(There, in, In),
     !,
-    with_mutex(typhon_host_flags,
-               ( count_load(Load, -1),
-                 add_hop(Out, Seconds),
-                 add_hop(In, Seconds) )).
+    with_mutex(typhon_host_flags, passed(Load, Out, In, Seconds)).
 host_passed(Here, There, Seconds) :-    % one was stopped meanwhile
     host_leave(Here),
     host_hop(Here, out, Seconds),
     host_hop(There, in, Seconds).
+
+passed(Load, Out, In, Seconds) :-
+    count_load(Load, -1),
+    add_hop(Out, Seconds),
+    add_hop(In, Seconds).
 
 add_hop(flags(Count, Min, Sum, Max), Seconds) :-
     get_flag(Count, N0), N is N0+1, set_flag(Count, N),

@@ -83,7 +83,7 @@ nb_turn(Turn) :-
     ;   Turn0 = 0
     ),
     Turn is Turn0+1,
-    nb_setval(typhon_turn, Turn).
+    nb_linkval(typhon_turn, Turn).      % a number: nothing to copy
 
 remember(What, Kind) :-
     remembered(What, Seconds),

@@ -134,15 +134,18 @@ install(Name, Label, Image0, Crossing-Peer, In, Verdict) :-
     ->  Label = label(Id, Hops, _, _),
         image_received(Peer-Address, Name, Image0, Image),
         In = in(Address, Gone),
-        with_agent(Id, ( install(Id, Hops, Image, Crossing, Name, Place, Gone,
-                                 Verdict),
-                         ( journal_on -> journal_seal ; true ) ))
+        with_agent(Id, install(Id, Hops, Image, Crossing, Name, Place, Gone,
+                               Verdict))
     ;   Verdict = refused(unknown_host)
     ).
 
 %   All is noted, and sealed, before the agent can be found here.
 
 install(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict) :-
+    installed(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict),
+    ( journal_on -> journal_seal ; true ).
+
+installed(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict) :-
     (   overtaken(Id, Hops)
     ->  Verdict = accepted
     ;   image_module(Image, Place, Module)

@@ -103,12 +103,14 @@ image(Transfer, Held, Mail, Since, Image) :-
 %   answer to what was never sent.
 
 set_out(Transfer, Held, Mail, Since, Image) :-
+    sig_atomic(freeze_and_send(Transfer, Held, Mail, Since, Image)).
+
+freeze_and_send(Transfer, Held, Mail, Since, Image) :-
     arg(1, Transfer, Id),
-    sig_atomic(
-        ( with_agent(Id, transfer_freeze(Transfer, Held, Mail, Since))
-        ->  send(Transfer, Image)
-        ;   true                        % it was ended meanwhile
-        )).
+    (   with_agent(Id, transfer_freeze(Transfer, Held, Mail, Since))
+    ->  send(Transfer, Image)
+    ;   true                            % it was ended meanwhile
+    ).
 
 %   send(+Transfer, +Image): what cannot be sent, such as too long a frame,
 %   stays.

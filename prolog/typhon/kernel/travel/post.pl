@@ -167,14 +167,15 @@ post_on(Id, Messages) :-
     pass_on(Id, letter(Mail, Max)).
 
 pass_on(Id, Letter) :-
-    with_agent(Id, ( on_or_later(Id, Letter), journal_seal )).
+    with_agent(Id, on_or_later(Id, Letter)).
 
 on_or_later(Id, Letter) :-
     way(Id, Letter, Way),
     (   Way == done
     ->  true
     ;   retry_later(Id, Letter, Way)
-    ).
+    ),
+    journal_seal.
 
 typhon_endpoint:received(message, message(Id, Mail, Left), Peer) :-
     letter_comes(Id, [], Mail, Left, Peer).

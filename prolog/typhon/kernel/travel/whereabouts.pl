@@ -105,12 +105,18 @@ agent_left(Id, Address, Hops, Peer) :-
     (   endpoint_address(Peer)
     ->  true
     ;   process_at(Peer, Process),
-        agent_home_endpoint(Id, Home),
-        (   endpoint_address(Home)
+        (   at_home(Id)
         ->  left_home(Id, Address, Hops, Process)
         ;   remember_forward(Id, Address, Hops, Process)
         )
     ).
+
+at_home(Id) :-
+    home_knows(Id, _, _, _),            % nearly all who are at home
+    !.
+at_home(Id) :-
+    agent_home_endpoint(Id, Home),
+    endpoint_address(Home).
 
 %   That it ended there may be heard before that it has come: to follow it
 %   would lead back here.  What ended after fewer hops was a copy that was
@@ -169,13 +175,16 @@ typhon_durable:restore(agent, Id, _, gone(Address, Hops, Process)) :-
     ).
 
 remember_forward(Id, Address, Hops, Process) :-
-    with_mutex(typhon_forward,
-               (   forward(Id, _, _, _)
-               ->  assertz(forward(Id, Address, Hops, Process)),
-                   once(retract(forward(Id, _, _, _)))
-               ;   assertz(forward(Id, Address, Hops, Process))
-               )),
+    with_mutex(typhon_forward, put_forward(Id, Address, Hops, Process)),
     bounded(forward(_, _, _, _), typhon_whereabouts:forwards).
+
+put_forward(Id, Address, Hops, Process) :-
+    forward(Id, _, _, _),
+    !,
+    assertz(forward(Id, Address, Hops, Process)),
+    once(retract(forward(Id, _, _, _))).
+put_forward(Id, Address, Hops, Process) :-
+    assertz(forward(Id, Address, Hops, Process)).
 
 %!  agent_ends(+Id, +Hops) is det.
 %
