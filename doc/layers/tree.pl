@@ -203,8 +203,8 @@ reach(Part, Module, Name/Arity) :-
 %   imports from layers before it.
 
 layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
-         'options/journal', 'kernel/wire', 'kernel/host', 'kernel/agent',
-         'kernel/travel', 'kernel/lifecycle', 'kernel/vocabulary', network,
+         'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
+         'kernel/lifecycle', 'kernel/vocabulary', 'options/journal', network,
          'options/watch', tools, 'bridges/common', 'bridges/python',
          'bridges/mqtt', 'bridges/fipa', 'bridges/ros', 'tools/page' ]).
 

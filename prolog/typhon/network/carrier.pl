@@ -9,7 +9,7 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [error_text/2, print_error/2]).
-:- use_module('../options/journal', [journal_guards/0]).
+:- use_module('../kernel/base/durable_changes', [output_waits/0]).
 :- use_module('../kernel/wire',
               [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
                 endpoint_flush/2, endpoint_reply/2 ]).
@@ -363,7 +363,7 @@ raised(Error, raised(Formal, Text)) :-
 %   that one of them was quicker.
 
 hold :-
-    (   journal_guards
+    (   output_waits
     ->  ignore(time_hold(0))
     ;   true
     ).
@@ -380,7 +380,7 @@ come_to_rest :-
 %   memory.
 
 stop :-
-    (   journal_guards
+    (   output_waits
     ->  voice_end,
         come_to_rest
     ;   true

@@ -10,7 +10,7 @@
 :- use_module('../kernel/base/error_text', [print_error/2]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
-:- use_module('../options/journal', [journal_closed/0]).
+:- use_module('../kernel/base/durable_changes', [durable_closed/0]).
 :- use_module('../kernel/wire',
               [endpoint_address/1, endpoint_call/5, endpoint_reply/2]).
 :- use_module('../kernel/host', [runtime_acquire/3, runtime_release/1, time_now/1]).
@@ -148,7 +148,7 @@ typhon_log_file:about_to_read(File) :-
 arrived(Name) :-
     (   server(Name, _, _),
         endpoint_address(Endpoint),
-        \+ journal_closed
+        \+ durable_closed
     ->  catch(endpoint_call(Endpoint, log, arrived, answer(yes), 5),
               error(Formal, Context),
               print_error(warning, error(Formal, Context)))

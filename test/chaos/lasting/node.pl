@@ -7,7 +7,7 @@
 Starts the host NAME; prints `ready`; ends with its standard input, from
 which it takes terms:
 
-  - dies(P): at each step of the journal, see typhon_crash, it kills itself
+  - dies(P): at each step of the journal, see crash_point/1, it kills itself
     with probability P from now on
   - power(P): after each commit it sees to it that the power seems to fail
     during the next one, with probability P
@@ -35,25 +35,25 @@ nothing to anybody meanwhile.  See power.pl for what comes then.
     journal/1,                          % Dir
     fails/0.                            % the power does
 
-:- multifile typhon_crash:reached/1.
+:- multifile typhon_durable_changes:reached/1.
 
-typhon_crash:reached(Point) :-
+typhon_durable_changes:reached(Point) :-
     \+ fails,
     happens(dies),
     !,
     format(user_error, 'dies at ~w~n', [Point]),
     die.
-typhon_crash:reached(after_commit) :-
+typhon_durable_changes:reached(after_commit) :-
     fails,
     !,
     wait_for_death.
-typhon_crash:reached(after_commit) :-
+typhon_durable_changes:reached(after_commit) :-
     happens(power),
     !,
     journal(Dir),
     power_copy(Dir),
     assertz(fails).
-typhon_crash:reached(in_commit) :-
+typhon_durable_changes:reached(in_commit) :-
     fails,
     !,
     thread_create(die_soon, _, [detached(true)]).

@@ -6,7 +6,7 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_codes/3, read_line_to_string/2]).
-:- use_module(library(typhon/options/journal/item_key)).
+:- use_module(library(typhon/kernel/base/durable_changes)).
 
 :- needs([journal]).
 
@@ -44,7 +44,7 @@ keys(Dir) :-
                    length(Codes, Length),
                    maplist(=(Code), Codes),
                    atom_codes(Key, Codes),
-                   journal_key(Key) ), Keys),
+                   durable_key(Key) ), Keys),
     assertion(length(Keys, 12)),
     findall(a-Key-0-Key, member(Key, Keys), Specs),
     with_store(Dir, commit(Specs)),
@@ -54,7 +54,7 @@ keys(Dir) :-
 
 test('what cannot be a key',
      [ forall(no_key(Key, N)), fail ]) :-
-    journal_key(Key, N).
+    durable_key(Key, N).
 
 no_key(Key, N) :-
     member(Key-N, [ _-0, f(x)-0, "text"-0, key-_, key-1.5,

@@ -276,8 +276,8 @@ test('a program is noted whatever becomes of who has brought it') :-
           agent_create(P, First, []),
           typhon_agents:agent(First, _, _, Hash, _),
           retractall(typhon_agent_in_journal:code_noted(Hash)),
-          typhon_ledger:note_drop(code, Hash, 0),
-          \+ typhon_ledger:journal_step(
+          typhon_durable_changes:durable_drop(code, Hash, 0),
+          \+ typhon_durable_changes:unit_of_work(
                  ( typhon_agent_in_journal:note_code(Hash), fail )),
           agent_create(P, Id, []),
           nb_setval(journal_test, Id) ),
@@ -442,7 +442,7 @@ about_to_say((prolog:debug_print_hook(_, _, _:[to, _, request(_, _), _]) :-
                   assertz(user:is_about_to),
                   thread_get_message(visitor_is_here))).
 about_to_say(prolog:debug_print_hook(_, _, _)).
-about_to_say((typhon_crash:reached(before_commit) :-
+about_to_say((typhon_durable_changes:reached(before_commit) :-
                   user:nothing_is_committed,
                   thread_self(Me),
                   thread_get_message(Me, never))).

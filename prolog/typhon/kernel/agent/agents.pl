@@ -21,8 +21,8 @@
 :- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../options/journal',
-              [journal_on/0, journal_seal/0, note_drop/3]).
+:- use_module('../base/durable_changes',
+              [durable_drop/3, durable_on/0, enqueue_changes/0]).
 :- use_module('../host', [events_forget/1, quota/3, schedule/2]).
 :- use_module(agent_orders,
               [agent_ordered/1, agent_unorder/2, agent_unorder_all/2]).
@@ -107,7 +107,7 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
 %   Before others can see it.
 
 noted(Id, Status, Goals) :-
-    (   journal_on
+    (   durable_on
     ->  put_down(Id, Status, Goals)
     ;   true
     ).
@@ -116,8 +116,8 @@ agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, _, Module, _, _, _)),
     retractall(status(Id, _, _)),
     stay_ends(Id),
-    (   journal_on
-    ->  note_drop(agent, Id, 0)
+    (   durable_on
+    ->  durable_drop(agent, Id, 0)
     ;   true
     ),
     mail_all(Id, Mail),
@@ -165,9 +165,9 @@ agent_status(Id, running, []) :-
 %   With a journal this is where what has led to it is sealed.
 
 agent_put(Id, Status, Goals) :-
-    (   journal_on
+    (   durable_on
     ->  put_down(Id, Status, Goals),
-        journal_seal
+        enqueue_changes
     ;   true
     ),
     retractall(status(Id, _, _)),

@@ -31,7 +31,7 @@ shown it once need not again.
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
 :- use_module('../base/keys', [keys_sign/3, keys_verify/4]).
-:- use_module('../../options/journal', [note_drop/3, note_put/4]).
+:- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1,
                 endpoint_peer/2, endpoint_proof/2 ]).
@@ -125,7 +125,7 @@ birth_text(Id, Hash, Text) :-
     atomic_list_concat(['typhon birth', Id, Hash], ' ', Text).
 
 remember(Id, Birth) :-
-    note_put(birth, Id, 0, Birth),
+    durable_put(birth, Id, 0, Birth),
     with_mutex(typhon_birth,
                ( retractall(known(Id, _)),
                  assertz(known(Id, Birth)),
@@ -136,7 +136,7 @@ remember(Id, Birth) :-
 typhon_bounded:forgotten(known(Id, Birth)) :-
     (   agent(Id, _, _, _, _)
     ->  assertz(known(Id, Birth))
-    ;   note_drop(birth, Id, 0)
+    ;   durable_drop(birth, Id, 0)
     ).
 
 typhon_durable:dump(birth, Id, 0, Birth) :-

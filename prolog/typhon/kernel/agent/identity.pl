@@ -9,7 +9,7 @@
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(error), [representation_error/1]).
 :- use_module(library(lists), [append/3]).
-:- use_module('../../options/journal', [journal_key/1, journal_on/0]).
+:- use_module('../base/durable_changes', [durable_key/1, durable_on/0]).
 :- use_module('../wire', [endpoint_keys/1, endpoint_own_proof/1]).
 :- use_module('../host', [address_parts/3]).
 
@@ -34,8 +34,8 @@ agent_id(Name, Home, Id) :-
     flag(typhon_agent_id, N, N+1),
     process_mark(Mark),
     atomic_list_concat([Name, '.', Mark, N, '@', Home], Id),
-    (   journal_on,
-        \+ journal_key(Id)
+    (   durable_on,
+        \+ durable_key(Id)
     ->  representation_error(agent_name)
     ;   true
     ).

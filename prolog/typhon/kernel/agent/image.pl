@@ -12,7 +12,7 @@
           ]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../../options/journal', [journal_key/2, journal_on/0]).
+:- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
 :- use_module('../host', [event_heard/1, host/3]).
 :- use_module('../wire', [endpoint_keys/1]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
@@ -151,9 +151,9 @@ is_image(image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     is_start(Start).
 
 may_be_noted(Id, Life) :-
-    (   journal_on
+    (   durable_on
     ->  life_hops(Life, Hops),
-        journal_key(Id, Hops)
+        durable_key(Id, Hops)
     ;   true
     ).
 

@@ -2,9 +2,9 @@
           [ agent_put_down/3,           % +Id, +Status, +Goals
             agent_back/3                % +Id, +Record, +Place
           ]).
-:- use_module('../../options/journal',
-              [ journal_item/5, journal_on/0, note_drop_at_once/3,
-                note_put/4, note_put_at_once/4 ]).
+:- use_module('../base/durable_changes',
+              [ durable_drop_at_once/3, durable_item/5, durable_on/0,
+                durable_put/4, durable_put_at_once/4 ]).
 :- use_module('../program', [code_receive/2, code_sent/2]).
 :- use_module(agent_module, [agent_module/5, agent_state/2]).
 :- use_module(agents, [agent/5, agent_enter/3]).
@@ -37,7 +37,7 @@ typhon_agents:put_down(Id, Status, Goals) :-
     agent_put_down(Id, Status, Goals).
 
 agent_put_down(_, Status, _) :-
-    ( \+ journal_on ; passing(Status) ),
+    ( \+ durable_on ; passing(Status) ),
     !.
 agent_put_down(Id, Status, Goals) :-
     agent(Id, Host, Module, Hash, Life),
@@ -50,12 +50,12 @@ agent_put_down(_, _, _).
 %   What cannot be written stands there in words.
 
 note_record(Id, Record) :-
-    catch(note_put(agent, Id, 0, Record), error(_, _), fail),
+    catch(durable_put(agent, Id, 0, Record), error(_, _), fail),
     !.
 note_record(Id, Record0) :-
     in_words(Record0, Record),
     print_message(warning, typhon(journal_in_words(Id))),
-    note_put(agent, Id, 0, Record).
+    durable_put(agent, Id, 0, Record).
 
 passing(held).
 passing(resumed).
@@ -72,7 +72,7 @@ note_code(Hash) :-
     with_mutex(typhon_code_noted,
                (   code_noted(Hash)
                ->  true
-               ;   note_put_at_once(code, Hash, 0, Sent),
+               ;   durable_put_at_once(code, Hash, 0, Sent),
                    assertz(code_noted(Hash))
                )).
 
@@ -82,7 +82,7 @@ typhon_code:retiring(Hash) :-
     code_noted(Hash),
     with_mutex(typhon_code_noted,
                ( retract(code_noted(Hash)),
-                 note_drop_at_once(code, Hash, 0) )),
+                 durable_drop_at_once(code, Hash, 0) )),
     fail.
 
 %!  agent_back(+Id, +Record, +Place) is semidet.
@@ -101,7 +101,7 @@ code_back(Hash) :-
     code_noted(Hash),
     !.
 code_back(Hash) :-
-    journal_item(code, any, Hash, _, Sent),
+    durable_item(code, any, Hash, _, Sent),
     code_receive(Hash, Sent),
     assertz(code_noted(Hash)),
     !.

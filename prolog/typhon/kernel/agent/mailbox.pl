@@ -9,9 +9,9 @@
           ]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
-:- use_module('../../options/journal',
-              [ journal_number/1, journal_on/0, journal_seal/0, note_drop/3,
-                note_drop_all/2, note_put/4 ]).
+:- use_module('../base/durable_changes',
+              [ durable_drop/3, durable_drop_all/2, durable_number/1,
+                durable_on/0, durable_put/4, enqueue_changes/0 ]).
 
 /** <module> The mailboxes of agents
 
@@ -36,9 +36,9 @@ mail_put(_, []) :-
     !.
 mail_put(Id, Messages) :-
     box_of(Id, Queue),
-    (   journal_on
+    (   durable_on
     ->  noted(Messages, Id, Numbered),
-        journal_seal,
+        enqueue_changes,
         put_all(Numbered, Queue)
     ;   put_bare(Messages, Queue)
     ).
@@ -60,8 +60,8 @@ mail_restore(Id, N, Message) :-
 
 noted([], _, []).
 noted([Message|Messages], Id, [mail(Message, N)|Numbered]) :-
-    journal_number(N),
-    note_put(mail, Id, N, Message),
+    durable_number(N),
+    durable_put(mail, Id, N, Message),
     noted(Messages, Id, Numbered).
 
 put_bare([], _).
@@ -81,8 +81,8 @@ put_all([Message|Messages], Queue) :-
 mail_take(Id, Message) :-
     box(Id, Queue),
     fifo_take(Queue, mail(Message, N)),
-    (   journal_on
-    ->  note_drop(mail, Id, N)
+    (   durable_on
+    ->  durable_drop(mail, Id, N)
     ;   true
     ).
 
@@ -95,7 +95,7 @@ mail_all(Id, Messages) :-
     (   retract(box(Id, Queue))
     ->  fifo_empty(Queue, Numbered),
         bare(Numbered, Messages),
-        note_drop_all(mail, Id),
+        durable_drop_all(mail, Id),
         message_queue_destroy(Queue)
     ;   Messages = []
     ).
@@ -134,7 +134,7 @@ mail_back(Id, Older) :-
     mail_all(Id, Newer),
     append(Older, Newer, Messages),
     box_of(Id, Queue),
-    (   journal_on
+    (   durable_on
     ->  noted(Messages, Id, Numbered),
         put_all(Numbered, Queue)
     ;   put_bare(Messages, Queue)

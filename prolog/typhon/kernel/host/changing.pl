@@ -4,7 +4,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [check_option/2]).
-:- use_module('../../options/journal', [journal_barrier/0]).
+:- use_module('../base/durable_changes', [sync_changes/0]).
 :- use_module(front, [front_set/3]).
 :- use_module(host_options, [host_listed/2]).
 :- use_module(known_hosts, [note_host/1]).
@@ -40,7 +40,7 @@ host_change(Host, Option) :-
 
 change_at(local(Name), Option) :-
     with_mutex(typhon_hosting, ( change(Option, Name), note_host(Name) )),
-    journal_barrier.
+    sync_changes.
 change_at(remote(Address, Name, _), Option) :-
     remote(Address, typhon_changing:host_change(Name, Option)).
 

@@ -17,10 +17,10 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
-:- use_module('../../options/journal',
-              [ journal_barrier/0, journal_begin/0, journal_close/0,
-                journal_closed/0, journal_end/0, journal_opened/1,
-                journal_place/2 ]).
+:- use_module('../base/durable_changes',
+              [ durable_begin/0, durable_close/0, durable_closed/0,
+                durable_end/0, durable_opened/1, durable_place/2,
+                sync_changes/0 ]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
@@ -156,14 +156,14 @@ start(Name, _) :-
     permission_error(start, host, Name).
 start(Name, Options) :-
     memberchk(journal(Where), Options),
-    journal_place(Where, Place),
-    \+ journal_opened(Place),
+    durable_place(Where, Place),
+    \+ durable_opened(Place),
     !,
     start_from(Where, Name, Options).
 start(Name, Options) :-
     start_new(Name, Options),
     note_host(Name),
-    journal_barrier.
+    sync_changes.
 
 %!  host_restart(+Name, +Options) is det.
 %
@@ -200,7 +200,7 @@ start_from(Where, _, Options) :-
 start_from(Where, Name, Options) :-
     known_open(Where, Options),
     catch(begin_from_journal(Name, Options), Ball,
-          ( journal_close, give_up_hosts, journal_end, throw(Ball) )).
+          ( durable_close, give_up_hosts, durable_end, throw(Ball) )).
 
 begin_from_journal(Name, Options) :-
     findall(Other-Known, host_known(Other, Known), Hosts),
@@ -218,7 +218,7 @@ all_back(Hosts) :-
            ( start_new(Name, Options),
              assertz(from_journal(Name)) )),
     forall(typhon_durable:recover, true),
-    journal_begin,
+    durable_begin,
     forall(typhon_durable:tidy, true),
     forall(host(Host, _, _), note_host(Host)),
     endpoint_open.
@@ -240,7 +240,7 @@ all_back(Hosts) :-
 %   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
 %        wait(Seconds): so long for another process that has it, which is
 %        about to end
-%   @error permission_error(open, journal, Place), and as journal_open/3
+%   @error permission_error(open, journal, Place), and as durable_open/3
 
 hosts_journal(Where, Options) :-
     with_mutex(typhon_hosting, known_open(Where, Options)).
@@ -269,13 +269,13 @@ hosts_rest :-
 :- dynamic user:message_hook/3.
 
 user:message_hook(error(existence_error(journal, open), _), _, _) :-
-    journal_closed.
+    durable_closed.
 
 %   Virtual time that is held cannot end; in real time who is kept back would
 %   find that others are gone.
 
 rest :-
-    journal_close,
+    durable_close,
     (   time_kind(virtual)
     ->  time_let_go(_)
     ;   true
@@ -285,7 +285,7 @@ rest :-
     time_let_go(_),
     (   endpoint_address(_)
     ->  true
-    ;   journal_end
+    ;   durable_end
     ).
 
 give_up_hosts :-
@@ -362,14 +362,14 @@ stop(Name) :-
     stop_one(Name),
     (   host(_, _, _)
     ->  true
-    ;   journal_end
+    ;   durable_end
     ).
 
 stop_one(Name0) :-
     local_name(Name0, Name),
     host(Name, Address, Place),
     rest_or_end(Name),
-    (   journal_closed
+    (   durable_closed
     ->  events_forget(Name)             % who rests does not end
     ;   true
     ),
@@ -396,7 +396,7 @@ rest_or_end(Name) :-
     (   host(Other, _, _),
         Other \== Name
     ->  forget_host(Name)
-    ;   journal_close
+    ;   durable_close
     ),
     retractall(from_journal(Name)).
 

@@ -8,10 +8,10 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/3]).
-:- use_module('../../options/journal',
-              [ journal_end/0, journal_item/5, journal_number_after/1,
-                journal_on/0, journal_open/3, journal_place/2, note_drop/3,
-                note_put/4 ]).
+:- use_module('../base/durable_changes',
+              [ durable_drop/3, durable_end/0, durable_item/5,
+                durable_number_after/1, durable_on/0, durable_open/3,
+                durable_place/2, durable_put/4 ]).
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module(hosts, [host_option/2]).
 
@@ -25,7 +25,7 @@
 %
 %   The journal at Where is open, see hosts_journal/2; it cannot be.
 %
-%   @error permission_error(open, journal, Place), and as journal_open/3
+%   @error permission_error(open, journal, Place), and as durable_open/3
 
 known_open(Where, _) :-
     endpoint_address(_),
@@ -34,13 +34,13 @@ known_open(Where, _) :-
 known_open(Where, Options) :-
     option(sync(Sync), Options, normal),
     option(wait(Seconds), Options, 0.2),
-    journal_open(Where, Sync, Seconds),
-    catch(forall(journal_item(number, any, _, _, N),
-                 journal_number_after(N)), Ball,
-          ( journal_end, throw(Ball) )).
+    durable_open(Where, Sync, Seconds),
+    catch(forall(durable_item(number, any, _, _, N),
+                 durable_number_after(N)), Ball,
+          ( durable_end, throw(Ball) )).
 
 known_not_here(Where, Why) :-
-    journal_place(Where, Place),
+    durable_place(Where, Place),
     throw(error(permission_error(open, journal, Place), context(_, Why))).
 
 %!  host_known(?Name, -Options) is nondet.
@@ -50,7 +50,7 @@ known_not_here(Where, Why) :-
 %   of which these say nothing.
 
 host_known(Name, Options) :-
-    journal_item(host, numbers, Name, _, Options).
+    durable_item(host, numbers, Name, _, Options).
 
 known_with(Known, Options, All) :-
     findall(Option,
@@ -68,14 +68,14 @@ known_with(Known, Options, All) :-
 %   no more.
 
 note_host(Name) :-
-    (   journal_on
+    (   durable_on
     ->  findall(Option,
                 ( host_option(Name, Option),
                   \+ memberchk(Option, [journal(_), sync(_)]) ),
                 Options),
-        note_put(host, Name, 0, Options)
+        durable_put(host, Name, 0, Options)
     ;   true
     ).
 
 forget_host(Name) :-
-    note_drop(host, Name, 0).
+    durable_drop(host, Name, 0).

@@ -15,7 +15,7 @@ One direction of each: the other is known to the other host.
 *Threading*: any thread; one mutex for changes.
 */
 
-:- use_module('../../options/journal', [note_drop/3, note_put/4]).
+:- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
 
 :- multifile
     typhon_durable:restore/4,
@@ -41,7 +41,7 @@ host_link(Name, Address, Cost) :-
 note_link(Name, Address) :-
     host_link_cost(Name, Address, Cost),
     link_key(Name, Address, Key),
-    note_put(link, Key, 0, link(Name, Address, Cost)).
+    durable_put(link, Key, 0, link(Name, Address, Cost)).
 
 link_key(Name, Address, Key) :-
     atomic_list_concat([Name, Address], ' ', Key).
@@ -92,7 +92,7 @@ unlink(Name, Address) :-
 
 note_no_link(Name, Address) :-
     link_key(Name, Address, Key),
-    note_drop(link, Key, 0).
+    durable_drop(link, Key, 0).
 
 %!  host_link_cost(+Name, +Address, -Cost) is semidet.
 %

@@ -12,8 +12,9 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module('../base/error_text', [print_error/2]).
-:- use_module('../../options/journal',
-              [note_drop/3, note_drop_all/2, note_put/4, unit_note_drop/3]).
+:- use_module('../base/durable_changes',
+              [durable_drop/3, durable_drop_all/2, durable_put/4]).
+:- use_module('../base/unit_of_work', [unit_drop/3]).
 :- use_module('../program', [clause_parts/3]).
 :- use_module(front, [front_gone/1, service/1]).
 
@@ -133,7 +134,7 @@ place_destroy(Place) :-
     forall(delivered(Place, Name, _), forget_payload(Place, Name)),
     retractall(delivered(Place, _, _)),
     (   retract(place_host(Place, Host))
-    ->  note_drop_all(tuple, Host)
+    ->  durable_drop_all(tuple, Host)
     ;   true
     ),
     front_gone(Place),
@@ -141,7 +142,7 @@ place_destroy(Place) :-
 
 forget_payload(Place, Name) :-
     (   payload_key(Place, Name, _, Key)
-    ->  note_drop(payload, Key, 0)
+    ->  durable_drop(payload, Key, 0)
     ;   true
     ).
 
@@ -186,7 +187,7 @@ deliver(Place, Name, PIs, Clauses) :-
     retractall(delivered(Place, Name, _)),
     assertz(delivered(Place, Name, PIs)),
     (   payload_key(Place, Name, Host, Key)
-    ->  note_put(payload, Key, 0, payload(Host, payload(Name, PIs, Clauses)))
+    ->  durable_put(payload, Key, 0, payload(Host, payload(Name, PIs, Clauses)))
     ;   true
     ),
     debug(typhon(host), '~w has payload ~w', [Place, Name]).
@@ -251,7 +252,7 @@ place_undeliver(Place, Name) :-
 remove(Place, Name) :-
     retract(delivered(Place, Name, PIs)),
     (   payload_key(Place, Name, _, Key)
-    ->  unit_note_drop(payload, Key, 0)
+    ->  unit_drop(payload, Key, 0)
     ;   true
     ),
     forall(member(PI, PIs), abolish(Place:PI)).

@@ -12,7 +12,7 @@
 :- use_module('../base/functors', [functors_room/0]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
-:- use_module('../../options/journal', [journal_end/0]).
+:- use_module('../base/durable_changes', [durable_end/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_keys/1, endpoint_listen/2,
@@ -163,7 +163,7 @@ released(Endpoint) :-
 released(_) :-
     forall(ending(before), true),
     endpoint_stop,
-    journal_end,
+    durable_end,
     time_stop,
     scheduler_forget,
     code_clear,

@@ -6,9 +6,9 @@
             tuple_take/2                % +Place, ?Fact
           ]).
 :- use_module(library(error), [must_be/2]).
-:- use_module('../../options/journal',
-              [ journal_number/1, journal_on/0, unit_after/1, unit_defers/0,
-                unit_note_drop/3, unit_note_put/4 ]).
+:- use_module('../base/durable_changes', [durable_number/1, durable_on/0]).
+:- use_module('../base/unit_of_work',
+              [unit_after/1, unit_defers/0, unit_drop/3, unit_put/4]).
 :- use_module(leavings, [leaving_begins/1, leaving_ends/1]).
 :- use_module(place, [place_host/2]).
 
@@ -49,7 +49,7 @@ tuple_leave(Place, Fact) :-
 tuple_leave(Place, Fact, By) :-
     must_be(callable, Fact),
     leaving_begins(By),
-    (   journal_on,
+    (   durable_on,
         place_host(Place, _)
     ->  leave_noted(Place, Fact, By)
     ;   with_mutex(typhon_tuples, put_tuple(Place, none, Fact, By))
@@ -60,7 +60,7 @@ tuple_leave_new(Place, Fact, By) :-
     with_mutex(typhon_tuples,
                ( \+ Place:'$tuple'(Fact),
                  \+ due(Place, _, Fact, _, _),
-                 (   journal_on,
+                 (   durable_on,
                      place_host(Place, _)
                  ->  leave_noted(Place, Fact, By)
                  ;   put_tuple(Place, none, Fact, By)
@@ -68,10 +68,10 @@ tuple_leave_new(Place, Fact, By) :-
                  leaving_begins(By) )).
 
 leave_noted(Place, Fact, By) :-
-    journal_number(N),
+    durable_number(N),
     place_host(Place, Host),
     noted(By, Fact, Noted),
-    unit_note_put(tuple, Host, N, Noted),
+    unit_put(tuple, Host, N, Noted),
     (   unit_defers
     ->  thread_self(Me),
         assertz(due(Place, N, Fact, By, Me)),
@@ -111,7 +111,7 @@ tuple_take(Place, Fact) :-
     (   N == none
     ->  true
     ;   place_host(Place, Host),
-        unit_note_drop(tuple, Host, N)
+        unit_drop(tuple, Host, N)
     ),
     leaving_ends(By).
 tuple_take(Place, Fact) :-
@@ -120,7 +120,7 @@ tuple_take(Place, Fact) :-
     retract(due(Place, N, Fact, By, Me)),
     !,
     place_host(Place, Host),
-    unit_note_drop(tuple, Host, N),
+    unit_drop(tuple, Host, N),
     leaving_ends(By).
 
 typhon_durable:restore(tuple, Host, N, Noted) :-

@@ -13,7 +13,7 @@
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../../options/journal', [journal_barrier/0, journal_step/1]).
+:- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_module/2, code_sent/2,
                 code_stands/2, payload_load/2, program_load/6,
@@ -305,8 +305,8 @@ clone_id(Id, CloneId) :-
 %   host of this process.  Answer is created(Id) or what else gate/4 says.
 
 start(Host, Name, Start, From, Answer) :-
-    journal_step(started(Host, Name, Start, From, none, Answer)),
-    journal_barrier.
+    unit_of_work(started(Host, Name, Start, From, none, Answer)),
+    sync_changes.
 
 %   Of is `none`, or clone(Parent, Id).
 

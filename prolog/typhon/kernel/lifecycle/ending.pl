@@ -7,7 +7,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../options/journal', [journal_step/1]).
+:- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../host', [event/4, events_forget/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
@@ -34,7 +34,7 @@ inside with_agent/2, reports its end.
 %   Id ends.
 
 agent_end(Id, Outcome) :-
-    journal_step(( with_agent(Id, remove(Id, Last)),
+    unit_of_work(( with_agent(Id, remove(Id, Last)),
                    removed(Last, Id, Outcome) )).
 
 %!  agent_end(+Id, :Test, +Outcome) is semidet.
@@ -42,7 +42,7 @@ agent_end(Id, Outcome) :-
 %   Id ends if call(Test, Status) is true of it.
 
 agent_end(Id, Test, Outcome) :-
-    journal_step(( with_agent(Id, ( agent_status(Id, Status, _),
+    unit_of_work(( with_agent(Id, ( agent_status(Id, Status, _),
                                     call(Test, Status),
                                     remove(Id, Last)
                                   )),

@@ -1,7 +1,7 @@
 :- module(typhon_evacuation, []).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/stop_thread', [abort_quietly/0]).
-:- use_module('../../options/journal', [journal_closed/0]).
+:- use_module('../base/durable_changes', [durable_closed/0]).
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host', [context_now/2, host_load/2, time_signal/1]).
 :- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
@@ -21,7 +21,7 @@ under way in it, and are not waited for.
 :- multifile typhon_hosting:evacuate/2.
 
 typhon_hosting:evacuate(Host, Deadline) :-
-    (   journal_closed
+    (   durable_closed
     ->  forall(agent(Id, Host, _, _, _),
                ignore(agent_forgotten(Id, under_way)))
     ;   true

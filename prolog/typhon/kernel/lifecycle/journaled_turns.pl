@@ -1,7 +1,9 @@
 :- module(typhon_journaled_turns, []).
-:- use_module('../../options/journal',
-              [ journal_on/0, journal_seal/0, journal_step/1, unit_commit/0,
-                unit_has_effects/0, unit_release/0, unit_run/1 ]).
+:- use_module('../base/durable_changes',
+              [durable_on/0, enqueue_changes/0, unit_of_work/1]).
+:- use_module('../base/unit_of_work',
+              [ unit_commit/0, unit_has_effects/0, unit_release/0,
+                unit_run/1 ]).
 :- use_module('../agent', [agent_put_down/3]).
 :- use_module(turn, []).
 
@@ -20,7 +22,7 @@ run it, and what it says then must not overtake what it said before.
 
 typhon_turn:unit(typhon_journaled_turns:run,
                  typhon_journaled_turns:conclude) :-
-    journal_on.
+    durable_on.
 
 typhon_turn:settle :-
     unit_commit,
@@ -32,7 +34,7 @@ run(Goal) :-
     unit_run(Goal).
 
 conclude(Id, Outcome, Conclude, Next) :-
-    journal_step(( turn_ends(Outcome, Id),
+    unit_of_work(( turn_ends(Outcome, Id),
                    call(Conclude),
                    noted(Next, Id) )),
     unit_release.
@@ -51,7 +53,7 @@ before_it_rests(Id, Goals) :-
     (   unit_has_effects
     ->  unit_commit,
         agent_put_down(Id, ready, Goals),
-        journal_seal,
+        enqueue_changes,
         unit_release
     ;   true
     ).

@@ -5,7 +5,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/durable', [durable_restore/4]).
 :- use_module('../base/error_text', [print_error/2]).
-:- use_module('../../options/journal', [journal_item/5, note_drop_all/2]).
+:- use_module('../base/durable_changes',
+              [durable_drop_all/2, durable_item/5]).
 :- use_module('../host',
               [alarm_set/3, host/3, host_again/1, real_time/3, schedule/2]).
 :- use_module('../agent',
@@ -63,7 +64,7 @@ kind(code, any).
 typhon_durable:recover :-
     forall(typhon_identity:ids_anew, true),
     forall(( kind(Kind, Order),
-             journal_item(Kind, Order, Key, N, Term) ),
+             durable_item(Kind, Order, Key, N, Term) ),
            is_back(Kind, Key, N, Term)),
     forall(typhon_durable:restored, true).
 
@@ -117,7 +118,7 @@ typhon_durable:restore(code, Hash, _, _) :-
 %   Before any request can need it.
 
 typhon_durable:tidy :-
-    forall(retract(superfluous(Kind, Key)), note_drop_all(Kind, Key)).
+    forall(retract(superfluous(Kind, Key)), durable_drop_all(Kind, Key)).
 
                 /*******************************
                 *            GO ON             *

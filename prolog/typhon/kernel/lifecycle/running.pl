@@ -1,5 +1,5 @@
 :- module(typhon_running, []).
-:- use_module('../../options/journal', [journal_step/1]).
+:- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [context_clear/0, context_set/3, event/4, still_keeps/1]).
@@ -54,9 +54,9 @@ take(Id, run(resumed(Held))) :-
 
 perform(later, _).
 perform(order(Order, Goals), Id) :-
-    journal_step(order_obey(Order, Id, Goals)).
+    unit_of_work(order_obey(Order, Id, Goals)).
 perform(leave(Dest, Hole, Goals, Since), Id) :-
-    journal_step(effect_depart(Id, Dest, Hole, Goals, Since, Next)),
+    unit_of_work(effect_depart(Id, Dest, Hole, Goals, Since, Next)),
     go_on(Next, Id).
 perform(run(Start), Id) :-
     agent(Id, Host, Module, Hash, Life),

@@ -1,7 +1,7 @@
 :- module(typhon_sending,
           [ agent_send/2                % +Agent, +Message
           ]).
-:- use_module('../../options/journal', [journal_barrier/0, journal_guards/0]).
+:- use_module('../base/durable_changes', [output_waits/0, sync_changes/0]).
 :- use_module('../host',
               [address_parts/3, as_guest/1, context_now/2, host_address/2]).
 :- use_module('../travel', [post/3, post_via/4]).
@@ -31,12 +31,12 @@ agent_send(at(Agent, Host), Message) :-
     address_parts(Address, _, Endpoint),
     sender(From),
     as_guest(post_via(Id, Endpoint, From, Message)),
-    journal_barrier.
+    sync_changes.
 agent_send(Agent, Message) :-
     agent_named(Agent, Id),
     sender(From),
     as_guest(post(Id, From, Message)),
-    ( journal_guards -> journal_barrier ; true ).
+    ( output_waits -> sync_changes ; true ).
 
 sender(From) :-
     (   context_now(_, Agent),

@@ -2,8 +2,9 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/error_text', [print_error/2]).
-:- use_module('../../options/journal',
-              [crash_point/1, journal_on/0, journal_seal/0, journal_step/1]).
+:- use_module('../base/durable_changes',
+              [ crash_point/1, durable_on/0, enqueue_changes/0,
+                unit_of_work/1 ]).
 :- use_module('../wire',
               [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
 :- use_module('../host',
@@ -56,8 +57,8 @@ arrived(Name, Image, Program, Label, Peer, ReplyTo) :-
     answer(Answer, Name, ReplyTo).
 
 arrive_noted(Name, Image, Program, Label, Peer, Answer) :-
-    (   journal_on
-    ->  journal_step(arrive(Name, Image, Program, Label, Peer, Answer)),
+    (   durable_on
+    ->  unit_of_work(arrive(Name, Image, Program, Label, Peer, Answer)),
         crash_point(before_answer)
     ;   arrive(Name, Image, Program, Label, Peer, Answer)
     ).
@@ -143,7 +144,7 @@ install(Name, Label, Image0, Crossing-Peer, In, Verdict) :-
 
 install(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict) :-
     installed(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict),
-    ( journal_on -> journal_seal ; true ).
+    ( durable_on -> enqueue_changes ; true ).
 
 installed(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict) :-
     (   overtaken(Id, Hops)

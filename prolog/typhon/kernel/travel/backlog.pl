@@ -11,7 +11,8 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/fifo', [fifo_empty/2]).
-:- use_module('../../options/journal', [journal_number/1, note_drop_all/2, note_put/4]).
+:- use_module('../base/durable_changes',
+              [durable_drop_all/2, durable_number/1, durable_put/4]).
 
 /** <module> Mail that waits for a way to its agent
 
@@ -40,8 +41,8 @@ backlog(Id) :-
 %!  backlog_add(+Id, +Letter) is det.
 
 backlog_add(Id, Letter) :-
-    journal_number(N),
-    note_put(wait, Id, N, Letter),
+    durable_number(N),
+    durable_put(wait, Id, N, Letter),
     add(Id, Letter).
 
 typhon_durable:restore(wait, Id, _, Letter) :-
@@ -85,14 +86,14 @@ backlog_again(Id, Letters, Tries) :-
     !,
     fifo_empty(Queue, Newer),
     append(Letters, Newer, All),
-    note_drop_all(wait, Id),
+    durable_drop_all(wait, Id),
     maplist(note_letter(Id), All),
     maplist(thread_send_message(Queue), All),
     assertz(waits(Id, Queue, Tries, idle)).
 
 note_letter(Id, Letter) :-
-    journal_number(N),
-    note_put(wait, Id, N, Letter).
+    durable_number(N),
+    durable_put(wait, Id, N, Letter).
 
 backlog_done(Id) :-
     retract(waits(Id, Queue, _, tried)),
@@ -117,7 +118,7 @@ post_tried :-
 %   what has come meanwhile stays.
 
 backlog_leaves(Id) :-
-    note_drop_all(wait, Id),
+    durable_drop_all(wait, Id),
     (   waits(Id, Queue, _, tried)
     ->  fifo_empty(Queue, Newer),
         maplist(note_letter(Id), Newer),
@@ -133,7 +134,7 @@ backlog_leaves(Id) :-
 backlog_all(Id, Letters) :-
     (   retract(waits(Id, Queue, _, idle))
     ->  fifo_empty(Queue, Letters),
-        note_drop_all(wait, Id),
+        durable_drop_all(wait, Id),
         message_queue_destroy(Queue)
     ;   Letters = []
     ).

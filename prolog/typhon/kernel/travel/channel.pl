@@ -6,10 +6,11 @@
 :- use_module(library(error), [must_be/2, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../options/journal',
-              [ crash_point/1, journal_guards/0, journal_number/1, journal_on/0,
-                journal_seal/0, note_bytes/2, note_change/1, note_drop/3,
-                note_drop_below/3, note_putting/5 ]).
+:- use_module('../base/durable_changes',
+              [ crash_point/1, durable_bytes/2, durable_change/1,
+                durable_drop/3, durable_drop_below/3, durable_number/1,
+                durable_on/0, durable_putting/5, enqueue_changes/0,
+                output_waits/0 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_process/1, frame_fits/1 ]).
@@ -66,11 +67,11 @@ around(1000).                   % what a frame has besides, at most
 
 channel_post(Endpoint, Kind, Term) :-
     engaging(Endpoint,
-             ( journal_number(N),
-               note_putting(out, Endpoint, N, item(Kind, Term), Change),
+             ( durable_number(N),
+               durable_putting(out, Endpoint, N, item(Kind, Term), Change),
                channel_must_fit(Change),
-               note_change(Change),
-               journal_seal,
+               durable_change(Change),
+               enqueue_changes,
                assertz(out(Endpoint, N, Kind, Term)) )).
 
 %!  channel_must_fit(+Change) is det.
@@ -80,7 +81,7 @@ channel_post(Endpoint, Kind, Term) :-
 %   @error resource_error(frame_bytes)
 
 channel_must_fit(Change) :-
-    note_bytes(Change, Count),
+    durable_bytes(Change, Count),
     around(More),
     Most is Count+More,
     (   frame_fits(Most)
@@ -212,7 +213,7 @@ next_is_dropped(Endpoint, [Kind-Term]) :-
     out(Endpoint, N, Kind, Term),
     N > Sent,
     !,
-    note_drop(out, Endpoint, N),
+    durable_drop(out, Endpoint, N),
     retractall(out(Endpoint, N, _, _)),
     retractall(sent(Endpoint, _)).
 next_is_dropped(_, []).                 % it is begun anew
@@ -228,8 +229,8 @@ all_ends :-
     \+ endpoint_address(_),
     !.
 all_ends :-
-    journal_guards,
-    \+ journal_on.
+    output_waits,
+    \+ durable_on.
 
 %   Who is there no longer, and keeps no journal, will not take it.
 
@@ -245,7 +246,7 @@ give_up(Endpoint) :-
 forget_all(Endpoint) :-
     (   out(Endpoint, N, _, _)
     ->  N1 is N+1,
-        note_drop_below(out, Endpoint, N1),
+        durable_drop_below(out, Endpoint, N1),
         retractall(out(Endpoint, N, _, _)),
         forget_all(Endpoint)
     ;   true
@@ -275,7 +276,7 @@ has_come(To, N) :-
     assertz(had(To, N)),
     come(To, N),
     N1 is N+1,
-    note_drop_below(out, To, N1).
+    durable_drop_below(out, To, N1).
 
 come(To, N) :-
     (   out(To, N0, _, _),

@@ -1,7 +1,8 @@
 :- module(typhon_channel_end, []).
 :- use_module(library(error), [must_be/2]).
 :- use_module('../base/error_text', [print_error/2]).
-:- use_module('../../options/journal', [crash_point/1, journal_step/1, note_put/4]).
+:- use_module('../base/durable_changes',
+              [crash_point/1, durable_put/4, unit_of_work/1]).
 :- use_module('../wire', [endpoint_post/3]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
@@ -42,7 +43,7 @@ taken(Key, _, N, _, _, _, known) :-
 taken(Key, Before, N, Kind, Term, Peer, new) :-
     in_order(Before, Key),
     !,
-    journal_step(( note_put(seen, Key, 0, N),
+    unit_of_work(( durable_put(seen, Key, 0, N),
                    take(Kind, Term, Peer) )),
     retractall(seen(Key, _)),
     assertz(seen(Key, N)),

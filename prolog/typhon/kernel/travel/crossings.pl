@@ -9,9 +9,9 @@
             crossing_known/1,           % +Label
             crossing_done/1             % +Label
           ]).
-:- use_module('../../options/journal',
-              [ journal_key/2, journal_on/0, note_drop_below/3,
-                note_put/4 ]).
+:- use_module('../base/durable_changes',
+              [ durable_drop_below/3, durable_key/2, durable_on/0,
+                durable_put/4 ]).
 :- use_module('../wire', [endpoint_process/1]).
 
 /** <module> Hops that are known by number
@@ -50,7 +50,7 @@ hop, that the first has no open one less than Least to it any more.
 %   known whether it had arrived already when it is sent next; which is so.
 
 crossing_begin(Who, Hops, Endpoint, Sent) :-
-    (   journal_on
+    (   durable_on
     ->  with_mutex(typhon_crossings,
                    ( stamp(Sent),
                      crossing_add(Who, Hops, Endpoint, Sent) ))
@@ -109,7 +109,7 @@ is_crossing(Label) :-
     subsumes_term(crossing(_, _, _), Label),
     Label = crossing(Process, N, Least),
     integer(Least),
-    journal_key(Process, N).
+    durable_key(Process, N).
 
 %!  crossing_known(+Label) is semidet.
 %!  crossing_done(+Label) is det.
@@ -122,12 +122,12 @@ crossing_known(crossing(Process, N, _)) :-
 
 crossing_done(none).
 crossing_done(crossing(Process, N, Least)) :-
-    note_put(done, Process, N, N),
+    durable_put(done, Process, N, N),
     assertz(done(Process, N)),
     (   N mod 64 =:= 0,
         done(Process, Old),
         Old < Least
-    ->  note_drop_below(done, Process, Least),
+    ->  durable_drop_below(done, Process, Least),
         forget_below(Process, Least)
     ;   true
     ).

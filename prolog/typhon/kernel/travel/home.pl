@@ -17,8 +17,9 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
-:- use_module('../../options/journal',
-              [journal_number/1, note_drop/3, note_drop_all/2, note_put/4]).
+:- use_module('../base/durable_changes',
+              [ durable_drop/3, durable_drop_all/2, durable_number/1,
+                durable_put/4 ]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [address_parts/3, alarm_in/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
@@ -76,11 +77,11 @@ agent_born(Id, Address) :-
     put_born(Id, Address, 0, here).
 
 put_born(Id, Address, Hops, Process) :-
-    note_put(born, Id, 0, born(Address, Hops, Process)),
+    durable_put(born, Id, 0, born(Address, Hops, Process)),
     assertz(born(Id, Address, Hops, Process)).
 
 typhon_bounded:forgotten(outcome(Id, _, _)) :-
-    note_drop_all(outcome, Id).
+    durable_drop_all(outcome, Id).
 
 %   At the address of another process there may be another by then.
 
@@ -202,16 +203,16 @@ ended(Id, _, Hops, _, []) :-
     !.
 ended(Id, Outcome0, Hops, Legacy, Askers) :-
     retractall(born(Id, _, _, _)),
-    note_drop(born, Id, 0),
-    note_drop(agent, Id, 0),
-    note_drop(faulty, Id, 0),
+    durable_drop(born, Id, 0),
+    durable_drop(agent, Id, 0),
+    durable_drop(faulty, Id, 0),
     (   retract(faulty(Id, Told, _))
     ->  last_outcome(Outcome0, Told, Outcome)
     ;   Outcome = Outcome0
     ),
     legacy_keep(Id, Legacy),
-    journal_number(N),
-    note_put(outcome, Id, N, Outcome-Hops),
+    durable_number(N),
+    durable_put(outcome, Id, N, Outcome-Hops),
     assertz(outcome(Id, Outcome, Hops)),
     bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).
@@ -262,7 +263,7 @@ resumed(Id, Age) :-
 
 put_fault(Id, Outcome, Age) :-
     retractall(faulty(Id, _, _)),
-    note_put(faulty, Id, 0, faulty(Outcome, Age)),
+    durable_put(faulty, Id, 0, faulty(Outcome, Age)),
     assertz(faulty(Id, Outcome, Age)).
 
 %   One by one: see typhon_mailbox.

@@ -13,7 +13,7 @@
 :- use_module('../agent',
               [ agent/5, birth_papers/5, birth_unproved/2, image_hash/2,
                 image_trail/4, with_agent/2 ]).
-:- use_module('../../options/journal', [crash_point/1, journal_on/0]).
+:- use_module('../base/durable_changes', [crash_point/1, durable_on/0]).
 :- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
@@ -126,7 +126,7 @@ send(Transfer, Image0) :-
             ;   Image = Image0,
                 program(Endpoint, Hash, Program)
             ),
-            (   journal_on
+            (   durable_on
             ->  hop_request(Transfer, Name, Image, Program, Request),
                 endpoint_request(Endpoint, hop, Request, answered(Transfer)),
                 crash_point(after_send)

@@ -8,8 +8,8 @@
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
-:- use_module('../../options/journal',
-              [journal_number/1, note_drop_all/2, note_put/4]).
+:- use_module('../base/durable_changes',
+              [durable_drop_all/2, durable_number/1, durable_put/4]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [process_ask/6]).
 :- use_module('../agent', [agent/5, legacy_cloned/2]).
@@ -56,8 +56,8 @@ typhon_identity:id_anew(Id) :-
 
 legacy_keep(Id, Items) :-
     forall(member(Item, Items),
-           ( journal_number(N),
-             note_put(left, Id, N, Item),
+           ( durable_number(N),
+             durable_put(left, Id, N, Item),
              assertz(left(Id, Item)),
              bounded(left(_, _), typhon_legacies:legacies) )).
 
@@ -77,9 +77,9 @@ legacy_ask(Where, Id, Kind, Items) :-
 %   Clone is one of Parent, which stands here; it could not begin elsewhere.
 
 typhon_bounded:forgotten(left(Id, _)) :-
-    note_drop_all(left, Id).
+    durable_drop_all(left, Id).
 typhon_bounded:forgotten(clone_of(_, Clone)) :-
-    note_drop_all(clone, Clone).
+    durable_drop_all(clone, Clone).
 
 typhon_durable:fact_table(left, Id, _, Item, typhon_legacies:left(Id, Item)).
 typhon_durable:fact_table(clone, Clone, _, Parent,
@@ -89,8 +89,8 @@ typhon_durable:dump(flag, Name, N, '') :-
     flag(Name, N, N).
 
 clone_born(Parent, Clone) :-
-    journal_number(N),
-    note_put(clone, Clone, N, Parent),
+    durable_number(N),
+    durable_put(clone, Clone, N, Parent),
     assertz(clone_of(Parent, Clone)),
     bounded(clone_of(_, _), typhon_legacies:clones),
     (   endpoint_address(Endpoint),
@@ -100,7 +100,7 @@ clone_born(Parent, Clone) :-
     ).
 
 clone_unborn(Parent, Clone) :-
-    note_drop_all(clone, Clone),
+    durable_drop_all(clone, Clone),
     retractall(clone_of(Parent, Clone)).
 
 %!  clones_ask(+Endpoint, +Parent, -Clones:list) is det.

@@ -2,9 +2,10 @@
           [ agent_logs/3                % +Host, +Agent, +What
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../options/journal',
-              [ journal_number/1, journal_step/1, note_drop/3, unit_after/1,
-                unit_defers/0, unit_note_put/4 ]).
+:- use_module('../base/durable_changes',
+              [durable_drop/3, durable_number/1, unit_of_work/1]).
+:- use_module('../base/unit_of_work',
+              [unit_after/1, unit_defers/0, unit_put/4]).
 :- use_module('../host', [host_log/3, host_log_event/4]).
 :- use_module(channel, [channel_post/3]).
 
@@ -31,8 +32,8 @@ tells its log server it tells at once, see typhon_host_log.
 
 agent_logs(Host, Agent, What) :-
     (   unit_defers
-    ->  journal_number(N),
-        unit_note_put(logged, Host, N, Agent-What),
+    ->  durable_number(N),
+        unit_put(logged, Host, N, Agent-What),
         unit_after(typhon_logged:go(Host, N, Agent, What))
     ;   host_log(Host, Agent, What)
     ).
@@ -40,7 +41,7 @@ agent_logs(Host, Agent, What) :-
 :- public go/4.
 
 go(Host, N, Agent, What) :-
-    journal_step(( note_drop(logged, Host, N),
+    unit_of_work(( durable_drop(logged, Host, N),
                    post(Host, Agent, What) )).
 
 post(Host, Agent, What) :-

@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../options/journal', [journal_on/0]).
+:- use_module('../base/durable_changes', [durable_on/0]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
 :- use_module(channel, [channel_post/3]).
 :- use_module(senders, [shown/5]).
@@ -48,7 +48,7 @@ longest_pause(10).              % seconds
 %   Let Home, an endpoint, have News of Id, some time soon.
 
 news_tell(Home, _, News) :-
-    journal_on,
+    durable_on,
     news_lasts(News),
     !,
     posted(channel_post, Home, [News]).

@@ -8,10 +8,11 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
-:- use_module('../../options/journal',
-              [ journal_number/1, journal_on/0, journal_seal/0,
-                journal_step/1, note_drop/3, note_putting/5, unit_after/1,
-                unit_defers/0, unit_note/1 ]).
+:- use_module('../base/durable_changes',
+              [ durable_drop/3, durable_number/1, durable_on/0,
+                durable_putting/5, enqueue_changes/0, unit_of_work/1 ]).
+:- use_module('../base/unit_of_work',
+              [unit_after/1, unit_change/1, unit_defers/0]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, mobile_term/1]).
 :- use_module('../host', [peer_may/3, quota/3]).
@@ -62,16 +63,16 @@ max_forwards(12800).
 
 post(Id, From, Message) :-
     mobile_term(Message),
-    (   \+ journal_on
+    (   \+ durable_on
     ->  with_agent(Id, post_way(Id, From, Message, Way)),
         go(Way, Id)
     ;   unit_defers
-    ->  journal_number(N),
-        note_putting(letter, Id, N, From-Message, Change),
+    ->  durable_number(N),
+        durable_putting(letter, Id, N, From-Message, Change),
         may_travel(Id, Change),
-        unit_note(Change),
+        unit_change(Change),
         unit_after(typhon_post:post_noted(Id, N, From, Message))
-    ;   journal_step(post_now(Id, From, Message))
+    ;   unit_of_work(post_now(Id, From, Message))
     ).
 
 %   What has left, and where it waits, is one entry.
@@ -79,7 +80,7 @@ post(Id, From, Message) :-
 post_now(Id, From, Message) :-
     with_agent(Id, ( post_way(Id, From, Message, Way0),
                      waits(Way0, Id, Way),
-                     journal_seal )),
+                     enqueue_changes )),
     go(Way, Id).
 
 waits(wait(Letter), Id, done) :-
@@ -100,8 +101,8 @@ may_travel(_, Change) :-
 :- public post_noted/4.
 
 post_noted(Id, N, From, Message) :-
-    journal_step(
-        ( note_drop(letter, Id, N),
+    unit_of_work(
+        ( durable_drop(letter, Id, N),
           catch(post_now(Id, From, Message), error(Formal, _),
                 print_message(warning,
                               typhon(undeliverable(Formal, Id, From,
@@ -175,7 +176,7 @@ on_or_later(Id, Letter) :-
     ->  true
     ;   retry_later(Id, Letter, Way)
     ),
-    journal_seal.
+    enqueue_changes.
 
 typhon_endpoint:received(message, message(Id, Mail, Left), Peer) :-
     letter_comes(Id, [], Mail, Left, Peer).

@@ -4,7 +4,8 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(settings), [setting/2]).
-:- use_module('../../options/journal', [journal_seal/0, journal_step/1]).
+:- use_module('../base/durable_changes',
+              [enqueue_changes/0, unit_of_work/1]).
 :- use_module('../wire', [endpoint_gone/1, endpoint_peer/2]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [with_agent/2]).
@@ -93,7 +94,7 @@ retries_go_on :-
 try(Id) :-
     (   with_agent(Id, backlog_begin(Id, Letters, Tries))
     ->  one_letter(Letters, Letter),
-        journal_step(tried(Id, Letter, Tries))
+        unit_of_work(tried(Id, Letter, Tries))
     ;   true
     ).
 
@@ -106,7 +107,7 @@ tried(Id, Letter, Tries) :-
                      (   Way = to(_, _)
                      ->  true
                      ;   conclude(Way, Id, Letter, Tries),
-                         journal_seal
+                         enqueue_changes
                      ) )),
     sent_on(Way, Id, Letter, Tries).
 

@@ -22,9 +22,9 @@
               [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
                 mail_back/2, with_agent/2 ]).
-:- use_module('../../options/journal',
-              [ crash_point/1, journal_on/0, journal_seal/0, journal_step/1,
-                note_drop/3, note_put/4 ]).
+:- use_module('../base/durable_changes',
+              [ crash_point/1, durable_drop/3, durable_on/0, durable_put/4,
+                enqueue_changes/0, unit_of_work/1 ]).
 :- use_module(crossings,
               [crossing_begin/4, crossing_end/2, crossing_restore/4]).
 :- use_module(legacies, [clone_unborn/2]).
@@ -112,9 +112,9 @@ transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
 %!  transfer_arrived(+Transfer) is det.
 
 transfer_arrived(Transfer) :-
-    (   journal_on
+    (   durable_on
     ->  crash_point(after_send),
-        journal_step(arrived(Transfer))
+        unit_of_work(arrived(Transfer))
     ;   arrived(Transfer)
     ).
 
@@ -124,7 +124,7 @@ arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
         call(Gone),
         forall(member(Order, Orders), follow(Id, Order))
     ;   retract(given_up(Id, Hops))
-    ->  note_drop(given_up, Id, Hops),
+    ->  durable_drop(given_up, Id, Hops),
         crossing_end(Id, Hops),
         agent_left(Id, Address, Hops, Endpoint),
         agent_left_noted(Id, Address, Hops, Endpoint),
@@ -145,11 +145,11 @@ moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, Hops, _, Since)),
     agent_left(Id, Address, Hops, Endpoint),
     let_go(Id, Since, Mail, Orders, Gone),
-    (   journal_on
+    (   durable_on
     ->  crossing_end(Id, Hops),
         agent_left_noted(Id, Address, Hops, Endpoint),
         post_on(Id, Mail),
-        journal_seal
+        enqueue_changes
     ;   post_on(Id, Mail)
     ).
 
@@ -192,11 +192,11 @@ follow(Id, Order) :-
 transfer_stays(Transfer, Error) :-
     transfer_traveller(Transfer, Who, Hop),
     debug(typhon(hop), '~w hop ~D: stays, ~p', [Who, Hop, Error]),
-    journal_step(( crossing_end(Who, Hop),
+    unit_of_work(( crossing_end(Who, Hop),
                    stays(Transfer, Error) )).
 
 stays(hop(Id, dest(Address, _, _), Hops), Error) :-
-    forall(retract(given_up(Id, Hops)), note_drop(given_up, Id, Hops)),
+    forall(retract(given_up(Id, Hops)), durable_drop(given_up, Id, Hops)),
     (   agent(Id, Host, _, _, _)
     ->  event(hops, Host, Id, stayed(Address))
     ;   true
@@ -234,7 +234,7 @@ clone_back(Id, CloneId, Answer) :-
 %   it.
 
 transfer_given_up(Id, hop(_, Hops, _, _)) :-
-    note_put(given_up, Id, Hops, Hops),
+    durable_put(given_up, Id, Hops, Hops),
     assertz(given_up(Id, Hops)).
 
 %   The oldest first, before anybody else sets out.

@@ -7,7 +7,7 @@
 :- use_module(library(apply), [maplist/4]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
-:- use_module('../../options/journal', [journal_on/0]).
+:- use_module('../base/durable_changes', [durable_on/0]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_keys/1,
                 endpoint_post/3, endpoint_post_up/3 ]).
@@ -141,7 +141,7 @@ part_sent(Endpoint, Id, Mail, Left) :-
 
 posted(Endpoint, Id, letter(Mail, Left), Post) :-
     message(Endpoint, Id, Mail, Left, Message),
-    (   journal_on
+    (   durable_on
     ->  By = channel_post
     ;   By = Post
     ),

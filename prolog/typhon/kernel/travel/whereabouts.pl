@@ -18,7 +18,8 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
-:- use_module('../../options/journal', [journal_on/0, note_drop/3, note_put/4]).
+:- use_module('../base/durable_changes',
+              [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_call/5, endpoint_peer/2,
                 endpoint_post/3,
@@ -142,10 +143,10 @@ process_at(Endpoint, Process) :-
 %   Note that Id has left; in the journal that stands in its own place.
 
 agent_left_noted(Id, Address, Hops, Peer) :-
-    (   journal_on,
+    (   durable_on,
         \+ endpoint_address(Peer)
     ->  process_at(Peer, Process),
-        note_put(agent, Id, 0, gone(Address, Hops, Process))
+        durable_put(agent, Id, 0, gone(Address, Hops, Process))
     ;   true
     ).
 
@@ -154,7 +155,7 @@ typhon_identity:ids_anew :-
     retractall(ended_here(_, _)).
 
 typhon_bounded:forgotten(forward(Id, _, _, _)) :-
-    note_drop(agent, Id, 0).
+    durable_drop(agent, Id, 0).
 
 %   The process may be another by then.
 

@@ -43,9 +43,9 @@ own_start_next/1 run under the mutex of the endpoint.
 :- use_module(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
-:- use_module('../../options/journal',
-              [ journal_barrier/0, journal_item/5, journal_opened/1,
-                note_put/4 ]).
+:- use_module('../base/durable_changes',
+              [ durable_item/5, durable_opened/1, durable_put/4,
+                sync_changes/0 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
@@ -140,7 +140,7 @@ start(Interface0, Port0, Address) :-
 
 until_opened :-
     retractall(closed),
-    (   journal_opened(_)
+    (   durable_opened(_)
     ->  assertz(closed)
     ;   true
     ).
@@ -160,7 +160,7 @@ endpoint_open :-
     running(Address, _, Acceptor, _),
     !,
     own_id_note(Address),
-    journal_barrier,
+    sync_changes,
     retractall(closed),
     thread_send_message(Acceptor, endpoint_opens),
     forall(further(_, _, Further),
@@ -326,10 +326,10 @@ endpoint_proof(Proof) :-
 %   letter of the id, see endpoint_lasting/1.
 
 own_place(Interface0, Port0, Interface, Port) :-
-    journal_opened(_),
+    durable_opened(_),
     !,
     retractall(process(_)),
-    (   journal_item(endpoint, any, _, _,
+    (   durable_item(endpoint, any, _, _,
                      endpoint(Process, Start, Interface1, Port1))
     ->  retractall(starts(_)),
         assertz(starts(Start)),
@@ -375,7 +375,7 @@ own_id_note(Address) :-
     atom_number(PortText, Port),
     endpoint_process(Process),
     starts(Start),
-    note_put(endpoint, '', 0, endpoint(Process, Start, Interface, Port)).
+    durable_put(endpoint, '', 0, endpoint(Process, Start, Interface, Port)).
 
 %!  endpoint_process(-Id) is det.
 %

@@ -35,9 +35,9 @@ is held.
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2]).
 :- use_module(library(lists), [member/2, reverse/2]).
-:- use_module('../../options/journal',
-              [ journal_commit/0, journal_go/0, journal_guards/0,
-                journal_let_out/2 ]).
+:- use_module('../base/durable_changes',
+              [ commit_changes/0, flush_sends/0, output_waits/0,
+                send_after_commit/2 ]).
 :- use_module(frame,
               [bundle_fits/1, frame_write/2, frame_write_now/2, term_bytes/3]).
 :- use_module(session,
@@ -50,7 +50,7 @@ is held.
                 unacked_next/3, unacked_no_wait/1, unacked_owed/2,
                 unacked_sent/2, unacked_waiting/1, unacked_waits/2 ]).
 
-:- multifile typhon_committing:letting_out/1.
+:- multifile typhon_durable_changes:committed/1.
 
 %   Bytes that may be under way without a chance of blocking in write.
 
@@ -69,23 +69,23 @@ session_send(Session, Term) :-
 
 %!  session_answer(+Session, +Term) is det.
 %
-%   As session_send/2, of what a caller waits for: while the journal has no room
-%   it waits, too. When the journal has been closed it is dropped.
+%   As session_send/2, of what a caller waits for: while the store has no room
+%   it waits, too. When the store has been closed it is dropped.
 
 session_answer(Session, Term) :-
     unless_closed(send(Session, Term, anyhow)).
 
-%   When the journal has been closed no peer may learn what happens.
+%   When the store has been closed no peer may learn what happens.
 
 :- meta_predicate unless_closed(0).
 
 unless_closed(Goal) :-
-    catch(Goal, error(existence_error(journal, _), _), true).
+    catch(Goal, error(existence_error(_, open), _), true).
 
 send(Session, Term, When) :-
     frame_bytes(Session, Term, Bytes),
     answers_first(Session),
-    (   journal_guards
+    (   output_waits
     ->  let_out(Session, Bytes, When)
     ;   session_locked(Session,
                        put_frame(Session, Bytes, frame_write_now))
@@ -107,7 +107,7 @@ session_send_with(Session, Term) :-
     ).
 session_send_with(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
-    (   journal_guards
+    (   output_waits
     ->  let_out(Session, loose(Bytes), now)
     ;   session_locked(Session,
                        put_with(Session, Bytes, frame_write_now))
@@ -150,7 +150,7 @@ session_send_later(Session, Term) :-
     nb_current(typhon_later, Count),
     !,
     frame_bytes(Session, Term, Bytes),
-    (   journal_guards
+    (   output_waits
     ->  unless_closed(let_out(Session, Bytes, later))
     ;   session_locked(Session, put_frame(Session, Bytes, frame_write))
     ),
@@ -163,8 +163,8 @@ session_later(Count) :-
     nb_getval(typhon_later, Count).
 
 session_push(Session) :-
-    (   journal_guards
-    ->  journal_go
+    (   output_waits
+    ->  flush_sends
     ;   session_key(Session, Key),
         session_locked(Session, push_out(Key))
     ),
@@ -330,15 +330,15 @@ put_control(Session, Kind, Bytes) :-
                 *******************************/
 
 %   let_out(+Session, +Frame, +When): Frame as it may wait, When as of
-%   journal_let_out/2.
+%   send_after_commit/2.
 
 let_out(Session, Frame, When) :-
     session_must_exist(Session, _),
-    journal_let_out(frame(Session, Frame), When).
+    send_after_commit(frame(Session, Frame), When).
 
 %   All are written, then all go.
 
-typhon_committing:letting_out(Frames) :-
+typhon_durable_changes:committed(Frames) :-
     let_out_all(Frames, [], Sessions),
     forall(member(Session, Sessions), flush_out(Session)).
 
@@ -377,7 +377,7 @@ session_flush(Session, Deadline) :-
           message_queue_destroy(Queue) )).
 
 flush(Session, Queue, Deadline) :-
-    catch(journal_commit, error(_, _), true), % the committer has reported it
+    catch(commit_changes, error(_, _), true), % the committer has reported it
     session_release(Session),
     session_locked(Session, unacked_await(Session, Queue, Pending)),
     (   Pending =:= 0

@@ -22,7 +22,7 @@ last error. A bounded number of addresses is kept, the oldest are discarded.
 */
 
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../options/journal', [note_drop/3, note_put/4]).
+:- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
 :- use_module(secure, [secure_directory/1, secure_own/1, secure_proof/1]).
 :- use_module(session, [route/2, session_proof/2]).
 
@@ -110,11 +110,11 @@ note(Address, Process, State) :-
 note_lasting(Process, Address) :-
     sub_atom(Process, 0, _, _, j),
     !,
-    note_put(lasting, Address, 0, Process).
+    durable_put(lasting, Address, 0, Process).
 note_lasting(none, _) :-
     !.
 note_lasting(_, Address) :-
-    note_drop(lasting, Address, 0).
+    durable_drop(lasting, Address, 0).
 
 typhon_durable:restore(lasting, Address, _, Process) :-
     assertz(contact(Address, Process, met)).

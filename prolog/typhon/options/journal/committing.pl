@@ -1,16 +1,9 @@
-:- module(typhon_committing,
-          [ committing_begin/0,
-            committing_end/0,
-            entry/1,                    % +Changes
-            let_out/1,                  % +Item
-            journal_full/1,             % -Error
-            commit/0,
-            commit_soon/0
-          ]).
+:- module(typhon_committing, []).
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
+:- use_module('../../kernel/base/durable_changes',
+              [crash_point/1, send_committed/1]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
-:- use_module(crash, [crash_point/1]).
 :- use_module(store, [store_commit/1, store_sync/1]).
 
 /** <module> Entries are committed in order, many at a time
@@ -30,10 +23,17 @@ to be let out, and tried again each second.
 may take those of sessions: who holds one of these must not commit.
 */
 
-:- multifile letting_out/1.             % Items: they are committed, in order
+:- multifile
+    typhon_durable_changes:begin_commits/0,
+    typhon_durable_changes:end_commits/0,
+    typhon_durable_changes:queue_entry/1,
+    typhon_durable_changes:queue_send/1,
+    typhon_durable_changes:commit_queue/0,
+    typhon_durable_changes:commit_queue_soon/0,
+    typhon_durable_changes:commit_error/1,
+    typhon_durable_changes:back_end_error/2.
 
 :- dynamic
-    letting_out/1,
     queue/3,                            % Entries, Wake, Sync
     unsaved/2,                          % Changes and items that wait for them
     committer/1,                        % Thread
@@ -48,13 +48,7 @@ again_seconds(1).
                 *         BEGIN AND END        *
                 *******************************/
 
-%!  committing_begin is det.
-%!  committing_end is semidet.
-%
-%   The store is open; all is committed, as far as it can be.  Fails if it had
-%   not begun.
-
-committing_begin :-
+typhon_durable_changes:begin_commits :-
     on_signal(xfsz, _, typhon_committing:file_too_long),
     store_sync(Sync),
     message_queue_create(Entries),
@@ -71,7 +65,9 @@ committing_begin :-
 
 file_too_long(_).
 
-committing_end :-
+%   Commit as much as can be.  Fails if it had not begun.
+
+typhon_durable_changes:end_commits :-
     retract(committer(Thread)),
     !,
     queue(Entries, Wake, _),
@@ -89,21 +85,17 @@ committing_end :-
                 *            ENTRIES           *
                 *******************************/
 
-%!  entry(+Changes:list) is det.
-%!  let_out(+Item) is semidet.
-%
-%   Changes are to be committed together; Item is to be let out, see
-%   letting_out/1, when all that came before is committed, which somebody has
-%   to see to.  Fails where nothing is committed any more.
+%   Without a queue the back end has been closed: changes are dropped, output
+%   fails.
 
-entry(Changes) :-
+typhon_durable_changes:queue_entry(Changes) :-
     queue(Entries, _, _),
     !,
     thread_send_message(Entries, Changes),
     wake(idle).
-entry(_).                               % it has been closed
+typhon_durable_changes:queue_entry(_).
 
-let_out(Item) :-
+typhon_durable_changes:queue_send(Item) :-
     queue(Entries, _, _),
     !,
     thread_send_message(Entries, item(Item)),
@@ -124,35 +116,31 @@ wake(How) :-
 urgency(idle, 1).
 urgency(now, 2).
 
-%!  journal_full(-Error) is semidet.
-%
-%   What came of the last commit, if it could not be made.
-
-journal_full(Error) :-
+typhon_durable_changes:commit_error(Error) :-
     told(Error),
     !.
+
+typhon_durable_changes:back_end_error(closed, existence_error(journal, open)).
+typhon_durable_changes:back_end_error(key, representation_error(journal_key)).
 
                 /*******************************
                 *            COMMIT            *
                 *******************************/
 
-%!  commit is det.
-%!  commit_soon is det.
-%
-%   Return when all that has been entered is committed, and let out; see to
-%   it that it will be.
-%
 %   @error resource_error(journal_space)
+
+typhon_durable_changes:commit_queue :-
+    commit.
 
 commit :-
     sig_atomic(( with_mutex(typhon_commit, commit_all),
                  once_more )).
 
-commit_soon :-
+typhon_durable_changes:commit_queue_soon :-
     queue(_, _, full),
     !,
     wake(now).
-commit_soon :-
+typhon_durable_changes:commit_queue_soon :-
     sig_atomic(commit_or_leave).
 
 %   Nobody waits for who commits: he finds that more is wanted, and does it.
@@ -201,7 +189,7 @@ commit_all :-
 commit_all.
 
 go(Items) :-
-    catch(ignore(letting_out(Items)), error(Formal, Context),
+    catch(ignore(send_committed(Items)), error(Formal, Context),
           print_message(error, error(Formal, Context))).
 
 parted([], [], []).

@@ -10,8 +10,8 @@
             journal_item/5              % +Kind, +Order, -Key, -N, -Value
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/base/durable_changes', [crash_point/1]).
 :- use_module('../../kernel/base/fast_bytes', [fast_bytes_term/2]).
-:- use_module(crash, [crash_point/1]).
 :- use_module(database,
               [ database/3, database_connect/4, database_forgets/4,
                 database_found/1, database_lock/3, database_same/4,
@@ -40,6 +40,13 @@ parts.
 
 *Threading*: one thread at a time.
 */
+
+:- multifile
+    typhon_durable_changes:open_store/3,
+    typhon_durable_changes:store_opened/1,
+    typhon_durable_changes:store_place/2,
+    typhon_durable_changes:stored_item/5,
+    typhon_durable_changes:close_store/0.
 
 :- dynamic
     connection/2,                       % Place, Connection
@@ -81,6 +88,9 @@ journal_open(Where, Sync, Seconds) :-
           ( forget(Connection),
             throw(error(Formal, Context)) )),
     assertz(connection(Place, Connection)).
+
+typhon_durable_changes:open_store(Where, Sync, Seconds) :-
+    journal_open(Where, Sync, Seconds).
 
 prepare(Age, Place, Base, Sync, Connection) :-
     database_lock(Base, Sync, Connection),
@@ -148,6 +158,9 @@ sample(Sample) :-
 journal_place(Where, Place) :-
     database(Where, Place, _).
 
+typhon_durable_changes:store_place(Where, Place) :-
+    journal_place(Where, Place).
+
 journal_found(Where) :-
     database(Where, Place, Base),
     sql_load,
@@ -160,6 +173,9 @@ journal_found(Where) :-
 journal_opened(Place) :-
     connection(Place, _).
 
+typhon_durable_changes:store_opened(Place) :-
+    connection(Place, _).
+
 store_sync(Sync) :-
     opened(_, Sync, _).
 
@@ -168,6 +184,9 @@ store_close :-
     ->  forget(Connection)
     ;   true
     ).
+
+typhon_durable_changes:close_store :-
+    store_close.
 
 forget(Connection) :-
     retractall(connection(_, _)),
@@ -306,6 +325,9 @@ journal_item(Kind, Order, Key, N, Value) :-
     ->  fast_bytes_term(Bytes, Value)
     ;   throw(error(journal_damaged(Place, Kind-Key), _))
     ).
+
+typhon_durable_changes:stored_item(Kind, Order, Key, N, Value) :-
+    journal_item(Kind, Order, Key, N, Value).
 
 order(any, '').
 order(numbers, ' order by n').

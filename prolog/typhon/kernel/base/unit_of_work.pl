@@ -1,25 +1,26 @@
 :- module(typhon_unit_of_work,
           [ unit_run/1,                 % :Goal
             unit_defers/0,
-            unit_note/1,                % +Change
-            unit_note_put/4,            % +Kind, +Key, +N, +Term
-            unit_note_drop/3,           % +Kind, +Key, +N
+            unit_change/1,              % +Change
+            unit_put/4,                 % +Kind, +Key, +N, +Term
+            unit_drop/3,                % +Kind, +Key, +N
             unit_after/1,               % :Goal
             unit_has_effects/0,
             unit_commit/0,
             unit_release/0
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module(item_key, [journal_key/2]).
-:- use_module(ledger,
-              [journal_on/0, note_change/1, note_putting/5]).
+:- use_module(error_text, [print_error/2]).
+:- use_module(durable_changes,
+              [ durable_change/1, durable_key/2, durable_on/0,
+                durable_putting/5 ]).
 
 /** <module> What an agent does between two stops is one unit of work
 
 It happens as a whole or not at all.  So what an agent sends, leaves and takes
-is put off until the agent stops.  Then all of it is noted together with the
-agent's new state, and only then released to others.
+is deferred until the agent stops.  Then all of it is queued together with the
+agent's new state, inside unit_of_work/1, and only then released to others.
+Without an open back end nothing is deferred.
 
 *Threading*: each thread has its own.
 */
@@ -29,7 +30,7 @@ agent's new state, and only then released to others.
     unit_after(0).
 
 :- thread_local
-    change/1,                           % see typhon_store
+    change/1,                           % see durable_change/1
     after/1.                            % Goal
 
 %!  unit_run(:Goal) is det.
@@ -37,7 +38,7 @@ agent's new state, and only then released to others.
 %   Run Goal, in which an agent acts, as part of this thread's unit of work.
 
 unit_run(Goal) :-
-    (   journal_on
+    (   durable_on
     ->  setup_call_cleanup(nb_setval(typhon_unit_of_work, true),
                            once(Goal),
                            nb_setval(typhon_unit_of_work, false))
@@ -46,42 +47,42 @@ unit_run(Goal) :-
 
 %!  unit_defers is semidet.
 %
-%   This thread is in unit_run/1, and there is a journal.
+%   This thread is in unit_run/1, and durable_on/0.
 
 unit_defers :-
-    journal_on,
+    durable_on,
     nb_current(typhon_unit_of_work, true).
 
-%!  unit_note(+Change) is det.
-%!  unit_note_put(+Kind, +Key, +N, +Term) is det.
-%!  unit_note_drop(+Kind, +Key, +N) is det.
+%!  unit_change(+Change) is det.
+%!  unit_put(+Kind, +Key, +N, +Term) is det.
+%!  unit_drop(+Kind, +Key, +N) is det.
 %
-%   As note_change/1, note_put/4 and note_drop/3; in unit_run/1, at the end of
-%   the unit.
+%   As durable_change/1, durable_put/4 and durable_drop/3; inside unit_run/1 the
+%   change is deferred to the end of the unit.
 
-unit_note_put(Kind, Key, N, Term) :-
-    (   journal_on
-    ->  note_putting(Kind, Key, N, Term, Change),
-        unit_note(Change)
+unit_put(Kind, Key, N, Term) :-
+    (   durable_on
+    ->  durable_putting(Kind, Key, N, Term, Change),
+        unit_change(Change)
     ;   true
     ).
 
-unit_note_drop(Kind, Key, N) :-
-    (   journal_on,
-        journal_key(Key, N)
-    ->  unit_note(drop(Kind, Key, N))
+unit_drop(Kind, Key, N) :-
+    (   durable_on,
+        durable_key(Key, N)
+    ->  unit_change(drop(Kind, Key, N))
     ;   true
     ).
 
-unit_note(Change) :-
+unit_change(Change) :-
     (   nb_current(typhon_unit_of_work, true)
     ->  assertz(change(Change))
-    ;   note_change(Change)
+    ;   durable_change(Change)
     ).
 
 %!  unit_after(:Goal) is det.
 %
-%   Call Goal when this unit of work has been noted.
+%   Call Goal when the changes of this unit of work are queued.
 
 unit_after(Goal) :-
     assertz(after(Goal)).
@@ -90,7 +91,7 @@ unit_after(Goal) :-
 %!  unit_commit is det.
 %!  unit_release is det.
 %
-%   Something was put off; it is noted; it is released.
+%   Something was deferred; queue its changes; call its goals.
 
 unit_has_effects :-
     (   change(_)
@@ -99,7 +100,7 @@ unit_has_effects :-
     !.
 
 unit_commit :-
-    forall(retract(change(Change)), note_change(Change)).
+    forall(retract(change(Change)), durable_change(Change)).
 
 unit_release :-
     (   after(_)
