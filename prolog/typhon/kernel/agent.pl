@@ -10,7 +10,7 @@ This is the interface of the layer: higher layers import from here.
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
               agent_mobile/6, agent_move/5,
               agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
-              agent_remove/3, agent_rest/3, agent_resumes/2, agent_room/2,
+              agent_remove/3, agent_rest/3, agent_resumes/2, agent_space/2,
               agent_status/3, agent_take/3, agent_wakes/2
             ]).
 :- reexport(agent/alone_with, [agents_passed/0, with_agent/2]).

@@ -234,7 +234,7 @@ agent_elsewhere(Module, Place0, Place) :-
     delete_import_module(Module, Above0),
     add_import_module(Module, Above, end).
 
-%   Where nobody guards the module hangs below the place itself.  Of a module
+%   Without guards the module hangs below the place itself.  Of a module
 %   that is given import_module/2 of 9.0.4 looks only whether it is the first.
 
 stands_below(Place0, Place, Module, Above0, Above) :-

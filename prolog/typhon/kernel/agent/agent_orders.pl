@@ -6,7 +6,7 @@
             agent_ordered/1             % +Id
           ]).
 
-/** <module> What agents are told from outside
+/** <module> Orders for agents
 
 *Threading*: inside with_agent/2 of the agent.
 */

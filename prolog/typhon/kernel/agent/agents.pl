@@ -16,7 +16,7 @@
             agent_ready/2,              % +Id, +Goals
             agent_wakes/2,              % +Id, +Goals
             agent_mail/2,               % +Id, +Messages
-            agent_room/2                % +Id, -Room
+            agent_space/2               % +Id, -Messages
           ]).
 :- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(lists), [member/2]).
@@ -80,7 +80,7 @@ typhon_code:in_use(Hash) :-
     stands(_, _, _, Hash, _, _),
     !.
 
-%   Other quotas count for who stands there, too.
+%   Other quotas count for agents that are there, too.
 
 typhon_quotas:set(Host) :-
     forall(stands(Id, Host, _, _, _, _),
@@ -127,10 +127,10 @@ agent_remove(Id, Mail, Orders) :-
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
 %!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
 %
-%   As agent/5, for one who is to travel; the agent is on Host from now on,
+%   As agent/5, for an agent that is to travel; the agent is on Host from now on,
 %   with its state in Module; another
 %   module that it had is no more.  Until says that its state can travel as
-%   it was then, see agent_changed/4; it is 0 until somebody has looked.
+%   it was then, see agent_changed/4; it is 0 until the first look.
 
 agent_mobile(Id, Host, Module, Hash, Life, Until) :-
     stands(Id, Host, Module, Hash, Life, Until),
@@ -282,17 +282,17 @@ agent_mail(Id, Messages) :-
     ;   put_mail(Messages, Id)
     ).
 
-%!  agent_room(+Id, -Room:nonneg) is semidet.
+%!  agent_space(+Id, -Messages:nonneg) is semidet.
 %
 %   On the host where Id stands there is a quota for its mailbox, and there is
-%   room for so many messages in it.
+%   space for so many messages in it.
 
-agent_room(Id, Room) :-
+agent_space(Id, Messages) :-
     stands(Id, Host, _, _, _, _),
     quota(Host, mailbox, Most),
     !,
     mail_count(Id, Count),
-    Room is max(0, integer(Most)-Count).
+    Messages is max(0, integer(Most)-Count).
 
 put_mail(Messages, Id) :-
     (   debugging(typhon(mail))
@@ -316,7 +316,7 @@ mail_to(Status, Id, Host, Goals, Messages) :-
     ;   true
     ).
 
-%   Who asks a faulty one again and again is told once.
+%   Repeated questions to a faulty agent are reported once.
 
 keep_mail([], _).
 keep_mail([Message|Messages], Id) :-
@@ -325,7 +325,7 @@ keep_mail([Message|Messages], Id) :-
     (   Count < Max
     ->  debug(typhon(mail), '~w: will get ~p', [Id, Message]),
         mail_put(Id, [Message])
-    ;   debug(typhon(mail), '~w: has no room for ~p', [Id, Message])
+    ;   debug(typhon(mail), '~w: has no space for ~p', [Id, Message])
     ),
     (   Count =:= Max-1
     ->  print_message(warning, typhon(mailbox_full(Id, Max)))

@@ -3,7 +3,7 @@
             agents_passed/0
           ]).
 
-/** <module> Who changes an agent is alone with it
+/** <module> A mutex for each agent
 
 He holds one of 64 mutexes, chosen by the id.
 
@@ -24,7 +24,7 @@ with_agent(Id, Goal) :-
 
 %!  agents_passed is det.
 %
-%   Who was inside with_agent/2 when this was called has left it.
+%   A thread that was inside with_agent/2 when this was called has left it.
 
 agents_passed :-
     forall(shard(_, Mutex), with_mutex(Mutex, true)).

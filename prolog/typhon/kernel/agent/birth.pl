@@ -7,23 +7,23 @@
             birth_shown/2               % +Id, -Birth
           ]).
 
-/** <module> Who owns an agent
+/** <module> The owner of an agent
 
 Where processes have keys an agent that leaves the process in which it was
 born has what that one has signed,
 
     birth(Id, Hash, Certificate, Hex)
 
-Id is its own, and says who the owner is, see typhon_identity; Hash is that of
-its program, and Certificate that of the owner. Nobody else can make one, so
-an id belongs to the owner, and to one program. And since it is shown to
-nobody but those to whom the agent goes, and to its home, who shows it has had
-the agent.
+Id is its own, and names the owner, see typhon_identity; Hash is that of
+its program, and Certificate that of the owner. No other process can make one,
+so an id belongs to the owner, and to one program. And since it is shown
+only to processes to which the agent goes, and to its home, a process that shows
+it has had the agent.
 
-It goes along with the program, to who lacks it as far as we know; and who has
-shown it once need not again.
+It goes along with the program, to processes that lack it as far as we know; a
+process shows it once.
 
-*Threading*: any thread; a mutex makes those who remember come one by one.
+*Threading*: any thread; a mutex serialises writers.
 */
 
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -46,11 +46,11 @@ shown it once need not again.
     typhon_durable:dump/4.
 
 :- setting(births, positive_integer, 20000,
-           "Of so many agents that were here it is remembered who owns them").
+           "Of so many agents that were here the owners are remembered").
 
 :- dynamic
     known/2,                            % Id, Birth: a good one
-    has/2.                              % Id, Proof: who can prove that has it
+    has/2.                              % Id, Proof: a process with this proof has it
 
 typhon_identity:ids_anew :-
     retractall(known(_, _)),
@@ -84,7 +84,7 @@ believed(Proof, Id) :-
 believed(Proof, Id) :-
     is_ours(Proof, Id).
 
-%   Who has our own keys can sign what we can.
+%   A process with our own keys can sign what we can.
 
 is_ours(Proof, Id) :-
     endpoint_own_proof(Proof),
@@ -131,7 +131,7 @@ remember(Id, Birth) :-
                  assertz(known(Id, Birth)),
                  bounded(known(_, _), typhon_birth:births) )).
 
-%   Of those who are here nobody else may know it.
+%   For agents that are here no other process may know it.
 
 typhon_bounded:forgotten(known(Id, Birth)) :-
     (   agent(Id, _, _, _, _)
@@ -197,7 +197,7 @@ short(Atoms) :-
     sum_list(Lengths, Length),
     Length =< 20 000.
 
-%   Nobody else's was born here.
+%   Agents of other owners were not born here.
 
 at_home(Id) :-
     agent_owned(Id),

@@ -91,7 +91,7 @@ can_be_kept(Goals0, Goals) :-
 
 %!  agent_handled(+Id, +Goal, -Fault) is semidet.
 %
-%   Goal, which nobody in the program calls, has just failed in Id.  Fails if
+%   Goal, which no clause of the program calls, has just failed in Id.  Fails if
 %   there is no clause for it.
 
 agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
@@ -105,16 +105,16 @@ agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
     life_hops(Life, Hops),
     get_time(Stamp).
 
-%   Nobody is to lose an agent because it is not known where it stands.
+%   An agent is not lost because the place of its goal is not known.
 
 where(Hash, Module, Fault, Where) :-
     catch(stands(Hash, Module, Fault, Where0), error(Formal, _),
-          debug(typhon(agent), 'nobody knows where: ~p', [Formal])),
+          debug(typhon(agent), 'place unknown: ~p', [Formal])),
     !,
     ( var(Where0) -> Where = [] ; Where = Where0 ).
 where(_, _, _, []).
 
-%   Nobody need call main/0.
+%   main/0 need not be called.
 
 stands(Hash, Module, Fault, Where) :-
     Fault = fault(Goal, _, _),
@@ -164,7 +164,7 @@ place_shown(_, Place) =>
 
 %!  fault_told(+Fault, -Goal, -Where, -Address, -Hops) is det.
 %
-%   What people are told.
+%   The text of the report.
 
 fault_told(fault(_, Goal, Where, Address, Hops, _), Goal, Where, Address,
            Hops).

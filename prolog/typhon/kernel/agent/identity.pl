@@ -18,7 +18,7 @@
 An id is Name.Mark.Number@Home: from what the agent was made, the process,
 the how manieth in it, and the address of the host on which it was born.
 Where there are keys Mark ends with the name in the certificate of the
-process, as in visitor.7k234tum-alpha.0@..: the owner of the agent, who has to
+process, as in visitor.7k234tum-alpha.0@..: the owner of the agent, which has to
 prove that, see typhon_birth.
 
 *Threading*: any thread.

@@ -29,7 +29,7 @@
     image(Id, Hash, Life, State, Goals, Mail, Since)
 
 Hash names its program, Mail is a list of From-Message, the oldest first,
-and Since the host time at which it set out, or From-Since where somebody
+and Since the host time at which it set out, or From-Since where a listener
 wants to know from which host.
 
 *Threading*: any thread; image_enter/4 inside with_agent/2.

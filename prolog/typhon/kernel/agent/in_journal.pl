@@ -61,8 +61,8 @@ passing(held).
 passing(resumed).
 passing(arriving).
 
-%   That it is noted others see at once: so it is, also where the step of who
-%   brings it is not, or is committed after theirs.
+%   Others see at once that it is noted: so it is, also where the unit of work
+%   that brings it is not, or is committed after theirs.
 
 note_code(Hash) :-
     code_noted(Hash),

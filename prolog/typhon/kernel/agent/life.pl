@@ -23,9 +23,9 @@ A life is
 
 the agent of which it is a clone or `none`, how often it moved, after how
 many hops it ends or `inf`, what it shows to hosts that ask for a token, a
-list of Name-PIs, whether it may not move, and who looks on, see
+list of Name-PIs, whether it may not move, and its tracers, see
 typhon_traces.  It goes over the wire and
-into restore points as it is; nobody else takes it apart.
+into restore points as it is; no other module takes it apart.
 
 *Threading*: pure.
 */
@@ -75,7 +75,7 @@ life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Traces),
 %!  life_clone(+Id, +Life0, -Life) is det.
 %
 %   Life0 is that of Id, Life that of a clone of it.  It is not held, since
-%   nobody may know of it.
+%   it must not be known.
 
 life_clone(Id, Life0, Life) :-
     set_parent_of_life(Id, Life0, Life1),

@@ -25,7 +25,7 @@ Each message has a number, under which it is in the journal, if there is one.
 What is put in the journal before it can be taken cannot be taken twice.
 
 *Threading*: inside with_agent/2 of the agent, see typhon_agents; only
-mail_put/2 may add to a queue, and nobody waits at one.
+mail_put/2 may add to a queue, and no thread waits at one.
 */
 
 :- dynamic box/2.                       % Id, Queue
@@ -124,8 +124,8 @@ mail_count(_, 0).
 
 %!  mail_back(+Id, +Messages:list) is det.
 %
-%   Messages were there before those that are there now.  Nobody can take them
-%   before the caller has put down what becomes of the agent: it is sealed with
+%   Messages were there before those that are there now.  They cannot be taken
+%   before the caller has noted what becomes of the agent: it is sealed with
 %   that.
 
 mail_back(_, []) :-

@@ -18,8 +18,8 @@
 What agents of one owner use together can be bounded, see typhon_quotas.  An
 owner is what no agent can choose:
 
-  - author(Name) on a host with authors(Names): who has signed its program
-  - certificate(Name): who proved himself so, and is not one of us, when he
+  - author(Name) on a host with authors(Names): the author that signed its program
+  - certificate(Name): the process that proved this name, not one of ours, when it
     sent it, or the agent of which it is a clone
   - home(Endpoint) of others: the process in which it was born, or the agent of
     which it is a clone

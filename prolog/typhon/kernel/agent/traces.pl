@@ -6,7 +6,7 @@
 :- use_module('../host', [events_hear/3]).
 :- use_module(life, [life_traces/2]).
 
-/** <module> Who looks on while an agent lives
+/** <module> The tracers of an agent
 
 The traces of an agent are a part of its life, so they go where it goes: a
 list of trace(To, Kinds), To being the address of the process whose people
@@ -32,7 +32,7 @@ typhon_names:known(trace_kind, Kind) :-
 
 %!  traces_heard(+Id, +Life) is det.
 %
-%   Id stands in this process now: those who trace it hear of it.
+%   Id is in this process now: its tracers are notified.
 
 traces_heard(Id, Life) :-
     life_traces(Life, Traces),

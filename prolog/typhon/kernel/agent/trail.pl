@@ -16,10 +16,10 @@ fact among the state of the agent:
 
     '$trail'(At, Chain, Certificates, Pending)
 
-Chain is one string, see typhon_chain, so that nobody has to look into it on
+Chain is one string, see typhon_chain, so that it is not parsed on
 the way: each link is the text of N-Events, the N-th event and perhaps others,
 with its signature, and the number C of the certificate pem(C, Last, Pem) of
-who has signed it; Last is the last link of his. At is at(Next, Made, Kept,
+the signer; Last is the last link of that signer. At is at(Next, Made, Kept,
 Hex, Handed): the number of the next event, how many links were made, how many
 are left, the signature of the last one, and What it has handed on or `none`.
 An event is
@@ -31,7 +31,7 @@ An event is
 What is the hash of what the agent is: its program, the number of its hops, its
 state and its goals. The id of the agent is signed, too. A host is accounted
 for if what the next one received is what it handed on, to that address. What
-an agent did while it stood on a host is the word of that host; and who was
+an agent did while it stood on a host is the word of that host; and a host
 visited twice can cut out what lies between.
 
 To sign costs more than all else. What was received is Pending, or `none`, and
@@ -40,7 +40,7 @@ then as it would have been before.
 
 The oldest links go when there are more than `links`.
 
-Who has an agent can make anything of its trail. What does not hang together
+A host that has an agent can make anything of its trail. What does not hang together
 stays as it is, and has no more links.
 
 *Threading*: the thread that sends, receives or runs the agent.
@@ -91,8 +91,8 @@ taken_out(Clauses, Raw, Clauses) :-
 
 no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
 
-%   of_ours(+Event, +Raw0, -Raw): who hands on an agent has signed all that
-%   happened there; what he has not we do not sign for him.
+%   of_ours(+Event, +Raw0, -Raw): a host that hands on an agent has signed all that
+%   happened there; what it has not signed we do not sign for it.
 
 of_ours(received(_), '$trail'(At, Chain, Pems, _),
         '$trail'(At, Chain, Pems, none)) :-

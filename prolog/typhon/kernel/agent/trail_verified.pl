@@ -4,7 +4,7 @@
 
 /** <module> What a trail proves
 
-Only who wants to know goes through all of it.
+It is read as a whole on request only.
 
 *Threading*: any thread; no state.
 */
@@ -25,8 +25,8 @@ Only who wants to know goes through all of it.
 %   Trail is trail(Steps, Verdict). A step is step(N, Name, What), Name being
 %   the host whose keys have signed it, and What handed(To), received(At) or
 %   entered(Result). Verdict is `whole`, or unaccounted(Name): Name is the
-%   host after which, or in whose hands, state or code have become what nobody
-%   answers for; `nobody` where that is so from the beginning. It is since(N)
+%   host after which, or in whose hands, state or code changed without a
+%   signature; `nobody` where that is so from the beginning. It is since(N)
 %   where all is well from the N-th link on, and those before are gone.
 %
 %   @error existence_error(keys, here)

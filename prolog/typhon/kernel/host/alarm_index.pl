@@ -33,10 +33,10 @@ index_make(Index) :-
     alarms_number(Count),
     More is max(500, Count),
     current_prolog_flag(stack_limit, Bytes),
-    Room is Bytes//512-Count,
-    (   Room > 0
+    Space is Bytes//512-Count,
+    (   Space > 0
     ->  tree(Stamps),
-        Left is min(Room, More),
+        Left is min(Space, More),
         Index = index(Stamps, Left)
     ;   print_message(warning, typhon(no_index(Count))),
         alarm_least(Stamp),
@@ -94,5 +94,5 @@ index_size(index(Stamps, _), Size) :-
                 *******************************/
 
 prolog:message(typhon(no_index(Count))) -->
-    [ 'The timer has no room for an index of ~D alarms, and is slow'-
+    [ 'The timer has no memory for an index of ~D alarms, and is slow'-
       [Count] ].

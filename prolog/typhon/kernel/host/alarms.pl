@@ -20,8 +20,8 @@
 
 An alarm is a fact: at Stamp, fire(Agent, Token) is to be called.
 
-An alarm whose purpose is over does no harm, so nobody need clear it: the
-rooms that set alarms say with over/2 which are, and these are forgotten
+An alarm that is not needed any more does no harm, and is not cleared: the
+modules that set alarms define by over/2 which are, and these are forgotten
 when as many have been set as there were alarms.  Thus there are never more
 than twice those that count, and some hundreds.
 
@@ -32,7 +32,7 @@ them.
 */
 
 :- multifile
-    typhon_scheduler:over/2.            % Agent, Token: nobody waits for it
+    typhon_scheduler:over/2.            % Agent, Token: it is not needed any more
 
 :- dynamic
     alarm/3,                            % Stamp, Agent, Token

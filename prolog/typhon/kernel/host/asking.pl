@@ -1,5 +1,5 @@
 :- module(typhon_asking,
-          [ process_ask/6,              % +Endpoint, +Who, +Kind, +Term,
+          [ process_ask/6,              % +Endpoint, +Host, +Kind, +Term,
                                         % -Answer, +Seconds
             as_guest/1                  % :Goal
           ]).
@@ -14,31 +14,30 @@ A process without hosts is a guest in the network for as long as a question
 takes: it has an endpoint of its own until the answer is there.
 
 *Threading*: any thread that may wait.  The platform's own are no guests:
-who stops it waits for them.
+stopping it waits for them.
 */
 
 :- meta_predicate as_guest(0).
 
-%!  process_ask(+Endpoint, +Who, +Kind, +Term, -Answer, +Seconds) is det.
+%!  process_ask(+Endpoint, +Host, +Kind, +Term, -Answer, +Seconds) is det.
 %
-%   As endpoint_call/5, in behalf of a person who knows whom he asks as Who,
-%   a host.
+%   As endpoint_call/5; errors name the process as Host.
 %
-%   @error host_unreachable(Who)
-%   @error permission_error(authenticate, host, Who): the process there has
+%   @error host_unreachable(Host)
+%   @error permission_error(authenticate, host, Host): the process there has
 %   another cookie than this one
 %   @error those of endpoint_call/5
 
-process_ask(Endpoint, Who, Kind, Term, Answer, Seconds) :-
+process_ask(Endpoint, Host, Kind, Term, Answer, Seconds) :-
     as_guest(catch(endpoint_call(Endpoint, Kind, Term, answer(Answer),
                                  Seconds),
                    error(unreachable(_), _),
-                   unreachable(Endpoint, Who))).
+                   unreachable(Endpoint, Host))).
 
-unreachable(Endpoint, Who) :-
+unreachable(Endpoint, Host) :-
     (   endpoint_missed(Endpoint, permission_error(authenticate, peer, cookie))
-    ->  Formal = permission_error(authenticate, host, Who)
-    ;   Formal = host_unreachable(Who)
+    ->  Formal = permission_error(authenticate, host, Host)
+    ;   Formal = host_unreachable(Host)
     ),
     throw(error(Formal, _)).
 

@@ -91,7 +91,7 @@ turn_begin(Work, Turn) :-
     ;   Turn = none
     ).
 
-%   Two that begin at once may count as one: who asks wants to know whether
+%   Two that begin at once may count as one: callers want to know whether
 %   any did.
 
 one_turn_more :-
@@ -114,7 +114,7 @@ turns_begun(Count) :-
 
 %!  work_doer(+Work, -Type, -What) is det.
 %
-%   Who does Work: an `agent`, or a `goal`, which may be large: its name
+%   The kind of Work: an `agent`, or a `goal`, which may be large: its name
 %   will do.
 
 work_doer(agent(Agent), agent, Agent).

@@ -27,7 +27,7 @@ each other by a mutex.
 %   Change an option of a host that runs, here or elsewhere: tokens, capacity,
 %   authors, concurrency, hop_time, log, audit, peer, policy, python, quota,
 %   remote, seed or trail, as of host_start/2, or services, to which those given
-%   are added.  Who stands on the host stays, also where fewer are let in from
+%   are added.  Agents on the host stay, also if fewer are admitted from
 %   now on.
 %
 %   @error existence_error(host, Host)

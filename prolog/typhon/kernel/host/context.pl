@@ -10,7 +10,7 @@
 
 :- use_module(turns, [turn_begins/1]).
 
-/** <module> Who is running, and where
+/** <module> The running agent and its host
 
 While a worker runs an agent, or a thread runs a goal in the place of a
 host, the vocabulary has to know the host and the agent.
@@ -34,8 +34,8 @@ context_clear :-
 
 %!  context_now(?Host, -Agent) is semidet.
 %
-%   The running agent, `none` for somebody else on Host.  Fails if there is
-%   nobody.
+%   The running agent, `none` for another goal on Host.  Fails if there is
+%   none.
 
 context_now(Host, Agent) :-
     nb_current(typhon_context, context(Host, Agent, _)).
@@ -70,7 +70,7 @@ context_host(Host) :-
 
 %!  in_context(+Host, :Goal) is semidet.
 %
-%   Run Goal once as one who stands on Host without being an agent.
+%   Run Goal once on Host, not as an agent.
 
 in_context(Host, Goal) :-
     (   nb_current(typhon_context, Old)

@@ -10,10 +10,10 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/error_text', [print_error/2]).
 
-/** <module> What happens, and who wants to hear of it
+/** <module> Events, and their listeners
 
-Rooms that do something say so here, by event/4, and need not know who
-listens: the log of a host, somebody who traces an agent, or who watches.
+Modules report events here, by event/4, and need not know the
+listeners: the log of a host, tracers of an agent, watches.
 
   | kind     | what                                                       |
   | -------- | ---------------------------------------------------------- |
@@ -28,14 +28,14 @@ listens: the log of a host, somebody who traces an agent, or who watches.
   | hosts    | `started`, `stopped`, refused(Agent, Reason)               |
   | goals    | goal(Goal): only of agents that are traced                 |
 
-What happens to a host, and not to somebody on it, has the agent `none`.
+An event of a host, not of an agent, has the agent `none`.
 
 Listeners are noted by kind, and by the host or the agent whose events they
-want.  As long as nobody has asked for a kind, an event of it costs less than
+want.  As long as a kind has no listener, an event of it costs less than
 a tenth of a microsecond.
 
-*Threading*: any thread says something, and is not to wait for those who
-listen.
+*Threading*: any thread reports events, and listeners must not make it
+wait.
 */
 
 :- multifile
@@ -44,7 +44,7 @@ listen.
 
 :- dynamic hears/3.             % Kind, Host or agent, Listener
 
-%   A log can have these.  Goals are only for those who trace an agent.
+%   A log can have these.  Goals are only for tracers of an agent.
 
 error:has_type(event_kind, Kind) :-
     nonvar(Kind),
@@ -70,13 +70,13 @@ event(Kind, Host, Agent, What) :-
 
 %!  event_heard(+Kind) is semidet.
 %
-%   Somebody in this process may want to hear of Kind.
+%   There is a listener for Kind in this process.
 
 event_heard(Kind) :-
     hears(Kind, _, _),
     !.
 
-%   What is told of one agent to people is in the log, too.
+%   Events that are printed for one agent are in the log, too.
 
 tell(Kind, Host, Agent, What) :-
     hears(Kind, Agent, _),
@@ -96,7 +96,7 @@ listener(Kind, _, Agent, Listener) :-
 listener(Kind, _, Agent, log) :-
     hears(Kind, Agent, _).
 
-%   Who cannot be told is no reason for an agent to stop.
+%   A listener that fails is no reason for an agent to stop.
 
 tell_one(Listener, Host, Agent, What) :-
     catch(ignore(told(Listener, Host, Agent, What)),
@@ -107,7 +107,7 @@ tell_one(Listener, Host, Agent, What) :-
 %!  events_forget(+Key) is det.
 %
 %   Listener, of which told/4 knows, hears of events of Kinds on a host, or
-%   of an agent, Key; nobody listens any more to what happens to Key.
+%   of an agent, Key; forget the listeners for Key.
 
 events_hear(Kinds, Key, Listener) :-
     with_mutex(typhon_events,

@@ -51,8 +51,8 @@ offer(Place, PI) :-
 
 %!  front_set(+Host, +Place, +Policy) is det.
 %
-%   Policy is `trusted`, `guarded`, or a file of rules.  Who stands on the host
-%   stays what he is.
+%   Policy is `trusted`, `guarded`, or a file of rules.  Agents on the host
+%   keep their policy.
 %
 %   @error what policy_read/1 raises
 

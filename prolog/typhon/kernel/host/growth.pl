@@ -15,10 +15,10 @@
 
 /** <module> The pool grows when the run queue is stuck
 
-The run queue is watched since so many turns began: work waits, and nobody
+The run queue is watched since so many turns began: work waits, and no worker
 was idle.  When none began meanwhile there are more workers: one, or some
 where there are many.  There are at most `max_workers`, not counting those
-that were held for long, see room `held`; while there are such, that is
+that were held for long, see module `held`; while there are such, that is
 looked at from time to time.
 
 *Threading*: the thread of the timer.
@@ -66,7 +66,7 @@ grow(Queue, Turns) :-
     Some is 1+Count//8,
     forall(between(1, Some, _), grow_by_one(Queue, Max)).
 
-%   Fails when there is no room, no thread, or little memory.
+%   Fails when the pool is full, or there is no thread, or little memory.
 
 grow_by_one(Queue, Max) :-
     queue_waits(Queue),

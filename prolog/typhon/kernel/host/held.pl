@@ -14,12 +14,12 @@
 
 /** <module> What is done when workers are held
 
-A native goal that blocks holds its worker; nobody knows beforehand which
-goals do.  When all workers the pool may have are busy and the run queue
-does not move, a census begins, see room `census`.  A worker that has not
+A native goal that blocks holds its worker; which goals do is not known
+beforehand.  When all workers the pool may have are busy and the run queue
+does not move, a census begins, see module `census`.  A worker that has not
 come back for `held_seconds` is held.  The pool may grow beyond its maximum
 by as many as are held, so there are workers for what does not block, and
-people are told which agents do.
+a warning names the agents.
 
 When there are `held_workers`, or no more threads can be made, the pool is
 full.  Then it matters what kinds of work hold workers: agents of one
@@ -189,7 +189,7 @@ doers(Doers) :-
 
 %!  held_back(+Work) is semidet.
 %
-%   Work is of a kind that blocks, at a time when there is no room for
+%   Work is of a kind that blocks, at a time when there is no worker for
 %   such: it is put back.
 
 held_back(Work) :-

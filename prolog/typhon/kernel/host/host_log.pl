@@ -59,7 +59,7 @@ host_log(Host, Agent, What) :-
           lost(Formal, Context, Endpoint)).
 host_log(_, _, _).
 
-%   A log server that is not there is told of once, and again when it is: what
+%   A log server that is not there is reported once, and again when it is: what
 %   has happened meanwhile is lost.
 
 lost(unreachable(_), _, Endpoint) :-

@@ -4,7 +4,7 @@
 
 /** <module> What may be said of a host that is started
 
-What it means is told at host_start/2, which of it may be changed later at
+What it means is described at host_start/2, which of it may be changed later at
 host_change/2.
 
 *Threading*: facts only.

@@ -54,11 +54,11 @@ other users of the process its endpoint, see typhon_runtime.
            "Agents have so long to come to an effect when their host stops").
 
 :- multifile
-    begins/1,                   % Name: is there, who wants may listen
-    typhon_durable:tidy/0,     % nobody is let in yet
+    begins/1,                   % Name: is there, listeners may join
+    typhon_durable:tidy/0,     % no agent is admitted yet
     typhon_durable:recover/0,  % what the journal knows stands again
     typhon_durable:go_on/0,    % and goes on
-    evacuate/2.                 % Name, Deadline: nobody is left on the host
+    evacuate/2.                 % Name, Deadline: no agent is left on the host
 
 :- dynamic
     typhon_durable:recover/0,
@@ -167,8 +167,8 @@ start(Name, Options) :-
 
 %!  host_restart(+Name, +Options) is det.
 %
-%   As host_start/2, of a host that there was before: nobody hears that it is
-%   started.
+%   As host_start/2, of a host that there was before: its start is not
+%   reported.
 
 host_restart(Name, Options) :-
     with_mutex(typhon_hosting, restart(Name, Options)).
@@ -232,7 +232,7 @@ all_back(Hosts) :-
 %!  hosts_go_on is det.
 %
 %   What a host with the option journal(Dir) does when it starts, in steps,
-%   for who has something to do in between, or has no host yet: the journal
+%   for callers that act in between, or have no host yet: the journal
 %   is open, and the process may start its endpoint; all that it knows is
 %   there again, its hosts with Options in place of what they had, and others
 %   are let in; what is there goes on.
@@ -263,7 +263,7 @@ hosts_go_on :-
 hosts_rest :-
     in_own_thread(with_mutex(typhon_hosting, rest)).
 
-%   What somebody tries to say then is of no interest.
+%   Messages sent then are dropped.
 
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.
@@ -271,8 +271,8 @@ hosts_rest :-
 user:message_hook(error(existence_error(journal, open), _), _, _) :-
     durable_closed.
 
-%   Virtual time that is held cannot end; in real time who is kept back would
-%   find that others are gone.
+%   Virtual time that is held cannot end; in real time agents that are kept back
+%   would find that others are gone.
 
 rest :-
     durable_close,
@@ -323,7 +323,7 @@ start_host(Name, Endpoint, Options) :-
     forall(begins(Name), true),
     debug(typhon(host), '~w is started', [Address]).
 
-%   Without an authority nobody's signature means anything.
+%   Without an authority no signature is valid.
 
 must_have_keys(Options) :-
     (   \+ memberchk(authors(_), Options)
@@ -370,7 +370,7 @@ stop_one(Name0) :-
     host(Name, Address, Place),
     rest_or_end(Name),
     (   durable_closed
-    ->  events_forget(Name)             % who rests does not end
+    ->  events_forget(Name)             % an agent at rest does not end
     ;   true
     ),
     host_close(Name),

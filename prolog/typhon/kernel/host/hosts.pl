@@ -112,7 +112,7 @@ count_key(Name, Key) :-
 %!  host_close(+Name) is det.
 %!  host_closed(+Name) is semidet.
 %
-%   From now on nobody is admitted: it is about to stop.
+%   From now on no agent is admitted: it is about to stop.
 
 host_close(Name) :-
     retractall(door(Name, _, _, _, _)).
@@ -199,7 +199,7 @@ count_load(Key, Change) :-
 %!  host_again(+Name) is det.
 %!  host_leave(+Name) is det.
 %
-%   One who stands on Name counts again, whatever its capacity; or no longer.
+%   An agent on Name counts again, whatever its capacity; or no longer.
 
 host_again(Name) :-
     (   load_key(Name, Key)
@@ -226,8 +226,8 @@ host_load(Name, Load) :-
 %!  host_hop(+Name, +Direction, +Seconds) is det.
 %!  host_passed(+Here, +There, +Seconds) is det.
 %
-%   A hop into (`in`) or out of (`out`) Name took Seconds of host time; one who
-%   stood on Here is on There now, both hosts of this process.
+%   A hop into (`in`) or out of (`out`) Name took Seconds of host time; an agent
+%   on Here is on There now, both hosts of this process.
 
 host_hop(Name, Direction, Seconds) :-
     hop_keys(Name, Direction, Flags),

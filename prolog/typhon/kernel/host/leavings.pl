@@ -8,11 +8,11 @@
 :- use_module(quotas, [quota/3, quota_any/1, quota_shared/4]).
 :- use_module(spending, [quota_passed/1, quota_spend/3]).
 
-/** <module> Who has left what in a tuple space
+/** <module> Tuples by the agents that left them
 
 Where there are quotas of tuples it is counted how many facts in the tuple
 space are from an agent, from agents of one owner, and from all.  Facts stay
-when who has left them goes.
+when their agent goes.
 
 *Threading*: any thread; a mutex guards the counts.
 */
@@ -21,7 +21,7 @@ when who has left them goes.
     typhon_quotas:forgotten/1,
     typhon_spending:owner/3.
 
-:- dynamic left/4.              % Host, agent or owner, Who, Count
+:- dynamic left/4.              % Host, agent or owner, Id, Count
 
 %!  may_leave(+Host) is det.
 %
@@ -61,8 +61,7 @@ too_many(Host, Agent) :-
     too_many(Whose, Host, Count, Most),
     !.
 
-%   Where there is no room left it is those who have taken most of it that have
-%   to go.
+%   When the space is full the agents that use most of it have to go.
 
 too_many(owner, _, Count, Most) :-
     Count >= Most.
@@ -71,8 +70,8 @@ too_many(host, Host, Count, Most) :-
     All >= Most,
     \+ ( left(Host, owner, _, More), More > Count ).
 
-count(Host, Kind, Who, Count) :-
-    (   left(Host, Kind, Who, Count0)
+count(Host, Kind, Id, Count) :-
+    (   left(Host, Kind, Id, Count0)
     ->  Count = Count0
     ;   Count = 0
     ).
@@ -81,7 +80,7 @@ count(Host, Kind, Who, Count) :-
 %!  leaving_begins(+By) is det.
 %!  leaving_ends(+By) is det.
 %
-%   By is who leaves a fact now, `none` where nobody counts; a fact that is
+%   By is the agent that leaves a fact now, `none` where they are not counted; a fact that is
 %   By's is there, or is there no more.
 
 leaver(Host, By) :-
@@ -105,13 +104,13 @@ counted(by(Host, Agent, Owner), Change) :-
                  more(Host, owner, Owner, Change),
                  more(Host, all, all, Change) )).
 
-more(Host, Kind, Who, Change) :-
-    (   retract(left(Host, Kind, Who, Count0))
+more(Host, Kind, Id, Change) :-
+    (   retract(left(Host, Kind, Id, Count0))
     ->  Count is Count0+Change
     ;   Count is Change
     ),
     (   Count > 0
-    ->  assertz(left(Host, Kind, Who, Count))
+    ->  assertz(left(Host, Kind, Id, Count))
     ;   true
     ).
 

@@ -31,8 +31,8 @@ gives it its own.
 %!  limit_set(+Host, +Concurrency, -Work:list) is det.
 %
 %   From now on at most Concurrency agents of Host run at a time; `inf` is no
-%   limit.  Who was parked and may run is in Work, as of limit_enter/3.  Who
-%   runs is not stopped.
+%   limit.  Parked agents that may run are in Work, as of limit_enter/3.
+%   Running ones are not stopped.
 
 limit_set(Host, inf, Work) :-
     !,
@@ -60,7 +60,7 @@ unpark(Host, Concurrency, [agent(Host, Agent)|Work]) :-
     unpark(Host, Concurrency, Work).
 unpark(_, _, []).
 
-%   Who waits for a turn, and how many have one.
+%   The agents that wait for a turn, and how many have one.
 
 typhon_durable:dump(turns, Host, Running, Agents) :-
     limit(Host, _),

@@ -29,7 +29,7 @@ One direction of each: the other is known to the other host.
 %!  host_unlink(?Name, ?Address) is det.
 %
 %   One direction of a link; nothing to do where it is so already.  Cost is
-%   a number, or `same`: as it is, 1 for a new link.  Who listens hears of
+%   a number, or `same`: as it is, 1 for a new link.  Listeners get
 %   changes in the order in which they were made.
 
 host_link(Name, Address, Cost) :-
@@ -46,7 +46,7 @@ note_link(Name, Address) :-
 link_key(Name, Address, Key) :-
     atomic_list_concat([Name, Address], ' ', Key).
 
-%   Nobody hears of a link that was there before.
+%   A link that was there before is not reported.
 
 typhon_durable:dump(link, Key, 0, link(Name, Address, Cost)) :-
     neighbour(Name, Address),
@@ -68,7 +68,7 @@ add_link(Name, Address) :-
         event(links, Name, none, link(Address))
     ).
 
-%   Who asks meanwhile finds the old cost or the new one.
+%   A caller meanwhile finds the old cost or the new one.
 
 set_cost(same, _, _) :-
     !.

@@ -15,7 +15,7 @@
 
 /** <module> Which process may do what on a host
 
-The option peer(Rules) of a host is a list of Who-Rights.  Who is `cookie`,
+The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
 certificate(Name), or a pattern of these; Rights is `all` or a list out of
 
   - agents: create agents here, and let them come
@@ -24,9 +24,9 @@ certificate(Name), or a pattern of these; Rights is `all` or a list out of
   - remote: run goals here, see remote/2
   - watch: look at agents and at the properties of the host
 
-The first rule counts whose Who the peer is; who is in none may nothing.
-Without rules, who has the cookie may everything; where there is TLS, who has
-our own certificate may, and who has another, everything but `remote`.
+The first rule that matches the peer counts; without a match it has no right.
+Without rules, a peer with the cookie has all rights; with TLS, a peer with
+our own certificate has, and one with another, all but `remote`.
 
 With the option audit(File) each refusal, order and remote goal is a line there,
 
@@ -59,8 +59,8 @@ must_be_peer_rules(Rules) :-
 
 must_be_rule(Rule) :-
     (   nonvar(Rule),
-        Rule = Who-Rights,
-        \+ \+ member(Who, [cookie, certificate(_)]),
+        Rule = Peer-Rights,
+        \+ \+ member(Peer, [cookie, certificate(_)]),
         rights(Rights)
     ->  true
     ;   domain_error(peer_rule, Rule)
@@ -98,8 +98,8 @@ peer_permitted(Peer, Host, Right) :-
     !.
 
 by_rules(Rules, Proof, Right) :-
-    member(Who-Rights, Rules),
-    subsumes_term(Who, Proof),
+    member(Peer-Rights, Rules),
+    subsumes_term(Peer, Proof),
     !,
     (   Rights == all
     ->  true

@@ -18,7 +18,7 @@
 What is to be done by a worker waits in one queue: agent(Agent),
 agent(Host, Agent) for one that has a turn on Host, goal(Goal), or `stop`.
 
-When work waits and nobody is idle, an alarm of `pool` is set, watch(Turns):
+When work waits and no worker is idle, an alarm of `pool` is set, watch(Turns):
 if no turn has begun until it goes off, the queue is stuck.
 
 *Threading*: any thread; the queue begins and ends under the mutex of the
@@ -71,8 +71,8 @@ queue_waits(Queue) :-
 
 %!  queue_empty is semidet.
 %
-%   There is a queue, and nothing waits in it.  While a census is held who
-%   works is to come back, and be counted.
+%   There is a queue, and nothing waits in it.  During a census
+%   working threads have to come back, and be counted.
 
 queue_empty :-
     run_queue(Queue),
@@ -86,8 +86,8 @@ queue_empty :-
 %!  queue_watch_if_last(+Queue) is det.
 %!  queue_watch_if_stuck(+Queue) is det.
 %
-%   A worker has taken something, or ends.  What was queued while somebody
-%   was idle still may find nobody when its turn comes.
+%   A worker has taken something, or ends.  What was queued while a worker
+%   was idle may find none when its turn comes.
 
 queue_watch_if_last(Queue) :-
     (   message_queue_property(Queue, waiting(_))

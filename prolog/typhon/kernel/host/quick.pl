@@ -7,7 +7,7 @@
 
 /** <module> Agents whose turns are short
 
-Who brings an agent in may run it at once, rather than wake a worker, as long
+The thread that reads an agent may run it at once, rather than wake a worker, as long
 as its turns are short.  Those of a kind are taken for short until one was
 not, and again after a while.
 
@@ -20,7 +20,7 @@ long; but of one kind hardly two of a few, unless they wait for something.
 :- meta_predicate quick_turn(+, 0).
 
 :- multifile
-    typhon_scheduler:kind/2.            % Agent, Kind: who may block alike
+    typhon_scheduler:kind/2.            % Agent, Kind: agents that may block alike
 
 :- dynamic
     slow/2.                             % Kind, Until

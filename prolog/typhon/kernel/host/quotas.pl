@@ -30,7 +30,7 @@ Quotas are What(Most), of each agent that stands on the host:
 and owner(What(Most)) of all agents here that have one owner, see
 typhon_owner, together, and host(What(Most)) of all that are here.  There are
 also owner(agents(N)), how many may be here, and host(tuples(N)), the facts in
-the tuple space.  Who has most ends first: of what the host has together, the
+the tuple space.  The largest user ends first: of what the host has together, the
 agents of the owner that uses most of it.
 
 A host that guards has the defaults, where it is not said otherwise.  A host
@@ -38,7 +38,7 @@ without quotas does without all of this: looking whether there are some is all
 that it costs.
 
 While there are hosts with quotas of what is not counted when it is used, a
-thread looks ten times a second at who uses how much.
+thread checks ten times a second how much each uses.
 
 *Threading*: quota_set/3 and quota_forget/1 as host_start/2, the others in
 any thread.
@@ -47,7 +47,7 @@ any thread.
 :- multifile
     typhon_names:known/2,       % Kind, Name
     set/1,                      % Host has other quotas now
-    look/0,                     % who uses too much is interrupted
+    look/0,                     % agents that use too much are interrupted
     forgotten/1.                % Host has no quotas any more
 
 :- dynamic

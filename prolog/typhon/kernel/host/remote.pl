@@ -93,7 +93,7 @@ serve(Name, Goal, ReplyTo) :-
     catch(outcome(Name, Goal, Answer), Ball, raised(Ball, Answer)),
     endpoint_reply(ReplyTo, Answer).
 
-%   What cannot travel goes as text: who asked must get an answer.
+%   What cannot travel goes as text: the caller must get an answer.
 
 raised(Ball, raised(Portable)) :-
     catch(( mobile_term(Ball), Portable = Ball ),

@@ -25,7 +25,7 @@
 
 The endpoint and the scheduler run as long as anybody in the process uses
 them: hosts, log servers.  The first user starts them, the last one stops
-them.  The rooms above that have something to see to then say so with the
+them.  Higher layers join by the
 hooks beginning/1 and ending/1.
 
 *Threading*: a mutex makes users come and go one at a time.
@@ -40,8 +40,8 @@ hooks beginning/1 and ending/1.
     ending/1,
     user/2.                             % Name of a user, Endpoint
 
-%   When this is loaded, or a saved state with it begins: who starts a host may
-%   have threads already.
+%   When this is loaded, or a saved state with it begins: the process may
+%   have threads when a host is started.
 
 :- initialization(functors_room).
 
@@ -54,8 +54,8 @@ hooks beginning/1 and ending/1.
 %   variable `TYPHON_TLS`; of later ones interface and keys may only be what
 %   they are, and
 %   another port is listened to as long as one of them needs it.  The same
-%   goes for time(Kind), `real` or `virtual`: who does not say is content with
-%   either.  In virtual time the endpoint reaches nobody else, and ports mean
+%   goes for time(Kind), `real` or `virtual`; without it either
+%   will do.  In virtual time the endpoint reaches no other process, and ports mean
 %   nothing.
 %
 %   @error permission_error(change, endpoint, Option)
@@ -107,8 +107,7 @@ start_endpoint(real, Options) :-
 start_endpoint(virtual, _) :-
     endpoint_start_alone('virtual:0').
 
-%   Who starts nothing himself, as a guest, has no other way to say it than
-%   the environment.
+%   A process that starts no host, a guest, gets it from the environment.
 
 keys(Options, Keys) :-
     (   ( option(tls(Directory), Options)

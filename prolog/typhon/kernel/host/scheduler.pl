@@ -21,10 +21,10 @@
 /** <module> The scheduler: agents that are ready, and their turns
 
 An agent that is ready is among the work to be done once; an agent that
-sleeps, waits or is resident is not here at all.  Who does the work, and when
-alarms go off, is the business of room `time`.
+sleeps, waits or is resident is not here at all.  Module `time` decides which thread does the work, and when
+alarms go off.
 
-What an agent is, the room above says with the hooks run/1, fire/2, over/2,
+Higher layers define agents by the hooks run/1, fire/2, over/2,
 kind/2 and running/1.
 
 *Threading*: any thread.
@@ -36,7 +36,7 @@ kind/2 and running/1.
 :- multifile
     run/1,                      % Agent: run it until it has to wait
     fire/2,                     % Agent, Token: an alarm went off
-    over/2,                     % Agent, Token: nobody waits for this alarm
+    over/2,                     % Agent, Token: this alarm is not needed any more
     kind/2,                     % Agent, Kind: Agents that may block alike
     running/1.                  % Agent: has a worker
 
@@ -74,8 +74,8 @@ schedule(Host, Agent) :-
 
 %!  schedule_stays(+Here, +There) is semidet.
 %
-%   Who runs an agent that was on Here may go on with it on There: nobody
-%   else waits to be run.  To wake another thread would cost as much as the
+%   The worker that runs an agent on Here may go on with it on There: no
+%   other agent waits to be run.  To wake another thread would cost as much as the
 %   hop.
 
 schedule_stays(Here, There) :-

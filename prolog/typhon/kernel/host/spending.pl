@@ -39,7 +39,7 @@ thread at a time; what it shares with others is counted under a mutex.
 quota_spend(Host, _, _) :-
     \+ quota_any(Host),
     !.
-quota_spend(_, none, _) :-              % somebody who is no agent
+quota_spend(_, none, _) :-              % not an agent
     !.
 quota_spend(Host, Agent, What) :-
     quota(Host, What, Most),
@@ -67,7 +67,7 @@ spend(Agent, What, Second, Most) :-
     ;   quota_passed(What)
     ).
 
-%   Who has gone does not come to spend more.
+%   An agent that left spends no more.
 
 forget_some :-
     predicate_property(spent(_, _, _, _), number_of_clauses(Count)),
@@ -99,7 +99,7 @@ spend_shared(Host, Agent, What) :-
         ->  quota_passed(What)
         ;   true
         )
-    ;   true                            % somebody who is no agent
+    ;   true                            % not an agent
     ).
 spend_shared(_, _, _).
 
@@ -126,7 +126,7 @@ one_more(Host, What, Owner, Second, Count) :-
     ),
     assertz(shared(Host, What, Owner, Second, Count)).
 
-%   Nobody ends for what others do: of all it is those of whom there is most.
+%   No agent ends for what others do: of all, the most frequent end.
 
 too_much(Host, What, _, Count, _) :-
     quota_shared(Host, owner, What, Most),

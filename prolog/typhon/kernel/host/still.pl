@@ -10,7 +10,7 @@
 While it is still no alarm goes off, and no agent begins a turn: those whose
 turn has come are kept until that is over.
 
-*Threading*: any thread; who begins it ends it.
+*Threading*: any thread; the thread that begins it ends it.
 */
 
 :- dynamic

@@ -32,11 +32,11 @@
 
 /** <module> The kinds of time
 
-Work that is to be done, alarms that are to go off and those who wait are
-seen to in one of two ways:
+Work, alarms and waiting callers are
+served in one of two ways:
 
-  | real    | by a pool of threads, when the time of day has come: room pool |
-  | virtual | by one thread, as quick as it can; time jumps: room virtual   |
+  | real    | by a pool of threads, when the time of day has come: module pool |
+  | virtual | by one thread, as quick as it can; time jumps: module virtual   |
 
 A process has one kind of time for as long as it has hosts.  Stamps are
 seconds: those of the time of day, or those since virtual time began.
@@ -103,7 +103,7 @@ seed(virtual, Seed) :- virtual_work(goal(set_random(seed(Seed)))).
 %!  time_let_go(-Agents:list) is det.
 %!  time_again(+Standing, -Agents:list) is det.
 %
-%   Nobody gets a turn any more, and no alarm goes off; fails if that cannot be
+%   No agent gets a turn any more, and no alarm goes off; fails if that cannot be
 %   had in Seconds of the time of day.  In virtual time that is at once so, and
 %   Standing all that time knows of what comes next.  It goes on, which is to be
 %   said in either case: Agents have missed their turn.  What comes next is as
@@ -153,7 +153,7 @@ time_due(Agent, Token, Stamp) :-
 
 %!  time_work(+Work) is det.
 %
-%   Work, see room `work`, is done some time soon.
+%   Work, see module `work`, is done some time soon.
 
 time_work(Work) :-
     time_kind(Kind),
@@ -166,7 +166,7 @@ work(virtual, Work) :- virtual_work(Work).
 
 %!  time_alone is semidet.
 %
-%   Nothing else waits to be done: who does something may go on with it.
+%   Nothing else waits to be done: the thread may go on.
 
 time_alone :-
     time_kind(Kind),
@@ -178,7 +178,7 @@ alone(virtual) :- virtual_alone.
 %!  time_here(+Agent) is semidet.
 %
 %   Run Agent in this thread, which has other things to do, too; fails
-%   where it is to be done by those who do the work.
+%   where it is to be done by workers.
 
 time_here(Agent) :-
     time_kind(real),
@@ -205,7 +205,7 @@ alarm_set(virtual, Stamp, Agent, Token) :- virtual_alarm(Stamp, Agent, Token).
 
 %!  time_wait(+Queue, -Message, +Stamp) is semidet.
 %
-%   Take the first Message of Queue, from which nobody else takes.  Fails if
+%   Take the first Message of Queue, from which no other thread takes.  Fails if
 %   there is none before Stamp, a number or `inf`.
 
 time_wait(Queue, Message, Stamp) :-

@@ -31,7 +31,7 @@ that comes before the next does, and many that it has not heard of yet.
 
 *Threading*: alarms from any thread.  The flag typhon_next says what the
 timer waits for; it is written before the timer looks for new alarms for the
-last time, and read by who adds one after that: so one of the two sees the
+last time, and read by a thread that adds one after that: so one of the two sees the
 other.
 
 Whatever happens to the timer, no alarm is lost with it: after an error it
@@ -212,7 +212,7 @@ tell(Timer, Message) :-
                 *           THE TIMER          *
                 *******************************/
 
-%   tick: one index after another, until it is told to stop.  What is
+%   tick: one index after another, until the message to stop.  What is
 %   thrown at the timer has no meaning for it, but `abort`, which ends it.
 
 tick :-

@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> Who runs an agent, and since when
+/** <module> The thread that runs an agent, and since when
 
 Each thread that runs agents has two flags, which it sets when a turn
 begins: the agent, and the time of day.  This costs a fifth of a

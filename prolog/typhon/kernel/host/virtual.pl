@@ -25,12 +25,12 @@ One thread does all work, in the order in which it came.  When there is no
 more, the clock jumps to the next alarm.  What is done thus follows from the
 programs alone: not from how busy the machine is, nor from other threads.
 
-Time runs while somebody waits, in virtual_wait/3, and stands still from the
-moment at which what he waits for is there.  So whoever writes a program that
+Time runs while a caller waits, in virtual_wait/3, and stands still from the
+moment at which what it waits for is there.  So whoever writes a program that
 starts agents, waits, looks, and waits again finds the same each time.
 
 A native goal takes no time.  One that does not end, and agents that go on
-for ever at one instant, are told of.
+for ever at one instant, are reported.
 
 *Threading*: any thread may call, and what two of them do at the same time
 comes in any order; with one there is no chance.
@@ -42,7 +42,7 @@ comes in any order; with one there is no chance.
 :- meta_predicate virtual_signal(0).
 
 :- setting(patience, number, 10,
-           "Virtual time that stands still for so long is told of").
+           "Virtual time that stands still for so long is reported").
 
 :- dynamic
     loop/2.                             % Thread, Queue
@@ -111,7 +111,7 @@ virtual_signal(Goal) :-
 %
 %   Nothing is done any more: fails if that is not so in Seconds of the time of
 %   day.  Time is as Standing says.  It goes on.  It stands as it did
-%   then, until somebody waits; Agents have their turns, or wait for them at
+%   then, until a caller waits; Agents have their turns, or wait for them at
 %   their hosts.  What is called in the thread of virtual time itself holds it
 %   anyway.
 
@@ -164,8 +164,8 @@ asked(Question, Reply, Options, Answer) :-
 %!  virtual_wait(+Queue, -Message, +Stamp) is semidet.
 %
 %   Let time run until there is a Message in Queue, which is taken; fails at
-%   Stamp, a number or `inf`.  Who is asked by an agent cannot wait: for as
-%   long as a goal runs there is no time.
+%   Stamp, a number or `inf`.  A goal of an agent cannot wait: while
+%   it runs no time passes.
 
 virtual_wait(Queue, Message, _) :-
     there(Queue),

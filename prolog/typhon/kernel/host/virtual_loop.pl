@@ -21,18 +21,18 @@
 
 It hears in one queue of what is to be done, in order:
 
-  | do(Work)                  | see room `work`                          |
+  | do(Work)                  | see module `work`                        |
   | alarm(Stamp, Agent-Token) | of two at one Stamp the first goes first |
-  | ask(wait(Reply, Waited, Stamp)) | somebody waits for a message in Waited, until Stamp; Reply will hear `there` or `late` |
-  | ask(no_longer(Reply))     | he does not                              |
+  | ask(wait(Reply, Waited, Stamp)) | a caller waits for a message in Waited, until Stamp; Reply will get `there` or `late` |
+  | ask(no_longer(Reply))     | it does not any more                     |
   | ask(stop)                 |                                          |
   | ask(hold(Reply))          | Reply will hear `held`: nothing is done until held(let_go) |
   | held(standing(Reply))     | meanwhile: Reply will hear where time stands |
   | ask(again(Standing, Reply)) | time is as it was; Reply will hear `done` |
 
-While nobody waits it takes but what is asked: time stands still.
+Without a waiting caller it only answers questions: time stands still.
 
-*Threading*: the heap of alarms and the list of those who wait are on the
+*Threading*: the heap of alarms and the list of waiting callers are on the
 stack of this thread. The time and the number of steps are flags, which any
 thread may ask for.
 */
@@ -92,7 +92,7 @@ virtual_doing(Work) :-
 %!  virtual_alone is semidet.
 %
 %   What this thread does now may go on as if it had come again: nothing else
-%   is to be done, and nobody has what he waits for.
+%   is to be done, and no caller has what it waits for.
 
 virtual_alone :-
     nb_current(typhon_virtual_work, doing(_, Waiting, Queue)),
@@ -112,7 +112,7 @@ virtual_standing(Standing) :-
                 *           THE LOOP           *
                 *******************************/
 
-%   stand(+Queue, +Alarms): nobody waits.  Alarms is alarms(Count, Heap), by
+%   stand(+Queue, +Alarms): no caller waits.  Alarms is alarms(Count, Heap), by
 %   the keys at(Stamp, Number).
 
 stand(Queue, Alarms) :-
@@ -201,7 +201,7 @@ next(Waiting0, Queue, Alarms) :-
     satisfied(Waiting0, Waiting),
     go(Waiting, Queue, Alarms).
 
-%   Who catches an abort is to be aborted when he has recovered.  So this is
+%   A goal that catches an abort is to be aborted when it has recovered.  So this is
 %   where the loop goes on, to the end of time.
 
 go_on(Ball, Waiting, Queue, Alarms) :-
@@ -270,8 +270,8 @@ there(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
 
-%   satisfied(+Waiting0, -Waiting): those who have what they wait for hear of
-%   it.
+%   satisfied(+Waiting0, -Waiting): callers that have what they wait for are
+%   notified.
 
 satisfied(Waiting, Waiting) :-
     \+ ( member(Waits, Waiting), has_got(Waits) ),
@@ -287,7 +287,7 @@ late(Waiting) :-
     forall(member(waits(Reply, _, _), Waiting), reply(Reply, late)).
 
 reply(Reply, Answer) :-
-    ignore(told(Reply, Answer)).        % who waited was interrupted
+    ignore(told(Reply, Answer)).        % the caller was interrupted
 
 told(Reply, Answer) :-
     catch(thread_send_message(Reply, Answer), error(existence_error(_, _), _),

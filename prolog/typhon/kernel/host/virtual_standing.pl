@@ -14,19 +14,19 @@ A term from which it can go on, as it would have:
     virtual(Now, Random, Count, Alarms, Messages)
 
 the time, the state of the generator, the number of the next alarm, those
-alarms that somebody waits for, and what is still to be heard in the queue,
+alarms that are waited for, and what is still to be heard in the queue,
 without questions.
 
 *Threading*: the thread of virtual time, see virtual_loop.
 */
 
 :- multifile
-    typhon_scheduler:over/2.            % Agent, Token: nobody waits for it
+    typhon_scheduler:over/2.            % Agent, Token: it is not needed any more
 
 %!  standing(+Queue, +Alarms, -Standing) is det.
 %!  standing_again(+Standing, +Queue, -Alarms) is det.
 %
-%   So it stands; so it stands again.  What nobody has heard of yet, as at the
+%   So it stands; so it stands again.  Events that were not reported yet, as at the
 %   beginning, comes after what was in the queue then.
 
 standing(Queue, alarms(Count, Heap),

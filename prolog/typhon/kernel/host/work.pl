@@ -7,7 +7,7 @@
 /** <module> What there is to do
 
 Work is agent(Agent), agent(Host, Agent) for one that has a turn on Host, or
-goal(Goal).  Errors are told, and do not reach whoever does the work.
+goal(Goal).  Errors are printed, and do not reach the worker.
 
 *Threading*: any thread; no two have the same agent.
 */

@@ -98,7 +98,7 @@ workers_end(Queue) :-
 %!  worker_leave is det.
 %
 %   Thread, which runs an agent, is a worker until it has done so; this one
-%   has.  Nobody else joins it.
+%   has.  No other thread joins it.
 
 worker_adopt(Thread) :-
     with_mutex(typhon_scheduler, adopt(Thread)).
@@ -116,8 +116,8 @@ worker_leave :-
 leave(Me) :-
     (   run_queue(_),
         retract(worker(Me))
-    ->  thread_at_exit(thread_detach(Me))   % of an abort nothing is told then
-    ;   true                            % who stops the pool waits for it
+    ->  thread_at_exit(thread_detach(Me))   % an abort is not reported then
+    ;   true                            % stopping the pool waits for it
     ).
 
                 /*******************************

@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../host', [alarm_in/3, quota/3, scheduler_call/1]).
-:- use_module('../agent', [agent_room/2]).
+:- use_module('../agent', [agent_space/2]).
 :- use_module(lost, [mail_lost/3]).
 
 /** <module> Messages for whom there is no room
@@ -31,10 +31,10 @@ most_untold(1000).
 
 mail_fits(Id, Mail, Fitting) :-
     (   quota(_, mailbox, _),
-        agent_room(Id, Room),
+        agent_space(Id, Space),
         length(Mail, Count),
-        Count > Room
-    ->  length(Fitting, Room),
+        Count > Space
+    ->  length(Fitting, Space),
         append(Fitting, Rest, Mail),
         refuse(Id, Rest)
     ;   Fitting = Mail
