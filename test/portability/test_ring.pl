@@ -7,7 +7,7 @@
 :- use_module(library(process), [process_create/3, process_kill/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/wire/handshake), [random_hex/2]).
+:- use_module(library(typhon/kernel/wire), [random_hex/2]).
 :- use_module(library(typhon/kernel/wire), [endpoint_peer/2]).
 
 /** <module> Agents around a ring of processes

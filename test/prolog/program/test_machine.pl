@@ -4,10 +4,10 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(random)).
-:- use_module(library(typhon/kernel/program/machine)).
-:- use_module(library(typhon/kernel/program/loaded)).
-:- use_module(library(typhon/kernel/program/code)).
-:- use_module(library(typhon/kernel/wire/frame)).
+:- use_module(library(typhon/kernel/program),
+              [ code_clear/0, code_install/3, code_module/2, machine_run/3,
+                program_load/5 ]).
+:- use_module(library(typhon/kernel/wire), [term_text/2, text_term/2]).
 
 /** <module> Tests of typhon_machine: stopping and going on anywhere
 
@@ -62,8 +62,8 @@ state(Agent, (Head:-Body)) :-
     clause(Agent:Head, Body).
 
 round_trip(Term, Copy) :-
-    term_bytes(text, Term, Bytes),
-    bytes_term(text, Bytes, Copy).
+    term_text(Term, Text),
+    text_term(Text, Copy).
 
 go(_, true).
 

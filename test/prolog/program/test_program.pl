@@ -6,8 +6,8 @@
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/program/loaded), [program_load/5]).
-:- use_module(library(typhon/kernel/program/programs)).
+:- use_module(library(typhon/kernel/program),
+              [payload_load/2, program_hash/2, program_load/5]).
 
 /** <module> Tests of agent programs: what loads, what does not, and why
 
@@ -19,7 +19,7 @@ people see them.
 %   program_load(+Spec, -Program, -Initial): whatever is remembered.
 
 program_load(Spec, Program, Initial) :-
-    program_read(Spec, Program, Initial, _, _, _, _).
+    program_load(Spec, Program, Initial, _, _).
 
 %   with_file(+Lines, :Goal): Goal(File) for a file of these lines.
 

@@ -4,8 +4,9 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/wire), []).
-:- use_module(library(typhon/kernel/program/programs), []).
+:- use_module(library(typhon/kernel/wire),
+              [endpoint_address/1, endpoint_call/5]).
+:- use_module(library(typhon/kernel/program), [program_hash/2]).
 :- use_module('../../lib/fixtures').
 
 /** <module> An agent arrives whole or not at all
@@ -80,7 +81,7 @@ bad_image(since(X), image(I, H, L, S, G, M, _), image(I, H, L, S, G, M, X)).
 
 program(Hash, Program) :-
     Program = program(x, [], [], [(main:-true), (on_message(_,_):-true)]),
-    typhon_programs:program_hash(Program, Hash).
+    program_hash(Program, Hash).
 
 %   Nobody comes under the id of one that has ended.
 
@@ -97,9 +98,9 @@ sent(Image, Answer) :-
     sent(Image, Program, Answer).
 
 sent(Image, Program, Answer) :-
-    typhon_wire:endpoint_address(Endpoint),
-    typhon_wire:endpoint_call(Endpoint, hop, hop(alpha, Image, Program),
-                                  answer(Answer), 10).
+    endpoint_address(Endpoint),
+    endpoint_call(Endpoint, hop, hop(alpha, Image, Program),
+                  answer(Answer), 10).
 
 arrived(Image) :-
     arg(1, Image, Id),
