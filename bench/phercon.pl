@@ -1,6 +1,6 @@
 :- use_module(common).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/base/chance)).
+:- use_module(library(typhon/kernel/base/prng)).
 :- use_module(library(apply), [foldl/6, maplist/3]).
 :- use_module(library(lists), [max_list/2, member/2, min_list/2, nth0/3,
                                nth1/3, numlist/3, same_length/2,

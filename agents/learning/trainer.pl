@@ -35,7 +35,7 @@
                                         Units, pairs Unit-Weight, what is
                                         worth telling to others
 
-    Chance is a state of typhon_chance, a new one for each execution.
+    Chance is a state of typhon_prng, a new one for each execution.
 */
 
 main :-
@@ -61,8 +61,8 @@ performed(Steps, Actions) :-
 
 execute(Plan, Xi, Steps, feedback(Start, Units, Outcome)) :-
     chance(Chance0),
-    typhon_chance:chance_below(1<<30, Seed, Chance0, Chance1),
-    typhon_chance:chance_seed(Seed, Beginning),
+    typhon_prng:chance_below(1<<30, Seed, Chance0, Chance1),
+    typhon_prng:chance_seed(Seed, Beginning),
     start(Beginning, State0),
     sensed(State0, Start),
     executed(Plan, Xi, at(State0, Start), Steps, at(State, _), Chance1,
@@ -93,7 +93,7 @@ executed([Action|Plan], Xi0, At0, [Step|Steps], At, Chance0, Chance) :-
     executed(Plan, Xi, At1, Steps, At, Chance0, Chance).
 executed([], Xi0, At0, [Step|Steps], At, Chance0, Chance) :-
     actions(Actions),
-    typhon_chance:chance_member(Action, Actions, Chance0, Chance1),
+    typhon_prng:chance_member(Action, Actions, Chance0, Chance1),
     step(Action, At0, At1, Step),
     pay(Xi0, Xi1),
     feedback(Step, Xi1, Xi),

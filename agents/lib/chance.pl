@@ -5,16 +5,16 @@
 
 %!  seed_chance(+Who) is det.
 %
-%   The state of typhon_chance is that of the parameter `seed`, an integer,
+%   The state of typhon_prng is that of the parameter `seed`, an integer,
 %   and of Who, or any.
 
 seed_chance(Who) :-
     parameter(seed, Seed0),
     (   integer(Seed0)
-    ->  typhon_chance:chance_hash(Seed0-Who, Seed)
+    ->  typhon_prng:chance_hash(Seed0-Who, Seed)
     ;   Seed is random(1<<30)
     ),
-    typhon_chance:chance_seed(Seed, Chance),
+    typhon_prng:chance_seed(Seed, Chance),
     keep(chance(Chance)).
 
 %!  seed_chance_here is det.
@@ -32,5 +32,5 @@ seed_chance_here :-
 
 chance_turn(Turn) :-
     chance(Chance0),
-    typhon_chance:chance_float(Turn, Chance0, Chance),
+    typhon_prng:chance_float(Turn, Chance0, Chance),
     keep(chance(Chance)).

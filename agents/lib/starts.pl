@@ -1,7 +1,7 @@
 :- module(agent_starts,
           [ starts/4                    % +Count, +Hosts, +Options, -Starts
           ]).
-:- use_module('../../prolog/typhon/kernel/base/chance', [chance_sample/5, chance_seed/2]).
+:- use_module('../../prolog/typhon/kernel/base/prng', [chance_sample/5, chance_seed/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(random), [random_between/3]).

@@ -26,7 +26,7 @@ An application is a payload file, as payloads(sieve/bits), that provides
   - feedback(+Antigen, +Antibody, -Xi)
     How well it did: the argument of equation 3.2.
   - random_antibody(+Chance0, -Antibody, -Chance)
-    Drawn by typhon_chance.
+    Drawn by typhon_prng.
   - similar(+Antigen, +Other)
     May be missing; then antigens that differ are not similar.
 

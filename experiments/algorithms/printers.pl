@@ -1,7 +1,7 @@
 :- module(algorithms_printers,
           [ shortfalls/3                % +Seed, +Solutions, -Shortfalls
           ]).
-:- use_module('../../prolog/typhon/kernel/base/chance', []).
+:- use_module('../../prolog/typhon/kernel/base/prng', []).
 :- use_module(library(lists),
               [append/3, member/2, sum_list/2]).
 

@@ -3,7 +3,7 @@
 %   Gives: network/3, places/3, tasks/2, and parameters that a study may fix
 %   anew.
 
-:- use_module('../../prolog/typhon/kernel/base/chance',
+:- use_module('../../prolog/typhon/kernel/base/prng',
               [chance_sample/5, chance_seed/2]).
 :- use_module('../../prolog/typhon', [network_property/2]).
 :- use_module('../../agents/allocation/operator', [robot_start/3]).

@@ -3,7 +3,7 @@
             distance/3,                 % +Line, +Way, -Mean
             nearer/4                    % +Line, +Ways, +Mean, -Share
           ]).
-:- use_module('../../prolog/typhon/kernel/base/chance',
+:- use_module('../../prolog/typhon/kernel/base/prng',
               [chance_seed/2, chance_true/4]).
 :- use_module(maze,
               [goal_cell/2, maze_size/2, maze_walls/2, start_cell/2]).

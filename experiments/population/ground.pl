@@ -8,7 +8,7 @@
 :- use_module('../../agents/sync/operator', [task_fail/4]).
 :- use_module('../../prolog/typhon',
               [network_advance/2, network_property/2, remote/2]).
-:- use_module('../../prolog/typhon/kernel/base/chance',
+:- use_module('../../prolog/typhon/kernel/base/prng',
               [chance_sample/5, chance_seed/2]).
 :- use_module(mesh, [mesh/5]).
 :- use_module(library(aggregate), [aggregate_all/3]).

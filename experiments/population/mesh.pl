@@ -2,7 +2,7 @@
           [ mesh/5                      % +Kind, +Hosts, +Degree, +Seed,
                                         % -Topology
           ]).
-:- use_module('../../prolog/typhon/kernel/base/chance',
+:- use_module('../../prolog/typhon/kernel/base/prng',
               [chance_below/4, chance_seed/2]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(error), [must_be/2]).

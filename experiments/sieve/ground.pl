@@ -8,7 +8,7 @@
               [antigen_attack/2, sieve_start/3]).
 :- use_module('../../prolog/typhon',
               [network_advance/2, network_at/3, network_property/2]).
-:- use_module('../../prolog/typhon/kernel/base/chance',
+:- use_module('../../prolog/typhon/kernel/base/prng',
               [chance_sample/5, chance_seed/2]).
 :- use_module(pictures, [dot_rows/2, median_rows/2, panel_variables/2]).
 :- use_module(rounds, [event_rounds/3, plan_rounds/2]).

@@ -34,8 +34,8 @@ plan(_, Units, Plan) :-
     planned(Units, Count, Plan).
 
 planned(Units, Count, Plan) :-
-    typhon_chance:chance_hash(Count-Units, Seed),
-    typhon_chance:chance_seed(Seed, Chance),
+    typhon_prng:chance_hash(Count-Units, Seed),
+    typhon_prng:chance_seed(Seed, Chance),
     population(Units, Population),
     pool(Units, Pool),
     children(Number),
@@ -111,19 +111,19 @@ parent(Population, Genes, Chance0, Chance) :-
 lowest(0, _, Index, Index, Chance, Chance) :-
     !.
 lowest(Rounds, Size, Index0, Index, Chance0, Chance) :-
-    typhon_chance:chance_below(Size, Drawn, Chance0, Chance1),
+    typhon_prng:chance_below(Size, Drawn, Chance0, Chance1),
     Index1 is min(Index0, Drawn),
     Left is Rounds - 1,
     lowest(Left, Size, Index1, Index, Chance1, Chance).
 
 child([], [], [], [], Chance, Chance).
 child([M|Mother], [F|Father], [Genes|Pool], [Gene|Child], Chance0, Chance) :-
-    typhon_chance:chance_member(Gene0, [M,F], Chance0, Chance1),
+    typhon_prng:chance_member(Gene0, [M,F], Chance0, Chance1),
     mutation(Probability),
-    typhon_chance:chance_true(Probability, Mutates, Chance1, Chance2),
+    typhon_prng:chance_true(Probability, Mutates, Chance1, Chance2),
     mutated(Mutates, Gene0, Genes, Gene, Chance2, Chance3),
     child(Mother, Father, Pool, Child, Chance3, Chance).
 
 mutated(false, Gene, _, Gene, Chance, Chance).
 mutated(true, _, Genes, Gene, Chance0, Chance) :-
-    typhon_chance:chance_member(Gene, Genes, Chance0, Chance).
+    typhon_prng:chance_member(Gene, Genes, Chance0, Chance).

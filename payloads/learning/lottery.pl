@@ -20,8 +20,8 @@ plan(_, Units, Plan) :-
     planned(Units, Count, Plan).
 
 planned(Units, Count, Plan) :-
-    typhon_chance:chance_hash(Count-Units, Seed),
-    typhon_chance:chance_seed(Seed, Chance),
+    typhon_prng:chance_hash(Count-Units, Seed),
+    typhon_prng:chance_seed(Seed, Chance),
     findall(Settings, member(unit(_, Settings, _)-_, Units), Known),
     levels(Known, Levels),
     draw(3, Levels, Trials, Chance),
@@ -50,7 +50,7 @@ draw(Count, Levels, [use(Settings)|Trials], Chance0) :-
 
 drawn([], [], Chance, Chance).
 drawn([Level|Levels], [One|Settings], Chance0, Chance) :-
-    typhon_chance:chance_member(One, Level, Chance0, Chance1),
+    typhon_prng:chance_member(One, Level, Chance0, Chance1),
     drawn(Levels, Settings, Chance1, Chance).
 
 best(Units, Best) :-

@@ -35,9 +35,9 @@ planned(Start, Units, Count, Plan) :-
     findall(Way, ( gen_assoc(Vector, Ways, way(_, Way)),
                    \+ get_assoc(Vector, Onward, on) ),
             Ends),
-    typhon_chance:chance_hash(Count-Root-Ends, Seed),
-    typhon_chance:chance_seed(Seed, Chance),
-    typhon_chance:chance_member(Backwards, Ends, Chance, _),
+    typhon_prng:chance_hash(Count-Root-Ends, Seed),
+    typhon_prng:chance_seed(Seed, Chance),
+    typhon_prng:chance_member(Backwards, Ends, Chance, _),
     reverse(Backwards, Forwards),
     append(Forwards, Plan).
 

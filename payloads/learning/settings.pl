@@ -74,8 +74,8 @@ printed(Settings, Qualities, Chance0, page(Settings, All, Chance)) :-
 %   By Box and Muller.
 
 normal(Normal, Chance0, Chance) :-
-    typhon_chance:chance_float(U, Chance0, Chance1),
-    typhon_chance:chance_float(V, Chance1, Chance),
+    typhon_prng:chance_float(U, Chance0, Chance1),
+    typhon_prng:chance_float(V, Chance1, Chance),
     Normal is sqrt(-2*log(U)) * cos(2*pi*V).
 
 actions(Actions) :-
@@ -147,12 +147,12 @@ printer(Name) :-
 makes(Printer, makes(Density, Heat, Wear)) :-
     known(printers, Which),
     known(difference, Far),
-    typhon_chance:chance_hash(Which-Printer, Seed),
-    typhon_chance:chance_seed(Seed, Chance0),
+    typhon_prng:chance_hash(Which-Printer, Seed),
+    typhon_prng:chance_seed(Seed, Chance0),
     Near is -Far,
-    typhon_chance:chance_uniform(Near, Far, Density, Chance0, Chance1),
-    typhon_chance:chance_uniform(Near, Far, Heat, Chance1, Chance2),
-    typhon_chance:chance_uniform(0.0, 0.03, Wear, Chance2, _).
+    typhon_prng:chance_uniform(Near, Far, Density, Chance0, Chance1),
+    typhon_prng:chance_uniform(Near, Far, Heat, Chance1, Chance2),
+    typhon_prng:chance_uniform(0.0, 0.03, Wear, Chance2, _).
 
 %   Thick paper and high speed want heat, and pictures want toner: one
 %   setting alone often cannot be changed for the better.

@@ -36,7 +36,7 @@ number_of_difference([X|Xs], [Y|Ys], Xi0, Xi) :-
     number_of_difference(Xs, Ys, Xi1, Xi).
 
 random_antibody(Chance0, [A, B, C, D, E], Chance) :-
-    typhon_chance:chance_below(32, N, Chance0, Chance),
+    typhon_prng:chance_below(32, N, Chance0, Chance),
     A is N >> 4 /\ 1,
     B is N >> 3 /\ 1,
     C is N >> 2 /\ 1,

@@ -252,10 +252,10 @@ program_asks(A, Reading) :-
     memberchk(A, Reading).
 
 %   random_antibody(+Chance0, -Program, -Chance): three to five clauses.
-%   Chance is a state of library(typhon/kernel/base/chance).
+%   Chance is a state of library(typhon/kernel/base/prng).
 
 random_antibody(Chance0, Program, Chance) :-
-    typhon_chance:chance_below(3, More, Chance0, Chance1),
+    typhon_prng:chance_below(3, More, Chance0, Chance1),
     Clauses is 3 + More,
     length(Program, Clauses),
     foldl(random_clause, Program, Chance1, Chance).
@@ -265,10 +265,10 @@ random_antibody(Chance0, Program, Chance) :-
 
 random_clause((Action :- Body), Chance0, Chance) :-
     findall(A-R, clause_reason(A, R), Reasons),
-    typhon_chance:chance_member(Action-Reading, Reasons, Chance0, Chance1),
+    typhon_prng:chance_member(Action-Reading, Reasons, Chance0, Chance1),
     findall(R, other_reading(Action, Reading, R), Others),
-    typhon_chance:chance_member(Other, Others, Chance1, Chance2),
-    typhon_chance:chance_member(Body, [Reading,(Reading,Other)],
+    typhon_prng:chance_member(Other, Others, Chance1, Chance2),
+    typhon_prng:chance_member(Body, [Reading,(Reading,Other)],
                                 Chance2, Chance).
 
 clause_reason(forward, after(left)).

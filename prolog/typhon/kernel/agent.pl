@@ -13,7 +13,7 @@ This is the interface of the layer: higher layers import from here.
               agent_remove/3, agent_rest/3, agent_resumes/2, agent_space/2,
               agent_status/3, agent_take/3, agent_wakes/2
             ]).
-:- reexport(agent/alone_with, [agents_passed/0, with_agent/2]).
+:- reexport(agent/agent_lock, [agents_passed/0, with_agent/2]).
 :- reexport(agent/agent_orders,
             [agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2]).
 :- reexport(agent/agent_module,
@@ -35,7 +35,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
 :- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/owner, [owner_entered/3, owner_inherited/3]).
-:- reexport(agent/stay, [stay_count/3, stay_owner/3, stay_until/3]).
+:- reexport(agent/time_quota, [stay_count/3, stay_owner/3, stay_until/3]).
 :- reexport(agent/state_text, [state_text/2, state_text_add/2]).
 :- reexport('agent/gate').
 :- reexport(agent/image,
@@ -46,13 +46,13 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/trail,
             [trail_enter/3, trail_none/2, trail_of/3]).
 :- reexport(agent/trail_verified, [trail_verified/3]).
-:- reexport('agent/in_words').
+:- reexport('agent/printable_fallback').
 :- reexport('agent/fault').
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3]).
 :- reexport(agent/signed_payloads,
             [payload_mark/2]).
-:- reexport(agent/legacy,
+:- reexport(agent/result_facts,
             [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
               legacy_result/2 ]).
 :- reexport(agent/mailbox,

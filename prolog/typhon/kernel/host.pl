@@ -20,17 +20,17 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('host/host_log').
 :- reexport(host/place, [place_deliver/3, place_undeliver/2]).
 :- reexport('host/tuples').
-:- reexport(host/front, [module_policy/2, guarding/0, place_front/3]).
+:- reexport(host/sandbox_view, [module_policy/2, guarding/0, place_front/3]).
 :- reexport(host/clock, [clock/3, host_time/2, real_time/3]).
 :- reexport(host/context,
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
             ]).
-:- reexport(host/permits, [audit/3, audit/4, peer_may/3, peer_permitted/3]).
+:- reexport(host/access_rules, [audit/3, audit/4, peer_may/3, peer_permitted/3]).
 :- reexport(host/quotas, [quota/3, quota_any/1, quota_shared/4]).
-:- reexport('host/spending').
-:- reexport(host/leavings, [leaver/2, may_leave/1]).
-:- reexport(host/still, [still_keeps/1]).
+:- reexport('host/rate_limits').
+:- reexport(host/tuple_quota, [leaver/2, may_leave/1]).
+:- reexport(host/pause, [still_keeps/1]).
 :- reexport(host/turns, [turn_of/3, turns_now/3]).
 :- reexport(host/scheduler,
             [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,

@@ -14,10 +14,10 @@ This is the interface of the layer: higher layers import from here.
 :- use_module(lifecycle/overuse, []).
 :- use_module(lifecycle/recovery, []).
 :- reexport('lifecycle/resting').
-:- reexport(lifecycle/cut, [cut_again/2, cut_go_on/3, cut_kept/2]).
+:- reexport(lifecycle/process_dump, [cut_again/2, cut_go_on/3, cut_kept/2]).
 :- reexport('lifecycle/properties').
-:- reexport('lifecycle/glance').
-:- reexport('lifecycle/giving',
+:- reexport('lifecycle/agent_summary').
+:- reexport('lifecycle/order_client',
             [ agent_move/2, agent_move/3, agent_clone/2, agent_resume/1, agent_change/2,
               payload_attach/2, payload_detach/2
             ]).

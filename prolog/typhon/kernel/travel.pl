@@ -24,4 +24,4 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/backlog, [post_tried/0]).
 :- reexport(travel/retries, [retries_go_on/0]).
 :- reexport(travel/news, [news_carried/1]).
-:- reexport(travel/abroad, [post_abroad/4]).
+:- reexport(travel/external_recipients, [post_abroad/4]).

@@ -25,7 +25,7 @@
                 cut_kept/2 ]).
 :- use_module('../kernel/agent', [agent_name/3]).
 :- use_module('../kernel/travel', [agent_outcome/2, home_agents/1]).
-:- use_module(voice, [voice_begin/0, voice_end/0]).
+:- use_module(child_output, [voice_begin/0, voice_end/0]).
 
 /** <module> A process that carries hosts of a network
 

@@ -18,7 +18,7 @@
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/spawn', [spawn/3]).
 :- use_module('../kernel/wire', [cookie/1, endpoint_keys/1]).
-:- use_module(voice, [voice_heard/2]).
+:- use_module(child_output, [voice_heard/2]).
 
 /** <module> Processes that carry the hosts of a network
 
@@ -26,7 +26,7 @@ A child runs carrier.pl, on this machine or through ssh on another. It gets
 what it must know in one line on its standard input, the cookie among it,
 which therefore is in no argument list and no environment of ssh. It says
 in one line on its standard output where its endpoint listens. Whatever it
-prints later is printed here, see module `voice`. One that cannot begin says
+prints later is printed here, see module `child_output`. One that cannot begin says
 why in such a line, and ends.
 
 Its standard input stays open as long as it is wanted. The end of it is

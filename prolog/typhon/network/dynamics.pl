@@ -13,7 +13,7 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(ordsets),
               [ord_add_element/3, ord_del_element/3, ord_subtract/3]).
-:- use_module('../kernel/base/chance',
+:- use_module('../kernel/base/prng',
               [ chance_member/4, chance_seed/2, chance_true/4,
                 chance_uniform/5 ]).
 

@@ -84,7 +84,7 @@ none of its own.
 %     - hosts(Options)
 %       Options for host_start/2, for each of the hosts.
 %     - places(Places)
-%       Files for the places of hosts, goals called there; see module `furnishing`.
+%       Files for the places of hosts, goals called there; see module `host_setup`.
 %     - hop_time(uniform(Min, Max))
 %       An emulated link delay in host seconds, added to every hop.
 %     - clock(Rate)

@@ -27,9 +27,9 @@
 :- use_module(dynamics,
               [ dynamics_edges/2, dynamics_model/2, dynamics_state/5,
                 dynamics_until/3 ]).
-:- use_module('../kernel/base/chance',
+:- use_module('../kernel/base/prng',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
-:- use_module(furnishing,
+:- use_module(host_setup,
               [furnishing_check/2, furnishing_files/3, furnishing_goals/3]).
 :- use_module(topology,
               [topology_costs/2, topology_edges/4, topology_names/2]).

@@ -9,7 +9,7 @@
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- autoload(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
 :- use_module('../kernel/base/options', [blaming/2]).
-:- use_module('../kernel/base/chance',
+:- use_module('../kernel/base/prng',
               [chance_member/4, chance_seed/2, chance_true/4]).
 :- use_module(listed,
               [listed_costs/3, listed_edge/3, listed_names/2, number_name/2]).

@@ -17,7 +17,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 :- use_module('../kernel/base/names',
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 :- use_module('../kernel/travel', [agent_outcome/2]).
-:- use_module(happenings, [happening/3, short_name/2]).
+:- use_module(event_text, [happening/3, short_name/2]).
 
 :- multifile
     prolog:error_message//1,

@@ -7,7 +7,7 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/base/chance)).
+:- use_module(library(typhon/kernel/base/prng)).
 
 /** <module> Printers, and what finds good settings for them
 

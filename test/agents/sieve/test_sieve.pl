@@ -60,7 +60,7 @@ test(kinds_that_can_serve_figure_3_4, Count == 13) :-
     aggregate_all(count, servant(['00000', '00001', '00011']), Count).
 test(drawn_antibodies_have_five_bits_and_differ) :-
     numlist(1, 200, Draws),
-    typhon_chance:chance_seed(7, Chance),
+    typhon_prng:chance_seed(7, Chance),
     foldl(draw, Draws, []-Chance, Drawn-_),
     sort(Drawn, Kinds),
     length(Kinds, Count),

@@ -13,7 +13,7 @@ hand, and what is found by drawing programs at random.
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/base/chance)).
+:- use_module(library(typhon/kernel/base/prng)).
 :- use_module(library(typhon/kernel/program), [payload_load/2]).
 
 %   The clauses of the payload in a module of their own, as in an agent.

@@ -1,7 +1,7 @@
 :- module(test_quick, []).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/host/quick)).
+:- use_module(library(typhon/kernel/host/short_turns)).
 
 /** <module> Turns that are short, and what is remembered of those that are not
 

@@ -8,7 +8,7 @@
 :- use_module(library(terms), [term_size/2]).
 :- use_module(library(yall)).
 :- use_module(library(typhon/kernel/vocabulary/strategy)).
-:- use_module(library(typhon/kernel/base/chance)).
+:- use_module(library(typhon/kernel/base/prng)).
 
 %   walk(+Strategy, +Steps, +Links, +Here, +Memory0, -Path): the hosts
 %   stood on, one after the other, in the graph Links.

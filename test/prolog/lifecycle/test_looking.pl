@@ -10,7 +10,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program), [stands_in/3]).
-:- use_module(library(typhon/tools/happenings), [short_name/2]).
+:- use_module(library(typhon/tools/event_text), [short_name/2]).
 
 %   two(:Goal): with hosts alpha and beta, in virtual time.
 

@@ -37,7 +37,7 @@ connection to another of our processes.
 :- multifile
     typhon_fipa_carriage:returned/4,
     typhon_fipa_reception:requested/3,
-    typhon_lost:returned/3.
+    typhon_dead_letters:returned/3.
 
                 /*******************************
                 *              OUT             *
@@ -268,7 +268,7 @@ why(Formal, Why) :-
 
 %   Messages that post/3 accepted and could not deliver later.
 
-typhon_lost:returned(fipa(_), Id, Acl) :-
+typhon_dead_letters:returned(fipa(_), Id, Acl) :-
     acl_parameter(Acl, via(Address)),
     platform(Host, _, _, _),
     host_address(Host, Address),

@@ -25,7 +25,7 @@
 */
 
 :- multifile
-    typhon_abroad:carried/4,
+    typhon_external_recipients:carried/4,
     typhon_names:known/2,
     typhon_options:declared/4,
     typhon_services:ends/2,
@@ -129,7 +129,7 @@ property(Count, Host, _, _) :-
 
 %   The host's own platform, that of the receiver, or any.
 
-typhon_abroad:carried(Host, To, From, Message) :-
+typhon_external_recipients:carried(Host, To, From, Message) :-
     aid(To),
     way(Host, To, Way),
     !,

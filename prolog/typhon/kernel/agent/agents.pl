@@ -26,9 +26,9 @@
 :- use_module('../host', [events_forget/1, quota/3, schedule/2]).
 :- use_module(agent_orders,
               [agent_ordered/1, agent_unorder/2, agent_unorder_all/2]).
-:- use_module(alone_with, [with_agent/2]).
+:- use_module(agent_lock, [with_agent/2]).
 :- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
-:- use_module(stay, [stay_begins/4, stay_ends/1]).
+:- use_module(time_quota, [stay_begins/4, stay_ends/1]).
 :- use_module(traces, [traces_heard/2]).
 
 /** <module> Agents that stand in this process

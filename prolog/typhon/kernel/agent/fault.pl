@@ -16,7 +16,7 @@
                 fault_where/4, unknown_advice/3, where_handled/5 ]).
 :- use_module('../host', [host/3]).
 :- use_module(agents, [agent/5]).
-:- use_module(in_words, [in_words/2]).
+:- use_module(printable_fallback, [in_words/2]).
 :- use_module(life, [life_hops/2]).
 
 /** <module> What is the matter with an agent
@@ -26,7 +26,7 @@ A fault is
     fault(Outcome, Goal, Where, Address, Hops, Stamp)
 
 `failed` or raised(Error); the goal that failed or raised, and where it
-stands, see typhon_standing; on which host that was, after how many hops,
+stands, see typhon_clause_location; on which host that was, after how many hops,
 and when.  All of it can travel.  It comes first among the goals of an agent
 that is faulty, as '$fault'(Fault): the machine stops there, wherever the
 agent is brought, until that is taken away.

@@ -16,7 +16,7 @@
 :- use_module(mailbox, [mail_count/2]).
 :- use_module(owner, [owner_entered/3, owner_key/2, owner_of/5]).
 :- use_module(signed_payloads, [payloads_admitted/3]).
-:- use_module(stay, [stay_count/3]).
+:- use_module(time_quota, [stay_count/3]).
 
 /** <module> Admission: which agents a host lets in
 

@@ -18,7 +18,7 @@
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2]).
-:- use_module(legacy, [legacy_none/2]).
+:- use_module(result_facts, [legacy_none/2]).
 :- use_module(owner, [owner_entered/3, owner_inherited/3]).
 :- use_module(trail, [trail_link/5, trail_none/2]).
 :- use_module(life,

@@ -8,7 +8,7 @@
 :- use_module('../program', [code_receive/2, code_sent/2]).
 :- use_module(agent_module, [agent_module/5, agent_state/2]).
 :- use_module(agents, [agent/5, agent_enter/3]).
-:- use_module(in_words, [in_words/2]).
+:- use_module(printable_fallback, [in_words/2]).
 
 /** <module> Agents in the journal
 

@@ -6,7 +6,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(agents, [agent/5, agent_put_life/2]).
-:- use_module(alone_with, [with_agent/2]).
+:- use_module(agent_lock, [with_agent/2]).
 :- use_module(agent_module, [attach_clauses/3, detach_clauses/2]).
 :- use_module('../host', [host_address/2]).
 :- use_module(signed_payloads,

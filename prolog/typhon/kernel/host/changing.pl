@@ -5,12 +5,12 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [check_option/2]).
 :- use_module('../base/durable_changes', [sync_changes/0]).
-:- use_module(front, [front_set/3]).
+:- use_module(sandbox_view, [front_set/3]).
 :- use_module(host_options, [host_listed/2]).
 :- use_module(known_hosts, [note_host/1]).
 :- use_module(host_names, [host_resolve/2]).
 :- use_module(hosts, [host/3, host_option/2, host_put/2]).
-:- use_module(permits, [must_be_peer_rules/1]).
+:- use_module(access_rules, [must_be_peer_rules/1]).
 :- use_module(place, [place_offer/2]).
 :- use_module(quotas, [quota_set/3]).
 :- use_module(remote, [remote/2]).

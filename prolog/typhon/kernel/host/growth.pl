@@ -5,7 +5,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/headroom', [memory_short/0]).
-:- use_module(census, [turns_begun/1]).
+:- use_module(worker_activity, [turns_begun/1]).
 :- use_module(held, [held_full/1, held_review/3, held_room/2]).
 :- use_module(queue,
               [ enqueue/1, queue_unwatched/0, queue_waits/1,

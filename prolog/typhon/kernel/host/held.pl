@@ -8,7 +8,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3, member/2, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(census,
+:- use_module(worker_activity,
               [ census/1, census_begin/0, census_end/0, held_count/3,
                 held_since/3, turn_of/2, work_doer/3 ]).
 
@@ -16,7 +16,7 @@
 
 A native goal that blocks holds its worker; which goals do is not known
 beforehand.  When all workers the pool may have are busy and the run queue
-does not move, a census begins, see module `census`.  A worker that has not
+does not move, a census begins, see module `worker_activity`.  A worker that has not
 come back for `held_seconds` is held.  The pool may grow beyond its maximum
 by as many as are held, so there are workers for what does not block, and
 a warning names the agents.

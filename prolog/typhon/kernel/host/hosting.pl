@@ -25,7 +25,7 @@
               [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
-:- use_module(front, [front_set/3]).
+:- use_module(sandbox_view, [front_set/3]).
 :- use_module(host_log, []).
 :- use_module(host_options, [host_listed/2]).
 :- use_module(hosts,
@@ -35,7 +35,7 @@
               [ forget_host/1, host_known/2, known_not_here/2, known_open/2,
                 known_with/3, note_host/1 ]).
 :- use_module(links, [host_unlink/2]).
-:- use_module(permits, [must_be_peer_rules/1]).
+:- use_module(access_rules, [must_be_peer_rules/1]).
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(quotas, [quota_forget/1, quota_set/3]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
@@ -116,7 +116,7 @@ other users of the process its endpoint, see typhon_runtime.
 %       which is the default; `guarded`, what cannot harm others, see
 %       typhon_guard and doc/security.md; or a file of rules, see
 %       policy_read/1
-%     - peer(+Rules): which processes may do what, see typhon_permits
+%     - peer(+Rules): which processes may do what, see typhon_access_rules
 %     - audit(+File): refusals and orders are noted there
 %     - quota(+List): how much agents may use, each, those of one owner, and
 %       all, see typhon_quotas

@@ -16,7 +16,7 @@
               [durable_drop/3, durable_drop_all/2, durable_put/4]).
 :- use_module('../base/unit_of_work', [unit_drop/3]).
 :- use_module('../program', [clause_parts/3]).
-:- use_module(front, [front_gone/1, service/1]).
+:- use_module(sandbox_view, [front_gone/1, service/1]).
 
 /** <module> Places: what a host offers to the agents on it
 
@@ -57,7 +57,7 @@ place_create(Host, Files, Services, Place) :-
     ->  assertz(place_host(Place, Host))
     ;   true
     ),
-    Place:import(typhon_front:service/1),
+    Place:import(typhon_sandbox_view:service/1),
     catch(( forall(member(Service, Services), place_offer(Place, Service)),
             forall(member(File, Files), consult_into(Place, File))
           ),

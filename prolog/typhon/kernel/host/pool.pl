@@ -5,11 +5,11 @@
             pool_here/1                 % +Agent
           ]).
 :- use_module(library(settings), [setting/2]).
-:- use_module(census, [census/1]).
+:- use_module(worker_activity, [census/1]).
 :- use_module(growth, [growth_begin/0]).
 :- use_module(held, [held_forget/0]).
 :- use_module(queue, [enqueue/1, queue_begin/1, queue_end/1, run_queue/1]).
-:- use_module(quick, [quick_turn/2]).
+:- use_module(short_turns, [quick_turn/2]).
 :- use_module(timer, [timer_start/0, timer_stop/0]).
 :- use_module(work, [work_do/2]).
 :- use_module(workers, [worker/1, worker_add/1, workers_end/1]).

@@ -10,7 +10,7 @@
             queue_unwatched/0
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(census, [census/1, turns_begun/1]).
+:- use_module(worker_activity, [census/1, turns_begun/1]).
 :- use_module(timer, [alarm_in/3]).
 
 /** <module> The run queue, and the watch over it

@@ -11,7 +11,7 @@
 :- use_module(host_questions, [host_unknown/1]).
 :- use_module(host_names, [host_resolve/2]).
 :- use_module(hosts, [host/3, host_option/2]).
-:- use_module(permits, [audit/3, peer_may/3]).
+:- use_module(access_rules, [audit/3, peer_may/3]).
 :- use_module(scheduler, [scheduler_call/1]).
 
 /** <module> Goals in the place of any host

@@ -14,7 +14,7 @@
 :- use_module(limits,
               [ limit_clear/2, limit_enter/3, limit_set/3, limited/1,
                 limited/2,                 limits_forget/0 ]).
-:- use_module(quick, [quick_not/2]).
+:- use_module(short_turns, [quick_not/2]).
 :- use_module(time, [time_alone/0, time_here/1, time_work/1]).
 :- use_module(workers, [worker_adopt/1, worker_leave/0]).
 

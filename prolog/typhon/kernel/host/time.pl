@@ -21,7 +21,7 @@
               [pool_here/1, pool_signal/1, pool_start/0, pool_stop/0]).
 :- use_module(queue, [enqueue/1, queue_empty/0]).
 :- use_module(alarms, [alarm_stamp/3]).
-:- use_module(still, [still_begin/0, still_end/1]).
+:- use_module(pause, [still_begin/0, still_end/1]).
 :- use_module(timer, [alarm_set/3 as timer_set, alarms_overdue/0]).
 :- use_module(virtual,
               [ virtual_again/2, virtual_alarm/3, virtual_hold/1,

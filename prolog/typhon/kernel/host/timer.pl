@@ -15,7 +15,7 @@
               [ alarm_add/3, alarm_anew/1, alarm_new/1, alarm_take/3,
                 alarms_at/2, alarms_begin/0, alarms_end/0, alarms_new/1,
                 alarms_number/1, alarms_until/2 ]).
-:- use_module(still, [still/0]).
+:- use_module(pause, [still/0]).
 :- use_module(alarm_index,
               [ index_delete/3, index_first/2, index_insert/3, index_make/1,
                 index_size/2 ]).

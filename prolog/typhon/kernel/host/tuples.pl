@@ -9,7 +9,7 @@
 :- use_module('../base/durable_changes', [durable_number/1, durable_on/0]).
 :- use_module('../base/unit_of_work',
               [unit_after/1, unit_defers/0, unit_drop/3, unit_put/4]).
-:- use_module(leavings, [leaving_begins/1, leaving_ends/1]).
+:- use_module(tuple_quota, [leaving_begins/1, leaving_ends/1]).
 :- use_module(place, [place_host/2]).
 
 /** <module> Tuple spaces: facts that all agents on a host see
@@ -37,7 +37,7 @@ leaving a fact while tuple_leave_new/3 looks.
 %
 %   Put, put if there is none that unifies, read and take a fact.  Of many
 %   agents that take one fact, or leave it as a new one, one succeeds.  By is
-%   whose fact it is, see typhon_leavings, or `none`.
+%   whose fact it is, see typhon_tuple_quota, or `none`.
 %
 %   With a journal a fact has a number, under which it is there; this, and By,
 %   stand in the body of the clause, and the journal has By, too.  What an agent

@@ -11,7 +11,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
-:- use_module(census,
+:- use_module(worker_activity,
               [turn_begin/2, turn_end/1, worker_came/0, worker_ended/1]).
 :- use_module(held, [held_back/1]).
 :- use_module(queue,

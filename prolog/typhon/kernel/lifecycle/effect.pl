@@ -5,7 +5,7 @@
             effect_order/4              % +Id, +Here, +Host, +Goals
           ]).
 :- use_module(library(error), [must_be/2, permission_error/3, type_error/2]).
-:- use_module('../base/chance',
+:- use_module('../base/prng',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',

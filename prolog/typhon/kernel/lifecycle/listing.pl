@@ -10,7 +10,7 @@
                 stands_in/3 ]).
 :- use_module('../agent', [agent/5]).
 :- use_module(properties, [agent_property/2]).
-:- use_module(giving, [agent_answer/3]).
+:- use_module(order_client, [agent_answer/3]).
 :- use_module(questions, [question_answered/2]).
 
 /** <module> What an agent is, as text

@@ -27,7 +27,7 @@
 
 /** <module> Orders are taken and obeyed
 
-An order that has found its agent, see typhon_giving, is noted in its record.
+An order that has found its agent, see typhon_order_client, is noted in its record.
 The agent takes it at its next effect.  The caller that waits for its result is
 noted with it: asked(Order, Asker).
 
@@ -64,7 +64,7 @@ at_once(dispose).
 %!  order_take(+Id, +Order) is semidet.
 %
 %   Order comes to Id.  Fails if there is no such agent in this process.
-%   Besides those of typhon_giving there is evacuate(Host): it ends an agent
+%   Besides those of typhon_order_client there is evacuate(Host): it ends an agent
 %   on Host, of this process, unless it has left it meanwhile.
 
 order_take(Id, dispose) :-

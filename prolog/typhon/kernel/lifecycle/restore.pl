@@ -10,7 +10,7 @@
 :- use_module('../program', [code_receive/2, program_hash/2]).
 :- use_module('../agent', [is_life/1]).
 :- use_module(creation, [agent_begin/4]).
-:- use_module(giving, [order_give/3]).
+:- use_module(order_client, [order_give/3]).
 
 /** <module> Restore points: agents as text
 

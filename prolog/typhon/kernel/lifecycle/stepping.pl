@@ -13,7 +13,7 @@
               [ held_on/2, held_parts/3, held_probe/2, held_put/4, held_seen/2 ]).
 :- use_module(join, [agent_join/3]).
 :- use_module(properties, [agent_property/2]).
-:- use_module(giving, [agent_answer/3, order_give/3]).
+:- use_module(order_client, [agent_answer/3, order_give/3]).
 :- use_module(questions, [question_answered/2]).
 :- use_module(spying, [spied/3, spied_program/1]).
 :- use_module(orders, [order_take/2]).

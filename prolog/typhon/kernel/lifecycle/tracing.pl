@@ -11,7 +11,7 @@
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
 :- use_module('../host', [host/3]).
 :- use_module('../agent', [agent/5, trace_kind/1]).
-:- use_module(giving, [order_give/3]).
+:- use_module(order_client, [order_give/3]).
 
 /** <module> Agents of which people want to hear
 

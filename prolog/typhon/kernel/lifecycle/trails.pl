@@ -2,7 +2,7 @@
           [ agent_trail/2               % +Agent, -Trail
           ]).
 :- use_module('../agent', [agent/5, trail_of/3, trail_verified/3]).
-:- use_module(giving, [agent_answer/3]).
+:- use_module(order_client, [agent_answer/3]).
 :- use_module(questions, [question_answered/2]).
 
 /** <module> Which hosts can be accounted for

@@ -16,7 +16,7 @@
               [ in_file_order/3, payload_terms/3, program_doubts/3,
                 program_terms/6 ]).
 :- use_module(unknown, [unknown_problems/2]).
-:- use_module(slips, [apart_problem/3]).
+:- use_module(lint, [apart_problem/3]).
 :- use_module(choices, [lost_choice/3]).
 :- use_module(source, [declaration/4, source_terms/5]).
 

@@ -26,7 +26,7 @@
 :- use_module(problems,
               [ clause_problem/2, directive_problem/2, entry_problem/3,
                 option_problem/3 ]).
-:- use_module(slips, [apart_problem/3, undeclared_problem/3]).
+:- use_module(lint, [apart_problem/3, undeclared_problem/3]).
 :- use_module(python_code, [python_payload/2]).
 :- use_module(source, [source_terms/5]).
 :- use_module(unknown, [unknown_problems/2]).

@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
-:- use_module(arrows, [stands_in/3]).
+:- use_module(listing_marks, [stands_in/3]).
 :- use_module(bodies, [body_goals/4, plain_goals/2]).
 :- use_module(points, [point/3]).
 :- use_module(source, [clause_parts/3]).

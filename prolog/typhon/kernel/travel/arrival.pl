@@ -15,7 +15,7 @@
                 gate_refused/4, image_enter/4, image_entrant/2,
                 image_label/2, image_module/3, image_received/4, life_hops/2,
                 with_agent/2 ]).
-:- use_module(crossings,
+:- use_module(hop_ids,
               [ crossing_done/1, crossing_end/2, crossing_known/1,
                 is_crossing/1 ]).
 :- use_module(home, [agent_outcome/2]).

@@ -12,7 +12,7 @@
                 endpoint_peer/2 ]).
 :- use_module('../host', [address_parts/3, alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [agent_home_endpoint/2]).
-:- use_module(crossings, [crossing_again/1, crossing_repeated/1]).
+:- use_module(hop_ids, [crossing_again/1, crossing_repeated/1]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_image/2, transfer_open/1,
                 transfer_stays/2, transfer_traveller/3, transfer_unreachable/1 ]).

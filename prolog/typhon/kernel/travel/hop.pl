@@ -14,7 +14,7 @@
               [ agent/5, birth_papers/5, birth_unproved/2, image_hash/2,
                 image_trail/4, with_agent/2 ]).
 :- use_module('../base/durable_changes', [crash_point/1, durable_on/0]).
-:- use_module(crossings, [crossing_label/3, crossing_repeated/1]).
+:- use_module(hop_ids, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
 :- use_module(legacies, [clone_born/2]).
@@ -137,7 +137,7 @@ send(Transfer, Image0) :-
           error(Formal, _),
           not_sent(Formal, Transfer)).
 
-%   Known by number, see typhon_crossings.
+%   Known by number, see typhon_hop_ids.
 
 hop_request(Transfer, Name, Image, Program, Request) :-
     transfer_traveller(Transfer, Who, _),

@@ -21,7 +21,7 @@
 :- use_module(channel, [channel_must_fit/1]).
 :- use_module(retries, [retry_later/3]).
 :- use_module(speakers, [mail_believed/5]).
-:- use_module(ways, [one_letter/2, way_in/2, way_out/3, way_send/3]).
+:- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Messages
 

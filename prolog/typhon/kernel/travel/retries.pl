@@ -13,8 +13,8 @@
               [ backlog/1, backlog_add/2, backlog_again/3, backlog_begin/3,
                 backlog_done/1, backlog_leaves/1 ]).
 :- use_module(home, [agent_outcome/2]).
-:- use_module(lost, [mail_lost/3]).
-:- use_module(ways, [one_letter/2, way_in/2, way_out/3, way_send/3]).
+:- use_module(dead_letters, [mail_lost/3]).
+:- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Letters that are tried again
 

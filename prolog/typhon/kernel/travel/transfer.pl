@@ -25,7 +25,7 @@
 :- use_module('../base/durable_changes',
               [ crash_point/1, durable_drop/3, durable_on/0, durable_put/4,
                 enqueue_changes/0, unit_of_work/1 ]).
-:- use_module(crossings,
+:- use_module(hop_ids,
               [crossing_begin/4, crossing_end/2, crossing_restore/4]).
 :- use_module(legacies, [clone_unborn/2]).
 :- use_module(ordered_moves, [move_failed/2, move_over/2]).

@@ -283,7 +283,7 @@ news(Process, ended(Id, Outcome, Hops)) :-
     news(Process, ended(Id, Outcome, Hops, [])).
 news(_, ended(Id, Outcome, Hops, Legacy)) :-
     must_be(nonneg, Hops),
-    must_be(list(typhon_legacy), Legacy),
+    must_be(list(typhon_result_facts), Legacy),
     home_ended(Id, Outcome, Hops, Legacy).
 news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
     must_be(nonneg, Hops),
@@ -295,7 +295,7 @@ news(_, resumed(Id, Stamp, Hops)) :-
     must_be(number, Stamp),
     home_resumed(Id, Stamp, Hops).
 
-error:has_type(typhon_legacy, Item) :-
+error:has_type(typhon_result_facts, Item) :-
     is_legacy(Item).
 
                 /*******************************

@@ -1,7 +1,7 @@
 :- module(typhon_memory,
           [ next_host/2                 % +Strategy, -Host
           ]).
-:- use_module('../base/chance', [chance_hash/2]).
+:- use_module('../base/prng', [chance_hash/2]).
 :- use_module('../host',
               [ address_parts/3, context/3, host/3, host_neighbours/2,
                 host_option/2 ]).

@@ -11,7 +11,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
-:- use_module('../base/chance', [chance_member/4]).
+:- use_module('../base/prng', [chance_member/4]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_post/3, mobile_term/1]).
 :- use_module('../host',

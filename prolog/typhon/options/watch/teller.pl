@@ -9,7 +9,7 @@
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2,
                 endpoint_request/4 ]).
 :- use_module('../../kernel/host', [time_now/1]).
-:- use_module(basin, [basin_awaited/1, basin_size/2, basin_take/4]).
+:- use_module(event_buffer, [basin_awaited/1, basin_size/2, basin_take/4]).
 
 /** <module> The thread that tells
 

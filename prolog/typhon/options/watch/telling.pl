@@ -7,7 +7,7 @@
 :- use_module('../../kernel/host',
               [ clock/3, event_shown/3, events_hear/3, events_unheard/1,
                 host/3, time_kind/1 ]).
-:- use_module(basin, [basin_close/1, basin_open/3, basin_put/3]).
+:- use_module(event_buffer, [basin_close/1, basin_open/3, basin_put/3]).
 :- use_module(teller, [teller_ring/2, teller_run/1, time_at/2]).
 
 /** <module> Sending events to watches

@@ -1,16 +1,16 @@
-:- module(typhon_full,
+:- module(typhon_mailbox_overflow,
           [ mail_fits/3                 % +Id, +Mail, -Fitting
           ]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../host', [alarm_in/3, quota/3, scheduler_call/1]).
 :- use_module('../agent', [agent_space/2]).
-:- use_module(lost, [mail_lost/3]).
+:- use_module(dead_letters, [mail_lost/3]).
 
 /** <module> Messages for whom there is no room
 
 On a host with the quota `mailbox` no more messages wait for an agent.  Those
 for which there is no room are lost, and this is told here and where they were
-sent, see typhon_lost: what has come within a second together, so that who is
+sent, see typhon_dead_letters: what has come within a second together, so that who is
 flooded with messages is not flooded with words.
 
 *Threading*: mail_fits/3 inside with_agent/2 of the agent; told by workers.
@@ -26,7 +26,7 @@ most_untold(1000).
 
 %!  mail_fits(+Id, +Mail:list, -Fitting:list) is det.
 %
-%   Of Mail, as of typhon_ways, there is room for Fitting in the mailbox of Id,
+%   Of Mail, as of typhon_routing, there is room for Fitting in the mailbox of Id,
 %   if that stands here; the rest is lost.
 
 mail_fits(Id, Mail, Fitting) :-
@@ -53,13 +53,13 @@ refuse(Id, Mail) :-
     predicate_property(refused(_, _), number_of_clauses(Count)),
     most_untold(Most),
     (   Count mod Most =:= 0
-    ->  scheduler_call(typhon_full:tell(Id))
+    ->  scheduler_call(typhon_mailbox_overflow:tell(Id))
     ;   true
     ).
 
 typhon_scheduler:fire(Id, refused) :-
     !,
-    scheduler_call(typhon_full:tell(Id)).
+    scheduler_call(typhon_mailbox_overflow:tell(Id)).
 
 typhon_scheduler:over(Id, refused) :-
     \+ refused(Id, _).

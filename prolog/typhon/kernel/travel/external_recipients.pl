@@ -1,4 +1,4 @@
-:- module(typhon_abroad,
+:- module(typhon_external_recipients,
           [ post_abroad/4               % +Host, +To, +From, +Message
           ]).
 :- use_module(library(error), [must_be/2, type_error/2]).
@@ -7,7 +7,7 @@
                 mobile_term/1 ]).
 :- use_module('../host', [address_parts/3, scheduler_call/1]).
 :- use_module('../agent', [agent_home_endpoint/2, agent_owned/1]).
-:- use_module(lost, [mail_lost/3]).
+:- use_module(dead_letters, [mail_lost/3]).
 :- use_module(senders, [shown/5]).
 :- use_module(speakers, [mail_believed/5]).
 
@@ -98,7 +98,7 @@ comes(To, From, Message, Births, Peer) :-
     mail_believed(Peer, To, Births, [mail(Peer, From, Message)], Believed),
     (   Believed == []
     ->  true
-    ;   scheduler_call(typhon_abroad:carry_on(To, From, Message, Peer))
+    ;   scheduler_call(typhon_external_recipients:carry_on(To, From, Message, Peer))
     ).
 
 %   To may say where its bridge is.

@@ -1,4 +1,4 @@
-:- module(typhon_slips,
+:- module(typhon_lint,
           [ apart_problem/3,            % +Rules, +Known, -Problem
             undeclared_problem/3        % +Rules, +State, -Problem
           ]).

@@ -1,4 +1,4 @@
-:- module(typhon_quick,
+:- module(typhon_short_turns,
           [ quick_turn/2,               % +Agent, :Turn
             quick_not/2                 % +Agent, +Seconds
           ]).
@@ -102,7 +102,7 @@ quick_not(Agent, Seconds) :-
 slow_for(Seconds, Kind) :-
     get_time(Now),
     Until is Now+Seconds,
-    with_mutex(typhon_quick, slow_until(Kind, Until, Now)).
+    with_mutex(typhon_short_turns, slow_until(Kind, Until, Now)).
 
 slow_until(Kind, Until, _) :-
     slow(Kind, Until0),

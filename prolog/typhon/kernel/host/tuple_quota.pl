@@ -1,4 +1,4 @@
-:- module(typhon_leavings,
+:- module(typhon_tuple_quota,
           [ may_leave/1,                % +Host
             leaver/2,                   % +Host, -By
             leaving_begins/1,           % +By
@@ -6,7 +6,7 @@
           ]).
 :- use_module(context, [context_now/2]).
 :- use_module(quotas, [quota/3, quota_any/1, quota_shared/4]).
-:- use_module(spending, [quota_passed/1, quota_spend/3]).
+:- use_module(rate_limits, [quota_passed/1, quota_spend/3]).
 
 /** <module> Tuples by the agents that left them
 
@@ -19,7 +19,7 @@ when their agent goes.
 
 :- multifile
     typhon_quotas:forgotten/1,
-    typhon_spending:owner/3.
+    typhon_rate_limits:owner/3.
 
 :- dynamic left/4.              % Host, agent or owner, Id, Count
 
@@ -56,7 +56,7 @@ too_many(Host, Agent) :-
     !.
 too_many(Host, Agent) :-
     quota_shared(Host, Whose, tuples, Most),
-    typhon_spending:owner(Host, Agent, Owner),
+    typhon_rate_limits:owner(Host, Agent, Owner),
     count(Host, owner, Owner, Count),
     too_many(Whose, Host, Count, Most),
     !.
@@ -86,7 +86,7 @@ count(Host, Kind, Id, Count) :-
 leaver(Host, By) :-
     (   tuples_bounded(Host),
         context_now(_, Agent),
-        typhon_spending:owner(Host, Agent, Owner)
+        typhon_rate_limits:owner(Host, Agent, Owner)
     ->  By = by(Host, Agent, Owner)
     ;   By = none
     ).
@@ -99,7 +99,7 @@ leaving_ends(By) :-
 
 counted(none, _).
 counted(by(Host, Agent, Owner), Change) :-
-    with_mutex(typhon_leavings,
+    with_mutex(typhon_tuple_quota,
                ( more(Host, agent, Agent, Change),
                  more(Host, owner, Owner, Change),
                  more(Host, all, all, Change) )).
@@ -115,4 +115,4 @@ more(Host, Kind, Id, Change) :-
     ).
 
 typhon_quotas:forgotten(Host) :-
-    with_mutex(typhon_leavings, retractall(left(Host, _, _, _))).
+    with_mutex(typhon_tuple_quota, retractall(left(Host, _, _, _))).

@@ -1,4 +1,4 @@
-:- module(typhon_legacy,
+:- module(typhon_result_facts,
           [ legacy_result/2,            % +Module, +Term
             legacy_cloned/2,            % +Module, +Endpoint
             legacy/2,                   % +Module, -Items
@@ -90,5 +90,5 @@ is_legacy(Item) :-
 
 prolog:error_message(resource_error(result_bytes)) -->
     { setting(result_bytes, Most) },
-    [ 'A result may have ~D bytes at most (setting typhon_legacy:result_bytes)'-
+    [ 'A result may have ~D bytes at most (setting typhon_result_facts:result_bytes)'-
       [Most] ].

@@ -1,4 +1,4 @@
-:- module(typhon_happenings,
+:- module(typhon_event_text,
           [ happening/3,                % +What, //
             own_event/1,                % +What
             short_name/2                % +Name, -Short

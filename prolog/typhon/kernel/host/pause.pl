@@ -1,4 +1,4 @@
-:- module(typhon_still,
+:- module(typhon_pause,
           [ still/0,
             still_begin/0,
             still_end/1,                % -Agents
@@ -24,14 +24,14 @@ turn has come are kept until that is over.
 %   Agents are those that were kept, whose turn it is.
 
 still_begin :-
-    with_mutex(typhon_still,
+    with_mutex(typhon_pause,
                (   still
                ->  true
                ;   assertz(still)
                )).
 
 still_end(Agents) :-
-    with_mutex(typhon_still,
+    with_mutex(typhon_pause,
                ( retractall(still),
                  findall(Agent, kept(Agent), Agents),
                  retractall(kept(_)) )).
@@ -42,4 +42,4 @@ still_end(Agents) :-
 
 still_keeps(Agent) :-
     still,
-    with_mutex(typhon_still, ( still, assertz(kept(Agent)) )).
+    with_mutex(typhon_pause, ( still, assertz(kept(Agent)) )).

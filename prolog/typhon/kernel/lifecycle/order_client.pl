@@ -1,4 +1,4 @@
-:- module(typhon_giving,
+:- module(typhon_order_client,
           [ agent_move/2,               % +Agent, +Host
             agent_move/3,               % +Agent, +Host, +Options
             agent_clone/2,              % +Agent, -Clone

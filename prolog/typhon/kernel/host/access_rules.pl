@@ -1,4 +1,4 @@
-:- module(typhon_permits,
+:- module(typhon_access_rules,
           [ peer_may/3,                 % +Peer, +Host, +Right
             peer_permitted/3,           % +Peer, +Host, +Right
             audit/3,                    % +Host, +Peer, +What

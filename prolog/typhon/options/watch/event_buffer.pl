@@ -1,4 +1,4 @@
-:- module(typhon_basin,
+:- module(typhon_event_buffer,
           [ basin_open/3,               % +Most, +Bell, -Basin
             basin_close/1,              % +Basin
             basin_put/3,                % +Basin, +Host, +Event
@@ -27,7 +27,7 @@ only for a teller that waits, and once.
 %   Basin holds Most events; the queue Bell hears `some`.
 
 basin_open(Most, Bell, basin(Queue, Flag, Most, Bell)) :-
-    flag(typhon_basin, N, N+1),
+    flag(typhon_event_buffer, N, N+1),
     atom_concat(typhon_basin_, N, Flag),
     message_queue_create(Queue).
 
@@ -49,7 +49,7 @@ basin_put(basin(Queue, Flag, Most, Bell), Host, Event) :-
             thread_send_message(Bell, some)
         ;   true
         )
-    ;   with_mutex(typhon_basin, skip(Queue, Host))
+    ;   with_mutex(typhon_event_buffer, skip(Queue, Host))
     ).
 
 skip(Queue, Host) :-
@@ -86,7 +86,7 @@ basin_size(basin(Queue, _, _, _), Size) :-
 basin_take(basin(Queue, _, _, _), Most, Events, Skipped) :-
     take(Most, Queue, Events),
     (   skipped(Queue, _, _)
-    ->  with_mutex(typhon_basin, all_skipped(Queue, Skipped))
+    ->  with_mutex(typhon_event_buffer, all_skipped(Queue, Skipped))
     ;   Skipped = []
     ).
 

@@ -1,4 +1,4 @@
-:- module(typhon_furnishing,
+:- module(typhon_host_setup,
           [ furnishing_check/2,         % +Places, +Names
             furnishing_files/3,         % +Places, +Name, -Files
             furnishing_goals/3          % +Places, +Name, -Goals

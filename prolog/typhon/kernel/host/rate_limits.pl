@@ -1,4 +1,4 @@
-:- module(typhon_spending,
+:- module(typhon_rate_limits,
           [ quota_spend/3,              % +Host, +Agent, +What
             quota_spend/4,              % +Host, +Family, +What, +Most
             quota_cells/2,              % +Host, +Term
@@ -80,7 +80,7 @@ forget_some :-
 forget_some.
 
 typhon_quotas:forgotten(Host) :-
-    with_mutex(typhon_spending, retractall(shared(Host, _, _, _, _))),
+    with_mutex(typhon_rate_limits, retractall(shared(Host, _, _, _, _))),
     (   quota(_, _, _)
     ->  true
     ;   retractall(spent(_, _, _, _))
@@ -94,7 +94,7 @@ spend_shared(Host, Agent, What) :-
     quota_shared(Host, _, What, _),
     !,
     (   owner(Host, Agent, Owner)
-    ->  with_mutex(typhon_spending, count(Host, What, Owner, Passed)),
+    ->  with_mutex(typhon_rate_limits, count(Host, What, Owner, Passed)),
         (   Passed == true
         ->  quota_passed(What)
         ;   true
@@ -147,7 +147,7 @@ too_much(Host, What, _, Count, All) :-
 
 quota_spend(Host, Family, What, Most) :-
     this_second(Second),
-    with_mutex(typhon_spending,
+    with_mutex(typhon_rate_limits,
                ( begin_second(Host, What, Second),
                  one_more(Host, What, Family, Second, Count),
                  one_more(Host, What, all, Second, _) )),

@@ -1,4 +1,4 @@
-:- module(typhon_front,
+:- module(typhon_sandbox_view,
           [ service/1,                  % +PIs
             front_set/3,                % +Host, +Place, +Policy
             front_gone/1,               % +Place
@@ -61,7 +61,7 @@ front_set(_, Place, trusted) :-
     retractall(front(Place, _, _)).
 front_set(Host, Place, Policy) :-
     policy_read(Policy),
-    flag(typhon_front, N, N+1),
+    flag(typhon_sandbox_view, N, N+1),
     atomic_list_concat(['front ', Host, ' ', N], Front),
     set_module(Front:class(temporary)),
     set_module(Front:base(typhon_vocabulary)),

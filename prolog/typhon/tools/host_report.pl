@@ -1,4 +1,4 @@
-:- module(typhon_close_up,
+:- module(typhon_host_report,
           [ host_close_up/2             % +Host, -CloseUp
           ]).
 :- autoload(library(listing), [portray_clause/1]).
@@ -48,7 +48,7 @@ close_up(remote(Address, Name, Endpoint), CloseUp) :-
     ).
 
 typhon_endpoint:requested(close_up, host(Name), _Peer, ReplyTo) :-
-    scheduler_call(typhon_close_up:reply(Name, ReplyTo)).
+    scheduler_call(typhon_host_report:reply(Name, ReplyTo)).
 
 :- public
     reply/2.                            % goal of a worker

@@ -1,4 +1,4 @@
-:- module(typhon_standing,
+:- module(typhon_clause_location,
           [ fault_where/4,              % +Hash, +Agent, +Fault, -Where
             where_handled/5             % +Hash, +Agent, +Goal, +Fault, -Where
           ]).

@@ -1,4 +1,4 @@
-:- module(typhon_in_words,
+:- module(typhon_printable_fallback,
           [ in_words/2                  % +Term, -Portable
           ]).
 :- use_module(library(apply), [maplist/3]).

@@ -1,4 +1,4 @@
-:- module(typhon_cut,
+:- module(typhon_process_dump,
           [ cut_kept/2,                 % +Hosts, -Items
             cut_again/2,                % +Kind, +Items
             cut_go_on/3                 % +Kind, +Agents, +Scheduled

@@ -1,4 +1,4 @@
-:- module(typhon_ways,
+:- module(typhon_routing,
           [ one_letter/2,               % +Letters, -Letter
             way_in/2,                   % +Id, +Mail
             way_out/3,                  % +Id, +Letter, -Way
@@ -14,8 +14,8 @@
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent', [agent_home_endpoint/2, agent_mail/2]).
 :- use_module(channel, [channel_post/3]).
-:- use_module(full, [mail_fits/3]).
-:- use_module(lost, [mail_lost/3]).
+:- use_module(mailbox_overflow, [mail_fits/3]).
+:- use_module(dead_letters, [mail_lost/3]).
 :- use_module(senders, [mail_parts/4, shown/5]).
 :- use_module(whereabouts, [whereabouts/2]).
 

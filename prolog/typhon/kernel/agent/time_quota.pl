@@ -1,4 +1,4 @@
-:- module(typhon_stay,
+:- module(typhon_time_quota,
           [ stay_begins/4,              % +Id, +Host, +Module, +Hash
             stay_ends/1,                % +Id
             stay_owner/3,               % ?Id, +Host, -Owner
@@ -18,7 +18,7 @@ While an agent stands there: whose it is, and how long it may.
 *Threading*: begins and ends inside with_agent/2 of the agent; anybody asks.
 */
 
-:- multifile typhon_spending:owner/3.
+:- multifile typhon_rate_limits:owner/3.
 
 :- dynamic stays/4.             % Id, Host, Owner: an atom, Until or inf
 
@@ -86,7 +86,7 @@ stay_ends(Id) :-
 stay_owner(Id, Host, Owner) :-
     stays(Id, Host, Owner, _).
 
-typhon_spending:owner(Host, Id, Owner) :-
+typhon_rate_limits:owner(Host, Id, Owner) :-
     stays(Id, Host, Owner, _),
     !.
 

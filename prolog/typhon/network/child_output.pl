@@ -1,4 +1,4 @@
-:- module(typhon_voice,
+:- module(typhon_child_output,
           [ voice_begin/0,
             voice_end/0,
             voice_heard/2               % +Child, +Line
@@ -38,7 +38,7 @@ voice_end :-
 
 voice_begin :-
     asserta((user:message_hook(_, Kind, Lines) :-
-                typhon_voice:message(Kind, Lines))).
+                typhon_child_output:message(Kind, Lines))).
 
 :- public
     message/2.                  % called by the hook
@@ -76,17 +76,17 @@ voice_heard(Child, Line) :-
     string(Text),
     !,
     setup_call_cleanup(
-        nb_setval(typhon_voice, Child),
+        nb_setval(typhon_child_output, Child),
         print_message(Kind, typhon(voice(Text))),
-        nb_delete(typhon_voice)).
+        nb_delete(typhon_child_output)).
 voice_heard(Network-P, Line) :-
     format(user_output, '[~w/~w] ~s~n', [Network, P, Line]).
 
 %   Errors, warnings and debug messages do not name their process.
 
 user:message_property(Kind, prefix(Prefix)) :-
-    nb_current(typhon_voice, Network-P),
-    typhon_voice:begins(Kind, Begin),
+    nb_current(typhon_child_output, Network-P),
+    typhon_child_output:begins(Kind, Begin),
     format(string(Prefix), '~~N~w[~w/~w] ', [Begin, Network, P]).
 
 :- public

@@ -1,4 +1,4 @@
-:- module(typhon_chance,
+:- module(typhon_prng,
           [ chance_seed/2,              % +Seed, -Chance
             chance_hash/2,              % +Term, -Seed
             chance_float/3,             % -Float, +Chance0, -Chance

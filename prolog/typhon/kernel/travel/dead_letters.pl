@@ -1,4 +1,4 @@
-:- module(typhon_lost,
+:- module(typhon_dead_letters,
           [ mail_lost/3                 % +Formal, +Id, +Mail
           ]).
 :- use_module(library(apply), [partition/4]).
@@ -48,7 +48,7 @@ was_sent_here(mail(Origin, _, _)) :-
 
 give_back(Formal, Id, Mail) :-
     forall(member(One, Mail),
-           scheduler_call(typhon_lost:given_back(Formal, Id, One))).
+           scheduler_call(typhon_dead_letters:given_back(Formal, Id, One))).
 
 given_back(Formal, Id, Mail) :-
     Mail = mail(_, From, Message),

@@ -1,4 +1,4 @@
-:- module(typhon_glance,
+:- module(typhon_agent_summary,
           [ agent_glance/2              % ?Agent, -Glance
           ]).
 :- use_module(library(apply), [maplist/2]).

@@ -1,4 +1,4 @@
-:- module(typhon_arrows,
+:- module(typhon_listing_marks,
           [ stands_in/3                 % +Clauses, +Goals, -Places
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).

@@ -1,4 +1,4 @@
-:- module(typhon_alone_with,
+:- module(typhon_agent_lock,
           [ with_agent/2,               % +Id, :Goal
             agents_passed/0
           ]).

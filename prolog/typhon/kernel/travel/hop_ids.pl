@@ -1,4 +1,4 @@
-:- module(typhon_crossings,
+:- module(typhon_hop_ids,
           [ crossing_begin/4,           % +Who, +Hops, +Endpoint, -Sent
             crossing_restore/4,         % +Who, +Hops, +Endpoint, +Sent
             crossing_end/2,             % +Who, ?Hops
@@ -51,7 +51,7 @@ hop, that the first has no open one less than Least to it any more.
 
 crossing_begin(Who, Hops, Endpoint, Sent) :-
     (   durable_on
-    ->  with_mutex(typhon_crossings,
+    ->  with_mutex(typhon_hop_ids,
                    ( stamp(Sent),
                      crossing_add(Who, Hops, Endpoint, Sent) ))
     ;   get_time(Sent)
@@ -145,7 +145,7 @@ forget_below(Process, Least) :-
 %   The number that comes from the database has 32 bits.
 
 typhon_durable:fact_table(done, Process, _, N,
-                          typhon_crossings:done(Process, N)).
+                          typhon_hop_ids:done(Process, N)).
 
 typhon_runtime:ending(after) :-
     retractall(under_way(_, _, _, _)),

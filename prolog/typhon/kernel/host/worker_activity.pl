@@ -1,4 +1,4 @@
-:- module(typhon_census,
+:- module(typhon_worker_activity,
           [ census/1,                   % -Began
             census_begin/0,
             census_end/0,
