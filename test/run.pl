@@ -5,7 +5,7 @@
     swipl test/run.pl [-- suite ...]
 
 runs every test_*.pl in the folders of test/, or those named (`frame` for
-test/prolog/wire/test_frame.pl, `prolog/wire` for all in that folder), each
+test/prolog/kernel/wire/test_frame.pl, `prolog/kernel/wire` for all in that folder), each
 in a process of its own, three at a time, and reports.  The last line is
 `N passed, N failed`; `N skipped` stands above it if any were.  The exit status
 is 0 only if nothing failed.

@@ -1,4 +1,4 @@
-"""Functions for test/prolog/python/test_python.pl."""
+"""Functions for test/prolog/bridges/python/test_python.pl."""
 
 import itertools
 import json                             # not offered: of another module

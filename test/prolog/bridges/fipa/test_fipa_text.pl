@@ -1,0 +1,386 @@
+:- module(test_fipa_text, []).
+
+% Messages of FIPA as text and bytes: what is written is read again, whatever
+% is in it, and what is no message is an error.
+
+:- use_module('../../../lib/common').
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(random), [random_between/3, random_member/2]).
+:- use_module(library(typhon/bridges/fipa/acl)).
+:- use_module(library(typhon/bridges/fipa/directory)).
+:- use_module(library(typhon/bridges/fipa/envelope)).
+:- use_module(library(typhon/bridges/fipa/letter)).
+:- use_module(library(typhon/bridges/fipa/multipart)).
+:- use_module(library(typhon/bridges/fipa/sl)).
+
+                /*******************************
+                *          RANDOM INPUT        *
+                *******************************/
+
+%   any(+Depth, -Term): a term that SL can say.
+
+any(0, Term) :-
+    !,
+    random_between(0, 7, Kind),
+    leaf(Kind, Term).
+any(Depth, Term) :-
+    Less is Depth-1,
+    random_between(0, 6, Kind),
+    node(Kind, Less, Term).
+
+leaf(0, Term) :- random_between(-1000000, 1000000, Term).
+leaf(1, Term) :- random_between(-9999, 9999, N), Term is N/7.0.
+leaf(2, Term) :- any_string(Term).
+leaf(3, Term) :- any_word(Term).
+leaf(4, date(Stamp)) :- random_between(0, 4000000000000, Ms), Stamp is Ms/1000.0.
+leaf(5, var(Name)) :- any_word(Name).
+leaf(6, []).
+leaf(7, fipa(Name, Urls)) :-
+    any_string(Text),
+    atom_string(Name, Text),
+    random_member(Urls, [[], ['http://a:1/acc'], ['http://a:1/acc', 'x y']]).
+
+node(0, Depth, Term) :- any(Depth, Term0), Term = Term0.
+node(1, Depth, Terms) :- some(Depth, Terms).
+node(2, Depth, set(Terms)) :- some(Depth, Terms).
+node(3, Depth, Term) :- node(4, Depth, Term).
+node(4, Depth, Term) :-
+    any_word(Name),
+    some(Depth, Arguments),
+    compound_name_arguments(Term, Name, Arguments).
+node(5, Depth, Term) :-
+    some(Depth, Values),
+    findall(Key:Value, ( member(Value, Values), any_word(Key) ), Arguments),
+    compound_name_arguments(Term, 'a-description', Arguments).
+node(6, _, Term) :- any(0, Term).
+
+some(Depth, Terms) :-
+    random_between(0, 3, Count),
+    length(Terms, Count),
+    maplist(any(Depth), Terms).
+
+any_word(Word) :-
+    random_member(Word, [a, 'b-c', foo_bar, 'x@y:1', 'http://z/acc?q', '\\',
+                         'Upper', '|', ';', '<i>', '\'']).
+
+%   Of bytes, characters of more bytes, and whatever means something.
+
+any_string(String) :-
+    random_between(0, 12, Length),
+    length(Codes, Length),
+    maplist(any_code, Codes),
+    string_codes(String, Codes).
+
+any_code(Code) :-
+    random_member(Code, `ab \\"()#:?0\n\t\u00E4\u20AC\U0001F600~`).
+
+:- meta_predicate random_runs(+, 0).
+
+random_runs(Count, Goal) :-
+    set_random(seed(18)),
+    forall(between(1, Count, _), call(Goal)).
+
+:- begin_tests(fipa_content).
+
+test(what_is_written_is_read) :-
+    random_runs(1000, test_fipa_text:same_content).
+
+test(as_the_standard_has_it, Text == "((action (agent-identifier :name \c
+        df@p :addresses (sequence http://h:1/acc)) (search \c
+        (df-agent-description :services (set (service-description :type \c
+        \"two words\"))) (search-constraints :max-results -1))))") :-
+    sl_text([ action(fipa('df@p', ['http://h:1/acc']),
+                     search('df-agent-description'(
+                                services:set(['service-description'(
+                                                  type:"two words")])),
+                            'search-constraints'('max-results': -1))) ],
+            Text).
+
+test(in_any_case, Terms == [f(fipa(a,[]), set([1]), [x], "q\"")]) :-
+    sl_text(Terms,
+            "( (f\n(AGENT-IDENTIFIER :NAME a)(Set 1) (SEQUENCE x) \"q\\\"\") )").
+
+test(counted_strings, Terms == ["a\"b", "\u00E4"]) :-
+    sl_text(Terms, "(#3\"a\"b #2\"\u00E4)").
+
+test(is_no_content, [ forall(member(Text, ["", "(", ")", "(a", "(a))", "a b",
+                                           "\"a", "(())", "(f :k)", "((f :k))", "((a) b",
+                                           "(#9\"a)", "(((f) x))"])),
+                      error(syntax_error(_)) ]) :-
+    sl_text(_, Text).
+
+test(too_deep, error(resource_error(fipa_depth))) :-
+    length(Codes, 100000),
+    maplist(=(0'(), Codes),
+    string_codes(Text, Codes),
+    sl_text(_, Text).
+
+test(cannot_be_said, [ forall(member(Term, [_, f(_), [a|_], 1r3, k:v])),
+                       error(_) ]) :-
+    sl_text([Term], _).
+
+%   A number of a million digits would take minutes.
+
+test(long_number) :-
+    length(Codes, 1000000),
+    maplist(=(0'7), Codes),
+    string_codes(Digits, Codes),
+    string_concat("(", Digits, Text0),
+    string_concat(Text0, ")", Text),
+    call_cpu(sl_text([Word], Text), Seconds),
+    assertion(atom(Word)),
+    assertion(Seconds < 10).
+
+:- end_tests(fipa_content).
+
+same_content :-
+    some(3, Terms),
+    sl_text(Terms, Text),
+    sl_text(Read, Text),
+    (   Read == Terms
+    ->  true
+    ;   throw(error(not_the_same(Terms, Text, Read), _))
+    ).
+
+:- meta_predicate call_cpu(0, -).
+
+call_cpu(Goal, Seconds) :-
+    statistics(cputime, Before),
+    call(Goal),
+    statistics(cputime, After),
+    Seconds is After-Before.
+
+:- begin_tests(fipa_message).
+
+test(what_is_written_is_read) :-
+    random_runs(500, test_fipa_text:same_message).
+
+test(reads_what_jade_writes) :-
+    acl_text(Acl,
+             "(REQUEST\n :sender  ( agent-identifier :name snd@jadeplat  \c
+              :addresses (sequence http://127.0.0.1:7778/acc ))\n :receiver  \c
+              (set ( agent-identifier :name \"x y@typhon\" ) )\n :content  \c
+              \"a \\\"q\\\" and \\ back\nnl\" \n :reply-with  \"rw\\\"1\"  \c
+              :language  plain  :reply-by  20261122T081127162Z\n \c
+              :conversation-id  \"conv 1\" :X-foo \"bar baz\" )"),
+    assertion(Acl == acl(request,
+                         [ conversation_id('conv 1'),
+                           sender(fipa('snd@jadeplat',
+                                       ['http://127.0.0.1:7778/acc'])),
+                           receiver([fipa('x y@typhon', [])]),
+                           content("a \"q\" and \\ back\nnl"),
+                           reply_with('rw"1'), language(plain),
+                           reply_by(1795335087.162),
+                           'x-foo'('bar baz') ])).
+
+test(names_of_parameters, Text == "(inform :reply-with a :in-reply-to \"1\")") :-
+    acl_text(acl(inform, ['reply-with'(a), in_reply_to(1)]), Text).
+
+test(content_that_is_none, Content == "(a") :-
+    acl_text(acl(_, Parameters), "(inform :language fipa-sl :content \"(a\")"),
+    memberchk(content(Content), Parameters).
+
+test(is_no_message, [ forall(member(Text, ["(inform", "inform", "()",
+                                           "((inform))", "(inform :content)",
+                                           "(inform content \"x\")",
+                                           "(inform :sender x)",
+                                           "(inform :receiver x)",
+                                           "(inform :reply-by tomorrow)"])),
+                      error(syntax_error(_)) ]) :-
+    acl_text(_, Text).
+
+test(no_such_performative, error(domain_error(performative, shout))) :-
+    acl_text(acl(shout, []), _).
+
+test(no_such_parameter,
+     [ forall(member(P, [x, sender(me), receiver(fipa(a)), content(_),
+                         reply_by(soon), 'two words'(x), f(1,2)])),
+       error(type_error(_, _)) ]) :-
+    acl_text(acl(inform, [P]), _).
+
+test(answers_its_message,
+     Answer == [ content(no), in_reply_to(r1), conversation_id(c),
+                 protocol(p), language('fipa-sl0') ]) :-
+    acl_reply(acl(request, [ conversation_id(c), sender(fipa(a)),
+                             reply_with(r1), protocol(p),
+                             language('fipa-sl0'), content([x]) ]),
+              refuse, no, acl(refuse, Answer0)),
+    memberchk(reply_with(_), Answer0),
+    exclude_own(Answer0, Answer).
+
+test(a_megabyte) :-
+    length(Codes, 1000000),
+    maplist(=(0'x), Codes),
+    string_codes(Content, Codes),
+    Acl = acl(inform, [content(Content)]),
+    call_cpu(( acl_text(Acl, Text), acl_text(Read, Text) ), Seconds),
+    assertion(Read == Acl),
+    assertion(Seconds < 10).
+
+:- end_tests(fipa_message).
+
+exclude_own(Parameters0, Parameters) :-
+    findall(P, ( member(P, Parameters0), P \= reply_with(_) ), Parameters).
+
+same_message :-
+    some(2, Content),
+    findall(Aid, ( member(_, [1,2]), leaf(7, Aid) ), Receivers),
+    leaf(7, Sender),
+    leaf(4, date(Stamp)),
+    any_string(Text),
+    atom_string(Id, Text),
+    Acl = acl('query-ref',
+              [ conversation_id(Id), language('fipa-sl'), content(Content),
+                sender(Sender), receiver(Receivers), reply_by(Stamp),
+                'x-any'(Id) ]),
+    acl_text(Acl, Written),
+    acl_text(acl(Performative, Parameters0), Written),
+    Acl = acl(Performative0, Parameters1),
+    msort(Parameters0, Read),
+    msort(Parameters1, Wanted),
+    (   Performative == Performative0,
+        Read == Wanted
+    ->  true
+    ;   throw(error(not_the_same(Acl, Written), _))
+    ).
+
+:- begin_tests(fipa_letter).
+
+test(what_is_written_is_read) :-
+    random_runs(200, test_fipa_text:same_letter).
+
+test(broken_parts,
+     [ forall(member(Type-Body,
+                     [ "text/plain"-"x",
+                       "multipart/mixed"-"--x\r\n\r\n--x--",
+                       "multipart/mixed; boundary=x"-"",
+                       "multipart/mixed; boundary=x"-"--x\r\nno head\r\n--x--",
+                       "multipart/mixed; boundary=x"-"--x\r\n\r\na\r\n--x\r\n",
+                       "multipart/mixed; boundary=\"\""-"--\r\n\r\na\r\n----",
+                       "multipart/mixed; boundary=x"-
+                       "--x\r\n\r\n<envelope/>\r\n--x--" ])),
+       error(syntax_error(_)) ]) :-
+    letter_read(Type, Body, _, _).
+
+%   Entities within entities, and one that is a file.
+
+test(bombs,
+     [ forall(member(Xml,
+                     [ "<?xml version=\"1.0\"?><!DOCTYPE lolz [<!ENTITY a \c
+                        \"ha\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">]>\c
+                        <envelope>&b;</envelope>",
+                       "<!DOCTYPE x SYSTEM \"file:///etc/passwd\"><envelope/>",
+                       "<!DOCTYPE x [<!ENTITY a SYSTEM \"/etc/passwd\">]>\c
+                        <envelope>&a;</envelope>" ])),
+       error(permission_error(declare, fipa_envelope, document_type)) ]) :-
+    envelope_xml(_, Xml).
+
+test(long_numbers_are_no_numbers, Envelope == [date(x)]) :-
+    format(string(Xml), "<envelope><params><payload-length>~`1t~1000|\c
+           </payload-length><date>x</date></params></envelope>", []),
+    envelope_xml(Envelope, Xml).
+test(long_envelopes, error(resource_error(fipa_envelope))) :-
+    format(string(Xml), "<envelope><params><date>~`1t~70000|</date></params>\c
+           </envelope>", []),
+    envelope_xml(_, Xml).
+test(many_parts, error(syntax_error(fipa_multipart))) :-
+    findall(x-"y", between(1, 20, _), Parts),
+    multipart_write(Parts, Type, Body),
+    multipart_read(Type, Body, _).
+test(length_with_many_digits, error(syntax_error(_))) :-
+    acl_text(_, "(inform :content #00000000000000000001\"x)").
+test(broken_envelopes,
+     [ forall(member(Xml, ["", "x", "<other/>", "<envelope>&b;</envelope>"])),
+       error(syntax_error(fipa_envelope)) ]) :-
+    envelope_xml(_, Xml).
+
+test(deep_envelope, error(syntax_error(fipa_envelope))) :-
+    findall("<a>", between(1, 20000, _), Tags),
+    atomics_to_string(Tags, Xml),
+    envelope_xml(_, Xml).
+
+test(later_params_count, Name == b) :-
+    envelope_xml(Envelope,
+                 "<envelope><params index=\"2\"><to><agent-identifier>\c
+                  <name>b</name></agent-identifier></to></params>\c
+                  <params index=\"1\"><to><agent-identifier><name>a</name>\c
+                  </agent-identifier></to><date>x</date></params></envelope>"),
+    memberchk(date(x), Envelope),
+    memberchk(to([fipa(Name, [])]), Envelope).
+
+test(bytes_are_as_they_are_written, Bytes == "(inform :content \"\u00C3\u00A4\")") :-
+    letter_write("(inform :content \"\u00E4\")", fipa(a), fipa(b), Type, Body),
+    multipart_read(Type, Body, [_, 'application/text'-Bytes]).
+
+test(other_encodings, Text == "\u00E4") :-
+    multipart_write([ 'application/xml'-"<envelope><params>\c
+                       <payload-encoding>ISO-8859-1</payload-encoding>\c
+                       </params></envelope>",
+                      'application/text'-"\u00E4" ], Type, Body),
+    letter_read(Type, Body, _, Text).
+
+test(unknown_representation, error(syntax_error(fipa_representation))) :-
+    multipart_write([ 'application/xml'-"<envelope><params>\c
+                       <acl-representation>fipa.acl.rep.bitefficient.std\c
+                       </acl-representation></params></envelope>",
+                      'application/text'-"x" ], Type, Body),
+    letter_read(Type, Body, _, _).
+
+:- end_tests(fipa_letter).
+
+atomics_to_string(Texts, String) :-
+    atomic_list_concat(Texts, Atom),
+    atom_string(Atom, String).
+
+same_letter :-
+    any_string(Text),
+    leaf(7, From),
+    leaf(7, fipa(Name, Urls)),
+    letter_write(Text, From, fipa(Name, Urls), Type, Body),
+    assertion(\+ ( string_code(_, Body, Code), Code > 255 )),
+    letter_read(Type, Body, Envelope, Read),
+    memberchk(payload_length(_), Envelope),
+    (   Read == Text
+    ->  true
+    ;   throw(error(not_the_same(Text, Read), _))
+    ).
+
+:- begin_tests(fipa_directory).
+
+matches(d(name:"x"), d(name:x, more:y)).
+matches(d(), d(name:x)).
+matches(d(s:set([a(k:1)])), d(s:set([b, a(k:1, l:2)]))).
+matches(d(s:[a]), d(s:set([b, a]))).
+matches([a, c], [a, b, c]).
+matches(fipa(a, []), fipa(a, ['http://x/'])).
+matches(f(1, a), f(1, a)).
+
+differs(d(name:y), d(name:x)).
+differs(d(name:x), d()).
+differs(d(s:set([a, c])), d(s:set([a]))).
+differs([c, a], [a, b, c]).
+differs(e(), d()).
+differs(fipa(a), fipa(b)).
+differs(f(1, b), f(1, a)).
+
+test(matches, [forall(matches(Template, Description)), nondet]) :-
+    description_matches(Template, Description).
+
+test(differs, [forall(differs(Template, Description)), fail]) :-
+    description_matches(Template, Description).
+
+test(leases_end) :-
+    get_time(Now),
+    Soon is Now+60,
+    Before is Now-1,
+    directory_add(test, a, d(a), Before),
+    directory_add(test, b, d(b), Soon),
+    findall(D, directory_entry(test, D), Ds),
+    assertion(Ds == [d(b)]),
+    assertion(\+ directory_has(test, a)),
+    directory_forget(test).
+
+:- end_tests(fipa_directory).

@@ -1,0 +1,107 @@
+:- module(test_helper, []).
+
+/** <module> Tests of processes that help: what is heard of one that cannot
+*/
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(thread), [concurrent/3]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/bridges/helper)).
+
+%   with_complaining(:Goal): there is a helper that says what it lacks, and ends,
+%   whenever it is started.
+
+:- meta_predicate with_complaining(0), with_helper(+, 0).
+
+with_complaining(Goal) :-
+    Says = 'echo \'{"error":"no_thing","message":"why"}\'; exit 3',
+    listening(with_helper(Says, Goal), _).
+
+with_helper(Says, Goal) :-
+    setup_call_cleanup(
+        helper_open(complaining, command(path(sh), ['-c',Says]),
+                    [restart(always)]),
+        Goal,
+        helper_close(complaining)).
+
+asked(Error) :-
+    helper_ask(complaining, _{do:something}, 5, Answer),
+    (   Answer = said(Dict)
+    ->  Error = Dict.error
+    ;   Error = Answer
+    ).
+
+:- begin_tests(helper).
+
+%   Also while it is down, until it is started once more.
+
+test(whoever_asks_hears_why_it_ends, Errors == ["no_thing"]) :-
+    no_leaks(with_complaining(
+        findall(Error, ( between(1, 5, _), is_down, asked(Error) ), All))),
+    sort(All, Errors).
+
+%   Nor does a message say that it is started again.
+
+test(what_lacks_something_is_not_started_again,
+     Errors-Messages == ["no_thing","no_thing"]-[]) :-
+    Says = 'echo \'{"error":"no_thing","message":"why","again":false}\'; \c
+            exit 3',
+    no_leaks(listening(with_helper(Says, findall(Error,
+                                                 ( member(_, [1,2]),
+                                                   asked(Error),
+                                                   is_down ),
+                                                 Errors)),
+                       Messages)).
+
+test(a_late_answer_leaves_one_thread_that_serves,
+     Answers == [said("timeout"),ok(1),ok(1)]) :-
+    no_leaks(with_tmp_dir(late(Answers))).
+
+%   A method that is past its deadline when it says that its answer comes later
+%   has been replaced.  Two `meet` at once would count each other.
+
+late([Slow,First,Second], Dir) :-
+    directory_file_path(Dir, 'slow.py', File),
+    helper_file('lib/helper.py', Lib),
+    file_directory_name(Lib, Path),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, 'import sys, threading, time~n\c
+                     sys.path.insert(0, "~w")~n\c
+                     from helper import Helper, LATER~n\c
+                     class Slow(Helper):~n\c
+                     \x20   met, gone = 0, threading.Event()~n\c
+                     \x20   def do_slow(self, request, deadline):~n\c
+                     \x20       while not request["job"].answered:~n\c
+                     \x20           time.sleep(0.01)~n\c
+                     \x20       return LATER~n\c
+                     \x20   def do_meet(self, request, deadline):~n\c
+                     \x20       self.met += 1~n\c
+                     \x20       time.sleep(0.5)~n\c
+                     \x20       met, self.met = self.met, 0~n\c
+                     \x20       return met~n\c
+                     Slow().run()~n', [Path]),
+        close(Out)),
+    helper_python([], Python),
+    setup_call_cleanup(
+        helper_open(slow, command(Python, [File]), []),
+        ( answer(slow, 0.2, Slow),
+          concurrent(2, [answer(meet, 5, First), answer(meet, 5, Second)], [])
+        ),
+        helper_close(slow)).
+
+answer(Do, Seconds, Short) :-
+    helper_ask(slow, _{do:Do}, Seconds, Answer),
+    (   Answer = said(Dict)
+    ->  Short = said(Dict.error)
+    ;   Short = Answer
+    ).
+
+is_down :-
+    wait_until(\+ helper_pid(complaining, _), 20).
+
+:- end_tests(helper).

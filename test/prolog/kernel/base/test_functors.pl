@@ -1,0 +1,55 @@
+:- module(test_functors, []).
+:- use_module(library(plunit)).
+:- use_module('../../../lib/common', [project_file/2, run_swipl/5]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [numlist/3]).
+:- use_module(library(typhon/kernel/base/functors)).
+
+/** <module> Functors that several threads make are the same for all
+
+*Threading*: each thread makes functors of names of its own.
+*/
+
+:- dynamic made/2.                      % Name, Term: by one of the threads
+
+make(Thread) :-
+    forall(between(1, 3000, I),
+           ( atomic_list_concat([functor_of, Thread, I], '_', Name),
+             functor(Term, Name, 1),
+             assertz(made(Name, Term)) )).
+
+%   One that was lost is there a second time.
+
+lost(Name) :-
+    made(Name, Term),
+    functor(Again, Name, 1),
+    Again \= Term.
+
+:- begin_tests(functors_are_the_same_for_all_threads,
+               [cleanup(retractall(made(_, _)))]).
+
+test(there_is_room_for_many, true(Room >= 12000)) :-
+    functors_room,
+    statistics(functors, Count),
+    next_power(Count, Power),
+    Room is Power-Count.
+test(a_second_time_makes_none, true(Count1-Count0 =< 1)) :-
+    statistics(functors, Count0),
+    functors_room,
+    statistics(functors, Count1).
+test(a_process_has_it_before_it_can_have_threads,
+     Status-Out == exit(0)-"room") :-
+    project_file('prolog/typhon.pl', Typhon),
+    run_swipl([ '-g', 'statistics(functors, N), N > 0x8001, write(room)',
+                '-t', halt, Typhon ],
+              [timeout(60)], Status, Out, _).
+test(four_threads_make_some, Lost == []) :-
+    numlist(1, 4, Threads),
+    maplist([I,T]>>thread_create(test_functors:make(I), T), Threads, Ids),
+    maplist([T]>>thread_join(T, true), Ids),
+    findall(Name, lost(Name), Lost).
+
+next_power(Count, Power) :-
+    Power is 1<<(msb(Count)+1).
+
+:- end_tests(functors_are_the_same_for_all_threads).

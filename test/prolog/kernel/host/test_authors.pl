@@ -1,0 +1,238 @@
+:- module(test_authors, []).
+
+% Hosts that let in only programs that certain authors have signed.
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/authority').
+:- use_module('../../../lib/peers').
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(library(typhon)).
+:- use_module('../../../../app/keys', [keys_revoke/2, keys_sign_file/3]).
+
+:- needs([openssl]).
+
+%   The program in a file of its own, so that nobody has it yet.
+
+program(Authority, Name, File) :-
+    atom_concat(Name, '.pl', Base),
+    directory_file_path(Authority, Base, File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- agent(~w, [state([to/1])]).~n\c
+                     main :- to(Host), move(Host), here(H), ~w(H).~n\c
+                     ~w(_).~n', [Name, Name, Name]),
+        close(Out)).
+
+:- meta_predicate with_choosy_host(+, 1).
+
+with_choosy_host(Authority, Goal) :-
+    keys_of(alpha, Authority, Dir),
+    setup_call_cleanup(
+        ( host_start(alpha, [tls(Dir), authors([alice])]),
+          host_start(open, []) ),
+        ( host_property(alpha, address(Address)),
+          once(call(Goal, Address)) ),
+        ( host_stop(open), host_stop(alpha) )).
+
+created(File, Host, Outcome) :-
+    host_property(alpha, address(Alpha)),
+    catch(( agent_create(File, Agent, [host(Host), facts([to(Alpha)])]),
+            agent_join(Agent, Outcome, 10) ),
+          error(Formal, _),
+          Outcome = refused(Formal)).
+
+:- begin_tests(authors, [setup(true)]).
+
+test(only_what_alice_has_signed_begins_or_comes) :-
+    with_authority([alpha, beta], [alice, bob], authors_of).
+
+authors_of(Authority) :-
+    keys_of(beta, Authority, Dir),
+    with_peers([beta-[host([tls(Dir)])]],
+               with_choosy_host(Authority, authors_of(Authority))).
+
+authors_of(Authority, Alpha) :-
+    forall(member(Name, [alices, bobs, nobodys]),
+           program(Authority, Name, _)),
+    directory_file_path(Authority, 'alices.pl', Alices),
+    directory_file_path(Authority, 'bobs.pl', Bobs),
+    directory_file_path(Authority, 'nobodys.pl', Nobodys),
+    keys_sign_file(Alices, alice, Authority),
+    keys_sign_file(Bobs, bob, Authority),
+    Refused = raised(error(move_refused(Alpha, unsigned), _)),
+    peer_host(beta, Beta),
+    forall(member(File-Expected,
+                  [Alices-done, Bobs-Refused, Nobodys-Refused]),
+           ( created(File, alpha, Here),
+             assertion(( Expected == done -> Here == done
+                       ; subsumes_term(refused(move_refused(_, unsigned)),
+                                       Here) )),
+             forall(member(Host, [open, Beta]),
+                    ( created(File, Host, There),
+                      assertion(subsumes_term(Expected, There)) )),
+             peer_do(beta, catch(( agent_create(File, A, [host(Alpha),
+                                                 facts([to(Alpha)])]),
+                                   agent_join(A, Far, 10) ),
+                                 error(F, _), Far = refused(F))),
+             assertion(( Expected == done -> Far == done
+                       ; subsumes_term(refused(move_refused(_, unsigned)),
+                                       Far) )) )).
+
+test(a_changed_program_is_not_signed) :-
+    with_authority([alpha], [alice], changed_program).
+
+changed_program(Authority) :-
+    with_choosy_host(Authority, changed_program(Authority)).
+
+changed_program(Authority, _) :-
+    program(Authority, mine, File),
+    keys_sign_file(File, alice, Authority),
+    created(File, alpha, Before),
+    setup_call_cleanup(open(File, append, Out),
+                       format(Out, 'evil.~n', []),
+                       close(Out)),
+    created(File, alpha, After),
+    assertion(Before == done),
+    assertion(subsumes_term(refused(move_refused(_, unsigned)), After)).
+
+test(a_host_is_no_author_and_who_is_revoked_neither) :-
+    with_authority([alpha], [alice], no_author).
+
+no_author(Authority) :-
+    with_choosy_host(Authority, no_author(Authority)).
+
+no_author(Authority, _) :-
+    program(Authority, one, One),
+    host_change(alpha, authors([alice, alpha])),
+    keys_sign_file(One, alpha, Authority),
+    created(One, alpha, ByHost),
+    assertion(subsumes_term(refused(move_refused(_, unsigned)), ByHost)),
+    program(Authority, two, Two),
+    keys_sign_file(Two, alice, Authority),
+    created(Two, alpha, Before),
+    assertion(Before == done),
+    keys_revoke(alice, Authority),
+    created(Two, alpha, After),
+    assertion(subsumes_term(refused(move_refused(_, unsigned)), After)).
+
+test(only_payloads_that_alice_has_signed_come_along) :-
+    with_authority([alpha, beta], [alice], payloads_of).
+
+test(authors_need_keys, error(existence_error(host_option, tls))) :-
+    host_start(alpha, [authors([alice])]).
+
+:- end_tests(authors).
+
+                 /*******************************
+                 *            PAYLOADS          *
+                 *******************************/
+
+payload(Authority, Name, File) :-
+    atom_concat(Name, '.pl', Base),
+    directory_file_path(Authority, Base, File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- payload(~w, [provides([~w/1, rule/1])]).~n\c
+                     ~w(1).~nrule(X) :- X, findall(Y, X, _), \\+ Y.~n\c
+                     rule(X) :- call(X, 1), ~w(X).~n',
+               [Name, Name, Name, Name]),
+        close(Out)).
+
+%   The program is signed; what it carries may be.
+
+carrier(Authority, File) :-
+    directory_file_path(Authority, 'carrier.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- agent(carrier, [state([to/1])]).~n\c
+                     on_message(_, go(Host)) :- move(Host).~n\c
+                     on_message(_, do(Goal)) :- call(Goal).~n\c
+                     on_message(_, try(Goal)) :-~n  \c
+                       catch(Goal, error(Formal, _), true), result(Formal).~n',
+               []),
+        close(Out)),
+    keys_sign_file(File, alice, Authority).
+
+payloads_of(Authority) :-
+    keys_of(beta, Authority, Dir),
+    with_peers([beta-[host([tls(Dir)])]],
+               with_choosy_host(Authority, payloads_of(Authority))).
+
+payloads_of(Authority, Alpha) :-
+    carrier(Authority, Carrier),
+    payload(Authority, good, Good),
+    payload(Authority, bad, Bad),
+    keys_sign_file(Good, alice, Authority),
+    keys_sign_file(Bad, beta, Authority),
+    peer_host(beta, Beta),
+    forall(member(Host, [open, Beta]),
+           ( carries(Carrier, Good, Host, Alpha, true, Came),
+             assertion(Came == arrived),
+             carries(Carrier, Bad, Host, Alpha, true, Not),
+             assertion(Not == refused(move_refused(Alpha, unsigned))),
+             carries(Carrier, Good, Host, Alpha, assertz(good(2)), Changed),
+             assertion(Changed == refused(move_refused(Alpha, unsigned))) )),
+    guards_on_the_way(Carrier, Good, Beta, Alpha),
+    begins_with(Carrier, Good, arrived),
+    begins_with(Carrier, Bad, refused(move_refused(Alpha, unsigned))),
+    on_the_spot(Carrier, Good, Bad, Alpha).
+
+%   What becomes of a carrier that goes to Alpha after it has done something.
+
+carries(Carrier, Payload, Host, Alpha, Do, Came) :-
+    agent_create(Carrier, Agent, [host(Host), payloads([Payload])]),
+    agent_send(Agent, do(Do)),
+    agent_send(Agent, go(Alpha)),
+    wait_until(carried(Agent, Alpha, Came), 20).
+
+carried(Agent, Alpha, arrived) :-
+    agent_property(Agent, host(Alpha)),
+    agent_property(Agent, state(resident)).
+carried(Agent, _, refused(Formal)) :-
+    agent_property(Agent, state(faulty(error(Formal, _)))).
+
+%   What a host that guards writes into it does not count.
+
+guards_on_the_way(Carrier, Good, Beta, Alpha) :-
+    host_start(guarding, [policy(guarded)]),
+    host_property(guarding, address(Guarding)),
+    carries(Carrier, Good, Beta, Guarding, true, First),
+    assertion(First == arrived),
+    agent_property(Agent, host(Guarding)),
+    agent_property(Agent, facts(Facts)),
+    assertion(( sub_term(Sub, Facts), subsumes_term('$guarded'(_), Sub) )),
+    agent_send(Agent, go(Alpha)),
+    wait_until(carried(Agent, Alpha, Came), 20),
+    assertion(Came == arrived),
+    host_stop(guarding).
+
+begins_with(Carrier, Payload, Expected) :-
+    catch(( agent_create(Carrier, _, [host(alpha), payloads([Payload])]),
+            Came = arrived ),
+          error(Formal, _),
+          Came = refused(Formal)),
+    assertion(Came = Expected).
+
+%   On alpha itself nothing else is attached, from within or from outside, and
+%   nothing is delivered that has changed.
+
+on_the_spot(Carrier, Good, Bad, Alpha) :-
+    Refused = error(move_refused(Alpha, unsigned), _),
+    agent_create(Carrier, Agent, [host(alpha)]),
+    catch(payload_attach(Agent, Bad), Error, true),
+    assertion(subsumes_term(Refused, Error)),
+    payload_attach(Agent, Good),
+    agent_send(Agent, do(deliver(good))),
+    wait_until(remote(alpha, catch(good(1), error(_, _), fail)), 10),
+    agent_send(Agent, do(undeliver(good))),
+    agent_send(Agent, do(assertz(good(2)))),
+    agent_send(Agent, do(deliver(good))),
+    wait_until(agent_property(Agent, state(faulty(Fault))), 10),
+    assertion(subsumes_term(Refused, Fault)),
+    agent_create(Carrier, Other, [host(alpha)]),
+    agent_send(Other, do(attach(Bad))),
+    wait_until(agent_property(Other, state(faulty(Again))), 10),
+    assertion(subsumes_term(Refused, Again)).

@@ -1,0 +1,59 @@
+:- module(test_host_log, []).
+:- use_module(library(plunit)).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(typhon)).
+
+/** <module> A log server that is not there
+
+*/
+
+%   ended(+Count): so many agents have begun, logged something and ended.
+
+ended(Count) :-
+    forall(between(1, Count, _),
+           ( create([(main :- log(hi))], Agent, [host(alpha)]),
+             joined(Agent, done) )).
+
+told(Messages, Warnings) :-
+    findall(What, member(warning-typhon(What), Messages), Warnings).
+
+at(Port, Endpoint) :-
+    atom_concat('127.0.0.1:', Port, Endpoint).
+
+comes_back(Port, Dir) :-
+    directory_file_path(Dir, 'events.pl', File),
+    host_start(beta, [port(Port)]),
+    log_server_start([file(File), name(log)], Log),
+    ended(2),
+    log_server_stop(Log),
+    host_stop(beta),
+    log_events(File, Events),
+    aggregate_all(count, member(event(_, _, _, hi), Events), Count),
+    assertion(Count == 2).
+
+:- begin_tests(host_log).
+
+test(told_once_and_again_when_it_is_there,
+     true(Count >= 6)) :-
+    free_port(Port),
+    at(Port, Endpoint),
+    atom_concat('log@', Endpoint, Log),
+    with_hosts([alpha-[log(Log)]],
+               listening(( ended(3),
+                           with_tmp_dir(test_host_log:comes_back(Port)) ),
+                         Messages)),
+    told(Messages, [log_unheard(Endpoint), log_heard(Endpoint, Count)]).
+test(each_host_that_begins_is_told, Count == 2) :-
+    free_port(Port),
+    at(Port, Endpoint),
+    atom_concat('log@', Endpoint, Log),
+    Once = with_hosts([alpha-[log(Log)]], ended(1)),
+    listening(( Once, Once ), Messages),
+    told(Messages, Warnings),
+    aggregate_all(count, member(log_unheard(Endpoint), Warnings), Count).
+
+:- end_tests(host_log).

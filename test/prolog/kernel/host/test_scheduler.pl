@@ -1,0 +1,552 @@
+:- module(test_scheduler, []).
+:- use_module(library(plunit)).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(process)).
+:- use_module(library(readutil)).
+:- use_module(library(settings)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/base/own_thread)).
+:- use_module(library(typhon/kernel/host/scheduler)).
+:- use_module(library(typhon/kernel/host/time), [time_start/1, time_stop/0]).
+:- use_module(library(typhon/kernel/host/timer)).
+:- use_module(library(typhon/kernel/host/workers)).
+
+/** <module> Tests of the pool of workers, and of alarms
+
+The hooks of the scheduler are given clauses for agents test(X), which no
+real agent is called.
+*/
+
+:- multifile
+    typhon_scheduler:run/1,
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2,
+    typhon_scheduler:kind/2,
+    typhon_scheduler:running/1.
+:- dynamic
+    typhon_scheduler:run/1,
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2,
+    typhon_scheduler:kind/2,
+    typhon_scheduler:running/1,
+    event/1.
+
+:- asserta((typhon_scheduler:run(test(Goal)) :- !, call(Goal))).
+:- asserta((typhon_scheduler:fire(test(X), Token) :- !,
+                test_scheduler:happens(X-Token))).
+:- asserta(typhon_scheduler:over(test(_), over)).
+:- asserta((typhon_scheduler:running(test(test_scheduler:blocked(_, I))) :-
+                test_scheduler:event(blocked(I)))).
+:- asserta((typhon_scheduler:kind(test(_:Goal), Kind) :- !,
+                functor(Goal, Kind, _))).
+
+:- meta_predicate scheduling(0), scheduling(+, 0).
+
+scheduling(Goal) :-
+    scheduling([], Goal).
+
+scheduling(Settings, Goal) :-
+    forget,
+    with_settings(Settings,
+        no_leaks(setup_call_cleanup(time_start(real), once(Goal),
+                                    in_own_thread(stop)))).
+
+stop :-
+    time_stop,
+    scheduler_forget.
+
+forget :-
+    retractall(event(_)).
+
+happened(X) :-
+    event(X),
+    !.
+
+count(N) :-
+    aggregate_all(count, event(_), N).
+
+happens(y-t(_)) :-
+    throw(oops).
+happens(X) :-
+    assertz(event(X)).
+
+scheduler_threads(Threads) :-
+    findall(Thread, ( worker(Thread) ; typhon_timer:timer(Thread) ), Threads).
+
+:- begin_tests(scheduler).
+
+test(runs_what_is_scheduled, N == 1000) :-
+    scheduling(( forall(between(1, 1000, I),
+                        schedule(none, test(test_scheduler:happens(I)))),
+                 wait_until(test_scheduler:count(1000), 10) )),
+    count(N).
+test(runs_goals, N == 1) :-
+    scheduling(( scheduler_call(test_scheduler:happens(x)),
+                 wait_until(test_scheduler:happened(x), 5) )),
+    count(N).
+test(survives_errors, true(N == 20)) :-
+    scheduling(listening(( forall(between(1, 20, I),
+                                  ( scheduler_call(throw(I)),
+                                    scheduler_call(fail),
+                                    schedule(none, test(throw(I))),
+                                    schedule(none, test(fail)),
+                                    scheduler_call(test_scheduler:happens(I)) )),
+                           wait_until(test_scheduler:count(20), 10) ), _)),
+    count(N).
+test(starts_with_the_minimum, N == 2) :-
+    scheduling(workers_count(N)).
+test(start_twice, N == 2) :-
+    scheduling(( time_start(real), workers_count(N) )).
+test(stop_twice) :-
+    time_stop.
+test(grows_when_workers_are_blocked, N == 40) :-
+    message_queue_create(Q),
+    scheduling(( forall(between(1, 40, I),
+                        scheduler_call(test_scheduler:blocked(Q, I))),
+                 wait_until(test_scheduler:count(40), 10),
+                 workers_count(Many),
+                 assertion(Many >= 40),
+                 forall(between(1, 40, _), thread_send_message(Q, go)) )),
+    count(N),
+    message_queue_destroy(Q).
+test(never_more_than_the_most, true(Most-N == 8-20)) :-
+    message_queue_create(Q),
+    scheduling([typhon_scheduler:max_workers=8],
+               ( forall(between(1, 20, I),
+                        scheduler_call(test_scheduler:blocked(Q, I))),
+                 wait_until(test_scheduler:count(8), 10),
+                 \+ thread_get_message(Q, never, [timeout(0.1)]),
+                 workers_count(Most),
+                 forall(between(1, 20, _), thread_send_message(Q, go)),
+                 wait_until(test_scheduler:count(20), 10) )),
+    count(N),
+    message_queue_destroy(Q).
+test(shrinks_when_there_is_nothing_to_do, N == 2) :-
+    message_queue_create(Q),
+    scheduling([typhon_scheduler:idle_seconds=0.05],
+               ( forall(between(1, 20, I),
+                        scheduler_call(test_scheduler:blocked(Q, I))),
+                 wait_until(test_scheduler:count(20), 10),
+                 forall(between(1, 20, _), thread_send_message(Q, go)),
+                 wait_until(workers_count(2), 10),
+                 workers_count(N) )),
+    message_queue_destroy(Q).
+test(grows_and_shrinks_again_and_again) :-
+    message_queue_create(Q),
+    scheduling([typhon_scheduler:idle_seconds=0.01],
+               forall(between(1, 10, _),
+                      ( forget,
+                        forall(between(1, 16, I),
+                               scheduler_call(test_scheduler:blocked(Q, I))),
+                        wait_until(test_scheduler:count(16), 10),
+                        forall(between(1, 16, _), thread_send_message(Q, go)),
+                        wait_until(workers_count(2), 10) ))),
+    message_queue_destroy(Q).
+test(work_goes_on_beside_a_blocked_pool, N == 104) :-
+    message_queue_create(Q),
+    scheduling(( forall(between(1, 4, I),
+                        scheduler_call(test_scheduler:blocked(Q, b(I)))),
+                 forall(between(1, 100, I),
+                        scheduler_call(test_scheduler:happens(I))),
+                 wait_until(test_scheduler:count(104), 10),
+                 forall(between(1, 4, _), thread_send_message(Q, go)) )),
+    count(N),
+    message_queue_destroy(Q).
+test(an_aborted_worker_is_replaced, true((W >= 2, N == 50))) :-
+    scheduling(( forall(between(1, 10, _), scheduler_call(abort)),
+                 forall(between(1, 50, I),
+                        scheduler_call(test_scheduler:happens(I))),
+                 wait_until(test_scheduler:count(50), 10),
+                 wait_until(( workers_count(W0), W0 >= 2 ), 5),
+                 workers_count(W) )),
+    count(N).
+test(limit, true(Most-N == 2-30)) :-
+    message_queue_create(Q),
+    scheduling(( scheduler_limit(host, 2),
+                 forall(between(1, 30, I),
+                        schedule(host, test(test_scheduler:blocked(Q, I)))),
+                 wait_until(test_scheduler:count(2), 10),
+                 \+ thread_get_message(Q, never, [timeout(0.1)]),
+                 count(Most),
+                 forall(between(1, 30, _), thread_send_message(Q, go)),
+                 wait_until(test_scheduler:count(30), 10) )),
+    count(N),
+    message_queue_destroy(Q).
+test(unlimited_again, N == 30) :-
+    message_queue_create(Q),
+    scheduling(( scheduler_limit(host, 1),
+                 forall(between(1, 30, I),
+                        schedule(host, test(test_scheduler:blocked(Q, I)))),
+                 scheduler_unlimit(host),
+                 wait_until(test_scheduler:count(30), 10),
+                 forall(between(1, 30, _), thread_send_message(Q, go)) )),
+    count(N),
+    message_queue_destroy(Q).
+test(threads_have_names, [true(Others == [])]) :-
+    scheduling(( scheduler_threads(Threads),
+                 findall(Thread,
+                         ( member(Thread, Threads),
+                           \+ sub_atom(Thread, 0, _, _, typhon_) ),
+                         Others) )),
+    assertion(length(Threads, 3)).
+test(stop_ends_stuck_workers) :-
+    scheduling(( scheduler_call(test_scheduler:loop),
+                 wait_until(test_scheduler:happened(looping), 5) )).
+
+:- end_tests(scheduler).
+
+:- begin_tests(held).
+
+%   with_blocked(+Settings, +Count, :Goal): while Count goals block.
+
+:- meta_predicate with_blocked(+, +, 0).
+
+with_blocked(Settings, Count, Goal) :-
+    message_queue_create(Q),
+    scheduling(Settings,
+               ( forall(between(1, Count, I),
+                        schedule(none, test(test_scheduler:blocked(Q, I)))),
+                 once(Goal),
+                 forall(between(1, Count, _), thread_send_message(Q, go)),
+                 wait_until(( count(N), N >= Count ), 10) )),
+    message_queue_destroy(Q).
+
+few([typhon_scheduler:max_workers=8, typhon_held:held_seconds=0.05]).
+
+test(fresh_work_beside_many_that_block, N == 60) :-
+    few(Settings),
+    listening(with_blocked(Settings, 30,
+                           ( forall(between(1, 30, I),
+                                    schedule(none,
+                                             test(test_scheduler:happens(I)))),
+                             wait_until(test_scheduler:count(60), 10),
+                             alarm_beside_them )), Messages),
+    aggregate_all(count, event(_), N0),
+    N is N0-1,
+    Messages = [warning-typhon(held(8, Doers))],
+    once(member(test(_:blocked(_, _)), Doers)).
+test(the_census_ends) :-
+    few(Settings),
+    listening(scheduling(Settings,
+                         ( ends_after_census,
+                           wait_until(\+ typhon_held:census(_), 10) )), _).
+
+ends_after_census :-
+    message_queue_create(Q),
+    forall(between(1, 30, I),
+           schedule(none, test(test_scheduler:blocked(Q, I)))),
+    wait_until(test_scheduler:count(30), 10),
+    assertion(typhon_held:census(_)),
+    forall(between(1, 30, _), thread_send_message(Q, go)),
+    wait_until(message_queue_property(Q, size(0)), 10),
+    message_queue_destroy(Q).
+
+alarm_beside_them :-
+    get_time(Now),
+    Stamp is Now+0.01,
+    alarm_set(Stamp, test(x), t),
+    wait_until(test_scheduler:happened(x-t), 5).
+
+test(their_like_waits_when_there_is_no_more_room, true(Most =< 24)) :-
+    few(Few),
+    listening(with_blocked([typhon_held:held_workers=16|Few], 40,
+                           ( wait_until(( count(N0), N0 >= 8 ), 10),
+                             alarm_beside_them,
+                             schedule(none, test(test_scheduler:happens(y))),
+                             wait_until(test_scheduler:happened(y), 10),
+                             workers_count(Most) )), Messages),
+    memberchk(warning-typhon(held_full(_, held_workers, _)), Messages),
+    length(Messages, Told),
+    assertion(Told =< 4).
+test(three_hundred_agents_that_block, true(O-S == done-done)) :-
+    message_queue_create(_, [alias(test_never)]),
+    listening(with_hosts([alpha],
+                         ( forall(between(1, 300, _),
+                                  create([(main :-
+                                             thread_get_message(test_never,
+                                                                _))], _)),
+                           create([(main :- receive(_-x, 10), sleep(0.01))],
+                                  A),
+                           agent_send(A, x),
+                           joined(A, O),
+                           create([main], B),
+                           joined(B, S) )), Messages),
+    message_queue_destroy(test_never),
+    assertion(Messages = [warning-typhon(held(256, _))]).
+
+:- end_tests(held).
+
+%   A signal that comes just before a thread waits does not wake it.
+
+timer_ended :-
+    (   thread_property(_, alias(typhon_timer))
+    ->  timer_signal(abort),
+        fail
+    ;   true
+    ).
+
+timer_signal(Goal) :-
+    forall(typhon_timer:timer(Timer),
+           catch(thread_signal(Timer, Goal),
+                 error(existence_error(_, _), _), true)).
+
+:- begin_tests(no_threads, [condition(exists_file('/usr/bin/prlimit'))]).
+
+%   without_threads(:Goal): while no thread can be made, since there is no
+%   room for its stack; those there are have all begun, and have theirs.
+
+:- meta_predicate without_threads(0).
+
+without_threads(Goal) :-
+    wait_until(at_rest, 20),
+    setup_call_cleanup(
+        ( address_space(Bytes),
+          limit_space(Bytes),
+          threads(Threads) ),
+        once(Goal),
+        ( limit_space(unlimited),
+          forall(member(Thread, Threads),
+                 ( thread_send_message(Thread, end),
+                   thread_join(Thread, _) )) )).
+
+%   Of all threads this one alone runs, or is about to.
+
+at_rest :-
+    expand_file_name('/proc/self/task/*/stat', Files),
+    findall(File, ( member(File, Files), \+ sleeps(File) ), [_]).
+
+sleeps(File) :-
+    catch(read_file_to_string(File, Text, []), error(_, _), fail),
+    sub_string(Text, _, _, _, ") S ").
+
+address_space(Bytes) :-
+    read_file_to_string('/proc/self/status', Text, []),
+    split_string(Text, "\n", "", Lines),
+    member(Line, Lines),
+    split_string(Line, "\t ", "\t ", ["VmSize:"|Words]),
+    member(Word, Words),
+    number_string(KB, Word),
+    !,
+    Bytes is (KB+4000)*1024.
+
+limit_space(Limit) :-
+    current_prolog_flag(pid, Pid),
+    format(atom(Process), '--pid=~d', [Pid]),
+    format(atom(Space), '--as=~w:unlimited', [Limit]),
+    process_create(path(prlimit), [Process, Space], []).
+
+threads(Threads) :-
+    (   catch(thread_create(thread_get_message(end), Thread),
+              error(resource_error(_), _), fail)
+    ->  Threads = [Thread|More],
+        threads(More)
+    ;   Threads = []
+    ).
+
+test(stopping_needs_none) :-
+    with_hosts([alpha,beta],
+               ( create([on_message(_, _)], _),
+                 create([(main :- sleep(100))], _),
+                 without_threads(( call_cleanup(host_stop(beta), true),
+                                   setup_call_cleanup(true, true,
+                                                      host_stop(alpha)),
+                                   \+ host_property(_, state(_)) )) )).
+test(the_scheduler_starts_whole_or_not_at_all,
+     error(resource_error(_))) :-
+    no_leaks(without_threads(host_start(alpha))).
+test(sleepers_wake_and_the_pool_says_why_it_does_not_grow,
+     true(O-F == done-done)) :-
+    message_queue_create(_, [alias(test_never)]),
+    listening(with_settings([typhon_held:held_seconds=0.1],
+                            with_hosts([alpha], no_room(O, F))), Messages),
+    message_queue_destroy(test_never),
+    assertion(\+ member(error-_, Messages)).
+
+no_room(O, F) :-
+    create([(main :- sleep(0.5))], A),
+    without_threads(( create_blocked(1),
+                      joined(A, O),
+                      create([main], B),
+                      joined(B, F),
+                      create_blocked(10),
+                      create([main], C),
+                      wait_until(was_told(warning, typhon(held_full(
+                                              _, no_memory, _))), 10),
+                      \+ agent_join(C, done, 0.1) )),
+    joined(C, done).
+
+%   No two of a kind: once it is known that one blocks, its kind is held back.
+
+create_blocked(Count) :-
+    forall(between(1, Count, I),
+           create([ (main :- thread_get_message(test_never, _)),
+                    of(Count, I) ], _)).
+
+test(a_timer_that_ends_comes_back, true(O == done)) :-
+    listening(with_hosts([alpha],
+                         ( create([(main :- sleep(0.5))], A),
+                           without_threads(
+                               wait_until(test_scheduler:timer_ended, 5)),
+                           create([(main :- sleep(0.01))], B),
+                           joined(B, done),
+                           joined(A, O),
+                           wait_until(was_told(error, typhon(timer_ended)), 20)
+                         )), _).
+
+:- end_tests(no_threads).
+
+blocked(Queue, I) :-
+    happens(blocked(I)),
+    thread_get_message(Queue, go).
+
+loop :-
+    happens(looping),
+    repeat,
+    fail.
+
+:- begin_tests(alarms).
+
+at(Seconds, Stamp) :-
+    get_time(Now),
+    Stamp is Now+Seconds.
+
+%   in_time(:Set, +Count, -Events): what happens when Set(T) sets alarms, for
+%   the time T or later, and has done so by then.
+
+:- meta_predicate in_time(1, +, -).
+
+in_time(Set, Count, Events) :-
+    member(Lead, [0.05,0.5,5]),
+    scheduling(( at(Lead, T),
+                 call(Set, T),
+                 get_time(Now),
+                 wait_until(test_scheduler:count(Count), 20) )),
+    Now < T,
+    !,
+    findall(X, event(X), Events).
+
+not_in_order(T) :-
+    forall(member(N, [4,1,5,3,2]),
+           ( S is T+N*0.001, alarm_set(S, test(N), t) )).
+
+earlier_later(T) :-
+    Late is T+0.1,
+    alarm_set(Late, test(late), t),
+    alarm_set(T, test(early), t).
+
+same_twice(T) :-
+    alarm_set(T, test(x), t),
+    alarm_set(T, test(x), t),
+    Later is T+0.05,
+    alarm_set(Later, test(y), u).
+
+test(goes_off, true(E == [x-t])) :-
+    scheduling(( at(0.05, T),
+                 alarm_set(T, test(x), t),
+                 wait_until(test_scheduler:happened(x-t), 5),
+                 get_time(Now),
+                 assertion(Now >= T) )),
+    findall(X, event(X), E).
+test(in_the_order_of_time, true(E == [1-t,2-t,3-t,4-t,5-t])) :-
+    in_time(not_in_order, 5, E).
+test(in_the_past, true(E == [x-t])) :-
+    scheduling(( alarm_set(0, test(x), t),
+                 wait_until(test_scheduler:happened(x-t), 5) )),
+    findall(X, event(X), E).
+test(several_at_one_time, true(N == 10)) :-
+    scheduling(( at(0.02, T),
+                 forall(between(1, 10, I), alarm_set(T, test(I), t)),
+                 wait_until(test_scheduler:count(10), 5) )),
+    count(N).
+test(an_earlier_one_comes_later, true(E == [early-t,late-t])) :-
+    in_time(earlier_later, 2, E).
+test(thousands, true(N == 5000)) :-
+    scheduling(( at(0.2, T),
+                 forall(between(1, 5000, I),
+                        ( S is T+(I mod 97)*0.001, alarm_set(S, test(I), t) )),
+                 wait_until(test_scheduler:count(5000), 10) )),
+    count(N).
+test(those_that_are_over_are_forgotten, true(( N =< 1000, I =< 1000 ))) :-
+    scheduling(( at(1000, T),
+                 forall(between(1, 20000, J),
+                        ( S is T+J, alarm_set(S, test(J), over) )),
+                 alarm_count(N, I) )).
+test(those_that_count_are_kept) :-      % of the last the timer hears later
+    scheduling(( at(1000, T),
+                 forall(between(1, 5000, J),
+                        ( S is T+J, alarm_set(S, test(J), t) )),
+                 wait_until(( alarm_count(N, I), N-I == 5000-5000 ), 5) )).
+test(the_same_twice, true(E == [x-t,y-u])) :-
+    in_time(same_twice, 2, E).
+test(a_hook_that_throws, true(E == [x-t])) :-
+    scheduling(listening(( at(0.05, T), at(0.1, U),
+                           alarm_set(T, test(y), t(_)),
+                           alarm_set(U, test(x), t),
+                           wait_until(test_scheduler:happened(x-t), 5) ),
+                         Messages)),
+    memberchk(error-typhon(timer(oops)), Messages),
+    findall(X, event(X), E).
+test(the_end_of_time, true(E == [x-t])) :-
+    scheduling(( alarm_set(1.0e300, test(never), t),
+                 at(0.05, T),
+                 alarm_set(T, test(x), t),
+                 wait_until(test_scheduler:happened(x-t), 5) )),
+    findall(X, event(X), E).
+test(the_timer_survives_what_is_thrown_at_it, true(N == 100)) :-
+    scheduling(listening(( at(0.2, T),
+                           forall(between(1, 100, I),
+                                  ( S is T+I*0.001,
+                                    alarm_set(S, test(I), t),
+                                    timer_signal(throw(I)) )),
+                           wait_until(test_scheduler:count(100), 5) ), _)),
+    count(N).
+test(another_timer_takes_over, true(N == 100)) :-
+    scheduling(listening(( at(0.3, T),
+                           forall(between(1, 100, I),
+                                  ( S is T+I*0.001,
+                                    alarm_set(S, test(I), t) )),
+                           timer_signal(abort),
+                           wait_until(( test_scheduler:count(100),
+                                        was_told(error, typhon(timer_ended)) ),
+                                      20) ), _)),
+    count(N).
+test(a_full_stack, true(E == [x-t])) :-
+    setup_call_cleanup(
+        ( current_prolog_flag(stack_limit, Limit),
+          set_prolog_flag(stack_limit, 1 000 000) ),
+        scheduling(listening(( at(1000, T), at(1.5, U),
+                               forall(between(1, 20000, J),
+                                      ( S is T+J, alarm_set(S, test(J), t) )),
+                               alarm_set(U, test(x), t),
+                               wait_until(test_scheduler:happened(x-t), 10) ),
+                             Messages)),
+        set_prolog_flag(stack_limit, Limit)),
+    memberchk(warning-typhon(no_index(_)), Messages),
+    findall(X, event(X), E).
+test(answered_agents_leave_none, true(N =< 1000)) :-
+    listening(answered(N), _).
+
+answered(N) :-
+    with_hosts([alpha],
+               ( create([(main :- s(Left), rally(Left)),
+                         (rally(0) :- !),
+                         (rally(Left) :- receive(From-ball, 3600),
+                                         send(From, ball),
+                                         Left1 is Left-1, rally(Left1)),
+                         s(3000)], A),
+                 create([(main :- r(Other), send(Other, ball), rally),
+                         (rally :- receive(From-ball, 3600),
+                                   send(From, ball), rally)], B,
+                        [facts([r(A)])]),
+                 joined(A, done),
+                 agent_dispose(B),
+                 alarm_count(N, _) )).
+test(none_go_off_after_the_stop, true(N == 0)) :-
+    scheduling(( at(1000, T), alarm_set(T, test(x), t) )),
+    count(N).
+
+:- end_tests(alarms).

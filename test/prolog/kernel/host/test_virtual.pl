@@ -1,0 +1,364 @@
+:- module(test_virtual, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [member/2, numlist/3, sum_list/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(time), [call_with_time_limit/2]).
+:- use_module(library(typhon)).
+
+/** <module> Virtual time: nothing waits, and each run is like the last
+
+*Threading*: one test at a time.
+*/
+
+:- meta_predicate with_virtual(+, -, 0).
+
+%   with_virtual(+Options, -Network, :Goal): a ring of four hosts.
+
+with_virtual(Options, Network, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(4), Network,
+                               [clock(virtual), seed(7)|Options]),
+                 once(Goal),
+                 network_stop(Network))).
+
+first_host(Network, Host) :-
+    network_property(Network, hosts([Host|_])).
+
+shows(Network, Time) :-
+    first_host(Network, Host),
+    remote(Host, now(Time)).
+
+%   An agent that keeps a diary in the tuple space of the first host.
+
+sleeper(Network, Main, Agent) :-
+    first_host(Network, Host),
+    agent_create(clauses([ (:- agent(sleeper)),
+                           (main :- Main),
+                           days(0),
+                           (days(K) :- K > 0, sleep(86400), K1 is K-1,
+                                       days(K1)) ]), Agent, [host(Host)]).
+
+:- begin_tests(virtual_time).
+
+test(begins_at_zero, true(Time =:= 0)) :-
+    with_virtual([], N, shows(N, Time)).
+test(a_year_takes_no_time, true(Time =:= 365*86400)) :-
+    with_virtual([], N,
+                 ( sleeper(N, days(365), _),
+                   Year is 365*86400.0,
+                   network_advance(N, Year),
+                   shows(N, Time0) )),
+    Time is round(Time0).
+test(stands_still_while_a_program_works, true(Times == [0.0,0.0,5.0])) :-
+    with_virtual([], N,
+                 ( sleeper(N, sleep(5), A),
+                   shows(N, T1),
+                   numlist(1, 100000, L),
+                   sum_list(L, _),
+                   shows(N, T2),
+                   agent_join(A, done, 60),
+                   shows(N, T3) )),
+    Times = [T1,T2,T3].
+test(nothing_runs_before_somebody_waits, true(Seen == [no,yes])) :-
+    with_virtual([], N,
+                 ( first_host(N, Host),
+                   sleeper(N, leave(mark), A),
+                   marked(Host, Before),
+                   agent_join(A, done, 60),
+                   marked(Host, After) )),
+    Seen = [Before,After].
+test(join_gives_up_in_virtual_time, true(Outcome-Time == timeout-30.0)) :-
+    with_virtual([], N,
+                 ( sleeper(N, sleep(100), A),
+                   agent_join(A, Outcome, 30),
+                   shows(N, Time) )).
+test(receive_gives_up_in_virtual_time, true(Time == 40.0)) :-
+    with_virtual([], N,
+                 ( sleeper(N, ( receive(never, 40) -> true ; true ), A),
+                   agent_join(A, done, 100),
+                   shows(N, Time) )).
+test(a_goal_that_blocks_takes_no_virtual_time, true(Time == 1.0)) :-
+    with_virtual([], N,
+                 ( sleeper(N, ( thread_self(Me),
+                                \+ thread_get_message(Me, '$never',
+                                                      [timeout(0.05)]),
+                                sleep(1) ), A),
+                   agent_join(A, done, 60),
+                   shows(N, Time) )).
+test(messages_and_orders, true(Got-Ended == [1,2,3]-disposed)) :-
+    with_virtual([], N,
+                 ( first_host(N, Host),
+                   agent_create(clauses([ (:- agent(box)),
+                                          (main :- receive(_-A),
+                                                   receive(_-B),
+                                                   receive(_-C),
+                                                   leave(got([A,B,C])),
+                                                   receive(never) ) ]),
+                                Box, [host(Host)]),
+                   forall(member(M, [1,2,3]), agent_send(Box, M)),
+                   network_advance(N, 1),
+                   remote(Host, take(got(Got))),
+                   agent_dispose(Box),
+                   agent_join(Box, Ended, 10) )).
+test(an_order_is_carried_out_while_we_wait_for_it) :-
+    with_virtual([], N,
+                 ( sleeper(N, sleep(10), A),
+                   agent_clone(A, B),
+                   agent_join(A, done, 100),
+                   agent_join(B, done, 100) )).
+
+:- end_tests(virtual_time).
+
+:- begin_tests(virtual_appointments).
+
+test(in_order, true(Heard == [a-1.0,b-2.0,c-2.0,late-3.0])) :-
+    with_virtual([], N,
+                 with_queue(Queue,
+                            ( network_at(N, 2, tell(Queue, N, b)),
+                              network_at(N, 2, tell(Queue, N, c)),
+                              network_at(N, 1, tell(Queue, N, a)),
+                              network_advance(N, 3),
+                              network_at(N, 1, tell(Queue, N, late)),
+                              network_advance(N, 10),
+                              heard(Queue, Heard) ))).
+test(never_after_the_end, true(Heard == [])) :-
+    with_queue(Queue,
+               ( with_virtual([], N, network_at(N, 5, tell(Queue, N, a))),
+                 heard(Queue, Heard) )).
+test(advance_reaches_its_time, true(Times == [2.5,2.5,4.0])) :-
+    with_virtual([], N,
+                 ( network_advance(N, 2.5), shows(N, T1),
+                   network_advance(N, 0), shows(N, T2),
+                   network_advance(N, 1.5), shows(N, T3) )),
+    Times = [T1,T2,T3].
+test(in_real_time_too, true(Heard == [a])) :-
+    with_queue(Queue,
+               ( no_leaks(setup_call_cleanup(
+                              network_start(ring(2), N, [clock(1000)]),
+                              ( network_at(N, 20,
+                                           thread_send_message(Queue, a)),
+                                network_advance(N, 200),
+                                wait_until(message_queue_property(Queue,
+                                                                  size(1)), 20)
+                              ),
+                              network_stop(N))),
+                 heard(Queue, Heard) )).
+test(who_is_called_cannot_wait, true(Heard == [timeout-1.0])) :-
+    with_virtual([], N,
+                 with_queue(Queue,
+                            ( sleeper(N, sleep(5), A),
+                              network_at(N, 1,
+                                         ( agent_join(A, Outcome, 10),
+                                           tell(Queue, N, Outcome) )),
+                              network_advance(N, 10),
+                              heard(Queue, Heard) ))).
+test(the_end_of_the_network_is_one_of_waiting) :-
+    no_leaks(( network_start(ring(4), N, [clock(virtual)]),
+               sleeper(N, days(1000000000), _),
+               thread_create(( wait_until(( shows(N, T), T > 0 ), 10),
+                               network_stop(N) ), Stops),
+               call_with_time_limit(30, network_advance(N, 1.0e15)),
+               thread_join(Stops, true) )).
+test(no_such_network,
+     error(existence_error(network, no_network))) :-
+    network_advance(no_network, 1).
+test(what_is_no_goal, [ forall(member(Goal-Formal,
+                                      [ _-instantiation_error,
+                                        3-type_error(callable, 3) ])),
+                        error(Formal) ]) :-
+    with_virtual([], N, network_at(N, 1, Goal)).
+test(no_such_network_at,
+     error(existence_error(network, no_network))) :-
+    network_at(no_network, 1, true).
+test(not_a_number, error(type_error(number, soon))) :-
+    with_virtual([], N, network_advance(N, soon)).
+
+:- end_tests(virtual_appointments).
+
+:- begin_tests(virtual_runs_are_alike).
+
+%   Wanderers with clones, messages, random delays, choices and links.
+
+test(same_seed_same_log, true(A == B)) :-
+    with_tmp_dir(two_logs(3, 3, A, B)).
+test(other_seed_other_log, true(A \== B)) :-
+    with_tmp_dir(two_logs(3, 4, A, B)).
+test(what_agents_draw_follows_the_seed, true(( A == B, A =\= C ))) :-
+    maplist(drawn, [3,3,4], [A,B,C]).
+test(in_another_process_on_a_busy_machine, true(A == B)) :-
+    with_tmp_dir(logs_of_processes(A, B)).
+
+:- end_tests(virtual_runs_are_alike).
+
+drawn(Seed, X) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(4), N, [clock(virtual), seed(Seed)]),
+                 ( first_host(N, Host),
+                   agent_create(clauses([ (:- agent(drawer, [state([x/1])])),
+                                          (main :- random(X), assertz(x(X))),
+                                          on_message(_, _) ]),
+                                Agent, [host(Host)]),
+                   network_advance(N, 1),
+                   agent_property(Agent, facts([x(X)])) ),
+                 network_stop(N))).
+
+two_logs(Seed1, Seed2, A, B, Dir) :-
+    maplist(log_of(Dir), [Seed1,Seed2], [A,B]).
+
+log_of(Dir, Seed, Text) :-
+    atomic_list_concat([Dir, '/', Seed, '.pl'], File),
+    wander(Seed, File),
+    read_file_to_string(File, Text, []).
+
+wander(Seed, File) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(grid(3, 3), N,
+                               [ clock(virtual), seed(Seed), log(File),
+                                 hop_time(uniform(0.1, 0.9)),
+                                 dynamic(links(uniform(1, 3), 0.3, 0.5)) ]),
+                 wanderers(N),
+                 network_stop(N))).
+
+wanderers(N) :-
+    network_property(N, hosts(Hosts)),
+    findall(A,
+            ( member(Host, Hosts),
+              agent_create(clauses([ (:- agent(wanderer, [state([left/1])])),
+                                     left(8),
+                                     (main :- parent(P), !, send(P, hello),
+                                              stroll),
+                                     (main :- stroll),
+                                     (stroll :- left(0), !),
+                                     (stroll :- retract(left(K)), K1 is K-1,
+                                                assertz(left(K1)),
+                                                random(X), log(drawn(X)),
+                                                next_step, part(K), stroll),
+                                     (next_step :- next_host(random, H),
+                                                   move(H), !),
+                                     (next_step :- sleep(1)),
+                                     (part(5) :- !, clone(_)),
+                                     (part(_) :-
+                                          (   receive(From-Text, 0.5)
+                                          ->  log(heard(From, Text))
+                                          ;   true
+                                          )) ]),
+                           A, [host(Host)]) ),
+            As),
+    forall(member(A, As), agent_join(A, done, 1000)),
+    network_advance(N, 30).
+
+logs_of_processes(A, B, Dir) :-
+    log_of(Dir, 5, A),
+    atomic_list_concat([Dir, '/other.pl'], File),
+    module_property(test_virtual, file(Here)),
+    format(atom(Goal), "test_virtual:wander(5, '~w')", [File]),
+    setup_call_cleanup(
+        busy(Busy),
+        run_swipl([ '-g', Goal, '-t', halt, Here ], [], exit(0), _, _),
+        maplist(thread_end, Busy)),
+    read_file_to_string(File, B, []).
+
+busy([T1,T2,T3]) :-
+    maplist([T]>>thread_create((repeat, fail), T), [T1,T2,T3]).
+
+thread_end(Thread) :-
+    thread_signal(Thread, abort),
+    thread_join(Thread, _).
+
+:- begin_tests(virtual_limits).
+
+test(one_process,
+     error(permission_error(carry, virtual_time, processes(2)))) :-
+    network_start(ring(4), _, [clock(virtual), processes(2)]).
+test(no_machines,
+     error(permission_error(carry, virtual_time, machines([far])))) :-
+    network_start(ring(4), _, [clock(virtual), machines([far])]).
+test(no_real_host_beside_it,
+     error(permission_error(change, kind_of_time, real))) :-
+    with_virtual([], _, host_start(another)).
+test(no_virtual_host_beside_a_real_one,
+     error(permission_error(change, kind_of_time, virtual))) :-
+    with_hosts([one], host_start(two, [clock(virtual)])).
+test(a_host_of_its_own, true(Time == 9.0)) :-
+    with_hosts([one-[clock(virtual)]],
+               ( agent_create(clauses([(:- agent(a)), (main :- sleep(9))]),
+                              A),
+                 agent_join(A, done, 20),
+                 remote(one, now(Time)) )).
+test(other_processes_are_not_reached, true(Outcome == done)) :-
+    with_hosts([one-[clock(virtual)]],
+               ( agent_create(clauses([(:- agent(a)),
+                                       (main :- catch(move('x@127.0.0.1:9'),
+                                                      error(E, _), true),
+                                                E = host_unreachable(_))]),
+                              A),
+                 agent_join(A, Outcome, 20) )).
+test(what_does_not_end_is_told) :-
+    told_of(( repeat, fail ), virtual_stuck(_, _)).
+test(what_goes_on_for_ever_is_told) :-
+    told_of(spin, virtual_busy(_)).
+test(nothing_is_due) :-
+    listening(with_virtual([], N, nothing_due(N)), _).
+
+:- end_tests(virtual_limits).
+
+%   Time that stands still is told of after a tenth of a second.
+
+told_of(Main, Message) :-
+    listening(with_settings([typhon_virtual:patience=0.1],
+                            with_virtual([], N, stuck(N, Main, Message))),
+              _).
+
+stuck(N, Main, Message) :-
+    first_host(N, Host),
+    agent_create(clauses([ (:- agent(stuck)),
+                           (main :- Main),
+                           (spin :- neighbours([H|_]), move(H), spin) ]),
+                 A, [host(Host)]),
+    told_while(agent_join(A, _, 10), Message).
+
+nothing_due(N) :-
+    sleeper(N, receive(never), A),
+    told_while(agent_join(A, _, inf), virtual_nothing_due).
+
+%   Whoever waits in Goal is interrupted when the warning has been heard.
+
+told_while(Goal, Message) :-
+    thread_create(catch(Goal, enough, true), Thread),
+    call_cleanup(wait_until(was_told(warning, typhon(Message)), 20),
+                 interrupted(Thread)).
+
+interrupted(Thread) :-
+    catch(thread_signal(Thread, throw(enough)),
+          error(existence_error(_, _), _),
+          true),                        % it has ended
+    thread_join(Thread).
+
+                /*******************************
+                *             HELP             *
+                *******************************/
+
+marked(Host, yes) :-
+    remote(Host, sense(mark)),
+    !.
+marked(_, no).
+
+:- meta_predicate with_queue(-, 0).
+
+with_queue(Queue, Goal) :-
+    setup_call_cleanup(message_queue_create(Queue), Goal,
+                       message_queue_destroy(Queue)).
+
+tell(Queue, Network, What) :-
+    shows(Network, Time),
+    thread_send_message(Queue, What-Time).
+
+heard(Queue, List) :-
+    findall(M, ( repeat,
+                 (   thread_get_message(Queue, M0, [timeout(0)])
+                 ->  M = M0
+                 ;   !, fail
+                 ) ), List).

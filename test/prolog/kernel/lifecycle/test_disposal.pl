@@ -1,0 +1,389 @@
+:- module(test_disposal, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(settings), [set_setting/2]).
+:- use_module(library(typhon)).
+
+/** <module> Agents that do not stop are told of, and ended by force
+
+*Threading*: one test at a time.
+*/
+
+%   runaway(?Kind, -Clauses): what does not come to an effect.
+
+runaway(loops, [ (main :- lp), (lp :- lp) ]).
+runaway(loops_in_the_machine,
+        [ (main :- again), (again :- again), (again :- move(nowhere)) ]).
+runaway(catches_all, [ (main :- lp),
+                       (lp :- catch(lp(0), _, true), lp),
+                       (lp(N) :- N1 is N+1, lp(N1)) ]).
+runaway(waits, [ (main :- thread_self(Me),
+                          thread_get_message(Me, '$never')) ]).
+runaway(cleans_up, [ (main :- setup_call_cleanup(true, lp, true)),
+                     (lp :- lp) ]).
+
+%   running_for(+Agent, +Seconds)
+
+running_for(Agent, Seconds) :-
+    agent_property(Agent, busy(Busy)),
+    Busy >= Seconds.
+
+start(Kind, Agent) :-
+    start(Kind, Agent, []).
+
+start(Kind, Agent, Options) :-
+    runaway(Kind, Clauses),
+    create(Clauses, Agent, Options),
+    wait_until(running_for(Agent, 0.02), 10).
+
+%   ending_when_asked(+Clauses, -Agent, :Goal): Agent, which runs until over/0, is
+%   running; Goal asks it for something, and then it is over.
+
+:- meta_predicate ending_when_asked(+, -, 0).
+
+ending_when_asked(Clauses, Agent, Goal) :-
+    create([ (over :- sense(over)) |Clauses], Agent),
+    wait_until(running_for(Agent, 0.02), 10),
+    setup_call_cleanup(
+        thread_create(( wait_until(typhon_agent_orders:order(Agent, _), 10),
+                        remote(alpha, leave(over)) ), Ends),
+        once(Goal),
+        thread_join(Ends, Ended)),
+    assertion(Ended == true).
+
+took(Goal, Seconds) :-
+    get_time(T0),
+    once(Goal),
+    get_time(T1),
+    Seconds is T1-T0.
+
+gone(Agent) :-
+    \+ agent_property(Agent, state(_)).
+
+:- begin_tests(disposal).
+
+test(says_that_it_runs_on, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
+    with_settings([typhon_disposal:heed_seconds=0.1],
+                  with_hosts([alpha],
+                             ( start(loops, A),
+                               listening(agent_dispose(A), Ms),
+                               agent_property(A, state(running)),
+                               agent_dispose(A, [force(0)]) ))).
+test(waits_for_one_that_stops, Ms-O == []-disposed) :-
+    with_settings([typhon_disposal:heed_seconds=20],
+                  with_hosts([alpha],
+                             ( ending_when_asked(
+                                   [ (main :- busy, sleep(100)),
+                                     (busy :- over -> true ; busy) ], A,
+                                   listening(agent_dispose(A), Ms)),
+                               gone(A),
+                               agent_join(A, O, 5) ))).
+test(one_that_ends_by_itself, Ms == []) :-
+    with_settings([typhon_disposal:heed_seconds=20],
+                  with_hosts([alpha],
+                             ( ending_when_asked(
+                                   [(main :- over -> true ; main)], A,
+                                   took(listening(agent_dispose(A), Ms),
+                                        Seconds)),
+                               Seconds < 15,
+                               agent_join(A, done, 5) ))).
+test(one_that_raises_meanwhile) :-
+    with_settings([typhon_disposal:heed_seconds=20],
+                  with_hosts([alpha],
+                             ( ending_when_asked(
+                                   [(main :- over -> throw(oops) ; main)], A,
+                                   listening(agent_dispose(A), Ms)),
+                               \+ memberchk(warning-typhon(runs_on(_, _)), Ms),
+                               gone(A) ))).
+test(in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-
+    with_settings([typhon_disposal:heed_seconds=0.3],
+                  with_hosts([alpha],
+                             ( start(loops, A),
+                               listening(setup_call_cleanup(
+                                             true, true, agent_dispose(A)),
+                                         Ms),
+                               agent_dispose(A, [force(0)]) ))).
+test(an_agent_that_disposes_does_not_wait, Ms == []) :-
+    with_settings([typhon_disposal:heed_seconds=20],
+                  with_hosts([alpha],
+                             ( start(loops, A),
+                               listening(( create([ (main :- s(X),
+                                                     typhon:agent_dispose(X)) ],
+                                                  B, [facts([s(A)])]),
+                                           took(joined(B, done), Seconds) ),
+                                         Ms),
+                               Seconds < 15,
+                               agent_dispose(A, [force(0)]) ))).
+test(an_agent_that_disposes_of_itself, Ms == []) :-
+    with_hosts([alpha],
+               listening(( create([ (main :- self(X), typhon:agent_dispose(X),
+                                             sleep(100)) ], A),
+                           joined(A, disposed) ), Ms)).
+
+test(force, [forall(runaway(Kind, _)), O == disposed]) :-
+    with_hosts([alpha],
+               ( start(Kind, A),
+                 agent_dispose(A, [force(0.1)]),
+                 gone(A),
+                 agent_join(A, O, 5) )).
+test(no_force_where_it_stops_in_time, Ms == []) :-
+    with_hosts([alpha],
+               ( create([(main :- sleep(0.01), main)], A),
+                 listening(agent_dispose(A, [force(10)]), Ms),
+                 gone(A) )).
+test(leaves_no_choice, Det == [true,true]) :-
+    with_settings([typhon_disposal:heed_seconds=0.1],
+                  with_hosts([alpha],
+                             ( start(loops, A),
+                               listening(call_cleanup(agent_dispose(A),
+                                                      D1 = true), _),
+                               call_cleanup(agent_dispose(A, [force(0)]),
+                                            D2 = true) ))),
+    Det = [D1,D2].
+test(one_that_rests) :-
+    with_hosts([alpha],
+               ( create([(main :- receive(_))], A),
+                 wait_state(A, waiting),
+                 took(agent_dispose(A, [force(10)]), Seconds),
+                 Seconds < 5,
+                 gone(A) )).
+test(one_that_hops_all_the_time) :-
+    with_hosts([alpha,beta],
+               ( create([(main :- move(beta), move(alpha), main)], A),
+                 agent_dispose(A, [force(0)]),
+                 gone(A) )).
+test(host_is_empty_afterwards, L == 0) :-
+    with_hosts([alpha],
+               ( start(loops, A), agent_dispose(A, [force(0)]),
+                 host_property(alpha, load(L)) )).
+test(on_a_host_with_turns, O == done) :-
+    with_hosts([alpha-[concurrency(1)]],
+               ( start(loops, A),
+                 create([main], B),
+                 agent_join(B, timeout, 0.1),
+                 agent_dispose(A, [force(0)]),
+                 joined(B, O) )).
+
+%   Others that are as busy, on the same host, go on, and end.
+
+test(nobody_else_is_disturbed, Os == [done,done,done]) :-
+    with_hosts([alpha],
+               ( findall(B, ( member(_, [1,2,3]),
+                              create([ (main :- count(2000000)),
+                                       count(0),
+                                       (count(N) :- N > 0, N1 is N-1,
+                                                    count(N1)) ], B) ),
+                         Bs),
+                 findall(A, ( member(K, [loops,catches_all,waits]),
+                              start(K, A) ), As),
+                 forall(member(A, As), agent_dispose(A, [force(0)])),
+                 maplist(gone, As),
+                 findall(O, ( member(B, Bs), joined(B, O) ), Os) )).
+test(many_at_once) :-
+    with_hosts([alpha],
+               ( findall(A, ( between(1, 6, _), start(loops, A) ), As),
+                 findall(T, ( member(A, As),
+                              thread_create(agent_dispose(A, [force(0)]),
+                                            T) ), Ts),
+                 forall(member(T, Ts), thread_join(T, true)),
+                 maplist(gone, As),
+                 create([main], B), joined(B, done) )).
+test(result_given_before, X == 1) :-
+    with_hosts([alpha],
+               ( create([ (main :- result(1), lp), (lp :- lp) ], A),
+                 wait_until(running_for(A, 0.02), 10),
+                 agent_dispose(A, [force(0)]),
+                 agent_result(A, X, 5) )).
+test(others_who_ask_are_told, true(E = existence_error(agent, _))) :-
+    with_hosts([alpha], ( start(loops, A), clone_in_vain(A, E) )).
+
+%   One who has given up waiting is no reason not to tell the next.
+
+test(others_who_ask_later_are_told, true(E = existence_error(agent, _))) :-
+    with_settings([typhon_disposal:heed_seconds=0.01],
+                  with_hosts([alpha],
+                             ( start(loops, A),
+                               listening(agent_dispose(A), _),
+                               clone_in_vain(A, E) ))).
+
+clone_in_vain(A, E) :-
+    thread_self(Me),
+    thread_create(( catch(agent_clone(A, _), error(F, _), true),
+                    thread_send_message(Me, cloned(F)) ), T),
+    wait_until(typhon_agent_orders:order(A, asked(clone, _)), 5),
+    agent_dispose(A, [force(0)]),
+    thread_get_message(cloned(E)),
+    thread_join(T, true).
+
+%   Virtual time goes on for the others.
+
+test(virtual_time, Now-O == 100.0-done) :-
+    with_hosts([alpha-[clock(virtual)]],
+               ( create([(main :- sleep(100))], B),
+                 create([ (main :- sleep(1), lp), (lp :- lp) ], A),
+                 thread_create(agent_join(B, _, inf), T),
+                 wait_until(running_for(A, 0.02), 10),
+                 agent_dispose(A, [force(0.1)]),
+                 gone(A),
+                 thread_join(T, true),
+                 agent_join(B, O, 10),
+                 remote(alpha, now(Now)) )).
+test(warning_in_virtual_time, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
+    with_settings([typhon_disposal:heed_seconds=0.1],
+                  with_hosts([alpha-[clock(virtual)]],
+                             ( create([ (main :- lp), (lp :- lp) ], A),
+                               thread_create(agent_join(A, _, inf), T),
+                               wait_until(running_for(A, 0.02), 10),
+                               listening(agent_dispose(A), Ms),
+                               agent_dispose(A, [force(0)]),
+                               thread_join(T, true) ))).
+test(virtual_host_that_stops, O == done) :-
+    with_settings([typhon_hosting:stop_seconds=0.1],
+                  with_hosts([alpha-[clock(virtual)],beta-[clock(virtual)]],
+                             ( create([ (main :- lp), (lp :- lp) ], A),
+                               thread_create(agent_join(A, _, inf), T),
+                               wait_until(running_for(A, 0.02), 10),
+                               host_stop(alpha),
+                               thread_join(T, true),
+                               create([(main :- sleep(5))], B, [host(beta)]),
+                               agent_join(B, O, 10) ))).
+
+%   B rests, and so ends first; A still runs, and speaks to him.
+
+test(what_is_said_in_vain_while_a_host_stops, Ms == []) :-
+    setup_call_cleanup(
+        message_queue_create(Queue, [alias(disposal_test)]),
+        with_settings([typhon_hosting:stop_seconds=60],
+                      with_hosts([alpha], listening(says_in_vain, Ms))),
+        message_queue_destroy(Queue)).
+
+says_in_vain :-
+    create([(main :- receive(_))], B),
+    wait_state(B, waiting),
+    create([ (main :- say, sleep(60)),
+             (say :- thread_get_message(disposal_test, ended, [timeout(50)]),
+                     send(B, hello),
+                     thread_send_message(disposal_test, said)) ], A),
+    wait_until(running_for(A, 0.02), 20),
+    thread_create(host_stop(alpha), T),
+    joined(B, disposed),
+    thread_send_message(disposal_test, ended),
+    thread_get_message(disposal_test, said, [timeout(20)]),
+    thread_join(T, true).
+
+test(unknown_option, error(domain_error(dispose_option, soon))) :-
+    with_hosts([alpha], ( create([(main :- receive(_))], A),
+                          agent_dispose(A, [soon]) )).
+test(no_number, error(type_error(number, now))) :-
+    with_hosts([alpha], ( create([(main :- receive(_))], A),
+                          agent_dispose(A, [force(now)]) )).
+test(nobody, error(existence_error(agent, _))) :-
+    with_hosts([alpha], ( create([main], A), joined(A, done),
+                          agent_dispose(A, [force(1)]) )).
+
+:- end_tests(disposal).
+
+:- begin_tests(disposal_elsewhere).
+
+%   It runs away in b, where it has come by itself; others there go on.
+
+test(force, True-O == disposed-done) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 runaway_to(B, Id),
+                 peer_do(b, agent_create(
+                                clauses([ (:- agent(o)),
+                                          (main :- receive(_-go)) ]),
+                                Other, [])),
+                 peer_do(b, wait_until(( agent_property(Id, busy(S)),
+                                         S > 0.05 ), 10)),
+                 peer_do(a, agent_dispose(Id, [force(0.1)])),
+                 peer_do(a, agent_join(Id, True, 10)),
+                 peer_do(b, \+ agent_here(Id)),
+                 peer_do(b, agent_send(Other, go)),
+                 peer_do(b, agent_join(Other, O, 10)),
+                 % who has read it has left its connection to another thread
+                 again(B) )).
+test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 runaway_to(B, Id),
+                 peer_do(b, wait_until(( agent_property(Id, busy(S)),
+                                         S > 0.05 ), 10)),
+                 peer_do(a, set_setting(typhon_disposal:heed_seconds, 0.2)),
+                 peer_do(a, agent_dispose(Id)),
+                 peer_messages(a, Lines),
+                 atomics_to_string(Lines, All),
+                 peer_do(a, agent_dispose(Id, [force(0)])) )).
+
+%   Its home would not answer.
+
+test(who_ends_while_all_are_looked_at_is_not_asked_for_elsewhere, Found == []) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 peer_do(a, agent_create(clauses([ (:- agent(r)),
+                                                   (main :- move(B)),
+                                                   on_message(_, _) ]),
+                                         Id, [])),
+                 peer_do(b, wait_until(agent_property(Id, state(resident)), 10)),
+                 peer_signal(a, stop),
+                 peer_do(b, \+ \+ prolog_wrap:wrap_predicate(
+                                typhon_properties:question(_, _), ends, Asked,
+                                ( typhon:agent_dispose(Id), Asked ))),
+                 peer_do(b, findall(I, agent_property(I, state(_)), Found)),
+                 peer_signal(a, cont) )).
+
+runaway_to(Host, Id) :-
+    peer_do(a, agent_create(clauses([ (:- agent(r)),
+                                      (main :- move(Host), lp),
+                                      (lp :- lp) ]), Id, [])).
+
+again(B) :-
+    peer_do(a, agent_create(clauses([ (:- agent(r)), (main :- move(B)) ]),
+                            Id, [])),
+    peer_do(a, agent_join(Id, done, 10)).
+
+:- end_tests(disposal_elsewhere).
+
+:- begin_tests(top_level).
+
+%   What was typed before the interrupt is read after it.
+
+test(typed_ahead, [ forall(member(End, ["agent_dispose(A, [force(0)])",
+                                        "host_stop(alpha)"])),
+                    Said == "typed ahead" ]) :-
+    project_file('prolog/typhon.pl', Typhon),
+    with_swipl(['-q', '-f', none, Typhon], _, In, Out,
+               ( format(In, "host_start(alpha), \c
+agent_create(clauses([(:-agent(r)), (main:-lp), (lp:-lp)]), A), \c
+sleep(0.1), ~s.~nwriteln('typed ahead').~n", [End]),
+                 flush_output(In),
+                 set_stream(Out, timeout(30)),
+                 repeat,
+                 read_line_to_string(Out, Said),
+                 memberchk(Said, ["typed ahead", end_of_file]) )).
+
+:- end_tests(top_level).
+
+:- begin_tests(busy).
+
+test(of_one_that_runs_on) :-
+    with_hosts([alpha],
+               ( start(loops, A),
+                 agent_property(A, busy(S1)),
+                 wait_until(running_for(A, 0.3), 10),
+                 S1 < 5,
+                 with_output_to(string(Table), agents),
+                 sub_string(Table, _, _, _, "running, "),
+                 agent_dispose(A, [force(0)]) )).
+test(of_one_that_rests, fail) :-
+    with_hosts([alpha],
+               ( create([(main :- receive(_))], A), wait_state(A, waiting),
+                 agent_property(A, busy(_)) )).
+
+:- end_tests(busy).

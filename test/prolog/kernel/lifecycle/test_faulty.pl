@@ -1,0 +1,459 @@
+:- module(test_faulty, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(plunit)).
+:- use_module(library(typhon)).
+
+/** <module> Agents that fail or raise an error can be looked into
+
+They say where it was, are kept as they were, take orders, and try again.
+
+*Threading*: tests run one at a time.
+*/
+
+%   with_program(+Lines, -File, :Goal): Lines are an agent file trip.pl.
+
+:- meta_predicate with_program(+, -, 0).
+
+with_program(Lines, File, Goal) :-
+    with_tmp_dir(test_faulty:program_in(Lines, File, Goal)).
+
+program_in(Lines, File, Goal, Dir) :-
+    directory_file_path(Dir, 'trip.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        forall(member(Line, Lines), writeln(Out, Line)),
+        close(Out)),
+    once(Goal).
+
+%   saved(+Agent, -Copy): by way of a restore point.
+
+saved(Agent, Copy) :-
+    with_tmp_dir(test_faulty:saved(Agent, Copy)).
+
+saved(Agent, Copy, Dir) :-
+    directory_file_path(Dir, 'point.txt', File),
+    agent_save(Agent, File),
+    agent_load(File, Copy).
+
+%   says(+Lines, -Text): what people are told of an agent of that file, after
+%   its id.
+
+says(Lines, Text) :-
+    with_program(Lines, File,
+                 with_hosts([alpha,beta],
+                            listening(( agent_create(File, A,
+                                                     [host(alpha)]),
+                                        joined(A, _) ), Messages))),
+    once(told(Messages, Text)).
+
+told(Messages, Text) :-
+    member(Kind-Message, Messages),
+    memberchk(Kind, [warning,error]),
+    Message = typhon(_),
+    !,
+    message_to_lines(Message, Line),
+    sub_string(Line, Before, _, _, " at "),
+    sub_string(Line, Before, _, 0, Text).
+
+message_to_lines(Message, Text) :-
+    phrase('$messages':translate_message(Message), Lines),
+    with_output_to(string(Text),
+                   ( current_output(Out),
+                     print_message_lines(Out, '', Lines) )),
+    !.
+
+%   faulty(+Clauses, -Agent): an agent that has become so on alpha.
+
+faulty(Clauses, Agent) :-
+    create(Clauses, Agent, [host(alpha)]),
+    joined(Agent, Outcome),
+    ( Outcome == failed -> true ; Outcome = raised(_) ).
+
+%   on(+Hosts, :Goal): nothing is printed.
+
+:- meta_predicate on(+, 0).
+
+on(Hosts, Goal) :-
+    with_hosts(Hosts, listening(Goal, _)).
+
+stands(Agent, Host) :-
+    address(Host, Address),
+    agent_property(Agent, host(Address)).
+
+load(Host, Load) :-
+    host_property(Host, load(Load)).
+
+                /*******************************
+                *          WHERE IT WAS        *
+                *******************************/
+
+:- begin_tests(where_an_agent_failed).
+
+test(an_error_in_a_native_goal,
+     true(Text == " at beta (hop 1): is/2: Arithmetic: evaluable z/0 \c
+                   does not exist, in add/2 (trip.pl:7), called from \c
+                   main/0 (trip.pl:3)")) :-
+    says([ ':- agent(trip, []).', '',
+           'main :-', '    move(beta),', '    add(1, X),', '    log(X).',
+           'add(X, Y) :-', '    Y is X+z.' ], Text0),
+    in_words_of_now(Text0, Text).
+test(an_error_deep_in_native_goals,
+     true(Text == ", in add/2 (trip.pl:4), called from sum/2 (trip.pl:3)\n")) :-
+    says([ ':- agent(trip, []).',
+           'main :- move(beta), sum([1], S), log(S).',
+           'sum([N|_], S) :- add(N, S), log(S).',
+           'add(X, Y) :- integer(X), Y is X+z.' ], Text0),
+    from_in(Text0, Text).
+test(a_failure,
+     true(Text == " at beta (hop 1): failed: the goal that failed last was \c
+                   member(q, [a]), in tour/1 (trip.pl:3), called from \c
+                   main/0 (trip.pl:2)\n")) :-
+    says([ ':- agent(trip, []).',
+           'main :- tour([beta,alpha]), log(end).',
+           'tour([H|Hs]) :- move(H), member(q, [a]), tour(Hs).',
+           'tour([]) :- move(alpha), log(x), member(q, [a]).' ], Text).
+test(no_clause_matches,
+     true(Text == ", in main/0 (trip.pl:2)\n")) :-
+    says([ ':- agent(trip, []).',
+           'main :- log(a), go(c), log(b).',
+           'go(a) :- move(beta).',
+           'go(b) :- move(alpha).' ], Text0),
+    from_in(Text0, Text).
+test(all_of_main_fails,
+     true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
+                   main, in main/0 (trip.pl:3)\n")) :-
+    says([ ':- agent(trip, []).', '',
+           'main :-', '    X = 1, X > 2.' ], Text).
+test(a_condition_without_else,
+     true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
+                   ( member(q, [a]) -> ... ) without else, in main/0 \c
+                   (trip.pl:3)\n")) :-
+    says([ ':- agent(trip, []).', '',
+           'main :- ( member(q, [a]) -> move(beta) ), log(x).' ], Text).
+test(nothing_came,
+     true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
+                   receive(user-_, 0.01), in main/0 (trip.pl:2)\n")) :-
+    says([ ':- agent(trip, []).',
+           'main :- receive(user-_, 0.01), log(x).' ], Text).
+test(unknown_procedure_has_a_hint,
+     true(Text == " at alpha (hop 0): Unknown procedure: move/2 (did you mean \c
+                   move/1? If not, a place or a payload must offer it), in \c
+                   main/0 (trip.pl:2)\n")) :-
+    says([':- agent(trip, []).', 'main :- log(a), move(beta, now).'], Text).
+test(hint_is_in_the_outcome,
+     true(Hint == 'did you mean helper/1? If not, a place or a payload must \c
+                   offer it')) :-
+    on([alpha],
+       ( faulty([(main :- hepler(1)), helper(_)], A),
+         joined(A, raised(error(existence_error(procedure, _),
+                                context(_, Hint)))) )).
+test(library_typhon_is_named, true(sub_atom(Hint, _, _, _, Import))) :-
+    Import = ':- use_module(library(typhon))',
+    on([alpha],
+       ( faulty([(main :- agent_create(x, _, []))], A),
+         joined(A, raised(error(existence_error(procedure, _),
+                                context(_, Hint)))) )).
+test(unbound_argument_of_a_control_predicate,
+     true(Text == " at alpha (hop 0): Arguments are not sufficiently \c
+                   instantiated, at move(_), in main/0 (trip.pl:2)\n")) :-
+    says([':- agent(trip, []).', 'main :- move(_).'], Text).
+test(a_move_that_is_refused,
+     true(Text == ", in main/0 (trip.pl:2)\n")) :-
+    says([ ':- agent(trip, []).',
+           'main :- log(a), move(atlantis), log(b).' ], Text0),
+    from_in(Text0, Text).
+test(inside_catch_and_condition, true(Text == ", in p/1 (trip.pl:3), \c
+                                               called from main/0 \c
+                                               (trip.pl:2)\n")) :-
+    says([ ':- agent(trip, []).',
+           'main :- catch(( p(_), move(beta) -> true ; true ), ball, true).',
+           'p(X) :- atom_length(X, _), move(alpha).' ], Text0),
+    from_in(Text0, Text).
+test(a_file_that_is_included, true(P = inc:2)) :-
+    with_program([ ':- agent(trip, []).', ':- include(inc).',
+                   'main :- p.' ], File,
+                 ( file_directory_name(File, Dir),
+                   directory_file_path(Dir, 'inc.pl', Inc),
+                   setup_call_cleanup(
+                       open(Inc, write, Out),
+                       format(Out, "~np :- move(beta), fail.~n", []),
+                       close(Out)),
+                   on([alpha,beta],
+                      ( agent_create(File, A, [host(alpha)]),
+                        joined(A, failed),
+                        agent_property(A, fault(fault(_, _, P0, _))) )) )),
+    P0 = File1:Line,
+    file_base_name(File1, Base),
+    file_name_extension(Name, pl, Base),
+    P = Name:Line.
+test(of_clauses_the_number, true(F == fault(failed, fail, p/0:2, B))) :-
+    on([alpha,beta],
+       ( address(beta, B),
+         faulty([ (main :- p), (p :- s(x), move(alpha)),
+                  (p :- move(beta), fail) ], A),
+         agent_property(A, fault(F)) )).
+test(no_fault_without_one, fail) :-
+    on([alpha], ( create([on_message(_, _)], A),
+                  agent_property(A, fault(_)) )).
+test(large_terms_are_no_matter, true(G == [foo(L),s(L)])) :-
+    numlist(1, 5000, L),
+    on([alpha,beta],
+       ( faulty([foo(x), (main :- move(beta), numlist(1, 5000, X), foo(X),
+                                  s(X))], A),
+         agent_property(A, goals(G)) )).
+
+:- end_tests(where_an_agent_failed).
+
+%   9.0.4 and 10.1 do not use the same words.
+
+in_words_of_now(Text0, Text) :-
+    split_string(Text0, "", "\n", [Text1]),
+    re_evaluable(Text1, Text).
+
+re_evaluable(Text0, Text) :-
+    sub_string(Text0, B, _, A, "`z/0' is not a function"),
+    !,
+    sub_string(Text0, 0, B, _, Before),
+    sub_string(Text0, _, A, 0, After),
+    atomics_to_string([Before,"evaluable z/0 does not exist",After],
+                      Text).
+re_evaluable(Text0, Text) :-
+    split_string(Text0, "`'", "", Parts),
+    atomics_to_string(Parts, Text).
+
+from_in(Text0, Text) :-
+    sub_string(Text0, Before, _, _, ", in "),
+    !,
+    sub_string(Text0, Before, _, 0, Text).
+
+                /*******************************
+                *         KEPT AS IT WAS       *
+                *******************************/
+
+:- begin_tests(faulty_agents).
+
+test(goals_from_the_failing_one_on,
+     true(G-S == [s(2),foo]-[s(1)])) :-
+    on([alpha,beta],
+       ( faulty([s(1), (main :- move(beta), s(2), foo), foo], A),
+         agent_property(A, goals(G)),
+         facts(A, S) )).
+test(resumed_after_a_fact, true(O-S == done-[s(2)])) :-
+    on([alpha,beta],
+       ( faulty([(main :- move(beta), s(2), move(alpha))], A),
+         agent_change(A, facts([s(2)])),
+         facts(A, S),
+         agent_resume(A),
+         joined(A, O) )).
+test(resumed_before_its_home_has_heard, true(Os == [done])) :-
+    on([alpha,beta],
+       ( findall(O,
+                 ( between(1, 500, _),
+                   faulty([(main :- move(beta), s(2), move(alpha))], A),
+                   agent_change(A, facts([s(2)])),
+                   agent_resume(A),
+                   joined(A, O) ),
+                 Os0),
+         sort(Os0, Os) )).
+test(resumed_with_another_program, true(O == done)) :-
+    on([alpha,beta],
+       ( faulty([(main :- p, move(beta)), (p :- _ is a+1)], A),
+         agent_change(A, program(clauses([ (:- agent(new, [state([s/1])])),
+                                           main, (p :- assertz(s(1))) ]))),
+         agent_property(A, program(new)),
+         agent_resume(A),
+         joined(A, O) )).
+test(a_move_is_tried_again, true(O == done)) :-
+    on([alpha],
+       ( faulty([(main :- move(beta))], A),
+         host_start(beta),
+         agent_resume(A),
+         joined(A, O),
+         host_stop(beta) )).
+test(fails_again_and_again, true(Os == [failed,failed,failed])) :-
+    on([alpha],
+       ( faulty([(main :- receive(_-x, 0), s(1))], A),
+         findall(O, ( between(1, 3, _), agent_resume(A), joined(A, O) ),
+                 Os) )).
+test(who_joins_after_it_was_resumed_waits, true(O1-O2 == timeout-done)) :-
+    on([alpha],
+       ( faulty([(main :- s(1), receive(_))], A),
+         agent_change(A, facts([s(1)])),
+         agent_resume(A),
+         agent_join(A, O1, 0.1),
+         agent_send(A, go),
+         joined(A, O2) )).
+test(moved_it_is_faulty_still) :-
+    on([alpha,beta],
+       ( faulty([(main :- move(alpha), s(1))], A),
+         agent_move(A, beta),
+         wait_until(( stands(A, beta), state_of(A, faulty(failed)) ), 10),
+         agent_property(A, fault(fault(failed, s(1), _, H))),
+         address(alpha, H),
+         wait_until(maplist(load, [alpha,beta], [0,0]), 10),
+         agent_dispose(A),
+         joined(A, failed),
+         \+ agent_property(A, state(_)) )).
+test(move_that_is_refused, true(L == 0)) :-
+    on([alpha,beta-[capacity(0)]],
+       ( faulty([(main :- move(alpha), s(1))], A),
+         agent_move(A, beta),
+         wait_until(( load(alpha, 0), state_of(A, faulty(failed)) ), 10),
+         stands(A, alpha),
+         load(alpha, L) )).
+test(cloned_and_saved_it_is_faulty_still, true(Os == [failed,failed])) :-
+    on([alpha],
+       ( faulty([(main :- receive(_, 0), s(1))], A),
+         agent_clone(A, B),
+         saved(A, C),
+         maplist(joined, [B,C], Os),
+         forall(member(X, [A,B,C]),
+                ( wait_until(state_of(X, faulty(failed)), 10),
+                  agent_property(X, goals([receive(_, 0),s(1)])) )),
+         wait_until(load(alpha, 0), 10),
+         agent_resume(C),
+         joined(C, failed) )).
+test(place_in_a_restore_point, true(Line == 2)) :-
+    with_program([':- agent(trip, []).', 'main :- receive(_, 0).'], File,
+                 on([alpha],
+                    ( agent_create(File, A), joined(A, failed),
+                      saved(A, B),
+                      joined(B, failed),
+                      agent_resume(B),
+                      joined(B, failed),
+                      agent_property(B, fault(fault(_, _, _:Line, _))) ))).
+test(mail_is_kept_for_it, true(M-O == [user-1,user-2]-done)) :-
+    on([alpha],
+       ( faulty([(main :- s(1), receive(_-1), receive(_-2))], A),
+         maplist(agent_send(A), [1,2]),
+         agent_property(A, mailbox(M)),
+         agent_change(A, facts([s(1)])),
+         agent_resume(A),
+         joined(A, O) )).
+test(of_mail_only_so_much, true(M-W == [user-1,user-2]-1)) :-
+    with_settings([typhon_creation:faulty_mail=2],
+        with_hosts([alpha],
+                   listening(( faulty([(main :- s(1))], A),
+                               maplist(agent_send(A), [1,2,3,4]),
+                               agent_property(A, mailbox(M)) ), Told))),
+    aggregate_all(count, member(_-typhon(mailbox_full(_, 2)), Told), W).
+test(it_takes_no_room, true(O == done)) :-
+    on([alpha-[capacity(1)]],
+       ( faulty([(main :- receive(_, 0))], _),
+         create([main], B), joined(B, O) )).
+test(resume_who_is_not_faulty, error(permission_error(resume, agent, _))) :-
+    on([alpha], ( create([on_message(_, _)], A),
+                  wait_state(A, resident),
+                  agent_resume(A) )).
+test(resume_who_runs, error(permission_error(resume, agent, _))) :-
+    on([alpha], ( create([(main :- sleep(0.01), main)], A),
+                  agent_resume(A) )).
+test(resume_nobody, error(existence_error(agent, foo))) :-
+    on([alpha], agent_resume(foo)).
+test(change_to_nothing_known, error(domain_error(agent_change, age(3)))) :-
+    on([alpha], ( create([on_message(_, _)], A), agent_change(A, age(3)) )).
+test(change_what_is_static, error(permission_error(attach, procedure, p/1))) :-
+    on([alpha], ( create([on_message(_, _), p(1)], A),
+                  agent_change(A, facts([p(2)])) )).
+test(changed_program_has_a_state_of_its_own,
+     error(permission_error(attach, procedure, s/1))) :-
+    on([alpha], ( create([on_message(_, _), s(1)], A),
+                  agent_change(A, program(clauses([ (:- agent(new)),
+                                                    main, s(2) ]))) )).
+test(one_that_does_well_is_changed, true(F == [s(new),s(old)])) :-
+    on([alpha], ( create([s(old), on_message(_, x)], A),
+                  agent_change(A, program(clauses(
+                      [ (:- agent(new, [state([s/1])])),
+                        (on_message(_, x) :- asserta(s(new))) ]))),
+                  agent_send(A, x),
+                  wait_until(fact_of(A, s(new)), 10),
+                  facts(A, F) )).
+test(an_order_that_came_before_the_end_is_obeyed, true(O == failed)) :-
+    on([alpha,beta],
+       setup_call_cleanup(
+           message_queue_create(Queue, [alias(queue_of_test)]),
+           ( create([(main :- thread_get_message(queue_of_test, _), fail)], A,
+                    [host(alpha)]),
+             agent_move(A, beta),
+             thread_send_message(Queue, go),
+             joined(A, O),
+             wait_until(( stands(A, beta), load(beta, 0) ), 10) ),
+           message_queue_destroy(Queue))).
+
+:- end_tests(faulty_agents).
+
+                /*******************************
+                *           IN WORDS           *
+                *******************************/
+
+:- begin_tests(outcomes_in_words).
+
+test(an_attributed_variable,
+     true(E == type_error(mobile_term,
+                          'an attributed variable (freeze/2)'))) :-
+    on([alpha,beta],
+       ( faulty([(main :- freeze(X, true), move(beta), s(X))], A),
+         joined(A, raised(error(E, _))) )).
+test(a_stream, true(sub_atom(Words, 0, _, _, 'a stream ('))) :-
+    on([alpha,beta],
+       ( faulty([(main :- current_output(S), move(beta), s(S))], A),
+         joined(A, raised(error(type_error(mobile_term, Words), _))) )).
+
+test(a_cyclic_term,
+     true(E-Gs == type_error(mobile_term, 'a cyclic term')-
+                  [move(beta), s(1, 'a cyclic term')])) :-
+    on([alpha,beta],
+       ( faulty([(main :- X = f(X, 1), move(beta), s(1, X))], A),
+         joined(A, raised(error(E, _))),
+         agent_property(A, goals(Gs)) )).
+test(a_ball_that_holds_one,
+     true(E-Gs == oops(a, 'a cyclic term', b)-[main])) :-
+    on([alpha],
+       ( faulty([(main :- X = [1|X], throw(oops(a, X, b)))], A),
+         joined(A, raised(E)),
+         agent_property(A, goals(Gs)) )).
+test(an_error_that_holds_one, true(E == type_error(expression, 'a cyclic term'))) :-
+    on([alpha],
+       ( faulty([(main :- X = f(X), _ is X)], A),
+         joined(A, raised(error(E, _))) )).
+
+:- end_tests(outcomes_in_words).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+:- begin_tests(what_on_message_fails_with).
+
+after_mail(Clauses, Message, Told) :-
+    with_hosts([alpha,beta],
+               listening(( create(Clauses, A, [host(alpha)]),
+                           wait_state(A, resident),
+                           agent_send(A, Message),
+                           wait_until(was_told(warning, _), 10),
+                           wait_state(A, resident) ), Told)).
+
+test(no_clause_is_for_it, true(T = [warning-typhon(message_failed(_, user,
+                                                                   ask))])) :-
+    after_mail([on_message(_, say)], ask, T).
+test(a_clause_fails, true(Text == " at alpha (hop 0): did not do with ask(1) \c
+                               from user what on_message/2 says; it failed: \c
+                               the goal that failed last was s(1), in \c
+                               on_message/2, clause 2\n")) :-
+    after_mail([ on_message(_, say),
+                 (on_message(_, ask(X)) :- s(X), move(beta)) ], ask(1), T),
+    once(told(T, Text)).
+test(goal_of_a_clause_that_stops_nowhere,
+     true(Text == " at alpha (hop 0): did not do with ask(1) from user what \c
+                   on_message/2 says; it failed: the goal that failed last \c
+                   was s(1), in on_message/2, clause 1\n")) :-
+    after_mail([(on_message(_, ask(X)) :- integer(X), s(X), true)], ask(1),
+               T),
+    once(told(T, Text)).
+
+:- end_tests(what_on_message_fails_with).

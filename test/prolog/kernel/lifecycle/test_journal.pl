@@ -1,0 +1,463 @@
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(typhon)).
+
+:- needs([journal]).
+
+:- begin_tests(journal).
+
+%   with_journal(:First, :Second): in a process with a journal, and when it
+%   was started again.
+
+:- meta_predicate with_journal(0, 0).
+
+with_journal(First, Second) :-
+    no_leaks(with_tmp_dir(twice(First, Second))).
+
+:- meta_predicate twice(0, 0, +).
+
+twice(First, Second, Dir) :-
+    started(Dir, First),
+    started(Dir, Second).
+
+:- meta_predicate started(+, 0).
+
+started(Dir, Goal) :-
+    setup_call_cleanup(host_start(alpha, [journal(Dir)]),
+                       once(Goal),
+                       stop_all).
+
+%   The last one is not stopped but rests.
+
+stop_all :-
+    host_stop(alpha).
+
+keeper(clauses([ (:- agent(keeper, [state([got/1])])),
+                 (on_message(_, M) :- assertz(got(M))) ])).
+
+test('agents and what they know are there again') :-
+    with_journal(
+        ( keeper(P),
+          agent_create(P, Id, []),
+          nb_setval(journal_test, Id),
+          forall(between(1, 3, I), agent_send(Id, m(I))),
+          got(Id, [m(1), m(2), m(3)]) ),
+        ( nb_getval(journal_test, Id),
+          wait_until(agent_property(Id, state(resident)), 5), % m(3) once more
+          agent_send(Id, m(4)),
+          got(Id, [m(1), m(2), m(3), m(4)]) )).
+
+got(Id, Expected) :-
+    wait_until(( agent_property(Id, facts(Facts)),
+                 findall(M, member(got(M), Facts), Expected) ), 5).
+
+test('one that waits gets what comes later, one that sleeps wakes') :-
+    with_journal(
+        ( agent_create(clauses([ (:- agent(waits, [])),
+                                 (main :- receive(_-X), result(X)) ]), A, []),
+          agent_create(clauses([ (:- agent(sleeps, [])),
+                                 (main :- sleep(3), result(awake)) ]), B, []),
+          nb_setval(journal_test, A-B),
+          wait_until(( agent_property(A, state(waiting)),
+                       agent_property(B, state(sleeping)) ), 5) ),
+        ( nb_getval(journal_test, A-B),
+          agent_property(A, state(waiting)),
+          agent_send(A, hello),
+          agent_result(A, hello, 5),
+          agent_result(B, awake, 20) )).
+
+test('outcomes and results are known') :-
+    with_journal(
+        ( agent_create(clauses([ (:- agent(ends, [])),
+                                 (main :- clone(W), result(W)) ]), A, []),
+          agent_join(family(A), [A-done, C-done], 5),
+          nb_setval(journal_test, A-C) ),
+        ( nb_getval(journal_test, A-C),
+          agent_join(A, done, 1),
+          agent_result(A, parent(C), 1),
+          agent_result(C, clone(A), 1),
+          agent_join(family(A), [A-done, C-done], 5) )).
+
+test('facts of the tuple space, and delivered payloads') :-
+    with_tmp_dir(facts).
+
+facts(Dir) :-
+    atom_concat(Dir, '/greeting.pl', File),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, ':- payload(greeting, [provides([hi/1])]).~n\c
+                                    hi(there).~n', []),
+                       close(Out)),
+    atom_concat(Dir, '/journal', Journal),
+    started(Journal,
+        ( remote(alpha, ( leave(a(1)), leave(a(2)), leave(a(2)),
+                          leave(f(X, X)), take(a(1)) )),
+          agent_create(clauses([ (:- agent(brings, [])),
+                                 (main :- deliver(greeting)) ]), A,
+                       [payloads([File])]),
+          agent_join(A, done, 5) )),
+    started(Journal,
+        ( remote(alpha, findall(F, sense(F), Facts)),
+          Facts =@= [a(2), a(2), f(Y, Y)],
+          remote(alpha, hi(there)) )).
+
+test('other hosts of the process are there, and may be asked for once',
+     [error(permission_error(start, host, beta))]) :-
+    with_tmp_dir(other_hosts).
+
+other_hosts(Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    format(atom(Beta), 'beta@127.0.0.1:~d', [Port]),
+    keeper(P),
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Dir,
+            ( remote(Host, typhon:host_start(beta, [capacity(1)])),
+              link(Host, Beta),
+              agent_create(P, Id, [host(Beta)]) ),
+            ( remote(Host, typhon:host_property(alpha, neighbours([Beta]))),
+              remote(Host, typhon:host_property(beta, load(1))),
+              agent_property(Id, host(Beta)),
+              catch(agent_create(P, _, [host(Beta)]), Refused, true),
+              remote(Host, typhon:host_start(beta)),
+              catch(remote(Host, typhon:host_start(beta)), Error, true) )),
+        host_stop(driver)),
+    Refused = error(move_refused(Beta, capacity), _),
+    throw(Error).
+
+%   It would be tried again and again, and nothing else be committed.
+
+test('whose id no journal could have is not let in, and others are') :-
+    no_leaks(with_tmp_dir(long_ids)).
+
+long_ids(Dir) :-
+    Visitor = clauses([ (:- agent(visitor, [])),
+                        (main :- receive(_-go(Host)),
+                                 catch(move(Host), error(E, _), true),
+                                 result(E)) ]),
+    keeper(Keeper),
+    with_peers([p], started(Dir,
+        ( host_property(alpha, address(Alpha)),
+          forall(no_name(Name),
+                 ( peer_do(p, agent_create(Visitor, A, [name(Name)])),
+                   agent_send(A, go(Alpha)),
+                   agent_result(A, E, 10),
+                   assertion(E = move_refused(Alpha, error(type_error(_, _)))),
+                   catch(agent_create(Keeper, _, [name(Name)]),
+                         error(Formal, _), true),
+                   assertion(Formal == representation_error(agent_name)) )),
+          agent_create(Keeper, Id),
+          agent_send(Id, one),
+          got(Id, [one]) ))),
+    started(Dir, got(Id, [one])).
+
+no_name('a\000\b').
+no_name(Name) :-
+    format(atom(Name), '~`xt~6000|', []).
+
+test('a journal is for the first host',
+     [error(permission_error(open, journal, _))]) :-
+    setup_call_cleanup(host_start(gamma),
+                       host_start(alpha, [journal('/tmp/none')]),
+                       host_stop(gamma)).
+
+test('virtual time has none', [error(permission_error(open, journal, _))]) :-
+    host_start(alpha, [clock(virtual), journal('/tmp/none')]).
+
+test('faulty agents are kept, and can be resumed',
+     [setup(nb_setval(journal_test, none))]) :-
+    with_journal(
+        ( agent_create(clauses([ (:- agent(fails, [state([ok/0])])),
+                                 (main :- ok, result(fine)) ]), A, []),
+          agent_join(A, failed, 5),
+          nb_setval(journal_test, A) ),
+        ( nb_getval(journal_test, A),
+          wait_until(agent_property(A, state(faulty(_))), 5),
+          agent_change(A, facts([ok])),
+          agent_resume(A),
+          agent_result(A, fine, 5) )).
+
+%   The worker that has it stands still while it releases what was said, as it
+%   is told that one word finds nobody.  If that is when the agent rests another
+%   worker is ahead of it.
+
+test('one that answers messages is heard in order, whoever is quicker') :-
+    with_tmp_dir(in_order).
+
+in_order(Dir) :-
+    started(Dir,
+        ( keeper(P),
+          agent_create(P, K, []),
+          agent_create(clauses([(:- agent(gone, [])), main]), Gone, []),
+          agent_join(Gone, done, 5),
+          counter(C),
+          agent_create(C, A, [facts([to(K), gone(Gone)])]),
+          setup_call_cleanup(
+              asserta((user:message_hook(typhon(undeliverable(_, _, A, _)),
+                                         _, _) :-
+                           plunit_journal:stands_still(A, K)), Hook),
+              ( agent_send(A, go),
+                wait_until(( agent_property(A, facts(Facts)),
+                             memberchk(said(1), Facts),
+                             agent_property(A, state(resident)) ), 5),
+                agent_send(A, go),
+                got(K, [1, 2]) ),
+              erase(Hook)) )).
+
+counter(clauses([ (:- agent(counter, [state([said/1, to/1, gone/1])])),
+                  said(0),
+                  (on_message(_, go) :-
+                       retract(said(N0)), N is N0+1, assertz(said(N)),
+                       ( N =:= 1 -> gone(Gone), send(Gone, hello) ; true ),
+                       to(To), send(To, N)) ])).
+
+:- public stands_still/2.
+
+stands_still(Agent, Keeper) :-
+    (   agent_property(Agent, state(resident))
+    ->  got(Keeper, [2])
+    ;   true
+    ).
+
+%   Peers are let in before agents go on: here two messages come just before
+%   it is looked whether it is to be woken, and it has taken the first.
+
+test('who is spoken to while all goes on again hears one after the other') :-
+    no_leaks(with_tmp_dir(one_after_the_other)).
+
+one_after_the_other(Dir) :-
+    started(Dir,
+        ( agent_create(clauses([ (:- agent(listens, [state([got/1])])),
+                                 (on_message(_, M) :- hears(M), assertz(got(M))),
+                                 (hears(first) :-
+                                      !,
+                                      thread_send_message(journal_gate, in),
+                                      thread_get_message(journal_gate, on)),
+                                 hears(second) ]), A, []),
+          wait_until(agent_property(A, state(resident)), 5) )),
+    message_queue_create(Gate, [alias(journal_gate)]),
+    assertz(speaks_to(A)),
+    wrap_predicate(typhon_agent_lock:with_agent(Id, _), spoken_to, Wrapped,
+                   ( plunit_journal:spoken_to(Id), Wrapped )),
+    host_start(alpha, [journal(Dir)]),
+    call_cleanup(
+        ( catch(wait_until(( agent_property(A, facts(Facts)),
+                             memberchk(got(second), Facts) ), 0.5), _, true),
+          thread_send_message(Gate, on),
+          got(A, [first, second]) ),
+        ( stop_all, message_queue_destroy(Gate) )).
+
+%   It stays wrapped: to unwrap what a thread is in is not safe.
+
+:- dynamic speaks_to/1.
+:- public spoken_to/1.
+
+spoken_to(Id) :-
+    thread_self(main),
+    retract(speaks_to(Id)),
+    !,
+    agent_send(Id, first),
+    thread_get_message(journal_gate, in),
+    agent_send(Id, second).
+spoken_to(_).
+
+%   One comes with a program that nobody had, and cannot be let in after all:
+%   that must not keep the program from those who come with it later.
+
+test('a program is noted whatever becomes of who has brought it') :-
+    with_journal(
+        ( keeper(P),
+          agent_create(P, First, []),
+          typhon_agents:agent(First, _, _, Hash, _),
+          retractall(typhon_agent_in_journal:code_noted(Hash)),
+          typhon_durable_changes:durable_drop(code, Hash, 0),
+          \+ typhon_durable_changes:unit_of_work(
+                 ( typhon_agent_in_journal:note_code(Hash), fail )),
+          agent_create(P, Id, []),
+          nb_setval(journal_test, Id) ),
+        ( nb_getval(journal_test, Id),
+          agent_property(Id, state(resident)) )).
+
+%   killed(+Dir, :Before, :After): in a process that is killed, and in the
+%   next one.
+
+:- meta_predicate killed(+, 0, 0).
+
+killed(Dir, Before, After) :-
+    node(Dir, Before),
+    node(Dir, After).
+
+:- meta_predicate node(+, 0).
+
+node(Dir, Goal) :-
+    project_file('test/chaos/lasting/node.pl', File),
+    b_getval(journal_port, Port),
+    with_swipl([File, '--', alpha, Port, Dir, normal, 1], Pid, In, Out,
+               ( format(In, 'orders([]).~n', []),
+                 flush_output(In),
+                 read_line_to_string(Out, "ready"),
+                 call(Goal),
+                 process_kill(Pid, kill),
+                 process_wait(Pid, _) )).
+
+test('a step that was not over begins again, and happens once') :-
+    with_tmp_dir(half_a_step).
+
+half_a_step(Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    keeper(Keeper),
+    atom_concat(Dir, '/go', Go),
+    atom_concat(Dir, '/begun', Begun),
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Dir,
+            ( agent_create(Keeper, K, [host(Host)]),
+              remote(Host, leave(token)),
+              agent_create(clauses([ (:- agent(steps, [state([to/1])])),
+                                     (main :- take(token), to(To),
+                                              send(To, begun), leave(changed),
+                                              ( exists_file(Go) -> true
+                                              ; open(Begun, write, S), close(S),
+                                                thread_self(T), thread_get_message(T, never)
+                                              ),
+                                              sleep(0),
+                                              result(done)) ]), _,
+                           [host(Host), facts([to(K)])]),
+              wait_until(exists_file(Begun), 10),
+              remote(Host, findall(F, sense(F), [])),
+              open(Go, write, Out),
+              close(Out) ),
+            ( wait_until(remote(Host, sense(changed)), 5),
+              remote(Host, findall(F, sense(F), [changed])),
+              got(K, [begun]) )),
+        host_stop(driver)).
+
+%   It is killed in the middle of a step in which it has logged something.
+
+test('what an agent logs is in the log once, with the step in which it did') :-
+    with_tmp_dir(logs).
+
+logs(Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    atom_concat(Dir, '/go', Go),
+    atom_concat(Dir, '/log', Log),
+    atom_concat(Dir, '/alpha', Journal),
+    setup_call_cleanup(
+        log_server_start([file(Log)], Server),
+        killed(Journal,
+               ( remote(Host, typhon:host_change(alpha, log(Server))),
+                 logger(Go, Program),
+                 agent_create(Program, A, [host(Host)]),
+                 wait_until(logged(Log, A, [before]), 5),
+                 setup_call_cleanup(open(Go, write, Out), true, close(Out)) ),
+               ( wait_until(logged(Log, A, [_, _, _, after]), 10),
+                 logged(Log, A, [before, step(1), step(2), after]) )),
+        log_server_stop(Server)).
+
+logger(Go, clauses([ (:- agent(logs, [])),
+                     (main :- log(before), sleep(0), log(step(1)), log(step(2)),
+                              wait, sleep(0), log(after)),
+                     (wait :- exists_file(Go), !),
+                     (wait :- thread_self(T), thread_get_message(T, never)) ])).
+
+logged(File, Agent, Logged) :-
+    exists_file(File),
+    log_events(File, Events),
+    findall(What,
+            ( member(event(_, _, Agent, What), Events),
+              memberchk(What, [before, step(_), after]) ),
+            Logged).
+
+test('a host that has peers rests, and is there again') :-
+    with_tmp_dir(rests).
+
+rests(Dir) :-
+    atom_concat(Dir, '/here', Here),
+    atom_concat(Dir, '/there', There),
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    forall(between(1, 2, _),
+           setup_call_cleanup(
+               host_start(beta, [journal(Here)]),
+               node(There, ( keeper(P),
+                             agent_create(P, A, [host(Host)]),
+                             agent_send(A, hello),
+                             got(A, [hello]),
+                             host_stop(beta) )),
+               ignore(catch(host_stop(beta), error(_, _), fail)))).
+
+%   The thread that has let a visitor in leaves its answer in the buffer of the
+%   connection, from which whoever says something to that process next takes it
+%   along.  Here somebody is just about to, and nothing is committed any more.
+
+test('whoever is let in is answered for when that is committed') :-
+    with_tmp_dir(taken_along).
+
+taken_along(Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    atom_concat(Dir, '/there', There),
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Dir,
+            ( host_property(driver, address(Driver)),
+              atom_concat(Dir, '/hooks.pl', Hooks),
+              setup_call_cleanup(
+                  open(Hooks, write, Out),
+                  forall(about_to_say(Clause), portray_clause(Out, Clause)),
+                  close(Out)),
+              remote(Host, ( load_files(user:Hooks, []),
+                             debug(typhon(frame)),
+                             thread_create(typhon:remote(Driver, true), _,
+                                           [alias(says)]) )),
+              wait_until(remote(Host, user:is_about_to), 5),
+              visitor(Program),
+              agent_create(Program, A, [facts([to(Host), there(There)])]),
+              nb_setval(journal_test, A),
+              wait_until(exists_file(There), 5),
+              ignore(catch(wait_until(\+ agent_property(A, host(driver)), 1),
+                           _, true)) ),
+            ( nb_getval(journal_test, A),
+              agent_result(A, was_there, 10) )),
+        host_stop(driver)).
+
+about_to_say((:- dynamic(nothing_is_committed/0))).
+about_to_say((:- dynamic(is_about_to/0))).
+about_to_say((prolog:debug_print_hook(_, _, _:[from, _, request(_, hop), _]) :-
+                  assertz(user:nothing_is_committed))).
+about_to_say((prolog:debug_print_hook(_, _, _:[to, _, request(_, _), _]) :-
+                  thread_self(says),
+                  assertz(user:is_about_to),
+                  thread_get_message(visitor_is_here))).
+about_to_say(prolog:debug_print_hook(_, _, _)).
+about_to_say((typhon_durable_changes:reached(before_commit) :-
+                  user:nothing_is_committed,
+                  thread_self(Me),
+                  thread_get_message(Me, never))).
+
+visitor(clauses([ (:- agent(visitor, [state([to/1,there/1])])),
+                  (main :- to(Host), move(Host), visit, result(was_there)),
+                  (visit :-
+                      catch(thread_send_message(says, visitor_is_here), _,
+                            fail),
+                      !,
+                      there(File),
+                      open(File, write, Out),
+                      close(Out),
+                      thread_self(Me),
+                      thread_get_message(Me, never)),
+                  visit ])).
+
+:- end_tests(journal).

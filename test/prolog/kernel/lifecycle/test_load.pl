@@ -1,0 +1,67 @@
+:- module(test_load, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(typhon)).
+
+/** <module> Restore points are loaded where people want
+
+*Threading*: one test at a time.
+*/
+
+%   saved(-File, :Goal): File is the restore point of an agent that is to say
+%   where it is when it hears `go`.
+
+:- meta_predicate saved(-, 0).
+
+saved(File, Goal) :-
+    with_tmp_dir(save(File, Goal)).
+
+save(File, Goal, Dir) :-
+    directory_file_path(Dir, point, File),
+    with_hosts([alpha],
+               ( create([ (main :- receive(_-go), here(H), leave(was(H))) ],
+                        A),
+                 wait_state(A, waiting),
+                 agent_save(A, File) )),
+    call(Goal).
+
+:- begin_tests(load).
+
+test(on_a_host_of_this_process, true(Was == Gamma)) :-
+    saved(File,
+          with_hosts([beta,gamma],
+                     ( address(gamma, Gamma),
+                       agent_load(File, A, [host(gamma)]),
+                       agent_property(A, home(Gamma)),
+                       agent_send(A, go),
+                       joined(A, done),
+                       remote(gamma, sense(was(Was))) ))).
+test(on_the_first_host_by_default, true(H == Beta)) :-
+    saved(File,
+          with_hosts([beta,gamma],
+                     ( address(beta, Beta),
+                       agent_load(File, A, []),
+                       agent_property(A, host(H)) ))).
+test(in_another_process, true(Was == Far)) :-
+    saved(File,
+          with_hosts([beta],
+                     with_peers([far],
+                                ( peer_host(far, Far),
+                                  agent_load(File, A, [host(Far)]),
+                                  agent_send(A, go),
+                                  joined(A, done),
+                                  remote(Far, sense(was(Was))) )))).
+test(no_such_host, error(existence_error(host, nowhere))) :-
+    saved(File, with_hosts([beta], agent_load(File, _, [host(nowhere)]))).
+test(full, error(move_refused(_, capacity))) :-
+    saved(File, with_hosts([beta-[capacity(0)]],
+                           agent_load(File, _, [host(beta)]))).
+test(unknown_option, error(domain_error(load_option, name(x)))) :-
+    saved(File, with_hosts([beta], agent_load(File, _, [name(x)]))).
+test(host_is_no_name, error(type_error(atom, 7))) :-
+    saved(File, with_hosts([beta], agent_load(File, _, [host(7)]))).
+
+:- end_tests(load).

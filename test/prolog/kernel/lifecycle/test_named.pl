@@ -1,0 +1,164 @@
+:- module(test_named, []).
+:- use_module(library(plunit)).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(typhon)).
+
+/** <module> Agents by the names that people give them
+
+*/
+
+bob(Agent) :-
+    bob(Agent, []).
+
+bob(Agent, Options) :-
+    agent_create(clauses([ (:- agent(bob, [state([got/1])])),
+                           (on_message(_, X) :- assertz(got(X))) ]),
+                 Agent, Options),
+    wait_state(Agent, resident).
+
+:- begin_tests(names).
+
+test(a_name_that_one_agent_has_serves) :-
+    with_hosts([alpha, beta],
+               ( bob(Id),
+                 agent_send(bob, hello),
+                 wait_until(fact_of(Id, got(hello)), 5),
+                 agent_move(bob, beta),
+                 address(beta, Beta),
+                 wait_until(agent_property(bob, host(Beta)), 5),
+                 agent_send(at(bob, beta), again),
+                 wait_until(fact_of(Id, got(again)), 5),
+                 agent_dispose(bob),
+                 agent_join(bob, Outcome, 5),
+                 assertion(Outcome == disposed) )).
+test(restore_point_and_payload) :-
+    with_tmp_dir(saved).
+
+saved(Dir) :-
+    directory_file_path(Dir, bob, File),
+    with_hosts([alpha],
+               ( bob(Id),
+                 agent_save(bob, File),
+                 payload_attach(bob, clauses([ (:- payload(p, [provides([q/1])])),
+                                               q(1) ])),
+                 agent_property(Id, payloads([p])),
+                 payload_detach(bob, p),
+                 agent_dispose(bob),
+                 agent_join(Id, disposed, 5),
+                 agent_load(File, Again),
+                 agent_property(bob, home(_)),
+                 agent_dispose(Again) )).
+
+test(the_last_one_that_has_ended) :-
+    with_hosts([alpha],
+               ( bob(A), agent_dispose(A), agent_join(A, _, 5),
+                 create([main], B, [name(bob)]), agent_join(B, _, 5),
+                 agent_join(bob, Outcome, 5),
+                 assertion(Outcome == done) )).
+test(a_name_that_two_have_tells_both) :-
+    with_hosts([alpha],
+               ( bob(A), bob(B), bob(_, [name(bobby)]),
+                 msort([A, B], Both),
+                 forall(member(Goal, [ agent_send(bob, x), agent_move(bob, alpha),
+                                       agent_dispose(bob),
+                                       agent_join(bob, _, 1),
+                                       agent_property(bob, hops(_)) ]),
+                        catch(( call(Goal), assertion(fail) ),
+                              error(Formal, _),
+                              assertion(Formal == ambiguous_agent(bob, Both)))),
+                 agent_dispose(A),
+                 agent_send(bob, only_b),
+                 wait_until(fact_of(B, got(only_b)), 5) )).
+test(a_name_that_nobody_has,
+     [ forall(member(Goal, [ agent_send(tim, x), agent_dispose(tim),
+                             agent_join(tim, _, 1),
+                             agent_property(tim, hops(_)) ])),
+       error(existence_error(agent, tim)) ]) :-
+    with_hosts([alpha], ( bob(_), call(Goal) )).
+test(a_name_with_dots) :-
+    with_hosts([alpha], ( bob(Id, [name('dr.bob')]),
+                          agent_property('dr.bob', home(_)),
+                          agent_dispose(Id) )).
+test(a_name_is_no_part_of_an_address, error(domain_error(agent_name, 'a@b'))) :-
+    with_hosts([alpha], bob(_, [name('a@b')])).
+test(an_id_that_is_no_more_has_no_properties) :-
+    with_hosts([alpha], ( bob(Id), agent_dispose(Id), agent_join(Id, _, 5),
+                          \+ agent_property(Id, state(_)) )).
+test(an_id_is_not_looked_up) :-
+    with_hosts([alpha],
+               ( bob(Id),
+                 statistics(inferences, I0),
+                 typhon_named:agent_named(Id, Same),
+                 statistics(inferences, I1),
+                 assertion(Same == Id),
+                 assertion(I1-I0 < 10) )).
+
+%   One of a network of other processes, wherever it is: it was not created
+%   here only.
+
+test(in_another_process) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(2), Network, [processes(2)]),
+                 elsewhere(Network),
+                 network_stop(Network))).
+
+elsewhere(Network) :-
+    network_property(Network, hosts([First, Second])),
+    bob(Carl, [host(First), name(carl)]),
+    agent_move(carl, Second),
+    wait_until(agent_property(carl, host(Second)), 5),
+    agent_send(carl, hello),
+    wait_until(agent_property(carl, facts([got(hello)])), 5),
+    agent_dispose(carl),
+    agent_join(carl, Outcome, 5),
+    assertion(Outcome == disposed),
+    catch(agent_send(carl, hello), error(Formal, _), true),
+    assertion(Formal == existence_error(agent, Carl)).
+
+%   Nothing in this process has created them.
+
+test(name_of_an_agent_that_ended_in_a_network_serves) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(2), Network, [processes(2)]),
+                 born_elsewhere(Network),
+                 network_stop(Network))).
+
+born_elsewhere(Network) :-
+    network_property(Network, hosts([First, _])),
+    remote(First, typhon_creation:agent_create(
+                      clauses([ (:- agent(ede, [])), (main :- receive(_)) ]),
+                      Id, [])),
+    agent_send(ede, go),
+    agent_join(Id, done, 10),
+    agent_join(ede, Outcome, 10),
+    assertion(Outcome == done).
+
+test(name_of_an_agent_from_elsewhere_that_ended_here_serves) :-
+    with_hosts([alpha], with_peers([beta], came_and_ended)).
+
+came_and_ended :-
+    peer_host(beta, Beta),
+    address(alpha, Alpha),
+    remote(Beta, typhon_creation:agent_create(
+                     clauses([ (:- agent(ede, [])),
+                               (main :- receive(_-go(H)), move(H)) ]),
+                     Id, [])),
+    agent_send(Id, go(Alpha)),
+    agent_join(Id, done, 10),
+    agent_join(ede, Outcome, 10),
+    assertion(Outcome == done).
+
+test(order_to_an_agent_that_has_ended_says_so,
+     [ forall(member(Goal, [ agent_send(bob, x), agent_move(bob, alpha),
+                             agent_dispose(bob),
+                             agent_property(bob, hops(_)) ])) ]) :-
+    with_hosts([alpha],
+               ( bob(Id), agent_dispose(Id), agent_join(Id, _, 5),
+                 catch(( call(Goal), Formal = none ), error(Formal, _), true),
+                 assertion(Formal == existence_error(agent, Id)) )).
+
+:- end_tests(names).

@@ -1,0 +1,256 @@
+:- module(test_owners, []).
+
+% Who takes the id of an agent of others, or speaks in its name: mallory, who
+% has a certificate, and had one of them as a guest.
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/authority').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(typhon)).
+
+:- needs([openssl]).
+
+%   The owners are alpha, which is here, and mallory; beta has a host.
+
+:- meta_predicate with_owners(0), with_owners(0, +).
+
+with_owners(Goal) :-
+    with_authority([alpha, beta, mallory], [], with_owners(Goal)).
+
+with_owners(Goal, Authority) :-
+    keys_of(alpha, Authority, Alpha),
+    keys_of(beta, Authority, Beta),
+    keys_of(mallory, Authority, Mallory),
+    with_peers([ beta-[host([tls(Beta)])], mallory-[host([tls(Mallory)])] ],
+               setup_call_cleanup(
+                   host_start(alpha, [tls(Alpha)]),
+                   once(Goal),
+                   host_stop(alpha))).
+
+%   A guest goes where it is told, says what it is told, and keeps what it
+%   hears.
+
+guest(clauses([ (:- agent(guest, [state([heard/2])])),
+                (on_message(_, go(Host)) :- move(Host)),
+                (on_message(_, say(To, What)) :- send(To, What)),
+                (on_message(From, heard(What)) :-
+                     assertz(heard(From, What))) ])).
+
+resides(Agent, Peer) :-
+    peer_host(Peer, Host),
+    agent_send(Agent, go(Host)),
+    is_at(Agent, Host).
+
+is_at(Agent, Host) :-
+    wait_until(( agent_property(Agent, host(Host)),
+                 agent_property(Agent, state(resident)) ), 20).
+
+heard(Agent, Heard) :-
+    agent_property(Agent, facts(Facts)),
+    findall(From-What, member(heard(From, What), Facts), Heard).
+
+endpoint(Peer, Endpoint) :-
+    peer_host(Peer, Host),
+    typhon_host_names:address_parts(Host, _, Endpoint).
+
+%   Mallory makes the image of an agent of hers, and its birth.
+
+mallory_image(Image, Birth) :-
+    guest(Program),
+    peer_do(mallory,
+            ( agent_create(Program, A),
+              typhon_image:image_hop(A, _, [], [], 0, Image),
+              typhon_image:image_hash(Image, Hash),
+              typhon_birth:birth(A, Hash, Birth) )).
+
+%   What beta answers when mallory brings it.
+
+brought(Image, Birth, Answer) :-
+    endpoint(beta, Beta),
+    guest(Program),
+    peer_do(mallory,
+            ( typhon_loaded:program_load(Program, _, _, Hash, _),
+              typhon_code:code_sent(Hash, Sent0),
+              ( Birth == none -> Sent = Sent0 ; Sent = papers(Birth, Sent0) ),
+              typhon_wire:endpoint_call(Beta, hop, hop(beta, Image, Sent),
+                                        Answer, 10) )).
+
+:- begin_tests(owners).
+
+test(who_is_honest_comes_and_who_is_not_does_not) :-
+    with_owners(( honest, ids_taken, senders_forged, news_forged,
+                  program_changed, guarded )).
+
+:- end_tests(owners).
+
+%   From alpha over mallory to beta and back; what it says on the way arrives.
+
+honest :-
+    guest(Program),
+    agent_create(Program, A),
+    assertion(sub_atom(A, _, _, _, '-alpha.')),
+    peer_host(beta, Beta),
+    agent_create(Program, B, [host(Beta)]),
+    assertion(sub_atom(B, _, _, _, '-beta.')),
+    resides(A, mallory),
+    agent_send(A, say(B, heard(from_mallory))),
+    resides(A, beta),
+    agent_send(A, say(B, heard(from_beta))),
+    births_saved(beta),
+    host_property(alpha, address(Alpha)),
+    agent_send(A, go(Alpha)),
+    is_at(A, Alpha),
+    agent_send(A, say(B, heard(from_home))),
+    wait_until(( heard(B, Heard), length(Heard, 3) ), 20),
+    assertion(Heard == [ A-from_mallory, A-from_beta, A-from_home ]),
+    agent_send(B, say(A, heard(back))),
+    wait_until(heard(A, [B-back]), 20).
+
+%   Who stands there could not go on from a network that was saved and loaded.
+%   As a network does, it waits until nobody runs there: A has just been told to
+%   say something.
+
+births_saved(Peer) :-
+    peer_do(Peer,
+            ( forall(member(Order, [hold(5), rest(20, [])]),
+                     typhon_carrier:order_do(Order, ok)),
+              typhon_carrier:order_do(kept([Peer]), kept(_, _, Items)),
+              findall(item(birth, Id, N, Birth),
+                      member(item(birth, Id, N, Birth), Items), Births),
+              forall(typhon_identity:ids_anew, true),
+              typhon_carrier:order_do(fill(real, Births), ok),
+              typhon_carrier:order_do(let_go, ok) )).
+
+%   Mallory has A's birth, since it was her guest; of C she knows the id only,
+%   but beta knows C.
+
+ids_taken :-
+    guest(Program),
+    agent_create(Program, A),
+    agent_create(Program, C),
+    resides(A, mallory),
+    resides(C, beta),
+    host_property(alpha, address(Alpha)),
+    forall(member(Agent, [A, C]),
+           ( agent_send(Agent, go(Alpha)), is_at(Agent, Alpha) )),
+    mallory_image(image(Own, Hash, life(P, _, L, T, Ps, S, Ts), State, Goals,
+                        Mail, Since), HerBirth),
+    Life = life(P, 9, L, T, Ps, S, Ts),
+    peer_do(mallory, typhon_birth:known(A, BirthOfA)),
+    assertion(BirthOfA = birth(A, Hash, _, _)),
+    forall(forged(Case, C, A, Hash, BirthOfA, HerBirth, Id, ItsHash, Birth),
+           ( brought(image(Id, ItsHash, Life, State, Goals, Mail, Since),
+                     Birth, Answer),
+             assertion(memberchk(Case-Answer,
+                                 [ _-answer(refused(identity)),
+                                   without-answer(need_program) ])) )),
+    brought(image(Own, Hash, Life, State, Goals, Mail, Since), HerBirth,
+            Honest),
+    assertion(Honest == answer(accepted)),
+    long_id(Own, Long),
+    peer_do(mallory, typhon_birth:birth(Long, Hash, LongBirth)),
+    brought(image(Long, Hash, Life, State, Goals, Mail, Since), LongBirth,
+            TooLong),
+    assertion(TooLong == answer(refused(identity))).
+
+%   It would be hers, and is one that beta would have to remember.
+
+long_id(Own, Long) :-
+    format(atom(Long), '~`xt~20000|~w', [Own]).
+
+%   forged(-Case, +C, +A, +Hash, +BirthOfA, +HerBirth, -Id, -ItsHash, -Birth)
+
+forged(without, C, _, Hash, _, _, C, Hash, none).
+forged(with_her_own, C, _, Hash, _, Hers, C, Hash, Hers).
+forged(with_her_own_renamed, C, _, Hash, _, birth(_, _, Pem, Hex), C, Hash,
+       birth(C, Hash, Pem, Hex)).
+forged(signed_by_her, C, _, Hash, _, _, C, Hash, birth(C, Hash, Pem, Hex)) :-
+    peer_do(mallory,
+            ( typhon_secure:secure_directory(Keys),
+              typhon_birth:birth_text(C, Hash, Text),
+              typhon_base_keys:keys_sign(Keys, Text, signature(Pem0, Hex)),
+              atom_string(Pem, Pem0) )).
+forged(another_program, _, A, _, birth(A, _, Pem, Hex), _, A, another,
+       birth(A, another, Pem, Hex)).
+forged(that_of_another, C, _, Hash, Birth, _, C, Hash, Birth).
+forged(that_of_another_renamed, C, _, Hash, birth(_, _, Pem, Hex), _, C, Hash,
+       birth(C, Hash, Pem, Hex)).
+forged(no_text, C, _, Hash, _, _, C, Hash, birth(C, Hash, _, f(x))).
+forged(no_birth, C, _, Hash, _, _, C, Hash, [_|_]).
+
+senders_forged :-
+    guest(Program),
+    peer_host(beta, BetaHost),
+    endpoint(beta, Beta),
+    agent_create(Program, A),
+    agent_create(Program, B, [host(BetaHost)]),
+    peer_do(mallory, agent_create(Program, M)),
+    peer_do(mallory, typhon_birth:birth(M, hash, Birth)),
+    many_shown(300, A, B, Birth, Many),
+    forall(member(Term,
+                  [ message(B, [mail(x, A, heard(forged))], 5),
+                    shown([], message(B, [mail(x, A, heard(forged))], 5)),
+                    shown([Birth, _, f(x)],
+                          message(B, [mail(x, A, heard(forged))], 5)),
+                    message(B, [mail(x, _, heard(forged))], 5),
+                    message(B, [mail(x, B, heard(forged))], 5),
+                    Many ]),
+           peer_do(mallory,
+                   typhon_wire:endpoint_post(Beta, message, Term))),
+    peer_do(mallory, agent_send(M, say(B, heard(honest)))),
+    wait_until(heard(B, [_|_]), 20),
+    agent_send(A, say(B, heard(from_a))),
+    wait_until(( heard(B, Heard), length(Heard, 2) ), 20),
+    assertion(Heard == [M-honest, A-from_a]).
+
+%   To look at each of them for each message would take minutes.
+
+many_shown(Count, A, B, birth(_, Hash, Pem, Hex),
+           shown(Births, message(B, Mail, 5))) :-
+    numlist(1, Count, Ns),
+    findall(birth(A, Other, Pem, Hex),
+            ( member(N, Ns), atom_concat(Hash, N, Other) ), Births),
+    findall(mail(x, A, heard(N)), member(N, Ns), Mail).
+
+news_forged :-
+    guest(Program),
+    agent_create(Program, A),
+    host_property(alpha, address(Alpha)),
+    typhon_host_names:address_parts(Alpha, _, Endpoint),
+    peer_host(mallory, Mallory),
+    peer_do(mallory,
+            ( typhon_wire:endpoint_post(Endpoint, whereabouts,
+                  [ located(A, Mallory, 5), ended(A, done, 9),
+                    faulty(A, failed, 1.0, Mallory, 9) ]),
+              agent_create(Program, M),
+              agent_send(M, say(A, heard(done))) )),
+    wait_until(heard(A, [M-done]), 20),
+    agent_join(A, Outcome, 0),
+    assertion(Outcome == timeout),
+    agent_send(A, heard(still_here)),
+    wait_until(heard(A, [M-done, user-still_here]), 10).
+
+%   Away from home nobody would let it go on.
+
+program_changed :-
+    guest(Program),
+    agent_create(Program, A),
+    Other = clauses([ (:- agent(guest, [state([heard/2])])),
+                      (on_message(_, go(Host)) :- move(Host)),
+                      (on_message(_, other) :- true) ]),
+    agent_change(A, program(Other)),
+    resides(A, mallory),
+    peer_host(mallory, Mallory),
+    catch(agent_change(A, program(Program)), error(Formal, _), true),
+    assertion(Formal == permission_error(change, agent_program, A)),
+    assertion(agent_property(A, host(Mallory))).
+
+guarded :-
+    guest(Program),
+    peer_do(beta, host_change(beta, policy(guarded))),
+    agent_create(Program, A),
+    resides(A, mallory),
+    resides(A, beta),
+    agent_trail(A, Trail),
+    assertion(Trail = trail([_, _, _, _], whole)).

@@ -1,0 +1,433 @@
+:- module(test_quotas, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(typhon)).
+
+/** <module> How much agents may use: each, of one owner, and on a host
+
+*Threading*: one test at a time.
+*/
+
+%   ended(+Quotas, +Clauses, -Outcome): of an agent on a host with these; one
+%   that has passed one is told of.
+
+ended(Quotas, Clauses, Outcome) :-
+    with_hosts([g-[quota(Quotas)], t],
+               listening(( create(Clauses, A, [host(g)]),
+                           joined(A, Outcome) ), Messages)),
+    forall(Outcome = raised(error(resource_error(What), _)),
+           memberchk(warning-typhon(over_quota(_, What)), Messages)).
+
+over(What, raised(error(resource_error(What), _))).
+
+with_host_here(Goal) :-
+    with_host_here([], Goal).
+
+with_host_here(Options, Goal) :-
+    setup_call_cleanup(host_start(here, Options), once(Goal), host_stop(here)).
+
+:- begin_tests(each).
+
+test(hops_in_a_second, O = raised(error(resource_error(hops), _))) :-
+    ended([hops(20)], [ (main :- move(t), move(g), main) ], O).
+test(what_is_passed_cannot_be_caught,
+     O = raised(error(resource_error(hops), _))) :-
+    ended([hops(20)],
+          [ (main :- catch(( move(t), move(g) ), _, true), main) ], O).
+test(what_is_passed_cannot_be_passed_again_and_again, O == messages) :-
+    ended([messages(20)],
+          [ (main :- repeat, catch(send(user, x), _, true), fail) ], Outcome),
+    over(O, Outcome).
+
+%   In a probe nobody could end it in time.
+
+test(goals_that_somebody_wants_to_see, O == messages) :-
+    with_hosts([g-[quota([messages(20)])]],
+               listening(( create([ (main :- receive(_),
+                                             forall(between(1, 50, _), say)),
+                                    (say :- catch(send(user, x), _, true)) ],
+                                  A, [host(g)]),
+                           agent_trace(A, [goals]),
+                           agent_send(A, go),
+                           joined(A, Outcome) ), _)),
+    over(O, Outcome).
+test(what_people_log_is_not_counted) :-
+    with_hosts([g-[quota([log(2)])]],
+               listening(remote(g, forall(between(1, 5, X), log(X))), _)).
+test(nobody_steps, error(permission_error(step, agent, _))) :-
+    with_hosts([g-[quota([messages(20)])]],
+               ( create([ (main :- receive(_)) ], A, [host(g)]),
+                 wait_state(A, waiting),
+                 agent_step(A) )).
+
+%   It runs where another one has ended so, on a host without quotas.
+
+test(what_another_one_passed, Told == []) :-
+    with_hosts([g-[quota([messages(5)])], t],
+               listening(( talker(10, Talker),
+                           created([host(g)], 8, Talker, As),
+                           outcomes(As, _),
+                           created([host(t)], 3, [ (main :- lp), (lp :- lp) ],
+                                   Bs),
+                           forall(member(B, Bs),
+                                  ( wait_state(B, running),
+                                    agent_dispose(B, [force(0)]) )),
+                           outcomes(Bs, [disposed,disposed,disposed]) ),
+                         Messages)),
+    findall(B, ( member(B, Bs),
+                 memberchk(warning-typhon(over_quota(B, _)), Messages) ),
+            Told).
+test(hops_of_a_traveller_that_takes_its_time, Outcome == done) :-
+    ended([hops(3)],
+          [ (main :- lap(4)), lap(0),
+            (lap(N) :- move(t), move(g), sleep(0.4), M is N-1, lap(M)) ],
+          Outcome).
+test(clones_that_do_not_clone, O = raised(error(resource_error(clones), _))) :-
+    ended([clones(5)],
+          [ (main :- clone(W), on(W)), on(clone(_)), (on(parent(_)) :- main),
+            on_message(_, _) ], O).
+
+%   What it was cloned from was born elsewhere, and is of one family with them.
+
+test(clones_of_one_that_came, O == resource_error(clones)) :-
+    no_leaks(with_peers([p],
+        with_host_here([quota([clones(5)])],
+            listening(( visitors(p, [ (main :- s(H), move(H), many),
+                                      (many :- clone(W), on(W)), on(clone(_)),
+                                      (on(parent(_)) :- many),
+                                      on_message(_, _) ], 1, [A]),
+                        joined(A, raised(error(O, _))) ), _)))).
+test(state_that_is_brought_along,
+     R = error(move_refused(_, quota(state)), _)) :-
+    with_hosts([t, g-[quota([state(50 000)])]],
+               ( create([ (main :- forall(between(1, 5000, X), assertz(s(X))),
+                                   catch(move(g), E, true), result(E)) ],
+                        A, [host(t)]),
+                 agent_result(A, R, 5) )).
+test(state_where_it_comes_later, O == state) :-
+    with_hosts([t, g-[quota([state(50 000)])]],
+               listening(( create([ (main :- move(g),
+                                             forall(between(1, 5000, X),
+                                                    assertz(s(X)))) ], A,
+                                  [host(t)]),
+                           joined(A, Outcome) ), _)),
+    over(O, Outcome).
+
+:- end_tests(each).
+
+:- begin_tests(lifetime).
+
+test(who_waits_for_ever, O-T == lifetime-100.0) :-
+    with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
+               listening(( create([ (main :- receive(_)) ], A, [host(g)]),
+                           agent_join(A, Outcome, 1000),
+                           host_time_of(g, T) ), _)),
+    over(O, Outcome).
+test(who_sleeps_without_end, O == lifetime) :-
+    with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
+               listening(( create([ (main :- sleep(7), main) ], A, [host(g)]),
+                           agent_join(A, Outcome, 1000) ), _)),
+    over(O, Outcome).
+test(who_runs, O == lifetime) :-
+    with_hosts([g-[quota([lifetime(0.3)])]],
+               listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
+                           joined(A, Outcome) ), _)),
+    over(O, Outcome).
+test(begins_anew_where_it_comes_again, R == 10) :-
+    with_hosts([g-[clock(virtual), quota([lifetime(10)])], t-[clock(virtual)]],
+               ( create([ (main :- lap(10), result(10)), lap(0),
+                          (lap(N) :- sleep(8), move(t), move(g), M is N-1,
+                                     lap(M)) ], A, [host(g)]),
+                 agent_result(A, R, 1000) )).
+test(counts_for_who_stands_there_when_it_is_changed, O == lifetime) :-
+    with_hosts([g],
+               listening(( create([on_message(_, _)], A, [host(g)]),
+                           host_change(g, quota([lifetime(0.2)])),
+                           joined(A, Outcome) ), _)),
+    over(O, Outcome).
+test(nobody_is_ended_where_it_is_lifted, State == resident) :-
+    with_hosts([g-[clock(virtual), quota([lifetime(5)])]],
+               ( create([on_message(_, _)], A, [host(g)]),
+                 host_change(g, quota([])),
+                 create([ (main :- sleep(9), result(late)) ], B, [host(g)]),
+                 agent_result(B, late, 1000),
+                 state_of(A, State) )).
+
+:- end_tests(lifetime).
+
+host_time_of(Host, Time) :-
+    remote(Host, now(Time)).
+
+:- begin_tests(mailbox).
+
+%   Who does not look at what it gets until it sees that it may.
+
+test(what_does_not_fit_is_told, Xs == [1,2,3,4,5]) :-
+    with_hosts([g-[quota([mailbox(5)])]],
+               listening(( sleeper(g, A),
+                           forall(between(1, 10, X), agent_send(A, X)),
+                           wait_until(lost(A, 5), 10),
+                           remote(g, leave(go)),
+                           agent_result(A, Xs, 5) ), _)).
+test(there_is_room_again, Xs == [1,2,3,4,5,6]) :-
+    with_hosts([g-[quota([mailbox(1)])]],
+               ( create([ (main :- numlist(1, 6, Ns), each(Ns, Xs), result(Xs)),
+                          each([], []),
+                          (each([_|Ns], [X|Xs]) :- receive(_-X), assertz(s(X)),
+                                                   each(Ns, Xs)) ], A,
+                        [host(g)]),
+                 forall(between(1, 5, X),
+                        ( agent_send(A, X), wait_until(fact_of(A, s(X)), 5) )),
+                 agent_send(A, 6),
+                 agent_result(A, Xs, 5) )).
+test(it_stays_where_there_is_room_for_its_mail,
+     R-M = error(move_refused(_, quota(mailbox)), _)-[1,2,3]) :-
+    with_hosts([g-[quota([mailbox(2)])], t],
+               ( create([ (main :- receive(_-go), catch(move(g), E, true),
+                                   receive(_-A), receive(_-B), receive(_-C),
+                                   result(E-[A,B,C])) ], A, [host(t)]),
+                 forall(member(X, [1,2,3,go]), agent_send(A, X)),
+                 agent_result(A, R-M, 5) )).
+test(the_same_between_processes,
+     R-M = error(move_refused(_, quota(mailbox)), _)-[1,2,3]) :-
+    no_leaks(with_peers([p-[host([quota([mailbox(2)])])]],
+        with_host_here(
+            ( peer_host(p, There),
+              create([ (main :- receive(_-to(G)), catch(move(G), E, true),
+                                receive(_-A), receive(_-B), receive(_-C),
+                                result(E-[A,B,C])) ], A),
+              forall(member(X, [1,2,3,to(There)]), agent_send(A, X)),
+              agent_result(A, R-M, 5) )))).
+test(where_it_was_sent_one_hears_of_it) :-
+    no_leaks(with_peers([p-[host([quota([mailbox(1)])])]],
+        with_host_here(
+            ( peer_host(p, There),
+              create([ (main :- sleep(1000)) ], A, [host(There)]),
+              listening(( forall(between(1, 5, X), agent_send(A, X)),
+                          wait_until(lost(A, 4), 10) ), _) )))).
+test(who_sends_is_not_ended_by_it, R == sent) :-
+    with_hosts([g-[quota([mailbox(1)])]],
+               listening(( sleeper(g, A),
+                           create([ (main :- s(B), send(B, 1), send(B, 2),
+                                             result(sent)) ], C,
+                                  [host(g), facts([s(A)])]),
+                           agent_result(C, R, 5),
+                           wait_until(lost(A, 1), 10) ), _)).
+
+:- end_tests(mailbox).
+
+sleeper(Host, A) :-
+    create([ (main :- sense(go), !, rest(Xs), result(Xs)),
+             (main :- sleep(0.02), main),
+             (rest(Xs) :- ( receive(_-X, 0) -> Xs = [X|Ys], rest(Ys)
+                          ; Xs = [] )) ], A, [host(Host)]).
+
+lost(A, Count) :-
+    aggregate_all(sum(N), lost_with(A, N), Count).
+
+lost_with(A, 1) :-
+    were_told(warning, typhon(undeliverable(resource_error(mailbox), A, _, _))).
+lost_with(A, N) :-
+    were_told(warning,
+              typhon(undeliverable(resource_error(mailbox), A, _, _, More))),
+    N is More+1.
+
+                /*******************************
+                *            TOGETHER          *
+                *******************************/
+
+%   A process with a host is an owner.
+
+outcomes(As, Os) :-
+    findall(O, ( member(A, As), joined(A, O) ), Os).
+
+count(O, Os, Count) :-
+    aggregate_all(count, member(O, Os), Count).
+
+talker(Times, [ (main :- forall(between(1, Times, X), send(user, X))) ]).
+
+created(Where, Times, Clauses, As) :-
+    findall(A, ( between(1, Times, _), create(Clauses, A, Where) ), As).
+
+:- begin_tests(together).
+
+test(messages_of_one_owner, true(Ended >= 5)) :-
+    talker(10, Clauses),
+    with_hosts([g-[quota([owner(messages(30))])]],
+               listening(( created([host(g)], 12, Clauses, As),
+                           outcomes(As, Os) ), _)),
+    over(messages, O),
+    count(O, Os, Ended).
+test(others_are_not_that_owner, [Theirs,Ours] == [resource_error(messages),done]) :-
+    no_leaks(with_peers([p],
+        with_host_here([quota([owner(messages(20))])],
+            listening(( visitors(p, [ (main :- s(H), move(H), lp),
+                                      (lp :- send(user, x), sleep(0.001), lp) ],
+                                 3, As),
+                        member(A, As),
+                        joined(A, raised(error(Theirs, _))),
+                        talker(10, Clauses),
+                        create(Clauses, B),
+                        joined(B, Ours),
+                        forall(member(C, As), disposed(C)) ), _)))).
+test(so_many_of_one_owner, R-Ours == refused-3) :-
+    no_leaks(with_peers([p],
+        with_host_here([quota([owner(agents(3))])],
+            ( created([], 3, [on_message(_, _)], As),
+              length(As, Ours),
+              (   catch(create([on_message(_, _)], _),
+                        error(move_refused(_, quota(agents)), _), R = refused)
+              ->  true
+              ;   true
+              ),
+              visitors(p, [ (main :- s(H), move(H), receive(_)) ], 1, [V]),
+              wait_until(agent_property(V, state(waiting)), 5),
+              disposed(V) )))).
+test(clones_count_as_who_was_cloned, R = move_refused(_, quota(agents))) :-
+    no_leaks(with_peers([p],
+        with_host_here([quota([owner(agents(3))])],
+            ( visitors(p, [ (main :- s(H), move(H), many(0)),
+                            (many(N) :- catch(clone(W), error(E, _), true),
+                                        on(W, E, N)),
+                            (on(W, _, _) :- nonvar(W), W = clone(_), !,
+                                            sleep(1000)),
+                            (on(W, _, N) :- nonvar(W), !, M is N+1, many(M)),
+                            (on(_, E, _) :- result(E)) ], 1, [V]),
+              agent_result(V, R, 10) )))).
+test(who_has_most_ends_first, [Hog,Other] == [resource_error(messages),done]) :-
+    no_leaks(with_peers([p],
+        with_host_here([quota([host(messages(50))])],
+            listening(( visitors(p, [ (main :- s(H), move(H), lp),
+                                      (lp :- send(user, x), lp) ], 1, [A]),
+                        talker(10, Clauses),
+                        create(Clauses, B),
+                        joined(B, Other),
+                        joined(A, raised(error(Hog, _))) ), _)))).
+test(state_of_one_owner, Ended-Left == 1-2) :-
+    current_prolog_flag(address_bits, Bits),
+    Most is 300 000*Bits//64,
+    with_hosts([g-[quota([owner(state(Most))])]],
+               listening(( fat(700, A), fat(800, B), fat(1500, C),
+                           outcome_of_one([A,B,C], Big),
+                           Big == C,
+                           forall(typhon_quotas:look, true),
+                           findall(X, ( member(X, [A,B]),
+                                        agent_property(X, state(_)) ), Xs) ),
+                         Messages)),
+    length(Xs, Left),
+    count(warning-typhon(over_quota(_, state)), Messages, Ended).
+test(seconds_of_all, O == resource_error(seconds)) :-
+    with_hosts([g-[quota([host(seconds(0.3))])]],
+               listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
+                           joined(A, raised(error(O, _))) ), _)).
+
+%   One second by the clock; without pauses it would be nearly one of a processor,
+%   too, unless others have it.
+
+test(who_does_not_stop_lets_others_go_first, O == resource_error(seconds)) :-
+    with_hosts([g-[quota([seconds(1)])]],
+               listening(( create([ (main :- sleep(0.02), main) ], B, [host(g)]),
+                           statistics(process_cputime, T0),
+                           create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
+                           joined(A, raised(error(O, _))),
+                           statistics(process_cputime, T1),
+                           agent_dispose(B) ), _)),
+    T1-T0 < 0.7.
+
+:- end_tests(together).
+
+fat(N, A) :-
+    create([ (main :- forall(between(1, N, X), assertz(s(X))), receive(_)) ], A,
+           [host(g)]),
+    wait_state(A, waiting).
+
+outcome_of_one(As, A) :-
+    wait_until(( member(X, As), \+ agent_property(X, state(_)) ), 5),
+    member(A, As),
+    \+ agent_property(A, state(_)),
+    !.
+
+%   Born at the peer, they know where to go.
+
+visitors(Peer, Clauses, Count, As) :-
+    address(here, Address),
+    findall(A, ( between(1, Count, _),
+                 peer_do(Peer,
+                         agent_create(clauses([ (:- agent(test, [state([s/1])])),
+                                                s(Address)|Clauses ]), A)) ),
+            As).
+
+disposed(A) :-
+    catch(agent_dispose(A), error(existence_error(_, _), _), true).
+
+:- begin_tests(tuples).
+
+test(each_has_its_own, [A,B] == [resource_error(tuples),done]) :-
+    with_hosts([g-[quota([tuples(5)])]],
+               listening(( leaver(10, C), joined(C, raised(error(A, _))),
+                           leaver(5, D), joined(D, B) ), _)).
+test(what_is_taken_makes_room, O == done) :-
+    with_hosts([g-[quota([tuples(5)])]],
+               ( create([ (main :- forall(between(1, 20, X),
+                                          ( leave(f(X)), take(f(X)) ))) ], A,
+                        [host(g)]),
+                 joined(A, O) )).
+test(others_may_take_it, O == done) :-
+    with_hosts([g-[quota([tuples(5)])]],
+               ( create([ (main :- lap(4)), lap(0),
+                          (lap(N) :- forall(between(1, 5, X), leave(f(N, X))),
+                                     receive(_), M is N-1, lap(M)) ], A,
+                        [host(g)]),
+                 forall(between(1, 4, _),
+                        ( wait_until(remote(g, sense(f(_, 5))), 5),
+                          forall(between(1, 5, X), remote(g, take(f(_, X)))),
+                          agent_send(A, on) )),
+                 joined(A, O) )).
+test(who_fills_the_space_goes, [A,B] == [resource_error(tuples),done]) :-
+    no_leaks(with_peers([p],
+        with_host_here([quota([host(tuples(20))])],
+            listening(( visitors(p, [ (main :- s(H), move(H),
+                                               forall(between(1, 30, X),
+                                                      leave(f(X)))) ], 1, [C]),
+                        joined(C, raised(error(A, _))),
+                        leaver(5, D), joined(D, B) ), _)))).
+
+%   Who has left them is known when the process was started again, and what of
+%   theirs is taken then does not count any more.
+
+test(who_left_them_is_known_later,
+     [ condition(missing([journal], [])), O == tuples-done ]) :-
+    no_leaks(with_tmp_dir(left_before(O))).
+
+left_before(O-Taken, Dir) :-
+    Options = [journal(Dir), quota([host(tuples(5))])],
+    with_host_here(Options, ( leaver(5, A), joined(A, done) )),
+    with_host_here(Options,
+                   listening(( leaver(1, B), joined(B, Outcome),
+                               remote(here, take(f(_))),
+                               leaver(1, C), joined(C, Taken) ), _)),
+    over(O, Outcome).
+
+:- end_tests(tuples).
+
+leaver(N, A) :-
+    create([ (main :- forall(between(1, N, X), leave(f(X)))) ], A).
+
+                /*******************************
+                *          WHAT IT IS          *
+                *******************************/
+
+:- begin_tests(lists).
+
+test(no_such_scope, error(domain_error(quota, owner(cells(1))))) :-
+    host_start(g, [quota([owner(cells(1))])]).
+test(no_number, error(type_error(number, x))) :-
+    host_start(g, [quota([owner(messages(x))])]).
+test(none_at_all, error(domain_error(quota, host(state(0))))) :-
+    host_start(g, [quota([host(state(0))])]).
+
+:- end_tests(lists).

@@ -1,0 +1,315 @@
+:- module(test_results, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
+:- use_module(library(typhon)).
+
+/** <module> What agents give when they have ended, and what became of all
+their clones
+
+Time is virtual where nothing has to leave the process.
+
+*Threading*: one test at a time.
+*/
+
+:- meta_predicate virtually(0).
+
+virtually(Goal) :-
+    with_hosts([alpha-[clock(virtual)], beta-[clock(virtual)]], Goal).
+
+%   restored(-Result, +Dir)
+
+restored(X, Dir) :-
+    directory_file_path(Dir, point, File),
+    virtually(( create([(main :- result(1), receive(_-go))], A),
+                agent_join(A, timeout, 1),
+                agent_save(A, File),
+                agent_load(File, B),
+                agent_send(B, go),
+                agent_result(B, X, 10) )).
+
+:- begin_tests(results).
+
+test(given, X == 42) :-
+    virtually(( create([(main :- X0 is 6*7, result(X0))], A),
+                agent_result(A, X, 10) )).
+test(the_last_one_counts, X == 3) :-
+    virtually(( create([(main :- forall(member(I, [1,2,3]), result(I)))], A),
+                agent_result(A, X, 10) )).
+test(any_term, true(X =@= f(Y,Y,"text",1.5,[a|_]))) :-
+    virtually(( create([(main :- result(f(Z,Z,"text",1.5,[a|_])))], A),
+                agent_result(A, X, 10) )).
+test(pattern, X == 2) :-
+    virtually(( create([(main :- result(p(1,2)))], A),
+                agent_result(A, p(1,X), 10),
+                \+ agent_result(A, p(2,_), 10) )).
+test(as_often_as_one_asks, Xs == [1,1]) :-
+    virtually(( create([(main :- result(1))], A),
+                findall(X, ( member(_, [a,b]), agent_result(A, X, 10) ),
+                        Xs) )).
+test(wherever_it_ends, X == 2) :-
+    virtually(( create([(main :- result(1), move(beta), move(alpha),
+                                 move(beta), hops(H), H == 3, result(2))],
+                       A),
+                agent_result(A, X, 10) )).
+test(travels, X == 1) :-
+    virtually(( create([(main :- result(1), move(beta))], A),
+                agent_result(A, X, 10) )).
+test(is_none_of_its_facts, Fs == []) :-
+    virtually(( create([(main :- result(1)), on_message(_, _)], A),
+                \+ agent_join(A, done, 1),
+                facts(A, Fs) )).
+test(fails_at_the_timeout, X == late) :-
+    virtually(( create([(main :- result(1), sleep(100))], A),
+                ( agent_result(A, X, 99) -> true ; X = late ),
+                agent_result(A, 1, 2) )).
+test(given_before_it_failed, X-O == 1-failed) :-
+    virtually(listening(( create([(main :- result(1), fail)], A),
+                          agent_result(A, X, 10), joined(A, O) ), _)).
+test(given_before_it_raised, X == 1) :-
+    virtually(listening(( create([(main :- result(1), throw(oops))], A),
+                          agent_result(A, X, 10) ), _)).
+test(given_before_it_was_disposed_of, X == 1) :-
+    virtually(( create([(main :- result(1), receive(_))], A),
+                agent_join(A, timeout, 1),
+                agent_dispose(A),
+                agent_result(A, X, 10) )).
+test(after_its_host_has_stopped, X == 1) :-
+    with_hosts([alpha], ( create([(main :- result(1))], A),
+                          joined(A, done), host_stop(alpha),
+                          agent_result(A, X, 10) )).
+test(none_given, error(existence_error(result, _))) :-
+    virtually(( create([main], A), agent_result(A, _, 10) )).
+test(no_such_agent, error(existence_error(agent, 'x.1@alpha@127.0.0.1:1'))) :-
+    virtually(( address(alpha, Address),
+                atom_concat('x.1@', Address, Id),
+                catch(agent_result(Id, _, 1),
+                      error(existence_error(agent, Id), _),
+                      throw(error(existence_error(agent,
+                                  'x.1@alpha@127.0.0.1:1'), _))) )).
+test(clones_give_their_own, Xs == [parent,none]) :-
+    virtually(( create([ (main :- result(parent), clone(Who), go(Who)),
+                         go(parent(_)), go(clone(_)) ], A),
+                agent_join(family(A), [A-done,B-done], 10),
+                findall(X, ( member(C, [A,B]),
+                             catch(agent_result(C, X, 10),
+                                   error(existence_error(result, C), _),
+                                   X = none) ), Xs) )).
+test(in_a_restore_point, X == 1) :-
+    with_tmp_dir(test_results:restored(X)).
+test(what_cannot_travel, M == mobile_term) :-
+    virtually(( create([(main :- current_output(S),
+                                 catch(result(S), error(type_error(T, _), _),
+                                       result(T)))], A),
+                agent_result(A, M, 10) )).
+test(too_large, true(O = raised(error(resource_error(result_bytes), _)))) :-
+    virtually(listening(( create([(main :- numlist(1, 500000, L),
+                                           result(L))], A),
+                          joined(A, O) ), _)).
+test(almost_too_large, N == 999900) :-
+    virtually(( create([(main :- format(string(S), "~`xt~999900|", []),
+                                 result(S))], A),
+                agent_result(A, X, 60), string_length(X, N) )).
+test(outside_an_agent, error(existence_error(running_agent, here))) :-
+    virtually(remote(alpha, result(1))).
+test(bounded, Kept == [none,1]) :-
+    with_settings([typhon_legacies:legacies=50],
+                  virtually(( findall(A, ( between(1, 301, _),
+                                           create([(main :- result(1))], A) ),
+                                      As),
+                              maplist(joined, As, _),
+                              As = [First|_], last(As, Last),
+                              maplist(kept, [First,Last], Kept) ))).
+
+kept(Agent, X) :-
+    catch(agent_result(Agent, X, 10), error(existence_error(result, _), _),
+          X = none).
+
+%   Over processes.
+
+test(ends_in_another_process, X-Y == here-here) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 peer_do(a, agent_create(
+                                clauses([ (:- agent(r)),
+                                          (main :- move(B), result(here)) ]),
+                                Id, [])),
+                 peer_do(a, agent_result(Id, X, 20)),
+                 peer_do(b, agent_result(Id, Y, 20)) )).
+test(travels_to_another_process, X == 7) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 peer_do(a, agent_create(
+                                clauses([ (:- agent(r)),
+                                          (main :- result(7), move(B)) ]),
+                                Id, [])),
+                 peer_do(b, agent_result(Id, X, 20)) )).
+
+%   More of them than one frame holds.
+
+test(many_large_ones, Lengths == [30000]) :-
+    with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes,
+                                         100000))] ],
+               ( peer_host(b, B),
+                 peer_do(a, findall(New,
+                            ( between(1, 40, _),
+                              agent_create(
+                                  clauses([ (:- agent(r)),
+                                            (main :- move(B),
+                                                     format(string(S),
+                                                       "~`xt~30000|", []),
+                                                     result(S)) ]),
+                                  New, []) ), Ids)),
+                 peer_do(a, ( findall(N, ( member(Id, Ids),
+                                           agent_result(Id, X, 60),
+                                           string_length(X, N) ),
+                                      Ns),
+                              sort(Ns, Lengths) )) )).
+
+%   That it has ended is told at least.
+
+test(longer_than_a_frame, Error == existence_error(result, Id)) :-
+    with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes, 70000))] ],
+               ( peer_host(b, B),
+                 peer_do(a, agent_create(
+                                clauses([ (:- agent(r)),
+                                          (main :- move(B),
+                                                   format(string(S),
+                                                       "~`xt~90000|", []),
+                                                   result(S)) ]),
+                                Id, [])),
+                 peer_do(a, agent_join(Id, done, 20)),
+                 peer_try(a, agent_result(Id, _, 20), Outcome),
+                 peer_messages(b, Lines) )),
+    Outcome = raised(error(Error, _)),
+    once(( member(Line, Lines), sub_string(Line, _, _, _, "too long") )).
+
+:- end_tests(results).
+
+                /*******************************
+                *            FAMILIES          *
+                *******************************/
+
+%   A tree of clones: each makes two, Depth deep, and sleeps a while.
+
+tree(Depth, Clauses) :-
+    Clauses = [ (main :- grow(Depth)),
+                (grow(0) :- !, sleep(1)),
+                (grow(N) :- N1 is N-1,
+                            clone(W1), ( W1 = clone(_) -> grow(N1)
+                                       ; clone(W2),
+                                         ( W2 = clone(_) -> grow(N1)
+                                         ; sleep(0.5) ) )) ].
+
+:- begin_tests(families).
+
+test(alone, Os == [A-done]) :-
+    virtually(( create([main], A), agent_join(family(A), Os, 10) )).
+test(all_clones, N-Set == 15-[done]) :-
+    tree(3, Clauses),
+    virtually(( create(Clauses, A), agent_join(family(A), Os, 100) )),
+    Os = [A-_|_],
+    pairs_keys_values(Os, As, Outcomes),
+    sort(As, Different),
+    length(Different, N),
+    length(As, N),
+    sort(Outcomes, Set).
+test(waits_for_the_last, T =:= 1.0) :-
+    tree(2, Clauses),
+    virtually(( create(Clauses, A), agent_join(family(A), _, 100),
+                remote(alpha, now(T)) )).
+test(only_descendants, Cs == Ds) :-
+    virtually(( create([(main :- clone(W), on(W)), on(parent(_)),
+                        (on(clone(_)) :- clone(_))], A),
+                agent_join(family(A), [A-done,B-done,C-done], 10),
+                Cs = [B-done,C-done],
+                agent_join(family(B), Ds, 10) )).
+test(each_before_its_clones, Hops == [0,1,2]) :-
+    virtually(( create([(main :- clone(W), on(W)), on(parent(_)),
+                        (on(clone(_)) :- result(1), clone(V), more(V)),
+                        more(parent(_)), (more(clone(_)) :- result(2))], A),
+                agent_join(family(A), Os, 10),
+                findall(X, ( member(M-_, Os), value(M, X) ), Hops) )).
+
+value(Agent, X) :-
+    catch(agent_result(Agent, X, 0), error(existence_error(_, _), _), X = 0).
+
+test(outcomes_of_their_own, Os == [disposed,done,failed]) :-
+    virtually(listening(( create([ (main :- clone(V), ( V = clone(_) -> true
+                                            ; clone(W), ( W = clone(_) -> fail
+                                            ; dispose ) )) ], A),
+                          agent_join(family(A), Pairs, 10) ), _)),
+    pairs_values(Pairs, Os).
+test(timeout, Os == [timeout,timeout,done]) :-
+    virtually(( create([ (main :- clone(V), ( V = clone(_) -> sleep(20)
+                                            ; clone(W), ( W = clone(_) -> true
+                                            ; receive(_-go) ) )) ], A),
+                agent_join(family(A), Pairs, 10),
+                agent_send(A, go),
+                agent_join(family(A), Later, 100) )),
+    pairs_values(Pairs, Os),
+    pairs_values(Later, [done,done,done]).
+test(without_waiting, Os == [A-timeout]) :-
+    virtually(( create([(main :- sleep(5))], A),
+                agent_join(family(A), Os, 0) )).
+test(for_ever, Os == [A-done]) :-
+    virtually(( create([(main :- sleep(5))], A),
+                agent_join(family(A), Os, inf) )).
+test(cloned_from_outside, N == 3) :-
+    virtually(( create([(main :- receive(_-go))], A),
+                agent_join(A, timeout, 1),
+                agent_clone(A, B), agent_clone(B, C),
+                forall(member(X, [A,B,C]), agent_send(X, go)),
+                agent_join(family(A), Os, 10),
+                length(Os, N) )).
+test(a_clone_that_could_not_begin, Os == [A-done]) :-
+    with_hosts([alpha,beta-[capacity(0)]],
+               ( create([ (main :- catch(clone(beta, _), error(_, _), true)),
+                          (main :- true) ], A),
+                 agent_join(family(A), Os, 10) )).
+test(no_such_agent, error(existence_error(agent, foo))) :-
+    virtually(agent_join(family(foo), _, 1)).
+test(nobody, error(instantiation_error)) :-
+    virtually(agent_join(family(_), _, 1)).
+test(foolish_timeout, error(type_error(number, soon))) :-
+    virtually(( create([main], A), agent_join(family(A), _, soon) )).
+
+%   A clones on its own host, on that of the other process by clone/2, and
+%   there, having moved; its clones clone in turn, there and back.
+
+test(over_processes, true(Outcomes-N == [done]-10)) :-
+    with_peers([a, b],
+               ( peer_host(a, A), peer_host(b, B),
+                 peer_do(a, agent_create(clauses(
+                   [ (:- agent(f)),
+                     (main :- clone(W1), ( W1 = clone(_) -> leaf(B)
+                            ; clone(B, W2), ( W2 = clone(_) -> leaf(A)
+                            ; move(B), clone(W3), ( W3 = clone(_) -> leaf(A)
+                            ; move(A), sleep(0.1) ) ) )),
+                     (leaf(H) :- clone(H, W), ( W = parent(_)
+                                              -> clone(_), sleep(0.1)
+                                              ;  true )) ]), Id, [])),
+                 peer_do(b, agent_join(family(Id), FromB, 20)),
+                 peer_do(a, agent_join(family(Id), FromA, 20)) )),
+    FromA == FromB,
+    pairs_keys_values(FromA, Members, Os),
+    sort(Os, Outcomes),
+    sort(Members, Set),
+    length(Set, N).
+test(cloned_elsewhere_from_outside, Os == [timeout,timeout]) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 peer_do(a, agent_create(clauses(
+                     [ (:- agent(f)), (main :- move(B), receive(_-go)) ]),
+                     Id, [])),
+                 peer_do(b, wait_until(agent_state_here(Id, waiting), 10)),
+                 peer_do(a, agent_clone(Id, _)),
+                 peer_do(a, agent_join(family(Id), Pairs, 0.2)) )),
+    pairs_values(Pairs, Os).
+
+:- end_tests(families).

@@ -1,0 +1,582 @@
+:- module(test_program, []).
+:- use_module(library(plunit)).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(filesex)).
+:- use_module(library(lists)).
+:- use_module(library(readutil)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/program),
+              [payload_load/2, program_hash/2, program_load/5]).
+
+/** <module> Tests of agent programs: what loads, what does not, and why
+
+Programs are written to files here, so that places in files are tested as
+people see them.
+*/
+
+
+%   program_load(+Spec, -Program, -Initial): whatever is remembered.
+
+program_load(Spec, Program, Initial) :-
+    program_load(Spec, Program, Initial, _, _).
+
+%   with_file(+Lines, :Goal): Goal(File) for a file of these lines.
+
+:- meta_predicate with_file(+, 1), with_files(+, 1).
+
+with_file(Lines, Goal) :-
+    with_files([a-Lines], Goal).
+
+%   with_files(+Files, :Goal): Goal(File) for the first of Files, each
+%   Name-Lines.
+
+with_files(Files, Goal) :-
+    with_tmp_dir(test_program:in_dir(Files, Goal)).
+
+in_dir(Files, Goal, Dir) :-
+    forall(member(Name-Lines, Files), write_lines(Dir, Name, Lines)),
+    Files = [First-_|_],
+    path(Dir, First, File),
+    call(Goal, File).
+
+path(Dir, Name, File) :-
+    file_name_extension(Name, pl, Base),
+    directory_file_path(Dir, Base, File).
+
+write_lines(Dir, Name, Lines) :-
+    path(Dir, Name, File),
+    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
+                       forall(member(Line, Lines),
+                              format(Out, '~w~n', [Line])),
+                       close(Out)).
+
+%   problem(+Lines, -Formal, -Line, -Advice): the error that a program of
+%   these lines raises.
+
+problem(Lines, Formal, Line, Advice) :-
+    with_file(Lines, test_program:error_of(load, Formal, Line, Advice)).
+
+error_of(What, Formal, Line, Advice, File) :-
+    catch(( call(What, File), Error = none ), Error, true),
+    Error = error(Formal, at(File:Line, Advice, _)),
+    text_of(Error, Text),
+    format(string(Place), '~w:~d', [File, Line]),
+    assertion(sub_string(Text, _, _, _, Place)).
+
+%   Who is root may read what nobody may.
+
+reads_all :-
+    with_file([], test_program:reads_forbidden).
+
+reads_forbidden(File) :-
+    chmod(File, -u),
+    access_file(File, read).
+
+not_for_us(File) :-
+    chmod(File, -u),
+    load(File).
+
+load(File) :-
+    program_load(File, _, _).
+
+payload(File) :-
+    payload_load(File, _).
+
+text_of(Error, Text) :-
+    message_to_codes(Error, Text).
+
+message_to_codes(Error, Text) :-
+    phrase('$messages':translate_message(Error), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)).
+
+says(Advice, Words) :-
+    assertion(sub_atom(Advice, _, _, _, Words)).
+
+control_inside(M) :-
+    member(M-Goal, [ forall-'forall(q(X), move(X))',
+                     (\+)-'\\+ move(a)',
+                     findnsols-'findnsols(2, X, move(X), _)',
+                     maplist-'maplist(move, [a])',
+                     foldl-'foldl([X,_,_]>>move(X), [a], 0, _)' ]),
+    atomic_list_concat(['main :- ', Goal, '.'], Line),
+    problem([':- agent(a).', Line],
+            permission_error(call, control_predicate, move/1), 2, _).
+
+syntax_line(Line, File) :-
+    catch(load(File),
+          error(syntax_error(_), at(file(File, Line, _, _), _, _)), true),
+    nonvar(Line).
+
+load_quietly(File) :-
+    catch(load(File), error(_, _), true).
+
+without_extension(Name, File) :-
+    file_name_extension(Base, pl, File),
+    program_load(Base, program(Name, _, _, _), _).
+
+last_clause(Clause, File) :-
+    clauses_of(Clauses, File),
+    last(Clauses, Clause).
+
+clauses_of(Clauses, File) :-
+    program_load(File, program(_, _, _, Clauses), _).
+
+error_in(Name, Line, Formal, File) :-
+    catch(load(File), error(Formal, at(Where:Line, _, _)), true),
+    nonvar(Where),
+    file_base_name(Where, Base),
+    file_name_extension(Name, pl, Base).
+
+:- meta_predicate with_library(+, 0).
+
+with_library(Name, Goal) :-
+    with_tmp_dir(test_program:in_library(Name, Goal)).
+
+in_library(Name, Goal, Dir) :-
+    format(string(Head), ':- module(~w, [op(700, xfx, ::=)]).', [Name]),
+    write_lines(Dir, Name, [Head]),
+    setup_call_cleanup(
+        asserta(user:file_search_path(library, Dir), Ref),
+        call(Goal),
+        erase(Ref)).
+
+operator_clause(Use, Clause) :-
+    append([':- agent(a).'|Use], ['main.', 'a ::= b.'], Lines),
+    with_file(Lines, test_program:last_clause(Clause)).
+
+operators_included(Clauses) :-
+    with_files([ a-[':- agent(a).', ':- use_module(library(test_operators_3)).',
+                    'main.', ':- include(b).'],
+                 b-['a ::= b.'] ],
+               test_program:clauses_of(Clauses)).
+
+check(Lines, Messages) :-
+    listening(with_file(Lines, agent_check), Messages0),
+    findall(M, ( member(M0, Messages0), short(M0, M) ), Messages).
+
+short(Kind-error(_, at(_:Line, _, _)), Kind-Line).
+short(Kind-typhon(checked(_, Errors, Doubts, Undefined)),
+      Kind-checked(Errors, Doubts, Undefined)).
+
+final(Clauses, Facts) :-
+    with_hosts([alpha], final_(Clauses, Facts)).
+
+%   on_message/2 keeps the agent for inspection.
+
+final_(Clauses, Facts) :-
+    create([on_message(_, _)|Clauses], Agent),
+    wait_state(Agent, resident),
+    facts(Agent, Facts).
+
+:- begin_tests(load_errors).
+
+test(no_such_file,
+     error(existence_error(source_sink, no_such_census))) :-
+    load(no_such_census).
+test(no_program_at_all, error(instantiation_error)) :-
+    load(_).
+test(not_a_program, error(type_error(callable, 7))) :-
+    load(7).
+test(no_declaration, F-L == existence_error(declaration, agent)-2) :-
+    problem(['% nothing', 'main.'], F, L, A),
+    says(A, 'begin the file with :- agent(Name').
+test(empty_file, error(existence_error(declaration, agent))) :-
+    load(clauses([])).
+test(declaration_that_is_none, F-L == existence_error(declaration, agent)-2) :-
+    problem(['main.', ':- agent("census", []).'], F, L, _).
+test(second_declaration, F-L == permission_error(declare, agent, b)-3) :-
+    problem([':- agent(a).', 'main.', ':- agent(b).'], F, L, A),
+    says(A, 'one declaration').
+test(payload_in_an_agent, F-L == permission_error(declare, payload, b)-2) :-
+    problem([':- agent(a).', ':- payload(b, []).', 'main.'], F, L, _).
+test(syntax, L == 4) :-
+    with_file([':- agent(a).', 'main :-', '    foo,', '    bar baz.'],
+              test_program:syntax_line(L)).
+test(syntax_of_the_end, L == 2) :-
+    with_file([':- agent(a).', 'main :- foo'], test_program:syntax_line(L)).
+test(directive, F-L == domain_error(directive, initialization(main))-2) :-
+    problem([':- agent(a).', ':- initialization(main).', 'main.'], F, L, A),
+    says(A, 'nothing runs at load time').
+test(nothing_runs_at_load_time, L == 2) :-
+    nb_setval(test_program_ran, no),
+    problem([':- agent(a).', ':- nb_setval(test_program_ran, yes).', 'main.'],
+            _, L, _),
+    nb_getval(test_program_ran, Ran),
+    assertion(Ran == no).
+test(unbound_directive, F-L == instantiation_error-2) :-
+    problem([':- agent(a).', ':- X.', 'main.'], F, L, _).
+test(module_of_a_file, F-L == domain_error(directive, use_module(foo))-2) :-
+    problem([':- agent(a).', ':- use_module(foo).', 'main.'], F, L, _).
+test(missing_library, F-L == existence_error(library, no_such_thing)-2) :-
+    problem([':- agent(a).', ':- use_module(library(no_such_thing)).',
+             'main.'], F, L, A),
+    says(A, 'no such library').
+test(dynamic_of_something_else,
+     F-L == type_error(predicate_indicator, seen)-2) :-
+    problem([':- agent(a).', ':- dynamic p/1, seen.', 'main.'], F, L, A),
+    says(A, 'Name/Arity').
+test(head_unbound, F-L == instantiation_error-2) :-
+    problem([':- agent(a).', 'X :- foo.', 'main.'], F, L, _).
+test(head_a_number, F-L == type_error(callable, 12)-2) :-
+    problem([':- agent(a).', '12 :- foo.', 'main.'], F, L, A),
+    says(A, 'atom or a compound').
+test(head_with_a_module, F-L == domain_error(clause_head, lists:p)-2) :-
+    problem([':- agent(a).', 'lists:p.', 'main.'], F, L, _).
+test(body_a_number, F-L == type_error(callable, (true,3))-2) :-
+    problem([':- agent(a).', 'main :- true, 3.'], F, L, _).
+test(control_redefined,
+     F-L == permission_error(modify, control_predicate, move/1)-3) :-
+    problem([':- agent(a).', 'main.', 'move(_).'], F, L, A),
+    says(A, 'rename').
+test(builtin_redefined,
+     F-L == permission_error(modify, static_procedure, atom_length/2)-2) :-
+    problem([':- agent(a).', 'atom_length(_, 7).', 'main.'], F, L, _).
+test(construct_redefined,
+     true(F-L = permission_error(modify, static_procedure, _)-2)) :-
+    problem([':- agent(a).', '(a *-> b).', 'main.'], F, L, _).
+test(rule_of_another_kind, true(F-L = domain_error(clause, _)-2)) :-
+    problem([':- agent(a).', 'p(X) => q(X).', 'main.'], F, L, _).
+test(grammar_rule, F-L == type_error(callable, 1)-3) :-
+    problem([':- agent(a).', 'main.', '1 --> foo.'], F, L, _).
+test(no_entry, F-L == existence_error(entry, main/0)-1) :-
+    problem([':- agent(a).', 'p(1).'], F, L, A),
+    says(A, 'define main/0').
+test(option, F-L == domain_error(agent_declaration, colour(red))-1) :-
+    problem([':- agent(a, [colour(red)]).', 'main.'], F, L, _).
+test(state, F-L == type_error(predicate_indicator, seen)-2) :-
+    problem(['% a file', ':- agent(a, [state([p/1, seen])]).', 'main.'],
+            F, L, A),
+    says(A, 'state([Name/Arity').
+test(state_that_does_not_end,
+     true(F-L = domain_error(agent_declaration, state(_))-1)) :-
+    problem([':- agent(a, [state([p/1|_])]).', 'main.'], F, L, _).
+test(state_of_control,
+     F-L == permission_error(modify, control_predicate, sleep/1)-1) :-
+    problem([':- agent(a, [state([sleep/1])]).', 'main.'], F, L, _).
+test(state_of_builtin,
+     F-L == permission_error(modify, static_procedure, assertz/1)-2) :-
+    problem([':- agent(a).', ':- dynamic assertz/1.', 'main.'], F, L, _).
+test(control_inside_findall,
+     F-L == permission_error(call, control_predicate, move/1)-4) :-
+    problem([':- agent(a).', '', 'main.',
+             'p(L) :- findall(X, ( member(X, [a]), move(X) ), L).'],
+            F, L, A),
+    says(A, 'inside findall/3'),
+    says(A, 'recursive predicate').
+test(control_inside, Ms == [forall, \+, findnsols, maplist, foldl]) :-
+    findall(M, control_inside(M), Ms).
+test(control_reached_through_the_program,
+     F-L == permission_error(call, control_predicate, tour/0)-2) :-
+    problem([':- agent(a).', 'main :- forall(true, tour).',
+             'tour :- stop.', 'stop :- sleep(1).'], F, L, _).
+test(static_clauses_cannot_be_changed, Ms == [assertz,retract,retractall]) :-
+    findall(M,
+            ( member(M-Goal, [ assertz-'assertz(p(2))',
+                               retract-'retract(p(_))',
+                               retractall-'forall(true, retractall(p(_)))' ]),
+              atomic_list_concat(['main :- ', Goal, '.'], Line),
+              problem([':- agent(a).', 'p(1).', Line],
+                      permission_error(modify, static_procedure, p/1), 3, A),
+              says(A, 'state([p/1])')
+            ),
+            Ms).
+test(first_in_the_file, F-L == type_error(callable, 1)-2) :-
+    problem([':- agent(a).', '1.', ':- foo.', 'main :- 3.'], F, L, _).
+test(all_in_the_order_of_the_file, Lines == [1,2,3,4]) :-
+    check([':- agent(a, [x]).', '1.', ':- foo.', 'p :- 3.', 'main.'], Told),
+    findall(Line, member(error-Line, Told), Lines).
+test(payload_without_a_name, F-L == existence_error(declaration, payload)-1) :-
+    with_file(['p(1).'],
+              test_program:error_of(payload, F, L, A)),
+    says(A, 'begin the file with :- payload(Name').
+test(option_of_a_payload, F-L == domain_error(payload_declaration, offers([]))-1) :-
+    with_file([':- payload(a, [offers([])]).'],
+              test_program:error_of(payload, F, L, A)),
+    says(A, 'write payload(Name, [provides([Name/Arity, ...])])').
+test(payload_with_a_faulty_clause, F-L == type_error(callable, 5)-3) :-
+    with_file([':- payload(a).', 'p(1).', '5.'],
+              test_program:error_of(payload, F, L, _)).
+
+:- end_tests(load_errors).
+
+:- begin_tests(programs).
+
+test(parts, P-I =@= program(a, [p/1,q/1], [library(dcg/basics)-all],
+                            [(main:-p(X), r(X)), r(_)])-[p(1),(q(Y):-p(Y))]) :-
+    program_load(clauses([ (:- agent(a, [state([p/1])])),
+                           (:- use_module(library(dcg/basics))),
+                           (:- dynamic([q/1])),
+                           (:- discontiguous(r/1)),
+                           p(1), (main :- p(X), r(X)), r(_),
+                           (q(Y) :- p(Y)) ]), P, I).
+test(name_does_not_change_the_hash, H1 == H2) :-
+    program_load(clauses([(:- agent(a)), main]), P1, _),
+    program_load(clauses([(:- agent(b)), main]), P2, _),
+    program_hash(P1, H1),
+    program_hash(P2, H2).
+test(initial_state_does_not_change_the_hash, H1 == H2) :-
+    program_load(clauses([(:- agent(a, [state([p/1])])), main, p(1)]), P1, _),
+    program_load(clauses([(:- agent(a, [state([p/1])])), main]), P2, _),
+    program_hash(P1, H1),
+    program_hash(P2, H2).
+test(clauses_do_change_the_hash, true(H1 \== H2)) :-
+    program_load(clauses([(:- agent(a)), (main :- p(_, _))]), P1, _),
+    program_load(clauses([(:- agent(a)), (main :- p(X, X))]), P2, _),
+    program_hash(P1, H1),
+    program_hash(P2, H2).
+test(operators_of_the_reader_do_not_change_the_hash, H1 == H2) :-
+    program_load(clauses([(:- agent(a)), (main :- likes(a, b))]), P, _),
+    program_hash(P, H1),
+    setup_call_cleanup(op(700, xfx, user:likes),
+                       program_hash(P, H2),
+                       op(0, xfx, user:likes)).
+test(file_that_may_not_be_read,
+     [condition(\+ reads_all), error(permission_error(open, source_sink, _))]) :-
+    with_file([':- agent(a).', 'main.'], test_program:not_for_us).
+test(extension_may_be_left_out, N == a) :-
+    with_file([':- agent(a).', 'main.'], test_program:without_extension(N)).
+test(utf8, [C == p('Grüße, 東京')]) :-
+    with_file([':- agent(a).', 'main.', 'p(\'Grüße, 東京\').'],
+              test_program:last_clause(C)).
+test(include, F == [main,p(1),p(2),q(3)]) :-
+    with_files([ a-[':- agent(a).', 'main.', ':- include(b).', 'q(3).'],
+                 b-['p(1).', 'p(2).'] ],
+               test_program:clauses_of(F)).
+test(error_in_an_included_file, L-E == 2-type_error(callable, 7)) :-
+    with_files([ a-[':- agent(a).', 'main.', ':- include(b).'],
+                 b-['p(1).', '7.'] ],
+               test_program:error_in(b, L, E)).
+test(included_file_that_is_not_there, F-L == (existence_error(source_sink, b)-3)) :-
+    problem([':- agent(a).', 'main.', ':- include(b).'], F, L, A),
+    says(A, 'cannot include').
+test(included_file_that_is_mistyped) :-
+    with_files([ a-[':- agent(a).', ':- include(helprs).', 'main.'],
+                 helpers-['p(1).'] ],
+               test_program:error_of(load, _, 2, A)),
+    says(A, 'did you mean helpers?').
+test(file_that_includes_itself, F-L == permission_error(include, source_sink, a)-2) :-
+    problem([':- agent(a).', ':- include(a).', 'main.'], F, L, _).
+test(files_that_include_each_other,
+     true(E-L == permission_error(include, source_sink, a)-1)) :-
+    with_files([ a-[':- agent(a).', ':- include(b).', 'main.'],
+                 b-[':- include(a).'] ],
+               test_program:error_in(b, L, E)).
+test(grammar, C =@= [main,(g-->[])]) :-
+    with_file([':- agent(a).', 'main.', 'g --> [].'],
+              test_program:clauses_of([main,(g(S,T):-S=T)])),
+    C = [main,(g-->[])].
+test(operators_of_a_library, B == '::='(a, b)) :-
+    with_library(test_operators_1,
+                 test_program:operator_clause(
+                     [':- use_module(library(test_operators_1)).'], B)).
+test(operators_of_named_imports, B == '::='(a, b)) :-
+    with_library(test_operators_2,
+                 test_program:operator_clause(
+                     [':- use_module(library(test_operators_2), \c
+                       [op(700, xfx, ::=)]).'], B)).
+test(operators_in_an_included_file, F == [main,'::='(a, b)]) :-
+    with_library(test_operators_3, test_program:operators_included(F)).
+test(operators_stay_in_the_file, [fail]) :-
+    with_library(test_operators_4,
+                 test_program:operator_clause(
+                     [':- use_module(library(test_operators_4)).'], _)),
+    current_op(_, _, '::=').
+test(reading_leaves_nothing) :-
+    no_leaks(with_file([':- agent(a).', 'main.', '7.'],
+                       test_program:load_quietly)).
+
+:- end_tests(programs).
+
+                /*******************************
+                *           REMEMBERED         *
+                *******************************/
+
+%   loads(+File, -Fact): the last clause of File, as agents are created
+%   from it.
+
+loads(File, Fact) :-
+    program_load(File, program(_, _, _, Clauses), _, _, _),
+    last(Clauses, Fact).
+
+remembered(File) :-
+    typhon_loaded:loaded(File, _, _),
+    !.
+
+%   set_age(+Seconds, +File): File was changed so long ago.
+
+set_age(Seconds, File) :-
+    get_time(Now),
+    Time is Now-Seconds,
+    set_time_file(File, _, [modified(Time)]).
+
+change(Dir, Name, Lines, Age) :-
+    write_lines(Dir, Name, Lines),
+    path(Dir, Name, File),
+    set_age(Age, File).
+
+two_files(Age, Goal) :-
+    with_tmp_dir(test_program:in_two_files(Age, Goal)).
+
+in_two_files(Age, Goal, Dir) :-
+    change(Dir, a, [':- agent(a).', 'main.', ':- include(b).'], Age),
+    change(Dir, b, ['p(1).'], Age),
+    path(Dir, a, File),
+    call(Goal, Dir, File).
+
+old_files(Dir, File) :-
+    loads(File, p(1)),
+    remembered(File),
+    typhon_loaded:loaded(File, _, Loaded),
+    loads(File, p(1)),
+    typhon_loaded:loaded(File, _, Again),
+    Loaded =@= Again,
+    change(Dir, b, ['p(2).'], 50),
+    loads(File, p(2)),
+    change(Dir, a, [':- agent(a).', 'main.', 'p(3).'], 100),
+    loads(File, p(3)),
+    set_age(70, File),
+    loads(File, p(3)).
+
+new_files(Dir, File) :-
+    loads(File, p(1)),
+    \+ remembered(File),
+    change(Dir, b, ['p(2).'], 1),
+    loads(File, p(2)).
+
+gone(Dir, File) :-
+    loads(File, p(1)),
+    path(Dir, b, Included),
+    delete_file(Included),
+    catch(loads(File, _), error(existence_error(_, _), _), true).
+
+another(Dir, File) :-
+    change(Dir, a, [':- agent(a).', 'main.', ':- include(\'b\').'], 100),
+    loads(File, p(1)),
+    path(Dir, b, Included),
+    file_name_extension(Base, pl, Included),
+    setup_call_cleanup(open(Base, write, Out), format(Out, 'p(4).~n', []),
+                       close(Out)),
+    loads(File, p(4)).
+
+many(Dir, _) :-
+    forall(between(1, 5, I),
+           ( atom_concat(c, I, Name),
+             change(Dir, Name, [':- agent(a).', 'main.'], 100),
+             path(Dir, Name, File),
+             loads(File, main) )),
+    findall(F, typhon_loaded:loaded(F, _, _), Files),
+    length(Files, 3).
+
+:- begin_tests(remembered).
+
+test(until_a_file_changes) :-
+    two_files(100, test_program:old_files).
+test(not_while_a_file_is_new) :-
+    two_files(1, test_program:new_files).
+test(not_when_a_file_is_gone) :-
+    two_files(100, test_program:gone).
+test(not_when_another_file_is_meant) :-
+    two_files(100, test_program:another).
+test(bounded) :-
+    with_settings([typhon_loaded:files=3],
+                  two_files(100, test_program:many)).
+
+:- end_tests(remembered).
+
+:- begin_tests(agent_check).
+
+test(in_order, M == [informational-checked(0, 0, 0)]) :-
+    check([':- agent(a, [state([p/1])]).',
+           'main :- p(X), q(X), member(Y, [X]), here(_), move(Y).',
+           'q(_).'], M).
+test(all_problems, M == [error-3, error-4, warning-2,
+                         informational-checked(2, 0, 1)]) :-
+    check([':- agent(a).',
+           'main :- nowhere(1).',
+           '1.',
+           ':- foo.'], M).
+test(undefined_in_a_meta_call, M == [warning-2, informational-checked(0, 0, 1)]) :-
+    check([':- agent(a).', 'main :- findall(X, nowhere(X), _).'], M).
+test(what_a_library_offers, M == [informational-checked(0, 0, 0)]) :-
+    check([':- agent(a).', ':- use_module(library(dcg/basics)).',
+           'main :- phrase(integer(_), `12`).'], M).
+test(control_in_the_wrong_place, M == [error-2, informational-checked(1, 0, 0)]) :-
+    check([':- agent(a).', 'main :- forall(true, move(a)).'], M).
+test(no_file, error(existence_error(source_sink, no_such_census))) :-
+    agent_check(no_such_census).
+
+:- end_tests(agent_check).
+
+                /*******************************
+                *     STATE THAT IS REWRITTEN  *
+                *******************************/
+
+:- begin_tests(state).
+
+test(facts, F == [s(2),s(3)]) :-
+    final([s(1), s(2), (main :- retract(s(1)), assertz(s(3)))], F).
+test(facts_added_at_birth, F == [s(1),s(2)]) :-
+    with_hosts([alpha],
+               ( create([on_message(_, _), s(1)], A, [facts([s(2)])]),
+                 wait_state(A, resident),
+                 agent_property(A, facts(F)) )).
+test(a_rule_replaced_while_it_runs, F == [(r(1):-assertz(s(new))),s(old),s(new)]) :-
+    final([ (main :- r(1), r(1)),
+            (r(1) :- retract((r(1) :- _)),
+                     assertz((r(1) :- assertz(s(new)))),
+                     assertz(s(old))) ], F).
+test(a_rule_that_calls_control,
+     true(F =@= [(r(X):-receive(_,0.01)->true;assertz(s(X))),s(1),s(2)])) :-
+    final([ (main :- assertz(s(1)),
+                     assertz((r(X) :- receive(_, 0.01) -> true
+                                    ; assertz(s(X)))),
+                     r(2)) ], F).
+test(a_rule_that_learns_to_travel, F == [s(here),s(alpha),s(beta)]) :-
+    with_hosts([alpha,beta],
+               ( create([ on_message(_, _),
+                          (main :- r(beta), change, r(beta), name(N),
+                                   assertz(s(N))),
+                          (r(_) :- assertz(s(here)), name(N), assertz(s(N))),
+                          (change :- retract((r(_) :- _)),
+                                     assertz((r(H) :- move(H)))),
+                          (name(N) :- here(A), atomic_list_concat([N,_],
+                                                                  @, A)) ],
+                        Agent),
+                 wait_state(Agent, resident),
+                 findall(s(X), fact_of(Agent, s(X)), F) )).
+test(predicates_not_declared_are_state, F == [new(1)]) :-
+    final([(main :- assertz(new(1)))], F).
+test(state_called_like_a_library_predicate, F == [last(1,2)]) :-
+    with_hosts([alpha],
+               ( agent_create(clauses([(:- agent(t, [state([last/2])])),
+                                       on_message(_, _),
+                                       last(1, 1),
+                                       (main :- last(1, X), retract(last(1, X)),
+                                                assertz(last(1, 2)))]), A),
+                 wait_state(A, resident),
+                 agent_property(A, facts(F)) )).
+test(two_agents_do_not_share_state, F1-F2 == [s(1)]-[s(2)]) :-
+    with_hosts([alpha],
+               ( P = [on_message(_, _)],
+                 create(P, A1, [facts([s(1)])]),
+                 create(P, A2, [facts([s(2)])]),
+                 wait_state(A1, resident),
+                 wait_state(A2, resident),
+                 agent_property(A1, facts(F1)),
+                 agent_property(A2, facts(F2)) )).
+test(library_with_operators_and_predicates, F == [s(12)]) :-
+    with_hosts([alpha],
+               ( agent_create(clauses([(:- agent(t, [state([s/1])])),
+                                       (:- use_module(library(dcg/basics))),
+                                       on_message(_, _),
+                                       (main :- phrase(number(X), `12`),
+                                                assertz(s(X)))]), A),
+                 wait_state(A, resident),
+                 agent_property(A, facts(F)) )).
+test(grammar_of_its_own, F == [s([1,2])]) :-
+    final([ (list([X|Xs]) --> [X], list(Xs)), (list([]) --> []),
+            (main :- phrase(list(L), [1,2]), assertz(s(L))) ], F).
+
+:- end_tests(state).

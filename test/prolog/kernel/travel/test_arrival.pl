@@ -1,0 +1,118 @@
+:- module(test_arrival, []).
+:- use_module('../../../lib/common').
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/wire),
+              [endpoint_address/1, endpoint_call/5]).
+:- use_module(library(typhon/kernel/program), [program_hash/2]).
+:- use_module('../../../lib/fixtures').
+
+/** <module> An agent arrives whole or not at all
+
+What a faulty peer could send, sent by hand.  The agent that comes after it
+under the same id is let in.
+*/
+
+:- begin_tests(arrival).
+
+test(what_is_no_agent_is_refused,
+     [forall(bad(Image, Id, Why)), true(Answer == refused(error(Why)))]) :-
+    with_hosts([alpha],
+               quietly(( image([], Good0),
+                         arg(1, Good0, Id),
+                         bad_image(Image, Good0, Bad),
+                         sent(Bad, Answer),
+                         alone,
+                         sent(Good0, accepted),
+                         arrived(Good0) ))).
+test(a_program_that_is_another,
+     true(Answer = refused(error(domain_error(program_of_hash(_), _))))) :-
+    with_hosts([alpha],
+               quietly(( image([], Image),
+                         program(_, Program0),
+                         Program0 = program(N, S, L, _),
+                         Program = program(N, S, L, [(main:-halt)]),
+                         sent(Image, Program, Answer),
+                         alone,
+                         sent(Image, accepted),
+                         arrived(Image) ))).
+test(comes_twice, true(Answer == accepted)) :-
+    with_hosts([alpha],
+               ( image([], Image),
+                 sent(Image, accepted),
+                 arrived(Image),
+                 sent(Image, Answer) )).
+test(nothing_is_left_of_a_bad_one) :-
+    with_hosts([alpha],
+               ( image([], Good),
+                 sent(Good, accepted),
+                 arrived(Good),
+                 no_leaks(quietly(
+                     ( image([], Other),
+                       bad_image(state([], [fine, (1:-true)]), Other, Bad),
+                       sent(Bad, _) ))) )).
+
+:- end_tests(arrival).
+
+%   bad(?Change, ?Id, ?Error): the image of Id gets that answer, if one part of
+%   it is like this.
+
+bad(mail(none), Id, type_error(agent_image, Id)).
+bad(mail([hello]), Id, type_error(agent_image, Id)).
+bad(goals(main), Id, type_error(agent_image, Id)).
+bad(since(long_ago), Id, type_error(agent_image, Id)).
+bad(life(young), Id, type_error(agent_image, Id)).
+bad(id(nobody), _, type_error(agent_image, nobody)).
+bad(state(none), Id, type_error(agent_image, Id)).
+bad(state([], [1]), _, type_error(callable, 1)).
+bad(state([], [(foo:-1)]), _, Error) :-
+    catch(assertz((foo:-1)), error(Error, _), true).
+
+bad_image(id(X), image(_, H, L, S, G, M, T), image(X, H, L, S, G, M, T)).
+bad_image(life(X), image(I, H, _, S, G, M, T), image(I, H, X, S, G, M, T)).
+bad_image(state(X), image(I, H, L, _, G, M, T), image(I, H, L, X, G, M, T)).
+bad_image(state(X, Y), image(I, H, L, _, G, M, T),
+          image(I, H, L, state(X, Y), G, M, T)).
+bad_image(goals(X), image(I, H, L, S, _, M, T), image(I, H, L, S, X, M, T)).
+bad_image(mail(X), image(I, H, L, S, G, _, T), image(I, H, L, S, G, X, T)).
+bad_image(since(X), image(I, H, L, S, G, M, _), image(I, H, L, S, G, M, X)).
+
+program(Hash, Program) :-
+    Program = program(x, [], [], [(main:-true), (on_message(_,_):-true)]),
+    program_hash(Program, Hash).
+
+%   Nobody comes under the id of one that has ended.
+
+image(Mail, image(Id, Hash,
+                  life(none, 3, inf, [], [], false, []),
+                  state([], [fact(1)]), [], Mail, Now)) :-
+    flag(test_arrival, N, N+1),
+    format(atom(Id), 'x.1.~d@far@127.0.0.1:1', [N]),
+    program(Hash, _),
+    get_time(Now).
+
+sent(Image, Answer) :-
+    program(_, Program),
+    sent(Image, Program, Answer).
+
+sent(Image, Program, Answer) :-
+    endpoint_address(Endpoint),
+    endpoint_call(Endpoint, hop, hop(alpha, Image, Program),
+                  answer(Answer), 10).
+
+arrived(Image) :-
+    arg(1, Image, Id),
+    wait_until(agent_property(Id, state(resident)), 5),
+    agent_property(Id, facts([fact(1)])),
+    host_property(alpha, load(1)).
+
+alone :-
+    host_property(alpha, load(0)),
+    \+ agent_property(_, state(_)).
+
+:- meta_predicate quietly(0).
+
+quietly(Goal) :-
+    listening(Goal, _).

@@ -1,0 +1,390 @@
+:- use_module('../../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(typhon)).
+
+/** <module> Messages between processes that keep journals
+
+Whatever breaks while a message is being posted, it comes, also if it is the
+last that anybody says.
+*/
+
+:- needs([journal]).
+
+%   with_beta(:Before, :After): from a host with a journal, to another process
+%   that keeps one, which is killed after Before; After is called when it was
+%   started again.  Its hosts are beta and, at another port, gamma.
+
+:- meta_predicate
+    with_beta(0, 0),
+    beta(+, +, 0).
+
+with_beta(Before, After) :-
+    no_leaks(with_tmp_dir(beta_twice(Before, After))).
+
+beta_twice(Before, After, Dir) :-
+    atom_concat(Dir, '/driver', Mine),
+    atom_concat(Dir, '/beta', Journal),
+    free_port(Port),
+    format(atom(Beta), 'beta@127.0.0.1:~d', [Port]),
+    nb_setval(channel_beta, Beta),
+    setup_call_cleanup(
+        host_start(driver, [journal(Mine)]),
+        ( beta(Journal, Port, Before),
+          beta(Journal, Port, After) ),
+        host_stop(driver)).
+
+beta(Journal, Port, Goal) :-
+    project_file('test/chaos/lasting/node.pl', File),
+    with_swipl([File, '--', beta, Port, Journal, normal, 1], Pid, In, Out,
+               ( format(In, 'orders([]).~n', []),
+                 flush_output(In),
+                 read_line_to_string(Out, "ready"),
+                 nb_setval(channel_pid, Pid),
+                 call(Goal) )).
+
+%   listens(+Host, -Id): an agent on Host that keeps what it hears.
+
+listens(Host, Id) :-
+    agent_create(clauses([ (:- agent(listens, [state([got/1])])),
+                           (on_message(_, M) :- assertz(got(M))) ]),
+                 Id, [host(Host)]).
+
+got(Id, Expected) :-
+    wait_until(( agent_property(Id, facts(Facts)),
+                 findall(M, member(got(M), Facts), Expected) ), 30).
+
+:- begin_tests(channel).
+
+%   What is wrapped stays so: to unwrap what a thread is in is not safe.
+
+:- dynamic
+    interrupted/0,                      % once, before a courier is sent out
+    held/0.                             % once, when he has posted something
+
+:- public interrupt/0, hold/1.
+
+interrupt :-
+    (   retract(interrupted)
+    ->  thread_self(Me),
+        thread_signal(Me, throw(told_to_end))
+    ;   true
+    ).
+
+hold(Kind) :-
+    (   Kind == channel,
+        retract(held)
+    ->  thread_send_message(channel_gate, posted),
+        thread_get_message(channel_gate, on)
+    ;   true
+    ).
+
+test('who is told to end as he posts does not keep others from it') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          wrap_predicate(typhon_channel:set_out(_, _), told_to_end, Wrapped,
+                         ( plunit_channel:interrupt, Wrapped )),
+          assertz(interrupted),
+          catch(agent_send(Id, first), told_to_end, true),
+          \+ interrupted,
+          agent_send(Id, second),
+          got(Id, [first, second]) ),
+        true).
+
+%   The courier has posted, and not said so yet, as the process dies; he goes on
+%   when there is a connection with the next.
+
+test('what was under way to a process that dies is sent to the next') :-
+    message_queue_create(Gate, [alias(channel_gate)]),
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          nb_setval(channel_id, Id),
+          nb_getval(channel_pid, Pid),
+          stop_process(Pid),
+          wrap_predicate(typhon_messaging:endpoint_post(_, Kind, _), posted,
+                         Wrapped, ( Wrapped, plunit_channel:hold(Kind) )),
+          assertz(held),
+          agent_send(Id, hello),
+          thread_get_message(Gate, posted) ),
+        ( nb_getval(channel_beta, Beta),
+          nb_getval(channel_id, Id),
+          remote(Beta, true),
+          thread_send_message(Gate, on),
+          got(Id, [hello]) )),
+    message_queue_destroy(Gate).
+
+%   It was met at its first port, and is connected again by that.
+
+test('what was under way to the second port of a process that dies, too') :-
+    free_port(Port),
+    format(atom(Gamma), 'gamma@127.0.0.1:~d', [Port]),
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          remote(Beta, typhon:host_start(gamma, [port(Port)])),
+          listens(Gamma, Id),
+          nb_setval(channel_id, Id),
+          nb_getval(channel_pid, Pid),
+          asked_for_ever(Gamma, Thread),
+          stop_process(Pid),
+          agent_send(Id, hello),
+          nb_setval(channel_thread, Thread) ),
+        ( nb_getval(channel_id, Id),
+          nb_getval(channel_thread, Thread),
+          thread_join(Thread, exception(error(connection_lost(Gamma), _))),
+          got(Id, [hello]) )).
+
+%   asked_for_ever(+Host, -Thread): a question to Host is under way.
+
+asked_for_ever(Host, Thread) :-
+    thread_create(remote(Host, ( leave(asked),
+                                 thread_self(Me),
+                                 thread_get_message(Me, never) )), Thread),
+    wait_until(remote(Host, sense(asked)), 30).
+
+%   What belongs together in the journal is noted as one: a process may be killed
+%   between any two.
+
+:- dynamic entry/1.                     % Changes
+
+noting_entries :-
+    retractall(entry(_)),
+    wrap_predicate(typhon_durable_changes:queue_entry(Changes), noted, Wrapped,
+                   ( assertz(plunit_channel:entry(Changes)), Wrapped )).
+
+%   entry_with(+Change, -Entry): the only one, or the next.
+
+entry_with(Change, Entry) :-
+    entry(Entry),
+    memberchk(Change, Entry).
+
+test('an agent that is sent away and must stay keeps what waits for it') :-
+    with_beta(( waits(Id), sent_nowhere(Id) ), true).
+
+waits(Id) :-
+    agent_create(clauses([ (:- agent(waits, [])), (main :- receive(never)) ]),
+                 Id, [host(driver)]),
+    agent_send(Id, m(1)),
+    agent_send(Id, m(2)),
+    wait_until(in_mailbox(Id, [m(1), m(2)]), 30).
+
+in_mailbox(Id, Messages) :-
+    agent_property(Id, mailbox(Mail)),
+    findall(M, member(_-M, Mail), Messages).
+
+%   To a host that does not exist, of a process that stands still for a while.
+
+sent_nowhere(Id) :-
+    nb_getval(channel_beta, Beta),
+    nb_getval(channel_pid, Pid),
+    remote(Beta, true),
+    atom_concat(beta, Place, Beta),
+    atom_concat(nobody, Place, Nowhere),
+    noting_entries,
+    stop_process(Pid),
+    agent_move(Id, Nowhere),
+    wait_until(typhon_agents:agent_status(Id, transit(_, _), _), 30),
+    agent_send(Id, m(3)),
+    process_kill(Pid, cont),
+    wait_until(in_mailbox(Id, [m(1), m(2), m(3)]), 30),
+    findall(Entry, entry_with(drop_all(mail, Id), Entry), [Leaves, Stays]),
+    memberchk(put(agent, Id, _, _), Leaves),
+    memberchk(put(agent, Id, _, _), Stays),
+    findall(M, member(put(mail, Id, M, _), Stays), [_, _, _]).
+
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(order_failed(_, _)), warning, _).
+
+%   It is said to be on its way to here.
+
+test('what an agent has said waits where it is noted no more that it was said') :-
+    with_beta(
+        ( typhon_endpoint:endpoint_address(Endpoint),
+          atom_concat('driver@', Endpoint, Here),
+          nb_getval(channel_beta, Beta),
+          atom_concat('late.abc.0@', Beta, Late),
+          assertz(typhon_whereabouts:forward(Late, Here, 1, unknown)),
+          noting_entries,
+          agent_create(clauses([ (:- agent(says, [state([to/1])])),
+                                 (main :- to(To), send(To, hello)) ]),
+                       Id, [host(driver), facts([to(Late)])]),
+          agent_join(Id, done, 30),
+          wait_until(entry_with(drop(letter, Late, _), Entry), 30),
+          memberchk(put(wait, Late, _, _), Entry) ),
+        true).
+
+:- end_tests(channel).
+
+%   What is too long for a frame keeps no other from getting through.
+
+:- begin_tests(channel_frames).
+
+small(Goal) :-
+    with_settings([typhon_session:frame_bytes=70000], Goal).
+
+text(Length, Text) :-
+    format(string(Text), "~`xt~*|", [Length]).
+
+test('who sends a message that is too long hears of it') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          text(90000, Long),
+          small(( catch(agent_send(Id, Long), error(Formal, _), true),
+                  agent_send(Id, short),
+                  got(Id, [short]) )),
+          Formal == resource_error(frame_bytes) ),
+        true).
+
+test('an agent does, too') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          listens(driver, Near),
+          Clauses = [ (:- agent(says, [state([to/2])])),
+                      (main :- to(Near1, Far),
+                               format(string(Long), "~`xt~90000|", []),
+                               send(Near1, Long),
+                               catch(send(Far, Long), error(Error, _), true),
+                               send(Far, short),
+                               result(Error)) ],
+          small(( agent_create(clauses(Clauses), A,
+                               [host(driver), facts([to(Near, Id)])]),
+                  agent_result(A, Formal, 20),
+                  got(Id, [short]) )),
+          Formal == resource_error(frame_bytes),
+          text(90000, Long0),
+          got(Near, [Long0]) ),
+        true).
+
+%   As when another codec needs more room than was thought.
+
+test('one that has become too long is told as lost') :-
+    setting(typhon_session:frame_bytes, Bytes),
+    call_cleanup(
+        with_beta(
+            ( nb_getval(channel_beta, Beta),
+              nb_getval(channel_pid, Pid),
+              listens(Beta, Id),
+              nb_setval(channel_id, Id),
+              process_kill(Pid, kill),
+              process_wait(Pid, _),
+              text(90000, Long),
+              forall(member(Message, [first, Long, second]),
+                     agent_send(Id, Message)),
+              set_setting(typhon_session:frame_bytes, 70000) ),
+            ( nb_getval(channel_id, Id),
+              got(Id, [first, second]),
+              wait_until(told_lost(Id, resource_error(frame_bytes)), 5) )),
+        set_setting(typhon_session:frame_bytes, Bytes)).
+
+%   It is said to be on its way to here.
+
+test('those that have waited together go in as many frames as they need') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          typhon_endpoint:endpoint_address(Endpoint),
+          atom_concat('driver@', Endpoint, Here),
+          assertz(typhon_whereabouts:forward(Id, Here, 1, unknown)),
+          text(30000, Text),
+          numlist(1, 7, Numbers),
+          small(( forall(member(N, Numbers), agent_send(Id, N-Text)),
+                  retractall(typhon_whereabouts:forward(Id, _, _, _)),
+                  findall(N-Text, member(N, Numbers), All),
+                  got(Id, All) )) ),
+        true).
+
+test('that an agent has ended is told, if not what it has left') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          host_property(driver, address(Driver)),
+          Clauses = [ (:- agent(leaves, [state([to/1])])),
+                      (main :- to(To), move(To),
+                               format(string(S), "~`xt~90000|", []),
+                               result(S)) ],
+          small(( agent_create(clauses(Clauses), Id,
+                               [host(Beta), facts([to(Driver)])]),
+                  remote(Beta, typhon:agent_join(Id, done, 20)) )),
+          wait_until(retract(told(legacy_lost(Id))), 5) ),
+        true).
+
+test('what an agent logs, too') :-
+    with_beta(
+        ( nb_getval(channel_beta, Beta),
+          listens(Beta, Id),
+          host_change(driver, log(Beta)),
+          agent_create(clauses([ (:- agent(logs, [state([to/1])])),
+                                 (main :- format(string(S), "~`xt~90000|", []),
+                                          log(S), to(To), send(To, logged)) ]),
+                       A, [host(driver), facts([to(Id)])]),
+          small(( agent_join(A, done, 10), got(Id, [logged]) )) ),
+        true).
+
+:- dynamic told/1.
+
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(Told), warning, _) :-
+    ( Told = undeliverable(_, _, _, _) ; Told = legacy_lost(_) ),
+    assertz(plunit_channel_frames:told(Told)).
+
+told_lost(Id, Formal) :-
+    retract(told(undeliverable(Formal, Id, _, _))).
+
+:- end_tests(channel_frames).
+
+%   Who asks from elsewhere waits for as long.
+
+:- begin_tests(channel_full).
+
+:- dynamic asked/0.
+
+pages(Most) :-
+    format(atom(Pragma), 'pragma max_page_count=~d', [Most]),
+    typhon_store:connection(_, Connection),
+    with_mutex(typhon_commit,
+               odbc:odbc_query(Connection, Pragma, _, [])).
+
+full :-
+    pages(1),
+    numlist(1, 20000, Long),
+    remote(driver, leave(Long)),
+    wait_until(typhon_durable_changes:commit_error(_), 20).
+
+test('an answer waits while the journal has no room', Line == "answered") :-
+    no_leaks(with_tmp_dir(asked_while_full(Line))).
+
+asked_while_full(Line, Dir) :-
+    retractall(asked),
+    setup_call_cleanup(
+        host_start(driver, [journal(Dir)]),
+        ( host_property(driver, address(Driver)),
+          with_asker(Driver, In, Out,
+                     ( full,
+                       format(In, 'ask.~n', []),
+                       flush_output(In),
+                       wait_until(plunit_channel_full:asked, 20),
+                       pages(1000000),
+                       read_line_to_string(Out, Line) )) ),
+        host_stop(driver)).
+
+%   Says `ready`, and `answered` when it has asked.
+
+with_asker(Driver, In, Out, Goal) :-
+    project_file('prolog/typhon.pl', Typhon),
+    Asks = ( remote(Driver, true), writeln(ready), read(_),
+             remote(Driver, assertz(plunit_channel_full:asked)),
+             writeln(answered) ),
+    format(atom(Text), '~q', [Asks]),
+    with_swipl(['-q', '-g', Text, Typhon], _, In, Out,
+               ( set_stream(Out, timeout(30)),
+                 read_line_to_string(Out, "ready"),
+                 call(Goal) )).
+
+:- end_tests(channel_full).

@@ -1,0 +1,454 @@
+:- module(test_faults, []).
+:- use_module('../../../lib/common').
+:- use_module(library(apply), [maplist/2, maplist/3, maplist/4]).
+:- use_module(library(lists), [member/2, sum_list/2]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_stream_to_codes/2]).
+:- use_module(library(socket), [tcp_connect/3]).
+:- use_module('../../../lib/peers').
+:- use_module('../../../lib/travellers').
+
+/** <module> What went wrong in the platforms before us does not go wrong here
+
+Peers that are silent, killed or started again; strangers at the port;
+agents that bounce without pause, 10,000 hops of them.  With
+TYPHON_HOPS=100000 in the environment there are as many as that.
+*/
+
+:- begin_tests(silent_peer).
+
+test(in_doubt_then_settled_once) :-
+    with_doubt([a, b], silent_then_back).
+test(in_doubt_until_disposed_of) :-
+    with_doubt([a, b], killed_for_good).
+test(order_to_end_waits) :-
+    with_doubt([a, b], told_then_back).
+test(order_to_end_follows) :-
+    with_doubt([a, b], disposed_then_back).
+test(clone_in_doubt) :-
+    with_doubt([a, b], clone_then_back).
+test(end_is_heard_before_the_answer,
+     true(Outcome = raised(error(existence_error(agent, _), _)))) :-
+    with_peers([a, b], ended_first(Outcome)).
+
+:- end_tests(silent_peer).
+
+%   Agents are in doubt soon.
+
+with_doubt(Peers, Goal) :-
+    findall(Peer-[setup(set_setting(typhon_hop:doubt_seconds, 0.3))],
+            member(Peer, Peers), Specs),
+    with_peers(Specs, Goal).
+
+%   In doubt: sent to b, which is silent.
+
+in_doubt(Id) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    travel(a, [B, A], 2),
+    peer_signal(b, stop),
+    set_out(a, [B, sit, A], 3, Id),
+    wait_until(peer_do(a, agent_property(Id, state(in_doubt))), 10).
+
+silent_then_back :-
+    in_doubt(Id),
+    steps_at(a, Id, [0]),
+    peer_signal(b, cont),
+    wait_until(step_on(b, Id, 1), 10),
+    wait_until(\+ peer_do(a, agent_here(Id)), 10),
+    peer_do(a, agent_send(Id, go)),
+    ended_well(a, Id, 3).
+
+killed_for_good :-
+    in_doubt(Id),
+    peer_kill(b),
+    wait_until(peer_do(a, agent_property(Id, state(in_doubt))), 10),
+    peer_do(a, agent_dispose(Id)),
+    ended(a, Id, disposed),
+    \+ peer_do(a, agent_here(Id)).
+
+%   The order waits for what b says, as long as b may say something.
+
+told_then_back :-
+    in_doubt(Id),
+    peer_do(a, agent_dispose(Id)),
+    peer_do(a, agent_here(Id)),
+    peer_signal(b, cont),
+    ended(a, Id, disposed),
+    \+ peer_do(a, agent_here(Id)),
+    \+ peer_do(b, agent_here(Id)).
+
+%   The operator decides before b does: b hears of it.
+
+disposed_then_back :-
+    peer_do(a, set_setting(typhon_reader:silence, 1)),
+    in_doubt(Id),
+    peer_host(b, B),
+    wait_until(\+ peer_do(a, connected_to(B)), 20),
+    peer_do(a, agent_dispose(Id)),
+    ended(a, Id, disposed),
+    peer_signal(b, cont),
+    wait_until(step_on(b, Id, 1), 10),
+    wait_until(\+ peer_do(b, agent_here(Id)), 10),
+    \+ peer_do(a, agent_here(Id)).
+
+clone_then_back :-
+    peer_host(a, A),
+    peer_host(b, B),
+    travel(a, [B, A], 2),
+    peer_signal(b, stop),
+    cloner(a, B, Id),
+    wait_until(peer_do(a, agent_property(Id, state(in_doubt))), 10),
+    peer_signal(b, cont),
+    ended(a, Id, done),
+    peer_do(a, remote(a, sense(parent_of(Id, Clone)))),
+    peer_do(a, agent_property(Clone, host(B))),
+    peer_do(a, agent_send(Clone, go)),
+    ended(a, Clone, done).
+
+%   Nobody looks for it where it was before.
+
+ended_first(Outcome) :-
+    peer_host(b, B),
+    peer_do(b, keep_answers),
+    set_out(a, [B], 1, Id),
+    ended(a, Id, done),
+    peer_do(b, give_answers),
+    wait_until(\+ peer_do(a, agent_here(Id)), 10),
+    peer_try(a, agent_dispose(Id), Outcome).
+
+steps_at(Peer, Id, Steps) :-
+    peer_do(Peer, steps_here(Id, Steps)).
+
+:- begin_tests(killed_peer).
+
+test(agent_goes_on_at_its_source, forall(born(Born))) :-
+    with_doubt([a, b, c], restarted(Born)).
+test(agent_that_got_away_is_not_doubled) :-
+    with_doubt([a, b, c], got_away).
+test(nor_when_its_home_died_too, forall(home_of_lost(Home))) :-
+    with_doubt([a, b, c, d], got_away_from(Home)).
+test(nor_when_it_has_ended_since, forall(home_of_lost(Home))) :-
+    with_doubt([a, b, c, d], got_away_and_ended(Home)).
+test(move_to_a_dead_host_raises) :-
+    with_peers([a, b], dead_host).
+
+:- end_tests(killed_peer).
+
+%   Where the home is: with the source, elsewhere, or in what is killed.
+
+born(a).
+born(c).
+born(b).
+
+%   An agent born on Born is sent from a to b, which is stopped, killed and
+%   started again at its port.
+
+restarted(Born) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    travel(a, [B, A], 2),
+    Clauses = [ (:- agent(mover, [state([path/2])])),
+                (main :- path(A1, B1), move(A1), receive(_-go),
+                         catch(move(B1), error(E, _), true),
+                         here(Here), leave(raised(E, Here)),
+                         receive(_-end)) ],
+    peer_do(Born, agent_create(clauses(Clauses), Id,
+                               [host(Born), facts([path(A, B)])])),
+    wait_until(peer_do(a, agent_here(Id)), 10),
+    peer_do(a, agent_send(Id, ping)),
+    peer_signal(b, stop),
+    peer_do(a, agent_send(Id, go)),
+    wait_until(agent_state(a, Id, in_doubt), 10),
+    peer_kill(b),
+    wait_until(agent_state(a, Id, in_doubt), 10),
+    peer_restart(b),
+    wait_until(peer_do(a, remote(a, take(raised(E, Here)))), 20),
+    E == host_unreachable(B),
+    Here == A,
+    \+ peer_do(b, agent_here(Id)),
+    peer_do(a, agent_send(at(Id, a), end)),
+    wait_until(\+ peer_do(a, agent_here(Id)), 10).
+
+agent_state(Peer, Id, State) :-
+    peer_do(Peer, agent_state_here(Id, State)).
+
+%   The answer of b to a never comes, but the agent has gone on to c, which
+%   tells its home, a.
+
+got_away :-
+    peer_host(b, B),
+    peer_host(c, C),
+    peer_do(b, silence_answers),
+    set_out(a, [B, C, sit], 3, Id),
+    wait_until(step_on(c, Id, 2), 10),
+    wait_until(agent_state(a, Id, in_doubt), 10),
+    peer_kill(b),
+    peer_restart(b),
+    wait_until(\+ peer_do(a, agent_here(Id)), 20),
+    peer_do(a, agent_property(Id, host(C))),
+    peer_do(a, agent_send(Id, go)),
+    ended(a, Id, done),
+    steps_at(a, Id, [0]),
+    steps_at(c, Id, [2, 3]).
+
+%   Its home, d or the process that it had reached, is started again and
+%   knows nothing; but others do.
+
+home_of_lost(d).
+home_of_lost(b).
+
+got_away_from(Home) :-
+    got_away(Home, 20, Id),
+    peer_do(c, agent_here(Id)),
+    maplist(steps_at, [a, b, c], [Id, Id, Id], [[1, 2], [], [4]]).
+
+got_away_and_ended(Home) :-
+    got_away(Home, 4, Id),
+    peer_do(c, \+ agent_here(Id)),
+    maplist(steps_at, [a, b, c], [Id, Id, Id], [[1, 2], [], [4]]).
+
+got_away(Home, Steps, Id) :-
+    maplist(peer_host, [a, b, c], [A, B, C]),
+    travel(Home, [A, C, A], 3),
+    travel(Home, [A, B, C], 3),
+    peer_do(b, silence_answers),
+    set_out(Home, [A, sit, B, C, sit, A], Steps, Id),
+    wait_until(step_on(a, Id, 1), 10),
+    peer_do(a, agent_send(Id, go)),
+    wait_until(step_on(c, Id, 4), 10),
+    wait_until(agent_state(a, Id, in_doubt), 10),
+    sort([b, Home], Dead),
+    forall(member(Peer, Dead), peer_kill(Peer)),
+    forall(member(Peer, Dead), peer_restart(Peer)),
+    wait_until(\+ peer_do(a, agent_here(Id)), 20).
+
+dead_host :-
+    peer_host(b, B),
+    travel(a, [B], 1),
+    peer_kill(b),
+    wait_until(\+ peer_do(a, connected_to(B)), 10),
+    peer_do(a, try_move(B, [], Error)),
+    Error == error(host_unreachable(B)).
+
+:- begin_tests(departing).
+
+test(who_is_disposed_of_does_not_go_on) :-
+    with_peers([ a-[host([hop_time(uniform(0.005, 0.01))])], b ],
+               disposed_while_leaving(60)).
+
+:- end_tests(departing).
+
+%   Large agents leave, and take a while to be packed; meanwhile they are
+%   disposed of.  Each then ends on one of the two sides.
+
+disposed_while_leaving(Count) :-
+    peer_host(b, B),
+    travel(a, [B], 1),
+    findall(fact(I), between(1, 2000, I), Facts),
+    Program = clauses([ (:- agent(large, [state([fact/1])])),
+                        (main :- move(B), receive(_)) ]),
+    forall(between(1, Count, I),
+           ( peer_do(a, agent_create(Program, Id, [facts(Facts)])),
+             Pause is 0.004 + 0.0001*I,
+             sleep(Pause),
+             peer_do(a, agent_dispose(Id)),
+             ended(a, Id, disposed) )),
+    wait_until(forall(member(Peer, [a, b]),
+                      peer_do(Peer, \+ agent_here(_))), 10),
+    peer_do(a, \+ status_here(_)).
+
+:- begin_tests(bouncing).
+
+test(without_pause) :-
+    with_peers([a, b], bounce).
+test(two_of_one_name) :-
+    with_peers([a, b], namesakes).
+test(host_stopped_under_way) :-
+    with_peers([a, b], stop_under_way(20)).
+
+:- end_tests(bouncing).
+
+hops(Hops) :-
+    (   getenv('TYPHON_HOPS', Atom)
+    ->  atom_number(Atom, Hops)
+    ;   Hops = 10000
+    ).
+
+%   Twenty agents share the hops, and note what these cost: processor time,
+%   which is no less of a busy machine.
+
+bounce :-
+    hops(Hops),
+    Each is Hops//20,
+    peer_host(a, A),
+    peer_host(b, B),
+    travel(a, [B, A], 2),
+    findall(Id,
+            ( between(1, 20, _), bouncer(a, [B, A], Each, Id) ),
+            Ids),
+    peer_do(a, forall(member(Id, Ids), agent_send(Id, go))),
+    forall(member(Id, Ids), ended(a, Id, done)),
+    findall(N-Pace, ( member(Id, Ids), bounced(a, Id, N, Pace) ), Pairs),
+    findall(N, member(N-_, Pairs), Ns),
+    sum_list(Ns, Hops),
+    findall(F, member(_-(F-_), Pairs), Firsts),
+    findall(L, member(_-(_-L), Pairs), Lasts),
+    sum_list(Firsts, First),
+    sum_list(Lasts, Last),
+    Ratio is Last/First,
+    print_message(informational,
+                  format("~D hops: the last tenth cost ~2f times as much \c
+                          as the first", [Hops, Ratio])),
+    Ratio < 2,
+    wait_until(forall(member(Peer, [a, b]),
+                      peer_do(Peer, \+ agent_here(_))), 10).
+
+%   One ends, one is disposed of: the third goes on.
+
+namesakes :-
+    peer_host(a, A),
+    peer_host(b, B),
+    set_out(a, [B, A, sit], 9, Id1, [name(same)]),
+    set_out(a, [B, A, sit], 3, Id2, [name(same)]),
+    set_out(b, [A, B, sit], 9, Id3, [name(same)]),
+    Id1 \== Id2,
+    Id1 \== Id3,
+    peer_do(a, agent_send(Id2, go)),
+    ended_well(a, Id2, 3),
+    peer_do(a, agent_dispose(Id3)),
+    ended(b, Id3, disposed),
+    forall(between(1, 3, _), peer_do(b, agent_send(Id1, go))),
+    ended_well(b, Id1, 9).
+
+%   The host that agents are leaving stops: each has got away, or has ended.
+
+stop_under_way(Rounds) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    peer_do(a, host_start(a2)),
+    travel(a, [B, A], 2),
+    forall(between(1, Rounds, _), stop_once(A, B)).
+
+stop_once(A, B) :-
+    findall(Id,
+            ( between(1, 10, _), set_out(a, [B, A], 1 000 000, Id) ),
+            Ids),
+    peer_do(a, host_stop(a)),
+    forall(member(Id, Ids), accounted_for(Id)),
+    forall(( member(Id, Ids), peer_do(b, agent_here(Id)) ),
+           ( peer_do(b, agent_dispose(Id)),
+             ended(b, Id, disposed) )),
+    peer_do(a, host_start(a)).
+
+accounted_for(Id) :-
+    wait_until(( \+ peer_do(a, agent_here(Id)),
+                 (   peer_do(b, agent_here(Id))
+                 ->  \+ peer_do(a, outcome_here(Id, _))
+                 ;   peer_do(a, outcome_here(Id, disposed))
+                 ) ), 10).
+
+:- begin_tests(strangers).
+
+test(disturb_nobody, forall(stranger(Stranger))) :-
+    with_peers([a, b], visited_by(Stranger)).
+test(silent_ones_do_not_block) :-
+    with_peers([a, b], visited_by_silence).
+
+:- end_tests(strangers).
+
+stranger(garbage).
+stranger(http).
+stranger(goal).
+stranger(frame).
+stranger(oversize).
+stranger(hurried).
+
+%   says(Stranger, Bytes): what it sends.
+
+says(garbage, [0, 255, 10, 13, 10, 1, 2, 3]).
+says(http, `GET / HTTP/1.0\r\n\r\n`).
+says(goal, `halt.\nhalt.\n`).
+says(frame, Bytes) :-
+    fast_term_serialized(request(1, remote, remote(a, halt)), String),
+    string_codes(String, Codes),
+    length(Codes, Length),
+    Bytes = [0, 0, 0, Length|Codes].
+says(oversize, Bytes) :-
+    length(Bytes, 100 000),
+    maplist(=(0'a), Bytes).
+says(hurried, []).
+
+%   Two agents hop between a and b all the while.  One line is printed.
+
+visited_by(Stranger) :-
+    says(Stranger, Bytes),
+    peer_host(a, A),
+    peer_host(b, B),
+    findall(Id, ( between(1, 2, _), set_out(a, [B, A], 300, Id) ), Ids),
+    call_at(A, Bytes),
+    forall(member(Id, Ids), ended_well(a, Id, 300)),
+    wait_until(( peer_messages(a, Printed), Printed \== [] ), 10),
+    one_line(Printed).
+
+one_line(Printed) :-
+    (   Printed = [_]
+    ->  true
+    ;   print_message(error, format("printed: ~p", [Printed])),
+        fail
+    ).
+
+%   Say Bytes at the endpoint of Host, and go away when it does.
+
+call_at(Host, Bytes) :-
+    setup_call_cleanup(
+        connect(Host, In, Out),
+        catch(( format(Out, "~s", [Bytes]),
+                flush_output(Out),
+                (   Bytes == []
+                ->  true
+                ;   read_stream_to_codes(In, _)
+                ) ),
+              error(_, _),              % it has hung up
+              true),
+        ( close(Out, [force(true)]),
+          close(In, [force(true)]) )).
+
+connect(Host, In, Out) :-
+    atomic_list_concat([_, Endpoint], '@', Host),
+    atomic_list_concat([Interface, PortAtom], ':', Endpoint),
+    atom_number(PortAtom, Port),
+    tcp_connect(Interface:Port, Stream, []),
+    stream_pair(Stream, In, Out),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)),
+    set_stream(In, timeout(20)).
+
+%   Fifty connections say nothing: agents pass, also to a new peer.
+
+visited_by_silence :-
+    peer_host(a, A),
+    peer_host(b, B),
+    findall(In-Out, ( between(1, 50, _), connect(A, In, Out) ), Pairs),
+    call_cleanup(
+        travel(a, [B, A], 100),
+        forall(member(In-Out, Pairs),
+               ( close(Out, [force(true)]), close(In, [force(true)]) ))).
+
+:- begin_tests(wrong_cookie).
+
+test(is_refused_with_one_line_on_either_side) :-
+    with_peers([a, b, c-[setup(setenv('TYPHON_COOKIE', other))]],
+               wrong_cookie).
+
+:- end_tests(wrong_cookie).
+
+wrong_cookie :-
+    peer_host(a, A),
+    peer_host(b, B),
+    set_out(a, [B, A], 300, Id),
+    peer_do(c, try_move(A, [], Error)),
+    Error == error(host_unreachable(A)),
+    ended_well(a, Id, 300),
+    wait_until(( peer_messages(a, Printed), Printed \== [] ), 10),
+    one_line(Printed).

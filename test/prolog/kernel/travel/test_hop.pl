@@ -1,0 +1,320 @@
+:- module(test_hop, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/cutting_proxy',
+              [ proxy_cut/1, proxy_cut_after/3, proxy_hold/2,
+                proxy_release/2, proxy_cuts/2 ]).
+:- use_module(library(lists), [member/2, memberchk/2, nth0/3]).
+:- use_module(library(plunit)).
+:- use_module('../../../lib/peers').
+:- use_module('../../../lib/travellers').
+
+/** <module> Hops between processes: every agent, once, at every step
+
+Agents travel between processes while the connections under them are cut.
+Each leaves a tuple at every step, so that a step that is lost or done
+twice is seen.
+*/
+
+%   The offsets at which a connection is cut: every byte of the beginning
+%   of a frame, then strides that are prime to the sizes of frames.
+
+offset(Bytes) :-
+    between(0, 6, Bytes).
+offset(Bytes) :-
+    between(0, 16, I),
+    Bytes is 11+I*53.
+
+with_proxied(Codec, Goal) :-
+    with_peers([ a-[proxy(true), codec(Codec)],
+                 b-[proxy(true), codec(Codec)] ], Goal).
+
+:- begin_tests(hop_cut).
+
+test(on_the_way_there, forall(codec(Codec))) :-
+    with_proxied(Codec, cut_everywhere(up, down)).
+
+test(on_the_way_back, forall(codec(Codec))) :-
+    with_proxied(Codec, cut_everywhere(down, up)).
+
+test(without_pause, forall(codec(Codec))) :-
+    with_proxied(Codec, cut_all_the_time(8, 150)).
+
+test(between_hosts_of_one_process) :-
+    with_peers([a-[proxy(true)]], cut_self_connection).
+
+test(before_the_answer) :-
+    with_proxied(fast, cut_before_answer(10)).
+
+:- end_tests(hop_cut).
+
+:- begin_tests(hop_big).
+
+test(among_small_ones, forall(heavy(Codec, Facts))) :-
+    with_peers([ a-[codec(Codec)], b-[codec(Codec)] ],
+               cross_heavily(Facts)).
+
+:- end_tests(hop_big).
+
+heavy(fast, 20 000).
+heavy(text, 2 000).
+
+%   Agents of so many facts go to and fro on both sides, and small ones
+%   among them.
+
+cross_heavily(Facts) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    findall(Peer-Id,
+            ( member(Peer-Route, [a-[B, A], b-[A, B]]),
+              (   between(1, 3, _),
+                  heavy(Peer, Route, 10, Facts, Id)
+              ;   between(1, 4, _),
+                  set_out(Peer, Route, 100, Id)
+              ) ),
+            Ids),
+    forall(member(Peer-Id, Ids),
+           (   atom_concat(heavy, _, Id)
+           ->  ended_well(Peer, Id, 10)
+           ;   ended_well(Peer, Id, 100)
+           )).
+
+codec(fast).
+codec(text).
+
+%   An agent goes from a to b and back.  What runs from a to b passes the
+%   proxy of b upwards or, if b has connected, that of a downwards.
+
+cut_everywhere(DirectionB, DirectionA) :-
+    peer_proxy(a, ProxyA),
+    peer_proxy(b, ProxyB),
+    peer_host(a, A),
+    peer_host(b, B),
+    travel(a, [B, A], 2),               % connects, and brings the program
+    forall(offset(Bytes),
+           ( proxy_cut_after(ProxyA, DirectionA, Bytes),
+             proxy_cut_after(ProxyB, DirectionB, Bytes),
+             travel(a, [B, A], 6) )),
+    proxy_cuts(ProxyA, CutsA),
+    proxy_cuts(ProxyB, CutsB),
+    CutsA+CutsB > 15.
+
+%   Eight agents hop, while both proxies cut again and again: not for ever,
+%   since a slow machine does not come to connect in between.
+
+cut_all_the_time(Agents, Hops) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    findall(Id,
+            ( between(1, Agents, _),
+              set_out(a, [B, A], Hops, Id)
+            ),
+            Ids),
+    thread_create(cutter(60), Cutter),
+    call_cleanup(
+        forall(member(Id, Ids), ended_well(a, Id, Hops)),
+        ( catch(thread_send_message(Cutter, stop), error(_, _), true),
+          thread_join(Cutter, Status) )),
+    Status == true.
+
+cutter(0) :-
+    !.
+cutter(Cuts) :-
+    Wait is 0.03+random_float*0.1,
+    thread_self(Me),
+    (   thread_get_message(Me, stop, [timeout(Wait)])
+    ->  true
+    ;   forall(peer_proxy(_, Proxy), proxy_cut(Proxy)),
+        Left is Cuts-1,
+        cutter(Left)
+    ).
+
+cut_self_connection :-
+    peer_do(a, host_start(a2)),
+    peer_do(a, host_property(a2, address(A2))),
+    peer_host(a, A),
+    peer_proxy(a, Proxy),
+    travel(a, [A2, A], 20),
+    forall(( offset(Bytes), Bytes < 200, member(Direction, [up,down]) ),
+           ( proxy_cut_after(Proxy, Direction, Bytes),
+             travel(a, [A2, A], 6)
+           )).
+
+%   The answer is held until the agent is seen on the other side, where it
+%   stays; then the connection is cut.
+
+cut_before_answer(Rounds) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    forall(between(1, Rounds, _), cut_before_one_answer(A, B)).
+
+cut_before_one_answer(A, B) :-
+    travel(a, [B, A], 2),               % they are connected, and once
+    wait_until(forall(member(Peer, [a, b]),
+                      peer_do(Peer, \+ connecting)), 30),
+    answers(proxy_hold),
+    set_out(a, [B, sit], 2, Id),
+    wait_until(step_on(b, Id, 1), 30),
+    peer_do(a, agent_state_here(Id, State)),
+    memberchk(State, [in_transit, in_doubt]),
+    forall(peer_proxy(_, Proxy), proxy_cut(Proxy)),
+    wait_until(( answers(proxy_release),
+                 \+ peer_do(a, agent_here(Id)) ), 30),
+    peer_do(a, agent_property(Id, host(B))),
+    peer_do(a, agent_send(Id, go)),
+    ended_well(a, Id, 2).
+
+%   What b sends to a passes either proxy.
+
+answers(What) :-
+    peer_proxy(a, ProxyA),
+    peer_proxy(b, ProxyB),
+    call(What, ProxyA, up),
+    call(What, ProxyB, down).
+
+:- begin_tests(hop_refused).
+
+test(when_full) :-
+    with_peers([a, b-[host([capacity(0)])]],
+               refused(b, capacity, [])).
+test(without_token) :-
+    with_peers([a, b-[host([tokens([key])])]],
+               ( refused(b, token, []),
+                 refused(b, token, [tokens([other])]),
+                 peer_host(b, B),
+                 travel(a, [B], 1, [tokens([other, key])]) )).
+test(by_an_unknown_host) :-
+    with_peers([a, b],
+               ( peer_host(b, B),
+                 sub_atom(B, Before, _, After, '@'),
+                 sub_atom(B, _, After, 0, Endpoint),
+                 Before > 0,
+                 atom_concat('nobody@', Endpoint, Nobody),
+                 refused_at(Nobody, unknown_host, []) )).
+test(two_that_change_places) :-
+    with_peers([ a-[host([capacity(1)])],
+                 b-[host([capacity(1)])],
+                 c ], swap(200)).
+
+:- end_tests(hop_refused).
+
+refused(Peer, Reason, Options) :-
+    peer_host(Peer, Host),
+    refused_at(Host, Reason, Options).
+
+refused_at(Host, Reason, Options) :-
+    peer_do(a, try_move(Host, Options, Error)),
+    Error == error(move_refused(Host, Reason)).
+
+%   Two agents on hosts that hold one each want to change places: one has
+%   to wait elsewhere.  Nobody is ever lost, nor are there ever two.
+
+swap(Rounds) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    peer_host(c, C),
+    swapper(a, [A, B, C], Rounds, Id1),
+    swapper(b, [B, A, C], Rounds, Id2),
+    peer_do(a, agent_send(Id1, go)),
+    peer_do(a, agent_send(Id2, go)),
+    ended(a, Id1, done),
+    ended(b, Id2, done),
+    wait_until(forall(member(Peer, [a, b, c]),
+                      peer_do(Peer, host_property(Peer, load(0)))), 10).
+
+:- begin_tests(hop_messages).
+
+test(arrive_once_each, forall(messages(Codec, Count))) :-
+    with_peers([ a-[codec(Codec)], b-[codec(Codec)], c-[codec(Codec)] ],
+               chase(Count)).
+test(follow_in_several_frames, Numbers == [1, 2, 3, 4, 5, 6, 7]) :-
+    Small = setup(set_setting(typhon_session:frame_bytes, 20000)),
+    with_peers([ a-[proxy(true), Small], b-[proxy(true)] ],
+               follow_big(7, 6000, Numbers)).
+test(ordered_to_end_while_hopping) :-
+    with_peers([a, b, c], dispose_hopping(20)).
+
+:- end_tests(hop_messages).
+
+messages(fast, 1000).
+messages(text, 300).
+
+%   An agent hops without pause between three processes until it has got
+%   as many messages as were sent, from three processes, and adds them up.
+%   It stays on for a moment: a message that comes twice would be counted.
+
+chase(Count) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    peer_host(c, C),
+    All is 3*Count,
+    collector(a, [B, C, A], All, Id),
+    forall(member(Peer, [a, b, c]),
+           peer_do(Peer, send_in_background(Id, Count))),
+    peer_do(c, agent_join(Id, Outcome, 60)),
+    Outcome == done,
+    Sum is 3*Count*(Count+1)//2,
+    findall(S, ( member(Peer, [a, b, c]), collected(Peer, Id, S) ), Sums),
+    Sums == [All-Sum].
+
+%   While the answer to its hop is held an agent gets more mail than one
+%   frame of the source holds.
+
+follow_big(Count, Bytes, Numbers) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    travel(a, [B, A], 2),               % they are connected
+    answers(proxy_hold),
+    reader(a, B, Count, Id),
+    wait_until(peer_do(b, agent_here(Id)), 10),
+    format(string(Text), '~`x~t~*|', [Bytes]),
+    forall(between(1, Count, I),
+           peer_do(a, agent_send(Id, I-Text))),
+    answers(proxy_release),
+    peer_do(a, agent_join(Id, done, 20)),
+    peer_do(b, remote(b, findall(I, sense(noted(I)), Numbers))).
+
+dispose_hopping(Rounds) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    peer_host(c, C),
+    forall(between(1, Rounds, I),
+           ( set_out(a, [B, C, A], 1 000 000, Id),
+             nth(I, [a, b, c], Peer),
+             peer_do(Peer, agent_dispose(Id)),
+             peer_do(b, agent_join(Id, Outcome, 20)),
+             Outcome == disposed )),
+    wait_until(forall(member(Peer, [a, b, c]),
+                      peer_do(Peer, \+ agent_here(_))), 10).
+
+nth(I, List, X) :-
+    N is I mod 3,
+    nth0(N, List, X).
+
+:- begin_tests(hop_program).
+
+test(travels_once) :-
+    with_peers([a, b], programs_sent_once).
+test(is_asked_for_again) :-
+    with_peers([a, b-[setup(set_setting(typhon_code:programs, 0))]],
+               programs_evicted).
+
+:- end_tests(hop_program).
+
+%   Programs in the frames that arrive at b are counted there.
+
+programs_sent_once :-
+    peer_host(a, A),
+    peer_host(b, B),
+    peer_do(b, count_programs),
+    forall(between(1, 5, _), travel(a, [B, A], 10)),
+    peer_do(b, programs_seen(Seen)),
+    Seen == 1.
+
+%   b forgets what nobody uses, and asks for it when it is needed.
+
+programs_evicted :-
+    peer_host(a, A),
+    peer_host(b, B),
+    forall(between(1, 5, I),
+           ( travel(a, [B, A], 4),
+             other_program(a, B, I) )).

@@ -1,0 +1,182 @@
+:- module(test_letters, []).
+:- use_module('../../../lib/common').
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+:- use_module(library(readutil)).
+:- use_module('../../../lib/cutting_proxy').
+:- use_module('../../../lib/peers').
+:- use_module('../../../lib/travellers').
+
+/** <module> Messages when processes cannot be reached, die or come back
+
+A message waits for as long as the process in which its agent stands may
+live.  When it does not, that is said where the message was sent.
+*/
+
+:- begin_tests(unreachable_process).
+
+test(mail_waits_for_its_way) :-
+    with_cut(waits_for_way).
+test(mail_in_order_behind_what_waits) :-
+    with_cut(waits_in_order).
+test(told_to_the_sender_when_the_process_is_dead) :-
+    with_peers([a, b, c], told_when_dead).
+
+:- end_tests(unreachable_process).
+
+with_cut(Goal) :-
+    with_peers([ a-[setup(hurried)], b,
+                 c-[proxy(true), setup(calls_nobody)] ], Goal).
+
+%   An agent born on a stands on c; b knows only its home.
+
+noting_on_c(Id) :-
+    peer_host(c, C),
+    peer_do(a, agent_create(clauses([ (:- agent(noting, [state([to/1])])),
+                                      (main :- to(To), go(To)),
+                                      (go(To) :-
+                                           catch(move(To),
+                                                 error(host_unreachable(_), _),
+                                                 go(To))),
+                                      (on_message(_, n(N)) :- leave(noted(N)))
+                                    ]),
+                            Id, [facts([to(C)])])),
+    wait_until(peer_do(c, agent_here(Id)), 30),
+    wait_until(\+ peer_do(a, agent_here(Id)), 30).
+
+noted(Numbers) :-
+    peer_do(c, remote(c, findall(N, sense(noted(N)), Numbers))).
+
+%   a can no longer reach c, nor c anybody: the proxy takes connections, and
+%   is silent.
+
+cut_off :-
+    peer_proxy(c, Proxy),
+    proxy_hold(Proxy, up),
+    proxy_hold(Proxy, down),
+    proxy_cut(Proxy),
+    peer_host(c, C),
+    wait_until(\+ peer_do(a, connected_to(C)), 30).
+
+reconnected :-
+    peer_proxy(c, Proxy),
+    proxy_release(Proxy, up),
+    proxy_release(Proxy, down),
+    proxy_cut(Proxy).
+
+waits_for_way :-
+    noting_on_c(Id),
+    cut_off,
+    numlist(1, 20, Numbers),
+    peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
+    wait_until(peer_do(a, kept(Id)), 30),
+    wait_until(peer_do(a, tried_in_vain(Id)), 30),
+    reconnected,
+    wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
+    noted(Numbers),
+    peer_messages(a, []),
+    peer_messages(b, []).
+
+waits_in_order :-
+    noting_on_c(Id),
+    cut_off,
+    numlist(1, 40, Numbers),
+    peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
+    wait_until(peer_do(a, kept(Id)), 30),
+    reconnected,
+    peer_do(b, forall(between(21, 40, N), agent_send(Id, n(N)))),
+    wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
+    noted(Numbers).
+
+told_when_dead :-
+    noting_on_c(Id),
+    peer_kill(c),
+    peer_do(b, agent_send(Id, n(1))),
+    wait_until(said(b, " lost: ", Id), 20),
+    said(a, " lost: ", Id).
+
+said(Peer, Text, Id) :-
+    peer_messages(Peer, Lines),
+    member(Line, Lines),
+    sub_string(Line, _, _, _, Text),
+    sub_string(Line, _, _, _, Id),
+    !.
+
+:- begin_tests(process_started_again).
+
+test(home_and_process_agree_that_the_agent_is_gone) :-
+    with_peers([a, b, c-[setup(count_messages)]], no_storm).
+test(home_that_was_started_again_learns_where_its_agents_are) :-
+    with_peers([a, b, c], home_learns).
+
+:- end_tests(process_started_again).
+
+%   The agent died with c; a hundred messages for it do not go to and fro
+%   between its home and what is at the address of c now.
+
+no_storm :-
+    noting_on_c(Id),
+    peer_kill(c),
+    peer_restart(c),
+    peer_do(b, forall(between(1, 100, N), agent_send(Id, n(N)))),
+    wait_until(said(b, " lost: ", Id), 30),
+    wait_until(peer_do(a, \+ kept(Id)), 30),
+    peer_do(c, messages_seen(Seen)),
+    Seen =< 1000,
+    peer_try(a, agent_send(Id, n(0)), Outcome),
+    Outcome = raised(error(existence_error(agent, Id), _)).
+
+%   What the agent says of its next hop the new home believes.
+
+home_learns :-
+    peer_host(b, B),
+    peer_host(c, C),
+    peer_do(a, agent_create(clauses([ (:- agent(back_and_forth,
+                                                [state([to/1])])),
+                                      (main :- to(To), go(To)),
+                                      (go(To) :-
+                                           catch(move(To),
+                                                 error(host_unreachable(_), _),
+                                                 go(To))),
+                                      (on_message(_, go(Host)) :- move(Host)),
+                                      (on_message(_, n(N)) :- leave(noted(N)))
+                                    ]),
+                            Id, [facts([to(B)])])),
+    wait_until(peer_do(b, agent_here(Id)), 30),
+    wait_until(\+ peer_do(a, agent_here(Id)), 30),
+    peer_kill(a),
+    peer_restart(a),
+    peer_do(b, agent_send(Id, go(C))),
+    wait_until(peer_do(c, agent_here(Id)), 30),
+    wait_until(peer_do(a, agent_property(Id, host(C))), 20),
+    peer_do(a, agent_send(Id, n(1))),
+    wait_until(noted([1]), 30).
+
+:- begin_tests(news).
+
+test(of_each_agent_the_newest_are_kept) :-
+    with_peers([a, b, c], dead_home).
+
+:- end_tests(news).
+
+%   The home of four agents is dead: their hops cost no more for it.
+
+dead_home :-
+    peer_host(b, B),
+    peer_host(c, C),
+    Program = clauses([ (:- agent(to_and_fro, [state([left/1])])),
+                        (main :- left(N), go(N)),
+                        (go(0) :- !, here(Here), leave(stopped(Here))),
+                        (go(N) :- move(B), move(C), N1 is N-1, go(N1)) ]),
+    findall(Id,
+            ( between(1, 4, _),
+              peer_do(a, agent_create(Program, Id, [facts([left(300)])])) ),
+            Ids),
+    wait_until(forall(member(Id, Ids), peer_do(a, \+ agent_here(Id))), 30),
+    peer_kill(a),
+    wait_until(( peer_do(c, remote(c, findall(x, sense(stopped(_)), Stopped))),
+                 length(Stopped, 4) ), 60),
+    forall(member(Peer, [b, c]),
+           ( peer_do(Peer, news_kept(News)),
+             News =< 4 )).

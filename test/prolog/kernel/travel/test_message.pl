@@ -1,0 +1,275 @@
+:- module(test_message, []).
+:- use_module(library(plunit)).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/agent), [with_agent/2]).
+:- use_module(library(typhon/kernel/travel/backlog), [backlog/1]).
+:- use_module(library(typhon/kernel/travel/retries), [retry_later/3]).
+
+/** <module> Tests of messages: they find their agent, once
+
+Hosts of this process; what happens between processes is in
+test_processes.pl.
+*/
+
+%   collector(-Agent, +Options): remembers what it is sent, in order.
+
+collector(Agent, Options) :-
+    create([(on_message(_, M) :- assertz(s(M)))], Agent, Options).
+
+%   An agent that goes round while it is sent messages, and comes to rest
+%   when it is told to.
+
+traveller(Agent) :-
+    create([ (main :- ( receive(_-stop, 0)
+                      -> true
+                      ;  move(beta), move(alpha), main )),
+             (on_message(_, M) :- assertz(s(M))) ], Agent).
+
+numbers(Agent, Ns) :-
+    findall(N, fact_of(Agent, s(N)), Ns).
+
+has_all(Agent, N) :-
+    aggregate_all(count, fact_of(Agent, s(_)), N).
+
+%   A letter on its way to Id that has found nobody who could be asked.
+
+passed_on(Id, Message) :-
+    Mail = [mail('127.0.0.1:1', x, Message)],
+    with_agent(Id, retry_later(Id, letter(Mail, 64),
+                               to('127.0.0.1:none', letter(Mail, 63)))).
+
+:- begin_tests(messages).
+
+test(from_outside_they_are_from_user, true(F == [s(user-hello)])) :-
+    with_hosts([alpha],
+               ( create([(on_message(W, M) :- assertz(s(W-M)))], A),
+                 agent_send(A, hello),
+                 wait_until(has_all(A, 1), 5),
+                 facts(A, F) )).
+test(from_an_agent, true(F == [s(B-hello)])) :-
+    with_hosts([alpha,beta],
+               ( create([(on_message(W, M) :- assertz(s(W-M)))], A),
+                 create([(main :- s(A0), move(beta), send(A0, hello))], B,
+                        [facts([s(A)])]),
+                 joined(B, done),
+                 wait_until(has_all(A, 1), 5),
+                 facts(A, F) )).
+test(answers, true(O == done)) :-
+    with_hosts([alpha,beta],
+               ( create([(on_message(W, ask(X)) :- Y is X*2, send(W, Y))], A,
+                        [host(beta)]),
+                 create([(main :- s(A0), send(A0, ask(21)), receive(A0-42))],
+                        B, [facts([s(A)])]),
+                 joined(B, O) )).
+test(to_itself, true(F == [s(1)])) :-
+    with_hosts([alpha],
+               ( create([(main :- self(S), send(S, 1)),
+                         (on_message(_, M) :- assertz(s(M)))], A),
+                 wait_until(has_all(A, 1), 5),
+                 facts(A, F) )).
+test(any_term, true(F =@= [s(f(X,X,_,"text",1.5,[a|b],7777777777777777777777))])) :-
+    with_hosts([alpha],
+               ( collector(A, []),
+                 agent_send(A, f(Y,Y,_,"text",1.5,[a|b],7777777777777777777777)),
+                 wait_until(has_all(A, 1), 5),
+                 facts(A, F) )),
+    X = _.
+test(what_cannot_travel, error(type_error(mobile_term, _))) :-
+    with_hosts([alpha],
+               ( collector(A, []), current_output(S), agent_send(A, S) )).
+test(to_nobody, error(existence_error(agent, foo))) :-
+    with_hosts([alpha], agent_send(foo, hello)).
+test(to_an_unbound, error(instantiation_error)) :-
+    with_hosts([alpha], agent_send(_, hello)).
+test(to_one_that_has_ended, error(existence_error(agent, _))) :-
+    with_hosts([alpha],
+               ( create([main], A), joined(A, done), agent_send(A, hello) )).
+test(to_a_faulty_one_is_kept, true(M == [user-hello])) :-
+    with_hosts([alpha],
+               listening(( create([(main :- throw(x))], A),
+                           joined(A, _),
+                           agent_send(A, hello),
+                           agent_property(A, mailbox(M)) ), _)).
+test(to_nobody_from_an_agent,
+     true(O-M = done-[warning-typhon(undeliverable(_, foo, _, hello))])) :-
+    with_hosts([alpha],
+               listening(( create([(main :- send(foo, hello))], A),
+                           joined(A, O) ), M)).
+test(to_who_is_outside,
+     true(M = [informational-typhon(told(_, hello))])) :-
+    with_hosts([alpha],
+               listening(( create([(main :- send(user, hello))], A),
+                           joined(A, done) ), M)).
+test(to_an_address_where_nobody_is, error(host_unreachable('127.0.0.1:1'))) :-
+    with_hosts([alpha], agent_send('x.1.2@gamma@127.0.0.1:1', hello)).
+test(from_elsewhere_to_a_process_never_met_is_not_kept_for_ever,
+     true(M = [warning-typhon(undeliverable(_, Id, x, hello))])) :-
+    Id = 'x.1.2@gamma@127.0.0.1:none',
+    with_hosts([alpha],
+               with_settings([typhon_news:news_seconds=1],
+                             listening(( passed_on(Id, hello),
+                                         wait_until(\+ backlog(Id), 60) ),
+                                       M))).
+test(in_order, true(Ns == Sent)) :-
+    numlist(1, 1000, Sent),
+    with_hosts([alpha],
+               ( collector(A, []),
+                 forall(member(N, Sent), agent_send(A, N)),
+                 wait_until(has_all(A, 1000), 10),
+                 numbers(A, Ns) )).
+test(from_many_threads_in_order_each, true(Parts == [Sent,Sent,Sent,Sent])) :-
+    numlist(1, 200, Sent),
+    with_hosts([alpha],
+               ( collector(A, []),
+                 concurrent_maplist([T]>>forall(member(N, Sent),
+                                                agent_send(A, T-N)),
+                                    [1,2,3,4]),
+                 wait_until(has_all(A, 800), 10),
+                 numbers(A, All),
+                 findall(P, ( member(T, [1,2,3,4]),
+                              findall(N, member(T-N, All), P) ), Parts) )).
+test(from_many_agents, true(N == 50*10)) :-
+    with_hosts([alpha,beta],
+               ( collector(A, []),
+                 findall(B, ( between(1, 50, _),
+                              create([(main :- go(10)),
+                                      (go(0) :- !),
+                                      (go(K) :- s(A0), send(A0, K),
+                                                K1 is K-1, go(K1))], B,
+                                     [facts([s(A)]), host(beta)]) ), Bs),
+                 maplist(joined, Bs, _),
+                 wait_until(has_all(A, 500), 10),
+                 has_all(A, N0) )),
+    N = 50*10, N0 =:= N.
+test(while_it_runs, true(Ns == [1,2,3])) :-
+    with_hosts([alpha],
+               ( create([(main :- take(stop), !), (main :- main),
+                         (on_message(_, M) :- assertz(s(M)))], A),
+                 maplist(agent_send(A), [1,2,3]),
+                 remote(alpha, leave(stop)),
+                 wait_until(has_all(A, 3), 5),
+                 numbers(A, Ns) )).
+
+:- end_tests(messages).
+
+:- begin_tests(messages_and_moves).
+
+test(sent_before_it_moved_travel_with_it, true(Ns == [1,2,3])) :-
+    with_hosts([alpha,beta],
+               ( create([(main :- receive(_-go), move(beta)),
+                         (on_message(_, M) :- assertz(s(M)))], A),
+                 wait_state(A, waiting),
+                 maplist(agent_send(A), [1,2,go,3]),
+                 wait_until(has_all(A, 3), 5),
+                 numbers(A, Ns) )).
+test(in_flight, true(Ns == [1,2,3])) :-
+    with_hosts([alpha-[hop_time(uniform(1000, 1001))],beta],
+               ( create([(main :- move(beta)),
+                         (on_message(_, M) :- assertz(s(M)))], A),
+                 wait_state(A, in_transit),
+                 maplist(agent_send(A), [1,2,3]),
+                 once(typhon_scheduler:fire(A, leave)),
+                 wait_until(has_all(A, 3), 5),
+                 numbers(A, Ns) )).
+test(in_flight_to_a_host_that_refuses, true(Ns == [1,2,3])) :-
+    with_hosts([alpha-[hop_time(uniform(1000, 1001))],beta-[capacity(0)]],
+               ( create([(main :- catch(move(beta), error(_, _), true)),
+                         (on_message(_, M) :- assertz(s(M)))], A),
+                 wait_state(A, in_transit),
+                 maplist(agent_send(A), [1,2,3]),
+                 once(typhon_scheduler:fire(A, leave)),
+                 wait_until(has_all(A, 3), 5),
+                 numbers(A, Ns) )).
+test(gone_elsewhere, true(Ns == [1,2,3])) :-
+    with_hosts([alpha,beta],
+               ( collector(A, []),
+                 agent_move(A, beta),
+                 address(beta, B),
+                 wait_until(agent_property(A, host(B)), 5),
+                 maplist(agent_send(A), [1,2,3]),
+                 wait_until(has_all(A, 3), 5),
+                 numbers(A, Ns) )).
+test(a_moving_target_gets_all_once, true(Sorted == Sent)) :-
+    numlist(1, 2000, Sent),
+    with_hosts([alpha,beta],
+               ( traveller(A),
+                 forall(member(N, Sent), agent_send(A, N)),
+                 agent_send(A, stop),
+                 wait_until(has_all(A, 2000), 20),
+                 numbers(A, Ns),
+                 msort(Ns, Sorted),
+                 assertion(Ns == Sent) )).
+test(many_senders_and_a_moving_target, true(N == 2000)) :-
+    with_hosts([alpha,beta],
+               ( traveller(A),
+                 findall(B, ( member(H, [alpha,beta]), between(1, 10, _),
+                              create([(main :- go(100)),
+                                      (go(0) :- !),
+                                      (go(K) :- s(A0), self(S),
+                                                send(A0, S-K),
+                                                K1 is K-1, go(K1))], B,
+                                     [facts([s(A)]), host(H)]) ), Bs),
+                 maplist(joined, Bs, _),
+                 agent_send(A, stop),
+                 wait_until(has_all(A, 2000), 20),
+                 numbers(A, Ns),
+                 sort(Ns, Set),
+                 length(Set, N) )).
+test(agents_that_play_while_they_travel, true(Os == [done,done])) :-
+    with_hosts([alpha,beta],
+               ( Play = [ (main :- receive(_-with(B)), play(B, 200)),
+                          (play(_, 0) :- !),
+                          (play(B, K) :- send(B, ball(K)),
+                                         receive(_-ball(K)),
+                                         ( K mod 2 =:= 0 -> move(beta)
+                                         ; move(alpha) ),
+                                         K1 is K-1, play(B, K1)) ],
+                 create(Play, A),
+                 create(Play, B, [host(beta)]),
+                 agent_send(A, with(B)),
+                 agent_send(B, with(A)),
+                 maplist(joined, [A,B], Os) )).
+test(selective_receive_across_moves, true(F == [s(a),s(b),s(c)])) :-
+    with_hosts([alpha,beta],
+               ( create([on_message(_, _),
+                         (main :- get(a), move(beta), get(b), move(alpha),
+                                  get(c)),
+                         (get(X) :- receive(_-m(X)), assertz(s(X)))], A),
+                 forall(member(M, [c,b,a]), agent_send(A, m(M))),
+                 wait_state(A, resident),
+                 facts(A, F) )).
+
+:- end_tests(messages_and_moves).
+
+:- begin_tests(hints).
+
+test(right_hint, true(Ns == [1])) :-
+    with_hosts([alpha,beta],
+               ( collector(A, [host(beta)]),
+                 agent_send(at(A, beta), 1),
+                 wait_until(has_all(A, 1), 5),
+                 numbers(A, Ns) )).
+test(wrong_hint, true(Ns == [1])) :-
+    with_hosts([alpha,beta],
+               ( collector(A, [host(beta)]),
+                 agent_send(at(A, alpha), 1),
+                 wait_until(has_all(A, 1), 5),
+                 numbers(A, Ns) )).
+test(hint_that_is_no_host, error(existence_error(host, nowhere))) :-
+    with_hosts([alpha],
+               ( collector(A, []), agent_send(at(A, nowhere), 1) )).
+test(hint_of_an_agent, true(Ns == [1])) :-
+    with_hosts([alpha,beta],
+               ( collector(A, [host(beta)]),
+                 create([(main :- s(A0), send(at(A0, beta), 1))], B,
+                        [facts([s(A)])]),
+                 joined(B, done),
+                 wait_until(has_all(A, 1), 5),
+                 numbers(A, Ns) )).
+
+:- end_tests(hints).

@@ -1,0 +1,121 @@
+:- module(test_news, []).
+:- use_module('../../../lib/common', [wait_until/2]).
+:- use_module('../../../lib/peers').
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(settings), [set_setting/2, setting/2]).
+:- use_module(library(socket),
+              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
+                tcp_socket/1 ]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/travel/news), [news_tell/3]).
+
+/** <module> News of agents for a home that cannot be reached
+
+*Threading*: the main thread; the courier is a worker.
+*/
+
+%   told(+All, -Kept): of All, told one after the other, Kept are kept when the
+%   courier has found nobody at home.
+
+told(All, Kept) :-
+    with_silent_home(Home,
+                     ( forall(member(News, All), news_tell(Home, x, News)),
+                       kept(Home, Kept) )).
+
+%   told_under_way(+First, +Then, -Kept): Then is told while a courier is away
+%   with First.
+
+told_under_way(First, Then, Kept) :-
+    with_silent_home(Home,
+                     ( news_tell(Home, x, First),
+                       wait_until(\+ typhon_news:news(Home, x, _), 10),
+                       news_tell(Home, x, Then),
+                       kept(Home, Kept) )).
+
+%   with_silent_home(-Home, :Goal): a host is up, and Home is a port at which
+%   somebody listens who never says a word.
+
+:- meta_predicate with_silent_home(-, 0).
+
+with_silent_home(Home, Goal) :-
+    setting(typhon_connection_manager:connect_time, Time),
+    setup_call_cleanup(
+        ( set_setting(typhon_connection_manager:connect_time, 0.2),
+          tcp_socket(Socket) ),
+        ( tcp_bind(Socket, '127.0.0.1':Port),
+          tcp_listen(Socket, 5),
+          format(atom(Home), '127.0.0.1:~d', [Port]),
+          setup_call_cleanup(host_start(alpha), Goal, host_stop(alpha)) ),
+        ( tcp_close_socket(Socket),
+          set_setting(typhon_connection_manager:connect_time, Time) )).
+
+%   A courier that is back waits for an alarm.
+
+kept(Home, Kept) :-
+    wait_until(( typhon_alarms:alarm(_, Home, news(_)),
+                 findall(News, typhon_news:news(Home, x, News), Kept),
+                 Kept \== [] ), 20).
+
+at(Hops, located(x, 'beta@127.0.0.1:1', Hops)).
+
+end(Hops, ended(x, done, Hops)).
+
+%   A courier of b has set out when the process comes to its end, and does no
+%   more until that has come.
+
+last_news :-
+    peer_host(b, B),
+    peer_do(a, agent_create(clauses([ (:- agent(guest, [])),
+                                      (main :- move(B)),
+                                      on_message(_, _) ]), Id, [])),
+    wait_until(peer_do(b, agent_property(Id, state(resident))), 10),
+    wait_until(peer_do(b, \+ typhon_news:courier(_)), 10),
+    slow_courier,
+    peer_do(b, host_stop(b)),
+    peer_do(a, agent_join(Id, disposed, 10)).
+
+slow_courier :-
+    wrapped(b, typhon_runtime:released(_), Ends,
+            ( test_common:wait_until(\+ typhon_news:news(_, _, _), 5),
+              Ends )),
+    wrapped(b, typhon_news:posted(How, _, _), Posted,
+            ( (   How == endpoint_post
+              ->  test_common:wait_until(
+                      \+ typhon_session:session(_, _), 5)
+              ;   true
+              ),
+              Posted )).
+
+%   What is wrapped cannot be written in an answer.
+
+wrapped(Peer, Head, Wrapped, Body) :-
+    peer_do(Peer, \+ \+ wrap_predicate(Head, test_news, Wrapped, Body)).
+
+:- begin_tests(news).
+
+test(the_newest, Kept == [News2]) :-
+    at(1, News1), at(2, News2),
+    told([News1, News2], Kept).
+test(whatever_is_told_last, Kept == [News2]) :-
+    at(1, News1), at(2, News2),
+    told([News2, News1], Kept).
+test(an_end, Kept == [End]) :-
+    at(2, News), end(2, End),
+    told([News, End], Kept).
+test(an_end_that_is_told_first, Kept == [End]) :-
+    at(2, News), end(2, End),
+    told([End, News], Kept).
+test(an_end_told_while_the_courier_is_away, Kept == [End]) :-
+    at(2, News), end(2, End),
+    told_under_way(News, End, Kept).
+test(an_end_the_courier_has_with_it, Kept == [End]) :-
+    at(2, News), end(2, End),
+    told_under_way(End, News, Kept).
+test(a_copy_given_up_in_doubt, Kept == [News]) :-
+    end(1, End), at(2, News),
+    told_under_way(End, News, Kept).
+test(in_the_hands_of_one_who_is_slower_than_the_end_of_the_process) :-
+    with_peers([a, b], last_news).
+
+:- end_tests(news).

@@ -1,0 +1,154 @@
+:- module(test_within, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(apply), [include/3, maplist/2, maplist/3]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(plunit)).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/travel/whereabouts), [agent_reached/3]).
+
+/** <module> Agents hop between hosts of one process
+
+*Threading*: tests run one at a time.
+*/
+
+:- begin_tests(hops_within_a_process).
+
+test(mail_comes_along, true(F == [s(1),s(2),s(3)])) :-
+    with_hosts([alpha,beta],
+               ( create([ (main :- receive(_-go), move(beta), move(alpha),
+                                   take(3)),
+                          (take(0) :- !),
+                          (take(N) :- receive(_-M), assertz(s(M)), N1 is N-1,
+                                      take(N1)),
+                          on_message(_, _) ], A),
+                 maplist(agent_send(A), [1,2,3,go]),
+                 wait_state(A, resident),
+                 agent_property(A, facts(F)) )).
+test(it_stands_nowhere_else, true(Loads-In-Out == [0,1]-1-1)) :-
+    with_hosts([alpha,beta],
+               ( create([(main :- move(beta)), on_message(_, _)], A),
+                 wait_state(A, resident),
+                 maplist(load, [alpha,beta], Loads),
+                 host_property(beta, hop_time(in, stats(In, _, _, _))),
+                 host_property(alpha, hop_time(out, stats(Out, _, _, _))) )).
+test(refused_it_takes_no_room, true(Loads == [1,0])) :-
+    with_hosts([alpha,beta-[tokens([red])]],
+               ( create([(main :- catch(move(beta), _, true)),
+                         on_message(_, _)], A),
+                 wait_state(A, resident),
+                 maplist(load, [alpha,beta], Loads) )).
+test(orders_find_it_wherever_it_is, true(Loads == [0,0,0])) :-
+    with_hosts([alpha,beta,gamma],
+               ( findall(A, ( between(1, 30, _), walker(A) ), Agents),
+                 numlist(1, 20, Numbers),
+                 forall(( member(N, Numbers), member(A, Agents) ),
+                        agent_send(A, N)),
+                 maplist(heard(Numbers), Agents),
+                 maplist(agent_dispose, Agents),
+                 maplist(joined_as(disposed), Agents),
+                 maplist(load, [alpha,beta,gamma], Loads) )).
+
+test(services_are_those_of_the_new_place, true(F == [s(a),s(b)])) :-
+    lamp(within_a, a),
+    lamp(within_b, b),
+    with_hosts([ alpha-[services([within_a])], beta-[services([within_b])] ],
+               ( create([ (main :- assertz((look(X) :- light(X))), see,
+                                   move(beta), see),
+                          (see :- forall(look(X), assertz(s(X)))),
+                          on_message(_, _) ], A),
+                 wait_state(A, resident),
+                 agent_property(A, facts(F0)),
+                 include([s(_)]>>true, F0, F) )).
+test(what_a_place_holds_is_not_the_agents, true(At == beta)) :-
+    with_tmp_dir(device(At)).
+test(it_never_seems_not_to_have_come, true(Answer == answer(true))) :-
+    with_hosts([alpha,beta],
+               ( create([(main :- move(beta)), on_message(_, _)], A),
+                 wait_state(A, resident),
+                 reached_as_it_goes(A, Answer) )).
+test(what_does_not_travel_stays_behind, true(F == [s(gone)])) :-
+    with_hosts([alpha,beta],
+               ( create([ (main :- assertz(kept(1)),
+                                   compile_predicates([kept/1]), move(beta),
+                                   catch(kept(_), _, assertz(s(gone)))),
+                          on_message(_, _) ], A),
+                 wait_state(A, resident),
+                 agent_property(A, facts(F)) )).
+test(an_order_that_cannot_be_obeyed, true(At-Ended == alpha-disposed)) :-
+    with_hosts([alpha-[hop_time(uniform(0.01, 0.02))],beta],
+               ( create([ (main :- current_output(S), assertz(s(S))),
+                          on_message(_, _) ], A),
+                 wait_state(A, resident),
+                 Told = typhon(order_failed(A, _)),
+                 listening(( agent_move(A, beta),
+                             wait_until(was_told(warning, Told), 5) ), _),
+                 wait_state(A, resident),
+                 stands(A, At),
+                 agent_dispose(A),
+                 joined(A, Ended) )).
+
+device(At, Dir) :-
+    atom_concat(Dir, '/place.pl', File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- dynamic device/1.~n\c
+:- current_output(S), assertz(device(S)).~n', []),
+        close(Out)),
+    with_hosts([alpha-[consult(File)],beta-[consult(File)]],
+               ( create([ (main :- assertz((look(ok) :- device(_))), look(_),
+                                   move(beta)),
+                          on_message(_, _) ], A),
+                 wait_state(A, resident),
+                 stands(A, At) )).
+
+:- end_tests(hops_within_a_process).
+
+%   What is said, when its record is gone, of whether it had come by a hop.
+
+reached_as_it_goes(A, Answer) :-
+    thread_self(Me),
+    setup_call_cleanup(
+        wrap_predicate(typhon_agents:agent_remove(Id, _, _), asked, Removed,
+                       ( Removed, test_within:reached_now(Id, Me) )),
+        ( agent_dispose(A),
+          thread_get_message(Me, said(Answer), [timeout(30)]) ),
+        unwrap_predicate(typhon_agents:agent_remove/3, asked)).
+
+:- public reached_now/2.
+
+reached_now(Id, Who) :-
+    agent_reached(Id, 1, said_to(Who)).
+
+said_to(Who, Answer) :-
+    thread_send_message(Who, said(Answer)).
+
+stands(Agent, Name) :-
+    agent_property(Agent, host(Address)),
+    atomic_list_concat([Name|_], @, Address).
+
+lamp(Module, Light) :-
+    retractall(Module:light(_)),
+    assertz(Module:light(Light)),
+    Module:export(Module:light/1).
+
+load(Host, Load) :-
+    host_property(Host, load(Load)).
+
+%   It goes round until it is ended, and keeps what it is told in order.
+
+walker(A) :-
+    create([ (main :- move(beta), hear, move(gamma), hear, move(alpha), hear,
+                      main),
+             (hear :- ( receive(_-M, 0)
+                      -> assertz(s(M)), hear
+                      ;  true )) ], A).
+
+heard(Numbers, Agent) :-
+    wait_until(( agent_property(Agent, facts(Facts)),
+                 findall(N, member(s(N), Facts), Heard),
+                 Heard == Numbers ), 20).
+
+joined_as(Outcome, Agent) :-
+    joined(Agent, Outcome).

@@ -1,0 +1,490 @@
+:- module(test_guard_escapes, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2, numlist/3]).
+:- use_module(library(typhon)).
+
+/** <module> Ways out of the sandbox that were open once
+
+What an attack would do if it got through is to set the flag
+typhon_guard_escaped.
+
+*Threading*: one test at a time.
+*/
+
+harm(flag(typhon_guard_escaped, _, 1)).
+
+escaped(Goal, Escaped) :-
+    flag(typhon_guard_escaped, _, 0),
+    call(Goal),
+    flag(typhon_guard_escaped, Escaped, 0).
+
+%   ways(+Goal, -Clauses): as it is written, made up where the machine runs
+%   it, made up where Prolog runs it, and made up on another host.
+
+ways(Goal, [(main :- Goal)]).
+ways(Goal, [(main :- goal(G), call(G)), goal(Goal)]).
+ways(Goal, [(main :- goal(G), findall(x, G, _)), goal(Goal)]).
+ways(Goal, [(main :- goal(G), move(g), call(G)), goal(Goal)]).
+
+host_of([(main :- Body)|_], t) :- \+ Body \= (_, move(g), _), !.
+host_of(_, g).
+
+outcome(Clauses, Outcome) :-
+    host_of(Clauses, Host),
+    catch(( create(Clauses, A, [host(Host)]),
+            agent_join(A, Outcome, 60) ),
+          error(Formal, _), Outcome = raised(error(Formal, _))).
+
+is_refused(raised(error(permission_error(call, sandboxed, _), _))).
+is_refused(raised(error(move_refused(_, policy(_)), _))).
+is_refused(raised(error(permission_error(_, _, _), _))).
+is_refused(raised(error(existence_error(procedure, _), _))).
+
+%   let_through(+Goals, -Goals): those that are not refused in each way.
+
+let_through(Goals, Through) :-
+    findall(Goal-Outcome,
+            ( member(Goal, Goals),
+              ways(Goal, Clauses),
+              outcome(Clauses, Outcome),
+              \+ is_refused(Outcome) ),
+            Through).
+
+                /*******************************
+                *         FORMAT STRINGS       *
+                *******************************/
+
+%   Modifiers, counts and characters before directives that call or print.
+
+calling_format("~@").
+calling_format("~:@").
+calling_format("~3:@").
+calling_format("~`x:@").
+calling_format("~`x@").
+calling_format("~`~@").
+calling_format("~::@").
+calling_format("~1234@").
+calling_format("~w~:@").
+calling_format("~~~:@").
+calling_format("~p").
+calling_format("~:p").
+calling_format("~:i~@").
+calling_format("~i~@").
+calling_format("~*@").
+calling_format("~*c~@").
+calling_format("~:d~@").
+calling_format('~:@').
+calling_format(`~:@`).
+calling_format(['~', :, '@']).
+calling_format("~\u0663:@").
+calling_format("~\u06633@").
+calling_format("~k").
+calling_format("~").
+calling_format("~`").
+calling_format("~`x").
+
+calling(format(Sink, Format, [Harm, Harm])) :-
+    harm(Harm),
+    calling_format(Format),
+    member(Sink, [string(_), codes(_)]).
+calling(Goal) :-
+    harm(Harm),
+    member(Goal,
+           [ format("~@", [Harm]),
+             format("~:@"),
+             format(atom(_), "~:@", [Harm]),
+             format(user_error, "~:@", [Harm]),
+             format(codes(_, _), "~:@", [Harm]),
+             format(_, "~:@", [Harm]),
+             format_atom("~:@", [Harm], _),
+             sformat(_, "~:@", [Harm]),
+             with_output_to(string(_), Harm),
+             with_output_to(string(_), format("~:@", [Harm])),
+             debug(typhon(x), "~:@", [Harm]),
+             debug(_, "~@", Harm),
+             print_message(error, format("~@", [Harm])),
+             print_message_lines(user_error, '', ["~@"-[Harm]]),
+             message_to_codes(format("~@", [Harm]), _, _),
+             message_to_string(format("~@", [Harm]), _),
+             '$messages':translate_message(format("~@", [Harm]), _, []),
+             ansi_format([], "~@", [Harm]),
+             assertion(Harm),
+             format_predicate(w, Harm),
+             current_format_predicate(_, _),
+             format_time(string(_), "~@", 0),
+             string_code(1, "a", _) ; Harm ]).
+
+%   What text is known to be harmless is written.
+
+written("~w ~q ~a ~d ~D ~s", [a+'B', 'B', c, 4, 5000, "six"],
+        "a+B 'B' c 4 5,000 six").
+written("~2d|~1e|~3f|~8r|~16R|~3c|~~|~n", [314, 1.0, 2.0, 8, 255, 0'x],
+        "3.14|1.0e+00|2.000|10|FF|xxx|~|\n").
+written("~w~t~5|~w~t~3+.", [a, b], "a    b  .").
+written("~`-t~5|", [], "-----").
+written('~w', x, "x").
+
+:- begin_tests(format_strings).
+
+test(calling_formats_are_refused, Escaped-Through == 0-[]) :-
+    findall(Goal, calling(Goal), Goals),
+    with_hosts([g-[policy(guarded)], t],
+               listening(escaped(let_through(Goals, Through), Escaped), _)).
+test(harmless_formats_are_written,
+     [forall(written(Format, Args, Text)), true(Result == Text)]) :-
+    with_hosts([g-[policy(guarded)]],
+               ( create([(main :- format(string(S), Format, Args), result(S))],
+                        A, [host(g)]),
+                 agent_result(A, Result, 10) )).
+test(output_of_format_is_bounded,
+     Outcome = raised(error(resource_error(clause_cells), _))) :-
+    dag(Dag),
+    with_hosts([g-[policy(guarded)]],
+               listening(outcome([ (main :- dag(40, a, T),
+                                            format(string(_), "~w", [T]))
+                                 | Dag ], Outcome), _)).
+
+:- end_tests(format_strings).
+
+%   dag(-Clauses): dag(N, T0, T): T has 2^N times T0, and few cells.
+
+dag([ dag(0, T0, T0),
+      (dag(N0, T0, T) :- N0 > 0, N is N0-1, dag(N, f(T0,T0), T)) ]).
+
+                /*******************************
+                *        CHANGED GOALS         *
+                *******************************/
+
+%   changing(-Name, -Clauses): a goal is looked at, and then changed by what
+%   it calls.  hit/2 is harmless, set_flag/2 is not.
+
+changing(call,
+         [ (main :- closure(C), G = maplist(C, [c(C), 1]), call(G)) ]).
+changing(once,
+         [ (main :- closure(C), G = once(maplist(C, [c(C), 1])), call(G)) ]).
+changing(findall,
+         [ (main :- closure(C), G = maplist(C, [c(C), 1]),
+                    findall(x, G, _)) ]).
+changing(written_out,
+         [ (main :- closure(C), maplist(C, [c(C), 1])) ]).
+changing(condition,
+         [ (main :- closure(C),
+                    G = ( maplist(C, [c(C)]) -> maplist(C, [1]) ; true ),
+                    call(G)) ]).
+changing(catch,
+         [ (main :- closure(C), G = catch(hit(C), _, maplist(C, [1])),
+                    call(G)),
+           (hit(C) :- hit(t, c(C)), throw(x)) ]).
+changing(across_sleep,
+         [ (main :- closure(C),
+                    G = (hit(t, c(C)), sleep(0.001), maplist(C, [1])),
+                    call(G)) ]).
+changing(across_receive,
+         [ (main :- closure(C), self(Me), send(Me, go),
+                    G = (hit(t, c(C)), receive(_), maplist(C, [1])),
+                    call(G)) ]).
+changing(conjunction,
+         [ (main :- closure(C), B = maplist(C, [1]), G = (hit(B), B),
+                    call(G)),
+           (hit(B) :- setarg(1, B, set_flag(typhon_guard_escaped))) ]).
+changing(ignore,
+         [ (main :- B = ignore(hit(typhon_guard_escaped, 1)),
+                    G = (hit(B), B), call(G)),
+           (hit(B) :- setarg(1, B, set_flag(typhon_guard_escaped, 1))) ]).
+changing(lambda,
+         [ (main :- C = [X]>>hit(typhon_guard_escaped, X),
+                    maplist(C, [l(C), 1])) ]).
+changing(parameters,
+         [ (main :- P = [_], C = P>>set_flag(typhon_guard_escaped),
+                    Q = C, G = maplist(Q, [l(C), 1]), call(G)),
+           (set_flag(_) :- true) ]).
+changing(foldl,
+         [ (main :- C = call(hit3, typhon_guard_escaped),
+                    G = foldl(C, [c(C), 1], 1, _), call(G)),
+           (hit3(_, X, Y, Y) :- hit(t, X)) ]).
+
+%   Of the closure call(hit, Flag) the first argument changes; of a lambda
+%   expression the body, and parameters.
+
+common([ closure(call(hit, typhon_guard_escaped)),
+         (hit(_, c(C)) :- !, setarg(1, C, set_flag)),
+         (hit(_, l(C)) :- !, setarg(1, C, []),
+                          setarg(2, C, set_flag(typhon_guard_escaped))),
+         hit(_, _) ]).
+
+changing_program(Name, Clauses) :-
+    changing(Name, Clauses0),
+    common(Common),
+    append(Clauses0, Common, Clauses).
+
+:- begin_tests(changed_goals).
+
+%   setarg/3 is allowed, so that the copy is all that is between.
+
+test(what_was_looked_at_is_what_runs,
+     [forall(changing_program(Name, Clauses)), true(Escaped == 0-Name)]) :-
+    with_tmp_dir(changed(Clauses, Name, Escaped)).
+test(no_term_is_changed_in_place, Through == []) :-
+    with_hosts([g-[policy(guarded)], t],
+               listening(let_through([ (X = f(a), setarg(1, X, b)),
+                                       (X = f(a), nb_setarg(1, X, b)),
+                                       (X = f(a), nb_linkarg(1, X, b)),
+                                       (dict_create(D, _, [a-1]),
+                                        b_set_dict(a, D, 2)),
+                                       (dict_create(D, _, [a-1]),
+                                        nb_set_dict(a, D, 2)),
+                                       (dict_create(D, _, [a-1]),
+                                        nb_link_dict(a, D, 2)) ],
+                                     Through), _)).
+
+:- end_tests(changed_goals).
+
+changed(Clauses, Name, Escaped-Name, Dir) :-
+    directory_file_path(Dir, rules, File),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, "allow(setarg/3).~n", []),
+                       close(Out)),
+    with_hosts([g-[policy(File)], t],
+               listening(escaped(outcome(Clauses, _), Escaped), _)).
+
+                /*******************************
+                *         SHARED TERMS         *
+                *******************************/
+
+%   storing(-Body): T is small, and 2^60 parts when it is written out.
+
+storing(receive(_-T, 0.1), T).
+storing(receive(T), T).
+storing(sleep(T), T).
+storing(move(T), T).
+storing((sleep(0.001), hit(T)), T).
+storing((self(Me), send(Me, x), receive(_), hit(T)), T).
+storing((clone(_), hit(T)), T).
+storing((clone(T, _), hit(T)), T).
+storing((hit(T), fail), T).
+storing((hit(T), throw(x), hit(T)), T).
+storing((hit(T), X is foo+T, hit(X)), T).
+storing(miss(T), T).
+storing(throw(error(T, _)), T).
+storing(result(T), T).
+storing(enter(T), T).
+storing(emit(T), T).
+storing(message_failed(x, T), T).
+storing(message_failed(T, x), T).
+storing(assertz(s(T)), T).
+storing((catch(sleep(T), _, sleep(T)), hit(T)), T).
+
+storing_program(Clauses) :-
+    storing(Body, T),
+    dag(Dag),
+    append([ (main :- dag(60, a, T), Body), hit(_), (miss(_) :- fail) ], Dag,
+           Clauses).
+storing_program([ (main :- dag(60, true, G), call(G)),
+                  dag(0, G0, G0),
+                  (dag(N0, G0, G) :- N0 > 0, N is N0-1, dag(N, (G0,G0), G)) ]).
+storing_program([ (main :- dag(60, true, G), findall(x, G, _)),
+                  dag(0, G0, G0),
+                  (dag(N0, G0, G) :- N0 > 0, N is N0-1, dag(N, \+ (G0;G0), G)) ]).
+
+%   What fails or raises without T is kept as it was.
+
+too_large(failed).
+too_large(raised(x)).
+too_large(raised(error(resource_error(_), _))).
+too_large(raised(error(type_error(_, _), _))).
+too_large(raised(error(permission_error(call, sandboxed, throw/1), _))).
+
+:- begin_tests(shared_terms).
+
+test(shared_terms_are_not_stored,
+     [forall(storing_program(Clauses)), true(too_large(Outcome))]) :-
+    with_hosts([g-[policy(guarded)]],
+               listening(( create(Clauses, A, [host(g)]),
+                           agent_join(A, Outcome, 10) ), _)).
+test(others_are_not_held_up, R == ok) :-
+    dag(Dag),
+    with_hosts([g-[policy(guarded)]],
+               listening(( create([ (main :- dag(60, a, T), receive(_-T, 1))
+                                  | Dag ], A, [host(g)]),
+                           create([(main :- sleep(0.01), result(ok))], B,
+                                  [host(g)]),
+                           agent_result(B, R, 10),
+                           agent_join(A, raised(_), 10) ), _)).
+%   Large data may stand in goals that are not kept.
+
+test(large_data_are_no_goals, R == 300 000) :-
+    with_hosts([g-[policy(guarded)]],
+               ( create([ (main :- numlist(1, 300 000, L), G = count(L),
+                                   call(G)),
+                          (count(L) :- length(L, N), result(N)) ],
+                        A, [host(g)]),
+                 agent_result(A, R, 20) )).
+
+:- end_tests(shared_terms).
+
+                /*******************************
+                *             TEXT             *
+                *******************************/
+
+long_text(Length, Text) :-
+    numlist(1, Length, Numbers),
+    findall(0'a, member(_, Numbers), Codes),
+    string_codes(Text, Codes).
+
+has_long_atom(Term) :-
+    sub_term_(Atom, Term),
+    atom(Atom),
+    atom_length(Atom, Length),
+    Length > 1000,
+    !.
+
+sub_term_(X, X).
+sub_term_(X, Term) :-
+    compound(Term),
+    arg(_, Term, Arg),
+    sub_term_(X, Arg).
+
+given(Text, Text).
+given(Text, Codes) :- string_codes(Text, Codes).
+given(Text, Chars) :- string_chars(Text, Chars).
+
+%   A goal that may be called as it stands, with a long text at one place,
+%   little at the others, and a variable at one of them.
+
+text_goal(Text, Goal) :-
+    typhon_allowed:free(Goal),
+    functor(Goal, Name, Arity),
+    between(1, 5, Arity),
+    \+ memberchk(Name, [ move, clone, receive, send, log, leave, leave_new,
+                         result, enter, emit, take, sense, withdraw, detach,
+                         message_failed, pheromone ]),
+    between(1, Arity, I),
+    given(Text, Given),
+    arg(I, Goal, Given),
+    member(Value, ["x", 0, _]),
+    between(1, Arity, Free),
+    forall_args(1, Arity, I, Free, Value, Goal).
+
+forall_args(N, Arity, _, _, _, _) :-
+    N > Arity,
+    !.
+forall_args(N, Arity, I, Free, Value, Goal) :-
+    (   memberchk(N, [I,Free])
+    ->  true
+    ;   arg(N, Goal, Value0),
+        copy_term(Value, Value0)
+    ),
+    N1 is N+1,
+    forall_args(N1, Arity, I, Free, Value, Goal).
+
+long_atom(Goal) :-
+    long_text(1200, Text),
+    text_goal(Text, Goal),
+    catch(call_with_inference_limit(once(typhon_vocabulary:Goal), 20 000, _),
+          error(_, _), fail),
+    has_long_atom(Goal).
+
+text_attack(setrand(seed(1))).
+text_attack(setrand(1)).
+text_attack(getrand(_)).
+text_attack(term_to_atom(_, `{|html||x|}`)).
+text_attack(term_to_atom(_, ['{', '|', h, '|', '|', x, '|', '}'])).
+text_attack(term_string(_, `{|html||x|}`)).
+text_attack(term_string(_, "{|html||x|}")).
+text_attack(atom_to_term(`{|html||x|}`, _, _)).
+text_attack(atom_to_term(['{', '|', h, '|', '|', x, '|', '}'], _, _)).
+text_attack(Goal) :-
+    long_text(1001, Text),
+    string_codes(Text, Codes),
+    member(Goal, [ upcase_atom(Text, _), downcase_atom(Text, _),
+                   upcase_atom(Codes, _),
+                   sub_atom(Text, 0, 1001, _, _), sub_atom(Text, _, _, _, _),
+                   sub_atom_icasechk(Text, _, a),
+                   atom_string(_, Text), atom_codes(_, Codes),
+                   atomic_list_concat([Text], _),
+                   atomic_list_concat([x,y], Text, _),
+                   atom_concat(Text, x, _), hash_atom(Codes, _),
+                   file_base_name(Text, _), file_name_extension(Text, x, _),
+                   uri_components(Text, _), uri_iri(Text, _),
+                   term_to_atom(_, Text), term_to_atom(f(Text), _),
+                   term_string(_, Text), atom_to_term(Text, _, _) ]).
+text_attack(( string_codes(S, `xxxxxxxxxxxxxxxxxxxx`),
+              atomic_list_concat([a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,
+                                  a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,
+                                  a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a], S, _) )).
+text_attack(( X is 7**10000, atom_number(_, X) )).
+
+%   Where atoms of allowed length are held: what is ended for that.
+
+holding(state,
+        [ (main :- long(L), between(1, inf, I), atom_concat(L, I, A),
+                   assertz(s(A)), I > 1 000 000),
+          long(Long) ]) :-
+    long_atom_900(Long).
+holding(stack,
+        [ (main :- long(L), findall(A, ( between(1, inf, I),
+                                         atom_concat(L, I, A) ), _)),
+          long(Long) ]) :-
+    long_atom_900(Long).
+holding(stack,
+        [ (main :- long(L), findall(A, ( repeat,
+                                         sub_atom(L, _, _, _, A) ), _)),
+          long(Long) ]) :-
+    long_atom_900(Long).
+holding(cells,
+        [ (main :- long(L), text(12, L, S), self(Me), send(Me, S)),
+          long(Text),
+          text(0, S, S),
+          (text(N0, S0, S) :- N0 > 0, N is N0-1, string_concat(S0, S0, S1),
+                              text(N, S1, S)) ]) :-
+    long_text(900, Text).
+
+long_atom_900(Long) :-
+    long_text(900, Text),
+    atom_string(Long, Text).
+
+:- begin_tests(texts).
+
+test(long_atoms_are_not_made, Through == []) :-
+    findall(Goal, text_attack(Goal), Goals),
+    with_hosts([g-[policy(guarded)], t],
+               listening(let_through(Goals, Through), _)).
+test(no_predicate_makes_long_atoms, Goals == []) :-
+    with_hosts([g-[policy(guarded)]], true),    % the tables are made
+    findall(Name/Arity, ( long_atom(Goal), functor(Goal, Name, Arity) ),
+            Goals0),
+    sort(Goals0, Goals).
+test(text_of_atoms_counts,
+     [forall(holding(What, Clauses)), true(Passed == What)]) :-
+    with_hosts([g-[ policy(guarded),
+                    quota([ seconds(60), stack(16 000 000), state(1 000 000),
+                            log(1000) ]) ]],
+               listening(outcome(Clauses, Outcome), _)),
+    Outcome = raised(error(resource_error(Passed), _)).
+%   What is taken away again does not count.
+
+test(text_that_is_taken_away_does_not_count, Outcome == done) :-
+    long_atom_900(Long),
+    with_hosts([g-[ policy(guarded),
+                    quota([seconds(60), state(200 000)]) ]],
+               listening(outcome([ (main :- forall(between(1, 2000, I),
+                                                   step(I))),
+                                   (step(I) :- long(L), atom_concat(L, I, A),
+                                               assertz(s(A)),
+                                               retract(s(A))),
+                                   long(Long) ], Outcome), _)).
+test(short_texts_pass, R == ['ABC', bc, 'a,b', f(x), "f(x)", 12]) :-
+    with_hosts([g-[policy(guarded)]],
+               ( create([ (main :- upcase_atom(abc, A),
+                                   sub_atom(abc, 1, 2, _, B),
+                                   atomic_list_concat([a,b], ',', C),
+                                   term_to_atom(D, 'f(x)'),
+                                   term_string(f(x), E),
+                                   atom_number('12', F),
+                                   result([A,B,C,D,E,F])) ], A, [host(g)]),
+                 agent_result(A, R, 10) )).
+
+:- end_tests(texts).

@@ -1,0 +1,269 @@
+:- module(test_pheromone, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/vocabulary/pheromone)).
+:- use_module(library(typhon/kernel/vocabulary/strategy)).
+
+/** <module> Pheromones and phercon(Problem)
+
+Diffusion against the closed form on small graphs, in one process and in
+two, and agents that follow it.
+*/
+
+%   line(+Names, :Goal): hosts linked in a row.
+
+:- meta_predicate
+    line(+, 0),
+    line(+, +, 0).
+
+line(Names, Goal) :-
+    line(Names, [], Goal).
+
+line(Names, Options, Goal) :-
+    findall(Name-Options, member(Name, Names), Specs),
+    with_hosts(Specs, ( link_all(Names), once(Goal) )).
+
+link_all([A,B|Names]) :-
+    !,
+    link(A, B),
+    link_all([B|Names]).
+link_all(_).
+
+emit(Host, Problem) :-
+    emit(Host, Problem, []).
+
+emit(Host, Problem, Options) :-
+    remote(Host, emit(Problem, Options)).
+
+%   What is at Host: Strength-Name of the source.
+
+at(Host, Problem, Found) :-
+    remote(Host, findall(S-Source, pheromone(Problem, Source, S), Found0)),
+    findall(S-Name,
+            ( member(S-Source, Found0), name_of(Source, Name) ),
+            Found).
+
+name_of(Address, Name) :-
+    sub_atom(Address, Before, _, _, @),
+    !,
+    sub_atom(Address, 0, Before, _, Name).
+
+reaches(Host, Problem) :-
+    wait_until(\+ at(Host, Problem, []), 10).
+
+gone(Host, Problem) :-
+    wait_until(at(Host, Problem, []), 10).
+
+close_to(X, Y) :-
+    abs(X - Y) < 1.0e-9.
+
+:- begin_tests(pheromone_form).
+
+test(strength, [ forall(member(D-S, [1-100, 2-75, 3-50, 4-25, 5-0, 9-0])),
+                 true(close_to(Strength, S)) ]) :-
+    pheromone_strength(100, 4, D, Strength).
+test(until, [ forall(member(D-U, [1-37, 2-27, 3-17, 4-7, 5-7])),
+              true(Until =:= U) ]) :-
+    pheromone_until(7, 10, 3, D, Until).
+
+:- end_tests(pheromone_form).
+
+:- begin_tests(pheromone_spreads).
+
+test(down_a_line, Strengths == [100, 75, 50, 25]) :-
+    line([a, b, c, d, e, f],
+         ( emit(a, fire, [span(4)]),
+           emit(a, end, [span(5)]),
+           reaches(f, end),
+           reaches(e, fire),
+           findall(S, ( member(H, [b, c, d, e]),
+                        at(H, fire, [S0-a]),
+                        S is round(S0) ),
+                   Strengths),
+           at(f, fire, []),
+           at(a, fire, []) )).
+test(by_the_shorter_way, Found-Next == [100-a]-a) :-
+    line([a, b, c, d],
+         ( link(d, a),
+           emit(a, fire),
+           wait_until(( at(c, fire, [S-a]), round(S) =:= 67 ), 10),
+           wait_until(( at(d, fire, [T-a]), round(T) =:= 100 ), 10),
+           at(d, fire, Found),
+           remote(d, sense(pheromone(fire, _, _, N, _))),
+           name_of(N, Next) )).
+test(several_kinds_and_sources, F1-F2 == [100-a,100-c]-[100-c]) :-
+    line([a, b, c],
+         ( emit(a, fire), emit(c, fire), emit(c, flood(3)),
+           wait_until(at(b, fire, [_,_]), 10),
+           reaches(b, flood(_)),
+           at(b, fire, F1_), msort(F1_, F1),
+           at(b, flood(_), F2) )).
+test(evaporates_far_ones_first, true(Earlier =:= 20)) :-
+    get_time(Now),
+    line([a, b, c], [clock(Now, 100)],
+         ( emit(a, fire, [span(2), period(20)]),
+           reaches(c, fire),
+           remote(b, sense(pheromone(fire, _, _, _, UB))),
+           remote(c, sense(pheromone(fire, _, _, _, UC))),
+           Earlier is round(UB - UC),
+           gone(c, fire),
+           gone(b, fire) )).
+test(emitting_again_refreshes, true(U2 > U1)) :-
+    line([a, b],
+         ( emit(a, fire),
+           reaches(b, fire),
+           remote(b, sense(pheromone(fire, _, _, _, U1))),
+           emit(a, fire),
+           wait_until(( remote(b, sense(pheromone(fire, _, _, _, U2))),
+                        U2 > U1 ), 10),
+           remote(b, aggregate_all(count, sense(pheromone(_, _, _, _, _)),
+                                   1)) )).
+test(withdrawn_from_everywhere) :-
+    line([a, b, c, d],
+         ( emit(a, fire), emit(b, fire),
+           wait_until(at(c, fire, [_,_]), 10),
+           reaches(d, fire),
+           remote(a, withdraw(fire)),
+           wait_until(at(c, fire, [_-b]), 10),
+           wait_until(at(d, fire, [_-b]), 10) )).
+test(not_over_a_link_that_is_gone) :-
+    line([a, b, c],
+         ( unlink(b, c),
+           emit(a, fire),
+           reaches(b, fire),
+           emit(b, end), unlink(a, b), link(b, c), emit(b, end2),
+           reaches(c, end2),
+           at(c, fire, []) )).
+test(must_be_ground, error(instantiation_error)) :-
+    line([a], emit(a, fire(_))).
+test(unknown_option, error(domain_error(pheromone_option, spam(2)))) :-
+    line([a], emit(a, fire, [spam(2)])).
+test(must_travel, error(type_error(mobile_term, _))) :-
+    stream_property(S, alias(user_input)),
+    line([a], emit(a, fire(S))).
+
+:- end_tests(pheromone_spreads).
+
+:- begin_tests(pheromone_follow).
+
+follower([ (:- agent(follower, [state([problem/1, path/1])])),
+           (main :- here(Here), assertz(path(Here)),
+                    \+ sense(source(here)),
+                    !,
+                    problem(P),
+                    next_host(phercon(P), Next),
+                    move(Next),
+                    main),
+           main,
+           on_message(_, _)
+         ]).
+
+follow(From, Problem, Path) :-
+    follower(Clauses),
+    agent_create(clauses(Clauses), Agent,
+                 [host(From), facts([problem(Problem)])]),
+    wait_state(Agent, resident),
+    agent_property(Agent, facts(Facts)),
+    findall(Name, ( member(path(H), Facts), name_of(H, Name) ), Path),
+    agent_dispose(Agent),
+    agent_join(Agent, disposed, 10).
+
+test(to_the_source, Path == [d, c, b, a]) :-
+    line([a, b, c, d, e],
+         ( remote(a, leave(source(here))),
+           emit(a, fire(1)),
+           reaches(d, fire(1)),
+           link(c, e),
+           follow(d, fire(_), Path) )).
+test(what_it_cannot_solve_is_no_trail, First == e) :-
+    line([e, d, c],
+         ( remote(e, leave(source(here))),
+           emit(c, flood),
+           reaches(d, flood),
+           unlink(c, d),
+           follow(d, fire, [d, First|_]) )).
+test(what_is_asked_for_must_be_solved_whole, Found == []) :-
+    line([a, b],
+         ( emit(a, fire(1)),
+           reaches(b, fire(_)),
+           strategy_memory(1, M),
+           address(b, B), address(a, A),
+           findall(H, next_host(phercon(fire(1, _)), [A], B, M, H, _), [_]),
+           findall(H, typhon_pheromone:followable(B, fire(2), [A], _, H),
+                   Found) )).
+test(strongest_first, Next == a) :-
+    line([a, b, c, d],
+         ( emit(d, fire), emit(a, fire),
+           wait_until(at(b, fire, [_,_]), 10),
+           address(a, A), address(b, B), address(c, C),
+           strategy_memory(1, M),
+           next_host(phercon(fire), [A,C], B, M, H, _),
+           name_of(H, Next) )).
+test(ties_are_drawn, Nexts == [a, c]) :-
+    line([a, b, c],
+         ( emit(a, fire), emit(c, fire),
+           wait_until(at(b, fire, [_,_]), 10),
+           address(a, A), address(b, B), address(c, C),
+           findall(Next,
+                   ( between(1, 20, Seed),
+                     strategy_memory(Seed, M),
+                     next_host(phercon(fire), [A,C], B, M, H, _),
+                     name_of(H, Next) ),
+                   All),
+           sort(All, Nexts) )).
+test(a_trail_over_a_lost_link_is_left, Next == c) :-
+    line([a, b, c],
+         ( emit(a, fire),
+           reaches(b, fire),
+           address(b, B), address(c, C),
+           strategy_memory(1, M),
+           next_host(phercon(fire), [C], B, M, H, _),
+           name_of(H, Next) )).
+
+:- end_tests(pheromone_follow).
+
+:- begin_tests(pheromone_network).
+
+%   Strength is that of the closed form at the distance in the graph.
+
+test(in_two_processes, Wrong == []) :-
+    setup_call_cleanup(
+        network_start(grid(3, 4), Network, [processes(2)]),
+        once(diffused(Network, 4, Wrong)),
+        network_stop(Network)).
+
+diffused(Network, Span, Wrong) :-
+    network_property(Network, hosts(Hosts)),
+    network_property(Network, edges(Edges)),
+    Hosts = [Source|Others],
+    remote(Source, emit(fire, [span(Span)])),
+    distances([Source], Edges, 0, [Source-0], Distances),
+    findall(Host-D,
+            ( member(Host, Others),
+              member(Host-D, Distances),
+              D =< Span,
+              \+ arrives(Host, D, Span) ),
+            Wrong).
+
+arrives(Host, D, Span) :-
+    pheromone_strength(100, Span, D, Expected),
+    wait_until(( remote(Host, pheromone(fire, _, Strength)),
+                 close_to(Strength, Expected) ), 10).
+
+distances([], _, _, Distances, Distances).
+distances([From|Froms], Edges, D, Known, Distances) :-
+    D1 is D + 1,
+    findall(To,
+            ( member(Host, [From|Froms]),
+              ( member(Host-To, Edges) ; member(To-Host, Edges) ),
+              \+ memberchk(To-_, Known) ),
+            Tos0),
+    sort(Tos0, Tos),
+    findall(To-D1, member(To, Tos), New),
+    append(Known, New, Known1),
+    distances(Tos, Edges, D1, Known1, Distances).
+
+:- end_tests(pheromone_network).

@@ -1,0 +1,87 @@
+:- module(test_tuples, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(plunit)).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [numlist/3]).
+:- use_module(library(typhon)).
+
+/** <module> Facts that are left only where none like them is there
+
+*Threading*: one test at a time; the agents run in all workers.
+*/
+
+%   crowd(+Count, +Clauses, -Outcomes): so many agents of Clauses at once.
+
+crowd(Count, Clauses, Outcomes) :-
+    findall(Agent,
+            ( between(1, Count, I),
+              create(Clauses, Agent, [facts([s(I)])]) ),
+            Agents),
+    maplist(joined, Agents, Outcomes).
+
+all_done(Outcomes) :-
+    maplist(==(done), Outcomes).
+
+:- begin_tests(leave_new).
+
+test(put_where_none_is, Xs == [1]) :-
+    with_hosts([alpha],
+               ( remote(alpha, leave_new(p(1))),
+                 remote(alpha, findall(X, sense(p(X)), Xs)) )).
+test(fails_where_one_unifies, Xs == [1]) :-
+    with_hosts([alpha],
+               ( remote(alpha, leave(p(1))),
+                 \+ remote(alpha, leave_new(p(1))),
+                 \+ remote(alpha, leave_new(p(_))),
+                 remote(alpha, findall(X, sense(p(X)), Xs)) )).
+test(does_not_bind_what_it_finds) :-
+    with_hosts([alpha],
+               ( remote(alpha, leave(p(_))),
+                 \+ remote(alpha, leave_new(p(1))),
+                 remote(alpha, leave_new(q(1))),
+                 remote(alpha, leave_new(p(1, 2))) )).
+test(again_when_it_was_taken, Xs == [2]) :-
+    with_hosts([alpha],
+               ( remote(alpha, ( leave_new(p(1)), take(p(1)),
+                                 leave_new(p(2)) )),
+                 remote(alpha, findall(X, sense(p(X)), Xs)) )).
+test(each_host_for_itself) :-
+    with_hosts([alpha,beta],
+               ( remote(alpha, leave_new(p)), remote(beta, leave_new(p)) )).
+test(what_cannot_travel, error(type_error(mobile_term, _))) :-
+    with_hosts([alpha],
+               ( current_output(Out), remote(alpha, leave_new(p(Out))) )).
+test(no_fact, error(type_error(callable, 3))) :-
+    with_hosts([alpha], remote(alpha, leave_new(3))).
+
+%   Whatever the order: each key has one owner.
+
+test(of_many_one_succeeds, Owned == Keys) :-
+    numlist(1, 300, Keys),
+    with_hosts([alpha],
+               ( crowd(20, [ (main :- forall(between(1, 300, K), claim(K))),
+                             (claim(K) :- leave_new(key(K))
+                                       -> s(I), leave(owns(K, I))
+                                       ;  true) ], Outcomes),
+                 all_done(Outcomes),
+                 remote(alpha, findall(K, sense(owns(K, _)), Owned0)) )),
+    msort(Owned0, Owned).
+
+%   A lock: who left it may do what cannot be done by two at a time.
+
+test(a_lock, Count == 400) :-
+    with_hosts([alpha],
+               ( remote(alpha, leave(count(0))),
+                 crowd(8, [ (main :- times(50)),
+                            times(0),
+                            (times(N) :- N > 0, lock, add,
+                                         N1 is N-1, times(N1)),
+                            (lock :- leave_new(lock) -> true
+                                  ;  sleep(0.001), lock),
+                            (add :- take(count(C0)), C is C0+1,
+                                    leave(count(C)), take(lock)) ], Outcomes),
+                 all_done(Outcomes),
+                 remote(alpha, sense(count(Count))) )).
+
+:- end_tests(leave_new).

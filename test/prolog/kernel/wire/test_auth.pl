@@ -1,0 +1,260 @@
+:- module(test_auth, []).
+
+:- use_module('../../../lib/common').
+:- use_module(library(filesex), [chmod/2, directory_file_path/3]).
+:- use_module(library(plunit)).
+:- use_module(library(settings), [set_setting/2, setting/2]).
+:- use_module(library(socket)).
+:- use_module(library(thread), [concurrent/3]).
+:- use_module(library(typhon/kernel/wire/handshake)).
+
+:- begin_tests(cookie_is_private).
+
+test(value, Cookie == "value of the environment") :-
+    with_env('TYPHON_COOKIE', 'value of the environment', cookie(Cookie)).
+test(made_on_first_use) :-
+    with_tmp_dir(made_on_first_use).
+test(others_may_read, error(permission_error(use, cookie_file, _))) :-
+    with_tmp_dir(others_may_read(0o640)).
+test(others_may_write, error(permission_error(use, cookie_file, _))) :-
+    with_tmp_dir(others_may_read(0o602)).
+test(empty, error(permission_error(use, cookie_file, _))) :-
+    with_tmp_dir(empty_file).
+test(why_it_is_not_used, [ forall(member(Why-Text,
+                                         [ others_may_read(0o644)-'chmod 600',
+                                           empty_file-'16 characters' ])) ]) :-
+    catch(( with_tmp_dir(Why), Said = none ),
+          error(permission_error(use, cookie_file, _), context(_, Said)),
+          true),
+    assertion(sub_atom(Said, _, _, _, Text)).
+test(twenty_at_once) :-
+    with_tmp_dir(twenty_at_once).
+
+made_on_first_use(Dir) :-
+    directory_file_path(Dir, cookie, File),
+    with_env('TYPHON_COOKIE_FILE', File,
+             ( cookie(Cookie), cookie(Again) )),
+    assertion(Cookie == Again),
+    assertion(string_length(Cookie, 64)),
+    directory_files(Dir, Files),
+    subtract(Files, ['.', '..'], Left),
+    assertion(Left == [cookie]).
+
+others_may_read(Mode, Dir) :-
+    directory_file_path(Dir, cookie, File),
+    with_env('TYPHON_COOKIE_FILE', File,
+             ( cookie(_), chmod(File, Mode), sleep_past(File), cookie(_) )).
+
+%   The cookie of a file that has not changed is not read again.
+
+sleep_past(File) :-
+    time_file(File, Time),
+    Later is Time+2,
+    set_time_file(File, [], [modified(Later)]).
+
+empty_file(Dir) :-
+    directory_file_path(Dir, cookie, File),
+    open(File, write, Out),
+    close(Out),
+    chmod(File, 0o600),
+    with_env('TYPHON_COOKIE_FILE', File, cookie(_)).
+
+twenty_at_once(Dir) :-
+    directory_file_path(Dir, cookie, File),
+    with_env('TYPHON_COOKIE_FILE', File,
+             ( findall(cookie(Cookie)-Cookie, between(1, 20, _), Pairs),
+               pairs_keys_values(Pairs, Goals, Cookies),
+               concurrent(20, Goals, []) )),
+    sort(Cookies, Distinct),
+    assertion(Distinct = [_]).
+
+:- end_tests(cookie_is_private).
+
+:- begin_tests(peers_prove_themselves).
+
+test(both_know_it, [ClientSees-ServerSees == ServerHello-ClientHello]) :-
+    hello(client, 1, 'c:1', ClientHello),
+    hello(server, 7, 's:2', ServerHello),
+    meeting(authenticate_as(server, ServerHello, "same"),
+            authenticate_as(client, ClientHello, "same"),
+            true(ServerSees), true(ClientSees)).
+test(wrong_cookie, [Server-Client == Expected]) :-
+    Expected = cookie-closed,
+    hello(x, 1, 'c:1', Hello),
+    meeting(authenticate_as(server, Hello, "one cookie"),
+            authenticate_as(client, Hello, "another cookie"),
+            error(permission_error(authenticate, peer, Server), _),
+            error(ClientError, _)),
+    (   memberchk(ClientError, [syntax_error(_), socket_error(_, _),
+                                io_error(_, _)])
+    ->  Client = closed
+    ;   Client = ClientError
+    ).
+test(reflected, Why == cookie) :-
+    hello(x, 1, 'c:1', Hello),
+    meeting(authenticate_as(server, Hello, "cookie"), reflect,
+            error(permission_error(authenticate, peer, Why), _), _).
+test(something_else) :-
+    refusal(say("GET / HTTP/1.1\r\n\r\n"),
+            permission_error(authenticate, peer, protocol)).
+test(garbage) :-
+    numlist(0, 255, Codes0),
+    append([Codes0, Codes0, Codes0], Codes),
+    delete(Codes, 10, Line),
+    string_codes(Garbage, Line),
+    refusal(say(Garbage), syntax_error(line)).
+test(endless_line) :-
+    refusal(endless, syntax_error(line)).
+test(closes_at_once) :-
+    refusal(say(""), syntax_error(end_of_file)).
+test(silent, [setup(quick), cleanup(usual)]) :-
+    in_time(refusal(silent, timeout_error(_, _))).
+test(trickles, [setup(quick), cleanup(usual)]) :-
+    in_time(refusal(trickle, timeout_error(_, _))).
+test(bad_hello) :-
+    hello(x, 1, 'c:1', Hello),
+    meeting(authenticate_as(server, Hello, "cookie"),
+            authenticate_as(client, hello(a, 1, 'a b', 1, 1, 1), "cookie"),
+            error(Server, _), _),
+    assertion(Server = syntax_error(hello)).
+
+quick :- set_setting(typhon_handshake:handshake_time, 0.5).
+usual :- set_setting(typhon_handshake:handshake_time, 5).
+
+in_time(Goal) :-
+    get_time(T0),
+    call(Goal),
+    get_time(T1),
+    assertion(T1-T0 < 4).
+
+refusal(Client, Formal) :-
+    hello(x, 1, 'c:1', Hello),
+    meeting(authenticate_as(server, Hello, "cookie"), Client,
+            error(Error, _), _),
+    assertion(Error = Formal).
+
+say(Text, _, Out) :-
+    write(Out, Text),
+    flush_output(Out).
+
+silent(In, _) :-
+    read_string(In, _, _).
+
+trickle(In, Out) :-
+    forall(between(1, 200, _),
+           (   wait_for_input([In], [], 0.02)
+           ->  write(Out, "t"),
+               flush_output(Out)
+           ;   true
+           )).
+
+endless(_, Out) :-
+    forall(between(1, 100000, _), write(Out, "typhon 2 ")),
+    flush_output(Out).
+
+%   Says back whatever it hears.
+
+reflect(In, Out) :-
+    hello(x, 1, 'c:1', Hello),
+    hello_line(Hello, HelloLine),
+    format(string(First), "typhon 2 00 ~w", [HelloLine]),
+    line_write(Out, First),
+    get_time(Now),
+    Deadline is Now+5,
+    line_read(In, Deadline, _),
+    line_write(Out, "00").
+
+:- end_tests(peers_prove_themselves).
+
+:- begin_tests(codec_is_settled_by_the_hellos).
+
+test(same, Codec == fast) :-
+    hello(p, 1, a, Hello),
+    hello_codec(Hello, Hello, Codec).
+test(within_the_tried_range, Codec == fast) :-
+    hello(p, 1, a, hello(P, S, A, _, W, O)),
+    hello_codec(hello(P, S, A, 90004, W, O), hello(P, S, A, 90209, W, O),
+                Codec).
+test(the_same_outside, Codec == fast) :-
+    hello(p, 1, a, hello(P, S, A, _, W, O)),
+    hello_codec(hello(P, S, A, 100112, W, O), hello(P, S, A, 100112, W, O),
+                Codec).
+test(outside, Codec == text) :-
+    hello(p, 1, a, hello(P, S, A, _, W, O)),
+    hello_codec(hello(P, S, A, 90004, W, O), hello(P, S, A, 100112, W, O),
+                Codec).
+test(other_word_size, Codec == text) :-
+    hello(p, 1, a, Hello),
+    Hello = hello(P, S, A, V, W, O),
+    Other is 96-W,                      % 32 or 64
+    hello_codec(Hello, hello(P, S, A, V, Other, O), Codec).
+test(other_byte_order, Codec == text) :-
+    hello(p, 1, a, Hello),
+    Hello = hello(P, S, A, V, W, _),
+    hello_codec(Hello, hello(P, S, A, V, W, big), Codec).
+test(untried_version, Codec == text) :-
+    hello(p, 1, a, Hello),
+    Hello = hello(P, S, A, _, W, O),
+    hello_codec(Hello, hello(P, S, A, 990000, W, O), Codec).
+test(without_records, Codecs == [text, text, text]) :-
+    hello(p, 1, a, With),
+    setting(typhon_handshake:records, Old),
+    setup_call_cleanup(
+        set_setting(typhon_handshake:records, false),
+        hello(p, 1, a, Without),
+        set_setting(typhon_handshake:records, Old)),
+    findall(Codec,
+            ( member(Mine-Theirs,
+                     [With-Without, Without-With, Without-Without]),
+              hello_codec(Mine, Theirs, Codec)
+            ),
+            Codecs).
+
+:- end_tests(codec_is_settled_by_the_hellos).
+
+%   meeting(:Server, :Client, -ServerResult, -ClientResult): both are
+%   called with the two streams of their end; a result is true(X), what
+%   authenticate/6 saw, or the exception.
+
+:- meta_predicate
+    meeting(2, 2, -, -),
+    with_env(+, +, 0).
+
+meeting(Server, Client, ServerResult, ClientResult) :-
+    tcp_socket(Socket),
+    tcp_bind(Socket, '127.0.0.1':Port),
+    tcp_listen(Socket, 5),
+    thread_self(Me),
+    thread_create(( tcp_accept(Socket, Slave, _),
+                    at_end(Slave, Server, Result),
+                    thread_send_message(Me, server(Result)) ), Thread),
+    tcp_socket(ClientSocket),
+    tcp_connect(ClientSocket, '127.0.0.1':Port),
+    at_end(ClientSocket, Client, ClientResult0),
+    thread_get_message(server(ServerResult0)),
+    thread_join(Thread),
+    tcp_close_socket(Socket),
+    ServerResult = ServerResult0,
+    ClientResult = ClientResult0.
+
+at_end(Socket, Goal, Result) :-
+    setup_call_cleanup(
+        tcp_open_socket(Socket, In, Out),
+        catch(( set_stream(In, encoding(octet)),
+                set_stream(Out, encoding(octet)),
+                call(Goal, In, Out),
+                Result = true(Seen),
+                (   nb_current(seen, Seen0) -> Seen = Seen0 ; true ) ),
+              Result, true),
+        ( close(Out, [force(true)]), close(In, [force(true)]) )).
+
+authenticate_as(Role, Hello, Cookie, In, Out) :-
+    authenticate(Role, In, Out, Hello, =(Cookie), Peer),
+    nb_setval(seen, Peer).
+
+with_env(Name, Value, Goal) :-
+    (   getenv(Name, Old)
+    ->  Restore = setenv(Name, Old)
+    ;   Restore = unsetenv(Name)
+    ),
+    setup_call_cleanup(setenv(Name, Value), Goal, Restore).

@@ -1,0 +1,191 @@
+:- module(test_bundle, []).
+
+/** <module> Many small posts: few frames, each post once and in order
+
+*Threading*: the peer is another process.
+*/
+
+:- use_module('../../../lib/common').
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [append/3, member/2, numlist/3]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(settings), [set_setting/2, setting/2]).
+:- use_module(library(thread), [concurrent_forall/3]).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/travel/post), []).
+:- use_module(library(typhon/kernel/wire/frame)).
+:- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
+:- use_module(library(typhon/kernel/wire/session), [route/2, session_key/2]).
+:- use_module(library(typhon/kernel/wire/unacked),
+              [session_sent/2, unacked_waiting/1]).
+
+:- dynamic note/2.                      % Note, Thread
+
+:- multifile typhon_endpoint:received/3.
+
+typhon_endpoint:received(note, Note, _) :-
+    thread_self(Me),
+    assertz(note(Note, Me)).
+
+:- meta_predicate with_peer(-, 0).
+
+with_peer(Address, Goal) :-
+    project_file('test/lib/endpoint_peer.pl', File),
+    no_leaks(setup_call_cleanup(
+        endpoint_start(localhost, 0, _),
+        with_swipl(['-g', 'serve(0)', File], _, _, Out,
+                   ( read_line_to_string(Out, Line),
+                     atom_string(Address, Line),
+                     once(Goal) )),
+        endpoint_stop)).
+
+post_notes(Address, From, To) :-
+    forall(between(From, To, I), endpoint_post(Address, note, I)).
+
+notes(Address, Notes) :-
+    endpoint_call(Address, notes, x, answer(Notes), 20).
+
+session(Address, Session) :-
+    once(route(Address, Session)).
+
+:- begin_tests(many_small_posts).
+
+test(take_few_frames, true(Frames < 1500)) :-
+    numlist(1, 3000, Sent),
+    with_peer(A, ( post_notes(A, 1, 3000),
+                   notes(A, Notes),
+                   assertion(Notes == Sent),
+                   session(A, Session),
+                   session_sent(Session, Frames) )).
+test(as_text, [ setup(( setting(typhon_handshake:records, Old),
+                        set_setting(typhon_handshake:records, false) )),
+                cleanup(set_setting(typhon_handshake:records, Old)),
+                true(Notes == Sent) ]) :-
+    numlist(1, 500, Sent),
+    with_peer(A, ( post_notes(A, 1, 500), notes(A, Notes) )).
+test(stay_in_order_with_long_ones, true(Notes == Sent)) :-
+    numlist(1, 40, Numbers),
+    maplist(long_or_short, Numbers, Some),
+    append(Some, Some, Twice),
+    append(Twice, Twice, Sent),
+    with_peer(A, ( forall(member(Note, Sent), endpoint_post(A, note, Note)),
+                   notes(A, Notes) )).
+
+%   Nor is the peer asked for a sign of life.
+
+test(go_though_nothing_follows) :-
+    with_settings([typhon_reader:silence=100],
+        with_peer(A, ( post_notes(A, 1, 200),
+                       session(A, Session),
+                       session_key(Session, Key),
+                       wait_until(\+ unacked_waiting(Key), 20) ))).
+test(arrive_before_the_endpoint_stops, true(Flushed == true)) :-
+    with_settings([typhon_reader:silence=100],
+        with_peer(A, ( post_notes(A, 1, 500),
+                       (   endpoint_flush(20)
+                       ->  Flushed = true
+                       ;   Flushed = false
+                       ) ))).
+test(of_many_threads, true(Sorted == Sent)) :-
+    numlist(1, 2000, Sent),
+    with_peer(A, ( concurrent_forall(member(From, [1, 501, 1001, 1501]),
+                                     ( To is From+499,
+                                       post_notes(A, From, To) ),
+                                     [threads(4)]),
+                   notes(A, Notes),
+                   msort(Notes, Sorted) )).
+test(to_oneself_are_taken_at_once, true(Found == [1-Me, 2-Me])) :-
+    thread_self(Me),
+    setup_call_cleanup(
+        endpoint_start(localhost, 0, Own),
+        ( post_notes(Own, 1, 2),
+          findall(Note-Thread, note(Note, Thread), Found) ),
+        endpoint_stop).
+
+long_or_short(I, Note) :-
+    (   I mod 7 =:= 0
+    ->  length(Note, 300),
+        maplist(=(I), Note)
+    ;   Note = I
+    ).
+
+:- end_tests(many_small_posts).
+
+:- begin_tests(bundles).
+
+test(one_part_is_not_a_term, true(Notes == [1, 2])) :-
+    term_bytes(fast, post(note, 1), One),
+    term_bytes(fast, post(note, 2), Two),
+    with_peer(A, ( notes(A, []),
+                   session(A, Session),
+                   session_send(Session, bundle([One, "#-0 f((. ", Two])),
+                   notes(A, Notes) )).
+test(is_none, [ forall(member(Bundle, [bundle(x), bundle([x]), bundle(_)])),
+                true(Notes == []) ]) :-
+    with_peer(A, ( notes(A, []),
+                   session(A, Session),
+                   session_send(Session, Bundle),
+                   notes(A, Notes) )).
+
+:- end_tests(bundles).
+
+		 /*******************************
+		 *         WITHOUT A WIRE       *
+		 *******************************/
+
+:- meta_predicate with_queue(+, -, 0).
+
+with_queue(Frames, Queue, Goal) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( forall(member(Frame, Frames), thread_send_message(Queue, Frame)),
+          once(Goal) ),
+        message_queue_destroy(Queue)).
+
+:- begin_tests(what_waits).
+
+test(loose_ones_go_together, true(Many-Left == true-0)) :-
+    with_queue([loose("a"), loose("b")], Queue,
+               ( bundle_next(Queue, fast, inf, Bytes, Many),
+                 message_queue_property(Queue, size(Left)) )),
+    fast_term_serialized(Bundle, Bytes),
+    bundle_parts(Bundle, Parts),
+    assertion(Parts == ["a", "b"]).
+test(one_goes_as_it_is, true(Frames == ["a", "B", "c"])) :-
+    with_queue([loose("a"), "B", loose("c")], Queue,
+               bundle_all(Queue, fast, Frames)).
+test(what_does_not_fit_stays, true(Size == 2)) :-
+    with_queue(["long", loose("b")], Queue,
+               ( \+ bundle_next(Queue, fast, 3, _, _),
+                 message_queue_property(Queue, size(Size)) )).
+test(no_more_than_fit, true(Size == 1)) :-
+    with_queue([loose("aaaa"), loose("bbbb"), loose("cccc")], Queue,
+               ( bundle_next(Queue, fast, 30, _, true),
+                 message_queue_property(Queue, size(Size)) )).
+test(no_more_than_a_hundred, true(Count == 3)) :-
+    findall(loose("a"), between(1, 250, _), Frames0),
+    with_queue(Frames0, Queue,
+               ( bundle_all(Queue, fast, Frames), length(Frames, Count) )).
+test(nothing, fail) :-
+    with_queue([], Queue, bundle_next(Queue, fast, inf, _, _)).
+
+:- end_tests(what_waits).
+
+:- begin_tests(letters_that_come_together).
+
+test(are_one_for_each_agent,
+     true(Fewer == [ message(a, [mail(x,u,1), mail(y,v,2)], 9),
+                     message(b, [mail(x,u,3)], 5) ])) :-
+    together([ message(a, [mail(x,u,1)], 7), message(b, [mail(x,u,3)], 5),
+               message(a, [mail(y,v,2)], 9) ], Fewer).
+test(are_taken_one_by_one_when_one_is_odd,
+     [ forall(member(Odd, [ lost(x, a, []), message(a, [], many), nonsense,
+                            message(_, [], 1), message(a, [x|_], 1) ])),
+       fail ]) :-
+    together([message(a, [mail(x,u,1)], 7), Odd], _).
+
+together(Letters, Fewer) :-
+    typhon_endpoint:together(message, Letters, Fewer).
+
+:- end_tests(letters_that_come_together).

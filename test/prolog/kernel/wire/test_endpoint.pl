@@ -1,0 +1,758 @@
+:- module(test_endpoint, []).
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/cutting_proxy').
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [numlist/3]).
+:- use_module(library(plunit)).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(random), [random_between/3]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(socket)).
+:- use_module(library(thread), [concurrent_forall/3]).
+:- use_module(library(typhon/kernel/base/spawn), [spawn/3]).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/wire/endpoint), [endpoint_process/1]).
+
+:- dynamic
+    note/1,                             % Note, posted to us
+    seen/2.                             % Peer, State
+
+:- multifile
+    typhon_endpoint:received/3,
+    typhon_endpoint:requested/4,
+    typhon_endpoint:connection/2.
+
+typhon_endpoint:received(note, Note, _) :-
+    assertz(note(Note)).
+typhon_endpoint:requested(echo, Term, _, ReplyTo) :-
+    endpoint_reply(ReplyTo, Term).
+typhon_endpoint:connection(Peer, State) :-
+    assertz(seen(Peer, State)).
+
+		 /*******************************
+		 *           FIXTURES           *
+		 *******************************/
+
+:- meta_predicate
+    with_endpoint(0),
+    with_peer(-, 0),
+    with_peer(+, -, -, 0),
+    with_listener(+, -, 0),
+    with_deaf(-, 0),
+    quiet(0).
+
+with_endpoint(Goal) :-
+    retractall(note(_)),
+    retractall(seen(_, _)),
+    setup_call_cleanup(
+        endpoint_start(localhost, 0, _),
+        once(Goal),
+        endpoint_stop).
+
+with_peer(Address, Goal) :-
+    with_peer(0, _, Address, Goal).
+
+with_peer(Port, Pid, Address, Goal) :-
+    project_file('test/lib/endpoint_peer.pl', File),
+    format(atom(Serve), 'serve(~d)', [Port]),
+    with_swipl(['-g', Serve, File], Pid, _, Out,
+               ( read_line_to_string(Out, Line),
+                 atom_string(Address, Line),
+                 call(Goal) )).
+
+%   Warnings are expected in Goal.
+
+:- dynamic silenced/0, warned/1.
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(endpoint, Term), Kind, _) :-
+    memberchk(Kind, [warning, error, informational]),
+    silenced,
+    assertz(warned(Term)).
+
+quiet(Goal) :-
+    retractall(warned(_)),
+    setup_call_cleanup(
+        assertz(silenced),
+        Goal,
+        retractall(silenced)).
+
+ask(Address, Kind, Term, Answer) :-
+    endpoint_call(Address, Kind, Term, answer(Answer), 20).
+
+port_of(Address, Port) :-
+    atomic_list_concat([_, PortText], :, Address),
+    atom_number(PortText, Port).
+
+open_stranger(Address, Stream) :-
+    port_of(Address, Port),
+    tcp_connect('127.0.0.1':Port, Stream, []).
+
+%   with_listener(+Queue, -Address, :Goal): so many that connect to Address may
+%   wait there; with_deaf(-Address, :Goal): one does, and no more may.
+
+with_listener(Queue, Address, Goal) :-
+    setup_call_cleanup(
+        ( tcp_socket(Socket),
+          tcp_bind(Socket, '127.0.0.1':Port),
+          tcp_listen(Socket, Queue),
+          atomic_list_concat(['127.0.0.1', Port], :, Address) ),
+        Goal,
+        tcp_close_socket(Socket)).
+
+with_deaf(Address, Goal) :-
+    with_listener(0, Address,
+        setup_call_cleanup(
+            open_stranger(Address, First),
+            Goal,
+            close(First))).
+
+post_notes(Address, From, To) :-
+    forall(between(From, To, I), endpoint_post(Address, note, I)).
+
+%   The thread that calls this is told to end, once.
+
+:- dynamic to_end/0.
+:- public told_to_end/0.
+
+told_to_end :-
+    (   retract(to_end)
+    ->  thread_self(Me),
+        typhon_threads:wire_thread_signal(Me, broken)
+    ;   true
+    ).
+
+%   posting(+Address, -Thread), posted(+Thread, -Outcome)
+
+posting(Address, Thread) :-
+    thread_create(post_one(Address), Thread).
+
+post_one(Address) :-
+    catch(( endpoint_post(Address, note, x),
+            Outcome = posted ),
+          error(unreachable(_), _),
+          Outcome = unreachable),
+    thread_exit(Outcome).
+
+posted(Thread, Outcome) :-
+    thread_join(Thread, exited(Outcome)).
+
+waiting(Address, Count) :-
+    aggregate_all(count, typhon_attempts:waiter(Address, _, _), Count).
+
+%   with_held(+Head, :First, :Then): Then is called when Head, of the wire, is
+%   about to be called in First; it is on `go` to the gate.
+
+:- meta_predicate with_held(:, 0, 0).
+:- dynamic to_hold/0.
+:- public hold_once/0.
+
+with_held(Head, First, Then) :-
+    setup_call_cleanup(
+        message_queue_create(Gate, [alias(endpoint_gate)]),
+        ( wrap_predicate(Head, held, Wrapped,
+                         ( test_endpoint:hold_once, Wrapped )),
+          assertz(to_hold),
+          call(First),
+          thread_get_message(Gate, held, [timeout(20)]),
+          call(Then) ),
+        message_queue_destroy(Gate)).
+
+hold_once :-
+    (   retract(to_hold)
+    ->  thread_send_message(endpoint_gate, held),
+        thread_get_message(endpoint_gate, go)
+    ;   true
+    ).
+
+		 /*******************************
+		 *            TESTS             *
+		 *******************************/
+
+:- begin_tests(two_processes_talk).
+
+test(call, Answer == foo(1, "two", [3.0])) :-
+    with_endpoint(with_peer(A, ask(A, echo, foo(1, "two", [3.0]), Answer))).
+test(posts_arrive_in_order, Notes == Sent) :-
+    numlist(1, 2000, Sent),
+    with_endpoint(with_peer(A, ( post_notes(A, 1, 2000),
+                                 ask(A, notes, x, Notes) ))).
+test(peer_posts_back, Got == Expected) :-
+    numlist(1, 500, Expected),
+    with_endpoint(with_peer(A, ( ask(A, back, 500, done),
+                                 findall(N, note(N), Got) ))).
+test(answered_later_by_another_thread, Answer == x) :-
+    with_endpoint(with_peer(A, ask(A, later, x, Answer))).
+test(answer_not_in_time, error(timeout_error(answer, _))) :-
+    with_endpoint(with_peer(A, endpoint_call(A, never, x, _, 0.2))).
+test(hook_that_raises, error(connection_lost(_))) :-
+    with_endpoint(with_peer(A, ask(A, wrong, x, _))).
+test(no_hook, error(connection_lost(_))) :-
+    with_endpoint(with_peer(A, ask(A, unheard_of, x, _))).
+test(large_terms_both_ways) :-
+    length(Long, 300000),
+    maplist(=(x), Long),
+    with_endpoint(with_peer(A,
+        concurrent_forall(between(1, 8, _),
+                          ( ask(A, echo, Long, Back), Back == Long ),
+                          [threads(4)]))).
+test(many_threads) :-
+    with_endpoint(with_peer(A,
+        concurrent_forall(between(1, 8, T),
+                          forall(between(1, 200, I),
+                                 ask(A, echo, T-I, T-I)),
+                          [threads(8)]))).
+test(itself, Answer-Codec == x-fast) :-
+    with_endpoint(( endpoint_address(Me),
+                    ask(Me, echo, x, Answer),
+                    endpoint_peer(Me, codec(Codec)) )).
+test(properties, [State, Pending, Same] == [up, 0, false]) :-
+    with_endpoint(with_peer(A,
+        ( ask(A, echo, x, x),
+          endpoint_flush(5),
+          endpoint_peer(A, state(State)),
+          endpoint_peer(A, pending(Pending)),
+          endpoint_peer(A, process(P)),
+          endpoint_process(Mine),
+          (   P == Mine -> Same = true ; Same = false ) ))).
+test(what_cannot_travel, error(type_error(mobile_term, S))) :-
+    stream_property(S, alias(user_error)),
+    with_endpoint(with_peer(A, endpoint_post(A, note, S))).
+test(too_long_for_a_frame, error(resource_error(frame_bytes))) :-
+    numlist(1, 100000, Long),
+    with_endpoint(with_peer(A,
+        ( ask(A, echo, x, x),
+          with_settings([typhon_session:frame_bytes=100000],
+                       ask(A, echo, Long, _)) ))).
+
+:- end_tests(two_processes_talk).
+
+:- begin_tests(nobody_there).
+
+test(refused, error(unreachable('127.0.0.1:1'))) :-
+    with_endpoint(endpoint_post('127.0.0.1:1', note, x)).
+test(no_address, error(unreachable(nonsense))) :-
+    with_endpoint(endpoint_post(nonsense, note, x)).
+test(request, Result == unreachable) :-
+    with_endpoint(( thread_self(Me),
+                    endpoint_request('127.0.0.1:1', echo, x,
+                                     thread_send_message(Me)),
+                    thread_get_message(Me, Result, [timeout(10)]) )).
+test(not_running, error(existence_error(endpoint, _))) :-
+    endpoint_post('127.0.0.1:1', note, x).
+test(listens_and_is_silent, error(unreachable(_))) :-
+    with_endpoint(with_settings([typhon_connection_manager:connect_time=1],
+        with_settings([typhon_handshake:handshake_time=0.3],
+                     with_listener(5, A, endpoint_post(A, note, x))))).
+test(twice, error(permission_error(start, endpoint, _))) :-
+    with_endpoint(endpoint_start(localhost, 0, _)).
+
+%   An attempt has been refused, and the keeper has yet to hear of it, as a peer
+%   begins to listen: who asks from then on is not told of that attempt.
+
+test(who_asks_since_hears_of_a_later_attempt,
+     [First,Then,Answer] == [unreachable,posted,answer(x)]) :-
+    free_port(Port),
+    atomic_list_concat(['127.0.0.1', Port], :, A),
+    thread_self(Me),
+    with_endpoint(
+        with_held(
+            typhon_connection:missed(_, _), posting(A, T1),
+            with_peer(Port, _, A,
+                      ( endpoint_request(A, echo, x, thread_send_message(Me)),
+                        posting(A, T2),
+                        wait_until(waiting(A, 2), 10),
+                        thread_send_message(endpoint_gate, go),
+                        posted(T1, First),
+                        posted(T2, Then),
+                        thread_get_message(Me, Answer, [timeout(20)]) )))).
+
+:- end_tests(nobody_there).
+
+:- begin_tests(every_frame_once_over_breaking_connections).
+
+test(cut_on_command) :-
+    cut_while_posting(up, 600, [Proxy]>>proxy_cut(Proxy)).
+test(cut_after_some_bytes, [forall(member(Direction, [up, down]))]) :-
+    cut_while_posting(Direction, 600,
+        [Proxy]>>( random_between(1, 3000, Bytes),
+                   proxy_cut_after(Proxy, Direction, Bytes) )).
+test(requests_survive_cuts) :-
+    with_proxied_peer(Proxy, A,
+        concurrent_forall(between(1, 4, T),
+                          forall(between(1, 100, I),
+                                 ( cut_now_and_then(Proxy, I),
+                                   ask_again(A, T-I) )),
+                          [threads(4)])).
+test(peer_posts_over_cuts, Got == Expected) :-
+    numlist(1, 800, Expected),
+    with_proxied_peer(Proxy, A,
+        ( proxy_cut_after(Proxy, down, 5000),
+          ask(A, back, 800, done),
+          findall(N, note(N), Got) )).
+test(half_open, [Notes == [1, 2]]) :-
+    with_settings([typhon_reader:silence=0.3],
+        with_proxied_peer(Proxy, A,
+            ( post_notes(A, 1, 1),
+              endpoint_flush(5),
+              proxy_hold(Proxy, up),
+              post_notes(A, 2, 2),
+              quiet(( wait_until(seen_down(A), 20),
+                      proxy_release(Proxy, up),
+                      endpoint_flush(10) )),
+              ask(A, notes, x, Notes) ))).
+test(flush_says_when_not, fail) :-
+    with_proxied_peer(Proxy, A,
+        ( post_notes(A, 1, 1),
+          endpoint_flush(5),
+          proxy_hold(Proxy, up),
+          post_notes(A, 2, 2),
+          endpoint_flush(0.2) )).
+test(two_addresses_of_one_process, Same == true) :-
+    with_proxied_peer(_, A,
+        ( ask(A, echo, 1, 1),
+          once(( endpoint_peer(B, state(up)), B \== A )),
+          ask(B, echo, 2, 2),
+          endpoint_peer(A, process(P1)),
+          endpoint_peer(B, process(P2)),
+          (   P1 == P2 -> Same = true ; Same = false ) )).
+
+test(both_connect_at_once) :-
+    with_endpoint(with_peer(A, with_peer(B,
+        ( concurrent_forall(member(X-Y, [A-B, B-A]),
+                            ask(X, greet, Y-100, done),
+                            [threads(2)]),
+          numlist(1, 100, Expected),
+          forall(member(X, [A, B]),
+                 ( wait_until(all_there(X, 100, Notes), 20),
+                   assertion(Notes == Expected) )) )))).
+
+%   The old connection is no more, the new one has yet to begin: that is ours,
+%   as nothing is on its way from the peer.
+
+test(what_is_posted_by_some_time_waits_for_the_next_connection,
+     [Up,Last,Notes] == [false,true,[0,1]]) :-
+    with_endpoint(with_peer(A,
+        ( endpoint_post(A, note, 0),
+          endpoint_flush(20),
+          typhon_session:route(A, Session),
+          typhon_resumption:session_retire(Session),
+          with_held(
+              typhon_resumption:say_count(_, _),
+              thread_create(typhon_connection_manager:manager_connect(A), Connects),
+              ( truth(endpoint_post_up(A, note, 1), Up),
+                thread_create(( thread_send_message(endpoint_gate, posts),
+                                ( get_time(Now), By is Now+20,
+                                  endpoint_post_by(By, A, note, 1) ) ), Posts),
+                thread_get_message(endpoint_gate, posts, [timeout(20)]),
+                thread_send_message(endpoint_gate, go),
+                thread_join(Connects, _),
+                thread_join(Posts, Last) )),
+          ask(A, notes, x, Notes) ))).
+
+truth(Goal, Truth) :-
+    ( call(Goal) -> Truth = true ; Truth = false ).
+
+%   The keeper has it in hand: it is done with it when it answers.
+
+test(who_gives_up_while_it_is_sent_leaves_nothing_open, Open == 0) :-
+    with_endpoint(with_peer(A,
+        ( with_held(
+              typhon_request:request_send(_, _, _, _),
+              thread_create(gives_up(A), Asks),
+              ( thread_join(Asks, true),
+                thread_send_message(endpoint_gate, go),
+                typhon_connection_manager:manager_connect(A) )),
+          aggregate_all(count, typhon_request:open_request(_, _, _), Open) ))).
+
+gives_up(Address) :-
+    catch(endpoint_call(Address, never, x, _, 0.2),
+          error(timeout_error(answer, _), _),
+          true).
+
+%   Somebody else may have a connection with the peer already, or it cannot be
+%   written to: who has installed it is told to end in that moment.
+
+test(told_of_a_connection_whatever_becomes_of_its_thread) :-
+    with_endpoint(with_peer(A,
+        ( wrap_predicate(typhon_resumption:session_install(_, _, _, _),
+                         told_to_end, Wrapped,
+                         ( Wrapped, test_endpoint:told_to_end )),
+          assertz(test_endpoint:to_end),
+          typhon_connection_manager:manager_connect(A),
+          wait_until(\+ endpoint_peer(A, state(up)), 30),
+          assertion(seen(A, up)) ))).
+
+all_there(Address, Count, Notes) :-
+    ask(Address, notes, x, Notes),
+    length(Notes, Count).
+
+seen_down(_) :-
+    seen(_, down),
+    !.
+
+cut_now_and_then(Proxy, I) :-
+    (   I mod 25 =:= 0
+    ->  proxy_cut(Proxy)
+    ;   true
+    ).
+
+%   A request that finds the connection down waits for the next.
+
+ask_again(Address, Term) :-
+    ask(Address, echo, Term, Answer),
+    assertion(Answer == Term).
+
+:- meta_predicate
+    cut_while_posting(+, +, 1),
+    with_proxied_peer(-, -, 0).
+
+with_proxied_peer(Proxy, Address, Goal) :-
+    with_endpoint(
+        with_peer(Peer,
+                  with_proxy(Peer, Proxy,
+                             ( proxy_address(Proxy, Address),
+                               call(Goal) )))).
+
+cut_while_posting(_, Count, Cut) :-
+    with_proxied_peer(Proxy, A,
+        ( forall(between(1, Count, I),
+                 ( (   I mod 50 =:= 0
+                   ->  call(Cut, Proxy)
+                   ;   true
+                   ),
+                   endpoint_post(A, note, I) )),
+          ask(A, notes, x, Notes),
+          numlist(1, Count, Expected),
+          assertion(Notes == Expected) )).
+
+:- end_tests(every_frame_once_over_breaking_connections).
+
+:- begin_tests(damage).
+
+%   What is damaged on its way comes again; what comes damaged for ever is
+%   skipped.  So nothing is damaged while something is to come again: the same
+%   frame might be.
+
+test(on_the_way, Notes == Expected) :-
+    numlist(1, 300, Expected),
+    damaging(( forall(between(1, 300, I),
+                      ( (   I mod 60 =:= 0
+                        ->  endpoint_flush(10),
+                            assertz(damage_next)
+                        ;   true
+                        ),
+                        endpoint_post(A, note, I) )),
+               ask(A, notes, x, Notes) ), A).
+test(by_the_sender, Notes == [1, 3]) :-
+    damaging(( endpoint_post(A, note, 1),
+               endpoint_post(A, note, 'always damaged'),
+               endpoint_post(A, note, 3),
+               ask(A, notes, x, Notes) ), A).
+test(unreadable_request, error(connection_lost(_))) :-
+    as_text(typhon_text:term_text(Term, Bytes), Original,
+            (   Term = request(_, _, zork)
+            ->  Bytes = "f((. "
+            ;   Original
+            ),
+            A, ask(A, echo, zork, _)).
+test(unreadable_answer, error(connection_lost(_))) :-
+    as_text(typhon_text:text_term(Bytes, _), Original,
+            (   sub_string(Bytes, 0, _, _, "answer(")
+            ->  syntax_error(spoilt)
+            ;   Original
+            ),
+            A, ask(A, echo, zork, _)).
+test(more_than_there_is_memory_for, error(connection_lost(_))) :-
+    numlist(1, 100000, Long),
+    with_endpoint(with_peer(A,
+        wrapped(typhon_frame:unmarked(_, _), _, resource_error(memory),
+                ask(A, echo, Long, _)))).
+test(acknowledged_too_much, Notes == [1, 2]) :-
+    with_endpoint(with_peer(A,
+        ( ask(A, echo, x, x),
+          endpoint_post(A, note, 1),
+          once(typhon_session:route(A, Session)),
+          typhon_outbox:session_control(Session, ack(1000000000, 0)),
+          endpoint_post(A, note, 2),
+          ask(A, notes, x, Notes) ))).
+
+:- dynamic damage_next/0.
+:- meta_predicate
+    damaging(0, +),
+    as_text(+, +, +, +, 0).
+
+damaging(Goal, A) :-
+    wrapped(typhon_frame:frame_write(Out, Bytes), Original,
+            plunit_damage:write_damaged(Original, Out, Bytes),
+            with_endpoint(with_peer(A, ( ask(A, echo, x, x), Goal )))).
+
+write_damaged(_, Out, Bytes) :-
+    damaged_now(Bytes),
+    !,
+    typhon_frame:check_bytes(Bytes, Check),
+    string_length(Bytes, Length),
+    string_codes(Bytes, [Code0|Codes]),
+    Code is Code0 xor 64,
+    forall(member(Part, [ Length>>24, Length>>16, Length>>8, Length,
+                          Check>>16, Check>>8, Check ]),
+           ( Byte is Part /\ 255, put_byte(Out, Byte) )),
+    maplist(put_byte(Out), [Code|Codes]).
+write_damaged(Original, _, _) :-
+    call(Original).
+
+damaged_now(_) :-
+    retract(damage_next),
+    !.
+damaged_now(Bytes) :-
+    sub_string(Bytes, _, _, _, "always damaged"),
+    !.
+
+as_text(Head, Original, Body, A, Goal) :-
+    with_settings([typhon_handshake:records=false],
+        with_endpoint(with_peer(A,
+            ( ask(A, echo, x, x),
+              endpoint_peer(A, codec(Codec)),
+              assertion(Codec == text),
+              wrapped(Head, Original, Body, Goal) )))).
+
+:- meta_predicate wrapped(:, +, +, 0).
+
+wrapped(Module:Head, Original, Body, Goal) :-
+    functor(Head, Name, Arity),
+    setup_call_cleanup(
+        wrap_predicate(Module:Head, damage, Original, Body),
+        Goal,
+        unwrap_predicate(Module:Name/Arity, damage)).
+
+:- end_tests(damage).
+
+:- begin_tests(a_peer_that_dies).
+
+test(request_is_lost, error(connection_lost(_))) :-
+    free_port(Port),
+    with_endpoint(with_peer(Port, Pid, A,
+        ( ask(A, echo, x, x),
+          thread_self(Me),
+          endpoint_request(A, never, x, thread_send_message(Me)),
+          endpoint_flush(5),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          with_peer(Port, _, A,
+                    ( thread_get_message(Me, Result, [timeout(20)]),
+                      assertion(Result == lost) )),
+          throw(error(connection_lost(A), _)) ))).
+test(then_nobody_is_there, error(unreachable(_))) :-
+    with_endpoint(with_peer(0, Pid, A,
+        ( ask(A, echo, x, x),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          wait_until(endpoint_peer(A, state(down)), 5),
+          endpoint_post(A, note, x) ))).
+test(its_successor_hears_nothing_old, Notes == [new]) :-
+    free_port(Port),
+    with_endpoint(with_peer(Port, Pid, A,
+        ( ask(A, echo, x, x),
+          stop_process(Pid),
+          endpoint_post(A, note, old),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          wait_until(endpoint_peer(A, state(down)), 5),
+          with_peer(Port, _, A,
+                    ( endpoint_post(A, note, new),
+                      ask(A, notes, x, Notes) )) ))).
+test(who_waits_for_what_it_had_not_got_goes_on, Result == true) :-
+    free_port(Port),
+    with_endpoint(with_peer(Port, Pid, A,
+        ( ask(A, echo, x, x),
+          stop_process(Pid),
+          endpoint_post(A, note, old),
+          thread_self(Me),
+          thread_create(( once(endpoint_flush(20, [A])),
+                          thread_send_message(Me, flushed) ),
+                        Thread),
+          wait_until(typhon_unacked:flusher(_, _, _), 5),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          with_peer(Port, _, A,
+                    ( ask(A, echo, x, x),
+                      (   thread_get_message(Me, flushed, [timeout(10)])
+                      ->  Result = true
+                      ;   Result = late
+                      ),
+                      thread_join(Thread, _) )) ))).
+test(it_says_goodbye, Result == lost) :-
+    with_endpoint(with_peer_in(In, A,
+        ( thread_self(Me),
+          ask(A, echo, x, x),
+          endpoint_request(A, never, x, thread_send_message(Me)),
+          endpoint_flush(5),
+          format(In, "end.~n", []),
+          flush_output(In),
+          thread_get_message(Me, Result, [timeout(20)]) ))).
+
+test(is_gone_when_nobody_listens, Before-After == false-true) :-
+    with_endpoint(with_peer(0, Pid, A,
+        ( ask(A, echo, x, x),
+          gone(A, Before),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          wait_until(endpoint_peer(A, state(down)), 5),
+          catch(endpoint_post(A, note, x), error(unreachable(_), _), true),
+          gone(A, After) ))).
+test(is_gone_when_it_said_goodbye) :-
+    with_endpoint(with_peer_in(In, A,
+        ( ask(A, echo, x, x),
+          format(In, "end.~n", []),
+          flush_output(In),
+          wait_until(endpoint_gone(A), 10) ))).
+test(is_not_gone_when_stopped, State-Gone == down-false) :-
+    with_endpoint(with_settings([typhon_reader:silence=0.2],
+        with_peer(0, Pid, A,
+            ( ask(A, echo, x, x),
+              process_kill(Pid, stop),
+              endpoint_post(A, note, x),
+              quiet(wait_until(endpoint_peer(A, state(down)), 10)),
+              endpoint_peer(A, state(State)),
+              gone(A, Gone),
+              process_kill(Pid, cont) )))).
+test(somebody_is_there_again, Process == New) :-
+    free_port(Port),
+    with_endpoint(with_peer(Port, Pid, A,
+        ( ask(A, echo, x, x),
+          endpoint_peer(A, process(Old)),
+          process_kill(Pid, kill),
+          process_wait(Pid, _),
+          wait_until(unreachable(A), 5),
+          assertion(endpoint_gone(A)),
+          assertion(endpoint_peer(A, process(Old))),
+          with_peer(Port, _, A,
+                    ( ask(A, process, x, New),
+                      assertion(\+ endpoint_gone(A)),
+                      endpoint_peer(A, process(Process)) )) ))).
+
+gone(Address, Gone) :-
+    (   endpoint_gone(Address)
+    ->  Gone = true
+    ;   Gone = false
+    ).
+
+unreachable(Address) :-
+    catch(( endpoint_post(Address, note, x), fail ),
+          error(unreachable(_), _),
+          true).
+
+:- meta_predicate with_peer_in(-, -, 0).
+
+with_peer_in(In, Address, Goal) :-
+    project_file('test/lib/endpoint_peer.pl', File),
+    with_swipl(['-g', 'serve(0)', File], _, In, Out,
+               ( read_line_to_string(Out, Line),
+                 atom_string(Address, Line),
+                 call(Goal) )).
+
+:- end_tests(a_peer_that_dies).
+
+:- begin_tests(strangers_do_no_harm).
+
+test(what_they_send,
+     [forall(member(Text, [ "", "\n", "GET / HTTP/1.1\r\n\r\n",
+                            "typhon 2 x y\n", "typhon 1 a b\n" ]))]) :-
+    with_endpoint(( endpoint_address(A),
+                    quiet(( stranger(A, Text),
+                            wait_until(warned(turned_away(_, _)), 5) )),
+                    ask(A, echo, x, x) )).
+test(silent_ones_are_bounded) :-
+    with_settings([typhon_acceptor:strangers=4],
+        with_settings([typhon_handshake:handshake_time=20],
+            with_endpoint(quiet(crowd)))).
+test(wrong_cookie) :-
+    with_endpoint(( endpoint_address(A),
+                    quiet(( other_cookie(A),
+                            wait_until(warned(turned_away(_, cookie)), 10) ))
+                  )).
+
+stranger(Address, Text) :-
+    open_stranger(Address, Stream),
+    catch(( write(Stream, Text), flush_output(Stream) ), error(_, _), true),
+    close(Stream, [force(true)]).
+
+crowd :-
+    endpoint_address(A),
+    findall(S, ( between(1, 8, _), open_stranger(A, S) ), Streams),
+    wait_until(aggregate_all(count, warned(turned_away(_, silent)), 4), 5),
+    wait_until(aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), 4), 5),
+    maplist(close, Streams),
+    ask(A, echo, x, x).
+
+other_cookie(Address) :-
+    project_file('prolog/typhon/kernel/wire', File),
+    format(atom(Goal), "use_module('~w'),endpoint_start(localhost,0,_),\c
+                        catch(endpoint_post('~w',note,x),\c
+                              error(unreachable(_),_),\c
+                              halt(3)),halt(0)", [File, Address]),
+    run_swipl(['-g', Goal], [environment(['TYPHON_COOKIE'=other])],
+              Status, _, _),
+    assertion(Status == exit(3)).
+
+:- end_tests(strangers_do_no_harm).
+
+:- begin_tests(nothing_is_left).
+
+test(after_talking) :-
+    no_leaks(with_endpoint(with_peer(A, ask(A, echo, x, x)))).
+test(after_cuts) :-
+    no_leaks(plunit_cuts).
+test(after_a_hundred_starts) :-
+    no_leaks(forall(between(1, 100, _),
+                    with_endpoint(( endpoint_address(A),
+                                    ask(A, echo, x, x) )))).
+test(processes_do_not_keep_the_port) :-
+    setup_call_cleanup(
+        true,
+        ( with_endpoint(( endpoint_address(Address), begun(Pid, In, Out) )),
+          atomic_list_concat(['127.0.0.1', Port0], :, Address),
+          atom_number(Port0, Port),
+          endpoint_start(localhost, Port, Address) ),
+        ( endpoint_stop,
+          close(In),
+          close(Out),
+          process_wait(Pid, _) )).
+test(stop_with_requests_open, Result == lost) :-
+    no_leaks(with_peer(A,
+        ( with_endpoint(( thread_self(Me),
+                          ask(A, echo, x, x),
+                          endpoint_request(A, never, x,
+                                           thread_send_message(Me)),
+                          endpoint_flush(5) )),
+          thread_get_message(Me, Result, [timeout(10)]) ))).
+test(stop_while_connecting, Result == unreachable) :-
+    thread_self(Me),
+    no_leaks(with_deaf(A,
+        with_endpoint(( endpoint_request(A, echo, x, thread_send_message(Me)),
+                        wait_until(typhon_attempts:attempt(
+                                       A, trying(_, _, _), _, _), 10) )))),
+    thread_get_message(Me, Result, [timeout(10)]).
+
+%   Until it runs a process is a copy of this one.
+
+begun(Pid, In, Out) :-
+    spawn(path(cat), [],
+          [stdin(pipe(In)), stdout(pipe(Out)), process(Pid)]),
+    format(In, 'hello~n', []),
+    flush_output(In),
+    read_line_to_string(Out, "hello").
+
+plunit_cuts :-
+    with_endpoint(
+        with_peer(Peer,
+                  with_proxy(Peer, Proxy,
+                             ( proxy_address(Proxy, A),
+                               forall(between(1, 20, I),
+                                      ( proxy_cut(Proxy),
+                                        ask(A, echo, I, I) )) )))).
+
+:- end_tests(nothing_is_left).

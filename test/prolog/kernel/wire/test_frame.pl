@@ -1,0 +1,403 @@
+:- module(test_frame, []).
+
+:- use_module('../../../lib/common').
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2, nth1/4, numlist/3]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(random), [random_between/3, random_member/2]).
+:- use_module(library(typhon/kernel/wire/frame)).
+
+:- begin_tests(terms_travel_unchanged).
+
+test(text_of_random_terms) :-
+    set_random(seed(20)),
+    forall(between(1, 3000, _),
+           ( random_term(4, Term),
+             round_trip(text, Term) )).
+test(fast_of_random_terms) :-
+    set_random(seed(21)),
+    forall(between(1, 3000, _),
+           ( random_term(4, Term),
+             round_trip(fast, Term) )).
+test(every_special_term, [forall(special(Term))]) :-
+    round_trip(text, Term),
+    round_trip(fast, Term).
+test(shared_variables) :-
+    term_bytes(text, f(X, _, g(X), _), Bytes),
+    bytes_term(text, Bytes, f(A, B, g(C), D)),
+    assertion(A == C),
+    assertion(A \== B),
+    assertion(B \== D).
+test(deep_list) :-
+    numlist(1, 100000, List),
+    round_trip(text, List),
+    round_trip(fast, List).
+test(operators_of_the_sender,
+     [ setup(op(700, xfx, user:travels)),
+       cleanup(op(0, xfx, user:travels)) ]) :-
+    term_bytes(text, travels(a, [travels, -, (:-)]), Bytes),
+    op(0, xfx, user:travels),
+    bytes_term(text, Bytes, Term),
+    assertion(Term == travels(a, [travels, -, (:-)])).
+test(operators_of_the_receiver,
+     [ setup(( op(200, xfy, user:foo), op(200, fy, user:bar) )),
+       cleanup(( op(0, xfy, user:foo), op(0, fy, user:bar) )) ]) :-
+    Term = f(foo, bar, [foo, bar|foo], bar(foo), foo(bar, bar)),
+    round_trip(text, Term).
+test(flags_of_both_sides,
+     [ forall(member(Flag-Value, [ double_quotes-atom,
+                                   back_quotes-string,
+                                   float_format-'~2f',
+                                   rational_syntax-natural,
+                                   character_escapes-false ])),
+       setup(flag_or(Flag, '', Old)),
+       cleanup(set_prolog_flag(Flag, Old))
+     ]) :-
+    Term = f("a\nb\\", 'a\nb\\', 1.23456789012345, 1r3, [0'a]),
+    term_bytes(text, Term, Plain),
+    set_prolog_flag(Flag, Value),
+    term_bytes(text, Term, Bytes),
+    bytes_term(text, Plain, Again),
+    set_prolog_flag(Flag, Old),
+    assertion(Bytes == Plain),
+    assertion(same(Again, Term)).
+test(bytes_are_bytes) :-
+    term_bytes(text, 'é\u4e00\U0001F600', Bytes),
+    forall(string_code(_, Bytes, Code), assertion(Code =< 255)).
+%   Which letters are written as they are depends on the locale.
+
+test(letters_in_quotes) :-
+    Term = f('é', "«é", 'é«'(x)),
+    term_bytes(text, Term, Bytes),
+    findall(Text,
+            ( member(E, ["\xc3\\xa9\", "\\u00e9"]),
+              format(string(Text), "f('~w',\"\\u00ab~w\",'~w\\u00ab'(x)). ",
+                     [E, E, E]) ),
+            Texts),
+    assertion(( member(Text, Texts),
+                sub_string(Bytes, _, _, 0, Text) )),
+    round_trip(text, Term).
+test(text_of_any_character) :-
+    forall(( some_code(Code), char_code(Char, Code) ),
+           ( foreign_term(Char, Term), round_trip(text, Term) )).
+test(fraction, [forall(member(Codec, [text, fast]))]) :-
+    round_trip(Codec, 1r3),
+    round_trip(Codec, f(-22r7, [1r3])).
+test(long_integer_in_a_thread, [forall(member(Codec, [text, fast]))]) :-
+    Long is -(7**7000),
+    thread_create(round_trip(Codec, f(Long)), Thread),
+    thread_join(Thread, Status),
+    assertion(Status == true).
+
+:- end_tests(terms_travel_unchanged).
+
+:- begin_tests(what_cannot_travel_is_named).
+
+test(stream, error(type_error(mobile_term, Stream))) :-
+    stream_property(Stream, alias(user_error)),
+    mobile_term(agent(x, [a, b(Stream)])).
+test(mutex, error(type_error(mobile_term, Mutex))) :-
+    mutex_create(Mutex),
+    mobile_term(f(Mutex)).
+test(clause_reference, error(type_error(mobile_term, Ref))) :-
+    once(clause(special(_), true, Ref)),
+    mobile_term(f(Ref)).
+test(attributed_variable, error(type_error(mobile_term, _))) :-
+    freeze(X, true),
+    mobile_term(f(X)).
+test(cyclic, error(type_error(mobile_term, f(_)))) :-
+    X = f(X),
+    mobile_term([a, X]).
+test(encoding_refuses_too, [forall(member(Codec, [fast, text])),
+                            error(type_error(mobile_term, Stream))]) :-
+    stream_property(Stream, alias(user_error)),
+    term_bytes(Codec, f(Stream), _).
+test(the_rest_can, [forall(special(Term))]) :-
+    mobile_term(Term).
+
+:- end_tests(what_cannot_travel_is_named).
+
+%   In a process of its own: where atoms are lost it crashes.
+
+:- begin_tests(atoms_stay_while_others_are_collected).
+
+:- dynamic readers/1.                   % File: a program
+
+:- prolog_load_context(directory, Dir),
+   directory_file_path(Dir, '../../../lib/atoms_collected.pl', File),
+   assertz(readers(File)).
+
+test(large_terms_with_atoms_that_nobody_else_has, Said-Status == "well\n"-exit(0)) :-
+    readers(File),
+    current_prolog_flag(executable, Swipl),
+    setup_call_cleanup(
+        process_create(Swipl, [File, '--', 20],
+                       [stdout(pipe(Out)), stderr(null), process(Pid)]),
+        read_string(Out, _, Said),
+        ( close(Out), process_wait(Pid, Status) )).
+
+:- end_tests(atoms_stay_while_others_are_collected).
+
+:- begin_tests(frames_are_counted_bytes).
+
+test(several, Read == ["", "abc", Long, end_of_file]) :-
+    all_bytes(Long),
+    framed(["", "abc", Long], Bytes),
+    read_frames(Bytes, 10000, 4, Read).
+test(truncated, [forall(member(Cut, [1, 2, 3, 4, 5, 8])),
+                 error(syntax_error(truncated_frame))]) :-
+    framed(["abc"], Bytes),
+    sub_string(Bytes, 0, _, Cut, Short),
+    read_frames(Short, 10000, 1, _).
+test(damaged, [forall(between(4, 9, At)),
+               error(syntax_error(damaged_frame))]) :-
+    framed(["abc"], Bytes),             % the check, and what it is of
+    flipped(At, Bytes, Damaged),
+    read_frames(Damaged, 10000, 1, _).
+test(each_flipped_bit_of_a_record) :-
+    term_bytes(fast, f(a, "b", [1, 2.0|_]), Body),
+    check_bytes(Body, Check),
+    string_length(Body, Length),
+    forall(( between(1, Length, At), between(0, 7, Bit) ),
+           ( flipped(At, Bit, Body, Damaged),
+             check_bytes(Damaged, Other),
+             assertion(Other =\= Check) )).
+test(what_follows_damage, Next == "def") :-
+    framed(["abc", "def"], Bytes),
+    flipped(8, Bytes, Damaged),
+    with_bytes(Damaged, second_frame(Next)).
+test(cut_in_the_length, error(syntax_error(truncated_frame))) :-
+    read_frames("\x0\\x0\", 10000, 1, _).
+test(too_long, error(resource_error(frame_bytes))) :-
+    framed(["abcd"], Bytes),
+    read_frames(Bytes, 3, 1, _).
+test(absurdly_long, error(resource_error(frame_bytes))) :-
+    read_frames("GET / HTTP/1.1\r\n", 67108864, 1, _).
+
+:- end_tests(frames_are_counted_bytes).
+
+:- begin_tests(what_cannot_be_read_is_known).
+
+test(text, [forall(member(Term-Mark, [request(17, hop, x)-request(17),
+                                      answer(0, x)-answer(0)])),
+            Found == Mark]) :-
+    term_bytes(text, Term, Bytes),
+    bytes_mark(Bytes, Found),
+    bytes_term(text, Bytes, Again),
+    assertion(Again == Term).
+test(neither, fail) :-
+    term_bytes(text, post(hop, x), Bytes),
+    bytes_mark(Bytes, _).
+test(long_record, Mark == request(3)) :-
+    numlist(1, 100000, Long),
+    Term = request(3, hop, Long),
+    term_bytes(fast, Term, Bytes),
+    bytes_mark(Bytes, Mark),
+    bytes_term(fast, Bytes, Again),
+    assertion(Again == Term).
+test(short_record, fail) :-
+    term_bytes(fast, request(3, hop, x), Bytes),
+    bytes_mark(Bytes, _).
+test(no_record_begins_so) :-
+    set_random(seed(22)),
+    forall(( between(1, 3000, _),
+             random_term(4, Term),
+             \+ fraction(Term)          % text
+           ),
+           ( term_bytes(fast, Term, Bytes),
+             string_code(1, Bytes, Code),
+             assertion(\+ memberchk(Code, `#!`)) )).
+
+:- end_tests(what_cannot_be_read_is_known).
+
+fraction(Term) :-
+    rational(Term),
+    \+ integer(Term).
+
+flipped(At, Bytes, Damaged) :-
+    flipped(At, 0, Bytes, Damaged).
+
+flipped(At, Bit, Bytes, Damaged) :-
+    string_codes(Bytes, Codes0),
+    nth1(At, Codes0, Code0, Rest),
+    Code is Code0 xor (1<<Bit),
+    nth1(At, Codes, Code, Rest),
+    string_codes(Damaged, Codes).
+
+%   Latin 1, what steers the direction of writing, symbols, and some others.
+
+some_code(Code) :-
+    (   between(0, 0x2ff, Code)
+    ;   between(0x2000, 0x22ff, Code)
+    ;   between(1, 300, I),
+        Code is 0x2300 + 401*I,
+        \+ between(0xd800, 0xdfff, Code)
+    ).
+
+foreign_term(Char, Term) :-
+    atom_concat(a, Char, Atom),
+    atom_concat(Char, ' \'"\\', Quoted),
+    string_concat(Char, '\'"\\', String),
+    compound_name_arguments(None, Char, []),
+    compound_name_arguments(Two, Char, [Char, [Atom|Quoted]]),
+    Term = [Char, Atom, None, Two, -(Two), String|f(_, Char)].
+
+flag_or(Flag, Default, Value) :-
+    (   current_prolog_flag(Flag, Value0)
+    ->  Value = Value0
+    ;   Value = Default
+    ).
+
+framed(List, Bytes) :-
+    with_file(File,
+              ( setup_call_cleanup(
+                    open(File, write, Out, [type(binary)]),
+                    forall(member(B, List), frame_write(Out, B)),
+                    close(Out)),
+                setup_call_cleanup(
+                    open(File, read, In, [type(binary)]),
+                    read_string(In, _, Bytes),
+                    close(In)) )).
+
+read_frames(Bytes, Max, Count, Frames) :-
+    length(Frames, Count),
+    with_bytes(Bytes, read_each(Frames, Max)).
+
+:- meta_predicate with_bytes(+, 1).
+
+with_bytes(Bytes, Goal) :-
+    with_file(File,
+              ( setup_call_cleanup(
+                    open(File, write, Out, [type(binary)]),
+                    write(Out, Bytes),
+                    close(Out)),
+                setup_call_cleanup(
+                    open(File, read, In, [type(binary)]),
+                    call(Goal, In),
+                    close(In)) )).
+
+read_each([], _, _).
+read_each([Frame|Frames], Max, In) :-
+    frame_read(In, Max, Frame),
+    read_each(Frames, Max, In).
+
+second_frame(Frame, In) :-
+    catch(frame_read(In, 100, _), error(syntax_error(_), _), true),
+    frame_read(In, 100, Frame).
+
+:- meta_predicate with_file(-, 0).
+
+with_file(File, Goal) :-
+    setup_call_cleanup(
+        tmp_file(frame, File),
+        Goal,
+        delete_file(File)).
+
+all_bytes(Bytes) :-
+    numlist(0, 255, Codes),
+    string_codes(Bytes, Codes).
+
+round_trip(Codec, Term) :-
+    term_bytes(Codec, Term, Bytes),
+    bytes_term(Codec, Bytes, Again),
+    (   same(Again, Term)
+    ->  true
+    ;   throw(error(changed(Codec, Term, Again), _))
+    ).
+
+%   nan is not even =@= itself; the records of the bits are.
+
+same(T1, T2) :-
+    T1 =@= T2,
+    !.
+same(T1, T2) :-
+    fast_term_serialized(is(T1), Bytes),
+    fast_term_serialized(is(T2), Bytes).
+
+special(Term) :-
+    member(Term,
+           [ [], '[]', '[]'(a), {}, '{}', {a}, '{}'(a, b), foo(), 'a b'(),
+             -1, -(1), - a, 1-2, -(-(1)), -(-1), 1 - -1, -(2)^2, 2** -1,
+             [+, -, (:-)|(:-)], (:- a), (a:-b, c;d->e), '$VAR'(1),
+             '$VAR'('X'), '$VAR'(x), "", '', "s\n\t\\\x01\\"", 'a\nb', 'Aé',
+             '\u4e00', "\U0001F600", '.', '|', '|'(a, b), (a|b), !, ;,
+             ',', ','(a), ','(a, b, c), [a|b], 'end_of_file', '/*', '%',
+             \+a, \ (a), @(x), p:{q}, (dynamic), dynamic(a), table(b), $,
+             $(a), `abc`, 'hello world', "it's", 'it''s', a*(b+c)*d,
+             1.0Inf, 1.5NaN, 0.1, 1.0e-320, 123456789012345678901234567890,
+             -123456789012345678901234567890, 9223372036854775807,
+             -9223372036854775808, 1r3, -1r3, 0'a, '\\', '\e', "\x0\",
+             a:b:c, [[]], [[], '[]'|'[]'], f(A, _, A), '_'('_'), _, 'X',
+             '_x', a=b, [a=b, c:-d], -(a), -[], -({a}), -(-), (-)-(-),
+             f((a, b)), f((a:-b)), f(;, '|', (',')) ]).
+special(Term) :-
+    Term is -inf.
+special(Term) :-
+    Term is nan.
+special(-0.0).
+special(Term) :-
+    Term is nexttoward(1.0, 2).
+special(Term) :-
+    Term is 1.0e308*1.7.
+
+random_term(0, Term) :-
+    !,
+    random_atomic(Term).
+random_term(Depth, Term) :-
+    random_between(0, 5, Kind),
+    (   Kind =< 1
+    ->  random_atomic(Term)
+    ;   random_between(0, 3, Arity),
+        random_name(Name),
+        length(Args, Arity),
+        Depth1 is Depth-1,
+        random_terms(Args, Depth1),
+        (   Kind == 2
+        ->  Term = Args
+        ;   compound_name_arguments(Term, Name, Args)
+        )
+    ).
+
+random_terms([], _).
+random_terms([Term|Terms], Depth) :-
+    random_term(Depth, Term),
+    random_terms(Terms, Depth).
+
+random_atomic(Term) :-
+    random_between(1, 6, Kind),
+    random_atomic(Kind, Term).
+
+random_atomic(1, Term) :- random_name(Term).
+random_atomic(2, Term) :- random_between(-1000000, 1000000, Term).
+random_atomic(3, Term) :- Term is (random_float-0.5)*10.0**(random(600)-300).
+random_atomic(4, Term) :- random_name(Name), atom_string(Name, Term).
+random_atomic(5, Term) :- findall(T, special(T), Ts), random_member(Term, Ts).
+random_atomic(6, _).
+
+random_name(Name) :-
+    random_between(0, 5, Kind),
+    random_name(Kind, Name).
+
+random_name(0, Name) :-
+    findall(Op, ( current_op(P, _, Op), P > 0, Op \== [] ), Ops),
+    random_member(Name, Ops).
+random_name(1, Name) :-
+    random_member(Name, [a, foo, 'Bar', 'x y', '[]', {}, '', '\\', -]).
+random_name(Kind, Name) :-
+    Kind > 1,
+    random_between(0, 6, Length),
+    length(Codes, Length),
+    random_codes(Codes),
+    atom_codes(Name, Codes).
+
+random_codes([]).
+random_codes([Code|Codes]) :-
+    random_between(0, 9, Kind),
+    (   Kind < 7
+    ->  random_between(0, 126, Code)
+    ;   Kind < 9
+    ->  random_between(127, 0xd7ff, Code)
+    ;   random_between(0x10000, 0x10ffff, Code)
+    ),
+    random_codes(Codes).

@@ -1,0 +1,228 @@
+:- module(test_lending, []).
+
+/** <module> Tests of readers that run what they have brought in
+
+The endpoint is connected to itself: what it posts is read by a thread of its
+own.
+
+*Threading*: the main thread; errands run in those of the endpoint.
+*/
+
+:- use_module('../../../lib/common').
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(plunit)).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/wire/connection_manager),
+              [manager_connect/1]).
+:- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
+:- use_module(library(typhon/kernel/wire/session),
+              [route/2, transport_thread/2]).
+:- use_module(library(typhon/kernel/wire/threads), [wire_thread_signal/2]).
+
+:- dynamic
+    hook/2,                             % Errand, Thread
+    run/3,                              % Errand, How, Thread
+    lent/1,                             % Thread
+    back/1.                             % Thread
+
+:- multifile
+    typhon_endpoint:lent/2,
+    typhon_endpoint:received/3,
+    typhon_endpoint:returned/0.
+
+typhon_endpoint:received(errand, Errand, _) :-
+    thread_self(Me),
+    assertz(hook(Errand, Me)),
+    endpoint_afterwards(go(Errand)).
+typhon_endpoint:received(word, Word, _) :-
+    thread_self(Me),
+    assertz(run(Word, read, Me)).
+
+typhon_endpoint:lent(_:go(_), Thread) :-
+    assertz(lent(Thread)),
+    thread_detach(Thread).
+
+typhon_endpoint:returned :-
+    thread_self(Me),
+    assertz(back(Me)).
+
+go(Errand, How) :-
+    thread_self(Me),
+    assertz(run(Errand, How, Me)),
+    act(Errand).
+
+act(quick(_)).
+act(waits(Queue, _)) :-
+    thread_get_message(Queue, go).
+
+                /*******************************
+                *           FIXTURES           *
+                *******************************/
+
+:- meta_predicate with_queue(-, 0), alone(-, 0).
+
+%   alone(-Me, :Goal): the endpoint runs, at Me.
+
+alone(Me, Goal) :-
+    forall(member(T, [hook(_, _), run(_, _, _), lent(_), back(_)]),
+           retractall(T)),
+    setup_call_cleanup(
+        endpoint_start(localhost, 0, Me),
+        ( manager_connect(Me), once(Goal) ),
+        endpoint_stop).
+
+with_queue(Queue, Goal) :-
+    setup_call_cleanup(
+        ( Queue = test_lending_go,
+          message_queue_create(Queue, [alias(Queue)]) ),
+        once(Goal),
+        message_queue_destroy(Queue)).
+
+post(Me, Errand) :-
+    over_the_wire(Me, post(errand, Errand)).
+
+say(Me, Word) :-
+    over_the_wire(Me, post(word, Word)).
+
+%   What is posted to oneself is taken at once, else.
+
+over_the_wire(Me, Frame) :-
+    once(route(Me, Session)),
+    session_send(Session, Frame).
+
+ran(Errand) :-
+    run(Errand, _, _),
+    !.
+
+words(Words) :-
+    findall(Word, run(Word, read, _), Words).
+
+gone(Thread) :-
+    catch(\+ thread_property(Thread, status(running)),
+          error(existence_error(_, _), _),
+          true).
+
+                /*******************************
+                *             TESTS            *
+                *******************************/
+
+:- begin_tests(lending, [cleanup(no_threads_left)]).
+
+test(by_who_has_read_it, T1 == T2) :-
+    alone(Me, ( post(Me, quick(1)),
+                wait_until(ran(quick(1)), 5) )),
+    hook(quick(1), T1),
+    run(quick(1), here, T2).
+
+test(by_others_where_nobody_reads, How == later) :-
+    alone(_, endpoint_afterwards(go(quick(1)))),
+    run(quick(1), How, _).
+
+%   In order, but for one that was missed on a busy machine.
+
+test(each_once_in_order, Ran == All) :-
+    numlist(1, 500, All),
+    alone(Me, ( forall(member(N, All), post(Me, quick(N))),
+                wait_until(aggregate_all(count, run(_, _, _), 500), 10) )),
+    findall(N, run(quick(N), _, _), Ran0),
+    (   lent(_)
+    ->  msort(Ran0, Ran)
+    ;   Ran = Ran0
+    ).
+
+test(who_waits_does_not_keep_others, [Words == All]) :-
+    numlist(1, 50, All),
+    with_queue(Queue,
+               alone(Me, ( post(Me, waits(Queue, 1)),
+                           wait_until(ran(waits(_, 1)), 5),
+                           forall(member(N, All), say(Me, N)),
+                           wait_until(ran(50), 10),
+                           run(waits(_, 1), here, Thread),
+                           assertion(lent(Thread)),
+                           assertion(\+ back(_)),
+                           thread_send_message(Queue, go),
+                           wait_until(gone(Thread), 5),
+                           post(Me, quick(last)),
+                           wait_until(ran(quick(last)), 5) ))),
+    words(Words),
+    assertion(back(Thread)),
+    aggregate_all(count, run(waits(_, 1), _, _), 1).
+
+test(many_that_wait, Lent == 5) :-
+    with_queue(Queue,
+               alone(Me, ( forall(between(1, 5, N),
+                                  post(Me, waits(Queue, N))),
+                           wait_until(ran(waits(_, 5)), 30),
+                           wait_until(aggregate_all(count, lent(_), 5), 5),
+                           forall(between(1, 5, _),
+                                  thread_send_message(Queue, go)),
+                           wait_until(aggregate_all(count, back(_), 5), 5),
+                           wait_until(forall(lent(T), gone(T)), 5) ))),
+    aggregate_all(count, lent(_), Lent).
+
+test(is_not_interrupted_for_the_connection, true(ran(after))) :-
+    with_queue(Queue,
+               alone(Me, ( post(Me, waits(Queue, 1)),
+                           wait_until(ran(waits(_, 1)), 5),
+                           run(waits(_, 1), here, Thread),
+                           wire_thread_signal(Thread, broken),
+                           say(Me, meanwhile),
+                           wait_until(ran(meanwhile), 10),
+                           thread_send_message(Queue, go),
+                           wait_until(gone(Thread), 5),
+                           say(Me, after),
+                           wait_until(ran(after), 5) ))).
+
+test(endpoint_stops_while_one_waits, true(Seconds < 20)) :-
+    with_queue(Queue,
+               ( alone(Me, ( post(Me, waits(Queue, 1)),
+                             wait_until(ran(waits(_, 1)), 5),
+                             run(waits(_, 1), here, Thread),
+                             get_time(T0) )),
+                 get_time(T1),
+                 thread_send_message(Queue, go),
+                 wait_until(gone(Thread), 5) )),
+    Seconds is T1-T0,
+    assertion(lent(Thread)).
+
+%   What was open when the endpoint stopped is not open in the next one.
+
+test(who_waits_is_missed_after_a_stop, true(ran(meanwhile))) :-
+    with_queue(Queue,
+               ( alone(Me1, ( post(Me1, waits(Queue, 1)),
+                              wait_until(ran(waits(_, 1)), 5) )),
+                 run(waits(_, 1), here, First),
+                 alone(Me2, ( post(Me2, waits(Queue, 2)),
+                              wait_until(ran(waits(_, 2)), 5),
+                              run(waits(_, 2), here, Second),
+                              say(Me2, meanwhile),
+                              wait_until(ran(meanwhile), 10),
+                              thread_send_message(Queue, go),
+                              thread_send_message(Queue, go),
+                              wait_until(gone(Second), 5) )),
+                 wait_until(gone(First), 5) )).
+
+test(breaks_lose_and_double_nothing, Ran == All) :-
+    numlist(1, 3000, All),
+    alone(Me, ( forall(member(N, All),
+                       ( post(Me, quick(N)),
+                         (   N mod 50 =:= 0
+                         ->  forall(transport_thread(_, Thread),
+                                    wire_thread_signal(Thread, broken))
+                         ;   true
+                         ) )),
+                wait_until(aggregate_all(count, run(_, _, _), 3000), 30),
+                wait_until(ran(quick(3000)), 30) )),
+    findall(N, run(quick(N), _, _), Ran0),
+    msort(Ran0, Ran).
+
+%   Those that were lent are detached: they may end a moment later.
+
+no_threads_left :-
+    wait_until(forall(thread_property(T, alias(Alias)),
+                      ( sub_atom(Alias, 0, _, _, typhon_)
+                      ->  gone(T)
+                      ;   true )), 5).
+
+:- end_tests(lending).

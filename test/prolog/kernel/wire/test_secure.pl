@@ -1,0 +1,321 @@
+:- module(test_secure, []).
+
+% TLS between processes: who is let in, who is not, and why.
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/authority').
+:- use_module('../../../lib/peers').
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(settings), [set_setting/2, setting/2]).
+:- use_module(library(socket)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/wire), [endpoint_proof/1, endpoint_reply/2]).
+
+:- use_module('../../../../app/keys', [keys_revoke/2]).
+
+:- needs([openssl]).
+
+:- dynamic told/1, broken/0.
+:- multifile user:message_hook/3, typhon_endpoint:requested/4.
+
+user:message_hook(typhon(endpoint, turned_away(_, Why)), _, _) :-
+    assertz(told(Why)).
+
+typhon_endpoint:requested(who_am_i, _, _, ReplyTo) :-
+    endpoint_proof(Proof),
+    endpoint_reply(ReplyTo, Proof).
+
+:- meta_predicate with_secure_host(+, 1).
+
+%   with_secure_host(+Authority, :Goal): call(Goal, Address).
+
+with_secure_host(Authority, Goal) :-
+    keys_of(alpha, Authority, Dir),
+    retractall(told(_)),
+    setup_call_cleanup(
+        host_start(alpha, [tls(Dir)]),
+        ( host_property(alpha, address(Address)),
+          once(call(Goal, Address)) ),
+        host_stop(alpha)).
+
+%   The peer, with those keys, asks Address: Here is why it could not come in
+%   in its eyes, There in ours, or `ok`.
+
+tries(Keys, Address, Here-There) :-
+    retractall(told(_)),
+    atomic_list_concat([_, Endpoint], @, Address),
+    peer_do(beta,
+            ( host_stop(beta),
+              host_start(beta, Keys),
+              catch(( host_property(Address, address(_)), Here = ok ),
+                    error(_, _),
+                    ( typhon_wire:endpoint_missed(Endpoint, Formal),
+                      Formal = permission_error(authenticate, peer, Here) ))
+            )),
+    (   Here == ok
+    ->  There = ok
+    ;   wait_until(test_secure:told(_), 10),
+        once(told(There))
+    ).
+
+%   Once: after that nobody is interrupted.
+
+once_broken(Negotiated) :-
+    call(Negotiated),
+    (   broken
+    ->  true
+    ;   assertz(broken),
+        throw(wire_thread_end(test))
+    ).
+
+:- begin_tests(tls).
+
+test(who_has_a_good_certificate_of_ours_gets_in_nobody_else) :-
+    with_authority([alpha, beta, gone, old, self], [alice], strangers_come).
+
+strangers_come(Ours) :-
+    keys_revoke(gone, Ours),
+    expired_host(Ours, old),
+    self_made_host(Ours, self),
+    with_authority([beta], [], strangers_come(Ours)).
+
+strangers_come(Ours, Others) :-
+    findall(Keys-Verdict, stranger(Ours, Others, Keys, Verdict), Strangers),
+    no_leaks(with_peers([beta],
+        forall(member(Keys-Expected, Strangers),
+               ( with_secure_host(Ours, comes(Keys, Verdict)),
+                 assertion(Verdict == Expected) )))).
+
+comes(Keys, Verdict, Address) :-
+    tries(Keys, Address, Verdict).
+
+stranger(Ours, Others, [tls(Dir)], Verdict) :-
+    came(Of, Name, Verdict),
+    (   Of == ours
+    ->  keys_of(Name, Ours, Dir)
+    ;   keys_of(Name, Others, Dir)
+    ).
+stranger(_, _, [], tls(wanted)-tls(missing)).
+
+came(ours, beta, ok-ok).
+came(ours, gone, tls(his(revoked))-tls(revoked)).
+came(ours, old, tls(his(expired))-tls(expired)).
+came(ours, alice, tls(his(wrong_use))-tls(wrong_use)).
+came(ours, self, tls(his(foreign))-tls(self_made)).
+came(others, beta, tls(foreign)-tls(his(foreign))).
+
+test(who_is_interrupted_when_he_has_just_met_a_peer_leaves_nothing_open) :-
+    with_authority([alpha, beta], [], interrupted).
+
+interrupted(Ours) :-
+    keys_of(beta, Ours, Dir),
+    no_leaks(with_peers([beta],
+        setup_call_cleanup(
+            wrap_predicate(ssl:ssl_negotiate(_, _, _, _, _), interrupted,
+                           Negotiated, test_secure:once_broken(Negotiated)),
+            with_secure_host(Ours, comes([tls(Dir)], Verdict)),
+            unwrap_predicate(ssl:ssl_negotiate/5, interrupted)))),
+    assertion(Verdict == ok-ok),
+    assertion(broken).
+
+test(tls_is_not_understood_by_a_host_without_keys) :-
+    with_authority([beta], [], plain_host).
+
+plain_host(Ours) :-
+    keys_of(beta, Ours, Dir),
+    setup_call_cleanup(
+        host_start(alpha),
+        ( host_property(alpha, address(Address)),
+          with_peers([beta], tries([tls(Dir)], Address, Verdict)) ),
+        host_stop(alpha)),
+    assertion(Verdict == tls(plain)-tls(unknown)).
+
+test(a_host_is_revoked_while_another_runs) :-
+    with_authority([alpha, beta], [], revoked_meanwhile).
+
+revoked_meanwhile(Ours) :-
+    with_peers([beta], with_secure_host(Ours, revoked_meanwhile(Ours))).
+
+revoked_meanwhile(Ours, Address) :-
+    keys_of(beta, Ours, Dir),
+    tries([tls(Dir)], Address, Before),
+    keys_revoke(beta, Ours),
+    tries([tls(Dir)], Address, After),
+    assertion(Before-After == (ok-ok)-(tls(his(revoked))-tls(revoked))).
+
+test(a_hook_knows_who_the_peer_is) :-
+    with_authority([alpha, beta], [], peer_is_known).
+
+peer_is_known(Ours) :-
+    keys_of(beta, Ours, Dir),
+    with_peers([beta-[host([tls(Dir)])]],
+               with_secure_host(Ours, asked_by(beta, Proof))),
+    assertion(Proof == certificate(beta)).
+
+asked_by(Peer, Proof, Address) :-
+    atomic_list_concat([_, Endpoint], @, Address),
+    peer_do(Peer, typhon_wire:endpoint_call(Endpoint, who_am_i, x,
+                                            answer(Proof), 10)).
+
+test(goals_of_others_are_not_run_for_a_certificate_unless_the_host_says_so,
+     By-Then == permission_error(remote, host, alpha)-none) :-
+    with_authority([alpha, beta], [], goals_of_beta(By, Then)).
+
+goals_of_beta(By, Then, Ours) :-
+    keys_of(beta, Ours, Dir),
+    with_peers([beta-[host([tls(Dir)])]],
+               with_secure_host(Ours, refused_goal(beta, By, Then))).
+
+refused_goal(Peer, By, Then, Address) :-
+    goal_of(Peer, Address, By),
+    remote(alpha, true),                % our own are
+    host_change(alpha, peer([certificate(Peer)-all])),
+    goal_of(Peer, Address, Then).
+
+goal_of(Peer, Address, Error) :-
+    peer_do(Peer, catch(( remote(Address, true), Error = none ),
+                        error(Error, _), true)).
+
+test(nothing_but_tls_1_3, Said == no) :-
+    with_authority([alpha, beta], [], older_protocol(Said)).
+
+older_protocol(Said, Ours) :-
+    keys_of(beta, Ours, Dir),
+    with_secure_host(Ours, s_client(Dir, ['-tls1_2'], Said)).
+
+%   s_client(+Keys, +Args, -Said, +Address): `yes` if openssl gets as far as
+%   to be welcome.
+
+s_client(Dir, Args0, Said, Address) :-
+    atomic_list_concat([_, Endpoint], @, Address),
+    append(Args0, ['-connect', Endpoint, '-cert', 'cert.pem',
+                   '-key', 'key.pem', '-CAfile', 'ca.pem', '-quiet',
+                   '-no_ign_eof'], Args),
+    setup_call_cleanup(
+        process_create(path(openssl), [s_client|Args],
+                       [ cwd(Dir), stdin(pipe(In)), stdout(pipe(Out)),
+                         stderr(null), process(Pid) ]),
+        ( read_line_to_string(Out, Line),
+          ( Line == "typhon tls" -> Said = yes ; Said = no ) ),
+        ( close(In, [force(true)]), close(Out), process_wait(Pid, _) )).
+
+test(tls_1_3_without_typhon_is_welcome_and_no_more, Said == yes) :-
+    with_authority([alpha, beta], [], new_protocol(Said)).
+
+new_protocol(Said, Ours) :-
+    keys_of(beta, Ours, Dir),
+    with_secure_host(Ours, s_client(Dir, ['-tls1_3'], Said)).
+
+test(who_dribbles_is_turned_away, Why == slow) :-
+    setting(typhon_handshake:handshake_time, Old),
+    setup_call_cleanup(
+        set_setting(typhon_handshake:handshake_time, 1),
+        with_authority([alpha], [],
+                       secure_host_and(dribbles(Why))),
+        set_setting(typhon_handshake:handshake_time, Old)).
+
+:- meta_predicate secure_host_and(1, +).
+
+secure_host_and(Goal, Ours) :-
+    no_leaks(with_secure_host(Ours, Goal)).
+
+%   A record of 512 bytes is announced; one comes every 0.2 seconds.
+
+dribbles(Why, Address) :-
+    atomic_list_concat([_, Endpoint], @, Address),
+    atomic_list_concat([_, Text], :, Endpoint),
+    atom_number(Text, Port),
+    tcp_socket(Socket),
+    tcp_connect(Socket, '127.0.0.1':Port),
+    tcp_open_socket(Socket, In, Out),
+    call_cleanup(catch(dribble(Out, [0x16, 3, 1, 2, 0, 1, 0, 1, 252]),
+                       error(_, _), true),
+                 ( close(Out, [force(true)]), close(In, [force(true)]) )),
+    wait_until(test_secure:told(_), 10),
+    once(told(Why)).
+
+dribble(Out, Bytes) :-
+    forall(member(Byte, Bytes), put_byte(Out, Byte)),
+    flush_output(Out),
+    forall(between(1, 60, _),
+           ( told(_)
+           -> throw(error(turned_away, _))
+           ;  put_byte(Out, 1), flush_output(Out), sleep(0.1) )).
+
+:- end_tests(tls).
+
+:- begin_tests(work_over_tls).
+
+test(much_goes_both_ways_at_once) :-
+    with_authority([alpha, beta], [], much_both_ways).
+
+much_both_ways(Ours) :-
+    keys_of(beta, Ours, Dir),
+    with_peers([beta-[host([tls(Dir)])]],
+               with_secure_host(Ours, much_both_ways(15))).
+
+%   Agents of 100 kB cross each other while small ones hop.
+
+much_both_ways(Rounds, Address) :-
+    peer_host(beta, Beta),
+    length(Codes, 100000),
+    maplist(=(0'x), Codes),
+    atom_codes(Load, Codes),
+    Program = clauses([ (:- agent(walker, [state([left/1, other/1, load/1])])),
+                        (main :- retract(left(N)), N > 0, !, N1 is N-1,
+                                 assertz(left(N1)), other(O), home(H),
+                                 move(O), move(H), main),
+                        main ]),
+    findall(Agent,
+            ( member(Size-Left, [big-Rounds, big-Rounds, small-200, small-200]),
+              ( Size == big -> Loads = [load(Load)] ; Loads = [] ),
+              agent_create(Program, Agent,
+                           [facts([left(Left), other(Beta)|Loads])]) ),
+            Agents),
+    peer_do(beta,
+            ( agent_create(Program, Big,
+                           [facts([left(Rounds), other(Address), load(Load)])]),
+              agent_join(Big, done, 100) )),
+    forall(member(Agent, Agents),
+           ( agent_join(Agent, Outcome, 100), assertion(Outcome == done) )).
+
+test(who_stays_long_gives_the_connection_back) :-
+    with_authority([alpha, beta], [], long_stay).
+
+long_stay(Ours) :-
+    keys_of(beta, Ours, Dir),
+    with_peers([beta-[host([tls(Dir)])]],
+               with_secure_host(Ours, long_stay_at)).
+
+long_stay_at(Address) :-
+    peer_do(beta, agent_create(clauses([ (:- agent(worker, [])),
+                                         (main :- move(Address),
+                                                  sleep_here(0.6)),
+                                         (sleep_here(T) :- get_time(T0),
+                                             repeat, get_time(T1),
+                                             T1-T0 > T, !) ]), A)),
+    get_time(T0),
+    peer_do(beta, ( host_property(Address, address(_)),
+                    agent_join(A, Outcome, 20) )),
+    get_time(T1),
+    assertion(Outcome == done),
+    assertion(T1-T0 < 10).
+
+test(the_processes_of_a_network_have_the_keys, Proofs == [2]) :-
+    with_authority([alpha], [], secure_network(Proofs)).
+
+secure_network(Proofs, Ours) :-
+    keys_of(alpha, Ours, Dir),
+    setup_call_cleanup(
+        network_start(ring(2), Network, [processes(2), tls(Dir)]),
+        ( network_property(Network, hosts([First|_])),
+          findall(N, remote(First, ( typhon_secure:secure_directory(_),
+                                     N = 2 )), Proofs) ),
+        network_stop(Network)).
+
+:- end_tests(work_over_tls).

@@ -1,0 +1,273 @@
+:- module(test_strangers, []).
+
+% Clients that do not prove themselves: what they can hold up, and what is
+% told of them.
+
+:- use_module('../../../lib/common').
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [member/2, sum_list/2]).
+:- use_module(library(plunit)).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
+:- use_module(library(socket)).
+:- use_module(library(thread), [concurrent_maplist/3]).
+:- use_module(library(typhon/kernel/wire/handshake)).
+:- use_module(library(typhon/kernel/wire)).
+
+:- dynamic told/1.
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(endpoint, Message), _, _) :-
+    assertz(told(Message)).
+
+:- meta_predicate
+    with_endpoint(0),
+    patiently(0),
+    with_silent(+, -, 0).
+
+with_endpoint(Goal) :-
+    retractall(told(_)),
+    setup_call_cleanup(endpoint_start(localhost, 0, _),
+                       once(Goal),
+                       endpoint_stop).
+
+%   Nobody is turned away for being slow; `soon` is long before that.
+
+patiently(Goal) :-
+    with_settings([typhon_handshake:handshake_time=120], Goal).
+
+soon(Seconds) :-
+    assertion(Seconds < 20).
+
+port(Port) :-
+    endpoint_address(Address),
+    atomic_list_concat([_, Text], :, Address),
+    atom_number(Text, Port).
+
+connected(streams(In, Out)) :-
+    port(Port),
+    tcp_socket(Socket),
+    tcp_connect(Socket, '127.0.0.1':Port),
+    tcp_open_socket(Socket, In, Out),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)).
+
+closed(streams(In, Out)) :-
+    close(Out, [force(true)]),
+    close(In, [force(true)]).
+
+say(Text, streams(_, Out)) :-
+    catch(( write(Out, Text), flush_output(Out) ), error(_, _), true).
+
+with_silent(Count, Clients, Goal) :-
+    length(Clients, Count),
+    setup_call_cleanup(maplist(connected, Clients),
+                       Goal,
+                       maplist(closed, Clients)).
+
+shouts(Text) :-
+    setup_call_cleanup(connected(Client), say(Text, Client),
+                       closed(Client)).
+
+%   So many were turned away for this reason, as we are told.
+
+turned_away(Why, Count) :-
+    findall(Some,
+            (   told(turned_away(_, Why)),
+                Some = 1
+            ;   told(turned_away(Groups)),
+                member(Some-(_-Why), Groups)
+            ),
+            Counts),
+    sum_list(Counts, Count).
+
+%   Prove oneself to the endpoint; how long it takes.
+
+newcomer(I, Seconds) :-
+    get_time(T0),
+    atom_concat(newcomer, I, Process),
+    hello(Process, 1, '127.0.0.1:1', Hello),
+    setup_call_cleanup(connected(Client),
+                       ( Client = streams(In, Out),
+                         authenticate(client, In, Out, Hello, cookie, _) ),
+                       closed(Client)),
+    get_time(T1),
+    Seconds is T1-T0.
+
+slots(Count) :-
+    aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), Count).
+
+:- begin_tests(silent_strangers_lock_nobody_out).
+
+test(newcomers_get_in, [forall(member(Slots-Silent, [32-32, 32-200,
+                                                     128-200]))]) :-
+    no_leaks(with_endpoint(patiently(
+        with_settings([typhon_acceptor:strangers=Slots], crowded(Silent))))).
+test(newcomers_get_in_at_once) :-
+    with_endpoint(patiently(with_settings([typhon_acceptor:strangers=16],
+        with_silent(16, _,
+            ( wait_until(silent(16), 30),
+              numlist(1, 6, Newcomers),
+              concurrent_maplist(newcomer, Newcomers, Times),
+              maplist(soon, Times) ))))).
+test(who_talks_stays) :-
+    with_endpoint(patiently(with_settings([typhon_acceptor:strangers=4],
+        with_silent(4, [Talker|_],
+            ( say("ty", Talker),
+              wait_until(stages([heard, silent, silent, silent]), 30),
+              with_silent(3, _,
+                  ( wait_until(turned_away(silent, 3), 30),
+                    wait_until(stages([heard, silent, silent, silent]), 30)
+                  )) ))))).
+
+%   So many have had a chance to speak: of those the oldest goes first.
+
+silent(Count) :-
+    stages(Stages),
+    length(Stages, Count),
+    forall(member(Stage, Stages), Stage == silent).
+
+stages(Stages) :-
+    findall(Stage, typhon_acceptor:stranger(_, _, _, Stage), Stages0),
+    msort(Stages0, Stages).
+
+crowded(Silent) :-
+    with_silent(Silent, _,
+        ( numlist(1, 6, Newcomers),
+          maplist(newcomer, Newcomers, Times),
+          maplist(soon, Times) )),
+    wait_until(slots(0), 30).
+
+:- end_tests(silent_strangers_lock_nobody_out).
+
+:- begin_tests(who_goes_first, [cleanup(forget_all)]).
+
+test(of_the_address_with_most, V == c) :-
+    slots([a-x-1-silent, b-x-2-heard, c-y-3-silent, d-y-4-silent,
+           e-y-5-heard], [], V).
+test(the_silent_one, V == b) :-
+    slots([a-x-1-heard, b-x-2-silent, c-x-3-silent], [], V).
+test(the_oldest, V == b) :-
+    slots([a-x-2-heard, b-x-1-heard], [], V).
+test(not_where_somebody_proved_himself, V == d) :-
+    slots([a-x-1-silent, b-x-2-silent, c-x-3-silent, d-y-4-heard], [x], V).
+test(addresses_are_bounded, Count == 256) :-
+    forget_all,
+    forall(between(1, 1000, I), typhon_acceptor:remember(I)),
+    typhon_acceptor:proved(1000),
+    aggregate_all(count, typhon_acceptor:proved(_), Count).
+
+slots(Slots, Proved, Victim) :-
+    forget_all,
+    forall(member(Thread-Ip-Since-Stage, Slots),
+           assertz(typhon_acceptor:stranger(Thread, Ip, Since, Stage))),
+    forall(member(Ip, Proved), assertz(typhon_acceptor:proved(Ip))),
+    typhon_acceptor:victim(Victim, _).
+
+forget_all :-
+    retractall(typhon_acceptor:stranger(_, _, _, _)),
+    retractall(typhon_acceptor:proved(_)).
+
+:- end_tests(who_goes_first).
+
+:- begin_tests(no_slot_is_lost).
+
+test(no_thread_can_be_made) :-
+    no_leaks(with_endpoint(
+        ( setup_call_cleanup(
+              wrap_predicate(typhon_threads:create(_, _, _, _), none, _,
+                             throw(error(resource_error(threads), _))),
+              ( forall(between(1, 3, _), shouts("typhon")),
+                wait_until(turned_away(resource_error(threads), 3), 30) ),
+              unwrap_predicate(typhon_threads:create/4, none)),
+          assertion(slots(0)),
+          newcomer(x, _) ))).
+test(clients_die_at_any_moment) :-
+    no_leaks(with_endpoint(
+        ( forall(between(1, 300, I), dies(I)),
+          wait_until(slots(0), 30),
+          newcomer(x, _) ))).
+test(stopped_at_any_moment) :-
+    no_leaks(forall(between(1, 20, _),
+                    with_endpoint(forall(between(1, 15, I), dies(I))))).
+test(evicted_at_any_moment) :-
+    no_leaks(with_endpoint(with_settings([typhon_acceptor:strangers=2],
+        ( forall(between(1, 300, I), dies(I)),
+          wait_until(slots(0), 30) )))).
+
+%   A greeting of so many bytes, and gone.
+
+dies(I) :-
+    hello(x, 1, 'c:1', Hello),
+    hello_line(Hello, Line),
+    format(string(Greeting), "typhon 2 00 ~w\n", [Line]),
+    string_length(Greeting, Length),
+    Bytes is I mod (Length+1),
+    sub_string(Greeting, 0, Bytes, _, Text),
+    setup_call_cleanup(connected(Client),
+                       say(Text, Client),
+                       closed(Client)).
+
+:- end_tests(no_slot_is_lost).
+
+:- begin_tests(strangers_are_told_of).
+
+test(few_lines_all_counted, Sum == 500) :-
+    get_time(T0),
+    with_endpoint(( forall(between(1, 500, _), shouts("GET / HTTP/1.0\r\n")),
+                    wait_until(counted(500), 30) )),
+    get_time(T1),
+    counted(Sum),
+    aggregate_all(count, told(_), Lines),
+    assertion(Lines =< 10+6*(T1-T0)).
+test(once_also_where_a_slot_is_taken, Sum == 50) :-
+    setup_call_cleanup(
+        wrap_predicate(typhon_refusals:refused(_, _), slow, Counted,
+                       ( Counted, sleep(0.01) )),
+        with_settings([typhon_acceptor:strangers=2],
+                      with_endpoint(( forall(between(1, 50, _), shouts("typhon\n")),
+                                      wait_until(( noted_so_far(N), N >= 50 ),
+                                                 30) ))),
+        unwrap_predicate(typhon_refusals:refused/2, slow)),
+    noted_so_far(Sum).
+test(told_at_the_end, Sum == 20) :-
+    with_endpoint(( forall(between(1, 20, _), shouts("\n")),
+                    wait_until(noted(20), 30) )),
+    counted(Sum).
+test(told_of_those_at_the_very_end, Sum == 20) :-
+    setup_call_cleanup(
+        wrap_predicate(typhon_threads:wire_threads_end, last, End,
+                       ( End,
+                         forall(between(1, 20, _),
+                                typhon_refusals:refused(x, silent)) )),
+        with_endpoint(true),
+        unwrap_predicate(typhon_threads:wire_threads_end/0, last)),
+    counted(Sum).
+test(another_version, Line == "typhon 2") :-
+    with_endpoint(setup_call_cleanup(
+        connected(Client),
+        ( say("typhon 1 00 p 1 a:1 90004 64 little\n", Client),
+          arg(1, Client, In),
+          get_time(Now),
+          Deadline is Now+5,
+          line_read(In, Deadline, Line),
+          wait_until(told(turned_away(_, version(1))), 30) ),
+        closed(Client))).
+test(another_version_of_a_server,
+     [error(permission_error(authenticate, peer, version(3)))]) :-
+    typhon_handshake:check_protocol("typhon 3").
+
+counted(Sum) :-
+    turned_away(_, Sum).
+
+noted(Sum) :-
+    noted_so_far(Noted),
+    Sum =:= Noted.
+
+noted_so_far(Sum) :-
+    counted(Told),
+    findall(Count, typhon_refusals:tally(_, _, Count), Counts),
+    sum_list(Counts, More),
+    Sum is Told+More.
+
+:- end_tests(strangers_are_told_of).

@@ -1,0 +1,458 @@
+:- module(test_wire, []).
+
+/** <module> Tests of the wire: many peers, big frames, peers that go
+
+*Threading*: the main thread; the hooks run in those of the endpoint.
+*/
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/cutting_proxy').
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [member/2, numlist/3, subtract/3]).
+:- use_module(library(plunit)).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(socket)).
+:- use_module(library(thread), [concurrent_forall/3]).
+:- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/kernel/wire/session), [session/2, transport/3]).
+:- use_module('../../../lib/endpoint_peer', [sleep_until/1]).
+
+:- dynamic
+    peer/3.                             % Address, Pid, In
+
+                /*******************************
+                *           FIXTURES           *
+                *******************************/
+
+:- meta_predicate
+    with_endpoint(0),
+    with_peers(+, -, 0),
+    within(+, 0).
+
+with_endpoint(Goal) :-
+    retractall(endpoint_peer:note(_)),
+    setup_call_cleanup(
+        endpoint_start(localhost, 0, _),
+        once(Goal),
+        endpoint_stop).
+
+%   with_peers(+Count, -Addresses, :Goal): the last argument of peer/3 is
+%   where a peer reads commands.
+
+with_peers(Count, Addresses, Goal) :-
+    with_more(Count, [], Addresses, Goal).
+
+with_more(0, Addresses, Addresses, Goal) :-
+    !,
+    call(Goal).
+with_more(Count, Addresses0, Addresses, Goal) :-
+    project_file('test/lib/endpoint_peer.pl', File),
+    Count1 is Count-1,
+    with_swipl(['-g', 'serve(0)', File], Pid, In, Out,
+               ( read_line_to_string(Out, Line),
+                 atom_string(Address, Line),
+                 with_this(Address, Pid, In-Out,
+                           with_more(Count1, [Address|Addresses0], Addresses,
+                                     Goal)) )).
+
+:- meta_predicate with_more(+, +, -, 0), with_this(+, +, +, 0).
+
+with_this(Address, Pid, Streams, Goal) :-
+    setup_call_cleanup(
+        assertz(peer(Address, Pid, Streams)),
+        Goal,
+        retractall(peer(_, Pid, _))).
+
+ask(Address, Kind, Term, Answer) :-
+    endpoint_call(Address, Kind, Term, answer(Answer), 120).
+
+kill(Address) :-
+    peer(Address, Pid, _),
+    process_kill(Pid, kill),
+    process_wait(Pid, _).
+
+within(Seconds, Goal) :-
+    get_time(T0),
+    call(Goal),
+    get_time(T1),
+    Took is T1-T0,
+    assertion(Took < Seconds).
+
+unreachable(Address) :-
+    catch(( endpoint_post(Address, note, x), fail ),
+          error(unreachable(_), _),
+          true).
+
+                /*******************************
+                *          CONNECTING          *
+                *******************************/
+
+%   Of two processes the one with the smaller id is the arbiter.
+
+:- meta_predicate as_process(+, 0), with_late_callers(0).
+
+as_process(Id, Goal) :-
+    findall(Own, retract(typhon_endpoint:process(Own)), Owns),
+    setup_call_cleanup(
+        assertz(typhon_endpoint:process(Id)),
+        Goal,
+        ( retractall(typhon_endpoint:process(_)),
+          forall(member(Own, Owns), assertz(typhon_endpoint:process(Own))) )).
+
+%   Who calls us has proved himself, says so to us, and waits for `go`.
+
+with_late_callers(Goal) :-
+    thread_self(Me),
+    setup_call_cleanup(
+        wrap_predicate(typhon_resumption:meet(Role, _, _, _, _, _, _), late,
+                       Meet, ( test_wire:wait_if_called(Role, Me), Meet )),
+        Goal,
+        unwrap_predicate(typhon_resumption:meet/7, late)).
+
+:- public wait_if_called/2.
+
+wait_if_called(Role, Who) :-
+    (   functor(Role, server, _)
+    ->  thread_self(Me),
+        thread_send_message(Who, called(Me)),
+        thread_get_message(Me, go, [timeout(20)])
+    ;   true
+    ).
+
+:- begin_tests(all_at_once).
+
+test(two_connect_to_each_other, Late == []) :-
+    with_endpoint(with_peers(1, [A],
+        ( peer(A, _, Streams),
+          findall(Outcome,
+                  ( between(1, 150, _),
+                    meet_at_once(Streams, Outcomes),
+                    member(Outcome, Outcomes),
+                    Outcome \= outcome(ok, _) ),
+                  Late) ))).
+test(of_two_connections_begun_together_the_first_stays, Kept == true) :-
+    as_process('0000000000000000',
+        with_endpoint(with_peers(1, [A], with_late_callers(second(A, Kept))))).
+test(who_is_offered_a_connection_takes_it) :-
+    as_process(ffffffffffffffff,
+        with_endpoint(with_peers(1, [A],
+            setup_call_cleanup(
+                wrap_predicate(typhon_session:session_up_since(_, _),
+                               not_noticed, _, true),
+                ask(A, echo, x, x),
+                unwrap_predicate(typhon_session:session_up_since/2,
+                                 not_noticed))))).
+test(sixteen_connect_to_all, Missed == []) :-
+    with_endpoint(with_peers(16, Addresses,
+        ( maplist(reach_others(Addresses), Addresses),
+          findall(M, ( member(_, Addresses),
+                       thread_get_message(reached(Answer)),
+                       Answer \= answer([]),
+                       M = Answer ), Missed) ))).
+test(a_place_at_the_door_comes_free, Outcome = outcome(ok, _)) :-
+    with_settings([typhon_acceptor:strangers=1],
+        with_endpoint(with_peers(1, [A],
+            ( endpoint_address(Me),
+              atomic_list_concat([_, PortText], :, Me),
+              atom_number(PortText, Port),
+              setup_call_cleanup(
+                  tcp_connect('127.0.0.1':Port, Stranger, []),
+                  ( peer(A, _, In-Out),
+                    command(In, greet(Me, 0)),
+                    sleep(0.5)
+                  ),
+                  close(Stranger, [force(true)])),
+              read(Out, Outcome) )))).
+test(nobody_is_there, Answers == Expected) :-
+    numlist(1, 300, Numbers),
+    maplist([_, unreachable]>>true, Numbers, Expected),
+    with_endpoint(( send_all('127.0.0.1:1', Numbers),
+                    maplist(answered, Numbers, Answers) )).
+test(a_wrong_cookie_is_told_at_once) :-
+    project_file('prolog/typhon/kernel/wire', File),
+    with_endpoint(( endpoint_address(A),
+                    format(atom(Goal),
+                           "use_module('~w'),endpoint_start(localhost,0,_),\c
+                            settings:set_setting(typhon_connection_manager:connect_time,60),\c
+                            catch(endpoint_post('~w',note,x),\c
+                                  error(unreachable(_),_),\c
+                                  halt(3)),halt(0)", [File, A]),
+                    within(30, run_swipl(['-g', Goal],
+                                         [environment(['TYPHON_COOKIE'=no])],
+                                         Status, _, _)),
+                    assertion(Status == exit(3)) )).
+
+meet_at_once(In-Out, [Theirs, Ours]) :-
+    command(In, restart),
+    read_address(Out, Address),
+    endpoint_address(Me),
+    get_time(Now),
+    Time is Now+0.003,
+    command(In, greet(Me, Time)),
+    sleep_until(Time),
+    get_time(T0),
+    endpoint_peer:greeted(Address, Outcome),
+    get_time(T1),
+    Seconds is T1-T0,
+    Ours = outcome(Outcome, Seconds),
+    read(Out, Theirs).
+
+read_address(Out, Address) :-
+    read_line_to_string(Out, Line),
+    (   Line == ""                      % what read/1 has left
+    ->  read_address(Out, Address)
+    ;   atom_string(Address, Line)
+    ).
+
+command(In, Command) :-
+    format(In, "~q.~n", [Command]),
+    flush_output(In).
+
+reach_others(Addresses, Address) :-
+    subtract(Addresses, [Address], Others),
+    thread_self(Me),
+    endpoint_request(Address, reach, Others, tell_reached(Me)).
+
+tell_reached(Queue, Answer) :-
+    thread_send_message(Queue, reached(Answer)).
+
+%   While A calls we call A, and have met.
+
+second(A, Kept) :-
+    peer(A, _, In-Out),
+    endpoint_address(Me),
+    command(In, greet(Me, 0)),
+    thread_self(Self),
+    thread_get_message(Self, called(Caller), [timeout(20)]),
+    ask(A, echo, x, x),
+    transport(Key, Thread, _),
+    thread_send_message(Caller, go),
+    read(Out, outcome(ok, _)),
+    wait_until(\+ is_thread(Caller), 20),
+    (   transport(Key, Thread, _)
+    ->  Kept = true
+    ;   Kept = false
+    ).
+
+:- end_tests(all_at_once).
+
+                /*******************************
+                *        HELD REQUESTS         *
+                *******************************/
+
+:- begin_tests(requests_wait_for_the_connection).
+
+test(in_order, Notes == Numbers) :-
+    numlist(1, 500, Numbers),
+    with_endpoint(with_peers(1, [A],
+        ( send_all(A, Numbers),
+          maplist(answered, Numbers, _),
+          ask(A, notes, x, Notes) ))).
+test(before_the_posts_that_follow, Notes == Expected) :-
+    numlist(1, 100, Numbers),
+    numlist(1, 101, Expected),
+    with_endpoint(with_peers(1, [A],
+        ( send_all(A, Numbers),
+          endpoint_post(A, note, 101),
+          maplist(answered, Numbers, _),
+          ask(A, notes, x, Notes) ))).
+test(without_a_thread_for_each, true(More < 8)) :-
+    numlist(1, 300, Numbers),
+    with_endpoint(with_settings([typhon_connection_manager:connect_time=1],
+        with_silent_listener(A,
+            ( statistics(threads, Before),
+              send_all(A, Numbers),
+              statistics(threads, After),
+              More is After-Before,
+              maplist(answered, Numbers, Answers),
+              assertion(forall(member(X, Answers), X == unreachable)) )))).
+test(what_cannot_travel, error(type_error(mobile_term, _))) :-
+    stream_property(S, alias(user_error)),
+    with_endpoint(endpoint_request('127.0.0.1:1', echo, S, =(_))).
+test(none_is_forgotten_when_the_endpoint_stops, Answers == [unreachable]) :-
+    with_silent_listener(A, with_endpoint(send_all(A, [1]))),
+    maplist(answered, [1], Answers).
+
+:- end_tests(requests_wait_for_the_connection).
+
+send_all(Address, Numbers) :-
+    thread_self(Me),
+    forall(member(N, Numbers),
+           endpoint_request(Address, remember, N, tell_answer(Me, N))).
+
+tell_answer(Queue, N, Answer) :-
+    thread_send_message(Queue, answered(N, Answer)).
+
+answered(N, Answer) :-
+    thread_self(Me),
+    thread_get_message(Me, answered(N, Answer), [timeout(20)]).
+
+:- meta_predicate with_silent_listener(-, 0).
+
+with_silent_listener(Address, Goal) :-
+    setup_call_cleanup(
+        ( tcp_socket(Socket),
+          tcp_bind(Socket, '127.0.0.1':Port),
+          tcp_listen(Socket, 5),
+          atomic_list_concat(['127.0.0.1', Port], :, Address) ),
+        Goal,
+        tcp_close_socket(Socket)).
+
+                /*******************************
+                *          BIG FRAMES          *
+                *******************************/
+
+%   Prologs of 32 bits have no strings of 2^25 characters.
+
+longest(Size) :-
+    current_prolog_flag(address_bits, 32),
+    !,
+    Size = 33 000 000.
+longest(60 000 000).
+
+:- begin_tests(big_frames_cross).
+
+test(both_ways, [ forall(member(Codec-Size-N,
+                                [ fast-65 000-30, fast-70 000-30,
+                                  fast-1 000 000-10, fast-8 000 000-3,
+                                  text-70 000-10, text-1 000 000-2 ])),
+                  Count == N ]) :-
+    with_codec(Codec, cross(Size, N, Count)).
+test(the_longest, Count == 1) :-
+    longest(Size),
+    cross(Size, 1, Count).
+test(answers_of_8_MB_at_once) :-
+    with_endpoint(with_peers(1, [A],
+        ( endpoint_address(Me),
+          thread_self(Queue),
+          ask(A, echo, x, x),
+          forall(between(1, 5, _),
+                 ( endpoint_request(A, ask_back, ask(Me, 8 000 000),
+                                    thread_send_message(Queue)),
+                   ask(A, string, 8 000 000, String),
+                   assertion(string_length(String, 8 000 000)),
+                   thread_get_message(Queue, Done, [timeout(60)]),
+                   assertion(Done == answer(done)) )) ))).
+
+:- meta_predicate with_codec(+, 0).
+
+with_codec(fast, Goal) :-
+    call(Goal).
+with_codec(text, Goal) :-
+    with_settings([typhon_handshake:records=false], Goal).
+
+%   N strings of Size in each direction, with answers of the same size,
+%   while small requests go on.
+
+cross(Size, N, Count) :-
+    with_endpoint(with_peers(1, [A],
+        ( endpoint_address(Me),
+          ask(A, echo, x, x),
+          concurrent_forall(
+              member(Goal, [ ask(A, cross, cross(Me, Size, N), done),
+                             endpoint_peer:cross(A, Size, N),
+                             forall(between(1, 50, I), ask(A, echo, I, I)),
+                             forall(between(1, 50, I), ask(A, echo, I, I))
+                           ]),
+              Goal,
+              [threads(4)]),
+          ask(A, count, x, Count),
+          aggregate_all(count, endpoint_peer:note(_), Mine),
+          assertion(Mine == N),
+          assertion(endpoint_flush(10)) ))).
+
+:- end_tests(big_frames_cross).
+
+                /*******************************
+                *         PEERS THAT GO        *
+                *******************************/
+
+:- begin_tests(peers_that_go).
+
+test(leave_no_queue_behind, Queues == Before) :-
+    with_endpoint(with_peers(3, Addresses,
+        ( queues(Before),
+          forall(member(A, Addresses), ask(A, echo, x, x)),
+          assertion(endpoint_flush(5)),
+          maplist(kill, Addresses),
+          wait_until(forall(member(A, Addresses),
+                            endpoint_peer(A, state(down))), 10),
+          wait_until(queues(Before), 5),
+          queues(Queues) ))).
+test(are_kept_in_a_bounded_number) :-
+    with_settings([typhon_connection_manager:resting=2],
+        with_endpoint(with_peers(4, Addresses,
+            ( forall(member(A, Addresses), ask(A, echo, x, x)),
+              assertion(endpoint_flush(5)),
+              maplist(kill, Addresses),
+              wait_until(sessions(2), 10),
+              forall(member(A, Addresses),
+                     assertion(endpoint_peer(A, process(_)))) )))).
+test(find_their_session_again, Notes == [1, 2, 3]) :-
+    with_endpoint(with_peers(1, [Peer],
+        with_proxy(Peer, Proxy,
+            ( proxy_address(Proxy, A),
+              forall(between(1, 3, N),
+                     ( endpoint_post(A, note, N),
+                       assertion(endpoint_flush(5)),
+                       proxy_cut(Proxy),
+                       wait_until(endpoint_peer(A, state(down)), 5) )),
+              ask(A, notes, x, Notes),
+              sessions(1) )))).
+test(answer_to_one_that_was_cut_off_meanwhile, Answer == answer(x)) :-
+    with_endpoint(with_peers(1, [Peer],
+        with_proxy(Peer, Proxy,
+            ( proxy_address(Proxy, A),
+              thread_self(Me),
+              endpoint_request(A, later, x, thread_send_message(Me)),
+              proxy_cut(Proxy),
+              thread_get_message(Me, Answer, [timeout(20)]) )))).
+test(nobody_waits_for_a_late_answer, Open == 0) :-
+    with_endpoint(with_peers(1, [A],
+        ( catch(endpoint_call(A, never, x, _, 0.2),
+                error(timeout_error(_, _), _), true),
+          aggregate_all(count, typhon_request:open_request(_, _, _),
+                        Open) ))).
+test(contacts_are_bounded, true(Count =< 5)) :-
+    with_settings([typhon_peer_cache:contacts=5],
+        with_endpoint(
+            ( forall(between(1, 20, P),
+                     ( atom_concat('127.0.0.1:', P, A), unreachable(A) )),
+              aggregate_all(count, typhon_peer_cache:contact(_, _, _),
+                            Count) ))).
+
+queues(Count) :-
+    aggregate_all(count, typhon_unacked:queues(_, _, _), Sessions),
+    aggregate_all(count, message_queue_property(_, size(_)), All),
+    Count = Sessions-All.
+
+sessions(Count) :-
+    aggregate_all(count, session(_, _), Count).
+
+:- end_tests(peers_that_go).
+
+                /*******************************
+                *            COUNTS            *
+                *******************************/
+
+:- begin_tests(flushes).
+
+test(each_ends, Failed == 0) :-
+    with_endpoint(with_peers(1, [A],
+        ( ask(A, echo, x, x),
+          flag(test_failed, _, 0),
+          concurrent_forall(between(1, 4, _),
+                            forall(between(1, 1000, I), post_and_flush(A, I)),
+                            [threads(4)]),
+          flag(test_failed, Failed, Failed) ))).
+
+post_and_flush(Address, I) :-
+    endpoint_post(Address, note, I),
+    (   endpoint_flush(10)
+    ->  true
+    ;   flag(test_failed, N, N+1)
+    ).
+
+:- end_tests(flushes).

@@ -1,0 +1,301 @@
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/postgres').
+:- use_module('../../../lib/stores').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/options/journal/store)).
+
+:- needs([journal, postgresql]).
+
+/** <module> Tests of a journal in PostgreSQL
+
+What the store does with it, and hosts that are killed; the server is one that
+is started here.
+*/
+
+:- begin_tests(postgresql_url).
+
+place(Url, Place) :-
+    journal_place(postgresql(Url), Place).
+
+test(places, [ forall(member(Url-Place,
+        [ 'postgresql://'-'postgresql://localhost:5432/postgres?schema=typhon',
+          'postgres://db.example/x'-
+              'postgresql://db.example:5432/x?schema=typhon',
+          'postgresql://ann:s%3bcret@db:99/x?schema=alpha&sslmode=require'-no,
+          'postgresql://ann:secret@db:99/x?schema=alpha&sslmode=require'-
+              'postgresql://ann@db:99/x?schema=alpha',
+          'postgresql:///x?host=/run/pg'-
+              'postgresql:///run/pg:5432/x?schema=typhon',
+          'postgresql://db/x?schema=A;drop'-no,
+          'postgresql://db/x?colour=red'-no,
+          'mysql://db/x'-no ])),
+               true(Found == Place) ]) :-
+    catch(place(Url, Found), error(domain_error(postgresql_url, Url), _),
+          Found = no).
+
+test('a URL alone is one, too', true(A == B)) :-
+    journal_place('postgresql://db/x', A),
+    journal_place(postgresql('postgresql://db/x'), B).
+
+test('nobody is there', error(journal_unreachable(_, _))) :-
+    journal_open('postgresql://x@127.0.0.1:1/x', normal).
+
+:- end_tests(postgresql_url).
+
+:- begin_tests(postgresql, [setup(postgres_start), cleanup(postgres_stop)]).
+
+:- meta_predicate with_schema(+, 0).
+
+with_schema(Schema, Goal) :-
+    postgres_url(Schema, Url),
+    with_store(Url, Goal).
+
+sql(Sql) :-
+    typhon_store:connection(_, Connection),
+    typhon_sql:sql_do(Connection, Sql).
+
+test('what is committed is there when it is opened again') :-
+    with_schema(kept, commit([a-'kéy'-1-f(X, Y, X, Y), a-other-2-[],
+                             b-'kéy'-0-"é"])),
+    with_schema(kept, ( items(a, [K-1-F, other-2-[]]), items(b, [_-0-B]) )),
+    K == 'kéy', F =@= f(X, Y, X, Y), B == "é".
+test('what is not committed as a whole is not there at all') :-
+    with_schema(whole, commit([a-k-1-one])),
+    catch(with_schema(whole, commit([a-k-2-two, no_change])), error(_, _),
+          true),
+    with_schema(whole, items(a, [k-1-one])).
+test('changes are made in their order') :-
+    with_schema(in_order,
+               ( commit([a-k-1-x, a-k-2-y, a-k-3-z, a-l-1-w, drop(a, k, 2)]),
+                 commit([drop_below(a, k, 3), a-k-9-v, a-k-9-u]),
+                 commit([a-m-7-t, drop_all(a, m)]),
+                 items(a, [l-1-w, k-3-z, k-9-u]) )).
+test('long terms, and shorter ones in their place') :-
+    forall(member(Length, [10, 20000, 300000, 15000, 5]),
+           ( numlist(1, Length, List),
+             with_schema(long, commit([a-k-0-List])),
+             with_schema(long, items(a, [k-0-List])) )).
+test('nobody else opens it meanwhile; another schema is another journal') :-
+    postgres_url(locked, Url),
+    project_file('prolog/typhon/options/journal/store.pl', Store),
+    format(atom(Goal), 'journal_open(~q, normal), writeln(open), \c
+                        flush_output, read(_)', [Url]),
+    with_swipl(['-g', Goal, '-t', halt, Store], Pid, _, Out,
+               ( read_line_to_string(Out, "open"),
+                 catch(with_schema(locked, true), error(Formal, _), true),
+                 with_schema(not_locked, true),
+                 process_kill(Pid, kill),
+                 process_wait(Pid, _),
+                 with_schema(locked, true) )),
+    journal_place(Url, Place),
+    Formal == permission_error(open, journal, Place).
+test('a damaged term is not taken for another') :-
+    with_schema(damaged, ( commit([a-k-0-hello(world)]),
+                          sql('update item set value=\'\\x00\'::bytea') )),
+    catch(with_schema(damaged, items(a, _)), error(Formal, _), true),
+    Formal = journal_damaged(_, a-k).
+test('a journal of another version is left as it is') :-
+    with_schema(version, sql('update about set version=99')),
+    catch(with_schema(version, true), error(Formal, _), true),
+    Formal = journal_version(_, 99).
+test('a power cut is waited for only if that is wanted') :-
+    forall(member(Sync-Setting, [normal-off, full-on]),
+           ( postgres_url(sync, Url),
+             setup_call_cleanup(
+                 journal_open(Url, Sync),
+                 ( typhon_store:connection(_, C),
+                   once(typhon_sql:sql_row(C, 'show synchronous_commit',
+                                           row(Setting), [atom])) ),
+                 store_close) )).
+test('a connection that breaks is made again') :-
+    with_schema(breaks,
+               ( commit([a-k-0-first]),
+                 cut(breaks),
+                 commit([a-k-0-second, a-l-0-third]),
+                 items(a, [k-0-second, l-0-third]) )).
+test('what the server has lost when it died is committed once more') :-
+    postgres_url(died, Url),
+    numlist(1, 40000, Long),
+    setup_call_cleanup(
+        journal_open(Url, normal),
+        ( commit([a-k-0-first, a-l-0-Long, a-m-0-x]),
+          commit([a-k-0-second, drop(a, m, 0)]),
+          postgres_crash,
+          forall(between(1, 2, _), unreachable(commit([a-n-1-third]))),
+          postgres_again,
+          commit([a-n-1-third]),
+          items(a, Items) ),
+        store_close),
+    Items = [_-0-_, _-0-_, n-1-third],
+    memberchk(k-0-second, Items),
+    memberchk(l-0-Long, Items).
+
+unreachable(Goal) :-
+    catch(Goal, error(Formal, _), true),
+    Formal = journal_unreachable(_, _).
+
+test('a process goes on by itself when the server is there again') :-
+    postgres_url(returns, Url),
+    goes_on(Url, postgres_crash, postgres_again).
+test('also if its machine has vanished without a word') :-
+    with_postgres_relay(vanishes, Url,
+                        goes_on(Url, postgres_relay(vanish),
+                                postgres_relay(return))).
+
+:- meta_predicate
+    goes_on(+, 0, 0),
+    server_returns(+, +, 0, 0).
+
+goes_on(Url, Goes, Returns) :-
+    free_port(Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Url, Port, Out, server_returns(Host, Out, Goes, Returns)),
+        host_stop(driver)).
+
+server_returns(Host, Out, Goes, Returns) :-
+    host_property(driver, address(Other)),
+    agent_create(clauses([ (:- agent(goes, [state([made/1, other/1])])),
+                           made(0),
+                           (main :- made(100), !),
+                           (main :- other(Other), home(Home),
+                                    goes(Other), goes(Home),
+                                    retract(made(N)), N1 is N+1,
+                                    assertz(made(N1)),
+                                    ( take(made(V)) -> true ; V = 0 ),
+                                    V1 is V+1, leave(made(V1)),
+                                    main),
+                           (goes(H) :- catch(( move(H), Gone = yes ),
+                                             error(journal_unreachable(_, _), _),
+                                             Gone = no),
+                                       ( Gone == yes -> true
+                                       ; sleep(0.1), goes(H) )) ]),
+                 Agent, [host(Host), facts([other(Other)])]),
+    wait_until(( agent_property(Agent, hops(Hops)), Hops > 20 ), 10),
+    call(Goes),
+    agent_send(Agent, hello),
+    read_line_to_string(Out, "unreachable"),
+    call(Returns),
+    agent_join(Agent, done, 60),
+    remote(Host, findall(V, sense(made(V)), [100])).
+
+test('who was not there must not go on with what is another\'s') :-
+    catch(with_schema(passed_on,
+                     ( commit([a-k-0-first]),
+                       sql('update about set opened=opened+1'),
+                       cut(passed_on),
+                       commit([a-k-0-second]) )),
+          error(Formal, _), true),
+    Formal = permission_error(open, journal, _),
+    with_schema(passed_on, items(a, [k-0-first])).
+test('an agent is there again when its process was killed') :-
+    postgres_url(alpha, Url),
+    free_port(Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    setup_call_cleanup(
+        host_start(driver),
+        ( killed(Url, Port,
+                 ( agent_create(clauses([ (:- agent(waits, [])),
+                                          (main :- receive(_-X),
+                                                   receive(_-Y),
+                                                   result(X+Y)) ]), A,
+                                [host(Host)]),
+                   agent_send(A, 1),
+                   wait_until(agent_property(A, mailbox([])), 5),
+                   remote(Host, leave(here)) )),
+          killed(Url, Port,
+                 ( remote(Host, sense(here)),
+                   agent_send(A, 2),
+                   agent_result(A, 1+2, 10) )) ),
+        host_stop(driver)).
+
+test('a network, and a process of it that is killed',
+     Told = [carrier_back(_, 2)]) :-
+    postgres_url(net, Url),
+    in_network([processes(2), restart(true)], Url, first_time(A)),
+    findall(carrier_back(N, P), retract(heard(carrier_back(N, P))), Told),
+    in_network([], Url, second_time(A)),
+    catch(network_start(ring(3), _, [journal(postgresql(Url))]),
+          error(Formal, _), true),
+    Formal = journal_of_another(_, _, _).
+
+:- meta_predicate in_network(+, +, 1).
+
+in_network(Options, Url, Goal) :-
+    no_leaks(setup_call_cleanup(
+                 network_start(ring(2), N, [journal(postgresql(Url))|Options]),
+                 once(call(Goal, N)),
+                 network_stop(N))).
+
+first_time(A, N) :-
+    network_property(N, hosts([_, Host])),
+    network_property(N, processes([_, Pid])),
+    agent_create(clauses([ (:- agent(waits, [])),
+                           (main :- receive(_-X), receive(_-Y),
+                                    result(X+Y)) ]), A, [host(Host)]),
+    agent_send(A, 1),
+    wait_until(agent_property(A, state(waiting)), 5),
+    process_kill(Pid, kill),
+    wait_until(heard(carrier_back(_, _)), 20).
+
+second_time(A, N) :-
+    network_property(N, hosts([_, Host])),
+    agent_property(A, host(Host)),
+    agent_send(A, 2),
+    agent_result(A, 1+2, 10).
+
+:- dynamic heard/1.
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(typhon(Message), _, _) :-
+    memberchk(Message, [carrier_back(_, _), carrier_down(_, _, _, _, _)]),
+    assertz(plunit_postgresql:heard(Message)).
+
+%   The server ends all connections that have the journal.
+
+cut(Schema) :-
+    postgres_url(other, Url),
+    typhon_database:database(Url, _, postgresql(server(_, Driver))),
+    setup_call_cleanup(
+        typhon_sql:sql_connect(Driver, C),
+        ( format(atom(Sql),
+                 'select pg_terminate_backend(pid) from pg_locks \c
+                  where locktype=\'advisory\' and \c
+                  objid::bigint=(hashtext(\'~w\')::bigint & 4294967295)',
+                 [Schema]),
+          typhon_sql:sql_do(C, Sql) ),
+        typhon_sql:sql_disconnect(C)).
+
+:- meta_predicate
+    killed(+, +, 0),
+    killed(+, +, -, 0).
+
+killed(Url, Port, Goal) :-
+    killed(Url, Port, _, Goal).
+
+%   Out tells when the process finds that it cannot commit.  A machine that says
+%   nothing is given up soon.
+
+killed(Url, Port, Out, Goal) :-
+    project_file('prolog/typhon.pl', Library),
+    format(atom(Start), 'host_start(alpha, [journal(~q), port(~d)]), \c
+                         writeln(ready), flush_output, thread_get_message(x)',
+           [Url, Port]),
+    format(atom(Tells), '~q',
+           [ assertz((user:message_hook(error(journal_unreachable(_, _), _),
+                                        error, _) :-
+                          writeln(unreachable), flush_output)) ]),
+    with_swipl(['-g', 'set_setting(typhon_postgresql:silent_seconds, 4)',
+                '-g', Tells, '-g', Start, Library], Pid, _, Out,
+               ( read_line_to_string(Out, "ready"),
+                 call(Goal),
+                 process_kill(Pid, kill),
+                 process_wait(Pid, _) )).
+
+:- end_tests(postgresql).

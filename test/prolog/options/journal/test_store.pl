@@ -1,0 +1,163 @@
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/stores').
+:- use_module(library(plunit)).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(readutil), [read_file_to_codes/3, read_line_to_string/2]).
+:- use_module(library(typhon/kernel/base/durable_changes)).
+
+:- needs([journal]).
+
+:- begin_tests(store).
+
+test('what is committed is there when it is opened again') :-
+    with_tmp_dir(kept).
+
+kept(Dir) :-
+    with_store(Dir, commit([a-'kéy'-1-f(X, Y, X, Y), a-other-2-[], b-'kéy'-0-"é"])),
+    with_store(Dir, ( items(a, [K-1-F, other-2-[]]), items(b, [_-0-B]) )),
+    K == 'kéy',
+    F =@= f(X, Y, X, Y),
+    B == "é".
+
+test('what is not committed as a whole is not there at all',
+     [error(_)]) :-
+    with_tmp_dir(whole).
+
+whole(Dir) :-
+    with_store(Dir, commit([a-k-1-one])),
+    catch(with_store(Dir, commit([a-k-2-two, no_change])), error(E, C), true),
+    with_store(Dir, items(a, Items)),
+    Items == [k-1-one],
+    ( var(E) -> true ; throw(error(E, C)) ).
+
+%   The longest, and what is written with more bytes.
+
+test('each key that may be is another one, and found') :-
+    with_tmp_dir(keys).
+
+keys(Dir) :-
+    findall(Key, ( member(Length, [1, 499, 500]),
+                   member(Code, [0'x, 0'', 0x4e00, 0x1f600]),
+                   length(Codes, Length),
+                   maplist(=(Code), Codes),
+                   atom_codes(Key, Codes),
+                   durable_key(Key) ), Keys),
+    assertion(length(Keys, 12)),
+    findall(a-Key-0-Key, member(Key, Keys), Specs),
+    with_store(Dir, commit(Specs)),
+    with_store(Dir, items(a, Items)),
+    forall(member(Key, Keys), memberchk(Key-0-Key, Items)),
+    assertion(length(Items, 12)).
+
+test('what cannot be a key',
+     [ forall(no_key(Key, N)), fail ]) :-
+    durable_key(Key, N).
+
+no_key(Key, N) :-
+    member(Key-N, [ _-0, f(x)-0, "text"-0, key-_, key-1.5,
+                    key-9223372036854775808, 'a\000\b'-0 ]).
+no_key(Half, 0) :-
+    catch(atom_codes(Half, [0xdc00]), error(_, _), fail).   % none in 10.1
+
+test('changes are made in their order') :-
+    with_tmp_dir(in_order).
+
+in_order(Dir) :-
+    with_store(Dir,
+               ( commit([a-k-1-x, a-k-2-y, a-k-3-z, a-l-1-w, drop(a, k, 2)]),
+                 commit([drop_below(a, k, 3), a-k-9-v, a-k-9-u]),
+                 commit([a-m-7-t, drop_all(a, m)]),
+                 items(a, Items) )),
+    Items == [l-1-w, k-3-z, k-9-u].
+
+test('long terms, and shorter ones in their place') :-
+    with_tmp_dir(long).
+
+long(Dir) :-
+    forall(member(Length, [10, 20000, 300000, 15000, 5]),
+           ( numlist(1, Length, List),
+             with_store(Dir, commit([a-k-0-List])),
+             with_store(Dir, items(a, [k-0-Found])),
+             Found == List )),
+    numlist(1, 100000, List),
+    with_store(Dir, ( commit([a-k-0-List]), commit([drop(a, k, 0)]) )),
+    with_store(Dir, items(a, [])).
+
+test('nobody else opens it meanwhile',
+     [error(permission_error(open, journal, _))]) :-
+    with_tmp_dir(locked).
+
+locked(Dir) :-
+    project_file('prolog/typhon/options/journal/store.pl', Store),
+    format(atom(Goal), 'journal_open(~q, normal), writeln(open), flush_output, \c
+            read(_)',
+           [Dir]),
+    with_swipl(['-g', Goal, '-t', halt, Store], _, _, Out,
+               ( read_line_to_string(Out, "open"),
+                 with_store(Dir, true) )).
+
+test('what is no journal is not touched',
+     [error(journal_damaged(_, _))]) :-
+    with_tmp_dir(garbage).
+
+garbage(Dir) :-
+    directory_file_path(Dir, 'journal.db', File),
+    setup_call_cleanup(open(File, write, Out),
+                       forall(between(1, 5000, I), writeln(Out, I)),
+                       close(Out)),
+    unchanged(File, with_store(Dir, true)).
+
+:- meta_predicate unchanged(+, 0).
+
+unchanged(File, Goal) :-
+    read_file_to_codes(File, Before, [type(binary)]),
+    catch(Goal, error(Formal, Context), true),
+    read_file_to_codes(File, After, [type(binary)]),
+    Before == After,
+    throw(error(Formal, Context)).
+
+test('a damaged term is not taken for another',
+     [error(journal_damaged(_, a-k))]) :-
+    with_tmp_dir(damaged).
+
+damaged(Dir) :-
+    with_store(Dir, commit([a-k-0-hello(world)])),
+    sql(Dir, 'update item set value=zeroblob(length)'),
+    with_store(Dir, items(a, _)).
+
+test('a journal of another version is left as it is',
+     [error(journal_version(_, 99))]) :-
+    with_tmp_dir(version).
+
+version(Dir) :-
+    with_store(Dir, commit([a-k-0-hello])),
+    sql(Dir, 'update about set version=99'),
+    with_store(Dir, true).
+
+sql(Dir, Sql) :-
+    directory_file_path(Dir, 'journal.db', File),
+    process_create(path(sqlite3), [File, Sql], [process(Pid)]),
+    process_wait(Pid, exit(0)).
+
+test('a disk that is full is said to be so, and nothing is lost') :-
+    with_tmp_dir(full).
+
+full(Dir) :-
+    numlist(1, 20000, List),
+    with_store(Dir,
+               ( commit([a-k-0-first]),
+                 typhon_store:connection(_, Connection),
+                 odbc:odbc_query(Connection, 'pragma max_page_count=1', _, []),
+                 catch(commit([a-k-0-second, a-l-0-List]), error(Full, _), true),
+                 odbc:odbc_query(Connection, 'pragma max_page_count=100000',
+                                 _, []),
+                 items(a, Items),
+                 commit([a-l-0-List]),
+                 items(a, [k-0-first, l-0-List]) )),
+    Full == resource_error(journal_space),
+    Items == [k-0-first].
+
+:- end_tests(store).

@@ -1,0 +1,691 @@
+:- module(test_page_server, []).
+
+% What a page tells and does, to whom, and to whom not.
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/pages').
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(lists), [member/2, sum_list/2]).
+:- use_module(library(plunit)).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(typhon)).
+
+hosts([alpha-[], beta-[]]).
+
+% page(+Options, -Base, :Goal): two hosts, linked, and a page.
+
+:- meta_predicate
+    page(+, -, 0),
+    page(-, 0).
+
+page(Base, Goal) :-
+    page([], Base, Goal).
+
+page(Options, Base, Goal) :-
+    hosts(Hosts),
+    with_hosts(Hosts, ( link(alpha, beta), with_page(Options, Base, Goal) )).
+
+site(Base, Site) :-
+    atomic_list_concat([Scheme, '', Authority|_], /, Base),
+    atomic_list_concat([Scheme, '', Authority, ''], /, Site).
+
+answer(Base, Message, Answer) :-
+    ask(Base, Message, Told),
+    (   get_dict(error, Told, Error)
+    ->  throw(error(page_said(Error), _))
+    ;   Answer = Told.answer
+    ).
+
+says(Base, Message, Words) :-
+    ask(Base, Message, Told),
+    forall(member(Word, Words),
+           assertion(sub_string(Told.error, _, _, _, Word))).
+
+done(Base, Message, Done) :-
+    answer(Base, Message, Answer),
+    Done = Answer.done.
+
+:- begin_tests(page_guard).
+
+test(without_token, Statuses == [403, 403, 403, 403, 403, 403]) :-
+    page(Base, ( site(Base, Site),
+                 findall(Status, status_without(Site, Status), Statuses) )).
+
+status_without(Site, Status) :-
+    member(Path, ['', feed, 'style.css', 'metrics', 'ask',
+                  '00000000000000000000000000000000/']),
+    atom_concat(Site, Path, Address),
+    got(Address, [], Status).
+
+test(with_token, Statuses == [200, 200, 404, 404, 404, 404]) :-
+    page(Base, findall(Status,
+                       ( member(Path, [ '', 'style.css', 'nothing.js',
+                                        '.hidden', '..%2fserver.pl',
+                                        '%2e%2e/server.pl' ]),
+                         atom_concat(Base, Path, Address),
+                         got(Address, [], Status) ),
+                       Statuses)).
+
+test(link, Status == 303) :-
+    hosts(Hosts),
+    with_hosts(Hosts,
+               setup_call_cleanup(
+                   typhon_page:page_serve([port(0)], Link),
+                   got(Link, [], Status),
+                   page_stop)).
+
+test(another_origin, Statuses == [403, 403, 403]) :-
+    page(Base, findall(Status, status_from_elsewhere(Base, Status), Statuses)).
+
+status_from_elsewhere(Base, Status) :-
+    Elsewhere = [request_header('Origin'='http://evil.example')],
+    atom_concat(Base, ask, Ask),
+    atom_concat(Base, feed, Feed),
+    (   posted(Ask, json(_{ask:"survey"}), Elsewhere, Status)
+    ;   got(Base, Elsewhere, Status)
+    ;   got(Feed, [ request_header('Upgrade'=websocket),
+                    request_header('Connection'='Upgrade'),
+                    request_header('Sec-WebSocket-Key'='AAAAAAAAAAAAAAAAAAAAAA=='),
+                    request_header('Sec-WebSocket-Version'='13')
+                  | Elsewhere ], Status)
+    ).
+
+test(too_large, Status == 413) :-
+    page(Base, ( atomic_list_concat([_, _, Authority, Token|_], /, Base),
+                 atomic_list_concat([_, Port], :, Authority),
+                 format(atom(Command),
+                        'printf "POST /~w/ask HTTP/1.0\\r\\nContent-Length: \c
+                         5000000\\r\\nContent-Type: application/json\\r\\n\c
+                         \\r\\n" >&3; head -1 <&3', [Token]),
+                 format(atom(Bash), 'bash -c \'exec 3<>/dev/tcp/localhost/~w; \c
+                                     ~w\'', [Port, Command]),
+                 setup_call_cleanup(open(pipe(Bash), read, Out),
+                                    read_line_to_string(Out, Line),
+                                    close(Out)),
+                 split_string(Line, " ", "", [_, Text|_]),
+                 number_string(Status, Text) )).
+
+test(headers) :-
+    page(Base, ( http_open:http_open(Base, In,
+                     [header(content_security_policy, Policy)]),
+                 close(In) )),
+    assertion(sub_atom(Policy, _, _, _, 'default-src \'none\'')),
+    assertion(\+ sub_atom(Policy, _, _, _, unsafe)).
+
+%   Whatever there is to do, nothing of it is done.
+
+test(read_only) :-
+    page([read_only(true)], Base,
+         ( findall(What, clause(typhon_page_acting:does(What, _, _), _), All),
+           assertion(memberchk(create, All)),
+           forall(member(What, All),
+                  ( atom_string(What, Text),
+                    says(Base, _{do:Text, text:"", agent:"a"}, ["permission"])
+                  )),
+           answer(Base, _{ask:"survey"}, _{hosts:[_,_], agents:[], time:_}) )).
+
+test(loopback_alone, Addresses == ['127.0.0.1']) :-
+    page(Base, ( site(Base, Site),
+                 atomic_list_concat([_, _, Port0|_], ':', Site),
+                 atomic_list_concat([Port1|_], /, Port0),
+                 atom_number(Port1, Port),
+                 listening_at(Port, Addresses) )).
+
+listening_at(Port, Addresses) :-
+    format(atom(Command), 'ss -Hltn sport = :~d', [Port]),
+    setup_call_cleanup(
+        open(pipe(Command), read, Out),
+        read_string(Out, _, Text),
+        close(Out)),
+    split_string(Text, "\n", "\n", Lines),
+    findall(Address,
+            ( member(Line, Lines),
+              split_string(Line, " ", " ", Words0),
+              exclude(==(""), Words0, [_, _, _, Local|_]),
+              split_string(Local, ":", "", [First|_]),
+              atom_string(Address, First) ),
+            Addresses).
+
+test(only_one, error(permission_error(start, page, _))) :-
+    page(_, page_start([port(0)])).
+
+test(no_such_option, error(domain_error(page_option, prot(1)))) :-
+    page_start([prot(1)]).
+
+test(port_taken, error(socket_error(_, _))) :-
+    no_leaks(setup_call_cleanup(
+                 ( socket:tcp_socket(Socket),
+                   socket:tcp_bind(Socket, localhost:Port),
+                   socket:tcp_listen(Socket, 1) ),
+                 page_start([port(Port)]),
+                 socket:tcp_close_socket(Socket))).
+
+test(nothing_is_left) :-
+    no_leaks(page(Base, with_feed(Base, Feed, frame(Feed, _)))).
+
+test(no_such_host, error(host_unreachable(_))) :-
+    no_leaks(page_start([host('x@127.0.0.1:1'), port(0)])).
+
+test(stop_without_page) :-
+    page_stop.
+
+%   Who does not ask for a page has no library of HTTP.
+
+test(loaded_when_wanted, Status-Err == exit(0)-"") :-
+    project_file('prolog/typhon.pl', File),
+    run_swipl([ '-g', '\\+ current_module(thread_httpd)', '-t', halt, File ],
+              [], Status, _, Err).
+
+%   More half requests than a page has connections, and some whose next byte
+%   always comes soon: whoever has the token is answered.
+
+test(half_requests_do_not_stop_the_owner, Statuses == [200, 200, 200]) :-
+    no_leaks(page(Base,
+        setup_call_cleanup(
+            ( findall(Out, ( between(1, 100, _), half_request(Base, Out) ),
+                      Outs),
+              thread_self(Me),
+              thread_create(drip(Base, 16, Me), Drip),
+              thread_get_message(dripping) ),
+            findall(Status, ( between(1, 3, _), got(Base, [], Status) ),
+                    Statuses),
+            ( thread_send_message(Drip, stop),
+              thread_join(Drip),
+              forall(member(Out, Outs), close(Out, [force(true)])) )))).
+
+%   A request has to be there in time as a whole; so has a body.
+
+test(slow_requests_end) :-
+    with_settings([typhon_page_reception:request_seconds=1],
+        page(Base, forall(member(Head, ['GET /', body]),
+                          ends_while_dripping(Base, Head)))).
+
+test(long_heads_end) :-
+    page(Base,
+         setup_call_cleanup(
+             half_request(Base, Pair),
+             ( catch(( format(Pair, '~`xt~20000|', []), flush_output(Pair) ),
+                     error(_, _), true),
+               ends(Pair) ),
+             close(Pair, [force(true)]))).
+
+ends_while_dripping(Base, Head) :-
+    head_text(Head, Base, Text),
+    setup_call_cleanup(
+        connected(Base, Pair),
+        ( write(Pair, Text), flush_output(Pair),
+          thread_create(drip_on([Pair]), Drip),
+          ends(Pair),
+          thread_send_message(Drip, stop),
+          thread_join(Drip) ),
+        close(Pair, [force(true)])).
+
+head_text(body, Base, Text) :-
+    !,
+    atomic_list_concat([_, _, _, Token|_], /, Base),
+    format(atom(Text), 'POST /~w/ask HTTP/1.1\r\nContent-Length: 100000\r\n\c
+                        Content-Type: application/json\r\n\r\n{', [Token]).
+head_text(Text, _, Text).
+
+connected(Base, Pair) :-
+    atomic_list_concat([_, _, Authority|_], /, Base),
+    atomic_list_concat([_, Text], :, Authority),
+    atom_number(Text, Port),
+    socket:tcp_connect('127.0.0.1':Port, Pair, []),
+    set_stream(Pair, timeout(60)).
+
+half_request(Base, Pair) :-
+    connected(Base, Pair),
+    catch(( write(Pair, 'GET / HTTP/1.1\r\nHost:'), flush_output(Pair) ),
+          error(_, _), true).
+
+%   The server closes the connection, whatever it says before.
+
+ends(Pair) :-
+    catch(read_string(Pair, _, _), error(socket_error(_, _), _), true).
+
+drip(Base, Count, Owner) :-
+    findall(Pair, ( between(1, Count, _), half_request(Base, Pair) ), Pairs),
+    thread_send_message(Owner, dripping),
+    drip_on(Pairs),
+    forall(member(Pair, Pairs), close(Pair, [force(true)])).
+
+drip_on(Pairs) :-
+    thread_self(Me),
+    (   thread_get_message(Me, stop, [timeout(0.1)])
+    ->  true
+    ;   forall(member(Pair, Pairs),
+               catch(( write(Pair, x), flush_output(Pair) ), error(_, _),
+                     true)),
+        drip_on(Pairs)
+    ).
+
+%   What a name hides behind a zero is no other name.
+
+test(zero_in_a_name, Statuses == [404, 404, 404]) :-
+    page(Base, findall(Status,
+                       ( member(Path, [ 'index.html%00.js', '%00.css',
+                                        'style.css%00' ]),
+                         atom_concat(Base, Path, Address),
+                         got(Address, [], Status) ),
+                       Statuses)).
+
+:- end_tests(page_guard).
+
+:- begin_tests(page_questions).
+
+test(survey) :-
+    page(Base, ( create([on_message(_, _)], _, [name(bob), host(alpha)]),
+                 answer(Base, _{ask:"survey"}, Scene) )),
+    Scene.agents = [Agent],
+    assertion(_{program:"test", status:"resident", hops:0, mail:0} :< Agent),
+    assertion(( member(Host, Scene.hosts), Host.links = [[_, 1]] )).
+
+test(agent) :-
+    page(Base, ( create([ (main :- assertz(s(1)), receive(go), log(gone)),
+                          s('<img src=x>') ], A, [host(alpha)]),
+                 wait_state(A, waiting),
+                 agent_send(A, other),
+                 answer(Base, _{ask:"agent", agent:A}, Agent) )),
+    assertion(_{ state:"waiting", facts:["s('<img src=x>')", "s(1)"],
+                 fact_count:2, hops:0, name:"test" } :< Agent),
+    assertion(Agent.mailbox = [[_, "other"]]),
+    Agent.program = _{lines:Lines, here:[N]},
+    nth1(N, Lines, Line),
+    assertion(sub_string(Line, _, _, _, "receive(go)")).
+
+test(ended, Outcome == "done") :-
+    page(Base, ( create([main], A, [host(alpha)]),
+                 joined(A, done),
+                 answer(Base, _{ask:"agent", agent:A}, Agent) )),
+    Outcome = Agent.outcome.
+
+test(fault) :-
+    page(Base, ( listening(( create([(main :- atom_length(_, _))], A,
+                                    [host(alpha)]),
+                             wait_state(A, faulty(_)) ), _),
+                 answer(Base, _{ask:"agent", agent:A}, Agent) )),
+    Fault = Agent.fault,
+    assertion(_{goal:"main", place:"main/0:1"} :< Fault).
+
+test(goals_have_the_names_of_variables, Goals == ["receive(_-go(Host))",
+                                                  "move(Host)"]) :-
+    Text = ":- agent(p, []).\n\nmain :- receive(_-go(Host)), move(Host).\n",
+    page(Base, ( answer(Base, _{do:"create", text:Text, host:"alpha"}, Done),
+                 atom_string(A, Done.done),
+                 wait_state(A, waiting),
+                 answer(Base, _{ask:"agent", agent:A}, Agent) )),
+    Goals = Agent.goals.
+
+test(place_of_a_fault_has_no_folder, Place == "program.pl:3") :-
+    Text = ":- agent(p, []).\n\nmain :- sleep(0), fail.\n",
+    page(Base, ( listening(( answer(Base, _{do:"create", text:Text,
+                                            host:"alpha"}, Done),
+                             atom_string(A, Done.done),
+                             wait_state(A, faulty(_)) ), _),
+                 answer(Base, _{ask:"agent", agent:A}, Agent) )),
+    Place = Agent.fault.place.
+
+test(host) :-
+    page(Base, ( remote(alpha, ( leave(parcel(7)), assertz(door(open)) )),
+                 answer(Base, _{ask:"host", host:"alpha"}, Host) )),
+    assertion(Host.tuples == ["parcel(7)"]),
+    assertion(Host.place == ["door(open).\n"]),
+    assertion(length(Host.links, 1)).
+
+test(nobody) :-
+    page(Base, ( says(Base, _{ask:"host", host:"gamma"}, ["gamma"]),
+                 says(Base, _{ask:"agent", agent:"x.0@y@127.0.0.1:1"}, []),
+                 says(Base, _{ask:"what"}, ["question"]),
+                 says(Base, _{do:"what"}, ["order"]),
+                 says(Base, _{what:"ask"}, []),
+                 says(Base, _{ask:1}, []) )).
+
+test(mechanisms) :-
+    page(Base, answer(Base, _{ask:"mechanisms"}, All)),
+    member(Mechanism, All),
+    Mechanism.name == "sync",
+    !,
+    member(Predicate, Mechanism.predicates),
+    Predicate.name == "sequence_start",
+    !,
+    assertion(Predicate.arguments == [["+","Sequence"], ["+","Hosts"],
+                                      ["+","Tasks"], ["+","Options"],
+                                      ["-","Agents"]]),
+    assertion(sub_string(Predicate.about, _, _, _, "delta")).
+
+test(programs) :-
+    page(Base, answer(Base, _{ask:"programs"}, Names)),
+    assertion(memberchk("agents(sync/traveller)", Names)),
+    assertion(\+ ( member(Name, Names), sub_string(Name, _, _, _, operator) )).
+
+test(metrics, Said == "") :-
+    page(Base, ( create([on_message(_, _)], _, [host(alpha)]),
+                 atom_concat(Base, metrics, Address),
+                 http_client:http_get(Address, Text, [to(string)]) )),
+    assertion(sub_string(Text, _, _, _,
+                         "state=\"resident\"} 1")),
+    (   absolute_file_name(path(promtool), _,
+                           [access(execute), file_errors(fail)])
+    ->  checked_by_promtool(Text, Said)
+    ;   Said = ""
+    ).
+
+checked_by_promtool(Text, Said) :-
+    setup_call_cleanup(
+        process_create(path(promtool), [check, metrics],
+                       [ stdin(pipe(In)), stdout(pipe(Out)),
+                         stderr(std), process(Pid) ]),
+        ( format(In, '~s', [Text]), close(In), read_string(Out, _, Said) ),
+        close(Out)),
+    process_wait(Pid, exit(0)).
+
+:- end_tests(page_questions).
+
+:- begin_tests(page_orders).
+
+program(":- agent(p, [state([n/1])]).\n\c
+         main :- receive(_-Message), assertz(n(Message)), receive(_-end).\n").
+
+test(create_and_send, Facts =@= [n(hello(_, 'B', "c"))]) :-
+    program(Text),
+    page(Base, ( done(Base, _{ do:"create", text:Text, host:"beta", name:"ann",
+                               options:"[lifetime(3)]" }, Agent0),
+                 atom_string(Agent, Agent0),
+                 done(Base, _{do:"send", agent:Agent,
+                              message:"hello(X, 'B', \"c\")"}, _),
+                 wait_until(agent_property(Agent, facts([_])), 10),
+                 agent_property(Agent, facts(Facts)),
+                 agent_property(Agent, host(Host)) )),
+    assertion(sub_atom(Host, 0, _, _, beta)),
+    assertion(sub_atom(Agent, 0, _, _, ann)).
+
+test(bad_terms) :-
+    page(Base, ( create([on_message(_, _)], A, [host(alpha)]),
+                 says(Base, _{do:"send", agent:A, message:"go("},
+                      ["message", "go( ** here **"]),
+                 says(Base, _{do:"send", agent:A}, ["message", "missing"]),
+                 says(Base, _{do:"network_start", topology:"grid(a"}, ["topology"]),
+                 says(Base, _{do:"network_start", topology:"grdi(2,2)"},
+                      ["grid"]) )).
+
+%   What is said of a program stands at its line, and its file has no folder.
+
+test(check, Said == [["error", 3], ["warning", 2], ["warning", 3]]) :-
+    Text = ":- agent(p, []).\nmain :- foo(X), foo.\nmain :- forall(a, move(b)).\n",
+    page(Base, ( answer(Base, _{do:"check", text:Text}, Answer),
+                 Problems = Answer.said )),
+    findall([Kind, Line], ( member(P, Problems),
+                            _{kind:Kind, line:Line} :< P ), Said0),
+    sort(Said0, Said),
+    forall(( member(P, Problems), get_dict(text, P, Words) ),
+           assertion(\+ sub_string(Words, _, _, _, "program.pl"))).
+
+test(line_of_the_goal, Lines == [6]) :-
+    Text = ":- agent(p, []).\nmain :-\n    here(_),\n    forall(true,\n\c
+                       \u0020          \n        move(b)).\n",
+    page(Base, ( answer(Base, _{do:"check", text:Text}, Answer),
+                 Said = Answer.said )),
+    findall(Line, ( member(P, Said), get_dict(line, P, Line) ), Lines).
+
+test(create_is_refused) :-
+    page(Base, says(Base, _{do:"create", text:"main :- .", host:"alpha"},
+                    ["program.pl:1"])).
+
+test(move_clone_dispose) :-
+    page(Base, ( create([on_message(_, _)], A, [host(alpha)]),
+                 done(Base, _{do:"move", agent:A, host:"beta"}, _),
+                 address(beta, There),
+                 wait_until(agent_property(A, host(There)), 10),
+                 done(Base, _{do:"clone", agent:A}, Clone0),
+                 atom_string(Clone, Clone0),
+                 done(Base, _{do:"dispose", agent:A}, _),
+                 done(Base, _{do:"dispose", agent:Clone0, force:1}, _),
+                 joined(A, disposed),
+                 joined(Clone, disposed) )).
+
+test(save_and_load, Facts == [s(1)]) :-
+    page(Base, ( create([s(1), on_message(_, _)], A, [host(alpha)]),
+                 done(Base, _{do:"save", agent:A}, Text),
+                 done(Base, _{do:"load", text:Text, host:"beta"}, B0),
+                 atom_string(B, B0),
+                 assertion(A \== B),
+                 agent_property(B, facts(Facts)) )).
+
+test(links, Costs == [2.5]) :-
+    page(Base, ( done(Base, _{do:"unlink", a:"alpha", b:"beta"}, _),
+                 assertion(host_property(alpha, neighbours([]))),
+                 done(Base, _{do:"link", a:"alpha", b:"beta", cost:"2.5"}, _),
+                 answer(Base, _{ask:"survey"}, Scene) )),
+    findall(Cost, ( member(Host, Scene.hosts), member([_, Cost], Host.links) ),
+            Costs0),
+    sort(Costs0, Costs).
+
+test(hosts, Load == 0) :-
+    page(Base, ( done(Base, _{do:"host_start", name:"gamma",
+                              options:"[capacity(3)]"}, _),
+                 host_property(gamma, capacity(3)),
+                 host_property(gamma, load(Load)),
+                 done(Base, _{do:"host_stop", host:"gamma"}, _),
+                 assertion(\+ host_property(_, capacity(3))) )).
+
+test(networks) :-
+    page(Base, ( done(Base, _{do:"network_start", topology:"ring(4)",
+                              options:"[processes(2)]"}, Name),
+                 answer(Base, _{ask:"networks"}, [Network]),
+                 assertion(length(Network.hosts, 4)),
+                 Network.hosts = [First|_],
+                 done(Base, _{do:"host_start", name:"extra", at:First}, Extra),
+                 assertion(sub_string(Extra, 0, _, _, "extra@")),
+                 answer(Base, _{ask:"host", host:Extra}, _),
+                 done(Base, _{do:"host_stop", host:Extra}, _),
+                 done(Base, _{do:"network_stop", network:Name}, _),
+                 answer(Base, _{ask:"networks"}, []) )).
+
+test(mechanism, Done == ["[]"]) :-
+    page(Base, ( findall(A, host_property(_, address(A)), Hosts),
+                 done(Base, _{ do:"mechanism", mechanism:"sync",
+                               predicate:"sequence_start",
+                               arguments:["s", Hosts, "[a-true]",
+                                          "[agents(0)]", ""] }, Done),
+                 says(Base, _{ do:"mechanism", mechanism:"sync",
+                               predicate:"halt", arguments:[] }, ["halt/0"]),
+                 says(Base, _{ do:"mechanism", mechanism:"../sync",
+                               predicate:"halt", arguments:[] }, ["mechanism"]),
+                 agents_are_gone )).
+
+agents_are_gone :-
+    findall(A, agent_property(A, state(_)), Agents),
+    forall(member(A, Agents), agent_dispose(A)).
+
+:- end_tests(page_orders).
+
+:- begin_tests(page_feed).
+
+test(first_all_there_is, [Hosts, ReadOnly] == [2, false]) :-
+    page(Base, with_feed(Base, Feed, frame(Feed, _{snapshot:Scene}))),
+    length(Scene.hosts, Hosts),
+    ReadOnly = Scene.read_only.
+
+test(what_happens) :-
+    page(Base, with_feed(Base, Feed, happenings(Feed))).
+
+happenings(Feed) :-
+    frame(Feed, _),
+    address(alpha, Alpha0),
+    address(beta, Beta0),
+    maplist(atom_string, [Alpha0, Beta0], [Alpha, Beta]),
+    create([(main :- move(Beta0), log('<b>'), leave(f(x, "y")))], A0,
+           [host(alpha)]),
+    atom_string(A0, A),
+    told(Feed, [Alpha, A, "created"], _),
+    told(Feed, [Alpha, A, "left", Beta], _),
+    told(Feed, [Beta, A, "arrived", Alpha], [_, _, _, _, _, Seconds]),
+    assertion(number(Seconds)),
+    told(Feed, [Beta, A, "log", "<b>"], _),
+    told(Feed, [Beta, A, "leave", "f(x,\"y\")"], _),
+    told(Feed, [Beta, A, "ended", "done"], _),
+    unlink(alpha, beta),
+    told(Feed, [Alpha, "", "unlink", Beta], _).
+
+%   JSON has no numbers that are infinite, or none: nothing could be read in
+%   which there is one.
+
+test(no_number, [Cost, Logged] == ["1.0Inf", "1.5NaN"]) :-
+    page(Base, no_number(Base, Cost, Logged)).
+
+no_number(Base, Cost, Logged) :-
+    Inf is inf,
+    link(alpha, beta, [cost(Inf)]),
+    with_feed(Base, Feed,
+              ( frame(Feed, First),
+                member(Host, First.snapshot.hosts),
+                Host.links = [[_, Cost]],
+                create([(main :- X is nan, log(X))], _, [host(alpha)]),
+                told(Feed, [_, _, "log"], [_, _, _, _, Logged]) )).
+
+%   Virtual time is shown as it is.
+
+test(virtual_time, Time == 3.0) :-
+    with_hosts([alpha-[clock(virtual)]],
+               with_page([], Base,
+                         with_feed(Base, Feed, virtual_time(Feed, Time)))).
+
+virtual_time(Feed, Time) :-
+    frame(Feed, _),
+    create([(main :- sleep(3))], A, [host(alpha)]),
+    agent_join(A, done, 10),
+    told(Feed, [_, _, "ended", "done"], [Time|_]).
+
+%   A host that comes is found, and one whose process is killed is told of.
+
+test(come_and_go) :-
+    with_settings([typhon_page_sources:renew_seconds=0.3],
+        page(Base, with_feed(Base, Feed,
+                             ( frame(Feed, _),
+                               network_start(ring(4), N, [processes(2)]),
+                               network_property(N, hosts(Hosts)),
+                               network_property(N, processes([Pid|_])),
+                               call_cleanup(come_and_go(Feed, Hosts, Pid),
+                                            listening(network_stop(N), _))
+                             )))).
+
+come_and_go(Feed, [First|Hosts], Pid) :-
+    last(Hosts, Last),
+    wait_until(typhon_page_sources:watched(Last, _), 15),
+    wait_until(typhon_page_sources:watched(First, _), 15),
+    maplist(atom_string, [First, Last], [FirstText, LastText]),
+    create([main], _, [host(Last)]),
+    told(Feed, [LastText, _, "created"], _),
+    process_kill(Pid, kill),
+    told(Feed, [FirstText, "", "lost"], _).
+
+%   Who does not read loses some, and is told how many; another does not.
+
+test(slow_browser, Sum-Fast == 3000-3000) :-
+    with_settings([typhon_page_browsers:frame_events=20],
+                  page(Base, with_feed(Base, Slow,
+                                       with_feed(Base, Quick,
+                                                 slow(Slow, Quick, Sum, Fast))))).
+
+slow(Slow, Quick, Sum, Fast) :-
+    frame(Slow, _),
+    frame(Quick, _),
+    atom_length_of(1900, Text),
+    thread_create(count(Quick, 0, Fast0, 3000), Reader),
+    forall(between(1, 3000, N),
+           typhon_page_browsers:browsers_tell(
+               event(N, 'a@b:1', none, log(Text)))),
+    thread_join(Reader, exited(Fast0)),
+    Fast = Fast0,
+    typhon_page_browsers:browsers_tell(event(0, 'a@b:1', none, log(last))),
+    counted(Slow, 0, 3001, Sum0),
+    Sum is Sum0-1.
+
+atom_length_of(Length, Text) :-
+    length(Codes, Length),
+    maplist(=(0'x), Codes),
+    atom_codes(Text, Codes).
+
+count(Feed, _, _, Most) :-
+    counted(Feed, 0, Most, Sum),
+    thread_exit(Sum).
+
+counted(_, Sum, Most, Sum) :-
+    Sum >= Most,
+    !.
+counted(Feed, Sum0, Most, Sum) :-
+    frame(Feed, Frame),
+    (   get_dict(events, Frame, Events)
+    ->  findall(N, ( member(E, Events), weight(E, N) ), Ns),
+        sum_list([Sum0|Ns], Sum1)
+    ;   Sum1 = Sum0
+    ),
+    counted(Feed, Sum1, Most, Sum).
+
+weight([_, _, _, "skipped", N], N) :-
+    !.
+weight(_, 1).
+
+test(nobody_is_watched_for_nobody) :-
+    with_settings([typhon_page_sources:renew_seconds=0.2],
+        page(Base,
+             ( with_feed(Base, Feed,
+                         ( frame(Feed, _),
+                           assertion(typhon_page_sources:watched(_, _)) )),
+               wait_until(\+ typhon_page_sources:watched(_, _), 20) ))).
+
+%   A page of a process of its own shows a network by one of its hosts.
+
+test(from_elsewhere, Names == [alpha, beta]) :-
+    with_hosts([alpha-[], beta-[]],
+               ( link(alpha, beta),
+                 address(alpha, Address),
+                 project_file('app/typhon.pl', App),
+                 with_swipl([App, page, '--host', Address, '--port', '0'],
+                            Pid, _, Out, elsewhere(Out, Pid, Names)) )).
+
+elsewhere(Out, Pid, Names) :-
+    read_line_to_string(Out, Link0),
+    atom_string(Link, Link0),
+    test_pages:link_base(Link, Base),
+    answer(Base, _{ask:"survey"}, Scene),
+    findall(Name, ( member(Host, Scene.hosts),
+                    split_string(Host.id, "@", "", [Text|_]),
+                    atom_string(Name, Text) ), Names0),
+    sort(Names0, Names),
+    with_feed(Base, Feed,
+              ( frame(Feed, _),
+                create([main], A, [host(alpha)]),
+                atom_string(A, Text),
+                told(Feed, [_, Text, "ended", "done"], _) )),
+    process_kill(Pid, term),
+    wait_for_end(Pid, 10, exit(0)).
+
+%   make demo-page: sixty hosts at work, until Ctrl-C.
+
+test(demo, Count-Status == 4-exit(0)) :-
+    project_file('app/demo_page.pl', Demo),
+    with_swipl([Demo, '--', '--port=0'], Pid, _, Out,
+               ( read_line_to_string(Out, Link),
+                 test_pages:link_base(Link, Base),
+                 read_line_to_string(Out, _),
+                 read_line_to_string(Out, How),
+                 assertion(sub_string(How, _, _, _, "in a browser")),
+                 wait_until(demo_at_work(Base, Count), 20),
+                 process_kill(Pid, int),
+                 wait_for_end(Pid, 20, Status) )).
+
+demo_at_work(Base, Count) :-
+    answer(Base, _{ask:"survey"}, Scene),
+    length(Scene.hosts, 60),
+    findall(P, ( member(H, Scene.hosts), get_dict(process, H, P) ), Ps),
+    sort(Ps, Processes),
+    length(Processes, Count),
+    findall(P, ( member(A, Scene.agents), get_dict(program, A, P) ), Programs),
+    memberchk("traveller", Programs),
+    memberchk("guard", Programs).
+
+:- end_tests(page_feed).
