@@ -7,7 +7,7 @@
 :- use_module(library(typhon/kernel/program),
               [ code_clear/0, code_install/3, code_module/2, machine_run/3,
                 program_load/5 ]).
-:- use_module(library(typhon/kernel/wire), [term_text/2, text_term/2]).
+:- use_module(library(typhon/kernel/base/text), [term_text/2, text_term/2]).
 
 /** <module> Tests of typhon_machine: stopping and going on anywhere
 
