@@ -5,7 +5,6 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/network/topology)).
 
 /** <module> What links cost, and where a network says so
 
@@ -92,25 +91,6 @@ test(unknown_host, error(existence_error(host, nowhere))) :-
 :- end_tests(link_costs).
 
 :- begin_tests(network_costs).
-
-test(line, Edges == [1-2,2-3,3-4]) :-
-    topology_edges(line(4), 1, 4, Edges).
-test(star, Edges == [1-2,1-3,1-4]) :-
-    topology_edges(star(4), 1, 4, Edges).
-test(one_host, [forall(member(T, [line(1),star(1)])), N-Edges == 1-[]]) :-
-    topology_edges(T, 1, N, Edges).
-test(names, Names == [n1,n2,n3]) :-
-    topology_names(star(3), Names).
-test(too_small, error(type_error(positive_integer, 0))) :-
-    topology_edges(line(0), 1, _, _).
-test(edges_with_costs, Edges-Costs == [1-2,1-3,2-3]-[(1-2)-4,(2-3)-0.5]) :-
-    Topology = edges([b-a-cost(4), b-c, a-c-cost(0.5)]),
-    topology_edges(Topology, 1, 3, Edges),
-    topology_costs(Topology, Costs).
-test(no_pair_with_a_cost, error(type_error(edge, a-cost(1)))) :-
-    topology_edges(edges([a-cost(1)]), 1, _, _).
-test(a_foolish_cost_of_an_edge, error(type_error(number, x))) :-
-    topology_edges(edges([a-b-cost(x)]), 1, _, _).
 
 test(all_alike, C == [n1-3,n3-3]) :-
     with_network(line(3), [cost(3), clock(virtual)], _, costs_at(n2, C)).

@@ -11,8 +11,7 @@
 :- use_module(library(uid), [geteuid/1]).
 :- use_module(library(typhon/kernel/wire),
               [endpoint_address/1, endpoint_post/3, endpoint_stop/0]).
-:- use_module(library(typhon/network/log)).
-:- use_module(library(typhon/network/log_file)).
+:- use_module(library(typhon)).
 
 %   with_log(+Options, :Goal): Goal(Address, File), with a server running.
 

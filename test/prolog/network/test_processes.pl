@@ -8,7 +8,7 @@
 :- use_module(library(filesex)).
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/travel/home), [home_knows/4]).
+:- use_module(library(typhon/kernel/travel), [whereabouts/2]).
 
 /** <module> Tests of agents and hosts in separate processes
 
@@ -311,7 +311,7 @@ test(find_one_that_went_away, true(Ns == [1,2,3])) :-
     there(beta, B), there(gamma, C),
     collector(Cs),
     create([(main :- to(X,Y), move(X), move(Y)), to(B,C)|Cs], A),
-    wait_until(home_knows(A, C, _, _), 10),
+    wait_until(whereabouts(A, C), 10),
     forall(member(N, [1,2,3]), agent_send(A, N)),
     wait_until(has_all(A, 3), 10),
     findall(N, fact_of(A, s(N)), Ns),

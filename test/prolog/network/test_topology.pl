@@ -1,12 +1,23 @@
 :- module(test_topology, []).
-:- use_module('../../lib/common').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists),
               [append/3, member/2, numlist/3, sum_list/2]).
 :- use_module(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
-:- use_module(library(typhon/network/topology)).
+:- use_module(library(typhon)).
+:- use_module('../../lib/virtual_networks', [network_shape/5]).
+
+/** <module> The shapes of networks
+
+*Threading*: the main thread.
+*/
+
+edges(Topology, Seed, N, Edges) :-
+    network_shape(Topology, [seed(Seed)], N, _, Edges).
+
+names(Topology, Names) :-
+    network_shape(Topology, [], _, Names, _).
 
 degrees(N, Edges, Degrees) :-
     numlist(1, N, Hosts),
@@ -34,19 +45,17 @@ well_formed(N, Edges) :-
 
 :- begin_tests(topologies).
 
-test(every_shape_is_well_formed_and_connected,
+test(every_topology_is_connected,
      forall(member(T, [star_bus(6,10), star_bus(1,1), star_bus(4,1), ring(1),
                        ring(2), ring(3), ring(60), tree(1), tree(60),
                        grid(6,10), grid(1,5), grid(1,1), mesh(1), mesh(50),
                        random(50, 0.1), random(50, 0.0), random(9, 1),
                        edges([a-b, b-c])]))) :-
-    topology_edges(T, 1, N, Edges),
+    edges(T, 1, N, Edges),
     well_formed(N, Edges),
-    connected(N, Edges),
-    topology_names(T, Names),
-    length(Names, N).
+    connected(N, Edges).
 test(star_bus_of_sixty) :-
-    topology_edges(star_bus(6, 10), 1, N, Edges),
+    edges(star_bus(6, 10), 1, N, Edges),
     N == 60,
     length(Edges, 59),
     degrees(N, Edges, Degrees),
@@ -55,41 +64,47 @@ test(star_bus_of_sixty) :-
     maplist(=(1), Leaves),
     append(Leaves, [10, 10, 11, 11, 11, 11], Sorted).
 test(star_bus_hubs_in_a_chain, Hubs == [1-11, 11-21]) :-
-    topology_edges(star_bus(3, 10), 1, _, Edges),
+    edges(star_bus(3, 10), 1, _, Edges),
     findall(A-B, ( member(A-B, Edges), A mod 10 =:= 1, B mod 10 =:= 1 ),
             Hubs).
 test(ring, true) :-
-    topology_edges(ring(60), 1, N, Edges),
+    edges(ring(60), 1, N, Edges),
     degrees(N, Edges, Degrees),
     maplist(=(2), Degrees).
 test(small_rings, [Two, One] == [[1-2], []]) :-
-    topology_edges(ring(2), 1, 2, Two),
-    topology_edges(ring(1), 1, 1, One).
+    edges(ring(2), 1, 2, Two),
+    edges(ring(1), 1, 1, One).
 test(tree, Edges == [1-2, 1-3, 2-4, 2-5, 3-6, 3-7]) :-
-    topology_edges(tree(7), 1, 7, Edges).
+    edges(tree(7), 1, 7, Edges).
 test(grid, Edges == [1-2, 1-4, 2-3, 2-5, 3-6, 4-5, 5-6]) :-
-    topology_edges(grid(2, 3), 1, 6, Edges).
+    edges(grid(2, 3), 1, 6, Edges).
 test(grid_of_sixty, L == 104) :-
-    topology_edges(grid(6, 10), 1, 60, Edges),
+    edges(grid(6, 10), 1, 60, Edges),
     length(Edges, L).
+test(line, Edges == [1-2, 2-3, 3-4]) :-
+    edges(line(4), 1, 4, Edges).
+test(star, Edges == [1-2, 1-3, 1-4]) :-
+    edges(star(4), 1, 4, Edges).
+test(one_host, [forall(member(T, [line(1), star(1)])), N-Edges == 1-[]]) :-
+    edges(T, 1, N, Edges).
 test(mesh, L == 4950) :-
-    topology_edges(mesh(100), 1, 100, Edges),
+    edges(mesh(100), 1, 100, Edges),
     length(Edges, L).
 test(random_without_chance_is_a_tree, L == 29) :-
-    topology_edges(random(30, 0), 7, 30, Edges),
+    edges(random(30, 0), 7, 30, Edges),
     length(Edges, L).
 test(random_with_certainty_is_a_mesh, L == 435) :-
-    topology_edges(random(30, 1.0), 7, 30, Edges),
+    edges(random(30, 1.0), 7, 30, Edges),
     length(Edges, L).
 test(random_is_repeatable, A == B) :-
-    topology_edges(random(40, 0.2), 5, 40, A),
-    topology_edges(random(40, 0.2), 5, 40, B),
-    topology_edges(random(40, 0.2), 6, 40, C),
+    edges(random(40, 0.2), 5, 40, A),
+    edges(random(40, 0.2), 5, 40, B),
+    edges(random(40, 0.2), 6, 40, C),
     A \== C.
 test(random_has_the_density_asked_for, true) :-
     findall(L,
             ( between(1, 20, Seed),
-              topology_edges(random(50, 0.3), Seed, 50, Edges),
+              edges(random(50, 0.3), Seed, 50, Edges),
               length(Edges, L) ),
             Ls),
     sum_list(Ls, Sum),
@@ -97,10 +112,9 @@ test(random_has_the_density_asked_for, true) :-
     abs(Mean - 0.3) < 0.012.            % four standard deviations
 test(edges_by_name, N-Edges-Names == 4-[1-2, 2-3, 2-4]-[a, n7, b, n2]) :-
     T = edges([a-7, 7-b, b-7, n2-7]),
-    topology_edges(T, 0, N, Edges),
-    topology_names(T, Names).
-test(names, Names == [n1, n2, n3]) :-
-    topology_names(ring(3), Names).
+    network_shape(T, [], N, Names, Edges).
+test(names, [forall(member(T, [ring(3), star(3)])), Names == [n1, n2, n3]]) :-
+    names(T, Names).
 
 :- end_tests(topologies).
 
@@ -120,13 +134,14 @@ nonsense(edges([a-a]), domain_error(edge, a-a)).
 nonsense(edges([1-n1]), domain_error(edge, 1-n1)).
 nonsense(edges([a-"b"]), type_error(host_name, "b")).
 nonsense(edges(a), type_error(list, a)).
+nonsense(line(0), type_error(positive_integer, 0)).
+nonsense(edges([a-cost(1)]), type_error(edge, a-cost(1))).
+nonsense(edges([a-b-cost(x)]), type_error(number, x)).
 
 test(nonsense, forall(nonsense(Topology, Formal))) :-
-    catch(topology_edges(Topology, 1, _, _), error(Formal1, _), true),
-    assertion(Formal1 =@= Formal),
-    catch(topology_names(Topology, _), error(Formal2, _), true),
-    assertion(Formal2 =@= Formal).
+    catch(network_start(Topology, _, []), error(Formal1, _), true),
+    assertion(Formal1 =@= Formal).
 test(seed, error(type_error(integer, a))) :-
-    topology_edges(ring(3), a, _, _).
+    network_start(ring(3), _, [seed(a)]).
 
 :- end_tests(topology_errors).
