@@ -13,7 +13,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 :- use_module('../kernel/base/error_text', [error_told/3, term_told/3]).
 :- use_module('../kernel/wire', [endpoint_missed/2, tls_text/2]).
 :- use_module('../kernel/program', [files_beside/3]).
-:- use_module('../kernel/host', [address_parts/3, host_property/2]).
+:- use_module('../kernel/host', [address_parts/3, host_property/2, host_resolve/2]).
 :- use_module('../kernel/base/names',
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 :- use_module('../kernel/travel', [agent_outcome/2]).
@@ -30,6 +30,10 @@ the wire, of networks and of the log keep the texts of their own messages.
 prolog:error_message(existence_error(host, here)) -->
     !,
     [ 'This process has no host' ].
+prolog:error_message(existence_error(host, Host)) -->
+    { elsewhere(Host, Address) },
+    !,
+    [ 'Host ~w is not in this process'-[Address] ].
 prolog:error_message(existence_error(host, Host)) -->
     { address_parts(Host, Name, Endpoint) },
     !,
@@ -320,3 +324,14 @@ meant(Kind, Name) -->
       names_proposed(Name, Names, Text)
     },
     [ '~w'-[Text] ].
+
+%   elsewhere(+Host, -Address) is semidet.
+%
+%   Host, a name or an address, is of a network of this process, and in another
+%   process.
+
+elsewhere(Host, Address) :-
+    atom(Host),
+    catch(host_resolve(Host, remote(Address, _, _)), error(_, _), fail),
+    names(host, Names),
+    memberchk(Address, Names).

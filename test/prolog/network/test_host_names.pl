@@ -70,6 +70,23 @@ linked([Network]) :-
     host_stop(alpha),
     assertion(There == [Second]).
 
+test(stopping_a_host_of_another_process_is_an_error_that_says_so) :-
+    with_networks(1, stopped_from_here).
+
+stopped_from_here([Network]) :-
+    network_property(Network, hosts([_, Second])),
+    forall(member(Host, [n2, Second]),
+           ( catch(host_stop(Host), Error, true),
+             assertion(Error = error(existence_error(host, Host), _)),
+             message_text(Error, Text),
+             format(string(Wanted), "Host ~w is not in this process", [Second]),
+             assertion(sub_string(Text, _, _, _, Wanted)) )).
+
+message_text(Error, Text) :-
+    phrase('$messages':translate_message(Error), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)).
+
 test(bare_name_serves_watch) :-
     with_networks(1, watched).
 

@@ -349,8 +349,9 @@ place_parts(Options, Files, Services) :-
 
 %!  host_stop(+Name) is det.
 %
-%   Dispose of the agents on Name and release all it holds.  If the process
-%   has a journal, and Name is its last host, they rest there instead.
+%   Dispose of the agents on Name, a host of this process, and release all it
+%   holds.  If the process has a journal, and Name is its last host, they rest
+%   there instead.
 %
 %   @error existence_error(host, Name)
 
