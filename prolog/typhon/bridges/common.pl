@@ -22,7 +22,7 @@ them as messages or as facts.  This is the interface of the layer.  A bridge
     typhon_helper_answers:heard(echo(Host), Dict) :-
         subscribers_tell(echo, Host, Dict.key, said(Dict.text), said(_)).
 
-    % nobody is there any more who wants Key
+    % the last subscriber of Key is gone
     typhon_subscribers:wanted(echo, Host, Key, false) :-
         helper_note(echo(Host), _{do:deafen, key:Key}).
 

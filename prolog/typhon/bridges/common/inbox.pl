@@ -9,11 +9,11 @@
                 tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../../kernel/agent', [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
 
-/** <module> Where it arrives, and what there is no room for
+/** <module> Incoming messages of services, and dropped ones
 
 What comes for an agent is put in its mailbox, as long as fewer than so many
-messages wait there.  The others are counted, and when half of the room is
-free again, or what comes next has room, the agent first gets
+messages wait there.  The others are counted, and when half of the queue is
+free again, or the next one fits, the agent first gets
 Service-dropped(Key, Count).  So it is with facts; there the fact
 Service-dropped(Key, Count) has the count of all that were dropped.
 
@@ -22,8 +22,8 @@ runs an agent hears that it takes a message, while there are gaps.
 */
 
 :- multifile
-    dropped/3,                  % Service, Host, Message: for an agent who has
-                                % no room; must not wait
+    dropped/3,                  % Service, Host, Message: for an agent whose
+                                % queue is full; must not wait
     typhon_events:told/4.
 
 :- dynamic
@@ -91,7 +91,7 @@ done(full, Gap, Count0) :-
                 *             GAPS             *
                 *******************************/
 
-%   Who has taken a gap tells of it, or puts it back.
+%   A thread that takes a gap reports it, or puts it back.
 
 gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
     (   gap(Agent, Service, _, _, _, _, _),

@@ -129,7 +129,7 @@ mqtt_stop(Host) :-
 %
 %     - node(Name): default typhon_Host
 %     - domain(N): default is that of the environment variable ROS_DOMAIN_ID
-%     - reach(Reach): who is to be found: `localhost`, default, or `subnet`
+%     - reach(Reach): what is to be found: `localhost`, default, or `subnet`
 %     - python(File): which has rclpy; default that of `make tools-ros`
 %
 %   and for a server

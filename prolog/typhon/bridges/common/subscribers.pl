@@ -38,7 +38,7 @@ its calls are in order, and must not wait.
 
 :- multifile
     wanted/4,                   % Service, Host, Key, Boolean: an agent came
-                                % back; or the last one who wanted it is gone
+                                % back; or the last subscriber is gone
     typhon_events:told/4,
     typhon_options:declared/4.
 
@@ -53,7 +53,7 @@ its calls are in order, and must not wait.
 
 %!  subscriber(-Host, -Agent) is det.
 %
-%   Who is running, and where; Agent is `none` in goals of remote/2.
+%   The running agent and its host; Agent is `none` in goals of remote/2.
 %
 %   @error existence_error(running_agent, here)
 
@@ -137,8 +137,8 @@ subscription(Service, Host, Key) :-
 %
 %   Message has come for Key.  Same is a pattern: it unifies with messages
 %   that this one replaces where only the latest is wanted.  Told as new are
-%   only those who have subscribed last, or within a second before that: what
-%   a service says to who comes is nothing to others.
+%   only the last subscribers, or those within a second before that: a
+%   greeting to new subscribers is not for others.
 
 subscribers_tell(Service, Host, Key, Message, Same) :-
     inbox_key(Key, Text),

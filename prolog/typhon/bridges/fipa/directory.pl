@@ -37,11 +37,11 @@ directory_add(Directory, Name, Description, Until) :-
 add(Directory, Name, Description, Until) :-
     (   retract(entry(Directory, Name, _, _))
     ->  true
-    ;   room
+    ;   has_space
     ),
     assertz(entry(Directory, Name, Description, Until)).
 
-room :-
+has_space :-
     setting(entries, Max),
     (   predicate_property(entry(_, _, _, _), number_of_clauses(Count)),
         Count >= Max

@@ -72,7 +72,7 @@ item(_, string(String)) -->
     "\"",
     !,
     { length(Ds, Digits),
-      Digits < 9,                       % more take time, and there is no room
+      Digits < 9,                       % more take time, and do not fit
       number_codes(Bytes, [D|Ds])
     },
     counted(Bytes, Codes),

@@ -30,7 +30,7 @@ answer_all/1 and answer_died/2 are for owners.
 %!  request_line(+Request:dict, -Line:string) is det.
 %!  request_line(+Request:dict, +Seconds, -Id, -Line:string) is det.
 %
-%   Line says Request, that nobody is to answer; or with a new Id, and how
+%   Line says Request, that needs no answer; or with a new Id, and how
 %   long it may take.
 
 request_line(Request, Line) :-
@@ -82,7 +82,7 @@ answer(Queue, Answer) :-
 %!  answer_unwanted(+Id) is det.
 %
 %   The answer to Id, which is asked by the owner now, is for Queue; it is for
-%   nobody any more.
+%   no caller any more.
 
 answer_awaited(Id, Queue) :-
     thread_self(Owner),

@@ -30,7 +30,7 @@ soon(5).                        % seconds, for a process to end
 
 %!  own(+Name, +Command, +When, +Alias, +Told) is det.
 %
-%   Keep the helper until stop(Who) comes, who then gets stopped(Owner). Other
+%   Keep the helper until stop(Caller) comes, which then gets stopped(Owner). Other
 %   messages are request(Id, Queue, Line), note(Line) and `told`: a line is in
 %   the queue Told.
 %
@@ -170,7 +170,7 @@ write_request(down(_, _, Answer), _, Queue, _) :-
 
 write_told(up(Process, _, _), Line) :-
     process_write(Process, Line).
-write_told(down(_, _, _), _).           % to nobody
+write_told(down(_, _, _), _).           % to no caller
 
 stop(up(Process, _, _)) :-
     request_line(_{do:quit}, Line),

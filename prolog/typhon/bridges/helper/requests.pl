@@ -19,14 +19,14 @@
 /** <module> Requests to helpers, and their answers
 
 Every helper has a thread that owns its process, see typhon_helper_owner.
-Answers, in whatever order, go to who waits for them.
+Answers, in whatever order, go to the waiting callers.
 
 A helper ends what it does at the deadline of the request.  Who asked waits
 two seconds longer, then kills a helper that has not answered, so nothing
 hangs.
 
 *Threading*: any thread may ask.  It waits for its answer at a queue of its
-own, so what comes too late is for nobody.
+own, so what comes too late is dropped.
 */
 
 :- dynamic
@@ -154,8 +154,8 @@ pass(Name, Queue, Message) :-
 %!  helper_note(+Name, +Request) is det.
 %
 %   As helper_ask/4, without an answer, and if no process is running, to
-%   nobody.  Who tells waits while many are to be written, so that who is
-%   fast cannot fill the memory; who notes never waits.
+%   nobody.  A caller that tells waits while many are to be written, so that a
+%   fast one cannot fill the memory; one that notes never waits.
 %
 %   @error existence_error(helper, Name)
 

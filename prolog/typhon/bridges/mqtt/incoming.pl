@@ -18,7 +18,7 @@
 
 :- dynamic
     up/2.                       % Host, Since: there is a connection; Since
-                                % is 0 if nobody can have missed anything
+                                % is 0 if no message can have been missed
 
 missed_seconds(5).              % in which what is retained comes again
 

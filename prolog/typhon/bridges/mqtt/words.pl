@@ -31,7 +31,7 @@
 %   Options:
 %
 %     - qos(0, 1 or 2): default 0
-%     - retain(Boolean): whether the broker keeps it for who subscribes later
+%     - retain(Boolean): whether the broker keeps it for later subscribers
 %     - payload(Kind): `auto`, by which dicts and lists are written as JSON and
 %       all else as text; `json`; `text`; or `bytes`, text whose characters
 %       are bytes

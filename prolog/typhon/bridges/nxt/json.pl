@@ -1,6 +1,6 @@
 :- module(typhon_nxt_json, []).
 
-/** <module> JSON for robots, and for who reads what they say
+/** <module> JSON for robots
 
 *Threading*: no state.
 */

@@ -7,7 +7,7 @@
 /** <module> Callers that wait for answers
 
 *Threading*: any thread waits, at a queue of its own, so that what comes too
-late is for nobody.
+late is dropped.
 */
 
 :- meta_predicate answer_await(+, +, 0, +, -).

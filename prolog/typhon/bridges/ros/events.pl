@@ -162,7 +162,7 @@ happens(unknown(What), Host) :-
     assertz(ignored(Host, 1)),
     print_message(warning, typhon(ros_ignored(Host, What))).
 
-%   Who calls need not wait for an agent that has no room, nor take it from
+%   A caller need not wait for an agent whose queue is full, nor take it from
 %   others.
 
 typhon_inbox:dropped(ros, Host, request(Id, Service, _)) :-

@@ -18,7 +18,7 @@
 
 A thread connects, and reads; when the connection is lost it connects
 again, after a tenth of a second, then twice as long, up to ten.  A second
-thread writes what waits in its queue, which is bounded: who says more than
+thread writes what waits in its queue, which is bounded: a sender of more than
 the server reads has to wait, and has an error in the end.
 
 *Threading*: rosbridge_send/3 may be called in any thread.  The hooks are
@@ -85,7 +85,7 @@ rosbridge_up(Host) :-
 
 %!  rosbridge_send(+Host, +Frame:dict, +Seconds) is det.
 %
-%   Frame is on its way when there is room for it in the queue, at most
+%   Frame is on its way when it fits in the queue, at most
 %   Seconds from now.
 %
 %   @error ros_error(not_connected, Host), resource_error(ros_queue)
@@ -220,7 +220,7 @@ tell(Asker, Result) :-
           error(existence_error(_, _), _),
           true).
 
-%   Not by a cleanup handler, in which nobody may wait; so who is interrupted
+%   Not by a cleanup handler, which must not wait; so a caller that is interrupted
 %   while it tidies up does that again.
 
 served(Link, Socket) :-

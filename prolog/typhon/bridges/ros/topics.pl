@@ -20,7 +20,7 @@
 /** <module> Topics, as agents use them
 
 *Threading*: the thread that runs the agent.  It waits until our own node
-has taken what is said, or there is room for it in the queue to a server.
+has taken what is said, or it fits in the queue to a server.
 */
 
 %!  ros_publish(+Topic, +Type, +Message) is det.

@@ -17,9 +17,9 @@
 
 ros_words(PIs) :-
     findall(PI,
-            ( member(Room, [typhon_ros_topics, typhon_ros_calls,
+            ( member(Part, [typhon_ros_topics, typhon_ros_calls,
                             typhon_ros_actions, typhon_ros_parameters]),
-              module_property(Room, exports(Exports)),
+              module_property(Part, exports(Exports)),
               member(PI, Exports),
               PI \== call_json/5 ),
             PIs).

@@ -204,7 +204,7 @@ report_arrival(Name, Address, label(Id, Hops, Since, From), Peer) :-
     ;   true                            % the host is being stopped
     ).
 
-%   Where nobody wanted to know when it left, only the process is known.
+%   If there was no listener when it left, only the process is known.
 
 came_from(none, Peer, Peer) :-
     !.

@@ -48,7 +48,7 @@ backlog_add(Id, Letter) :-
 typhon_durable:restore(wait, Id, _, Letter) :-
     add(Id, Letter).
 
-%   They are there, and nobody tries them just now.
+%   There are some, and no thread tries them now.
 
 typhon_durable:dump(backlog, Id, Tries, Letters) :-
     waits(Id, Queue, Tries, _),
@@ -106,7 +106,7 @@ backlog_done(Id) :-
 
 %!  post_tried is semidet.
 %
-%   Somebody has letters in hand.
+%   A thread has messages in hand.
 
 post_tried :-
     waits(_, _, _, tried),
@@ -139,7 +139,7 @@ backlog_all(Id, Letters) :-
     ;   Letters = []
     ).
 
-%   Nobody is left to try them.
+%   No thread is left to try them.
 
 typhon_runtime:ending(after) :-
     retract(waits(_, Queue, _, _)),

@@ -16,18 +16,18 @@
                 endpoint_process/1, frame_fits/1 ]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
-/** <module> Posts that survive those who send and take them
+/** <module> Posts that survive the processes that send and take them
 
 A process that keeps a journal notes what it posts to another before it is
 sent, and keeps it until the other says that it has come for good.  Until then
-it is sent again whenever there is a new connection.  The other, see room
+it is sent again whenever there is a new connection.  The other, see module
 `channel_end`, takes each once, in order:
 
     channel(Process, To, Before, N, Kind, Term)
 
 is the post of number N of Process to the endpoint To; Before is the number
-of the one before, or first(M) if all up to M are known to have come.  Who
-lacks one says again(To), who has one had(To, N).
+of the one before, or first(M) if all up to M are known to have come.  A process
+that lacks one sends again(To), one that has one had(To, N).
 
 *Threading*: any thread posts, and never waits for a connection; one worker at
 a time sends to an endpoint.
@@ -48,7 +48,7 @@ a time sends to an endpoint.
     had/2,                      % Endpoint, N: all up to N have come
     sent/2,                     % Endpoint, N: all up to N were sent; not
                                 % there if it is to be begun anew
-    courier/1.                  % Endpoint: somebody sends
+    courier/1.                  % Endpoint: a thread sends
 
 :- setting(channel_seconds, number, 300,
            "Posts for a process that has left, and keeps no journal as far as \c
@@ -90,8 +90,8 @@ channel_must_fit(Change) :-
     ).
 
 %   engaging(+Endpoint, :Goal): Goal changes what is to be sent to Endpoint, for
-%   which there is a courier then.  A thread that is told to end in the middle
-%   must not leave one that was never sent out: all others would rely on him.
+%   which there is a courier then.  A thread that is ended in the middle
+%   must not leave one that was never sent out: all others would rely on it.
 
 engaging(Endpoint, Goal) :-
     sig_atomic(( with_mutex(typhon_channel,
@@ -204,7 +204,7 @@ not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     ),
     alarm_in(Pause, Endpoint, channel(try(Since, Pause1))).
 
-%   In a codec that takes more room than what was noted, or since less is
+%   In a codec that takes more space than what was noted, or since less is
 %   allowed, one may be too long that was not when it was posted: it must not
 %   keep others from being sent.
 
@@ -232,7 +232,7 @@ all_ends :-
     output_waits,
     \+ durable_on.
 
-%   Who is there no longer, and keeps no journal, will not take it.
+%   A process that is gone, and keeps no journal, will not take it.
 
 give_up(Endpoint) :-
     with_mutex(typhon_channel,
@@ -292,7 +292,7 @@ come(To, N) :-
                 *        BREAKS AND ENDS       *
                 *******************************/
 
-%   Who has a new connection may have died meanwhile.
+%   The peer of a new connection may have died meanwhile.
 
 typhon_endpoint:connection(Endpoint, up) :-
     (   endpoint_address(Endpoint)

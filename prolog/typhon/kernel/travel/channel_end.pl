@@ -8,8 +8,8 @@
 
 /** <module> Where posts that survive come in
 
-What other processes send as room `channel` says: each is taken once, in order,
-and that it has come is noted together with what came of it.
+What other processes send as described in module `channel`: each is taken once, in order,
+and its arrival is noted together with its effects.
 
 *Threading*: the threads of connections; a worker says what has come.
 */
@@ -50,7 +50,7 @@ taken(Key, Before, N, Kind, Term, Peer, new) :-
     crash_point(after_take).
 taken(_, _, _, _, _, _, gap).
 
-%   A process that has lost what it knew begins where it is told to.
+%   A process that has lost its state begins where the sender says.
 
 in_order(first(Before), Key) :-
     (   seen(Key, Seen)

@@ -8,7 +8,7 @@
 :- use_module('../host', [scheduler_call/1]).
 :- use_module(home, [agent_outcome/2]).
 
-/** <module> Messages that find nobody
+/** <module> Messages that cannot be delivered
 
 *Threading*: any thread.
 */
@@ -24,7 +24,7 @@
 %!  mail_lost(+Formal, +Id, +Mail) is det.
 %
 %   Said here and where it was sent.  That an agent has ended is nothing
-%   special.  What a bridge has brought from somebody who is no agent, as
+%   special.  A message of a bridge from a sender that is no agent, as
 %   fipa(Name), is given back to that where it was sent.
 
 mail_lost(Formal, Id, Mail) :-

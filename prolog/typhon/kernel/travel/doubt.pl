@@ -23,11 +23,11 @@
 The process to which an agent was sent is gone before it has answered.  If
 the home knows of this hop or a later one the agent got away in time.  If it
 does not, the news may be under way, or the home was started again, or died
-together with that process: everybody we know is asked.  If nobody has seen
+together with that process: all known processes are asked.  If none has seen
 the agent it has not survived there, and goes on here.
 
-Where the other process keeps a journal nobody else need be asked: it is asked
-again, until it is there again.  It knows whom it has let in.  The same goes
+Where the other process keeps a journal no other need be asked: it is asked
+again, until it is there again.  It knows the agents that it has admitted.  The same goes
 for one that is there, where we have been started again ourselves.
 
 *Threading*: doubt_settle/1 in reader threads, which never wait; surveys in
@@ -39,7 +39,7 @@ a worker.
 :- setting(typhon_hop:doubt_seconds, number, 3,
            "An agent under way for longer is shown as in doubt").
 :- setting(settle_seconds, number, 1,
-           "Seconds until those who did not answer are asked again").
+           "Seconds until processes that did not answer are asked again").
 
 :- multifile
     again/1,                    % Transfer: ask once more
@@ -60,14 +60,14 @@ doubt_settle(Transfer) :-
     setting(settle_seconds, Seconds),
     alarm_in(Seconds, Id, again(Transfer)).
 doubt_settle(_) :-
-    \+ endpoint_address(_),             % this process ends: nobody to ask
+    \+ endpoint_address(_),             % this process ends: no process to ask
     !.
 doubt_settle(Transfer) :-
     transfer_traveller(Transfer, Id, Hops),
     debug(typhon(hop), '~w hop ~D: in doubt', [Id, Hops]),
     agent_reached(Id, Hops, home_said(Transfer)).
 
-%   Nobody but who was asked can say, and he will.
+%   Only the process that was asked knows, and it will answer.
 
 lasts(Transfer) :-
     arg(2, Transfer, dest(_, _, Endpoint)),
@@ -84,7 +84,7 @@ typhon_scheduler:fire(_, again(Transfer)) :-
 
 %!  doubt_open(+Transfer) is semidet.
 %
-%   The agent may have arrived, though nobody was met this time.
+%   The agent may have arrived, though the connection failed this time.
 
 doubt_open(Transfer) :-
     transfer_traveller(Transfer, Who, _),
@@ -122,8 +122,8 @@ typhon_scheduler:fire(_, settle(Transfer)) :-
     ).
 
 %   survey(+Transfer, +HomeSaid): in a worker.  Where the home has lived on
-%   and knows nothing, nobody waits for those who do not answer; else they
-%   might be the ones who have the agent.
+%   and knows nothing, processes that do not answer are not waited for; else
+%   they might have the agent.
 
 survey(Transfer, HomeSaid) :-
     transfer_traveller(Transfer, Id, Hops),

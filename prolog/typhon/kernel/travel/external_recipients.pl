@@ -11,11 +11,11 @@
 :- use_module(senders, [shown/5]).
 :- use_module(speakers, [mail_believed/5]).
 
-/** <module> Messages for those who are no agents
+/** <module> Messages for recipients that are no agents
 
-A bridge, as library(typhon/fipa), takes messages for somebody beyond it,
-who is a compound term.  If there is none in this process the message goes
-to the one that at(To, Host) names, or else to the home of who sends it: so
+A bridge, as library(typhon/fipa), takes messages for recipients beyond it,
+which are compound terms.  If there is none in this process the message goes
+to the one that at(To, Host) names, or else to the home of the sender: so
 an agent can be away from the bridge and still answer.
 
 *Threading*: any thread; may wait for a connection.
@@ -56,7 +56,7 @@ hint(To0, To, Hint) =>
     To = To0,
     Hint = none.
 
-%   elsewhere(+Hint, +From, -Endpoint): who may have a bridge.
+%   elsewhere(+Hint, +From, -Endpoint): processes that may have a bridge.
 
 elsewhere(Hint, From, Endpoint) :-
     Hint \== none,
@@ -84,7 +84,7 @@ send_on(Endpoint, To0, To1, From, Message) :-
           error(unreachable(_), _),
           throw(error(host_unreachable(Endpoint), _))).
 
-%   A bridge may have a lot to do with it, and who reads has not.
+%   A bridge may take long, and the reader must not.
 
 typhon_endpoint:received(message, abroad(To, From, Message), Peer) :-
     comes(To, From, Message, [], Peer).

@@ -28,7 +28,7 @@
 /** <module> What a home knows of its agents
 
 The home of an agent, the process in which it was born, always knows where
-it went and how it ended, and tells those who wait for that.  Older news
+it went and how it ended, and notifies waiting callers.  Older news
 never replace newer ones: they are ordered by the number of hops.  Of the
 outcomes the oldest are forgotten.  A home that was started again knows of
 its agents what they tell it.
@@ -45,7 +45,7 @@ its agents what they tell it.
     born/4,                     % Id, Address, Hops, Process: its home is
                                 % here, and it has not ended
     outcome/3,                  % Id, Outcome, Hops
-    faulty/3,                   % Id, Outcome, Age: nobody waits for its end
+    faulty/3,                   % Id, Outcome, Age: no caller waits for its end
                                 % any more; Outcome is `none` if it was
                                 % resumed since
     waiter/3.                   % Id, Token, Asker
@@ -109,7 +109,7 @@ home_knows(Id, Address, Hops, Process) :-
 
 %!  home_agents(-Ids:list(atom)) is det.
 %
-%   Those who were born in this process and have not ended.
+%   Agents that were born in this process and have not ended.
 
 home_agents(Ids) :-
     findall(Id, born(Id, _, _, _), Ids0),
@@ -217,8 +217,8 @@ ended(Id, Outcome0, Hops, Legacy, Askers) :-
     bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).
 
-%   Who is disposed of while he is faulty has ended as he had before.  Whose
-%   end is another was resumed; that may be heard later.
+%   An agent that is disposed of while faulty has ended as it had before.  One
+%   with another end was resumed; that may be reported later.
 
 last_outcome(disposed, Told, Told) :-
     Told \== none,

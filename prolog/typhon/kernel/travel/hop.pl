@@ -172,7 +172,7 @@ handed(Transfer, Address, Image0, Image) :-
     ;   Image = Image0                  % it was ended meanwhile
     ).
 
-%   The program is sent to those who lack it as far as we know.
+%   The program is sent to processes that lack it as far as we know.
 
 program(Endpoint, Hash, known) :-
     has_program(Endpoint, Hash),

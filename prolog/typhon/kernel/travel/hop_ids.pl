@@ -1,10 +1,10 @@
 :- module(typhon_hop_ids,
-          [ crossing_begin/4,           % +Who, +Hops, +Endpoint, -Sent
-            crossing_restore/4,         % +Who, +Hops, +Endpoint, +Sent
-            crossing_end/2,             % +Who, ?Hops
-            crossing_again/1,           % +Who
-            crossing_repeated/1,        % +Who
-            crossing_label/3,           % +Who, +Endpoint, -Label
+          [ crossing_begin/4,           % +Agent, +Hops, +Endpoint, -Sent
+            crossing_restore/4,         % +Agent, +Hops, +Endpoint, +Sent
+            crossing_end/2,             % +Agent, ?Hops
+            crossing_again/1,           % +Agent
+            crossing_repeated/1,        % +Agent
+            crossing_label/3,           % +Agent, +Endpoint, -Label
             is_crossing/1,              % @Label
             crossing_known/1,           % +Label
             crossing_done/1             % +Label
@@ -33,27 +33,27 @@ hop, that the first has no open one less than Least to it any more.
     typhon_runtime:ending/1.
 
 :- dynamic
-    under_way/4,                    % Endpoint, N, Who, Hops: under way; the
+    under_way/4,                    % Endpoint, N, Agent, Hops: under way; the
                                 % oldest first
     last/1,                     % Sent
-    again/1,                    % Who: it was sent before
+    again/1,                    % Agent: it was sent before
     done/2.                     % Process, N: was let in here
 
-%!  crossing_begin(+Who, +Hops, +Endpoint, -Sent) is det.
-%!  crossing_restore(+Who, +Hops, +Endpoint, +Sent) is det.
-%!  crossing_end(+Who, ?Hops) is det.
-%!  crossing_again(+Who) is det.
-%!  crossing_repeated(+Who) is semidet.
+%!  crossing_begin(+Agent, +Hops, +Endpoint, -Sent) is det.
+%!  crossing_restore(+Agent, +Hops, +Endpoint, +Sent) is det.
+%!  crossing_end(+Agent, ?Hops) is det.
+%!  crossing_again(+Agent) is det.
+%!  crossing_repeated(+Agent) is semidet.
 %
-%   Who sets out for Endpoint, with so many Hops, at Sent, from which the
+%   Agent sets out for Endpoint, with so many Hops, at Sent, from which the
 %   number follows; did so before a restart; has arrived, or stays; it is not
 %   known whether it had arrived already when it is sent next; which is so.
 
-crossing_begin(Who, Hops, Endpoint, Sent) :-
+crossing_begin(Agent, Hops, Endpoint, Sent) :-
     (   durable_on
     ->  with_mutex(typhon_hop_ids,
                    ( stamp(Sent),
-                     crossing_add(Who, Hops, Endpoint, Sent) ))
+                     crossing_add(Agent, Hops, Endpoint, Sent) ))
     ;   get_time(Sent)
     ).
 
@@ -67,34 +67,34 @@ stamp(Sent) :-
     ),
     assertz(last(Sent)).
 
-crossing_add(Who, Hops, Endpoint, Sent) :-
+crossing_add(Agent, Hops, Endpoint, Sent) :-
     N is truncate(Sent*1000000),
-    assertz(under_way(Endpoint, N, Who, Hops)).
+    assertz(under_way(Endpoint, N, Agent, Hops)).
 
-crossing_restore(Who, Hops, Endpoint, Sent) :-
-    crossing_add(Who, Hops, Endpoint, Sent),
-    crossing_again(Who).
+crossing_restore(Agent, Hops, Endpoint, Sent) :-
+    crossing_add(Agent, Hops, Endpoint, Sent),
+    crossing_again(Agent).
 
-crossing_end(Who, Hops) :-
-    (   retract(under_way(_, _, Who, Hops))
-    ->  retractall(again(Who))
+crossing_end(Agent, Hops) :-
+    (   retract(under_way(_, _, Agent, Hops))
+    ->  retractall(again(Agent))
     ;   true
     ).
 
-crossing_again(Who) :-
-    retractall(again(Who)),
-    assertz(again(Who)).
+crossing_again(Agent) :-
+    retractall(again(Agent)),
+    assertz(again(Agent)).
 
-crossing_repeated(Who) :-
-    again(Who),
+crossing_repeated(Agent) :-
+    again(Agent),
     !.
 
-%!  crossing_label(+Who, +Endpoint, -Label) is det.
+%!  crossing_label(+Agent, +Endpoint, -Label) is det.
 %
 %   Label is crossing(Process, N, Least), or `none`.
 
-crossing_label(Who, Endpoint, crossing(Process, N, Least)) :-
-    under_way(Endpoint, N, Who, _),
+crossing_label(Agent, Endpoint, crossing(Process, N, Least)) :-
+    under_way(Endpoint, N, Agent, _),
     under_way(Endpoint, Least, _, _),
     !,
     endpoint_process(Process).
@@ -114,7 +114,7 @@ is_crossing(Label) :-
 %!  crossing_known(+Label) is semidet.
 %!  crossing_done(+Label) is det.
 %
-%   Who comes with Label was let in before; is let in now.
+%   Label was already accepted; mark Label accepted.
 
 crossing_known(crossing(Process, N, _)) :-
     done(Process, N),

@@ -18,8 +18,8 @@
 
 The home of an agent keeps what it left with its outcome: its result, and
 the processes in which it was cloned.  The clones themselves are known to
-the process in which they were born, which is their home.  So nobody is told
-anything when a clone is made, and who looks for a family goes from the
+the process in which they were born, which is their home.  So no notice is sent
+when a clone is made, and a search for a family goes from the
 legacy of each of its members to the homes of the next.  Of both tables the
 oldest entries are forgotten.
 
@@ -37,7 +37,7 @@ oldest entries are forgotten.
 :- setting(legacies, positive_integer, 20000,
            "What ended agents have left, kept by their home").
 :- setting(clones, positive_integer, 20000,
-           "Clones of which their home knows who was cloned").
+           "Clones of which their home knows the parent").
 
 :- dynamic
     left/2,                     % Id, Item
@@ -112,7 +112,7 @@ clone_unborn(Parent, Clone) :-
 clones_ask(Endpoint, Parent, Clones) :-
     ask(Endpoint, clones(Parent), Clones).
 
-%   When the last host was stopped nobody else is asked.
+%   When the last host was stopped no other process is asked.
 
 ask(Where, Question, Answer) :-
     (   Where == here

@@ -6,12 +6,12 @@
 :- use_module('../agent', [agent_space/2]).
 :- use_module(dead_letters, [mail_lost/3]).
 
-/** <module> Messages for whom there is no room
+/** <module> Messages that do not fit in a mailbox
 
 On a host with the quota `mailbox` no more messages wait for an agent.  Those
-for which there is no room are lost, and this is told here and where they were
-sent, see typhon_dead_letters: what has come within a second together, so that who is
-flooded with messages is not flooded with words.
+that do not fit are lost, and this is reported here and where they were
+sent, see typhon_dead_letters: those of a second together, so that a flood of
+messages is not a flood of warnings.
 
 *Threading*: mail_fits/3 inside with_agent/2 of the agent; told by workers.
 */
@@ -26,7 +26,7 @@ most_untold(1000).
 
 %!  mail_fits(+Id, +Mail:list, -Fitting:list) is det.
 %
-%   Of Mail, as of typhon_routing, there is room for Fitting in the mailbox of Id,
+%   Of Mail, as of typhon_routing, there is space for Fitting in the mailbox of Id,
 %   if that stands here; the rest is lost.
 
 mail_fits(Id, Mail, Fitting) :-
@@ -40,7 +40,7 @@ mail_fits(Id, Mail, Fitting) :-
     ;   Fitting = Mail
     ).
 
-%   Added before it looks for others: who tells meanwhile finds it, or has taken
+%   Added before it looks for others: a thread that reports meanwhile finds it, or has taken
 %   them all.
 
 refuse(Id, Mail) :-

@@ -14,7 +14,7 @@
 
 Where an agent is and how it ended, told to the process in which it was
 born.  Of each agent only the newest news are kept until they are sent, and
-each home has one courier, who takes along all there are: a home that does
+each home has one courier, which takes along all there are: a home that does
 not answer costs one attempt at a time, whatever the number of agents and
 of their hops.
 
@@ -33,7 +33,7 @@ that waits for the next.
 :- dynamic
     news/3,                     % Home, Id, News: the newest, not yet sent
     in_hand/2,                  % Home, All: what its courier has set out with
-    courier/1.                  % Home: somebody sees to its news
+    courier/1.                  % Home: a thread carries its news
 
 %   So many are sent at a time, and the longest pause between attempts.  News
 %   with a legacy may be long.
@@ -61,7 +61,7 @@ news_tell(Home, Id, News) :-
 
 %!  news_carried(+Home) is semidet.
 %
-%   Somebody has news for Home in hand, or is about to have.
+%   A thread has news for Home in hand, or is about to have.
 
 news_carried(Home) :-
     courier(Home),
@@ -88,9 +88,9 @@ keep(Home, Id, News) :-
     retractall(news(Home, Id, _)),
     assertz(news(Home, Id, News)).
 
-%   Neither the order in which they are told nor what came while a courier was
-%   away with them says which are newer: who is ended by somebody else as soon
-%   as it has come may have its end told before its coming.
+%   Neither the order in which they are sent nor what came while a courier was
+%   away with them says which are newer: the end notice may overtake the arrival
+%   notice.
 
 newer(News, Known) :-
     age(News, Age),
@@ -144,7 +144,7 @@ carry(Home, Try) :-
     ).
 
 %   posted(:Post, +Home, +All): what is too long for one frame goes in two.
-%   Of an end that is too long alone at least that it has come is told.
+%   If the notice of an end is too long, at least the end is reported.
 
 posted(Post, Home, All) :-
     shown_news(Home, All, Shown),
@@ -210,7 +210,7 @@ carried(unreachable(_), Home, All, try(Since0, Pause)) :-
     ;   once_more(Home, All, try(Since, Pause))
     ).
 carried(resource_error(_), Home, All, Try) :-
-    once_more(Home, All, Try).          % the journal has no room
+    once_more(Home, All, Try).          % the journal is full
 carried(existence_error(_, _), Home, _, _) :-
     give_up(Home).                      % this process ends
 

@@ -31,7 +31,7 @@ where the agent went, or to its home, which knows.
 
 What travels is letter(Mail, Left).  Mail is a list of
 mail(Origin, From, Message), the oldest first; Origin is the endpoint at
-which it was sent, to which it is told if the agent cannot be found.  What
+which it was sent, to which it is reported if the agent cannot be found.  What
 follows an agent together stays together, so that whatever waited for one
 that hops without pause reaches it at once, and not each message after a
 chase of its own.
@@ -50,7 +50,7 @@ post_on/2 and the hooks never do.
 
 :- dynamic said/4.              % Id, N, From, Message: before a restart
 
-%   Who hops without pause is given up in the end.
+%   An agent that hops without pause is given up in the end.
 
 max_forwards(12800).
 
@@ -88,7 +88,7 @@ waits(wait(Letter), Id, done) :-
     retry_later(Id, Letter, wait(Letter)).
 waits(Way, _, Way).
 
-%   Who stands here needs no frame.
+%   An agent that stands here needs no frame.
 
 may_travel(Id, _) :-
     agent(Id, _, _, _, _),

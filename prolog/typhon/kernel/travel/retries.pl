@@ -30,15 +30,15 @@ since the news that the agent had left it may be under way.
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
 
-%   The pause before a backlog is tried again, for the next time.  Nobody is
-%   there any more if that has been so for some tries.
+%   The pause before a backlog is tried again, for the next time.  The
+%   process is taken for gone after some tries.
 
 pause(Tries, Seconds) :-
     Seconds is min(2.0, 0.05*2**min(Tries, 10)).
 
 most_tries(6).
 
-%   Of a process that never was met nobody hears that it is gone: it is waited
+%   The end of a process that was never met is not reported: it is waited
 %   for as long as for a home that has news to hear.
 
 unknown_tries(Tries) :-

@@ -29,7 +29,7 @@ they never wait.  way_send/3 may wait for a connection.
 */
 
 %   A letter that has been forwarded so often at once chases its agent in
-%   vain for the moment, or those who should know do not know yet: it waits
+%   vain for the moment, or the processes that should know do not know yet: it waits
 %   a little.
 
 forwards_at_once(64).
@@ -49,7 +49,7 @@ letter_parts(letter(Mail, Left), Mail, Left).
 
 %!  way_in(+Id, +Mail) is semidet.
 %
-%   Put Mail in the mailbox of Id, which stands here, as far as there is room.
+%   Put Mail in the mailbox of Id, which stands here, as far as it fits.
 
 way_in(Id, Mail) :-
     mail_fits(Id, Mail, Fitting),
@@ -82,7 +82,7 @@ way_out(Id, letter(Mail, Left), Way) :-
     ).
 way_out(_, _, nowhere).
 
-%   Who is not here has left a trace, or the home knows.  The endpoint is `here`
+%   An agent that is not here has left a record, or the home knows.  The endpoint is `here`
 %   if it is that of this process.
 
 next_endpoint(Id, Endpoint) :-

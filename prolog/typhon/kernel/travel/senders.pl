@@ -6,8 +6,8 @@
 
 /** <module> What is shown with what agents say
 
-Who may speak for an agent, see typhon_speakers. The birth of an agent is
-shown to its home, and to where it went, and to nobody else: others could speak
+For the authorization of senders see typhon_speakers. The birth of an agent is
+shown to its home, and to where it went, and to no other process: others could speak
 for it from then on. So what an agent says away from home goes through its
 home, unless it goes to one whose way leads from here.
 

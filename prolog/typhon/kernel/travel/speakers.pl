@@ -3,15 +3,15 @@
             mail_believed/5             % +Peer, +Id, +Births, +Mail, -Believed
           ]).
 
-/** <module> Who may say what an agent says
+/** <module> Processes that may speak for an agent
 
 Where processes have keys, a process may speak for an agent if it has the keys
-of its owner, or shows its birth, see typhon_birth, which it can do who has or
-had the agent. And what somebody has to say to an agent is taken from who may
-speak for that one: it passes on what it has let in itself.
+of its owner, or shows its birth, see typhon_birth, which a process can do that has or
+had the agent. And messages to an agent are taken from processes that may
+speak for it: they pass on what they have admitted themselves.
 
-Who sends may be `user`, or somebody beyond a bridge: that is no id, and the
-word of the process that says so.
+The sender may be `user`, or a term of a bridge: that is no id, and as
+trustworthy as the process that sends it.
 
 *Threading*: in hooks of the endpoint; no state.
 */

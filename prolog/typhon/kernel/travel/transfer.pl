@@ -57,7 +57,7 @@ clone(Held, CloneId, Since).
 
 %!  transfer_traveller(+Transfer, -Id, -Hops) is det.
 %
-%   Who is under way, on which hop.
+%   The agent under way, and its hop.
 
 transfer_traveller(hop(Id, _, Hops), Id, Hops).
 transfer_traveller(clone(_, _, CloneId), CloneId, 1).

@@ -113,7 +113,7 @@ agent_left(Id, Address, Hops, Peer) :-
     ).
 
 at_home(Id) :-
-    home_knows(Id, _, _, _),            % nearly all who are at home
+    home_knows(Id, _, _, _),            % nearly all that are at home
     !.
 at_home(Id) :-
     agent_home_endpoint(Id, Home),
@@ -193,7 +193,7 @@ put_forward(Id, Address, Hops, Process) :-
 %   time may it seem as if it had never come.
 
 agent_ends(_, 0) :-
-    !.                                  % nobody sent it
+    !.                                  % it has no sender
 agent_ends(Id, Hops) :-
     assertz(ended_here(Id, Hops)),
     bounded(ended_here(_, _), typhon_whereabouts:endings).
@@ -244,7 +244,7 @@ agent_resumed(Id, Stamp, Hops) :-
 
 %!  agent_resumed_from(+Id, +Stamp, +Hops) is det.
 %
-%   As agent_resumed/3, for who has had it resumed from afar: what he asks the
+%   As agent_resumed/3, for a caller in another process: what it asks the
 %   home next comes after that.  May wait for a connection.
 
 agent_resumed_from(Id, Stamp, Hops) :-
@@ -321,7 +321,7 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
     reached(Id, Hops, Reached),
     endpoint_reply(ReplyTo, Reached).
 
-%   In this order: who leaves or ends meanwhile is noted before it is gone.
+%   In this order: an agent that leaves or ends meanwhile is noted before it is gone.
 
 reached(Id, Hops, true) :-
     (   hops_of(Id, Hops0)

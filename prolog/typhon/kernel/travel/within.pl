@@ -70,7 +70,7 @@ moved(Id, _, _, _, _, _, Verdict) :-
     ;   Verdict = ended
     ).
 
-%   An agent that was told to move has no hole.  Who ends it next finds it
+%   An agent that was ordered to move has no hole.  An order to end it finds it
 %   counted where it stands.
 
 move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,

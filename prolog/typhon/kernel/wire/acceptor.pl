@@ -118,7 +118,7 @@ slot(Goal) :-
     with_mutex(typhon_strangers, Goal).
 
 give(In, Out, Ip, Me, Evicted) :-
-    (   room
+    (   has_slot
     ->  true
     ;   evict(Evicted)
     ->  true
@@ -132,10 +132,10 @@ give(In, Out, Ip, Me, Evicted) :-
 		 *            SLOTS             *
 		 *******************************/
 
-room :-
+has_slot :-
     free_slot,
     !.
-room :-
+has_slot :-
     forall(( stranger(Thread, _, _, _), \+ wire_thread_running(Thread) ),
            bury(Thread)),
     free_slot.

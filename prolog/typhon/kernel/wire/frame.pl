@@ -8,7 +8,7 @@
             check_bytes/2,              % +Bytes, -Check
             mobile_term/1,              % +Term
             bundle_fits/1,              % +Bytes
-            bundle_next/5,              % +Queue, +Codec, +Room, -Bytes, -Many
+            bundle_next/5,              % +Queue, +Codec, +Space, -Bytes, -Many
             bundle_all/3,               % +Queue, +Codec, -Frames
             bundle_parts/2              % +Bundle, -Parts
           ]).
@@ -293,17 +293,17 @@ bundle_fits(Bytes) :-
     longest_part(Most),
     Length =< Most.
 
-%!  bundle_next(+Queue, +Codec, +Room, -Bytes, -Many) is semidet.
+%!  bundle_next(+Queue, +Codec, +Space, -Bytes, -Many) is semidet.
 %
 %   Take the next frame of Queue: fails where there is none, or not one of
-%   Room bytes, a number or `inf`.  Many is `true` if it is a bundle.
+%   Space bytes, a number or `inf`.  Many is `true` if it is a bundle.
 
-bundle_next(Queue, Codec, Room, Bytes, Many) :-
+bundle_next(Queue, Codec, Space, Bytes, Many) :-
     thread_peek_message(Queue, Next),
     first_length(Next, Length),
-    Length =< Room,
+    Length =< Space,
     !,
-    next(Next, Queue, Codec, Room, Bytes, Many).
+    next(Next, Queue, Codec, Space, Bytes, Many).
 
 first_length(loose(Bytes), Length) :-
     !,
@@ -311,10 +311,10 @@ first_length(loose(Bytes), Length) :-
 first_length(Bytes, Length) :-
     string_length(Bytes, Length).
 
-next(loose(_), Queue, Codec, Room, Bytes, Many) :-
+next(loose(_), Queue, Codec, Space, Bytes, Many) :-
     !,
     most_parts(Most),
-    parts(Most, Room, Queue, Parts),
+    parts(Most, Space, Queue, Parts),
     bundled(Parts, Codec, Bytes, Many).
 next(Bytes, Queue, _, _, Bytes, false) :-
     thread_get_message(Queue, _).
@@ -324,25 +324,25 @@ bundled([Bytes], _, Bytes, false) :-
 bundled(Parts, Codec, Bytes, true) :-
     term_bytes(Codec, bundle(Parts), Bytes).
 
-parts(Most, Room0, Queue, Parts) :-
+parts(Most, Space0, Queue, Parts) :-
     (   Most > 0,
         thread_peek_message(Queue, Next),
         Next = loose(Part),
         string_length(Part, Length),
-        Length =< Room0
+        Length =< Space0
     ->  thread_get_message(Queue, _),
         Parts = [Part|More],
-        room_left(Room0, Length, Room),
+        space_left(Space0, Length, Space),
         Most1 is Most-1,
-        parts(Most1, Room, Queue, More)
+        parts(Most1, Space, Queue, More)
     ;   Parts = []
     ).
 
-room_left(inf, _, inf) :-
+space_left(inf, _, inf) :-
     !.
-room_left(Room0, Length, Room) :-
+space_left(Space0, Length, Space) :-
     part_overhead(Overhead),
-    Room is Room0-Length-Overhead.
+    Space is Space0-Length-Overhead.
 
 %!  bundle_all(+Queue, +Codec, -Frames:list) is det.
 %

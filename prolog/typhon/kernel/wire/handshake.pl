@@ -142,7 +142,7 @@ line_read(In, Deadline, Line) :-
     line_codes(In, Deadline, 512, Codes),
     string_codes(Line, Codes).
 
-line_codes(In, Deadline, Room, Codes) :-
+line_codes(In, Deadline, Space, Codes) :-
     get_time(Now),
     Left is max(0.001, Deadline-Now),
     set_stream(In, timeout(Left)),
@@ -151,10 +151,10 @@ line_codes(In, Deadline, Room, Codes) :-
     ->  Codes = []
     ;   Byte == -1
     ->  syntax_error(end_of_file)
-    ;   Room > 0
+    ;   Space > 0
     ->  Codes = [Byte|More],
-        Room1 is Room-1,
-        line_codes(In, Deadline, Room1, More)
+        Space1 is Space-1,
+        line_codes(In, Deadline, Space1, More)
     ;   syntax_error(line)
     ).
 

@@ -69,7 +69,7 @@ session_send(Session, Term) :-
 
 %!  session_answer(+Session, +Term) is det.
 %
-%   As session_send/2, of what a caller waits for: while the store has no room
+%   As session_send/2, of what a caller waits for: while the store is full
 %   it waits, too. When the store has been closed it is dropped.
 
 session_answer(Session, Term) :-
@@ -248,21 +248,21 @@ put(Session, Key, Bytes, Frame, Write) :-
 %   writable(+Key, +Bytes, -Thread, -Out): Bytes can be written to Out.
 
 writable(Key, Bytes, Thread, Out) :-
-    room(Key, Thread, Out, Room),
+    space(Key, Thread, Out, Space),
     string_length(Bytes, Length),
-    Length < Room,
+    Length < Space,
     !.
 
-%   room(+Key, -Thread, -Out, -Room): so many bytes can be written to Out.
+%   space(+Key, -Thread, -Out, -Space): so many bytes can be written to Out.
 %   The stream of a pusher is left alone: even to look at it might block.
 
-room(Key, Thread, Out, Room) :-
+space(Key, Thread, Out, Space) :-
     transport(Key, Thread, Out),
     \+ pusher(Key, _),
     byte_count(Out, Written),
     acknowledged(Key, _, Acked),
     under_way(Max),
-    Room is Max-(Written-Acked).
+    Space is Max-(Written-Acked).
 
 %   Something waits: it is written, or a connection made.
 
@@ -284,8 +284,8 @@ write_waiting(Session, Key, Thread, Out) :-
     ).
 
 write_while_room(Session, Key) :-
-    (   room(Key, _, Out, Room),
-        unacked_next(Session, Room, Bytes)
+    (   space(Key, _, Out, Space),
+        unacked_next(Session, Space, Bytes)
     ->  frame_write(Out, Bytes),
         write_while_room(Session, Key)
     ;   true

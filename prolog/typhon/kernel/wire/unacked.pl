@@ -4,7 +4,7 @@
             unacked_waits/2,            % +Key, +Frame
             unacked_waiting/1,          % +Key
             unacked_owed/2,             % +Key, -Waiting
-            unacked_next/3,             % +Session, +Room, -Bytes
+            unacked_next/3,             % +Session, +Space, -Bytes
             unacked_again/2,            % +Key, -Frames
             unacked_gone/3,             % +Key, +Count, +Bytes
             unacked_rest/1,             % +Key
@@ -114,16 +114,16 @@ unacked_owed(Key, Size) :-
     ),
     message_queue_property(Waiting, size(Size)).
 
-%!  unacked_next(+Session, +Room, -Bytes) is semidet.
+%!  unacked_next(+Session, +Space, -Bytes) is semidet.
 %
 %   The frame that has waited longest is about to be written, if it is not
-%   longer than Room.
+%   longer than Space.
 
-unacked_next(Session, Room, Bytes) :-
+unacked_next(Session, Space, Bytes) :-
     session_key(Session, Key),
     session_codec(Session, Codec),
     queues(Key, Sent, Waiting),
-    bundle_next(Waiting, Codec, Room, Bytes, Many),
+    bundle_next(Waiting, Codec, Space, Bytes, Many),
     !,
     thread_send_message(Sent, Bytes),
     (   Many == true

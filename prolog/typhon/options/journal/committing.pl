@@ -11,16 +11,16 @@
 In a queue there are entries of changes, and between them what is to be let
 out of the process when those before it are committed.  Whoever commits takes
 all there is: the changes become one transaction, then the items go, in their
-order.  So nobody has to wait for the disk who only sends something.
+order.  So a thread that only sends does not wait for the disk.
 
 Where a commit takes as long as the disk takes to sync, a thread commits, and
-what gathers meanwhile is the next transaction.  Where it does not, who wants
-something to go commits himself.  What nobody waits for the thread commits
+what gathers meanwhile is the next transaction.  Where it does not, a thread that wants
+output to leave commits itself.  Entries without a waiting thread are committed
 after some milliseconds.  What could not be committed is kept, with what was
 to be let out, and tried again each second.
 
 *Threading*: any thread.  One at a time commits, holding a mutex in which it
-may take those of sessions: who holds one of these must not commit.
+may take those of sessions: a thread that holds one of these must not commit.
 */
 
 :- multifile
@@ -39,7 +39,7 @@ may take those of sessions: who holds one of these must not commit.
     committer/1,                        % Thread
     told/1.                             % Error: nothing can be committed
 
-%   What nobody waits for waits so long; what failed is tried again.
+%   Delay before an idle commit, and before a failed one is tried again.
 
 idle_seconds(0.02).
 again_seconds(1).
@@ -143,7 +143,7 @@ typhon_durable_changes:commit_queue_soon :-
 typhon_durable_changes:commit_queue_soon :-
     sig_atomic(commit_or_leave).
 
-%   Nobody waits for who commits: he finds that more is wanted, and does it.
+%   No thread waits for the committing one: it finds that more is wanted, and does it.
 
 commit_or_leave :-
     mutex_trylock(typhon_commit),

@@ -22,7 +22,7 @@
 
 /** <module> Databases for a journal
 
-SQLite in a directory, or PostgreSQL at a URL; who is above does not know which.
+SQLite in a directory, or PostgreSQL at a URL; higher layers do not know which.
 
 *Threading*: one thread at a time.
 */
@@ -83,8 +83,8 @@ journal_part(Dir0, P, Part) :-
 %
 %   There is a journal; open it, or a new one, Age being `old` or `new`, for
 %   which another process is waited for so many seconds; a transaction begins,
-%   and nobody else can have the journal any more; make the tables of a new
-%   one; Stamp tells who has opened it last; it still is so, on another
+%   and no other process can open the journal any more; make the tables of a new
+%   one; Stamp identifies the last process that opened it; it still is so, on another
 %   connection; it may lose what was committed in the last Seconds when it dies
 %   alone; it is damaged.
 
@@ -165,7 +165,7 @@ record_drop(postgresql(Server)) :-
 
 %!  in_terms_of(+Place, +Base, :Goal) is semidet.
 %
-%   As Goal, but what the driver says of errors is told as what it means.
+%   As Goal, with errors of the driver as errors of the journal.
 
 in_terms_of(Place, Base, Goal) :-
     catch(Goal, error(odbc(State, _, Text), _),
@@ -204,4 +204,4 @@ prolog:error_message(journal_version(Dir, _)) -->
 prolog:error_message(permission_error(open, journal, Dir)) -->
     [ 'The journal ~w cannot be opened'-[Dir] ].
 prolog:error_message(resource_error(journal_space)) -->
-    [ 'There is no room left for the journal' ].
+    [ 'There is no space left for the journal' ].

@@ -18,7 +18,7 @@
 
 /** <module> A journal in PostgreSQL: a schema of a database
 
-A server is told as room `postgresql_url` says.
+A server is given as described in module `postgresql_url`.
 
 *Threading*: one thread at a time.
 */
@@ -35,8 +35,8 @@ A server is told as room `postgresql_url` says.
 %!  postgresql_connect(+Server, +Seconds, -Connection, -Age) is det.
 %
 %   There is a journal; open it, or a new one, Age being `old` or `new`. It is
-%   locked as long as the connection lives. Who has it is waited for so many
-%   seconds, at least so long as the server may need to see that somebody has
+%   locked as long as the connection lives. A process that has it is waited for so many
+%   seconds, at least so long as the server may need to see that a client has
 %   died.
 
 postgresql_found(server(Schema, Driver)) :-
@@ -56,7 +56,7 @@ postgresql_connect(server(Schema, Driver), Seconds0, Connection, Age) :-
 
 %   A machine that has lost its power says no goodbye. For what cannot be
 %   delivered the kernel waits a quarter of an hour, for what may come for ever:
-%   so do we for a server, and a server for us, who have the lock. Both are told
+%   so do we for a server, and a server for us, with the lock. Both are told
 %   how long to wait, as far as they know of such a setting.
 
 server_connect(Driver, Connection) :-
@@ -187,7 +187,7 @@ postgresql_forgets(Connection, Seconds) :-
 %!  postgresql_record_put(+Server, +Text) is det.
 %!  postgresql_record_drop(+Server) is det.
 %
-%   A text beside the journals, see room `records`.
+%   A text beside the journals, see module `records`.
 
 postgresql_record(server(Schema, Driver), Text) :-
     connected(Driver, Connection,

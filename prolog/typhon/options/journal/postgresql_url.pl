@@ -12,7 +12,7 @@
 
 /** <module> Where a journal in PostgreSQL is
 
-It is told by a URL, as psql and other programs take it:
+It is given by a URL, as psql and other programs take it:
 
     postgresql://[user[:password]@][host][:port][/database][?schema=name&...]
 

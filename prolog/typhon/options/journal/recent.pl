@@ -14,7 +14,7 @@ dies, and we live on.  So what was committed in the last Seconds is kept, and
 committed once more when the server is there again.  Changes say what items are
 from then on: to make the last ones twice, in their order, is to make them once.
 
-*Threading*: one thread at a time, who commits.
+*Threading*: one thread at a time, the one that commits.
 */
 
 :- dynamic

@@ -25,7 +25,7 @@ shorter is filled up.
 
 :- dynamic
     connection/1,                       % Connection
-    statement/3.                        % Name, Room, Statement
+    statement/3.                        % Name, Size, Statement
 
 %!  sql_load is det.
 %
@@ -35,7 +35,7 @@ sql_load :-
     catch(use_module(library(odbc), []), error(existence_error(_, _), _),
           existence_error(package, 'swi-prolog-odbc')).
 
-%   Called so that nobody misses it where the package is not installed.
+%   Called so that it is not missed where the package is not installed.
 
 odbc(Goal) :-
     Called = odbc:Goal,
@@ -85,11 +85,11 @@ sql_close :-
            catch(odbc(odbc_free_statement(Statement)), error(_, _), true)),
     retractall(connection(_)).
 
-prepare(Connection, Name, Room, Sql, Types0) :-
+prepare(Connection, Name, Size, Sql, Types0) :-
     maplist(parameter_type, Types0, Types),
     options(Name, Options),
     odbc(odbc_prepare(Connection, Sql, Types, Statement, Options)),
-    assertz(statement(Name, Room, Statement)).
+    assertz(statement(Name, Size, Statement)).
 
 %   A type of text without a length would bind the empty text.
 
@@ -142,34 +142,34 @@ sql_execute(Name, Values) :-
 
 sql_execute(Name, Values0, Bytes) :-
     string_length(Bytes, Length),
-    room(Length, Room),
-    statement_of(Name, Room, Statement),
-    filled(Length, Room, Bytes, Full),
+    padded_size(Length, Size),
+    statement_of(Name, Size, Statement),
+    filled(Length, Size, Bytes, Full),
     append(Values0, [Full], Values),
     odbc(odbc_execute(Statement, Values)).
 
-statement_of(Name, Room, Statement) :-
-    statement(Name, Room, Statement),
+statement_of(Name, Size, Statement) :-
+    statement(Name, Size, Statement),
     !.
-statement_of(Name, Room, Statement) :-
+statement_of(Name, Size, Statement) :-
     connection(Connection),
     sql(Name, Sql, Types),
-    prepare(Connection, Name, Room, Sql, Types),
-    statement(Name, Room, Statement).
+    prepare(Connection, Name, Size, Sql, Types),
+    statement(Name, Size, Statement).
 
-room(Length, Room) :-
+padded_size(Length, Size) :-
     (   Length =< 512
     ->  Step = 32
     ;   Length =< 4096
     ->  Step = 256
     ;   Step = 2048
     ),
-    Room is (Length+Step-1)//Step*Step.
+    Size is (Length+Step-1)//Step*Step.
 
-filled(Length, Room, Bytes, Full) :-
-    (   Length =:= Room
+filled(Length, Size, Bytes, Full) :-
+    (   Length =:= Size
     ->  Full = Bytes
-    ;   Missing is Room-Length,
+    ;   Missing is Size-Length,
         filler(Filler),
         sub_string(Filler, 0, Missing, _, Fill),
         string_concat(Bytes, Fill, Full)

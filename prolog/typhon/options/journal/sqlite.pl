@@ -23,7 +23,7 @@
 %!  sqlite_connect(+Dir, +Seconds, -Connection, -Age) is det.
 %
 %   There is a journal in Dir; open it, or a new one, Age being `old` or `new`.
-%   Who has it is waited for so many seconds.
+%   A process that has it is waited for so many seconds.
 
 sqlite_found(Dir) :-
     file(Dir, File),
@@ -87,7 +87,7 @@ sqlite_wrong(Connection, Why) :-
 %!  sqlite_record_put(+Dir, +Text) is det.
 %!  sqlite_record_drop(+Dir) is det.
 %
-%   A text beside the journals, see room `kept`: a file, which is there as a
+%   A text beside the journals, see module `kept`: a file, which is there as a
 %   whole or not at all.
 
 sqlite_record(Dir, Text) :-

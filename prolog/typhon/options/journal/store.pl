@@ -33,8 +33,8 @@ An item is a term under a kind, a key and a number.  Changes are
   - drop_all(Kind, Key), drop_below(Kind, Key, N): nor are those of this
     key, of numbers less than N
 
-The database is SQLite in a directory, or PostgreSQL at a URL; who is above
-does not know which.  A process has one store at a time, which nobody else can
+The database is SQLite in a directory, or PostgreSQL at a URL; higher layers
+do not know which.  A process has one store at a time, which no other can
 open meanwhile.  What is longer than a parameter of the driver can be is kept in
 parts.
 
@@ -224,8 +224,8 @@ commit_all(Changes) :-
           ( catch(sql_execute(rollback, []), error(_, _), true),
             throw(error(Formal, Context)) )).
 
-%   A server that is there again has lost our lock: who has opened the journal
-%   meanwhile has it. It may have lost more.
+%   A server that is there again has lost our lock: a process that has opened the
+%   journal meanwhile has it. It may have lost more.
 
 connect_again :-
     connection(Place, Old),
@@ -342,8 +342,8 @@ whole(Length, Kind-Key-N, First0, Bytes) :-
     sub_string(First0, 0, Most, _, First),
     findall(Piece,
             ( sql_part(parts, [Kind, Key, N], Full),
-              string_length(Full, Room),
-              Count is min(Most, Room),
+              string_length(Full, Space),
+              Count is min(Most, Space),
               sub_string(Full, 0, Count, _, Piece) ),
             Pieces),
     atomic_list_concat([First|Pieces], Atom),
