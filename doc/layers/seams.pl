@@ -77,12 +77,13 @@ option_file(guard, 'program/guarded_code.pl').
 option_file(guard, 'program/refusing.pl').
 option_file(guard, 'host/sandbox_view.pl').
 option_file(guard, 'vocabulary/guarded.pl').
+option_file(guard, 'agent/guard_admission.pl').
 option_file(quotas, 'host/quotas.pl').
 option_file(quotas, 'host/rate_limits.pl').
 option_file(quotas, 'host/tuple_quota.pl').
 option_file(quotas, 'agent/state_text.pl').
 option_file(quotas, 'agent/time_quota.pl').
-option_file(quotas, 'agent/admission.pl').
+option_file(quotas, 'agent/quota_admission.pl').
 option_file(quotas, 'lifecycle/metering.pl').
 option_file(quotas, 'lifecycle/overuse.pl').
 option_file(access, 'host/access_rules.pl').

@@ -38,6 +38,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/time_quota, [stay_count/3, stay_owner/3, stay_until/3]).
 :- reexport(agent/state_text, [state_text/2, state_text_add/2]).
 :- reexport('agent/gate').
+:- use_module(agent/guard_admission, []).
+:- use_module(agent/quota_admission, []).
 :- reexport(agent/image,
             [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
               image_entrant/2, image_label/2, image_module/3, image_received/4,

@@ -7,7 +7,7 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(host/hosts,
-            [ host/3, host_closed/1, host_again/1, host_enter/4, host_hop/3,
+            [ host/3, host_closed/1, host_again/1, host_enter/3, host_hop/3,
               host_leave/1, host_load/2, host_option/2, host_passed/3 ]).
 :- reexport('host/host_names').
 :- reexport(host/authors, [signature_by/3]).
@@ -18,6 +18,7 @@ This is the interface of the layer: higher layers import from here.
               events_hear/3, events_unheard/1 ]).
 :- reexport('host/event_shown').
 :- reexport('host/host_log').
+:- reexport(host/host_parts, [parts/3]).
 :- reexport(host/place, [place_deliver/3, place_undeliver/2]).
 :- reexport('host/tuples').
 :- reexport(host/sandbox_view, [module_policy/2, guarding/0, place_front/3]).
@@ -26,7 +27,7 @@ This is the interface of the layer: higher layers import from here.
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
             ]).
-:- reexport(host/access_rules, [audit/3, audit/4, peer_may/3, peer_permitted/3]).
+:- reexport(host/access_rules, [audit/3, audit/4, peer_may/3]).
 :- reexport(host/quotas, [quota/3, quota_any/1, quota_shared/4]).
 :- reexport('host/rate_limits').
 :- reexport(host/tuple_quota, [leaver/2, may_leave/1]).

@@ -1,7 +1,6 @@
 :- module(typhon_birth,
           [ birth_papers/5,             % +Id, +Hash, +Endpoint, +Sent, -Papers
             birth_sent/2,               % +Papers, -Sent
-            birth_proved/4,             % +Papers, +Peer, +Id, +Hash
             birth_unproved/2,           % +Endpoint, +Id
             birth_good/1,               % +Birth
             birth_shown/2               % +Id, -Birth
@@ -42,6 +41,7 @@ process shows it once.
 :- multifile
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
+    typhon_host_parts:part/4,
     typhon_durable:restore/4,
     typhon_durable:dump/4.
 
@@ -145,17 +145,28 @@ typhon_durable:restore(birth, Id, _, Birth) :-
     retractall(known(Id, _)),
     assertz(known(Id, Birth)).
 
-%!  birth_proved(+Papers, +Peer, +Id, +Hash) is semidet.
-%
-%   Papers, which may be anything, show that Peer may bring Id with a program
-%   of that Hash, or it has shown that before; or there are no keys here.
+typhon_host_parts:part(admit, _, 20, typhon_birth:forbids) :-
+    endpoint_keys(_).
 
-birth_proved(Papers, Peer, Id, Hash) :-
-    (   endpoint_keys(_)
-    ->  endpoint_proof(Peer, Proof),
-        once(proved(Papers, Proof, Id, Hash))
-    ;   true
+:- public forbids/4.
+
+forbids(from(Peer, _, papers(Papers)), entrant(Id, Hash, _, _, _), _,
+        Verdict) :-
+    endpoint_proof(Peer, Proof),
+    \+ proved(Papers, Proof, Id, Hash),
+    unproved(Papers, Verdict).
+
+%   The peer may have what proves it.
+
+unproved(Papers, Verdict) :-
+    (   subsumes_term(papers(_, _), Papers)
+    ->  Verdict = refused(identity)
+    ;   Verdict = need_program
     ).
+
+%   proved(+Papers, +Proof, +Id, +Hash): Papers, which may be anything, show that
+%   a process with that Proof may bring Id with a program of that Hash, or it has
+%   shown that before.
 
 proved(_, Proof, Id, Hash) :-
     has(Id, Proof),

@@ -3,7 +3,6 @@
             payload_marked/2,           % +Module, +Marks
             payload_unmarked/2,         % +Module, +Name
             payload_marks/2,            % +Module, -Marks
-            payloads_admitted/3,        % +Host, +Life, +State
             payload_admitted/3          % +Host, +Payload, +Clauses
           ]).
 
@@ -58,17 +57,21 @@ payload_marks(Module, Marks) :-
     ;   Marks = []
     ).
 
-%!  payloads_admitted(+Host, +Life, +State) is semidet.
-%!  payload_admitted(+Host, +Payload, +Clauses) is semidet.
-%
-%   Host, of this process, lets in an agent of that Life and with that State, as
-%   of agent_state/2 or module(Module); this Payload of it, Clauses being among
-%   its state.
+:- multifile typhon_host_parts:part/4.
+
+typhon_host_parts:part(admit_program, Host, 60, typhon_signed_payloads:forbids) :-
+    host_option(Host, authors(_)).
+
+:- public forbids/4.
+
+forbids(_, entrant(_, _, Life, State, _), Host, refused(unsigned)) :-
+    \+ payloads_admitted(Host, Life, State).
+
+%   State is as of agent_state/2, or module(Module).
 
 payloads_admitted(Host, Life, State) :-
     life_payloads(Life, Payloads),
     Payloads \== [],
-    host_option(Host, authors(_)),
     !,
     state_clauses(State, Clauses),
     forall(member(Name-PIs, Payloads),
@@ -78,6 +81,11 @@ payloads_admitted(_, _, _).
 state_clauses(state(_, Clauses), Clauses).
 state_clauses(module(Module), Clauses) :-
     agent_state(Module, state(_, Clauses)).
+
+%!  payload_admitted(+Host, +Payload, +Clauses) is semidet.
+%
+%   Host, of this process, lets in an agent with this Payload, Clauses being
+%   among its state.
 
 payload_admitted(Host, Payload, Clauses) :-
     (   host_option(Host, authors(Authors))

@@ -57,6 +57,10 @@ stays as it is, and has no more links.
 :- use_module('../host', [host_option/2]).
 :- use_module(chain, [chain_add/4]).
 
+:- multifile typhon_host_parts:changeable/1.
+
+typhon_host_parts:changeable(trail(_)).
+
 :- setting(links, positive_integer, 32,
            "So many links of the trail of an agent are kept").
 

@@ -1,9 +1,7 @@
 :- module(typhon_access_rules,
           [ peer_may/3,                 % +Peer, +Host, +Right
-            peer_permitted/3,           % +Peer, +Host, +Right
             audit/3,                    % +Host, +Peer, +What
-            audit/4,                    % +Host, +Peer, +Proof, +What
-            must_be_peer_rules/1        % +Rules
+            audit/4                     % +Host, +Peer, +Proof, +What
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
@@ -43,14 +41,36 @@ With the option audit(File) each refusal, order and remote goal is a line there,
 *Threading*: any thread; a mutex keeps lines whole.
 */
 
+
+:- multifile
+    typhon_host_parts:changeable/1,
+    typhon_host_parts:check/1,
+    typhon_host_parts:changes/2,
+    typhon_host_parts:part/4.
+
+typhon_host_parts:check(Options) :-
+    forall(member(peer(Rules), Options), must_be_peer_rules(Rules)).
+
+typhon_host_parts:changeable(audit(_)).
+typhon_host_parts:changeable(peer(_)).
+
+typhon_host_parts:changes(peer(Rules), _) :-
+    must_be_peer_rules(Rules).
+
+typhon_host_parts:part(admit, Host, 10, typhon_access_rules:forbids) :-
+    host_option(Host, peer(_)).
+
+:- public forbids/4.
+
+forbids(from(Peer, _, _), _, Host, refused(peer)) :-
+    \+ peer_permitted(Peer, Host, agents).
+
 right(agents).
 right(messages).
 right(orders).
 right(remote).
 right(watch).
 
-%!  must_be_peer_rules(+Rules) is det.
-%
 %   @error domain_error(peer_rule, Rule)
 
 must_be_peer_rules(Rules) :-
@@ -74,7 +94,6 @@ rights(Rights) :-
     forall(member(Right, Rights), ( ground(Right), right(Right) )).
 
 %!  peer_may(+Peer, +Host, +Right) is semidet.
-%!  peer_permitted(+Peer, +Host, +Right) is semidet.
 %
 %   The process at the address Peer has Right on Host.  peer_may/3 audits the
 %   refusal.

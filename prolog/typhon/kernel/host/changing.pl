@@ -5,14 +5,11 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [check_option/2]).
 :- use_module('../base/durable_changes', [sync_changes/0]).
-:- use_module(sandbox_view, [front_set/3]).
 :- use_module(host_options, [host_listed/2]).
 :- use_module(known_hosts, [note_host/1]).
 :- use_module(host_names, [host_resolve/2]).
 :- use_module(hosts, [host/3, host_option/2, host_put/2]).
-:- use_module(access_rules, [must_be_peer_rules/1]).
 :- use_module(place, [place_offer/2]).
-:- use_module(quotas, [quota_set/3]).
 :- use_module(remote, [remote/2]).
 :- use_module(scheduler, [scheduler_limit/2]).
 
@@ -51,31 +48,15 @@ change(services(Services0), Name) =>
     host(Name, _, Place),
     host_listed(Services0, Services),
     forall(member(Service, Services), place_offer(Place, Service)).
-change(policy(Policy), Name) =>
-    host(Name, _, Place),
-    front_set(Name, Place, Policy),
-    host_put(Name, policy(Policy)),
-    quota_anew(Name).
-change(peer(Rules), Name) =>
-    must_be_peer_rules(Rules),
-    host_put(Name, peer(Rules)).
-change(quota(Quotas), Name) =>
-    host_put(Name, quota(Quotas)),
-    quota_anew(Name).
+change(Option, Name), typhon_host_parts:changeable(Option) =>
+    forall(typhon_host_parts:changes(Option, Name), true),
+    host_put(Name, Option).
 change(Option, Name), changes(Option) =>
     host_put(Name, Option).
 change(Option, _) =>
     permission_error(change, host_option, Option).
 
-quota_anew(Name) :-
-    ( host_option(Name, policy(Policy)) -> true ; Policy = trusted ),
-    ( host_option(Name, quota(Quotas)) -> true ; Quotas = [] ),
-    quota_set(Name, Policy, Quotas).
-
-changes(audit(_)).
 changes(tokens(_)).
-changes(authors(_)).
-changes(trail(_)).
 changes(capacity(_)).
 changes(hop_time(_)).
 changes(log(_)).

@@ -21,11 +21,9 @@
               [ durable_begin/0, durable_close/0, durable_closed/0,
                 durable_end/0, durable_opened/1, durable_place/2,
                 sync_changes/0 ]).
-:- use_module('../wire',
-              [endpoint_address/1, endpoint_keys/1, endpoint_open/0]).
+:- use_module('../wire', [endpoint_address/1, endpoint_open/0]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
-:- use_module(sandbox_view, [front_set/3]).
 :- use_module(host_log, []).
 :- use_module(host_options, [host_listed/2]).
 :- use_module(hosts,
@@ -35,9 +33,7 @@
               [ forget_host/1, host_known/2, known_not_here/2, known_open/2,
                 known_with/3, note_host/1 ]).
 :- use_module(links, [host_unlink/2]).
-:- use_module(access_rules, [must_be_peer_rules/1]).
 :- use_module(place, [place_create/4, place_destroy/1]).
-:- use_module(quotas, [quota_forget/1, quota_set/3]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
 :- use_module(time, [time_kind/1, time_let_go/1]).
@@ -134,7 +130,7 @@ host_start(Name, Options) :-
     must_be(atom, Name),
     check_options(host_option, Options),
     must_be_name(Name),
-    forall(member(peer(Rules), Options), must_be_peer_rules(Rules)),
+    forall(typhon_host_parts:check(Options), true),
     forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
     with_mutex(typhon_hosting, start(Name, Options)).
 
@@ -308,13 +304,10 @@ start_host(Name, Endpoint, Options) :-
     ->  true
     ;   Epoch = 0, Rate = 1
     ),
-    must_have_keys(Options),
     option(concurrency(Concurrency), Options, inf),
     place_parts(Options, Files, Services),
     place_create(Name, Files, Services, Place),
-    option(policy(Policy), Options, trusted),
-    option(quota(Quotas), Options, []),
-    catch(( front_set(Name, Place, Policy), quota_set(Name, Policy, Quotas) ),
+    catch(forall(typhon_host_parts:begins(Name, Place, Options), true),
           error(Formal, Context),
           ( place_destroy(Place), throw(error(Formal, Context)) )),
     clock_set(Name, Epoch, Rate),
@@ -322,16 +315,6 @@ start_host(Name, Endpoint, Options) :-
     host_add(Name, Address, Place, Options),
     forall(begins(Name), true),
     debug(typhon(host), '~w is started', [Address]).
-
-%   Without an authority no signature is valid.
-
-must_have_keys(Options) :-
-    (   \+ memberchk(authors(_), Options)
-    ->  true
-    ;   endpoint_keys(_)
-    ->  true
-    ;   existence_error(host_option, tls)
-    ).
 
 place_parts(Options, Files, Services) :-
     option(consult(Files0), Options, []),
@@ -384,7 +367,7 @@ stop_one(Name0) :-
     event(hosts, Name, none, stopped),
     host_remove(Name),
     events_forget(Name),
-    quota_forget(Name),
+    forall(typhon_host_parts:ends(Name), true),
     clock_clear(Name),
     place_destroy(Place),
     debug(typhon(host), '~w is stopped', [Address]),

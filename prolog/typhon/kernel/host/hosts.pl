@@ -6,7 +6,7 @@
             host_remove/1,              % +Name
             host_option/2,              % ?Name, ?Option
             host_put/2,                 % +Name, +Option
-            host_enter/4,               % +Name, +Hash, +Tokens, -Answer
+            host_enter/3,               % +Name, +Tokens, -Answer
             host_again/1,               % +Name
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
@@ -16,8 +16,8 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(authors, [signed_by/2]).
 :- use_module(links, [host_linked/1, host_unlink/2]).
+:- use_module(host_parts, [parts_compile/1, parts_forget/1]).
 
 /** <module> Hosts of this process
 
@@ -31,7 +31,7 @@ one mutex: flag/3 would lock for each of them.
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
-    door/5,                     % Name, Tokens, Authors, Capacity, Flag: while
+    door/4,                     % Name, Tokens, Capacity, Flag: while
                                 % it is open
     load_key/2,                 % Name, Flag
     hop_keys/3.                 % Name, Direction, Flags
@@ -58,15 +58,15 @@ typhon_names:known(host, Address) :-
 host_add(Name, Address, Place, Options) :-
     make_keys(Name),
     forall(member(Option, Options), assertz(option(Name, Option))),
+    parts_compile(Name),
     assertz(host(Name, Address, Place)),
     open_door(Name).
 
 open_door(Name) :-
     asked(Name, tokens(Tokens), []),
-    asked(Name, authors(Authors), any),
     asked(Name, capacity(Capacity), inf),
     load_key(Name, Key),
-    assertz(door(Name, Tokens, Authors, Capacity, Key)).
+    assertz(door(Name, Tokens, Capacity, Key)).
 
 asked(Name, Option, Default) :-
     (   option(Name, Option)
@@ -115,20 +115,21 @@ count_key(Name, Key) :-
 %   From now on no agent is admitted: it is about to stop.
 
 host_close(Name) :-
-    retractall(door(Name, _, _, _, _)).
+    retractall(door(Name, _, _, _)).
 
 host_closed(Name) :-
-    \+ door(Name, _, _, _, _).
+    \+ door(Name, _, _, _).
 
 %!  host_remove(+Name) is det.
 
 host_remove(Name) :-
-    retractall(door(Name, _, _, _, _)),
+    retractall(door(Name, _, _, _)),
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
     host_unlink(Name, _),
     retractall(load_key(Name, _)),
-    retractall(hop_keys(Name, _, _)).
+    retractall(hop_keys(Name, _, _)),
+    parts_forget(Name).
 
 %!  host_option(?Name, ?Option) is nondet.
 
@@ -148,9 +149,10 @@ host_put(Name, Option) :-
         once(retract(option(Name, Old)))
     ;   assertz(option(Name, Option))
     ),
-    (   door(Name, Tokens, Authors, Capacity, Key)
+    parts_compile(Name),
+    (   door(Name, Tokens, Capacity, Key)
     ->  open_door(Name),
-        once(retract(door(Name, Tokens, Authors, Capacity, Key)))
+        once(retract(door(Name, Tokens, Capacity, Key)))
     ;   true                            % it stops
     ).
 
@@ -158,17 +160,14 @@ host_put(Name, Option) :-
                 *          ADMISSION           *
                 *******************************/
 
-%!  host_enter(+Name, +Hash, +Tokens, -Answer) is det.
+%!  host_enter(+Name, +Tokens, -Answer) is det.
 %
-%   An agent with Tokens, whose program has this Hash, asks to enter.  Answer
-%   is `ok`, and a place is taken for it, or refused(Reason).
+%   An agent with Tokens asks to enter.  Answer is `ok`, and a place is taken
+%   for it, or refused(Reason).
 
-host_enter(Name, Hash, Tokens, Answer) :-
-    (   door(Name, Wanted, Authors, Capacity, Load)
-    ->  (   Authors \== any,
-            \+ signed_by(Authors, Hash)
-        ->  Answer = refused(unsigned)
-        ;   Wanted \== [],
+host_enter(Name, Tokens, Answer) :-
+    (   door(Name, Wanted, Capacity, Load)
+    ->  (   Wanted \== [],
             \+ shown(Wanted, Tokens)
         ->  Answer = refused(token)
         ;   with_mutex(typhon_host_flags, room_taken(Capacity, Load, Answer))

@@ -1,15 +1,15 @@
 :- module(typhon_quotas,
-          [ quota_set/3,                % +Host, +Policy, +Quotas
-            quota_forget/1,             % +Host
-            quota/3,                    % ?Host, ?What, -Most
+          [ quota/3,                    % ?Host, ?What, -Most
             quota_shared/4,             % ?Host, ?Whose, ?What, -Most
             quota_any/1                 % ?Host
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module(hosts, [host_option/2]).
 
 /** <module> How much agents may use on a host
 
@@ -40,11 +40,14 @@ that it costs.
 While there are hosts with quotas of what is not counted when it is used, a
 thread checks ten times a second how much each uses.
 
-*Threading*: quota_set/3 and quota_forget/1 as host_start/2, the others in
-any thread.
+*Threading*: any thread.
 */
 
 :- multifile
+    typhon_host_parts:begins/3,
+    typhon_host_parts:changeable/1,
+    typhon_host_parts:changes/2,
+    typhon_host_parts:ends/1,
     typhon_names:known/2,       % Kind, Name
     set/1,                      % Host has other quotas now
     look/0,                     % agents that use too much are interrupted
@@ -97,9 +100,26 @@ kind(stack,      [agent, owner, host]).
 typhon_names:known(quota, Name) :-
     kind(Name, _).
 
-%!  quota_set(+Host, +Policy, +Quotas:list) is det.
+%   The quotas of a host follow from its options policy and quota.
 %
 %   @error domain_error(quota, Quota), type_error(number, Most)
+
+typhon_host_parts:begins(Host, _, Options) :-
+    option(policy(Policy), Options, trusted),
+    option(quota(Quotas), Options, []),
+    quota_set(Host, Policy, Quotas).
+
+typhon_host_parts:changeable(quota(_)).
+
+typhon_host_parts:changes(policy(Policy), Host) :-
+    ( host_option(Host, quota(Quotas)) -> true ; Quotas = [] ),
+    quota_set(Host, Policy, Quotas).
+typhon_host_parts:changes(quota(Quotas), Host) :-
+    ( host_option(Host, policy(Policy)) -> true ; Policy = trusted ),
+    quota_set(Host, Policy, Quotas).
+
+typhon_host_parts:ends(Host) :-
+    quota_forget(Host).
 
 quota_set(Host, Policy, Quotas) :-
     maplist(must_be_quota, Quotas),
@@ -165,8 +185,6 @@ in_force(Policy, Quotas, Whose, What, Most) :-
 %
 %   A host of this process has quotas: where none has, this is all that is
 %   asked.
-
-%!  quota_forget(+Host) is det.
 
 quota_forget(Host) :-
     retractall(quota(Host, _, _)),

@@ -1,13 +1,14 @@
 :- module(typhon_sandbox_view,
           [ service/1,                  % +PIs
-            front_set/3,                % +Host, +Place, +Policy
             front_gone/1,               % +Place
             place_front/3,              % +Place, -Front, -Policy
             guarding/0,
             module_policy/2             % +Module, -Policy
           ]).
 :- use_module(library(error), [must_be/2]).
+:- use_module(library(option), [option/3]).
 :- use_module('../program', [indicator_in/2, policy_read/1]).
+:- use_module(hosts, [host/3]).
 
 /** <module> What strangers see of a place
 
@@ -18,9 +19,13 @@ a module with nothing but what the place offers by directives
 
 in files consulted into it.  See typhon_guard.
 
-*Threading*: front_set/3 and front_gone/1 as host_start/2; the others in any
-thread.
+*Threading*: front_gone/1 as host_start/2; the others in any thread.
 */
+
+:- multifile
+    typhon_host_parts:begins/3,
+    typhon_host_parts:changeable/1,
+    typhon_host_parts:changes/2.
 
 :- dynamic
     offered/2,                  % Place, PI
@@ -49,7 +54,19 @@ offer(Place, PI) :-
     ;   true
     ).
 
-%!  front_set(+Host, +Place, +Policy) is det.
+typhon_host_parts:begins(Host, Place, Options) :-
+    option(policy(Policy), Options, trusted),
+    front_set(Host, Place, Policy).
+
+typhon_host_parts:changeable(policy(_)).
+
+%   Before the option is put: so a file of rules that is wrong changes nothing.
+
+typhon_host_parts:changes(policy(Policy), Host) :-
+    host(Host, _, Place),
+    front_set(Host, Place, Policy).
+
+%   front_set(+Host, +Place, +Policy)
 %
 %   Policy is `trusted`, `guarded`, or a file of rules.  Agents on the host
 %   keep their policy.

@@ -1,0 +1,86 @@
+:- module(typhon_host_parts,
+          [ parts/3,                    % +Phase, +Host, -Closures
+            parts_compile/1,            % +Host
+            parts_forget/1              % +Host
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [pairs_values/2]).
+
+/** <module> The parts of a host: what options add to it
+
+An option joins the acts of a host by a clause of the hook
+
+    part(Phase, Host, Order, Closure)
+
+that holds while the option is on for Host.  The clauses of this hook are
+asked when the options of the host change, and never in between: an act looks
+up one list of closures, and a host without options has none.
+
+  | phase         | called with                  | when                        |
+  | ------------- | ---------------------------- | --------------------------- |
+  | admit         | From, Entrant, Host, Verdict | an agent asks to enter, see |
+  |               |                              | typhon_gate                 |
+  | admit_program | From, Entrant, Host, Verdict | its program is here, too    |
+
+Those that admit succeed with a verdict which is not `ok`.
+
+Closures of a phase are called in the order of their numbers.
+
+What an option keeps of a host follows the life of the host by the hooks
+
+    check(Options)              before it starts: raises what is wrong
+    begins(Host, Place, Options)  it has a place, and is not reachable yet; if
+                                this raises, the host does not start
+    changeable(Option)          host_change/2 takes Option
+    changes(Option, Host)       it is about to be put
+    ends(Host)                  it is no more
+
+*Threading*: any thread reads; all else holds the mutex of host_start/2.
+*/
+
+:- multifile
+    part/4,                     % Phase, Host, Order, Closure
+    check/1,
+    begins/3,
+    changeable/1,
+    changes/2,
+    ends/1.
+
+:- dynamic
+    part/4,
+    check/1,
+    begins/3,
+    changeable/1,
+    changes/2,
+    ends/1,
+    compiled/3.                 % Phase, Host, Closures
+
+%!  parts(+Phase, +Host, -Closures:list) is semidet.
+%
+%   Fails if Host has no part in Phase.
+
+parts(Phase, Host, Closures) :-
+    compiled(Phase, Host, Closures),
+    !.
+
+%!  parts_compile(+Host) is det.
+%!  parts_forget(+Host) is det.
+%
+%   The options of Host have changed; Host is no more.  The new list is there
+%   before the old one goes.
+
+parts_compile(Host) :-
+    findall(Phase-Closures, compiled(Phase, Host, Closures), Olds),
+    findall(Phase-Closures, in_order(Host, Phase, Closures), News),
+    forall(member(Phase-Closures, News),
+           assertz(compiled(Phase, Host, Closures))),
+    forall(member(Phase-Closures, Olds),
+           once(retract(compiled(Phase, Host, Closures)))).
+
+in_order(Host, Phase, Closures) :-
+    bagof(Order-Closure, part(Phase, Host, Order, Closure), Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Closures).
+
+parts_forget(Host) :-
+    retractall(compiled(_, Host, _)).
