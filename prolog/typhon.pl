@@ -10,6 +10,7 @@ a folder, with an interface of the same name beside it:
   | agents                          | typhon/kernel/lifecycle  |
   | predicates that agents can call | typhon/kernel/vocabulary |
   | networks, the log server        | typhon/network           |
+  | agents, event by event          | typhon/options/trace     |
   | events, as they happen          | typhon/options/watch     |
   | tables at the top level         | typhon/tools             |
   | a page for a browser            | typhon/tools/page        |
@@ -30,9 +31,14 @@ a folder, with an interface of the same name beside it:
             [ host_start/1, host_start/2, host_change/2, host_stop/1,
               host_property/2, link/2, link/3, unlink/2, remote/2
             ]).
-:- reexport('typhon/kernel/lifecycle',
-            except([ agent_glance/2, agent_named/2, goals_shown/4,
-                     status_shown/2 ])).
+:- reexport(typhon/kernel/lifecycle,
+            [ agent_create/2, agent_create/3, agent_property/2, agent_send/2,
+              agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
+              agent_change/2, agent_dispose/1, agent_dispose/2, agent_join/3,
+              agent_result/3, agent_listing/1, agent_save/2, agent_load/2,
+              agent_load/3, agent_trail/2, payload_attach/2, payload_detach/2
+            ]).
+:- reexport('typhon/options/trace').
 :- reexport('typhon/network').
 :- reexport(typhon/tools, [agents/0, hosts/0]).
 :- reexport(typhon/tools/page, [page_start/1, page_stop/0]).

@@ -90,12 +90,6 @@ option_file(access, 'host/access_rules.pl').
 option_file(virtual, 'host/virtual.pl').
 option_file(virtual, 'host/virtual_loop.pl').
 option_file(virtual, 'host/virtual_standing.pl').
-option_file(trace, 'agent/traces.pl').
-option_file(trace, 'lifecycle/tracing.pl').
-option_file(trace, 'lifecycle/traced.pl').
-option_file(trace, 'lifecycle/stepping.pl').
-option_file(trace, 'lifecycle/on_hold.pl').
-option_file(trace, 'lifecycle/spying.pl').
 
 %!  kernel_file(?File) is nondet.
 %

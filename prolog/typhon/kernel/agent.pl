@@ -29,11 +29,10 @@ This is the interface of the layer: higher layers import from here.
               birth_shown/2, birth_unproved/2 ]).
 :- reexport(agent/life,
             [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
-              life_parent/2, life_payloads/2, life_traces/2,
-              make_life/2, set_traces_of_life/3
+              life_parent/2, life_payloads/2, life_extras/2,
+              make_life/2, set_extras_of_life/3
             ]).
 :- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
-:- reexport(agent/traces, [trace_kind/1]).
 :- reexport(agent/owner, [owner_entered/3, owner_inherited/3]).
 :- reexport(agent/time_quota, [stay_count/3, stay_owner/3, stay_until/3]).
 :- reexport(agent/state_text, [state_text/2, state_text_add/2]).

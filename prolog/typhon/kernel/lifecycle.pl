@@ -19,14 +19,16 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('lifecycle/agent_summary').
 :- reexport('lifecycle/order_client',
             [ agent_move/2, agent_move/3, agent_clone/2, agent_resume/1, agent_change/2,
-              payload_attach/2, payload_detach/2
+              payload_attach/2, payload_detach/2, agent_answer/3, order_give/3
             ]).
 :- reexport('lifecycle/disposal').
 :- reexport('lifecycle/sending').
 :- reexport('lifecycle/listing').
 :- reexport(lifecycle/named, [agent_named/2]).
-:- reexport(lifecycle/tracing, [agent_trace/2, agent_notrace/1]).
-:- reexport(lifecycle/stepping, [agent_step/1]).
+:- reexport(lifecycle/on_hold, [held_on/2, held_parts/3, held_put/3]).
+:- reexport(lifecycle/orders, [order_take/2]).
+:- reexport(lifecycle/questions, [question_answered/2]).
+:- reexport(lifecycle/turn, [turn_bounded/1, turn_settled/0, turn_unit/1]).
 :- reexport('lifecycle/join').
 :- reexport(lifecycle/restore,
             [agent_load/2, agent_load/3, agent_save/2]).

@@ -33,7 +33,6 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(program/machine, [answer_at/3, machine_inside/0, machine_run/3]).
 :- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).
 :- reexport(program/clause_location, [fault_where/4, where_handled/5]).
-:- reexport('program/probe').
 :- reexport(program/bodies, [body_goals/4, goals_body/2, plain_goals/2]).
 :- reexport('program/listing_marks').
 :- reexport('program/variable_names').

@@ -29,7 +29,7 @@
 :- use_module(agent_lock, [with_agent/2]).
 :- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
 :- use_module(time_quota, [stay_begins/4, stay_ends/1]).
-:- use_module(traces, [traces_heard/2]).
+:- use_module(life, [life_extras/2]).
 
 /** <module> Agents that stand in this process
 
@@ -57,12 +57,16 @@ which Prolog makes by itself, is not safe where other threads retract
 :- multifile
     typhon_code:in_use/1,
     typhon_quotas:set/1,
-    put_down/3.                 % Id, Status, Goals: noted in the journal
+    put_down/3,                 % Id, Status, Goals: noted in the journal
+    carries/2.                  % Id, Extras: the agent, which carries Extras,
+                                % see typhon_life, is in this process now
 
 %   The name under which people know it.
 
 :- setting(typhon_creation:faulty_mail, nonneg, 1000,
            "Messages kept for an agent that is faulty").
+
+:- dynamic carries/2.
 
 :- dynamic
     stands/6,                   % Id, Host, Module, Hash, Life, Until
@@ -102,7 +106,14 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     noted(Id, Status, Goals),
     assertz(status(Id, Status, Goals)),
     stay_begins(Id, Host, Module, Hash),
-    traces_heard(Id, Life).
+    carried(Id, Life).
+
+carried(Id, Life) :-
+    life_extras(Life, Extras),
+    (   Extras == []
+    ->  true
+    ;   forall(carries(Id, Extras), true)
+    ).
 
 %   Before others can see it.
 
@@ -244,7 +255,7 @@ agent_put_life(Id, Life) :-
     assertz(stands(Id, Host, Module, Hash, Life, Until)),
     forget_first(Id),
     events_forget(Id),
-    traces_heard(Id, Life).
+    carried(Id, Life).
 
 %!  agent_program(+Id, +Hash, +Module, +Life) is det.
 %

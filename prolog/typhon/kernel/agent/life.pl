@@ -5,34 +5,38 @@
             life_hops/2,                % +Life, -Count
             life_tokens/2,              % +Life, -Tokens
             life_payloads/2,            % +Life, -Payloads
-            life_traces/2,              % +Life, -Traces
+            life_extras/2,              % +Life, -Extras
             set_payloads_of_life/3,     % +Payloads, +Life0, -Life
-            set_traces_of_life/3,       % +Traces, +Life0, -Life
+            set_extras_of_life/3,       % +Extras, +Life0, -Life
             life_may_move/2,            % +Life, -May
             life_hop/3,                 % +Life0, -Life, -Hops
             life_clone/3                % +Id, +Life0, -Life
           ]).
-:- use_module(library(lists), [subtract/3]).
+:- use_module(library(apply), [exclude/3]).
 :- use_module(library(record), [(record)/1, op(_, _, record)]).
 
 /** <module> What an agent takes along besides its state
 
 A life is
 
-    life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Traces)
+    life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Extras)
 
 the agent of which it is a clone or `none`, how often it moved, after how
 many hops it ends or `inf`, what it shows to hosts that ask for a token, a
-list of Name-PIs, whether it may not move, and its tracers, see
-typhon_traces.  It goes over the wire and
-into restore points as it is; no other module takes it apart.
+list of Name-PIs, whether it may not move, and a list of what options let it
+carry.  It goes over the wire and into restore points as it is; no other module
+takes it apart.
 
 *Threading*: pure.
 */
 
 :- record life(parent:atom=none, hops:integer=0, lifetime:atomic=inf,
                tokens:list=[], payloads:list=[], static:atom=false,
-               traces:list=[]).
+               extras:list=[]).
+
+:- multifile not_cloned/1.     % Extra: a clone does not carry it
+
+:- dynamic not_cloned/1.
 
 %!  is_life(@Term) is semidet.
 %!  make_life(+Fields:list, -Life) is det.
@@ -40,9 +44,9 @@ into restore points as it is; no other module takes it apart.
 %!  life_hops(+Life, -Count:integer) is det.
 %!  life_tokens(+Life, -Tokens:list) is det.
 %!  life_payloads(+Life, -Payloads:list) is det.
-%!  life_traces(+Life, -Traces:list) is det.
+%!  life_extras(+Life, -Extras:list) is det.
 %!  set_payloads_of_life(+Payloads:list, +Life0, -Life) is det.
-%!  set_traces_of_life(+Traces:list, +Life0, -Life) is det.
+%!  set_extras_of_life(+Extras:list, +Life0, -Life) is det.
 %
 %   See library(record).
 
@@ -68,18 +72,17 @@ life_may_move(Life, May) :-
 %
 %   One hop more, which makes Hops.
 
-life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Traces),
-         life(Parent, Hops, Most, Tokens, Payloads, Static, Traces), Hops) :-
+life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Extras),
+         life(Parent, Hops, Most, Tokens, Payloads, Static, Extras), Hops) :-
     Hops is Hops0+1.
 
 %!  life_clone(+Id, +Life0, -Life) is det.
 %
-%   Life0 is that of Id, Life that of a clone of it.  It is not held, since
-%   it must not be known.
+%   Life0 is that of Id, Life that of a clone of it.
 
 life_clone(Id, Life0, Life) :-
     set_parent_of_life(Id, Life0, Life1),
     set_hops_of_life(0, Life1, Life2),
-    life_traces(Life0, Traces0),
-    subtract(Traces0, [step], Traces),
-    set_traces_of_life(Traces, Life2, Life).
+    life_extras(Life0, Extras0),
+    exclude(not_cloned, Extras0, Extras),
+    set_extras_of_life(Extras, Life2, Life).

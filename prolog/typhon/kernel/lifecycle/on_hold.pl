@@ -1,46 +1,43 @@
 :- module(typhon_on_hold,
-          [ held_put/4,                 % +Id, +Probe, +Goals, +Seen
-            held_parts/3,               % +Held, -Goals, -Seen
-            held_seen/2,                % +Id, +Held
+          [ held_put/3,                 % +Id, +State, +Goals
+            held_parts/3,               % +Held, -State, -Goals
             held_on/2,                  % +Id, +Held
-            held_probe/2,               % +Held, -Probe
             held_dropped/1              % +Goals
           ]).
-:- use_module('../program', [probe_stop/1]).
 :- use_module('../host', [schedule/2]).
 :- use_module('../agent', [agent/5, agent_put/3]).
 
-/** <module> Agents that are held
+/** <module> Agents that are held in the middle of their goals
 
-An agent that is held, see typhon_stepping, has the status `held`, and when it
-is to go on `resumed`, until a worker has it.  In place of its goals there is
+The engine of a turn, see typhon_turn, may put an agent down before any goal.
+The agent then has the status `held`, and when it is to go on `resumed`, until
+a worker has it.  In place of its goals there is
 
-    held(Probe, Goals, Seen)
+    held(State, Goals)
 
-Goals being what comes next and Seen whether a caller was notified.  It holds no
-thread, and is ended as others that rest are.  Orders wait for its next
-effect.
+State being what the engine needs to go on, and Goals what comes next.  It
+holds no thread, and is ended as others that rest are.  Orders wait for its
+next effect.
 
 *Threading*: inside with_agent/2 of the agent.
 */
 
-%!  held_put(+Id, +Probe, +Goals:list, +Seen:boolean) is det.
-%!  held_parts(+Held, -Goals:list, -Seen:boolean) is semidet.
-%!  held_seen(+Id, +Held) is det.
+:- multifile dropped/1.         % State: the agent ends, and goes on no more
+
+:- dynamic dropped/1.
+
+%!  held_put(+Id, +State, +Goals:list) is det.
+%!  held_parts(+Held, -State, -Goals:list) is semidet.
 %!  held_on(+Id, +Held) is det.
 %
-%   Id, which was running, is held; what Held is; a caller was notified where it
-%   is; it is to go on.
+%   Id, which was running, is held; what Held is; it is to go on.
 
-held_put(Id, Probe, Goals, Seen) :-
-    agent_put(Id, held, held(Probe, Goals, Seen)).
+held_put(Id, State, Goals) :-
+    agent_put(Id, held, held(State, Goals)).
 
-held_parts(Held, Goals, Seen) :-
+held_parts(Held, State, Goals) :-
     nonvar(Held),
-    Held = held(_, Goals, Seen).
-
-held_seen(Id, held(Probe, Goals, _)) :-
-    held_put(Id, Probe, Goals, true).
+    Held = held(State, Goals).
 
 held_on(Id, Held) :-
     agent_put(Id, resumed, Held),
@@ -48,17 +45,13 @@ held_on(Id, Held) :-
     !,
     schedule(Host, Id).
 
-%!  held_probe(+Held, -Probe) is det.
-
-held_probe(held(Probe, _, _), Probe).
-
 %!  held_dropped(+Goals) is det.
 %
 %   An agent ends in the place of whose goals there was Goals.
 
 held_dropped(Goals) :-
-    (   nonvar(Goals),
-        Goals = held(Probe, _, _)
-    ->  probe_stop(Probe)
+    (   held_parts(Goals, State, _),
+        dropped(State)
+    ->  true
     ;   true
     ).

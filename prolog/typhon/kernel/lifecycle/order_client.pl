@@ -135,7 +135,7 @@ agent_change(Agent, Change) :-
 %
 %   @arg Order is move(Host), arrive(Host), `clone`, attach(Payload),
 %        detach(Name), `image`, `resume`, change(Change), see typhon_change,
-%        or watched(Change), see typhon_traced
+%        or an order of an option, see typhon_orders
 
 order_give(Agent, Order, Result) :-
     agent_answer(Agent, order(Order), Result).

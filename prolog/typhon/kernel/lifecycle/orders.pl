@@ -23,7 +23,6 @@
 :- use_module(ending, [agent_end/2, agent_end/3, agent_stays/2]).
 :- use_module(faulty, [faulty_stirs/1]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
-:- use_module(traced, [traced_change/2, traced_held/1]).
 
 /** <module> Orders are taken and obeyed
 
@@ -36,10 +35,16 @@ come from another process, and obeyed by the worker that has the agent.
 */
 
 :- multifile
+    carried_out/3,              % Order, Id, Result: an order of an option
+    noted/1,                    % Id: an order waits for its next effect
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2,
     typhon_questions:here/3,
     typhon_transfer:forward_order/2.
+
+:- dynamic
+    carried_out/3,
+    noted/1.
 
                 /*******************************
                 *             TAKE             *
@@ -85,7 +90,9 @@ order_take(Id, Order) :-
     with_agent(Id, note_order(Id, Order)),
     (   Order == dispose
     ->  look_again_later(Id)
-    ;   traced_held(Id)
+    ;   noted(Id)
+    ->  true
+    ;   true
     ).
 
 %   An agent under way may be out of reach soon.
@@ -228,7 +235,7 @@ obey(asked(resume, Asker), Id, Goals) :-
         go_on(Id, Goals)
     ).
 obey(asked(Order, Asker), Id, Goals) :-
-    catch((   carried_out(Order, Id, Result)
+    catch((   done(Order, Id, Result)
           ->  Answer = answer(Result)
           ;   domain_error(agent_order, Order)
           ),
@@ -252,24 +259,22 @@ go_on(Id, Goals) :-
     ;   ignore(with_agent(Id, agent_ready(Id, Goals)))
     ).
 
-carried_out(attach(Payload), Agent, ok) :-
+done(attach(Payload), Agent, ok) :-
     agent_attach(Agent, Payload).
-carried_out(attach(Payload, Signature), Agent, ok) :-
+done(attach(Payload, Signature), Agent, ok) :-
     payload_hash(Payload, Hash),
     signature_keep(Hash, Signature),
     agent_attach(Agent, Payload).
-carried_out(detach(Name), Agent, ok) :-
+done(detach(Name), Agent, ok) :-
     agent_detach(Agent, Name).
-carried_out(question(_), _, again).
-carried_out(watched(Change), Agent, ok) :-
-    traced_change(Agent, Change).
-carried_out(clone, Agent, CloneId) :-
+done(question(_), _, again).
+done(clone, Agent, CloneId) :-
     agent_status(Agent, _, Goals),
     agent_clone_here(Agent, Goals, CloneId).
-carried_out(change(Change), Agent, ok) :-
+done(change(Change), Agent, ok) :-
     change_made(Change, Agent).
-carried_out(image, Agent,
-            image(Name, Program, Life, State, Goals, Mail)) :-
+done(image, Agent,
+     image(Name, Program, Life, State, Goals, Mail)) :-
     agent(Agent, _, Module, Hash, Life),
     agent_status(Agent, _, Goals),
     code_sent(Hash, Program),
@@ -278,3 +283,5 @@ carried_out(image, Agent,
     trail_none(State0, State),
     mail_list(Agent, Mail),
     mobile_term(State-Goals).
+done(Order, Agent, Result) :-
+    carried_out(Order, Agent, Result).

@@ -164,7 +164,7 @@ rests(running, _, Id, _, _) :-
     !,
     permission_error(save, agent, Id).
 rests(_, Held, _, ready, Goals) :-
-    held_parts(Held, Goals, _),
+    held_parts(Held, _, Goals),
     !.
 rests(Status, Goals, _, Status, Goals).
 

@@ -199,7 +199,7 @@ goal_list(Frozen, Goals) :-
     !,
     without_hole(Held, Goals).
 goal_list(Held, Goals) :-
-    held_parts(Held, Goals0, _),
+    held_parts(Held, _, Goals0),
     !,
     Goals = Goals0.
 goal_list(hop(Held, _), Goals) :-       % leaving

@@ -6,7 +6,8 @@
             turn_settled/0,
             turn_concluded/4,           % +Turn, +Outcome, :Conclude, -Next
             turn_broken/1,              % -Outcome
-            turn_overruled/2,           % +Turn, -Outcome
+            turn_overruled/2,           % +Host, -Outcome
+            turn_bounded/1,             % +Host
             turn_over/1                 % +Id
           ]).
 :- use_module('../program', [machine_run/3]).
@@ -122,6 +123,14 @@ turn_broken(Outcome) :-
 turn_overruled(Host, Outcome) :-
     bound(Host, _),
     limit_passed(Outcome),
+    !.
+
+%!  turn_bounded(+Host) is semidet.
+%
+%   Turns on Host have limits.
+
+turn_bounded(Host) :-
+    bound(Host, _),
     !.
 
 %!  turn_over(+Id) is det.

@@ -341,7 +341,7 @@ hops_of(Id, Hops) :-
     agent(Id, _, _, _, Life),
     life_hops(Life, Hops).
 hops_of(Id, Hops) :-
-    trace_of(Id, _, Hops, _).
+    last_seen(Id, _, Hops, _).
 
 %!  agent_reached_at(+Id, +Hops, +Endpoint, -Reached) is det.
 %
@@ -370,14 +370,14 @@ agent_heard_of(Id, Hops) :-
 %   the process to which it went is no more.
 
 whereabouts(Id, Address) :-
-    trace_of(Id, Address0, _, Process),
+    last_seen(Id, Address0, _, Process),
     lives(Address0, Process),
     !,
     Address = Address0.
 
-trace_of(Id, Address, Hops, Process) :-
+last_seen(Id, Address, Hops, Process) :-
     forward(Id, Address, Hops, Process).
-trace_of(Id, Address, Hops, Process) :-
+last_seen(Id, Address, Hops, Process) :-
     home_knows(Id, Address, Hops, Process).
 
 lives(_, Process) :-

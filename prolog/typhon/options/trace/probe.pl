@@ -3,9 +3,8 @@
             probe_next/2,               % +Probe, -Step
             probe_stop/1                % +Probe
           ]).
-:- use_module(bodies, [plain_goals/2]).
-:- use_module(faults, [fault_note/1, fault_noted/1]).
-:- use_module(machine, [machine_run/3]).
+:- use_module('../../kernel/program',
+              [fault_note/1, fault_noted/1, machine_run/3, plain_goals/2]).
 
 /** <module> The machine, goal by goal
 

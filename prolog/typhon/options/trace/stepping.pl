@@ -4,33 +4,33 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../program', [probe_next/2, probe_start/3]).
-:- use_module('../host', [event/4, event_heard/1, host/3, quota_any/1]).
-:- use_module('../agent',
+:- use_module('../../kernel/host', [event/4, event_heard/1, host/3]).
+:- use_module('../../kernel/agent',
               [ agent/5, agent_order/2, agent_status/3, agent_unorder/2,
-                in_words/2, life_traces/2, with_agent/2 ]).
-:- use_module(on_hold,
-              [ held_on/2, held_parts/3, held_probe/2, held_put/4, held_seen/2 ]).
-:- use_module(join, [agent_join/3]).
-:- use_module(properties, [agent_property/2]).
-:- use_module(order_client, [agent_answer/3, order_give/3]).
-:- use_module(questions, [question_answered/2]).
+                in_words/2, with_agent/2 ]).
+:- use_module('../../kernel/lifecycle',
+              [ agent_answer/3, agent_join/3, agent_property/2, held_on/2,
+                held_parts/3, held_put/3, order_give/3, order_take/2,
+                question_answered/2, turn_bounded/1, turn_settled/0,
+                turn_unit/1 ]).
+:- use_module(probe, [probe_next/2, probe_start/3, probe_stop/1]).
 :- use_module(spying, [spied/3, spied_program/1]).
-:- use_module(orders, [order_take/2]).
-:- use_module(traced, [traced_change/2, traced_held/1]).
-:- use_module(tracing, [goal_shown/3]).
-:- use_module(turn, [turn_settled/0, turn_unit/1]).
+:- use_module(tracing,
+              [ goal_shown/3, traced_goals/1, traced_held/1, traced_step/1,
+                traced_stepwise/1 ]).
 
 /** <module> Agents that are held before each goal
 
 An agent that is stepped, or whose goals are traced, runs in a probe, see
-typhon_probe.  A stepped agent is held before each goal, see
-typhon_on_hold.
+typhon_probe.  A stepped agent is held before each goal, see typhon_on_hold, in
+the state probe(Probe, Seen), Seen being whether a caller was notified where it
+is.
 
 *Threading*: any thread asks; the worker that has the agent runs its probe.
 */
 
 :- multifile
+    typhon_on_hold:dropped/1,
     typhon_questions:here/3,
     typhon_turn:engine/3,
     typhon_turn:over/1.
@@ -51,7 +51,7 @@ typhon_on_hold.
 %
 %   @error existence_error(agent, Agent)
 %   @error timeout_error(order, Agent): it came to no goal within 10 seconds
-%   @error permission_error(step, agent, Agent) where there are quotas
+%   @error permission_error(step, agent, Agent) where turns have limits
 
 agent_step(Agent) :-
     agent_answer(Agent, step, Answer),
@@ -90,20 +90,20 @@ typhon_questions:here(step, Agent, Asker) :-
 step(Id, Asker, Answer) :-
     agent(Id, Host, _, _, Life),
     once(agent_status(Id, Status, Goals)),
-    (   quota_any(Host)
+    (   turn_bounded(Host)
     ->  Answer = bounded
-    ;   \+ is_stepped(Life)
+    ;   \+ traced_stepwise(Life)
     ->  Answer = not_held
     ;   step(Status, Goals, Id-Host, Asker, Answer)
     ).
 
 step(held, Held, Id-Host, Asker, Answer) =>
-    held_parts(Held, Goals, Seen),
+    held_parts(Held, probe(Probe, Seen), Goals),
     (   Seen == true
     ->  assertz(asker(Id, Asker)),
         held_on(Id, Held),
         Answer = later
-    ;   held_seen(Id, Held),
+    ;   held_put(Id, probe(Probe, true), Goals),
         next_goal(Id, Host, Goals, Answer)
     ).
 step(Status, _, Id-_, Asker, Answer), runs(Status) =>
@@ -135,10 +135,16 @@ next_goal(Id, Host, [Goal|_], held(Address, Shown)) :-
                 *             RUN              *
                 *******************************/
 
-typhon_turn:engine(_, resumed(_), typhon_stepping:probe).
+typhon_turn:engine(_, resumed(Held), typhon_stepping:probe) :-
+    held_parts(Held, probe(_, _), _).
 typhon_turn:engine(agent(_, Host, Hash, Life), goals(_),
                    typhon_stepping:probe) :-
-    is_probed(Host, Life, Hash).
+    ( traced_goals(Life) ; spied_program(Hash) ),
+    !,
+    \+ turn_bounded(Host).             % a limit could not end a probe in time
+
+typhon_on_hold:dropped(probe(Probe, _)) :-
+    probe_stop(Probe).
 
 :- public probe/4.
 
@@ -147,7 +153,7 @@ probe(Turn, goals(Goals), Outcome, Goals0) :-
     probe_start(Context, Goals, Probe),
     probed(Probe, Turn, Outcome, Goals0).
 probe(Turn, resumed(Held), Outcome, Goals0) :-
-    held_probe(Held, Probe),
+    held_parts(Held, probe(Probe, _), _),
     probed(Probe, Turn, Outcome, Goals0).
 
 probed(Probe, Turn, Outcome, Goals0) :-
@@ -179,34 +185,6 @@ held_obeys(_).
 at_once(dispose).
 at_once(evacuate(_)).
 
-%   is_probed(+Host, +Life, +Hash): the goals of an agent with this Life and
-%   program are to be seen, on a Host without quotas.  A limit could not end a
-%   probe in time, and a Life says what the sender of the agent likes.
-
-is_probed(Host, Life, Hash) :-
-    wanted(Life, Hash),
-    \+ quota_any(Host).
-
-wanted(Life, _) :-
-    life_traces(Life, Traces),
-    Traces \== [],
-    wants_goals(Traces),
-    !.
-wanted(_, Hash) :-
-    spied_program(Hash).
-
-wants_goals(Traces) :-
-    member(Trace, Traces),
-    (   Trace == step
-    ;   Trace = trace(_, Kinds),
-        memberchk(goals, Kinds)
-    ),
-    !.
-
-is_stepped(Life) :-
-    life_traces(Life, Traces),
-    memberchk(step, Traces).
-
 %   probed_goal(+Id, +Host, +Probe, +Goal, +Goals, -Next): Probe stops before
 %   Goal; Next is `on`, or `stop` if Id is held there.
 
@@ -218,7 +196,7 @@ probed_goal(Id, Host, Probe, Goal, Goals, Next) :-
     ),
     spied_goal(Id, Host, Goal),
     (   agent(Id, _, _, _, Life),
-        is_stepped(Life)
+        traced_stepwise(Life)
     ->  maplist(in_words, [Goal|Goals], Shown),
         with_agent(Id, hold(Id, Host, Probe, Shown, Askers, Answer)),
         answer(Askers, Answer),
@@ -234,7 +212,7 @@ spied_goal(Id, Host, Goal) :-
     goal_shown(Id, Portable0, Portable),
     host(Host, Address, _),
     (   Action == hold
-    ->  traced_change(Id, step),
+    ->  traced_step(Id),
         print_message(help, typhon(spied(Id, Address, Portable)))
     ;   print_message(help, typhon(traced(Id, Address, goal(Portable))))
     ).
@@ -246,7 +224,7 @@ hold(Id, Host, Probe, Goals, Askers, Answer) :-
     ->  Seen = false
     ;   Seen = true
     ),
-    held_put(Id, Probe, Goals, Seen),
+    held_put(Id, probe(Probe, Seen), Goals),
     next_goal(Id, Host, Goals, Answer).
 
 askers(Id, Askers) :-

@@ -1,0 +1,235 @@
+:- module(typhon_tracing,
+          [ agent_trace/2,              % +Agent, +What
+            agent_notrace/1,            % +Agent
+            goal_shown/3,               % +Id, +Goal, -Shown
+            traced_goals/1,             % +Life
+            traced_stepwise/1,          % +Life
+            traced_step/1,              % +Id
+            traced_held/1               % +Id
+          ]).
+:- use_module(library(apply), [exclude/3, maplist/2]).
+:- use_module(library(error),
+              [domain_error/2, existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/program',
+              [code_names/2, code_program/2, goal_named/4]).
+:- use_module('../../kernel/wire',
+              [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
+:- use_module('../../kernel/host', [events_hear/3, host/3]).
+:- use_module('../../kernel/agent',
+              [ agent/5, agent_put_life/2, agent_status/3, agent_unorder/2,
+                life_extras/2, set_extras_of_life/3, with_agent/2 ]).
+:- use_module('../../kernel/lifecycle',
+              [held_on/2, order_give/3, question_answered/2]).
+
+/** <module> Agents that are traced
+
+The tracers of an agent are extras of its life, so they follow it wherever it
+goes: trace(To, Kinds), To being the address of the process that prints events
+of Kinds, and `step` if the agent is to be held before each goal.  The order
+watched(Change) changes them, where Change is trace(To, Kinds), `step` or
+none(To).
+
+*Threading*: any thread asks; events are printed in the thread in which they
+come.  The thread that has the agent, or holds its mutex, changes tracers.
+*/
+
+:- multifile
+    typhon_agents:carries/2,
+    typhon_endpoint:requested/4,
+    typhon_events:told/4,
+    typhon_life:not_cloned/1,
+    typhon_names:known/2,
+    typhon_orders:carried_out/3,
+    typhon_orders:noted/1.
+
+%!  agent_trace(+Agent, +What) is det.
+%!  agent_notrace(+Agent) is det.
+%
+%   Print what happens to Agent from now on, wherever it is and goes, and
+%   write it in the log of the host where it happens, if that has one.  What
+%   is a list out of `hops`, `messages`, `facts`, which is what it leaves in
+%   and takes from the tuple spaces of hosts, and `goals`, which are those
+%   that the machine comes to, not those within what Prolog runs to its end
+%   by itself.  Clones are traced, too.
+%
+%   agent_notrace/1 ends this, and lets an agent go on that is held, see
+%   agent_step/1.
+%
+%   @error existence_error(agent, Agent)
+%   @error domain_error(trace_kind, Kind)
+
+agent_trace(Agent, What) :-
+    must_be(list, What),
+    maplist(must_be_kind, What),
+    me(To),
+    order_give(Agent, watched(trace(To, What)), _).
+
+must_be_kind(Kind) :-
+    must_be(atom, Kind),
+    (   trace_kind(Kind)
+    ->  true
+    ;   domain_error(trace_kind, Kind)
+    ).
+
+trace_kind(hops).
+trace_kind(messages).
+trace_kind(facts).
+trace_kind(goals).
+
+typhon_names:known(trace_kind, Kind) :-
+    trace_kind(Kind).
+
+agent_notrace(Agent) :-
+    me(To),
+    order_give(Agent, watched(none(To)), _).
+
+me(To) :-
+    (   endpoint_address(To)
+    ->  true
+    ;   existence_error(endpoint, running)
+    ).
+
+                /*******************************
+                *            TRACERS           *
+                *******************************/
+
+%   An agent with tracers is in this process now.
+
+typhon_agents:carries(Id, Extras) :-
+    forall(tracer(Extras, To, Kinds),
+           events_hear([life, bad_ends|Kinds], Id, trace(To))).
+
+%   The extras may have been written by an untrusted peer.
+
+tracer(Extras, To, Kinds) :-
+    member(Extra, Extras),
+    nonvar(Extra),
+    Extra = trace(To, Kinds0),
+    atom(To),
+    is_list(Kinds0),
+    findall(Kind, ( trace_kind(Kind), memberchk(Kind, Kinds0) ), Kinds).
+
+%   No caller knows that there is a clone, so none would let it go on.
+
+typhon_life:not_cloned(Extra) :-
+    Extra == step.
+
+%!  traced_goals(+Life) is semidet.
+%!  traced_stepwise(+Life) is semidet.
+%
+%   Goals of an agent with this Life are traced, or it is to be held before
+%   each; the latter.
+
+traced_goals(Life) :-
+    life_extras(Life, Extras),
+    Extras \== [],
+    member(Extra, Extras),
+    (   Extra == step
+    ;   nonvar(Extra),
+        Extra = trace(_, Kinds),
+        memberchk(goals, Kinds)
+    ),
+    !.
+
+traced_stepwise(Life) :-
+    life_extras(Life, Extras),
+    memberchk(step, Extras).
+
+%!  traced_step(+Id) is det.
+%
+%   Hold Id, which belongs to the caller, before each goal.
+
+traced_step(Id) :-
+    with_agent(Id, change(step, Id)).
+
+typhon_orders:carried_out(watched(Change), Id, ok) :-
+    with_agent(Id, change(Change, Id)).
+
+change(Change, Id) :-
+    agent(Id, _, _, _, Life0),
+    !,
+    life_extras(Life0, Extras0),
+    changed(Change, Extras0, Extras),
+    set_extras_of_life(Extras, Life0, Life),
+    agent_put_life(Id, Life),
+    release(Extras, Id).
+
+changed(trace(To, Kinds), Extras0, [trace(To, Kinds)|Extras]) :-
+    exclude(is_of(To), Extras0, Extras).
+changed(step, Extras0, [step|Extras]) :-
+    exclude(==(step), Extras0, Extras).
+changed(none(To), Extras0, Extras) :-
+    exclude(is_of(To), Extras0, Extras1),
+    exclude(==(step), Extras1, Extras).
+
+is_of(To, trace(To, _)).
+
+%   An agent that is held, and need not be any more, goes on.
+
+release(Extras, Id) :-
+    (   \+ memberchk(step, Extras),
+        agent_status(Id, held, Held)
+    ->  held_on(Id, Held)
+    ;   true
+    ).
+
+%!  traced_held(+Id) is det.
+%
+%   Other orders wait for an effect; if Id is held it takes these now, and
+%   questions that followed it.
+
+traced_held(Id) :-
+    with_agent(Id, ( agent_status(Id, held, _),
+                     taken(Id, Asker, Answer) )),
+    !,
+    question_answered(Asker, answer(Answer)),
+    traced_held(Id).
+traced_held(_).
+
+taken(Id, Asker, ok) :-
+    agent_unorder(Id, asked(watched(Change), Asker)),
+    change(Change, Id).
+taken(Id, Asker, again) :-
+    agent_unorder(Id, asked(question(_), Asker)).
+
+typhon_orders:noted(Id) :-
+    traced_held(Id).
+
+                /*******************************
+                *             TELL             *
+                *******************************/
+
+typhon_events:told(trace(To), Host, Agent, What0) :-
+    host(Host, Address, _),
+    ( What0 = goal(Goal) -> goal_shown(Agent, Goal, Shown), What = goal(Shown)
+    ; What = What0
+    ),
+    (   endpoint_address(To)
+    ->  show(Address, Agent, What)
+    ;   endpoint_request(To, trace, traced(Address, Agent, What), heard)
+    ).
+
+%!  goal_shown(+Id, +Goal, -Shown) is det.
+%
+%   Shown is Goal with '$VAR'(Name) in place of variables, as far as it is known
+%   from which clause of the program of Id it comes.
+
+goal_shown(Id, Goal, Shown) :-
+    agent(Id, _, _, Hash, _),
+    code_program(Hash, program(_, _, _, Clauses)),
+    !,
+    code_names(Hash, Lists),
+    goal_named(Clauses, Lists, Goal, Shown).
+goal_shown(_, Goal, Goal).
+
+%   A process that is gone prints nothing, and misses nothing.
+
+heard(_).
+
+typhon_endpoint:requested(trace, traced(Host, Agent, What), _, ReplyTo) :-
+    show(Host, Agent, What),
+    endpoint_reply(ReplyTo, ok).
+
+show(Host, Agent, What) :-
+    print_message(help, typhon(traced(Agent, Host, What))).
