@@ -47,6 +47,7 @@ a folder, with an interface of the same name beside it:
               ros_start/3, ros_stop/1, ros_property/2, fipa_start/3, fipa_stop/1 ]).
 :- use_module(typhon/kernel/vocabulary, []).
 :- use_module(typhon/options/journal, []).
+:- use_module(typhon/options/access, []).
 
 :- user_errors(typhon).
 

@@ -35,7 +35,7 @@ option_words(identity, [owner, owners, signed, signature, signatures,
 option_words(trail,    [trail, trails, chain]).
 option_words(guard,    [guard, guarded, guards, strangers]).
 option_words(quotas,   [quota, quotas, spending, overuse, leavings, stay]).
-option_words(access,   [access, permits, permitted, audit]).
+option_words(access,   [access_rules, audit, permits]).
 option_words(virtual,  [virtual]).
 option_words(watch,    [watch, watches, watched, watching]).
 option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
@@ -86,7 +86,6 @@ option_file(quotas, 'agent/time_quota.pl').
 option_file(quotas, 'agent/quota_admission.pl').
 option_file(quotas, 'lifecycle/metering.pl').
 option_file(quotas, 'lifecycle/overuse.pl').
-option_file(access, 'host/access_rules.pl').
 option_file(virtual, 'host/virtual.pl').
 option_file(virtual, 'host/virtual_loop.pl').
 option_file(virtual, 'host/virtual_standing.pl').
@@ -166,6 +165,9 @@ names_option(File, Option) :-
     \+ memberchk(Option, Own),
     once(( mentions(File, Name), has_word(Name, Words) )).
 
+has_word(Name, Words) :-
+    memberchk(Name, Words),
+    !.
 has_word(Name, Words) :-
     atomic_list_concat(Parts, '_', Name),
     member(Part, Parts),

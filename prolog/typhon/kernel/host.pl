@@ -27,7 +27,7 @@ This is the interface of the layer: higher layers import from here.
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
             ]).
-:- reexport(host/access_rules, [audit/3, audit/4, peer_may/3]).
+:- reexport('host/peer_rights').
 :- reexport(host/quotas, [quota/3, quota_any/1, quota_shared/4]).
 :- reexport('host/rate_limits').
 :- reexport(host/tuple_quota, [leaver/2, may_leave/1]).

@@ -6,8 +6,8 @@
 :- use_module('../program', [code_module/2, code_receive/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../host',
-              [ audit/3, audit/4, event/4, host/3, host_closed/1, host_enter/3,
-                host_leave/1, host_load/2, parts/3 ]).
+              [ event/4, host/3, host_closed/1, host_enter/3, host_leave/1,
+                host_load/2, parts/3, security_event/3, security_event/4 ]).
 :- use_module(life, [life_tokens/2]).
 
 /** <module> Admission: which agents a host lets in
@@ -15,8 +15,8 @@
 Every agent that begins on a host, or comes to it, passes gate/4: when it is
 created, cloned or restored there, and at the end of a hop, from this process
 or from another.  The reasons to refuse an agent are tried in the same order on
-each path: those of options, see typhon_host_parts, then token and capacity.  A refusal is audited and reported as an event here and nowhere
-else.
+each path: those of options, see typhon_host_parts, then token and capacity.  A refusal is a security event, and reported as an event,
+here and nowhere else.
 
 The agent is
 
@@ -137,7 +137,7 @@ lacks_program(Program, Hash) :-
 
 %!  gate_refused(+Host, +From, +Agent, +Reason) is det.
 %
-%   Host has refused Agent: a line in its audit, if it has one, and an event.
+%   Host has refused Agent.
 
 gate_refused(Host, From, Agent, Reason) :-
     (   atom(Host),
@@ -162,8 +162,8 @@ shown(Reason, Reason).
 
 noted(from(Peer, _, _), Host, What) :-
     !,
-    audit(Host, Peer, What).
+    security_event(Host, Peer, What).
 noted(_, Host, What) :-
     endpoint_address(Own),
     endpoint_own_proof(Proof),
-    audit(Host, Own, Proof, What).
+    security_event(Host, Own, Proof, What).

@@ -21,8 +21,12 @@ up one list of closures, and a host without options has none.
   | admit         | From, Entrant, Host, Verdict | an agent asks to enter, see |
   |               |                              | typhon_gate                 |
   | admit_program | From, Entrant, Host, Verdict | its program is here, too    |
+  | permit        | Proof, Right                 | a peer uses a right, see    |
+  |               |                              | typhon_peer_rights          |
+  | security      | Host, Peer, Proof, What      | a security event, see there |
 
-Those that admit succeed with a verdict which is not `ok`.
+Those that admit succeed with a verdict which is not `ok`.  A peer has a right
+if all that permit succeed.
 
 Closures of a phase are called in the order of their numbers.
 

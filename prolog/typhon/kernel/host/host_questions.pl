@@ -15,7 +15,7 @@
 :- use_module(host_names, [host_address/2, host_resolve/2]).
 :- use_module(hosts,
               [host/3, host_hop_stats/3, host_load/2, host_option/2]).
-:- use_module(access_rules, [peer_may/3]).
+:- use_module(peer_rights, [peer_may/3]).
 :- use_module(links, [host_link/3, host_neighbours/2, host_unlink/2]).
 
 /** <module> Hosts anywhere: what they are, and their links

@@ -11,7 +11,7 @@
 :- use_module(host_questions, [host_unknown/1]).
 :- use_module(host_names, [host_resolve/2]).
 :- use_module(hosts, [host/3, host_option/2]).
-:- use_module(access_rules, [audit/3, peer_may/3]).
+:- use_module(peer_rights, [peer_may/3, security_event/3]).
 :- use_module(scheduler, [scheduler_call/1]).
 
 /** <module> Goals in the place of any host
@@ -82,7 +82,7 @@ typhon_endpoint:requested(remote, remote(Name, Goal), Peer, ReplyTo) :-
 
 may_remote(Peer, Name, Goal, ReplyTo) :-
     (   peer_may(Peer, Name, remote)
-    ->  audit(Name, Peer, remote(Goal)),
+    ->  security_event(Name, Peer, remote(Goal)),
         scheduler_call(typhon_remote:serve(Name, Goal, ReplyTo))
     ;   endpoint_reply(ReplyTo,
                        raised(error(permission_error(remote, host, Name), _)))

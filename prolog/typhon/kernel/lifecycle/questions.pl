@@ -7,8 +7,8 @@
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host',
-              [ address_parts/3, audit/3, peer_may/3, process_ask/6, time_now/1,
-                time_wait/3 ]).
+              [ address_parts/3, peer_may/3, process_ask/6, security_event/3,
+                time_now/1, time_wait/3 ]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2]).
 :- use_module('../travel', [whereabouts/2]).
 
@@ -160,7 +160,7 @@ right_for(_, Right) => Right = watch.
 may_ask(Right, Peer, Host, Agent, Question) :-
     peer_may(Peer, Host, Right),
     (   Right == orders
-    ->  audit(Host, Peer, order(Agent, Question))
+    ->  security_event(Host, Peer, order(Agent, Question))
     ;   true
     ).
 

@@ -22,7 +22,7 @@ trustworthy as the process that sends it.
 :- use_module(library(ordsets), [ord_memberchk/2]).
 :- use_module('../wire',
               [endpoint_keys/1, endpoint_own_proof/1, endpoint_proof/2]).
-:- use_module('../host', [audit/3]).
+:- use_module('../host', [security_event/3]).
 :- use_module('../agent',
               [agent/5, agent_home/2, agent_owned/2, birth_good/1]).
 
@@ -98,6 +98,6 @@ noted(Peer, Id, From) :-
     print_message(warning, typhon(not_from(Peer, Id, From))),
     (   atom(Id),
         agent(Id, Host, _, _, _)
-    ->  audit(Host, Peer, refused(Id, from(From)))
+    ->  security_event(Host, Peer, refused(Id, from(From)))
     ;   true
     ).

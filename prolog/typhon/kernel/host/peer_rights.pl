@@ -1,0 +1,77 @@
+:- module(typhon_peer_rights,
+          [ peer_may/3,                 % +Peer, +Host, +Right
+            security_event/3,           % +Host, +Peer, +What
+            security_event/4            % +Host, +Peer, +Proof, +What
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../wire', [endpoint_own_proof/1, endpoint_proof/2]).
+:- use_module(host_parts, [parts/3]).
+
+/** <module> What other processes may do on a host
+
+The rights are
+
+  - agents: create agents here, and let them come
+  - messages: send messages to agents here
+  - orders: dispose of them, move, change them; link the host
+  - remote: run goals here, see remote/2
+  - watch: look at agents and at the properties of the host
+
+A peer has all of them, but `remote` only with our own proof: the cookie, or,
+where processes have keys, our own certificate.  The parts of a host in the
+phase `permit` decide otherwise, and those in the phase `security` record what
+concerns its security; see typhon_host_parts.
+
+*Threading*: any thread.
+*/
+
+%!  peer_may(+Peer, +Host, +Right) is semidet.
+%
+%   The process at the address Peer has Right on Host.  That it does not is a
+%   security event.
+
+peer_may(Peer, Host, Right) :-
+    (   permitted(Peer, Host, Right)
+    ->  true
+    ;   security_event(Host, Peer, refused(Right)),
+        fail
+    ).
+
+permitted(Peer, Host, Right) :-
+    parts(permit, Host, Closures),
+    !,
+    endpoint_proof(Peer, Proof),
+    forall(member(Closure, Closures), call(Closure, Proof, Right)).
+permitted(_, _, Right) :-
+    Right \== remote,
+    !.
+permitted(Peer, _, remote) :-
+    endpoint_proof(Peer, Proof),
+    endpoint_own_proof(Proof),
+    !.
+
+%!  security_event(+Host, +Peer, +What) is det.
+%!  security_event(+Host, +Peer, +Proof, +What) is det.
+%
+%   What the process at the address Peer did, or was refused, concerns the
+%   security of Host.  Proof is how Peer has proved itself, which
+%   security_event/3 looks up.  What is one of
+%
+%   | refused(Agent, Reason)   | Host did not admit Agent, see typhon_gate    |
+%   | refused(Right)           | Peer does not have that Right               |
+%   | refused(Id, from(Other)) | Id got no message of Peer's in Other's name |
+%   | order(Agent, Order)      | Peer gave that order to Agent               |
+%   | remote(Goal)             | Peer had Goal run                           |
+
+security_event(Host, Peer, What) :-
+    endpoint_proof(Peer, Proof),
+    security_event(Host, Peer, Proof, What).
+
+security_event(Host, Peer, Proof, What) :-
+    debug(typhon(security), '~w at ~w: ~p', [Peer, Host, What]),
+    (   parts(security, Host, Closures)
+    ->  forall(member(Closure, Closures),
+               call(Closure, Host, Peer, Proof, What))
+    ;   true
+    ).
