@@ -35,12 +35,12 @@ diagnose_bridge(Bridge, Arguments) :-
 %   step(Bridge, Name, Advice)
 
 step(python, python,
-     'Install python3, or set typhon_helper_python:python.').
+     'Install python3, or set typhon_helper_process:python.').
 step(python, function,
      'The helper bridges/python/bridge.py does not run: see what it says.').
 step(python, 'round trip', '').
 step(mqtt, python,
-     'Install python3, or set typhon_helper_python:python.').
+     'Install python3, or set typhon_helper_process:python.').
 step(mqtt, paho,
      'apt install python3-paho-mqtt, or pip install paho-mqtt.').
 step(mqtt, broker,

@@ -13,6 +13,5 @@ call, with the result as last argument.  See doc/bridges.md.
 :- use_module(kernel/base/user_errors, [user_errors/1]).
 :- reexport(bridges/common/starting, [python_start/3, python_stop/1]).
 :- use_module('bridges/python/service', []).
-:- use_module('bridges/python/delivered', []).
 
 :- user_errors(typhon_python).

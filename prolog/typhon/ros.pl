@@ -9,22 +9,15 @@ that stand there publish, subscribe, call, offer services and send goals.  It
 is not part of library(typhon).  Nothing is defined here: see the modules in
 bridges/ros/.
 
-  | start, stop, properties | typhon/bridges/common/starting |
-  | topics                  | typhon/bridges/ros/topics      |
-  | services                | typhon/bridges/ros/calls       |
-  | actions                 | typhon/bridges/ros/actions     |
-  | parameters              | typhon/bridges/ros/parameters  |
-  | messages as terms       | typhon/bridges/ros/values      |
+  | start, stop, properties       | typhon/bridges/common/starting |
+  | topics                        | typhon/bridges/ros/topics      |
+  | services, parameters, actions | typhon/bridges/ros/requests    |
+  | messages as terms             | typhon/bridges/ros/messages    |
 */
 
 :- use_module(kernel/base/user_errors, [user_errors/1]).
 :- reexport(bridges/common/starting, [ros_property/2, ros_start/3, ros_stop/1]).
-:- use_module(bridges/ros/service, []).
-:- reexport(bridges/ros/topics).
-:- reexport(bridges/ros/calls, except([call_json/5])).
-:- reexport(bridges/ros/actions).
-:- reexport(bridges/ros/parameters).
+:- reexport(bridges/ros/service).
 :- use_module(bridges/ros/events, []).
-:- use_module(bridges/ros/texts, []).
 
 :- user_errors(typhon_ros).

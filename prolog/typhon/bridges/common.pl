@@ -19,7 +19,7 @@ them as messages or as facts.  This is the interface of the layer.  A bridge
         ...
 
     % what comes in, in the thread that reads from the helper
-    typhon_helper_answers:heard(echo(Host), Dict) :-
+    typhon_helper_owner:heard(echo(Host), Dict) :-
         subscribers_tell(echo, Host, Dict.key, said(Dict.text), said(_)).
 
     % the last subscriber of Key is gone

@@ -15,14 +15,13 @@ is the door of the layer; it knows nothing of hosts and agents.
 
 Answer is ok(Reply), a dict or whatever JSON there is, or what went wrong,
 see helper_ask/4.  What a helper says unasked, {"event": ...}, goes to the
-hook typhon_helper_answers:heard(Name, Dict), and what one that was started
+hook typhon_helper_owner:heard(Name, Dict), and what one that was started
 again has to be told first comes from the hook
 typhon_helper_owner:again(Name, Request).  Names are ground terms of the
 caller's choice, one for each helper.
 */
 
-:- reexport(helper/process, [helper_file/2]).
-:- reexport(helper/python, [helper_python/2]).
+:- reexport(helper/process, [helper_file/2, helper_python/2]).
 :- reexport(helper/requests,
             [ helper_ask/4, helper_close/1, helper_failure/3, helper_note/2,
               helper_open/3, helper_pid/2, helper_tell/2 ]).

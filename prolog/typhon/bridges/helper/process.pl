@@ -5,14 +5,17 @@
             process_release/1,          % +Process
             process_kill_of/1,          % +Owner
             process_pid/2,              % ?Owner, ?Pid
-            helper_file/2               % +Relative, -File
+            helper_file/2,              % +Relative, -File
+            helper_python/2             % +Options, -Program
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(option), [option/2]).
+:- use_module(library(process), [process_kill/2, process_wait/3]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_dict/2]).
 :- use_module('../../kernel/base/spawn', [spawn/3]).
-:- use_module(library(process), [process_kill/2, process_wait/3]).
-:- use_module(library(readutil), [read_line_to_string/2]).
 
 /** <module> The process of a helper
 
@@ -168,3 +171,36 @@ ended(Owner, Pid, Status) :-
           Status = unknown),
     Status \== timeout,
     retractall(running(Owner, Pid)).
+
+                /*******************************
+                *            PYTHON            *
+                *******************************/
+
+:- setting(typhon_helper_python:python, atom, '',
+           "Now typhon_helper_process:python").
+:- setting(python, atom, '',
+           "The Python of helpers; '' for that of the system").
+
+%!  helper_python(+Options, -Program) is det.
+%
+%   Program is for process_create/3: that of python(Name) in Options, of the
+%   setting, or that of the system, if it can be: one in the PATH may be a
+%   front that hides the modules of the system, and is slow to start.
+
+helper_python(Options, Python) :-
+    (   option(python(Name), Options)
+    ->  true
+    ;   setting(python, Name)
+    ),
+    program(Name, Python).
+
+program('', Python) :-
+    !,
+    (   exists_file('/usr/bin/python3')
+    ->  Python = '/usr/bin/python3'
+    ;   Python = path(python3)
+    ).
+program(Name, Name) :-
+    is_absolute_file_name(Name),
+    !.
+program(Name, path(Name)).

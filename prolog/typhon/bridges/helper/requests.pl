@@ -11,9 +11,8 @@
 :- use_module(library(lists), [append/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
-:- use_module(answers,
-              [answer_unwanted/1, request_line/2, request_line/4]).
-:- use_module(owner, [own/5]).
+:- use_module(owner,
+              [answer_unwanted/1, own/5, request_line/2, request_line/4]).
 :- use_module(process, [process_kill_of/1, process_pid/2]).
 
 /** <module> Requests to helpers, and their answers
@@ -216,7 +215,7 @@ failure(error(Formal, context(_, Text)), _, _, Formal, Text).
 
 prolog:error_message(existence_error(python, Python)) -->
     [ 'There is no Python ~w (install python3, or set \c
-       typhon_helper_python:python)'-[Python] ].
+       typhon_helper_process:python)'-[Python] ].
 prolog:error_message(existence_error(helper, Name)) -->
     [ 'There is no helper ~p'-[Name] ].
 prolog:error_message(timeout_error(Request, Name)) -->

@@ -1,19 +1,24 @@
 :- module(typhon_mqtt_incoming,
           [ connection/1,               % +Host
-            connection_gone/1           % +Host
+            connection_gone/1,          % +Host
+            mqtt_topic/2,               % +Term, -Topic
+            mqtt_filter/2,              % +Term, -Filter
+            mqtt_payload/3              % +Term, +Kind, -Payload
           ]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(error), [domain_error/2, must_be/2, type_error/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module('../common',
-              [ subscribers_drop/4, subscribers_tell/5,
+              [ json_value/1, subscribers_drop/4, subscribers_tell/5,
                 subscribers_tell_new/5, subscription/3 ]).
 
-/** <module> What comes from brokers
+/** <module> What comes from brokers, and what may be sent to them
 
-*Threading*: the thread that reads from the helper passes it on.
+*Threading*: the thread that reads from the helper passes it on; the rest is
+pure.
 */
 
 :- multifile
-    typhon_helper_answers:heard/2,
+    typhon_helper_owner:heard/2,
     prolog:message//1.
 
 :- dynamic
@@ -34,7 +39,7 @@ connection(Host) :-
 connection_gone(Host) :-
     retractall(up(Host, _)).
 
-typhon_helper_answers:heard(mqtt(Host), Dict) :-
+typhon_helper_owner:heard(mqtt(Host), Dict) :-
     get_dict(event, Dict, Event),
     heard(Event, Host, Dict).
 
@@ -97,3 +102,114 @@ prolog:message(typhon(mqtt_up(Host))) -->
     [ 'MQTT on ~w: connected'-[Host] ].
 prolog:message(typhon(mqtt_refused(Host))) -->
     [ 'MQTT on ~w: the broker refuses the connection'-[Host] ].
+
+                /*******************************
+                *       TOPICS, PAYLOADS       *
+                *******************************/
+
+longest(65535).                 % bytes
+deepest(200).                   % levels: many brokers hang up beyond
+
+%!  mqtt_topic(+Term, -Topic:atom) is det.
+%!  mqtt_filter(+Term, -Filter:atom) is det.
+%
+%   Term is text.  In filters a level may be `+`, and the last one `#`.
+%
+%   @error type_error(text, Term), domain_error(mqtt_topic, Term),
+%   domain_error(mqtt_filter, Term)
+
+mqtt_topic(Term, Topic) :-
+    text(Term, Topic),
+    (   fits(Topic),
+        \+ ( member(Char, [+,#]), sub_atom(Topic, _, _, _, Char) )
+    ->  true
+    ;   domain_error(mqtt_topic, Term)
+    ).
+
+mqtt_filter(Term, Filter) :-
+    text(Term, Filter),
+    atomic_list_concat(Levels, /, Filter),
+    (   fits(Filter),
+        append(Before, [Last], Levels),
+        ( Last == # ; level(Last) ),
+        forall(member(Level, Before), level(Level))
+    ->  true
+    ;   domain_error(mqtt_filter, Term)
+    ).
+
+level(+) :-
+    !.
+level(Level) :-
+    \+ sub_atom(Level, _, _, _, +),
+    \+ sub_atom(Level, _, _, _, #).
+
+text(Term, Atom) :-
+    must_be(nonvar, Term),
+    (   ( atom(Term) ; string(Term) )
+    ->  atom_string(Atom, Term)
+    ;   type_error(text, Term)
+    ).
+
+%   Brokers disconnect clients that send anything else.
+
+fits(Text) :-
+    Text \== '',
+    atom_codes(Text, Codes),
+    \+ ( member(Code, Codes), no_character(Code) ),
+    longest(Max),
+    string_bytes(Text, Length),
+    Length =< Max,
+    deepest(Most),
+    atomic_list_concat(Levels, /, Text),
+    length(Levels, Count),
+    Count =< Most.
+
+no_character(Code) :- Code < 32.
+no_character(Code) :- Code >= 127, Code < 160.
+no_character(Code) :- Code >= 0xD800, Code =< 0xDFFF.
+no_character(Code) :- Code >= 0xFDD0, Code =< 0xFDEF.
+no_character(Code) :- Code /\ 0xFFFE =:= 0xFFFE.
+
+string_bytes(Text, Length) :-
+    atom_length(Text, Chars),
+    (   Chars*4 =< 65535
+    ->  Length = Chars
+    ;   setup_call_cleanup(
+            open_null_stream(Out),
+            ( set_stream(Out, encoding(utf8)),
+              write(Out, Text),
+              byte_count(Out, Length) ),
+            close(Out))
+    ).
+
+%!  mqtt_payload(+Term, +Kind, -Payload) is det.
+%
+%   Payload is for the helper.  Text is itself, numbers are written, dicts and
+%   lists become JSON; if Kind is `json` all do, if it is `bytes` Term is text
+%   of characters up to 255.
+%
+%   @error type_error(mqtt_payload, Culprit), instantiation_error
+
+mqtt_payload(Term, json, Term) :-
+    !,
+    json_value(Term).
+mqtt_payload(Term, bytes, Text) :-
+    !,
+    ( ( atom(Term) ; string(Term) ) -> true ; type_error(text, Term) ),
+    text_to_string(Term, Text),
+    (   string_codes(Text, Codes),
+        member(Code, Codes),
+        Code > 255
+    ->  type_error(bytes, Term)
+    ;   true
+    ).
+mqtt_payload(Term, auto, Term) :-
+    ( is_list(Term) ; is_dict(Term) ),
+    !,
+    json_value(Term).
+mqtt_payload(Term, _, Text) :-
+    (   ( atom(Term) ; string(Term) ; number(Term) )
+    ->  format(string(Text), '~w', [Term])
+    ;   must_be(nonvar, Term),
+        type_error(mqtt_payload, Term)
+    ).

@@ -6,18 +6,20 @@
             mqtt_message/5              % +Topic, +Payload, +Options, +Kind,
                                         % -Message
           ]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [domain_error/2, existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
+:- use_module(library(uri),
+              [ uri_authority_components/2, uri_authority_data/3,
+                uri_components/2, uri_data/3, uri_encoded/3 ]).
 :- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../common', [service_begin/4, service_end/2, subscription/3]).
 :- use_module('../helper',
-              [ helper_ask/4, helper_close/1, helper_failure/3, helper_file/2,
-                helper_note/2, helper_open/3, helper_python/2, helper_tell/2 ]).
-:- use_module('../common',
-              [ service_begin/4, service_end/2, subscription/3 ]).
-:- use_module(incoming, [connection/1, connection_gone/1]).
-:- use_module(topics, [mqtt_payload/3, mqtt_topic/2]).
-:- use_module(url, [mqtt_url/2]).
+              [ helper_ask/4, helper_close/1, helper_failure/3,
+                helper_file/2, helper_note/2, helper_open/3, helper_python/2,
+                helper_tell/2 ]).
+:- use_module(incoming,
+              [connection/1, connection_gone/1, mqtt_payload/3, mqtt_topic/2]).
 
 /** <module> The connection of a host to a broker
 
@@ -254,3 +256,62 @@ problem(unreachable, 'the broker cannot be reached').
 problem(refused, 'the broker refuses the connection').
 problem(tls, 'TLS cannot be used').
 problem(failed, 'the client library raises an exception').
+
+                /*******************************
+                *             URL              *
+                *******************************/
+
+%   mqtt_url(+URL, -Parts:dict) is det.
+%
+%   URL is mqtt://User:Password@Host:Port, or mqtts:// for TLS; all but the
+%   host may be missing.  Parts are `host`, `port`, `tls`, and `user` and
+%   `password` where they are said.
+%
+%   @error domain_error(mqtt_url, URL)
+
+mqtt_url(URL, Parts) :-
+    (   catch(parts(URL, Parts0), error(_, _), fail)
+    ->  Parts = Parts0
+    ;   domain_error(mqtt_url, URL)
+    ).
+
+parts(URL, Parts) :-
+    uri_components(URL, Components),
+    uri_data(scheme, Components, Scheme),
+    scheme(Scheme, TLS, Default),
+    uri_data(authority, Components, Authority),
+    uri_authority_components(Authority, Data),
+    uri_authority_data(host, Data, Host0),
+    nonvar(Host0),
+    bare(Host0, Host),
+    Host \== '',
+    uri_authority_data(port, Data, Port0),
+    ( var(Port0) -> Port = Default ; integer(Port0), Port = Port0 ),
+    between(1, 65535, Port),
+    login(Data, Login),
+    Parts = Login.put(_{host:Host, port:Port, tls:TLS}).
+
+scheme(mqtt, false, 1883).
+scheme(mqtts, true, 8883).
+
+%   IPv6 addresses are in brackets.
+
+bare(Host0, Host) :-
+    (   atomic_list_concat(['', Rest], '[', Host0),
+        atomic_list_concat([Inner, ''], ']', Rest)
+    ->  Host = Inner
+    ;   Host = Host0
+    ).
+
+login(Data, Login) :-
+    uri_authority_data(user, Data, User0),
+    (   var(User0)
+    ->  Login = _{}
+    ;   uri_encoded(segment, User, User0),
+        uri_authority_data(password, Data, Password0),
+        (   var(Password0)
+        ->  Login = _{user:User}
+        ;   uri_encoded(segment, Password, Password0),
+            Login = _{user:User, password:Password}
+        )
+    ).

@@ -14,7 +14,7 @@
 :- use_module(service,
               [ mqtt_ask/3, mqtt_default/3, mqtt_message/5, mqtt_note/2,
                 mqtt_publish/4 ]).
-:- use_module(topics, [mqtt_filter/2]).
+:- use_module(incoming, [mqtt_filter/2]).
 
 /** <module> What agents can say where there is a broker
 

@@ -1,32 +1,39 @@
-:- module(typhon_python_service,
-          [ python_begin/2,             % +Host, +Options
-            python_load/4,              % +Host, +Request, -PIs, -Clauses
-            python_forget/2             % +Host, +Name
-          ]).
-:- use_module(library(apply), [maplist/3, maplist/4]).
-:- use_module(library(lists), [append/2]).
+:- module(typhon_python_service, []).
+:- use_module(library(apply), [maplist/2, maplist/3, maplist/4]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/3]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
-:- use_module('../helper',
-              [ helper_close/1, helper_file/2, helper_note/2, helper_open/3,
-                helper_python/2 ]).
 :- use_module('../common',
-              [ inbox_put/4, service_begin/4, service_end/2, service_offer/4 ]).
-:- use_module(calls, [python_ask/4, python_functions/4]).
+              [ inbox_put/4, json_value/1, service/2, service_begin/4,
+                service_end/2, service_offer/4, subscriber/2 ]).
+:- use_module('../helper',
+              [ helper_ask/4, helper_close/1, helper_failure/3,
+                helper_file/2, helper_note/2, helper_open/3, helper_python/2 ]).
 
 /** <module> Python on a host
 
-*Threading*: any thread.  What Python says unasked is passed on by the thread
-that reads it.
+The functions of files are predicates of the place.  On hosts with the option
+python(true) an agent may deliver a payload that was read from a `.py` file:
+the place has its functions as predicates then, until undeliver/1.  They run in the
+process that python_start/3 has started, or in one that is started for them.
+
+Python code can do whatever the user of this process may do.
+
+*Threading*: any thread; a call waits for its answer, others do not.  What Python
+says unasked is passed on by the thread that reads it.
 */
 
 :- multifile
     typhon_starting:starts/4,
-    typhon_helper_answers:heard/2,
+    typhon_helper_owner:heard/2,
     typhon_helper_owner:again/2,
     typhon_options:declared/4,
-    typhon_python_calls:seconds/2,
-    typhon_services:ends/2.
+    typhon_services:ends/2,
+    typhon_starting:delivers/3,
+    typhon_words:python_undelivered/2,
+    prolog:error_message//1.
 
 :- dynamic
     started/2,                  % Host, Options
@@ -65,7 +72,7 @@ option_type(threads(X), between(1, 1000), X).
 option_type(queue(X), positive_integer, X).
 option_type(python(X), atom, X).
 
-%!  python_begin(+Host, +Options) is det.
+%   python_begin(+Host, +Options) is det.
 %
 %   Python without functions yet.
 
@@ -79,7 +86,7 @@ python_begin(Host, Options) :-
                 command(Python, ['-u', File, '--threads', Threads]),
                 [restart(always)]).
 
-%!  python_load(+Host, +Request, -PIs:list, -Clauses:list) is det.
+%   python_load(+Host, +Request, -PIs:list, -Clauses:list) is det.
 %
 %   Python gets a module, now and when it is started again; Clauses call its
 %   functions.
@@ -94,7 +101,7 @@ python_load(Host, Request, PIs, Clauses) :-
     assertz(loaded(Host, Name, Request)),
     python_functions(Name, Functions, PIs, Clauses).
 
-%!  python_forget(+Host, +Name) is det.
+%   python_forget(+Host, +Name) is det.
 %
 %   Python needs the module Name no longer.
 
@@ -105,7 +112,7 @@ python_forget(Host, Name) :-
 typhon_helper_owner:again(python(Host), Request) :-
     loaded(Host, _, Request).
 
-typhon_python_calls:seconds(Host, Seconds) :-
+seconds(Host, Seconds) :-
     started(Host, Options),
     option(timeout(Seconds), Options, 10).
 
@@ -119,7 +126,7 @@ typhon_services:ends(python, Host) :-
                 *       WHAT PYTHON SAYS       *
                 *******************************/
 
-typhon_helper_answers:heard(python(Host), Dict) :-
+typhon_helper_owner:heard(python(Host), Dict) :-
     get_dict(event, Dict, Event),
     heard(Event, Host, Dict).
 
@@ -135,3 +142,126 @@ heard("leave", Host, Dict) :-
     started(Host, Options),
     option(queue(Max), Options, 1000),
     inbox_put(how(fact, Max), python-facts, Host-none, Fact-_).
+
+                /*******************************
+                *           PAYLOADS           *
+                *******************************/
+
+typhon_starting:delivers(Host, Name, Source) :-
+    with_mutex(typhon_python, begun(Host)),
+    module_name(Name, Module),
+    python_load(Host, _{do:load, name:Module, source:Source}, PIs, Clauses),
+    service_offer(Name, Host, PIs, Clauses).
+
+begun(Host) :-
+    (   service(python, Host)
+    ->  true
+    ;   python_begin(Host, [])
+    ).
+
+typhon_words:python_undelivered(Host, Name) :-
+    service(python, Host),
+    module_name(Name, Module),
+    python_forget(Host, Module).
+
+%   It replaces no file of that name.
+
+module_name(Name, Module) :-
+    atom_concat('payload ', Name, Module).
+
+                /*******************************
+                *            CALLS             *
+                *******************************/
+
+%   python_functions(+Module, +Functions, -PIs:list, -Clauses:list) is det.
+%
+%   The clauses by which functions of a Python module are called, as `load` of
+%   bridges/python/bridge.py tells them: a predicate for each number of
+%   arguments, the result being one more.
+
+python_functions(Module, Functions, PIs, Clauses) :-
+    findall(Name/Arity-Clause,
+            ( member(Function, Functions),
+              function(Module, Function, Name/Arity, Clause) ),
+            Pairs),
+    pairs_keys_values(Pairs, PIs, Clauses).
+
+function(Module, Function, Name/Arity, Clause) :-
+    get_dict(name, Function, Text),
+    atom_string(Name, Text),
+    get_dict(least, Function, Least),
+    get_dict(most, Function, Most),
+    between(Least, Most, N),
+    Arity is N+1,
+    functor(Head, Name, Arity),
+    Head =.. [_|All],
+    append(Args, [Result], All),
+    Clause = (Head :- typhon_python_service:run(Module, Name, Args, Result)).
+
+%   run(+Module, +Function, +Args, -Result): where an agent stands, or in
+%   remote/2.
+
+:- public run/4.
+
+run(Module, Function, Args, Result) :-
+    subscriber(Host, Agent),
+    maplist(json_value, Args),
+    (   seconds(Host, Seconds)
+    ->  true
+    ;   existence_error(python, Host)   % it was stopped
+    ),
+    agent_value(Agent, Caller),
+    python_ask(Host,
+               _{ do:call, module:Module, function:Function, args:Args,
+                  agent:Caller },
+               Seconds, Result0),
+    Result = Result0.
+
+agent_value(none, null) :-
+    !.
+agent_value(Agent, Agent).
+
+%   python_ask(+Host, +Request, +Seconds, -Reply) is det.
+%
+%   @error python_error(Class, Message) what Python has raised
+%   @error timeout_error(python(What), Host)
+%   @error helper_died(Status, python(Host))
+%   @error existence_error(helper, python(Host))
+
+python_ask(Host, Request, Seconds, Reply) :-
+    helper_ask(python(Host), Request, Seconds, Answer),
+    (   Answer = ok(Reply0)
+    ->  Reply = Reply0
+    ;   failure(Answer, Host, Request)
+    ).
+
+failure(said(Dict), _, _) :-
+    get_dict(error, Dict, Kind),
+    python_error(Kind, Dict, Class),
+    !,
+    get_dict(message, Dict, Message),
+    throw(error(python_error(Class, Message), context(_, _))).
+failure(said(Dict), Host, Request) :-
+    get_dict(error, Dict, "timeout"),
+    !,
+    what(Request, What),
+    throw(error(timeout_error(python(What), Host), context(_, _))).
+failure(Answer, Host, Request) :-
+    what(Request, What),
+    helper_failure(Answer, python(Host), What).
+
+python_error("exception", Dict, Class) :-
+    get_dict(class, Dict, Text),
+    atom_string(Class, Text).
+python_error("no_json", _, 'ValueError').
+
+what(Request, What) :-
+    (   get_dict(function, Request, Function)
+    ->  What = Function
+    ;   get_dict(do, Request, What)
+    ).
+
+prolog:error_message(python_error(Class, Message)) -->
+    [ 'Python: ~w: ~w'-[Class, Message] ].
+prolog:error_message(timeout_error(python(What), Host)) -->
+    [ 'Python on ~w has not done ~w in time'-[Host, What] ].

@@ -7,14 +7,12 @@
 :- use_module('../common',
               [ service/2, subscribers_tell/5, subscription/3,
                 unsubscribe/4 ]).
-:- use_module(answers, [answer_come/2, answers_fail/2]).
+:- use_module(connection,
+              [answer_come/2, answers_fail/2, way_note/2, way_option/3]).
 :- use_module(frames, [frame_event/2, op_frame/2]).
-:- use_module(open_requests,
-              [goal_end/4, request_begin/3, request_end/3]).
-:- use_module(standing,
-              [standing/3, standing_again/3, standing_end/3]).
-:- use_module(values, [json_value/3]).
-:- use_module(ways, [way_note/2, way_option/3]).
+:- use_module(requests, [goal_end/4, request_begin/3, request_end/3]).
+:- use_module(advertisements, [standing/3, standing_again/3, standing_end/3]).
+:- use_module(messages, [json_value/3]).
 
 /** <module> What is heard of ROS
 
@@ -32,7 +30,7 @@ from `ros`, and dropped(Key, Count), see typhon_inbox.
 */
 
 :- multifile
-    typhon_helper_answers:heard/2,
+    typhon_helper_owner:heard/2,
     typhon_helper_owner:again/2,
     typhon_inbox:dropped/3,
     typhon_ros_rosbridge:heard/2,
@@ -61,7 +59,7 @@ typhon_ros_rosbridge:heard(Host, Read) :-
     ),
     hear(Event, Host).
 
-typhon_helper_answers:heard(ros(Host), Dict) :-
+typhon_helper_owner:heard(ros(Host), Dict) :-
     get_dict(frame, Dict, Frame),
     frame_event(Frame, Event),
     hear(Event, Host).

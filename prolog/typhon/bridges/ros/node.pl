@@ -12,8 +12,7 @@
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_failure/3,
                 helper_file/2, helper_note/2, helper_open/3, helper_pid/2 ]).
-:- use_module(names, [ros_word/2]).
-:- use_module(texts, []).
+:- use_module(messages, [ros_word/2]).
 
 /** <module> A ROS 2 node of our own
 
@@ -151,3 +150,9 @@ node_up(Host) :-
 
 node_note(Host, Frame) :-
     helper_note(ros(Host), _{do:frame, frame:Frame}).
+
+:- multifile prolog:error_message//1.
+
+prolog:error_message(existence_error(ros_python, File)) -->
+    [ 'There is no Python with rclpy at ~w (make tools-ros puts it \c
+       there)'-[File] ].

@@ -4,30 +4,37 @@
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../common',
               [service/2, service_begin/4, service_end/2]).
-:- use_module(answers, [answers_fail/2]).
+:- use_module(connection,
+              [answers_fail/2, way_close/1, way_open/3, way_state/3]).
 :- use_module(events, [ros_ignored/2]).
-:- use_module(standing, [standing/3, standing_forget/1]).
-:- use_module(ways, [way_close/1, way_open/3, way_state/3]).
-:- use_module(words, [ros_words/1]).
+:- use_module(advertisements, [standing/3, standing_forget/1]).
 
 /** <module> A host with ROS
 
-Where it begins is ros_start/3; what ros_property/2 tells comes from here.
+What this module exports are the predicates that agents find there.  It starts
+by ros_start/3.
 
 *Threading*: any thread.
 */
+
+:- reexport(requests,
+            except([ call_json/5, goal_end/4, request_begin/3,
+                     request_end/3 ])).
+:- reexport(topics).
 
 :- multifile
     typhon_options:declared/4,
     typhon_services:ends/2,
     typhon_starting:has/3,
-    typhon_starting:starts/4.
+    typhon_starting:starts/4,
+    prolog:error_message//1,
+    prolog:message//1.
 
 typhon_starting:starts(ros, Host, Where, Options) :-
     check_options(ros_option, Options),
     check_where(Where),
-    ros_words(PIs),
-    service_begin(ros, Host, PIs, typhon_ros_words),
+    module_property(typhon_ros_service, exports(PIs)),
+    service_begin(ros, Host, PIs, typhon_ros_service),
     catch(way_open(Host, Where, Options), Ball,
           ( service_end(ros, Host),
             throw(Ball) )).
@@ -74,3 +81,46 @@ property(offered(Service, Type), Host) :-
     standing(Host, _, offer(Service, Type)).
 property(ignored(Count), Host) :-
     ros_ignored(Host, Count).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(ros_lost(Host, Why))) -->
+    [ '~w has lost ROS (~p), and looks for it again'-[Host, Why] ].
+prolog:message(typhon(ros_found(Host))) -->
+    [ '~w has ROS again'-[Host] ].
+prolog:message(typhon(ros_ignored(Host, What))) -->
+    [ '~w has heard of ROS what it does not understand: ~p (more of it is \c
+       only counted)'-[Host, What] ].
+prolog:message(typhon(ros_complaint(Host, Text))) -->
+    [ 'ROS complains to ~w: ~w'-[Host, Text] ].
+
+prolog:error_message(existence_error(ros, Host)) -->
+    [ '~w has no ROS (ros_start/3 gives it some)'-[Host] ].
+prolog:error_message(existence_error(ros_type, Type)) -->
+    [ 'There is no type ~w among those that are installed'-[Type] ].
+prolog:error_message(existence_error(ros_topic, Topic)) -->
+    [ 'There is no topic ~w'-[Topic] ].
+prolog:error_message(existence_error(ros_service, Service)) -->
+    [ 'There is no service ~w'-[Service] ].
+prolog:error_message(existence_error(ros_field, Field)) -->
+    [ 'The message has no field ~w'-[Field] ].
+prolog:error_message(existence_error(ros_subscription, Topic)) -->
+    [ 'This agent does not hear ~w'-[Topic] ].
+prolog:error_message(type_error(ros_field(Field, Type), Value)) -->
+    [ 'The field ~w is ~w, not ~p'-[Field, Type, Value] ].
+prolog:error_message(permission_error(use, ros_topic(Type), Topic)) -->
+    [ '~w is in use here, with messages ~w'-[Topic, Type] ].
+prolog:error_message(permission_error(offer, ros_service, Service)) -->
+    [ 'An agent here offers ~w'-[Service] ].
+prolog:error_message(timeout_error(ros_call, Service)) -->
+    [ '~w did not answer in time'-[Service] ].
+prolog:error_message(ros_error(refused, Name)) -->
+    [ '~w has refused'-[Name] ].
+prolog:error_message(ros_error(not_connected, Host)) -->
+    [ '~w is not connected to ROS now'-[Host] ].
+prolog:error_message(ros_error(lost, Host)) -->
+    [ '~w has lost ROS meanwhile'-[Host] ].
+prolog:error_message(resource_error(ros_queue)) -->
+    [ 'ROS does not take so much' ].

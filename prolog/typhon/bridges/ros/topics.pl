@@ -11,11 +11,10 @@
 :- use_module(library(lists), [memberchk/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../common', [subscribe/5, subscriber/2, unsubscribe/4]).
-:- use_module(calls, [call_json/5]).
-:- use_module(claims, [claim/3]).
-:- use_module(names, [ros_name/3, ros_type/3]).
-:- use_module(values, [value_json/2]).
-:- use_module(ways, [way_say/2]).
+:- use_module(requests, [call_json/5]).
+:- use_module(advertisements, [claim/3]).
+:- use_module(messages, [ros_name/3, ros_type/3, value_json/2]).
+:- use_module(connection, [way_say/2]).
 
 /** <module> Topics, as agents use them
 

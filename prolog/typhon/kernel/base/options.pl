@@ -5,11 +5,13 @@
             blaming/2                   % +What, :Goal
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(library(broadcast), [listen/2]).
 :- use_module(library(error), [domain_error/2, is_of_type/2, must_be/2]).
+:- use_module(library(settings), [set_setting/2, setting_property/2]).
 :- use_module(names,
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 
-/** <module> Unknown options are errors
+/** <module> Unknown options are errors; settings that have been renamed
 
 Each list of options belongs to a domain, as `host_option`.  What options it
 may have is declared by the module that takes them, with clauses for
@@ -25,7 +27,8 @@ several clauses for an option, one has to agree.
 :- multifile
     declared/4,                 % Domain, Option, Type, Value
     typhon_names:known/2,
-    prolog:error_message//1.
+    prolog:error_message//1,
+    prolog:message//1.
 
 :- meta_predicate blaming(+, 0).
 
@@ -90,8 +93,26 @@ blame(Formal, What) :-
     throw(error(Formal, context(_, Text))).
 
                 /*******************************
+                *            SETTINGS          *
+                *******************************/
+
+%   A setting whose comment is "Now Module:Name" is the old name of that one.
+
+:- listen(settings(changed(Old, _, Value)), setting_changed(Old, Value)).
+
+setting_changed(Old, Value) :-
+    setting_property(Old, comment(Comment)),
+    atom_concat('Now ', Name, Comment),
+    term_to_atom(New, Name),
+    print_message(warning, typhon(setting_renamed(Old, New))),
+    set_setting(New, Value).
+
+                /*******************************
                 *            MESSAGES          *
                 *******************************/
+
+prolog:message(typhon(setting_renamed(Old, New))) -->
+    [ 'The setting ~w is called ~w now'-[Old, New] ].
 
 prolog:error_message(domain_error(Domain, Culprit)) -->
     { atom(Domain),

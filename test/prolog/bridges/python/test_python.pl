@@ -312,7 +312,7 @@ again :-
     catch(remote(alpha, echo(2, 2)), error(_, _), fail).
 
 waits :-
-    typhon_helper_answers:awaited(_, _, _),
+    typhon_helper_owner:awaited(_, _, _),
     !.
 
 :- end_tests(python_faults).
@@ -346,7 +346,7 @@ test(state_is_kept, Sum == 6) :-
                                 sum_list([A,B,C], Sum) )).
 
 waiting(Count) :-
-    findall(Id, typhon_helper_answers:awaited(Id, _, _), Ids),
+    findall(Id, typhon_helper_owner:awaited(Id, _, _), Ids),
     length(Ids, Count).
 
 asker(N, Agent) :-

@@ -312,7 +312,7 @@ test(a_call_that_is_dropped) :-
           forall(member(Id, ["c2", "c3"]),
                  wait_until(( said("service_response", Frame),
                               Frame.id == Id, Frame.result == false ), 5)),
-          findall(Id, typhon_ros_open_requests:request(Id, _, _), Open),
+          findall(Id, typhon_ros_requests:request(Id, _, _), Open),
           assertion(Open == [c1]) )).
 
 test(a_service_that_fails) :-

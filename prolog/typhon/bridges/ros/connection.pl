@@ -1,29 +1,30 @@
-:- module(typhon_ros_ways,
+:- module(typhon_ros_connection,
           [ way_open/3,                 % +Host, +Where, +Options
             way_close/1,                % +Host
             way_option/3,               % +Host, ?Option, +Default
             way_state/3,                % ?Host, -Where, -Connected
             way_say/2,                  % +Host, +Op
             way_note/2,                 % +Host, +Op
-            way_await/5                 % +Host, +Id, +Op, +Seconds, -Answer
+            way_await/5,                % +Host, +Id, +Op, +Seconds, -Answer
+            answer_come/2,              % +Id, +Answer
+            answers_fail/2              % +Host, +Why
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module(answers, [answer_await/5]).
 :- use_module(frames, [op_frame/2]).
-:- use_module(node, 
-              [ node_close/1, node_note/2, node_open/2, node_say/3,
-                node_up/1 ]).
+:- use_module(node,
+              [node_close/1, node_note/2, node_open/2, node_say/3, node_up/1]).
 :- use_module(rosbridge,
               [ rosbridge_close/1, rosbridge_open/4, rosbridge_send/3,
                 rosbridge_up/1 ]).
 
-/** <module> The way of a host to ROS
+/** <module> The connection of a host to ROS
 
-Our own node, or a rosbridge server: both take the same frames.
+A node of our own, or a rosbridge server: both take the same frames.
 
-*Threading*: any thread.
+*Threading*: any thread.  A caller that waits for an answer has a queue of its
+own, so what comes too late is dropped.
 */
 
 :- dynamic
@@ -137,3 +138,56 @@ note(server, Host, Frame) :-
 
 way_await(Host, Id, Op, Seconds, Answer) :-
     answer_await(Host, Id, way_say(Host, Op), Seconds, Answer).
+
+                /*******************************
+                *           ANSWERS            *
+                *******************************/
+
+:- meta_predicate answer_await(+, +, 0, +, -).
+
+:- dynamic
+    awaited/3.                  % Id, Host, Queue
+
+%   answer_await(+Host, +Id, :Ask, +Seconds, -Answer) is det.
+%
+%   Run Ask once, and wait for what somebody says by answer_come/2.  Answer
+%   is that, lost(Why), or `timeout`.
+
+answer_await(Host, Id, Ask, Seconds, Answer) :-
+    setup_call_cleanup(
+        ( message_queue_create(Queue),
+          assertz(awaited(Id, Host, Queue)) ),
+        ( once(Ask),
+          wait(Queue, Seconds, Answer) ),
+        ( retractall(awaited(Id, _, _)),
+          message_queue_destroy(Queue) )).
+
+wait(Queue, Seconds, Answer) :-
+    (   thread_get_message(Queue, answer(Answer0), [timeout(Seconds)])
+    ->  Answer = Answer0
+    ;   Answer = timeout
+    ).
+
+%!  answer_come(+Id, +Answer) is semidet.
+%
+%   Fails if no caller waits for it any more.
+
+answer_come(Id, Answer) :-
+    retract(awaited(Id, _, Queue)),
+    !,
+    catch(thread_send_message(Queue, answer(Answer)),
+          error(existence_error(_, _), _),
+          fail).
+
+%!  answers_fail(+Host, +Why) is det.
+%
+%   Callers on Host that wait for an answer get lost(Why).
+
+answers_fail(Host, Why) :-
+    findall(Id, awaited(Id, Host, _), Ids),
+    answers_lost(Ids, Why).
+
+answers_lost([], _).
+answers_lost([Id|Ids], Why) :-
+    ignore(answer_come(Id, lost(Why))),
+    answers_lost(Ids, Why).

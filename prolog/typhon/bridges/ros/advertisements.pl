@@ -1,0 +1,129 @@
+:- module(typhon_ros_advertisements,
+          [ claim/3,                    % +Host, +Key, +Op
+            standing/3,                 % ?Host, ?Key, ?Op
+            standing_end/3,             % +Host, +Key, -Op
+            standing_again/3,           % +Host, +Key, -Op
+            standing_forget/1           % +Host
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(error), [permission_error/3, resource_error/1]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(connection, [way_say/2]).
+
+/** <module> Advertisements and subscriptions, until they are withdrawn
+
+A host has told ROS that it publishes on a topic, Key advertise(Topic), that
+it wants to hear one, topic(Topic), or that it has a service,
+service(Service).  It repeats them to a server that comes back.
+
+*Threading*: any thread.
+*/
+
+%!  claim(+Host, +Key, +Op) is det.
+%
+%   Op holds under Key, from now on if it did not before.  A server that is
+%   down gets it when it comes back.
+%
+%   @error permission_error(use, ros_topic(Type), Topic) if it is in use with
+%          messages of another Type, and those of way_say/2
+
+claim(Host, _, Op) :-
+    conflict(Op, Host, Topic, Other),
+    !,
+    permission_error(use, ros_topic(Other), Topic).
+claim(Host, Key, Op) :-
+    standing(Host, Key, Op),
+    !.
+claim(Host, Key, Op) :-
+    standing_begin(Host, Key, Op),
+    catch(way_say(Host, Op), error(Formal, Context), true),
+    (   ( var(Formal) ; Formal = ros_error(not_connected, _) )
+    ->  true
+    ;   ignore(standing_end(Host, Key, _)),
+        throw(error(Formal, Context))
+    ).
+
+conflict(Op, Host, Topic, Other) :-
+    of_topic(Op, Topic, Type),
+    ( Key = advertise(Topic) ; Key = topic(Topic) ),
+    standing(Host, Key, Op0),
+    of_topic(Op0, Topic, Other),
+    \+ same_type(Type, Other).
+
+of_topic(advertise(Topic, Type), Topic, Type).
+of_topic(subscribe(Topic, Type), Topic, Type).
+
+%   ROS 1 leaves out the part in the middle, and servers of ROS 2 take both.
+
+same_type(Type, Type) :-
+    !.
+same_type(Type1, Type2) :-
+    ends(Type1, Ends),
+    ends(Type2, Ends).
+
+ends(Type, Package/Name) :-
+    atomic_list_concat(Parts, /, Type),
+    append([Package|_], [Name], Parts),
+    !.
+
+                /*******************************
+                *            TABLE             *
+                *******************************/
+
+:- setting(typhon_ros_standing:most, positive_integer, 1000,
+           "Now typhon_ros_advertisements:most").
+:- setting(most, positive_integer, 1000,
+           "Topics and services that a host may use, each in its way").
+
+:- dynamic
+    standing/3,                 % Host, Key, Op
+    ended/3.                    % Host, Key, Op: the last so many
+
+%!  standing(?Host, ?Key, ?Op) is nondet.
+%!  standing_begin(+Host, +Key, +Op) is det.
+%!  standing_end(+Host, +Key, -Op) is semidet.
+%!  standing_again(+Host, +Key, -Op) is semidet.
+%!  standing_forget(+Host) is det.
+%
+%   What holds; it holds from now on, or no longer, or again as it did last.
+%
+%   @error resource_error(ros_standing)
+
+standing_begin(Host, Key, Op) :-
+    with_mutex(typhon_ros_advertisements, begin(Host, Key, Op)).
+
+begin(Host, Key, _) :-
+    standing(Host, Key, _),
+    !.
+begin(Host, Key, Op) :-
+    aggregate_all(count, standing(Host, _, _), Count),
+    setting(most, Most),
+    (   Count < Most
+    ->  assertz(standing(Host, Key, Op))
+    ;   resource_error(ros_standing)
+    ).
+
+standing_end(Host, Key, Op) :-
+    with_mutex(typhon_ros_advertisements, end(Host, Key, Op)).
+
+end(Host, Key, Op) :-
+    retract(standing(Host, Key, Op)),
+    !,
+    retractall(ended(Host, Key, _)),
+    assertz(ended(Host, Key, Op)),
+    predicate_property(ended(_, _, _), number_of_clauses(Count)),
+    setting(most, Most),
+    (   Count > Most,
+        retract(ended(_, _, _))
+    ->  true
+    ;   true
+    ).
+
+standing_again(Host, Key, Op) :-
+    ended(Host, Key, Op),
+    !,
+    standing_begin(Host, Key, Op).
+
+standing_forget(Host) :-
+    retractall(standing(Host, _, _)),
+    retractall(ended(Host, _, _)).
