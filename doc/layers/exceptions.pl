@@ -14,7 +14,6 @@ exception('prolog/typhon/kernel/agent/trail_verified.pl',identity).
 exception('prolog/typhon/kernel/agent/trail_verified.pl',tls).
 exception('prolog/typhon/kernel/base/keys.pl',tls).
 exception('prolog/typhon/kernel/host/authors.pl',tls).
-exception('prolog/typhon/kernel/host/growth.pl',watch).
 exception('prolog/typhon/kernel/host/host_options.pl',identity).
 exception('prolog/typhon/kernel/host/host_options.pl',journal).
 exception('prolog/typhon/kernel/host/host_options.pl',quotas).
@@ -24,7 +23,6 @@ exception('prolog/typhon/kernel/host/host_options.pl',virtual).
 exception('prolog/typhon/kernel/host/host_questions.pl',watch).
 exception('prolog/typhon/kernel/host/hosting.pl',journal).
 exception('prolog/typhon/kernel/host/hosting.pl',virtual).
-exception('prolog/typhon/kernel/host/queue.pl',watch).
 exception('prolog/typhon/kernel/host/quotas.pl',identity).
 exception('prolog/typhon/kernel/host/quotas.pl',watch).
 exception('prolog/typhon/kernel/host/rate_limits.pl',identity).
@@ -32,7 +30,6 @@ exception('prolog/typhon/kernel/host/runtime.pl',tls).
 exception('prolog/typhon/kernel/host/runtime.pl',virtual).
 exception('prolog/typhon/kernel/host/time.pl',virtual).
 exception('prolog/typhon/kernel/host/tuple_quota.pl',identity).
-exception('prolog/typhon/kernel/host/workers.pl',watch).
 exception('prolog/typhon/kernel/lifecycle/creation.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/creation.pl',trail).
 exception('prolog/typhon/kernel/lifecycle/effect.pl',quotas).

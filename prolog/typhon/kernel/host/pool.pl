@@ -1,34 +1,68 @@
 :- module(typhon_pool,
           [ pool_start/0,
             pool_stop/0,
-            pool_signal/1,              % :Goal
-            pool_here/1                 % +Agent
+            pool_work/1,                % +Work
+            pool_idle/0,
+            pool_here/1,                % +Agent
+            pool_adopt/1,               % +Thread
+            pool_leave/0,
+            pool_signal/1               % :Goal
           ]).
-:- use_module(library(settings), [setting/2]).
-:- use_module(worker_activity, [census/1]).
-:- use_module(growth, [growth_begin/0]).
-:- use_module(held, [held_forget/0]).
-:- use_module(queue, [enqueue/1, queue_begin/1, queue_end/1, run_queue/1]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/headroom', [memory_short/0]).
+:- use_module('../base/stop_thread', [stop_thread/1]).
+:- use_module(blocked,
+              [ blocked_forget/0, blocked_full/2, blocked_held/1,
+                blocked_holds/0, blocked_release/1, blocked_room/3 ]).
 :- use_module(short_turns, [quick_turn/2]).
-:- use_module(timer, [timer_start/0, timer_stop/0]).
+:- use_module(timer, [alarm_in/3, timer_check/0, timer_start/0, timer_stop/0]).
+:- use_module(turns, [turn_in/3]).
 :- use_module(work, [work_do/2]).
-:- use_module(workers, [worker/1, worker_add/1, workers_end/1]).
 
-/** <module> Work in real time: few threads for many agents
+/** <module> The pool: few threads for many agents
 
-A run queue, a pool of workers and one timer.  A native goal that blocks
-holds its worker, so the pool grows when the queue is stuck and shrinks when
-workers are idle.
+Work waits in the run queue.  A worker takes it, runs it to the point where
+the agent has to wait, and takes the next.
 
-*Threading*: any thread.  A mutex makes the pool, and its end, whole: when
-the run queue is gone no worker is added.
+The pool grows when the queue is stuck: work waits, and for `stuck_seconds` no
+worker has begun a turn.  There are at most `max_workers` that are not blocked
+by native goals, see module `blocked`.  A worker that is idle for long ends,
+if there are enough others.
+
+*Threading*: any thread.  The mutex of the scheduler makes the pool, and its
+end, whole: when the run queue is gone no worker is added.
 */
 
 :- meta_predicate pool_signal(0).
 
+:- multifile
+    typhon_scheduler:fire/2.    % Agent, Token: an alarm went off
+
+:- setting(typhon_scheduler:min_workers, positive_integer, 2,
+           "Workers kept when idle").
+:- setting(typhon_scheduler:max_workers, positive_integer, 256,
+           "Workers at the most, not counting those that are blocked").
+:- setting(typhon_scheduler:idle_seconds, number, 10,
+           "Idle workers beyond the minimum end").
+:- setting(typhon_scheduler:stuck_seconds, number, 0.01,
+           "The pool grows when the run queue has not moved for so long").
+
+:- dynamic
+    run_queue/1,                % Queue
+    worker/1.                   % Thread
+
+                /*******************************
+                *        START AND STOP        *
+                *******************************/
+
 %!  pool_start is det.
+%!  pool_stop is det.
 %
-%   Start the pool and the timer; nothing to do where they run.
+%   Start workers and timer, or end them; nothing to do where they run, or do
+%   not.
 
 pool_start :-
     with_mutex(typhon_scheduler, start).
@@ -37,27 +71,33 @@ start :-
     run_queue(_),
     !.
 start :-
-    queue_begin(Queue),
-    growth_begin,
+    message_queue_create(Queue),
+    assertz(run_queue(Queue)),
+    set_flag(typhon_pool_looks, 0),
+    set_flag(typhon_pool_releases, 0),
     setting(typhon_scheduler:min_workers, N),
     catch(( timer_start,
-            forall(between(1, N, _), worker_add(Queue)) ),
+            forall(between(1, N, _), add_worker(Queue)) ),
           error(Formal, Context),
           ( pool_stop,
             throw(error(Formal, Context)) )).
 
-%!  pool_stop is det.
-%
-%   End all threads of the pool.
-
 pool_stop :-
-    with_mutex(typhon_scheduler, queue_end(Queue)),
+    with_mutex(typhon_scheduler, retract(run_queue(Queue))),
     !,
     timer_stop,
-    workers_end(Queue),
+    end_workers(Queue),
     message_queue_destroy(Queue),
-    held_forget.
+    blocked_forget.
 pool_stop.
+
+%   Workers are asked, then those that are busy are interrupted.
+
+end_workers(Queue) :-
+    findall(Worker, worker(Worker), Workers),
+    forall(member(_, Workers), thread_send_message(Queue, stop)),
+    maplist(stop_thread, Workers),
+    retractall(worker(_)).
 
 %!  pool_signal(:Goal) is det.
 %
@@ -68,12 +108,253 @@ pool_signal(Goal) :-
            catch(thread_signal(Worker, Goal),
                  error(existence_error(_, _), _), true)).
 
+                /*******************************
+                *         THE RUN QUEUE        *
+                *******************************/
+
+%!  pool_work(+Work) is det.
+%
+%   Work, see module `work`, is done by a worker some time soon.
+
+pool_work(Work) :-
+    run_queue(Queue),
+    !,
+    thread_send_message(Queue, Work),
+    (   message_queue_property(Queue, waiting(_))
+    ->  true
+    ;   look_soon
+    ).
+pool_work(_).                           % stopping
+
+%!  pool_idle is semidet.
+%
+%   The pool runs, and nothing waits to be done.
+
+pool_idle :-
+    run_queue(Queue),
+    \+ waits(Queue).
+
+waits(Queue) :-
+    message_queue_property(Queue, size(Size)),
+    Size > 0.
+
 %!  pool_here(+Agent) is semidet.
 %
-%   Run Agent in this thread, which is of no pool; fails if it is apt to take
-%   long, or everybody's turns are noted.
+%   Run Agent in this thread, which is of no pool; fails if its turn may take
+%   long.
 
 pool_here(Agent) :-
     run_queue(_),
-    \+ census(_),
-    quick_turn(Agent, work_do(agent(Agent), enqueue)).
+    quick_turn(Agent, work_do(agent(Agent), pool_work)).
+
+                /*******************************
+                *            WORKERS           *
+                *******************************/
+
+workers_count(Count) :-
+    predicate_property(worker(_), number_of_clauses(Count)),
+    !.
+workers_count(0).
+
+%   @error resource_error(What) where no thread can be made
+
+add_worker(Queue) :-
+    flag(typhon_worker, N, N+1),
+    atom_concat(typhon_worker_, N, Alias),
+    thread_create(serve(Queue), Worker,
+                  [ alias(Alias), at_exit(typhon_pool:replace_worker) ]),
+    assertz(worker(Worker)).
+
+%   A worker that was aborted in the middle of a goal.  If no thread can be
+%   made now, the pool grows when the queue is stuck.
+
+replace_worker :-
+    thread_self(Me),
+    with_mutex(typhon_scheduler, replace_worker(Me)).
+
+replace_worker(Me) :-
+    run_queue(Queue),
+    retract(worker(Me)),
+    !,
+    debug(typhon(scheduler), '~w has ended', [Me]),
+    thread_detach(Me),
+    catch(add_worker(Queue), error(_, _), true).
+replace_worker(_).
+
+%   The setting is looked up once for each idle period, not for each turn.
+
+serve(Queue) :-
+    setting(typhon_scheduler:idle_seconds, Seconds),
+    serve(Queue, Seconds).
+
+serve(Queue, Seconds) :-
+    (   thread_get_message(Queue, Work, [timeout(Seconds)])
+    ->  look_if_last(Queue),
+        serve(Work, Queue, Seconds)
+    ;   timer_check,
+        (   superfluous
+        ->  look_if_work_waits(Queue)   % it may have been woken for this
+        ;   serve(Queue)
+        )
+    ).
+
+serve(stop, _, _) :-
+    !.
+serve(Work, Queue, Seconds) :-
+    (   blocked_held(Work)
+    ->  true
+    ;   work_do(Work, pool_work)
+    ),
+    serve(Queue, Seconds).
+
+superfluous :-
+    thread_self(Me),
+    with_mutex(typhon_scheduler, superfluous(Me)).
+
+superfluous(Me) :-
+    run_queue(_),
+    workers_count(Count),
+    setting(typhon_scheduler:min_workers, Min),
+    Count > Min,
+    retract(worker(Me)),
+    thread_detach(Me),
+    debug(typhon(scheduler), '~w ends, of ~D workers', [Me, Count]).
+
+%!  pool_adopt(+Thread) is det.
+%!  pool_leave is det.
+%
+%   Thread, which runs an agent, is a worker until it has done so; this one
+%   has.  No other thread joins it.
+
+pool_adopt(Thread) :-
+    with_mutex(typhon_scheduler, adopt(Thread)).
+
+adopt(Thread) :-
+    (   run_queue(_)
+    ->  assertz(worker(Thread))
+    ;   thread_detach(Thread)
+    ).
+
+pool_leave :-
+    thread_self(Me),
+    with_mutex(typhon_scheduler, leave(Me)).
+
+leave(Me) :-
+    (   run_queue(_),
+        retract(worker(Me))
+    ->  thread_at_exit(thread_detach(Me))   % an abort is not reported then
+    ;   true                            % stopping the pool waits for it
+    ).
+
+                /*******************************
+                *            GROWTH            *
+                *******************************/
+
+%   A worker has taken work, or ends.  What was queued while a worker was idle
+%   may find none when its turn comes.
+
+look_if_last(Queue) :-
+    (   message_queue_property(Queue, waiting(_))
+    ->  true
+    ;   look_if_work_waits(Queue)
+    ).
+
+look_if_work_waits(Queue) :-
+    (   waits(Queue)
+    ->  look_soon
+    ;   true
+    ).
+
+%   One alarm at a time; to write the flag takes a mutex of the system.
+
+look_soon :-
+    (   get_flag(typhon_pool_looks, 1)
+    ->  true
+    ;   setting(typhon_scheduler:stuck_seconds, Seconds),
+        look_in(Seconds)
+    ).
+
+look_in(Seconds) :-
+    flag(typhon_pool_looks, Looks, 1),
+    (   Looks =:= 0
+    ->  get_time(Now),
+        alarm_in(Seconds, pool, stuck(Now))
+    ;   true
+    ).
+
+typhon_scheduler:fire(pool, stuck(Since)) :-
+    !,
+    set_flag(typhon_pool_looks, 0),
+    (   run_queue(Queue),
+        waits(Queue)
+    ->  with_mutex(typhon_scheduler, grow_if_stuck(Queue, Since, Seconds)),
+        look_in(Seconds),
+        release_later
+    ;   true
+    ).
+typhon_scheduler:fire(pool, release) :-
+    !,
+    set_flag(typhon_pool_releases, 0),
+    (   run_queue(Queue),
+        mostly_free(Queue)
+    ->  blocked_release(Works),
+        maplist(pool_work, Works)
+    ;   release_later
+    ).
+
+%   grow_if_stuck(+Queue, +Since, -Seconds): look again in so many Seconds.
+
+grow_if_stuck(Queue, Since, Seconds) :-
+    findall(Worker, worker(Worker), Workers),
+    \+ turn_since(Workers, Since),
+    \+ grow(Queue, Workers),
+    !,
+    setting(typhon_scheduler:blocked_seconds, Blocked),
+    Seconds is Blocked/4.
+grow_if_stuck(_, _, Seconds) :-
+    setting(typhon_scheduler:stuck_seconds, Seconds).
+
+turn_since(Workers, Since) :-
+    member(Worker, Workers),
+    turn_in(Worker, _, Began),
+    Began > Since,
+    !.
+
+%   Fails when the pool is full, or there is no thread, or little memory.
+
+grow(Queue, Workers) :-
+    run_queue(Queue),
+    setting(typhon_scheduler:max_workers, Max),
+    blocked_room(Workers, Max, Room),
+    length(Workers, Count),
+    More is min(Room, 1+Count//8),
+    More > 0,
+    debug(typhon(scheduler), '~D workers, and ~D more', [Count, More]),
+    forall(between(1, More, _), add_if_possible(Queue, Workers)).
+
+add_if_possible(Queue, Workers) :-
+    (   memory_short
+    ->  Why = no_memory
+    ;   catch(add_worker(Queue), error(resource_error(Why), _), true)
+    ),
+    (   var(Why)
+    ->  true
+    ;   blocked_full(Workers, Why),
+        fail
+    ).
+
+%   While kinds of work are held.
+
+release_later :-
+    (   blocked_holds,
+        flag(typhon_pool_releases, 0, 1)
+    ->  setting(typhon_scheduler:blocked_seconds, Seconds),
+        alarm_in(Seconds, pool, release)
+    ;   true
+    ).
+
+mostly_free(Queue) :-
+    workers_count(Count),
+    message_queue_property(Queue, waiting(Idle)),
+    setting(typhon_scheduler:max_workers, Max),
+    Count-Idle < min(Max, (Count+1)//2).

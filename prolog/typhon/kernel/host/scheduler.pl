@@ -11,21 +11,20 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(limits,
-              [ limit_clear/2, limit_enter/3, limit_set/3, limited/1,
-                limited/2,                 limits_forget/0 ]).
+:- use_module(pool, [pool_adopt/1, pool_leave/0]).
 :- use_module(short_turns, [quick_not/2]).
 :- use_module(time, [time_alone/0, time_here/1, time_work/1]).
-:- use_module(workers, [worker_adopt/1, worker_leave/0]).
+:- use_module(work,
+              [ limit_clear/2, limit_enter/3, limit_set/3, limited/1,
+                limited/2, limits_forget/0 ]).
 
 /** <module> The scheduler: agents that are ready, and their turns
 
 An agent that is ready is among the work to be done once; an agent that
-sleeps, waits or is resident is not here at all.  Module `time` decides which thread does the work, and when
-alarms go off.
+sleeps, waits or is resident is not here at all.  Module `time` decides which
+thread does the work, and when alarms go off.
 
-Higher layers define agents by the hooks run/1, fire/2, over/2,
-kind/2 and running/1.
+Higher layers define agents by the hooks run/1, fire/2, over/2 and kind/2.
 
 *Threading*: any thread.
 */
@@ -37,8 +36,7 @@ kind/2 and running/1.
     run/1,                      % Agent: run it until it has to wait
     fire/2,                     % Agent, Token: an alarm went off
     over/2,                     % Agent, Token: this alarm is not needed any more
-    kind/2,                     % Agent, Kind: Agents that may block alike
-    running/1.                  % Agent: has a worker
+    kind/2.                     % Agent, Kind: agents that may block alike
 
 %!  scheduler_limit(+Host, +Concurrency) is det.
 %
@@ -104,10 +102,10 @@ blocks(60).                             % seconds for which it is believed to
 schedule_adopt(Thread, Agent) :-
     blocks(Seconds),
     quick_not(Agent, Seconds),
-    worker_adopt(Thread).
+    pool_adopt(Thread).
 
 schedule_leave :-
-    worker_leave.
+    pool_leave.
 
 %!  scheduler_call(:Goal) is det.
 %

@@ -18,8 +18,8 @@
             alarm_in/3                  % +Seconds, +Agent, +Token
           ]).
 :- use_module(pool,
-              [pool_here/1, pool_signal/1, pool_start/0, pool_stop/0]).
-:- use_module(queue, [enqueue/1, queue_empty/0]).
+              [ pool_here/1, pool_idle/0, pool_signal/1, pool_start/0,
+                pool_stop/0, pool_work/1 ]).
 :- use_module(alarms, [alarm_stamp/3]).
 :- use_module(pause, [still_begin/0, still_end/1]).
 :- use_module(timer, [alarm_set/3 as timer_set, alarms_overdue/0]).
@@ -161,7 +161,7 @@ time_work(Work) :-
     work(Kind, Work).
 time_work(_).                           % stopping
 
-work(real, Work)    :- enqueue(Work).
+work(real, Work)    :- pool_work(Work).
 work(virtual, Work) :- virtual_work(Work).
 
 %!  time_alone is semidet.
@@ -172,7 +172,7 @@ time_alone :-
     time_kind(Kind),
     alone(Kind).
 
-alone(real)    :- queue_empty.
+alone(real)    :- pool_idle.
 alone(virtual) :- virtual_alone.
 
 %!  time_here(+Agent) is semidet.

@@ -1,7 +1,8 @@
 :- module(typhon_turns,
           [ turn_begins/1,              % +Agent
             turn_of/3,                  % +Agent, -Thread, -Seconds
-            turns_now/3                 % -Agent, -Thread, -Seconds
+            turns_now/3,                % -Agent, -Thread, -Seconds
+            turn_in/3                   % +Thread, -What, -Since
           ]).
 :- use_module(library(lists), [member/2]).
 
@@ -18,18 +19,18 @@ only for agents that run.
 :- dynamic
     keys/3.                     % Thread number, flag of agent, of time
 
-%!  turn_begins(+Agent) is det.
+%!  turn_begins(+What) is det.
 %
-%   This thread runs Agent from now on.
+%   This thread runs What from now on, an agent or the goal of that name.
 
-turn_begins(Agent) :-
+turn_begins(What) :-
     (   nb_current(typhon_turn_keys, keys(AgentKey, TimeKey))
     ->  true
     ;   make_keys(AgentKey, TimeKey)
     ),
     get_time(Now),
     set_flag(TimeKey, Now),
-    set_flag(AgentKey, Agent).
+    set_flag(AgentKey, What).
 
 %   Numbers of threads are used again, flags never go.
 
@@ -72,6 +73,18 @@ turns_now(Agent, Thread, Seconds) :-
     get_flag(TimeKey, At),
     Seconds is max(0.0, Now-At),
     thread_property(Thread, id(Number)).
+
+%!  turn_in(+Thread, -What, -Since:float) is semidet.
+%
+%   The last turn of Thread, which may be over, is one of What, and began at
+%   Since.
+
+turn_in(Thread, What, Since) :-
+    catch(thread_property(Thread, id(Number)), error(_, _), fail),
+    keys(Number, AgentKey, TimeKey),
+    !,
+    get_flag(AgentKey, What),
+    get_flag(TimeKey, Since).
 
 latest(Turns, Latest) :-
     member(Latest, Turns),

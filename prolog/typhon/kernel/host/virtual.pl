@@ -13,7 +13,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
-:- use_module(limits, [limit_parked/1]).
+:- use_module(work, [limit_parked/1]).
 :- use_module(virtual_loop,
               [ virtual_begin/0, virtual_doing/1, virtual_end/0,
                 virtual_loop/1, virtual_now/1, virtual_standing/1,

@@ -35,8 +35,7 @@ timer.
 :- multifile
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2,
-    typhon_scheduler:kind/2,
-    typhon_scheduler:running/1.
+    typhon_scheduler:kind/2.
 
 %!  effect(+Control, +Hole, +Goals, +Where, -Next) is det.
 %
@@ -200,10 +199,6 @@ typhon_scheduler:over(Id, leave) :-
 
 typhon_scheduler:kind(Id, Program) :-
     agent(Id, _, _, Program, _).
-
-typhon_scheduler:running(Id) :-
-    agent(Id, _, _, _, _),
-    agent_status(Id, running, _).
 
                 /*******************************
                 *        MOVE AND CLONE        *

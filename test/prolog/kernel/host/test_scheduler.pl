@@ -13,7 +13,6 @@
 :- use_module(library(typhon/kernel/host/scheduler)).
 :- use_module(library(typhon/kernel/host/time), [time_start/1, time_stop/0]).
 :- use_module(library(typhon/kernel/host/timer)).
-:- use_module(library(typhon/kernel/host/workers)).
 
 /** <module> Tests of the pool of workers, and of alarms
 
@@ -24,25 +23,17 @@ real agent is called.
 :- multifile
     typhon_scheduler:run/1,
     typhon_scheduler:fire/2,
-    typhon_scheduler:over/2,
-    typhon_scheduler:kind/2,
-    typhon_scheduler:running/1.
+    typhon_scheduler:over/2.
 :- dynamic
     typhon_scheduler:run/1,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2,
-    typhon_scheduler:kind/2,
-    typhon_scheduler:running/1,
     event/1.
 
 :- asserta((typhon_scheduler:run(test(Goal)) :- !, call(Goal))).
 :- asserta((typhon_scheduler:fire(test(X), Token) :- !,
                 test_scheduler:happens(X-Token))).
 :- asserta(typhon_scheduler:over(test(_), over)).
-:- asserta((typhon_scheduler:running(test(test_scheduler:blocked(_, I))) :-
-                test_scheduler:event(blocked(I)))).
-:- asserta((typhon_scheduler:kind(test(_:Goal), Kind) :- !,
-                functor(Goal, Kind, _))).
 
 :- meta_predicate scheduling(0), scheduling(+, 0).
 
@@ -76,6 +67,13 @@ happens(X) :-
 
 scheduler_threads(Threads) :-
     findall(Thread, ( worker(Thread) ; typhon_timer:timer(Thread) ), Threads).
+
+worker(Alias) :-
+    thread_property(_, alias(Alias)),
+    sub_atom(Alias, 0, _, _, typhon_worker_).
+
+workers_count(Count) :-
+    aggregate_all(count, worker(_), Count).
 
 :- begin_tests(scheduler).
 
@@ -199,69 +197,70 @@ test(stop_ends_stuck_workers) :-
 
 :- end_tests(scheduler).
 
-:- begin_tests(held).
+:- begin_tests(blocked).
 
-%   with_blocked(+Settings, +Count, :Goal): while Count goals block.
+%   with_blocked(+Settings, +Count, :Goal, -Messages): while Count agents of one
+%   program block.
 
-:- meta_predicate with_blocked(+, +, 0).
+:- meta_predicate with_blocked(+, +, 0, -).
 
-with_blocked(Settings, Count, Goal) :-
-    message_queue_create(Q),
-    scheduling(Settings,
-               ( forall(between(1, Count, I),
-                        schedule(none, test(test_scheduler:blocked(Q, I)))),
-                 once(Goal),
-                 forall(between(1, Count, _), thread_send_message(Q, go)),
-                 wait_until(( count(N), N >= Count ), 10) )),
-    message_queue_destroy(Q).
+with_blocked(Settings, Count, Goal, Messages) :-
+    forget,
+    setup_call_cleanup(
+        message_queue_create(_, [alias(test_gate)]),
+        listening(with_settings(Settings,
+                                with_hosts([alpha],
+                                           while_blocked(Count, Goal))),
+                  Messages),
+        message_queue_destroy(test_gate)).
 
-few([typhon_scheduler:max_workers=8, typhon_held:held_seconds=0.05]).
+while_blocked(Count, Goal) :-
+    forall(between(1, Count, _),
+           create([(main :- test_scheduler:blocked(test_gate, x))], _)),
+    once(Goal),
+    forall(between(1, Count, _), thread_send_message(test_gate, go)),
+    wait_until(message_queue_property(test_gate, size(0)), 10).
 
-test(fresh_work_beside_many_that_block, N == 60) :-
+few([typhon_scheduler:max_workers=8, typhon_scheduler:blocked_seconds=0.05]).
+
+%   Agents of another program come to their end, and one sleeps in between.
+
+others_end(Count) :-
+    findall(A,
+            ( between(1, Count, _),
+              create([(main :- sleep(0.01))], A) ),
+            Agents),
+    forall(member(A, Agents), joined(A, done)).
+
+test(others_run_beside_many_that_block, true(N == 30)) :-
     few(Settings),
-    listening(with_blocked(Settings, 30,
-                           ( forall(between(1, 30, I),
-                                    schedule(none,
-                                             test(test_scheduler:happens(I)))),
-                             wait_until(test_scheduler:count(60), 10),
-                             alarm_beside_them )), Messages),
-    aggregate_all(count, event(_), N0),
-    N is N0-1,
-    Messages = [warning-typhon(held(8, Doers))],
-    once(member(test(_:blocked(_, _)), Doers)).
-test(the_census_ends) :-
-    few(Settings),
-    listening(scheduling(Settings,
-                         ( ends_after_census,
-                           wait_until(\+ typhon_held:census(_), 10) )), _).
-
-ends_after_census :-
-    message_queue_create(Q),
-    forall(between(1, 30, I),
-           schedule(none, test(test_scheduler:blocked(Q, I)))),
-    wait_until(test_scheduler:count(30), 10),
-    assertion(typhon_held:census(_)),
-    forall(between(1, 30, _), thread_send_message(Q, go)),
-    wait_until(message_queue_property(Q, size(0)), 10),
-    message_queue_destroy(Q).
-
-alarm_beside_them :-
-    get_time(Now),
-    Stamp is Now+0.01,
-    alarm_set(Stamp, test(x), t),
-    wait_until(test_scheduler:happened(x-t), 5).
-
-test(their_like_waits_when_there_is_no_more_room, true(Most =< 24)) :-
+    with_blocked(Settings, 30,
+                 ( wait_until(test_scheduler:count(30), 10),
+                   others_end(30),
+                   count(N) ), Messages),
+    Messages = [warning-typhon(workers_blocked(8, Names))],
+    assertion(( Names = [Name|_], atom(Name) )).
+test(like_agents_wait_in_a_full_pool, true(( Most =< 24, N == 40 ))) :-
     few(Few),
-    listening(with_blocked([typhon_held:held_workers=16|Few], 40,
-                           ( wait_until(( count(N0), N0 >= 8 ), 10),
-                             alarm_beside_them,
-                             schedule(none, test(test_scheduler:happens(y))),
-                             wait_until(test_scheduler:happened(y), 10),
-                             workers_count(Most) )), Messages),
-    memberchk(warning-typhon(held_full(_, held_workers, _)), Messages),
+    with_blocked([typhon_scheduler:blocked_workers=16|Few], 40,
+                 ( wait_until(test_scheduler:count(16), 10),
+                   others_end(30),
+                   workers_count(Most) ), Messages),
+    count(N),
+    memberchk(warning-typhon(pool_full(_, blocked_workers, _)), Messages),
     length(Messages, Told),
     assertion(Told =< 4).
+test(a_goal_that_blocks_is_named, true(Names == [blocked])) :-
+    message_queue_create(Q),
+    listening(scheduling([ typhon_scheduler:min_workers=1,
+                           typhon_scheduler:max_workers=1,
+                           typhon_scheduler:blocked_seconds=0.05 ],
+                         ( scheduler_call(test_scheduler:blocked(Q, x)),
+                           scheduler_call(test_scheduler:happens(y)),
+                           wait_until(test_scheduler:happened(y), 5),
+                           thread_send_message(Q, go) )), Messages),
+    message_queue_destroy(Q),
+    Messages = [warning-typhon(workers_blocked(1, Names))].
 test(three_hundred_agents_that_block, true(O-S == done-done)) :-
     message_queue_create(_, [alias(test_never)]),
     listening(with_hosts([alpha],
@@ -276,9 +275,9 @@ test(three_hundred_agents_that_block, true(O-S == done-done)) :-
                            create([main], B),
                            joined(B, S) )), Messages),
     message_queue_destroy(test_never),
-    assertion(Messages = [warning-typhon(held(256, _))]).
+    assertion(Messages = [warning-typhon(workers_blocked(256, _))]).
 
-:- end_tests(held).
+:- end_tests(blocked).
 
 %   A signal that comes just before a thread waits does not wake it.
 
@@ -361,7 +360,7 @@ test(the_scheduler_starts_whole_or_not_at_all,
 test(sleepers_wake_and_the_pool_says_why_it_does_not_grow,
      true(O-F == done-done)) :-
     message_queue_create(_, [alias(test_never)]),
-    listening(with_settings([typhon_held:held_seconds=0.1],
+    listening(with_settings([typhon_scheduler:blocked_seconds=0.1],
                             with_hosts([alpha], no_room(O, F))), Messages),
     message_queue_destroy(test_never),
     assertion(\+ member(error-_, Messages)).
@@ -374,7 +373,7 @@ no_room(O, F) :-
                       joined(B, F),
                       create_blocked(10),
                       create([main], C),
-                      wait_until(was_told(warning, typhon(held_full(
+                      wait_until(was_told(warning, typhon(pool_full(
                                               _, no_memory, _))), 10),
                       \+ agent_join(C, done, 0.1) )),
     joined(C, done).
