@@ -4,8 +4,6 @@ exception('prolog/typhon/kernel/agent/agents.pl',quotas).
 exception('prolog/typhon/kernel/agent/identity.pl',identity).
 exception('prolog/typhon/kernel/agent/identity.pl',tls).
 exception('prolog/typhon/kernel/agent/identity.pl',virtual).
-exception('prolog/typhon/kernel/agent/image.pl',identity).
-exception('prolog/typhon/kernel/agent/image.pl',trail).
 exception('prolog/typhon/kernel/agent/owner.pl',tls).
 exception('prolog/typhon/kernel/agent/quota_admission.pl',identity).
 exception('prolog/typhon/kernel/agent/time_quota.pl',identity).
@@ -30,14 +28,11 @@ exception('prolog/typhon/kernel/host/runtime.pl',tls).
 exception('prolog/typhon/kernel/host/runtime.pl',virtual).
 exception('prolog/typhon/kernel/host/time.pl',virtual).
 exception('prolog/typhon/kernel/host/tuple_quota.pl',identity).
-exception('prolog/typhon/kernel/lifecycle/creation.pl',identity).
-exception('prolog/typhon/kernel/lifecycle/creation.pl',trail).
 exception('prolog/typhon/kernel/lifecycle/effect.pl',quotas).
 exception('prolog/typhon/kernel/lifecycle/families.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/families.pl',quotas).
 exception('prolog/typhon/kernel/lifecycle/order_client.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/orders.pl',identity).
-exception('prolog/typhon/kernel/lifecycle/orders.pl',trail).
 exception('prolog/typhon/kernel/lifecycle/overuse.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/process_dump.pl',virtual).
 exception('prolog/typhon/kernel/lifecycle/questions.pl',watch).
@@ -51,7 +46,6 @@ exception('prolog/typhon/kernel/program/code.pl',identity).
 exception('prolog/typhon/kernel/program/loaded.pl',identity).
 exception('prolog/typhon/kernel/program/machine.pl',guard).
 exception('prolog/typhon/kernel/program/mobile.pl',guard).
-exception('prolog/typhon/kernel/travel/hop.pl',trail).
 exception('prolog/typhon/kernel/travel/mailbox_overflow.pl',quotas).
 exception('prolog/typhon/kernel/travel/post.pl',quotas).
 exception('prolog/typhon/kernel/travel/speakers.pl',tls).

@@ -22,30 +22,29 @@ This is the interface of the layer: higher layers import from here.
               agent_module/5, agent_standing/5, agent_state/2 ]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
-              agent_owned/1, agent_owned/2
+              agent_owned/1, agent_owned/2,
+              origin_inherited/3
             ]).
 :- reexport(agent/birth,
-            [ birth_good/1, birth_papers/5, birth_sent/2,
-              birth_shown/2, birth_unproved/2 ]).
+            [birth_good/1, birth_shown/2, birth_unproved/2]).
 :- reexport(agent/life,
             [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,
               make_life/2, set_extras_of_life/3
             ]).
 :- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
-:- reexport(agent/owner, [owner_entered/3, owner_inherited/3]).
+:- use_module(agent/owner, []).
 :- reexport(agent/time_quota, [stay_count/3, stay_owner/3, stay_until/3]).
 :- reexport(agent/state_text, [state_text/2, state_text_add/2]).
 :- reexport('agent/gate').
 :- use_module(agent/guard_admission, []).
 :- use_module(agent/quota_admission, []).
 :- reexport(agent/image,
-            [ image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_entrant/2, image_label/2, image_module/3, image_received/4,
-              image_trail/4
+            [ image_amended/5, image_clone/5, image_enter/4, image_hash/2, image_hop/6,
+              image_entrant/2, image_label/2, image_module/3
             ]).
 :- reexport(agent/trail,
-            [trail_enter/3, trail_none/2, trail_of/3]).
+            [trail_enter/3, trail_of/3]).
 :- reexport(agent/trail_verified, [trail_verified/3]).
 :- reexport('agent/printable_fallback').
 :- reexport('agent/fault').

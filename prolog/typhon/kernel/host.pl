@@ -18,7 +18,7 @@ This is the interface of the layer: higher layers import from here.
               events_hear/3, events_unheard/1 ]).
 :- reexport('host/event_shown').
 :- reexport('host/host_log').
-:- reexport(host/host_parts, [parts/3]).
+:- reexport(host/host_parts, [amended/5, parts/3]).
 :- reexport(host/place, [place_deliver/3, place_undeliver/2]).
 :- reexport('host/tuples').
 :- reexport(host/sandbox_view, [module_policy/2, guarding/0, place_front/3]).

@@ -1,8 +1,6 @@
 :- module(typhon_birth,
-          [ birth_papers/5,             % +Id, +Hash, +Endpoint, +Sent, -Papers
-            birth_sent/2,               % +Papers, -Sent
+          [ birth_good/1,               % +Birth
             birth_unproved/2,           % +Endpoint, +Id
-            birth_good/1,               % +Birth
             birth_shown/2               % +Id, -Birth
           ]).
 
@@ -56,22 +54,19 @@ typhon_identity:ids_anew :-
     retractall(known(_, _)),
     retractall(has(_, _)).
 
-%!  birth_papers(+Id, +Hash, +Endpoint, +Sent, -Papers) is det.
-%!  birth_sent(+Papers, -Sent) is det.
-%!  birth_unproved(+Endpoint, +Id) is det.
-%
-%   Papers are sent to Endpoint instead of Sent, the program of Id, of that
-%   Hash, or `known`. They lack the birth of Id there, after all.
+typhon_host_parts:part(papers, _, 10, typhon_birth:papers) :-
+    endpoint_keys(_).
 
-birth_papers(Id, Hash, Endpoint, Sent, Papers) :-
-    endpoint_keys(_),
+:- public papers/4.
+
+papers(_, program(Id, Hash, Endpoint), Sent, Papers) :-
     proof_of(Endpoint, Proof),
     \+ believed(Proof, Id),
     birth(Id, Hash, Birth),
     !,
     now_has(Id, Proof),
     Papers = papers(Birth, Sent).
-birth_papers(_, _, _, Sent, Sent).
+papers(_, _, Sent, Sent).
 
 proof_of(Endpoint, Proof) :-
     endpoint_peer(Endpoint, proof(Proof)),
@@ -98,11 +93,9 @@ now_has(Id, Proof) :-
                  assertz(has(Id, Proof)),
                  bounded(has(_, _), typhon_birth:births) )).
 
-birth_sent(Papers, Sent) :-
-    (   subsumes_term(papers(_, _), Papers)
-    ->  Papers = papers(_, Sent)
-    ;   Sent = Papers
-    ).
+%!  birth_unproved(+Endpoint, +Id) is det.
+%
+%   They lack the birth of Id there, after all.
 
 birth_unproved(Endpoint, Id) :-
     proof_of(Endpoint, Proof),

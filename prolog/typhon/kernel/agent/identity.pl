@@ -4,13 +4,15 @@
             agent_owned/1,              % +Id
             agent_owned/2,              % +Id, +Owner
             agent_home/2,               % +Id, -Home
-            agent_home_endpoint/2       % +Id, -Endpoint
+            agent_home_endpoint/2,      % +Id, -Endpoint
+            origin_inherited/3          % +Id, +State0, -State
           ]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(error), [representation_error/1]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/durable_changes', [durable_key/1, durable_on/0]).
-:- use_module('../wire', [endpoint_keys/1, endpoint_own_proof/1]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1]).
 :- use_module('../host', [address_parts/3]).
 
 /** <module> The ids of agents
@@ -156,3 +158,20 @@ agent_home(Id, Home) :-
 agent_home_endpoint(Id, Endpoint) :-
     agent_home(Id, Home),
     address_parts(Home, _, Endpoint).
+
+%!  origin_inherited(+Id, +State0, -State) is det.
+%
+%   State0 is that of Id, which stands here, State that of a clone of it.  The
+%   id of the clone will say that it was born here: where Id was born, if
+%   elsewhere, is a fact among its state.
+
+origin_inherited(Id, State, State) :-
+    State = state(_, Clauses),
+    (   memberchk('$owner'(_), Clauses)
+    ;   agent_home_endpoint(Id, Home),
+        endpoint_address(Home)
+    ),
+    !.
+origin_inherited(Id, state(Empty, Clauses),
+                 state(Empty, ['$owner'(home(Home))|Clauses])) :-
+    agent_home_endpoint(Id, Home).

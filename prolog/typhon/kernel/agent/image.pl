@@ -5,22 +5,19 @@
             image_hash/2,               % +Image, -Hash
             image_label/2,              % +Image, -Label
             image_entrant/2,            % +Image, -Entrant
-            image_received/4,           % +From, +Host, +Image0, -Image
-            image_trail/4,              % +Event, +Host, +Image0, -Image
+            image_amended/5,            % +Phase, +Host, +Where, +Image0,
+                                        % -Image
             image_module/3,             % +Image, +Place, -Agent
             image_enter/4               % +Image, +Host, +Agent, +More
           ]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
-:- use_module('../host', [event_heard/1, host/3]).
-:- use_module('../wire', [endpoint_keys/1]).
+:- use_module('../host', [amended/5, event_heard/1, host/3, parts/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
-:- use_module(identity, [agent_home/2]).
+:- use_module(identity, [agent_home/2, origin_inherited/3]).
 :- use_module(result_facts, [legacy_none/2]).
-:- use_module(owner, [owner_entered/3, owner_inherited/3]).
-:- use_module(trail, [trail_link/5, trail_none/2]).
 :- use_module(life,
               [is_life/1, life_clone/3, life_hop/3, life_hops/2]).
 
@@ -55,8 +52,8 @@ image_clone(Id, CloneId, Goals, Since,
     life_hop(Life1, Life, _),
     agent_state(Module, State0),
     legacy_none(State0, State1),
-    trail_none(State1, State2),
-    owner_inherited(Id, State2, State),
+    amended(cloned, Host, Id, State1, State2),
+    origin_inherited(Id, State2, State),
     start(Host, Since, Start).
 
 start(Host, Since, Start) :-
@@ -73,38 +70,20 @@ start(Host, Since, Start) :-
 image_entrant(image(Id, Hash, Life, State, _, Mail, _),
               entrant(Id, Hash, Life, State, Mail)).
 
-%!  image_trail(+Event, +Host, +Image0, -Image) is det.
+%!  image_amended(+Phase, +Host, +Where, +Image0, -Image) is det.
 %
-%   Where there are keys Image has one link more in its trail, of Host, a host
-%   of this process, see trail_link/5.
+%   Image is Image0 with the state that options of Host amend, see
+%   typhon_host_parts: Where is To in the phase `departs`, and
+%   from(Peer, Address) in the phase `arrives`.
 
-image_trail(Event, Host, Image0, Image) :-
-    (   endpoint_keys(_)
-    ->  signed(Event, Host, Image0, Image)
+image_amended(Phase, Host, Where, Image0, Image) :-
+    (   parts(Phase, Host, _)
+    ->  Image0 = image(Id, Hash, Life, State0, Goals, Mail, Start),
+        life_hops(Life, Hops),
+        amended(Phase, Host, hop(Id, Hash, Hops, Goals, Where), State0, State),
+        Image = image(Id, Hash, Life, State, Goals, Mail, Start)
     ;   Image = Image0
     ).
-
-signed(Event, Host, image(Id, Hash, Life, State0, Goals, Mail, Start),
-       image(Id, Hash, Life, State, Goals, Mail, Start)) :-
-    life_hops(Life, Hops),
-    trail_link(Event, of(Host, Id, Hash, Hops), State0, Goals, State).
-
-%!  image_received(+From, +Host, +Image0, -Image) is det.
-%
-%   Image is what comes to Host, at Address, if the process at Peer sends
-%   Image0, From being Peer-Address.  Where there are keys its trail says that
-%   it was received, and its state whose it is.
-
-image_received(Peer-Address, Host, Image0, Image) :-
-    (   endpoint_keys(_)
-    ->  signed(received(Address), Host, Image0, Image1),
-        entered(Peer, Image1, Image)
-    ;   Image = Image0
-    ).
-
-entered(Peer, image(Id, Hash, Life, State0, Goals, Mail, Start),
-              image(Id, Hash, Life, State, Goals, Mail, Start)) :-
-    owner_entered(Peer, State0, State).
 
 %!  image_hash(+Image, -Hash) is det.
 

@@ -1,15 +1,13 @@
 :- module(typhon_owner,
           [ owner_of/5,                 % +Host, +Id, +Hash, +State, -Owner
             owner_key/2,                % +Owner, -Key
-            owner_inherited/3,          % +Id, +State0, -State
             owner_entered/3             % +Peer, +State0, -State
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../program', [program_author/3]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1,
-                endpoint_proof/2 ]).
+              [endpoint_keys/1, endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module('../host', [host_option/2]).
 :- use_module(identity, [agent_home_endpoint/2]).
 
@@ -31,6 +29,21 @@ that is guarded cannot touch it; of a process of ours it is believed.
 
 *Threading*: any thread; no state.
 */
+
+:- multifile typhon_host_parts:part/4.
+
+typhon_host_parts:part(arrives, _, 20, typhon_owner:arrives) :-
+    endpoint_keys(_).
+typhon_host_parts:part(created, _, 20, typhon_owner:created) :-
+    endpoint_keys(_).
+
+:- public arrives/4, created/4.
+
+arrives(_, hop(_, _, _, _, from(Peer, _)), State0, State) :-
+    owner_entered(Peer, State0, State).
+
+created(_, Peer, State0, State) :-
+    owner_entered(Peer, State0, State).
 
 %!  owner_of(+Host, +Id, +Hash, +State, -Owner) is semidet.
 %
@@ -62,22 +75,6 @@ said(state(_, Clauses), Owner) :-
 owner_key(Owner, Key) :-
     Owner =.. Parts,
     atomic_list_concat(Parts, ' ', Key).
-
-%!  owner_inherited(+Id, +State0, -State) is det.
-%
-%   State0 is that of Id, which stands here, State that of a clone of it.  The
-%   id of the clone will say that it was born here.
-
-owner_inherited(Id, State, State) :-
-    State = state(_, Clauses),
-    (   memberchk('$owner'(_), Clauses)
-    ;   agent_home_endpoint(Id, Home),
-        endpoint_address(Home)
-    ),
-    !.
-owner_inherited(Id, state(Empty, Clauses),
-                state(Empty, ['$owner'(home(Home))|Clauses])) :-
-    agent_home_endpoint(Id, Home).
 
 %!  owner_entered(+Peer, +State0, -State) is det.
 %

@@ -3,7 +3,6 @@
                                         % -State
             trail_enter/3,              % +Module, +Id, +Result
             trail_of/3,                 % +Module, +Id, -Raw
-            trail_none/2,               % +State0, -State
             trail_signed/4              % +Id, +Text, +Last, -Signed
           ]).
 
@@ -57,9 +56,37 @@ stays as it is, and has no more links.
 :- use_module('../host', [host_option/2]).
 :- use_module(chain, [chain_add/4]).
 
-:- multifile typhon_host_parts:changeable/1.
+:- multifile
+    typhon_host_parts:changeable/1,
+    typhon_host_parts:part/4.
 
 typhon_host_parts:changeable(trail(_)).
+
+typhon_host_parts:part(Phase, _, 10, typhon_trail:Closure) :-
+    closure(Phase, Closure),
+    endpoint_keys(_).
+
+closure(departs, departs).
+closure(arrives, arrives).
+closure(cloned, without).
+closure(copied, without).
+
+:- public departs/4, arrives/4, without/4.
+
+departs(Host, hop(Id, Hash, Hops, Goals, To), State0, State) :-
+    trail_link(handed(To), of(Host, Id, Hash, Hops), State0, Goals, State).
+
+arrives(Host, hop(Id, Hash, Hops, Goals, from(_, Address)), State0, State) :-
+    trail_link(received(Address), of(Host, Id, Hash, Hops), State0, Goals,
+               State).
+
+%   A clone begins its own, and so does what is made of a restore point.
+
+without(_, _, state(Empty, Clauses0), state(Empty, Clauses)) :-
+    exclude(of_trail, Clauses0, Clauses).
+
+of_trail(Clause) :-
+    subsumes_term('$trail'(_, _, _, _), Clause).
 
 :- setting(links, positive_integer, 32,
            "So many links of the trail of an agent are kept").
@@ -235,13 +262,3 @@ raw(Module, Raw) :-
     ->  true
     ;   no_trail(Raw)
     ).
-
-%!  trail_none(+State0, -State) is det.
-%
-%   State is State0 without a trail: a clone begins its own.
-
-trail_none(state(Empty, Clauses0), state(Empty, Clauses)) :-
-    exclude(of_trail, Clauses0, Clauses).
-
-of_trail(Clause) :-
-    subsumes_term('$trail'(_, _, _, _), Clause).

@@ -1,5 +1,6 @@
 :- module(typhon_host_parts,
           [ parts/3,                    % +Phase, +Host, -Closures
+            amended/5,                  % +Phase, +Host, +About, +Term0, -Term
             parts_compile/1,            % +Host
             parts_forget/1              % +Host
           ]).
@@ -26,7 +27,23 @@ up one list of closures, and a host without options has none.
   | security      | Host, Peer, Proof, What      | a security event, see there |
 
 Those that admit succeed with a verdict which is not `ok`.  A peer has a right
-if all that permit succeed.
+if all that permit succeed.  Other closures amend what goes from one host to
+another, and are called with Host, About, Term0, Term:
+
+  | phase   | Term    | About                      | when                     |
+  | ------- | ------- | -------------------------- | ------------------------ |
+  | departs | state   | hop(Id, Hash, Hops, Goals, | it goes to the address   |
+  |         |         | To)                        | To, of another process   |
+  | arrives | state   | hop(Id, Hash, Hops, Goals, | it comes to Address from |
+  |         |         | from(Peer, Address))       | the process at Peer      |
+  | papers  | program | program(Id, Hash,          | what is sent to Endpoint |
+  |         |         | Endpoint)                  | with an agent            |
+  | created | state   | Peer                       | the process at Peer      |
+  |         |         |                            | creates an agent here    |
+  | cloned  | state   | Id                         | of a clone of Id         |
+  | copied  | state   | Id                         | of a restore point of Id |
+
+State is as of agent_state/2.
 
 Closures of a phase are called in the order of their numbers.
 
@@ -66,6 +83,21 @@ What an option keeps of a host follows the life of the host by the hooks
 parts(Phase, Host, Closures) :-
     compiled(Phase, Host, Closures),
     !.
+
+%!  amended(+Phase, +Host, +About, +Term0, -Term) is det.
+%
+%   Term is Term0 as the parts of Host amend it, one after the other.
+
+amended(Phase, Host, About, Term0, Term) :-
+    (   parts(Phase, Host, Closures)
+    ->  amended_by(Closures, Host, About, Term0, Term)
+    ;   Term = Term0
+    ).
+
+amended_by([], _, _, Term, Term).
+amended_by([Closure|Closures], Host, About, Term0, Term) :-
+    call(Closure, Host, About, Term0, Term1),
+    amended_by(Closures, Host, About, Term1, Term).
 
 %!  parts_compile(+Host) is det.
 %!  parts_forget(+Host) is det.

@@ -20,15 +20,15 @@
                 program_unknown/3 ]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
-              [ event/4, host/3, host_address/2, host_resolve/2,
+              [ amended/5, event/4, host/3, host_address/2, host_resolve/2,
                 host_unknown/1, process_ask/6 ]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_handles/2, agent_home/2,
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_standing/5, agent_state/2, gate/4,
                 gate_refused/4, is_life/1, legacy_none/2, life_clone/3,
-                mail_count/2, make_life/2, owner_entered/3, owner_inherited/3,
-                payload_mark/2, trail_none/2, with_agent/2 ]).
+                mail_count/2, make_life/2, origin_inherited/3, payload_mark/2,
+                with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(change, [undeclared/2]).
 :- use_module(named, [agent_met/1]).
@@ -242,7 +242,10 @@ create_for(From, HostName, Name, start(Hash, Life, State0, Goals, Mail),
     must_be(list, Goals),
     must_be(list, Mail),
     arg(1, From, Peer),
-    owner_entered(Peer, State0, State),
+    (   atom(HostName)
+    ->  amended(created, HostName, Peer, State0, State)
+    ;   State = State0
+    ),
     start(HostName, Name, start(Hash, Life, State, Goals, Mail), From, Answer).
 
 must_be_life(Life) :-
@@ -278,8 +281,8 @@ agent_clone_here(Id, Goals, CloneId) :-
     agent(Id, Host, Module, Hash, Life0),
     agent_state(Module, State0),
     legacy_none(State0, State1),
-    trail_none(State1, State2),
-    owner_inherited(Id, State2, State),
+    amended(cloned, Host, Id, State1, State2),
+    origin_inherited(Id, State2, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
     started(Host, Name, start(Hash, Life, State, Goals, []), here,

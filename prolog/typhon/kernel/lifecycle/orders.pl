@@ -8,12 +8,12 @@
 :- use_module('../program',
               [code_sent/2, payload_hash/2, signature_keep/2]).
 :- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [alarm_in/3, scheduler_call/1]).
+:- use_module('../host', [alarm_in/3, amended/5, scheduler_call/1]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_name/3,
                 agent_order/2, agent_ready/2, agent_state/2, agent_status/3,
                 agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
-                mail_list/2, trail_none/2, with_agent/2 ]).
+                mail_list/2, with_agent/2 ]).
 :- use_module('../travel',
               [ agent_resumed/3, move_awaited/2, move_failed/2, move_over/2,
                 out_of_touch/1 ]).
@@ -275,12 +275,12 @@ done(change(Change), Agent, ok) :-
     change_made(Change, Agent).
 done(image, Agent,
      image(Name, Program, Life, State, Goals, Mail)) :-
-    agent(Agent, _, Module, Hash, Life),
+    agent(Agent, Host, Module, Hash, Life),
     agent_status(Agent, _, Goals),
     code_sent(Hash, Program),
     agent_name(Agent, Name, _),
     agent_state(Module, State0),
-    trail_none(State0, State),
+    amended(copied, Host, Agent, State0, State),
     mail_list(Agent, Mail),
     mobile_term(State-Goals).
 done(Order, Agent, Result) :-

@@ -11,9 +11,9 @@
               [ event/4, host/3, host_hop/3, host_time/2, schedule/2,
                 schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
 :- use_module('../agent',
-              [ agent/5, agent_order/2, agent_status/3, birth_sent/2, gate/4,
-                gate_refused/4, image_enter/4, image_entrant/2,
-                image_label/2, image_module/3, image_received/4, life_hops/2,
+              [ agent/5, agent_order/2, agent_status/3, gate/4,
+                gate_refused/4, image_amended/5, image_enter/4, image_entrant/2,
+                image_label/2, image_module/3, life_hops/2,
                 with_agent/2 ]).
 :- use_module(hop_ids,
               [ crossing_done/1, crossing_end/2, crossing_known/1,
@@ -87,7 +87,7 @@ typhon_endpoint:returned :-
     schedule_leave.
 
 arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
-    birth_sent(Papers, Program),
+    papers_program(Papers, Program),
     image_label(Image, Label),
     (   has_come(Crossing, Label)
     ->  Answer = accepted
@@ -95,6 +95,14 @@ arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
         gate(Name, from(Peer, Program, papers(Papers))-Entrant,
              install(Name, Label, Image, Crossing-Peer, In), Verdict),
         answer_to(Verdict, In, Name, Label, Peer, Answer)
+    ).
+
+%   What proves that the peer may bring the agent may come with the program.
+
+papers_program(Papers, Program) :-
+    (   subsumes_term(papers(_, _), Papers)
+    ->  Papers = papers(_, Program)
+    ;   Program = Papers
     ).
 
 answer_to(ok, in(Address, Gone), Name, Label, Peer, installed(Id)) :-
@@ -133,7 +141,7 @@ gone_on(Id, Hops) :-
 install(Name, Label, Image0, Crossing-Peer, In, Verdict) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _),
-        image_received(Peer-Address, Name, Image0, Image),
+        image_amended(arrives, Name, from(Peer, Address), Image0, Image),
         In = in(Address, Gone),
         with_agent(Id, install(Id, Hops, Image, Crossing, Name, Place, Gone,
                                Verdict))

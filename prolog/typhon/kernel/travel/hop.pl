@@ -7,12 +7,11 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_keys/1, endpoint_request/4,
-                mobile_term/1 ]).
-:- use_module('../host', [address_parts/3, host/3, host_time/2]).
+              [endpoint_address/1, endpoint_request/4, mobile_term/1]).
+:- use_module('../host',
+              [address_parts/3, amended/5, host/3, host_time/2, parts/3]).
 :- use_module('../agent',
-              [ agent/5, birth_papers/5, birth_unproved/2, image_hash/2,
-                image_trail/4, with_agent/2 ]).
+              [agent/5, image_amended/5, image_hash/2, with_agent/2]).
 :- use_module('../base/durable_changes', [crash_point/1, durable_on/0]).
 :- use_module(hop_ids, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
@@ -45,8 +44,11 @@ endpoint, which never wait.
 */
 
 :- multifile
+    sent_again/2,               % Endpoint, Id: they lack what proves it
     typhon_doubt:again/1,
     typhon_endpoint:connection/2.
+
+:- dynamic sent_again/2.
 
 :- dynamic has_program/2.       % Endpoint, Hash: was sent there
 
@@ -118,11 +120,14 @@ freeze_and_send(Transfer, Held, Mail, Since, Image) :-
 send(Transfer, Image0) :-
     arg(2, Transfer, dest(Address, Name, Endpoint)),
     image_hash(Image0, Hash),
-    catch(( (   endpoint_keys(_)
-            ->  handed(Transfer, Address, Image0, Image),
+    catch(( (   parts(departs, _, _),
+                arg(1, Transfer, Id),
+                agent(Id, Host, _, _, _) % else it was ended meanwhile
+            ->  image_amended(departs, Host, Address, Image0, Image),
                 program(Endpoint, Hash, Sent),
                 transfer_traveller(Transfer, Who, _),
-                birth_papers(Who, Hash, Endpoint, Sent, Program)
+                amended(papers, Host, program(Who, Hash, Endpoint), Sent,
+                        Program)
             ;   Image = Image0,
                 program(Endpoint, Hash, Program)
             ),
@@ -161,15 +166,6 @@ typhon_doubt:again(Transfer) :-
     (   transfer_image(Transfer, Image)
     ->  send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
-    ).
-
-%   Where there are keys.
-
-handed(Transfer, Address, Image0, Image) :-
-    arg(1, Transfer, Id),
-    (   agent(Id, Host, _, _, _)
-    ->  image_trail(handed(Address), Host, Image0, Image)
-    ;   Image = Image0                  % it was ended meanwhile
     ).
 
 %   The program is sent to processes that lack it as far as we know.
@@ -223,7 +219,7 @@ taken(need_program, Transfer) :-
         image_hash(Image, Hash),
         retractall(has_program(Endpoint, Hash)),
         transfer_traveller(Transfer, Who, _),
-        birth_unproved(Endpoint, Who),
+        forall(sent_again(Endpoint, Who), true),
         send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
     ).

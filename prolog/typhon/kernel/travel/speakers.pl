@@ -24,7 +24,13 @@ trustworthy as the process that sends it.
               [endpoint_keys/1, endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module('../host', [security_event/3]).
 :- use_module('../agent',
-              [agent/5, agent_home/2, agent_owned/2, birth_good/1]).
+              [ agent/5, agent_home/2, agent_owned/2, birth_good/1,
+                birth_unproved/2 ]).
+
+:- multifile typhon_hop:sent_again/2.
+
+typhon_hop:sent_again(Endpoint, Id) :-
+    birth_unproved(Endpoint, Id).
 
 %!  speaks_for(+Peer, +Births, +Id) is semidet.
 %
