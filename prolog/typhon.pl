@@ -36,9 +36,10 @@ a folder, with an interface of the same name beside it:
               agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
               agent_change/2, agent_dispose/1, agent_dispose/2, agent_join/3,
               agent_result/3, agent_listing/1, agent_save/2, agent_load/2,
-              agent_load/3, agent_trail/2, payload_attach/2, payload_detach/2
+              agent_load/3, payload_attach/2, payload_detach/2
             ]).
 :- reexport('typhon/options/trace').
+:- reexport(typhon/options/trail, [agent_trail/2]).
 :- reexport('typhon/network').
 :- reexport(typhon/tools, [agents/0, hosts/0]).
 :- reexport(typhon/tools/page, [page_start/1, page_stop/0]).

@@ -7,16 +7,12 @@ exception('prolog/typhon/kernel/agent/identity.pl',virtual).
 exception('prolog/typhon/kernel/agent/owner.pl',tls).
 exception('prolog/typhon/kernel/agent/quota_admission.pl',identity).
 exception('prolog/typhon/kernel/agent/time_quota.pl',identity).
-exception('prolog/typhon/kernel/agent/trail.pl',identity).
-exception('prolog/typhon/kernel/agent/trail_verified.pl',identity).
-exception('prolog/typhon/kernel/agent/trail_verified.pl',tls).
 exception('prolog/typhon/kernel/base/keys.pl',tls).
 exception('prolog/typhon/kernel/host/authors.pl',tls).
 exception('prolog/typhon/kernel/host/host_options.pl',identity).
 exception('prolog/typhon/kernel/host/host_options.pl',journal).
 exception('prolog/typhon/kernel/host/host_options.pl',quotas).
 exception('prolog/typhon/kernel/host/host_options.pl',tls).
-exception('prolog/typhon/kernel/host/host_options.pl',trail).
 exception('prolog/typhon/kernel/host/host_options.pl',virtual).
 exception('prolog/typhon/kernel/host/host_questions.pl',watch).
 exception('prolog/typhon/kernel/host/hosting.pl',journal).
@@ -51,7 +47,6 @@ exception('prolog/typhon/kernel/travel/post.pl',quotas).
 exception('prolog/typhon/kernel/travel/speakers.pl',tls).
 exception('prolog/typhon/kernel/vocabulary/seals.pl',tls).
 exception('prolog/typhon/kernel/vocabulary/words.pl',quotas).
-exception('prolog/typhon/kernel/vocabulary/words.pl',trail).
 exception('prolog/typhon/kernel/wire/acceptor.pl',guard).
 exception('prolog/typhon/kernel/wire/acceptor.pl',tls).
 exception('prolog/typhon/kernel/wire/connection.pl',tls).

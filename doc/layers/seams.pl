@@ -63,10 +63,6 @@ option_file(identity, 'agent/birth.pl').
 option_file(identity, 'agent/signed_payloads.pl').
 option_file(identity, 'host/authors.pl').
 option_file(identity, 'vocabulary/seals.pl').
-option_file(trail, 'agent/trail.pl').
-option_file(trail, 'agent/trail_verified.pl').
-option_file(trail, 'agent/chain.pl').
-option_file(trail, 'lifecycle/trails.pl').
 option_file(guard, 'program/allowed.pl').
 option_file(guard, 'program/guard.pl').
 option_file(guard, 'program/guard_arguments.pl').

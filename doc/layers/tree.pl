@@ -204,8 +204,8 @@ reach(Part, Module, Name/Arity) :-
 
 layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
          'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
-         'kernel/lifecycle', 'kernel/vocabulary', 'options/journal',
-         'options/access', 'options/trace', network, 'options/watch', tools,
+         'kernel/lifecycle', 'kernel/vocabulary', 'options/trail',
+         'options/journal', 'options/access', 'options/trace', network, 'options/watch', tools,
          'bridges/common', 'bridges/python', 'bridges/mqtt', 'bridges/fipa',
          'bridges/ros', 'tools/page' ]).
 

@@ -43,9 +43,6 @@ This is the interface of the layer: higher layers import from here.
             [ image_amended/5, image_clone/5, image_enter/4, image_hash/2, image_hop/6,
               image_entrant/2, image_label/2, image_module/3
             ]).
-:- reexport(agent/trail,
-            [trail_enter/3, trail_of/3]).
-:- reexport(agent/trail_verified, [trail_verified/3]).
 :- reexport('agent/printable_fallback').
 :- reexport('agent/fault').
 :- reexport(agent/payloads,

@@ -32,4 +32,3 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('lifecycle/join').
 :- reexport(lifecycle/restore,
             [agent_load/2, agent_load/3, agent_save/2]).
-:- reexport('lifecycle/trails').

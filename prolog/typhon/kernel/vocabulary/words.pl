@@ -32,7 +32,8 @@
             receive/2,                  % ?Message, +Timeout
             dispose/0
           ]).
-:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../program', [payload_load/2, payload_python/3]).
 :- use_module('../wire', [mobile_term/1]).
@@ -47,7 +48,7 @@
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
-                life_parent/2, life_payloads/2, trail_enter/3 ]).
+                life_parent/2, life_payloads/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
@@ -63,8 +64,11 @@ the machine takes care of them everywhere else.
 */
 
 :- multifile
+    enters/3,                   % Module, Id, Result: it is kept, and signed
     python_delivered/3,         % Host, Name, Source: a payload, where allowed
     python_undelivered/2.       % Host, Name
+
+:- dynamic enters/3.
 
 %!  self(-Id) is det.
 %!  here(-Host) is det.
@@ -339,7 +343,10 @@ enter(Result) :-
     mobile_term(Result),
     context_agent(Id),
     agent(Id, _, Module, _, _),
-    trail_enter(Module, Id, Result).
+    (   enters(Module, Id, Result)
+    ->  true
+    ;   existence_error(keys, here)
+    ).
 
 %!  result(+Term) is det.
 %

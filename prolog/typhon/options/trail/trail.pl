@@ -50,15 +50,19 @@ stays as it is, and has no more links.
 :- use_module(library(lists), [last/2, select/3, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module('../base/keys', [keys_sign/3]).
-:- use_module('../base/text', [term_text/2]).
-:- use_module('../wire', [endpoint_keys/1]).
-:- use_module('../host', [host_option/2]).
+:- use_module('../../kernel/base/keys', [keys_sign/3]).
+:- use_module('../../kernel/base/text', [term_text/2]).
+:- use_module('../../kernel/wire', [endpoint_keys/1]).
+:- use_module('../../kernel/host', [host_option/2]).
 :- use_module(chain, [chain_add/4]).
 
 :- multifile
     typhon_host_parts:changeable/1,
-    typhon_host_parts:part/4.
+    typhon_host_parts:part/4,
+    typhon_options:declared/4,
+    typhon_words:enters/3.
+
+typhon_options:declared(host_option, trail(X), boolean, X).
 
 typhon_host_parts:changeable(trail(_)).
 
@@ -227,6 +231,9 @@ trail_signed(Id, Text, Last, Signed) :-
     format(string(All), '~w ~w ~w', [Id, Last, Text]),
     text_sum(All, Sum),
     atom_concat('typhon trail ', Sum, Signed).
+
+typhon_words:enters(Module, Id, Result) :-
+    trail_enter(Module, Id, Result).
 
 %!  trail_enter(+Module, +Id, +Result) is det.
 %

@@ -1,8 +1,9 @@
 :- module(typhon_trail_verified,
-          [ trail_verified/3            % +Id, +Raw, -Trail
+          [ agent_trail/2,              % +Agent, -Trail
+            trail_verified/3            % +Id, +Raw, -Trail
           ]).
 
-/** <module> What a trail proves
+/** <module> What a trail proves: which hosts can be accounted for
 
 It is read as a whole on request only.
 
@@ -11,14 +12,41 @@ It is read as a whole on request only.
 
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module('../base/keys',
+:- use_module('../../kernel/base/keys',
               [keys_certificate/2, keys_holder/3, keys_verify/4]).
-:- use_module('../base/text', [text_term/2]).
-:- use_module('../wire', [endpoint_address/1, endpoint_keys/1]).
-:- use_module('../host', [address_parts/3]).
+:- use_module('../../kernel/base/text', [text_term/2]).
+:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_keys/1]).
+:- use_module('../../kernel/host', [address_parts/3]).
+:- use_module('../../kernel/agent', [agent/5, agent_home_endpoint/2]).
+:- use_module('../../kernel/lifecycle', [agent_answer/3, question_answered/2]).
 :- use_module(chain, [chain_links/2]).
-:- use_module(identity, [agent_home_endpoint/2]).
-:- use_module(trail, [trail_signed/4]).
+:- use_module(trail, [trail_of/3, trail_signed/4]).
+
+:- multifile typhon_questions:here/3.
+
+%!  agent_trail(+Agent, -Trail) is det.
+%
+%   Trail is trail(Steps, Verdict): which hosts have had Agent since it first
+%   left its process, with the keys of this process. A step is
+%   step(N, Name, What): the host with the certificate of that Name has signed
+%   that it was handed(To), received(At), or has entered(Result). Verdict is
+%   `whole`, or unaccounted(Name): after that host, or in its hands, state or
+%   code have changed without a signature; of what came later there are no
+%   steps; or since(N), if all is well from the N-th link on, and those before
+%   are gone. Without keys on its way an agent has no steps.
+%
+%   @error existence_error(agent, Agent)
+%   @error existence_error(keys, here)
+
+agent_trail(Agent, Trail) :-
+    agent_answer(Agent, trail, Raw),
+    trail_verified(Agent, Raw, Trail).
+
+typhon_questions:here(trail, Agent, Asker) :-
+    agent(Agent, _, Module, _, _),
+    !,
+    trail_of(Module, Agent, Raw),
+    question_answered(Asker, answer(Raw)).
 
 %!  trail_verified(+Id, +Raw, -Trail) is det.
 %
