@@ -36,12 +36,9 @@ exception('prolog/typhon/kernel/lifecycle/restore.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/running.pl',quotas).
 exception('prolog/typhon/kernel/program/advice.pl',snapshot).
 exception('prolog/typhon/kernel/program/check.pl',guard).
-exception('prolog/typhon/kernel/program/choices.pl',guard).
-exception('prolog/typhon/kernel/program/code.pl',guard).
 exception('prolog/typhon/kernel/program/code.pl',identity).
 exception('prolog/typhon/kernel/program/loaded.pl',identity).
 exception('prolog/typhon/kernel/program/machine.pl',guard).
-exception('prolog/typhon/kernel/program/mobile.pl',guard).
 exception('prolog/typhon/kernel/travel/mailbox_overflow.pl',quotas).
 exception('prolog/typhon/kernel/travel/post.pl',quotas).
 exception('prolog/typhon/kernel/travel/speakers.pl',tls).
@@ -57,6 +54,5 @@ exception('prolog/typhon/kernel/wire/lending.pl',watch).
 exception('prolog/typhon/kernel/wire/peer_cache.pl',tls).
 exception('prolog/typhon/kernel/wire/reader.pl',tls).
 exception('prolog/typhon/kernel/wire/refusals.pl',tls).
-exception('prolog/typhon/kernel/wire/request.pl',guard).
 exception('prolog/typhon/kernel/wire/secure.pl',identity).
 exception('prolog/typhon/kernel/wire/session.pl',tls).

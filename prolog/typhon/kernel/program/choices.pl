@@ -78,7 +78,7 @@ other_clause(Later, Head, Left) :-
 %
 %     - sure: there is more than one solution
 %     - other: another clause, or the other side of a disjunction
-%     - guarded: the same, but a goal was there to choose
+%     - chosen: the same, but a goal was there to choose
 %     - maybe: there may be more than one solution
 
 walk(_, _, dead, dead) -->
@@ -159,7 +159,7 @@ fails(_, _) -->
 %   failing(+Goal, +Left, -Kinds) is semidet: if Goal fails, choices of Kinds
 %   were meant, and not those that are Left.
 
-failing(Goal, Left, [sure,other,guarded,maybe]) :-
+failing(Goal, Left, [sure,other,chosen,maybe]) :-
     is_fail(Goal),
     !,
     \+ ( member(Kind-(;)/2, Left), Kind \== maybe ).
@@ -191,7 +191,7 @@ goes_on(Goal, _, _, dead) :-
 goes_on(Goal, Program, path(Seen, Left0, Lost), Path) :-
     Seen = Before-_,
     (   chooses(Goal)
-    ->  guarded(Left0, Left)
+    ->  chosen(Left0, Left)
     ;   Left = Left0
     ),
     (   solutions(Goal, Before, Program, Kind)
@@ -204,10 +204,10 @@ leaves(_, _, dead, dead) :-
     !.
 leaves(Kind, PI, path(Seen, Left, Lost), path(Seen, [Kind-PI|Left], Lost)).
 
-guarded([], []).
-guarded([Kind0-PI|Left0], [Kind-PI|Left]) :-
-    ( Kind0 == other -> Kind = guarded ; Kind = Kind0 ),
-    guarded(Left0, Left).
+chosen([], []).
+chosen([Kind0-PI|Left0], [Kind-PI|Left]) :-
+    ( Kind0 == other -> Kind = chosen ; Kind = Kind0 ),
+    chosen(Left0, Left).
 
 joined(dead, Path, Path) :-
     !.

@@ -37,7 +37,7 @@ A mobile predicate p/N has, besides its native form, clauses
 `'mobile p'(A1, ..., AN, Goals, Rest, Barrier)`: facts that unfold a call
 into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 
-*Threading*: one mutex guards the table; reading it needs none.
+*Threading*: one mutex protects the table; reading it needs none.
 */
 
 :- setting(programs, nonneg, 256,
@@ -271,17 +271,20 @@ declare(Module, (Name/Arity)-Kind) :-
 declare_mobile(native, _, _, _) :-
     !.
 declare_mobile(Kind, Module, Name, Arity) :-
-    guard(Kind, Guard),
+    condition(Kind, Condition),
     functor(Head, Name, Arity),
     mobile_head(Head, Goals, Rest, Barrier, Mobile),
     functor(Mobile, MName, MArity),
     dynamic(Module:MName/MArity),
-    assertz(Module:'$mobile'(Head, Mobile, Goals, Rest, Barrier, Guard)).
+    assertz(Module:'$mobile'(Head, Mobile, Goals, Rest, Barrier,
+                               Condition)).
 
-guard(guarded(PIs), guarded(Heads)) :-
+%   condition(+Kind, -Condition): when it is unfolded, see typhon_machine.
+
+condition(outside(PIs), outside(Heads)) :-
     !,
     maplist(indicator_head, PIs, Heads).
-guard(Kind, Kind).
+condition(Kind, Kind).
 
 indicator_head(Name/Arity, Head) :-
     functor(Head, Name, Arity).

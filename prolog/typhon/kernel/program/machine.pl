@@ -164,7 +164,7 @@ step(once(Goal), Goals, X, Base, Out) =>
 step(ignore(Goal), Goals, X, Base, Out) =>
     either((Goal->true), true, Goals, X, Base, Out).
 step(catch(Goal, Catcher, Recovery), Goals, X, Base, Out) =>
-    guarded(Goal, Catcher, Recovery, Goals, X, Base, Out).
+    catching(Goal, Catcher, Recovery, Goals, X, Base, Out).
 step('$at'(Control, fail), Goals, _, _, _) =>
     fails(Control, Goals).
 step('$at'(Control, throw(Error)), Goals, _, _, _) =>
@@ -191,8 +191,8 @@ special(guarded, Goal, Goals, X, Base, Out) :-
 
 called(Goal, Goals, X, Base, Out) :-
     X = context(Program, Agent),
-    (   Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Guard),
-        mobile(Guard, Agent)
+    (   Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Condition),
+        mobile(Condition, Agent)
     ->  prolog_current_choice(Barrier),
         (   Program:Clause
         *-> run(More, X, Base, Out)
@@ -252,7 +252,7 @@ stood(_, _).
 %   What is not caught here is not touched: else the place where it was
 %   raised would be lost.
 
-guarded(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
+catching(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
     Frame = Sub-catch(Sub,Catcher,Recovery),
     (   catch(inside(Goal, Frame, Goals, X, Out0), Catcher,
               Out0 = caught(Catcher))
@@ -287,11 +287,11 @@ raises(Error, Control, Goals) :-
     throw(Error),
     stood(Control, Goals).
 
-%   mobile(+Guard, +Agent): must this static predicate be unfolded?
+%   mobile(+Condition, +Agent): must this static predicate be unfolded?
 
 mobile(mobile, _).
 mobile(open, _).
-mobile(guarded(Heads), Agent) :-
+mobile(outside(Heads), Agent) :-
     has_rule(Heads, Agent).
 
 has_rule([Head|Heads], Agent) :-

@@ -22,7 +22,7 @@ A static predicate of an agent program is
     clauses: the machine unfolds it;
   - `open` if it calls a goal that is known only at run time, or adds
     rules to the state: the machine unfolds it, too;
-  - guarded(PIs) if it calls predicates that are not in the program (state,
+  - outside(PIs) if it calls predicates that are not in the program (state,
     payloads, the place): unfolded as long as one of them holds rules;
   - `native` otherwise: called at full speed.
 
@@ -115,7 +115,7 @@ kind_of(Reached, Calls, Kind) :-
             Outside),
     (   Outside == []
     ->  Kind = native
-    ;   Kind = guarded(Outside)
+    ;   Kind = outside(Outside)
     ).
 
 %   closure(+Agenda, +Calls, +Seen, -Reached): what is called at the level

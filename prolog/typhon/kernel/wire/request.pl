@@ -74,7 +74,7 @@ request_send(Session, Kind, Term, OnAnswer) :-
 %   Give Result to the caller. Never raises: what goes wrong is reported.
 
 request_answer(Result, OnAnswer) :-
-    guarded(call(OnAnswer, Result), answer).
+    reporting(call(OnAnswer, Result), answer).
 
 %!  request_forget(:OnAnswer) is det.
 %
@@ -157,7 +157,7 @@ dispatch(Session, request(Id, Kind, Term)) :-
     session_peer(Session, _, Peer),
     (   take_request(Kind, Term, Peer, reply_to(Session, Id))
     ->  true
-    ;   guarded(session_answer(Session, spoilt(Id)), Kind)
+    ;   reporting(session_answer(Session, spoilt(Id)), Kind)
     ).
 dispatch(Session, answer(Id, Term)) :-
     !,
@@ -205,7 +205,7 @@ together(Kind, Terms, Fewer) :-
 %   Call the hook for what Peer sent.  The latter fails if none takes it.
 
 take_post(Kind, Term, Peer) :-
-    guarded(typhon_endpoint:received(Kind, Term, Peer), Kind).
+    reporting(typhon_endpoint:received(Kind, Term, Peer), Kind).
 
 take_request(Kind, Term, Peer, ReplyTo) :-
     attempt(typhon_endpoint:requested(Kind, Term, Peer, ReplyTo), Kind).
@@ -222,9 +222,9 @@ connection_is(Session, State) :-
     sort(Addresses0, Addresses),
     forall(( member(Peer, Addresses),
              clause(typhon_endpoint:connection(Peer, State), Body) ),
-           guarded(typhon_endpoint:Body, connection)).
+           reporting(typhon_endpoint:Body, connection)).
 
-guarded(Goal, Kind) :-
+reporting(Goal, Kind) :-
     (   attempt(Goal, Kind)
     ->  true
     ;   true
