@@ -49,6 +49,7 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/kernel/vocabulary, []).
 :- use_module(typhon/options/journal, []).
 :- use_module(typhon/options/access, []).
+:- use_module(typhon/options/guard, []).
 
 :- user_errors(typhon).
 

@@ -1,4 +1,3 @@
-exception('prolog/typhon/kernel/agent/agent_module.pl',guard).
 exception('prolog/typhon/kernel/agent/agent_module.pl',quotas).
 exception('prolog/typhon/kernel/agent/agents.pl',quotas).
 exception('prolog/typhon/kernel/agent/identity.pl',identity).
@@ -35,16 +34,13 @@ exception('prolog/typhon/kernel/lifecycle/questions.pl',watch).
 exception('prolog/typhon/kernel/lifecycle/restore.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/running.pl',quotas).
 exception('prolog/typhon/kernel/program/advice.pl',snapshot).
-exception('prolog/typhon/kernel/program/check.pl',guard).
 exception('prolog/typhon/kernel/program/code.pl',identity).
 exception('prolog/typhon/kernel/program/loaded.pl',identity).
-exception('prolog/typhon/kernel/program/machine.pl',guard).
 exception('prolog/typhon/kernel/travel/mailbox_overflow.pl',quotas).
 exception('prolog/typhon/kernel/travel/post.pl',quotas).
 exception('prolog/typhon/kernel/travel/speakers.pl',tls).
 exception('prolog/typhon/kernel/vocabulary/seals.pl',tls).
 exception('prolog/typhon/kernel/vocabulary/words.pl',quotas).
-exception('prolog/typhon/kernel/wire/acceptor.pl',guard).
 exception('prolog/typhon/kernel/wire/acceptor.pl',tls).
 exception('prolog/typhon/kernel/wire/connection.pl',tls).
 exception('prolog/typhon/kernel/wire/endpoint.pl',tls).

@@ -33,7 +33,7 @@ option_words(tls,      [tls, secure, certificate, certificates]).
 option_words(identity, [owner, owners, signed, signature, signatures,
                         authors, unseal]).
 option_words(trail,    [trail, trails, chain]).
-option_words(guard,    [guard, guarded, guards, strangers]).
+option_words(guard,    [guard, guarded, guards]).
 option_words(quotas,   [quota, quotas, spending, overuse, leavings, stay]).
 option_words(access,   [access_rules, audit, permits]).
 option_words(virtual,  [virtual]).
@@ -63,17 +63,6 @@ option_file(identity, 'agent/birth.pl').
 option_file(identity, 'agent/signed_payloads.pl').
 option_file(identity, 'host/authors.pl').
 option_file(identity, 'vocabulary/seals.pl').
-option_file(guard, 'program/allowed.pl').
-option_file(guard, 'program/guard.pl').
-option_file(guard, 'program/guard_arguments.pl').
-option_file(guard, 'program/guard_bodies.pl').
-option_file(guard, 'program/guard_texts.pl').
-option_file(guard, 'program/guard_calls.pl').
-option_file(guard, 'program/guarded_code.pl').
-option_file(guard, 'program/refusing.pl').
-option_file(guard, 'host/sandbox_view.pl').
-option_file(guard, 'vocabulary/guarded.pl').
-option_file(guard, 'agent/guard_admission.pl').
 option_file(quotas, 'host/quotas.pl').
 option_file(quotas, 'host/rate_limits.pl').
 option_file(quotas, 'host/tuple_quota.pl').

@@ -20,6 +20,7 @@ This is the interface of the layer: higher layers import from here.
             [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
               agent_elsewhere/3, agent_handles/2,
               agent_module/5, agent_standing/5, agent_state/2 ]).
+:- reexport(agent/variants, [agent_variant/2]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
               agent_owned/1, agent_owned/2,
@@ -35,9 +36,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
 :- use_module(agent/owner, []).
 :- reexport(agent/time_quota, [stay_count/3, stay_owner/3, stay_until/3]).
-:- reexport(agent/state_text, [state_text/2, state_text_add/2]).
+:- reexport(agent/state_text, [state_text/2]).
 :- reexport('agent/gate').
-:- use_module(agent/guard_admission, []).
 :- use_module(agent/quota_admission, []).
 :- reexport(agent/image,
             [ image_amended/5, image_clone/5, image_enter/4, image_hash/2, image_hop/6,

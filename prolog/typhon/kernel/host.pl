@@ -19,9 +19,10 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('host/event_shown').
 :- reexport('host/host_log').
 :- reexport(host/host_parts, [amended/5, parts/3]).
-:- reexport(host/place, [place_deliver/3, place_undeliver/2]).
+:- reexport(host/place,
+            [ place_deliver/3, place_host/2, place_service/2,
+              place_undeliver/2 ]).
 :- reexport('host/tuples').
-:- reexport(host/sandbox_view, [module_policy/2, guarding/0, place_front/3]).
 :- reexport(host/clock, [clock/3, host_time/2, real_time/3]).
 :- reexport(host/context,
             [ context/3, context_agent/1, context_clear/0, context_host/1,

@@ -19,18 +19,16 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(program/unknown, [unknown_advice/3]).
 :- reexport(program/code,
             [ code_install/2, code_install/3, code_receive/2, code_module/2,
-              code_names/2, code_program/2, code_sent/2, code_stands/2, code_clear/0
-            ]).
-:- reexport(program/allowed, [policy_read/1]).
-:- reexport(program/guard, [guard_clauses/3, guard_declares/2, guard_state/3]).
-:- reexport('program/guard_calls').
-:- reexport(program/guarded_code, [code_check/3, code_guarded/3]).
+              code_names/2, code_program/2, code_sent/2, code_stands/2,
+              code_clear/0, code_make/3, sent_program/2 ]).
+:- reexport(program/mobile, [mobile_predicates/3]).
 :- reexport(program/signatures,
             [program_author/3, signature_author/4, signature_keep/2]).
 :- reexport(program/signed,
             [ file_sign/2, payload_hash/2, payload_load/2,
               payload_signature/2 ]).
-:- reexport(program/machine, [answer_at/3, machine_inside/0, machine_run/3]).
+:- reexport(program/machine,
+            [ answer_at/3, control/1, machine_inside/0, machine_run/3 ]).
 :- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).
 :- reexport(program/clause_location, [fault_where/4, where_handled/5]).
 :- reexport(program/bodies, [body_goals/4, goals_body/2, plain_goals/2]).

@@ -14,12 +14,11 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module('../program',
-              [ code_guarded/3, code_module/2, guard_clauses/3,
-                guard_declares/2, guard_goals/3, guard_state/3 ]).
+:- use_module('../program', [code_module/2]).
 :- use_module('../host',
-              [guarding/0, host/3, module_policy/2, place_front/3, quota/3]).
+              [host/3, quota/3]).
 :- use_module(agents, [agent/5]).
+:- use_module(variants, [agent_variant/2, place_variant/3]).
 
 /** <module> The module of an agent
 
@@ -39,7 +38,7 @@ worker.
 %   @arg State is state(Empty, Clauses): what is dynamic without having
 %        clauses, and the clauses of all else.
 %   @error what assertz/1 raises
-%   @error permission_error(call, sandboxed, Culprit) where the host guards
+%   @error what a variant raises, see typhon_variants
 
 agent_module(Id, Place, Hash, State0, Module) :-
     code_module(Hash, Program0),
@@ -64,16 +63,13 @@ within_space(Place, Module) :-
     set_module(Module:program_space(Most)).
 within_space(_, _).
 
-%   below(+Place, +Hash, +Program0, +State0, -Program, -Above, -State): on a
-%   host that guards, an agent has a program and a state that were looked
-%   through, and hangs below the front of the place.
+%   below(+Place, +Hash, +Program0, +State0, -Program, -Above, -State)
 
-below(Place, Hash, _, State0, Program, Front, State) :-
-    guarding,
-    place_front(Place, Front, Policy),
+below(Place, Hash, _, State0, Program, View, State) :-
+    place_variant(Place, View, Variant),
     !,
-    code_guarded(Policy, Hash, Program),
-    guard_state(Policy, State0, State).
+    typhon_variants:program(Variant, Hash, Program),
+    typhon_variants:state(Variant, State0, State).
 below(Place, _, Program, State, Program, Place, State).
 
 %!  agent_code(+Module, -Program) is det.
@@ -88,14 +84,13 @@ agent_code(Module, Program) :-
 %
 %   Goals are what the agent is to do where it stands.
 %
-%   @error permission_error(call, sandboxed, Culprit)
+%   @error what a variant raises
 
 agent_goals(Module, Goals0, Goals) :-
-    guarding,
-    module_policy(Module, Policy),
+    agent_variant(Module, Variant),
     !,
     agent_code(Module, Program),
-    guard_goals(own(module(Program), Policy), Goals0, Goals).
+    typhon_variants:goals(Variant, Program, Goals0, Goals).
 agent_goals(_, Goals, Goals).
 
 %!  agent_standing(+Id, +Place, +Hash, +Begin, -Agent) is semidet.
@@ -113,11 +108,11 @@ agent_standing(Id, Place, Hash, State-Goals0, Module-Goals) :-
 %
 %   Clauses may be added to the state of the agent.
 %
-%   @error permission_error(call, sandboxed, Culprit)
+%   @error what a variant raises
 
 agent_clauses(Module, Clauses0, Clauses) :-
-    (   module_policy(Module, Policy)
-    ->  guard_clauses(Policy, Clauses0, Clauses)
+    (   agent_variant(Module, Variant)
+    ->  typhon_variants:clauses(Variant, Clauses0, Clauses)
     ;   Clauses = Clauses0
     ).
 
@@ -224,7 +219,7 @@ latest([Last-_|Changed], Until0, Until) :-
 %   what is the same everywhere: its program and the vocabulary.
 
 agent_elsewhere(Module, Place0, Place) :-
-    (   guarding
+    (   typhon_variants:variant(_, _)
     ->  stands_below(Place0, Place, Module, Above0, Above)
     ;   Above0 = Place0,
         Above = Place
@@ -234,20 +229,20 @@ agent_elsewhere(Module, Place0, Place) :-
     delete_import_module(Module, Above0),
     add_import_module(Module, Above, end).
 
-%   Without guards the module hangs below the place itself.  Of a module
+%   Both places run the same variant, or the program as it is.  Of a module
 %   that is given import_module/2 of 9.0.4 looks only whether it is the first.
 
 stands_below(Place0, Place, Module, Above0, Above) :-
-    above(Place0, Above0, Policy),
-    above(Place, Above, Policy),
+    above(Place0, Above0, Variant),
+    above(Place, Above, Variant),
     once(( import_module(Module, Some), Some == Above0 )).
 
-above(Place, Front, Policy) :-
-    place_front(Place, Front0, Policy0),
+above(Place, View, Variant) :-
+    place_variant(Place, View0, Variant0),
     !,
-    Front = Front0,
-    Policy = Policy0.
-above(Place, Place, trusted).
+    View = View0,
+    Variant = Variant0.
+above(Place, Place, none).
 
 bound_here(Module, Place0, Head) :-
     '$get_predicate_attribute'(Module:Head, imported, From),
@@ -294,8 +289,8 @@ attach_clauses(Module, Hash, payload(_, PIs, Clauses0)) :-
     add_clauses(Clauses, Module).
 
 may_have(Module, PI) :-
-    (   module_policy(Module, Policy)
-    ->  guard_declares(Policy, PI)
+    (   agent_variant(Module, Variant)
+    ->  typhon_variants:declares(Variant, PI)
     ;   true
     ).
 

@@ -1,6 +1,5 @@
 :- module(typhon_state_text,
-          [ state_text_add/2,           % +Module, +Clause
-            state_text/2,               % +Id, -Characters
+          [ state_text/2,               % +Id, -Characters
             state_text_forget/1         % +Id
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -17,15 +16,21 @@ that is there is counted anew.
 *Threading*: the thread that runs the agent; state_text/2 any thread.
 */
 
+:- multifile typhon_host_parts:part/4.
+
 :- dynamic text/2.                      % Id, Characters
 
-%!  state_text_add(+Module, +Clause) is det.
-%
-%   The running agent, whose state is in Module, adds Clause.
+typhon_host_parts:part(adds_clause, Host, 10, typhon_state_text:text_added) :-
+    once(quota(Host, state, _)).
+
+:- public text_added/2.
+
+%   text_added(+Module, +Clause): the running agent, whose state is in Module,
+%   adds Clause.
 %
 %   @error resource_error(state)
 
-state_text_add(Module, Clause) :-
+text_added(Module, Clause) :-
     (   context_now(Host, Id),
         Id \== none,
         quota(Host, state, Most)

@@ -22,6 +22,12 @@ up one list of closures, and a host without options has none.
   | admit         | From, Entrant, Host, Verdict | an agent asks to enter, see |
   |               |                              | typhon_gate                 |
   | admit_program | From, Entrant, Host, Verdict | its program is here, too    |
+  | view          | (a module)                   | an agent is installed, see  |
+  |               |                              | typhon_variants             |
+  | makes_text    | Length                       | a running agent makes atoms |
+  |               |                              | of that length              |
+  | adds_clause   | Module, Clause               | a running agent, whose      |
+  |               |                              | state is in Module, adds it |
   | permit        | Proof, Right                 | a peer uses a right, see    |
   |               |                              | typhon_peer_rights          |
   | security      | Host, Peer, Proof, What      | a security event, see there |

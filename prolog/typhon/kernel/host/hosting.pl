@@ -110,8 +110,7 @@ other users of the process its endpoint, see typhon_runtime.
 %       end of the process, `full` if a power cut, too
 %     - policy(+Policy): what agents may do here: `trusted`, everything,
 %       which is the default; `guarded`, what cannot harm others, see
-%       typhon_guard and doc/security.md; or a file of rules, see
-%       policy_read/1
+%       typhon_sandbox and doc/security.md; or a file of rules
 %     - peer(+Rules): which processes may do what, see typhon_access_rules
 %     - audit(+File): refusals and orders are noted there
 %     - quota(+List): how much agents may use, each, those of one owner, and
@@ -309,7 +308,9 @@ start_host(Name, Endpoint, Options) :-
     place_create(Name, Files, Services, Place),
     catch(forall(typhon_host_parts:begins(Name, Place, Options), true),
           error(Formal, Context),
-          ( place_destroy(Place), throw(error(Formal, Context)) )),
+          ( forall(typhon_host_parts:ends(Name), true),
+            place_destroy(Place),
+            throw(error(Formal, Context)) )),
     clock_set(Name, Epoch, Rate),
     scheduler_limit(Name, Concurrency),
     host_add(Name, Address, Place, Options),

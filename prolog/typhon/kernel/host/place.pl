@@ -4,7 +4,9 @@
             place_destroy/1,            % +Place
             place_host/2,               % ?Place, ?Host
             place_deliver/3,            % +Place, +Payload, -PIs
-            place_undeliver/2           % +Place, +Name
+            place_undeliver/2,          % +Place, +Name
+            place_service/2,            % ?Place, ?PI
+            service/1                   % +PIs
           ]).
 :- use_module(library(apply), [exclude/3, include/3]).
 :- use_module(library(debug), [debug/3]).
@@ -15,8 +17,7 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_drop_all/2, durable_put/4]).
 :- use_module('../base/unit_of_work', [unit_drop/3]).
-:- use_module('../program', [clause_parts/3]).
-:- use_module(sandbox_view, [front_gone/1, service/1]).
+:- use_module('../program', [clause_parts/3, indicator_in/2]).
 
 /** <module> Places: what a host offers to the agents on it
 
@@ -27,10 +28,16 @@ predicates through the import chain agent, place, vocabulary, system.
 make/0 loads files anew that have changed since they were consulted into a
 place. Agents that stand there meet the new clauses with their next call.
 
+Files that are consulted into a place offer predicates to all agents, also to
+those that see nothing else of the place, by directives
+
+    :- service(p/1).
+
 *Threading*: any thread.
 */
 
 :- multifile
+    serves/2,                   % Place, PI: it offers that from now on
     prolog:make_hook/2,
     typhon_durable:restore/4,
     typhon_durable:dump/4.
@@ -39,6 +46,8 @@ place. Agents that stand there meet the new clauses with their next call.
     place_host/2,               % Place, Host
     loaded/4,                   % Place, SourceId, File, Time: consulted
                                 % into it, as File was at Time
+    place_service/2,            % Place, PI: offered to all agents
+    serves/2,
     delivered/3.                % Place, Payload name, PIs
 
 %!  place_create(+Host, +Files, +Services, -Place) is det.
@@ -57,7 +66,7 @@ place_create(Host, Files, Services, Place) :-
     ->  assertz(place_host(Place, Host))
     ;   true
     ),
-    Place:import(typhon_sandbox_view:service/1),
+    Place:import(typhon_place:service/1),
     catch(( forall(member(Service, Services), place_offer(Place, Service)),
             forall(member(File, Files), consult_into(Place, File))
           ),
@@ -79,6 +88,24 @@ place_offer(Place, Service) :-
     forall(member(PI, PIs), Place:import(Service:PI)).
 place_offer(Place, Service) :-
     Place:use_module(Service).
+
+%!  service(+PIs) is det.
+%!  place_service(?Place, ?PI) is nondet.
+%
+%   A directive in a file that is consulted into a place: all agents may call
+%   PIs, predicates like p/1 with commas between.
+
+service(PIs) :-
+    prolog_load_context(module, Place),
+    forall(indicator_in(PIs, PI), serve(Place, PI)).
+
+serve(Place, PI) :-
+    place_service(Place, PI),
+    !.
+serve(Place, PI) :-
+    must_be(ground, PI),
+    assertz(place_service(Place, PI)),
+    forall(serves(Place, PI), true).
 
 %   A file may be consulted into many places: each time as another source.
 
@@ -137,7 +164,7 @@ place_destroy(Place) :-
     ->  durable_drop_all(tuple, Host)
     ;   true
     ),
-    front_gone(Place),
+    retractall(place_service(Place, _)),
     '$destroy_module'(Place).
 
 forget_payload(Place, Name) :-

@@ -2,7 +2,6 @@
           [ quota_spend/3,              % +Host, +Agent, +What
             quota_spend/4,              % +Host, +Family, +What, +Most
             quota_cells/2,              % +Host, +Term
-            atoms_made/1,               % +Length
             quota_begin/0,
             quota_passed/1              % +What
           ]).
@@ -23,6 +22,7 @@ thread at a time; what it shares with others is counted under a mutex.
 */
 
 :- multifile
+    typhon_host_parts:part/4,
     typhon_quotas:forgotten/1,
     owner/3.                    % +Host, +Agent, -Owner
 
@@ -171,11 +171,14 @@ quota_cells(Host, Term) :-
     quota_passed(cells).
 quota_cells(_, _).
 
-%!  atoms_made(+Length) is det.
-%
-%   The running agent makes atoms of that length together.  Their text is not
-%   part of the stack: what an agent makes between two stops counts as if it
-%   were.
+typhon_host_parts:part(makes_text, Host, 10, typhon_rate_limits:atoms_made) :-
+    once(quota(Host, stack, _)).
+
+:- public atoms_made/1.
+
+%   atoms_made(+Length): the running agent makes atoms of that length together.
+%   Their text is not part of the stack: what an agent makes between two stops
+%   counts as if it were.
 %
 %   @error resource_error(stack)
 

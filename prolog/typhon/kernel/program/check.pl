@@ -4,12 +4,9 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2]).
-:- use_module(library(option), [option/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module(advice, [problem_error/3]).
-:- use_module(allowed, [policy_read/1]).
 :- use_module(goal_lines, [problem_at_goal/2]).
-:- use_module(guard, [guard_program/3, guard_refuses/4]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(parts, [file_parts/4, library_directive/2, part/3]).
 :- use_module(programs,
@@ -25,7 +22,8 @@
 *Threading*: any thread.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile objection/3.               % Options, Program, Where-Formal
+:- dynamic objection/3.
 
 %!  agent_check(+Spec) is det.
 %
@@ -57,39 +55,35 @@ agent_check(Spec) :-
 
 %!  agent_check(+Spec, +Options) is semidet.
 %
-%   With the option policy(Policy), see host_start/2, it is also looked at
-%   whether a host that guards would let the program or the payload in: fails
-%   if not, and reports what is refused as errors.
+%   Options say where the program or the payload is to run.  With the option
+%   policy(Policy), see host_start/2, what a host with that policy would refuse
+%   is reported as errors, and agent_check/2 fails if there is any.
 
 agent_check(Spec, Options) :-
     check_options(check_option, Options),
     agent_check(Spec),
-    option(policy(Policy), Options, trusted),
-    (   Policy == trusted
-    ->  true
-    ;   policy_read(Policy),
-        once(source_terms(Spec, Located, _, [], _)),
-        would_be_let_in(Policy, Spec, Located)
+    once(source_terms(Spec, Located, _, Unread, _)),
+    (   Unread == []
+    ->  no_objections(Options, Spec, Located)
+    ;   Options == []
     ).
 
-typhon_options:declared(check_option, policy(Policy), atom, Policy).
+%   objection(+Options, +Program, -Objection) is nondet: an option of the
+%   process has an objection Where-Formal to program(Rules, Libraries), where
+%   Rules are pairs Rule-Location.  Where is unbound if it is not known.
 
-would_be_let_in(Policy, Spec, Located) :-
+no_objections(Options, Spec, Located) :-
     ( is_payload(Located) -> Kind = payload ; Kind = agent ),
     file_parts(Kind, Located, Parts, _),
     part(rules, Parts, Rules),
-    findall(Rule, member(Rule-_, Rules), Clauses),
-    findall(Where-Formal,
-            ( member(Rule-Where, Rules),
-              guard_refuses(Policy, Clauses, Rule, Formal) ),
-            Refused),
-    forall(member(Where-Formal, Refused),
-           print_message(error, typhon(not_let_in(Where, Formal)))),
-    findall(Library-all, library_directive(Parts, Library-_), Libraries),
-    catch(guard_program(Policy, program(x, [], Libraries, []), _),
-          error(Formal, _),
-          ( print_message(error, typhon(not_let_in(Spec, Formal))), fail )),
-    Refused == [].
+    findall(Library, library_directive(Parts, Library-_), Libraries),
+    findall(Objection,
+            objection(Options, program(Rules, Libraries), Objection),
+            Objections),
+    forall(member(Where-Formal, Objections),
+           ( ignore(Where = Spec),
+             print_message(error, typhon(not_let_in(Where, Formal))) )),
+    Objections == [].
 
 report(Severity, Problem0) :-
     problem_at_goal(Problem0, Problem),

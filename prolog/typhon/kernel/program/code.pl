@@ -2,6 +2,7 @@
           [ code_install/2,             % +Hash, +Program
             code_install/3,             % +Hash, +Program, +Kinds
             code_receive/2,             % +Hash, +Sent
+            sent_program/2,             % +Sent, -Program
             code_module/2,              % ?Hash, -Module
             code_program/2,             % ?Hash, -Program
             code_sent/2,                % +Hash, -Sent
@@ -113,6 +114,19 @@ code_receive(Hash, Sent) :-
     ->  receive(Hash, Program),
         code_stands(Hash, Places)
     ;   receive(Hash, Sent)
+    ).
+
+%!  sent_program(+Sent, -Program) is semidet.
+%
+%   Program is what code_receive/2 would install.  Whether it is well formed is
+%   not checked.
+
+sent_program(Sent, Program) :-
+    (   subsumes_term(signed(_, _), Sent)
+    ->  Sent = signed(Sent1, _),
+        sent_program(Sent1, Program)
+    ;   ( subsumes_term(_-_, Sent) -> Sent = Program-_ ; Program = Sent ),
+        subsumes_term(program(_, _, _, _), Program)
     ).
 
 receive(Hash, Program) :-

@@ -7,7 +7,7 @@
 :- use_module(bodies,
               [body_goals/4, called_goal/2, goals_body/2, plain_goals/2]).
 :- multifile
-    guarded/3.                  % Context, Goal, Called: it may be called
+    checked/3.                  % Context, Goal, Called: it may be called
 :- use_module(faults, [fails/2, fails_inside/2]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
@@ -61,7 +61,7 @@ special(receive_until(_, _, _), control).
 special(receive_until(_, _), control).  % in old restore points
 special('$fault'(_), control).          % stays as it was: see typhon_faulty
 special_of(call, call).                 % with more than one argument
-special_of('$guarded', guarded).        % see typhon_guard
+special_of('$checked', checked).        % see typhon_checked
 
 %!  machine_run(+Context, +Goals, -Outcome) is det.
 %
@@ -182,8 +182,8 @@ special(call, Goal, Goals, X, Base, Out) :-
     ->  step(call(Called), Goals, X, Base, Out)
     ;   called(Goal, Goals, X, Base, Out)       % which raises
     ).
-special(guarded, Goal, Goals, X, Base, Out) :-
-    guarded(X, Goal, Called),
+special(checked, Goal, Goals, X, Base, Out) :-
+    checked(X, Goal, Called),
     step(call(Called), Goals, X, Base, Out).
 
 %   called(+Goal, ...): a goal that is no construct is unfolded by a clause

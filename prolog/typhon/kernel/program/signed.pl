@@ -11,7 +11,7 @@ Programs and payloads. A payload has no name of its own on the way, since its
 clauses are part of the state of an agent; its hash is that of a program with
 the same clauses that no file could be. The order of its predicates does not
 count, that of their clauses does; and it is that of its clauses as they are
-stored, without what a host that guards has written into them.
+stored, without what a variant has written into them.
 
 *Threading*: any thread; no state.
 */
@@ -101,14 +101,20 @@ clause_of(Name/Arity, Clauses, Head, Body) :-
 %   A goal that is a variable is stored as call/1, and the like.
 
 stored(Module, (Head0:-Body0), (Head:-Body)) :-
-    mapsubterms(unguarded, Body0, Body1),
+    mapsubterms(unchecked, Body0, Body1),
     assertz(Module:(Head0:-Body1), Ref),
     clause(Module:Head, Body, Ref).
 
-unguarded(Goal, Plain) :-
-    compound(Goal),
-    Goal = '$guarded'(Plain0),
-    ( mapsubterms(unguarded, Plain0, Plain) -> true ; Plain = Plain0 ).
+unchecked(Goal, Plain) :-
+    rewritten(Goal, Plain0),
+    ( mapsubterms(unchecked, Plain0, Plain) -> true ; Plain = Plain0 ).
+
+rewritten(Goal, Plain) :-
+    subsumes_term('$checked'(_), Goal),
+    arg(1, Goal, Plain).
+rewritten(Goal, Plain) :-
+    subsumes_term(('$uncaught'(_),_), Goal),
+    arg(2, Goal, Plain).
 
 payload_signature(Payload, Signature) :-
     program_signature(_, _),            % there are signatures

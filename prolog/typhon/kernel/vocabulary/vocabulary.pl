@@ -23,9 +23,9 @@ typhon_seals) and libraries without state that agents may use without asking.
 :- use_module(library(solution_sequences)).
 :- use_module(library(yall)).
 :- use_module(memory, [next_host/2]).
-:- use_module(guarded,
-              [ '$guarded'/1, '$guarded'/2, '$guarded'/3, '$guarded'/4,
-                '$guarded'/5, '$guarded'/6, '$guarded'/7, '$guarded'/8,
+:- use_module(checked,
+              [ '$checked'/1, '$checked'/2, '$checked'/3, '$checked'/4,
+                '$checked'/5, '$checked'/6, '$checked'/7, '$checked'/8,
                 '$uncaught'/1 ]).
 :- use_module(seals, [seal/3, unseal/2]).
 :- use_module(words).

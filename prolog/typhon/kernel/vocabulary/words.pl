@@ -41,14 +41,13 @@
               [ context/3, context_agent/1, context_host/1, context_now/2,
                 event/4, host/3, host_address/2, host_closed/1,
                 host_link_cost/3, host_load/2, host_logs/1, host_neighbours/2,
-                host_time/2, place_deliver/3, module_policy/2,
-                place_undeliver/2, quota/3, leaver/2, may_leave/1,
+                host_time/2, place_deliver/3, place_undeliver/2, quota/3, leaver/2, may_leave/1,
                 quota_cells/2, quota_passed/1, quota_spend/3,
                 tuple_leave/3, tuple_leave_new/3, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
-                agent_handled/3, agent_payload/3, legacy_result/2, life_hops/2,
-                life_parent/2, life_payloads/2 ]).
+                agent_handled/3, agent_payload/3, agent_variant/2,
+                legacy_result/2, life_hops/2, life_parent/2, life_payloads/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
@@ -151,7 +150,7 @@ send(at(Agent, _), Message), \+ compound(Agent) =>
     send(Agent, Message).
 send(External, Message), compound(External) =>
     context(Host, Id, Module),
-    (   module_policy(Module, _)        % not in the name of this host
+    (   agent_variant(Module, _)        % not in the name of this host
     ->  permission_error(call, sandboxed, send(External, Message))
     ;   true
     ),

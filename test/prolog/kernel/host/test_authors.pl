@@ -203,7 +203,7 @@ guards_on_the_way(Carrier, Good, Beta, Alpha) :-
     assertion(First == arrived),
     agent_property(Agent, host(Guarding)),
     agent_property(Agent, facts(Facts)),
-    assertion(( sub_term(Sub, Facts), subsumes_term('$guarded'(_), Sub) )),
+    assertion(( sub_term(Sub, Facts), subsumes_term('$checked'(_), Sub) )),
     agent_send(Agent, go(Alpha)),
     wait_until(carried(Agent, Alpha, Came), 20),
     assertion(Came == arrived),

@@ -10,13 +10,13 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(assoc), [get_assoc/3]).
 :- use_module(library(lists), [append/3]).
+:- use_module('../../kernel/program', [control/1]).
 :- use_module(allowed, [allowed/3, own_name/1]).
-:- use_module(machine, [control/1]).
-:- use_module(refusing, [refuse/1]).
+:- use_module(guard_limits, [refuse/1]).
 
 /** <module> The goals in clauses of untrusted agents
 
-See typhon_guard.  Own is own(Heads, Policy), where Heads is heads(Assoc) or
+See typhon_guard_clauses.  Own is own(Heads, Policy), where Heads is heads(Assoc) or
 module(Module), where the static predicates of the agent are, or `none`.
 
 What is looked at here is not what will run, but a copy of it is: each
@@ -53,7 +53,7 @@ guard(Body0, Own, Body) :-
     part_counted,
     guarded(Body0, Own, Body).
 
-guarded(Goal, _, '$guarded'(Goal)) :-
+guarded(Goal, _, '$checked'(Goal)) :-
     var(Goal),
     !.
 guarded(catch(Goal0, Ball, Recovery0), Own, catch(Goal, Ball, Recovery)) :-
@@ -70,7 +70,7 @@ guarded(Goal, _, Goal) :-
 guarded(Goal, Own, Goal) :-
     is_own(Goal, Own),
     !.
-guarded(sleep(Seconds), _, '$guarded'(sleep(Seconds))) :-
+guarded(sleep(Seconds), _, '$checked'(sleep(Seconds))) :-
     !.
 guarded(Goal0, Own, Goal) :-
     callable(Goal0),
@@ -128,7 +128,7 @@ construct(ignore(A0), [A0], ignore(A), [A]).
 
 passes(Goal) :-
     compound(Goal),
-    compound_name_arity(Goal, '$guarded', _).
+    compound_name_arity(Goal, '$checked', _).
 passes('$uncaught'(_)).
 passes('$at'(_, Answer)) :-
     ( Answer == fail ; subsumes_term(throw(error(_, _)), Answer) ).
@@ -170,7 +170,7 @@ defined_in(module(Module), Goal) :-
     \+ '$get_predicate_attribute'(Module:Goal, imported, _).
 
 guard_allowed(free, Goal, _, Goal).
-guard_allowed(look(_), Goal, _, '$guarded'(Goal)).
+guard_allowed(look(_), Goal, _, '$checked'(Goal)).
 guard_allowed(runs(Spec), Goal0, Own, Goal) :-
     compound_name_arguments(Goal0, Name, Args0),
     compound_name_arguments(Spec, _, Modes),
@@ -202,7 +202,7 @@ below_variables(Goal0, Own, Goal) :-
 %   more.  One whose goals are not as they stand is looked at when it is
 %   called.
 
-closure(_, _, Closure, '$guarded'(Closure)) :-
+closure(_, _, Closure, '$checked'(Closure)) :-
     var(Closure),
     !.
 closure(_, _, Closure, Closure) :-
@@ -221,7 +221,7 @@ closure(N, Own, Closure0, Closure) :-
     guard(Goal0, Own, Goal),
     (   Goal == Goal0
     ->  extended(Closure, Extra, Goal)
-    ;   Closure = '$guarded'(Closure0)
+    ;   Closure = '$checked'(Closure0)
     ).
 closure(_, _, Closure, _) :-
     refuse(Closure).

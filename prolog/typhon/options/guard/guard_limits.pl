@@ -1,22 +1,67 @@
-:- module(typhon_guard_texts,
-          [ harmless_format/1,          % +Format
+:- module(typhon_guard_limits,
+          [ refuse/1,                   % +Culprit
+            must_be_tree/1,             % +Term
+            clause_cells/1,             % -Max
+            harmless_format/1,          % +Format
             short_text/1,               % +Goal
             readable_text/1             % +Goal
           ]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/host', [context_now/2, parts/3]).
 
-/** <module> Texts that untrusted agents give to predicates
+/** <module> How large terms and texts of untrusted agents may be
 
-Format strings, texts that become atoms, and texts that are read as terms.
+Clauses, and what is shared in them; format strings, texts that become atoms,
+and texts that are read as terms.  And how it is reported that something is
+refused.
 
-*Threading*: pure, but for the hook made/1.
+*Threading*: any thread; no state.
 */
 
-:- multifile made/1.                    % +Length: atoms of that length
-
+:- setting(clause_cells, positive_integer, 200 000,
+           "Clauses that untrusted agents add have at most so many parts").
 :- setting(atom_chars, positive_integer, 1000,
            "Atoms that untrusted agents make have at most so many characters").
+
+%!  must_be_tree(+Term) is det.
+%
+%   Term is acyclic, and not larger than clauses may be when what is shared in
+%   it is written out.
+%
+%   @error resource_error(clause_cells)
+
+must_be_tree(Term) :-
+    clause_cells(Max),
+    (   is_tree(Term, Max)
+    ->  true
+    ;   throw(error(resource_error(clause_cells), _))
+    ).
+
+%!  clause_cells(-Max:integer) is det.
+
+clause_cells(Max) :-
+    setting(clause_cells, Max).
+
+%!  refuse(+Culprit)
+%
+%   A large term is reported by its name.
+%
+%   @error permission_error(call, sandboxed, Culprit)
+
+refuse(Culprit) :-
+    (   \+ is_tree(Culprit, 1000),
+        callable(Culprit)
+    ->  functor(Culprit, Name, Arity),
+        permission_error(call, sandboxed, Name/Arity)
+    ;   permission_error(call, sandboxed, Culprit)
+    ).
+
+                /*******************************
+                *            TEXTS             *
+                *******************************/
 
 %!  harmless_format(+Format) is semidet.
 %
@@ -71,7 +116,7 @@ text_string(Text, String) :-
 %!  short_text(+Goal) is semidet.
 %
 %   The atoms that Goal makes are not long.  Atoms live outside the stacks of
-%   the agent, so they are kept short, and made/1 counts them; long texts are
+%   the agent, so they are kept short, and counted; long texts are
 %   strings.
 
 short_text(Goal) :-
@@ -79,7 +124,7 @@ short_text(Goal) :-
     joined_length(Goal, Length),
     Length =< Max,
     all_solutions(Goal, Length, Made),
-    forall(made(Made), true).
+    made(Made).
 
 %   all_solutions(+Goal, +Length, -Made): there may be a solution for each
 %   part of a text.
@@ -94,6 +139,17 @@ all_solutions(atom_concat(A, B, _), Length, Made), var(A), var(B) =>
     Made is Length*Length.
 all_solutions(_, Length, Made) =>
     Made = Length.
+
+%   made(+Length): the running agent makes atoms of that length together.
+%   Options of its host may count them.
+
+made(Length) :-
+    (   context_now(Host, Agent),
+        Agent \== none,
+        parts(makes_text, Host, Closures)
+    ->  forall(member(Closure, Closures), call(Closure, Length))
+    ;   true
+    ).
 
 most_characters(Max) :-
     setting(atom_chars, Max).
@@ -170,7 +226,7 @@ readable_text(term_to_atom(Term, Text)) :-
     ->  most_characters(Max),
         Parts is 1+Max//8,              % as is_tree/2 counts
         is_tree(Term, Parts),
-        forall(made(Max), true)
+        made(Max)
     ;   readable(Text)
     ).
 readable_text(term_string(_, Text)) :-
@@ -187,4 +243,4 @@ readable(Text) :-
     string_length(String, Length),
     most_characters(Max),
     Length =< Max,
-    forall(made(Length), true).
+    made(Length).

@@ -1,4 +1,4 @@
-:- module(typhon_guard,
+:- module(typhon_guard_clauses,
           [ guard_program/3,            % +Policy, +Program0, -Program
             guard_refuses/4,            % +Policy, +Program, +Clause, -Formal
             guard_state/3,              % +Policy, +State0, -State
@@ -8,24 +8,24 @@
           ]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(assoc), [empty_assoc/1, put_assoc/4]).
-:- use_module('../base/trees', [is_tree/2]).
+:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/program', [clause_parts/3]).
 :- use_module(allowed, [allowed_library/1, own_name/1]).
 :- use_module(guard_bodies, [guard/3, guard_parts/1]).
-:- use_module(refusing, [clause_cells/1, must_be_tree/1, refuse/1]).
-:- use_module(source, [clause_parts/3]).
+:- use_module(guard_limits, [clause_cells/1, must_be_tree/1, refuse/1]).
 
-/** <module> Programs of strangers
+/** <module> Programs and clauses of untrusted agents
 
-A program of a stranger is rewritten before it runs.  Goals that are known
-are looked at now: what is not allowed, see typhon_allowed, is refused.  What
-will only be known at run time, and what depends on its arguments, becomes
+A program is rewritten before it runs.  Goals that are known are checked now:
+what is not allowed, see typhon_allowed, is refused.  What will only be known
+at run time, and what depends on its arguments, becomes
 
-    '$guarded'(Goal)            '$guarded'(Closure, A, ...)
+    '$checked'(Goal)            '$checked'(Closure, A, ...)
 
-which looks then, see typhon_guarded; and what is done when something was caught
-begins with '$uncaught'(Ball).  A goal M:G is refused always.  What
-has been rewritten stays the same when it is rewritten again, and means the
-same on a host that guards nothing.
+which is checked then, see typhon_guard_calls; and what is done when something
+was caught begins with '$uncaught'(Ball), see typhon_checked.  A goal M:G is
+refused always.  What has been rewritten stays the same when it is rewritten
+again, and means the same on a host that runs programs as they are.
 
 An agent may have static predicates of any name: they are found first, as
 long as it has its program.  What comes and goes (state, payloads) must not
@@ -49,7 +49,7 @@ guard_program(Policy, program(Name, State, Libraries, Clauses0),
 
 %!  guard_refuses(+Policy, +Program:list, +Clause, -Formal) is semidet.
 %
-%   Clause, one of those of Program, is why that is not let in.
+%   Clause, one of those of Program, is a reason to refuse it.
 
 guard_refuses(Policy, Clauses, Clause, Formal) :-
     heads(Clauses, Own),
@@ -130,7 +130,7 @@ guard_state([Clause0|Clauses0], Max, Own, [Clause|Clauses]) :-
 
 %!  allowed_fact(+Fact, +Max) is semidet.
 %
-%   Fact, which has Max parts at the most, may be one of a stranger's.
+%   Fact, which has Max parts at the most, may be one of an untrusted agent.
 
 allowed_fact(Fact, Max) :-
     callable(Fact),

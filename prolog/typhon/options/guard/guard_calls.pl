@@ -1,0 +1,257 @@
+:- module(typhon_guard_calls,
+          [ guard_goals/4,              % +Policy, +Program, +Goals0, -Goals
+            guard_call/5                % +Policy, +Module, +Closure, +Extra,
+                                        % -Goal
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(error), [permission_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/host', [context_now/2, parts/3]).
+:- use_module('../../kernel/agent', [agent_code/2]).
+:- use_module(allowed, [allowed/3, own_name/1]).
+:- use_module(guard_bodies,
+              [ extended/3, guard/3, guard_lambda/4, guard_parts/1,
+                is_control/1, is_lambda/1, is_own/2 ]).
+:- use_module(guard_clauses, [allowed_fact/2, guard_clauses/3]).
+:- use_module(guard_limits,
+              [ clause_cells/1, harmless_format/1, must_be_tree/1,
+                readable_text/1, refuse/1, short_text/1 ]).
+
+/** <module> Goals that untrusted agents call
+
+What is known only at run time: the goals with which an agent comes, those that
+it makes up, and closures with the arguments with which they are called.
+
+*Threading*: the thread that runs the agent, or installs it; see
+typhon_guard_bodies.
+*/
+
+:- setting(ball_cells, positive_integer, 10 000,
+           "What untrusted agents throw has at most so many parts").
+
+%!  guard_goals(+Policy, +Program, +Goals0, -Goals) is det.
+%
+%   Goals are what an agent, which has its program in the module Program, is to
+%   do.
+
+guard_goals(Policy, Program, Goals0, Goals) :-
+    must_be_tree(Goals0),
+    count_parts,
+    maplist(guard_left(own(module(Program), Policy)), Goals0, Goals).
+
+%   What stands in a suspended list besides goals of the program.
+
+guard_left(_, Goal, Goal) :-
+    nonvar(Goal),
+    Goal = '$fault'(_),
+    !.
+guard_left(Own, Goal0, Goal) :-
+    guard(Goal0, Own, Goal).
+
+%!  guard_call(+Policy, +Module, +Closure, +Extra:list, -Goal) is det.
+%
+%   Goal is Closure called with Extra, which the agent in Module may call now.
+%
+%   @error instantiation_error
+%   @error permission_error(call, sandboxed, Culprit)
+
+guard_call(Policy, Module, Closure, Extra, Goal) :-
+    agent_code(Module, Program),
+    Own = own(module(Program), Policy),
+    checked(Extra, Own, Closure, Goal0),
+    own_only(Goal0, Module, Goal).
+
+checked([], Own, Goal0, Goal) :-
+    !,
+    guard_called(Own, Goal0, Goal).
+checked(Extra, Own, Closure, Goal) :-
+    guard_closure(Own, Closure, Extra, Goal).
+
+%   guard_called(+Own, +Goal0, -Goal): Goal may be called now.
+
+guard_called(Own, Goal0, Goal) :-
+    (   var(Goal0)
+    ->  throw(error(instantiation_error, _))
+    ;   acyclic_term(Goal0)
+    ->  count_parts,
+        guard_now(Goal0, Own, Goal)
+    ;   refuse_cyclic(Goal0)
+    ).
+
+%   A small term may be a goal without end where it shares much.
+
+count_parts :-
+    clause_cells(Max),
+    guard_parts(Max).
+
+guard_now(Goal, Own, Goal) :-
+    is_control(Goal),
+    \+ is_own(Goal, Own),
+    !.
+guard_now(Goal0, Own, Goal) :-
+    plain(Goal0, Own),
+    Own = own(_, Policy),
+    allowed(Policy, Goal0, look(Kind)),
+    !,
+    looked_at(Kind, Policy, Goal0, Goal).
+guard_now(Goal0, Own, Goal) :-
+    guard(Goal0, Own, Goal).
+
+%   plain(+Goal, +Own): Goal is no construct, and not the agent's own.
+
+plain(Goal, Own) :-
+    callable(Goal),
+    \+ is_own(Goal, Own).
+
+refuse_cyclic(Goal) :-
+    functor(Goal, Name, Arity),
+    refuse(cyclic(Name/Arity)).
+
+%   guard_closure(+Own, +Closure, +Extra, -Goal): of a lambda expression the
+%   body is guarded, for its parameters may be goals.
+
+guard_closure(Own, Closure, Extra, Goal) :-
+    (   is_lambda(Closure)
+    ->  length(Extra, N),
+        count_parts,
+        guard_lambda(Closure, N, Own, Closure1),
+        extended(Closure1, Extra, Goal)
+    ;   extended(Closure, Extra, Goal0),
+        guard_called(Own, Goal0, Goal)
+    ).
+
+                /*******************************
+                *            STATE             *
+                *******************************/
+
+%   own_only(+Goal0, +Module, -Goal): what is changed or read is the agent's
+%   own, not what a place offers, or the clauses of its program.
+
+own_only(Goal0, Module, Goal) :-
+    touches(Goal0, Head),
+    !,
+    ( adds(Goal0, Clause) -> adding(Module, Clause) ; true ),
+    (   '$c_current_predicate'(_, Module:Head)
+    ->  (   '$get_predicate_attribute'(Module:Head, imported, _)
+        ->  permission_error(call, sandboxed, Goal0)
+        ;   Goal = Goal0
+        )
+    ;   Goal0 = clause(_, _)
+    ->  Goal = fail
+    ;   Goal = Goal0
+    ).
+own_only(Goal, _, Goal).
+
+touches(Goal, Head) :- adds(Goal, Clause), clause_of(Clause, Head).
+touches(retract(Clause), Head) :- clause_of(Clause, Head).
+touches(retractall(Head), Head).
+touches(clause(Head, _), Head).
+
+adds(assert(Clause), Clause).
+adds(asserta(Clause), Clause).
+adds(assertz(Clause), Clause).
+
+clause_of((Head:-_), Head) :- !.
+clause_of(Head, Head).
+
+%   adding(+Module, +Clause): options of the host may count what an agent adds
+%   to its state.
+
+adding(Module, Clause) :-
+    (   context_now(Host, Agent),
+        Agent \== none,
+        parts(adds_clause, Host, Closures)
+    ->  forall(member(Closure, Closures), call(Closure, Module, Clause))
+    ;   true
+    ).
+
+                /*******************************
+                *          ARGUMENTS           *
+                *******************************/
+
+%   looked_at(+Kind, +Policy, +Goal0, -Goal): what a goal depends on is known
+%   now: what it adds and takes away, what it throws, and texts.  Kind is as of
+%   allowed/3.
+%
+%   @error permission_error(call, sandboxed, Culprit)
+
+looked_at(clause, _, Goal, Goal) :-
+    arg(1, Goal, Fact),
+    clause_cells(Max),
+    allowed_fact(Fact, Max),
+    !.
+looked_at(clause, Policy, Goal0, Goal) :-
+    Goal0 =.. [Name,Clause0],
+    must_be_tree(Clause0),
+    nonvar(Clause0),
+    \+ ( Clause0 = (Head:-_), \+ callable(Head) ),
+    !,
+    guard_clauses(Policy, [Clause0], [Clause]),
+    Goal =.. [Name,Clause].
+looked_at(pattern, _, Goal, Goal) :-
+    Goal = retract(Clause),
+    nonvar(Clause),
+    ( Clause = (Head:-_) -> true ; Head = Clause ),
+    unqualified(Head),
+    !.
+looked_at(head, _, Goal, Goal) :-
+    arg(1, Goal, Head),
+    unqualified(Head),
+    own_name(Head),
+    !.
+looked_at(ball, _, throw(Ball), throw(Ball)) :-
+    nonvar(Ball),
+    \+ ends_thread(Ball),
+    setting(ball_cells, Max),
+    is_tree(Ball, Max),
+    !.
+looked_at(format, _, Goal, Goal) :-
+    Goal = format(Sink, Format, Args),
+    nonvar(Sink),
+    sink(Sink),
+    must_be_tree(Format-Args),
+    harmless_format(Format),
+    !.
+looked_at(text, _, Goal, Goal) :-
+    short_text(Goal),
+    !.
+looked_at(term_text, _, Goal, Goal) :-
+    must_be_tree(Goal),
+    readable_text(Goal),
+    !.
+looked_at(payload, _, attach(Spec), attach(Spec)) :-
+    nonvar(Spec),
+    Spec = payloads(Path),
+    ground(Path),
+    inside(Path),
+    !.
+looked_at(_, _, Goal, _) :-
+    refuse(Goal).
+
+unqualified(Head) :-
+    callable(Head),
+    Head \= _:_.
+
+%   What ends a thread, or stops what is measured.
+
+ends_thread('$aborted').
+ends_thread(unwind(_)).
+ends_thread(inference_limit_exceeded(_)).
+ends_thread(depth_limit_exceeded).
+ends_thread(time_limit_exceeded).
+ends_thread(time_limit_exceeded(_)).
+
+sink(string(_)).
+sink(codes(_)).
+sink(chars(_)).
+
+inside(Path) :-
+    (   atom(Path)
+    ->  \+ sub_atom(Path, _, _, _, '..'),
+        \+ is_absolute_file_name(Path)
+    ;   Path = A/B,
+        inside(A),
+        inside(B)
+    ).
