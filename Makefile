@@ -19,7 +19,8 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
-    demo-page page-tools thesis thesis-real test chaos fuzz hostile check check-all \
+    demo-page page-tools thesis thesis-real test chaos scripted fuzz hostile \
+    check check-all \
     doc pictures bench bench-peers profile \
     test-portability install clean
 
@@ -65,6 +66,9 @@ chaos: tools            ## attack networks, and journals; SECONDS=600, SEED=1
 	@$(SWIPL) test/chaos/run.pl -- --seconds $(SECONDS) --seed $(SEED)
 	@$(SWIPL) test/chaos/lasting/run.pl -- --seconds $(SECONDS) \
 	    --seed $(SEED)
+
+scripted: tools         ## break each frame of a hop in every way
+	@$(SWIPL) test/chaos/scripted.pl
 
 # Who installs the pack only wants to know whether it loads.
 check:                  ## a quick look for mistakes, offline

@@ -12,6 +12,7 @@
             run_swipl/5,                % +Args, +Options, -Status, -Out, -Err
             wait_for_end/3,             % +Pid, +Seconds, -Status
             stop_process/1,             % +Pid
+            is_dead/1,                  % +Pid
             free_port/1                 % -Port
           ]).
 
@@ -267,6 +268,17 @@ stop_process(Pid) :-
     wait_until(( expand_file_name(Threads, Files),
                  \+ ( member(File, Files), stat(File, State, _),
                       State \== "T" ) ), 30).
+
+%!  is_dead(+Pid) is semidet.
+%
+%   The process has ended, whether or not it has been waited for.
+
+is_dead(Pid) :-
+    format(atom(File), '/proc/~d/stat', [Pid]),
+    (   stat(File, State, _)
+    ->  State == "Z"
+    ;   true
+    ).
 
 %!  with_swipl(+Args, -Pid, -In, -Out, :Goal) is semidet.
 %

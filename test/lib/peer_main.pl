@@ -88,6 +88,16 @@ agent_here(Id) :-
 status_here(Id) :-
     typhon_agents:agent_status(Id, _, _).
 
+agent_named_here(Name) :-
+    agent_named_here(Name, _),
+    !.
+
+agent_named_here(Name, State) :-
+    atom_concat(Name, '.', Start),
+    agent_here(Id),
+    atom_concat(Start, _, Id),
+    agent_property(Id, state(State)).
+
 agent_state_here(Id, State) :-
     agent_here(Id),
     agent_property(Id, state(State)).

@@ -6,6 +6,7 @@
             peer_proxy/2,               % +Peer, -Proxy
             peer_signal/2,              % +Peer, +Signal
             peer_kill/1,                % +Peer
+            peer_crash/1,               % +Peer
             peer_host/2,                % +Peer, -Address
             peer_messages/2             % +Peer, -Lines
           ]).
@@ -16,11 +17,14 @@ A peer is another Prolog process, known by an atom, that carries out goals.
 It talks to the test through pipes, so that tests can do to its endpoint
 what they like.
 
-*Threading*: for the main thread of a test.
+*Threading*: for the main thread of a test, but for peer_crash/1.
 */
 
-:- use_module(common, [free_port/1, project_file/2, stop_process/1]).
+:- use_module(common, [ free_port/1, is_dead/1, project_file/2, stop_process/1,
+                         wait_until/2 ]).
 :- use_module(cutting_proxy, [proxy_start/3, proxy_stop/1]).
+:- use_module(frame_proxy, [frame_proxy_start/4, frame_proxy_stop/1]).
+:- use_module(relay, [relay_admit/1, relay_refuse/1]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
@@ -35,14 +39,16 @@ what they like.
     peer/4,                             % Peer, Pid, In, Out
     host/3,                             % Peer, Address, Options
     proxy/2,                            % Peer, Proxy
+    frame_proxy/2,                      % Peer, Proxy
     messages/2.                         % Peer, File
 
 %!  with_peers(+Specs, :Goal) is semidet.
 %
 %   Run Goal once with processes. A spec is a name or Name-Options, where
 %   Options are: host(Options) for the host that has the name of the peer;
-%   proxy(true): others reach it through a cutting proxy; codec(text);
-%   setup(Goal): done before the host is started.
+%   proxy(true) or proxy(frames): others reach it through a cutting proxy, or
+%   through one that knows frames; codec(text); setup(Goal): done before the
+%   host is started.
 
 with_peers(Specs, Goal) :-
     setup_call_cleanup(
@@ -72,16 +78,22 @@ start(Peer) :-
 %   known by another where a proxy stands before it.
 
 place(Peer, Options, Port, Known, [Behind, At]) :-
-    option(proxy(true), Options),
+    option(proxy(Kind), Options),
     !,
     atom_concat('127.0.0.1:', Port, Target),
-    proxy_start(Target, Proxy, Address),
-    assertz(proxy(Peer, Proxy)),
+    start_proxy(Kind, Peer, Target, Address),
     atom_concat('127.0.0.1:', KnownText, Address),
     atom_number(KnownText, Known),
     format(atom(Behind), '--known-as=~d', [Known]),
     format(atom(At), '--port=~d', [Port]).
 place(_, _, Port, Port, []).
+
+start_proxy(true, Peer, Target, Address) :-
+    proxy_start(Target, Proxy, Address),
+    assertz(proxy(Peer, Proxy)).
+start_proxy(frames, Peer, Target, Address) :-
+    frame_proxy_start(Peer, Target, Proxy, Address),
+    assertz(frame_proxy(Peer, Proxy)).
 
 codec(Options, [Speak]) :-
     option(codec(Codec), Options),
@@ -94,10 +106,11 @@ launch(Peer) :-
     messages(Peer, File),
     project_file('test/lib/peer_main.pl', Main),
     current_prolog_flag(executable, Swipl),
-    append(['-g', peer_main, Main, '--'], Args, Argv),
+    append([Swipl, '-g', peer_main, Main, '--'], Args, Argv),
+    alone(Alone),
     setup_call_cleanup(
         open(File, append, Err),
-        process_create(Swipl, Argv,
+        process_create(path(python3), ['-c', Alone|Argv],
                        [ stdin(pipe(In)), stdout(pipe(Out)),
                          stderr(stream(Err)), process(Pid) ]),
         close(Err)),
@@ -106,9 +119,16 @@ launch(Peer) :-
     host(Peer, _, Start),
     peer_do(Peer, Start).
 
+%   A socket of a proxy that a process inherits is not closed when the proxy
+%   closes it, and SWI-Prolog has no way to say that it shall not be inherited.
+
+alone("import os, sys; os.closerange(3, 1024); \c
+       os.execv(sys.argv[1], sys.argv[1:])").
+
 stop_all :-
     forall(peer(Peer, _, _, _), peer_kill(Peer)),
     forall(retract(proxy(_, Proxy)), proxy_stop(Proxy)),
+    forall(retract(frame_proxy(_, Proxy)), frame_proxy_stop(Proxy)),
     forall(retract(messages(_, File)),
            ( exists_file(File) -> delete_file(File) ; true )),
     retractall(spec(_, _)),
@@ -119,7 +139,26 @@ stop_all :-
 %   Start a Peer that was killed, with its host at the same address.
 
 peer_restart(Peer) :-
+    (   frame_proxy(Peer, Proxy)
+    ->  relay_refuse(Proxy),            % if it was not a crash
+        relay_admit(Proxy)
+    ;   true
+    ),
     launch(Peer).
+
+%!  peer_crash(+Peer) is det.
+%
+%   From any thread: Peer ends at once, and no process listens at its address
+%   when this is true. peer_kill/1 and peer_restart/1 are to follow.
+
+peer_crash(Peer) :-
+    (   frame_proxy(Peer, Proxy)
+    ->  relay_refuse(Proxy)
+    ;   true
+    ),
+    peer(Peer, Pid, _, _),
+    process_kill(Pid, kill),
+    wait_until(is_dead(Pid), 30).
 
 %!  peer_kill(+Peer) is det.
 

@@ -1,0 +1,421 @@
+:- module(test_scripted_hops,
+          [ with_scripted/1,            % :Goal
+            scenario/2,                 % ?Scenario, -Links
+            each_frame/5,               % +Scenario, +Program, +Link, +When,
+                                        % +Action
+            each_crash/6                % +Scenario, +Program, +Link, +When,
+                                        % +Peer, +Restart
+          ]).
+
+/** <module> What agents do while the frames of their hops are disturbed
+
+Three processes a, b and c, each behind a proxy that knows frames. A scenario
+is a small story of an agent that is created on a. Program is `known`, or
+`new`, if the processes have not met the program before, or `forgotten` by them.
+
+  - there_and_back: it goes to b and comes back
+  - ring: it goes to b, to c, and comes back
+  - clone: it makes a clone on b
+  - refused: it wants to a host of b that does not admit it
+  - follow: it goes to b, and ten messages are sent to it from a meanwhile
+  - chase: it goes to b, and they are sent from c
+
+Each agent leaves step(Tag, What) in the tuple space of the host it is on, so
+that what is lost or done twice shows.
+
+*Threading*: for the main thread of a test.
+*/
+
+:- use_module(common, [wait_until/2]).
+:- use_module(frame_proxy, 
+              [frames_passed/2, happened/1, has_crashed/1, script/2]).
+:- use_module(peers).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(gensym), [gensym/2]).
+:- use_module(library(lists),
+              [member/2, memberchk/2]).
+
+:- meta_predicate with_scripted(0).
+
+%!  with_scripted(:Goal) is semidet.
+%
+%   The processes notice within a second that a connection is mute, and
+%   keep one program that none of their agents has.
+
+with_scripted(Goal) :-
+    Settings = ( set_setting(typhon_reader:silence, 0.3),
+                 set_setting(typhon_code:programs, 0) ),
+    Options = [proxy(frames), setup(Settings)],
+    with_peers([a-Options, b-Options, c-Options],
+               ( prepare(b), meet, Goal )).
+
+prepare(b) :-
+    !,
+    peer_do(b, host_start(locked, [tokens([key])])).
+prepare(_).
+
+%   All know each other, and the program of walkers.
+
+meet :-
+    disturbed(ring, known, [], _),
+    disturbed(ring, known, [], _).
+
+%!  each_frame(+Scenario, +Program, +Link, +When, +Action) is det.
+%!  each_crash(+Scenario, +Program, +Link, +When, +Peer, +Restart) is det.
+%
+%   Action, or the end of Peer, happens at frame 1 of Link, then at frame 2 and
+%   so on, as long as there is such a frame. The action `cut_twice` is `cut` at
+%   this and the next.
+%
+%   @error violated(What) see disturbed/4 and crashed/5.
+
+each_frame(Scenario, Program, Link, When, Action) :-
+    each_number(Number, Happened,
+                ( events(Action, Link, Number, When, Events),
+                  disturbed(Scenario, Program, Events, Happened) )).
+
+each_crash(Scenario, Program, Link, When, Peer, Restart) :-
+    each_number(Number, Happened,
+                crashed(Scenario, Program,
+                        at(Link, Number, When, crash(Peer)),
+                        Restart, Happened)).
+
+events(cut_twice, Link, Number, When,
+       [at(Link, Number, When, cut), at(Link, Next, When, cut)]) :-
+    !,
+    Next is Number+1.
+events(Action, Link, Number, When, [at(Link, Number, When, Action)]).
+
+:- meta_predicate each_number(-, -, 0).
+
+each_number(Number, Happened, Goal) :-
+    between(1, inf, Number),
+    (   catch(Goal, error(violated(What), _), violated(Goal, What))
+    ->  Happened == []
+    ;   violated(Goal, failed)
+    ),
+    !.
+
+violated(_:Goal, What) :-
+    throw(error(violated(What, Goal), _)).
+
+:- multifile prolog:error_message//1.
+
+prolog:error_message(violated(What, Goal)) -->
+    [ 'Not as it should be: ~p'-[What], nl, 'after ~p'-[Goal] ].
+
+		 /*******************************
+		 *           SCENARIOS          *
+		 *******************************/
+
+%!  scenario(?Scenario, -Links) is nondet.
+%
+%   What happens on Links concerns Scenario.
+
+scenario(there_and_back, [a-b, b-a]).
+scenario(ring, [a-b, b-a, b-c, c-b, c-a, a-c]).
+scenario(clone, [a-b, b-a]).
+scenario(refused, [a-b, b-a]).
+scenario(follow, [a-b, b-a]).
+scenario(chase, [a-b, b-a, c-a, a-c, b-c, c-b]).
+
+%   start(+Scenario, +Program, +Tag, +Patience, -Id): Id stays unbound where a
+%   has died. Messages are waited for so many seconds.
+
+start(Scenario, Program, Tag, Patience, Id) :-
+    program(Scenario, Program, Clauses),
+    facts(Scenario, Tag, Patience, Facts),
+    (   on(a, agent_create(clauses(Clauses), Id0,
+                           [host(a), name(Tag), facts(Facts)]))
+    ->  Id = Id0,
+        forall(sender(Scenario, Sender),
+               ( on(Sender, forall(between(1, 10, I), agent_send(Id, I)))
+               ; true ))
+    ;   true
+    ).
+
+sender(follow, a).
+sender(chase, c).
+
+%   As peer_do/2, but fails where Peer, or what it needs for Goal, has died.
+
+on(Peer, Goal) :-
+    catch(peer_do(Peer, Goal), error(Formal, _), peer_died(Formal)).
+
+peer_died(Formal) :-
+    (   crash_error(Formal)
+    ->  fail
+    ;   throw(error(Formal, _))
+    ).
+
+crash_error(system_error(peer_died(_))).
+crash_error(io_error(_, _)).
+crash_error(host_unreachable(_)).
+
+facts(Scenario, Tag, Patience,
+      [tag(Tag), patience(Patience), route(Hosts)]) :-
+    route(Scenario, Peers),
+    maplist(address, Peers, Hosts).
+
+route(there_and_back, [b, a]).
+route(ring, [b, c, a]).
+route(clone, [b]).
+route(refused, [locked]).
+route(follow, [b]).
+route(chase, [b]).
+
+address(locked, Host) :-
+    !,
+    address(b, B),
+    sub_atom(B, 1, _, 0, Endpoint),
+    atom_concat(locked, Endpoint, Host).
+address(Peer, Host) :-
+    peer_host(Peer, Host).
+
+program(Scenario, Program, Clauses) :-
+    (   Program == new
+    ->  gensym(program, Number)
+    ;   Number = known
+    ),
+    kind(Scenario, Kind),
+    findall(Clause, clause_of(Kind, Clause), Clauses0),
+    Clauses = [ (:- agent(Kind, [state([tag/1, patience/1, route/1])])),
+                made(Number)
+              | Clauses0 ].
+
+kind(there_and_back, walker).
+kind(ring, walker).
+kind(clone, parent).
+kind(refused, refused).
+kind(follow, reader).
+kind(chase, reader).
+
+clause_of(walker, (main :- route(Hosts), walk(0, Hosts))).
+clause_of(walker, (walk(K, []) :- !, step(K))).
+clause_of(walker, (walk(K, [Host|Hosts]) :- step(K), go(Host), K1 is K+1,
+                                            walk(K1, Hosts))).
+clause_of(parent, (main :- route([Host]),
+                           catch(clone(Host, Who), error(E, _), Who = E),
+                           Who =.. [What|_], step(What))).
+clause_of(refused, (main :- route([Host]),
+                            catch(move(Host), error(E, _), true),
+                            step(E))).
+clause_of(reader, (main :- route([Host]), go(Host), note(10))).
+clause_of(reader, (note(N) :- (   N > 0, patience(S), receive(_-I, S)
+                              ->  step(I), N1 is N-1, note(N1)
+                              ;   step(end(N)) ))).
+clause_of(_, (go(Host) :- catch(( move(Host), E = none ), error(E, _), true),
+                          went(E, Host))).
+clause_of(_, (went(none, _) :- !)).
+clause_of(_, (went(E, Host) :- step(E), sleep(0.01), go(Host))).
+clause_of(_, (step(What) :- tag(Tag), leave(step(Tag, What)))).
+
+		 /*******************************
+		 *         DISTURBANCES         *
+		 *******************************/
+
+%   disturbed(+Scenario, +Program, +Events, -Happened) is det.
+%
+%   The story is as if there were no Events, which kill no process.
+%
+%   Throws error(violated(What), _).
+
+disturbed(Scenario, Program, Events, Happened) :-
+    forget(Program),
+    gensym(tag, Tag),
+    script(Events, no_crash),
+    start(Scenario, Program, Tag, 20, Id),
+    peer_do(a, agent_join(Id, Outcome, 40)),
+    demand(Outcome == done, outcome(Outcome)),
+    resolved(Tag),
+    happened(Happened),
+    steps(Tag, Steps),
+    demand(as_without_events(Scenario, Steps), steps(Steps)).
+
+forget(forgotten) :-
+    !,
+    disturbed(ring, new, [], _).
+forget(_).
+
+no_crash(Peer) :-
+    throw(error(permission_error(crash, peer, Peer), _)).
+
+%   as_without_events(+Scenario, +Steps)
+
+as_without_events(there_and_back, [a-[0, 2], b-[1], c-[]]).
+as_without_events(ring, [a-[0, 3], b-[1], c-[2]]).
+as_without_events(clone, [a-[parent], b-[clone], c-[]]).
+as_without_events(refused, [a-[move_refused(_, token)], b-[], c-[]]).
+as_without_events(follow, [a-[], b-Steps, c-[]]) :-
+    Steps == [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, end(0)].
+as_without_events(chase, [a-[], b-Steps, c-[]]) :-
+    msort(Steps, Sorted),
+    Sorted == [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, end(0)].
+
+%   steps(+Tag, -Steps): for each peer what was left there, in order.
+
+steps(Tag, Steps) :-
+    findall(Peer-Whats,
+            ( peer_host(Peer, _), peer_do(Peer, steps_here(Tag, Whats)) ),
+            Steps).
+
+%   No process has anything of the agent any more, not even a doubt.
+
+resolved(Tag) :-
+    wait_until(\+ ( peer_host(Peer, _),
+                    peer_do(Peer, agent_named_here(Tag)) ), 40).
+
+:- meta_predicate demand(0, +).
+
+demand(Goal, What) :-
+    (   call(Goal)
+    ->  true
+    ;   throw(error(violated(What), _))
+    ).
+
+		 /*******************************
+		 *            CRASHES           *
+		 *******************************/
+
+%   crashed(+Scenario, +Program, +Event, +Restart, -Happened) is det.
+%
+%   By Event a process crashes, and is started again: at once, if Restart is
+%   `now`, or, if it is `later`, when an agent has found it gone, is in doubt or
+%   has ended.
+%
+%   Throws error(violated(What), _).
+
+crashed(Scenario, Program, Event, Restart, Happened) :-
+    Event = at(_, _, _, crash(Peer)),
+    forget(Program),
+    gensym(tag, Tag),
+    script([Event], peer_crash),
+    start(Scenario, Program, Tag, 1, _),
+    wait_until(( happened([_]) ; \+ on_any(has_agent(Tag)) ), 40),
+    happened(Happened),
+    (   Happened == []
+    ->  true
+    ;   bring_back(Restart, Tag, Peer, Frames),
+        resolved(Tag),
+        steps(Tag, Steps),
+        demand(agrees(Scenario, Peer, Frames, Steps), steps(Steps, Frames))
+    ).
+
+%   bring_back(+Restart, +Tag, +Peer, -Frames): Frames are those that other
+%   processes had got from Peer, as Process-Count.
+
+bring_back(Restart, Tag, Peer, Frames) :-
+    wait_until(has_crashed(Peer), 30),
+    peer_kill(Peer),
+    findall(Other-Count,
+            ( peer_host(Other, _), Other \== Peer,
+              frames_passed(Peer-Other, Count) ),
+            Frames),
+    script([], no_crash),
+    (   Restart == later
+    ->  wait_until(( on_any(finds_it_gone(Tag)) ; on_any(is_in_doubt(Tag))
+                   ; \+ on_any(has_agent(Tag)) ), 40)
+    ;   true
+    ),
+    peer_restart(Peer),
+    prepare(Peer).
+
+:- meta_predicate on_any(1).
+
+on_any(Goal) :-
+    peer_host(Peer, _),
+    call(Goal, Peer),
+    !.
+
+has_agent(Tag, Peer) :-
+    on(Peer, agent_named_here(Tag)).
+
+is_in_doubt(Tag, Peer) :-
+    on(Peer, agent_named_here(Tag, in_doubt)).
+
+finds_it_gone(Tag, Peer) :-
+    on(Peer, steps_here(Tag, Steps)),
+    member(Step, Steps),
+    is_gone(Step).
+
+is_gone(host_unreachable).
+is_gone(host_unreachable(_)).
+
+%   agrees(+Scenario, +Peer, +Frames, +Steps): what doc/agents.md says when Peer
+%   dies. Of an agent that was let in, or of which it is not known, nothing
+%   need be left.
+
+agrees(clone, Peer, _, [a-A, b-B, c-[]]) :-
+    !,
+    clone_agrees(Peer, A, B).
+agrees(refused, Peer, _, [a-A, b-[], c-[]]) :-
+    !,
+    refused_agrees(Peer, A).
+agrees(Scenario, Peer, Frames, Steps) :-
+    findall(What, ( member(_-Whats, Steps), member(What, Whats),
+                    \+ is_gone(What) ),
+            All),
+    msort(All, Sorted),
+    sort(All, Sorted),                  % each once
+    (   ends(Scenario, Host, End),
+        memberchk(Host-Ends, Steps),
+        memberchk(End, Ends)
+    ->  messages_agree(Scenario, Peer, Frames, All)
+    ;   may_be_lost(Scenario, Peer, Frames, All)
+    ).
+
+clone_agrees(a, [], []) :-
+    !.
+clone_agrees(a, [], [clone]).
+clone_agrees(b, [host_unreachable], []).
+clone_agrees(b, [parent], []).
+clone_agrees(b, [parent], [clone]).     % of the process that is there now
+
+refused_agrees(a, []).
+refused_agrees(b, [host_unreachable(_)]).
+refused_agrees(b, [move_refused(_, Why)]) :-
+    memberchk(Why, [token, unknown_host]).  % that host comes a bit later
+
+ends(there_and_back, a, 2).
+ends(ring, a, 3).
+ends(follow, b, end(_)).
+ends(chase, b, end(_)).
+
+%   Messages are lost with a process that has got them.
+
+messages_agree(Scenario, Peer, Frames, All) :-
+    findall(I, ( member(I, All), integer(I) ), Numbers),
+    (   Scenario == follow
+    ->  msort(Numbers, Numbers)         % in order
+    ;   true
+    ),
+    (   Scenario == follow,
+        Peer == b,
+        memberchk(a-0, Frames)          % a has not heard that it came
+    ->  length(Numbers, 10)
+    ;   true
+    ).
+
+%   may_be_lost(+Scenario, +Peer, +Frames, +All): a process that has not let the
+%   agent go has it still.
+
+may_be_lost(_, a, _, []) :-             % it had not left
+    !.
+may_be_lost(Scenario, a, _, All) :-     % it may have come back
+    !,
+    memberchk(Scenario, [there_and_back, ring]),
+    last_before_home(Scenario, Last),
+    memberchk(Last, All).
+may_be_lost(Scenario, Peer, Frames, _) :-
+    came_from(Scenario, Peer, Source),
+    memberchk(Source-Count, Frames),
+    Count > 0.
+
+last_before_home(there_and_back, 1).
+last_before_home(ring, 2).
+
+came_from(there_and_back, b, a).
+came_from(ring, b, a).
+came_from(ring, c, b).
+came_from(follow, b, a).
+came_from(chase, b, a).
