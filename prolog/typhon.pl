@@ -50,6 +50,7 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/options/journal, []).
 :- use_module(typhon/options/access, []).
 :- use_module(typhon/options/guard, []).
+:- use_module(typhon/options/virtual, []).
 
 :- user_errors(typhon).
 

@@ -2,7 +2,6 @@ exception('prolog/typhon/kernel/agent/agent_module.pl',quotas).
 exception('prolog/typhon/kernel/agent/agents.pl',quotas).
 exception('prolog/typhon/kernel/agent/identity.pl',identity).
 exception('prolog/typhon/kernel/agent/identity.pl',tls).
-exception('prolog/typhon/kernel/agent/identity.pl',virtual).
 exception('prolog/typhon/kernel/agent/owner.pl',tls).
 exception('prolog/typhon/kernel/agent/quota_admission.pl',identity).
 exception('prolog/typhon/kernel/agent/time_quota.pl',identity).
@@ -12,16 +11,12 @@ exception('prolog/typhon/kernel/host/host_options.pl',identity).
 exception('prolog/typhon/kernel/host/host_options.pl',journal).
 exception('prolog/typhon/kernel/host/host_options.pl',quotas).
 exception('prolog/typhon/kernel/host/host_options.pl',tls).
-exception('prolog/typhon/kernel/host/host_options.pl',virtual).
 exception('prolog/typhon/kernel/host/host_questions.pl',watch).
 exception('prolog/typhon/kernel/host/hosting.pl',journal).
-exception('prolog/typhon/kernel/host/hosting.pl',virtual).
 exception('prolog/typhon/kernel/host/quotas.pl',identity).
 exception('prolog/typhon/kernel/host/quotas.pl',watch).
 exception('prolog/typhon/kernel/host/rate_limits.pl',identity).
 exception('prolog/typhon/kernel/host/runtime.pl',tls).
-exception('prolog/typhon/kernel/host/runtime.pl',virtual).
-exception('prolog/typhon/kernel/host/time.pl',virtual).
 exception('prolog/typhon/kernel/host/tuple_quota.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/effect.pl',quotas).
 exception('prolog/typhon/kernel/lifecycle/families.pl',identity).
@@ -29,7 +24,6 @@ exception('prolog/typhon/kernel/lifecycle/families.pl',quotas).
 exception('prolog/typhon/kernel/lifecycle/order_client.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/orders.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/overuse.pl',identity).
-exception('prolog/typhon/kernel/lifecycle/process_dump.pl',virtual).
 exception('prolog/typhon/kernel/lifecycle/questions.pl',watch).
 exception('prolog/typhon/kernel/lifecycle/restore.pl',identity).
 exception('prolog/typhon/kernel/lifecycle/running.pl',quotas).

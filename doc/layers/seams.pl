@@ -71,9 +71,6 @@ option_file(quotas, 'agent/time_quota.pl').
 option_file(quotas, 'agent/quota_admission.pl').
 option_file(quotas, 'lifecycle/metering.pl').
 option_file(quotas, 'lifecycle/overuse.pl').
-option_file(virtual, 'host/virtual.pl').
-option_file(virtual, 'host/virtual_loop.pl').
-option_file(virtual, 'host/virtual_standing.pl').
 
 %!  kernel_file(?File) is nondet.
 %

@@ -204,10 +204,18 @@ reach(Part, Module, Name/Arity) :-
 
 layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
          'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
-         'kernel/lifecycle', 'kernel/vocabulary', 'options/trail',
-         'options/journal', 'options/access', 'options/guard', 'options/trace',
-         network, 'options/watch', tools, 'bridges/common', 'bridges/python',
-         'bridges/mqtt', 'bridges/fipa', 'bridges/ros', 'tools/page' ]).
+         'kernel/lifecycle', 'kernel/vocabulary',
+         'options/trail',
+         'options/journal',
+         'options/access',
+         'options/guard',
+         'options/trace',
+         'options/virtual',
+         network,
+         'options/watch',
+         tools,
+         'bridges/common', 'bridges/python', 'bridges/mqtt', 'bridges/fipa',
+         'bridges/ros', 'tools/page' ]).
 
 %!  layer_module(?File, ?Layer, ?Name) is nondet.
 %!  interface(?File, ?Layer) is nondet.

@@ -13,7 +13,7 @@
 :- use_module('../base/durable_changes', [durable_key/1, durable_on/0]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1]).
-:- use_module('../host', [address_parts/3]).
+:- use_module('../host', [address_parts/3, time_repeats/2]).
 
 /** <module> The ids of agents
 
@@ -52,15 +52,14 @@ agent_id(Name, Home, Id) :-
     ids_anew/0,
     mark/1.
 
-%   In virtual time the same ids come again.
-
-typhon_runtime:beginning(real) :-
-    retractall(mark(_)).
-typhon_runtime:beginning(virtual) :-
-    flag(typhon_agent_id, _, 0),
+typhon_runtime:beginning(Kind) :-
     retractall(mark(_)),
-    assertz(mark('v.')),
-    forall(ids_anew, true).
+    (   time_repeats(Kind, Mark)
+    ->  flag(typhon_agent_id, _, 0),
+        assertz(mark(Mark)),
+        forall(ids_anew, true)
+    ;   true
+    ).
 
 typhon_durable:dump(flag, typhon_agent_id, N, '') :-
     flag(typhon_agent_id, N, N).

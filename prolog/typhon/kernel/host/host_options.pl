@@ -30,7 +30,6 @@ host_option_type(place(X), atom, X).
 host_option_type(log(X), host_address, X).
 host_option_type(log(X, _), host_address, X).
 host_option_type(remote(X), boolean, X).
-host_option_type(clock(X), oneof([virtual]), X).
 host_option_type(clock(X, Y), list(number), [X,Y]).
 host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
 host_option_type(seed(X), integer, X).

@@ -36,7 +36,7 @@
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
-:- use_module(time, [time_kind/1, time_let_go/1]).
+:- use_module(time, [time_apart/2, time_let_go/1, time_wanted/2]).
 
 /** <module> Starting and stopping hosts
 
@@ -96,7 +96,7 @@ other users of the process its endpoint, see typhon_runtime.
 %     - remote(+Boolean): whether remote/2 is answered, default `true`
 %     - python(+Boolean): whether agents may deliver Python, see doc/bridges.md,
 %       default `false`
-%     - clock(virtual): time is virtual, see typhon_virtual; so it is then
+%     - clock(virtual): time is virtual, see doc/time.md; so it is then
 %       for all hosts of the process, which cannot be reached from others
 %     - clock(+Epoch, +Rate): see typhon_clock
 %     - hop_time(uniform(Min, Max)): delay added to hops out of it
@@ -189,9 +189,11 @@ stand_new(Name, Options) :-
 %   start_from(+Where, +Name, +Options): with all that is in the journal.
 
 start_from(Where, _, Options) :-
-    memberchk(clock(virtual), Options),
+    time_wanted(Options, Kind),
+    time_apart(Kind, _),
     !,
-    known_not_here(Where, 'not in virtual time').
+    format(atom(Why), 'not in ~w time', [Kind]),
+    known_not_here(Where, Why).
 start_from(Where, Name, Options) :-
     known_open(Where, Options),
     catch(begin_from_journal(Name, Options), Ball,
@@ -266,15 +268,10 @@ hosts_rest :-
 user:message_hook(error(existence_error(journal, open), _), _, _) :-
     durable_closed.
 
-%   Virtual time that is held cannot end; in real time agents that are kept back
-%   would find that others are gone.
+%   Agents that are kept back do not find that others are gone.
 
 rest :-
     durable_close,
-    (   time_kind(virtual)
-    ->  time_let_go(_)
-    ;   true
-    ),
     findall(Name, host(Name, _, _), Names),
     forall(member(Name, Names), stop_one(Name)),
     time_let_go(_),
@@ -289,8 +286,8 @@ give_up_hosts :-
 
 %   A network gives its hosts a clock of whatever kind it has.
 
-kind_of_time(Options, [time(virtual)]) :-
-    memberchk(clock(virtual), Options),
+kind_of_time(Options, [time(Kind)]) :-
+    time_wanted(Options, Kind),
     !.
 kind_of_time(Options, []) :-
     memberchk(clock(_, _), Options),

@@ -1,28 +1,24 @@
-:- module(typhon_pool,
-          [ pool_start/0,
-            pool_stop/0,
-            pool_work/1,                % +Work
-            pool_idle/0,
-            pool_here/1,                % +Agent
-            pool_adopt/1,               % +Thread
-            pool_leave/0,
-            pool_signal/1               % :Goal
-          ]).
+:- module(typhon_pool, []).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/headroom', [memory_short/0]).
 :- use_module('../base/stop_thread', [stop_thread/1]).
+:- use_module(alarms, [alarm_stamp/3]).
 :- use_module(blocked,
               [ blocked_forget/0, blocked_full/2, blocked_held/1,
                 blocked_holds/0, blocked_release/1, blocked_room/3 ]).
+:- use_module(pause, [still_begin/0, still_end/1]).
 :- use_module(short_turns, [quick_turn/2]).
-:- use_module(timer, [alarm_in/3, timer_check/0, timer_start/0, timer_stop/0]).
+:- use_module(time, [alarm_in/3, time_day_wait/3]).
+:- use_module(timer,
+              [ alarms_overdue/0, timer_alarm/3, timer_check/0, timer_start/0,
+                timer_stop/0 ]).
 :- use_module(turns, [turn_in/3]).
 :- use_module(work, [work_do/2]).
 
-/** <module> The pool: few threads for many agents
+/** <module> The runtime `real`: a pool of few threads for many agents
 
 Work waits in the run queue.  A worker takes it, runs it to the point where
 the agent has to wait, and takes the next.
@@ -36,10 +32,21 @@ if there are enough others.
 end, whole: when the run queue is gone no worker is added.
 */
 
-:- meta_predicate pool_signal(0).
-
 :- multifile
-    typhon_scheduler:fire/2.    % Agent, Token: an alarm went off
+    typhon_scheduler:fire/2,    % Agent, Token: an alarm went off
+    typhon_time:adopt/2,
+    typhon_time:alarm/4,
+    typhon_time:alone/1,
+    typhon_time:due/4,
+    typhon_time:here/2,
+    typhon_time:hold/2,
+    typhon_time:leave/1,
+    typhon_time:let_go/2,
+    typhon_time:signal/2,
+    typhon_time:starts/1,
+    typhon_time:stops/1,
+    typhon_time:wait/4,
+    typhon_time:work/2.
 
 :- setting(typhon_scheduler:min_workers, positive_integer, 2,
            "Workers kept when idle").
@@ -58,13 +65,10 @@ end, whole: when the run queue is gone no worker is added.
                 *        START AND STOP        *
                 *******************************/
 
-%!  pool_start is det.
-%!  pool_stop is det.
-%
 %   Start workers and timer, or end them; nothing to do where they run, or do
 %   not.
 
-pool_start :-
+typhon_time:starts(real) :-
     with_mutex(typhon_scheduler, start).
 
 start :-
@@ -79,17 +83,21 @@ start :-
     catch(( timer_start,
             forall(between(1, N, _), add_worker(Queue)) ),
           error(Formal, Context),
-          ( pool_stop,
+          ( stop,
             throw(error(Formal, Context)) )).
 
-pool_stop :-
+typhon_time:stops(real) :-
+    stop.
+
+stop :-
     with_mutex(typhon_scheduler, retract(run_queue(Queue))),
     !,
     timer_stop,
     end_workers(Queue),
     message_queue_destroy(Queue),
-    blocked_forget.
-pool_stop.
+    blocked_forget,
+    still_end(_).
+stop.
 
 %   Workers are asked, then those that are busy are interrupted.
 
@@ -99,11 +107,7 @@ end_workers(Queue) :-
     maplist(stop_thread, Workers),
     retractall(worker(_)).
 
-%!  pool_signal(:Goal) is det.
-%
-%   Run Goal in all workers, in the middle of whatever they do.
-
-pool_signal(Goal) :-
+typhon_time:signal(real, Goal) :-
     forall(worker(Worker),
            catch(thread_signal(Worker, Goal),
                  error(existence_error(_, _), _), true)).
@@ -112,11 +116,10 @@ pool_signal(Goal) :-
                 *         THE RUN QUEUE        *
                 *******************************/
 
-%!  pool_work(+Work) is det.
-%
-%   Work, see module `work`, is done by a worker some time soon.
+typhon_time:work(real, Work) :-
+    enqueue(Work).
 
-pool_work(Work) :-
+enqueue(Work) :-
     run_queue(Queue),
     !,
     thread_send_message(Queue, Work),
@@ -124,13 +127,9 @@ pool_work(Work) :-
     ->  true
     ;   look_soon
     ).
-pool_work(_).                           % stopping
+enqueue(_).                             % stopping
 
-%!  pool_idle is semidet.
-%
-%   The pool runs, and nothing waits to be done.
-
-pool_idle :-
+typhon_time:alone(real) :-
     run_queue(Queue),
     \+ waits(Queue).
 
@@ -138,14 +137,31 @@ waits(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
 
-%!  pool_here(+Agent) is semidet.
-%
-%   Run Agent in this thread, which is of no pool; fails if its turn may take
-%   long.
+%   This thread is of no pool, and gets no turn that may take long.
 
-pool_here(Agent) :-
+typhon_time:here(real, Agent) :-
     run_queue(_),
-    quick_turn(Agent, work_do(agent(Agent), pool_work)).
+    quick_turn(Agent, work_do(agent(Agent), enqueue)).
+
+                /*******************************
+                *         ALARMS, WAITING      *
+                *******************************/
+
+typhon_time:alarm(real, Stamp, Agent, Token) :-
+    timer_alarm(Stamp, Agent, Token).
+
+typhon_time:due(real, Agent, Token, Stamp) :-
+    alarm_stamp(Stamp, Agent, Token).
+
+typhon_time:wait(real, Queue, Message, Stamp) :-
+    time_day_wait(Queue, Message, Stamp).
+
+typhon_time:hold(real, _) :-
+    still_begin.
+
+typhon_time:let_go(real, Agents) :-
+    still_end(Agents),
+    alarms_overdue.
 
                 /*******************************
                 *            WORKERS           *
@@ -203,7 +219,7 @@ serve(stop, _, _) :-
 serve(Work, Queue, Seconds) :-
     (   blocked_held(Work)
     ->  true
-    ;   work_do(Work, pool_work)
+    ;   work_do(Work, enqueue)
     ),
     serve(Queue, Seconds).
 
@@ -220,13 +236,9 @@ superfluous(Me) :-
     thread_detach(Me),
     debug(typhon(scheduler), '~w ends, of ~D workers', [Me, Count]).
 
-%!  pool_adopt(+Thread) is det.
-%!  pool_leave is det.
-%
-%   Thread, which runs an agent, is a worker until it has done so; this one
-%   has.  No other thread joins it.
+%   No other thread joins one that is a worker for a while.
 
-pool_adopt(Thread) :-
+typhon_time:adopt(real, Thread) :-
     with_mutex(typhon_scheduler, adopt(Thread)).
 
 adopt(Thread) :-
@@ -235,7 +247,7 @@ adopt(Thread) :-
     ;   thread_detach(Thread)
     ).
 
-pool_leave :-
+typhon_time:leave(real) :-
     thread_self(Me),
     with_mutex(typhon_scheduler, leave(Me)).
 
@@ -298,7 +310,7 @@ typhon_scheduler:fire(pool, release) :-
     (   run_queue(Queue),
         mostly_free(Queue)
     ->  blocked_release(Works),
-        maplist(pool_work, Works)
+        maplist(enqueue, Works)
     ;   release_later
     ).
 

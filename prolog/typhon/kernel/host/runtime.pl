@@ -19,7 +19,8 @@
                 endpoint_listen_end/1, endpoint_start/4,
                 endpoint_start_alone/1, endpoint_stop/0 ]).
 :- use_module(scheduler, [scheduler_forget/0]).
-:- use_module(time, [time_kind/1, time_start/1, time_stop/0]).
+:- use_module(time,
+              [time_apart/2, time_kind/1, time_start/1, time_stop/0]).
 
 /** <module> What the hosts of a process share
 
@@ -32,7 +33,7 @@ hooks beginning/1 and ending/1.
 */
 
 :- multifile
-    beginning/1,                        % real or virtual: time has started
+    beginning/1,                        % Kind of the runtime that has started
     ending/1.                           % before or after both have stopped
 
 :- dynamic
@@ -54,9 +55,9 @@ hooks beginning/1 and ending/1.
 %   variable `TYPHON_TLS`; of later ones interface and keys may only be what
 %   they are, and
 %   another port is listened to as long as one of them needs it.  The same
-%   goes for time(Kind), `real` or `virtual`; without it either
-%   will do.  In virtual time the endpoint reaches no other process, and ports mean
-%   nothing.
+%   goes for time(Kind), see typhon_time; without it any
+%   will do.  Where the runtime is apart, the endpoint reaches no other process,
+%   and ports mean nothing.
 %
 %   @error permission_error(change, endpoint, Option)
 %   @error permission_error(change, kind_of_time, Kind)
@@ -81,7 +82,7 @@ reached_at(Port, Endpoint) :-
     endpoint_address(First),
     atomic_list_concat([Interface,_], ':', First),
     atomic_list_concat([Interface,Port], ':', Wanted),
-    (   ( Port =:= 0 ; time_kind(virtual) )
+    (   ( Port =:= 0 ; time_kind(Kind), time_apart(Kind, _) )
     ->  Endpoint = First
     ;   endpoint_address(Wanted)
     ->  Endpoint = Wanted
@@ -99,13 +100,15 @@ start(Options) :-
           ( time_stop, own_thread_stop, throw(Ball) )),
     forget_erased.
 
-start_endpoint(real, Options) :-
+start_endpoint(Kind, _) :-
+    time_apart(Kind, Address),
+    !,
+    endpoint_start_alone(Address).
+start_endpoint(_, Options) :-
     option(port(Port), Options, 0),
     option(bind(Interface), Options, localhost),
     keys(Options, Keys),
     endpoint_start(Interface, Port, Keys, _).
-start_endpoint(virtual, _) :-
-    endpoint_start_alone('virtual:0').
 
 %   A process that starts no host, a guest, gets it from the environment.
 

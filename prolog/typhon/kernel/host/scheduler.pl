@@ -11,9 +11,10 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(pool, [pool_adopt/1, pool_leave/0]).
 :- use_module(short_turns, [quick_not/2]).
-:- use_module(time, [time_alone/0, time_here/1, time_work/1]).
+:- use_module(time,
+              [ time_adopt/1, time_alone/0, time_here/1, time_leave/0,
+                time_work/1 ]).
 :- use_module(work,
               [ limit_clear/2, limit_enter/3, limit_set/3, limited/1,
                 limited/2, limits_forget/0 ]).
@@ -102,10 +103,10 @@ blocks(60).                             % seconds for which it is believed to
 schedule_adopt(Thread, Agent) :-
     blocks(Seconds),
     quick_not(Agent, Seconds),
-    pool_adopt(Thread).
+    time_adopt(Thread).
 
 schedule_leave :-
-    pool_leave.
+    time_leave.
 
 %!  scheduler_call(:Goal) is det.
 %

@@ -2,11 +2,17 @@
           [ time_start/1,               % +Kind
             time_stop/0,
             time_kind/1,                % ?Kind
+            time_wanted/2,              % +Options, -Kind
+            time_apart/2,               % ?Kind, -Address
+            time_repeats/2,             % ?Kind, -Mark
             time_now/1,                 % -Stamp
             time_work/1,                % +Work
             time_alone/0,
             time_here/1,                % +Agent
+            time_adopt/1,               % +Thread
+            time_leave/0,
             time_wait/3,                % +Queue, -Message, +Stamp
+            time_day_wait/3,            % +Queue, -Message, +Stamp
             time_signal/1,              % :Goal
             time_seed/1,                % +Seed
             time_hold/1,                % +Seconds
@@ -17,29 +23,17 @@
             alarm_set/3,                % +Stamp, +Agent, +Token
             alarm_in/3                  % +Seconds, +Agent, +Token
           ]).
-:- use_module(pool,
-              [ pool_here/1, pool_idle/0, pool_signal/1, pool_start/0,
-                pool_stop/0, pool_work/1 ]).
-:- use_module(alarms, [alarm_stamp/3]).
-:- use_module(pause, [still_begin/0, still_end/1]).
-:- use_module(timer, [alarm_set/3 as timer_set, alarms_overdue/0]).
-:- use_module(virtual,
-              [ virtual_again/2, virtual_alarm/3, virtual_hold/1,
-                virtual_let_go/0, virtual_signal/1, virtual_stands/1,
-                virtual_start/0, virtual_stop/0, virtual_wait/3,
-                virtual_work/1 ]).
-:- use_module(virtual_loop, [virtual_alone/0, virtual_now/1]).
+:- use_module(library(lists), [member/2]).
 
-/** <module> The kinds of time
+/** <module> The runtime: which threads do the work, and what time it is
 
-Work, alarms and waiting callers are
-served in one of two ways:
+Work, alarms and waiting callers are served by a runtime of some Kind.  The
+kernel has `real`: a pool of threads, in the time of day, see typhon_pool.  A
+process has one kind for as long as it has hosts.  Stamps are seconds: those of
+the time of day, or those of the clock of the runtime.
 
-  | real    | by a pool of threads, when the time of day has come: module pool |
-  | virtual | by one thread, as quick as it can; time jumps: module virtual   |
-
-A process has one kind of time for as long as it has hosts.  Stamps are
-seconds: those of the time of day, or those since virtual time began.
+A runtime defines the hooks below for its Kind.  It has to have those of the
+first group; of the others each describes a property that a runtime may lack.
 
 *Threading*: any thread; time_start/1 and time_stop/0 are called by one at a
 time.
@@ -47,11 +41,51 @@ time.
 
 :- meta_predicate time_signal(0).
 
-:- dynamic time_kind/1.                 % real or virtual: while it runs
+:- multifile
+    starts/1,                   % Kind
+    stops/1,                    % Kind
+    work/2,                     % Kind, Work: see time_work/1
+    alone/1,                    % Kind: see time_alone/0
+    alarm/4,                    % Kind, Stamp, Agent, Token: see alarm_set/3
+    wait/4,                     % Kind, Queue, Message, Stamp: see time_wait/3
+    signal/2,                   % Kind, Goal: see time_signal/1
+    hold/2,                     % Kind, Seconds: see time_hold/1
+    let_go/2.                   % Kind, Agents: see time_let_go/1
+
+:- multifile
+    clock/2,                    % Kind, Now: call(Now, Stamp) is the time, not
+                                % that of day
+    wanted/2,                   % Option, Kind: see time_wanted/2
+    apart/2,                    % Kind, Address: see time_apart/2
+    repeats/2,                  % Kind, Mark: see time_repeats/2
+    here/2,                     % Kind, Agent: see time_here/1; with it go
+    adopt/2,                    % Kind, Thread: see time_adopt/1
+    leave/1,                    % Kind: see time_leave/0
+    due/4,                      % Kind, Agent, Token, Stamp: see time_due/3
+    seed/2,                     % Kind, Seed: see time_seed/1
+    stands/2,                   % Kind, Standing: see time_stands/1
+    again/3.                    % Kind, Standing, Agents: see time_again/2
+
+:- dynamic
+    clock/2,
+    wanted/2,
+    apart/2,
+    repeats/2,
+    here/2,
+    adopt/2,
+    leave/1,
+    due/4,
+    seed/2,
+    stands/2,
+    again/3.
+
+:- dynamic
+    time_kind/1,                % Kind: while it runs
+    own_clock/1.                % Now, as of clock/2: while it runs
 
 %!  time_kind(?Kind) is semidet.
 %
-%   Time runs, and is of that Kind.
+%   The runtime of this process runs, and is of that Kind.
 
 %!  time_start(+Kind) is det.
 %!  time_stop is det.
@@ -62,94 +96,123 @@ time_start(Kind) :-
     time_kind(Kind),
     !.
 time_start(Kind) :-
-    start(Kind),
+    starts(Kind),
+    forall(clock(Kind, Now), assertz(own_clock(Now))),
     assertz(time_kind(Kind)).
 
 time_stop :-
     (   retract(time_kind(Kind))
-    ->  stop(Kind)
+    ->  retractall(own_clock(_)),
+        stops(Kind)
     ;   true
     ).
 
-start(real)    :- pool_start.
-start(virtual) :- virtual_start.
+                /*******************************
+                *           PROPERTIES         *
+                *******************************/
 
-stop(real)    :- pool_stop.
-stop(virtual) :- virtual_stop.
+%!  time_wanted(+Options, -Kind) is semidet.
+%
+%   The options of a host ask for another Kind than `real`.
+
+time_wanted(Options, Kind) :-
+    member(Option, Options),
+    wanted(Option, Kind),
+    !.
+
+%!  time_apart(?Kind, -Address) is semidet.
+%
+%   A process with that Kind of runtime reaches no other: Address is that of its
+%   endpoint.
+
+time_apart(Kind, Address) :-
+    apart(Kind, Address),
+    !.
+
+%!  time_repeats(?Kind, -Mark) is semidet.
+%
+%   What happens follows from the programs alone: the same ids come again, which
+%   have Mark.
+
+time_repeats(Kind, Mark) :-
+    repeats(Kind, Mark),
+    !.
+
+                /*******************************
+                *              TIME            *
+                *******************************/
 
 %!  time_now(-Stamp:float) is det.
 
 time_now(Stamp) :-
-    time_kind(virtual),
+    own_clock(Now),
     !,
-    virtual_now(Stamp).
+    call(Now, Stamp).
 time_now(Stamp) :-
     get_time(Stamp).
 
-%!  time_seed(+Seed:integer) is det.
+%!  alarm_set(+Stamp, +Agent, +Token) is det.
+%!  alarm_in(+Seconds, +Agent, +Token) is det.
 %
-%   Where one thread does all work, what it draws by library(random) follows
-%   from Seed.
+%   Have fire(Agent, Token) called at Stamp, or in Seconds.
 
-time_seed(Seed) :-
+alarm_set(Stamp, Agent, Token) :-
     time_kind(Kind),
-    seed(Kind, Seed).
+    !,
+    alarm(Kind, Stamp, Agent, Token).
+alarm_set(_, _, _).
 
-seed(real, _).
-seed(virtual, Seed) :- virtual_work(goal(set_random(seed(Seed)))).
-
-%!  time_hold(+Seconds) is semidet.
-%!  time_stands(-Standing) is det.
-%!  time_let_go(-Agents:list) is det.
-%!  time_again(+Standing, -Agents:list) is det.
-%
-%   No agent gets a turn any more, and no alarm goes off; fails if that cannot be
-%   had in Seconds of the time of day.  In virtual time that is at once so, and
-%   Standing all that time knows of what comes next.  It goes on, which is to be
-%   said in either case: Agents have missed their turn.  What comes next is as
-%   Standing says; Agents have their turns.
-
-time_hold(Seconds) :-
-    time_kind(Kind),
-    hold(Kind, Seconds).
-
-hold(virtual, Seconds) :- virtual_hold(Seconds).
-hold(real, _)          :- still_begin.
-
-time_stands(Standing) :-
-    time_kind(Kind),
-    stands(Kind, Standing).
-
-stands(virtual, Standing) :- virtual_stands(Standing).
-stands(real, real).
-
-time_let_go(Agents) :-
-    (   time_kind(Kind)
-    ->  let_go(Kind, Agents)
-    ;   Agents = [],
-        still_end(_)                    % it has ended meanwhile
-    ).
-
-let_go(virtual, []) :-
-    virtual_let_go.
-let_go(real, Agents) :-
-    still_end(Agents),
-    alarms_overdue.
-
-time_again(Standing, Agents) :-
-    (   Standing == real
-    ->  Agents = []
-    ;   virtual_again(Standing, Agents)
-    ).
+alarm_in(Seconds, Agent, Token) :-
+    time_now(Now),
+    Stamp is Now+Seconds,
+    alarm_set(Stamp, Agent, Token).
 
 %!  time_due(+Agent, +Token, -Stamp) is semidet.
 %
-%   In real time, when the alarm goes off.
+%   When the alarm goes off.  Where time_stands/1 has a term for all alarms, this
+%   fails.
 
 time_due(Agent, Token, Stamp) :-
-    time_kind(real),
-    alarm_stamp(Stamp, Agent, Token),
+    time_kind(Kind),
+    due(Kind, Agent, Token, Stamp),
     !.
+
+%!  time_wait(+Queue, -Message, +Stamp) is semidet.
+%
+%   Take the first Message of Queue, from which no other thread takes.  Fails if
+%   there is none before Stamp, a number or `inf`.
+
+time_wait(Queue, Message, Stamp) :-
+    (   time_kind(Kind)
+    ->  wait(Kind, Queue, Message, Stamp)
+    ;   time_day_wait(Queue, Message, Stamp)
+    ).
+
+%!  time_day_wait(+Queue, -Message, +Stamp) is semidet.
+%
+%   As time_wait/3, Stamp being of the time of day.
+
+time_day_wait(Queue, Message, inf) :-
+    !,
+    thread_get_message(Queue, Message).
+time_day_wait(Queue, Message, Stamp) :-
+    thread_get_message(Queue, Message, [deadline(Stamp)]).
+
+%!  time_seed(+Seed:integer) is det.
+%
+%   What agents draw by library(random) follows from Seed, where what happens
+%   follows from the programs.
+
+time_seed(Seed) :-
+    (   time_kind(Kind),
+        seed(Kind, Seed)
+    ->  true
+    ;   true
+    ).
+
+                /*******************************
+                *              WORK            *
+                *******************************/
 
 %!  time_work(+Work) is det.
 %
@@ -161,9 +224,6 @@ time_work(Work) :-
     work(Kind, Work).
 time_work(_).                           % stopping
 
-work(real, Work)    :- pool_work(Work).
-work(virtual, Work) :- virtual_work(Work).
-
 %!  time_alone is semidet.
 %
 %   Nothing else waits to be done: the thread may go on.
@@ -172,51 +232,33 @@ time_alone :-
     time_kind(Kind),
     alone(Kind).
 
-alone(real)    :- pool_idle.
-alone(virtual) :- virtual_alone.
-
 %!  time_here(+Agent) is semidet.
 %
 %   Run Agent in this thread, which has other things to do, too; fails
 %   where it is to be done by workers.
 
 time_here(Agent) :-
-    time_kind(real),
-    pool_here(Agent).
+    time_kind(Kind),
+    here(Kind, Agent).
 
-%!  alarm_set(+Stamp, +Agent, +Token) is det.
-%!  alarm_in(+Seconds, +Agent, +Token) is det.
+%!  time_adopt(+Thread) is det.
+%!  time_leave is det.
 %
-%   Have fire(Agent, Token) called at Stamp, or in Seconds.
+%   Thread, which runs an agent by time_here/1, does work until it has done so;
+%   this thread has.
 
-alarm_set(Stamp, Agent, Token) :-
+time_adopt(Thread) :-
     time_kind(Kind),
     !,
-    alarm_set(Kind, Stamp, Agent, Token).
-alarm_set(_, _, _).
+    adopt(Kind, Thread).
+time_adopt(Thread) :-
+    thread_detach(Thread).              % stopping
 
-alarm_in(Seconds, Agent, Token) :-
-    time_now(Now),
-    Stamp is Now+Seconds,
-    alarm_set(Stamp, Agent, Token).
-
-alarm_set(real, Stamp, Agent, Token)    :- timer_set(Stamp, Agent, Token).
-alarm_set(virtual, Stamp, Agent, Token) :- virtual_alarm(Stamp, Agent, Token).
-
-%!  time_wait(+Queue, -Message, +Stamp) is semidet.
-%
-%   Take the first Message of Queue, from which no other thread takes.  Fails if
-%   there is none before Stamp, a number or `inf`.
-
-time_wait(Queue, Message, Stamp) :-
-    time_kind(virtual),
-    !,
-    virtual_wait(Queue, Message, Stamp).
-time_wait(Queue, Message, inf) :-
-    !,
-    thread_get_message(Queue, Message).
-time_wait(Queue, Message, Stamp) :-
-    thread_get_message(Queue, Message, [deadline(Stamp)]).
+time_leave :-
+    (   time_kind(Kind)
+    ->  leave(Kind)
+    ;   true
+    ).
 
 %!  time_signal(:Goal) is det.
 %
@@ -228,5 +270,41 @@ time_signal(Goal) :-
     signal(Kind, Goal).
 time_signal(_).
 
-signal(real, Goal)    :- pool_signal(Goal).
-signal(virtual, Goal) :- virtual_signal(Goal).
+                /*******************************
+                *             HOLDING          *
+                *******************************/
+
+%!  time_hold(+Seconds) is semidet.
+%!  time_stands(-Standing) is det.
+%!  time_let_go(-Agents:list) is det.
+%!  time_again(+Standing, -Agents:list) is det.
+%
+%   No agent gets a turn any more, and no alarm goes off; fails if that cannot be
+%   had in Seconds of the time of day.  Then Standing is all that the runtime
+%   knows of what comes next, or the Kind of one that knows nothing.  It goes on:
+%   Agents have missed their turn.  What comes next is as Standing says; Agents
+%   have their turns.
+
+time_hold(Seconds) :-
+    time_kind(Kind),
+    hold(Kind, Seconds).
+
+time_stands(Standing) :-
+    time_kind(Kind),
+    (   stands(Kind, Standing0)
+    ->  Standing = Standing0
+    ;   Standing = Kind
+    ).
+
+time_let_go(Agents) :-
+    (   time_kind(Kind)
+    ->  let_go(Kind, Agents)
+    ;   Agents = []                     % it has ended meanwhile
+    ).
+
+time_again(Standing, Agents) :-
+    (   time_kind(Kind),
+        again(Kind, Standing, Agents0)
+    ->  Agents = Agents0
+    ;   Agents = []
+    ).

@@ -2,8 +2,7 @@
           [ timer_start/0,
             timer_stop/0,
             timer_check/0,
-            alarm_set/3,                % +Stamp, +Agent, +Token
-            alarm_in/3,                 % +Seconds, +Agent, +Token
+            timer_alarm/3,              % +Stamp, +Agent, +Token
             alarms_overdue/0,
             alarm_count/2               % -Alarms, -Indexed
           ]).
@@ -144,23 +143,17 @@ no_timer(Formal) :-
                 *            ALARMS            *
                 *******************************/
 
-%!  alarm_set(+Stamp, +Agent, +Token) is det.
-%!  alarm_in(+Seconds, +Agent, +Token) is det.
+%!  timer_alarm(+Stamp, +Agent, +Token) is det.
 %
-%   Have fire(Agent, Token) called at the real time Stamp, or in Seconds.
+%   Have fire(Agent, Token) called at Stamp, of the time of day.
 
-alarm_set(Stamp0, Agent, Token) :-
+timer_alarm(Stamp0, Agent, Token) :-
     Stamp is float(Stamp0),
     (   timing,
         alarm_add(Stamp, Agent, Token)
     ->  hasten(Stamp)
     ;   true
     ).
-
-alarm_in(Seconds, Agent, Token) :-
-    get_time(Now),
-    Stamp is Now+Seconds,
-    alarm_set(Stamp, Agent, Token).
 
 %!  alarms_overdue is det.
 %

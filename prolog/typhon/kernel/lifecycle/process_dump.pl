@@ -9,7 +9,7 @@
 :- use_module('../base/durable', [durable_dump/4, durable_restore/4]).
 :- use_module('../program', [code_receive/2, code_sent/2]).
 :- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [host/3, host_again/1, schedule/2]).
+:- use_module('../host', [host/3, host_again/1, schedule/2, time_repeats/2]).
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_home/2, agent_module/5,
                 agent_order/2, agent_orders/2, agent_state/2, agent_status/3,
@@ -30,14 +30,14 @@ time does not know.
     typhon_durable:restore/4,
     typhon_durable:dump/4.
 
-%   What others look up comes before them.  Of some kinds a process in real
-%   time knows better.
+%   What others look up comes before them.  Some kinds are restored only where
+%   what happens is to repeat itself; another process knows better.
 
 kind(place, any).
 kind(fact, any).
 kind(payload, any).
 kind(link, any).
-kind(flag, virtual).
+kind(flag, repeated).
 kind(birth, any).
 kind(born, any).
 kind(outcome, any).
@@ -51,9 +51,9 @@ kind(program, any).
 kind(stands, any).
 kind(mail, any).
 kind(order, any).
-kind(stays, virtual).
-kind(turns, virtual).
-kind(counts, virtual).
+kind(stays, repeated).
+kind(turns, repeated).
+kind(counts, repeated).
 
 %!  cut_kept(+Hosts:list, -Items:list) is det.
 %
@@ -121,8 +121,12 @@ cut_again(Time, Items) :-
            true),
     forall(( member(item(Kind, Key, N, Term), Items),
              kind(Kind, For),
-             memberchk(For, [any, Time]) ),
+             restored(For, Time) ),
            is_again(Kind, Key, N, Term)).
+
+restored(any, _).
+restored(repeated, Time) :-
+    time_repeats(Time, _).
 
 is_again(Kind, Key, N, Term) :-
     durable_restore(Kind, Key, N, Term),
@@ -190,15 +194,18 @@ unasked(Order, Order).
 
 %!  cut_go_on(+Kind, +Agents:list, +Scheduled:list) is det.
 %
-%   Agents go on.  In virtual time alarms are set, and some are Scheduled.
+%   Agents go on.  Where what happens repeats itself, the runtime knows the
+%   alarms, and some agents are Scheduled.
 
-cut_go_on(real, Agents, _) :-
-    forall(member(Id, Agents), agent_goes_on(Id)),
-    retries_go_on.
-cut_go_on(virtual, Agents, Scheduled0) :-
+cut_go_on(Kind, Agents, Scheduled0) :-
+    time_repeats(Kind, _),
+    !,
     findall(Id, ( member(Id, Agents), agent_status(Id, ready, _) ), Ready0),
     sort(Ready0, Ready),
     sort(Scheduled0, Scheduled),
     ord_subtract(Ready, Scheduled, Others),
     forall(( member(Id, Others), agent(Id, Host, _, _, _) ),
            schedule(Host, Id)).
+cut_go_on(_, Agents, _) :-
+    forall(member(Id, Agents), agent_goes_on(Id)),
+    retries_go_on.

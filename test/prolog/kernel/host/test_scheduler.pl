@@ -11,7 +11,8 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/own_thread)).
 :- use_module(library(typhon/kernel/host/scheduler)).
-:- use_module(library(typhon/kernel/host/time), [time_start/1, time_stop/0]).
+:- use_module(library(typhon/kernel/host/time),
+              [alarm_set/3, time_start/1, time_stop/0]).
 :- use_module(library(typhon/kernel/host/timer)).
 
 /** <module> Tests of the pool of workers, and of alarms

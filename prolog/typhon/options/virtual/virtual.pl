@@ -1,33 +1,22 @@
-:- module(typhon_virtual,
-          [ virtual_start/0,
-            virtual_stop/0,
-            virtual_work/1,             % +Work
-            virtual_alarm/3,            % +Stamp, +Agent, +Token
-            virtual_wait/3,             % +Queue, -Message, +Stamp
-            virtual_hold/1,             % +Seconds
-            virtual_stands/1,           % -Standing
-            virtual_let_go/0,
-            virtual_again/2,            % +Standing, -Agents
-            virtual_signal/1            % :Goal
-          ]).
+:- module(typhon_virtual, []).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/stop_thread', [stop_thread/1]).
-:- use_module(work, [limit_parked/1]).
+:- use_module('../../kernel/base/stop_thread', [stop_thread/1]).
+:- use_module('../../kernel/host', [limit_parked/1]).
 :- use_module(virtual_loop,
-              [ virtual_begin/0, virtual_doing/1, virtual_end/0,
-                virtual_loop/1, virtual_now/1, virtual_standing/1,
-                virtual_steps/1 ]).
+              [ virtual_alone/0, virtual_begin/0, virtual_doing/1,
+                virtual_end/0, virtual_loop/1, virtual_now/1,
+                virtual_standing/1, virtual_steps/1 ]).
 
-/** <module> Virtual time: nothing waits
+/** <module> The runtime `virtual`: nothing waits
 
 One thread does all work, in the order in which it came.  When there is no
 more, the clock jumps to the next alarm.  What is done thus follows from the
 programs alone: not from how busy the machine is, nor from other threads.
 
-Time runs while a caller waits, in virtual_wait/3, and stands still from the
-moment at which what it waits for is there.  So whoever writes a program that
-starts agents, waits, looks, and waits again finds the same each time.
+Time runs while a caller waits, in time_wait/3, and stands still from the
+moment at which what it waits for is there.  So a program that starts agents,
+waits, looks, and waits again finds the same each time.
 
 A native goal takes no time.  One that does not end, and agents that go on
 for ever at one instant, are reported.
@@ -37,9 +26,24 @@ comes in any order; with one there is no chance.
 */
 
 :- multifile
-    prolog:message//1.
-
-:- meta_predicate virtual_signal(0).
+    prolog:message//1,
+    typhon_options:declared/4,
+    typhon_time:again/3,
+    typhon_time:alarm/4,
+    typhon_time:alone/1,
+    typhon_time:apart/2,
+    typhon_time:clock/2,
+    typhon_time:hold/2,
+    typhon_time:let_go/2,
+    typhon_time:repeats/2,
+    typhon_time:seed/2,
+    typhon_time:signal/2,
+    typhon_time:stands/2,
+    typhon_time:starts/1,
+    typhon_time:stops/1,
+    typhon_time:wait/4,
+    typhon_time:wanted/2,
+    typhon_time:work/2.
 
 :- setting(patience, number, 10,
            "Virtual time that stands still for so long is reported").
@@ -47,44 +51,58 @@ comes in any order; with one there is no chance.
 :- dynamic
     loop/2.                             % Thread, Queue
 
+typhon_options:declared(host_option, clock(Kind), oneof([virtual]), Kind).
+
+typhon_time:wanted(clock(virtual), virtual).
+
+typhon_time:apart(virtual, 'virtual:0').
+
+typhon_time:repeats(virtual, 'v.').
+
+typhon_time:clock(virtual, typhon_virtual_loop:virtual_now).
+
                 /*******************************
                 *         START AND STOP       *
                 *******************************/
 
-%!  virtual_start is det.
-%!  virtual_stop is det.
-%
-%   Time begins at 0.0, and stands still.  It ends, and what was to be done
-%   is forgotten; a goal that runs is interrupted.
+%   Time begins at 0.0, and stands still.  It ends, also if it is held, and what
+%   was to be done is forgotten; a goal that runs is interrupted.
 
-virtual_start :-
+typhon_time:starts(virtual) :-
     message_queue_create(Queue),
     virtual_begin,
     thread_create(virtual_loop(Queue), Thread,
                   [alias(typhon_virtual_time)]),
     assertz(loop(Thread, Queue)).
 
-virtual_stop :-
+typhon_time:stops(virtual) :-
     retract(loop(Thread, Queue)),
     !,
     virtual_end,
+    thread_send_message(Queue, held(let_go)),
     thread_send_message(Queue, ask(stop)),
     stop_thread(Thread),
     message_queue_destroy(Queue).
-virtual_stop.
 
-%!  virtual_work(+Work) is det.
-%!  virtual_alarm(+Stamp, +Agent, +Token) is det.
-%
+                /*******************************
+                *        WORK AND ALARMS       *
+                *******************************/
+
 %   What is to be done as soon as time runs, and what at Stamp.  Of two
 %   alarms at the same Stamp the one that was set first goes off first.
 
-virtual_work(Work) :-
+typhon_time:work(virtual, Work) :-
     tell(do(Work)).
 
-virtual_alarm(Stamp0, Agent, Token) :-
+typhon_time:alarm(virtual, Stamp0, Agent, Token) :-
     Stamp is float(Stamp0),
     tell(alarm(Stamp, Agent-Token)).
+
+typhon_time:seed(virtual, Seed) :-
+    tell(do(goal(set_random(seed(Seed))))).
+
+typhon_time:alone(virtual) :-
+    virtual_alone.
 
 tell(Message) :-
     (   loop(_, Queue)
@@ -93,9 +111,10 @@ tell(Message) :-
     ;   true                            % it has ended
     ).
 
-%!  virtual_signal(:Goal) is det.
+typhon_time:signal(virtual, Goal) :-
+    signal(Goal).
 
-virtual_signal(Goal) :-
+signal(Goal) :-
     forall(loop(Thread, _),
            catch(thread_signal(Thread, Goal),
                  error(existence_error(_, _), _), true)).
@@ -104,31 +123,23 @@ virtual_signal(Goal) :-
                 *            HOLDING           *
                 *******************************/
 
-%!  virtual_hold(+Seconds) is semidet.
-%!  virtual_stands(-Standing) is det.
-%!  virtual_let_go is det.
-%!  virtual_again(+Standing, -Agents) is det.
-%
-%   Nothing is done any more: fails if that is not so in Seconds of the time of
-%   day.  Time is as Standing says.  It goes on.  It stands as it did
-%   then, until a caller waits; Agents have their turns, or wait for them at
-%   their hosts.  What is called in the thread of virtual time itself holds it
-%   anyway.
+%   Where time stands is known, see virtual_standing/1.  Let go on from there, it
+%   stands until a caller waits.  What is called in the thread of virtual time
+%   itself holds it anyway.
 
-virtual_hold(_) :-
-    own_thread,
-    !.
-virtual_hold(Seconds) :-
-    asked(ask(hold(Reply)), Reply, [timeout(Seconds)], held).
+typhon_time:hold(virtual, Seconds) :-
+    (   own_thread
+    ->  true
+    ;   asked(ask(hold(Reply)), Reply, [timeout(Seconds)], held)
+    ).
 
-virtual_stands(Standing) :-
-    own_thread,
-    !,
-    virtual_standing(Standing).
-virtual_stands(Standing) :-
-    asked(held(standing(Reply)), Reply, [], Standing).
+typhon_time:stands(virtual, Standing) :-
+    (   own_thread
+    ->  virtual_standing(Standing)
+    ;   asked(held(standing(Reply)), Reply, [], Standing)
+    ).
 
-virtual_let_go :-
+typhon_time:let_go(virtual, []) :-
     (   own_thread
     ->  true
     ;   tell(held(let_go))
@@ -138,7 +149,7 @@ own_thread :-
     loop(Thread, _),
     thread_self(Thread).
 
-virtual_again(Standing, Agents) :-
+typhon_time:again(virtual, Standing, Agents) :-
     asked(ask(again(Standing, Reply)), Reply, [], done),
     findall(Agent, has_turn(Standing, Agent), Agents).
 
@@ -161,17 +172,17 @@ asked(Question, Reply, Options, Answer) :-
                 *            WAITING           *
                 *******************************/
 
-%!  virtual_wait(+Queue, -Message, +Stamp) is semidet.
-%
-%   Let time run until there is a Message in Queue, which is taken; fails at
-%   Stamp, a number or `inf`.  A goal of an agent cannot wait: while
-%   it runs no time passes.
+%   Time runs until there is a message in Queue, or until Stamp.  A goal of an
+%   agent cannot wait: while it runs no time passes.
 
-virtual_wait(Queue, Message, _) :-
-    there(Queue),
-    !,
+typhon_time:wait(virtual, Queue, Message, Stamp) :-
+    (   there(Queue)
+    ->  true
+    ;   comes(Queue, Stamp)
+    ),
     thread_get_message(Queue, Message).
-virtual_wait(Queue, Message, Stamp) :-
+
+comes(Queue, Stamp) :-
     loop(Thread, Loop),
     \+ thread_self(Thread),
     setup_call_cleanup(
@@ -182,14 +193,13 @@ virtual_wait(Queue, Message, Stamp) :-
         ( tell(ask(no_longer(Reply))),
           message_queue_destroy(Reply)
         )),
-    Answer == there,
-    thread_get_message(Queue, Message).
+    Answer == there.
 
 there(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
 
-%   Meanwhile it is watched that something goes on.
+%   Meanwhile this thread looks whether something goes on.
 
 answer(Reply, Answer) :-
     setting(patience, Seconds),
@@ -208,14 +218,14 @@ complain(course(Now, Steps0)) :-
     course(course(Now, Steps)),
     !,
     (   Steps-Steps0 =< 1               % it may just have begun
-    ->  virtual_signal(typhon_virtual:tell_who)
+    ->  signal(typhon_virtual:report_work)
     ;   print_message(warning, typhon(virtual_busy(Now)))
     ).
 complain(_).
 
 %   In the thread of virtual time, in the middle of what keeps it.
 
-tell_who :-
+report_work :-
     (   virtual_doing(Work)
     ->  virtual_now(Now),
         print_message(warning, typhon(virtual_stuck(Work, Now)))

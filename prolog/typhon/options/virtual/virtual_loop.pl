@@ -11,11 +11,12 @@
 :- use_module(library(apply), [exclude/3, partition/4]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(heaps),
-              [add_to_heap/4, empty_heap/1, get_from_heap/4, min_of_heap/3]).
-:- use_module(library(lists), [member/2]).
-:- use_module('../base/error_text', [print_error/2]).
-:- use_module(virtual_standing, [standing/3, standing_again/3]).
-:- use_module(work, [work_do/2]).
+              [ add_to_heap/4, empty_heap/1, get_from_heap/4, heap_to_list/2,
+                list_to_heap/2, min_of_heap/3 ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/fifo', [fifo_empty/2]).
+:- use_module('../../kernel/host', [work_do/2]).
 
 /** <module> The thread of virtual time
 
@@ -39,10 +40,10 @@ thread may ask for.
 
 :- multifile
     typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
+    typhon_scheduler:over/2,            % Agent, Token: it is not needed any more
     prolog:message//1.
 
 %!  virtual_begin is det.
-%
 %!  virtual_end is det.
 %
 %   Time is 0.0; it is about to end, and does so where what runs is aborted.
@@ -102,11 +103,45 @@ virtual_alone :-
 
 %!  virtual_standing(-Standing) is semidet.
 %
-%   Where time stands, see standing/3, if this is its thread.
+%   Where time stands, if this is its thread: a term from which it can go on, as
+%   it would have,
+%
+%       virtual(Now, Random, Count, Alarms, Messages)
+%
+%   the time, the state of the generator, the number of the next alarm, those
+%   alarms that are waited for, and what is still to be heard in the queue,
+%   without questions.
 
 virtual_standing(Standing) :-
     nb_current(typhon_virtual_alarms, Queue-Alarms),
     standing(Queue, Alarms, Standing).
+
+standing(Queue, alarms(Count, Heap),
+         virtual(Now, Random, Count, Alarms, Messages)) :-
+    virtual_now(Now),
+    random_property(state(Random)),
+    heap_to_list(Heap, All0),
+    exclude(is_over, All0, Alarms),
+    fifo_empty(Queue, All),
+    forall(member(Message, All), thread_send_message(Queue, Message)),
+    exclude(is_question, All, Messages).
+
+is_over(_-(Agent-Token)) :-
+    catch(typhon_scheduler:over(Agent, Token), error(_, _), fail).
+
+is_question(ask(_)).
+is_question(held(_)).
+
+%   What is in the queue comes after what was in it then.
+
+standing_again(virtual(Now, Random, Count, Alarms, Messages), Queue,
+               alarms(Count, Heap)) :-
+    flag(typhon_virtual_now, _, Now),
+    set_random(state(Random)),
+    list_to_heap(Alarms, Heap),
+    fifo_empty(Queue, Newer),
+    append(Messages, Newer, All),
+    forall(member(Message, All), thread_send_message(Queue, Message)).
 
                 /*******************************
                 *           THE LOOP           *
