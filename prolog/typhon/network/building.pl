@@ -1,19 +1,28 @@
 :- module(typhon_building,
-          [ network_build/5             % +Network, +Plan, +Kept, :Change,
+          [ network_build/5,            % +Network, +Plan, +Kept, :Change,
                                         % -Clock
+            network_endpoint/4,         % +Network, +Plan, +Port, -Interface
+            network_log/4,              % +Network, +File, +Options, -Address
+            network_dynamics/2,         % +Network, +Dynamics
+            part/2,                     % ?Network, ?Part
+            dynamics_end/1,             % +Network
+            log_end/1,                  % +Network
+            endpoint_end/1,             % +Network
+            equipment_forget/1          % +Network
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../kernel/host', [time_now/1, time_seed/1]).
-:- use_module(changes, [dynamics_start/4]).
-:- use_module(kept, [kept_note/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../kernel/host',
+              [runtime_acquire/2, runtime_release/1, time_now/1, time_seed/1]).
+:- use_module(changes, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(lasting,
-              [ lasting_back/2, lasting_child/4, lasting_goes_on/3,
-                lasting_open/3, lasting_restarts/4 ]).
-:- use_module(equipment, [network_dynamics/2, network_endpoint/4, network_log/4]).
+              [ kept_note/3, lasting_back/2, lasting_child/4,
+                lasting_goes_on/3, lasting_open/3, lasting_restarts/4 ]).
+:- use_module(log, [log_server_start/2, log_server_stop/1]).
 :- use_module(plan,
               [ plan_dynamics/3, plan_furnishing/2, plan_hosts/4,
                 plan_links/2, plan_links_at/3, plan_log/3, plan_option/2,
-                plan_processes/3 ]).
+                plan_processes/3, plan_time/2 ]).
 :- use_module(processes, [carriers_start/5]).
 :- use_module(wiring,
               [wire_goals/3, wire_hosts/4, wire_instead/3, wire_links/3]).
@@ -23,7 +32,7 @@
 Processes, the log, hosts, links, what places offer, and what changes links, in
 this order; or, where a journal knows them, as they were.
 
-*Threading*: the thread that starts the network.
+*Threading*: the thread that starts or stops the network.
 */
 
 :- meta_predicate network_build(+, +, +, 1, -).
@@ -125,3 +134,69 @@ start_dynamics(Network, Clock, Plan, Time, Change) :-
         network_dynamics(Network, Dynamics)
     ;   true
     ).
+
+                /*******************************
+                *   ENDPOINT, LOG, DYNAMICS    *
+                *******************************/
+
+:- dynamic
+    part/2.                     % Network, log(Address, File),
+                                % or dynamics(Dynamics)
+
+%!  network_endpoint(+Network, +Plan, +Port, -Interface) is det.
+%!  network_log(+Network, +File, +Options, -Address) is det.
+%!  network_dynamics(+Network, +Dynamics) is det.
+%!  part(?Network, ?Part) is nondet.
+%
+%   This process is reached at Interface, and at Port if that is not 0; there is
+%   a log server, with options as of log_server_start/2; it has these dynamics.
+%   Part is log(Address, File) or dynamics(Dynamics).
+
+network_endpoint(Network, Plan, Port, Interface) :-
+    interface(Plan, Interface),
+    plan_time(Plan, Kind),
+    findall(Option,
+            ( member(Option, [bind(_), tls(_)]),
+              plan_option(Plan, Option) ),
+            Options),
+    runtime_acquire(network(Network), [time(Kind), port(Port)|Options]).
+
+interface(Plan, Interface) :-
+    (   plan_option(Plan, bind(Interface0))
+    ->  Interface = Interface0
+    ;   Interface = localhost
+    ).
+
+network_log(Network, Spec, Options, Address) :-
+    absolute_file_name(Spec, File),
+    atom_concat(Network, '_log', Name),
+    log_server_start([file(File), name(Name)|Options], Address),
+    assertz(part(Network, log(Address, File))).
+
+network_dynamics(Network, Dynamics) :-
+    assertz(part(Network, dynamics(Dynamics))).
+
+%!  dynamics_end(+Network) is det.
+%!  log_end(+Network) is det.
+%!  endpoint_end(+Network) is det.
+%!  equipment_forget(+Network) is det.
+%
+%   What there is of these ends; nothing of it is known any more.
+
+dynamics_end(Network) :-
+    (   retract(part(Network, dynamics(Dynamics)))
+    ->  dynamics_stop(Dynamics)
+    ;   true
+    ).
+
+log_end(Network) :-
+    (   retract(part(Network, log(Address, _)))
+    ->  log_server_stop(Address)
+    ;   true
+    ).
+
+endpoint_end(Network) :-
+    runtime_release(network(Network)).
+
+equipment_forget(Network) :-
+    retractall(part(Network, _)).

@@ -13,7 +13,9 @@
                                         % :Watch, -Results
             carriers_tell/3,            % +Network, +Ps, +Order
             carriers_peers/2,           % +Network, -Peers
-            unwatched/1                 % +Ps
+            unwatched/1,                % +Ps
+            deadline/2,                 % +Seconds, -Deadline
+            message_before/3            % +Queue, ?Message, +Deadline
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
@@ -23,7 +25,6 @@
 :- use_module('../kernel/base/harmless_error', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(carrier, [order_do/2]).
-:- use_module(waiting, [deadline/2, message_before/3]).
 
 /** <module> The processes of a network, and orders to them
 
@@ -240,3 +241,24 @@ take(_, Ps, Ps, Others, Others).
 
 prolog:error_message(existence_error(carrier, Network-P)) -->
     [ 'Process ~w of ~w is not there'-[P, Network] ].
+
+                /*******************************
+                *          DEADLINES           *
+                *******************************/
+
+%!  deadline(+Seconds, -Deadline) is det.
+%
+%   The time stamp that is so many seconds ahead.
+
+deadline(Seconds, Deadline) :-
+    get_time(Now),
+    Deadline is Now + Seconds.
+
+%!  message_before(+Queue, ?Message, +Deadline) is semidet.
+%
+%   Take Message from Queue; fails when there is none before Deadline.
+
+message_before(Queue, Message, Deadline) :-
+    get_time(Now),
+    Wait is max(0, Deadline - Now),
+    thread_get_message(Queue, Message, [timeout(Wait)]).

@@ -6,7 +6,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(listed, [number_name/2]).
+:- use_module(topology, [number_name/2]).
 
 /** <module> What the places of a network are furnished with
 

@@ -5,23 +5,39 @@
             lasting_goes_on/3,          % +Network, +P, +Plan
             lasting_restarts/4,         % +Network, +P, +Plan, +Common
             lasting_rests/1,            % +Plan
-            lasting_over/1              % +Plan
+            lasting_over/1,             % +Plan
+            kept_plan/4,                % +Topology, +Options, -Plan, -Kept
+            kept_note/3                 % +Plan, +Clock, +How
           ]).
-:- use_module('../kernel/host', [host/3, hosts_back/1, hosts_journal/2, hosts_rest/0]).
-:- use_module('../options/journal', [journal_opened/1, journal_place/2]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../kernel/base/options', [check_options/2]).
+:- use_module('../kernel/host',
+              [host/3, hosts_back/1, hosts_journal/2, hosts_rest/0]).
+:- use_module('../options/journal',
+              [ journal_opened/1, journal_place/2, journal_record/2,
+                journal_record_drop/1, journal_record_put/2 ]).
 :- use_module(carriers, [carrier_order/4]).
-:- use_module(kept, [kept_end/1]).
 :- use_module(plan,
-              [ plan_furnishing/2, plan_hosts/4, plan_journal/4, plan_links/2,
-                plan_option/2, plan_processes/3, plan_shape/3 ]).
+              [ network_plan/3, plan_furnishing/2, plan_hosts/4,
+                plan_journal/4, plan_links/2, plan_option/2, plan_options/2,
+                plan_processes/3, plan_shape/3, plan_without/3 ]).
 :- use_module(processes, [carriers_restart/3]).
 :- use_module(wiring, [wire_again/5, wire_go_on/2]).
 
 /** <module> Networks that outlive their processes
 
 Each process of a network with a journal has one of its own: this process, if
-it carries the hosts, or its children.  What is there is there again before
-anything of it goes on: then all find each other.
+it carries the hosts, or its children.  All that was there is restored before
+anything of it goes on, so that all find each other.
+
+Beside these journals there is a text of one term,
+
+    network(Version, How, Plan, Clock)
+
+How is `begun`, or `built` when all that the plan says was done.  A network that
+is started again is to be the same: what its options leave open is as before,
+what they say otherwise is an error, but for options that may change.
 
 *Threading*: the thread that starts or stops the network, and that of module
 `restarts`.
@@ -118,3 +134,155 @@ lasting_over(Plan) :-
     ->  kept_end(Plan)
     ;   true
     ).
+
+                /*******************************
+                *       THE SAME NETWORK       *
+                *******************************/
+
+:- multifile
+    prolog:error_message//1.
+
+version(1).
+
+%!  kept_plan(+Topology, +Options, -Plan, -Kept) is det.
+%
+%   As network_plan/3. Kept is `none`, or kept(How, Clock) if the journal is
+%   that of a network that was started before.
+%
+%   @error journal_of_another(Place, Was, Is), journal_damaged(Place, Why),
+%   journal_version(Place, Version)
+
+kept_plan(Topology, Options, Plan, Kept) :-
+    check_options(network_option, Options),
+    memberchk(journal(Where), Options),
+    read_kept(Where, How, Plan0, Clock),
+    !,
+    journal_place(Where, Place),
+    forall(member(Option, Options), unchanged(Option, Place, Plan0)),
+    filled(Options, Plan0, All),
+    network_plan(Topology, All, Plan),
+    same_shape(Place, Plan0, Plan),
+    Kept = kept(How, Clock).
+kept_plan(Topology, Options, Plan, none) :-
+    network_plan(Topology, Options, Plan).
+
+%   unchanged(+Option, +Place, +Plan0): Option is as it was.
+
+unchanged(Option, _, _) :-
+    may_change(Option),
+    !.
+unchanged(Option, Place, Plan0) :-
+    general(Option, General),
+    (   plan_option(Plan0, General)
+    ->  Was = General
+    ;   functor(Option, Name, _),
+        Was = no(Name)
+    ),
+    (   Was =@= Option
+    ->  true
+    ;   throw(error(journal_of_another(Place, Was, Option), _))
+    ).
+
+general(Option, General) :-
+    functor(Option, Name, Arity),
+    functor(General, Name, Arity).
+
+may_change(journal(_)).
+may_change(sync(_)).
+may_change(restart(_)).
+may_change(log(_)).
+may_change(log(_, _)).
+may_change(tls(_)).
+
+%   What is left open is as it was.
+
+filled(Options, Plan0, All) :-
+    plan_options(Plan0, Kept),
+    exclude(given(Options), Kept, More),
+    append(Options, More, All).
+
+given(Options, Kept) :-
+    member(Option, Options),
+    same_option(Option, Kept),
+    !.
+
+same_option(Option, Kept) :-
+    functor(Option, Name, Arity),
+    functor(Kept, Name, Arity).
+same_option(Option, Kept) :-
+    functor(Option, log, _),
+    functor(Kept, log, _).
+
+same_shape(Place, Plan0, Plan) :-
+    plan_shape(Plan0, Names0, Edges0),
+    plan_shape(Plan, Names, Edges),
+    (   Names0 == Names,
+        Edges0 == Edges
+    ->  true
+    ;   throw(error(journal_of_another(Place,
+                                       shape(Names0, Edges0),
+                                       shape(Names, Edges)), _))
+    ).
+
+                /*******************************
+                *            RECORD            *
+                *******************************/
+
+read_kept(Where, How, Plan, Clock) :-
+    journal_place(Where, Place),
+    journal_record(Where, Text),
+    catch(term_string(Term, Text), error(Formal, _),
+          throw(error(journal_damaged(Place, Formal), _))),
+    version(Version),
+    (   Term = network(Version0, _, _, _),
+        Version0 \== Version
+    ->  throw(error(journal_version(Place, Version0), _))
+    ;   Term = network(_, How, Plan, Clock),
+        plan_shape(Plan, _, _),
+        Clock = clock(_, _)
+    ->  true
+    ;   throw(error(journal_damaged(Place, Term), _))
+    ).
+
+%!  kept_note(+Plan, +Clock, +How) is det.
+%!  kept_end(+Plan) is det.
+%
+%   The network of Plan, if it has a journal, is as far as How; it is no more.
+%
+%   @error permission_error(open, journal, Place)
+
+kept_note(Plan0, Clock, How) :-
+    plan_option(Plan0, journal(Where)),
+    !,
+    plan_without(Plan0, journal(_), Plan),      % there may be a password in it
+    version(Version),
+    format(string(Text), '~k.~n', [network(Version, How, Plan, Clock)]),
+    journal_record_put(Where, Text).
+kept_note(_, _, _).
+
+kept_end(Plan) :-
+    (   plan_option(Plan, journal(Where))
+    ->  journal_record_drop(Where)
+    ;   true
+    ).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(journal_of_another(Place, Was, Is)) -->
+    [ 'The journal ~p is that of another network: '-[Place] ],
+    differs(Was, Is),
+    [ '.', nl, 'Nothing in it was changed' ].
+
+differs(shape(Names0, Edges0), shape(Names, Edges)) -->
+    !,
+    { length(Names0, N0), length(Edges0, E0),
+      length(Names, N), length(Edges, E) },
+    [ '~D hosts, ~D links, which are not these ~D hosts and ~D links'-
+      [N0, E0, N, E] ].
+differs(no(Name), Is) -->
+    !,
+    [ 'it has no ~w, and not ~p'-[Name, Is] ].
+differs(Was, Is) -->
+    [ '~p, and not ~p'-[Was, Is] ].

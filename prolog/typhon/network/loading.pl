@@ -13,7 +13,8 @@
 :- use_module(log_file, [log_goes_on/2]).
 :- use_module(networks,
               [network_begin/4, network_change/2, network_goes_on/2]).
-:- use_module(equipment, [network_dynamics/2, network_endpoint/4, network_log/4]).
+:- use_module(building,
+              [network_dynamics/2, network_endpoint/4, network_log/4]).
 :- use_module(plan,
               [plan_log/3, plan_processes/3, plan_time/2, plan_unkept/2]).
 :- use_module(processes, [carriers_start/5]).

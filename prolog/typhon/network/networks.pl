@@ -16,13 +16,11 @@
 :- use_module('../kernel/base/erased', [forget_erased/0]).
 :- use_module('../kernel/base/options', [check_name/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
-:- use_module(building, [network_build/5]).
-:- use_module(carriers, [carrier/3]).
-:- use_module(kept, [kept_plan/4]).
-:- use_module(lasting, [lasting_over/1, lasting_rests/1]).
-:- use_module(equipment,
+:- use_module(building,
               [ dynamics_end/1, endpoint_end/1, equipment_forget/1,
-                log_end/1, part/2 ]).
+                log_end/1, network_build/5, part/2 ]).
+:- use_module(carriers, [carrier/3]).
+:- use_module(lasting, [kept_plan/4, lasting_over/1, lasting_rests/1]).
 :- use_module(plan, [plan_change/3, plan_option/2]).
 :- use_module(processes, [carriers_stop/1]).
 :- use_module(restarts, [restarts_back/1]).

@@ -13,10 +13,10 @@
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
 :- use_module(carriers,
               [ carrier/3, carrier/4, carrier_again/2, carrier_came/4,
-                carrier_gone/2, carrier_order/4, carrier_went/3, carriers_ask/6,
-                carriers_forget/1, carriers_peers/2, unwatched/1 ]).
+                carrier_gone/2, carrier_order/4, carrier_went/3,
+                carriers_ask/6, carriers_forget/1, carriers_peers/2,
+                deadline/2, message_before/3, unwatched/1 ]).
 :- use_module(restarts, [restarts_absent/2, restarts_begin/3, restarts_end/2]).
-:- use_module(waiting, [deadline/2, message_before/3]).
 :- use_module(wiring, [wired_host/3]).
 
 /** <module> The processes that carry a network begin and end

@@ -9,7 +9,7 @@
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
-:- use_module(waiting, [deadline/2, message_before/3]).
+:- use_module(carriers, [deadline/2, message_before/3]).
 
 /** <module> Processes of a network that die are started again
 

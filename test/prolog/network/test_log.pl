@@ -284,7 +284,7 @@ fill_and_free(Address, Link, Real) :-
     hundred(Address, _),
     wait_until(printed(log_not_written(_, _)), 5),
     forall(typhon_log:server(_, Queue, _),      % all have been tried
-           typhon_log_writer:log_writer_flush(Queue)),
+           typhon_log:log_writer_flush(Queue)),
     delete_file(Link),
     link_file(Real, Link, symbolic),
     wait_until(( arrives(Address, h, a, meanwhile),
