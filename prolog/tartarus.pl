@@ -12,16 +12,13 @@ are what they were there: clauses in `user` whose first argument is the name
 of the agent.  When one moves, a small agent of Typhon carries these clauses,
 so that it is neither lost nor doubled.
 
-  | starting and stopping             | tartarus/platform |
-  | agents: what they are made of     | tartarus/bodies   |
-  | agents: creating, running, ending | tartarus/agents   |
-  | from platform to platform         | tartarus/moves    |
-  | messages                          | tartarus/messages |
-  | saved platforms and agents        | tartarus/states   |
-  | log servers                       | tartarus/logs     |
-  | how long hops take                | tartarus/times    |
-  | the names before 2019             | tartarus/names    |
-  | speech, Python, robots, pins      | tartarus/devices  |
+  | starting and stopping, what is printed | tartarus/platform |
+  | agents: what they are made of          | tartarus/lives    |
+  | agents: creating, running, ending      | tartarus/agents   |
+  | from platform to platform, in what time | tartarus/moves   |
+  | messages, log servers                  | tartarus/messages |
+  | saved platforms and agents             | tartarus/states   |
+  | speech, Python, robots, pins           | tartarus/devices  |
 
 Local definitions win: programs may have predicates of these names.
 */
@@ -30,24 +27,45 @@ Local definitions win: programs may have predicates of these names.
 :- reexport(tartarus/platform,
             [ start_tartarus/1, start_tartarus/2, start_tartarus/3,
               close_tartarus/0, reset_tartarus/0, get_tartarus_details/2,
-              set_token/1,
-              print_tartarus_status/0, assert_file_to_tartarus/1, verbose/1,
-              platform_start/2, nothing/0
-            ]).
+              set_token/1, print_tartarus_status/0,
+              assert_file_to_tartarus/1, verbose/1, platform_start/2,
+              nothing/0 ]).
 :- reexport(tartarus/agents).
-:- reexport(tartarus/moves, [move_agent/2, clone_agent/3]).
-:- reexport(tartarus/messages, [post_agent/2, post_agent/3]).
+:- reexport(tartarus/moves,
+            [ clone_agent/3, hoptime/4, in_hop_time/2, in_hop_time/5,
+              in_hop_time_stat/3, in_hop_times_details/1,
+              in_hop_times_info/1, move_agent/2, out_hop_time/2,
+              out_hop_time/5, out_hop_time_stat/3, out_hop_times_details/1,
+              out_hop_times_info/1, overall_hop_time_stat/3 ]).
+:- reexport(tartarus/messages,
+            [ post_agent/2, post_agent/3, send_log/2, send_log1/2,
+              send_log2/2, set_log_server/2, set_log_serverr/2,
+              set_log_serverrr/2 ]).
 :- reexport(tartarus/states).
-:- reexport(tartarus/logs, [set_log_server/2, send_log/2, set_log_serverr/2,
-                            send_log1/2, set_log_serverrr/2, send_log2/2]).
-:- reexport(tartarus/times, [in_hop_time/2, out_hop_time/2, in_hop_time/5,
-                             out_hop_time/5, in_hop_time_stat/3,
-                             out_hop_time_stat/3, overall_hop_time_stat/3,
-                             in_hop_times_info/1, out_hop_times_info/1,
-                             in_hop_times_details/1, out_hop_times_details/1,
-                             hoptime/4]).
-:- reexport(tartarus/names).
 :- reexport(tartarus/devices).
+
+%   The names before 2019.
+
+:- reexport(tartarus/platform,
+            [ assert_file_to_tartarus/1 as platform_assert_file,
+              close_tartarus/0 as platform_close,
+              get_tartarus_details/2 as get_platform_details,
+              reset_tartarus/0 as platform_reset ]).
+:- reexport(tartarus/agents,
+            [ execute_agent/3 as agent_execute,
+              isexist_agent/3 as agent_isexist,
+              list_agent/0 as agent_list,
+              list_agent/1 as agent_list,
+              purge_agent/1 as agent_kill ]).
+:- reexport(tartarus/agents, [list_agent/0 as list_agents]).
+:- reexport(tartarus/moves,
+            [clone_agent/3 as agent_clone, move_agent/2 as agent_move]).
+:- reexport(tartarus/messages,
+            [post_agent/2 as agent_post, post_agent/3 as agent_post]).
+:- reexport(tartarus/states,
+            [ load_tartarus_state/1 as load_platform_state,
+              save_agent/2 as agent_save,
+              save_tartarus_state/1 as save_platform_state ]).
 
                 /*******************************
                 *    consult('platform.pl')    *

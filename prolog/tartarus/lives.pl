@@ -3,23 +3,43 @@
             life_begin/6,               % +Name, +Location, +Handler, +Tokens,
                                         % +Payload, +Clauses
             life_end/1,                 % +Name
-            life_elsewhere/2            % +Name, +Life
+            life_elsewhere/2,           % +Name, +Life
+            record/3,                   % ?Name, ?Handler, ?Location
+            record_life/2,              % +Name, ?Life
+            record_payload/2,           % +Name, -Indicators
+            record_tokens/2,            % +Name, -Tokens
+            record_static/2,            % +Name, ?Key
+            set_payload/2,              % +Name, +Indicators
+            set_tokens/2,               % +Name, +Tokens
+            body/3,                     % +Name, +Indicators, -Clauses
+            body_erase/2,               % +Name, +Indicators
+            body_copy/2,                % +Name, +Indicator
+            body_has/2,                 % +Name, +Indicator
+            renamed/4,                  % +Old, +New, +Term0, -Term
+            run_handler/4,              % +Name, +Handler, +Start, +When
+            run_apart/1                 % :Goal
           ]).
-:- use_module(bodies, [body_copy/2, body_erase/2, body_install/1]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [append/2, member/2]).
 :- use_module(platform, [port_closed/1]).
-:- use_module(records,
-              [ record/3, record_add/4, record_life/2, record_payload/2,
-                record_remove/1, record_static/2, set_payload/2 ]).
-:- use_module(threads, [when_through/2]).
 
-/** <module> How agents begin and end on a platform
+/** <module> Agents here: records, clauses, threads, beginning and end
 
-The record and the clauses of an agent come and go together.  An agent that moved
-leaves its clauses behind until its last thread here is through: that may
-need them.  They are not those of the agent any more: if it comes back
-meanwhile, it brings its own.
+An agent is a record, as facts of module `user`, since programs look at them, and
+clauses of that module, of its handler and its payload, whose first argument is
+its name.  The templates from which they are made have `guid` there.  Where
+Tartarus replaced text, atoms in terms are replaced: what the authors of programs
+meant.
 
-*Threading*: any thread; one mutex.
+Record and clauses come and go together.  An agent that moved leaves its clauses
+behind until its last thread here is through: that may need them.  They are not
+those of the agent any more: if it comes back meanwhile, it brings its own.
+
+Each call of a handler has a thread, which reads, sleeps and loops as it
+likes; it is never ended.  What has to wait until an agent's last thread is
+through is a thread of its own, which is notified.
+
+*Threading*: any thread; a mutex for beginning and end, and one for threads.
 */
 
 :- dynamic left/3.                      % Name, Id, Indicators: clauses that go
@@ -88,3 +108,305 @@ sweep(Name, Id) :-
     body_erase(Name, Indicators),
     sweep(Name, Id).
 sweep(_, _).
+
+                /*******************************
+                *           RECORDS            *
+                *******************************/
+
+:- dynamic                              % programs look at these
+    user:agent_GUID/3,                  % Name, Handler, Location
+    user:agent_payload/2,               % Name, [(Predicate,Arity), ...]
+    user:agent_token/2.                 % Name, Tokens
+
+:- dynamic
+    static/2.                           % Name, Key of its port
+
+%!  record(?Name, ?Handler, ?Location) is nondet.
+%
+%   The oldest first.
+
+record(Name, Handler, Location) :-
+    user:agent_GUID(Name, Handler, Location).
+
+record_add(Name, Handler, Location, Tokens) :-
+    set_tokens(Name, Tokens),
+    set_payload(Name, []),
+    assertz(user:agent_GUID(Name, Handler, Location)).
+
+record_remove(Name) :-
+    retractall(user:agent_GUID(Name, _, _)),
+    retractall(user:agent_payload(Name, _)),
+    retractall(user:agent_token(Name, _)),
+    retractall(static(Name, _)).
+
+%!  record_life(+Name, ?Life) is semidet.
+%
+%   Life stands for Name from now until it ends or moves: if it comes again,
+%   that is another life.
+
+record_life(Name, Life) :-
+    clause(user:agent_GUID(Name, _, _), true, Life0),
+    !,
+    Life = Life0.
+
+record_location(Name, Location) :-
+    user:agent_GUID(Name, _, Location),
+    !.
+
+%!  record_payload(+Name, -Indicators) is det.
+%!  record_tokens(+Name, -Tokens) is det.
+%!  set_payload(+Name, +Indicators) is det.
+%!  set_tokens(+Name, +Tokens) is det.
+
+record_payload(Name, Indicators) :-
+    (   user:agent_payload(Name, Indicators0)
+    ->  Indicators = Indicators0
+    ;   Indicators = []
+    ).
+
+record_tokens(Name, Tokens) :-
+    (   user:agent_token(Name, Tokens0)
+    ->  Tokens = Tokens0
+    ;   Tokens = []
+    ).
+
+set_payload(Name, Indicators) :-
+    retractall(user:agent_payload(Name, _)),
+    assertz(user:agent_payload(Name, Indicators)).
+
+set_tokens(Name, Tokens) :-
+    retractall(user:agent_token(Name, _)),
+    assertz(user:agent_token(Name, Tokens)).
+
+%!  record_static(+Name, ?Key) is semidet.
+%
+%   Name has a port of its own: note its Key, or say what it is.
+
+record_static(Name, Key) :-
+    (   nonvar(Key)
+    ->  assertz(static(Name, Key))
+    ;   static(Name, Key)
+    ).
+
+                /*******************************
+                *           CLAUSES            *
+                *******************************/
+
+%!  body(+Name, +Indicators, -Clauses) is det.
+%
+%   The clauses about Name of these predicates, as Head :- Body.
+%
+%   @arg Indicators is a list of pairs (Predicate,Arity)
+
+body(Name, Indicators, Clauses) :-
+    maplist(clauses_of(Name), Indicators, Parts),
+    append(Parts, Clauses).
+
+clauses_of(Name, Indicator, Clauses) :-
+    head(Indicator, Name, Head),
+    findall((Head:-Body), own_clause(Head, Body), Clauses).
+
+%   A clause whose first argument is a variable belongs to no agent.
+
+own_clause(Head, Body) :-
+    arg(1, Head, Name),
+    functor(Head, Predicate, Arity),
+    functor(General, Predicate, Arity),
+    is_own(General),
+    predicate_property(user:General, number_of_clauses(_)),
+    arg(1, General, First),
+    clause(user:General, Body),
+    First == Name,
+    Head = General.
+
+head((Predicate,Arity), Name, Head) :-
+    functor(Head, Predicate, Arity),
+    arg(1, Head, Name).
+
+%!  body_has(+Name, +Indicator) is semidet.
+
+body_has(Name, Indicator) :-
+    head(Indicator, Name, Head),
+    own_clause(Head, _),
+    !.
+
+%!  body_copy(+Name, +Indicator) is det.
+%
+%   Copy the template of a predicate.
+
+body_copy(Name, Indicator) :-
+    clauses_of(guid, Indicator, Template),
+    renamed(guid, Name, Template, Clauses),
+    body_install(Clauses).
+
+body_install(Clauses) :-
+    maplist(install, Clauses).
+
+install((Head:-Body)) :-
+    make_dynamic(Head),
+    assertz(user:(Head:-Body)).
+
+%!  body_erase(+Name, +Indicators) is det.
+
+body_erase(Name, Indicators) :-
+    maplist(erase_of(Name), Indicators).
+
+%   One by one, by reference: others add meanwhile.
+
+erase_of(Name, (Predicate,Arity)) :-
+    functor(Head, Predicate, Arity),
+    (   is_own(Head),
+        predicate_property(user:Head, dynamic)
+    ->  arg(1, Head, First),
+        findall(Ref, ( clause(user:Head, _, Ref), First == Name ), Refs),
+        maplist(gone, Refs)
+    ;   true
+    ).
+
+gone(Ref) :-
+    catch(erase(Ref), error(existence_error(_, _), _), true).
+
+%   A predicate of a program that is not declared dynamic becomes so, with
+%   the clauses it has.
+
+make_dynamic(Head) :-
+    (   is_own(Head),
+        predicate_property(user:Head, dynamic)
+    ->  true
+    ;   with_mutex(tartarus_dynamic, static_to_dynamic(Head))
+    ).
+
+static_to_dynamic(Head0) :-
+    functor(Head0, Predicate, Arity),
+    functor(Head, Predicate, Arity),
+    (   is_static(Head)
+    ->  findall((Head:-Body), clause(user:Head, Body), Clauses),
+        abolish(user:Predicate/Arity)
+    ;   Clauses = [],
+        override_import(Head)
+    ),
+    dynamic(user:Predicate/Arity),
+    forall(member(Clause, Clauses), assertz(user:Clause)).
+
+is_static(Head) :-
+    is_own(Head),
+    \+ predicate_property(user:Head, dynamic).
+
+%   As a definition in a file does: a library may have the same name.
+
+override_import(Head) :-
+    (   functor(Head, Predicate, Arity),
+        current_predicate(user:Predicate/Arity)
+    ->  redefine_system_predicate(user:Head)
+    ;   true
+    ).
+
+%!  is_own(+Head) is semidet.
+%
+%   Module `user` defines the predicate.  Only current_predicate/1 does not load
+%   a library that has one of that name: predicate_property/2 would import it.
+
+is_own(Head) :-
+    functor(Head, Predicate, Arity),
+    current_predicate(user:Predicate/Arity),
+    \+ predicate_property(user:Head, imported_from(_)).
+
+%!  renamed(+Old, +New, +Term0, -Term) is det.
+%
+%   Term is Term0 with the atom New wherever Old is an argument.
+
+renamed(Old, New, Term0, Term) :-
+    (   Term0 == Old
+    ->  Term = New
+    ;   compound(Term0)
+    ->  compound_name_arguments(Term0, Functor, Arguments0),
+        maplist(renamed(Old, New), Arguments0, Arguments),
+        compound_name_arguments(Term, Functor, Arguments)
+    ;   Term = Term0
+    ).
+
+                /*******************************
+                *           THREADS            *
+                *******************************/
+
+:- meta_predicate
+    run_apart(0),
+    when_through(+, 0).
+
+:- dynamic
+    last/2,                     % Name, Thread: runs its handler, the newest
+    waits/2.                    % Thread, Queue: to be told of its end
+
+%!  run_handler(+Name, +Handler, +Start, +When) is det.
+%
+%   Call Handler(Name, Location, Start) in a new thread, When is `now` or
+%   `in_turn`: when the last thread of Name, if it runs, is through.  Failure
+%   and errors go unsaid.
+
+run_handler(Name, Handler, Start, When) :-
+    record_location(Name, Location),
+    Goal =.. [Handler,Name,Location,Start],
+    with_mutex(tartarus_lives,
+               ( before(When, Name, Before),
+                 thread_create(tartarus_lives:handle(Name, Before, Goal),
+                               Thread, [detached(true)]),
+                 asserta(last(Name, Thread)) )).
+
+before(now, _, none).
+before(in_turn, Name, Thread) :-
+    (   last(Name, Thread0)
+    ->  Thread = Thread0
+    ;   Thread = none
+    ).
+
+handle(Name, Before, Goal) :-
+    call_cleanup(
+        ( await(Before),
+          catch(ignore(user:Goal), _, true) ),
+        through(Name)).
+
+through(Name) :-
+    thread_self(Me),
+    with_mutex(tartarus_lives,
+               ( retractall(last(Name, Me)),
+                 findall(Queue, waits(Me, Queue), Queues),
+                 forall(member(Queue, Queues),
+                        thread_send_message(Queue, through)) )).
+
+%!  run_apart(:Goal) is det.
+%
+%   Run Goal in a thread that is not joined.
+
+run_apart(Goal) :-
+    thread_create(ignore(Goal), _, [detached(true)]).
+
+%   when_through(+Name, :Goal) is det.
+%
+%   Call Goal when the last thread of Name has ended, at once if none runs.
+
+when_through(Name, Goal) :-
+    with_mutex(tartarus_lives, before(in_turn, Name, Thread)),
+    (   Thread == none
+    ->  call(Goal)
+    ;   run_apart(( tartarus_lives:await(Thread), Goal ))
+    ).
+
+await(none) :-
+    !.
+await(Thread) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        (   with_mutex(tartarus_lives, watched(Thread, Queue))
+        ->  thread_get_message(Queue, through)
+        ;   true
+        ),
+        unwait(Queue)).
+
+watched(Thread, Queue) :-
+    last(_, Thread),
+    !,
+    assertz(waits(Thread, Queue)).
+
+unwait(Queue) :-
+    with_mutex(tartarus_lives, retractall(waits(_, Queue))),
+    message_queue_destroy(Queue).

@@ -1,30 +1,45 @@
 :- module(tartarus_moves,
           [ move_agent/2,               % +Name, +Location
             clone_agent/3,              % +Name, +Location, -Clone
-            land/1                      % +Bundle
+            land/1,                     % +Bundle
+            hop_done/5,                 % +Way, +Agent, +From, +To, +Seconds
+            in_hop_time/2,              % ?Agent, ?Seconds
+            out_hop_time/2,             % ?Agent, ?Seconds
+            in_hop_time/5,              % ?Agent, ?From, ?To, ?Date, ?Seconds
+            out_hop_time/5,             % ?Agent, ?From, ?To, ?Date, ?Seconds
+            in_hop_time_stat/3,         % -Max, -Min, -Mean
+            out_hop_time_stat/3,        % -Max, -Min, -Mean
+            overall_hop_time_stat/3,    % -Max, -Min, -Mean
+            in_hop_times_info/1,        % -List
+            out_hop_times_info/1,       % -List
+            in_hop_times_details/1,     % -List
+            out_hop_times_details/1,    % -List
+            hoptime/4                   % ?Agent, ?From, ?To, ?Seconds
           ]).
 :- use_module(library(gensym), [gensym/2]).
+:- use_module(library(lists), [append/3, max_list/2, min_list/2, sum_list/2]).
 :- use_module('../typhon', [agent_create/3, agent_join/3]).
-:- use_module(bodies, [body/3, renamed/4]).
-:- use_module(lives, [life_begin/6, life_elsewhere/2]).
-:- use_module(platform, [here/1, location_address/2, same_location/2]).
-:- use_module(records,
-              [ record/3, record_life/2, record_payload/2, record_static/2,
-                record_tokens/2 ]).
-:- use_module(threads, [run_handler/4]).
-:- use_module(times, [hop_done/5]).
-:- use_module(told,
-              [must/1, told/2, verbosely/2, verbosity/1, wrong/2]).
+:- use_module(lives,
+              [ body/3, life_begin/6, life_elsewhere/2, record/3,
+                record_life/2, record_payload/2, record_static/2,
+                record_tokens/2, renamed/4, run_handler/4 ]).
+:- use_module(platform,
+              [ here/1, location_address/2, must/1, same_location/2, told/2,
+                verbosely/2, verbosity/1, wrong/2 ]).
 
-/** <module> From platform to platform
+/** <module> From platform to platform, and how long that takes
 
 What an agent is made of travels as a bundle, which a carrier, an agent of
 Typhon, takes to the other platform and hands over there.  So the bundle
 arrives once or not at all, whatever happens to the connection; only when it
 is in the agent goes here.
 
+A hop takes the time from sending to knowing that it has arrived, on the side that
+sends; from sending to arriving on the other, by the clocks of both.
+
 *Threading*: move_agent/2 and clone_agent/3 return when it is known whether
-the agent was let in; land/1 is called by carriers, in a worker.
+the agent was let in; land/1 is called by carriers, in a worker; times are for any
+thread.
 */
 
 :- dynamic turned_back/2.               % Carrier, Why
@@ -191,3 +206,113 @@ arrived(Name) :-
     ->  told("Agent bearing ~w has arrived to this platform. ~n", [Name])
     ;   told("  ~n", [])
     ).
+
+                /*******************************
+                *        TIMES OF HOPS         *
+                *******************************/
+
+:- dynamic hop/6.                       % Way, Agent, From, To, Date, Seconds
+
+%   So many of either way are kept.
+
+kept(10000).
+
+%!  hop_done(+Way, +Agent, +From, +To, +Seconds) is det.
+%
+%   @arg Way is `in` or `out`
+
+hop_done(Way, Agent, From, To, Seconds) :-
+    get_time(Now),
+    date(Now, Date),
+    assertz(hop(Way, Agent, From, To, Date, Seconds)),
+    predicate_property(hop(_, _, _, _, _, _), number_of_clauses(Count)),
+    kept(Most),
+    (   Count > 2*Most
+    ->  ignore(retract(hop(_, _, _, _, _, _)))
+    ;   true
+    ).
+
+date(Stamp, (Day,Minute)) :-
+    stamp_date_time(Stamp, date(Y, M, D, H, Mn, _, _, _, _), local),
+    format(atom(Day), '~d/~d/~d', [D,M,Y]),
+    format(atom(Minute), '~d:~d', [H,Mn]).
+
+%!  in_hop_time(?Agent, ?Seconds) is nondet.
+%!  out_hop_time(?Agent, ?Seconds) is nondet.
+%!  in_hop_time(?Agent, ?From, ?To, ?Date, ?Seconds) is nondet.
+%!  out_hop_time(?Agent, ?From, ?To, ?Date, ?Seconds) is nondet.
+%
+%   @arg Date is (Day,Minute), two atoms as '21/11/2026' and '14:7'
+
+in_hop_time(Agent, Seconds) :-
+    in_hop_time(Agent, _, _, _, Seconds).
+
+out_hop_time(Agent, Seconds) :-
+    out_hop_time(Agent, _, _, _, Seconds).
+
+in_hop_time(Agent, From, To, Date, Seconds) :-
+    hop(in, Agent, From, To, Date, Seconds).
+
+out_hop_time(Agent, From, To, Date, Seconds) :-
+    hop(out, Agent, From, To, Date, Seconds).
+
+%!  in_hop_times_info(-List) is det.
+%!  out_hop_times_info(-List) is det.
+%!  in_hop_times_details(-List) is det.
+%!  out_hop_times_details(-List) is det.
+%
+%   The hops so far: (Agent,Seconds), or (Agent,From,To,Date,Seconds).
+
+in_hop_times_info(List) :-
+    findall((Agent,Seconds), in_hop_time(Agent, Seconds), List).
+
+out_hop_times_info(List) :-
+    findall((Agent,Seconds), out_hop_time(Agent, Seconds), List).
+
+in_hop_times_details(List) :-
+    details(in, List).
+
+out_hop_times_details(List) :-
+    details(out, List).
+
+details(Way, List) :-
+    findall((Agent,From,To,Date,Seconds),
+            hop(Way, Agent, From, To, Date, Seconds),
+            List).
+
+%!  in_hop_time_stat(-Max, -Min, -Mean) is det.
+%!  out_hop_time_stat(-Max, -Min, -Mean) is det.
+%!  overall_hop_time_stat(-Max, -Min, -Mean) is det.
+%
+%   0 each before the first hop.
+
+in_hop_time_stat(Max, Min, Mean) :-
+    seconds(in, Seconds),
+    stat(Seconds, Max, Min, Mean).
+
+out_hop_time_stat(Max, Min, Mean) :-
+    seconds(out, Seconds),
+    stat(Seconds, Max, Min, Mean).
+
+overall_hop_time_stat(Max, Min, Mean) :-
+    seconds(in, In),
+    seconds(out, Out),
+    append(In, Out, All),
+    stat(All, Max, Min, Mean).
+
+seconds(Way, List) :-
+    findall(Seconds, hop(Way, _, _, _, _, Seconds), List).
+
+stat([], 0, 0, 0) :-
+    !.
+stat(List, Max, Min, Mean) :-
+    max_list(List, Max),
+    min_list(List, Min),
+    sum_list(List, Sum),
+    length(List, Count),
+    Mean is Sum/Count.
+
+%!  hoptime(?Agent, ?From, ?To, ?Seconds) is nondet.
+
+hoptime(Agent, From, To, Seconds) :-
+    out_hop_time(Agent, From, To, _, Seconds).

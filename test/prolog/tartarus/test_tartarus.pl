@@ -482,9 +482,9 @@ test(execute_waits_for_the_last_one) :-
               "h(guid, _, S) :- writeln(begin(S)), thread_get_message(go(S)), \c
                writeln(end(S))." ],
             [ "create_mobile_agent(b, L, h, [1]), execute_agent(b, L, h, one), \c
-               tartarus_threads:last(b, T), execute_agent(b, L, h, two), \c
+               tartarus_lives:last(b, T), execute_agent(b, L, h, two), \c
                writeln(both), thread_send_message(T, go(one)).",
-              "tartarus_threads:last(b, T), thread_send_message(T, go(two))." ],
+              "tartarus_lives:last(b, T), thread_send_message(T, go(two))." ],
             ["end(one)", "begin(two)", "end(two)"]).
 test(hop_times) :-
     ports(2, [P1,P2]),
