@@ -148,9 +148,13 @@ outcome(Id, Deadline, Outcome) :-
 %   What the timer holds: its stack, in kB.
 
 timer_size(Size) :-
-    catch(( thread_statistics(typhon_timer, stack, Bytes),
+    catch(( thread_property(Timer, alias(Alias)),
+            sub_atom(Alias, 0, _, _, typhon_timer_),
+            thread_statistics(Timer, stack, Bytes),
             Size is Bytes//1024 ),
-          error(_, _), Size = 0).
+          error(_, _), Size = 0),
+    !.
+timer_size(0).
 
 %   close_hosts(-Left): stop all hosts and say what is left of threads and
 %   message queues after at most five seconds.

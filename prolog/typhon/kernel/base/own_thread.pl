@@ -21,12 +21,16 @@ sound in all of them. Goals in a thread of its own, or in the helper, need
 no other: so the helper never waits for itself.
 */
 
+:- use_module(server,
+              [ server_answer/2, server_call/4, server_leave/1, server_start/4,
+                server_stop/1 ]).
+
 :- meta_predicate
     in_own_thread(0).
 
 :- dynamic
-    helper/2,                   % Thread, Queue
-    asked/1.                    % Queue of a helper that was asked for something
+    helper/1,                   % Server
+    asked/1.                    % Server: it was asked for something
 
 %!  in_own_thread(:Goal) is semidet.
 %
@@ -48,9 +52,9 @@ in_own_thread(Goal) :-
             throw(Interrupt) )),
     conclude(Status).
 in_own_thread(Goal) :-
-    ask_helper(Goal, Status),
+    ask_helper(Goal, Result),
     !,
-    conclude(Status).
+    Result == true.
 in_own_thread(Goal) :-
     once(Goal).
 
@@ -81,112 +85,36 @@ conclude(Status) :-
 %   which may be this.
 
 own_thread_start :-
-    alias(helper, Alias),
-    message_queue_create(Queue),
-    catch(thread_create(typhon_own_thread:help(Queue), Thread,
-                        [ alias(Alias),
-                          at_exit(typhon_own_thread:no_help(Queue)) ]),
-          error(Formal, Context),
-          ( message_queue_destroy(Queue),
-            throw(error(Formal, Context)) )),
-    assertz(helper(Thread, Queue)).
+    server_start(helper, typhon_own_thread:help, idle, Helper),
+    assertz(helper(Helper)).
+
+%   One that was asked may run this, or wait for the thread that does.
 
 own_thread_stop :-
-    (   with_mutex(typhon_own_thread, retract(helper(Thread, Queue)))
-    ->  end_helper(Thread, Queue)
+    (   with_mutex(typhon_own_thread, retract(helper(Helper)))
+    ->  (   retract(asked(Helper))
+        ->  server_leave(Helper)
+        ;   server_stop(Helper)
+        )
     ;   true
     ).
 
-%   One that is busy may be the thread that runs this, or wait for it.
+%   ask_helper(:Goal, -Result) fails if there is none.
 
-end_helper(Thread, Queue) :-
-    idle(Queue),
-    !,
-    thread_send_message(Queue, stop),
-    thread_join(Thread, _).
-end_helper(Thread, Queue) :-
-    thread_detach(Thread),
-    thread_send_message(Queue, stop).
+ask_helper(Goal, Result) :-
+    with_mutex(typhon_own_thread,
+               ( helper(Helper),
+                 retractall(asked(Helper)),
+                 assertz(asked(Helper)) )),
+    server_call(Helper, Goal, inf, Result).
 
-%   One that has just begun does not wait yet.
+:- public help/3.
 
-idle(Queue) :-
-    \+ asked(Queue),
-    !.
-idle(Queue) :-
-    message_queue_property(Queue, waiting(_)),
-    message_queue_property(Queue, size(0)).
-
-%   ask_helper(:Goal, -Status) fails if there is none.
-
-ask_helper(Goal, Status) :-
-    setup_call_cleanup(
-        message_queue_create(Answers),
-        ( with_mutex(typhon_own_thread,
-                     ( helper(_, Queue),
-                       retractall(asked(Queue)),
-                       assertz(asked(Queue)),
-                       thread_send_message(Queue, do(Goal, Answers)) )),
-          thread_get_message(Answers, Status)
-        ),
-        message_queue_destroy(Answers)).
-
-help(Queue) :-
-    nb_setval(typhon_own_thread, true),
-    repeat,
-    thread_get_message(Queue, Message),
-    helped(Message),
-    Message == stop,
-    !.
-
-helped(stop).
-helped(do(Goal, Answers)) :-
-    catch(outcome(Goal, Status), Ball, Status = exception(Ball)),
-    answer(Answers, Status).
-
-outcome(Goal, Status) :-
+help(begin, State, State) :-
+    nb_setval(typhon_own_thread, true).
+help(call(Goal, Caller), State, State) :-
     (   call(Goal)
-    ->  Status = true
-    ;   Status = false
-    ).
-
-answer(Answers, Status) :-
-    catch(thread_send_message(Answers, Status),
-          error(existence_error(_, _), _),
-          true).                % no caller waits any more
-
-%   A request to a helper that has ended does not wait for ever.
-
-no_help(Queue) :-
-    (   with_mutex(typhon_own_thread, retract(helper(Me, Queue)))
-    ->  thread_detach(Me),
-        catch(( own_thread_start,
-                print_message(warning, typhon(new_helper)) ),
-              error(Formal, _),
-              no_helper(Formal))
-    ;   true
+    ->  Result = true
+    ;   Result = false
     ),
-    forsake(Queue),
-    retractall(asked(Queue)),
-    message_queue_destroy(Queue).
-
-forsake(Queue) :-
-    (   thread_peek_message(Queue, do(_, _))
-    ->  thread_get_message(Queue, do(Goal, Answers)),
-        answer(Answers,
-               exception(error(system_error(not_done(Goal)), _))),
-        forsake(Queue)
-    ;   true
-    ).
-
-no_helper(permission_error(create, thread, _)) :-
-    !.                          % Prolog is halting
-no_helper(Formal) :-
-    print_message(warning, typhon(no_helper(Formal))).
-
-:- multifile prolog:message//1.
-
-prolog:message(typhon(new_helper)) -->
-    [ 'The thread that helps to stop hosts has ended; there is another' ].
-prolog:message(typhon(no_helper(Formal))) -->
-    [ 'The thread that helps to stop hosts has ended (~p)'-[Formal] ].
+    server_answer(Caller, Result).

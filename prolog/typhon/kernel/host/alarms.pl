@@ -2,19 +2,23 @@
           [ alarms_begin/0,
             alarms_end/0,
             alarm_add/3,                % +Stamp, +Agent, +Token
-            alarm_new/1,                % -Stamp
-            alarm_anew/1,               % +Stamp
             alarm_stamp/3,              % ?Stamp, +Agent, ?Token
-            alarms_until/2,             % +Stamp, -Stamps
+            alarms_renew/1,             % +Stamp
             alarms_new/1,               % -Count
             alarms_at/2,                % +Stamp, -Alarms
             alarm_take/3,               % +Alarm, -Agent, -Token
-            alarm_stamps/1,             % -Stamps
-            alarm_least/1,              % -Stamp
             alarms_number/1,            % -Count
-            alarms_thin/0
+            index_make/1,               % -Index
+            index_update/2,             % +Index0, -Index
+            index_delete/3,             % +Index0, +Stamp, -Index
+            index_first/2,              % +Index, -Stamp
+            index_size/2                % +Index, -Count
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
+:- use_module(library(rbtrees),
+              [ ord_list_to_rbtree/2, rb_delete/3, rb_insert/4, rb_min/3,
+                rb_size/2 ]).
 
 /** <module> What the timer is to do, and when
 
@@ -26,13 +30,18 @@ when as many have been set as there were alarms.  Thus there are never more
 than twice those that count, and some hundreds.
 
 The stamps of new alarms are put in a queue, from which the timer hears of
-them.
+them.  It keeps an index of all stamps that alarms are set to, and some more,
+and makes it anew when Left more have been set; then the alarms that are over
+are forgotten.  The index is index(Stamps, Left), a tree, or
+least(Stamp, Left), only the first, where a tree would fill the stack.  Then
+the next is looked for when that has gone off.
 
-*Threading*: any thread; alarm_new/1 is for that of the timer alone.
+*Threading*: any thread; the index is on the stack of the timer.
 */
 
 :- multifile
-    typhon_scheduler:over/2.            % Agent, Token: it is not needed any more
+    typhon_scheduler:over/2,            % Agent, Token: it is not needed any more
+    prolog:message//1.
 
 :- dynamic
     alarm/3,                            % Stamp, Agent, Token
@@ -65,34 +74,25 @@ alarm_add(Stamp, Agent, Token) :-
     catch(thread_send_message(New, Stamp), error(existence_error(_, _), _),
           true).                        % ending
 
-%!  alarms_until(+Stamp, -Stamps:list) is det.
-%!  alarm_anew(+Stamp) is det.
+%!  alarms_renew(+Stamp) is det.
 %!  alarm_stamp(?Stamp, +Agent, ?Token) is nondet.
 %
-%   Those of alarms that are not later; the timer hears of it once more; there
-%   is this alarm.
+%   The timer hears once more of the alarms that are not later; there is this
+%   alarm.
 
-alarms_until(Stamp, Stamps) :-
-    findall(Due, ( alarm(Due, _, _), Due =< Stamp ), Stamps).
-
-alarm_anew(Stamp) :-
+alarms_renew(Stamp) :-
     new(New),
     !,
-    thread_send_message(New, Stamp).
-alarm_anew(_).
+    findall(Due, ( alarm(Due, _, _), Due =< Stamp ), Stamps),
+    maplist(thread_send_message(New), Stamps).
+alarms_renew(_).
 
 alarm_stamp(Stamp, Agent, Token) :-
     alarm(Stamp, Agent, Token).
 
-%!  alarm_new(-Stamp) is semidet.
 %!  alarms_new(-Count) is det.
 %
-%   Of the stamps of new alarms the next, which is taken, and how many wait.
-
-alarm_new(Stamp) :-
-    new(New),
-    thread_peek_message(New, _),
-    thread_get_message(New, Stamp).
+%   So many stamps the timer has not heard of.
 
 alarms_new(Count) :-
     (   new(New),
@@ -114,21 +114,6 @@ alarm_take(Alarm, Agent, Token) :-
     clause(alarm(_, Agent, Token), true, Alarm),
     catch(erase(Alarm), error(existence_error(_, _), _), fail).
 
-%!  alarm_stamps(-Stamps:ordset(float)) is det.
-%!  alarm_least(-Stamp) is det.
-%
-%   All stamps; and the least of them, without a list of all, or `inf`.
-
-alarm_stamps(Stamps) :-
-    findall(Stamp, alarm(Stamp, _, _), List),
-    sort(List, Stamps).
-
-alarm_least(Stamp) :-
-    Least = least(inf),
-    forall(( alarm(Stamp0, _, _), arg(1, Least, Stamp1), Stamp0 < Stamp1 ),
-           nb_setarg(1, Least, Stamp0)),
-    arg(1, Least, Stamp).
-
 %!  alarms_number(-Count) is det.
 %
 %   This is slow: clauses are counted.
@@ -139,9 +124,34 @@ alarms_number(Count) :-
     ;   Count = 0
     ).
 
-%!  alarms_thin is det.
-%
-%   Forget those that are over.
+                /*******************************
+                *           THE INDEX          *
+                *******************************/
+
+%!  index_make(-Index) is det.
+
+index_make(Index) :-
+    alarms_thin,
+    alarms_number(Count),
+    More is max(500, Count),
+    current_prolog_flag(stack_limit, Bytes),
+    Space is Bytes//512-Count,
+    (   Space > 0
+    ->  tree(Stamps),
+        Left is min(Space, More),
+        Index = index(Stamps, Left)
+    ;   print_message(warning, typhon(no_index(Count))),
+        alarm_least(Stamp),
+        Index = least(Stamp, More)
+    ).
+
+tree(Stamps) :-
+    findall(Stamp, alarm(Stamp, _, _), List),
+    sort(List, Set),
+    pairs_keys_values(Pairs, Set, Set),
+    ord_list_to_rbtree(Pairs, Stamps).
+
+%   Forget the alarms that are over.
 
 alarms_thin :-
     forall(clause(alarm(_, Agent, Token), true, Alarm),
@@ -152,3 +162,72 @@ forget_if_over(Alarm, Agent, Token) :-
     ->  catch(erase(Alarm), error(existence_error(_, _), _), true)
     ;   true
     ).
+
+%   The least stamp, without a list of all, or `inf`.
+
+alarm_least(Stamp) :-
+    Least = least(inf),
+    forall(( alarm(Stamp0, _, _), arg(1, Least, Stamp1), Stamp0 < Stamp1 ),
+           nb_setarg(1, Least, Stamp0)),
+    arg(1, Least, Stamp).
+
+%!  index_update(+Index0, -Index) is det.
+%!  index_delete(+Index0, +Stamp, -Index) is det.
+%
+%   With the stamps of new alarms, which are taken from their queue; without
+%   Stamp.
+
+index_update(Index0, Index) :-
+    (   new(New),
+        thread_peek_message(New, _)
+    ->  thread_get_message(New, Stamp),
+        index_insert(Index0, Stamp, Index1),
+        index_update(Index1, Index)
+    ;   Index = Index0
+    ).
+
+index_insert(least(_, 0), _, Index) :-
+    !,
+    index_make(Index).
+index_insert(least(Stamp0, Left0), Stamp1, least(Stamp, Left)) :-
+    Left is Left0-1,
+    Stamp is min(Stamp0, Stamp1).
+index_insert(index(_, 0), _, Index) :-
+    !,
+    index_make(Index).
+index_insert(index(Stamps0, Left0), Stamp, index(Stamps, Left)) :-
+    Left is Left0-1,
+    rb_insert(Stamps0, Stamp, Stamp, Stamps).
+
+index_delete(least(_, Left), _, least(Stamp, Left)) :-
+    alarm_least(Stamp).
+index_delete(index(Stamps0, Left), Stamp, index(Stamps, Left)) :-
+    (   rb_delete(Stamps0, Stamp, Stamps)
+    ->  true
+    ;   Stamps = Stamps0
+    ).
+
+%!  index_first(+Index, -Stamp) is det.
+%
+%   `inf` if there is none.
+
+index_first(least(Stamp, _), Stamp).
+index_first(index(Stamps, _), Stamp) :-
+    (   rb_min(Stamps, First, _)
+    ->  Stamp = First
+    ;   Stamp = inf
+    ).
+
+%!  index_size(+Index, -Count) is det.
+
+index_size(least(_, _), 1).
+index_size(index(Stamps, _), Size) :-
+    rb_size(Stamps, Size).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(no_index(Count))) -->
+    [ 'The timer has no memory for an index of ~D alarms, and is slow'-
+      [Count] ].

@@ -67,7 +67,11 @@ happens(X) :-
     assertz(event(X)).
 
 scheduler_threads(Threads) :-
-    findall(Thread, ( worker(Thread) ; typhon_timer:timer(Thread) ), Threads).
+    findall(Thread, ( worker(Thread) ; timer(Thread) ), Threads).
+
+timer(Alias) :-
+    thread_property(_, alias(Alias)),
+    sub_atom(Alias, 0, _, _, typhon_timer_).
 
 worker(Alias) :-
     thread_property(_, alias(Alias)),
@@ -283,14 +287,14 @@ test(three_hundred_agents_that_block, true(O-S == done-done)) :-
 %   A signal that comes just before a thread waits does not wake it.
 
 timer_ended :-
-    (   thread_property(_, alias(typhon_timer))
+    (   timer(_)
     ->  timer_signal(abort),
         fail
     ;   true
     ).
 
 timer_signal(Goal) :-
-    forall(typhon_timer:timer(Timer),
+    forall(timer(Timer),
            catch(thread_signal(Timer, Goal),
                  error(existence_error(_, _), _), true)).
 
@@ -394,7 +398,7 @@ test(a_timer_that_ends_comes_back, true(O == done)) :-
                            create([(main :- sleep(0.01))], B),
                            joined(B, done),
                            joined(A, O),
-                           wait_until(was_told(error, typhon(timer_ended)), 20)
+                           wait_until(was_told(error, typhon(server_ended(timer))), 20)
                          )), _).
 
 :- end_tests(no_threads).
@@ -474,12 +478,13 @@ test(those_that_are_over_are_forgotten, true(( N =< 1000, I =< 1000 ))) :-
     scheduling(( at(1000, T),
                  forall(between(1, 20000, J),
                         ( S is T+J, alarm_set(S, test(J), over) )),
-                 alarm_count(N, I) )).
+                 typhon_timer:alarm_count(N, I) )).
 test(those_that_count_are_kept) :-      % of the last the timer hears later
     scheduling(( at(1000, T),
                  forall(between(1, 5000, J),
                         ( S is T+J, alarm_set(S, test(J), t) )),
-                 wait_until(( alarm_count(N, I), N-I == 5000-5000 ), 5) )).
+                 wait_until(( typhon_timer:alarm_count(N, I),
+                              N-I == 5000-5000 ), 5) )).
 test(the_same_twice, true(E == [x-t,y-u])) :-
     in_time(same_twice, 2, E).
 test(a_hook_that_throws, true(E == [x-t])) :-
@@ -511,7 +516,7 @@ test(another_timer_takes_over, true(N == 100)) :-
                                     alarm_set(S, test(I), t) )),
                            timer_signal(abort),
                            wait_until(( test_scheduler:count(100),
-                                        was_told(error, typhon(timer_ended)) ),
+                                        was_told(error, typhon(server_ended(timer))) ),
                                       20) ), _)),
     count(N).
 test(a_full_stack, true(E == [x-t])) :-
@@ -544,7 +549,7 @@ answered(N) :-
                         [facts([r(A)])]),
                  joined(A, done),
                  agent_dispose(B),
-                 alarm_count(N, _) )).
+                 typhon_timer:alarm_count(N, _) )).
 test(none_go_off_after_the_stop, true(N == 0)) :-
     scheduling(( at(1000, T), alarm_set(T, test(x), t) )),
     count(N).

@@ -1,0 +1,326 @@
+:- module(typhon_server,
+          [ server_start/4,             % +Role, :Handle, +State, -Server
+            server_start/5,             % +Role, :Handle, +State, +Options,
+                                        % -Server
+            server_cast/2,              % +Server, +Message
+            server_call/4,              % +Server, +Request, +Seconds, -Answer
+            server_answer/2,            % +Caller, +Answer
+            server_check/1,             % +Server
+            server_stop/1,              % +Server
+            server_leave/1              % +Server
+          ]).
+:- use_module(error_text, [error_told/3]).
+
+/** <module> Servers: threads that own a queue
+
+A server handles one message after another:
+
+    call(Handle, Message, State0, State)
+
+State may be until(Stamp, State) if the message `timeout` is to come when no
+other has come until Stamp, `inf` for never.  Other messages are those of
+server_cast/2, call(Request, Caller) of server_call/4, which server_answer/2
+answers, `begin` before all others, and `stop` as the last one.  Handle may
+fail for `begin` and `stop`.
+
+A call for which Handle raises an error, or fails, gets that error, and the
+server goes on.  After any other message that raises something it prints that,
+and begins again with its first State.  If its thread is aborted, another
+thread begins with that State and the same queue, and an error message says
+so; if none can be made, server_cast/2 and server_check/1 try again.
+
+*Threading*: any thread.  A server may stop itself.
+*/
+
+:- meta_predicate
+    server_start(+, 3, +, -),
+    server_start(+, 3, +, +, -).
+
+:- multifile prolog:message//1.
+
+:- dynamic
+    server/4,                   % Queue, Role, Handle, State: the first
+    serving/2,                  % Queue, Thread
+    unserved/1.                 % Queue: that it has no thread was reported
+
+                /*******************************
+                *        START AND STOP        *
+                *******************************/
+
+%!  server_start(+Role:atom, :Handle, +State, -Server) is det.
+%!  server_start(+Role:atom, :Handle, +State, +Options, -Server) is det.
+%
+%   Options may have max_size(N): server_cast/2 waits while so many messages
+%   wait.  Role goes into the alias of the thread.
+%
+%   @error resource_error(What) if no thread can be made
+
+server_start(Role, Handle, State, Server) :-
+    server_start(Role, Handle, State, [], Server).
+
+server_start(Role, Handle, State, Options, Queue) :-
+    message_queue_create(Queue, Options),
+    assertz(server(Queue, Role, Handle, State)),
+    catch(with_mutex(typhon_server, make_thread(Queue)),
+          error(Formal, Context),
+          ( server_stop(Queue),
+            throw(error(Formal, Context)) )).
+
+make_thread(Queue) :-
+    server(Queue, Role, Handle, State),
+    flag(typhon_server, N, N+1),
+    atomic_list_concat([typhon, Role, N], '_', Alias),
+    sig_atomic(( thread_create(typhon_server:serve(Queue, Handle, State),
+                               Thread,
+                               [ alias(Alias),
+                                 at_exit(typhon_server:ended(Queue)) ]),
+                 assertz(serving(Queue, Thread)) )),
+    retractall(unserved(Queue)).
+
+%!  server_stop(+Server) is det.
+%!  server_leave(+Server) is det.
+%
+%   The server handles what has come until now, and ends; server_leave/1 does
+%   not wait for that.  What comes later is dropped; calls raise an error.
+
+server_stop(Queue) :-
+    (   forgotten(Queue, Thread)
+    ->  stop(Thread, Queue)
+    ;   true
+    ).
+
+server_leave(Queue) :-
+    (   forgotten(Queue, Thread)
+    ->  leave(Thread, Queue)
+    ;   true
+    ).
+
+forgotten(Queue, Thread) :-
+    with_mutex(typhon_server,
+               ( retract(server(Queue, _, _, _)),
+                 retractall(unserved(Queue)),
+                 (   retract(serving(Queue, Thread0))
+                 ->  Thread = Thread0
+                 ;   Thread = none
+                 ) )).
+
+stop(none, Queue) :-
+    !,
+    close_queue(Queue).
+stop(Thread, Queue) :-
+    thread_self(Thread),
+    !,
+    leave(Thread, Queue).
+stop(Thread, Queue) :-
+    thread_send_message(Queue, '$stop'),
+    thread_join(Thread, _),
+    close_queue(Queue).
+
+leave(none, Queue) :-
+    !,
+    close_queue(Queue).
+leave(Thread, Queue) :-
+    thread_detach(Thread),
+    thread_send_message(Queue, '$leave').
+
+close_queue(Queue) :-
+    refuse_calls(Queue),
+    message_queue_destroy(Queue).
+
+refuse_calls(Queue) :-
+    thread_peek_message(Queue, _),
+    !,
+    thread_get_message(Queue, Message),
+    (   Message = call(_, Caller)
+    ->  answer(Caller, raised(error(existence_error(server, Queue), _)))
+    ;   true
+    ),
+    refuse_calls(Queue).
+refuse_calls(_).
+
+                /*******************************
+                *            MESSAGES          *
+                *******************************/
+
+%!  server_cast(+Server, +Message) is semidet.
+%
+%   Fails if the server has been stopped.
+
+server_cast(Queue, Message) :-
+    catch(thread_send_message(Queue, Message),
+          error(existence_error(_, _), _), fail),
+    server_check(Queue).
+
+%!  server_call(+Server, +Request, +Seconds, -Answer) is semidet.
+%
+%   Seconds may be `inf`.  Fails if there is no answer in time.
+%
+%   @error existence_error(server, Server), and what Handle raises
+
+server_call(Queue, Request, Seconds, Answer) :-
+    setup_call_cleanup(
+        message_queue_create(Caller),
+        ( called(Queue, call(Request, Caller)),
+          awaited(Seconds, Caller, Result)
+        ),
+        message_queue_destroy(Caller)),
+    (   Result = raised(Ball)
+    ->  throw(Ball)
+    ;   Result = answer(Answer)
+    ).
+
+called(Queue, Call) :-
+    (   server_cast(Queue, Call)
+    ->  true
+    ;   throw(error(existence_error(server, Queue), _))
+    ).
+
+awaited(inf, Caller, Result) :-
+    !,
+    thread_get_message(Caller, Result).
+awaited(Seconds, Caller, Result) :-
+    thread_get_message(Caller, Result, [timeout(Seconds)]).
+
+%!  server_answer(+Caller, +Answer) is det.
+
+server_answer(Caller, Answer) :-
+    answer(Caller, answer(Answer)).
+
+answer(Caller, Result) :-
+    catch(thread_send_message(Caller, Result),
+          error(existence_error(_, _), _), true).  % it waits no longer
+
+%!  server_check(+Server) is det.
+%
+%   If Server has lost its thread, make another, if that is possible now.
+
+server_check(Queue) :-
+    (   serving(Queue, _)
+    ->  true
+    ;   with_mutex(typhon_server, serve_again(Queue))
+    ).
+
+serve_again(Queue) :-
+    server(Queue, Role, _, _),
+    \+ serving(Queue, _),
+    !,
+    catch(( make_thread(Queue),
+            print_message(error, typhon(server_ended(Role))) ),
+          error(Formal, _),
+          no_thread(Formal, Queue)).
+serve_again(_).
+
+no_thread(permission_error(create, thread, _), _) :-
+    !.                                  % Prolog is halting
+no_thread(_, Queue) :-
+    unserved(Queue),
+    !.
+no_thread(Formal, Queue) :-
+    assertz(unserved(Queue)),
+    server(Queue, Role, _, _),
+    print_message(error, typhon(no_server(Role, Formal))).
+
+                /*******************************
+                *           THE THREAD         *
+                *******************************/
+
+serve(Queue, Handle, State) :-
+    catch(serve_from(begin, State, Handle, Queue, End), Ball, survive(Ball)),
+    (   var(End)
+    ->  serve(Queue, Handle, State)
+    ;   end(End, Queue)
+    ).
+
+survive(Ball) :-
+    go_on(Ball),
+    print_message(error, typhon(server_error(Ball))).
+
+go_on(Ball) :-
+    (   unwinding(Ball)
+    ->  throw(Ball)
+    ;   true
+    ).
+
+unwinding('$aborted').
+unwinding(unwind(_)).                   % SWI-Prolog 9.3 and later
+
+serve_from(begin, State0, Handle, Queue, End) :-
+    !,
+    (   call(Handle, begin, State0, Next)
+    ->  serve_next(Next, Handle, Queue, End)
+    ;   serve_next(State0, Handle, Queue, End)
+    ).
+serve_from(Message, State, Handle, _, Message) :-
+    ending(Message),
+    !,
+    ignore(call(Handle, stop, State, _)).
+serve_from(Message, State, Handle, Queue, End) :-
+    handled(Message, Handle, State, Next),
+    serve_next(Next, Handle, Queue, End).
+
+serve_next(Next, Handle, Queue, End) :-
+    (   Next = until(Stamp, State)
+    ->  next(Stamp, Queue, Message)
+    ;   State = Next,
+        thread_get_message(Queue, Message)
+    ),
+    serve_from(Message, State, Handle, Queue, End).
+
+ending('$stop').
+ending('$leave').
+
+%   No wait is longer than a day: the system may not know so late a time.
+
+next(inf, Queue, Message) :-
+    !,
+    thread_get_message(Queue, Message).
+next(Stamp, Queue, Message) :-
+    get_time(Now),
+    Deadline is min(Stamp, Now+86400),
+    (   thread_get_message(Queue, Message0, [deadline(Deadline)])
+    ->  Message = Message0
+    ;   Message = timeout
+    ).
+
+handled(call(Request, Caller), Handle, State0, State) :-
+    !,
+    catch(must_handle(call(Request, Caller), Handle, State0, State), Ball,
+          ( answer(Caller, raised(Ball)),
+            go_on(Ball),
+            State = State0 )).
+handled(Message, Handle, State0, State) :-
+    must_handle(Message, Handle, State0, State).
+
+must_handle(Message, Handle, State0, State) :-
+    (   call(Handle, Message, State0, State)
+    ->  true
+    ;   throw(error(system_error(not_handled(Message)), _))
+    ).
+
+end('$stop', _).
+end('$leave', Queue) :-
+    close_queue(Queue).
+
+%   In the thread, at its end: nothing is left to do if it was stopped.
+
+ended(Queue) :-
+    thread_self(Me),
+    (   with_mutex(typhon_server, retract(serving(Queue, Me)))
+    ->  thread_detach(Me),
+        server_check(Queue)
+    ;   true
+    ).
+
+                /*******************************
+                *            MESSAGES          *
+                *******************************/
+
+prolog:message(typhon(server_error(Ball))) -->
+    { thread_self(Me) },
+    [ 'An error in the thread ~w, which goes on: '-[Me], nl ],
+    error_told(Ball).
+prolog:message(typhon(server_ended(Role))) -->
+    [ 'The thread of the ~w has ended; another goes on'-[Role] ].
+prolog:message(typhon(no_server(Role, Formal))) -->
+    [ 'The thread of the ~w has ended, and no other can be made now (~p)'-
+      [Role, Formal] ].

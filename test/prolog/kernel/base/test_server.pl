@@ -1,0 +1,153 @@
+:- module(test_server, []).
+:- use_module(library(plunit)).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module(library(lists)).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/base/server)).
+
+/** <module> Tests of servers
+
+The server of these tests has a list of what it was told, the newest first.
+
+*Threading*: the main thread, and the threads of the servers.
+*/
+
+:- dynamic ended/1, timeout/0.
+
+handle(begin, List, [begun|List]).
+handle(stop, List, _) :-
+    assertz(ended(List)).
+handle(timeout, List, [timeout|List]) :-
+    assertz(timeout).
+handle(add(X), List, [X|List]).
+handle(soon(X), List, until(Stamp, [X|List])) :-
+    get_time(Now),
+    Stamp is Now+0.02.
+handle(raise(X), _, _) :-
+    throw(X).
+handle(wait(Queue), List, List) :-
+    thread_get_message(Queue, _).
+handle(call(list, Caller), List, List) :-
+    reverse(List, All),
+    server_answer(Caller, All).
+handle(call(raise(X), _), _, _) :-
+    throw(error(domain_error(test, X), _)).
+handle(call(silence, _), List, List).
+handle(call(stop, Caller), List, List) :-
+    thread_self(Me),
+    typhon_server:serving(Server, Me),
+    server_stop(Server),
+    server_answer(Caller, stopped).
+
+:- meta_predicate serving(-, 0), serving(+, -, 0).
+
+serving(Server, Goal) :-
+    serving([], Server, Goal).
+
+serving(Options, Server, Goal) :-
+    retractall(ended(_)),
+    retractall(timeout),
+    no_leaks(setup_call_cleanup(
+                 server_start(test, test_server:handle, [], Options, Server),
+                 once(Goal),
+                 server_stop(Server))).
+
+list(Server, List) :-
+    server_call(Server, list, 5, List).
+
+%   A signal that comes just before a thread waits does not wake it.
+
+signal_until(Server, Ball, Goal) :-
+    wait_until(( signal(Server, Ball), call(Goal) ), 10).
+
+signal(Server, Ball) :-
+    forall(typhon_server:serving(Server, Thread),
+           catch(thread_signal(Thread, throw(Ball)), error(_, _), true)).
+
+:- begin_tests(server).
+
+test(messages_come_in_order, true(List == [begun,a,b])) :-
+    serving(Server, ( server_cast(Server, add(a)),
+                      server_cast(Server, add(b)),
+                      list(Server, List) )).
+test(timeout_comes_when_nothing_else_does, true(List == [begun,a,timeout])) :-
+    serving(Server, ( server_cast(Server, soon(a)),
+                      wait_until(test_server:timeout, 5),
+                      list(Server, List) )).
+test(message_takes_the_place_of_a_timeout, true(List == [begun,a,b])) :-
+    message_queue_create(Gate),
+    serving(Server, ( server_cast(Server, wait(Gate)),
+                      server_cast(Server, soon(a)),
+                      server_cast(Server, add(b)),
+                      thread_send_message(Gate, go),
+                      list(Server, _),
+                      list(Server, List) )),
+    message_queue_destroy(Gate).
+test(error_of_a_call_is_that_of_its_caller, true(List == [begun,a])) :-
+    serving(Server,
+            ( server_cast(Server, add(a)),
+              catch(server_call(Server, raise(x), 5, _),
+                    error(domain_error(test, x), _), true),
+              list(Server, List) )).
+test(call_has_a_deadline, fail) :-
+    serving(Server, server_call(Server, silence, 0.05, _)).
+test(unknown_request_is_an_error,
+     error(system_error(not_handled(call(what, _))))) :-
+    serving(Server, server_call(Server, what, 5, _)).
+test(error_of_a_message_is_printed, true(List == [begun,b])) :-
+    serving(Server,
+            listening(( server_cast(Server, add(a)),
+                        server_cast(Server, raise(error(oops, _))),
+                        server_cast(Server, add(b)),
+                        list(Server, List) ), Messages)),
+    Messages = [error-typhon(server_error(error(oops, _)))].
+test(aborted_thread_is_replaced_and_its_queue_kept,
+     true(List == [begun,b])) :-
+    message_queue_create(Gate),
+    serving(Server,
+            listening(( server_cast(Server, add(a)),
+                        server_cast(Server, wait(Gate)),
+                        server_cast(Server, add(b)),
+                        signal_until(Server, '$aborted',
+                                     was_told(error,
+                                              typhon(server_ended(test)))),
+                        list(Server, List) ), _)),
+    message_queue_destroy(Gate).
+test(stop_comes_after_what_was_sent_before, true(List == [b,a,begun])) :-
+    serving(Server, ( server_cast(Server, add(a)),
+                      server_cast(Server, add(b)) )),
+    ended(List).
+test(stop_twice) :-
+    serving(Server, server_stop(Server)).
+test(nothing_is_sent_to_one_that_was_stopped, fail) :-
+    serving(Server, ( server_stop(Server), server_cast(Server, add(a)) )).
+test(call_of_one_that_was_stopped, error(existence_error(server, _))) :-
+    serving(Server, ( server_stop(Server), list(Server, _) )).
+test(server_stops_itself, true(Answer == stopped)) :-
+    serving(Server, server_call(Server, stop, 5, Answer)).
+test(leave_does_not_wait, true(List == [a,begun])) :-
+    message_queue_create(Gate),
+    serving(Server, ( server_cast(Server, add(a)),
+                      server_cast(Server, wait(Gate)),
+                      server_leave(Server),
+                      thread_send_message(Gate, go) )),
+    message_queue_destroy(Gate),
+    ended(List).
+test(call_that_a_stop_overtakes, error(existence_error(server, _))) :-
+    message_queue_create(Gate),
+    serving(Server,
+            ( server_cast(Server, wait(Gate)),
+              server_leave(Server),
+              catch(thread_send_message(Server, call(list, Gate)),
+                    error(_, _), true),
+              thread_send_message(Gate, go),
+              thread_get_message(Gate, raised(Ball)) )),
+    message_queue_destroy(Gate),
+    throw(Ball).
+test(sender_waits_for_a_full_queue, true(List == [begun,1,2,3,4,5])) :-
+    serving([max_size(1)], Server,
+            ( forall(between(1, 5, I), server_cast(Server, add(I))),
+              list(Server, List) )).
+
+:- end_tests(server).
