@@ -1,16 +1,14 @@
 :- module(test_guard, []).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
-:- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
 
-/** <module> Strangers on a host that guards
+/** <module> Untrusted agents on a host that guards
 
 Each attack is tried three ways: written in the program, made up at run time
 where the machine runs it, and made up where Prolog runs it.
@@ -18,7 +16,7 @@ where the machine runs it, and made up where Prolog runs it.
 *Threading*: one test at a time.
 */
 
-%   attack(-Goal): what no stranger may do.
+%   attack(-Goal): what no untrusted agent may do.
 
 attack(halt).
 attack(halt(1)).
@@ -217,8 +215,8 @@ of_policy(permission_error(call, sandboxed, _)).
 of_policy(permission_error(_, _, _)).
 of_policy(existence_error(procedure, _)).
 
-%   below_variables(-Goal): Goal, which strangers may call, is given one that they
-%   may not, below a variable.  Some libraries call what is there, whatever the
+%   below_variables(-Goal): Goal, which untrusted agents may call, is given one that
+%   they may not, below a variable.  Some libraries call what is there, whatever the
 %   specification says.
 
 below_variables(Goal) :-
@@ -268,7 +266,7 @@ test(nothing_is_called_unseen_below_a_variable, Escaped-Count == 0-many) :-
     flag(typhon_guard_escaped, Escaped, 0),
     ( Goals = [_,_,_|_] -> Count = many ; Count = few ).
 
-%   What a stranger may do, it does.
+%   What an untrusted agent may do, it does.
 
 test(ordinary_programs_run, R-Facts == [2-a,4-b]-[ok]) :-
     with_hosts([g-[policy(guarded)], t],
@@ -500,42 +498,3 @@ test(no_such_quota, error(domain_error(quota, x(1)))) :-
     host_start(g, [quota([x(1)])]).
 
 :- end_tests(quotas).
-
-                /*******************************
-                *             PEERS            *
-                *******************************/
-
-tried(Goal, Result) :-
-    catch(( Goal -> Result = true ; Result = false ), error(Result, _), true).
-
-:- begin_tests(peers).
-
-test(only_what_the_rules_say,
-     [Create,Remote,Dispose,Look]-Noted =
-         [ move_refused(_, peer), permission_error(remote, host, _),
-           permission_error(orders, agent, _), true ]
-         - [refused(y,peer),refused(remote),refused(orders)]) :-
-    with_tmp_dir(peer_rules([Create,Remote,Dispose,Look], Noted)).
-test(no_such_rule, error(domain_error(peer_rule, x))) :-
-    host_start(g, [peer([x])]).
-
-:- end_tests(peers).
-
-peer_rules([Create,Remote,Dispose,Look], Noted, Dir) :-
-    directory_file_path(Dir, audit, File),
-    no_leaks(with_peers(
-        [p-[host([peer([cookie-[messages,watch]]), audit(File)])]],
-        with_host_here(( peer_host(p, There),
-          peer_do(p, agent_create(clauses([ (:- agent(x, [])),
-                                            on_message(_, _) ]), A)),
-          tried(agent_create(clauses([(:- agent(y, [])), (main :- true)]), _,
-                             [host(There)]), Create),
-          tried(remote(There, true), Remote),
-          tried(agent_dispose(A), Dispose),
-          tried(agent_property(A, state(_)), Look),
-          read_file_to_terms(File, Entries, []),
-          findall(What, member(audit(_, _, _, cookie, What), Entries),
-                  Noted) )))).
-
-with_host_here(Goal) :-
-    setup_call_cleanup(host_start(here), once(Goal), host_stop(here)).

@@ -1,0 +1,82 @@
+:- module(test_access, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(typhon)).
+
+/** <module> Rules for peers, and the audit
+
+*Threading*: one test at a time.
+*/
+
+tried(Goal, Result) :-
+    catch(( Goal -> Result = true ; Result = false ), error(Result, _), true).
+
+:- begin_tests(access).
+
+test(rules_decide_and_refusals_are_audited,
+     [Create,Remote,Dispose,Look]-Noted =
+         [ move_refused(_, peer), permission_error(remote, host, _),
+           permission_error(orders, agent, _), true ]
+         - [refused(y,peer),refused(remote),refused(orders)]) :-
+    with_tmp_dir(peer_rules([Create,Remote,Dispose,Look], Noted)).
+test(rules_and_audit_of_a_running_host_change,
+     [Before,Ruled,After]-Noted =
+         [true, permission_error(orders, agent, _), true]
+         - [refused(orders), order(_, dispose)]) :-
+    with_tmp_dir(changed_rules([Before,Ruled,After], Noted)).
+test(unknown_rules_are_an_error, error(domain_error(peer_rule, x))) :-
+    host_start(g, [peer([x])]).
+test(unknown_rules_are_an_error_of_a_change,
+     error(domain_error(peer_rule, x))) :-
+    with_hosts([g-[peer([cookie-all])]], host_change(g, peer([x]))).
+
+:- end_tests(access).
+
+peer_rules([Create,Remote,Dispose,Look], Noted, Dir) :-
+    directory_file_path(Dir, audit, File),
+    no_leaks(with_peers(
+        [p-[host([peer([cookie-[messages,watch]]), audit(File)])]],
+        with_host_here(( peer_host(p, There),
+          waiting_agent(A),
+          tried(agent_create(clauses([(:- agent(y, [])), (main :- true)]), _,
+                             [host(There)]), Create),
+          tried(remote(There, true), Remote),
+          tried(agent_dispose(A), Dispose),
+          tried(agent_property(A, state(_)), Look),
+          audited(File, Noted) )))).
+
+%   A peer disposes of an agent before there are rules, under rules, and after
+%   they are gone.
+
+changed_rules([Before,Ruled,After], Noted, Dir) :-
+    directory_file_path(Dir, audit, File),
+    no_leaks(with_peers(
+        [p-[host([])]],
+        with_host_here(( peer_host(p, _),
+          disposed(Before),
+          peer_do(p, ( host_change(p, audit(File)),
+                       host_change(p, peer([cookie-[agents]])) )),
+          disposed(Ruled),
+          peer_do(p, host_change(p, peer([cookie-all]))),
+          disposed(After),
+          audited(File, Noted) )))).
+
+disposed(Result) :-
+    waiting_agent(A),
+    tried(agent_dispose(A), Result).
+
+waiting_agent(A) :-
+    peer_do(p, agent_create(clauses([ (:- agent(x, [])),
+                                      on_message(_, _) ]), A)).
+
+audited(File, Whats) :-
+    read_file_to_terms(File, Entries, []),
+    findall(What, member(audit(_, _, _, cookie, What), Entries), Whats).
+
+with_host_here(Goal) :-
+    setup_call_cleanup(host_start(here), once(Goal), host_stop(here)).
