@@ -1,5 +1,5 @@
 :- module(typhon_host_parts,
-          [ parts/3,                    % +Phase, +Host, -Closures
+          [ parts/3,                    % ?Phase, ?Host, ?Closures
             amended/5,                  % +Phase, +Host, +About, +Term0, -Term
             parts_compile/1,            % +Host
             parts_forget/1              % +Host
@@ -79,16 +79,14 @@ What an option keeps of a host follows the life of the host by the hooks
     begins/3,
     changeable/1,
     changes/2,
-    ends/1,
-    compiled/3.                 % Phase, Host, Closures
+    ends/1.
 
-%!  parts(+Phase, +Host, -Closures:list) is semidet.
+:- dynamic parts/3.             % Phase, Host, Closures
+
+%!  parts(?Phase, ?Host, ?Closures:list) is nondet.
 %
-%   Fails if Host has no part in Phase.
-
-parts(Phase, Host, Closures) :-
-    compiled(Phase, Host, Closures),
-    !.
+%   Host has these Closures in Phase: a fact, so that what has no parts costs
+%   one lookup.  The first one counts, and there is none without closures.
 
 %!  amended(+Phase, +Host, +About, +Term0, -Term) is det.
 %
@@ -112,12 +110,12 @@ amended_by([Closure|Closures], Host, About, Term0, Term) :-
 %   before the old one goes.
 
 parts_compile(Host) :-
-    findall(Phase-Closures, compiled(Phase, Host, Closures), Olds),
+    findall(Phase-Closures, parts(Phase, Host, Closures), Olds),
     findall(Phase-Closures, in_order(Host, Phase, Closures), News),
     forall(member(Phase-Closures, News),
-           assertz(compiled(Phase, Host, Closures))),
+           assertz(parts(Phase, Host, Closures))),
     forall(member(Phase-Closures, Olds),
-           once(retract(compiled(Phase, Host, Closures)))).
+           once(retract(parts(Phase, Host, Closures)))).
 
 in_order(Host, Phase, Closures) :-
     bagof(Order-Closure, part(Phase, Host, Order, Closure), Pairs0),
@@ -125,4 +123,4 @@ in_order(Host, Phase, Closures) :-
     pairs_values(Pairs, Closures).
 
 parts_forget(Host) :-
-    retractall(compiled(_, Host, _)).
+    retractall(parts(_, Host, _)).
