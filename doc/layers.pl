@@ -6,6 +6,7 @@
     swipl doc/layers.pl -- picture | tred | dot -Tsvg > doc/img/layers.svg
     swipl doc/layers.pl -- figures
     swipl doc/layers.pl -- exceptions
+    swipl doc/layers.pl -- index
 
 `check` says what is not in order, and fails if anything is:
 
@@ -18,7 +19,9 @@
   - a file of the kernel that names an option, and is not in the list of
     exceptions, doc/layers/exceptions.pl, which may only shrink
     (`exceptions` rewrites it without those that are no longer needed);
-  - a hook that its module does not declare, or that no module defines.
+  - a hook that its module does not declare, or that no module defines;
+  - an index of what is loaded on demand that is not up to date (`index`
+    writes it, prolog/typhon/kernel/base/index.pl).
 
 `picture` draws which module imports which (tred leaves out what follows from
 other arrows), `figures` counts modules, lines and lines per predicate, and
@@ -31,6 +34,7 @@ prints what the kernel and the tests hold beside the most that is wanted.
 :- use_module(library(main), [main/0]).
 :- use_module(layers/check).
 :- use_module(layers/figures).
+:- use_module(layers/index, [write_index/0]).
 :- use_module(layers/picture).
 :- use_module(layers/seams, [shrink_exceptions/0]).
 :- use_module(layers/tree, [read_tree/0]).
@@ -51,6 +55,9 @@ main([check]) :-
 main([exceptions]) :-
     read_tree,
     shrink_exceptions.
+main([index]) :-
+    read_tree,
+    write_index.
 main([picture]) :-
     read_tree,
     picture.

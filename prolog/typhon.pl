@@ -12,7 +12,7 @@ a folder, with an interface of the same name beside it:
   | networks, the log server        | typhon/network           |
   | agents, event by event          | typhon/options/trace     |
   | events, as they happen          | typhon/options/watch     |
-  | tables at the top level         | typhon/tools             |
+  | tables at the top level, help/1 | typhon/tools/environment |
   | a page for a browser            | typhon/tools/page        |
   | Python, MQTT, ROS, FIPA         | typhon/bridges           |
 */
@@ -40,8 +40,8 @@ a folder, with an interface of the same name beside it:
             ]).
 :- reexport('typhon/options/trace').
 :- reexport(typhon/options/trail, [agent_trail/2]).
-:- reexport('typhon/network').
-:- reexport(typhon/tools, [agents/0, hosts/0]).
+:- reexport(typhon/network, except([network_hosts/2])).
+:- reexport(typhon/tools/environment, [agents/0, hosts/0]).
 :- reexport(typhon/tools/page, [page_start/1, page_stop/0]).
 :- reexport(typhon/bridges/common/starting,
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
@@ -51,6 +51,8 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/options/access, []).
 :- use_module(typhon/options/guard, []).
 :- use_module(typhon/options/virtual, []).
+:- use_module(typhon/tools/messages, []).
+:- use_module(typhon/tools/fault_messages, []).
 
 :- user_errors(typhon).
 

@@ -5,6 +5,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(index, [index_problem/1]).
 :- use_module(seams).
 :- use_module(tree).
 
@@ -50,6 +51,8 @@ problem(circle(File)) :-
     reaches_by_import(File, File).
 problem(Problem) :-
     seam_problem(Problem).
+problem(Problem) :-
+    index_problem(Problem).
 
 %   What a file includes is a part of it.
 
@@ -180,6 +183,8 @@ says(exception_not_needed(F, W),
      [F, W]).
 says(hook_not_declared(F, H), '~w: defines ~w, which its module does not \c
      declare multifile', [F, H]).
+says(stale_index(F), '~w: is not what it is to be: run doc/layers.pl -- index',
+     [F]).
 says(hook_without_definition(F, H), '~w: no module defines its hook ~w',
      [F, H]).
 

@@ -6,6 +6,7 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(index, [index_file/1]).
 :- use_module(tree).
 
 /** <module> The kernel names no option
@@ -82,7 +83,8 @@ kernel_file(File) :-
 
 in_kernel(File) :-
     layer_module(File, Layer, _),
-    sub_atom(Layer, 0, _, _, 'kernel/').
+    sub_atom(Layer, 0, _, _, 'kernel/'),
+    \+ index_file(File).                % it names them all, and is made
 
 %!  seam_problem(-Problem) is nondet.
 

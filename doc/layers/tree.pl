@@ -5,10 +5,12 @@
             export/2,           % ?File, ?PI
             import/3,           % ?File, ?Target, ?List
             reexport/3,         % ?File, ?Target, ?List
+            autoloads/2,        % ?File, ?Target
             mentions/2,         % ?File, ?Name
             reaches/3,          % ?File, ?Module, ?PI
             declares/2,         % ?File, ?Hook
             defines/2,          % ?File, ?Hook
+            hook_clause/2,      % ?File, ?Head
             size/4,             % ?File, ?PI, ?First, ?Last
             nodes/2,            % ?File, ?Count
             inside/2,           % ?Relative, ?File
@@ -38,10 +40,12 @@
     export/2,                   % File, PI
     import/3,                   % File, Target, all or List; a file, if ours
     reexport/3,                 % as import/3
+    autoloads/2,                % File, Target: the import is an autoload/2
     mentions/2,                 % File, Name: in clauses and directives
     reaches/3,                  % File, Module, PI: Module:Goal in a clause
     declares/2,                 % File, Module:PI: multifile
     defines/2,                  % File, Module:PI: a clause for that module
+    hook_clause/2,              % File, Module:Head: that clause
     size/4,                     % File, PI, first and last line
     nodes/2.                    % File, Count: nodes of the term of a clause
 
@@ -92,7 +96,8 @@ note(Clause, File, First, Last) :-
     assertz(nodes(File, Nodes)),
     (   clause_head(Clause, Module:Head)
     ->  functor(Head, Name, Arity),
-        assertz(defines(File, Module:Name/Arity))
+        assertz(defines(File, Module:Name/Arity)),
+        assertz(hook_clause(File, Module:Head))
     ;   clause_head(Clause, Head)
     ->  functor(Head, Name, Arity),
         assertz(size(File, Name/Arity, First, Last))
@@ -119,7 +124,9 @@ note_directive(use_module(Spec, List), File) :-
     note_import(import, File, Spec, List).
 note_directive(autoload(Spec, List), File) :-
     !,
-    note_import(import, File, Spec, List).
+    note_import(import, File, Spec, List),
+    target(Spec, File, Target),
+    assertz(autoloads(File, Target)).
 note_directive(reexport(Spec), File) :-
     !,
     note_import(reexport, File, Spec, all).

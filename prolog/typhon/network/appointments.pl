@@ -1,6 +1,6 @@
 :- module(typhon_appointments,
-          [ network_advance/2,          % +Network, +Seconds
-            network_at/3,               % +Network, +Time, :Goal
+          [ appointments_wait/2,        % +Network, +Seconds
+            appointments_at/3,          % +Network, +Time, :Goal
             appointments/2,             % +Network, -Due
             appointments_again/2        % +Network, +Due
           ]).
@@ -20,7 +20,7 @@
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
 
-:- meta_predicate network_at(+, +, 0).
+:- meta_predicate appointments_at(+, +, 0).
 
 :- dynamic
     due/3.                      % Network, Number, Goal
@@ -28,13 +28,11 @@
 typhon_networks:ended(Network) :-
     retractall(due(Network, _, _)).
 
-%!  network_advance(+Network, +Seconds) is det.
+%!  appointments_wait(+Network, +Seconds) is det.
 %
-%   Let Seconds pass, by the clock of the hosts: in virtual time at once.
-%
-%   @error existence_error(network, Network)
+%   See network_advance/2.
 
-network_advance(Network, Seconds) :-
+appointments_wait(Network, Seconds) :-
     must_be(number, Seconds),
     network_clock(Network, clock(_, Rate)),
     time_now(Now),
@@ -44,15 +42,11 @@ network_advance(Network, Seconds) :-
         \+ time_wait(Queue, _, Stamp),
         message_queue_destroy(Queue)).
 
-%!  network_at(+Network, +Time, :Goal) is det.
+%!  appointments_at(+Network, +Time, :Goal) is det.
 %
-%   Run Goal once when the clock of the hosts shows Time, or as soon as may
-%   be if that is past; never, if Network is stopped before. What Goal
-%   raises is reported.
-%
-%   @error existence_error(network, Network), type_error(callable, Goal)
+%   See network_at/3.
 
-network_at(Network, Time, Goal) :-
+appointments_at(Network, Time, Goal) :-
     must_be(number, Time),
     strip_module(Goal, _, Plain),
     must_be(callable, Plain),

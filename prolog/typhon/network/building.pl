@@ -18,7 +18,7 @@
 :- use_module(lasting,
               [ kept_note/3, lasting_back/2, lasting_child/4,
                 lasting_goes_on/3, lasting_open/3, lasting_restarts/4 ]).
-:- use_module(log, [log_server_start/2, log_server_stop/1]).
+:- use_module(log, [log_serve/2, log_serve_end/1]).
 :- use_module(plan,
               [ plan_dynamics/3, plan_furnishing/2, plan_hosts/4,
                 plan_links/2, plan_links_at/3, plan_log/3, plan_option/2,
@@ -149,7 +149,7 @@ start_dynamics(Network, Clock, Plan, Time, Change) :-
 %!  part(?Network, ?Part) is nondet.
 %
 %   This process is reached at Interface, and at Port if that is not 0; there is
-%   a log server, with options as of log_server_start/2; it has these dynamics.
+%   a log server, with options as of log_serve/2; it has these dynamics.
 %   Part is log(Address, File) or dynamics(Dynamics).
 
 network_endpoint(Network, Plan, Port, Interface) :-
@@ -170,7 +170,7 @@ interface(Plan, Interface) :-
 network_log(Network, Spec, Options, Address) :-
     absolute_file_name(Spec, File),
     atom_concat(Network, '_log', Name),
-    log_server_start([file(File), name(Name)|Options], Address),
+    log_serve([file(File), name(Name)|Options], Address),
     assertz(part(Network, log(Address, File))).
 
 network_dynamics(Network, Dynamics) :-
@@ -191,7 +191,7 @@ dynamics_end(Network) :-
 
 log_end(Network) :-
     (   retract(part(Network, log(Address, _)))
-    ->  log_server_stop(Address)
+    ->  log_serve_end(Address)
     ;   true
     ).
 

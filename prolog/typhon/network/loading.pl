@@ -1,5 +1,5 @@
 :- module(typhon_loading,
-          [ network_load/3              % +File, -Network, +Options
+          [ load_network/3              % +File, -Network, +Options
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
@@ -33,25 +33,11 @@ yet.  No event reports that what was there before has begun.
     typhon_options:declared/4,
     prolog:error_message//1.
 
-%!  network_load(+File, -Network, +Options) is det.
+%!  load_network(+File, -Network, +Options) is det.
 %
-%   Network is what network_save/2 has written to File, and goes on from there:
-%   in virtual time as the first one did, to the last byte of the log. It has
-%   the same name, if that is free, and its agents have the same ids. Options:
-%
-%     - log(File)
-%       Where its events are written, begun anew. By default they go on in the
-%       file of the first one: what was written there since is cut off. If
-%       that file is not there, or shorter, it is begun anew.
-%
-%   @error existence_error(source_sink, File)
-%   @error network_damaged(File, Why), network_version(File, Version)
-%   @error domain_error(network_load_option, Option)
-%   @error permission_error(load, virtual_time, Network): this process has
-%          virtual time already
-%   @error what network_start/3 raises, as where a port is taken
+%   See network_load/3.
 
-network_load(File, Network, Options) :-
+load_network(File, Network, Options) :-
     must_be(var, Network),
     must_be(ground, File),
     check_options(network_load_option, Options),

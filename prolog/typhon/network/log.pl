@@ -1,6 +1,6 @@
 :- module(typhon_log,
-          [ log_server_start/2,         % +Options, -Address
-            log_server_stop/1,          % +Address
+          [ log_serve/2,                % +Options, -Address
+            log_serve_end/1,            % +Address
             log_writer_flush/1          % +Queue
           ]).
 :- use_module(library(apply), [include/3]).
@@ -46,31 +46,11 @@ wait in the end, nothing is dropped. It flushes whenever nothing more waits.
     writer/3,                   % Name, Thread, File
     homeless/1.                 % Name of a server that events came for
 
-%!  log_server_start(+Options, -Address) is det.
+%!  log_serve(+Options, -Address) is det.
 %
-%   Starts a log server in this process. Options:
-%
-%     - file(File)
-%       Where events are written. Has no default.
-%     - mode(Mode)
-%       `write` (default): the file is begun anew; `append`: it goes on.
-%     - name(Name)
-%       Default `log`.
-%     - bind(Interface), port(Port)
-%       Of the process' endpoint, if it has to be started. Default
-%       `localhost` and any.
-%     - clock(Epoch, Rate)
-%       Default clock(0, 1), the time of day.
-%
-%   Address is Name@Interface:Port, for log(Address) of host_start/2.
-%
-%   @error domain_error(log_server_option, Option),
-%   existence_error(option, file),
-%   permission_error(start, log_server, Name) when it is running,
-%   existence_error(directory, Dir), permission_error(open, source_sink,
-%   File)
+%   See log_server_start/2.
 
-log_server_start(Options, Address) :-
+log_serve(Options, Address) :-
     must_be(var, Address),
     check_options(log_server_option, Options),
     option(name(Name), Options, log),
@@ -117,14 +97,11 @@ start(Name, File, Options, Address) :-
 of_endpoint(bind(_)).
 of_endpoint(port(_)).
 
-%!  log_server_stop(+Address) is det.
+%!  log_serve_end(+Address) is det.
 %
-%   Writes what has arrived, and what was posted in this process before,
-%   and ends the server.
-%
-%   @error existence_error(log_server, Address)
+%   See log_server_stop/1.
 
-log_server_stop(Address) :-
+log_serve_end(Address) :-
     must_be(atom, Address),
     server_name(Address, Name),
     in_own_thread(stop(Name, Address)).

@@ -1,7 +1,7 @@
 :- module(typhon_log_file,
           [ log_open/3,                 % +File, +Mode, -Stream
             log_write/2,                % +Stream, +Event
-            log_events/2,               % +Spec, -Events
+            log_read/2,                 % +Spec, -Events
             log_size/2,                 % +File, -Size
             log_goes_on/2               % +File, +Size
           ]).
@@ -15,7 +15,7 @@ One fact per line,
     event(Time, Host, Agent, What).
 
 The file is plain ASCII, whatever characters the events hold, and needs no
-operators: consult/1 reads it back on every system. log_events/2 reads it
+operators: consult/1 reads it back on every system. log_read/2 reads it
 line by line, so a line cut short by a crash costs that line and no other.
 
 *Threading*: any thread; a stream is one thread's.
@@ -105,16 +105,11 @@ log_write(Stream, Event) :-
     write_canonical(Stream, Event),
     write(Stream, '.\n').
 
-%!  log_events(+File, -Events:list) is det.
+%!  log_read(+File, -Events:list) is det.
 %
-%   Events are the event(Time, Host, Agent, What) facts in File, in the
-%   order in which they arrived. What has arrived in this process is among
-%   them. A line that is no fact is reported by a warning, and the others are
-%   read.
-%
-%   @error existence_error(source_sink, File)
+%   See log_events/2.
 
-log_events(Spec, Events) :-
+log_read(Spec, Events) :-
     absolute_file_name(Spec, File, [access(read)]),
     forall(about_to_read(File), true),
     setup_call_cleanup(

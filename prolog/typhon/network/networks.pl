@@ -1,7 +1,7 @@
 :- module(typhon_networks,
-          [ network_start/3,            % +Topology, -Network, +Options
-            network_stop/1,             % +Network
-            network_property/2,         % ?Network, ?Property
+          [ networks_start/3,           % +Topology, -Network, +Options
+            networks_stop/1,            % +Network
+            networks_property/2,        % ?Network, ?Property
             network_clock/2,            % +Network, -Clock
             network_begin/4,            % ?Name, +Plan, :Build, -Network
             network_goes_on/2,          % +Network, +Clock
@@ -61,71 +61,11 @@ none of its own.
     network/2,                  % Network, Plan
     running/1.                  % Network
 
-%!  network_start(+Topology, -Network, +Options) is det.
+%!  networks_start(+Topology, -Network, +Options) is det.
 %
-%   Starts a network of the shape Topology (see topology_edges/4). Options:
-%
-%     - processes(P)
-%       1 (default): the hosts are in this process. More: they are in so
-%       many child processes, in blocks of consecutive hosts, at most one
-%       process per host.
-%     - machines(Machines)
-%       Children are started through ssh, on Machines in turn, in blocks as
-%       well; by default one on each. A machine is a target of ssh, or as
-%       described at child_start/5. bind(Interface) must name an interface
-%       that they can reach.
-%     - bind(Interface)
-%       Of the endpoints on this machine; default `localhost`.
-%     - tls(Directory)
-%       The keys of this process, as of host_start/2, and of the children; on
-%       other machines they are in a directory of the same name.
-%     - hosts(Options)
-%       Options for host_start/2, for each of the hosts.
-%     - places(Places)
-%       Files for the places of hosts, goals called there; see module `host_setup`.
-%     - hop_time(uniform(Min, Max))
-%       An emulated link delay in host seconds, added to every hop.
-%     - clock(Rate)
-%       Host seconds per second; default 1. With clock(virtual) nothing
-%       waits, and the same Seed gives the same events: time runs while
-%       a caller waits, in agent_join/3 and network_advance/2, and jumps to
-%       what is due next. One process.
-%     - log(File), log(File, Kinds)
-%       A log server writes the events of all hosts to File, begun anew:
-%       when agents begin and end, what they log, and, of Kinds, a list out
-%       of `hops`, `messages`, `facts`, `faults`, `links` and `hosts`,
-%       where they went, senders and receivers, what they left and took,
-%       their errors, and which links and hosts came and went.
-%       With messages(content) for `messages` it has what the messages say,
-%       too; of more than 200 characters (the setting
-%       `typhon_event_shown:content_characters`) the beginning, as a string.
-%     - dynamic(Model)
-%       Links come and go: see dynamics_model/2.
-%     - cost(Cost)
-%       What each link costs: a number, or uniform(Min, Max), drawn for each
-%       pair of hosts. What edges(List) says comes first.
-%     - seed(Seed)
-%       An integer, from which all that is random follows; drawn when not
-%       given, and told by network_property/2.
-%     - journal(Directory), sync(How)
-%       What happens in the network outlives its processes, each of which has
-%       its journal, as of host_start/2, below Directory. Started again with
-%       the same Directory the network is what it was, agents go on, and what
-%       options leave open is as before. If its hosts are in this process, it
-%       must be started before any other host.
-%     - restart(Boolean)
-%       Child processes that die are started again, with the ports that they
-%       had, up to 10 times in a minute each (settings of module `restarts`).
-%       Without a journal their hosts are then as they were when they began:
-%       their agents, and what was left there, are lost. Default `false`.
-%
-%   @error uninstantiation_error(Network): the name is made here
-%   @error domain_error(network_option, Option), domain_error(topology, T),
-%   timeout_error(start, Network), system_error(process_ended(Status)),
-%   and what host_start/2 throws; journal_of_another(Directory, Was, Is) if
-%   the journal is that of a network that was started otherwise
+%   See network_start/3.
 
-network_start(Topology, Network, Options) :-
+networks_start(Topology, Network, Options) :-
     must_be(var, Network),
     kept_plan(Topology, Options, Plan, Kept),
     network_begin(_, Plan, started(Plan, Kept), Network).
@@ -186,16 +126,11 @@ network_change(Network, Change0) :-
                 *             STOP             *
                 *******************************/
 
-%!  network_stop(+Network) is det.
+%!  networks_stop(+Network) is det.
 %
-%   Ends what network_start/3 started, in order: the changes of links, what
-%   agents do, the hosts, the processes that carry them, the log, when all that
-%   was said to it is written. Takes seconds at the most, also when a process
-%   hangs. Where hosts are in this process its other agents pause meanwhile.
-%
-%   @error existence_error(network, Network)
+%   See network_stop/1.
 
-network_stop(Network) :-
+networks_stop(Network) :-
     must_be(atom, Network),
     (   retract(running(Network))
     ->  in_own_thread(end(Network))
@@ -270,26 +205,11 @@ network_standing(Network, standing(Plan, Clock, Log, Dynamics)) :-
     ;   Dynamics = none
     ).
 
-%!  network_property(?Network, ?Property) is nondet.
+%!  networks_property(?Network, ?Property) is nondet.
 %
-%   Property is one of
-%
-%     - hosts(Addresses)
-%       In the order of the topology.
-%     - edges(Edges)
-%       The links between hosts of the network at this moment, pairs A-B
-%       of addresses. Asks each process.
-%     - agents(Agents)
-%       Those that were born on its hosts and have not ended, wherever they
-%       are, in no order. Asks each process.
-%     - processes(Pids)
-%       The processes that carry hosts and are alive.
-%     - log(File), seed(Seed)
-%
-%   @error type_error(atom, Network), and existence_error(network, Network)
-%   when it is bound and not running, domain_error(network_property, Property)
+%   See network_property/2.
 
-network_property(Network, Property) :-
+networks_property(Network, Property) :-
     check_name(network_property, Property),
     (   var(Network)
     ->  running(Network)

@@ -1,10 +1,10 @@
 :- module(typhon_saving,
-          [ network_save/2              % +Network, +File
+          [ save_network/2              % +Network, +File
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, numlist/3]).
-:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(settings), [setting/2]).
 :- use_module('../kernel/host',
               [ context_now/2, host_property/2, time_due/3, time_kind/1,
                 time_now/1 ]).
@@ -34,25 +34,11 @@ network_at/3.
 :- multifile
     prolog:error_message//1.
 
-:- setting(hold_seconds, number, 30,
-           "A network that is saved has so long to come to rest").
-
-%!  network_save(+Network, +File) is det.
+%!  save_network(+Network, +File) is det.
 %
-%   Write all of Network to File: hosts, links, agents with their goals, state
-%   and mail, facts, payloads, outcomes, clocks, and what is due.  It goes on
-%   afterwards, and from File a network can be made that goes on alike, see
-%   network_load/3.  What was in File is replaced when all is written.
-%
-%   @error existence_error(network, Network)
-%   @error timeout_error(save, Network): something does not come to rest
-%   @error type_error(mobile_term, Culprit): what cannot be written
-%   @error permission_error(save, network, Network): an agent asks for it
-%   @error permission_error(save, host, Host): which is not of Network, but has
-%          the same virtual time
-%   @error existence_error(carrier, Network-P), and what open/3 raises
+%   See network_save/2.
 
-network_save(Network, File) :-
+save_network(Network, File) :-
     must_be(atom, Network),
     must_be(ground, File),
     network_standing(Network, Standing),
@@ -102,7 +88,7 @@ carried_here(Network) :-
     carrier(Network, _, _, local).
 
 cut(Network, Ps, Standing, Terms) :-
-    setting(hold_seconds, Seconds),
+    setting(typhon_saving:hold_seconds, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
     hold(Network, Ps, Deadline),

@@ -1,4 +1,7 @@
-:- module(typhon_agent_words, []).
+:- module(typhon_agent_words,
+          [ words_only/3,               % +Query, +Module, -PI
+            word_told/3                 % +Spec, //
+          ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../kernel/vocabulary', []).
@@ -12,21 +15,10 @@ own correction would offer the predicate of the module that implements it.
 *Threading*: any thread.
 */
 
-:- multifile
-    prolog:error_message//1,
-    user:expand_query/4.
-:- dynamic
-    user:expand_query/4.
-
-user:expand_query(Query, _, _, _) :-
-    '$current_typein_module'(Module),
-    typhon_agent_words:words_only(Query, Module, PI),
-    throw(error(existence_error(procedure, PI), context(_, _))).
-
-:- public words_only/3.                 % of the hook
-
-%   words_only(+Query, +Module, -PI) is semidet: a goal of Query calls PI, which
-%   is a word of agents and nothing else in Module.
+%!  words_only(+Query, +Module, -PI) is semidet.
+%
+%   A goal of Query calls PI, which is a word of agents and nothing else in
+%   Module.
 
 words_only(Query, Module, PI) :-
     goal(Query, Module, Goal),
@@ -53,7 +45,11 @@ word(PI) :-
     module_property(Module, exports(PIs)),
     memberchk(PI, PIs).
 
-prolog:error_message(existence_error(procedure, Spec)) -->
+%!  word_told(+Spec)// is semidet.
+%
+%   The text for an unknown procedure Spec that is a word of agents.
+
+word_told(Spec) -->
     { own_module(Spec, PI),
       word(PI)
     },

@@ -1,9 +1,9 @@
-:- module(typhon_completion, []).
+:- module(typhon_completion,
+          [ completed/4                 % +Before, +After, -Delete, -Completions
+          ]).
 :- use_module(library(apply), [foldl/4]).
-:- use_module(library(console_input), []).
 :- use_module(library(lists), [member/2, reverse/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
-:- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module('../kernel/base/names', [names/2]).
 
 /** <module> What the top level completes
@@ -14,25 +14,10 @@ tab key completes it; elsewhere it does what it always does.
 *Threading*: the thread of the top level.
 */
 
-%   We must be asked first, whether the system's own clauses are there yet or
-%   not.  A saved state does not keep what is wrapped.
-
-ask_us_first :-
-    wrap_predicate(
-        prolog:complete_input(Before, After, Delete, Completions),
-        typhon, Wrapped,
-        (   typhon_completion:completed(Before, After, Delete0, Completions0)
-        ->  Delete = Delete0,
-            Completions = Completions0
-        ;   Wrapped
-        )).
-
-:- initialization(ask_us_first, now).
-
-:- public completed/4.          % by the wrapper
-
-%   completed(+Before, +After, -Delete, -Completions) is semidet: the cursor
-%   is between Before and After.
+%!  completed(+Before, +After, -Delete, -Completions) is semidet.
+%
+%   The cursor is between Before and After; arguments as of
+%   prolog:complete_input/4.
 
 completed(Before, After, Delete, Completions) :-
     string_codes(Before, Codes),

@@ -1,4 +1,8 @@
-:- module(typhon_editors, []).
+:- module(typhon_editors,
+          [ directive_meant/2,          % +Directive, -Directives
+            directive_coloured/2,       % +Directive, -Colours
+            words_file/1                % ?File
+          ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../kernel/program', [declaration/4, indicator_in/2]).
 :- use_module('../kernel/vocabulary', []).
@@ -15,17 +19,12 @@ provides.  What is loaded is not concerned.
 *Threading*: any thread, see prolog_load_context/2.
 */
 
-:- multifile
-    user:term_expansion/2,
-    prolog_colour:directive_colours/2,
-    prolog_colour:goal_colours/3.
-:- dynamic
-    user:term_expansion/2.
+%!  directive_meant(+Directive, -Directives) is semidet.
+%
+%   Directive is a declaration of an agent or payload and stands for
+%   Directives.
 
-%   To the cross-referencer alone a declaration is what it stands for.
-
-user:term_expansion((:- Directive), Directives) :-
-    current_prolog_flag(xref, true),
+directive_meant(Directive, Directives) :-
     declared(Directive, Kind, Options),
     findall((:- Meant), meant(Kind, Options, Meant), Directives).
 
@@ -49,16 +48,19 @@ meant(Kind, Options, Meant) :-
 predicates_option(agent, PIs, state(PIs)).
 predicates_option(payload, PIs, provides(PIs)).
 
-%   words_file(?File) is nondet: where what agents can say is defined.
+%!  words_file(?File) is nondet.
+%
+%   File defines predicates that agents can call.
 
 words_file(File) :-
     member(Module, [typhon_words, typhon_memory]),
     module_property(Module, file(File)).
 
-prolog_colour:goal_colours(_, imported(File), built_in-classify) :-
-    words_file(File).
+%!  directive_coloured(+Directive, -Colours) is semidet.
+%
+%   As prolog_colour:directive_colours/2.
 
-prolog_colour:directive_colours(Directive, built_in-Arguments) :-
+directive_coloured(Directive, built_in-Arguments) :-
     declared(Directive, Kind, Options),
     (   Options == []
     ->  Arguments = [identifier,classify]

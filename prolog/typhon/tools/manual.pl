@@ -1,4 +1,7 @@
-:- module(typhon_manual, []).
+:- module(typhon_manual,
+          [ help_shown/1,               % +HTML
+            apropos_completed/3         % +Told, -Pairs, -Count
+          ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
@@ -12,16 +15,10 @@ completed by what library(typhon) exports, and what agents can say.  Its
 help/1 prints a comment once for each predicate that the comment is about: of
 several that are the same, one is left.
 
-The modules that do it are loaded at the first request, and not with this one.
+The modules of Prolog that do it are loaded at the first request.
 
 *Threading*: called by library(help), in the thread that asks.
 */
-
-:- multifile
-    user:message_hook/3,
-    prolog_help:show_html_hook/1.
-:- dynamic
-    user:message_hook/3.
 
 %   part(?What, ?Module): of Prolog's manual.
 
@@ -32,7 +29,11 @@ part(comments, pldoc_process).
                 *             HELP             *
                 *******************************/
 
-prolog_help:show_html_hook(HTML) :-
+%!  help_shown(+HTML) is semidet.
+%
+%   Show HTML, a page of help/1, without its repetitions, if it has any.
+
+help_shown(HTML) :-
     begins(Mark),
     atomic_list_concat([Begin,First|More0], Mark, HTML),
     once_each(More0, First, More),
@@ -62,24 +63,17 @@ once_each([Piece|Pieces0], First, [Piece|Pieces]) :-
                 *            APROPOS           *
                 *******************************/
 
-user:message_hook(help(Told), _, _) :-
-    completed(Told, Pairs, Count),
-    print_message(information, help(typhon(Pairs, Count))).
+%!  apropos_completed(+Told, -Pairs, -Count) is semidet.
+%
+%   Told is what apropos/1 prints; Pairs are the manual's matches behind the
+%   first of ours, as many as are shown, and Count is the number of all.
 
-:- multifile prolog:message//1.
-
-prolog:message(help(typhon(Pairs, Count))) -->
-    '$messages':translate_message(help(apropos_matches(Pairs, Count))).
-
-%   completed(+Told, -Pairs, -Count): the manual's matches behind the first of
-%   ours, as many as are shown.
-
-completed(no_apropos_match(Query), Pairs, Count) :-
+apropos_completed(no_apropos_match(Query), Pairs, Count) :-
     matches(Query, Ours),
     Ours \== [],
     first(20, Ours, Pairs),
     length(Ours, Count).
-completed(apropos_matches(Manual, Count0), Pairs, Count) :-
+apropos_completed(apropos_matches(Manual, Count0), Pairs, Count) :-
     asked(Query),
     matches(Query, Ours),
     Ours \== [],

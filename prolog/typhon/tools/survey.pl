@@ -9,7 +9,7 @@
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
-:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(settings), [setting/2]).
 :- use_module('../kernel/wire',
               [endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
                endpoint_reply/2]).
@@ -17,7 +17,7 @@
               [ address_parts/3, clock/3, host_link_cost/3, host_property/2,
                 scheduler_call/1, time_kind/1 ]).
 :- use_module('../kernel/lifecycle', [agent_glance/2]).
-:- use_module('../network', [network_property/2]).
+:- use_module('../network', [network_hosts/2]).
 
 /** <module> What stands in all processes of a network
 
@@ -29,9 +29,6 @@ by the deadline is reported as silent.
 *Threading*: any thread may ask, but those of the endpoint. A worker answers,
 for there may be many agents.
 */
-
-:- setting(seconds, number, 2,
-           "A table waits so long for the other processes of a network").
 
 :- multifile
     typhon_endpoint:requested/4.
@@ -78,7 +75,7 @@ silence(lost, lost).
 silence(late, late).
 
 known(Address) :-
-    network_property(_, hosts(Addresses)),
+    network_hosts(_, Addresses),
     member(Address, Addresses).
 
 %   A process of which it is known that it is no more is not waited for.
@@ -93,7 +90,7 @@ ask(Endpoints, Most, Results) :-
 ask_there([], _, []) :-
     !.
 ask_there(Endpoints, Most, Results) :-
-    setting(seconds, Seconds),
+    setting(typhon_survey:seconds, Seconds),
     endpoint_ask_all(Endpoints, survey, look(Most),
                      typhon_survey:further, Seconds, Results).
 

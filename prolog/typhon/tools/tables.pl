@@ -1,7 +1,5 @@
 :- module(typhon_tables,
-          [ hosts/0,
-            agents/0,
-            print_hosts/1,              % +Places
+          [ print_hosts/1,              % +Places
             print_agents/2              % +Places, +Ids
           ]).
 
@@ -26,18 +24,6 @@ longest_table(60).
                 /*******************************
                 *             HOSTS            *
                 *******************************/
-
-%!  hosts is det.
-%
-%   Print a table of the hosts of this process, of the networks that it has
-%   started, and of all to which one comes from these along links, in other
-%   processes, too: their address, what they do, how many agents they have
-%   of how many they admit, how many came in, and their neighbours.  Of a
-%   process that has not answered within two seconds (the setting
-%   `typhon_survey:seconds`) it says so.
-
-hosts :-
-    print_hosts([]).
 
 %!  print_hosts(+Places) is det.
 %
@@ -87,16 +73,6 @@ short_name(Name, Name).
                 /*******************************
                 *            AGENTS            *
                 *******************************/
-
-%!  agents is det.
-%
-%   Print a table of the agents on the hosts that hosts/0 shows: the name of
-%   an agent, or its id where another has the same name; where it is; its
-%   program; what it does or waits for; how often it has moved, and how many
-%   messages wait for it.
-
-agents :-
-    print_agents([], short).
 
 %!  print_agents(+Places, +Ids) is det.
 %

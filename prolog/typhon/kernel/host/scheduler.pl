@@ -114,3 +114,10 @@ schedule_leave :-
 
 scheduler_call(Goal) :-
     time_work(goal(Goal)).
+
+%   What is loaded on demand is loaded by workers.
+
+:- multifile typhon_on_demand:worker_call/1.
+
+typhon_on_demand:worker_call(Goal) :-
+    scheduler_call(Goal).

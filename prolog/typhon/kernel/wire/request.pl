@@ -42,6 +42,8 @@ same thread may overtake it. The thread that removes a request answers it.
 
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/error_text', [error_told/3, print_error/2]).
+:- use_module('../base/on_demand',
+              [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
 :- use_module(attempts, [asking/1]).
 :- use_module(outbox,
               [session_answer/2, session_send/2, session_send_later/2]).
@@ -157,7 +159,7 @@ dispatch(Session, request(Id, Kind, Term)) :-
     session_peer(Session, _, Peer),
     (   take_request(Kind, Term, Peer, reply_to(Session, Id))
     ->  true
-    ;   reporting(session_answer(Session, spoilt(Id)), Kind)
+    ;   spoil(reply_to(Session, Id), Kind)
     ).
 dispatch(Session, answer(Id, Term)) :-
     !,
@@ -224,6 +226,11 @@ connection_is(Session, State) :-
              clause(typhon_endpoint:connection(Peer, State), Body) ),
            reporting(typhon_endpoint:Body, connection)).
 
+spoil(reply_to(Session, Id), Kind) :-
+    reporting(session_answer(Session, spoilt(Id)), Kind).
+spoil(alone(OnAnswer), _) :-
+    request_answer(lost, OnAnswer).
+
 reporting(Goal, Kind) :-
     (   attempt(Goal, Kind)
     ->  true
@@ -239,8 +246,34 @@ attempt(Goal, Kind) :-
         ;   print_message(error, typhon(endpoint, hook(Kind, Error))),
             fail
         )
+    ;   taken_later(Goal)
+    ->  true
     ;   print_message(error, typhon(endpoint, hook(Kind, failed))),
         fail
+    ).
+
+%   taken_later(+Hook) is semidet: it is defined by code that is not loaded
+%   yet. A worker loads it and calls the hook.
+
+taken_later(typhon_endpoint:Hook) :-
+    functor(Hook, Seam, _),
+    memberchk(Seam, [received, requested]),
+    arg(1, Hook, Kind),
+    on_demand_missing(Seam, Kind),
+    on_demand_later(typhon_request:load_and_take(Hook)).
+
+:- public load_and_take/1.              % goal of a worker
+
+load_and_take(received(Kind, Term, Peer)) :-
+    on_demand_load(received, Kind),
+    take_post(Kind, Term, Peer).
+load_and_take(requested(Kind, Term, Peer, ReplyTo)) :-
+    (   catch(on_demand_load(requested, Kind), Error,
+              print_error(error, Error)),
+        var(Error),
+        take_request(Kind, Term, Peer, ReplyTo)
+    ->  true
+    ;   spoil(ReplyTo, Kind)
     ).
 
 %   The thread is to end: that is not the hook's fault, nor to be kept from it.

@@ -1,5 +1,5 @@
 :- module(typhon_metrics,
-          [ metrics/2                   % +Hosts, -Text
+          [ processes_metrics/2         % +Hosts, -Text
           ]).
 :- use_module(library(aggregate), [aggregate/3, aggregate_all/3]).
 :- use_module(library(lists), [last/2, member/2]).
@@ -22,15 +22,11 @@ Each process says its own numbers: whoever reads them adds them up.
 
 :- multifile typhon_everywhere:answer/2.
 
-%!  metrics(+Hosts, -Text:string) is det.
+%!  processes_metrics(+Hosts, -Text:string) is det.
 %
-%   Text are the numbers of the processes that have Hosts, as of watch/3, in
-%   the text format of Prometheus.  What is counted begins at 0 when it is
-%   asked for the first time.
-%
-%   @error existence_error(host, Host)
+%   See metrics/2.
 
-metrics(Hosts, Text) :-
+processes_metrics(Hosts, Text) :-
     watched_places(Hosts, Places),
     everywhere(Places, numbers, 5, Answers, Silent),
     findall(Endpoint-Numbers,

@@ -1,5 +1,5 @@
 :- module(typhon_overview,
-          [ overview/3                  % +Hosts, -Processes, -Silent
+          [ processes_overview/3        % +Hosts, -Processes, -Silent
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/program', [code_program/2]).
@@ -24,23 +24,11 @@ of an agent where it is, and not that it is one more.
 
 :- multifile typhon_everywhere:answer/2.
 
-%!  overview(+Hosts, -Processes, -Silent) is det.
+%!  processes_overview(+Hosts, -Processes, -Silent) is det.
 %
-%   Hosts as of watch/3.  Processes are process(Endpoint, Pid, Hosts, Agents):
-%
-%     - host(Address, Time, Load, Options, Links)
-%       Time is what its clock shows, Load how many agents count there,
-%       Options those of host_start/2 but for tokens, Links To-Cost.
-%     - agent(Id, Host, Program, State, Hops)
-%       State as of agent_property/2, without the error of those that are
-%       faulty.
-%
-%   Silent are the endpoints of processes that have not answered in five
-%   seconds.
-%
-%   @error existence_error(host, Host)
+%   See overview/3.
 
-overview(Hosts, Processes, Silent) :-
+processes_overview(Hosts, Processes, Silent) :-
     watched_places(Hosts, Places),
     everywhere(Places, overview, 5, Answers, Silent),
     findall(Process,

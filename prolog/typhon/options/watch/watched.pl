@@ -6,7 +6,7 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../../kernel/wire', [endpoint_address/1]).
 :- use_module('../../kernel/host', [address_parts/3, host_resolve/2]).
-:- use_module('../../network', [network_property/2]).
+:- use_module('../../network', [network_hosts/2]).
 
 /** <module> Which hosts are to be watched, and where they are
 
@@ -55,7 +55,7 @@ watched(One, Endpoint, What) :-
     ).
 
 hosts_of_network(Network, Addresses) :-
-    catch(network_property(Network, hosts(Addresses)),
+    catch(network_hosts(Network, Addresses),
           error(existence_error(network, _), _),
           fail).
 

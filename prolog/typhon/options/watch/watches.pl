@@ -1,6 +1,6 @@
 :- module(typhon_watches,
-          [ watch/3,                    % +Hosts, :OnEvent, -Watch
-            unwatch/1                   % +Watch
+          [ watch_begin/3,              % +Hosts, :OnEvent, -Watch
+            watch_end/1                 % +Watch
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
@@ -28,57 +28,15 @@ module `telling`.
 :- setting(last_seconds, number, 2,
            "unwatch/1 waits so long for what has happened before").
 
-%   `:` and not 1: lambda expressions in arguments that are called are compiled
-%   while a file is loaded, and lose there what is not a parameter.
-
-:- meta_predicate watch(+, :, -).
+:- meta_predicate watch_begin(+, :, -).
 
 :- dynamic listens/2.           % Watch, Thread
 
-%!  watch(+Hosts, :OnEvent, -Watch) is det.
+%!  watch_begin(+Hosts, :OnEvent, -Watch) is det.
 %
-%   Have call(OnEvent, Event) called for what happens on Hosts from now on:
-%   a host, a network, or a list of such, of this process and of others.
-%   Event is event(Time, Host, Agent, What), Time in seconds of the clock of
-%   Host, Host an address, Agent an id or `none`, and What is one of
-%
-%     - created, ended(Outcome), fault(Fault)
-%       An agent begins, ends, or is faulty, Fault being as of
-%       agent_property/2; one that is faulty ends when it is given up.
-%     - left(To), arrived(From, Seconds), stayed(To)
-%       It sets out for To; is there, after a hop of so many seconds; could
-%       not go there.
-%     - cloned(Id), sent(To), received(From), log(Term)
-%       On hosts whose option log(Address, Kinds) has messages(content),
-%       sent(To, Message) and received(From, Message).
-%     - leave(Fact), take(Fact)
-%       What is put in the tuple space of Host, and taken out.
-%     - link(To), unlink(To), started, stopped
-%       Agent is `none`.
-%     - refused(Agent, Reason)
-%       Host did not admit Agent: the name of one that was to be created there,
-%       or the id of one that was to come.  Reason is as of move_refused/2.
-%       Agent of the event is `none`.
-%     - lost
-%       The process of Host has ended or cannot be reached any more.  When it
-%       is there again, Host has `started`.
-%     - skipped(Count)
-%       So many events of Host were not told: OnEvent is slower than they come.
-%
-%   Those of one host come in order.  All are called in one thread, one after
-%   the other, and not where they happen: whatever OnEvent does, hosts do not
-%   wait for it.  That it fails means nothing; an exception is reported once, and
-%   the watch goes on.
-%
-%   OnEvent may be a lambda expression; its variables that are bound when
-%   watch/3 is called are as they are then, as in [E]>>p(Q, E).
-%
-%   Watch holds the endpoint of this process until unwatch/1.
-%
-%   @error existence_error(host, Host)
-%   @error host_unreachable(Host), permission_error(authenticate, host, Host)
+%   See watch/3.
 
-watch(Hosts, OnEvent, Watch) :-
+watch_begin(Hosts, OnEvent, Watch) :-
     must_be(var, Watch),
     strip_module(OnEvent, _, Plain),
     must_be(callable, Plain),
@@ -149,14 +107,11 @@ must_have(carried(_), _) =>
                 *             END              *
                 *******************************/
 
-%!  unwatch(+Watch) is det.
+%!  watch_end(+Watch) is det.
 %
-%   Earlier events are still delivered, if that can be done in two seconds, and
-%   then no event any more.
-%
-%   @error existence_error(watch, Watch)
+%   See unwatch/1.
 
-unwatch(Watch) :-
+watch_end(Watch) :-
     must_be(atom, Watch),
     (   with_mutex(typhon_watches, retract(listens(Watch, Thread)))
     ->  end(Watch, Thread)

@@ -1,0 +1,129 @@
+:- module(layers_index,
+          [ index_problem/1,            % -Problem
+            index_file/1,               % -File
+            write_index/0
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(tree).
+
+/** <module> The index of what is loaded on demand
+
+A file below prolog/typhon that library(typhon) does not import, directly or
+indirectly, is loaded on demand. The index says which hooks such files define,
+for which kinds of things, so that they are known before they are loaded; see
+module `typhon_on_demand`.
+
+*Threading*: the main thread.
+*/
+
+%!  indexed(?Hook, ?Seam, ?Head, ?What) is nondet.
+%
+%   Hook is in the index under Seam: its clauses have Head, and are for What.
+
+indexed(typhon_endpoint:requested/4, requested, requested(Kind, _, _, _), Kind).
+indexed(typhon_endpoint:received/3, received, received(Kind, _, _), Kind).
+
+%!  index_problem(-Problem) is nondet.
+
+index_problem(stale_index(File)) :-
+    index_file(File),
+    index_text(Text),
+    \+ read_file_to_string(File, Text, []).
+
+index_file(File) :-
+    inside('prolog/typhon/kernel/base/index.pl', File).
+
+%!  write_index is det.
+
+write_index :-
+    index_file(File),
+    index_text(Text),
+    setup_call_cleanup(
+        open(File, write, Out),
+        write(Out, Text),
+        close(Out)).
+
+index_text(Text) :-
+    findall(part_joins(Seam, What, Part), part_joins(Seam, What, Part), Joins0),
+    sort(Joins0, Joins),
+    findall(part_file(Part, Path),
+            ( member(part_joins(_, _, Part), Joins), part_file(Part, Path) ),
+            Files0),
+    sort(Files0, Files),
+    with_output_to(string(Text), print_index(Joins, Files)).
+
+print_index(Joins, Files) :-
+    format(':- module(typhon_index,
+          [ part_joins/3,               % ?Seam, ?What, ?Part
+            part_file/2                 % ?Part, ?File
+          ]).
+
+/** <module> What is loaded on demand
+
+Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
+
+*Threading*: facts.
+*/
+
+%!  part_joins(?Seam, ?What, ?Part) is nondet.
+%
+%   Part defines the hook Seam for What.
+
+~@
+%!  part_file(?Part, ?File) is nondet.
+%
+%   File, below prolog/typhon, defines hooks of Part.
+
+~@',
+           [print_facts(Joins), print_facts(Files)]).
+
+print_facts(Facts) :-
+    forall(member(Fact, Facts), format('~q.~n', [Fact])).
+
+part_joins(Seam, What, Part) :-
+    on_demand(File, Part),
+    indexed(Module:_, Seam, Head, What),
+    hook_clause(File, Module:Head),
+    ground(What).
+
+part_file(Part, Path) :-
+    on_demand(File, Part),
+    once(( hook_clause(File, Module:_), atom_concat(typhon_, _, Module) )),
+    inside('prolog/typhon/', Prefix),
+    atom_concat(Prefix, Relative, File),
+    file_name_extension(Path, pl, Relative).
+
+%!  on_demand(?File, ?Part) is nondet.
+%
+%   File is a module of the layer Part and not loaded with library(typhon).
+
+on_demand(File, Part) :-
+    loaded_at_once(AtOnce),
+    layer_module(File, Part, _),
+    \+ memberchk(File, AtOnce).
+
+:- dynamic at_once/1.
+
+loaded_at_once(Files) :-
+    at_once(Files),
+    !.
+loaded_at_once(Files) :-
+    inside('prolog/typhon.pl', Interface),
+    reached([Interface], [], Files),
+    assertz(at_once(Files)).
+
+reached([], Files, Files).
+reached([File|More], Seen, Files) :-
+    memberchk(File, Seen),
+    !,
+    reached(More, Seen, Files).
+reached([File|More], Seen, Files) :-
+    findall(Next, ( loads(File, Next), module_of(Next, _) ), Nexts, More),
+    reached(Nexts, [File|Seen], Files).
+
+loads(File, Next) :-
+    import(File, Next, _),
+    \+ autoloads(File, Next).
+loads(File, Next) :-
+    reexport(File, Next, _).

@@ -1,0 +1,113 @@
+:- module(typhon_on_demand,
+          [ on_demand_missing/2,        % +Seam, +What
+            on_demand_load/2,           % +Seam, +What
+            on_demand_later/1           % :Goal
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module(index, [part_file/2, part_joins/3]).
+
+/** <module> Code that is loaded when it is used first
+
+A process has the kernel, and what it uses beside: a part, as a network or an
+option, is loaded when one of its predicates is called, an option of it is
+given, or a peer asks for it.  The index, which `doc/layers.pl -- index` makes
+of the sources, says which part is behind which name.
+
+Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
+when the rest of their file is there: a hook works as soon as it is seen.
+
+*Threading*: any thread, but those of the endpoint, which pass the goal on to
+a worker by on_demand_later/1.
+*/
+
+:- multifile
+    worker_call/1.              % Goal: call it once in a worker
+
+:- dynamic
+    loaded/1,                   % Part
+    directory/1.                % of the parts
+
+:- prolog_load_context(directory, Base),
+   file_directory_name(Base, Kernel),
+   file_directory_name(Kernel, Typhon),
+   retractall(directory(_)),
+   assertz(directory(Typhon)).
+
+%!  on_demand_missing(+Seam, +What) is semidet.
+%
+%   A part that is not loaded defines the hook Seam for What.
+
+on_demand_missing(Seam, What) :-
+    part_joins(Seam, What, Part),
+    \+ loaded(Part),
+    !.
+
+%!  on_demand_load(+Seam, +What) is det.
+%
+%   Load all parts that define the hook Seam for What.
+
+on_demand_load(Seam, What) :-
+    forall(( part_joins(Seam, What, Part), \+ loaded(Part) ), load(Part)).
+
+load(Part) :-
+    directory(Directory),
+    findall(Path,
+            ( part_file(Part, File),
+              atomic_list_concat([Directory, File], /, Path) ),
+            Paths),
+    current_prolog_flag(optimise, Optimise),
+    setup_call_cleanup(
+        set_prolog_flag(optimise, true),        % as all of library(typhon)
+        forall(member(Path, Paths), use_module(Path, [])),
+        set_prolog_flag(optimise, Optimise)),
+    assertz(loaded(Part)).
+
+%!  on_demand_later(:Goal) is semidet.
+%
+%   Call Goal once in a worker; fails if there are none.
+
+:- meta_predicate on_demand_later(0).
+
+on_demand_later(Goal) :-
+    worker_call(Goal).
+
+                /*******************************
+                *    HOOKS COME LAST IN FILES  *
+                *******************************/
+
+:- multifile system:term_expansion/2.
+:- dynamic system:term_expansion/2.
+
+:- thread_local held/2.                 % File, Clause: of a hook
+
+:- public
+    hold_hook/2,
+    held_hooks/1.
+
+%   hold_hook(+Module, +Clause) is semidet: Clause, for a hook of Module, one of
+%   ours, is compiled later; not in the kernel, which is loaded before there are
+%   threads.
+
+hold_hook(Module, Clause) :-
+    atom(Module),
+    sub_atom(Module, 0, _, _, typhon_),
+    prolog_load_context(module, Other),
+    Other \== Module,
+    prolog_load_context(source, File),
+    directory(Directory),
+    atom_concat(Directory, Path, File),
+    \+ sub_atom(Path, 0, _, _, '/kernel/'),
+    assertz(held(File, Clause)).
+
+held_hooks(Clauses) :-
+    prolog_load_context(source, File),
+    held(File, _),
+    !,
+    findall(Clause, retract(held(File, Clause)), Clauses, [end_of_file]).
+
+system:term_expansion((Module:Head:-Body), []) :-
+    typhon_on_demand:hold_hook(Module, (Module:Head:-Body)).
+system:term_expansion(Module:Head, []) :-
+    typhon_on_demand:hold_hook(Module, Module:Head).
+system:term_expansion(end_of_file, Clauses) :-
+    typhon_on_demand:held_hooks(Clauses).

@@ -1,0 +1,124 @@
+:- module(typhon_environment,
+          [ hosts/0,
+            agents/0
+          ]).
+:- autoload(agent_words, [word_told/3, words_only/3]).
+:- autoload(completion, [completed/4]).
+:- autoload(editors, [directive_coloured/2, directive_meant/2, words_file/1]).
+:- autoload(manual, [apropos_completed/3, help_shown/1]).
+:- autoload(tables, [print_agents/2, print_hosts/1]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
+:- use_module(library(settings), [setting/4]).
+
+/** <module> What the top level, help/1 and editors call
+
+The modules that do it are loaded at the first call; a process without a top
+level does not have them.
+
+*Threading*: any thread.
+*/
+
+%   To be set before its module is loaded.
+
+:- setting(typhon_survey:seconds, number, 2,
+           "A table waits so long for the other processes of a network").
+
+%!  hosts is det.
+%
+%   Print a table of the hosts of this process, of the networks that it has
+%   started, and of all to which one comes from these along links, in other
+%   processes, too: their address, what they do, how many agents they have
+%   of how many they admit, how many came in, and their neighbours.  Of a
+%   process that has not answered within two seconds (the setting
+%   `typhon_survey:seconds`) it says so.
+
+hosts :-
+    print_hosts([]).
+
+%!  agents is det.
+%
+%   Print a table of the agents on the hosts that hosts/0 shows: the name of
+%   an agent, or its id where another has the same name; where it is; its
+%   program; what it does or waits for; how often it has moved, and how many
+%   messages wait for it.
+
+agents :-
+    print_agents([], short).
+
+                /*******************************
+                *           TOP LEVEL          *
+                *******************************/
+
+:- multifile
+    prolog:complete_input/4,
+    prolog:error_message//1,
+    user:expand_query/4.
+:- dynamic
+    user:expand_query/4.
+
+%   Names of ours come before those of Prolog, whether its clauses of the hook
+%   are there yet or not.  A saved state does not keep what is wrapped.
+
+complete_names :-
+    wrap_predicate(
+        prolog:complete_input(Before, After, Delete, Completions),
+        typhon, Wrapped,
+        (   typhon_environment:completed(Before, After, Delete0, Completions0)
+        ->  Delete = Delete0,
+            Completions = Completions0
+        ;   Wrapped
+        )).
+
+:- initialization(complete_names, now).
+
+user:expand_query(Query, _, _, _) :-
+    '$current_typein_module'(Module),
+    typhon_environment:words_only(Query, Module, PI),
+    throw(error(existence_error(procedure, PI), context(_, _))).
+
+prolog:error_message(existence_error(procedure, Spec)) -->
+    word_told(Spec).
+
+                /*******************************
+                *             HELP             *
+                *******************************/
+
+:- multifile
+    prolog:message//1,
+    prolog_help:show_html_hook/1,
+    user:message_hook/3.
+:- dynamic
+    user:message_hook/3.
+
+prolog_help:show_html_hook(HTML) :-
+    help_shown(HTML).
+
+user:message_hook(help(Told), _, _) :-
+    typhon_environment:apropos_completed(Told, Pairs, Count),
+    print_message(information, help(typhon(Pairs, Count))).
+
+prolog:message(help(typhon(Pairs, Count))) -->
+    '$messages':translate_message(help(apropos_matches(Pairs, Count))).
+
+                /*******************************
+                *            EDITORS           *
+                *******************************/
+
+:- multifile
+    prolog_colour:directive_colours/2,
+    prolog_colour:goal_colours/3,
+    user:term_expansion/2.
+:- dynamic
+    user:term_expansion/2.
+
+%   To the cross-referencer alone a declaration is what it stands for.
+
+user:term_expansion((:- Directive), Directives) :-
+    current_prolog_flag(xref, true),
+    typhon_environment:directive_meant(Directive, Directives).
+
+prolog_colour:goal_colours(_, imported(File), built_in-classify) :-
+    words_file(File).
+
+prolog_colour:directive_colours(Directive, Colours) :-
+    directive_coloured(Directive, Colours).
