@@ -16,7 +16,6 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 */
 
 :- use_module('../prolog/typhon').
-:- use_module('../prolog/typhon/network/log', [log_server_stop/1]).
 :- use_module('../prolog/typhon/tools/tables',
               [print_agents/2, print_hosts/1]).
 :- use_module('../prolog/typhon/kernel/host/runtime',

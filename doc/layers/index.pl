@@ -11,8 +11,8 @@
 
 A file below prolog/typhon that library(typhon) does not import, directly or
 indirectly, is loaded on demand. The index says which hooks such files define,
-for which kinds of things, so that they are known before they are loaded; see
-module `typhon_on_demand`.
+for which kinds of things, and which settings, so that they are known before
+they are loaded; see module `typhon_on_demand`.
 
 *Threading*: the main thread.
 */
@@ -51,12 +51,16 @@ index_text(Text) :-
             ( member(part_joins(_, _, Part), Joins), part_file(Part, Path) ),
             Files0),
     sort(Files0, Files),
-    with_output_to(string(Text), print_index(Joins, Files)).
+    findall(Setting, part_setting(Setting), Settings0),
+    sort(Settings0, Settings),
+    with_output_to(string(Text), print_index(Joins, Files, Settings)).
 
-print_index(Joins, Files) :-
+print_index(Joins, Files, Settings) :-
     format(':- module(typhon_index,
           [ part_joins/3,               % ?Seam, ?What, ?Part
-            part_file/2                 % ?Part, ?File
+            part_file/2,                % ?Part, ?File
+            part_setting/6              % ?Name, ?Module, ?Type, ?Default, ?Text,
+                                        % ?File
           ]).
 
 /** <module> What is loaded on demand
@@ -75,8 +79,13 @@ Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
 %
 %   File, below prolog/typhon, defines hooks of Part.
 
+~@
+%!  part_setting(?Name, ?Module, ?Type, ?Default, ?Text, ?File) is nondet.
+%
+%   File declares the setting Module:Name.
+
 ~@',
-           [print_facts(Joins), print_facts(Files)]).
+           [print_facts(Joins), print_facts(Files), print_facts(Settings)]).
 
 print_facts(Facts) :-
     forall(member(Fact, Facts), format('~q.~n', [Fact])).
@@ -90,6 +99,15 @@ part_joins(Seam, What, Part) :-
 part_file(Part, Path) :-
     on_demand(File, Part),
     once(( hook_clause(File, Module:_), atom_concat(typhon_, _, Module) )),
+    path(File, Path).
+
+part_setting(part_setting(Name, Module, Type, Default, Text, Path)) :-
+    on_demand(File, _),
+    setting_of(File, Module:Name, Type, Default, Text0),
+    atom_string(Text, Text0),
+    path(File, Path).
+
+path(File, Path) :-
     inside('prolog/typhon/', Prefix),
     atom_concat(Prefix, Relative, File),
     file_name_extension(Path, pl, Relative).

@@ -11,6 +11,7 @@
             declares/2,         % ?File, ?Hook
             defines/2,          % ?File, ?Hook
             hook_clause/2,      % ?File, ?Head
+            setting_of/5,       % ?File, ?Name, ?Type, ?Default, ?Text
             size/4,             % ?File, ?PI, ?First, ?Last
             nodes/2,            % ?File, ?Count
             inside/2,           % ?Relative, ?File
@@ -46,6 +47,7 @@
     declares/2,                 % File, Module:PI: multifile
     defines/2,                  % File, Module:PI: a clause for that module
     hook_clause/2,              % File, Module:Head: that clause
+    setting_of/5,               % File, Module:Name, Type, Default, Text
     size/4,                     % File, PI, first and last line
     nodes/2.                    % File, Count: nodes of the term of a clause
 
@@ -142,6 +144,12 @@ note_directive(multifile(PIs), File) :-
     module_of(File, Module),
     forall(( comma_member(PI, PIs), strip_module(Module:PI, M, Name) ),
            assertz(declares(File, M:Name))).
+note_directive(setting(Name0, Type, Default, Text), File) :-
+    !,
+    note_names(setting(Name0, Type, Default, Text), File),
+    module_of(File, Module),
+    strip_module(Module:Name0, M, Name),
+    assertz(setting_of(File, M:Name, Type, Default, Text)).
 note_directive(Directive, File) :-
     note_names(Directive, File).
 

@@ -18,7 +18,6 @@
 :- autoload('network/networks',
             [networks_property/2, networks_start/3, networks_stop/1]).
 :- autoload('network/saving', [save_network/2]).
-:- use_module(library(settings), [setting/4]).
 
 /** <module> Networks
 
@@ -28,17 +27,6 @@ modules are loaded when they are used first.
 
 *Threading*: as the predicates say; any thread otherwise.
 */
-
-%   Those of its modules that are to be set before these are loaded.
-
-:- setting(typhon_children:ssh, atom, ssh,
-           "The program that reaches other machines").
-:- setting(typhon_restarts:restarts, nonneg, 10,
-           "A process of a network is started again so often").
-:- setting(typhon_restarts:restart_seconds, number, 60,
-           "The time that this number is for").
-:- setting(typhon_saving:hold_seconds, number, 30,
-           "A network that is saved has so long to come to rest").
 
 :- meta_predicate network_at(+, +, 0).
 

@@ -6,7 +6,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/network/networks)).
+:- use_module(library(typhon/network)).
 
 %   The interfaces that a network of six hosts is spread over, and what an
 %   agent that visits all of them brings home.

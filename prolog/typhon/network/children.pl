@@ -52,6 +52,7 @@ become ready, and with down(Tag, Status) when it has ended.
     prolog:message//1,
     typhon_options:declared/4.
 
+:- setting(ssh, atom, ssh, "The program that reaches other machines").
 :- setting(stop_seconds, number, 5,
            "A child has so long to end in order, then it is killed").
 
@@ -131,7 +132,7 @@ command(Machine, _, Program, [Target|Command], Bind) :-
         check_options(machine_option, Options)
     ;   type_error(machine, Machine)
     ),
-    setting(typhon_children:ssh, Ssh),
+    setting(ssh, Ssh),
     (   is_absolute_file_name(Ssh)
     ->  Program = Ssh
     ;   Program = path(Ssh)

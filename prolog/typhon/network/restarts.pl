@@ -7,7 +7,7 @@
 :- use_module(library(apply), [include/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
-:- use_module(library(settings), [setting/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
 :- use_module(carriers, [deadline/2, message_before/3]).
 
@@ -31,6 +31,11 @@ absent one do so in threads of their own.
 
 :- public
     interrupt/0.                % goal of a signal
+
+:- setting(restarts, nonneg, 10,
+           "A process of a network is started again so often").
+:- setting(restart_seconds, number, 60,
+           "The time that this number is for").
 
 :- dynamic
     restarter/2,                % Network, Thread
@@ -109,8 +114,8 @@ handled(down(P, _), State, Deaths0, Deaths, Starting0, Starting) :-
         Starting = [Deadline-P|Starting1]
     ;   Deaths = Deaths0,
         Starting = Starting1,
-        setting(typhon_restarts:restarts, Most),
-        setting(typhon_restarts:restart_seconds, Seconds),
+        setting(restarts, Most),
+        setting(restart_seconds, Seconds),
         print_message(error,
                       typhon(carrier_given_up(Network, P, Most, Seconds))),
         ignore(call(Do, give_up(P))),
@@ -140,12 +145,12 @@ not_starting(P, Starting0, Starting) :-
 
 once_more(P, Deaths0, [P-Now|Deaths]) :-
     get_time(Now),
-    setting(typhon_restarts:restart_seconds, Seconds),
+    setting(restart_seconds, Seconds),
     Since is Now-Seconds,
     include(later(Since), Deaths0, Deaths),
     findall(x, member(P-_, Deaths), Times),
     length(Times, Count),
-    setting(typhon_restarts:restarts, Most),
+    setting(restarts, Most),
     Count < Most.
 
 later(Since, _-Time) :-

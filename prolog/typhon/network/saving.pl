@@ -4,7 +4,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [must_be/2, permission_error/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, numlist/3]).
-:- use_module(library(settings), [setting/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/host',
               [ context_now/2, host_property/2, time_due/3, time_kind/1,
                 time_now/1 ]).
@@ -33,6 +33,9 @@ network_at/3.
 
 :- multifile
     prolog:error_message//1.
+
+:- setting(hold_seconds, number, 30,
+           "A network that is saved has so long to come to rest").
 
 %!  save_network(+Network, +File) is det.
 %
@@ -88,7 +91,7 @@ carried_here(Network) :-
     carrier(Network, _, _, local).
 
 cut(Network, Ps, Standing, Terms) :-
-    setting(typhon_saving:hold_seconds, Seconds),
+    setting(hold_seconds, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
     hold(Network, Ps, Deadline),

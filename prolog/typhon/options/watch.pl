@@ -7,7 +7,6 @@
 :- autoload('watch/metrics', [processes_metrics/2]).
 :- autoload('watch/overview', [processes_overview/3]).
 :- autoload('watch/watches', [watch_begin/3, watch_end/1]).
-:- use_module(library(settings), [setting/4]).
 
 /** <module> Watching
 
@@ -17,11 +16,6 @@ modules are loaded when this process watches, or another watches its hosts.
 
 *Threading*: any thread that may wait.
 */
-
-%   To be set before its module is loaded.
-
-:- setting(typhon_telling:events, positive_integer, 10 000,
-           "So many events wait for a watch that is slow").
 
 %   `:` and not 1: lambda expressions in arguments that are called are compiled
 %   while a file is loaded, and lose there what is not a parameter.

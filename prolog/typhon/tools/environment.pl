@@ -8,7 +8,6 @@
 :- autoload(manual, [apropos_completed/3, help_shown/1]).
 :- autoload(tables, [print_agents/2, print_hosts/1]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
-:- use_module(library(settings), [setting/4]).
 
 /** <module> What the top level, help/1 and editors call
 
@@ -17,11 +16,6 @@ level does not have them.
 
 *Threading*: any thread.
 */
-
-%   To be set before its module is loaded.
-
-:- setting(typhon_survey:seconds, number, 2,
-           "A table waits so long for the other processes of a network").
 
 %!  hosts is det.
 %

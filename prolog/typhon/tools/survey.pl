@@ -9,7 +9,7 @@
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
-:- use_module(library(settings), [setting/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/wire',
               [endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
                endpoint_reply/2]).
@@ -29,6 +29,9 @@ by the deadline is reported as silent.
 *Threading*: any thread may ask, but those of the endpoint. A worker answers,
 for there may be many agents.
 */
+
+:- setting(seconds, number, 2,
+           "A table waits so long for the other processes of a network").
 
 :- multifile
     typhon_endpoint:requested/4.
@@ -90,7 +93,7 @@ ask(Endpoints, Most, Results) :-
 ask_there([], _, []) :-
     !.
 ask_there(Endpoints, Most, Results) :-
-    setting(typhon_survey:seconds, Seconds),
+    setting(seconds, Seconds),
     endpoint_ask_all(Endpoints, survey, look(Most),
                      typhon_survey:further, Seconds, Results).
 

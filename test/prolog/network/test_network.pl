@@ -535,7 +535,7 @@ test(children_end_when_their_parent_is_killed,
 orphans(Signal, Pids) :-
     project_file(prolog, Library),
     format(atom(Path), 'library=~w', [Library]),
-    Goal = 'use_module(library(typhon/network/networks)),\c
+    Goal = 'use_module(library(typhon/network)),\c
             network_start(ring(6),N,[processes(3)]),\c
             network_property(N,processes(P)),\c
             format("~q.~n",[P]),flush_output,thread_get_message(x)',
@@ -621,7 +621,7 @@ hidden(Cookie, Network) :-
 test(what_children_print_is_printed_here) :-
     project_file(prolog, Library),
     format(atom(Path), 'library=~w', [Library]),
-    Goal = 'use_module(library(typhon)),use_module(library(typhon/network/networks)),\c
+    Goal = 'use_module(library(typhon)),use_module(library(typhon/network)),\c
             network_start(ring(2),N,[processes(2)]),\c
             network_property(N,hosts([_,H])),\c
             agent_create(clauses([(:-agent(a,[])),(main:-writeln(hello))]),\c

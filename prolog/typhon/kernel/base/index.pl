@@ -1,6 +1,8 @@
 :- module(typhon_index,
           [ part_joins/3,               % ?Seam, ?What, ?Part
-            part_file/2                 % ?Part, ?File
+            part_file/2,                % ?Part, ?File
+            part_setting/6              % ?Name, ?Module, ?Type, ?Default, ?Text,
+                                        % ?File
           ]).
 
 /** <module> What is loaded on demand
@@ -15,9 +17,11 @@ Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
 %   Part defines the hook Seam for What.
 
 part_joins(received,log,network).
+part_joins(requested,close_up,tools).
 part_joins(requested,everywhere,'options/watch').
 part_joins(requested,log,network).
 part_joins(requested,node,network).
+part_joins(requested,survey,tools).
 part_joins(requested,watch,'options/watch').
 part_joins(requested,watched,'options/watch').
 
@@ -42,3 +46,47 @@ part_file('options/watch','options/watch/listening').
 part_file('options/watch','options/watch/metrics').
 part_file('options/watch','options/watch/overview').
 part_file('options/watch','options/watch/telling').
+part_file(tools,'tools/host_report').
+part_file(tools,'tools/survey').
+
+%!  part_setting(?Name, ?Module, ?Type, ?Default, ?Text, ?File) is nondet.
+%
+%   File declares the setting Module:Name.
+
+part_setting(answer_seconds,typhon_processes,number,2,'A process that is to end and says nothing for so long is killed','network/processes').
+part_setting(browsers,typhon_page_browsers,positive_integer,32,'So many browsers may look at a page at a time','tools/page/browsers').
+part_setting(connections,typhon_page_reception,positive_integer,64,'A page has so many clients at a time','tools/page/reception').
+part_setting(delay,typhon_telling,number,0.05,'Events gather for so many seconds before they are sent','options/watch/teller').
+part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/directory').
+part_setting(events,typhon_telling,positive_integer,10000,'So many events wait for a watch that is slow','options/watch/telling').
+part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'A page tells its browsers of so many events at a time','tools/page/browsers').
+part_setting(frame_seconds,typhon_page_browsers,number,0.05,'A page tells its browsers of events once in so many seconds','tools/page/browsers').
+part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'The head of a request is no longer','tools/page/reception').
+part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'A page says so often that it is there, when nothing happens','tools/page/browsers').
+part_setting(hold_seconds,typhon_saving,number,30,'A network that is saved has so long to come to rest','network/saving').
+part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
+part_setting(last_seconds,typhon_watches,number,2,'unwatch/1 waits so long for what has happened before','options/watch/watches').
+part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
+part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/rosbridge').
+part_setting(met,typhon_fipa_platform,positive_integer,10000,'Agents of other platforms whose addresses are remembered','bridges/fipa/platform').
+part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and services that a host may use, each in its way','bridges/ros/advertisements').
+part_setting(most,typhon_ros_open_requests,positive_integer,1000,'Now typhon_ros_requests:most','bridges/ros/requests').
+part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS that may wait for the answers of agents','bridges/ros/requests').
+part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_advertisements:most','bridges/ros/advertisements').
+part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/carriers').
+part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/teller').
+part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').
+part_setting(python,typhon_helper_python,atom,'','Now typhon_helper_process:python','bridges/helper/process').
+part_setting(python,typhon_nxt_helper,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/helper').
+part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
+part_setting(renew_seconds,typhon_page_sources,number,3,'A page that is looked at finds new hosts within so many seconds','tools/page/sources').
+part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'A page takes no larger request than this','tools/page/server').
+part_setting(request_seconds,typhon_page_reception,positive_integer,20,'The head of a request takes no longer, and no longer its body','tools/page/reception').
+part_setting(rest_seconds,typhon_carrier,number,1,'Agents of a network have so long to come to rest when it stops','network/carrier').
+part_setting(restart_seconds,typhon_restarts,number,60,'The time that this number is for','network/restarts').
+part_setting(restarts,typhon_restarts,nonneg,10,'A process of a network is started again so often','network/restarts').
+part_setting(seconds,typhon_survey,number,2,'A table waits so long for the other processes of a network','tools/survey').
+part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
+part_setting(start_seconds,typhon_processes,number,60,'The processes of a network have so long to start','network/processes').
+part_setting(stop_seconds,typhon_children,number,5,'A child has so long to end in order, then it is killed','network/children').
+part_setting(virtual_events,typhon_telling,positive_integer,1000000,'As many of virtual time, which is ahead of everybody','options/watch/telling').

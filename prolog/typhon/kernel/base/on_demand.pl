@@ -4,7 +4,7 @@
             on_demand_later/1           % :Goal
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(index, [part_file/2, part_joins/3]).
+:- use_module(index, [part_file/2, part_joins/3, part_setting/6]).
 
 /** <module> Code that is loaded when it is used first
 
@@ -50,17 +50,26 @@ on_demand_load(Seam, What) :-
     forall(( part_joins(Seam, What, Part), \+ loaded(Part) ), load(Part)).
 
 load(Part) :-
-    directory(Directory),
-    findall(Path,
-            ( part_file(Part, File),
-              atomic_list_concat([Directory, File], /, Path) ),
-            Paths),
+    findall(Path, ( part_file(Part, File), path(File, Path) ), Paths),
     current_prolog_flag(optimise, Optimise),
     setup_call_cleanup(
         set_prolog_flag(optimise, true),        % as all of library(typhon)
         forall(member(Path, Paths), use_module(Path, [])),
         set_prolog_flag(optimise, Optimise)),
     assertz(loaded(Part)).
+
+%   Settings can be set before they are loaded.
+
+:- multifile settings:current_setting/6.
+
+settings:current_setting(Name, Module, Type, Default, Text, Path:0) :-
+    part_setting(Name, Module, Type, Default, Text, File),
+    path(File, Path),
+    \+ source_file(Path).
+
+path(File, Path) :-
+    directory(Directory),
+    atomic_list_concat([Directory, /, File, '.pl'], Path).
 
 %!  on_demand_later(:Goal) is semidet.
 %

@@ -41,6 +41,8 @@ record.
     typhon_hosting:begins/1,
     typhon_runtime:ending/1.
 
+:- setting(events, positive_integer, 10 000,
+           "So many events wait for a watch that is slow").
 :- setting(virtual_events, positive_integer, 1 000 000,
            "As many of virtual time, which is ahead of everybody").
 
@@ -85,7 +87,7 @@ most(Most) :-
     !,
     setting(virtual_events, Most).
 most(Most) :-
-    setting(typhon_telling:events, Most).
+    setting(events, Most).
 
 hear_of(New, Wanted, Peer, Id, Hosts) :-
     teller(Peer, Id, _, _, telling(_, Basin)),
