@@ -40,7 +40,10 @@ a folder, with an interface of the same name beside it:
             ]).
 :- reexport('typhon/options/trace').
 :- reexport(typhon/options/trail, [agent_trail/2]).
-:- reexport(typhon/network, except([network_hosts/2])).
+:- reexport(typhon/network,
+            [ network_start/3, network_stop/1, network_property/2,
+              network_advance/2, network_at/3, network_save/2, network_load/3,
+              log_server_start/2, log_server_stop/1, log_events/2 ]).
 :- reexport(typhon/tools/environment, [agents/0, hosts/0]).
 :- reexport(typhon/tools/page, [page_start/1, page_stop/0]).
 :- reexport(typhon/bridges/common/starting,

@@ -2,6 +2,7 @@
           [ completed/4                 % +Before, +After, -Delete, -Completions
           ]).
 :- use_module(library(apply), [foldl/4]).
+:- use_module(library(console_input), []).
 :- use_module(library(lists), [member/2, reverse/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../kernel/base/names', [names/2]).
