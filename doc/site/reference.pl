@@ -27,6 +27,7 @@ so this room is loaded before any other that loads library(typhon).
 
 :- doc_collect(true).
 :- use_module('../../prolog/typhon', []).
+:- use_module('../../prolog/typhon/network/networks', []).  % else on demand
 :- use_module('../../prolog/typhon/nxt', []).
 :- use_module('../../prolog/typhon/fipa', []).
 :- doc_collect(false).

@@ -45,7 +45,7 @@ word(PI) :-
     module_property(Module, exports(PIs)),
     memberchk(PI, PIs).
 
-%!  word_told(+Spec)// is semidet.
+%!  word_told(+Spec, -Text, ?Rest) is semidet.
 %
 %   The text for an unknown procedure Spec that is a word of agents.
 
