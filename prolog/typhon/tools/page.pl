@@ -4,7 +4,7 @@
             page_stop/0,
             page_export/3               % +Log, +File, +Options
           ]).
-:- autoload('page/export', [replay_export/3]).
+:- autoload('page/replay', [replay_export/3]).
 :- autoload('page/server', [server_start/2, server_stop/0]).
 :- use_module('../kernel/base/options', [check_options/2]).
 

@@ -7,7 +7,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(typhon/tools/page/files), [page_file/3]).
+:- use_module(library(typhon/tools/page/guard), [page_file/3]).
 
 /** <module> A run of a study is there to be looked at */
 

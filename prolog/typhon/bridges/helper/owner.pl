@@ -7,7 +7,7 @@
             answer_unwanted/1           % +Id
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../../kernel/base/json', [atom_json_dict/3]).
+:- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module(process,
               [ process_begin/4, process_end/1, process_release/1,
                 process_write/2 ]).
@@ -225,7 +225,7 @@ prolog:message(typhon(helper_ended(Name, Status))) -->
 %   long it may take.
 
 request_line(Request, Line) :-
-    atom_json_dict(Line, Request, [as(string), width(0)]).
+    json_text(Request, Line).
 
 request_line(Request0, Seconds, Id, Line) :-
     flag(typhon_helper_request, Id, Id+1),

@@ -11,7 +11,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module('../../kernel/base/json', [atom_json_dict/3]).
+:- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 
 /** <module> The connection to a rosbridge server
@@ -95,16 +95,13 @@ rosbridge_up(Host) :-
 %   @error ros_error(not_connected, Host), resource_error(ros_queue)
 
 rosbridge_send(Host, Frame, Seconds) :-
-    frame_text(Frame, Text),
+    json_text(Frame, Text),
     (   writer(Host, Writer),
         catch(pass(Writer, write(Text), Seconds),
               error(existence_error(_, _), _), fail)
     ->  true
     ;   throw(error(ros_error(not_connected, Host), _))
     ).
-
-frame_text(Frame, Text) :-
-    atom_json_dict(Text, Frame, [as(string), width(0)]).
 
 pass(Writer, Message, Seconds) :-
     (   thread_send_message(Writer, Message, [timeout(Seconds)])
@@ -265,7 +262,7 @@ served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
 
 said_to([], _, _).
 said_to([Frame|Frames], Writer, Seconds) :-
-    frame_text(Frame, Text),
+    json_text(Frame, Text),
     pass(Writer, write(Text), Seconds),
     said_to(Frames, Writer, Seconds).
 

@@ -1,5 +1,6 @@
 :- module(typhon_json,
-          [ json_dict/2                 % +Text, -Term
+          [ json_dict/2,                % +Text, -Term
+            json_text/2                 % +Term, -Text
           ]).
 
 /** <module> JSON, wherever this Prolog has it
@@ -15,6 +16,13 @@ name prints a message.
 :- else.
 :- reexport(library(http/json), [atom_json_dict/3, json_read_dict/2]).
 :- endif.
+
+%!  json_text(+Term, -Text:string) is det.
+%
+%   One line; Term is as of json_write_dict/3.
+
+json_text(Term, Text) :-
+    atom_json_dict(Text, Term, [as(string), width(0)]).
 
 %!  json_dict(+Text, -Term) is det.
 %

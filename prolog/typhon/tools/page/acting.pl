@@ -1,10 +1,11 @@
 :- module(typhon_page_acting,
           [ act/2                       % +Message, -Answer
           ]).
-:- use_module(library(error), [domain_error/2]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(error),
+              [domain_error/2, existence_error/2, type_error/2]).
+:- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module('../../kernel/program', [agent_check/1]).
 :- use_module('../../kernel/host',
               [ host/3, host_property/2, host_resolve/2, host_start/2,
                 host_stop/1, link/2, link/3, remote/2, unlink/2 ]).
@@ -12,13 +13,13 @@
               [ agent_clone/2, agent_create/3, agent_dispose/1,
                 agent_dispose/2, agent_load/3, agent_move/2, agent_resume/1,
                 agent_save/2, agent_send/2 ]).
+:- use_module('../../kernel/program', [agent_check/1]).
 :- use_module('../../network', [network_start/3, network_stop/1]).
 :- use_module(editor,
-              [ problem_dicts/2, program_at/2, text_file/3 ]).
-:- use_module(operators, [mechanism_run/4]).
-:- use_module(protocol, [name_text/2]).
-:- use_module(said, [on_console/1, saying/2]).
-:- use_module(terms, [name_in/3, term_in/4, text_in/3]).
+              [ name_in/3, on_console/1, problem_dicts/2, program_at/2,
+                read_text/3, saying/2, term_in/4, text_file/3, text_in/3 ]).
+:- use_module(mechanisms, [mechanism_file/2]).
+:- use_module(protocol, [name_text/2, text/2]).
 
 /** <module> What browsers may do, where a page is not for looking only
 
@@ -181,3 +182,57 @@ stop_at(remote(Address, Name, _)) :-
 
 prolog:error_message(page_failed(What)) -->
     [ '~w: this was not possible'-[What] ].
+
+                /*******************************
+                *          MECHANISMS          *
+                *******************************/
+
+%   mechanism_run(+Mechanism, +Name, +Arguments:list, -Results) is det.
+%
+%   Call the predicate Name of the operator of Mechanism.  An argument is text,
+%   read as Prolog; a list of addresses; or empty, if it is to be told: Results
+%   are texts of these.
+%
+%   @error existence_error(mechanism, Mechanism), existence_error(procedure, PI)
+%   @error page_failed(PI), and what the operator raises
+
+mechanism_run(Mechanism, Name, Arguments, Results) :-
+    operator(Mechanism, Module),
+    maplist(argument, Arguments, Terms),
+    length(Terms, Arity),
+    module_property(Module, exports(Exports)),
+    (   memberchk(Name/Arity, Exports)
+    ->  true
+    ;   existence_error(procedure, Name/Arity)
+    ),
+    findall(N, nth_unbound(N, Terms), Unbound),
+    Goal =.. [Name|Terms],
+    (   call(Module:Goal)
+    ->  findall(Text, ( member(N, Unbound),
+                        arg(N, Goal, Term),
+                        text(Term, Text) ), Results)
+    ;   throw(error(page_failed(Name), _))
+    ).
+
+operator(Mechanism, Module) :-
+    (   mechanism_file(Mechanism, File)
+    ->  load_files(File, [if(not_loaded), imports([])]),
+        module_property(Module, file(File))
+    ;   existence_error(mechanism, Mechanism)
+    ).
+
+nth_unbound(N, Terms) :-
+    nth1(N, Terms, Term),
+    var(Term).
+
+argument(Hosts, Terms), is_list(Hosts) =>
+    maplist(address, Hosts, Terms).
+argument("", _) =>
+    true.
+argument(Text, Term), string(Text) =>
+    read_text(argument, Text, Term).
+argument(Other, _) =>
+    type_error(text, Other).
+
+address(Text, Address) :-
+    atom_string(Address, Text).

@@ -8,10 +8,10 @@
 :- use_module(library(http/websocket), [ws_send/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
-:- use_module(json, [json_text/2]).
-:- use_module(overlays, [event_rows/2]).
 :- use_module(protocol, [skipped_row/2]).
+:- use_module(overlays, [event_rows/2]).
 
 /** <module> The connected browsers, and the events that they get
 

@@ -4,22 +4,31 @@
             program_at/2,               % +Message, -Spec
             text_file/3,                % +Text, +Name, -File
             problem_dicts/2,            % +Messages, -Dicts
-            without_folder/2            % +Text, -Short
+            without_folder/2,           % +Text, -Short
+            read_text/3,                % +Field, +Text, -Term
+            text_in/3,                  % +Key, +Message, -Text
+            name_in/3,                  % +Key, +Message, -Name
+            term_in/4,                  % +Key, +Message, +Default, -Term
+            saying/2,                   % :Goal, -Messages
+            on_console/1                % :Goal
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3,
                 make_directory_path/1 ]).
-:- use_module(terms, [read_text/3]).
 
-/** <module> Programs written at a browser
+/** <module> What is written at a browser, and printed for it
 
 Text that comes from a browser becomes a file, in a folder that is there as
-long as the page, so that it is read, checked and told of as other programs
+long as the page, so that it is read, checked and reported on as other programs
 are.  The same text is the same file.
 
-*Threading*: any thread; each text has a folder of its own.
+Messages of a thread that serves a browser are kept for that browser, and not
+printed at the terminal.
+
+*Threading*: any thread; each text has a folder of its own, messages are those of
+the thread.
 */
 
 :- dynamic folder/1.
@@ -129,3 +138,138 @@ without_folder(Text, Short) :-
     without_folder(Rest1, Rest),
     string_concat(Start, Rest, Short).
 without_folder(Text, Text).
+
+                /*******************************
+                *            TERMS             *
+                *******************************/
+
+:- multifile
+    prolog:error_message//1.
+
+%!  text_in(+Key, +Message:dict, -Text:string) is det.
+%!  name_in(+Key, +Message:dict, -Name:atom) is det.
+%!  term_in(+Key, +Message:dict, +Default, -Term) is det.
+%
+%   What stands in Message under Key; a term is read as Prolog, and where it is
+%   missing or empty it is Default.
+%
+%   @error existence_error(page_field, Key), page_syntax(Key, Error)
+
+text_in(Key, Message, Text) :-
+    (   get_dict(Key, Message, Text0)
+    ->  must_be(string, Text0),
+        Text = Text0
+    ;   existence_error(page_field, Key)
+    ).
+
+name_in(Key, Message, Name) :-
+    text_in(Key, Message, Text),
+    (   Text == ""
+    ->  existence_error(page_field, Key)
+    ;   atom_string(Name, Text)
+    ).
+
+term_in(Key, Message, Default, Term) :-
+    (   get_dict(Key, Message, Text),
+        must_be(string, Text),
+        split_string(Text, " \n\t", " \n\t", Parts),
+        Parts \== [""]
+    ->  read_text(Key, Text, Term)
+    ;   nonvar(Default)
+    ->  Term = Default
+    ;   existence_error(page_field, Key)
+    ).
+
+%!  read_text(+Field, +Text, -Term) is det.
+
+read_text(Field, Text, Term) :-
+    catch(term_string(Term, Text),
+          error(syntax_error(Error), Where),
+          throw(error(page_syntax(Field, syntax_error(Error), Where), _))).
+
+prolog:error_message(page_syntax(Field, Error, Where)) -->
+    { message_to_text(Error, Text),
+      place_text(Where, Place)
+    },
+    [ 'the ~w cannot be read: ~w~w'-[Field, Text, Place] ].
+prolog:error_message(existence_error(page_field, Field)) -->
+    [ 'the ~w is missing'-[Field] ].
+
+message_to_text(Error, Text) :-
+    phrase(prolog_message_of(Error), Lines),
+    with_output_to(string(Text0),
+                   print_message_lines(current_output, '', Lines)),
+    split_string(Text0, "", " \n", [Text]).
+
+prolog_message_of(syntax_error(Error)) -->
+    '$messages':syntax_error(Error).
+
+%   From where on it makes no sense.
+
+place_text(string(Text, Position), Place) :-
+    integer(Position),
+    !,
+    string_length(Text, Length),
+    At is min(Position, Length),
+    Start is max(0, At-20),
+    Count is At-Start,
+    sub_string(Text, Start, Count, _, Before),
+    sub_string(Text, At, _, 0, After0),
+    split_string(After0, "", " .", [After]),
+    format(string(Place), ', at "~w ** here ** ~w"', [Before, After]).
+place_text(stream(_, Line, Column, _), Place) :-
+    !,
+    format(string(Place), ', at line ~w, column ~w', [Line, Column]).
+place_text(_, '').
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+:- meta_predicate
+    saying(0, -),
+    on_console(0).
+
+:- thread_local said/3.                 % Kind, Term, Text
+
+:- multifile user:thread_message_hook/3.
+:- thread_local user:thread_message_hook/3.
+
+%!  saying(:Goal, -Messages:list) is semidet.
+%
+%   As once(Goal).  Messages are the errors and warnings that it prints in this
+%   thread, terms said(Kind, Term, Text).  They are not printed, and what only
+%   informs is neither.
+
+saying(Goal, Messages) :-
+    retractall(said(_, _, _)),
+    setup_call_cleanup(
+        assertz((user:thread_message_hook(Term, Kind, Lines) :-
+                     typhon_page_editor:keep(Kind, Term, Lines)), Hook),
+        once(Goal),
+        erase(Hook)),
+    findall(said(Kind, Term, Text), retract(said(Kind, Term, Text)),
+            Messages).
+
+:- public keep/3.
+
+keep(informational, _, _) :-
+    !.
+keep(Kind, Term, Lines) :-
+    memberchk(Kind, [error, warning]),
+    with_output_to(string(Text0),
+                   print_message_lines(current_output, '', Lines)),
+    split_string(Text0, "", " \n", [Text]),
+    assertz(said(Kind, Term, Text)).
+
+%!  on_console(:Goal) is semidet.
+%
+%   As once(Goal), with the output of the process.  Threads hand their output
+%   down to those that they create, and that of a request ends with it.
+
+on_console(Goal) :-
+    current_output(Out),
+    setup_call_cleanup(
+        set_output(user_output),
+        once(Goal),
+        set_output(Out)).

@@ -3,8 +3,10 @@
             token_right/2,              % +Given, +Token
             request_own/1,              % +Request
             request_within/2,           % +Request, +Bytes
-            guarding_headers/0
+            guarding_headers/0,
+            page_file/3                 % +Names, -File, -Type
           ]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [memberchk/2, same_length/2]).
 :- use_module(library(option), [option/2]).
 :- use_module('../../kernel/wire', [random_hex/2]).
@@ -16,7 +18,7 @@ that scripts and styles of the page, whose addresses are relative, are
 guarded as well, and no cookie goes to other servers of the machine.  What
 another site makes a browser send is turned away by its origin.
 
-*Threading*: pure.
+*Threading*: any thread.
 */
 
 %!  token_new(-Token:atom) is det.
@@ -100,3 +102,42 @@ policy('form-action \'none\'').
 policy('frame-ancestors \'none\'').
 policy('require-trusted-types-for \'script\'').
 policy('trusted-types \'none\'').
+
+                /*******************************
+                *            FILES             *
+                *******************************/
+
+:- dynamic folder/1.
+
+:- prolog_load_context(directory, Dir),
+   directory_file_path(Dir, www, Www),
+   retractall(folder(_)),
+   assertz(folder(Www)).
+
+%!  page_file(+Names:list(atom), -File, -Type) is semidet.
+%
+%   File is what the last parts of an address mean, and of Type.  No name
+%   leads out of the folder, hidden files are not served, and a zero, at which
+%   the system would end the name, is in no name.
+
+page_file([''], File, Type) :-
+    !,
+    page_file(['index.html'], File, Type).
+page_file([Name], File, Type) :-
+    plain(Name),
+    file_name_extension(_, Extension, Name),
+    type(Extension, Type),
+    folder(Folder),
+    directory_file_path(Folder, Name, File),
+    exists_file(File).
+
+plain(Name) :-
+    \+ sub_atom(Name, 0, _, _, '.'),
+    \+ sub_atom(Name, _, _, _, /),
+    \+ sub_atom(Name, _, _, _, \),
+    \+ sub_atom(Name, _, _, _, '\x00\').
+
+type(html, 'text/html; charset=UTF-8').
+type(js, 'text/javascript; charset=UTF-8').
+type(css, 'text/css; charset=UTF-8').
+type(svg, 'image/svg+xml').

@@ -13,11 +13,11 @@
 :- use_module('../../network', [network_property/2]).
 :- use_module('../../tools', [host_close_up/2]).
 :- use_module(mechanisms, [mechanism_dicts/1, program_names/1]).
-:- use_module(protocol, [name_text/2, place_text/2, scene_dict/3, text/2]).
+:- use_module(protocol,
+              [name_text/2, page_time/2, place_text/2, scene_dict/3, text/2]).
 :- use_module(replay, [replay_of_text/3]).
-:- use_module(said, [on_console/1]).
+:- use_module(editor, [on_console/1]).
 :- use_module(sources, [sources_look/1]).
-:- use_module(times, [page_time/2]).
 
 /** <module> Questions of browsers, and the answers
 

@@ -10,8 +10,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_member/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
-:- use_module(protocol,
-              [event_row/2, name_text/2, number_told/2, text/2]).
+:- use_module(protocol, [event_row/2, name_text/2, number_told/2, text/2]).
 
 /** <module> What mechanisms show of themselves on a map
 

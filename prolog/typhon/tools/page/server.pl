@@ -11,20 +11,19 @@
 :- use_module(acting, [act/2]).
 :- use_module(browsers,
               [browser_serve/2, browsers_start/0, browsers_stop/0]).
-:- use_module(editor, [editor_start/0, editor_stop/0, without_folder/2]).
-:- use_module(files, [page_file/3]).
+:- use_module(editor,
+              [editor_start/0, editor_stop/0, on_console/1, without_folder/2]).
 :- use_module(guard,
-              [ guarding_headers/0, request_own/1, request_within/2,
-                token_new/1, token_right/2 ]).
-:- use_module(json, [json_text/2]).
+              [ guarding_headers/0, page_file/3, request_own/1,
+                request_within/2, token_new/1, token_right/2 ]).
+:- use_module(protocol, [times_start/0, times_stop/0]).
 :- use_module(looking, [first_sight/1, look/2]).
 :- use_module(overlays,
               [overlays_shown/1, overlays_start/1, overlays_stop/0]).
 :- use_module('../../kernel/base/error_text', [error_text/2]).
+:- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module(reception, [reception_close/0, reception_open/2, with_body/4]).
-:- use_module(said, [on_console/1]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
-:- use_module(times, [times_start/0, times_stop/0]).
 
 /** <module> The server of the page
 

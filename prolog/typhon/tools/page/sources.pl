@@ -17,7 +17,7 @@
 :- use_module('../../tools', [survey/4, survey_agents/2, survey_hosts/4]).
 :- use_module('../../options/watch', [metrics/2, unwatch/1, watch/3]).
 :- use_module(browsers, [browsers_tell/1, browsers_there/0]).
-:- use_module(times, [times_of/1]).
+:- use_module(protocol, [times_of/1]).
 
 /** <module> What a page shows: which hosts, and what happens on them
 

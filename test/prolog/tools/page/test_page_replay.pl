@@ -13,7 +13,7 @@
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/tools/page), [page_export/3]).
-:- use_module(library(typhon/tools/page/files), [page_file/3]).
+:- use_module(library(typhon/tools/page/guard), [page_file/3]).
 :- use_module('../../../lib/browser').
 :- use_module('../../../lib/pages').
 
