@@ -33,7 +33,6 @@ Posts of kind `note` are remembered. Requests are
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/wire/endpoint), [endpoint_process/1]).
 
 :- dynamic note/1.
 

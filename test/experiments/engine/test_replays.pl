@@ -7,7 +7,6 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(typhon/tools/page/guard), [page_file/3]).
 
 /** <module> A run of a study is there to be looked at */
 
@@ -47,7 +46,8 @@ text(Out, Name, Text) :-
     read_file_to_string(File, Text, [encoding(utf8)]).
 
 tools_there :-
-    page_file(['uPlot.iife.min.js'], _, _).
+    project_file('prolog/typhon/tools/page/www/uPlot.iife.min.js', File),
+    exists_file(File).
 
 :- begin_tests(replays, [condition(tools_there)]).
 

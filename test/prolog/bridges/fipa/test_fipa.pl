@@ -15,7 +15,6 @@
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/fipa)).
-:- use_module(library(typhon/bridges/fipa/letter), [letter_write/5]).
 
 :- meta_predicate
     with_platforms(-, -, 0),
@@ -495,10 +494,25 @@ post(Type, Body, Text) :-
             Content-Length: ~d\r\n\r\n~s',
            [Type, Length, Body]).
 
+%   acl(+Text, -Posted): Text to the agent echo@a, in its envelope.
+
 acl(Text, Posted) :-
-    letter_write(Text, fipa(x, ['http://127.0.0.1:1/']), fipa('echo@a', []),
-                 Type, Body),
-    post(Type, Body, Posted).
+    format(string(Body),
+           '--part\r\nContent-Type: application/xml\r\n\r\n\c
+            <envelope><params index="1">\c
+            <to><agent-identifier><name>echo@a</name>\c
+            </agent-identifier></to>\c
+            <from><agent-identifier><name>x</name><addresses>\c
+            <url>http://127.0.0.1:1/</url></addresses>\c
+            </agent-identifier></from>\c
+            <acl-representation>fipa.acl.rep.string.std\c
+            </acl-representation>\c
+            <date>20261125T075835900</date>\c
+            </params></envelope>\r\n\c
+            --part\r\nContent-Type: application/text\r\n\r\n\c
+            ~s\r\n--part--\r\n',
+           [Text]),
+    post("multipart/mixed; boundary=part", Body, Posted).
 
 repeated(Text, Count, Repeated) :-
     findall(Text, between(1, Count, _), Texts),

@@ -20,7 +20,6 @@ The peer, ros_peer.py, is a node in another process, made with rclpy alone.
 :- use_module(library(typhon)).
 :- use_module(library(typhon/bridges/helper), [helper_file/2, helper_pid/2]).
 :- use_module(library(typhon/ros)).
-:- use_module(library(typhon/bridges/ros/node), [node_python/2]).
 
 :- dynamic
     peer/2,                     % Pid, its standard input
@@ -32,13 +31,25 @@ begin :-
     assertz(held(Socket)),
     setenv('ROS_DOMAIN_ID', Domain),
     setenv('ROS_LOCALHOST_ONLY', 1),
-    node_python([], Python),
+    ros_python(Python),
     project_file('test/lib/ros_peer.py', File),
     process_create(Python, [File],
                    [ stdin(pipe(In)), stdout(pipe(Out)), process(Peer) ]),
     assertz(peer(Peer, In)),
     read_line_to_string(Out, "ready"),
     close(Out).
+
+%   The Python that `make tools-ros` has made.
+
+ros_python(Python) :-
+    (   getenv('TYPHON_ROS', Dir)
+    ->  true
+    ;   getenv('XDG_CACHE_HOME', Cache),
+        Cache \== ''
+    ->  atom_concat(Cache, '/typhon/ros', Dir)
+    ;   expand_file_name('~/.cache/typhon/ros', [Dir])
+    ),
+    atom_concat(Dir, '/bin/python', Python).
 
 end :-
     retract(peer(Peer, In)),
@@ -325,7 +336,7 @@ print(sum(frame['op'] == 'publish' for frame in said) + said[-1]['count'],
 ").
 
 python(Code, Said) :-
-    node_python([], Python),
+    ros_python(Python),
     helper_file(ros, Folder),
     process_create(Python, ['-c', Code, Folder],
                    [ stdout(pipe(Out)), process(Pid) ]),

@@ -14,7 +14,6 @@
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/kernel/base/spawn), [spawn/3]).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/wire/endpoint), [endpoint_process/1]).
 
 :- dynamic
     note/1,                             % Note, posted to us

@@ -10,7 +10,6 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program), [stands_in/3]).
-:- use_module(library(typhon/tools/event_text), [short_name/2]).
 
 %   two(:Goal): with hosts alpha and beta, in virtual time.
 
@@ -51,7 +50,7 @@ heard(Goal, Said) :-
     findall(S, retract(said(S)), Said).
 
 note(traced(_, Host, What)) :-
-    short_name(Host, Name),
+    atomic_list_concat([Name|_], @, Host),
     assertz(said(Name-What)).
 note(stepped(_, What)) :-
     assertz(said(What)).
@@ -523,7 +522,7 @@ live(Network) :-
 whats(Events, Whats) :-
     findall(Name-What,
             ( member(event(_, Host, _, What), Events),
-              short_name(Host, Name) ),
+              atomic_list_concat([Name|_], @, Host) ),
             Whats).
 
 test(only_lives) :-

@@ -13,7 +13,6 @@
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/tools/page), [page_export/3]).
-:- use_module(library(typhon/tools/page/guard), [page_file/3]).
 :- use_module('../../../lib/browser').
 :- use_module('../../../lib/pages').
 
@@ -133,7 +132,8 @@ seek(Share, Time) :-
 %   `make page-tools` was called.
 
 tools_there :-
-    page_file(['uPlot.iife.min.js'], _, _).
+    project_file('prolog/typhon/tools/page/www/uPlot.iife.min.js', File),
+    exists_file(File).
 
 %   The replay is open from the first test to the last, in a thread of its own.
 
