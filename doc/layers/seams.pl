@@ -57,13 +57,6 @@ option_file(snapshot, 'lifecycle/resting.pl').
 option_file(tls, 'wire/secure.pl').
 option_file(tls, 'base/key_files.pl').
 option_file(identity, 'base/keys.pl').
-option_file(identity, 'program/signatures.pl').
-option_file(identity, 'program/signed.pl').
-option_file(identity, 'agent/owner.pl').
-option_file(identity, 'agent/birth.pl').
-option_file(identity, 'agent/signed_payloads.pl').
-option_file(identity, 'host/authors.pl').
-option_file(identity, 'vocabulary/seals.pl').
 option_file(quotas, 'host/quotas.pl').
 option_file(quotas, 'host/rate_limits.pl').
 option_file(quotas, 'host/tuple_quota.pl').

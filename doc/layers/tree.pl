@@ -220,6 +220,7 @@ reach(Part, Module, Name/Arity) :-
 layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
          'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
          'kernel/lifecycle', 'kernel/vocabulary',
+         'options/identity',
          'options/trail',
          'options/journal',
          'options/access',

@@ -23,18 +23,14 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/variants, [agent_variant/2]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
-              agent_owned/1, agent_owned/2,
-              origin_inherited/3
+              origin_inherited/3, origin_said/2
             ]).
-:- reexport(agent/birth,
-            [birth_good/1, birth_shown/2, birth_unproved/2]).
 :- reexport(agent/life,
             [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,
               make_life/2, set_extras_of_life/3
             ]).
 :- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
-:- use_module(agent/owner, []).
 :- reexport(agent/time_quota, [stay_count/3, stay_owner/3, stay_until/3]).
 :- reexport(agent/state_text, [state_text/2]).
 :- reexport('agent/gate').
@@ -46,9 +42,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('agent/printable_fallback').
 :- reexport('agent/fault').
 :- reexport(agent/payloads,
-            [agent_attach/2, agent_detach/2, agent_payload/3]).
-:- reexport(agent/signed_payloads,
-            [payload_mark/2]).
+            [agent_attach/2, agent_detach/2, agent_payload/3, payload_marks/2]).
 :- reexport(agent/result_facts,
             [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
               legacy_result/2 ]).

@@ -10,7 +10,6 @@ This is the interface of the layer: higher layers import from here.
             [ host/3, host_closed/1, host_again/1, host_enter/3, host_hop/3,
               host_leave/1, host_load/2, host_option/2, host_passed/3 ]).
 :- reexport('host/host_names').
-:- reexport(host/authors, [signature_by/3]).
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
 :- reexport(host/events,

@@ -8,10 +8,11 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- use_module(program/paths, []).
-:- reexport(program/paths, [files_beside/3]).
+:- reexport(program/paths, [files_beside/3, program_file/2]).
 :- reexport(program/source, [clause_parts/3, declaration/4, indicator_in/2]).
 :- reexport(program/python_code, [payload_python/3]).
-:- reexport(program/programs, [program_hash/2]).
+:- reexport(program/programs,
+            [payload_file/1, payload_load/2, program_hash/2, program_read/7]).
 :- reexport(program/check, [agent_check/1, agent_check/2]).
 :- reexport(program/advice, [advice_text/2]).
 :- reexport(program/loaded,
@@ -20,13 +21,9 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(program/code,
             [ code_install/2, code_install/3, code_receive/2, code_module/2,
               code_names/2, code_program/2, code_sent/2, code_stands/2,
-              code_clear/0, code_make/3, sent_program/2 ]).
+              code_clear/0, code_make/3, code_extras/2, code_unwrapped/3,
+              code_wrapped/3, sent_program/2 ]).
 :- reexport(program/mobile, [mobile_predicates/3]).
-:- reexport(program/signatures,
-            [program_author/3, signature_author/4, signature_keep/2]).
-:- reexport(program/signed,
-            [ file_sign/2, payload_hash/2, payload_load/2,
-              payload_signature/2 ]).
 :- reexport(program/machine,
             [ answer_at/3, control/1, machine_inside/0, machine_run/3 ]).
 :- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).

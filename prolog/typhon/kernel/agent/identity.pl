@@ -1,27 +1,34 @@
 :- module(typhon_identity,
           [ agent_id/3,                 % +Name, +Home, -Id
             agent_name/3,               % +Id, -Name, -Number
-            agent_owned/1,              % +Id
-            agent_owned/2,              % +Id, +Owner
             agent_home/2,               % +Id, -Home
             agent_home_endpoint/2,      % +Id, -Endpoint
+            agent_origin/5,             % +Host, +Id, +Hash, +State, -Origin
+            origin_key/2,               % +Origin, -Key
+            origin_said/2,              % +State, -Origin
             origin_inherited/3          % +Id, +State0, -State
           ]).
-:- use_module(library(apply), [foldl/4]).
 :- use_module(library(error), [representation_error/1]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/durable_changes', [durable_key/1, durable_on/0]).
-:- use_module('../wire',
-              [endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1]).
+:- use_module('../wire', [endpoint_address/1]).
 :- use_module('../host', [address_parts/3, time_repeats/2]).
 
 /** <module> The ids of agents
 
 An id is Name.Mark.Number@Home: from what the agent was made, the process,
-the how manieth in it, and the address of the host on which it was born.
-Where there are keys Mark ends with the name in the certificate of the
-process, as in visitor.7k234tum-alpha.0@..: the owner of the agent, which has to
-prove that, see typhon_birth.
+the how manieth in it, and the address of the host on which it was born.  An
+option may add to Mark how the process can prove that the agent is its own, as
+in visitor.7k234tum-alpha.0@..
+
+Where an agent comes from is what no agent can choose:
+
+  - home(Endpoint): the process in which it was born, or the agent of which it
+    is a clone
+  - what options say instead
+
+What cannot be told from the id is a fact '$owner'(Origin) among the state of
+the agent, so it goes along.  An agent that is guarded cannot touch it.
 
 *Threading*: any thread.
 */
@@ -45,11 +52,15 @@ agent_id(Name, Home, Id) :-
 :- multifile
     ids_anew/0,                 % what is known of old ids is forgotten
     id_anew/1,                  % what is known of Id is
+    mark_suffix/1,              % Suffix: of the marks of this process
+    origin/4,                   % Host, Hash, State, Origin: not its home
     typhon_durable:dump/4,
     typhon_runtime:beginning/1.
 
 :- dynamic
     ids_anew/0,
+    mark_suffix/1,
+    origin/4,
     mark/1.
 
 typhon_runtime:beginning(Kind) :-
@@ -78,32 +89,9 @@ make_mark :-
     X is random(1<<40),
     get_time(Now),
     Y is X xor truncate(Now*1000000) /\ (1<<40-1),
-    owner_part(Owner),
-    format(atom(Mark), '~36r~w.', [Y, Owner]),
+    ( mark_suffix(Suffix) -> true ; Suffix = '' ),
+    format(atom(Mark), '~36r~w.', [Y, Suffix]),
     assertz(mark(Mark)).
-
-owner_part(Part) :-
-    endpoint_keys(_),
-    endpoint_own_proof(certificate(Name)),
-    !,
-    spelt(Name, Spelt),
-    atom_concat(-, Spelt, Part).
-owner_part('').
-
-%   spelt(+Name, -Spelt): what could be mistaken for another part of an id
-%   is written as a number.
-
-spelt(Name, Spelt) :-
-    atom_codes(Name, Codes),
-    foldl(spelt_code, Codes, Parts, []),
-    atomic_list_concat(Parts, Spelt).
-
-spelt_code(Code, [Part|Parts], Parts) :-
-    (   Code < 128,
-        ( code_type(Code, csym) ; Code =:= 0'- )
-    ->  char_code(Part, Code)
-    ;   format(atom(Part), '!~16r!', [Code])
-    ).
 
 %!  agent_name(+Id, -Name:atom, -Number:integer) is det.
 %
@@ -118,28 +106,6 @@ agent_name(Id, Name, Number) :-
     !,
     atomic_list_concat(NameParts, '.', Name),
     atom_number(Last, Number).
-
-%!  agent_owned(+Id) is semidet.
-%!  agent_owned(+Id, +Owner) is semidet.
-%
-%   Id says that it belongs to us; to the process with the certificate of that
-%   name.
-
-agent_owned(Id) :-
-    endpoint_own_proof(certificate(Own)),
-    agent_owned(Id, Own).
-
-agent_owned(Id, Owner) :-
-    sub_atom(Id, Before, _, _, '@'),
-    !,
-    sub_atom(Id, 0, Before, _, Local),
-    atomic_list_concat(Parts, '.', Local),
-    append(_, [Mark, _], Parts),
-    !,
-    sub_atom(Mark, _, _, After, -),
-    !,
-    sub_atom(Mark, _, After, 0, Said),
-    spelt(Owner, Said).
 
 %!  agent_home(+Id, -Home) is semidet.
 %!  agent_home_endpoint(+Id, -Endpoint) is semidet.
@@ -157,6 +123,41 @@ agent_home(Id, Home) :-
 agent_home_endpoint(Id, Endpoint) :-
     agent_home(Id, Home),
     address_parts(Home, _, Endpoint).
+
+%!  agent_origin(+Host, +Id, +Hash, +State, -Origin) is semidet.
+%
+%   Origin is where the agent Id on Host comes from, Hash being that of its
+%   program, State as of agent_state/2, or module(Module).
+
+agent_origin(Host, _, Hash, State, Origin) :-
+    origin(Host, Hash, State, Origin),
+    !.
+agent_origin(_, _, _, State, home(Endpoint)) :-
+    origin_said(State, Origin),
+    subsumes_term(home(_), Origin),
+    Origin = home(Endpoint),
+    atom(Endpoint),
+    !.
+agent_origin(_, Id, _, _, home(Endpoint)) :-
+    agent_home_endpoint(Id, Endpoint).
+
+%!  origin_key(+Origin, -Key:atom) is det.
+%
+%   An atom for tables.
+
+origin_key(Origin, Key) :-
+    Origin =.. Parts,
+    atomic_list_concat(Parts, ' ', Key).
+
+%!  origin_said(+State, -Origin) is semidet.
+%
+%   State has a fact that says so; Origin may be anything.
+
+origin_said(module(Module), Origin) :-
+    '$c_current_predicate'(_, Module:'$owner'(_)),
+    Module:'$owner'(Origin).
+origin_said(state(_, Clauses), Origin) :-
+    memberchk('$owner'(Origin), Clauses).
 
 %!  origin_inherited(+Id, +State0, -State) is det.
 %

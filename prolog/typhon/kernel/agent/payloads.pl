@@ -1,39 +1,55 @@
 :- module(typhon_payloads,
           [ agent_attach/2,             % +Id, +Payload
             agent_detach/2,             % +Id, +Name
-            agent_payload/3             % +Id, +Name, -Payload
+            agent_payload/3,            % +Id, +Name, -Payload
+            payload_marks/2             % +Payload, -Marks
           ]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(agents, [agent/5, agent_put_life/2]).
 :- use_module(agent_lock, [with_agent/2]).
 :- use_module(agent_module, [attach_clauses/3, detach_clauses/2]).
-:- use_module('../host', [host_address/2]).
-:- use_module(signed_payloads,
-              [ payload_admitted/3, payload_mark/2, payload_marked/2,
-                payload_marks/2, payload_unmarked/2 ]).
+:- use_module('../host', [host_address/2, parts/3]).
 :- use_module(life, [life_payloads/2, set_payloads_of_life/3]).
 
 /** <module> The payloads of agents
 
 A payload is payload(Name, PIs, Clauses).  Its clauses are part of the
-agent's state, its name and predicates are noted in its life.
+agent's state, its name and predicates are noted in its life.  Options may mark
+it by facts among the state; and parts of the host, see typhon_host_parts, may
+refuse it when it is attached or delivered, called with From, Payload, Host,
+-Reason: From is `new`, or module(Module) if it is that of this agent.
 
 *Threading*: the worker that has the agent.
 */
 
+:- multifile
+    mark/2,                     % Payload, Mark: goes with it
+    unmarked/2.                 % Module, Name: of a payload that is detached
+
+:- dynamic
+    mark/2,
+    unmarked/2.
+
+%!  payload_marks(+Payload, -Marks:list) is det.
+%
+%   The facts that go with Payload among the state of an agent.
+
+payload_marks(Payload, Marks) :-
+    findall(Mark, mark(Payload, Mark), Marks).
+
 %!  agent_attach(+Id, +Payload) is det.
 %
 %   @error permission_error(attach, procedure, PI)
-%   @error move_refused(Address, unsigned) its host does not want it
+%   @error move_refused(Address, Reason) its host does not want it
 
 agent_attach(Id, Payload) :-
     Payload = payload(Name, PIs, _),
     agent(Id, Host, Module, Hash, Life),
-    ( payload_mark(Payload, Mark) -> Marks = [Mark] ; Marks = [] ),
-    must_be_admitted(Host, Payload, Marks),
+    must_be_admitted(Host, Payload, new),
+    payload_marks(Payload, Marks),
     attach_clauses(Module, Hash, Payload),
-    payload_marked(Module, Marks),
+    forall(member(Mark, Marks), marked(Module, Mark)),
     life_payloads(Life, Payloads),
     put_payloads(Id, Life, [Name-PIs|Payloads]).
 
@@ -46,7 +62,7 @@ agent_detach(Id, Name) :-
     life_payloads(Life, Payloads0),
     (   selectchk(Name-PIs, Payloads0, Payloads)
     ->  detach_clauses(Module, PIs),
-        payload_unmarked(Module, Name),
+        forall(unmarked(Module, Name), true),
         put_payloads(Id, Life, Payloads)
     ;   existence_error(payload, Name)
     ).
@@ -60,7 +76,7 @@ put_payloads(Id, Life0, Payloads) :-
 %   As it is now, to be delivered to its host: its clauses may have changed.
 %
 %   @error existence_error(payload, Name)
-%   @error move_refused(Address, unsigned) its host does not want it
+%   @error move_refused(Address, Reason) its host does not want it
 
 agent_payload(Id, Name, Payload) :-
     agent(Id, Host, Module, _, Life),
@@ -70,15 +86,21 @@ agent_payload(Id, Name, Payload) :-
     ;   existence_error(payload, Name)
     ),
     Payload = payload(Name, PIs, Clauses),
-    payload_marks(Module, Marks),
-    must_be_admitted(Host, Payload, Marks).
+    must_be_admitted(Host, Payload, module(Module)).
 
-must_be_admitted(Host, Payload, Marks) :-
-    (   payload_admitted(Host, Payload, Marks)
-    ->  true
-    ;   host_address(Host, Address),
-        throw(error(move_refused(Address, unsigned), _))
+must_be_admitted(Host, Payload, From) :-
+    (   parts(payload, Host, Closures),
+        member(Closure, Closures),
+        call(Closure, From, Payload, Host, Reason)
+    ->  host_address(Host, Address),
+        throw(error(move_refused(Address, Reason), _))
+    ;   true
     ).
+
+marked(Module, Mark) :-
+    functor(Mark, Name, Arity),
+    dynamic(Module:Name/Arity),
+    assertz(Module:Mark).
 
 payload_clause(Module, PIs, (Head:-Body)) :-
     member(Name/Arity, PIs),

@@ -1,8 +1,8 @@
 :- module(typhon_quota_admission, []).
 :- use_module('../host',
-              [host_address/2, quota/3, quota_any/1, quota_shared/4]).
+              [amended/5, host_address/2, quota/3, quota_any/1, quota_shared/4]).
 :- use_module(mailbox, [mail_count/2]).
-:- use_module(owner, [owner_entered/3, owner_key/2, owner_of/5]).
+:- use_module(identity, [agent_origin/5, origin_key/2]).
 :- use_module(time_quota, [stay_count/3]).
 
 /** <module> Quotas that keep an agent out
@@ -38,8 +38,8 @@ too_much(state, _, entrant(_, _, _, module(Module), _), Host) :-
 too_much(agents, From, entrant(Agent, Hash, _, State, _), Host) :-
     quota_shared(Host, owner, agents, Most),
     owned(From, Agent, State, Host, Id, Owned),
-    owner_of(Host, Id, Hash, Owned, Owner),
-    owner_key(Owner, Key),
+    agent_origin(Host, Id, Hash, Owned, Owner),
+    origin_key(Owner, Key),
     stay_count(Host, Key, Count),
     Count >= Most.
 
@@ -57,7 +57,7 @@ owned(here, _, State, Host, Id, State) :-
     newborn(Host, Id).
 owned(from(Peer, _, Shown), Agent, State0, Host, Id, State) :-
     ( Shown == newborn -> newborn(Host, Id) ; Id = Agent ),
-    owner_entered(Peer, State0, State).
+    amended(created, Host, Peer, State0, State).
 
 newborn(Host, Id) :-
     host_address(Host, Address),

@@ -9,7 +9,7 @@
 :- use_module('../host',
               [ alarm_set/3, host_time/2, quota/3, quota_any/1, real_time/3 ]).
 :- use_module(state_text, [state_text_forget/1]).
-:- use_module(owner, [owner_key/2, owner_of/5]).
+:- use_module(identity, [agent_origin/5, origin_key/2]).
 
 /** <module> Agents on a host with quotas
 
@@ -38,8 +38,8 @@ stay_begins(Id, Host, Module, Hash) :-
 begins(Id, Host, Module, Hash) :-
     space(Host, Module),
     (   quota_any(Host),
-        owner_of(Host, Id, Hash, module(Module), Owner)
-    ->  owner_key(Owner, Key),
+        agent_origin(Host, Id, Hash, module(Module), Owner)
+    ->  origin_key(Owner, Key),
         until(Host, Until),
         assertz(stays(Id, Host, Key, Until)),
         ends_at(Until, Host, Id)

@@ -32,6 +32,11 @@ up one list of closures, and a host without options has none.
   |               |                              | typhon_peer_rights          |
   | security      | Host, Peer, Proof, What      | a security event, see there |
 
+  | payload       | From, Payload, Host, Reason  | is refused, see             |
+  |               |                              | typhon_payloads             |
+  | change_program | Host, Id                    | Id gets another program;    |
+  |               |                              | raises what forbids it      |
+
 Those that admit succeed with a verdict which is not `ok`.  A peer has a right
 if all that permit succeed.  Other closures amend what goes from one host to
 another, and are called with Host, About, Term0, Term:

@@ -9,11 +9,11 @@
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_program/2,
                 code_receive/2, code_sent/2, code_stands/2, program_load/6 ]).
-:- use_module('../wire', [endpoint_keys/1, mobile_term/1]).
-:- use_module('../host', [host/3]).
+:- use_module('../wire', [mobile_term/1]).
+:- use_module('../host', [host/3, parts/3]).
 :- use_module('../agent',
               [ agent/5, agent_add/2, agent_clauses/3, agent_module/5,
-                agent_owned/1, agent_program/4, agent_state/2, with_agent/2 ]).
+                agent_program/4, agent_state/2, with_agent/2 ]).
 
 /** <module> Agents are changed from outside
 
@@ -60,8 +60,8 @@ must_be_clause(Clause) :-
 %
 %   @error permission_error(attach, procedure, PI)
 %   @error existence_error(state, PI, Declared)
-%   @error permission_error(change, agent_program, Id) there are keys, and we
-%   do not own it: no host would admit it
+%   @error permission_error(change, agent_program, Id) a part of its host forbids
+%   it: no other host would admit it
 
 change_made(facts(Clauses), Id) :-
     agent(Id, _, Module, Hash, _),
@@ -84,9 +84,9 @@ change_made(program(Hash, Sent), Id) :-
     with_agent(Id, agent_program(Id, Hash, Module, Life)).
 
 may_change(Id) :-
-    (   endpoint_keys(_),
-        \+ agent_owned(Id)
-    ->  permission_error(change, agent_program, Id)
+    (   agent(Id, Host, _, _, _),
+        parts(change_program, Host, Closures)
+    ->  forall(member(Closure, Closures), call(Closure, Host, Id))
     ;   true
     ).
 

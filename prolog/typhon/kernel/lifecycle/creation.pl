@@ -27,7 +27,7 @@
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_standing/5, agent_state/2, gate/4,
                 gate_refused/4, is_life/1, legacy_none/2, life_clone/3,
-                mail_count/2, make_life/2, origin_inherited/3, payload_mark/2,
+                mail_count/2, make_life/2, origin_inherited/3, payload_marks/2,
                 with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(change, [undeclared/2]).
@@ -185,7 +185,7 @@ add_payload(Clauses, Spec, Payloads-(PIs0-State0),
     Payload = payload(Name, New, More),
     maplist(not_static(Clauses), New),
     append(PIs0, New, PIs),
-    ( payload_mark(Payload, Mark) -> Marks = [Mark] ; Marks = [] ),
+    payload_marks(Payload, Marks),
     append([State0, More, Marks], State).
 
 start_goals(Clauses, Initial, Goals) :-

@@ -13,7 +13,7 @@
 :- use_module(library(option), [option/2]).
 :- use_module('../base/harmless_error', [harmless_error/2]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../program', [payload_load/2, payload_signature/2]).
+:- use_module('../program', [payload_load/2]).
 :- use_module('../host', [host_address/2]).
 :- use_module('../travel', [agent_resumed_from/3]).
 :- use_module(change, [change_order/2]).
@@ -28,7 +28,11 @@ agent; what becomes of it there see typhon_orders.
 *Threading*: any thread.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    attach_order/2,             % Payload, Order: what attaches it
+    typhon_options:declared/4.
+
+:- dynamic attach_order/2.
 
 %!  agent_move(+Agent, +Host) is det.
 %!  agent_move(+Agent, +Host, +Options) is det.
@@ -83,8 +87,8 @@ agent_clone(Agent, Clone) :-
 
 payload_attach(Agent, Spec) :-
     once(payload_load(Spec, Payload)),
-    (   payload_signature(Payload, Signature)
-    ->  Order = attach(Payload, Signature)
+    (   attach_order(Payload, Order0)
+    ->  Order = Order0
     ;   Order = attach(Payload)
     ),
     order_give(Agent, Order, _).

@@ -5,8 +5,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [domain_error/2, permission_error/3]).
-:- use_module('../program',
-              [code_sent/2, payload_hash/2, signature_keep/2]).
+:- use_module('../program', [code_sent/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [alarm_in/3, amended/5, scheduler_call/1]).
 :- use_module('../agent',
@@ -260,10 +259,6 @@ go_on(Id, Goals) :-
     ).
 
 done(attach(Payload), Agent, ok) :-
-    agent_attach(Agent, Payload).
-done(attach(Payload, Signature), Agent, ok) :-
-    payload_hash(Payload, Hash),
-    signature_keep(Hash, Signature),
     agent_attach(Agent, Payload).
 done(detach(Name), Agent, ok) :-
     agent_detach(Agent, Name).

@@ -7,7 +7,8 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../program', [code_receive/2, program_hash/2]).
+:- use_module('../program', [ code_receive/2, code_extras/2, code_unwrapped/3, code_wrapped/3,
+                program_hash/2 ]).
 :- use_module('../agent', [is_life/1]).
 :- use_module(creation, [agent_begin/4]).
 :- use_module(order_client, [order_give/3]).
@@ -95,7 +96,9 @@ line(image(_, Sent, _, _, _, _), clause(Clause)) :-
 line(image(_, Sent, _, _, _, _), places(Places)) :-
     program_places(Sent, _, Places),
     Places \== [].
-line(image(_, signed(_, Signature), _, _, _, _), signature(Signature)).
+line(image(_, Sent, _, _, _, _), Extra) :-
+    code_unwrapped(Sent, _, Extras),
+    member(Extra, Extras).
 line(image(_, _, _, state(PIs, _), _, _), dynamic(PIs)).
 line(image(_, _, _, state(_, Clauses), _, _), state(Clause)) :-
     member(Clause, Clauses).
@@ -103,10 +106,8 @@ line(image(_, _, _, _, Goals, _), goals(Goals)).
 line(image(_, _, _, _, _, Mail), mail(Message)) :-
     member(Message, Mail).
 
-program_places(signed(Sent, _), Program, Places) :-
-    !,
-    program_places(Sent, Program, Places).
-program_places(Sent, Program, Places) :-
+program_places(Sent0, Program, Places) :-
+    code_unwrapped(Sent0, Sent, _),
     (   Sent = Program0-Places0
     ->  Program = Program0,
         Places = Places0
@@ -129,10 +130,8 @@ read_image(File, image(Name, Sent, Life, state(Dynamic, State), Goals, Mail)) :-
     ->  ( memberchk(places(Places), Lines) -> true ; Places = [] ),
         findall(C, member(clause(C), Lines), Clauses),
         Sent0 = program(Program, PIs, Libraries, Clauses)-Places,
-        (   memberchk(signature(Signature), Lines)
-        ->  Sent = signed(Sent0, Signature)
-        ;   Sent = Sent0
-        ),
+        code_extras(Lines, Extras),
+        code_wrapped(Extras, Sent0, Sent),
         findall(C, member(state(C), Lines), State),
         findall(M, member(mail(M), Lines), Mail)
     ;   domain_error(restore_point, File)

@@ -3,6 +3,9 @@
             code_install/3,             % +Hash, +Program, +Kinds
             code_receive/2,             % +Hash, +Sent
             sent_program/2,             % +Sent, -Program
+            code_unwrapped/3,           % +Sent, -Sent0, -Extras
+            code_wrapped/3,             % +Extras, +Sent0, -Sent
+            code_extras/2,              % +Terms, -Extras
             code_module/2,              % ?Hash, -Module
             code_program/2,             % ?Hash, -Program
             code_sent/2,                % +Hash, -Sent
@@ -12,7 +15,7 @@
             code_make/3,                % +Program, +Kinds, -Module
             code_clear/0
           ]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(apply), [include/3, maplist/2, maplist/3]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, permission_error/3]).
@@ -22,7 +25,6 @@
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(places, [clauses_names/2, is_places/1]).
 :- use_module(programs, [program_hash/2]).
-:- use_module(signatures, [program_signature/2, signature_keep/2]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> Programs installed in this process
@@ -47,9 +49,16 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 :- multifile
     in_use/1,                   % Hash: an agent of this process runs it
     installed/2,                % Name, Module: a program of that name now is
-    retiring/1.                 % Hash: not needed any more
+    retiring/1,                 % Hash: not needed any more
+    wrapped/3,                  % ?Sent, ?Sent0, ?Extra: Sent is Sent0 with an
+                                % Extra of an option
+    extra/2,                    % Hash, Extra: is sent with the program
+    extra_comes/2.              % Extra, Hash: has come with it
 
 :- dynamic
+    wrapped/3,
+    extra/2,
+    extra_comes/2,
     retiring/1,
     installed/2,
     code_module/2,              % Hash, Module
@@ -87,8 +96,8 @@ rule_at_no_place(Clause, (Head:-Body)-none) :-
 %!  code_receive(+Hash, +Sent) is det.
 %
 %   Sent is what others need to have the program: the program, or
-%   Program-Places, or signed(_, Signature) with one of these.  The second is
-%   as code_install/2, for a program that a peer sent under this Hash.
+%   Program-Places, or one of these with extras of options.  The second is as
+%   code_install/2, for a program that a peer sent under this Hash.
 %
 %   @error domain_error(program_of_hash(Hash), Program)
 
@@ -98,17 +107,16 @@ code_sent(Hash, Sent) :-
     ->  Sent0 = Program-Places
     ;   Sent0 = Program
     ),
-    (   program_signature(Hash, Signature)
-    ->  Sent = signed(Sent0, Signature)
-    ;   Sent = Sent0
-    ).
+    findall(Extra, extra(Hash, Extra), Extras),
+    code_wrapped(Extras, Sent0, Sent).
 
 code_receive(Hash, Sent) :-
-    (   subsumes_term(signed(_, _), Sent)
-    ->  Sent = signed(Sent1, Signature),
-        code_receive(Hash, Sent1),
-        signature_keep(Hash, Signature)
-    ;   subsumes_term(_-_, Sent),
+    code_unwrapped(Sent, Sent0, Extras),
+    receive_plain(Hash, Sent0),
+    forall(member(Extra, Extras), forall(extra_comes(Extra, Hash), true)).
+
+receive_plain(Hash, Sent) :-
+    (   subsumes_term(_-_, Sent),
         Sent = Program-Places,
         is_places(Places)
     ->  receive(Hash, Program),
@@ -122,12 +130,9 @@ code_receive(Hash, Sent) :-
 %   not checked.
 
 sent_program(Sent, Program) :-
-    (   subsumes_term(signed(_, _), Sent)
-    ->  Sent = signed(Sent1, _),
-        sent_program(Sent1, Program)
-    ;   ( subsumes_term(_-_, Sent) -> Sent = Program-_ ; Program = Sent ),
-        subsumes_term(program(_, _, _, _), Program)
-    ).
+    code_unwrapped(Sent, Sent0, _),
+    ( subsumes_term(_-_, Sent0) -> Sent0 = Program-_ ; Program = Sent0 ),
+    subsumes_term(program(_, _, _, _), Program).
 
 receive(Hash, Program) :-
     (   code_module(Hash, _)
@@ -139,6 +144,35 @@ receive(Hash, Program) :-
     ->  code_install(Hash, Program)
     ;   domain_error(program_of_hash(Hash), Program)
     ).
+
+%!  code_wrapped(+Extras, +Sent0, -Sent) is det.
+%!  code_unwrapped(+Sent, -Sent0, -Extras:list) is det.
+%
+%   Sent is Sent0, a program with its places or without, with Extras that
+%   options have added.
+
+code_wrapped([], Sent, Sent).
+code_wrapped([Extra|Extras], Sent0, Sent) :-
+    code_wrapped(Extras, Sent0, Sent1),
+    wrapped(Sent, Sent1, Extra).
+
+code_unwrapped(Sent, Sent0, [Extra|Extras]) :-
+    nonvar(Sent),
+    wrapped(Sent, Sent1, Extra),
+    !,
+    code_unwrapped(Sent1, Sent0, Extras).
+code_unwrapped(Sent, Sent, []).
+
+%!  code_extras(+Terms, -Extras:list) is det.
+%
+%   Extras are those of Terms that may come with a program.
+
+code_extras(Terms, Extras) :-
+    include(is_extra, Terms, Extras).
+
+is_extra(Term) :-
+    nonvar(Term),
+    wrapped(_, _, Term).
 
 %!  code_stands(+Hash, +Places) is det.
 %!  code_places(+Hash, -Places) is det.

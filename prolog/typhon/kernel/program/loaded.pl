@@ -13,7 +13,6 @@
 :- use_module(advice, [problem_error/3]).
 :- use_module(goal_lines, [problem_at_goal/2]).
 :- use_module(programs, [program_hash/2, program_read/7]).
-:- use_module(signatures, [signature_read/2]).
 :- use_module(source, [source_same/1, source_settled/1]).
 
 /** <module> Programs that were read lately
@@ -31,7 +30,12 @@ brings, or finds, may define them.
 
 :- setting(files, nonneg, 64, "Programs remembered as they were read").
 
+%   File, Hash: of the program that was read.
+
+:- multifile was_read/2.
+
 :- dynamic
+    was_read/2,
     loaded/3,                   % File or hash of clauses, Sources, Loaded:
                                 % the oldest first
     warned/2,                   % File or hash of clauses, Sources: its
@@ -74,7 +78,7 @@ load(Key, _, Loaded) :-
     Loaded = Loaded0.
 load(Key, Spec, Loaded) :-
     read_program(Spec, Loaded, Sources, Warnings),
-    signature(Spec, Loaded),
+    read_from(Spec, Loaded),
     debug(typhon(program), 'read ~w', [Key]),
     warn(Key, Sources, Loaded, Warnings),
     (   source_settled(Sources)
@@ -82,13 +86,11 @@ load(Key, Spec, Loaded) :-
     ;   true
     ).
 
-%   A file beside it may hold its signature.
-
-signature(File, loaded(_, _, Hash, _, _)) :-
+read_from(File, loaded(_, _, Hash, _, _)) :-
     atom(File),
     !,
-    signature_read(File, Hash).
-signature(_, _).
+    forall(was_read(File, Hash), true).
+read_from(_, _).
 
 read_program(Spec, loaded(Program, Initial, Hash, Kinds, Places), Sources,
              Warnings) :-

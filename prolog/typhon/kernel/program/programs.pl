@@ -2,6 +2,7 @@
           [ program_read/7,             % +Spec, -Program, -Initial, -Kinds,
                                         % -Places, -Sources, -Warnings
             payload_load/2,             % +Spec, -Payload
+            payload_file/1,             % +File
             program_terms/6,            % +Located, -Program, -Initial,
                                         % -Kinds, -Places, -Errors
             program_doubts/3,           % +Located, +Kinds, -Warnings
@@ -28,7 +29,7 @@
                 option_problem/3 ]).
 :- use_module(lint, [apart_problem/3, undeclared_problem/3]).
 :- use_module(python_code, [python_payload/2]).
-:- use_module(source, [source_terms/5]).
+:- use_module(source, [declaration/4, source_terms/5]).
 :- use_module(unknown, [unknown_problems/2]).
 
 /** <module> Agent programs and payloads
@@ -44,6 +45,10 @@ becomes a plain term:
 
 *Threading*: any thread; nothing is stored here.
 */
+
+:- multifile payload_was_read/2.        % Spec, Payload: of a file
+
+:- dynamic payload_was_read/2.
 
 %!  program_read(+Spec, -Program, -Initial, -Kinds, -Places, -Sources,
 %!               -Warnings:list) is det.
@@ -81,14 +86,34 @@ payload_load(payload(Name, PIs, Clauses), Payload) :-
     !,
     must_be(atom, Name),
     Payload = payload(Name, PIs, Clauses).
+payload_load(clauses(Terms), Payload) :-
+    !,
+    payload_read(clauses(Terms), Payload).
 payload_load(Spec, Payload) :-
-    python_payload(Spec, Payload),
-    !.
-payload_load(Spec, Payload) :-
+    (   python_payload(Spec, Payload0)
+    ->  Payload = Payload0
+    ;   payload_read(Spec, Payload)
+    ),
+    forall(payload_was_read(Spec, Payload), true).
+
+payload_read(Spec, Payload) :-
     source_terms(Spec, Located, _, Unread, _),
     no_problems(Unread),
     payload_terms(Located, Payload, Errors),
     no_problems(Errors).
+
+%!  payload_file(+File) is semidet.
+%
+%   File holds a payload, not an agent.
+
+payload_file(File) :-
+    python_payload(File, _),
+    !.
+payload_file(File) :-
+    source_terms(File, Located, _, _, _),
+    member(Term-_, Located),
+    declaration(payload, Term, _, _),
+    !.
 
 no_problems([]) :-
     !.

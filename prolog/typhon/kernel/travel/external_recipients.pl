@@ -3,13 +3,11 @@
           ]).
 :- use_module(library(error), [must_be/2, type_error/2]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_keys/1, endpoint_post/3,
-                mobile_term/1 ]).
+              [endpoint_address/1, endpoint_post/3, mobile_term/1]).
 :- use_module('../host', [address_parts/3, scheduler_call/1]).
-:- use_module('../agent', [agent_home_endpoint/2, agent_owned/1]).
+:- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module(dead_letters, [mail_lost/3]).
-:- use_module(senders, [shown/5]).
-:- use_module(speakers, [mail_believed/5]).
+:- use_module(senders, [mail_believed/5, sender_ours/1, shown/5]).
 
 /** <module> Messages for recipients that are no agents
 
@@ -60,7 +58,7 @@ hint(To0, To, Hint) =>
 
 elsewhere(Hint, From, Endpoint) :-
     Hint \== none,
-    speaks_here(From),
+    sender_ours(From),
     address_parts(Hint, _, Endpoint),
     \+ endpoint_address(Endpoint),
     !.
@@ -68,17 +66,10 @@ elsewhere(_, From, Endpoint) :-
     agent_home_endpoint(From, Endpoint),
     \+ endpoint_address(Endpoint).
 
-%   Where there are keys others take it from us for our own agents only: the
-%   home of others knows the way then.
-
-speaks_here(From) :-
-    (   endpoint_keys(_)
-    ->  agent_owned(From)
-    ;   true
-    ).
+%   Where others do not take it from us the home of From knows the way.
 
 send_on(Endpoint, To0, To1, From, Message) :-
-    ( speaks_here(From) -> To = To1 ; To = To0 ),
+    ( sender_ours(From) -> To = To1 ; To = To0 ),
     shown(Endpoint, [From], [], abroad(To, From, Message), Sent),
     catch(endpoint_post(Endpoint, message, Sent),
           error(unreachable(_), _),

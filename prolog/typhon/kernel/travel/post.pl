@@ -20,7 +20,7 @@
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
 :- use_module(channel, [channel_must_fit/1]).
 :- use_module(retries, [retry_later/3]).
-:- use_module(speakers, [mail_believed/5]).
+:- use_module(senders, [mail_believed/5]).
 :- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Messages

@@ -9,14 +9,14 @@
 :- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
 :- use_module('../base/durable_changes', [durable_on/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_gone/1, endpoint_keys/1,
-                endpoint_post/3, endpoint_post_up/3 ]).
+              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
+                endpoint_post_up/3 ]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent', [agent_home_endpoint/2, agent_mail/2]).
 :- use_module(channel, [channel_post/3]).
 :- use_module(mailbox_overflow, [mail_fits/3]).
 :- use_module(dead_letters, [mail_lost/3]).
-:- use_module(senders, [mail_parts/4, shown/5]).
+:- use_module(senders, [mail_parts/4, senders_checked/0, shown/5]).
 :- use_module(whereabouts, [whereabouts/2]).
 
 /** <module> The next step of a letter
@@ -151,7 +151,7 @@ posted(Endpoint, Id, letter(Mail, Left), Post) :-
     debug(typhon(mail), '~w: a letter goes to ~w', [Id, Endpoint]).
 
 message(Endpoint, Id, Mail, Left, Message) :-
-    endpoint_keys(_),
+    senders_checked,
     !,
     findall(From, member(mail(_, From, _), Mail), Froms),
     (   whereabouts(Id, Address),

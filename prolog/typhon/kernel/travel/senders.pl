@@ -1,53 +1,92 @@
 :- module(typhon_senders,
-          [ shown/5,                    % +Endpoint, +Ids, +There, +Term,
-                                        % -Shown
+          [ senders_checked/0,
+            senders_check/1,            % +Boolean
+            sender_ours/1,              % +Id
+            speaks_for/3,               % +Peer, +Shown, +Id
+            mail_believed/5,            % +Peer, +Id, +Shown, +Mail, -Believed
+            shown/5,                    % +Endpoint, +Ids, +There, +Term, -Sent
             mail_parts/4                % +Endpoint, +Id, +Mail, -Parts
           ]).
 
-/** <module> What is shown with what agents say
+/** <module> Which process may speak for which agent
 
-For the authorization of senders see typhon_speakers. The birth of an agent is
-shown to its home, and to where it went, and to no other process: others could speak
-for it from then on. So what an agent says away from home goes through its
-home, unless it goes to one whose way leads from here.
+As far as the kernel knows each process may speak for each agent. Where an
+option checks that, a process shows with what its agents say what entitles it
+to, and what must not be said by this process goes through another.
 
-*Threading*: any thread; no state.
+*Threading*: any thread.
 */
 
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [member/2]).
-:- use_module(library(pairs), [group_pairs_by_key/2]).
-:- use_module('../wire', [endpoint_address/1, endpoint_keys/1]).
-:- use_module('../agent',
-              [agent_home_endpoint/2, agent_owned/1, birth_shown/2]).
+:- multifile
+    ours/1,                     % Id: others take what it says from us
+    speaks/3,                   % Peer, Shown, Id
+    believes/5,                 % Peer, Id, Shown, Mail, Believed
+    shows/4,                    % Endpoint, Ids, There, Shown
+    by_parts/4.                 % Endpoint, Id, Mail, Parts
 
-%!  shown(+Endpoint, +Ids, +There, +Term, -Shown) is det.
+:- dynamic
+    senders_checked/0,          % while there are processes that must not
+    ours/1,
+    speaks/3,
+    believes/5,
+    shows/4,
+    by_parts/4.
+
+%!  senders_checked is semidet.
+%!  senders_check(+Boolean) is det.
+%!  sender_ours(+Id) is semidet.
 %
-%   What is sent to Endpoint instead of Term: shown(Births, Term), with what we
-%   have of those of the agents Ids, if that is their home, and of the agents
-%   There; or Term.
+%   There are processes that must not speak for each agent; from now on there
+%   are; other processes take from this one what the agent Id says.
 
-shown(Endpoint, Ids, There, Term, Shown) :-
-    endpoint_keys(_),
-    findall(Birth, to_show(Endpoint, Ids, There, Birth), Births0),
-    Births0 \== [],
-    sort(Births0, Births),
-    !,
-    Shown = shown(Births, Term).
-shown(_, _, _, Term, Term).
+senders_check(true) :-
+    (   senders_checked
+    ->  true
+    ;   assertz(senders_checked)
+    ).
+senders_check(false) :-
+    retractall(senders_checked).
 
-to_show(Endpoint, Ids, There, Birth) :-
-    (   member(Id, Ids),
-        of_others(Id),
-        agent_home_endpoint(Id, Endpoint)
-    ;   member(Id, There),
-        of_others(Id)
-    ),
-    birth_shown(Id, Birth).
+sender_ours(Id) :-
+    (   senders_checked
+    ->  ours(Id)
+    ;   true
+    ).
 
-of_others(Id) :-
-    atom(Id),
-    \+ agent_owned(Id).
+%!  speaks_for(+Peer, +Shown, +Id) is semidet.
+%
+%   The process at the address Peer, which shows Shown, may speak for the agent
+%   Id.
+
+speaks_for(Peer, Shown, Id) :-
+    (   senders_checked
+    ->  speaks(Peer, Shown, Id)
+    ;   true
+    ).
+
+%!  mail_believed(+Peer, +Id, +Shown, +Mail, -Believed) is det.
+%
+%   Of Mail, a list of mail(Origin, From, Message) that has come from Peer for
+%   the agent Id, Believed is from the sender that it names.
+
+mail_believed(Peer, Id, Shown, Mail, Believed) :-
+    (   senders_checked
+    ->  believes(Peer, Id, Shown, Mail, Believed)
+    ;   Believed = Mail
+    ).
+
+%!  shown(+Endpoint, +Ids, +There, +Term, -Sent) is det.
+%
+%   What is sent to Endpoint instead of Term: shown(Shown, Term), where there
+%   is something to show of the agents Ids, if that is their home, or of the
+%   agents There; or Term.
+
+shown(Endpoint, Ids, There, Term, Sent) :-
+    (   senders_checked,
+        shows(Endpoint, Ids, There, Shown)
+    ->  Sent = shown(Shown, Term)
+    ;   Sent = Term
+    ).
 
 %!  mail_parts(+Endpoint, +Id, +Mail, -Parts) is det.
 %
@@ -55,21 +94,8 @@ of_others(Id) :-
 %   endpoint to which it goes at first.
 
 mail_parts(Endpoint, Id, Mail, Parts) :-
-    (   endpoint_keys(_),
-        of_others(Id),
-        \+ birth_shown(Id, _)
-    ->  maplist(via(Endpoint), Mail, Pairs),
-        keysort(Pairs, Sorted),
-        group_pairs_by_key(Sorted, Parts)
+    (   senders_checked,
+        by_parts(Endpoint, Id, Mail, Parts0)
+    ->  Parts = Parts0
     ;   Parts = [Endpoint-Mail]
-    ).
-
-via(Endpoint, Mail, Via-Mail) :-
-    Mail = mail(Origin, From, _),
-    (   of_others(From),
-        endpoint_address(Origin),
-        agent_home_endpoint(From, Home),
-        \+ endpoint_address(Home)
-    ->  Via = Home
-    ;   Via = Endpoint
     ).

@@ -27,7 +27,7 @@
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent',
               [agent/5, agent_home_endpoint/2, is_legacy/1, life_hops/2]).
-:- use_module(speakers, [speaks_for/3]).
+:- use_module(senders, [speaks_for/3]).
 :- use_module(home,
               [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6,
                 home_knows/4, home_left/4, home_moved/4, home_resumed/3 ]).

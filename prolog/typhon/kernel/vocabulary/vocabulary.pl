@@ -3,8 +3,9 @@
 /** <module> What is visible to agents
 
 This module is the import parent of all places.  It defines nothing: it
-brings together the vocabulary of agents (typhon_words, typhon_memory,
-typhon_seals) and libraries without state that agents may use without asking.
+brings together the vocabulary of agents (typhon_words, typhon_memory, and what
+options import into it) and libraries without state that agents may use without
+asking.
 
 *Threading*: nothing happens here.
 */
@@ -27,5 +28,4 @@ typhon_seals) and libraries without state that agents may use without asking.
               [ '$checked'/1, '$checked'/2, '$checked'/3, '$checked'/4,
                 '$checked'/5, '$checked'/6, '$checked'/7, '$checked'/8,
                 '$uncaught'/1 ]).
-:- use_module(seals, [seal/3, unseal/2]).
 :- use_module(words).

@@ -46,7 +46,13 @@ thread of its connection. The connection manager limits its duration.
             [ certificate_field/2, ssl_context/3, ssl_negotiate/5,
               ssl_peer_certificate/2 ]).
 
+:- multifile
+    begins/0,                           % the process has keys
+    ends/0.                             % it has none any more
+
 :- dynamic
+    begins/0,
+    ends/0,
     secure_directory/1,                 % of keys, while there is TLS
     own/1.                              % Proof: what we show
 
@@ -70,11 +76,15 @@ secure_begin(Directory0) :-
     ->  assertz(own(certificate(Name)))
     ;   true                            % peers will reject this certificate
     ),
-    assertz(secure_directory(Directory)).
+    assertz(secure_directory(Directory)),
+    forall(begins, true).
 
 secure_end :-
-    retractall(secure_directory(_)),
-    retractall(own(_)).
+    (   retract(secure_directory(_))
+    ->  retractall(own(_)),
+        forall(ends, true)
+    ;   true
+    ).
 
 %!  secure_own(-Proof) is semidet.
 %

@@ -1,6 +1,5 @@
 :- module(typhon_birth,
           [ birth_good/1,               % +Birth
-            birth_unproved/2,           % +Endpoint, +Id
             birth_shown/2               % +Id, -Birth
           ]).
 
@@ -24,22 +23,23 @@ process shows it once.
 */
 
 :- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [sum_list/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounded', [bounded/2]).
-:- use_module('../base/keys', [keys_sign/3, keys_verify/4]).
-:- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
-:- use_module('../wire',
+:- use_module('../../kernel/base/bounded', [bounded/2]).
+:- use_module('../../kernel/base/keys', [keys_sign/3, keys_verify/4]).
+:- use_module('../../kernel/base/durable_changes', [durable_drop/3, durable_put/4]).
+:- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1,
                 endpoint_peer/2, endpoint_proof/2 ]).
-:- use_module(agents, [agent/5]).
-:- use_module(identity,
-              [agent_home_endpoint/2, agent_owned/1, agent_owned/2]).
+:- use_module('../../kernel/agent', [agent/5, agent_home_endpoint/2]).
+:- use_module(owner, [agent_owned/1, agent_owned/2]).
 
 :- multifile
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_host_parts:part/4,
+    typhon_hop:sent_again/2,
     typhon_durable:restore/4,
     typhon_durable:dump/4.
 
@@ -56,6 +56,18 @@ typhon_identity:ids_anew :-
 
 typhon_host_parts:part(papers, _, 10, typhon_birth:papers) :-
     endpoint_keys(_).
+typhon_host_parts:part(change_program, _, 10, typhon_birth:may_change) :-
+    endpoint_keys(_).
+
+:- public may_change/2.
+
+%   No host would admit it.
+
+may_change(_, Id) :-
+    (   agent_owned(Id)
+    ->  true
+    ;   permission_error(change, agent_program, Id)
+    ).
 
 :- public papers/4.
 
@@ -93,11 +105,9 @@ now_has(Id, Proof) :-
                  assertz(has(Id, Proof)),
                  bounded(has(_, _), typhon_birth:births) )).
 
-%!  birth_unproved(+Endpoint, +Id) is det.
-%
 %   They lack the birth of Id there, after all.
 
-birth_unproved(Endpoint, Id) :-
+typhon_hop:sent_again(Endpoint, Id) :-
     proof_of(Endpoint, Proof),
     with_mutex(typhon_birth, retractall(has(Id, Proof))).
 

@@ -15,13 +15,13 @@ process may wait for an answer.
 */
 
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module('../base/keys',
+:- use_module('../../kernel/base/keys',
               [ keys_certificate/2, keys_holder/3, keys_seal/4,
                 keys_unseal/3 ]).
-:- use_module('../base/text', [term_text/2, text_term/2]).
-:- use_module('../wire',
+:- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
+:- use_module('../../kernel/wire',
               [endpoint_keys/1, endpoint_reply/2, mobile_term/1]).
-:- use_module('../host', [host_resolve/2, process_ask/6]).
+:- use_module('../../kernel/host', [host_resolve/2, process_ask/6]).
 
 :- multifile typhon_endpoint:requested/4.
 
