@@ -113,7 +113,8 @@ honest :-
 
 births_saved(Peer) :-
     peer_do(Peer,
-            ( forall(member(Order, [hold(5), rest(20, [])]),
+            ( use_module(library(typhon/network/carrier), []),
+              forall(member(Order, [hold(5), rest(20, [])]),
                      typhon_carrier:order_do(Order, ok)),
               typhon_carrier:order_do(kept([Peer]), kept(_, _, Items)),
               findall(item(birth, Id, N, Birth),
