@@ -1,7 +1,7 @@
 :- module(typhon_log,
           [ log_serve/2,                % +Options, -Address
             log_serve_end/1,            % +Address
-            log_writer_flush/1          % +Queue
+            log_writer_flush/1          % +Writer
           ]).
 :- use_module(library(apply), [include/3]).
 :- use_module(library(debug), [debug/3]).
@@ -12,6 +12,9 @@
 :- use_module('../kernel/base/error_text', [error_told/3, print_error/2]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../kernel/base/server',
+              [ server_answer/2, server_call/4, server_cast/2, server_start/5,
+                server_stop/1 ]).
 :- use_module('../kernel/host',
               [runtime_acquire/3, runtime_release/1, time_now/1]).
 :- use_module('../kernel/wire',
@@ -42,8 +45,7 @@ wait in the end, nothing is dropped. It flushes whenever nothing more waits.
     typhon_endpoint:requested/4.
 
 :- dynamic
-    server/3,                   % Name, Queue, Clock
-    writer/3,                   % Name, Thread, File
+    server/4,                   % Name, Writer, File, Clock
     homeless/1.                 % Name of a server that events came for
 
 %!  log_serve(+Options, -Address) is det.
@@ -77,7 +79,7 @@ clock_option(Options, Clock) :-
     ).
 
 start(Name, _, _, _) :-
-    server(Name, _, _),
+    server(Name, _, _, _),
     !,
     permission_error(start, log_server, Name).
 start(Name, File, Options, Address) :-
@@ -85,12 +87,10 @@ start(Name, File, Options, Address) :-
     clock_option(Options, Clock),
     include(of_endpoint, Options, EndpointOptions),
     runtime_acquire(log(Name), EndpointOptions, Endpoint),
-    catch(log_writer_start(Name, File, Mode, Queue, Thread), Error,
+    catch(log_writer_start(File, Mode, Absolute, Writer), Error,
           ( runtime_release(log(Name)), throw(Error) )),
-    absolute_file_name(File, Absolute),
-    assertz(writer(Name, Thread, Absolute)),
     retractall(homeless(Name)),
-    assertz(server(Name, Queue, Clock)),
+    assertz(server(Name, Writer, Absolute, Clock)),
     atomic_list_concat([Name, @, Endpoint], Address),
     debug(typhon(network), 'log server ~w writes ~p', [Address, File]).
 
@@ -108,24 +108,23 @@ log_serve_end(Address) :-
 
 stop(Name, Address) :-
     arrived(Name),
-    (   with_mutex(typhon_log, retract(server(Name, Queue, _)))
-    ->  retract(writer(Name, Thread, _)),
-        log_writer_stop(Queue, Thread),
+    (   with_mutex(typhon_log, retract(server(Name, Writer, _, _)))
+    ->  server_stop(Writer),
         debug(typhon(network), 'log server ~w has ended', [Address]),
         runtime_release(log(Name))
     ;   existence_error(log_server, Address)
     ).
 
 typhon_log_file:about_to_read(File) :-
-    forall(( writer(Name, _, File), server(Name, Queue, _) ),
-           in_own_thread(log_writer_flush(Queue))).
+    forall(server(_, Writer, File, _),
+           in_own_thread(log_writer_flush(Writer))).
 
 %   What this process posts to itself comes in order, so a request that is
 %   answered shows that the posts before it have arrived.  Once its journal is
 %   closed it does not ask any more.
 
 arrived(Name) :-
-    (   server(Name, _, _),
+    (   server(Name, _, _, _),
         endpoint_address(Endpoint),
         \+ durable_closed
     ->  catch(endpoint_call(Endpoint, log, arrived, answer(yes), 5),
@@ -152,11 +151,11 @@ typhon_endpoint:received(log, event(Log, Host, Agent, What), _) :-
     with_mutex(typhon_log, stamp(Name, Host, Agent, What)).
 
 stamp(Name, Host, Agent, What) :-
-    server(Name, Queue, clock(Epoch, Rate)),
+    server(Name, Writer, _, clock(Epoch, Rate)),
     !,
     time_now(Now),
     Time is round((Now - Epoch) * Rate * 1000000) / 1000000.0,
-    thread_send_message(Queue, event(Time, Host, Agent, What)).
+    ignore(server_cast(Writer, event(Time, Host, Agent, What))).
 stamp(Name, _, _, _) :-
     homeless(Name),
     !.
@@ -175,86 +174,52 @@ prolog:message(typhon(no_log_server(Name, Host))) -->
                 *           WRITING            *
                 *******************************/
 
-:- multifile
-    prolog:message//1.
-
-%   log_writer_start(+Name, +Spec, +Mode, -Queue, -Thread) is det.
-%   log_writer_stop(+Queue, +Thread) is det.
+%   log_writer_start(+Spec, +Mode, -File, -Writer) is det.
 %
-%   What is put in Queue, terms event(Time, Host, Agent, What), is written to
-%   the file Spec, opened in Mode, until all that was there is written.
+%   Writer, a server, writes terms event(Time, Host, Agent, What) to the file
+%   Spec, opened in Mode.
 %
 %   @error existence_error(directory, Dir), permission_error(open,
 %   source_sink, File)
 
-log_writer_start(Name, Spec, Mode, Queue, Thread) :-
+log_writer_start(Spec, Mode, File, Writer) :-
     (   absolute_file_name(Spec, File)
     ->  true
     ;   existence_error(source_sink, Spec)
     ),
     log_open(File, Mode, Stream),
-    message_queue_create(Queue, [max_size(100 000)]),
-    writer_alias(Name, Alias),
-    catch(thread_create(write_events(Queue, File, open(Stream, 0)), Thread,
-                        [alias(Alias)]),
+    catch(server_start(log_writer, typhon_log:written(File), open(Stream, 0),
+                       [max_size(100 000)], Writer),
           Error,
-          ( close(Stream), message_queue_destroy(Queue), throw(Error) )).
+          ( close(Stream), throw(Error) )).
 
-%   A server of the same name may be about to end.
-
-writer_alias(Name, Alias) :-
-    flag(typhon_log, N, N+1),
-    atomic_list_concat([typhon_log_writer_, Name, '_', N], Alias).
-
-log_writer_stop(Queue, Thread) :-
-    thread_send_message(Queue, stop),
-    thread_join(Thread, _),
-    message_queue_destroy(Queue).
-
-%!  log_writer_flush(+Queue) is det.
+%!  log_writer_flush(+Writer) is det.
 %
-%   What was put in Queue before is in the file, unless it cannot be written;
-%   or five seconds have passed.
+%   What was sent before is in the file, unless it cannot be written; or five
+%   seconds have passed.
 
-log_writer_flush(Queue) :-
-    setup_call_cleanup(
-        message_queue_create(Answers),
-        catch(( thread_send_message(Queue, flush(Answers)),
-                ignore(thread_get_message(Answers, flushed, [timeout(5)])) ),
-              error(existence_error(_, _), _),
-              true),                    % it has ended, and written all
-        message_queue_destroy(Answers)).
-
-flushed(Answers) :-
-    catch(thread_send_message(Answers, flushed),
+log_writer_flush(Writer) :-
+    catch(ignore(server_call(Writer, flush, 5, _)),
           error(existence_error(_, _), _),
-          true).
+          true).                        % it has ended, and written all
 
-%   write_events(+Queue, +File, +State): State is open(Stream, Unsure),
+:- public written/4.
+
+%   written(+File, +Message, +State0, -State): State is open(Stream, Unsure),
 %   where the last Unsure events may be in memory only; or lost(Count,
 %   Again), where the file could not be written, is tried again at the time
 %   Again, and Count events are lost.  The beginning and the end are
-%   reported, not each event.
+%   reported, not each event.  When nothing more waits it is flushed.
 
-write_events(Queue, File, State0) :-
-    next_event(Queue, File, Event, State0, State1),
-    (   Event == stop
-    ->  finish(State1, File)
-    ;   Event = flush(Answers)
-    ->  flush(State1, File, State),
-        flushed(Answers),
-        write_events(Queue, File, State)
-    ;   write_event(State1, File, Event, State),
-        write_events(Queue, File, State)
-    ).
-
-next_event(Queue, File, Event, State0, State) :-
-    (   thread_peek_message(Queue, _)
-    ->  State = State0,
-        thread_get_message(Queue, Event)
-    ;   flush(State0, File, State),
-        thread_get_message(Queue, Event)
-    ).
+written(File, event(Time, Host, Agent, What), State0, until(0, State)) :-
+    write_event(State0, File, event(Time, Host, Agent, What), State).
+written(File, timeout, State0, State) :-
+    flush(State0, File, State).
+written(File, call(flush, Caller), State0, State) :-
+    flush(State0, File, State),
+    server_answer(Caller, flushed).
+written(File, stop, State, _) :-
+    finish(State, File).
 
 flush(open(Stream, Unsure), File, State) :-
     !,

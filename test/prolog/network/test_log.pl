@@ -283,7 +283,7 @@ full_for_a_while(Kept, Bad, Dir) :-
 fill_and_free(Address, Link, Real) :-
     hundred(Address, _),
     wait_until(printed(log_not_written(_, _)), 5),
-    forall(typhon_log:server(_, Queue, _),      % all have been tried
+    forall(typhon_log:server(_, Queue, _, _),      % all have been tried
            typhon_log:log_writer_flush(Queue)),
     delete_file(Link),
     link_file(Real, Link, symbolic),
