@@ -6,10 +6,13 @@
             browser_serve/2             % :Scene, +WebSocket
           ]).
 :- use_module(library(http/websocket), [ws_send/2]).
+:- use_module(library(lists), [reverse/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../kernel/base/server',
+              [server_cast/2, server_start/5, server_stop/1]).
 :- use_module(protocol, [skipped_row/2]).
 :- use_module(overlays, [event_rows/2]).
 
@@ -20,8 +23,7 @@ one text of it, twenty times a second at the most, and puts that into the
 queues of all browsers.  A browser that does not take them fast enough loses
 some, and gets their number.
 
-*Threading*: any thread tells; the thread `typhon_page` makes texts; each
-browser has a thread, which sends them, and one that notices when it goes.
+*Threading*: any thread tells; a server makes texts; each browser has a thread, which sends them, and one that notices when it goes.
 */
 
 :- meta_predicate browser_serve(1, +).
@@ -37,7 +39,7 @@ browser has a thread, which sends them, and one that notices when it goes.
 
 :- dynamic
     browser/3,                  % Queue, Thread, Skipped: events
-    teller/2.                   % Thread, Queue
+    teller/1.                   % Server
 
 %   Of events, and of texts for one browser.
 
@@ -55,20 +57,18 @@ frames_waiting(40).
 
 browsers_start :-
     queue_size(Size),
-    message_queue_create(Queue, [max_size(Size)]),
-    thread_create(tell_all(Queue, 0), Thread, [alias(typhon_page)]),
-    assertz(teller(Thread, Queue)).
+    server_start(page, typhon_page_browsers:gathers, none, [max_size(Size)],
+                 Teller),
+    assertz(teller(Teller)).
 
 browsers_stop :-
-    (   retract(teller(Thread, Queue))
-    ->  in_own_thread(stop(Thread, Queue))
+    (   retract(teller(Teller))
+    ->  in_own_thread(stop(Teller))
     ;   true
     ).
 
-stop(Thread, Queue) :-
-    thread_send_message(Queue, stop),
-    thread_join(Thread),
-    message_queue_destroy(Queue),
+stop(Teller) :-
+    server_stop(Teller),
     forall(browser(Browser, _, _), send_away(Browser)),
     get_time(Now),
     Deadline is Now+5,
@@ -103,9 +103,8 @@ wait_until_gone(_) :-
 %   others are still to be sent.
 
 browsers_tell(Event) :-
-    (   teller(_, Queue)
-    ->  catch(thread_send_message(Queue, Event),
-              error(existence_error(_, _), _), true)
+    (   teller(Teller)
+    ->  ignore(server_cast(Teller, Event))
     ;   true
     ).
 
@@ -117,46 +116,38 @@ browsers_there :-
     browser(_, _, _),
     !.
 
-%   tell_all(+Queue, +Next): until the message to stop; not before Next.
+%   The state is frame(Due, Count, Events), the newest first: they are sent when
+%   Due has come and nothing more waits, or when there are enough.
 
-tell_all(Queue, Next) :-
-    setting(heartbeat_seconds, Pause),
-    (   thread_get_message(Queue, First, [timeout(Pause)])
-    ->  true
-    ;   First = tick
-    ),
-    tell_all(First, Queue, Next).
+:- public gathers/3.
 
-tell_all(stop, _, _) :-
-    !.
-tell_all(First, Queue, Next) :-
+gathers(begin, _, Next) :-
+    begin_frame(0, Next).
+gathers(event(Time, Host, Agent, What), frame(Due, Count0, Events), Next) :-
+    Count is Count0+1,
     setting(frame_events, Most),
-    gather(First, Most, Next, Queue, Events, Ending),
+    (   Count >= Most
+    ->  send_frame([event(Time, Host, Agent, What)|Events], Next)
+    ;   Next = until(Due, frame(Due, Count,
+                                [event(Time, Host, Agent, What)|Events]))
+    ).
+gathers(timeout, frame(_, _, Events), Next) :-
+    send_frame(Events, Next).
+gathers(stop, frame(_, _, Events), _) :-
+    send_frame(Events, _).
+
+send_frame(Events0, Next) :-
+    reverse(Events0, Events),
     get_time(Now),
     tell_frame(Events, Now),
-    (   Ending == stop
-    ->  true
-    ;   setting(frame_seconds, Seconds),
-        Later is Now+Seconds,
-        tell_all(Queue, Later)
-    ).
+    setting(frame_seconds, Seconds),
+    Due is Now+Seconds,
+    begin_frame(Due, Next).
 
-%   gather(+First, +Most, +Until, +Queue, -Events, -Ending): what there is,
-%   and what comes until then.
-
-gather(stop, _, _, _, [], stop) :-
-    !.
-gather(tick, _, _, _, [], go_on) :-
-    !.
-gather(First, 1, _, _, [First], go_on) :-
-    !.
-gather(First, Most, Until, Queue, [First|Events], Ending) :-
-    (   thread_get_message(Queue, Event, [deadline(Until)])
-    ->  Most1 is Most-1,
-        gather(Event, Most1, Until, Queue, Events, Ending)
-    ;   Events = [],
-        Ending = go_on
-    ).
+begin_frame(Due, until(Beat, frame(Due, 0, []))) :-
+    setting(heartbeat_seconds, Pause),
+    get_time(Now),
+    Beat is Now+Pause.
 
 tell_frame(_, _) :-
     \+ browser(_, _, _),
@@ -253,7 +244,7 @@ enter(Queue) :-
     with_mutex(typhon_page, enter(Queue, Me)).
 
 enter(Queue, Me) :-
-    teller(_, _),
+    teller(_),
     setting(browsers, Most),
     findall(B, browser(B, _, _), Browsers),
     length(Browsers, Count),

@@ -11,6 +11,8 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../kernel/base/server',
+              [server_cast/2, server_start/4, server_stop/1]).
 :- use_module('../../kernel/host',
               [ address_parts/3, host_property/2, runtime_acquire/2,
                 runtime_release/1 ]).
@@ -33,7 +35,7 @@ connected a thread looks for new hosts every few seconds.
 
 :- dynamic
     place/1,                    % Address: where to begin
-    finder/2,                   % Thread, Queue
+    finder/1,                   % Server
     own/1,                      % Watch
     watched/2.                  % Address, Watch
 
@@ -54,19 +56,16 @@ sources_start(Options) :-
         assertz(place(Address))
     ;   true
     ),
-    message_queue_create(Queue),
-    thread_create(find(Queue), Thread, [alias(typhon_page_finder)]),
-    assertz(finder(Thread, Queue)).
+    server_start(page_finder, typhon_page_sources:finds, none, Finder),
+    assertz(finder(Finder)).
 
 must_be_there(Host, Address) :-
     host_property(Host, address(Address)),
     !.
 
 sources_stop :-
-    (   retract(finder(Thread, Queue))
-    ->  thread_send_message(Queue, stop),
-        thread_join(Thread),
-        message_queue_destroy(Queue)
+    (   retract(finder(Finder))
+    ->  server_stop(Finder)
     ;   true
     ),
     rest(true),
@@ -81,8 +80,8 @@ sources_stop :-
 %   these Hosts are watched before their agents are listed.
 
 sources_look(scene(Hosts, Agents)) :-
-    finder(_, Queue),
-    thread_send_message(Queue, somebody),
+    finder(Finder),
+    ignore(server_cast(Finder, browser)),
     renew,
     look(1 000 000, Seen, Hosts),
     survey_agents(Seen, Agents).
@@ -101,28 +100,24 @@ sources_metrics(Text) :-
                 *             FIND             *
                 *******************************/
 
-%   No browser: it waits until one connects.
+%   Without a browser it waits until one connects.
 
-find(Queue) :-
-    thread_get_message(Queue, Message),
-    (   Message == stop
-    ->  true
-    ;   find_more(Queue)
-    ).
+:- public finds/3.
 
-find_more(Queue) :-
-    setting(renew_seconds, Seconds),
-    (   thread_get_message(Queue, Message, [timeout(Seconds)])
-    ->  (   Message == stop
-        ->  true
-        ;   find_more(Queue)
-        )
-    ;   browsers_there
+finds(browser, State, Next) :-
+    find_later(State, Next).
+finds(timeout, State, Next) :-
+    (   browsers_there
     ->  telling_errors(renew),
-        find_more(Queue)
+        find_later(State, Next)
     ;   telling_errors(rest(\+ browsers_there)),
-        find(Queue)
+        Next = State
     ).
+
+find_later(State, until(Stamp, State)) :-
+    setting(renew_seconds, Seconds),
+    get_time(Now),
+    Stamp is Now+Seconds.
 
 :- meta_predicate telling_errors(0).
 
