@@ -9,14 +9,13 @@ agents send and receive is described in [bridges-fipa.md].  Only the first two a
 part of library(typhon).  It needs nothing but Prolog.  Nothing is defined here: see
 the modules in bridges/fipa/.
 
-  | starting and stopping                  | common/starting               |
-  | hosts as platforms                     | service, platform             |
-  | messages in and out, failures          | exchange, incoming            |
-  | HTTP: in, out, and its text            | reception, carriage, http     |
-  | bytes: letters, envelopes, parts       | letter, envelope, multipart   |
-  | messages, agents, contents, text       | acl, aid, sl, sexp            |
-  | AMS and DF                             | managers, directory           |
-  | threads                                | crew                          |
+  | starting and stopping           | common/starting           |
+  | hosts as platforms              | service, platform         |
+  | messages in and out, failures   | exchange                  |
+  | HTTP: in, out, and its text     | reception, carriage, http |
+  | messages and envelopes as bytes | letter                    |
+  | messages, contents, their text  | acl, sl, sexp             |
+  | AMS and DF                      | managers                  |
 */
 
 :- use_module(kernel/base/user_errors, [user_errors/1]).

@@ -10,8 +10,9 @@
 :- use_module(library(error),
               [domain_error/2, must_be/2, syntax_error/1, type_error/2]).
 :- use_module(library(lists), [append/2, append/3, member/2, selectchk/3]).
-:- use_module(aid, [aid_sexp/2, sexp_atom/2, sexp_parameters/2, text_sexp/2]).
-:- use_module(sexp, [sexp_text/2, sexp_word/1, utc_text/2]).
+:- use_module(sexp,
+              [ aid_sexp/2, sexp_atom/2, sexp_parameters/2, sexp_text/2,
+                sexp_word/1, text_sexp/2, utc_text/2 ]).
 :- use_module(sl, [sl_text/2]).
 
 /** <module> Messages of FIPA's ACL

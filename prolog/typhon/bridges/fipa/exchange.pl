@@ -13,7 +13,7 @@
 :- use_module(acl,
               [ acl_parameter/2, acl_reply/4, acl_text/2, acl_with/3,
                 must_be_acl/1, performative/1 ]).
-:- use_module(aid, [aid_addresses/2, aid_name/2]).
+:- use_module(sexp, [aid_addresses/2, aid_name/2]).
 :- use_module(carriage, [carriage_send/4]).
 :- use_module(http, [http_url/3]).
 :- use_module(letter, [letter_read/4, letter_write/5]).

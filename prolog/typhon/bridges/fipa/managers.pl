@@ -2,16 +2,15 @@
           [ manager_answer/4,           % +Host, +Manager, +Acl, -Reply
             manager_end/1               % +Host
           ]).
+:- use_module(library(error), [resource_error/1]).
 :- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../../kernel/agent', [agent/5]).
 :- use_module('../../kernel/travel', [home_agents/1]).
 :- use_module(acl, [acl_parameter/2]).
-:- use_module(aid, [aid/1, aid_name/2]).
-:- use_module(directory,
-              [ description_matches/2, directory_add/4, directory_entry/2,
-                directory_forget/1, directory_has/2, directory_remove/2 ]).
 :- use_module(platform, [platform/4, platform_aid/3, platform_local/3]).
+:- use_module(sexp, [aid/1, aid_name/2]).
 
 /** <module> The managers of a platform: AMS and DF
 
@@ -20,7 +19,10 @@ search, and of the AMS get-description.  The AMS knows the agents of this
 process, and those born here, without registration; others may register with
 it as well.
 
-*Threading*: any thread.
+In a directory, any ground term, each name has one description, which may be there
+only until some time.
+
+*Threading*: any thread; a mutex serializes changes of directories.
 */
 
 %   Of a search.
@@ -227,3 +229,131 @@ description(ams, Host, Description) :-
     aid_name(Aid, Name),
     \+ directory_has(ams(Host), Name),
     Description = 'ams-agent-description'(name:Aid, state:active).
+
+                /*******************************
+                *         DIRECTORIES          *
+                *******************************/
+
+:- setting(typhon_fipa_directory:entries, positive_integer, 10000,
+           "Now typhon_fipa_managers:entries").
+:- setting(entries, positive_integer, 10000,
+           "Descriptions in a directory of FIPA").
+
+:- dynamic entry/4.             % Directory, Name, Description, Until
+
+%   directory_add(+Directory, +Name, +Description, +Until) is det.
+%
+%   Replaces the description of Name.  Until is a time stamp, or `inf`.
+%
+%   @error resource_error(fipa_directory)
+
+directory_add(Directory, Name, Description, Until) :-
+    with_mutex(typhon_fipa_managers,
+               add(Directory, Name, Description, Until)).
+
+add(Directory, Name, Description, Until) :-
+    (   retract(entry(Directory, Name, _, _))
+    ->  true
+    ;   has_space
+    ),
+    assertz(entry(Directory, Name, Description, Until)).
+
+has_space :-
+    setting(entries, Max),
+    (   predicate_property(entry(_, _, _, _), number_of_clauses(Count)),
+        Count >= Max
+    ->  get_time(Now),
+        findall(Ref,
+                ( clause(entry(_, _, _, Until), true, Ref),
+                  over(Until, Now) ),
+                Refs),
+        (   Refs == []
+        ->  resource_error(fipa_directory)
+        ;   forall(member(Ref, Refs), erase(Ref))
+        )
+    ;   true
+    ).
+
+over(Until, Now) :-
+    number(Until),
+    Until < Now.
+
+directory_remove(Directory, Name) :-
+    with_mutex(typhon_fipa_managers,
+               ( directory_has(Directory, Name),
+                 retract(entry(Directory, Name, _, _)) )).
+
+directory_has(Directory, Name) :-
+    get_time(Now),
+    entry(Directory, Name, _, Until),
+    \+ over(Until, Now),
+    !.
+
+directory_entry(Directory, Description) :-
+    get_time(Now),
+    entry(Directory, _, Description, Until),
+    \+ over(Until, Now).
+
+directory_forget(Directory) :-
+    with_mutex(typhon_fipa_managers,
+               retractall(entry(Directory, _, _, _))).
+
+                /*******************************
+                *           MATCHING           *
+                *******************************/
+
+%   description_matches(+Template, +Description) is semidet.
+%
+%   By the rules of FIPA00023: Description has every parameter of Template; of
+%   a set each element, in any order, of a sequence in this order.
+
+description_matches(Template, Description), aid(Template) =>
+    aid(Description),
+    aid_name(Template, Name),
+    aid_name(Description, Name).
+description_matches(set(Templates), Description) =>
+    elements(Description, Elements),
+    forall(member(Template, Templates),
+           ( member(Element, Elements),
+             description_matches(Template, Element) )).
+description_matches(Templates, set(Elements)), is_list(Templates) =>
+    description_matches(set(Templates), Elements).
+description_matches(Templates, Elements), is_list(Templates) =>
+    is_list(Elements),
+    in_order(Templates, Elements).
+description_matches(Template, Description), atomic(Template) =>
+    atomic(Description),
+    same_text(Template, Description).
+description_matches(Template, Description) =>
+    compound(Description),
+    compound_name_arguments(Template, Name, Wanted),
+    compound_name_arguments(Description, Name, Found),
+    arguments_match(Wanted, Found).
+
+elements(set(Elements), Elements).
+elements(Elements, Elements) :-
+    is_list(Elements).
+
+in_order([], _).
+in_order([Template|Templates], [Element|Elements]) :-
+    (   description_matches(Template, Element)
+    ->  in_order(Templates, Elements)
+    ;   in_order([Template|Templates], Elements)
+    ).
+
+arguments_match([], _).
+arguments_match([Key:Wanted|More], Found) :-
+    !,
+    memberchk(Key:Value, Found),
+    description_matches(Wanted, Value),
+    arguments_match(More, Found).
+arguments_match([Wanted|More], [Value|Values]) :-
+    description_matches(Wanted, Value),
+    arguments_match(More, Values).
+
+same_text(A, B) :-
+    (   A == B
+    ->  true
+    ;   format(string(Text), '~w', [A]),
+        format(string(Text), '~w', [B])
+    ).

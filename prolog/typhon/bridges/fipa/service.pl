@@ -9,7 +9,7 @@
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../common',
               [service_begin/4, service_end/2, service_offer/4]).
-:- use_module(aid, [aid/1, aid_name/2]).
+:- use_module(sexp, [aid/1, aid_name/2]).
 :- use_module(carriage, [carriage_close/1, carriage_queued/2]).
 :- use_module(exchange, [exchange_send/4]).
 :- use_module(http, [http_url/3]).

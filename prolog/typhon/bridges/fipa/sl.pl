@@ -4,8 +4,9 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [must_be/2, syntax_error/1, type_error/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(aid, [aid/1, aid_sexp/2, sexp_atom/2, text_sexp/2]).
-:- use_module(sexp, [sexp_text/2, sexp_word/1, utc_text/2]).
+:- use_module(sexp,
+              [ aid/1, aid_sexp/2, sexp_atom/2, sexp_text/2, sexp_word/1,
+                text_sexp/2, utc_text/2 ]).
 
 /** <module> The content language SL, as terms
 

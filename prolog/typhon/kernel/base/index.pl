@@ -57,7 +57,8 @@ part_setting(answer_seconds,typhon_processes,number,2,'A process that is to end 
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'So many browsers may look at a page at a time','tools/page/browsers').
 part_setting(connections,typhon_page_reception,positive_integer,64,'A page has so many clients at a time','tools/page/reception').
 part_setting(delay,typhon_telling,number,0.05,'Events gather for so many seconds before they are sent','options/watch/teller').
-part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/directory').
+part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Now typhon_fipa_managers:entries','bridges/fipa/managers').
+part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_telling,positive_integer,10000,'So many events wait for a watch that is slow','options/watch/telling').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'A page tells its browsers of so many events at a time','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'A page tells its browsers of events once in so many seconds','tools/page/browsers').

@@ -10,11 +10,10 @@
 :- use_module(library(plunit)).
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon/bridges/fipa/acl)).
-:- use_module(library(typhon/bridges/fipa/directory)).
-:- use_module(library(typhon/bridges/fipa/envelope)).
 :- use_module(library(typhon/bridges/fipa/letter)).
-:- use_module(library(typhon/bridges/fipa/multipart)).
+:- use_module(library(typhon/bridges/fipa/managers), []).
 :- use_module(library(typhon/bridges/fipa/sl)).
+
 
                 /*******************************
                 *          RANDOM INPUT        *
@@ -276,34 +275,34 @@ test(bombs,
                        "<!DOCTYPE x [<!ENTITY a SYSTEM \"/etc/passwd\">]>\c
                         <envelope>&a;</envelope>" ])),
        error(permission_error(declare, fipa_envelope, document_type)) ]) :-
-    envelope_xml(_, Xml).
+    typhon_fipa_letter:envelope_xml(_, Xml).
 
 test(long_numbers_are_no_numbers, Envelope == [date(x)]) :-
     format(string(Xml), "<envelope><params><payload-length>~`1t~1000|\c
            </payload-length><date>x</date></params></envelope>", []),
-    envelope_xml(Envelope, Xml).
+    typhon_fipa_letter:envelope_xml(Envelope, Xml).
 test(long_envelopes, error(resource_error(fipa_envelope))) :-
     format(string(Xml), "<envelope><params><date>~`1t~70000|</date></params>\c
            </envelope>", []),
-    envelope_xml(_, Xml).
+    typhon_fipa_letter:envelope_xml(_, Xml).
 test(many_parts, error(syntax_error(fipa_multipart))) :-
     findall(x-"y", between(1, 20, _), Parts),
-    multipart_write(Parts, Type, Body),
-    multipart_read(Type, Body, _).
+    typhon_fipa_letter:multipart_write(Parts, Type, Body),
+    typhon_fipa_letter:multipart_read(Type, Body, _).
 test(length_with_many_digits, error(syntax_error(_))) :-
     acl_text(_, "(inform :content #00000000000000000001\"x)").
 test(broken_envelopes,
      [ forall(member(Xml, ["", "x", "<other/>", "<envelope>&b;</envelope>"])),
        error(syntax_error(fipa_envelope)) ]) :-
-    envelope_xml(_, Xml).
+    typhon_fipa_letter:envelope_xml(_, Xml).
 
 test(deep_envelope, error(syntax_error(fipa_envelope))) :-
     findall("<a>", between(1, 20000, _), Tags),
     atomics_to_string(Tags, Xml),
-    envelope_xml(_, Xml).
+    typhon_fipa_letter:envelope_xml(_, Xml).
 
 test(later_params_count, Name == b) :-
-    envelope_xml(Envelope,
+    typhon_fipa_letter:envelope_xml(Envelope,
                  "<envelope><params index=\"2\"><to><agent-identifier>\c
                   <name>b</name></agent-identifier></to></params>\c
                   <params index=\"1\"><to><agent-identifier><name>a</name>\c
@@ -313,17 +312,17 @@ test(later_params_count, Name == b) :-
 
 test(bytes_are_as_they_are_written, Bytes == "(inform :content \"\u00C3\u00A4\")") :-
     letter_write("(inform :content \"\u00E4\")", fipa(a), fipa(b), Type, Body),
-    multipart_read(Type, Body, [_, 'application/text'-Bytes]).
+    typhon_fipa_letter:multipart_read(Type, Body, [_, 'application/text'-Bytes]).
 
 test(other_encodings, Text == "\u00E4") :-
-    multipart_write([ 'application/xml'-"<envelope><params>\c
+    typhon_fipa_letter:multipart_write([ 'application/xml'-"<envelope><params>\c
                        <payload-encoding>ISO-8859-1</payload-encoding>\c
                        </params></envelope>",
                       'application/text'-"\u00E4" ], Type, Body),
     letter_read(Type, Body, _, Text).
 
 test(unknown_representation, error(syntax_error(fipa_representation))) :-
-    multipart_write([ 'application/xml'-"<envelope><params>\c
+    typhon_fipa_letter:multipart_write([ 'application/xml'-"<envelope><params>\c
                        <acl-representation>fipa.acl.rep.bitefficient.std\c
                        </acl-representation></params></envelope>",
                       'application/text'-"x" ], Type, Body),
@@ -367,20 +366,20 @@ differs(fipa(a), fipa(b)).
 differs(f(1, b), f(1, a)).
 
 test(matches, [forall(matches(Template, Description)), nondet]) :-
-    description_matches(Template, Description).
+    typhon_fipa_managers:description_matches(Template, Description).
 
 test(differs, [forall(differs(Template, Description)), fail]) :-
-    description_matches(Template, Description).
+    typhon_fipa_managers:description_matches(Template, Description).
 
 test(leases_end) :-
     get_time(Now),
     Soon is Now+60,
     Before is Now-1,
-    directory_add(test, a, d(a), Before),
-    directory_add(test, b, d(b), Soon),
-    findall(D, directory_entry(test, D), Ds),
+    typhon_fipa_managers:directory_add(test, a, d(a), Before),
+    typhon_fipa_managers:directory_add(test, b, d(b), Soon),
+    findall(D, typhon_fipa_managers:directory_entry(test, D), Ds),
     assertion(Ds == [d(b)]),
-    assertion(\+ directory_has(test, a)),
-    directory_forget(test).
+    assertion(\+ typhon_fipa_managers:directory_has(test, a)),
+    typhon_fipa_managers:directory_forget(test).
 
 :- end_tests(fipa_directory).
