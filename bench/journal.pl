@@ -13,7 +13,11 @@ in both processes; and how long a process with many agents takes to be there
 again.  Hops are counted for some seconds, one way after the other, in rounds
 of which the median counts: that of the ratios, too, each of one round.
 
-    swipl bench/journal.pl -- unpinned */
+Of agents with large states what a turn that changes one fact costs, and how
+many messages per second one takes that keeps them all.
+
+    swipl bench/journal.pl -- unpinned
+    swipl bench/journal.pl -- states */
 
 :- initialization(main, main).
 
@@ -24,7 +28,10 @@ main([unpinned]) :-
            ( findall(Value, member(Round, All), Values),
              median(Values, Median),
              figure(Name, Median, Unit, Note) )),
+    states,
     recovery(100000).
+main([states]) :-
+    states.
 
 rounds(3).
 
@@ -155,6 +162,75 @@ syncs(PerSecond, Dir) :-
                              [process(Pid)]),
               process_wait(Pid, exit(0)) ), Seconds),
     PerSecond is Count/Seconds.
+
+                /*******************************
+                *         LARGE STATES         *
+                *******************************/
+
+states :-
+    forall(member(Facts, [100, 16000, 100000]),
+           with_directory(state_of(Facts))),
+    with_directory(collected(20000)).
+
+state_of(Facts, Dir) :-
+    host_start(here, [journal(Dir)]),
+    findall(fact(I, value(I)), between(1, Facts, I), State),
+    Turns = 2000,
+    agent_create(clauses([ (:- agent(changes, [state([fact/2,left/1])])),
+                           (main :- receive(_), turn),
+                           (turn :- left(0), !, result(done)),
+                           (turn :- retract(left(N0)), N is N0-1,
+                                    assertz(left(N)),
+                                    retract(fact(I0, V)), I is -I0,
+                                    assertz(fact(I, V)),
+                                    sleep(0),
+                                    turn) ]),
+                 Agent, [facts([left(Turns)|State])]),
+    agent_send(Agent, first),
+    cpu_seconds(agent_result(Agent, done, 600), Seconds),
+    format(atom(Name), 'CPU of a turn that changes one fact of ~D', [Facts]),
+    figure(Name, 1000*Seconds/Turns, ms),
+    host_stop(here).
+
+:- meta_predicate cpu_seconds(0, -).
+
+cpu_seconds(Goal, Seconds) :-
+    statistics(process_cputime, Start),
+    once(Goal),
+    statistics(process_cputime, End),
+    Seconds is End-Start.
+
+%   The last thousand messages are counted.
+
+collected(Count, Dir) :-
+    host_start(here, [journal(Dir)]),
+    agent_create(clauses([ (:- agent(collects, [state([got/2])])),
+                           (on_message(From, Message) :-
+                                assertz(got(From, Message))) ]),
+                 Agent, [host(here)]),
+    Before is Count-1000,
+    send_and_wait(Agent, 1, 1000, First),
+    send_and_wait(Agent, 1001, Before, _),
+    Next is Before+1,
+    send_and_wait(Agent, Next, Count, Last),
+    figure('messages per CPU second kept by an agent that has none', 1000/First,
+           '1/s'),
+    format(atom(Name), 'messages per CPU second kept by one that has ~D', [Before]),
+    figure(Name, 1000/Last, '1/s'),
+    host_stop(here).
+
+send_and_wait(Agent, From, To, Seconds) :-
+    cpu_seconds(( forall(between(From, To, I), agent_send(Agent, message(I))),
+              repeat,
+              sleep(0.01),
+              agent_property(Agent, state(resident)),
+              agent_property(Agent, mailbox([])),
+              ! ),
+                Seconds).
+
+                /*******************************
+                *           RECOVERY           *
+                *******************************/
 
 recovery(Count) :-
     with_directory(recovery(Count)).

@@ -45,15 +45,10 @@ option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
 %
 %   The files of an option that is not yet a folder of its own below options/.
 
-option_file(journal, 'agent/in_journal.pl').
-option_file(journal, 'lifecycle/recovery.pl').
-option_file(journal, 'lifecycle/journaled_turns.pl').
 option_file(journal, 'host/known_hosts.pl').
 option_file(journal, 'travel/channel.pl').
 option_file(journal, 'travel/channel_end.pl').
 option_file(journal, 'travel/hop_ids.pl').
-option_file(snapshot, 'lifecycle/process_dump.pl').
-option_file(snapshot, 'lifecycle/resting.pl').
 option_file(tls, 'wire/secure.pl').
 option_file(tls, 'base/key_files.pl').
 option_file(identity, 'base/keys.pl').

@@ -8,7 +8,7 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(agent/agents,
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
-              agent_mobile/6, agent_move/5,
+              agent_mobile/6, agent_move/5, agent_note/3,
               agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
               agent_remove/3, agent_rest/3, agent_resumes/2, agent_space/2,
               agent_status/3, agent_take/3, agent_wakes/2
@@ -30,7 +30,6 @@ This is the interface of the layer: higher layers import from here.
               life_parent/2, life_payloads/2, life_extras/2,
               make_life/2, set_extras_of_life/3
             ]).
-:- reexport(agent/in_journal, [agent_back/3, agent_put_down/3]).
 :- reexport(agent/time_quota, [stay_count/3, stay_owner/3, stay_until/3]).
 :- reexport(agent/state_text, [state_text/2]).
 :- reexport('agent/gate').

@@ -8,13 +8,10 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(lifecycle/creation, [agent_create/2, agent_create/3]).
 :- use_module(lifecycle/running, []).
-:- use_module(lifecycle/journaled_turns, []).
 :- use_module(lifecycle/metering, []).
 :- use_module(lifecycle/evacuation, []).
 :- use_module(lifecycle/overuse, []).
-:- use_module(lifecycle/recovery, []).
-:- reexport('lifecycle/resting').
-:- reexport(lifecycle/process_dump, [cut_again/2, cut_go_on/3, cut_kept/2]).
+:- reexport('lifecycle/rescheduling').
 :- reexport('lifecycle/properties').
 :- reexport('lifecycle/agent_summary').
 :- reexport('lifecycle/order_client',

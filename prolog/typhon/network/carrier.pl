@@ -20,7 +20,7 @@
                 hosts_journal/2, hosts_rest/0, runtime_acquire/2,
                 runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
                 time_stands/1 ]).
-:- use_module('../kernel/lifecycle',
+:- use_module('../options/snapshot',
               [ agents_at_rest/2, agents_go_on/1, cut_again/2, cut_go_on/3,
                 cut_kept/2 ]).
 :- use_module('../kernel/agent', [agent_name/3]).

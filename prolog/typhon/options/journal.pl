@@ -1,12 +1,17 @@
 :- module(typhon_journal, []).
 
-/** <module> The journal: the back end of durable changes
+/** <module> The journal: what happens in a process outlives it
 
-It commits the changes that the kernel queues, see typhon_durable_changes, many
-together, to a database.  This is the interface of the layer.
+It notes agents as they change, commits the changes that the kernel queues, see
+typhon_durable_changes, many together, to a database, and restores all of it
+when the process is started again.  Once this file is loaded the hooks of the
+kernel do so in processes that open a journal.  This is the interface of the
+layer.
 */
 
 :- use_module(journal/committing, []).
+:- use_module(journal/journaled_agents, []).
+:- use_module(journal/recovery, []).
 :- reexport(journal/database,
             [ journal_part/3, journal_record/2, journal_record_drop/1,
               journal_record_put/2 ]).

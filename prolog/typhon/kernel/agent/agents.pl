@@ -9,6 +9,7 @@
             agent_put_life/2,           % +Id, +Life
             agent_program/4,            % +Id, +Hash, +Module, +Life
             agent_put/3,                % +Id, +Status, +Goals
+            agent_note/3,               % +Id, +Status, +Goals
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
             agent_departs/3,            % +Id, -Dest, -Goals
@@ -57,7 +58,8 @@ which Prolog makes by itself, is not safe where other threads retract
 :- multifile
     typhon_code:in_use/1,
     typhon_quotas:set/1,
-    put_down/3,                 % Id, Status, Goals: noted in the journal
+    put_down/3,                 % Id, Status, Goals: to be noted
+    state_ends/2,               % Id, Module: is about to be destroyed
     carries/2.                  % Id, Extras: the agent, which carries Extras,
                                 % see typhon_life, is in this process now
 
@@ -103,7 +105,7 @@ stays_on(Id, Host) :-
 
 agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     assertz(stands(Id, Host, Module, Hash, Life, 0)),
-    noted(Id, Status, Goals),
+    agent_note(Id, Status, Goals),
     assertz(status(Id, Status, Goals)),
     stay_begins(Id, Host, Module, Hash),
     carried(Id, Life).
@@ -113,14 +115,6 @@ carried(Id, Life) :-
     (   Extras == []
     ->  true
     ;   forall(carries(Id, Extras), true)
-    ).
-
-%   Before others can see it.
-
-noted(Id, Status, Goals) :-
-    (   durable_on
-    ->  put_down(Id, Status, Goals)
-    ;   true
     ).
 
 agent_remove(Id, Mail, Orders) :-
@@ -133,6 +127,13 @@ agent_remove(Id, Mail, Orders) :-
     ),
     mail_all(Id, Mail),
     agent_unorder_all(Id, Orders),
+    state_destroy(Id, Module).
+
+state_destroy(Id, Module) :-
+    (   durable_on
+    ->  forall(state_ends(Id, Module), true)
+    ;   true
+    ),
     '$destroy_module'(Module).
 
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
@@ -155,7 +156,7 @@ agent_move(Id, Host, Module, Life, Until) :-
     stay_begins(Id, Host, Module, Hash),
     (   Old == Module
     ->  true
-    ;   '$destroy_module'(Old)
+    ;   state_destroy(Id, Old)
     ).
 
                 /*******************************
@@ -171,18 +172,25 @@ agent_status(Id, running, []) :-
     \+ status(Id, _, _).
 
 %!  agent_put(+Id, +Status, +Goals) is det.
-
+%!  agent_note(+Id, +Status, +Goals) is det.
 %
-%   With a journal this is where what has led to it is sealed.
+%   This is the status of Id from now on.  Before others can see it, it is noted
+%   in the unit of work, which ends here; the second only notes it.
 
 agent_put(Id, Status, Goals) :-
     (   durable_on
-    ->  put_down(Id, Status, Goals),
+    ->  forall(put_down(Id, Status, Goals), true),
         enqueue_changes
     ;   true
     ),
     retractall(status(Id, _, _)),
     assertz(status(Id, Status, Goals)).
+
+agent_note(Id, Status, Goals) :-
+    (   durable_on
+    ->  forall(put_down(Id, Status, Goals), true)
+    ;   true
+    ).
 
 %!  agent_rest(+Id, +Status, +Goals) is det.
 %
@@ -267,7 +275,7 @@ agent_program(Id, Hash, Module, Life) :-
     !,
     assertz(stands(Id, Host, Module, Hash, Life, 0)),
     forget_first(Id),
-    '$destroy_module'(Old).
+    state_destroy(Id, Old).
 
 %   Others always find one.  Not by clause reference: see typhon_erased.
 

@@ -68,6 +68,7 @@ inside the mutex that guards its owner.
     commit_error/1,             % Error: of the last commit
     back_end_error/2,           % Why, Formal: `closed`, `key`
     committed/1,                % Items: they may be sent, in this order
+    dropped/1,                  % Changes: their unit of work has failed
     reached/1.                  % Name: of crash_point/1
 
 :- dynamic
@@ -85,6 +86,7 @@ inside the mutex that guards its owner.
     commit_error/1,
     back_end_error/2,
     committed/1,
+    dropped/1,
     reached/1.
 
 :- meta_predicate unit_of_work(0).
@@ -326,7 +328,14 @@ unit_of_work(Goal) :-
     ;   setup_call_cleanup(nb_setval(typhon_durable_unit, true),
                            ( once(Goal), enqueue_changes ),
                            ( nb_setval(typhon_durable_unit, false),
-                             retractall(pending(_)) ))
+                             drop_changes ))
+    ).
+
+drop_changes :-
+    (   pending(_)
+    ->  findall(Change, retract(pending(Change)), Changes),
+        forall(dropped(Changes), true)
+    ;   true
     ).
 
 %!  enqueue_changes is det.

@@ -13,9 +13,8 @@
                 host_option/2, host_resolve/2, host_time/2, quota_spend/3,
                 real_time/3, schedule/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_name/3, agent_put/3,
-                agent_put_down/3, agent_ready/2, agent_rest/3, agent_status/3,
-                agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
+              [ agent/5, agent_name/3, agent_note/3, agent_put/3,
+                agent_ready/2, agent_rest/3, agent_status/3, agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
                 with_agent/2 ]).
 :- use_module('../travel',
               [hop/6, hop_clone/6, move_failed/2, move_over/2]).
@@ -111,7 +110,7 @@ effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
 
 noted_with(CloneId, Hole-Goals-Who, Id) :-
     \+ \+ ( Hole = (Who=parent(CloneId)),
-            agent_put_down(Id, ready, Goals) ).
+            agent_note(Id, ready, Goals) ).
 
 %   Goals that wait are kept in clauses, where variables have no attributes.
 

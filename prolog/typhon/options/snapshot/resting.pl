@@ -3,11 +3,11 @@
             agents_go_on/1              % +Agents
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../host', [schedule/2]).
-:- use_module('../agent',
+:- use_module('../../kernel/host', [schedule/2]).
+:- use_module('../../kernel/agent',
               [ agent/5, agent_order/2, agent_ordered/1, agent_status/3,
                 agents_passed/0, with_agent/2 ]).
-:- use_module('../travel', [news_carried/1, post_tried/0]).
+:- use_module('../../kernel/travel', [news_carried/1, post_tried/0]).
 
 /** <module> All agents of a process come to rest
 

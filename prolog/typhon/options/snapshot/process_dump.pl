@@ -6,17 +6,16 @@
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_subtract/3]).
-:- use_module('../base/durable', [durable_dump/4, durable_restore/4]).
-:- use_module('../program', [code_receive/2, code_sent/2]).
-:- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [host/3, host_again/1, schedule/2, time_repeats/2]).
-:- use_module('../agent',
+:- use_module('../../kernel/base/durable', [durable_dump/4, durable_restore/4]).
+:- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
+:- use_module('../../kernel/wire', [mobile_term/1]).
+:- use_module('../../kernel/host', [host/3, host_again/1, schedule/2, time_repeats/2]).
+:- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_home/2, agent_module/5,
                 agent_order/2, agent_orders/2, agent_state/2, agent_status/3,
                 mail_list/2, with_agent/2 ]).
-:- use_module('../travel', [retries_go_on/0]).
-:- use_module(on_hold, [held_parts/3]).
-:- use_module(recovery, [agent_goes_on/1]).
+:- use_module('../../kernel/travel', [retries_go_on/0]).
+:- use_module('../../kernel/lifecycle', [agent_reschedule/1, held_parts/3]).
 
 /** <module> All that a process knows, at a moment
 
@@ -197,9 +196,10 @@ unasked(Order, Order).
 %   Agents go on.  Where what happens repeats itself, the runtime knows the
 %   alarms, and some agents are Scheduled.
 
-cut_go_on(Kind, Agents, Scheduled0) :-
-    time_repeats(Kind, _),
-    !,
+cut_go_on(real, Agents, _) :-
+    forall(member(Id, Agents), agent_reschedule(Id)),
+    retries_go_on.
+cut_go_on(virtual, Agents, Scheduled0) :-
     findall(Id, ( member(Id, Agents), agent_status(Id, ready, _) ), Ready0),
     sort(Ready0, Ready),
     sort(Scheduled0, Scheduled),
@@ -207,5 +207,5 @@ cut_go_on(Kind, Agents, Scheduled0) :-
     forall(( member(Id, Others), agent(Id, Host, _, _, _) ),
            schedule(Host, Id)).
 cut_go_on(_, Agents, _) :-
-    forall(member(Id, Agents), agent_goes_on(Id)),
+    forall(member(Id, Agents), agent_reschedule(Id)),
     retries_go_on.

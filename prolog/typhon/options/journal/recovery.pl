@@ -1,17 +1,14 @@
-:- module(typhon_recovery,
-          [ agent_goes_on/1             % +Id
-          ]).
+:- module(typhon_recovery, []).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/durable', [durable_restore/4]).
-:- use_module('../base/error_text', [print_error/2]).
-:- use_module('../base/durable_changes',
+:- use_module('../../kernel/base/durable', [durable_restore/4]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/durable_changes',
               [durable_drop_all/2, durable_item/5]).
-:- use_module('../host',
-              [alarm_set/3, host/3, host_again/1, real_time/3, schedule/2]).
-:- use_module('../agent',
-              [ agent/5, agent_back/3, agent_status/3, agent_wakes/2,
-                mail_count/2, mail_restore/3, with_agent/2 ]).
+:- use_module('../../kernel/host', [host/3, host_again/1]).
+:- use_module('../../kernel/agent', [agent/5, agent_status/3, mail_restore/3]).
+:- use_module('../../kernel/lifecycle', [agent_reschedule/1]).
+:- use_module(journaled_agents, [agent_back/3, states_unused/1]).
 
 /** <module> What the journal knows stands again
 
@@ -51,6 +48,7 @@ kind(given_up, any).
 kind(done, numbers).
 kind(seen, any).
 kind(out, numbers).
+kind(state, numbers).
 kind(agent, any).
 kind(mail, numbers).
 kind(wait, numbers).
@@ -118,7 +116,9 @@ typhon_durable:restore(code, Hash, _, _) :-
 %   Before any request can need it.
 
 typhon_durable:tidy :-
-    forall(retract(superfluous(Kind, Key)), durable_drop_all(Kind, Key)).
+    forall(retract(superfluous(Kind, Key)), durable_drop_all(Kind, Key)),
+    states_unused(Ids),
+    forall(( member(Id, Ids), \+ left(Id, _) ), durable_drop_all(state, Id)).
 
                 /*******************************
                 *            GO ON             *
@@ -126,53 +126,4 @@ typhon_durable:tidy :-
 
 typhon_durable:go_on :-
     findall(Id, agent_status(Id, _, _), All),
-    forall(member(Id, All), agent_goes_on(Id)).
-
-%!  agent_goes_on(+Id) is det.
-%
-%   Id, which has been put where it was, is scheduled if it was about to run,
-%   and woken when its time has come.  Others are let in already, and what they
-%   send may have woken it: an agent that runs by now must not be run by two.
-
-agent_goes_on(Id) :-
-    (   with_agent(Id, ( agent_status(Id, Status, Goals),
-                         goes_on(Status, Goals, Id) ))
-    ->  true
-    ;   true
-    ),
-    (   agent_status(Id, Now, _),
-        alarm(Now, Stamp, Token),
-        agent(Id, Host, _, _, _)
-    ->  rings(Host, Stamp, Id, Token)
-    ;   true
-    ).
-
-goes_on(ready, _, Id) :-
-    agent(Id, Host, _, _, _),
-    !,
-    schedule(Host, Id).
-goes_on(obeying, Goals, Id) :-
-    agent_wakes(Id, Goals).
-goes_on(faulty(_), Goals, Id) :-
-    agent_wakes(Id, Goals).
-goes_on(resident, Goals, Id) :-
-    has_mail(Id, Goals).
-goes_on(waiting(_, _), Goals, Id) :-
-    has_mail(Id, Goals).
-
-%   It runs, and sees for itself.
-
-has_mail(Id, Goals) :-
-    mail_count(Id, Count),
-    Count > 0,
-    agent_wakes(Id, Goals).
-
-alarm(waiting(_, Until), Until, until(Until)) :-
-    number(Until).
-alarm(sleeping(Until), Until, until(Until)).
-alarm(leaving(_, At), At, leave).
-
-rings(Host, Until, Id, Token) :-
-    real_time(Host, Until, Stamp),
-    alarm_set(Stamp, Id, Token).
-
+    forall(member(Id, All), agent_reschedule(Id)).

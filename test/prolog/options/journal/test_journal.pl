@@ -275,10 +275,10 @@ test('a program is noted whatever becomes of who has brought it') :-
         ( keeper(P),
           agent_create(P, First, []),
           typhon_agents:agent(First, _, _, Hash, _),
-          retractall(typhon_agent_in_journal:code_noted(Hash)),
+          retractall(typhon_journaled_agents:code_noted(Hash)),
           typhon_durable_changes:durable_drop(code, Hash, 0),
           \+ typhon_durable_changes:unit_of_work(
-                 ( typhon_agent_in_journal:note_code(Hash), fail )),
+                 ( typhon_journaled_agents:note_code(Hash), fail )),
           agent_create(P, Id, []),
           nb_setval(journal_test, Id) ),
         ( nb_getval(journal_test, Id),
@@ -459,5 +459,88 @@ visitor(clauses([ (:- agent(visitor, [state([to/1,there/1])])),
                       thread_self(Me),
                       thread_get_message(Me, never)),
                   visit ])).
+
+%   A large state is noted by what changes in it.  The process is killed while
+%   the agent changes it; a model that makes the same changes is equal then,
+%   clauses in their order.
+
+test('a large state that changes is what it was after any kill',
+     [forall(member(Messages, [40, 400, 1500]))]) :-
+    with_tmp_dir(changing(Messages)).
+
+changing(Messages, Dir) :-
+    free_port(Port),
+    b_setval(journal_port, Port),
+    format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
+    Begun is Messages//2,
+    setup_call_cleanup(
+        host_start(driver),
+        killed(Dir,
+            ( changer(Program, Facts),
+              agent_create(Program, A, [host(Host), facts(Facts)]),
+              forall(between(1, Messages, I), agent_send(A, I)),
+              wait_until(( changes_done(A, Done), Done >= Begun ), 30) ),
+            ( agent_send(A, last),
+              wait_until(( agent_property(A, state(resident)),
+                           agent_property(A, mailbox([])) ), 30),
+              agent_property(A, facts(Clauses)),
+              changes_done(A, N),
+              model(N, Model),
+              by_predicate(Clauses, Model) )),
+        host_stop(driver)).
+
+changes_done(A, N) :-
+    agent_property(A, facts(Facts)),
+    memberchk(done(N), Facts).
+
+changer(clauses([ (:- agent(changes, [state([done/1,item/2,rule/1,other/1])])),
+                  (on_message(_, _) :- retract(done(N0)), N is N0+1,
+                                       assertz(done(N)), K is N mod 9,
+                                       change(K, N))
+                | Changes ]), [done(0)|Items]) :-
+    findall(Change, change(Change), Changes),
+    findall(item(I, first), between(1, 300, I), Items).
+
+change((change(0, N) :- assertz(item(N, x)))).
+change((change(1, N) :- asserta(item(N, y)))).
+change((change(2, _) :- (retract(item(_, x)) -> true ; true))).
+change((change(3, N) :- K is N mod 11,
+                        assertz((rule(K) :- item(K, _), \+ item(_, K))))).
+change((change(4, _) :- (retract((rule(_) :- _)) -> true ; true))).
+change((change(5, N) :- K is N mod 300, retractall(item(K, _)))).
+change((change(6, N) :- abolish(other/1), assertz(other(N)), assertz(other(N)))).
+change((change(7, N) :- (clause(item(_, first), true, R) -> erase(R) ; true),
+                        assertz(item(N, x)), assertz(item(1, x)))).
+change((change(8, N) :- catch(snapshot(assertz(item(N, no))), _, true))).
+
+model(N, Clauses) :-
+    gensym(test_model_, Module),
+    set_module(Module:class(temporary)),
+    changer(clauses([_, _|Changes]), Facts),
+    dynamic([Module:item/2, Module:rule/1, Module:other/1]),
+    forall(( member(Clause, Changes) ; member(Clause, Facts) ),
+           assertz(Module:Clause)),
+    forall(( between(1, N, I), K is I mod 9 ), Module:change(K, I)),
+    retractall(Module:done(_)),
+    assertz(Module:done(N)),
+    findall(Clause,
+            ( member(Head, [done(_), item(_, _), rule(_), other(_)]),
+              clause(Module:Head, Body),
+              ( Body == true -> Clause = Head ; Clause = (Head:-Body) ) ),
+            Clauses),
+    '$destroy_module'(Module).
+
+by_predicate(Clauses, Model) :-
+    forall(member(Name, [done, item, rule, other]),
+           ( of(Name, Clauses, Some),
+             of(Name, Model, Others),
+             Some =@= Others )).
+
+of(Name, Clauses, Some) :-
+    findall(Clause,
+            ( member(Clause, Clauses),
+              ( Clause = (Head:-_) -> true ; Head = Clause ),
+              functor(Head, Name, _) ),
+            Some).
 
 :- end_tests(journal).

@@ -1,0 +1,300 @@
+:- module(typhon_journaled_agents,
+          [ agent_back/3,               % +Id, +Record, +Place
+            states_unused/1             % -Ids
+          ]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/base/durable_changes',
+              [ durable_bytes/2, durable_change/1, durable_drop_all/2,
+                durable_drop_at_once/3, durable_item/5, durable_on/0,
+                durable_put_at_once/4, durable_putting/5, enqueue_changes/0,
+                unit_of_work/1 ]).
+:- use_module('../../kernel/base/unit_of_work',
+              [ unit_commit/0, unit_has_effects/0, unit_release/0,
+                unit_run/1 ]).
+:- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
+:- use_module('../../kernel/agent',
+              [ agent/5, agent_enter/3, agent_module/5, agent_note/3,
+                agent_state/2, in_words/2 ]).
+:- use_module(state_log,
+              [ state_log_begin/1, state_log_changes/2, state_log_end/1,
+                state_replayed/3 ]).
+
+/** <module> Agents in the journal
+
+The item of an agent is
+
+    agent(Host, Hash, Life, State, Status, Goals)
+
+where Status is one at which it rests, or under way.  Its program is an item
+once for all its agents.
+
+A small state is a part of this item.  In place of a large one there is `log`,
+and the items state(Id, N): the state for N=0, and lists of changes of it, see
+typhon_state_log, for N=1, 2 and so on.  When the changes have become as long
+as the state, the state as it is replaces them all.
+
+A turn is one unit of work: what the agent has done is noted together with
+what it is to do next, and released after that.  As soon as the agent rests
+another worker may run it, and what it says then must not overtake what it
+said before.
+
+*Threading*: inside with_agent/2 of the agent, or in the worker that has it.
+*/
+
+:- multifile
+    typhon_agents:put_down/3,
+    typhon_agents:state_ends/2,
+    typhon_code:retiring/1,
+    typhon_durable:restore/4,
+    typhon_durable_changes:dropped/1,
+    typhon_runtime:ending/1,
+    typhon_turn:settle/0,
+    typhon_turn:unit/2.
+
+:- dynamic
+    code_noted/1,               % Hash
+    logged/5,                   % Id, Module, N: number of the next changes,
+                                % Bytes of the state, and of the changes; the
+                                % module is `none` if the state is to be
+                                % noted anew
+    stored/3.                   % Id, N, Item: of the state of an agent that is
+                                % not restored yet
+
+%   Cells of the smallest state with a log: some 4 kB in the journal.
+
+large(2000).
+
+%   Changes of a state are kept until they are longer than the state, or this.
+
+most_changes(65536).
+
+                /*******************************
+                *             TURNS            *
+                *******************************/
+
+typhon_turn:unit(typhon_journaled_agents:run,
+                 typhon_journaled_agents:conclude) :-
+    durable_on.
+
+typhon_turn:settle :-
+    unit_commit,
+    unit_release.
+
+:- public run/1, conclude/4.
+
+run(Goal) :-
+    unit_run(Goal).
+
+conclude(Id, Outcome, Conclude, Next) :-
+    unit_of_work(( turn_ends(Outcome, Id),
+                   call(Conclude),
+                   noted(Next, Id) )),
+    unit_release.
+
+turn_ends(effect(Control, Hole, Goals), Id) :-
+    !,
+    \+ \+ ( Hole = Control,
+            before_it_rests(Id, Goals) ).
+turn_ends(done, Id) :-
+    !,
+    before_it_rests(Id, []).
+turn_ends(_, _) :-
+    unit_commit.
+
+before_it_rests(Id, Goals) :-
+    (   unit_has_effects
+    ->  unit_commit,
+        agent_note(Id, ready, Goals),
+        enqueue_changes,
+        unit_release
+    ;   true
+    ).
+
+noted(stop, _).
+noted(go(Goals), Id) :-
+    agent_note(Id, ready, Goals).
+noted(elsewhere(Goals), Id) :-
+    agent_note(Id, ready, Goals).
+
+                /*******************************
+                *            RECORDS           *
+                *******************************/
+
+%   An agent that is held is in the journal as it was before.
+
+typhon_agents:put_down(Id, Status, Goals) :-
+    \+ passing(Status),
+    agent(Id, Host, Module, Hash, Life),
+    !,
+    note_code(Hash),
+    note_state(Id, Module, State),
+    note_item(Id, agent, 0, agent(Host, Hash, Life, State, Status, Goals), _).
+
+passing(held).
+passing(resumed).
+passing(arriving).
+
+%   note_state(+Id, +Module, -State): State is what the item of the agent has of
+%   it.
+
+note_state(Id, Module, State) :-
+    logged(Id, Module, N, Whole, Bytes),
+    state_log_changes(Module, Changes),
+    !,
+    State = log,
+    note_changes(Changes, Id, Module, N, Whole, Bytes).
+note_state(Id, Module, State) :-
+    agent_state(Module, State0),
+    term_size(State0, Cells),
+    large(Most),
+    (   Cells > Most
+    ->  State = log,
+        note_whole(Id, Module, State0)
+    ;   State = State0,
+        unlog(Id)
+    ).
+
+note_changes([], _, _, _, _, _) :-
+    !.
+note_changes(Changes, Id, Module, N, Whole, Bytes0) :-
+    note_item(Id, state, N, Changes, Count),
+    Bytes is Bytes0+Count,
+    most_changes(Most),
+    (   Bytes > max(Whole, Most)
+    ->  agent_state(Module, State),
+        note_whole(Id, Module, State)
+    ;   N1 is N+1,
+        put_logged(Id, Module, N1, Whole, Bytes)
+    ).
+
+note_whole(Id, Module, State) :-
+    state_log_begin(Module),
+    durable_drop_all(state, Id),
+    note_item(Id, state, 0, State, Count),
+    put_logged(Id, Module, 1, Count, 0).
+
+put_logged(Id, Module, N, Whole, Bytes) :-
+    retractall(logged(Id, _, _, _, _)),
+    assertz(logged(Id, Module, N, Whole, Bytes)).
+
+unlog(Id) :-
+    (   retract(logged(Id, Module, _, _, _))
+    ->  durable_drop_all(state, Id),
+        state_log_end(Module)
+    ;   true
+    ).
+
+%   What cannot be written is noted as text.
+
+note_item(Id, Kind, N, Term, Count) :-
+    catch(durable_putting(Kind, Id, N, Term, Change), error(_, _), fail),
+    !,
+    durable_bytes(Change, Count),
+    durable_change(Change).
+note_item(Id, Kind, N, Term0, Count) :-
+    in_words(Term0, Term),
+    print_message(warning, typhon(journal_in_words(Id))),
+    durable_putting(Kind, Id, N, Term, Change),
+    durable_bytes(Change, Count),
+    durable_change(Change).
+
+%   The module is about to be destroyed: the agent is no more, or has another.
+
+typhon_agents:state_ends(Id, Module) :-
+    retract(logged(Id, Module, _, _, _)),
+    !,
+    state_log_end(Module),
+    (   agent(Id, _, _, _, _)
+    ->  put_logged(Id, none, 0, 0, 0)
+    ;   durable_drop_all(state, Id)
+    ).
+
+%   Changes that were taken from a log and are not noted: the state is noted
+%   anew with the next item of the agent.
+
+typhon_durable_changes:dropped(Changes) :-
+    forall(member(put(state, Id, _, _), Changes),
+           put_logged(Id, none, 0, 0, 0)).
+
+typhon_runtime:ending(after) :-
+    forall(retract(logged(_, Module, _, _, _)), state_log_end(Module)),
+    retractall(stored(_, _, _)).
+
+                /*******************************
+                *           PROGRAMS           *
+                *******************************/
+
+%   Others see at once that it is noted: so it is, also where the unit of work
+%   that brings it is not, or is committed after theirs.
+
+note_code(Hash) :-
+    code_noted(Hash),
+    !.
+note_code(Hash) :-
+    code_sent(Hash, Sent),
+    with_mutex(typhon_code_noted,
+               (   code_noted(Hash)
+               ->  true
+               ;   durable_put_at_once(code, Hash, 0, Sent),
+                   assertz(code_noted(Hash))
+               )).
+
+%   A program that has been thrown out is not needed any more.
+
+typhon_code:retiring(Hash) :-
+    code_noted(Hash),
+    with_mutex(typhon_code_noted,
+               ( retract(code_noted(Hash)),
+                 durable_drop_at_once(code, Hash, 0) )),
+    fail.
+
+                /*******************************
+                *           RESTORE            *
+                *******************************/
+
+%!  agent_back(+Id, +Record, +Place) is semidet.
+%
+%   Id is what Record says, on its host, the place of which is Place.  It is
+%   not scheduled.  Fails if its program is not to be had.
+%
+%   @error what agent_module/5 and state_replayed/3 raise
+
+agent_back(Id, agent(Host, Hash, Life, Noted, Status, Goals), Place) :-
+    code_back(Hash),
+    state_back(Noted, Id, State),
+    agent_module(Id, Place, Hash, State, Module),
+    agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals).
+
+code_back(Hash) :-
+    code_noted(Hash),
+    !.
+code_back(Hash) :-
+    durable_item(code, any, Hash, _, Sent),
+    code_receive(Hash, Sent),
+    assertz(code_noted(Hash)),
+    !.
+
+typhon_durable:restore(state, Id, N, Item) :-
+    assertz(stored(Id, N, Item)).
+
+%   The items come in the order of their numbers.
+
+state_back(log, Id, State) =>
+    findall(Changes, ( stored(Id, N, Changes), N > 0 ), All),
+    stored(Id, 0, Whole),
+    !,
+    state_replayed(Whole, All, State),
+    retractall(stored(Id, _, _)),
+    put_logged(Id, none, 0, 0, 0).
+state_back(State0, _, State) =>
+    State = State0.
+
+%!  states_unused(-Ids:list) is det.
+%
+%   The journal has states of agents that it does not need, or that were not
+%   restored.
+
+states_unused(Ids) :-
+    findall(Id, stored(Id, _, _), All),
+    sort(All, Ids),
+    retractall(stored(_, _, _)).

@@ -1,0 +1,374 @@
+:- module(typhon_state_log,
+          [ state_log_begin/1,          % +Module
+            state_log_changes/2,        % +Module, -Changes
+            state_log_end/1,            % +Module
+            state_replayed/3            % +State, +Changes, -Latest
+          ]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(gensym), [gensym/2]).
+:- use_module(library(lists), [max_list/2, member/2]).
+:- use_module(library(solution_sequences), [offset/2]).
+:- use_module('../../kernel/agent', [agent_add/2, agent_state/2]).
+
+/** <module> What has changed in the state of an agent
+
+The state of an agent is its dynamic predicates, see typhon_agent_module.  The
+log of a module says what its program has changed since it was asked last, a
+list of
+
+  - edit(Erased, First, Last): clauses of a predicate were erased, others were
+    put before the rest, in this order, and after it.  Erased has K-Clause: of
+    the clauses that were there before and are variants of Clause, the one
+    after K others, when those before in Erased are gone.
+  - set(Name/Arity, Clauses): the predicate is dynamic, and has these clauses
+  - gone(Name/Arity): it is not dynamic any more
+
+so that what a change costs does not depend on the size of the state.
+
+The clauses of a predicate that is listened to, see prolog_listen/2, are
+reported as they are added and erased.  A predicate is not listened to before
+it is first seen here, and no more after abolish/1, which clears the flag by
+which this is known.  Clauses are counted, too: after a report was lost, as when
+a signal came in between, and after transactions that were rolled back, the
+change is the predicate as it is.
+
+The log is a temporary module of its own, with
+
+  - counted(Name, Arity, Count, Uncounted): there were so many clauses at the last
+    look, and so many changes since they were counted
+  - added(Ref, Name, Arity, End): since then, at the `first` or `last` end
+  - erased(Name, Arity, K, Clause), in this order
+  - unsure(Name, Arity)
+  - looked(Generation): of the newest change at the last look
+
+Thread-local predicates are noted as they are each time.  Versions 9 and 10 of
+SWI-Prolog crash when they are listened to and their module is destroyed.
+
+*Threading*: the thread to which the agent belongs.
+*/
+
+%!  state_log_begin(+Module) is det.
+%!  state_log_end(+Module) is det.
+%
+%   What changes from now on is logged, in addition to the state as it is now; it
+%   is not logged any more.
+
+state_log_begin(Module) :-
+    log_of(Module, Log),
+    forget_all(Log),
+    declare(Log),
+    findall(Last,
+            ( predicate(Module, Head, Last),
+              listened(Head, Module, Log) ),
+            Generations),
+    max_list([0|Generations], Until),
+    assertz(Log:looked(Until)).
+
+listened(Head, Module, Log) :-
+    functor(Head, Name, Arity),
+    hear(Head, Module, Log),
+    count(Head, Module, Count),
+    assertz(Log:counted(Name, Arity, Count, 0)).
+
+state_log_end(Module) :-
+    log_of(Module, Log),
+    (   current_module(Log)
+    ->  forall(Log:counted(Name, Arity, _, _),
+               unheard(Module, Log, Name, Arity)),
+        '$destroy_module'(Log)
+    ;   true
+    ).
+
+log_of(Module, Log) :-
+    atom_concat(Module, ' log', Log).
+
+forget_all(Log) :-
+    (   current_module(Log)
+    ->  '$destroy_module'(Log)
+    ;   true
+    ).
+
+declare(Log) :-
+    set_module(Log:class(temporary)),
+    dynamic([ Log:counted/4, Log:added/4, Log:erased/4, Log:unsure/2,
+              Log:looked/1 ]).
+
+%   Counting takes as long as there are clauses, so that many changes share it.
+
+uncounted(Count, Most) :-
+    Most is Count//8.
+
+                /*******************************
+                *            LISTENING         *
+                *******************************/
+
+%   The flag `clausable` means nothing for dynamic predicates, and is cleared
+%   together with the listeners.
+
+heard(Head, Module) :-
+    '$get_predicate_attribute'(Module:Head, clausable, 1).
+
+hear(Head, Module, _) :-
+    heard(Head, Module),
+    !.
+hear(Head, Module, _) :-
+    '$get_predicate_attribute'(Module:Head, (thread_local), 1),
+    !.
+hear(Head, Module, Log) :-
+    functor(Head, Name, Arity),
+    '$set_predicate_attribute'(Module:Head, clausable, true),
+    prolog_listen(Module:Name/Arity,
+                  typhon_state_log:changed(Module, Log, Name, Arity)).
+
+unheard(Module, Log, Name, Arity) :-
+    functor(Head, Name, Arity),
+    (   current_module(Module),
+        heard(Head, Module)
+    ->  prolog_unlisten(Module:Name/Arity,
+                        typhon_state_log:changed(Module, Log, Name, Arity)),
+        '$set_predicate_attribute'(Module:Head, clausable, false)
+    ;   true
+    ).
+
+:- public changed/6.
+
+%   changed(+Module, +Log, +Name, +Arity, +Action, +Context): before a clause is
+%   erased, and after it was added.
+
+changed(Module, Log, Name, Arity, Action, Context) :-
+    sig_atomic(report(Action, Context, Name, Arity, Module, Log)).
+
+report(assertz, Ref, Name, Arity, _, Log) =>
+    assertz(Log:added(Ref, Name, Arity, last)).
+report(asserta, Ref, Name, Arity, _, Log) =>
+    assertz(Log:added(Ref, Name, Arity, first)).
+report(retract, Ref, _, _, _, Log), retract(Log:added(Ref, _, _, _)) =>
+    true.
+report(retract, Ref, Name, Arity, Module, Log) =>
+    clause_at(Ref, Module, Clause),
+    (   ordinal(Clause, Ref, Module, Log, K)
+    ->  assertz(Log:erased(Name, Arity, K, Clause))
+    ;   assertz(Log:unsure(Name, Arity))
+    ).
+report(rollback(_), _, Name, Arity, _, Log) =>
+    assertz(Log:unsure(Name, Arity)).
+report(_, _, _, _, _, _) =>             % retractall/1 begins, ends
+    true.
+
+%   ordinal(+Clause, +Ref, +Module, +Log, -K): before Ref there are K other
+%   variants of Clause that were there at the last look.
+
+ordinal(Clause, Ref, Module, Log, K) :-
+    Count = count(0),
+    variant_at(Clause, Module, Other),
+    (   Other == Ref
+    ->  !,
+        arg(1, Count, K)
+    ;   \+ Log:added(Other, _, _, _),
+        arg(1, Count, K0),
+        K1 is K0+1,
+        nb_setarg(1, Count, K1),
+        fail
+    ).
+
+%   variant_at(+Clause, +Module, -Ref) is nondet: Ref is a variant of Clause, in
+%   the order of the clauses.
+
+variant_at(Clause, Module, Ref) :-
+    copy_term(Clause, Copy),
+    clause_parts(Copy, Head, Body),
+    clause(Module:Head, Body, Ref),
+    clause_at(Ref, Module, Found),
+    Found =@= Clause.
+
+clause_at(Ref, Module, Clause) :-
+    clause(Module:Head, Body, Ref),
+    clause_term(Head, Body, Clause).
+
+%   A fact is its head.
+
+clause_term(Head, true, Clause) =>
+    Clause = Head.
+clause_term(Head, Body, Clause) =>
+    Clause = (Head:-Body).
+
+clause_parts((Head0:-Body0), Head, Body) =>
+    Head = Head0,
+    Body = Body0.
+clause_parts(Fact, Head, Body) =>
+    Head = Fact,
+    Body = true.
+
+                /*******************************
+                *            CHANGES           *
+                *******************************/
+
+%!  state_log_changes(+Module, -Changes:list) is semidet.
+%
+%   Changes of the state since the last look.  Fails if there is no log.
+
+state_log_changes(Module, Changes) :-
+    log_of(Module, Log),
+    current_module(Log),
+    looked_through(Module, Log, Changes).
+
+looked_through(Module, Log, Changes) :-
+    retract(Log:looked(Since)),
+    findall(Change, gone(Module, Log, Change), Gone),
+    findall(Head-Last, changed_since(Since, Module, Head, Last), Heads),
+    changes(Heads, Module, Log, Since, Until, Gone, Changes),
+    assertz(Log:looked(Until)).
+
+gone(Module, Log, gone(Name/Arity)) :-
+    Log:counted(Name, Arity, _, _),
+    functor(Head, Name, Arity),
+    \+ '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    forget(Log, Name, Arity),
+    retractall(Log:counted(Name, Arity, _, _)).
+
+forget(Log, Name, Arity) :-
+    retractall(Log:added(_, Name, Arity, _)),
+    retractall(Log:erased(Name, Arity, _, _)),
+    retractall(Log:unsure(Name, Arity)).
+
+%   changed_since(+Since, +Module, -Head, -Last) is nondet: a predicate that is
+%   not listened to may have changed.
+
+changed_since(Since, Module, Head, Last) :-
+    predicate(Module, Head, Last),
+    (   Last > Since
+    ->  true
+    ;   \+ heard(Head, Module)
+    ).
+
+%   predicate(+Module, -Head, -Last) is nondet: a predicate of the state, and the
+%   generation of its last change.
+
+predicate(Module, Head, Last) :-
+    '$c_current_predicate'(_, Module:Head),
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _),
+    (   '$get_predicate_attribute'(Module:Head, last_modified_generation,
+                                   Last0)
+    ->  Last = Last0
+    ;   Last = 0
+    ).
+
+changes([], _, _, Until, Until, Changes, Changes).
+changes([Head-Last|Heads], Module, Log, Until0, Until, Changes0, Changes) :-
+    Until1 is max(Last, Until0),
+    (   change(Head, Module, Log, Change)
+    ->  Changes1 = [Change|Changes0]
+    ;   Changes1 = Changes0
+    ),
+    changes(Heads, Module, Log, Until1, Until, Changes1, Changes).
+
+%   change(+Head, +Module, +Log, -Change) is semidet: fails if there is none.
+
+change(Head, Module, Log, Change) :-
+    functor(Head, Name, Arity),
+    (   heard(Head, Module),
+        edited(Head, Module, Log, Change0, Counted)
+    ->  Change = Change0
+    ;   set_anew(Head, Module, Log, Change, Counted)
+    ),
+    forget(Log, Name, Arity),
+    retractall(Log:counted(Name, Arity, _, _)),
+    assertz(Log:Counted),
+    Change \== edit([], [], []).
+
+count(Head, Module, Count) :-
+    (   '$get_predicate_attribute'(Module:Head, number_of_clauses, Count0)
+    ->  Count = Count0
+    ;   Count = 0
+    ).
+
+%   edited(+Head, +Module, +Log, -Edit, -Counted) is semidet: fails if a report
+%   was lost, or all the clauses are no longer than the changes.
+
+edited(Head, Module, Log, edit(Erased, First, Last),
+       counted(Name, Arity, Count, Uncounted)) :-
+    functor(Head, Name, Arity),
+    \+ Log:unsure(Name, Arity),
+    Log:counted(Name, Arity, Count0, Uncounted0),
+    findall(K-Clause, Log:erased(Name, Arity, K, Clause), Erased),
+    added(first, Name, Arity, Module, Log, First),
+    added(last, Name, Arity, Module, Log, Last),
+    length(Erased, Lost),
+    length(First, Before),
+    length(Last, After),
+    Count is Count0-Lost+Before+After,
+    Uncounted1 is Uncounted0+Lost+Before+After,
+    Lost+Before+After =< Count,
+    verified(Head, Module, Count, Uncounted1, Uncounted).
+
+verified(Head, Module, Count, Uncounted0, Uncounted) :-
+    uncounted(Count, Most),
+    (   Uncounted0 =< Most
+    ->  Uncounted = Uncounted0
+    ;   count(Head, Module, Count),
+        Uncounted = 0
+    ).
+
+added(End, Name, Arity, Module, Log, Clauses) :-
+    findall(Clause,
+            ( Log:added(Ref, Name, Arity, End),
+              clause_at(Ref, Module, Clause) ),
+            Clauses).
+
+set_anew(Head, Module, Log, set(Name/Arity, Clauses),
+         counted(Name, Arity, Count, 0)) :-
+    functor(Head, Name, Arity),
+    hear(Head, Module, Log),
+    findall(Clause,
+            ( clause(Module:Head, Body),
+              clause_term(Head, Body, Clause) ),
+            Clauses),
+    length(Clauses, Count).
+
+                /*******************************
+                *            REPLAY            *
+                *******************************/
+
+%!  state_replayed(+State, +Changes:list, -Latest) is det.
+%
+%   Latest is State after Changes, each a list as of state_log_changes/2, the
+%   oldest first.
+%
+%   @error existence_error(clause, Clause): Changes are not of State
+
+state_replayed(state(Empty, Clauses), Changes, Latest) :-
+    gensym('typhon replay ', Module),
+    setup_call_cleanup(
+        set_module(Module:class(temporary)),
+        ( dynamics(Empty, Module),
+          agent_add(Clauses, Module),
+          forall(( member(List, Changes), member(Change, List) ),
+                 replay(Change, Module)),
+          agent_state(Module, Latest) ),
+        '$destroy_module'(Module)).
+
+dynamics(PIs, Module) :-
+    forall(member(PI, PIs), dynamic(Module:PI)).
+
+replay(edit(Erased, First, Last), Module) =>
+    forall(member(K-Clause, Erased), erased(K, Clause, Module)),
+    forall(member(Clause, First), asserta(Module:Clause)),
+    agent_add(Last, Module).
+replay(set(Name/Arity, Clauses), Module) =>
+    functor(Head, Name, Arity),
+    dynamic(Module:Name/Arity),
+    retractall(Module:Head),
+    agent_add(Clauses, Module).
+replay(gone(PI), Module) =>
+    abolish(Module:PI).
+
+erased(K, Clause, Module) :-
+    (   nth_variant(K, Clause, Module, Ref)
+    ->  erase(Ref)
+    ;   existence_error(clause, Clause)
+    ).
+
+nth_variant(K, Clause, Module, Ref) :-
+    offset(K, variant_at(Clause, Module, Ref)),
+    !.

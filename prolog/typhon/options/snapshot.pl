@@ -1,0 +1,10 @@
+:- module(typhon_snapshot, []).
+
+/** <module> All that a process knows, at a moment
+
+A network is saved so.  This is the interface of the layer: higher layers
+import from here.
+*/
+
+:- reexport(snapshot/process_dump, [cut_again/2, cut_go_on/3, cut_kept/2]).
+:- reexport('snapshot/resting').
