@@ -1,6 +1,7 @@
 :- module(typhon_fast_bytes,
           [ fast_bytes_term/2           % +Bytes, -Term
           ]).
+:- use_module(library(error), [type_error/2]).
 
 /** <module> Terms from their bytes
 
@@ -13,6 +14,9 @@ and it goes on beyond the end.
 
 Where there is nothing but unbound variables it walks on.
 
+Bytes may say that a variable has attributes, such as a goal that runs when the
+variable is bound.  No such term is read.
+
 *Threading*: any thread.
 */
 
@@ -20,11 +24,17 @@ Where there is nothing but unbound variables it walks on.
 %
 %   The inverse of fast_term_serialized/2.  Never call this on the bytes of
 %   a peer that is not authenticated.
+%
+%   @error type_error(mobile_term, attributed_variable)
 
 fast_bytes_term(Bytes, Term) :-
     words(Bytes, Words),
     cleared(Words),
-    fast_term_serialized(Term, Bytes).
+    fast_term_serialized(Read, Bytes),
+    (   term_attvars(Read, [])
+    ->  Term = Read
+    ;   type_error(mobile_term, attributed_variable)
+    ).
 
 %   words(+Bytes, -Words): the term takes so many on the global stack at most.
 %   No byte makes more than one and a half; for large ones it is read from the

@@ -2,6 +2,7 @@
           [ allowed/3,                  % +Policy, +Goal, -How
             allowed_library/1,          % +Library
             own_name/1,                 % +Head
+            makes_clause/1,             % ?Head
             policy_read/1               % +Policy
           ]).
 :- use_module(library(apply), [maplist/3]).
@@ -191,6 +192,16 @@ own_name(Head) :-
         remember(General)
     ).
 
+%   makes_clause(?Head): assertz/1 takes the fact for another clause, or the
+%   reader would.
+
+makes_clause((:-_)).
+makes_clause((_:-_)).
+makes_clause((_=>_)).
+makes_clause(?=>(_, _)).
+makes_clause((_-->_)).
+makes_clause(?-(_)).
+
 remember(General) :-
     (   predicate_property(seen_own(_), number_of_clauses(Count)),
         Count > 5000
@@ -201,6 +212,7 @@ remember(General) :-
 
 is_own(Head) :-
     functor(Head, Name, _),
+    \+ makes_clause(Head),
     \+ sub_atom(Name, 0, _, _, $),
     \+ sub_atom(Name, 0, _, _, 'mobile '),
     (   \+ predicate_property(typhon_vocabulary:Head, visible)

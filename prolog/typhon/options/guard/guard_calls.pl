@@ -10,7 +10,7 @@
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/host', [context_now/2, parts/3]).
 :- use_module('../../kernel/agent', [agent_code/2]).
-:- use_module(allowed, [allowed/3, own_name/1]).
+:- use_module(allowed, [allowed/3, makes_clause/1, own_name/1]).
 :- use_module(guard_bodies,
               [ extended/3, guard/3, guard_lambda/4, guard_parts/1,
                 is_control/1, is_lambda/1, is_own/2 ]).
@@ -232,7 +232,8 @@ looked_at(_, _, Goal, _) :-
 
 unqualified(Head) :-
     callable(Head),
-    Head \= _:_.
+    Head \= _:_,
+    \+ makes_clause(Head).
 
 %   What ends a thread, or stops what is measured.
 

@@ -92,6 +92,11 @@ test(long_integer_in_a_thread, [forall(member(Codec, [text, fast]))]) :-
 
 :- end_tests(terms_travel_unchanged).
 
+hides_variable(X, X).
+hides_variable(request(1, hop, f([_,g(X)])), X).
+hides_variable(f(Text, X), X) :-
+    numlist(1, 5000, Text).
+
 :- begin_tests(what_cannot_travel_is_named).
 
 test(stream, error(type_error(mobile_term, Stream))) :-
@@ -106,6 +111,12 @@ test(clause_reference, error(type_error(mobile_term, Ref))) :-
 test(attributed_variable, error(type_error(mobile_term, _))) :-
     freeze(X, true),
     mobile_term(f(X)).
+test(attributed_variable_in_bytes, [forall(hides_variable(Term, X))]) :-
+    freeze(X, throw(woken)),
+    fast_term_serialized(Term, Bytes),
+    catch(( bytes_term(fast, Bytes, Read), term_variables(Read, [1|_]) ),
+          error(Formal, _), true),
+    assertion(Formal == type_error(mobile_term, attributed_variable)).
 test(cyclic, error(type_error(mobile_term, f(_)))) :-
     X = f(X),
     mobile_term([a, X]).

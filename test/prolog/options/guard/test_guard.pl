@@ -215,9 +215,9 @@ of_policy(permission_error(call, sandboxed, _)).
 of_policy(permission_error(_, _, _)).
 of_policy(existence_error(procedure, _)).
 
-%   below_variables(-Goal): Goal, which untrusted agents may call, is given one that
-%   they may not, below a variable.  Some libraries call what is there, whatever the
-%   specification says.
+%   below_variables(-Goal): Goal, which untrusted agents may call, is given one
+%   that they may not, below a variable.  Some libraries call what is there,
+%   whatever the specification says.
 
 below_variables(Goal) :-
     typhon_allowed:runs(_, Spec),

@@ -251,6 +251,111 @@ changed(Clauses, Name, Escaped-Name, Dir) :-
                listening(escaped(outcome(Clauses, _), Escaped), _)).
 
                 /*******************************
+                *            CLAUSES           *
+                *******************************/
+
+%   hidden(-Clause): asserted as it stands it would be a rule, not a fact.
+
+hidden((p(X) => Harm)) :- harm(Harm), X = _.
+hidden(?=>(p(_), Harm)) :- harm(Harm).
+hidden((p(_), true => Harm)) :- harm(Harm).
+hidden((p(_) --> {Harm})) :- harm(Harm).
+hidden((:- Harm)) :- harm(Harm).
+hidden(?-(Harm)) :- harm(Harm).
+
+hiding(Clause, [(main :- assertz(Clause), catch(p(1), _, true))]).
+hiding(Clause, [(main :- asserta(Clause), catch(p(1), _, true))]).
+hiding(Clause, [ (main :- c(C), assertz(C), catch(p(1), _, true)),
+                 c(Clause) ]).
+hiding(Clause, [ (main :- c(C), findall(x, assertz(C), _),
+                          catch(p(1), _, true)),
+                 c(Clause) ]).
+hiding(Clause, [ (main :- move(g), catch(p(1), _, true)), Clause ]).
+
+:- begin_tests(clauses).
+
+test(no_fact_is_a_rule, [Escaped-Through == 0-[]]) :-
+    findall(Clause-Clauses, ( hidden(Clause), hiding(Clause, Clauses) ), All),
+    with_hosts([g-[policy(guarded)], t],
+               listening(escaped(findall(Clause-Outcome,
+                                         ( member(Clause-Clauses, All),
+                                           outcome(Clauses, Outcome),
+                                           \+ refused_or_unread(Outcome) ),
+                                         Through),
+                                 Escaped), _)).
+test(no_fact_of_the_state_is_a_rule, [Escaped-Through == 0-[]]) :-
+    findall(Clause, hidden(Clause), Clauses),
+    with_hosts([g-[policy(guarded)]],
+               listening(escaped(findall(Clause,
+                                         ( member(Clause, Clauses),
+                                           comes_with(Clause) ),
+                                         Through),
+                                 Escaped), _)).
+test(rules_of_a_service_stay, R == kept) :-
+    with_tmp_dir(service_rules(R)).
+
+:- end_tests(clauses).
+
+refused_or_unread(Outcome) :-
+    is_refused(Outcome).
+refused_or_unread(raised(error(domain_error(_, _), _))).
+refused_or_unread(raised(error(type_error(_, _), _))).
+
+comes_with(Clause) :-
+    catch(( agent_create(clauses([ (:- agent(x, [])),
+                                   (main :- catch(p(1), _, true)) ]), A,
+                         [host(g), facts([Clause])]),
+            agent_join(A, _, 10) ),
+          error(_, _), fail).
+
+service_rules(R, Dir) :-
+    directory_file_path(Dir, 'place.pl', File),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, ":- service(sv/1).~n\c
+                                    :- dynamic sv/1.~n\c
+                                    sv(X) => X = kept.~n", []),
+                       close(Out)),
+    with_hosts([g-[policy(guarded), consult(File)]],
+               ( listening(outcome([(main :- sv(_), C = (sv(_) => _),
+                                             retract(C))], _), _),
+                 create([(main :- sv(X), result(X))], A, [host(g)]),
+                 agent_result(A, R, 10) )).
+
+                /*******************************
+                *       PROGRAMS OF PEERS      *
+                *******************************/
+
+:- begin_tests(programs_of_peers).
+
+%   A program that a peer sends may name any file as its library.
+
+test(no_library_is_loaded, [forall(wrapped(Program, Sent)), Escaped == 0]) :-
+    with_tmp_dir(loads_library(Program, Sent, Escaped)).
+
+:- end_tests(programs_of_peers).
+
+wrapped(Program, Program).
+wrapped(Program, Program-[]).
+wrapped(Program, signed(Program, signature)).
+wrapped(Program, signed(signed(Program-[], signature), signature)).
+
+loads_library(Program, Sent, Escaped, Dir) :-
+    directory_file_path(Dir, 'library.pl', File),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, ":- module(harm, []).~n:- ~q.~n",
+                              [flag(typhon_guard_escaped, _, 1)]),
+                       close(Out)),
+    Program = program(x, [], [File-all], [(main :- true)]),
+    typhon_programs:program_hash(Program, Hash),
+    typhon_life:make_life([], Life),
+    with_hosts([g-[policy(guarded)]],
+               escaped(typhon_gate:gate(g,
+                           from('127.0.0.1:1', Sent, papers(Sent))
+                           - entrant(x, Hash, Life, state([], []), []),
+                           =(ok), refused(policy(_))),
+                       Escaped)).
+
+                /*******************************
                 *         SHARED TERMS         *
                 *******************************/
 
