@@ -185,7 +185,6 @@ short(Text, Next, state(Next, Known0, [Text|Names]),
 :- multifile prolog:error_message//1.
 
 style('views.css').
-style('exported.css').
 style('uPlot.min.css').
 
 library('d3-dispatch.min.js').
@@ -216,6 +215,8 @@ replay_export(LogFile, File, Options) :-
 part(_, style(Text)) :-
     style(Name),
     file_text(Name, Text).
+part(_, style("html, body { margin: 0; height: 100%; \c
+               background: var(--view-bg); color: var(--view-text); }")).
 part(Replay, data(Text)) :-
     json_text(Replay, Json),
     without_tags(Json, Text).
@@ -223,11 +224,15 @@ part(_, script('text/javascript', Text)) :-
     library(Name),
     file_text(Name, Text).
 part(_, script(importmap, Text)) :-
-    modules(['exported.js'], [], Modules),
+    modules(['replay.js'], [], Modules),
     maplist(module_pair, Modules, Pairs),
     dict_pairs(Imports, _, Pairs),
     json_text(_{imports:Imports}, Text).
-part(_, script(module, "import 'typhon/exported.js';")).
+part(_, script(module,
+               "import { showReplay } from 'typhon/replay.js';\n\c
+                const text = document.getElementById('replay').textContent;\n\c
+                globalThis.typhon = showReplay(document.body, \c
+                JSON.parse(text));")).
 
 file_text(Name, Text) :-
     (   page_file([Name], File, _)

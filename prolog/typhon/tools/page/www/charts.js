@@ -3,10 +3,8 @@
 
 import { calmly, element } from './dom.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
-import { pngBlob, saveButtons } from './saving.js';
-import { byName } from './names.js';
-import { SvgPath, SvgPen } from './svg.js';
-import { timeText } from './ticks.js';
+import { pngBlob, saveButtons, SvgPath, SvgPen } from './svg.js';
+import { byName, timeText } from './names.js';
 
 const CALM = 500;
 const HIGH = 230;

@@ -1,7 +1,6 @@
 // What is chosen, seen closely: an agent with its program, or a host. Live.
 
-import { button, element, renew } from './dom.js';
-import { unpressed } from './press.js';
+import { button, element, renew, unpressed } from './dom.js';
 import { shortName } from './names.js';
 import { agentActions, hostActions } from './work.js';
 

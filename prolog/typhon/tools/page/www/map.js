@@ -6,14 +6,14 @@
 // nothing happens or the page is hidden.
 
 import { arrange, Force, LAYOUTS, recognize } from './layout.js';
-import { onTheme, Palette, paperPalette } from './palette.js';
+import { onTheme, Palette, paperPalette, legend } from './palette.js';
 import { cut, Scene } from './mapscene.js';
 import { byName, found, shortName } from './names.js';
-import { button, choice, element, fillChoice, fitCanvas, onSize } from './dom.js';
-import { pngBlob, saveButtons } from './saving.js';
-import { SvgPen } from './svg.js';
+import {
+  button, choice, element, fillChoice, fitCanvas, onSize,
+} from './dom.js';
+import { pngBlob, saveButtons, SvgPen } from './svg.js';
 import { pointers } from './camera.js';
-import { legend } from './legend.js';
 
 const CALM = 160;               // ms; up to a second where drawing is slow
 const FOUND = 200;              // of a search, marked

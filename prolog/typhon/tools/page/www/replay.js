@@ -1,11 +1,11 @@
 // A log in the views of the page, with the controls of its player below.
 
-import { button, element } from './dom.js';
+import { button, element, choice } from './dom.js';
 import { mount as mapView } from './map.js';
 import { mount as spaceView } from './spacetime.js';
 import { mount as sequenceView } from './sequence.js';
 import { mount as timeView } from './charts.js';
-import { decode, playerBar, Player } from './player.js';
+import { Store } from './store.js';
 
 const VIEWS = [['Map', mapView], ['Space–time', spaceView],
   ['Sequence', sequenceView], ['Time', timeView]];
@@ -86,4 +86,198 @@ export function mount(parent, store, app) {
     element('div', { class: 'view-bar' },
       element('label', {}, 'Open a log ', input), said), opened));
   return { open };
+}
+
+// A log in the same views: a store whose clock is a slider.
+//
+// The events are those of the file that was opened, as replay.pl has made
+// them: {snapshot, events, overlays, title}. To go back is to begin anew and
+// to apply what comes before.
+
+const SPEEDS = [0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 200, 1000];
+const CHUNK = 2000;             // events that are applied at once
+const SHOWN = 40;               // seconds in which a log is played, untold
+
+export class Player {
+  constructor(log) {
+    this.log = log;
+    this.events = known(log.events);
+    const times = this.events.map(event => event[0]);
+    this.first = times.length ? times[0] : 0;
+    this.last = times.length ? times[times.length - 1] : 0;
+    this.time = this.first;
+    this.next = 0;              // the first event that is not applied
+    this.playing = false;
+    this.listeners = new Set();
+    const span = this.last - this.first;
+    this.store = new Store({ clock: () => this.time, stamped: true,
+                             width: fitting(span) });
+    this.store.paused = true;
+    this.store.plan = allLinks(log, this.events);
+    this.setSpeed(nearest(span / SHOWN));
+    this.begin();
+  }
+
+  onTime(listener) { this.listeners.add(listener); }
+
+  begin() {
+    this.store.reset();
+    if (this.log.snapshot)
+      this.store.applySnapshot({ ...this.log.snapshot, time: this.first });
+    for (const overlay of this.log.overlays || []) this.store.overlay(overlay);
+    this.next = 0;
+  }
+
+  // Everything up to time has happened, and nothing after it.
+  seek(time) {
+    const to = Math.max(this.first, Math.min(this.last, time));
+    if (to < this.time) this.begin();
+    this.time = to;
+    this.applyUntil(to);
+    this.store.touch();
+    for (const listener of this.listeners) listener(this);
+  }
+
+  applyUntil(time) {
+    while (this.next < this.events.length && this.events[this.next][0] <= time) {
+      const from = this.next, most = Math.min(from + CHUNK, this.events.length);
+      while (this.next < most && this.events[this.next][0] <= time) this.next++;
+      this.store.applyEvents(this.events.slice(from, this.next));
+    }
+  }
+
+  // One event on, or back; of those at one time all.
+  step(by) {
+    this.pause();
+    if (by > 0 && this.next < this.events.length)
+      this.seek(this.events[this.next][0]);
+    else if (by < 0) this.seek(this.before());
+  }
+
+  before() {
+    let i = this.next - 1;
+    if (i < 0) return this.first;
+    const now = this.events[i][0];
+    while (i >= 0 && this.events[i][0] === now) i--;
+    return i >= 0 ? this.events[i][0] : this.first;
+  }
+
+  setSpeed(speed) {
+    this.speed = speed;
+    this.store.rate = speed;
+  }
+
+  play() {
+    if (this.playing) return;
+    if (this.time >= this.last) this.seek(this.first);
+    this.playing = true;
+    this.store.paused = false;
+    this.wall = performance.now();
+    this.frame = requestAnimationFrame(() => this.tick());
+    this.seek(this.time);
+  }
+
+  pause() {
+    this.playing = false;
+    this.store.paused = true;
+    cancelAnimationFrame(this.frame);
+  }
+
+  tick() {
+    const wall = performance.now();
+    const passed = Math.min(0.25, (wall - this.wall) / 1000);
+    this.wall = wall;
+    if (this.time >= this.last) this.pause();
+    this.seek(this.time + passed * this.speed);
+    if (this.playing) this.frame = requestAnimationFrame(() => this.tick());
+  }
+}
+
+// Texts of events are numbers of names, and numbers are lists of one.
+export function decode(log) {
+  const { names } = log;
+  const item = given => (Array.isArray(given) ? given[0]
+    : given === null ? null : names[given]);
+  return { ...log, events: log.events.map(([time, ...items]) =>
+    [time, ...items.map(item)]) };
+}
+
+// Events in the order of time; of who sets out it is known how long that takes
+// and when it sets out again: [..., 'left', to, seconds, room].
+function known(events) {
+  const sorted = events.map((event, i) => [event, i])
+    .sort(([a, i], [b, j]) => a[0] - b[0] || i - j).map(([event]) => [...event]);
+  const out = new Map();        // agent -> where it has set out last
+  for (const event of sorted) {
+    const [time, host, agent, kind] = event, left = out.get(agent);
+    if (kind === 'left') {
+      if (left && left.length > 5) left.push(time - left[0]);
+      out.set(agent, event);
+    } else if (kind === 'stayed') {
+      out.delete(agent);
+    } else if (kind === 'arrived' && left?.length === 5 && left[4] === host) {
+      left.push(Math.max(0, time - left[0]));
+    }
+  }
+  return sorted;
+}
+
+// The links that there are at some time: by them hosts are arranged.
+function allLinks(log, events) {
+  const links = [];
+  for (const { id, links: others } of log.snapshot?.hosts || [])
+    for (const [other] of others || []) links.push({ a: id, b: other });
+  for (const [, host, , kind, other] of events)
+    if (kind === 'link') links.push({ a: host, b: other });
+  return links;
+}
+
+const nearest = wanted => SPEEDS.reduce((a, b) =>
+  (Math.abs(Math.log(b / Math.max(wanted, 1e-3)))
+    < Math.abs(Math.log(a / Math.max(wanted, 1e-3))) ? b : a));
+
+// Some hundred stretches of history.
+const fitting = span => {
+  const rough = span / 300, power = 10 ** Math.floor(Math.log10(rough || 1));
+  return [1, 2, 5, 10].map(n => n * power).find(width => width >= rough) || 1;
+};
+
+// The controls: slider, play, speed, step. Space and arrows do the same.
+export function playerBar(parent, player) {
+  const slider = element('input', { type: 'range', min: 0, max: 1000, step: 'any',
+    value: 0, 'aria-label': 'Time',
+    oninput: () => { player.pause(); player.seek(timeAt(Number(slider.value))); } });
+  const shown = element('output', { 'aria-label': 'Time' });
+  const play = button('Play', () => toggle(), { 'aria-label': 'Play' });
+  const toggle = () => { player.playing ? player.pause() : player.play(); update(); };
+  const span = Math.max(1e-9, player.last - player.first);
+  const timeAt = value => player.first + span * value / 1000;
+  const day = player.first > 1e8;
+  const bar = element('div', { class: 'replay-bar', role: 'group',
+    'aria-label': 'Replay' },
+    button('«', () => { player.pause(); player.seek(player.first); },
+      { 'aria-label': 'To the beginning' }),
+    button('‹', () => player.step(-1), { 'aria-label': 'Step back' }),
+    play,
+    button('›', () => player.step(1), { 'aria-label': 'Step on' }),
+    button('»', () => { player.pause(); player.seek(player.last); },
+      { 'aria-label': 'To the end' }),
+    slider, shown,
+    element('label', {}, 'Speed', choice('Speed',
+      SPEEDS.map(speed => [speed, `${speed} ×`]), player.speed,
+      speed => player.setSpeed(Number(speed)))));
+
+  const update = () => {
+    slider.value = (player.time - player.first) / span * 1000;
+    const said = day ? new Date(player.time * 1000).toLocaleTimeString('en-GB')
+      : `${player.time.toFixed(span < 100 ? 2 : 1)} s`;
+    shown.textContent = said;
+    slider.setAttribute('aria-valuetext', said);
+    play.textContent = player.playing ? 'Pause' : 'Play';
+    play.setAttribute('aria-label', player.playing ? 'Pause' : 'Play');
+  };
+  player.onTime(update);
+  update();
+  parent.append(bar);
+  return bar;
 }

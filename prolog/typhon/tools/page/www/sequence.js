@@ -3,12 +3,10 @@
 import { button, calmly, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
-import { pngBlob, saveButtons } from './saving.js';
-import { byName, shortName } from './names.js';
+import { pngBlob, saveButtons, SvgPen } from './svg.js';
+import { byName, shortName, timeText } from './names.js';
 import { arrowHead } from './spacetime.js';
 import { story } from './story.js';
-import { SvgPen } from './svg.js';
-import { timeText } from './ticks.js';
 
 const CALM = 300;
 const ROW = 24;

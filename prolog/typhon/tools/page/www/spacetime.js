@@ -3,13 +3,10 @@
 
 import { button, calmly, choice, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
-import { onTheme, Palette, paperPalette } from './palette.js';
-import { pngBlob, saveButtons } from './saving.js';
-import { byName, shortName } from './names.js';
+import { onTheme, Palette, paperPalette, legend } from './palette.js';
+import { pngBlob, saveButtons, SvgPen } from './svg.js';
+import { byName, shortName, timeText, timeTicks } from './names.js';
 import { story } from './story.js';
-import { SvgPen } from './svg.js';
-import { legend } from './legend.js';
-import { timeText, timeTicks } from './ticks.js';
 
 const CALM = 250;
 const LEAST = 16;               // pixels of a row
