@@ -96,7 +96,7 @@ agent_named_here(Name, State) :-
     atom_concat(Name, '.', Start),
     agent_here(Id),
     atom_concat(Start, _, Id),
-    agent_property(Id, state(State)).
+    catch(agent_property(Id, state(State)), error(_, _), fail).
 
 agent_state_here(Id, State) :-
     agent_here(Id),

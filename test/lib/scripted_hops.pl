@@ -407,15 +407,20 @@ may_be_lost(Scenario, a, _, All) :-     % it may have come back
     last_before_home(Scenario, Last),
     memberchk(Last, All).
 may_be_lost(Scenario, Peer, Frames, _) :-
-    came_from(Scenario, Peer, Source),
-    memberchk(Source-Count, Frames),
-    Count > 0.
+    hears(Scenario, Peer, Other),
+    memberchk(Other-Count, Frames),
+    Count > 0,
+    !.
 
 last_before_home(there_and_back, 1).
 last_before_home(ring, 2).
 
-came_from(there_and_back, b, a).
-came_from(ring, b, a).
-came_from(ring, c, b).
-came_from(follow, b, a).
-came_from(chase, b, a).
+%   hears(+Scenario, +Peer, -Other): that the agent has come to Peer, from which
+%   it follows that it is lost with Peer.
+
+hears(there_and_back, b, a).
+hears(ring, b, a).
+hears(ring, c, b).
+hears(ring, c, a).                      % its home
+hears(follow, b, a).
+hears(chase, b, a).

@@ -1,5 +1,6 @@
 :- module(test_stores,
           [ with_store/2,               % +Where, :Goal
+            with_store/3,               % +Where, +Sync, :Goal
             commit/1,                   % +Specs
             items/2                     % +Kind, -Items
           ]).
@@ -12,14 +13,19 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon/options/journal/store)).
 
-:- meta_predicate with_store(+, 0).
+:- meta_predicate with_store(+, 0), with_store(+, +, 0).
 
 %!  with_store(+Where, :Goal) is semidet.
+%!  with_store(+Where, +Sync, :Goal) is semidet.
 %
-%   Calls Goal once while the store at Where is open, see journal_place/2.
+%   Calls Goal once while the store at Where is open, see journal_place/2. Sync
+%   is `full` or by default `normal`.
 
 with_store(Where, Goal) :-
-    setup_call_cleanup(journal_open(Where, normal), once(Goal), store_close).
+    with_store(Where, normal, Goal).
+
+with_store(Where, Sync, Goal) :-
+    setup_call_cleanup(journal_open(Where, Sync), once(Goal), store_close).
 
 %!  commit(+Specs:list) is det.
 %!  items(+Kind, -Items:list) is det.

@@ -1,12 +1,12 @@
 :- module(test_sync_metrics, []).
 :- use_module('../../lib/common', []).
+:- use_module('../../lib/fixtures', [with_hosts/2]).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module('../../../experiments/sync/healing').
 :- use_module('../../../experiments/sync/metrics').
 :- use_module('../../../experiments/sync/orderly', []).
-:- use_module('../../../prolog/typhon/kernel/vocabulary/strategy',
-              [memory_mark/3, next_host/6, strategy_memory/2]).
+:- use_module(library(typhon)).
 
 /** <module> What event logs say of tasks in step, on logs made by hand
 */
@@ -188,23 +188,31 @@ test(lost_before_it_was_completed, Lost == 0) :-
 
 :- begin_tests(orderly).
 
-orderly(Hosts, Here, Visited, Host) :-
-    strategy_memory(1, Memory0),
-    mark_all(Visited, Memory0, Memory),
-    next_host(orderly, Hosts, Here, Memory, Host, _).
+%   walk(+Links, +From, +Steps, -Names): the hosts to which an agent goes.
 
-mark_all([], Memory, Memory).
-mark_all([Host|Hosts], Memory0, Memory) :-
-    memory_mark(Host, Memory0, Memory1),
-    mark_all(Hosts, Memory1, Memory).
+walk(Links, From, Steps, Names) :-
+    setof(Host, A^B^( member(A-B, Links), member(Host, [A, B]) ), Hosts),
+    with_hosts(Hosts,
+               ( forall(member(A-B, Links), link(A, B)),
+                 agent_create(clauses([ (:- agent(walker, [])),
+                                        (main :- walk(Steps, Path),
+                                                 result(Path)),
+                                        (walk(0, []) :- !),
+                                        (walk(K, [Next|Path]) :-
+                                             next_host(orderly, Next),
+                                             move(Next),
+                                             K1 is K-1,
+                                             walk(K1, Path)) ]),
+                              Agent, [host(From)]),
+                 agent_result(Agent, Addresses, 20) )),
+    findall(Name, ( member(Address, Addresses),
+                    atomic_list_concat([Name|_], @, Address) ),
+            Names).
 
-test(next_higher, Host == 'n10@h:1') :-
-    orderly(['n10@h:1', 'n2@h:1'], 'n9@h:1', [], Host).
-test(then_the_lowest, Host == 'n1@h:1') :-
-    orderly(['n1@h:1', 'n9@h:1'], 'n10@h:1', [], Host).
-test(never_visited_first, Host == 'n2@h:1') :-
-    orderly(['n10@h:1', 'n2@h:1'], 'n9@h:1', ['n10@h:1'], Host).
-test(longest_ago, Host == 'n10@h:1') :-
-    orderly(['n10@h:1', 'n2@h:1'], 'n9@h:1', ['n10@h:1', 'n2@h:1'], Host).
+test(next_higher_then_never_visited_then_longest_ago,
+     Path == [n10, n9, n2, n9, n10]) :-
+    walk([n9-n10, n9-n2], n9, 5, Path).
+test(the_lowest_after_the_highest, Path == [n1]) :-
+    walk([n1-n10, n9-n10], n10, 1, Path).
 
 :- end_tests(orderly).

@@ -1,10 +1,7 @@
 :- module(typhon_pheromone,
           [ pheromone_emit/3,           % +Host, +Problem, +Options
             pheromone_withdraw/2,       % +Host, +Problem
-            pheromone_here/4,           % +Host, ?Problem, -Source, -Strength
-            pheromone_strength/4,       % +Maximum, +Span, +Distance, -Strength
-            pheromone_until/5           % +Emitted, +Period, +Span, +Distance,
-                                        % -Until
+            pheromone_here/4            % +Host, ?Problem, -Source, -Strength
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
@@ -50,8 +47,8 @@ the stronger one stays, and of two that are equally strong the younger.
                 *           DIFFUSION          *
                 *******************************/
 
-%!  pheromone_strength(+Maximum, +Span, +Distance:integer, -Strength) is det.
-%!  pheromone_until(+Emitted, +Period, +Span, +Distance:integer, -Until) is det.
+%   pheromone_strength(+Maximum, +Span, +Distance, -Strength)
+%   pheromone_until(+Emitted, +Period, +Span, +Distance, -Until)
 %
 %   The strength of a pheromone Distance hops from its source, and when it
 %   evaporates there. It is 0 beyond Span hops. Near the source it lasts

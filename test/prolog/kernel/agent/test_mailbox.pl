@@ -4,8 +4,7 @@
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/travel/backlog)).
-:- use_module(library(typhon/kernel/agent/mailbox)).
+:- use_module(library(typhon/kernel/agent)).
 
 /** <module> Mailboxes: each message once, in order, whatever others get
 
@@ -52,9 +51,9 @@ test(others_that_wait_are_not_disturbed, true(Length-Waiting == 5000-8)) :-
     forall(between(1, 7, I),
            ( N is 60*I*I,
              numlist(1, N, Long),
-             mail_put(me, [from-no(I, Long)]) )),
+             added(me, [from-no(I, Long)]) )),
     numlist(1, 5000, Longest),
-    mail_put(me, [from-yes(Longest)]),
+    added(me, [from-yes(Longest)]),
     taken_again(200, [], Length),
     mail_all(me, Mail),
     length(Mail, Waiting).
@@ -65,7 +64,14 @@ test(each_once_while_others_receive, true(Bad == [])) :-
 
 filled(Id, Messages) :-
     mail_all(Id, _),
-    mail_put(Id, Messages).
+    mail_back(Id, Messages).
+
+%   Messages come after those that are there.
+
+added(Id, Messages) :-
+    mail_all(Id, Older),
+    append(Older, Messages, All),
+    mail_back(Id, All).
 
 %   The last message is taken, and put back, again and again, while more and
 %   more of what was taken is kept: so stacks are collected in between.
@@ -75,7 +81,7 @@ taken_again(0, [Last|_], Length) :-
     length(Last, Length).
 taken_again(N, Kept0, Length) :-
     mail_take(me, from-yes(List)),
-    mail_put(me, [from-yes(List)]),
+    added(me, [from-yes(List)]),
     (   N mod 7 =:= 0
     ->  Kept = [List]
     ;   Kept = [List|Kept0]
@@ -97,58 +103,7 @@ rounds(Rounds, Messages, Number, Bad) :-
             ( between(1, Rounds, Round),
               Agents is Round mod 40,
               atomic_list_concat([agent, Number, Agents], '.', Id),
-              mail_put(Id, Messages),
+              mail_back(Id, Messages),
               mail_all(Id, All),
               All \== Messages ),
             Bad).
-
-:- begin_tests(backlog).
-
-test(tried_in_order, true(Letters-Tries == [a,b]-0)) :-
-    with_backlog([a,b], backlog_begin(x, Letters, Tries)).
-test(one_tries_at_a_time) :-
-    with_backlog([a], ( backlog_begin(x, _, _),
-                        \+ backlog_begin(x, _, _) )).
-test(back_in_front_of_what_came, true(Letters-Tries == [a,b,c]-3)) :-
-    with_backlog([a,b],
-                 ( backlog_begin(x, L0, _),
-                   backlog_add(x, c),
-                   backlog_again(x, L0, 3),
-                   backlog_begin(x, Letters, Tries) )).
-test(not_done_if_more_came, true(Letters == [c])) :-
-    with_backlog([a],
-                 ( backlog_begin(x, _, _),
-                   backlog_add(x, c),
-                   \+ backlog_done(x),
-                   backlog_begin(x, Letters, _) )).
-test(done) :-
-    with_backlog([a],
-                 ( backlog_begin(x, _, _),
-                   backlog_done(x),
-                   \+ backlog(x) )).
-test(for_who_has_arrived, true(Letters == [a,b])) :-
-    with_backlog([a,b], backlog_all(x, Letters)).
-test(not_what_is_being_tried, true(Letters == [])) :-
-    with_backlog([a,b],
-                 ( backlog_begin(x, _, _),
-                   backlog_all(x, Letters) )).
-
-:- end_tests(backlog).
-
-:- meta_predicate with_backlog(+, 0).
-
-with_backlog(Letters, Goal) :-
-    no_leaks(setup_call_cleanup(
-                 maplist(backlog_add(x), Letters),
-                 once(Goal),
-                 emptied)).
-
-emptied :-
-    (   backlog_begin(x, _, _)
-    ->  true
-    ;   true
-    ),
-    (   backlog(x)
-    ->  ( backlog_done(x) -> true ; emptied )
-    ;   true
-    ).

@@ -11,7 +11,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/own_thread),
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
-:- use_module(library(typhon/kernel/host/place)).
+:- use_module(library(typhon/kernel/host), [place_deliver/3]).
 
 /** <module> Tests of hosts: what they offer, admit, and leave behind
 
@@ -602,10 +602,7 @@ bad_payload(payload(x, [p/1,r/1], [p(2),(r(1) :- 1)])).
 :- meta_predicate with_place(-, 0).
 
 with_place(Place, Goal) :-
-    no_leaks(setup_call_cleanup(
-                 place_create(test, [], [], Place),
-                 once(Goal),
-                 place_destroy(Place))).
+    with_hosts([alpha], ( host_property(alpha, place(Place)), Goal )).
 
 :- end_tests(places).
 

@@ -6,9 +6,7 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/agent), [with_agent/2]).
-:- use_module(library(typhon/kernel/travel/backlog), [backlog/1]).
-:- use_module(library(typhon/kernel/travel/retries), [retry_later/3]).
+:- use_module(library(typhon/kernel/wire), [endpoint_address/1, endpoint_post/3]).
 
 /** <module> Tests of messages: they find their agent, once
 
@@ -36,12 +34,12 @@ numbers(Agent, Ns) :-
 has_all(Agent, N) :-
     aggregate_all(count, fact_of(Agent, s(_)), N).
 
-%   A letter on its way to Id that has found nobody who could be asked.
+%   A letter to Id comes from another process.
 
 passed_on(Id, Message) :-
-    Mail = [mail('127.0.0.1:1', x, Message)],
-    with_agent(Id, retry_later(Id, letter(Mail, 64),
-                               to('127.0.0.1:none', letter(Mail, 63)))).
+    endpoint_address(Here),
+    endpoint_post(Here, message,
+                  message(Id, [mail('127.0.0.1:1', x, Message)], 64)).
 
 :- begin_tests(messages).
 
@@ -113,7 +111,7 @@ test(from_elsewhere_to_a_process_never_met_is_not_kept_for_ever,
     with_hosts([alpha],
                with_settings([typhon_news:news_seconds=1],
                              listening(( passed_on(Id, hello),
-                                         wait_until(\+ backlog(Id), 60) ),
+                                         wait_until(was_told(warning, _), 60) ),
                                        M))).
 test(in_order, true(Ns == Sent)) :-
     numlist(1, 1000, Sent),

@@ -6,7 +6,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/travel/whereabouts), [agent_reached/3]).
+:- use_module(library(typhon/kernel/wire),
+              [endpoint_address/1, endpoint_call/5]).
 
 /** <module> Agents hop between hosts of one process
 
@@ -105,7 +106,8 @@ device(At, Dir) :-
 
 :- end_tests(hops_within_a_process).
 
-%   What is said, when its record is gone, of whether it had come by a hop.
+%   What the home of A answers at the moment when its record is gone, to a
+%   process that asks whether it had come by its first hop.
 
 reached_as_it_goes(A, Answer) :-
     thread_self(Me),
@@ -118,11 +120,10 @@ reached_as_it_goes(A, Answer) :-
 
 :- public reached_now/2.
 
-reached_now(Id, Who) :-
-    agent_reached(Id, 1, said_to(Who)).
-
-said_to(Who, Answer) :-
-    thread_send_message(Who, said(Answer)).
+reached_now(Id, Caller) :-
+    endpoint_address(Home),
+    endpoint_call(Home, whereabouts, reached(Id, 1), Answer, 20),
+    thread_send_message(Caller, said(Answer)).
 
 stands(Agent, Name) :-
     agent_property(Agent, host(Address)),

@@ -4,8 +4,6 @@
 :- use_module(library(plunit)).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/vocabulary/pheromone)).
-:- use_module(library(typhon/kernel/vocabulary/strategy)).
 
 /** <module> Pheromones and phercon(Problem)
 
@@ -60,17 +58,6 @@ gone(Host, Problem) :-
 close_to(X, Y) :-
     abs(X - Y) < 1.0e-9.
 
-:- begin_tests(pheromone_form).
-
-test(strength, [ forall(member(D-S, [1-100, 2-75, 3-50, 4-25, 5-0, 9-0])),
-                 true(close_to(Strength, S)) ]) :-
-    pheromone_strength(100, 4, D, Strength).
-test(until, [ forall(member(D-U, [1-37, 2-27, 3-17, 4-7, 5-7])),
-              true(Until =:= U) ]) :-
-    pheromone_until(7, 10, 3, D, Until).
-
-:- end_tests(pheromone_form).
-
 :- begin_tests(pheromone_spreads).
 
 test(down_a_line, Strengths == [100, 75, 50, 25]) :-
@@ -111,6 +98,18 @@ test(evaporates_far_ones_first, true(Earlier =:= 20)) :-
            Earlier is round(UB - UC),
            gone(c, fire),
            gone(b, fire) )).
+test(evaporates_one_period_earlier_at_each_hop, Apart == [10, 10]) :-
+    get_time(Now),
+    line([a, b, c, d, e], [clock(Now, 1)],
+         ( emit(a, fire, [span(3), period(10)]),
+           reaches(d, fire),
+           findall(Until,
+                   ( member(Host, [b, c, d]),
+                     remote(Host, sense(pheromone(fire, _, _, _, Until))) ),
+                   [B, C, D]),
+           Apart0 = [B-C, C-D],
+           findall(Seconds, ( member(X, Apart0), Seconds is round(X) ),
+                   Apart) )).
 test(emitting_again_refreshes, true(U2 > U1)) :-
     line([a, b],
          ( emit(a, fire),
@@ -171,6 +170,16 @@ follow(From, Problem, Path) :-
     agent_dispose(Agent),
     agent_join(Agent, disposed, 10).
 
+%   next_from(+Host, +Problem, -Next): where an agent goes.
+
+next_from(Host, Problem, Next) :-
+    agent_create(clauses([ (:- agent(asker, [state([problem/1])])),
+                           (main :- problem(P), next_host(phercon(P), Next0),
+                                    result(Next0)) ]),
+                 Agent, [host(Host), facts([problem(Problem)])]),
+    agent_result(Agent, Address, 10),
+    name_of(Address, Next).
+
 test(to_the_source, Path == [d, c, b, a]) :-
     line([a, b, c, d, e],
          ( remote(a, leave(source(here))),
@@ -189,39 +198,29 @@ test(what_is_asked_for_must_be_solved_whole, Found == []) :-
     line([a, b],
          ( emit(a, fire(1)),
            reaches(b, fire(_)),
-           strategy_memory(1, M),
            address(b, B), address(a, A),
-           findall(H, next_host(phercon(fire(1, _)), [A], B, M, H, _), [_]),
+           next_from(b, fire(1, _), a),
            findall(H, typhon_pheromone:followable(B, fire(2), [A], _, H),
                    Found) )).
 test(strongest_first, Next == a) :-
     line([a, b, c, d],
          ( emit(d, fire), emit(a, fire),
            wait_until(at(b, fire, [_,_]), 10),
-           address(a, A), address(b, B), address(c, C),
-           strategy_memory(1, M),
-           next_host(phercon(fire), [A,C], B, M, H, _),
-           name_of(H, Next) )).
+           next_from(b, fire, Next) )).
 test(ties_are_drawn, Nexts == [a, c]) :-
     line([a, b, c],
          ( emit(a, fire), emit(c, fire),
            wait_until(at(b, fire, [_,_]), 10),
-           address(a, A), address(b, B), address(c, C),
            findall(Next,
-                   ( between(1, 20, Seed),
-                     strategy_memory(Seed, M),
-                     next_host(phercon(fire), [A,C], B, M, H, _),
-                     name_of(H, Next) ),
+                   ( between(1, 30, _), next_from(b, fire, Next) ),
                    All),
            sort(All, Nexts) )).
 test(a_trail_over_a_lost_link_is_left, Next == c) :-
     line([a, b, c],
          ( emit(a, fire),
            reaches(b, fire),
-           address(b, B), address(c, C),
-           strategy_memory(1, M),
-           next_host(phercon(fire), [C], B, M, H, _),
-           name_of(H, Next) )).
+           unlink(a, b),
+           next_from(b, fire, Next) )).
 
 :- end_tests(pheromone_follow).
 
@@ -249,7 +248,7 @@ diffused(Network, Span, Wrong) :-
             Wrong).
 
 arrives(Host, D, Span) :-
-    pheromone_strength(100, Span, D, Expected),
+    Expected is 100*(Span-D+1)/Span,
     wait_until(( remote(Host, pheromone(fire, _, Strength)),
                  close_to(Strength, Expected) ), 10).
 

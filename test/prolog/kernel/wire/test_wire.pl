@@ -16,7 +16,6 @@
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/wire/session), [session/2, transport/3]).
 :- use_module('../../../lib/endpoint_peer', [sleep_until/1]).
 
 :- dynamic
@@ -227,14 +226,24 @@ second(A, Kept) :-
     thread_self(Self),
     thread_get_message(Self, called(Caller), [timeout(20)]),
     ask(A, echo, x, x),
-    transport(Key, Thread, _),
+    connections(Both),
+    subtract(Both, [Caller], [Thread]),
     thread_send_message(Caller, go),
     read(Out, outcome(ok, _)),
     wait_until(\+ is_thread(Caller), 20),
-    (   transport(Key, Thread, _)
+    (   connections([Thread])
     ->  Kept = true
     ;   Kept = false
     ).
+
+%   The threads of connections to other processes.
+
+connections(Threads) :-
+    findall(Alias,
+            ( thread_property(_, alias(Alias)),
+              ( sub_atom(Alias, 0, _, _, typhon_in_)
+              ; sub_atom(Alias, 0, _, _, typhon_out_) ) ),
+            Threads).
 
 :- end_tests(all_at_once).
 
@@ -429,7 +438,12 @@ queues(Count) :-
     Count = Sessions-All.
 
 sessions(Count) :-
-    aggregate_all(count, session(_, _), Count).
+    findall(Process,
+            ( endpoint_peer(Address, state(_)),
+              endpoint_peer(Address, process(Process)) ),
+            Processes),
+    sort(Processes, Set),
+    length(Set, Count).
 
 :- end_tests(peers_that_go).
 

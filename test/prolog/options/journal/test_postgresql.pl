@@ -6,7 +6,7 @@
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/options/journal/store)).
+:- use_module(library(typhon/options/journal), [journal_place/2]).
 
 :- needs([journal, postgresql]).
 
@@ -42,7 +42,7 @@ test('a URL alone is one, too', true(A == B)) :-
     journal_place(postgresql('postgresql://db/x'), B).
 
 test('nobody is there', error(journal_unreachable(_, _))) :-
-    journal_open('postgresql://x@127.0.0.1:1/x', normal).
+    with_store('postgresql://x@127.0.0.1:1/x', true).
 
 :- end_tests(postgresql_url).
 
@@ -105,12 +105,11 @@ test('a journal of another version is left as it is') :-
 test('a power cut is waited for only if that is wanted') :-
     forall(member(Sync-Setting, [normal-off, full-on]),
            ( postgres_url(sync, Url),
-             setup_call_cleanup(
-                 journal_open(Url, Sync),
-                 ( typhon_store:connection(_, C),
-                   once(typhon_sql:sql_row(C, 'show synchronous_commit',
-                                           row(Setting), [atom])) ),
-                 store_close) )).
+             with_store(Url, Sync,
+                        ( typhon_store:connection(_, C),
+                          once(typhon_sql:sql_row(C, 'show synchronous_commit',
+                                                  row(Setting), [atom])) ))
+           )).
 test('a connection that breaks is made again') :-
     with_schema(breaks,
                ( commit([a-k-0-first]),
@@ -120,16 +119,14 @@ test('a connection that breaks is made again') :-
 test('what the server has lost when it died is committed once more') :-
     postgres_url(died, Url),
     numlist(1, 40000, Long),
-    setup_call_cleanup(
-        journal_open(Url, normal),
-        ( commit([a-k-0-first, a-l-0-Long, a-m-0-x]),
-          commit([a-k-0-second, drop(a, m, 0)]),
-          postgres_crash,
-          forall(between(1, 2, _), unreachable(commit([a-n-1-third]))),
-          postgres_again,
-          commit([a-n-1-third]),
-          items(a, Items) ),
-        store_close),
+    with_store(Url,
+               ( commit([a-k-0-first, a-l-0-Long, a-m-0-x]),
+                 commit([a-k-0-second, drop(a, m, 0)]),
+                 postgres_crash,
+                 forall(between(1, 2, _), unreachable(commit([a-n-1-third]))),
+                 postgres_again,
+                 commit([a-n-1-third]),
+                 items(a, Items) )),
     Items = [_-0-_, _-0-_, n-1-third],
     memberchk(k-0-second, Items),
     memberchk(l-0-Long, Items).
