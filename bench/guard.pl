@@ -76,4 +76,4 @@ hog(clones, [ (main :- clone(_), main) ]).
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.
 
-user:message_hook(typhon(over_quota(_, _)), _, _).
+user:message_hook(typhon(over_limit(_, _)), _, _).

@@ -53,6 +53,7 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/options/journal, []).
 :- use_module(typhon/options/access, []).
 :- use_module(typhon/options/guard, []).
+:- use_module(typhon/options/quotas, []).
 :- use_module(typhon/options/virtual, []).
 :- use_module(typhon/tools/messages, []).
 :- use_module(typhon/tools/fault_messages, []).

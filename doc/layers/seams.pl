@@ -52,14 +52,6 @@ option_file(journal, 'travel/hop_ids.pl').
 option_file(tls, 'wire/secure.pl').
 option_file(tls, 'base/key_files.pl').
 option_file(identity, 'base/keys.pl').
-option_file(quotas, 'host/quotas.pl').
-option_file(quotas, 'host/rate_limits.pl').
-option_file(quotas, 'host/tuple_quota.pl').
-option_file(quotas, 'agent/state_text.pl').
-option_file(quotas, 'agent/time_quota.pl').
-option_file(quotas, 'agent/quota_admission.pl').
-option_file(quotas, 'lifecycle/metering.pl').
-option_file(quotas, 'lifecycle/overuse.pl').
 
 %!  kernel_file(?File) is nondet.
 %

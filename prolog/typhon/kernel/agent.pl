@@ -10,7 +10,7 @@ This is the interface of the layer: higher layers import from here.
             [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
               agent_mobile/6, agent_move/5, agent_note/3,
               agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
-              agent_remove/3, agent_rest/3, agent_resumes/2, agent_space/2,
+              agent_remove/3, agent_rest/3, agent_resumes/2,
               agent_status/3, agent_take/3, agent_wakes/2
             ]).
 :- reexport(agent/agent_lock, [agents_passed/0, with_agent/2]).
@@ -23,17 +23,14 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/variants, [agent_variant/2]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
-              origin_inherited/3, origin_said/2
+              agent_origin/5, origin_inherited/3, origin_key/2, origin_said/2
             ]).
 :- reexport(agent/life,
             [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,
               make_life/2, set_extras_of_life/3
             ]).
-:- reexport(agent/time_quota, [stay_count/3, stay_owner/3, stay_until/3]).
-:- reexport(agent/state_text, [state_text/2]).
 :- reexport('agent/gate').
-:- use_module(agent/quota_admission, []).
 :- reexport(agent/image,
             [ image_amended/5, image_clone/5, image_enter/4, image_hash/2, image_hop/6,
               image_entrant/2, image_label/2, image_module/3

@@ -17,7 +17,7 @@ This is the interface of the layer: higher layers import from here.
               events_hear/3, events_unheard/1 ]).
 :- reexport('host/event_shown').
 :- reexport('host/host_log').
-:- reexport(host/host_parts, [amended/5, parts/3]).
+:- reexport(host/host_parts, [amended/5, parts/3, parts_call/3]).
 :- reexport(host/place,
             [ place_deliver/3, place_host/2, place_service/2,
               place_undeliver/2 ]).
@@ -28,9 +28,6 @@ This is the interface of the layer: higher layers import from here.
               context_now/2, context_set/3
             ]).
 :- reexport('host/peer_rights').
-:- reexport(host/quotas, [quota/3, quota_any/1, quota_shared/4]).
-:- reexport('host/rate_limits').
-:- reexport(host/tuple_quota, [leaver/2, may_leave/1]).
 :- reexport(host/pause, [still_keeps/1]).
 :- reexport(host/turns, [turn_of/3, turns_now/3]).
 :- reexport(host/scheduler,

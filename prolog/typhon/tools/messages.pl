@@ -205,7 +205,7 @@ prolog:message(typhon(order_failed(Agent, Formal))) -->
 prolog:message(typhon(not_let_in(Where, Formal))) -->
     [ '~w: a host that guards would not let this in: '-[Where] ],
     explained(error(Formal, _)).
-prolog:message(typhon(over_quota(Agent, What))) -->
+prolog:message(typhon(over_limit(Agent, What))) -->
     [ 'Agent ~w is ended: it has used more ~w than its host allows'-
       [Agent, What] ].
 prolog:message(typhon(runs_on(Agent, Seconds))) -->

@@ -16,7 +16,7 @@
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module('../program', [code_module/2]).
 :- use_module('../host',
-              [host/3, quota/3]).
+              [host/3, parts/3, parts_call/3]).
 :- use_module(agents, [agent/5]).
 :- use_module(variants, [agent_variant/2, place_variant/3]).
 
@@ -48,20 +48,19 @@ agent_module(Id, Place, Hash, State0, Module) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(Program)),
     add_import_module(Module, Above, end),
-    within_space(Place, Module),
+    begins(Place, Module),
     catch(( declare_all(Empty, Module),
             add_clauses(Clauses, Module) ),
           error(Formal, Context),
           ( '$destroy_module'(Module),
             throw(error(Formal, Context)) )).
 
-within_space(Place, Module) :-
-    quota(_, state, _),
-    host(Host, _, Place),
-    quota(Host, state, Most),
-    !,
-    set_module(Module:program_space(Most)).
-within_space(_, _).
+begins(Place, Module) :-
+    (   parts(module, _, _),
+        host(Host, _, Place)
+    ->  parts_call(module, Host, [Module])
+    ;   true
+    ).
 
 %   below(+Place, +Hash, +Program0, +State0, -Program, -Above, -State)
 

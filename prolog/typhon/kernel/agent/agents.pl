@@ -16,20 +16,17 @@
             agent_resumes/2,            % +Id, -Goals
             agent_ready/2,              % +Id, +Goals
             agent_wakes/2,              % +Id, +Goals
-            agent_mail/2,               % +Id, +Messages
-            agent_space/2               % +Id, -Messages
+            agent_mail/2                % +Id, +Messages
           ]).
 :- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, enqueue_changes/0]).
-:- use_module('../host', [events_forget/1, quota/3, schedule/2]).
+:- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).
 :- use_module(agent_orders,
               [agent_ordered/1, agent_unorder/2, agent_unorder_all/2]).
-:- use_module(agent_lock, [with_agent/2]).
 :- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
-:- use_module(time_quota, [stay_begins/4, stay_ends/1]).
 :- use_module(life, [life_extras/2]).
 
 /** <module> Agents that stand in this process
@@ -57,7 +54,6 @@ which Prolog makes by itself, is not safe where other threads retract
 
 :- multifile
     typhon_code:in_use/1,
-    typhon_quotas:set/1,
     put_down/3,                 % Id, Status, Goals: to be noted
     state_ends/2,               % Id, Module: is about to be destroyed
     carries/2.                  % Id, Extras: the agent, which carries Extras,
@@ -86,17 +82,6 @@ typhon_code:in_use(Hash) :-
     stands(_, _, _, Hash, _, _),
     !.
 
-%   Other quotas count for agents that are there, too.
-
-typhon_quotas:set(Host) :-
-    forall(stands(Id, Host, _, _, _, _),
-           ignore(with_agent(Id, stays_on(Id, Host)))).
-
-stays_on(Id, Host) :-
-    stands(Id, Host, Module, Hash, _, _),
-    !,
-    stay_begins(Id, Host, Module, Hash).
-
 %!  agent_enter(+Agent, +Status, +Goals) is det.
 %!  agent_remove(+Id, -Mail:list, -Orders:list) is semidet.
 %
@@ -107,7 +92,7 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     assertz(stands(Id, Host, Module, Hash, Life, 0)),
     agent_note(Id, Status, Goals),
     assertz(status(Id, Status, Goals)),
-    stay_begins(Id, Host, Module, Hash),
+    parts_call(comes, Host, [Id, Host, Module, Hash]),
     carried(Id, Life).
 
 carried(Id, Life) :-
@@ -118,9 +103,9 @@ carried(Id, Life) :-
     ).
 
 agent_remove(Id, Mail, Orders) :-
-    retract(stands(Id, _, Module, _, _, _)),
+    retract(stands(Id, Host, Module, _, _, _)),
     retractall(status(Id, _, _)),
-    stay_ends(Id),
+    parts_call(goes, Host, [Id, Host, Module]),
     (   durable_on
     ->  durable_drop(agent, Id, 0)
     ;   true
@@ -149,11 +134,12 @@ agent_mobile(Id, Host, Module, Hash, Life, Until) :-
     !.
 
 agent_move(Id, Host, Module, Life, Until) :-
-    stands(Id, _, Old, Hash, _, _),
+    stands(Id, From, Old, Hash, _, _),
     !,
     assertz(stands(Id, Host, Module, Hash, Life, Until)),
     forget_first(Id),
-    stay_begins(Id, Host, Module, Hash),
+    parts_call(goes, From, [Id, From, Module]),
+    parts_call(comes, Host, [Id, Host, Module, Hash]),
     (   Old == Module
     ->  true
     ;   state_destroy(Id, Old)
@@ -300,18 +286,6 @@ agent_mail(Id, Messages) :-
     ->  mail_to(Status, Id, Host, Goals, Messages)
     ;   put_mail(Messages, Id)
     ).
-
-%!  agent_space(+Id, -Messages:nonneg) is semidet.
-%
-%   On the host where Id stands there is a quota for its mailbox, and there is
-%   space for so many messages in it.
-
-agent_space(Id, Messages) :-
-    stands(Id, Host, _, _, _, _),
-    quota(Host, mailbox, Most),
-    !,
-    mail_count(Id, Count),
-    Messages is max(0, integer(Most)-Count).
 
 put_mail(Messages, Id) :-
     (   debugging(typhon(mail))

@@ -36,7 +36,6 @@ host_option_type(python(X), boolean, X).
 host_option_type(journal(X), atom, X).
 host_option_type(journal(postgresql(X)), atom, X).
 host_option_type(sync(X), oneof([full, normal]), X).
-host_option_type(quota(X), list, X).
 
 %!  host_listed(+ListOrOne, -List) is det.
 %

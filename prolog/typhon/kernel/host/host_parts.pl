@@ -1,5 +1,6 @@
 :- module(typhon_host_parts,
           [ parts/3,                    % ?Phase, ?Host, ?Closures
+            parts_call/3,               % +Phase, +Host, +Args
             amended/5,                  % +Phase, +Host, +About, +Term0, -Term
             parts_compile/1,            % +Host
             parts_forget/1              % +Host
@@ -24,6 +25,19 @@ up one list of closures, and a host without options has none.
   | admit_program | From, Entrant, Host, Verdict | its program is here, too    |
   | view          | (a module)                   | an agent is installed, see  |
   |               |                              | typhon_variants             |
+  | module        | Module                       | its module begins to get    |
+  |               |                              | its state                   |
+  | comes         | Id, Host, Module, Hash       | the agent stands on Host    |
+  |               |                              | from now on                 |
+  | goes          | Id, Host, Module             | it does no longer; Module   |
+  |               |                              | is the one that it has now  |
+  | turn          | Turn, Goals, Outcome         | runs the machine, within    |
+  |               |                              | limits, see typhon_turn     |
+  | acts          | Agent, Act                   | an agent, or `none`, is     |
+  |               |                              | about to act: `move`,       |
+  |               |                              | `clone`, `attach`,          |
+  |               |                              | send(Message), log(What),   |
+  |               |                              | leave(Fact), say(Term)      |
   | makes_text    | Length                       | a running agent makes atoms |
   |               |                              | of that length              |
   | adds_clause   | Module, Clause               | a running agent, whose      |
@@ -37,7 +51,8 @@ up one list of closures, and a host without options has none.
   | change_program | Host, Id                    | Id gets another program;    |
   |               |                              | raises what forbids it      |
 
-Those that admit succeed with a verdict which is not `ok`.  A peer has a right
+Those that admit succeed with a verdict which is not `ok`.  Of `turn` there is
+one.  `acts` raises an error if the agent must not.  A peer has a right
 if all that permit succeed.  Other closures amend what goes from one host to
 another, and are called with Host, About, Term0, Term:
 
@@ -53,6 +68,9 @@ another, and are called with Host, About, Term0, Term:
   |         |         |                            | creates an agent here    |
   | cloned  | state   | Id                         | of a clone of Id         |
   | copied  | state   | Id                         | of a restore point of Id |
+  | deliver | mail    | Id                         | comes for Id             |
+  | tuple   | mark    | Agent                      | `none` at first, of a    |
+  |         |         |                            | fact that Agent leaves   |
 
 State is as of agent_state/2.
 
@@ -65,6 +83,9 @@ What an option keeps of a host follows the life of the host by the hooks
                                 this raises, the host does not start
     changeable(Option)          host_change/2 takes Option
     changes(Option, Host)       it is about to be put
+    compiled(Host)              its parts are those of its new options
+    untrusted(Option)           with Option a host admits agents that it does
+                                not trust
     ends(Host)                  it is no more
 
 *Threading*: any thread reads; all else holds the mutex of host_start/2.
@@ -76,6 +97,8 @@ What an option keeps of a host follows the life of the host by the hooks
     begins/3,
     changeable/1,
     changes/2,
+    compiled/1,
+    untrusted/1,
     ends/1.
 
 :- dynamic
@@ -84,6 +107,8 @@ What an option keeps of a host follows the life of the host by the hooks
     begins/3,
     changeable/1,
     changes/2,
+    compiled/1,
+    untrusted/1,
     ends/1.
 
 :- dynamic parts/3.             % Phase, Host, Closures
@@ -92,6 +117,18 @@ What an option keeps of a host follows the life of the host by the hooks
 %
 %   Host has these Closures in Phase: a fact, so that what has no parts costs
 %   one lookup.  The first one counts, and there is none without closures.
+
+%!  parts_call(+Phase, +Host, +Args:list) is det.
+%
+%   Call all closures of Host with Args; bindings are undone.
+%
+%   @error what a closure raises
+
+parts_call(Phase, Host, Args) :-
+    (   parts(Phase, Host, Closures)
+    ->  forall(member(Closure, Closures), apply(Closure, Args))
+    ;   true
+    ).
 
 %!  amended(+Phase, +Host, +About, +Term0, -Term) is det.
 %
@@ -120,7 +157,8 @@ parts_compile(Host) :-
     forall(member(Phase-Closures, News),
            assertz(parts(Phase, Host, Closures))),
     forall(member(Phase-Closures, Olds),
-           once(retract(parts(Phase, Host, Closures)))).
+           once(retract(parts(Phase, Host, Closures)))),
+    forall(compiled(Host), true).
 
 in_order(Host, Phase, Closures) :-
     bagof(Order-Closure, part(Phase, Host, Order, Closure), Pairs0),

@@ -9,7 +9,6 @@
 :- use_module('../base/durable_changes', [durable_number/1, durable_on/0]).
 :- use_module('../base/unit_of_work',
               [unit_after/1, unit_defers/0, unit_drop/3, unit_put/4]).
-:- use_module(tuple_quota, [leaving_begins/1, leaving_ends/1]).
 :- use_module(place, [place_host/2]).
 
 /** <module> Tuple spaces: facts that all agents on a host see
@@ -21,8 +20,12 @@ leaving a fact while tuple_leave_new/3 looks.
 */
 
 :- multifile
+    counted/2,                  % By, Change: of its facts one more, or less,
+                                % is there: 1 or -1
     typhon_durable:restore/4,
     typhon_durable:dump/4.
+
+:- dynamic counted/2.
 
 :- public leave_due/2.
 
@@ -37,7 +40,7 @@ leaving a fact while tuple_leave_new/3 looks.
 %
 %   Put, put if there is none that unifies, read and take a fact.  Of many
 %   agents that take one fact, or leave it as a new one, one succeeds.  By is
-%   whose fact it is, see typhon_tuple_quota, or `none`.
+%   `none`, or a ground term of an option, which counts such facts.
 %
 %   With a journal a fact has a number, under which it is there; this, and By,
 %   stand in the body of the clause, and the journal has By, too.  What an agent
@@ -48,7 +51,7 @@ tuple_leave(Place, Fact) :-
 
 tuple_leave(Place, Fact, By) :-
     must_be(callable, Fact),
-    leaving_begins(By),
+    count(By, 1),
     (   durable_on,
         place_host(Place, _)
     ->  leave_noted(Place, Fact, By)
@@ -65,7 +68,7 @@ tuple_leave_new(Place, Fact, By) :-
                  ->  leave_noted(Place, Fact, By)
                  ;   put_tuple(Place, none, Fact, By)
                  ),
-                 leaving_begins(By) )).
+                 count(By, 1) )).
 
 leave_noted(Place, Fact, By) :-
     durable_number(N),
@@ -96,6 +99,11 @@ tuple_body(none, none, true) :- !.
 tuple_body(N, none, integer(N)) :- !.
 tuple_body(N, By, ground(N-By)).
 
+count(none, _) :-
+    !.
+count(By, Change) :-
+    forall(counted(By, Change), true).
+
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).
 tuple_sense(Place, Fact) :-
@@ -113,7 +121,7 @@ tuple_take(Place, Fact) :-
     ;   place_host(Place, Host),
         unit_drop(tuple, Host, N)
     ),
-    leaving_ends(By).
+    count(By, -1).
 tuple_take(Place, Fact) :-
     unit_defers,
     thread_self(Me),
@@ -121,12 +129,12 @@ tuple_take(Place, Fact) :-
     !,
     place_host(Place, Host),
     unit_drop(tuple, Host, N),
-    leaving_ends(By).
+    count(By, -1).
 
 typhon_durable:restore(tuple, Host, N, Noted) :-
     was_noted(Noted, By, Fact),
     place_host(Place, Host),
-    leaving_begins(By),
+    count(By, 1),
     put_tuple(Place, N, Fact, By).
 
 was_noted('$by'(By, Fact), By, Fact) :- !.

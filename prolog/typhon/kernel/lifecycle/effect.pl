@@ -10,7 +10,7 @@
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
               [ alarm_set/3, event/4, event_heard/1, host_address/2,
-                host_option/2, host_resolve/2, host_time/2, quota_spend/3,
+                host_option/2, host_resolve/2, host_time/2, parts_call/3,
                 real_time/3, schedule/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_name/3, agent_note/3, agent_put/3,
@@ -20,7 +20,6 @@
               [hop/6, hop_clone/6, move_failed/2, move_over/2]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
-:- use_module(families, [may_clone/2]).
 
 /** <module> What each control predicate does
 
@@ -48,13 +47,13 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     (   Dest == local(Here)
     ->  Hole = true,
         Next = go(Goals)
-    ;   quota_spend(Here, Id, hops),
+    ;   parts_call(acts, Here, [Id, move]),
         agent(Id, _, _, _, Life),
         life_may_move(Life, May),
         set_out(May, Dest, Hole, Goals, Id-Here, Next)
     ).
 effect(clone(Who), Hole, Goals, Id-Here, go(Goals)) :-
-    may_clone(Id, Here),
+    parts_call(acts, Here, [Id, clone]),
     can_be_kept(Goals),
     copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
     clone_id(Id, CloneId),
@@ -65,7 +64,7 @@ effect(clone(Host, Who), Hole, Goals, Id-Here, Next) :-
     destination(Host, Dest),
     (   Dest == local(Here)
     ->  effect(clone(Who), Hole, Goals, Id-Here, Next)
-    ;   may_clone(Id, Here),
+    ;   parts_call(acts, Here, [Id, clone]),
         clone_id(Id, CloneId),
         event(hops, Here, Id, cloned(CloneId)),
         hop_clone(Id, Dest, CloneId, Who, Hole, Goals),

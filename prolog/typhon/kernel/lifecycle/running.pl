@@ -88,15 +88,15 @@ go_on(elsewhere(Goals), Id) :-
 broken_off(Ball, Id) :-
     sig_atomic(( context_clear,
                  turn_broken(Outcome),
-                 over_quota(Id, Outcome),
+                 over_limit(Id, Outcome),
                  turn_settled,
                  ignore(agent_end(Id, Outcome)) )),
     throw(Ball).
 
-over_quota(Id, raised(error(resource_error(What), _))) :-
+over_limit(Id, raised(error(resource_error(What), _))) :-
     !,
-    print_message(warning, typhon(over_quota(Id, What))).
-over_quota(_, _).
+    print_message(warning, typhon(over_limit(Id, What))).
+over_limit(_, _).
 
 %   conclude(+Outcome, +Goals0, +Turn, -Next): the run from Goals0 came to
 %   Outcome.  Next is as of effect/5.
@@ -132,7 +132,7 @@ raised_at(Control, Error, Hole-Goals, _, go(Goals)) :-
     answer_at(Control, throw(Error), Hole).
 
 ends_over(Id, Outcome) :-
-    over_quota(Id, Outcome),
+    over_limit(Id, Outcome),
     ignore(agent_end(Id, Outcome)).
 
 %   No goals are left: take the next message, or stay resident, or end.  That

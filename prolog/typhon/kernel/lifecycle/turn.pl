@@ -11,6 +11,7 @@
             turn_over/1                 % +Id
           ]).
 :- use_module('../program', [machine_run/3]).
+:- use_module('../host', [parts/3]).
 
 /** <module> A turn: one run of the machine, which options may change
 
@@ -20,8 +21,9 @@ resumed(State) where an option put the agent down in the middle of its goals.
 Its engine is `machine`, or a closure of an option that runs the agent in its
 place, called with Turn, Start, Outcome and Goals0.
 
-Options change turns at the hooks below and nowhere else.  A hook that no
-option defines costs one call that fails.
+Options change turns at the hooks below, and as the part `turn` of a host, see
+typhon_host_parts, and nowhere else.  A hook that no option defines costs one
+call that fails.
 
 *Threading*: in the worker that has the agent.
 */
@@ -32,8 +34,6 @@ option defines costs one call that fails.
 
 :- multifile
     engine/3,                   % Agent, Start, Engine
-    bound/2,                    % Host, Run: call(Run, Turn, Goals, Outcome)
-                                % runs the machine within limits
     limit_passed/1,             % Outcome: of the agent that this thread ran,
                                 % and that was interrupted at a limit
     unit/2,                     % Run, Conclude: call(Run, Goal) runs an agent,
@@ -44,7 +44,6 @@ option defines costs one call that fails.
 
 :- dynamic
     engine/3,
-    bound/2,
     limit_passed/1,
     unit/2,
     settle/0,
@@ -77,7 +76,7 @@ turn_run(Engine, Turn, Start, Outcome, Goals0) :-
 
 bounded_run(Turn, Goals, Outcome) :-
     Turn = turn(_, Host, Context),
-    (   bound(Host, Run)
+    (   parts(turn, Host, [Run|_])
     ->  call(Run, Turn, Goals, Outcome)
     ;   machine_run(Context, Goals, Outcome)
     ).
@@ -121,7 +120,7 @@ turn_broken(Outcome) :-
     ).
 
 turn_overruled(Host, Outcome) :-
-    bound(Host, _),
+    parts(turn, Host, _),
     limit_passed(Outcome),
     !.
 
@@ -130,7 +129,7 @@ turn_overruled(Host, Outcome) :-
 %   Turns on Host have limits.
 
 turn_bounded(Host) :-
-    bound(Host, _),
+    parts(turn, Host, _),
     !.
 
 %!  turn_over(+Id) is det.

@@ -15,7 +15,7 @@
               [unit_after/1, unit_change/1, unit_defers/0]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_keys/1, mobile_term/1]).
-:- use_module('../host', [peer_may/3, quota/3]).
+:- use_module('../host', [parts/3, peer_may/3]).
 :- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
 :- use_module(channel, [channel_must_fit/1]).
@@ -118,7 +118,7 @@ typhon_durable:go_on :-
            post_noted(Id, N, From, Message)).
 
 post_way(Id, From, Message, Way) :-
-    quota(_, mailbox, _),
+    parts(deliver, _, _),
     agent(Id, _, _, _, _),
     !,
     new_letter(From, Message, Letter),

@@ -9,12 +9,10 @@
 :- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
 :- use_module('../base/durable_changes', [durable_on/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
-                endpoint_post_up/3 ]).
-:- use_module('../host', [address_parts/3]).
-:- use_module('../agent', [agent_home_endpoint/2, agent_mail/2]).
+              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3, endpoint_post_up/3 ]).
+:- use_module('../host', [address_parts/3, amended/5, parts/3]).
+:- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_mail/2]).
 :- use_module(channel, [channel_post/3]).
-:- use_module(mailbox_overflow, [mail_fits/3]).
 :- use_module(dead_letters, [mail_lost/3]).
 :- use_module(senders, [mail_parts/4, senders_checked/0, shown/5]).
 :- use_module(whereabouts, [whereabouts/2]).
@@ -52,9 +50,16 @@ letter_parts(letter(Mail, Left), Mail, Left).
 %   Put Mail in the mailbox of Id, which stands here, as far as it fits.
 
 way_in(Id, Mail) :-
-    mail_fits(Id, Mail, Fitting),
+    fitting(Id, Mail, Fitting),
     messages(Fitting, Messages),
     agent_mail(Id, Messages).
+
+fitting(Id, Mail, Fitting) :-
+    (   parts(deliver, _, _),
+        agent(Id, Host, _, _, _)
+    ->  amended(deliver, Host, Id, Mail, Fitting)
+    ;   Fitting = Mail
+    ).
 
 messages([], []).
 messages([mail(_, From, Message)|Mail], [From-Message|Messages]) :-

@@ -41,13 +41,13 @@
               [ context/3, context_agent/1, context_host/1, context_now/2,
                 event/4, host/3, host_address/2, host_closed/1,
                 host_link_cost/3, host_load/2, host_logs/1, host_neighbours/2,
-                host_time/2, place_deliver/3, place_undeliver/2, quota/3, leaver/2, may_leave/1,
-                quota_cells/2, quota_passed/1, quota_spend/3,
+                host_time/2, place_deliver/3, place_undeliver/2,
+                amended/5, parts_call/3,
                 tuple_leave/3, tuple_leave_new/3, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, agent_variant/2,
-                legacy_result/2, life_hops/2, life_parent/2, life_payloads/2 ]).
+                legacy_result/2, life_hops/2, life_parent/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
@@ -158,15 +158,13 @@ send(External, Message), compound(External) =>
     event(messages, Host, Id, sent(External, Message)).
 send(Agent, Message), Agent == user =>
     context(Host, Id, _),
-    quota_spend(Host, Id, messages),
-    quota_cells(Host, Message),
+    parts_call(acts, Host, [Id, send(Message)]),
     event(messages, Host, Id, sent(user, Message)),
     print_message(informational, typhon(told(Id, Message))).
 send(Agent, Message) =>
     must_be(atom, Agent),
     context(Host, Id, _),
-    quota_spend(Host, Id, messages),
-    quota_cells(Host, Message),
+    parts_call(acts, Host, [Id, send(Message)]),
     event(messages, Host, Id, sent(Agent, Message)),
     catch(post(Agent, Id, Message),
           error(existence_error(agent, Agent), _),
@@ -193,22 +191,21 @@ lost(_, Agent, Id, Message) :-
 %   leave it as a new one, one succeeds.
 
 leave(Fact) :-
-    place(Host, Place),
-    may_leave(Host),
-    quota_cells(Host, Fact),
-    mobile_term(Fact),
-    leaver(Host, By),
+    may_leave(Fact, Host, Place, By),
     tuple_leave(Place, Fact, By),
     shared(Host, leave(Fact)).
 
 leave_new(Fact) :-
-    place(Host, Place),
-    may_leave(Host),
-    quota_cells(Host, Fact),
-    mobile_term(Fact),
-    leaver(Host, By),
+    may_leave(Fact, Host, Place, By),
     tuple_leave_new(Place, Fact, By),
     shared(Host, leave(Fact)).
+
+may_leave(Fact, Host, Place, By) :-
+    place(Host, Place),
+    context_now(_, Agent),
+    parts_call(acts, Host, [Agent, leave(Fact)]),
+    mobile_term(Fact),
+    amended(tuple, Host, Agent, none, By).
 
 sense(Fact) :-
     place(_, Place),
@@ -227,6 +224,10 @@ place(Host, Place) :-
     context_host(Host),
     host(Host, _, Place).
 
+says(Host, Term) :-
+    context_now(_, Agent),
+    parts_call(acts, Host, [Agent, say(Term)]).
+
 %!  attach(+Payload) is det.
 %!  detach(+Name) is det.
 %
@@ -238,14 +239,9 @@ place(Host, Place) :-
 attach(Spec) :-
     payload_load(Spec, Payload),
     context_agent(Id),
-    agent(Id, Host, _, _, Life),
-    (   quota(Host, payloads, Most),
-        life_payloads(Life, Payloads),
-        length(Payloads, Count),
-        Count >= Most
-    ->  quota_passed(payloads)
-    ;   agent_attach(Id, Payload)
-    ).
+    context_host(Host),
+    parts_call(acts, Host, [Id, attach]),
+    agent_attach(Id, Payload).
 
 detach(Name) :-
     must_be(atom, Name),
@@ -300,7 +296,7 @@ emit(Problem) :-
 
 emit(Problem, Options) :-
     context_host(Host),
-    quota_cells(Host, Problem-Options),
+    says(Host, Problem-Options),
     pheromone_emit(Host, Problem, Options).
 
 withdraw(Problem) :-
@@ -318,8 +314,7 @@ pheromone(Problem, Source, Strength) :-
 log(What) :-
     context_host(Host),
     context_now(Host, Agent),
-    quota_spend(Host, Agent, log),
-    quota_cells(Host, What),
+    parts_call(acts, Host, [Agent, log(What)]),
     event(said, Host, Agent, log(What)),
     (   host_logs(Host)
     ->  mobile_term(What),
@@ -338,7 +333,7 @@ log(What) :-
 
 enter(Result) :-
     context_host(Host),
-    quota_cells(Host, Result),
+    says(Host, Result),
     mobile_term(Result),
     context_agent(Id),
     agent(Id, _, Module, _, _),
@@ -357,7 +352,7 @@ enter(Result) :-
 
 result(Term) :-
     context(Host, _, Module),
-    quota_cells(Host, Term),
+    says(Host, Term),
     mobile_term(Term),
     legacy_result(Module, Term).
 
@@ -368,7 +363,7 @@ result(Term) :-
 
 message_failed(From, Message) :-
     context(Host, Id, _),
-    quota_cells(Host, From-Message),
+    says(Host, From-Message),
     (   agent_handled(Id, on_message(From, Message), Fault)
     ->  Told = message_undone(Id, From, Message, Fault)
     ;   Told = message_failed(Id, From, Message)

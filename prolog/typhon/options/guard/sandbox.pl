@@ -36,6 +36,7 @@ host_start/2 those of views.
     typhon_host_parts:changes/2,
     typhon_host_parts:ends/1,
     typhon_host_parts:part/4,
+    typhon_host_parts:untrusted/1,
     typhon_options:declared/4,
     typhon_place:serves/2,
     typhon_variants:called/5,
@@ -66,6 +67,9 @@ typhon_host_parts:begins(Host, Place, Options) :-
     ).
 
 typhon_host_parts:changeable(policy(_)).
+
+typhon_host_parts:untrusted(policy(Policy)) :-
+    Policy \== trusted.
 
 %   Before the option is put: so a file of rules that is wrong changes nothing.
 

@@ -20,7 +20,7 @@ ended(Quotas, Clauses, Outcome) :-
                listening(( create(Clauses, A, [host(g)]),
                            joined(A, Outcome) ), Messages)),
     forall(Outcome = raised(error(resource_error(What), _)),
-           memberchk(warning-typhon(over_quota(_, What)), Messages)).
+           memberchk(warning-typhon(over_limit(_, What)), Messages)).
 
 over(What, raised(error(resource_error(What), _))).
 
@@ -79,7 +79,7 @@ test(what_another_one_passed, Told == []) :-
                            outcomes(Bs, [disposed,disposed,disposed]) ),
                          Messages)),
     findall(B, ( member(B, Bs),
-                 memberchk(warning-typhon(over_quota(B, _)), Messages) ),
+                 memberchk(warning-typhon(over_limit(B, _)), Messages) ),
             Told).
 test(hops_of_a_traveller_that_takes_its_time, Outcome == done) :-
     ended([hops(3)],
@@ -314,12 +314,12 @@ test(state_of_one_owner, Ended-Left == 1-2) :-
                listening(( fat(700, A), fat(800, B), fat(1500, C),
                            outcome_of_one([A,B,C], Big),
                            Big == C,
-                           forall(typhon_quotas:look, true),
+                           typhon_quota_enforcer:look,
                            findall(X, ( member(X, [A,B]),
                                         agent_property(X, state(_)) ), Xs) ),
                          Messages)),
     length(Xs, Left),
-    count(warning-typhon(over_quota(_, state)), Messages, Ended).
+    count(warning-typhon(over_limit(_, state)), Messages, Ended).
 test(seconds_of_all, O == resource_error(seconds)) :-
     with_hosts([g-[quota([host(seconds(0.3))])]],
                listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),

@@ -1,0 +1,247 @@
+:- module(typhon_quota_agents,
+          [ quota_agents_again/1,       % +Host
+            quota_owner/3,              % ?Id, ?Host, -Owner
+            quota_owned/3,              % +Host, ?Owner, -Count
+            quota_until/3,              % +Id, ?Host, -Until
+            quota_text/2                % +Id, -Characters
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module('../../kernel/base/trees', [atoms_length/2]).
+:- use_module('../../kernel/host',
+              [ alarm_set/3, amended/5, context_now/2, host_address/2,
+                host_time/2, real_time/3 ]).
+:- use_module('../../kernel/agent',
+              [ agent/5, agent_origin/5, mail_count/2, origin_key/2,
+                with_agent/2 ]).
+:- use_module(quota_table,
+              [quota/3, quota_any/1, quota_passed/1, quota_shared/4]).
+
+/** <module> Agents on hosts with quotas
+
+Which come in, whose they are while they stand there, how long they may, and
+how large their state may be.
+
+*Threading*: any thread.  Agents come and go inside with_agent/2.  Of many that
+enter at once each may be one too many for a quota.
+*/
+
+:- multifile
+    typhon_gate:forbidden/2,
+    typhon_host_parts:part/4.
+
+:- dynamic
+    stands/4,                   % Id, Host, Owner: an atom, Until or inf
+    text/2.                     % Id, Characters: of atoms in its state
+
+                /*******************************
+                *           ADMISSION          *
+                *******************************/
+
+typhon_host_parts:part(admit, Host, 40, typhon_quota_agents:forbids) :-
+    quota_any(Host).
+
+typhon_gate:forbidden(error(resource_error(program_space), _), quota(state)).
+
+:- public forbids/4.
+
+forbids(From, Entrant, Host, refused(quota(What))) :-
+    too_much(What, From, Entrant, Host).
+
+%   too_much(-What, +From, +Entrant, +Host)
+
+too_much(mailbox, From, Entrant, Host) :-
+    quota(Host, mailbox, Most),
+    brought(From, Entrant, Count),
+    Count > Most.
+too_much(state, _, entrant(_, _, _, module(Module), _), Host) :-
+    quota(Host, state, Most),
+    module_property(Module, program_size(Size)),
+    Size > Most.
+too_much(agents, From, entrant(Agent, Hash, _, State, _), Host) :-
+    quota_shared(Host, owner, agents, Most),
+    owned(From, Agent, State, Host, Id, Owned),
+    agent_origin(Host, Id, Hash, Owned, Owner),
+    origin_key(Owner, Key),
+    quota_owned(Host, Key, Count),
+    Count >= Most.
+
+brought(going, entrant(Id, _, _, _, _), Count) :-
+    !,
+    mail_count(Id, Count).
+brought(_, entrant(_, _, _, _, Mail), Count) :-
+    length(Mail, Count).
+
+%   owned(+From, +Agent, +State0, +Host, -Id, -State): what tells the owner.
+%   Of an agent that begins here the id says no more than this process.
+
+owned(going, Id, State, _, Id, State).
+owned(here, _, State, Host, Id, State) :-
+    newborn(Host, Id).
+owned(from(Peer, _, Shown), Agent, State0, Host, Id, State) :-
+    ( Shown == newborn -> newborn(Host, Id) ; Id = Agent ),
+    amended(created, Host, Peer, State0, State).
+
+newborn(Host, Id) :-
+    host_address(Host, Address),
+    atom_concat('newborn@', Address, Id).
+
+                /*******************************
+                *         COME AND GO          *
+                *******************************/
+
+typhon_host_parts:part(comes, Host, 10, typhon_quota_agents:comes) :-
+    quota_any(Host).
+typhon_host_parts:part(goes, Host, 10, typhon_quota_agents:goes) :-
+    quota_any(Host).
+
+:- public comes/4, goes/3.
+
+comes(Id, Host, Module, Hash) :-
+    state_bounded(Host, Module),
+    (   agent_origin(Host, Id, Hash, module(Module), Owner)
+    ->  origin_key(Owner, Key),
+        until(Host, Until),
+        assertz(stands(Id, Host, Key, Until)),
+        ends_at(Until, Host, Id)
+    ;   true
+    ).
+
+goes(Id, _, Module) :-
+    set_module(Module:program_space(0)),
+    retractall(stands(Id, _, _, _)),
+    retractall(text(Id, _)).
+
+%!  quota_agents_again(+Host) is det.
+%
+%   The quotas of Host have changed, also for agents that are there.
+
+quota_agents_again(Host) :-
+    forall(agent(Id, Host, _, _, _),
+           ignore(with_agent(Id, stands_on(Id, Host)))).
+
+stands_on(Id, Host) :-
+    agent(Id, Host, Module, Hash, _),
+    !,
+    goes(Id, Host, Module),
+    (   quota_any(Host)
+    ->  comes(Id, Host, Module, Hash)
+    ;   true
+    ).
+
+until(Host, Until) :-
+    quota(Host, lifetime, Seconds),
+    host_time(Host, Now),
+    !,
+    Until is Now+Seconds.
+until(_, inf).
+
+ends_at(inf, _, _) :-
+    !.
+ends_at(Until, Host, Id) :-
+    real_time(Host, Until, Stamp),
+    alarm_set(Stamp, Id, stays(Until)).
+
+%!  quota_owner(?Id, ?Host, -Owner:atom) is nondet.
+%!  quota_owned(+Host, ?Owner:atom, -Count) is det.
+%!  quota_until(+Id, ?Host, -Until:number) is semidet.
+%
+%   Id stands on Host, which has quotas, and is the owner's; how many of that
+%   owner, or all, are there; until when Id may be there, on the clock of the
+%   host.
+
+quota_owner(Id, Host, Owner) :-
+    stands(Id, Host, Owner, _).
+
+quota_owned(Host, Owner, Count) :-
+    aggregate_all(count, stands(_, Host, Owner, _), Count).
+
+quota_until(Id, Host, Until) :-
+    stands(Id, Host, _, Until),
+    Until \== inf,
+    !.
+
+                /*******************************
+                *             STATE            *
+                *******************************/
+
+%   While a module gets its state it may not be larger than the quota; later it
+%   may be as large as it came.
+
+typhon_host_parts:part(module, Host, 10, typhon_quota_agents:module(Most)) :-
+    quota(Host, state, Most).
+
+:- public module/2.
+
+module(Most, Module) :-
+    set_module(Module:program_space(Most)).
+
+state_bounded(Host, Module) :-
+    (   quota(Host, state, Most)
+    ->  module_property(Module, program_size(Size)),
+        Space is max(integer(Most), Size),
+        set_module(Module:program_space(Space))
+    ;   true
+    ).
+
+%   The size of a clause does not include the text of its atoms, which live
+%   outside.  So the text that an agent adds is counted.  What it takes away is
+%   not: when the count passes the quota the text that is there is counted anew.
+
+typhon_host_parts:part(adds_clause, Host, 10,
+                       typhon_quota_agents:text_added(Most)) :-
+    quota(Host, state, Most).
+
+:- public text_added/3.
+
+%   text_added(+Most, +Module, +Clause): the running agent, whose state is in
+%   Module, adds Clause.
+%
+%   @error resource_error(state)
+
+text_added(Most, Module, Clause) :-
+    (   context_now(_, Id),
+        Id \== none
+    ->  atoms_length(Clause, Length),
+        add(Id, Length, Count),
+        (   Count =< Most
+        ->  true
+        ;   recount(Id, Module, Length, Most)
+        )
+    ;   true
+    ).
+
+add(Id, Length, Count) :-
+    (   retract(text(Id, Count0))
+    ->  Count is Count0+Length
+    ;   Count = Length
+    ),
+    assertz(text(Id, Count)).
+
+recount(Id, Module, Length, Most) :-
+    aggregate_all(sum(Its),
+                  ( state_clause(Module, Head, Body),
+                    atoms_length(Head-Body, Its) ),
+                  There),
+    retractall(text(Id, _)),
+    Count is There+Length,
+    assertz(text(Id, Count)),
+    (   Count =< Most
+    ->  true
+    ;   quota_passed(state)
+    ).
+
+state_clause(Module, Head, Body) :-
+    '$c_current_predicate'(_, Module:Head),
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _),
+    clause(Module:Head, Body).
+
+%!  quota_text(+Id, -Characters:integer) is det.
+%
+%   At least so much text is in the state of Id, unless it was taken away.
+
+quota_text(Id, Characters) :-
+    (   text(Id, Count)
+    ->  Characters = Count
+    ;   Characters = 0
+    ).

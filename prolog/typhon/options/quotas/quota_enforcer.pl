@@ -1,0 +1,354 @@
+:- module(typhon_quota_enforcer,
+          [ enforcer_adapt/0
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [last/2, member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/program',
+              [fault_note/1, fault_noted/1, machine_inside/0, machine_run/3]).
+:- use_module('../../kernel/host',
+              [ alarm_in/3, context_now/2, context_set/3, scheduler_call/1,
+                turn_of/3, turns_now/3 ]).
+:- use_module('../../kernel/agent', [agent/5, agent_status/3]).
+:- use_module('../../kernel/lifecycle', [agent_end/3]).
+:- use_module(quota_agents, [quota_owner/3, quota_text/2, quota_until/3]).
+:- use_module(quota_table,
+              [ quota/3, quota_any/1, quota_overrun/1, quota_passed_now/1,
+                quota_shared/4 ]).
+:- use_module(usage, [usage_begin/0]).
+
+/** <module> Turns of agents on hosts with quotas, and agents that use too much
+
+A turn is limited in its inferences, and what is kept of an agent in its size.
+While there are hosts with quotas of what is not counted when it is used, a
+thread looks ten times a second: how long an agent has not stopped, how large
+its stack is, and what agents of one owner, or all of a host, have of these and
+of state together.  And an agent ends that has been on a host for as long as it
+may.
+
+*Threading*: run/3 in the worker that has the agent, look/0 in the thread of
+the enforcer, too_long/2 in a worker; interrupt/2 and pause/2 are signals.
+*/
+
+:- setting(pause, between(0.0, 1.0), 0.8,
+           "Agents that run for long where there are quotas pause for this part \c
+            of the time while others run").
+
+:- multifile
+    typhon_host_parts:part/4,
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2,
+    typhon_turn:limit_passed/1.
+
+:- dynamic enforcer/1.          % Thread
+
+                /*******************************
+                *             TURNS            *
+                *******************************/
+
+typhon_host_parts:part(turn, Host, 10, typhon_quota_enforcer:run) :-
+    quota_any(Host).
+
+:- public run/3.
+
+run(turn(Id, Host, Context), Goals, Outcome) :-
+    Context = context(_, Module),
+    context_set(Host, Id, Module),      % its seconds begin
+    usage_begin,
+    far_limit(Host),
+    within_inferences(Host, Context, Goals, Outcome0),
+    over(Outcome0, Outcome1),
+    storable(Outcome1, Host, Outcome).
+
+%   An agent that passes the quota of stack is interrupted long before its stack
+%   is full: one that fills it to the brim while it catches all that is raised leaves no
+%   space for exceptions, and then 9.0.4 ends the process.  A limit near the quota
+%   would make it worse: the brim would be there sooner.
+
+far_limit(Host) :-
+    (   quota(Host, stack, Most),
+        Far is 4*integer(Most),
+        current_prolog_flag(stack_limit, Limit),
+        Limit < Far
+    ->  set_prolog_flag(stack_limit, Far)
+    ;   true
+    ).
+
+within_inferences(Host, Context, Goals, Outcome) :-
+    quota(Host, inferences, Most),
+    !,
+    call_with_inference_limit(machine_run(Context, Goals, Outcome0), Most,
+                              Within),
+    (   Within == inference_limit_exceeded
+    ->  Outcome = over(inferences)
+    ;   Outcome = Outcome0
+    ).
+within_inferences(_, Context, Goals, Outcome) :-
+    machine_run(Context, Goals, Outcome).
+
+over(_, over(What)) :-
+    quota_passed_now(What),
+    !.
+over(raised(inference_limit_exceeded), over(inferences)) :-
+    !.
+over(raised(error(resource_error(What0), _)), Outcome) :-
+    !,
+    quota_named(What0, What),
+    Outcome = over(What).
+over(raised(Ball), over(cells)) :-
+    \+ is_tree(Ball, 10 000),          % printing it would never end
+    !.
+over(Outcome, Outcome).
+
+quota_named(program_space, state) :- !.
+quota_named(What, What).
+
+%   storable(+Outcome0, +Host, -Outcome): what is kept of the agent is stored
+%   as a tree, while others wait for it.
+
+storable(Outcome0, Host, Outcome) :-
+    (   kept(Outcome0, Kept),
+        quota(Host, cells, Most),
+        \+ is_tree(Kept, Most)
+    ->  fault_note(none),
+        Outcome = over(cells)
+    ;   Outcome = Outcome0
+    ).
+
+kept(effect(Control, _, Goals), Control-Goals).
+kept(failed, Fault) :- fault_noted(Fault).
+kept(raised(_), Fault) :- fault_noted(Fault).
+
+typhon_turn:limit_passed(raised(error(resource_error(What), _))) :-
+    quota_passed_now(What).
+
+                /*******************************
+                *           THE THREAD         *
+                *******************************/
+
+%!  enforcer_adapt is det.
+%
+%   The quotas of hosts have changed: the thread runs as long as it is needed.
+
+enforcer_adapt :-
+    is_needed,
+    !,
+    (   enforcer(_)
+    ->  true
+    ;   thread_create(enforce, Thread, [alias(typhon_quota_enforcer)]),
+        assertz(enforcer(Thread))
+    ).
+enforcer_adapt :-
+    (   retract(enforcer(Thread))
+    ->  thread_send_message(Thread, stop),
+        in_own_thread(thread_join(Thread, _))
+    ;   true
+    ).
+
+is_needed :-
+    quota(_, seconds, _).
+is_needed :-
+    quota(_, stack, _).
+is_needed :-
+    member(What, [seconds, stack, state]),
+    quota_shared(_, _, What, _).
+
+enforce :-
+    thread_self(Me),
+    (   thread_get_message(Me, stop, [timeout(0.1)])
+    ->  true
+    ;   catch(look, error(Formal, Context),
+              print_error(error, error(Formal, Context))),
+        enforce
+    ).
+
+look :-
+    forall(( turn(Agent, Host, Thread, Seconds),
+             exceeds(Agent, Host, Thread, Seconds, Act) ),
+           call(Act)),
+    forall(( quota_shared(Host, Whose, What, Most),
+             used(What, Host, Used),
+             too_much(Whose, Used, Most, Agent) ),
+           stop(Agent, What)).
+
+turn(Agent, Host, Thread, Seconds) :-
+    turns_now(Agent, Thread, Seconds),
+    agent(Agent, Host, _, _, _),
+    agent_status(Agent, running, _).
+
+                /*******************************
+                *             EACH             *
+                *******************************/
+
+%   exceeds(+Agent, +Host, +Thread, +Seconds, -Act) is semidet.
+%
+%   A stack is not bounded by its limit, see far_limit/1.  An agent that does not
+%   stop for long lets others go first, if there are some that are not like that.
+%   Priorities of threads would do the same if systems kept to them.
+
+exceeds(Agent, Host, Thread, _, stop_in(Thread, Agent, stack)) :-
+    quota(Host, stack, Most),
+    stack_used(Thread, Used),
+    Used > Most,
+    !.
+exceeds(Agent, Host, Thread, Seconds, stop_in(Thread, Agent, seconds)) :-
+    quota(Host, seconds, Most),
+    Seconds > Most,
+    !.
+exceeds(Agent, Host, Thread, Seconds, pause_in(Thread, Agent)) :-
+    long(Seconds),
+    quota_any(Host),
+    another_runs(Thread).
+
+stack_used(Thread, Used) :-
+    catch(thread_statistics(Thread, stack, Used), error(_, _), fail).
+
+long(Seconds) :-
+    Seconds > 0.1.
+
+another_runs(Thread) :-
+    turns_now(_, Other, Seconds),
+    Other \== Thread,
+    \+ long(Seconds),
+    !.
+
+pause_in(Thread, Agent) :-
+    setting(pause, Part),
+    get_time(Now),
+    Until is Now+0.1*Part,
+    signal(Thread, pause(Agent, Until)).
+
+                /*******************************
+                *            TOGETHER          *
+                *******************************/
+
+%   used(+What, +Host, -Used): Used is a list of Owner-(Amount-Agent).
+
+used(seconds, Host, Used) :-
+    findall(Owner-(Seconds-Agent),
+            ( turn(Agent, Host, _, Seconds), quota_owner(Agent, Host, Owner) ),
+            Used).
+used(stack, Host, Used) :-
+    findall(Owner-(Bytes-Agent),
+            ( turn(Agent, Host, Thread, _), stack_used(Thread, Bytes),
+              quota_owner(Agent, Host, Owner) ),
+            Used).
+used(state, Host, Used) :-
+    findall(Owner-(Bytes-Agent),
+            ( quota_owner(Agent, Host, Owner),
+              agent(Agent, Host, Module, _, _),
+              module_property(Module, program_size(Size)),
+              quota_text(Agent, Text), Bytes is Size+Text ),
+            Used).
+
+%   too_much(+Whose, +Used, +Most, -Agent): Agent is the one that uses most, of
+%   an owner that uses too much, or, if it is all together, of the one that uses
+%   most.
+
+too_much(Whose, Used, Most, Agent) :-
+    keysort(Used, Sorted),
+    group_pairs_by_key(Sorted, Owners0),
+    findall(Sum-Its, ( member(_-Its, Owners0), sum(Its, Sum) ), Owners1),
+    keysort(Owners1, Owners),
+    over(Whose, Owners, Most, Its),
+    keysort(Its, Agents),
+    last(Agents, _-Agent).
+
+over(owner, Owners, Most, Its) :-
+    member(Sum-Its, Owners),
+    Sum > Most.
+over(host, Owners, Most, Its) :-
+    aggregate_all(sum(Sum), member(Sum-_, Owners), All),
+    All > Most,
+    last(Owners, _-Its).
+
+sum(Its, Sum) :-
+    aggregate_all(sum(Amount), member(Amount-_, Its), Sum).
+
+                /*******************************
+                *           LIFETIME           *
+                *******************************/
+
+typhon_scheduler:fire(Id, stays(Until)) :-
+    !,
+    scheduler_call(typhon_quota_enforcer:too_long(Id, Until)).
+
+typhon_scheduler:over(Id, stays(Until)) :-
+    \+ quota_until(Id, _, Until).
+
+:- public too_long/2.
+
+%   An agent under way may come back to where it was.
+
+too_long(Id, Until) :-
+    (   quota_until(Id, _, Until)
+    ->  stop(Id, lifetime),
+        (   quota_until(Id, _, Until)
+        ->  alarm_in(0.1, Id, stays(Until))
+        ;   true
+        )
+    ;   true
+    ).
+
+                /*******************************
+                *             STOP             *
+                *******************************/
+
+%   stop(+Agent, +What): it ends, if it rests, or is interrupted.
+
+stop(Agent, What) :-
+    Outcome = raised(error(resource_error(What), _)),
+    (   agent_end(Agent, at_rest, Outcome)
+    ->  print_message(warning, typhon(over_limit(Agent, What)))
+    ;   turn_of(Agent, Thread, _)
+    ->  stop_in(Thread, Agent, What)
+    ;   true
+    ).
+
+at_rest(ready).
+at_rest(sleeping(_)).
+at_rest(waiting(_, _)).
+at_rest(resident).
+at_rest(held).
+at_rest(leaving(_, _)).
+
+stop_in(Thread, Agent, What) :-
+    signal(Thread, interrupt(Agent, What)).
+
+signal(Thread, Goal) :-
+    catch(thread_signal(Thread, typhon_quota_enforcer:Goal),
+          error(existence_error(_, _), _), true).
+
+:- public interrupt/2, pause/2.
+
+%   Only inside its goals, as in typhon_disposal.
+
+interrupt(Agent, What) :-
+    (   inside(Agent)
+    ->  quota_overrun(What)
+    ;   true
+    ).
+
+%   Nor may others wait for what it has; where the signal comes late, as after
+%   a long call of a foreign predicate, there is nothing left of the pause.
+
+pause(Agent, Until) :-
+    (   inside(Agent),
+        \+ has_mutex
+    ->  get_time(Now),
+        Seconds is Until-Now,
+        sleep(Seconds)                  % not at all if it is negative
+    ;   true
+    ).
+
+inside(Agent) :-
+    context_now(_, Agent),
+    machine_inside.
+
+has_mutex :-
+    prolog_current_frame(Frame),
+    prolog_frame_attribute(Frame, parent_goal, system:with_mutex(_, _)).
