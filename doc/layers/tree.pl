@@ -14,6 +14,7 @@
             setting_of/5,       % ?File, ?Name, ?Type, ?Default, ?Text
             size/4,             % ?File, ?PI, ?First, ?Last
             nodes/2,            % ?File, ?Count
+            pauses/2,           % ?File, -Count
             inside/2,           % ?Relative, ?File
             layers/1,           % -Layers
             layer_module/3,             % ?File, ?Layer, ?Name
@@ -49,7 +50,9 @@
     hook_clause/2,              % File, Module:Head: that clause
     setting_of/5,               % File, Module:Name, Type, Default, Text
     size/4,                     % File, PI, first and last line
-    nodes/2.                    % File, Count: nodes of the term of a clause
+    nodes/2,                    % File, Count: nodes of the term of a clause
+    agent_program/1,            % File
+    clause_pauses/2.            % File, Count: of a clause
 
 :- prolog_load_context(directory, Dir),
    file_directory_name(Dir, Doc),
@@ -96,6 +99,7 @@ note(Clause, File, First, Last) :-
     note_names(Clause, File),
     term_nodes(Clause, Nodes),
     assertz(nodes(File, Nodes)),
+    note_pauses(Clause, File),
     (   clause_head(Clause, Module:Head)
     ->  functor(Head, Name, Arity),
         assertz(defines(File, Module:Name/Arity)),
@@ -108,6 +112,34 @@ note(Clause, File, First, Last) :-
 
 term_nodes(Term, Nodes) :-
     aggregate_all(count, sub_term(_, Term), Nodes).
+
+%   The goals sleep(_) of control structures are pauses. A clause inside a
+%   clause is one of an agent, which does not occupy a thread while it sleeps.
+
+note_pauses(Clause, File) :-
+    (   Clause = (_:-Body),
+        aggregate_all(count, pause_in(Body, (_:-Body)), Count),
+        Count > 0
+    ->  assertz(clause_pauses(File, Count))
+    ;   true
+    ).
+
+pause_in(Term, Around) :-
+    compound(Term),
+    Term \= (_:-_),
+    (   Term = sleep(_),
+        functor(Around, Name, _),
+        memberchk(Name, [(:-), (','), ;, ->, *->, \+, :])
+    ;   arg(_, Term, Part),
+        pause_in(Part, Term)
+    ).
+
+%   pauses(?File, -Count): File calls sleep/1 at so many places.
+
+pauses(File, Count) :-
+    tree_file(File),
+    \+ agent_program(File),
+    aggregate_all(sum(N), clause_pauses(File, N), Count).
 
 clause_head((Head-->_), Head) :- !, callable(Head).
 clause_head((Head:-_), Head) :- !, callable(Head).
@@ -150,6 +182,10 @@ note_directive(setting(Name0, Type, Default, Text), File) :-
     module_of(File, Module),
     strip_module(Module:Name0, M, Name),
     assertz(setting_of(File, M:Name, Type, Default, Text)).
+note_directive(agent(Name, Options), File) :-
+    !,
+    note_names(agent(Name, Options), File),
+    assertz(agent_program(File)).
 note_directive(Directive, File) :-
     note_names(Directive, File).
 
