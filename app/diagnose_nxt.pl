@@ -13,7 +13,7 @@ and stops with advice at the step that does not work.  Nothing moves.
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [memberchk/2]).
 :- use_module('../prolog/typhon/nxt').
-:- use_module('../prolog/typhon/bridges/nxt/helper', [nxt_python/2]).
+:- use_module('../prolog/typhon/bridges/nxt/link', [nxt_python/2]).
 :- use_module(diagnose, [diagnose_steps/2, python_says/4]).
 
 %!  diagnose_nxt(+Port) is semidet.
@@ -36,7 +36,7 @@ diagnose_nxt(Port) :-
 %   step(Name, Advice)
 
 step(python,
-     'Install python3, or set typhon_nxt_helper:python.').
+     'Install python3, or set typhon_nxt_link:python.').
 step(pyserial,
      'apt install python3-serial, or pip install pyserial.').
 step(port,

@@ -20,11 +20,10 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
-:- use_module(data, [bytes_hex/2, hex_bytes/2, nxt_text/2]).
 :- use_module(link,
-              [ link_brick/2, link_close/1, link_open/3, link_option/2,
-                link_request/4, link_request/5
-              ]).
+              [ bytes_hex/2, hex_bytes/2, link_brick/2, link_close/1,
+                link_open/3, link_option/2, link_request/4, link_request/5,
+                nxt_text/2 ]).
 
 /** <module> A brick: connection, battery, name, sounds, display, mailboxes
 
@@ -51,7 +50,7 @@
 %       succeed though the brick is silent or refuses.
 %     - baudrate(N)
 %     - python(Program)
-%       For the helper; default see the setting typhon_nxt_helper:python.
+%       For the helper; default see the setting typhon_nxt_link:python.
 %
 %   @error permission_error(connect, nxt_brick, Brick) if it is connected
 %   @error See nxt_failure/4

@@ -14,7 +14,7 @@
 :- use_module(library(lists), [append/3]).
 :- use_module(library(readutil), [read_file_to_codes/3]).
 :- use_module(brick, [nxt_command/4]).
-:- use_module(data, [bytes_hex/2, hex_bytes/2, nxt_text/2]).
+:- use_module(link, [bytes_hex/2, hex_bytes/2, nxt_text/2]).
 
 /** <module> Files and programs of a brick
 

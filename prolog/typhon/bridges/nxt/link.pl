@@ -5,21 +5,29 @@
             link_request/5,             % +Brick, +What, +Fields, +Seconds,
                                         % -Reply
             link_option/2,              % +Brick, ?Option
-            link_brick/2                % ?Brick, ?Port
+            link_brick/2,               % ?Brick, ?Port
+            nxt_python/2,               % +Options, -Program
+            bytes_hex/2,                % +Bytes, -Hex
+            hex_bytes/2,                % +Hex, -Bytes
+            nxt_text/2                  % +Length, +Text
           ]).
-:- use_module(library(apply), [maplist/3]).
-:- use_module(library(error), [existence_error/2, permission_error/3]).
+:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(error),
+              [ domain_error/2, existence_error/2, must_be/2,
+                permission_error/3 ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
-:- use_module('../helper', [helper_ask/4, helper_close/1, helper_open/3]).
-:- use_module(errors, [nxt_failure/4]).
-:- use_module(helper, [nxt_command_line/3]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../helper',
+              [ helper_ask/4, helper_close/1, helper_file/2, helper_open/3,
+                helper_pid/2, helper_python/2 ]).
 
 /** <module> Requests to bricks, and their answers
 
-Every brick that is connected has a helper.  One that died is replaced by
-the next request.  A helper serves its requests one after the other;
-different bricks have different helpers.
+Every brick that is connected has a helper, which holds its serial line:
+`python3 bridges/nxt/bridge.py PORT`, see there for the lines that it reads and
+writes.  One that died is replaced by the next request.  A helper serves its
+requests one after the other; different bricks have different helpers.
 
 *Threading*: any thread may ask; see typhon_helper_requests.
 */
@@ -124,3 +132,197 @@ atoms(Value, Value).
 
 atoms_pair(Key-Value0, Key-Value) :-
     atoms(Value0, Value).
+
+                /*******************************
+                *            HELPER            *
+                *******************************/
+
+:- setting(typhon_nxt_helper:python, atom, '', "Now typhon_nxt_link:python").
+:- setting(python, atom, '',
+           "The Python of the helpers of bricks; '' for that of all helpers").
+
+%!  nxt_python(+Options, -Program) is det.
+%
+%   As helper_python/2, where there may be a setting for bricks.
+
+nxt_python(Options, Python) :-
+    (   option(python(_), Options)
+    ->  helper_python(Options, Python)
+    ;   setting(python, Name),
+        Name \== ''
+    ->  helper_python([python(Name)], Python)
+    ;   helper_python([], Python)
+    ).
+
+%   nxt_command_line(+Port, +Options, -Command) is det.
+%
+%   Command is for helper_open/3.  Options: python(Program), baudrate(N).
+
+nxt_command_line(Port, Options,
+                 command(Python,
+                         ['-u', File, '--baudrate', Baud, '--', Port])) :-
+    nxt_python(Options, Python),
+    helper_file('nxt/bridge.py', File),
+    option(baudrate(Baud), Options, 115200).
+
+%   running(?Brick, ?Pid): for queries from the top level.
+
+:- public running/2.
+
+running(Brick, Pid) :-
+    helper_pid(nxt(Brick), Pid).
+
+                /*******************************
+                *         BYTES, NAMES         *
+                *******************************/
+
+%!  bytes_hex(+Bytes:list, -Hex:atom) is det.
+%!  hex_bytes(+Hex:atom, -Bytes:list) is det.
+%
+%   Hex are the two hexadecimal digits of each byte.
+
+bytes_hex(Bytes, Hex) :-
+    must_be(list(between(0, 255)), Bytes),
+    foldl(byte_hex, Bytes, Codes, []),
+    atom_codes(Hex, Codes).
+
+byte_hex(Byte, Codes, Rest) :-
+    format(codes(Codes, Rest), '~|~`0t~16r~2+', [Byte]).
+
+hex_bytes(Hex, Bytes) :-
+    atom_codes(Hex, Codes),
+    phrase(bytes(Bytes), Codes).
+
+bytes([Byte|Bytes]) -->
+    [High,Low],
+    !,
+    { code_type(High, xdigit(H)),
+      code_type(Low, xdigit(L)),
+      Byte is H*16+L
+    },
+    bytes(Bytes).
+bytes([]) -->
+    [].
+
+%!  nxt_text(+Length:integer, +Text) is det.
+%
+%   @error domain_error(nxt_text(Length), Text) if Text is not an atom of 1
+%          to Length ASCII characters
+
+nxt_text(Length, Text) :-
+    must_be(atom, Text),
+    atom_codes(Text, Codes),
+    length(Codes, Long),
+    (   between(1, Length, Long),
+        forall(member(Code, Codes), between(1, 127, Code))
+    ->  true
+    ;   domain_error(nxt_text(Length), Text)
+    ).
+
+                /*******************************
+                *            ERRORS            *
+                *******************************/
+
+:- multifile
+    prolog:error_message//1.
+
+%   nxt_failure(+Answer, +Brick, +Port, +What) is failure.
+%
+%   Raise the error that an answer of the helper, or its missing, means. The
+%   context is context(nxt(Brick, What), Text), Text being the words of the
+%   helper.
+%
+%   @error existence_error(nxt_port, Port) if there is no such port
+%   @error permission_error(open, nxt_port, Port)
+%   @error permission_error(lock, nxt_port, Port) if another program has it
+%   @error timeout_error(nxt(What), Brick) if the brick is silent
+%   @error nxt_error(refused(Status), Brick), Status being the name of the
+%          status byte
+%   @error nxt_error(line_lost, Brick)
+%   @error nxt_error(garbage, Brick) if there was an answer that is none
+%   @error nxt_error(open_failed, Brick) for other reasons
+%   @error nxt_error(helper_died(Status), Brick), Status as of
+%          process_wait/2, or `stuck` if it had to be killed
+%   @error existence_error(python_module, serial)
+%   @error existence_error(python, Program)
+%   @error existence_error(nxt_brick, Brick) if it was disconnected meanwhile
+%   @error domain_error(nxt_request, What) if the helper does not take it
+
+nxt_failure(Answer, Brick, Port, What) :-
+    failure(Answer, Brick, Port, What, Formal, Text),
+    throw(error(Formal, context(nxt(Brick, What), Text))).
+
+failure(said(Dict), Brick, Port, What, Formal, Text) :-
+    get_dict(error, Dict, Kind),
+    get_dict(message, Dict, Text0),
+    (   Kind == no_pyserial,
+        get_dict(python, Dict, Python)
+    ->  atomic_list_concat([Python, ': ', Text0], Text)
+    ;   Text = Text0
+    ),
+    formal(Kind, Dict, Brick, Port, What, Formal).
+failure(died(Status), Brick, _, _, nxt_error(helper_died(Status), Brick), _).
+failure(stuck, Brick, _, _, nxt_error(helper_died(stuck), Brick), _).
+failure(closed, Brick, _, _, existence_error(nxt_brick, Brick), _).
+failure(error(Formal, Context), _, _, _, Formal, Text) :-
+    ( Context = context(_, Text) -> true ; true ).
+
+formal(no_such_port, _, _, Port, _, existence_error(nxt_port, Port)) :- !.
+formal(permission, _, _, Port, _,
+       permission_error(open, nxt_port, Port)) :- !.
+formal(busy_port, _, _, Port, _,
+       permission_error(lock, nxt_port, Port)) :- !.
+formal(timeout, _, Brick, _, What, timeout_error(nxt(What), Brick)) :- !.
+formal(refused, Dict, Brick, _, _, nxt_error(refused(Status), Brick)) :-
+    !,
+    get_dict(status, Dict, Status).
+formal(no_pyserial, _, _, _, _,
+       existence_error(python_module, serial)) :- !.
+formal(bad_request, _, _, _, What, domain_error(nxt_request, What)) :- !.
+formal(Kind, _, Brick, _, _, nxt_error(Kind, Brick)).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(existence_error(nxt_port, Port)) -->
+    [ 'There is no port ~w'-[Port] ].
+prolog:error_message(existence_error(nxt_brick, Brick)) -->
+    [ 'No brick ~w is connected'-[Brick] ].
+prolog:error_message(existence_error(python, Python)) -->
+    [ 'There is no Python ~w (install python3, or set \c
+       typhon_nxt_link:python)'-[Python] ].
+prolog:error_message(existence_error(python_module, serial)) -->
+    [ 'This Python has no pyserial (install it: apt install \c
+       python3-serial, or pip install pyserial)' ].
+prolog:error_message(permission_error(open, nxt_port, Port)) -->
+    [ 'You may not use ~w (is your user in the group dialout?)'-[Port] ].
+prolog:error_message(permission_error(lock, nxt_port, Port)) -->
+    [ 'Another program uses ~w'-[Port] ].
+prolog:error_message(permission_error(connect, nxt_brick, Brick)) -->
+    [ 'A brick ~w is connected already'-[Brick] ].
+prolog:error_message(timeout_error(nxt(What), Brick)) -->
+    [ 'Brick ~w did not answer ~w in time'-[Brick, What] ].
+prolog:error_message(domain_error(nxt_request, What)) -->
+    [ 'No brick can be asked for such a ~w'-[What] ].
+prolog:error_message(nxt_error(Problem, Brick)) -->
+    problem(Problem, Brick).
+
+problem(refused(Status), Brick) -->
+    [ 'Brick ~w refuses: ~w'-[Brick, Status] ].
+problem(line_lost, Brick) -->
+    [ 'The line to brick ~w was lost'-[Brick] ].
+problem(garbage, Brick) -->
+    [ 'What brick ~w answered makes no sense'-[Brick] ].
+problem(open_failed, Brick) -->
+    [ 'The port of brick ~w cannot be opened'-[Brick] ].
+problem(low_battery(Volts), Brick) -->
+    [ 'The battery of brick ~w is low: ~w'-[Brick, Volts] ].
+problem(slow(Time), Brick) -->
+    [ 'Brick ~w takes ~w to answer'-[Brick, Time] ].
+problem(helper_died(stuck), Brick) -->
+    [ 'The helper of brick ~w did not answer, and was killed'-[Brick] ].
+problem(helper_died(Status), Brick) -->
+    [ 'The helper of brick ~w ended: ~w'-[Brick, Status] ].
+problem(Problem, Brick) -->
+    [ 'Brick ~w: ~w'-[Brick, Problem] ].

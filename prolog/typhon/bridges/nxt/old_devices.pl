@@ -1,20 +1,14 @@
 :- module(typhon_nxt_old_devices,
-          [ move_forward_nxt/3,
-            move_forward_nxt/4,
-            move_backward_nxt/3,
-            move_backward_nxt/4,
-            flt_nxt/2,
-            flt_nxt/3,
-            stop_nxt/2,
-            stop_nxt/3,
-            rotate_nxt/4,
+          [ rotate_nxt/4,
             rotateto_nxt/4,
-            read_accel_nxt/5,
             read_sensorport_nxt/3,
             floodlight_nxt/3,
             start_compasscalibration_nxt/2,
             stop_compasscalibration_nxt/2,
-            set_gyroffset_nxt/2         % and those of family/3
+            set_gyroffset_nxt/2,        % and those of family/3
+            old_set/3,                  % +Name, +Key, +Value
+            old_value/4,                % +Name, +Key, +Default, -Value
+            old_clear/2                 % +Name, ?Key
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
@@ -22,8 +16,8 @@
               [append/3, member/2, memberchk/2, same_length/2]).
 :- use_module(brick, [nxt_command/4]).
 :- use_module(motors).
-:- use_module(old_state, [old_clear/2, old_set/3, old_value/4]).
 :- use_module(sensors).
+:- reexport(sensors, [nxt_accelerometer/5 as read_accel_nxt]).
 
 /** <module> Motors and sensors by the names of SWI-PRO-NXT
 
@@ -48,6 +42,11 @@ gyroscope, infrared seeker and accelerometer are those of HiTechnic.
 %     - value(Goal)
 %       the brick, one port and its value, for each port; the values are
 %       arguments of the predicate, after the ports.
+%     - speed(Sign)
+%       a move forward or backward: the speed is the last argument.
+%
+%   So `init_light_nxt(b, 1, 3)` is for two ports, and
+%   `read_touch_nxt(b, 1, 3, R1, R3)` has their values.
 
 term_expansion(family(Name, Most, Kind), Terms) :-
     findall(Term, family_term(Name, Most, Kind, Term), Terms).
@@ -66,7 +65,13 @@ family_body(each(Goal), Brick, Ports, [], maplist(call(Goal, Brick), Ports)).
 family_body(value(Goal), Brick, Ports, Values,
             maplist(call(Goal, Brick), Ports, Values)) :-
     same_length(Ports, Values).
+family_body(speed(Sign), Brick, Ports, [Speed],
+            move_at(Sign, Brick, Ports, Speed)).
 
+family(move_forward_nxt, 2, speed(1)).
+family(move_backward_nxt, 2, speed(-1)).
+family(flt_nxt, 2, all(nxt_float)).     % switch the current off
+family(stop_nxt, 2, all(nxt_stop)).     % stop and hold
 family(reverse_nxt, 2, each(reverse)).
 family(set_motorspeed_nxt, 2, value(set_motorspeed)).
 family(set_acceleration_nxt, 2, value(set_acceleration)).
@@ -94,28 +99,11 @@ family(read_irseeker_nxt, 2, value(nxt_infrared)).
                 *            MOTORS            *
                 *******************************/
 
-%!  move_forward_nxt(+Name, +P, +Speed) is det.
-%!  move_forward_nxt(+Name, +P1, +P2, +Speed) is det.
-%!  move_backward_nxt(+Name, +P, +Speed) is det.
-%!  move_backward_nxt(+Name, +P1, +P2, +Speed) is det.
-%
 %   The motors run at Speed, -100 to 100, until they are stopped.
 
-move_forward_nxt(Name, P, Speed) :-
+move_at(Sign, Name, Ports, Speed) :-
     clipped(Speed, Power),
-    move(Name, [P], Power).
-
-move_forward_nxt(Name, P1, P2, Speed) :-
-    clipped(Speed, Power),
-    move(Name, [P1,P2], Power).
-
-move_backward_nxt(Name, P, Speed) :-
-    clipped(Speed, Power),
-    move(Name, [P], -Power).
-
-move_backward_nxt(Name, P1, P2, Speed) :-
-    clipped(Speed, Power),
-    move(Name, [P1,P2], -Power).
+    move(Name, Ports, Sign*Power).
 
 clipped(Speed, Power) :-
     must_be(number, Speed),
@@ -148,25 +136,6 @@ ramp(Name, Ports, Now, Power, Rate) :-
         sleep(0.05),
         ramp(Name, Ports, Next, Power, Rate)
     ).
-
-%!  flt_nxt(+Name, +P) is det.
-%!  flt_nxt(+Name, +P1, +P2) is det.
-%!  stop_nxt(+Name, +P) is det.
-%!  stop_nxt(+Name, +P1, +P2) is det.
-%
-%   Switch the current off; stop and hold.
-
-flt_nxt(Name, P) :-
-    nxt_float(Name, P).
-
-flt_nxt(Name, P1, P2) :-
-    nxt_float(Name, [P1,P2]).
-
-stop_nxt(Name, P) :-
-    nxt_stop(Name, P).
-
-stop_nxt(Name, P1, P2) :-
-    nxt_stop(Name, [P1,P2]).
 
 %!  rotate_nxt(+Name, +P, +Angle, +Dir) is det.
 %!  rotateto_nxt(+Name, +P, +Angle, +Sign) is det.
@@ -209,9 +178,6 @@ turn_to(Name, P, To, Now) :-
     Seconds is 10+3*abs(To-Now)/(10*Power),
     nxt_turn_to(Name, P, Power, To, Seconds).
 
-%!  reverse_nxt(+Name, +P) is det.
-%!  reverse_nxt(+Name, +P1, +P2) is det.
-%
 %   Turn the other way at the same speed.
 
 reverse(Name, P) :-
@@ -219,9 +185,6 @@ reverse(Name, P) :-
     memberchk(power(Power), State),
     move(Name, [P], -Power).
 
-%!  set_motorspeed_nxt(+Name, +P, +Speed) is det.
-%!  set_motorspeed_nxt(+Name, +P1, +P2, +S1, +S2) is det.
-%
 %   Set the speed: of a motor that turns at once, of others for rotate_nxt/4.
 
 set_motorspeed(Name, P, Speed) :-
@@ -236,9 +199,6 @@ set_motorspeed(Name, P, Speed) :-
     ;   move(Name, [P], sign(Now)*Power)
     ).
 
-%!  set_acceleration_nxt(+Name, +P, +Acceleration) is det.
-%!  set_acceleration_nxt(+Name, +P1, +P2, +A1, +A2) is det.
-%
 %   Per cent in a second.  A move then takes time to reach its speed.
 
 set_acceleration(Name, P, Acceleration) :-
@@ -246,17 +206,11 @@ set_acceleration(Name, P, Acceleration) :-
     nxt_motor(Name, P, _),
     old_set(Name, acceleration(P), Acceleration).
 
-%!  ismoving_nxt(+Name, +P, -R) is det.
-%!  ismoving_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%
 %   R is 1 if the motor moves, 0 if not.
 
 is_moving(Name, P, R) :-
     ( nxt_moves(Name, P) -> R = 1 ; R = 0 ).
 
-%!  getmode_nxt(+Name, +P, -R) is det.
-%!  getmode_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%
 %   R is 1 for forward, 2 backward, 3 stopped, 4 without current.
 
 motor_mode(Name, P, R) :-
@@ -276,34 +230,6 @@ mode(_, _, _, 3).
                 *            SENSORS           *
                 *******************************/
 
-%!  init_light_nxt(+Name, +P1) is det.
-%!  init_light_nxt(+Name, +P1, +P2) is det.
-%!  init_light_nxt(+Name, +P1, +P2, +P3) is det.
-%!  init_light_nxt(+Name, +P1, +P2, +P3, +P4) is det.
-%!  init_sound_nxt(+Name, +P1) is det.
-%!  init_sound_nxt(+Name, +P1, +P2) is det.
-%!  init_sound_nxt(+Name, +P1, +P2, +P3) is det.
-%!  init_sound_nxt(+Name, +P1, +P2, +P3, +P4) is det.
-%!  init_ultrasonic_nxt(+Name, +P1) is det.
-%!  init_ultrasonic_nxt(+Name, +P1, +P2) is det.
-%!  init_ultrasonic_nxt(+Name, +P1, +P2, +P3) is det.
-%!  init_ultrasonic_nxt(+Name, +P1, +P2, +P3, +P4) is det.
-%!  init_touch_nxt(+Name, +P1) is det.
-%!  init_touch_nxt(+Name, +P1, +P2) is det.
-%!  init_touch_nxt(+Name, +P1, +P2, +P3) is det.
-%!  init_touch_nxt(+Name, +P1, +P2, +P3, +P4) is det.
-%!  init_color_nxt(+Name, +P1) is det.
-%!  init_color_nxt(+Name, +P1, +P2) is det.
-%!  init_color_nxt(+Name, +P1, +P2, +P3) is det.
-%!  init_color_nxt(+Name, +P1, +P2, +P3, +P4) is det.
-%!  init_compass_nxt(+Name, +P1) is det.
-%!  init_compass_nxt(+Name, +P1, +P2) is det.
-%!  init_gyro_nxt(+Name, +P1) is det.
-%!  init_gyro_nxt(+Name, +P1, +P2) is det.
-%!  init_irseeker_nxt(+Name, +P1) is det.
-%!  init_irseeker_nxt(+Name, +P1, +P2) is det.
-%!  init_accel_nxt(+Name, +P1) is det.
-%
 %   Set the ports up for sensors of this kind; the lamps of light sensors as
 %   floodlight_nxt/3 has set them.
 
@@ -326,23 +252,6 @@ type(sound, _, _, 7, 0x80).
 type(gyro, _, _, 9, 0).
 type(i2c, _, _, 0x0B, 0).
 
-%!  read_light_nxt(+Name, +P, -R) is det.
-%!  read_light_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%!  read_sound_nxt(+Name, +P, -R) is det.
-%!  read_sound_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%!  read_ultrasonic_nxt(+Name, +P, -R) is det.
-%!  read_ultrasonic_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%!  read_touch_nxt(+Name, +P, -R) is det.
-%!  read_touch_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%!  read_color_nxt(+Name, +P, -R) is det.
-%!  read_color_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%!  read_compass_nxt(+Name, +P, -R) is det.
-%!  read_compass_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%!  read_gyro_nxt(+Name, +P, -R) is det.
-%!  read_gyro_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%!  read_irseeker_nxt(+Name, +P, -R) is det.
-%!  read_irseeker_nxt(+Name, +P1, +P2, -R1, -R2) is det.
-%
 %   R is what the sensor at P measures: light as of nxt_light/4 and loudness,
 %   per cent; the distance in centimetres, 255 if there is nothing; 1 if the
 %   touch sensor is pressed, else 0; the number of the colour, as of
@@ -366,13 +275,6 @@ turning(Name, Port, R) :-
     nxt_gyro(Name, Port, Value),
     old_value(Name, gyro(Port), 0, Offset),
     R is Value-Offset.
-
-%!  read_accel_nxt(+Name, +P, -X, -Y, -Z) is det.
-%
-%   The acceleration, as of nxt_accelerometer/5.
-
-read_accel_nxt(Name, P, X, Y, Z) :-
-    nxt_accelerometer(Name, P, X, Y, Z).
 
 %!  read_sensorport_nxt(+Name, +P, -R) is det.
 %
@@ -414,3 +316,30 @@ set_gyroffset_nxt(Name, P) :-
     old_clear(Name, gyro(P)),
     nxt_gyro(Name, P, Value),
     old_set(Name, gyro(P), Value).
+
+                /*******************************
+                *            MEMORY            *
+                *******************************/
+
+%   Speeds, accelerations, lamps, offsets, and replies not yet read.
+
+:- dynamic
+    value/3.                    % Name, Key, Value
+
+%!  old_set(+Name, +Key, +Value) is det.
+%!  old_value(+Name, +Key, +Default, -Value) is det.
+%!  old_clear(+Name, ?Key) is det.
+
+old_set(Name, Key, Value) :-
+    with_mutex(typhon_nxt_old,
+               ( retractall(value(Name, Key, _)),
+                 assertz(value(Name, Key, Value)) )).
+
+old_value(Name, Key, Default, Value) :-
+    (   value(Name, Key, Value0)
+    ->  Value = Value0
+    ;   Value = Default
+    ).
+
+old_clear(Name, Key) :-
+    retractall(value(Name, Key, _)).

@@ -20,8 +20,7 @@
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(brick, [nxt_command/4]).
-:- use_module(data, [bytes_hex/2, hex_bytes/2]).
-:- use_module(link, [link_request/4]).
+:- use_module(link, [bytes_hex/2, hex_bytes/2, link_request/4]).
 
 /** <module> Sensors
 

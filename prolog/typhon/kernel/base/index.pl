@@ -78,7 +78,8 @@ part_setting(order_seconds,typhon_processes,number,60,'A process has so long to 
 part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/teller').
 part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').
 part_setting(python,typhon_helper_python,atom,'','Now typhon_helper_process:python','bridges/helper/process').
-part_setting(python,typhon_nxt_helper,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/helper').
+part_setting(python,typhon_nxt_helper,atom,'','Now typhon_nxt_link:python','bridges/nxt/link').
+part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/link').
 part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
 part_setting(renew_seconds,typhon_page_sources,number,3,'A page that is looked at finds new hosts within so many seconds','tools/page/sources').
 part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'A page takes no larger request than this','tools/page/server').
