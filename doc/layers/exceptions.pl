@@ -2,7 +2,6 @@ exception('prolog/typhon/kernel/base/keys.pl',tls).
 exception('prolog/typhon/kernel/host/host_options.pl',journal).
 exception('prolog/typhon/kernel/host/host_options.pl',tls).
 exception('prolog/typhon/kernel/host/host_questions.pl',watch).
-exception('prolog/typhon/kernel/host/hosting.pl',journal).
 exception('prolog/typhon/kernel/host/runtime.pl',tls).
 exception('prolog/typhon/kernel/lifecycle/questions.pl',watch).
 exception('prolog/typhon/kernel/program/advice.pl',snapshot).

@@ -45,7 +45,6 @@ option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
 %
 %   The files of an option that is not yet a folder of its own below options/.
 
-option_file(journal, 'host/known_hosts.pl').
 option_file(journal, 'travel/channel.pl').
 option_file(journal, 'travel/channel_end.pl').
 option_file(journal, 'travel/hop_ids.pl').

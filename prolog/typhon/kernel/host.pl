@@ -8,7 +8,8 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(host/hosts,
             [ host/3, host_closed/1, host_again/1, host_enter/3, host_hop/3,
-              host_leave/1, host_load/2, host_option/2, host_passed/3 ]).
+              host_leave/1, host_load/2, host_note/1, host_option/2,
+              host_passed/3 ]).
 :- reexport('host/host_names').
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
@@ -35,10 +36,10 @@ This is the interface of the layer: higher layers import from here.
               schedule_stays/2, scheduler_call/1
             ]).
 :- reexport(host/time,
-              [ alarm_in/3, alarm_set/3, time_again/2, time_due/3,
+              [ alarm_in/3, alarm_set/3, time_again/2, time_apart/2, time_due/3,
                 time_hold/1, time_kind/1, time_let_go/1, time_now/1,
                 time_repeats/2, time_seed/1, time_signal/1, time_stands/1,
-                time_wait/3 ]).
+                time_wait/3, time_wanted/2 ]).
 :- use_module(host/pool, []).
 :- reexport(host/work, [limit_parked/1, work_do/2]).
 :- reexport(host/asking, [as_guest/1, process_ask/6]).
@@ -46,8 +47,9 @@ This is the interface of the layer: higher layers import from here.
             [runtime_acquire/2, runtime_acquire/3, runtime_release/1]).
 :- reexport(host/changing, [host_change/2]).
 :- reexport(host/hosting,
-            [ host_restart/2, host_start/1, host_start/2, host_stop/1,
-              hosts_back/1, hosts_go_on/0, hosts_journal/2, hosts_rest/0 ]).
+            [ host_begin/2, host_end/1, host_restart/2, host_start/1,
+              host_start/2, host_stop/1, hosts_exclusively/1, hosts_go_on/0,
+              hosts_rest/0 ]).
 :- reexport(host/host_questions,
             [host_property/2, host_unknown/1, link/2, link/3, unlink/2]).
 :- reexport(host/remote, [host_do/2, remote/2]).

@@ -12,11 +12,11 @@
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../kernel/base/options', [check_options/2]).
-:- use_module('../kernel/host',
-              [host/3, hosts_back/1, hosts_journal/2, hosts_rest/0]).
+:- use_module('../kernel/host', [host/3, hosts_rest/0]).
 :- use_module('../options/journal',
-              [ journal_opened/1, journal_place/2, journal_record/2,
-                journal_record_drop/1, journal_record_put/2 ]).
+              [ hosts_back/1, hosts_journal/2, journal_opened/1,
+                journal_place/2, journal_record/2, journal_record_drop/1,
+                journal_record_put/2 ]).
 :- use_module(carriers, [carrier_order/4]).
 :- use_module(plan,
               [ network_plan/3, plan_furnishing/2, plan_hosts/4,

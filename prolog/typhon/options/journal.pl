@@ -12,6 +12,7 @@ layer.
 :- use_module(journal/committing, []).
 :- use_module(journal/journaled_agents, []).
 :- use_module(journal/recovery, []).
+:- reexport(journal/journaled_hosts, [hosts_back/1, hosts_journal/2]).
 :- reexport(journal/database,
             [ journal_part/3, journal_record/2, journal_record_drop/1,
               journal_record_put/2 ]).

@@ -1,7 +1,6 @@
 :- module(typhon_durable_changes,
           [ durable_open/3,             % +Where, +Sync, +Seconds
             durable_opened/1,           % -Place
-            durable_place/2,            % +Where, -Place
             durable_item/5,             % +Kind, +Order, -Key, -N, -Value
             durable_begin/0,
             durable_close/0,
@@ -56,7 +55,6 @@ inside the mutex that guards its owner.
 :- multifile
     open_store/3,               % Where, Sync, Seconds: open the store
     store_opened/1,             % Place: of the open store
-    store_place/2,              % Where, Place
     stored_item/5,              % Kind, Order, Key, N, Value
     close_store/0,
     begin_commits/0,            % the store is open
@@ -74,7 +72,6 @@ inside the mutex that guards its owner.
 :- dynamic
     open_store/3,
     store_opened/1,
-    store_place/2,
     stored_item/5,
     close_store/0,
     begin_commits/0,
@@ -103,12 +100,11 @@ inside the mutex that guards its owner.
                 *******************************/
 
 %!  durable_open(+Where, +Sync, +Seconds) is det.
-%!  durable_place(+Where, -Place:atom) is det.
 %!  durable_opened(-Place) is semidet.
 %!  durable_item(+Kind, +Order, -Key, -N, -Value) is nondet.
 %
-%   Open the store at Where; the name of Where, as in errors; the store that is
-%   open; its items of Kind.
+%   Open the store at Where; the name of the store that is open, as in errors; its
+%   items of Kind.
 %
 %   @arg Sync is `full` if commits survive a power cut, or `normal`
 %   @arg Seconds is how long to wait until another process closes it
@@ -119,12 +115,6 @@ inside the mutex that guards its owner.
 durable_open(Where, Sync, Seconds) :-
     (   open_store(Where, Sync, Seconds)
     ->  true
-    ;   existence_error(back_end, Where)
-    ).
-
-durable_place(Where, Place) :-
-    (   store_place(Where, Place0)
-    ->  Place = Place0
     ;   existence_error(back_end, Where)
     ).
 

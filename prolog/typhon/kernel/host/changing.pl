@@ -6,7 +6,6 @@
 :- use_module('../base/options', [check_option/2]).
 :- use_module('../base/durable_changes', [sync_changes/0]).
 :- use_module(host_options, [host_listed/2]).
-:- use_module(known_hosts, [note_host/1]).
 :- use_module(host_names, [host_resolve/2]).
 :- use_module(hosts, [host/3, host_option/2, host_put/2]).
 :- use_module(place, [place_offer/2]).
@@ -36,7 +35,7 @@ host_change(Host, Option) :-
     change_at(Where, Option).
 
 change_at(local(Name), Option) :-
-    with_mutex(typhon_hosting, ( change(Option, Name), note_host(Name) )),
+    with_mutex(typhon_hosting, change(Option, Name)),
     sync_changes.
 change_at(remote(Address, Name, _), Option) :-
     remote(Address, typhon_changing:host_change(Name, Option)).

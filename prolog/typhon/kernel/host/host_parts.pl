@@ -86,6 +86,7 @@ What an option keeps of a host follows the life of the host by the hooks
     compiled(Host)              its parts are those of its new options
     untrusted(Option)           with Option a host admits agents that it does
                                 not trust
+    unnoted(Option)             it is not restored with the host
     ends(Host)                  it is no more
 
 *Threading*: any thread reads; all else holds the mutex of host_start/2.
@@ -99,6 +100,7 @@ What an option keeps of a host follows the life of the host by the hooks
     changes/2,
     compiled/1,
     untrusted/1,
+    unnoted/1,
     ends/1.
 
 :- dynamic
@@ -109,6 +111,7 @@ What an option keeps of a host follows the life of the host by the hooks
     changes/2,
     compiled/1,
     untrusted/1,
+    unnoted/1,
     ends/1.
 
 :- dynamic parts/3.             % Phase, Host, Closures

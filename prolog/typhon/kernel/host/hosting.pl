@@ -3,8 +3,9 @@
             host_start/2,               % +Name, +Options
             host_restart/2,             % +Name, +Options
             host_stop/1,                % +Name
-            hosts_journal/2,            % +Where, +Options
-            hosts_back/1,               % +Options
+            host_begin/2,               % +Name, +Options
+            host_end/1,                 % +Name
+            hosts_exclusively/1,        % :Goal
             hosts_go_on/0,
             hosts_rest/0
           ]).
@@ -12,16 +13,15 @@
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
-:- use_module(library(lists), [append/3, member/2, selectchk/3]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module('../base/durable_changes',
-              [ durable_begin/0, durable_close/0, durable_closed/0,
-                durable_end/0, durable_opened/1, durable_place/2,
+              [ durable_close/0, durable_closed/0, durable_end/0,
                 sync_changes/0 ]).
-:- use_module('../wire', [endpoint_address/1, endpoint_open/0]).
+:- use_module('../wire', [endpoint_address/1]).
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(host_log, []).
@@ -29,14 +29,11 @@
 :- use_module(hosts,
               [host/3, host_add/4, host_close/1, host_remove/1]).
 :- use_module(host_names, [address_parts/3, host_resolve/2]).
-:- use_module(known_hosts,
-              [ forget_host/1, host_known/2, known_not_here/2, known_open/2,
-                known_with/3, note_host/1 ]).
 :- use_module(links, [host_unlink/2]).
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
-:- use_module(time, [time_apart/2, time_let_go/1, time_wanted/2]).
+:- use_module(time, [time_let_go/1, time_wanted/2]).
 
 /** <module> Starting and stopping hosts
 
@@ -51,17 +48,14 @@ other users of the process its endpoint, see typhon_runtime.
 
 :- multifile
     begins/1,                   % Name: is there, listeners may join
-    typhon_durable:tidy/0,     % no agent is admitted yet
-    typhon_durable:recover/0,  % what the journal knows stands again
-    typhon_durable:go_on/0,    % and goes on
+    starts/2,                   % Name, Options: an option has started the host
     evacuate/2.                 % Name, Deadline: no agent is left on the host
 
 :- dynamic
-    typhon_durable:recover/0,
-    typhon_durable:tidy/0,
-    typhon_durable:go_on/0,
-    evacuate/2,
-    from_journal/1.             % Name: was started because the journal says so
+    starts/2,
+    evacuate/2.
+
+:- meta_predicate hosts_exclusively(0).
 
                 /*******************************
                 *             START            *
@@ -142,22 +136,15 @@ must_be_name(Name) :-
     ;   domain_error(host_name, Name)
     ).
 
-start(Name, _) :-
-    retract(from_journal(Name)),
+start(Name, Options) :-
+    starts(Name, Options),
     !.
 start(Name, _) :-
     host(Name, _, _),
     !,
     permission_error(start, host, Name).
 start(Name, Options) :-
-    memberchk(journal(Where), Options),
-    durable_place(Where, Place),
-    \+ durable_opened(Place),
-    !,
-    start_from(Where, Name, Options).
-start(Name, Options) :-
     start_new(Name, Options),
-    note_host(Name),
     sync_changes.
 
 %!  host_restart(+Name, +Options) is det.
@@ -186,67 +173,29 @@ stand_new(Name, Options) :-
     catch(start_host(Name, Endpoint, Options), Ball,
           ( runtime_release(host(Name)), throw(Ball) )).
 
-%   start_from(+Where, +Name, +Options): with all that is in the journal.
+%!  host_begin(+Name, +Options) is det.
+%!  host_end(+Name) is det.
+%!  hosts_exclusively(:Goal) is semidet.
+%
+%   For options, in the course of host_start/2: start another host; stop one;
+%   call Goal once while no other thread starts or stops hosts.
 
-start_from(Where, _, Options) :-
-    time_wanted(Options, Kind),
-    time_apart(Kind, _),
-    !,
-    format(atom(Why), 'not in ~w time', [Kind]),
-    known_not_here(Where, Why).
-start_from(Where, Name, Options) :-
-    known_open(Where, Options),
-    catch(begin_from_journal(Name, Options), Ball,
-          ( durable_close, give_up_hosts, durable_end, throw(Ball) )).
+host_begin(Name, Options) :-
+    hosts_exclusively(start_new(Name, Options)).
 
-begin_from_journal(Name, Options) :-
-    findall(Other-Known, host_known(Other, Known), Hosts),
-    (   selectchk(Name-Known, Hosts, Others)
-    ->  known_with(Known, Options, AllOptions)
-    ;   AllOptions = Options,
-        Others = Hosts
-    ),
-    start_new(Name, AllOptions),
-    all_back(Others),
-    hosts_go_on.
+host_end(Name) :-
+    hosts_exclusively(stop(Name)).
 
-all_back(Hosts) :-
-    forall(member(Name-Options, Hosts),
-           ( start_new(Name, Options),
-             assertz(from_journal(Name)) )),
-    forall(typhon_durable:recover, true),
-    durable_begin,
-    forall(typhon_durable:tidy, true),
-    forall(host(Host, _, _), note_host(Host)),
-    endpoint_open.
+hosts_exclusively(Goal) :-
+    with_mutex(typhon_hosting, Goal).
 
                 /*******************************
                 *     A PROCESS AS A WHOLE     *
                 *******************************/
 
-%!  hosts_journal(+Where, +Options) is det.
-%!  hosts_back(+Options) is det.
 %!  hosts_go_on is det.
 %
-%   What a host with the option journal(Dir) does when it starts, in steps,
-%   for callers that act in between, or have no host yet: the journal
-%   is open, and the process may start its endpoint; all that it knows is
-%   there again, its hosts with Options in place of what they had, and others
-%   are let in; what is there goes on.
-%
-%   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
-%        wait(Seconds): so long for another process that has it, which is
-%        about to end
-%   @error permission_error(open, journal, Place), and as durable_open/3
-
-hosts_journal(Where, Options) :-
-    with_mutex(typhon_hosting, known_open(Where, Options)).
-
-hosts_back(Options) :-
-    findall(Name-All,
-            ( host_known(Name, Known), known_with(Known, Options, All) ),
-            Hosts),
-    with_mutex(typhon_hosting, all_back(Hosts)).
+%   What was restored goes on.
 
 hosts_go_on :-
     forall(typhon_durable:go_on, true).
@@ -260,14 +209,6 @@ hosts_go_on :-
 hosts_rest :-
     in_own_thread(with_mutex(typhon_hosting, rest)).
 
-%   Messages sent then are dropped.
-
-:- multifile user:message_hook/3.
-:- dynamic user:message_hook/3.
-
-user:message_hook(error(existence_error(journal, open), _), _, _) :-
-    durable_closed.
-
 %   Agents that are kept back do not find that others are gone.
 
 rest :-
@@ -279,10 +220,6 @@ rest :-
     ->  true
     ;   durable_end
     ).
-
-give_up_hosts :-
-    retractall(from_journal(_)),
-    forall(host(Name, _, _), ignore(stop(Name))).
 
 %   A network gives its hosts a clock of whatever kind it has.
 
@@ -350,7 +287,7 @@ stop(Name) :-
 stop_one(Name0) :-
     local_name(Name0, Name),
     host(Name, Address, Place),
-    rest_or_end(Name),
+    close_last(Name),
     (   durable_closed
     ->  events_forget(Name)             % an agent at rest does not end
     ;   true
@@ -371,16 +308,15 @@ stop_one(Name0) :-
     debug(typhon(host), '~w is stopped', [Address]),
     runtime_release(host(Name)).
 
-%   With the last host the process is at its end: what is in the journal
-%   stays there, to go on when it is started again.
+%   With the last host the process is at its end: what is in the store stays
+%   there, to go on when it is started again.
 
-rest_or_end(Name) :-
+close_last(Name) :-
     (   host(Other, _, _),
         Other \== Name
-    ->  forget_host(Name)
+    ->  true
     ;   durable_close
-    ),
-    retractall(from_journal(Name)).
+    ).
 
 local_name(Host, Name) :-
     host_resolve(Host, Where),

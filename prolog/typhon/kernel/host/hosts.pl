@@ -6,6 +6,7 @@
             host_remove/1,              % +Name
             host_option/2,              % ?Name, ?Option
             host_put/2,                 % +Name, +Option
+            host_note/1,                % +Name
             host_enter/3,               % +Name, +Tokens, -Answer
             host_again/1,               % +Name
             host_leave/1,               % +Name
@@ -16,6 +17,8 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/durable_changes',
+              [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module(links, [host_linked/1, host_unlink/2]).
 :- use_module(host_parts, [parts_compile/1, parts_forget/1]).
 
@@ -60,7 +63,8 @@ host_add(Name, Address, Place, Options) :-
     forall(member(Option, Options), assertz(option(Name, Option))),
     parts_compile(Name),
     assertz(host(Name, Address, Place)),
-    open_door(Name).
+    open_door(Name),
+    host_note(Name).
 
 open_door(Name) :-
     asked(Name, tokens(Tokens), []),
@@ -123,6 +127,7 @@ host_closed(Name) :-
 %!  host_remove(+Name) is det.
 
 host_remove(Name) :-
+    durable_drop(host, Name, 0),
     retractall(door(Name, _, _, _)),
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
@@ -135,6 +140,21 @@ host_remove(Name) :-
 
 host_option(Name, Option) :-
     option(Name, Option).
+
+%!  host_note(+Name) is det.
+%
+%   What its options are by now outlives the process.  As host_add/4 and
+%   host_put/2 do, if changes are queued already.
+
+host_note(Name) :-
+    (   durable_on
+    ->  findall(Option,
+                ( option(Name, Option),
+                  \+ typhon_host_parts:unnoted(Option) ),
+                Options),
+        durable_put(host, Name, 0, Options)
+    ;   true
+    ).
 
 %!  host_put(+Name, +Option) is det.
 %
@@ -154,7 +174,8 @@ host_put(Name, Option) :-
     ->  open_door(Name),
         once(retract(door(Name, Tokens, Capacity, Key)))
     ;   true                            % it stops
-    ).
+    ),
+    host_note(Name).
 
                 /*******************************
                 *          ADMISSION           *

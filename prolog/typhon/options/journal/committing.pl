@@ -2,7 +2,7 @@
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../../kernel/base/durable_changes',
-              [crash_point/1, send_committed/1]).
+              [crash_point/1, durable_closed/0, send_committed/1]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
 :- use_module(store, [store_commit/1, store_sync/1]).
 
@@ -122,6 +122,14 @@ typhon_durable_changes:commit_error(Error) :-
 
 typhon_durable_changes:back_end_error(closed, existence_error(journal, open)).
 typhon_durable_changes:back_end_error(key, representation_error(journal_key)).
+
+%   Messages sent after the journal was closed are dropped.
+
+:- multifile user:message_hook/3.
+:- dynamic user:message_hook/3.
+
+user:message_hook(error(existence_error(journal, open), _), _, _) :-
+    durable_closed.
 
                 /*******************************
                 *            COMMIT            *

@@ -44,7 +44,6 @@ parts.
 :- multifile
     typhon_durable_changes:open_store/3,
     typhon_durable_changes:store_opened/1,
-    typhon_durable_changes:store_place/2,
     typhon_durable_changes:stored_item/5,
     typhon_durable_changes:close_store/0.
 
@@ -157,9 +156,6 @@ sample(Sample) :-
 
 journal_place(Where, Place) :-
     database(Where, Place, _).
-
-typhon_durable_changes:store_place(Where, Place) :-
-    journal_place(Where, Place).
 
 journal_found(Where) :-
     database(Where, Place, Base),
