@@ -45,10 +45,10 @@ up one list of closures, and a host without options has none.
   | permit        | Proof, Right                 | a peer uses a right, see    |
   |               |                              | typhon_peer_rights          |
   | security      | Host, Peer, Proof, What      | a security event, see there |
-
   | payload       | From, Payload, Host, Reason  | is refused, see             |
   |               |                              | typhon_payloads             |
-  | change_program | Host, Id                    | Id gets another program;    |
+  | new_program   | Host, Id, Sent               | Id gets another program,    |
+  |               |                              | sent as of code_receive/2;  |
   |               |                              | raises what forbids it      |
 
 Those that admit succeed with a verdict which is not `ok`.  Of `turn` there is

@@ -71,7 +71,7 @@ change_made(facts(Clauses), Id) :-
     agent_clauses(Module, Clauses, Allowed),
     agent_add(Allowed, Module).
 change_made(program(Hash, Sent), Id) :-
-    may_change(Id),
+    may_change(Id, Sent),
     code_receive(Hash, Sent),
     code_program(Hash, Program),
     Program = program(_, PIs, _, _),
@@ -83,10 +83,10 @@ change_made(program(Hash, Sent), Id) :-
     agent_module(Id, Place, Hash, state(Declared, Clauses), Module),
     with_agent(Id, agent_program(Id, Hash, Module, Life)).
 
-may_change(Id) :-
+may_change(Id, Sent) :-
     (   agent(Id, Host, _, _, _),
-        parts(change_program, Host, Closures)
-    ->  forall(member(Closure, Closures), call(Closure, Host, Id))
+        parts(new_program, Host, Closures)
+    ->  forall(member(Closure, Closures), call(Closure, Host, Id, Sent))
     ;   true
     ).
 

@@ -256,3 +256,6 @@ inside(Path) :-
         inside(A),
         inside(B)
     ).
+
+:- setting(typhon_guard_arguments:ball_cells, positive_integer, 10 000,
+           "Now typhon_guard_calls:ball_cells").

@@ -127,7 +127,14 @@ typhon_host_parts:part(admit, Host, 30, typhon_sandbox:forbids(Policy)) :-
     once(host_option(Host, policy(Policy))),
     Policy \== trusted.
 
-:- public forbids/5.
+typhon_host_parts:part(new_program, Host, 30,
+                       typhon_sandbox:may_have(Policy)) :-
+    once(host_option(Host, policy(Policy))),
+    Policy \== trusted.
+
+:- public
+    forbids/5,
+    may_have/4.
 
 forbids(Policy, From, Entrant, _, refused(Reason)) :-
     catch(( looked_through(From, Entrant, Policy), fail ), error(Formal, Where),
@@ -155,6 +162,11 @@ typhon_gate:forbidden(Ball, Reason) :-
 forbidden(error(permission_error(call, sandboxed, Culprit), _),
           policy(Culprit)).
 forbidden(error(resource_error(clause_cells), _), policy(clause_cells)).
+
+%   may_have(+Policy, +Host, +Id, +Sent): the agent Id may get that program.
+
+may_have(Policy, _, _, Sent) :-
+    check_sent(Policy, Sent).
 
 %   check_sent(+Policy, +Sent): look at a program that is not installed yet:
 %   already its libraries could be unwanted here.  Sent is as of code_receive/2.

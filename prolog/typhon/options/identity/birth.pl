@@ -56,14 +56,14 @@ typhon_identity:ids_anew :-
 
 typhon_host_parts:part(papers, _, 10, typhon_birth:papers) :-
     endpoint_keys(_).
-typhon_host_parts:part(change_program, _, 10, typhon_birth:may_change) :-
+typhon_host_parts:part(new_program, _, 10, typhon_birth:may_change) :-
     endpoint_keys(_).
 
-:- public may_change/2.
+:- public may_change/3.
 
 %   No host would admit it.
 
-may_change(_, Id) :-
+may_change(_, Id, _) :-
     (   agent_owned(Id)
     ->  true
     ;   permission_error(change, agent_program, Id)

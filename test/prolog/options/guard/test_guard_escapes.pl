@@ -329,8 +329,9 @@ service_rules(R, Dir) :-
 
 %   A program that a peer sends may name any file as its library.
 
-test(no_library_is_loaded, [forall(wrapped(Program, Sent)), Escaped == 0]) :-
-    with_tmp_dir(loads_library(Program, Sent, Escaped)).
+test(no_library_is_loaded,
+     [forall(( comes(How), wrapped(Program, Sent) )), Escaped == 0]) :-
+    with_tmp_dir(loads_library(How, Program, Sent, Escaped)).
 
 :- end_tests(programs_of_peers).
 
@@ -339,7 +340,10 @@ wrapped(Program, Program-[]).
 wrapped(Program, signed(Program, signature)).
 wrapped(Program, signed(signed(Program-[], signature), signature)).
 
-loads_library(Program, Sent, Escaped, Dir) :-
+comes(with_agent).
+comes(by_order).
+
+loads_library(How, Program, Sent, Escaped, Dir) :-
     directory_file_path(Dir, 'library.pl', File),
     setup_call_cleanup(open(File, write, Out),
                        format(Out, ":- module(harm, []).~n:- ~q.~n",
@@ -347,13 +351,18 @@ loads_library(Program, Sent, Escaped, Dir) :-
                        close(Out)),
     Program = program(x, [], [File-all], [(main :- true)]),
     typhon_programs:program_hash(Program, Hash),
-    typhon_life:make_life([], Life),
     with_hosts([g-[policy(guarded)]],
-               escaped(typhon_gate:gate(g,
-                           from('127.0.0.1:1', Sent, papers(Sent))
-                           - entrant(x, Hash, Life, state([], []), []),
-                           =(ok), refused(policy(_))),
-                       Escaped)).
+               escaped(come(How, Hash, Sent), Escaped)).
+
+come(with_agent, Hash, Sent) :-
+    typhon_life:make_life([], Life),
+    typhon_gate:gate(g, from('127.0.0.1:1', Sent, papers(Sent))
+                        - entrant(x, Hash, Life, state([], []), []),
+                     =(ok), refused(policy(_))).
+come(by_order, Hash, Sent) :-
+    create([on_message(_, _)], A, [host(g)]),
+    catch(typhon_change:change_made(program(Hash, Sent), A),
+          error(permission_error(call, sandboxed, _), _), true).
 
                 /*******************************
                 *         SHARED TERMS         *
