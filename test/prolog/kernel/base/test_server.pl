@@ -13,7 +13,7 @@ The server of these tests has a list of what it was told, the newest first.
 *Threading*: the main thread, and the threads of the servers.
 */
 
-:- dynamic ended/1, timeout/0.
+:- dynamic ended/1, timeout/0, waits/0.
 
 handle(begin, List, [begun|List]).
 handle(stop, List, _) :-
@@ -27,6 +27,7 @@ handle(soon(X), List, until(Stamp, [X|List])) :-
 handle(raise(X), _, _) :-
     throw(X).
 handle(wait(Queue), List, List) :-
+    assertz(waits),
     thread_get_message(Queue, _).
 handle(call(list, Caller), List, List) :-
     reverse(List, All),
@@ -48,6 +49,7 @@ serving(Server, Goal) :-
 serving(Options, Server, Goal) :-
     retractall(ended(_)),
     retractall(timeout),
+    retractall(waits),
     no_leaks(setup_call_cleanup(
                  server_start(test, test_server:handle, [], Options, Server),
                  once(Goal),
@@ -58,12 +60,13 @@ list(Server, List) :-
 
 %   A signal that comes just before a thread waits does not wake it.
 
-signal_until(Server, Ball, Goal) :-
-    wait_until(( signal(Server, Ball), call(Goal) ), 10).
+aborted(Server) :-
+    typhon_server:serving(Server, Thread),
+    wait_until(test_server:ends(Thread), 10).
 
-signal(Server, Ball) :-
-    forall(typhon_server:serving(Server, Thread),
-           catch(thread_signal(Thread, throw(Ball)), error(_, _), true)).
+ends(Thread) :-
+    catch(( thread_signal(Thread, throw('$aborted')), fail ),
+          error(existence_error(_, _), _), true).
 
 :- begin_tests(server).
 
@@ -109,11 +112,11 @@ test(aborted_thread_is_replaced_and_its_queue_kept,
             listening(( server_cast(Server, add(a)),
                         server_cast(Server, wait(Gate)),
                         server_cast(Server, add(b)),
-                        signal_until(Server, '$aborted',
-                                     was_told(error,
-                                              typhon(server_ended(test)))),
-                        list(Server, List) ), _)),
-    message_queue_destroy(Gate).
+                        wait_until(test_server:waits, 10),
+                        aborted(Server),
+                        list(Server, List) ), Messages)),
+    message_queue_destroy(Gate),
+    Messages = [error-typhon(server_ended(test))].
 test(stop_comes_after_what_was_sent_before, true(List == [b,a,begun])) :-
     serving(Server, ( server_cast(Server, add(a)),
                       server_cast(Server, add(b)) )),
