@@ -18,7 +18,7 @@
             agent_wakes/2,              % +Id, +Goals
             agent_mail/2                % +Id, +Messages
           ]).
-:- use_module(library(debug), [debug/3, debugging/1]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes',
@@ -288,10 +288,7 @@ agent_mail(Id, Messages) :-
     ).
 
 put_mail(Messages, Id) :-
-    (   debugging(typhon(mail))
-    ->  tell_mail(Messages, Id)
-    ;   true
-    ),
+    tell_mail(Messages, Id),
     mail_put(Id, Messages).
 
 tell_mail([], _).

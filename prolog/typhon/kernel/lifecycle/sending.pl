@@ -4,6 +4,7 @@
 :- use_module('../base/durable_changes', [output_waits/0, sync_changes/0]).
 :- use_module('../host',
               [address_parts/3, as_guest/1, context_now/2, host_address/2]).
+:- use_module('../agent', [agent/5]).
 :- use_module('../travel', [post/3, post_via/4]).
 :- use_module(named, [agent_named/2]).
 
@@ -33,9 +34,14 @@ agent_send(at(Agent, Host), Message) :-
     as_guest(post_via(Id, Endpoint, From, Message)),
     sync_changes.
 agent_send(Agent, Message) :-
-    agent_named(Agent, Id),
-    sender(From),
-    as_guest(post(Id, From, Message)),
+    (   atom(Agent),
+        agent(Agent, _, _, _, _)        % then this process is no guest
+    ->  sender(From),
+        post(Agent, From, Message)
+    ;   agent_named(Agent, Id),
+        sender(From),
+        as_guest(post(Id, From, Message))
+    ),
     ( output_waits -> sync_changes ; true ).
 
 sender(From) :-
