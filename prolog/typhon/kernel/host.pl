@@ -29,8 +29,7 @@ This is the interface of the layer: higher layers import from here.
               context_now/2, context_set/3
             ]).
 :- reexport('host/peer_rights').
-:- reexport(host/pause, [still_keeps/1]).
-:- reexport(host/turns, [turn_of/3, turns_now/3]).
+:- reexport(host/turns, [turn_later/1, turn_of/3, turns_now/3]).
 :- reexport(host/scheduler,
             [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,
               schedule_stays/2, scheduler_call/1

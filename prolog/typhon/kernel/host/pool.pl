@@ -9,13 +9,12 @@
 :- use_module(blocked,
               [ blocked_forget/0, blocked_full/2, blocked_held/1,
                 blocked_holds/0, blocked_release/1, blocked_room/3 ]).
-:- use_module(pause, [still_begin/0, still_end/1]).
-:- use_module(short_turns, [quick_turn/2]).
 :- use_module(time, [alarm_in/3, time_day_wait/3]).
 :- use_module(timer,
               [ alarms_overdue/0, timer_alarm/3, timer_check/0, timer_start/0,
                 timer_stop/0 ]).
-:- use_module(turns, [turn_in/3]).
+:- use_module(turns,
+              [turn_if_short/2, turn_in/3, turns_go_on/1, turns_pause/0]).
 :- use_module(work, [work_do/2]).
 
 /** <module> The runtime `real`: a pool of few threads for many agents
@@ -96,7 +95,7 @@ stop :-
     end_workers(Queue),
     message_queue_destroy(Queue),
     blocked_forget,
-    still_end(_).
+    turns_go_on(_).
 stop.
 
 %   Workers are asked, then those that are busy are interrupted.
@@ -141,7 +140,7 @@ waits(Queue) :-
 
 typhon_time:here(real, Agent) :-
     run_queue(_),
-    quick_turn(Agent, work_do(agent(Agent), enqueue)).
+    turn_if_short(Agent, work_do(agent(Agent), enqueue)).
 
                 /*******************************
                 *         ALARMS, WAITING      *
@@ -157,10 +156,10 @@ typhon_time:wait(real, Queue, Message, Stamp) :-
     time_day_wait(Queue, Message, Stamp).
 
 typhon_time:hold(real, _) :-
-    still_begin.
+    turns_pause.
 
 typhon_time:let_go(real, Agents) :-
-    still_end(Agents),
+    turns_go_on(Agents),
     alarms_overdue.
 
                 /*******************************

@@ -11,7 +11,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(short_turns, [quick_not/2]).
+:- use_module(turns, [turns_not_short/2]).
 :- use_module(time,
               [ time_adopt/1, time_alone/0, time_here/1, time_leave/0,
                 time_work/1 ]).
@@ -102,7 +102,7 @@ blocks(60).                             % seconds for which it is believed to
 
 schedule_adopt(Thread, Agent) :-
     blocks(Seconds),
-    quick_not(Agent, Seconds),
+    turns_not_short(Agent, Seconds),
     time_adopt(Thread).
 
 schedule_leave :-

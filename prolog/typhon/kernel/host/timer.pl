@@ -16,7 +16,7 @@
                 alarms_end/0, alarms_new/1, alarms_number/1, alarms_renew/1,
                 index_delete/3, index_first/2, index_make/1, index_size/2,
                 index_update/2 ]).
-:- use_module(pause, [still/0]).
+:- use_module(turns, [turns_paused/0]).
 
 /** <module> The timer: a server that sets alarms off
 
@@ -164,7 +164,7 @@ rung(Stamp, Index0, Index) :-
     get_time(Now),
     Stamp =< Now,
     !,
-    (   still
+    (   turns_paused
     ->  true                            % they go off when that is over
     ;   alarms_at(Stamp, Alarms),
         maplist(go_off, Alarms)

@@ -1,23 +1,48 @@
 :- module(typhon_turns,
-          [ turn_begins/1,              % +Agent
+          [ turn_begins/1,              % +What
             turn_of/3,                  % +Agent, -Thread, -Seconds
             turns_now/3,                % -Agent, -Thread, -Seconds
-            turn_in/3                   % +Thread, -What, -Since
+            turn_in/3,                  % +Thread, -What, -Since
+            turn_if_short/2,            % +Agent, :Turn
+            turns_not_short/2,          % +Agent, +Seconds
+            turns_paused/0,
+            turns_pause/0,
+            turns_go_on/1,              % -Agents
+            turn_later/1                % +Agent
           ]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> The thread that runs an agent, and since when
+/** <module> Turns of agents
 
-Each thread that runs agents has two flags, which it sets when a turn
-begins: the agent, and the time of day.  This costs a fifth of a
-microsecond, and anybody may look.  A turn that is over is not noted: ask
-only for agents that run.
+Each thread that runs agents has two flags, which it sets when a turn begins:
+the agent, and the time of day.  This costs a fifth of a microsecond, and any
+thread may look.  That a turn is over is not noted: ask only for agents that
+run.
 
-*Threading*: turn_begins/1 in the thread that runs the agent; anybody asks.
+The thread that reads an agent may run it at once, rather than wake a worker,
+as long as its turns are short.  Those of a kind are taken for short until one
+was not, and again after a while.  Inferences tell whether a turn was long,
+for on a busy machine any may take long; but of one kind hardly two of a few,
+unless they wait for something.
+
+While turns are paused no alarm goes off, and no agent begins a turn: those
+whose turn has come are kept until they go on.
+
+*Threading*: turn_begins/1 in the thread that runs the agent; any thread asks.
+One mutex for kinds that are not short, one for the pause, whose thread ends
+it.
 */
 
+:- meta_predicate turn_if_short(+, 0).
+
+:- multifile
+    typhon_scheduler:kind/2.    % Agent, Kind: agents that may block alike
+
 :- dynamic
-    keys/3.                     % Thread number, flag of agent, of time
+    keys/3,                     % Thread number, flag of agent, of time
+    slow/2,                     % Kind, Until
+    paused/0,
+    kept/1.                     % Agent: its turn has come
 
 %!  turn_begins(+What) is det.
 %
@@ -91,3 +116,130 @@ latest(Turns, Latest) :-
     Latest = At-_,
     \+ ( member(Other-_, Turns), Other > At ),
     !.
+
+                /*******************************
+                *          SHORT TURNS         *
+                *******************************/
+
+most_inferences(20000).                 % as many as make some wake-ups
+most_seconds(0.004).
+few_turns(5).
+
+%   For so many seconds it is remembered that a turn was long, or waited.
+
+remembered(long, 1).
+remembered(waits, 10).
+
+%!  turn_if_short(+Agent, :Turn) is semidet.
+%
+%   Call Turn, which is one of Agent; fails if that may take long.
+
+turn_if_short(Agent, Turn) :-
+    typhon_scheduler:kind(Agent, Kind),
+    !,
+    are_short(Kind),
+    get_time(Time0),
+    statistics(inferences, Count0),
+    call(Turn),
+    statistics(inferences, Count),
+    get_time(Time),
+    Inferences is Count-Count0,
+    Seconds is Time-Time0,
+    took(Inferences, Seconds, Kind).
+
+are_short(Kind) :-
+    (   slow(Kind, Until)
+    ->  get_time(Now),
+        Now > Until
+    ;   true
+    ).
+
+took(Inferences, _, Kind) :-
+    most_inferences(Most),
+    Inferences > Most,
+    !,
+    remember(long, Kind).
+took(_, Seconds, Kind) :-
+    nb_turn(Turn),
+    most_seconds(Most),
+    (   Seconds < Most
+    ->  true
+    ;   nb_current(typhon_long_turn, Kind-Before),
+        few_turns(Few),
+        Turn-Before =< Few
+    ->  remember(waits, Kind)
+    ;   nb_setval(typhon_long_turn, Kind-Turn)
+    ).
+
+%   Turns of this thread are counted.
+
+nb_turn(Turn) :-
+    (   nb_current(typhon_turn, Turn0)
+    ->  true
+    ;   Turn0 = 0
+    ),
+    Turn is Turn0+1,
+    nb_linkval(typhon_turn, Turn).      % a number: nothing to copy
+
+remember(What, Kind) :-
+    remembered(What, Seconds),
+    slow_for(Seconds, Kind).
+
+%!  turns_not_short(+Agent, +Seconds) is det.
+%
+%   For so long no turn of the kind of Agent is taken for short.
+
+turns_not_short(Agent, Seconds) :-
+    (   typhon_scheduler:kind(Agent, Kind)
+    ->  slow_for(Seconds, Kind)
+    ;   true
+    ).
+
+slow_for(Seconds, Kind) :-
+    get_time(Now),
+    Until is Now+Seconds,
+    with_mutex(typhon_short_turns, slow_until(Kind, Until, Now)).
+
+slow_until(Kind, Until, _) :-
+    slow(Kind, Until0),
+    Until0 > Until,
+    !.
+slow_until(Kind, Until, Now) :-
+    findall(Old, ( slow(Old, Until0), Until0 < Now ), Olds),
+    forall(member(Old, [Kind|Olds]), retractall(slow(Old, _))),
+    assertz(slow(Kind, Until)).
+
+                /*******************************
+                *           THE PAUSE          *
+                *******************************/
+
+%!  turns_paused is semidet.
+%!  turns_pause is det.
+%!  turns_go_on(-Agents:list) is det.
+%
+%   Agents are those that were kept, whose turn it is.
+
+turns_paused :-
+    paused,
+    !.
+
+turns_pause :-
+    with_mutex(typhon_turns,
+               (   paused
+               ->  true
+               ;   assertz(paused)
+               )).
+
+turns_go_on(Agents) :-
+    with_mutex(typhon_turns,
+               ( retractall(paused),
+                 findall(Agent, kept(Agent), Agents),
+                 retractall(kept(_)) )).
+
+%!  turn_later(+Agent) is semidet.
+%
+%   Turns are paused: that of Agent comes later.
+
+turn_later(Agent) :-
+    paused,
+    with_mutex(typhon_turns, ( paused, assertz(kept(Agent)) )).

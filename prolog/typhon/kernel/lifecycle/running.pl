@@ -2,7 +2,7 @@
 :- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
-              [context_clear/0, context_set/3, event/4, still_keeps/1]).
+              [context_clear/0, context_set/3, event/4, turn_later/1]).
 :- use_module('../agent',
               [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
                 agent_ordered/1, agent_ready/2, agent_resumes/2, agent_rest/3,
@@ -37,7 +37,7 @@ typhon_scheduler:run(Id) :-
     ).
 
 take(Id, later) :-
-    still_keeps(Id),
+    turn_later(Id),
     !.
 take(Id, Task) :-
     agent_take(Id, Goals, Order),

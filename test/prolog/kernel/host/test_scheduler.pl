@@ -11,7 +11,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/own_thread)).
 :- use_module(library(typhon/kernel/host/scheduler)).
-:- use_module(library(typhon/kernel/host/short_turns)).
+:- use_module(library(typhon/kernel/host/turns)).
 :- use_module(library(typhon/kernel/host/time),
               [alarm_set/3, time_start/1, time_stop/0]).
 :- use_module(library(typhon/kernel/host/timer)).
@@ -592,16 +592,16 @@ some_kind(Name, Goal) :-
     !.
 
 long_once(Agent) :-
-    quick_turn(Agent, long),
-    \+ quick_turn(Agent, short),
+    turn_if_short(Agent, long),
+    \+ turn_if_short(Agent, short),
     atom_concat(another_, Agent, Another),
-    quick_turn(Another, short).
+    turn_if_short(Another, short).
 
 now_and_then(Agent) :-
-    quick_turn(Agent, waits),
-    forall(between(1, 10, _), quick_turn(Agent, short)),
-    quick_turn(Agent, waits),
-    quick_turn(Agent, short).
+    turn_if_short(Agent, waits),
+    forall(between(1, 10, _), turn_if_short(Agent, short)),
+    turn_if_short(Agent, waits),
+    turn_if_short(Agent, short).
 
 waits :-
     thread_self(Me),
@@ -610,26 +610,26 @@ waits :-
 :- begin_tests(quick).
 
 test(unknown_kind, fail) :-
-    quick_turn(nobody, short).
+    turn_if_short(nobody, short).
 test(short) :-
-    forall(between(1, 100, _), quick_turn('a/1', short)).
+    forall(between(1, 100, _), turn_if_short('a/1', short)).
 test(long_once) :-
     some_kind(b, long_once).
 test(waits_once) :-
-    quick_turn('d/1', waits),
-    quick_turn('d/2', short).
+    turn_if_short('d/1', waits),
+    turn_if_short('d/2', short).
 test(waits_twice_in_a_row) :-
-    quick_turn('e/1', waits),
-    quick_turn('e/2', waits),
-    \+ quick_turn('e/3', short).
+    turn_if_short('e/1', waits),
+    turn_if_short('e/2', waits),
+    \+ turn_if_short('e/3', short).
 test(waits_now_and_then) :-
     some_kind(f, now_and_then).
 test(longer_memory_stays) :-
-    quick_not('g/1', 60),
-    quick_not('g/1', 0),
-    \+ quick_turn('g/2', short).
+    turns_not_short('g/1', 60),
+    turns_not_short('g/1', 0),
+    \+ turn_if_short('g/2', short).
 test(is_forgotten) :-
-    quick_not('h/1', 0),
-    quick_turn('h/2', short).
+    turns_not_short('h/1', 0),
+    turn_if_short('h/2', short).
 
 :- end_tests(quick).
